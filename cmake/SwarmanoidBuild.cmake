@@ -1,0 +1,62 @@
+# Compiler settings shared by every target. Determinism rules: docs/determinism.md.
+option(SWARMANOID_BUILD_TESTS "Build the tests" ON)
+option(SWARMANOID_BUILD_BENCH "Build the benchmarks" ON)
+set(SWARMANOID_CPU "x86-64-v3" CACHE STRING
+  "Instruction set of the build (-march); results do not depend on it. build_framework picks x86-64 where AVX2 is missing")
+set(SWARMANOID_SANITIZE "" CACHE STRING "Sanitizers of the build, as for -fsanitize=; empty for none")
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR};$ORIGIN")
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+# Same bits whatever the optimisation level: no contraction, no Eigen vector code (it would use FMA instructions).
+add_compile_options(-ffp-contract=off -fno-trapping-math -fno-math-errno)
+add_compile_definitions(EIGEN_DONT_VECTORIZE)
+if(SWARMANOID_CPU AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  add_compile_options(-march=${SWARMANOID_CPU})
+endif()
+if(SWARMANOID_SANITIZE)
+  add_compile_options(-fsanitize=${SWARMANOID_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${SWARMANOID_SANITIZE})
+endif()
+
+set(SWARMANOID_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+
+# swarmanoid_library(NAME [STATIC] SOURCES... [PUBLIC libs...] [PRIVATE libs...]): one library of ours,
+# warnings as errors, exported as Swarmanoid::NAME.
+function(swarmanoid_library name)
+  cmake_parse_arguments(ARG "STATIC" "" "SOURCES;PUBLIC;PRIVATE;INCLUDES" ${ARGN})
+  if(ARG_STATIC)
+    add_library(${name} STATIC ${ARG_SOURCES})
+  else()
+    add_library(${name} SHARED ${ARG_SOURCES})
+  endif()
+  add_library(Swarmanoid::${name} ALIAS ${name})
+  set_target_properties(${name} PROPERTIES OUTPUT_NAME swarmanoid_${name})
+  target_compile_options(${name} PRIVATE ${SWARMANOID_WARNINGS})
+  target_include_directories(${name} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid>)
+  target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+endfunction()
+
+# swarmanoid_program(NAME SOURCES... LINK libs...): one program of ours.
+function(swarmanoid_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_compile_options(${name} PRIVATE ${SWARMANOID_WARNINGS})
+  target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK})
+endfunction()

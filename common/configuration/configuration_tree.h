@@ -1,0 +1,104 @@
+// TConfigurationTree: a handle to one element of an experiment file. Controllers, devices, engines and renderers get the
+// subtree that concerns them. Immutable; copying shares the element. Knows nothing of the simulator.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/math/pose.h"
+
+namespace swarmanoid
+{
+
+// Where an element or attribute stands in its file; line and column count from 1, 0 where unknown.
+struct SourceLocation
+{
+  std::shared_ptr<const std::string> file;
+  int line = 0;
+  int column = 0;
+
+  // "file:line:col", or the part of it that is known.
+  std::string Text() const;
+};
+
+// A user's mistake in an experiment file. what() is "file:line:col: what is wrong; the cure".
+class ConfigurationError : public std::runtime_error
+{
+public:
+  ConfigurationError(const SourceLocation& location, const std::string& message);
+  explicit ConfigurationError(const std::string& message) : std::runtime_error(message) {}
+};
+
+// One element as parsed. Built by the reader of the file, owned by the tree above it.
+struct ConfigurationNode
+{
+  struct Attribute
+  {
+    std::string name;
+    std::string value;
+    SourceLocation location;
+  };
+
+  std::string name;
+  std::string text;  // character data, trimmed at both ends
+  std::vector<Attribute> attributes;
+  std::vector<std::shared_ptr<const ConfigurationNode>> children;
+  SourceLocation location;
+};
+
+class TConfigurationTree
+{
+public:
+  TConfigurationTree() = default;
+  explicit TConfigurationTree(std::shared_ptr<const ConfigurationNode> node) : node_(std::move(node)) {}
+
+  // False for the handle of an element that is not in the file; every getter of such a handle yields its default.
+  bool Exists() const { return node_ != nullptr; }
+  const std::string& Name() const;
+  const std::string& Text() const;
+  SourceLocation Location() const;
+
+  std::vector<TConfigurationTree> Children() const;
+  // The first child of that name, or a handle that does not exist.
+  TConfigurationTree Child(std::string_view name) const;
+  bool HasAttribute(std::string_view name) const;
+  std::string Attribute(std::string_view name) const;  // empty where absent
+
+  // The value of a parameter, written as a child element (<speed>3</speed>) or an attribute (speed="3").
+  // nullopt where it is in neither form.
+  std::optional<std::string> Value(std::string_view name) const;
+  SourceLocation ValueLocation(std::string_view name) const;
+
+  // Typed values; the forms with a default return it where the parameter is absent, those without throw
+  // ConfigurationError, and both throw where the text is not of the type.
+  double GetNumber(std::string_view name) const;
+  double GetNumber(std::string_view name, double fallback) const;
+  long long GetInteger(std::string_view name) const;
+  long long GetInteger(std::string_view name, long long fallback) const;
+  bool GetBoolean(std::string_view name, bool fallback) const;
+  std::string GetText(std::string_view name) const;
+  std::string GetText(std::string_view name, const std::string& fallback) const;
+  Vector3 GetVector3(std::string_view name) const;
+  Vector3 GetVector3(std::string_view name, const Vector3& fallback) const;
+
+  const ConfigurationNode* Node() const { return node_.get(); }
+
+private:
+  std::shared_ptr<const ConfigurationNode> node_;
+};
+
+// Conversions of whole texts, surrounding blanks allowed; nullopt where the text is something else.
+std::optional<double> ParseNumber(std::string_view text);
+std::optional<long long> ParseInteger(std::string_view text);
+std::optional<bool> ParseBoolean(std::string_view text);                   // true/false, yes/no, on/off, 1/0
+std::optional<std::vector<double>> ParseNumbers(std::string_view text);    // separated by commas or blanks
+std::string_view TrimBlanks(std::string_view text);
+
+}  // namespace swarmanoid
+
+using swarmanoid::TConfigurationTree;

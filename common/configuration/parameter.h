@@ -1,0 +1,68 @@
+// The declaration of one configuration parameter: from it come parsing, defaults, checks, error messages, the reference
+// page and the XSD. Plug-ins declare theirs when they register.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/configuration/configuration_tree.h"
+
+namespace swarmanoid
+{
+
+enum class ParameterType
+{
+  kBoolean,
+  kInteger,
+  kNumber,
+  kText,
+  kChoice,   // one of `choices`
+  kVector2,  // "x, y"
+  kVector3,  // "x, y, z"
+  kPath,     // a file; relative ones are taken from the folder of the experiment file
+  kColour,   // a name (red) or #rrggbb
+  kTree      // free content, not checked
+};
+
+struct ParameterSpec
+{
+  std::string name;
+  ParameterType type = ParameterType::kNumber;
+  std::string unit;                          // SI symbol, empty for none
+  std::optional<std::string> default_value;  // as written in a file; nullopt makes the parameter required
+  std::string description;                   // one plain sentence: meaning and consequence
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
+  std::vector<std::string> choices;
+};
+
+// Typed reading of the parameters that a table declares. Names outside the table are a programming error.
+class Parameters
+{
+public:
+  Parameters(TConfigurationTree tree, const std::vector<ParameterSpec>& specs) : tree_(std::move(tree)), specs_(specs) {}
+
+  bool Boolean(std::string_view name) const;
+  long long Integer(std::string_view name) const;
+  double Number(std::string_view name) const;
+  std::string Text(std::string_view name) const;
+  Vector2 Vector2Of(std::string_view name) const;
+  Vector3 Vector3Of(std::string_view name) const;
+  std::uint32_t Colour(std::string_view name) const;  // 0xRRGGBB
+  bool IsGiven(std::string_view name) const { return tree_.Value(name).has_value(); }
+  const TConfigurationTree& Tree() const { return tree_; }
+
+private:
+  std::string ValueOf(std::string_view name) const;
+  const ParameterSpec& SpecOf(std::string_view name) const;
+
+  TConfigurationTree tree_;
+  const std::vector<ParameterSpec>& specs_;
+};
+
+// "red", "#ff0000" and "255,0,0" are the same; nullopt for anything else.
+std::optional<std::uint32_t> ParseColour(std::string_view text);
+
+}  // namespace swarmanoid

@@ -1,0 +1,22 @@
+#include "common/control_interface/ci_controller.h"
+
+namespace swarmanoid
+{
+
+template <>
+PluginRegistry<CCI_Controller>& PluginRegistry<CCI_Controller>::Instance()
+{
+  static PluginRegistry registry;
+  return registry;
+}
+
+template class PluginRegistry<CCI_Controller>;
+
+ControllerRegistration::ControllerRegistration(const char* label, std::unique_ptr<CCI_Controller> (*create)())
+{
+  PluginDescription description;
+  description.label = label;
+  PluginRegistry<CCI_Controller>::Instance().Add(std::move(description), create);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,75 @@
+// CCI_Controller: the base of every robot controller. The same class runs in the simulator and on the robot.
+//
+// A controller library holds one or more such classes, each registered by REGISTER_CONTROLLER with the tag that names it
+// in <controllers>. The runtime makes one object for each robot, calls Init once, ControlStep every tick, Destroy at the end,
+// all from one thread.
+#pragma once
+
+#include <iosfwd>
+#include <memory>
+#include <string>
+
+#include "common/configuration/configuration_tree.h"
+#include "common/control_interface/ci_robot.h"
+#include "common/plugins/registry.h"
+
+namespace swarmanoid
+{
+
+class CCI_Controller
+{
+public:
+  static constexpr int RETURN_OK = 0;
+  static constexpr int RETURN_ERROR = 1;
+
+  virtual ~CCI_Controller() = default;
+
+  // Gets the <parameters> of the controller; here the devices are looked up. Anything but RETURN_OK, and any exception,
+  // stops the experiment with the robot's name.
+  virtual int Init(const TConfigurationTree t_tree) = 0;
+  // Reads the sensors and sets the actuators, once each tick.
+  virtual void ControlStep() = 0;
+  virtual void Destroy() {}
+
+  // Optional: all that the controller remembers between ticks, so that a run can go on from a checkpoint. A controller that
+  // leaves HasState false makes a run that cannot be restored, and restoring says so.
+  virtual bool HasState() const { return false; }
+  virtual void SaveState(std::ostream&) const {}
+  virtual void LoadState(std::istream&) {}
+
+  // Shown by visualisers beside the robot: the state of the controller in a few words. Optional.
+  virtual std::string StatusText() const { return {}; }
+
+  CCI_Robot* GetRobot() const { return robot_; }
+  // For the runtime, before Init.
+  void SetRobot(CCI_Robot* robot) { robot_ = robot; }
+
+private:
+  CCI_Robot* robot_ = nullptr;
+};
+
+extern template class PluginRegistry<CCI_Controller>;
+
+// Used by REGISTER_CONTROLLER.
+struct ControllerRegistration
+{
+  ControllerRegistration(const char* label, std::unique_ptr<CCI_Controller> (*create)());
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_Controller;
+
+// REGISTER_CONTROLLER(CSampleFootBotController, "sample_footbot_controller")
+#define REGISTER_CONTROLLER(CLASS, LABEL)                                                      \
+  namespace                                                                                    \
+  {                                                                                            \
+  const ::swarmanoid::ControllerRegistration registration_of_##CLASS(                          \
+      LABEL, []() -> std::unique_ptr<::swarmanoid::CCI_Controller> { return std::make_unique<CLASS>(); }); \
+  }
+
+// The name of the framework in the code of its first users: `using namespace ahss;`.
+namespace ahss
+{
+using namespace swarmanoid;
+}

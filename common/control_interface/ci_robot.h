@@ -1,0 +1,89 @@
+// CCI_Robot: the container of a robot's sensors and actuators. The only way from a controller to its devices.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "common/control_interface/ci_device.h"
+#include "common/math/random.h"
+
+namespace swarmanoid
+{
+
+// A controller asked for a device that its configuration does not list.
+class CCI_DeviceError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+class CCI_Robot
+{
+public:
+  CCI_Robot(std::string id, std::string kind) : id_(std::move(id)), kind_(std::move(kind)) {}
+
+  const std::string& GetId() const { return id_; }
+  // "footbot", "eyebot" or "handbot".
+  const std::string& GetKind() const { return kind_; }
+
+  // The device registered under a type label ("footbot_wheels"), for as long as the controller lives.
+  // Throws CCI_DeviceError, naming those listed, where the configuration does not list it.
+  CCI_Actuator* GetActuator(const std::string& type) const;
+  CCI_Sensor* GetSensor(const std::string& type) const;
+  bool HasActuator(const std::string& type) const { return actuators_.contains(type); }
+  bool HasSensor(const std::string& type) const { return sensors_.contains(type); }
+
+  // The same, checked: throws CCI_DeviceError where the device is of another interface.
+  template <class Interface>
+  Interface& Actuator(const std::string& type) const
+  {
+    return Checked<Interface>(GetActuator(type), type);
+  }
+  template <class Interface>
+  Interface& Sensor(const std::string& type) const
+  {
+    return Checked<Interface>(GetSensor(type), type);
+  }
+
+  // The clock: ticks since the start, and seconds of one tick and since the start.
+  std::uint64_t GetTick() const { return tick_; }
+  double GetTickSeconds() const { return tick_seconds_; }
+  double GetTime() const { return static_cast<double>(tick_) * tick_seconds_; }
+
+  // Random numbers of this robot in this control step: equal in every run of the same seed.
+  RandomStream& GetRandom() { return random_; }
+
+  // For the runtime that owns the robot.
+  void AddActuator(const std::string& type, CCI_Actuator* actuator) { actuators_[type] = actuator; }
+  void AddSensor(const std::string& type, CCI_Sensor* sensor) { sensors_[type] = sensor; }
+  void BeginStep(std::uint64_t tick, double tick_seconds, const RandomStream& random)
+  {
+    tick_ = tick;
+    tick_seconds_ = tick_seconds;
+    random_ = random;
+  }
+
+private:
+  template <class Interface, class Device>
+  Interface& Checked(Device* device, const std::string& type) const
+  {
+    if (auto* typed = dynamic_cast<Interface*>(device)) return *typed;
+    throw CCI_DeviceError("robot '" + id_ + "': device '" + type + "' is not of the interface asked for");
+  }
+
+  std::string id_;
+  std::string kind_;
+  std::map<std::string, CCI_Actuator*> actuators_;
+  std::map<std::string, CCI_Sensor*> sensors_;
+  std::uint64_t tick_ = 0;
+  double tick_seconds_ = 0.1;
+  RandomStream random_{0, 0, 0, 0};
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_DeviceError;
+using swarmanoid::CCI_Robot;

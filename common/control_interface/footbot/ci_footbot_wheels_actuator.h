@@ -1,0 +1,33 @@
+// The two wheels (treels) of a footbot.
+#pragma once
+
+#include "common/control_interface/ci_device.h"
+
+namespace swarmanoid
+{
+
+class CCI_FootBotWheelsActuator : public CCI_Actuator
+{
+public:
+  static constexpr unsigned NUM_WHEELS = 2;
+  // Radius of a wheel and distance between the two, in metres (ARGoS3, foot-bot).
+  static constexpr double WHEEL_RADIUS_M = 0.029112741;
+  static constexpr double INTERWHEEL_DISTANCE_M = 0.14;
+
+  // Angular velocities of the wheels in rad/s; positive drives forward. Values beyond the implementation's limit are clamped to it.
+  virtual void SetFootBotWheelsAngularVelocity(double left, double right) = 0;
+  // Speeds of the wheels on the ground in m/s: angular velocity times radius.
+  void SetFootBotWheelsLinearVelocity(double left, double right)
+  {
+    SetFootBotWheelsAngularVelocity(left / WHEEL_RADIUS_M, right / WHEEL_RADIUS_M);
+  }
+  // Group-level form: {left, right} in rad/s.
+  void SetAllActuatorOutputs(const double (&velocities)[NUM_WHEELS])
+  {
+    SetFootBotWheelsAngularVelocity(velocities[0], velocities[1]);
+  }
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_FootBotWheelsActuator;

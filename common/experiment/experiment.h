@@ -1,0 +1,119 @@
+// The experiment as read from its XML file: plain values, checked and complete. Every role builds its part of the world
+// from it, so equal files give equal worlds. Immutable after loading.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/configuration/configuration_tree.h"
+
+namespace swarmanoid
+{
+
+// One <footbot_proximity><implementation>…</implementation>…</footbot_proximity> entry of a controller.
+struct DeviceConfiguration
+{
+  std::string type;
+  std::string implementation;
+  TConfigurationTree tree;  // the element of the device: its parameters
+};
+
+// One entry of <controllers>.
+struct ControllerConfiguration
+{
+  std::string tag;  // the label that the controller class registered
+  std::string id;
+  std::string library;
+  std::vector<DeviceConfiguration> actuators;
+  std::vector<DeviceConfiguration> sensors;
+  TConfigurationTree parameters;  // <parameters>, given to CCI_Controller::Init
+  SourceLocation location;
+};
+
+enum class EntityKind : std::uint8_t
+{
+  kFootbot,
+  kHandbot,
+  kEyebot,
+  kBlock,
+  kCylindricPrey,
+  kLightBulb,
+  kSoundSource,
+  kGroundPatch,
+  kHole,
+  kWall,
+  kTerrain
+};
+
+// One entity of the arena; those of a <distribute> are expanded.
+struct EntityConfiguration
+{
+  EntityKind kind = EntityKind::kBlock;
+  std::string id;
+  Pose pose;
+  std::string controller;  // robots: the id of the controller; empty for none
+  // The size of the body in metres. Robots have fixed ones. Blocks: x, y, z. Cylinders: radius in x, height in z.
+  Vector3 size = Vector3::Zero();
+  double mass_kg = 0;      // 0: the default of the kind
+  bool movable = false;    // robots and preys always; blocks only where asked
+  std::uint32_t colour = 0xc0c0c0;
+  double intensity = 1;    // lights and sounds
+  TConfigurationTree tree;  // the element it came from
+  SourceLocation location;
+};
+
+struct EngineConfiguration
+{
+  std::string tag;
+  std::string id;
+  int subclock = 1;  // steps of the engine in each clock tick
+  TConfigurationTree tree;
+  std::vector<std::uint32_t> entities;  // indices into Experiment::entities, ascending
+  SourceLocation location;
+};
+
+struct RenderConfiguration
+{
+  std::string tag;
+  std::string id;
+  TConfigurationTree tree;
+  SourceLocation location;
+};
+
+enum class SpaceOptimization : std::uint8_t
+{
+  k2D,
+  k3D,
+  kOctree
+};
+
+struct Experiment
+{
+  std::string name;    // the file's name without folder and extension, unless <framework><name> says otherwise
+  std::string folder;  // of the experiment file: relative paths start here
+  std::uint32_t clock_tick_ms = 100;
+  std::uint64_t max_clock = 0;  // ticks; 0: until stopped
+  std::uint64_t seed = 1;
+  std::uint32_t canonical_period = 100;  // ticks between two canonicalisations of every engine
+  std::vector<std::string> controller_path;
+  std::vector<std::string> plugin_path;
+  Vector3 arena_size = Vector3::Zero();
+  SpaceOptimization optimization = SpaceOptimization::k2D;
+  std::vector<ControllerConfiguration> controllers;
+  std::vector<EntityConfiguration> entities;
+  std::vector<EngineConfiguration> engines;
+  std::vector<RenderConfiguration> visualisations;
+  std::string effective_xml;  // the text that gives this experiment again, --set and --seed applied
+
+  double TickSeconds() const { return clock_tick_ms * 1e-3; }
+  const ControllerConfiguration* FindController(const std::string& id) const;
+  const EngineConfiguration* FindEngine(const std::string& id) const;
+};
+
+bool IsRobot(EntityKind kind);
+// The word of the tables and files: "Footbot", "Block" (figure 3.11) and "footbot", "block".
+std::string_view TableName(EntityKind kind);
+std::string_view TagName(EntityKind kind);
+
+}  // namespace swarmanoid

@@ -1,0 +1,41 @@
+// Reading an experiment file: all mistakes at once, each with its place and cure.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/experiment/experiment.h"
+
+namespace swarmanoid
+{
+
+struct Diagnostic
+{
+  SourceLocation location;
+  std::string message;  // what is wrong; what is allowed; did you mean …
+
+  std::string Text() const { return location.Text() + ": " + message; }
+};
+
+struct LoadOptions
+{
+  std::vector<std::pair<std::string, std::string>> settings;  // --set PATH=VALUE
+  bool check_controller_libraries = true;  // load the libraries and check that they register the tags
+};
+
+// Exactly one of the two is filled.
+struct LoadedExperiment
+{
+  std::unique_ptr<Experiment> experiment;
+  std::vector<Diagnostic> errors;
+};
+
+// Call RegisterBuiltinEngines, ...Devices and ...Renderers before; their tables decide what the file may contain.
+LoadedExperiment LoadExperimentFile(const std::string& path, const LoadOptions& options = {});
+// The same from text, as a role gets it from the space server; `folder` resolves relative paths.
+LoadedExperiment LoadExperimentText(const std::string& text, const std::string& file_name, const std::string& folder,
+                                    const LoadOptions& options = {});
+
+}  // namespace swarmanoid

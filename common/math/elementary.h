@@ -1,0 +1,35 @@
+// Elementary functions with the same bits on every processor: polynomials over IEEE add, multiply and divide only.
+// glibc's sin, cos, atan2, exp and log choose other code where the processor has FMA, and differ in the last bit.
+// Used by engines, sensors and everything else that reaches the state hash. All angles in radians.
+#pragma once
+
+namespace swarmanoid
+{
+
+inline constexpr double kPi = 3.14159265358979323846;
+
+struct SinCos
+{
+  double sin;
+  double cos;
+};
+
+// |x| up to 1e5: absolute error below 3e-16. Larger arguments lose accuracy in proportion to |x|.
+SinCos SinCosOf(double x);
+double Sin(double x);
+double Cos(double x);
+// In -pi..pi; Atan2(0, 0) is 0.
+double Atan2(double y, double x);
+// Arguments outside -1..1 are clamped.
+double Asin(double x);
+double Acos(double x);
+double Exp(double x);
+// Natural logarithm; x must be positive and finite.
+double Log(double x);
+// x wrapped to -pi..pi.
+double WrapAngle(double x);
+
+inline double DegreesToRadians(double degrees) { return degrees * (kPi / 180.0); }
+inline double RadiansToDegrees(double radians) { return radians * (180.0 / kPi); }
+
+}  // namespace swarmanoid

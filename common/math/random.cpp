@@ -1,0 +1,52 @@
+#include "common/math/random.h"
+
+#include "common/math/elementary.h"
+
+namespace swarmanoid
+{
+
+std::array<std::uint32_t, 4> Philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key)
+{
+  for (int round = 0; round < 10; ++round)
+  {
+    const std::uint64_t product0 = 0xD2511F53ULL * counter[0];
+    const std::uint64_t product1 = 0xCD9E8D57ULL * counter[2];
+    counter = {static_cast<std::uint32_t>(product1 >> 32) ^ counter[1] ^ key[0], static_cast<std::uint32_t>(product1),
+               static_cast<std::uint32_t>(product0 >> 32) ^ counter[3] ^ key[1], static_cast<std::uint32_t>(product0)};
+    key[0] += 0x9E3779B9U;
+    key[1] += 0xBB67AE85U;
+  }
+  return counter;
+}
+
+std::uint32_t RandomStream::Bits()
+{
+  if (used_ == 4)
+  {
+    block_ = Philox4x32(counter_, key_);
+    ++counter_[0];
+    used_ = 0;
+  }
+  return block_[used_++];
+}
+
+double RandomStream::Uniform()
+{
+  const std::uint64_t high = Bits();
+  const std::uint64_t low = Bits();
+  return static_cast<double>(((high << 32) | low) >> 11) * 0x1.0p-53;
+}
+
+double RandomStream::Gaussian(double mean, double deviation)
+{
+  const double radius = __builtin_sqrt(-2 * Log(1 - Uniform()));
+  return mean + deviation * radius * Cos(2 * kPi * Uniform());
+}
+
+std::uint32_t RandomStream::Below(std::uint32_t count)
+{
+  // Lemire's multiplication; the bias is below count / 2^32.
+  return static_cast<std::uint32_t>((static_cast<std::uint64_t>(Bits()) * count) >> 32);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,67 @@
+// Who does what: which host runs which robots, which engine owns which entities, and where each value of a specific device
+// stands in the messages between them. A pure function of the experiment and the number of hosts, equal in every process.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/experiment/experiment.h"
+
+namespace swarmanoid
+{
+
+// The values of one channel for some robots, contiguous: robot after robot, `width` doubles each.
+struct ChannelBlock
+{
+  std::string name;
+  int width = 0;
+  std::vector<std::uint32_t> entities;  // ascending
+  std::size_t offset = 0;               // of the first double within the message
+};
+
+struct ValueCopy
+{
+  std::uint32_t source = 0;  // host (commands) or engine (sensor frames)
+  std::size_t from = 0;
+  std::size_t to = 0;
+  std::size_t count = 0;  // doubles
+};
+
+struct HostLayout
+{
+  std::vector<std::uint32_t> robots;  // ascending
+  std::vector<ChannelBlock> commands;
+  std::size_t command_size = 0;  // doubles in ControlCommands::values
+  std::vector<ChannelBlock> sensors;
+  std::size_t sensor_size = 0;
+  std::vector<ValueCopy> sensor_copies;   // from the engines' frames
+  std::vector<std::uint32_t> frames_from;  // engines whose frames the host waits for
+  bool reports_to_server = false;          // the server waits for its commands: generic actuators, or robots in no engine
+};
+
+struct EngineLayout
+{
+  std::vector<std::uint32_t> owned;     // movable entities that this engine moves, ascending
+  std::vector<std::uint32_t> mirrored;  // movable entities owned by another engine
+  std::vector<std::uint32_t> fixed;     // static entities
+  std::vector<ChannelBlock> commands;
+  std::size_t command_size = 0;
+  std::vector<ValueCopy> command_copies;
+  std::vector<std::uint32_t> commands_from;  // hosts whose commands the engine waits for
+  std::vector<ChannelBlock> sensors;
+  std::size_t sensor_size = 0;
+};
+
+struct Assignment
+{
+  std::vector<HostLayout> hosts;
+  std::vector<EngineLayout> engines;
+  std::vector<int> owner;  // of each entity: engine index, -1 for none
+  std::vector<int> host;   // of each entity: host index, -1 for none
+};
+
+// Robots go to hosts in contiguous runs of about equal size, ordered by owning engine, then entity.
+// There are never more hosts than robots, and always at least one. Needs the device registries.
+Assignment MakeAssignment(const Experiment& experiment, unsigned hosts);
+
+}  // namespace swarmanoid

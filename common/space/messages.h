@@ -1,0 +1,76 @@
+// What the roles say to one another each tick. Plain values; the bus carries them between processes, and the single process
+// passes them by reference. Buffers are reused: steady running allocates nothing.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace swarmanoid
+{
+
+// Attribute slots that changed, ascending by slot, and their new values.
+struct AttributeChanges
+{
+  std::vector<std::uint32_t> slots;
+  std::vector<double> values;
+
+  void Clear()
+  {
+    slots.clear();
+    values.clear();
+  }
+  void Add(std::uint32_t slot, double value)
+  {
+    slots.push_back(slot);
+    values.push_back(value);
+  }
+};
+
+// Space server to all: the state at a tick, as what changed since the tick before.
+struct SpaceState
+{
+  std::uint64_t tick = 0;
+  bool last = false;          // no tick follows
+  std::vector<double> poses;  // of the movable entities, structure of arrays: all x (m), y, z, qx, qy, qz, qw
+  AttributeChanges attributes;
+  std::vector<std::uint32_t> moved;  // entities that were put elsewhere from outside physics, ascending
+};
+
+// Space server to those who join late: the whole state at a tick.
+struct SpaceSnapshot
+{
+  std::uint64_t tick = 0;
+  bool last = false;
+  double real_time_factor = 0;
+  std::vector<double> poses;       // as in SpaceState
+  std::vector<double> attributes;  // all slots
+};
+
+// Controller host to engines and server: what the robots of the host do in the tick that starts at `tick`.
+struct ControlCommands
+{
+  std::uint64_t tick = 0;
+  std::uint32_t host = 0;
+  std::vector<double> values;   // of the specific actuators, laid out as HostLayout::commands says
+  AttributeChanges attributes;  // set by generic actuators
+};
+
+// Engine worker to server: the outcome of the step that leads to `tick`.
+struct EngineUpdate
+{
+  std::uint64_t tick = 0;
+  std::uint32_t engine = 0;
+  std::vector<double> poses;  // of the entities that the engine owns, structure of arrays as in SpaceState
+  AttributeChanges attributes;
+};
+
+// Engine worker to hosts: values of the specific sensors at `tick`, laid out as EngineLayout::sensors says.
+struct SensorFrame
+{
+  std::uint64_t tick = 0;
+  std::uint32_t engine = 0;
+  std::vector<double> values;
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,77 @@
+// CSwarmanoidSpace: the 3D space in which everything is simulated. Entities with global poses, their attributes, the clock.
+// Every process holds one; the space server's is the original, the others follow it by SpaceState. One thread at a time.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "common/experiment/experiment.h"
+#include "common/space/entity.h"
+#include "common/space/messages.h"
+
+namespace swarmanoid
+{
+
+// Global poses of all entities, one array a component, in entity order.
+struct PoseArrays
+{
+  std::vector<double> x, y, z;
+  std::vector<double> qx, qy, qz, qw;
+};
+
+class CSwarmanoidSpace
+{
+public:
+  // The initial state of the experiment, which must outlive the space.
+  explicit CSwarmanoidSpace(const Experiment& experiment);
+  ~CSwarmanoidSpace();
+  CSwarmanoidSpace(const CSwarmanoidSpace&) = delete;
+  CSwarmanoidSpace& operator=(const CSwarmanoidSpace&) = delete;
+
+  const Experiment& GetExperiment() const { return experiment_; }
+  std::uint64_t GetTick() const { return tick_; }
+  double GetTickSeconds() const { return experiment_.TickSeconds(); }
+  double GetTime() const { return static_cast<double>(tick_) * GetTickSeconds(); }
+
+  std::size_t Size() const { return entities_.size(); }
+  CSwarmanoidSpaceEntity& GetEntity(std::size_t index) const { return *entities_[index]; }
+  // nullptr where no entity has that id.
+  CSwarmanoidSpaceEntity* FindEntity(std::string_view id) const;
+
+  const PoseArrays& Poses() const { return poses_; }
+  Pose GetPose(std::size_t index) const;
+  std::span<const double> Attributes() const { return attributes_; }
+  // Indices of the entities that can move, ascending.
+  std::span<const std::uint32_t> Movable() const { return movable_; }
+
+  // Changes of the state, for the role that owns this space.
+  void SetTick(std::uint64_t tick) { tick_ = tick; }
+  void SetPose(std::size_t index, const Pose& pose);
+  // poses: structure of arrays over `entities`, as in EngineUpdate.
+  void SetPoses(std::span<const std::uint32_t> entities, std::span<const double> poses);
+  void SetAttribute(std::uint32_t slot, double value) { attributes_[slot] = value; }
+  void SetAttributes(const AttributeChanges& changes);
+
+  // Brings a replica to the tick of the message.
+  void Apply(const SpaceState& state);
+  void Apply(const SpaceSnapshot& snapshot);
+  void WritePoses(std::vector<double>& poses) const;  // of the movable entities, as in SpaceState
+
+  // XXH3-64 over the tick, the bits of all poses and the attributes, in entity order.
+  std::uint64_t Hash() const;
+
+private:
+  const Experiment& experiment_;
+  std::uint64_t tick_ = 0;
+  PoseArrays poses_;
+  std::vector<double> attributes_;
+  std::vector<std::uint32_t> movable_;
+  std::vector<std::unique_ptr<CSwarmanoidSpaceEntity>> entities_;
+  std::unordered_map<std::string_view, std::uint32_t> index_of_id_;
+};
+
+}  // namespace swarmanoid

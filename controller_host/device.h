@@ -1,0 +1,93 @@
+// Simulated sensors and actuators. One object serves all robots of a host that run one controller configuration: it computes
+// them in one batch over flat arrays and hands each robot the small CCI_ object that its controller holds.
+//
+// A generic device needs the space alone. A specific one exchanges a channel of values with the engine of its robots.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "common/configuration/parameter.h"
+#include "common/control_interface/ci_device.h"
+#include "common/plugins/registry.h"
+#include "common/serialisation/bytes.h"
+#include "common/space/messages.h"
+#include "common/space/space.h"
+
+namespace swarmanoid
+{
+
+// What a batch is made from. The references outlive the batch.
+struct DeviceSetup
+{
+  Parameters parameters;                 // of the device's element
+  const CSwarmanoidSpace& space;         // this process's replica
+  std::vector<std::uint32_t> robots;     // entity indices, ascending: robot k of the batch is entity robots[k]
+  std::uint32_t stream = 0;              // the device's name for RandomStream: StreamName(type)
+};
+
+// The channel values of the robots of a batch, `width` doubles each; robot k stands at values[offsets[k]].
+struct ChannelView
+{
+  std::span<double> values;
+  std::span<const std::size_t> offsets;
+  int width = 0;
+};
+
+class SensorBatch
+{
+public:
+  virtual ~SensorBatch() = default;
+  virtual void Init(const DeviceSetup& setup) = 0;
+  // The object given to the controller of robot k; it lives as long as the batch.
+  virtual CCI_Sensor* Sensor(std::size_t k) = 0;
+  // Computes the readings of all robots from the space at its tick. `channel`: what the engines sent (specific sensors).
+  virtual void Update(const ChannelView& channel) = 0;
+  // What the device remembers between ticks, if anything.
+  virtual void SaveState(ByteWriter&) const {}
+  virtual void LoadState(ByteReader&) {}
+};
+
+class ActuatorBatch
+{
+public:
+  virtual ~ActuatorBatch() = default;
+  virtual void Init(const DeviceSetup& setup) = 0;
+  virtual CCI_Actuator* Actuator(std::size_t k) = 0;
+  // Turns what the controllers set into channel values (specific) or attribute changes (generic; slots ascending).
+  virtual void Commit(const ChannelView& channel, AttributeChanges& changes) = 0;
+  virtual void SaveState(ByteWriter&) const {}
+  virtual void LoadState(ByteReader&) {}
+};
+
+extern template class PluginRegistry<SensorBatch>;
+extern template class PluginRegistry<ActuatorBatch>;
+
+// Adds the devices of this folder to the registries. Idempotent.
+void RegisterBuiltinDevices();
+
+template <class Interface>
+struct DeviceRegistration
+{
+  DeviceRegistration(PluginDescription description, std::unique_ptr<Interface> (*create)())
+  {
+    PluginRegistry<Interface>::Instance().Add(std::move(description), create);
+  }
+};
+
+}  // namespace swarmanoid
+
+// REGISTER_SENSOR(CMySensorBatch, description), REGISTER_ACTUATOR(...): for devices in a user's library.
+#define REGISTER_SENSOR(CLASS, ...)                                                                           \
+  namespace                                                                                                   \
+  {                                                                                                           \
+  const ::swarmanoid::DeviceRegistration<::swarmanoid::SensorBatch> registration_of_##CLASS(                  \
+      __VA_ARGS__, []() -> std::unique_ptr<::swarmanoid::SensorBatch> { return std::make_unique<CLASS>(); }); \
+  }
+#define REGISTER_ACTUATOR(CLASS, ...)                                                                             \
+  namespace                                                                                                       \
+  {                                                                                                               \
+  const ::swarmanoid::DeviceRegistration<::swarmanoid::ActuatorBatch> registration_of_##CLASS(                    \
+      __VA_ARGS__, []() -> std::unique_ptr<::swarmanoid::ActuatorBatch> { return std::make_unique<CLASS>(); });   \
+  }

@@ -1,0 +1,15 @@
+#include "engine_worker/physics_engine.h"
+
+namespace swarmanoid
+{
+
+template <>
+PluginRegistry<CPhysicsEngine>& PluginRegistry<CPhysicsEngine>::Instance()
+{
+  static PluginRegistry registry;
+  return registry;
+}
+
+template class PluginRegistry<CPhysicsEngine>;
+
+}  // namespace swarmanoid

@@ -1,0 +1,116 @@
+// CPhysicsEngine and CPhysicsEngineEntity: what a physics engine is to the simulator. An engine is a closed world with a frame
+// of its own; it moves the entities that it owns and reports their global poses. A plug-in: see docs/engines.md.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/configuration/parameter.h"
+#include "common/plugins/registry.h"
+#include "common/serialisation/bytes.h"
+#include "common/space/assignment.h"
+#include "common/space/messages.h"
+#include "common/space/space.h"
+
+namespace swarmanoid
+{
+
+// How an entity takes part in an engine.
+enum class EBinding
+{
+  kOwned,   // the engine moves it
+  kMirror,  // movable, but another engine moves it: it follows the space, pushes and is not pushed
+  kFixed    // it never moves
+};
+
+// The other self of a space entity inside an engine: masses, speeds, joints. Engines may derive from it or keep flat arrays
+// of their own; how it is linked to the engine is up to them.
+class CPhysicsEngineEntity
+{
+public:
+  explicit CPhysicsEngineEntity(const CSwarmanoidSpaceEntity& entity) : space_entity_(entity) {}
+  virtual ~CPhysicsEngineEntity() = default;
+  const CSwarmanoidSpaceEntity& GetSpaceEntity() const { return space_entity_; }
+
+private:
+  const CSwarmanoidSpaceEntity& space_entity_;
+};
+
+// Everything an engine is made from. The references outlive the engine.
+struct EngineSetup
+{
+  const EngineConfiguration& configuration;
+  Parameters parameters;           // of the engine's element, by the table that it registered
+  const CSwarmanoidSpace& space;   // this process's replica: entities, poses of the tick that the step starts from
+  const EngineLayout& layout;      // the order of owned entities, command and sensor channels
+};
+
+// The commands of one step: EngineLayout::commands with the values filled in.
+struct EngineCommands
+{
+  const std::vector<ChannelBlock>& blocks;
+  std::span<const double> values;
+
+  // Values of a block, `width` doubles for each of its entities.
+  std::span<const double> Of(const ChannelBlock& block) const
+  {
+    return values.subspan(block.offset, block.entities.size() * static_cast<std::size_t>(block.width));
+  }
+};
+
+class CPhysicsEngine
+{
+public:
+  virtual ~CPhysicsEngine() = default;
+
+  // In this order: Init, AddEntity for every entity in entity order, Start, then Update once each tick.
+  // A user's mistake throws ConfigurationError.
+  virtual void Init(const EngineSetup& setup) = 0;
+  virtual void AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding binding) = 0;
+  virtual void Start() {}
+
+  // Advances the engine by one clock tick in `subclock` equal steps. Mirrors are first put where the space has them.
+  // Fills `update.poses` (sized by the caller: 7 doubles for each of layout.owned, structure of arrays x y z qx qy qz qw, global
+  // frame), adds to update.attributes what changed (grips, turret angles …), fills `sensors` (layout.sensors).
+  virtual void Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors) = 0;
+
+  // An owned entity was put elsewhere from outside; its pose is to be read from the space.
+  virtual void EntityMoved(std::uint32_t entity) = 0;
+
+  // Checkpoint: after Canonicalise, SaveState and LoadState into an engine made from the same experiment, all further updates
+  // have the same bits as without them.
+  virtual void SaveState(ByteWriter& state) const = 0;
+  virtual void LoadState(ByteReader& state) = 0;
+  // Drops everything that the saved state does not hold (caches, contact order). Called at the same ticks in every run.
+  virtual void Canonicalise() = 0;
+
+  // Numbers about the last update for diagnosis: contacts, pairs. One short line, may be empty.
+  virtual std::string StatusText() const { return {}; }
+};
+
+extern template class PluginRegistry<CPhysicsEngine>;
+
+// Used by REGISTER_PHYSICS_ENGINE.
+struct PhysicsEngineRegistration
+{
+  PhysicsEngineRegistration(PluginDescription description, std::unique_ptr<CPhysicsEngine> (*create)())
+  {
+    PluginRegistry<CPhysicsEngine>::Instance().Add(std::move(description), create);
+  }
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CPhysicsEngine;
+using swarmanoid::CPhysicsEngineEntity;
+
+// REGISTER_PHYSICS_ENGINE(CMyEngine, description): description is a PluginDescription expression.
+#define REGISTER_PHYSICS_ENGINE(CLASS, ...)                                                                              \
+  namespace                                                                                                              \
+  {                                                                                                                      \
+  const ::swarmanoid::PhysicsEngineRegistration registration_of_##CLASS(                                                 \
+      __VA_ARGS__, []() -> std::unique_ptr<::swarmanoid::CPhysicsEngine> { return std::make_unique<CLASS>(); });         \
+  }
