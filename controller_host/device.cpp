@@ -6,18 +6,15 @@ namespace swarmanoid
 template <>
 PluginRegistry<SensorBatch>& PluginRegistry<SensorBatch>::Instance()
 {
-  static PluginRegistry registry;
+  static PluginRegistry registry(PluginKind::kSensor);
   return registry;
 }
 
 template <>
 PluginRegistry<ActuatorBatch>& PluginRegistry<ActuatorBatch>::Instance()
 {
-  static PluginRegistry registry;
+  static PluginRegistry registry(PluginKind::kActuator);
   return registry;
 }
-
-template class PluginRegistry<SensorBatch>;
-template class PluginRegistry<ActuatorBatch>;
 
 }  // namespace swarmanoid

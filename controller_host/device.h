@@ -61,8 +61,10 @@ public:
   virtual void LoadState(ByteReader&) {}
 };
 
-extern template class PluginRegistry<SensorBatch>;
-extern template class PluginRegistry<ActuatorBatch>;
+template <>
+PluginRegistry<SensorBatch>& PluginRegistry<SensorBatch>::Instance();
+template <>
+PluginRegistry<ActuatorBatch>& PluginRegistry<ActuatorBatch>::Instance();
 
 // Adds the devices of this folder to the registries. Idempotent.
 void RegisterBuiltinDevices();

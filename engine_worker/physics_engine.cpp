@@ -6,10 +6,8 @@ namespace swarmanoid
 template <>
 PluginRegistry<CPhysicsEngine>& PluginRegistry<CPhysicsEngine>::Instance()
 {
-  static PluginRegistry registry;
+  static PluginRegistry registry(PluginKind::kEngine);
   return registry;
 }
-
-template class PluginRegistry<CPhysicsEngine>;
 
 }  // namespace swarmanoid

@@ -91,7 +91,8 @@ public:
   virtual std::string StatusText() const { return {}; }
 };
 
-extern template class PluginRegistry<CPhysicsEngine>;
+template <>
+PluginRegistry<CPhysicsEngine>& PluginRegistry<CPhysicsEngine>::Instance();
 
 // Used by REGISTER_PHYSICS_ENGINE.
 struct PhysicsEngineRegistration

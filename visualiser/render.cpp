@@ -6,10 +6,8 @@ namespace swarmanoid
 template <>
 PluginRegistry<CRender>& PluginRegistry<CRender>::Instance()
 {
-  static PluginRegistry registry;
+  static PluginRegistry registry(PluginKind::kRenderer);
   return registry;
 }
-
-template class PluginRegistry<CRender>;
 
 }  // namespace swarmanoid

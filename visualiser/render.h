@@ -49,7 +49,8 @@ public:
   virtual void Finish() {}
 };
 
-extern template class PluginRegistry<CRender>;
+template <>
+PluginRegistry<CRender>& PluginRegistry<CRender>::Instance();
 
 // Adds the renderers of this folder that are part of the build to the registry. Idempotent.
 void RegisterBuiltinRenderers();

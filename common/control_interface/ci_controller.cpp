@@ -6,11 +6,9 @@ namespace swarmanoid
 template <>
 PluginRegistry<CCI_Controller>& PluginRegistry<CCI_Controller>::Instance()
 {
-  static PluginRegistry registry;
+  static PluginRegistry registry(PluginKind::kController);
   return registry;
 }
-
-template class PluginRegistry<CCI_Controller>;
 
 ControllerRegistration::ControllerRegistration(const char* label, std::unique_ptr<CCI_Controller> (*create)())
 {

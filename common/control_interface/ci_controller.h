@@ -48,7 +48,8 @@ private:
   CCI_Robot* robot_ = nullptr;
 };
 
-extern template class PluginRegistry<CCI_Controller>;
+template <>
+PluginRegistry<CCI_Controller>& PluginRegistry<CCI_Controller>::Instance();
 
 // Used by REGISTER_CONTROLLER.
 struct ControllerRegistration

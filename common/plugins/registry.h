@@ -5,33 +5,15 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "common/configuration/parameter.h"
+#include "common/plugins/catalogue.h"
 
 namespace swarmanoid
 {
 
-// What `swarmanoid list plugins` and the reference pages show of a plug-in.
-struct PluginDescription
-{
-  std::string label;           // the XML tag: type of device, engine, renderer or controller
-  std::string implementation;  // devices only: the text of <implementation>
-  std::string brief;           // one line
-  std::vector<ParameterSpec> parameters;
-  std::vector<std::string> robots;  // devices only: the robot tags that can carry it
-  // Specific devices only: the channel of values between host and engine, and its doubles per robot. Empty: generic.
-  std::string channel;
-  int channel_width = 0;
-  // Engines only: the channels and the entity tags that it can serve.
-  std::vector<std::string> channels;
-  std::vector<std::string> entity_tags;
-};
-
-// All plug-ins of one interface, by (label, implementation).
+// All plug-ins of one interface, by (label, implementation). Their descriptions are in the PluginCatalogue too.
 template <class Interface>
 class PluginRegistry
 {
@@ -43,13 +25,15 @@ public:
     Factory create;
   };
 
+  explicit PluginRegistry(PluginKind kind) : kind_(kind) {}
+
   static PluginRegistry& Instance();
 
-  // Throws std::invalid_argument for a second plug-in of the same name.
+  // A second plug-in of the same name: see PluginCatalogue::Add.
   void Add(PluginDescription description, Factory create)
   {
+    if (!PluginCatalogue::Instance().Add(kind_, description)) return;
     std::pair<std::string, std::string> key{description.label, description.implementation};
-    if (entries_.contains(key)) throw std::invalid_argument("two plug-ins are registered as '" + key.first + "' " + key.second);
     entries_.emplace(std::move(key), Entry{std::move(description), std::move(create)});
   }
 
@@ -63,6 +47,7 @@ public:
   const std::map<std::pair<std::string, std::string>, Entry>& Entries() const { return entries_; }
 
 private:
+  PluginKind kind_;
   std::map<std::pair<std::string, std::string>, Entry> entries_;
 };
 

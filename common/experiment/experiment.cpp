@@ -1,0 +1,55 @@
+#include "common/experiment/experiment.h"
+
+#include <algorithm>
+#include <array>
+
+namespace swarmanoid
+{
+namespace
+{
+
+struct KindNames
+{
+  std::string_view table;
+  std::string_view tag;
+};
+
+// In the order of EntityKind.
+constexpr std::array<KindNames, 11> kNames{{{"Footbot", "footbot"},
+                                            {"Handbot", "handbot"},
+                                            {"Eyebot", "eyebot"},
+                                            {"Block", "block"},
+                                            {"CylindricPrey", "cylindric_prey"},
+                                            {"LightBulb", "light_bulb"},
+                                            {"SoundSource", "sound_source"},
+                                            {"GroundPatch", "ground_patch"},
+                                            {"Hole", "hole"},
+                                            {"Wall", "wall"},
+                                            {"Terrain", "terrain"}}};
+
+template <class T>
+const T* FindById(const std::vector<T>& all, const std::string& id)
+{
+  const auto found = std::find_if(all.begin(), all.end(), [&](const T& one) { return one.id == id; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+const ControllerConfiguration* Experiment::FindController(const std::string& id) const
+{
+  return FindById(controllers, id);
+}
+
+const EngineConfiguration* Experiment::FindEngine(const std::string& id) const { return FindById(engines, id); }
+
+bool IsRobot(EntityKind kind)
+{
+  return kind == EntityKind::kFootbot || kind == EntityKind::kHandbot || kind == EntityKind::kEyebot;
+}
+
+std::string_view TableName(EntityKind kind) { return kNames[static_cast<std::size_t>(kind)].table; }
+
+std::string_view TagName(EntityKind kind) { return kNames[static_cast<std::size_t>(kind)].tag; }
+
+}  // namespace swarmanoid

@@ -1,0 +1,80 @@
+// PluginCatalogue: the descriptions of all registered plug-ins, of every interface. The reader of experiment files
+// checks against it without knowing the interfaces themselves. Filled by PluginRegistry, before roles start; read-only
+// afterwards.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "common/configuration/parameter.h"
+
+namespace swarmanoid
+{
+
+enum class PluginKind
+{
+  kController,
+  kActuator,
+  kSensor,
+  kEngine,
+  kRenderer
+};
+
+// "controller", "actuator", "sensor", "physics engine", "visualisation".
+std::string_view PluginKindName(PluginKind kind);
+
+// What `swarmanoid list plugins` and the reference pages show of a plug-in.
+struct PluginDescription
+{
+  std::string label;           // the XML tag: type of device, engine, renderer or controller
+  std::string implementation;  // devices only: the text of <implementation>
+  std::string brief;           // one line
+  std::vector<ParameterSpec> parameters;
+  std::vector<std::string> robots;  // devices only: the robot tags that can carry it; empty: all
+  // Specific devices only: the channel of values between host and engine, and its doubles per robot. Empty: generic.
+  std::string channel;
+  int channel_width = 0;
+  // Engines only: the channels and the entity tags that it can serve.
+  std::vector<std::string> channels;
+  std::vector<std::string> entity_tags;
+};
+
+class PluginCatalogue
+{
+public:
+  static PluginCatalogue& Instance();
+
+  // False for a second plug-in of the same kind and name: the first one stays. While a library is being loaded the name
+  // is kept as a problem of that library (throwing through dlopen would end the program), otherwise
+  // std::invalid_argument is thrown.
+  bool Add(PluginKind kind, const PluginDescription& description);
+
+  // nullptr where there is none.
+  const PluginDescription* Find(PluginKind kind, const std::string& label,
+                                const std::string& implementation = "") const;
+  // In alphabetical order of label and implementation.
+  std::vector<const PluginDescription*> Of(PluginKind kind) const;
+  // The labels of a kind, each once, in alphabetical order.
+  std::vector<std::string> Labels(PluginKind kind) const;
+  // The implementations of a device type, in alphabetical order.
+  std::vector<std::string> Implementations(PluginKind kind, const std::string& label) const;
+
+  // What a library registered while it was loaded, for the loader (library.h).
+  struct Registrations
+  {
+    std::vector<std::pair<PluginKind, std::string>> labels;  // with those refused
+    std::vector<std::string> problems;
+  };
+  void BeginLibrary();
+  Registrations EndLibrary();
+
+private:
+  std::map<std::tuple<PluginKind, std::string, std::string>, PluginDescription> plugins_;
+  bool loading_ = false;
+  Registrations current_;
+};
+
+}  // namespace swarmanoid
