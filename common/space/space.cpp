@@ -1,0 +1,165 @@
+#include "common/space/space.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <algorithm>
+
+#include "common/space/attributes.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+std::unique_ptr<CSwarmanoidSpaceEntity> MakeEntity(CSwarmanoidSpace& space, std::uint32_t index,
+                                                   const EntityConfiguration& configuration, std::uint32_t slot)
+{
+  switch (configuration.kind)
+  {
+    case EntityKind::kFootbot:
+      return std::make_unique<CFootBotEntity>(space, index, configuration, slot);
+    case EntityKind::kHandbot:
+      return std::make_unique<CHandBotEntity>(space, index, configuration, slot);
+    case EntityKind::kEyebot:
+      return std::make_unique<CEyeBotEntity>(space, index, configuration, slot);
+    case EntityKind::kBlock:
+    case EntityKind::kWall:
+      return std::make_unique<CBlockEntity>(space, index, configuration, slot);
+    case EntityKind::kCylindricPrey:
+      return std::make_unique<CCylindricPreyEntity>(space, index, configuration, slot);
+    case EntityKind::kLightBulb:
+      return std::make_unique<CLightBulbEntity>(space, index, configuration, slot);
+    case EntityKind::kSoundSource:
+      return std::make_unique<CSoundSourceEntity>(space, index, configuration, slot);
+    case EntityKind::kGroundPatch:
+      return std::make_unique<CGroundPatchEntity>(space, index, configuration, slot);
+    default:
+      return std::make_unique<CSwarmanoidSpaceEntity>(space, index, configuration, slot);
+  }
+}
+
+template <class Space>
+auto Components(Space& poses)
+{
+  return std::array{&poses.x, &poses.y, &poses.z, &poses.qx, &poses.qy, &poses.qz, &poses.qw};
+}
+
+}  // namespace
+
+CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(experiment)
+{
+  const std::size_t count = experiment.entities.size();
+  for (auto* component : Components(poses_)) component->resize(count);
+  entities_.reserve(count);
+  index_of_id_.reserve(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const EntityConfiguration& configuration = experiment.entities[i];
+    const auto index = static_cast<std::uint32_t>(i);
+    const auto first_slot = static_cast<std::uint32_t>(attributes_.size());
+    for (const AttributeSpec& spec : AttributesOf(configuration.kind))
+    {
+      const double initial = spec.name == "colour"      ? configuration.colour
+                             : spec.name == "intensity" ? configuration.intensity
+                                                        : spec.initial;
+      attributes_.insert(attributes_.end(), static_cast<std::size_t>(spec.count), initial);
+    }
+    entities_.push_back(MakeEntity(*this, index, configuration, first_slot));
+    index_of_id_.emplace(configuration.id, index);
+    if (configuration.movable) movable_.push_back(index);
+    SetPose(i, configuration.pose);
+  }
+}
+
+CSwarmanoidSpace::~CSwarmanoidSpace() = default;
+
+CSwarmanoidSpaceEntity* CSwarmanoidSpace::FindEntity(std::string_view id) const
+{
+  const auto found = index_of_id_.find(id);
+  return found == index_of_id_.end() ? nullptr : entities_[found->second].get();
+}
+
+Pose CSwarmanoidSpace::GetPose(std::size_t i) const
+{
+  return {{poses_.x[i], poses_.y[i], poses_.z[i]}, {poses_.qw[i], poses_.qx[i], poses_.qy[i], poses_.qz[i]}};
+}
+
+void CSwarmanoidSpace::SetPose(std::size_t i, const Pose& pose)
+{
+  poses_.x[i] = pose.position.x();
+  poses_.y[i] = pose.position.y();
+  poses_.z[i] = pose.position.z();
+  poses_.qx[i] = pose.orientation.x();
+  poses_.qy[i] = pose.orientation.y();
+  poses_.qz[i] = pose.orientation.z();
+  poses_.qw[i] = pose.orientation.w();
+}
+
+void CSwarmanoidSpace::SetPoses(std::span<const std::uint32_t> entities, std::span<const double> poses)
+{
+  const std::size_t count = entities.size();
+  if (count == 0) return;
+  // Robots of a large experiment are usually one contiguous run.
+  const bool contiguous = entities.back() - entities.front() + 1 == count;
+  const double* source = poses.data();
+  for (auto* component : Components(poses_))
+  {
+    double* target = component->data();
+    if (contiguous)
+      std::copy_n(source, count, target + entities.front());
+    else
+      for (std::size_t k = 0; k < count; ++k) target[entities[k]] = source[k];
+    source += count;
+  }
+}
+
+void CSwarmanoidSpace::SetAttributes(const AttributeChanges& changes)
+{
+  for (std::size_t k = 0; k < changes.slots.size(); ++k) attributes_[changes.slots[k]] = changes.values[k];
+}
+
+void CSwarmanoidSpace::Apply(const SpaceState& state)
+{
+  tick_ = state.tick;
+  SetPoses(movable_, state.poses);
+  SetAttributes(state.attributes);
+}
+
+void CSwarmanoidSpace::Apply(const SpaceSnapshot& snapshot)
+{
+  tick_ = snapshot.tick;
+  SetPoses(movable_, snapshot.poses);
+  attributes_ = snapshot.attributes;
+}
+
+void CSwarmanoidSpace::WritePoses(std::vector<double>& poses) const
+{
+  const std::size_t count = movable_.size();
+  poses.resize(7 * count);
+  if (count == 0) return;
+  const bool contiguous = movable_.back() - movable_.front() + 1 == count;
+  double* target = poses.data();
+  for (const auto* component : Components(poses_))
+  {
+    const double* source = component->data();
+    if (contiguous)
+      std::copy_n(source + movable_.front(), count, target);
+    else
+      for (std::size_t k = 0; k < count; ++k) target[k] = source[movable_[k]];
+    target += count;
+  }
+}
+
+std::uint64_t CSwarmanoidSpace::Hash() const
+{
+  XXH3_state_t state;
+  XXH3_64bits_reset(&state);
+  XXH3_64bits_update(&state, &tick_, sizeof tick_);
+  for (const auto* component : Components(poses_))
+    XXH3_64bits_update(&state, component->data(), component->size() * sizeof(double));
+  XXH3_64bits_update(&state, attributes_.data(), attributes_.size() * sizeof(double));
+  return XXH3_64bits_digest(&state);
+}
+
+}  // namespace swarmanoid

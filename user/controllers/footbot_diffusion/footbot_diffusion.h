@@ -1,0 +1,35 @@
+// Diffusion with obstacle avoidance: drive straight on, and turn away from what the proximity sensors see.
+//
+// The readings are added up as vectors that point to the obstacles (Howard, Mataric and Sukhatme, "Mobile sensor
+// network deployment using potential fields", 2002). A sum that points back, or a short one beside the way, lets the
+// robot go on; otherwise it turns away from the sum with one wheel standing.
+//
+//   <parameters>
+//     <velocity>0.05</velocity>  m/s
+//     <alpha>7.5</alpha>         degrees: half the cone ahead that must be free
+//     <delta>0.1</delta>         longest sum that is ignored
+//   </parameters>
+#pragma once
+
+#include <array>
+
+#include "ci_controller.h"
+#include "footbot/ci_footbot_proximity_sensor.h"
+#include "footbot/ci_footbot_wheels_actuator.h"
+
+class CFootBotDiffusion : public CCI_Controller
+{
+public:
+  int Init(const TConfigurationTree t_tree) override;
+  void ControlStep() override;
+
+private:
+  CCI_FootBotWheelsActuator* wheels_ = nullptr;
+  CCI_FootBotProximitySensor* proximity_ = nullptr;
+  double velocity_m_s_ = 0;
+  double tan_alpha_ = 0;
+  double delta_ = 0;
+  // Unit vectors of the sensors in the frame of the robot.
+  std::array<double, CCI_FootBotProximitySensor::NUM_SENSORS> cosines_{};
+  std::array<double, CCI_FootBotProximitySensor::NUM_SENSORS> sines_{};
+};

@@ -1,0 +1,229 @@
+#include "visualiser/text/text_render.h"
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+
+#include "common/math/elementary.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+// Ascending: the last kind of the enumeration.
+constexpr auto kKinds = static_cast<std::size_t>(EntityKind::kTerrain) + 1;
+
+std::vector<std::string> SplitList(const std::string& text)
+{
+  std::vector<std::string> items;
+  std::size_t start = 0;
+  while (start <= text.size())
+  {
+    const std::size_t end = std::min(text.find(',', start), text.size());
+    const std::string_view item = TrimBlanks(std::string_view(text).substr(start, end - start));
+    if (!item.empty()) items.emplace_back(item);
+    start = end + 1;
+  }
+  return items;
+}
+
+}  // namespace
+
+PluginDescription CTextRender::Description()
+{
+  PluginDescription description;
+  description.label = "text_render";
+  description.brief = "a table of all entities and their poses, one line an entity, to the screen or a file";
+  description.parameters = {
+      {"file", ParameterType::kText, "", "",
+       "File to write to, taken from the run's folder; without it the table goes to the screen."},
+      {"precision", ParameterType::kInteger, "", "3", "Number of decimals; trailing zeros are left out.", 0, 15},
+      {"every", ParameterType::kInteger, "ticks", "1", "A table is written every so many ticks, and at the last one.",
+       1},
+      {"format",
+       ParameterType::kChoice,
+       "",
+       "table",
+       "table: separated by tabs under a # line; csv; json: one object a line.",
+       0,
+       0,
+       {"table", "csv", "json"}},
+      {"columns", ParameterType::kText, "", "", "Titles of the columns to write, separated by commas; all without it."},
+      {"entities", ParameterType::kText, "", "",
+       "Tags of the entities to write (footbot, block), separated by commas; all without it."}};
+  return description;
+}
+
+CTextRender::~CTextRender()
+{
+  if (file_ != nullptr && file_ != stdout) std::fclose(file_);
+}
+
+void CTextRender::Init(const RenderSetup& setup)
+{
+  const Parameters& parameters = setup.parameters;
+  space_ = &setup.space;
+  precision_ = static_cast<int>(parameters.Integer("precision"));
+  every_ = static_cast<std::uint64_t>(parameters.Integer("every"));
+  const std::string format = parameters.Text("format");
+  format_ = format == "csv" ? Format::kCsv : format == "json" ? Format::kJson : Format::kTable;
+  columns_ = Columns();
+  ChooseColumns(parameters.Text("columns"), parameters.Tree().ValueLocation("columns"));
+  ChooseEntities(parameters.Text("entities"), parameters.Tree().ValueLocation("entities"));
+
+  const std::string file = parameters.Text("file");
+  if (file.empty())
+  {
+    file_ = stdout;
+  }
+  else
+  {
+    const std::filesystem::path path = std::filesystem::path(setup.output_folder) / file;
+    std::error_code ignored;
+    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
+    path_ = path.string();
+    file_ = std::fopen(path_.c_str(), "w");
+    if (file_ == nullptr)
+      throw std::runtime_error("text_render: cannot write '" + path_ + "': " + std::strerror(errno));
+  }
+  AppendHeader();
+}
+
+void CTextRender::Draw()
+{
+  const std::uint64_t last = space_->GetExperiment().max_clock;
+  if (space_->GetTick() % every_ != 0 && space_->GetTick() != last) return;
+  for (std::size_t i = 0; i < space_->Size(); ++i)
+    if (IsShown(space_->GetEntity(i))) AppendLine(space_->GetEntity(i));
+  Write();
+}
+
+void CTextRender::Finish()
+{
+  Write();
+  if (std::fflush(file_) != 0)
+    throw std::runtime_error("text_render: cannot write '" + path_ + "': " + std::strerror(errno));
+}
+
+std::vector<CTextRender::Column> CTextRender::Columns() const
+{
+  const auto position = [this](int axis)
+  {
+    return [this, axis](const CSwarmanoidSpaceEntity& e, std::string& line)
+    { AppendNumber(e.GetPosition()[axis], line); };
+  };
+  const auto angle = [this](double EulerAngles::*member)
+  {
+    return [this, member](const CSwarmanoidSpaceEntity& e, std::string& line)
+    { AppendNumber(RadiansToDegrees(EulerFromQuaternion(e.GetOrientation()).*member), line); };
+  };
+  return {{"clock", true,
+           [this](const CSwarmanoidSpaceEntity&, std::string& line) { line += std::to_string(space_->GetTick()); }},
+          {"Entity type", false,
+           [](const CSwarmanoidSpaceEntity& e, std::string& line) { line += TableName(e.GetKind()); }},
+          {"Entity id", false, [](const CSwarmanoidSpaceEntity& e, std::string& line) { line += e.GetId(); }},
+          {"X", true, position(0)},
+          {"Y", true, position(1)},
+          {"Z", true, position(2)},
+          {"Alpha", true, angle(&EulerAngles::alpha)},
+          {"Beta", true, angle(&EulerAngles::beta)},
+          {"Gamma", true, angle(&EulerAngles::gamma)}};
+}
+
+bool CTextRender::IsShown(const CSwarmanoidSpaceEntity& entity) const
+{
+  return shown_kinds_[static_cast<std::size_t>(entity.GetKind())];
+}
+
+void CTextRender::AppendNumber(double value, std::string& line) const
+{
+  char text[64];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, precision_).ptr;
+  std::string_view number(text, static_cast<std::size_t>(end - text));
+  if (number.find('.') != std::string_view::npos)
+  {
+    number = number.substr(0, number.find_last_not_of('0') + 1);
+    if (number.ends_with('.')) number.remove_suffix(1);
+  }
+  line += number == "-0" ? "0" : number;
+}
+
+void CTextRender::ChooseColumns(const std::string& names, const SourceLocation& location)
+{
+  if (names.empty()) return;
+  std::vector<Column> chosen;
+  for (const std::string& name : SplitList(names))
+  {
+    const auto column =
+        std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.title == name; });
+    if (column == columns_.end())
+    {
+      std::string known;
+      for (const Column& c : columns_) known += (known.empty() ? "" : ", ") + c.title;
+      throw ConfigurationError(location, "there is no column '" + name + "'; the columns are " + known);
+    }
+    chosen.push_back(*column);
+  }
+  columns_ = std::move(chosen);
+}
+
+void CTextRender::ChooseEntities(const std::string& kinds, const SourceLocation& location)
+{
+  shown_kinds_.assign(kKinds, kinds.empty());
+  for (const std::string& name : SplitList(kinds))
+  {
+    bool found = false;
+    std::string known;
+    for (std::size_t k = 0; k < kKinds; ++k)
+    {
+      const std::string_view tag = TagName(static_cast<EntityKind>(k));
+      known += (known.empty() ? "" : ", ") + std::string(tag);
+      if (tag == name) shown_kinds_[k] = found = true;
+    }
+    if (!found) throw ConfigurationError(location, "there are no entities '" + name + "'; allowed are " + known);
+  }
+}
+
+void CTextRender::AppendHeader()
+{
+  if (format_ == Format::kJson) return;
+  const char separator = format_ == Format::kCsv ? ',' : '\t';
+  if (format_ == Format::kTable) buffer_ += "# ";
+  for (std::size_t c = 0; c < columns_.size(); ++c)
+  {
+    if (c > 0) buffer_ += separator;
+    buffer_ += columns_[c].title;
+  }
+  buffer_ += '\n';
+}
+
+void CTextRender::AppendLine(const CSwarmanoidSpaceEntity& entity)
+{
+  const bool json = format_ == Format::kJson;
+  const char separator = format_ == Format::kTable ? '\t' : ',';
+  if (json) buffer_ += '{';
+  for (std::size_t c = 0; c < columns_.size(); ++c)
+  {
+    if (c > 0) buffer_ += separator;
+    if (json) buffer_ += '"' + columns_[c].title + "\":";
+    if (json && !columns_[c].is_number) buffer_ += '"';
+    columns_[c].append(entity, buffer_);
+    if (json && !columns_[c].is_number) buffer_ += '"';
+  }
+  buffer_ += json ? "}\n" : "\n";
+}
+
+void CTextRender::Write()
+{
+  if (buffer_.empty()) return;
+  const std::size_t written = std::fwrite(buffer_.data(), 1, buffer_.size(), file_);
+  if (written != buffer_.size() || (file_ == stdout && std::fflush(file_) != 0))
+    throw std::runtime_error("text_render: cannot write '" + path_ + "': " + std::strerror(errno));
+  buffer_.clear();
+}
+
+}  // namespace swarmanoid

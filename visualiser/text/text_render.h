@@ -1,0 +1,67 @@
+// text_render: the space as a plain table, one line an entity, to the screen or a file. Meant to be derived from:
+// override the columns, or which entities get a line.
+#pragma once
+
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "visualiser/render.h"
+
+namespace swarmanoid
+{
+
+class CTextRender : public CRender
+{
+public:
+  ~CTextRender() override;
+  void Init(const RenderSetup& setup) override;
+  void Draw() override;
+  void Finish() override;
+
+  static PluginDescription Description();
+
+protected:
+  // A column of the table: its title, and what it appends for an entity.
+  struct Column
+  {
+    std::string title;
+    bool is_number = true;  // false: quoted in JSON
+    std::function<void(const CSwarmanoidSpaceEntity& entity, std::string& line)> append;
+  };
+
+  // Extension points: the columns there are (asked once, by Init), and which entities get a line.
+  virtual std::vector<Column> Columns() const;
+  virtual bool IsShown(const CSwarmanoidSpaceEntity& entity) const;
+
+  // A number rounded to `precision` decimals, without trailing zeros.
+  void AppendNumber(double value, std::string& line) const;
+  const CSwarmanoidSpace& Space() const { return *space_; }
+
+private:
+  enum class Format
+  {
+    kTable,
+    kCsv,
+    kJson
+  };
+
+  void ChooseColumns(const std::string& names, const SourceLocation& location);
+  void ChooseEntities(const std::string& kinds, const SourceLocation& location);
+  void AppendHeader();
+  void AppendLine(const CSwarmanoidSpaceEntity& entity);
+  void Write();
+
+  const CSwarmanoidSpace* space_ = nullptr;
+  std::vector<Column> columns_;
+  std::vector<bool> shown_kinds_;  // by EntityKind
+  Format format_ = Format::kTable;
+  std::string path_;  // empty: the screen
+  std::FILE* file_ = nullptr;
+  std::string buffer_;
+  int precision_ = 3;
+  std::uint64_t every_ = 1;
+};
+
+}  // namespace swarmanoid

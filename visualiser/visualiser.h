@@ -1,0 +1,33 @@
+// The role that shows the space through one renderer. A step function: Draw at the state of its space.
+#pragma once
+
+#include <memory>
+
+#include "visualiser/render.h"
+
+namespace swarmanoid
+{
+
+class Visualiser
+{
+public:
+  // Makes and initialises the renderer. Throws ConfigurationError or std::runtime_error with a clear text.
+  Visualiser(const RenderConfiguration& configuration, const CSwarmanoidSpace& space, const Assignment& assignment,
+             const std::string& output_folder, ExperimentControl* control);
+  ~Visualiser();
+
+  // True once the renderer wants the run to end.
+  bool Draw();
+  bool Idle();
+  // Closes the outputs; later calls do nothing.
+  void Finish();
+
+  const std::string& Id() const { return id_; }
+
+private:
+  std::string id_;
+  std::unique_ptr<CRender> render_;
+  bool finished_ = false;
+};
+
+}  // namespace swarmanoid
