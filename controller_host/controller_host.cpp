@@ -4,7 +4,6 @@
 #include <map>
 #include <numeric>
 
-#include "common/experiment/controller_library.h"
 
 namespace swarmanoid
 {
@@ -78,7 +77,6 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
   {
     if (robots_of[c].empty()) continue;
     const ControllerConfiguration& configuration = experiment.controllers[c];
-    LoadControllerLibrary(experiment, configuration);
     MakeBatches(configuration, robots_of[c]);
     const auto* entry = PluginRegistry<CCI_Controller>::Instance().Find(configuration.tag);
     if (entry == nullptr)

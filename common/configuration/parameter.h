@@ -30,19 +30,21 @@ struct ParameterSpec
 {
   std::string name;
   ParameterType type = ParameterType::kNumber;
-  std::string unit;                          // SI symbol, empty for none
-  std::optional<std::string> default_value;  // as written in a file; nullopt makes the parameter required
-  std::string description;                   // one plain sentence: meaning and consequence
+  std::string unit{};                          // SI symbol, empty for none
+  std::optional<std::string> default_value{};  // as written in a file; nullopt makes the parameter required
+  std::string description{};                   // one plain sentence: meaning and consequence
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
-  std::vector<std::string> choices;
+  std::vector<std::string> choices{};
 };
 
 // Typed reading of the parameters that a table declares. Names outside the table are a programming error.
 class Parameters
 {
 public:
-  Parameters(TConfigurationTree tree, const std::vector<ParameterSpec>& specs) : tree_(std::move(tree)), specs_(specs) {}
+  Parameters(TConfigurationTree tree, const std::vector<ParameterSpec>& specs) : tree_(std::move(tree)), specs_(specs)
+  {
+  }
 
   bool Boolean(std::string_view name) const;
   long long Integer(std::string_view name) const;

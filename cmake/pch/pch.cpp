@@ -1,0 +1,1 @@
+// Compiled once; every library reuses its precompiled headers.
