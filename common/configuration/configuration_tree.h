@@ -1,5 +1,5 @@
-// TConfigurationTree: a handle to one element of an experiment file. Controllers, devices, engines and renderers get the
-// subtree that concerns them. Immutable; copying shares the element. Knows nothing of the simulator.
+// TConfigurationTree: a handle to one element of an experiment file. Controllers, devices, engines and renderers get
+// the subtree that concerns them. Immutable; copying shares the element. Knows nothing of the simulator.
 #pragma once
 
 #include <memory>
@@ -95,8 +95,8 @@ private:
 // Conversions of whole texts, surrounding blanks allowed; nullopt where the text is something else.
 std::optional<double> ParseNumber(std::string_view text);
 std::optional<long long> ParseInteger(std::string_view text);
-std::optional<bool> ParseBoolean(std::string_view text);                   // true/false, yes/no, on/off, 1/0
-std::optional<std::vector<double>> ParseNumbers(std::string_view text);    // separated by commas or blanks
+std::optional<bool> ParseBoolean(std::string_view text);                 // true/false, yes/no, on/off, 1/0
+std::optional<std::vector<double>> ParseNumbers(std::string_view text);  // separated by commas or blanks
 std::string_view TrimBlanks(std::string_view text);
 
 }  // namespace swarmanoid

@@ -1,0 +1,236 @@
+#include "common/configuration/configuration_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "common/configuration/wording.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+const std::string kNothing;
+
+const ConfigurationNode::Attribute* FindAttribute(const ConfigurationNode* node, std::string_view name)
+{
+  if (node == nullptr) return nullptr;
+  for (const auto& attribute : node->attributes)
+  {
+    if (attribute.name == name) return &attribute;
+  }
+  return nullptr;
+}
+
+const std::shared_ptr<const ConfigurationNode>* FindChild(const ConfigurationNode* node, std::string_view name)
+{
+  if (node == nullptr) return nullptr;
+  for (const auto& child : node->children)
+  {
+    if (child->name == name) return &child;
+  }
+  return nullptr;
+}
+
+bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+ConfigurationError Missing(const TConfigurationTree& tree, std::string_view name)
+{
+  return {tree.Location(), "<" + tree.Name() + "> lacks the parameter '" + std::string(name) + "'"};
+}
+
+ConfigurationError NotA(const TConfigurationTree& tree, std::string_view name, const char* what)
+{
+  return {tree.ValueLocation(name),
+          "'" + std::string(name) + "' is " + Quoted(tree.Value(name).value_or("")) + "; it must be " + what};
+}
+
+constexpr const char* kNumberText = "a number";
+constexpr const char* kIntegerText = "a whole number";
+constexpr const char* kVectorText = "three numbers \"x, y, z\"";
+
+}  // namespace
+
+std::string SourceLocation::Text() const
+{
+  std::string text = file ? *file : std::string();
+  if (line <= 0) return text;
+  if (!text.empty()) text += ':';
+  text += std::to_string(line);
+  if (column > 0) text += ":" + std::to_string(column);
+  return text;
+}
+
+ConfigurationError::ConfigurationError(const SourceLocation& location, const std::string& message)
+    : std::runtime_error(location.Text().empty() ? message : location.Text() + ": " + message)
+{
+}
+
+const std::string& TConfigurationTree::Name() const { return node_ ? node_->name : kNothing; }
+
+const std::string& TConfigurationTree::Text() const { return node_ ? node_->text : kNothing; }
+
+SourceLocation TConfigurationTree::Location() const { return node_ ? node_->location : SourceLocation{}; }
+
+std::vector<TConfigurationTree> TConfigurationTree::Children() const
+{
+  std::vector<TConfigurationTree> children;
+  if (!node_) return children;
+  children.reserve(node_->children.size());
+  for (const auto& child : node_->children) children.emplace_back(child);
+  return children;
+}
+
+TConfigurationTree TConfigurationTree::Child(std::string_view name) const
+{
+  const auto* child = FindChild(node_.get(), name);
+  return child != nullptr ? TConfigurationTree(*child) : TConfigurationTree();
+}
+
+bool TConfigurationTree::HasAttribute(std::string_view name) const
+{
+  return FindAttribute(node_.get(), name) != nullptr;
+}
+
+std::string TConfigurationTree::Attribute(std::string_view name) const
+{
+  const auto* attribute = FindAttribute(node_.get(), name);
+  return attribute != nullptr ? attribute->value : std::string();
+}
+
+std::optional<std::string> TConfigurationTree::Value(std::string_view name) const
+{
+  if (const auto* child = FindChild(node_.get(), name)) return (*child)->text;
+  if (const auto* attribute = FindAttribute(node_.get(), name)) return std::string(TrimBlanks(attribute->value));
+  return std::nullopt;
+}
+
+SourceLocation TConfigurationTree::ValueLocation(std::string_view name) const
+{
+  if (const auto* child = FindChild(node_.get(), name)) return (*child)->location;
+  if (const auto* attribute = FindAttribute(node_.get(), name)) return attribute->location;
+  return Location();
+}
+
+double TConfigurationTree::GetNumber(std::string_view name) const
+{
+  const auto text = Value(name);
+  if (!text) throw Missing(*this, name);
+  const auto number = ParseNumber(*text);
+  if (!number) throw NotA(*this, name, kNumberText);
+  return *number;
+}
+
+double TConfigurationTree::GetNumber(std::string_view name, double fallback) const
+{
+  return Value(name) ? GetNumber(name) : fallback;
+}
+
+long long TConfigurationTree::GetInteger(std::string_view name) const
+{
+  const auto text = Value(name);
+  if (!text) throw Missing(*this, name);
+  const auto number = ParseInteger(*text);
+  if (!number) throw NotA(*this, name, kIntegerText);
+  return *number;
+}
+
+long long TConfigurationTree::GetInteger(std::string_view name, long long fallback) const
+{
+  return Value(name) ? GetInteger(name) : fallback;
+}
+
+bool TConfigurationTree::GetBoolean(std::string_view name, bool fallback) const
+{
+  const auto text = Value(name);
+  if (!text) return fallback;
+  const auto boolean = ParseBoolean(*text);
+  if (!boolean) throw NotA(*this, name, "true or false");
+  return *boolean;
+}
+
+std::string TConfigurationTree::GetText(std::string_view name) const
+{
+  auto text = Value(name);
+  if (!text) throw Missing(*this, name);
+  return *std::move(text);
+}
+
+std::string TConfigurationTree::GetText(std::string_view name, const std::string& fallback) const
+{
+  return Value(name).value_or(fallback);
+}
+
+Vector3 TConfigurationTree::GetVector3(std::string_view name) const
+{
+  const auto text = Value(name);
+  if (!text) throw Missing(*this, name);
+  const auto numbers = ParseNumbers(*text);
+  if (!numbers || numbers->size() != 3) throw NotA(*this, name, kVectorText);
+  return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+}
+
+Vector3 TConfigurationTree::GetVector3(std::string_view name, const Vector3& fallback) const
+{
+  return Value(name) ? GetVector3(name) : fallback;
+}
+
+std::string_view TrimBlanks(std::string_view text)
+{
+  while (!text.empty() && IsBlank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && IsBlank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::optional<double> ParseNumber(std::string_view text)
+{
+  text = TrimBlanks(text);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double number = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = result.ec == std::errc() && result.ptr == text.data() + text.size();
+  // Neither "inf" nor "nan" is a value that an experiment can use.
+  if (!whole || text.empty() || !std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+std::optional<long long> ParseInteger(std::string_view text)
+{
+  text = TrimBlanks(text);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  long long number = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+std::optional<bool> ParseBoolean(std::string_view text)
+{
+  text = TrimBlanks(text);
+  constexpr std::array<std::string_view, 4> kTrue{"true", "yes", "on", "1"};
+  constexpr std::array<std::string_view, 4> kFalse{"false", "no", "off", "0"};
+  if (std::find(kTrue.begin(), kTrue.end(), text) != kTrue.end()) return true;
+  if (std::find(kFalse.begin(), kFalse.end(), text) != kFalse.end()) return false;
+  return std::nullopt;
+}
+
+std::optional<std::vector<double>> ParseNumbers(std::string_view text)
+{
+  text = TrimBlanks(text);
+  std::vector<double> numbers;
+  while (true)
+  {
+    std::size_t end = 0;
+    while (end < text.size() && text[end] != ',' && !IsBlank(text[end])) ++end;
+    const auto number = ParseNumber(text.substr(0, end));
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+    text = TrimBlanks(text.substr(end));
+    if (text.empty()) return numbers;
+    if (text.front() == ',') text = TrimBlanks(text.substr(1));
+  }
+}
+
+}  // namespace swarmanoid

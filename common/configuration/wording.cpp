@@ -1,0 +1,77 @@
+#include "common/configuration/wording.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr std::size_t kLongestQuote = 60;
+constexpr std::size_t kLongestName = 64;
+
+// Levenshtein distance with exchanges of neighbours, letters compared without case.
+std::size_t EditDistance(std::string_view a, std::string_view b)
+{
+  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i)
+  {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j)
+    {
+      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
+      const bool exchanged = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+      if (exchanged) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    std::swap(before, last);
+    std::swap(last, row);
+  }
+  return last[b.size()];
+}
+
+}  // namespace
+
+std::string Quoted(std::string_view text)
+{
+  std::string quoted = "'";
+  std::size_t end = std::min(text.size(), kLongestQuote);
+  // Not within a UTF-8 character.
+  while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  for (const char c : text.substr(0, end)) quoted += std::iscntrl(static_cast<unsigned char>(c)) != 0 ? ' ' : c;
+  return quoted + (end < text.size() ? "…'" : "'");
+}
+
+std::string Listed(const std::vector<std::string>& names)
+{
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list.empty() ? "none" : list;
+}
+
+std::string NearestName(std::string_view name, const std::vector<std::string>& candidates)
+{
+  if (name.size() > kLongestName) return {};
+  std::string nearest;
+  std::size_t least = std::max<std::size_t>(1, name.size() / 3) + 1;
+  for (const std::string& candidate : candidates)
+  {
+    if (candidate.size() > kLongestName) continue;
+    const std::size_t distance = EditDistance(name, candidate);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = candidate;
+  }
+  return nearest;
+}
+
+std::string DidYouMean(std::string_view name, const std::vector<std::string>& candidates)
+{
+  const std::string nearest = NearestName(name, candidates);
+  return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+}
+
+}  // namespace swarmanoid
