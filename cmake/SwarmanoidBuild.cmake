@@ -37,29 +37,38 @@ endif()
 
 set(SWARMANOID_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
 
-# swarmanoid_library(NAME [STATIC] SOURCES... [PUBLIC libs...] [PRIVATE libs...]): one library of ours,
-# warnings as errors, exported as Swarmanoid::NAME.
+# swarmanoid_library(NAME [STATIC] SOURCES... [PUBLIC libs...] [PRIVATE libs...]): one library of ours, warnings as errors.
+# Shared ones are installed and exported as Swarmanoid::NAME; static ones stay inside the build.
 function(swarmanoid_library name)
-  cmake_parse_arguments(ARG "STATIC" "" "SOURCES;PUBLIC;PRIVATE;INCLUDES" ${ARGN})
+  cmake_parse_arguments(ARG "STATIC" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   if(ARG_STATIC)
     add_library(${name} STATIC ${ARG_SOURCES})
   else()
     add_library(${name} SHARED ${ARG_SOURCES})
+    install(TARGETS ${name} EXPORT SwarmanoidTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
   endif()
   add_library(Swarmanoid::${name} ALIAS ${name})
-  set_target_properties(${name} PROPERTIES OUTPUT_NAME swarmanoid_${name})
+  # No NAME_EXPORTS macro: it would keep libraries from sharing a precompiled header.
+  set_target_properties(${name} PROPERTIES OUTPUT_NAME swarmanoid_${name} DEFINE_SYMBOL "")
   target_compile_options(${name} PRIVATE ${SWARMANOID_WARNINGS})
   target_include_directories(${name} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid>)
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   target_precompile_headers(${name} REUSE_FROM pch)
+  # Code built outside needs these two of the settings above: they decide the layout of a Pose and the bits of a sum.
+  target_compile_definitions(${name} INTERFACE $<INSTALL_INTERFACE:EIGEN_DONT_VECTORIZE>)
+  target_compile_options(${name} INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)
+  target_compile_features(${name} INTERFACE cxx_std_20)
+  set_property(GLOBAL APPEND PROPERTY SWARMANOID_LIBRARIES ${name})
 endfunction()
 
-# swarmanoid_program(NAME SOURCES... LINK libs...): one program of ours.
+# swarmanoid_program(NAME SOURCES... LINK libs...): one program of ours, installed beside the others.
 function(swarmanoid_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_compile_options(${name} PRIVATE ${SWARMANOID_WARNINGS})
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  set_property(GLOBAL APPEND PROPERTY SWARMANOID_PROGRAMS ${name})
 endfunction()

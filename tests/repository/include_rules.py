@@ -1,0 +1,75 @@
+"""Who may include whom (docs/architecture.md): folders include downwards only, roles never see each other, and only
+common/bus sees Fast DDS."""
+import os
+import re
+
+from tracked import report, tracked
+
+# From the bottom to the top; a folder may include itself and those in the lines before its own.
+COMMON = [
+    ["common/math"],
+    ["common/configuration"],
+    ["common/plugins"],
+    ["common/logging", "common/serialisation"],
+    ["common/control_interface"],
+    ["common/experiment"],
+    ["common/space"],
+    ["common/bus"],
+]
+ROLES = ["space_server", "engine_worker", "controller_host", "visualiser"]
+# The Common Interface and what it stands on: all that builds without the simulator.
+INTERFACE = ["common/math", "common/configuration", "common/plugins", "common/control_interface"]
+DDS_HEADER = re.compile(r"^(fastdds|fastrtps|fastcdr|dds)/|PubSubTypes\.h")
+
+
+def allowed():
+    """Folder to the folders that it may include, itself too."""
+    rules = {}
+    below = []
+    for level in COMMON:
+        for folder in level:
+            rules[folder] = below + [folder]
+        below = below + level
+    without_bus = [folder for folder in below if folder != "common/bus"]
+    for role in ROLES:
+        rules[role] = without_bus + [role]
+    rules["launcher"] = below + ROLES + ["launcher"]
+    rules["real_robot"] = INTERFACE + ["common/logging", "real_robot"]
+    rules["user"] = INTERFACE + ["user"]
+    return rules
+
+
+def folder_of(path, rules):
+    matching = [folder for folder in rules if path.startswith(folder + "/")]
+    return max(matching, key=len, default=None)
+
+
+def includes(path):
+    with open(path, encoding="utf-8") as source:
+        for number, line in enumerate(source, 1):
+            found = re.match(r'\s*#\s*include\s*([<"])([^>"]+)[>"]', line)
+            if found:
+                yield number, found.group(1) == '"', found.group(2)
+
+
+def main():
+    rules = allowed()
+    mistakes = []
+    for path in tracked("*.h", "*.hpp", "*.cpp"):
+        folder = folder_of(path, rules)
+        if folder is None:
+            continue
+        may_include = rules[folder]
+        if folder in ROLES and os.path.basename(path) == "main.cpp":
+            may_include = may_include + ["common/bus"]
+        for number, quoted, included in includes(path):
+            if DDS_HEADER.search(included) and folder != "common/bus":
+                mistakes.append(f"{path}:{number}: only common/bus may include DDS headers, not {folder} ({included})")
+            target = folder_of(included, rules) if quoted else None
+            if target is not None and target not in may_include:
+                mistakes.append(f"{path}:{number}: {folder} must not include {included}; it may include: "
+                                + ", ".join(may_include))
+    report(mistakes)
+
+
+main()
