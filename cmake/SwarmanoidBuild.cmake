@@ -36,6 +36,10 @@ if(SWARMANOID_SANITIZE)
 endif()
 
 set(SWARMANOID_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # False alarms of GCC 12 in std::string's operator+ at -O3 (its bugs 105329 and 105651).
+  list(APPEND SWARMANOID_WARNINGS -Wno-restrict -Wno-stringop-overflow)
+endif()
 
 # swarmanoid_library(NAME [STATIC] SOURCES... [PUBLIC libs...] [PRIVATE libs...]): one library of ours, warnings as errors.
 # Shared ones are installed and exported as Swarmanoid::NAME; static ones stay inside the build.
