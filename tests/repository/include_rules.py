@@ -20,6 +20,8 @@ ROLES = ["space_server", "engine_worker", "controller_host", "visualiser"]
 # The Common Interface and what it stands on: all that builds without the simulator.
 INTERFACE = ["common/math", "common/configuration", "common/plugins", "common/control_interface"]
 DDS_HEADER = re.compile(r"^(fastdds|fastrtps|fastcdr|dds)/|PubSubTypes\.h")
+# Libraries that only the named folder includes, so that users need not have them.
+HIDDEN = {"spdlog": "common/logging"}
 
 
 def allowed():
@@ -65,6 +67,9 @@ def main():
         for number, quoted, included in includes(path):
             if DDS_HEADER.search(included) and folder != "common/bus":
                 mistakes.append(f"{path}:{number}: only common/bus may include DDS headers, not {folder} ({included})")
+            owner = HIDDEN.get(included.split("/")[0])
+            if owner is not None and (folder != owner or path.endswith(".h")):
+                mistakes.append(f"{path}:{number}: only a .cpp of {owner} may include {included}")
             target = folder_of(included, rules) if quoted else None
             if target is not None and target not in may_include:
                 mistakes.append(f"{path}:{number}: {folder} must not include {included}; it may include: "
