@@ -1,5 +1,6 @@
-// Who does what: which host runs which robots, which engine owns which entities, and where each value of a specific device
-// stands in the messages between them. A pure function of the experiment and the number of hosts, equal in every process.
+// Who does what: which host runs which robots, which engine owns which entities, and where each value of a specific
+// device stands in the messages between them. A pure function of the experiment and the number of hosts, equal in every
+// process.
 #pragma once
 
 #include <string>
@@ -34,9 +35,9 @@ struct HostLayout
   std::size_t command_size = 0;  // doubles in ControlCommands::values
   std::vector<ChannelBlock> sensors;
   std::size_t sensor_size = 0;
-  std::vector<ValueCopy> sensor_copies;   // from the engines' frames
+  std::vector<ValueCopy> sensor_copies;    // from the engines' frames
   std::vector<std::uint32_t> frames_from;  // engines whose frames the host waits for
-  bool reports_to_server = false;          // the server waits for its commands: generic actuators, or robots in no engine
+  bool reports_to_server = false;  // the server waits for its commands: generic actuators, or robots in no engine
 };
 
 struct EngineLayout

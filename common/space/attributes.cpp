@@ -9,18 +9,18 @@ namespace
 
 // "gripped": 1 + index of the entity that the gripper holds, 0 for none.
 constexpr std::array kFootbot{
-    AttributeSpec{"led", 12, 0, "colours of the LED ring, counter-clockwise from 15 degrees left of the turret's front"},
+    AttributeSpec{"led", 12, 0,
+                  "colours of the LED ring, counter-clockwise from 15 degrees left of the turret's front"},
     AttributeSpec{"beacon", 1, 0, "colour of the beacon"},
     AttributeSpec{"gripper_aperture", 1, 0, "aperture of the gripper in radians; 0 is closed"},
     AttributeSpec{"gripped", 1, 0, "1 + index of the entity held by the gripper; 0: none"},
     AttributeSpec{"turret_angle", 1, 0, "angle of the turret against the body in radians"}};
-constexpr std::array kEyebot{
-    AttributeSpec{"led", 16, 0, "colours of the LED ring"},
-    AttributeSpec{"laser", 1, 0, "1 while the laser is on"},
-    AttributeSpec{"laser_colour", 1, 0xff0000, "colour of the laser"},
-    AttributeSpec{"laser_pan", 1, 0, "pan of the laser in radians"},
-    AttributeSpec{"laser_tilt", 1, 0, "tilt of the laser from straight down in radians"},
-    AttributeSpec{"attached", 1, 0, "1 while attached to the ceiling"}};
+constexpr std::array kEyebot{AttributeSpec{"led", 16, 0, "colours of the LED ring"},
+                             AttributeSpec{"laser", 1, 0, "1 while the laser is on"},
+                             AttributeSpec{"laser_colour", 1, 0xff0000, "colour of the laser"},
+                             AttributeSpec{"laser_pan", 1, 0, "pan of the laser in radians"},
+                             AttributeSpec{"laser_tilt", 1, 0, "tilt of the laser from straight down in radians"},
+                             AttributeSpec{"attached", 1, 0, "1 while attached to the ceiling"}};
 constexpr std::array kHandbot{
     AttributeSpec{"led", 12, 0, "colours of the LED ring"},
     AttributeSpec{"beacon", 1, 0, "colour of the beacon"},
@@ -41,14 +41,21 @@ std::span<const AttributeSpec> AttributesOf(EntityKind kind)
 {
   switch (kind)
   {
-    case EntityKind::kFootbot: return kFootbot;
-    case EntityKind::kEyebot: return kEyebot;
-    case EntityKind::kHandbot: return kHandbot;
-    case EntityKind::kLightBulb: return kLight;
-    case EntityKind::kSoundSource: return kLight;
+    case EntityKind::kFootbot:
+      return kFootbot;
+    case EntityKind::kEyebot:
+      return kEyebot;
+    case EntityKind::kHandbot:
+      return kHandbot;
+    case EntityKind::kLightBulb:
+      return kLight;
+    case EntityKind::kSoundSource:
+      return kLight;
     case EntityKind::kTerrain:
-    case EntityKind::kHole: return {};
-    default: return kColoured;
+    case EntityKind::kHole:
+      return {};
+    default:
+      return kColoured;
   }
 }
 

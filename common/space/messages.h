@@ -1,5 +1,5 @@
-// What the roles say to one another each tick. Plain values; the bus carries them between processes, and the single process
-// passes them by reference. Buffers are reused: steady running allocates nothing.
+// What the roles say to one another each tick. Plain values; the bus carries them between processes, and the single
+// process passes them by reference. Buffers are reused: steady running allocates nothing.
 #pragma once
 
 #include <cstdint>

@@ -87,6 +87,7 @@ Pose CSwarmanoidSpace::GetPose(std::size_t i) const
 
 void CSwarmanoidSpace::SetPose(std::size_t i, const Pose& pose)
 {
+  ++revision_;
   poses_.x[i] = pose.position.x();
   poses_.y[i] = pose.position.y();
   poses_.z[i] = pose.position.z();
@@ -100,6 +101,7 @@ void CSwarmanoidSpace::SetPoses(std::span<const std::uint32_t> entities, std::sp
 {
   const std::size_t count = entities.size();
   if (count == 0) return;
+  ++revision_;
   // Robots of a large experiment are usually one contiguous run.
   const bool contiguous = entities.back() - entities.front() + 1 == count;
   const double* source = poses.data();

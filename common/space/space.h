@@ -1,5 +1,6 @@
-// CSwarmanoidSpace: the 3D space in which everything is simulated. Entities with global poses, their attributes, the clock.
-// Every process holds one; the space server's is the original, the others follow it by SpaceState. One thread at a time.
+// CSwarmanoidSpace: the 3D space in which everything is simulated. Entities with global poses, their attributes, the
+// clock. Every process holds one; the space server's is the original, the others follow it by SpaceState. One thread at
+// a time.
 #pragma once
 
 #include <memory>
@@ -48,6 +49,9 @@ public:
   // Indices of the entities that can move, ascending.
   std::span<const std::uint32_t> Movable() const { return movable_; }
 
+  // Changes with every change of a pose, so that indexes know when to follow.
+  std::uint64_t Revision() const { return revision_; }
+
   // Changes of the state, for the role that owns this space.
   void SetTick(std::uint64_t tick) { tick_ = tick; }
   void SetPose(std::size_t index, const Pose& pose);
@@ -67,6 +71,7 @@ public:
 private:
   const Experiment& experiment_;
   std::uint64_t tick_ = 0;
+  std::uint64_t revision_ = 1;
   PoseArrays poses_;
   std::vector<double> attributes_;
   std::vector<std::uint32_t> movable_;

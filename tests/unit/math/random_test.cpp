@@ -1,18 +1,18 @@
 #include "common/math/random.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
-#include <set>
 
 namespace swarmanoid
 {
 namespace
 {
 
-using Block = std::array<std::uint32_t, 4>;
-
-// The known answers that the authors of Philox publish with it.
-TEST(Random, PhiloxGivesItsKnownAnswers)
+// The known answers that the authors of Philox publish with their Random123 library (philox 4x32, 10 rounds).
+TEST(Random, PhiloxGivesItsPublishedAnswers)
 {
+  using Block = std::array<std::uint32_t, 4>;
   EXPECT_EQ(Philox4x32({0, 0, 0, 0}, {0, 0}), (Block{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
   EXPECT_EQ(Philox4x32({0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff}, {0xffffffff, 0xffffffff}),
             (Block{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
@@ -20,49 +20,50 @@ TEST(Random, PhiloxGivesItsKnownAnswers)
             (Block{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
-TEST(Random, EveryPartOfTheNameMakesAnotherStream)
+TEST(Random, StreamsDifferInEachPartOfTheirName)
 {
-  std::set<std::uint32_t> firsts;
-  for (const auto& [seed, entity, device, tick] :
-       {std::array<std::uint32_t, 4>{1, 2, 3, 4}, {2, 2, 3, 4}, {1, 3, 3, 4}, {1, 2, 4, 4}, {1, 2, 3, 5}})
-  {
-    firsts.insert(RandomStream(seed, entity, device, tick).Bits());
-  }
-  EXPECT_EQ(firsts.size(), 5u);
-  EXPECT_NE(RandomStream(1, 0, 0, 0).Bits(), RandomStream(1 + (std::uint64_t{1} << 32), 0, 0, 0).Bits());
+  const auto first = [](std::uint64_t seed, std::uint32_t entity, std::uint32_t device, std::uint32_t tick)
+  { return RandomStream(seed, entity, device, tick).Bits(); };
+  const std::uint32_t reference = first(1, 2, 3, 4);
+  EXPECT_EQ(first(1, 2, 3, 4), reference);
+  EXPECT_NE(first(2, 2, 3, 4), reference);
+  EXPECT_NE(first(1ULL << 32, 2, 3, 4), first(0, 2, 3, 4));
+  EXPECT_NE(first(1, 3, 3, 4), reference);
+  EXPECT_NE(first(1, 2, 4, 4), reference);
+  EXPECT_NE(first(1, 2, 3, 5), reference);
 }
 
-TEST(Random, AStreamStartsAgainWhenItIsMadeAgain)
+TEST(Random, UniformAndGaussianHaveTheirMoments)
 {
-  RandomStream first(7, 8, 9, 10);
-  RandomStream second(7, 8, 9, 10);
-  for (int k = 0; k < 100; ++k) EXPECT_EQ(first.Uniform(), second.Uniform());
-}
-
-TEST(Random, MomentsAreThoseOfTheDistribution)
-{
-  constexpr int kCount = 200000;
-  RandomStream stream(42, 0, StreamName("moments"), 0);
+  RandomStream random(42, 0, 0, 0);
+  constexpr int kDraws = 400000;
   double sum = 0;
-  double normal_sum = 0;
-  double normal_squares = 0;
-  std::array<int, 7> counts{};
-  for (int k = 0; k < kCount; ++k)
+  double squares = 0;
+  double gaussian_sum = 0;
+  double gaussian_squares = 0;
+  for (int i = 0; i < kDraws; ++i)
   {
-    const double uniform = stream.Uniform();
-    ASSERT_GE(uniform, 0);
-    ASSERT_LT(uniform, 1);
-    sum += uniform;
-    const double normal = stream.Gaussian(3, 2);
-    normal_sum += normal;
-    normal_squares += (normal - 3) * (normal - 3);
-    ++counts[stream.Below(7)];
+    const double u = random.Uniform();
+    ASSERT_GE(u, 0);
+    ASSERT_LT(u, 1);
+    sum += u;
+    squares += u * u;
+    const double g = random.Gaussian(3, 2);
+    gaussian_sum += g;
+    gaussian_squares += (g - 3) * (g - 3);
   }
-  // Five standard errors each.
-  EXPECT_NEAR(sum / kCount, 0.5, 5 * std::sqrt(1.0 / 12 / kCount));
-  EXPECT_NEAR(normal_sum / kCount, 3, 5 * 2 / std::sqrt(kCount));
-  EXPECT_NEAR(normal_squares / kCount, 4, 5 * 4 * std::sqrt(2.0 / kCount));
-  for (const int count : counts) EXPECT_NEAR(count, kCount / 7.0, 5 * std::sqrt(kCount * 6.0 / 49));
+  EXPECT_NEAR(sum / kDraws, 0.5, 0.002);
+  EXPECT_NEAR(squares / kDraws, 1.0 / 3, 0.002);
+  EXPECT_NEAR(gaussian_sum / kDraws, 3, 0.02);
+  EXPECT_NEAR(gaussian_squares / kDraws, 4, 0.05);
+}
+
+TEST(Random, BelowReachesAllValuesEvenly)
+{
+  RandomStream random(7, 0, 0, 0);
+  std::array<int, 6> counts{};
+  for (int i = 0; i < 60000; ++i) ++counts.at(random.Below(6));
+  for (const int count : counts) EXPECT_NEAR(count, 10000, 400);
 }
 
 }  // namespace

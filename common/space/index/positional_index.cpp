@@ -1,0 +1,53 @@
+#include "common/space/index/positional_index.h"
+
+#include <algorithm>
+
+#include "common/space/index/grid_index.h"
+#include "common/space/index/octree_index.h"
+
+namespace swarmanoid
+{
+
+std::optional<std::uint32_t> PositionalIndex::FindNearest(const Vector3& centre, double radius,
+                                                          std::uint32_t excluded) const
+{
+  const PointArrays& points = Points();
+  std::vector<std::uint32_t> found;
+  // Ever wider searches: the first that finds anything holds the nearest.
+  for (double reach = std::min(Spacing(), radius);; reach = std::min(2 * reach, radius))
+  {
+    FindWithin(centre, reach, found);
+    std::optional<std::uint32_t> nearest;
+    double nearest_distance = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t i : found)
+    {
+      const double distance = (Vector3(points.x[i], points.y[i], points.z[i]) - centre).squaredNorm();
+      if (i == excluded || distance >= nearest_distance) continue;
+      nearest = i;
+      nearest_distance = distance;
+    }
+    if (nearest || reach >= radius) return nearest;
+    // All points were in reach, so the excluded one is the only one.
+    if (found.size() == points.Size()) return std::nullopt;
+  }
+}
+
+std::unique_ptr<PositionalIndex> MakePositionalIndex(SpaceOptimization optimization, const Vector3& arena_size,
+                                                     std::size_t expected_points)
+{
+  // A layered grid pays while it has no more than a few cells for each point.
+  const double most_cells = std::max(4096.0, 4.0 * static_cast<double>(expected_points));
+  const bool sparse = GridIndex::LayeredCells(arena_size, expected_points) > most_cells;
+  switch (optimization)
+  {
+    case SpaceOptimization::k2D:
+      return std::make_unique<GridIndex>(arena_size, expected_points, false);
+    case SpaceOptimization::k3D:
+      if (sparse) return std::make_unique<OctreeIndex>();
+      return std::make_unique<GridIndex>(arena_size, expected_points, true);
+    default:
+      return std::make_unique<OctreeIndex>();
+  }
+}
+
+}  // namespace swarmanoid

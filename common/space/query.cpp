@@ -1,0 +1,108 @@
+#include "common/space/query.h"
+
+#include <algorithm>
+
+namespace swarmanoid
+{
+namespace
+{
+
+// Bodies beyond this radius (walls) would make every search as wide as they are.
+constexpr double kLargeBody = 0.75;
+
+}  // namespace
+
+SpaceQuery::SpaceQuery(const CSwarmanoidSpace& space) : space_(space), revision_(space.Revision() - 1)
+{
+  const Experiment& experiment = space.GetExperiment();
+  if (experiment.engines.size() > 64)
+    throw ConfigurationError(experiment.engines[64].location, "at most 64 engines are allowed in one experiment");
+  index_ = MakePositionalIndex(experiment.optimization, experiment.arena_size, experiment.entities.size());
+  engines_.assign(space.Size(), 0);
+  for (std::size_t e = 0; e < experiment.engines.size(); ++e)
+    for (const std::uint32_t entity : experiment.engines[e].entities) engines_[entity] |= 1ULL << e;
+  for (std::uint32_t i = 0; i < space.Size(); ++i)
+  {
+    const Shape shape = ShapeOf(experiment.entities[i]);
+    const double reach = BoundingRadius(shape) + shape.centre.norm();
+    if (shape.kind != Shape::Kind::kNone && reach > kLargeBody)
+      large_.push_back(i);
+    else
+      search_radius_ = std::max(search_radius_, reach);
+    shapes_.push_back(shape);
+  }
+}
+
+SpaceQuery::~SpaceQuery() = default;
+
+void SpaceQuery::Refresh()
+{
+  if (revision_ == space_.Revision()) return;
+  revision_ = space_.Revision();
+  index_->Update({space_.Poses().x, space_.Poses().y, space_.Poses().z});
+}
+
+const PositionalIndex& SpaceQuery::Index()
+{
+  Refresh();
+  return *index_;
+}
+
+const std::vector<std::uint32_t>& SpaceQuery::FindWithin(const Vector3& point, double distance)
+{
+  Index().FindWithin(point, distance, found_);
+  return found_;
+}
+
+const std::vector<std::uint32_t>& SpaceQuery::FindWithin(const CSwarmanoidSpaceEntity& entity, double distance)
+{
+  Index().FindWithin(entity.GetPosition(), distance, found_);
+  std::erase(found_, entity.GetIndex());
+  return found_;
+}
+
+const std::vector<std::uint32_t>& SpaceQuery::FindInBox(const Vector3& low, const Vector3& high)
+{
+  Index().FindInBox(low, high, found_);
+  return found_;
+}
+
+CSwarmanoidSpaceEntity* SpaceQuery::FindNearest(const Vector3& point, double distance)
+{
+  const auto nearest = Index().FindNearest(point, distance);
+  return nearest ? &space_.GetEntity(*nearest) : nullptr;
+}
+
+CSwarmanoidSpaceEntity* SpaceQuery::FindNearest(const CSwarmanoidSpaceEntity& entity, double distance)
+{
+  const auto nearest = Index().FindNearest(entity.GetPosition(), distance, entity.GetIndex());
+  return nearest ? &space_.GetEntity(*nearest) : nullptr;
+}
+
+std::optional<SpaceQuery::Hit> SpaceQuery::FindFirstHit(const Vector3& from, const Vector3& to, std::uint32_t observer,
+                                                        std::span<const std::uint32_t> ignored)
+{
+  const Vector3 reach = Vector3::Constant(search_radius_);
+  Index().FindInBox(from.cwiseMin(to) - reach, from.cwiseMax(to) + reach, candidates_);
+  std::optional<Hit> first;
+  const auto test = [&](std::uint32_t entity)
+  {
+    if ((engines_[entity] & engines_[observer]) == 0) return;
+    if (std::find(ignored.begin(), ignored.end(), entity) != ignored.end()) return;
+    const auto fraction = SegmentHit(shapes_[entity], space_.GetPose(entity), from, to);
+    if (fraction && (!first || *fraction < first->fraction || (*fraction == first->fraction && entity < first->entity)))
+      first = Hit{entity, *fraction};
+  };
+  for (const std::uint32_t entity : large_) test(entity);
+  for (const std::uint32_t entity : candidates_)
+    if (!std::binary_search(large_.begin(), large_.end(), entity)) test(entity);
+  return first;
+}
+
+bool SpaceQuery::IsOccluded(const Vector3& from, const Vector3& to, std::uint32_t observer, std::uint32_t target)
+{
+  const std::array<std::uint32_t, 2> ends{observer, target};
+  return FindFirstHit(from, to, observer, ends).has_value();
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,65 @@
+// Questions about the space: who is near, who is in a box, what stands between two points. One object for each role
+// that asks; it brings its index up to date when the space has changed. Answers are by position of the entity's origin.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/space/index/positional_index.h"
+#include "common/space/shape.h"
+#include "common/space/space.h"
+
+namespace swarmanoid
+{
+
+class SpaceQuery
+{
+public:
+  // At most 64 engines: throws ConfigurationError beyond. The space outlives the query.
+  explicit SpaceQuery(const CSwarmanoidSpace& space);
+  ~SpaceQuery();
+
+  // Entities within a distance (m) of a point, ascending by index.
+  const std::vector<std::uint32_t>& FindWithin(const Vector3& point, double distance);
+  // The same about an entity, without itself.
+  const std::vector<std::uint32_t>& FindWithin(const CSwarmanoidSpaceEntity& entity, double distance);
+  const std::vector<std::uint32_t>& FindInBox(const Vector3& low, const Vector3& high);
+  // The nearest entity within a distance; nullptr where there is none.
+  CSwarmanoidSpaceEntity* FindNearest(const Vector3& point, double distance);
+  CSwarmanoidSpaceEntity* FindNearest(const CSwarmanoidSpaceEntity& entity, double distance);
+
+  struct Hit
+  {
+    std::uint32_t entity = 0;
+    double fraction = 0;  // of the way
+  };
+  // The first body that the straight line from one point to another meets in the worlds of an observer: engines are
+  // closed to one another, so only entities that share an engine with the observer count. `ignored`: entities that are
+  // looked through.
+  std::optional<Hit> FindFirstHit(const Vector3& from, const Vector3& to, std::uint32_t observer,
+                                  std::span<const std::uint32_t> ignored = {});
+  // Whether one entity's point is hidden from another's: anything between but the two themselves.
+  bool IsOccluded(const Vector3& from, const Vector3& to, std::uint32_t observer, std::uint32_t target);
+
+  // One bit for each engine that an entity is bound to.
+  std::uint64_t EnginesOf(std::size_t entity) const { return engines_[entity]; }
+  const Shape& ShapeOfEntity(std::size_t entity) const { return shapes_[entity]; }
+  const PositionalIndex& Index();
+
+private:
+  void Refresh();
+
+  const CSwarmanoidSpace& space_;
+  std::unique_ptr<PositionalIndex> index_;
+  std::uint64_t revision_;
+  std::vector<Shape> shapes_;
+  std::vector<std::uint64_t> engines_;
+  std::vector<std::uint32_t> large_;  // bodies too large for the search about a line; tested one by one
+  double search_radius_ = 0;          // of the largest of the others
+  std::vector<std::uint32_t> found_;
+  std::vector<std::uint32_t> candidates_;
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,35 @@
+// The simple body of an entity for queries: an upright cylinder or a box, in the entity's frame. Sensors, occlusion and
+// renderers use it; the engines have collision models of their own.
+#pragma once
+
+#include <optional>
+
+#include "common/experiment/experiment.h"
+#include "common/math/pose.h"
+
+namespace swarmanoid
+{
+
+struct Shape
+{
+  enum class Kind
+  {
+    kNone,      // lights, patches: nothing to hit
+    kCylinder,  // radius and half height about the z axis
+    kBox
+  };
+
+  Kind kind = Kind::kNone;
+  Vector3 centre = Vector3::Zero();     // in the entity's frame, metres
+  Vector3 half_size = Vector3::Zero();  // cylinder: radius, radius, half height
+};
+
+Shape ShapeOf(const EntityConfiguration& configuration);
+// Of the sphere about the shape's centre that holds it.
+double BoundingRadius(const Shape& shape);
+
+// The fraction 0..1 of the way from `from` to `to` (space coordinates) at which the segment enters the shape; 0 where
+// it starts inside, nullopt where it misses. Exact up to rounding.
+std::optional<double> SegmentHit(const Shape& shape, const Pose& pose, const Vector3& from, const Vector3& to);
+
+}  // namespace swarmanoid

@@ -1,0 +1,107 @@
+#include "common/space/structure/structural_tree.h"
+
+#include <algorithm>
+
+namespace swarmanoid
+{
+
+CCompoundEntity::CCompoundEntity(CSwarmanoidSpace& space, std::uint32_t root, std::vector<std::uint32_t> members)
+    : space_(space), root_(root), members_(std::move(members))
+{
+}
+
+void CCompoundEntity::MoveTo(const Pose& root_pose)
+{
+  const Pose from_root = space_.GetPose(root_).Inverse();
+  for (const std::uint32_t member : members_)
+    if (member != root_) space_.SetPose(member, root_pose.Compose(from_root.Compose(space_.GetPose(member))));
+  space_.SetPose(root_, root_pose);
+}
+
+StructuralTree::StructuralTree(CSwarmanoidSpace& space) : space_(space), held_(space.Size(), -1) {}
+
+void StructuralTree::Rebuild()
+{
+  std::fill(held_.begin(), held_.end(), -1);
+  for (std::uint32_t i = 0; i < held_.size(); ++i)
+  {
+    const CSwarmanoidSpaceEntity& entity = space_.GetEntity(i);
+    if (!CanGrip(entity)) continue;
+    const int hands = entity.GetKind() == EntityKind::kHandbot ? 2 : 1;
+    for (int hand = 0; hand < hands; ++hand)
+    {
+      const double held = entity.GetAttribute("gripped", hand);
+      // Both hands of a handbot may be on the same object; handbots manipulate one object at a time.
+      if (held != 0 && held_[i] != static_cast<int>(held) - 1) Attach(i, static_cast<std::uint32_t>(held) - 1);
+    }
+  }
+}
+
+void StructuralTree::Check(std::uint32_t gripper, std::uint32_t gripped) const
+{
+  const CSwarmanoidSpaceEntity& a = space_.GetEntity(gripper);
+  const CSwarmanoidSpaceEntity& b = space_.GetEntity(gripped);
+  const std::string both = "'" + a.GetId() + "' cannot grip '" + b.GetId() + "': ";
+  if (gripper == gripped) throw StructureError(both + "an entity cannot grip itself");
+  if (!CanGrip(a)) throw StructureError(both + "a " + std::string(TagName(a.GetKind())) + " has no gripper");
+  if (!CanBeGripped(b))
+    throw StructureError(both + "a " + (b.IsMovable() ? "" : "fixed ") + std::string(TagName(b.GetKind())) +
+                         " has nothing to grip");
+  if (held_[gripper] >= 0)
+    throw StructureError(both + "it holds '" + space_.GetEntity(static_cast<std::size_t>(held_[gripper])).GetId() +
+                         "' already");
+  if (GetRoot(gripped) == gripper) throw StructureError(both + "the connection would close a loop");
+}
+
+void StructuralTree::Attach(std::uint32_t gripper, std::uint32_t gripped)
+{
+  Check(gripper, gripped);
+  held_[gripper] = static_cast<int>(gripped);
+}
+
+void StructuralTree::Detach(std::uint32_t gripper) { held_[gripper] = -1; }
+
+std::vector<std::uint32_t> StructuralTree::GetHolders(std::uint32_t gripped) const
+{
+  std::vector<std::uint32_t> holders;
+  for (std::uint32_t i = 0; i < held_.size(); ++i)
+    if (held_[i] == static_cast<int>(gripped)) holders.push_back(i);
+  return holders;
+}
+
+std::uint32_t StructuralTree::GetRoot(std::uint32_t entity) const
+{
+  while (held_[entity] >= 0) entity = static_cast<std::uint32_t>(held_[entity]);
+  return entity;
+}
+
+CCompoundEntity StructuralTree::GetCompound(std::uint32_t member)
+{
+  const std::uint32_t root = GetRoot(member);
+  std::vector<std::uint32_t> members;
+  for (std::uint32_t i = 0; i < held_.size(); ++i)
+    if (GetRoot(i) == root) members.push_back(i);
+  return {space_, root, std::move(members)};
+}
+
+bool StructuralTree::CanGrip(const CSwarmanoidSpaceEntity& entity)
+{
+  return entity.GetKind() == EntityKind::kFootbot || entity.GetKind() == EntityKind::kHandbot;
+}
+
+bool StructuralTree::CanBeGripped(const CSwarmanoidSpaceEntity& entity)
+{
+  switch (entity.GetKind())
+  {
+    case EntityKind::kFootbot:
+    case EntityKind::kHandbot:
+    case EntityKind::kCylindricPrey:
+      return true;
+    case EntityKind::kBlock:
+      return entity.IsMovable();
+    default:
+      return false;
+  }
+}
+
+}  // namespace swarmanoid

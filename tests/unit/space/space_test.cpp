@@ -1,0 +1,234 @@
+#include "common/space/space.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/math/elementary.h"
+#include "common/space/query.h"
+#include "common/space/structure/structural_tree.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+EntityConfiguration Entity(EntityKind kind, const std::string& id, const Vector3& position, const Vector3& size,
+                           bool movable)
+{
+  EntityConfiguration entity;
+  entity.kind = kind;
+  entity.id = id;
+  entity.pose.position = position;
+  entity.size = size;
+  entity.movable = movable;
+  return entity;
+}
+
+EntityConfiguration Footbot(const std::string& id, const Vector3& position)
+{
+  return Entity(EntityKind::kFootbot, id, position, {0.085, 0.085, 0.15}, true);
+}
+
+EntityConfiguration Block(const std::string& id, const Vector3& position, const Vector3& size)
+{
+  return Entity(EntityKind::kBlock, id, position, size, false);
+}
+
+Experiment TwoWorlds()
+{
+  Experiment experiment;
+  experiment.arena_size = {10, 10, 3};
+  experiment.entities = {Footbot("fb0", {1, 1, 0}),
+                         Block("wall", {2, 1, 0.25}, {0.1, 8, 0.5}),
+                         Footbot("fb1", {3, 1, 0}),
+                         Footbot("fb2", {1, 2, 0}),
+                         Entity(EntityKind::kCylindricPrey, "prey", {1, 3, 0}, {0.1, 0.1, 0.1}, true),
+                         Footbot("alone", {5, 5, 0})};
+  experiment.engines.resize(2);
+  experiment.engines[0].entities = {0, 1, 2, 3, 4};
+  experiment.engines[1].entities = {5};
+  return experiment;
+}
+
+TEST(Space, StartsAsTheExperimentSays)
+{
+  const Experiment experiment = TwoWorlds();
+  const CSwarmanoidSpace space(experiment);
+  EXPECT_EQ(space.GetTick(), 0U);
+  EXPECT_EQ(space.FindEntity("fb1")->GetPosition(), Vector3(3, 1, 0));
+  EXPECT_EQ(space.FindEntity("nobody"), nullptr);
+  EXPECT_THAT(space.Movable(), testing::ElementsAre(0, 2, 3, 4, 5));
+  EXPECT_NE(dynamic_cast<CFootBotEntity*>(space.FindEntity("fb0")), nullptr);
+  EXPECT_NE(dynamic_cast<CCylindricPreyEntity*>(space.FindEntity("prey")), nullptr);
+}
+
+TEST(Space, EveryPartOfTheStateIsInTheHash)
+{
+  const Experiment experiment = TwoWorlds();
+  CSwarmanoidSpace space(experiment);
+  const std::uint64_t initial = space.Hash();
+  EXPECT_EQ(CSwarmanoidSpace(experiment).Hash(), initial);
+
+  space.SetTick(1);
+  EXPECT_NE(space.Hash(), initial);
+  space.SetTick(0);
+  EXPECT_EQ(space.Hash(), initial);
+
+  Pose pose = space.GetPose(2);
+  pose.position.z() += 1e-15;
+  space.SetPose(2, pose);
+  EXPECT_NE(space.Hash(), initial);
+  pose.position.z() = 0;
+  space.SetPose(2, pose);
+  EXPECT_EQ(space.Hash(), initial);
+
+  space.FindEntity("fb2")->SetAttribute("led", 0xff0000, 11);
+  EXPECT_NE(space.Hash(), initial);
+}
+
+TEST(Space, AReplicaFollowsByMessages)
+{
+  const Experiment experiment = TwoWorlds();
+  CSwarmanoidSpace original(experiment);
+  CSwarmanoidSpace replica(experiment);
+  original.SetTick(7);
+  original.SetPose(4, {{4, 4, 0}, QuaternionFromYaw(1)});
+  original.FindEntity("fb0")->SetAttribute("beacon", 0x00ff00);
+
+  SpaceState state;
+  state.tick = 7;
+  original.WritePoses(state.poses);
+  state.attributes.Add(original.FindEntity("fb0")->SlotOf("beacon"), 0x00ff00);
+  replica.Apply(state);
+  EXPECT_EQ(replica.Hash(), original.Hash());
+}
+
+TEST(Space, AttributesThatAKindLacksAreRefusedByName)
+{
+  const Experiment experiment = TwoWorlds();
+  const CSwarmanoidSpace space(experiment);
+  EXPECT_THROW(space.FindEntity("prey")->GetAttribute("led"), std::out_of_range);
+}
+
+TEST(SpaceQuery, FindsNeighboursWithoutTheOneThatAsks)
+{
+  const Experiment experiment = TwoWorlds();
+  CSwarmanoidSpace space(experiment);
+  SpaceQuery query(space);
+  EXPECT_THAT(query.FindWithin(*space.FindEntity("fb0"), 1.1), testing::ElementsAre(1, 3));
+  EXPECT_EQ(query.FindNearest(*space.FindEntity("prey"), 5), space.FindEntity("fb2"));
+  // The index follows the space.
+  space.SetPose(3, {{9, 9, 0}, Quaternion::Identity()});
+  EXPECT_THAT(query.FindWithin(*space.FindEntity("fb0"), 1.1), testing::ElementsAre(1));
+}
+
+TEST(SpaceQuery, WallsAndRobotsOcclude)
+{
+  const Experiment experiment = TwoWorlds();
+  const CSwarmanoidSpace space(experiment);
+  SpaceQuery query(space);
+  EXPECT_TRUE(query.IsOccluded({1, 1, 0.1}, {3, 1, 0.1}, 0, 2));    // the wall is between
+  EXPECT_FALSE(query.IsOccluded({1, 1, 0.6}, {3, 1, 0.6}, 0, 2));   // over the wall
+  EXPECT_TRUE(query.IsOccluded({1, 1, 0.05}, {1, 3, 0.05}, 0, 4));  // another robot is between
+  EXPECT_FALSE(query.IsOccluded({1, 1, 0.2}, {1, 3, 0.2}, 0, 4));   // over its head
+}
+
+TEST(SpaceQuery, WorldsThatAreClosedToEachOtherDoNotOcclude)
+{
+  const Experiment experiment = TwoWorlds();
+  const CSwarmanoidSpace space(experiment);
+  SpaceQuery query(space);
+  EXPECT_FALSE(query.IsOccluded({1, 1, 0.1}, {3, 1, 0.1}, 5, 2));
+}
+
+TEST(SpaceQuery, FirstHitGivesTheExactPlace)
+{
+  const Experiment experiment = TwoWorlds();
+  const CSwarmanoidSpace space(experiment);
+  SpaceQuery query(space);
+  const std::array<std::uint32_t, 1> self{0};
+  const auto hit = query.FindFirstHit({1, 1, 0.1}, {3, 1, 0.1}, 0, self);
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit->entity, 1U);
+  EXPECT_NEAR(hit->fraction, (1.95 - 1) / 2, 1e-12);
+}
+
+TEST(SegmentHit, TurnedBoxesAndLyingCylindersAreExact)
+{
+  const Shape box{Shape::Kind::kBox, Vector3::Zero(), {1, 1, 1}};
+  const Pose turned{{0, 0, 0}, QuaternionFromYaw(kPi / 4)};
+  const auto corner = SegmentHit(box, turned, {-3, 0, 0}, {3, 0, 0});
+  ASSERT_TRUE(corner);
+  EXPECT_NEAR(-3 + 6 * *corner, -std::sqrt(2.0), 1e-12);
+  EXPECT_FALSE(SegmentHit(box, turned, {-3, 1.5, 0}, {3, 1.5, 0}));
+
+  const Shape cylinder{Shape::Kind::kCylinder, Vector3::Zero(), {0.5, 0.5, 2}};
+  const Pose lying{{0, 0, 0}, QuaternionFromEuler({kPi / 2, 0, 0})};  // its axis along y
+  const auto cap = SegmentHit(cylinder, lying, {0, -5, 0.3}, {0, 5, 0.3});
+  ASSERT_TRUE(cap);
+  EXPECT_NEAR(-5 + 10 * *cap, -2, 1e-12);
+  EXPECT_FALSE(SegmentHit(cylinder, lying, {0, -5, 0.6}, {0, 5, 0.6}));
+  EXPECT_EQ(SegmentHit(cylinder, lying, {0, 0, 0}, {0, 9, 0}), 0.0);
+}
+
+TEST(StructuralTree, TheGrippedOneIsTheRootOfAllThatHoldIt)
+{
+  const Experiment experiment = TwoWorlds();
+  CSwarmanoidSpace space(experiment);
+  StructuralTree tree(space);
+  tree.Attach(0, 4);  // fb0 and fb2 hold the prey, fb1 holds fb0
+  tree.Attach(3, 4);
+  tree.Attach(2, 0);
+  EXPECT_EQ(tree.GetRoot(2), 4U);
+  EXPECT_THAT(tree.GetHolders(4), testing::ElementsAre(0, 3));
+  EXPECT_THAT(tree.GetCompound(3).GetMembers(), testing::ElementsAre(0, 2, 3, 4));
+  tree.Detach(0);
+  EXPECT_THAT(tree.GetCompound(3).GetMembers(), testing::ElementsAre(3, 4));
+  EXPECT_THAT(tree.GetCompound(0).GetMembers(), testing::ElementsAre(0, 2));
+}
+
+TEST(StructuralTree, ACompoundMovesAsOneRigidBody)
+{
+  const Experiment experiment = TwoWorlds();
+  CSwarmanoidSpace space(experiment);
+  StructuralTree tree(space);
+  tree.Attach(0, 4);
+  tree.Attach(3, 4);
+  const auto seen_from_prey = [&](std::uint32_t i) { return space.GetPose(4).Inverse().Compose(space.GetPose(i)); };
+  const Pose before0 = seen_from_prey(0);
+  const Pose before3 = seen_from_prey(3);
+  tree.GetCompound(0).MoveTo({{7, 6, 0}, QuaternionFromYaw(2)});
+  EXPECT_EQ(space.GetEntity(4).GetPosition(), Vector3(7, 6, 0));
+  EXPECT_TRUE(seen_from_prey(0).position.isApprox(before0.position, 1e-12));
+  EXPECT_TRUE(seen_from_prey(3).position.isApprox(before3.position, 1e-12));
+  EXPECT_NEAR(std::abs(seen_from_prey(3).orientation.dot(before3.orientation)), 1, 1e-12);
+}
+
+TEST(StructuralTree, ImpossibleConnectionsAreRefusedWithTheReason)
+{
+  const Experiment experiment = TwoWorlds();
+  CSwarmanoidSpace space(experiment);
+  StructuralTree tree(space);
+  const auto message = [&](std::uint32_t a, std::uint32_t b) -> std::string
+  {
+    try
+    {
+      tree.Attach(a, b);
+    }
+    catch (const StructureError& error)
+    {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message(0, 0), "'fb0' cannot grip 'fb0': an entity cannot grip itself");
+  EXPECT_EQ(message(4, 0), "'prey' cannot grip 'fb0': a cylindric_prey has no gripper");
+  EXPECT_EQ(message(0, 1), "'fb0' cannot grip 'wall': a fixed block has nothing to grip");
+  tree.Attach(0, 2);
+  tree.Attach(2, 3);
+  EXPECT_EQ(message(0, 4), "'fb0' cannot grip 'prey': it holds 'fb1' already");
+  EXPECT_EQ(message(3, 0), "'fb2' cannot grip 'fb0': the connection would close a loop");
+}
+
+}  // namespace
+}  // namespace swarmanoid
