@@ -1,0 +1,30 @@
+// Which entities live in a common physics engine: engines are closed worlds, and bodies of different worlds neither
+// touch nor hide one another. Used by the sensors of a controller host; fixed after construction.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/experiment/experiment.h"
+
+namespace swarmanoid
+{
+
+class EngineMembership
+{
+public:
+  explicit EngineMembership(const Experiment& experiment);
+
+  // True where some engine has both; never for an entity that is in no engine.
+  bool ShareEngine(std::uint32_t a, std::uint32_t b) const
+  {
+    return shared_[class_of_[a] * class_count_ + class_of_[b]] != 0;
+  }
+
+private:
+  std::vector<std::uint32_t> class_of_;  // entities in the same set of engines are of one class
+  std::size_t class_count_ = 0;
+  std::vector<char> shared_;  // class by class
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,103 @@
+// The 24 infrared proximity sensors of footbots, all robots of a batch at once: a grid finds the bodies in range, 24
+// rays per robot against their exact outlines give distances, a response curve gives readings. Generic.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
+#include "controller_host/device.h"
+#include "controller_host/devices/noise.h"
+#include "controller_host/devices/sensor_world.h"
+
+namespace swarmanoid
+{
+
+// What a controller holds.
+class SimulatedFootbotProximity : public CCI_FootBotProximitySensor
+{
+public:
+  explicit SimulatedFootbotProximity(const double* readings) : readings_(readings) {}
+  std::span<const double, NUM_SENSORS> GetAllSensorReadings() const override
+  {
+    return std::span<const double, NUM_SENSORS>(readings_, NUM_SENSORS);
+  }
+
+private:
+  const double* readings_;
+};
+
+// Distances, and all but the response curve. Derived classes turn distances into readings.
+class FootbotProximity : public SensorBatch
+{
+public:
+  static constexpr unsigned kRays = CCI_FootBotProximitySensor::NUM_SENSORS;
+  // Of the sensors above the base of the footbot (ARGoS3, foot-bot).
+  static constexpr double kHeight = 0.06;
+
+  void Init(const DeviceSetup& setup) override;
+  CCI_Sensor* Sensor(std::size_t k) override { return &sensors_[k]; }
+  void Update(const ChannelView& channel) override;
+
+protected:
+  static std::vector<ParameterSpec> CommonParameters();
+  // From distances in m (more than the range: nothing there) to readings, before noise and the cut to 0..1.
+  virtual void Respond(const double* distances, double* readings) const = 0;
+
+  double range_ = 0;  // m
+
+private:
+  struct alignas(64) Rays
+  {
+    double values[kRays];
+  };
+
+  void Sense(std::size_t k, std::uint32_t robot);
+  void AddDisc(std::uint32_t robot, std::uint32_t body);
+  void AddUprightBox(std::uint32_t robot, std::uint32_t body);
+  void AddAny(std::uint32_t robot, std::uint32_t body);
+
+  std::shared_ptr<SensorWorld> world_;
+  std::uint64_t seen_ = 0;
+  std::vector<std::uint32_t> robots_;
+  std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
+  std::unique_ptr<FixedBodies> fixed_;
+  double ring_radius_ = 0;  // m: where the rays start
+  NoiseModel noise_;
+  std::uint32_t stream_ = 0;
+
+  Rays ray_cos_{}, ray_sin_{};
+  Rays distances_{};      // of the robot being sensed
+  bool touched_ = false;  // some ray of it hit something
+  std::vector<double> readings_;
+  std::vector<char> dirty_;  // readings of a robot that are not all 0
+  std::vector<SimulatedFootbotProximity> sensors_;
+};
+
+// y = 1 below a contact distance, else a / (d + b): the curve that ARGoS3 fitted to the robot.
+class RayCastProximity : public FootbotProximity
+{
+public:
+  static std::vector<ParameterSpec> ParameterTable();
+
+protected:
+  void Respond(const double* distances, double* readings) const override;
+};
+
+// y = c0 + c1 d + c2 d^2 + ..., the coefficients given by the user.
+class PolynomialProximity : public FootbotProximity
+{
+public:
+  static std::vector<ParameterSpec> ParameterTable();
+  void Init(const DeviceSetup& setup) override;
+
+protected:
+  void Respond(const double* distances, double* readings) const override;
+
+private:
+  std::vector<double> coefficients_;
+};
+
+void RegisterFootbotProximity();
+
+}  // namespace swarmanoid

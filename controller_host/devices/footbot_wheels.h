@@ -1,0 +1,77 @@
+// The wheels of footbots: ideal, noisy, and with the lag of a speed controller. Specific: the engine drives the body
+// from the channel "footbot_wheels", [left, right] wheel angular velocity in rad/s.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/control_interface/footbot/ci_footbot_wheels_actuator.h"
+#include "controller_host/device.h"
+#include "controller_host/devices/noise.h"
+
+namespace swarmanoid
+{
+
+// What a controller holds: the speeds that it asked for.
+class SimulatedFootbotWheels : public CCI_FootBotWheelsActuator
+{
+public:
+  void SetFootBotWheelsAngularVelocity(double left, double right) override { wanted = {left, right}; }
+  std::array<double, NUM_WHEELS> wanted{};  // rad/s
+};
+
+// Ideal wheels: the speed asked for, clamped to the fastest one. The base of the others.
+class DummyFootbotWheels : public ActuatorBatch
+{
+public:
+  static std::vector<ParameterSpec> ParameterTable();
+  void Init(const DeviceSetup& setup) override;
+  CCI_Actuator* Actuator(std::size_t k) override { return &wheels_[k]; }
+  void Commit(const ChannelView& channel, AttributeChanges& changes) override;
+  void SaveState(ByteWriter& state) const override;
+  void LoadState(ByteReader& state) override;
+
+protected:
+  double Clamped(double velocity) const;
+
+  double limit_ = 0;  // rad/s
+  std::vector<SimulatedFootbotWheels> wheels_;
+};
+
+// v' = bias + factor * v + noise for each wheel, only while the wheel is told to move (ARGoS3, differential steering
+// noise).
+class NoisyFootbotWheels : public DummyFootbotWheels
+{
+public:
+  static std::vector<ParameterSpec> ParameterTable();
+  void Init(const DeviceSetup& setup) override;
+  void Commit(const ChannelView& channel, AttributeChanges& changes) override;
+
+private:
+  const CSwarmanoidSpace* space_ = nullptr;
+  std::vector<std::uint32_t> robots_;
+  std::uint32_t stream_ = 0;
+  std::array<double, 2> bias_{};  // rad/s
+  std::array<double, 2> factor_{};
+  NoiseModel noise_;  // m/s on the ground
+};
+
+// First-order response: the speed approaches the one asked for with a time constant, within a largest acceleration.
+class PidFootbotWheels : public DummyFootbotWheels
+{
+public:
+  static std::vector<ParameterSpec> ParameterTable();
+  void Init(const DeviceSetup& setup) override;
+  void Commit(const ChannelView& channel, AttributeChanges& changes) override;
+  void SaveState(ByteWriter& state) const override;
+  void LoadState(ByteReader& state) override;
+
+private:
+  double gain_ = 1;          // share of the difference made up in one tick
+  double largest_step_ = 0;  // rad/s in one tick
+  std::vector<std::array<double, 2>> velocity_;
+};
+
+void RegisterFootbotWheels();
+
+}  // namespace swarmanoid

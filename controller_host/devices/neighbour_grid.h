@@ -1,0 +1,148 @@
+// Who is near: the bodies of a space on two flat grids in the xy plane, rebuilt from the pose arrays once a tick.
+// Movable bodies are counting-sorted by cell; the others are listed once in every cell that they come near. Searches
+// may report bodies that are a little too far (single precision with a margin); the exact test is the caller's. Steady
+// running allocates nothing.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#include "controller_host/devices/body_shapes.h"
+
+namespace swarmanoid
+{
+
+// Eight lanes where the processor has them; the lanes do not change what is found.
+#if defined(__AVX__)
+inline constexpr int kLanes = 8;
+#else
+inline constexpr int kLanes = 4;
+#endif
+typedef float FloatLanes __attribute__((vector_size(kLanes * sizeof(float)), aligned(4), may_alias));
+typedef int IntLanes __attribute__((vector_size(kLanes * sizeof(int))));
+
+// One bit for each lane that is not 0, as comparisons give them (-1 or 0).
+inline unsigned LaneMask(IntLanes lanes)
+{
+#if defined(__AVX__)
+  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(lanes)));
+#elif defined(__SSE2__)
+  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(lanes)));
+#else
+  unsigned mask = 0;
+  for (unsigned i = 0; i < kLanes; ++i) mask |= (lanes[i] != 0 ? 1U : 0U) << i;
+  return mask;
+#endif
+}
+
+// A rectangle cut into square cells; points outside belong to the nearest cell.
+struct CellFrame
+{
+  float left = 0, bottom = 0;
+  float inverse_size = 1;  // 1/m
+  int columns = 1, rows = 1;
+
+  // At most `most_cells` cells, none smaller than `smallest_cell` m.
+  static CellFrame Over(double left, double bottom, double width, double height, double smallest_cell,
+                        std::size_t most_cells);
+
+  int Column(float x) const { return Clamped((x - left) * inverse_size, columns); }
+  int Row(float y) const { return Clamped((y - bottom) * inverse_size, rows); }
+  std::size_t Cells() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+
+private:
+  static int Clamped(float cell, int count)
+  {
+    return static_cast<int>(std::min(std::max(cell, 0.0F), static_cast<float>(count - 1)));
+  }
+};
+
+class NeighbourGrid
+{
+public:
+  NeighbourGrid(const CSwarmanoidSpace& space, std::span<const BodyShape> shapes);
+
+  // Sorts the movable bodies from the poses of the space.
+  void Rebuild();
+
+  // The movable bodies in the order of their cells: entity indices.
+  std::span<const std::uint32_t> Sorted() const { return {entity_.data(), count_}; }
+
+  // Calls visit(entity) for every movable body whose circle in the xy plane comes within `reach` m of (x, y), in the
+  // order of the cells, and for few others.
+  template <class Visit>
+  void ForEachNear(double x, double y, double reach, Visit&& visit) const;
+
+private:
+  const CSwarmanoidSpace& space_;
+  std::span<const BodyShape> shapes_;
+  CellFrame frame_;
+  std::vector<std::uint32_t> bodies_;  // movable entities with a body, ascending
+  std::size_t count_ = 0;
+  float margin_ = 0;          // covers the rounding to single precision
+  float largest_radius_ = 0;  // of this tick
+
+  // By body: cell and circle in the xy plane.
+  std::vector<std::uint32_t> cell_;
+  std::vector<float> body_x_, body_y_, body_radius_;
+  // By place in the sorted order, with far-away padding at the end.
+  std::vector<std::uint32_t> start_;  // of each cell, and one more
+  std::vector<float> x_, y_, radius_;
+  std::vector<std::uint32_t> entity_;
+};
+
+// The bodies that never move, listed in every cell from which some point is within `reach` of them.
+class FixedBodies
+{
+public:
+  FixedBodies(const CSwarmanoidSpace& space, std::span<const BodyShape> shapes, double reach);
+
+  // Entity indices, ascending: all that come within the reach of (x, y), and others.
+  std::span<const std::uint32_t> Near(double x, double y) const
+  {
+    const std::size_t cell =
+        static_cast<std::size_t>(frame_.Row(static_cast<float>(y))) * static_cast<std::size_t>(frame_.columns) +
+        static_cast<std::size_t>(frame_.Column(static_cast<float>(x)));
+    return {entities_.data() + start_[cell], start_[cell + 1] - start_[cell]};
+  }
+
+private:
+  CellFrame frame_;
+  std::vector<std::uint32_t> start_;
+  std::vector<std::uint32_t> entities_;
+};
+
+template <class Visit>
+void NeighbourGrid::ForEachNear(double x, double y, double reach, Visit&& visit) const
+{
+  const auto fx = static_cast<float>(x);
+  const auto fy = static_cast<float>(y);
+  const float own = static_cast<float>(reach) + margin_;
+  const float widest = own + largest_radius_;
+  const auto first_column = static_cast<std::size_t>(frame_.Column(fx - widest));
+  const auto last_column = static_cast<std::size_t>(frame_.Column(fx + widest));
+  const auto last_row = static_cast<std::size_t>(frame_.Row(fy + widest));
+  for (auto row = static_cast<std::size_t>(frame_.Row(fy - widest)); row <= last_row; ++row)
+  {
+    const std::size_t line = row * static_cast<std::size_t>(frame_.columns);
+    std::size_t i = start_[line + first_column];
+    const std::size_t end = start_[line + last_column + 1];
+    for (; i < end; i += kLanes)
+    {
+      const FloatLanes dx = *reinterpret_cast<const FloatLanes*>(&x_[i]) - fx;
+      const FloatLanes dy = *reinterpret_cast<const FloatLanes*>(&y_[i]) - fy;
+      const FloatLanes cut = *reinterpret_cast<const FloatLanes*>(&radius_[i]) + own;
+      unsigned hits = LaneMask(dx * dx + dy * dy <= cut * cut);
+      if (end - i < kLanes) hits &= (1U << (end - i)) - 1U;
+      for (; hits != 0; hits &= hits - 1) visit(entity_[i + static_cast<unsigned>(__builtin_ctz(hits))]);
+    }
+  }
+}
+
+}  // namespace swarmanoid
