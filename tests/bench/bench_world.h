@@ -1,0 +1,101 @@
+// A walled square arena with footbots at random places, for the benchmarks of sensors.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/math/elementary.h"
+#include "common/math/random.h"
+#include "controller_host/device.h"
+
+namespace swarmanoid
+{
+
+using BenchParameters = std::vector<std::pair<std::string, std::string>>;
+
+class BenchWorld
+{
+public:
+  BenchWorld(int robots, double robots_per_square_metre)
+  {
+    RegisterBuiltinDevices();
+    const double side = std::sqrt(robots / robots_per_square_metre);
+    experiment_.arena_size = {side, side, 2};
+    experiment_.engines.emplace_back();
+    const double half = side / 2;
+    AddWall({half, 0.05, 0.25}, {side, 0.1, 0.5});
+    AddWall({half, side - 0.05, 0.25}, {side, 0.1, 0.5});
+    AddWall({0.05, half, 0.25}, {0.1, side, 0.5});
+    AddWall({side - 0.05, half, 0.25}, {0.1, side, 0.5});
+
+    // Robots on a square lattice, shaken as far as the lattice leaves room: no overlap at any density.
+    const int per_side = static_cast<int>(std::ceil(std::sqrt(robots)));
+    const double pitch = (side - 0.4) / per_side;
+    const double shake = std::max(0.0, (pitch - 0.1701) / 2);
+    RandomStream random(1, 2, 3, 4);
+    for (int n = 0; n < robots; ++n)
+    {
+      EntityConfiguration robot;
+      robot.kind = EntityKind::kFootbot;
+      robot.id = "fb" + std::to_string(n);
+      robot.size = {0.085036758, 0.085036758, 0.146899733};
+      robot.movable = true;
+      const double x = 0.2 + (n % per_side + 0.5) * pitch + random.Uniform(-shake, shake);
+      const double y = 0.2 + (n / per_side + 0.5) * pitch + random.Uniform(-shake, shake);
+      robot.pose = {{x, y, 0}, QuaternionFromYaw(random.Uniform(-kPi, kPi))};
+      robots_.push_back(static_cast<std::uint32_t>(experiment_.entities.size()));
+      Add(robot);
+    }
+    // Entity numbers do not follow places in a real run.
+    for (std::size_t n = robots_.size() - 1; n > 0; --n)
+      std::swap(experiment_.entities[robots_[n]].pose,
+                experiment_.entities[robots_[random.Below(static_cast<std::uint32_t>(n + 1))]].pose);
+    space_ = std::make_unique<CSwarmanoidSpace>(experiment_);
+  }
+
+  CSwarmanoidSpace& Space() { return *space_; }
+  const std::vector<std::uint32_t>& Robots() const { return robots_; }
+
+  std::unique_ptr<SensorBatch> MakeSensor(const std::string& type, const std::string& implementation,
+                                          const BenchParameters& parameters = {})
+  {
+    auto node = std::make_shared<ConfigurationNode>();
+    for (const auto& [name, value] : parameters)
+    {
+      auto child = std::make_shared<ConfigurationNode>();
+      child->name = name;
+      child->text = value;
+      node->children.push_back(child);
+    }
+    const auto* entry = PluginRegistry<SensorBatch>::Instance().Find(type, implementation);
+    auto sensor = entry->create();
+    sensor->Init(
+        {Parameters(TConfigurationTree(node), entry->description.parameters), *space_, robots_, StreamName(type)});
+    return sensor;
+  }
+
+private:
+  void AddWall(const Vector3& centre, const Vector3& size)
+  {
+    EntityConfiguration wall;
+    wall.kind = EntityKind::kBlock;
+    wall.id = "wall" + std::to_string(experiment_.entities.size());
+    wall.pose.position = centre;
+    wall.size = size;
+    Add(wall);
+  }
+  void Add(const EntityConfiguration& entity)
+  {
+    experiment_.engines[0].entities.push_back(static_cast<std::uint32_t>(experiment_.entities.size()));
+    experiment_.entities.push_back(entity);
+  }
+
+  Experiment experiment_;
+  std::vector<std::uint32_t> robots_;
+  std::unique_ptr<CSwarmanoidSpace> space_;
+};
+
+}  // namespace swarmanoid

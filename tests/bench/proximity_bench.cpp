@@ -1,0 +1,46 @@
+// Cost of the proximity sensors of a host: one batch over all footbots, the grid of neighbours included.
+// Robots stand at random without overlap in a walled square arena; argument: number of robots, robots per 10 m^2.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
+#include "bench_world.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+void Proximity(benchmark::State& state, const char* implementation, const BenchParameters& parameters)
+{
+  BenchWorld world(static_cast<int>(state.range(0)), static_cast<double>(state.range(1)) / 10);
+  const auto sensor = world.MakeSensor("footbot_proximity", implementation, parameters);
+  std::uint64_t tick = 0;
+  for (auto _ : state)
+  {
+    world.Space().SetTick(++tick);
+    sensor->Update({});
+  }
+  state.counters["ns_per_robot"] =
+      benchmark::Counter(static_cast<double>(state.range(0)) * 1e-9,
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+BENCHMARK_CAPTURE(Proximity, rays, "generic_footbot_proximity", BenchParameters{})
+    ->ArgsProduct({{10, 100, 1000, 10000, 100000}, {10}})
+    ->Args({1000, 1})
+    ->Args({1000, 40})
+    ->Args({1000, 100})
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Proximity, polynomial, "generic_footbot_polynomial_proximity", BenchParameters{})
+    ->Args({1000, 10})
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Proximity, rays_with_noise, "generic_footbot_proximity",
+                  BenchParameters{{"noise_kind", "uniform"}, {"noise_range", "0.05"}})
+    ->Args({1000, 10})
+    ->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace swarmanoid
+
+BENCHMARK_MAIN();

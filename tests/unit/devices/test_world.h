@@ -1,0 +1,166 @@
+// A small experiment put together in memory, and one batch of a device over some of its robots.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/math/elementary.h"
+#include "common/math/random.h"
+#include "common/space/space.h"
+#include "controller_host/device.h"
+
+namespace swarmanoid
+{
+
+class TestWorld
+{
+public:
+  TestWorld()
+  {
+    experiment_.arena_size = {10, 10, 3};
+    experiment_.seed = 7;
+    AddEngine("ground");
+    RegisterBuiltinDevices();
+  }
+
+  std::size_t AddEngine(const std::string& id)
+  {
+    EngineConfiguration engine;
+    engine.tag = "dummy_engine";
+    engine.id = id;
+    experiment_.engines.push_back(engine);
+    return experiment_.engines.size() - 1;
+  }
+
+  // Yaw in radians; `engine` -1: none.
+  std::uint32_t Add(EntityKind kind, const Vector3& position, double yaw = 0, const Vector3& size = {0, 0, 0},
+                    bool movable = true, int engine = 0)
+  {
+    EntityConfiguration entity;
+    entity.kind = kind;
+    entity.id = "e" + std::to_string(experiment_.entities.size());
+    entity.pose = {position, QuaternionFromYaw(yaw)};
+    entity.size = size;
+    entity.movable = movable;
+    experiment_.entities.push_back(entity);
+    const auto index = static_cast<std::uint32_t>(experiment_.entities.size() - 1);
+    if (engine >= 0) experiment_.engines[static_cast<std::size_t>(engine)].entities.push_back(index);
+    return index;
+  }
+  std::uint32_t AddFootbot(double x, double y, double yaw = 0, double z = 0, int engine = 0)
+  {
+    return Add(EntityKind::kFootbot, {x, y, z}, yaw, {0.085036758, 0.085036758, 0.146899733}, true, engine);
+  }
+  std::uint32_t AddEyebot(double x, double y, double z, double yaw = 0, int engine = 0)
+  {
+    return Add(EntityKind::kEyebot, {x, y, z}, yaw, {0.25, 0.25, 0.566}, true, engine);
+  }
+  std::uint32_t AddBlock(const Vector3& centre, const Vector3& size, double yaw = 0, int engine = 0)
+  {
+    return Add(EntityKind::kBlock, centre, yaw, size, false, engine);
+  }
+  std::uint32_t AddPrey(double x, double y, double radius, double height, int engine = 0)
+  {
+    return Add(EntityKind::kCylindricPrey, {x, y, 0}, 0, {radius, radius, height}, true, engine);
+  }
+
+  Experiment& Configuration() { return experiment_; }
+  CSwarmanoidSpace& Space()
+  {
+    if (space_ == nullptr) space_ = std::make_unique<CSwarmanoidSpace>(experiment_);
+    return *space_;
+  }
+  std::vector<std::uint32_t> RobotsOf(EntityKind kind) const
+  {
+    std::vector<std::uint32_t> robots;
+    for (std::uint32_t e = 0; e < experiment_.entities.size(); ++e)
+      if (experiment_.entities[e].kind == kind) robots.push_back(e);
+    return robots;
+  }
+
+private:
+  Experiment experiment_;
+  std::unique_ptr<CSwarmanoidSpace> space_;
+};
+
+using TestParameters = std::vector<std::pair<std::string, std::string>>;
+
+inline TConfigurationTree TreeOf(const TestParameters& values)
+{
+  auto node = std::make_shared<ConfigurationNode>();
+  for (const auto& [name, value] : values)
+  {
+    auto child = std::make_shared<ConfigurationNode>();
+    child->name = name;
+    child->text = value;
+    node->children.push_back(child);
+  }
+  return TConfigurationTree(node);
+}
+
+// A batch over `robots` with the channel of a specific device, all values 0.
+template <class Interface>
+class TestBatch
+{
+public:
+  TestBatch(TestWorld& world, const std::string& type, const std::string& implementation,
+            std::vector<std::uint32_t> robots, const TestParameters& parameters = {})
+  {
+    const auto* entry = PluginRegistry<Interface>::Instance().Find(type, implementation);
+    if (entry == nullptr) throw std::runtime_error("no device " + type + " " + implementation);
+    const auto width = static_cast<std::size_t>(entry->description.channel_width);
+    values.assign(width * robots.size(), 0);
+    for (std::size_t k = 0; k < robots.size(); ++k) offsets_.push_back(k * width);
+    channel_ = {values, offsets_, entry->description.channel_width};
+    batch = entry->create();
+    batch->Init(
+        {Parameters(TreeOf(parameters), entry->description.parameters), world.Space(), robots, StreamName(type)});
+  }
+  TestBatch(const TestBatch&) = delete;
+  TestBatch& operator=(const TestBatch&) = delete;
+
+  const ChannelView& Channel() const { return channel_; }
+
+  std::vector<double> values;
+  std::unique_ptr<Interface> batch;
+
+private:
+  std::vector<std::size_t> offsets_;
+  ChannelView channel_;
+};
+
+class TestSensor : public TestBatch<SensorBatch>
+{
+public:
+  using TestBatch::TestBatch;
+  void Update() { batch->Update(Channel()); }
+  template <class Device>
+  Device& Of(std::size_t k)
+  {
+    return dynamic_cast<Device&>(*batch->Sensor(k));
+  }
+};
+
+class TestActuator : public TestBatch<ActuatorBatch>
+{
+public:
+  using TestBatch::TestBatch;
+  // Channel values stand in `values`, attribute changes in `changes`.
+  void Commit()
+  {
+    changes.Clear();
+    batch->Commit(Channel(), changes);
+  }
+  template <class Device>
+  Device& Of(std::size_t k)
+  {
+    return dynamic_cast<Device&>(*batch->Actuator(k));
+  }
+  AttributeChanges changes;
+};
+
+}  // namespace swarmanoid
