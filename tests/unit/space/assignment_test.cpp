@@ -1,0 +1,169 @@
+#include "common/space/assignment.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/plugins/catalogue.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+// Two specific devices and a generic one, known to the catalogue of this program.
+void RegisterDevices()
+{
+  static const bool registered = []
+  {
+    const auto add = [](PluginKind kind, const char* label, const char* channel, int width)
+    {
+      PluginDescription description;
+      description.label = label;
+      description.implementation = "test";
+      description.channel = channel;
+      description.channel_width = width;
+      return PluginCatalogue::Instance().Add(kind, description);
+    };
+    return add(PluginKind::kActuator, "test_wheels", "test_wheels", 2) &&
+           add(PluginKind::kActuator, "test_leds", "", 0) && add(PluginKind::kSensor, "test_torque", "test_torque", 3);
+  }();
+  ASSERT_TRUE(registered);
+}
+
+EntityConfiguration Robot(const std::string& id, const std::string& controller)
+{
+  EntityConfiguration entity;
+  entity.kind = EntityKind::kFootbot;
+  entity.id = id;
+  entity.controller = controller;
+  entity.movable = true;
+  return entity;
+}
+
+// Robots 0, 2, 4 in engine 0 and 1, 3 in engine 1; robot 4 also mirrored in engine 1; 5 a wall in both; 6 a robot in no
+// engine.
+Experiment Mixed()
+{
+  RegisterDevices();
+  Experiment experiment;
+  ControllerConfiguration driver;
+  driver.id = "driver";
+  driver.actuators = {{"test_wheels", "test", {}}};
+  driver.sensors = {{"test_torque", "test", {}}};
+  ControllerConfiguration blinker;
+  blinker.id = "blinker";
+  blinker.actuators = {{"test_wheels", "test", {}}, {"test_leds", "test", {}}};
+  experiment.controllers = {driver, blinker};
+  experiment.entities = {Robot("r0", "driver"), Robot("r1", "driver"), Robot("r2", "driver"), Robot("r3", "blinker"),
+                         Robot("r4", "driver"), EntityConfiguration{}, Robot("r6", "blinker")};
+  experiment.engines.resize(2);
+  experiment.engines[0].entities = {0, 2, 4, 5};
+  experiment.engines[1].entities = {1, 3, 4, 5};
+  return experiment;
+}
+
+TEST(Assignment, TheFirstEngineThatListsAnEntityOwnsIt)
+{
+  const Assignment assignment = MakeAssignment(Mixed(), 1);
+  EXPECT_THAT(assignment.owner, ElementsAre(0, 1, 0, 1, 0, -1, -1));
+  EXPECT_THAT(assignment.engines[0].owned, ElementsAre(0, 2, 4));
+  EXPECT_THAT(assignment.engines[1].owned, ElementsAre(1, 3));
+  EXPECT_THAT(assignment.engines[1].mirrored, ElementsAre(4));
+  EXPECT_THAT(assignment.engines[0].fixed, ElementsAre(5));
+  EXPECT_THAT(assignment.engines[1].fixed, ElementsAre(5));
+}
+
+TEST(Assignment, HostsFollowTheEngines)
+{
+  const Assignment assignment = MakeAssignment(Mixed(), 3);
+  // Ordered by owner: 6 (none), 0 2 4 (first engine), 1 3 (second).
+  EXPECT_THAT(assignment.hosts[0].robots, ElementsAre(0, 6));
+  EXPECT_THAT(assignment.hosts[1].robots, ElementsAre(2, 4));
+  EXPECT_THAT(assignment.hosts[2].robots, ElementsAre(1, 3));
+  EXPECT_THAT(assignment.engines[0].commands_from, ElementsAre(0, 1));
+  EXPECT_THAT(assignment.engines[1].commands_from, ElementsAre(2));
+}
+
+TEST(Assignment, OnlyHostsWithGenericActuatorsOrLooseRobotsReportToTheServer)
+{
+  const Assignment assignment = MakeAssignment(Mixed(), 3);
+  EXPECT_TRUE(assignment.hosts[0].reports_to_server);   // r6 is in no engine
+  EXPECT_FALSE(assignment.hosts[1].reports_to_server);  // wheels alone
+  EXPECT_TRUE(assignment.hosts[2].reports_to_server);   // r3 has LEDs
+}
+
+// Each robot's values written by its host arrive at its place in its engine, whatever the number of hosts.
+TEST(Assignment, EveryValueArrivesAtItsRobot)
+{
+  const Experiment experiment = Mixed();
+  for (const unsigned hosts : {1U, 2U, 3U, 7U, 100U})
+  {
+    const Assignment assignment = MakeAssignment(experiment, hosts);
+    ASSERT_LE(assignment.hosts.size(), 6U);
+    std::vector<std::vector<double>> messages;
+    for (const HostLayout& host : assignment.hosts)
+    {
+      std::vector<double> values(host.command_size, -1);
+      for (const ChannelBlock& block : host.commands)
+        for (std::size_t k = 0; k < block.entities.size(); ++k)
+          for (int w = 0; w < block.width; ++w)
+            values[block.offset + k * static_cast<std::size_t>(block.width) + static_cast<std::size_t>(w)] =
+                10.0 * block.entities[k] + w;
+      messages.push_back(std::move(values));
+    }
+    for (const EngineLayout& engine : assignment.engines)
+    {
+      std::vector<double> values(engine.command_size, -1);
+      for (const ValueCopy& copy : engine.command_copies)
+        std::copy_n(messages[copy.source].begin() + static_cast<std::ptrdiff_t>(copy.from), copy.count,
+                    values.begin() + static_cast<std::ptrdiff_t>(copy.to));
+      ASSERT_EQ(engine.commands.size(), 1U);
+      EXPECT_EQ(engine.commands[0].entities, engine.owned);
+      for (std::size_t k = 0; k < engine.owned.size(); ++k)
+        for (std::size_t w = 0; w < 2; ++w)
+          EXPECT_EQ(values[engine.commands[0].offset + 2 * k + w], 10.0 * engine.owned[k] + static_cast<double>(w));
+    }
+  }
+}
+
+TEST(Assignment, SensorValuesTravelTheOtherWay)
+{
+  const Assignment assignment = MakeAssignment(Mixed(), 2);
+  EXPECT_THAT(assignment.engines[0].sensors[0].entities, ElementsAre(0, 2, 4));
+  EXPECT_THAT(assignment.engines[1].sensors[0].entities, ElementsAre(1));
+  EXPECT_THAT(assignment.hosts[0].frames_from, ElementsAre(0));
+  EXPECT_THAT(assignment.hosts[1].frames_from, ElementsAre(0, 1));
+}
+
+TEST(Assignment, ContiguousValuesAreOneCopy)
+{
+  RegisterDevices();
+  Experiment experiment;
+  ControllerConfiguration driver;
+  driver.id = "driver";
+  driver.actuators = {{"test_wheels", "test", {}}};
+  experiment.controllers = {driver};
+  experiment.engines.resize(1);
+  for (std::uint32_t i = 0; i < 1000; ++i)
+  {
+    experiment.entities.push_back(Robot("r" + std::to_string(i), "driver"));
+    experiment.engines[0].entities.push_back(i);
+  }
+  const Assignment assignment = MakeAssignment(experiment, 4);
+  EXPECT_EQ(assignment.engines[0].command_copies.size(), 4U);
+}
+
+TEST(Assignment, AnExperimentWithoutRobotsHasOneIdleHost)
+{
+  const Experiment experiment;
+  const Assignment assignment = MakeAssignment(experiment, 4);
+  ASSERT_EQ(assignment.hosts.size(), 1U);
+  EXPECT_THAT(assignment.hosts[0].robots, IsEmpty());
+  EXPECT_FALSE(assignment.hosts[0].reports_to_server);
+}
+
+}  // namespace
+}  // namespace swarmanoid
