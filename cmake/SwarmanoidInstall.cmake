@@ -14,8 +14,17 @@ configure_package_config_file(cmake/SwarmanoidConfig.cmake.in ${CMAKE_BINARY_DIR
   INSTALL_DESTINATION ${PACKAGE_FOLDER})
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/SwarmanoidConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/SwarmanoidConfig.cmake ${CMAKE_BINARY_DIR}/SwarmanoidConfigVersion.cmake
-  DESTINATION ${PACKAGE_FOLDER})
+  cmake/SwarmanoidUser.cmake cmake/config.h.in DESTINATION ${PACKAGE_FOLDER})
 
+# User directories within the source tree build against the build folder, without installing.
+export(EXPORT SwarmanoidTargets NAMESPACE Swarmanoid:: FILE ${CMAKE_BINARY_DIR}/SwarmanoidTargets.cmake)
+configure_file(cmake/SwarmanoidUser.cmake ${CMAKE_BINARY_DIR}/SwarmanoidUser.cmake COPYONLY)
+configure_file(cmake/config.h.in ${CMAKE_BINARY_DIR}/config.h.in COPYONLY)
+
+# Experiments, and what a user copies.
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid)
-install(DIRECTORY user/ DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid/user
-  FILES_MATCHING REGEX "/(controllers|templates|user_scripts|behavior_toolkit)/")
+foreach(folder controllers templates)
+  install(DIRECTORY user/${folder} DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid/user
+    USE_SOURCE_PERMISSIONS PATTERN ".clang-format" EXCLUDE)
+endforeach()
+install(DIRECTORY user/user_scripts DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid/user USE_SOURCE_PERMISSIONS)

@@ -1,0 +1,34 @@
+# For those who write controllers, inside the source tree and outside it (find_package(Swarmanoid) includes this file).
+
+# swarmanoid_config_header(FOLDER): writes FOLDER/config.h, which tells a controller what it is compiled for.
+set(SWARMANOID_CONFIG_TEMPLATE ${CMAKE_CURRENT_LIST_DIR}/config.h.in)
+function(swarmanoid_config_header folder)
+  if(NOT DEFINED Swarmanoid_VERSION)
+    set(Swarmanoid_VERSION ${PROJECT_VERSION})
+  endif()
+  configure_file(${SWARMANOID_CONFIG_TEMPLATE} ${folder}/config.h @ONLY)
+endfunction()
+
+# swarmanoid_controller(NAME SOURCES... [LINK libs...]): the library libNAME.so, which an experiment names as library="NAME".
+function(swarmanoid_controller name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(${name} MODULE ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE Swarmanoid::control_interface ${ARG_LINK})
+endfunction()
+
+# swarmanoid_controllers(FOLDER OUTPUT): one such library for each folder of FOLDER that has .cpp files, put into the folder
+# OUTPUT. The names go into SWARMANOID_CONTROLLERS of the caller.
+function(swarmanoid_controllers folder output)
+  file(GLOB names CONFIGURE_DEPENDS RELATIVE ${folder} ${folder}/*)
+  set(controllers)
+  foreach(name IN LISTS names)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/${name}/*.cpp)
+    if(sources)
+      swarmanoid_controller(${name} SOURCES ${sources})
+      target_include_directories(${name} PRIVATE ${folder}/..)
+      set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${output})
+      list(APPEND controllers ${name})
+    endif()
+  endforeach()
+  set(SWARMANOID_CONTROLLERS ${controllers} PARENT_SCOPE)
+endfunction()
