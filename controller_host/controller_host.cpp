@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
-
+#include <sstream>
 
 namespace swarmanoid
 {
@@ -203,6 +202,33 @@ const ControlCommands& ControllerHost::Step(std::span<const SensorFrame* const> 
   for (Batches::Actuator& actuator : batches_->actuators)
     actuator.batch->Commit({commands_.values, actuator.slice.offsets, actuator.slice.width}, commands_.attributes);
   return commands_;
+}
+
+void ControllerHost::SaveState(ByteWriter& state) const
+{
+  for (const Robot& robot : robots_)
+  {
+    if (!robot.controller->HasState())
+      throw ControllerError("robot '" + robot.interface->GetId() +
+                            "': its controller cannot be saved; it must override HasState, " +
+                            "SaveState and LoadState");
+    std::ostringstream text;
+    robot.controller->SaveState(text);
+    state.PutText(text.str());
+  }
+  for (const Batches::Sensor& sensor : batches_->sensors) sensor.batch->SaveState(state);
+  for (const Batches::Actuator& actuator : batches_->actuators) actuator.batch->SaveState(state);
+}
+
+void ControllerHost::LoadState(ByteReader& state)
+{
+  for (Robot& robot : robots_)
+  {
+    std::istringstream text(state.GetText());
+    robot.controller->LoadState(text);
+  }
+  for (Batches::Sensor& sensor : batches_->sensors) sensor.batch->LoadState(state);
+  for (Batches::Actuator& actuator : batches_->actuators) actuator.batch->LoadState(state);
 }
 
 void ControllerHost::Destroy()

@@ -31,11 +31,16 @@ public:
   // Senses, runs the controllers and commits the actuators at the tick of the space. `frames`: one for each of
   // layout.frames_from, in that order; empty at tick 0. The result is valid until the next call.
   const ControlCommands& Step(std::span<const SensorFrame* const> frames);
+  // What controllers and devices remember. Saving throws ControllerError where a controller cannot be saved (HasState
+  // is false).
+  void SaveState(ByteWriter& state) const;
+  void LoadState(ByteReader& state);
   // Calls Destroy of every controller, once.
   void Destroy();
 
   const HostLayout& Layout() const { return layout_; }
-  // The robot whose control step runs now, empty between steps; readable from another thread to report a stuck controller.
+  // The robot whose control step runs now, empty between steps; readable from another thread to report a stuck
+  // controller.
   const char* RunningRobot() const { return running_robot_; }
 
 private:

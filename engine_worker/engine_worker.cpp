@@ -10,7 +10,8 @@ EngineWorker::EngineWorker(const CSwarmanoidSpace& space, const Assignment& assi
 {
   const EngineConfiguration& configuration = space.GetExperiment().engines[engine];
   const auto* entry = PluginRegistry<CPhysicsEngine>::Instance().Find(configuration.tag);
-  if (entry == nullptr) throw ConfigurationError(configuration.location, "no engine is registered as '" + configuration.tag + "'");
+  if (entry == nullptr)
+    throw ConfigurationError(configuration.location, "no engine is registered as '" + configuration.tag + "'");
   engine_ = entry->create();
   engine_->Init({configuration, Parameters(configuration.tree, entry->description.parameters), space, layout_});
   for (const std::uint32_t index : configuration.entities)
@@ -48,6 +49,19 @@ void EngineWorker::Step(std::span<const std::uint32_t> moved, std::span<const Co
   update_.attributes.Clear();
   engine_->Update({layout_.commands, command_values_}, update_, frame_.values);
   if (update_.tick % space_.GetExperiment().canonical_period == 0) engine_->Canonicalise();
+}
+
+void EngineWorker::SaveState(ByteWriter& state) const
+{
+  state.PutArray(frame_.values);
+  engine_->SaveState(state);
+}
+
+void EngineWorker::LoadState(ByteReader& state)
+{
+  frame_.values = state.GetArray<double>();
+  if (frame_.values.size() != layout_.sensor_size) throw std::runtime_error("saved state: it is of another experiment");
+  engine_->LoadState(state);
 }
 
 }  // namespace swarmanoid

@@ -19,11 +19,15 @@ public:
   EngineWorker(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t engine);
   ~EngineWorker();
 
-  // From the state in the space and the commands of its tick (one for each of layout.commands_from, in that order) to the
-  // update of the next tick. `moved`: SpaceState::moved. The results are valid until the next call.
+  // From the state in the space and the commands of its tick (one for each of layout.commands_from, in that order) to
+  // the update of the next tick. `moved`: SpaceState::moved. The results are valid until the next call.
   void Step(std::span<const std::uint32_t> moved, std::span<const ControlCommands* const> commands);
   const EngineUpdate& Update() const { return update_; }
   const SensorFrame& Sensors() const { return frame_; }
+
+  // The engine's state with its last sensor values, as of a tick at which engines are canonicalised.
+  void SaveState(ByteWriter& state) const;
+  void LoadState(ByteReader& state);
 
   CPhysicsEngine& Engine() { return *engine_; }
   const EngineLayout& Layout() const { return layout_; }

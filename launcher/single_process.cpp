@@ -14,6 +14,7 @@
 #include "common/space/assignment.h"
 #include "controller_host/controller_host.h"
 #include "engine_worker/engine_worker.h"
+#include "launcher/checkpoint.h"
 #include "space_server/space_server.h"
 #include "visualiser/visualiser.h"
 
@@ -76,12 +77,20 @@ RunSummary RunSingleProcess(const Experiment& experiment, const SingleProcessOpt
   std::vector<const EngineUpdate*> updates;
   for (const auto& engine : engines) updates.push_back(&engine->Update());
 
+  if (options.checkpoint_tick % experiment.canonical_period != 0)
+    throw std::runtime_error(
+        fmt::format("a checkpoint at tick {} is not possible: only every {} ticks (canonical_period)",
+                    options.checkpoint_tick, experiment.canonical_period));
+  if (!options.restore_file.empty()) LoadCheckpoint(options.restore_file, experiment, space, engines, host);
+
   RunSummary summary;
   summary.entities = space.Size();
   const Clock::time_point start = Clock::now();
   Clock::time_point reported = start;
   while (true)
   {
+    if (options.checkpoint_tick != 0 && space.GetTick() == options.checkpoint_tick)
+      SaveCheckpoint(options.checkpoint_file, experiment, space, engines, host);
     hash_log.Write(space);
     bool terminate = false;
     for (const auto& visualiser : visualisers) terminate |= visualiser->Draw();

@@ -18,6 +18,12 @@ struct SingleProcessOptions
   std::string hash_log;         // file for one hash a tick; empty: none
   double real_time_factor = 0;  // 0: as fast as possible
   bool visualisations = true;
+  // A checkpoint is written when this tick is reached; it must be a multiple of the experiment's canonical_period. 0:
+  // none.
+  std::uint64_t checkpoint_tick = 0;
+  std::string checkpoint_file;
+  // The checkpoint to go on from; empty: start at tick 0.
+  std::string restore_file;
   // Set from a signal handler: the run stops at the end of the tick.
   const std::atomic<bool>* stop = nullptr;
   // Called now and then (at most ten times a second) with the tick just finished.

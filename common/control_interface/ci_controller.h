@@ -32,7 +32,7 @@ public:
   virtual void Destroy() {}
 
   // Optional: all that the controller remembers between ticks, so that a run can go on from a checkpoint. A controller that
-  // leaves HasState false makes a run that cannot be restored, and restoring says so.
+  // remembers nothing overrides HasState alone; where it is left false, checkpoints of the run are refused.
   virtual bool HasState() const { return false; }
   virtual void SaveState(std::ostream&) const {}
   virtual void LoadState(std::istream&) {}

@@ -22,6 +22,8 @@ class CFootBotDiffusion : public CCI_Controller
 public:
   int Init(const TConfigurationTree t_tree) override;
   void ControlStep() override;
+  // Nothing is remembered between steps, so a run can be restored as it is.
+  bool HasState() const override { return true; }
 
 private:
   CCI_FootBotWheelsActuator* wheels_ = nullptr;
