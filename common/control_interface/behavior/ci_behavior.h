@@ -1,0 +1,41 @@
+// CCI_Behavior: a building block of controllers. It reads sensors from a robot state and writes actuator values into
+// it; the robot itself it never touches, so behaviours can be combined at will: one after the other (later ones
+// override) or each on a copy of the state.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <utility>
+
+namespace swarmanoid
+{
+
+template <class RobotState>
+class CCI_Behavior
+{
+public:
+  explicit CCI_Behavior(std::string name = "behavior") : name_(std::move(name)) {}
+  virtual ~CCI_Behavior() = default;
+  CCI_Behavior(const CCI_Behavior&) = delete;
+  CCI_Behavior& operator=(const CCI_Behavior&) = delete;
+
+  virtual void Init() {}
+  // Decides for one tick: reads `cRobotState` and writes actuator values into it.
+  virtual void Step(RobotState& cRobotState) = 0;
+  virtual void Destroy() {}
+
+  // What the behaviour remembers between ticks, its sub-behaviours included; needed only for runs with checkpoints.
+  virtual void SaveState(std::ostream&) const {}
+  virtual void LoadState(std::istream&) {}
+  // A few words for visualisers, such as the current state.
+  virtual std::string StatusText() const { return name_; }
+
+  const std::string& GetName() const { return name_; }
+
+private:
+  std::string name_;
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_Behavior;

@@ -1,0 +1,124 @@
+// FSM and State: finite state machines for behaviours. A state lists its transitions by input; inputs are values of
+// type T, often std::string ("preyFound"). The machine owns its states and remembers only the current one.
+//
+//   m_pcSearch = initializeState(this, SEARCH, "[SEARCH]");
+//   m_pcApproach = initializeState(this, APPROACH, "[APPROACH]");
+//   m_pcSearch->addTransition("found", m_pcApproach);
+//   setStartState(m_pcSearch);
+//   …
+//   input("found");
+#pragma once
+
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace swarmanoid
+{
+
+template <class T>
+class FSM;
+
+template <class T>
+class State
+{
+public:
+  State(FSM<T>* fsm, unsigned int id, std::string name) : fsm_(fsm), id_(id), name_(std::move(name)) {}
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  // On this input, the machine goes from here to `target`. Throws std::logic_error where the input leads elsewhere
+  // already or the target is of another machine.
+  void addTransition(const T& on, State* target)
+  {
+    if (target == nullptr || target->fsm_ != fsm_)
+      throw std::logic_error("state " + name_ + ": a transition must lead to a state of the same machine");
+    const auto [place, added] = transitions_.emplace(on, target);
+    if (!added && place->second != target)
+      throw std::logic_error("state " + name_ + ": one input leads to " + place->second->name_ + " and to " +
+                             target->name_);
+  }
+
+  unsigned int GetID() const { return id_; }
+  const std::string& GetName() const { return name_; }
+  // Where an input leads; this state itself where it has no transition for it.
+  State* Next(const T& on)
+  {
+    const auto found = transitions_.find(on);
+    return found == transitions_.end() ? this : found->second;
+  }
+
+private:
+  FSM<T>* fsm_;
+  unsigned int id_;
+  std::string name_;
+  std::map<T, State*> transitions_;
+};
+
+template <class T>
+class FSM
+{
+public:
+  FSM() = default;
+  virtual ~FSM() = default;
+  FSM(const FSM&) = delete;
+  FSM& operator=(const FSM&) = delete;
+
+  // The id and name of the current state. Throws std::logic_error before setStartState.
+  unsigned int GetStateID() const { return Current().GetID(); }
+  const std::string& GetStateName() const { return Current().GetName(); }
+  // Puts the machine into a state by its id, as when a saved run goes on. Throws std::out_of_range for an id that it
+  // does not have.
+  void RestoreState(unsigned int id)
+  {
+    for (const auto& state : states_)
+      if (state->GetID() == id)
+      {
+        current_ = state.get();
+        return;
+      }
+    throw std::out_of_range("the state machine has no state " + std::to_string(id));
+  }
+
+protected:
+  // A new state of the machine `fsm` (that is: this). Throws std::logic_error for an id that is taken.
+  State<T>* initializeState(FSM* fsm, unsigned int id, const std::string& name)
+  {
+    for (const auto& state : fsm->states_)
+      if (state->GetID() == id)
+        throw std::logic_error("state " + name + ": its id is that of state " + state->GetName());
+    fsm->states_.push_back(std::make_unique<State<T>>(fsm, id, name));
+    return fsm->states_.back().get();
+  }
+
+  void setStartState(State<T>* state) { current_ = state; }
+
+  // Takes the transition of the current state for this input; inputs without one, such as the empty string, leave it as
+  // it is. Returns whether the state changed.
+  bool input(const T& value)
+  {
+    Current();
+    State<T>* next = current_->Next(value);
+    const bool changed = next != current_;
+    current_ = next;
+    return changed;
+  }
+
+private:
+  const State<T>& Current() const
+  {
+    if (current_ == nullptr) throw std::logic_error("the state machine has no start state: call setStartState first");
+    return *current_;
+  }
+
+  std::vector<std::unique_ptr<State<T>>> states_;
+  State<T>* current_ = nullptr;
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::FSM;
+using swarmanoid::State;
