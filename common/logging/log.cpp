@@ -7,9 +7,9 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
 namespace swarmanoid
 {
@@ -71,7 +71,8 @@ void OpenLog(const LogSettings& settings)
     const std::string path = (std::filesystem::path(settings.folder) / (settings.process + ".log")).string();
     // Opened here first, because spdlog tries five times and then tells no cause.
     std::FILE* file = std::fopen(path.c_str(), "ab");
-    if (file == nullptr) throw std::runtime_error("cannot write the log " + path + ": " + std::strerror(errno));
+    if (file == nullptr)
+      throw std::runtime_error("cannot write the log " + path + ": " + std::generic_category().message(errno));
     std::fclose(file);
     auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path);
     sink->set_level(SpdlogLevel(settings.file_level));

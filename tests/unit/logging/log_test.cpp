@@ -1,5 +1,6 @@
 #include "common/logging/log.h"
 
+#include <gmock/gmock.h>
 #include <unistd.h>
 
 #include <filesystem>
