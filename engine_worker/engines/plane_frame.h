@@ -1,0 +1,62 @@
+// PlaneFrame: where the plane of a two-dimensional engine lies in the space. Maps poses both ways and cuts boxes. Used
+// by kinematics2d and dynamics2d, in their engine's process.
+#pragma once
+
+#include <vector>
+
+#include "common/math/pose.h"
+
+namespace swarmanoid
+{
+
+enum class PlaneAxis
+{
+  kX,
+  kY,
+  kZ
+};
+
+// A pose within the plane: metres along its axes u and v, radians from u towards v.
+struct PlanePose
+{
+  double u = 0;
+  double v = 0;
+  double heading = 0;
+};
+
+// What a plane pose leaves out of a space pose: the signed distance from the plane (m), and the lean that comes before
+// the heading. Zero and identity for what stands upright on the plane.
+struct PlaneStance
+{
+  double height = 0;
+  Quaternion lean = Quaternion::Identity();
+};
+
+class PlaneFrame
+{
+public:
+  // The plane perpendicular to an axis, at a signed distance (m) from the origin. Its axes (u, v, normal) are,
+  // right-handed: z: (x, y, z), x: (y, z, x), y: (z, x, y).
+  PlaneFrame(PlaneAxis axis, double distance);
+  // Any plane: the x, y of the frame are u, v, and its z is the normal.
+  explicit PlaneFrame(const Pose& frame) : frame_(frame), inverse_(frame.Inverse()) {}
+
+  const Pose& Frame() const { return frame_; }
+
+  PlanePose ToPlane(const Pose& pose) const;
+  PlaneStance StanceOf(const Pose& pose) const;
+  // ToSpace(ToPlane(p), StanceOf(p)) is p, but for rounding.
+  Pose ToSpace(const PlanePose& pose, const PlaneStance& stance = {}) const;
+
+  // The convex polygon, counter-clockwise in (u, v), in which the plane cuts a box with edges `size` about the centre
+  // `pose`; empty where it does not. A box that only rests on the plane is cut by it too.
+  std::vector<Vector2> CutBox(const Pose& pose, const Vector3& size) const;
+  // True where the plane cuts the upright cylinder or robot that is `height` metres high and has its base at `pose`.
+  bool CutsUpright(const Pose& pose, double height) const;
+
+private:
+  Pose frame_;
+  Pose inverse_;
+};
+
+}  // namespace swarmanoid
