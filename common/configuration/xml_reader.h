@@ -1,0 +1,35 @@
+// Reading XML text into a configuration tree whose elements and attributes know their line and column. Made for files
+// from anywhere: it refuses document types and entities of their own, and more than the limits allow, before it builds
+// anything.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "common/configuration/configuration_tree.h"
+
+namespace swarmanoid
+{
+
+struct XmlLimits
+{
+  std::size_t bytes = std::size_t{64} << 20U;
+  int depth = 64;  // elements within elements
+  std::size_t elements = 2'000'000;
+  std::size_t attributes = 8'000'000;  // of all elements
+  int attributes_of_one = 64;
+};
+
+// The root element. Throws ConfigurationError with file:line:col, at the first mistake of syntax.
+std::shared_ptr<const ConfigurationNode> ReadXml(std::string_view text, const std::string& file_name,
+                                                 const XmlLimits& limits = {});
+
+// The whole file; throws ConfigurationError where it cannot be read or is larger than the limit.
+std::string ReadTextFile(const std::string& path, std::size_t most_bytes = XmlLimits{}.bytes);
+
+// XML text of a tree, indented by two blanks. Reading it gives the same tree.
+std::string WriteXml(const ConfigurationNode& root);
+
+}  // namespace swarmanoid
