@@ -64,7 +64,9 @@ std::string SourceLocation::Text() const
 }
 
 ConfigurationError::ConfigurationError(const SourceLocation& location, const std::string& message)
-    : std::runtime_error(location.Text().empty() ? message : location.Text() + ": " + message)
+    : std::runtime_error(location.Text().empty() ? message : location.Text() + ": " + message),
+      location_(location),
+      message_(message)
 {
 }
 

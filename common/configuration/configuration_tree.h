@@ -31,7 +31,14 @@ class ConfigurationError : public std::runtime_error
 {
 public:
   ConfigurationError(const SourceLocation& location, const std::string& message);
-  explicit ConfigurationError(const std::string& message) : std::runtime_error(message) {}
+  explicit ConfigurationError(const std::string& message) : ConfigurationError(SourceLocation{}, message) {}
+
+  const SourceLocation& Location() const { return location_; }
+  const std::string& Message() const { return message_; }  // without the place
+
+private:
+  SourceLocation location_;
+  std::string message_;
 };
 
 // One element as parsed. Built by the reader of the file, owned by the tree above it.

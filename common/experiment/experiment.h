@@ -55,10 +55,10 @@ struct EntityConfiguration
   std::string controller;  // robots: the id of the controller; empty for none
   // The size of the body in metres. Robots have fixed ones. Blocks: x, y, z. Cylinders: radius in x, height in z.
   Vector3 size = Vector3::Zero();
-  double mass_kg = 0;      // 0: the default of the kind
-  bool movable = false;    // robots and preys always; blocks only where asked
+  double mass_kg = 0;    // 0: the default of the kind
+  bool movable = false;  // robots and preys always; blocks only where asked
   std::uint32_t colour = 0xc0c0c0;
-  double intensity = 1;    // lights and sounds
+  double intensity = 1;     // lights and sounds
   TConfigurationTree tree;  // the element it came from
   SourceLocation location;
 };

@@ -1,0 +1,207 @@
+#include "common/experiment/body.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr double kTolerance = 1e-6;     // m
+constexpr double kParallel = 1 - 1e-9;  // of the cosine between two axes
+constexpr double kLeastCell = 0.05;     // m
+constexpr double kMostCells = 2e6;
+constexpr std::int64_t kMostCellsOfBody = 4096;
+constexpr std::size_t kMostEntries = 100'000'000;
+
+// Does the interval of two bodies about each other along an axis leave no gap? `axis` of any length.
+bool Apart(const Vector3& axis, const Eigen::Matrix3d& a, const Vector3& half_a, const Eigen::Matrix3d& b,
+           const Vector3& half_b, const Vector3& between)
+{
+  const double length = axis.norm();
+  if (length < 1e-9) return false;
+  const double reach_a = (a.transpose() * axis).cwiseAbs().dot(half_a);
+  const double reach_b = (b.transpose() * axis).cwiseAbs().dot(half_b);
+  return std::abs(between.dot(axis)) >= reach_a + reach_b - kTolerance * length;
+}
+
+// The separating axis test of two boxes: three face normals of each and the nine products of their edges.
+bool BoxesOverlap(const Body& a, const Vector3& half_a, const Body& b, const Vector3& half_b)
+{
+  const Eigen::Matrix3d axes_a = a.orientation.toRotationMatrix();
+  const Eigen::Matrix3d axes_b = b.orientation.toRotationMatrix();
+  const Vector3 between = b.centre - a.centre;
+  for (int i = 0; i < 3; ++i)
+  {
+    if (Apart(axes_a.col(i), axes_a, half_a, axes_b, half_b, between)) return false;
+    if (Apart(axes_b.col(i), axes_a, half_a, axes_b, half_b, between)) return false;
+    for (int j = 0; j < 3; ++j)
+    {
+      if (Apart(axes_a.col(i).cross(axes_b.col(j)), axes_a, half_a, axes_b, half_b, between)) return false;
+    }
+  }
+  return true;
+}
+
+// The box within a body.
+Vector3 InnerHalf(const Body& body)
+{
+  if (!body.cylinder) return body.half;
+  const double side = body.half.x() * std::sqrt(0.5);
+  return {side, side, body.half.z()};
+}
+
+// `cylinder` and `other` have parallel z axes.
+bool UprightOverlap(const Body& cylinder, const Body& other)
+{
+  const Vector3 local = other.orientation.conjugate() * (cylinder.centre - other.centre);
+  if (std::abs(local.z()) >= cylinder.half.z() + other.half.z() - kTolerance) return false;
+  const double radius = cylinder.half.x() - kTolerance;
+  const double reach = radius + other.half.x();
+  if (other.cylinder) return local.head<2>().squaredNorm() < reach * reach;
+  const double dx = std::max(0.0, std::abs(local.x()) - other.half.x());
+  const double dy = std::max(0.0, std::abs(local.y()) - other.half.y());
+  return dx * dx + dy * dy < radius * radius;
+}
+
+}  // namespace
+
+Vector3 Body::HalfExtent() const
+{
+  const Eigen::Matrix3d axes = orientation.toRotationMatrix();
+  return axes.cwiseAbs() * half;
+}
+
+Vector3 RobotSize(EntityKind kind)
+{
+  switch (kind)
+  {
+    case EntityKind::kFootbot:
+      return {0.085036758, 0.085036758, 0.146899733};
+    case EntityKind::kEyebot:
+      return {0.25, 0.25, 0.566};
+    case EntityKind::kHandbot:
+      return {0.22, 0.17, 0.16};
+    default:
+      return Vector3::Zero();
+  }
+}
+
+std::optional<Body> BodyOf(const EntityConfiguration& entity)
+{
+  Body body;
+  body.orientation = entity.pose.orientation;
+  bool based = false;  // the position is the centre of the base
+  switch (entity.kind)
+  {
+    case EntityKind::kFootbot:
+    case EntityKind::kEyebot:
+    case EntityKind::kCylindricPrey:
+      body.cylinder = true;
+      body.half = {entity.size.x(), entity.size.x(), entity.size.z() / 2};
+      based = true;
+      break;
+    case EntityKind::kHandbot:
+      body.half = entity.size / 2;
+      based = true;
+      break;
+    case EntityKind::kBlock:
+    case EntityKind::kWall:
+      body.half = entity.size / 2;
+      break;
+    default:
+      return std::nullopt;
+  }
+  body.centre = based ? entity.pose.Apply({0, 0, body.half.z()}) : entity.pose.position;
+  return body;
+}
+
+bool Overlap(const Body& a, const Body& b)
+{
+  const double reach = a.half.norm() + b.half.norm();
+  if ((a.centre - b.centre).squaredNorm() >= reach * reach) return false;
+  const bool cylinders = a.cylinder || b.cylinder;
+  const double parallel = std::abs((a.orientation * Vector3::UnitZ()).dot(b.orientation * Vector3::UnitZ()));
+  if (cylinders && parallel > kParallel) return a.cylinder ? UprightOverlap(a, b) : UprightOverlap(b, a);
+  return BoxesOverlap(a, InnerHalf(a), b, InnerHalf(b));
+}
+
+BodyGrid::BodyGrid(const Vector3& arena_size, double cell) : edge_(std::max(cell, kLeastCell))
+{
+  const auto counts = [&](double edge) -> Vector3 { return (arena_size / edge).array().ceil().max(1.0); };
+  while (counts(edge_).prod() > kMostCells) edge_ *= 1.25;
+  count_ = counts(edge_).cast<int>();
+  heads_.assign(static_cast<std::size_t>(count_.prod()), -1);
+}
+
+BodyGrid::CellRange BodyGrid::CellsOf(const Body& body) const
+{
+  const Vector3 half = body.HalfExtent();
+  const auto cell = [&](const Vector3& point) -> Eigen::Vector3i
+  {
+    // Clamped before the conversion: a position may be anywhere.
+    const Vector3 last = (count_.cast<double>().array() - 1).matrix();
+    return (point / edge_).array().floor().max(0.0).min(last.array()).matrix().cast<int>();
+  };
+  return {cell(body.centre - half), cell(body.centre + half)};
+}
+
+std::size_t BodyGrid::CellIndex(int x, int y, int z) const
+{
+  return static_cast<std::size_t>((z * count_.y() + y) * count_.x() + x);
+}
+
+void BodyGrid::Add(const Body& body, std::uint32_t name)
+{
+  const auto number = static_cast<std::uint32_t>(bodies_.size());
+  bodies_.push_back(body);
+  names_.push_back(name);
+  const CellRange cells = CellsOf(body);
+  const Eigen::Matrix<std::int64_t, 3, 1> extent = (cells.last - cells.first).cast<std::int64_t>().array() + 1;
+  if (extent.prod() > kMostCellsOfBody || entries_.size() > kMostEntries)
+  {
+    large_.push_back(number);
+    return;
+  }
+  for (int z = cells.first.z(); z <= cells.last.z(); ++z)
+  {
+    for (int y = cells.first.y(); y <= cells.last.y(); ++y)
+    {
+      for (int x = cells.first.x(); x <= cells.last.x(); ++x)
+      {
+        std::int32_t& head = heads_[CellIndex(x, y, z)];
+        entries_.push_back({number, head});
+        head = static_cast<std::int32_t>(entries_.size() - 1);
+      }
+    }
+  }
+}
+
+std::optional<std::uint32_t> BodyGrid::Find(const Body& body) const
+{
+  for (const std::uint32_t other : large_)
+  {
+    if (Overlap(bodies_[other], body)) return names_[other];
+  }
+  const CellRange cells = CellsOf(body);
+  for (int z = cells.first.z(); z <= cells.last.z(); ++z)
+  {
+    for (int y = cells.first.y(); y <= cells.last.y(); ++y)
+    {
+      for (int x = cells.first.x(); x <= cells.last.x(); ++x)
+      {
+        for (std::int32_t entry = heads_[CellIndex(x, y, z)]; entry >= 0;
+             entry = entries_[static_cast<std::size_t>(entry)].next)
+        {
+          const std::uint32_t other = entries_[static_cast<std::size_t>(entry)].body;
+          if (Overlap(bodies_[other], body)) return names_[other];
+        }
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,264 @@
+// Placing the entities of <distribute>. Each entity draws from a random stream of its own, so that its place depends on
+// the seed, its index and the bodies that are there already, and on nothing else.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/configuration/wording.h"
+#include "common/experiment/body.h"
+#include "common/experiment/element_reader.h"
+#include "common/experiment/sections.h"
+#include "common/math/elementary.h"
+#include "common/math/random.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+Vector3 DrawUniform(RandomStream& random, const Vector3& low, const Vector3& high)
+{
+  const double x = random.Uniform(low.x(), high.x());
+  const double y = random.Uniform(low.y(), high.y());
+  const double z = random.Uniform(low.z(), high.z());
+  return {x, y, z};
+}
+
+Vector3 DrawGaussian(RandomStream& random, const Vector3& mean, const Vector3& deviation)
+{
+  const double x = random.Gaussian(mean.x(), deviation.x());
+  const double y = random.Gaussian(mean.y(), deviation.y());
+  const double z = random.Gaussian(mean.z(), deviation.z());
+  return {x, y, z};
+}
+
+// How the positions of one <distribute> are chosen.
+class Positions
+{
+public:
+  Positions(const TConfigurationTree& tree, const ElementSpec& spec, std::size_t count,
+            const EntityConfiguration& entity, Reading& reading)
+      : tree_(tree), reader_(tree_, spec, reading.diagnostics), method_(reader_.Text("method"))
+  {
+    const Vector3& arena = reading.experiment.arena_size;
+    const auto body = BodyOf(entity);
+    // The least distance from the edges of the floor that holds at every heading, and the height of a body that stands
+    // on it.
+    const double margin = body ? body->half.head<2>().norm() * (body->cylinder ? std::sqrt(0.5) : 1.0) : 0.0;
+    const double height = body ? body->half.z() - body->centre.z() : 0.0;
+    const Vector3 middle(arena.x() / 2, arena.y() / 2, height);
+
+    low_ = Given("min", {margin, margin, height});
+    high_ = Given("max", {arena.x() - margin, arena.y() - margin, low_.z()});
+    mean_ = Given("mean", middle);
+    deviation_ = reader_.Vector("deviation");
+
+    const double columns = std::ceil(std::sqrt(static_cast<double>(count)));
+    const Vector3 layout = Given("layout", {columns, std::ceil(static_cast<double>(count) / columns), 1});
+    const Vector3 spacing = Given("spacing", {arena.x() / layout.x(), arena.y() / layout.y(), 0});
+    const Vector3 centre = Given("centre", middle);
+    layout_ = {std::llround(layout.x()), std::llround(layout.y()), std::llround(layout.z())};
+    spacing_ = spacing;
+    first_ = centre - 0.5 * (layout - Vector3::Ones()).cwiseProduct(spacing);
+    Check(count, arena, reading);
+  }
+
+  // Whether another draw may give another place.
+  bool IsRandom() const { return method_ != "grid"; }
+
+  Vector3 Draw(std::size_t i, RandomStream& random) const
+  {
+    if (method_ == "gaussian") return DrawGaussian(random, mean_, deviation_);
+    if (method_ != "grid") return DrawUniform(random, low_, high_);
+    const auto number = static_cast<std::int64_t>(i);
+    const Vector3 step(static_cast<double>(number % layout_.x()),
+                       static_cast<double>(number / layout_.x() % layout_.y()),
+                       static_cast<double>(number / layout_.x() / layout_.y()));
+    return first_ + step.cwiseProduct(spacing_);
+  }
+
+private:
+  Vector3 Given(const char* name, const Vector3& fallback) const
+  {
+    return reader_.IsGood(name) ? reader_.Vector(name) : fallback;
+  }
+
+  void Check(std::size_t count, const Vector3& arena, Reading& reading)
+  {
+    if (!reader_.IsGood("method") && reader_.IsGiven("method")) return;
+    if (method_ == "uniform")
+    {
+      constexpr double kSlack = 1e-9;
+      const bool inside = (low_.array() >= -kSlack).all() && ((arena - high_).array() >= -kSlack).all();
+      const bool ordered = ((high_ - low_).array() >= 0).all();
+      if (inside && ordered) return;
+      reading.diagnostics.Add(tree_.Location(), fmt::format("the box of the positions reaches from {}, {}, {} to {}, "
+                                                            "{}, {} m; it must lie within the arena of {}, {}, {} m",
+                                                            low_.x(), low_.y(), low_.z(), high_.x(), high_.y(),
+                                                            high_.z(), arena.x(), arena.y(), arena.z()));
+    }
+    else if (method_ == "grid")
+    {
+      const std::int64_t points = layout_.prod();
+      if (points >= static_cast<std::int64_t>(count)) return;
+      reader_.Fail("layout", fmt::format("a grid of {} x {} x {} has {} points; {} are needed", layout_.x(),
+                                         layout_.y(), layout_.z(), points, count));
+      layout_.z() = static_cast<std::int64_t>(count);
+    }
+  }
+
+  TConfigurationTree tree_;
+  ElementReader reader_;
+  std::string method_;
+  Vector3 low_, high_, mean_, deviation_, first_, spacing_;
+  Eigen::Matrix<std::int64_t, 3, 1> layout_;
+};
+
+class Orientations
+{
+public:
+  Orientations(const TConfigurationTree& tree, const ElementSpec& spec, Diagnostics& diagnostics)
+  {
+    const ElementReader reader(tree, spec, diagnostics);
+    method_ = reader.Text("method");
+    const bool gaussian = method_ == "gaussian";
+    a_ = reader.Vector(gaussian ? "mean" : method_ == "constant" ? "value" : "min");
+    b_ = reader.Vector(gaussian ? "deviation" : "max");
+  }
+
+  Quaternion Draw(RandomStream& random) const
+  {
+    Vector3 degrees = a_;
+    if (method_ == "gaussian") degrees = DrawGaussian(random, a_, b_);
+    if (method_ == "uniform") degrees = DrawUniform(random, a_, b_);
+    return QuaternionFromEuler(
+        {DegreesToRadians(degrees.x()), DegreesToRadians(degrees.y()), DegreesToRadians(degrees.z())});
+  }
+
+private:
+  std::string method_;
+  Vector3 a_, b_;
+};
+
+class Placer
+{
+public:
+  Placer(const Vector3& arena, Reading& reading) : reading_(reading), arena_(arena), grid_(arena, 0.25) {}
+
+  void AddPlaced(std::size_t first, std::size_t last)
+  {
+    for (std::size_t i = first; i < last; ++i)
+    {
+      const EntityConfiguration& entity = reading_.experiment.entities[i];
+      const auto body = BodyOf(entity);
+      if (body && entity.size.minCoeff() > 0) grid_.Add(*body, static_cast<std::uint32_t>(i));
+    }
+  }
+
+  // False, and a report, where they do not fit.
+  bool Place(const Distribution& distribution)
+  {
+    const ElementSpec& spec = ExperimentSchema().Child("arena").Child("distribute");
+    auto& entities = reading_.experiment.entities;
+    const TConfigurationTree position = distribution.tree.Child("position");
+    const TConfigurationTree orientation = distribution.tree.Child("orientation");
+    if (distribution.count == 0) return true;
+    const Positions positions(position, spec.Child("position"), distribution.count, entities[distribution.first],
+                              reading_);
+    const Orientations orientations(orientation, spec.Child("orientation"), reading_.diagnostics);
+    if (reading_.diagnostics.Count() != mistakes) return false;
+    for (std::size_t i = 0; i < distribution.count; ++i)
+    {
+      if (PlaceOne(distribution, i, positions, orientations)) continue;
+      Report(distribution, i, positions.IsRandom());
+      return false;
+    }
+    return true;
+  }
+
+private:
+  bool PlaceOne(const Distribution& distribution, std::size_t i, const Positions& positions,
+                const Orientations& orientations)
+  {
+    const std::size_t index = distribution.first + i;
+    EntityConfiguration& entity = reading_.experiment.entities[index];
+    RandomStream random(reading_.experiment.seed, static_cast<std::uint32_t>(index), StreamName("placement"), 0);
+    const long long trials = positions.IsRandom() ? distribution.max_trials : 1;
+    for (long long trial = 0; trial < trials; ++trial)
+    {
+      entity.pose.orientation = orientations.Draw(random);
+      entity.pose.position = positions.Draw(i, random);
+      const auto body = BodyOf(entity);
+      if (!Inside(entity.pose.position, body) || (body && grid_.Find(*body))) continue;
+      if (body) grid_.Add(*body, static_cast<std::uint32_t>(index));
+      return true;
+    }
+    return false;
+  }
+
+  // The position within the arena, and no part of the body over the edge of the floor.
+  bool Inside(const Vector3& position, const std::optional<Body>& body) const
+  {
+    constexpr double kSlack = 1e-9;
+    if ((position.array() < -kSlack).any() || ((arena_ - position).array() < -kSlack).any()) return false;
+    if (!body) return true;
+    const Vector3 half = body->HalfExtent();
+    for (Eigen::Index axis = 0; axis < 2; ++axis)
+    {
+      if (body->centre[axis] - half[axis] < -kSlack || body->centre[axis] + half[axis] > arena_[axis] + kSlack)
+        return false;
+    }
+    return true;
+  }
+
+  void Report(const Distribution& distribution, std::size_t i, bool random)
+  {
+    const EntityConfiguration& entity = reading_.experiment.entities[distribution.first + i];
+    const std::string tried =
+        random ? fmt::format("no free place in {} trials", distribution.max_trials)
+               : fmt::format("its point of the grid at {}, {}, {} is taken or outside the arena",
+                             entity.pose.position.x(), entity.pose.position.y(), entity.pose.position.z());
+    const char* cure =
+        random ? "lower the quantity, enlarge the region or raise max_trials" : "widen the spacing or move the centre";
+    reading_.diagnostics.Add(distribution.tree.Location(),
+                             fmt::format("the {} '{}' does not fit after {} of {} were placed: {}; {}",
+                                         TagName(entity.kind), entity.id, i, distribution.count, tried, cure));
+  }
+
+  Reading& reading_;
+  Vector3 arena_;
+  BodyGrid grid_;
+};
+
+// Their poses mean nothing: no later check may take them for places.
+void Unplace(const Distribution& distribution, std::vector<EntityConfiguration>& entities)
+{
+  for (std::size_t i = 0; i < distribution.count; ++i)
+  {
+    entities[distribution.first + i].pose.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+}  // namespace
+
+void PlaceDistributed(const std::vector<Distribution>& distributions, Reading& reading)
+{
+  const Vector3& arena = reading.experiment.arena_size;
+  if (distributions.empty() || !(arena.minCoeff() > 0)) return;
+  Placer placer(arena, reading);
+  std::size_t next = 0;
+  for (const Distribution& distribution : distributions)
+  {
+    placer.AddPlaced(next, distribution.first);
+    next = distribution.first + distribution.count;
+  }
+  placer.AddPlaced(next, reading.experiment.entities.size());
+  for (const Distribution& distribution : distributions)
+  {
+    if (!placer.Place(distribution)) Unplace(distribution, reading.experiment.entities);
+  }
+}
+
+}  // namespace swarmanoid

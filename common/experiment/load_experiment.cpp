@@ -1,0 +1,125 @@
+#include "common/experiment/load_experiment.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "common/configuration/wording.h"
+#include "common/configuration/xml_reader.h"
+#include "common/experiment/element_reader.h"
+#include "common/experiment/sections.h"
+#include "common/experiment/settings.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+using Node = std::shared_ptr<const ConfigurationNode>;
+
+LoadedExperiment Refused(std::vector<Diagnostic> errors)
+{
+  LoadedExperiment loaded;
+  loaded.errors = std::move(errors);
+  return loaded;
+}
+
+LoadedExperiment Refused(const ConfigurationError& error)
+{
+  return Refused(std::vector<Diagnostic>{{error.Location(), error.Message()}});
+}
+
+// The name goes into folders and topics: only characters of ids stay.
+std::string NameOfFile(const std::string& file_name)
+{
+  std::string name = fs::path(file_name).stem().string().substr(0, 64);
+  for (char& c : name)
+  {
+    if (!IsIdCharacter(c)) c = '_';
+  }
+  if (name.empty()) return "experiment";
+  if (name.front() == '.' || name.front() == '-' || name.front() == ':') name.front() = '_';
+  return name;
+}
+
+Node WithSettings(Node root, const LoadOptions& options, Diagnostics& diagnostics)
+{
+  for (const auto& [path, value] : options.settings)
+  {
+    try
+    {
+      root = WithSetting(root, path, value);
+    }
+    catch (const ConfigurationError& error)
+    {
+      diagnostics.Add(error.Location(), error.Message());
+    }
+  }
+  return root;
+}
+
+void ReadSections(const TConfigurationTree& root, Reading& reading)
+{
+  const ElementReader reader(root, ExperimentSchema(), reading.diagnostics);
+  ReadFramework(root.Child("framework"), reading);
+  ReadControllers(root.Child("controllers"), reading);
+  ReadArena(root.Child("arena"), reading);
+  ReadEngines(root.Child("engines"), reading);
+  ReadArenaPhysics(root.Child("arena_physics"), reading);
+  ReadVisualisations(root.Child("visualisations"), reading);
+  CheckControllersOfRobots(reading);
+  CheckDevicesOfEngines(reading);
+  CheckOverlaps(reading);
+}
+
+}  // namespace
+
+LoadedExperiment LoadExperimentText(const std::string& text, const std::string& file_name, const std::string& folder,
+                                    const LoadOptions& options)
+{
+  Diagnostics diagnostics;
+  try
+  {
+    const Node file_root = ReadXml(text, file_name);
+    if (file_root->name != ExperimentSchema().Name())
+    {
+      return Refused(
+          std::vector<Diagnostic>{{file_root->location, fmt::format("the root element is <{}>; it must be <{}>",
+                                                                    file_root->name, ExperimentSchema().Name())}});
+    }
+    const Node root = WithSettings(file_root, options, diagnostics);
+    auto experiment = std::make_unique<Experiment>();
+    experiment->name = NameOfFile(file_name);
+    experiment->folder = folder;
+    Reading reading{*experiment, diagnostics, options};
+    ReadSections(TConfigurationTree(root), reading);
+    if (!diagnostics.Empty()) return Refused(diagnostics.Take());
+
+    // Whoever reads the text elsewhere finds the same name and folder.
+    const Node named =
+        WithSetting(WithSetting(root, "framework.name", experiment->name), "framework.folder", experiment->folder);
+    experiment->effective_xml = WriteXml(*named);
+    return {std::move(experiment), {}};
+  }
+  catch (const ConfigurationError& error)
+  {
+    return Refused(error);
+  }
+}
+
+LoadedExperiment LoadExperimentFile(const std::string& path, const LoadOptions& options)
+{
+  try
+  {
+    const std::string text = ReadTextFile(path);
+    return LoadExperimentText(text, path, fs::absolute(fs::path(path)).parent_path().lexically_normal().string(),
+                              options);
+  }
+  catch (const ConfigurationError& error)
+  {
+    return Refused(error);
+  }
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,226 @@
+#include <fmt/format.h>
+
+#include <unordered_map>
+
+#include "common/configuration/wording.h"
+#include "common/experiment/body.h"
+#include "common/experiment/element_reader.h"
+#include "common/experiment/sections.h"
+#include "common/math/elementary.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+SpaceOptimization OptimizationOf(const std::string& text)
+{
+  if (text == "octree") return SpaceOptimization::kOctree;
+  return text == "3D" ? SpaceOptimization::k3D : SpaceOptimization::k2D;
+}
+
+Quaternion OrientationOf(const Vector3& degrees)
+{
+  return QuaternionFromEuler(
+      {DegreesToRadians(degrees.x()), DegreesToRadians(degrees.y()), DegreesToRadians(degrees.z())});
+}
+
+// A patch or hole: a rectangle (x, y, 0) or a disc (radius, 0, 0).
+Vector3 AreaSize(const ElementReader& reader, Reading& reading)
+{
+  const TConfigurationTree& tree = reader.Tree();
+  const bool rectangle = reader.IsGiven("size");
+  const bool disc = reader.IsGiven("radius");
+  if (rectangle && disc)
+  {
+    reading.diagnostics.Add(tree.ValueLocation("radius"),
+                            fmt::format("<{}> has a size and a radius; keep one", tree.Name()));
+  }
+  if (!rectangle && !disc)
+  {
+    reading.diagnostics.Add(
+        tree.Location(),
+        fmt::format("<{}> lacks its extent: give 'size' (\"x, y\" in m) or 'radius' (m)", tree.Name()));
+  }
+  return rectangle ? reader.Vector("size") : Vector3(reader.Number("radius"), 0, 0);
+}
+
+// All but id and pose.
+EntityConfiguration ReadEntityBody(const ElementReader& reader, const ElementSpec& spec, Reading& reading)
+{
+  EntityConfiguration entity;
+  entity.kind = *spec.entity;
+  entity.tree = reader.Tree();
+  entity.location = reader.Tree().Location();
+  entity.movable = IsRobot(entity.kind) || entity.kind == EntityKind::kCylindricPrey;
+  switch (entity.kind)
+  {
+    case EntityKind::kFootbot:
+    case EntityKind::kHandbot:
+    case EntityKind::kEyebot:
+      entity.controller = reader.Text("controller");
+      entity.size = RobotSize(entity.kind);
+      break;
+    case EntityKind::kBlock:
+      entity.size = reader.Vector("size");
+      entity.movable = reader.Boolean("movable");
+      entity.mass_kg = reader.Number("mass");
+      entity.colour = reader.Colour("colour");
+      break;
+    case EntityKind::kCylindricPrey:
+      entity.size = {reader.Number("radius"), reader.Number("radius"), reader.Number("height")};
+      entity.mass_kg = reader.Number("mass");
+      entity.colour = reader.Colour("colour");
+      break;
+    case EntityKind::kLightBulb:
+      entity.intensity = reader.Number("intensity");
+      entity.colour = reader.Colour("colour");
+      break;
+    case EntityKind::kSoundSource:
+      entity.intensity = reader.Number("intensity");
+      break;
+    case EntityKind::kGroundPatch:
+      entity.size = AreaSize(reader, reading);
+      entity.colour = reader.Colour("colour");
+      break;
+    case EntityKind::kHole:
+      entity.size = AreaSize(reader, reading);
+      entity.colour = 0;
+      break;
+    case EntityKind::kWall:
+      entity.size = reader.Vector("size");
+      entity.colour = reader.Colour("colour");
+      break;
+    case EntityKind::kTerrain:
+      break;
+  }
+  return entity;
+}
+
+void CheckInside(const ElementReader& reader, const std::string& id, const Vector3& position, Reading& reading)
+{
+  const Vector3& size = reading.experiment.arena_size;
+  constexpr double kSlack = 1e-9;
+  constexpr const char* kAxes[] = {"x", "y", "z"};
+  if (size.isZero()) return;  // reported already
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+  {
+    if (position[axis] >= -kSlack && position[axis] <= size[axis] + kSlack) continue;
+    reading.diagnostics.Add(reader.Place("position"),
+                            fmt::format("{} is outside the arena: {} is {} m; it must be from 0 to {} m", Quoted(id),
+                                        kAxes[axis], position[axis], size[axis]));
+    return;
+  }
+}
+
+class ArenaReader
+{
+public:
+  explicit ArenaReader(Reading& reading) : reading_(reading) {}
+
+  void Read(const TConfigurationTree& tree)
+  {
+    const ElementSpec& spec = ExperimentSchema().Child("arena");
+    const ElementReader reader(tree, spec, reading_.diagnostics);
+    Experiment& experiment = reading_.experiment;
+    experiment.arena_size = reader.Vector("size");
+    experiment.optimization = OptimizationOf(reader.Text("optimization"));
+    for (const TConfigurationTree& child : tree.Children())
+    {
+      const ElementSpec* element = spec.FindChild(child.Name());
+      if (element == nullptr) continue;  // reported already
+      if (element->entity)
+      {
+        ReadEntity(child, *element);
+      }
+      else
+      {
+        ReadDistribute(child, *element);
+      }
+    }
+    CheckIds();
+    PlaceDistributed(distributions_, reading_);
+  }
+
+private:
+  void ReadEntity(const TConfigurationTree& tree, const ElementSpec& spec)
+  {
+    const ElementReader reader(tree, spec, reading_.diagnostics);
+    EntityConfiguration entity = ReadEntityBody(reader, spec, reading_);
+    entity.id = reader.Text("id");
+    entity.pose.position = reader.Vector("position");
+    entity.pose.orientation = OrientationOf(reader.Vector("orientation"));
+    if (reader.IsGiven("id")) CheckId(entity.id, reader.Place("id"), reading_.diagnostics);
+    if (reader.IsGood("position")) CheckInside(reader, entity.id, entity.pose.position, reading_);
+    reading_.experiment.entities.push_back(std::move(entity));
+  }
+
+  void ReadDistribute(const TConfigurationTree& tree, const ElementSpec& spec)
+  {
+    const ElementReader reader(tree, spec, reading_.diagnostics);
+    std::vector<TConfigurationTree> entities;
+    for (const TConfigurationTree& child : tree.Children())
+    {
+      const ElementSpec* element = spec.FindChild(child.Name());
+      if (element != nullptr && element->entity) entities.push_back(child);
+    }
+    if (entities.size() != 1)
+    {
+      reading_.diagnostics.Add(tree.Location(),
+                               fmt::format("<distribute> must hold one entity element such as <footbot "
+                                           "id=\"fb\"/>; it holds {}",
+                                           entities.size()));
+      return;
+    }
+
+    const TConfigurationTree& entity_tree = entities.front();
+    const ElementSpec& entity_spec = *spec.FindChild(entity_tree.Name());
+    const ElementReader entity_reader(entity_tree, entity_spec, reading_.diagnostics);
+    EntityConfiguration entity = ReadEntityBody(entity_reader, entity_spec, reading_);
+    const std::string id = entity_reader.Text("id");
+    if (entity_reader.IsGiven("id")) CheckId(id, entity_reader.Place("id"), reading_.diagnostics);
+
+    auto& all = reading_.experiment.entities;
+    const auto count = static_cast<std::size_t>(reader.Integer("quantity"));
+    if (all.size() + count > kMostEntities)
+    {
+      reading_.diagnostics.Add(reader.Place("quantity"),
+                               fmt::format("more than {} entities; lower the quantity", kMostEntities));
+      return;
+    }
+    distributions_.push_back({tree, all.size(), count, reader.Integer("max_trials")});
+    all.reserve(all.size() + count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      all.push_back(entity);
+      all.back().id = id + "_" + std::to_string(i);
+    }
+  }
+
+  void CheckIds()
+  {
+    std::unordered_map<std::string_view, const EntityConfiguration*> first_of_id;
+    const auto& entities = reading_.experiment.entities;
+    first_of_id.reserve(entities.size());
+    for (const EntityConfiguration& entity : entities)
+    {
+      const auto [first, is_first] = first_of_id.emplace(entity.id, &entity);
+      if (is_first || entity.id.empty()) continue;
+      reading_.diagnostics.Add(entity.tree.ValueLocation("id"),
+                               fmt::format("two entities have the id {}; the first is in line {}", Quoted(entity.id),
+                                           first->second->location.line));
+    }
+  }
+
+  Reading& reading_;
+  std::vector<Distribution> distributions_;
+};
+
+}  // namespace
+
+void ReadArena(const TConfigurationTree& tree, Reading& reading)
+{
+  if (tree.Exists()) ArenaReader(reading).Read(tree);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,171 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "common/configuration/wording.h"
+#include "common/experiment/element_reader.h"
+#include "common/experiment/sections.h"
+#include "common/plugins/library.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+std::vector<DeviceConfiguration> ReadDevices(const TConfigurationTree& tree, const ElementSpec& spec, Reading& reading)
+{
+  std::vector<DeviceConfiguration> devices;
+  if (!tree.Exists()) return devices;
+  const ElementReader list(tree, spec, reading.diagnostics);
+  std::map<std::string, int> lines;
+  for (const TConfigurationTree& device : tree.Children())
+  {
+    const PluginDescription* plugin = FindPlugin(*spec.plugins, device, reading);
+    // Without a description, which is reported, the other parameters cannot be judged.
+    if (plugin == nullptr) continue;
+    const ElementReader reader(device, spec.plugin_element.front(), reading.diagnostics, &plugin->parameters);
+    const auto [first, is_first] = lines.emplace(device.Name(), device.Location().line);
+    if (!is_first)
+    {
+      reading.diagnostics.Add(device.Location(), fmt::format("<{}> is listed twice; the first is in line {}",
+                                                             device.Name(), first->second));
+      continue;
+    }
+    devices.push_back({device.Name(), reader.Text("implementation"), device});
+  }
+  return devices;
+}
+
+void CheckController(const ControllerConfiguration& controller, const TConfigurationTree& tree, Reading& reading)
+{
+  const PluginCatalogue& catalogue = PluginCatalogue::Instance();
+  if (controller.library.empty())
+  {
+    if (catalogue.Find(PluginKind::kController, controller.tag) != nullptr) return;
+    const auto labels = catalogue.Labels(PluginKind::kController);
+    reading.diagnostics.Add(controller.location,
+                            fmt::format("the program holds no controller <{}>; give the library that does, as "
+                                        "library=\"name\"{}",
+                                        controller.tag, DidYouMean(controller.tag, labels)));
+    return;
+  }
+  const PluginLibrary& library = LoadPluginLibrary(controller.library, reading.experiment.controller_path);
+  if (!library.error.empty())
+  {
+    reading.diagnostics.Add(tree.ValueLocation("library"), library.error);
+    return;
+  }
+  std::vector<std::string> labels;
+  for (const auto& [kind, label] : library.registrations.labels)
+  {
+    if (kind == PluginKind::kController) labels.push_back(label);
+  }
+  if (std::find(labels.begin(), labels.end(), controller.tag) != labels.end()) return;
+  reading.diagnostics.Add(controller.location,
+                          fmt::format("the library {} registers no controller <{}>; it registers: {}{}", library.path,
+                                      controller.tag, Listed(labels), DidYouMean(controller.tag, labels)));
+}
+
+ControllerConfiguration ReadController(const TConfigurationTree& tree, Reading& reading)
+{
+  const ElementSpec& spec = ExperimentSchema().Child("controllers").plugin_element.front();
+  const ElementReader reader(tree, spec, reading.diagnostics);
+  ControllerConfiguration controller;
+  controller.tag = tree.Name();
+  controller.id = reader.Text("id");
+  controller.library = reader.Text("library");
+  controller.parameters = tree.Child("parameters");
+  controller.location = tree.Location();
+  if (reader.IsGiven("id")) CheckId(controller.id, reader.Place("id"), reading.diagnostics);
+  controller.actuators = ReadDevices(tree.Child("actuators"), spec.Child("actuators"), reading);
+  controller.sensors = ReadDevices(tree.Child("sensors"), spec.Child("sensors"), reading);
+  if (reading.options.check_controller_libraries) CheckController(controller, tree, reading);
+  return controller;
+}
+
+// The first robot of each kind that uses the controller, with the number of them.
+struct Use
+{
+  const EntityConfiguration* robot = nullptr;
+  std::size_t count = 0;
+};
+
+void CheckDevices(const std::vector<DeviceConfiguration>& devices, PluginKind kind,
+                  const ControllerConfiguration& controller, const std::map<EntityKind, Use>& uses, Reading& reading)
+{
+  for (const DeviceConfiguration& device : devices)
+  {
+    const PluginDescription* plugin = PluginCatalogue::Instance().Find(kind, device.type, device.implementation);
+    if (plugin == nullptr || plugin->robots.empty()) continue;
+    for (const auto& [robot_kind, use] : uses)
+    {
+      const std::string tag(TagName(robot_kind));
+      if (std::find(plugin->robots.begin(), plugin->robots.end(), tag) != plugin->robots.end()) continue;
+      const std::string more = use.count > 1 ? fmt::format(" and {} more {}s use", use.count - 1, tag) : " uses";
+      reading.diagnostics.Add(device.tree.Location(),
+                              fmt::format("the {} <{}> ({}) is for {} only, but the {} '{}'{} the controller '{}'",
+                                          PluginKindName(kind), device.type, device.implementation,
+                                          Listed(plugin->robots), tag, use.robot->id, more, controller.id));
+    }
+  }
+}
+
+}  // namespace
+
+void ReadControllers(const TConfigurationTree& tree, Reading& reading)
+{
+  if (!tree.Exists()) return;
+  const ElementReader list(tree, ExperimentSchema().Child("controllers"), reading.diagnostics);
+  std::map<std::string, int> lines;
+  for (const TConfigurationTree& child : tree.Children())
+  {
+    ControllerConfiguration controller = ReadController(child, reading);
+    const auto [first, is_first] = lines.emplace(controller.id, child.Location().line);
+    if (!is_first && !controller.id.empty())
+    {
+      reading.diagnostics.Add(
+          child.ValueLocation("id"),
+          fmt::format("two controllers have the id {}; the first is in line {}", Quoted(controller.id), first->second));
+    }
+    reading.experiment.controllers.push_back(std::move(controller));
+  }
+}
+
+void CheckControllersOfRobots(Reading& reading)
+{
+  const Experiment& experiment = reading.experiment;
+  std::vector<std::string> ids;
+  std::map<std::string, std::map<EntityKind, Use>> uses;
+  for (const ControllerConfiguration& controller : experiment.controllers)
+  {
+    ids.push_back(controller.id);
+    uses[controller.id];
+  }
+  const ConfigurationNode* reported = nullptr;
+  for (const EntityConfiguration& entity : experiment.entities)
+  {
+    if (entity.controller.empty()) continue;
+    const auto found = uses.find(entity.controller);
+    if (found != uses.end())
+    {
+      Use& use = found->second[entity.kind];
+      if (use.robot == nullptr) use.robot = &entity;
+      ++use.count;
+    }
+    else if (entity.tree.Node() != reported)
+    {
+      reported = entity.tree.Node();
+      reading.diagnostics.Add(entity.tree.ValueLocation("controller"),
+                              fmt::format("there is no controller with the id {}; there are: {}{}",
+                                          Quoted(entity.controller), Listed(ids), DidYouMean(entity.controller, ids)));
+    }
+  }
+  for (const ControllerConfiguration& controller : experiment.controllers)
+  {
+    CheckDevices(controller.actuators, PluginKind::kActuator, controller, uses[controller.id], reading);
+    CheckDevices(controller.sensors, PluginKind::kSensor, controller, uses[controller.id], reading);
+  }
+}
+
+}  // namespace swarmanoid

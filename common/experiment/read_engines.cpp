@@ -1,0 +1,359 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <unordered_map>
+
+#include "common/configuration/wording.h"
+#include "common/experiment/body.h"
+#include "common/experiment/element_reader.h"
+#include "common/experiment/sections.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+// Whether a text fits a pattern in which * stands for any characters and ? for one.
+bool FitsPattern(std::string_view text, std::string_view pattern)
+{
+  std::size_t t = 0, p = 0;
+  std::size_t star = std::string_view::npos, resume = 0;
+  while (t < text.size())
+  {
+    if (p < pattern.size() && pattern[p] == '*')
+    {
+      star = p++;
+      resume = t;
+    }
+    else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t]))
+    {
+      ++p;
+      ++t;
+    }
+    else if (star != std::string_view::npos)
+    {
+      p = star + 1;
+      t = ++resume;
+    }
+    else
+    {
+      return false;
+    }
+  }
+  while (p < pattern.size() && pattern[p] == '*') ++p;
+  return p == pattern.size();
+}
+
+bool CanSimulate(const PluginDescription& engine, EntityKind kind)
+{
+  return std::any_of(engine.entity_tags.begin(), engine.entity_tags.end(),
+                     [&](const std::string& tag) { return KindOfTag(tag) == kind; });
+}
+
+// Reads the entities of one engine.
+class MembersReader
+{
+public:
+  MembersReader(EngineConfiguration& engine, const PluginDescription* plugin,
+                const std::unordered_map<std::string_view, std::uint32_t>& index_of_id, Reading& reading)
+      : engine_(engine),
+        plugin_(plugin),
+        index_of_id_(index_of_id),
+        entities_(reading.experiment.entities),
+        reading_(reading),
+        member_(entities_.size(), false)
+  {
+  }
+
+  void Read(const TConfigurationTree& tree, const ElementSpec& spec)
+  {
+    for (const TConfigurationTree& child : tree.Children())
+    {
+      const ElementSpec* element = spec.FindChild(child.Name());
+      if (element == nullptr) continue;
+      const ElementReader reader(child, *element, reading_.diagnostics);
+      if (element->HasTag("all"))
+      {
+        AddAll(reader);
+      }
+      else if (reader.IsGiven("id"))
+      {
+        AddEntity(reader);
+      }
+    }
+    for (std::size_t i = 0; i < member_.size(); ++i)
+    {
+      if (member_[i]) engine_.entities.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+
+private:
+  void AddEntity(const ElementReader& reader)
+  {
+    const std::string id = reader.Text("id");
+    if (id.find_first_of("*?") != std::string::npos)
+    {
+      std::vector<std::uint32_t> fitting;
+      for (std::size_t i = 0; i < entities_.size(); ++i)
+      {
+        if (FitsPattern(entities_[i].id, id)) fitting.push_back(static_cast<std::uint32_t>(i));
+      }
+      if (fitting.empty()) reading_.diagnostics.Add(reader.Place("id"), fmt::format("no entity fits {}", Quoted(id)));
+      return AddSupported(fitting, reader.Place("id"));
+    }
+    const auto found = index_of_id_.find(id);
+    if (found == index_of_id_.end())
+    {
+      // The ids of a large arena are not all listed.
+      std::vector<std::string> ids;
+      for (const EntityConfiguration& entity : entities_)
+      {
+        if (ids.size() < 1000) ids.push_back(entity.id);
+      }
+      const std::string known = ids.size() <= 20 ? "; there are: " + Listed(ids) : "";
+      reading_.diagnostics.Add(reader.Place("id"),
+                               fmt::format("there is no entity {}{}{}", Quoted(id), known, DidYouMean(id, ids)));
+      return;
+    }
+    if (!named_.emplace(id, reader.Place("id").line).second)
+    {
+      reading_.diagnostics.Add(reader.Place("id"),
+                               fmt::format("{} is listed twice in the engine '{}'; the first is in line {}", Quoted(id),
+                                           engine_.id, named_[id]));
+      return;
+    }
+    AddSupported({found->second}, reader.Place("id"));
+  }
+
+  void AddAll(const ElementReader& reader)
+  {
+    const std::string tag = reader.Text("kind");
+    const auto kind = KindOfTag(tag);
+    std::vector<std::string> tags;
+    for (const ElementSpec& element : EntityElements()) tags.push_back(element.Name());
+    if (!tag.empty() && !kind)
+    {
+      reading_.diagnostics.Add(reader.Place("kind"), fmt::format("there is no kind of entity {}; known: {}{}",
+                                                                 Quoted(tag), Listed(tags), DidYouMean(tag, tags)));
+      return;
+    }
+    std::vector<std::uint32_t> fitting;
+    for (std::size_t i = 0; i < entities_.size(); ++i)
+    {
+      const bool wanted =
+          kind ? entities_[i].kind == *kind : plugin_ == nullptr || CanSimulate(*plugin_, entities_[i].kind);
+      if (wanted) fitting.push_back(static_cast<std::uint32_t>(i));
+    }
+    AddSupported(fitting, kind ? reader.Place("kind") : reader.Tree().Location());
+  }
+
+  // Reports the first of those that the engine cannot simulate.
+  void AddSupported(const std::vector<std::uint32_t>& fitting, const SourceLocation& place)
+  {
+    bool reported = false;
+    for (const std::uint32_t i : fitting)
+    {
+      const EntityConfiguration& entity = entities_[i];
+      if (plugin_ == nullptr || CanSimulate(*plugin_, entity.kind))
+      {
+        member_[i] = true;
+      }
+      else if (!reported)
+      {
+        reported = true;
+        reading_.diagnostics.Add(
+            place, fmt::format("the engine '{}' ({}) cannot simulate the {} '{}'; it can: {}", engine_.id, engine_.tag,
+                               TagName(entity.kind), entity.id, Listed(plugin_->entity_tags)));
+      }
+    }
+  }
+
+  EngineConfiguration& engine_;
+  const PluginDescription* plugin_;
+  const std::unordered_map<std::string_view, std::uint32_t>& index_of_id_;
+  const std::vector<EntityConfiguration>& entities_;
+  Reading& reading_;
+  std::vector<bool> member_;
+  std::map<std::string, int> named_;
+};
+
+// Reports each channel that the robots of a controller need and their engine does not serve, once.
+void CheckChannels(const EngineConfiguration& engine, const PluginDescription& plugin,
+                   const ControllerConfiguration& controller, const EntityConfiguration& robot, Reading& reading)
+{
+  const auto check = [&](const std::vector<DeviceConfiguration>& devices, PluginKind kind)
+  {
+    for (const DeviceConfiguration& device : devices)
+    {
+      const PluginDescription* found = PluginCatalogue::Instance().Find(kind, device.type, device.implementation);
+      if (found == nullptr || found->channel.empty()) continue;
+      if (std::find(plugin.channels.begin(), plugin.channels.end(), found->channel) != plugin.channels.end()) continue;
+      reading.diagnostics.Add(
+          device.tree.Location(),
+          fmt::format(
+              "the {} <{}> ({}) of the robot '{}' needs '{}' from its engine, which '{}' ({}) does not offer; it "
+              "offers: {}. Use another implementation or another engine",
+              PluginKindName(kind), device.type, device.implementation, robot.id, found->channel, engine.id, engine.tag,
+              Listed(plugin.channels)));
+    }
+  };
+  check(controller.actuators, PluginKind::kActuator);
+  check(controller.sensors, PluginKind::kSensor);
+}
+
+}  // namespace
+
+void ReadEngines(const TConfigurationTree& tree, Reading& reading)
+{
+  if (!tree.Exists()) return;
+  const ElementSpec& spec = ExperimentSchema().Child("engines");
+  const ElementReader list(tree, spec, reading.diagnostics);
+  std::map<std::string, int> lines;
+  for (const TConfigurationTree& child : tree.Children())
+  {
+    const PluginDescription* plugin = FindPlugin(PluginKind::kEngine, child, reading);
+    const ElementReader reader(child, spec.plugin_element.front(), reading.diagnostics,
+                               plugin != nullptr ? &plugin->parameters : nullptr, plugin == nullptr);
+    EngineConfiguration engine;
+    engine.tag = child.Name();
+    engine.id = reader.Text("id");
+    engine.subclock = static_cast<int>(reader.Integer("subclock"));
+    engine.tree = child;
+    engine.location = child.Location();
+    if (reader.IsGiven("id")) CheckId(engine.id, reader.Place("id"), reading.diagnostics);
+    const auto [first, is_first] = lines.emplace(engine.id, child.Location().line);
+    if (!is_first && !engine.id.empty())
+    {
+      reading.diagnostics.Add(reader.Place("id"), fmt::format("two engines have the id {}; the first is in line {}",
+                                                              Quoted(engine.id), first->second));
+    }
+    reading.experiment.engines.push_back(std::move(engine));
+  }
+}
+
+void ReadArenaPhysics(const TConfigurationTree& tree, Reading& reading)
+{
+  if (!tree.Exists()) return;
+  const ElementSpec& spec = ExperimentSchema().Child("arena_physics");
+  const ElementReader list(tree, spec, reading.diagnostics);
+  Experiment& experiment = reading.experiment;
+
+  std::unordered_map<std::string_view, std::uint32_t> index_of_id;
+  index_of_id.reserve(experiment.entities.size());
+  for (std::size_t i = 0; i < experiment.entities.size(); ++i)
+  {
+    index_of_id.emplace(experiment.entities[i].id, static_cast<std::uint32_t>(i));
+  }
+  std::vector<std::string> ids;
+  for (const EngineConfiguration& engine : experiment.engines) ids.push_back(engine.id);
+
+  std::map<std::string, int> lines;
+  for (const TConfigurationTree& child : tree.Children())
+  {
+    if (!spec.FindChild(child.Name())) continue;
+    const ElementReader reader(child, spec.Child("engine"), reading.diagnostics);
+    if (!reader.IsGiven("id")) continue;
+    const std::string id = reader.Text("id");
+    const auto engine = std::find_if(experiment.engines.begin(), experiment.engines.end(),
+                                     [&](const EngineConfiguration& one) { return one.id == id; });
+    const auto [first, is_first] = lines.emplace(id, child.Location().line);
+    if (engine == experiment.engines.end())
+    {
+      reading.diagnostics.Add(reader.Place("id"), fmt::format("there is no engine {}; there are: {}{}", Quoted(id),
+                                                              Listed(ids), DidYouMean(id, ids)));
+    }
+    else if (!is_first)
+    {
+      reading.diagnostics.Add(reader.Place("id"),
+                              fmt::format("the entities of the engine {} are given twice; the first time in "
+                                          "line {}",
+                                          Quoted(id), first->second));
+    }
+    else
+    {
+      const PluginDescription* plugin = PluginCatalogue::Instance().Find(PluginKind::kEngine, engine->tag);
+      MembersReader(*engine, plugin, index_of_id, reading).Read(child, spec.Child("engine"));
+    }
+  }
+}
+
+void ReadVisualisations(const TConfigurationTree& tree, Reading& reading)
+{
+  if (!tree.Exists()) return;
+  const ElementSpec& spec = ExperimentSchema().Child("visualisations");
+  const ElementReader list(tree, spec, reading.diagnostics);
+  std::map<std::string, int> lines;
+  for (const TConfigurationTree& child : tree.Children())
+  {
+    const PluginDescription* plugin = FindPlugin(PluginKind::kRenderer, child, reading);
+    const ElementReader reader(child, spec.plugin_element.front(), reading.diagnostics,
+                               plugin != nullptr ? &plugin->parameters : nullptr, plugin == nullptr);
+    const std::string id = reader.Text("id");
+    if (reader.IsGiven("id")) CheckId(id, reader.Place("id"), reading.diagnostics);
+    const auto [first, is_first] = lines.emplace(id, child.Location().line);
+    if (!is_first && !id.empty())
+    {
+      reading.diagnostics.Add(
+          reader.Place("id"),
+          fmt::format("two visualisations have the id {}; the first is in line {}", Quoted(id), first->second));
+    }
+    reading.experiment.visualisations.push_back({child.Name(), id, child, child.Location()});
+  }
+}
+
+void CheckDevicesOfEngines(Reading& reading)
+{
+  const Experiment& experiment = reading.experiment;
+  std::vector<bool> owned(experiment.entities.size(), false);
+  for (const EngineConfiguration& engine : experiment.engines)
+  {
+    const PluginDescription* plugin = PluginCatalogue::Instance().Find(PluginKind::kEngine, engine.tag);
+    std::map<std::string, bool> checked;
+    for (const std::uint32_t i : engine.entities)
+    {
+      const EntityConfiguration& entity = experiment.entities[i];
+      const bool ours = !owned[i];
+      owned[i] = true;
+      if (!ours || plugin == nullptr || entity.controller.empty() || !checked.emplace(entity.controller, true).second)
+        continue;
+      const ControllerConfiguration* controller = experiment.FindController(entity.controller);
+      if (controller != nullptr) CheckChannels(engine, *plugin, *controller, entity, reading);
+    }
+  }
+}
+
+void CheckOverlaps(Reading& reading)
+{
+  const Experiment& experiment = reading.experiment;
+  if (!(experiment.arena_size.minCoeff() > 0)) return;
+  for (const EngineConfiguration& engine : experiment.engines)
+  {
+    BodyGrid grid(experiment.arena_size, 0.25);
+    const auto add = [&](bool movable)
+    {
+      for (const std::uint32_t i : engine.entities)
+      {
+        const EntityConfiguration& entity = experiment.entities[i];
+        if (entity.movable != movable) continue;
+        const auto body = BodyOf(entity);
+        if (!body || !(entity.size.minCoeff() > 0) || !entity.pose.position.allFinite()) continue;
+        // Furniture is made of blocks that overlap; only what moves must be free.
+        if (const auto other = movable ? grid.Find(*body) : std::nullopt)
+        {
+          const EntityConfiguration& there = experiment.entities[*other];
+          reading.diagnostics.Add(
+              entity.tree.ValueLocation("position"),
+              fmt::format("the {} '{}' overlaps the {} '{}' (line {}) in the engine '{}'; move one of them",
+                          TagName(entity.kind), entity.id, TagName(there.kind), there.id, there.location.line,
+                          engine.id));
+        }
+        grid.Add(*body, i);
+      }
+    };
+    add(false);
+    add(true);
+  }
+}
+
+}  // namespace swarmanoid

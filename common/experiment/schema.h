@@ -1,0 +1,56 @@
+// The table of experiment files: every element and parameter, declared once. The reader, the defaults, the error
+// messages, docs/experiment_reference.md and docs/experiment.xsd all come from it. Plug-ins bring tables of their own.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/configuration/parameter.h"
+#include "common/experiment/experiment.h"
+#include "common/plugins/catalogue.h"
+
+namespace swarmanoid
+{
+
+struct ElementSpec
+{
+  // The first tag is the name; the others are accepted for it. Empty for the elements of plug-ins, whose tags are
+  // labels.
+  std::vector<std::string> tags;
+  std::string description;
+  // Each may be written as an attribute or as a child element.
+  std::vector<ParameterSpec> parameters;
+  std::vector<ElementSpec> children;
+  bool required = false;
+  bool repeatable = false;
+  // Where set, registered labels of that kind are further child tags, and plugin_element (one) is what they have in
+  // common.
+  std::optional<PluginKind> plugins;
+  std::vector<ElementSpec> plugin_element;
+  std::optional<EntityKind> entity;
+
+  const std::string& Name() const { return tags.front(); }
+  bool HasTag(const std::string& tag) const;
+  // The child element of that tag or name, nullptr for none.
+  const ElementSpec* FindChild(const std::string& tag) const;
+  // The same for one that exists by construction of the table.
+  const ElementSpec& Child(const std::string& tag) const;
+};
+
+// The root element, <ahss-config>.
+const ElementSpec& ExperimentSchema();
+
+// The element of an entity in the arena and, without position and orientation, within <distribute>.
+const std::vector<ElementSpec>& EntityElements();
+const std::vector<ElementSpec>& DistributedEntityElements();
+
+// The most entities of one experiment.
+inline constexpr std::size_t kMostEntities = 2'000'000;
+// The least size of a body or arena, in metres.
+inline constexpr double kLeastSize = 1e-6;
+
+// The tag that stands for an entity kind, under any of its names ("cyllindric_prej"); nullopt for no kind.
+std::optional<EntityKind> KindOfTag(const std::string& tag);
+
+}  // namespace swarmanoid

@@ -1,0 +1,54 @@
+// The readers of the sections of an experiment file, in the order in which they are called. Used by LoadExperimentText.
+#pragma once
+
+#include <vector>
+
+#include "common/experiment/diagnostics.h"
+#include "common/experiment/experiment.h"
+#include "common/experiment/load_experiment.h"
+#include "common/plugins/catalogue.h"
+
+namespace swarmanoid
+{
+
+// What the readers share.
+struct Reading
+{
+  Experiment& experiment;
+  Diagnostics& diagnostics;
+  const LoadOptions& options;
+};
+
+void ReadFramework(const TConfigurationTree& tree, Reading& reading);
+void ReadControllers(const TConfigurationTree& tree, Reading& reading);
+void ReadArena(const TConfigurationTree& tree, Reading& reading);
+void ReadEngines(const TConfigurationTree& tree, Reading& reading);
+void ReadArenaPhysics(const TConfigurationTree& tree, Reading& reading);
+void ReadVisualisations(const TConfigurationTree& tree, Reading& reading);
+
+// Mistakes that only the whole experiment shows.
+void CheckControllersOfRobots(Reading& reading);
+void CheckDevicesOfEngines(Reading& reading);
+void CheckOverlaps(Reading& reading);
+
+// Reports an id of other than letters, digits and _ . : -, or longer than 64. `place`: of the id.
+bool IsIdCharacter(char c);
+bool CheckId(const std::string& id, const SourceLocation& place, Diagnostics& diagnostics);
+
+// The description of a plug-in that an element stands for, its library loaded first where `library` names one. nullptr,
+// and a report naming those that exist, where there is none.
+const PluginDescription* FindPlugin(PluginKind kind, const TConfigurationTree& tree, Reading& reading);
+
+// The number of bodies' places for placing (see distribute.h).
+struct Distribution
+{
+  TConfigurationTree tree;
+  std::size_t first = 0;  // index of its first entity
+  std::size_t count = 0;
+  long long max_trials = 0;
+};
+
+// Gives the entities of all <distribute> elements their poses, around all entities that have theirs already.
+void PlaceDistributed(const std::vector<Distribution>& distributions, Reading& reading);
+
+}  // namespace swarmanoid

@@ -1,0 +1,19 @@
+// The --set PATH=VALUE changes of an experiment, applied to its tree before it is checked. docs/experiment_files.md has
+// the syntax of PATH.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "common/configuration/configuration_tree.h"
+
+namespace swarmanoid
+{
+
+// The tree with the value at the path replaced or, where the last step of the path is not there, added. Elements that
+// are not on the path are shared with the old tree. Throws ConfigurationError where the path leads nowhere or to
+// several places.
+std::shared_ptr<const ConfigurationNode> WithSetting(const std::shared_ptr<const ConfigurationNode>& root,
+                                                     const std::string& path, const std::string& value);
+
+}  // namespace swarmanoid

@@ -1,0 +1,149 @@
+#include "common/plugins/library.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <string_view>
+
+#include "common/configuration/wording.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> FileNames(const std::string& name)
+{
+  if (name.ends_with(".so")) return {name};
+  return {"lib" + name + ".so", name + ".so"};
+}
+
+// All places where a library may be, in the order of the search.
+std::vector<std::string> Candidates(const std::string& name, const std::vector<std::string>& folders)
+{
+  std::vector<std::string> candidates;
+  if (name.find('/') != std::string::npos)
+  {
+    const fs::path path(name);
+    const fs::path base = path.is_absolute() || folders.empty() ? fs::path() : fs::path(folders.front());
+    for (const std::string& file : FileNames(path.filename().string()))
+    {
+      candidates.push_back((base / path.parent_path() / file).lexically_normal().string());
+    }
+    return candidates;
+  }
+  for (const std::string& folder : folders)
+  {
+    for (const std::string& file : FileNames(name))
+    {
+      candidates.push_back((fs::path(folder) / file).lexically_normal().string());
+      candidates.push_back((fs::path(folder) / ".libs" / file).lexically_normal().string());
+    }
+  }
+  return candidates;
+}
+
+// The loaded libraries by their real paths; those that could not be loaded too, so that each error is found once.
+std::map<std::string, PluginLibrary>& LoadedLibraries()
+{
+  static std::map<std::string, PluginLibrary> libraries;
+  return libraries;
+}
+
+PluginLibrary Load(const std::string& path)
+{
+  PluginLibrary library;
+  library.path = path;
+  PluginCatalogue& catalogue = PluginCatalogue::Instance();
+  catalogue.BeginLibrary();
+  void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  const char* reason = handle == nullptr ? dlerror() : nullptr;
+  library.registrations = catalogue.EndLibrary();
+  if (handle == nullptr)
+  {
+    library.error = "the library " + path + " cannot be loaded: " + (reason != nullptr ? reason : "unknown reason");
+  }
+  for (const std::string& problem : library.registrations.problems)
+  {
+    library.error += (library.error.empty() ? "the library " + path + ": " : "; ") + problem;
+  }
+  return library;
+}
+
+}  // namespace
+
+const PluginLibrary& LoadPluginLibrary(const std::string& name, const std::vector<std::string>& folders)
+{
+  std::string searched;
+  std::string before;
+  for (const std::string& candidate : Candidates(name, folders))
+  {
+    std::error_code error;
+    const fs::path real = fs::canonical(candidate, error);
+    if (error || !fs::is_regular_file(real, error))
+    {
+      if (candidate == before) continue;
+      searched += "\n    " + candidate;
+      before = candidate;
+      continue;
+    }
+    auto& libraries = LoadedLibraries();
+    const auto found = libraries.find(real.string());
+    return found != libraries.end() ? found->second
+                                    : libraries.emplace(real.string(), Load(real.string())).first->second;
+  }
+  // Kept under a name that no path has, so that the reference stays valid.
+  PluginLibrary& missing = LoadedLibraries()["missing " + name];
+  missing.error =
+      "the library " + Quoted(name) + " is not found; searched:" + (searched.empty() ? " nowhere" : searched);
+  return missing;
+}
+
+std::vector<std::string> SplitSearchPath(const std::string& list, const std::string& base)
+{
+  std::string joined;
+  for (std::size_t i = 0; i < list.size(); ++i)
+  {
+    const std::size_t next = list[i] == '\\' ? list.find_first_not_of(" \t\r", i + 1) : std::string::npos;
+    if (next == std::string::npos || list[next] != '\n')
+    {
+      joined += list[i];
+      continue;
+    }
+    i = list.find_first_not_of(" \t\r\n", next);
+    if (i == std::string::npos) break;
+    --i;
+  }
+
+  std::vector<std::string> folders;
+  for (std::string_view rest = joined; !rest.empty();)
+  {
+    const std::size_t colon = std::min(rest.find(':'), rest.size());
+    const std::string_view entry = TrimBlanks(rest.substr(0, colon));
+    if (!entry.empty()) folders.push_back((fs::path(base) / fs::path(entry)).lexically_normal().string());
+    rest.remove_prefix(std::min(colon + 1, rest.size()));
+  }
+  return folders;
+}
+
+std::vector<std::string> StandardPluginFolders()
+{
+  std::vector<std::string> folders;
+  if (const char* list = std::getenv("SWARMANOID_PLUGIN_PATH"))
+    folders = SplitSearchPath(list, fs::current_path().string());
+  Dl_info place{};
+  if (dladdr(reinterpret_cast<const void*>(&StandardPluginFolders), &place) != 0 && place.dli_fname != nullptr)
+  {
+    std::error_code error;
+    const fs::path own = fs::weakly_canonical(place.dli_fname, error).parent_path();
+    folders.push_back(own.string());
+    folders.push_back((own / "swarmanoid").string());
+  }
+  return folders;
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,32 @@
+// Loading the libraries of controllers and other plug-ins. A library registers what it holds while it is loaded, and
+// stays loaded until the process ends. Called before roles start, from one thread.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/plugins/catalogue.h"
+
+namespace swarmanoid
+{
+
+struct PluginLibrary
+{
+  std::string path;   // of the file; empty where none was found
+  std::string error;  // empty: it is loaded. Otherwise why not, with the paths that were searched
+  PluginCatalogue::Registrations registrations;
+};
+
+// Finds `name` as lib<name>.so, <name>.so or, where it ends in .so, as it stands, in each folder and its .libs, and
+// loads it. A name with a '/' is a path. Loading a library again yields what the first time yielded.
+const PluginLibrary& LoadPluginLibrary(const std::string& name, const std::vector<std::string>& folders);
+
+// The folders of a list separated by colons: backslashes at the ends of lines and blanks around the entries are
+// dropped, relative ones start at `base`.
+std::vector<std::string> SplitSearchPath(const std::string& list, const std::string& base);
+
+// Searched after those of the experiment: those of the environment variable SWARMANOID_PLUGIN_PATH, then the folder
+// of our own libraries and its subfolder swarmanoid.
+std::vector<std::string> StandardPluginFolders();
+
+}  // namespace swarmanoid
