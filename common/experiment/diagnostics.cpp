@@ -29,8 +29,10 @@ std::vector<Diagnostic> Diagnostics::Take()
                    });
   if (count_ > found_.size())
   {
-    found_.push_back(
-        {{found_.front().location.file, 0, 0}, fmt::format("and {} more mistakes", count_ - found_.size())});
+    Diagnostic rest;
+    rest.location.file = found_.front().location.file;
+    rest.message = fmt::format("and {} more mistakes", count_ - found_.size());
+    found_.push_back(std::move(rest));
   }
   count_ = 0;
   return std::exchange(found_, {});

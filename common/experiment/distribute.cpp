@@ -160,13 +160,15 @@ public:
   // False, and a report, where they do not fit.
   bool Place(const Distribution& distribution)
   {
+    if (distribution.count == 0) return true;
     const ElementSpec& spec = ExperimentSchema().Child("arena").Child("distribute");
     auto& entities = reading_.experiment.entities;
     const TConfigurationTree position = distribution.tree.Child("position");
     const TConfigurationTree orientation = distribution.tree.Child("orientation");
-    if (distribution.count == 0) return true;
-    const Positions positions(position, spec.Child("position"), distribution.count, entities[distribution.first],
-                              reading_);
+    EntityConfiguration sample = entities[distribution.first];
+    sample.pose = {};
+    const std::size_t mistakes = reading_.diagnostics.Count();
+    const Positions positions(position, spec.Child("position"), distribution.count, sample, reading_);
     const Orientations orientations(orientation, spec.Child("orientation"), reading_.diagnostics);
     if (reading_.diagnostics.Count() != mistakes) return false;
     for (std::size_t i = 0; i < distribution.count; ++i)
