@@ -1,0 +1,84 @@
+// Which bodies are near each other: a uniform grid filled anew at each step by a counting sort, with float copies of
+// the positions in the order of the cells. Used by the kinematic world. Remembers nothing from step to step, so that
+// the pairs and their order follow from the positions alone.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine_worker/engines/kinematics2d/motion.h"
+
+namespace swarmanoid::kinematics2d
+{
+
+struct Bounds
+{
+  double min_x = 0, min_y = 0;
+  double max_x = 0, max_y = 0;
+
+  void Include(double x, double y, double radius);
+};
+
+// Two bodies, first < second; or a body and a static shape.
+struct Pair
+{
+  std::uint32_t first;
+  std::uint32_t second;
+};
+
+class BroadPhase
+{
+public:
+  // `radii`: of the circles around the bodies. `largest_margin`: the most that FindPairs will ever be asked for.
+  // Bodies may leave `area`; many of them far outside cost time, nothing else.
+  void Configure(const Bounds& area, std::span<const double> radii, double largest_margin);
+  // The static shapes by their boxes. After Configure.
+  void SetStatics(std::span<const Bounds> boxes);
+
+  // `present[k]` is 0 for bodies that are not to be found.
+  void FindPairs(const PoseStore& poses, std::span<const std::uint8_t> present, double margin);
+  // Bodies whose circles are less than `margin` apart, in the order of their cells.
+  const std::vector<Pair>& Pairs() const { return pairs_; }
+  const std::vector<Pair>& StaticPairs() const { return static_pairs_; }
+
+private:
+  struct FloatBox
+  {
+    float min_x, min_y, max_x, max_y;
+  };
+
+  std::uint32_t CellX(double x) const;
+  std::uint32_t CellY(double y) const;
+  std::uint32_t Cell(std::uint32_t column, std::uint32_t row) const { return (row + 1) * stride_ + column + 1; }
+  void Sort(const PoseStore& poses, std::span<const std::uint8_t> present);
+  void SweepBodies(float margin);
+  void SweepStatics(float margin);
+  void FindPairsOfLarge(float margin, std::span<const std::uint8_t> present, const PoseStore& poses);
+  void AddHits(unsigned hits, std::uint32_t sorted, std::uint32_t from);
+
+  std::size_t count_ = 0;
+  double cell_ = 1;
+  double inverse_cell_ = 1;
+  double min_x_ = 0, min_y_ = 0;
+  std::uint32_t columns_ = 1, rows_ = 1, stride_ = 3;
+  double largest_margin_ = 0;
+  double largest_small_radius_ = 0;
+  float slack_ = 0;  // covers the rounding of positions to float
+
+  std::vector<float> radius_;         // of each body
+  std::vector<std::uint32_t> large_;  // bodies that are too big for the cells, ascending
+  std::vector<std::uint8_t> is_large_;
+
+  std::vector<std::uint32_t> cell_of_;  // of each body
+  std::vector<std::uint32_t> start_;    // of each cell in the sorted arrays
+  std::vector<std::uint32_t> body_, sorted_cell_;
+  std::vector<float> x_, y_, r_;
+
+  std::vector<FloatBox> static_boxes_;
+  std::vector<std::uint32_t> static_start_, static_shape_;  // the shapes near each cell
+
+  std::vector<Pair> pairs_, static_pairs_;
+};
+
+}  // namespace swarmanoid::kinematics2d

@@ -1,0 +1,64 @@
+// The outlines of bodies on the plane: circles and convex polygons in the frame of the body (metres, forward is x).
+// Immutable once made; shared by all bodies of one kind.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "common/math/pose.h"
+
+namespace swarmanoid::kinematics2d
+{
+
+struct Circle
+{
+  double x = 0;
+  double y = 0;
+  double radius = 0;
+};
+
+// Convex, vertices counter-clockwise. Edge k runs from vertex k to the next one; its outward normal is (nx, ny).
+struct Polygon
+{
+  static constexpr int kMaximumVertices = 8;
+  using Values = std::array<double, kMaximumVertices>;
+
+  int count = 0;
+  Values x{}, y{};
+  Values nx{}, ny{}, offset{};                    // offset: normal times any point of the edge
+  double centre_x = 0, centre_y = 0, radius = 0;  // a circle around it
+  bool on_turret = false;                         // turns with the turret about the origin of the body
+};
+
+struct CollisionModel
+{
+  static constexpr int kMaximumCircles = 4;
+
+  // Padded with circles that are never hit, for the vector loops.
+  std::array<double, kMaximumCircles> circle_x{}, circle_y{}, circle_radius{};
+  int circles = 0;
+  std::vector<Polygon> polygons;
+  double bounding_radius = 0;  // about the origin of the body, at every angle of the turret
+  double core_radius =
+      0;  // of a circle about the origin that the model fills; a step never leads further than half of it
+};
+
+// 3 to kMaximumVertices points of a convex outline, counter-clockwise. Throws std::invalid_argument for others.
+Polygon MakePolygon(std::span<const Vector2> points);
+CollisionModel MakeModel(std::span<const Circle> circles, std::vector<Polygon> polygons);
+
+CollisionModel CircleModel(double radius);
+CollisionModel RectangleModel(double length_x, double length_y);
+// Figure 3.9 of the documentation: the body, the two wheels, the gripper's square at the front of the turret.
+CollisionModel FootbotModel();
+
+// Geometry of the foot-bot, metres. Radius, wheel distance and wheel radius are those of the ARGoS3 model.
+inline constexpr double kFootbotRadius = 0.085036758;
+inline constexpr double kFootbotInterWheel = 0.14;
+inline constexpr double kFootbotWheelRadius = 0.029112741;
+// The square's outer face stands this far from the axis of the turret.
+inline constexpr double kFootbotGripperSide = 0.03;
+inline constexpr double kFootbotGripperReach = 0.1;
+
+}  // namespace swarmanoid::kinematics2d

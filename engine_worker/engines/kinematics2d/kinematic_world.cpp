@@ -1,0 +1,242 @@
+#include "engine_worker/engines/kinematics2d/kinematic_world.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <tuple>
+
+#include "common/math/elementary.h"
+#include "engine_worker/engines/kinematics2d/kinematic_limits.h"
+#include "engine_worker/engines/kinematics2d/vectors.h"
+
+namespace swarmanoid::kinematics2d
+{
+namespace
+{
+
+Bounds BoxOf(const CollisionModel& model)
+{
+  Bounds box{1e300, 1e300, -1e300, -1e300};
+  for (int k = 0; k < model.circles; ++k) box.Include(model.circle_x[k], model.circle_y[k], model.circle_radius[k]);
+  for (const Polygon& polygon : model.polygons)
+    for (int k = 0; k < polygon.count; ++k) box.Include(polygon.x[k], polygon.y[k], 0);
+  return box;
+}
+
+}  // namespace
+
+std::uint32_t KinematicWorld::AddModel(CollisionModel model)
+{
+  models_.push_back(std::move(model));
+  return static_cast<std::uint32_t>(models_.size() - 1);
+}
+
+void KinematicWorld::ReplaceModel(std::uint32_t model, CollisionModel outline) { models_[model] = std::move(outline); }
+
+std::uint32_t KinematicWorld::AddBody(std::uint32_t model, const Pose2& pose, bool follower)
+{
+  const auto body = static_cast<std::uint32_t>(count_++);
+  now_.Resize(PaddedCount(count_));
+  now_.Set(body, pose);
+  model_.push_back(model);
+  follower_.push_back(follower ? 1 : 0);
+  if (follower) followers_.push_back({body, pose, pose});
+  return body;
+}
+
+void KinematicWorld::AddStatic(CollisionModel shape) { statics_.push_back(std::move(shape)); }
+
+void KinematicWorld::Start(Bounds area)
+{
+  const std::size_t padded = PaddedCount(count_);
+  now_.Resize(padded);
+  before_ = now_;
+  twists_.Resize(padded);
+  effective_.Resize(padded);
+  present_.assign(count_, 1);
+  turret_angle_.assign(count_, 0);
+  turret_cos_.assign(count_, 1);
+  turret_sin_.assign(count_, 0);
+  travel_forward_.assign(count_, 0);
+  travel_turn_.assign(count_, 0);
+  held_.reserve(count_);
+  hold_.assign(count_ + 1, Hold::kFree);
+  suspect_.assign(count_ + 1, 0);
+  mobility_.assign(count_ + 1, 0);
+  leader_.resize(count_ + 1);
+  for (std::uint32_t k = 0; k <= count_; ++k) leader_[k] = k;
+
+  std::vector<double> cores;
+  for (std::size_t k = 0; k < count_; ++k)
+  {
+    const CollisionModel& model = models_[model_[k]];
+    radius_.push_back(model.bounding_radius);
+    cores.push_back(std::max(model.core_radius, kThinnestCore * model.bounding_radius));
+    area.Include(now_.x[k], now_.y[k], model.bounding_radius);
+  }
+  // A wide body among narrow ones goes no further in a substep than they do, so that the cells can stay small.
+  core_limit_.assign(padded, 1);
+  inverse_limit_.assign(padded, 1);
+  double longest_way = 0;
+  smallest_limit_ = 1;
+  if (count_ > 0)
+  {
+    std::vector<double> sorted = cores;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count_ / 2), sorted.end());
+    for (std::size_t k = 0; k < count_; ++k)
+    {
+      core_limit_[k] = kWayInCore * std::min(cores[k], kWidestCore * sorted[count_ / 2]);
+      inverse_limit_[k] = 1 / core_limit_[k];
+      longest_way = std::max(longest_way, core_limit_[k]);
+      smallest_limit_ = std::min(smallest_limit_, core_limit_[k]);
+    }
+  }
+  allowed_ = kAllowedOverlap * smallest_limit_ / kWayInCore;
+
+  broad_.Configure(area, radius_, 2 * (2 * longest_way + kSlowestSeparation));
+  std::vector<Bounds> boxes;
+  for (const CollisionModel& shape : statics_) boxes.push_back(BoxOf(shape));
+  broad_.SetStatics(boxes);
+  solver_.Configure(count_);
+  grips_.reserve(count_);
+  group_start_.reserve(count_ + 1);
+  turrets_.reserve(count_);
+  RebuildGroups();
+}
+
+std::vector<KinematicWorld::Turret>::iterator KinematicWorld::FindTurret(std::uint32_t body)
+{
+  return std::lower_bound(turrets_.begin(), turrets_.end(), body,
+                          [](const Turret& turret, std::uint32_t b) { return turret.body < b; });
+}
+
+void KinematicWorld::SetTurretRate(std::uint32_t body, double rate)
+{
+  const auto at = FindTurret(body);
+  const bool known = at != turrets_.end() && at->body == body;
+  if (rate == 0)
+  {
+    if (known) turrets_.erase(at);
+  }
+  else if (known)
+    at->rate = rate;
+  else
+    turrets_.insert(at, {body, rate, 0});
+}
+
+void KinematicWorld::SetTurretAngle(std::uint32_t body, double angle)
+{
+  turret_angle_[body] = WrapAngle(angle);
+  const SinCos turned = SinCosOf(turret_angle_[body]);
+  turret_cos_[body] = turned.cos;
+  turret_sin_[body] = turned.sin;
+}
+
+void KinematicWorld::Follow(std::uint32_t body, const Pose2& pose, bool present)
+{
+  const auto at = std::lower_bound(followers_.begin(), followers_.end(), body,
+                                   [](const Follower& follower, std::uint32_t b) { return follower.body < b; });
+  const Pose2 from = now_.Get(body);
+  const double dx = pose.x - from.x;
+  const double dy = pose.y - from.y;
+  const double leap = kMostSubsteps * core_limit_[body];
+  const bool appears = present && present_[body] == 0;
+  at->from = appears || dx * dx + dy * dy > leap * leap ? pose : from;
+  at->goal = pose;
+  present_[body] = present ? 1 : 0;
+}
+
+void KinematicWorld::Place(std::uint32_t body, const Pose2& pose)
+{
+  std::erase_if(grips_, [body](const Grip& grip) { return grip.body == body || grip.prey == body; });
+  RebuildGroups();
+  now_.Set(body, pose);
+}
+
+void KinematicWorld::AddGrip(std::uint32_t body, std::uint32_t prey)
+{
+  const Grip grip{body, prey, Relative(now_.Get(prey), now_.Get(body))};
+  const auto later = [](const Grip& a, const Grip& b) { return std::tie(a.prey, a.body) < std::tie(b.prey, b.body); };
+  grips_.insert(std::upper_bound(grips_.begin(), grips_.end(), grip, later), grip);
+  RebuildGroups();
+}
+
+void KinematicWorld::RemoveGrip(std::uint32_t body)
+{
+  std::erase_if(grips_, [body](const Grip& grip) { return grip.body == body; });
+  RebuildGroups();
+}
+
+const Grip* KinematicWorld::FindGrip(std::uint32_t body) const
+{
+  if (leader_[body] == body) return nullptr;
+  const auto found = std::find_if(grips_.begin(), grips_.end(), [body](const Grip& grip) { return grip.body == body; });
+  return found == grips_.end() ? nullptr : &*found;
+}
+
+void KinematicWorld::RebuildGroups()
+{
+  for (std::uint32_t k = 0; k < count_; ++k)
+  {
+    leader_[k] = k;
+    mobility_[k] = IsFollower(k) ? 0 : 1;
+  }
+  group_start_.clear();
+  for (std::size_t k = 0; k < grips_.size(); ++k)
+  {
+    leader_[grips_[k].body] = grips_[k].prey;
+    if (k == 0 || grips_[k].prey != grips_[k - 1].prey) group_start_.push_back(static_cast<std::uint32_t>(k));
+  }
+  group_start_.push_back(static_cast<std::uint32_t>(grips_.size()));
+  for (std::size_t g = 0; g + 1 < group_start_.size(); ++g)
+    mobility_[grips_[group_start_[g]].prey] = 1.0 / (1 + group_start_[g + 1] - group_start_[g]);
+}
+
+Placed KinematicWorld::PlaceAt(std::uint32_t body, const PoseStore& poses) const
+{
+  const Rotor heading{poses.z[body], poses.w[body]};
+  return {&models_[model_[body]], poses.x[body],     poses.y[body],    CosOf(heading),
+          SinOf(heading),         turret_cos_[body], turret_sin_[body]};
+}
+
+double KinematicWorld::OverlapOf(std::uint32_t a, std::uint32_t b) const
+{
+  return Overlap(PlaceAt(a, now_), PlaceAt(b, now_));
+}
+
+double KinematicWorld::StaticOverlapOf(std::uint32_t body) const
+{
+  double deepest = 0;
+  for (const CollisionModel& shape : statics_)
+    deepest = std::max(deepest, Overlap(PlaceAt(body, now_), Placed{&shape, 0, 0, 1, 0, 1, 0}));
+  return deepest;
+}
+
+void KinematicWorld::SaveState(ByteWriter& state) const
+{
+  for (const auto* values : {&now_.x, &now_.y, &now_.z, &now_.w, &turret_angle_})
+    state.PutArray(std::span<const double>(values->data(), count_));
+  state.PutArray(present_);
+  state.PutArray(grips_);
+}
+
+void KinematicWorld::LoadState(ByteReader& state)
+{
+  const auto read = [&]<class T>(std::vector<T>& values)
+  {
+    const std::vector<T> saved = state.GetArray<T>();
+    if (saved.size() != count_)
+      throw std::runtime_error("saved state of a kinematic world: it is of another experiment");
+    std::copy(saved.begin(), saved.end(), values.begin());
+  };
+  for (auto* values : {&now_.x, &now_.y, &now_.z, &now_.w, &turret_angle_}) read(*values);
+  read(present_);
+  for (std::uint32_t k = 0; k < count_; ++k) SetTurretAngle(k, turret_angle_[k]);
+  grips_ = state.GetArray<Grip>();
+  for (const Grip& grip : grips_)
+    if (grip.body >= count_ || grip.prey >= count_)
+      throw std::runtime_error("saved state of a kinematic world: a grip of a body that does not exist");
+  grips_.reserve(count_);
+  RebuildGroups();
+}
+
+}  // namespace swarmanoid::kinematics2d

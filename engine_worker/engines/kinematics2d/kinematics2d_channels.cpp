@@ -1,0 +1,179 @@
+// Commands and sensors of the kinematic engine.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "common/math/elementary.h"
+#include "common/space/attributes.h"
+#include "engine_worker/engines/kinematics2d/kinematics2d_engine.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace kinematics2d;
+
+// A gripper closes at half of its way, and holds what its front is this near to (metres).
+constexpr double kGripThreshold = 0.5;
+constexpr double kGripRange = 0.02;
+constexpr double kOpenAperture = kPi / 2;
+// The speed of a foot-bot's wheels on the ground at full drive (m/s): a traction of 1 is all of it held back.
+constexpr double kFullSpeed = 0.3;
+
+}  // namespace
+
+void Kinematics2dEngine::ApplyCommands(const EngineCommands& commands)
+{
+  for (const ChannelBlock& block : commands.blocks)
+  {
+    const std::span<const double> values = commands.Of(block);
+    if (block.name == "footbot_wheels") DriveWheels(block, values);
+    if (block.name == "eyebot_propellers") DrivePropellers(block, values);
+    if (block.name == "footbot_turret") TurnTurrets(block, values);
+    if (block.name == "footbot_gripper") UseGrippers(block, values);
+  }
+}
+
+// `sum` of a robot's values: not finite where one of them is not.
+void Kinematics2dEngine::CheckCommand(double sum, std::uint32_t entity, const ChannelBlock& block) const
+{
+  if (!std::isfinite(sum))
+    throw std::runtime_error("robot '" + space_->GetEntity(entity).GetId() + "' gave " + block.name +
+                             " a value that is not a finite number");
+}
+
+void Kinematics2dEngine::DriveWheels(const ChannelBlock& block, std::span<const double> values)
+{
+  std::uint32_t body = BodyOf(block.entities.empty() ? 0 : block.entities.front());
+  for (std::size_t k = 0; k < block.entities.size(); ++k)
+  {
+    while (layout_->owned[body] != block.entities[k]) ++body;
+    const double left = values[2 * k] * kFootbotWheelRadius;
+    const double right = values[2 * k + 1] * kFootbotWheelRadius;
+    CheckCommand(left + right, block.entities[k], block);
+    world_.SetTwist(body, {0.5 * (left + right), 0, (right - left) * (1 / kFootbotInterWheel)});
+  }
+}
+
+// Forward, left, up (which the plane does not allow), yaw rate.
+void Kinematics2dEngine::DrivePropellers(const ChannelBlock& block, std::span<const double> values)
+{
+  for (std::size_t k = 0; k < block.entities.size(); ++k)
+  {
+    const std::span<const double> v = values.subspan(4 * k, 4);
+    CheckCommand(v[0] + v[1] + v[3], block.entities[k], block);
+    world_.SetTwist(BodyOf(block.entities[k]), {v[0], v[1], v[3]});
+  }
+}
+
+void Kinematics2dEngine::TurnTurrets(const ChannelBlock& block, std::span<const double> values)
+{
+  for (std::size_t k = 0; k < block.entities.size(); ++k)
+  {
+    CheckCommand(values[k], block.entities[k], block);
+    world_.SetTurretRate(BodyOf(block.entities[k]), values[k]);
+  }
+}
+
+void Kinematics2dEngine::UseGrippers(const ChannelBlock& block, std::span<const double> values)
+{
+  for (std::size_t k = 0; k < block.entities.size(); ++k)
+  {
+    CheckCommand(values[k], block.entities[k], block);
+    const double closed = std::clamp(values[k], 0.0, 1.0);
+    Footbot& footbot = FootbotOf(BodyOf(block.entities[k]));
+    footbot.now.aperture = (1 - closed) * kOpenAperture;
+    const bool gripping = world_.FindGrip(footbot.body) != nullptr;
+    if (closed > kGripThreshold && !gripping) GripNearest(footbot.body);
+    if (closed <= kGripThreshold && gripping) world_.RemoveGrip(footbot.body);
+  }
+}
+
+void Kinematics2dEngine::GripNearest(std::uint32_t body)
+{
+  const Placed robot = world_.PlacedAt(body);
+  const double front_x = robot.x + kFootbotGripperReach * (robot.cos * robot.turret_cos - robot.sin * robot.turret_sin);
+  const double front_y = robot.y + kFootbotGripperReach * (robot.sin * robot.turret_cos + robot.cos * robot.turret_sin);
+  double nearest = kGripRange;
+  std::uint32_t found = body;
+  for (const std::uint32_t prey : preys_)
+  {
+    const double dx = world_.Poses().x[prey] - front_x;
+    const double dy = world_.Poses().y[prey] - front_y;
+    const double gap = std::sqrt(dx * dx + dy * dy) - world_.ModelOf(prey).bounding_radius;
+    if (gap >= nearest) continue;
+    nearest = gap;
+    found = prey;
+  }
+  if (found != body) world_.AddGrip(body, found);
+}
+
+void Kinematics2dEngine::ReportFootbots(AttributeChanges& changes)
+{
+  static const auto kAperture = static_cast<std::uint32_t>(AttributeOffset(EntityKind::kFootbot, "gripper_aperture"));
+  static const auto kGripped = static_cast<std::uint32_t>(AttributeOffset(EntityKind::kFootbot, "gripped"));
+  static const auto kTurret = static_cast<std::uint32_t>(AttributeOffset(EntityKind::kFootbot, "turret_angle"));
+  for (Footbot& footbot : footbots_)
+  {
+    const Grip* grip = world_.FindGrip(footbot.body);
+    footbot.now.gripped = grip == nullptr ? 0 : 1.0 + layout_->owned[grip->prey];
+    footbot.now.turret_angle = world_.TurretAngle(footbot.body);
+    if (footbot.now == footbot.reported) continue;
+    const auto report = [&](std::uint32_t slot, double now, double reported)
+    {
+      if (now != reported) changes.Add(footbot.first_slot + slot, now);
+    };
+    report(kAperture, footbot.now.aperture, footbot.reported.aperture);
+    report(kGripped, footbot.now.gripped, footbot.reported.gripped);
+    report(kTurret, footbot.now.turret_angle, footbot.reported.turret_angle);
+    footbot.reported = footbot.now;
+  }
+}
+
+// The arcs (m) that the wheels rolled in the tick, collisions included.
+void Kinematics2dEngine::ReadEncoders(const ChannelBlock& block, std::span<double> values) const
+{
+  for (std::size_t k = 0; k < block.entities.size(); ++k)
+  {
+    const std::uint32_t body = BodyOf(block.entities[k]);
+    const double forward = world_.TravelForward(body);
+    const double turned = 0.5 * kFootbotInterWheel * world_.TravelTurn(body);
+    values[2 * k] = forward - turned;
+    values[2 * k + 1] = forward + turned;
+  }
+}
+
+// Traction: what the grip kept the robot from doing, as a part of full drive, in the frame of the turret; there is no
+// torque.
+void Kinematics2dEngine::ReadTurretTorques(const ChannelBlock& block, std::span<double> values) const
+{
+  std::fill(values.begin(), values.end(), 0.0);
+  for (std::size_t k = 0; k < block.entities.size(); ++k)
+  {
+    const std::uint32_t body = BodyOf(block.entities[k]);
+    if (world_.FindGrip(body) == nullptr) continue;
+    const Pose2 wanted = Advanced(FootbotOf(body).tick_start, world_.TwistOf(body), TickSeconds());
+    const Placed robot = world_.PlacedAt(body);
+    const double scale = 1 / (kFullSpeed * TickSeconds());
+    const double x = (wanted.x - robot.x) * scale;
+    const double y = (wanted.y - robot.y) * scale;
+    const double turret_cos = robot.cos * robot.turret_cos - robot.sin * robot.turret_sin;
+    const double turret_sin = robot.sin * robot.turret_cos + robot.cos * robot.turret_sin;
+    values[3 * k] = std::clamp(turret_cos * x + turret_sin * y, -1.0, 1.0);
+    values[3 * k + 1] = std::clamp(turret_cos * y - turret_sin * x, -1.0, 1.0);
+  }
+}
+
+Kinematics2dEngine::Footbot& Kinematics2dEngine::FootbotOf(std::uint32_t body)
+{
+  return *std::lower_bound(footbots_.begin(), footbots_.end(), body,
+                           [](const Footbot& footbot, std::uint32_t b) { return footbot.body < b; });
+}
+
+const Kinematics2dEngine::Footbot& Kinematics2dEngine::FootbotOf(std::uint32_t body) const
+{
+  return const_cast<Kinematics2dEngine*>(this)->FootbotOf(body);
+}
+
+}  // namespace swarmanoid

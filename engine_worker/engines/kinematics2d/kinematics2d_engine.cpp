@@ -1,0 +1,259 @@
+#include "engine_worker/engines/kinematics2d/kinematics2d_engine.h"
+
+#include <algorithm>
+#include <array>
+
+#include "common/math/elementary.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace kinematics2d;
+
+std::vector<ParameterSpec> ParameterTable()
+{
+  return {{.name = "perpendicular_axis",
+           .type = ParameterType::kChoice,
+           .default_value = "z",
+           .description = "The axis of the space to which the plane of the engine is perpendicular.",
+           .choices = {"x", "y", "z"}},
+          {.name = "distance",
+           .unit = "m",
+           .default_value = "0",
+           .description = "Signed distance of the plane from the origin along that axis."},
+          {.name = "tilt",
+           .type = ParameterType::kVector3,
+           .unit = "deg",
+           .default_value = "0, 0, 0",
+           .description = "Turns the plane about the origin of the space: rotations about x, y and z, in this order."},
+          {.name = "elasticity",
+           .default_value = "1",
+           .description =
+               "Part of the approach that a collision gives back; 1 is purely elastic, 0 lets bodies stay in touch.",
+           .minimum = 0,
+           .maximum = 1}};
+}
+
+PluginDescription Describe(const std::string& label)
+{
+  PluginDescription description;
+  description.label = label;
+  description.brief = "2D kinematic engine: velocities, elastic collisions, no masses; the fast one";
+  description.parameters = ParameterTable();
+  description.channels = {"eyebot_propellers", "footbot_encoders",      "footbot_gripper",
+                          "footbot_turret",    "footbot_turret_torque", "footbot_wheels"};
+  for (const EntityKind kind : {EntityKind::kFootbot, EntityKind::kHandbot, EntityKind::kEyebot, EntityKind::kBlock,
+                                EntityKind::kCylindricPrey, EntityKind::kLightBulb, EntityKind::kSoundSource,
+                                EntityKind::kGroundPatch, EntityKind::kHole, EntityKind::kWall})
+    description.entity_tags.emplace_back(TagName(kind));
+  return description;
+}
+
+PlaneFrame FrameFrom(const Parameters& parameters)
+{
+  const std::string axis = parameters.Text("perpendicular_axis");
+  const PlaneFrame plain(axis == "x"   ? PlaneAxis::kX
+                         : axis == "y" ? PlaneAxis::kY
+                                       : PlaneAxis::kZ,
+                         parameters.Number("distance"));
+  const Vector3 tilt = parameters.Vector3Of("tilt");
+  if (tilt == Vector3::Zero()) return plain;
+  const Quaternion turn =
+      QuaternionFromEuler({DegreesToRadians(tilt.x()), DegreesToRadians(tilt.y()), DegreesToRadians(tilt.z())});
+  return PlaneFrame(Pose{Vector3::Zero(), turn}.Compose(plain.Frame()));
+}
+
+bool IsBlock(EntityKind kind) { return kind == EntityKind::kBlock || kind == EntityKind::kWall; }
+
+// The area of the plane that the arena covers.
+Bounds AreaOf(const PlaneFrame& frame, const Vector3& arena)
+{
+  Bounds area{1e300, 1e300, -1e300, -1e300};
+  for (unsigned corner = 0; corner < 8; ++corner)
+  {
+    const Vector3 part((corner & 1) != 0 ? 1 : 0, (corner & 2) != 0 ? 1 : 0, (corner & 4) != 0 ? 1 : 0);
+    const PlanePose pose = frame.ToPlane({arena.cwiseProduct(part), Quaternion::Identity()});
+    area.Include(pose.u, pose.v, 0);
+  }
+  return area;
+}
+
+}  // namespace
+
+void RegisterKinematics2d()
+{
+  auto& registry = PluginRegistry<CPhysicsEngine>::Instance();
+  if (registry.Find("dummy_engine") != nullptr) return;
+  for (const char* const label : {"dummy_engine", "kinematics2d"})
+    registry.Add(Describe(label),
+                 []() -> std::unique_ptr<CPhysicsEngine> { return std::make_unique<Kinematics2dEngine>(); });
+}
+
+void Kinematics2dEngine::Init(const EngineSetup& setup)
+{
+  space_ = &setup.space;
+  layout_ = &setup.layout;
+  configuration_ = &setup.configuration;
+  subclock_ = std::max(setup.configuration.subclock, 1);
+  frame_ = FrameFrom(setup.parameters);
+  world_ = KinematicWorld(setup.parameters.Number("elasticity"));
+}
+
+void Kinematics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding binding)
+{
+  if (binding == EBinding::kOwned)
+    owned_.push_back(&entity);
+  else if (binding == EBinding::kMirror)
+    mirrors_.push_back({&entity, 0, 0});
+  else if (IsBlock(entity.GetKind()))
+    fixed_.push_back(&entity);
+}
+
+void Kinematics2dEngine::Start()
+{
+  const std::uint32_t footbot_model = world_.AddModel(FootbotModel());
+  const auto model_for = [&](const CSwarmanoidSpaceEntity& entity)
+  { return entity.GetKind() == EntityKind::kFootbot ? footbot_model : world_.AddModel(ModelOf(entity)); };
+
+  std::vector<PlaneStance> stances;
+  for (const CSwarmanoidSpaceEntity* entity : owned_)
+  {
+    // Robots and preys stand on the plane; blocks keep their height and lean.
+    const bool block = IsBlock(entity->GetKind());
+    stances.push_back(block ? frame_.StanceOf(entity->GetPose()) : PlaneStance{});
+    const std::uint32_t model = model_for(*entity);
+    const std::uint32_t body = world_.AddBody(model, PlanePoseOf(entity->GetPose()));
+    if (block && world_.ModelOf(body).polygons.empty())
+      throw ConfigurationError(entity->GetConfiguration().location,
+                               "the plane of engine '" + configuration_->id + "' does not cut the block '" +
+                                   entity->GetId() + "'; move the block or the plane, or list it in another engine");
+    if (entity->GetKind() == EntityKind::kCylindricPrey) preys_.push_back(body);
+    if (entity->GetKind() == EntityKind::kFootbot)
+    {
+      const Reported shown{entity->GetAttribute("gripper_aperture"), entity->GetAttribute("gripped"),
+                           entity->GetAttribute("turret_angle")};
+      footbots_.push_back({body, entity->FirstSlot(), shown, shown, {}});
+    }
+  }
+  for (Mirror& mirror : mirrors_)
+  {
+    CollisionModel model = ModelOf(*mirror.entity);
+    // However another engine turns a block, the plane cuts it within this circle.
+    if (IsBlock(mirror.entity->GetKind())) model.bounding_radius = mirror.entity->GetSize().norm() / 2;
+    mirror.model = world_.AddModel(std::move(model));
+    mirror.body = world_.AddBody(mirror.model, PlanePoseOf(mirror.entity->GetPose()), true);
+  }
+  for (const CSwarmanoidSpaceEntity* entity : fixed_)
+  {
+    const std::vector<Vector2> outline = frame_.CutBox(entity->GetPose(), entity->GetSize());
+    if (!outline.empty()) world_.AddStatic(MakeModel({}, {MakePolygon(outline)}));
+  }
+  for (const ChannelBlock& block : layout_->sensors)
+    if (block.name == "footbot_encoders") world_.KeepTravel();
+  world_.Start(AreaOf(frame_, space_->GetExperiment().arena_size));
+  for (const Footbot& footbot : footbots_) world_.SetTurretAngle(footbot.body, footbot.now.turret_angle);
+  writer_ = PlaneWriter(frame_, std::move(stances));
+}
+
+Pose2 Kinematics2dEngine::PlanePoseOf(const Pose& pose) const
+{
+  const PlanePose flat = frame_.ToPlane(pose);
+  return {flat.u, flat.v, RotorOf(flat.heading)};
+}
+
+CollisionModel Kinematics2dEngine::ModelOf(const CSwarmanoidSpaceEntity& entity) const
+{
+  const Vector3& size = entity.GetSize();
+  if (!(size.x() > 0 && size.y() > 0))
+    throw ConfigurationError(entity.GetConfiguration().location, "'" + entity.GetId() + "' has no size; engine '" +
+                                                                     configuration_->id + "' cannot move it");
+  if (entity.GetKind() == EntityKind::kFootbot) return FootbotModel();
+  if (!IsBlock(entity.GetKind()))
+    return entity.GetKind() == EntityKind::kHandbot ? RectangleModel(size.x(), size.y()) : CircleModel(size.x());
+  return Outline(entity);
+}
+
+CollisionModel Kinematics2dEngine::Outline(const CSwarmanoidSpaceEntity& block) const
+{
+  const PlanePose pose = frame_.ToPlane(block.GetPose());
+  const SinCos heading = SinCosOf(pose.heading);
+  std::vector<Vector2> points = frame_.CutBox(block.GetPose(), block.GetSize());
+  for (Vector2& point : points)
+  {
+    const double x = point.x() - pose.u;
+    const double y = point.y() - pose.v;
+    point = {heading.cos * x + heading.sin * y, heading.cos * y - heading.sin * x};
+  }
+  std::vector<Polygon> polygons;
+  if (!points.empty()) polygons.push_back(MakePolygon(points));
+  return MakeModel({}, std::move(polygons));
+}
+
+void Kinematics2dEngine::Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors)
+{
+  FollowMirrors();
+  ApplyCommands(commands);
+  for (Footbot& footbot : footbots_) footbot.tick_start = world_.PoseOf(footbot.body);
+  world_.Advance(TickSeconds(), subclock_);
+  writer_.Write(world_.Poses(), update.poses);
+  ReportFootbots(update.attributes);
+  for (const ChannelBlock& block : layout_->sensors)
+  {
+    const std::span<double> values =
+        sensors.subspan(block.offset, block.entities.size() * static_cast<std::size_t>(block.width));
+    if (block.name == "footbot_encoders") ReadEncoders(block, values);
+    if (block.name == "footbot_turret_torque") ReadTurretTorques(block, values);
+  }
+}
+
+void Kinematics2dEngine::FollowMirrors()
+{
+  for (const Mirror& mirror : mirrors_)
+  {
+    const Pose pose = mirror.entity->GetPose();
+    bool present;
+    if (IsBlock(mirror.entity->GetKind()))
+    {
+      CollisionModel outline = Outline(*mirror.entity);
+      present = !outline.polygons.empty();
+      world_.ReplaceModel(mirror.model, std::move(outline));
+    }
+    else
+      present = frame_.CutsUpright(pose, mirror.entity->GetSize().z());
+    world_.Follow(mirror.body, PlanePoseOf(pose), present);
+  }
+}
+
+void Kinematics2dEngine::EntityMoved(std::uint32_t entity)
+{
+  world_.Place(BodyOf(entity), PlanePoseOf(space_->GetPose(entity)));
+}
+
+std::uint32_t Kinematics2dEngine::BodyOf(std::uint32_t entity) const
+{
+  return static_cast<std::uint32_t>(std::lower_bound(layout_->owned.begin(), layout_->owned.end(), entity) -
+                                    layout_->owned.begin());
+}
+
+void Kinematics2dEngine::SaveState(ByteWriter& state) const
+{
+  world_.SaveState(state);
+  for (const Footbot& footbot : footbots_) state.Put(footbot.reported);
+}
+
+void Kinematics2dEngine::LoadState(ByteReader& state)
+{
+  world_.LoadState(state);
+  for (Footbot& footbot : footbots_) footbot.now = footbot.reported = state.Get<Reported>();
+}
+
+std::string Kinematics2dEngine::StatusText() const
+{
+  const WorldStatistics& s = world_.Statistics();
+  return std::to_string(s.substeps) + " substeps, " + std::to_string(s.pairs) + " pairs, " +
+         std::to_string(s.contacts) + " contacts, " + std::to_string(s.held_back) + " held back";
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,94 @@
+// The 2D kinematic engine (<dummy_engine>, <kinematics2d>): puts a KinematicWorld on a plane of the space. Maps
+// entities, commands, sensors and poses; the motion itself is the world's. Runs in its engine worker's thread.
+#pragma once
+
+#include <vector>
+
+#include "engine_worker/engines/kinematics2d/kinematic_world.h"
+#include "engine_worker/engines/kinematics2d/plane_writer.h"
+#include "engine_worker/engines/plane_frame.h"
+#include "engine_worker/physics_engine.h"
+
+namespace swarmanoid
+{
+
+// Adds the engine to the registry under both of its names. Idempotent.
+void RegisterKinematics2d();
+
+class Kinematics2dEngine : public CPhysicsEngine
+{
+public:
+  void Init(const EngineSetup& setup) override;
+  void AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding binding) override;
+  void Start() override;
+  void Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors) override;
+  void EntityMoved(std::uint32_t entity) override;
+  void SaveState(ByteWriter& state) const override;
+  void LoadState(ByteReader& state) override;
+  // The engine has nothing hidden: each step starts from the saved state alone.
+  void Canonicalise() override {}
+  std::string StatusText() const override;
+
+  const kinematics2d::KinematicWorld& World() const { return world_; }
+
+private:
+  struct Mirror
+  {
+    const CSwarmanoidSpaceEntity* entity = nullptr;
+    std::uint32_t body = 0;
+    std::uint32_t model = 0;
+  };
+  // What a footbot shows of its gripper and turret, as last reported.
+  struct Reported
+  {
+    double aperture = 0;
+    double gripped = 0;
+    double turret_angle = 0;
+    bool operator==(const Reported&) const = default;
+  };
+  struct Footbot
+  {
+    std::uint32_t body = 0;
+    std::uint32_t first_slot = 0;
+    Reported now, reported;
+    kinematics2d::Pose2 tick_start;
+  };
+
+  std::uint32_t BodyOf(std::uint32_t entity) const;
+  kinematics2d::Pose2 PlanePoseOf(const Pose& pose) const;
+  kinematics2d::CollisionModel ModelOf(const CSwarmanoidSpaceEntity& entity) const;
+  // The outline in which the plane cuts a block, in the frame of the block's plane pose; without polygons where it does
+  // not.
+  kinematics2d::CollisionModel Outline(const CSwarmanoidSpaceEntity& block) const;
+
+  void FollowMirrors();
+  void ApplyCommands(const EngineCommands& commands);
+  void DriveWheels(const ChannelBlock& block, std::span<const double> values);
+  void DrivePropellers(const ChannelBlock& block, std::span<const double> values);
+  void TurnTurrets(const ChannelBlock& block, std::span<const double> values);
+  void UseGrippers(const ChannelBlock& block, std::span<const double> values);
+  void GripNearest(std::uint32_t body);
+  void ReportFootbots(AttributeChanges& changes);
+  void ReadEncoders(const ChannelBlock& block, std::span<double> values) const;
+  void ReadTurretTorques(const ChannelBlock& block, std::span<double> values) const;
+  Footbot& FootbotOf(std::uint32_t body);
+  const Footbot& FootbotOf(std::uint32_t body) const;
+  void CheckCommand(double sum, std::uint32_t entity, const ChannelBlock& block) const;
+  double TickSeconds() const { return space_->GetTickSeconds(); }
+
+  const CSwarmanoidSpace* space_ = nullptr;
+  const EngineLayout* layout_ = nullptr;
+  const EngineConfiguration* configuration_ = nullptr;
+  PlaneFrame frame_{PlaneAxis::kZ, 0};
+  int subclock_ = 1;
+  kinematics2d::KinematicWorld world_;
+  PlaneWriter writer_;
+
+  std::vector<const CSwarmanoidSpaceEntity*> owned_;  // body k is owned_[k]
+  std::vector<Mirror> mirrors_;
+  std::vector<const CSwarmanoidSpaceEntity*> fixed_;
+  std::vector<std::uint32_t> preys_;  // bodies
+  std::vector<Footbot> footbots_;     // owned, by body
+};
+
+}  // namespace swarmanoid

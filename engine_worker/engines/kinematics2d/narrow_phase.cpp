@@ -1,0 +1,223 @@
+#include "engine_worker/engines/kinematics2d/narrow_phase.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine_worker/engines/kinematics2d/vectors.h"
+
+namespace swarmanoid::kinematics2d
+{
+namespace
+{
+
+struct Point
+{
+  double x, y;
+};
+
+// The axes of the frame that a polygon is fixed to: the body's or its turret's.
+struct Axes
+{
+  double cos, sin;
+
+  Point ToWorld(double x, double y) const { return {cos * x - sin * y, sin * x + cos * y}; }
+  Point ToLocal(double x, double y) const { return {cos * x + sin * y, cos * y - sin * x}; }
+};
+
+Axes AxesOf(const Placed& body, const Polygon& polygon)
+{
+  if (!polygon.on_turret) return {body.cos, body.sin};
+  return {body.cos * body.turret_cos - body.sin * body.turret_sin,
+          body.sin * body.turret_cos + body.cos * body.turret_sin};
+}
+
+void CirclesWithCircles(const Placed& a, const Placed& b, double margin, Touches& touches)
+{
+  constexpr std::size_t kCount = CollisionModel::kMaximumCircles;
+  std::array<double, kCount> ax, ay;
+  for (std::size_t k = 0; k < kCount; k += kDoubles)
+  {
+    const Doubles x = LoadDoubles(&a.model->circle_x[k]);
+    const Doubles y = LoadDoubles(&a.model->circle_y[k]);
+    Store(&ax[k], a.cos * x - a.sin * y);
+    Store(&ay[k], a.sin * x + a.cos * y);
+  }
+  for (int m = 0; m < b.model->circles; ++m)
+  {
+    const double bx = b.cos * b.model->circle_x[m] - b.sin * b.model->circle_y[m];
+    const double by = b.sin * b.model->circle_x[m] + b.cos * b.model->circle_y[m];
+    const double shift_x = a.x - b.x - bx;
+    const double shift_y = a.y - b.y - by;
+    const double radius = b.model->circle_radius[m];
+    for (std::size_t k = 0; k < kCount; k += kDoubles)
+    {
+      const Doubles dx = LoadDoubles(&ax[k]) + shift_x;
+      const Doubles dy = LoadDoubles(&ay[k]) + shift_y;
+      const Doubles limit = LoadDoubles(&a.model->circle_radius[k]) + (radius + margin);
+      unsigned hits = Bits(dx * dx + dy * dy < limit * limit);
+      for (; hits != 0; hits &= hits - 1)
+      {
+        const std::size_t hit = k + static_cast<std::size_t>(__builtin_ctz(hits));
+        touches.Add({ax[hit] - bx, ay[hit] - by, a.model->circle_radius[hit] + radius, false});
+      }
+    }
+  }
+}
+
+// The circle around (x, y), relative to the polygon's body, against the polygon. `sign` is 1 where the circle belongs
+// to the first body of the pair, else -1.
+void CircleWithPolygon(double x, double y, double radius, double offset_x, double offset_y, const Polygon& polygon,
+                       const Axes& axes, double sign, double margin, Touches& touches)
+{
+  const Point q = axes.ToLocal(x, y);
+  const double near_x = q.x - polygon.centre_x;
+  const double near_y = q.y - polygon.centre_y;
+  const double limit = polygon.radius + radius + margin;
+  if (near_x * near_x + near_y * near_y > limit * limit) return;
+
+  int best = 0;
+  double separation = -1e300;
+  for (int k = 0; k < polygon.count; ++k)
+  {
+    const double s = polygon.nx[k] * q.x + polygon.ny[k] * q.y - polygon.offset[k];
+    if (s > separation)
+    {
+      separation = s;
+      best = k;
+    }
+  }
+  if (separation > radius + margin) return;
+
+  // Outside and beyond an end of the nearest edge: the corner counts, as a circle of radius 0.
+  if (separation > 0)
+  {
+    const int next = best + 1 == polygon.count ? 0 : best + 1;
+    const double edge_x = polygon.x[next] - polygon.x[best];
+    const double edge_y = polygon.y[next] - polygon.y[best];
+    const double along = (q.x - polygon.x[best]) * edge_x + (q.y - polygon.y[best]) * edge_y;
+    const bool before = along < 0;
+    if (before || along > edge_x * edge_x + edge_y * edge_y)
+    {
+      const int corner = before ? best : next;
+      const double corner_x = q.x - polygon.x[corner];
+      const double corner_y = q.y - polygon.y[corner];
+      if (corner_x * corner_x + corner_y * corner_y > (radius + margin) * (radius + margin)) return;
+      const Point p = axes.ToWorld(polygon.x[corner], polygon.y[corner]);
+      touches.Add({sign * (offset_x - p.x), sign * (offset_y - p.y), radius, false});
+      return;
+    }
+  }
+  const Point n = axes.ToWorld(polygon.nx[best], polygon.ny[best]);
+  const double reach = radius + polygon.offset[best] - (n.x * offset_x + n.y * offset_y);
+  touches.Add({sign * n.x, sign * n.y, reach, true});
+}
+
+void CirclesWithPolygons(const Placed& circles, const Placed& polygons, double sign, double margin, Touches& touches)
+{
+  const double dx = circles.x - polygons.x;
+  const double dy = circles.y - polygons.y;
+  for (const Polygon& polygon : polygons.model->polygons)
+  {
+    const Axes axes = AxesOf(polygons, polygon);
+    const Point centre = axes.ToWorld(polygon.centre_x, polygon.centre_y);
+    const double limit = circles.model->bounding_radius + polygon.radius + margin;
+    if ((dx - centre.x) * (dx - centre.x) + (dy - centre.y) * (dy - centre.y) > limit * limit) continue;
+    for (int k = 0; k < circles.model->circles; ++k)
+    {
+      const double cx = circles.cos * circles.model->circle_x[k] - circles.sin * circles.model->circle_y[k];
+      const double cy = circles.sin * circles.model->circle_x[k] + circles.cos * circles.model->circle_y[k];
+      CircleWithPolygon(dx + cx, dy + cy, circles.model->circle_radius[k], cx, cy, polygon, axes, sign, margin,
+                        touches);
+    }
+  }
+}
+
+// The largest separation of `other`'s vertices along the normals of `faces`, in the frame of `faces`.
+double SeparationAlong(const Polygon& faces, const Polygon& other, const Axes& faces_axes, const Axes& other_axes,
+                       double dx, double dy, int& best)
+{
+  // The vertices of `other` relative to the body of `faces`; (dx, dy): from that body to the other.
+  std::array<Point, Polygon::kMaximumVertices> vertices;
+  for (int k = 0; k < other.count; ++k)
+  {
+    const Point p = other_axes.ToWorld(other.x[k], other.y[k]);
+    vertices[k] = faces_axes.ToLocal(p.x + dx, p.y + dy);
+  }
+  double separation = -1e300;
+  for (int k = 0; k < faces.count; ++k)
+  {
+    double nearest = 1e300;
+    for (int m = 0; m < other.count; ++m)
+      nearest = std::min(nearest, faces.nx[k] * vertices[m].x + faces.ny[k] * vertices[m].y);
+    nearest -= faces.offset[k];
+    if (nearest > separation)
+    {
+      separation = nearest;
+      best = k;
+    }
+  }
+  return separation;
+}
+
+void PolygonsWithPolygons(const Placed& a, const Placed& b, double margin, Touches& touches)
+{
+  const double dx = a.x - b.x;
+  const double dy = a.y - b.y;
+  for (const Polygon& pa : a.model->polygons)
+  {
+    const Axes axes_a = AxesOf(a, pa);
+    const Point centre_a = axes_a.ToWorld(pa.centre_x, pa.centre_y);
+    for (const Polygon& pb : b.model->polygons)
+    {
+      const Axes axes_b = AxesOf(b, pb);
+      const Point centre_b = axes_b.ToWorld(pb.centre_x, pb.centre_y);
+      const double x = dx + centre_a.x - centre_b.x;
+      const double y = dy + centre_a.y - centre_b.y;
+      const double limit = pa.radius + pb.radius + margin;
+      if (x * x + y * y > limit * limit) continue;
+
+      int face_a = 0;
+      int face_b = 0;
+      const double along_b = SeparationAlong(pb, pa, axes_b, axes_a, dx, dy, face_b);
+      if (along_b > margin) continue;
+      const double along_a = SeparationAlong(pa, pb, axes_a, axes_b, -dx, -dy, face_a);
+      if (along_a > margin) continue;
+      const bool from_b = along_b >= along_a;
+      const Point n =
+          from_b ? axes_b.ToWorld(pb.nx[face_b], pb.ny[face_b]) : axes_a.ToWorld(-pa.nx[face_a], -pa.ny[face_a]);
+      // depth = -separation at this place; reach makes it so.
+      const double separation = from_b ? along_b : along_a;
+      touches.Add({n.x, n.y, n.x * dx + n.y * dy - separation, true});
+    }
+  }
+}
+
+}  // namespace
+
+void FindTouches(const Placed& a, const Placed& b, double margin, Touches& touches)
+{
+  touches.count = 0;
+  if (a.model->circles > 0 && b.model->circles > 0) CirclesWithCircles(a, b, margin, touches);
+  if (a.model->circles > 0) CirclesWithPolygons(a, b, 1, margin, touches);
+  if (b.model->circles > 0) CirclesWithPolygons(b, a, -1, margin, touches);
+  PolygonsWithPolygons(a, b, margin, touches);
+}
+
+double DepthOf(const Touch& touch, double dx, double dy)
+{
+  if (touch.face) return touch.reach - (dx * touch.x + dy * touch.y);
+  const double x = dx + touch.x;
+  const double y = dy + touch.y;
+  return touch.reach - std::sqrt(x * x + y * y);
+}
+
+double Overlap(const Placed& a, const Placed& b)
+{
+  Touches touches;
+  FindTouches(a, b, 0, touches);
+  double depth = 0;
+  for (int k = 0; k < touches.count; ++k) depth = std::max(depth, DepthOf(touches.list[k], a.x - b.x, a.y - b.y));
+  return depth;
+}
+
+}  // namespace swarmanoid::kinematics2d

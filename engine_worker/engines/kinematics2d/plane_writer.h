@@ -1,0 +1,32 @@
+// Writes the poses of bodies on a plane as poses of the space, in the layout of EngineUpdate. Cheap where the plane is
+// perpendicular to z: then the heading of a body is its orientation in the space.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine_worker/engines/kinematics2d/motion.h"
+#include "engine_worker/engines/plane_frame.h"
+
+namespace swarmanoid
+{
+
+class PlaneWriter
+{
+public:
+  PlaneWriter() = default;
+  // The first stances.size() bodies are written.
+  PlaneWriter(const PlaneFrame& frame, std::vector<PlaneStance> stances);
+
+  // poses: 7 doubles a body, structure of arrays x y z qx qy qz qw.
+  void Write(const kinematics2d::PoseStore& bodies, std::span<double> poses) const;
+
+private:
+  void WriteFlat(const kinematics2d::PoseStore& bodies, std::span<double> poses) const;
+
+  Pose frame_;
+  bool flat_ = true;  // perpendicular to z, all bodies upright
+  std::vector<PlaneStance> stances_;
+};
+
+}  // namespace swarmanoid

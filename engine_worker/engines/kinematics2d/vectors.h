@@ -1,0 +1,74 @@
+// Short vectors for the inner loops of the kinematic engine. The lane count follows the processor that the build is
+// for; all operations work lane by lane, so that it never changes a result.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace swarmanoid::kinematics2d
+{
+
+#if defined(__AVX__)
+inline constexpr std::size_t kVectorBytes = 32;
+#else
+inline constexpr std::size_t kVectorBytes = 16;
+#endif
+
+// Arrays that the inner loops read are padded to a multiple of this many elements.
+inline constexpr std::size_t kPadding = 16;
+
+using Doubles = double __attribute__((vector_size(kVectorBytes)));
+using DoubleMask = std::int64_t __attribute__((vector_size(kVectorBytes)));
+using Floats = float __attribute__((vector_size(kVectorBytes)));
+using FloatMask = std::int32_t __attribute__((vector_size(kVectorBytes)));
+inline constexpr std::size_t kDoubles = kVectorBytes / sizeof(double);
+inline constexpr std::size_t kFloats = kVectorBytes / sizeof(float);
+
+inline Doubles LoadDoubles(const double* from)
+{
+  Doubles v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+inline void Store(double* to, Doubles v) { std::memcpy(to, &v, sizeof v); }
+inline Floats LoadFloats(const float* from)
+{
+  Floats v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+
+// One bit for each lane whose mask is set, lane 0 lowest.
+inline unsigned Bits(FloatMask mask)
+{
+#if defined(__AVX__)
+  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
+#elif defined(__SSE2__)
+  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
+#else
+  unsigned bits = 0;
+  for (std::size_t k = 0; k < kFloats; ++k) bits |= (mask[k] != 0 ? 1U : 0U) << k;
+  return bits;
+#endif
+}
+inline unsigned Bits(DoubleMask mask)
+{
+#if defined(__AVX__)
+  return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(mask)));
+#elif defined(__SSE2__)
+  return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(mask)));
+#else
+  unsigned bits = 0;
+  for (std::size_t k = 0; k < kDoubles; ++k) bits |= (mask[k] != 0 ? 1U : 0U) << k;
+  return bits;
+#endif
+}
+
+constexpr std::size_t PaddedCount(std::size_t count) { return (count + 2 * kPadding - 1) / kPadding * kPadding; }
+
+}  // namespace swarmanoid::kinematics2d

@@ -1,0 +1,137 @@
+// A kinematic engine in a space of its own, made without files: entities, one engine, channels.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/math/elementary.h"
+#include "engine_worker/engine_worker.h"
+#include "engine_worker/engines/kinematics2d/kinematics2d_engine.h"
+
+namespace swarmanoid
+{
+
+class EngineFixture
+{
+public:
+  EngineFixture()
+  {
+    RegisterBuiltinEngines();
+    experiment_.arena_size = Vector3(10, 10, 3);
+    engine_configuration_.tag = "dummy_engine";
+    engine_configuration_.id = "plane";
+  }
+
+  void Parameter(const std::string& name, const std::string& value) { node_->attributes.push_back({name, value, {}}); }
+  EngineConfiguration& Configuration() { return engine_configuration_; }
+
+  std::uint32_t Add(EntityKind kind, const Vector3& position, const EulerAngles& angles = {},
+                    const Vector3& size = Vector3::Zero(), bool movable = true)
+  {
+    EntityConfiguration entity;
+    entity.kind = kind;
+    entity.id = "e" + std::to_string(experiment_.entities.size());
+    entity.pose = {position, QuaternionFromEuler(angles)};
+    entity.movable = movable;
+    entity.size = size;
+    if (kind == EntityKind::kFootbot) entity.size = Vector3(0.085036758, 0.085036758, 0.146899733);
+    if (kind == EntityKind::kEyebot) entity.size = Vector3(0.25, 0.25, 0.566);
+    if (kind == EntityKind::kHandbot) entity.size = Vector3(0.22, 0.17, 0.16);
+    experiment_.entities.push_back(entity);
+    return static_cast<std::uint32_t>(experiment_.entities.size() - 1);
+  }
+  std::uint32_t AddMirror(EntityKind kind, const Vector3& position)
+  {
+    const std::uint32_t entity = Add(kind, position);
+    mirrors_.push_back(entity);
+    return entity;
+  }
+
+  void AddCommands(const std::string& channel, int width, std::vector<std::uint32_t> robots)
+  {
+    layout_.commands.push_back({channel, width, std::move(robots), layout_.command_size});
+    layout_.command_size += layout_.commands.back().entities.size() * static_cast<std::size_t>(width);
+  }
+  void AddSensors(const std::string& channel, int width, std::vector<std::uint32_t> robots)
+  {
+    layout_.sensors.push_back({channel, width, std::move(robots), layout_.sensor_size});
+    layout_.sensor_size += layout_.sensors.back().entities.size() * static_cast<std::size_t>(width);
+  }
+
+  void Start()
+  {
+    engine_configuration_.tree = TConfigurationTree(node_);
+    space_ = std::make_unique<CSwarmanoidSpace>(experiment_);
+    for (std::uint32_t k = 0; k < experiment_.entities.size(); ++k)
+      if (!experiment_.entities[k].movable)
+        layout_.fixed.push_back(k);
+      else if (std::find(mirrors_.begin(), mirrors_.end(), k) != mirrors_.end())
+        layout_.mirrored.push_back(k);
+      else
+        layout_.owned.push_back(k);
+    engine_ = MakeEngine();
+    commands_.assign(layout_.command_size, 0);
+    sensors_.assign(layout_.sensor_size, 0);
+    update_.poses.resize(7 * layout_.owned.size());
+  }
+
+  // A second engine of the same experiment, as a restored process would make it.
+  std::unique_ptr<CPhysicsEngine> MakeEngine()
+  {
+    const auto* entry = PluginRegistry<CPhysicsEngine>::Instance().Find(engine_configuration_.tag);
+    std::unique_ptr<CPhysicsEngine> engine = entry->create();
+    engine->Init({engine_configuration_, Parameters(engine_configuration_.tree, entry->description.parameters), *space_,
+                  layout_});
+    for (std::uint32_t k = 0; k < space_->Size(); ++k)
+    {
+      const bool mirror = std::find(mirrors_.begin(), mirrors_.end(), k) != mirrors_.end();
+      engine->AddEntity(space_->GetEntity(k), !experiment_.entities[k].movable ? EBinding::kFixed
+                                              : mirror                         ? EBinding::kMirror
+                                                                               : EBinding::kOwned);
+    }
+    engine->Start();
+    return engine;
+  }
+
+  double& Command(std::size_t value) { return commands_[value]; }
+  double Sensor(std::size_t value) const { return sensors_[value]; }
+
+  // One tick; the space follows.
+  void Tick()
+  {
+    update_.attributes.Clear();
+    engine_->Update({layout_.commands, commands_}, update_, sensors_);
+    space_->SetPoses(layout_.owned, update_.poses);
+    space_->SetAttributes(update_.attributes);
+    space_->SetTick(space_->GetTick() + 1);
+  }
+  void Ticks(int count)
+  {
+    for (int k = 0; k < count; ++k) Tick();
+  }
+
+  Pose PoseOf(std::uint32_t entity) const { return space_->GetPose(entity); }
+  CSwarmanoidSpace& Space() { return *space_; }
+  CPhysicsEngine& Engine() { return *engine_; }
+  std::unique_ptr<CPhysicsEngine>& EnginePointer() { return engine_; }
+  const EngineUpdate& LastUpdate() const { return update_; }
+
+private:
+  Experiment experiment_;
+  EngineConfiguration engine_configuration_;
+  std::shared_ptr<ConfigurationNode> node_ = std::make_shared<ConfigurationNode>();
+  std::vector<std::uint32_t> mirrors_;
+  EngineLayout layout_;
+  std::unique_ptr<CSwarmanoidSpace> space_;
+  std::unique_ptr<CPhysicsEngine> engine_;
+  std::vector<double> commands_, sensors_;
+  EngineUpdate update_;
+};
+
+// The wheel angular velocity (rad/s) of a ground speed (m/s).
+inline double WheelSpeed(double speed) { return speed / kinematics2d::kFootbotWheelRadius; }
+
+}  // namespace swarmanoid

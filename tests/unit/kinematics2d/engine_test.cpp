@@ -1,0 +1,214 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/kinematics2d/engine_fixture.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+TEST(Kinematics2dEngine, WheelsDriveAFootbotAlongTheExactArc)
+{
+  EngineFixture f;
+  const auto robot = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0), {0, 0, 0.4});
+  f.AddCommands("footbot_wheels", 2, {robot});
+  f.AddSensors("footbot_encoders", 2, {robot});
+  f.Start();
+  f.Command(0) = WheelSpeed(0.1);
+  f.Command(1) = WheelSpeed(0.2);
+  f.Ticks(10);
+  const double turn = 0.1 / 0.14;
+  const double radius = 0.15 / turn;
+  EXPECT_NEAR(f.PoseOf(robot).position.x(), 2 + radius * (std::sin(0.4 + turn) - std::sin(0.4)), 1e-12);
+  EXPECT_NEAR(f.PoseOf(robot).position.y(), 3 - radius * (std::cos(0.4 + turn) - std::cos(0.4)), 1e-12);
+  EXPECT_NEAR(YawOf(f.PoseOf(robot).orientation), 0.4 + turn, 1e-12);
+  EXPECT_NEAR(f.Sensor(0), 0.01, 1e-14);
+  EXPECT_NEAR(f.Sensor(1), 0.02, 1e-14);
+}
+
+TEST(Kinematics2dEngine, EncodersReadWhatWasRolledNotWhatWasWanted)
+{
+  EngineFixture f;
+  f.Parameter("elasticity", "0");
+  const auto robot = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0));
+  f.Add(EntityKind::kBlock, Vector3(2.2, 3, 0.25), {}, Vector3(0.1, 2, 0.5), false);
+  f.AddCommands("footbot_wheels", 2, {robot});
+  f.AddSensors("footbot_encoders", 2, {robot});
+  f.Start();
+  f.Command(0) = f.Command(1) = WheelSpeed(0.3);
+  f.Ticks(20);
+  EXPECT_NEAR(f.Sensor(0), 0, 1e-4);
+  EXPECT_NEAR(f.Sensor(1), 0, 1e-4);
+  EXPECT_NEAR(f.PoseOf(robot).position.x(), 2.15 - kinematics2d::kFootbotGripperReach, 1e-3);
+}
+
+TEST(Kinematics2dEngine, RobotsMoveOnThePlanePerpendicularToTheChosenAxis)
+{
+  struct Case
+  {
+    const char* axis;
+    Vector3 forward, left, normal;
+  };
+  for (const Case& c : {Case{"x", Vector3::UnitY(), Vector3::UnitZ(), Vector3::UnitX()},
+                        Case{"y", Vector3::UnitZ(), Vector3::UnitX(), Vector3::UnitY()},
+                        Case{"z", Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()}})
+  {
+    EngineFixture f;
+    f.Parameter("perpendicular_axis", c.axis);
+    f.Parameter("distance", "-1.5");
+    const auto frame = PlaneFrame(*c.axis == 'x'   ? PlaneAxis::kX
+                                  : *c.axis == 'y' ? PlaneAxis::kY
+                                                   : PlaneAxis::kZ,
+                                  -1.5);
+    const Pose start = frame.ToSpace({0.5, 0.25, 0});
+    const auto robot = f.Add(EntityKind::kEyebot, start.position, EulerFromQuaternion(start.orientation));
+    f.AddCommands("eyebot_propellers", 4, {robot});
+    f.Start();
+    f.Command(0) = 0.4;
+    f.Command(1) = -0.2;
+    f.Command(2) = 5;  // up: out of the plane, ignored
+    f.Ticks(10);
+    const Vector3 expected = start.position + 0.4 * c.forward - 0.2 * c.left;
+    EXPECT_LT((f.PoseOf(robot).position - expected).norm(), 1e-12) << c.axis;
+    EXPECT_LT((f.PoseOf(robot).orientation * Vector3::UnitZ() - c.normal).norm(), 1e-12) << c.axis;
+    f.Command(3) = 1;
+    f.Ticks(5);
+    EXPECT_LT(
+        (f.PoseOf(robot).orientation * Vector3::UnitX() - (std::cos(0.5) * c.forward + std::sin(0.5) * c.left)).norm(),
+        1e-12);
+  }
+}
+
+TEST(Kinematics2dEngine, ATiltedPlaneCarriesItsRobots)
+{
+  EngineFixture f;
+  f.Parameter("tilt", "0, -30, 0");
+  const auto robot = f.Add(EntityKind::kFootbot, Vector3(0, 0, 0));
+  f.AddCommands("footbot_wheels", 2, {robot});
+  f.Start();
+  f.Command(0) = f.Command(1) = WheelSpeed(0.2);
+  f.Ticks(10);
+  const Vector3 uphill(std::cos(kPi / 6), 0, std::sin(kPi / 6));
+  EXPECT_LT((f.PoseOf(robot).position - 0.2 * uphill).norm(), 1e-12);
+  EXPECT_LT((f.PoseOf(robot).orientation * Vector3::UnitX() - uphill).norm(), 1e-12);
+}
+
+TEST(Kinematics2dEngine, RobotsArePutOnThePlaneAndBlocksKeepTheirHeight)
+{
+  EngineFixture f;
+  f.Parameter("distance", "0.1");
+  const auto robot = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0.7), {0, 0, 1});
+  const auto block = f.Add(EntityKind::kBlock, Vector3(5, 5, 0.25), {0, 0, 0.5}, Vector3(0.5, 0.1, 0.5));
+  f.Start();
+  f.Tick();
+  EXPECT_LT((f.PoseOf(robot).position - Vector3(2, 3, 0.1)).norm(), 1e-12);
+  EXPECT_LT((f.PoseOf(block).position - Vector3(5, 5, 0.25)).norm(), 1e-12);
+  EXPECT_NEAR(YawOf(f.PoseOf(block).orientation), 0.5, 1e-12);
+}
+
+TEST(Kinematics2dEngine, OnlyBlocksThatThePlaneCutsAreInTheWay)
+{
+  // One block stands on the plane, one hangs above it, one is centred far below but reaches up through it.
+  for (const auto& [height, size, blocked] :
+       {std::tuple{0.25, 0.5, true}, std::tuple{0.8, 0.5, false}, std::tuple{-4.0, 9.0, true}})
+  {
+    EngineFixture f;
+    const auto robot = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0));
+    f.Add(EntityKind::kBlock, Vector3(2.5, 3, height), {}, Vector3(0.1, 2, size), false);
+    f.AddCommands("footbot_wheels", 2, {robot});
+    f.Start();
+    f.Command(0) = f.Command(1) = WheelSpeed(0.3);
+    f.Ticks(40);
+    EXPECT_EQ(f.PoseOf(robot).position.x() < 2.5, blocked) << height;
+  }
+}
+
+TEST(Kinematics2dEngine, AMirrorPushesIsNotMovedAndCountsOnlyInThePlane)
+{
+  for (const double height : {0.0, 1.0})
+  {
+    EngineFixture f;
+    const auto pushed = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0), {0, 0, kPi / 2});
+    const auto mirror = f.AddMirror(EntityKind::kEyebot, Vector3(1.5, 3, height));
+    f.Start();
+    for (int k = 1; k <= 10; ++k)
+    {
+      f.Space().SetPose(mirror, {Vector3(1.5 + 0.05 * k, 3, height), Quaternion::Identity()});
+      f.Tick();
+    }
+    EXPECT_EQ(f.LastUpdate().poses.size(), 7U);
+    const double gap = f.PoseOf(pushed).position.x() - 2.0;
+    if (height == 0)
+      EXPECT_GT(gap, 0.3);
+    else
+      EXPECT_EQ(gap, 0);
+  }
+}
+
+TEST(Kinematics2dEngine, AnEntityPutElsewhereGoesOnFromThere)
+{
+  EngineFixture f;
+  const auto robot = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0));
+  f.AddCommands("footbot_wheels", 2, {robot});
+  f.Start();
+  f.Command(0) = f.Command(1) = WheelSpeed(0.1);
+  f.Tick();
+  f.Space().SetPose(robot, {Vector3(7, 7, 0), QuaternionFromYaw(kPi / 2)});
+  f.Engine().EntityMoved(robot);
+  f.Ticks(10);
+  EXPECT_LT((f.PoseOf(robot).position - Vector3(7, 7.1, 0)).norm(), 1e-12);
+}
+
+TEST(Kinematics2dEngine, TheSubclockDividesTheTick)
+{
+  EngineFixture f;
+  f.Configuration().subclock = 5;
+  f.Add(EntityKind::kFootbot, Vector3(2, 3, 0));
+  f.Start();
+  f.Tick();
+  EXPECT_EQ(f.Engine().StatusText().substr(0, 10), "5 substeps");
+}
+
+TEST(Kinematics2dEngine, ACommandThatIsNotANumberNamesTheRobot)
+{
+  EngineFixture f;
+  const auto robot = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0));
+  f.AddCommands("footbot_wheels", 2, {robot});
+  f.Start();
+  f.Command(0) = std::nan("");
+  try
+  {
+    f.Tick();
+    FAIL();
+  }
+  catch (const std::runtime_error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("'e0'"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Kinematics2dEngine, ABlockThatItMovesMustBeCutByItsPlane)
+{
+  EngineFixture f;
+  f.Add(EntityKind::kBlock, Vector3(5, 5, 1), {}, Vector3(0.5, 0.1, 0.5));
+  EXPECT_THROW(f.Start(), ConfigurationError);
+}
+
+TEST(Kinematics2dEngine, TurretsTurnAndReportTheirAngle)
+{
+  EngineFixture f;
+  const auto robot = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0));
+  f.AddCommands("footbot_turret", 1, {robot});
+  f.Start();
+  f.Command(0) = 2;
+  f.Ticks(10);
+  EXPECT_NEAR(f.Space().GetEntity(robot).GetAttribute("turret_angle"), 2, 1e-14);
+  f.Command(0) = 0;
+  f.Tick();
+  EXPECT_TRUE(f.LastUpdate().attributes.slots.empty());
+}
+
+}  // namespace
+}  // namespace swarmanoid
