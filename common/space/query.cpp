@@ -30,6 +30,8 @@ SpaceQuery::SpaceQuery(const CSwarmanoidSpace& space) : space_(space), revision_
     else
       search_radius_ = std::max(search_radius_, reach);
     shapes_.push_back(shape);
+    if (experiment.entities[i].kind == EntityKind::kTerrain)
+      terrains_.emplace_back(i, LoadTerrain(experiment.entities[i], experiment.folder));
   }
 }
 
@@ -85,17 +87,29 @@ std::optional<SpaceQuery::Hit> SpaceQuery::FindFirstHit(const Vector3& from, con
   const Vector3 reach = Vector3::Constant(search_radius_);
   Index().FindInBox(from.cwiseMin(to) - reach, from.cwiseMax(to) + reach, candidates_);
   std::optional<Hit> first;
-  const auto test = [&](std::uint32_t entity)
+  const auto counts = [&](std::uint32_t entity)
   {
-    if ((engines_[entity] & engines_[observer]) == 0) return;
-    if (std::find(ignored.begin(), ignored.end(), entity) != ignored.end()) return;
-    const auto fraction = SegmentHit(shapes_[entity], space_.GetPose(entity), from, to);
+    return (engines_[entity] & engines_[observer]) != 0 &&
+           std::find(ignored.begin(), ignored.end(), entity) == ignored.end();
+  };
+  const auto keep = [&](std::uint32_t entity, std::optional<double> fraction)
+  {
     if (fraction && (!first || *fraction < first->fraction || (*fraction == first->fraction && entity < first->entity)))
       first = Hit{entity, *fraction};
+  };
+  const auto test = [&](std::uint32_t entity)
+  {
+    if (counts(entity)) keep(entity, SegmentHit(shapes_[entity], space_.GetPose(entity), from, to));
   };
   for (const std::uint32_t entity : large_) test(entity);
   for (const std::uint32_t entity : candidates_)
     if (!std::binary_search(large_.begin(), large_.end(), entity)) test(entity);
+  for (const auto& [entity, terrain] : terrains_)
+  {
+    if (!counts(entity)) continue;
+    const Pose inverse = space_.GetPose(entity).Inverse();
+    keep(entity, terrain->SegmentHit(inverse.Apply(from), inverse.Apply(to)));
+  }
   return first;
 }
 

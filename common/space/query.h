@@ -10,6 +10,7 @@
 #include "common/space/index/positional_index.h"
 #include "common/space/shape.h"
 #include "common/space/space.h"
+#include "common/space/terrain/terrain.h"
 
 namespace swarmanoid
 {
@@ -17,7 +18,8 @@ namespace swarmanoid
 class SpaceQuery
 {
 public:
-  // At most 64 engines: throws ConfigurationError beyond. The space outlives the query.
+  // Reads the terrains of the experiment. Throws ConfigurationError for those, and for more than 64 engines. The space
+  // outlives the query.
   explicit SpaceQuery(const CSwarmanoidSpace& space);
   ~SpaceQuery();
 
@@ -55,6 +57,7 @@ private:
   std::unique_ptr<PositionalIndex> index_;
   std::uint64_t revision_;
   std::vector<Shape> shapes_;
+  std::vector<std::pair<std::uint32_t, std::shared_ptr<const Terrain>>> terrains_;
   std::vector<std::uint64_t> engines_;
   std::vector<std::uint32_t> large_;  // bodies too large for the search about a line; tested one by one
   double search_radius_ = 0;          // of the largest of the others

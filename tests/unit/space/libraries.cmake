@@ -1,0 +1,4 @@
+# References that the terrains are checked against.
+find_package(octomap 1.9 REQUIRED)
+find_package(PNG REQUIRED)
+target_link_libraries(unit_space PRIVATE octomap octomath PNG::PNG)

@@ -1,0 +1,179 @@
+#include "common/space/terrain/terrain.h"
+
+#include <gtest/gtest.h>
+#include <octomap/octomap.h>
+#include <png.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "common/math/random.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+// A real corridor, part of Debian's liboctomap-dev.
+constexpr const char* kBuilding = "/usr/share/doc/liboctomap-dev/examples/data/geb079.bt";
+
+class TemporaryFile
+{
+public:
+  explicit TemporaryFile(const std::string& name)
+      : path_(std::filesystem::temp_directory_path() / (std::to_string(getpid()) + name))
+  {
+  }
+  ~TemporaryFile() { std::filesystem::remove(path_); }
+  std::string Path() const { return path_.string(); }
+
+private:
+  std::filesystem::path path_;
+};
+
+TEST(VoxelTerrain, TheRealBuildingIsSolidWhereItsTreeIsOccupied)
+{
+  if (!std::filesystem::exists(kBuilding)) GTEST_SKIP() << kBuilding << " is not installed";
+  octomap::OcTree tree(kBuilding);
+  const VoxelTerrain terrain(kBuilding);
+  RandomStream random(3, 0, 0, 0);
+  int solid = 0;
+  for (int i = 0; i < 100000; ++i)
+  {
+    const Vector3 low = terrain.Low();
+    const Vector3 high = terrain.High();
+    const Vector3 p(random.Uniform(low.x(), high.x()), random.Uniform(low.y(), high.y()),
+                    random.Uniform(low.z(), high.z()));
+    const auto* node = tree.search(p.x(), p.y(), p.z());
+    const bool occupied = node != nullptr && tree.isNodeOccupied(node);
+    ASSERT_EQ(terrain.IsSolid(p), occupied) << p.transpose();
+    solid += occupied;
+  }
+  EXPECT_GT(solid, 1000);
+}
+
+TEST(VoxelTerrain, SegmentsHitTheFirstOccupiedCell)
+{
+  if (!std::filesystem::exists(kBuilding)) GTEST_SKIP() << kBuilding << " is not installed";
+  const VoxelTerrain terrain(kBuilding);
+  RandomStream random(4, 0, 0, 0);
+  int hits = 0;
+  for (int i = 0; i < 2000; ++i)
+  {
+    const auto point = [&]
+    {
+      Vector3 p;
+      for (int axis = 0; axis < 3; ++axis) p[axis] = random.Uniform(terrain.Low()[axis] - 1, terrain.High()[axis] + 1);
+      return p;
+    };
+    const Vector3 from = point();
+    const Vector3 to = from + (point() - from).normalized() * random.Uniform(0.1, 6);
+    const auto hit = terrain.SegmentHit(from, to);
+    // Small steps along the segment find nothing before the hit.
+    const double length = (to - from).norm();
+    const double end = hit.value_or(1);
+    for (double t = 0; t < end - 1e-9; t += 0.01 / length)
+      ASSERT_FALSE(terrain.IsSolid(from + t * (to - from))) << i << " " << t << " " << end;
+    if (!hit) continue;
+    ++hits;
+    ASSERT_TRUE(terrain.IsSolid(from + (*hit + 1e-9) * (to - from)) ||
+                terrain.IsSolid(from + (*hit + 1e-6) * (to - from)));
+  }
+  EXPECT_GT(hits, 300);
+}
+
+TEST(VoxelTerrain, ASectionCoversExactlyTheSolidCells)
+{
+  TemporaryFile file("section.bt");
+  octomap::OcTree tree(0.1);
+  const auto centre = [](int cell) { return 0.1F * static_cast<float>(cell) + 0.05F; };
+  const auto fill = [&](int x, int y) { tree.updateNode(octomap::point3d(centre(x), centre(y), 0.05F), true); };
+  for (int x = 0; x < 5; ++x)
+    for (int y = 0; y < 3; ++y)
+      if (x != 2 || y != 1) fill(x, y);
+  tree.writeBinary(file.Path());
+
+  const VoxelTerrain terrain(file.Path());
+  const auto section = terrain.Section(0.05);
+  EXPECT_LE(section.size(), 4U);
+  double area = 0;
+  for (const TerrainRectangle& r : section)
+  {
+    area += (r.high - r.low).prod();
+    EXPECT_FALSE(r.low.x() < 0.25 && r.high.x() > 0.25 && r.low.y() < 0.15 && r.high.y() > 0.15);
+  }
+  EXPECT_NEAR(area, 0.14, 1e-9);
+  EXPECT_TRUE(terrain.Section(0.5).empty());
+  EXPECT_NEAR(*terrain.GroundBelow({0.05, 0.05, 3}), 0.1, 1e-9);
+  EXPECT_FALSE(terrain.GroundBelow({0.25, 0.15, 3}));
+}
+
+TEST(VoxelTerrain, FilesThatAreNoMapsAreRefusedByName)
+{
+  EXPECT_THROW(VoxelTerrain("/nowhere/map.bt"), std::runtime_error);
+  TemporaryFile file("nonsense.bt");
+  std::FILE* out = std::fopen(file.Path().c_str(), "w");
+  std::fputs("this is not a map", out);
+  std::fclose(out);
+  EXPECT_THROW(VoxelTerrain{file.Path()}, std::runtime_error);
+}
+
+HeightTerrain Hills()
+{
+  RandomStream random(5, 0, 0, 0);
+  std::vector<double> heights;
+  for (int i = 0; i < 21 * 11; ++i) heights.push_back(random.Uniform(0, 0.5));
+  return {heights, 21, 11, 10, 5};
+}
+
+TEST(HeightTerrain, SegmentsHitTheSurfaceExactly)
+{
+  const HeightTerrain terrain = Hills();
+  RandomStream random(6, 0, 0, 0);
+  int hits = 0;
+  for (int i = 0; i < 2000; ++i)
+  {
+    const Vector3 from(random.Uniform(-1, 11), random.Uniform(-1, 6), random.Uniform(0.2, 2));
+    const Vector3 to(random.Uniform(-1, 11), random.Uniform(-1, 6), random.Uniform(-0.5, 1));
+    const auto hit = terrain.SegmentHit(from, to);
+    for (double t = 0; t < hit.value_or(1) - 1e-6; t += 0.001)
+      ASSERT_FALSE(terrain.IsSolid(from + t * (to - from))) << i << " " << t;
+    if (!hit) continue;
+    ++hits;
+    const Vector3 at = from + *hit * (to - from);
+    ASSERT_TRUE(terrain.IsSolid(at - Vector3(0, 0, 1e-9)) || terrain.IsSolid(from + (*hit + 1e-9) * (to - from)));
+  }
+  EXPECT_GT(hits, 500);
+}
+
+TEST(HeightTerrain, GridPointsKeepTheirHeights)
+{
+  const HeightTerrain terrain = Hills();
+  EXPECT_NEAR(*terrain.GroundBelow({0, 0, 9}), terrain.Height(0, 0), 1e-12);
+  EXPECT_NEAR(*terrain.GroundBelow({10, 5, 9}), terrain.Height(20, 10), 1e-12);
+  EXPECT_NEAR(*terrain.GroundBelow({1.5, 2, 9}), terrain.Height(3, 4), 1e-12);
+  EXPECT_FALSE(terrain.GroundBelow({-0.1, 0, 9}));
+}
+
+TEST(HeightTerrain, APictureIsReadFromTheTop)
+{
+  TemporaryFile file("hills.png");
+  const std::uint8_t pixels[] = {255, 0, 0, 0, 0, 0};  // 3 by 2: only the upper left is white
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = 3;
+  image.height = 2;
+  image.format = PNG_FORMAT_GRAY;
+  ASSERT_NE(png_image_write_to_file(&image, file.Path().c_str(), 0, pixels, 0, nullptr), 0);
+  const HeightTerrain terrain(file.Path(), 4, 2, 0.5);
+  EXPECT_NEAR(terrain.Height(0, 1), 0.5, 1e-9);
+  EXPECT_NEAR(terrain.Height(0, 0), 0, 1e-9);
+  EXPECT_NEAR(*terrain.GroundBelow({0, 2, 1}), 0.5, 1e-9);
+  EXPECT_EQ(terrain.High(), Vector3(4, 2, 0.5));
+  const auto walls = terrain.Section(0.2);
+  ASSERT_EQ(walls.size(), 1U);
+  EXPECT_EQ(walls[0].high, Vector2(2, 2));
+}
+
+}  // namespace
+}  // namespace swarmanoid
