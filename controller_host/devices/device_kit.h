@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/math/random.h"
 #include "controller_host/device.h"
 
 namespace swarmanoid

@@ -1,8 +1,10 @@
 #include "controller_host/devices/footbot_proximity.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "common/math/elementary.h"
+#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_kit.h"
 
 namespace swarmanoid
@@ -11,6 +13,7 @@ namespace
 {
 
 constexpr unsigned kRays = FootbotProximity::kRays;
+constexpr double kNothing = std::numeric_limits<double>::infinity();
 
 // ARGoS3, foot-bot proximity sensor: distance of full response, and the hyperbola beyond it.
 constexpr double kContactDistance = 0.009889556;
@@ -36,7 +39,6 @@ std::vector<ParameterSpec> FootbotProximity::CommonParameters()
 void FootbotProximity::Init(const DeviceSetup& setup)
 {
   world_ = SensorWorld::Of(setup.space);
-  seen_ = 0;
   robots_ = setup.robots;
   stream_ = setup.stream;
   range_ = setup.parameters.Number("range");
@@ -48,10 +50,11 @@ void FootbotProximity::Init(const DeviceSetup& setup)
     ray_sin_.values[i] = angle.sin;
   }
 
-  ring_radius_ = robots_.empty() ? 0 : world_->Shape(robots_.front()).radius;
+  ring_radius_ = robots_.empty() ? 0 : world_->Body(robots_.front()).radius;
   // A tilted robot's rays start up to kHeight beside its base.
-  fixed_ = std::make_unique<FixedBodies>(setup.space, world_->Shapes(), ring_radius_ + range_ + kHeight);
+  fixed_ = std::make_unique<FixedBodies>(setup.space, world_->Bodies(), ring_radius_ + range_ + kHeight);
 
+  sensors_.reserve(robots_.size());
   place_of_entity_.assign(setup.space.Size(), -1);
   readings_.assign(robots_.size() * kRays, 0);
   dirty_.assign(robots_.size(), 0);
@@ -64,7 +67,7 @@ void FootbotProximity::Init(const DeviceSetup& setup)
 
 void FootbotProximity::Update(const ChannelView&)
 {
-  world_->Refresh(seen_);
+  world_->Refresh();
   // In the order of the grid's cells: neighbours stay in the cache.
   for (const std::uint32_t entity : world_->Grid().Sorted())
     if (const std::int32_t k = place_of_entity_[entity]; k >= 0) Sense(static_cast<std::size_t>(k), entity);
@@ -81,10 +84,10 @@ void FootbotProximity::Sense(std::size_t k, std::uint32_t robot)
   const auto add = [&](std::uint32_t body)
   {
     if (body == robot || !membership.ShareEngine(robot, body)) return;
-    const BodyShape& shape = world_->Shape(body);
+    const BodyShape& shape = world_->Body(body);
     if (!upright || !IsUpright(poses, body)) return AddAny(robot, body);
     if (height < poses.z[body] + shape.low || height > poses.z[body] + shape.high) return;
-    if (shape.kind == BodyShape::Kind::kCylinder) return AddDisc(robot, body);
+    if (shape.kind == Shape::Kind::kCylinder) return AddDisc(robot, body);
     AddUprightBox(robot, body);
   };
   const double x = poses.x[robot];
@@ -115,7 +118,7 @@ void FootbotProximity::AddDisc(std::uint32_t robot, std::uint32_t body)
   const PoseArrays& poses = world_->Space().Poses();
   const double dx = poses.x[body] - poses.x[robot];
   const double dy = poses.y[body] - poses.y[robot];
-  const double radius = world_->Shape(body).radius;
+  const double radius = world_->Body(body).radius;
   const double square = dx * dx + dy * dy;
   const double reach = ring_radius_ + range_ + radius;
   if (square > reach * reach) return;
@@ -126,7 +129,7 @@ void FootbotProximity::AddDisc(std::uint32_t robot, std::uint32_t body)
   const double c = square - radius * radius;
   const double ring = ring_radius_;
   const double far = ring + range_;
-  if (!touched_) std::fill_n(distances_.values, kRays, kNoHit);
+  if (!touched_) std::fill_n(distances_.values, kRays, kNothing);
   touched_ = true;
   for (unsigned i = 0; i < kRays; ++i)
   {
@@ -145,7 +148,7 @@ void FootbotProximity::AddDisc(std::uint32_t robot, std::uint32_t body)
 void FootbotProximity::AddUprightBox(std::uint32_t robot, std::uint32_t body)
 {
   const PoseArrays& poses = world_->Space().Poses();
-  const BodyShape& shape = world_->Shape(body);
+  const BodyShape& shape = world_->Body(body);
   const Heading box = HeadingOf(poses, body);
   const double dx = poses.x[robot] - poses.x[body];
   const double dy = poses.y[robot] - poses.y[body];
@@ -153,15 +156,15 @@ void FootbotProximity::AddUprightBox(std::uint32_t robot, std::uint32_t body)
   const double oy = box.cos * dy - box.sin * dx;
   const double near = ring_radius_;
   const double far = near + range_;
-  const double outside_x = std::max(__builtin_fabs(ox) - shape.half_x, 0.0);
-  const double outside_y = std::max(__builtin_fabs(oy) - shape.half_y, 0.0);
+  const double outside_x = std::max(__builtin_fabs(ox) - shape.half_size.x(), 0.0);
+  const double outside_y = std::max(__builtin_fabs(oy) - shape.half_size.y(), 0.0);
   if (outside_x * outside_x + outside_y * outside_y > far * far) return;
 
   // The rays turned into the frame of the box.
   const Heading own = HeadingOf(poses, robot);
   const double c = own.cos * box.cos + own.sin * box.sin;
   const double s = own.sin * box.cos - own.cos * box.sin;
-  if (!touched_) std::fill_n(distances_.values, kRays, kNoHit);
+  if (!touched_) std::fill_n(distances_.values, kRays, kNothing);
   touched_ = true;
   constexpr double kTiny = 1e-300;  // a ray along a side: the quotients become huge, not NaN
   for (unsigned i = 0; i < kRays; ++i)
@@ -170,10 +173,10 @@ void FootbotProximity::AddUprightBox(std::uint32_t robot, std::uint32_t body)
     double uy = s * ray_cos_.values[i] + c * ray_sin_.values[i];
     ux = ux == 0 ? kTiny : ux;
     uy = uy == 0 ? kTiny : uy;
-    const double ax = (-shape.half_x - ox) / ux;
-    const double bx = (shape.half_x - ox) / ux;
-    const double ay = (-shape.half_y - oy) / uy;
-    const double by = (shape.half_y - oy) / uy;
+    const double ax = (-shape.half_size.x() - ox) / ux;
+    const double bx = (shape.half_size.x() - ox) / ux;
+    const double ay = (-shape.half_size.y() - oy) / uy;
+    const double by = (shape.half_size.y() - oy) / uy;
     const double enter_x = ax < bx ? ax : bx;
     const double leave_x = ax < bx ? bx : ax;
     const double enter_y = ay < by ? ay : by;
@@ -188,26 +191,26 @@ void FootbotProximity::AddUprightBox(std::uint32_t robot, std::uint32_t body)
   }
 }
 
-// Any body, any orientation: each ray in the frame of the body.
+// Any body, any orientation: each ray as a segment in the space.
 void FootbotProximity::AddAny(std::uint32_t robot, std::uint32_t body)
 {
   const CSwarmanoidSpace& space = world_->Space();
-  const BodyShape& shape = world_->Shape(body);
-  const Pose relative = space.GetPose(body).Inverse().Compose(space.GetPose(robot));
-  const Vector3 centre(0, 0, (shape.low + shape.high) / 2);
-  const double reach = ring_radius_ + range_ + shape.SphereRadius();
-  if ((relative.Apply({0, 0, kHeight}) - centre).squaredNorm() > reach * reach) return;
+  const BodyShape& shape = world_->Body(body);
+  const Pose own = space.GetPose(robot);
+  const Pose other = space.GetPose(body);
+  const double reach = ring_radius_ + range_ + BoundingRadius(shape);
+  if ((own.Apply({0, 0, kHeight}) - other.Apply(shape.centre)).squaredNorm() > reach * reach) return;
 
-  const Eigen::Matrix3d rotation = relative.orientation.toRotationMatrix();
+  const Eigen::Matrix3d rotation = own.orientation.toRotationMatrix();
   for (unsigned i = 0; i < kRays; ++i)
   {
     const Vector3 ray(ray_cos_.values[i], ray_sin_.values[i], 0);
-    const Vector3 start = ring_radius_ * ray + Vector3(0, 0, kHeight);
-    const double distance = shape.RayHit(relative.position + rotation * start, rotation * ray, range_);
-    if (distance == kNoHit) continue;
-    if (!touched_) std::fill_n(distances_.values, kRays, kNoHit);
+    const Vector3 from = own.position + rotation * (ring_radius_ * ray + Vector3(0, 0, kHeight));
+    const auto hit = SegmentHit(shape, other, from, from + rotation * (range_ * ray));
+    if (!hit) continue;
+    if (!touched_) std::fill_n(distances_.values, kRays, kNothing);
     touched_ = true;
-    distances_.values[i] = std::min(distances_.values[i], distance);
+    distances_.values[i] = std::min(distances_.values[i], *hit * range_);
   }
 }
 

@@ -58,7 +58,6 @@ private:
   void AddAny(std::uint32_t robot, std::uint32_t body);
 
   std::shared_ptr<SensorWorld> world_;
-  std::uint64_t seen_ = 0;
   std::vector<std::uint32_t> robots_;
   std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
   std::unique_ptr<FixedBodies> fixed_;
@@ -97,7 +96,5 @@ protected:
 private:
   std::vector<double> coefficients_;
 };
-
-void RegisterFootbotProximity();
 
 }  // namespace swarmanoid

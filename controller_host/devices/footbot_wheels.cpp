@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/math/elementary.h"
+#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_kit.h"
 
 namespace swarmanoid

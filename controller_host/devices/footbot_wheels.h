@@ -2,7 +2,7 @@
 // from the channel "footbot_wheels", [left, right] wheel angular velocity in rad/s.
 #pragma once
 
-#include <optional>
+#include <array>
 #include <vector>
 
 #include "common/control_interface/footbot/ci_footbot_wheels_actuator.h"
@@ -71,7 +71,5 @@ private:
   double largest_step_ = 0;  // rad/s in one tick
   std::vector<std::array<double, 2>> velocity_;
 };
-
-void RegisterFootbotWheels();
 
 }  // namespace swarmanoid

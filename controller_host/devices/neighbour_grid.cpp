@@ -18,9 +18,9 @@ Circle CircleOf(const PoseArrays& poses, std::size_t e, const BodyShape& shape)
   if (IsUpright(poses, e))
     return {static_cast<float>(poses.x[e]), static_cast<float>(poses.y[e]), static_cast<float>(shape.radius)};
   const Quaternion orientation(poses.qw[e], poses.qx[e], poses.qy[e], poses.qz[e]);
-  const Vector3 centre = orientation * Vector3(0, 0, (shape.low + shape.high) / 2);
+  const Vector3 centre = orientation * shape.centre;
   return {static_cast<float>(poses.x[e] + centre.x()), static_cast<float>(poses.y[e] + centre.y()),
-          static_cast<float>(shape.SphereRadius())};
+          static_cast<float>(BoundingRadius(shape))};
 }
 
 struct Extent
@@ -72,7 +72,7 @@ NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, std::span<const Body
 {
   double largest = 0.05;
   for (const std::uint32_t e : space.Movable())
-    if (shapes[e].kind != BodyShape::Kind::kNone)
+    if (shapes[e].kind != Shape::Kind::kNone)
     {
       bodies_.push_back(e);
       largest = std::max(largest, shapes[e].radius);
@@ -129,7 +129,7 @@ FixedBodies::FixedBodies(const CSwarmanoidSpace& space, std::span<const BodyShap
 {
   std::vector<std::uint32_t> fixed;
   for (std::uint32_t e = 0; e < space.Size(); ++e)
-    if (!space.GetEntity(e).IsMovable() && shapes[e].kind != BodyShape::Kind::kNone) fixed.push_back(e);
+    if (!space.GetEntity(e).IsMovable() && shapes[e].kind != Shape::Kind::kNone) fixed.push_back(e);
 
   constexpr double kSmallestCell = 0.25;
   constexpr std::size_t kCells = 65536;
@@ -147,10 +147,8 @@ FixedBodies::FixedBodies(const CSwarmanoidSpace& space, std::span<const BodyShap
     const BodyShape& shape = shapes[e];
     const Pose pose = space.GetPose(e);
     const Eigen::Matrix3d rotation = pose.orientation.toRotationMatrix();
-    const Vector3 centre = pose.Apply({0, 0, (shape.low + shape.high) / 2});
-    const bool is_box = shape.kind == BodyShape::Kind::kBox;
-    const Vector3 half(is_box ? shape.half_x : shape.radius, is_box ? shape.half_y : shape.radius,
-                       (shape.high - shape.low) / 2);
+    const Vector3 centre = pose.Apply(shape.centre);
+    const Vector3& half = shape.half_size;
     const Vector3 world_half = rotation.cwiseAbs() * half;
     const bool upright = pose.orientation.x() == 0 && pose.orientation.y() == 0;
     const int first_column = frame_.Column(static_cast<float>(centre.x() - world_half.x() - around));

@@ -1,6 +1,5 @@
 #include "controller_host/device.h"
-#include "controller_host/devices/footbot_proximity.h"
-#include "controller_host/devices/footbot_wheels.h"
+#include "controller_host/devices/builtin_devices.h"
 
 namespace swarmanoid
 {
@@ -9,8 +8,19 @@ void RegisterBuiltinDevices()
 {
   static const bool registered = []
   {
-    RegisterFootbotProximity();
     RegisterFootbotWheels();
+    RegisterFootbotProximity();
+    RegisterFootbotGripper();
+    RegisterFootbotTurret();
+    RegisterFootbotEncoders();
+    RegisterFootbotAccelerometer();
+    RegisterLeds();
+    RegisterPreferentialDirection();
+    RegisterEyebotPropellers();
+    RegisterEyebotAttachment();
+    RegisterEyebotLaser();
+    RegisterHandbotJoints();
+    RegisterHandbotRope();
     return true;
   }();
   static_cast<void>(registered);

@@ -7,7 +7,11 @@ namespace swarmanoid
 {
 
 SensorWorld::SensorWorld(const CSwarmanoidSpace& space)
-    : space_(space), shapes_(ShapesOf(space)), membership_(space.GetExperiment()), grid_(space, shapes_)
+    : space_(space),
+      bodies_(BodiesOf(space)),
+      membership_(space.GetExperiment()),
+      grid_(space, bodies_),
+      revision_(space.Revision() - 1)
 {
 }
 
@@ -26,15 +30,11 @@ std::shared_ptr<SensorWorld> SensorWorld::Of(const CSwarmanoidSpace& space)
   return world;
 }
 
-void SensorWorld::Refresh(std::uint64_t& seen)
+void SensorWorld::Refresh()
 {
-  if (generation_ == 0 || tick_ != space_.GetTick() || seen == generation_ || seen == 0)
-  {
-    grid_.Rebuild();
-    tick_ = space_.GetTick();
-    ++generation_;
-  }
-  seen = generation_;
+  if (revision_ == space_.Revision()) return;
+  revision_ = space_.Revision();
+  grid_.Rebuild();
 }
 
 }  // namespace swarmanoid

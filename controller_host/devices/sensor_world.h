@@ -20,24 +20,21 @@ public:
   // The world of a space: the same object for all who ask while one of them holds it (shared: batches come and go).
   static std::shared_ptr<SensorWorld> Of(const CSwarmanoidSpace& space);
 
-  // Brings the grid to the state of the space, once for all batches of a step. `seen` is kept by the caller, 0 at
-  // first: a caller who has seen the current grid already starts a new one, so that a space that was set back is
-  // noticed too.
-  void Refresh(std::uint64_t& seen);
+  // Brings the grid to the poses of the space, once for all batches of a step.
+  void Refresh();
 
   const CSwarmanoidSpace& Space() const { return space_; }
-  const BodyShape& Shape(std::uint32_t entity) const { return shapes_[entity]; }
-  std::span<const BodyShape> Shapes() const { return shapes_; }
+  const BodyShape& Body(std::uint32_t entity) const { return bodies_[entity]; }
+  std::span<const BodyShape> Bodies() const { return bodies_; }
   const EngineMembership& Membership() const { return membership_; }
   const NeighbourGrid& Grid() const { return grid_; }
 
 private:
   const CSwarmanoidSpace& space_;
-  std::vector<BodyShape> shapes_;
+  std::vector<BodyShape> bodies_;
   EngineMembership membership_;
   NeighbourGrid grid_;
-  std::uint64_t generation_ = 0;  // of the grid
-  std::uint64_t tick_ = 0;
+  std::uint64_t revision_;  // of the poses in the grid
 };
 
 }  // namespace swarmanoid

@@ -57,6 +57,12 @@ public:
   }
 
   CSwarmanoidSpace& Space() { return *space_; }
+  // Poses count as new in every tick, as in a run.
+  void NextTick()
+  {
+    space_->SetTick(space_->GetTick() + 1);
+    space_->SetPose(robots_[0], space_->GetPose(robots_[0]));
+  }
   const std::vector<std::uint32_t>& Robots() const { return robots_; }
 
   std::unique_ptr<SensorBatch> MakeSensor(const std::string& type, const std::string& implementation,

@@ -15,10 +15,9 @@ void Proximity(benchmark::State& state, const char* implementation, const BenchP
 {
   BenchWorld world(static_cast<int>(state.range(0)), static_cast<double>(state.range(1)) / 10);
   const auto sensor = world.MakeSensor("footbot_proximity", implementation, parameters);
-  std::uint64_t tick = 0;
   for (auto _ : state)
   {
-    world.Space().SetTick(++tick);
+    world.NextTick();
     sensor->Update({});
   }
   state.counters["ns_per_robot"] =

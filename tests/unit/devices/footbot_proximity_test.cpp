@@ -40,15 +40,15 @@ double NearestByMarching(const CSwarmanoidSpace& space, std::uint32_t robot, uns
   for (std::uint32_t e = 0; e < space.Size(); ++e)
   {
     if (e == robot || !ShareEngine(space.GetExperiment(), robot, e)) continue;
-    const BodyShape shape = ShapeOf(space.GetEntity(e));
-    if (shape.kind == BodyShape::Kind::kNone) continue;
+    const BodyShape shape = BodyOf(space.GetExperiment().entities[e]);
+    if (shape.kind == Shape::Kind::kNone) continue;
     const Pose to_body = space.GetPose(e).Inverse();
     const auto inside = [&](double d)
     {
       const Vector3 p = to_body.Apply(pose.Apply((kBody + d) * u + Vector3(0, 0, kSensorHeight)));
       if (p.z() < shape.low || p.z() > shape.high) return false;
-      if (shape.kind == BodyShape::Kind::kBox)
-        return std::abs(p.x()) <= shape.half_x && std::abs(p.y()) <= shape.half_y;
+      if (shape.kind == Shape::Kind::kBox)
+        return std::abs(p.x()) <= shape.half_size.x() && std::abs(p.y()) <= shape.half_size.y();
       return p.x() * p.x() + p.y() * p.y() <= shape.radius * shape.radius;
     };
     constexpr double kStep = 2e-4;

@@ -1,0 +1,43 @@
+// Colour blob extraction: what remains of a camera's image when connected pixels of one colour become one blob. The
+// base of the cameras of all robots.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "common/control_interface/ci_colour.h"
+#include "common/control_interface/ci_device.h"
+
+namespace swarmanoid
+{
+
+struct CCI_ColourBlob
+{
+  std::uint32_t colour = 0;  // 0xRRGGBB
+  double distance_m = 0;     // in the plane of the robot's base; cameras that look ahead: along the line of sight
+  double angle_rad = 0;      // counter-clockwise from the robot's front, -pi..pi
+  double elevation_rad = 0;  // cameras that look ahead: above the horizontal; 0 for those that see the floor
+};
+
+class CCI_ColourBlobSensor : public CCI_Sensor
+{
+public:
+  // All blobs in view, in no particular order, valid until the next control step.
+  virtual std::span<const CCI_ColourBlob> GetAllBlobs() const = 0;
+
+  // The nearest blob whose colour is of the hue of `colour` (CCI_Colour::Nearest), nullptr where there is none.
+  const CCI_ColourBlob* GetNearestBlob(std::uint32_t colour) const
+  {
+    const CCI_ColourBlob* nearest = nullptr;
+    for (const CCI_ColourBlob& blob : GetAllBlobs())
+      if (CCI_Colour::Nearest(blob.colour) == CCI_Colour::Nearest(colour) &&
+          (nearest == nullptr || blob.distance_m < nearest->distance_m))
+        nearest = &blob;
+    return nearest;
+  }
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_ColourBlob;
+using swarmanoid::CCI_ColourBlobSensor;

@@ -1,0 +1,35 @@
+// The pie camera: the view of the omnidirectional camera cut into equal sectors; for each sector and colour the nearest
+// blob and how many there are. Type label "pie_camera".
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "common/control_interface/ci_colour.h"
+#include "common/control_interface/ci_device.h"
+
+namespace swarmanoid
+{
+
+class CCI_PieCameraSensor : public CCI_Sensor
+{
+public:
+  static constexpr double NOTHING = std::numeric_limits<double>::infinity();
+  struct Slice
+  {
+    double distance_m = NOTHING;  // of the nearest blob
+    unsigned blobs = 0;
+  };
+
+  // Sector i spans the angles i .. i + 1 times 2 pi / GetNumSectors(), counter-clockwise from the front.
+  virtual unsigned GetNumSectors() const = 0;
+  // All sectors for one of the colours of CCI_Colour other than black; blobs of other colours count for the nearest
+  // one. Throws std::invalid_argument for another colour. Valid until the next control step.
+  virtual std::span<const Slice> GetAllSlices(std::uint32_t colour) const = 0;
+  const Slice& GetSlice(std::uint32_t colour, unsigned sector) const { return GetAllSlices(colour)[sector]; }
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_PieCameraSensor;

@@ -1,0 +1,18 @@
+// The altitude sensor of an eyebot.
+#pragma once
+
+#include "common/control_interface/ci_device.h"
+
+namespace swarmanoid
+{
+
+class CCI_EyeBotAltitudeSensor : public CCI_Sensor
+{
+public:
+  // Metres from the base of the robot down to the first thing below it: floor, block, robot.
+  virtual double GetAltitude() const = 0;
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_EyeBotAltitudeSensor;

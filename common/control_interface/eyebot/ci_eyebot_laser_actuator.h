@@ -1,0 +1,26 @@
+// The laser of an eyebot: projects a coloured spot on the floor, or on what stands there, which cameras see.
+#pragma once
+
+#include <cstdint>
+
+#include "common/control_interface/ci_colour.h"
+#include "common/control_interface/ci_device.h"
+
+namespace swarmanoid
+{
+
+class CCI_EyeBotLaserActuator : public CCI_Actuator
+{
+public:
+  virtual void SwitchOn() = 0;
+  virtual void SwitchOff() = 0;
+  virtual void SetColour(std::uint32_t colour) = 0;  // 0xRRGGBB; red at first
+  // Tilt: radians from straight down, at most MAX_TILT. Pan: the direction of the tilt, counter-clockwise from the
+  // front.
+  static constexpr double MAX_TILT = 1.2217304763960306;  // 70 degrees
+  virtual void SetDirection(double pan, double tilt) = 0;
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_EyeBotLaserActuator;

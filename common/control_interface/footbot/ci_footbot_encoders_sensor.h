@@ -1,0 +1,33 @@
+// The wheel encoders of a footbot: odometry. They tell how the wheels turned, which differs from the command where the
+// robot was blocked or pulled.
+#pragma once
+
+#include <span>
+
+#include "common/control_interface/ci_device.h"
+#include "common/control_interface/footbot/ci_footbot_wheels_actuator.h"
+
+namespace swarmanoid
+{
+
+class CCI_FootBotEncodersSensor : public CCI_Sensor
+{
+public:
+  // {left, right}: mean angular velocity over the last tick in rad/s.
+  virtual std::span<const double, 2> GetAllSensorReadings() const = 0;
+  double GetLeftVelocity() const { return GetAllSensorReadings()[0]; }
+  double GetRightVelocity() const { return GetAllSensorReadings()[1]; }
+  // Metres that the wheels rolled in a tick of that length.
+  double GetLeftDistance(double tick_s) const
+  {
+    return GetLeftVelocity() * tick_s * CCI_FootBotWheelsActuator::WHEEL_RADIUS_M;
+  }
+  double GetRightDistance(double tick_s) const
+  {
+    return GetRightVelocity() * tick_s * CCI_FootBotWheelsActuator::WHEEL_RADIUS_M;
+  }
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_FootBotEncodersSensor;

@@ -1,0 +1,22 @@
+// The gripper of a footbot, at the front of its turret.
+#pragma once
+
+#include "common/control_interface/ci_device.h"
+
+namespace swarmanoid
+{
+
+class CCI_FootBotGripperActuator : public CCI_Actuator
+{
+public:
+  // 0 opens it, 1 closes it; beyond LOCK_THRESHOLD it takes hold of what it touches and keeps it (ARGoS3, foot-bot).
+  static constexpr double LOCK_THRESHOLD = 0.5;
+
+  virtual void SetGripper(double closed) = 0;
+  void Grip() { SetGripper(1); }
+  void Release() { SetGripper(0); }
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_FootBotGripperActuator;

@@ -1,0 +1,26 @@
+// The sensors under a footbot that see the floor: the nest is a coloured patch of it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "common/control_interface/ci_device.h"
+
+namespace swarmanoid
+{
+
+class CCI_FootBotGroundSensor : public CCI_Sensor
+{
+public:
+  static constexpr unsigned NUM_SENSORS = 8;
+
+  // Brightness of the floor under each sensor, 0 (black, or a hole) to 1 (white). The sensors stand on a ring of 0.08
+  // m, counter-clockwise from the front.
+  virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
+  // The colour of the floor (0xRRGGBB) under the centre of the robot.
+  virtual std::uint32_t GetFloorColour() const = 0;
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_FootBotGroundSensor;

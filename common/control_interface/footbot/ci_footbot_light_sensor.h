@@ -1,0 +1,27 @@
+// The 24 light sensors around the body of a footbot.
+#pragma once
+
+#include <span>
+
+#include "common/control_interface/ci_device.h"
+
+namespace swarmanoid
+{
+
+class CCI_FootBotLightSensor : public CCI_Sensor
+{
+public:
+  static constexpr unsigned NUM_SENSORS = 24;
+  // The angle (radians, counter-clockwise from the front) of sensor i is FIRST_ANGLE + i * SPACING, as for proximity.
+  static constexpr double FIRST_ANGLE = 0.1308996938995747;  // 7.5 degrees
+  static constexpr double SPACING = 0.2617993877991494;      // 15 degrees
+
+  // 0 (dark) to 1, valid until the next control step.
+  virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
+  double GetLightSensorReading(unsigned sensor) const { return GetAllSensorReadings()[sensor]; }
+  static double AngleOf(unsigned sensor) { return FIRST_ANGLE + sensor * SPACING; }
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_FootBotLightSensor;

@@ -1,0 +1,23 @@
+// Showing a direction on the LED ring of a footbot: a modality of the LEDs. Use it or footbot_leds, not both: the one
+// that is listed later in the experiment file wins.
+#pragma once
+
+#include <cstdint>
+
+#include "common/control_interface/ci_colour.h"
+#include "common/control_interface/ci_device.h"
+
+namespace swarmanoid
+{
+
+class CCI_FootBotPreferentialDirectionActuator : public CCI_Actuator
+{
+public:
+  // Lights the LEDs around this direction, radians counter-clockwise from the front of the body, in a colour.
+  virtual void SetDirection(double angle, std::uint32_t colour) = 0;
+  virtual void HideDirection() = 0;
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_FootBotPreferentialDirectionActuator;

@@ -1,0 +1,18 @@
+// The turret of a footbot: it bears gripper and LED ring and turns against the body.
+#pragma once
+
+#include "common/control_interface/ci_device.h"
+
+namespace swarmanoid
+{
+
+class CCI_FootBotTurretActuator : public CCI_Actuator
+{
+public:
+  // rad/s, positive counter-clockwise.
+  virtual void SetTurretAngularVelocity(double velocity) = 0;
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_FootBotTurretActuator;

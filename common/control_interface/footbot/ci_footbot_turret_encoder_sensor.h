@@ -1,0 +1,18 @@
+// The angle of the turret of a footbot against its body.
+#pragma once
+
+#include "common/control_interface/ci_device.h"
+
+namespace swarmanoid
+{
+
+class CCI_FootBotTurretEncoderSensor : public CCI_Sensor
+{
+public:
+  // Radians, -pi..pi, counter-clockwise from the front.
+  virtual double GetTurretAngle() const = 0;
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_FootBotTurretEncoderSensor;

@@ -1,0 +1,22 @@
+// The two arms of a handbot and the wrists at their ends.
+#pragma once
+
+#include "common/control_interface/ci_device.h"
+
+namespace swarmanoid
+{
+
+class CCI_HandBotArmsActuator : public CCI_Actuator
+{
+public:
+  // Angular velocities in rad/s. An arm opens from 0 (along the robot) to MAX_ARM, a wrist turns from 0 to MAX_WRIST
+  // (ARGoS 2, hand-bot); the joints stop there.
+  static constexpr double MAX_ARM = 1.0471975511965976;    // 60 degrees
+  static constexpr double MAX_WRIST = 1.5707963267948966;  // 90 degrees
+  virtual void SetArmVelocities(double left, double right) = 0;
+  virtual void SetWristVelocities(double left, double right) = 0;
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_HandBotArmsActuator;

@@ -1,0 +1,24 @@
+// The two hands (grippers) of a handbot.
+#pragma once
+
+#include "common/control_interface/ci_device.h"
+
+namespace swarmanoid
+{
+
+class CCI_HandBotHandsActuator : public CCI_Actuator
+{
+public:
+  enum Hand
+  {
+    LEFT = 0,
+    RIGHT = 1
+  };
+  // A closing hand takes hold of what it touches; an opening one lets go.
+  virtual void Close(Hand hand) = 0;
+  virtual void Open(Hand hand) = 0;
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_HandBotHandsActuator;

@@ -1,0 +1,35 @@
+// The state of a handbot's joints, hands and rope.
+#pragma once
+
+#include <span>
+
+#include "common/control_interface/ci_device.h"
+
+namespace swarmanoid
+{
+
+class CCI_HandBotJointsSensor : public CCI_Sensor
+{
+public:
+  enum Reading
+  {
+    HEAD,      // radians
+    ARM_LEFT,  // radians, 0 along the robot
+    ARM_RIGHT,
+    WRIST_LEFT,  // radians
+    WRIST_RIGHT,
+    HAND_LEFT,  // aperture in radians, 0 is closed
+    HAND_RIGHT,
+    HOLDS_LEFT,  // 1 while the hand holds something, else 0
+    HOLDS_RIGHT,
+    ROPE_ATTACHED,  // 1 while the rope is attached, else 0
+    ROPE_LENGTH,    // m
+    NUM_READINGS
+  };
+  virtual std::span<const double, NUM_READINGS> GetAllSensorReadings() const = 0;
+  double GetReading(Reading reading) const { return GetAllSensorReadings()[reading]; }
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_HandBotJointsSensor;

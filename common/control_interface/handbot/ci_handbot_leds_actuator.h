@@ -1,0 +1,18 @@
+// The 12 LEDs around a handbot.
+#pragma once
+
+#include "common/control_interface/ci_led_ring_actuator.h"
+
+namespace swarmanoid
+{
+
+class CCI_HandBotLedsActuator : public CCI_LedRingActuator
+{
+public:
+  static constexpr unsigned NUM_LEDS = 12;
+  unsigned GetNumLeds() const override { return NUM_LEDS; }
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_HandBotLedsActuator;

@@ -1,0 +1,20 @@
+// The rope of a handbot: shot to the ceiling, it lets the robot climb by its winch.
+#pragma once
+
+#include "common/control_interface/ci_device.h"
+
+namespace swarmanoid
+{
+
+class CCI_HandBotRopeActuator : public CCI_Actuator
+{
+public:
+  static constexpr double MAX_WINCH_SPEED = 0.15;  // m/s
+  virtual void Launch() = 0;                       // attaches to what is above; stays so until Release
+  virtual void Release() = 0;
+  virtual void SetWinchVelocity(double velocity) = 0;  // m/s of rope let out; negative pulls the robot up
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_HandBotRopeActuator;

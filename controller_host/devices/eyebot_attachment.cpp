@@ -1,0 +1,47 @@
+// The magnet of the eyebot: 1 (attach) or 0 (detach) to the engine on channel "eyebot_attach".
+#include "common/control_interface/eyebot/ci_eyebot_attachment_actuator.h"
+#include "controller_host/devices/builtin_devices.h"
+#include "controller_host/devices/device_kit.h"
+#include "controller_host/devices/value_devices.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+class Magnet : public CCI_EyeBotAttachmentActuator
+{
+public:
+  explicit Magnet(double* on) : on_(on) {}
+  void Attach() override { *on_ = 1; }
+  void Detach() override { *on_ = 0; }
+
+private:
+  double* on_;
+};
+
+class MagnetActuator : public ActuatorsOf<ChannelActuator, Magnet>
+{
+public:
+  void Init(const DeviceSetup& setup) override
+  {
+    Reset(setup, 1);
+    MakeDevices();
+  }
+};
+
+}  // namespace
+
+void RegisterEyebotAttachment()
+{
+  PluginDescription description;
+  description.label = "eyebot_attachment";
+  description.implementation = "dummy_eyebot_attachment";
+  description.brief = "hangs the robot on the ceiling by its magnet";
+  description.robots = {"eyebot"};
+  description.channel = "eyebot_attach";
+  description.channel_width = 1;
+  AddActuatorPlugin<MagnetActuator>(description);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,48 @@
+// Accelerometer of the footbot, from the engine on channel "footbot_accelerometer": forward, left, up in m/s^2.
+#include "common/control_interface/footbot/ci_footbot_accelerometer_sensor.h"
+#include "controller_host/devices/builtin_devices.h"
+#include "controller_host/devices/device_kit.h"
+#include "controller_host/devices/value_devices.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+class Accelerometer : public CCI_FootBotAccelerometerSensor
+{
+public:
+  explicit Accelerometer(const double* values) : values_(values) {}
+  std::span<const double, 3> GetAllSensorReadings() const override { return std::span<const double, 3>(values_, 3); }
+
+private:
+  const double* values_;
+};
+
+class AccelerometerSensor : public SensorsOf<ChannelSensor, Accelerometer>
+{
+public:
+  void Init(const DeviceSetup& setup) override
+  {
+    Reset(setup, 3);
+    noise_ = NoiseFrom(setup.parameters);
+    MakeDevices();
+  }
+};
+
+}  // namespace
+
+void RegisterFootbotAccelerometer()
+{
+  PluginDescription description;
+  description.label = "footbot_accelerometer";
+  description.implementation = "engine_footbot_accelerometer";
+  description.brief = "acceleration of the body, gravity included, in engines that know forces";
+  description.robots = {"footbot"};
+  description.channel = "footbot_accelerometer";
+  description.channel_width = 3;
+  description.parameters = NoiseParameters("each component", "m/s^2");
+  AddSensorPlugin<AccelerometerSensor>(description);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,49 @@
+// Wheel encoders of the footbot: how the wheels turned in the last tick, from the engine on channel "footbot_encoders",
+// rad/s.
+#include "common/control_interface/footbot/ci_footbot_encoders_sensor.h"
+#include "controller_host/devices/builtin_devices.h"
+#include "controller_host/devices/device_kit.h"
+#include "controller_host/devices/value_devices.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+class Encoders : public CCI_FootBotEncodersSensor
+{
+public:
+  explicit Encoders(const double* values) : values_(values) {}
+  std::span<const double, 2> GetAllSensorReadings() const override { return std::span<const double, 2>(values_, 2); }
+
+private:
+  const double* values_;
+};
+
+class EncodersSensor : public SensorsOf<ChannelSensor, Encoders>
+{
+public:
+  void Init(const DeviceSetup& setup) override
+  {
+    Reset(setup, 2);
+    noise_ = NoiseFrom(setup.parameters);
+    MakeDevices();
+  }
+};
+
+}  // namespace
+
+void RegisterFootbotEncoders()
+{
+  PluginDescription description;
+  description.label = "footbot_encoders";
+  description.implementation = "engine_footbot_encoders";
+  description.brief = "how the wheels turned in the last tick, collisions and pulls included";
+  description.robots = {"footbot"};
+  description.channel = "footbot_encoders";
+  description.channel_width = 2;
+  description.parameters = NoiseParameters("the speed of each wheel", "rad/s");
+  AddSensorPlugin<EncodersSensor>(description);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,94 @@
+// LED rings of all robots and the footbot's beacon: colours as attributes of the robots. Generic.
+#include <stdexcept>
+
+#include "common/control_interface/eyebot/ci_eyebot_leds_actuator.h"
+#include "common/control_interface/footbot/ci_footbot_beacon_actuator.h"
+#include "common/control_interface/footbot/ci_footbot_leds_actuator.h"
+#include "common/control_interface/handbot/ci_handbot_leds_actuator.h"
+#include "controller_host/devices/builtin_devices.h"
+#include "controller_host/devices/device_kit.h"
+#include "controller_host/devices/value_devices.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr std::uint32_t kColourBits = 0xffffff;
+
+template <class Interface>
+class Ring : public Interface
+{
+public:
+  explicit Ring(double* colours) : colours_(colours) {}
+  void SetAllColours(std::uint32_t colour) override
+  {
+    for (unsigned led = 0; led < Interface::NUM_LEDS; ++led) colours_[led] = colour & kColourBits;
+  }
+  void SetColour(unsigned led, std::uint32_t colour) override
+  {
+    if (led >= Interface::NUM_LEDS)
+      throw std::out_of_range("LED " + std::to_string(led) + " of a ring of " + std::to_string(Interface::NUM_LEDS));
+    colours_[led] = colour & kColourBits;
+  }
+
+private:
+  double* colours_;
+};
+
+template <class Interface>
+class RingActuator : public ActuatorsOf<AttributeActuator, Ring<Interface>>
+{
+public:
+  void Init(const DeviceSetup& setup) override
+  {
+    this->Bind(setup, {"led"});
+    this->MakeDevices();
+  }
+};
+
+class Beacon : public CCI_FootBotBeaconActuator
+{
+public:
+  explicit Beacon(double* colour) : colour_(colour) {}
+  void SetColour(std::uint32_t colour) override { *colour_ = colour & kColourBits; }
+
+private:
+  double* colour_;
+};
+
+class BeaconActuator : public ActuatorsOf<AttributeActuator, Beacon>
+{
+public:
+  void Init(const DeviceSetup& setup) override
+  {
+    Bind(setup, {"beacon"});
+    MakeDevices();
+  }
+};
+
+template <class Batch>
+void Add(const char* label, const char* implementation, const char* robot, const char* brief)
+{
+  PluginDescription description;
+  description.label = label;
+  description.implementation = implementation;
+  description.brief = brief;
+  description.robots = {robot};
+  AddActuatorPlugin<Batch>(description);
+}
+
+}  // namespace
+
+void RegisterLeds()
+{
+  Add<RingActuator<CCI_FootBotLedsActuator>>("footbot_leds", "generic_footbot_leds", "footbot",
+                                             "the 12 LEDs around the turret");
+  Add<BeaconActuator>("footbot_beacon", "generic_footbot_beacon", "footbot", "the LED on top of the robot");
+  Add<RingActuator<CCI_EyeBotLedsActuator>>("eyebot_leds", "generic_eyebot_leds", "eyebot",
+                                            "the 16 LEDs around the robot");
+  Add<RingActuator<CCI_HandBotLedsActuator>>("handbot_leds", "generic_handbot_leds", "handbot",
+                                             "the 12 LEDs around the robot");
+}
+
+}  // namespace swarmanoid

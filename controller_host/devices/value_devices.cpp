@@ -1,0 +1,115 @@
+#include "controller_host/devices/value_devices.h"
+
+#include <algorithm>
+
+#include "common/space/attributes.h"
+#include "controller_host/devices/device_kit.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+// All slots of some attributes, robot after robot.
+std::vector<std::uint32_t> SlotsOf(const DeviceSetup& setup, const std::vector<std::string>& attributes)
+{
+  std::vector<std::uint32_t> slots;
+  for (const std::uint32_t robot : setup.robots)
+  {
+    const CSwarmanoidSpaceEntity& entity = setup.space.GetEntity(robot);
+    for (const AttributeSpec& spec : AttributesOf(entity.GetKind()))
+      if (std::find(attributes.begin(), attributes.end(), spec.name) != attributes.end())
+        for (int element = 0; element < spec.count; ++element) slots.push_back(entity.SlotOf(spec.name, element));
+  }
+  return slots;
+}
+
+}  // namespace
+
+void ValueActuator::Reset(const DeviceSetup& setup, std::size_t width)
+{
+  space_ = &setup.space;
+  robots_ = setup.robots;
+  stream_ = setup.stream;
+  width_ = width;
+  values_.assign(robots_.size() * width, 0);
+}
+
+void ValueActuator::LoadState(ByteReader& state)
+{
+  const auto values = state.GetArray<double>();
+  if (values.size() != values_.size()) throw std::runtime_error("saved state: a device has other robots");
+  std::copy(values.begin(), values.end(), values_.begin());  // in place: the devices point into it
+}
+
+void ChannelActuator::Commit(const ChannelView& channel, AttributeChanges&)
+{
+  for (std::size_t k = 0; k < robots_.size(); ++k)
+  {
+    const double* values = ValuesOf(k);
+    double* target = &channel.values[channel.offsets[k] + first_];
+    std::copy_n(values, width_, target);
+    if (!noise_.IsActive()) continue;
+    RandomStream random = StreamOf(*space_, robots_[k], stream_);
+    for (std::size_t i = 0; i < width_; ++i)
+    {
+      const double noise = noise_.Sample(random);
+      if (target[i] != 0) target[i] += noise;
+    }
+  }
+}
+
+void AttributeActuator::Bind(const DeviceSetup& setup, const std::vector<std::string>& attributes)
+{
+  slots_ = SlotsOf(setup, attributes);
+  Reset(setup, setup.robots.empty() ? 0 : slots_.size() / setup.robots.size());
+  for (std::size_t i = 0; i < slots_.size(); ++i) values_[i] = setup.space.Attributes()[slots_[i]];
+}
+
+void AttributeActuator::Commit(const ChannelView&, AttributeChanges& changes)
+{
+  const std::span<const double> attributes = space_->Attributes();
+  for (std::size_t i = 0; i < slots_.size(); ++i)
+    if (attributes[slots_[i]] != values_[i]) changes.Add(slots_[i], values_[i]);
+}
+
+void ValueSensor::Reset(const DeviceSetup& setup, std::size_t width)
+{
+  space_ = &setup.space;
+  robots_ = setup.robots;
+  stream_ = setup.stream;
+  width_ = width;
+  values_.assign(robots_.size() * width, 0);
+}
+
+void ValueSensor::AddNoise()
+{
+  if (!noise_.IsActive()) return;
+  for (std::size_t k = 0; k < robots_.size(); ++k)
+  {
+    RandomStream random = StreamOf(*space_, robots_[k], stream_);
+    for (std::size_t i = 0; i < width_; ++i) ValuesOf(k)[i] += noise_.Sample(random);
+  }
+}
+
+void ChannelSensor::Update(const ChannelView& channel)
+{
+  for (std::size_t k = 0; k < robots_.size(); ++k)
+    std::copy_n(&channel.values[channel.offsets[k]], width_, ValuesOf(k));
+  AddNoise();
+}
+
+void AttributeSensor::Bind(const DeviceSetup& setup, const std::vector<std::string>& attributes)
+{
+  slots_ = SlotsOf(setup, attributes);
+  Reset(setup, setup.robots.empty() ? 0 : slots_.size() / setup.robots.size());
+}
+
+void AttributeSensor::Update(const ChannelView&)
+{
+  const std::span<const double> attributes = space_->Attributes();
+  for (std::size_t i = 0; i < slots_.size(); ++i) values_[i] = attributes[slots_[i]];
+  AddNoise();
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,127 @@
+// The plain devices: a few numbers for each robot, carried to or from the engine (channels) or the space (attributes).
+// What a controller holds is a thin object on the numbers of its robot.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "controller_host/device.h"
+#include "controller_host/devices/noise.h"
+
+namespace swarmanoid
+{
+
+// Numbers that controllers set. They stay until set again; saved and restored.
+class ValueActuator : public ActuatorBatch
+{
+public:
+  void SaveState(ByteWriter& state) const override { state.PutArray(values_); }
+  void LoadState(ByteReader& state) override;
+
+protected:
+  void Reset(const DeviceSetup& setup, std::size_t width);
+  double* ValuesOf(std::size_t k) { return &values_[k * width_]; }
+  std::size_t Robots() const { return robots_.size(); }
+
+  const CSwarmanoidSpace* space_ = nullptr;
+  std::vector<std::uint32_t> robots_;
+  std::uint32_t stream_ = 0;
+  std::size_t width_ = 0;
+  std::vector<double> values_;  // robot after robot
+};
+
+// Sends its numbers to the engine, from place `first` of the channel on. Noise is added to numbers that are not 0.
+class ChannelActuator : public ValueActuator
+{
+public:
+  void Commit(const ChannelView& channel, AttributeChanges& changes) override;
+
+protected:
+  std::size_t first_ = 0;
+  NoiseModel noise_;
+};
+
+// Writes its numbers into attributes of its robots, those that differ from the space.
+class AttributeActuator : public ValueActuator
+{
+public:
+  void Commit(const ChannelView& channel, AttributeChanges& changes) override;
+
+protected:
+  // The attributes in the order of their slots, each with all its elements; numbers start with the values of the space.
+  void Bind(const DeviceSetup& setup, const std::vector<std::string>& attributes);
+
+private:
+  std::vector<std::uint32_t> slots_;  // robot after robot
+};
+
+// Numbers that controllers read.
+class ValueSensor : public SensorBatch
+{
+protected:
+  void Reset(const DeviceSetup& setup, std::size_t width);
+  double* ValuesOf(std::size_t k) { return &values_[k * width_]; }
+  void AddNoise();
+
+  const CSwarmanoidSpace* space_ = nullptr;
+  std::vector<std::uint32_t> robots_;
+  std::uint32_t stream_ = 0;
+  std::size_t width_ = 0;
+  std::vector<double> values_;
+  NoiseModel noise_;
+};
+
+// What the engine says, with noise.
+class ChannelSensor : public ValueSensor
+{
+public:
+  void Update(const ChannelView& channel) override;
+};
+
+// Attributes of the robots as they stand in the space, with noise.
+class AttributeSensor : public ValueSensor
+{
+public:
+  void Update(const ChannelView& channel) override;
+
+protected:
+  void Bind(const DeviceSetup& setup, const std::vector<std::string>& attributes);
+
+private:
+  std::vector<std::uint32_t> slots_;
+};
+
+// Actuator batches and sensor batches of one kind of object, made from the numbers of a robot.
+template <class Base, class Device>
+class ActuatorsOf : public Base
+{
+public:
+  CCI_Actuator* Actuator(std::size_t k) override { return &devices_[k]; }
+
+protected:
+  void MakeDevices()
+  {
+    devices_.clear();
+    devices_.reserve(this->robots_.size());
+    for (std::size_t k = 0; k < this->robots_.size(); ++k) devices_.emplace_back(this->ValuesOf(k));
+  }
+  std::vector<Device> devices_;
+};
+
+template <class Base, class Device>
+class SensorsOf : public Base
+{
+public:
+  CCI_Sensor* Sensor(std::size_t k) override { return &devices_[k]; }
+
+protected:
+  void MakeDevices()
+  {
+    devices_.clear();
+    devices_.reserve(this->robots_.size());
+    for (std::size_t k = 0; k < this->robots_.size(); ++k) devices_.emplace_back(this->ValuesOf(k));
+  }
+  std::vector<Device> devices_;
+};
+
+}  // namespace swarmanoid
