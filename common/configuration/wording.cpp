@@ -10,6 +10,7 @@ namespace
 
 constexpr std::size_t kLongestQuote = 60;
 constexpr std::size_t kLongestName = 64;
+constexpr std::size_t kLeastBeginning = 4;  // letters that make the beginning of a name a hint
 
 // Levenshtein distance with exchanges of neighbours, letters compared without case.
 std::size_t EditDistance(std::string_view a, std::string_view b)
@@ -56,12 +57,16 @@ std::string NearestName(std::string_view name, const std::vector<std::string>& c
 {
   if (name.size() > kLongestName) return {};
   std::string nearest;
-  std::size_t least = std::max<std::size_t>(1, name.size() / 3) + 1;
+  // In halves, so that of two at one distance the one of the same length is nearer.
+  std::size_t least = 2 * std::max<std::size_t>(1, name.size() / 3) + 2;
   for (const std::string& candidate : candidates)
   {
     if (candidate.size() > kLongestName) continue;
-    const std::size_t distance = EditDistance(name, candidate);
-    if (distance >= least) continue;
+    std::size_t distance = 2 * EditDistance(name, candidate) + (name.size() == candidate.size() ? 0 : 1);
+    const bool begun = std::min(name.size(), candidate.size()) >= kLeastBeginning &&
+                       (candidate.starts_with(name) || name.starts_with(candidate));
+    if (begun) distance = std::min<std::size_t>(distance, 3);
+    if (distance >= least || distance >= 2 * name.size()) continue;
     least = distance;
     nearest = candidate;
   }

@@ -142,6 +142,7 @@ std::vector<std::string> StandardPluginFolders()
     const fs::path own = fs::weakly_canonical(place.dli_fname, error).parent_path();
     folders.push_back(own.string());
     folders.push_back((own / "swarmanoid").string());
+    folders.push_back((own / "swarmanoid" / "controllers").string());
   }
   return folders;
 }

@@ -26,7 +26,7 @@ const PluginLibrary& LoadPluginLibrary(const std::string& name, const std::vecto
 std::vector<std::string> SplitSearchPath(const std::string& list, const std::string& base);
 
 // Searched after those of the experiment: those of the environment variable SWARMANOID_PLUGIN_PATH, then the folder
-// of our own libraries and its subfolder swarmanoid.
+// of our own libraries with its subfolders swarmanoid and swarmanoid/controllers.
 std::vector<std::string> StandardPluginFolders();
 
 }  // namespace swarmanoid

@@ -1,0 +1,165 @@
+// <distribute>: many entities, placed without overlaps, from the seed alone.
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "common/experiment/body.h"
+#include "common/math/elementary.h"
+#include "tests/unit/experiment/fake_plugins.h"
+
+namespace swarmanoid::test
+{
+namespace
+{
+
+std::string Arena(const std::string& content, const std::string& size = "10,10,3", const std::string& framework = "")
+{
+  return "<ahss-config>" + framework + "\n<arena size='" + size + "' optimization='2D'>\n" + content +
+         "\n</arena></ahss-config>";
+}
+
+std::vector<EntityConfiguration> EntitiesOf(const std::string& text)
+{
+  const LoadedExperiment loaded = LoadText(text);
+  EXPECT_EQ(ErrorsOf(text), "");
+  return loaded.experiment ? loaded.experiment->entities : std::vector<EntityConfiguration>{};
+}
+
+TEST(Distribute, PlacesTheQuantityWithNumberedIds)
+{
+  const auto entities = EntitiesOf(Arena("<distribute quantity='100'><footbot id='fb'/></distribute>"));
+  ASSERT_EQ(entities.size(), 100U);
+  EXPECT_EQ(entities.front().id, "fb_0");
+  EXPECT_EQ(entities.back().id, "fb_99");
+}
+
+TEST(Distribute, BodiesNeitherOverlapNorLeaveTheFloor)
+{
+  const auto entities =
+      EntitiesOf(Arena("<block id='b' position='2,2,0.5' orientation='0,0,30' size='3,0.2,1'/>"
+                       "<distribute quantity='500'><footbot id='fb'/></distribute>"
+                       "<distribute quantity='5'><handbot id='hb'/></distribute>"));
+  ASSERT_EQ(entities.size(), 506U);
+  for (std::size_t i = 0; i < entities.size(); ++i)
+  {
+    const Body body = BodyOf(entities[i]).value();
+    const Vector3 half = body.HalfExtent();
+    if (entities[i].kind != EntityKind::kBlock)
+    {
+      EXPECT_GE((body.centre - half).minCoeff(), -1e-9);
+      EXPECT_LE((body.centre + half).head<2>().maxCoeff(), 10 + 1e-9);
+      EXPECT_EQ(entities[i].pose.position.z(), 0);
+    }
+    for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(Overlap(body, BodyOf(entities[k]).value()));
+  }
+}
+
+TEST(Distribute, TheSeedDecidesThePlacesAndNothingElse)
+{
+  const std::string content = "<distribute quantity='50'><footbot id='fb'/></distribute>";
+  const auto first = EntitiesOf(Arena(content));
+  const auto again = EntitiesOf(Arena(content));
+  const auto other = EntitiesOf(Arena(content, "10,10,3", "<framework seed='2'/>"));
+  for (std::size_t i = 0; i < first.size(); ++i)
+  {
+    EXPECT_EQ(first[i].pose.position, again[i].pose.position);
+    EXPECT_EQ(first[i].pose.orientation.coeffs(), again[i].pose.orientation.coeffs());
+    EXPECT_NE(first[i].pose.position, other[i].pose.position);
+  }
+}
+
+TEST(Distribute, UniformStaysInItsBoxWithTheGivenHeadings)
+{
+  const auto entities =
+      EntitiesOf(Arena("<distribute quantity='10'><position min='1,2,1' max='4,5,2'/>"
+                       "<orientation method='constant' value='0,0,90'/><eyebot id='eb'/></distribute>"));
+  for (const EntityConfiguration& entity : entities)
+  {
+    EXPECT_TRUE((entity.pose.position.array() >= Eigen::Array3d(1, 2, 1)).all());
+    EXPECT_TRUE((entity.pose.position.array() <= Eigen::Array3d(4, 5, 2)).all());
+    EXPECT_NEAR(YawOf(entity.pose.orientation), kPi / 2, 1e-12);
+  }
+}
+
+TEST(Distribute, UniformFillsTheFloorEvenly)
+{
+  const auto entities = EntitiesOf(Arena("<distribute quantity='1000'><footbot id='fb'/></distribute>", "40,40,1"));
+  int quarter[4] = {};
+  for (const EntityConfiguration& entity : entities)
+  {
+    ++quarter[(entity.pose.position.x() > 20 ? 1 : 0) + (entity.pose.position.y() > 20 ? 2 : 0)];
+  }
+  // 250 each, with a standard deviation of 13.7.
+  for (const int count : quarter) EXPECT_NEAR(count, 250, 60);
+}
+
+TEST(Distribute, GaussianHasItsMeanAndDeviation)
+{
+  const auto entities =
+      EntitiesOf(Arena("<distribute quantity='2000'><position method='gaussian' mean='50,40,0' deviation='5,10,0'/>"
+                       "<cylindric_prey id='p' radius='0.01' height='0.1'/></distribute>",
+                       "100,100,1"));
+  Vector3 mean = Vector3::Zero(), square = Vector3::Zero();
+  for (const EntityConfiguration& entity : entities) mean += entity.pose.position / 2000;
+  for (const EntityConfiguration& entity : entities) square += (entity.pose.position - mean).cwiseAbs2() / 2000;
+  EXPECT_NEAR(mean.x(), 50, 0.5);
+  EXPECT_NEAR(mean.y(), 40, 1);
+  EXPECT_NEAR(std::sqrt(square.x()), 5, 0.4);
+  EXPECT_NEAR(std::sqrt(square.y()), 10, 0.8);
+}
+
+TEST(Distribute, GridGoesAlongXFirst)
+{
+  const auto entities =
+      EntitiesOf(Arena("<distribute quantity='5'><position method='grid' centre='5,5,0' "
+                       "spacing='1,2,0' layout='3,2,1'/><footbot id='fb'/></distribute>"));
+  ASSERT_EQ(entities.size(), 5U);
+  const Vector3 expected[] = {{4, 4, 0}, {5, 4, 0}, {6, 4, 0}, {4, 6, 0}, {5, 6, 0}};
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_TRUE(entities[i].pose.position.isApprox(expected[i])) << i;
+}
+
+TEST(Distribute, GridWithoutSettingsHoldsAll)
+{
+  EXPECT_EQ(
+      EntitiesOf(Arena("<distribute quantity='10'><position method='grid'/><block id='b' size='1,1,1'/></distribute>"))
+          .size(),
+      10U);
+}
+
+TEST(Distribute, ErrorsSayWhatDoesNotFit)
+{
+  EXPECT_EQ(ErrorsOf(Arena("<distribute quantity='100' max_trials='50'><footbot id='fb'/></distribute>", "1,1,1")),
+            "test.xml:3:1: the footbot 'fb_16' does not fit after 16 of 100 were placed: no free place in 50 trials; "
+            "lower the "
+            "quantity, enlarge the region or raise max_trials\n");
+  EXPECT_EQ(ErrorsOf(Arena(
+                "<distribute quantity='5'><position method='grid' layout='2,2,1'/><footbot id='fb'/></distribute>")),
+            "test.xml:3:50: a grid of 2 x 2 x 1 has 4 points; 5 are needed\n");
+  EXPECT_EQ(ErrorsOf(Arena("<distribute quantity='5'><position max='5,20,0'/><footbot id='fb'/></distribute>")),
+            "test.xml:3:26: the box of the positions reaches from 0.085036758, 0.085036758, 0 to 5, 20, 0 m; it must "
+            "lie within "
+            "the arena of 10, 10, 3 m\n");
+  EXPECT_EQ(ErrorsOf(Arena("<distribute quantity='5'/>")),
+            "test.xml:3:1: <distribute> must hold one entity element such as <footbot id=\"fb\"/>; it holds 0\n");
+  EXPECT_EQ(ErrorsOf(Arena("<distribute quantity='0'><footbot id='fb' position='1,1,0'/></distribute>")),
+            "test.xml:3:13: 'quantity' of <distribute> is 0; it must be from 1 to 2000000\n"
+            "test.xml:3:43: <footbot> has no attribute 'position'; allowed: id, controller\n");
+}
+
+TEST(Distribute, EnginesTakeThemByPatternOrAll)
+{
+  const std::string rest =
+      "<light_bulb id='lamp' position='1,1,2'/><distribute quantity='20'><footbot id='fb'/></distribute></arena>"
+      "<engines><dummy_engine id='a'/><dummy_engine id='b'/><dummy_engine id='c'/></engines><arena_physics>"
+      "<engine id='a'><entity id='fb_1?'/></engine><engine id='b'><all/></engine><engine id='c'><all "
+      "kind='footbot'/></engine>"
+      "</arena_physics></ahss-config>";
+  const LoadedExperiment loaded = LoadText("<ahss-config><arena size='10,10,3' optimization='2D'>" + rest);
+  ASSERT_TRUE(loaded.experiment);
+  EXPECT_EQ(loaded.experiment->engines[0].entities.size(), 10U);
+  EXPECT_EQ(loaded.experiment->engines[1].entities.size(), 20U);
+  EXPECT_EQ(loaded.experiment->engines[2].entities.size(), 20U);
+}
+
+}  // namespace
+}  // namespace swarmanoid::test

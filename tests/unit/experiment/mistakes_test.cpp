@@ -1,0 +1,249 @@
+// Each kind of mistake in an experiment file gives its place, what is wrong and what to do.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/unit/experiment/fake_plugins.h"
+
+namespace swarmanoid::test
+{
+namespace
+{
+
+const std::string kGood = R"xml(<ahss-config>
+  <framework>
+    <clocktick>100</clocktick>
+    <maxclock>500</maxclock>
+  </framework>
+  <controllers>
+    <footbot_sample_controller id="fc">
+      <actuators>
+        <footbot_wheels><implementation>dummy_footbot_wheels</implementation></footbot_wheels>
+      </actuators>
+      <sensors>
+        <pie_camera implementation="generic_pie_camera" noise="0.1"/>
+      </sensors>
+      <parameters><any><thing at="all"/></any></parameters>
+    </footbot_sample_controller>
+  </controllers>
+  <arena size="10,10,3" optimization="2D">
+    <footbot id="fb"><position>9, 9, 0</position><controller>fc</controller></footbot>
+    <footbot id="fb2" position="8, 8, 0" orientation="0,0,90"/>
+    <block id="wall"><position>5, 5, 0.25</position><size>1, 1, 0.5</size></block>
+    <light_bulb id="lamp" position="1, 1, 2"/>
+  </arena>
+  <engines>
+    <dummy_engine id="ground"><perpendicular_axis>z</perpendicular_axis></dummy_engine>
+  </engines>
+  <arena_physics>
+    <engine id="ground"><entity id="fb"/><entity id="fb2"/><entity id="wall"/></engine>
+  </arena_physics>
+  <visualisations>
+    <text_render id="table"><file>table.txt</file></text_render>
+  </visualisations>
+</ahss-config>
+)xml";
+
+struct Mistake
+{
+  const char* name;
+  const char* good;    // a part of the file above that occurs once
+  const char* bad;     // what stands there instead
+  const char* errors;  // all of them
+};
+
+std::string WithMistake(const Mistake& mistake)
+{
+  std::string text = kGood;
+  const std::size_t at = text.find(mistake.good);
+  EXPECT_NE(at, std::string::npos) << mistake.good;
+  EXPECT_EQ(text.find(mistake.good, at + 1), std::string::npos) << "twice: " << mistake.good;
+  return text.replace(at, std::string(mistake.good).size(), mistake.bad);
+}
+
+class Mistakes : public testing::TestWithParam<Mistake>
+{
+};
+
+TEST_P(Mistakes, AreNamedWithPlaceAndCure) { EXPECT_EQ(ErrorsOf(WithMistake(GetParam())), GetParam().errors); }
+
+const Mistake kMistakes[] = {
+    {"UnknownRoot", "<ahss-config>\n  <framework>", "<argos-config>\n  <framework>",
+     "test.xml:32:1: </ahss-config> does not match <argos-config>, which starts in line 1 and must be closed first\n"},
+    {"UnknownSection", "<framework>\n", "<framwork/><framework>\n",
+     "test.xml:2:3: <ahss-config> has no element <framwork>; allowed: framework, controllers, arena, engines, "
+     "arena_physics, visualisations; did you mean 'framework'?\n"},
+    {"SecondSection", "<engines>\n", "<engines/>\n  <engines>\n",
+     "test.xml:24:3: <ahss-config> holds a second <engines>; the first is in line 23\ntest.xml:28:13: there is no "
+     "engine 'ground'; there are: none\n"},
+    {"MissingArenaSize", "<arena size=\"10,10,3\" optimization=\"2D\">", "<arena optimization=\"2D\">",
+     "test.xml:17:3: <arena> lacks 'size': three numbers \"x, y, z\" in m, from 1e-06 to 1000000 m\n"},
+    {"UnknownAttribute", "optimization=\"2D\"", "optimisation=\"2D\"",
+     "test.xml:17:3: <arena> lacks 'optimization': one of 2D, 3D, octree\ntest.xml:17:25: <arena> has no attribute "
+     "'optimisation'; allowed: size, optimization; did you mean 'optimization'?\n"},
+    {"BadChoice", "optimization=\"2D\"", "optimization=\"2d\"",
+     "test.xml:17:25: 'optimization' of <arena> is '2d'; it must be one of 2D, 3D, octree; did you mean '2D'?\n"},
+    {"NotANumber", "<maxclock>500</maxclock>", "<maxclock>5OO</maxclock>",
+     "test.xml:4:5: 'maxclock' of <framework> is '5OO'; it must be a whole number in ticks, from 0 to 1000000000000000 "
+     "ticks\n"},
+    {"Negative", "<maxclock>500</maxclock>", "<maxclock>-1</maxclock>",
+     "test.xml:4:5: 'maxclock' of <framework> is -1 ticks; it must be from 0 to 1000000000000000 ticks\n"},
+    {"Fraction", "<clocktick>100</clocktick>", "<clocktick>0.1</clocktick>",
+     "test.xml:3:5: 'clocktick' of <framework> is '0.1'; it must be a whole number in ms, from 1 to 3600000 ms\n"},
+    {"ZeroTick", "<clocktick>100</clocktick>", "<clocktick>0</clocktick>",
+     "test.xml:3:5: 'clocktick' of <framework> is 0 ms; it must be from 1 to 3600000 ms\n"},
+    {"EmptyValue", "<clocktick>100</clocktick>", "<clocktick></clocktick>",
+     "test.xml:3:5: 'clocktick' of <framework> is empty; it must be a whole number in ms, from 1 to 3600000 ms\n"},
+    {"GivenTwice", "<clocktick>100</clocktick>", "<clocktick>100</clocktick><clocktick>10</clocktick>",
+     "test.xml:3:31: <framework> gives 'clocktick' a second time; the first is in line 3\n"},
+    {"BothForms", "<framework>\n", "<framework clocktick=\"10\">\n",
+     "test.xml:3:5: <framework> gives 'clocktick' both as an attribute and as an element; keep one\n"},
+    {"AttributesOnAValue", "<clocktick>100", "<clocktick unit=\"ms\">100",
+     "test.xml:3:16: <clocktick> holds a value only: a whole number in ms, from 1 to 3600000 ms\n"},
+    {"TextBetweenElements", "<framework>\n", "<framework>fast\n",
+     "test.xml:2:3: <framework> holds the text 'fast', where only elements are allowed\n"},
+    {"NotNumberInVector", "<position>9, 9, 0</position>", "<position>9, nan, 0</position>",
+     "test.xml:18:22: 'position' of <footbot> is '9, nan, 0'; it must be three numbers \"x, y, z\" in m\n"},
+    {"TwoNumbersForThree", "<position>9, 9, 0</position>", "<position>9, 9</position>",
+     "test.xml:18:22: 'position' of <footbot> is '9, 9'; it must be three numbers \"x, y, z\" in m\n"},
+    {"ZeroSize", "<size>1, 1, 0.5</size>", "<size>1, 0, 0.5</size>",
+     "test.xml:20:53: y of 'size' of <block> is 0 m; it must be from 1e-06 to 1000000 m\n"},
+    {"MissingPosition", "<position>9, 9, 0</position>", "",
+     "test.xml:18:5: <footbot> lacks 'position': three numbers \"x, y, z\" in m\n"},
+    {"OutsideTheArena", "<position>9, 9, 0</position>", "<position>9, 12, 0</position>",
+     "test.xml:18:22: 'fb' is outside the arena: y is 12 m; it must be from 0 to 10 m\n"},
+    {"UnknownEntity", "<light_bulb id=\"lamp\"", "<lightbulb id=\"lamp\"",
+     "test.xml:21:5: <arena> has no element <lightbulb>; allowed: footbot, eyebot, handbot, block, cylindric_prey, "
+     "light_bulb, sound_source, ground_patch, hole, wall, terrain, distribute, size, optimization; did you mean "
+     "'light_bulb'?\n"},
+    {"UnknownParameter", "orientation=\"0,0,90\"", "orientaton=\"0,0,90\"",
+     "test.xml:19:42: <footbot> has no attribute 'orientaton'; allowed: id, position, orientation, controller; did you "
+     "mean 'orientation'?\n"},
+    {"DuplicateId", "id=\"fb2\" position", "id=\"fb\" position",
+     "test.xml:19:14: two entities have the id 'fb'; the first is in line 18\ntest.xml:27:50: there is no entity "
+     "'fb2'; there are: fb, fb, wall, lamp; did you mean 'fb'?\n"},
+    {"BadId", "id=\"lamp\"", "id=\"lamp 1\"",
+     "test.xml:21:17: the id 'lamp 1' must be 1 to 64 letters, digits, '_', '.', ':' or '-', and start with none of "
+     "the last three\n"},
+    {"EmptyId", "id=\"lamp\"", "id=\"\"",
+     "test.xml:21:17: the id '' must be 1 to 64 letters, digits, '_', '.', ':' or '-', and start with none of the last "
+     "three\n"},
+    {"MissingId", "<light_bulb id=\"lamp\"", "<light_bulb", "test.xml:21:5: <light_bulb> lacks 'id': a text\n"},
+    {"UnknownController", "<controller>fc</controller>", "<controller>fcc</controller>",
+     "test.xml:18:50: there is no controller with the id 'fcc'; there are: fc; did you mean 'fc'?\n"},
+    {"OverlappingRobots", "position=\"8, 8, 0\"", "position=\"9, 9.1, 0\"",
+     "test.xml:19:23: the footbot 'fb2' overlaps the footbot 'fb' (line 18) in the engine 'ground'; move one of "
+     "them\n"},
+    {"RobotInAWall", "position=\"8, 8, 0\"", "position=\"5.5, 5, 0\"",
+     "test.xml:19:23: the footbot 'fb2' overlaps the block 'wall' (line 20) in the engine 'ground'; move one of "
+     "them\n"},
+    {"UnknownDevice", "<pie_camera implementation=\"generic_pie_camera\" noise=\"0.1\"/>",
+     "<pi_camera implementation=\"generic_pie_camera\"/>",
+     "test.xml:12:9: there is no sensor <pi_camera>; known: eyebot_altitude, footbot_proximity, pie_camera; did you "
+     "mean 'pie_camera'?\n"},
+    {"UnknownImplementation", "dummy_footbot_wheels", "dumy_footbot_wheels",
+     "test.xml:9:25: the actuator <footbot_wheels> has no implementation 'dumy_footbot_wheels'; known: "
+     "dummy_footbot_wheels, dynamic_footbot_wheels; did you mean 'dummy_footbot_wheels'?\n"},
+    {"MissingImplementation", " implementation=\"generic_pie_camera\"", "",
+     "test.xml:12:9: <pie_camera> lacks its implementation; known: generic_pie_camera\n"},
+    {"UnknownDeviceParameter", "noise=\"0.1\"", "nose=\"0.1\"",
+     "test.xml:12:57: <pie_camera> has no attribute 'nose'; allowed: implementation, library, noise; did you mean "
+     "'noise'?\n"},
+    {"DeviceParameterOutOfRange", "noise=\"0.1\"", "noise=\"2\"",
+     "test.xml:12:57: 'noise' of <pie_camera> is 2; it must be from 0 to 1\n"},
+    {"DeviceTwice", "<sensors>\n", "<sensors><pie_camera implementation=\"generic_pie_camera\"/>\n",
+     "test.xml:12:9: <pie_camera> is listed twice; the first is in line 11\n"},
+    {"DeviceOfAnotherRobot", "<pie_camera implementation=\"generic_pie_camera\" noise=\"0.1\"/>",
+     "<eyebot_altitude implementation=\"generic_eyebot_altitude\"/>",
+     "test.xml:12:9: the sensor <eyebot_altitude> (generic_eyebot_altitude) is for eyebot only, but the footbot 'fb' "
+     "uses the controller 'fc'\n"},
+    {"ChannelThatTheEngineLacks", "dummy_footbot_wheels", "dynamic_footbot_wheels",
+     "test.xml:9:9: the actuator <footbot_wheels> (dynamic_footbot_wheels) of the robot 'fb' needs 'footbot_forces' "
+     "from its engine, which 'ground' (dummy_engine) does not offer; it offers: footbot_wheels, footbot_gripper. Use "
+     "another implementation or another engine\n"},
+    {"ParametersAsAttribute", "<footbot_sample_controller id=\"fc\">",
+     "<footbot_sample_controller id=\"fc\" parameters=\"1\">",
+     "test.xml:7:40: 'parameters' must be written as an element, <parameters>…</parameters>\ntest.xml:14:7: "
+     "<footbot_sample_controller> gives 'parameters' both as an attribute and as an element; keep one\n"},
+    {"UnknownEngine", "<dummy_engine id=\"ground\"><perpendicular_axis>z</perpendicular_axis></dummy_engine>",
+     "<dumy_engine id=\"ground\"/>",
+     "test.xml:24:5: there is no physics engine <dumy_engine>; known: dummy_engine; did you mean 'dummy_engine'?\n"},
+    {"EngineParameter", "<perpendicular_axis>z</perpendicular_axis>", "<perpendicular_axis>w</perpendicular_axis>",
+     "test.xml:24:31: 'perpendicular_axis' of <dummy_engine> is 'w'; it must be one of x, y, z\n"},
+    {"EngineParameterName", "<perpendicular_axis>z</perpendicular_axis>", "<perpendicular>z</perpendicular>",
+     "test.xml:24:31: <dummy_engine> has no element <perpendicular>; allowed: id, subclock, library, "
+     "perpendicular_axis, distance; did you mean 'perpendicular_axis'?\n"},
+    {"EngineTwice", "<engines>\n", "<engines><dummy_engine id=\"ground\"/>\n",
+     "test.xml:24:19: two engines have the id 'ground'; the first is in line 23\n"},
+    {"UnknownEngineId", "<engine id=\"ground\">", "<engine id=\"gound\">",
+     "test.xml:27:13: there is no engine 'gound'; there are: ground; did you mean 'ground'?\n"},
+    {"UnknownEntityId", "<entity id=\"fb2\"/>", "<entity id=\"fb3\"/>",
+     "test.xml:27:50: there is no entity 'fb3'; there are: fb, fb2, wall, lamp; did you mean 'fb2'?\n"},
+    {"EntityListedTwice", "<entity id=\"fb2\"/>", "<entity id=\"fb2\"/><entity id=\"fb2\"/>",
+     "test.xml:27:68: 'fb2' is listed twice in the engine 'ground'; the first is in line 27\n"},
+    {"PatternThatFitsNothing", "<entity id=\"fb2\"/>", "<entity id=\"robot_*\"/>",
+     "test.xml:27:50: no entity fits 'robot_*'\n"},
+    {"EntityThatTheEngineCannotSimulate", "<entity id=\"fb2\"/>", "<entity id=\"lamp\"/>",
+     "test.xml:27:50: the engine 'ground' (dummy_engine) cannot simulate the light_bulb 'lamp'; it can: footbot, "
+     "eyebot, handbot, block, cylindric_prey, wall\n"},
+    {"UnknownKindOfAll", "<entity id=\"fb2\"/>", "<all kind=\"footbots\"/>",
+     "test.xml:27:47: there is no kind of entity 'footbots'; known: footbot, eyebot, handbot, block, cylindric_prey, "
+     "light_bulb, sound_source, ground_patch, hole, wall, terrain; did you mean 'footbot'?\n"},
+    {"EngineMembersTwice", "<arena_physics>\n", "<arena_physics><engine id=\"ground\"/>\n",
+     "test.xml:27:13: the entities of the engine 'ground' are given twice; the first time in line 26\n"},
+    {"UnknownVisualisation", "<text_render id=\"table\"><file>table.txt</file></text_render>",
+     "<txt_render id=\"table\"/>",
+     "test.xml:30:5: there is no visualisation <txt_render>; known: opengl_render, text_render; did you mean "
+     "'text_render'?\n"},
+    {"VisualisationParameter", "<file>table.txt</file>", "<file>table.txt</file><precison>3</precison>",
+     "test.xml:30:51: <text_render> has no element <precison>; allowed: id, library, file, precision; did you mean "
+     "'precision'?\n"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Reader, Mistakes, testing::ValuesIn(kMistakes),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(MistakesTogether, TheGoodFileHasNone) { EXPECT_EQ(ErrorsOf(kGood), ""); }
+
+TEST(MistakesTogether, AllAreReportedInTheOrderOfTheFile)
+{
+  EXPECT_EQ(ErrorsOf("<ahss-config>\n"
+                     "  <framework clocktick='no'/>\n"
+                     "  <arena size='1,1,1' optimization='4D'>\n"
+                     "    <footbot id='a' position='2,0,0' controller='c'/>\n"
+                     "  </arena>\n"
+                     "  <engines><engine id='e'/></engines>\n"
+                     "</ahss-config>"),
+            "test.xml:2:14: 'clocktick' of <framework> is 'no'; it must be a whole number in ms, from 1 to 3600000 ms\n"
+            "test.xml:3:23: 'optimization' of <arena> is '4D'; it must be one of 2D, 3D, octree; did you mean '2D'?\n"
+            "test.xml:4:21: 'a' is outside the arena: x is 2 m; it must be from 0 to 1 m\n"
+            "test.xml:4:38: there is no controller with the id 'c'; there are: none\n"
+            "test.xml:6:12: there is no physics engine <engine>; known: dummy_engine\n");
+}
+
+TEST(MistakesTogether, AnotherRootElementIsRefused)
+{
+  EXPECT_EQ(ErrorsOf("<!-- x -->\n<argos-configuration/>"),
+            "test.xml:2:1: the root element is <argos-configuration>; it must be <ahss-config>\n");
+  EXPECT_EQ(ErrorsOf("<ahss-config/>"), "test.xml:1:1: <ahss-config> lacks <arena>\n");
+}
+
+TEST(MistakesTogether, ThousandsAreCutShort)
+{
+  std::string text = "<ahss-config><arena size='1,1,1' optimization='2D'>";
+  for (int i = 0; i < 1500; ++i) text += "<footbot/>\n";
+  const LoadedExperiment loaded = LoadText(text + "</arena></ahss-config>");
+  ASSERT_EQ(loaded.errors.size(), 1001U);
+  EXPECT_EQ(loaded.errors.back().Text(), "test.xml: and 2000 more mistakes");
+}
+
+TEST(MistakesTogether, AMissingFileIsNamed)
+{
+  const LoadedExperiment loaded = LoadExperimentFile("/nowhere/at_all.xml");
+  ASSERT_EQ(loaded.errors.size(), 1U);
+  EXPECT_EQ(loaded.errors[0].Text(), "/nowhere/at_all.xml: the file cannot be opened: No such file or directory");
+}
+
+}  // namespace
+}  // namespace swarmanoid::test

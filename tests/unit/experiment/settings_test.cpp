@@ -1,0 +1,83 @@
+// --set PATH=VALUE.
+#include <gtest/gtest.h>
+
+#include "tests/unit/experiment/fake_plugins.h"
+
+namespace swarmanoid::test
+{
+namespace
+{
+
+LoadOptions With(const std::string& path, const std::string& value)
+{
+  LoadOptions options;
+  options.settings = {{path, value}};
+  return options;
+}
+
+std::unique_ptr<Experiment> Changed(const std::string& path, const std::string& value)
+{
+  EXPECT_EQ(ErrorsOf(kChapter4, With(path, value)), "");
+  LoadedExperiment loaded = LoadText(kChapter4, With(path, value));
+  return loaded.experiment ? std::move(loaded.experiment) : std::make_unique<Experiment>();
+}
+
+TEST(Settings, ReplaceValues)
+{
+  EXPECT_EQ(Changed("framework.maxclock", "7")->max_clock, 7U);
+  EXPECT_EQ(Changed("arena.size", "20,20,5")->arena_size, Vector3(20, 20, 5));
+  EXPECT_EQ(Changed("arena.footbot[fb].position", "1,2,0")->entities.at(0).pose.position, Vector3(1, 2, 0));
+  EXPECT_EQ(Changed("arena.fb.position", "1,2,0")->entities.at(0).pose.position, Vector3(1, 2, 0));
+  EXPECT_EQ(Changed("arena.footbot.position", "1,2,0")->entities.at(0).pose.position, Vector3(1, 2, 0));
+  EXPECT_EQ(
+      Changed("controllers.fc.parameters.wheels_speed", "3")->controllers.at(0).parameters.GetNumber("wheels_speed"),
+      3);
+  EXPECT_EQ(Changed("engines.dummy_engine[1].distance", "2")->engines.at(1).tree.GetNumber("distance"), 2);
+  EXPECT_EQ(Changed("visualisations.text_world.precision", "4")->visualisations.at(0).tree.GetInteger("precision"), 4);
+}
+
+TEST(Settings, AddWhatTheFileLeavesOut)
+{
+  EXPECT_EQ(Changed("framework.seed", "42")->seed, 42U);
+  EXPECT_EQ(Changed("controllers.fc.parameters.gain", "2")->controllers.at(0).parameters.GetNumber("gain"), 2);
+  const LoadedExperiment loaded =
+      LoadText("<ahss-config><arena size='1,1,1' optimization='2D'/></ahss-config>", With("framework.seed", "9"));
+  ASSERT_TRUE(loaded.experiment);
+  EXPECT_EQ(loaded.experiment->seed, 9U);
+}
+
+TEST(Settings, StandInTheEffectiveText)
+{
+  const auto experiment = Changed("framework.maxclock", "7");
+  const LoadedExperiment again = LoadText(experiment->effective_xml);
+  ASSERT_TRUE(again.experiment);
+  EXPECT_EQ(again.experiment->max_clock, 7U);
+}
+
+TEST(Settings, MistakesNameThePath)
+{
+  EXPECT_EQ(
+      ErrorsOf(kChapter4, With("framework.maxclok", "7")),
+      "--set framework.maxclok: <framework> has no element <maxclok>; allowed: clocktick, maxclock, controller_path, "
+      "plugin_path, seed, canonical_period, name, folder; did you mean 'maxclock'?\n");
+  EXPECT_EQ(ErrorsOf(kChapter4, With("framework.maxclock", "x")),
+            "--set framework.maxclock: 'maxclock' of <framework> is 'x'; it must be a whole number in ticks, from 0 to "
+            "1000000000000000 ticks\n");
+  EXPECT_EQ(ErrorsOf(kChapter4, With("arena.footbot[f].position", "1,1,0")),
+            "--set arena.footbot[f].position: <arena> holds no 'footbot[f]'; it holds: fb, eb, obstacle, cp, size, "
+            "optimization\n");
+  EXPECT_EQ(ErrorsOf(kChapter4, With("engines.dummy_engine.distance", "1")),
+            "--set engines.dummy_engine.distance: 2 elements of <engines> fit 'dummy_engine'; write tag[id] or, for "
+            "those without "
+            "an id, tag[0], tag[1] …\n");
+  EXPECT_EQ(ErrorsOf(kChapter4, With("arena.fb", "1")),
+            "--set arena.fb: <footbot> holds elements, not a value; go on with one of: position, orientation, "
+            "controller, id\n");
+  EXPECT_EQ(ErrorsOf(kChapter4, With("framework..x", "1")),
+            "--set framework..x: the path has an empty step; write for example framework.maxclock=100\n");
+  EXPECT_EQ(ErrorsOf(kChapter4, With("", "1")),
+            "--set : the path has an empty step; write for example framework.maxclock=100\n");
+}
+
+}  // namespace
+}  // namespace swarmanoid::test
