@@ -3,7 +3,7 @@
 namespace swarmanoid
 {
 
-BodyShape BodyOf(const EntityConfiguration& entity)
+BodyShape BodyShapeOf(const EntityConfiguration& entity)
 {
   BodyShape body{ShapeOf(entity)};
   const Vector3& half = body.half_size;
@@ -16,7 +16,7 @@ BodyShape BodyOf(const EntityConfiguration& entity)
 std::vector<BodyShape> BodiesOf(const CSwarmanoidSpace& space)
 {
   std::vector<BodyShape> bodies;
-  for (const EntityConfiguration& entity : space.GetExperiment().entities) bodies.push_back(BodyOf(entity));
+  for (const EntityConfiguration& entity : space.GetExperiment().entities) bodies.push_back(BodyShapeOf(entity));
   return bodies;
 }
 

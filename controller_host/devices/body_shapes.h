@@ -16,7 +16,7 @@ struct BodyShape : Shape
   double high = 0;
 };
 
-BodyShape BodyOf(const EntityConfiguration& entity);
+BodyShape BodyShapeOf(const EntityConfiguration& entity);
 // Of all entities of a space, in entity order.
 std::vector<BodyShape> BodiesOf(const CSwarmanoidSpace& space);
 

@@ -40,7 +40,7 @@ double NearestByMarching(const CSwarmanoidSpace& space, std::uint32_t robot, uns
   for (std::uint32_t e = 0; e < space.Size(); ++e)
   {
     if (e == robot || !ShareEngine(space.GetExperiment(), robot, e)) continue;
-    const BodyShape shape = BodyOf(space.GetExperiment().entities[e]);
+    const BodyShape shape = BodyShapeOf(space.GetExperiment().entities[e]);
     if (shape.kind == Shape::Kind::kNone) continue;
     const Pose to_body = space.GetPose(e).Inverse();
     const auto inside = [&](double d)
