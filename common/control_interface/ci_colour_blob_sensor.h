@@ -26,15 +26,16 @@ public:
   virtual std::span<const CCI_ColourBlob> GetAllBlobs() const = 0;
 
   // The nearest blob whose colour is of the hue of `colour` (CCI_Colour::Nearest), nullptr where there is none.
-  const CCI_ColourBlob* GetNearestBlob(std::uint32_t colour) const
+  static const CCI_ColourBlob* FindNearest(std::span<const CCI_ColourBlob> blobs, std::uint32_t colour)
   {
     const CCI_ColourBlob* nearest = nullptr;
-    for (const CCI_ColourBlob& blob : GetAllBlobs())
+    for (const CCI_ColourBlob& blob : blobs)
       if (CCI_Colour::Nearest(blob.colour) == CCI_Colour::Nearest(colour) &&
           (nearest == nullptr || blob.distance_m < nearest->distance_m))
         nearest = &blob;
     return nearest;
   }
+  const CCI_ColourBlob* GetNearestBlob(std::uint32_t colour) const { return FindNearest(GetAllBlobs(), colour); }
 };
 
 }  // namespace swarmanoid

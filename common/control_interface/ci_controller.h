@@ -1,8 +1,8 @@
 // CCI_Controller: the base of every robot controller. The same class runs in the simulator and on the robot.
 //
-// A controller library holds one or more such classes, each registered by REGISTER_CONTROLLER with the tag that names it
-// in <controllers>. The runtime makes one object for each robot, calls Init once, ControlStep every tick, Destroy at the end,
-// all from one thread.
+// A controller library holds one or more such classes, each registered by REGISTER_CONTROLLER with the tag that names
+// it in <controllers>. The runtime makes one object for each robot, calls Init once, ControlStep every tick, Destroy at
+// the end, all from one thread.
 #pragma once
 
 #include <iosfwd>
@@ -31,8 +31,8 @@ public:
   virtual void ControlStep() = 0;
   virtual void Destroy() {}
 
-  // Optional: all that the controller remembers between ticks, so that a run can go on from a checkpoint. A controller that
-  // remembers nothing overrides HasState alone; where it is left false, checkpoints of the run are refused.
+  // Optional: all that the controller remembers between ticks, so that a run can go on from a checkpoint. A controller
+  // that remembers nothing overrides HasState alone; where it is left false, checkpoints of the run are refused.
   virtual bool HasState() const { return false; }
   virtual void SaveState(std::ostream&) const {}
   virtual void LoadState(std::istream&) {}
@@ -62,10 +62,10 @@ struct ControllerRegistration
 using swarmanoid::CCI_Controller;
 
 // REGISTER_CONTROLLER(CSampleFootBotController, "sample_footbot_controller")
-#define REGISTER_CONTROLLER(CLASS, LABEL)                                                      \
-  namespace                                                                                    \
-  {                                                                                            \
-  const ::swarmanoid::ControllerRegistration registration_of_##CLASS(                          \
+#define REGISTER_CONTROLLER(CLASS, LABEL)                                                                  \
+  namespace                                                                                                \
+  {                                                                                                        \
+  const ::swarmanoid::ControllerRegistration registration_of_##CLASS(                                      \
       LABEL, []() -> std::unique_ptr<::swarmanoid::CCI_Controller> { return std::make_unique<CLASS>(); }); \
   }
 

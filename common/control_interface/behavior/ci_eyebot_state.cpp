@@ -1,0 +1,119 @@
+#include "common/control_interface/behavior/ci_eyebot_state.h"
+
+namespace swarmanoid
+{
+
+void CCI_EyeBotState::Init()
+{
+  devices_.altitude = FindSensor<CCI_EyeBotAltitudeSensor>("eyebot_altitude");
+  devices_.camera = FindSensor<CCI_ColourBlobSensor>("eyebot_camera");
+  devices_.propellers = FindActuator<CCI_EyeBotPropellersActuator>("eyebot_propellers");
+  devices_.leds = FindActuator<CCI_EyeBotLedsActuator>("eyebot_leds");
+  devices_.laser = FindActuator<CCI_EyeBotLaserActuator>("eyebot_laser");
+  devices_.attachment = FindActuator<CCI_EyeBotAttachmentActuator>("eyebot_attachment");
+}
+
+void CCI_EyeBotState::ReadSensors()
+{
+  if (devices_.altitude != nullptr) altitude_ = devices_.altitude->GetAltitude();
+  if (devices_.camera == nullptr) return;
+  const auto blobs = devices_.camera->GetAllBlobs();
+  blobs_.assign(blobs.begin(), blobs.end());
+}
+
+void CCI_EyeBotState::WriteActuators()
+{
+  velocity_.Flush([this](const auto& v) { devices_.propellers->SetVelocity(v[0], v[1], v[2], v[3]); });
+  leds_.Flush(
+      [this](const auto& colours)
+      {
+        for (unsigned led = 0; led < NUM_LEDS; ++led) devices_.leds->SetColour(led, colours[led]);
+      });
+  laser_.Flush(
+      [this](const Laser& laser)
+      {
+        devices_.laser->SetColour(laser.colour);
+        devices_.laser->SetDirection(laser.pan, laser.tilt);
+        laser.on ? devices_.laser->SwitchOn() : devices_.laser->SwitchOff();
+      });
+  attached_.Flush([this](bool attached) { attached ? devices_.attachment->Attach() : devices_.attachment->Detach(); });
+}
+
+double CCI_EyeBotState::GetAltitude() const
+{
+  RequireSensor(devices_.altitude, "eyebot_altitude");
+  return altitude_;
+}
+
+const std::vector<CCI_ColourBlob>& CCI_EyeBotState::GetColourBlobs() const
+{
+  RequireSensor(devices_.camera, "eyebot_camera");
+  return blobs_;
+}
+
+const CCI_ColourBlob* CCI_EyeBotState::GetNearestColourBlob(std::uint32_t colour) const
+{
+  return CCI_ColourBlobSensor::FindNearest(GetColourBlobs(), colour);
+}
+
+void CCI_EyeBotState::SetVelocity(double forward, double left, double up, double yaw_rate)
+{
+  RequireActuator(devices_.propellers, "eyebot_propellers");
+  velocity_.Set({forward, left, up, yaw_rate});
+}
+
+void CCI_EyeBotState::SetAllLedColours(std::uint32_t colour)
+{
+  RequireActuator(devices_.leds, "eyebot_leds");
+  std::array<std::uint32_t, NUM_LEDS> colours{};
+  colours.fill(colour);
+  leds_.Set(colours);
+}
+
+void CCI_EyeBotState::SetLedColour(unsigned led, std::uint32_t colour)
+{
+  RequireActuator(devices_.leds, "eyebot_leds");
+  auto colours = leds_.Get();
+  colours.at(led) = colour;
+  leds_.Set(colours);
+}
+
+void CCI_EyeBotState::SwitchLaserOn(std::uint32_t colour)
+{
+  RequireActuator(devices_.laser, "eyebot_laser");
+  Laser laser = laser_.Get();
+  laser.on = true;
+  laser.colour = colour;
+  laser_.Set(laser);
+}
+
+void CCI_EyeBotState::SwitchLaserOff()
+{
+  RequireActuator(devices_.laser, "eyebot_laser");
+  Laser laser = laser_.Get();
+  laser.on = false;
+  laser_.Set(laser);
+}
+
+void CCI_EyeBotState::SetLaserDirection(double pan, double tilt)
+{
+  RequireActuator(devices_.laser, "eyebot_laser");
+  Laser laser = laser_.Get();
+  laser.pan = pan;
+  laser.tilt = tilt;
+  laser_.Set(laser);
+}
+
+void CCI_EyeBotState::Attach()
+{
+  RequireActuator(devices_.attachment, "eyebot_attachment");
+  attached_.Set(true);
+}
+
+void CCI_EyeBotState::Detach()
+{
+  RequireActuator(devices_.attachment, "eyebot_attachment");
+  attached_.Set(false);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,81 @@
+// CCI_EyeBotState: the robot state of an eyebot. Getters and setters of devices that the controller does not list throw
+// CCI_DeviceError.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "common/control_interface/behavior/ci_robot_state.h"
+#include "common/control_interface/eyebot/ci_eyebot_altitude_sensor.h"
+#include "common/control_interface/eyebot/ci_eyebot_attachment_actuator.h"
+#include "common/control_interface/eyebot/ci_eyebot_camera_sensor.h"
+#include "common/control_interface/eyebot/ci_eyebot_laser_actuator.h"
+#include "common/control_interface/eyebot/ci_eyebot_leds_actuator.h"
+#include "common/control_interface/eyebot/ci_eyebot_propellers_actuator.h"
+
+namespace swarmanoid
+{
+
+class CCI_EyeBotState : public CCI_RobotState
+{
+public:
+  static constexpr unsigned NUM_LEDS = CCI_EyeBotLedsActuator::NUM_LEDS;
+
+  explicit CCI_EyeBotState(CCI_Robot* robot) : CCI_RobotState(robot) {}
+
+  // Looks up the devices that the controller lists. Once, before the first tick.
+  void Init();
+  // At the start of a control step, and at its end.
+  void ReadSensors();
+  void WriteActuators();
+
+  // Sensors. Angles in radians counter-clockwise from the front, distances in metres.
+  double GetAltitude() const;
+  const std::vector<CCI_ColourBlob>& GetColourBlobs() const;
+  // The nearest blob of that hue, nullptr where none is in view.
+  const CCI_ColourBlob* GetNearestColourBlob(std::uint32_t colour) const;
+
+  // Actuators.
+  void SetVelocity(double forward, double left, double up, double yaw_rate);  // m/s in the robot's frame, rad/s
+  const std::array<double, 4>& GetVelocity() const { return velocity_.Get(); }
+  void SetAllLedColours(std::uint32_t colour);
+  void SetLedColour(unsigned led, std::uint32_t colour);
+  void SwitchLaserOn(std::uint32_t colour);
+  void SwitchLaserOff();
+  bool IsLaserOn() const { return laser_.Get().on; }
+  void SetLaserDirection(double pan, double tilt);  // radians, as CCI_EyeBotLaserActuator
+  void Attach();
+  void Detach();
+
+private:
+  struct Devices
+  {
+    CCI_EyeBotAltitudeSensor* altitude = nullptr;
+    CCI_ColourBlobSensor* camera = nullptr;
+    CCI_EyeBotPropellersActuator* propellers = nullptr;
+    CCI_EyeBotLedsActuator* leds = nullptr;
+    CCI_EyeBotLaserActuator* laser = nullptr;
+    CCI_EyeBotAttachmentActuator* attachment = nullptr;
+  };
+  struct Laser
+  {
+    bool on = false;
+    std::uint32_t colour = 0xff0000;
+    double pan = 0;
+    double tilt = 0;
+  };
+
+  Devices devices_;
+
+  double altitude_ = 0;
+  std::vector<CCI_ColourBlob> blobs_;
+
+  PendingValue<std::array<double, 4>> velocity_;
+  PendingValue<std::array<std::uint32_t, NUM_LEDS>> leds_;
+  PendingValue<Laser> laser_;
+  PendingValue<bool> attached_;
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_EyeBotState;

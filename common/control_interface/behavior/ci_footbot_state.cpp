@@ -1,0 +1,186 @@
+#include "common/control_interface/behavior/ci_footbot_state.h"
+
+#include <algorithm>
+
+namespace swarmanoid
+{
+
+void CCI_FootBotState::Init()
+{
+  devices_.proximity = FindSensor<CCI_FootBotProximitySensor>("footbot_proximity");
+  devices_.light = FindSensor<CCI_FootBotLightSensor>("footbot_light");
+  devices_.ground = FindSensor<CCI_FootBotGroundSensor>("footbot_ground");
+  devices_.camera = FindSensor<CCI_ColourBlobSensor>("footbot_omnidirectional_camera");
+  devices_.gripper_sensor = FindSensor<CCI_FootBotGripperSensor>("footbot_gripper");
+  devices_.turret_encoder = FindSensor<CCI_FootBotTurretEncoderSensor>("footbot_turret_encoder");
+  devices_.turret_torque = FindSensor<CCI_FootBotTurretTorqueSensor>("footbot_turret_torque");
+  devices_.encoders = FindSensor<CCI_FootBotEncodersSensor>("footbot_encoders");
+  devices_.wheels = FindActuator<CCI_FootBotWheelsActuator>("footbot_wheels");
+  devices_.gripper = FindActuator<CCI_FootBotGripperActuator>("footbot_gripper");
+  devices_.turret = FindActuator<CCI_FootBotTurretActuator>("footbot_turret");
+  devices_.leds = FindActuator<CCI_FootBotLedsActuator>("footbot_leds");
+  devices_.beacon = FindActuator<CCI_FootBotBeaconActuator>("footbot_beacon");
+}
+
+void CCI_FootBotState::ReadSensors()
+{
+  const auto copy = [](const auto& readings, auto& to) { std::copy(readings.begin(), readings.end(), to.begin()); };
+  if (devices_.proximity != nullptr) copy(devices_.proximity->GetAllSensorReadings(), proximity_);
+  if (devices_.light != nullptr) copy(devices_.light->GetAllSensorReadings(), light_);
+  if (devices_.ground != nullptr)
+  {
+    copy(devices_.ground->GetAllSensorReadings(), ground_);
+    floor_colour_ = devices_.ground->GetFloorColour();
+  }
+  if (devices_.camera != nullptr)
+  {
+    const auto blobs = devices_.camera->GetAllBlobs();
+    blobs_.assign(blobs.begin(), blobs.end());
+  }
+  if (devices_.gripper_sensor != nullptr)
+  {
+    gripping_ = devices_.gripper_sensor->IsGripping();
+    aperture_ = devices_.gripper_sensor->GetAperture();
+  }
+  if (devices_.turret_encoder != nullptr) turret_angle_ = devices_.turret_encoder->GetTurretAngle();
+  if (devices_.turret_torque != nullptr) copy(devices_.turret_torque->GetAllSensorReadings(), turret_torque_);
+  if (devices_.encoders != nullptr) copy(devices_.encoders->GetAllSensorReadings(), wheel_velocities_);
+}
+
+void CCI_FootBotState::WriteActuators()
+{
+  wheels_.Flush([this](const auto& v) { devices_.wheels->SetFootBotWheelsAngularVelocity(v[0], v[1]); });
+  gripper_.Flush([this](double closed) { devices_.gripper->SetGripper(closed); });
+  turret_.Flush([this](double velocity) { devices_.turret->SetTurretAngularVelocity(velocity); });
+  leds_.Flush(
+      [this](const auto& colours)
+      {
+        for (unsigned led = 0; led < NUM_LEDS; ++led) devices_.leds->SetColour(led, colours[led]);
+      });
+  beacon_.Flush([this](std::uint32_t colour) { devices_.beacon->SetColour(colour); });
+}
+
+void CCI_FootBotState::GetAllProximitySensorReadings(double* readings) const
+{
+  RequireSensor(devices_.proximity, "footbot_proximity");
+  std::copy(proximity_.begin(), proximity_.end(), readings);
+}
+
+double CCI_FootBotState::GetProximitySensorReading(unsigned sensor) const
+{
+  RequireSensor(devices_.proximity, "footbot_proximity");
+  return proximity_.at(sensor);
+}
+
+void CCI_FootBotState::GetAllLightSensorReadings(double* readings) const
+{
+  RequireSensor(devices_.light, "footbot_light");
+  std::copy(light_.begin(), light_.end(), readings);
+}
+
+void CCI_FootBotState::GetAllGroundSensorReadings(double* readings) const
+{
+  RequireSensor(devices_.ground, "footbot_ground");
+  std::copy(ground_.begin(), ground_.end(), readings);
+}
+
+std::uint32_t CCI_FootBotState::GetFloorColour() const
+{
+  RequireSensor(devices_.ground, "footbot_ground");
+  return floor_colour_;
+}
+
+const std::vector<CCI_ColourBlob>& CCI_FootBotState::GetColourBlobs() const
+{
+  RequireSensor(devices_.camera, "footbot_omnidirectional_camera");
+  return blobs_;
+}
+
+const CCI_ColourBlob* CCI_FootBotState::GetNearestColourBlob(std::uint32_t colour) const
+{
+  return CCI_ColourBlobSensor::FindNearest(GetColourBlobs(), colour);
+}
+
+bool CCI_FootBotState::IsGripping() const
+{
+  RequireSensor(devices_.gripper_sensor, "footbot_gripper");
+  return gripping_;
+}
+
+double CCI_FootBotState::GetGripperAperture() const
+{
+  RequireSensor(devices_.gripper_sensor, "footbot_gripper");
+  return aperture_;
+}
+
+double CCI_FootBotState::GetTurretAngle() const
+{
+  RequireSensor(devices_.turret_encoder, "footbot_turret_encoder");
+  return turret_angle_;
+}
+
+const std::array<double, 3>& CCI_FootBotState::GetTurretTorque() const
+{
+  RequireSensor(devices_.turret_torque, "footbot_turret_torque");
+  return turret_torque_;
+}
+
+const std::array<double, 2>& CCI_FootBotState::GetWheelVelocities() const
+{
+  RequireSensor(devices_.encoders, "footbot_encoders");
+  return wheel_velocities_;
+}
+
+void CCI_FootBotState::SetFootBotWheelsAngularVelocity(double left, double right)
+{
+  RequireActuator(devices_.wheels, "footbot_wheels");
+  wheels_.Set({left, right});
+}
+
+void CCI_FootBotState::SetFootBotWheelsLinearVelocity(double left, double right)
+{
+  SetFootBotWheelsAngularVelocity(left / CCI_FootBotWheelsActuator::WHEEL_RADIUS_M,
+                                  right / CCI_FootBotWheelsActuator::WHEEL_RADIUS_M);
+}
+
+void CCI_FootBotState::GetFootBotWheelsAngularVelocity(double& left, double& right) const
+{
+  left = wheels_.Get()[0];
+  right = wheels_.Get()[1];
+}
+
+void CCI_FootBotState::SetGripper(double closed)
+{
+  RequireActuator(devices_.gripper, "footbot_gripper");
+  gripper_.Set(closed);
+}
+
+void CCI_FootBotState::SetTurretAngularVelocity(double velocity)
+{
+  RequireActuator(devices_.turret, "footbot_turret");
+  turret_.Set(velocity);
+}
+
+void CCI_FootBotState::SetAllLedColours(std::uint32_t colour)
+{
+  RequireActuator(devices_.leds, "footbot_leds");
+  std::array<std::uint32_t, NUM_LEDS> colours{};
+  colours.fill(colour);
+  leds_.Set(colours);
+}
+
+void CCI_FootBotState::SetLedColour(unsigned led, std::uint32_t colour)
+{
+  RequireActuator(devices_.leds, "footbot_leds");
+  auto colours = leds_.Get();
+  colours.at(led) = colour;
+  leds_.Set(colours);
+}
+
+void CCI_FootBotState::SetBeaconColour(std::uint32_t colour)
+{
+  RequireActuator(devices_.beacon, "footbot_beacon");
+  beacon_.Set(colour);
+}
+
+}  // namespace swarmanoid

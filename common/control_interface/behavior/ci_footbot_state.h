@@ -1,0 +1,113 @@
+// CCI_FootBotState: the robot state of a footbot. Getters and setters of devices that the controller does not list
+// throw CCI_DeviceError.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "common/control_interface/behavior/ci_robot_state.h"
+#include "common/control_interface/ci_colour_blob_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_beacon_actuator.h"
+#include "common/control_interface/footbot/ci_footbot_encoders_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_gripper_actuator.h"
+#include "common/control_interface/footbot/ci_footbot_gripper_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_ground_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_leds_actuator.h"
+#include "common/control_interface/footbot/ci_footbot_light_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_omnidirectional_camera_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_turret_actuator.h"
+#include "common/control_interface/footbot/ci_footbot_turret_encoder_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_turret_torque_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_wheels_actuator.h"
+
+namespace swarmanoid
+{
+
+class CCI_FootBotState : public CCI_RobotState
+{
+public:
+  static constexpr unsigned NUM_PROXIMITY_SENSORS = CCI_FootBotProximitySensor::NUM_SENSORS;
+  static constexpr unsigned NUM_LIGHT_SENSORS = CCI_FootBotLightSensor::NUM_SENSORS;
+  static constexpr unsigned NUM_GROUND_SENSORS = CCI_FootBotGroundSensor::NUM_SENSORS;
+  static constexpr unsigned NUM_LEDS = CCI_FootBotLedsActuator::NUM_LEDS;
+
+  explicit CCI_FootBotState(CCI_Robot* robot) : CCI_RobotState(robot) {}
+
+  // Looks up the devices that the controller lists. Once, before the first tick.
+  void Init();
+  // At the start of a control step, and at its end.
+  void ReadSensors();
+  void WriteActuators();
+
+  // Sensors. Angles in radians counter-clockwise from the front, distances in metres.
+  void GetAllProximitySensorReadings(double* readings) const;  // NUM_PROXIMITY_SENSORS values, 0..1
+  double GetProximitySensorReading(unsigned sensor) const;
+  static double GetProximitySensorAngle(unsigned sensor) { return CCI_FootBotProximitySensor::AngleOf(sensor); }
+  void GetAllLightSensorReadings(double* readings) const;  // NUM_LIGHT_SENSORS values, 0..1
+  static double GetLightSensorAngle(unsigned sensor) { return CCI_FootBotLightSensor::AngleOf(sensor); }
+  void GetAllGroundSensorReadings(double* readings) const;  // NUM_GROUND_SENSORS values, 0..1
+  std::uint32_t GetFloorColour() const;                     // 0xRRGGBB under the centre
+  const std::vector<CCI_ColourBlob>& GetColourBlobs() const;
+  // The nearest blob of that hue, nullptr where none is in view.
+  const CCI_ColourBlob* GetNearestColourBlob(std::uint32_t colour) const;
+  bool IsGripping() const;
+  double GetGripperAperture() const;
+  double GetTurretAngle() const;
+  const std::array<double, 3>& GetTurretTorque() const;     // as CCI_FootBotTurretTorqueSensor
+  const std::array<double, 2>& GetWheelVelocities() const;  // {left, right} as they turned, rad/s
+
+  // Actuators; the getters give the latest value set on this state.
+  void SetFootBotWheelsAngularVelocity(double left, double right);  // rad/s
+  void SetFootBotWheelsLinearVelocity(double left, double right);   // m/s
+  void GetFootBotWheelsAngularVelocity(double& left, double& right) const;
+  bool HasNewWheelVelocity() const { return wheels_.IsPending(); }
+  void SetGripper(double closed);  // 0 open .. 1 closed
+  double GetGripper() const { return gripper_.Get(); }
+  void SetTurretAngularVelocity(double velocity);  // rad/s
+  void SetAllLedColours(std::uint32_t colour);
+  void SetLedColour(unsigned led, std::uint32_t colour);
+  std::uint32_t GetLedColour(unsigned led) const { return leds_.Get().at(led); }
+  void SetBeaconColour(std::uint32_t colour);
+
+private:
+  struct Devices
+  {
+    CCI_FootBotProximitySensor* proximity = nullptr;
+    CCI_FootBotLightSensor* light = nullptr;
+    CCI_FootBotGroundSensor* ground = nullptr;
+    CCI_ColourBlobSensor* camera = nullptr;
+    CCI_FootBotGripperSensor* gripper_sensor = nullptr;
+    CCI_FootBotTurretEncoderSensor* turret_encoder = nullptr;
+    CCI_FootBotTurretTorqueSensor* turret_torque = nullptr;
+    CCI_FootBotEncodersSensor* encoders = nullptr;
+    CCI_FootBotWheelsActuator* wheels = nullptr;
+    CCI_FootBotGripperActuator* gripper = nullptr;
+    CCI_FootBotTurretActuator* turret = nullptr;
+    CCI_FootBotLedsActuator* leds = nullptr;
+    CCI_FootBotBeaconActuator* beacon = nullptr;
+  };
+
+  Devices devices_;
+
+  std::array<double, NUM_PROXIMITY_SENSORS> proximity_{};
+  std::array<double, NUM_LIGHT_SENSORS> light_{};
+  std::array<double, NUM_GROUND_SENSORS> ground_{};
+  std::uint32_t floor_colour_ = 0;
+  std::vector<CCI_ColourBlob> blobs_;
+  bool gripping_ = false;
+  double aperture_ = 0;
+  double turret_angle_ = 0;
+  std::array<double, 3> turret_torque_{};
+  std::array<double, 2> wheel_velocities_{};
+
+  PendingValue<std::array<double, 2>> wheels_;
+  PendingValue<double> gripper_;
+  PendingValue<double> turret_;
+  PendingValue<std::array<std::uint32_t, NUM_LEDS>> leds_;
+  PendingValue<std::uint32_t> beacon_;
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_FootBotState;

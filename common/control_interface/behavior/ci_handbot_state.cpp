@@ -1,0 +1,120 @@
+#include "common/control_interface/behavior/ci_handbot_state.h"
+
+#include <algorithm>
+
+namespace swarmanoid
+{
+
+void CCI_HandBotState::Init()
+{
+  devices_.joints = FindSensor<CCI_HandBotJointsSensor>("handbot_joints");
+  devices_.camera = FindSensor<CCI_ColourBlobSensor>("handbot_camera");
+  devices_.arms = FindActuator<CCI_HandBotArmsActuator>("handbot_arms");
+  devices_.head = FindActuator<CCI_HandBotHeadActuator>("handbot_head");
+  devices_.hands = FindActuator<CCI_HandBotHandsActuator>("handbot_hands");
+  devices_.rope = FindActuator<CCI_HandBotRopeActuator>("handbot_rope");
+  devices_.leds = FindActuator<CCI_HandBotLedsActuator>("handbot_leds");
+}
+
+void CCI_HandBotState::ReadSensors()
+{
+  if (devices_.joints != nullptr)
+  {
+    const auto readings = devices_.joints->GetAllSensorReadings();
+    std::copy(readings.begin(), readings.end(), joints_.begin());
+  }
+  if (devices_.camera == nullptr) return;
+  const auto blobs = devices_.camera->GetAllBlobs();
+  blobs_.assign(blobs.begin(), blobs.end());
+}
+
+void CCI_HandBotState::WriteActuators()
+{
+  arms_.Flush([this](const auto& v) { devices_.arms->SetArmVelocities(v[0], v[1]); });
+  wrists_.Flush([this](const auto& v) { devices_.arms->SetWristVelocities(v[0], v[1]); });
+  head_.Flush([this](double v) { devices_.head->SetHeadAngularVelocity(v); });
+  for (const auto hand : {CCI_HandBotHandsActuator::LEFT, CCI_HandBotHandsActuator::RIGHT})
+    hands_closed_[hand].Flush([&](bool closed) { closed ? devices_.hands->Close(hand) : devices_.hands->Open(hand); });
+  rope_launched_.Flush([this](bool launched) { launched ? devices_.rope->Launch() : devices_.rope->Release(); });
+  winch_.Flush([this](double v) { devices_.rope->SetWinchVelocity(v); });
+  leds_.Flush([this](std::uint32_t colour) { devices_.leds->SetAllColours(colour); });
+}
+
+double CCI_HandBotState::GetJoint(CCI_HandBotJointsSensor::Reading joint) const
+{
+  RequireSensor(devices_.joints, "handbot_joints");
+  return joints_.at(joint);
+}
+
+bool CCI_HandBotState::IsHolding(CCI_HandBotHandsActuator::Hand hand) const
+{
+  return GetJoint(hand == CCI_HandBotHandsActuator::LEFT ? CCI_HandBotJointsSensor::HOLDS_LEFT
+                                                         : CCI_HandBotJointsSensor::HOLDS_RIGHT) != 0;
+}
+
+const std::vector<CCI_ColourBlob>& CCI_HandBotState::GetColourBlobs() const
+{
+  RequireSensor(devices_.camera, "handbot_camera");
+  return blobs_;
+}
+
+const CCI_ColourBlob* CCI_HandBotState::GetNearestColourBlob(std::uint32_t colour) const
+{
+  return CCI_ColourBlobSensor::FindNearest(GetColourBlobs(), colour);
+}
+
+void CCI_HandBotState::SetArmVelocities(double left, double right)
+{
+  RequireActuator(devices_.arms, "handbot_arms");
+  arms_.Set({left, right});
+}
+
+void CCI_HandBotState::SetWristVelocities(double left, double right)
+{
+  RequireActuator(devices_.arms, "handbot_arms");
+  wrists_.Set({left, right});
+}
+
+void CCI_HandBotState::SetHeadAngularVelocity(double velocity)
+{
+  RequireActuator(devices_.head, "handbot_head");
+  head_.Set(velocity);
+}
+
+void CCI_HandBotState::CloseHand(CCI_HandBotHandsActuator::Hand hand)
+{
+  RequireActuator(devices_.hands, "handbot_hands");
+  hands_closed_.at(hand).Set(true);
+}
+
+void CCI_HandBotState::OpenHand(CCI_HandBotHandsActuator::Hand hand)
+{
+  RequireActuator(devices_.hands, "handbot_hands");
+  hands_closed_.at(hand).Set(false);
+}
+
+void CCI_HandBotState::LaunchRope()
+{
+  RequireActuator(devices_.rope, "handbot_rope");
+  rope_launched_.Set(true);
+}
+
+void CCI_HandBotState::ReleaseRope()
+{
+  RequireActuator(devices_.rope, "handbot_rope");
+  rope_launched_.Set(false);
+}
+
+void CCI_HandBotState::SetWinchVelocity(double velocity)
+{
+  RequireActuator(devices_.rope, "handbot_rope");
+  winch_.Set(velocity);
+}
+
+void CCI_HandBotState::SetAllLedColours(std::uint32_t colour)
+{
+  RequireActuator(devices_.leds, "handbot_leds");
+  leds_.Set(colour);
+}
+
+}  // namespace swarmanoid

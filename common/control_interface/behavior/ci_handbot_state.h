@@ -1,0 +1,78 @@
+// CCI_HandBotState: the robot state of a handbot. Getters and setters of devices that the controller does not list
+// throw CCI_DeviceError.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "common/control_interface/behavior/ci_robot_state.h"
+#include "common/control_interface/handbot/ci_handbot_arms_actuator.h"
+#include "common/control_interface/handbot/ci_handbot_camera_sensor.h"
+#include "common/control_interface/handbot/ci_handbot_hands_actuator.h"
+#include "common/control_interface/handbot/ci_handbot_head_actuator.h"
+#include "common/control_interface/handbot/ci_handbot_joints_sensor.h"
+#include "common/control_interface/handbot/ci_handbot_leds_actuator.h"
+#include "common/control_interface/handbot/ci_handbot_rope_actuator.h"
+
+namespace swarmanoid
+{
+
+class CCI_HandBotState : public CCI_RobotState
+{
+public:
+  static constexpr unsigned NUM_LEDS = CCI_HandBotLedsActuator::NUM_LEDS;
+
+  explicit CCI_HandBotState(CCI_Robot* robot) : CCI_RobotState(robot) {}
+
+  // Looks up the devices that the controller lists. Once, before the first tick.
+  void Init();
+  // At the start of a control step, and at its end.
+  void ReadSensors();
+  void WriteActuators();
+
+  // Sensors: joints as in CCI_HandBotJointsSensor (radians, metres), blobs of the head camera.
+  double GetJoint(CCI_HandBotJointsSensor::Reading joint) const;
+  bool IsHolding(CCI_HandBotHandsActuator::Hand hand) const;
+  const std::vector<CCI_ColourBlob>& GetColourBlobs() const;
+  const CCI_ColourBlob* GetNearestColourBlob(std::uint32_t colour) const;
+
+  // Actuators. Velocities in rad/s and m/s.
+  void SetArmVelocities(double left, double right);
+  void SetWristVelocities(double left, double right);
+  void SetHeadAngularVelocity(double velocity);
+  void CloseHand(CCI_HandBotHandsActuator::Hand hand);
+  void OpenHand(CCI_HandBotHandsActuator::Hand hand);
+  void LaunchRope();
+  void ReleaseRope();
+  void SetWinchVelocity(double velocity);  // of rope let out; negative pulls the robot up
+  void SetAllLedColours(std::uint32_t colour);
+
+private:
+  struct Devices
+  {
+    CCI_HandBotJointsSensor* joints = nullptr;
+    CCI_ColourBlobSensor* camera = nullptr;
+    CCI_HandBotArmsActuator* arms = nullptr;
+    CCI_HandBotHeadActuator* head = nullptr;
+    CCI_HandBotHandsActuator* hands = nullptr;
+    CCI_HandBotRopeActuator* rope = nullptr;
+    CCI_HandBotLedsActuator* leds = nullptr;
+  };
+
+  Devices devices_;
+
+  std::array<double, CCI_HandBotJointsSensor::NUM_READINGS> joints_{};
+  std::vector<CCI_ColourBlob> blobs_;
+
+  PendingValue<std::array<double, 2>> arms_;
+  PendingValue<std::array<double, 2>> wrists_;
+  PendingValue<double> head_;
+  std::array<PendingValue<bool>, 2> hands_closed_;
+  PendingValue<bool> rope_launched_;
+  PendingValue<double> winch_;
+  PendingValue<std::uint32_t> leds_;
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_HandBotState;

@@ -1,0 +1,81 @@
+// CCI_RobotState: the base of the robot states. A robot state is a copyable snapshot of a robot: sensor readings, read
+// once a tick before the first behaviour, and actuator values, written to the robot once after the last. Behaviours see
+// nothing else, so a copy of the state is a robot of its own: what is set on a copy stays there.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/control_interface/ci_robot.h"
+
+namespace swarmanoid
+{
+
+// An actuator value: the latest one set, and whether it must still be written to the robot.
+template <class T>
+class PendingValue
+{
+public:
+  void Set(const T& value)
+  {
+    value_ = value;
+    pending_ = true;
+  }
+  const T& Get() const { return value_; }
+  // True if it was set since the last write; for combiners that ask which of two copies wanted something.
+  bool IsPending() const { return pending_; }
+  // Hands the value to `write` if it is pending.
+  template <class Write>
+  void Flush(Write write)
+  {
+    if (pending_) write(value_);
+    pending_ = false;
+  }
+
+private:
+  T value_{};
+  bool pending_ = false;
+};
+
+class CCI_RobotState
+{
+public:
+  explicit CCI_RobotState(CCI_Robot* robot) : robot_(robot) {}
+
+  const std::string& GetId() const { return robot_->GetId(); }
+  std::uint64_t GetTick() const { return robot_->GetTick(); }
+  double GetTickSeconds() const { return robot_->GetTickSeconds(); }
+  double GetTime() const { return robot_->GetTime(); }
+  // The random numbers of the robot in this tick; shared by all copies, drawn in the order of the calls.
+  RandomStream& GetRandom() { return robot_->GetRandom(); }
+
+protected:
+  // The device that a type label names, nullptr where the controller does not list it.
+  template <class Interface>
+  Interface* FindSensor(const std::string& type) const
+  {
+    return robot_->HasSensor(type) ? &robot_->Sensor<Interface>(type) : nullptr;
+  }
+  template <class Interface>
+  Interface* FindActuator(const std::string& type) const
+  {
+    return robot_->HasActuator(type) ? &robot_->Actuator<Interface>(type) : nullptr;
+  }
+  // Throws CCI_DeviceError, naming the device and those listed, where `device` is nullptr.
+  void RequireSensor(const void* device, const char* type) const
+  {
+    if (device == nullptr) robot_->GetSensor(type);
+  }
+  void RequireActuator(const void* device, const char* type) const
+  {
+    if (device == nullptr) robot_->GetActuator(type);
+  }
+
+private:
+  CCI_Robot* robot_;
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_RobotState;
