@@ -1,5 +1,5 @@
-// Simulated sensors and actuators. One object serves all robots of a host that run one controller configuration: it computes
-// them in one batch over flat arrays and hands each robot the small CCI_ object that its controller holds.
+// Simulated sensors and actuators. One object serves all robots of a host that run one controller configuration: it
+// computes them in one batch over flat arrays and hands each robot the small CCI_ object that its controller holds.
 //
 // A generic device needs the space alone. A specific one exchanges a channel of values with the engine of its robots.
 #pragma once
@@ -21,10 +21,10 @@ namespace swarmanoid
 // What a batch is made from. The references outlive the batch.
 struct DeviceSetup
 {
-  Parameters parameters;                 // of the device's element
-  const CSwarmanoidSpace& space;         // this process's replica
-  std::vector<std::uint32_t> robots;     // entity indices, ascending: robot k of the batch is entity robots[k]
-  std::uint32_t stream = 0;              // the device's name for RandomStream: StreamName(type)
+  Parameters parameters;              // of the device's element
+  const CSwarmanoidSpace& space;      // this process's replica
+  std::vector<std::uint32_t> robots;  // entity indices, ascending: robot k of the batch is entity robots[k]
+  std::uint32_t stream = 0;           // the device's name for RandomStream: StreamName(type)
 };
 
 // The channel values of the robots of a batch, `width` doubles each; robot k stands at values[offsets[k]].
@@ -42,7 +42,8 @@ public:
   virtual void Init(const DeviceSetup& setup) = 0;
   // The object given to the controller of robot k; it lives as long as the batch.
   virtual CCI_Sensor* Sensor(std::size_t k) = 0;
-  // Computes the readings of all robots from the space at its tick. `channel`: what the engines sent (specific sensors).
+  // Computes the readings of all robots from the space at its tick. `channel`: what the engines sent (specific
+  // sensors).
   virtual void Update(const ChannelView& channel) = 0;
   // What the device remembers between ticks, if anything.
   virtual void SaveState(ByteWriter&) const {}
@@ -87,9 +88,9 @@ struct DeviceRegistration
   const ::swarmanoid::DeviceRegistration<::swarmanoid::SensorBatch> registration_of_##CLASS(                  \
       __VA_ARGS__, []() -> std::unique_ptr<::swarmanoid::SensorBatch> { return std::make_unique<CLASS>(); }); \
   }
-#define REGISTER_ACTUATOR(CLASS, ...)                                                                             \
-  namespace                                                                                                       \
-  {                                                                                                               \
-  const ::swarmanoid::DeviceRegistration<::swarmanoid::ActuatorBatch> registration_of_##CLASS(                    \
-      __VA_ARGS__, []() -> std::unique_ptr<::swarmanoid::ActuatorBatch> { return std::make_unique<CLASS>(); });   \
+#define REGISTER_ACTUATOR(CLASS, ...)                                                                           \
+  namespace                                                                                                     \
+  {                                                                                                             \
+  const ::swarmanoid::DeviceRegistration<::swarmanoid::ActuatorBatch> registration_of_##CLASS(                  \
+      __VA_ARGS__, []() -> std::unique_ptr<::swarmanoid::ActuatorBatch> { return std::make_unique<CLASS>(); }); \
   }

@@ -1,5 +1,6 @@
-// CPhysicsEngine and CPhysicsEngineEntity: what a physics engine is to the simulator. An engine is a closed world with a frame
-// of its own; it moves the entities that it owns and reports their global poses. A plug-in: see docs/engines.md.
+// CPhysicsEngine and CPhysicsEngineEntity: what a physics engine is to the simulator. An engine is a closed world with
+// a frame of its own; it moves the entities that it owns and reports their global poses. A plug-in: see
+// docs/engines.md.
 #pragma once
 
 #include <memory>
@@ -26,8 +27,8 @@ enum class EBinding
   kFixed    // it never moves
 };
 
-// The other self of a space entity inside an engine: masses, speeds, joints. Engines may derive from it or keep flat arrays
-// of their own; how it is linked to the engine is up to them.
+// The other self of a space entity inside an engine: masses, speeds, joints. Engines may derive from it or keep flat
+// arrays of their own; how it is linked to the engine is up to them.
 class CPhysicsEngineEntity
 {
 public:
@@ -43,9 +44,9 @@ private:
 struct EngineSetup
 {
   const EngineConfiguration& configuration;
-  Parameters parameters;           // of the engine's element, by the table that it registered
-  const CSwarmanoidSpace& space;   // this process's replica: entities, poses of the tick that the step starts from
-  const EngineLayout& layout;      // the order of owned entities, command and sensor channels
+  Parameters parameters;          // of the engine's element, by the table that it registered
+  const CSwarmanoidSpace& space;  // this process's replica: entities, poses of the tick that the step starts from
+  const EngineLayout& layout;     // the order of owned entities, command and sensor channels
 };
 
 // The commands of one step: EngineLayout::commands with the values filled in.
@@ -73,15 +74,16 @@ public:
   virtual void Start() {}
 
   // Advances the engine by one clock tick in `subclock` equal steps. Mirrors are first put where the space has them.
-  // Fills `update.poses` (sized by the caller: 7 doubles for each of layout.owned, structure of arrays x y z qx qy qz qw, global
-  // frame), adds to update.attributes what changed (grips, turret angles …), fills `sensors` (layout.sensors).
+  // Fills `update.poses` (sized by the caller: 7 doubles for each of layout.owned, structure of arrays x y z qx qy qz
+  // qw, global frame), adds to update.attributes what changed (grips, turret angles …), fills `sensors`
+  // (layout.sensors).
   virtual void Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors) = 0;
 
   // An owned entity was put elsewhere from outside; its pose is to be read from the space.
   virtual void EntityMoved(std::uint32_t entity) = 0;
 
-  // Checkpoint: after Canonicalise, SaveState and LoadState into an engine made from the same experiment, all further updates
-  // have the same bits as without them.
+  // Checkpoint: after Canonicalise, SaveState and LoadState into an engine made from the same experiment, all further
+  // updates have the same bits as without them.
   virtual void SaveState(ByteWriter& state) const = 0;
   virtual void LoadState(ByteReader& state) = 0;
   // Drops everything that the saved state does not hold (caches, contact order). Called at the same ticks in every run.
@@ -109,9 +111,9 @@ using swarmanoid::CPhysicsEngine;
 using swarmanoid::CPhysicsEngineEntity;
 
 // REGISTER_PHYSICS_ENGINE(CMyEngine, description): description is a PluginDescription expression.
-#define REGISTER_PHYSICS_ENGINE(CLASS, ...)                                                                              \
-  namespace                                                                                                              \
-  {                                                                                                                      \
-  const ::swarmanoid::PhysicsEngineRegistration registration_of_##CLASS(                                                 \
-      __VA_ARGS__, []() -> std::unique_ptr<::swarmanoid::CPhysicsEngine> { return std::make_unique<CLASS>(); });         \
+#define REGISTER_PHYSICS_ENGINE(CLASS, ...)                                                                      \
+  namespace                                                                                                      \
+  {                                                                                                              \
+  const ::swarmanoid::PhysicsEngineRegistration registration_of_##CLASS(                                         \
+      __VA_ARGS__, []() -> std::unique_ptr<::swarmanoid::CPhysicsEngine> { return std::make_unique<CLASS>(); }); \
   }

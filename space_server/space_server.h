@@ -1,4 +1,5 @@
-// The role that owns the original space and its clock. A step function: merges what engines and hosts did into the next state.
+// The role that owns the original space and its clock. A step function: merges what engines and hosts did into the next
+// state.
 #pragma once
 
 #include <memory>
@@ -31,8 +32,8 @@ public:
   const SpaceState& State();
   void WriteSnapshot(SpaceSnapshot& snapshot) const;
 
-  // To the next tick: updates in engine order (all engines), commands in host order (those that report to the server). An
-  // attribute set by both an engine and a host has the engine's value.
+  // To the next tick: updates in engine order (all engines), commands in host order (those that report to the server).
+  // An attribute set by both an engine and a host has the engine's value.
   void Advance(std::span<const EngineUpdate* const> updates, std::span<const ControlCommands* const> commands);
   // Puts an entity elsewhere at the current tick, before its state goes out.
   void Move(const MoveRequest& request);

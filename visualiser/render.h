@@ -1,4 +1,5 @@
-// CRender: the thin interface of all visualisations. Draw shows the space; Terminate says whether the user wants to stop.
+// CRender: the thin interface of all visualisations. Draw shows the space; Terminate says whether the user wants to
+// stop.
 #pragma once
 
 #include <memory>
@@ -28,8 +29,8 @@ struct RenderSetup
 {
   Parameters parameters;
   const CSwarmanoidSpace& space;
-  const Assignment& assignment;   // who owns what, for display
-  std::string output_folder;      // relative output paths start here
+  const Assignment& assignment;          // who owns what, for display
+  std::string output_folder;             // relative output paths start here
   ExperimentControl* control = nullptr;  // nullptr where the renderer may only watch
 };
 
@@ -68,9 +69,10 @@ struct RenderRegistration
 using swarmanoid::CRender;
 
 // REGISTER_RENDER(CMyRender, description): for renderers in a user's library.
-#define REGISTER_RENDER(CLASS, ...)                                                                       \
-  namespace                                                                                               \
-  {                                                                                                       \
-  const ::swarmanoid::RenderRegistration registration_of_##CLASS(                                         \
-      __VA_ARGS__, []() -> std::unique_ptr<::swarmanoid::CRender> { return std::make_unique<CLASS>(); }); \
+#define REGISTER_RENDER(CLASS, ...)                                                                             \
+  namespace                                                                                                     \
+  {                                                                                                             \
+  const ::swarmanoid::RenderRegistration registration_of_##CLASS(__VA_ARGS__,                                   \
+                                                                 []() -> std::unique_ptr<::swarmanoid::CRender> \
+                                                                 { return std::make_unique<CLASS>(); });        \
   }

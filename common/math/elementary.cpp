@@ -81,10 +81,14 @@ SinCos SinCosOf(double x)
   const auto quadrant = static_cast<std::uint64_t>(static_cast<std::int64_t>(n)) & 3U;
   switch (quadrant)
   {
-    case 0: return {s, c};
-    case 1: return {c, -s};
-    case 2: return {-s, -c};
-    default: return {-c, s};
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
   }
 }
 

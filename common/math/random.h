@@ -25,7 +25,8 @@ class RandomStream
 {
 public:
   RandomStream(std::uint64_t seed, std::uint32_t entity, std::uint32_t device, std::uint32_t tick)
-      : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}, counter_{0, entity, device, tick}
+      : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
+        counter_{0, entity, device, tick}
   {
   }
 

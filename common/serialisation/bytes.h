@@ -17,7 +17,7 @@ class ByteWriter
 {
 public:
   template <class T>
-    requires std::is_trivially_copyable_v<T>
+  requires std::is_trivially_copyable_v<T>
   void Put(const T& value)
   {
     const auto* bytes = reinterpret_cast<const char*>(&value);
@@ -25,7 +25,7 @@ public:
   }
   // The count (u64), then the elements.
   template <class T>
-    requires std::is_trivially_copyable_v<T>
+  requires std::is_trivially_copyable_v<T>
   void PutArray(std::span<const T> values)
   {
     Put(static_cast<std::uint64_t>(values.size()));
@@ -33,7 +33,10 @@ public:
     bytes_.insert(bytes_.end(), bytes, bytes + values.size_bytes());
   }
   template <class T>
-  void PutArray(const std::vector<T>& values) { PutArray(std::span<const T>(values)); }
+  void PutArray(const std::vector<T>& values)
+  {
+    PutArray(std::span<const T>(values));
+  }
   void PutText(std::string_view text) { PutArray(std::span<const char>(text.data(), text.size())); }
 
   const std::vector<char>& Bytes() const { return bytes_; }
@@ -50,16 +53,14 @@ public:
   explicit ByteReader(std::span<const char> bytes) : bytes_(bytes) {}
 
   template <class T>
-    requires std::is_trivially_copyable_v<T>
-  T Get()
+  requires std::is_trivially_copyable_v<T> T Get()
   {
     T value;
     std::memcpy(&value, Take(sizeof(T)), sizeof(T));
     return value;
   }
   template <class T>
-    requires std::is_trivially_copyable_v<T>
-  std::vector<T> GetArray()
+  requires std::is_trivially_copyable_v<T> std::vector<T> GetArray()
   {
     const auto count = Get<std::uint64_t>();
     if (count > bytes_.size() / sizeof(T)) throw std::runtime_error("saved state: an array is longer than the state");
