@@ -1,0 +1,196 @@
+#include "engine_worker/engines/dynamics2d/body_models.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/math/elementary.h"
+
+namespace swarmanoid::dynamics2d
+{
+namespace
+{
+
+// Box2D's tolerance is half a millimetre at this engine's scale; smaller bodies would be lost in it.
+constexpr double kSmallest_m = 2e-3;
+
+std::vector<Vector2> Rectangle(double x, double y)
+{
+  return {{x / 2, -y / 2}, {x / 2, y / 2}, {-x / 2, y / 2}, {-x / 2, -y / 2}};
+}
+
+[[noreturn]] void TooSmall(const CSwarmanoidSpaceEntity& entity)
+{
+  throw ConfigurationError(
+      entity.GetConfiguration().location,
+      fmt::format("'{}' is thinner than {} m where the plane of dynamics2d cuts it; make it larger, or "
+                  "take it out of this engine",
+                  entity.GetId(), kSmallest_m));
+}
+
+double AreaOf(const std::vector<Vector2>& polygon)
+{
+  double twice = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+  {
+    const Vector2& a = polygon[i];
+    const Vector2& b = polygon[(i + 1) % polygon.size()];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return twice / 2;
+}
+
+// The moment of inertia about the origin of a polygon with even density, for each kilogram.
+double UnitInertia(const std::vector<Vector2>& polygon)
+{
+  double moment = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+  {
+    const Vector2& a = polygon[i];
+    const Vector2& b = polygon[(i + 1) % polygon.size()];
+    moment += (a.x() * b.y() - a.y() * b.x()) * (a.squaredNorm() + a.dot(b) + b.squaredNorm());
+  }
+  return moment / 12 / AreaOf(polygon);
+}
+
+// The cut of a block by the plane, in the frame of the block's pose on the plane; of one that does not reach the plane
+// yet, its base.
+std::vector<Vector2> BlockOutline(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane)
+{
+  std::vector<Vector2> outline = plane.CutBox(entity.GetPose(), entity.GetSize());
+  if (outline.empty()) return Rectangle(entity.GetSize().x(), entity.GetSize().y());
+  const PlanePose pose = plane.ToPlane(entity.GetPose());
+  const SinCos heading = SinCosOf(pose.heading);
+  for (Vector2& point : outline)
+  {
+    const double u = point.x() - pose.u;
+    const double v = point.y() - pose.v;
+    point = {heading.cos * u + heading.sin * v, heading.cos * v - heading.sin * u};
+  }
+  return outline;
+}
+
+// The least width of a convex polygon.
+double WidthOf(const std::vector<Vector2>& polygon)
+{
+  double width = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+  {
+    const Vector2& a = polygon[i];
+    const Vector2 edge = polygon[(i + 1) % polygon.size()] - a;
+    double reach = 0;
+    for (const Vector2& b : polygon)
+      reach =
+          std::max(reach, (edge.x() * (b.y() - a.y()) - edge.y() * (b.x() - a.x())) / std::sqrt(edge.squaredNorm()));
+    width = std::min(width, reach);
+  }
+  return width;
+}
+
+void SetContact(BodyModel& model, const CSwarmanoidSpaceEntity& entity, const Dynamics2dParameters& parameters)
+{
+  const TConfigurationTree& tree = entity.GetConfiguration().tree;
+  model.friction = tree.GetNumber("friction", parameters.friction);
+  model.restitution = tree.GetNumber("restitution", parameters.restitution);
+}
+
+// Coulomb friction of a body that lies on the ground. Even pressure under a disc of radius R resists turning with
+// 2/3 mu m g R; other outlines count as the disc with their radius of gyration.
+void SetGroundFriction(BodyModel& model, double coefficient, double gravity)
+{
+  model.ground_force = coefficient * model.mass * gravity;
+  model.ground_torque = 2.0 / 3.0 * model.ground_force * std::sqrt(2 * model.inertia / model.mass);
+}
+
+double DefaultMass(const CSwarmanoidSpaceEntity& entity, const Dynamics2dParameters& parameters)
+{
+  const Vector3& size = entity.GetSize();
+  switch (entity.GetKind())
+  {
+    case EntityKind::kFootbot:
+      return parameters.footbot_mass;
+    case EntityKind::kHandbot:
+      return parameters.handbot_mass;
+    case EntityKind::kEyebot:
+      return parameters.eyebot_mass;
+    case EntityKind::kCylindricPrey:
+      return parameters.density * kPi * size.x() * size.x() * size.z();
+    default:
+      return parameters.density * size.prod();
+  }
+}
+
+}  // namespace
+
+bool HasBody(EntityKind kind)
+{
+  return IsRobot(kind) || kind == EntityKind::kBlock || kind == EntityKind::kWall || kind == EntityKind::kCylindricPrey;
+}
+
+BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, const PlaneFrame& plane,
+                       const Dynamics2dParameters& parameters)
+{
+  BodyModel model;
+  model.motion = motion;
+  SetContact(model, entity, parameters);
+  const Vector3& size = entity.GetSize();
+  const EntityKind kind = entity.GetKind();
+  const double given = entity.GetConfiguration().mass_kg;
+  model.mass = given > 0 ? given : DefaultMass(entity, parameters);
+  if (kind == EntityKind::kFootbot || kind == EntityKind::kEyebot || kind == EntityKind::kCylindricPrey)
+  {
+    if (size.x() < kSmallest_m) TooSmall(entity);
+    model.radius = size.x();
+    model.inertia = model.mass * size.x() * size.x() / 2;
+  }
+  else
+  {
+    if (size.x() < kSmallest_m || size.y() < kSmallest_m || size.z() < kSmallest_m) TooSmall(entity);
+    model.polygon = kind == EntityKind::kHandbot ? Rectangle(size.x(), size.y()) : BlockOutline(entity, plane);
+    if (WidthOf(model.polygon) < kSmallest_m) TooSmall(entity);
+    model.inertia = model.mass * UnitInertia(model.polygon);
+  }
+  if (motion != EMotion::kDynamic) return model;
+
+  model.grippable = kind == EntityKind::kFootbot || kind == EntityKind::kHandbot || kind == EntityKind::kCylindricPrey;
+  switch (kind)
+  {
+    case EntityKind::kFootbot:
+      model.has_gripper = true;
+      model.ground_force =
+          std::min(parameters.wheel_friction * model.mass * parameters.gravity, parameters.drive_force);
+      model.ground_torque = model.ground_force * kInterWheelDistance / 2;
+      break;
+    case EntityKind::kEyebot:
+      model.ground_force = parameters.eyebot_force;
+      model.ground_torque = parameters.eyebot_torque;
+      break;
+    default:
+      SetGroundFriction(model, entity.GetConfiguration().tree.GetNumber("ground_friction", parameters.ground_friction),
+                        parameters.gravity);
+  }
+  return model;
+}
+
+std::optional<BodyModel> FixedModel(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane,
+                                    const Dynamics2dParameters& parameters)
+{
+  BodyModel model;
+  model.motion = EMotion::kStatic;
+  SetContact(model, entity, parameters);
+  model.polygon = plane.CutBox(entity.GetPose(), entity.GetSize());
+  if (model.polygon.empty()) return std::nullopt;
+  if (WidthOf(model.polygon) < kSmallest_m) TooSmall(entity);
+  return model;
+}
+
+bool ReachesPlane(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane)
+{
+  const EntityKind kind = entity.GetKind();
+  if (kind == EntityKind::kBlock || kind == EntityKind::kWall)
+    return !plane.CutBox(entity.GetPose(), entity.GetSize()).empty();
+  return plane.CutsUpright(entity.GetPose(), entity.GetSize().z());
+}
+
+}  // namespace swarmanoid::dynamics2d

@@ -1,0 +1,270 @@
+#include "engine_worker/engines/dynamics2d/dynamics2d_engine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "common/math/elementary.h"
+
+namespace swarmanoid
+{
+
+using namespace dynamics2d;
+
+namespace
+{
+
+// A mirror that jumps farther than this in a tick was put elsewhere; it pushes nothing on its way.
+constexpr double kMirrorJump_m = 0.5;
+
+}  // namespace
+
+void CDynamics2dEngine::Init(const EngineSetup& setup)
+{
+  space_ = &setup.space;
+  layout_ = &setup.layout;
+  parameters_ = ReadDynamics2dParameters(setup.parameters);
+  plane_ = PlaneFrame(parameters_.axis, parameters_.distance);
+  world_ =
+      std::make_unique<Dynamics2dWorld>(WorldSettings{parameters_.velocity_iterations, parameters_.position_iterations,
+                                                      parameters_.turret_torque, parameters_.grip_distance});
+  steps_ = setup.configuration.subclock * parameters_.substeps;
+  seconds_ = space_->GetTickSeconds() / steps_;
+  body_of_entity_.assign(space_->Size(), kNoBody);
+  footbot_of_entity_.assign(space_->Size(), 0);
+  for (const ChannelBlock& block : layout_->commands)
+    if (block.name == "footbot_turret") turret_robots_ = block.entities;
+}
+
+// Robots and preys stand on the plane; blocks keep their height and lean.
+PlanePose CDynamics2dEngine::StandingPose(const CSwarmanoidSpaceEntity& entity, PlaneStance& stance) const
+{
+  const Pose pose = entity.GetPose();
+  stance = entity.GetKind() == EntityKind::kBlock || entity.GetKind() == EntityKind::kWall ? plane_.StanceOf(pose)
+                                                                                           : PlaneStance{};
+  return plane_.ToPlane(pose);
+}
+
+void CDynamics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding binding)
+{
+  if (!HasBody(entity.GetKind()))
+  {
+    if (binding != EBinding::kFixed)
+      throw ConfigurationError(entity.GetConfiguration().location,
+                               fmt::format("dynamics2d cannot move '{}': it has no body on the plane", entity.GetId()));
+    return;
+  }
+
+  int body = kNoBody;
+  PlaneStance stance;
+  const PlanePose pose = StandingPose(entity, stance);
+  switch (binding)
+  {
+    case EBinding::kFixed:
+    {
+      auto model = FixedModel(entity, plane_, parameters_);
+      if (!model) return;
+      body = world_->AddBody(std::move(*model), {});
+      break;
+    }
+    case EBinding::kMirror:
+    {
+      body = world_->AddBody(MovableModel(entity, EMotion::kKinematic, plane_, parameters_), pose);
+      mirrors_.push_back({&entity, body, false, {}});
+      break;
+    }
+    case EBinding::kOwned:
+    {
+      if (entity.GetKind() == EntityKind::kBlock && !ReachesPlane(entity, plane_))
+        throw ConfigurationError(
+            entity.GetConfiguration().location,
+            fmt::format("the block '{}' does not reach the plane of the engine that moves it; put it on "
+                        "the plane, or into another engine",
+                        entity.GetId()));
+      BodyModel model = MovableModel(entity, EMotion::kDynamic, plane_, parameters_);
+      model.has_turret_motor = std::binary_search(turret_robots_.begin(), turret_robots_.end(), entity.GetIndex());
+      body = world_->AddBody(std::move(model), pose);
+      owned_.push_back({&entity, body, stance});
+      if (entity.GetKind() != EntityKind::kFootbot) break;
+      footbot_of_entity_[entity.GetIndex()] = static_cast<std::uint32_t>(footbots_.size());
+      Footbot& footbot = footbots_.emplace_back();
+      footbot.entity = &entity;
+      footbot.body = body;
+      footbot.aperture_slot = entity.SlotOf("gripper_aperture");
+      footbot.gripped_slot = entity.SlotOf("gripped");
+      footbot.turret_slot = entity.SlotOf("turret_angle");
+      break;
+    }
+  }
+  body_of_entity_[entity.GetIndex()] = body;
+  entity_of_body_.push_back(entity.GetIndex());
+}
+
+void CDynamics2dEngine::Start()
+{
+  for (const ChannelBlock& block : layout_->commands)
+    if (block.name == "footbot_gripper")
+      for (const std::uint32_t entity : block.entities) FootbotOf(entity).has_gripper = true;
+  for (const ChannelBlock& block : layout_->sensors)
+  {
+    measures_wheels_ = measures_wheels_ || block.name == "footbot_encoders";
+    measures_turrets_ = measures_turrets_ || block.name == "footbot_turret_torque";
+  }
+  world_->Build();
+}
+
+int CDynamics2dEngine::BodyOf(std::uint32_t entity) const { return body_of_entity_[entity]; }
+
+CDynamics2dEngine::Footbot& CDynamics2dEngine::FootbotOf(std::uint32_t entity)
+{
+  return footbots_[footbot_of_entity_[entity]];
+}
+
+void CDynamics2dEngine::Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors)
+{
+  ReadCommands(commands);
+  FollowMirrors();
+  ApplyGrippers();
+  for (Footbot& footbot : footbots_)
+  {
+    footbot.left_arc = footbot.right_arc = 0;
+    footbot.load = {};
+    footbot.velocity = world_->VelocityOf(footbot.body);
+  }
+  for (int step = 0; step < steps_; ++step) Step();
+  WritePoses(update);
+  ReportAttributes(update);
+  WriteSensors(sensors);
+}
+
+// A mirror stands where the space has it at the start of the tick, and goes on as it came.
+void CDynamics2dEngine::FollowMirrors()
+{
+  const double tick = space_->GetTickSeconds();
+  for (Mirror& mirror : mirrors_)
+  {
+    const PlanePose now = plane_.ToPlane(mirror.entity->GetPose());
+    world_->SetSolid(mirror.body, ReachesPlane(*mirror.entity, plane_));
+    world_->Place(mirror.body, now);
+    const double du = now.u - mirror.previous.u;
+    const double dv = now.v - mirror.previous.v;
+    PlaneVelocity velocity;
+    if (mirror.seen && du * du + dv * dv < kMirrorJump_m * kMirrorJump_m)
+      velocity = {du / tick, dv / tick, WrapAngle(now.heading - mirror.previous.heading) / tick};
+    world_->SetVelocity(mirror.body, velocity);
+    mirror.previous = now;
+    mirror.seen = true;
+  }
+}
+
+// First all that let go, then all that take hold, in entity order.
+void CDynamics2dEngine::ApplyGrippers()
+{
+  for (const Footbot& footbot : footbots_)
+    if (footbot.has_gripper && footbot.gripper <= 0.5) world_->Release(footbot.body);
+  for (const Footbot& footbot : footbots_)
+  {
+    if (!footbot.has_gripper || footbot.gripper <= 0.5 || world_->GrippedBy(footbot.body) != kNoBody) continue;
+    const int target = world_->FindGrippable(footbot.body);
+    if (target != kNoBody) world_->Grip(footbot.body, target);
+  }
+}
+
+void CDynamics2dEngine::Step()
+{
+  if (!measures_wheels_)
+  {
+    world_->Step(seconds_);
+  }
+  else
+  {
+    std::vector<PlanePose> before;
+    before.reserve(footbots_.size());
+    for (const Footbot& footbot : footbots_) before.push_back(world_->PoseOf(footbot.body));
+    world_->Step(seconds_);
+    for (std::size_t i = 0; i < footbots_.size(); ++i)
+    {
+      const PlanePose after = world_->PoseOf(footbots_[i].body);
+      const double turn = after.heading - before[i].heading;
+      const SinCos middle = SinCosOf(before[i].heading + turn / 2);
+      const double forward = middle.cos * (after.u - before[i].u) + middle.sin * (after.v - before[i].v);
+      footbots_[i].left_arc += forward - turn * kInterWheelDistance / 2;
+      footbots_[i].right_arc += forward + turn * kInterWheelDistance / 2;
+    }
+  }
+  if (!measures_turrets_) return;
+  for (Footbot& footbot : footbots_)
+  {
+    const TurretLoad load = world_->LoadOf(footbot.body);
+    footbot.load.force_x += load.force_x / steps_;
+    footbot.load.force_y += load.force_y / steps_;
+    footbot.load.torque += load.torque / steps_;
+  }
+}
+
+void CDynamics2dEngine::EntityMoved(std::uint32_t entity)
+{
+  for (Owned& owned : owned_)
+  {
+    if (owned.entity->GetIndex() != entity) continue;
+    world_->ReleaseAllOf(owned.body);
+    world_->Place(owned.body, StandingPose(*owned.entity, owned.stance));
+    world_->SetVelocity(owned.body, {});
+  }
+}
+
+void CDynamics2dEngine::SetVelocity(std::uint32_t entity, const PlaneVelocity& velocity)
+{
+  world_->SetVelocity(BodyOf(entity), velocity);
+}
+
+void CDynamics2dEngine::SaveState(ByteWriter& state) const
+{
+  constexpr std::uint32_t kVersion = 1;
+  state.Put(kVersion);
+  world_->SaveState(state);
+  for (const Owned& owned : owned_)
+  {
+    state.Put(owned.stance.height);
+    state.Put(owned.stance.lean.w());
+    state.Put(owned.stance.lean.x());
+    state.Put(owned.stance.lean.y());
+    state.Put(owned.stance.lean.z());
+  }
+  for (const Mirror& mirror : mirrors_)
+  {
+    state.Put(static_cast<std::uint8_t>(mirror.seen ? 1 : 0));
+    state.Put(mirror.previous);
+  }
+}
+
+void CDynamics2dEngine::LoadState(ByteReader& state)
+{
+  if (state.Get<std::uint32_t>() != 1)
+    throw std::runtime_error("saved state of dynamics2d: it is of another version of the engine");
+  world_->LoadState(state);
+  for (Owned& owned : owned_)
+  {
+    owned.stance.height = state.Get<double>();
+    owned.stance.lean.w() = state.Get<double>();
+    owned.stance.lean.x() = state.Get<double>();
+    owned.stance.lean.y() = state.Get<double>();
+    owned.stance.lean.z() = state.Get<double>();
+  }
+  for (Mirror& mirror : mirrors_)
+  {
+    mirror.seen = state.Get<std::uint8_t>() != 0;
+    mirror.previous = state.Get<PlanePose>();
+  }
+}
+
+void CDynamics2dEngine::Canonicalise() { world_->Rebuild(); }
+
+std::string CDynamics2dEngine::StatusText() const
+{
+  return fmt::format("{} contacts, {} grips", world_->ContactCount(), world_->GripCount());
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,95 @@
+// CDynamics2dEngine, the engine `dynamics2d`: rigid bodies with masses, friction and joints on a plane of the space.
+// Runs in the engine worker's thread; one thread at a time.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine_worker/engines/dynamics2d/body_models.h"
+#include "engine_worker/engines/dynamics2d/dynamics2d_parameters.h"
+#include "engine_worker/engines/dynamics2d/dynamics2d_world.h"
+#include "engine_worker/physics_engine.h"
+
+namespace swarmanoid
+{
+
+class CDynamics2dEngine : public CPhysicsEngine
+{
+public:
+  void Init(const EngineSetup& setup) override;
+  void AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding binding) override;
+  void Start() override;
+
+  void Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors) override;
+  void EntityMoved(std::uint32_t entity) override;
+
+  void SaveState(ByteWriter& state) const override;
+  void LoadState(ByteReader& state) override;
+  void Canonicalise() override;
+  std::string StatusText() const override;
+
+  // For tests: gives an owned entity a velocity in the plane.
+  void SetVelocity(std::uint32_t entity, const dynamics2d::PlaneVelocity& velocity);
+
+private:
+  // An entity that this engine moves.
+  struct Owned
+  {
+    const CSwarmanoidSpaceEntity* entity;
+    int body;
+    PlaneStance stance;
+  };
+  // One that another engine moves.
+  struct Mirror
+  {
+    const CSwarmanoidSpaceEntity* entity;
+    int body;
+    bool seen = false;   // `previous` is from the tick before
+    PlanePose previous;  // where the space had it
+  };
+  struct Footbot
+  {
+    const CSwarmanoidSpaceEntity* entity;
+    int body;
+    bool has_gripper = false;  // there are commands for it
+    double gripper = 0;        // command: 0 open … 1 closed
+    std::uint32_t aperture_slot, gripped_slot, turret_slot;
+    // What the sensors sum up over the sub-steps of a tick.
+    double left_arc = 0, right_arc = 0;  // m
+    dynamics2d::TurretLoad load;
+    dynamics2d::PlaneVelocity velocity;  // at the start of the tick
+  };
+
+  int BodyOf(std::uint32_t entity) const;
+  Footbot& FootbotOf(std::uint32_t entity);
+  PlanePose StandingPose(const CSwarmanoidSpaceEntity& entity, PlaneStance& stance) const;
+  void ReadCommands(const EngineCommands& commands);
+  void FollowMirrors();
+  void ApplyGrippers();
+  void Step();
+  void WritePoses(EngineUpdate& update) const;
+  void ReportAttributes(EngineUpdate& update) const;
+  void WriteSensors(std::span<double> sensors) const;
+
+  const CSwarmanoidSpace* space_ = nullptr;
+  const EngineLayout* layout_ = nullptr;
+  dynamics2d::Dynamics2dParameters parameters_;
+  PlaneFrame plane_{PlaneAxis::kZ, 0};
+  std::unique_ptr<dynamics2d::Dynamics2dWorld> world_;
+  int steps_ = 4;       // in each tick
+  double seconds_ = 0;  // of each step
+  std::vector<Owned> owned_;
+  std::vector<Mirror> mirrors_;
+  std::vector<Footbot> footbots_;
+  std::vector<std::uint32_t> turret_robots_;  // with a motor for their turret
+  std::vector<int> body_of_entity_;           // kNoBody where it has none
+  std::vector<std::uint32_t> entity_of_body_;
+  std::vector<std::uint32_t> footbot_of_entity_;
+  bool measures_wheels_ = false;
+  bool measures_turrets_ = false;
+};
+
+// Adds dynamics2d to the registry.
+void RegisterDynamics2d();
+
+}  // namespace swarmanoid

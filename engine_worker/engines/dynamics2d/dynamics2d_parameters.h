@@ -1,0 +1,39 @@
+// The parameters of the engine dynamics2d: the table for experiment files, and their values once read.
+#pragma once
+
+#include <vector>
+
+#include "common/configuration/parameter.h"
+#include "engine_worker/engines/plane_frame.h"
+
+namespace swarmanoid::dynamics2d
+{
+
+struct Dynamics2dParameters
+{
+  PlaneAxis axis = PlaneAxis::kZ;
+  double distance = 0;  // m
+  int substeps = 4;
+  int velocity_iterations = 8;
+  int position_iterations = 3;
+  double gravity = 9.81;  // m/s2
+  double friction = 0.7;
+  double restitution = 0;
+  double wheel_friction = 0.8;
+  double ground_friction = 0.5;
+  double density = 200;         // kg/m3
+  double footbot_mass = 1.6;    // kg
+  double handbot_mass = 3;      // kg
+  double eyebot_mass = 1;       // kg
+  double drive_force = 15;      // N
+  double eyebot_force = 5;      // N
+  double eyebot_torque = 0.2;   // N m
+  double turret_torque = 1.5;   // N m
+  double traction_range = 25;   // N
+  double grip_distance = 0.01;  // m
+};
+
+const std::vector<ParameterSpec>& Dynamics2dParameterTable();
+Dynamics2dParameters ReadDynamics2dParameters(const Parameters& parameters);
+
+}  // namespace swarmanoid::dynamics2d

@@ -1,0 +1,389 @@
+#include "engine_worker/engines/dynamics2d/dynamics2d_world.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/math/elementary.h"
+
+namespace swarmanoid::dynamics2d
+{
+namespace
+{
+
+constexpr double kUnitsPerMetre = 10;
+constexpr double kForceUnits = kUnitsPerMetre;                    // per newton
+constexpr double kTorqueUnits = kUnitsPerMetre * kUnitsPerMetre;  // per newton metre
+// The part of a ground joint's position error that becomes velocity. Drives are expressed through it; a small value
+// puts the target far ahead, where the rounding of large coordinates does not matter.
+constexpr float kDriveGain = 0.01F;
+constexpr double kHoldGain = 0.2;    // part of the error of a held turret that is corrected in a step
+constexpr double kHoldSpeed = 1.0;   // rad/s, at most
+constexpr double kOverload = 0.999;  // of the motor's torque: the turret slips
+
+b2Vec2 ToUnits(double x, double y)
+{
+  return {static_cast<float>(x * kUnitsPerMetre), static_cast<float>(y * kUnitsPerMetre)};
+}
+
+// Distance of a point from the outline of a model, in the model's frame; negative inside.
+double DistanceTo(const BodyModel& model, const Vector2& point)
+{
+  if (model.radius > 0) return std::sqrt(point.squaredNorm()) - model.radius;
+  double inside = -std::numeric_limits<double>::infinity();
+  double outside = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < model.polygon.size(); ++i)
+  {
+    const Vector2& a = model.polygon[i];
+    const Vector2 edge = model.polygon[(i + 1) % model.polygon.size()] - a;
+    const Vector2 offset = point - a;
+    const double along = std::clamp(offset.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+    outside = std::min(outside, std::sqrt((offset - along * edge).squaredNorm()));
+    inside = std::max(inside, (offset.x() * edge.y() - offset.y() * edge.x()) / std::sqrt(edge.squaredNorm()));
+  }
+  return inside <= 0 ? inside : outside;
+}
+
+int BodyOf(b2Fixture& fixture) { return static_cast<int>(fixture.GetUserData().pointer); }
+
+class NearbyBodies : public b2QueryCallback
+{
+public:
+  bool ReportFixture(b2Fixture* fixture) override
+  {
+    bodies.push_back(BodyOf(*fixture));
+    return true;
+  }
+  std::vector<int> bodies;
+};
+
+}  // namespace
+
+int Dynamics2dWorld::AddBody(BodyModel model, const PlanePose& pose)
+{
+  Body& body = bodies_.emplace_back();
+  body.model = std::move(model);
+  const b2Vec2 position = ToUnits(pose.u, pose.v);
+  body.start = {position.x, position.y, static_cast<float>(pose.heading), 0, 0, 0};
+  return static_cast<int>(bodies_.size()) - 1;
+}
+
+void Dynamics2dWorld::Build()
+{
+  world_ = std::make_unique<b2World>(b2Vec2(0, 0));
+  world_->SetAllowSleeping(false);
+  b2BodyDef ground;
+  ground_ = world_->CreateBody(&ground);
+  last_step_ = 0;
+  for (Body& body : bodies_) BuildBody(body);
+  for (Body& body : bodies_)
+  {
+    if (body.gripped == kNoBody) continue;
+    BuildGrip(body);
+    TurnGripper(body);
+  }
+}
+
+void Dynamics2dWorld::BuildBody(Body& body)
+{
+  const BodyModel& model = body.model;
+  b2BodyDef definition;
+  definition.type = model.motion == EMotion::kDynamic     ? b2_dynamicBody
+                    : model.motion == EMotion::kKinematic ? b2_kinematicBody
+                                                          : b2_staticBody;
+  definition.position.Set(body.start.x, body.start.y);
+  definition.angle = body.start.angle;
+  definition.linearVelocity.Set(body.start.vx, body.start.vy);
+  definition.angularVelocity = body.start.turn;
+  definition.enabled = body.solid;
+  body.b2 = world_->CreateBody(&definition);
+  body.ground = nullptr;
+  body.gripper = nullptr;
+  body.joint = nullptr;
+
+  b2FixtureDef fixture;
+  fixture.density = 0;  // the mass is set below
+  fixture.friction = static_cast<float>(model.friction);
+  fixture.restitution = static_cast<float>(model.restitution);
+  fixture.userData.pointer = static_cast<uintptr_t>(&body - bodies_.data());
+  b2CircleShape circle;
+  b2PolygonShape polygon;
+  if (model.radius > 0)
+  {
+    circle.m_radius = static_cast<float>(model.radius * kUnitsPerMetre);
+    fixture.shape = &circle;
+  }
+  else
+  {
+    std::array<b2Vec2, b2_maxPolygonVertices> points;
+    for (std::size_t i = 0; i < model.polygon.size(); ++i)
+      points[i] = ToUnits(model.polygon[i].x(), model.polygon[i].y());
+    polygon.Set(points.data(), static_cast<int32>(model.polygon.size()));
+    fixture.shape = &polygon;
+  }
+  body.b2->CreateFixture(&fixture);
+  if (model.has_gripper)
+  {
+    b2PolygonShape square;
+    square.SetAsBox(1, 1);
+    fixture.shape = &square;
+    body.gripper = body.b2->CreateFixture(&fixture);
+    TurnGripper(body);
+  }
+
+  if (model.motion != EMotion::kDynamic) return;
+  b2MassData mass;
+  mass.mass = static_cast<float>(model.mass);
+  mass.center.SetZero();
+  mass.I = static_cast<float>(model.inertia * kTorqueUnits);
+  body.b2->SetMassData(&mass);
+
+  b2MotorJointDef joint;
+  joint.bodyA = ground_;
+  joint.bodyB = body.b2;
+  joint.collideConnected = true;
+  joint.maxForce = static_cast<float>(model.ground_force * kForceUnits);
+  joint.maxTorque = static_cast<float>(model.ground_torque * kTorqueUnits);
+  joint.correctionFactor = kDriveGain;
+  body.ground = static_cast<b2MotorJoint*>(world_->CreateJoint(&joint));
+}
+
+// A revolute joint about the axis of the turret where a motor turns it, a rigid one where none does.
+void Dynamics2dWorld::BuildGrip(Body& body)
+{
+  b2Body* target = bodies_[Index(body.gripped)].b2;
+  if (body.model.has_turret_motor)
+  {
+    b2RevoluteJointDef joint;
+    joint.bodyA = body.b2;
+    joint.bodyB = target;
+    joint.localAnchorB = body.grip.anchor;
+    joint.referenceAngle = body.grip.reference_angle;
+    joint.enableMotor = true;
+    joint.maxMotorTorque = static_cast<float>(settings_.turret_torque * kTorqueUnits);
+    body.joint = world_->CreateJoint(&joint);
+    return;
+  }
+  b2WeldJointDef joint;
+  joint.bodyA = body.b2;
+  joint.bodyB = target;
+  joint.localAnchorB = body.grip.anchor;
+  joint.referenceAngle = body.grip.reference_angle;
+  body.joint = world_->CreateJoint(&joint);
+}
+
+void Dynamics2dWorld::Step(double seconds)
+{
+  for (Body& body : bodies_)
+  {
+    if (body.ground != nullptr) ApplyDrive(body, seconds);
+    if (body.gripper != nullptr) ApplyTurret(body, seconds);
+  }
+  world_->Step(static_cast<float>(seconds), settings_.velocity_iterations, settings_.position_iterations);
+  last_step_ = seconds;
+}
+
+// The ground joint is given an error that asks for the wanted velocity. Solved together with contacts and grips, so
+// what cannot move stands still.
+void Dynamics2dWorld::ApplyDrive(Body& body, double seconds)
+{
+  const double turn = body.drive.turn * seconds;
+  const b2Vec2 position = body.b2->GetWorldCenter();
+  const float angle = body.b2->GetAngle();
+  if (body.drive.forward == 0 && body.drive.left == 0)
+  {
+    body.ground->SetLinearOffset(position);
+  }
+  else
+  {
+    // The chord of the arc that the step leads along.
+    const SinCos middle = SinCosOf(angle + turn / 2);
+    const double shortening = std::abs(turn) > 1e-6 ? Sin(turn / 2) / (turn / 2) : 1;
+    const double scale = shortening * seconds * kUnitsPerMetre / kDriveGain;
+    const double u = middle.cos * body.drive.forward - middle.sin * body.drive.left;
+    const double v = middle.sin * body.drive.forward + middle.cos * body.drive.left;
+    body.ground->SetLinearOffset(
+        {static_cast<float>(position.x + scale * u), static_cast<float>(position.y + scale * v)});
+  }
+  body.ground->SetAngularOffset(static_cast<float>(angle + turn / kDriveGain));
+}
+
+void Dynamics2dWorld::ApplyTurret(Body& body, double seconds)
+{
+  if (body.gripped == kNoBody)
+  {
+    if (body.turret_speed == 0) return;
+    body.turret_angle = WrapAngle(body.turret_angle + body.turret_speed * seconds);
+    TurnGripper(body);
+    return;
+  }
+  if (!body.model.has_turret_motor) return;
+  auto* joint = static_cast<b2RevoluteJoint*>(body.joint);
+  const double angle = joint->GetJointAngle();
+  if (body.turret_speed != 0)
+  {
+    body.held_angle.reset();
+    joint->SetMotorSpeed(static_cast<float>(body.turret_speed));
+  }
+  else
+  {
+    const bool slips = last_step_ > 0 && std::abs(joint->GetMotorTorque(static_cast<float>(1 / last_step_))) >=
+                                             kOverload * settings_.turret_torque * kTorqueUnits;
+    if (!body.held_angle || slips) body.held_angle = angle;
+    const double speed = kHoldGain * WrapAngle(*body.held_angle - angle) / seconds;
+    joint->SetMotorSpeed(static_cast<float>(std::clamp(speed, -kHoldSpeed, kHoldSpeed)));
+  }
+  TurnGripper(body);
+}
+
+void Dynamics2dWorld::TurnGripper(Body& body)
+{
+  const SinCos turret = SinCosOf(TurretAngleOf(static_cast<int>(&body - bodies_.data())));
+  const auto point = [&](double forward, double left)
+  { return ToUnits(turret.cos * forward - turret.sin * left, turret.sin * forward + turret.cos * left); };
+  constexpr double kBack = kGripperReach - kGripperSide;
+  constexpr double kHalf = kGripperSide / 2;
+  const std::array<b2Vec2, 4> points{point(kGripperReach, -kHalf), point(kGripperReach, kHalf), point(kBack, kHalf),
+                                     point(kBack, -kHalf)};
+  static_cast<b2PolygonShape*>(body.gripper->GetShape())->Set(points.data(), 4);
+}
+
+double Dynamics2dWorld::TurretAngleOf(int number) const
+{
+  const Body& body = bodies_[Index(number)];
+  if (!body.model.has_turret_motor || body.joint == nullptr) return body.turret_angle;
+  return WrapAngle(static_cast<b2RevoluteJoint*>(body.joint)->GetJointAngle());
+}
+
+PlanePose Dynamics2dWorld::PoseOf(int number) const
+{
+  const b2Body* body = bodies_[Index(number)].b2;
+  return {body->GetPosition().x / kUnitsPerMetre, body->GetPosition().y / kUnitsPerMetre, body->GetAngle()};
+}
+
+PlaneVelocity Dynamics2dWorld::VelocityOf(int number) const
+{
+  const b2Body* body = bodies_[Index(number)].b2;
+  return {body->GetLinearVelocity().x / kUnitsPerMetre, body->GetLinearVelocity().y / kUnitsPerMetre,
+          body->GetAngularVelocity()};
+}
+
+void Dynamics2dWorld::Place(int number, const PlanePose& pose)
+{
+  bodies_[Index(number)].b2->SetTransform(ToUnits(pose.u, pose.v), static_cast<float>(pose.heading));
+}
+
+void Dynamics2dWorld::SetVelocity(int number, const PlaneVelocity& velocity)
+{
+  b2Body* body = bodies_[Index(number)].b2;
+  body->SetLinearVelocity(ToUnits(velocity.u, velocity.v));
+  body->SetAngularVelocity(static_cast<float>(velocity.turn));
+}
+
+void Dynamics2dWorld::SetSolid(int number, bool solid)
+{
+  Body& body = bodies_[Index(number)];
+  if (body.solid == solid) return;
+  body.solid = solid;
+  body.b2->SetEnabled(solid);
+}
+
+bool Dynamics2dWorld::LeadsTo(int from, int to) const
+{
+  for (int body = from; body != kNoBody; body = bodies_[Index(body)].gripped)
+    if (body == to) return true;
+  return false;
+}
+
+int Dynamics2dWorld::FindGrippable(int number) const
+{
+  const Body& body = bodies_[Index(number)];
+  const SinCos turret = SinCosOf(body.b2->GetAngle() + body.turret_angle);
+  const b2Vec2 centre = body.b2->GetPosition();
+  const double x = centre.x / kUnitsPerMetre + kGripperReach * turret.cos;
+  const double y = centre.y / kUnitsPerMetre + kGripperReach * turret.sin;
+
+  NearbyBodies nearby;
+  b2AABB box;
+  box.lowerBound = ToUnits(x - 2 * settings_.grip_distance, y - 2 * settings_.grip_distance);
+  box.upperBound = ToUnits(x + 2 * settings_.grip_distance, y + 2 * settings_.grip_distance);
+  world_->QueryAABB(&nearby, box);
+
+  int best = kNoBody;
+  double best_distance = settings_.grip_distance;
+  std::sort(nearby.bodies.begin(), nearby.bodies.end());
+  for (const int candidate : nearby.bodies)
+  {
+    const Body& other = bodies_[Index(candidate)];
+    if (!other.model.grippable || LeadsTo(candidate, number)) continue;
+    const SinCos heading = SinCosOf(other.b2->GetAngle());
+    const double dx = x - other.b2->GetPosition().x / kUnitsPerMetre;
+    const double dy = y - other.b2->GetPosition().y / kUnitsPerMetre;
+    const Vector2 point(heading.cos * dx + heading.sin * dy, heading.cos * dy - heading.sin * dx);
+    const double distance = DistanceTo(other.model, point);
+    if (distance > best_distance || (distance == best_distance && best != kNoBody)) continue;
+    best = candidate;
+    best_distance = distance;
+  }
+  return best;
+}
+
+void Dynamics2dWorld::Grip(int number, int target)
+{
+  Body& body = bodies_[Index(number)];
+  const b2Body* other = bodies_[Index(target)].b2;
+  body.grip.anchor = other->GetLocalPoint(body.b2->GetPosition());
+  const double difference = static_cast<double>(other->GetAngle()) - body.b2->GetAngle();
+  body.grip.reference_angle =
+      static_cast<float>(body.model.has_turret_motor ? difference - body.turret_angle : difference);
+  body.gripped = target;
+  body.held_angle.reset();
+  BuildGrip(body);
+}
+
+void Dynamics2dWorld::Release(int number)
+{
+  Body& body = bodies_[Index(number)];
+  if (body.gripped == kNoBody) return;
+  body.turret_angle = TurretAngleOf(number);
+  world_->DestroyJoint(body.joint);
+  body.joint = nullptr;
+  body.gripped = kNoBody;
+  body.held_angle.reset();
+  TurnGripper(body);
+}
+
+void Dynamics2dWorld::ReleaseAllOf(int number)
+{
+  Release(number);
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (bodies_[i].gripped == number) Release(static_cast<int>(i));
+}
+
+TurretLoad Dynamics2dWorld::LoadOf(int number) const
+{
+  const Body& body = bodies_[Index(number)];
+  if (body.joint == nullptr || last_step_ <= 0) return {};
+  const auto rate = static_cast<float>(1 / last_step_);
+  const b2Vec2 force = body.joint->GetReactionForce(rate);  // on the gripped body
+  const SinCos turret = SinCosOf(body.b2->GetAngle() + TurretAngleOf(number));
+  return {-(turret.cos * force.x + turret.sin * force.y) / kForceUnits,
+          -(turret.cos * force.y - turret.sin * force.x) / kForceUnits,
+          -body.joint->GetReactionTorque(rate) / kTorqueUnits};
+}
+
+int Dynamics2dWorld::ContactCount() const
+{
+  int count = 0;
+  for (const b2Contact* contact = world_->GetContactList(); contact != nullptr; contact = contact->GetNext())
+    count += contact->IsTouching() ? 1 : 0;
+  return count;
+}
+
+int Dynamics2dWorld::GripCount() const
+{
+  return static_cast<int>(
+      std::count_if(bodies_.begin(), bodies_.end(), [](const Body& body) { return body.gripped != kNoBody; }));
+}
+
+}  // namespace swarmanoid::dynamics2d

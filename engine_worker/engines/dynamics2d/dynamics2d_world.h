@@ -1,0 +1,164 @@
+// Dynamics2dWorld: rigid bodies on a plane, solved by Box2D. Metres, kilograms, newtons and radians outside; inside one
+// unit is a decimetre, so that Box2D's tolerances, made for things of a metre, fit robots. Used by CDynamics2dEngine
+// alone.
+#pragma once
+
+#include <box2d/box2d.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/serialisation/bytes.h"
+#include "engine_worker/engines/plane_frame.h"
+
+namespace swarmanoid::dynamics2d
+{
+
+enum class EMotion
+{
+  kDynamic,
+  kKinematic,  // goes where it is told, pushes and is not pushed
+  kStatic
+};
+
+// What a body is made of; fixed once it is in the world.
+struct BodyModel
+{
+  EMotion motion = EMotion::kDynamic;
+  double radius = 0;             // m; 0: the outline is `polygon`
+  std::vector<Vector2> polygon;  // m, in the frame of the body, convex, 3 to 8 vertices
+  double mass = 1;               // kg
+  double inertia = 1;            // kg m2 about the origin of the body, which is its centre of mass
+  double friction = 0;           // of contacts: two bodies use the geometric mean
+  double restitution = 0;        // of contacts: two bodies use the larger one
+  double ground_force = 0;       // N: what wheels, propellers or friction exert against the ground at most
+  double ground_torque = 0;      // N m
+  bool has_gripper = false;      // a square at the front of a turret at the origin
+  bool has_turret_motor = false;
+  bool grippable = false;
+};
+
+// A velocity in the frame of a body.
+struct Twist
+{
+  double forward = 0;  // m/s
+  double left = 0;     // m/s
+  double turn = 0;     // rad/s
+};
+
+// A velocity in the plane.
+struct PlaneVelocity
+{
+  double u = 0;     // m/s
+  double v = 0;     // m/s
+  double turn = 0;  // rad/s
+};
+
+struct WorldSettings
+{
+  int velocity_iterations = 8;
+  int position_iterations = 3;
+  double turret_torque = 0;  // N m, of the motor that turns a gripping turret
+  double grip_distance = 0;  // m, from the face of the gripper to what it can take
+};
+
+// The load on a turret: what the gripped body exerts on it, in the frame of the turret.
+struct TurretLoad
+{
+  double force_x = 0;  // N
+  double force_y = 0;  // N
+  double torque = 0;   // N m
+};
+
+// The square of the gripper: its edge, and how far its outer face stands from the axis of the turret (m).
+inline constexpr double kGripperSide = 0.03;
+inline constexpr double kGripperReach = 0.1;
+inline constexpr int kNoBody = -1;
+
+class Dynamics2dWorld
+{
+public:
+  explicit Dynamics2dWorld(const WorldSettings& settings) : settings_(settings) {}
+
+  // Bodies are numbered from 0 in the order in which they come. None can be added after Build.
+  int AddBody(BodyModel model, const PlanePose& pose);
+  void Build();
+
+  // Advances by `seconds`.
+  void Step(double seconds);
+
+  PlanePose PoseOf(int body) const;
+  PlaneVelocity VelocityOf(int body) const;
+  void Place(int body, const PlanePose& pose);
+  void SetVelocity(int body, const PlaneVelocity& velocity);
+  // Takes a body out of all collisions, or puts it back.
+  void SetSolid(int body, bool solid);
+
+  // The velocity that a body strives for against the ground, within its ground_force and ground_torque.
+  void SetDrive(int body, const Twist& drive) { bodies_[Index(body)].drive = drive; }
+  void SetTurretSpeed(int body, double radians_per_second) { bodies_[Index(body)].turret_speed = radians_per_second; }
+  double TurretAngleOf(int body) const;  // -pi..pi
+
+  // The nearest body that the gripper touches and may take, or kNoBody. A structure must not become a loop.
+  int FindGrippable(int body) const;
+  void Grip(int body, int target);
+  void Release(int body);
+  void ReleaseAllOf(int body);  // with the grips of others on it
+  int GrippedBy(int body) const { return bodies_[Index(body)].gripped; }
+  TurretLoad LoadOf(int body) const;
+
+  int ContactCount() const;
+  int GripCount() const;
+
+  // The state as bits that Box2D holds; it keeps caches beside them, which Rebuild drops.
+  void SaveState(ByteWriter& state) const;
+  void LoadState(ByteReader& state);
+  void Rebuild();
+
+private:
+  struct BodyState
+  {
+    float x, y, angle;  // decimetres, radians
+    float vx, vy, turn;
+  };
+  struct GripState
+  {
+    b2Vec2 anchor;          // the axis of the turret, in the frame of the gripped body
+    float reference_angle;  // of the gripped body against the gripping one where the joint's angle is 0
+  };
+  struct Body
+  {
+    BodyModel model;
+    BodyState start{};
+    bool solid = true;
+    Twist drive;
+    double turret_speed = 0;
+    double turret_angle = 0;           // while nothing is gripped; otherwise the joint's
+    std::optional<double> held_angle;  // that the motor of a gripping turret returns to
+    int gripped = kNoBody;
+    GripState grip{};
+    b2Body* b2 = nullptr;
+    b2Fixture* gripper = nullptr;
+    b2MotorJoint* ground = nullptr;
+    b2Joint* joint = nullptr;  // to the gripped body
+  };
+
+  static std::size_t Index(int body) { return static_cast<std::size_t>(body); }
+  BodyState StateOf(const Body& body) const;
+  void BuildBody(Body& body);
+  void BuildGrip(Body& body);
+  void TurnGripper(Body& body);
+  void ApplyDrive(Body& body, double seconds);
+  void ApplyTurret(Body& body, double seconds);
+  bool LeadsTo(int from, int to) const;
+  void WrapAngles();
+
+  WorldSettings settings_;
+  std::vector<Body> bodies_;
+  std::unique_ptr<b2World> world_;
+  b2Body* ground_ = nullptr;  // without shape: ground joints hold on to it
+  double last_step_ = 0;      // seconds
+};
+
+}  // namespace swarmanoid::dynamics2d

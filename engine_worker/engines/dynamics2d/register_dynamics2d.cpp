@@ -1,0 +1,26 @@
+#include "engine_worker/engines/dynamics2d/dynamics2d_engine.h"
+#include "engine_worker/engines/dynamics2d/dynamics2d_parameters.h"
+
+namespace swarmanoid
+{
+
+void RegisterDynamics2d()
+{
+  static const bool registered = []
+  {
+    PluginDescription description;
+    description.label = "dynamics2d";
+    description.brief = "Rigid bodies with masses, friction and grips on a plane, solved by Box2D.";
+    description.parameters = dynamics2d::Dynamics2dParameterTable();
+    description.channels = {"footbot_wheels",   "footbot_gripper",       "footbot_turret",       "eyebot_propellers",
+                            "footbot_encoders", "footbot_turret_torque", "footbot_accelerometer"};
+    description.entity_tags = {"footbot",        "handbot",    "eyebot",       "block",        "wall",
+                               "cylindric_prey", "light_bulb", "sound_source", "ground_patch", "hole"};
+    PluginRegistry<CPhysicsEngine>::Instance().Add(std::move(description),
+                                                   [] { return std::make_unique<CDynamics2dEngine>(); });
+    return true;
+  }();
+  static_cast<void>(registered);
+}
+
+}  // namespace swarmanoid

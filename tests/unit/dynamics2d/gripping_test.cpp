@@ -1,0 +1,234 @@
+#include <cmath>
+
+#include "dynamics2d_test_world.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr double kReach = 0.1;  // from the turret's axis to the gripper's face
+
+void AddGrippingChannels(Dynamics2dTestWorld& world, bool turrets)
+{
+  world.AddCommands("footbot_wheels", 2);
+  world.AddCommands("footbot_gripper", 1);
+  if (turrets) world.AddCommands("footbot_turret", 1);
+  world.AddSensors("footbot_turret_torque", 3);
+}
+
+TEST(Dynamics2d, AGripperTakesWhatItTouchesAndLetsGo)
+{
+  Dynamics2dTestWorld world;
+  const auto robot = world.AddFootbot(1, 1);
+  const auto far_robot = world.AddFootbot(1, 3);
+  const auto prey = world.AddPrey(1 + kReach + 0.1 + 0.002, 1, 0.5);
+  AddGrippingChannels(world, false);
+  world.Start();
+  world.Command("footbot_gripper", robot, {1});
+  world.Command("footbot_gripper", far_robot, {1});
+  world.Run(1);
+  EXPECT_EQ(world.Attribute(robot, "gripped"), 1 + prey);
+  EXPECT_EQ(world.Attribute(robot, "gripper_aperture"), 0);
+  EXPECT_EQ(world.Attribute(far_robot, "gripped"), 0);
+  world.Drive(robot, -0.1, -0.1);
+  world.Run(20);
+  EXPECT_NEAR(world.Position(prey).x() - world.Position(robot).x(), kReach + 0.102, 1e-3) << "it follows";
+  EXPECT_NEAR(world.Position(robot).x(), 0.8, 5e-3);
+  world.Command("footbot_gripper", robot, {0});
+  world.Run(1);
+  EXPECT_EQ(world.Attribute(robot, "gripped"), 0);
+  EXPECT_NEAR(world.Attribute(robot, "gripper_aperture"), kPi / 2, 1e-12);
+  const double before = world.Position(prey).x();
+  world.Run(20);
+  EXPECT_NEAR(world.Position(prey).x(), before, 1e-3) << "it stays behind";
+}
+
+TEST(Dynamics2d, NeitherEyebotsNorBlocksAreGripped)
+{
+  Dynamics2dTestWorld world;
+  const auto a = world.AddFootbot(1, 1);
+  const auto b = world.AddFootbot(1, 3);
+  world.Add(EntityKind::kBlock, {1 + kReach + 0.1, 1, 0.1}, {}, {0.2, 0.2, 0.2}, 1, true);
+  world.Add(EntityKind::kEyebot, {1 + kReach + 0.25, 3, 0}, {}, {0.25, 0.25, 0.566});
+  AddGrippingChannels(world, false);
+  world.Start();
+  world.Command("footbot_gripper", a, {1});
+  world.Command("footbot_gripper", b, {1});
+  world.Run(3);
+  EXPECT_EQ(world.Attribute(a, "gripped"), 0);
+  EXPECT_EQ(world.Attribute(b, "gripped"), 0);
+}
+
+TEST(Dynamics2d, AHandbotCanBeGrippedByTwo)
+{
+  Dynamics2dTestWorld world;
+  const auto a = world.AddFootbot(1, 1);
+  const auto handbot = world.Add(EntityKind::kHandbot, {1 + kReach + 0.1, 1, 0}, {}, {0.2, 0.3, 0.4});
+  const auto b = world.AddFootbot(1 + 2 * kReach + 0.2, 1, kPi);
+  AddGrippingChannels(world, false);
+  world.Start();
+  world.Command("footbot_gripper", a, {1});
+  world.Command("footbot_gripper", b, {1});
+  world.Run(1);
+  EXPECT_EQ(world.Attribute(a, "gripped"), 1 + handbot);
+  EXPECT_EQ(world.Attribute(b, "gripped"), 1 + handbot);
+}
+
+TEST(Dynamics2d, ARingOfFootbotsCannotClose)
+{
+  Dynamics2dTestWorld world;
+  const auto a = world.AddFootbot(1, 1, 0);
+  const auto b = world.AddFootbot(1 + kReach + 0.085, 1, kPi);
+  AddGrippingChannels(world, false);
+  world.Start();
+  world.Command("footbot_gripper", a, {1});
+  world.Command("footbot_gripper", b, {1});
+  world.Run(5);
+  EXPECT_EQ(world.Attribute(a, "gripped"), 1 + b);
+  EXPECT_EQ(world.Attribute(b, "gripped"), 0);
+}
+
+// A load that is dragged at a steady speed pulls with mu M g.
+TEST(Dynamics2d, TheTorqueSensorReadsTheTractionOfADraggedLoad)
+{
+  Dynamics2dTestWorld world;
+  const auto robot = world.AddFootbot(2, 1);
+  world.AddPrey(2 + kReach + 0.1, 1, 1);
+  AddGrippingChannels(world, true);
+  world.Start();
+  world.Command("footbot_gripper", robot, {1});
+  world.Drive(robot, -0.1, -0.1);
+  world.Run(30);
+  EXPECT_NEAR(world.Sensor("footbot_turret_torque", robot, 0) * 25, 0.5 * 1 * 9.81, 0.02);
+  EXPECT_NEAR(world.Sensor("footbot_turret_torque", robot, 1) * 25, 0, 0.02);
+}
+
+// The turret turns the load about its axis: it takes I dw/dt at first, here all of the motor's torque, and the load
+// stands against it with the opposite sign.
+TEST(Dynamics2d, ATurretTurnsItsLoadWithinItsTorque)
+{
+  Dynamics2dTestWorld world;
+  world.Set("ground_friction", "0");
+  world.Set("turret_torque", "0.3");
+  world.Set("footbot_mass", "1000");  // it does not give way
+  const auto robot = world.AddFootbot(2, 2);
+  const auto prey = world.AddPrey(2 + kReach + 0.1, 2, 5);
+  AddGrippingChannels(world, true);
+  world.Start();
+  world.Command("footbot_gripper", robot, {1});
+  world.Command("footbot_turret", robot, {2});
+  world.Run(5);
+  const double inertia = 5 * (0.2 * 0.2 + 0.1 * 0.1 / 2);
+  const double expected = 0.5 * (0.3 / inertia) * 0.25;
+  EXPECT_NEAR(world.Attribute(robot, "turret_angle"), expected, 0.06 * expected)
+      << "half a step too far, as in any Euler step";
+  EXPECT_NEAR(world.Sensor("footbot_turret_torque", robot, 2), -1, 1e-3);
+  world.Run(100);
+  const Vector3 arm = world.Position(prey) - world.Position(robot);
+  EXPECT_NEAR(WrapAngle(Atan2(arm.y(), arm.x()) - world.Yaw(robot) - world.Attribute(robot, "turret_angle")), 0, 5e-3);
+  EXPECT_NEAR(arm.norm(), kReach + 0.1, 1e-3);
+  EXPECT_NEAR(world.Sensor("footbot_turret_torque", robot, 2), 0, 0.1)
+      << "nothing resists a steady turn but the solver's steps along the arc";
+}
+
+// Two footbots hold a bar-like handbot, one drives sideways: the other's turret feels force times lever.
+TEST(Dynamics2d, TheTorqueSensorReadsALeverOnTheTurret)
+{
+  Dynamics2dTestWorld world;
+  world.Set("ground_friction", "0");
+  world.Set("wheel_friction", "50");
+  world.Set("drive_force", "2");
+  const auto holder = world.AddFootbot(1, 1, 0);
+  const auto handbot = world.Add(EntityKind::kHandbot, {1 + kReach + 0.5, 1, 0}, {}, {1, 0.2, 0.4});
+  const auto puller = world.AddFootbot(1 + kReach + 0.9, 1 + 0.1 + kReach, -kPi / 2);
+  AddGrippingChannels(world, true);
+  world.Start();
+  world.Command("footbot_gripper", holder, {1});
+  world.Command("footbot_gripper", puller, {1});
+  world.Run(20);
+  ASSERT_EQ(world.Attribute(holder, "gripped"), 1 + handbot);
+  ASSERT_EQ(world.Attribute(puller, "gripped"), 1 + handbot);
+  world.Drive(puller, -0.05, -0.05);
+  world.Run(3);
+  EXPECT_GT(world.Sensor("footbot_turret_torque", holder, 2), 0.05) << "counter-clockwise, as the lever is pulled";
+}
+
+TEST(Dynamics2d, AnUnloadedTurretTurnsAtItsSpeedAndCarriesTheGripper)
+{
+  Dynamics2dTestWorld world;
+  const auto robot = world.AddFootbot(1, 1);
+  const auto prey = world.AddPrey(1, 1 + kReach + 0.105, 0.5);
+  AddGrippingChannels(world, true);
+  world.Start();
+  world.Command("footbot_turret", robot, {kPi / 4});
+  world.Run(20);
+  EXPECT_NEAR(world.Attribute(robot, "turret_angle"), kPi / 2, 1e-9);
+  world.Command("footbot_turret", robot, {0});
+  world.Command("footbot_gripper", robot, {1});
+  world.Run(2);
+  EXPECT_EQ(world.Attribute(robot, "gripped"), 1 + prey);
+  EXPECT_NEAR(world.Attribute(robot, "turret_angle"), kPi / 2, 1e-3);
+}
+
+// Ten footbots in a row, each gripping the next, the last one a prey, all driving backwards.
+void ChainOfTenPullsAPrey(bool turrets)
+{
+  Dynamics2dTestWorld world;
+  std::vector<std::uint32_t> robots;
+  const double spacing = kReach + 0.085036758;
+  for (int i = 0; i < 10; ++i) robots.push_back(world.AddFootbot(5 + spacing * i, 2));
+  const auto prey = world.AddPrey(5 + spacing * 9 + kReach + 0.15, 2, 12, 0.15);
+  AddGrippingChannels(world, turrets);
+  world.Start();
+  for (const auto robot : robots) world.Command("footbot_gripper", robot, {1});
+  world.Run(1);
+  for (int i = 0; i < 9; ++i)
+    ASSERT_EQ(world.Attribute(robots[static_cast<std::size_t>(i)], "gripped"),
+              1 + robots[static_cast<std::size_t>(i) + 1]);
+  ASSERT_EQ(world.Attribute(robots.back(), "gripped"), 1 + prey);
+
+  // mu M g = 58.9 N: two robots (25.1 N) cannot move it, ten can.
+  world.Drive(robots[0], -0.1, -0.1);
+  world.Drive(robots[1], -0.1, -0.1);
+  world.Run(20);
+  const double before = world.Position(prey).x();
+  world.Run(50);
+  EXPECT_NEAR(world.Position(prey).x(), before, 2e-3);
+
+  for (const auto robot : robots) world.Drive(robot, -0.1, -0.1);
+  world.Run(100);
+  EXPECT_NEAR(world.Position(prey).x() - before, -1, 0.02);
+  EXPECT_NEAR(world.Sensor("footbot_turret_torque", robots.back(), 0), 1, 1e-9) << "58.9 N are beyond its 25 N";
+  for (std::size_t i = 0; i + 1 < robots.size(); ++i)
+  {
+    EXPECT_NEAR((world.Position(robots[i + 1]) - world.Position(robots[i])).norm(), spacing, 1e-3) << "rigid";
+    EXPECT_NEAR(world.Position(robots[i]).y(), 2, 5e-3);
+  }
+}
+
+TEST(Dynamics2d, AChainOfTenPullsAPreyWithRigidGrips) { ChainOfTenPullsAPrey(false); }
+TEST(Dynamics2d, AChainOfTenPullsAPreyWithTurrets) { ChainOfTenPullsAPrey(true); }
+
+TEST(Dynamics2d, MovingAMemberFromOutsideOpensItsGrips)
+{
+  Dynamics2dTestWorld world;
+  const auto a = world.AddFootbot(1, 1);
+  const auto b = world.AddFootbot(1 + kReach + 0.085, 1);
+  const auto prey = world.AddPrey(1 + 2 * kReach + 0.085 + 0.1, 1, 1);
+  AddGrippingChannels(world, true);
+  world.Start();
+  world.Command("footbot_gripper", a, {1});
+  world.Command("footbot_gripper", b, {1});
+  world.Run(2);
+  ASSERT_EQ(world.Attribute(b, "gripped"), 1 + prey);
+  world.Space().SetPose(b, {Vector3(4, 4, 0), Quaternion::Identity()});
+  world.engine->EntityMoved(b);
+  world.Run(2);
+  EXPECT_EQ(world.Attribute(a, "gripped"), 0);
+  EXPECT_EQ(world.Attribute(b, "gripped"), 0);
+  EXPECT_LT((world.Position(b) - Vector3(4, 4, 0)).norm(), 1e-4);
+}
+
+}  // namespace
+}  // namespace swarmanoid

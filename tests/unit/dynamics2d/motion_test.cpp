@@ -1,0 +1,189 @@
+#include <cmath>
+
+#include "dynamics2d_test_world.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr double kGravity = 9.81;
+
+TEST(Dynamics2d, EqualPreysExchangeTheirSpeedsInAnElasticHeadOnCollision)
+{
+  Dynamics2dTestWorld world;
+  world.Set("restitution", "1");
+  world.Set("ground_friction", "0");
+  const auto a = world.AddPrey(1, 1, 1);
+  const auto b = world.AddPrey(1.5, 1, 1);
+  world.Start();
+  world.engine->SetVelocity(a, {0.5, 0, 0});
+  world.Run(20);
+  const double a_before = world.Position(a).x();
+  const double b_before = world.Position(b).x();
+  world.Run(10);
+  EXPECT_NEAR(world.Position(a).x() - a_before, 0, 1e-4);
+  EXPECT_NEAR(world.Position(b).x() - b_before, 0.5, 1e-4);
+  EXPECT_NEAR(world.Position(b).y(), 1, 1e-5);
+}
+
+// v1 = (m1 - e m2) / (m1 + m2) u, v2 = m1 (1 + e) / (m1 + m2) u for a body of m1 that hits one of m2 at rest.
+TEST(Dynamics2d, HeadOnCollisionsFollowMassesAndRestitution)
+{
+  for (const double restitution : {0.0, 0.5, 1.0})
+  {
+    Dynamics2dTestWorld world;
+    world.Set("restitution", std::to_string(restitution));
+    world.Set("ground_friction", "0");
+    const double heavy = 3;
+    const auto a = world.AddPrey(1, 1, heavy);
+    const auto b = world.AddPrey(1.5, 1, 1);
+    world.Start();
+    world.engine->SetVelocity(a, {0.4, 0, 0});
+    world.Run(20);
+    const double a_before = world.Position(a).x();
+    const double b_before = world.Position(b).x();
+    world.Run(10);
+    const double va = world.Position(a).x() - a_before;
+    const double vb = world.Position(b).x() - b_before;
+    EXPECT_NEAR(va, (heavy - restitution) / (heavy + 1) * 0.4, 2e-3) << restitution;
+    EXPECT_NEAR(vb, heavy * (1 + restitution) / (heavy + 1) * 0.4, 2e-3) << restitution;
+    EXPECT_NEAR(heavy * va + vb, heavy * 0.4, 1e-3) << restitution;
+  }
+}
+
+// The solver takes mu g h off the speed before it moves the body by v h: short by v h / 2 against v^2 / (2 mu g).
+TEST(Dynamics2d, ASlidingPreyStopsAfterTheDistanceOfCoulombFriction)
+{
+  for (const int substeps : {4, 40, 400})
+  {
+    Dynamics2dTestWorld world;
+    world.Set("ground_friction", "0.25");
+    world.Set("substeps", std::to_string(substeps));
+    const auto prey = world.AddPrey(1, 1, 2);
+    world.Start();
+    const double speed = 1.5;
+    world.engine->SetVelocity(prey, {speed, 0, 0});
+    world.Run(30);
+    const double exact = speed * speed / (2 * 0.25 * kGravity);
+    const double step = 0.1 / substeps;
+    EXPECT_NEAR(world.Position(prey).x() - 1, exact - speed * step / 2, 1e-3) << substeps;
+    world.Run(10);
+    EXPECT_NEAR(world.Position(prey).x() - 1, exact - speed * step / 2, 1e-3) << "it has come to rest";
+  }
+}
+
+// Angle = w^2 / (2 a), a = (2/3 mu m g R) / (m R^2 / 2).
+TEST(Dynamics2d, ASpinningPreyStopsByTheFrictionOfADisc)
+{
+  Dynamics2dTestWorld world;
+  world.Set("ground_friction", "0.2");
+  world.Set("substeps", "100");
+  const auto prey = world.AddPrey(1, 1, 2, 0.15);
+  world.Start();
+  world.engine->SetVelocity(prey, {0, 0, 8});
+  world.Run(30);
+  const double deceleration = 4.0 / 3.0 * 0.2 * kGravity / 0.15;
+  EXPECT_NEAR(world.Yaw(prey), 64 / (2 * deceleration), 8e-3);
+}
+
+TEST(Dynamics2d, AFootbotDrivesTheArcOfItsWheels)
+{
+  Dynamics2dTestWorld world;
+  const auto robot = world.AddFootbot(2, 2);
+  world.AddCommands("footbot_wheels", 2);
+  world.AddSensors("footbot_encoders", 2);
+  world.Start();
+  world.Drive(robot, 0.08, 0.12);
+  world.Run(1);  // at speed after the first tick
+  const double yaw = world.Yaw(robot);
+  const Vector3 start = world.Position(robot);
+  world.Run(50);
+  const double turn = 0.04 / 0.14 * 5;
+  const double radius = 0.1 / (0.04 / 0.14);
+  EXPECT_NEAR(WrapAngle(world.Yaw(robot) - yaw - turn), 0, 1e-4);
+  EXPECT_NEAR(world.Position(robot).x() - start.x(), radius * (std::sin(yaw + turn) - std::sin(yaw)), 2e-4);
+  EXPECT_NEAR(world.Position(robot).y() - start.y(), -radius * (std::cos(yaw + turn) - std::cos(yaw)), 2e-4);
+  EXPECT_NEAR(world.Sensor("footbot_encoders", robot, 0), 0.008, 1e-5);
+  EXPECT_NEAR(world.Sensor("footbot_encoders", robot, 1), 0.012, 1e-5);
+}
+
+TEST(Dynamics2d, WheelsSlipUntilTheSpeedIsReached)
+{
+  Dynamics2dTestWorld world;
+  world.Set("wheel_friction", "0.1");
+  world.Set("substeps", "50");
+  const auto robot = world.AddFootbot(1, 1);
+  world.AddCommands("footbot_wheels", 2);
+  world.AddSensors("footbot_accelerometer", 3);
+  world.Start();
+  world.Drive(robot, 2, 2);
+  world.Run(5);
+  EXPECT_NEAR(world.Position(robot).x() - 1, 0.5 * 0.1 * kGravity * 0.25, 2e-3);
+  EXPECT_NEAR(world.Sensor("footbot_accelerometer", robot, 0), 0.1 * kGravity, 1e-3);
+  EXPECT_NEAR(world.Sensor("footbot_accelerometer", robot, 1), 0, 1e-3);
+  world.Run(20);
+  const double before = world.Position(robot).x();
+  world.Run(10);
+  EXPECT_NEAR(world.Position(robot).x() - before, 2, 1e-3) << "terminal speed";
+}
+
+TEST(Dynamics2d, MotorsLimitTheAccelerationWhereTheyAreWeakerThanTheGround)
+{
+  Dynamics2dTestWorld world;
+  world.Set("drive_force", "0.8");
+  const auto robot = world.AddFootbot(1, 1);
+  world.AddCommands("footbot_wheels", 2);
+  world.AddSensors("footbot_accelerometer", 3);
+  world.Start();
+  world.Drive(robot, 2, 2);
+  world.Run(3);
+  EXPECT_NEAR(world.Sensor("footbot_accelerometer", robot, 0), 0.8 / 1.6, 1e-4);
+}
+
+TEST(Dynamics2d, APreyHeavierThanTheWheelsGripStandsStill)
+{
+  Dynamics2dTestWorld world;
+  const auto robot = world.AddFootbot(1, 1);
+  const auto prey = world.AddPrey(1.25, 1, 4);
+  world.AddCommands("footbot_wheels", 2);
+  world.Start();
+  world.Drive(robot, 0.1, 0.1);
+  world.Run(20);
+  const double before = world.Position(prey).x();
+  world.Run(100);
+  EXPECT_NEAR(world.Position(prey).x() - before, 0, 1e-4) << "mu M g = 19.6 N against 12.6 N";
+}
+
+TEST(Dynamics2d, APreyLighterThanTheWheelsGripIsPushedAtTheirSpeed)
+{
+  Dynamics2dTestWorld world;
+  const auto robot = world.AddFootbot(1, 1);
+  const auto prey = world.AddPrey(1.25, 1, 1.5);
+  world.AddCommands("footbot_wheels", 2);
+  world.Start();
+  world.Drive(robot, 0.1, 0.1);
+  world.Run(20);
+  const double before = world.Position(prey).x();
+  world.Run(20);
+  EXPECT_NEAR(world.Position(prey).x() - before, 0.2, 2e-3);
+}
+
+TEST(Dynamics2d, EyebotsFlyWhereTheirPropellersPush)
+{
+  Dynamics2dTestWorld world;
+  world.Set("distance", "1");
+  const auto eyebot = world.Add(EntityKind::kEyebot, {3, 3, 1}, {0, 0, kPi / 2}, {0.25, 0.25, 0.566});
+  world.AddCommands("eyebot_propellers", 4);
+  world.Start();
+  world.Command("eyebot_propellers", eyebot, {0.2, 0.1, 0, 0});
+  world.Run(3);
+  const Vector3 before = world.Position(eyebot);
+  world.Run(10);
+  EXPECT_NEAR(world.Position(eyebot).y() - before.y(), 0.2, 1e-4);
+  EXPECT_NEAR(world.Position(eyebot).x() - before.x(), -0.1, 1e-4);
+  EXPECT_NEAR(world.Position(eyebot).z(), 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,168 @@
+// Walls, planes, mirrors and what the engine refuses.
+#include <cmath>
+
+#include "dynamics2d_test_world.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+TEST(Dynamics2d, FastRobotsDoNotCrossAThinWall)
+{
+  Dynamics2dTestWorld world;
+  const auto robot = world.AddFootbot(1, 1);
+  world.AddWall({2, 1, 0.1}, {0.01, 4, 0.2});
+  world.AddCommands("footbot_wheels", 2);
+  world.Start();
+  world.Drive(robot, 3, 3);
+  for (int i = 0; i < 30; ++i)
+  {
+    world.Tick();
+    ASSERT_LT(world.Position(robot).x(), 2 - 0.085 + 0.002) << i;
+  }
+}
+
+TEST(Dynamics2d, AStaticBlockBlocksWhereItIsCutHoweverFarItsCentre)
+{
+  Dynamics2dTestWorld world;
+  const auto robot = world.AddFootbot(1, 1);
+  world.AddWall({30, 1, 45}, {57, 1, 100}, 0);  // reaches from x = 1.5 and from below the ground to 95 m
+  world.AddWall({1.3, 1, 45}, {0.1, 1, 89});    // starts half a metre above the ground
+  world.AddCommands("footbot_wheels", 2);
+  world.Start();
+  world.Drive(robot, 0.3, 0.3);
+  world.Run(50);
+  EXPECT_NEAR(world.Position(robot).x(), 1.5 - 0.1, 2e-3) << "its gripper touches the near face";
+}
+
+TEST(Dynamics2d, RobotsWorkOnAllThreePlanes)
+{
+  const std::map<std::string, std::pair<Vector3, Vector3>> starts_and_directions{
+      {"x", {{0.5, 1, 1}, Vector3::UnitY()}},
+      {"y", {{1, 0.5, 1}, Vector3::UnitZ()}},
+      {"z", {{1, 1, 0.5}, Vector3::UnitX()}}};
+  for (const auto& [axis, start] : starts_and_directions)
+  {
+    Dynamics2dTestWorld world;
+    world.Set("perpendicular_axis", axis);
+    world.Set("distance", "0.5");
+    const auto robot = world.Add(EntityKind::kFootbot, start.first, {}, {0.085036758, 0.085036758, 0.146899733});
+    const Vector3 obstacle = start.first + start.second;
+    world.Add(EntityKind::kBlock, obstacle, {}, {0.2, 0.2, 0.2}, 0, false);
+    world.AddCommands("footbot_wheels", 2);
+    world.Start();
+    // Robots stand on the plane: forward is its first axis at heading 0.
+    world.Space().SetPose(robot, PlaneFrame(axis == "x"   ? PlaneAxis::kX
+                                            : axis == "y" ? PlaneAxis::kY
+                                                          : PlaneAxis::kZ,
+                                            0.5)
+                                     .ToSpace({axis == "y" ? 1.0 : 1.0, 1, 0}));
+    world.engine->EntityMoved(robot);
+    world.Drive(robot, 0.2, 0.2);
+    world.Run(10);
+    EXPECT_LT((world.Position(robot) - start.first - 0.2 * start.second).norm(), 6e-3) << axis;
+    world.Run(60);
+    EXPECT_LT((world.Position(robot) - start.first - 0.8 * start.second).norm(), 2e-3)
+        << axis << ": the block stops it";
+  }
+}
+
+TEST(Dynamics2d, AMirrorPushesAndIsNotPushed)
+{
+  Dynamics2dTestWorld world;
+  const auto mirror = world.AddFootbot(1, 1);
+  const auto prey = world.AddPrey(1.4, 1, 1);
+  world.MakeMirror(mirror);
+  world.Start();
+  for (int i = 0; i < 50; ++i)
+  {
+    world.Space().SetPose(mirror, {Vector3(1 + 0.02 * i, 1, 0), Quaternion::Identity()});
+    world.Tick();
+    ASSERT_DOUBLE_EQ(world.Position(mirror).x(), 1 + 0.02 * i);
+  }
+  EXPECT_NEAR(world.Position(prey).x(), 2 + 0.185, 5e-3) << "it keeps the distance of the two radii";
+}
+
+TEST(Dynamics2d, AMirrorAboveThePlaneTouchesNothing)
+{
+  Dynamics2dTestWorld world;
+  const auto mirror = world.Add(EntityKind::kEyebot, {1, 1, 1}, {}, {0.25, 0.25, 0.566});
+  const auto prey = world.AddPrey(1.4, 1, 1);
+  world.MakeMirror(mirror);
+  world.Start();
+  for (int i = 0; i < 20; ++i)
+  {
+    world.Space().SetPose(mirror, {Vector3(1 + 0.02 * i, 1, 1), Quaternion::Identity()});
+    world.Tick();
+  }
+  EXPECT_NEAR(world.Position(prey).x(), 1.4, 1e-6);
+}
+
+TEST(Dynamics2d, AnEntityThatIsMovedFromOutsideStartsAtRestThere)
+{
+  Dynamics2dTestWorld world;
+  const auto prey = world.AddPrey(1, 1, 1);
+  world.Start();
+  world.engine->SetVelocity(prey, {2, 0, 0});
+  world.Run(1);
+  world.Space().SetPose(prey, {Vector3(5, 6, 0), QuaternionFromYaw(1)});
+  world.engine->EntityMoved(prey);
+  world.Run(5);
+  EXPECT_LT((world.Position(prey) - Vector3(5, 6, 0)).norm(), 1e-6);
+  EXPECT_NEAR(world.Yaw(prey), 1, 1e-6);
+}
+
+TEST(Dynamics2d, BodiesBelowTheSolversToleranceAreRefusedByName)
+{
+  Dynamics2dTestWorld world;
+  world.AddPrey(1, 1, 1, 0.0005);
+  try
+  {
+    world.Start();
+    FAIL() << "it was accepted";
+  }
+  catch (const ConfigurationError& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("'e0'"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Dynamics2d, ACommandThatIsNotANumberNamesTheRobot)
+{
+  Dynamics2dTestWorld world;
+  const auto robot = world.AddFootbot(1, 1);
+  world.AddCommands("footbot_wheels", 2);
+  world.Start();
+  world.Drive(robot, std::nan(""), 0);
+  EXPECT_THROW(world.Tick(), std::runtime_error);
+}
+
+// A pile of robots driven against one another: no overlap that lasts, nothing thrown away.
+TEST(Dynamics2d, ACrowdStaysApart)
+{
+  Dynamics2dTestWorld world;
+  std::vector<std::uint32_t> robots;
+  for (int i = 0; i < 64; ++i)
+  {
+    const double x = 1 + 0.25 * (i % 8);
+    const double y = 1 + 0.25 * (i / 8);
+    robots.push_back(world.AddFootbot(x, y, Atan2(2 - y, 2 - x)));
+  }
+  world.AddCommands("footbot_wheels", 2);
+  world.Start();
+  for (const auto robot : robots) world.Drive(robot, 0.3, 0.3);
+  world.Run(100);
+  for (const auto a : robots)
+  {
+    EXPECT_LT((world.Position(a) - Vector3(2, 2, 0)).norm(), 1.7);
+    for (const auto b : robots)
+    {
+      if (b <= a) continue;
+      EXPECT_GT((world.Position(a) - world.Position(b)).norm(), 2 * 0.085 - 0.003);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace swarmanoid
