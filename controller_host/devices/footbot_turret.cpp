@@ -1,6 +1,6 @@
 // Turret of the footbot: its motor (channel "footbot_turret", rad/s), its encoder (attribute turret_angle) and the
-// torque sensor between body and turret (channel "footbot_turret_torque": torque N m, force ahead N, force to the left
-// N).
+// torque sensor between body and turret (channel "footbot_turret_torque": traction ahead, traction to the left, torque,
+// each -1..1 of the engine's range).
 #include <algorithm>
 
 #include "common/control_interface/footbot/ci_footbot_turret_actuator.h"
@@ -122,7 +122,7 @@ void RegisterFootbotTurret()
   torque.robots = {"footbot"};
   torque.channel = "footbot_turret_torque";
   torque.channel_width = 3;
-  torque.parameters = NoiseParameters("each of torque and forces", "N m, N");
+  torque.parameters = NoiseParameters("each of the three readings", "");
   AddSensorPlugin<TurretTorqueSensor>(torque);
 }
 

@@ -12,12 +12,13 @@ namespace swarmanoid
 class CCI_FootBotTurretTorqueSensor : public CCI_Sensor
 {
 public:
-  // {torque about the vertical in N m, force along the turret's front in N, force to its left in N}, mean over the last
-  // tick.
+  // {pull along the turret's front, pull to its left, torque about the vertical, counter-clockwise}: what the gripped
+  // object exerts on the turret, mean over the last tick. Each is a part, -1..1, of the sensor's range, which is that
+  // of the engine: docs/engines.md.
   virtual std::span<const double, 3> GetAllSensorReadings() const = 0;
-  double GetTorque() const { return GetAllSensorReadings()[0]; }
-  double GetForwardForce() const { return GetAllSensorReadings()[1]; }
-  double GetLeftForce() const { return GetAllSensorReadings()[2]; }
+  double GetForwardTraction() const { return GetAllSensorReadings()[0]; }
+  double GetLeftTraction() const { return GetAllSensorReadings()[1]; }
+  double GetTorque() const { return GetAllSensorReadings()[2]; }
 };
 
 }  // namespace swarmanoid

@@ -68,12 +68,12 @@ TEST(ValueDevices, TurretTurnsAtClampedSpeedAndKnowsAngleAndTorque)
   EXPECT_NEAR(encoder.Of<CCI_FootBotTurretEncoderSensor>(0).GetTurretAngle(), 4 - 2 * kPi, 1e-12);
 
   TestSensor torque(world, "footbot_turret_torque", "engine_footbot_turret_torque", {0});
-  torque.values = {0.5, -1, 2};
+  torque.values = {0.5, -1, 0.25};
   torque.Update();
   const auto& readings = torque.Of<CCI_FootBotTurretTorqueSensor>(0);
-  EXPECT_EQ(readings.GetTorque(), 0.5);
-  EXPECT_EQ(readings.GetForwardForce(), -1);
-  EXPECT_EQ(readings.GetLeftForce(), 2);
+  EXPECT_EQ(readings.GetForwardTraction(), 0.5);
+  EXPECT_EQ(readings.GetLeftTraction(), -1);
+  EXPECT_EQ(readings.GetTorque(), 0.25);
 }
 
 TEST(ValueDevices, EncodersAndAccelerometerPassOnTheEngineWithNoise)
