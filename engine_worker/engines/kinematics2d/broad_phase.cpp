@@ -129,18 +129,31 @@ void BroadPhase::FindPairs(const PoseStore& poses, std::span<const std::uint8_t>
   if (!static_boxes_.empty()) SweepStatics(reach);
 }
 
+void BroadPhase::FindCells(const PoseStore& poses, std::span<const std::uint8_t> present)
+{
+  const double most_columns = columns_ - 1;
+  const double most_rows = rows_ - 1;
+  for (std::size_t k = 0; k < count_; k += kDoubles)
+  {
+    const Doubles column = (LoadDoubles(&poses.x[k]) - min_x_) * inverse_cell_;
+    const Doubles row = (LoadDoubles(&poses.y[k]) - min_y_) * inverse_cell_;
+    const Ints c = Truncated(Clamped(column, most_columns));
+    const Ints r = Truncated(Clamped(row, most_rows));
+    Store(&cell_of_[k], (r + 1) * static_cast<std::int32_t>(stride_) + (c + 1));
+  }
+  // Bodies that take no part go behind the last cell.
+  const auto limbo = static_cast<std::int32_t>(start_.size() - 2);
+  for (const std::uint32_t body : large_) cell_of_[body] = limbo;
+  if (std::find(present.begin(), present.end(), 0) != present.end())
+    for (std::size_t k = 0; k < count_; ++k)
+      if (present[k] == 0) cell_of_[k] = limbo;
+}
+
 void BroadPhase::Sort(const PoseStore& poses, std::span<const std::uint8_t> present)
 {
-  // Bodies that take no part go behind the last cell.
-  const auto limbo = static_cast<std::uint32_t>(start_.size() - 2);
+  FindCells(poses, present);
   std::fill(start_.begin(), start_.end(), 0U);
-  for (std::size_t k = 0; k < count_; ++k)
-  {
-    const bool swept = present[k] != 0 && is_large_[k] == 0;
-    const std::uint32_t cell = swept ? Cell(CellX(poses.x[k]), CellY(poses.y[k])) : limbo;
-    cell_of_[k] = cell;
-    ++start_[cell + 1];
-  }
+  for (std::size_t k = 0; k < count_; ++k) ++start_[cell_of_[k] + 1];
   std::uint32_t sum = 0;
   for (std::uint32_t& s : start_)
   {
@@ -152,7 +165,7 @@ void BroadPhase::Sort(const PoseStore& poses, std::span<const std::uint8_t> pres
   {
     const std::uint32_t at = --start_[cell_of_[k] + 1];
     body_[at] = static_cast<std::uint32_t>(k);
-    sorted_cell_[at] = cell_of_[k];
+    sorted_cell_[at] = static_cast<std::uint32_t>(cell_of_[k]);
     x_[at] = static_cast<float>(poses.x[k]);
     y_[at] = static_cast<float>(poses.y[k]);
     r_[at] = radius_[k];

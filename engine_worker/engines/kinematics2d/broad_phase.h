@@ -51,6 +51,7 @@ private:
   std::uint32_t CellX(double x) const;
   std::uint32_t CellY(double y) const;
   std::uint32_t Cell(std::uint32_t column, std::uint32_t row) const { return (row + 1) * stride_ + column + 1; }
+  void FindCells(const PoseStore& poses, std::span<const std::uint8_t> present);
   void Sort(const PoseStore& poses, std::span<const std::uint8_t> present);
   void SweepBodies(float margin);
   void SweepStatics(float margin);
@@ -70,8 +71,8 @@ private:
   std::vector<std::uint32_t> large_;  // bodies that are too big for the cells, ascending
   std::vector<std::uint8_t> is_large_;
 
-  std::vector<std::uint32_t> cell_of_;  // of each body
-  std::vector<std::uint32_t> start_;    // of each cell in the sorted arrays
+  std::vector<std::int32_t> cell_of_;  // of each body
+  std::vector<std::uint32_t> start_;   // of each cell in the sorted arrays
   std::vector<std::uint32_t> body_, sorted_cell_;
   std::vector<float> x_, y_, r_;
 

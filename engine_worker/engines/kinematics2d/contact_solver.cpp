@@ -1,6 +1,5 @@
 #include "engine_worker/engines/kinematics2d/contact_solver.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace swarmanoid::kinematics2d
@@ -8,44 +7,42 @@ namespace swarmanoid::kinematics2d
 namespace
 {
 
-constexpr int kMostSweeps = 16;
+constexpr std::uint8_t kMostSweeps = 16;
+// A push can wake contacts that were at rest; they are looked for once in so many sweeps.
+constexpr std::uint8_t kSweepsPerSearch = 4;
 
 }  // namespace
 
 void ContactSolver::Configure(std::size_t bodies)
 {
-  contacts_.reserve(bodies + 64);
-  touched_.reserve(bodies + 1);
-  is_touched_.assign(bodies + 1, 0);
+  contacts_.reserve(4 * bodies + 64);
+  active_.reserve(4 * bodies + 64);
+  pushed_.reserve(bodies + 1);
+  last_push_.assign(bodies + 1, 0);
 }
 
 void ContactSolver::Clear()
 {
   contacts_.clear();
-  for (const TouchedLeader& touched : touched_) is_touched_[touched.leader] = 0;
-  touched_.clear();
+  active_.clear();
+  for (const PushedLeader& pushed : pushed_) last_push_[pushed.leader] = 0;
+  pushed_.clear();
 }
 
-void ContactSolver::Note(std::uint32_t leader, const std::vector<double>& x, const std::vector<double>& y)
+void ContactSolver::NotePush(std::uint32_t leader, std::uint8_t sweep, double x, double y)
 {
-  if (is_touched_[leader] != 0) return;
-  is_touched_[leader] = 1;
-  touched_.push_back({leader, x[leader], y[leader]});
+  if (last_push_[leader] == 0) pushed_.push_back({leader, x, y});
+  last_push_[leader] = sweep;
 }
 
-void ContactSolver::Add(const Contact& contact, const std::vector<double>& x, const std::vector<double>& y)
+void ContactSolver::Sweep(std::uint8_t sweep, double tolerance, const std::vector<double>& mobility,
+                          std::vector<double>& x, std::vector<double>& y)
 {
-  contacts_.push_back(contact);
-  Note(contact.first, x, y);
-  Note(contact.second, x, y);
-}
-
-double ContactSolver::Sweep(const std::vector<double>& mobility, bool bounce, std::vector<double>& x,
-                            std::vector<double>& y)
-{
-  double deepest = 0;
-  for (const Contact& contact : contacts_)
+  const double limit = sweep == 1 ? 0 : tolerance;
+  std::size_t kept = 0;
+  for (const std::uint32_t index : active_)
   {
+    const Contact& contact = contacts_[index];
     const std::uint32_t i = contact.first;
     const std::uint32_t j = contact.second;
     const double dx = x[i] - x[j];
@@ -53,51 +50,82 @@ double ContactSolver::Sweep(const std::vector<double>& mobility, bool bounce, st
     double nx = contact.touch.x;
     double ny = contact.touch.y;
     double depth;
+    bool deep;
     if (contact.touch.face)
     {
       depth = contact.touch.reach - (dx * nx + dy * ny);
-      if (depth <= 0) continue;
+      deep = depth > limit;
     }
     else
     {
-      const double px = dx + nx;
-      const double py = dy + ny;
-      const double squared = px * px + py * py;
-      if (squared >= contact.touch.reach * contact.touch.reach) continue;
-      const double length = std::sqrt(squared);
-      depth = contact.touch.reach - length;
-      // Two centres at one place: any direction will do.
-      nx = length > 0 ? px / length : 1;
-      ny = length > 0 ? py / length : 0;
+      nx += dx;
+      ny += dy;
+      const double squared = nx * nx + ny * ny;
+      const double near = contact.touch.reach - limit;
+      deep = squared < near * near;
+      if (deep)
+      {
+        const double length = std::sqrt(squared);
+        depth = contact.touch.reach - length;
+        // Two centres at one place: any direction will do.
+        nx = length > 0 ? nx / length : 1;
+        ny = length > 0 ? ny / length : 0;
+      }
     }
-    const double total = mobility[i] + mobility[j];
-    if (total <= 0) continue;
-    deepest = std::max(deepest, depth);
-    const double push = (bounce ? depth + contact.bounce : depth) / total;
-    x[i] += nx * (push * mobility[i]);
-    y[i] += ny * (push * mobility[i]);
-    x[j] -= nx * (push * mobility[j]);
-    y[j] -= ny * (push * mobility[j]);
+    if (deep)
+    {
+      const double push = (sweep == 1 ? depth + contact.bounce : depth) / (mobility[i] + mobility[j]);
+      if (mobility[i] > 0)
+      {
+        NotePush(i, sweep, x[i], y[i]);
+        x[i] += nx * (push * mobility[i]);
+        y[i] += ny * (push * mobility[i]);
+      }
+      if (mobility[j] > 0)
+      {
+        NotePush(j, sweep, x[j], y[j]);
+        x[j] -= nx * (push * mobility[j]);
+        y[j] -= ny * (push * mobility[j]);
+      }
+    }
+    active_[kept] = index;
+    kept += last_push_[i] >= sweep - 1 || last_push_[j] >= sweep - 1 ? 1 : 0;
   }
-  return deepest;
+  active_.resize(kept);
+}
+
+// All contacts of leaders that were pushed in sweep `since` or later.
+void ContactSolver::ActivateNeighbours(std::uint8_t since)
+{
+  active_.clear();
+  for (std::uint32_t index = 0; index < contacts_.size(); ++index)
+    if (last_push_[contacts_[index].first] >= since || last_push_[contacts_[index].second] >= since)
+      active_.push_back(index);
 }
 
 void ContactSolver::Solve(const std::vector<double>& mobility, double tolerance, double reach, std::vector<double>& x,
                           std::vector<double>& y)
 {
-  if (Sweep(mobility, true, x, y) > 0)
-    for (int sweep = 1; sweep < kMostSweeps; ++sweep)
-      if (Sweep(mobility, false, x, y) <= tolerance) break;
-
-  for (const TouchedLeader& touched : touched_)
+  Sweep(1, tolerance, mobility, x, y);
+  for (std::uint8_t sweep = 2; sweep <= kMostSweeps; ++sweep)
   {
-    const double dx = x[touched.leader] - touched.x;
-    const double dy = y[touched.leader] - touched.y;
+    if ((sweep - 2) % kSweepsPerSearch == 0)
+    {
+      ActivateNeighbours(sweep == 2 ? 1 : static_cast<std::uint8_t>(sweep - kSweepsPerSearch));
+      if (active_.empty()) break;
+    }
+    Sweep(sweep, tolerance, mobility, x, y);
+  }
+
+  for (const PushedLeader& pushed : pushed_)
+  {
+    const double dx = x[pushed.leader] - pushed.x;
+    const double dy = y[pushed.leader] - pushed.y;
     const double squared = dx * dx + dy * dy;
     if (squared <= reach * reach) continue;
     const double scale = reach / std::sqrt(squared);
-    x[touched.leader] = touched.x + dx * scale;
-    y[touched.leader] = touched.y + dy * scale;
+    x[pushed.leader] = pushed.x + dx * scale;
+    y[pushed.leader] = pushed.y + dy * scale;
   }
 }
 

@@ -16,6 +16,8 @@ inline constexpr int kMostSubsteps = 1024;
 inline constexpr double kSlowestSeparation = 0.0025;
 // Outlines nearer than this (metres) are contacts: pushing one may close the gap.
 inline constexpr double kContactMargin = 0.02;
+// Of one pair, those contacts count that are at most this much (metres) less deep than its deepest one.
+inline constexpr double kTouchesApart = 0.01;
 // Overlap that is left alone, as a part of the smallest core's radius; the solver aims at a quarter of it.
 inline constexpr double kAllowedOverlap = 0.004;
 inline constexpr double kSolverTolerance = 0.25;

@@ -127,7 +127,7 @@ void KinematicWorld::Substep(double seconds, double fraction)
   Move(seconds, fraction);
   broad_.FindPairs(now_, present_, 2 * reach_);
   FindContacts();
-  if (!solver_.Contacts().empty())
+  if (solver_.HasOverlaps())
   {
     solver_.Solve(mobility_, kSolverTolerance * allowed_, reach_, now_.x, now_.y);
     for (const Grip& grip : grips_) now_.Set(grip.body, Compose(now_.Get(grip.prey), grip.relative));
@@ -183,13 +183,18 @@ void KinematicWorld::FindContacts()
   }
 }
 
-void KinematicWorld::AddContacts(std::uint32_t first, std::uint32_t second, const Touches& touches)
+void KinematicWorld::AddContacts(std::uint32_t first, std::uint32_t second, Touches& touches)
 {
+  touches.KeepDeepest(kTouchesApart);
   const std::uint32_t i = leader_[first];
   const std::uint32_t j = leader_[second];
   // From the difference of the leaders to that of the bodies.
   const double shift_x = (now_.x[first] - now_.x[i]) - (now_.x[second] - now_.x[j]);
   const double shift_y = (now_.y[first] - now_.y[i]) - (now_.y[second] - now_.y[j]);
+  const double dx = now_.x[i] - now_.x[j];
+  const double dy = now_.y[i] - now_.y[j];
+  const double way_x = dx - (before_.x[i] - before_.x[j]);
+  const double way_y = dy - (before_.y[i] - before_.y[j]);
   for (int k = 0; k < touches.count; ++k)
   {
     Contact contact{i, j, touches.list[static_cast<std::size_t>(k)], 0};
@@ -201,19 +206,15 @@ void KinematicWorld::AddContacts(std::uint32_t first, std::uint32_t second, cons
       touch.x += shift_x;
       touch.y += shift_y;
     }
-    const double dx = now_.x[i] - now_.x[j];
-    const double dy = now_.y[i] - now_.y[j];
-    const double depth = DepthOf(touch, dx, dy);
-    if (depth > 0)
+    const bool overlapping = touch.depth > 0;
+    if (overlapping)
     {
-      const double length = touch.reach - depth;
+      const double length = touch.reach - touch.depth;
       const double nx = touch.face ? touch.x : length > 0 ? (dx + touch.x) / length : 1;
       const double ny = touch.face ? touch.y : length > 0 ? (dy + touch.y) / length : 0;
-      const double way_x = dx - (before_.x[i] - before_.x[j]);
-      const double way_y = dy - (before_.y[i] - before_.y[j]);
-      contact.bounce = elasticity_ * std::min(depth, std::max(0.0, -(way_x * nx + way_y * ny)));
+      contact.bounce = elasticity_ * std::min(touch.depth, std::max(0.0, -(way_x * nx + way_y * ny)));
     }
-    solver_.Add(contact, now_.x, now_.y);
+    solver_.Add(contact, overlapping);
   }
 }
 
@@ -230,7 +231,8 @@ void KinematicWorld::HoldBack()
     suspects = true;
   };
   for (const Contact& contact : solver_.Contacts())
-    if (DepthOf(contact.touch, now_.x[contact.first] - now_.x[contact.second],
+    if ((solver_.WasPushed(contact.first) || solver_.WasPushed(contact.second)) &&
+        DepthOf(contact.touch, now_.x[contact.first] - now_.x[contact.second],
                 now_.y[contact.first] - now_.y[contact.second]) > allowed_)
     {
       suspect(contact.first);
@@ -238,11 +240,11 @@ void KinematicWorld::HoldBack()
     }
   // Pushed so far that it may have met outlines that were no contacts yet.
   const double far = std::min(kContactMargin, reach_) / 2;
-  for (const TouchedLeader& touched : solver_.Touched())
+  for (const PushedLeader& pushed : solver_.Pushed())
   {
-    const double dx = now_.x[touched.leader] - touched.x;
-    const double dy = now_.y[touched.leader] - touched.y;
-    if (dx * dx + dy * dy > far * far) suspect(touched.leader);
+    const double dx = now_.x[pushed.leader] - pushed.x;
+    const double dy = now_.y[pushed.leader] - pushed.y;
+    if (dx * dx + dy * dy > far * far) suspect(pushed.leader);
   }
   suspect_[count_] = 0;
   if (!suspects) return;

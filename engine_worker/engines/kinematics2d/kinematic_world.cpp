@@ -191,13 +191,6 @@ void KinematicWorld::RebuildGroups()
     mobility_[grips_[group_start_[g]].prey] = 1.0 / (1 + group_start_[g + 1] - group_start_[g]);
 }
 
-Placed KinematicWorld::PlaceAt(std::uint32_t body, const PoseStore& poses) const
-{
-  const Rotor heading{poses.z[body], poses.w[body]};
-  return {&models_[model_[body]], poses.x[body],     poses.y[body],    CosOf(heading),
-          SinOf(heading),         turret_cos_[body], turret_sin_[body]};
-}
-
 double KinematicWorld::OverlapOf(std::uint32_t a, std::uint32_t b) const
 {
   return Overlap(PlaceAt(a, now_), PlaceAt(b, now_));

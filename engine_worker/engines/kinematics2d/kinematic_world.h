@@ -111,7 +111,12 @@ private:
     Pose2 from, goal;
   };
 
-  Placed PlaceAt(std::uint32_t body, const PoseStore& poses) const;
+  Placed PlaceAt(std::uint32_t body, const PoseStore& poses) const
+  {
+    const Rotor heading{poses.z[body], poses.w[body]};
+    return {&models_[model_[body]], poses.x[body],     poses.y[body],    CosOf(heading),
+            SinOf(heading),         turret_cos_[body], turret_sin_[body]};
+  }
   Placed PlaceBefore(std::uint32_t body) const;
   bool IsFollower(std::uint32_t body) const { return follower_[body] != 0; }
   void RebuildGroups();
@@ -122,7 +127,7 @@ private:
   void Substep(double seconds, double fraction);
   void Move(double seconds, double fraction);
   void FindContacts();
-  void AddContacts(std::uint32_t first, std::uint32_t second, const Touches& touches);
+  void AddContacts(std::uint32_t first, std::uint32_t second, Touches& touches);
   void HoldBack();
   bool MustNotOverlap(double overlap, double before) const;
   bool HoldPair(std::uint32_t a, std::uint32_t b);

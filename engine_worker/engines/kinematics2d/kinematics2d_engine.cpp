@@ -111,6 +111,7 @@ void Kinematics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBindin
     fixed_.push_back(&entity);
 }
 
+// From the initial poses alone, so that an engine made in mid-run to be restored has the same grid as one of the start.
 void Kinematics2dEngine::Start()
 {
   const std::uint32_t footbot_model = world_.AddModel(FootbotModel());
@@ -122,9 +123,9 @@ void Kinematics2dEngine::Start()
   {
     // Robots and preys stand on the plane; blocks keep their height and lean.
     const bool block = IsBlock(entity->GetKind());
-    stances.push_back(block ? frame_.StanceOf(entity->GetPose()) : PlaneStance{});
+    stances.push_back(block ? frame_.StanceOf(entity->GetConfiguration().pose) : PlaneStance{});
     const std::uint32_t model = model_for(*entity);
-    const std::uint32_t body = world_.AddBody(model, PlanePoseOf(entity->GetPose()));
+    const std::uint32_t body = world_.AddBody(model, PlanePoseOf(entity->GetConfiguration().pose));
     if (block && world_.ModelOf(body).polygons.empty())
       throw ConfigurationError(entity->GetConfiguration().location,
                                "the plane of engine '" + configuration_->id + "' does not cut the block '" +
@@ -143,11 +144,11 @@ void Kinematics2dEngine::Start()
     // However another engine turns a block, the plane cuts it within this circle.
     if (IsBlock(mirror.entity->GetKind())) model.bounding_radius = mirror.entity->GetSize().norm() / 2;
     mirror.model = world_.AddModel(std::move(model));
-    mirror.body = world_.AddBody(mirror.model, PlanePoseOf(mirror.entity->GetPose()), true);
+    mirror.body = world_.AddBody(mirror.model, PlanePoseOf(mirror.entity->GetConfiguration().pose), true);
   }
   for (const CSwarmanoidSpaceEntity* entity : fixed_)
   {
-    const std::vector<Vector2> outline = frame_.CutBox(entity->GetPose(), entity->GetSize());
+    const std::vector<Vector2> outline = frame_.CutBox(entity->GetConfiguration().pose, entity->GetSize());
     if (!outline.empty()) world_.AddStatic(MakeModel({}, {MakePolygon(outline)}));
   }
   for (const ChannelBlock& block : layout_->sensors)
@@ -172,14 +173,14 @@ CollisionModel Kinematics2dEngine::ModelOf(const CSwarmanoidSpaceEntity& entity)
   if (entity.GetKind() == EntityKind::kFootbot) return FootbotModel();
   if (!IsBlock(entity.GetKind()))
     return entity.GetKind() == EntityKind::kHandbot ? RectangleModel(size.x(), size.y()) : CircleModel(size.x());
-  return Outline(entity);
+  return Outline(entity, entity.GetConfiguration().pose);
 }
 
-CollisionModel Kinematics2dEngine::Outline(const CSwarmanoidSpaceEntity& block) const
+CollisionModel Kinematics2dEngine::Outline(const CSwarmanoidSpaceEntity& block, const Pose& at) const
 {
-  const PlanePose pose = frame_.ToPlane(block.GetPose());
+  const PlanePose pose = frame_.ToPlane(at);
   const SinCos heading = SinCosOf(pose.heading);
-  std::vector<Vector2> points = frame_.CutBox(block.GetPose(), block.GetSize());
+  std::vector<Vector2> points = frame_.CutBox(at, block.GetSize());
   for (Vector2& point : points)
   {
     const double x = point.x() - pose.u;
@@ -216,7 +217,7 @@ void Kinematics2dEngine::FollowMirrors()
     bool present;
     if (IsBlock(mirror.entity->GetKind()))
     {
-      CollisionModel outline = Outline(*mirror.entity);
+      CollisionModel outline = Outline(*mirror.entity, pose);
       present = !outline.polygons.empty();
       world_.ReplaceModel(mirror.model, std::move(outline));
     }

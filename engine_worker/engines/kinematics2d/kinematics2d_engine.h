@@ -59,7 +59,7 @@ private:
   kinematics2d::CollisionModel ModelOf(const CSwarmanoidSpaceEntity& entity) const;
   // The outline in which the plane cuts a block, in the frame of the block's plane pose; without polygons where it does
   // not.
-  kinematics2d::CollisionModel Outline(const CSwarmanoidSpaceEntity& block) const;
+  kinematics2d::CollisionModel Outline(const CSwarmanoidSpaceEntity& block, const Pose& at) const;
 
   void FollowMirrors();
   void ApplyCommands(const EngineCommands& commands);

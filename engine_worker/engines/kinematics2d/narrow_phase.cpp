@@ -31,35 +31,52 @@ Axes AxesOf(const Placed& body, const Polygon& polygon)
           body.sin * body.turret_cos + body.cos * body.turret_sin};
 }
 
-void CirclesWithCircles(const Placed& a, const Placed& b, double margin, Touches& touches)
+constexpr std::size_t kCircles = CollisionModel::kMaximumCircles;
+
+// The centres of a body's circles, relative to the body, along the axes of the world.
+struct Centres
 {
-  constexpr std::size_t kCount = CollisionModel::kMaximumCircles;
-  std::array<double, kCount> ax, ay;
-  for (std::size_t k = 0; k < kCount; k += kDoubles)
+  alignas(kVectorBytes) std::array<double, kCircles> x, y;
+};
+
+void FindCentres(const Placed& body, Centres& centres)
+{
+  for (std::size_t k = 0; k < kCircles; k += kDoubles)
   {
-    const Doubles x = LoadDoubles(&a.model->circle_x[k]);
-    const Doubles y = LoadDoubles(&a.model->circle_y[k]);
-    Store(&ax[k], a.cos * x - a.sin * y);
-    Store(&ay[k], a.sin * x + a.cos * y);
+    const Doubles x = LoadDoubles(&body.model->circle_x[k]);
+    const Doubles y = LoadDoubles(&body.model->circle_y[k]);
+    Store(&centres.x[k], body.cos * x - body.sin * y);
+    Store(&centres.y[k], body.sin * x + body.cos * y);
   }
+}
+
+// The circles that are less than `radius` away from the point (x, y), one bit each.
+unsigned CirclesNear(const CollisionModel& model, const Centres& centres, double x, double y, double radius)
+{
+  unsigned hits = 0;
+  for (std::size_t k = 0; k < kCircles; k += kDoubles)
+  {
+    const Doubles dx = LoadDoubles(&centres.x[k]) - x;
+    const Doubles dy = LoadDoubles(&centres.y[k]) - y;
+    const Doubles limit = LoadDoubles(&model.circle_radius[k]) + radius;
+    hits |= Bits(dx * dx + dy * dy < limit * limit) << k;
+  }
+  return hits;
+}
+
+void CirclesWithCircles(const Placed& a, const Placed& b, const Centres& of_a, const Centres& of_b, double margin,
+                        Touches& touches)
+{
+  const double dx = b.x - a.x;
+  const double dy = b.y - a.y;
   for (int m = 0; m < b.model->circles; ++m)
   {
-    const double bx = b.cos * b.model->circle_x[m] - b.sin * b.model->circle_y[m];
-    const double by = b.sin * b.model->circle_x[m] + b.cos * b.model->circle_y[m];
-    const double shift_x = a.x - b.x - bx;
-    const double shift_y = a.y - b.y - by;
     const double radius = b.model->circle_radius[m];
-    for (std::size_t k = 0; k < kCount; k += kDoubles)
+    unsigned hits = CirclesNear(*a.model, of_a, dx + of_b.x[m], dy + of_b.y[m], radius + margin);
+    for (; hits != 0; hits &= hits - 1)
     {
-      const Doubles dx = LoadDoubles(&ax[k]) + shift_x;
-      const Doubles dy = LoadDoubles(&ay[k]) + shift_y;
-      const Doubles limit = LoadDoubles(&a.model->circle_radius[k]) + (radius + margin);
-      unsigned hits = Bits(dx * dx + dy * dy < limit * limit);
-      for (; hits != 0; hits &= hits - 1)
-      {
-        const std::size_t hit = k + static_cast<std::size_t>(__builtin_ctz(hits));
-        touches.Add({ax[hit] - bx, ay[hit] - by, a.model->circle_radius[hit] + radius, false});
-      }
+      const auto k = static_cast<std::size_t>(__builtin_ctz(hits));
+      touches.Add({of_a.x[k] - of_b.x[m], of_a.y[k] - of_b.y[m], a.model->circle_radius[k] + radius, false, 0});
     }
   }
 }
@@ -70,11 +87,6 @@ void CircleWithPolygon(double x, double y, double radius, double offset_x, doubl
                        const Axes& axes, double sign, double margin, Touches& touches)
 {
   const Point q = axes.ToLocal(x, y);
-  const double near_x = q.x - polygon.centre_x;
-  const double near_y = q.y - polygon.centre_y;
-  const double limit = polygon.radius + radius + margin;
-  if (near_x * near_x + near_y * near_y > limit * limit) return;
-
   int best = 0;
   double separation = -1e300;
   for (int k = 0; k < polygon.count; ++k)
@@ -103,16 +115,17 @@ void CircleWithPolygon(double x, double y, double radius, double offset_x, doubl
       const double corner_y = q.y - polygon.y[corner];
       if (corner_x * corner_x + corner_y * corner_y > (radius + margin) * (radius + margin)) return;
       const Point p = axes.ToWorld(polygon.x[corner], polygon.y[corner]);
-      touches.Add({sign * (offset_x - p.x), sign * (offset_y - p.y), radius, false});
+      touches.Add({sign * (offset_x - p.x), sign * (offset_y - p.y), radius, false, 0});
       return;
     }
   }
   const Point n = axes.ToWorld(polygon.nx[best], polygon.ny[best]);
   const double reach = radius + polygon.offset[best] - (n.x * offset_x + n.y * offset_y);
-  touches.Add({sign * n.x, sign * n.y, reach, true});
+  touches.Add({sign * n.x, sign * n.y, reach, true, 0});
 }
 
-void CirclesWithPolygons(const Placed& circles, const Placed& polygons, double sign, double margin, Touches& touches)
+void CirclesWithPolygons(const Placed& circles, const Placed& polygons, const Centres& centres, double sign,
+                         double margin, Touches& touches)
 {
   const double dx = circles.x - polygons.x;
   const double dy = circles.y - polygons.y;
@@ -120,14 +133,12 @@ void CirclesWithPolygons(const Placed& circles, const Placed& polygons, double s
   {
     const Axes axes = AxesOf(polygons, polygon);
     const Point centre = axes.ToWorld(polygon.centre_x, polygon.centre_y);
-    const double limit = circles.model->bounding_radius + polygon.radius + margin;
-    if ((dx - centre.x) * (dx - centre.x) + (dy - centre.y) * (dy - centre.y) > limit * limit) continue;
-    for (int k = 0; k < circles.model->circles; ++k)
+    unsigned near = CirclesNear(*circles.model, centres, centre.x - dx, centre.y - dy, polygon.radius + margin);
+    for (; near != 0; near &= near - 1)
     {
-      const double cx = circles.cos * circles.model->circle_x[k] - circles.sin * circles.model->circle_y[k];
-      const double cy = circles.sin * circles.model->circle_x[k] + circles.cos * circles.model->circle_y[k];
-      CircleWithPolygon(dx + cx, dy + cy, circles.model->circle_radius[k], cx, cy, polygon, axes, sign, margin,
-                        touches);
+      const auto k = static_cast<std::size_t>(__builtin_ctz(near));
+      CircleWithPolygon(dx + centres.x[k], dy + centres.y[k], circles.model->circle_radius[k], centres.x[k],
+                        centres.y[k], polygon, axes, sign, margin, touches);
     }
   }
 }
@@ -187,7 +198,7 @@ void PolygonsWithPolygons(const Placed& a, const Placed& b, double margin, Touch
           from_b ? axes_b.ToWorld(pb.nx[face_b], pb.ny[face_b]) : axes_a.ToWorld(-pa.nx[face_a], -pa.ny[face_a]);
       // depth = -separation at this place; reach makes it so.
       const double separation = from_b ? along_b : along_a;
-      touches.Add({n.x, n.y, n.x * dx + n.y * dy - separation, true});
+      touches.Add({n.x, n.y, n.x * dx + n.y * dy - separation, true, 0});
     }
   }
 }
@@ -197,18 +208,24 @@ void PolygonsWithPolygons(const Placed& a, const Placed& b, double margin, Touch
 void FindTouches(const Placed& a, const Placed& b, double margin, Touches& touches)
 {
   touches.count = 0;
-  if (a.model->circles > 0 && b.model->circles > 0) CirclesWithCircles(a, b, margin, touches);
-  if (a.model->circles > 0) CirclesWithPolygons(a, b, 1, margin, touches);
-  if (b.model->circles > 0) CirclesWithPolygons(b, a, -1, margin, touches);
+  Centres of_a, of_b;
+  FindCentres(a, of_a);
+  FindCentres(b, of_b);
+  CirclesWithCircles(a, b, of_a, of_b, margin, touches);
+  CirclesWithPolygons(a, b, of_a, 1, margin, touches);
+  CirclesWithPolygons(b, a, of_b, -1, margin, touches);
   PolygonsWithPolygons(a, b, margin, touches);
+  for (int k = 0; k < touches.count; ++k) touches.list[k].depth = DepthOf(touches.list[k], a.x - b.x, a.y - b.y);
 }
 
-double DepthOf(const Touch& touch, double dx, double dy)
+void Touches::KeepDeepest(double gap)
 {
-  if (touch.face) return touch.reach - (dx * touch.x + dy * touch.y);
-  const double x = dx + touch.x;
-  const double y = dy + touch.y;
-  return touch.reach - std::sqrt(x * x + y * y);
+  double deepest = -1e300;
+  for (int k = 0; k < count; ++k) deepest = std::max(deepest, list[k].depth);
+  int kept = 0;
+  for (int k = 0; k < count; ++k)
+    if (list[k].depth >= deepest - gap) list[kept++] = list[k];
+  count = kept;
 }
 
 double Overlap(const Placed& a, const Placed& b)

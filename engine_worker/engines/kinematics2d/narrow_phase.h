@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "engine_worker/engines/kinematics2d/collision_model.h"
 #include "engine_worker/engines/kinematics2d/motion.h"
@@ -24,9 +25,10 @@ struct Placed
 //   face:  reach - (a - b) . (x, y),   pushing apart along the unit vector (x, y).
 struct Touch
 {
-  double x = 0, y = 0;
-  double reach = 0;
-  bool face = false;
+  double x, y;
+  double reach;
+  bool face;
+  double depth;  // where it was found
 };
 
 struct Touches
@@ -35,15 +37,24 @@ struct Touches
   std::array<Touch, kMaximum> list;
   int count = 0;
 
+  // Drops those that are more than `gap` less deep than the deepest one.
+  void KeepDeepest(double gap);
   void Add(const Touch& touch)
   {
     if (count < kMaximum) list[static_cast<std::size_t>(count++)] = touch;
   }
 };
 
-// All places where the outlines overlap or are less than `margin` apart.
+// All places where the outlines overlap or are less than `margin` apart, with their depths.
 void FindTouches(const Placed& a, const Placed& b, double margin, Touches& touches);
-double DepthOf(const Touch& touch, double dx, double dy);
+// The depth of a touch where the first body is (dx, dy) from the second.
+inline double DepthOf(const Touch& touch, double dx, double dy)
+{
+  if (touch.face) return touch.reach - (dx * touch.x + dy * touch.y);
+  const double x = dx + touch.x;
+  const double y = dy + touch.y;
+  return touch.reach - std::sqrt(x * x + y * y);
+}
 // The deepest overlap in metres; 0 where there is none.
 double Overlap(const Placed& a, const Placed& b);
 

@@ -29,6 +29,17 @@ using FloatMask = std::int32_t __attribute__((vector_size(kVectorBytes)));
 inline constexpr std::size_t kDoubles = kVectorBytes / sizeof(double);
 inline constexpr std::size_t kFloats = kVectorBytes / sizeof(float);
 
+using Ints = std::int32_t __attribute__((vector_size(kVectorBytes / 2)));
+
+// Towards zero; the values must fit.
+inline Ints Truncated(Doubles v) { return __builtin_convertvector(v, Ints); }
+// To 0..most; what is not a number becomes 0.
+inline Doubles Clamped(Doubles v, double most)
+{
+  v = v > 0.0 ? v : Doubles{};
+  return v < most ? v : most + Doubles{};
+}
+
 inline Doubles LoadDoubles(const double* from)
 {
   Doubles v;
@@ -36,6 +47,7 @@ inline Doubles LoadDoubles(const double* from)
   return v;
 }
 inline void Store(double* to, Doubles v) { std::memcpy(to, &v, sizeof v); }
+inline void Store(std::int32_t* to, Ints v) { std::memcpy(to, &v, sizeof v); }
 inline Floats LoadFloats(const float* from)
 {
   Floats v;
