@@ -58,7 +58,7 @@ private:
 RunSummary RunSingleProcess(const Experiment& experiment, const SingleProcessOptions& options)
 {
   const Assignment assignment = MakeAssignment(experiment, 1);
-  SpaceServer server(experiment, assignment);
+  SpaceServer server(experiment, assignment, options.output_folder);
   CSwarmanoidSpace& space = server.Space();
 
   std::vector<std::unique_ptr<EngineWorker>> engines;
@@ -101,7 +101,8 @@ RunSummary RunSingleProcess(const Experiment& experiment, const SingleProcessOpt
     using Commands = std::span<const ControlCommands* const>;
     const ControlCommands* commands = &host.Step(space.GetTick() == 0 ? Frames() : Frames(frames));
     for (std::size_t e = 0; e < engines.size(); ++e)
-      engines[e]->Step({}, assignment.engines[e].commands_from.empty() ? Commands() : Commands(&commands, 1));
+      engines[e]->Step(server.Moved(),
+                       assignment.engines[e].commands_from.empty() ? Commands() : Commands(&commands, 1));
     server.Advance(updates, Commands(&commands, 1));
 
     if (options.real_time_factor > 0)
@@ -124,6 +125,8 @@ RunSummary RunSingleProcess(const Experiment& experiment, const SingleProcessOpt
   summary.hash = space.Hash();
   for (const auto& visualiser : visualisers) visualiser->Finish();
   host.Destroy();
+  server.Destroy();
+  summary.failed = server.HasFailed();
   return summary;
 }
 

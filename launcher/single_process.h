@@ -38,6 +38,7 @@ struct RunSummary
   double wall_s = 0;       // from the first tick on
   double real_time_factor = 0;
   bool interrupted = false;
+  bool failed = false;  // the experiment functions said so
 };
 
 // Throws ConfigurationError, ControllerError or std::runtime_error with a text for the user.

@@ -5,10 +5,24 @@
 namespace swarmanoid
 {
 
-SpaceServer::SpaceServer(const Experiment& experiment, const Assignment& assignment)
-    : experiment_(experiment), assignment_(assignment), space_(experiment)
+SpaceServer::SpaceServer(const Experiment& experiment, const Assignment& assignment, const std::string& output_folder)
+    : experiment_(experiment), assignment_(assignment), space_(experiment), editor_(*this, output_folder)
 {
+  for (const FunctionsConfiguration& configuration : experiment.functions)
+  {
+    const auto* entry = PluginRegistry<CExperimentFunctions>::Instance().Find(configuration.tag);
+    if (entry == nullptr)
+      throw ConfigurationError(configuration.location,
+                               "no experiment functions are registered as '" + configuration.tag + "'");
+    functions_.push_back({&configuration, entry->create()});
+  }
+  CallFunctions("Init",
+                [this](const Functions& functions) { functions.object->Init(functions.configuration->tree, editor_); });
+  AskWhetherFinished();
+  if (!IsLast()) CallFunctions("PreStep", [this](const Functions& functions) { functions.object->PreStep(editor_); });
 }
+
+SpaceServer::~SpaceServer() = default;
 
 const SpaceState& SpaceServer::State()
 {
@@ -19,10 +33,16 @@ const SpaceState& SpaceServer::State()
   changed_slots_.erase(std::unique(changed_slots_.begin(), changed_slots_.end()), changed_slots_.end());
   state_.attributes.Clear();
   for (const std::uint32_t slot : changed_slots_) state_.attributes.Add(slot, space_.Attributes()[slot]);
+  const auto moved = Moved();
+  state_.moved.assign(moved.begin(), moved.end());
+  return state_;
+}
+
+std::span<const std::uint32_t> SpaceServer::Moved()
+{
   std::sort(moved_.begin(), moved_.end());
   moved_.erase(std::unique(moved_.begin(), moved_.end()), moved_.end());
-  state_.moved = moved_;
-  return state_;
+  return moved_;
 }
 
 void SpaceServer::WriteSnapshot(SpaceSnapshot& snapshot) const
@@ -45,6 +65,57 @@ void SpaceServer::Advance(std::span<const EngineUpdate* const> updates,
     Merge(update->attributes);
   }
   space_.SetTick(space_.GetTick() + 1);
+
+  CallFunctions("PostStep", [this](const Functions& functions) { functions.object->PostStep(editor_); });
+  AskWhetherFinished();
+  if (!IsLast()) CallFunctions("PreStep", [this](const Functions& functions) { functions.object->PreStep(editor_); });
+}
+
+void SpaceServer::SetAttribute(std::uint32_t slot, double value)
+{
+  if (space_.Attributes()[slot] == value) return;
+  space_.SetAttribute(slot, value);
+  changed_slots_.push_back(slot);
+}
+
+void SpaceServer::Destroy()
+{
+  if (destroyed_) return;
+  destroyed_ = true;
+  CallFunctions("Destroy", [this](const Functions& functions) { functions.object->Destroy(editor_); });
+}
+
+template <class Call>
+void SpaceServer::CallFunctions(const char* step, Call call)
+{
+  for (const Functions& functions : functions_)
+  {
+    try
+    {
+      call(functions);
+    }
+    catch (const ConfigurationError&)
+    {
+      throw;
+    }
+    catch (const std::exception& error)
+    {
+      throw std::runtime_error("experiment functions '" + functions.configuration->id + "': " + step + " at tick " +
+                               std::to_string(space_.GetTick()) + " failed: " + error.what());
+    }
+  }
+}
+
+void SpaceServer::AskWhetherFinished()
+{
+  CallFunctions("IsFinished",
+                [this](const Functions& functions)
+                {
+                  const auto outcome = functions.object->IsFinished(editor_);
+                  if (outcome == CExperimentFunctions::Outcome::kRunning) return;
+                  last_ = true;
+                  failed_ |= outcome == CExperimentFunctions::Outcome::kFailed;
+                });
 }
 
 void SpaceServer::Move(const MoveRequest& request)
@@ -57,10 +128,7 @@ void SpaceServer::Merge(const AttributeChanges& changes)
 {
   for (std::size_t k = 0; k < changes.slots.size(); ++k)
   {
-    const std::uint32_t slot = changes.slots[k];
-    if (space_.Attributes()[slot] == changes.values[k]) continue;
-    space_.SetAttribute(slot, changes.values[k]);
-    changed_slots_.push_back(slot);
+    SetAttribute(changes.slots[k], changes.values[k]);
   }
 }
 

@@ -88,6 +88,15 @@ enum class SpaceOptimization : std::uint8_t
   kOctree
 };
 
+// One entry of <experiment_functions>.
+struct FunctionsConfiguration
+{
+  std::string tag;
+  std::string id;
+  TConfigurationTree tree;
+  SourceLocation location;
+};
+
 struct Experiment
 {
   std::string name;    // the file's name without folder and extension, unless <framework><name> says otherwise
@@ -104,6 +113,7 @@ struct Experiment
   std::vector<EntityConfiguration> entities;
   std::vector<EngineConfiguration> engines;
   std::vector<RenderConfiguration> visualisations;
+  std::vector<FunctionsConfiguration> functions;
   std::string effective_xml;  // the text that gives this experiment again, --set and --seed applied
 
   double TickSeconds() const { return clock_tick_ms * 1e-3; }

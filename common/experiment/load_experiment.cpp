@@ -68,6 +68,7 @@ void ReadSections(const TConfigurationTree& root, Reading& reading)
   ReadEngines(root.Child("engines"), reading);
   ReadArenaPhysics(root.Child("arena_physics"), reading);
   ReadVisualisations(root.Child("visualisations"), reading);
+  ReadExperimentFunctions(root.Child("experiment_functions"), reading);
   CheckControllersOfRobots(reading);
   CheckDevicesOfEngines(reading);
   CheckOverlaps(reading);

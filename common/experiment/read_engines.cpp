@@ -278,15 +278,20 @@ void ReadArenaPhysics(const TConfigurationTree& tree, Reading& reading)
   }
 }
 
-void ReadVisualisations(const TConfigurationTree& tree, Reading& reading)
+namespace
+{
+
+// The plug-ins of a section that lists them one after the other, each with an id that is unique in the section.
+template <class Add>
+void ReadPluginList(const TConfigurationTree& tree, PluginKind kind, Reading& reading, Add add)
 {
   if (!tree.Exists()) return;
-  const ElementSpec& spec = ExperimentSchema().Child("visualisations");
+  const ElementSpec& spec = ExperimentSchema().Child(tree.Name());
   const ElementReader list(tree, spec, reading.diagnostics);
   std::map<std::string, int> lines;
   for (const TConfigurationTree& child : tree.Children())
   {
-    const PluginDescription* plugin = FindPlugin(PluginKind::kRenderer, child, reading);
+    const PluginDescription* plugin = FindPlugin(kind, child, reading);
     const ElementReader reader(child, spec.plugin_element.front(), reading.diagnostics,
                                plugin != nullptr ? &plugin->parameters : nullptr, plugin == nullptr);
     const std::string id = reader.Text("id");
@@ -294,12 +299,29 @@ void ReadVisualisations(const TConfigurationTree& tree, Reading& reading)
     const auto [first, is_first] = lines.emplace(id, child.Location().line);
     if (!is_first && !id.empty())
     {
-      reading.diagnostics.Add(
-          reader.Place("id"),
-          fmt::format("two visualisations have the id {}; the first is in line {}", Quoted(id), first->second));
+      reading.diagnostics.Add(reader.Place("id"), fmt::format("two {} have the id {}; the first is in line {}",
+                                                              tree.Name(), Quoted(id), first->second));
     }
-    reading.experiment.visualisations.push_back({child.Name(), id, child, child.Location()});
+    add(child, id);
   }
+}
+
+}  // namespace
+
+void ReadVisualisations(const TConfigurationTree& tree, Reading& reading)
+{
+  ReadPluginList(tree, PluginKind::kRenderer, reading,
+                 [&](const TConfigurationTree& child, const std::string& id) {
+                   reading.experiment.visualisations.push_back({child.Name(), id, child, child.Location()});
+                 });
+}
+
+void ReadExperimentFunctions(const TConfigurationTree& tree, Reading& reading)
+{
+  ReadPluginList(tree, PluginKind::kExperimentFunctions, reading,
+                 [&](const TConfigurationTree& child, const std::string& id) {
+                   reading.experiment.functions.push_back({child.Name(), id, child, child.Location()});
+                 });
 }
 
 void CheckDevicesOfEngines(Reading& reading)

@@ -157,7 +157,8 @@ std::string PluginReference()
   const std::pair<PluginKind, const char*> sections[] = {{PluginKind::kEngine, "Physics engines"},
                                                          {PluginKind::kActuator, "Actuators"},
                                                          {PluginKind::kSensor, "Sensors"},
-                                                         {PluginKind::kRenderer, "Visualisations"}};
+                                                         {PluginKind::kRenderer, "Visualisations"},
+                                                         {PluginKind::kExperimentFunctions, "Experiment functions"}};
   for (const auto& [kind, title] : sections)
   {
     page += fmt::format("## {}\n\n", title);

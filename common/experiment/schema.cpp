@@ -365,6 +365,25 @@ ElementSpec Visualisations()
   return element;
 }
 
+ElementSpec ExperimentFunctions()
+{
+  using enum ParameterType;
+  ElementSpec element;
+  element.tags = {"experiment_functions"};
+  element.description =
+      "Code around the steps of the experiment, run by the space server: it measures, changes the world, and decides "
+      "when the experiment is over.";
+  element.plugins = PluginKind::kExperimentFunctions;
+  ElementSpec functions;
+  functions.description = "One set of functions: its tag is the one they are registered with.";
+  functions.parameters = {
+      Id("The name of the functions; unique among them."),
+      Optional(kText, "library", "", "", "The library that registers them, looked for in plugin_path."),
+  };
+  element.plugin_element = {functions};
+  return element;
+}
+
 }  // namespace
 
 bool ElementSpec::HasTag(const std::string& tag) const
@@ -395,7 +414,8 @@ const ElementSpec& ExperimentSchema()
     root.tags = {"ahss-config"};
     root.description = "An experiment.";
     root.required = true;
-    root.children = {Framework(), Controllers(), Arena(), Engines(), ArenaPhysics(), Visualisations()};
+    root.children = {Framework(),      Controllers(),        Arena(), Engines(), ArenaPhysics(),
+                     Visualisations(), ExperimentFunctions()};
     return root;
   }();
   return schema;

@@ -25,6 +25,7 @@ void ReadArena(const TConfigurationTree& tree, Reading& reading);
 void ReadEngines(const TConfigurationTree& tree, Reading& reading);
 void ReadArenaPhysics(const TConfigurationTree& tree, Reading& reading);
 void ReadVisualisations(const TConfigurationTree& tree, Reading& reading);
+void ReadExperimentFunctions(const TConfigurationTree& tree, Reading& reading);
 
 // Mistakes that only the whole experiment shows.
 void CheckControllersOfRobots(Reading& reading);

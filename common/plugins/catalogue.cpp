@@ -20,6 +20,8 @@ std::string_view PluginKindName(PluginKind kind)
       return "physics engine";
     case PluginKind::kRenderer:
       return "visualisation";
+    case PluginKind::kExperimentFunctions:
+      return "experiment functions";
   }
   return "plug-in";
 }

@@ -20,10 +20,11 @@ enum class PluginKind
   kActuator,
   kSensor,
   kEngine,
-  kRenderer
+  kRenderer,
+  kExperimentFunctions
 };
 
-// "controller", "actuator", "sensor", "physics engine", "visualisation".
+// "controller", "actuator", "sensor", "physics engine", "visualisation", "experiment functions".
 std::string_view PluginKindName(PluginKind kind);
 
 // What `swarmanoid list plugins` and the reference pages show of a plug-in.

@@ -1,0 +1,60 @@
+#include "space_server/experiment_functions.h"
+
+#include <stdexcept>
+
+#include "common/space/attributes.h"
+#include "space_server/space_server.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+CSwarmanoidSpaceEntity& FindOrThrow(CSwarmanoidSpace& space, std::string_view id)
+{
+  if (CSwarmanoidSpaceEntity* entity = space.FindEntity(id)) return *entity;
+  throw std::invalid_argument("there is no entity '" + std::string(id) + "'");
+}
+
+}  // namespace
+
+template <>
+PluginRegistry<CExperimentFunctions>& PluginRegistry<CExperimentFunctions>::Instance()
+{
+  static PluginRegistry registry(PluginKind::kExperimentFunctions);
+  return registry;
+}
+
+template class PluginRegistry<CExperimentFunctions>;
+
+const CSwarmanoidSpace& SpaceEditor::GetSpace() const { return server_.Space(); }
+
+SpaceQuery& SpaceEditor::GetQuery()
+{
+  if (query_ == nullptr) query_ = std::make_unique<SpaceQuery>(server_.Space());
+  return *query_;
+}
+
+void SpaceEditor::MoveEntity(std::string_view id, const Pose& pose)
+{
+  const CSwarmanoidSpaceEntity& entity = FindOrThrow(server_.Space(), id);
+  if (!entity.IsMovable()) throw std::invalid_argument("entity '" + std::string(id) + "' cannot move");
+  server_.Move({entity.GetIndex(), pose});
+}
+
+void SpaceEditor::SetAttribute(std::string_view id, std::string_view attribute, double value, int element)
+{
+  const CSwarmanoidSpaceEntity& entity = FindOrThrow(server_.Space(), id);
+  if (AttributeOffset(entity.GetKind(), attribute) < 0)
+    throw std::invalid_argument("entity '" + std::string(id) + "' has no attribute '" + std::string(attribute) + "'");
+  server_.SetAttribute(entity.SlotOf(attribute, element), value);
+}
+
+RandomStream SpaceEditor::GetRandom() const
+{
+  const CSwarmanoidSpace& space = GetSpace();
+  return {space.GetExperiment().seed, 0, StreamName("experiment_functions"),
+          static_cast<std::uint32_t>(space.GetTick())};
+}
+
+}  // namespace swarmanoid

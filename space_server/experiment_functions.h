@@ -1,0 +1,98 @@
+// CExperimentFunctions: a user's code around the steps of an experiment. It runs at the space server and sees and
+// changes the whole space: it measures, moves entities, paints the floor, and decides when the experiment is over and
+// whether it succeeded. A plug-in.
+//
+//   <experiment_functions>
+//     <prey_retrieval id="goal" library="prey_retrieval"><metrics>metrics.csv</metrics></prey_retrieval>
+//   </experiment_functions>
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "common/math/random.h"
+#include "common/plugins/registry.h"
+#include "common/space/query.h"
+#include "common/space/space.h"
+
+namespace swarmanoid
+{
+
+class SpaceServer;
+
+// What the functions may do to the space: every change is seen by all processes in the state that goes out next.
+class SpaceEditor
+{
+public:
+  SpaceEditor(SpaceServer& server, std::string output_folder)
+      : server_(server), output_folder_(std::move(output_folder))
+  {
+  }
+
+  const CSwarmanoidSpace& GetSpace() const;
+  // Questions about the space: who is near, what is between.
+  SpaceQuery& GetQuery();
+  // Puts a movable entity elsewhere. Throws std::invalid_argument for an unknown id or an entity that cannot move.
+  void MoveEntity(std::string_view id, const Pose& pose);
+  // Changes an attribute (common/space/attributes.h), such as the colour of a nest. Throws std::invalid_argument for an
+  // unknown id or name.
+  void SetAttribute(std::string_view id, std::string_view attribute, double value, int element = 0);
+  // Random numbers of these functions at the tick of the space: equal in every run of the same seed.
+  RandomStream GetRandom() const;
+  // The folder of the run: files of the functions go there.
+  const std::string& GetOutputFolder() const { return output_folder_; }
+
+private:
+  SpaceServer& server_;
+  std::string output_folder_;
+  std::unique_ptr<SpaceQuery> query_;
+};
+
+class CExperimentFunctions
+{
+public:
+  enum class Outcome
+  {
+    kRunning,
+    kDone,   // the experiment reached its goal: it ends, exit code 0
+    kFailed  // it can no longer reach it: it ends, exit code 1
+  };
+
+  virtual ~CExperimentFunctions() = default;
+
+  // In this order: Init once, then PreStep before the controllers of each tick and PostStep after its physics, at the
+  // end Destroy. A user's mistake throws ConfigurationError; any exception stops the run and is shown with the id of
+  // the functions.
+  virtual void Init(const TConfigurationTree t_tree, SpaceEditor& space) = 0;
+  virtual void PreStep(SpaceEditor&) {}
+  virtual void PostStep(SpaceEditor&) {}
+  // Asked after Init and after each PostStep.
+  virtual Outcome IsFinished(const SpaceEditor&) { return Outcome::kRunning; }
+  virtual void Destroy(SpaceEditor&) {}
+};
+
+template <>
+PluginRegistry<CExperimentFunctions>& PluginRegistry<CExperimentFunctions>::Instance();
+extern template class PluginRegistry<CExperimentFunctions>;
+
+// Used by REGISTER_EXPERIMENT_FUNCTIONS.
+struct ExperimentFunctionsRegistration
+{
+  ExperimentFunctionsRegistration(PluginDescription description, std::unique_ptr<CExperimentFunctions> (*create)())
+  {
+    PluginRegistry<CExperimentFunctions>::Instance().Add(std::move(description), create);
+  }
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CExperimentFunctions;
+
+// REGISTER_EXPERIMENT_FUNCTIONS(CMyFunctions, description): description is a PluginDescription expression.
+#define REGISTER_EXPERIMENT_FUNCTIONS(CLASS, ...)                                                                      \
+  namespace                                                                                                            \
+  {                                                                                                                    \
+  const ::swarmanoid::ExperimentFunctionsRegistration registration_of_##CLASS(                                         \
+      __VA_ARGS__, []() -> std::unique_ptr<::swarmanoid::CExperimentFunctions> { return std::make_unique<CLASS>(); }); \
+  }

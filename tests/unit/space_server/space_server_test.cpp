@@ -1,0 +1,214 @@
+#include "space_server/space_server.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace swarmanoid
+{
+namespace
+{
+
+using testing::ElementsAre;
+
+EntityConfiguration Movable(const std::string& id, double x)
+{
+  EntityConfiguration entity;
+  entity.kind = EntityKind::kFootbot;
+  entity.id = id;
+  entity.pose.position = {x, 0, 0};
+  entity.movable = true;
+  return entity;
+}
+
+Experiment TwoEngines()
+{
+  Experiment experiment;
+  experiment.arena_size = {10, 10, 1};
+  experiment.max_clock = 3;
+  experiment.entities = {Movable("a", 1), Movable("b", 2), Movable("c", 3)};
+  experiment.engines.resize(2);
+  experiment.engines[0].entities = {0, 2};
+  experiment.engines[1].entities = {1};
+  return experiment;
+}
+
+EngineUpdate UpdateOf(std::uint32_t engine, std::uint64_t tick, const std::vector<double>& xs)
+{
+  EngineUpdate update;
+  update.engine = engine;
+  update.tick = tick;
+  update.poses = xs;
+  update.poses.resize(6 * xs.size(), 0);
+  update.poses.resize(7 * xs.size(), 1);
+  return update;
+}
+
+TEST(SpaceServer, UpdatesOfAllEnginesMakeTheNextState)
+{
+  const Experiment experiment = TwoEngines();
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  SpaceServer server(experiment, assignment, ".");
+  const EngineUpdate first = UpdateOf(0, 1, {1.5, 3.5});
+  const EngineUpdate second = UpdateOf(1, 1, {2.5});
+  const std::array<const EngineUpdate*, 2> updates{&first, &second};
+  server.Advance(updates, {});
+  const SpaceState& state = server.State();
+  EXPECT_EQ(state.tick, 1U);
+  EXPECT_FALSE(state.last);
+  EXPECT_THAT(std::vector<double>(state.poses.begin(), state.poses.begin() + 3), ElementsAre(1.5, 2.5, 3.5));
+}
+
+TEST(SpaceServer, OnlyAttributesThatChangedTravel)
+{
+  const Experiment experiment = TwoEngines();
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  SpaceServer server(experiment, assignment, ".");
+  const std::uint32_t slot = server.Space().FindEntity("b")->SlotOf("beacon");
+  ControlCommands commands;
+  commands.attributes.Add(slot, 0xff0000);
+  commands.attributes.Add(slot + 1, server.Space().Attributes()[slot + 1]);  // no change
+  const std::array<const ControlCommands*, 1> from_hosts{&commands};
+  server.Advance({}, from_hosts);
+  EXPECT_THAT(server.State().attributes.slots, ElementsAre(slot));
+  EXPECT_THAT(server.State().attributes.values, ElementsAre(0xff0000));
+  server.Advance({}, {});
+  EXPECT_TRUE(server.State().attributes.slots.empty());
+}
+
+TEST(SpaceServer, AnEngineHasTheLastWordOnAnAttribute)
+{
+  const Experiment experiment = TwoEngines();
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  SpaceServer server(experiment, assignment, ".");
+  const std::uint32_t slot = server.Space().FindEntity("b")->SlotOf("turret_angle");
+  ControlCommands commands;
+  commands.attributes.Add(slot, 1);
+  EngineUpdate update = UpdateOf(1, 1, {2});
+  update.attributes.Add(slot, 2);
+  const std::array<const ControlCommands*, 1> from_hosts{&commands};
+  const std::array<const EngineUpdate*, 1> from_engines{&update};
+  server.Advance(from_engines, from_hosts);
+  EXPECT_EQ(server.Space().Attributes()[slot], 2);
+}
+
+TEST(SpaceServer, TheLastTickIsMarked)
+{
+  const Experiment experiment = TwoEngines();
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  SpaceServer server(experiment, assignment, ".");
+  for (int tick = 0; tick < 3; ++tick)
+  {
+    EXPECT_FALSE(server.State().last);
+    server.Advance({}, {});
+  }
+  EXPECT_TRUE(server.State().last);
+}
+
+TEST(SpaceServer, AMoveIsToldOnceWithItsPose)
+{
+  const Experiment experiment = TwoEngines();
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  SpaceServer server(experiment, assignment, ".");
+  server.Move({2, {{9, 9, 0}, Quaternion::Identity()}});
+  server.Move({0, {{8, 8, 0}, Quaternion::Identity()}});
+  server.Move({2, {{7, 7, 0}, Quaternion::Identity()}});
+  EXPECT_THAT(server.State().moved, ElementsAre(0, 2));
+  EXPECT_EQ(server.State().poses[2], 7);
+  server.Advance({}, {});
+  EXPECT_TRUE(server.State().moved.empty());
+}
+
+// Functions that write down their calls, move an entity and end the run at tick 2.
+class Recorder : public CExperimentFunctions
+{
+public:
+  static inline std::string calls;
+  static inline Outcome outcome_at_2 = Outcome::kDone;
+  static inline bool throw_in_post_step = false;
+
+  void Init(const TConfigurationTree, SpaceEditor& space) override { Note("Init", space); }
+  void PreStep(SpaceEditor& space) override { Note("Pre", space); }
+  void PostStep(SpaceEditor& space) override
+  {
+    Note("Post", space);
+    if (throw_in_post_step) throw std::runtime_error("no luck");
+    space.MoveEntity("b", {{5, 5, 0}, Quaternion::Identity()});
+    space.SetAttribute("a", "beacon", 0x00ff00);
+  }
+  Outcome IsFinished(const SpaceEditor& space) override
+  {
+    return space.GetSpace().GetTick() == 2 ? outcome_at_2 : Outcome::kRunning;
+  }
+  void Destroy(SpaceEditor& space) override { Note("Destroy", space); }
+
+private:
+  static void Note(const std::string& call, const SpaceEditor& space)
+  {
+    calls += call + std::to_string(space.GetSpace().GetTick()) + " ";
+  }
+};
+
+PluginDescription Named(const char* label)
+{
+  PluginDescription description;
+  description.label = label;
+  return description;
+}
+
+REGISTER_EXPERIMENT_FUNCTIONS(Recorder, Named("recorder"))
+
+Experiment WithRecorder()
+{
+  Experiment experiment = TwoEngines();
+  experiment.max_clock = 100;
+  experiment.functions = {{"recorder", "goal", {}, {}}};
+  Recorder::calls.clear();
+  Recorder::outcome_at_2 = CExperimentFunctions::Outcome::kDone;
+  Recorder::throw_in_post_step = false;
+  return experiment;
+}
+
+TEST(ExperimentFunctions, RunAroundTheStepsAndEndTheExperiment)
+{
+  const Experiment experiment = WithRecorder();
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  SpaceServer server(experiment, assignment, ".");
+  while (!server.IsLast()) server.Advance({}, {});
+  server.Destroy();
+  server.Destroy();
+  EXPECT_EQ(Recorder::calls, "Init0 Pre0 Post1 Pre1 Post2 Destroy2 ");
+  EXPECT_FALSE(server.HasFailed());
+}
+
+TEST(ExperimentFunctions, WhatTheyChangeTravels)
+{
+  const Experiment experiment = WithRecorder();
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  SpaceServer server(experiment, assignment, ".");
+  server.Advance({}, {});
+  EXPECT_THAT(server.State().moved, ElementsAre(1));
+  EXPECT_THAT(server.State().attributes.values, ElementsAre(0x00ff00));
+}
+
+TEST(ExperimentFunctions, TheyCanDeclareFailure)
+{
+  const Experiment experiment = WithRecorder();
+  Recorder::outcome_at_2 = CExperimentFunctions::Outcome::kFailed;
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  SpaceServer server(experiment, assignment, ".");
+  while (!server.IsLast()) server.Advance({}, {});
+  EXPECT_TRUE(server.HasFailed());
+}
+
+TEST(ExperimentFunctions, AnExceptionIsReportedWithNameAndTick)
+{
+  const Experiment experiment = WithRecorder();
+  Recorder::throw_in_post_step = true;
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  SpaceServer server(experiment, assignment, ".");
+  EXPECT_THAT([&] { server.Advance({}, {}); }, testing::ThrowsMessage<std::runtime_error>(
+                                                   "experiment functions 'goal': PostStep at tick 1 failed: no luck"));
+}
+
+}  // namespace
+}  // namespace swarmanoid
