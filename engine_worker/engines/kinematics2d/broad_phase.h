@@ -37,9 +37,11 @@ public:
   void SetStatics(std::span<const Bounds> boxes);
 
   // `present[k]` is 0 for bodies that are not to be found.
-  void FindPairs(const PoseStore& poses, std::span<const std::uint8_t> present, double margin);
-  // Bodies whose circles are less than `margin` apart, in the order of their cells.
+  void FindPairs(const PoseStore& poses, std::span<const std::uint8_t> present, double margin, double near);
+  // Bodies whose circles are less than `margin` apart, and those of them that are less than `near` apart, in the order
+  // of their cells.
   const std::vector<Pair>& Pairs() const { return pairs_; }
+  const std::vector<Pair>& NearPairs() const { return near_pairs_; }
   const std::vector<Pair>& StaticPairs() const { return static_pairs_; }
 
 private:
@@ -53,10 +55,10 @@ private:
   std::uint32_t Cell(std::uint32_t column, std::uint32_t row) const { return (row + 1) * stride_ + column + 1; }
   void FindCells(const PoseStore& poses, std::span<const std::uint8_t> present);
   void Sort(const PoseStore& poses, std::span<const std::uint8_t> present);
-  void SweepBodies(float margin);
+  void SweepBodies(float margin, float near);
   void SweepStatics(float margin);
   void FindPairsOfLarge(float margin, std::span<const std::uint8_t> present, const PoseStore& poses);
-  void AddHits(unsigned hits, std::uint32_t sorted, std::uint32_t from);
+  void AddHits(unsigned hits, unsigned near, std::uint32_t sorted, std::uint32_t from);
 
   std::size_t count_ = 0;
   double cell_ = 1;
@@ -79,7 +81,7 @@ private:
   std::vector<FloatBox> static_boxes_;
   std::vector<std::uint32_t> static_start_, static_shape_;  // the shapes near each cell
 
-  std::vector<Pair> pairs_, static_pairs_;
+  std::vector<Pair> pairs_, near_pairs_, static_pairs_;
 };
 
 }  // namespace swarmanoid::kinematics2d

@@ -125,8 +125,9 @@ int KinematicWorld::Substeps(double seconds, int steps)
 void KinematicWorld::Substep(double seconds, double fraction)
 {
   Move(seconds, fraction);
-  broad_.FindPairs(now_, present_, 2 * reach_);
-  FindContacts();
+  const double margin = std::min(kContactMargin, reach_);
+  broad_.FindPairs(now_, present_, 2 * reach_, margin);
+  FindContacts(margin);
   if (solver_.HasOverlaps())
   {
     solver_.Solve(mobility_, kSolverTolerance * allowed_, reach_, now_.x, now_.y);
@@ -158,19 +159,14 @@ void KinematicWorld::Move(double seconds, double fraction)
   }
 }
 
-void KinematicWorld::FindContacts()
+void KinematicWorld::FindContacts(double margin)
 {
   solver_.Clear();
-  const double margin = std::min(kContactMargin, reach_);
   Touches touches;
-  for (const Pair& pair : broad_.Pairs())
+  for (const Pair& pair : broad_.NearPairs())
   {
     const std::uint32_t a = pair.first;
     const std::uint32_t b = pair.second;
-    const double dx = now_.x[a] - now_.x[b];
-    const double dy = now_.y[a] - now_.y[b];
-    const double limit = radius_[a] + radius_[b] + margin;
-    if (dx * dx + dy * dy > limit * limit) continue;
     if (leader_[a] == leader_[b] || mobility_[leader_[a]] + mobility_[leader_[b]] <= 0) continue;
     FindTouches(PlaceAt(a, now_), PlaceAt(b, now_), margin, touches);
     AddContacts(a, b, touches);
@@ -183,9 +179,8 @@ void KinematicWorld::FindContacts()
   }
 }
 
-void KinematicWorld::AddContacts(std::uint32_t first, std::uint32_t second, Touches& touches)
+void KinematicWorld::AddContacts(std::uint32_t first, std::uint32_t second, const Touches& touches)
 {
-  touches.KeepDeepest(kTouchesApart);
   const std::uint32_t i = leader_[first];
   const std::uint32_t j = leader_[second];
   // From the difference of the leaders to that of the bodies.
@@ -195,9 +190,9 @@ void KinematicWorld::AddContacts(std::uint32_t first, std::uint32_t second, Touc
   const double dy = now_.y[i] - now_.y[j];
   const double way_x = dx - (before_.x[i] - before_.x[j]);
   const double way_y = dy - (before_.y[i] - before_.y[j]);
-  for (int k = 0; k < touches.count; ++k)
+  for (int k = 0; k < touches.Count(); ++k)
   {
-    Contact contact{i, j, touches.list[static_cast<std::size_t>(k)], 0};
+    Contact contact{i, j, touches[k], 0};
     Touch& touch = contact.touch;
     if (touch.face)
       touch.reach -= shift_x * touch.x + shift_y * touch.y;

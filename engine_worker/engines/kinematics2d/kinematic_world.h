@@ -126,8 +126,8 @@ private:
   int Substeps(double seconds, int steps);
   void Substep(double seconds, double fraction);
   void Move(double seconds, double fraction);
-  void FindContacts();
-  void AddContacts(std::uint32_t first, std::uint32_t second, Touches& touches);
+  void FindContacts(double margin);
+  void AddContacts(std::uint32_t first, std::uint32_t second, const Touches& touches);
   void HoldBack();
   bool MustNotOverlap(double overlap, double before) const;
   bool HoldPair(std::uint32_t a, std::uint32_t b);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine_worker/engines/kinematics2d/kinematic_limits.h"
 #include "engine_worker/engines/kinematics2d/vectors.h"
 
 namespace swarmanoid::kinematics2d
@@ -64,19 +65,18 @@ unsigned CirclesNear(const CollisionModel& model, const Centres& centres, double
   return hits;
 }
 
-void CirclesWithCircles(const Placed& a, const Placed& b, const Centres& of_a, const Centres& of_b, double margin,
-                        Touches& touches)
+void CirclesWithCircles(const Placed& a, const Placed& b, const Centres& of_a, const Centres& of_b, Touches& touches)
 {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
   for (int m = 0; m < b.model->circles; ++m)
   {
     const double radius = b.model->circle_radius[m];
-    unsigned hits = CirclesNear(*a.model, of_a, dx + of_b.x[m], dy + of_b.y[m], radius + margin);
+    unsigned hits = CirclesNear(*a.model, of_a, dx + of_b.x[m], dy + of_b.y[m], radius + touches.Margin());
     for (; hits != 0; hits &= hits - 1)
     {
       const auto k = static_cast<std::size_t>(__builtin_ctz(hits));
-      touches.Add({of_a.x[k] - of_b.x[m], of_a.y[k] - of_b.y[m], a.model->circle_radius[k] + radius, false, 0});
+      touches.Add(of_a.x[k] - of_b.x[m], of_a.y[k] - of_b.y[m], a.model->circle_radius[k] + radius, false);
     }
   }
 }
@@ -84,7 +84,7 @@ void CirclesWithCircles(const Placed& a, const Placed& b, const Centres& of_a, c
 // The circle around (x, y), relative to the polygon's body, against the polygon. `sign` is 1 where the circle belongs
 // to the first body of the pair, else -1.
 void CircleWithPolygon(double x, double y, double radius, double offset_x, double offset_y, const Polygon& polygon,
-                       const Axes& axes, double sign, double margin, Touches& touches)
+                       const Axes& axes, double sign, Touches& touches)
 {
   const Point q = axes.ToLocal(x, y);
   int best = 0;
@@ -98,7 +98,7 @@ void CircleWithPolygon(double x, double y, double radius, double offset_x, doubl
       best = k;
     }
   }
-  if (separation > radius + margin) return;
+  if (separation > radius + touches.Margin()) return;
 
   // Outside and beyond an end of the nearest edge: the corner counts, as a circle of radius 0.
   if (separation > 0)
@@ -113,19 +113,19 @@ void CircleWithPolygon(double x, double y, double radius, double offset_x, doubl
       const int corner = before ? best : next;
       const double corner_x = q.x - polygon.x[corner];
       const double corner_y = q.y - polygon.y[corner];
-      if (corner_x * corner_x + corner_y * corner_y > (radius + margin) * (radius + margin)) return;
+      if (corner_x * corner_x + corner_y * corner_y > (radius + touches.Margin()) * (radius + touches.Margin())) return;
       const Point p = axes.ToWorld(polygon.x[corner], polygon.y[corner]);
-      touches.Add({sign * (offset_x - p.x), sign * (offset_y - p.y), radius, false, 0});
+      touches.Add(sign * (offset_x - p.x), sign * (offset_y - p.y), radius, false);
       return;
     }
   }
   const Point n = axes.ToWorld(polygon.nx[best], polygon.ny[best]);
   const double reach = radius + polygon.offset[best] - (n.x * offset_x + n.y * offset_y);
-  touches.Add({sign * n.x, sign * n.y, reach, true, 0});
+  touches.Add(sign * n.x, sign * n.y, reach, true);
 }
 
 void CirclesWithPolygons(const Placed& circles, const Placed& polygons, const Centres& centres, double sign,
-                         double margin, Touches& touches)
+                         Touches& touches)
 {
   const double dx = circles.x - polygons.x;
   const double dy = circles.y - polygons.y;
@@ -133,12 +133,13 @@ void CirclesWithPolygons(const Placed& circles, const Placed& polygons, const Ce
   {
     const Axes axes = AxesOf(polygons, polygon);
     const Point centre = axes.ToWorld(polygon.centre_x, polygon.centre_y);
-    unsigned near = CirclesNear(*circles.model, centres, centre.x - dx, centre.y - dy, polygon.radius + margin);
+    unsigned near =
+        CirclesNear(*circles.model, centres, centre.x - dx, centre.y - dy, polygon.radius + touches.Margin());
     for (; near != 0; near &= near - 1)
     {
       const auto k = static_cast<std::size_t>(__builtin_ctz(near));
       CircleWithPolygon(dx + centres.x[k], dy + centres.y[k], circles.model->circle_radius[k], centres.x[k],
-                        centres.y[k], polygon, axes, sign, margin, touches);
+                        centres.y[k], polygon, axes, sign, touches);
     }
   }
 }
@@ -170,7 +171,7 @@ double SeparationAlong(const Polygon& faces, const Polygon& other, const Axes& f
   return separation;
 }
 
-void PolygonsWithPolygons(const Placed& a, const Placed& b, double margin, Touches& touches)
+void PolygonsWithPolygons(const Placed& a, const Placed& b, Touches& touches)
 {
   const double dx = a.x - b.x;
   const double dy = a.y - b.y;
@@ -184,57 +185,66 @@ void PolygonsWithPolygons(const Placed& a, const Placed& b, double margin, Touch
       const Point centre_b = axes_b.ToWorld(pb.centre_x, pb.centre_y);
       const double x = dx + centre_a.x - centre_b.x;
       const double y = dy + centre_a.y - centre_b.y;
-      const double limit = pa.radius + pb.radius + margin;
+      const double limit = pa.radius + pb.radius + touches.Margin();
       if (x * x + y * y > limit * limit) continue;
 
       int face_a = 0;
       int face_b = 0;
       const double along_b = SeparationAlong(pb, pa, axes_b, axes_a, dx, dy, face_b);
-      if (along_b > margin) continue;
+      if (along_b > touches.Margin()) continue;
       const double along_a = SeparationAlong(pa, pb, axes_a, axes_b, -dx, -dy, face_a);
-      if (along_a > margin) continue;
+      if (along_a > touches.Margin()) continue;
       const bool from_b = along_b >= along_a;
       const Point n =
           from_b ? axes_b.ToWorld(pb.nx[face_b], pb.ny[face_b]) : axes_a.ToWorld(-pa.nx[face_a], -pa.ny[face_a]);
       // depth = -separation at this place; reach makes it so.
       const double separation = from_b ? along_b : along_a;
-      touches.Add({n.x, n.y, n.x * dx + n.y * dy - separation, true, 0});
+      touches.Add(n.x, n.y, n.x * dx + n.y * dy - separation, true);
     }
   }
 }
 
 }  // namespace
 
+void Touches::Add(double x, double y, double reach, bool face)
+{
+  if (count_ == kMaximum) return;
+  Touch& touch = list_[static_cast<std::size_t>(count_)];
+  touch = {x, y, reach, face, 0};
+  touch.depth = DepthOf(touch, dx_, dy_);
+  if (touch.depth <= -margin_) return;
+  ++count_;
+  if (touch.depth <= deepest_) return;
+  deepest_ = touch.depth;
+  margin_ = std::min(margin_, kTouchesApart - deepest_);
+}
+
+void Touches::DropShallow()
+{
+  int kept = 0;
+  for (int k = 0; k < count_; ++k)
+    if (list_[k].depth >= -margin_) list_[kept++] = list_[k];
+  count_ = kept;
+}
+
 void FindTouches(const Placed& a, const Placed& b, double margin, Touches& touches)
 {
-  touches.count = 0;
+  touches.Begin(a.x - b.x, a.y - b.y, margin);
   Centres of_a, of_b;
   FindCentres(a, of_a);
   FindCentres(b, of_b);
-  CirclesWithCircles(a, b, of_a, of_b, margin, touches);
-  CirclesWithPolygons(a, b, of_a, 1, margin, touches);
-  CirclesWithPolygons(b, a, of_b, -1, margin, touches);
-  PolygonsWithPolygons(a, b, margin, touches);
-  for (int k = 0; k < touches.count; ++k) touches.list[k].depth = DepthOf(touches.list[k], a.x - b.x, a.y - b.y);
-}
-
-void Touches::KeepDeepest(double gap)
-{
-  double deepest = -1e300;
-  for (int k = 0; k < count; ++k) deepest = std::max(deepest, list[k].depth);
-  int kept = 0;
-  for (int k = 0; k < count; ++k)
-    if (list[k].depth >= deepest - gap) list[kept++] = list[k];
-  count = kept;
+  CirclesWithCircles(a, b, of_a, of_b, touches);
+  CirclesWithPolygons(a, b, of_a, 1, touches);
+  CirclesWithPolygons(b, a, of_b, -1, touches);
+  PolygonsWithPolygons(a, b, touches);
+  if (touches.Count() > 1) touches.DropShallow();
 }
 
 double Overlap(const Placed& a, const Placed& b)
 {
   Touches touches;
   FindTouches(a, b, 0, touches);
-  double depth = 0;
-  for (int k = 0; k < touches.count; ++k) depth = std::max(depth, DepthOf(touches.list[k], a.x - b.x, a.y - b.y));
-  return depth;
+  return std::max(0.0, touches.Deepest());
 }
 
 }  // namespace swarmanoid::kinematics2d

@@ -31,22 +31,37 @@ struct Touch
   double depth;  // where it was found
 };
 
-struct Touches
+// The touches of one pair. Those that are kTouchesApart less deep than the deepest one are left out.
+class Touches
 {
-  static constexpr int kMaximum = 24;
-  std::array<Touch, kMaximum> list;
-  int count = 0;
-
-  // Drops those that are more than `gap` less deep than the deepest one.
-  void KeepDeepest(double gap);
-  void Add(const Touch& touch)
+public:
+  // Touches less deep than -margin are of no interest.
+  void Begin(double dx, double dy, double margin)
   {
-    if (count < kMaximum) list[static_cast<std::size_t>(count++)] = touch;
+    count_ = 0;
+    dx_ = dx;
+    dy_ = dy;
+    deepest_ = -1e300;
+    margin_ = margin;
   }
+  void Add(double x, double y, double reach, bool face);
+  void DropShallow();
+  double Margin() const { return margin_; }
+  double Deepest() const { return deepest_; }
+  int Count() const { return count_; }
+  const Touch& operator[](int k) const { return list_[static_cast<std::size_t>(k)]; }
+
+private:
+  static constexpr int kMaximum = 24;
+  std::array<Touch, kMaximum> list_;
+  int count_;
+  double dx_, dy_;  // from the second body to the first
+  double deepest_, margin_;
 };
 
-// All places where the outlines overlap or are less than `margin` apart, with their depths.
+// All places where the outlines overlap or are less than `margin` apart.
 void FindTouches(const Placed& a, const Placed& b, double margin, Touches& touches);
+
 // The depth of a touch where the first body is (dx, dy) from the second.
 inline double DepthOf(const Touch& touch, double dx, double dy)
 {
