@@ -8,19 +8,23 @@ namespace
 {
 
 // "gripped": 1 + index of the entity that the gripper holds, 0 for none.
+constexpr AttributeSpec kMessage{"message", 3, 0,
+                                 "range and bearing: 1 while sending, then bytes 0..4 and 5..9 as one number each"};
 constexpr std::array kFootbot{
     AttributeSpec{"led", 12, 0,
                   "colours of the LED ring, counter-clockwise from 15 degrees left of the turret's front"},
     AttributeSpec{"beacon", 1, 0, "colour of the beacon"},
     AttributeSpec{"gripper_aperture", 1, 0, "aperture of the gripper in radians; 0 is closed"},
     AttributeSpec{"gripped", 1, 0, "1 + index of the entity held by the gripper; 0: none"},
-    AttributeSpec{"turret_angle", 1, 0, "angle of the turret against the body in radians"}};
+    AttributeSpec{"turret_angle", 1, 0, "angle of the turret against the body in radians"},
+    kMessage};
 constexpr std::array kEyebot{AttributeSpec{"led", 16, 0, "colours of the LED ring"},
                              AttributeSpec{"laser", 1, 0, "1 while the laser is on"},
                              AttributeSpec{"laser_colour", 1, 0xff0000, "colour of the laser"},
                              AttributeSpec{"laser_pan", 1, 0, "pan of the laser in radians"},
                              AttributeSpec{"laser_tilt", 1, 0, "tilt of the laser from straight down in radians"},
-                             AttributeSpec{"attached", 1, 0, "1 while attached to the ceiling"}};
+                             AttributeSpec{"attached", 1, 0, "1 while attached to the ceiling"},
+                             kMessage};
 constexpr std::array kHandbot{
     AttributeSpec{"led", 12, 0, "colours of the LED ring"},
     AttributeSpec{"beacon", 1, 0, "colour of the beacon"},
@@ -30,7 +34,8 @@ constexpr std::array kHandbot{
     AttributeSpec{"hand_aperture", 2, 0, "apertures of the left and the right hand in radians; 0 is closed"},
     AttributeSpec{"gripped", 2, 0, "1 + index of the entity held by the left and the right hand; 0: none"},
     AttributeSpec{"rope_attached", 1, 0, "1 while the rope is attached to the ceiling"},
-    AttributeSpec{"rope_length", 1, 0, "free length of the rope in metres"}};
+    AttributeSpec{"rope_length", 1, 0, "free length of the rope in metres"},
+    kMessage};
 constexpr std::array kColoured{AttributeSpec{"colour", 1, 0xc0c0c0, "colour of the surface"}};
 constexpr std::array kLight{AttributeSpec{"colour", 1, 0xffff00, "colour of the light"},
                             AttributeSpec{"intensity", 1, 1, "intensity of the light"}};

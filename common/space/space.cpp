@@ -118,6 +118,7 @@ void CSwarmanoidSpace::SetPoses(std::span<const std::uint32_t> entities, std::sp
 
 void CSwarmanoidSpace::SetAttributes(const AttributeChanges& changes)
 {
+  if (!changes.slots.empty()) ++attribute_revision_;
   for (std::size_t k = 0; k < changes.slots.size(); ++k) attributes_[changes.slots[k]] = changes.values[k];
 }
 
@@ -133,6 +134,7 @@ void CSwarmanoidSpace::Apply(const SpaceSnapshot& snapshot)
   tick_ = snapshot.tick;
   SetPoses(movable_, snapshot.poses);
   attributes_ = snapshot.attributes;
+  ++attribute_revision_;
 }
 
 void CSwarmanoidSpace::WritePoses(std::vector<double>& poses) const

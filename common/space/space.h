@@ -51,13 +51,19 @@ public:
 
   // Changes with every change of a pose, so that indexes know when to follow.
   std::uint64_t Revision() const { return revision_; }
+  // Likewise with every change of an attribute.
+  std::uint64_t AttributeRevision() const { return attribute_revision_; }
 
   // Changes of the state, for the role that owns this space.
   void SetTick(std::uint64_t tick) { tick_ = tick; }
   void SetPose(std::size_t index, const Pose& pose);
   // poses: structure of arrays over `entities`, as in EngineUpdate.
   void SetPoses(std::span<const std::uint32_t> entities, std::span<const double> poses);
-  void SetAttribute(std::uint32_t slot, double value) { attributes_[slot] = value; }
+  void SetAttribute(std::uint32_t slot, double value)
+  {
+    ++attribute_revision_;
+    attributes_[slot] = value;
+  }
   void SetAttributes(const AttributeChanges& changes);
 
   // Brings a replica to the tick of the message.
@@ -72,6 +78,7 @@ private:
   const Experiment& experiment_;
   std::uint64_t tick_ = 0;
   std::uint64_t revision_ = 1;
+  std::uint64_t attribute_revision_ = 1;
   PoseArrays poses_;
   std::vector<double> attributes_;
   std::vector<std::uint32_t> movable_;

@@ -21,6 +21,8 @@ public:
     return shared_[class_of_[a] * class_count_ + class_of_[b]] != 0;
   }
 
+  bool IsInSomeEngine(std::uint32_t entity) const { return ShareEngine(entity, entity); }
+
 private:
   std::vector<std::uint32_t> class_of_;  // entities in the same set of engines are of one class
   std::size_t class_count_ = 0;

@@ -136,11 +136,12 @@ FixedBodies::FixedBodies(const CSwarmanoidSpace& space, std::span<const BodyShap
   const Extent extent = ExtentOf(space);
   frame_ = CellFrame::Over(extent.left, extent.bottom, extent.width, extent.height, kSmallestCell,
                            fixed.empty() ? 1 : kCells);
+  margin_ = MarginOf(extent);
 
   // For each body the rectangle of cells around its bounding circle or box; in it, the cells whose centre is near
   // enough.
   const double cell = 1 / static_cast<double>(frame_.inverse_size);
-  const double around = reach + static_cast<double>(MarginOf(extent)) + cell * 0.70711;
+  const double around = reach + static_cast<double>(margin_) + cell * 0.70711;
   std::vector<std::vector<std::uint32_t>> lists(frame_.Cells());
   for (const std::uint32_t e : fixed)
   {

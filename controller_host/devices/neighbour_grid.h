@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #if defined(__SSE2__)
@@ -54,6 +55,10 @@ struct CellFrame
 
   int Column(float x) const { return Clamped((x - left) * inverse_size, columns); }
   int Row(float y) const { return Clamped((y - bottom) * inverse_size, rows); }
+  // Calls visit(first, last) with the range of cells, row by row, that come within `width` of the segment between two
+  // points.
+  template <class Visit>
+  void ForEachSpanAlong(float x0, float y0, float x1, float y1, float width, Visit&& visit) const;
   std::size_t Cells() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 
 private:
@@ -78,6 +83,9 @@ public:
   // order of the cells, and for few others.
   template <class Visit>
   void ForEachNear(double x, double y, double reach, Visit&& visit) const;
+  // The same for bodies whose circle comes near the segment between two points in the xy plane.
+  template <class Visit>
+  void ForEachAlong(const Vector3& from, const Vector3& to, Visit&& visit) const;
 
 private:
   const CSwarmanoidSpace& space_;
@@ -112,11 +120,96 @@ public:
     return {entities_.data() + start_[cell], start_[cell + 1] - start_[cell]};
   }
 
+  // Calls visit(entity), perhaps more than once, for every body that the segment may touch if the reach is at least 0.
+  template <class Visit>
+  void ForEachAlong(const Vector3& from, const Vector3& to, Visit&& visit) const
+  {
+    frame_.ForEachSpanAlong(static_cast<float>(from.x()), static_cast<float>(from.y()), static_cast<float>(to.x()),
+                            static_cast<float>(to.y()), margin_,
+                            [&](std::size_t first, std::size_t last)
+                            {
+                              for (std::size_t i = start_[first]; i < start_[last + 1]; ++i) visit(entities_[i]);
+                            });
+  }
+  // Likewise for every body that comes near the square of half side `reach` around (x, y).
+  template <class Visit>
+  void ForEachInSquare(double x, double y, double reach, Visit&& visit) const
+  {
+    const auto row_of = [&](double at) { return static_cast<std::size_t>(frame_.Row(static_cast<float>(at))); };
+    const auto column_of = [&](double at) { return static_cast<std::size_t>(frame_.Column(static_cast<float>(at))); };
+    const double wide = reach + static_cast<double>(margin_);
+    const std::size_t last_row = row_of(y + wide);
+    for (std::size_t row = row_of(y - wide); row <= last_row; ++row)
+    {
+      const std::size_t line = row * static_cast<std::size_t>(frame_.columns);
+      const std::size_t end = start_[line + column_of(x + wide) + 1];
+      for (std::size_t i = start_[line + column_of(x - wide)]; i < end; ++i) visit(entities_[i]);
+    }
+  }
+
 private:
   CellFrame frame_;
+  float margin_ = 0;
   std::vector<std::uint32_t> start_;
   std::vector<std::uint32_t> entities_;
 };
+
+template <class Visit>
+void CellFrame::ForEachSpanAlong(float x0, float y0, float x1, float y1, float width, Visit&& visit) const
+{
+  if (y0 > y1)
+  {
+    std::swap(x0, x1);
+    std::swap(y0, y1);
+  }
+  const int first_row = Row(y0 - width);
+  const int last_row = Row(y1 + width);
+  const float size = 1 / inverse_size;
+  const float slope = y1 > y0 ? (x1 - x0) / (y1 - y0) : 0;
+  for (int row = first_row; row <= last_row; ++row)
+  {
+    // The part of the segment within `width` of this row, border rows reaching to infinity.
+    const float low = bottom + static_cast<float>(row) * size - width;
+    const float high = bottom + static_cast<float>(row + 1) * size + width;
+    const float from = row == 0 || low <= y0 ? x0 : x0 + (low - y0) * slope;
+    const float to = row == rows - 1 || high >= y1 ? x1 : x0 + (high - y0) * slope;
+    // One cell more at either end covers the rounding of the slope.
+    const int first_column = std::max(Column(std::min(from, to) - width) - 1, 0);
+    const int last_column = std::min(Column(std::max(from, to) + width) + 1, columns - 1);
+    const auto line = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns);
+    visit(line + static_cast<std::size_t>(first_column), line + static_cast<std::size_t>(last_column));
+  }
+}
+
+template <class Visit>
+void NeighbourGrid::ForEachAlong(const Vector3& from, const Vector3& to, Visit&& visit) const
+{
+  const auto x0 = static_cast<float>(from.x());
+  const auto y0 = static_cast<float>(from.y());
+  const auto step_x = static_cast<float>(to.x() - from.x());
+  const auto step_y = static_cast<float>(to.y() - from.y());
+  const float length = __builtin_sqrtf(step_x * step_x + step_y * step_y);
+  frame_.ForEachSpanAlong(x0, y0, static_cast<float>(to.x()), static_cast<float>(to.y()), largest_radius_ + margin_,
+                          [&](std::size_t first, std::size_t last)
+                          {
+                            const std::size_t end = start_[last + 1];
+                            for (std::size_t i = start_[first]; i < end; i += kLanes)
+                            {
+                              const FloatLanes dx = *reinterpret_cast<const FloatLanes*>(&x_[i]) - x0;
+                              const FloatLanes dy = *reinterpret_cast<const FloatLanes*>(&y_[i]) - y0;
+                              const FloatLanes cut = *reinterpret_cast<const FloatLanes*>(&radius_[i]) + margin_;
+                              // Within the cut of the line, and not beyond either end.
+                              const FloatLanes across = dx * step_y - dy * step_x;
+                              const FloatLanes along = dx * step_x + dy * step_y;
+                              const FloatLanes beyond = cut * length;
+                              unsigned hits = LaneMask((across <= beyond) & (across >= -beyond) & (along >= -beyond) &
+                                                       (along <= length * length + beyond));
+                              if (end - i < kLanes) hits &= (1U << (end - i)) - 1U;
+                              for (; hits != 0; hits &= hits - 1)
+                                visit(entity_[i + static_cast<unsigned>(__builtin_ctz(hits))]);
+                            }
+                          });
+}
 
 template <class Visit>
 void NeighbourGrid::ForEachNear(double x, double y, double reach, Visit&& visit) const

@@ -14,10 +14,16 @@ void RegisterBuiltinDevices()
     RegisterFootbotTurret();
     RegisterFootbotEncoders();
     RegisterFootbotAccelerometer();
+    RegisterFootbotLight();
+    RegisterFootbotGround();
     RegisterLeds();
     RegisterPreferentialDirection();
+    RegisterColourCameras();
+    RegisterPieCamera();
+    RegisterRangeAndBearing();
     RegisterEyebotPropellers();
     RegisterEyebotAttachment();
+    RegisterEyebotAltitude();
     RegisterEyebotLaser();
     RegisterHandbotJoints();
     RegisterHandbotRope();

@@ -11,6 +11,7 @@ SensorWorld::SensorWorld(const CSwarmanoidSpace& space)
       bodies_(BodiesOf(space)),
       membership_(space.GetExperiment()),
       grid_(space, bodies_),
+      fixed_(space, bodies_, 0),
       revision_(space.Revision() - 1)
 {
 }

@@ -2,6 +2,7 @@
 // and the grid of neighbours of the current tick. One thread at a time, as the space itself.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -23,6 +24,18 @@ public:
   // Brings the grid to the poses of the space, once for all batches of a step.
   void Refresh();
 
+  // The part 0..1 of the way from one point to another at which it meets the first body for which accept(entity) holds;
+  // more than 1 where it meets none.
+  template <class Accept>
+  double FirstHit(const Vector3& from, const Vector3& to, Accept&& accept) const;
+  // Whether `body` can hide things from `observer`: they share an engine, or the body stands in the space without being
+  // part of any engine's world.
+  bool CanHideFrom(std::uint32_t observer, std::uint32_t body) const
+  {
+    return membership_.ShareEngine(observer, body) ||
+           (!membership_.IsInSomeEngine(body) && !space_.GetEntity(body).IsMovable());
+  }
+
   const CSwarmanoidSpace& Space() const { return space_; }
   const BodyShape& Body(std::uint32_t entity) const { return bodies_[entity]; }
   std::span<const BodyShape> Bodies() const { return bodies_; }
@@ -34,7 +47,22 @@ private:
   std::vector<BodyShape> bodies_;
   EngineMembership membership_;
   NeighbourGrid grid_;
+  FixedBodies fixed_;
   std::uint64_t revision_;  // of the poses in the grid
 };
+
+template <class Accept>
+double SensorWorld::FirstHit(const Vector3& from, const Vector3& to, Accept&& accept) const
+{
+  double first = 2;
+  const auto test = [&](std::uint32_t body)
+  {
+    if (!accept(body)) return;
+    if (const auto hit = SegmentHit(bodies_[body], space_.GetPose(body), from, to)) first = std::min(first, *hit);
+  };
+  grid_.ForEachAlong(from, to, test);
+  fixed_.ForEachAlong(from, to, test);
+  return first;
+}
 
 }  // namespace swarmanoid

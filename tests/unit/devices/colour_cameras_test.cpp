@@ -1,0 +1,308 @@
+#include "common/control_interface/ci_colour_blob_sensor.h"
+#include "common/control_interface/ci_pie_camera_sensor.h"
+#include "controller_host/devices/blob_sources.h"
+#include "tests/unit/devices/test_world.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr double kBody = 0.085036758;
+
+void Paint(TestWorld& world, std::uint32_t entity, std::uint32_t colour)
+{
+  for (int led = 0; led < 12; ++led) world.Space().GetEntity(entity).SetAttribute("led", colour, led);
+}
+
+std::span<const CCI_ColourBlob> BlobsOf(TestSensor& camera, std::size_t k)
+{
+  return camera.Of<CCI_ColourBlobSensor>(k).GetAllBlobs();
+}
+
+TEST(ColourCameras, OmnidirectionalCameraSeesLitRobotsAroundAtTheirDistanceAndAngle)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5, kPi / 2);
+  world.AddFootbot(5.4, 5);
+  world.AddFootbot(5, 5.3);
+  world.AddFootbot(4.5, 5);  // dark
+  TestSensor camera(world, "footbot_omnidirectional_camera", "generic_footbot_omnidirectional_camera", {0});
+  Paint(world, 1, CCI_Colour::RED);
+  Paint(world, 2, CCI_Colour::BLUE);
+  camera.Update();
+  ASSERT_EQ(BlobsOf(camera, 0).size(), 2U);
+  const CCI_ColourBlob* red = camera.Of<CCI_ColourBlobSensor>(0).GetNearestBlob(CCI_Colour::RED);
+  const CCI_ColourBlob* blue = camera.Of<CCI_ColourBlobSensor>(0).GetNearestBlob(CCI_Colour::BLUE);
+  ASSERT_NE(red, nullptr);
+  ASSERT_NE(blue, nullptr);
+  EXPECT_NEAR(red->distance_m, 0.4, 1e-12);
+  EXPECT_NEAR(red->angle_rad, -kPi / 2, 1e-12);
+  EXPECT_NEAR(blue->distance_m, 0.3, 1e-12);
+  EXPECT_NEAR(blue->angle_rad, 0, 1e-12);
+  EXPECT_EQ(camera.Of<CCI_ColourBlobSensor>(0).GetNearestBlob(CCI_Colour::GREEN), nullptr);
+}
+
+TEST(ColourCameras, ViewEndsWhereTheApertureSays)
+{
+  // Eye at 0.2887 m, LEDs at 0.085 m, 70 degrees: 0.5597 m.
+  for (const double distance : {0.559, 0.561})
+  {
+    TestWorld world;
+    world.AddFootbot(5, 5);
+    world.AddFootbot(5 + distance, 5);
+    TestSensor camera(world, "footbot_omnidirectional_camera", "generic_footbot_omnidirectional_camera", {0});
+    Paint(world, 1, CCI_Colour::RED);
+    camera.Update();
+    EXPECT_EQ(BlobsOf(camera, 0).size(), distance < 0.56 ? 1U : 0U);
+  }
+}
+
+TEST(ColourCameras, LedsOfOneColourAreOneBlobAtTheirMiddleAndTurnWithTheTurret)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  world.AddFootbot(5.4, 5, kPi / 2);
+  auto& other = world.Space().GetEntity(1);
+  for (int led = 0; led < 3; ++led) other.SetAttribute("led", CCI_Colour::RED, led);  // middle at 45 degrees
+  other.SetAttribute("led", CCI_Colour::GREEN, 7);
+  other.SetAttribute("turret_angle", -kPi / 4);
+  other.SetAttribute("beacon", CCI_Colour::WHITE);
+  SensorWorld sensor_world(world.Space());
+  sensor_world.Refresh();
+  BlobSources sources(sensor_world);
+  sources.Refresh();
+  ASSERT_EQ(sources.On(1).size(), 3U);
+  const double ring = kBody + 0.005;
+  EXPECT_EQ(sources.On(1)[0].colour, CCI_Colour::WHITE);
+  EXPECT_NEAR((sources.On(1)[0].position - Vector3(5.4, 5, 0.174)).norm(), 0, 1e-12);
+  // 90 - 45 + 45 degrees in the space.
+  const double middle = ring * (1 + 2 * std::cos(kPi / 6)) / 3;
+  EXPECT_NEAR((sources.On(1)[1].position - Vector3(5.4, 5 + middle, 0.085)).norm(), 0, 1e-12);
+  const double green = (90 - 45 + 15 + 7 * 30) * kPi / 180;
+  EXPECT_NEAR(
+      (sources.On(1)[2].position - Vector3(5.4 + ring * std::cos(green), 5 + ring * std::sin(green), 0.085)).norm(), 0,
+      1e-12);
+}
+
+TEST(ColourCameras, ATallBlockHidesWhatIsBehindIt)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  world.AddFootbot(5.5, 5);
+  world.AddFootbot(5, 5.5);
+  world.AddBlock({5.25, 5, 0.25}, {0.05, 0.2, 0.5});
+  TestSensor camera(world, "footbot_omnidirectional_camera", "generic_footbot_omnidirectional_camera", {0});
+  Paint(world, 1, CCI_Colour::RED);
+  Paint(world, 2, CCI_Colour::RED);
+  camera.Update();
+  ASSERT_EQ(BlobsOf(camera, 0).size(), 1U);
+  EXPECT_NEAR(BlobsOf(camera, 0)[0].angle_rad, kPi / 2, 1e-12);
+}
+
+TEST(ColourCameras, RobotsSeeTheLedsOfAnotherWorldButItsBodiesHideNothing)
+{
+  TestWorld world;
+  world.AddEngine("other");
+  world.AddFootbot(5, 5);
+  world.AddFootbot(5.5, 5);
+  // A tall pillar of the other world between them, and a target of that world behind another pillar of it.
+  world.Add(EntityKind::kBlock, {5.25, 5, 0.25}, 0, {0.05, 0.2, 0.5}, false, 1);
+  world.AddFootbot(5, 5.5, 0, 0, 1);
+  world.Add(EntityKind::kBlock, {5, 5.25, 0.25}, 0, {0.2, 0.05, 0.5}, false, 1);
+  TestSensor camera(world, "footbot_omnidirectional_camera", "generic_footbot_omnidirectional_camera", {0});
+  Paint(world, 1, CCI_Colour::RED);
+  Paint(world, 3, CCI_Colour::GREEN);
+  camera.Update();
+  ASSERT_EQ(BlobsOf(camera, 0).size(), 1U);
+  EXPECT_EQ(BlobsOf(camera, 0)[0].colour, CCI_Colour::RED);
+}
+
+TEST(ColourCameras, EyebotSeesPreysPatchesAndFootbotsBelow)
+{
+  TestWorld world;
+  world.AddEngine("sky");
+  world.AddEyebot(5, 5, 2, kPi, 1);
+  world.AddFootbot(5.5, 5);
+  const auto prey = world.AddPrey(5, 5.6, 0.1, 0.1);
+  world.Configuration().entities[prey].colour = CCI_Colour::MAGENTA;
+  const auto nest = world.Add(EntityKind::kGroundPatch, {4.3, 5, 0}, 0, {1, 1, 0}, false, -1);
+  world.Configuration().entities[nest].colour = CCI_Colour::GREEN;
+  world.AddPrey(7, 5, 0.1, 0.1);  // beyond 2 m * tan 30 degrees = 1.155 m
+  TestSensor camera(world, "eyebot_camera", "generic_eyebot_camera", {0});
+  Paint(world, 1, CCI_Colour::BLUE);
+  camera.Update();
+  const auto& sensor = camera.Of<CCI_ColourBlobSensor>(0);
+  EXPECT_EQ(sensor.GetAllBlobs().size(), 3U);
+  ASSERT_NE(sensor.GetNearestBlob(CCI_Colour::BLUE), nullptr);
+  EXPECT_NEAR(sensor.GetNearestBlob(CCI_Colour::BLUE)->distance_m, 0.5, 1e-12);
+  EXPECT_NEAR(std::abs(sensor.GetNearestBlob(CCI_Colour::BLUE)->angle_rad), kPi, 1e-12);
+  EXPECT_NEAR(sensor.GetNearestBlob(CCI_Colour::MAGENTA)->angle_rad, -kPi / 2, 1e-12);
+  EXPECT_NEAR(sensor.GetNearestBlob(CCI_Colour::GREEN)->distance_m, 0.7, 1e-12);
+  EXPECT_NEAR(sensor.GetNearestBlob(CCI_Colour::GREEN)->angle_rad, 0, 1e-12);
+}
+
+TEST(ColourCameras, LaserSpotLiesWhereTheBeamMeetsFloorOrRobotAndFootbotsSeeIt)
+{
+  TestWorld world;
+  world.AddEngine("sky");
+  world.AddFootbot(5, 5);
+  const auto eyebot = world.AddEyebot(5, 6, 1, kPi / 2, 1);
+  const auto lit = world.AddFootbot(8, 8);
+  TestSensor camera(world, "footbot_omnidirectional_camera", "generic_footbot_omnidirectional_camera", {0});
+  CSwarmanoidSpace& space = world.Space();
+  auto& laser = space.GetEntity(eyebot);
+  const auto spots = [&]
+  {
+    SensorWorld sensor_world(space);
+    sensor_world.Refresh();
+    BlobSources sources(sensor_world);
+    sources.Refresh();
+    return std::vector<BlobSource>(sources.Free().begin(), sources.Free().end());
+  };
+  EXPECT_TRUE(spots().empty());
+
+  // Heading north, pan 180 degrees: the beam leans south.
+  laser.SetAttribute("laser", 1);
+  laser.SetAttribute("laser_pan", kPi);
+  laser.SetAttribute("laser_tilt", std::atan(0.5));
+  ASSERT_EQ(spots().size(), 1U);
+  EXPECT_EQ(spots()[0].colour, CCI_Colour::RED);
+  EXPECT_NEAR((spots()[0].position - Vector3(5, 5.5, 0)).norm(), 0, 1e-12);
+  camera.Update();
+  ASSERT_EQ(BlobsOf(camera, 0).size(), 1U);
+  EXPECT_NEAR(BlobsOf(camera, 0)[0].distance_m, 0.5, 1e-9);
+  EXPECT_NEAR(BlobsOf(camera, 0)[0].angle_rad, kPi / 2, 1e-9);
+
+  // Onto the top of a robot.
+  space.SetPose(lit, {{5, 6, 0}, Quaternion::Identity()});
+  laser.SetAttribute("laser_tilt", 0);
+  ASSERT_EQ(spots().size(), 1U);
+  EXPECT_NEAR((spots()[0].position - Vector3(5, 6, 0.146899733)).norm(), 0, 1e-12);
+}
+
+TEST(ColourCameras, NoiseOfReadingsHasTheGivenDeviation)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  world.AddFootbot(5.4, 5);
+  TestSensor camera(world, "footbot_omnidirectional_camera", "generic_footbot_omnidirectional_camera", {0},
+                    {{"distance_noise_kind", "gaussian"}, {"distance_noise_deviation", "0.02"}});
+  Paint(world, 1, CCI_Colour::RED);
+  double sum = 0, squares = 0;
+  constexpr int kTicks = 10000;
+  for (int tick = 0; tick < kTicks; ++tick)
+  {
+    world.Space().SetTick(static_cast<std::uint64_t>(tick));
+    camera.Update();
+    const double error = BlobsOf(camera, 0)[0].distance_m - 0.4;
+    ASSERT_NEAR(BlobsOf(camera, 0)[0].angle_rad, 0, 1e-12);
+    sum += error;
+    squares += error * error;
+  }
+  EXPECT_NEAR(sum / kTicks, 0, 4 * 0.02 / 100);
+  EXPECT_NEAR(std::sqrt(squares / kTicks), 0.02, 4 * 0.02 / 141);
+}
+
+TEST(ColourCameras, PixelCameraIsAtMostOnePixelOffWithoutNoise)
+{
+  for (const char* robot : {"footbot", "eyebot"})
+  {
+    TestWorld world;
+    RandomStream random(3, 3, 3, 3);
+    const bool is_footbot = robot == std::string("footbot");
+    if (is_footbot)
+      world.AddFootbot(5, 5);
+    else
+      world.AddEyebot(5, 5, 2);
+    for (int n = 0; n < 12; ++n) world.AddFootbot(5 + random.Uniform(-0.5, 0.5), 5 + random.Uniform(-0.5, 0.5));
+    const std::string label = is_footbot ? "footbot_omnidirectional_camera" : "eyebot_camera";
+    TestSensor ideal(world, label, "generic_" + label, {0});
+    TestSensor pixels(world, label, "pixel_noise_" + label, {0});
+    for (const std::uint32_t other : world.RobotsOf(EntityKind::kFootbot)) Paint(world, other, CCI_Colour::RED);
+    ideal.Update();
+    pixels.Update();
+    ASSERT_EQ(BlobsOf(pixels, 0).size(), BlobsOf(ideal, 0).size());
+    ASSERT_GT(BlobsOf(ideal, 0).size(), 2U);
+    const double height = is_footbot ? 0.2887 - 0.085 : 2 - 0.085;
+    const double radians_per_pixel = (is_footbot ? 70 : 30) * kPi / 180 / 240;
+    for (std::size_t i = 0; i < BlobsOf(ideal, 0).size(); ++i)
+    {
+      const double exact = std::atan2(BlobsOf(ideal, 0)[i].distance_m, height);
+      const double seen = std::atan2(BlobsOf(pixels, 0)[i].distance_m, height);
+      EXPECT_NEAR(seen, exact, 0.71 * radians_per_pixel);
+      EXPECT_NEAR(std::remainder(BlobsOf(pixels, 0)[i].angle_rad - BlobsOf(ideal, 0)[i].angle_rad, 2 * kPi), 0,
+                  0.71 * radians_per_pixel / exact + 1e-9);
+    }
+  }
+}
+
+TEST(ColourCameras, PixelCameraMissesTheGivenShare)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  world.AddFootbot(5.4, 5);
+  TestSensor camera(world, "footbot_omnidirectional_camera", "pixel_noise_footbot_omnidirectional_camera", {0},
+                    {{"miss_probability", "0.25"}, {"noise_kind", "gaussian"}, {"noise_deviation", "2"}});
+  Paint(world, 1, CCI_Colour::RED);
+  int seen = 0;
+  for (std::uint64_t tick = 0; tick < 4000; ++tick)
+  {
+    world.Space().SetTick(tick);
+    camera.Update();
+    seen += static_cast<int>(BlobsOf(camera, 0).size());
+  }
+  EXPECT_NEAR(seen / 4000.0, 0.75, 4 * std::sqrt(0.1875 / 4000));
+}
+
+TEST(ColourCameras, HandbotLooksAhead)
+{
+  TestWorld world;
+  world.Add(EntityKind::kHandbot, {5, 5, 0}, kPi / 2, {0.18, 0.17, 0.16});
+  world.AddFootbot(5, 6);
+  world.AddFootbot(5, 4);
+  TestSensor camera(world, "handbot_camera", "generic_handbot_camera", {0});
+  Paint(world, 1, CCI_Colour::RED);
+  Paint(world, 2, CCI_Colour::BLUE);
+  camera.Update();
+  ASSERT_EQ(BlobsOf(camera, 0).size(), 1U);
+  EXPECT_EQ(BlobsOf(camera, 0)[0].colour, CCI_Colour::RED);
+  EXPECT_NEAR(BlobsOf(camera, 0)[0].distance_m, std::hypot(0.91, 0.015), 1e-12);
+  EXPECT_NEAR(BlobsOf(camera, 0)[0].elevation_rad, std::atan2(-0.015, 0.91), 1e-12);
+}
+
+TEST(PieCamera, PutsTheNearestBlobOfEachColourIntoItsSector)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  world.AddFootbot(5.4, 5.05);  // sector 0
+  world.AddFootbot(5.9, 5.3);   // sector 0, farther
+  world.AddFootbot(5, 5.5);     // 90 degrees: sector 3
+  world.AddFootbot(5.4, 4.95);  // sector 11
+  TestSensor camera(world, "pie_camera", "generic_pie_camera", {0});
+  Paint(world, 1, CCI_Colour::RED);
+  Paint(world, 2, 0xa01010);  // a dark red
+  Paint(world, 3, CCI_Colour::GREEN);
+  Paint(world, 4, CCI_Colour::RED);
+  camera.Update();
+  const auto& pie = camera.Of<CCI_PieCameraSensor>(0);
+  EXPECT_EQ(pie.GetNumSectors(), 12U);
+  EXPECT_EQ(pie.GetSlice(CCI_Colour::RED, 0).blobs, 2U);
+  EXPECT_NEAR(pie.GetSlice(CCI_Colour::RED, 0).distance_m, std::hypot(0.4, 0.05), 1e-12);
+  EXPECT_EQ(pie.GetSlice(CCI_Colour::RED, 11).blobs, 1U);
+  EXPECT_EQ(pie.GetSlice(CCI_Colour::RED, 3).distance_m, CCI_PieCameraSensor::NOTHING);
+  EXPECT_NEAR(pie.GetSlice(CCI_Colour::GREEN, 3).distance_m, 0.5, 1e-12);
+  EXPECT_THROW(pie.GetAllSlices(0x123456), std::invalid_argument);
+}
+
+TEST(PieCamera, NumberOfSectorsIsAParameter)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  TestSensor camera(world, "pie_camera", "generic_pie_camera", {0}, {{"sectors", "8"}});
+  camera.Update();
+  EXPECT_EQ(camera.Of<CCI_PieCameraSensor>(0).GetAllSlices(CCI_Colour::BLUE).size(), 8U);
+}
+
+}  // namespace
+}  // namespace swarmanoid

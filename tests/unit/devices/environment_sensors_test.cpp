@@ -1,0 +1,112 @@
+// Light, ground and altitude against geometry worked out by hand.
+#include "common/control_interface/eyebot/ci_eyebot_altitude_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_ground_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_light_sensor.h"
+#include "tests/unit/devices/test_world.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+TEST(FootbotLight, FallsWithTheSquareOfTheDistanceAndTheAngle)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  const auto bulb = world.Add(EntityKind::kLightBulb, {8, 5, 0.06}, 0, {0, 0, 0}, false, -1);
+  world.Configuration().entities[bulb].intensity = 2;
+  TestSensor sensor(world, "footbot_light", "generic_footbot_light", {0});
+  sensor.Update();
+  const auto readings = sensor.Of<CCI_FootBotLightSensor>(0).GetAllSensorReadings();
+  const double brightness = 4.0 / 9;
+  for (unsigned i = 0; i < 24; ++i)
+  {
+    const double off = std::abs(std::remainder(7.5 + 15.0 * i, 360.0));
+    EXPECT_NEAR(readings[i], brightness * std::max(1 - off / 90, 0.0), 1e-12) << i;
+  }
+}
+
+TEST(FootbotLight, ShadowsAddUpAndCutOff)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  world.AddFootbot(5, 4);
+  world.AddFootbot(5.5, 5.03);  // stands in the light of the first bulb
+  world.Add(EntityKind::kLightBulb, {8, 5, 0.06}, 0, {0, 0, 0}, false, -1);
+  world.Add(EntityKind::kLightBulb, {5, 7, 0.06}, 0, {0, 0, 0}, false, -1);
+  TestSensor sensor(world, "footbot_light", "generic_footbot_light", {0, 1});
+  sensor.Update();
+  const auto readings = sensor.Of<CCI_FootBotLightSensor>(0).GetAllSensorReadings();
+  EXPECT_EQ(readings[0] > 0, true);  // 82.5 degrees off the second bulb
+  EXPECT_NEAR(readings[0], 0.25 * (1 - 82.5 / 90), 1e-12);
+  EXPECT_NEAR(readings[5], 0.25 * (1 - 7.5 / 90), 1e-12);
+  EXPECT_EQ(readings[23], 0);
+  // The second robot sees the first bulb; the first robot stands before the second bulb.
+  const auto other = sensor.Of<CCI_FootBotLightSensor>(1).GetAllSensorReadings();
+  const double angle = std::atan2(1, 3) * 180 / kPi;
+  EXPECT_NEAR(other[1], 0.1 * (1 - std::abs(22.5 - angle) / 90), 1e-12);
+
+  // Very near: cut to 1.
+  world.Space().SetPose(0, {{5, 6.9, 0}, Quaternion::Identity()});
+  sensor.Update();
+  EXPECT_EQ(sensor.Of<CCI_FootBotLightSensor>(0).GetLightSensorReading(5), 1);
+}
+
+TEST(FootbotGround, SeesPatchesHolesAndTheirOrder)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  const auto nest = world.Add(EntityKind::kGroundPatch, {5, 6, 0}, 0, {2, 2, 0}, false, -1);  // y from 5 to 7
+  world.Configuration().entities[nest].colour = 0x00ff00;
+  const auto disc = world.Add(EntityKind::kGroundPatch, {5, 5.1, 0}, 0, {0.05, 0, 0}, false, -1);
+  world.Configuration().entities[disc].colour = 0x808080;
+  TestSensor sensor(world, "footbot_ground", "generic_footbot_ground", {0});
+  sensor.Update();
+  const auto& ground = sensor.Of<CCI_FootBotGroundSensor>(0);
+  const auto readings = ground.GetAllSensorReadings();
+  EXPECT_EQ(ground.GetFloorColour(), 0x00ff00U);
+  EXPECT_NEAR(readings[1], 0.587, 1e-12);         // left front: nest
+  EXPECT_NEAR(readings[2], 0x80 / 255.0, 1e-12);  // left, (0, 0.08): disc on the nest
+  EXPECT_NEAR(readings[6], 1, 1e-12);             // right: bare floor
+
+  world.Space().GetEntity(nest).SetAttribute("colour", 0xffff00);  // an experiment changes the floor
+  sensor.Update();
+  EXPECT_EQ(ground.GetFloorColour(), 0xffff00U);
+
+  world.Space().SetPose(0, {{1, 1, 0}, Quaternion::Identity()});
+  sensor.Update();
+  EXPECT_EQ(ground.GetFloorColour(), 0xffffffU);
+}
+
+TEST(FootbotGround, HolesAreBlackAndTurnedPatchesAreTurned)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  world.Add(EntityKind::kHole, {5.08, 5, 0}, 0, {0.02, 0, 0}, false, -1);
+  const auto diamond = world.Add(EntityKind::kGroundPatch, {4.9, 5, 0}, kPi / 4, {0.06, 0.06, 0}, false, -1);
+  world.Configuration().entities[diamond].colour = 0xff0000;
+  TestSensor sensor(world, "footbot_ground", "generic_footbot_ground", {0}, {{"floor_colour", "#000000"}});
+  sensor.Update();
+  const auto readings = sensor.Of<CCI_FootBotGroundSensor>(0).GetAllSensorReadings();
+  EXPECT_EQ(readings[0], 0);
+  EXPECT_NEAR(readings[4], 0.299, 1e-12);  // the corner of the diamond reaches (4.942, 5)
+  EXPECT_EQ(readings[3], 0);
+}
+
+TEST(EyebotAltitude, MeasuresDownToFloorOrBlock)
+{
+  TestWorld world;
+  world.AddEngine("sky");
+  const auto eyebot = world.AddEyebot(5, 5, 2);
+  world.AddFootbot(5, 5, 0, 0, 1);  // of another world
+  world.AddBlock({7, 7, 0.3}, {1, 1, 0.6});
+  TestSensor sensor(world, "eyebot_altitude", "generic_eyebot_altitude", {eyebot});
+  sensor.Update();
+  EXPECT_EQ(sensor.Of<CCI_EyeBotAltitudeSensor>(0).GetAltitude(), 2);
+  world.Space().SetPose(eyebot, {{7.2, 6.8, 1.5}, Quaternion::Identity()});
+  sensor.Update();
+  EXPECT_NEAR(sensor.Of<CCI_EyeBotAltitudeSensor>(0).GetAltitude(), 0.9, 1e-12);
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,122 @@
+#include "common/control_interface/ci_range_and_bearing.h"
+
+#include <algorithm>
+
+#include "tests/unit/devices/test_world.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using Packets = std::span<const CCI_RangeAndBearingSensor::Packet>;
+
+Packets PacketsOf(TestSensor& sensor, std::size_t k) { return sensor.Of<CCI_RangeAndBearingSensor>(k).GetAllPackets(); }
+
+CCI_RangeAndBearingActuator::Message Numbered(std::uint8_t first)
+{
+  CCI_RangeAndBearingActuator::Message message;
+  for (std::uint8_t i = 0; i < message.size(); ++i) message[i] = static_cast<std::uint8_t>(first + 23 * i);
+  return message;
+}
+
+void Send(TestWorld& world, TestActuator& senders, const std::vector<std::size_t>& who)
+{
+  for (const std::size_t k : who)
+    senders.Of<CCI_RangeAndBearingActuator>(k).SetMessage(Numbered(static_cast<std::uint8_t>(200 + k)));
+  senders.Commit();
+  world.Space().SetAttributes(senders.changes);
+}
+
+TEST(RangeAndBearing, AllTenBytesArriveWithRangeAndBearing)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5, kPi / 2);
+  world.AddFootbot(6, 5);
+  world.AddEyebot(5, 6, 1);
+  world.AddFootbot(4, 5);    // silent
+  world.AddFootbot(8.1, 5);  // too far
+  const std::vector<std::uint32_t> robots{0, 1, 2, 3, 4};
+  TestActuator senders(world, "range_and_bearing", "generic_range_and_bearing", robots);
+  TestSensor receivers(world, "range_and_bearing", "generic_range_and_bearing", robots);
+  receivers.Update();
+  EXPECT_TRUE(PacketsOf(receivers, 0).empty());
+  Send(world, senders, {1, 2, 4});
+  receivers.Update();
+  ASSERT_EQ(PacketsOf(receivers, 0).size(), 2U);
+  for (const auto& packet : PacketsOf(receivers, 0))
+  {
+    if (packet.message == Numbered(201))
+    {
+      EXPECT_NEAR(packet.range_m, 1, 1e-12);
+      EXPECT_NEAR(packet.bearing_rad, -kPi / 2, 1e-12);
+      EXPECT_EQ(packet.vertical_bearing_rad, 0);
+    }
+    else
+    {
+      EXPECT_EQ(packet.message, Numbered(202));
+      EXPECT_NEAR(packet.range_m, std::sqrt(2), 1e-12);
+      EXPECT_NEAR(packet.bearing_rad, 0, 1e-12);
+      EXPECT_NEAR(packet.vertical_bearing_rad, kPi / 4, 1e-12);
+    }
+  }
+
+  senders.Of<CCI_RangeAndBearingActuator>(1).StopSending();
+  senders.Commit();
+  world.Space().SetAttributes(senders.changes);
+  receivers.Update();
+  EXPECT_EQ(PacketsOf(receivers, 0).size(), 1U);
+}
+
+TEST(RangeAndBearing, RobotsAndBlocksBlockIt)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  world.AddFootbot(7, 5);
+  world.AddFootbot(6, 5.08);  // overlaps the line
+  world.AddFootbot(5, 7);
+  world.AddFootbot(5.09, 6);  // just beside the line
+  world.AddFootbot(5, 3);
+  world.AddBlock({5, 4, 0.05}, {1, 0.02, 0.09});  // lower than the antenna
+  world.AddFootbot(3, 5);
+  world.AddBlock({4, 5, 0.055}, {0.02, 1, 0.11});  // higher than the antenna
+  const auto robots = world.RobotsOf(EntityKind::kFootbot);
+  TestActuator senders(world, "range_and_bearing", "generic_range_and_bearing", robots);
+  TestSensor receivers(world, "range_and_bearing", "generic_range_and_bearing", robots);
+  Send(world, senders, {1, 3, 5, 6});
+  receivers.Update();
+  std::vector<int> heard;
+  for (const auto& packet : PacketsOf(receivers, 0)) heard.push_back(packet.message[0] - 200);
+  std::sort(heard.begin(), heard.end());
+  EXPECT_EQ(heard, (std::vector<int>{3, 5}));
+}
+
+TEST(RangeAndBearing, LossAndNoiseAsAsked)
+{
+  TestWorld world;
+  for (int n = 0; n < 11; ++n) world.AddFootbot(5 + std::cos(0.5 * n), 5 + std::sin(0.5 * n));
+  world.AddFootbot(5, 5);
+  const auto robots = world.RobotsOf(EntityKind::kFootbot);
+  TestActuator senders(world, "range_and_bearing", "generic_range_and_bearing", robots);
+  TestSensor receivers(world, "range_and_bearing", "generic_range_and_bearing", {11},
+                       {{"loss_probability", "0.3"}, {"range_noise_kind", "uniform"}, {"range_noise_range", "0.1"}});
+  Send(world, senders, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+  int received = 0;
+  double squares = 0;
+  for (std::uint64_t tick = 0; tick < 1000; ++tick)
+  {
+    world.Space().SetTick(tick);
+    receivers.Update();
+    for (const auto& packet : PacketsOf(receivers, 0))
+    {
+      ++received;
+      ASSERT_NEAR(packet.range_m, 1, 0.1);
+      squares += (packet.range_m - 1) * (packet.range_m - 1);
+    }
+  }
+  EXPECT_NEAR(received / 11000.0, 0.7, 4 * std::sqrt(0.21 / 11000));
+  EXPECT_NEAR(squares / received, 0.01 / 3, 2e-4);
+}
+
+}  // namespace
+}  // namespace swarmanoid
