@@ -9,6 +9,8 @@ install(DIRECTORY common engine_worker controller_host visualiser space_server
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid
   FILES_MATCHING PATTERN "*.h" PATTERN "bus" EXCLUDE PATTERN "engines" EXCLUDE PATTERN "devices" EXCLUDE)
 
+install(DIRECTORY user/behavior_toolkit DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid/user FILES_MATCHING PATTERN "*.h")
+
 install(EXPORT SwarmanoidTargets NAMESPACE Swarmanoid:: DESTINATION ${PACKAGE_FOLDER})
 configure_package_config_file(cmake/SwarmanoidConfig.cmake.in ${CMAKE_BINARY_DIR}/SwarmanoidConfig.cmake
   INSTALL_DESTINATION ${PACKAGE_FOLDER})

@@ -13,7 +13,7 @@ endfunction()
 function(swarmanoid_controller name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} MODULE ${ARG_SOURCES})
-  target_link_libraries(${name} PRIVATE Swarmanoid::control_interface ${ARG_LINK})
+  target_link_libraries(${name} PRIVATE Swarmanoid::control_interface Swarmanoid::behavior_toolkit ${ARG_LINK})
 endfunction()
 
 # swarmanoid_controllers(FOLDER OUTPUT): one such library for each folder of FOLDER that has .cpp files, put into the folder

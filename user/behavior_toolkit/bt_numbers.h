@@ -1,0 +1,8 @@
+// Numbers in the saved states of behaviours: text that is read back with the same bits.
+#pragma once
+
+#include <iosfwd>
+
+void BTSaveNumber(std::ostream& state, double value);
+// Throws std::runtime_error where no number follows.
+double BTLoadNumber(std::istream& state);

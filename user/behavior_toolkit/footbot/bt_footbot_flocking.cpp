@@ -1,0 +1,63 @@
+#include "footbot/bt_footbot_flocking.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ci_colour.h"
+#include "common/math/elementary.h"
+#include "footbot/bt_footbot_drive.h"
+
+using namespace swarmanoid;
+
+namespace
+{
+
+// Forces are cut off at 1.8 times the wanted distance: only the first ring of neighbours counts.
+constexpr double kReach = 1.8;
+constexpr double kForceLimit = 1.0;
+constexpr double kLightWeight = 0.3;
+
+}  // namespace
+
+CBTFootbotFlocking::CBTFootbotFlocking(std::uint32_t colour, double wanted_distance, double speed)
+    : CCI_Behavior("flocking"), colour_(colour), wanted_distance_(wanted_distance), speed_(speed)
+{
+}
+
+void CBTFootbotFlocking::Step(CCI_FootBotState& cRobotState)
+{
+  double x = 0;
+  double y = 0;
+  unsigned neighbours = 0;
+  for (const CCI_ColourBlob& blob : cRobotState.GetColourBlobs())
+  {
+    if (CCI_Colour::Nearest(blob.colour) != CCI_Colour::Nearest(colour_)) continue;
+    if (blob.distance_m > kReach * wanted_distance_ || blob.distance_m <= 0) continue;
+    const double ratio = wanted_distance_ / blob.distance_m;
+    const double square = ratio * ratio;
+    const double force = std::clamp(-4 * (square * square - square) * ratio, -kForceLimit, kForceLimit);
+    const SinCos direction = SinCosOf(blob.angle_rad);
+    x += force * direction.cos;
+    y += force * direction.sin;
+    ++neighbours;
+  }
+  if (neighbours > 0)
+  {
+    x /= neighbours;
+    y /= neighbours;
+  }
+
+  double readings[CCI_FootBotState::NUM_LIGHT_SENSORS];
+  cRobotState.GetAllLightSensorReadings(readings);
+  for (unsigned i = 0; i < CCI_FootBotState::NUM_LIGHT_SENSORS; ++i)
+  {
+    const SinCos direction = SinCosOf(CCI_FootBotState::GetLightSensorAngle(i));
+    x += kLightWeight * readings[i] * direction.cos;
+    y += kLightWeight * readings[i] * direction.sin;
+  }
+  const double length = std::sqrt(x * x + y * y);
+  if (length < 1e-6)
+    cRobotState.SetFootBotWheelsAngularVelocity(0, 0);
+  else
+    BTFootbotSteer(cRobotState, Atan2(y, x), speed_ * std::min(1.0, 2 * length));
+}

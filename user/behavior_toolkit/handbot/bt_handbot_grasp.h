@@ -1,0 +1,29 @@
+// Grasps with both hands: opens the arms and hands, closes the arms about what is between them, and closes the hands.
+#pragma once
+
+#include "behavior/ci_behavior.h"
+#include "behavior/ci_handbot_state.h"
+#include "behavior/fsm.h"
+
+class CBTHandbotGrasp : public CCI_Behavior<CCI_HandBotState>, public FSM<std::string>
+{
+public:
+  static const unsigned int OPEN = 0;
+  static const unsigned int CLOSE_ARMS = 1;
+  static const unsigned int CLOSE_HANDS = 2;
+  static const unsigned int HOLD = 3;
+
+  // opening: radians that the arms open; arm_speed: rad/s.
+  explicit CBTHandbotGrasp(double opening = 0.6, double arm_speed = 0.5);
+
+  void Step(CCI_HandBotState& cRobotState) override;
+  std::string StatusText() const override { return GetStateName(); }
+  void SaveState(std::ostream& state) const override;
+  void LoadState(std::istream& state) override;
+  bool HasObject() const { return GetStateID() == HOLD; }
+
+private:
+  double opening_;
+  double arm_speed_;
+  double last_angle_ = 0;
+};
