@@ -65,18 +65,36 @@ unsigned CirclesNear(const CollisionModel& model, const Centres& centres, double
   return hits;
 }
 
+// All depths at once, without branches; then the few that count.
 void CirclesWithCircles(const Placed& a, const Placed& b, const Centres& of_a, const Centres& of_b, Touches& touches)
 {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
+  alignas(kVectorBytes) std::array<double, kCircles * kCircles> depths;
+  Doubles deepest = touches.Deepest() + Doubles{};
+  for (int m = 0; m < b.model->circles; ++m)
+    for (std::size_t k = 0; k < kCircles; k += kDoubles)
+    {
+      const Doubles x = LoadDoubles(&of_a.x[k]) - (dx + of_b.x[m]);
+      const Doubles y = LoadDoubles(&of_a.y[k]) - (dy + of_b.y[m]);
+      const Doubles reach = LoadDoubles(&a.model->circle_radius[k]) + b.model->circle_radius[m];
+      const Doubles depth = reach - SquareRoots(x * x + y * y);
+      Store(&depths[m * kCircles + k], depth);
+      deepest = depth > deepest ? depth : deepest;
+    }
+  for (std::size_t lane = 0; lane < kDoubles; ++lane) touches.NoteDepth(deepest[lane]);
+
+  const double shallowest = -touches.Margin();
   for (int m = 0; m < b.model->circles; ++m)
   {
-    const double radius = b.model->circle_radius[m];
-    unsigned hits = CirclesNear(*a.model, of_a, dx + of_b.x[m], dy + of_b.y[m], radius + touches.Margin());
+    unsigned hits = 0;
+    for (std::size_t k = 0; k < kCircles; k += kDoubles)
+      hits |= Bits(LoadDoubles(&depths[m * kCircles + k]) > shallowest) << k;
     for (; hits != 0; hits &= hits - 1)
     {
       const auto k = static_cast<std::size_t>(__builtin_ctz(hits));
-      touches.Add(of_a.x[k] - of_b.x[m], of_a.y[k] - of_b.y[m], a.model->circle_radius[k] + radius, false);
+      touches.Add({of_a.x[k] - of_b.x[m], of_a.y[k] - of_b.y[m], a.model->circle_radius[k] + b.model->circle_radius[m],
+                   false, depths[m * kCircles + k]});
     }
   }
 }
@@ -205,19 +223,6 @@ void PolygonsWithPolygons(const Placed& a, const Placed& b, Touches& touches)
 }
 
 }  // namespace
-
-void Touches::Add(double x, double y, double reach, bool face)
-{
-  if (count_ == kMaximum) return;
-  Touch& touch = list_[static_cast<std::size_t>(count_)];
-  touch = {x, y, reach, face, 0};
-  touch.depth = DepthOf(touch, dx_, dy_);
-  if (touch.depth <= -margin_) return;
-  ++count_;
-  if (touch.depth <= deepest_) return;
-  deepest_ = touch.depth;
-  margin_ = std::min(margin_, kTouchesApart - deepest_);
-}
 
 void Touches::DropShallow()
 {

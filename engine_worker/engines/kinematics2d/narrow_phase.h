@@ -2,10 +2,12 @@
 // bounding circles meet.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "engine_worker/engines/kinematics2d/collision_model.h"
+#include "engine_worker/engines/kinematics2d/kinematic_limits.h"
 #include "engine_worker/engines/kinematics2d/motion.h"
 
 namespace swarmanoid::kinematics2d
@@ -31,6 +33,15 @@ struct Touch
   double depth;  // where it was found
 };
 
+// The depth of a touch where the first body is (dx, dy) from the second.
+inline double DepthOf(const Touch& touch, double dx, double dy)
+{
+  if (touch.face) return touch.reach - (dx * touch.x + dy * touch.y);
+  const double x = dx + touch.x;
+  const double y = dy + touch.y;
+  return touch.reach - std::sqrt(x * x + y * y);
+}
+
 // The touches of one pair. Those that are kTouchesApart less deep than the deepest one are left out.
 class Touches
 {
@@ -44,7 +55,25 @@ public:
     deepest_ = -1e300;
     margin_ = margin;
   }
-  void Add(double x, double y, double reach, bool face);
+  // A touch that is not too shallow.
+  void Add(const Touch& touch)
+  {
+    if (count_ < kMaximum) list_[static_cast<std::size_t>(count_++)] = touch;
+  }
+  void Add(double x, double y, double reach, bool face)
+  {
+    Touch touch{x, y, reach, face, 0};
+    touch.depth = DepthOf(touch, dx_, dy_);
+    if (touch.depth <= -margin_) return;
+    Add(touch);
+    NoteDepth(touch.depth);
+  }
+  void NoteDepth(double depth)
+  {
+    if (depth <= deepest_) return;
+    deepest_ = depth;
+    margin_ = std::min(margin_, kTouchesApart - depth);
+  }
   void DropShallow();
   double Margin() const { return margin_; }
   double Deepest() const { return deepest_; }
@@ -62,14 +91,6 @@ private:
 // All places where the outlines overlap or are less than `margin` apart.
 void FindTouches(const Placed& a, const Placed& b, double margin, Touches& touches);
 
-// The depth of a touch where the first body is (dx, dy) from the second.
-inline double DepthOf(const Touch& touch, double dx, double dy)
-{
-  if (touch.face) return touch.reach - (dx * touch.x + dy * touch.y);
-  const double x = dx + touch.x;
-  const double y = dy + touch.y;
-  return touch.reach - std::sqrt(x * x + y * y);
-}
 // The deepest overlap in metres; 0 where there is none.
 double Overlap(const Placed& a, const Placed& b);
 

@@ -55,6 +55,19 @@ inline Floats LoadFloats(const float* from)
   return v;
 }
 
+// Correctly rounded, as IEEE demands.
+inline Doubles SquareRoots(Doubles v)
+{
+#if defined(__AVX__)
+  return _mm256_sqrt_pd(v);
+#elif defined(__SSE2__)
+  return _mm_sqrt_pd(v);
+#else
+  for (std::size_t k = 0; k < kDoubles; ++k) v[k] = __builtin_sqrt(v[k]);
+  return v;
+#endif
+}
+
 // One bit for each lane whose mask is set, lane 0 lowest.
 inline unsigned Bits(FloatMask mask)
 {
