@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace swarmanoid
+namespace swarmanoid::placement
 {
 namespace
 {
@@ -204,4 +204,4 @@ std::optional<std::uint32_t> BodyGrid::Find(const Body& body) const
   return std::nullopt;
 }
 
-}  // namespace swarmanoid
+}  // namespace swarmanoid::placement

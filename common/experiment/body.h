@@ -1,5 +1,5 @@
 // The bodies of entities, as far as placing them needs: do two overlap, which of many overlaps a new one. Engines have
-// models of their own.
+// models of their own, and so has the space: hence the namespace.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 #include "common/experiment/experiment.h"
 
-namespace swarmanoid
+namespace swarmanoid::placement
 {
 
 struct Body
@@ -67,4 +67,4 @@ private:
   std::vector<std::uint32_t> large_;  // bodies that would fill too many cells
 };
 
-}  // namespace swarmanoid
+}  // namespace swarmanoid::placement

@@ -43,7 +43,7 @@ public:
       : tree_(tree), reader_(tree_, spec, reading.diagnostics), method_(reader_.Text("method"))
   {
     const Vector3& arena = reading.experiment.arena_size;
-    const auto body = BodyOf(entity);
+    const auto body = placement::BodyOf(entity);
     // The least distance from the edges of the floor that holds at every heading, and the height of a body that stands
     // on it.
     const double margin = body ? body->half.head<2>().norm() * (body->cylinder ? std::sqrt(0.5) : 1.0) : 0.0;
@@ -152,7 +152,7 @@ public:
     for (std::size_t i = first; i < last; ++i)
     {
       const EntityConfiguration& entity = reading_.experiment.entities[i];
-      const auto body = BodyOf(entity);
+      const auto body = placement::BodyOf(entity);
       if (body && entity.size.minCoeff() > 0) grid_.Add(*body, static_cast<std::uint32_t>(i));
     }
   }
@@ -192,7 +192,7 @@ private:
     {
       entity.pose.orientation = orientations.Draw(random);
       entity.pose.position = positions.Draw(i, random);
-      const auto body = BodyOf(entity);
+      const auto body = placement::BodyOf(entity);
       if (!Inside(entity.pose.position, body) || (body && grid_.Find(*body))) continue;
       if (body) grid_.Add(*body, static_cast<std::uint32_t>(index));
       return true;
@@ -201,7 +201,7 @@ private:
   }
 
   // The position within the arena, and no part of the body over the edge of the floor.
-  bool Inside(const Vector3& position, const std::optional<Body>& body) const
+  bool Inside(const Vector3& position, const std::optional<placement::Body>& body) const
   {
     constexpr double kSlack = 1e-9;
     if ((position.array() < -kSlack).any() || ((arena_ - position).array() < -kSlack).any()) return false;
@@ -231,7 +231,7 @@ private:
 
   Reading& reading_;
   Vector3 arena_;
-  BodyGrid grid_;
+  placement::BodyGrid grid_;
 };
 
 // Their poses mean nothing: no later check may take them for places.

@@ -59,7 +59,7 @@ EntityConfiguration ReadEntityBody(const ElementReader& reader, const ElementSpe
     case EntityKind::kHandbot:
     case EntityKind::kEyebot:
       entity.controller = reader.Text("controller");
-      entity.size = RobotSize(entity.kind);
+      entity.size = placement::RobotSize(entity.kind);
       break;
     case EntityKind::kBlock:
       entity.size = reader.Vector("size");

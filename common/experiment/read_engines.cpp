@@ -351,14 +351,14 @@ void CheckOverlaps(Reading& reading)
   if (!(experiment.arena_size.minCoeff() > 0)) return;
   for (const EngineConfiguration& engine : experiment.engines)
   {
-    BodyGrid grid(experiment.arena_size, 0.25);
+    placement::BodyGrid grid(experiment.arena_size, 0.25);
     const auto add = [&](bool movable)
     {
       for (const std::uint32_t i : engine.entities)
       {
         const EntityConfiguration& entity = experiment.entities[i];
         if (entity.movable != movable) continue;
-        const auto body = BodyOf(entity);
+        const auto body = placement::BodyOf(entity);
         if (!body || !(entity.size.minCoeff() > 0) || !entity.pose.position.allFinite()) continue;
         // Furniture is made of blocks that overlap; only what moves must be free.
         if (const auto other = movable ? grid.Find(*body) : std::nullopt)

@@ -11,6 +11,7 @@ namespace
 {
 
 constexpr double kMostMetres = 1e6;
+constexpr double kMostDegrees = 1e5;
 
 ParameterSpec Required(ParameterType type, std::string name, std::string unit, std::string description)
 {
@@ -47,6 +48,11 @@ ParameterSpec Id(std::string description)
 {
   return Required(ParameterType::kText, "id", "", std::move(description) + " Letters, digits and _ . : -");
 }
+
+ParameterSpec Place(ParameterSpec spec) { return InRange(std::move(spec), -kMostMetres, kMostMetres); }
+
+// The trigonometric functions lose accuracy with large angles.
+ParameterSpec Angles(ParameterSpec spec) { return InRange(std::move(spec), -kMostDegrees, kMostDegrees); }
 
 ParameterSpec Size(ParameterSpec spec) { return InRange(std::move(spec), kLeastSize, kMostMetres); }
 
@@ -140,9 +146,11 @@ ElementSpec Entity(EntityKind kind, std::vector<std::string> further_tags, const
   element.repeatable = true;
   element.parameters = {
       Id("The name of the entity; unique in the arena."),
-      Required(kVector3, "position", "m", "Where it is; within the arena, which reaches from 0, 0, 0 to its size."),
-      Optional(kVector3, "orientation", "degrees", "0, 0, 0",
-               "Rotations about the fixed axes x, y and z, in this order. The heading of a robot is the last one."),
+      Place(Required(kVector3, "position", "m",
+                     "Where it is; within the arena, which reaches from 0, 0, 0 to its size.")),
+      Angles(Optional(
+          kVector3, "orientation", "degrees", "0, 0, 0",
+          "Rotations about the fixed axes x, y and z, in this order. The heading of a robot is the last one.")),
   };
   element.parameters.insert(element.parameters.end(), parameters.begin(), parameters.end());
   return element;
@@ -222,14 +230,14 @@ ElementSpec Distribute()
       OneOf(Optional(kChoice, "method", "", "uniform",
                      "uniform in a box, gaussian about a point, or the points of a grid one after the other."),
             {"uniform", "gaussian", "grid"}),
-      Optional(kVector3, "min", "m", "",
-               "uniform: the lower corner of the box; empty: that of the floor, less the body."),
-      Optional(kVector3, "max", "m", "",
-               "uniform: the upper corner of the box; empty: that of the floor, less the body."),
-      Optional(kVector3, "mean", "m", "", "gaussian: the point; empty: the middle of the floor."),
+      Place(Optional(kVector3, "min", "m", "",
+                     "uniform: the lower corner of the box; empty: that of the floor, less the body.")),
+      Place(Optional(kVector3, "max", "m", "",
+                     "uniform: the upper corner of the box; empty: that of the floor, less the body.")),
+      Place(Optional(kVector3, "mean", "m", "", "gaussian: the point; empty: the middle of the floor.")),
       InRange(Optional(kVector3, "deviation", "m", "1, 1, 0", "gaussian: the standard deviation along each axis."), 0,
               kMostMetres),
-      Optional(kVector3, "centre", "m", "", "grid: its middle; empty: the middle of the floor."),
+      Place(Optional(kVector3, "centre", "m", "", "grid: its middle; empty: the middle of the floor.")),
       InRange(Optional(kVector3, "spacing", "m", "",
                        "grid: the distance of neighbours along each axis; empty: as the arena allows."),
               0, kMostMetres),
@@ -245,12 +253,12 @@ ElementSpec Distribute()
       OneOf(
           Optional(kChoice, "method", "", "uniform", "uniform between two bounds, gaussian about a mean, or constant."),
           {"uniform", "gaussian", "constant"}),
-      Optional(kVector3, "min", "degrees", "0, 0, 0", "uniform: the lower bounds."),
-      Optional(kVector3, "max", "degrees", "0, 0, 360", "uniform: the upper bounds."),
-      Optional(kVector3, "mean", "degrees", "0, 0, 0", "gaussian: the mean."),
+      Angles(Optional(kVector3, "min", "degrees", "0, 0, 0", "uniform: the lower bounds.")),
+      Angles(Optional(kVector3, "max", "degrees", "0, 0, 360", "uniform: the upper bounds.")),
+      Angles(Optional(kVector3, "mean", "degrees", "0, 0, 0", "gaussian: the mean.")),
       InRange(Optional(kVector3, "deviation", "degrees", "0, 0, 0", "gaussian: the standard deviation of each angle."),
-              0, 1e6),
-      Optional(kVector3, "value", "degrees", "0, 0, 0", "constant: the orientation of all."),
+              0, kMostDegrees),
+      Angles(Optional(kVector3, "value", "degrees", "0, 0, 0", "constant: the orientation of all.")),
   };
 
   ElementSpec element;

@@ -42,7 +42,7 @@ TEST(Distribute, BodiesNeitherOverlapNorLeaveTheFloor)
   ASSERT_EQ(entities.size(), 506U);
   for (std::size_t i = 0; i < entities.size(); ++i)
   {
-    const Body body = BodyOf(entities[i]).value();
+    const placement::Body body = placement::BodyOf(entities[i]).value();
     const Vector3 half = body.HalfExtent();
     if (entities[i].kind != EntityKind::kBlock)
     {
@@ -50,7 +50,7 @@ TEST(Distribute, BodiesNeitherOverlapNorLeaveTheFloor)
       EXPECT_LE((body.centre + half).head<2>().maxCoeff(), 10 + 1e-9);
       EXPECT_EQ(entities[i].pose.position.z(), 0);
     }
-    for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(Overlap(body, BodyOf(entities[k]).value()));
+    for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(placement::Overlap(body, placement::BodyOf(entities[k]).value()));
   }
 }
 

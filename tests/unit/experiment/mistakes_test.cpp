@@ -104,13 +104,15 @@ const Mistake kMistakes[] = {
     {"TextBetweenElements", "<framework>\n", "<framework>fast\n",
      "test.xml:2:3: <framework> holds the text 'fast', where only elements are allowed\n"},
     {"NotNumberInVector", "<position>9, 9, 0</position>", "<position>9, nan, 0</position>",
-     "test.xml:18:22: 'position' of <footbot> is '9, nan, 0'; it must be three numbers \"x, y, z\" in m\n"},
+     "test.xml:18:22: 'position' of <footbot> is '9, nan, 0'; it must be three numbers \"x, y, z\" in m, from -1000000 "
+     "to 1000000 m\n"},
     {"TwoNumbersForThree", "<position>9, 9, 0</position>", "<position>9, 9</position>",
-     "test.xml:18:22: 'position' of <footbot> is '9, 9'; it must be three numbers \"x, y, z\" in m\n"},
+     "test.xml:18:22: 'position' of <footbot> is '9, 9'; it must be three numbers \"x, y, z\" in m, from -1000000 to "
+     "1000000 m\n"},
     {"ZeroSize", "<size>1, 1, 0.5</size>", "<size>1, 0, 0.5</size>",
      "test.xml:20:53: y of 'size' of <block> is 0 m; it must be from 1e-06 to 1000000 m\n"},
     {"MissingPosition", "<position>9, 9, 0</position>", "",
-     "test.xml:18:5: <footbot> lacks 'position': three numbers \"x, y, z\" in m\n"},
+     "test.xml:18:5: <footbot> lacks 'position': three numbers \"x, y, z\" in m, from -1000000 to 1000000 m\n"},
     {"OutsideTheArena", "<position>9, 9, 0</position>", "<position>9, 12, 0</position>",
      "test.xml:18:22: 'fb' is outside the arena: y is 12 m; it must be from 0 to 10 m\n"},
     {"UnknownEntity", "<light_bulb id=\"lamp\"", "<lightbulb id=\"lamp\"",

@@ -1,0 +1,4 @@
+// Cannot be loaded: the function is nowhere.
+void FunctionThatNobodyDefines();
+
+void Call() { FunctionThatNobodyDefines(); }
