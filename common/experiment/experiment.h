@@ -53,7 +53,9 @@ struct EntityConfiguration
   std::string id;
   Pose pose;
   std::string controller;  // robots: the id of the controller; empty for none
-  // The size of the body in metres. Robots have fixed ones. Blocks: x, y, z. Cylinders: radius in x, height in z.
+  // The size of the body in metres. Boxes (blocks, walls, handbots): x, y, z. Cylinders (preys, footbots, eyebots):
+  // radius, radius, height. Areas of the floor: x, y, 0 of a rectangle or radius, 0, 0 of a disc. Zero for what has no
+  // body.
   Vector3 size = Vector3::Zero();
   double mass_kg = 0;    // 0: the default of the kind
   bool movable = false;  // robots and preys always; blocks only where asked

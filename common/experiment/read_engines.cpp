@@ -5,7 +5,6 @@
 #include <unordered_map>
 
 #include "common/configuration/wording.h"
-#include "common/experiment/body.h"
 #include "common/experiment/element_reader.h"
 #include "common/experiment/sections.h"
 
@@ -178,30 +177,6 @@ private:
   std::map<std::string, int> named_;
 };
 
-// Reports each channel that the robots of a controller need and their engine does not serve, once.
-void CheckChannels(const EngineConfiguration& engine, const PluginDescription& plugin,
-                   const ControllerConfiguration& controller, const EntityConfiguration& robot, Reading& reading)
-{
-  const auto check = [&](const std::vector<DeviceConfiguration>& devices, PluginKind kind)
-  {
-    for (const DeviceConfiguration& device : devices)
-    {
-      const PluginDescription* found = PluginCatalogue::Instance().Find(kind, device.type, device.implementation);
-      if (found == nullptr || found->channel.empty()) continue;
-      if (std::find(plugin.channels.begin(), plugin.channels.end(), found->channel) != plugin.channels.end()) continue;
-      reading.diagnostics.Add(
-          device.tree.Location(),
-          fmt::format(
-              "the {} <{}> ({}) of the robot '{}' needs '{}' from its engine, which '{}' ({}) does not offer; it "
-              "offers: {}. Use another implementation or another engine",
-              PluginKindName(kind), device.type, device.implementation, robot.id, found->channel, engine.id, engine.tag,
-              Listed(plugin.channels)));
-    }
-  };
-  check(controller.actuators, PluginKind::kActuator);
-  check(controller.sensors, PluginKind::kSensor);
-}
-
 }  // namespace
 
 void ReadEngines(const TConfigurationTree& tree, Reading& reading)
@@ -275,106 +250,6 @@ void ReadArenaPhysics(const TConfigurationTree& tree, Reading& reading)
       const PluginDescription* plugin = PluginCatalogue::Instance().Find(PluginKind::kEngine, engine->tag);
       MembersReader(*engine, plugin, index_of_id, reading).Read(child, spec.Child("engine"));
     }
-  }
-}
-
-namespace
-{
-
-// The plug-ins of a section that lists them one after the other, each with an id that is unique in the section.
-template <class Add>
-void ReadPluginList(const TConfigurationTree& tree, PluginKind kind, Reading& reading, Add add)
-{
-  if (!tree.Exists()) return;
-  const ElementSpec& spec = ExperimentSchema().Child(tree.Name());
-  const ElementReader list(tree, spec, reading.diagnostics);
-  std::map<std::string, int> lines;
-  for (const TConfigurationTree& child : tree.Children())
-  {
-    const PluginDescription* plugin = FindPlugin(kind, child, reading);
-    const ElementReader reader(child, spec.plugin_element.front(), reading.diagnostics,
-                               plugin != nullptr ? &plugin->parameters : nullptr, plugin == nullptr);
-    const std::string id = reader.Text("id");
-    if (reader.IsGiven("id")) CheckId(id, reader.Place("id"), reading.diagnostics);
-    const auto [first, is_first] = lines.emplace(id, child.Location().line);
-    if (!is_first && !id.empty())
-    {
-      reading.diagnostics.Add(reader.Place("id"), fmt::format("two {} have the id {}; the first is in line {}",
-                                                              tree.Name(), Quoted(id), first->second));
-    }
-    add(child, id);
-  }
-}
-
-}  // namespace
-
-void ReadVisualisations(const TConfigurationTree& tree, Reading& reading)
-{
-  ReadPluginList(tree, PluginKind::kRenderer, reading,
-                 [&](const TConfigurationTree& child, const std::string& id) {
-                   reading.experiment.visualisations.push_back({child.Name(), id, child, child.Location()});
-                 });
-}
-
-void ReadExperimentFunctions(const TConfigurationTree& tree, Reading& reading)
-{
-  ReadPluginList(tree, PluginKind::kExperimentFunctions, reading,
-                 [&](const TConfigurationTree& child, const std::string& id) {
-                   reading.experiment.functions.push_back({child.Name(), id, child, child.Location()});
-                 });
-}
-
-void CheckDevicesOfEngines(Reading& reading)
-{
-  const Experiment& experiment = reading.experiment;
-  std::vector<bool> owned(experiment.entities.size(), false);
-  for (const EngineConfiguration& engine : experiment.engines)
-  {
-    const PluginDescription* plugin = PluginCatalogue::Instance().Find(PluginKind::kEngine, engine.tag);
-    std::map<std::string, bool> checked;
-    for (const std::uint32_t i : engine.entities)
-    {
-      const EntityConfiguration& entity = experiment.entities[i];
-      const bool ours = !owned[i];
-      owned[i] = true;
-      if (!ours || plugin == nullptr || entity.controller.empty() || !checked.emplace(entity.controller, true).second)
-        continue;
-      const ControllerConfiguration* controller = experiment.FindController(entity.controller);
-      if (controller != nullptr) CheckChannels(engine, *plugin, *controller, entity, reading);
-    }
-  }
-}
-
-void CheckOverlaps(Reading& reading)
-{
-  const Experiment& experiment = reading.experiment;
-  if (!(experiment.arena_size.minCoeff() > 0)) return;
-  for (const EngineConfiguration& engine : experiment.engines)
-  {
-    placement::BodyGrid grid(experiment.arena_size, 0.25);
-    const auto add = [&](bool movable)
-    {
-      for (const std::uint32_t i : engine.entities)
-      {
-        const EntityConfiguration& entity = experiment.entities[i];
-        if (entity.movable != movable) continue;
-        const auto body = placement::BodyOf(entity);
-        if (!body || !(entity.size.minCoeff() > 0) || !entity.pose.position.allFinite()) continue;
-        // Furniture is made of blocks that overlap; only what moves must be free.
-        if (const auto other = movable ? grid.Find(*body) : std::nullopt)
-        {
-          const EntityConfiguration& there = experiment.entities[*other];
-          reading.diagnostics.Add(
-              entity.tree.ValueLocation("position"),
-              fmt::format("the {} '{}' overlaps the {} '{}' (line {}) in the engine '{}'; move one of them",
-                          TagName(entity.kind), entity.id, TagName(there.kind), there.id, there.location.line,
-                          engine.id));
-        }
-        grid.Add(*body, i);
-      }
-    };
-    add(false);
-    add(true);
   }
 }
 

@@ -53,6 +53,8 @@ struct Mistake
   const char* errors;  // all of them
 };
 
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
+
 std::string WithMistake(const Mistake& mistake)
 {
   std::string text = kGood;

@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "common/configuration/wording.h"
+#include "common/experiment/body.h"
+#include "common/experiment/sections.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+// Reports each channel that the robots of a controller need and their engine does not serve, once.
+void CheckChannels(const EngineConfiguration& engine, const PluginDescription& plugin,
+                   const ControllerConfiguration& controller, const EntityConfiguration& robot, Reading& reading)
+{
+  const auto check = [&](const std::vector<DeviceConfiguration>& devices, PluginKind kind)
+  {
+    for (const DeviceConfiguration& device : devices)
+    {
+      const PluginDescription* found = PluginCatalogue::Instance().Find(kind, device.type, device.implementation);
+      if (found == nullptr || found->channel.empty()) continue;
+      if (std::find(plugin.channels.begin(), plugin.channels.end(), found->channel) != plugin.channels.end()) continue;
+      reading.diagnostics.Add(
+          device.tree.Location(),
+          fmt::format(
+              "the {} <{}> ({}) of the robot '{}' needs '{}' from its engine, which '{}' ({}) does not offer; it "
+              "offers: {}. Use another implementation or another engine",
+              PluginKindName(kind), device.type, device.implementation, robot.id, found->channel, engine.id, engine.tag,
+              Listed(plugin.channels)));
+    }
+  };
+  check(controller.actuators, PluginKind::kActuator);
+  check(controller.sensors, PluginKind::kSensor);
+}
+
+}  // namespace
+
+void CheckDevicesOfEngines(Reading& reading)
+{
+  const Experiment& experiment = reading.experiment;
+  std::vector<bool> owned(experiment.entities.size(), false);
+  for (const EngineConfiguration& engine : experiment.engines)
+  {
+    const PluginDescription* plugin = PluginCatalogue::Instance().Find(PluginKind::kEngine, engine.tag);
+    std::map<std::string, bool> checked;
+    for (const std::uint32_t i : engine.entities)
+    {
+      const EntityConfiguration& entity = experiment.entities[i];
+      const bool ours = !owned[i];
+      owned[i] = true;
+      if (!ours || plugin == nullptr || entity.controller.empty() || !checked.emplace(entity.controller, true).second)
+        continue;
+      const ControllerConfiguration* controller = experiment.FindController(entity.controller);
+      if (controller != nullptr) CheckChannels(engine, *plugin, *controller, entity, reading);
+    }
+  }
+}
+
+void CheckOverlaps(Reading& reading)
+{
+  const Experiment& experiment = reading.experiment;
+  if (!(experiment.arena_size.minCoeff() > 0)) return;
+  for (const EngineConfiguration& engine : experiment.engines)
+  {
+    placement::BodyGrid grid(experiment.arena_size, 0.25);
+    const auto add = [&](bool movable)
+    {
+      for (const std::uint32_t i : engine.entities)
+      {
+        const EntityConfiguration& entity = experiment.entities[i];
+        if (entity.movable != movable) continue;
+        const auto body = placement::BodyOf(entity);
+        if (!body || !(entity.size.minCoeff() > 0) || !entity.pose.position.allFinite()) continue;
+        // Furniture is made of blocks that overlap; only what moves must be free.
+        if (const auto other = movable ? grid.Find(*body) : std::nullopt)
+        {
+          const EntityConfiguration& there = experiment.entities[*other];
+          reading.diagnostics.Add(
+              entity.tree.ValueLocation("position"),
+              fmt::format("the {} '{}' overlaps the {} '{}' (line {}) in the engine '{}'; move one of them",
+                          TagName(entity.kind), entity.id, TagName(there.kind), there.id, there.location.line,
+                          engine.id));
+        }
+        grid.Add(*body, i);
+      }
+    };
+    add(false);
+    add(true);
+  }
+}
+
+}  // namespace swarmanoid

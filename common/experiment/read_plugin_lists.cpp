@@ -1,0 +1,57 @@
+#include <fmt/format.h>
+
+#include <map>
+
+#include "common/configuration/wording.h"
+#include "common/experiment/element_reader.h"
+#include "common/experiment/sections.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+// The plug-ins of a section that lists them one after the other, each with an id that is unique in the section.
+template <class Add>
+void ReadPluginList(const TConfigurationTree& tree, PluginKind kind, Reading& reading, Add add)
+{
+  if (!tree.Exists()) return;
+  const ElementSpec& spec = ExperimentSchema().Child(tree.Name());
+  const ElementReader list(tree, spec, reading.diagnostics);
+  std::map<std::string, int> lines;
+  for (const TConfigurationTree& child : tree.Children())
+  {
+    const PluginDescription* plugin = FindPlugin(kind, child, reading);
+    const ElementReader reader(child, spec.plugin_element.front(), reading.diagnostics,
+                               plugin != nullptr ? &plugin->parameters : nullptr, plugin == nullptr);
+    const std::string id = reader.Text("id");
+    if (reader.IsGiven("id")) CheckId(id, reader.Place("id"), reading.diagnostics);
+    const auto [first, is_first] = lines.emplace(id, child.Location().line);
+    if (!is_first && !id.empty())
+    {
+      reading.diagnostics.Add(reader.Place("id"), fmt::format("two {} have the id {}; the first is in line {}",
+                                                              tree.Name(), Quoted(id), first->second));
+    }
+    add(child, id);
+  }
+}
+
+}  // namespace
+
+void ReadVisualisations(const TConfigurationTree& tree, Reading& reading)
+{
+  ReadPluginList(tree, PluginKind::kRenderer, reading,
+                 [&](const TConfigurationTree& child, const std::string& id) {
+                   reading.experiment.visualisations.push_back({child.Name(), id, child, child.Location()});
+                 });
+}
+
+void ReadExperimentFunctions(const TConfigurationTree& tree, Reading& reading)
+{
+  ReadPluginList(tree, PluginKind::kExperimentFunctions, reading,
+                 [&](const TConfigurationTree& child, const std::string& id) {
+                   reading.experiment.functions.push_back({child.Name(), id, child, child.Location()});
+                 });
+}
+
+}  // namespace swarmanoid
