@@ -59,6 +59,9 @@ public:
 
 }  // namespace
 
+Dynamics2dWorld::Dynamics2dWorld(const WorldSettings& settings) : settings_(settings) {}
+Dynamics2dWorld::~Dynamics2dWorld() = default;
+
 int Dynamics2dWorld::AddBody(BodyModel model, const PlanePose& pose)
 {
   Body& body = bodies_.emplace_back();
@@ -73,6 +76,7 @@ void Dynamics2dWorld::Build()
   world_ = std::make_unique<b2World>(b2Vec2(0, 0));
   world_->SetAllowSleeping(false);
   b2BodyDef ground;
+  ground.type = b2_kinematicBody;
   ground_ = world_->CreateBody(&ground);
   last_step_ = 0;
   for (Body& body : bodies_) BuildBody(body);

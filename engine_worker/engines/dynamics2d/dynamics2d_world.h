@@ -79,7 +79,8 @@ inline constexpr int kNoBody = -1;
 class Dynamics2dWorld
 {
 public:
-  explicit Dynamics2dWorld(const WorldSettings& settings) : settings_(settings) {}
+  explicit Dynamics2dWorld(const WorldSettings& settings);
+  ~Dynamics2dWorld();
 
   // Bodies are numbered from 0 in the order in which they come. None can be added after Build.
   int AddBody(BodyModel model, const PlanePose& pose);
