@@ -1,0 +1,65 @@
+// The experiments of configs/ that use dynamics2d, from their files to the end, with all roles in one process.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "common/experiment/load_experiment.h"
+#include "controller_host/device.h"
+#include "engine_worker/engine_worker.h"
+#include "launcher/single_process.h"
+#include "visualiser/render.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+class Dynamics2dExperiments : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    RegisterBuiltinEngines();
+    RegisterBuiltinDevices();
+    RegisterBuiltinRenderers();
+    folder_ = std::filesystem::temp_directory_path() / ("dynamics2d_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::unique_ptr<Experiment> Load(const std::string& name,
+                                   const std::vector<std::pair<std::string, std::string>>& settings)
+  {
+    LoadOptions options;
+    options.settings = settings;
+    LoadedExperiment loaded = LoadExperimentFile(std::string(SWARMANOID_SOURCE_FOLDER "/configs/") + name, options);
+    for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
+    return std::move(loaded.experiment);
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(Dynamics2dExperiments, GoOnFromACheckpointWithTheSameHash)
+{
+  for (const char* const name : {"gripped_chain.xml", "diffusion_100_dynamics2d.xml"})
+  {
+    const auto experiment = Load(name, {{"framework.maxclock", "120"}, {"framework.canonical_period", "40"}});
+    ASSERT_NE(experiment, nullptr) << name;
+    SingleProcessOptions options;
+    options.output_folder = folder_.string();
+    options.checkpoint_tick = 80;
+    options.checkpoint_file = (folder_ / "checkpoint").string();
+    const RunSummary whole = RunSingleProcess(*experiment, options);
+    EXPECT_EQ(whole.ticks, 120U);
+
+    SingleProcessOptions restored;
+    restored.output_folder = folder_.string();
+    restored.restore_file = options.checkpoint_file;
+    EXPECT_EQ(RunSingleProcess(*experiment, restored).hash, whole.hash) << name;
+  }
+}
+
+}  // namespace
+}  // namespace swarmanoid
