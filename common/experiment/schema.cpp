@@ -168,6 +168,15 @@ std::vector<ElementSpec> MakeEntities()
   using enum ParameterType;
   const auto mass =
       InRange(Optional(kNumber, "mass", "kg", "0", "Its mass; 0: what the engine takes for its kind."), 0, 1e9);
+  const auto contact = [](const char* name, const char* description, double maximum)
+  { return InRange(Optional(kNumber, name, "", "", description), 0, maximum); };
+  const auto friction =
+      contact("friction", "Coulomb coefficient where others touch it; by default that of the engine.", 100);
+  const auto restitution =
+      contact("restitution",
+              "Part of the approach speed that a collision with it gives back; by default that of the engine.", 1);
+  const auto ground_friction =
+      contact("ground_friction", "Coulomb coefficient of its base on the ground; by default that of the engine.", 100);
   const auto colour = [](const char* value) { return Optional(kColour, "colour", "", value, "Its colour."); };
   const auto intensity =
       InRange(Optional(kNumber, "intensity", "", "1", "Its strength; sensors scale their readings with it."), 0, 1e9);
@@ -182,18 +191,20 @@ std::vector<ElementSpec> MakeEntities()
       Robot(EntityKind::kHandbot,
             "A handbot: a climbing robot with two hands. The position is the centre of its base."),
       Entity(EntityKind::kBlock, {}, "A brick, for obstacles, furniture and walls.",
-             {box, Optional(kBoolean, "movable", "", "false", "Whether physics can move it."), mass, colour("silver")}),
+             {box, Optional(kBoolean, "movable", "", "false", "Whether physics can move it."), mass, friction,
+              restitution, ground_friction, colour("silver")}),
       Entity(EntityKind::kCylindricPrey, {"cyllindric_prej"},
              "A cylinder that robots can grip and carry. The position is the centre of its base.",
              {Size(Optional(kNumber, "radius", "m", "0.1", "The radius of the cylinder.")),
-              Size(Optional(kNumber, "height", "m", "0.1", "The height of the cylinder.")), mass, colour("red")}),
+              Size(Optional(kNumber, "height", "m", "0.1", "The height of the cylinder.")), mass, friction, restitution,
+              ground_friction, colour("red")}),
       Entity(EntityKind::kLightBulb, {}, "A light. It has no body.", {intensity, colour("yellow")}),
       Entity(EntityKind::kSoundSource, {}, "A source of sound. It has no body.", {intensity}),
       Entity(EntityKind::kGroundPatch, {"nest"},
              "A coloured area of the floor, such as the nest. Either size or radius is given.",
              {area, disc, colour("green")}),
       Entity(EntityKind::kHole, {}, "An area without floor. Either size or radius is given.", {area, disc}),
-      Entity(EntityKind::kWall, {}, "A box that never moves.", {box, colour("silver")}),
+      Entity(EntityKind::kWall, {}, "A box that never moves.", {box, friction, restitution, colour("silver")}),
   };
   ElementSpec terrain =
       Entity(EntityKind::kTerrain, {}, "Uneven ground, from a file. Engines for flat ground refuse it.",

@@ -173,14 +173,22 @@ BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, con
   return model;
 }
 
-std::optional<BodyModel> FixedModel(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane,
-                                    const Dynamics2dParameters& parameters)
+BodyModel StaticModel(std::vector<Vector2> polygon, const Dynamics2dParameters& parameters)
 {
   BodyModel model;
   model.motion = EMotion::kStatic;
-  SetContact(model, entity, parameters);
-  model.polygon = plane.CutBox(entity.GetPose(), entity.GetSize());
+  model.polygon = std::move(polygon);
+  model.friction = parameters.friction;
+  model.restitution = parameters.restitution;
+  return model;
+}
+
+std::optional<BodyModel> FixedModel(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane,
+                                    const Dynamics2dParameters& parameters)
+{
+  BodyModel model = StaticModel(plane.CutBox(entity.GetPose(), entity.GetSize()), parameters);
   if (model.polygon.empty()) return std::nullopt;
+  SetContact(model, entity, parameters);
   if (WidthOf(model.polygon) < kSmallest_m) TooSmall(entity);
   return model;
 }

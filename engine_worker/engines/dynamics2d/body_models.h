@@ -26,6 +26,9 @@ BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, con
 std::optional<BodyModel> FixedModel(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane,
                                     const Dynamics2dParameters& parameters);
 
+// An immovable polygon (m, in the plane) of something that has no contact parameters of its own.
+BodyModel StaticModel(std::vector<Vector2> polygon, const Dynamics2dParameters& parameters);
+
 // True while a mirror's body reaches the plane.
 bool ReachesPlane(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane);
 

@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "common/math/elementary.h"
+#include "engine_worker/engines/plane_parameters.h"
+#include "engine_worker/engines/terrain_walls.h"
 
 namespace swarmanoid
 {
@@ -26,7 +28,7 @@ void CDynamics2dEngine::Init(const EngineSetup& setup)
   space_ = &setup.space;
   layout_ = &setup.layout;
   parameters_ = ReadDynamics2dParameters(setup.parameters);
-  plane_ = PlaneFrame(parameters_.axis, parameters_.distance);
+  plane_ = PlaneFrom(setup.parameters);
   world_ =
       std::make_unique<Dynamics2dWorld>(WorldSettings{parameters_.velocity_iterations, parameters_.position_iterations,
                                                       parameters_.turret_torque, parameters_.grip_distance});
@@ -49,6 +51,15 @@ PlanePose CDynamics2dEngine::StandingPose(const CSwarmanoidSpaceEntity& entity, 
 
 void CDynamics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding binding)
 {
+  if (entity.GetKind() == EntityKind::kTerrain)
+  {
+    for (std::vector<Vector2>& wall : TerrainWalls(entity.GetConfiguration(), space_->GetExperiment().folder, plane_))
+    {
+      world_->AddBody(StaticModel(std::move(wall), parameters_), {});
+      entity_of_body_.push_back(entity.GetIndex());
+    }
+    return;
+  }
   if (!HasBody(entity.GetKind()))
   {
     if (binding != EBinding::kFixed)

@@ -1,5 +1,7 @@
 #include "engine_worker/engines/dynamics2d/dynamics2d_parameters.h"
 
+#include "engine_worker/engines/plane_parameters.h"
+
 namespace swarmanoid::dynamics2d
 {
 namespace
@@ -19,15 +21,8 @@ ParameterSpec Integer(const char* name, const char* value, double maximum, const
 // Sources: docs/engines.md.
 std::vector<ParameterSpec> MakeTable()
 {
-  ParameterSpec axis;
-  axis.name = "perpendicular_axis";
-  axis.type = ParameterType::kChoice;
-  axis.default_value = "z";
-  axis.description = "The axis of the space to which the plane of the engine is perpendicular.";
-  axis.choices = {"x", "y", "z"};
-  return {
-      axis,
-      Number("distance", "m", "0", -1e6, 1e6, "The signed distance of the plane from the origin, along that axis."),
+  std::vector<ParameterSpec> table = PlaneParameters();
+  const std::vector<ParameterSpec> own = {
       Integer("substeps", "4", 1000,
               "Steps of the solver in each step of the engine: more make contacts stiffer and friction more exact, and "
               "take longer in proportion."),
@@ -55,6 +50,8 @@ std::vector<ParameterSpec> MakeTable()
       Number("traction_range", "N", "25", 1e-6, 1e6, "The traction on the turret that the torque sensor reads as 1."),
       Number("grip_distance", "m", "0.01", 0, 0.1, "How far from the gripper's face a surface may be to be gripped."),
   };
+  table.insert(table.end(), own.begin(), own.end());
+  return table;
 }
 
 }  // namespace
@@ -68,9 +65,6 @@ const std::vector<ParameterSpec>& Dynamics2dParameterTable()
 Dynamics2dParameters ReadDynamics2dParameters(const Parameters& parameters)
 {
   Dynamics2dParameters values;
-  const std::string axis = parameters.Text("perpendicular_axis");
-  values.axis = axis == "x" ? PlaneAxis::kX : axis == "y" ? PlaneAxis::kY : PlaneAxis::kZ;
-  values.distance = parameters.Number("distance");
   values.substeps = static_cast<int>(parameters.Integer("substeps"));
   values.velocity_iterations = static_cast<int>(parameters.Integer("velocity_iterations"));
   values.position_iterations = static_cast<int>(parameters.Integer("position_iterations"));

@@ -4,15 +4,12 @@
 #include <vector>
 
 #include "common/configuration/parameter.h"
-#include "engine_worker/engines/plane_frame.h"
 
 namespace swarmanoid::dynamics2d
 {
 
 struct Dynamics2dParameters
 {
-  PlaneAxis axis = PlaneAxis::kZ;
-  double distance = 0;  // m
   int substeps = 4;
   int velocity_iterations = 8;
   int position_iterations = 3;

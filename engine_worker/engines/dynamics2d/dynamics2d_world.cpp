@@ -75,6 +75,7 @@ void Dynamics2dWorld::Build()
 {
   world_ = std::make_unique<b2World>(b2Vec2(0, 0));
   world_->SetAllowSleeping(false);
+  // Kinematic, so that it joins all bodies to one island: Box2D takes the wall clock several times for each island.
   b2BodyDef ground;
   ground.type = b2_kinematicBody;
   ground_ = world_->CreateBody(&ground);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "common/math/elementary.h"
+#include "engine_worker/engines/plane_parameters.h"
 
 namespace swarmanoid
 {
@@ -14,26 +15,15 @@ using namespace kinematics2d;
 
 std::vector<ParameterSpec> ParameterTable()
 {
-  return {{.name = "perpendicular_axis",
-           .type = ParameterType::kChoice,
-           .default_value = "z",
-           .description = "The axis of the space to which the plane of the engine is perpendicular.",
-           .choices = {"x", "y", "z"}},
-          {.name = "distance",
-           .unit = "m",
-           .default_value = "0",
-           .description = "Signed distance of the plane from the origin along that axis."},
-          {.name = "tilt",
-           .type = ParameterType::kVector3,
-           .unit = "deg",
-           .default_value = "0, 0, 0",
-           .description = "Turns the plane about the origin of the space: rotations about x, y and z, in this order."},
-          {.name = "elasticity",
-           .default_value = "1",
-           .description =
-               "Part of the approach that a collision gives back; 1 is purely elastic, 0 lets bodies stay in touch.",
-           .minimum = 0,
-           .maximum = 1}};
+  std::vector<ParameterSpec> table = PlaneParameters();
+  table.push_back(
+      {.name = "elasticity",
+       .default_value = "1",
+       .description =
+           "Part of the approach that a collision gives back; 1 is purely elastic, 0 lets bodies stay in touch.",
+       .minimum = 0,
+       .maximum = 1});
+  return table;
 }
 
 PluginDescription Describe(const std::string& label)
@@ -49,20 +39,6 @@ PluginDescription Describe(const std::string& label)
                                 EntityKind::kGroundPatch, EntityKind::kHole, EntityKind::kWall})
     description.entity_tags.emplace_back(TagName(kind));
   return description;
-}
-
-PlaneFrame FrameFrom(const Parameters& parameters)
-{
-  const std::string axis = parameters.Text("perpendicular_axis");
-  const PlaneFrame plain(axis == "x"   ? PlaneAxis::kX
-                         : axis == "y" ? PlaneAxis::kY
-                                       : PlaneAxis::kZ,
-                         parameters.Number("distance"));
-  const Vector3 tilt = parameters.Vector3Of("tilt");
-  if (tilt == Vector3::Zero()) return plain;
-  const Quaternion turn =
-      QuaternionFromEuler({DegreesToRadians(tilt.x()), DegreesToRadians(tilt.y()), DegreesToRadians(tilt.z())});
-  return PlaneFrame(Pose{Vector3::Zero(), turn}.Compose(plain.Frame()));
 }
 
 bool IsBlock(EntityKind kind) { return kind == EntityKind::kBlock || kind == EntityKind::kWall; }
@@ -97,7 +73,7 @@ void Kinematics2dEngine::Init(const EngineSetup& setup)
   layout_ = &setup.layout;
   configuration_ = &setup.configuration;
   subclock_ = std::max(setup.configuration.subclock, 1);
-  frame_ = FrameFrom(setup.parameters);
+  frame_ = PlaneFrom(setup.parameters);
   world_ = KinematicWorld(setup.parameters.Number("elasticity"));
 }
 

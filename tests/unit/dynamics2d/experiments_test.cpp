@@ -3,6 +3,9 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
 
 #include "common/experiment/load_experiment.h"
 #include "controller_host/device.h"
@@ -59,6 +62,34 @@ TEST_F(Dynamics2dExperiments, GoOnFromACheckpointWithTheSameHash)
     restored.restore_file = options.checkpoint_file;
     EXPECT_EQ(RunSingleProcess(*experiment, restored).hash, whole.hash) << name;
   }
+}
+
+TEST_F(Dynamics2dExperiments, TheGrippedChainPullsItsPrey)
+{
+  std::ifstream input(SWARMANOID_SOURCE_FOLDER "/configs/gripped_chain.xml");
+  std::string text((std::istreambuf_iterator<char>(input)), std::istreambuf_iterator<char>());
+  text.insert(text.rfind("</ahss-config>"),
+              "<visualisations><text_render id=\"track\"><file>track.txt</file></text_render></visualisations>");
+  const LoadedExperiment loaded = LoadExperimentText(text, "gripped_chain.xml", folder_.string());
+  for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
+  ASSERT_TRUE(loaded.experiment);
+  SingleProcessOptions options;
+  options.output_folder = folder_.string();
+  RunSingleProcess(*loaded.experiment, options);
+
+  std::ifstream track(folder_ / "track.txt");
+  std::vector<double> xs;
+  for (std::string line; std::getline(track, line);)
+  {
+    std::istringstream words(line);
+    int clock = 0;
+    std::string type;
+    std::string id;
+    double x = 0;
+    if (words >> clock >> type >> id >> x && id == "prey") xs.push_back(x);
+  }
+  ASSERT_EQ(xs.size(), 151U);
+  EXPECT_NEAR(xs.back() - xs.front(), -0.1 * 15, 0.1) << "at the speed of the wheels, but for the start";
 }
 
 }  // namespace

@@ -1,7 +1,12 @@
 // Walls, planes, mirrors and what the engine refuses.
 #include <cmath>
 
+#include <filesystem>
+
+#include "common/math/random.h"
+#include "common/space/terrain/terrain.h"
 #include "dynamics2d_test_world.h"
+#include "engine_worker/engines/terrain_walls.h"
 
 namespace swarmanoid
 {
@@ -136,6 +141,85 @@ TEST(Dynamics2d, ACommandThatIsNotANumberNamesTheRobot)
   world.Start();
   world.Drive(robot, std::nan(""), 0);
   EXPECT_THROW(world.Tick(), std::runtime_error);
+}
+
+TEST(Dynamics2d, RobotsStayOnATiltedPlane)
+{
+  Dynamics2dTestWorld world;
+  world.Set("tilt", "0, 30, 0");
+  const auto robot = world.AddFootbot(0, 0);
+  world.AddCommands("footbot_wheels", 2);
+  world.Start();
+  world.Drive(robot, 0.1, 0.1);
+  world.Run(20);
+  const Vector3 downhill(std::cos(kPi / 6), 0, -std::sin(kPi / 6));
+  EXPECT_LT((world.Position(robot) - 0.2 * downhill).norm(), 2e-3);
+  EXPECT_LT((world.Space().GetEntity(robot).GetOrientation() * Vector3::UnitX() - downhill).norm(), 1e-6);
+}
+
+TEST(Dynamics2d, FrictionOfAnEntityGoesBeforeThatOfTheEngine)
+{
+  Dynamics2dTestWorld world;
+  const auto slippery = world.AddPrey(1, 1, 1);
+  const auto rough = world.AddPrey(1, 3, 1);
+  auto element = std::make_shared<ConfigurationNode>();
+  element->attributes.push_back({"ground_friction", "0.01", {}});
+  world.experiment.entities[slippery].tree = TConfigurationTree(element);
+  world.Start();
+  world.engine->SetVelocity(slippery, {1, 0, 0});
+  world.engine->SetVelocity(rough, {1, 0, 0});
+  world.Run(10);
+  EXPECT_NEAR(world.Position(slippery).x() - 1, 1 - 0.5 * 0.01 * 9.81, 3e-3);
+  EXPECT_LT(world.Position(rough).x() - 1, 0.12);
+}
+
+// Sixty robots wander through a real corridor, in which the voxels at the height of the plane are walls.
+TEST(Dynamics2d, TerrainIsWallsAtTheHeightOfThePlane)
+{
+  const std::string map = "/usr/share/doc/liboctomap-dev/examples/data/geb079.bt";
+  if (!std::filesystem::exists(map)) GTEST_SKIP() << map << " is not installed";
+  const VoxelTerrain terrain(map);
+  const double level = terrain.Low().z() + 1;
+  const auto blocked = [&](double x, double y, double margin)
+  {
+    for (int i = 0; i < 16; ++i)
+      if (terrain.IsSolid({x + margin * Cos(i * kPi / 8), y + margin * Sin(i * kPi / 8), level + kTerrainStep_m}))
+        return true;
+    return false;
+  };
+
+  Dynamics2dTestWorld world;
+  world.Set("distance", std::to_string(level));
+  const auto ground = world.Add(EntityKind::kTerrain, {0, 0, 0}, {}, {0, 0, 0}, 0, false);
+  auto file = std::make_shared<ConfigurationNode>();
+  file->name = "octomap";
+  file->attributes.push_back({"file", map, {}});
+  auto element = std::make_shared<ConfigurationNode>();
+  element->children.push_back(file);
+  world.experiment.entities[ground].tree = TConfigurationTree(element);
+  RandomStream random(5, 0, 0, 0);
+  std::vector<std::uint32_t> robots;
+  while (robots.size() < 60)
+  {
+    const double x = random.Uniform(terrain.Low().x(), terrain.High().x());
+    const double y = random.Uniform(terrain.Low().y(), terrain.High().y());
+    if (!blocked(x, y, 0.2) && !blocked(x, y, 0.1)) robots.push_back(world.AddFootbot(x, y, random.Uniform(-3, 3)));
+  }
+  world.AddCommands("footbot_wheels", 2);
+  world.Start();
+  int at_walls = 0;
+  for (int tick = 0; tick < 100; ++tick)
+  {
+    for (const auto robot : robots) world.Drive(robot, 0.3, tick % 30 < 20 ? 0.3 : 0.1);
+    world.Tick();
+    for (const auto robot : robots)
+    {
+      const Vector3 position = world.Position(robot);
+      ASSERT_FALSE(blocked(position.x(), position.y(), 0.07)) << "a robot is in a wall at " << position.transpose();
+      at_walls += blocked(position.x(), position.y(), 0.095) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(at_walls, 0) << "some reach a wall";
 }
 
 // A pile of robots driven against one another: no overlap that lasts, nothing thrown away.
