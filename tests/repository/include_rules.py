@@ -62,8 +62,8 @@ def main():
         if folder is None:
             continue
         may_include = rules[folder]
-        if folder in ROLES and os.path.basename(path) == "main.cpp":
-            may_include = may_include + ["common/bus"]
+        if folder in ROLES and (os.path.basename(path) == "main.cpp" or "/cluster/" in path):
+            may_include = may_include + ["common/bus"] + ROLES  # the program around the role
         for number, quoted, included in includes(path):
             if DDS_HEADER.search(included) and folder != "common/bus":
                 mistakes.append(f"{path}:{number}: only common/bus may include DDS headers, not {folder} ({included})")

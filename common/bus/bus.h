@@ -1,0 +1,149 @@
+// The bus: one DDS participant of this process, and typed publishers and subscriptions on it. Used by the four
+// programs, the launcher and tests. No header of Fast DDS is needed to use it.
+//
+// Callbacks run in threads of the bus, at most one at a time for each subscription. Destroy publishers and
+// subscriptions before their bus.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "common/bus/messages.h"
+
+namespace swarmanoid
+{
+
+class BusError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+inline constexpr int kDefaultDomain = 77;
+
+struct BusOptions
+{
+  int domain = kDefaultDomain;  // 0 to 232; processes of different domains never hear each other
+  // "lo": this machine only. "all", or the name or IPv4 address of a network interface: other machines too.
+  std::string network_interface = "lo";
+  // Machines (names or IPv4 addresses) that take part, where the network has no multicast. Every process names all.
+  std::vector<std::string> peers;
+  // "address:port" of the space server that serves discovery, where the network has no multicast. Same in every
+  // process.
+  std::string discovery_server;
+  bool serves_discovery = false;    // this process is that server
+  double lease_s = 1;               // silence after which a process is taken for dead
+  unsigned datagram_bytes = 65500;  // larger messages are cut; 1440 on networks that lose packets
+
+  bool Spread() const { return network_interface != "lo"; }
+};
+
+class Bus
+{
+public:
+  // Throws BusError. `name`: as others report this process, "engine 'ground'".
+  Bus(const BusOptions& options, const std::string& name);
+  ~Bus();
+  Bus(const Bus&) = delete;
+  Bus& operator=(const Bus&) = delete;
+
+  // Called when another process of the domain has gone (without a word where `died`), with "host:pid" and its name.
+  void OnProcessGone(std::function<void(const std::string& process, const std::string& name, bool died)> callback);
+
+  struct Impl;
+  Impl& Internals() { return *impl_; }
+
+private:
+  std::unique_ptr<Impl> impl_;
+};
+
+// "host:pid" of this process.
+std::string ProcessId();
+std::string MachineName();
+
+// Where the messages of a tick travel.
+struct HotScope
+{
+  std::string experiment;    // partition
+  std::string directory;     // of this machine's shared memory for the run (run_directory.h)
+  bool spread = false;       // WorldMessage::spread
+  std::size_t capacity = 0;  // bytes of the largest message
+  unsigned writers = 1;      // of the topic
+};
+
+// Messages of a tick: SpaceState, ControlCommands, EngineUpdate, SensorFrame, DrawnMessage.
+template <class Message>
+class HotPublisher
+{
+public:
+  HotPublisher(Bus& bus, const HotScope& scope);
+  ~HotPublisher();
+
+  // Copies the message to the readers. One thread at a time. Throws BusError.
+  void Write(const MessageHeader& header, const Message& message);
+  unsigned Readers() const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+template <class Message>
+class HotSubscription
+{
+public:
+  struct Handler
+  {
+    // The place for a message that has arrived, or nullptr to drop it. The place is filled after the call.
+    std::function<Message*(const MessageHeader&)> choose;
+    // The message has been filled in.
+    std::function<void(const MessageHeader&, Message&)> received;
+  };
+
+  HotSubscription(Bus& bus, const HotScope& scope, Handler handler);
+  ~HotSubscription();
+
+  unsigned Writers() const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// All other messages. `partition`: the experiment's name; for subscriptions a pattern such as "*" is allowed.
+template <class Message>
+class Publisher
+{
+public:
+  Publisher(Bus& bus, const std::string& partition);
+  ~Publisher();
+
+  void Write(const Message& message);
+  unsigned Readers() const;
+  // False where not all readers confirmed in time.
+  bool WaitUntilRead(double seconds);
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+template <class Message>
+class Subscription
+{
+public:
+  Subscription(Bus& bus, const std::string& partition, std::function<void(const Message&)> received);
+  ~Subscription();
+
+  unsigned Writers() const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace swarmanoid

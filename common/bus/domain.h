@@ -1,0 +1,23 @@
+// Choosing a DDS domain that nobody on this machine uses. Used by the launcher and tests.
+#pragma once
+
+namespace swarmanoid
+{
+
+// A domain kept from other callers of this class until the object ends. Throws BusError where all are taken.
+class FreeDomain
+{
+public:
+  FreeDomain();
+  ~FreeDomain();
+  FreeDomain(const FreeDomain&) = delete;
+  FreeDomain& operator=(const FreeDomain&) = delete;
+
+  int Id() const { return id_; }
+
+private:
+  int id_ = -1;
+  int lock_ = -1;
+};
+
+}  // namespace swarmanoid

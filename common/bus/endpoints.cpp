@@ -1,0 +1,107 @@
+// Writers and readers with the quality of service that the table asks for.
+#include "common/bus/participant.h"
+
+namespace swarmanoid
+{
+
+namespace
+{
+
+constexpr int kExtraSamples = 4;  // that a reader may hold while the writer goes on
+constexpr int kMaximalProcesses = 4096;
+
+eprosima::fastrtps::Duration_t Milliseconds(double ms) { return {0, static_cast<std::uint32_t>(ms * 1e6)}; }
+
+}  // namespace
+
+dds::DataWriterQos WriterQos(const TopicQos& topic)
+{
+  dds::DataWriterQos qos;
+  qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
+  qos.reliability().max_blocking_time = Milliseconds(100);
+  qos.durability().kind = topic.transient_local ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+  qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = topic.writer_depth;
+  qos.resource_limits().max_instances = topic.keyed ? kMaximalProcesses : 1;
+  qos.resource_limits().max_samples_per_instance = topic.writer_depth;
+  qos.resource_limits().max_samples = qos.resource_limits().max_instances * topic.writer_depth;
+  qos.resource_limits().allocated_samples = topic.writer_depth;
+  qos.resource_limits().extra_samples = kExtraSamples;
+  qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
+  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.data_sharing().off();
+  qos.reliable_writer_qos().times.heartbeatPeriod = Milliseconds(5);
+  qos.reliable_writer_qos().times.nackResponseDelay = Milliseconds(0);
+  qos.reliable_writer_qos().times.nackSupressionDuration = Milliseconds(0);
+  return qos;
+}
+
+dds::DataReaderQos ReaderQos(const TopicQos& topic, unsigned writers)
+{
+  dds::DataReaderQos qos;
+  qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
+  qos.durability().kind = topic.transient_local ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+  qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = topic.reader_depth * static_cast<int>(writers);
+  qos.resource_limits().max_instances = topic.keyed ? kMaximalProcesses : 1;
+  qos.resource_limits().max_samples_per_instance = qos.history().depth;
+  qos.resource_limits().max_samples = qos.resource_limits().max_instances * qos.history().depth;
+  qos.resource_limits().allocated_samples = qos.history().depth;
+  qos.resource_limits().extra_samples = kExtraSamples;
+  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.data_sharing().off();
+  qos.reliable_reader_qos().times.heartbeatResponseDelay = Milliseconds(0.2);
+  return qos;
+}
+
+WriterEnd::WriterEnd(Bus& bus, dds::Topic* topic, const std::string& partition, const dds::DataWriterQos& qos)
+    : participant_(bus.Internals().participant)
+{
+  dds::PublisherQos publisher_qos;
+  publisher_qos.partition().push_back(partition.c_str());
+  publisher_ = participant_->create_publisher(publisher_qos);
+  writer_ = publisher_ == nullptr ? nullptr : publisher_->create_datawriter(topic, qos);
+  if (writer_ == nullptr) throw BusError("cannot write topic " + topic->get_name());
+}
+
+WriterEnd::~WriterEnd()
+{
+  publisher_->delete_datawriter(writer_);
+  participant_->delete_publisher(publisher_);
+}
+
+unsigned WriterEnd::Matched() const
+{
+  dds::PublicationMatchedStatus status;
+  writer_->get_publication_matched_status(status);
+  return static_cast<unsigned>(status.current_count);
+}
+
+ReaderEnd::ReaderEnd(Bus& bus, dds::Topic* topic, const std::string& partition, const dds::DataReaderQos& qos,
+                     dds::DataReaderListener* listener)
+    : participant_(bus.Internals().participant)
+{
+  dds::SubscriberQos subscriber_qos;
+  subscriber_qos.partition().push_back(partition.c_str());
+  subscriber_ = participant_->create_subscriber(subscriber_qos);
+  reader_ = subscriber_ == nullptr
+                ? nullptr
+                : subscriber_->create_datareader(topic, qos, listener, dds::StatusMask::data_available());
+  if (reader_ == nullptr) throw BusError("cannot read topic " + topic->get_name());
+}
+
+ReaderEnd::~ReaderEnd()
+{
+  reader_->set_listener(nullptr);
+  subscriber_->delete_datareader(reader_);
+  participant_->delete_subscriber(subscriber_);
+}
+
+unsigned ReaderEnd::Matched() const
+{
+  dds::SubscriptionMatchedStatus status;
+  reader_->get_subscription_matched_status(status);
+  return static_cast<unsigned>(status.current_count);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,120 @@
+#include "common/bus/hot_type.h"
+#include "common/bus/machine_id.h"
+#include "common/bus/participant.h"
+
+namespace swarmanoid
+{
+
+namespace
+{
+
+template <class Message>
+dds::Topic* HotTopic(Bus& bus, const HotScope& scope)
+{
+  return bus.Internals().TopicOf(kTopicOf<Message>,
+                                 [&] { return dds::TypeSupport(new HotType<Message>(scope.capacity)); });
+}
+
+void ShareData(dds::DataSharingQosPolicy& policy, const HotScope& scope)
+{
+  if (scope.directory.empty()) return;
+  policy.on(scope.directory, {MachineId()});
+}
+
+}  // namespace
+
+template <class Message>
+struct HotPublisher<Message>::Impl
+{
+  Impl(Bus& bus, const HotScope& scope) : writer(bus, HotTopic<Message>(bus, scope), scope.experiment, Qos(scope)) {}
+
+  static dds::DataWriterQos Qos(const HotScope& scope)
+  {
+    dds::DataWriterQos qos = WriterQos(QosOf(kTopicOf<Message>));
+    ShareData(qos.data_sharing(), scope);
+    return qos;
+  }
+
+  WriterEnd writer;
+};
+
+template <class Message>
+HotPublisher<Message>::HotPublisher(Bus& bus, const HotScope& scope) : impl_(std::make_unique<Impl>(bus, scope))
+{
+}
+
+template <class Message>
+HotPublisher<Message>::~HotPublisher() = default;
+
+template <class Message>
+void HotPublisher<Message>::Write(const MessageHeader& header, const Message& message)
+{
+  HotWrite<Message> call{&header, &message};
+  if (!impl_->writer->write(&call))
+    throw BusError(std::string("cannot send ") + kTopicOf<Message> + " of tick " + std::to_string(header.tick) +
+                   ": the message is too large or the bus is full");
+}
+
+template <class Message>
+unsigned HotPublisher<Message>::Readers() const
+{
+  return impl_->writer.Matched();
+}
+
+template <class Message>
+struct HotSubscription<Message>::Impl : dds::DataReaderListener
+{
+  Impl(Bus& bus, const HotScope& scope, Handler its_handler)
+      : handler(std::move(its_handler)), reader(bus, HotTopic<Message>(bus, scope), scope.experiment, Qos(scope), this)
+  {
+  }
+
+  static dds::DataReaderQos Qos(const HotScope& scope)
+  {
+    dds::DataReaderQos qos = ReaderQos(QosOf(kTopicOf<Message>), scope.writers);
+    if (!scope.spread) qos.reliability().kind = dds::BEST_EFFORT_RELIABILITY_QOS;
+    ShareData(qos.data_sharing(), scope);
+    return qos;
+  }
+
+  void on_data_available(dds::DataReader* source) override
+  {
+    const std::lock_guard lock(mutex);
+    HotRead<Message> call{&handler.choose, {}, nullptr};
+    dds::SampleInfo about;
+    while (source->take_next_sample(&call, &about) == ReturnCode::RETCODE_OK)
+      if (about.valid_data && call.message != nullptr) handler.received(call.header, *call.message);
+  }
+
+  Handler handler;
+  std::mutex mutex;  // data sharing and network readers call from threads of their own
+  ReaderEnd reader;
+};
+
+template <class Message>
+HotSubscription<Message>::HotSubscription(Bus& bus, const HotScope& scope, Handler handler)
+    : impl_(std::make_unique<Impl>(bus, scope, std::move(handler)))
+{
+}
+
+template <class Message>
+HotSubscription<Message>::~HotSubscription() = default;
+
+template <class Message>
+unsigned HotSubscription<Message>::Writers() const
+{
+  return impl_->reader.Matched();
+}
+
+template class HotPublisher<SpaceState>;
+template class HotPublisher<ControlCommands>;
+template class HotPublisher<EngineUpdate>;
+template class HotPublisher<SensorFrame>;
+template class HotPublisher<DrawnMessage>;
+template class HotSubscription<SpaceState>;
+template class HotSubscription<ControlCommands>;
+template class HotSubscription<EngineUpdate>;
+template class HotSubscription<SensorFrame>;
+template class HotSubscription<DrawnMessage>;
+
+}  // namespace swarmanoid

@@ -1,0 +1,107 @@
+// What the processes of a run say to each other beside the messages of a tick (common/space/messages.h). The plain side
+// of idl/swarmanoid.idl, where each field is explained.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/space/messages.h"
+
+namespace swarmanoid
+{
+
+// Equal to PROTOCOL_VERSION of the IDL; a test says so.
+inline constexpr std::uint32_t kProtocolVersion = 1;
+
+// What precedes every message of a tick.
+struct MessageHeader
+{
+  std::uint64_t run = 0;
+  std::uint64_t tick = 0;
+  std::uint32_t source = 0;
+  bool repeated = false;
+};
+
+// Visualiser of the experiment to server: the state of the header's tick is drawn.
+struct DrawnMessage
+{
+  bool terminate = false;
+};
+
+struct WorldEntity
+{
+  std::string id;
+  std::string kind;
+  bool movable = false;
+  std::uint32_t first_slot = 0;
+};
+
+struct WorldMessage
+{
+  std::uint32_t protocol = kProtocolVersion;
+  std::uint64_t run = 0;
+  std::string experiment;
+  std::string host;
+  std::uint32_t pid = 0;
+  std::string file;
+  std::string folder;
+  std::string xml;
+  std::uint64_t seed = 0;
+  std::uint32_t hosts = 1;
+  bool spread = false;
+  double tick_seconds = 0;
+  std::vector<WorldEntity> entities;
+};
+
+struct HelloMessage
+{
+  std::string process;
+  std::uint32_t protocol = kProtocolVersion;
+  std::uint64_t run = 0;
+  std::string name;
+  bool ready = false;
+};
+
+struct ViewMessage
+{
+  std::uint64_t run = 0;
+  SpaceSnapshot snapshot;
+};
+
+struct ControlRequestMessage
+{
+  std::string client;
+  std::uint32_t number = 0;
+  std::string verb;
+  std::string entity;
+  std::vector<double> numbers;
+};
+
+struct ControlReplyMessage
+{
+  std::string client;
+  std::uint32_t number = 0;
+  bool ok = false;
+  std::uint64_t tick = 0;
+  std::string text;
+};
+
+struct StatusMessage
+{
+  std::uint64_t run = 0;
+  std::uint64_t tick = 0;
+  std::string name;
+  std::string text;
+};
+
+struct ByeMessage
+{
+  std::uint64_t run = 0;
+  std::uint64_t tick = 0;
+  std::string name;
+  std::string to;
+  std::string error;
+};
+
+}  // namespace swarmanoid

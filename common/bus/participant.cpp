@@ -1,0 +1,211 @@
+#include "common/bus/participant.h"
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+
+#include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <netdb.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+namespace swarmanoid
+{
+
+namespace rtps = eprosima::fastrtps::rtps;
+
+namespace
+{
+
+constexpr unsigned kSocketBuffer = 4U << 20;  // bytes; 10,000 robots lose datagrams with the system's default
+constexpr unsigned kPeerProcesses = 100;      // looked for on each machine named as a peer
+
+eprosima::fastrtps::Duration_t Seconds(double seconds)
+{
+  const double whole = std::floor(seconds);
+  return {static_cast<std::int32_t>(whole), static_cast<std::uint32_t>((seconds - whole) * 1e9)};
+}
+
+std::string ResolveHost(const std::string& host)
+{
+  addrinfo wanted{};
+  wanted.ai_family = AF_INET;
+  addrinfo* found = nullptr;
+  if (getaddrinfo(host.c_str(), nullptr, &wanted, &found) != 0 || found == nullptr)
+    throw BusError(fmt::format("'{}' is not the name or IPv4 address of a machine", host));
+  char text[INET_ADDRSTRLEN] = {};
+  inet_ntop(AF_INET, &reinterpret_cast<sockaddr_in*>(found->ai_addr)->sin_addr, text, sizeof(text));
+  freeaddrinfo(found);
+  return text;
+}
+
+// The IPv4 addresses that the participant may use; empty for all. An address that no interface has would make it deaf.
+std::vector<std::string> InterfaceAddresses(const std::string& wanted)
+{
+  if (wanted == "all") return {};
+  if (wanted == "lo") return {"127.0.0.1"};
+  std::vector<std::string> addresses;
+  std::string known = "lo, all";
+  ifaddrs* list = nullptr;
+  if (getifaddrs(&list) != 0) throw BusError("cannot list the network interfaces");
+  for (const ifaddrs* entry = list; entry != nullptr; entry = entry->ifa_next)
+  {
+    if (entry->ifa_addr == nullptr || entry->ifa_addr->sa_family != AF_INET) continue;
+    char text[INET_ADDRSTRLEN] = {};
+    inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(entry->ifa_addr)->sin_addr, text, sizeof(text));
+    known += fmt::format(", {} ({})", entry->ifa_name, text);
+    if (wanted == entry->ifa_name || wanted == text) addresses.emplace_back(text);
+  }
+  freeifaddrs(list);
+  if (addresses.empty()) throw BusError(fmt::format("no network interface '{}'; there are {}", wanted, known));
+  addresses.emplace_back("127.0.0.1");
+  return addresses;
+}
+
+rtps::Locator_t LocatorOf(const std::string& host, unsigned port)
+{
+  rtps::Locator_t locator;
+  locator.kind = LOCATOR_KIND_UDPv4;
+  locator.port = port;
+  rtps::IPLocator::setIPv4(locator, ResolveHost(host));
+  return locator;
+}
+
+// Discovery through the space server: its participant bears a prefix that follows from the domain.
+void UseDiscoveryServer(const BusOptions& options, rtps::BuiltinAttributes& builtin, rtps::GuidPrefix_t& own_prefix)
+{
+  const std::size_t colon = options.discovery_server.rfind(':');
+  const int port = colon == std::string::npos ? 0 : std::atoi(options.discovery_server.c_str() + colon + 1);
+  if (port <= 0 || port > 65535)
+    throw BusError(
+        fmt::format("'{}' is not the address of a discovery server; write ADDRESS:PORT", options.discovery_server));
+  const rtps::Locator_t locator = LocatorOf(options.discovery_server.substr(0, colon), static_cast<unsigned>(port));
+  const std::string prefix = fmt::format("53.57.41.52.4d.41.4e.4f.49.44.{:02x}.01", options.domain);
+
+  builtin.discovery_config.discoveryServer_client_syncperiod = Seconds(0.05);
+  if (options.serves_discovery)
+  {
+    builtin.discovery_config.discoveryProtocol = rtps::DiscoveryProtocol_t::SERVER;
+    std::istringstream(prefix) >> own_prefix;
+    builtin.metatrafficUnicastLocatorList.push_back(locator);
+    return;
+  }
+  builtin.discovery_config.discoveryProtocol = rtps::DiscoveryProtocol_t::CLIENT;
+  eprosima::fastdds::rtps::RemoteServerAttributes server;
+  server.ReadguidPrefix(prefix.c_str());
+  server.metatrafficUnicastLocatorList.push_back(locator);
+  builtin.discovery_config.m_DiscoveryServers.push_back(server);
+}
+
+}  // namespace
+
+std::string MachineName()
+{
+  char name[256] = {};
+  gethostname(name, sizeof(name) - 1);
+  return name;
+}
+
+std::string ProcessId() { return fmt::format("{}:{}", MachineName(), getpid()); }
+
+Bus::Impl::Impl(const BusOptions& options, const std::string& name)
+{
+  if (options.domain < 0 || options.domain > 232)
+    throw BusError(fmt::format("domain {}: it must be 0 to 232", options.domain));
+  // A profile file in the working folder must not change a run.
+  setenv("SKIP_DEFAULT_XML", "1", 0);
+
+  dds::DomainParticipantQos qos;
+  qos.name(name.c_str());
+  const std::string process = ProcessId();
+  qos.user_data().setValue({process.begin(), process.end()});
+
+  qos.transport().use_builtin_transports = false;
+  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  udp->sendBufferSize = kSocketBuffer;
+  udp->receiveBufferSize = kSocketBuffer;
+  udp->maxMessageSize = options.datagram_bytes;
+  udp->maxInitialPeersRange = kPeerProcesses;
+  udp->interfaceWhiteList = InterfaceAddresses(options.network_interface);
+  qos.transport().user_transports.push_back(udp);
+
+  rtps::BuiltinAttributes& builtin = qos.wire_protocol().builtin;
+  builtin.discovery_config.initial_announcements.count = 20;
+  builtin.discovery_config.initial_announcements.period = Seconds(0.05);
+  builtin.discovery_config.leaseDuration = Seconds(options.lease_s);
+  builtin.discovery_config.leaseDuration_announcementperiod = Seconds(options.lease_s / 4);
+  if (!options.discovery_server.empty())
+    UseDiscoveryServer(options, builtin, qos.wire_protocol().prefix);
+  else if (!options.peers.empty())
+  {
+    builtin.initialPeersList.push_back(LocatorOf("127.0.0.1", 0));
+    for (const std::string& peer : options.peers) builtin.initialPeersList.push_back(LocatorOf(peer, 0));
+  }
+
+  participant = dds::DomainParticipantFactory::get_instance()->create_participant(
+      static_cast<std::uint32_t>(options.domain), qos, this, dds::StatusMask::none());
+  if (participant == nullptr)
+    throw BusError(
+        fmt::format("cannot join domain {} on interface {}: too many processes in the domain, or no socket free",
+                    options.domain, options.network_interface));
+}
+
+Bus::Impl::~Impl()
+{
+  participant->set_listener(nullptr);
+  for (const auto& [name, topic] : topics) participant->delete_topic(topic);
+  dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+}
+
+void Bus::Impl::on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& discovery)
+{
+  const auto& prefix = discovery.info.m_guid.guidPrefix;
+  std::pair<std::string, std::string> gone;
+  std::function<void(const std::string&, const std::string&, bool)> callback;
+  {
+    const std::lock_guard lock(mutex);
+    if (discovery.status == rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT ||
+        discovery.status == rtps::ParticipantDiscoveryInfo::CHANGED_QOS_PARTICIPANT)
+    {
+      const auto& process = discovery.info.m_userData;
+      processes[prefix] = {{process.begin(), process.end()}, discovery.info.m_participantName.to_string()};
+      return;
+    }
+    const auto found = processes.find(prefix);
+    if (found == processes.end()) return;
+    gone = found->second;
+    processes.erase(found);
+    callback = on_gone;
+  }
+  if (callback)
+    callback(gone.first, gone.second, discovery.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT);
+}
+
+dds::Topic* Bus::Impl::TopicOf(const std::string& name, const std::function<dds::TypeSupport()>& make_type)
+{
+  const std::lock_guard lock(mutex);
+  if (const auto found = topics.find(name); found != topics.end()) return found->second;
+  dds::TypeSupport type = make_type();
+  dds::Topic* topic = nullptr;
+  if (type.register_type(participant) == ReturnCode::RETCODE_OK)
+    topic = participant->create_topic(name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
+  if (topic == nullptr) throw BusError("cannot create topic " + name);
+  topics[name] = topic;
+  return topic;
+}
+
+Bus::Bus(const BusOptions& options, const std::string& name) : impl_(std::make_unique<Impl>(options, name)) {}
+Bus::~Bus() = default;
+
+void Bus::OnProcessGone(std::function<void(const std::string&, const std::string&, bool)> callback)
+{
+  const std::lock_guard lock(impl_->mutex);
+  impl_->on_gone = std::move(callback);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,84 @@
+// The inside of the bus: the DDS participant with what its topics share. Included by the sources of this folder alone.
+#pragma once
+
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+
+#include <map>
+
+#include "common/bus/bus.h"
+#include "common/bus/qos.h"
+
+namespace swarmanoid
+{
+
+namespace dds = eprosima::fastdds::dds;
+using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
+
+struct Bus::Impl : dds::DomainParticipantListener
+{
+  Impl(const BusOptions& options, const std::string& name);
+  ~Impl() override;
+
+  void on_participant_discovery(dds::DomainParticipant*,
+                                eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& discovery) override;
+
+  // The topic of that name; its type is registered by the first who asks.
+  dds::Topic* TopicOf(const std::string& name, const std::function<dds::TypeSupport()>& make_type);
+
+  dds::DomainParticipant* participant = nullptr;
+  std::mutex mutex;  // of the members below
+  std::map<std::string, dds::Topic*> topics;
+  std::map<eprosima::fastrtps::rtps::GuidPrefix_t, std::pair<std::string, std::string>> processes;  // "host:pid", name
+  std::function<void(const std::string&, const std::string&, bool)> on_gone;
+};
+
+// One writer or reader with the publisher or subscriber that bears its partition.
+class WriterEnd
+{
+public:
+  WriterEnd(Bus& bus, dds::Topic* topic, const std::string& partition, const dds::DataWriterQos& qos);
+  ~WriterEnd();
+  WriterEnd(const WriterEnd&) = delete;
+  WriterEnd& operator=(const WriterEnd&) = delete;
+
+  dds::DataWriter* operator->() const { return writer_; }
+  unsigned Matched() const;
+
+private:
+  dds::DomainParticipant* participant_;
+  dds::Publisher* publisher_;
+  dds::DataWriter* writer_;
+};
+
+class ReaderEnd
+{
+public:
+  ReaderEnd(Bus& bus, dds::Topic* topic, const std::string& partition, const dds::DataReaderQos& qos,
+            dds::DataReaderListener* listener);
+  ~ReaderEnd();
+  ReaderEnd(const ReaderEnd&) = delete;
+  ReaderEnd& operator=(const ReaderEnd&) = delete;
+
+  unsigned Matched() const;
+
+private:
+  dds::DomainParticipant* participant_;
+  dds::Subscriber* subscriber_;
+  dds::DataReader* reader_;
+};
+
+dds::DataWriterQos WriterQos(const TopicQos& topic);
+dds::DataReaderQos ReaderQos(const TopicQos& topic, unsigned writers);
+
+}  // namespace swarmanoid

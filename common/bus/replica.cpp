@@ -1,0 +1,105 @@
+#include "common/bus/replica.h"
+
+#include <fmt/format.h>
+
+#include "common/bus/bus.h"
+#include "common/experiment/load_experiment.h"
+
+namespace swarmanoid
+{
+
+namespace
+{
+
+constexpr std::size_t kFixedBytes = 64;  // headers, flags and the lengths of the arrays, generously
+constexpr std::size_t kSlotBytes = sizeof(double) + sizeof(std::uint32_t);
+
+std::size_t AttributeBytes(const CSwarmanoidSpace& space) { return space.Attributes().size() * kSlotBytes; }
+
+}  // namespace
+
+Replica::Replica(const WorldMessage& world, bool load_controllers)
+{
+  LoadOptions options;
+  options.check_controller_libraries = load_controllers;
+  LoadedExperiment loaded = LoadExperimentText(world.xml, world.file, world.folder, options);
+  if (!loaded.experiment)
+  {
+    std::string text;
+    for (const Diagnostic& error : loaded.errors) text += fmt::format("{}{}", text.empty() ? "" : "\n", error.Text());
+    throw ConfigurationError(text);
+  }
+  experiment = std::move(loaded.experiment);
+  assignment = MakeAssignment(*experiment, world.hosts);
+  space = std::make_unique<CSwarmanoidSpace>(*experiment);
+
+  // A worker on another machine may have other plug-ins, and so another world, under the same names.
+  const WorldMessage own = DescribeWorld(*space, world.run, world.file, world.hosts);
+  const auto same = [](const WorldEntity& a, const WorldEntity& b)
+  { return a.id == b.id && a.kind == b.kind && a.movable == b.movable && a.first_slot == b.first_slot; };
+  if (!std::equal(own.entities.begin(), own.entities.end(), world.entities.begin(), world.entities.end(), same))
+    throw BusError(
+        "the entities made from the experiment differ from those of the space server; use programs of one build");
+}
+
+WorldMessage DescribeWorld(const CSwarmanoidSpace& space, std::uint64_t run, const std::string& file, unsigned hosts)
+{
+  const Experiment& experiment = space.GetExperiment();
+  WorldMessage world;
+  world.run = run;
+  world.experiment = experiment.name;
+  world.file = file;
+  world.folder = experiment.folder;
+  world.xml = experiment.effective_xml;
+  world.seed = experiment.seed;
+  world.hosts = hosts;
+  world.tick_seconds = experiment.TickSeconds();
+  world.entities.reserve(space.Size());
+  for (std::size_t i = 0; i < space.Size(); ++i)
+  {
+    const CSwarmanoidSpaceEntity& entity = space.GetEntity(i);
+    world.entities.push_back(
+        {entity.GetId(), std::string(TagName(entity.GetKind())), entity.IsMovable(), entity.FirstSlot()});
+  }
+  return world;
+}
+
+std::size_t StateCapacity(const CSwarmanoidSpace& space)
+{
+  return kFixedBytes + space.Movable().size() * (7 * sizeof(double) + sizeof(std::uint32_t)) + AttributeBytes(space);
+}
+
+std::size_t CommandsCapacity(const CSwarmanoidSpace& space, const Assignment& assignment)
+{
+  std::size_t values = 0;
+  for (const HostLayout& host : assignment.hosts) values = std::max(values, host.command_size);
+  return kFixedBytes + values * sizeof(double) + AttributeBytes(space);
+}
+
+std::size_t UpdateCapacity(const CSwarmanoidSpace& space, const Assignment& assignment)
+{
+  std::size_t owned = 0;
+  for (const EngineLayout& engine : assignment.engines) owned = std::max(owned, engine.owned.size());
+  return kFixedBytes + 7 * owned * sizeof(double) + AttributeBytes(space);
+}
+
+std::size_t FrameCapacity(const Assignment& assignment)
+{
+  std::size_t values = 0;
+  for (const EngineLayout& engine : assignment.engines) values = std::max(values, engine.sensor_size);
+  return kFixedBytes + values * sizeof(double);
+}
+
+// No engine waits for a host without robots.
+bool ServerHears(const HostLayout& host) { return host.reports_to_server || host.robots.empty(); }
+
+std::string EngineName(const Experiment& experiment, std::size_t engine)
+{
+  return fmt::format("engine '{}'", experiment.engines[engine].id);
+}
+
+std::string HostName(std::size_t host) { return fmt::format("controller host {}", host); }
+
+std::string VisualiserName(const RenderConfiguration& render) { return fmt::format("visualiser '{}'", render.id); }
+
+}  // namespace swarmanoid

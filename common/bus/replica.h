@@ -1,0 +1,42 @@
+// The world as a worker builds it from the space server's description: experiment, assignment and a space of its own.
+// Used by engine workers, controller hosts and visualisers.
+#pragma once
+
+#include <memory>
+
+#include "common/bus/messages.h"
+#include "common/space/assignment.h"
+#include "common/space/space.h"
+
+namespace swarmanoid
+{
+
+struct Replica
+{
+  // The plug-in registries are filled. Throws ConfigurationError naming every mistake.
+  // `load_controllers`: only controller hosts need the users' libraries.
+  Replica(const WorldMessage& world, bool load_controllers);
+
+  std::unique_ptr<Experiment> experiment;
+  Assignment assignment;
+  std::unique_ptr<CSwarmanoidSpace> space;
+};
+
+// What the space server says of its world.
+WorldMessage DescribeWorld(const CSwarmanoidSpace& space, std::uint64_t run, const std::string& file, unsigned hosts);
+
+// Bytes of the largest message of a tick.
+std::size_t StateCapacity(const CSwarmanoidSpace& space);
+std::size_t CommandsCapacity(const CSwarmanoidSpace& space, const Assignment& assignment);
+std::size_t UpdateCapacity(const CSwarmanoidSpace& space, const Assignment& assignment);
+inline constexpr std::size_t kDrawnCapacity = 24;
+std::size_t FrameCapacity(const Assignment& assignment);
+
+// Whether the server waits for the commands of a host.
+bool ServerHears(const HostLayout& host);
+
+std::string EngineName(const Experiment& experiment, std::size_t engine);  // "engine 'ground'"
+std::string HostName(std::size_t host);                                    // "controller host 1"
+std::string VisualiserName(const RenderConfiguration& render);             // "visualiser 'text'"
+
+}  // namespace swarmanoid

@@ -1,0 +1,51 @@
+// The memory that the processes of a run on this machine share: /dev/shm/swarmanoid-<user>/<experiment>-<run>/. It also
+// tells which experiments run here. Used by the four programs and the launcher.
+//
+// Every process of the run holds a locked file in the folder, so that folders of dead runs can be told from live ones,
+// however their processes ended.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace swarmanoid
+{
+
+// The folder of all runs of this user. The environment variable SWARMANOID_SHARED_FOLDER puts it elsewhere.
+std::string SharedFolder();
+
+class RunDirectory
+{
+public:
+  // Joins the run, creating its folder where needed. Throws BusError.
+  RunDirectory(const std::string& experiment, std::uint64_t run);
+  // Leaves the run; the last process of it on this machine removes the folder.
+  ~RunDirectory();
+  RunDirectory(const RunDirectory&) = delete;
+  RunDirectory& operator=(const RunDirectory&) = delete;
+
+  // For the space server: lets FindLocalRuns find this run.
+  void Announce(const std::string& experiment, int domain);
+  const std::string& Path() const { return path_; }
+
+private:
+  std::string path_;
+  std::string marker_;
+  int lock_ = -1;
+};
+
+// An experiment whose space server runs on this machine.
+struct LocalRun
+{
+  std::string experiment;
+  int domain = 0;
+  long server = 0;  // process id
+  std::string directory;
+};
+
+std::vector<LocalRun> FindLocalRuns();
+// Removes the folders of runs of which no process is alive.
+void RemoveDeadRuns();
+
+}  // namespace swarmanoid

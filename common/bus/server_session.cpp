@@ -1,0 +1,178 @@
+#include "common/bus/server_session.h"
+
+#include <fmt/format.h>
+#include <cstdio>
+
+namespace swarmanoid
+{
+
+namespace
+{
+
+constexpr double kByeTime_s = 1.0;
+
+// Two experiments of one name in one domain would hear each other.
+void RefuseSecondServer(const std::string& experiment, int domain)
+{
+  for (const LocalRun& run : FindLocalRuns())
+    if (run.experiment == experiment && run.domain == domain)
+      throw BusError(
+          fmt::format("experiment '{}' runs already in domain {} (space server: process {}); choose another --domain",
+                      experiment, domain, run.server));
+}
+
+}  // namespace
+
+ServerSession::ServerSession(const BusOptions& options, WorldMessage world, std::vector<std::string> expected,
+                             Callbacks callbacks)
+    : world_(std::move(world)),
+      expected_(std::move(expected)),
+      callbacks_(std::move(callbacks)),
+      directory_((RemoveDeadRuns(), RefuseSecondServer(world_.experiment, options.domain), world_.experiment),
+                 world_.run),
+      bus_(options, "space server")
+{
+  for (const std::string& name : expected_) members_[name];
+  directory_.Announce(world_.experiment, options.domain);
+  world_.host = MachineName();
+  const std::string process = ProcessId();
+  world_.pid = static_cast<std::uint32_t>(std::stoul(process.substr(process.rfind(':') + 1)));
+  world_.spread = options.Spread();
+
+  const std::string& partition = world_.experiment;
+  bye_ = std::make_unique<Publisher<ByeMessage>>(bus_, partition);
+  replies_ = std::make_unique<Publisher<ControlReplyMessage>>(bus_, partition);
+  worlds_ = std::make_unique<Publisher<WorldMessage>>(bus_, partition);
+  bus_.OnProcessGone([this](const std::string& gone, const std::string&, bool died) { Gone(gone, died); });
+  hellos_ =
+      std::make_unique<Subscription<HelloMessage>>(bus_, partition, [this](const HelloMessage& hello) { Met(hello); });
+  byes_ = std::make_unique<Subscription<ByeMessage>>(bus_, partition, [this](const ByeMessage& bye) { Left(bye); });
+  statuses_ = std::make_unique<Subscription<StatusMessage>>(bus_, partition,
+                                                            [this](const StatusMessage& status)
+                                                            {
+                                                              if (status.run != world_.run) return;
+                                                              const std::lock_guard lock(mutex_);
+                                                              const auto member = members_.find(status.name);
+                                                              if (member != members_.end())
+                                                                member->second.status = status;
+                                                            });
+  requests_ = std::make_unique<Subscription<ControlRequestMessage>>(
+      bus_, partition, [this](const ControlRequestMessage& request) { callbacks_.asked(request); });
+  worlds_->Write(world_);
+}
+
+ServerSession::~ServerSession() { bus_.OnProcessGone(nullptr); }
+
+HotScope ServerSession::Scope(std::size_t capacity, unsigned writers) const
+{
+  return {world_.experiment, directory_.Path(), world_.spread, capacity, writers};
+}
+
+void ServerSession::Met(const HelloMessage& hello)
+{
+  if (hello.protocol != kProtocolVersion)
+    return Refuse(
+        hello,
+        fmt::format("{} ({}) speaks protocol version {}, the space server version {}; use programs of one release",
+                    hello.name, hello.process, hello.protocol, kProtocolVersion));
+  if (hello.run != world_.run) return;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto member = members_.find(hello.name);
+    if (member == members_.end()) return;  // an attached visualiser
+    if (member->second.process.empty() || member->second.process == hello.process)
+    {
+      member->second.process = hello.process;
+      member->second.ready = hello.ready;
+      callbacks_.changed();
+      return;
+    }
+  }
+  Refuse(hello, fmt::format("{} runs already; process {} is one too many", hello.name, hello.process));
+}
+
+void ServerSession::Refuse(const HelloMessage& hello, const std::string& reason)
+{
+  fmt::print(stderr, "space server: refused: {}\n", reason);
+  bye_->Write({hello.run, 0, "space server", hello.process, reason});
+}
+
+void ServerSession::Left(const ByeMessage& bye)
+{
+  if (bye.run != world_.run || bye.name == "space server") return;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto member = members_.find(bye.name);
+    if (member == members_.end()) return;
+    member->second.said_bye = true;
+    if (!over_ && !bye.error.empty()) Fail(fmt::format("{} failed at tick {}: {}", bye.name, bye.tick, bye.error));
+  }
+  callbacks_.changed();
+}
+
+void ServerSession::Gone(const std::string& process, bool died)
+{
+  {
+    const std::lock_guard lock(mutex_);
+    for (auto& [name, member] : members_)
+    {
+      if (member.process != process) continue;
+      if (!member.said_bye && !over_)
+        Fail(fmt::format("{} {} (process {})", name, died ? "does not answer any more" : "has left", process));
+      member.said_bye = true;
+    }
+  }
+  callbacks_.changed();
+}
+
+void ServerSession::Fail(const std::string& text)
+{
+  if (!failure_) failure_ = text;
+}
+
+std::vector<std::string> ServerSession::Missing() const
+{
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> missing;
+  for (const std::string& name : expected_)
+    if (!members_.at(name).ready) missing.push_back(name);
+  return missing;
+}
+
+std::optional<std::string> ServerSession::Failure() const
+{
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
+std::string ServerSession::Status(const std::string& name, std::uint64_t tick) const
+{
+  const std::lock_guard lock(mutex_);
+  const auto member = members_.find(name);
+  return member == members_.end() || member->second.status.tick != tick ? std::string() : member->second.status.text;
+}
+
+bool ServerSession::AllSaidBye() const
+{
+  const std::lock_guard lock(mutex_);
+  for (const auto& [name, member] : members_)
+    if (!member.said_bye && !member.process.empty()) return false;
+  return true;
+}
+
+void ServerSession::Reply(const ControlRequestMessage& request, bool ok, std::uint64_t tick, const std::string& text)
+{
+  replies_->Write({request.client, request.number, ok, tick, text});
+}
+
+void ServerSession::SayBye(std::uint64_t tick, const std::string& error)
+{
+  {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
+  }
+  bye_->Write({world_.run, tick, "space server", "", error});
+  bye_->WaitUntilRead(kByeTime_s);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,84 @@
+// ServerSession: what the space server does beside its step: it publishes the world, gathers the processes of the run,
+// notices when one fails or dies, and hears what users ask for. Its step runs in threads of the bus.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/bus/bus.h"
+#include "common/bus/run_directory.h"
+
+namespace swarmanoid
+{
+
+class ServerSession
+{
+public:
+  // Called in threads of the bus.
+  struct Callbacks
+  {
+    std::function<void(const ControlRequestMessage&)> asked;
+    std::function<void()> changed;  // somebody joined, failed, left, or is waiting
+  };
+
+  // `expected`: names of the processes that the run waits for. Throws BusError where an experiment of that name runs in
+  // the domain already.
+  ServerSession(const BusOptions& options, WorldMessage world, std::vector<std::string> expected, Callbacks callbacks);
+  ~ServerSession();
+
+  Bus& GetBus() { return bus_; }
+  const WorldMessage& World() const { return world_; }
+  HotScope Scope(std::size_t capacity, unsigned writers) const;
+
+  // Those that are not ready yet, in the order of `expected`.
+  std::vector<std::string> Missing() const;
+  // The first failure of a process, with its name.
+  std::optional<std::string> Failure() const;
+  // What `name` said last that it waits for or is busy with, at that tick; empty for nothing.
+  std::string Status(const std::string& name, std::uint64_t tick) const;
+  // True once every expected process has said good-bye.
+  bool AllSaidBye() const;
+
+  void Reply(const ControlRequestMessage& request, bool ok, std::uint64_t tick, const std::string& text);
+  // Tells all that the run is over, and why.
+  void SayBye(std::uint64_t tick, const std::string& error);
+
+private:
+  struct Member
+  {
+    std::string process;  // empty: not here yet
+    bool ready = false;
+    bool said_bye = false;
+    StatusMessage status;
+  };
+
+  void Met(const HelloMessage& hello);
+  void Left(const ByeMessage& bye);
+  void Gone(const std::string& process, bool died);
+  void Refuse(const HelloMessage& hello, const std::string& reason);
+  void Fail(const std::string& text);
+
+  WorldMessage world_;
+  std::vector<std::string> expected_;
+  Callbacks callbacks_;
+  mutable std::mutex mutex_;
+  std::map<std::string, Member> members_;
+  std::optional<std::string> failure_;
+  bool over_ = false;
+  RunDirectory directory_;
+  Bus bus_;
+  std::unique_ptr<Publisher<ByeMessage>> bye_;
+  std::unique_ptr<Publisher<ControlReplyMessage>> replies_;
+  std::unique_ptr<Publisher<WorldMessage>> worlds_;
+  std::unique_ptr<Subscription<HelloMessage>> hellos_;
+  std::unique_ptr<Subscription<StatusMessage>> statuses_;
+  std::unique_ptr<Subscription<ByeMessage>> byes_;
+  std::unique_ptr<Subscription<ControlRequestMessage>> requests_;
+};
+
+}  // namespace swarmanoid

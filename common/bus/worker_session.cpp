@@ -1,0 +1,194 @@
+#include "common/bus/worker_session.h"
+
+#include <fmt/format.h>
+#include <cstdio>
+
+#include "common/bus/cluster_options.h"
+
+namespace swarmanoid
+{
+
+namespace
+{
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kPatience = 1s;      // before what is waited for is said
+constexpr double kByeTime_s = 1.0;  // for the last message to arrive
+
+}  // namespace
+
+WorkerSession::WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name)
+    : name_(name), bus_(options, name), domain_(options.domain)
+{
+  bus_.OnProcessGone(
+      [this](const std::string& process, const std::string&, bool)
+      {
+        const std::lock_guard lock(mutex_);
+        if (process != server_process_) return;
+        server_gone_ = true;
+        changed_.notify_all();
+      });
+  worlds_ = std::make_unique<Subscription<WorldMessage>>(bus_, experiment.empty() ? "*" : experiment,
+                                                         [this](const WorldMessage& world)
+                                                         {
+                                                           const std::lock_guard lock(mutex_);
+                                                           if (have_world_) return;
+                                                           world_ = world;
+                                                           have_world_ = true;
+                                                           server_process_ =
+                                                               fmt::format("{}:{}", world.host, world.pid);
+                                                           changed_.notify_all();
+                                                         });
+  WaitUntil(
+      [this]
+      {
+        const std::lock_guard lock(mutex_);
+        return have_world_;
+      },
+      [&]
+      {
+        return fmt::format("the space server of {} in domain {}",
+                           experiment.empty() ? "any experiment" : "'" + experiment + "'", domain_);
+      });
+  if (world_.protocol != kProtocolVersion)
+    throw BusError(fmt::format(
+        "the space server of '{}' ({}) speaks protocol version {}, this program version {}; use programs of "
+        "one release",
+        world_.experiment, server_process_, world_.protocol, kProtocolVersion));
+
+  directory_ = std::make_unique<RunDirectory>(world_.experiment, world_.run);
+  hello_ = std::make_unique<Publisher<HelloMessage>>(bus_, world_.experiment);
+  status_ = std::make_unique<Publisher<StatusMessage>>(bus_, world_.experiment);
+  bye_ = std::make_unique<Publisher<ByeMessage>>(bus_, world_.experiment);
+  byes_ = std::make_unique<Subscription<ByeMessage>>(bus_, world_.experiment,
+                                                     [this](const ByeMessage& bye)
+                                                     {
+                                                       if (bye.run != world_.run) return;
+                                                       if (!bye.to.empty() && bye.to != ProcessId()) return;
+                                                       const std::lock_guard lock(mutex_);
+                                                       if (bye.name != "space server") return;
+                                                       server_said_bye_ = true;
+                                                       if (!bye.error.empty()) others_error_ = bye.error;
+                                                       changed_.notify_all();
+                                                     });
+  hello_->Write({ProcessId(), kProtocolVersion, world_.run, name_, false});
+}
+
+WorkerSession::~WorkerSession() { bus_.OnProcessGone(nullptr); }
+
+HotScope WorkerSession::Scope(std::size_t capacity, unsigned writers) const
+{
+  return {world_.experiment, directory_->Path(), world_.spread, capacity, writers};
+}
+
+void WorkerSession::CheckOthers()
+{
+  const std::lock_guard lock(mutex_);
+  if (Interrupted()) throw BusError("interrupted");
+  if (others_error_) throw BusError(*others_error_);
+  if (server_gone_) throw BusError(fmt::format("the space server has gone (process {})", server_process_));
+  if (server_said_bye_) throw BusError("the run has ended");
+}
+
+void WorkerSession::Say(const std::string& text) const { fmt::print(stderr, "{}: {}\n", name_, text); }
+
+void WorkerSession::WaitUntil(const std::function<bool()>& met, const std::function<std::string()>& what)
+{
+  const auto start = Clock::now();
+  std::string said;
+  while (!met())
+  {
+    CheckOthers();
+    if (Clock::now() - start > kPatience)
+      if (std::string text = what(); text != said)
+      {
+        Say("waiting for " + text + " …");
+        said = text;
+      }
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, 2ms);
+  }
+}
+
+void WorkerSession::SayReady() { hello_->Write({ProcessId(), kProtocolVersion, world_.run, name_, true}); }
+
+void WorkerSession::Finish(std::uint64_t tick)
+{
+  const std::lock_guard lock(mutex_);
+  tick_ = tick;
+  done_ = true;
+  changed_.notify_all();
+}
+
+void WorkerSession::Fail(std::uint64_t tick, const std::string& error)
+{
+  const std::lock_guard lock(mutex_);
+  tick_ = tick;
+  if (!own_error_) own_error_ = error;
+  changed_.notify_all();
+}
+
+void WorkerSession::Notify()
+{
+  const std::lock_guard lock(mutex_);
+  notified_ = true;
+  changed_.notify_all();
+}
+
+void WorkerSession::SetTick(std::uint64_t tick)
+{
+  const std::lock_guard lock(mutex_);
+  tick_ = tick;
+}
+
+void WorkerSession::Wait(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle)
+{
+  while (true)
+  {
+    if (const std::optional<std::string> text = idle(); text && *text != last_status_)
+    {
+      last_status_ = *text;
+      status_->Write({world_.run, tick_, name_, *text});
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      if (own_error_) throw BusError(*own_error_);
+      if (done_) return;
+    }
+    CheckOthers();
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(
+        lock, period,
+        [this] { return notified_ || done_ || own_error_ || others_error_ || server_gone_ || server_said_bye_; });
+    notified_ = false;
+  }
+}
+
+int WorkerSession::Work(const std::function<void()>& work)
+{
+  try
+  {
+    work();
+  }
+  catch (const std::exception& error)
+  {
+    bool told = false;
+    {
+      const std::lock_guard lock(mutex_);
+      told = server_gone_ || server_said_bye_;
+    }
+    if (!told)
+    {
+      bye_->Write({world_.run, tick_, name_, "", error.what()});
+      bye_->WaitUntilRead(kByeTime_s);
+    }
+    throw;
+  }
+  bye_->Write({world_.run, tick_, name_, "", ""});
+  bye_->WaitUntilRead(kByeTime_s);
+  return kExitDone;
+}
+
+}  // namespace swarmanoid

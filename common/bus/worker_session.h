@@ -1,0 +1,81 @@
+// WorkerSession: what every process of a run but the space server does beside its step: it finds the run, tells who it
+// is, reports what it waits for, and ends when the run ends or fails. Used by engine_worker, controller_host and
+// visualiser; the step itself runs in a thread of the bus.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "common/bus/bus.h"
+#include "common/bus/run_directory.h"
+
+namespace swarmanoid
+{
+
+class WorkerSession
+{
+public:
+  // Waits for the space server of `experiment` (empty: of the first one that is heard), saying so. `name` as in
+  // HelloMessage. Throws BusError where its protocol is another one, or when interrupted.
+  WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name);
+  ~WorkerSession();
+
+  const WorldMessage& World() const { return world_; }
+  Bus& GetBus() { return bus_; }
+  HotScope Scope(std::size_t capacity, unsigned writers) const;
+  MessageHeader Header(std::uint64_t tick, std::uint32_t source) const { return {world_.run, tick, source, false}; }
+
+  // Waits until `met` and says so after a while: "waiting for <what>". Throws BusError when the run ends before.
+  void WaitUntil(const std::function<bool()>& met, const std::function<std::string()>& what);
+  // Tells the server that this process can step.
+  void SayReady();
+
+  // Does the work of the process, all of it after the constructor, and tells the server how it ended. Returns the exit
+  // code; throws what `work` throws.
+  int Work(const std::function<void()>& work);
+
+  // Within the work, until the run ends. `idle` is called when notified and at least every `period`; it may return what
+  // this process waits for or is busy with since too long, which is told to the server. Throws BusError where this or
+  // another process failed.
+  void Wait(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
+  // From any thread: the work is done, or failed, or `idle` is to be called.
+  void Finish(std::uint64_t tick);
+  void Fail(std::uint64_t tick, const std::string& error);
+  void Notify();
+  // The tick that Status messages bear.
+  void SetTick(std::uint64_t tick);
+
+private:
+  void CheckOthers();
+  void Say(const std::string& text) const;
+
+  std::string name_;
+  Bus bus_;
+  int domain_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool notified_ = false;
+  bool done_ = false;
+  std::uint64_t tick_ = 0;
+  std::optional<std::string> own_error_;
+  std::optional<std::string> others_error_;
+  bool server_gone_ = false;
+  bool server_said_bye_ = false;
+  std::string server_process_;
+  std::string last_status_;
+  WorldMessage world_;
+  bool have_world_ = false;
+  std::unique_ptr<RunDirectory> directory_;
+  std::unique_ptr<Subscription<WorldMessage>> worlds_;
+  std::unique_ptr<Publisher<HelloMessage>> hello_;
+  std::unique_ptr<Publisher<StatusMessage>> status_;
+  std::unique_ptr<Publisher<ByeMessage>> bye_;
+  std::unique_ptr<Subscription<ByeMessage>> byes_;
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,235 @@
+#include "space_server/cluster/lockstep.h"
+
+#include <fmt/format.h>
+#include <cerrno>
+#include <cstring>
+
+#include "common/bus/replica.h"
+
+namespace swarmanoid
+{
+
+namespace
+{
+
+std::vector<std::uint32_t> HostsHeard(const Assignment& assignment)
+{
+  std::vector<std::uint32_t> hosts;
+  for (std::uint32_t h = 0; h < assignment.hosts.size(); ++h)
+    if (ServerHears(assignment.hosts[h])) hosts.push_back(h);
+  return hosts;
+}
+
+std::vector<TickGate::Part> Parts(const Experiment& experiment, const std::vector<std::uint32_t>& hosts,
+                                  std::size_t visualisers)
+{
+  std::vector<TickGate::Part> parts;
+  for (std::size_t e = 0; e < experiment.engines.size(); ++e) parts.push_back({EngineName(experiment, e)});
+  for (const std::uint32_t host : hosts) parts.push_back({HostName(host)});
+  for (std::size_t v = 0; v < visualisers; ++v) parts.push_back({VisualiserName(experiment.visualisations[v])});
+  return parts;
+}
+
+}  // namespace
+
+Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
+                   const std::string& hash_log, std::function<void()> stopped)
+    : session_(session),
+      server_(server),
+      stopped_(std::move(stopped)),
+      engines_(assignment.engines.size()),
+      hosts_(HostsHeard(assignment)),
+      visualisers_(visualisations ? server.Space().GetExperiment().visualisations.size() : 0),
+      workers_(static_cast<unsigned>(engines_ + assignment.hosts.size() + visualisers_)),
+      gate_(Parts(server.Space().GetExperiment(), hosts_, visualisers_)),
+      updates_(engines_),
+      commands_(hosts_.size()),
+      drawn_(visualisers_),
+      states_(session.GetBus(), session.Scope(StateCapacity(server.Space()), 1))
+{
+  if (!hash_log.empty())
+  {
+    hash_log_ = std::fopen(hash_log.c_str(), "w");
+    if (hash_log_ == nullptr)
+      throw BusError(fmt::format("cannot write the hash log '{}': {}", hash_log, std::strerror(errno)));
+  }
+  for (const EngineUpdate& update : updates_) updates_here_.push_back(&update);
+  for (const ControlCommands& commands : commands_) commands_here_.push_back(&commands);
+
+  Bus& bus = session.GetBus();
+  if (engines_ > 0)
+    updates_in_.emplace(bus, session.Scope(UpdateCapacity(server.Space(), assignment), static_cast<unsigned>(engines_)),
+                        HotSubscription<EngineUpdate>::Handler{[this](const MessageHeader& header) -> EngineUpdate*
+                                                               {
+                                                                 if (header.source >= engines_ || header.tick == 0)
+                                                                   return nullptr;
+                                                                 return PlaceOf(header, header.tick - 1, header.source,
+                                                                                updates_[header.source]);
+                                                               },
+                                                               [this](const MessageHeader& header, EngineUpdate&)
+                                                               { Arrived(header.source, header.tick - 1); }});
+  if (!hosts_.empty())
+    commands_in_.emplace(
+        bus,
+        session.Scope(CommandsCapacity(server.Space(), assignment), static_cast<unsigned>(assignment.hosts.size())),
+        HotSubscription<ControlCommands>::Handler{
+            [this](const MessageHeader& header) -> ControlCommands*
+            {
+              const auto host = std::find(hosts_.begin(), hosts_.end(), header.source);
+              if (host == hosts_.end()) return nullptr;
+              const auto k = static_cast<std::size_t>(host - hosts_.begin());
+              return PlaceOf(header, header.tick, engines_ + k, commands_[k]);
+            },
+            [this](const MessageHeader& header, ControlCommands&)
+            {
+              const auto host = std::find(hosts_.begin(), hosts_.end(), header.source);
+              Arrived(engines_ + static_cast<std::size_t>(host - hosts_.begin()), header.tick);
+            }});
+  if (visualisers_ > 0)
+    drawn_in_.emplace(bus, session.Scope(kDrawnCapacity, static_cast<unsigned>(visualisers_)),
+                      HotSubscription<DrawnMessage>::Handler{
+                          [this](const MessageHeader& header) -> DrawnMessage*
+                          {
+                            if (header.source >= visualisers_) return nullptr;
+                            return PlaceOf(header, header.tick, engines_ + hosts_.size() + header.source,
+                                           drawn_[header.source]);
+                          },
+                          [this](const MessageHeader& header, DrawnMessage&)
+                          { Arrived(engines_ + hosts_.size() + header.source, header.tick); }});
+}
+
+Lockstep::~Lockstep()
+{
+  drawn_in_.reset();
+  commands_in_.reset();
+  updates_in_.reset();
+  if (hash_log_ != nullptr) std::fclose(hash_log_);
+}
+
+bool Lockstep::AllMet() const
+{
+  return states_.Readers() >= workers_ && (!updates_in_ || updates_in_->Writers() >= engines_) &&
+         (!commands_in_ || commands_in_->Writers() >= hosts_.size()) &&
+         (!drawn_in_ || drawn_in_->Writers() >= visualisers_);
+}
+
+template <class Message>
+Message* Lockstep::PlaceOf(const MessageHeader& header, std::uint64_t tick, std::optional<std::size_t> part,
+                           Message& place)
+{
+  if (header.run != session_.World().run) return nullptr;
+  const std::lock_guard lock(mutex_);
+  try
+  {
+    return !held_ && gate_.Offer(*part, tick) == TickGate::Verdict::kExpected ? &place : nullptr;
+  }
+  catch (const BusError& error)
+  {
+    if (!failure_) failure_ = error.what();
+    stopped_();
+    return nullptr;
+  }
+}
+
+void Lockstep::Arrived(std::size_t part, std::uint64_t tick)
+{
+  const std::lock_guard lock(mutex_);
+  if (!gate_.Arrived(part, tick) || finished_ || failure_) return;
+  try
+  {
+    Complete();
+  }
+  catch (const std::exception& error)
+  {
+    failure_ = error.what();
+    stopped_();
+  }
+}
+
+void Lockstep::Complete()
+{
+  bool terminate = false;
+  for (const DrawnMessage& drawn : drawn_) terminate |= drawn.terminate;
+  if (terminate)
+  {
+    // The tick that was drawn is the last one: its state goes out again, marked so.
+    server_.Finish();
+    Send(true);
+    return;
+  }
+  server_.Advance(updates_here_, commands_here_);
+  gate_.Next();
+  if (hold_ || gate_.Tick() == until_)
+  {
+    held_ = true;
+    stopped_();
+    return;
+  }
+  Send(false);
+}
+
+void Lockstep::Send(bool repeated)
+{
+  const SpaceState& state = server_.State();
+  if (hash_log_ != nullptr && !repeated) fmt::print(hash_log_, "{} {:016x}\n", state.tick, server_.Space().Hash());
+  held_ = false;
+  states_.Write({session_.World().run, state.tick, 0, repeated}, state);
+  if (!state.last) return;
+  finished_ = true;
+  stopped_();
+}
+
+bool Lockstep::Held() const
+{
+  const std::lock_guard lock(mutex_);
+  return held_;
+}
+
+std::uint64_t Lockstep::Tick() const
+{
+  const std::lock_guard lock(mutex_);
+  return gate_.Tick();
+}
+
+void Lockstep::Go(std::uint64_t until)
+{
+  const std::lock_guard lock(mutex_);
+  hold_ = false;
+  until_ = until;
+  if (!held_) return;
+  Send(false);
+  // An experiment without engines, hosts and visualisers waits for nobody.
+  while (gate_.Complete() && !finished_ && !held_) Complete();
+}
+
+void Lockstep::Hold()
+{
+  const std::lock_guard lock(mutex_);
+  hold_ = true;
+}
+
+void Lockstep::Repeat()
+{
+  const std::lock_guard lock(mutex_);
+  if (!held_) Send(true);
+}
+
+bool Lockstep::Finished() const
+{
+  const std::lock_guard lock(mutex_);
+  return finished_;
+}
+
+std::optional<std::string> Lockstep::Failure() const
+{
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
+std::vector<std::string> Lockstep::Missing() const
+{
+  const std::lock_guard lock(mutex_);
+  return held_ ? std::vector<std::string>() : gate_.Missing();
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,88 @@
+// Lockstep: the space server's side of the ticks. It sends the state of a tick, gathers what engines, hosts and
+// visualisers answer, and lets the role make the next state. It runs in the threads of the bus and stops before a tick
+// where the main thread asks for it (pause, pace, commands). Used by the space_server program alone.
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/bus/server_session.h"
+#include "common/bus/tick_gate.h"
+#include "space_server/space_server.h"
+
+namespace swarmanoid
+{
+
+class Lockstep
+{
+public:
+  // `stopped`: called in a thread of the bus when the main thread has to act: the tick is held, or the run failed.
+  Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
+           const std::string& hash_log, std::function<void()> stopped);
+  ~Lockstep();
+
+  // Whether all workers' topics have met those of the server.
+  bool AllMet() const;
+
+  // What follows is for the main thread.
+
+  // Between two ticks: the state of Tick() is made, but not sent.
+  bool Held() const;
+  std::uint64_t Tick() const;
+  // Sends the state that is held and runs on until tick `until`, or without end where `until` is 0.
+  void Go(std::uint64_t until);
+  // Asks the run to hold before the next state is sent.
+  void Hold();
+  // An answer is late: sends the last state again.
+  void Repeat();
+  // The last state has gone out.
+  bool Finished() const;
+  std::optional<std::string> Failure() const;
+  // Those whose answer to the current tick is missing.
+  std::vector<std::string> Missing() const;
+  // Calls `use` with the server between two steps.
+  template <class Use>
+  void WithServer(const Use& use)
+  {
+    const std::lock_guard lock(mutex_);
+    use(server_);
+  }
+
+private:
+  void Send(bool repeated);
+  void Complete();
+  template <class Message>
+  Message* PlaceOf(const MessageHeader& header, std::uint64_t tick, std::optional<std::size_t> part, Message& place);
+  void Arrived(std::size_t part, std::uint64_t tick);
+
+  ServerSession& session_;
+  mutable std::mutex mutex_;  // of what follows
+  SpaceServer& server_;
+  std::function<void()> stopped_;
+  std::size_t engines_ = 0;
+  std::vector<std::uint32_t> hosts_;  // that the server hears
+  std::size_t visualisers_ = 0;
+  unsigned workers_ = 0;
+  TickGate gate_;
+  std::vector<EngineUpdate> updates_;
+  std::vector<const EngineUpdate*> updates_here_;
+  std::vector<ControlCommands> commands_;
+  std::vector<const ControlCommands*> commands_here_;
+  std::vector<DrawnMessage> drawn_;
+  bool held_ = true;
+  bool hold_ = false;
+  std::uint64_t until_ = 0;
+  bool finished_ = false;
+  std::optional<std::string> failure_;
+  std::FILE* hash_log_ = nullptr;
+  HotPublisher<SpaceState> states_;
+  std::optional<HotSubscription<EngineUpdate>> updates_in_;
+  std::optional<HotSubscription<ControlCommands>> commands_in_;
+  std::optional<HotSubscription<DrawnMessage>> drawn_in_;
+};
+
+}  // namespace swarmanoid

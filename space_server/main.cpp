@@ -1,0 +1,445 @@
+// The program that holds the state and the clock of an experiment: the space server's role at the bus, with the control
+// service and what the launcher is told.
+#include <CLI/CLI.hpp>
+
+#include <fmt/format.h>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "common/bus/cluster_options.h"
+#include "common/bus/replica.h"
+#include "common/bus/status_channel.h"
+#include "common/experiment/load_experiment.h"
+#include "controller_host/controller_host.h"
+#include "engine_worker/engine_worker.h"
+#include "space_server/cluster/control_desk.h"
+#include "space_server/cluster/lockstep.h"
+#include "visualiser/render.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kPeriod = 50ms;  // of the main thread, when nothing happens
+constexpr auto kProgressPeriod = 100ms;
+constexpr auto kFirstRepeat = 100ms;
+constexpr auto kLastRepeat = 1s;
+constexpr auto kStallTime = 2s;
+constexpr auto kViewPeriod = 33ms;
+constexpr auto kGoodbyeTime = 5s;  // for a process that has drawn the last state to end
+
+struct ServerOptions
+{
+  std::string file;
+  std::vector<std::string> settings;
+  std::uint64_t seed = 0;
+  bool has_seed = false;
+  std::uint64_t ticks = 0;
+  bool has_ticks = false;
+  unsigned hosts = 1;
+  std::string output;
+  bool paused = false;
+  double real_time_factor = 0;
+  std::string hash_log;
+  bool no_visualisers = false;
+  int status_fd = -1;
+  BusOptions bus;
+};
+
+double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
+
+// The main thread of the server: starts the run, paces it, answers users, watches who is late, and ends it.
+class ServerProgram
+{
+public:
+  ServerProgram(const ServerOptions& options, const Experiment& experiment, StatusChannel& status)
+      : options_(options),
+        experiment_(experiment),
+        status_(status),
+        assignment_(MakeAssignment(experiment, options.hosts)),
+        server_(experiment, assignment_, options.output.empty() ? "." : options.output),
+        session_(
+            options.bus,
+            DescribeWorld(server_.Space(), NewRun(), options.file, static_cast<unsigned>(assignment_.hosts.size())),
+            Expected(),
+            {[this](const ControlRequestMessage& request)
+             {
+               desk_.Ask(request);
+               Wake();
+             },
+             [this] { Wake(); }}),
+        views_(session_.GetBus(), experiment.name),
+        desk_(session_, experiment, options.paused, options.real_time_factor),
+        lockstep_(session_, server_, assignment_, !options.no_visualisers, options.hash_log, [this] { Wake(); })
+  {
+  }
+
+  int Run()
+  {
+    try
+    {
+      Gather();
+      RunTicks();
+      Close();
+    }
+    catch (const std::exception& error)
+    {
+      session_.SayBye(lockstep_.Tick(), error.what());
+      throw;
+    }
+    if (Interrupted()) return kExitInterrupted;
+    return server_.HasFailed() ? kExitExperimentFailed : kExitDone;
+  }
+
+private:
+  static std::uint64_t NewRun()
+  {
+    std::random_device device;
+    return (static_cast<std::uint64_t>(device()) << 32) | device();
+  }
+
+  std::vector<std::string> Expected() const
+  {
+    std::vector<std::string> names;
+    for (std::size_t e = 0; e < experiment_.engines.size(); ++e) names.push_back(EngineName(experiment_, e));
+    for (std::size_t h = 0; h < assignment_.hosts.size(); ++h) names.push_back(HostName(h));
+    if (!options_.no_visualisers)
+      for (const RenderConfiguration& render : experiment_.visualisations) names.push_back(VisualiserName(render));
+    return names;
+  }
+
+  void Wake()
+  {
+    const std::lock_guard lock(wake_mutex_);
+    awake_ = true;
+    wake_.notify_all();
+  }
+
+  void Sleep(Clock::time_point until)
+  {
+    std::unique_lock lock(wake_mutex_);
+    wake_.wait_until(lock, until, [this] { return awake_; });
+    awake_ = false;
+  }
+
+  void CheckFailures()
+  {
+    if (const auto failure = session_.Failure()) throw BusError(*failure);
+    if (const auto failure = lockstep_.Failure()) throw BusError(*failure);
+  }
+
+  void Say(const std::string& text) const
+  {
+    if (!status_.IsOpen()) fmt::print(stderr, "space server: {}\n", text);
+  }
+
+  // Until all processes of the run are there.
+  void Gather()
+  {
+    const auto start = Clock::now();
+    std::string said;
+    while (true)
+    {
+      CheckFailures();
+      if (Interrupted()) throw BusError("interrupted before the first tick");
+      const std::vector<std::string> missing = session_.Missing();
+      if (missing.empty() && lockstep_.AllMet()) return;
+      const std::string text = Joined(missing);
+      if (text != said && !text.empty() && (Clock::now() - start > 300ms || !said.empty()))
+      {
+        Say(fmt::format("waiting for {} (experiment '{}', domain {}) …", text, experiment_.name, options_.bus.domain));
+        status_.Say("state waiting " + text);
+        said = text;
+      }
+      // Endpoints of others are met without a word: look often while nobody is missing.
+      Sleep(Clock::now() + (missing.empty() ? 1ms : 10ms));
+    }
+  }
+
+  void RunTicks()
+  {
+    start_ = since_ = Clock::now();
+    desk_.Start(lockstep_.Tick(), start_);
+    SayState();
+    while (!lockstep_.Finished())
+    {
+      CheckFailures();
+      Clock::time_point next = Clock::now() + kPeriod;
+      if (Interrupted()) desk_.Stop();
+      if (desk_.WantsHold()) lockstep_.Hold();
+      if (lockstep_.Held())
+      {
+        lockstep_.WithServer([this](SpaceServer& server) { desk_.Work(server); });
+        const ControlDesk::Decision decision = desk_.Decide(lockstep_.Tick(), Clock::now());
+        if (decision.go)
+          lockstep_.Go(decision.until);
+        else if (decision.due)
+          next = std::min(next, *decision.due);
+        view_wanted_ = true;
+      }
+      Watch();
+      ShowView(false);
+      if (!lockstep_.Finished() && !lockstep_.Failure()) Sleep(std::min(next, NextView()));
+    }
+    end_ = Clock::now();
+  }
+
+  void SayState()
+  {
+    const std::string state = desk_.Paused() ? "state paused" : "state running";
+    if (state == said_state_) return;
+    said_state_ = state;
+    status_.Say(state);
+    Say(desk_.Paused() ? fmt::format("paused at tick {}", lockstep_.Tick()) : "running");
+  }
+
+  // Progress, late answers, stalls.
+  void Watch()
+  {
+    const auto now = Clock::now();
+    const std::uint64_t tick = lockstep_.Tick();
+    const bool held = lockstep_.Held();
+    if (tick != last_tick_ || held)
+    {
+      last_tick_ = tick;
+      since_ = now;
+      repeat_after_ = kFirstRepeat;
+      repeated_ = now;
+      stall_said_ = 0s;
+    }
+    else if (now - repeated_ >= repeat_after_)
+    {
+      lockstep_.Repeat();
+      repeated_ = now;
+      repeat_after_ = std::min<Clock::duration>(2 * repeat_after_, kLastRepeat);
+    }
+    if (now - since_ >= kStallTime && now - since_ >= stall_said_ + 1s)
+    {
+      stall_said_ = now - since_;
+      const std::string who = Culprits(tick);
+      status_.Say(fmt::format("stalled {} {:.0f}", who, Seconds(stall_said_)));
+      Say(fmt::format("tick {}: waiting for {} since {:.0f} s", tick, who, Seconds(stall_said_)));
+    }
+    SayState();
+    if (now - progress_said_ >= kProgressPeriod && tick != progress_tick_)
+    {
+      const double factor =
+          static_cast<double>(tick - progress_tick_) * experiment_.TickSeconds() / Seconds(now - progress_said_);
+      real_time_factor_ = progress_tick_ == 0 ? factor : 0.7 * real_time_factor_ + 0.3 * factor;
+      progress_tick_ = tick;
+      progress_said_ = now;
+      status_.Say(fmt::format("tick {} {} {:.2f}", tick, experiment_.max_clock, real_time_factor_));
+    }
+  }
+
+  // Whom the run waits for: those whose answer is missing, or those whom they in turn wait for.
+  std::string Culprits(std::uint64_t tick) const
+  {
+    std::vector<std::string> names = lockstep_.Missing();
+    constexpr std::string_view kWaits = "waits for ";
+    for (std::string& name : names)
+    {
+      const std::string status = session_.Status(name, tick);
+      if (status.empty()) continue;
+      if (!status.starts_with(kWaits))
+      {
+        name += fmt::format(" ({})", status);
+        continue;
+      }
+      name = status.substr(kWaits.size());
+      if (const std::string further = session_.Status(name, tick); !further.empty() && !further.starts_with(kWaits))
+        name += fmt::format(" ({})", further);
+    }
+    return Joined(names);
+  }
+
+  Clock::time_point NextView() const { return views_.Readers() > 0 ? shown_ + view_period_ : Clock::time_point::max(); }
+
+  // The whole state for attached visualisers, now and then: they never slow the run.
+  void ShowView(bool last)
+  {
+    const auto now = Clock::now();
+    const unsigned readers = views_.Readers();
+    const bool newcomers = readers > view_readers_;
+    view_readers_ = readers;
+    if (readers == 0 && !last) return;
+    if (!last && !newcomers && now < shown_ + view_period_) return;
+    const std::uint64_t tick = lockstep_.Tick();
+    if (!last && !newcomers && tick == shown_tick_ && !view_wanted_) return;
+    view_wanted_ = false;
+    lockstep_.WithServer([this](SpaceServer& server) { server.WriteSnapshot(view_.snapshot); });
+    view_.run = session_.World().run;
+    view_.snapshot.last = last;
+    view_.snapshot.real_time_factor = real_time_factor_;
+    views_.Write(view_);
+    shown_ = now;
+    shown_tick_ = tick;
+    // At most a tenth of the time goes into views.
+    view_period_ = std::max<Clock::duration>(kViewPeriod, 10 * (Clock::now() - now));
+  }
+
+  // The last state is out: all draw it, close their files and say good-bye.
+  void Close()
+  {
+    RunResult result;
+    lockstep_.WithServer(
+        [&](SpaceServer& server) {
+          result = {server.Space().GetTick(), server.Space().Size(), server.Space().Hash()};
+        });
+    desk_.Ended(result.ticks);
+    ShowView(true);
+    auto said = Clock::now();
+    repeat_after_ = kFirstRepeat;
+    while (!session_.AllSaidBye())
+    {
+      CheckFailures();
+      Sleep(Clock::now() + 10ms);
+      if (Clock::now() - said < repeat_after_) continue;
+      said = Clock::now();
+      repeat_after_ = std::min<Clock::duration>(2 * repeat_after_, kLastRepeat);
+      lockstep_.Repeat();
+    }
+    CheckFailures();
+    lockstep_.WithServer([](SpaceServer& server) { server.Destroy(); });
+    session_.SayBye(result.ticks, "");
+    const double wall = Seconds(end_ - start_);
+    const double factor = wall > 0 ? static_cast<double>(result.ticks) * experiment_.TickSeconds() / wall : 0;
+    status_.Say(fmt::format("tick {} {} {:.2f}", result.ticks, experiment_.max_clock, factor));
+    status_.Say(
+        fmt::format("finished {} {} {:016x} {:.3f} {:.1f}", result.ticks, result.entities, result.hash, wall, factor));
+    if (!status_.IsOpen())
+      fmt::print("finished: {} ticks, {} entities, hash {:016x}, {:.3f} s, {:.1f}x real time\n", result.ticks,
+                 result.entities, result.hash, wall, factor);
+  }
+
+  struct RunResult
+  {
+    std::uint64_t ticks = 0;
+    std::size_t entities = 0;
+    std::uint64_t hash = 0;
+  };
+
+  const ServerOptions& options_;
+  const Experiment& experiment_;
+  StatusChannel& status_;
+  std::mutex wake_mutex_;
+  std::condition_variable wake_;
+  bool awake_ = false;
+  Assignment assignment_;
+  SpaceServer server_;
+  ServerSession session_;
+  Publisher<ViewMessage> views_;
+  ControlDesk desk_;
+  Lockstep lockstep_;
+
+  Clock::time_point start_;
+  Clock::time_point end_;
+  std::string said_state_;
+  std::uint64_t last_tick_ = 0;
+  Clock::time_point since_;  // the current tick is waited for
+  Clock::time_point repeated_;
+  Clock::duration repeat_after_ = kFirstRepeat;
+  Clock::duration stall_said_ = 0s;
+  std::uint64_t progress_tick_ = 0;
+  Clock::time_point progress_said_ = Clock::now();
+  double real_time_factor_ = 0;
+  ViewMessage view_;
+  bool view_wanted_ = true;
+  unsigned view_readers_ = 0;
+  std::uint64_t shown_tick_ = 0;
+  Clock::time_point shown_;
+  Clock::duration view_period_ = kViewPeriod;
+};
+
+LoadOptions LoadOptionsOf(const ServerOptions& options)
+{
+  LoadOptions load;
+  for (const std::string& setting : options.settings)
+  {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw ConfigurationError(fmt::format("--set {}: write PATH=VALUE", setting));
+    load.settings.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
+  }
+  if (options.has_seed) load.settings.emplace_back("framework.seed", std::to_string(options.seed));
+  if (options.has_ticks) load.settings.emplace_back("framework.maxclock", std::to_string(options.ticks));
+  load.check_controller_libraries = false;
+  return load;
+}
+
+int Run(int argc, char** argv)
+{
+  CLI::App app{"Holds the state and the clock of a Swarmanoid experiment and waits for its other processes."};
+  app.footer(
+      "Examples:\n"
+      "  space_server configs/diffusion_10.xml                      on this machine; then start engine_worker and "
+      "controller_host\n"
+      "  space_server configs/diffusion_10.xml --domain 7 --seed 3 --ticks 500 --hash-log hashes.txt\n"
+      "  space_server configs/diffusion_1000.xml --controller-hosts 2 --interface eth0    workers on other machines");
+  ServerOptions options;
+  app.add_option("FILE", options.file, "the experiment file")->required();
+  app.add_option("--set", options.settings, "PATH=VALUE: another value for an element or attribute of the file");
+  auto* seed = app.add_option("--seed", options.seed, "seed of all random numbers");
+  auto* ticks = app.add_option("--ticks", options.ticks, "length of the run in ticks; 0: until stopped");
+  app.add_option("--controller-hosts", options.hosts, "number of controller hosts")
+      ->check(CLI::Range(1U, 1024U))
+      ->capture_default_str();
+  app.add_option("--output", options.output,
+                 "folder for the effective experiment file and for what experiment functions write");
+  app.add_flag("--paused", options.paused, "wait for `resume` or `step` before the first tick");
+  app.add_option("--real-time", options.real_time_factor, "simulated seconds in a second; 0: as fast as possible")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--hash-log", options.hash_log, "file for the hash of every tick's state");
+  app.add_flag("--no-visualisers", options.no_visualisers, "run without the visualisations of the file");
+  app.add_option("--status-fd", options.status_fd, "descriptor for status lines, see docs/wire.md");
+  AddBusOptions(app, options.bus);
+  if (const int code = ParseCommandLine(app, argc, argv); code >= 0) return code;
+  options.has_seed = seed->count() > 0;
+  options.has_ticks = ticks->count() > 0;
+  options.bus.serves_discovery = true;
+
+  CatchInterrupts();
+  RegisterBuiltinEngines();
+  RegisterBuiltinDevices();
+  RegisterBuiltinRenderers();
+  StatusChannel status(options.status_fd);
+  status.Say("state loading");
+  try
+  {
+    const LoadedExperiment loaded = LoadExperimentFile(options.file, LoadOptionsOf(options));
+    if (!loaded.experiment)
+    {
+      for (const Diagnostic& error : loaded.errors) fmt::print(stderr, "{}\n", error.Text());
+      status.Say(fmt::format("error the experiment file has {} mistake{}", loaded.errors.size(),
+                             loaded.errors.size() == 1 ? "" : "s"));
+      return kExitInvalidFile;
+    }
+    if (!options.output.empty())
+    {
+      std::filesystem::create_directories(options.output);
+      std::ofstream file(options.output + "/experiment.xml");
+      if (!(file << loaded.experiment->effective_xml << std::flush))
+        throw BusError(fmt::format("cannot write '{}/experiment.xml'", options.output));
+    }
+    ServerProgram program(options, *loaded.experiment, status);
+    return program.Run();
+  }
+  catch (const std::exception& error)
+  {
+    status.Say(fmt::format("error {}", error.what()));
+    throw;
+  }
+}
+
+}  // namespace
+}  // namespace swarmanoid
+
+int main(int argc, char** argv) { return swarmanoid::RunProgram("space_server", swarmanoid::Run, argc, argv); }

@@ -1,0 +1,73 @@
+#include "common/bus/tick_gate.h"
+
+#include <gmock/gmock.h>
+
+#include "common/bus/bus.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using Verdict = TickGate::Verdict;
+
+TEST(TickGate, CompletesWhenEveryPartIsHereInWhateverOrder)
+{
+  TickGate gate({{"a"}, {"b"}, {"c"}});
+  EXPECT_FALSE(gate.Arrived(2, 0));
+  EXPECT_FALSE(gate.Arrived(0, 0));
+  EXPECT_THAT(gate.Missing(), testing::ElementsAre("b"));
+  EXPECT_TRUE(gate.Arrived(1, 0));
+  gate.Next();
+  EXPECT_EQ(gate.Tick(), 1U);
+  EXPECT_EQ(gate.Missing().size(), 3U);
+}
+
+TEST(TickGate, KnowsRepetitions)
+{
+  TickGate gate({{"a"}, {"b"}});
+  EXPECT_EQ(gate.Offer(0, 0), Verdict::kExpected);
+  gate.Arrived(0, 0);
+  EXPECT_EQ(gate.Offer(0, 0), Verdict::kDrop);
+  gate.Arrived(1, 0);
+  gate.Next();
+  EXPECT_EQ(gate.Offer(0, 0), Verdict::kBefore);
+  gate.Arrived(0, 1);
+  gate.Arrived(1, 1);
+  gate.Next();
+  EXPECT_EQ(gate.Offer(0, 0), Verdict::kDrop);
+}
+
+TEST(TickGate, ATickThatCannotFollowIsAnErrorWithBothNumbers)
+{
+  TickGate gate({{"space server"}});
+  gate.Arrived(0, 0);
+  gate.Next();
+  try
+  {
+    gate.Offer(0, 17);
+    FAIL() << "tick 17 was accepted after tick 0";
+  }
+  catch (const BusError& error)
+  {
+    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("17"), testing::HasSubstr("tick 1 "),
+                                             testing::HasSubstr("space server")));
+  }
+}
+
+TEST(TickGate, AnIndependentSenderMayBeOneTickAhead)
+{
+  TickGate gate({{"state"}, {"frame", true}});
+  gate.Arrived(1, 0);
+  EXPECT_EQ(gate.Offer(1, 1), Verdict::kExpected);
+  gate.Arrived(1, 1);
+  EXPECT_EQ(gate.Offer(1, 1), Verdict::kDrop);
+  EXPECT_THROW(gate.Offer(1, 2), BusError);
+  EXPECT_TRUE(gate.Arrived(0, 0));
+  gate.Next();
+  EXPECT_THAT(gate.Missing(), testing::ElementsAre("state"));
+  EXPECT_TRUE(gate.Arrived(0, 1));
+}
+
+}  // namespace
+}  // namespace swarmanoid
