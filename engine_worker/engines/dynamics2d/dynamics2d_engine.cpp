@@ -191,16 +191,15 @@ void CDynamics2dEngine::Step()
   }
   else
   {
-    std::vector<PlanePose> before;
-    before.reserve(footbots_.size());
-    for (const Footbot& footbot : footbots_) before.push_back(world_->PoseOf(footbot.body));
+    before_step_.clear();
+    for (const Footbot& footbot : footbots_) before_step_.push_back(world_->PoseOf(footbot.body));
     world_->Step(seconds_);
     for (std::size_t i = 0; i < footbots_.size(); ++i)
     {
       const PlanePose after = world_->PoseOf(footbots_[i].body);
-      const double turn = after.heading - before[i].heading;
-      const SinCos middle = SinCosOf(before[i].heading + turn / 2);
-      const double forward = middle.cos * (after.u - before[i].u) + middle.sin * (after.v - before[i].v);
+      const double turn = after.heading - before_step_[i].heading;
+      const SinCos middle = SinCosOf(before_step_[i].heading + turn / 2);
+      const double forward = middle.cos * (after.u - before_step_[i].u) + middle.sin * (after.v - before_step_[i].v);
       footbots_[i].left_arc += forward - turn * kInterWheelDistance / 2;
       footbots_[i].right_arc += forward + turn * kInterWheelDistance / 2;
     }

@@ -85,6 +85,7 @@ private:
   std::vector<int> body_of_entity_;           // kNoBody where it has none
   std::vector<std::uint32_t> entity_of_body_;
   std::vector<std::uint32_t> footbot_of_entity_;
+  std::vector<PlanePose> before_step_;  // of the footbots
   bool measures_wheels_ = false;
   bool measures_turrets_ = false;
 };
