@@ -31,8 +31,12 @@ void StructuralTree::Rebuild()
     for (int hand = 0; hand < hands; ++hand)
     {
       const double held = entity.GetAttribute("gripped", hand);
+      if (held == 0) continue;
+      const auto gripped = static_cast<std::uint32_t>(held) - 1;
+      // A hand on a shelf holds on to the world: no part of a structure that moves.
+      if (!space_.GetEntity(gripped).IsMovable()) continue;
       // Both hands of a handbot may be on the same object; handbots manipulate one object at a time.
-      if (held != 0 && held_[i] != static_cast<int>(held) - 1) Attach(i, static_cast<std::uint32_t>(held) - 1);
+      if (held_[i] != static_cast<int>(gripped)) Attach(i, gripped);
     }
   }
 }

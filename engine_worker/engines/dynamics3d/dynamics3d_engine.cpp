@@ -1,0 +1,265 @@
+#include "engine_worker/engines/dynamics3d/dynamics3d_engine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine_worker/engines/dynamics3d/eyebot.h"
+#include "engine_worker/engines/dynamics3d/footbot.h"
+#include "engine_worker/engines/dynamics3d/handbot.h"
+
+namespace swarmanoid
+{
+
+using namespace dynamics3d;
+
+void RegisterDynamics3d()
+{
+  auto& registry = PluginRegistry<CPhysicsEngine>::Instance();
+  if (registry.Find("dynamics3d") != nullptr) return;
+  PluginDescription description;
+  description.label = "dynamics3d";
+  description.brief = "3D dynamic engine: rigid bodies with masses, friction, joints and motors, solved by ODE";
+  description.parameters = ParameterTable();
+  description.channels = {"eyebot_attach",   "eyebot_propellers", "footbot_accelerometer", "footbot_encoders",
+                          "footbot_gripper", "footbot_turret",    "footbot_turret_torque", "footbot_wheels",
+                          "handbot_arms",    "handbot_hands",     "handbot_rope"};
+  for (const EntityKind kind : {EntityKind::kFootbot, EntityKind::kHandbot, EntityKind::kEyebot, EntityKind::kBlock,
+                                EntityKind::kCylindricPrey, EntityKind::kLightBulb, EntityKind::kSoundSource,
+                                EntityKind::kGroundPatch, EntityKind::kHole, EntityKind::kWall, EntityKind::kTerrain})
+    description.entity_tags.emplace_back(TagName(kind));
+  registry.Add(std::move(description),
+               []() -> std::unique_ptr<CPhysicsEngine> { return std::make_unique<CDynamics3dEngine>(); });
+}
+
+namespace
+{
+
+// Known before the robots are made: only then do they get probes.
+bool HasVoxels(const EngineSetup& setup)
+{
+  const Experiment& experiment = setup.space.GetExperiment();
+  return std::any_of(setup.configuration.entities.begin(), setup.configuration.entities.end(),
+                     [&](std::uint32_t index)
+                     {
+                       const EntityConfiguration& entity = experiment.entities[index];
+                       return entity.kind == EntityKind::kTerrain && entity.tree.Child("octomap").Exists();
+                     });
+}
+
+}  // namespace
+
+void CDynamics3dEngine::Init(const EngineSetup& setup)
+{
+  space_ = &setup.space;
+  layout_ = &setup.layout;
+  configuration_ = &setup.configuration;
+  settings_ = SettingsFrom(setup.parameters);
+
+  const double tick = space_->GetTickSeconds();
+  const double per_tick = std::ceil(tick / settings_.step_seconds - 1e-9);
+  steps_ = std::max(1, static_cast<int>(per_tick)) * std::max(1, setup.configuration.subclock);
+  step_seconds_ = tick / steps_;
+
+  const Frame frame(settings_.frame);
+  WorldSettings world = settings_.world;
+  world.gravity = frame.VectorToLocal(world.gravity);
+  world_ = std::make_unique<OdeWorld>(world);
+  links_ = std::make_unique<LinkTable>(*world_);
+  scene_ = std::make_unique<Scene>(Scene{.world = *world_,
+                                         .links = *links_,
+                                         .space = *space_,
+                                         .frame = frame,
+                                         .up = frame.VectorToLocal(Vector3::UnitZ()),
+                                         .tick_seconds = tick,
+                                         .density = settings_.density,
+                                         .has_voxels = HasVoxels(setup),
+                                         .models = {}});
+  scene_->models.assign(space_->Size(), nullptr);
+
+  AddGround();
+  if (settings_.arena_walls) AddArenaWalls();
+}
+
+double CDynamics3dEngine::CeilingHeight() const
+{
+  const double height = space_->GetExperiment().arena_size.z();
+  return settings_.ceiling && height > 0 ? height : std::numeric_limits<double>::infinity();
+}
+
+void CDynamics3dEngine::AddGround()
+{
+  world_->BeginEntity(kNoEntity);
+  if (settings_.ground) world_->AddSolid(dCreatePlane(nullptr, 0, 0, 1, 0), -1, ELayer::kStatic, ESurface::kGround);
+  const double ceiling = CeilingHeight();
+  if (std::isinf(ceiling)) return;
+  const Vector3 down = -scene_->up;
+  const Vector3 point = scene_->frame.PointToLocal({0, 0, ceiling});
+  world_->AddSolid(dCreatePlane(nullptr, down.x(), down.y(), down.z(), down.dot(point)), -1, ELayer::kStatic);
+}
+
+void CDynamics3dEngine::AddArenaWalls()
+{
+  const Vector3& size = space_->GetExperiment().arena_size;
+  for (const int axis : {0, 1})
+  {
+    for (const double side : {1.0, -1.0})
+    {
+      Vector3 inwards = Vector3::Zero();
+      inwards[axis] = side;
+      Vector3 corner = Vector3::Zero();
+      corner[axis] = side > 0 ? 0 : size[axis];
+      const Vector3 normal = scene_->frame.VectorToLocal(inwards);
+      const double distance = normal.dot(scene_->frame.PointToLocal(corner));
+      world_->AddSolid(dCreatePlane(nullptr, normal.x(), normal.y(), normal.z(), distance), -1, ELayer::kStatic);
+    }
+  }
+}
+
+std::unique_ptr<Model> CDynamics3dEngine::MakeModel(const CSwarmanoidSpaceEntity& entity)
+{
+  switch (entity.GetKind())
+  {
+    case EntityKind::kFootbot:
+      return std::make_unique<FootbotModel>(*scene_, entity);
+    case EntityKind::kHandbot:
+      return std::make_unique<HandbotModel>(*scene_, entity);
+    case EntityKind::kEyebot:
+      return std::make_unique<EyebotModel>(*scene_, entity, CeilingHeight());
+    default:
+      return std::make_unique<ObjectModel>(*scene_, entity);
+  }
+}
+
+void CDynamics3dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding binding)
+{
+  switch (entity.GetKind())
+  {
+    case EntityKind::kLightBulb:
+    case EntityKind::kSoundSource:
+    case EntityKind::kGroundPatch:
+      return;
+    case EntityKind::kHole:
+      holes_.push_back(&entity);
+      return;
+    case EntityKind::kTerrain:
+      AddTerrain(entity);
+      return;
+    default:
+      break;
+  }
+  if (binding == EBinding::kFixed)
+  {
+    AddStaticObject(*scene_, entity);
+    return;
+  }
+  if (binding == EBinding::kMirror)
+  {
+    auto mirror = std::make_unique<MirrorModel>(*scene_, entity);
+    mirrors_.push_back(mirror.get());
+    models_.push_back(std::move(mirror));
+  }
+  else
+  {
+    models_.push_back(MakeModel(entity));
+    models_.back()->Place(scene_->frame.ToLocal(entity.GetPose()));
+    owned_.push_back(models_.back().get());
+  }
+  scene_->models[entity.GetIndex()] = models_.back().get();
+}
+
+void CDynamics3dEngine::AddTerrain(const CSwarmanoidSpaceEntity& entity)
+{
+  const auto terrain = LoadTerrain(entity.GetConfiguration(), space_->GetExperiment().folder);
+  const Pose pose = scene_->frame.ToLocal(entity.GetPose());
+  const std::uint32_t index = entity.GetIndex();
+  if (const auto voxels = std::dynamic_pointer_cast<const VoxelTerrain>(terrain))
+    terrains_.push_back(AddVoxels(*world_, index, voxels, pose));
+  else if (const auto heights = std::dynamic_pointer_cast<const HeightTerrain>(terrain))
+    terrains_.push_back(AddHeightfield(*world_, index, heights, pose));
+}
+
+void CDynamics3dEngine::Start() { AddHoles(); }
+
+void CDynamics3dEngine::Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors)
+{
+  for (MirrorModel* mirror : mirrors_) mirror->Follow();
+  ApplyCommands(commands);
+  for (Model* model : owned_) model->BeginTick();
+  const std::uint64_t first_step = space_->GetTick() * static_cast<std::uint64_t>(steps_);
+  for (int step = 0; step < steps_; ++step)
+  {
+    for (Model* model : owned_) model->BeforeStep(step_seconds_);
+    world_->Step(step_seconds_, first_step + static_cast<std::uint64_t>(step));
+    for (Model* model : owned_) model->AfterStep(step_seconds_);
+  }
+  WritePoses(update.poses);
+  for (const Model* model : owned_)
+  {
+    AttributeReport report(model->GetSpaceEntity(), update.attributes);
+    model->Report(report);
+  }
+  WriteSensors(sensors);
+}
+
+void CDynamics3dEngine::ApplyCommands(const EngineCommands& commands)
+{
+  for (const ChannelBlock& block : commands.blocks)
+  {
+    const std::span<const double> values = commands.Of(block);
+    const auto width = static_cast<std::size_t>(block.width);
+    for (std::size_t k = 0; k < block.entities.size(); ++k)
+    {
+      const std::span<const double> mine = values.subspan(k * width, width);
+      if (!std::all_of(mine.begin(), mine.end(), [](double value) { return std::isfinite(value); }))
+        throw std::runtime_error(fmt::format("robot '{}' gave {} a value that is not a finite number",
+                                             space_->GetEntity(block.entities[k]).GetId(), block.name));
+      scene_->models[block.entities[k]]->Command(block.name, mine);
+    }
+  }
+}
+
+void CDynamics3dEngine::WritePoses(std::vector<double>& poses) const
+{
+  const std::size_t count = owned_.size();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const Pose pose = scene_->frame.ToSpace(owned_[i]->CurrentPose());
+    const double values[7] = {pose.position.x(),    pose.position.y(),    pose.position.z(),   pose.orientation.x(),
+                              pose.orientation.y(), pose.orientation.z(), pose.orientation.w()};
+    for (std::size_t k = 0; k < 7; ++k)
+    {
+      if (!std::isfinite(values[k]))
+        throw std::runtime_error(
+            fmt::format("engine '{}': the motion of '{}' has lost all bounds; a shorter step_ms "
+                        "or smaller forces may keep it",
+                        configuration_->id, owned_[i]->GetSpaceEntity().GetId()));
+      poses[k * count + i] = values[k];
+    }
+  }
+}
+
+void CDynamics3dEngine::WriteSensors(std::span<double> sensors) const
+{
+  for (const ChannelBlock& block : layout_->sensors)
+  {
+    const auto width = static_cast<std::size_t>(block.width);
+    for (std::size_t k = 0; k < block.entities.size(); ++k)
+      scene_->models[block.entities[k]]->Sense(block.name, sensors.subspan(block.offset + k * width, width));
+  }
+}
+
+void CDynamics3dEngine::EntityMoved(std::uint32_t entity)
+{
+  links_->RemoveAllOf(entity);
+  Model* model = scene_->models[entity];
+  if (model != nullptr) model->Place(scene_->frame.ToLocal(space_->GetPose(entity)));
+}
+
+std::string CDynamics3dEngine::StatusText() const
+{
+  return fmt::format("{} contacts, {} grips and ropes", world_->ContactCount(), links_->Size());
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,68 @@
+// The footbot in 3D: a chassis with two driven wheels, two casters, a turret and a gripper on it. The turret has no
+// mass: its angle counts for the gripper, whose joint it drives when something is held.
+#pragma once
+
+#include "engine_worker/engines/dynamics3d/grasp.h"
+
+namespace swarmanoid::dynamics3d
+{
+
+// Metres and kilograms. Radius, height, wheels: the ARGoS 3 model; total mass 1.6 kg as there. The height of the centre
+// of mass (batteries low in the base), the share and inertia of the wheels and the torques are assumptions of ours.
+struct FootbotShape
+{
+  static constexpr double kRadius = 0.085036758;
+  static constexpr double kHeight = 0.146899733;
+  static constexpr double kClearance = 0.015;
+  static constexpr double kWheelRadius = 0.029112741;
+  static constexpr double kHalfTrack = 0.07;
+  static constexpr double kCasterRadius = 0.01;
+  static constexpr double kCasterReach = 0.065;
+  static constexpr double kChassisMass = 1.2;
+  static constexpr double kWheelMass = 0.2;     // with motor and tread
+  static constexpr double kGearedInertia = 10;  // times that of a sphere
+  static constexpr double kMass = kChassisMass + 2 * kWheelMass;
+  static constexpr double kCentreOfMass = 0.05;
+  static constexpr double kGripperHeight = 0.085;
+  static constexpr double kWheelTorque = 0.25;  // N m: about 17 N of drive with both wheels
+  static constexpr double kTurretTorque = 1.5;  // N m
+  static constexpr double kTractionRange = 25;  // N: the torque sensor reads 1 there, and at the turret's torque
+  static constexpr double kMaximumTurretSpeed = 3.14159265358979323846;  // rad/s
+};
+
+class FootbotModel : public Model
+{
+public:
+  FootbotModel(Scene& scene, const CSwarmanoidSpaceEntity& entity);
+
+  void Place(const Pose& pose) override;
+  void Command(std::string_view channel, std::span<const double> values) override;
+  void Sense(std::string_view channel, std::span<double> values) const override;
+  void BeginTick() override;
+  void BeforeStep(double seconds) override;
+  void AfterStep(double seconds) override;
+  void Report(AttributeReport& report) const override;
+  void Save(ByteWriter& state) const override;
+  void Load(ByteReader& state) override;
+
+private:
+  dBodyID Chassis() const { return scene_.world.Body(bodies_[0].number); }
+  double WheelSpeed(std::size_t wheel) const;
+  void UpdateGripper();
+
+  dJointID axles_[2] = {nullptr, nullptr};  // left, right
+  double wheel_command_[2] = {0, 0};        // rad/s
+  double turret_command_ = 0;               // rad/s
+  bool lock_ = false;
+  double turret_angle_ = 0;  // rad
+  double aperture_ = 0;      // rad
+  Grasp gripper_;
+  // Of the last tick.
+  Vector3 velocity_at_start_ = Vector3::Zero();
+  double wheel_turn_[2] = {0, 0};  // rad
+  Vector3 grip_force_ = Vector3::Zero();
+  double grip_torque_ = 0;
+  double elapsed_ = 0;  // s
+};
+
+}  // namespace swarmanoid::dynamics3d

@@ -1,0 +1,245 @@
+#include "engine_worker/engines/dynamics3d/handbot.h"
+
+#include <algorithm>
+
+#include "common/math/elementary.h"
+
+namespace swarmanoid::dynamics3d
+{
+namespace
+{
+
+using S = HandbotShape;
+
+constexpr GraspGeometry kHandGrasp{0.03, S::kWristTorque, true};
+constexpr double kServoGain = 40;   // 1/s
+constexpr double kServoLead = 0.1;  // rad: how far the target runs ahead of an arm that is held back
+constexpr double kServoSpeed = 3;   // rad/s
+constexpr double kReported = 1e-4;  // rad: smaller changes of angles are not reported
+
+Pose At(double x, double y, double z) { return {Vector3(x, y, z), Quaternion::Identity()}; }
+Vector3 Shoulder(int arm) { return {S::kHeadForward, arm == 0 ? S::kShoulder : -S::kShoulder, S::kHeadHeight}; }
+
+}  // namespace
+
+HandbotModel::HandbotModel(Scene& scene, const CSwarmanoidSpaceEntity& entity)
+    : Model(scene, entity), hands_{{Grasp(scene, kHandGrasp)}, {Grasp(scene, kHandGrasp)}}
+{
+  OdeWorld& world = scene.world;
+  const double given = entity.GetConfiguration().mass_kg;
+  const double scale = given > 0 ? given / S::kMass : 1;
+
+  AddBody(BoxMass(scale * S::kTrunkMass, {S::kTrunkLength, S::kTrunkWidth, S::kHeight}), At(0, 0, S::kTrunkCentre));
+  AddBody(Geared(BoxMass(scale * S::kHeadMass, {0.06, 0.1, 0.06}), S::kHeadInertia),
+          At(S::kHeadForward, 0, S::kHeadHeight));
+  const double arm_middle = S::kHeadForward + S::kArmLength / 2;
+  for (const double side : {S::kShoulder, -S::kShoulder})
+    AddBody(Geared(BoxMass(scale * S::kArmMass, {S::kArmLength, 0.03, 0.03}), S::kArmInertia),
+            At(arm_middle, side, S::kHeadHeight));
+
+  MakeServo(0, 0, 1, {S::kHeadForward, 0, S::kHeadHeight}, Vector3::UnitX(), 1, -kPi, kPi, scale * S::kHeadTorque);
+  MakeServo(1, 1, 2, Shoulder(0), Vector3::UnitZ(), 1, 0, S::kWidestArm, scale * S::kArmTorque);
+  MakeServo(2, 1, 3, Shoulder(1), Vector3::UnitZ(), -1, 0, S::kWidestArm, scale * S::kArmTorque);
+
+  world.BeginEntity(Entity());
+  const int trunk = bodies_[0].number;
+  world.AddSolid(dCreateBox(nullptr, S::kBaseSide, S::kBaseSide, S::kBaseHeight), trunk, ELayer::kRobot,
+                 ESurface::kPlain, At(0, 0, S::kBaseHeight / 2 - S::kTrunkCentre));
+  const double trunk_height = S::kHeight - S::kBaseHeight;
+  world.AddSolid(dCreateBox(nullptr, S::kTrunkLength, S::kTrunkWidth, trunk_height), trunk, ELayer::kRobot,
+                 ESurface::kPlain, At(0, 0, S::kBaseHeight + trunk_height / 2 - S::kTrunkCentre));
+  for (std::size_t arm = 2; arm <= 3; ++arm)
+  {
+    const Pose along_x{Vector3::Zero(), QuaternionFromEuler({0, kPi / 2, 0})};
+    world.AddSolid(dCreateCapsule(nullptr, S::kArmRadius, S::kArmLength - 2 * S::kArmRadius), bodies_[arm].number,
+                   ELayer::kRobot, ESurface::kPlain, along_x);
+    if (scene.has_voxels)
+      world.AddSolid(dCreateCapsule(nullptr, S::kArmRadius, S::kArmLength - 2 * S::kArmRadius), bodies_[arm].number,
+                     ELayer::kProbe, ESurface::kPlain, along_x);
+  }
+  if (scene.has_voxels)
+    world.AddSolid(dCreateSphere(nullptr, S::kBaseSide / 2), trunk, ELayer::kProbe, ESurface::kPlain,
+                   At(0, 0, S::kBaseSide / 2 - S::kTrunkCentre));
+}
+
+void HandbotModel::MakeServo(std::size_t k, int inner, int outer, const Vector3& anchor, const Vector3& axis,
+                             double sign, double lowest, double highest, double torque)
+{
+  Servo& servo = servos_[k];
+  servo.inner = inner;
+  servo.outer = outer;
+  servo.axis = axis;
+  servo.sign = sign;
+  servo.lowest = lowest;
+  servo.highest = highest;
+  servo.joint = dJointCreateHinge(scene_.world.World(), nullptr);
+  dJointAttach(servo.joint, BodyAt(outer), BodyAt(inner));
+  dJointSetHingeAnchor(servo.joint, anchor.x(), anchor.y(), anchor.z());
+  dJointSetHingeAxis(servo.joint, axis.x(), axis.y(), axis.z());
+  dJointSetHingeParam(servo.joint, dParamFMax, torque);
+}
+
+void HandbotModel::Place(const Pose& pose)
+{
+  Model::Place(pose);
+  for (Servo& servo : servos_) servo.target = 0;
+}
+
+void HandbotModel::Command(std::string_view channel, std::span<const double> values)
+{
+  if (channel == "handbot_arms")
+  {
+    for (std::size_t k = 0; k < 3; ++k) servos_[k].rate = values[k];
+    hands_[0].wrist_rate = values[3];
+    hands_[1].wrist_rate = values[4];
+  }
+  else if (channel == "handbot_hands")
+  {
+    for (std::size_t k = 0; k < 2; ++k)
+    {
+      hands_[k].close = values[k] > 0.5;
+      hands_[k].commanded = true;
+    }
+  }
+  else if (channel == "handbot_rope")
+  {
+    launch_ = values[0] > 0.5;
+    winch_ = std::clamp(values[1], -S::kWinchSpeed, S::kWinchSpeed);
+  }
+}
+
+void HandbotModel::BeginTick()
+{
+  UpdateHands();
+  UpdateRope();
+}
+
+void HandbotModel::UpdateHands()
+{
+  for (std::size_t k = 0; k < 2; ++k)
+  {
+    Hand& hand = hands_[k];
+    if (!hand.close && hand.grasp.IsHolding()) hand.grasp.Release();
+    if (!hand.close || hand.grasp.IsHolding()) continue;
+    const Pose arm = PoseOf(BodyAt(static_cast<int>(k) + 2));
+    const Vector3 tip = arm.Apply({S::kArmLength / 2, 0, 0});
+    hand.grasp.TryToHold(Entity(), bodies_[k + 2].number, tip, tip, arm.orientation * Vector3::UnitX(),
+                         &hands_[1 - k].grasp);
+  }
+}
+
+void HandbotModel::UpdateRope()
+{
+  const bool attached = scene_.links.Find(rope_) != nullptr;
+  if (attached && !launch_)
+  {
+    scene_.links.Remove(rope_);
+    rope_ = 0;
+  }
+  if (attached || !launch_) return;
+  const Vector3 from = PoseOf(BodyAt(0)).Apply({0, 0, S::kHeight - S::kTrunkCentre});
+  const double distance = scene_.world.DistanceToStatic(from, scene_.up, S::kLongestRope);
+  if (distance > S::kLongestRope) return;
+  const Vector3 hook = from + scene_.up * distance;
+  LinkSpec spec;
+  spec.kind = ELink::kRope;
+  spec.body_a = bodies_[0].number;
+  spec.entity_a = Entity();
+  for (int i = 0; i < 3; ++i)
+  {
+    spec.anchor[i] = from[i];
+    spec.other[i] = hook[i];
+  }
+  rope_ = scene_.links.Add(spec).Serial();
+}
+
+double HandbotModel::AngleOf(const Servo& servo) const
+{
+  // Twist of the outer body against the inner one about the axis.
+  const Quaternion relative =
+      PoseOf(BodyAt(servo.inner)).orientation.conjugate() * PoseOf(BodyAt(servo.outer)).orientation;
+  return servo.sign * WrapAngle(2 * Atan2(relative.vec().dot(servo.axis), relative.w()));
+}
+
+void HandbotModel::DriveServo(Servo& servo, double seconds)
+{
+  const double angle = AngleOf(servo);
+  double target = servo.target + servo.rate * seconds;
+  const bool full_turn = servo.highest >= kPi;
+  if (full_turn)
+    target = angle + std::clamp(WrapAngle(target - angle), -kServoLead, kServoLead);
+  else
+    target = std::clamp(std::clamp(target, angle - kServoLead, angle + kServoLead), servo.lowest, servo.highest);
+  servo.target = full_turn ? WrapAngle(target) : target;
+  const double speed = std::clamp(servo.rate + kServoGain * (target - angle), -kServoSpeed, kServoSpeed);
+  dJointSetHingeParam(servo.joint, dParamVel, servo.sign * speed);
+}
+
+void HandbotModel::BeforeStep(double seconds)
+{
+  for (Servo& servo : servos_) DriveServo(servo, seconds);
+  for (Hand& hand : hands_)
+  {
+    const double next = std::clamp(hand.wrist + hand.wrist_rate * seconds, 0.0, S::kWidestWrist);
+    if (Link* link = hand.grasp.link()) link->SetMotorSpeed((next - hand.wrist) / seconds);
+  }
+  if (Link* rope = scene_.links.Find(rope_))
+  {
+    const double length = rope->Length() + winch_ * seconds;
+    rope->SetLength(std::clamp(length, S::kShortestRope, S::kLongestRope));
+    rope->TightenOrSlacken();
+  }
+}
+
+void HandbotModel::AfterStep(double seconds)
+{
+  for (Hand& hand : hands_)
+  {
+    const Link* link = hand.grasp.link();
+    hand.wrist += (link != nullptr ? link->HingeSpeed() : hand.wrist_rate) * seconds;
+    hand.wrist = std::clamp(hand.wrist, 0.0, S::kWidestWrist);
+    if (!hand.commanded) continue;
+    const double turn = (hand.close ? -1 : 1) * S::kHandSpeed * seconds;
+    if (!(hand.close && hand.grasp.IsHolding())) hand.aperture = std::clamp(hand.aperture + turn, 0.0, S::kWidestHand);
+  }
+}
+
+void HandbotModel::Report(AttributeReport& report) const
+{
+  report.Set("head_angle", AngleOf(servos_[0]), 0, kReported);
+  for (int arm = 0; arm < 2; ++arm) report.Set("arm", AngleOf(servos_[1 + arm]), arm, kReported);
+  for (int k = 0; k < 2; ++k) report.Set("wrist", hands_[k].wrist, k, kReported);
+  for (int k = 0; k < 2; ++k) report.Set("hand_aperture", hands_[k].aperture, k, kReported);
+  for (int k = 0; k < 2; ++k) report.Set("gripped", hands_[k].grasp.IsHolding() ? 1.0 + hands_[k].grasp.Held() : 0, k);
+  const Link* rope = static_cast<const LinkTable&>(scene_.links).Find(rope_);
+  report.Set("rope_attached", rope != nullptr ? 1 : 0);
+  report.Set("rope_length", rope != nullptr ? rope->Length() : 0);
+}
+
+void HandbotModel::Save(ByteWriter& state) const
+{
+  for (const Servo& servo : servos_) state.Put(servo.target);
+  for (const Hand& hand : hands_)
+  {
+    hand.grasp.Save(state);
+    state.Put(hand.wrist);
+    state.Put(hand.aperture);
+    state.Put(hand.commanded);
+  }
+  state.Put(rope_);
+}
+
+void HandbotModel::Load(ByteReader& state)
+{
+  for (Servo& servo : servos_) servo.target = state.Get<double>();
+  for (Hand& hand : hands_)
+  {
+    hand.grasp.Load(state);
+    hand.wrist = state.Get<double>();
+    hand.aperture = state.Get<double>();
+    hand.commanded = state.Get<bool>();
+  }
+  rope_ = state.Get<std::uint32_t>();
+}
+
+}  // namespace swarmanoid::dynamics3d

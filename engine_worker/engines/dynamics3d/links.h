@@ -1,0 +1,103 @@
+// LinkTable: the joints that come and go while the engine runs: grips, ropes, magnets. Each remembers the poses that
+// its bodies had when it was made, because a joint made anew from other poses would not be the same to the last bit.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/serialisation/bytes.h"
+#include "engine_worker/engines/dynamics3d/ode_world.h"
+
+namespace swarmanoid::dynamics3d
+{
+
+enum class ELink : std::uint8_t
+{
+  kHinge,  // a motor about `axis` through `anchor`: a gripper on its turret or wrist
+  kFixed,
+  kRope  // holds the distance between `anchor` on body a and `other` on body b; pulls only
+};
+
+struct LinkSpec
+{
+  ELink kind = ELink::kFixed;
+  int body_a = 0;
+  int body_b = -1;  // -1: the world
+  std::uint32_t entity_a = kNoEntity;
+  std::uint32_t entity_b = kNoEntity;
+  // At the time of creation, in the frame of the engine.
+  double anchor[3] = {0, 0, 0};
+  double axis[3] = {0, 0, 1};
+  double other[3] = {0, 0, 0};
+  double motor_torque = 0;  // N m, hinges
+};
+
+class Link
+{
+public:
+  Link(OdeWorld& world, const LinkSpec& spec, std::uint32_t serial);
+  ~Link();
+  Link(const Link&) = delete;
+  Link& operator=(const Link&) = delete;
+
+  const LinkSpec& Spec() const { return spec_; }
+  std::uint32_t Serial() const { return serial_; }
+
+  // Hinges: the speed of body b against body a about the axis that the motor keeps, rad/s, and the speed that it has.
+  void SetMotorSpeed(double speed);
+  double HingeSpeed() const;
+
+  // Ropes: the free length in metres; the rope is slack while the anchors are nearer.
+  void SetLength(double length);
+  double Length() const { return length_; }
+  bool IsTaut() const { return taut_; }
+  double AnchorDistance() const;
+  void TightenOrSlacken();
+
+  // Force (N) and torque (N m) of the joint on body a in the last step, in the frame of the engine.
+  Vector3 ForceOnA() const { return VectorOf(feedback_.f1); }
+  Vector3 TorqueOnA() const { return VectorOf(feedback_.t1); }
+
+private:
+  friend class LinkTable;
+  void CreateJoint();
+
+  OdeWorld& world_;
+  LinkSpec spec_;
+  std::uint32_t serial_;
+  RawPose pose_a_, pose_b_;  // at creation
+  dJointID joint_ = nullptr;
+  dJointFeedback feedback_{};
+  double length_ = 0;
+  bool taut_ = true;
+};
+
+class LinkTable
+{
+public:
+  explicit LinkTable(OdeWorld& world) : world_(world) {}
+
+  Link& Add(const LinkSpec& spec);
+  // nullptr where there is none (any more). 0 is never a serial.
+  Link* Find(std::uint32_t serial);
+  const Link* Find(std::uint32_t serial) const;
+  void Remove(std::uint32_t serial);
+  void RemoveAllOf(std::uint32_t entity);
+  // Whether two entities hang together by links, the world not counted as a member.
+  bool AreConnected(std::uint32_t a, std::uint32_t b) const;
+  std::size_t Size() const { return links_.size(); }
+
+  void Save(ByteWriter& state) const;
+  // Leaves the bodies at poses of creation: load theirs afterwards.
+  void Load(ByteReader& state);
+
+private:
+  void Erase(std::size_t k);
+  void IgnorePair(const LinkSpec& spec);
+
+  OdeWorld& world_;
+  std::vector<std::unique_ptr<Link>> links_;  // in the order of creation
+  std::uint32_t next_serial_ = 1;
+};
+
+}  // namespace swarmanoid::dynamics3d

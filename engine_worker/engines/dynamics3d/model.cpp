@@ -1,0 +1,91 @@
+#include "engine_worker/engines/dynamics3d/model.h"
+
+#include <cmath>
+
+namespace swarmanoid::dynamics3d
+{
+
+bool Scene::CanBeHeld(std::uint32_t entity) const
+{
+  if (entity >= models.size() || models[entity] == nullptr) return false;
+  switch (models[entity]->Kind())
+  {
+    case EntityKind::kFootbot:
+    case EntityKind::kHandbot:
+    case EntityKind::kCylindricPrey:
+    case EntityKind::kBlock:
+      return true;
+    default:
+      return false;
+  }
+}
+
+void AttributeReport::Set(std::string_view name, double value, int element, double tolerance)
+{
+  if (std::abs(value - entity_.GetAttribute(name, element)) <= tolerance) return;
+  changes_.Add(entity_.SlotOf(name, element), value);
+}
+
+void Model::AddBody(const dMass& mass, const Pose& in_entity)
+{
+  bodies_.push_back({scene_.world.AddBody(mass), in_entity});
+  SetRawPose(scene_.world.Body(bodies_.back().number), RawOf(in_entity));
+}
+
+void Model::AddKinematicBody(const Pose& in_entity)
+{
+  bodies_.push_back({scene_.world.AddKinematicBody(), in_entity});
+  SetRawPose(scene_.world.Body(bodies_.back().number), RawOf(in_entity));
+}
+
+void Model::Place(const Pose& pose)
+{
+  for (const PlacedBody& placed : bodies_)
+  {
+    const dBodyID body = scene_.world.Body(placed.number);
+    SetRawPose(body, RawOf(pose.Compose(placed.in_entity)));
+    Stop(body);
+  }
+}
+
+Pose Model::CurrentPose() const
+{
+  const PlacedBody& main = bodies_.front();
+  return PoseOf(scene_.world.Body(main.number)).Compose(main.in_entity.Inverse());
+}
+
+void Model::Command(std::string_view, std::span<const double>) {}
+
+void Model::Sense(std::string_view, std::span<double> values) const
+{
+  for (double& value : values) value = 0;
+}
+
+dMass CylinderMass(double mass, double radius, double height)
+{
+  dMass result;
+  dMassSetCylinderTotal(&result, mass, 3, radius, height);
+  return result;
+}
+
+dMass BoxMass(double mass, const Vector3& size)
+{
+  dMass result;
+  dMassSetBoxTotal(&result, mass, size.x(), size.y(), size.z());
+  return result;
+}
+
+dMass SphereMass(double mass, double radius)
+{
+  dMass result;
+  dMassSetSphereTotal(&result, mass, radius);
+  return result;
+}
+
+dMass Geared(dMass mass, double factor)
+{
+  for (const int diagonal : {0, 5, 10}) mass.I[diagonal] *= factor;
+  return mass;
+}
+
+}  // namespace swarmanoid::dynamics3d

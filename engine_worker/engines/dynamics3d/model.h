@@ -1,0 +1,114 @@
+// Model: an entity inside the dynamics3d engine: its bodies, joints and the control that drives them. All poses and
+// vectors are in the frame of the engine unless said otherwise.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "engine_worker/engines/dynamics3d/links.h"
+#include "engine_worker/engines/dynamics3d/ode_world.h"
+#include "engine_worker/physics_engine.h"
+
+namespace swarmanoid::dynamics3d
+{
+
+class Model;
+
+// Where the engine's frame stands in the space.
+class Frame
+{
+public:
+  Frame() = default;
+  explicit Frame(const Pose& in_space) : in_space_(in_space), inverse_(in_space.Inverse()) {}
+  Pose ToSpace(const Pose& local) const { return in_space_.Compose(local); }
+  Pose ToLocal(const Pose& global) const { return inverse_.Compose(global); }
+  Vector3 PointToLocal(const Vector3& global) const { return inverse_.Apply(global); }
+  Vector3 VectorToSpace(const Vector3& local) const { return in_space_.orientation * local; }
+  Vector3 VectorToLocal(const Vector3& global) const { return inverse_.orientation * global; }
+
+private:
+  Pose in_space_;
+  Pose inverse_;
+};
+
+// What all models of an engine share. Owned by the engine, outlives them.
+struct Scene
+{
+  OdeWorld& world;
+  LinkTable& links;
+  const CSwarmanoidSpace& space;
+  Frame frame;
+  Vector3 up = Vector3::UnitZ();  // the space's z axis
+  double tick_seconds = 0.1;
+  double density = 200;  // kg/m³, of movable objects without a mass of their own
+  bool has_voxels = false;
+  std::vector<Model*> models;  // by entity; nullptr for those without a body
+
+  bool CanBeHeld(std::uint32_t entity) const;
+};
+
+// Writes attributes of one entity that differ from what the space has.
+class AttributeReport
+{
+public:
+  AttributeReport(const CSwarmanoidSpaceEntity& entity, AttributeChanges& changes) : entity_(entity), changes_(changes)
+  {
+  }
+  // Differences up to `tolerance` are not worth a message. Call in the order of the slots.
+  void Set(std::string_view name, double value, int element = 0, double tolerance = 0);
+
+private:
+  const CSwarmanoidSpaceEntity& entity_;
+  AttributeChanges& changes_;
+};
+
+class Model : public CPhysicsEngineEntity
+{
+public:
+  Model(Scene& scene, const CSwarmanoidSpaceEntity& entity) : CPhysicsEngineEntity(entity), scene_(scene) {}
+
+  std::uint32_t Entity() const { return GetSpaceEntity().GetIndex(); }
+  EntityKind Kind() const { return GetSpaceEntity().GetKind(); }
+
+  // Puts all bodies at rest where the entity's own position and orientation say.
+  virtual void Place(const Pose& pose);
+  Pose CurrentPose() const;
+  int MainBody() const { return bodies_.front().number; }
+  const Pose& MainOffset() const { return bodies_.front().in_entity; }
+
+  // Commands and readings of a channel, `values` of its width.
+  virtual void Command(std::string_view channel, std::span<const double> values);
+  virtual void Sense(std::string_view channel, std::span<double> values) const;
+
+  virtual void BeginTick() {}
+  virtual void BeforeStep(double /*seconds*/) {}
+  virtual void AfterStep(double /*seconds*/) {}
+  virtual void Report(AttributeReport& /*report*/) const {}
+
+  // What the bodies and links do not hold.
+  virtual void Save(ByteWriter& /*state*/) const {}
+  virtual void Load(ByteReader& /*state*/) {}
+
+protected:
+  struct PlacedBody
+  {
+    int number;
+    Pose in_entity;
+  };
+
+  void AddBody(const dMass& mass, const Pose& in_entity);
+  void AddKinematicBody(const Pose& in_entity);
+
+  Scene& scene_;
+  std::vector<PlacedBody> bodies_;  // the first one gives the entity's pose
+};
+
+// Mass distributions about their centres.
+dMass CylinderMass(double mass, double radius, double height);  // axis z
+dMass BoxMass(double mass, const Vector3& size);
+dMass SphereMass(double mass, double radius);
+// The same mass, its inertia times `factor`: what a geared motor adds to a part that it turns.
+dMass Geared(dMass mass, double factor);
+
+}  // namespace swarmanoid::dynamics3d

@@ -1,0 +1,434 @@
+#include "engine_worker/engines/dynamics3d/ode_world.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+#include <utility>
+
+#include "engine_worker/engines/dynamics3d/cylinder_contacts.h"
+
+namespace swarmanoid::dynamics3d
+{
+namespace
+{
+
+constexpr int kMaximumContacts = 8;  // of one pair
+// The caster's spring: soft enough to leave the weight to the wheels, hard enough to tilt by half a degree at most.
+constexpr double kCasterStiffness = 2000;  // N/m
+constexpr double kCasterDamping = 20;      // N s/m
+// Slower than this a contact is taken to stick, and its friction works along the pull of gravity.
+constexpr double kSlip = 1e-3;  // m/s
+// A wheel's contact normal stands at most this far out of the wheel's plane: sine of the angle. Half width 1 cm.
+constexpr double kWheelFlank = 0.35;
+
+struct LayerBits
+{
+  unsigned long category;
+  unsigned long collide;
+};
+
+constexpr unsigned long Bit(ELayer layer) { return 1UL << static_cast<unsigned>(layer); }
+
+constexpr LayerBits BitsOf(ELayer layer)
+{
+  switch (layer)
+  {
+    case ELayer::kStatic:
+      return {Bit(layer), Bit(ELayer::kRobot) | Bit(ELayer::kObject) | Bit(ELayer::kWheel)};
+    case ELayer::kRobot:
+      return {Bit(layer), Bit(ELayer::kStatic) | Bit(ELayer::kRobot) | Bit(ELayer::kObject)};
+    case ELayer::kObject:
+      return {Bit(layer), Bit(ELayer::kStatic) | Bit(ELayer::kRobot) | Bit(ELayer::kObject) | Bit(ELayer::kWheel)};
+    case ELayer::kWheel:
+      return {Bit(layer), Bit(ELayer::kStatic) | Bit(ELayer::kObject) | Bit(ELayer::kVoxels)};
+    case ELayer::kProbe:
+      return {Bit(layer), Bit(ELayer::kVoxels)};
+    case ELayer::kVoxels:
+      return {Bit(layer), Bit(ELayer::kWheel) | Bit(ELayer::kProbe)};
+  }
+  return {0, 0};
+}
+
+// ODE's process-wide tables, never taken down: worlds of other engines may be in use until the process ends.
+void InitialiseOde()
+{
+  static std::once_flag once;
+  std::call_once(once, [] { dInitODE2(0); });
+  thread_local const bool allocated = dAllocateODEDataForThread(dAllocateMaskAll) != 0;
+  (void)allocated;
+}
+
+// Contacts as seen from the other geom.
+int Flipped(std::span<dContactGeom> contacts, int count)
+{
+  for (dContactGeom& contact : contacts.first(static_cast<std::size_t>(count)))
+  {
+    std::swap(contact.g1, contact.g2);
+    for (int k = 0; k < 3; ++k) contact.normal[k] = -contact.normal[k];
+  }
+  return count;
+}
+
+const Solid& SolidOf(dGeomID geom) { return *static_cast<const Solid*>(dGeomGetData(geom)); }
+
+}  // namespace
+
+OdeWorld::OdeWorld(const WorldSettings& settings) : settings_(settings)
+{
+  InitialiseOde();
+  world_ = dWorldCreate();
+  dWorldSetGravity(world_, settings.gravity.x(), settings.gravity.y(), settings.gravity.z());
+  dWorldSetQuickStepNumIterations(world_, settings.iterations);
+  // No over-relaxation: at few iterations it favours the rows that are solved last, and a resting robot creeps 16 mm/s
+  // sideways instead of 4 um/s.
+  dWorldSetQuickStepW(world_, 1.0);
+  dWorldSetERP(world_, 0.2);
+  dWorldSetCFM(world_, 1e-7);
+  dWorldSetContactMaxCorrectingVel(world_, 1.0);
+  dWorldSetContactSurfaceLayer(world_, 1e-4);
+  dWorldSetAutoDisableFlag(world_, 0);  // its averages would be state that a checkpoint does not hold
+  dWorldSetStepIslandsProcessingMaxThreadCount(world_, 1);
+  // The default threading is shared by all worlds of the process and fails when two of them step at the same time.
+  threading_ = dThreadingAllocateSelfThreadedImplementation();
+  dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(threading_), threading_);
+
+  space_ = dHashSpaceCreate(nullptr);
+  dHashSpaceSetLevels(space_, -5, 4);
+  contact_joints_ = dJointGroupCreate(0);
+  probe_ = dCreateSphere(nullptr, 1);
+}
+
+OdeWorld::~OdeWorld()
+{
+  dGeomDestroy(probe_);
+  dJointGroupDestroy(contact_joints_);
+  dSpaceDestroy(space_);
+  dWorldDestroy(world_);
+  dThreadingFreeImplementation(threading_);
+}
+
+int OdeWorld::AddBody(const dMass& mass)
+{
+  const dBodyID body = dBodyCreate(world_);
+  dBodySetMass(body, &mass);
+  return Register(body);
+}
+
+int OdeWorld::AddKinematicBody()
+{
+  const dBodyID body = dBodyCreate(world_);
+  dBodySetKinematic(body);
+  return Register(body);
+}
+
+int OdeWorld::Register(dBodyID body)
+{
+  const std::size_t number = bodies_.size();
+  dBodySetFiniteRotationMode(body, 0);  // the other mode calls sin(), which differs between processors
+  dBodySetAutoDisableFlag(body, 0);
+  dBodySetData(body, reinterpret_cast<void*>(number));
+  bodies_.push_back(body);
+  return static_cast<int>(number);
+}
+
+void OdeWorld::BeginEntity(std::uint32_t entity)
+{
+  current_entity_ = entity;
+  current_set_ = nullptr;
+}
+
+void OdeWorld::AddSolid(dGeomID geom, int body, ELayer layer, ESurface surface, const Pose& offset_in_body)
+{
+  auto solid = std::make_unique<Solid>();
+  solid->geom = geom;
+  solid->number = static_cast<std::uint32_t>(solids_.size());
+  solid->entity = current_entity_;
+  solid->surface = surface;
+  solid->layer = layer;
+  dGeomSetData(geom, solid.get());
+  const LayerBits bits = BitsOf(layer);
+  dGeomSetCategoryBits(geom, bits.category);
+  dGeomSetCollideBits(geom, bits.collide);
+  if (body >= 0 && current_set_ == nullptr) current_set_ = dSimpleSpaceCreate(space_);
+  dSpaceAdd(body < 0 ? space_ : current_set_, geom);
+  if (body >= 0)
+  {
+    dGeomSetBody(geom, Body(body));
+    const Vector3& p = offset_in_body.position;
+    const Quaternion& q = offset_in_body.orientation;
+    if (!p.isZero(0)) dGeomSetOffsetPosition(geom, p.x(), p.y(), p.z());
+    if (!q.vec().isZero(0))
+    {
+      const dQuaternion raw = {q.w(), q.x(), q.y(), q.z()};
+      dGeomSetOffsetQuaternion(geom, raw);
+    }
+  }
+  solids_.push_back(std::move(solid));
+}
+
+void OdeWorld::Ignore(std::uint32_t a, std::uint32_t b)
+{
+  const auto [low, high] = std::minmax(a, b);
+  for (IgnoredPair& pair : ignored_)
+  {
+    if (pair.low != low || pair.high != high) continue;
+    ++pair.count;
+    return;
+  }
+  ignored_.push_back({low, high, 1});
+}
+
+void OdeWorld::Respect(std::uint32_t a, std::uint32_t b)
+{
+  const auto [low, high] = std::minmax(a, b);
+  for (std::size_t k = 0; k < ignored_.size(); ++k)
+  {
+    if (ignored_[k].low != low || ignored_[k].high != high) continue;
+    if (--ignored_[k].count == 0) ignored_.erase(ignored_.begin() + static_cast<std::ptrdiff_t>(k));
+    return;
+  }
+}
+
+bool OdeWorld::IsIgnored(std::uint32_t a, std::uint32_t b) const
+{
+  const auto [low, high] = std::minmax(a, b);
+  return std::any_of(ignored_.begin(), ignored_.end(),
+                     [&](const IgnoredPair& pair) { return pair.low == low && pair.high == high; });
+}
+
+void OdeWorld::NearCallback(void* world, dGeomID first, dGeomID second)
+{
+  if (dGeomIsSpace(first) || dGeomIsSpace(second))
+  {
+    dSpaceCollide2(first, second, world, &NearCallback);
+    return;
+  }
+  static_cast<OdeWorld*>(world)->CollectPair(SolidOf(first), SolidOf(second));
+}
+
+void OdeWorld::CollectPair(const Solid& first, const Solid& second)
+{
+  if (!ignored_.empty() && IsIgnored(first.entity, second.entity)) return;
+  pairs_.push_back({std::min(first.number, second.number), std::max(first.number, second.number)});
+}
+
+void OdeWorld::Step(double seconds, std::uint64_t number)
+{
+  InitialiseOde();
+  step_seconds_ = seconds;
+  contact_count_ = 0;
+
+  // The space reports pairs in an order that depends on its history: contacts follow the numbers of the solids instead.
+  pairs_.clear();
+  dSpaceCollide(space_, this, &NearCallback);
+  std::sort(pairs_.begin(), pairs_.end(),
+            [](const Pair& x, const Pair& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
+  for (const Pair& pair : pairs_) MakeContacts(*solids_[pair.a], *solids_[pair.b]);
+
+  // From the eighth iteration on ODE shuffles the constraints by a generator that the whole process shares.
+  if (settings_.iterations > 8) dRandSetSeed(static_cast<unsigned long>(number));
+  dWorldQuickStep(world_, seconds);
+  dJointGroupEmpty(contact_joints_);
+}
+
+void OdeWorld::MakeContacts(const Solid& a, const Solid& b)
+{
+  std::array<dContactGeom, kMaximumContacts> contacts;
+  int count = -1;
+  const int class_a = dGeomGetClass(a.geom);
+  const int class_b = dGeomGetClass(b.geom);
+  if (class_a == dCylinderClass && class_b == dCylinderClass)
+    count = CollideParallelCylinders(a.geom, b.geom, contacts);
+  else if (class_a == dPlaneClass && class_b == dCylinderClass)
+    count = Flipped(contacts, CollideCylinderWithPlane(b.geom, a.geom, contacts));
+  else if (class_a == dCylinderClass && class_b == dPlaneClass)
+    count = CollideCylinderWithPlane(a.geom, b.geom, contacts);
+  if (count < 0) count = dCollide(a.geom, b.geom, kMaximumContacts, contacts.data(), sizeof(dContactGeom));
+  for (int k = 0; k < count; ++k)
+  {
+    const dContactGeom& contact = contacts[static_cast<std::size_t>(k)];
+    if (Accept(contact, a, b)) AddContact(contact, a, b);
+  }
+}
+
+bool OdeWorld::Accept(const dContactGeom& contact, const Solid& a, const Solid& b) const
+{
+  for (const Solid* solid : {&a, &b})
+  {
+    if (solid->surface == ESurface::kGround && is_open_ && is_open_(VectorOf(contact.pos))) return false;
+    if (solid->surface == ESurface::kWheel)
+    {
+      const Vector3 axle = VectorToWorld(dGeomGetBody(solid->geom), Vector3::UnitY());
+      if (std::abs(axle.dot(VectorOf(contact.normal))) > kWheelFlank) return false;
+    }
+  }
+  return true;
+}
+
+void OdeWorld::AddContact(const dContactGeom& geometry, const Solid& a, const Solid& b)
+{
+  const dBodyID body_a = dGeomGetBody(a.geom);
+  const dBodyID body_b = dGeomGetBody(b.geom);
+  if (body_a == nullptr && body_b == nullptr) return;
+
+  dContact contact{};
+  contact.geom = geometry;
+  dSurfaceParameters& surface = contact.surface;
+  surface.mode = dContactApprox1;
+  const Vector3 normal = VectorOf(geometry.normal);
+  Vector3 along = Vector3::Zero();
+
+  if (a.surface == ESurface::kCaster || b.surface == ESurface::kCaster)
+  {
+    // A spring and a damper as ODE's error reduction and constraint force mixing.
+    surface.mode |= dContactSoftERP | dContactSoftCFM;
+    const double stiff = step_seconds_ * kCasterStiffness;
+    surface.soft_erp = stiff / (stiff + kCasterDamping);
+    surface.soft_cfm = 1 / (stiff + kCasterDamping);
+  }
+  else if (a.surface == ESurface::kWheel || b.surface == ESurface::kWheel)
+  {
+    surface.mu = settings_.wheel_friction;
+    const bool first = a.surface == ESurface::kWheel;
+    const dBodyID wheel = first ? body_a : body_b;
+    // Rolls on its own radius, however deep it stands in the ground.
+    const double radius = dGeomSphereGetRadius(first ? a.geom : b.geom);
+    const Vector3 foot = VectorOf(dBodyGetPosition(wheel)) - normal * (first ? radius : -radius);
+    for (int k = 0; k < 3; ++k) contact.geom.pos[k] = foot[k];
+    along = VectorToWorld(wheel, Vector3::UnitY()).cross(normal);
+  }
+  else
+  {
+    surface.mu = settings_.friction;
+    // ODE's friction is a box: put its first edge along the slip, or along the slip that gravity asks for.
+    const Vector3 point = VectorOf(geometry.pos);
+    Vector3 slip = Vector3::Zero();
+    if (body_a != nullptr) slip += PointVelocity(body_a, point);
+    if (body_b != nullptr) slip -= PointVelocity(body_b, point);
+    along = slip - normal * normal.dot(slip);
+    if (along.squaredNorm() < kSlip * kSlip) along = settings_.gravity - normal * normal.dot(settings_.gravity);
+  }
+  const double length = std::sqrt(along.squaredNorm());
+  if (length > 1e-9)
+  {
+    surface.mode |= dContactFDir1;
+    for (int k = 0; k < 3; ++k) contact.fdir1[k] = along[k] / length;
+  }
+  if (settings_.restitution > 0)
+  {
+    surface.mode |= dContactBounce;
+    surface.bounce = settings_.restitution;
+    surface.bounce_vel = 0.05;
+  }
+  dJointAttach(dJointCreateContact(world_, contact_joints_, &contact), body_a, body_b);
+  ++contact_count_;
+}
+
+const Solid* OdeWorld::FindTouching(const Vector3& centre, double radius, std::uint32_t but_not,
+                                    const std::function<bool(const Solid&)>& accept) const
+{
+  dGeomSphereSetRadius(probe_, radius);
+  dGeomSetPosition(probe_, centre.x(), centre.y(), centre.z());
+  const Solid* deepest = nullptr;
+  double depth = 0;
+  for (const auto& solid : solids_)
+  {
+    if (solid->entity == but_not || solid->entity == kNoEntity) continue;
+    if (solid->layer == ELayer::kProbe || solid->layer == ELayer::kWheel) continue;
+    if (!accept(*solid)) continue;
+    std::array<dReal, 6> box;
+    dGeomGetAABB(solid->geom, box.data());
+    bool near = true;
+    for (std::size_t k = 0; k < 3 && near; ++k)
+    {
+      const double c = centre[static_cast<Eigen::Index>(k)];
+      near = c + radius >= box[2 * k] && c - radius <= box[2 * k + 1];
+    }
+    if (!near) continue;
+    std::array<dContactGeom, kMaximumContacts> contacts;
+    const int count = dCollide(probe_, solid->geom, kMaximumContacts, contacts.data(), sizeof(dContactGeom));
+    for (int k = 0; k < count; ++k)
+    {
+      const double here = contacts[static_cast<std::size_t>(k)].depth;
+      if (deepest != nullptr && here <= depth) continue;
+      deepest = solid.get();
+      depth = here;
+    }
+  }
+  return deepest;
+}
+
+double OdeWorld::DistanceToStatic(const Vector3& origin, const Vector3& direction, double range) const
+{
+  const dGeomID ray = dCreateRay(nullptr, range);
+  dGeomRaySet(ray, origin.x(), origin.y(), origin.z(), direction.x(), direction.y(), direction.z());
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& solid : solids_)
+  {
+    if (dGeomGetBody(solid->geom) != nullptr) continue;
+    dContactGeom contact;
+    if (dCollide(ray, solid->geom, 1, &contact, sizeof contact) > 0) nearest = std::min(nearest, contact.depth);
+  }
+  dGeomDestroy(ray);
+  return nearest;
+}
+
+RawPose RawPoseOf(dBodyID body)
+{
+  RawPose pose;
+  std::copy_n(dBodyGetPosition(body), 3, pose.position);
+  std::copy_n(dBodyGetQuaternion(body), 4, pose.quaternion);
+  return pose;
+}
+
+void SetRawPose(dBodyID body, const RawPose& pose)
+{
+  // dBodySetQuaternion would normalise again and change the last bits, so both go in through the pointers.
+  std::copy_n(pose.quaternion, 4, const_cast<dReal*>(dBodyGetQuaternion(body)));
+  dRfromQ(const_cast<dReal*>(dBodyGetRotation(body)), pose.quaternion);
+  dBodySetPosition(body, pose.position[0], pose.position[1], pose.position[2]);
+}
+
+Pose PoseOf(const RawPose& raw)
+{
+  return {Vector3(raw.position[0], raw.position[1], raw.position[2]),
+          Quaternion(raw.quaternion[0], raw.quaternion[1], raw.quaternion[2], raw.quaternion[3])};
+}
+
+RawPose RawOf(const Pose& pose)
+{
+  const Quaternion q = pose.orientation.normalized();
+  const Vector3& p = pose.position;
+  return {{p.x(), p.y(), p.z()}, {q.w(), q.x(), q.y(), q.z()}};
+}
+
+Pose PoseOf(dBodyID body) { return PoseOf(RawPoseOf(body)); }
+
+Vector3 PointVelocity(dBodyID body, const Vector3& point)
+{
+  const Vector3 arm = point - VectorOf(dBodyGetPosition(body));
+  return VectorOf(dBodyGetLinearVel(body)) + VectorOf(dBodyGetAngularVel(body)).cross(arm);
+}
+
+Vector3 VectorToWorld(dBodyID body, const Vector3& v)
+{
+  dVector3 out;
+  dBodyVectorToWorld(body, v.x(), v.y(), v.z(), out);
+  return VectorOf(out);
+}
+
+Vector3 VectorFromWorld(dBodyID body, const Vector3& v)
+{
+  dVector3 out;
+  dBodyVectorFromWorld(body, v.x(), v.y(), v.z(), out);
+  return VectorOf(out);
+}
+
+void Stop(dBodyID body)
+{
+  dBodySetLinearVel(body, 0, 0, 0);
+  dBodySetAngularVel(body, 0, 0, 0);
+}
+
+}  // namespace swarmanoid::dynamics3d

@@ -1,0 +1,165 @@
+// OdeWorld: one ODE world and its collision space, stepped so that equal states give equal next states whatever came
+// before: contacts are made in the order of the solids' numbers and poses are restored bit by bit. Owned by the engine,
+// used by one thread at a time; several worlds may be stepped by several threads.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "common/math/pose.h"
+
+namespace swarmanoid::dynamics3d
+{
+
+inline constexpr std::uint32_t kNoEntity = std::numeric_limits<std::uint32_t>::max();
+
+enum class ESurface : std::uint8_t
+{
+  kPlain,
+  kWheel,   // a sphere that stands for a wheel about the y axis of its body: its flanks touch nothing
+  kCaster,  // frictionless and springy
+  kGround   // the ground plane: open where there are holes
+};
+
+// Who collides with whom. Static solids, mirrors included, never meet one another; wheels pass other robots (the wheel
+// stands within the outline of the chassis); probes are spheres that meet voxel terrain in place of cylinders and
+// boxes.
+enum class ELayer : std::uint8_t
+{
+  kStatic,
+  kRobot,
+  kObject,
+  kWheel,
+  kProbe,
+  kVoxels
+};
+
+// What a contact needs to know of a geom. Numbers are given in the order of creation.
+struct Solid
+{
+  dGeomID geom = nullptr;
+  std::uint32_t number = 0;
+  std::uint32_t entity = kNoEntity;
+  ESurface surface = ESurface::kPlain;
+  ELayer layer = ELayer::kStatic;
+};
+
+// The bits of a body's position and quaternion (w x y z), as ODE holds them.
+struct RawPose
+{
+  double position[3] = {0, 0, 0};
+  double quaternion[4] = {1, 0, 0, 0};
+};
+
+struct WorldSettings
+{
+  Vector3 gravity = Vector3(0, 0, -9.81);  // m/s², in the frame of the engine
+  int iterations = 8;
+  double friction = 0.5;
+  double wheel_friction = 1.0;
+  double restitution = 0;
+};
+
+class OdeWorld
+{
+public:
+  explicit OdeWorld(const WorldSettings& settings);
+  ~OdeWorld();
+  OdeWorld(const OdeWorld&) = delete;
+  OdeWorld& operator=(const OdeWorld&) = delete;
+
+  dWorldID World() const { return world_; }
+  const WorldSettings& Settings() const { return settings_; }
+
+  // A body of that mass distribution, its centre of mass at the origin. The number counts from 0.
+  int AddBody(const dMass& mass);
+  // A body that follows only what it is told.
+  int AddKinematicBody();
+  std::size_t BodyCount() const { return bodies_.size(); }
+  dBodyID Body(int number) const { return bodies_[static_cast<std::size_t>(number)]; }
+  static int NumberOf(dBodyID body) { return static_cast<int>(reinterpret_cast<std::intptr_t>(dBodyGetData(body))); }
+
+  // Starts the set of solids of one entity; those of a set never collide with one another.
+  void BeginEntity(std::uint32_t entity);
+  // Takes over a geom made with no space. body -1: it stands where it is.
+  void AddSolid(dGeomID geom, int body, ELayer layer, ESurface surface = ESurface::kPlain,
+                const Pose& offset_in_body = {});
+  std::span<const std::unique_ptr<Solid>> Solids() const { return solids_; }
+
+  // Two entities that are not to collide (one holds the other); counted, so that both calls nest.
+  void Ignore(std::uint32_t a, std::uint32_t b);
+  void Respect(std::uint32_t a, std::uint32_t b);
+
+  // Says where the ground plane is open (frame of the engine).
+  void SetOpenings(std::function<bool(const Vector3&)> is_open) { is_open_ = std::move(is_open); }
+
+  // One step of `seconds`. `number`: of the step since the start of the experiment; it decides the order of
+  // constraints.
+  void Step(double seconds, std::uint64_t number);
+  int ContactCount() const { return contact_count_; }
+
+  // The solid (of another entity, accepted by the filter) that reaches deepest into a sphere; nullptr for none.
+  const Solid* FindTouching(const Vector3& centre, double radius, std::uint32_t but_not,
+                            const std::function<bool(const Solid&)>& accept) const;
+  // Distance to the first static solid along a unit vector; infinity for none within `range`.
+  double DistanceToStatic(const Vector3& origin, const Vector3& direction, double range) const;
+
+private:
+  struct Pair
+  {
+    std::uint32_t a;
+    std::uint32_t b;
+  };
+  struct IgnoredPair
+  {
+    std::uint32_t low;
+    std::uint32_t high;
+    int count;
+  };
+
+  int Register(dBodyID body);
+  static void NearCallback(void* world, dGeomID first, dGeomID second);
+  void CollectPair(const Solid& first, const Solid& second);
+  bool IsIgnored(std::uint32_t a, std::uint32_t b) const;
+  void MakeContacts(const Solid& a, const Solid& b);
+  bool Accept(const dContactGeom& contact, const Solid& a, const Solid& b) const;
+  void AddContact(const dContactGeom& geometry, const Solid& a, const Solid& b);
+
+  WorldSettings settings_;
+  dWorldID world_ = nullptr;
+  dSpaceID space_ = nullptr;
+  dSpaceID current_set_ = nullptr;
+  std::uint32_t current_entity_ = kNoEntity;
+  dJointGroupID contact_joints_ = nullptr;
+  dThreadingImplementationID threading_ = nullptr;
+  dGeomID probe_ = nullptr;
+  std::vector<dBodyID> bodies_;
+  std::vector<std::unique_ptr<Solid>> solids_;
+  std::vector<Pair> pairs_;
+  std::vector<IgnoredPair> ignored_;
+  std::function<bool(const Vector3&)> is_open_;
+  double step_seconds_ = 0;
+  int contact_count_ = 0;
+};
+
+// Poses, bit by bit; setting also recomputes the rotation matrix as a step of ODE does.
+RawPose RawPoseOf(dBodyID body);
+void SetRawPose(dBodyID body, const RawPose& pose);
+Pose PoseOf(const RawPose& raw);
+RawPose RawOf(const Pose& pose);
+
+inline Vector3 VectorOf(const dReal* v) { return {v[0], v[1], v[2]}; }
+Pose PoseOf(dBodyID body);
+Vector3 PointVelocity(dBodyID body, const Vector3& point);
+// Directions between the frame of a body and that of the engine.
+Vector3 VectorToWorld(dBodyID body, const Vector3& v);
+Vector3 VectorFromWorld(dBodyID body, const Vector3& v);
+void Stop(dBodyID body);
+
+}  // namespace swarmanoid::dynamics3d

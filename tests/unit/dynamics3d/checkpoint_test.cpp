@@ -1,0 +1,138 @@
+// Saved states: a fresh engine goes on with the same bits.
+#include <cstring>
+
+#include "common/math/random.h"
+#include "dynamics3d_test_world.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+// Footbots that grip, drag and let go of preys and one another, a handbot with book and rope, an eyebot, blocks to
+// bump into: all with commands that depend on seed and tick alone.
+class BusyWorld : public Dynamics3dTestWorld
+{
+public:
+  explicit BusyWorld(std::uint64_t seed, const char* iterations = "8") : seed_(seed)
+  {
+    Set("ceiling", "true");
+    Set("arena_walls", "true");
+    Set("iterations", iterations);
+    experiment.arena_size = {3, 3, 3};
+    for (int k = 0; k < 9; ++k)
+      footbots_.push_back(AddFootbot({0.5 + 0.25 * (k % 3), 0.5 + 0.25 * (k / 3), 0}, 0.7 * k));
+    for (int k = 0; k < 3; ++k) AddPrey({0.63 + 0.25 * k, 1.3, 0}, 0.3, 0.08);
+    AddBlock({1.5, 0.7, 0.05}, {0.1, 0.1, 0.1}, 0.2);
+    AddWall({1.0, 1.6, 0.2}, {1, 0.1, 0.4});
+    handbot_ = AddHandbot({2, 2, 0});
+    AddBlock({2.27, 2, 0.1}, {0.03, 0.16, 0.2}, 0.4);
+    eyebot_ = AddEyebot({2, 0.8, 1});
+    AddCommands("footbot_wheels", 2);
+    AddCommands("footbot_gripper", 1);
+    AddCommands("footbot_turret", 1);
+    AddCommands("handbot_arms", 5);
+    AddCommands("handbot_hands", 2);
+    AddCommands("handbot_rope", 2);
+    AddCommands("eyebot_propellers", 4);
+    AddCommands("eyebot_attach", 1);
+    AddSensors("footbot_turret_torque", 3);
+    AddSensors("footbot_encoders", 2);
+    Start();
+  }
+
+  void Advance()
+  {
+    const auto tick = static_cast<std::uint32_t>(Space().GetTick());
+    for (const auto footbot : footbots_)
+    {
+      RandomStream random(seed_, footbot, 0, tick / 4);
+      Drive(footbot, random.Uniform(-0.3, 0.3), random.Uniform(-0.3, 0.3));
+      Command("footbot_gripper", footbot, {random.Uniform() < 0.7 ? 1.0 : 0.0});
+      Command("footbot_turret", footbot, {random.Uniform(-1, 1)});
+    }
+    RandomStream random(seed_, handbot_, 0, tick / 20);
+    Command("handbot_hands", handbot_, {random.Uniform() < 0.8 ? 1.0 : 0.0, 1});
+    Command("handbot_rope", handbot_, {random.Uniform() < 0.9 ? 1.0 : 0.0, random.Uniform(-0.15, 0.1)});
+    Command("handbot_arms", handbot_,
+            {random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1), 0});
+    Command("eyebot_propellers", eyebot_, {0.1, 0.05, tick > 40 ? 0.5 : 0.1, 0.3});
+    Command("eyebot_attach", eyebot_, {tick % 100 < 80 ? 1.0 : 0.0});
+    Tick();
+  }
+
+  int Grips() const
+  {
+    int grips = 0;
+    for (const auto footbot : footbots_) grips += Attribute(footbot, "gripped") != 0;
+    return grips;
+  }
+
+private:
+  std::uint64_t seed_;
+  std::vector<std::uint32_t> footbots_;
+  std::uint32_t handbot_ = 0;
+  std::uint32_t eyebot_ = 0;
+};
+
+std::vector<std::uint64_t> HashesOfRun(std::uint64_t seed, int ticks, const std::vector<int>& restarts,
+                                       const char* iterations = "8")
+{
+  BusyWorld world(seed, iterations);
+  std::vector<std::uint64_t> hashes;
+  int grips = 0;
+  for (int tick = 0; tick < ticks; ++tick)
+  {
+    if (std::find(restarts.begin(), restarts.end(), tick) != restarts.end()) world.ReplaceEngineBySavedState();
+    world.Advance();
+    grips += world.Grips();
+    hashes.push_back(world.Space().Hash());
+  }
+  EXPECT_GT(grips, ticks / 2) << "the run was to have grips";
+  return hashes;
+}
+
+TEST(Dynamics3dCheckpoint, ARestoredRunHasTheSameHashAtEveryTick)
+{
+  for (const std::uint64_t seed : {1U, 2U, 3U})
+  {
+    RandomStream random(seed, 0, 1, 0);
+    std::vector<int> restarts;
+    for (int k = 0; k < 12; ++k) restarts.push_back(static_cast<int>(random.Below(120)));
+    EXPECT_EQ(HashesOfRun(seed, 120, {}), HashesOfRun(seed, 120, restarts));
+  }
+}
+
+TEST(Dynamics3dCheckpoint, ManyIterationsAreRepeatableToo)
+{
+  EXPECT_EQ(HashesOfRun(4, 60, {}, "20"), HashesOfRun(4, 60, {7, 21, 22, 40}, "20"));
+}
+
+TEST(Dynamics3dCheckpoint, SavingAndLoadingIntoARunningEngineChangesNothing)
+{
+  BusyWorld world(5);
+  for (int tick = 0; tick < 40; ++tick) world.Advance();
+  ByteWriter before;
+  world.engine->SaveState(before);
+  ByteReader reader(before.Bytes());
+  world.engine->LoadState(reader);
+  world.engine->Canonicalise();
+  ByteWriter after;
+  world.engine->SaveState(after);
+  EXPECT_EQ(before.Bytes(), after.Bytes());
+}
+
+TEST(Dynamics3dCheckpoint, AStateOfAnotherExperimentIsRefused)
+{
+  BusyWorld busy(1);
+  ByteWriter state;
+  busy.engine->SaveState(state);
+  Dynamics3dTestWorld other;
+  other.AddFootbot({1, 1, 0});
+  other.Start();
+  ByteReader reader(state.Bytes());
+  EXPECT_THROW(other.engine->LoadState(reader), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,206 @@
+// The engine against closed forms of mechanics.
+#include <cmath>
+
+#include "dynamics3d_test_world.h"
+#include "engine_worker/engines/dynamics3d/eyebot.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr double kGravity = 9.81;
+
+TEST(Dynamics3dClosedForms, ABlockFallsFreely)
+{
+  Dynamics3dTestWorld world;
+  const auto block = world.AddBlock({5, 5, 20}, {0.2, 0.2, 0.2}, 1);
+  world.Start();
+  world.Run(10);
+  // Semi-implicit Euler of n steps h falls g h² n (n + 1) / 2, which is g t² / 2 and g h t / 2 more.
+  EXPECT_NEAR(20 - world.Position(block).z(), kGravity * 0.005 * 0.005 * 200 * 201 / 2, 1e-9);
+  EXPECT_NEAR(20 - world.Position(block).z(), kGravity / 2, 0.03);
+}
+
+TEST(Dynamics3dClosedForms, GravityPullsAlongTheAxisThatIsAskedFor)
+{
+  Dynamics3dTestWorld world;
+  world.Set("gravity", "0, 1.5, 0");
+  const auto block = world.AddBlock({5, 5, 2}, {0.2, 0.2, 0.2}, 1);
+  world.Start();
+  world.Run(20);
+  EXPECT_NEAR(world.Position(block).y(), 5 + 1.5 * 4 / 2, 0.01);
+  EXPECT_NEAR(world.Position(block).z(), 2, 1e-12);
+}
+
+// A ground tilted about the y axis of the engine's frame; the block slides towards +x of the frame.
+double SlideAfterTwoSeconds(double degrees, const char* friction)
+{
+  Dynamics3dTestWorld world;
+  world.Set("orientation", "0, " + std::to_string(degrees) + ", 0");
+  world.Set("friction", friction);
+  const Quaternion tilt = QuaternionFromEuler({0, DegreesToRadians(degrees), 0});
+  const auto block = world.AddBlock(tilt * Vector3(0, 0, 0.05), {0.4, 0.4, 0.1}, 2, tilt);
+  world.Start();
+  world.Run(20);
+  const Vector3 moved = tilt.conjugate() * world.Position(block);
+  EXPECT_NEAR(moved.y(), 0, 0.02);
+  EXPECT_NEAR(moved.z(), 0.05, 1e-3);
+  return moved.x();
+}
+
+TEST(Dynamics3dClosedForms, ABlockHoldsBelowTheAngleOfFrictionAndSlidesAboveIt)
+{
+  // atan(0.4) = 21.8 degrees.
+  EXPECT_NEAR(SlideAfterTwoSeconds(20, "0.4"), 0, 2e-3);
+  EXPECT_GT(SlideAfterTwoSeconds(24, "0.4"), 0.3);
+}
+
+TEST(Dynamics3dClosedForms, ABlockSlidesDownAnInclineWithTheAccelerationOfCoulombFriction)
+{
+  const double angle = DegreesToRadians(30);
+  const double acceleration = kGravity * (Sin(angle) - 0.3 * Cos(angle));
+  EXPECT_NEAR(SlideAfterTwoSeconds(30, "0.3"), acceleration * 2, 0.02 * acceleration * 2);
+}
+
+TEST(Dynamics3dClosedForms, AHandbotOnItsRopeSwingsLikeAPendulum)
+{
+  // Gravity 5 degrees off the vertical: let go below its hook, the robot swings about that angle.
+  Dynamics3dTestWorld world;
+  const double angle = DegreesToRadians(5);
+  world.Set("gravity", "0, " + std::to_string(kGravity * Sin(angle)) + ", " + std::to_string(-kGravity * Cos(angle)));
+  world.Set("ceiling", "true");
+  world.experiment.clock_tick_ms = 10;
+  const auto handbot = world.AddHandbot({5, 5, 0.5});
+  world.AddCommands("handbot_rope", 2);
+  world.Start();
+  world.Command("handbot_rope", handbot, {1, 0});
+  world.Tick();
+  ASSERT_EQ(world.Attribute(handbot, "rope_attached"), 1);
+  const double rope = world.Attribute(handbot, "rope_length");
+  EXPECT_NEAR(rope, 3 - 0.5 - 0.16, 1e-3);
+
+  std::vector<double> crossings;
+  const double to_mass = 0.09;  // m from the rope's end to the centre of mass
+  const double middle = 5 + (rope + 0.16) * Sin(angle);
+  double before = -1;
+  for (int tick = 0; tick < 1500; ++tick)
+  {
+    world.Tick();
+    const double now = world.Position(handbot).y() - middle;
+    if (before < 0 && now >= 0) crossings.push_back(0.01 * tick);
+    before = now;
+  }
+  ASSERT_GE(crossings.size(), 3U);
+  const double period = (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
+  EXPECT_NEAR(period, 2 * kPi * std::sqrt((rope + to_mass) / kGravity), 0.03);
+}
+
+TEST(Dynamics3dClosedForms, AnEyebotHoversWithAThrustOfItsWeight)
+{
+  Dynamics3dTestWorld world;
+  const auto eyebot = world.AddEyebot({5, 5, 1}, 0.7);
+  world.AddCommands("eyebot_propellers", 4);
+  world.Start();
+  world.Run(100);
+  EXPECT_LT((world.Position(eyebot) - Vector3(5, 5, 1)).norm(), 1e-4);
+  EXPECT_NEAR(world.Yaw(eyebot), 0.7, 1e-4);
+  const auto* model = dynamic_cast<const dynamics3d::EyebotModel*>(world.engine->ModelOf(eyebot));
+  ASSERT_NE(model, nullptr);
+  EXPECT_NEAR(model->Thrust(), dynamics3d::EyebotShape::kMass * kGravity, 1e-3);
+}
+
+TEST(Dynamics3dClosedForms, AnEyebotReachesTheCommandedVelocityAndYawRate)
+{
+  Dynamics3dTestWorld world;
+  const auto eyebot = world.AddEyebot({5, 5, 1});
+  world.AddCommands("eyebot_propellers", 4);
+  world.Start();
+  world.Command("eyebot_propellers", eyebot, {0.5, 0.2, 0.1, 0});
+  world.Run(50);
+  const Vector3 start = world.Position(eyebot);
+  world.Run(10);
+  EXPECT_LT((world.Position(eyebot) - start - Vector3(0.5, 0.2, 0.1)).norm(), 0.01);
+
+  world.Command("eyebot_propellers", eyebot, {0, 0, 0, 0.5});
+  world.Run(30);
+  const double yaw = world.Yaw(eyebot);
+  world.Run(10);
+  EXPECT_NEAR(WrapAngle(world.Yaw(eyebot) - yaw), 0.5, 0.01);
+}
+
+TEST(Dynamics3dClosedForms, AFootbotDrivesAtTheSpeedOfItsWheels)
+{
+  Dynamics3dTestWorld world;
+  const auto footbot = world.AddFootbot({2, 5, 0});
+  world.AddCommands("footbot_wheels", 2);
+  world.AddSensors("footbot_encoders", 2);
+  world.AddSensors("footbot_accelerometer", 3);
+  world.Start();
+  world.Run(10);
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(world.Sensor("footbot_accelerometer", footbot, k), k == 2 ? kGravity : 0, 0.05);
+  world.Drive(footbot, 0.1, 0.1);
+  world.Run(10);
+  const double start = world.Position(footbot).x();
+  world.Run(50);
+  const double driven = world.Position(footbot).x() - start;
+  EXPECT_NEAR(driven, 0.5, 0.01 * 0.5);
+  EXPECT_NEAR(world.Position(footbot).y(), 5, 1e-3);
+  EXPECT_NEAR(world.Sensor("footbot_encoders", footbot, 0) * 0.029112741, driven / 5, 0.05 * 0.1);
+  EXPECT_LT(world.Tilt(footbot), DegreesToRadians(1));
+}
+
+TEST(Dynamics3dClosedForms, AFootbotTurnsOnTheSpotAtTheDifferentialRate)
+{
+  Dynamics3dTestWorld world;
+  const auto footbot = world.AddFootbot({5, 5, 0});
+  world.AddCommands("footbot_wheels", 2);
+  world.Start();
+  world.Drive(footbot, -0.07, 0.07);  // 1 rad/s
+  world.Run(5);
+  const double yaw = world.Yaw(footbot);
+  world.Run(20);
+  EXPECT_NEAR(WrapAngle(world.Yaw(footbot) - yaw), 2, 0.01);
+  EXPECT_LT((world.Position(footbot) - Vector3(5, 5, 0)).norm(), 2e-3);
+}
+
+TEST(Dynamics3dClosedForms, ABlockTipsWhereItsCentreOfMassPassesItsEdge)
+{
+  // 0.1 wide and 0.2 high: atan(0.1 / 0.2) = 26.6 degrees.
+  for (const double degrees : {24.0, 29.0})
+  {
+    Dynamics3dTestWorld world;
+    world.Set("orientation", "0, " + std::to_string(degrees) + ", 0");
+    world.Set("friction", "2");
+    const Quaternion tilt = QuaternionFromEuler({0, DegreesToRadians(degrees), 0});
+    const auto block = world.AddBlock(tilt * Vector3(0, 0, 0.1), {0.1, 0.1, 0.2}, 1, tilt);
+    world.Start();
+    world.Run(30);
+    const double turned = Acos((tilt.conjugate() * world.Orientation(block) * Vector3::UnitZ()).z());
+    if (degrees < 26)
+      EXPECT_LT(turned, DegreesToRadians(2));
+    else
+      EXPECT_GT(turned, DegreesToRadians(45));
+  }
+}
+
+TEST(Dynamics3dClosedForms, ARollingPreyAcceleratesAsASolidCylinder)
+{
+  // Rolls without slipping down a slope: a = 2/3 g sin.
+  const double degrees = 10;
+  Dynamics3dTestWorld world;
+  world.Set("orientation", "0, " + std::to_string(degrees) + ", 0");
+  const Quaternion tilt = QuaternionFromEuler({0, DegreesToRadians(degrees), 0});
+  // Lying along y; the position is the centre of its base.
+  const Quaternion lying = tilt * QuaternionFromEuler({-kPi / 2, 0, 0});
+  const auto prey = world.Add(EntityKind::kCylindricPrey, tilt * Vector3(0, -0.05, 0.1), lying, {0.1, 0.1, 0.1}, 1);
+  world.Start();
+  world.Run(20);
+  const double along = (tilt.conjugate() * world.Position(prey)).x();
+  const double expected = 2.0 / 3 * kGravity * Sin(DegreesToRadians(degrees)) * 2;
+  EXPECT_NEAR(along, expected, 0.03 * expected);
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,209 @@
+// Grippers, hands, ropes and magnets.
+#include "dynamics3d_test_world.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using dynamics3d::FootbotShape;
+
+// A footbot at x, y that faces a prey of 0.1 m radius at touching distance.
+std::uint32_t AddPreyInFrontOf(Dynamics3dTestWorld& world, double x, double y, double mass)
+{
+  return world.AddPrey({x + FootbotShape::kRadius + 0.1 + 0.002, y, 0}, mass);
+}
+
+TEST(Dynamics3dGripping, AFootbotDragsAPreyAndLetsGoOfIt)
+{
+  Dynamics3dTestWorld world;
+  const auto footbot = world.AddFootbot({2, 5, 0});
+  const auto prey = AddPreyInFrontOf(world, 2, 5, 0.4);
+  world.AddCommands("footbot_gripper", 1);
+  world.AddCommands("footbot_wheels", 2);
+  world.AddSensors("footbot_turret_torque", 3);
+  world.Start();
+  world.Command("footbot_gripper", footbot, {1});
+  world.Tick();
+  EXPECT_EQ(world.Attribute(footbot, "gripped"), 1 + prey);
+  EXPECT_EQ(world.Attribute(footbot, "gripper_aperture"), 0);
+
+  const double apart = (world.Position(prey) - world.Position(footbot)).norm();
+  world.Drive(footbot, -0.1, -0.1);
+  world.Run(50);
+  EXPECT_NEAR(world.Position(footbot).x(), 1.5, 0.03);
+  EXPECT_NEAR((world.Position(prey) - world.Position(footbot)).norm(), apart, 2e-3);
+  // Dragged at constant speed, the prey pulls forward with its friction, 0.5 m g, and a little more: held above the
+  // ground, it is also pressed down.
+  EXPECT_NEAR(world.Sensor("footbot_turret_torque", footbot, 0) * 25, 0.5 * 0.4 * 9.81, 0.7);
+
+  world.Command("footbot_gripper", footbot, {0});
+  world.Run(20);
+  EXPECT_EQ(world.Attribute(footbot, "gripped"), 0);
+  EXPECT_GT((world.Position(prey) - world.Position(footbot)).norm(), apart + 0.15);
+}
+
+TEST(Dynamics3dGripping, TheTurretTurnsWhatTheGripperHolds)
+{
+  Dynamics3dTestWorld world;
+  const auto footbot = world.AddFootbot({5, 5, 0});
+  const auto prey = AddPreyInFrontOf(world, 5, 5, 0.05);
+  world.AddCommands("footbot_gripper", 1);
+  world.AddCommands("footbot_turret", 1);
+  world.Start();
+  world.Command("footbot_gripper", footbot, {1});
+  world.Command("footbot_turret", footbot, {0.5});
+  world.Run(20);
+  EXPECT_NEAR(world.Attribute(footbot, "turret_angle"), 1, 0.05);
+  const Vector3 to_prey = world.Position(prey) - world.Position(footbot);
+  EXPECT_NEAR(WrapAngle(Atan2(to_prey.y(), to_prey.x()) - world.Yaw(footbot)), 1, 0.05);
+}
+
+TEST(Dynamics3dGripping, AChainOfFootbotsPullsTogether)
+{
+  Dynamics3dTestWorld world;
+  std::vector<std::uint32_t> chain;
+  const double spacing = 2 * FootbotShape::kRadius + 0.002;
+  for (int k = 0; k < 4; ++k) chain.push_back(world.AddFootbot({3 - k * spacing, 5, 0}));
+  world.AddCommands("footbot_gripper", 1);
+  world.AddCommands("footbot_wheels", 2);
+  world.Start();
+  for (std::size_t k = 1; k < chain.size(); ++k) world.Command("footbot_gripper", chain[k], {1});
+  world.Tick();
+  for (std::size_t k = 1; k < chain.size(); ++k) EXPECT_EQ(world.Attribute(chain[k], "gripped"), 1 + chain[k - 1]);
+  for (const auto footbot : chain) world.Drive(footbot, 0.1, 0.1);
+  world.Run(100);
+  EXPECT_NEAR(world.Position(chain[0]).x(), 4, 0.03);
+  for (std::size_t k = 1; k < chain.size(); ++k)
+    EXPECT_NEAR((world.Position(chain[k]) - world.Position(chain[k - 1])).norm(), spacing, 1e-3);
+}
+
+TEST(Dynamics3dGripping, LoopsAreNotClosed)
+{
+  Dynamics3dTestWorld world;
+  const double spacing = 2 * FootbotShape::kRadius + 0.002;
+  const auto left = world.AddFootbot({5, 5, 0});
+  const auto right = world.AddFootbot({5 + spacing, 5, 0}, kPi);
+  world.AddCommands("footbot_gripper", 1);
+  world.Start();
+  world.Command("footbot_gripper", left, {1});
+  world.Command("footbot_gripper", right, {1});
+  world.Run(3);
+  EXPECT_EQ(world.Attribute(left, "gripped"), 1 + right);
+  EXPECT_EQ(world.Attribute(right, "gripped"), 0);
+}
+
+TEST(Dynamics3dGripping, AHandbotLiftsABookAndCarriesItUpItsRope)
+{
+  Dynamics3dTestWorld world;
+  world.Set("ceiling", "true");
+  const auto handbot = world.AddHandbot({5, 5, 0});
+  // A book of 0.4 kg on a stand, between the two hands.
+  const auto book = world.AddBlock({5.27, 5, 0.1}, {0.03, 0.16, 0.2}, 0.4);
+  world.AddCommands("handbot_hands", 2);
+  world.AddCommands("handbot_rope", 2);
+  world.Start();
+  world.Command("handbot_hands", handbot, {1, 1});
+  world.Command("handbot_rope", handbot, {1, 0});
+  world.Run(10);
+  EXPECT_EQ(world.Attribute(handbot, "gripped", 0), 1 + book);
+  EXPECT_EQ(world.Attribute(handbot, "gripped", 1), 1 + book);
+  ASSERT_EQ(world.Attribute(handbot, "rope_attached"), 1);
+
+  const Vector3 held = world.Space().GetPose(handbot).Inverse().Apply(world.Position(book));
+  world.Command("handbot_rope", handbot, {1, -0.1});
+  world.Run(100);
+  // A metre of rope taken in at 0.1 m/s.
+  EXPECT_NEAR(world.Attribute(handbot, "rope_length"), 3 - 0.16 - 1, 0.01);
+  EXPECT_NEAR(world.Position(handbot).z(), 1, 0.05);
+  const Vector3 carried = world.Space().GetPose(handbot).Inverse().Apply(world.Position(book));
+  EXPECT_LT((carried - held).norm(), 0.01);
+
+  world.Command("handbot_hands", handbot, {0, 0});
+  world.Run(20);
+  EXPECT_LT(world.Position(book).z(), 0.2);
+  EXPECT_GT(world.Position(handbot).z(), 0.9);
+}
+
+TEST(Dynamics3dGripping, AHandbotHangsOnAShelfByItsHandsAlone)
+{
+  Dynamics3dTestWorld world;
+  world.Set("ceiling", "true");
+  world.Set("ground", "false");
+  const auto handbot = world.AddHandbot({5, 5, 1});
+  const auto shelf = world.AddWall({5.36, 5, 1.1}, {0.2, 1, 0.02});
+  world.AddCommands("handbot_hands", 2);
+  world.AddCommands("handbot_rope", 2);
+  world.Start();
+  world.Command("handbot_hands", handbot, {1, 1});
+  world.Run(1);
+  EXPECT_EQ(world.Attribute(handbot, "gripped", 0), 1 + shelf);
+  EXPECT_EQ(world.Attribute(handbot, "gripped", 1), 1 + shelf);
+  world.Run(50);
+  EXPECT_GT(world.Position(handbot).z(), 0.5);
+  world.Command("handbot_hands", handbot, {0, 0});
+  world.Run(20);
+  EXPECT_LT(world.Position(handbot).z(), -5);
+}
+
+TEST(Dynamics3dGripping, ArmsHeadAndWristsMoveWithinTheirLimits)
+{
+  Dynamics3dTestWorld world;
+  const auto handbot = world.AddHandbot({5, 5, 0});
+  world.AddCommands("handbot_arms", 5);
+  world.Start();
+  world.Command("handbot_arms", handbot, {0.4, 0.5, 0.25, 0.3, 0.1});
+  world.Run(10);
+  EXPECT_NEAR(world.Attribute(handbot, "head_angle"), 0.4, 0.02);
+  EXPECT_NEAR(world.Attribute(handbot, "arm", 0), 0.5, 0.02);
+  EXPECT_NEAR(world.Attribute(handbot, "arm", 1), 0.25, 0.02);
+  EXPECT_NEAR(world.Attribute(handbot, "wrist", 0), 0.3, 1e-6);
+  world.Run(60);
+  EXPECT_NEAR(world.Attribute(handbot, "arm", 0), 1.0472, 0.02);
+  EXPECT_NEAR(world.Attribute(handbot, "arm", 1), 1.0472, 0.02);
+  EXPECT_NEAR(world.Attribute(handbot, "wrist", 0), kPi / 2, 1e-3);
+  EXPECT_LT(world.Tilt(handbot), DegreesToRadians(3));
+}
+
+TEST(Dynamics3dGripping, ARopePullsButDoesNotPush)
+{
+  Dynamics3dTestWorld world;
+  world.Set("ceiling", "true");
+  const auto handbot = world.AddHandbot({5, 5, 0});
+  world.AddCommands("handbot_rope", 2);
+  world.Start();
+  world.Command("handbot_rope", handbot, {1, 0.15});
+  world.Run(20);
+  // Slack: the robot stands on the ground, its weight on it.
+  EXPECT_NEAR(world.Position(handbot).z(), 0, 2e-3);
+  EXPECT_LT(world.Tilt(handbot), DegreesToRadians(1));
+  EXPECT_NEAR(world.Attribute(handbot, "rope_length"), 2.84 + 0.3, 0.01);
+}
+
+TEST(Dynamics3dGripping, AnEyebotAttachesToTheCeilingAndNowhereElse)
+{
+  Dynamics3dTestWorld world;
+  world.Set("ceiling", "true");
+  const auto eyebot = world.AddEyebot({5, 5, 1});
+  world.AddCommands("eyebot_attach", 1);
+  world.AddCommands("eyebot_propellers", 4);
+  world.Start();
+  world.Command("eyebot_attach", eyebot, {1});
+  world.Run(10);
+  EXPECT_EQ(world.Attribute(eyebot, "attached"), 0);
+  world.Command("eyebot_propellers", eyebot, {0, 0, 0.3, 0});
+  world.Run(60);
+  EXPECT_EQ(world.Attribute(eyebot, "attached"), 1);
+  const Vector3 there = world.Position(eyebot);
+  EXPECT_NEAR(there.z() + 0.566, 3, 0.04);
+  world.Run(20);
+  EXPECT_LT((world.Position(eyebot) - there).norm(), 1e-3);
+  world.Command("eyebot_attach", eyebot, {0});
+  world.Command("eyebot_propellers", eyebot, {0, 0, -0.3, 0});
+  world.Run(30);
+  EXPECT_EQ(world.Attribute(eyebot, "attached"), 0);
+  EXPECT_LT(world.Position(eyebot).z(), there.z() - 0.5);
+}
+
+}  // namespace
+}  // namespace swarmanoid
