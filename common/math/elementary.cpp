@@ -105,6 +105,28 @@ double Atan2(double y, double x)
   return y < 0 ? -angle : angle;
 }
 
+void Atan2Each(std::span<const double> y, std::span<const double> x, std::span<double> angles)
+{
+  constexpr double kTan8 = 0.41421356237309503;
+  // Selections instead of branches, so that the compiler computes several angles at once; the steps are those of Atan2.
+  for (std::size_t i = 0; i < angles.size(); ++i)
+  {
+    const double ax = x[i] < 0 ? -x[i] : x[i];
+    const double ay = y[i] < 0 ? -y[i] : y[i];
+    const double shorter = ay <= ax ? ay : ax;
+    const double longer = ay <= ax ? ax : ay;
+    const double ratio = shorter / (longer == 0 ? 1 : longer);
+    double pivot = ratio <= 0.6681786379192989 ? kTan8 : 1;
+    double base = ratio <= 0.6681786379192989 ? kPi / 8 : kPi / 4;
+    pivot = ratio <= 0.198912367379658 ? 0 : pivot;
+    base = ratio <= 0.198912367379658 ? 0 : base;
+    const double unit = base + AtanSeries((ratio - pivot) / (1.0 + ratio * pivot));
+    double angle = ay <= ax ? unit : kPi / 2 - unit;
+    angle = x[i] < 0 ? kPi - angle : angle;
+    angles[i] = y[i] < 0 ? -angle : angle;
+  }
+}
+
 double Asin(double x)
 {
   if (x >= 1) return kPi / 2;

@@ -3,6 +3,8 @@
 // Used by engines, sensors and everything else that reaches the state hash. All angles in radians.
 #pragma once
 
+#include <span>
+
 namespace swarmanoid
 {
 
@@ -20,6 +22,8 @@ double Sin(double x);
 double Cos(double x);
 // In -pi..pi; Atan2(0, 0) is 0.
 double Atan2(double y, double x);
+// Atan2 of each pair, the same bits, several at a time.
+void Atan2Each(std::span<const double> y, std::span<const double> x, std::span<double> angles);
 // Arguments outside -1..1 are clamped.
 double Asin(double x);
 double Acos(double x);

@@ -16,6 +16,15 @@ struct BodyShape : Shape
   double high = 0;
 };
 
+// The same in short, for searches over many bodies.
+struct BodyExtent
+{
+  float radius = 0;
+  float low = 0;
+  float high = 0;
+  Shape::Kind kind = Shape::Kind::kNone;
+};
+
 BodyShape BodyShapeOf(const EntityConfiguration& entity);
 // Of all entities of a space, in entity order.
 std::vector<BodyShape> BodiesOf(const CSwarmanoidSpace& space);

@@ -33,13 +33,17 @@ void ColourCamera::InitCamera(const DeviceSetup& setup, CameraModel model)
   world_ = SensorWorld::Of(setup.space);
   sources_ = BlobSources::Of(world_);
   lines_ = std::make_unique<SightLines>(*world_, model.range);
+  place_of_entity_.assign(setup.space.Size(), -1);
+  for (std::size_t k = 0; k < robots_.size(); ++k) place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
 }
 
 void ColourCamera::Update(const ChannelView&)
 {
   world_->Refresh();
   sources_->Refresh();
-  for (std::size_t k = 0; k < robots_.size(); ++k) Look(k);
+  // In the order of the grid's cells: neighbours stay in the cache. Every robot has a body.
+  for (const std::uint32_t entity : world_->Grid().Sorted())
+    if (const std::int32_t k = place_of_entity_[entity]; k >= 0) Look(static_cast<std::size_t>(k));
 }
 
 void ColourCamera::Look(std::size_t k)
@@ -81,8 +85,8 @@ void ColourCamera::Look(std::size_t k)
     lines_->AddPoint(offset, source.owner);
     candidates_.push_back({place, source.colour});
   };
-  for (const std::uint32_t body : lines_->Around())
-    for (const BlobSource& source : sources_->On(body)) consider(source);
+  for (const SightLines::Neighbour& neighbour : lines_->Around())
+    for (const BlobSource& source : sources_->On(neighbour.entity)) consider(source);
   for (const BlobSource& source : sources_->Free()) consider(source);
 
   const std::span<const char> seen = lines_->Solve();

@@ -58,7 +58,8 @@ private:
   std::shared_ptr<SensorWorld> world_;
   std::shared_ptr<BlobSources> sources_;
   std::unique_ptr<SightLines> lines_;
-  double tangent_ = 0;  // of the aperture
+  std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
+  double tangent_ = 0;                         // of the aperture
   std::vector<Seen> candidates_;
 };
 

@@ -102,10 +102,12 @@ void NeighbourGrid::Rebuild()
   // Counts two places up: after the scatter below, start_[c] is where cell c begins.
   std::fill(start_.begin(), start_.end(), 0U);
   float largest = 0;
+  bool upright = true;
   for (std::size_t b = 0; b < count_; ++b)
   {
     const std::uint32_t e = bodies_[b];
     const Circle circle = CircleOf(poses, e, shapes_[e]);
+    upright &= IsUpright(poses, e);
     body_x_[b] = circle.x;
     body_y_[b] = circle.y;
     body_radius_[b] = circle.radius;
@@ -114,6 +116,7 @@ void NeighbourGrid::Rebuild()
     ++start_[cell_[b] + 2];
   }
   largest_radius_ = largest;
+  all_upright_ = upright;
   for (std::size_t c = 2; c < start_.size(); ++c) start_[c] += start_[c - 1];
   for (std::size_t b = 0; b < count_; ++b)
   {

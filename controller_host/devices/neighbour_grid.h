@@ -79,6 +79,9 @@ public:
   // The movable bodies in the order of their cells: entity indices.
   std::span<const std::uint32_t> Sorted() const { return {entity_.data(), count_}; }
 
+  // No movable body is tilted.
+  bool AllUpright() const { return all_upright_; }
+
   // Calls visit(entity) for every movable body whose circle in the xy plane comes within `reach` m of (x, y), in the
   // order of the cells, and for few others.
   template <class Visit>
@@ -95,6 +98,7 @@ private:
   std::size_t count_ = 0;
   float margin_ = 0;          // covers the rounding to single precision
   float largest_radius_ = 0;  // of this tick
+  bool all_upright_ = true;
 
   // By body: cell and circle in the xy plane.
   std::vector<std::uint32_t> cell_;

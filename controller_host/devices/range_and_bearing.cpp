@@ -96,6 +96,8 @@ public:
     bearing_noise_ = NoiseFrom(setup.parameters, "bearing_");
     lines_ = std::make_unique<SightLines>(*world_, range_);
     receivers_.resize(robots_.size());
+    place_of_entity_.assign(setup.space.Size(), -1);
+    for (std::size_t k = 0; k < robots_.size(); ++k) place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
     message_slots_.assign(setup.space.Size(), kNoSlot);
     for (std::uint32_t e = 0; e < setup.space.Size(); ++e)
       if (const CSwarmanoidSpaceEntity& entity = setup.space.GetEntity(e); IsRobot(entity.GetKind()))
@@ -106,7 +108,9 @@ public:
   void Update(const ChannelView&) override
   {
     world_->Refresh();
-    for (std::size_t k = 0; k < robots_.size(); ++k) Receive(k);
+    // In the order of the grid's cells: neighbours stay in the cache. Every robot has a body.
+    for (const std::uint32_t entity : world_->Grid().Sorted())
+      if (const std::int32_t k = place_of_entity_[entity]; k >= 0) Receive(static_cast<std::size_t>(k));
   }
 
 private:
@@ -123,38 +127,64 @@ private:
     const std::span<const double> attributes = space.Attributes();
     const std::uint32_t robot = robots_[k];
     const Vector3 antenna = AntennaOf(robot);
+    const PoseArrays& poses = space.Poses();
+    const bool all_upright = world_->Grid().AllUpright();
     lines_->LookFrom(robot, antenna, range_);
     heard_.clear();
-    for (const std::uint32_t other : lines_->Around())
+    for (const SightLines::Neighbour& other : lines_->Around())
     {
-      const std::uint32_t slot = message_slots_[other];
+      const std::uint32_t slot = message_slots_[other.entity];
       if (slot == kNoSlot || attributes[slot] == 0) continue;
-      const Vector3 offset = AntennaOf(other) - antenna;
+      const Vector3 offset = all_upright ? Vector3(other.x, other.y, poses.z[other.entity] - poses.z[robot])
+                                         : Vector3(AntennaOf(other.entity) - antenna);
       const double square = offset.squaredNorm();
       if (square > range_ * range_) continue;
-      lines_->AddPoint(offset, other);
+      lines_->AddPoint(offset, other.entity);
       heard_.push_back({offset, square, slot});
     }
     const std::span<const char> seen = lines_->Solve();
 
-    auto& packets = receivers_[k].packets;
-    packets.clear();
-    const bool upright = IsUpright(space.Poses(), robot);
-    const Heading heading = HeadingOf(space.Poses(), robot);
-    const Quaternion to_body = space.GetPose(robot).orientation.conjugate();
     RandomStream random = StreamOf(space, robot, stream_);
+    std::size_t kept = 0;
     for (std::size_t i = 0; i < heard_.size(); ++i)
+      if (seen[i] && !(loss_ > 0 && random.Uniform() < loss_)) heard_[kept++] = heard_[i];
+    heard_.resize(kept);
+    MakePackets(k, random);
+  }
+
+  void MakePackets(std::size_t k, RandomStream& random)
+  {
+    const CSwarmanoidSpace& space = world_->Space();
+    const std::span<const double> attributes = space.Attributes();
+    const Pose pose = space.GetPose(robots_[k]);
+    const Eigen::Matrix3d to_body = pose.orientation.toRotationMatrix().transpose();
+    const std::size_t count = heard_.size();
+    for (std::vector<double>* values : {&place_x_, &place_y_, &place_z_, &flat_, &bearing_, &elevation_})
+      if (values->size() < count) values->resize(count);
+    bool is_flat = true;
+    for (std::size_t i = 0; i < count; ++i)
     {
-      if (!seen[i] || (loss_ > 0 && random.Uniform() < loss_)) continue;
-      const Vector3& offset = heard_[i].offset;
-      const Vector3 place = upright ? Vector3(heading.cos * offset.x() + heading.sin * offset.y(),
-                                              heading.cos * offset.y() - heading.sin * offset.x(), offset.z())
-                                    : Vector3(to_body * offset);
-      CCI_RangeAndBearingSensor::Packet& packet = packets.emplace_back();
+      const Vector3 place = to_body * heard_[i].offset;
+      place_x_[i] = place.x();
+      place_y_[i] = place.y();
+      place_z_[i] = place.z();
+      flat_[i] = __builtin_sqrt(place.x() * place.x() + place.y() * place.y());
+      is_flat &= place.z() == 0;
+    }
+    Atan2Each({place_y_.data(), count}, {place_x_.data(), count}, {bearing_.data(), count});
+    if (is_flat)
+      std::fill_n(elevation_.begin(), count, 0.0);
+    else
+      Atan2Each({place_z_.data(), count}, {flat_.data(), count}, {elevation_.data(), count});
+
+    auto& packets = receivers_[k].packets;
+    packets.resize(count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      CCI_RangeAndBearingSensor::Packet& packet = packets[i];
       packet.range_m = __builtin_sqrt(heard_[i].square);
-      packet.bearing_rad = Atan2(place.y(), place.x());
-      if (place.z() != 0)
-        packet.vertical_bearing_rad = Atan2(place.z(), __builtin_sqrt(place.x() * place.x() + place.y() * place.y()));
+      packet.bearing_rad = bearing_[i];
+      packet.vertical_bearing_rad = elevation_[i];
       if (range_noise_.IsActive()) packet.range_m = std::max(packet.range_m + range_noise_.Sample(random), 0.0);
       if (bearing_noise_.IsActive()) packet.bearing_rad = WrapAngle(packet.bearing_rad + bearing_noise_.Sample(random));
       Unpack(attributes[heard_[i].slot + 1], packet.message.data());
@@ -175,8 +205,10 @@ private:
   std::uint32_t stream_ = 0;
   double range_ = 0, loss_ = 0;
   NoiseModel range_noise_, bearing_noise_;
-  std::vector<std::uint32_t> message_slots_;  // by entity
+  std::vector<std::uint32_t> message_slots_;   // by entity
+  std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
   std::vector<Heard> heard_;
+  std::vector<double> place_x_, place_y_, place_z_, flat_, bearing_, elevation_;  // of those heard
   std::vector<Receiver> receivers_;
 };
 

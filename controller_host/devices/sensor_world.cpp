@@ -14,6 +14,9 @@ SensorWorld::SensorWorld(const CSwarmanoidSpace& space)
       fixed_(space, bodies_, 0),
       revision_(space.Revision() - 1)
 {
+  for (const BodyShape& body : bodies_)
+    extents_.push_back(
+        {static_cast<float>(body.radius), static_cast<float>(body.low), static_cast<float>(body.high), body.kind});
 }
 
 std::shared_ptr<SensorWorld> SensorWorld::Of(const CSwarmanoidSpace& space)

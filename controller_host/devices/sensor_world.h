@@ -38,6 +38,7 @@ public:
 
   const CSwarmanoidSpace& Space() const { return space_; }
   const BodyShape& Body(std::uint32_t entity) const { return bodies_[entity]; }
+  const BodyExtent& Extent(std::uint32_t entity) const { return extents_[entity]; }
   std::span<const BodyShape> Bodies() const { return bodies_; }
   const EngineMembership& Membership() const { return membership_; }
   const NeighbourGrid& Grid() const { return grid_; }
@@ -45,6 +46,7 @@ public:
 private:
   const CSwarmanoidSpace& space_;
   std::vector<BodyShape> bodies_;
+  std::vector<BodyExtent> extents_;
   EngineMembership membership_;
   NeighbourGrid grid_;
   FixedBodies fixed_;

@@ -43,16 +43,6 @@ void ClipSlab(FloatLanes start, FloatLanes step, float low, float high, FloatLan
   leave = Minimum(leave, Maximum(a, b));
 }
 
-// Ring of a square distance: rings of equal area.
-struct Rings
-{
-  float scale;
-  std::size_t Of(float square_distance) const
-  {
-    return static_cast<std::size_t>(std::min(square_distance * scale, static_cast<float>(kRings - 1)));
-  }
-};
-
 }  // namespace
 
 SightLines::SightLines(const SensorWorld& world, double reach)
@@ -66,27 +56,48 @@ void SightLines::LookFrom(std::uint32_t observer, const Vector3& eye, double rea
   eye_ = eye;
   reach_ = reach;
   points_ = 0;
-  point_x_.clear();
-  point_y_.clear();
-  point_z_.clear();
-  owner_.clear();
   around_.clear();
+  const PoseArrays& poses = world_.Space().Poses();
   world_.Grid().ForEachNear(eye.x(), eye.y(), reach,
                             [&](std::uint32_t body)
                             {
-                              if (body != observer_) around_.push_back(body);
+                              if (body == observer) return;
+                              around_.push_back({body, 0, poses.x[body] - eye.x(), poses.y[body] - eye.y()});
                             });
+  sorted_ = around_.size() > kUnsorted;
+  if (sorted_) SortAround();
 }
 
-void SightLines::AddPoint(const Vector3& offset, std::uint32_t owner)
+// A counting sort by rings around the eye; within a ring the order stays.
+void SightLines::SortAround()
 {
-  // Straight above or below: moved aside by a micrometre, so that it has a direction.
-  const bool vertical = offset.x() * offset.x() + offset.y() * offset.y() < 1e-12;
-  point_x_.push_back(vertical ? 1e-6F : static_cast<float>(offset.x()));
-  point_y_.push_back(vertical ? 0 : static_cast<float>(offset.y()));
-  point_z_.push_back(static_cast<float>(offset.z()));
-  owner_.push_back(static_cast<std::int32_t>(owner));
-  ++points_;
+  const auto scale = static_cast<float>(kRings / (reach_ * reach_ + 1e-9));
+  std::array<std::uint32_t, kRings + 1> start{};
+  for (Neighbour& neighbour : around_)
+  {
+    const auto square = static_cast<float>(neighbour.x * neighbour.x + neighbour.y * neighbour.y);
+    const auto ring = static_cast<std::uint32_t>(std::min(square * scale, static_cast<float>(kRings - 1)));
+    neighbour.ring_start = static_cast<float>(ring);
+    ++start[ring + 1];
+  }
+  for (std::size_t r = 1; r <= kRings; ++r) start[r] += start[r - 1];
+  sorted_around_.resize(around_.size());
+  for (const Neighbour& neighbour : around_)
+  {
+    Neighbour& place = sorted_around_[start[static_cast<std::size_t>(neighbour.ring_start)]++];
+    place = neighbour;
+    place.ring_start = neighbour.ring_start / scale;
+  }
+  around_.swap(sorted_around_);
+}
+
+void SightLines::Grow()
+{
+  const std::size_t size = 2 * point_x_.size() + 64;
+  point_x_.resize(size, 1);
+  point_y_.resize(size, 0);
+  point_z_.resize(size, 0);
+  owner_.resize(size, static_cast<std::int32_t>(kNobody));
 }
 
 std::span<const char> SightLines::Solve()
@@ -94,21 +105,10 @@ std::span<const char> SightLines::Solve()
   seen_.assign(points_, 1);
   if (points_ == 0) return seen_;
   CollectBodies();
-  sorted_ = points_ > kUnsorted || discs_.size() > kUnsorted;
-  if (sorted_) SortNearFirst();
-
-  const std::size_t padded = (points_ + kLanes - 1) / kLanes * kLanes;
-  point_x_.resize(padded, 1);
-  point_y_.resize(padded, 0);
-  point_z_.resize(padded, 0);
-  owner_.resize(padded, static_cast<std::int32_t>(kNobody));
   for (std::size_t first = 0; first < points_; first += kLanes) SolveGroup(first);
   if (!tilted_.empty() || !foreign_.empty())
     for (std::size_t i = 0; i < points_; ++i)
-    {
-      char& seen = seen_[sorted_ ? order_[i] : i];
-      if (seen && HiddenByOthers(i)) seen = 0;
-    }
+      if (seen_[i] && HiddenByOthers(i)) seen_[i] = 0;
   return seen_;
 }
 
@@ -119,96 +119,71 @@ void SightLines::CollectBodies()
   tilted_.clear();
   foreign_.clear();
   largest_radius_ = 0;
-  float lowest = 0, highest = 0, farthest = 0;
+  Bounds bounds;
   for (std::size_t i = 0; i < points_; ++i)
   {
-    lowest = std::min(lowest, point_z_[i]);
-    highest = std::max(highest, point_z_[i]);
-    farthest = std::max(farthest, point_x_[i] * point_x_[i] + point_y_[i] * point_y_[i]);
+    bounds.lowest = std::min(bounds.lowest, point_z_[i]);
+    bounds.highest = std::max(bounds.highest, point_z_[i]);
+    bounds.farthest = std::max(bounds.farthest, point_x_[i] * point_x_[i] + point_y_[i] * point_y_[i]);
   }
-  farthest = __builtin_sqrtf(farthest);
-  for (const std::uint32_t body : around_) AddBody(body, lowest, highest, farthest);
+  bounds.farthest = __builtin_sqrtf(bounds.farthest);
+
+  // The fixed ones first: SolveGroup stops at the first disc that is too far.
   if (reach_ <= usual_reach_)
+    for (const std::uint32_t body : fixed_.Near(eye_.x(), eye_.y())) AddFixed(body, bounds);
+  else
   {
-    for (const std::uint32_t body : fixed_.Near(eye_.x(), eye_.y())) AddBody(body, lowest, highest, farthest);
-    return;
+    ++stamp_;
+    fixed_.ForEachInSquare(eye_.x(), eye_.y(), reach_,
+                           [&](std::uint32_t body)
+                           {
+                             if (stamps_[body] == stamp_) return;
+                             stamps_[body] = stamp_;
+                             AddFixed(body, bounds);
+                           });
   }
-  ++stamp_;
-  fixed_.ForEachInSquare(eye_.x(), eye_.y(), reach_,
-                         [&](std::uint32_t body)
-                         {
-                           if (stamps_[body] == stamp_) return;
-                           stamps_[body] = stamp_;
-                           AddBody(body, lowest, highest, farthest);
-                         });
+  const bool all_upright = world_.Grid().AllUpright();
+  const PoseArrays& poses = world_.Space().Poses();
+  for (const Neighbour& neighbour : around_)
+    AddBody(neighbour.entity, neighbour.x, neighbour.y, neighbour.ring_start,
+            all_upright || IsUpright(poses, neighbour.entity), bounds);
 }
 
-void SightLines::AddBody(std::uint32_t body, float lowest, float highest, float farthest)
+void SightLines::AddFixed(std::uint32_t body, const Bounds& bounds)
+{
+  const PoseArrays& poses = world_.Space().Poses();
+  AddBody(body, poses.x[body] - eye_.x(), poses.y[body] - eye_.y(), 0, IsUpright(poses, body), bounds);
+}
+
+inline void SightLines::AddBody(std::uint32_t body, double dx, double dy, float ring_start, bool upright,
+                                const Bounds& bounds)
 {
   if (!world_.CanHideFrom(observer_, body)) return foreign_.push_back(body);
+  if (!upright) return tilted_.push_back(body);
   const PoseArrays& poses = world_.Space().Poses();
-  if (!IsUpright(poses, body)) return tilted_.push_back(body);
-  const BodyShape& shape = world_.Body(body);
-  const auto low = static_cast<float>(poses.z[body] + shape.low - eye_.z());
-  const auto high = static_cast<float>(poses.z[body] + shape.high - eye_.z());
-  if (low > highest || high < lowest) return;
-  const double dx = poses.x[body] - eye_.x();
-  const double dy = poses.y[body] - eye_.y();
-  const auto radius = static_cast<float>(shape.radius);
+  const BodyExtent& extent = world_.Extent(body);
+  const auto z = static_cast<float>(poses.z[body] - eye_.z());
+  const float low = z + extent.low;
+  const float high = z + extent.high;
+  if (low > bounds.highest || high < bounds.lowest) return;
   const auto square = static_cast<float>(dx * dx + dy * dy);
-  const float cut = farthest + radius + 1e-4F;
+  const float cut = bounds.farthest + extent.radius + 1e-4F;
   if (square > cut * cut) return;
   const auto entity = static_cast<std::int32_t>(body);
-  if (shape.kind == Shape::Kind::kCylinder)
+  if (extent.kind == Shape::Kind::kCylinder)
   {
-    largest_radius_ = std::max(largest_radius_, radius);
-    discs_.push_back({static_cast<float>(dx), static_cast<float>(dy), radius * radius, square, low, high, entity,
-                      low <= lowest && high >= highest});
+    largest_radius_ = std::max(largest_radius_, extent.radius);
+    const float square_radius = extent.radius * extent.radius;
+    discs_.push_back({static_cast<float>(dx), static_cast<float>(dy), square_radius, ring_start,
+                      __builtin_sqrtf(square) + extent.radius, low, high, entity,
+                      low <= bounds.lowest && high >= bounds.highest, square <= square_radius});
     return;
   }
+  const Vector3& half = world_.Body(body).half_size;
   const Heading heading = HeadingOf(poses, body);
   boxes_.push_back({heading, static_cast<float>(-(heading.cos * dx + heading.sin * dy)),
-                    static_cast<float>(heading.sin * dx - heading.cos * dy), static_cast<float>(shape.half_size.x()),
-                    static_cast<float>(shape.half_size.y()), low, high, entity});
-}
-
-// Counting sorts of points and discs by rings around the eye: within a ring the order stays.
-void SightLines::SortNearFirst()
-{
-  const Rings rings{static_cast<float>(kRings / (reach_ * reach_ + 1e-9))};
-  std::array<std::uint32_t, kRings + 1> start{};
-
-  for (const Disc& disc : discs_) ++start[rings.Of(disc.square_distance) + 1];
-  for (std::size_t r = 1; r <= kRings; ++r) start[r] += start[r - 1];
-  sorted_discs_.resize(discs_.size());
-  for (const Disc& disc : discs_) sorted_discs_[start[rings.Of(disc.square_distance)]++] = disc;
-  discs_.swap(sorted_discs_);
-  // For the early end of the search: the lower border of the ring.
-  for (Disc& disc : discs_) disc.square_distance = static_cast<float>(rings.Of(disc.square_distance)) / rings.scale;
-
-  start.fill(0);
-  const auto ring_of_point = [&](std::size_t i)
-  { return rings.Of(point_x_[i] * point_x_[i] + point_y_[i] * point_y_[i]); };
-  for (std::size_t i = 0; i < points_; ++i) ++start[ring_of_point(i) + 1];
-  for (std::size_t r = 1; r <= kRings; ++r) start[r] += start[r - 1];
-  order_.resize(points_);
-  sorted_x_.resize(points_);
-  sorted_y_.resize(points_);
-  sorted_z_.resize(points_);
-  sorted_owner_.resize(points_);
-  for (std::size_t i = 0; i < points_; ++i)
-  {
-    const std::uint32_t place = start[ring_of_point(i)]++;
-    order_[place] = static_cast<std::uint32_t>(i);
-    sorted_x_[place] = point_x_[i];
-    sorted_y_[place] = point_y_[i];
-    sorted_z_[place] = point_z_[i];
-    sorted_owner_[place] = owner_[i];
-  }
-  point_x_.swap(sorted_x_);
-  point_y_.swap(sorted_y_);
-  point_z_.swap(sorted_z_);
-  owner_.swap(sorted_owner_);
+                    static_cast<float>(heading.sin * dx - heading.cos * dy), static_cast<float>(half.x()),
+                    static_cast<float>(half.y()), low, high, entity});
 }
 
 void SightLines::SolveGroup(std::size_t first)
@@ -221,28 +196,37 @@ void SightLines::SolveGroup(std::size_t first)
   const FloatLanes square = x * x + y * y;
   const std::size_t count = std::min<std::size_t>(kLanes, points_ - first);
   const unsigned all = (1U << count) - 1U;
-  IntLanes hidden{};
 
-  float farthest = 0;
-  for (std::size_t i = 0; i < count; ++i) farthest = std::max(farthest, square[i]);
+  float farthest = 0, nearest = square[0], lowest = 0;
+  IntLanes open{};  // lanes with a point that is seen so far
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    farthest = std::max(farthest, square[i]);
+    nearest = std::min(nearest, square[i]);
+    lowest = std::min(lowest, z[i]);
+    open[i] = -1;
+  }
+  nearest = __builtin_sqrtf(nearest) * 0.9999F;
   const float limit = (__builtin_sqrtf(farthest) + largest_radius_) * 1.0001F;
 
   for (const Disc& disc : discs_)
   {
-    if (sorted_ && disc.square_distance > limit * limit) break;
+    if (disc.ring_start > limit * limit) break;
+    // Lines that still pass above it where it ends. (high and lowest are below 0 here.)
+    if (disc.high < 0 && disc.far_edge * lowest > disc.high * nearest) continue;
     // b: how far along the line its nearest point to the disc lies, times the length; across: how far beside, likewise.
     const FloatLanes b = disc.x * x + disc.y * y;
     const FloatLanes across = disc.x * y - disc.y * x;
     const FloatLanes beside = across * across;
     const FloatLanes wide = disc.square_radius * square;
+    IntLanes hit = (beside <= wide) & (b >= 0) & open;
+    if (LaneMask(hit) == 0 && !disc.holds_eye) continue;
+
     const FloatLanes end_x = x - disc.x;
     const FloatLanes end_y = y - disc.y;
-    const IntLanes end_inside = end_x * end_x + end_y * end_y <= disc.square_radius;
-    const IntLanes crosses = (beside <= wide) & (b >= 0) & (b <= square);
-    IntLanes hit = (crosses | ((b > square) & end_inside)) & (owner != disc.entity);
-    const float to_eye = disc.x * disc.x + disc.y * disc.y;
-    if (to_eye <= disc.square_radius) hit |= (b < 0) & (owner != disc.entity);
-    if (LaneMask(hit) == 0) continue;
+    hit &= (b <= square) | (end_x * end_x + end_y * end_y <= disc.square_radius);
+    if (disc.holds_eye) hit = open;
+    hit &= owner != disc.entity;
     if (!disc.spans)
     {
       // Between entering and leaving the circle the line must be as high as the body somewhere.
@@ -254,8 +238,8 @@ void SightLines::SolveGroup(std::size_t first)
       const FloatLanes z_leave = z * leave;
       hit &= (Maximum(z_enter, z_leave) >= disc.low) & (Minimum(z_enter, z_leave) <= disc.high);
     }
-    hidden |= hit;
-    if ((LaneMask(hidden) & all) == all) break;
+    open &= ~hit;
+    if (LaneMask(open) == 0) break;
   }
 
   for (const Box& box : boxes_)
@@ -267,15 +251,11 @@ void SightLines::SolveGroup(std::size_t first)
     ClipSlab(Everywhere(box.x), cosine * x + sine * y, -box.half_x, box.half_x, enter, leave);
     ClipSlab(Everywhere(box.y), cosine * y - sine * x, -box.half_y, box.half_y, enter, leave);
     ClipSlab(FloatLanes{}, z, box.low, box.high, enter, leave);
-    hidden |= (enter <= leave) & (owner != box.entity);
+    open &= ~((enter <= leave) & (owner != box.entity));
   }
 
-  unsigned mask = LaneMask(hidden) & all;
-  for (; mask != 0; mask &= mask - 1)
-  {
-    const std::size_t point = first + static_cast<unsigned>(__builtin_ctz(mask));
-    seen_[sorted_ ? order_[point] : point] = 0;
-  }
+  for (unsigned hidden = ~LaneMask(open) & all; hidden != 0; hidden &= hidden - 1)
+    seen_[first + static_cast<unsigned>(__builtin_ctz(hidden))] = 0;
 }
 
 bool SightLines::HiddenByOthers(std::size_t point) const
