@@ -83,7 +83,7 @@ void ColourCamera::Look(std::size_t k)
       if (place.x() <= 0 || beside > border * border || offset.squaredNorm() > model_.range * model_.range) return;
     }
     lines_->AddPoint(offset, source.owner);
-    candidates_.push_back({place, source.colour});
+    candidates_.push_back({place, source.colour, 0});
   };
   for (const SightLines::Neighbour& neighbour : lines_->Around())
     for (const BlobSource& source : sources_->On(neighbour.entity)) consider(source);
@@ -93,6 +93,15 @@ void ColourCamera::Look(std::size_t k)
   std::size_t kept = 0;
   for (std::size_t i = 0; i < candidates_.size(); ++i)
     if (seen[i]) candidates_[kept++] = candidates_[i];
+  if (x_.size() < kept)
+    for (std::vector<double>* values : {&x_, &y_, &angle_}) values->resize(2 * kept);
+  for (std::size_t i = 0; i < kept; ++i)
+  {
+    x_[i] = candidates_[i].place.x();
+    y_[i] = candidates_[i].place.y();
+  }
+  Atan2Each({y_.data(), kept}, {x_.data(), kept}, {angle_.data(), kept});
+  for (std::size_t i = 0; i < kept; ++i) candidates_[i].angle = angle_[i];
   Extract(k, {candidates_.data(), kept});
 }
 

@@ -43,6 +43,7 @@ protected:
   {
     Vector3 place;
     std::uint32_t colour;
+    double angle;  // rad, of the place about the robot's z axis, -pi..pi
   };
   // Called once for each robot: what it sees.
   virtual void Extract(std::size_t k, std::span<const Seen> blobs) = 0;
@@ -61,6 +62,7 @@ private:
   std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
   double tangent_ = 0;                         // of the aperture
   std::vector<Seen> candidates_;
+  std::vector<double> x_, y_, angle_;  // of those seen
 };
 
 }  // namespace swarmanoid

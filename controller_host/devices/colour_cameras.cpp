@@ -52,12 +52,12 @@ public:
   std::vector<CCI_ColourBlob> blobs;
 };
 
-CCI_ColourBlob BlobAt(CameraModel::View view, const Vector3& place, std::uint32_t colour)
+CCI_ColourBlob BlobAt(CameraModel::View view, const Vector3& place, std::uint32_t colour, double angle)
 {
   const double along_floor = __builtin_sqrt(place.x() * place.x() + place.y() * place.y());
   CCI_ColourBlob blob;
   blob.colour = colour;
-  blob.angle_rad = Atan2(place.y(), place.x());
+  blob.angle_rad = angle;
   blob.distance_m = along_floor;
   if (view == CameraModel::View::kDown) return blob;
   blob.distance_m = __builtin_sqrt(place.squaredNorm());
@@ -103,7 +103,7 @@ protected:
   {
     auto& blobs = this->cameras_[k].blobs;
     blobs.clear();
-    for (const auto& one : seen) blobs.push_back(BlobAt(this->model_.view, one.place, one.colour));
+    for (const auto& one : seen) blobs.push_back(BlobAt(this->model_.view, one.place, one.colour, one.angle));
     if (!distance_noise_.IsActive() && !angle_noise_.IsActive()) return;
     RandomStream random = StreamOf(*this->space_, this->robots_[k], this->stream_);
     for (CCI_ColourBlob& blob : blobs)
@@ -158,7 +158,7 @@ protected:
       if (miss_ > 0 && random.Uniform() < miss_) continue;
       const Vector3 place =
           this->model_.view == CameraModel::View::kDown ? Down(one.place, random) : Ahead(one.place, random);
-      blobs.push_back(BlobAt(this->model_.view, place, one.colour));
+      blobs.push_back(BlobAt(this->model_.view, place, one.colour, Atan2(place.y(), place.x())));
     }
   }
 

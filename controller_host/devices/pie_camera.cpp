@@ -78,7 +78,7 @@ protected:
     {
       const std::size_t colour = ClassOf(blob.colour);
       if (colour == kColours.size()) continue;
-      double angle = Atan2(blob.place.y(), blob.place.x());
+      double angle = blob.angle;
       if (angle < 0) angle += 2 * kPi;
       const auto sector = std::min(static_cast<unsigned>(angle * (sectors / (2 * kPi))), sectors - 1);
       double distance = __builtin_sqrt(blob.place.x() * blob.place.x() + blob.place.y() * blob.place.y());

@@ -19,18 +19,18 @@ constexpr std::size_t kHalf = CCI_RangeAndBearingActuator::NUM_BYTES / 2;
 constexpr double kAntennaHeight = 0.1;  // m above the base (ARGoS3, foot-bot)
 constexpr std::uint32_t kNoSlot = 0xffffffff;
 
-// Five bytes as one number, exact in a double.
+// Five bytes as one number, the first one highest: exact in a double.
 double Packed(const std::uint8_t* bytes)
 {
-  std::uint64_t number = 0;
+  std::int64_t number = 0;
   for (std::size_t i = 0; i < kHalf; ++i) number = number << 8 | bytes[i];
   return static_cast<double>(number);
 }
 
 void Unpack(double value, std::uint8_t* bytes)
 {
-  auto number = static_cast<std::uint64_t>(value);
-  for (std::size_t i = kHalf; i-- > 0; number >>= 8) bytes[i] = static_cast<std::uint8_t>(number & 0xff);
+  const auto number = static_cast<std::int64_t>(value);
+  for (std::size_t i = 0; i < kHalf; ++i) bytes[i] = static_cast<std::uint8_t>(number >> (8 * (kHalf - 1 - i)));
 }
 
 class Sender : public CCI_RangeAndBearingActuator
