@@ -1,0 +1,43 @@
+// The eyebot of the prey retrieval experiment (behaviour diagram: figure 4.6). It chooses one of the two preys at
+// random, looks for it, marks it with the laser, waits until a footbot grips it, and leads that footbot to the nest.
+#pragma once
+
+#include <string>
+
+#include "behavior/ci_behavior.h"
+#include "behavior/ci_eyebot_state.h"
+#include "behavior/fsm.h"
+#include "eyebot/bt_eyebot_go_to.h"
+#include "eyebot/bt_eyebot_hover.h"
+#include "eyebot/bt_eyebot_search.h"
+
+class CBTEyebotGuide : public CCI_Behavior<CCI_EyeBotState>, public FSM<std::string>
+{
+public:
+  static const unsigned int SEARCH_FOR_PREY = 0;
+  static const unsigned int GO_TO_PREY = 1;
+  static const unsigned int WAIT_FOR_FOOTBOT_GRIPPING = 2;
+  static const unsigned int SEARCH_FOR_NEST = 3;
+
+  CBTEyebotGuide();
+
+  void Step(CCI_EyeBotState& cRobotState) override;
+  std::string StatusText() const override { return GetStateName(); }
+  void SaveState(std::ostream& state) const override;
+  void LoadState(std::istream& state) override;
+
+private:
+  std::string Transition(const CCI_EyeBotState& cRobotState) const;
+  void SearchForNest(CCI_EyeBotState& cRobotState);
+
+  CBTEyebotSearch search_;
+  CBTEyebotSearch slow_search_;
+  CBTEyebotGoTo go_to_prey_;
+  CBTEyebotGoTo go_to_nest_;
+  CBTEyebotGoTo go_to_footbot_;
+  CBTEyebotHover hover_;
+  std::uint32_t prey_colour_ = 0;  // 0: not chosen yet
+  double since_footbot_s_ = 0;     // since the carrying footbot was last seen
+  double waited_s_ = 0;            // for a footbot that does not follow
+  bool fetching_ = false;          // it flies back to the footbot
+};
