@@ -1,9 +1,10 @@
-// LED rings of all robots and the footbot's beacon: colours as attributes of the robots. Generic.
+// LED rings of all robots, beacons of footbot and handbot: colours as attributes of the robots. Generic.
 #include <stdexcept>
 
 #include "common/control_interface/eyebot/ci_eyebot_leds_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_beacon_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_leds_actuator.h"
+#include "common/control_interface/handbot/ci_handbot_beacon_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_leds_actuator.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_kit.h"
@@ -47,7 +48,8 @@ public:
   }
 };
 
-class Beacon : public CCI_FootBotBeaconActuator
+template <class Interface>
+class Beacon : public Interface
 {
 public:
   explicit Beacon(double* colour) : colour_(colour) {}
@@ -57,13 +59,14 @@ private:
   double* colour_;
 };
 
-class BeaconActuator : public ActuatorsOf<AttributeActuator, Beacon>
+template <class Interface>
+class BeaconActuator : public ActuatorsOf<AttributeActuator, Beacon<Interface>>
 {
 public:
   void Init(const DeviceSetup& setup) override
   {
-    Bind(setup, {"beacon"});
-    MakeDevices();
+    this->Bind(setup, {"beacon"});
+    this->MakeDevices();
   }
 };
 
@@ -84,9 +87,12 @@ void RegisterLeds()
 {
   Add<RingActuator<CCI_FootBotLedsActuator>>("footbot_leds", "generic_footbot_leds", "footbot",
                                              "the 12 LEDs around the turret");
-  Add<BeaconActuator>("footbot_beacon", "generic_footbot_beacon", "footbot", "the LED on top of the robot");
+  Add<BeaconActuator<CCI_FootBotBeaconActuator>>("footbot_beacon", "generic_footbot_beacon", "footbot",
+                                                 "the LED on top of the robot");
   Add<RingActuator<CCI_EyeBotLedsActuator>>("eyebot_leds", "generic_eyebot_leds", "eyebot",
                                             "the 16 LEDs around the robot");
+  Add<BeaconActuator<CCI_HandBotBeaconActuator>>("handbot_beacon", "generic_handbot_beacon", "handbot",
+                                                 "the LED on top of the robot");
   Add<RingActuator<CCI_HandBotLedsActuator>>("handbot_leds", "generic_handbot_leds", "handbot",
                                              "the 12 LEDs around the robot");
 }

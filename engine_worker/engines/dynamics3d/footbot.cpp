@@ -133,7 +133,7 @@ void FootbotModel::Sense(std::string_view channel, std::span<double> values) con
   if (elapsed_ <= 0) return Model::Sense(channel, values);
   if (channel == "footbot_encoders")
   {
-    for (std::size_t wheel = 0; wheel < 2; ++wheel) values[wheel] = wheel_turn_[wheel] / elapsed_;
+    for (std::size_t wheel = 0; wheel < 2; ++wheel) values[wheel] = wheel_turn_[wheel] * S::kWheelRadius;
   }
   else if (channel == "footbot_turret_torque")
   {

@@ -82,10 +82,10 @@ TEST(ValueDevices, EncodersAndAccelerometerPassOnTheEngineWithNoise)
   world.AddFootbot(1, 1);
   world.AddFootbot(2, 1);
   TestSensor encoders(world, "footbot_encoders", "engine_footbot_encoders", {0, 1});
-  encoders.values = {1, 2, 3, 4};
+  encoders.values = {0.01, 0.02, 0.03, 0.04};  // m in a tick of 0.1 s
   encoders.Update();
-  EXPECT_EQ(encoders.Of<CCI_FootBotEncodersSensor>(1).GetLeftVelocity(), 3);
-  EXPECT_NEAR(encoders.Of<CCI_FootBotEncodersSensor>(0).GetRightDistance(0.1), 0.2 * 0.029112741, 1e-15);
+  EXPECT_NEAR(encoders.Of<CCI_FootBotEncodersSensor>(1).GetLeftVelocity() * 0.029112741, 0.3, 1e-15);
+  EXPECT_NEAR(encoders.Of<CCI_FootBotEncodersSensor>(0).GetRightDistance(0.1), 0.02, 1e-15);
 
   TestSensor accelerometer(world, "footbot_accelerometer", "engine_footbot_accelerometer", {0},
                            {{"noise_kind", "gaussian"}, {"noise_mean", "1"}, {"noise_deviation", "0.5"}});
