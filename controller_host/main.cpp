@@ -70,7 +70,11 @@ public:
   std::optional<std::string> Stall()
   {
     std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock) return watch_.Observe(stepping_, fmt::format("runs the controller of {}", role_.RunningRobot()));
+    if (!lock)
+    {
+      session_.SetTick(stepping_);
+      return watch_.Observe(stepping_, fmt::format("runs the controller of {}", role_.RunningRobot()));
+    }
     session_.SetTick(gate_.Tick());
     return watch_.Observe(gate_.Tick(),
                           gate_.Has(0) && !gate_.Complete() ? "waits for " + Joined(gate_.Missing()) : "");

@@ -70,7 +70,11 @@ public:
   std::optional<std::string> Stall()
   {
     std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock) return watch_.Observe(stepping_, "runs its engine");
+    if (!lock)
+    {
+      session_.SetTick(stepping_);
+      return watch_.Observe(stepping_, "runs its engine");
+    }
     session_.SetTick(gate_.Tick());
     return watch_.Observe(gate_.Tick(), !commands_.empty() && gate_.Has(0) && !gate_.Complete()
                                             ? "waits for " + Joined(gate_.Missing())
