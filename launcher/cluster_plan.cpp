@@ -1,0 +1,176 @@
+#include "launcher/cluster_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+
+#include "common/bus/replica.h"
+#include "common/configuration/wording.h"
+#include "launcher/commands.h"
+#include "launcher/installation.h"
+#include "launcher/result_bits.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+// Up to here the wake-ups across cores cost more than the work that they let run side by side (docs/performance.md).
+constexpr std::size_t kRobotsForOneCore = 300;
+
+std::string Absolute(const std::string& path) { return fs::absolute(path).lexically_normal(); }
+
+// The name of a log; ids may hold anything.
+std::string LogName(const std::string& program, const std::string& which)
+{
+  std::string name = which.empty() ? program : program + "-" + which;
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_' && c != '.') c = '_';
+  return name + ".log";
+}
+
+std::size_t Robots(const Experiment& experiment)
+{
+  return static_cast<std::size_t>(std::count_if(experiment.entities.begin(), experiment.entities.end(),
+                                                [](const EntityConfiguration& entity)
+                                                { return IsRobot(entity.kind); }));
+}
+
+// Runs side by side take different cores.
+std::vector<int> CoresOf(const RunOptions& options, const Experiment& experiment, int domain)
+{
+  const bool small = Robots(experiment) <= kRobotsForOneCore;
+  if (options.placement == Placement::kSpread || (options.placement == Placement::kAuto && !small)) return {};
+  const std::vector<int> cores = AvailableCores();
+  if (cores.empty()) return {};
+  return {cores[static_cast<std::size_t>(domain) % cores.size()]};
+}
+
+void RefuseUnknown(const Hosts& hosts, const std::string& role, const std::vector<std::string>& known)
+{
+  for (const std::string& name : hosts.Named(role))
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw UsageError(fmt::format("a host is given for {} {}, which the experiment does not have; it has {}{}", role,
+                                   Quoted(name), Listed(known), DidYouMean(name, known)));
+}
+
+class Planner
+{
+public:
+  Planner(const Experiment& experiment, const Hosts& hosts, const RunFolder& folder, int domain)
+      : experiment_(experiment), hosts_(hosts), folder_(folder), domain_(std::to_string(domain))
+  {
+    const char* tunables = std::getenv("GLIBC_TUNABLES");
+    tunables_ = ResultBitsTunables(tunables == nullptr ? "" : tunables);
+  }
+
+  MemberPlan& Add(const std::string& name, const std::string& program, const std::string& role,
+                  const std::string& which, const std::vector<std::string>& arguments)
+  {
+    ProcessCommand command;
+    command.name = name;
+    command.arguments.push_back(fs::path(ProgramFolder()) / program);
+    command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
+    command.arguments.emplace_back("--domain");
+    command.arguments.push_back(domain_);
+    // Deaths on this machine are seen from here, and a stopped process (a debugger's) is not dead.
+    if (hosts_.AllHere())
+    {
+      command.arguments.emplace_back("--lease");
+      command.arguments.emplace_back("3600");
+    }
+    command.arguments.insert(command.arguments.end(), hosts_.Options().begin(), hosts_.Options().end());
+    command.environment = {{"GLIBC_TUNABLES", tunables_}};
+    MemberPlan plan;
+    plan.command = hosts_.Placed(command, hosts_.HostOf(role, which));
+    plan.log_path = folder_.File(LogName(program, which));
+    plans_.push_back(plan);
+    return plans_.back();
+  }
+
+  // The same for a process that finds its experiment by name.
+  MemberPlan& AddWorker(const std::string& name, const std::string& program, const std::string& role,
+                        const std::string& option, const std::string& which, std::vector<std::string> arguments = {})
+  {
+    for (const std::string& argument : {experiment_.name, std::string("--experiment"), which, option})
+      arguments.insert(arguments.begin(), argument);
+    return Add(name, program, role, which, arguments);
+  }
+
+  std::vector<MemberPlan> Take() { return std::move(plans_); }
+
+private:
+  const Experiment& experiment_;
+  const Hosts& hosts_;
+  const RunFolder& folder_;
+  std::string domain_;
+  std::string tunables_;
+  std::vector<MemberPlan> plans_;
+};
+
+std::vector<std::string> ServerArguments(const RunOptions& options, const Assignment& assignment,
+                                         const RunFolder& folder)
+{
+  std::vector<std::string> arguments{Absolute(options.experiment)};
+  const auto add = [&](const std::string& name, const std::string& value)
+  {
+    arguments.push_back(name);
+    arguments.push_back(value);
+  };
+  for (const std::string& setting : options.settings) add("--set", setting);
+  if (options.seed) add("--seed", std::to_string(*options.seed));
+  if (options.ticks) add("--ticks", std::to_string(*options.ticks));
+  add("--controller-hosts", std::to_string(assignment.hosts.size()));
+  add("--output", folder.Path());
+  if (options.paused) arguments.emplace_back("--paused");
+  if (options.real_time > 0) add("--real-time", fmt::format("{}", options.real_time));
+  if (!options.hash_log.empty()) add("--hash-log", Absolute(options.hash_log));
+  if (options.no_visualisers) arguments.emplace_back("--no-visualisers");
+  add("--status-fd", "1");
+  return arguments;
+}
+
+}  // namespace
+
+std::vector<MemberPlan> PlanCluster(const RunOptions& options, const Experiment& experiment,
+                                    const Assignment& assignment, const Hosts& hosts, const RunFolder& folder,
+                                    int domain)
+{
+  std::vector<std::string> engines, controller_hosts, visualisers;
+  for (const EngineConfiguration& engine : experiment.engines) engines.push_back(engine.id);
+  for (std::size_t host = 0; host < assignment.hosts.size(); ++host) controller_hosts.push_back(std::to_string(host));
+  if (!options.no_visualisers)
+    for (const RenderConfiguration& render : experiment.visualisations) visualisers.push_back(render.id);
+  RefuseUnknown(hosts, "space_server", {});
+  RefuseUnknown(hosts, "engine", engines);
+  RefuseUnknown(hosts, "controller_host", controller_hosts);
+  if (!options.no_visualisers) RefuseUnknown(hosts, "visualiser", visualisers);
+
+  const std::vector<int> cores = CoresOf(options, experiment, domain);
+  Planner planner(experiment, hosts, folder, domain);
+  MemberPlan& server =
+      planner.Add("space server", "space_server", "space_server", "", ServerArguments(options, assignment, folder));
+  server.output = MemberPlan::kStatus;
+  server.command.cores = cores;
+  for (std::size_t e = 0; e < engines.size(); ++e)
+    planner.AddWorker(EngineName(experiment, e), "engine_worker", "engine", "--engine", engines[e]).command.cores =
+        cores;
+  for (std::size_t host = 0; host < controller_hosts.size(); ++host)
+    planner.AddWorker(HostName(host), "controller_host", "controller_host", "--host", controller_hosts[host])
+        .command.cores = cores;
+  for (std::size_t v = 0; v < visualisers.size(); ++v)
+  {
+    MemberPlan& plan = planner.AddWorker(VisualiserName(experiment.visualisations[v]), "visualiser", "visualiser",
+                                         "--render", visualisers[v], {"--output", folder.Path()});
+    plan.output = MemberPlan::kScreen;
+    plan.visualiser = true;
+  }
+  return planner.Take();
+}
+
+}  // namespace swarmanoid

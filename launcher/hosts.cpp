@@ -1,0 +1,163 @@
+#include "launcher/hosts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "common/configuration/configuration_tree.h"
+#include "common/configuration/wording.h"
+#include "launcher/commands.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+const std::vector<std::string> kRoles{"space_server", "engine", "controller_host", "visualiser"};
+const std::vector<std::string> kKeys{"command", "program_folder",  "options",   "space_server",
+                                     "engine",  "controller_host", "visualiser"};
+
+std::vector<std::string> Words(const std::string& text)
+{
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+bool Holds(const std::vector<std::string>& words, const std::string& word)
+{
+  return std::any_of(words.begin(), words.end(), [&](const auto& w) { return w.find(word) != std::string::npos; });
+}
+
+bool IsHere(const std::string& host) { return host.empty() || host == "localhost" || host == "here"; }
+
+void ReplaceAll(std::string& text, const std::string& what, const std::string& by)
+{
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+}
+
+}  // namespace
+
+std::string ShellQuoted(const std::string& text)
+{
+  const char* const kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:=,@%+";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string quoted = text;
+  ReplaceAll(quoted, "'", "'\\''");
+  return "'" + quoted + "'";
+}
+
+Hosts::Hosts(const std::string& file, const std::string& text)
+{
+  std::istringstream stream(text);
+  int number = 0;
+  for (std::string line; std::getline(stream, line);)
+  {
+    ++number;
+    line.resize(std::min(line.find('#'), line.size()));
+    line = TrimBlanks(line);
+    if (!line.empty()) TakeLine(line, fmt::format("{}:{}", file, number));
+  }
+}
+
+Hosts Hosts::FromFile(const std::string& file)
+{
+  std::ifstream stream(file);
+  std::ostringstream text;
+  if (!(text << stream.rdbuf()))
+    throw UsageError(fmt::format("--hosts: cannot read '{}': {}", file, std::strerror(errno)));
+  return {file, text.str()};
+}
+
+void Hosts::TakeLine(const std::string& line, const std::string& place)
+{
+  const std::size_t sign = line.find('=');
+  if (sign == std::string::npos) throw UsageError(place + ": write NAME = VALUE, for example `engine ground = alpha`");
+  const std::vector<std::string> key = Words(line.substr(0, sign));
+  const std::string value(TrimBlanks(std::string_view(line).substr(sign + 1)));
+  if (key.empty() || key.size() > 2 || value.empty())
+    throw UsageError(place + ": write NAME = VALUE or ROLE WHICH = HOST");
+  if (std::find(kKeys.begin(), kKeys.end(), key[0]) == kKeys.end())
+    throw UsageError(fmt::format("{}: there is no {}; allowed are {}{}", place, Quoted(key[0]), Listed(kKeys),
+                                 DidYouMean(key[0], kKeys)));
+
+  if (std::find(kRoles.begin(), kRoles.end(), key[0]) != kRoles.end())
+  {
+    hosts_[{key[0], key.size() == 2 ? key[1] : ""}] = value;
+    return;
+  }
+  if (key.size() == 2) throw UsageError(fmt::format("{}: {} takes no second word", place, key[0]));
+  if (key[0] == "program_folder") program_folder_ = value;
+  if (key[0] == "options") options_ = Words(value);
+  if (key[0] != "command") return;
+  template_ = Words(value);
+  if (!Holds(template_, "{host}") || (!Holds(template_, "{command}") && !Holds(template_, "{shell_command}")))
+    throw UsageError(place + ": command must hold {host}, and {command} or {shell_command}");
+}
+
+void Hosts::AddEngine(const std::string& setting)
+{
+  const std::size_t sign = setting.find('=');
+  if (sign == std::string::npos || sign == 0 || sign + 1 == setting.size())
+    throw UsageError(
+        fmt::format("--engine-host {}: write ENGINE=HOST, for example --engine-host ground=alpha", setting));
+  hosts_[{"engine", setting.substr(0, sign)}] = setting.substr(sign + 1);
+}
+
+std::string Hosts::HostOf(const std::string& role, const std::string& which) const
+{
+  auto found = hosts_.find({role, which});
+  if (found == hosts_.end()) found = hosts_.find({role, ""});
+  return found == hosts_.end() || IsHere(found->second) ? "" : found->second;
+}
+
+bool Hosts::AllHere() const
+{
+  return std::all_of(hosts_.begin(), hosts_.end(), [](const auto& entry) { return IsHere(entry.second); });
+}
+
+ProcessCommand Hosts::Placed(const ProcessCommand& command, const std::string& host) const
+{
+  if (host.empty()) return command;
+  std::vector<std::string> words{"env"};
+  for (const auto& [name, value] : command.environment) words.push_back(name + "=" + value);
+  words.insert(words.end(), command.arguments.begin(), command.arguments.end());
+  std::string& program = words[1 + command.environment.size()];
+  if (!program_folder_.empty())
+    program = std::filesystem::path(program_folder_) / std::filesystem::path(program).filename();
+
+  std::string shell_command;
+  for (const std::string& word : words) shell_command += (shell_command.empty() ? "" : " ") + ShellQuoted(word);
+
+  ProcessCommand placed;
+  placed.name = command.name;
+  for (std::string word : template_)
+  {
+    if (word == "{command}")
+    {
+      placed.arguments.insert(placed.arguments.end(), words.begin(), words.end());
+      continue;
+    }
+    ReplaceAll(word, "{host}", host);
+    ReplaceAll(word, "{shell_command}", shell_command);
+    placed.arguments.push_back(word);
+  }
+  return placed;
+}
+
+std::vector<std::string> Hosts::Named(const std::string& role) const
+{
+  std::vector<std::string> names;
+  for (const auto& [key, host] : hosts_)
+    if (key.first == role && !key.second.empty()) names.push_back(key.second);
+  return names;
+}
+
+}  // namespace swarmanoid

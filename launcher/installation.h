@@ -1,0 +1,14 @@
+// Where the parts of Swarmanoid lie on this machine, found from the place of the running program.
+#pragma once
+
+#include <string>
+
+namespace swarmanoid
+{
+
+// The folder of the programs. SWARMANOID_PROGRAM_DIR in the environment names another one.
+std::string ProgramFolder();
+// The folder of what users copy: templates and samples.
+std::string UserFilesFolder();
+
+}  // namespace swarmanoid

@@ -1,0 +1,20 @@
+// Reading an experiment for a verb of the command: built-in plug-ins known, all errors shown.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/experiment/experiment.h"
+#include "common/experiment/load_experiment.h"
+
+namespace swarmanoid
+{
+
+// nullptr where the file is wrong: then all its errors are on standard error.
+std::unique_ptr<Experiment> LoadOrComplain(const std::string& file, const LoadOptions& options);
+
+// "PATH=VALUE" to a pair; throws UsageError where there is no '='.
+std::pair<std::string, std::string> SplitSetting(const std::string& text);
+
+}  // namespace swarmanoid

@@ -1,0 +1,65 @@
+#include "launcher/processes/cluster_member.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+
+namespace swarmanoid
+{
+namespace
+{
+
+// Bytes read without waiting; closes the descriptor at its end.
+std::string_view ReadSome(FileDescriptor& descriptor, std::array<char, 4096>& buffer, std::size_t limit)
+{
+  if (!descriptor.IsOpen()) return {};
+  const ssize_t count = read(descriptor.Get(), buffer.data(), std::min(limit, buffer.size()));
+  if (count > 0) return {buffer.data(), static_cast<std::size_t>(count)};
+  if (count == 0 || (errno != EAGAIN && errno != EINTR)) descriptor.Reset();
+  return {};
+}
+
+}  // namespace
+
+ClusterMember::ClusterMember(const MemberPlan& plan, ProcessSpawner& spawner)
+    : plan_(plan), log_(plan.log_path), process_(spawner.Start(plan.command))
+{
+}
+
+void ClusterMember::ReadOutput(const OnLine& on_line, std::size_t limit)
+{
+  const OnLine take =
+      plan_.output == MemberPlan::kLog ? OnLine([this](std::string_view line) { log_.Add(line); }) : on_line;
+  std::array<char, 4096> buffer;
+  while (limit > 0)
+  {
+    const std::string_view bytes = ReadSome(process_.output, buffer, limit);
+    if (bytes.empty()) break;
+    limit -= bytes.size();
+    output_lines_.Add(bytes, take);
+  }
+  // A process that has ended may have left the descriptor to a child of its own: what is there now is all that counts.
+  if (limit > 0 && end_) process_.output.Reset();
+  if (OutputClosed()) output_lines_.Finish(take);
+}
+
+void ClusterMember::ReadErrors()
+{
+  std::array<char, 4096> buffer;
+  for (int rounds = 0; rounds < 16; ++rounds)
+  {
+    const std::string_view bytes = ReadSome(process_.errors, buffer, buffer.size());
+    if (bytes.empty()) break;
+    error_lines_.Add(bytes, [this](std::string_view line) { log_.Add(line); });
+  }
+}
+
+void ClusterMember::Collect(ProcessSpawner& spawner)
+{
+  end_ = spawner.Collect(process_);
+  ReadErrors();
+  process_.errors.Reset();
+  error_lines_.Finish([this](std::string_view line) { log_.Add(line); });
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,66 @@
+// One process of a cluster as the supervisor sees it: its descriptors, its log, how it ended.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "launcher/processes/line_splitter.h"
+#include "launcher/processes/process.h"
+#include "launcher/processes/process_log.h"
+
+namespace swarmanoid
+{
+
+// What is to be started.
+struct MemberPlan
+{
+  ProcessCommand command;
+  std::string log_path;
+  // Where its standard output goes; standard error always goes to the log.
+  enum Output
+  {
+    kLog,
+    kScreen,  // a visualiser's table
+    kStatus   // the space server's status lines; other lines go to the log
+  };
+  Output output = kLog;
+  bool visualiser = false;
+};
+
+class ClusterMember
+{
+public:
+  // Starts the process. Throws std::runtime_error where that is impossible.
+  ClusterMember(const MemberPlan& plan, ProcessSpawner& spawner);
+
+  // Reads what there is, without waiting, and calls on_line for each full line of its standard output unless that goes
+  // to the log. At most `limit` bytes.
+  using OnLine = std::function<void(std::string_view)>;
+  void ReadOutput(const OnLine& on_line, std::size_t limit);
+  void ReadErrors();
+  // To be called once when the process has ended: reads the rest of its errors.
+  void Collect(ProcessSpawner& spawner);
+
+  void AddToLog(std::string_view line) { log_.Add(line); }
+
+  const MemberPlan& Plan() const { return plan_; }
+  const std::string& Name() const { return plan_.command.name; }
+  const SpawnedProcess& Process() const { return process_; }
+  const ProcessLog& Log() const { return log_; }
+  bool Alive() const { return !end_; }
+  const std::optional<ProcessEnd>& End() const { return end_; }
+  // Nothing more will be read from its standard output.
+  bool OutputClosed() const { return !process_.output.IsOpen(); }
+
+private:
+  MemberPlan plan_;
+  ProcessLog log_;
+  SpawnedProcess process_;
+  LineSplitter output_lines_;
+  LineSplitter error_lines_;
+  std::optional<ProcessEnd> end_;
+};
+
+}  // namespace swarmanoid

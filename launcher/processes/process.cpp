@@ -1,0 +1,165 @@
+#include "launcher/processes/process.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sched.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+extern char** environ;
+
+namespace swarmanoid
+{
+namespace
+{
+
+struct Pipe
+{
+  FileDescriptor read;
+  FileDescriptor write;
+};
+
+Pipe MakePipe()
+{
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0)
+    throw std::runtime_error(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
+  Pipe pipe{FileDescriptor(ends[0]), FileDescriptor(ends[1])};
+  fcntl(pipe.read.Get(), F_SETFL, O_NONBLOCK);
+  return pipe;
+}
+
+std::vector<std::string> EnvironmentWith(const std::vector<std::pair<std::string, std::string>>& additions)
+{
+  std::vector<std::string> environment;
+  for (char** entry = environ; *entry != nullptr; ++entry)
+  {
+    const std::string_view text = *entry;
+    bool replaced = false;
+    for (const auto& [name, value] : additions) replaced |= text.starts_with(name + "=");
+    if (!replaced) environment.emplace_back(text);
+  }
+  for (const auto& [name, value] : additions) environment.push_back(name + "=" + value);
+  return environment;
+}
+
+std::vector<char*> Pointers(std::vector<std::string>& texts)
+{
+  std::vector<char*> pointers;
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+// The part between fork and exec: system calls only. Returns errno where one fails.
+int BecomeChild(pid_t launcher, const cpu_set_t* cores, int output, int errors, char** arguments, char** environment)
+{
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != launcher) return ESRCH;
+  setpgid(0, 0);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  signal(SIGPIPE, SIG_DFL);
+  if (cores != nullptr) sched_setaffinity(0, sizeof *cores, cores);
+  const int nothing = open("/dev/null", O_RDONLY);
+  if (nothing < 0 || dup2(nothing, 0) < 0 || dup2(output, 1) < 0 || dup2(errors, 2) < 0) return errno;
+  if (nothing > 2) close(nothing);
+  execvpe(arguments[0], arguments, environment);
+  return errno;
+}
+
+}  // namespace
+
+std::string ProcessEnd::Text() const
+{
+  if (signal != 0) return fmt::format("was killed by signal {} ({})", signal, strsignal(signal));
+  if (exit_code != 0) return fmt::format("ended with exit code {}", exit_code);
+  return "ended";
+}
+
+SpawnedProcess SystemSpawner::Start(const ProcessCommand& command)
+{
+  Pipe output = MakePipe();
+  Pipe errors = MakePipe();
+  Pipe failure = MakePipe();
+  fcntl(failure.read.Get(), F_SETFL, 0);
+  std::vector<std::string> argument_texts = command.arguments;
+  std::vector<char*> arguments = Pointers(argument_texts);
+  std::vector<std::string> environment_texts = EnvironmentWith(command.environment);
+  std::vector<char*> environment = Pointers(environment_texts);
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  for (const int core : command.cores) CPU_SET(static_cast<std::size_t>(core), &cores);
+
+  const pid_t launcher = getpid();
+  const pid_t pid = fork();
+  if (pid < 0) throw std::runtime_error(fmt::format("cannot start {}: {}", command.name, std::strerror(errno)));
+  if (pid == 0)
+  {
+    const int error = BecomeChild(launcher, command.cores.empty() ? nullptr : &cores, output.write.Get(),
+                                  errors.write.Get(), arguments.data(), environment.data());
+    [[maybe_unused]] const ssize_t written = write(failure.write.Get(), &error, sizeof error);
+    _exit(127);
+  }
+  setpgid(pid, pid);
+  failure.write.Reset();
+  SpawnedProcess process{pid, std::move(output.read), std::move(errors.read),
+                         FileDescriptor(static_cast<int>(syscall(SYS_pidfd_open, pid, 0)))};
+
+  // The pipe closes without a word when exec succeeds.
+  int error = 0;
+  if (read(failure.read.Get(), &error, sizeof error) == sizeof error)
+  {
+    Collect(process);
+    throw std::runtime_error(
+        fmt::format("cannot start {}: '{}': {}", command.name, command.arguments.front(), std::strerror(error)));
+  }
+  if (!process.end.IsOpen())
+  {
+    Signal(process, SIGKILL);
+    Collect(process);
+    throw std::runtime_error("cannot watch processes: this system has no pidfd_open (Linux 5.3 or newer is needed)");
+  }
+  return process;
+}
+
+ProcessEnd SystemSpawner::Collect(const SpawnedProcess& process)
+{
+  // What it started itself must not outlive it. As long as it is not collected, no other group can have its number.
+  siginfo_t ended{};
+  while (waitid(P_PID, static_cast<id_t>(process.pid), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR)
+  {
+  }
+  Signal(process, SIGKILL);
+  int status = 0;
+  while (waitpid(process.pid, &status, 0) < 0 && errno == EINTR)
+  {
+  }
+  ProcessEnd end;
+  if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+  if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
+  return end;
+}
+
+void SystemSpawner::Signal(const SpawnedProcess& process, int signal) { kill(-process.pid, signal); }
+
+std::vector<int> AvailableCores()
+{
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  sched_getaffinity(0, sizeof set, &set);
+  std::vector<int> cores;
+  for (int core = 0; core < CPU_SETSIZE; ++core)
+    if (CPU_ISSET(static_cast<std::size_t>(core), &set)) cores.push_back(core);
+  return cores;
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,69 @@
+// Starting the programs of a cluster and hearing of their ends. ProcessSpawner is a seam: tests put scripts or failures
+// behind it. Used by the launcher's one thread.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <sys/types.h>
+
+#include "launcher/processes/file_descriptor.h"
+
+namespace swarmanoid
+{
+
+// What a process is started with.
+struct ProcessCommand
+{
+  std::string name;                                              // for the user: "engine_worker ground"
+  std::vector<std::string> arguments;                            // the program's path first
+  std::vector<std::pair<std::string, std::string>> environment;  // added to ours
+  std::vector<int> cores;                                        // that it may run on; empty: all
+};
+
+// How a process ended.
+struct ProcessEnd
+{
+  int exit_code = 0;  // where it ended by itself
+  int signal = 0;     // where a signal ended it
+
+  bool Clean() const { return exit_code == 0 && signal == 0; }
+  // "was killed by signal 9 (Killed)", "ended with exit code 3", "ended".
+  std::string Text() const;
+};
+
+struct SpawnedProcess
+{
+  pid_t pid = 0;
+  FileDescriptor output;  // its standard output
+  FileDescriptor errors;  // its standard error
+  FileDescriptor end;     // readable once it has ended
+};
+
+class ProcessSpawner
+{
+public:
+  virtual ~ProcessSpawner() = default;
+  // Throws std::runtime_error, naming the program, where it cannot be started.
+  virtual SpawnedProcess Start(const ProcessCommand& command) = 0;
+  // Of a process whose `end` is readable; waits for it otherwise. Kills what it started and left behind. Call once.
+  virtual ProcessEnd Collect(const SpawnedProcess& process) = 0;
+  // Sends a signal to the process and all that it started.
+  virtual void Signal(const SpawnedProcess& process, int signal) = 0;
+};
+
+// Real processes: each leads a process group of its own, reads nothing, and is killed by the kernel when the launcher
+// ends.
+class SystemSpawner : public ProcessSpawner
+{
+public:
+  SpawnedProcess Start(const ProcessCommand& command) override;
+  ProcessEnd Collect(const SpawnedProcess& process) override;
+  void Signal(const SpawnedProcess& process, int signal) override;
+};
+
+// The processor cores that this process may use, ascending.
+std::vector<int> AvailableCores();
+
+}  // namespace swarmanoid

@@ -1,0 +1,41 @@
+// The log of one process: a file in the run directory, and its last lines in memory, which stay readable when the disk
+// is full.
+#pragma once
+
+#include <cstdio>
+#include <deque>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace swarmanoid
+{
+
+class ProcessLog
+{
+public:
+  // Throws std::runtime_error where the file cannot be made.
+  explicit ProcessLog(std::string path);
+
+  void Add(std::string_view line);
+  const std::string& Path() const { return path_; }
+  // At most kLines.
+  const std::deque<std::string>& LastLines() const { return last_lines_; }
+  // Why lines are missing from the file; empty where none are.
+  const std::string& Trouble() const { return trouble_; }
+
+  static constexpr std::size_t kLines = 8;
+
+private:
+  struct Close
+  {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  std::string path_;
+  std::unique_ptr<std::FILE, Close> file_;
+  std::deque<std::string> last_lines_;
+  std::string trouble_;
+};
+
+}  // namespace swarmanoid

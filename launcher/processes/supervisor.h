@@ -1,0 +1,117 @@
+// Supervisor: starts the processes of a cluster, watches them until the last one has ended, and says how it went. When
+// one fails, all are stopped at once. Owns the processes; used by the launcher's main thread, which it blocks.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "launcher/processes/cluster_member.h"
+#include "launcher/processes/interrupts.h"
+#include "launcher/processes/process.h"
+#include "launcher/processes/progress_display.h"
+#include "launcher/processes/server_status.h"
+
+namespace swarmanoid
+{
+
+// Exit codes of the programs: of the space server when the experiment failed by its own measure, and of any program
+// that finds the experiment file wrong.
+constexpr int kUnsuccessfulExperiment = 1;
+constexpr int kInvalidExperiment = 3;
+
+struct ClusterOutcome
+{
+  enum Kind
+  {
+    kFinished,
+    kUnsuccessful,  // finished, and failed by the experiment's own measure
+    kInterrupted,   // stopped at the end of a tick, or killed on request
+    kFailed,        // a process failed
+    kInvalid        // a process found the experiment itself wrong
+  };
+  Kind kind = kFailed;
+  std::optional<ServerFinished> finished;  // where the space server came to its end
+  std::string reason;                      // of a failure: one line that names the process, its last tick and its log
+  std::vector<std::string> log_lines;      // the last ones of that process
+};
+
+// Times that users notice; tests shorten them.
+struct SupervisorTimes
+{
+  std::chrono::milliseconds refresh{200};              // between two looks at the progress
+  std::chrono::milliseconds stall{2000};               // silence of the space server that is worth a word
+  std::chrono::milliseconds terminate{400};            // between SIGTERM and SIGKILL after a failure
+  std::chrono::milliseconds early_end{1000};           // between a process's good end and the run's last word
+  std::chrono::milliseconds settle{200};               // between a bad end and the verdict on whose fault it is
+  std::chrono::milliseconds finish{3000};              // for processes to end after the last tick
+  std::chrono::milliseconds finish_visualiser{60000};  // visualisers may have films to finish
+  std::chrono::milliseconds forced_stop{5000};         // after SIGTERM or SIGHUP to the launcher
+};
+
+class Supervisor
+{
+public:
+  // All references outlive the supervisor. `screen`: descriptor that gets what visualisers write to standard output.
+  Supervisor(ProcessSpawner& spawner, Interrupts& interrupts, ProgressDisplay& display, int screen,
+             const SupervisorTimes& times = {});
+
+  // The first plan is the space server's.
+  ClusterOutcome Run(const std::vector<MemberPlan>& plans);
+  // Of all processes that were started; for what they leave behind.
+  const std::vector<pid_t>& Pids() const { return pids_; }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  enum class Phase
+  {
+    kRunning,
+    kStopping,   // asked for once: the space server ends at its tick
+    kFinishing,  // the last tick is done, processes end
+    kDying       // SIGTERM is sent, SIGKILL follows
+  };
+
+  void Start(const std::vector<MemberPlan>& plans);
+  void WaitForEvents();
+  void ReadMember(ClusterMember& member);
+  void TakeStatus(const ServerStatus& status);
+  void CollectEnds();
+  void JudgeEnd(const ClusterMember& member);
+  void Suspect(const ClusterMember& member, std::chrono::milliseconds patience);
+  void JudgeSuspects();
+  void TakeInterrupts();
+  void StopAtTick(std::string_view why);
+  void CheckDeadlines();
+  void Fail(const ClusterMember& member, const std::string& what);
+  void Die(Clock::time_point kill_at);
+  void KillAll();
+  void SignalAll(int signal);
+  void ShowProgress();
+  void WriteScreen(std::string_view line);
+  bool AnyAlive() const;
+
+  ProcessSpawner& spawner_;
+  Interrupts& interrupts_;
+  ProgressDisplay& display_;
+  int screen_;
+  SupervisorTimes times_;
+
+  std::vector<std::unique_ptr<ClusterMember>> members_;
+  std::vector<pid_t> pids_;
+  Phase phase_ = Phase::kRunning;
+  ClusterOutcome outcome_;
+  RunProgress progress_;
+  std::string server_error_;
+  Clock::time_point shown_{};
+  std::string shown_phase_;
+  bool screen_full_ = false;  // it takes no more for now: visualisers wait
+  bool screen_gone_ = false;
+  Clock::time_point heard_{};                   // when the server last said anything
+  std::vector<const ClusterMember*> suspects_;  // ended too early or badly, in the order of their ends
+  std::optional<Clock::time_point> judge_at_;
+  std::optional<Clock::time_point> deadline_;  // of the phase
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,52 @@
+#include "launcher/run_choice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "common/bus/run_directory.h"
+#include "common/configuration/wording.h"
+#include "launcher/commands.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+std::string Described(const std::vector<LocalRun>& runs)
+{
+  std::string text;
+  for (const LocalRun& run : runs) text += fmt::format("\n  {} (domain {})", run.experiment, run.domain);
+  return text;
+}
+
+}  // namespace
+
+RunChoice ChooseRun(const std::string& name, std::optional<int> domain)
+{
+  const std::vector<LocalRun> all = FindLocalRuns();
+  std::vector<LocalRun> fitting;
+  std::vector<std::string> names;
+  for (const LocalRun& run : all)
+  {
+    names.push_back(run.experiment);
+    if ((name.empty() || run.experiment == name) && (!domain || run.domain == *domain)) fitting.push_back(run);
+  }
+  if (fitting.size() == 1) return {fitting[0].experiment, fitting[0].domain};
+  if (fitting.size() > 1)
+    throw UsageError(
+        fmt::format("several experiments run on this machine; name one, or its --domain:{}", Described(fitting)));
+
+  // It may run elsewhere.
+  if (domain && !name.empty()) return {name, *domain};
+  if (domain)
+    throw UsageError("no experiment runs on this machine in that domain; name the experiment if it runs elsewhere");
+  if (all.empty())
+    throw UsageError(
+        "no experiment runs on this machine as a cluster; for one on another machine give its name and --domain");
+  throw UsageError(fmt::format("no experiment {} runs on this machine{}; these do:{}", Quoted(name),
+                               DidYouMean(name, names), Described(all)));
+}
+
+}  // namespace swarmanoid

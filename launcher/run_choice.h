@@ -1,0 +1,20 @@
+// Which running experiment a user means.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace swarmanoid
+{
+
+struct RunChoice
+{
+  std::string experiment;
+  int domain = 0;
+};
+
+// The one on this machine, or the one of that name. With a domain, experiments of other machines can be meant too.
+// Throws UsageError, listing those that run, where there is none or more than one.
+RunChoice ChooseRun(const std::string& name, std::optional<int> domain);
+
+}  // namespace swarmanoid

@@ -1,0 +1,41 @@
+// What `swarmanoid run` was asked to do.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace swarmanoid
+{
+
+// Which processor cores the processes of a cluster may use.
+enum class Placement
+{
+  kAuto,     // small experiments on one core, others on all
+  kOneCore,  // all on one: no wake-up across cores
+  kSpread    // wherever the kernel puts them
+};
+
+struct RunOptions
+{
+  std::string experiment;  // the file
+  bool single_process = false;
+  unsigned controller_hosts = 1;
+  std::vector<std::string> engine_hosts;  // "ENGINE=HOST"
+  std::string hosts_file;
+  std::optional<std::uint64_t> seed;
+  std::optional<std::uint64_t> ticks;
+  std::vector<std::string> settings;  // "PATH=VALUE"
+  std::string output;                 // folder of the run; empty: runs/<experiment>-<time>
+  std::optional<int> domain;
+  double real_time = 0;  // 0: as fast as possible
+  bool paused = false;
+  bool no_visualisers = false;
+  std::string hash_log;
+  std::string expected_hash;
+  bool quiet = false;
+  Placement placement = Placement::kAuto;
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,82 @@
+#include "launcher/single_run.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+
+#include "launcher/exit_codes.h"
+#include "launcher/processes/progress_display.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+std::atomic<bool> stop_asked = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+// The first signal ends the run after its tick, a second one has its usual effect.
+void CatchFirstInterrupt()
+{
+  struct sigaction action
+  {
+  };
+  action.sa_handler = [](int) { stop_asked = true; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+}
+
+}  // namespace
+
+RunResult RunHere(const RunOptions& options, const Experiment& experiment, const RunFolder& folder)
+{
+  using Clock = ProgressDisplay::Clock;
+
+  CatchFirstInterrupt();
+  ProgressDisplay display(ProgressDisplay::StyleFor(STDERR_FILENO, options.quiet), STDERR_FILENO);
+  const Clock::time_point start = Clock::now();
+
+  SingleProcessOptions run;
+  run.output_folder = folder.Path();
+  run.hash_log = options.hash_log;
+  run.real_time_factor = options.real_time;
+  run.visualisations = !options.no_visualisers;
+  run.stop = &stop_asked;
+  run.progress = [&](std::uint64_t tick)
+  {
+    const Clock::time_point now = Clock::now();
+    RunProgress progress;
+    progress.phase = "running";
+    progress.tick = tick;
+    progress.max = experiment.max_clock;
+    progress.real_time_factor =
+        static_cast<double>(tick) * experiment.TickSeconds() / std::chrono::duration<double>(now - start).count();
+    display.Show(progress, now);
+  };
+
+  RunResult result;
+  try
+  {
+    result.summary = RunSingleProcess(experiment, run);
+    if (result.summary->failed) result.exit_code = kExperimentFailed;
+    if (result.summary->interrupted) result.exit_code = kInterruptedByUser;
+  }
+  catch (const ConfigurationError& error)
+  {
+    result.exit_code = kInvalid;
+    result.failure = error.what();
+  }
+  catch (const std::exception& error)
+  {
+    result.exit_code = kProcessFailed;
+    result.failure = error.what();
+  }
+  display.Clear();
+  if (!result.failure.empty()) fmt::print(stderr, "{}\n", result.failure);
+  return result;
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,24 @@
+// A run in this process, with progress and Ctrl-C.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "launcher/run_folder.h"
+#include "launcher/run_options.h"
+#include "launcher/single_process.h"
+
+namespace swarmanoid
+{
+
+// How a run ended, whichever way it was run.
+struct RunResult
+{
+  int exit_code = 0;
+  std::optional<RunSummary> summary;  // where there is a final state
+  std::string failure;                // as shown on standard error
+};
+
+RunResult RunHere(const RunOptions& options, const Experiment& experiment, const RunFolder& folder);
+
+}  // namespace swarmanoid

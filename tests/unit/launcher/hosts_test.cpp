@@ -1,0 +1,98 @@
+#include "launcher/hosts.h"
+
+#include <gmock/gmock.h>
+
+#include "launcher/commands.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string ErrorOf(const std::string& text)
+{
+  try
+  {
+    Hosts("hosts.txt", text);
+  }
+  catch (const UsageError& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+ProcessCommand Worker()
+{
+  ProcessCommand command;
+  command.name = "engine 'ground'";
+  command.arguments = {"/opt/bin/engine_worker", "--engine", "the ground"};
+  command.environment = {{"COLOUR", "red"}};
+  command.cores = {1};
+  return command;
+}
+
+TEST(Hosts, FindsTheHostOfOneProcessThenOfItsRole)
+{
+  const Hosts hosts("hosts.txt",
+                    "# a comment\n\nengine ground = alpha\nengine = beta  # the rest\ncontroller_host 0 = localhost\n"
+                    "controller_host = gamma\n");
+  EXPECT_EQ(hosts.HostOf("engine", "ground"), "alpha");
+  EXPECT_EQ(hosts.HostOf("engine", "sky"), "beta");
+  EXPECT_EQ(hosts.HostOf("controller_host", "0"), "");
+  EXPECT_EQ(hosts.HostOf("controller_host", "1"), "gamma");
+  EXPECT_EQ(hosts.HostOf("space_server", ""), "");
+  EXPECT_FALSE(hosts.AllHere());
+  EXPECT_TRUE(Hosts().AllHere());
+}
+
+TEST(Hosts, StartsBySshWithOneQuotedWord)
+{
+  const Hosts hosts("hosts.txt", "engine = alpha");
+  EXPECT_THAT(hosts.Placed(Worker(), "alpha").arguments,
+              ElementsAre("ssh", "-tt", "-o", "BatchMode=yes", "alpha",
+                          "env COLOUR=red /opt/bin/engine_worker --engine 'the ground'"));
+}
+
+TEST(Hosts, StartsByATemplateWithTheWordsOfTheCommand)
+{
+  const Hosts hosts("hosts.txt", "command = ip netns exec {host} {command}\nprogram_folder = /usr/bin\nengine = left");
+  const ProcessCommand placed = hosts.Placed(Worker(), "left");
+  EXPECT_THAT(placed.arguments, ElementsAre("ip", "netns", "exec", "left", "env", "COLOUR=red",
+                                            "/usr/bin/engine_worker", "--engine", "the ground"));
+  EXPECT_TRUE(placed.cores.empty());
+}
+
+TEST(Hosts, LeavesCommandsOfThisMachineAlone) { EXPECT_EQ(Hosts().Placed(Worker(), "").arguments, Worker().arguments); }
+
+TEST(Hosts, TakesEnginesFromOptions)
+{
+  Hosts hosts("hosts.txt", "engine ground = alpha");
+  hosts.AddEngine("ground=beta");
+  EXPECT_EQ(hosts.HostOf("engine", "ground"), "beta");
+  EXPECT_THROW(hosts.AddEngine("ground"), UsageError);
+  EXPECT_THROW(hosts.AddEngine("=beta"), UsageError);
+}
+
+TEST(Hosts, ErrorsNamePlaceAndCure)
+{
+  EXPECT_THAT(ErrorOf("\nengin ground = alpha"),
+              testing::AllOf(HasSubstr("hosts.txt:2: "), HasSubstr("did you mean 'engine'?")));
+  EXPECT_THAT(ErrorOf("engine ground"), HasSubstr("hosts.txt:1: write NAME = VALUE"));
+  EXPECT_THAT(ErrorOf("engine a b = c"), HasSubstr("hosts.txt:1"));
+  EXPECT_THAT(ErrorOf("command = ssh alpha"), HasSubstr("{host}"));
+  EXPECT_THROW(Hosts::FromFile("/nowhere/hosts.txt"), UsageError);
+}
+
+TEST(ShellQuoted, KeepsPlainWordsAndQuotesOthers)
+{
+  EXPECT_EQ(ShellQuoted("--engine"), "--engine");
+  EXPECT_EQ(ShellQuoted(""), "''");
+  EXPECT_EQ(ShellQuoted("it's $HOME"), "'it'\\''s $HOME'");
+}
+
+}  // namespace
+}  // namespace swarmanoid

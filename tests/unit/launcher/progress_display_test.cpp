@@ -1,0 +1,81 @@
+#include "launcher/processes/progress_display.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace swarmanoid
+{
+namespace
+{
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+class ProgressDisplayTest : public testing::Test
+{
+protected:
+  ProgressDisplayTest() { EXPECT_EQ(pipe(ends_), 0); }
+  ~ProgressDisplayTest() override
+  {
+    close(ends_[0]);
+    if (ends_[1] >= 0) close(ends_[1]);
+  }
+  std::string Written()
+  {
+    close(ends_[1]);
+    ends_[1] = -1;
+    std::string text(65536, '\0');
+    text.resize(static_cast<std::size_t>(read(ends_[0], text.data(), text.size())));
+    return text;
+  }
+
+  int ends_[2]{};
+  ProgressDisplay::Clock::time_point now_{};
+};
+
+TEST_F(ProgressDisplayTest, PlainLinesComeAtChangesAndNowAndThen)
+{
+  ProgressDisplay display(ProgressDisplay::Style::kPlain, ends_[1]);
+  RunProgress progress{"starting", 0, 0, 0, 4, "", 0};
+  display.Show(progress, now_);
+  progress.phase = "running";
+  progress.max = 1000;
+  progress.real_time_factor = 10;
+  for (std::uint64_t i = 0; i <= 60; ++i)
+  {
+    progress.tick = i * 10;
+    display.Show(progress, now_ + milliseconds(100) * i);
+  }
+  EXPECT_EQ(Written(),
+            "starting, 4 processes\n"
+            "running: tick 0 of 1000 (0 %), 10.0x real time, 4 processes\n"
+            "running: tick 500 of 1000 (50 %), 10.0x real time, 5 s left, 4 processes\n");
+}
+
+TEST_F(ProgressDisplayTest, SaysWhoIsWaitedFor)
+{
+  ProgressDisplay display(ProgressDisplay::Style::kTerminal, ends_[1]);
+  display.Show({"running", 3, 0, 0, 4, "controller_host 0", 2.4}, now_);
+  display.Note("a word");
+  EXPECT_EQ(Written(),
+            "\rwaiting for controller_host 0 (2 s): tick 3, 0.0x real time, 4 processes\x1b[K\r\x1b[Ka word\n");
+}
+
+TEST_F(ProgressDisplayTest, QuietShowsNotesOnly)
+{
+  ProgressDisplay display(ProgressDisplay::Style::kQuiet, ends_[1]);
+  display.Show({"running", 3, 0, 0, 4, "", 0}, now_);
+  display.Note("a word");
+  EXPECT_EQ(Written(), "a word\n");
+}
+
+TEST(DurationText, ReadsAsPeopleSpeak)
+{
+  EXPECT_EQ(DurationText(0.25), "250 ms");
+  EXPECT_EQ(DurationText(42), "42 s");
+  EXPECT_EQ(DurationText(200), "3 min 20 s");
+  EXPECT_EQ(DurationText(7500), "2 h 5 min");
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,91 @@
+#include "launcher/run_folder.h"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class RunFolderTest : public testing::Test
+{
+protected:
+  RunFolderTest()
+      : before_(fs::current_path()),
+        folder_(fs::temp_directory_path() / ("swarmanoid_runs_" + std::to_string(getpid())))
+  {
+    fs::create_directories(folder_);
+    fs::current_path(folder_);
+  }
+  ~RunFolderTest() override
+  {
+    fs::current_path(before_);
+    fs::remove_all(folder_);
+  }
+  std::string ErrorOf(const std::string& asked)
+  {
+    try
+    {
+      RunFolder(asked, "world");
+    }
+    catch (const RunFolderError& error)
+    {
+      return error.what();
+    }
+    return "";
+  }
+
+  fs::path before_;
+  fs::path folder_;
+};
+
+TEST_F(RunFolderTest, RunsOfTheSameSecondGetFoldersOfTheirOwn)
+{
+  const RunFolder first("", "world");
+  const RunFolder second("", "world");
+  EXPECT_NE(first.Path(), second.Path());
+  EXPECT_THAT(first.Path(), testing::StartsWith((folder_ / "runs" / "world-").string()));
+  EXPECT_TRUE(fs::is_directory(second.Path()));
+}
+
+TEST_F(RunFolderTest, NeverWritesOverAnOldRun)
+{
+  EXPECT_EQ(RunFolder("mine", "world").Path(), (folder_ / "mine").string());
+  EXPECT_EQ(ErrorOf("mine"), "") << "an empty folder is as good as a new one";
+  std::ofstream("mine/precious.txt") << "data";
+  EXPECT_THAT(ErrorOf("mine"), testing::AllOf(HasSubstr("'mine'"), HasSubstr("not empty"), HasSubstr("--output")));
+  EXPECT_THAT(ErrorOf("mine/precious.txt"), HasSubstr("precious.txt"));
+}
+
+TEST_F(RunFolderTest, AFailedWriteKeepsTheOldFile)
+{
+  const RunFolder folder("mine", "world");
+  folder.Write("manifest.json", "one");
+  fs::create_directory("mine/manifest.json.new");
+  EXPECT_THROW(folder.Write("manifest.json", "two"), RunFolderError);
+  std::string text;
+  std::ifstream("mine/manifest.json") >> text;
+  EXPECT_EQ(text, "one");
+}
+
+TEST(Manifest, HoldsWhatIsKnown)
+{
+  Manifest manifest;
+  manifest.experiment = "w\"o\xffrld";
+  manifest.seed = 7;
+  manifest.state_hash = 0xff;
+  const std::string text = manifest.Text();
+  EXPECT_THAT(text, HasSubstr("\"seed\": 7"));
+  EXPECT_THAT(text, HasSubstr("\"state_hash\": \"00000000000000ff\""));
+  EXPECT_THAT(text, testing::Not(HasSubstr("exit_code")));
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,89 @@
+// The small languages of the command: control requests, templates, tunables.
+#include <gmock/gmock.h>
+
+#include "launcher/commands.h"
+#include "launcher/control_request.h"
+#include "launcher/load.h"
+#include "launcher/result_bits.h"
+#include "launcher/template_files.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string ErrorOf(const std::vector<std::string>& words)
+{
+  try
+  {
+    ParseControlRequest(words);
+  }
+  catch (const UsageError& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ControlRequest, TakesTheNameWhereItIsGiven)
+{
+  EXPECT_EQ(ParseControlRequest({"pause"}).experiment, "");
+  EXPECT_EQ(ParseControlRequest({"diffusion_10", "pause"}).experiment, "diffusion_10");
+  EXPECT_EQ(ParseControlRequest({"stop", "stop"}).experiment, "stop");
+  EXPECT_EQ(ParseControlRequest({"stop", "stop"}).verb, "stop");
+}
+
+TEST(ControlRequest, ReadsNumbers)
+{
+  EXPECT_THAT(ParseControlRequest({"step"}).numbers, ElementsAre(1));
+  EXPECT_THAT(ParseControlRequest({"step", "20"}).numbers, ElementsAre(20));
+  EXPECT_THAT(ParseControlRequest({"speed", "0.5"}).numbers, ElementsAre(0.5));
+  const ControlRequest move = ParseControlRequest({"world", "move", "fb0", "1,2,0,0,0,90"});
+  EXPECT_EQ(move.experiment, "world");
+  EXPECT_EQ(move.entity, "fb0");
+  EXPECT_THAT(move.numbers, ElementsAre(1, 2, 0, 0, 0, 90));
+  // An entity may be called like a verb.
+  EXPECT_EQ(ParseControlRequest({"move", "stop", "-1,2,0"}).entity, "stop");
+}
+
+TEST(ControlRequest, ErrorsSayTheRightForm)
+{
+  EXPECT_THAT(ErrorOf({"paus"}), HasSubstr("did you mean 'pause'?"));
+  EXPECT_THAT(ErrorOf({"step", "0"}), HasSubstr("step N"));
+  EXPECT_THAT(ErrorOf({"step", "1.5"}), HasSubstr("step N"));
+  EXPECT_THAT(ErrorOf({"speed"}), HasSubstr("speed F"));
+  EXPECT_THAT(ErrorOf({"speed", "-1"}), HasSubstr("negative"));
+  EXPECT_THAT(ErrorOf({"move", "fb0", "1,2"}), HasSubstr("X,Y,Z"));
+  EXPECT_THAT(ErrorOf({"pause", "now"}), HasSubstr("'now'"));
+}
+
+TEST(ResultBits, AddsItselfToWhatIsThere)
+{
+  EXPECT_EQ(ResultBitsTunables(""), "glibc.cpu.hwcaps=-FMA");
+  EXPECT_EQ(ResultBitsTunables("glibc.malloc.check=1"), "glibc.malloc.check=1:glibc.cpu.hwcaps=-FMA");
+  EXPECT_EQ(ResultBitsTunables("glibc.cpu.hwcaps=-AVX2"), "glibc.cpu.hwcaps=-FMA,-AVX2");
+  EXPECT_EQ(ResultBitsTunables("glibc.cpu.hwcaps=-AVX2,-FMA"), "glibc.cpu.hwcaps=-AVX2,-FMA");
+  EXPECT_EQ(ResultBitsTunables("glibc.cpu.hwcaps=-FMA4:a=b"), "glibc.cpu.hwcaps=-FMA,-FMA4:a=b");
+}
+
+TEST(TemplateFiles, FillInTheNames)
+{
+  EXPECT_EQ(ClassName("wall_follower_2"), "CWallFollower2");
+  EXPECT_EQ(FilledIn("class @class@; // @name@.h @name@", {"a_b", "CAB"}), "class CAB; // a_b.h a_b");
+  EXPECT_TRUE(IsIdentifier("wall_follower2"));
+  for (const char* name : {"", "2nd", "Wall", "a-b", "a b", "_a", "../a"}) EXPECT_FALSE(IsIdentifier(name)) << name;
+}
+
+TEST(SplitSetting, NeedsAPath)
+{
+  EXPECT_EQ(SplitSetting("a.b=c=d"), (std::pair<std::string, std::string>("a.b", "c=d")));
+  EXPECT_EQ(SplitSetting("a="), (std::pair<std::string, std::string>("a", "")));
+  EXPECT_THROW(SplitSetting("=c"), UsageError);
+  EXPECT_THROW(SplitSetting("a"), UsageError);
+}
+
+}  // namespace
+}  // namespace swarmanoid
