@@ -1,0 +1,164 @@
+"""What tests of the command share: starting it in a folder of its own, finding its processes, and looking for leftovers."""
+import contextlib
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+SWARMANOID = os.environ["SWARMANOID"]
+CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
+TEST_CONTROLLERS = os.environ["TEST_CONTROLLERS"]
+FINISHED = re.compile(r"^finished: (\d+) ticks, (\d+) entities, hash ([0-9a-f]{16}), [0-9.]+ s, [0-9.]+x real time$")
+# From a kill to the end of everything: a second is promised, the rest is for a busy machine.
+AT_ONCE_S = 1.5
+
+
+def stat_of(pid):
+    """Parent, group and state of a process, or None where there is none."""
+    try:
+        text = pathlib.Path(f"/proc/{pid}/stat").read_text()
+    except OSError:
+        return None
+    state, parent, group = text[text.rindex(")") + 2:].split()[:3]
+    return int(parent), int(group), state
+
+
+def children_of(pid):
+    return [int(entry) for entry in os.listdir("/proc") if entry.isdigit() and (stat_of(entry) or (0,))[0] == pid]
+
+
+def words_of(pid):
+    try:
+        return pathlib.Path(f"/proc/{pid}/cmdline").read_bytes().decode().split("\0")[:-1]
+    except OSError:
+        return []
+
+
+class Run:
+    """One `swarmanoid run`, in the folder of the test."""
+
+    def __init__(self, folder, arguments, environment=None):
+        self.folder = folder
+        self.process = subprocess.Popen([SWARMANOID, *arguments], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                        text=True, env={**os.environ, **(environment or {})}, start_new_session=True)
+        self.pids = {}
+
+    def find(self, program, timeout=10):
+        """The process id of a program of the run, as soon as it is there."""
+        deadline = time.monotonic() + timeout
+        while time.monotonic() < deadline:
+            for pid in children_of(self.process.pid):
+                words = words_of(pid)
+                if words and os.path.basename(words[0]) == program:
+                    self.pids[program] = pid
+                    return pid
+            if self.process.poll() is not None:
+                raise AssertionError(f"the run ended before {program} was there: {self.process.stderr.read()}")
+            time.sleep(0.002)
+        raise AssertionError(f"no {program} after {timeout} s")
+
+    def wait(self, timeout=60):
+        self.stdout, self.stderr = self.process.communicate(timeout=timeout)
+        return self.process.returncode
+
+
+class LauncherTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="swarmanoid_test_"))
+        self.runs = []
+        self.mounts = []
+        self.memory_before = self.memory()
+
+    def tearDown(self):
+        for run in self.runs:
+            if run.process.poll() is None:
+                run.process.kill()
+                run.process.communicate()
+        for place in self.mounts:
+            subprocess.run(["umount", "-l", place], check=False)
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    @staticmethod
+    def memory():
+        """What runs hold in shared memory."""
+        found = set()
+        for path in pathlib.Path("/dev/shm").rglob("*"):
+            if path.is_file() and not path.name.startswith("."):
+                found.add(str(path))
+        return found
+
+    def start(self, *arguments, environment=None):
+        run = Run(self.folder, [str(a) for a in arguments], environment)
+        self.runs.append(run)
+        return run
+
+    def run_it(self, *arguments, timeout=60, environment=None):
+        run = self.start(*arguments, environment=environment)
+        run.wait(timeout)
+        return run
+
+    def wait_for_tick(self, hashes, tick, run=None, timeout=20):
+        """Until the hash log has the tick; needs --hash-log."""
+        deadline = time.monotonic() + timeout
+        while time.monotonic() < deadline:
+            if run is not None and run.process.poll() is not None:
+                raise AssertionError("the run ended early: " + run.process.stderr.read())
+            with contextlib.suppress(OSError):
+                lines = (self.folder / hashes).read_text().splitlines()
+                if len(lines) > tick + 1:
+                    return
+            time.sleep(0.01)
+        raise AssertionError(f"tick {tick} was not reached in {timeout} s")
+
+    def assert_nothing_left(self, run, pids=()):
+        for pid in pids:
+            stat = stat_of(pid)
+            self.assertTrue(stat is None or stat[2] == "Z", f"process {pid} is left: {words_of(pid)}")
+        for entry in os.listdir("/proc"):
+            if entry.isdigit() and any(str(self.folder) in word for word in words_of(entry)):
+                self.fail(f"process {entry} is left: {words_of(entry)}")
+        self.assertEqual(self.memory() - self.memory_before, set())
+
+    def assert_finished(self, run, ticks=None):
+        last = run.stdout.splitlines()[-1] if run.stdout else ""
+        match = FINISHED.match(last)
+        self.assertIsNotNone(match, f"the last line is {last!r}; errors: {run.stderr}")
+        if ticks is not None:
+            self.assertEqual(int(match[1]), ticks)
+        return match[3]
+
+    def write_faulty(self, fault, tick=0, name="faulty"):
+        """An experiment of one robot whose controller fails."""
+        path = self.folder / f"{name}.xml"
+        path.write_text(f"""<ahss-config>
+  <framework><clocktick>100</clocktick><maxclock>300</maxclock><controller_path>{TEST_CONTROLLERS}</controller_path></framework>
+  <controllers>
+    <faulty_controller id="c" library="faulty_controller">
+      <actuators/><sensors/>
+      <parameters><fault>{fault}</fault><tick>{tick}</tick></parameters>
+    </faulty_controller>
+  </controllers>
+  <arena size="2,2,1" optimization="2D">
+    <footbot id="robot_one"><position>1,1,0</position><orientation>0,0,0</orientation><controller>c</controller></footbot>
+  </arena>
+  <engines>
+    <dummy_engine id="ground"><subclock>1</subclock><perpendicular_axis>z</perpendicular_axis><distance>0</distance></dummy_engine>
+  </engines>
+  <arena_physics><engine id="ground"><entity id="robot_one"/></engine></arena_physics>
+</ahss-config>
+""")
+        return path
+
+
+def main():
+    unittest.main()
+
+
+def skip(reason):
+    print("skipped:", reason)
+    sys.exit(77)

@@ -1,0 +1,175 @@
+"""Processes of a run are killed, stopped, or fail by themselves: the run ends at once, says why, and leaves nothing."""
+import os
+import signal
+import time
+import unittest
+
+from harness import AT_ONCE_S, CONFIGS, LauncherTest, main
+
+PROGRAMS = ["space_server", "engine_worker", "controller_host", "visualiser"]
+LONG = ["--ticks", "0", "--hash-log", "hashes", "--output", "out"]
+NAMES = {"space_server": "space server", "engine_worker": "engine 'ground'", "controller_host": "controller host 0",
+         "visualiser": "visualiser 'positions'"}
+
+
+class Kills(LauncherTest):
+    def kill(self, program, moment):
+        run = self.start("run", CONFIGS / "diffusion_10.xml", *LONG, "--quiet", *(["--paused"] if moment == "paused" else []))
+        pid = run.find(program)
+        pids = [run.find(other) for other in PROGRAMS]
+        if moment == "mid-run":
+            self.wait_for_tick("hashes", 200, run)
+        if moment == "paused":
+            time.sleep(1.0)
+        killed_at = time.monotonic()
+        os.kill(pid, signal.SIGKILL)
+        self.assertEqual(run.wait(), 4, run.stderr)
+        self.assertLess(time.monotonic() - killed_at, AT_ONCE_S)
+        first = run.stderr.splitlines()[0]
+        self.assertRegex(first, rf"^{NAMES[program]} was killed by signal 9 \(Killed\) at tick \d+; its log is {self.folder}/out/")
+        self.assertEqual(run.stdout, "")
+        self.assert_nothing_left(run, pids)
+
+    def test_each_while_the_cluster_starts(self):
+        for program in PROGRAMS:
+            with self.subTest(program):
+                self.tearDown()
+                self.setUp()
+                self.kill(program, "start")
+
+    def test_each_before_the_first_tick(self):
+        for program in PROGRAMS:
+            with self.subTest(program):
+                self.tearDown()
+                self.setUp()
+                self.kill(program, "paused")
+
+    def test_each_in_mid_run(self):
+        for program in PROGRAMS:
+            with self.subTest(program):
+                self.tearDown()
+                self.setUp()
+                self.kill(program, "mid-run")
+
+    def test_each_about_the_last_tick(self):
+        for program in PROGRAMS:
+            with self.subTest(program):
+                self.tearDown()
+                self.setUp()
+                run = self.start("run", CONFIGS / "diffusion_10.xml", "--quiet", "--ticks", 600, "--hash-log", "hashes")
+                pid = run.find(program)
+                self.wait_for_tick("hashes", 590)
+                try:
+                    os.kill(pid, signal.SIGKILL)
+                except ProcessLookupError:
+                    pass
+                # Too late to do harm, or in time: both are told truly.
+                if run.wait() == 0:
+                    self.assert_finished(run, 600)
+                else:
+                    self.assertEqual(run.process.returncode, 4)
+                    self.assertIn(f"{NAMES[program]} was killed by signal 9", run.stderr)
+                    self.assertEqual(run.stdout, "")
+                self.assert_nothing_left(run)
+
+    def test_a_killed_launcher_takes_all_with_it(self):
+        run = self.start("run", CONFIGS / "diffusion_10.xml", *LONG)
+        pids = [run.find(program) for program in PROGRAMS]
+        self.wait_for_tick("hashes", 100, run)
+        run.process.kill()
+        run.wait()
+        time.sleep(0.3)
+        # Its shared memory goes with the next run.
+        self.assertEqual(self.run_it("run", CONFIGS / "diffusion_10.xml", "--ticks", 10).process.returncode, 0)
+        self.assert_nothing_left(run, pids)
+
+
+class Stalls(LauncherTest):
+    def test_a_stopped_process_is_named_and_the_run_goes_on_with_it(self):
+        run = self.start("run", CONFIGS / "diffusion_10.xml", "--ticks", 3000, "--hash-log", "hashes")
+        pid = run.find("controller_host")
+        self.wait_for_tick("hashes", 100, run)
+        os.kill(pid, signal.SIGSTOP)
+        time.sleep(4)
+        os.kill(pid, signal.SIGCONT)
+        self.assertEqual(run.wait(), 0, run.stderr)
+        self.assertIn("waiting for controller host 0", run.stderr)
+        hash_after = self.assert_finished(run, 3000)
+        plain = self.run_it("run", CONFIGS / "diffusion_10.xml", "--ticks", 3000, "--quiet")
+        self.assertEqual(self.assert_finished(plain), hash_after)
+
+    def test_a_stopped_process_does_not_survive_the_end(self):
+        run = self.start("run", CONFIGS / "diffusion_10.xml", *LONG, "--quiet")
+        pids = [run.find(program) for program in PROGRAMS]
+        self.wait_for_tick("hashes", 100, run)
+        os.kill(run.pids["controller_host"], signal.SIGSTOP)
+        os.kill(run.pids["engine_worker"], signal.SIGKILL)
+        self.assertEqual(run.wait(), 4)
+        self.assert_nothing_left(run, pids)
+
+
+class Controllers(LauncherTest):
+    def failing(self, fault, tick=0, *options):
+        return self.run_it("run", self.write_faulty(fault, tick), "--quiet", *options)
+
+    def both_ways(self, fault, tick=0):
+        cluster = self.failing(fault, tick)
+        self.assert_nothing_left(cluster)
+        return [cluster, self.failing(fault, tick, "--single-process")]
+
+    def test_throwing_in_init_names_the_robot(self):
+        for run in self.both_ways("init_throws"):
+            self.assertEqual(run.process.returncode, 4, run.stderr)
+            self.assertIn("robot_one", run.stderr)
+            self.assertIn("cannot begin", run.stderr)
+
+    def test_failing_in_init_names_the_robot(self):
+        for run in self.both_ways("init_fails"):
+            self.assertEqual(run.process.returncode, 4, run.stderr)
+            self.assertIn("robot_one", run.stderr)
+
+    def test_throwing_in_a_step_names_robot_and_tick(self):
+        for run in self.both_ways("step_throws", 17):
+            self.assertEqual(run.process.returncode, 4, run.stderr)
+            self.assertIn("robot_one", run.stderr)
+            self.assertIn("17", run.stderr)
+            self.assertIn("cannot go on", run.stderr)
+
+    def test_crashing_names_the_signal(self):
+        run = self.failing("step_crashes", 17)
+        self.assertEqual(run.process.returncode, 4)
+        self.assertIn("controller host 0 was killed by signal 6 (Aborted)", run.stderr)
+        self.assert_nothing_left(run)
+
+    def test_leaving_is_no_end_of_the_run(self):
+        run = self.failing("step_exits", 17)
+        self.assertEqual(run.process.returncode, 4)
+        self.assertRegex(run.stderr, "^controller host 0 (ended|was killed)")
+        self.assert_nothing_left(run)
+
+    def test_one_that_never_returns_is_waited_for_and_can_be_killed(self):
+        run = self.start("run", self.write_faulty("step_hangs", 17))
+        time.sleep(4)
+        run.process.send_signal(signal.SIGINT)
+        time.sleep(0.3)
+        self.assertIsNone(run.process.poll())
+        killed_at = time.monotonic()
+        run.process.send_signal(signal.SIGINT)
+        self.assertEqual(run.wait(), 130)
+        self.assertLess(time.monotonic() - killed_at, AT_ONCE_S)
+        self.assertIn("waiting for controller host 0", run.stderr)
+        self.assertIn("robot_one", run.stderr)
+        self.assert_nothing_left(run)
+
+    def test_a_missing_library_is_an_error_of_the_file(self):
+        path = self.write_faulty("none")
+        path.write_text(path.read_text().replace('library="faulty_controller"', 'library="no_such_library"'))
+        run = self.run_it("run", path)
+        self.assertEqual(run.process.returncode, 3)
+        self.assertRegex(run.stderr, rf"{path}:\d+:\d+: ")
+        self.assertIn("no_such_library", run.stderr)
+        self.assertFalse((self.folder / "runs").exists())
+
+
+if __name__ == "__main__":
+    main()
