@@ -21,6 +21,8 @@ public:
     return shared_[class_of_[a] * class_count_ + class_of_[b]] != 0;
   }
 
+  // All entities are in the same engines, and there are some.
+  bool IsOneWorld() const { return class_count_ == 1 && shared_[0] != 0; }
   bool IsInSomeEngine(std::uint32_t entity) const { return ShareEngine(entity, entity); }
 
 private:

@@ -225,19 +225,24 @@ void NeighbourGrid::ForEachNear(double x, double y, double reach, Visit&& visit)
   const auto first_column = static_cast<std::size_t>(frame_.Column(fx - widest));
   const auto last_column = static_cast<std::size_t>(frame_.Column(fx + widest));
   const auto last_row = static_cast<std::size_t>(frame_.Row(fy + widest));
+  const auto columns = static_cast<std::size_t>(frame_.columns);
+  // Local copies: the compiler cannot know that visit() leaves the members alone.
+  const std::uint32_t* const start = start_.data();
+  const std::uint32_t* const entity = entity_.data();
+  const float* const body_x = x_.data();
+  const float* const body_y = y_.data();
+  const float* const body_radius = radius_.data();
   for (auto row = static_cast<std::size_t>(frame_.Row(fy - widest)); row <= last_row; ++row)
   {
-    const std::size_t line = row * static_cast<std::size_t>(frame_.columns);
-    std::size_t i = start_[line + first_column];
-    const std::size_t end = start_[line + last_column + 1];
-    for (; i < end; i += kLanes)
+    const std::size_t end = start[row * columns + last_column + 1];
+    for (std::size_t i = start[row * columns + first_column]; i < end; i += kLanes)
     {
-      const FloatLanes dx = *reinterpret_cast<const FloatLanes*>(&x_[i]) - fx;
-      const FloatLanes dy = *reinterpret_cast<const FloatLanes*>(&y_[i]) - fy;
-      const FloatLanes cut = *reinterpret_cast<const FloatLanes*>(&radius_[i]) + own;
+      const FloatLanes dx = *reinterpret_cast<const FloatLanes*>(body_x + i) - fx;
+      const FloatLanes dy = *reinterpret_cast<const FloatLanes*>(body_y + i) - fy;
+      const FloatLanes cut = *reinterpret_cast<const FloatLanes*>(body_radius + i) + own;
       unsigned hits = LaneMask(dx * dx + dy * dy <= cut * cut);
       if (end - i < kLanes) hits &= (1U << (end - i)) - 1U;
-      for (; hits != 0; hits &= hits - 1) visit(entity_[i + static_cast<unsigned>(__builtin_ctz(hits))]);
+      for (; hits != 0; hits &= hits - 1) visit(entity[i + static_cast<unsigned>(__builtin_ctz(hits))]);
     }
   }
 }

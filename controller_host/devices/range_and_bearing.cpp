@@ -127,26 +127,28 @@ private:
     const std::span<const double> attributes = space.Attributes();
     const std::uint32_t robot = robots_[k];
     const Vector3 antenna = AntennaOf(robot);
-    const PoseArrays& poses = space.Poses();
+    const double* const z = space.Poses().z.data();
     const bool all_upright = world_->Grid().AllUpright();
+    const double square_range = range_ * range_;
     lines_->LookFrom(robot, antenna, range_);
-    heard_.clear();
+    heard_.resize(lines_->Around().size());
+    std::size_t count = 0;
     for (const SightLines::Neighbour& other : lines_->Around())
     {
       const std::uint32_t slot = message_slots_[other.entity];
       if (slot == kNoSlot || attributes[slot] == 0) continue;
-      const Vector3 offset = all_upright ? Vector3(other.x, other.y, poses.z[other.entity] - poses.z[robot])
+      const Vector3 offset = all_upright ? Vector3(other.x, other.y, z[other.entity] - z[robot])
                                          : Vector3(AntennaOf(other.entity) - antenna);
       const double square = offset.squaredNorm();
-      if (square > range_ * range_) continue;
+      if (square > square_range) continue;
       lines_->AddPoint(offset, other.entity);
-      heard_.push_back({offset, square, slot});
+      heard_[count++] = {offset, square, slot};
     }
     const std::span<const char> seen = lines_->Solve();
 
     RandomStream random = StreamOf(space, robot, stream_);
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < heard_.size(); ++i)
+    for (std::size_t i = 0; i < count; ++i)
       if (seen[i] && !(loss_ > 0 && random.Uniform() < loss_)) heard_[kept++] = heard_[i];
     heard_.resize(kept);
     MakePackets(k, random);
@@ -164,7 +166,7 @@ private:
     bool is_flat = true;
     for (std::size_t i = 0; i < count; ++i)
     {
-      const Vector3 place = to_body * heard_[i].offset;
+      const Vector3 place(to_body * heard_[i].offset);
       place_x_[i] = place.x();
       place_y_[i] = place.y();
       place_z_[i] = place.z();

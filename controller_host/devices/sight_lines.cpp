@@ -8,8 +8,9 @@ namespace
 {
 
 // Up to here all pairs are tested as they come; beyond, sorting pays.
-constexpr std::size_t kUnsorted = 32;
-constexpr std::size_t kRings = 64;
+constexpr std::size_t kUnsorted = 12;
+constexpr std::size_t kMostRings = 64;
+constexpr std::size_t kFewestRings = 16;
 
 FloatLanes SquareRoot(FloatLanes lanes)
 {
@@ -46,7 +47,12 @@ void ClipSlab(FloatLanes start, FloatLanes step, float low, float high, FloatLan
 }  // namespace
 
 SightLines::SightLines(const SensorWorld& world, double reach)
-    : world_(world), fixed_(world.Space(), world.Bodies(), reach), usual_reach_(reach), stamps_(world.Space().Size(), 0)
+    : world_(world),
+      fixed_(world.Space(), world.Bodies(), reach),
+      usual_reach_(reach),
+      around_(world.Grid().Sorted().size() + 1),
+      sorted_around_(around_.size()),
+      stamps_(world.Space().Size(), 0)
 {
 }
 
@@ -56,37 +62,44 @@ void SightLines::LookFrom(std::uint32_t observer, const Vector3& eye, double rea
   eye_ = eye;
   reach_ = reach;
   points_ = 0;
-  around_.clear();
-  const PoseArrays& poses = world_.Space().Poses();
-  world_.Grid().ForEachNear(eye.x(), eye.y(), reach,
-                            [&](std::uint32_t body)
+  const double* const x = world_.Space().Poses().x.data();
+  const double* const y = world_.Space().Poses().y.data();
+  const double eye_x = eye.x();
+  const double eye_y = eye.y();
+  Neighbour* next = around_.data();
+  world_.Grid().ForEachNear(eye_x, eye_y, reach,
+                            [&next, observer, x, y, eye_x, eye_y](std::uint32_t body)
                             {
-                              if (body == observer) return;
-                              around_.push_back({body, 0, poses.x[body] - eye.x(), poses.y[body] - eye.y()});
+                              *next = {body, 0, x[body] - eye_x, y[body] - eye_y};
+                              next += body != observer;
                             });
-  sorted_ = around_.size() > kUnsorted;
-  if (sorted_) SortAround();
+  neighbours_ = static_cast<std::size_t>(next - around_.data());
+  if (neighbours_ > kUnsorted) SortAround();
 }
 
-// A counting sort by rings around the eye; within a ring the order stays.
+// A counting sort by rings of equal area around the eye; within a ring the order stays.
 void SightLines::SortAround()
 {
-  const auto scale = static_cast<float>(kRings / (reach_ * reach_ + 1e-9));
-  std::array<std::uint32_t, kRings + 1> start{};
-  for (Neighbour& neighbour : around_)
+  const std::size_t rings = neighbours_ > 64 ? kMostRings : kFewestRings;
+  const auto scale = static_cast<float>(static_cast<double>(rings) / (reach_ * reach_ + 1e-9));
+  const auto last = static_cast<float>(rings - 1);
+  std::array<std::uint32_t, kMostRings + 1> start{};
+  Neighbour* const neighbours = around_.data();
+  for (std::size_t n = 0; n < neighbours_; ++n)
   {
+    Neighbour& neighbour = neighbours[n];
     const auto square = static_cast<float>(neighbour.x * neighbour.x + neighbour.y * neighbour.y);
-    const auto ring = static_cast<std::uint32_t>(std::min(square * scale, static_cast<float>(kRings - 1)));
+    const auto ring = static_cast<std::int32_t>(std::min(square * scale, last));
     neighbour.ring_start = static_cast<float>(ring);
-    ++start[ring + 1];
+    ++start[static_cast<std::size_t>(ring) + 1];
   }
-  for (std::size_t r = 1; r <= kRings; ++r) start[r] += start[r - 1];
-  sorted_around_.resize(around_.size());
-  for (const Neighbour& neighbour : around_)
+  for (std::size_t r = 1; r <= rings; ++r) start[r] += start[r - 1];
+  Neighbour* const sorted = sorted_around_.data();
+  for (std::size_t n = 0; n < neighbours_; ++n)
   {
-    Neighbour& place = sorted_around_[start[static_cast<std::size_t>(neighbour.ring_start)]++];
-    place = neighbour;
-    place.ring_start = neighbour.ring_start / scale;
+    Neighbour& place = sorted[start[static_cast<std::size_t>(static_cast<std::int32_t>(neighbours[n].ring_start))]++];
+    place = neighbours[n];
+    place.ring_start = place.ring_start / scale;
   }
   around_.swap(sorted_around_);
 }
@@ -119,6 +132,7 @@ void SightLines::CollectBodies()
   tilted_.clear();
   foreign_.clear();
   largest_radius_ = 0;
+  all_span_ = true;
   Bounds bounds;
   for (std::size_t i = 0; i < points_; ++i)
   {
@@ -144,7 +158,13 @@ void SightLines::CollectBodies()
   }
   const bool all_upright = world_.Grid().AllUpright();
   const PoseArrays& poses = world_.Space().Poses();
-  for (const Neighbour& neighbour : around_)
+  if (all_upright && world_.Membership().IsOneWorld())
+  {
+    for (const Neighbour& neighbour : Around())
+      AddUpright(neighbour.entity, neighbour.x, neighbour.y, neighbour.ring_start, bounds);
+    return;
+  }
+  for (const Neighbour& neighbour : Around())
     AddBody(neighbour.entity, neighbour.x, neighbour.y, neighbour.ring_start,
             all_upright || IsUpright(poses, neighbour.entity), bounds);
 }
@@ -155,11 +175,15 @@ void SightLines::AddFixed(std::uint32_t body, const Bounds& bounds)
   AddBody(body, poses.x[body] - eye_.x(), poses.y[body] - eye_.y(), 0, IsUpright(poses, body), bounds);
 }
 
-inline void SightLines::AddBody(std::uint32_t body, double dx, double dy, float ring_start, bool upright,
-                                const Bounds& bounds)
+void SightLines::AddBody(std::uint32_t body, double dx, double dy, float ring_start, bool upright, const Bounds& bounds)
 {
   if (!world_.CanHideFrom(observer_, body)) return foreign_.push_back(body);
   if (!upright) return tilted_.push_back(body);
+  AddUpright(body, dx, dy, ring_start, bounds);
+}
+
+inline void SightLines::AddUpright(std::uint32_t body, double dx, double dy, float ring_start, const Bounds& bounds)
+{
   const PoseArrays& poses = world_.Space().Poses();
   const BodyExtent& extent = world_.Extent(body);
   const auto z = static_cast<float>(poses.z[body] - eye_.z());
@@ -174,9 +198,11 @@ inline void SightLines::AddBody(std::uint32_t body, double dx, double dy, float 
   {
     largest_radius_ = std::max(largest_radius_, extent.radius);
     const float square_radius = extent.radius * extent.radius;
+    const bool spans = low <= bounds.lowest && high >= bounds.highest;
+    const bool holds_eye = square <= square_radius;
+    all_span_ = all_span_ && spans && !holds_eye;
     discs_.push_back({static_cast<float>(dx), static_cast<float>(dy), square_radius, ring_start,
-                      __builtin_sqrtf(square) + extent.radius, low, high, entity,
-                      low <= bounds.lowest && high >= bounds.highest, square <= square_radius});
+                      high < 0 ? __builtin_sqrtf(square) + extent.radius : 0, low, high, entity, spans, holds_eye});
     return;
   }
   const Vector3& half = world_.Body(body).half_size;
@@ -209,38 +235,55 @@ void SightLines::SolveGroup(std::size_t first)
   nearest = __builtin_sqrtf(nearest) * 0.9999F;
   const float limit = (__builtin_sqrtf(farthest) + largest_radius_) * 1.0001F;
 
-  for (const Disc& disc : discs_)
-  {
-    if (disc.ring_start > limit * limit) break;
-    // Lines that still pass above it where it ends. (high and lowest are below 0 here.)
-    if (disc.high < 0 && disc.far_edge * lowest > disc.high * nearest) continue;
-    // b: how far along the line its nearest point to the disc lies, times the length; across: how far beside, likewise.
-    const FloatLanes b = disc.x * x + disc.y * y;
-    const FloatLanes across = disc.x * y - disc.y * x;
-    const FloatLanes beside = across * across;
-    const FloatLanes wide = disc.square_radius * square;
-    IntLanes hit = (beside <= wide) & (b >= 0) & open;
-    if (LaneMask(hit) == 0 && !disc.holds_eye) continue;
-
-    const FloatLanes end_x = x - disc.x;
-    const FloatLanes end_y = y - disc.y;
-    hit &= (b <= square) | (end_x * end_x + end_y * end_y <= disc.square_radius);
-    if (disc.holds_eye) hit = open;
-    hit &= owner != disc.entity;
-    if (!disc.spans)
+  const float limit_square = limit * limit;
+  if (all_span_)
+    for (const Disc& disc : discs_)
     {
-      // Between entering and leaving the circle the line must be as high as the body somewhere.
-      const FloatLanes inside = wide - beside;
-      const FloatLanes half = SquareRoot(inside > 0 ? inside : FloatLanes{});
-      const FloatLanes enter = Maximum((b - half) / square, FloatLanes{});
-      const FloatLanes leave = Minimum((b + half) / square, Everywhere(1));
-      const FloatLanes z_enter = z * enter;
-      const FloatLanes z_leave = z * leave;
-      hit &= (Maximum(z_enter, z_leave) >= disc.low) & (Minimum(z_enter, z_leave) <= disc.high);
+      // As below, without branches that depend on who is hidden by whom.
+      if (disc.ring_start > limit_square) break;
+      const FloatLanes b = disc.x * x + disc.y * y;
+      const FloatLanes across = disc.x * y - disc.y * x;
+      const FloatLanes end_x = x - disc.x;
+      const FloatLanes end_y = y - disc.y;
+      const IntLanes hit = (across * across <= disc.square_radius * square) & (b >= 0) &
+                           ((b <= square) | (end_x * end_x + end_y * end_y <= disc.square_radius));
+      open &= ~(hit & (owner != disc.entity));
+      if (LaneMask(open) == 0) break;
     }
-    open &= ~hit;
-    if (LaneMask(open) == 0) break;
-  }
+  else
+    for (const Disc& disc : discs_)
+    {
+      if (disc.ring_start > limit_square) break;
+      // Lines that still pass above it where it ends. (high and lowest are below 0 here.)
+      if (disc.high < 0 && disc.far_edge * lowest > disc.high * nearest) continue;
+      // b: how far along the line its nearest point to the disc lies, times the length; across: how far beside,
+      // likewise.
+      const FloatLanes b = disc.x * x + disc.y * y;
+      const FloatLanes across = disc.x * y - disc.y * x;
+      const FloatLanes beside = across * across;
+      const FloatLanes wide = disc.square_radius * square;
+      IntLanes hit = (beside <= wide) & (b >= 0) & open;
+      if (LaneMask(hit) == 0 && !disc.holds_eye) continue;
+
+      const FloatLanes end_x = x - disc.x;
+      const FloatLanes end_y = y - disc.y;
+      hit &= (b <= square) | (end_x * end_x + end_y * end_y <= disc.square_radius);
+      if (disc.holds_eye) hit = open;
+      hit &= owner != disc.entity;
+      if (!disc.spans)
+      {
+        // Between entering and leaving the circle the line must be as high as the body somewhere.
+        const FloatLanes inside = wide - beside;
+        const FloatLanes half = SquareRoot(inside > 0 ? inside : FloatLanes{});
+        const FloatLanes enter = Maximum((b - half) / square, FloatLanes{});
+        const FloatLanes leave = Minimum((b + half) / square, Everywhere(1));
+        const FloatLanes z_enter = z * enter;
+        const FloatLanes z_leave = z * leave;
+        hit &= (Maximum(z_enter, z_leave) >= disc.low) & (Minimum(z_enter, z_leave) <= disc.high);
+      }
+      open &= ~hit;
+      if (LaneMask(open) == 0) break;
+    }
 
   for (const Box& box : boxes_)
   {

@@ -30,7 +30,7 @@ public:
   // Starts anew: an eye of `observer`, for points within `reach` m in the xy plane. The world must be refreshed.
   void LookFrom(std::uint32_t observer, const Vector3& eye, double reach);
   // The movable bodies around the eye, without the observer; many of them come near first.
-  std::span<const Neighbour> Around() const { return around_; }
+  std::span<const Neighbour> Around() const { return {around_.data(), neighbours_}; }
   // A point by its offset from the eye; `owner`: the entity that it is part of, or kNobody. Fastest when points are
   // added in the order of Around().
   void AddPoint(const Vector3& offset, std::uint32_t owner)
@@ -80,6 +80,7 @@ private:
   void CollectBodies();
   void AddBody(std::uint32_t body, double dx, double dy, float ring_start, bool upright, const Bounds& bounds);
   void AddFixed(std::uint32_t body, const Bounds& bounds);
+  void AddUpright(std::uint32_t body, double dx, double dy, float ring_start, const Bounds& bounds);
   void SolveGroup(std::size_t first);
   bool HiddenByOthers(std::size_t point) const;
 
@@ -90,9 +91,9 @@ private:
   std::uint32_t observer_ = 0;
   Vector3 eye_ = Vector3::Zero();
   double reach_ = 0;
-  std::vector<Neighbour> around_;
+  std::size_t neighbours_ = 0;
+  std::vector<Neighbour> around_;  // as long as there are bodies, so that it never grows
   std::vector<Neighbour> sorted_around_;
-  bool sorted_ = false;  // movable discs come in the order of ring_start
 
   // Points, with room for whole lanes behind them.
   std::size_t points_ = 0;
@@ -101,6 +102,7 @@ private:
   std::vector<char> seen_;
 
   std::vector<Disc> discs_;
+  bool all_span_ = true;  // none of them needs a look at heights
   float largest_radius_ = 0;
   std::vector<Box> boxes_;
   std::vector<std::uint32_t> tilted_;   // tested one by one
