@@ -41,15 +41,14 @@ bool PortIsFree(int domain)
 
 FreeDomain::FreeDomain()
 {
-  const std::string folder = SharedFolder();
-  mkdir(folder.c_str(), 0700);
+  const std::string folder = LockFolder();
   // Callers that start together begin at different places.
   const int start = static_cast<int>(getpid() % (kLastDomain - kFirstDomain + 1));
   for (int k = 0; k <= kLastDomain - kFirstDomain; ++k)
   {
     const int domain = kFirstDomain + (start + k) % (kLastDomain - kFirstDomain + 1);
     if (domain == kDefaultDomain) continue;
-    lock_ = open(fmt::format("{}/.domain.{}", folder, domain).c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
+    lock_ = open(fmt::format("{}/domain.{}.lock", folder, domain).c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
     if (lock_ < 0) throw BusError("cannot write in '" + folder + "'");
     if (flock(lock_, LOCK_EX | LOCK_NB) == 0 && PortIsFree(domain))
     {

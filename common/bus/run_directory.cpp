@@ -38,7 +38,7 @@ int OpenLocked(const std::string& path, int flags)
 class FolderLock
 {
 public:
-  FolderLock() : file_(OpenLocked(SharedFolder() + "/.lock", LOCK_EX)) {}
+  FolderLock() : file_(OpenLocked(LockFolder() + "/folders.lock", LOCK_EX)) {}
   ~FolderLock() { close(file_); }
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
@@ -73,9 +73,8 @@ std::vector<fs::path> RunFolders()
   return folders;
 }
 
-void MakeSharedFolder()
+void MakeOwnFolder(const std::string& folder)
 {
-  const std::string folder = SharedFolder();
   if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
     throw BusError("cannot create '" + folder + "': " + std::strerror(errno));
   struct stat status
@@ -84,6 +83,9 @@ void MakeSharedFolder()
   if (stat(folder.c_str(), &status) != 0 || !S_ISDIR(status.st_mode) || status.st_uid != getuid())
     throw BusError("'" + folder + "' is not a folder of this user; remove it");
 }
+
+// With a FolderLock.
+void RemoveSharedFolderIfEmpty() { rmdir(SharedFolder().c_str()); }
 
 std::string FileName(const std::string& experiment, std::uint64_t run)
 {
@@ -100,10 +102,19 @@ std::string SharedFolder()
   return elsewhere != nullptr && *elsewhere != 0 ? elsewhere : fmt::format("/dev/shm/swarmanoid-{}", getuid());
 }
 
+std::string LockFolder()
+{
+  const char* runtime = std::getenv("XDG_RUNTIME_DIR");
+  const bool usable = runtime != nullptr && *runtime != 0 && access(runtime, W_OK) == 0;
+  const std::string folder = fmt::format("{}/swarmanoid-{}", usable ? runtime : "/tmp", getuid());
+  MakeOwnFolder(folder);
+  return folder;
+}
+
 RunDirectory::RunDirectory(const std::string& experiment, std::uint64_t run)
 {
-  MakeSharedFolder();
   const FolderLock lock;
+  MakeOwnFolder(SharedFolder());
   path_ = SharedFolder() + "/" + FileName(experiment, run);
   if (mkdir(path_.c_str(), 0700) != 0 && errno != EEXIST)
     throw BusError("cannot create '" + path_ + "': " + std::strerror(errno));
@@ -121,6 +132,7 @@ RunDirectory::~RunDirectory()
     close(lock_);
     std::error_code error;
     if (!HasLiveProcess(path_)) fs::remove_all(path_, error);
+    RemoveSharedFolderIfEmpty();
   }
   catch (const BusError&)
   {
@@ -163,6 +175,7 @@ void RemoveDeadRuns()
   std::error_code error;
   for (const fs::path& folder : RunFolders())
     if (!HasLiveProcess(folder)) fs::remove_all(folder, error);
+  RemoveSharedFolderIfEmpty();
 }
 
 }  // namespace swarmanoid

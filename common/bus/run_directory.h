@@ -15,6 +15,10 @@ namespace swarmanoid
 // The folder of all runs of this user. The environment variable SWARMANOID_SHARED_FOLDER puts it elsewhere.
 std::string SharedFolder();
 
+// Where the lock files of this user are, which outlive runs: in XDG_RUNTIME_DIR, or else in /tmp. Made where needed.
+// Throws BusError.
+std::string LockFolder();
+
 class RunDirectory
 {
 public:
