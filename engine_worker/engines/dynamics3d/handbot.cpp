@@ -15,7 +15,10 @@ constexpr GraspGeometry kHandGrasp{0.03, S::kWristTorque, true};
 constexpr double kServoGain = 40;   // 1/s
 constexpr double kServoLead = 0.1;  // rad: how far the target runs ahead of an arm that is held back
 constexpr double kServoSpeed = 3;   // rad/s
-constexpr double kReported = 1e-4;  // rad: smaller changes of angles are not reported
+// The fans turn the robot to the heading that it had when the rope was shot: critically damped at 3 rad/s with a book.
+constexpr double kFanGain = 0.3;     // N m/rad
+constexpr double kFanDamping = 0.2;  // N m s
+constexpr double kReported = 1e-4;   // rad: smaller changes of angles are not reported
 
 Pose At(double x, double y, double z) { return {Vector3(x, y, z), Quaternion::Identity()}; }
 Vector3 Shoulder(int arm) { return {S::kHeadForward, arm == 0 ? S::kShoulder : -S::kShoulder, S::kHeadHeight}; }
@@ -137,7 +140,7 @@ void HandbotModel::UpdateRope()
     rope_ = 0;
   }
   if (attached || !launch_) return;
-  const Vector3 from = PoseOf(BodyAt(0)).Apply({0, 0, S::kHeight - S::kTrunkCentre});
+  const Vector3 from = PoseOf(BodyAt(0)).Apply({S::kRopeForward, 0, S::kHeight - S::kTrunkCentre});
   const double distance = scene_.world.DistanceToStatic(from, scene_.up, S::kLongestRope);
   if (distance > S::kLongestRope) return;
   const Vector3 hook = from + scene_.up * distance;
@@ -151,6 +154,17 @@ void HandbotModel::UpdateRope()
     spec.other[i] = hook[i];
   }
   rope_ = scene_.links.Add(spec).Serial();
+  heading_ = YawOf(scene_.frame.ToSpace(PoseOf(BodyAt(0))).orientation);
+}
+
+void HandbotModel::RunFans()
+{
+  const dBodyID trunk = BodyAt(0);
+  const double error = WrapAngle(heading_ - YawOf(scene_.frame.ToSpace(PoseOf(trunk)).orientation));
+  const double spin = VectorOf(dBodyGetAngularVel(trunk)).dot(scene_.up);
+  const double torque = std::clamp(kFanGain * error - kFanDamping * spin, -S::kFanTorque, S::kFanTorque);
+  const Vector3 turn = scene_.up * torque;
+  dBodyAddTorque(trunk, turn.x(), turn.y(), turn.z());
 }
 
 double HandbotModel::AngleOf(const Servo& servo) const
@@ -188,6 +202,7 @@ void HandbotModel::BeforeStep(double seconds)
     const double length = rope->Length() + winch_ * seconds;
     rope->SetLength(std::clamp(length, S::kShortestRope, S::kLongestRope));
     rope->TightenOrSlacken();
+    if (rope->IsTaut()) RunFans();
   }
 }
 
@@ -227,6 +242,7 @@ void HandbotModel::Save(ByteWriter& state) const
     state.Put(hand.commanded);
   }
   state.Put(rope_);
+  state.Put(heading_);
 }
 
 void HandbotModel::Load(ByteReader& state)
@@ -240,6 +256,7 @@ void HandbotModel::Load(ByteReader& state)
     hand.commanded = state.Get<bool>();
   }
   rope_ = state.Get<std::uint32_t>();
+  heading_ = state.Get<double>();
 }
 
 }  // namespace swarmanoid::dynamics3d

@@ -1,5 +1,5 @@
 // The handbot in 3D: a trunk, a head that turns about the forward axis and bears two arms, a hand on a wrist at the end
-// of each, and a rope to the ceiling with a winch.
+// of each, a rope to the ceiling with a winch, and fans that keep the heading while the robot hangs on it.
 #pragma once
 
 #include "engine_worker/engines/dynamics3d/grasp.h"
@@ -31,11 +31,13 @@ struct HandbotShape
   static constexpr double kHeadTorque = 3;      // N m
   static constexpr double kArmTorque = 2;       // N m
   static constexpr double kWristTorque = 1;     // N m
+  static constexpr double kFanTorque = 0.1;     // N m, both fans
   static constexpr double kWidestArm = 1.0472;  // rad
   static constexpr double kWidestWrist = 1.5708;
   static constexpr double kWidestHand = 3.1416;
-  static constexpr double kHandSpeed = 3;    // rad/s
-  static constexpr double kLongestRope = 5;  // m
+  static constexpr double kHandSpeed = 3;       // rad/s
+  static constexpr double kRopeForward = 0.03;  // m: above the centre of mass, so that the robot hangs level
+  static constexpr double kLongestRope = 5;     // m
   static constexpr double kShortestRope = 0.05;
   static constexpr double kWinchSpeed = 0.15;  // m/s
 };
@@ -85,12 +87,14 @@ private:
   void DriveServo(Servo& servo, double seconds);
   void UpdateHands();
   void UpdateRope();
+  void RunFans();
 
   Servo servos_[3];
   Hand hands_[2];
   bool launch_ = false;
   double winch_ = 0;  // m/s
   std::uint32_t rope_ = 0;
+  double heading_ = 0;  // rad, in the space: what the fans keep while the robot hangs
 };
 
 }  // namespace swarmanoid::dynamics3d

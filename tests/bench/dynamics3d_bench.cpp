@@ -1,0 +1,110 @@
+// dynamics3d: time of a clock tick (100 ms, 20 steps of the solver) and of one step, for footbots that drive about at
+// one per square metre within arena walls, one in ten of them an eyebot; on the plane and on hills.
+//   build/bin/bench/dynamics3d_bench
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
+#include "common/math/elementary.h"
+#include "common/math/random.h"
+#include "common/space/space.h"
+#include "engine_worker/engines/dynamics3d/dynamics3d_engine.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+class BenchWorld
+{
+public:
+  BenchWorld(int robots, bool hills)
+  {
+    const double side = std::sqrt(robots) + 1;
+    experiment_.arena_size = {side, side, 5};
+    const int per_side = static_cast<int>(std::ceil(std::sqrt(robots)));
+    RandomStream random(1, 0, 0, 0);
+    EngineLayout layout;
+    ChannelBlock wheels{"footbot_wheels", 2, {}, 0};
+    for (int k = 0; k < robots; ++k)
+    {
+      EntityConfiguration robot;
+      robot.id = "robot" + std::to_string(k);
+      robot.kind = k % 10 == 9 ? EntityKind::kEyebot : EntityKind::kFootbot;
+      const bool flies = robot.kind == EntityKind::kEyebot;
+      robot.size = flies ? Vector3(0.25, 0.25, 0.566) : Vector3(0.085036758, 0.085036758, 0.146899733);
+      robot.movable = true;
+      robot.pose = {{1 + k % per_side + random.Uniform(-0.2, 0.2), 1 + k / per_side + random.Uniform(-0.2, 0.2),
+                     flies ? 2.0 : 0.02},
+                    QuaternionFromYaw(random.Uniform(-kPi, kPi))};
+      if (!flies) wheels.entities.push_back(static_cast<std::uint32_t>(k));
+      experiment_.entities.push_back(robot);
+      layout.owned.push_back(static_cast<std::uint32_t>(k));
+    }
+    layout.command_size = 2 * wheels.entities.size();
+    layout.commands.push_back(wheels);
+    layout_ = layout;
+    space_ = std::make_unique<CSwarmanoidSpace>(experiment_);
+
+    node_->attributes.push_back({"arena_walls", "true", {}});
+    if (hills) node_->attributes.push_back({"ground", "false", {}});
+    engine_.Init({configuration_, Parameters(TConfigurationTree(node_), table_), *space_, layout_});
+    if (hills) AddHills(side);
+    for (std::size_t k = 0; k < space_->Size(); ++k) engine_.AddEntity(space_->GetEntity(k), EBinding::kOwned);
+    engine_.Start();
+
+    for (std::size_t k = 0; k < wheels.entities.size(); ++k)
+      for (int wheel = 0; wheel < 2; ++wheel) commands_.push_back(random.Uniform(2, 6));
+    update_.poses.resize(7 * layout.owned.size());
+    for (int tick = 0; tick < 20; ++tick) Tick();
+  }
+
+  void Tick()
+  {
+    update_.attributes.Clear();
+    engine_.Update({layout_.commands, commands_}, update_, {});
+    space_->SetTick(space_->GetTick() + 1);
+  }
+
+private:
+  void AddHills(double side)
+  {
+    const int points = static_cast<int>(side / 0.1) + 2;
+    RandomStream random(2, 0, 0, 0);
+    std::vector<double> heights;
+    for (int k = 0; k < points * points; ++k) heights.push_back(random.Uniform(-0.005, 0.005));
+    const auto hills =
+        std::make_shared<const HeightTerrain>(heights, points, points, (points - 1) * 0.1, (points - 1) * 0.1);
+    hills_ = AddHeightfield(engine_.World(), dynamics3d::kNoEntity, hills, Pose());
+  }
+
+  Experiment experiment_;
+  EngineConfiguration configuration_;
+  EngineLayout layout_;
+  std::vector<ParameterSpec> table_ = dynamics3d::ParameterTable();
+  std::shared_ptr<ConfigurationNode> node_ = std::make_shared<ConfigurationNode>();
+  std::unique_ptr<CSwarmanoidSpace> space_;
+  std::unique_ptr<dynamics3d::TerrainShape> hills_;
+  CDynamics3dEngine engine_;
+  std::vector<double> commands_;
+  EngineUpdate update_;
+};
+
+void Ticks(benchmark::State& state, bool hills)
+{
+  BenchWorld world(static_cast<int>(state.range(0)), hills);
+  for (auto _ : state) world.Tick();
+  using benchmark::Counter;
+  const auto steps = static_cast<double>(state.iterations()) * 20;
+  state.counters["step"] = Counter(steps, Counter::kIsRate | Counter::kInvert);
+  state.counters["robot_step"] =
+      Counter(steps * static_cast<double>(state.range(0)), Counter::kIsRate | Counter::kInvert);
+}
+
+BENCHMARK_CAPTURE(Ticks, plane, false)->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Ticks, hills, true)->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace swarmanoid
+
+BENCHMARK_MAIN();
