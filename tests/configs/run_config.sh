@@ -4,5 +4,6 @@ set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 "$1" check "$2"
-"$1" run "$2" --single-process --ticks 20 --output "$folder/run" | tee "$folder/output.txt"
+# 1: the experiment says that 20 ticks were too few for its goal.
+"$1" run "$2" --single-process --ticks 20 --output "$folder/run" | tee "$folder/output.txt" || [ $? -eq 1 ]
 tail -n 1 "$folder/output.txt" | grep -qE '^finished: 20 ticks, '
