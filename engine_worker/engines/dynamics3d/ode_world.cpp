@@ -4,23 +4,11 @@
 #include <array>
 #include <cmath>
 #include <mutex>
-#include <utility>
-
-#include "engine_worker/engines/dynamics3d/cylinder_contacts.h"
 
 namespace swarmanoid::dynamics3d
 {
 namespace
 {
-
-constexpr int kMaximumContacts = 8;  // of one pair
-// The caster's spring: soft enough to leave the weight to the wheels, hard enough to tilt by half a degree at most.
-constexpr double kCasterStiffness = 2000;  // N/m
-constexpr double kCasterDamping = 20;      // N s/m
-// Slower than this a contact is taken to stick, and its friction works along the pull of gravity.
-constexpr double kSlip = 1e-3;  // m/s
-// A wheel's contact normal stands at most this far out of the wheel's plane: sine of the angle. Half width 1 cm.
-constexpr double kWheelFlank = 0.35;
 
 struct LayerBits
 {
@@ -57,17 +45,6 @@ void InitialiseOde()
   std::call_once(once, [] { dInitODE2(0); });
   thread_local const bool allocated = dAllocateODEDataForThread(dAllocateMaskAll) != 0;
   (void)allocated;
-}
-
-// Contacts as seen from the other geom.
-int Flipped(std::span<dContactGeom> contacts, int count)
-{
-  for (dContactGeom& contact : contacts.first(static_cast<std::size_t>(count)))
-  {
-    std::swap(contact.g1, contact.g2);
-    for (int k = 0; k < 3; ++k) contact.normal[k] = -contact.normal[k];
-  }
-  return count;
 }
 
 const Solid& SolidOf(dGeomID geom) { return *static_cast<const Solid*>(dGeomGetData(geom)); }
@@ -230,99 +207,6 @@ void OdeWorld::Step(double seconds, std::uint64_t number)
   if (settings_.iterations > 8) dRandSetSeed(static_cast<unsigned long>(number));
   dWorldQuickStep(world_, seconds);
   dJointGroupEmpty(contact_joints_);
-}
-
-void OdeWorld::MakeContacts(const Solid& a, const Solid& b)
-{
-  std::array<dContactGeom, kMaximumContacts> contacts;
-  int count = -1;
-  const int class_a = dGeomGetClass(a.geom);
-  const int class_b = dGeomGetClass(b.geom);
-  if (class_a == dCylinderClass && class_b == dCylinderClass)
-    count = CollideParallelCylinders(a.geom, b.geom, contacts);
-  else if (class_a == dPlaneClass && class_b == dCylinderClass)
-    count = Flipped(contacts, CollideCylinderWithPlane(b.geom, a.geom, contacts));
-  else if (class_a == dCylinderClass && class_b == dPlaneClass)
-    count = CollideCylinderWithPlane(a.geom, b.geom, contacts);
-  if (count < 0) count = dCollide(a.geom, b.geom, kMaximumContacts, contacts.data(), sizeof(dContactGeom));
-  for (int k = 0; k < count; ++k)
-  {
-    const dContactGeom& contact = contacts[static_cast<std::size_t>(k)];
-    if (Accept(contact, a, b)) AddContact(contact, a, b);
-  }
-}
-
-bool OdeWorld::Accept(const dContactGeom& contact, const Solid& a, const Solid& b) const
-{
-  for (const Solid* solid : {&a, &b})
-  {
-    if (solid->surface == ESurface::kGround && is_open_ && is_open_(VectorOf(contact.pos))) return false;
-    if (solid->surface == ESurface::kWheel)
-    {
-      const Vector3 axle = VectorToWorld(dGeomGetBody(solid->geom), Vector3::UnitY());
-      if (std::abs(axle.dot(VectorOf(contact.normal))) > kWheelFlank) return false;
-    }
-  }
-  return true;
-}
-
-void OdeWorld::AddContact(const dContactGeom& geometry, const Solid& a, const Solid& b)
-{
-  const dBodyID body_a = dGeomGetBody(a.geom);
-  const dBodyID body_b = dGeomGetBody(b.geom);
-  if (body_a == nullptr && body_b == nullptr) return;
-
-  dContact contact{};
-  contact.geom = geometry;
-  dSurfaceParameters& surface = contact.surface;
-  surface.mode = dContactApprox1;
-  const Vector3 normal = VectorOf(geometry.normal);
-  Vector3 along = Vector3::Zero();
-
-  if (a.surface == ESurface::kCaster || b.surface == ESurface::kCaster)
-  {
-    // A spring and a damper as ODE's error reduction and constraint force mixing.
-    surface.mode |= dContactSoftERP | dContactSoftCFM;
-    const double stiff = step_seconds_ * kCasterStiffness;
-    surface.soft_erp = stiff / (stiff + kCasterDamping);
-    surface.soft_cfm = 1 / (stiff + kCasterDamping);
-  }
-  else if (a.surface == ESurface::kWheel || b.surface == ESurface::kWheel)
-  {
-    surface.mu = settings_.wheel_friction;
-    const bool first = a.surface == ESurface::kWheel;
-    const dBodyID wheel = first ? body_a : body_b;
-    // Rolls on its own radius, however deep it stands in the ground.
-    const double radius = dGeomSphereGetRadius(first ? a.geom : b.geom);
-    const Vector3 foot = VectorOf(dBodyGetPosition(wheel)) - normal * (first ? radius : -radius);
-    for (int k = 0; k < 3; ++k) contact.geom.pos[k] = foot[k];
-    along = VectorToWorld(wheel, Vector3::UnitY()).cross(normal);
-  }
-  else
-  {
-    surface.mu = settings_.friction;
-    // ODE's friction is a box: put its first edge along the slip, or along the slip that gravity asks for.
-    const Vector3 point = VectorOf(geometry.pos);
-    Vector3 slip = Vector3::Zero();
-    if (body_a != nullptr) slip += PointVelocity(body_a, point);
-    if (body_b != nullptr) slip -= PointVelocity(body_b, point);
-    along = slip - normal * normal.dot(slip);
-    if (along.squaredNorm() < kSlip * kSlip) along = settings_.gravity - normal * normal.dot(settings_.gravity);
-  }
-  const double length = std::sqrt(along.squaredNorm());
-  if (length > 1e-9)
-  {
-    surface.mode |= dContactFDir1;
-    for (int k = 0; k < 3; ++k) contact.fdir1[k] = along[k] / length;
-  }
-  if (settings_.restitution > 0)
-  {
-    surface.mode |= dContactBounce;
-    surface.bounce = settings_.restitution;
-    surface.bounce_vel = 0.05;
-  }
-  dJointAttach(dJointCreateContact(world_, contact_joints_, &contact), body_a, body_b);
-  ++contact_count_;
 }
 
 const Solid* OdeWorld::FindTouching(const Vector3& centre, double radius, std::uint32_t but_not,

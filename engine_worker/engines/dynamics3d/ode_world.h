@@ -19,6 +19,8 @@ namespace swarmanoid::dynamics3d
 
 inline constexpr std::uint32_t kNoEntity = std::numeric_limits<std::uint32_t>::max();
 
+inline constexpr int kMaximumContacts = 8;  // of one pair of solids
+
 enum class ESurface : std::uint8_t
 {
   kPlain,

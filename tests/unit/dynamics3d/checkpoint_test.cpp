@@ -28,6 +28,8 @@ public:
     handbot_ = AddHandbot({2, 2, 0});
     AddBlock({2.27, 2, 0.1}, {0.03, 0.16, 0.2}, 0.4);
     eyebot_ = AddEyebot({2, 0.8, 1});
+    mirror_ = AddFootbot({1.5, 1.2, 0});
+    MakeMirror(mirror_);
     AddCommands("footbot_wheels", 2);
     AddCommands("footbot_gripper", 1);
     AddCommands("footbot_turret", 1);
@@ -59,6 +61,9 @@ public:
     Command("eyebot_propellers", eyebot_, {0.1, 0.05, tick > 40 ? 0.5 : 0.1, 0.3});
     Command("eyebot_attach", eyebot_, {tick % 100 < 80 ? 1.0 : 0.0});
     Tick();
+    // Another engine drives it to and fro through the crowd.
+    const double x = 1.5 - 0.01 * (tick % 200 < 100 ? tick % 100 : 100 - tick % 100);
+    Space().SetPose(mirror_, {Vector3(x, 1.2 - 0.3 * x, 0), QuaternionFromYaw(0.1 * tick)});
   }
 
   int Grips() const
@@ -73,6 +78,7 @@ private:
   std::vector<std::uint32_t> footbots_;
   std::uint32_t handbot_ = 0;
   std::uint32_t eyebot_ = 0;
+  std::uint32_t mirror_ = 0;
 };
 
 std::vector<std::uint64_t> HashesOfRun(std::uint64_t seed, int ticks, const std::vector<int>& restarts,

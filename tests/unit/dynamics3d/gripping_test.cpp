@@ -43,6 +43,24 @@ TEST(Dynamics3dGripping, AFootbotDragsAPreyAndLetsGoOfIt)
   EXPECT_GT((world.Position(prey) - world.Position(footbot)).norm(), apart + 0.15);
 }
 
+TEST(Dynamics3dGripping, AnEntityThatIsPutElsewhereLeavesItsGripsAndStandsStill)
+{
+  Dynamics3dTestWorld world;
+  const auto footbot = world.AddFootbot({2, 5, 0});
+  const auto prey = AddPreyInFrontOf(world, 2, 5, 0.4);
+  world.AddCommands("footbot_gripper", 1);
+  world.Start();
+  world.Command("footbot_gripper", footbot, {1});
+  world.Run(5);
+  ASSERT_EQ(world.Attribute(footbot, "gripped"), 1 + prey);
+  world.Space().SetPose(prey, {Vector3(8, 8, 0), QuaternionFromYaw(1)});
+  world.engine->EntityMoved(prey);
+  world.Run(5);
+  EXPECT_EQ(world.Attribute(footbot, "gripped"), 0);
+  EXPECT_LT((world.Position(prey) - Vector3(8, 8, 0)).norm(), 1e-3);
+  EXPECT_LT((world.Position(footbot) - Vector3(2, 5, 0)).norm(), 2e-3);
+}
+
 TEST(Dynamics3dGripping, TheTurretTurnsWhatTheGripperHolds)
 {
   Dynamics3dTestWorld world;
