@@ -25,7 +25,7 @@ configure_file(cmake/config.h.in ${CMAKE_BINARY_DIR}/config.h.in COPYONLY)
 
 # Experiments, and what a user copies.
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid)
-foreach(folder controllers templates)
+foreach(folder controllers functions templates)
   install(DIRECTORY user/${folder} DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid/user
     USE_SOURCE_PERMISSIONS PATTERN ".clang-format" EXCLUDE)
 endforeach()

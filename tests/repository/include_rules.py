@@ -38,6 +38,8 @@ def allowed():
     rules["launcher"] = below + ROLES + ["launcher"]
     rules["real_robot"] = INTERFACE + ["common/logging", "real_robot"]
     rules["user"] = INTERFACE + ["user"]
+    # Experiment functions run at the space server and see all of it.
+    rules["user/functions"] = rules["space_server"] + ["user/functions"]
     return rules
 
 

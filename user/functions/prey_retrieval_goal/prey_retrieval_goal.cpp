@@ -1,0 +1,108 @@
+// The goal of the prey retrieval experiment: it is done when a prey stands in the nest, and failed where that takes too
+// long. Writes the distance of each prey to the nest as CSV.
+//
+//   <prey_retrieval_goal id="goal" library="prey_retrieval_goal">
+//     <preys>prey_yellow, prey_magenta</preys>
+//     <nest>nest</nest>
+//     <metrics>retrieval.csv</metrics>
+//   </prey_retrieval_goal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+#include "space_server/experiment_functions.h"
+
+namespace
+{
+
+using namespace swarmanoid;
+
+struct Close
+{
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+class CPreyRetrievalGoal : public CExperimentFunctions
+{
+public:
+  static PluginDescription Description()
+  {
+    PluginDescription description;
+    description.label = "prey_retrieval_goal";
+    description.brief = "done when a prey stands in the nest; writes the distances";
+    description.parameters = {
+        {.name = "preys", .type = ParameterType::kText, .description = "Ids of the preys, separated by commas."},
+        {.name = "nest", .type = ParameterType::kText, .description = "Id of the nest."},
+        {.name = "metrics",
+         .type = ParameterType::kText,
+         .default_value = "",
+         .description = "CSV file in the folder of the run; empty: none."}};
+    return description;
+  }
+
+  void Init(const TConfigurationTree t_tree, SpaceEditor& space) override
+  {
+    const auto find = [&](const std::string& id) -> const CSwarmanoidSpaceEntity*
+    {
+      if (const auto* entity = space.GetSpace().FindEntity(id)) return entity;
+      throw ConfigurationError(t_tree.Location(), "there is no entity '" + id + "'");
+    };
+    nest_ = find(t_tree.GetText("nest"));
+    std::string list = t_tree.GetText("preys");
+    for (std::size_t start = 0; start < list.size();)
+    {
+      const std::size_t end = std::min(list.find(',', start), list.size());
+      preys_.push_back(find(std::string(TrimBlanks(std::string_view(list).substr(start, end - start)))));
+      start = end + 1;
+    }
+    if (const std::string metrics = t_tree.GetText("metrics", ""); !metrics.empty())
+    {
+      const std::string path = (std::filesystem::path(space.GetOutputFolder()) / metrics).string();
+      file_.reset(std::fopen(path.c_str(), "w"));
+      if (file_ == nullptr) throw std::runtime_error("cannot write '" + path + "'");
+      std::fputs("tick", file_.get());
+      for (const auto* prey : preys_) std::fprintf(file_.get(), ",%s_m", prey->GetId().c_str());
+      std::fputs("\n", file_.get());
+    }
+  }
+
+  void PostStep(SpaceEditor& space) override
+  {
+    if (file_ == nullptr) return;
+    std::fprintf(file_.get(), "%llu", static_cast<unsigned long long>(space.GetSpace().GetTick()));
+    for (const auto* prey : preys_) std::fprintf(file_.get(), ",%.4f", Distance(*prey));
+    std::fputs("\n", file_.get());
+  }
+
+  Outcome IsFinished(const SpaceEditor& space) override
+  {
+    for (const auto* prey : preys_)
+      if (IsInNest(*prey)) return Outcome::kDone;
+    const std::uint64_t last = space.GetSpace().GetExperiment().max_clock;
+    return last != 0 && space.GetSpace().GetTick() >= last ? Outcome::kFailed : Outcome::kRunning;
+  }
+
+  void Destroy(SpaceEditor&) override { file_.reset(); }
+
+private:
+  double Distance(const CSwarmanoidSpaceEntity& prey) const
+  {
+    return (prey.GetPosition() - nest_->GetPosition()).head<2>().norm();
+  }
+  // The centre of the prey stands over the patch.
+  bool IsInNest(const CSwarmanoidSpaceEntity& prey) const
+  {
+    const Vector3 seen = nest_->GetPose().Inverse().Apply(prey.GetPosition());
+    if (nest_->GetSize().y() == 0) return seen.head<2>().norm() <= nest_->GetSize().x();  // a disc
+    return std::abs(seen.x()) <= nest_->GetSize().x() / 2 && std::abs(seen.y()) <= nest_->GetSize().y() / 2;
+  }
+
+  const CSwarmanoidSpaceEntity* nest_ = nullptr;
+  std::vector<const CSwarmanoidSpaceEntity*> preys_;
+  std::unique_ptr<std::FILE, Close> file_;
+};
+
+REGISTER_EXPERIMENT_FUNCTIONS(CPreyRetrievalGoal, CPreyRetrievalGoal::Description())
+
+}  // namespace
