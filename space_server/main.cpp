@@ -33,8 +33,8 @@ constexpr auto kProgressPeriod = 100ms;
 constexpr auto kFirstRepeat = 100ms;
 constexpr auto kLastRepeat = 1s;
 constexpr auto kStallTime = 2s;
+constexpr auto kBrokenTime = 5s;  // for the lease of a dead process to end
 constexpr auto kViewPeriod = 33ms;
-constexpr auto kGoodbyeTime = 5s;  // for a process that has drawn the last state to end
 
 struct ServerOptions
 {
@@ -82,10 +82,15 @@ public:
   {
   }
 
+  ~ServerProgram() { session_.Close(); }
+  ServerProgram(const ServerProgram&) = delete;
+  ServerProgram& operator=(const ServerProgram&) = delete;
+
   int Run()
   {
     try
     {
+      session_.Open();
       Gather();
       RunTicks();
       Close();
@@ -93,7 +98,10 @@ public:
     catch (const std::exception& error)
     {
       session_.SayBye(lockstep_.Tick(), error.what());
-      throw;
+      fmt::print(stderr, "space_server: {}\n", error.what());
+      status_.Say(fmt::format("error {}", error.what()));
+      session_.LeaveDirectory();
+      EndAtOnce(Interrupted() ? kExitInterrupted : kExitProcessFailed);
     }
     if (Interrupted()) return kExitInterrupted;
     return server_.HasFailed() ? kExitExperimentFailed : kExitDone;
@@ -134,6 +142,10 @@ private:
   {
     if (const auto failure = session_.Failure()) throw BusError(*failure);
     if (const auto failure = lockstep_.Failure()) throw BusError(*failure);
+    if (!BusIsBroken()) return;
+    if (!broken_since_) broken_since_ = Clock::now();
+    if (Clock::now() - *broken_since_ > kBrokenTime)
+      throw BusError("a process died while it held shared memory of the run");
   }
 
   void Say(const std::string& text) const
@@ -258,7 +270,10 @@ private:
       if (const std::string further = session_.Status(name, tick); !further.empty() && !further.starts_with(kWaits))
         name += fmt::format(" ({})", further);
     }
-    return Joined(names);
+    std::vector<std::string> once;
+    for (std::string& name : names)
+      if (std::find(once.begin(), once.end(), name) == once.end()) once.push_back(std::move(name));
+    return Joined(once);
   }
 
   Clock::time_point NextView() const { return views_.Readers() > 0 ? shown_ + view_period_ : Clock::time_point::max(); }
@@ -351,6 +366,7 @@ private:
   std::uint64_t progress_tick_ = 0;
   Clock::time_point progress_said_ = Clock::now();
   double real_time_factor_ = 0;
+  std::optional<Clock::time_point> broken_since_;
   ViewMessage view_;
   bool view_wanted_ = true;
   unsigned view_readers_ = 0;

@@ -23,6 +23,11 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+// True once a process died while it held a lock in shared memory: threads of the bus wait for it and cannot be ended.
+bool BusIsBroken();
+// Ends the program without waiting for threads of the bus. A failed run ends so: somebody may have died as above.
+[[noreturn]] void EndAtOnce(int code);
+
 inline constexpr int kDefaultDomain = 77;
 
 struct BusOptions

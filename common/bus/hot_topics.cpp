@@ -50,7 +50,18 @@ template <class Message>
 void HotPublisher<Message>::Write(const MessageHeader& header, const Message& message)
 {
   HotWrite<Message> call{&header, &message};
-  if (!impl_->writer->write(&call))
+  bool written = false;
+  try
+  {
+    written = impl_->writer->write(&call);
+  }
+  catch (const std::exception&)
+  {
+    // A reader died while it held its lock. Its lease will say who it was.
+    MarkBroken();
+    return;
+  }
+  if (!written)
     throw BusError(std::string("cannot send ") + kTopicOf<Message> + " of tick " + std::to_string(header.tick) +
                    ": the message is too large or the bus is full");
 }

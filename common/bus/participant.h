@@ -25,6 +25,8 @@ namespace swarmanoid
 namespace dds = eprosima::fastdds::dds;
 using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
 
+void MarkBroken();
+
 struct Bus::Impl : dds::DomainParticipantListener
 {
   Impl(const BusOptions& options, const std::string& name);

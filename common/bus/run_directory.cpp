@@ -123,15 +123,18 @@ RunDirectory::RunDirectory(const std::string& experiment, std::uint64_t run)
   if (lock_ < 0) throw BusError("'" + marker_ + "' is locked by another process");
 }
 
-RunDirectory::~RunDirectory()
+void RunDirectory::Leave()
 {
+  if (lock_ < 0) return;
   try
   {
     const FolderLock lock;
     unlink(marker_.c_str());
     close(lock_);
+    lock_ = -1;
     std::error_code error;
-    if (!HasLiveProcess(path_)) fs::remove_all(path_, error);
+    // Processes that still run have what they need mapped.
+    if (server_ || !HasLiveProcess(path_)) fs::remove_all(path_, error);
     RemoveSharedFolderIfEmpty();
   }
   catch (const BusError&)
@@ -149,6 +152,7 @@ void RunDirectory::Announce(const std::string& experiment, int domain)
   }
   std::error_code error;
   fs::rename(part, path_ + "/" + kServerFile, error);
+  server_ = true;
   if (error) throw BusError("cannot write '" + path_ + "/" + kServerFile + "': " + error.message());
 }
 

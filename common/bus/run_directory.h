@@ -24,8 +24,9 @@ class RunDirectory
 public:
   // Joins the run, creating its folder where needed. Throws BusError.
   RunDirectory(const std::string& experiment, std::uint64_t run);
-  // Leaves the run; the last process of it on this machine removes the folder.
-  ~RunDirectory();
+  // Leaves the run; the server, or else the last process of it on this machine, removes the folder.
+  ~RunDirectory() { Leave(); }
+  void Leave();
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;
 
@@ -37,6 +38,7 @@ private:
   std::string path_;
   std::string marker_;
   int lock_ = -1;
+  bool server_ = false;
 };
 
 // An experiment whose space server runs on this machine.

@@ -43,6 +43,11 @@ ServerSession::ServerSession(const BusOptions& options, WorldMessage world, std:
   bye_ = std::make_unique<Publisher<ByeMessage>>(bus_, partition);
   replies_ = std::make_unique<Publisher<ControlReplyMessage>>(bus_, partition);
   worlds_ = std::make_unique<Publisher<WorldMessage>>(bus_, partition);
+}
+
+void ServerSession::Open()
+{
+  const std::string& partition = world_.experiment;
   bus_.OnProcessGone([this](const std::string& gone, const std::string&, bool died) { Gone(gone, died); });
   hellos_ =
       std::make_unique<Subscription<HelloMessage>>(bus_, partition, [this](const HelloMessage& hello) { Met(hello); });
@@ -61,7 +66,16 @@ ServerSession::ServerSession(const BusOptions& options, WorldMessage world, std:
   worlds_->Write(world_);
 }
 
-ServerSession::~ServerSession() { bus_.OnProcessGone(nullptr); }
+void ServerSession::Close()
+{
+  bus_.OnProcessGone(nullptr);
+  requests_.reset();
+  statuses_.reset();
+  byes_.reset();
+  hellos_.reset();
+}
+
+ServerSession::~ServerSession() { Close(); }
 
 HotScope ServerSession::Scope(std::size_t capacity, unsigned writers) const
 {
@@ -134,6 +148,10 @@ std::vector<std::string> ServerSession::Missing() const
 {
   const std::lock_guard lock(mutex_);
   std::vector<std::string> missing;
+  for (const std::string& name : expected_)
+    if (members_.at(name).process.empty()) missing.push_back(name);
+  if (!missing.empty()) return missing;
+  // All have come; some still meet each other.
   for (const std::string& name : expected_)
     if (!members_.at(name).ready) missing.push_back(name);
   return missing;

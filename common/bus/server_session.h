@@ -30,6 +30,10 @@ public:
   // the domain already.
   ServerSession(const BusOptions& options, WorldMessage world, std::vector<std::string> expected, Callbacks callbacks);
   ~ServerSession();
+  // Lets others find the run; the callbacks may be called from now on.
+  void Open();
+  // No callback is called any more.
+  void Close();
 
   Bus& GetBus() { return bus_; }
   const WorldMessage& World() const { return world_; }
@@ -45,6 +49,7 @@ public:
   bool AllSaidBye() const;
 
   void Reply(const ControlRequestMessage& request, bool ok, std::uint64_t tick, const std::string& text);
+  void LeaveDirectory() { directory_.Leave(); }
   // Tells all that the run is over, and why.
   void SayBye(std::uint64_t tick, const std::string& error);
 

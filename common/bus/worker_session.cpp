@@ -15,6 +15,7 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kPatience = 1s;      // before what is waited for is said
+constexpr auto kBrokenTime = 5s;    // for the lease of a dead process to end
 constexpr double kByeTime_s = 1.0;  // for the last message to arrive
 
 }  // namespace
@@ -90,6 +91,10 @@ void WorkerSession::CheckOthers()
   if (others_error_) throw BusError(*others_error_);
   if (server_gone_) throw BusError(fmt::format("the space server has gone (process {})", server_process_));
   if (server_said_bye_) throw BusError("the run has ended");
+  if (!BusIsBroken()) return;
+  if (!broken_since_) broken_since_ = Clock::now();
+  if (Clock::now() - *broken_since_ > kBrokenTime)
+    throw BusError("a process died while it held shared memory of the run");
 }
 
 void WorkerSession::Say(const std::string& text) const { fmt::print(stderr, "{}: {}\n", name_, text); }
@@ -145,6 +150,22 @@ void WorkerSession::SetTick(std::uint64_t tick)
 
 void WorkerSession::Wait(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle)
 {
+  try
+  {
+    WaitUntilDone(period, idle);
+  }
+  catch (const std::exception& error)
+  {
+    Say(error.what());
+    SayError(error.what());
+    directory_->Leave();
+    EndAtOnce(Interrupted() ? kExitInterrupted : kExitProcessFailed);
+  }
+}
+
+void WorkerSession::WaitUntilDone(std::chrono::milliseconds period,
+                                  const std::function<std::optional<std::string>()>& idle)
+{
   while (true)
   {
     if (const std::optional<std::string> text = idle(); text && *text != last_status_)
@@ -166,6 +187,16 @@ void WorkerSession::Wait(std::chrono::milliseconds period, const std::function<s
   }
 }
 
+void WorkerSession::SayError(const std::string& error)
+{
+  {
+    const std::lock_guard lock(mutex_);
+    if (server_gone_ || server_said_bye_) return;
+  }
+  bye_->Write({world_.run, tick_, name_, "", error});
+  bye_->WaitUntilRead(kByeTime_s);
+}
+
 int WorkerSession::Work(const std::function<void()>& work)
 {
   try
@@ -174,16 +205,7 @@ int WorkerSession::Work(const std::function<void()>& work)
   }
   catch (const std::exception& error)
   {
-    bool told = false;
-    {
-      const std::lock_guard lock(mutex_);
-      told = server_gone_ || server_said_bye_;
-    }
-    if (!told)
-    {
-      bye_->Write({world_.run, tick_, name_, "", error.what()});
-      bye_->WaitUntilRead(kByeTime_s);
-    }
+    SayError(error.what());
     throw;
   }
   bye_->Write({world_.run, tick_, name_, "", ""});

@@ -40,7 +40,7 @@ public:
   int Work(const std::function<void()>& work);
 
   // Within the work, until the run ends. `idle` is called when notified and at least every `period`; it may return what
-  // this process waits for or is busy with since too long, which is told to the server. Throws BusError where this or
+  // this process waits for or is busy with since too long, which is told to the server. Ends the program where this or
   // another process failed.
   void Wait(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
   // From any thread: the work is done, or failed, or `idle` is to be called.
@@ -52,6 +52,8 @@ public:
 
 private:
   void CheckOthers();
+  void WaitUntilDone(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
+  void SayError(const std::string& error);
   void Say(const std::string& text) const;
 
   std::string name_;
@@ -64,6 +66,7 @@ private:
   std::uint64_t tick_ = 0;
   std::optional<std::string> own_error_;
   std::optional<std::string> others_error_;
+  std::optional<std::chrono::steady_clock::time_point> broken_since_;
   bool server_gone_ = false;
   bool server_said_bye_ = false;
   std::string server_process_;

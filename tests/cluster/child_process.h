@@ -1,0 +1,36 @@
+// A program started by a test, with its output in a file; killed at the latest when the object ends.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+namespace swarmanoid
+{
+
+class ChildProcess
+{
+public:
+  ChildProcess(const std::vector<std::string>& command, const std::string& output_file);
+  ~ChildProcess();
+  ChildProcess(ChildProcess&& other) noexcept;
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  // The exit code; -1 where the process still runs after that time, 128 + signal where a signal ended it.
+  int Wait(double seconds);
+  void Signal(int signal) const;
+  bool Running() { return Wait(0) < 0; }
+  pid_t Id() const { return id_; }
+  // What it wrote so far, standard output and error together.
+  std::string Output() const;
+  bool WaitForOutput(const std::string& text, double seconds) const;
+
+private:
+  pid_t id_ = -1;
+  int exit_code_ = -1;
+  std::string output_file_;
+};
+
+}  // namespace swarmanoid

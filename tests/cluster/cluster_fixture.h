@@ -1,0 +1,45 @@
+// A folder, a DDS domain and a world for each test of real clusters.
+#pragma once
+
+#include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
+
+#include "common/bus/domain.h"
+#include "tests/cluster/child_process.h"
+
+namespace swarmanoid
+{
+
+class ClusterTest : public testing::Test
+{
+protected:
+  ClusterTest();
+  ~ClusterTest() override;
+
+  // An experiment with 12 diffusing footbots in a walled arena, shared by 1 to 3 engines (e0 …). `visualisation`: an
+  // element of <visualisations>. Returns its file, <name>.xml.
+  std::string WriteExperiment(const std::string& name, int engines, int ticks, const std::string& visualisation = "");
+
+  ChildProcess StartServer(const std::string& file, const std::vector<std::string>& options = {});
+  ChildProcess StartEngine(const std::string& experiment, int engine);
+  ChildProcess StartHost(const std::string& experiment, int host);
+  // All engines and hosts.
+  std::vector<ChildProcess> StartWorkers(const std::string& experiment, int engines, int hosts);
+  ChildProcess Start(const std::string& program, const std::vector<std::string>& options);
+
+  std::string DomainText() const { return std::to_string(domain_.Id()); }
+  std::string Read(const std::string& file) const;
+  // One hash a line, of the experiment run in one process.
+  std::string HashesOfSingleProcess(const std::string& file);
+  // No process has left anything in shared memory.
+  void ExpectNothingLeft() const;
+
+  std::string folder_;
+  std::string shared_folder_;
+  FreeDomain domain_;
+  int started_ = 0;
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,145 @@
+// What users ask of a running experiment.
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "common/bus/control_client.h"
+#include "tests/cluster/cluster_fixture.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+class ControlTest : public ClusterTest
+{
+protected:
+  // A run without end, paused at tick 0 or running, with a client that asks.
+  void Begin(const std::vector<std::string>& options)
+  {
+    const std::string file = WriteExperiment("controlled", 1, 0);
+    std::vector<std::string> all = options;
+    all.insert(all.end(), {"--hash-log", folder_ + "/hashes.txt"});
+    server_.emplace(StartServer(file, all));
+    workers_ = StartWorkers("controlled", 1, 1);
+    BusOptions bus;
+    bus.domain = domain_.Id();
+    bus_.emplace(bus, "test");
+    client_.emplace(*bus_, "controlled");
+  }
+
+  ControlReplyMessage Ask(const std::string& verb, const std::vector<double>& numbers = {},
+                          const std::string& entity = "")
+  {
+    const auto reply = client_->Ask(verb, entity, numbers, 20);
+    EXPECT_TRUE(reply.has_value()) << verb << "\n" << server_->Output();
+    return reply.value_or(ControlReplyMessage{});
+  }
+
+  void ExpectEnd()
+  {
+    EXPECT_TRUE(Ask("stop").ok);
+    EXPECT_EQ(server_->Wait(20), 0) << server_->Output();
+    for (ChildProcess& worker : workers_) EXPECT_EQ(worker.Wait(5), 0) << worker.Output();
+    ExpectNothingLeft();
+  }
+
+  std::optional<ChildProcess> server_;
+  std::vector<ChildProcess> workers_;
+  std::optional<Bus> bus_;
+  std::optional<ControlClient> client_;
+};
+
+TEST_F(ControlTest, StepsPausesAndResumes)
+{
+  Begin({"--paused"});
+  const ControlReplyMessage step = Ask("step", {7});
+  EXPECT_TRUE(step.ok) << step.text;
+  EXPECT_EQ(step.tick, 7U);
+  EXPECT_EQ(Ask("step").tick, 8U);
+  EXPECT_TRUE(Ask("resume").ok);
+  std::this_thread::sleep_for(200ms);
+  const ControlReplyMessage pause = Ask("pause");
+  EXPECT_GT(pause.tick, 8U);
+  EXPECT_EQ(Ask("pause").tick, pause.tick);
+  ExpectEnd();
+}
+
+TEST_F(ControlTest, KeepsTheAskedPace)
+{
+  Begin({"--paused", "--real-time", "2"});
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(Ask("step", {20}).tick, 20U);
+  // 19 or 20 intervals of 100 ms at twice real time.
+  EXPECT_GT(std::chrono::steady_clock::now() - start, 900ms);
+  EXPECT_TRUE(Ask("speed", {0}).ok);
+  EXPECT_EQ(Ask("step", {20}).tick, 40U);
+  EXPECT_FALSE(Ask("speed", {-1}).ok);
+  ExpectEnd();
+}
+
+TEST_F(ControlTest, MovesARobotAndRefusesImpossibleRequestsWithAReason)
+{
+  Begin({"--paused"});
+  EXPECT_TRUE(Ask("move", {1.5, 1.25, 0, 0, 0, 90}, "robots0_3").ok);
+  EXPECT_THAT(Ask("move", {1, 1, 0}, "nobody").text, HasSubstr("no entity 'nobody'"));
+  EXPECT_THAT(Ask("move", {1, 1, 0}, "wall_0").text, HasSubstr("'wall_0' cannot move"));
+  EXPECT_THAT(Ask("move", {1, 5, 0}, "robots0_3").text, HasSubstr("outside the arena"));
+  EXPECT_THAT(Ask("move", {1, 1}, "robots0_3").text, HasSubstr("X,Y,Z"));
+  EXPECT_THAT(Ask("step", {0.5}).text, HasSubstr("whole number"));
+  EXPECT_THAT(Ask("jump").text, HasSubstr("pause, resume, step"));
+
+  ChildProcess text = Start("visualiser", {"--attach", "text", "file=moved.txt", "--output", folder_});
+  Ask("step", {1});
+  std::this_thread::sleep_for(1500ms);
+  ExpectEnd();
+  EXPECT_EQ(text.Wait(5), 0) << text.Output();
+  // It moved on from where it was put, along the heading it was given.
+  EXPECT_THAT(Read("moved.txt"), testing::ContainsRegex("Footbot\trobots0_3\t1\\.5\t1\\.26\t"));
+}
+
+TEST_F(ControlTest, ALateVisualiserSeesAPausedWorldAtOnce)
+{
+  Begin({"--paused"});
+  Ask("step", {5});
+  ChildProcess text = Start("visualiser", {"--attach", "text", "--experiment", "controlled"});
+  EXPECT_TRUE(text.WaitForOutput("robots0_11", 5)) << text.Output();
+  EXPECT_THAT(text.Output(), HasSubstr("5\tFootbot\trobots0_11"));
+  ExpectEnd();
+  EXPECT_EQ(text.Wait(5), 0) << text.Output();
+}
+
+TEST_F(ControlTest, AStoppedOrKilledVisualiserDoesNotSlowTheRun)
+{
+  Begin({"--paused"});
+  ChildProcess stopped = Start("visualiser", {"--attach", "text", "file=stopped.txt", "--output", folder_});
+  ChildProcess killed = Start("visualiser", {"--attach", "text", "file=killed.txt", "--output", folder_});
+  Ask("step", {5});
+  std::this_thread::sleep_for(1s);
+  stopped.Signal(SIGSTOP);
+  killed.Signal(SIGKILL);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(Ask("step", {3000}).tick, 3005U);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 10s);
+  ExpectEnd();
+}
+
+TEST_F(ControlTest, AnInterruptStopsAtTheEndOfATickAndKeepsTheOutput)
+{
+  Begin({"--real-time", "10"});
+  ASSERT_TRUE(server_->WaitForOutput("running", 20)) << server_->Output();
+  std::this_thread::sleep_for(200ms);
+  server_->Signal(SIGINT);
+  EXPECT_EQ(server_->Wait(5), 130) << server_->Output();
+  EXPECT_THAT(server_->Output(), HasSubstr("finished: "));
+  for (ChildProcess& worker : workers_) EXPECT_EQ(worker.Wait(5), 0) << worker.Output();
+  ExpectNothingLeft();
+}
+
+}  // namespace
+}  // namespace swarmanoid

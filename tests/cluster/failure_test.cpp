@@ -1,0 +1,138 @@
+// Processes that die, hang, are of another version or are asked for what is not there.
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "common/bus/bus.h"
+#include "tests/cluster/cluster_fixture.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+using testing::AllOf;
+using testing::HasSubstr;
+
+TEST_F(ClusterTest, AKilledWorkerEndsTheRunWithinTheLeaseAndIsNamed)
+{
+  ChildProcess server = StartServer(WriteExperiment("deadly", 2, 0));
+  std::vector<ChildProcess> workers = StartWorkers("deadly", 2, 1);
+  ASSERT_TRUE(server.WaitForOutput("running", 20)) << server.Output();
+  std::this_thread::sleep_for(300ms);
+  const auto killed = std::chrono::steady_clock::now();
+  workers[1].Signal(SIGKILL);
+  EXPECT_EQ(server.Wait(10), 4);
+  EXPECT_LT(std::chrono::steady_clock::now() - killed, 3s);
+  EXPECT_THAT(server.Output(), HasSubstr(fmt::format("engine 'e1' does not answer any more (process {}:{}",
+                                                     MachineName(), workers[1].Id())));
+  EXPECT_EQ(workers[0].Wait(5), 4);
+  EXPECT_EQ(workers[2].Wait(5), 4);
+  ExpectNothingLeft();
+}
+
+TEST_F(ClusterTest, WorkersEndWhenTheServerIsKilled)
+{
+  std::vector<ChildProcess> workers = StartWorkers("orphaned", 1, 1);
+  {
+    ChildProcess server = StartServer(WriteExperiment("orphaned", 1, 0));
+    ASSERT_TRUE(server.WaitForOutput("running", 20)) << server.Output();
+    server.Signal(SIGKILL);
+    server.Wait(5);
+  }
+  for (ChildProcess& worker : workers)
+  {
+    EXPECT_EQ(worker.Wait(5), 4);
+    EXPECT_THAT(worker.Output(), HasSubstr("the space server has gone"));
+  }
+  ExpectNothingLeft();
+}
+
+TEST_F(ClusterTest, TheServerSaysWhomItWaitsForAndWorkersTooInAnyOrder)
+{
+  ChildProcess engine = StartEngine("patient", 0);
+  EXPECT_TRUE(engine.WaitForOutput("waiting for the space server of 'patient' in domain " + DomainText(), 10));
+  ChildProcess server = StartServer(WriteExperiment("patient", 1, 20), {"--controller-hosts", "2"});
+  EXPECT_TRUE(server.WaitForOutput("waiting for controller host 0, controller host 1 ", 10)) << server.Output();
+  ChildProcess first = StartHost("patient", 0);
+  EXPECT_TRUE(engine.WaitForOutput("waiting for 1 of 2 controller hosts", 10)) << engine.Output();
+  ChildProcess second = StartHost("patient", 1);
+  EXPECT_EQ(server.Wait(20), 0) << server.Output();
+}
+
+TEST_F(ClusterTest, AStoppedWorkerIsNamedAfterTwoSecondsAndTheRunGoesOnWhenItDoes)
+{
+  ChildProcess server = StartServer(WriteExperiment("stalled", 1, 300), {"--real-time", "20", "--lease", "30"});
+  ChildProcess engine = Start("engine_worker", {"--experiment", "stalled", "--engine", "e0", "--lease", "30"});
+  ChildProcess host = Start("controller_host", {"--experiment", "stalled", "--lease", "30"});
+  ASSERT_TRUE(server.WaitForOutput("running", 20)) << server.Output();
+  host.Signal(SIGSTOP);
+  EXPECT_TRUE(server.WaitForOutput("waiting for controller host 0 since 2 s", 10)) << server.Output();
+  host.Signal(SIGCONT);
+  EXPECT_EQ(server.Wait(20), 0) << server.Output();
+}
+
+TEST_F(ClusterTest, AWorkerOfAnotherProtocolIsRefusedByName)
+{
+  ChildProcess server = StartServer(WriteExperiment("strict", 1, 10));
+  BusOptions options;
+  options.domain = domain_.Id();
+  Bus bus(options, "engine 'e0'");
+  std::mutex mutex;
+  std::uint64_t run = 0;
+  std::string refusal;
+  Publisher<HelloMessage> hellos(bus, "strict");
+  Subscription<ByeMessage> byes(bus, "strict",
+                                [&](const ByeMessage& bye)
+                                {
+                                  const std::lock_guard lock(mutex);
+                                  if (bye.to == ProcessId()) refusal = bye.error;
+                                });
+  Subscription<WorldMessage> worlds(bus, "strict",
+                                    [&](const WorldMessage& world)
+                                    {
+                                      const std::lock_guard lock(mutex);
+                                      run = world.run;
+                                    });
+  for (int k = 0; k < 1000 && refusal.empty(); ++k)
+  {
+    std::this_thread::sleep_for(10ms);
+    const std::lock_guard lock(mutex);
+    if (run != 0 && k % 50 == 0) hellos.Write({ProcessId(), kProtocolVersion + 1, run, "engine 'e0'", false});
+  }
+  const std::lock_guard lock(mutex);
+  EXPECT_THAT(refusal, AllOf(HasSubstr("engine 'e0'"), HasSubstr(fmt::format("version {}", kProtocolVersion + 1)),
+                             HasSubstr(fmt::format("version {}", kProtocolVersion))));
+  EXPECT_THAT(server.Output(), HasSubstr("refused: engine 'e0'"));
+}
+
+TEST_F(ClusterTest, AWorkerRefusesAServerOfAnotherProtocol)
+{
+  BusOptions options;
+  options.domain = domain_.Id();
+  Bus bus(options, "space server");
+  Publisher<WorldMessage> worlds(bus, "future");
+  WorldMessage world;
+  world.protocol = 99;
+  world.run = 1;
+  world.experiment = "future";
+  worlds.Write(world);
+  ChildProcess engine = StartEngine("future", 0);
+  EXPECT_EQ(engine.Wait(10), 4);
+  EXPECT_THAT(engine.Output(), AllOf(HasSubstr("'future'"), HasSubstr("protocol version 99"),
+                                     HasSubstr(fmt::format("this program version {}", kProtocolVersion))));
+}
+
+TEST_F(ClusterTest, AnEngineThatTheExperimentLacksEndsTheRunWithTheKnownOnes)
+{
+  ChildProcess server = StartServer(WriteExperiment("lacking", 2, 10));
+  ChildProcess engine = StartEngine("lacking", 5);
+  EXPECT_EQ(engine.Wait(20), 3);
+  EXPECT_THAT(engine.Output(), HasSubstr("has no engine 'e5'; it has 'e0', 'e1'"));
+}
+
+}  // namespace
+}  // namespace swarmanoid
