@@ -72,6 +72,9 @@ class LauncherTest(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="swarmanoid_test_"))
         self.runs = []
         self.mounts = []
+        # Shared memory of its own: other runs on the machine come and go.
+        self.shared = pathlib.Path(f"/dev/shm/swarmanoid-test-{os.getpid()}-{time.monotonic_ns()}")
+        os.environ["SWARMANOID_SHARED_FOLDER"] = str(self.shared)
         self.memory_before = self.memory()
 
     def tearDown(self):
@@ -82,15 +85,12 @@ class LauncherTest(unittest.TestCase):
         for place in self.mounts:
             subprocess.run(["umount", "-l", place], check=False)
         shutil.rmtree(self.folder, ignore_errors=True)
+        shutil.rmtree(self.shared, ignore_errors=True)
 
-    @staticmethod
-    def memory():
-        """What runs hold in shared memory."""
-        found = set()
-        for path in pathlib.Path("/dev/shm").rglob("*"):
-            if path.is_file() and not path.name.startswith("."):
-                found.add(str(path))
-        return found
+    def memory(self):
+        """What the runs of this test hold in shared memory, and what any run has outside its folder."""
+        outside = {str(path) for path in pathlib.Path("/dev/shm").iterdir() if not path.name.startswith("swarmanoid")}
+        return outside | {str(path) for path in self.shared.rglob("*")}
 
     def start(self, *arguments, environment=None):
         run = Run(self.folder, [str(a) for a in arguments], environment)
