@@ -13,8 +13,10 @@ fi
 mkdir -p "$1/controllers"
 cp -r "$user/templates/user_directory/." "$1/"
 cp -r "$user/controllers/sample_footbot_controller" "$1/controllers/"
+program=$user/../build/bin/swarmanoid
+if [ -x "$program" ]; then program=$(realpath "$program"); else program=swarmanoid; fi
 cat >&2 <<EOF
 Made $1. Next:
   $1/build.sh
-  swarmanoid run $1/experiments/sample_footbot.xml
+  $program run $1/experiments/sample_footbot.xml
 EOF
