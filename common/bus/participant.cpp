@@ -6,6 +6,7 @@
 
 #include <arpa/inet.h>
 #include <ifaddrs.h>
+#include <net/if.h>
 #include <netdb.h>
 #include <unistd.h>
 
@@ -63,11 +64,17 @@ std::vector<std::string> InterfaceAddresses(const std::string& wanted)
     char text[INET_ADDRSTRLEN] = {};
     inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(entry->ifa_addr)->sin_addr, text, sizeof(text));
     known += fmt::format(", {} ({})", entry->ifa_name, text);
-    if (wanted == entry->ifa_name || wanted == text) addresses.emplace_back(text);
+    if (wanted != entry->ifa_name && wanted != text) continue;
+    // A participant on it would hear nobody, for ever.
+    if ((entry->ifa_flags & IFF_RUNNING) == 0)
+    {
+      freeifaddrs(list);
+      throw BusError(fmt::format("network interface '{}' is not connected", wanted));
+    }
+    addresses.emplace_back(text);
   }
   freeifaddrs(list);
   if (addresses.empty()) throw BusError(fmt::format("no network interface '{}'; there are {}", wanted, known));
-  addresses.emplace_back("127.0.0.1");
   return addresses;
 }
 
@@ -184,7 +191,9 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name)
     UseDiscoveryServer(options, builtin, qos.wire_protocol().prefix);
   else if (!options.peers.empty())
   {
-    builtin.initialPeersList.push_back(LocatorOf("127.0.0.1", 0));
+    // Those on this machine are peers too.
+    for (const std::string& own : udp->interfaceWhiteList) builtin.initialPeersList.push_back(LocatorOf(own, 0));
+    if (udp->interfaceWhiteList.empty()) builtin.initialPeersList.push_back(LocatorOf("127.0.0.1", 0));
     for (const std::string& peer : options.peers) builtin.initialPeersList.push_back(LocatorOf(peer, 0));
   }
 
