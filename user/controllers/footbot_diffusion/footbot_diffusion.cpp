@@ -23,16 +23,19 @@ int CFootBotDiffusion::Init(const TConfigurationTree t_tree)
 
 void CFootBotDiffusion::ControlStep()
 {
-  double x = 0;
-  double y = 0;
+  // Four partial sums side by side, so that the compiler can add four readings at a time.
+  constexpr unsigned kLanes = 4;
+  std::array<double, kLanes> xs{};
+  std::array<double, kLanes> ys{};
   const auto readings = proximity_->GetAllSensorReadings();
-  for (unsigned i = 0; i < CCI_FootBotProximitySensor::NUM_SENSORS; ++i)
-  {
-    x += readings[i] * cosines_[i];
-    y += readings[i] * sines_[i];
-  }
-  x /= CCI_FootBotProximitySensor::NUM_SENSORS;
-  y /= CCI_FootBotProximitySensor::NUM_SENSORS;
+  for (unsigned i = 0; i < CCI_FootBotProximitySensor::NUM_SENSORS; i += kLanes)
+    for (unsigned lane = 0; lane < kLanes; ++lane)
+    {
+      xs[lane] += readings[i + lane] * cosines_[i + lane];
+      ys[lane] += readings[i + lane] * sines_[i + lane];
+    }
+  const double x = ((xs[0] + xs[1]) + (xs[2] + xs[3])) / CCI_FootBotProximitySensor::NUM_SENSORS;
+  const double y = ((ys[0] + ys[1]) + (ys[2] + ys[3])) / CCI_FootBotProximitySensor::NUM_SENSORS;
 
   const bool far_away = x * x + y * y <= delta_ * delta_;
   const bool beside = y > x * tan_alpha_ || y < -x * tan_alpha_;
