@@ -1,14 +1,24 @@
 #include "common/bus/control_client.h"
 
 #include <chrono>
+#include <random>
 
 namespace swarmanoid
 {
 
 using namespace std::chrono_literals;
 
+namespace
+{
+
+constexpr auto kRepeat = 250ms;
+
+}  // namespace
+
+// Process ids come again: requests of another process of our number must not be taken for repetitions of ours.
 ControlClient::ControlClient(Bus& bus, const std::string& experiment)
-    : requests_(bus, experiment),
+    : number_(std::random_device()()),
+      requests_(bus, experiment),
       replies_(bus, experiment,
                [this](const ControlReplyMessage& reply)
                {
@@ -28,22 +38,20 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, c
   while (requests_.Readers() == 0 || replies_.Writers() == 0)
     if (answered_.wait_for(lock, 2ms), std::chrono::steady_clock::now() > deadline) return std::nullopt;
   reply_.reset();
-  Send(verb, entity, numbers);
-  answered_.wait_until(lock, deadline, [this] { return reply_.has_value(); });
+  const ControlRequestMessage request{ProcessId(), ++number_, verb, entity, numbers};
+  // We may know the server before it knows us: then its answer finds nobody, and the same request is answered again.
+  while (!reply_ && std::chrono::steady_clock::now() < deadline)
+  {
+    requests_.Write(request);
+    answered_.wait_for(lock, kRepeat, [this] { return reply_.has_value(); });
+  }
   return reply_;
 }
 
 void ControlClient::Tell(const std::string& verb, const std::string& entity, const std::vector<double>& numbers)
 {
   const std::lock_guard lock(mutex_);
-  Send(verb, entity, numbers);
-}
-
-std::uint32_t ControlClient::Send(const std::string& verb, const std::string& entity,
-                                  const std::vector<double>& numbers)
-{
   requests_.Write({ProcessId(), ++number_, verb, entity, numbers});
-  return number_;
 }
 
 }  // namespace swarmanoid

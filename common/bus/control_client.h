@@ -27,11 +27,9 @@ public:
   void Tell(const std::string& verb, const std::string& entity, const std::vector<double>& numbers);
 
 private:
-  std::uint32_t Send(const std::string& verb, const std::string& entity, const std::vector<double>& numbers);
-
   std::mutex mutex_;
   std::condition_variable answered_;
-  std::uint32_t number_ = 0;
+  std::uint32_t number_;  // of the last request
   std::optional<ControlReplyMessage> reply_;
   Publisher<ControlRequestMessage> requests_;
   Subscription<ControlReplyMessage> replies_;

@@ -62,7 +62,7 @@ void ServerSession::Open()
                                                                 member->second.status = status;
                                                             });
   requests_ = std::make_unique<Subscription<ControlRequestMessage>>(
-      bus_, partition, [this](const ControlRequestMessage& request) { callbacks_.asked(request); });
+      bus_, partition, [this](const ControlRequestMessage& request) { Asked(request); });
   worlds_->Write(world_);
 }
 
@@ -178,9 +178,38 @@ bool ServerSession::AllSaidBye() const
   return true;
 }
 
+// Askers repeat what is not answered in time: it is done once, and answered each time.
+void ServerSession::Asked(const ControlRequestMessage& request)
+{
+  std::unique_lock lock(mutex_);
+  if (Request* known = FindRequest(request))
+  {
+    const std::optional<ControlReplyMessage> reply = known->reply;
+    lock.unlock();
+    if (reply) replies_->Write(*reply);
+    return;
+  }
+  requests_seen_.push_back({request.client, request.number, std::nullopt});
+  if (requests_seen_.size() > kRequestsKept) requests_seen_.pop_front();
+  lock.unlock();
+  callbacks_.asked(request);
+}
+
+ServerSession::Request* ServerSession::FindRequest(const ControlRequestMessage& request)
+{
+  const auto same = [&](const Request& r) { return r.client == request.client && r.number == request.number; };
+  const auto found = std::find_if(requests_seen_.begin(), requests_seen_.end(), same);
+  return found == requests_seen_.end() ? nullptr : &*found;
+}
+
 void ServerSession::Reply(const ControlRequestMessage& request, bool ok, std::uint64_t tick, const std::string& text)
 {
-  replies_->Write({request.client, request.number, ok, tick, text});
+  const ControlReplyMessage reply{request.client, request.number, ok, tick, text};
+  {
+    const std::lock_guard lock(mutex_);
+    if (Request* known = FindRequest(request)) known->reply = reply;
+  }
+  replies_->Write(reply);
 }
 
 void ServerSession::SayBye(std::uint64_t tick, const std::string& error)

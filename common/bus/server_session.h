@@ -2,6 +2,7 @@
 // notices when one fails or dies, and hears what users ask for. Its step runs in threads of the bus.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -62,6 +63,17 @@ private:
     StatusMessage status;
   };
 
+  // What users asked for of late, with the answers that they got.
+  struct Request
+  {
+    std::string client;
+    std::uint32_t number = 0;
+    std::optional<ControlReplyMessage> reply;
+  };
+  static constexpr std::size_t kRequestsKept = 256;
+
+  void Asked(const ControlRequestMessage& request);
+  Request* FindRequest(const ControlRequestMessage& request);
   void Met(const HelloMessage& hello);
   void Left(const ByeMessage& bye);
   void Gone(const std::string& process, bool died);
@@ -74,6 +86,7 @@ private:
   mutable std::mutex mutex_;
   std::map<std::string, Member> members_;
   std::optional<std::string> failure_;
+  std::deque<Request> requests_seen_;
   bool over_ = false;
   RunDirectory directory_;
   Bus bus_;
