@@ -102,6 +102,8 @@ void CTextRender::Draw()
   Write();
 }
 
+void CTextRender::Idle() { std::fflush(file_); }
+
 void CTextRender::Finish()
 {
   Write();

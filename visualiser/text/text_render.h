@@ -18,6 +18,8 @@ public:
   ~CTextRender() override;
   void Init(const RenderSetup& setup) override;
   void Draw() override;
+  // What is drawn can be read while the run is paused or slow.
+  void Idle() override;
   void Finish() override;
 
   static PluginDescription Description();
