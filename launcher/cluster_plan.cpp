@@ -20,7 +20,8 @@ namespace
 
 namespace fs = std::filesystem;
 
-// Up to here the wake-ups across cores cost more than the work that they let run side by side (docs/performance.md).
+// Up to here the wake-ups across cores cost more than the work that they let run side by side (10 robots: 51 us a tick
+// on one core, 70 us on two; 1,000 robots: 260 us on either).
 constexpr std::size_t kRobotsForOneCore = 300;
 
 std::string Absolute(const std::string& path) { return fs::absolute(path).lexically_normal(); }

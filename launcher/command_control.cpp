@@ -47,7 +47,7 @@ int Control(ControlOptions& options, bool domain_given)
     fmt::print(stderr, "swarmanoid: {}\n", reply->text);
     return kUsage;
   }
-  fmt::print("{} at tick {}{}{}\n", run.experiment, reply->tick, reply->text.empty() ? "" : ": ", reply->text);
+  fmt::print("{}: {}\n", run.experiment, reply->text.empty() ? fmt::format("tick {}", reply->tick) : reply->text);
   return kDone;
 }
 
@@ -68,7 +68,7 @@ void AddControlCommand(CLI::App& app, int& exit_code)
       "  swarmanoid control pause\n"
       "  swarmanoid control diffusion_10 step 5\n"
       "  swarmanoid control speed 2\n"
-      "  swarmanoid control move fb0 1.5,2,0\n"
+      "  swarmanoid control move fb_0 1.5,2,0\n"
       "  swarmanoid control diffusion_10 stop --domain 7 --interface eth0    one on another machine");
   verb->callback([options, verb, &exit_code]
                  { exit_code = Control(*options, verb->get_option("--domain")->count() > 0); });

@@ -143,7 +143,7 @@ void AddOptions(CLI::App& verb, RunOptions& options)
                   "File that says which process runs on which machine (docs/command.md)");
   verb.add_option("--seed", options.seed, "Seed of all random numbers, instead of the file's");
   verb.add_option("--ticks", options.ticks, "Ticks to run, instead of the file's maxclock; 0: until stopped");
-  verb.add_option("--set", options.settings, "PATH=VALUE: change the experiment, for example arena.fb0.position=1,2,0")
+  verb.add_option("--set", options.settings, "PATH=VALUE: change the experiment, for example arena.fb.position=1,2,0")
       ->expected(1)
       ->take_all();
   verb.add_option("--output", options.output, "Folder of the run, new or empty (default: runs/<experiment>-<time>)");

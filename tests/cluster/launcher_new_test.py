@@ -1,0 +1,48 @@
+"""What `swarmanoid new` makes builds and runs."""
+import os
+import subprocess
+import unittest
+
+from harness import LauncherTest, main
+
+BUILD = os.environ["SWARMANOID_BUILD"]
+
+
+class New(LauncherTest):
+    def test_a_controller_builds_and_runs(self):
+        self.assertEqual(self.run_it("new", "user", "mine").process.returncode, 0)
+        self.folder = self.folder / "mine"
+        made = self.run_it("new", "controller", "wall_follower")
+        self.assertEqual(made.process.returncode, 0, made.stderr)
+        built = subprocess.run(["./build.sh", f"-DCMAKE_PREFIX_PATH={BUILD}", f"-DSwarmanoid_DIR={BUILD}"], cwd=self.folder,
+                               capture_output=True, text=True)
+        self.assertEqual(built.returncode, 0, built.stdout + built.stderr)
+        run = self.run_it("run", "experiments/wall_follower.xml", "--quiet", "--ticks", 100)
+        self.assertEqual(run.process.returncode, 0, run.stderr)
+        cluster = self.assert_finished(run, 100)
+        one = self.run_it("run", "experiments/wall_follower.xml", "--quiet", "--ticks", 100, "--single-process")
+        self.assertEqual(self.assert_finished(one, 100), cluster)
+        again = self.run_it("new", "controller", "wall_follower")
+        self.assertEqual(again.process.returncode, 2)
+        self.assertIn("is there already", again.stderr)
+        self.folder = self.folder.parent
+
+    def test_an_experiment_is_valid_and_runs(self):
+        self.assertEqual(self.run_it("new", "experiment", "first_try").process.returncode, 0)
+        self.assertEqual(self.run_it("check", "first_try.xml").process.returncode, 0)
+        run = self.run_it("run", "first_try.xml", "--quiet", "--output", "out")
+        self.assertEqual(run.process.returncode, 0, run.stderr)
+        self.assert_finished(run, 600)
+        self.assertTrue((self.folder / "out" / "first_try.txt").exists())
+
+    def test_bad_names_and_places_are_told_with_the_cure(self):
+        answer = self.run_it("new", "experiment", "First-Try")
+        self.assertEqual(answer.process.returncode, 2)
+        self.assertIn("small letters", answer.stderr)
+        answer = self.run_it("new", "controller", "follower")
+        self.assertEqual(answer.process.returncode, 2)
+        self.assertIn("swarmanoid new user", answer.stderr)
+
+
+if __name__ == "__main__":
+    main()
