@@ -286,7 +286,8 @@ TEST_F(SupervisorTest, SigtermEndsEvenAStuckRun)
 TEST_F(SupervisorTest, ShowsWhatVisualisersWriteToTheScreen)
 {
   AddServer(std::string("echo a line for the log; sleep 0.2;") + kFinishing);
-  Add("visualiser", "echo one; echo two; echo aside >&2", MemberPlan::kScreen);
+  // It ends after the server, as visualisers do; one that ends before is a failure.
+  Add("visualiser", "echo one; echo two; echo aside >&2; sleep 0.5", MemberPlan::kScreen);
   EXPECT_EQ(Run().kind, ClusterOutcome::kFinished);
   EXPECT_EQ(ScreenText(), "one\ntwo\n");
   EXPECT_EQ(LogText("visualiser"), "aside\n");
