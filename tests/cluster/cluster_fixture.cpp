@@ -12,6 +12,7 @@
 #include "controller_host/controller_host.h"
 #include "engine_worker/engine_worker.h"
 #include "launcher/single_process.h"
+#include "test_folders.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "test_folders.h"
 #include "tests/cluster/cluster_fixture.h"
 
 namespace swarmanoid

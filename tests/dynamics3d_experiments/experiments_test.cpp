@@ -8,6 +8,7 @@
 #include "controller_host/device.h"
 #include "engine_worker/engine_worker.h"
 #include "space_server/space_server.h"
+#include "test_folders.h"
 
 namespace swarmanoid
 {

@@ -11,6 +11,7 @@
 #include "controller_host/device.h"
 #include "engine_worker/engine_worker.h"
 #include "launcher/single_process.h"
+#include "test_folders.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid

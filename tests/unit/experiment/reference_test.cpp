@@ -3,6 +3,7 @@
 
 #include "common/configuration/xml_reader.h"
 #include "common/experiment/reference.h"
+#include "test_folders.h"
 #include "tests/unit/experiment/fake_plugins.h"
 
 namespace swarmanoid::test

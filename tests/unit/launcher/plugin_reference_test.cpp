@@ -10,6 +10,7 @@
 #include "common/experiment/reference.h"
 #include "controller_host/device.h"
 #include "engine_worker/engine_worker.h"
+#include "test_folders.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid

@@ -1,0 +1,38 @@
+#include "visualiser/renderer_library.h"
+
+#include <dlfcn.h>
+
+#include <filesystem>
+
+namespace swarmanoid
+{
+namespace
+{
+
+// Where the library lies that this code is part of.
+std::filesystem::path OwnFolder()
+{
+  Dl_info place{};
+  dladdr(reinterpret_cast<const void*>(&OwnFolder), &place);
+  return std::filesystem::path(place.dli_fname).parent_path();
+}
+
+}  // namespace
+
+std::function<std::unique_ptr<CRender>()> RendererFromLibrary(const std::string& name, const std::string& packages)
+{
+  return [name, packages]
+  {
+    const std::string path = (OwnFolder() / ("libswarmanoid_" + name + ".so")).string();
+    if (!std::filesystem::exists(path))
+      throw ConfigurationError(name + " is not part of this build, there is no " + path + "; install the packages " +
+                               packages + " and build again");
+    void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (library == nullptr) throw ConfigurationError(name + " cannot be loaded: " + dlerror());
+    const auto create = reinterpret_cast<CRender* (*)()>(dlsym(library, "CreateSwarmanoidRenderer"));
+    if (create == nullptr) throw ConfigurationError(path + " holds no renderer");
+    return std::unique_ptr<CRender>(create());
+  };
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,26 @@
+// Renderers that need a heavy library (OpenGL, OGRE, a web server) are libraries of their own, loaded when one is made:
+// a process holds only what it shows with, and a build without a renderer's packages still knows its name.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "visualiser/render.h"
+
+namespace swarmanoid
+{
+
+// A factory that loads lib<swarmanoid_NAME>.so from the folder of our own libraries and makes its renderer.
+// `packages`: the Debian packages without which the build leaves it out. The factory throws ConfigurationError, naming
+// them, where the library is missing or cannot be loaded.
+std::function<std::unique_ptr<CRender>()> RendererFromLibrary(const std::string& name, const std::string& packages);
+
+}  // namespace swarmanoid
+
+// EXPORT_RENDERER(CMyRender): once in each such library.
+#define EXPORT_RENDERER(CLASS)                                                                        \
+  extern "C" __attribute__((visibility("default"))) ::swarmanoid::CRender* CreateSwarmanoidRenderer() \
+  {                                                                                                   \
+    return new CLASS;                                                                                 \
+  }
