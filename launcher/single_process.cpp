@@ -68,7 +68,8 @@ RunSummary RunSingleProcess(const Experiment& experiment, const SingleProcessOpt
   std::vector<std::unique_ptr<Visualiser>> visualisers;
   if (options.visualisations)
     for (const RenderConfiguration& render : experiment.visualisations)
-      visualisers.push_back(std::make_unique<Visualiser>(render, space, assignment, options.output_folder, nullptr));
+      visualisers.push_back(
+          std::make_unique<Visualiser>(render, space, assignment, options.output_folder, nullptr, nullptr));
   HashLog hash_log(options.hash_log);
 
   // The messages of a tick; the roles reuse their buffers, so these pointers stay.

@@ -42,6 +42,8 @@ public:
                   angles.beta * kDegrees, angles.gamma * kDegrees});
   }
 
+  void Stop() override { client_.Tell("stop", "", {}); }
+
 private:
   ControlClient client_;
 };
@@ -234,7 +236,7 @@ void RunSynchronous(WorkerSession& session, const std::string& id, const std::st
   const std::size_t number = FindVisualisation(*replica.experiment, id);
   RemoteControl control(session.GetBus(), session.World().experiment);
   Visualiser visualiser(replica.experiment->visualisations[number], *replica.space, replica.assignment, output,
-                        &control);
+                        &control, nullptr);
   SynchronousNode node(session, replica, number, visualiser);
   node.MeetServer();
   session.SayReady();
@@ -251,7 +253,7 @@ void RunAttached(WorkerSession& session, const RenderConfiguration& configuratio
 {
   Replica replica(session.World(), false);
   RemoteControl control(session.GetBus(), session.World().experiment);
-  Visualiser visualiser(configuration, *replica.space, replica.assignment, output, &control);
+  Visualiser visualiser(configuration, *replica.space, replica.assignment, output, &control, nullptr);
   AttachedNode node(session, replica, visualiser);
   session.SayReady();
   session.Wait(kIdlePeriod,

@@ -3,17 +3,21 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
 #include "common/configuration/parameter.h"
 #include "common/plugins/registry.h"
 #include "common/space/assignment.h"
+#include "common/space/robot_status.h"
+#include "common/space/run_status.h"
 #include "common/space/space.h"
 
 namespace swarmanoid
 {
 
-// What a user asks of the experiment through a renderer; sent to the space server's control service.
+// What a user asks of the experiment through a renderer; decided by the space server, or by the runner of a single
+// process, between two ticks. What came of it is among RunMonitor::Notes. For the thread of Draw and Idle.
 class ExperimentControl
 {
 public:
@@ -23,15 +27,34 @@ public:
   virtual void Step(unsigned ticks) = 0;
   virtual void SetSpeed(double real_time_factor) = 0;  // 0: as fast as possible
   virtual void MoveEntity(const std::string& id, const Pose& pose) = 0;
+  virtual void Stop() = 0;  // the run ends at its tick
+};
+
+// What a renderer can know of the run beyond its space. For the thread of Draw and Idle; nothing here waits, and what a
+// renderer never asks for costs nothing. References are valid until the next call of the same function.
+class RunMonitor
+{
+public:
+  virtual ~RunMonitor() = default;
+  // As it is known now; phase kUnknown before anything has been heard.
+  virtual const RunStatus& Status() = 0;
+  // What users asked of the run since this renderer came, oldest first; the last hundred.
+  virtual std::span<const RunNote> Notes() = 0;
+  // The robots (entity indices) whose inside is wanted from now on, instead of those named before. Entities without a
+  // controller are ignored.
+  virtual void Watch(std::span<const std::uint32_t> robots) = 0;
+  // The latest of a watched robot; nullptr while nothing has come.
+  virtual const RobotStatus* Robot(std::uint32_t robot) = 0;
 };
 
 struct RenderSetup
 {
   Parameters parameters;
   const CSwarmanoidSpace& space;
-  const Assignment& assignment;          // who owns what, for display
+  const Assignment& assignment;          // who owns what: OwnerName, HostNameOf
   std::string output_folder;             // relative output paths start here
   ExperimentControl* control = nullptr;  // nullptr where the renderer may only watch
+  RunMonitor* monitor = nullptr;         // nullptr only where a renderer is used outside a run
 };
 
 class CRender
@@ -44,10 +67,14 @@ public:
   virtual void Draw() = 0;
   // True once the user wants the experiment (synchronous) or the watching (attached) to end.
   virtual bool Terminate() { return false; }
-  // Called between ticks of a paused or slow experiment, so that windows stay alive. At most every 10 ms.
+  // Called between ticks of a paused or slow experiment, so that windows stay alive; every 10 to 20 ms, also before the
+  // first Draw. The space may have changed since: entities that were moved while the run is paused.
   virtual void Idle() {}
   // After the last Draw: close files.
   virtual void Finish() {}
+  // A window or a page, through which a user may resume a paused run. Attached, it stays after the end of the run, with
+  // calls of Idle, until it terminates.
+  virtual bool IsInteractive() const { return false; }
 };
 
 template <>

@@ -4,7 +4,8 @@ namespace swarmanoid
 {
 
 Visualiser::Visualiser(const RenderConfiguration& configuration, const CSwarmanoidSpace& space,
-                       const Assignment& assignment, const std::string& output_folder, ExperimentControl* control)
+                       const Assignment& assignment, const std::string& output_folder, ExperimentControl* control,
+                       RunMonitor* monitor)
     : id_(configuration.id)
 {
   const auto* entry = PluginRegistry<CRender>::Instance().Find(configuration.tag);
@@ -12,8 +13,8 @@ Visualiser::Visualiser(const RenderConfiguration& configuration, const CSwarmano
     throw ConfigurationError(configuration.location, "no renderer is registered as '" + configuration.tag +
                                                          "'; `swarmanoid list plugins` shows those of this build");
   render_ = entry->create();
-  render_->Init(
-      {Parameters(configuration.tree, entry->description.parameters), space, assignment, output_folder, control});
+  render_->Init({Parameters(configuration.tree, entry->description.parameters), space, assignment, output_folder,
+                 control, monitor});
 }
 
 Visualiser::~Visualiser() = default;

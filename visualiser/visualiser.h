@@ -13,7 +13,7 @@ class Visualiser
 public:
   // Makes and initialises the renderer. Throws ConfigurationError or std::runtime_error with a clear text.
   Visualiser(const RenderConfiguration& configuration, const CSwarmanoidSpace& space, const Assignment& assignment,
-             const std::string& output_folder, ExperimentControl* control);
+             const std::string& output_folder, ExperimentControl* control, RunMonitor* monitor);
   ~Visualiser();
 
   // True once the renderer wants the run to end.
@@ -23,6 +23,7 @@ public:
   void Finish();
 
   const std::string& Id() const { return id_; }
+  bool IsInteractive() const { return render_->IsInteractive(); }
 
 private:
   std::string id_;

@@ -93,13 +93,6 @@ std::size_t FrameCapacity(const Assignment& assignment)
 // No engine waits for a host without robots.
 bool ServerHears(const HostLayout& host) { return host.reports_to_server || host.robots.empty(); }
 
-std::string EngineName(const Experiment& experiment, std::size_t engine)
-{
-  return fmt::format("engine '{}'", experiment.engines[engine].id);
-}
-
-std::string HostName(std::size_t host) { return fmt::format("controller host {}", host); }
-
 std::string VisualiserName(const RenderConfiguration& render) { return fmt::format("visualiser '{}'", render.id); }
 
 }  // namespace swarmanoid

@@ -35,8 +35,6 @@ std::size_t FrameCapacity(const Assignment& assignment);
 // Whether the server waits for the commands of a host.
 bool ServerHears(const HostLayout& host);
 
-std::string EngineName(const Experiment& experiment, std::size_t engine);  // "engine 'ground'"
-std::string HostName(std::size_t host);                                    // "controller host 1"
-std::string VisualiserName(const RenderConfiguration& render);             // "visualiser 'text'"
+std::string VisualiserName(const RenderConfiguration& render);  // "visualiser 'text'"
 
 }  // namespace swarmanoid

@@ -1,5 +1,7 @@
 #include "common/control_interface/ci_controller.h"
 
+#include "common/control_interface/ci_state_machine.h"
+
 namespace swarmanoid
 {
 
@@ -9,6 +11,8 @@ PluginRegistry<CCI_Controller>& PluginRegistry<CCI_Controller>::Instance()
   static PluginRegistry registry(PluginKind::kController);
   return registry;
 }
+
+std::string CCI_Controller::StateName() const { return StateNameOf(dynamic_cast<const CCI_StateMachine*>(this)); }
 
 ControllerRegistration::ControllerRegistration(const char* label, std::unique_ptr<CCI_Controller> (*create)())
 {

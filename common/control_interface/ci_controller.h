@@ -39,6 +39,8 @@ public:
 
   // Shown by visualisers beside the robot: the state of the controller in a few words. Optional.
   virtual std::string StatusText() const { return {}; }
+  // Likewise: the current state of its state machine. Controllers made of behaviours or derived from FSM have it.
+  virtual std::string StateName() const;
 
   CCI_Robot* GetRobot() const { return robot_; }
   // For the runtime, before Init.

@@ -1,14 +1,28 @@
 // CCI_Sensor and CCI_Actuator: a set of devices of one type on one robot, as a controller sees them.
 #pragma once
 
+#include <string>
+#include <vector>
+
 namespace swarmanoid
 {
+
+// One value of a device as people are shown it.
+struct CCI_Reading
+{
+  std::string name;  // "left", "7"
+  // "m/s", "rad"; empty for plain numbers. "colour": 0xRRGGBB, 0 is off. "yes/no": 1 or 0.
+  std::string unit;
+  double value = 0;
+};
 
 // Base of all sensor interfaces. Readings are those of the start of the control step.
 class CCI_Sensor
 {
 public:
   virtual ~CCI_Sensor() = default;
+  // For people who watch the robot: appends the present readings. Never called where nobody watches.
+  virtual void Describe(std::vector<CCI_Reading>&) const {}
 };
 
 // Base of all actuator interfaces. Values set in a control step take effect when it ends, and stay until set again.
@@ -16,9 +30,12 @@ class CCI_Actuator
 {
 public:
   virtual ~CCI_Actuator() = default;
+  // For people who watch the robot: appends the values set last. Never called where nobody watches.
+  virtual void Describe(std::vector<CCI_Reading>&) const {}
 };
 
 }  // namespace swarmanoid
 
 using swarmanoid::CCI_Actuator;
+using swarmanoid::CCI_Reading;
 using swarmanoid::CCI_Sensor;

@@ -186,4 +186,23 @@ Assignment MakeAssignment(const Experiment& experiment, unsigned hosts)
   return assignment;
 }
 
+std::string EngineName(const Experiment& experiment, std::size_t engine)
+{
+  return "engine '" + experiment.engines[engine].id + "'";
+}
+
+std::string HostName(std::size_t host) { return "controller host " + std::to_string(host); }
+
+std::string OwnerName(const Experiment& experiment, const Assignment& assignment, std::size_t entity)
+{
+  const int engine = assignment.owner[entity];
+  return engine < 0 ? std::string() : EngineName(experiment, static_cast<std::size_t>(engine));
+}
+
+std::string HostNameOf(const Assignment& assignment, std::size_t entity)
+{
+  const int host = assignment.host[entity];
+  return host < 0 ? std::string() : HostName(static_cast<std::size_t>(host));
+}
+
 }  // namespace swarmanoid

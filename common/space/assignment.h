@@ -65,4 +65,10 @@ struct Assignment
 // There are never more hosts than robots, and always at least one. Needs the device registries.
 Assignment MakeAssignment(const Experiment& experiment, unsigned hosts);
 
+std::string EngineName(const Experiment& experiment, std::size_t engine);  // "engine 'ground'"
+std::string HostName(std::size_t host);                                    // "controller host 1"
+// The engine that moves an entity, and the host that runs its controller; empty where there is none.
+std::string OwnerName(const Experiment& experiment, const Assignment& assignment, std::size_t entity);
+std::string HostNameOf(const Assignment& assignment, std::size_t entity);
+
 }  // namespace swarmanoid

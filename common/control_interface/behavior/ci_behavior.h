@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "common/control_interface/ci_state_machine.h"
+
 namespace swarmanoid
 {
 
@@ -29,6 +31,8 @@ public:
   virtual void LoadState(std::istream&) {}
   // A few words for visualisers, such as the current state.
   virtual std::string StatusText() const { return name_; }
+  // The current state of a behaviour that is a state machine; combiners may give that of the behaviour that acts.
+  virtual std::string StateName() const { return StateNameOf(dynamic_cast<const CCI_StateMachine*>(this)); }
 
   const std::string& GetName() const { return name_; }
 

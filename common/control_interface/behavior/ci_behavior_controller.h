@@ -25,6 +25,7 @@ public:
   void SaveState(std::ostream& state) const override { m_pcRootBehavior->SaveState(state); }
   void LoadState(std::istream& state) override { m_pcRootBehavior->LoadState(state); }
   std::string StatusText() const override { return m_pcRootBehavior == nullptr ? "" : m_pcRootBehavior->StatusText(); }
+  std::string StateName() const override { return m_pcRootBehavior == nullptr ? "" : m_pcRootBehavior->StateName(); }
 
 protected:
   RobotState* m_pcState = nullptr;

@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/control_interface/ci_state_machine.h"
+
 namespace swarmanoid
 {
 
@@ -59,17 +61,17 @@ private:
 };
 
 template <class T>
-class FSM
+class FSM : public CCI_StateMachine
 {
 public:
   FSM() = default;
-  virtual ~FSM() = default;
   FSM(const FSM&) = delete;
   FSM& operator=(const FSM&) = delete;
 
   // The id and name of the current state. Throws std::logic_error before setStartState.
   unsigned int GetStateID() const { return Current().GetID(); }
-  const std::string& GetStateName() const { return Current().GetName(); }
+  const std::string& GetStateName() const override { return Current().GetName(); }
+  bool HasStarted() const override { return current_ != nullptr; }
   // Puts the machine into a state by its id, as when a saved run goes on. Throws std::out_of_range for an id that it
   // does not have.
   void RestoreState(unsigned int id)

@@ -1,0 +1,26 @@
+// CCI_StateMachine: what visualisers can ask of a finite state machine, whatever its inputs (fsm.h).
+#pragma once
+
+#include <string>
+
+namespace swarmanoid
+{
+
+class CCI_StateMachine
+{
+public:
+  virtual ~CCI_StateMachine() = default;
+  // False before the start state is set; then there is no name.
+  virtual bool HasStarted() const = 0;
+  virtual const std::string& GetStateName() const = 0;
+};
+
+// Empty for nullptr and for a machine that has not started.
+inline std::string StateNameOf(const CCI_StateMachine* machine)
+{
+  return machine != nullptr && machine->HasStarted() ? machine->GetStateName() : std::string();
+}
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_StateMachine;
