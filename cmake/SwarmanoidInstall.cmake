@@ -9,6 +9,7 @@ install(DIRECTORY common engine_worker controller_host visualiser space_server
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid
   FILES_MATCHING PATTERN "*.h" PATTERN "bus" EXCLUDE PATTERN "engines" EXCLUDE PATTERN "devices" EXCLUDE)
 
+install(FILES launcher/simulation.h launcher/simulator.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid/launcher)
 install(DIRECTORY user/behavior_toolkit DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid/user FILES_MATCHING PATTERN "*.h")
 
 install(EXPORT SwarmanoidTargets NAMESPACE Swarmanoid:: DESTINATION ${PACKAGE_FOLDER})

@@ -6,7 +6,8 @@
 
 #include "controller_host/device.h"
 #include "engine_worker/engine_worker.h"
-#include "launcher/commands.h"
+#include "launcher/builtins.h"
+#include "launcher/usage_error.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid

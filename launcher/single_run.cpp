@@ -31,7 +31,8 @@ void CatchFirstInterrupt()
 
 }  // namespace
 
-RunResult RunHere(const RunOptions& options, const Experiment& experiment, const RunFolder& folder)
+RunResult RunHere(const RunOptions& options, const Experiment& experiment, const RunFolder& folder,
+                  const std::function<void(CSimulator&)>& watch)
 {
   using Clock = ProgressDisplay::Clock;
 
@@ -45,6 +46,7 @@ RunResult RunHere(const RunOptions& options, const Experiment& experiment, const
   run.real_time_factor = options.real_time;
   run.visualisations = !options.no_visualisers;
   run.stop = &stop_asked;
+  run.watch = watch;
   run.progress = [&](std::uint64_t tick)
   {
     const Clock::time_point now = Clock::now();

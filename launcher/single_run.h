@@ -1,6 +1,7 @@
 // A run in this process, with progress and Ctrl-C.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -19,6 +20,8 @@ struct RunResult
   std::string failure;                // as shown on standard error
 };
 
-RunResult RunHere(const RunOptions& options, const Experiment& experiment, const RunFolder& folder);
+// `watch`: as in SingleProcessOptions.
+RunResult RunHere(const RunOptions& options, const Experiment& experiment, const RunFolder& folder,
+                  const std::function<void(CSimulator&)>& watch = {});
 
 }  // namespace swarmanoid

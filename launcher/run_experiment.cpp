@@ -1,0 +1,88 @@
+#include "launcher/run_experiment.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "launcher/exit_codes.h"
+#include "launcher/load.h"
+#include "launcher/result_bits.h"
+#include "launcher/run_command_line.h"
+#include "launcher/usage_error.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+Manifest StartOfManifest(const RunOptions& options, const Experiment& experiment)
+{
+  Manifest manifest;
+  manifest.experiment = experiment.name;
+  manifest.file = std::filesystem::absolute(options.experiment).lexically_normal();
+  manifest.experiment_hash = TextHash(experiment.effective_xml);
+  manifest.seed = experiment.seed;
+  manifest.command = OriginalCommand();
+  manifest.started = TimeStamp();
+  return manifest;
+}
+
+int Conclude(const RunOptions& options, const RunResult& result, const RunFolder& folder, Manifest& manifest)
+{
+  int exit_code = result.exit_code;
+  if (result.summary && !options.expected_hash.empty() && exit_code == kDone &&
+      result.summary->hash != std::stoull(options.expected_hash, nullptr, 16))
+  {
+    fmt::print(stderr, "the hash differs: expected {:0>16}, got {:016x}\n", options.expected_hash,
+               result.summary->hash);
+    exit_code = kHashDiffers;
+  }
+
+  manifest.ended = TimeStamp();
+  manifest.exit_code = exit_code;
+  manifest.failure = result.failure;
+  if (result.summary)
+  {
+    manifest.ticks = result.summary->ticks;
+    manifest.state_hash = result.summary->hash;
+    manifest.wall_s = result.summary->wall_s;
+    manifest.real_time_factor = result.summary->real_time_factor;
+  }
+  try
+  {
+    folder.Write("manifest.json", manifest.Text());
+  }
+  catch (const RunFolderError& error)
+  {
+    fmt::print(stderr, "swarmanoid: {}\n", error.what());
+    if (exit_code == kDone) exit_code = kProcessFailed;
+  }
+  if (result.summary) fmt::print("{}\n", FinishedLine(*result.summary));
+  return exit_code;
+}
+
+}  // namespace
+
+int RunExperiment(const RunOptions& options,
+                  const std::function<RunResult(const Experiment&, const RunFolder&, Manifest&)>& execute)
+{
+  const auto experiment = LoadOrComplain(options.experiment, ChangesOf(options));
+  if (!experiment) return kInvalid;
+
+  try
+  {
+    const RunFolder folder(options.output, experiment->name);
+    Manifest manifest = StartOfManifest(options, *experiment);
+    folder.Write("experiment.xml", experiment->effective_xml);
+    folder.Write("manifest.json", manifest.Text());
+    const RunResult result = execute(*experiment, folder, manifest);
+    return Conclude(options, result, folder, manifest);
+  }
+  catch (const RunFolderError& error)
+  {
+    throw UsageError(error.what());
+  }
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,190 @@
+#include "launcher/simulator.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+#include <thread>
+
+#include "common/experiment/load_experiment.h"
+#include "common/space/assignment.h"
+#include "controller_host/controller_host.h"
+#include "engine_worker/engine_worker.h"
+#include "launcher/builtins.h"
+#include "launcher/checkpoint.h"
+#include "space_server/space_server.h"
+#include "visualiser/visualiser.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+// One hash a line, from tick 0 on.
+class HashLog
+{
+public:
+  explicit HashLog(const std::string& path)
+  {
+    if (path.empty()) return;
+    file_ = std::fopen(path.c_str(), "w");
+    if (file_ == nullptr) throw std::runtime_error("cannot write the hash log '" + path + "': " + std::strerror(errno));
+  }
+  ~HashLog()
+  {
+    if (file_ != nullptr) std::fclose(file_);
+  }
+  HashLog(const HashLog&) = delete;
+  HashLog& operator=(const HashLog&) = delete;
+
+  void Write(const CSwarmanoidSpace& space)
+  {
+    if (file_ != nullptr) fmt::print(file_, "{} {:016x}\n", space.GetTick(), space.Hash());
+  }
+
+private:
+  std::FILE* file_ = nullptr;
+};
+
+}  // namespace
+
+struct CSimulator::Roles
+{
+  Roles(const Experiment& of, const SimulatorOptions& with)
+      : experiment(of),
+        options(with),
+        assignment(MakeAssignment(of, 1)),
+        server(of, assignment, with.output_folder),
+        space(server.Space())
+  {
+    for (std::size_t e = 0; e < experiment.engines.size(); ++e)
+      engines.push_back(std::make_unique<EngineWorker>(space, assignment, e));
+    host = std::make_unique<ControllerHost>(space, assignment, 0);
+    if (options.visualisations)
+      for (const RenderConfiguration& render : experiment.visualisations)
+        visualisers.push_back(
+            std::make_unique<Visualiser>(render, space, assignment, options.output_folder, nullptr, nullptr));
+    hash_log = std::make_unique<HashLog>(options.hash_log);
+    for (const std::uint32_t engine : assignment.hosts[0].frames_from) frames.push_back(&engines[engine]->Sensors());
+    for (const auto& engine : engines) updates.push_back(&engine->Update());
+  }
+
+  const Experiment& experiment;
+  const SimulatorOptions options;
+  const Assignment assignment;
+  SpaceServer server;
+  CSwarmanoidSpace& space;
+  std::vector<std::unique_ptr<EngineWorker>> engines;
+  std::unique_ptr<ControllerHost> host;
+  std::vector<std::unique_ptr<Visualiser>> visualisers;
+  std::unique_ptr<HashLog> hash_log;
+  // The messages of a tick; the roles reuse their buffers, so these pointers stay.
+  std::vector<const SensorFrame*> frames;
+  std::vector<const EngineUpdate*> updates;
+
+  Clock::time_point start;
+  bool over = false;
+  bool finished = false;
+  RunSummary summary;
+};
+
+CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& options)
+    : roles_(std::make_unique<Roles>(experiment, options))
+{
+  if (options.checkpoint_tick % experiment.canonical_period != 0)
+    throw std::runtime_error(
+        fmt::format("a checkpoint at tick {} is not possible: only every {} ticks (canonical_period)",
+                    options.checkpoint_tick, experiment.canonical_period));
+  if (!options.restore_file.empty())
+    LoadCheckpoint(options.restore_file, experiment, roles_->space, roles_->engines, *roles_->host);
+  roles_->start = Clock::now();
+  Show();
+}
+
+CSimulator::~CSimulator() = default;
+
+bool CSimulator::Step()
+{
+  using Frames = std::span<const SensorFrame* const>;
+  using Commands = std::span<const ControlCommands* const>;
+
+  Roles& r = *roles_;
+  if (r.over || r.finished) return false;
+  const ControlCommands* commands = &r.host->Step(r.space.GetTick() == 0 ? Frames() : Frames(r.frames));
+  for (std::size_t e = 0; e < r.engines.size(); ++e)
+    r.engines[e]->Step(r.server.Moved(),
+                       r.assignment.engines[e].commands_from.empty() ? Commands() : Commands(&commands, 1));
+  r.server.Advance(r.updates, Commands(&commands, 1));
+
+  if (r.options.real_time_factor > 0)
+  {
+    const double due = static_cast<double>(r.space.GetTick()) * r.experiment.TickSeconds() / r.options.real_time_factor;
+    std::this_thread::sleep_until(r.start +
+                                  std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due)));
+  }
+  Show();
+  return true;
+}
+
+// The state of a tick goes to all who look at it; they may end the experiment.
+void CSimulator::Show()
+{
+  Roles& r = *roles_;
+  if (r.options.checkpoint_tick != 0 && r.space.GetTick() == r.options.checkpoint_tick)
+    SaveCheckpoint(r.options.checkpoint_file, r.experiment, r.space, r.engines, *r.host);
+  r.hash_log->Write(r.space);
+  bool terminate = false;
+  for (const auto& visualiser : r.visualisers) terminate |= visualiser->Draw();
+  if (r.options.stop != nullptr && *r.options.stop) r.summary.interrupted = true;
+  r.over = terminate || r.summary.interrupted || r.server.IsLast();
+}
+
+const RunSummary& CSimulator::Finish()
+{
+  Roles& r = *roles_;
+  if (r.finished) return r.summary;
+  r.finished = true;
+  r.summary.entities = r.space.Size();
+  r.summary.ticks = r.space.GetTick();
+  r.summary.wall_s = SecondsSince(r.start);
+  r.summary.real_time_factor =
+      r.summary.wall_s > 0 ? static_cast<double>(r.summary.ticks) * r.experiment.TickSeconds() / r.summary.wall_s : 0;
+  r.summary.hash = r.space.Hash();
+  for (const auto& visualiser : r.visualisers) visualiser->Finish();
+  r.host->Destroy();
+  r.server.Destroy();
+  r.summary.failed = r.server.HasFailed();
+  return r.summary;
+}
+
+CSwarmanoidSpace& CSimulator::GetSpace() { return roles_->space; }
+
+const Experiment& CSimulator::GetExperiment() const { return roles_->experiment; }
+
+std::unique_ptr<Experiment> ReadExperiment(const std::string& file,
+                                           const std::vector<std::pair<std::string, std::string>>& settings)
+{
+  RegisterBuiltins();
+  LoadOptions options;
+  options.settings = settings;
+  LoadedExperiment loaded = LoadExperimentFile(file, options);
+  if (loaded.experiment) return std::move(loaded.experiment);
+  std::string mistakes;
+  for (const Diagnostic& error : loaded.errors) mistakes += (mistakes.empty() ? "" : "\n") + error.Text();
+  throw ConfigurationError(mistakes);
+}
+
+std::string FinishedLine(const RunSummary& summary)
+{
+  return fmt::format("finished: {} ticks, {} entities, hash {:016x}, {:.3f} s, {:.1f}x real time", summary.ticks,
+                     summary.entities, summary.hash, summary.wall_s, summary.real_time_factor);
+}
+
+}  // namespace swarmanoid
