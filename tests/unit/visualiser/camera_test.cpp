@@ -1,0 +1,157 @@
+#include "visualiser/scene/camera.h"
+
+#include <gtest/gtest.h>
+
+#include "common/configuration/xml_reader.h"
+#include "visualiser/scene/view_parameters.h"
+#include "visualiser/scene/viewpoints.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+void ExpectNear(const Vector3& a, const Vector3& b, double tolerance = 1e-9)
+{
+  EXPECT_LE((a - b).norm(), tolerance) << a.transpose() << " and " << b.transpose();
+}
+
+Camera Somewhere()
+{
+  Camera camera;
+  camera.position = {3.3, 3.4, 1.2};
+  camera.heading = 39;
+  camera.pitch = -34;
+  camera.roll = 5;
+  return camera;
+}
+
+TEST(Camera, HeadingPitchAndRollAreThoseOfTheExperimentFiles)
+{
+  Camera camera;
+  ExpectNear(camera.Forward(), {1, 0, 0});
+  ExpectNear(camera.Right(), {0, -1, 0});
+  camera.heading = 90;
+  ExpectNear(camera.Forward(), {0, 1, 0});
+  camera.pitch = -90;
+  ExpectNear(camera.Forward(), {0, 0, -1});
+  ExpectNear(camera.Up(), {0, 1, 0});
+}
+
+TEST(Camera, RayThroughAPixelMeetsThePointThatIsProjectedThere)
+{
+  const Camera camera = Somewhere();
+  const Vector3 point(4.1, 4.0, 0.2);
+  const Vector3 pixel = camera.Project(point, 800, 600);
+  const Ray ray = camera.RayThrough(pixel.x(), pixel.y(), 800, 600);
+  ExpectNear(ray.direction, (point - camera.position).normalized());
+  EXPECT_LT(camera.Project(camera.position - camera.Forward(), 800, 600).z(), 0);
+}
+
+TEST(Camera, MatricesAgreeWithProject)
+{
+  const Camera camera = Somewhere();
+  const Vector3 point(4.1, 4.0, 0.2);
+  const Eigen::Vector4f clip =
+      camera.Projection(800.0 / 600, 0.1, 50) * camera.View() * point.cast<float>().homogeneous();
+  const Vector3 pixel = camera.Project(point, 800, 600);
+  EXPECT_NEAR((clip.x() / clip.w() + 1) * 400, pixel.x(), 1e-2);
+  EXPECT_NEAR((1 - clip.y() / clip.w()) * 300, pixel.y(), 1e-2);
+  EXPECT_NEAR(clip.w(), pixel.z(), 1e-4);
+}
+
+TEST(Camera, LookAtPutsThePointInTheMiddle)
+{
+  const Camera camera = Camera::LookAt({5, -2, 3}, {1, 1, 0.5});
+  ExpectNear(camera.Project({1, 1, 0.5}, 640, 480), {320, 240, Vector3(4, -3, 2.5).norm()}, 1e-6);
+}
+
+TEST(Camera, OrbitKeepsThePointInPlace)
+{
+  Camera camera = Somewhere();
+  camera.roll = 0;
+  const Vector3 about = PointOnFloor(camera.RayThrough(320, 240, 640, 480), 0, 5);
+  const double distance = (camera.position - about).norm();
+  camera.Orbit(about, 40, 12);
+  EXPECT_NEAR((camera.position - about).norm(), distance, 1e-9);
+  const Vector3 pixel = camera.Project(about, 640, 480);
+  EXPECT_NEAR(pixel.x(), 320, 1e-6);
+  EXPECT_NEAR(pixel.y(), 240, 1e-6);
+  camera.Orbit(about, 0, 500);
+  EXPECT_GE(camera.pitch, -89.5);
+}
+
+TEST(Camera, ZoomMovesAlongTheLineToThePoint)
+{
+  Camera camera = Somewhere();
+  const Vector3 at(4, 4, 0);
+  const Vector3 before = camera.Project(at, 640, 480);
+  camera.Zoom(at, 0.5);
+  const Vector3 after = camera.Project(at, 640, 480);
+  EXPECT_NEAR(after.x(), before.x(), 1e-6);
+  EXPECT_NEAR(after.y(), before.y(), 1e-6);
+  EXPECT_NEAR(after.z(), before.z() / 2, 1e-9);
+}
+
+TEST(Camera, FrameBoxShowsAllCornersAndFillsThePicture)
+{
+  for (const double aspect : {0.6, 1.0, 1.333, 2.4})
+    for (const double heading : {0.0, 62.0, 200.0})
+      for (const double pitch : {-90.0, -38.0, -5.0})
+      {
+        const Vector3 low(-1, 2, 0), high(7, 5, 1.5);
+        const Camera camera = FrameBox(low, high, aspect, heading, pitch);
+        double widest = 0;
+        for (int corner = 0; corner < 8; ++corner)
+        {
+          const Vector3 point(corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(),
+                              corner & 4 ? high.z() : low.z());
+          const Vector3 pixel = camera.Project(point, 1000 * aspect, 1000);
+          ASSERT_GT(pixel.z(), 0);
+          const double x = std::abs(pixel.x() / (500 * aspect) - 1);
+          const double y = std::abs(pixel.y() / 500 - 1);
+          widest = std::max({widest, x, y});
+        }
+        EXPECT_LT(widest, 1) << aspect << " " << heading << " " << pitch;
+        EXPECT_GT(widest, 0.85) << aspect << " " << heading << " " << pitch;
+      }
+}
+
+TConfigurationTree Tree(const std::string& inner)
+{
+  return TConfigurationTree(ReadXml("<r>" + inner + "</r>", "views.xml"));
+}
+
+TEST(Viewpoints, AreReadAsInTheSampleAndWrittenAgain)
+{
+  const std::string xml =
+      "<camera_view_XYZ_0>3.30811, 3.36071, 1</camera_view_XYZ_0>\n<camera_view_HPR_0>39, -34, 0</camera_view_HPR_0>";
+  const auto specs = ViewpointParameters();
+  const Viewpoints views(Parameters(Tree(xml + "<camera_view_XYZ_2>1,2,3</camera_view_XYZ_2>"), specs));
+  ASSERT_TRUE(views.At(0).has_value());
+  EXPECT_DOUBLE_EQ(views.At(0)->position.y(), 3.36071);
+  EXPECT_DOUBLE_EQ(views.At(0)->pitch, -34);
+  EXPECT_FALSE(views.At(1).has_value());
+  EXPECT_DOUBLE_EQ(views.At(2)->heading, 0);
+  EXPECT_DOUBLE_EQ(views.First()->heading, 39);
+  EXPECT_EQ(ViewpointXml(0, *views.At(0)), xml);
+}
+
+TEST(Viewpoints, CameraIsANumberOrAPlaceOrTop)
+{
+  const auto specs = ViewpointParameters();
+  const Viewpoints views(Parameters(Tree("<camera_view_XYZ_4>1,2,3</camera_view_XYZ_4>"), specs));
+  Experiment experiment;
+  experiment.arena_size = {4, 4, 2};
+  const auto camera = [&](const std::string& text) { return CameraFromText(text, views, experiment, 1.5, {}); };
+  ExpectNear(camera("4").position, {1, 2, 3});
+  ExpectNear(camera("1, 2, 3.5/90,-20,0").position, {1, 2, 3.5});
+  EXPECT_DOUBLE_EQ(camera("1,2,3/90,-20,0").heading, 90);
+  ExpectNear(camera("top").Forward(), {0, 0, -1});
+  EXPECT_THROW(camera("5"), ConfigurationError);
+  EXPECT_THROW(camera("above"), ConfigurationError);
+  EXPECT_THROW(camera("1,2"), ConfigurationError);
+}
+
+}  // namespace
+}  // namespace swarmanoid

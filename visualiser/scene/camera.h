@@ -1,0 +1,56 @@
+// The camera: where it stands, where it looks, and what a mouse does to it. z is up; heading, pitch and roll are those
+// of the experiment files: heading 0 looks along x, 90 along y; a positive pitch looks upwards.
+#pragma once
+
+#include "common/math/pose.h"
+
+namespace swarmanoid
+{
+
+struct Ray
+{
+  Vector3 origin;
+  Vector3 direction;  // of unit length
+};
+
+struct Camera
+{
+  Vector3 position = Vector3::Zero();
+  double heading = 0;  // degrees
+  double pitch = 0;
+  double roll = 0;
+  double field_of_view = 45;  // of the picture's height, degrees
+
+  Vector3 Forward() const;
+  Vector3 Right() const;
+  Vector3 Up() const;
+
+  // Columns as OpenGL takes them. The view looks along -z of its frame.
+  Eigen::Matrix4f View() const;
+  // Depth -1..1 between two distances (m).
+  Eigen::Matrix4f Projection(double aspect, double near, double far) const;
+
+  // Through a point of the picture: x, y from its upper left corner, in the same unit as its size.
+  Ray RayThrough(double x, double y, double width, double height) const;
+  // Where a point is in the picture, in the unit of its size; z is its distance along the line of sight, at most 0
+  // behind the camera.
+  Vector3 Project(const Vector3& point, double width, double height) const;
+
+  static Camera LookAt(const Vector3& from, const Vector3& at);
+
+  // Mouse moves, angles in degrees. Orbit keeps the distance from the point, and the pitch between -89.5 and 89.5.
+  void Orbit(const Vector3& about, double right, double up);
+  // Moves across the picture, by metres.
+  void Pan(double right, double up);
+  // Moves to or from a point; factor 0.5 halves the distance, which stays at least 5 cm.
+  void Zoom(const Vector3& at, double factor);
+};
+
+// Where a ray meets the plane of a height; the point `otherwise` metres along it where it does not come down there.
+Vector3 PointOnFloor(const Ray& ray, double height, double otherwise);
+
+// A view from outside, above the corner of smallest x and y, from which the whole box is seen.
+Camera FrameBox(const Vector3& low, const Vector3& high, double aspect, double heading = 62, double pitch = -38,
+                double field_of_view = 45);
+
+}  // namespace swarmanoid

@@ -1,0 +1,29 @@
+#include "visualiser/scene/view_parameters.h"
+
+namespace swarmanoid
+{
+
+std::vector<ParameterSpec> ViewpointParameters()
+{
+  return {
+      {"camera_view_XYZ_n", ParameterType::kVector3, "m", std::nullopt,
+       "Where viewpoint n (0 to 9) stands; the first one given is where the visualisation starts."},
+      {"camera_view_HPR_n", ParameterType::kVector3, "degrees", "0, 0, 0",
+       "Heading, pitch and roll of viewpoint n: heading 0 looks along x, 90 along y; a negative pitch looks down."}};
+}
+
+std::vector<ParameterSpec> QualityParameters()
+{
+  return {{"use_textures", ParameterType::kBoolean, "", "true", "Whether floor and walls have a texture."},
+          {"use_shadows", ParameterType::kBoolean, "", "true", "Whether bodies throw shadows; the dearest switch."},
+          {"antialiasing", ParameterType::kInteger, "", "4",
+           "Samples a pixel that smooth edges; 0 draws fastest, with jagged edges.", 0, 16},
+          {"show_ids", ParameterType::kBoolean, "", "false", "Whether robots bear their ids as labels."},
+          {"show_trails", ParameterType::kBoolean, "", "false", "Whether robots and preys leave a trail."},
+          {"show_rays", ParameterType::kBoolean, "", "false",
+           "Whether the rays of the footbots' proximity sensors are drawn, red where they meet something."},
+          {"show_collision_models", ParameterType::kBoolean, "", "false",
+           "Whether the bodies that sensors see are drawn over the robots."}};
+}
+
+}  // namespace swarmanoid

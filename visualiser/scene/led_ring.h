@@ -1,0 +1,21 @@
+// A ring of LED windows about the z axis, for the meshes of robots.
+#pragma once
+
+#include "visualiser/scene/mesh_builder.h"
+
+namespace swarmanoid
+{
+
+struct LedRing
+{
+  int leds;
+  float first_angle;  // of the middle of LED 0, rad
+  float radius;
+  float low, high;  // z
+  float lit;        // the part of the circle that shines
+};
+
+// pieces: flat pieces of each window.
+void AddLedRing(MeshBuilder& builder, const LedRing& ring, int pieces);
+
+}  // namespace swarmanoid

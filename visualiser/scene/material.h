@@ -1,0 +1,69 @@
+// The materials that meshes are made of, and the palette. All renderers take their colours from here.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace swarmanoid
+{
+
+using Colour = std::uint32_t;  // 0xRRGGBB
+
+enum class Material : std::uint8_t
+{
+  kDark,   // plastic of the robots' lower parts
+  kShell,  // light plastic
+  kMetal,
+  kRubber,
+  kGlass,  // the tube of the footbot's camera
+  kFootbot,
+  kEyebot,
+  kHandbot,  // accents of the three robots
+  kRotor,    // the disc of a turning rotor: see-through
+  kRope,
+  kTint,    // the colour of the entity
+  kBeacon,  // the colour of the robot's beacon
+  kLed0,    // kLed0 + i: the colour of its LED i, up to 15
+  kEnd = kLed0 + 16
+};
+
+inline constexpr int kMostLeds = 16;
+
+struct MaterialLook
+{
+  std::string_view name;
+  Colour colour = 0;  // of LEDs and beacons: while they are off
+  float gloss = 0;    // 0 dull .. 1 polished
+  float opacity = 1;
+  bool takes_tint = false;
+  int led = -1;  // index into the robot's lights: 0..15 LEDs, 16 the beacon; these shine in their own colour
+};
+
+inline constexpr int kLightsPerRobot = 17;
+inline constexpr int kBeaconLight = 16;
+
+const MaterialLook& LookOf(Material material);
+
+inline Material LedMaterial(int led) { return static_cast<Material>(static_cast<int>(Material::kLed0) + led); }
+
+// The paint of a floor, wall, block or prey that a file calls red, green ...: the same hue, less loud.
+Colour Paint(Colour colour);
+
+namespace palette
+{
+inline constexpr Colour kSky = 0xe9eef4;
+inline constexpr Colour kFloor = 0xdcdfe2;
+inline constexpr Colour kFloorLine = 0xc3c8ce;
+inline constexpr Colour kOutside = 0xe4e8ec;  // the ground around the arena
+inline constexpr Colour kWall = 0xeae6de;
+inline constexpr Colour kTerrain = 0xb9ae9a;
+inline constexpr Colour kHole = 0x1c2026;
+inline constexpr Colour kSelection = 0xf2a33a;
+inline constexpr Colour kCollision = 0x1f8f5f;
+inline constexpr Colour kRayFree = 0x6fa8dc;
+inline constexpr Colour kRayHit = 0xd9483b;
+inline constexpr Colour kLabel = 0x20262e;
+}  // namespace palette
+
+}  // namespace swarmanoid

@@ -1,0 +1,43 @@
+// Meshes: triangles with normals and a material for each vertex. Plain values without any graphics library, so that
+// every renderer uploads the same ones.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "visualiser/scene/material.h"
+
+namespace swarmanoid
+{
+
+struct MeshVertex
+{
+  Eigen::Vector3f position;
+  Eigen::Vector3f normal;  // of unit length
+  Material material = Material::kTint;
+  float shade = 1;  // 0..1: what of the sky's light reaches it; less in corners
+};
+
+// Triangles are counter-clockwise seen from outside; the three vertices of one have the same material.
+struct Mesh
+{
+  std::vector<MeshVertex> vertices;
+  std::vector<std::uint32_t> indices;
+
+  std::size_t Triangles() const { return indices.size() / 3; }
+};
+
+inline constexpr int kLevels = 3;  // of detail: 0 near, 2 far away
+
+struct Model
+{
+  std::string name;
+  std::array<Mesh, kLevels> levels;
+  float radius = 0;  // of the sphere about the origin that holds it, m
+};
+
+}  // namespace swarmanoid

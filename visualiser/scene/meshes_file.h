@@ -1,0 +1,18 @@
+// The models and materials as one JSON text, for pages that draw with them.
+#pragma once
+
+#include <string>
+
+namespace swarmanoid
+{
+
+// {"materials": [{"name", "colour" (number 0xRRGGBB), "gloss", "opacity", "tint" (bool), "light" (0..15 LED, 16 beacon,
+// -1)}],
+//  "models": {name: {"radius", "levels": [{"positions": [x, y, z ...], "normals": [...], "materials": [one a vertex],
+//             "shades": [...], "indices": [...]}, 3 of them]}},
+//  "robots": {"footbot": [{"model": name, "matrix": [16 numbers, column after column]}], ...},
+//  "palette": {"sky", "floor", "floor_line", "outside", "wall", "hole", "selection", "label"}}
+// Lengths in metres, z up, x forward.
+std::string MeshesAsJson();
+
+}  // namespace swarmanoid

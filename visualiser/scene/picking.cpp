@@ -1,0 +1,61 @@
+#include "visualiser/scene/picking.h"
+
+#include <algorithm>
+
+#include "common/space/shape.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr double kFarthest = 1e4;      // m
+constexpr double kRobotMargin = 0.01;  // m
+constexpr double kTall = 0.25;         // m: lower walls hide nothing
+
+}  // namespace
+
+bool IsBoundaryWall(const EntityConfiguration& entity, const Vector3& arena_size)
+{
+  if (entity.kind != EntityKind::kWall && entity.kind != EntityKind::kBlock) return false;
+  if (entity.movable || entity.size.z() < kTall) return false;
+  const double thickness = std::min(entity.size.x(), entity.size.y());
+  const double length = std::max(entity.size.x(), entity.size.y());
+  if (length < 4 * thickness) return false;
+  // Near a side of the arena, in half a thickness and a tenth of the arena's size.
+  const Vector3& at = entity.pose.position;
+  const auto near_side = [&](double place, double size)
+  { return std::min(std::abs(place), std::abs(size - place)) <= thickness / 2 + 0.02 * size; };
+  return near_side(at.x(), arena_size.x()) || near_side(at.y(), arena_size.y());
+}
+
+bool HidesArena(const EntityConfiguration& wall, const Vector3& arena_size, const Vector3& eye)
+{
+  const Vector3 along = wall.pose.orientation * (wall.size.x() < wall.size.y() ? Vector3::UnitX() : Vector3::UnitY());
+  const double inside = (arena_size / 2 - wall.pose.position).dot(along);
+  const double outside = (eye - wall.pose.position).dot(along);
+  return inside * outside < 0;
+}
+
+std::optional<Pick> PickEntity(const CSwarmanoidSpace& space, const Ray& ray)
+{
+  const Vector3& arena = space.GetExperiment().arena_size;
+  const Vector3 end = ray.origin + kFarthest * ray.direction;
+  std::optional<Pick> pick;
+  double nearest = 2;
+  for (std::size_t e = 0; e < space.Size(); ++e)
+  {
+    const EntityConfiguration& configuration = space.GetEntity(e).GetConfiguration();
+    Shape shape = ShapeOf(configuration);
+    if (shape.kind == Shape::Kind::kNone) continue;
+    if (IsRobot(configuration.kind)) shape.half_size += Vector3::Constant(kRobotMargin);
+    if (IsBoundaryWall(configuration, arena) && HidesArena(configuration, arena, ray.origin)) continue;
+    const std::optional<double> hit = SegmentHit(shape, space.GetPose(e), ray.origin, end);
+    if (!hit || *hit >= nearest) continue;
+    nearest = *hit;
+    pick = Pick{static_cast<std::uint32_t>(e), ray.origin + *hit * (end - ray.origin)};
+  }
+  return pick;
+}
+
+}  // namespace swarmanoid

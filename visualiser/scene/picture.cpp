@@ -1,0 +1,70 @@
+#include "visualiser/scene/picture.h"
+
+#include <png.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+
+namespace swarmanoid
+{
+namespace
+{
+
+struct FileCloser
+{
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+[[noreturn]] void Fail(const std::string& path, const std::string& what)
+{
+  throw std::runtime_error("cannot write the picture '" + path + "': " + what);
+}
+
+}  // namespace
+
+void WritePng(const Picture& picture, const std::string& path)
+{
+  std::unique_ptr<std::FILE, FileCloser> file(std::fopen(path.c_str(), "wb"));
+  if (file == nullptr) Fail(path, std::strerror(errno));
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop header = png == nullptr ? nullptr : png_create_info_struct(png);
+  if (header == nullptr) Fail(path, "no memory");
+  // libpng leaves by longjmp: nothing with a destructor is made after this line.
+  if (setjmp(png_jmpbuf(png)) != 0)
+  {
+    png_destroy_write_struct(&png, &header);
+    Fail(path, "the disk is full, or the file cannot be written");
+  }
+  png_init_io(png, file.get());
+  png_set_compression_level(png, 1);
+  png_set_filter(png, 0, PNG_FILTER_SUB);
+  png_set_IHDR(png, header, static_cast<png_uint_32>(picture.width), static_cast<png_uint_32>(picture.height), 8,
+               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, header);
+  png_set_filler(png, 0, PNG_FILLER_AFTER);
+  for (int y = 0; y < picture.height; ++y) png_write_row(png, picture.At(0, y));
+  png_write_end(png, header);
+  png_destroy_write_struct(&png, &header);
+  if (std::fclose(file.release()) != 0) Fail(path, std::strerror(errno));
+}
+
+Picture ReadPng(const std::string& path)
+{
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_file(&image, path.c_str()) == 0)
+    throw std::runtime_error("cannot read the picture '" + path + "': " + image.message);
+  image.format = PNG_FORMAT_RGBA;
+  Picture picture;
+  picture.width = static_cast<int>(image.width);
+  picture.height = static_cast<int>(image.height);
+  picture.pixels.resize(PNG_IMAGE_SIZE(image));
+  if (png_image_finish_read(&image, nullptr, picture.pixels.data(), 0, nullptr) == 0)
+    throw std::runtime_error("cannot read the picture '" + path + "': " + image.message);
+  return picture;
+}
+
+}  // namespace swarmanoid

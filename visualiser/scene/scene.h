@@ -1,0 +1,159 @@
+// The scene: what there is to draw of a space, without any graphics library. A stable list of items (a part of a robot,
+// a wall, a patch of floor), and marks that change with each tick (beams, trails, labels). Every renderer holds one and
+// calls Update before it draws. One thread.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/space/query.h"
+#include "common/space/space.h"
+#include "visualiser/scene/meshes.h"
+
+namespace swarmanoid
+{
+
+inline constexpr std::uint32_t kNoEntity = 0xffffffff;
+
+struct SceneItem
+{
+  enum class Role : std::uint8_t
+  {
+    kBody,   // throws a shadow
+    kWall,   // at the edge of the arena: no shadow, and glass where it hides the arena (picking.h)
+    kPatch,  // a painted area just above the floor: takes shadows, throws none
+    kFloor   // of the arena
+  };
+
+  std::uint32_t entity = kNoEntity;
+  std::uint16_t model = 0;  // into Scene::Models()
+  Role role = Role::kBody;
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();
+  Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
+  Eigen::Vector3f scale = Eigen::Vector3f::Ones();  // along the axes of the model, before it is turned
+  Colour tint = 0xffffff;                           // of Material::kTint
+  std::int32_t lights = -1;                         // the first of kLightsPerRobot colours in Scene::Lights(), -1: none
+};
+
+// A straight line, as wide as it looks in pixels; its opacity goes from one end to the other.
+struct SceneLine
+{
+  Eigen::Vector3f from, to;
+  Colour colour;
+  float width;  // pixels
+  float opacity_from, opacity_to;
+  bool on_top = false;  // drawn over what is in front of it
+};
+
+// A soft light spot: of a laser on a surface (flat), or about a lamp.
+struct SceneGlow
+{
+  Eigen::Vector3f position;
+  float radius;  // m
+  Colour colour;
+  bool flat;
+};
+
+struct SceneLabel
+{
+  std::uint32_t entity;
+  Eigen::Vector3f position;
+  std::string_view text;
+};
+
+struct SceneOptions
+{
+  bool ids = false;
+  bool trails = false;
+  bool rays = false;
+  bool collision_models = false;
+  bool beams = true;
+  std::optional<std::uint32_t> selected;  // an entity: marked, with its id, and its rays where `rays` is off
+};
+
+class Scene
+{
+public:
+  // Reads the terrains of the experiment; throws ConfigurationError for those. The space outlives the scene.
+  explicit Scene(const CSwarmanoidSpace& space);
+  ~Scene();
+
+  // Brings items and marks to the present state of the space.
+  void Update(const SceneOptions& options);
+
+  const CSwarmanoidSpace& Space() const { return space_; }
+  // The standard models, then one for each terrain.
+  std::span<const Model> Models() const { return models_; }
+  // Items never change their number, entity, model or role. Those of one entity stand together.
+  std::span<const SceneItem> Items() const { return items_; }
+  // 0xRRGGBB, 0 where a light is off.
+  std::span<const Colour> Lights() const { return lights_; }
+  std::span<const SceneLine> Lines() const { return lines_; }
+  std::span<const SceneGlow> Glows() const { return glows_; }
+  std::span<const SceneLabel> Labels() const { return labels_; }
+
+  // Of the arena, in metres.
+  const Vector3& ArenaSize() const { return space_.GetExperiment().arena_size; }
+  // What holds all bodies and the arena's floor.
+  void Bounds(Vector3& low, Vector3& high) const;
+
+private:
+  // Where an entity's items and attributes are.
+  struct Body
+  {
+    std::uint32_t entity;
+    std::uint32_t first_item;
+    std::uint32_t first_slot;
+    std::int32_t lights;
+  };
+  struct Trail;
+
+  void AddEntity(std::uint32_t entity);
+  SceneItem& AddItem(std::uint32_t entity, ModelId model);
+  std::int32_t AddLights();
+  void AddTerrain(std::uint32_t entity);
+  void AddArea(std::uint32_t entity);
+
+  void UpdateBodies();
+  void UpdateLights();
+  void PlaceFootbot(const Body& body);
+  void PlaceEyebot(const Body& body);
+  void PlaceHandbot(const Body& body);
+  void Place(std::uint32_t item, const Eigen::Isometry3f& place);
+
+  void AddBeam(const Body& eyebot);
+  void AddRope(const Body& handbot);
+  void AddGrips(const Body& robot);
+  void AddRays(std::uint32_t footbot);
+  void AddOutline(std::uint32_t entity, Colour colour, float width, bool on_top);
+  void AddLine(const Vector3& from, const Vector3& to, Colour colour, float width, float opacity, bool on_top = false);
+  void KeepTrails();
+  void AddTrails();
+  // The fraction of the way to the first body but one, whatever its engine; 1 where there is none.
+  double FirstHit(const Vector3& from, const Vector3& to, std::uint32_t without);
+  double Attribute(const Body& body, int offset) const
+  {
+    return space_.Attributes()[body.first_slot + static_cast<std::uint32_t>(offset)];
+  }
+
+  const CSwarmanoidSpace& space_;
+  std::vector<Model> models_;
+  std::vector<SceneItem> items_;
+  std::vector<Colour> lights_;
+  std::vector<Body> bodies_;  // all entities that have items, ascending
+  std::vector<SceneLine> lines_;
+  std::vector<SceneGlow> glows_;
+  std::vector<SceneLabel> labels_;
+  std::vector<std::pair<std::uint32_t, std::shared_ptr<const Terrain>>> terrains_;
+  std::vector<std::uint32_t> large_;   // bodies too large for the search about a line
+  double search_radius_ = 0;           // of the largest of the others
+  std::unique_ptr<SpaceQuery> query_;  // made when first needed
+  std::unique_ptr<Trail[]> trails_;    // of the movable entities, once shown
+  std::uint64_t revision_ = 0;
+  std::uint64_t attribute_revision_ = 0;
+};
+
+}  // namespace swarmanoid

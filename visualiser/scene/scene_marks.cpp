@@ -1,0 +1,196 @@
+// What a scene shows besides bodies: beams, ropes, grips, rays, outlines, trails.
+#include <cmath>
+#include <numbers>
+
+#include "common/math/elementary.h"
+#include "common/space/attributes.h"
+#include "visualiser/scene/scene.h"
+#include "visualiser/scene/trail.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr double kLongestBeam = 30;  // m, as for the cameras that see the spot
+constexpr double kRayRange = 0.1;    // m, of the footbot's proximity sensors
+constexpr double kRayHeight = 0.06;
+constexpr int kRays = 24;
+
+bool HasProximity(const Experiment& experiment, const EntityConfiguration& robot)
+{
+  const ControllerConfiguration* controller = experiment.FindController(robot.controller);
+  if (controller == nullptr) return false;
+  for (const DeviceConfiguration& sensor : controller->sensors)
+    if (sensor.type == "footbot_proximity") return true;
+  return false;
+}
+
+}  // namespace
+
+void Scene::AddLine(const Vector3& from, const Vector3& to, Colour colour, float width, float opacity, bool on_top)
+{
+  lines_.push_back({from.cast<float>(), to.cast<float>(), colour, width, opacity, opacity, on_top});
+}
+
+double Scene::FirstHit(const Vector3& from, const Vector3& to, std::uint32_t without)
+{
+  if (query_ == nullptr) query_ = std::make_unique<SpaceQuery>(space_);
+  double first = 1;
+  const auto test = [&](std::uint32_t entity)
+  {
+    if (entity == without) return;
+    const auto hit = SegmentHit(query_->ShapeOfEntity(entity), space_.GetPose(entity), from, to);
+    if (hit) first = std::min(first, *hit);
+  };
+  const Vector3 margin = Vector3::Constant(search_radius_);
+  for (const std::uint32_t entity : query_->FindInBox(from.cwiseMin(to) - margin, from.cwiseMax(to) + margin))
+    test(entity);
+  for (const std::uint32_t entity : large_) test(entity);
+  for (const auto& [entity, terrain] : terrains_)
+  {
+    const Pose inverse = space_.GetPose(entity).Inverse();
+    if (const auto hit = terrain->SegmentHit(inverse.Apply(from), inverse.Apply(to))) first = std::min(first, *hit);
+  }
+  return first;
+}
+
+// From the middle of the eyebot's base to the first body, or the floor; tilt 0 is straight down.
+void Scene::AddBeam(const Body& eyebot)
+{
+  static const int laser = AttributeOffset(EntityKind::kEyebot, "laser");
+  if (Attribute(eyebot, laser) == 0) return;
+  const auto colour = static_cast<Colour>(Attribute(eyebot, laser + 1));
+  if (colour == 0) return;
+  const double pan = Attribute(eyebot, laser + 2);
+  const double tilt = Attribute(eyebot, laser + 3);
+  const Pose pose = space_.GetPose(eyebot.entity);
+  const Vector3 beam =
+      pose.orientation * Vector3(std::sin(tilt) * std::cos(pan), std::sin(tilt) * std::sin(pan), -std::cos(tilt));
+  const bool reaches_floor = beam.z() < 0 && pose.position.z() + kLongestBeam * beam.z() <= 0;
+  const double length = reaches_floor ? std::max(pose.position.z() / -beam.z(), 0.0) : kLongestBeam;
+  const Vector3 to = pose.position + length * beam;
+  const double hit = FirstHit(pose.position, to, eyebot.entity);
+  const Vector3 end = pose.position + hit * (to - pose.position);
+  lines_.push_back({pose.position.cast<float>(), end.cast<float>(), colour, 2.5F, 0.35F, 0.8F});
+  if (hit < 1 || reaches_floor) glows_.push_back({end.cast<float>(), 0.09F, colour, true});
+}
+
+void Scene::AddRope(const Body& handbot)
+{
+  static const int attached = AttributeOffset(EntityKind::kHandbot, "rope_attached");
+  if (Attribute(handbot, attached) == 0) return;
+  const Vector3 from = space_.GetPose(handbot.entity).Apply({RobotJoints::kHandbotRopeForward, 0, 0.16});
+  // The magnet sits on the ceiling, straight above where the robot hangs.
+  AddLine(from, {from.x(), from.y(), std::max(ArenaSize().z(), from.z())}, LookOf(Material::kRope).colour, 2, 1);
+}
+
+void Scene::AddGrips(const Body& robot)
+{
+  const EntityKind kind = space_.GetEntity(robot.entity).GetKind();
+  const int grippers = kind == EntityKind::kHandbot ? 2 : 1;
+  const int gripped = AttributeOffset(kind, "gripped");
+  for (int gripper = 0; gripper < grippers; ++gripper)
+  {
+    const double held = Attribute(robot, gripped + gripper);
+    if (held < 1 || held > static_cast<double>(space_.Size())) continue;
+    const auto other = static_cast<std::uint32_t>(held) - 1;
+    // From the jaws (the third part of a footbot), or the finger of a hand, into the body that is held.
+    const std::uint32_t part = kind == EntityKind::kHandbot ? 3 + 3 * static_cast<std::uint32_t>(gripper) : 2;
+    const Eigen::Vector3f from = items_[robot.first_item + part].position;
+    Eigen::Vector3f to = space_.GetPose(other).position.cast<float>();
+    to.z() = from.z();
+    const Eigen::Vector3f way = to - from;
+    const float reach = std::min(way.norm(), 0.035F);
+    if (reach > 0) to = from + way.normalized() * reach;
+    lines_.push_back({from, to, palette::kSelection, 4, 1, 1});
+  }
+}
+
+void Scene::AddRays(std::uint32_t footbot)
+{
+  const EntityConfiguration& configuration = space_.GetEntity(footbot).GetConfiguration();
+  if (!HasProximity(space_.GetExperiment(), configuration)) return;
+  const Pose pose = space_.GetPose(footbot);
+  for (int i = 0; i < kRays; ++i)
+  {
+    const double angle = DegreesToRadians(7.5 + 15 * i);
+    const Vector3 direction(std::cos(angle), std::sin(angle), 0);
+    const Vector3 rim = configuration.size.x() * direction + Vector3(0, 0, kRayHeight);
+    const Vector3 from = pose.Apply(rim);
+    const Vector3 to = pose.Apply(rim + kRayRange * direction);
+    const double hit = FirstHit(from, to, footbot);
+    AddLine(from, from + hit * (to - from), hit < 1 ? palette::kRayHit : palette::kRayFree, 1.5F, hit < 1 ? 1 : 0.7F);
+  }
+}
+
+void Scene::AddOutline(std::uint32_t entity, Colour colour, float width, bool on_top)
+{
+  const Shape shape = ShapeOf(space_.GetEntity(entity).GetConfiguration());
+  const Pose pose = space_.GetPose(entity);
+  const auto at = [&](double x, double y, double z)
+  { return pose.Apply(shape.centre + Vector3(x, y, z).cwiseProduct(shape.half_size)); };
+  const auto line = [&](const Vector3& from, const Vector3& to) { AddLine(from, to, colour, width, 0.9F, on_top); };
+  if (shape.kind == Shape::Kind::kBox)
+  {
+    for (const double a : {-1.0, 1.0})
+      for (const double b : {-1.0, 1.0})
+      {
+        line(at(-1, a, b), at(1, a, b));
+        line(at(a, -1, b), at(a, 1, b));
+        line(at(a, b, -1), at(a, b, 1));
+      }
+  }
+  else if (shape.kind == Shape::Kind::kCylinder)
+  {
+    constexpr int kPieces = 24;
+    const auto rim = [&](int i, double z)
+    {
+      const double angle = 2 * std::numbers::pi * i / kPieces;
+      return at(std::cos(angle), std::sin(angle), z);
+    };
+    for (int i = 0; i < kPieces; ++i)
+    {
+      for (const double z : {-1.0, 1.0}) line(rim(i, z), rim(i + 1, z));
+      if (i % 6 == 0) line(rim(i, -1), rim(i, 1));
+    }
+  }
+}
+
+void Scene::KeepTrails()
+{
+  const std::span<const std::uint32_t> movable = space_.Movable();
+  if (trails_ == nullptr) return;
+  for (std::size_t m = 0; m < movable.size(); ++m)
+  {
+    Eigen::Vector3f place = space_.GetPose(movable[m]).position.cast<float>();
+    place.z() += 0.012F;
+    trails_[m].Add(place);
+  }
+}
+
+void Scene::AddTrails()
+{
+  const std::span<const std::uint32_t> movable = space_.Movable();
+  if (trails_ == nullptr)
+  {
+    trails_ = std::make_unique<Trail[]>(movable.size());
+    KeepTrails();
+  }
+  constexpr float kOpacity = 0.75F;
+  for (std::size_t m = 0; m < movable.size(); ++m)
+  {
+    const Trail& trail = trails_[m];
+    const EntityKind kind = space_.GetEntity(movable[m]).GetKind();
+    const Colour colour = kind == EntityKind::kFootbot   ? LookOf(Material::kFootbot).colour
+                          : kind == EntityKind::kEyebot  ? LookOf(Material::kEyebot).colour
+                          : kind == EntityKind::kHandbot ? LookOf(Material::kHandbot).colour
+                                                         : palette::kSelection;
+    const auto opacity = [&](std::size_t back)
+    { return kOpacity * (1 - static_cast<float>(back) / static_cast<float>(Trail::kPlaces)); };
+    for (std::size_t back = 0; back + 1 < trail.count; ++back)
+      lines_.push_back({trail.Last(back), trail.Last(back + 1), colour, 2, opacity(back), opacity(back + 1)});
+  }
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,47 @@
+// A video of pictures in simulated time: mp4 (H.264) or webm (VP9), by the ending of the file's name, or any other
+// container that FFmpeg knows.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "visualiser/scene/picture.h"
+
+namespace swarmanoid
+{
+
+class VideoWriter
+{
+public:
+  // The size is rounded down to even numbers. seconds_per_picture: of the video, for its nominal rate. Throws
+  // std::runtime_error, naming the file.
+  VideoWriter(const std::string& path, int width, int height, double seconds_per_picture);
+  ~VideoWriter();
+
+  // The picture is shown from `time` (s from the start of the video) on; times ascend.
+  void Add(const Picture& picture, double time);
+  // Writes what is left; without it the destructor does, but cannot report errors.
+  void Finish();
+
+  // False where the build has no FFmpeg libraries; the constructor throws then.
+  static bool IsAvailable();
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// What a video holds: for tests and scripts.
+struct VideoContents
+{
+  int width = 0;
+  int height = 0;
+  int pictures = 0;
+  double seconds = 0;  // from the first picture to the last one
+  std::string codec;
+  Picture first, last;
+};
+// Decodes all of it. Throws std::runtime_error, naming the file.
+VideoContents ReadVideo(const std::string& path);
+
+}  // namespace swarmanoid
