@@ -32,3 +32,12 @@ function(swarmanoid_controllers folder output)
   endforeach()
   set(SWARMANOID_CONTROLLERS ${controllers} PARENT_SCOPE)
 endfunction()
+
+# swarmanoid_functions(FOLDER OUTPUT): the same for experiment functions; the names go into SWARMANOID_FUNCTIONS.
+function(swarmanoid_functions folder output)
+  swarmanoid_controllers(${folder} ${output})
+  foreach(name IN LISTS SWARMANOID_CONTROLLERS)
+    target_link_libraries(${name} PRIVATE Swarmanoid::space_server_role)
+  endforeach()
+  set(SWARMANOID_FUNCTIONS ${SWARMANOID_CONTROLLERS} PARENT_SCOPE)
+endfunction()

@@ -1,123 +1,111 @@
-// `swarmanoid new`: makes the files of a new controller, experiment or user directory from the templates.
-#include <fmt/format.h>
-#include <unistd.h>
-
+// `swarmanoid new`: makes user directories, and in them controllers, behaviours, experiment functions and experiments.
 #include <CLI/CLI.hpp>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
+#include "common/configuration/wording.h"
 #include "launcher/commands.h"
 #include "launcher/exit_codes.h"
-#include "launcher/installation.h"
-#include "launcher/template_files.h"
+#include "launcher/new_files.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-namespace fs = std::filesystem;
+constexpr const char* kNameRule = ": small letters, digits and '_'";
 
-const char* const kMakeUserDirectory =
-    "make a user directory first and go there:\n  swarmanoid new user my_robots && cd my_robots";
-
-// The user directory that we are in: the nearest folder upwards that has controllers/ and build.sh.
-fs::path UserDirectory()
+void AddBehaviorController(CLI::App& verb, int& exit_code)
 {
-  for (fs::path folder = fs::current_path();; folder = folder.parent_path())
-  {
-    if (fs::is_directory(folder / "controllers") && fs::exists(folder / "build.sh")) return folder;
-    if (folder == folder.root_path()) return {};
-  }
+  auto names = std::make_shared<BehaviorControllerNames>();
+  CLI::App* command = verb.add_subcommand(
+      "behavior-controller", "A controller made of behaviours, its root behaviour, and an experiment with it");
+  command->add_option("NAME", names->name, std::string("Name of the controller") + kNameRule)->required();
+  command->add_option("--robot", names->robot, "footbot, handbot or eyebot")->capture_default_str();
+  command->add_option("--class", names->class_name, "Class of the controller (default: CName)");
+  command->add_option("--behavior", names->behavior,
+                      "Files of the root behaviour, without ending (default: bt_ROBOT_NAME)");
+  command->add_option("--behavior-class", names->behavior_class, "Class of the root behaviour (default: CBTRobotName)");
+  command->add_flag("!--no-experiment", names->experiment, "Make no experiment file");
+  command->footer("Example:\n  swarmanoid new behavior-controller sky_watch --robot eyebot");
+  command->callback(
+      [names, &exit_code]
+      {
+        NewBehaviorController(*names);
+        exit_code = kDone;
+      });
 }
 
-TemplateNames NamesFor(const std::string& name)
+void AddBehavior(CLI::App& verb, int& exit_code)
 {
-  if (!IsIdentifier(name))
-    throw UsageError(
-        fmt::format("'{}' cannot be a name: use small letters, digits and '_', starting with a letter, "
-                    "for example wall_follower",
-                    name));
-  return {name, ClassName(name)};
-}
-
-void MakeFile(const std::string& from, const fs::path& to, const TemplateNames& names)
-{
-  const fs::path source = fs::path(UserFilesFolder()) / "templates" / from;
-  WriteFromTemplate(source, to, names);
-  fmt::print("  {}\n", fs::relative(to).string());
-}
-
-int NewController(const std::string& name)
-{
-  const TemplateNames names = NamesFor(name);
-  const fs::path user = UserDirectory();
-  if (user.empty()) throw UsageError(std::string("this is no user directory; ") + kMakeUserDirectory);
-  const fs::path folder = user / "controllers" / name;
-  const fs::path experiment = user / "experiments" / (name + ".xml");
-  RefuseExisting(folder);
-  RefuseExisting(experiment);
-  fmt::print("Made controller {}:\n", name);
-  MakeFile("controller/controller.h.in", folder / (name + ".h"), names);
-  MakeFile("controller/controller.cpp.in", folder / (name + ".cpp"), names);
-  MakeFile("controller/experiment.xml.in", experiment, names);
-  fmt::print("Next:\n  {}\n  swarmanoid run {}\n", ("." / fs::relative(user / "build.sh")).string(),
-             fs::relative(experiment).string());
-  return kDone;
-}
-
-int NewExperiment(const std::string& name)
-{
-  const TemplateNames names = NamesFor(name);
-  const fs::path user = UserDirectory();
-  const fs::path file = (user.empty() ? fs::current_path() : user / "experiments") / (name + ".xml");
-  RefuseExisting(file);
-  fmt::print("Made experiment {}:\n", name);
-  MakeFile("experiment/experiment.xml.in", file, names);
-  fmt::print("Next:\n  swarmanoid run {}\n", fs::relative(file).string());
-  return kDone;
-}
-
-// A script makes user directories, since build_framework does it before anything is built.
-int NewUser(const std::string& directory)
-{
-  const std::string script = fs::path(UserFilesFolder()) / "user_scripts" / "create_user_directory.sh";
-  RefuseExisting(directory);
-  execl(script.c_str(), script.c_str(), directory.c_str(), nullptr);
-  throw std::runtime_error(fmt::format("cannot start '{}': {}", script, std::strerror(errno)));
+  auto names = std::make_shared<BehaviorNames>();
+  CLI::App* command = verb.add_subcommand("behavior", "A behaviour, in the folder of a behaviour controller");
+  command->add_option("NAME", names->name, std::string("Its files, without ending") + kNameRule)->required();
+  command->add_option("--class", names->class_name, "Its class (default: CBTName)");
+  command->add_option("--controller", names->controller,
+                      "The behaviour controller that it is for (default: the one in this folder)");
+  command->footer("Example:\n  swarmanoid new behavior bt_footbot_stop --controller wall_follower");
+  command->callback(
+      [names, &exit_code]
+      {
+        NewBehavior(*names);
+        exit_code = kDone;
+      });
 }
 
 }  // namespace
 
 void AddNewCommand(CLI::App& app, int& exit_code)
 {
-  CLI::App* verb = app.add_subcommand("new", "Make a user directory, a controller or an experiment to start from");
-  verb->require_subcommand(1);
+  CLI::App* verb = app.add_subcommand("new", "Make a user directory, and controllers and experiments to start from");
   verb->footer(
       "Examples:\n"
       "  swarmanoid new user my_robots && cd my_robots\n"
-      "  swarmanoid new controller wall_follower\n"
+      "  swarmanoid new behavior-controller wall_follower\n"
+      "  swarmanoid new controller from_scratch\n"
       "  swarmanoid new experiment first_try");
 
   auto name = std::make_shared<std::string>();
-  CLI::App* controller =
-      verb->add_subcommand("controller", "A footbot controller and an experiment with it, in a user directory");
-  controller->add_option("NAME", *name, "Name of the controller: small letters, digits and '_'")->required();
-  controller->footer("Example:\n  swarmanoid new controller wall_follower");
-  controller->callback([name, &exit_code] { exit_code = NewController(*name); });
+  const auto add = [&](const char* what, const char* about, const char* argument, const std::string& argument_about,
+                       const char* example, void (*make)(const std::string&))
+  {
+    CLI::App* command = verb->add_subcommand(what, about);
+    command->add_option(argument, *name, argument_about)->required();
+    command->footer(std::string("Example:\n  swarmanoid new ") + example);
+    command->callback(
+        [name, make, &exit_code]
+        {
+          make(*name);
+          exit_code = kDone;
+        });
+  };
+  add("user", "A directory for your own controllers and experiments", "DIRECTORY", "The directory to make",
+      "user my_robots", NewUserDirectory);
+  AddBehaviorController(*verb, exit_code);
+  AddBehavior(*verb, exit_code);
+  add("controller", "A footbot controller in one class, and an experiment with it", "NAME",
+      std::string("Name of the controller") + kNameRule, "controller wall_follower", NewController);
+  add("functions", "Experiment functions, which measure and decide the end, and an experiment with them", "NAME",
+      std::string("Name of the functions") + kNameRule, "functions spreading", NewFunctions);
+  add("experiment", "An experiment file with a few robots in a walled arena", "NAME",
+      std::string("Name of the experiment") + kNameRule, "experiment first_try", NewExperiment);
 
-  CLI::App* experiment = verb->add_subcommand("experiment", "An experiment file with a few robots in a walled arena");
-  experiment->add_option("NAME", *name, "Name of the experiment: small letters, digits and '_'")->required();
-  experiment->footer("Example:\n  swarmanoid new experiment first_try");
-  experiment->callback([name, &exit_code] { exit_code = NewExperiment(*name); });
-
-  CLI::App* user = verb->add_subcommand("user", "A directory for your own controllers and experiments");
-  user->add_option("DIRECTORY", *name, "The directory to make")->required();
-  user->footer("Example:\n  swarmanoid new user my_robots");
-  user->callback([name, &exit_code] { exit_code = NewUser(*name); });
+  // CLI11 would only say that the word was not expected.
+  verb->allow_extras();
+  verb->callback(
+      [verb]
+      {
+        if (!verb->get_subcommands().empty()) return;
+        std::vector<std::string> kinds;
+        for (const CLI::App* kind : verb->get_subcommands([](const CLI::App*) { return true; }))
+          kinds.push_back(kind->get_name());
+        const std::string list = "swarmanoid new makes: " + Listed(kinds);
+        if (verb->remaining().empty())
+          throw UsageError(list + "; name one, for example: swarmanoid new user my_robots");
+        const std::string word = verb->remaining().front();
+        throw UsageError(Quoted(word) + " is not among what " + list + DidYouMean(word, kinds));
+      });
 }
 
 }  // namespace swarmanoid

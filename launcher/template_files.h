@@ -1,27 +1,30 @@
-// Files made from templates, in which @name@ and @class@ stand for the names that a user chose.
+// Files made from templates, in which @name@, @class@ and the like stand for the names that a user chose.
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 namespace swarmanoid
 {
 
-struct TemplateNames
-{
-  std::string name;        // wall_follower
-  std::string class_name;  // CWallFollower
-};
+// What stands for what: {"name", "wall_follower"} for @name@.
+using TemplateValues = std::map<std::string, std::string>;
 
 // Small letters, digits and '_', a letter first.
 bool IsIdentifier(const std::string& name);
+// Letters, digits and '_', a capital letter first.
+bool IsClassName(const std::string& name);
 // "CWallFollower" for "wall_follower".
 std::string ClassName(const std::string& name);
-std::string FilledIn(std::string text, const TemplateNames& names);
+// "CBTFootbotStop" for "bt_footbot_stop", "CBTStop" for "stop".
+std::string BehaviorClassName(const std::string& name);
+std::string FilledIn(std::string text, const TemplateValues& values);
 
 // Throws UsageError where there is something already.
 void RefuseExisting(const std::filesystem::path& path);
 // Writes `to`, and its folder where needed. Throws std::runtime_error.
-void WriteFromTemplate(const std::filesystem::path& from, const std::filesystem::path& to, const TemplateNames& names);
+void WriteFromTemplate(const std::filesystem::path& from, const std::filesystem::path& to,
+                       const TemplateValues& values);
 
 }  // namespace swarmanoid

@@ -72,7 +72,12 @@ TEST(ResultBits, AddsItselfToWhatIsThere)
 TEST(TemplateFiles, FillInTheNames)
 {
   EXPECT_EQ(ClassName("wall_follower_2"), "CWallFollower2");
-  EXPECT_EQ(FilledIn("class @class@; // @name@.h @name@", {"a_b", "CAB"}), "class CAB; // a_b.h a_b");
+  EXPECT_EQ(BehaviorClassName("bt_footbot_stop"), "CBTFootbotStop");
+  EXPECT_EQ(BehaviorClassName("stop"), "CBTStop");
+  EXPECT_EQ(FilledIn("class @class@; // @name@.h @name@", {{"name", "a_b"}, {"class", "CAB"}}),
+            "class CAB; // a_b.h a_b");
+  EXPECT_TRUE(IsClassName("CWall_2"));
+  for (const char* name : {"", "wall", "2Wall", "C Wall", "C-W", "C;"}) EXPECT_FALSE(IsClassName(name)) << name;
   EXPECT_TRUE(IsIdentifier("wall_follower2"));
   for (const char* name : {"", "2nd", "Wall", "a-b", "a b", "_a", "../a"}) EXPECT_FALSE(IsIdentifier(name)) << name;
 }

@@ -1,0 +1,282 @@
+#include "launcher/new_files.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <vector>
+
+#include "common/configuration/wording.h"
+#include "launcher/installation.h"
+#include "launcher/template_files.h"
+#include "launcher/usage_error.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+struct RobotKind
+{
+  const char* name;
+  const char* state;
+  const char* state_header;
+  const char* example;  // of a behaviour's step
+};
+
+constexpr std::array kRobots{
+    RobotKind{
+        "footbot", "CCI_FootBotState", "ci_footbot_state.h",
+        "  // For example: stands still before what is ahead. Where nothing is set, earlier behaviours decide.\n"
+        "  if (cRobotState.GetProximitySensorReading(0) > 0.5) cRobotState.SetFootBotWheelsLinearVelocity(0, 0);"},
+    RobotKind{
+        "handbot", "CCI_HandBotState", "ci_handbot_state.h",
+        "  // For example: stops the winch near the ceiling. Where nothing is set, earlier behaviours decide.\n"
+        "  if (cRobotState.GetJoint(CCI_HandBotJointsSensor::ROPE_LENGTH) < 0.5) cRobotState.SetWinchVelocity(0);"},
+    RobotKind{"eyebot", "CCI_EyeBotState", "ci_eyebot_state.h",
+              "  // For example: rises where it is too low. Where nothing is set, earlier behaviours decide.\n"
+              "  if (cRobotState.GetAltitude() < 0.5) cRobotState.SetVelocity(0, 0, 0.1, 0);"}};
+
+const RobotKind& Robot(const std::string& name)
+{
+  std::vector<std::string> names;
+  for (const RobotKind& robot : kRobots)
+  {
+    if (robot.name == name) return robot;
+    names.emplace_back(robot.name);
+  }
+  throw UsageError(
+      fmt::format("there is no robot {}; the robots are {}{}", Quoted(name), Listed(names), DidYouMean(name, names)));
+}
+
+// The user directory that we are in: the nearest folder upwards that has controllers/ and build.sh.
+fs::path UserDirectory()
+{
+  for (fs::path folder = fs::current_path();; folder = folder.parent_path())
+  {
+    if (fs::is_directory(folder / "controllers") && fs::exists(folder / "build.sh")) return folder;
+    if (folder == folder.root_path()) return {};
+  }
+}
+
+fs::path RequireUserDirectory()
+{
+  fs::path folder = UserDirectory();
+  if (folder.empty())
+    throw UsageError(
+        "this is no user directory; make a user directory first and go there:\n"
+        "  swarmanoid new user my_robots && cd my_robots");
+  return folder;
+}
+
+// Each becomes a target of the user's build.
+void RefuseTakenTarget(const fs::path& user, const std::string& name)
+{
+  const std::vector<std::string> taken{"all",     "clean", "codegen", "depend",     "edit_cache",    "help",
+                                       "install", "list",  "package", "simulation", "rebuild_cache", "test"};
+  if (std::find(taken.begin(), taken.end(), name) != taken.end())
+    throw UsageError(fmt::format("'{}' cannot be a name: the build has a target of that name; choose another", name));
+  for (const char* folder : {"controllers", "functions"}) RefuseExisting(user / folder / name);
+}
+
+void RequireIdentifier(const std::string& name)
+{
+  if (!IsIdentifier(name))
+    throw UsageError(
+        fmt::format("'{}' cannot be a name: use small letters, digits and '_', starting with a letter, "
+                    "for example wall_follower",
+                    name));
+}
+
+void RequireClassName(const std::string& name)
+{
+  if (!IsClassName(name))
+    throw UsageError(
+        fmt::format("'{}' cannot be the name of a class: use letters, digits and '_', starting with a capital letter, "
+                    "for example CWallFollower",
+                    name));
+}
+
+void MakeFile(const std::string& from, const fs::path& to, const TemplateValues& values)
+{
+  WriteFromTemplate(fs::path(UserFilesFolder()) / "templates" / from, to, values);
+  fmt::print("  {}\n", fs::relative(to).string());
+}
+
+// How the user calls this program: by its name where that finds it.
+std::string ProgramName()
+{
+  const fs::path own = fs::read_symlink("/proc/self/exe");
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');)
+  {
+    std::error_code error;
+    if (fs::equivalent(fs::path(folder) / own.filename(), own, error)) return own.filename();
+  }
+  return own;
+}
+
+void TellNext(const fs::path& user, const fs::path& experiment)
+{
+  const std::string build = fs::relative(user / "build.sh").string();
+  fmt::print("Next:\n  {}{}\n", build.starts_with("..") ? "" : "./", build);
+  if (!experiment.empty()) fmt::print("  {} run {}\n", ProgramName(), fs::relative(experiment).string());
+}
+
+std::string WithArticle(const RobotKind& robot)
+{
+  return std::string(robot.name[0] == 'e' ? "an " : "a ") + robot.name;
+}
+
+std::string TextOf(const fs::path& file)
+{
+  std::ifstream input(file);
+  return {std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
+}
+
+// The robot of the behaviour controller in a folder; nullptr where there is none.
+const RobotKind* RobotOfControllerIn(const fs::path& folder)
+{
+  for (const auto& entry : fs::directory_iterator(folder))
+  {
+    if (entry.path().extension() != ".h") continue;
+    const std::string text = TextOf(entry.path());
+    for (const RobotKind& robot : kRobots)
+      if (text.find(fmt::format("CCI_BehaviorController<{}>", robot.state)) != std::string::npos) return &robot;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+// A script makes user directories, since build_framework does it before anything is built.
+void NewUserDirectory(const std::string& directory)
+{
+  const std::string script = fs::path(UserFilesFolder()) / "user_scripts" / "create_user_directory.sh";
+  RefuseExisting(directory);
+  execl(script.c_str(), script.c_str(), directory.c_str(), nullptr);
+  throw std::runtime_error(fmt::format("cannot start '{}': {}", script, std::strerror(errno)));
+}
+
+void NewController(const std::string& name)
+{
+  RequireIdentifier(name);
+  const fs::path user = RequireUserDirectory();
+  const fs::path folder = user / "controllers" / name;
+  const fs::path experiment = user / "experiments" / (name + ".xml");
+  RefuseTakenTarget(user, name);
+  RefuseExisting(experiment);
+  const TemplateValues values{{"name", name}, {"class", ClassName(name)}};
+  fmt::print("Made controller {}:\n", name);
+  MakeFile("controller/controller.h.in", folder / (name + ".h"), values);
+  MakeFile("controller/controller.cpp.in", folder / (name + ".cpp"), values);
+  MakeFile("controller/experiment.xml.in", experiment, values);
+  TellNext(user, experiment);
+}
+
+void NewExperiment(const std::string& name)
+{
+  RequireIdentifier(name);
+  const fs::path user = UserDirectory();
+  const fs::path file = (user.empty() ? fs::current_path() : user / "experiments") / (name + ".xml");
+  RefuseExisting(file);
+  fmt::print("Made experiment {}:\n", name);
+  MakeFile("experiment/experiment.xml.in", file, {{"name", name}});
+  fmt::print("Next:\n  {} run {}\n", ProgramName(), fs::relative(file).string());
+}
+
+void NewFunctions(const std::string& name)
+{
+  RequireIdentifier(name);
+  const fs::path user = RequireUserDirectory();
+  const fs::path experiment = user / "experiments" / (name + ".xml");
+  RefuseTakenTarget(user, name);
+  RefuseExisting(experiment);
+  const TemplateValues values{{"name", name}, {"class", ClassName(name)}};
+  fmt::print("Made experiment functions {}:\n", name);
+  MakeFile("functions/functions.cpp.in", user / "functions" / name / (name + ".cpp"), values);
+  MakeFile("functions/experiment.xml.in", experiment, values);
+  TellNext(user, experiment);
+}
+
+void NewBehaviorController(BehaviorControllerNames names)
+{
+  RequireIdentifier(names.name);
+  const RobotKind& robot = Robot(names.robot);
+  if (names.class_name.empty()) names.class_name = ClassName(names.name);
+  if (names.behavior.empty()) names.behavior = fmt::format("bt_{}_{}", robot.name, names.name);
+  if (names.behavior_class.empty()) names.behavior_class = BehaviorClassName(names.behavior);
+  RequireIdentifier(names.behavior);
+  RequireClassName(names.class_name);
+  RequireClassName(names.behavior_class);
+  if (names.behavior == names.name || names.behavior_class == names.class_name)
+    throw UsageError("the controller and its root behaviour need different names");
+
+  const fs::path user = RequireUserDirectory();
+  const fs::path folder = user / "controllers" / names.name;
+  const fs::path experiment = names.experiment ? user / "experiments" / (names.name + ".xml") : fs::path();
+  RefuseTakenTarget(user, names.name);
+  if (names.experiment) RefuseExisting(experiment);
+  const TemplateValues values{{"name", names.name},
+                              {"class", names.class_name},
+                              {"behavior", names.behavior},
+                              {"behavior_class", names.behavior_class},
+                              {"robot", WithArticle(robot)},
+                              {"state", robot.state},
+                              {"state_header", robot.state_header}};
+  const std::string of_robot = fmt::format("behavior_controller/{}", robot.name);
+  fmt::print("Made behavior controller {} of {}:\n", names.name, WithArticle(robot));
+  MakeFile("behavior_controller/controller.h.in", folder / (names.name + ".h"), values);
+  MakeFile("behavior_controller/controller.cpp.in", folder / (names.name + ".cpp"), values);
+  MakeFile(of_robot + ".h.in", folder / (names.behavior + ".h"), values);
+  MakeFile(of_robot + ".cpp.in", folder / (names.behavior + ".cpp"), values);
+  if (names.experiment) MakeFile(of_robot + ".xml.in", experiment, values);
+  TellNext(user, experiment);
+}
+
+void NewBehavior(BehaviorNames names)
+{
+  RequireIdentifier(names.name);
+  if (names.class_name.empty()) names.class_name = BehaviorClassName(names.name);
+  RequireClassName(names.class_name);
+  const fs::path user = RequireUserDirectory();
+  const fs::path folder = names.controller.empty() ? fs::current_path() : user / "controllers" / names.controller;
+  if (!fs::is_directory(folder))
+    throw UsageError(fmt::format("there is no controller {} in {}", Quoted(names.controller),
+                                 fs::relative(user / "controllers").string()));
+  const RobotKind* robot = RobotOfControllerIn(folder);
+  if (robot == nullptr)
+    throw UsageError(fmt::format(
+        "there is no behavior controller in {}; go into the folder of one, or name it by --controller. To make one:\n"
+        "  swarmanoid new behavior-controller NAME",
+        names.controller.empty() ? "this folder" : Quoted(fs::relative(folder).string())));
+  const fs::path header = folder / (names.name + ".h");
+  const fs::path source = folder / (names.name + ".cpp");
+  RefuseExisting(header);
+  RefuseExisting(source);
+  const TemplateValues values{
+      {"behavior", names.name}, {"behavior_class", names.class_name},  {"robot", WithArticle(*robot)},
+      {"state", robot->state},  {"state_header", robot->state_header}, {"example", robot->example}};
+  fmt::print("Made behavior {} of {}:\n", names.class_name, WithArticle(*robot));
+  MakeFile("behavior/behavior.h.in", header, values);
+  MakeFile("behavior/behavior.cpp.in", source, values);
+  fmt::print(
+      "To use it: include \"{}.h\" where the root behavior is declared, give that one a member of this class,\n"
+      "and call the member's Step(cRobotState) in the root's Step.\n",
+      names.name);
+  TellNext(user, {});
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,35 @@
+// What `swarmanoid new` makes. All of these write files, say which and what comes next, and throw UsageError where a
+// name cannot be used, something is there already or this is the wrong folder.
+#pragma once
+
+#include <string>
+
+namespace swarmanoid
+{
+
+void NewUserDirectory(const std::string& directory);
+void NewController(const std::string& name);
+void NewExperiment(const std::string& name);
+void NewFunctions(const std::string& name);
+
+// Names left empty follow from the controller's.
+struct BehaviorControllerNames
+{
+  std::string name;            // wall_follower: its folder, files, library and tag
+  std::string class_name;      // CWallFollower
+  std::string behavior;        // bt_footbot_wall_follower: the files of the root behaviour
+  std::string behavior_class;  // CBTFootbotWallFollower
+  std::string robot = "footbot";
+  bool experiment = true;
+};
+void NewBehaviorController(BehaviorControllerNames names);
+
+struct BehaviorNames
+{
+  std::string name;        // bt_footbot_wall_watch: its files
+  std::string class_name;  // CBTFootbotWallWatch
+  std::string controller;  // the behaviour controller that it is for; empty: the one in this folder
+};
+void NewBehavior(BehaviorNames names);
+
+}  // namespace swarmanoid
