@@ -1,25 +1,28 @@
 #!/usr/bin/env bash
-# outside_controller.sh CMAKE BUILD_FOLDER BIN: a newcomer's way from the installed package to a running controller.
+# outside_controller.sh PREFIX BIN: a newcomer's way from the installed package to a running controller, nothing on the PATH.
 set -euo pipefail
-cmake=$1 build=$2 bin=$3
+prefix=$1 bin=$2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-echo "== install, and move: nothing may remember where it was built or installed"
-"$cmake" --install "$build" --prefix "$folder/first" >/dev/null
-mv "$folder/first" "$folder/prefix"
-
 echo "== a user directory elsewhere builds against it"
-"$folder/prefix/share/swarmanoid/user/user_scripts/create_user_directory.sh" "$folder/user"
-"$folder/user/build.sh" -DCMAKE_PREFIX_PATH="$folder/prefix"
+"$prefix/share/swarmanoid/user/user_scripts/create_user_directory.sh" "$folder/user"
+"$folder/user/build.sh"
 grep -q SWARMANOID_VERSION "$folder/user/config.h"
 
 echo "== its experiment is valid and runs"
 cd "$folder"
-"prefix/$bin/swarmanoid" check user/experiments/sample_footbot.xml
-"prefix/$bin/swarmanoid" run user/experiments/sample_footbot.xml --single-process --output run | tee output.txt
+"$prefix/$bin/swarmanoid" check user/experiments/sample_footbot.xml
+"$prefix/$bin/swarmanoid" run user/experiments/sample_footbot.xml --single-process --output run | tee output.txt
 tail -n 1 output.txt | grep -qE '^finished: 962 ticks, 1 entities, hash [0-9a-f]{16}, '
 
 echo "== so does an installed sample, as a cluster of the installed programs"
-"prefix/$bin/swarmanoid" run prefix/share/swarmanoid/configs/sample_footbot.xml --output cluster | tee cluster.txt
+"$prefix/$bin/swarmanoid" run "$prefix/share/swarmanoid/configs/sample_footbot.xml" --output cluster | tee cluster.txt
 [ "$(grep -oE 'hash [0-9a-f]{16}' cluster.txt)" = "$(grep -oE 'hash [0-9a-f]{16}' output.txt)" ]
+
+echo "== without Swarmanoid the build says what to do"
+echo /nowhere >user/.swarmanoid
+rm -r user/simulation_build
+if PATH=/usr/bin:/bin user/build.sh >missing.txt 2>&1; then exit 1; fi
+grep -q 'CMAKE_PREFIX_PATH=/opt/swarmanoid' missing.txt
+"$folder/user/build.sh" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null

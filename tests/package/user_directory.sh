@@ -1,0 +1,98 @@
+# TryUserDirectory DIRECTORY SCRIPTS: makes a user directory and in it all that `swarmanoid new` and the user scripts make,
+# builds it once, and runs every experiment. `swarmanoid` is on the PATH. Sourced by the tests of user directories.
+
+Expect()
+{
+  if ! grep -qF "$2" <<<"$1"; then
+    printf 'expected: %s\nin: %s\n' "$2" "$1" >&2
+    exit 1
+  fi
+}
+
+Hash() { grep -oE 'hash [0-9a-f]{16}' <<<"$1" | tail -n 1; }
+
+# Runs of others on this machine are none of ours.
+export SWARMANOID_SHARED_FOLDER=/dev/shm/swarmanoid-test-$$
+
+TryUserDirectory()
+{
+  local directory=$1 scripts=$2 answer said runs
+  runs=$(mktemp -d)
+  cd "$directory/controllers"
+
+  echo "== a behaviour controller of a footbot, asked for"
+  said=$(printf 'wall_follower\nfootbot\n\nbt_along_the_wall\nCBTAlongTheWall\nyes\n' | "$scripts/create_behavior_controller.sh")
+  Expect "$said" "wall_follower/bt_along_the_wall.h"
+  grep -q 'class CWallFollower : public CCI_BehaviorController<CCI_FootBotState>' wall_follower/wall_follower.h
+  grep -q 'class CBTAlongTheWall : public CCI_Behavior<CCI_FootBotState>' wall_follower/bt_along_the_wall.h
+
+  echo "== those of the other robots, by options"
+  "$scripts/create_behavior_controller.sh" --name sky_watch --robot eyebot --yes
+  "$scripts/create_behavior_controller.sh" --name climber --robot handbot --class CMyClimber --behavior up --behavior-class CUp --experiment
+  grep -q 'class CMyClimber : public CCI_BehaviorController<CCI_HandBotState>' climber/climber.h
+
+  echo "== a behaviour for each, in the folder of its controller"
+  (cd wall_follower && printf 'bt_footbot_stop\n\n' | "$scripts/create_behavior.sh")
+  (cd sky_watch && "$scripts/create_behavior.sh" --name bt_rise --yes)
+  swarmanoid new behavior bt_hold --controller climber
+  grep -q 'class CBTFootbotStop : public CCI_Behavior<CCI_FootBotState>' wall_follower/bt_footbot_stop.h
+  grep -q 'class CBTRise : public CCI_Behavior<CCI_EyeBotState>' sky_watch/bt_rise.h
+  # Used as its maker says: a member of the root behaviour, called by its Step.
+  sed -i -e 's|#include "footbot/bt_footbot_random_walk.h"|&\n#include "bt_footbot_stop.h"|' \
+    -e 's|CBTFootbotRandomWalk random_walk_;|&\n  CBTFootbotStop stop_;|' wall_follower/bt_along_the_wall.h
+  sed -i 's|obstacle_avoidance_.Step(cRobotState);|&\n  stop_.Step(cRobotState);|' wall_follower/bt_along_the_wall.cpp
+  grep -q 'stop_.Step' wall_follower/bt_along_the_wall.cpp
+
+  echo "== a controller in one class, and experiment functions"
+  swarmanoid new controller plain
+  swarmanoid new functions spreading
+  swarmanoid new experiment first_try
+
+  echo "== what is wrong is told with the cure"
+  answer=$("$scripts/create_behavior_controller.sh" --name again --robot hndbot --yes 2>&1) && exit 1
+  Expect "$answer" "footbot, handbot or eyebot"
+  answer=$("$scripts/create_behavior_controller.sh" </dev/null 2>&1) && exit 1
+  Expect "$answer" "(or give --name)"
+  answer=$(swarmanoid new behavior-controller again --robot hndbot 2>&1) && exit 1
+  Expect "$answer" "did you mean 'handbot'?"
+  answer=$(swarmanoid new behavior-controller sky_watch 2>&1) && exit 1
+  Expect "$answer" "is there already"
+  answer=$(swarmanoid new functions sky_watch 2>&1) && exit 1
+  Expect "$answer" "is there already"
+  answer=$(swarmanoid new behavior bt_stop 2>&1) && exit 1
+  Expect "$answer" "swarmanoid new behavior-controller NAME"
+  answer=$(swarmanoid new controller simulation 2>&1) && exit 1
+  Expect "$answer" "choose another"
+  answer=$(swarmanoid new behaviour x 2>&1) && exit 1
+  Expect "$answer" "did you mean 'behavior'?"
+  answer=$(../build.sh robots 2>&1) && exit 1
+  Expect "$answer" "simulation, real_robot or all"
+
+  echo "== all of it builds"
+  cd "$directory"
+  ./build.sh >"$runs/build.txt" 2>&1 || { cat "$runs/build.txt"; exit 1; }
+
+  echo "== every experiment runs, as a cluster and in the user's own simulator alike"
+  local experiment name cluster own status
+  for experiment in experiments/*.xml; do
+    name=$(basename "$experiment" .xml)
+    swarmanoid check "$experiment" >/dev/null
+    status=0
+    cluster=$(swarmanoid run "$experiment" --ticks 60 --quiet --output "$runs/$name") || status=$?
+    own=$(simulation_build/simulation "$experiment" --ticks 60 --quiet --output "$runs/$name-own") || [ $? -eq "$status" ]
+    echo "$name: exit code $status, $(tail -n 1 <<<"$own")"
+    # 60 ticks are too few for the goal of the functions.
+    [ "$status" -eq "$([ "$name" = spreading ] && echo 1 || echo 0)" ]
+    [ -n "$(Hash "$cluster")" ]
+    [ "$(Hash "$cluster")" = "$(Hash "$own")" ]
+  done
+  grep -q '^tick,mean_distance_m$' "$runs/spreading/spreading.csv"
+  swarmanoid run experiments/spreading.xml --quiet --output "$runs/to_the_end"
+  # The robots of each kind have moved: the footbots on, the handbot up.
+  awk '$3 == "hb" { z = $6 } END { exit !(z > 0.4) }' "$runs/climber/climber.txt"
+  awk '$2 == "Footbot" && $1 == 0 { x[$3] = $4; y[$3] = $5 } $2 == "Footbot" && $1 == 60 { d = (x[$3] - $4)^2 + (y[$3] - $5)^2; if (d > 0.01) n++ }
+       END { exit !(n > 3) }' "$runs/wall_follower/wall_follower.txt"
+  awk '$2 == "Eyebot" && $1 == 0 { x[$3] = $4; y[$3] = $5 } $2 == "Eyebot" && $1 == 60 { d = (x[$3] - $4)^2 + (y[$3] - $5)^2; if (d > 0.01) n++ }
+       END { exit !(n > 1) }' "$runs/sky_watch/sky_watch.txt"
+  rm -rf "$runs"
+}

@@ -1,0 +1,27 @@
+// Small experiments for the listings: one footbot with a controller of the library of listings.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+#include "launcher/simulator.h"
+
+namespace swarmanoid::test
+{
+
+struct SeedExperiment
+{
+  std::string controller;
+  double arena_m = 2;  // side of a square
+  bool walled = true;  // closed by walls
+  std::string start = "1, 1, 0";
+  int ticks = 300;
+};
+
+// Runs it, `watch` at every tick from 0 on; returns the hash of the final state.
+std::uint64_t RunSeedExperiment(const SeedExperiment& experiment,
+                                const std::function<void(const CSwarmanoidSpace&)>& watch = {});
+
+}  // namespace swarmanoid::test
