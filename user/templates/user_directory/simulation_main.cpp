@@ -1,5 +1,5 @@
-// A simulator of your own: it runs an experiment like `swarmanoid run --single-process`, with the same options, and calls
-// Watch at every tick. Measure there what you want to know of a run.
+// A simulator of your own: it runs an experiment like `swarmanoid run --single-process`, with the same options, and
+// calls Watch at every tick. Measure there what you want to know of a run.
 //
 //   ./build.sh && simulation_build/simulation experiments/sample_footbot.xml
 #include <cstdio>
