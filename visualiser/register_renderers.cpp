@@ -1,4 +1,6 @@
+#include "visualiser/image/description.h"
 #include "visualiser/render.h"
+#include "visualiser/renderer_library.h"
 #include "visualiser/text/text_render.h"
 
 namespace swarmanoid
@@ -8,7 +10,9 @@ void RegisterBuiltinRenderers()
 {
   static const bool registered = []
   {
-    PluginRegistry<CRender>::Instance().Add(CTextRender::Description(), [] { return std::make_unique<CTextRender>(); });
+    PluginRegistry<CRender>& registry = PluginRegistry<CRender>::Instance();
+    registry.Add(CTextRender::Description(), [] { return std::make_unique<CTextRender>(); });
+    registry.Add(ImageRenderDescription(), RendererFromLibrary("image_render", "libepoxy-dev libstb-dev libegl1"));
     return true;
   }();
   static_cast<void>(registered);

@@ -47,7 +47,7 @@ Colour Paint(Colour colour)
   Colour paint = 0;
   for (const double channel : channels)
   {
-    const double calm = 0.62 * channel + 0.20 * grey + 0.18 * 214;
+    const double calm = 0.52 * channel + 0.26 * grey + 0.22 * 205;
     paint = paint << 8 | static_cast<Colour>(std::lround(std::clamp(calm, 0.0, 255.0)));
   }
   return paint;

@@ -16,7 +16,10 @@ Mesh BoxMesh(int)
 {
   MeshBuilder builder(4);
   builder.Box({-0.5F, -0.5F, -0.5F}, {0.5F, 0.5F, 0.5F}, Material::kTint);
-  return builder.Take();
+  Mesh mesh = builder.Take();
+  for (MeshVertex& vertex : mesh.vertices)
+    if (vertex.position.z() < 0) vertex.shade = 0.78F;
+  return mesh;
 }
 
 Mesh CylinderMesh(int level)

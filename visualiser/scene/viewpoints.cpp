@@ -110,7 +110,7 @@ std::string ViewpointXml(int number, const Camera& camera)
 Camera DefaultView(const Experiment& experiment, double aspect, bool top)
 {
   // Of the height only what is inhabited: an arena may have a ceiling far above its robots.
-  double height = 0.1;
+  double height = 0.35;
   for (const EntityConfiguration& entity : experiment.entities)
     if (entity.movable) height = std::max(height, entity.pose.position.z() + entity.size.z());
   const Vector3& size = experiment.arena_size;

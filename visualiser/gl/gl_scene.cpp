@@ -1,0 +1,490 @@
+#include "visualiser/gl/gl_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include "visualiser/gl/label_atlas.h"
+#include "visualiser/gl/mesh_store.h"
+#include "visualiser/gl/quads.h"
+#include "visualiser/gl/shaders.h"
+#include "visualiser/gl/targets.h"
+#include "visualiser/gl/view_volume.h"
+#include "visualiser/scene/picking.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using Eigen::Vector2f;
+using Eigen::Vector3f;
+using Eigen::Vector4f;
+
+// From the left behind the default view, rather high.
+const Vector3 kTowardsSun = Vector3(-0.58, -0.20, 0.79).normalized();
+// Levels of detail: bodies of a smaller radius (pixels) get the next one.
+constexpr float kNearPixels = 38;
+constexpr float kMiddlePixels = 11;
+// What stays solid of a wall at the edge of the arena: of one that would hide it, and of the others, m.
+constexpr float kKerb = 0.04F;
+constexpr float kCutHeight = 0.35F;
+constexpr float kCutPart = 0.07F;  // of the arena's size, where that is more
+constexpr GLint kShadowUnit = 0;
+constexpr GLint kLightsUnit = 1;
+constexpr GLint kAtlasUnit = 2;
+
+struct GlLine
+{
+  std::array<float, 3> from, to;
+  std::array<float, 4> colour;
+  std::array<float, 3> width;  // and opacity at both ends
+};
+
+struct GlGlow
+{
+  std::array<float, 4> place;  // and radius
+  std::array<float, 4> colour;
+  std::array<float, 2> kind;  // flat, strength
+};
+
+enum GlowStrength
+{
+  kContact,
+  kLamp,
+  kSpot
+};
+
+std::array<float, 4> Components(Colour colour, float opacity = 1)
+{
+  const auto channel = [&](int shift) { return static_cast<float>((colour >> shift) & 0xff) / 255; };
+  return {channel(16), channel(8), channel(0), opacity};
+}
+
+Vector3f Picture3(Colour colour)
+{
+  const auto c = Components(colour);
+  return {c[0], c[1], c[2]};
+}
+
+Vector3f Linear(Colour colour) { return Picture3(colour).cwiseAbs2(); }
+
+// Lines of the floor: about twenty across an arena.
+float SpacingOf(const Vector3& arena)
+{
+  const double side = std::max(arena.x(), arena.y());
+  for (const double spacing : {0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0})
+    if (side <= 14 * spacing) return static_cast<float>(spacing);
+  return 100;
+}
+
+bool IsSeeThrough(const Model& model)
+{
+  const Mesh& mesh = model.levels[0];
+  return !mesh.vertices.empty() && LookOf(mesh.vertices[0].material).opacity < 1;
+}
+
+}  // namespace
+
+struct GlScene::State
+{
+  Shaders shaders;
+  MeshStore meshes;
+  PictureTarget target;
+  ShadowMap shadow_map;
+  LabelAtlas labels;
+  Quads<GlLine> lines{3, 3, 4, 3};
+  Quads<GlGlow> glows{4, 4, 2};
+  Quads<Glyph> glyphs{4, 4, 4};
+  GlObject light_buffer{GlObject::Kind::kBuffer};
+  GlObject light_texture{GlObject::Kind::kTexture};
+
+  // Of one frame.
+  InstanceBuckets solid, patches, glass, casters;
+  std::vector<GlLine> over, under;
+  std::vector<GlGlow> soft, bright;
+  std::vector<Glyph> letters;
+  std::vector<std::uint8_t> light_bytes;
+  DrawStatistics statistics;
+
+  void Sort(const Scene& scene, const ViewVolume& view, const SunVolume& sun, const DrawOptions& options);
+  void SortWall(const SceneItem& item, const Scene& scene, const ViewVolume& view);
+  void AddUnderglow(const SceneItem& item, const Scene& scene);
+  void SortMarks(const Scene& scene, const Camera& camera, int width, int height);
+  void UploadLights(const Scene& scene);
+  void DrawShadowMap(const SunVolume& sun);
+  void SetLight(const GlProgram& program, const Scene& scene, const Camera& camera, const SunVolume& sun,
+                const DrawOptions& options) const;
+  void DrawFloor(const Scene& scene, const ViewVolume& view, const DrawOptions& options);
+  void DrawSky(const ViewVolume& view);
+  void DrawLines(const ViewVolume& view, int width, int height, std::span<const GlLine> some, bool depth);
+  void DrawGlows(const ViewVolume& view, const Camera& camera, std::span<const GlGlow> some);
+};
+
+GlScene::GlScene()
+{
+  if (epoxy_gl_version() < 33 || !epoxy_is_desktop_gl())
+    throw std::runtime_error("OpenGL 3.3 is needed; this machine offers " + ContextDescription());
+  state_ = std::make_unique<State>();
+}
+
+GlScene::~GlScene() = default;
+
+std::string GlScene::ContextDescription()
+{
+  const auto text = [](GLenum name)
+  {
+    const GLubyte* words = glGetString(name);
+    return words == nullptr ? std::string("unknown") : std::string(reinterpret_cast<const char*>(words));
+  };
+  return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
+}
+
+const DrawStatistics& GlScene::Statistics() const { return state_->statistics; }
+
+void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffer, int width, int height,
+                   const DrawOptions& options)
+{
+  State& s = *state_;
+  s.target.Resize(width, height, options.samples);
+  s.meshes.SetModels(scene.Models());
+  s.statistics = {};
+
+  Vector3 low, high;
+  scene.Bounds(low, high);
+  const ViewVolume view(camera, width, height, low, high);
+  const SunVolume sun(kTowardsSun, view.seen_low, view.seen_high);
+  s.Sort(scene, view, sun, options);
+  s.SortMarks(scene, camera, width, height);
+  s.UploadLights(scene);
+
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glEnable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+  if (options.shadows) s.DrawShadowMap(sun);
+
+  glBindFramebuffer(GL_FRAMEBUFFER, s.target.Framebuffer());
+  glViewport(0, 0, width, height);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glActiveTexture(GL_TEXTURE0 + kShadowUnit);
+  glBindTexture(GL_TEXTURE_2D, s.shadow_map.Texture());
+  glActiveTexture(GL_TEXTURE0 + kLightsUnit);
+  glBindTexture(GL_TEXTURE_BUFFER, s.light_texture.Name());
+
+  // What is solid, nearest things first in effect: the floor covers most of the picture and comes after the bodies.
+  const GlProgram& body = s.shaders.body;
+  body.Use();
+  s.SetLight(body, scene, camera, sun, options);
+  body.Set("u_view_projection", view.view_projection);
+  body.Set("u_lights", kLightsUnit);
+  s.statistics.triangles += s.meshes.Draw(s.solid);
+  s.shaders.floor.Use();
+  s.SetLight(s.shaders.floor, scene, camera, sun, options);
+  s.DrawFloor(scene, view, options);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(-1, -2);
+  body.Use();
+  s.statistics.triangles += s.meshes.Draw(s.patches);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  s.DrawSky(view);
+
+  // What is see-through, over it.
+  glEnable(GL_BLEND);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  s.DrawGlows(view, camera, s.soft);
+  s.DrawLines(view, width, height, s.under, true);
+  glDisable(GL_CULL_FACE);
+  body.Use();
+  s.statistics.triangles += s.meshes.Draw(s.glass);
+  s.DrawGlows(view, camera, s.bright);
+  s.DrawLines(view, width, height, s.over, false);
+  if (!s.letters.empty())
+  {
+    glDisable(GL_DEPTH_TEST);
+    s.shaders.text.Use();
+    s.shaders.text.Set("u_size", Vector2f(static_cast<float>(width), static_cast<float>(height)));
+    s.shaders.text.Set("u_atlas", kAtlasUnit);
+    glActiveTexture(GL_TEXTURE0 + kAtlasUnit);
+    glBindTexture(GL_TEXTURE_2D, s.labels.Texture());
+    s.glyphs.Draw(s.letters);
+    glBindTexture(GL_TEXTURE_2D, 0);
+  }
+
+  glDepthMask(GL_TRUE);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_BLEND);
+  glActiveTexture(GL_TEXTURE0 + kLightsUnit);
+  glBindTexture(GL_TEXTURE_BUFFER, 0);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, 0);
+  glUseProgram(0);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, s.target.Framebuffer());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+}
+
+void GlScene::State::Sort(const Scene& scene, const ViewVolume& view, const SunVolume& sun, const DrawOptions& options)
+{
+  const std::span<const Model> models = scene.Models();
+  std::vector<char> see_through(models.size());
+  for (std::size_t m = 0; m < models.size(); ++m) see_through[m] = IsSeeThrough(models[m]);
+  for (InstanceBuckets* buckets : {&solid, &patches, &glass, &casters})
+  {
+    buckets->Resize(models.size());
+    buckets->Clear();
+  }
+  over.clear();
+  under.clear();
+  soft.clear();
+  bright.clear();
+
+  for (const SceneItem& item : scene.Items())
+  {
+    using Role = SceneItem::Role;
+    if (item.role == Role::kFloor) continue;
+    const Model& model = models[item.model];
+    const float radius = model.radius * item.scale.maxCoeff();
+    const float pixels = view.PixelsOf(item.position, radius);
+    const int level = pixels > kNearPixels ? 0 : pixels > kMiddlePixels ? 1 : 2;
+    const bool seen = view.Sees(item.position, radius);
+    if (seen)
+    {
+      ++statistics.instances;
+      if (item.role == Role::kPatch)
+        patches.Add(item.model, level, InstanceOf(item));
+      else if (see_through[item.model])
+        glass.Add(item.model, level, InstanceOf(item, LookOf(model.levels[0].vertices[0].material).opacity));
+      else if (item.role == Role::kWall && options.glass_walls)
+        SortWall(item, scene, view);
+      else
+        solid.Add(item.model, level, InstanceOf(item));
+      if (item.role == Role::kBody && pixels > kMiddlePixels) AddUnderglow(item, scene);
+    }
+    if (!options.shadows || item.role != Role::kBody || see_through[item.model] || !sun.Holds(item.position, radius))
+      continue;
+    // Far away the shadow of a footbot's turret is that of the whole robot.
+    const bool hidden = level == 2 && item.model == static_cast<std::uint16_t>(ModelId::kFootbotBase);
+    if (!hidden) casters.Add(item.model, std::max(level, 1), InstanceOf(item));
+  }
+}
+
+// Tall walls are cut open: glass over a solid lower part, with the upper edge drawn.
+void GlScene::State::SortWall(const SceneItem& item, const Scene& scene, const ViewVolume& view)
+{
+  const Vector3& arena = scene.ArenaSize();
+  const bool hides =
+      HidesArena(scene.Space().GetEntity(item.entity).GetConfiguration(), arena, view.eye.cast<double>());
+  const float height = item.scale.z();
+  const float cut = hides ? kKerb : std::max(kCutHeight, kCutPart * static_cast<float>(arena.head<2>().maxCoeff()));
+  if (height <= cut) return solid.Add(item.model, 0, InstanceOf(item));
+  glass.Add(item.model, 0, InstanceOf(item, hides ? 0.05F : 0.10F));
+  SceneItem kerb = item;
+  kerb.scale.z() = cut;
+  kerb.position += kerb.orientation * Vector3f(0, 0, (kerb.scale.z() - height) / 2);
+  solid.Add(item.model, 0, InstanceOf(kerb));
+  const auto corner = [&](float x, float y, float z)
+  { return Vector3f(item.position + item.orientation * Vector3f(x, y, z).cwiseProduct(item.scale / 2)); };
+  const auto edge = [&](const Vector3f& from, const Vector3f& to)
+  {
+    under.push_back(
+        {{from.x(), from.y(), from.z()}, {to.x(), to.y(), to.z()}, {0.55F, 0.57F, 0.6F, 1}, {1, 0.35F, 0.35F}});
+  };
+  edge(corner(-1, -1, 1), corner(1, -1, 1));
+  edge(corner(1, -1, 1), corner(1, 1, 1));
+  edge(corner(1, 1, 1), corner(-1, 1, 1));
+  edge(corner(-1, 1, 1), corner(-1, -1, 1));
+}
+
+// A soft dark spot where a body meets the floor, and what its LEDs throw on the floor.
+void GlScene::State::AddUnderglow(const SceneItem& item, const Scene& scene)
+{
+  const auto model = static_cast<ModelId>(item.model);
+  const bool robot = model == ModelId::kFootbotBase || model == ModelId::kHandbotBody;
+  if (!robot && model != ModelId::kCylinder) return;
+  if (item.position.z() > 0.05F || item.position.z() < -0.05F) return;
+  const float radius = robot ? 0.085F : item.scale.x();
+  soft.push_back({{item.position.x(), item.position.y(), item.position.z(), radius * 1.7F},
+                  {0.08F, 0.09F, 0.12F, 0.55F},
+                  {1, kContact}});
+  if (item.lights < 0) return;
+  Vector3f sum = Vector3f::Zero();
+  int lit = 0;
+  for (int led = 0; led < 12; ++led)
+    if (const Colour colour = scene.Lights()[static_cast<std::size_t>(item.lights + led)]; colour != 0)
+    {
+      sum += Picture3(colour);
+      ++lit;
+    }
+  if (lit == 0) return;
+  sum /= static_cast<float>(lit);
+  // Many colours together light the floor in none.
+  const float hue = (sum.maxCoeff() - sum.minCoeff()) / sum.maxCoeff();
+  soft.push_back({{item.position.x(), item.position.y(), item.position.z(), radius * 3.2F},
+                  {sum.x(), sum.y(), sum.z(), (0.06F + 0.24F * hue) * static_cast<float>(lit) / 12},
+                  {1, kLamp}});
+}
+
+void GlScene::State::SortMarks(const Scene& scene, const Camera& camera, int width, int height)
+{
+  for (const SceneLine& line : scene.Lines())
+  {
+    const GlLine gl{{line.from.x(), line.from.y(), line.from.z()},
+                    {line.to.x(), line.to.y(), line.to.z()},
+                    Components(line.colour),
+                    {line.width, line.opacity_from, line.opacity_to}};
+    (line.on_top ? over : under).push_back(gl);
+  }
+  for (const SceneGlow& glow : scene.Glows())
+    bright.push_back({{glow.position.x(), glow.position.y(), glow.position.z(), glow.radius},
+                      Components(glow.colour, 0.4F),
+                      {glow.flat ? 1.0F : 0.0F, static_cast<float>(glow.flat ? kSpot : kLamp)}});
+  letters.clear();
+  for (const SceneLabel& label : scene.Labels())
+  {
+    const Vector3 pixel = camera.Project(label.position.cast<double>(), width, height);
+    if (pixel.z() > 0) labels.Append(label.text, static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), letters);
+  }
+}
+
+void GlScene::State::UploadLights(const Scene& scene)
+{
+  light_bytes.clear();
+  for (const Colour light : scene.Lights())
+    for (const std::uint32_t byte : {light >> 16, light >> 8, light, light == 0 ? 0U : 255U})
+      light_bytes.push_back(static_cast<std::uint8_t>(byte & 0xff));
+  if (light_bytes.empty()) light_bytes.assign(4, 0);
+  glBindBuffer(GL_TEXTURE_BUFFER, light_buffer.Name());
+  glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(light_bytes.size()), light_bytes.data(), GL_STREAM_DRAW);
+  glBindBuffer(GL_TEXTURE_BUFFER, 0);
+  glBindTexture(GL_TEXTURE_BUFFER, light_texture.Name());
+  glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA8, light_buffer.Name());
+  glBindTexture(GL_TEXTURE_BUFFER, 0);
+}
+
+void GlScene::State::DrawShadowMap(const SunVolume& sun)
+{
+  glBindFramebuffer(GL_FRAMEBUFFER, shadow_map.Framebuffer());
+  glViewport(0, 0, ShadowMap::kSide, ShadowMap::kSide);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.5F, 3);
+  glDisable(GL_CULL_FACE);
+  shaders.caster.Use();
+  shaders.caster.Set("u_view_projection", sun.view_projection);
+  statistics.triangles += meshes.Draw(casters);
+  glEnable(GL_CULL_FACE);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+void GlScene::State::SetLight(const GlProgram& program, const Scene& scene, const Camera& camera, const SunVolume& sun,
+                              const DrawOptions& options) const
+{
+  const auto size = static_cast<float>(scene.ArenaSize().head<2>().norm());
+  program.Set("u_eye", Vector3f(camera.position.cast<float>()));
+  program.Set("u_sun", Vector3f(kTowardsSun.cast<float>()));
+  program.Set("u_fog", Picture3(palette::kSky));
+  program.Set("u_fog_distance", 5 * size + 10);
+  program.Set("u_shadows", options.shadows ? 1 : 0);
+  program.Set("u_shadow_map", kShadowUnit);
+  program.Set("u_shadow_texel", 1.0F / ShadowMap::kSide);
+  program.Set("u_shadow_bias", 0.8F * sun.width / static_cast<float>(ShadowMap::kSide) / sun.depth);
+  program.Set("u_shadow", sun.to_texture);
+  if (&program != &shaders.body) return;
+  std::array<Vector4f, 32> looks;
+  std::array<Vector2f, 32> kinds;
+  for (std::size_t m = 0; m < static_cast<std::size_t>(Material::kEnd); ++m)
+  {
+    const MaterialLook& look = LookOf(static_cast<Material>(m));
+    looks[m] << Linear(look.colour), look.gloss;
+    kinds[m] = Vector2f(look.takes_tint ? 1 : 0, static_cast<float>(look.led));
+  }
+  constexpr auto kMaterials = static_cast<GLsizei>(Material::kEnd);
+  glUniform4fv(program.Location("u_materials"), kMaterials, looks[0].data());
+  glUniform2fv(program.Location("u_kinds"), kMaterials, kinds[0].data());
+}
+
+void GlScene::State::DrawFloor(const Scene& scene, const ViewVolume& view, const DrawOptions& options)
+{
+  const GlProgram& floor = shaders.floor;
+  const Vector2f size = scene.ArenaSize().head<2>().cast<float>();
+  const Vector4f arena(0, 0, size.x(), size.y());
+  floor.Set("u_view_projection", view.view_projection);
+  floor.Set("u_arena", arena);
+  floor.Set("u_outside", 0);
+  floor.Set("u_rectangle", arena);
+  floor.Set("u_height", 0.0F);
+  floor.Set("u_colour", Linear(palette::kFloor));
+  floor.Set("u_line_colour", Linear(palette::kFloorLine));
+  floor.Set("u_spacing", options.textures ? SpacingOf(scene.ArenaSize()) : 0.0F);
+  lines.DrawOne();
+
+  // The ground around it, a little lower, so that bodies beyond the edge stand on something.
+  const float reach = 1.2F * std::max(size.x(), size.y());
+  floor.Set("u_outside", 1);
+  floor.Set("u_spacing", 0.0F);
+  floor.Set("u_colour", Linear(palette::kOutside));
+  floor.Set("u_rectangle", Vector4f(-reach, -reach, size.x() + reach, size.y() + reach));
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1, 4);
+  lines.DrawOne();
+  glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+void GlScene::State::DrawSky(const ViewVolume& view)
+{
+  shaders.sky.Use();
+  shaders.sky.Set("u_inverse", Eigen::Matrix4f(view.view_projection.inverse()));
+  shaders.sky.Set("u_fog", Picture3(palette::kSky));
+  glDisable(GL_CULL_FACE);
+  lines.DrawOne();
+  glEnable(GL_CULL_FACE);
+}
+
+void GlScene::State::DrawLines(const ViewVolume& view, int width, int height, std::span<const GlLine> some, bool depth)
+{
+  if (some.empty()) return;
+  const GlProgram& line = shaders.line;
+  line.Use();
+  line.Set("u_view_projection", view.view_projection);
+  line.Set("u_size", Vector2f(static_cast<float>(width), static_cast<float>(height)));
+  line.Set("u_near", static_cast<float>(view.near));
+  line.Set("u_opacity", 1.0F);
+  glDisable(GL_CULL_FACE);
+  if (!depth) glDisable(GL_DEPTH_TEST);
+  lines.Draw(some);
+  glEnable(GL_DEPTH_TEST);
+}
+
+void GlScene::State::DrawGlows(const ViewVolume& view, const Camera& camera, std::span<const GlGlow> some)
+{
+  if (some.empty()) return;
+  const GlProgram& glow = shaders.glow;
+  glow.Use();
+  glow.Set("u_view_projection", view.view_projection);
+  glow.Set("u_right", Vector3f(camera.Right().cast<float>()));
+  glow.Set("u_up", Vector3f(camera.Up().cast<float>()));
+  glDisable(GL_CULL_FACE);
+  glows.Draw(some);
+}
+
+Picture ReadPicture(unsigned framebuffer, int width, int height)
+{
+  Picture picture{width, height, {}};
+  const std::size_t row = 4 * static_cast<std::size_t>(width);
+  std::vector<std::uint8_t> pixels(row * static_cast<std::size_t>(height));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  picture.pixels.resize(pixels.size());
+  for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y)
+    std::memcpy(&picture.pixels[y * row], &pixels[(static_cast<std::size_t>(height) - 1 - y) * row], row);
+  return picture;
+}
+
+}  // namespace swarmanoid

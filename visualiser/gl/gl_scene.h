@@ -1,0 +1,53 @@
+// GlScene: draws a scene with OpenGL 3.3 core. Used by image_render (a context without a window) and opengl_render (a
+// window's context). Makes no context: one must be current in the thread of every call, the same one each time.
+#pragma once
+
+#include <memory>
+
+#include "visualiser/scene/camera.h"
+#include "visualiser/scene/picture.h"
+#include "visualiser/scene/scene.h"
+
+namespace swarmanoid
+{
+
+struct DrawOptions
+{
+  bool shadows = true;
+  bool textures = true;
+  int samples = 4;          // a pixel, for smooth edges; 0 or 1: none
+  bool glass_walls = true;  // tall walls at the edge of the arena are cut open, so that they hide nothing
+};
+
+// What was drawn last, for a status line.
+struct DrawStatistics
+{
+  std::size_t instances = 0;
+  std::size_t triangles = 0;  // with those of the shadow map
+};
+
+class GlScene
+{
+public:
+  // Throws std::runtime_error where the context is older than 3.3 or does not take the shaders.
+  GlScene();
+  ~GlScene();
+
+  // Draws into a framebuffer object (0: the window's), as it is after the scene's last Update. Leaves all of OpenGL's
+  // state at its defaults but for the viewport.
+  void Draw(const Scene& scene, const Camera& camera, unsigned framebuffer, int width, int height,
+            const DrawOptions& options);
+
+  const DrawStatistics& Statistics() const;
+  // "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6".
+  static std::string ContextDescription();
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// The picture in a framebuffer object, once drawing has ended.
+Picture ReadPicture(unsigned framebuffer, int width, int height);
+
+}  // namespace swarmanoid

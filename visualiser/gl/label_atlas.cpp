@@ -1,0 +1,96 @@
+#include "visualiser/gl/label_atlas.h"
+
+#include <stb_truetype.h>
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+
+#include "visualiser/scene/material.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr int kSide = 256;                // of the atlas, pixels
+constexpr float kHeight = 15;             // of the letters, pixels
+constexpr float kWhite = 253.5F / kSide;  // a place in the atlas that is all white
+constexpr int kFirst = ' ';
+constexpr int kCount = '~' - ' ' + 1;
+
+std::vector<unsigned char> ReadFont()
+{
+  for (const char* path : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
+                           "/usr/share/fonts/dejavu/DejaVuSans.ttf"})
+  {
+    std::ifstream file(path, std::ios::binary);
+    if (file) return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  }
+  return {};
+}
+
+}  // namespace
+
+LabelAtlas::LabelAtlas()
+{
+  const std::vector<unsigned char> font = ReadFont();
+  if (font.empty())
+  {
+    std::fputs("labels are not drawn: there is no font DejaVuSans.ttf; install the package fonts-dejavu-core\n",
+               stderr);
+    return;
+  }
+  std::vector<unsigned char> bitmap(kSide * kSide);
+  std::array<stbtt_bakedchar, kCount> baked;
+  stbtt_BakeFontBitmap(font.data(), 0, kHeight, bitmap.data(), kSide, kSide, kFirst, kCount, baked.data());
+  for (int y = kSide - 5; y < kSide; ++y)
+    for (int x = kSide - 5; x < kSide; ++x) bitmap[static_cast<std::size_t>(y * kSide + x)] = 255;
+  for (const stbtt_bakedchar& letter : baked)
+  {
+    const auto width = static_cast<float>(letter.x1 - letter.x0);
+    const auto height = static_cast<float>(letter.y1 - letter.y0);
+    letters_.push_back({{static_cast<float>(letter.x0) / kSide, static_cast<float>(letter.y0) / kSide,
+                         static_cast<float>(letter.x1) / kSide, static_cast<float>(letter.y1) / kSide},
+                        letter.xoff,
+                        letter.yoff,
+                        letter.xoff + width,
+                        letter.yoff + height,
+                        letter.xadvance});
+  }
+  glBindTexture(GL_TEXTURE_2D, texture_.Name());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, kSide, kSide, 0, GL_RED, GL_UNSIGNED_BYTE, bitmap.data());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glBindTexture(GL_TEXTURE_2D, 0);
+}
+
+void LabelAtlas::Append(std::string_view text, float x, float y, std::vector<Glyph>& glyphs) const
+{
+  if (IsEmpty()) return;
+  const auto letter = [&](char c) -> const Letter&
+  {
+    const bool known = c >= ' ' && c <= '~';
+    return letters_[static_cast<std::size_t>((known ? c : '?') - kFirst)];
+  };
+  float width = 0;
+  for (const char c : text) width += letter(c).advance;
+
+  const auto channel = [](int shift) { return static_cast<float>((palette::kLabel >> shift) & 0xff) / 255; };
+  float pen = std::round(x - width / 2);
+  const float line = std::round(y - 6);
+  glyphs.push_back(
+      {{pen - 5, line - 14, pen + width + 5, line + 5}, {kWhite, kWhite, kWhite, kWhite}, {1, 1, 1, 0.78F}});
+  for (const char c : text)
+  {
+    const Letter& l = letter(c);
+    glyphs.push_back({{pen + l.left, line + l.top, pen + l.right, line + l.bottom},
+                      l.texture,
+                      {channel(16), channel(8), channel(0), 1}});
+    pen = std::round(pen + l.advance);
+  }
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,35 @@
+// The shader programs of the GL renderer, GLSL 3.30.
+#pragma once
+
+#include "visualiser/gl/gl_object.h"
+
+namespace swarmanoid
+{
+
+struct Shaders
+{
+  Shaders();
+
+  GlProgram body;    // instances of meshes with light, shadow and fog
+  GlProgram caster;  // the same into the shadow map
+  GlProgram floor;   // of the arena and around it
+  GlProgram sky;
+  GlProgram line;
+  GlProgram glow;
+  GlProgram text;
+};
+
+// Where the vertex attributes of body and caster are.
+enum BodyAttribute : GLuint
+{
+  kPositionAttribute,
+  kNormalAttribute,
+  kMaterialAttribute,
+  kPlaceAttribute,
+  kOrientationAttribute,
+  kScaleAttribute,
+  kTintAttribute,
+  kLightsAttribute
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,125 @@
+#include "visualiser/image/image_render.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "visualiser/gl/quality.h"
+#include "visualiser/renderer_library.h"
+#include "visualiser/scene/viewpoints.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr int kSmallest = 16;
+constexpr int kLargest = 16384;
+constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+
+std::string PathOf(const RenderSetup& setup, const std::string& name)
+{
+  const std::filesystem::path path = std::filesystem::path(setup.output_folder) / name;
+  std::error_code ignored;  // what cannot be made cannot be written to either, and that is reported
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
+  return path.string();
+}
+
+}  // namespace
+
+void CImageRender::Init(const RenderSetup& setup)
+{
+  const Parameters& parameters = setup.parameters;
+  space_ = &setup.space;
+  const Vector2 size = parameters.Vector2Of("size");
+  if (size.minCoeff() < kSmallest || size.maxCoeff() > kLargest || size != Vector2(size.array().round()))
+    throw ConfigurationError(parameters.Tree().ValueLocation("size"),
+                             fmt::format("size is {}, {}; width and height are whole numbers from {} to {}", size.x(),
+                                         size.y(), kSmallest, kLargest));
+  width_ = static_cast<int>(size.x());
+  height_ = static_cast<int>(size.y());
+  ReadTicks(parameters);
+
+  const Viewpoints viewpoints(parameters);
+  const double aspect = size.x() / size.y();
+  const std::string camera = parameters.Text("camera");
+  if (!camera.empty())
+    camera_ =
+        CameraFromText(camera, viewpoints, space_->GetExperiment(), aspect, parameters.Tree().ValueLocation("camera"));
+  else
+    camera_ = viewpoints.First().value_or(DefaultView(space_->GetExperiment(), aspect));
+  draw_options_ = DrawOptionsOf(parameters);
+  scene_options_ = SceneOptionsOf(parameters);
+
+  scene_ = std::make_unique<Scene>(*space_);
+  context_ = std::make_unique<OffscreenContext>();
+  buffer_ = std::make_unique<PictureBuffer>(width_, height_);
+  renderer_ = std::make_unique<GlScene>();
+  ReadOutputs(setup);
+}
+
+void CImageRender::ReadTicks(const Parameters& parameters)
+{
+  every_ = static_cast<std::uint64_t>(parameters.Integer("every"));
+  next_ = static_cast<std::uint64_t>(parameters.Integer("from"));
+  last_ = static_cast<std::uint64_t>(parameters.Integer("to"));
+  stop_ = parameters.Boolean("stop");
+  speed_ = parameters.Number("speed");
+  if (last_ == 0) last_ = kNever;
+  if (const long long at = parameters.Integer("at"); at >= 0) next_ = last_ = static_cast<std::uint64_t>(at);
+  if (last_ < next_)
+    throw ConfigurationError(
+        parameters.Tree().ValueLocation("to"),
+        fmt::format("to is {}, but the pictures start from {}; it must be the later tick", last_, next_));
+}
+
+void CImageRender::ReadOutputs(const RenderSetup& setup)
+{
+  const Parameters& parameters = setup.parameters;
+  const std::string file = parameters.Text("file");
+  const std::string video = parameters.Text("video");
+  std::string directory = parameters.Text("directory");
+  if (file.empty() && video.empty() && directory.empty()) directory = "frames";
+  if (!file.empty()) file_ = PathOf(setup, file);
+  if (!directory.empty())
+    numbered_ = PathOf(setup, (std::filesystem::path(directory) / parameters.Text("filename")).string());
+  if (video.empty()) return;
+  video_ = PathOf(setup, video);
+  const double seconds = static_cast<double>(every_) * space_->GetTickSeconds() / speed_;
+  video_writer_ = std::make_unique<VideoWriter>(video_, width_, height_, seconds);
+}
+
+void CImageRender::Draw()
+{
+  const std::uint64_t tick = space_->GetTick();
+  // Trails are kept of every tick.
+  if (scene_options_.trails && !done_) scene_->Update(scene_options_);
+  if (done_ || tick < next_) return;
+  scene_->Update(scene_options_);
+  renderer_->Draw(*scene_, camera_, buffer_->Framebuffer(), width_, height_, draw_options_);
+  Write(buffer_->Read(), tick);
+
+  // Multiples of `every` from the first tick on; a visualiser that is attached may have missed some.
+  next_ += ((tick - next_) / every_ + 1) * every_;
+  done_ = next_ > last_;
+}
+
+void CImageRender::Write(const Picture& picture, std::uint64_t tick)
+{
+  if (!file_.empty()) WritePng(picture, file_);
+  if (!numbered_.empty()) WritePng(picture, fmt::format("{}_{:06}.png", numbered_, tick));
+  if (video_writer_ == nullptr) return;
+  if (!video_start_) video_start_ = tick;
+  video_writer_->Add(picture, static_cast<double>(tick - *video_start_) * space_->GetTickSeconds() / speed_);
+}
+
+void CImageRender::Finish()
+{
+  if (video_writer_ != nullptr) video_writer_->Finish();
+}
+
+}  // namespace swarmanoid
+
+EXPORT_RENDERER(swarmanoid::CImageRender)

@@ -1,0 +1,54 @@
+// image_render: pictures and videos without a window. Draws at chosen ticks; the video runs in simulated time.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "visualiser/gl/gl_scene.h"
+#include "visualiser/image/offscreen_context.h"
+#include "visualiser/render.h"
+#include "visualiser/scene/video_writer.h"
+
+namespace swarmanoid
+{
+
+class CImageRender : public CRender
+{
+public:
+  void Init(const RenderSetup& setup) override;
+  void Draw() override;
+  bool Terminate() override { return stop_ && done_; }
+  void Finish() override;
+
+private:
+  void ReadTicks(const Parameters& parameters);
+  void ReadOutputs(const RenderSetup& setup);
+  void Write(const Picture& picture, std::uint64_t tick);
+
+  const CSwarmanoidSpace* space_ = nullptr;
+  int width_ = 0, height_ = 0;
+  Camera camera_;
+  DrawOptions draw_options_;
+  SceneOptions scene_options_;
+  std::uint64_t every_ = 1;
+  std::uint64_t next_ = 0;  // tick of the next picture: drawn at this one or the first one after it
+  std::uint64_t last_ = 0;
+  bool stop_ = false;
+  bool done_ = false;
+  double speed_ = 1;
+
+  std::string file_;                          // empty: none
+  std::string numbered_;                      // folder and first part of the name; empty: none
+  std::string video_;                         // empty: none
+  std::optional<std::uint64_t> video_start_;  // tick
+
+  // In the order in which they need one another.
+  std::unique_ptr<OffscreenContext> context_;
+  std::unique_ptr<PictureBuffer> buffer_;
+  std::unique_ptr<Scene> scene_;
+  std::unique_ptr<GlScene> renderer_;
+  std::unique_ptr<VideoWriter> video_writer_;
+};
+
+}  // namespace swarmanoid
