@@ -24,6 +24,10 @@ export(EXPORT SwarmanoidTargets NAMESPACE Swarmanoid:: FILE ${CMAKE_BINARY_DIR}/
 configure_file(cmake/SwarmanoidUser.cmake ${CMAKE_BINARY_DIR}/SwarmanoidUser.cmake COPYONLY)
 configure_file(cmake/config.h.in ${CMAKE_BINARY_DIR}/config.h.in COPYONLY)
 
+# What drivers of robots are made from; and the messages that the ros2 drivers speak.
+install(FILES real_robot/driver.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid/real_robot)
+install(DIRECTORY idl DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid)
+
 # Experiments, and what a user copies.
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid)
 foreach(folder controllers functions templates)

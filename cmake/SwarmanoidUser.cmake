@@ -41,3 +41,10 @@ function(swarmanoid_functions folder output)
   endforeach()
   set(SWARMANOID_FUNCTIONS ${SWARMANOID_CONTROLLERS} PARENT_SCOPE)
 endfunction()
+
+# swarmanoid_driver(NAME SOURCES... [LINK libs...]): the library libNAME.so with drivers of a real robot (docs/real_robot.md).
+function(swarmanoid_driver name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(${name} MODULE ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE Swarmanoid::real_robot ${ARG_LINK})
+endfunction()

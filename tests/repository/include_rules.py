@@ -1,5 +1,5 @@
 """Who may include whom (docs/architecture.md): folders include downwards only, roles never see each other, and only
-common/bus sees Fast DDS."""
+common/bus and the ROS 2 drivers see Fast DDS."""
 import os
 import re
 
@@ -20,6 +20,7 @@ ROLES = ["space_server", "engine_worker", "controller_host", "visualiser"]
 # The Common Interface and what it stands on: all that builds without the simulator.
 INTERFACE = ["common/math", "common/configuration", "common/plugins", "common/control_interface"]
 DDS_HEADER = re.compile(r"^(fastdds|fastrtps|fastcdr|dds)/|PubSubTypes\.h")
+DDS_FOLDERS = ["common/bus", "real_robot/drivers/ros2"]
 # Libraries that only the named folder includes, so that users need not have them.
 HIDDEN = {"spdlog": "common/logging"}
 
@@ -37,6 +38,8 @@ def allowed():
         rules[role] = without_bus + [role]
     rules["launcher"] = below + ROLES + ["launcher"]
     rules["real_robot"] = INTERFACE + ["common/logging", "real_robot"]
+    # A folder of drivers sees what drivers are made from, and no other drivers.
+    rules["real_robot/drivers/ros2"] = rules["real_robot"] + ["real_robot/drivers/ros2"]
     rules["user"] = INTERFACE + ["user"]
     # Experiment functions run at the space server and see all of it.
     rules["user/functions"] = rules["space_server"] + ["user/functions"]
@@ -67,8 +70,9 @@ def main():
         if folder in ROLES and (os.path.basename(path) == "main.cpp" or "/cluster/" in path):
             may_include = may_include + ["common/bus"] + ROLES  # the program around the role
         for number, quoted, included in includes(path):
-            if DDS_HEADER.search(included) and folder != "common/bus":
-                mistakes.append(f"{path}:{number}: only common/bus may include DDS headers, not {folder} ({included})")
+            if DDS_HEADER.search(included) and folder not in DDS_FOLDERS:
+                mistakes.append(f"{path}:{number}: only {' and '.join(DDS_FOLDERS)} may include DDS headers, not {folder} "
+                                f"({included})")
             owner = HIDDEN.get(included.split("/")[0])
             if owner is not None and (folder != owner or path.endswith(".h")):
                 mistakes.append(f"{path}:{number}: only a .cpp of {owner} may include {included}")

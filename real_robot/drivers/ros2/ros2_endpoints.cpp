@@ -1,0 +1,200 @@
+#include "real_robot/drivers/ros2/ros2_endpoints.h"
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+
+#include <cstdlib>
+#include <ctime>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "common/configuration/configuration_tree.h"
+
+namespace swarmanoid::ros2
+{
+namespace
+{
+
+namespace dds = eprosima::fastdds::dds;
+using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
+
+const eprosima::fastrtps::Duration_t kFlushTime{0, 500'000'000};
+const eprosima::fastrtps::Duration_t kWriteTime{0, 20'000'000};  // a step must not wait for a slow listener
+
+std::uint32_t Domain()
+{
+  const char* text = std::getenv("ROS_DOMAIN_ID");
+  if (text == nullptr || *text == '\0') return 0;
+  const auto number = ParseInteger(text);
+  if (!number || *number < 0 || *number > 232)
+    throw DriverError(fmt::format("ROS_DOMAIN_ID is '{}'; it must be 0 to 232", text));
+  return static_cast<std::uint32_t>(*number);
+}
+
+bool LocalhostOnly()
+{
+  const char* text = std::getenv("ROS_LOCALHOST_ONLY");
+  return text != nullptr && std::string(text) == "1";
+}
+
+// The participant of the process, shared by all drivers; lives as long as one of them.
+class Participant
+{
+public:
+  static std::shared_ptr<Participant> Of()
+  {
+    static std::weak_ptr<Participant> shared;
+    std::shared_ptr<Participant> participant = shared.lock();
+    if (participant == nullptr) shared = participant = std::make_shared<Participant>();
+    return participant;
+  }
+
+  Participant()
+  {
+    dds::DomainParticipantQos qos;
+    qos.name("swarmanoid_robot");
+    // UDP alone: all vendors speak it, and no shared memory is left behind when a robot loses power.
+    qos.transport().use_builtin_transports = false;
+    auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+    if (LocalhostOnly()) udp->interfaceWhiteList = {"127.0.0.1"};
+    qos.transport().user_transports.push_back(udp);
+    participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(Domain(), qos);
+    if (participant_ == nullptr)
+      throw DriverError(fmt::format("cannot join the DDS domain {}: no network, or too many programs in it", Domain()));
+    publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
+    subscriber_ = participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
+  }
+  ~Participant()
+  {
+    participant_->delete_contained_entities();
+    dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+  }
+
+  dds::Publisher* GetPublisher() const { return publisher_; }
+  dds::Subscriber* GetSubscriber() const { return subscriber_; }
+
+  dds::Topic* TopicOf(const std::string& name, const MessageType& message)
+  {
+    dds::TypeSupport type(static_cast<dds::TopicDataType*>(message.type_support));
+    if (const auto found = topics_.find(name); found != topics_.end())
+    {
+      if (found->second->get_type_name() == type.get_type_name()) return found->second;
+      throw DriverError(fmt::format("topic {} cannot be of type {}: another driver uses it as {}", name,
+                                    type.get_type_name(), found->second->get_type_name()));
+    }
+    dds::Topic* topic = nullptr;
+    if (!participant_->find_type(type.get_type_name()).empty() ||
+        type.register_type(participant_) == ReturnCode::RETCODE_OK)
+      topic = participant_->create_topic(name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
+    if (topic == nullptr) throw DriverError("cannot create topic " + name);
+    return topics_[name] = topic;
+  }
+
+private:
+  dds::DomainParticipant* participant_ = nullptr;
+  dds::Publisher* publisher_ = nullptr;
+  dds::Subscriber* subscriber_ = nullptr;
+  std::map<std::string, dds::Topic*> topics_;
+};
+
+}  // namespace
+
+std::string TopicName(const std::string& name_space, const std::string& name)
+{
+  std::string full = name.starts_with('/') ? name : "/" + (name_space.empty() ? "" : name_space + "/") + name;
+  if (!name.starts_with('/') && name_space.starts_with('/')) full.erase(0, 1);
+  bool good = full.size() > 1 && !full.ends_with('/') && full.find("//") == std::string::npos;
+  for (std::size_t k = 1; k < full.size(); ++k)
+  {
+    const char c = full[k];
+    const bool digit = c >= '0' && c <= '9';
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+    if (!(letter || c == '/' || (digit && full[k - 1] != '/'))) good = false;
+  }
+  if (good) return "rt" + full;
+  throw DriverError(
+      fmt::format("'{}' cannot be the name of a ROS 2 topic: words of letters, digits and '_', not "
+                  "starting with a digit, separated by '/'",
+                  full));
+}
+
+double Now()
+{
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
+}
+
+struct Writer::Ends
+{
+  std::shared_ptr<Participant> participant = Participant::Of();
+  dds::DataWriter* writer = nullptr;
+};
+
+// Reliable, the latest message alone: what all listeners of ROS 2 take, whether they ask for reliability or not.
+Writer::Writer(const std::string& topic, const MessageType& type) : ends_(std::make_unique<Ends>())
+{
+  dds::Topic* made = ends_->participant->TopicOf(topic, type);
+  dds::DataWriterQos qos;
+  qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
+  qos.reliability().max_blocking_time = kWriteTime;
+  qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = 1;
+  qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
+  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.data_sharing().off();
+  ends_->writer = ends_->participant->GetPublisher()->create_datawriter(made, qos);
+  if (ends_->writer == nullptr) throw DriverError("cannot write topic " + topic);
+}
+
+Writer::~Writer() { ends_->participant->GetPublisher()->delete_datawriter(ends_->writer); }
+
+void Writer::Write(void* message)
+{
+  // A full queue means that a listener is slow; the next value replaces this one.
+  ends_->writer->write(message);
+}
+
+void Writer::Flush() { ends_->writer->wait_for_acknowledgments(kFlushTime); }
+
+struct Reader::Ends
+{
+  std::shared_ptr<Participant> participant = Participant::Of();
+  dds::DataReader* reader = nullptr;
+};
+
+// Best effort: hears reliable and best-effort publishers alike; what was lost is replaced by the next message anyway. A
+// few are kept: several programs may publish one topic, each a part of the robot's joints.
+Reader::Reader(const std::string& topic, const MessageType& type) : ends_(std::make_unique<Ends>())
+{
+  dds::Topic* made = ends_->participant->TopicOf(topic, type);
+  dds::DataReaderQos qos;
+  qos.reliability().kind = dds::BEST_EFFORT_RELIABILITY_QOS;
+  qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = 10;
+  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.data_sharing().off();
+  ends_->reader = ends_->participant->GetSubscriber()->create_datareader(made, qos);
+  if (ends_->reader == nullptr) throw DriverError("cannot read topic " + topic);
+}
+
+Reader::~Reader() { ends_->participant->GetSubscriber()->delete_datareader(ends_->reader); }
+
+bool Reader::Take(void* message)
+{
+  dds::SampleInfo about;
+  while (ends_->reader->take_next_sample(message, &about) == ReturnCode::RETCODE_OK)
+    if (about.valid_data) return true;
+  return false;
+}
+
+}  // namespace swarmanoid::ros2

@@ -1,0 +1,126 @@
+// What else a footbot feels: light, the floor, acceleration.
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "common/control_interface/footbot/ci_footbot_accelerometer_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_ground_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_light_sensor.h"
+#include "real_robot/drivers/ros2/ros2_kit.h"
+
+namespace swarmanoid::ros2
+{
+namespace
+{
+
+class Light : public CSensorDriver, public CCI_FootBotLightSensor
+{
+public:
+  void Init(const DriverSetup& setup) override
+  {
+    for (unsigned i = 0; i < NUM_SENSORS; ++i)
+      subscribers_[i].emplace(setup, setup.parameters.Text("topic") + "_" + std::to_string(i));
+    full_scale_ = setup.parameters.Number("full_scale");
+  }
+  CCI_Sensor* Sensor() override { return this; }
+  std::span<const double, NUM_SENSORS> GetAllSensorReadings() const override { return readings_; }
+  void Poll() override
+  {
+    for (unsigned i = 0; i < NUM_SENSORS; ++i)
+      if (subscribers_[i]->TakeLatest())
+        readings_[i] = std::clamp(subscribers_[i]->Latest().illuminance() / full_scale_, 0.0, 1.0);
+  }
+  std::vector<DriverSource> Sources() const override
+  {
+    std::vector<DriverSource> sources;
+    for (const auto& subscriber : subscribers_) sources.push_back(subscriber->Source());
+    return sources;
+  }
+
+private:
+  std::array<std::optional<Subscriber<sensor_msgs::msg::dds_::Illuminance_>>, NUM_SENSORS> subscribers_;
+  double full_scale_ = 1;
+  std::array<double, NUM_SENSORS> readings_{};
+};
+
+REGISTER_SENSOR_DRIVER(Light,
+                       DescribeDriver("footbot_light", "ros2", "sensor_msgs/msg/Illuminance on light_0 to light_23",
+                                      {"footbot"},
+                                      {TopicParameter("topic", "light", "Topics of the 24 sensors, before _0 to _23."),
+                                       NumberParameter("full_scale", "lx", "1000", "Illuminance that reads as 1.")}))
+
+class Ground : public CSensorDriver, public CCI_FootBotGroundSensor
+{
+public:
+  void Init(const DriverSetup& setup) override
+  {
+    brightness_.emplace(setup, setup.parameters.Text("topic"));
+    const std::string colour_topic = setup.parameters.Text("colour_topic");
+    if (!colour_topic.empty()) colour_.emplace(setup, colour_topic);
+  }
+  CCI_Sensor* Sensor() override { return this; }
+  std::span<const double, NUM_SENSORS> GetAllSensorReadings() const override { return readings_; }
+  std::uint32_t GetFloorColour() const override { return floor_; }
+  void Poll() override
+  {
+    if (brightness_->TakeLatest())
+    {
+      const auto& data = brightness_->Latest().data();
+      if (data.size() != NUM_SENSORS)
+        throw DriverError(brightness_->Name() + ": it needs 8 values, one for each sensor, not " +
+                          std::to_string(data.size()));
+      double sum = 0;
+      for (unsigned i = 0; i < NUM_SENSORS; ++i)
+        sum += readings_[i] = std::clamp(static_cast<double>(data[i]), 0.0, 1.0);
+      const auto grey = static_cast<std::uint32_t>(sum / NUM_SENSORS * 255 + 0.5);
+      if (!colour_) floor_ = grey << 16 | grey << 8 | grey;
+    }
+    if (colour_ && colour_->TakeLatest()) floor_ = ToColour(colour_->Latest());
+  }
+  std::vector<DriverSource> Sources() const override
+  {
+    std::vector<DriverSource> sources{brightness_->Source()};
+    if (colour_) sources.push_back(colour_->Source());
+    return sources;
+  }
+
+private:
+  std::optional<Subscriber<Float32MultiArray>> brightness_;
+  std::optional<Subscriber<ColorRGBA>> colour_;
+  std::array<double, NUM_SENSORS> readings_{};
+  std::uint32_t floor_ = 0;
+};
+
+REGISTER_SENSOR_DRIVER(
+    Ground,
+    DescribeDriver("footbot_ground", "ros2",
+                   "std_msgs/msg/Float32MultiArray (8) on ground, std_msgs/msg/ColorRGBA on floor_color", {"footbot"},
+                   {TopicParameter("topic", "ground", "Topic of the eight brightnesses, 0 to 1."),
+                    TopicParameter("colour_topic", "floor_color",
+                                   "Topic of the colour below the middle; empty: the mean brightness as grey.")}))
+
+class Accelerometer : public CSensorDriver, public CCI_FootBotAccelerometerSensor
+{
+public:
+  void Init(const DriverSetup& setup) override { subscriber_.emplace(setup, setup.parameters.Text("topic")); }
+  CCI_Sensor* Sensor() override { return this; }
+  std::span<const double, 3> GetAllSensorReadings() const override { return readings_; }
+  void Poll() override
+  {
+    if (!subscriber_->TakeLatest()) return;
+    const auto& felt = subscriber_->Latest().linear_acceleration();
+    readings_ = {felt.x(), felt.y(), felt.z()};
+  }
+  std::vector<DriverSource> Sources() const override { return {subscriber_->Source()}; }
+
+private:
+  std::optional<Subscriber<sensor_msgs::msg::dds_::Imu_>> subscriber_;
+  std::array<double, 3> readings_{};
+};
+
+REGISTER_SENSOR_DRIVER(Accelerometer,
+                       DescribeDriver("footbot_accelerometer", "ros2", "sensor_msgs/msg/Imu on imu", {"footbot"},
+                                      {TopicParameter("topic", "imu", "Topic of the inertial sensor.")}))
+
+}  // namespace
+}  // namespace swarmanoid::ros2

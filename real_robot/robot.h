@@ -1,0 +1,88 @@
+// Robot: a controller with the drivers of its devices, on one real robot. The counterpart of the controller host of the
+// simulator: it loads the same library and calls it in the same way. Used by the robot program, from one thread.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/control_interface/ci_controller.h"
+#include "common/control_interface/ci_robot.h"
+#include "real_robot/driver.h"
+#include "real_robot/robot_file.h"
+
+namespace swarmanoid
+{
+
+// A controller failed: what() names the robot, the step and the reason.
+class RobotError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+// Loads the libraries of the drivers, then describes those for a device; "" for all. Lines for the user.
+void LoadDriverLibraries(const RobotConfiguration& configuration);
+std::string DriverList();
+
+class Robot
+{
+public:
+  // Loads the libraries, makes the drivers and the controller. Throws ConfigurationError or DriverError. Init of the
+  // controller is not called yet.
+  explicit Robot(RobotConfiguration configuration);
+  // Stops the devices; an error of a driver is lost then.
+  ~Robot();
+  Robot(const Robot&) = delete;
+  Robot& operator=(const Robot&) = delete;
+
+  // Takes over the latest values of all sensors.
+  void Poll();
+  // The first sensor whose source was never heard, or is silent for longer than its timeout: "sensor
+  // 'footbot_proximity': topic … is silent for 1.2 s". Empty: all is well.
+  std::string NotHeard() const;
+  std::string Silent() const;
+
+  // Init of the controller. Throws RobotError where it fails.
+  void Start();
+  // One control step with the values of the latest Poll, then Push of all actuators. Throws RobotError.
+  void Step();
+  // Stop of all actuators: the robot stands.
+  void Stop();
+  // Stop, and Destroy of the controller, once.
+  void End();
+
+  std::uint64_t Steps() const { return steps_; }
+  const RobotConfiguration& Configuration() const { return configuration_; }
+  // A line for each device: its driver, and where its values come from or go to.
+  std::vector<std::string> Wiring() const;
+
+private:
+  struct Sensor
+  {
+    const RobotDevice* device;
+    std::string driver_name;
+    std::unique_ptr<CSensorDriver> driver;
+    double timeout_s;
+  };
+  struct Actuator
+  {
+    const RobotDevice* device;
+    std::string driver_name;
+    std::unique_ptr<CActuatorDriver> driver;
+  };
+
+  void BeginStep();
+
+  RobotConfiguration configuration_;
+  CCI_Robot interface_;
+  std::vector<Sensor> sensors_;
+  std::vector<Actuator> actuators_;
+  std::unique_ptr<CCI_Controller> controller_;
+  std::uint64_t steps_ = 0;
+  bool started_ = false;
+  bool ended_ = false;
+};
+
+}  // namespace swarmanoid
