@@ -2,6 +2,7 @@
 #include "visualiser/render.h"
 #include "visualiser/renderer_library.h"
 #include "visualiser/text/text_render.h"
+#include "visualiser/web/description.h"
 
 namespace swarmanoid
 {
@@ -13,6 +14,7 @@ void RegisterBuiltinRenderers()
     PluginRegistry<CRender>& registry = PluginRegistry<CRender>::Instance();
     registry.Add(CTextRender::Description(), [] { return std::make_unique<CTextRender>(); });
     registry.Add(ImageRenderDescription(), RendererFromLibrary("image_render", "libepoxy-dev libstb-dev libegl1"));
+    registry.Add(WebRenderDescription(), RendererFromLibrary("web_render", "nodejs npm libboost-dev"));
     return true;
   }();
   static_cast<void>(registered);

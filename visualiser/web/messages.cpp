@@ -1,0 +1,327 @@
+#include "visualiser/web/messages.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "common/math/elementary.h"
+#include "common/space/attributes.h"
+#include "common/space/terrain/terrain.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+constexpr auto kLastKind = static_cast<std::size_t>(EntityKind::kTerrain);
+constexpr unsigned kMostSteps = 1000000;
+constexpr int kTerrainSamples = 128;  // along each side
+
+std::string Text(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+Json Vector(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+// The surface seen from above, on a grid; null where there is no ground. In the terrain's frame.
+Json TerrainSurface(const EntityConfiguration& configuration, const std::string& folder)
+{
+  const std::shared_ptr<const Terrain> terrain = LoadTerrain(configuration, folder);
+  const Vector3 low = terrain->Low();
+  const Vector3 high = terrain->High();
+  const double cell = std::max({(high - low).x() / kTerrainSamples, (high - low).y() / kTerrainSamples, 1e-3});
+  const int columns = std::max(2, static_cast<int>(std::floor((high - low).x() / cell)));
+  const int rows = std::max(2, static_cast<int>(std::floor((high - low).y() / cell)));
+  Json heights = Json::array();
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column)
+    {
+      const Vector3 above(low.x() + (column + 0.5) * (high - low).x() / columns,
+                          low.y() + (row + 0.5) * (high - low).y() / rows, high.z() + 1e-6);
+      const std::optional<double> ground = terrain->GroundBelow(above);
+      heights.push_back(ground ? Json(std::round(*ground * 1e4) / 1e4) : Json(nullptr));
+    }
+  return {{"low", Vector(low)}, {"high", Vector(high)}, {"columns", columns}, {"rows", rows}, {"heights", heights}};
+}
+
+Json Body(const CSwarmanoidSpaceEntity& entity, const std::string& folder)
+{
+  const EntityConfiguration& configuration = entity.GetConfiguration();
+  const Pose pose = entity.GetPose();
+  Json body{{"entity", entity.GetIndex()},
+            {"size", Vector(entity.GetSize())},
+            {"position", Vector(pose.position)},
+            {"orientation", {pose.orientation.x(), pose.orientation.y(), pose.orientation.z(), pose.orientation.w()}},
+            {"colour", configuration.colour}};
+  if (entity.GetKind() == EntityKind::kTerrain) body["terrain"] = TerrainSurface(configuration, folder);
+  return body;
+}
+
+Json AttributeTable()
+{
+  Json table = Json::object();
+  for (std::size_t kind = 0; kind <= kLastKind; ++kind)
+  {
+    Json specs = Json::array();
+    for (const AttributeSpec& spec : AttributesOf(static_cast<EntityKind>(kind)))
+      specs.push_back({{"name", spec.name}, {"count", spec.count}, {"description", spec.description}});
+    table[std::string(TagName(static_cast<EntityKind>(kind)))] = specs;
+  }
+  return table;
+}
+
+const char* PhaseName(RunStatus::Phase phase)
+{
+  switch (phase)
+  {
+    case RunStatus::Phase::kWaiting:
+      return "waiting";
+    case RunStatus::Phase::kRunning:
+      return "running";
+    case RunStatus::Phase::kPaused:
+      return "paused";
+    case RunStatus::Phase::kFinished:
+      return "finished";
+    default:
+      return "unknown";
+  }
+}
+
+// {"left": [1.5, "m/s"], …} as columns.
+Json Devices(const std::vector<DeviceStatus>& devices)
+{
+  Json list = Json::array();
+  for (const DeviceStatus& device : devices)
+  {
+    Json names = Json::array(), units = Json::array(), values = Json::array();
+    for (const CCI_Reading& reading : device.readings)
+    {
+      names.push_back(reading.name);
+      units.push_back(reading.unit);
+      values.push_back(reading.value);
+    }
+    list.push_back({{"type", device.type}, {"names", names}, {"units", units}, {"values", values}});
+  }
+  return list;
+}
+
+Json Attributes(const CSwarmanoidSpaceEntity& entity)
+{
+  Json attributes = Json::object();
+  for (const AttributeSpec& spec : AttributesOf(entity.GetKind()))
+  {
+    Json values = Json::array();
+    for (int i = 0; i < spec.count; ++i) values.push_back(entity.GetAttribute(spec.name, i));
+    attributes[std::string(spec.name)] = values;
+  }
+  return attributes;
+}
+
+// ---- requests ----
+
+[[noreturn]] void Refuse(const std::string& text) { throw std::invalid_argument(text); }
+
+double NumberIn(const Json& json, const char* name, double low, double high)
+{
+  const auto found = json.find(name);
+  if (found == json.end() || !found->is_number()) Refuse(fmt::format("the request needs a number '{}'", name));
+  const double value = found->get<double>();
+  if (!(value >= low && value <= high)) Refuse(fmt::format("'{}' is {}; it must be {} to {}", name, value, low, high));
+  return value;
+}
+
+std::array<double, 3> TripleIn(const Json& json, const char* name)
+{
+  const auto found = json.find(name);
+  if (found == json.end() || !found->is_array() || found->size() != 3)
+    Refuse(fmt::format("the request needs three numbers '{}'", name));
+  std::array<double, 3> values{};
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    if (!(*found)[i].is_number()) Refuse(fmt::format("the request needs three numbers '{}'", name));
+    values[i] = (*found)[i].get<double>();
+    if (!(std::abs(values[i]) <= 1e6)) Refuse(fmt::format("'{}' is out of all bounds", name));
+  }
+  return values;
+}
+
+PageRequest WatchIn(const Json& json)
+{
+  const auto found = json.find("entities");
+  if (found == json.end() || !found->is_array() || found->size() > kMostWatched)
+    Refuse(fmt::format("'watch' needs at most {} entities", kMostWatched));
+  WatchRequest request;
+  for (const Json& entity : *found)
+  {
+    if (!entity.is_number_unsigned()) Refuse("entities are watched by their number");
+    request.entities.push_back(entity.get<std::uint32_t>());
+  }
+  return request;
+}
+
+PageRequest MoveIn(const Json& json)
+{
+  const auto entity = json.find("entity");
+  if (entity == json.end() || !entity->is_string()) Refuse("'move' needs the id of an entity");
+  const std::array<double, 3> position = TripleIn(json, "position");
+  const std::array<double, 3> angles = TripleIn(json, "angles");
+  MoveRequest request;
+  request.entity = entity->get<std::string>();
+  request.pose.position = {position[0], position[1], position[2]};
+  request.pose.orientation =
+      QuaternionFromEuler({DegreesToRadians(angles[0]), DegreesToRadians(angles[1]), DegreesToRadians(angles[2])});
+  return request;
+}
+
+}  // namespace
+
+std::string WelcomeText(Authority authority, bool control_possible)
+{
+  const char* control = authority == Authority::kControl      ? "granted"
+                        : authority == Authority::kWrongToken ? "wrong token"
+                        : control_possible                    ? "token needed"
+                                                              : "read-only";
+  return Text({{"type", "welcome"}, {"protocol", 1}, {"control", control}});
+}
+
+std::string WorldText(const CSwarmanoidSpace& space, const Assignment& assignment)
+{
+  const Experiment& experiment = space.GetExperiment();
+  Json kinds = Json::array();
+  for (std::size_t kind = 0; kind <= kLastKind; ++kind) kinds.push_back(TagName(static_cast<EntityKind>(kind)));
+  Json engines = Json::array();
+  for (const EngineConfiguration& engine : experiment.engines)
+    engines.push_back({{"id", engine.id}, {"tag", engine.tag}});
+  Json controllers = Json::array();
+  for (const ControllerConfiguration& controller : experiment.controllers)
+    controllers.push_back({{"id", controller.id}, {"tag", controller.tag}});
+
+  Json id = Json::array(), kind = Json::array(), movable = Json::array(), engine = Json::array(), host = Json::array(),
+       controller = Json::array(), bodies = Json::array();
+  for (std::size_t e = 0; e < space.Size(); ++e)
+  {
+    const CSwarmanoidSpaceEntity& entity = space.GetEntity(e);
+    id.push_back(entity.GetId());
+    kind.push_back(static_cast<int>(entity.GetKind()));
+    movable.push_back(entity.IsMovable() ? 1 : 0);
+    engine.push_back(assignment.owner[e]);
+    host.push_back(assignment.host[e]);
+    int number = -1;
+    for (std::size_t c = 0; c < experiment.controllers.size(); ++c)
+      if (experiment.controllers[c].id == entity.GetConfiguration().controller) number = static_cast<int>(c);
+    controller.push_back(number);
+    if (!IsRobot(entity.GetKind())) bodies.push_back(Body(entity, experiment.folder));
+  }
+  return Text({{"type", "world"},
+               {"experiment", experiment.name},
+               {"seed", experiment.seed},
+               {"tick_seconds", experiment.TickSeconds()},
+               {"last_tick", experiment.max_clock},
+               {"arena", Vector(experiment.arena_size)},
+               {"kinds", kinds},
+               {"engines", engines},
+               {"hosts", assignment.hosts.size()},
+               {"controllers", controllers},
+               {"attributes", AttributeTable()},
+               {"entities",
+                {{"id", id},
+                 {"kind", kind},
+                 {"movable", movable},
+                 {"engine", engine},
+                 {"host", host},
+                 {"controller", controller}}},
+               {"bodies", bodies}});
+}
+
+std::string ColoursText(const CSwarmanoidSpace& space)
+{
+  Json entities = Json::array(), colours = Json::array(), intensities = Json::array();
+  for (std::size_t e = 0; e < space.Size(); ++e)
+  {
+    const CSwarmanoidSpaceEntity& entity = space.GetEntity(e);
+    if (entity.IsMovable() || AttributeOffset(entity.GetKind(), "colour") < 0) continue;
+    entities.push_back(e);
+    colours.push_back(static_cast<std::uint32_t>(entity.GetAttribute("colour")));
+    intensities.push_back(AttributeOffset(entity.GetKind(), "intensity") < 0 ? 1.0 : entity.GetAttribute("intensity"));
+  }
+  return Text({{"type", "colours"}, {"entities", entities}, {"colours", colours}, {"intensities", intensities}});
+}
+
+std::string LogText(std::uint64_t tick, const std::string& source, const std::string& level, const std::string& text)
+{
+  return Text({{"type", "log"}, {"tick", tick}, {"source", source}, {"level", level}, {"text", text}});
+}
+
+std::string StatusText(const CSwarmanoidSpace& space, const RunStatus& status, std::size_t clients)
+{
+  Json processes = Json::array();
+  for (const ProcessStatus& process : status.processes)
+    processes.push_back({{"name", process.name},
+                         {"process", process.process},
+                         {"tick", process.tick},
+                         {"late_s", process.late_s},
+                         {"doing", process.doing}});
+  return Text({{"type", "status"},
+               {"tick", space.GetTick()},
+               {"time_s", space.GetTime()},
+               {"phase", PhaseName(status.phase)},
+               {"speed_wanted", status.speed_wanted},
+               {"real_time_factor", status.real_time_factor},
+               {"ticks_per_second", status.ticks_per_second},
+               {"ended", status.ended},
+               {"clients", clients},
+               {"processes", processes}});
+}
+
+std::string WatchedText(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities, RunMonitor* monitor)
+{
+  Json list = Json::array();
+  for (const std::uint32_t e : entities)
+  {
+    const CSwarmanoidSpaceEntity& entity = space.GetEntity(e);
+    Json item{{"entity", e}, {"attributes", Attributes(entity)}};
+    const RobotStatus* robot = monitor == nullptr ? nullptr : monitor->Robot(e);
+    if (robot != nullptr)
+    {
+      item["tick"] = robot->tick;
+      item["controller"] = robot->controller;
+      item["text"] = robot->text;
+      item["state"] = robot->state;
+      item["sensors"] = Devices(robot->sensors);
+      item["actuators"] = Devices(robot->actuators);
+    }
+    list.push_back(item);
+  }
+  return Text({{"type", "watched"}, {"tick", space.GetTick()}, {"time_s", space.GetTime()}, {"entities", list}});
+}
+
+std::string RefusalText(const std::string& text) { return Text({{"type", "reply"}, {"ok", false}, {"text", text}}); }
+
+PageRequest ParseRequest(std::string_view text)
+{
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) Refuse("a request is a JSON object");
+  const auto verb = json.find("do");
+  if (verb == json.end() || !verb->is_string()) Refuse("a request needs a text 'do'");
+  const std::string name = verb->get<std::string>();
+  if (name == "watch") return WatchIn(json);
+  if (name == "frame_period") return FrameRateRequest{static_cast<unsigned>(NumberIn(json, "ms", 0, 60000))};
+  if (name == "pause") return PauseRequest{};
+  if (name == "resume") return ResumeRequest{};
+  if (name == "step") return StepRequest{static_cast<unsigned>(NumberIn(json, "ticks", 1, kMostSteps))};
+  if (name == "speed") return SpeedRequest{NumberIn(json, "factor", 0, 1e6)};
+  if (name == "move") return MoveIn(json);
+  if (name == "stop") return StopRequest{};
+  Refuse(fmt::format("there is no request '{}'", name.substr(0, 40)));
+}
+
+bool IsCommand(const PageRequest& request)
+{
+  return !std::holds_alternative<WatchRequest>(request) && !std::holds_alternative<FrameRateRequest>(request);
+}
+
+}  // namespace swarmanoid

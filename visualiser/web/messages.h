@@ -1,0 +1,74 @@
+// The text messages between web_render and its pages, as JSON: what is said rarely, beside the frames.
+// docs/web_render.md is their specification. Used by web_render alone.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "visualiser/render.h"
+#include "visualiser/web/access.h"
+
+namespace swarmanoid
+{
+
+// "welcome": what the client may do.
+std::string WelcomeText(Authority authority, bool control_possible);
+// "world": all that stays: the table of entities, the bodies that are no robots, engines, hosts, controllers.
+std::string WorldText(const CSwarmanoidSpace& space, const Assignment& assignment);
+// "colours": colours and intensities of the entities that cannot move, which a frame does not hold.
+std::string ColoursText(const CSwarmanoidSpace& space);
+// "log": a line for the page's log. level: "info", "warning".
+std::string LogText(std::uint64_t tick, const std::string& source, const std::string& level, const std::string& text);
+// "status": how the run goes. `clients`: pages that look.
+std::string StatusText(const CSwarmanoidSpace& space, const RunStatus& status, std::size_t clients);
+// "watched": attributes of entities, and the inside of those that are robots.
+std::string WatchedText(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities, RunMonitor* monitor);
+// "reply": what became of a request that was refused.
+std::string RefusalText(const std::string& text);
+
+// What a page asks for.
+struct WatchRequest
+{
+  std::vector<std::uint32_t> entities;  // whose details it wants
+};
+struct FrameRateRequest
+{
+  unsigned period_ms = 0;  // between two frames; 0: as they come
+};
+struct PauseRequest
+{
+};
+struct ResumeRequest
+{
+};
+struct StepRequest
+{
+  unsigned ticks = 1;
+};
+struct SpeedRequest
+{
+  double factor = 0;
+};
+struct MoveRequest
+{
+  std::string entity;
+  Pose pose;
+};
+struct StopRequest
+{
+};
+using PageRequest = std::variant<WatchRequest, FrameRateRequest, PauseRequest, ResumeRequest, StepRequest, SpeedRequest,
+                                 MoveRequest, StopRequest>;
+
+inline constexpr std::size_t kMostWatched = 16;  // entities, of one page
+
+// Throws std::invalid_argument, with a text for the user, for anything else than a request.
+PageRequest ParseRequest(std::string_view text);
+// Whether it changes the experiment.
+bool IsCommand(const PageRequest& request);
+
+}  // namespace swarmanoid

@@ -1,0 +1,42 @@
+// The connection to the server: comes back by itself when the server does.
+
+const FIRST_DELAY_MS = 300;
+const LONGEST_DELAY_MS = 3000;
+
+export class Connection {
+  // handlers: onOpen(), onClose(), onText(message), onFrame(buffer)
+  constructor(handlers) {
+    this.handlers = handlers;
+    this.delay = FIRST_DELAY_MS;
+    this.connect();
+  }
+
+  connect() {
+    const token = new URLSearchParams(location.search).get("token");
+    const scheme = location.protocol === "https:" ? "wss" : "ws";
+    const address = `${scheme}://${location.host}/stream${token ? `?token=${encodeURIComponent(token)}` : ""}`;
+    this.socket = new WebSocket(address);
+    this.socket.binaryType = "arraybuffer";
+    this.socket.onopen = () => {
+      this.delay = FIRST_DELAY_MS;
+      this.handlers.onOpen();
+    };
+    this.socket.onmessage = ({ data }) => {
+      if (typeof data === "string") this.handlers.onText(JSON.parse(data));
+      else this.handlers.onFrame(data);
+    };
+    this.socket.onclose = () => {
+      this.handlers.onClose();
+      setTimeout(() => this.connect(), this.delay);
+      this.delay = Math.min(this.delay * 1.6, LONGEST_DELAY_MS);
+    };
+  }
+
+  get isOpen() {
+    return this.socket.readyState === WebSocket.OPEN;
+  }
+
+  send(request) {
+    if (this.isOpen) this.socket.send(JSON.stringify(request));
+  }
+}

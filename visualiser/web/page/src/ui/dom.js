@@ -1,0 +1,33 @@
+// Small helpers for the panels.
+
+// h("button.big", { title: "…", onclick }, "text", child)
+export function h(what, attributes = {}, ...children) {
+  const [tag, ...classes] = what.split(".");
+  const element = document.createElement(tag || "div");
+  element.className = classes.join(" ");
+  for (const [name, value] of Object.entries(attributes)) {
+    if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
+    else if (value !== false && value !== null && value !== undefined) element.setAttribute(name, value === true ? "" : value);
+  }
+  element.append(...children.filter((child) => child !== null && child !== undefined));
+  return element;
+}
+
+// Writes only what differs: the browser lays out nothing anew.
+export function setText(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+export function fixed(value, digits = 3) {
+  return Number.isFinite(value) ? (Math.abs(value) < 5e-7 ? 0 : value).toFixed(digits) : "–";
+}
+
+// 12345.6 s as 3:25:45.6
+export function clockText(seconds) {
+  const hours = Math.floor(seconds / 3600);
+  const minutes = Math.floor((seconds % 3600) / 60);
+  const rest = (seconds % 60).toFixed(1).padStart(4, "0");
+  return hours > 0 ? `${hours}:${String(minutes).padStart(2, "0")}:${rest}` : `${minutes}:${rest}`;
+}
+
+export const hex = (colour) => `#${(colour & 0xffffff).toString(16).padStart(6, "0")}`;

@@ -1,0 +1,253 @@
+// The panel on the right: one card for the selected entity and for each that is pinned, with pose, owner, attributes,
+// readings and the state of the controller. Any number can be plotted by a click.
+import { fixed, h, hex, setText } from "./dom.js";
+import { Plot } from "./plot.js";
+
+const DEGREES = 180 / Math.PI;
+const COLOURS = new Set(["led", "beacon", "colour", "laser_colour"]);
+const HIDDEN_ATTRIBUTES = new Set(["message"]);
+
+// A row of a table: a name and a value that can be plotted.
+class Row {
+  constructor(card, name, unit, key) {
+    this.key = key;
+    this.unit = unit;
+    this.value = h("td.value");
+    this.element = h("tr", {}, h("th", {}, name), this.value);
+    if (unit !== null) {
+      this.element.className = "plottable";
+      this.element.title = "Plot";
+      this.element.addEventListener("click", () => card.togglePlot(key, `${name}`, unit));
+    }
+  }
+  text(text) {
+    setText(this.value, text);
+  }
+  number(value, digits = 3) {
+    this.now = value;
+    this.text(`${fixed(value, digits)}${this.unit ? ` ${this.unit}` : ""}`);
+  }
+  colours(colours) {
+    const wanted = colours.map(hex).join();
+    if (this.shown === wanted) return;
+    this.shown = wanted;
+    this.value.replaceChildren(
+      h("span.swatches", {}, ...colours.map((colour) => {
+        const swatch = h("i", { title: colour === 0 ? "off" : hex(colour) });
+        swatch.style.background = colour === 0 ? "transparent" : hex(colour);
+        return swatch;
+      })),
+    );
+  }
+}
+
+class Card {
+  constructor(panel, entity) {
+    const { world } = panel;
+    this.panel = panel;
+    this.entity = entity;
+    this.rows = new Map();
+    this.plots = new Map();
+    this.sections = new Map();
+    this.plotArea = h("div.plots");
+    this.state = h("div.state");
+    this.pin = h("button.small", { title: "Keep this card  (P)", onclick: () => panel.togglePin(this) }, "Pin");
+    this.follow = h("button.small", { title: "Follow  (F)", onclick: () => panel.actions.follow(entity) }, "Follow");
+    this.element = h(
+      "section.card",
+      {},
+      h(
+        "div.head",
+        {},
+        h("div", {}, h("h2", {}, world.ids[entity]), h("div.dim", {}, world.kinds[entity].replaceAll("_", " "))),
+        h("span.space"),
+        this.follow,
+        this.pin,
+        h("button.close", { title: "Close", "aria-label": "Close", onclick: () => panel.close(this) }, "×"),
+      ),
+      this.state,
+      this.plotArea,
+    );
+    const owner = this.section("Owner");
+    const facts = [["engine", world.engineName(entity)]];
+    if (world.isRobot(entity)) facts.push(["host", world.hostName(entity)], ["controller", world.controllerName(entity)]);
+    for (const [name, text] of facts) this.row(owner, name, null).text(text);
+    const pose = this.section("Pose");
+    for (const [name, unit] of [["x", "m"], ["y", "m"], ["z", "m"], ["heading", "°"], ["speed", "m/s"]]) this.row(pose, name, unit, `pose.${name}`);
+    if (world.slots[entity] < 0) this.showStill();
+  }
+
+  section(title) {
+    if (!this.sections.has(title)) {
+      const body = h("tbody");
+      const element = h("details", { open: this.sections.size < 4 }, h("summary", {}, title), h("table", {}, body));
+      this.sections.set(title, { element, body });
+      this.element.append(element);
+    }
+    return this.sections.get(title);
+  }
+
+  row(section, name, unit, key = `${name}`) {
+    let row = this.rows.get(key);
+    if (!row) {
+      row = new Row(this, name, unit, key);
+      this.rows.set(key, row);
+      section.body.append(row.element);
+    }
+    return row;
+  }
+
+  showStill() {
+    const [x, y, z] = this.panel.world.bodyOf.get(this.entity).position;
+    [["x", x], ["y", y], ["z", z]].forEach(([name, value]) => this.rows.get(`pose.${name}`).number(value));
+  }
+
+  addFrame(frame) {
+    const slot = this.panel.world.slots[this.entity];
+    if (slot < 0) return;
+    const [x, y, z] = frame.positions.subarray(3 * slot, 3 * slot + 3);
+    const [qx, qy, qz, qw] = frame.quaternions.subarray(4 * slot, 4 * slot + 4).map(Number);
+    const scale = 1 / 32767 ** 2;
+    const heading = Math.atan2(2 * (qw * qz + qx * qy) * scale, 1 - 2 * (qy * qy + qz * qz) * scale) * DEGREES;
+    const { last } = this;
+    let speed = last && frame.time > last.time ? Math.hypot(x - last.x, y - last.y, z - last.z) / (frame.time - last.time) : this.speed;
+    if (speed === undefined || !Number.isFinite(speed)) speed = 0;
+    this.speed = speed;
+    this.last = { time: frame.time, x, y, z };
+    const values = { x, y, z, heading, speed };
+    for (const [name, value] of Object.entries(values)) {
+      this.rows.get(`pose.${name}`).number(value, name === "heading" ? 1 : 3);
+      this.plots.get(`pose.${name}`)?.add(frame.time, value);
+    }
+  }
+
+  addDetails(time, details) {
+    if (details.state || details.text) {
+      setText(this.state, details.state && details.text && details.text !== details.state ? `${details.state} — ${details.text}` : details.state || details.text);
+      this.state.hidden = false;
+    } else this.state.hidden = true;
+    for (const [name, values] of Object.entries(details.attributes)) {
+      if (HIDDEN_ATTRIBUTES.has(name)) continue;
+      const section = this.section("Attributes");
+      const label = name.replaceAll("_", " ");
+      if (COLOURS.has(name)) this.row(section, label, null, `a.${name}`).colours(values);
+      else if (name === "gripped") this.row(section, "holds", null, `a.${name}`).text(this.heldText(values));
+      else values.forEach((value, i) => this.value(section, values.length > 1 ? `${label} ${i}` : label, "", `a.${name}.${i}`, time, value));
+    }
+    for (const [group, devices] of [["Sensor", details.sensors ?? []], ["Actuator", details.actuators ?? []]])
+      for (const device of devices) {
+        const section = this.section(`${group}: ${device.type.replaceAll("_", " ")}`);
+        const colours = device.values.length > 0 && device.units.every((unit) => unit === "colour");
+        if (colours) this.row(section, "colours", null, `${group}.${device.type}`).colours(device.values);
+        else
+          device.values.forEach((value, i) =>
+            this.value(section, device.names[i], device.units[i], `${group}.${device.type}.${device.names[i]}`, time, value),
+          );
+      }
+  }
+
+  value(section, name, unit, key, time, value) {
+    const shown = unit === "rad" ? value * DEGREES : value;
+    const row = this.row(section, name, unit === "colour" || unit === "yes/no" ? null : unit === "rad" ? "°" : unit, key);
+    if (unit === "colour") row.colours([value]);
+    else if (unit === "yes/no") row.text(value ? "yes" : "no");
+    else row.number(shown);
+    this.plots.get(key)?.add(time, shown);
+  }
+
+  heldText(values) {
+    const held = values.filter((value) => value > 0).map((value) => this.panel.world.ids[value - 1]);
+    return held.length ? held.join(", ") : "nothing";
+  }
+
+  togglePlot(key, title, unit) {
+    if (this.plots.has(key)) {
+      this.plots.get(key).element.remove();
+      this.plots.delete(key);
+    } else {
+      const plot = new Plot(title, unit, () => this.togglePlot(key));
+      this.plots.set(key, plot);
+      this.plotArea.append(plot.element);
+    }
+    this.rows.get(key).element.classList.toggle("plotted", this.plots.has(key));
+  }
+}
+
+export class Inspector {
+  // actions: watch(entities), follow(entity), deselect()
+  constructor(actions) {
+    this.actions = actions;
+    this.cards = []; // the pinned ones, then the selected one
+    this.selected = null;
+    this.element = h("aside.right");
+    this.element.hidden = true;
+  }
+
+  setWorld(world) {
+    this.world = world;
+    this.cards = [];
+    this.selected = null;
+    this.element.replaceChildren();
+    this.refresh();
+  }
+
+  select(entity) {
+    if (this.selected?.entity === entity) return;
+    if (this.selected) {
+      this.selected.element.remove();
+      this.cards = this.cards.filter((card) => card !== this.selected);
+      this.selected = null;
+    }
+    if (entity !== null && !this.cards.some((card) => card.entity === entity)) {
+      this.selected = new Card(this, entity);
+      for (const name of this.world.slots[entity] >= 0 ? ["speed"] : []) this.selected.togglePlot(`pose.${name}`, name, "m/s");
+      this.cards.push(this.selected);
+      this.element.prepend(this.selected.element);
+    }
+    this.refresh();
+  }
+
+  togglePin(card = this.selected) {
+    if (!card) return;
+    card.pin.classList.toggle("on");
+    if (card === this.selected) this.selected = null;
+    else if (!card.pin.classList.contains("on")) this.close(card);
+    this.refresh();
+  }
+
+  close(card) {
+    const wasSelected = card === this.selected;
+    card.element.remove();
+    this.cards = this.cards.filter((other) => other !== card);
+    if (wasSelected) {
+      this.selected = null;
+      this.actions.deselect();
+    }
+    this.refresh();
+  }
+
+  setFollowed(entity) {
+    for (const card of this.cards) card.follow.classList.toggle("on", card.entity === entity);
+  }
+
+  get watched() {
+    return this.cards.map((card) => card.entity).slice(-16);
+  }
+
+  refresh() {
+    this.element.hidden = this.cards.length === 0;
+    this.actions.watch(this.watched);
+  }
+
+  addFrame(frame) {
+    for (const card of this.cards) card.addFrame(frame);
+  }
+
+  addDetails({ time_s: time, entities }) {
+    for (const details of entities) for (const card of this.cards) if (card.entity === details.entity) card.addDetails(time, details);
+  }
+
+  draw() {
+    for (const card of this.cards) for (const plot of card.plots.values()) plot.draw();
+  }
+}

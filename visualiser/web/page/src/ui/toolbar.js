@@ -1,0 +1,103 @@
+// The bar at the top: the experiment, its clock and pace, the controls, what is shown.
+import { clockText, h, setText } from "./dom.js";
+
+const SPEEDS = [0.25, 0.5, 1, 2, 5, 10, 50, 0];
+
+export class Toolbar {
+  // actions: command(request), toggle(name), help(), top(), fit()
+  constructor(actions) {
+    this.actions = actions;
+    this.name = h("span.name", {}, "Swarmanoid");
+    this.phase = h("span.pill", { role: "status" }, "connecting");
+    this.clock = h("span.number", { title: "Simulated time" });
+    this.tick = h("span.number.dim", { title: "Tick of the picture" });
+    this.pace = h("span.number.dim", { title: "Simulated seconds in a second" });
+    this.pause = h("button.icon", { onclick: () => actions.command({ do: this.isPaused ? "resume" : "pause" }) }, "⏸");
+    this.step = h("button.icon", { title: "One tick  (.)", onclick: () => actions.command({ do: "step", ticks: 1 }) }, "⏭");
+    this.speed = h(
+      "select",
+      { title: "Speed", "aria-label": "Speed", onchange: () => actions.command({ do: "speed", factor: Number(this.speed.value) }) },
+      ...SPEEDS.map((factor) => h("option", { value: factor }, factor === 0 ? "max" : `${factor}×`)),
+    );
+    this.stop = h(
+      "button.icon",
+      {
+        title: "End the run",
+        onclick: () => confirm("End the run? Its last state stays.") && actions.command({ do: "stop" }),
+      },
+      "⏹",
+    );
+    this.lock = h("span.lock", {}, "read-only");
+    this.toggles = {};
+    const toggle = (name, label, key) => {
+      const button = h("button.toggle", { title: `${label}  (${key.toUpperCase()})`, "aria-pressed": "false", onclick: () => actions.toggle(name) }, label);
+      this.toggles[name] = button;
+      return button;
+    };
+    this.element = h(
+      "header",
+      {},
+      h("div.group.title", {}, h("img.logo", { src: "favicon.svg", alt: "" }), this.name, this.phase),
+      h("div.group", {}, this.clock, this.tick, this.pace),
+      h("div.group.controls", {}, this.pause, this.step, this.speed, this.stop, this.lock),
+      h("div.space"),
+      h(
+        "div.group",
+        {},
+        toggle("ids", "Ids", "i"),
+        toggle("trails", "Trails", "t"),
+        toggle("beams", "Beams", "b"),
+        toggle("shadows", "Shadows", "s"),
+        h("button.toggle", { title: "From above  (V)", onclick: () => actions.top() }, "Top"),
+        h("button.toggle", { title: "The whole arena  (R)", onclick: () => actions.fit() }, "Fit"),
+        h("button.toggle", { title: "Keys  (?)", onclick: () => actions.help() }, "?"),
+      ),
+    );
+    this.setControl("read-only");
+  }
+
+  setToggle(name, on) {
+    this.toggles[name].setAttribute("aria-pressed", String(on));
+  }
+
+  // control: "granted", "token needed", "wrong token" or "read-only"
+  setControl(control) {
+    const granted = control === "granted";
+    for (const element of [this.pause, this.step, this.speed, this.stop]) element.disabled = !granted;
+    this.lock.hidden = granted;
+    setText(this.lock, control === "read-only" || control === "granted" ? "read-only" : control);
+    this.lock.title = {
+      "read-only": "This page may only look. Start it with --allow-control to steer the run.",
+      "token needed": "Only the address with the token, as it was printed, may steer the run.",
+      "wrong token": "The token of this address is not that of this server: take the address that was printed last.",
+      granted: "",
+    }[control];
+  }
+
+  setWorld(world) {
+    setText(this.name, world.experiment);
+    this.world = world;
+  }
+
+  setFrame(frame) {
+    setText(this.clock, clockText(frame.time));
+    const last = this.world?.lastTick;
+    setText(this.tick, last ? `tick ${frame.tick} of ${last}` : `tick ${frame.tick}`);
+  }
+
+  setStatus(status, connected) {
+    const phase = connected ? status?.phase ?? "connecting" : "disconnected";
+    this.isPaused = phase === "paused";
+    setText(this.phase, phase === "unknown" ? "running" : phase);
+    this.phase.dataset.phase = phase;
+    setText(this.pause, this.isPaused ? "▶" : "⏸");
+    this.pause.title = this.isPaused ? "Go on  (space)" : "Pause  (space)";
+    if (!status) return;
+    const factor = status.real_time_factor;
+    setText(this.pace, factor > 0 ? `${factor >= 100 ? factor.toFixed(0) : factor.toPrecision(2)}× real time` : "");
+    if (document.activeElement !== this.speed) {
+      const nearest = SPEEDS.includes(status.speed_wanted) ? String(status.speed_wanted) : "";
+      if (this.speed.value !== nearest) this.speed.value = nearest;
+    }
+  }
+}

@@ -1,0 +1,230 @@
+// What stands still: the floor with its grid, walls, blocks, patches, holes, lights, sounds and terrain.
+import * as THREE from "three";
+
+const FLAT_M = 0.0006; // between one layer on the floor and the next
+
+function gridStep(extent) {
+  for (const step of [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50]) if (extent / step <= 26) return step;
+  return 100;
+}
+
+function floorTexture(theme, step, cells) {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 256;
+  const context = canvas.getContext("2d");
+  context.fillStyle = `#${new THREE.Color(theme.floor).getHexString()}`;
+  context.fillRect(0, 0, 256, 256);
+  context.strokeStyle = `#${new THREE.Color(theme.line).getHexString()}`;
+  context.lineWidth = 3;
+  context.strokeRect(0, 0, 256, 256);
+  const texture = new THREE.CanvasTexture(canvas);
+  texture.colorSpace = THREE.SRGBColorSpace;
+  texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
+  texture.repeat.set(cells[0], cells[1]);
+  texture.anisotropy = 8;
+  return texture;
+}
+
+export class Arena {
+  constructor(scene, world, theme, quality) {
+    this.world = world;
+    this.group = new THREE.Group();
+    this.Material = quality === "low" ? THREE.MeshLambertMaterial : THREE.MeshStandardMaterial;
+    this.finish = quality === "low" ? {} : { roughness: 0.85, metalness: 0 };
+    this.objects = new Map(); // entity to what bears its colour
+    scene.add(this.group);
+    this.addFloor(theme);
+    let layer = 1;
+    for (const body of world.bodies) {
+      if (world.slots[body.entity] >= 0) continue;
+      const object = this.make(world.kinds[body.entity], body, layer++ % 40);
+      if (!object) continue;
+      object.position.x += body.position[0];
+      object.position.y += body.position[1];
+      object.position.z += body.position[2];
+      object.quaternion.set(...body.orientation);
+      this.group.add(object);
+      this.objects.set(body.entity, object);
+    }
+    this.group.traverse((object) => {
+      object.matrixAutoUpdate = false;
+      object.updateMatrix();
+    });
+  }
+
+  addFloor(theme) {
+    const [width, depth] = this.world.arena;
+    const step = gridStep(Math.max(width, depth));
+    const texture = floorTexture(theme, step, [width / step, depth / step]);
+    const floor = new THREE.Mesh(new THREE.PlaneGeometry(width, depth), new this.Material({ map: texture, ...this.finish }));
+    floor.position.set(width / 2, depth / 2, 0);
+    floor.receiveShadow = true;
+    const rim = new THREE.LineLoop(
+      new THREE.BufferGeometry().setFromPoints(
+        [[0, 0], [width, 0], [width, depth], [0, depth]].map(([x, y]) => new THREE.Vector3(x, y, 0.001)),
+      ),
+      new THREE.LineBasicMaterial({ color: theme.rim }),
+    );
+    this.gridStep = step;
+    this.group.add(floor, rim);
+  }
+
+  solid(geometry, colour, more = {}) {
+    const mesh = new THREE.Mesh(geometry, new this.Material({ color: colour, ...this.finish, ...more }));
+    mesh.castShadow = mesh.receiveShadow = true;
+    return mesh;
+  }
+
+  make(kind, body, layer) {
+    const [x, y, z] = body.size;
+    switch (kind) {
+      case "wall":
+      case "block":
+        return this.makeBox(body);
+      case "cylindric_prey":
+        return this.solid(new THREE.CylinderGeometry(x, x, z, 32).rotateX(Math.PI / 2).translate(0, 0, z / 2), body.colour);
+      case "ground_patch":
+      case "nest":
+        return this.makePatch(x, y, body.colour, layer * FLAT_M);
+      case "hole":
+        return this.makeHole(x, y);
+      case "light":
+      case "light_bulb":
+        return this.makeLight(body.colour);
+      case "sound":
+      case "sound_source":
+        return this.makeSound(body.colour);
+      case "terrain":
+        return this.makeTerrain(body.terrain);
+      default:
+        return null;
+    }
+  }
+
+  // Walls as high as a room would hide what is inside: those are drawn as glass.
+  makeBox({ size: [x, y, z], colour, position }) {
+    const tall = z > 0.7 && Math.max(x, y) > 1 && Math.max(x, y) > 8 * Math.min(x, y);
+    const geometry = new THREE.BoxGeometry(x, y, z);
+    if (!tall) return this.solid(geometry, colour);
+    const mesh = this.solid(geometry, colour, { transparent: true, opacity: 0.13, depthWrite: false });
+    mesh.castShadow = mesh.receiveShadow = false;
+    const edges = new THREE.LineSegments(
+      new THREE.EdgesGeometry(geometry),
+      new THREE.LineBasicMaterial({ color: colour, transparent: true, opacity: 0.5 }),
+    );
+    const foot = this.solid(new THREE.BoxGeometry(x, y, 0.06).translate(0, 0, 0.03 - Math.min(z / 2, position[2])), colour);
+    mesh.add(edges, foot);
+    return mesh;
+  }
+
+  // y of 0: a disc of radius x.
+  flatShape(x, y) {
+    return y === 0 ? new THREE.CircleGeometry(x, 64) : new THREE.PlaneGeometry(x, y);
+  }
+
+  makePatch(x, y, colour, height) {
+    const mesh = new THREE.Mesh(
+      this.flatShape(x, y),
+      new this.Material({ color: colour, ...this.finish, polygonOffset: true, polygonOffsetFactor: -1 }),
+    );
+    mesh.receiveShadow = true;
+    mesh.position.z = height;
+    return mesh;
+  }
+
+  makeHole(x, y) {
+    const mesh = new THREE.Mesh(this.flatShape(x, y), new THREE.MeshBasicMaterial({ color: 0x07090c }));
+    const rim = new THREE.LineLoop(
+      new THREE.BufferGeometry().setFromPoints(
+        y === 0
+          ? Array.from({ length: 64 }, (_, i) => new THREE.Vector3(x * Math.cos((i * Math.PI) / 32), x * Math.sin((i * Math.PI) / 32), 0))
+          : [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) => new THREE.Vector3((a * x) / 2, (b * y) / 2, 0)),
+      ),
+      new THREE.LineBasicMaterial({ color: 0x6b7683 }),
+    );
+    rim.position.z = 0.002;
+    mesh.add(rim);
+    mesh.position.z = 0.001;
+    return mesh;
+  }
+
+  makeLight(colour) {
+    const bulb = new THREE.Mesh(new THREE.SphereGeometry(0.06, 20, 12), new THREE.MeshBasicMaterial({ color: colour }));
+    const glow = new THREE.Sprite(
+      new THREE.SpriteMaterial({ map: glowTexture(), color: colour, transparent: true, depthWrite: false, opacity: 0.7 }),
+    );
+    glow.scale.setScalar(0.5);
+    bulb.add(glow);
+    return bulb;
+  }
+
+  makeSound(colour) {
+    const group = this.solid(new THREE.ConeGeometry(0.06, 0.12, 20).rotateX(Math.PI / 2).translate(0, 0, 0.06), colour);
+    for (const radius of [0.12, 0.18]) {
+      const wave = new THREE.Mesh(new THREE.TorusGeometry(radius, 0.004, 6, 40), new THREE.MeshBasicMaterial({ color: colour }));
+      wave.position.z = 0.1;
+      group.add(wave);
+    }
+    return group;
+  }
+
+  // Heights at the middles of cells; cells without ground are left out.
+  makeTerrain({ low, high, columns, rows, heights }) {
+    const positions = new Float32Array(3 * columns * rows);
+    for (let row = 0; row < rows; row++)
+      for (let column = 0; column < columns; column++) {
+        const i = row * columns + column;
+        positions[3 * i] = low[0] + ((column + 0.5) * (high[0] - low[0])) / columns;
+        positions[3 * i + 1] = low[1] + ((row + 0.5) * (high[1] - low[1])) / rows;
+        positions[3 * i + 2] = heights[i] ?? 0;
+      }
+    const indices = [];
+    for (let row = 0; row + 1 < rows; row++)
+      for (let column = 0; column + 1 < columns; column++) {
+        const corners = [0, 1, columns, columns + 1].map((offset) => row * columns + column + offset);
+        if (corners.some((corner) => heights[corner] === null)) continue;
+        const [a, b, c, d] = corners;
+        indices.push(a, b, d, a, d, c);
+      }
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+    geometry.setIndex(indices);
+    geometry.computeVertexNormals();
+    return this.solid(geometry, 0x8d8471, { side: THREE.DoubleSide });
+  }
+
+  paint({ entities, colours, intensities }) {
+    entities.forEach((entity, i) => {
+      const object = this.objects.get(entity);
+      if (!object?.material) return;
+      object.material.color.set(colours[i]);
+      const kind = this.world.kinds[entity];
+      if (!kind.startsWith("light")) return;
+      const [glow] = object.children;
+      glow.material.color.set(colours[i]);
+      glow.visible = intensities[i] > 0;
+      if (intensities[i] <= 0) object.material.color.multiplyScalar(0.25);
+    });
+  }
+
+  dispose() {
+    this.group.removeFromParent();
+    this.group.traverse((object) => {
+      object.geometry?.dispose();
+      object.material?.map?.dispose();
+      object.material?.dispose();
+    });
+  }
+}
+
+function glowTexture() {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 64;
+  const context = canvas.getContext("2d");
+  const gradient = context.createRadialGradient(32, 32, 4, 32, 32, 32);
+  gradient.addColorStop(0, "rgba(255,255,255,0.9)");
+  gradient.addColorStop(1, "rgba(255,255,255,0)");
+  context.fillStyle = gradient;
+  context.fillRect(0, 0, 64, 64);
+  return new THREE.CanvasTexture(canvas);
+}

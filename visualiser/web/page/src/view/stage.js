@@ -1,0 +1,139 @@
+// The renderer, the camera and the light. Draws when something has changed, and not otherwise.
+import * as THREE from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+
+const themes = {
+  light: { background: 0xe9edf2, sky: 0xffffff, ground: 0xb9c0c9, sun: 2.1, hemisphere: 1.55, floor: 0xf7f8fa, line: 0xcfd6de, rim: 0x9aa5b1 },
+  dark: { background: 0x11161d, sky: 0xdfe9f5, ground: 0x2b323c, sun: 1.9, hemisphere: 1.15, floor: 0x2a313b, line: 0x39424e, rim: 0x566170 },
+};
+
+export class Stage {
+  constructor(container, quality) {
+    this.container = container;
+    this.quality = quality;
+    this.renderer = new THREE.WebGLRenderer({ antialias: quality !== "low", powerPreference: "high-performance" });
+    this.renderer.setPixelRatio(quality === "low" ? 1 : Math.min(window.devicePixelRatio, 2));
+    this.renderer.shadowMap.enabled = quality !== "low";
+    this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+    container.append(this.renderer.domElement);
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(45, 1, 0.02, 1000);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    this.controls.enableDamping = true;
+    this.controls.dampingFactor = 0.12;
+    this.controls.maxPolarAngle = Math.PI * 0.495;
+    this.controls.zoomToCursor = true;
+    this.controls.addEventListener("change", () => this.invalidate());
+    this.controls.listenToKeyEvents(window);
+    this.controls.keyPanSpeed = 20;
+
+    this.hemisphere = new THREE.HemisphereLight();
+    this.hemisphere.position.set(0, 0, 1);
+    this.sun = new THREE.DirectionalLight(0xffffff, 2);
+    this.sun.shadow.mapSize.set(2048, 2048);
+    this.sun.shadow.bias = -0.0004;
+    this.sun.shadow.normalBias = 0.004;
+    this.sun.shadow.radius = 3;
+    this.scene.add(this.hemisphere, this.sun, this.sun.target);
+
+    const dark = window.matchMedia("(prefers-color-scheme: dark)");
+    dark.addEventListener("change", () => this.applyTheme(dark.matches));
+    this.applyTheme(dark.matches);
+    new ResizeObserver(() => this.resize()).observe(container);
+    this.resize();
+  }
+
+  applyTheme(dark) {
+    this.theme = dark ? themes.dark : themes.light;
+    this.scene.background = new THREE.Color(this.theme.background);
+    this.hemisphere.color.set(this.theme.sky);
+    this.hemisphere.groundColor.set(this.theme.ground);
+    this.hemisphere.intensity = this.theme.hemisphere;
+    this.sun.intensity = this.theme.sun;
+    this.onTheme?.();
+    this.invalidate();
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.container;
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.onResize?.(width, height);
+    this.invalidate();
+  }
+
+  // Pixels that one radian of the picture takes: for sizes on the screen.
+  get pixelsPerRadian() {
+    return this.container.clientHeight / ((this.camera.fov * Math.PI) / 180);
+  }
+
+  invalidate() {
+    this.stale = true;
+  }
+
+  // The whole arena in view. how: "oblique" or "top".
+  frameArena([width, depth, height], how = "oblique") {
+    this.extent = Math.max(width, depth, 1);
+    const centre = new THREE.Vector3(width / 2, depth / 2, Math.min(height, 1) * 0.1);
+    const angle = (this.camera.fov * Math.PI) / 180;
+    const across = Math.max(depth, width / Math.max(this.camera.aspect, 0.5));
+    const distance = (across / 2 / Math.tan(angle / 2)) * 1.12;
+    const direction = how === "top" ? new THREE.Vector3(0, -0.001, 1) : new THREE.Vector3(0.12, -0.86, 0.74).normalize();
+    this.camera.position.copy(centre).addScaledVector(direction, distance * (how === "top" ? 1.05 : 0.98));
+    this.camera.near = Math.max(0.01, this.extent / 2000);
+    this.camera.far = this.extent * 20 + 50;
+    this.camera.updateProjectionMatrix();
+    this.controls.target.copy(centre);
+    this.controls.maxDistance = this.extent * 6 + 10;
+    this.controls.minDistance = 0.15;
+    this.controls.update();
+    this.invalidate();
+  }
+
+  // Moves camera and target to look at a point from near by.
+  approach(point, distance) {
+    const direction = this.camera.position.clone().sub(this.controls.target).normalize();
+    if (direction.z < 0.35) direction.setZ(0.35).normalize();
+    this.controls.target.copy(point);
+    this.camera.position.copy(point).addScaledVector(direction, distance);
+    this.controls.update();
+    this.invalidate();
+  }
+
+  shift(delta) {
+    this.controls.target.add(delta);
+    this.camera.position.add(delta);
+    this.invalidate();
+  }
+
+  // The shadow map covers what is looked at, not the whole arena.
+  aimSun() {
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    const reach = Math.min(Math.max(distance * 0.95, 0.8), (this.extent ?? 10) * 1.1);
+    const { sun } = this;
+    sun.target.position.copy(this.controls.target);
+    sun.position.copy(this.controls.target).add(new THREE.Vector3(-0.45, -0.6, 1).multiplyScalar(reach * 2 + 3));
+    const box = sun.shadow.camera;
+    [box.left, box.right, box.bottom, box.top] = [-reach, reach, -reach, reach];
+    box.near = 0.1;
+    box.far = reach * 7 + 10;
+    box.updateProjectionMatrix();
+  }
+
+  get castsShadows() {
+    return this.sun.castShadow;
+  }
+  set castsShadows(on) {
+    this.sun.castShadow = on;
+    this.invalidate();
+  }
+
+  draw() {
+    if (this.castsShadows) this.aimSun();
+    this.renderer.render(this.scene, this.camera);
+    this.stale = false;
+  }
+}

@@ -1,0 +1,222 @@
+// All that moves, drawn by instancing: robots at three levels of detail, chosen by their size on the screen, preys and
+// blocks. One place of every instance array is one place of the frame.
+import * as THREE from "three";
+import { extentOf, makeModels } from "./models.js";
+import { LedTexture, ledMaterial } from "./leds.js";
+
+// One geometry drawn many times; bodies and LEDs share the matrices.
+class Layer {
+  constructor(group, level, materials, capacity) {
+    this.pixels = level.pixels;
+    this.body = new THREE.InstancedMesh(level.body, materials.body, capacity);
+    this.meshes = [this.body];
+    if (level.leds) {
+      const leds = level.leds;
+      this.slots = new THREE.InstancedBufferAttribute(new Float32Array(capacity), 1);
+      leds.setAttribute("slot", this.slots);
+      const mesh = new THREE.InstancedMesh(leds, materials.leds, capacity);
+      mesh.instanceMatrix = this.body.instanceMatrix;
+      this.meshes.push(mesh);
+    }
+    this.body.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
+    for (const mesh of this.meshes) {
+      mesh.frustumCulled = false;
+      mesh.count = 0;
+      group.add(mesh);
+    }
+    this.matrices = this.body.instanceMatrix.array;
+    this.count = 0;
+  }
+
+  add(slot, p, q) {
+    writeMatrix(this.matrices, 16 * this.count, p, 3 * slot, q, 4 * slot, 1, 1, 1);
+    if (this.slots) this.slots.array[this.count] = slot;
+    this.count++;
+  }
+
+  finish() {
+    for (const mesh of this.meshes) {
+      mesh.count = this.count;
+      mesh.visible = this.count > 0;
+    }
+    upload(this.body.instanceMatrix, 16 * this.count);
+    if (this.slots) upload(this.slots, this.count);
+  }
+}
+
+function upload(attribute, length) {
+  attribute.clearUpdateRanges();
+  attribute.addUpdateRange(0, length);
+  attribute.needsUpdate = true;
+}
+
+function writeMatrix(m, o, p, i, q, k, sx, sy, sz) {
+  const [x, y, z, w] = [q[k], q[k + 1], q[k + 2], q[k + 3]];
+  const [xx, yy, zz, xy, xz, yz, wx, wy, wz] = [x * x, y * y, z * z, x * y, x * z, y * z, w * x, w * y, w * z];
+  m[o] = (1 - 2 * (yy + zz)) * sx;
+  m[o + 1] = 2 * (xy + wz) * sx;
+  m[o + 2] = 2 * (xz - wy) * sx;
+  m[o + 4] = 2 * (xy - wz) * sy;
+  m[o + 5] = (1 - 2 * (xx + zz)) * sy;
+  m[o + 6] = 2 * (yz + wx) * sy;
+  m[o + 8] = 2 * (xz + wy) * sz;
+  m[o + 9] = 2 * (yz - wx) * sz;
+  m[o + 10] = (1 - 2 * (xx + yy)) * sz;
+  m[o + 12] = p[i];
+  m[o + 13] = p[i + 1];
+  m[o + 14] = p[i + 2];
+  m[o + 15] = 1;
+}
+
+function softDisc() {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 64;
+  const context = canvas.getContext("2d");
+  const gradient = context.createRadialGradient(32, 32, 12, 32, 32, 32);
+  gradient.addColorStop(0, "rgba(0,0,0,0.55)");
+  gradient.addColorStop(0.5, "rgba(0,0,0,0.28)");
+  gradient.addColorStop(1, "rgba(0,0,0,0)");
+  context.fillStyle = gradient;
+  context.fillRect(0, 0, 64, 64);
+  return new THREE.CanvasTexture(canvas);
+}
+
+export class Swarm {
+  // quality: "high" or "low"
+  constructor(scene, world, quality) {
+    this.world = world;
+    this.quality = quality;
+    this.group = new THREE.Group();
+    scene.add(this.group);
+    this.leds = new LedTexture(world.movable.length);
+    const Material = quality === "low" ? THREE.MeshLambertMaterial : THREE.MeshStandardMaterial;
+    const finish = quality === "low" ? {} : { roughness: 0.62, metalness: 0.08 };
+    const materials = { body: new Material({ vertexColors: true, ...finish }), leds: ledMaterial(this.leds.texture) };
+
+    this.herds = []; // robots of one kind and their levels
+    const models = makeModels();
+    for (const kind of Object.keys(models)) {
+      const slots = world.robots.filter((entity) => world.kinds[entity] === kind).map((entity) => world.slots[entity]);
+      if (slots.length === 0) continue;
+      const levels = quality === "low" ? models[kind].slice(1) : models[kind];
+      const layers = levels.map((level) => new Layer(this.group, level, materials, slots.length));
+      this.herds.push({ slots, layers, diameter: 2 * extentOf(world, world.movable[slots[0]]).radius });
+    }
+    this.things = this.makeThings(Material, finish);
+    this.makeShadows();
+  }
+
+  // Preys and blocks that move: unit solids, scaled.
+  makeThings(Material, finish) {
+    const { world } = this;
+    const unit = {
+      cylindric_prey: new THREE.CylinderGeometry(1, 1, 1, 32).rotateX(Math.PI / 2).translate(0, 0, 0.5),
+      block: new THREE.BoxGeometry(1, 1, 1),
+    };
+    return Object.keys(unit).flatMap((kind) => {
+      const entities = world.movable.filter((entity) => world.kinds[entity] === kind);
+      if (entities.length === 0) return [];
+      const mesh = new THREE.InstancedMesh(unit[kind], new Material(finish), entities.length);
+      mesh.instanceColor = new THREE.InstancedBufferAttribute(new Float32Array(3 * entities.length), 3);
+      mesh.frustumCulled = false;
+      mesh.castShadow = mesh.receiveShadow = true;
+      this.group.add(mesh);
+      const sizes = entities.map((entity) => {
+        const [x, y, z] = world.bodyOf.get(entity).size;
+        return kind === "block" ? [x, y, z] : [x, x, z];
+      });
+      return [{ mesh, sizes, slots: entities.map((entity) => world.slots[entity]) }];
+    });
+  }
+
+  // A soft dark disc on the ground below each robot: it ties the far ones to the floor at no cost.
+  makeShadows() {
+    const material = new THREE.MeshBasicMaterial({
+      map: softDisc(),
+      transparent: true,
+      depthWrite: false,
+      polygonOffset: true,
+      polygonOffsetFactor: -2,
+    });
+    this.shadows = new THREE.InstancedMesh(new THREE.PlaneGeometry(1, 1), material, this.world.robots.length);
+    this.shadows.frustumCulled = false;
+    this.shadows.renderOrder = 1;
+    this.group.add(this.shadows);
+    this.shadowSizes = this.world.robots.map((entity) => 2.75 * extentOf(this.world, entity).radius);
+  }
+
+  // Real shadows instead of the discs.
+  set castsShadows(on) {
+    this.shadows.visible = !on;
+    for (const { layers } of this.herds) for (const layer of layers) layer.body.castShadow = layer.body.receiveShadow = on;
+  }
+
+  updateColours(frame) {
+    this.leds.update(frame, this.world.slots);
+    const colour = new THREE.Color();
+    for (const { mesh, slots } of this.things) {
+      slots.forEach((slot, i) => {
+        const [r, g, b] = frame.colours.subarray(4 * slot, 4 * slot + 3);
+        mesh.setColorAt(i, colour.setRGB(r / 255, g / 255, b / 255, THREE.SRGBColorSpace));
+      });
+      mesh.instanceColor.needsUpdate = true;
+    }
+  }
+
+  // Where everything stands, as the camera sees it. pixelsPerRadian: height of the picture over its angle.
+  place(motion, camera, pixelsPerRadian) {
+    const { positions: p, quaternions: q } = motion;
+    const frustum = new THREE.Frustum().setFromProjectionMatrix(
+      new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse),
+    );
+    const planes = frustum.planes;
+    const eye = camera.position;
+    for (const { slots, layers, diameter } of this.herds) {
+      for (const layer of layers) layer.count = 0;
+      const limits = layers.map((layer) => (layer.pixels > 0 ? ((diameter * pixelsPerRadian) / layer.pixels) ** 2 : Infinity));
+      for (const slot of slots) {
+        const [x, y, z] = [p[3 * slot], p[3 * slot + 1], p[3 * slot + 2]];
+        let hidden = false;
+        for (let i = 0; i < 6 && !hidden; i++) {
+          const { normal, constant } = planes[i];
+          hidden = normal.x * x + normal.y * y + normal.z * z + constant < -2 * diameter;
+        }
+        if (hidden) continue;
+        const distance = (x - eye.x) ** 2 + (y - eye.y) ** 2 + (z - eye.z) ** 2;
+        let level = 0;
+        while (distance > limits[level]) level++;
+        layers[level].add(slot, p, q);
+      }
+      for (const layer of layers) layer.finish();
+    }
+    for (const { mesh, sizes, slots } of this.things) {
+      slots.forEach((slot, i) => writeMatrix(mesh.instanceMatrix.array, 16 * i, p, 3 * slot, q, 4 * slot, ...sizes[i]));
+      mesh.instanceMatrix.needsUpdate = true;
+    }
+    if (this.shadows.visible) this.placeShadows(p);
+  }
+
+  placeShadows(p) {
+    const flat = [0, 0, 0, 1];
+    const point = [0, 0, 0.002];
+    const m = this.shadows.instanceMatrix.array;
+    this.world.robots.forEach((entity, i) => {
+      const slot = this.world.slots[entity];
+      point[0] = p[3 * slot];
+      point[1] = p[3 * slot + 1];
+      const size = this.shadowSizes[i];
+      writeMatrix(m, 16 * i, point, 0, flat, 0, size, size, 1);
+    });
+    this.shadows.instanceMatrix.needsUpdate = true;
+  }
+
+  dispose() {
+    this.group.removeFromParent();
+    this.group.traverse((object) => {
+      object.geometry?.dispose();
+      object.material?.dispose();
+      object.dispose?.();
+    });
+    this.leds.dispose();
+  }
+}

@@ -1,0 +1,124 @@
+// What is known of the experiment: the table of entities, which stays, and the newest state, which moves.
+import { Flag } from "./protocol.js";
+
+const ROBOTS = new Set(["footbot", "handbot", "eyebot"]);
+// A jump further than this between two frames is no movement: somebody put the entity there.
+const JUMP_M = 0.5;
+
+export class World {
+  constructor(message) {
+    this.experiment = message.experiment;
+    this.arena = message.arena;
+    this.tickSeconds = message.tick_seconds;
+    this.lastTick = message.last_tick;
+    this.engines = message.engines;
+    this.hosts = message.hosts;
+    this.controllers = message.controllers;
+    this.attributes = message.attributes;
+    this.bodies = message.bodies;
+    this.ids = message.entities.id;
+    this.kinds = message.entities.kind.map((kind) => message.kinds[kind]);
+    this.engineOf = message.entities.engine;
+    this.hostOf = message.entities.host;
+    this.controllerOf = message.entities.controller;
+    this.bodyOf = new Map(this.bodies.map((body) => [body.entity, body]));
+
+    this.movable = []; // entity of each place in a frame
+    this.slots = new Int32Array(this.ids.length).fill(-1); // place in a frame of each entity
+    message.entities.movable.forEach((moves, entity) => {
+      if (!moves) return;
+      this.slots[entity] = this.movable.length;
+      this.movable.push(entity);
+    });
+    this.robots = this.ids.map((_, entity) => entity).filter((entity) => ROBOTS.has(this.kinds[entity]));
+  }
+
+  get size() {
+    return this.ids.length;
+  }
+  isRobot(entity) {
+    return ROBOTS.has(this.kinds[entity]);
+  }
+  find(id) {
+    return this.ids.indexOf(id);
+  }
+  engineName(entity) {
+    const engine = this.engines[this.engineOf[entity]];
+    return engine ? `${engine.id} (${engine.tag})` : "none";
+  }
+  hostName(entity) {
+    return this.hostOf[entity] < 0 ? "none" : `controller host ${this.hostOf[entity]}`;
+  }
+  controllerName(entity) {
+    const controller = this.controllers[this.controllerOf[entity]];
+    return controller ? `${controller.id} (${controller.tag})` : "none";
+  }
+}
+
+// The state between the last two frames, as drawn now.
+export class Motion {
+  constructor(count) {
+    this.positions = new Float32Array(3 * count);
+    this.quaternions = new Float32Array(4 * count);
+    this.colours = new Uint8Array(4 * count);
+    this.frame = null;
+    this.previous = null;
+    this.arrived = 0;
+    this.interval = 33;
+    this.smooth = true;
+  }
+
+  add(frame, now) {
+    this.previous = this.frame;
+    if (this.frame) this.interval = Math.min(250, 0.7 * this.interval + 0.3 * (now - this.arrived));
+    this.frame = frame;
+    this.arrived = now;
+    this.colours = frame.colours;
+    this.settled = false;
+  }
+
+  // Fills positions and quaternions for a moment (ms). False where nothing has changed since the last call.
+  sample(now) {
+    const { frame, previous } = this;
+    if (!frame || this.settled) return false;
+    const blend = this.smooth && previous ? Math.min(1, (now - this.arrived) / Math.max(this.interval, 1)) : 1;
+    this.settled = blend >= 1;
+    const scale = 1 / 32767;
+    if (blend >= 1) {
+      this.positions.set(frame.positions);
+      for (let i = 0; i < this.quaternions.length; i++) this.quaternions[i] = frame.quaternions[i] * scale;
+      return true;
+    }
+    const [p0, p1, q0, q1] = [previous.positions, frame.positions, previous.quaternions, frame.quaternions];
+    for (let i = 0; i < frame.count; i++) {
+      const [p, q] = [3 * i, 4 * i];
+      const far =
+        Math.abs(p1[p] - p0[p]) > JUMP_M || Math.abs(p1[p + 1] - p0[p + 1]) > JUMP_M || Math.abs(p1[p + 2] - p0[p + 2]) > JUMP_M;
+      const t = far ? 1 : blend;
+      for (let k = 0; k < 3; k++) this.positions[p + k] = p0[p + k] + t * (p1[p + k] - p0[p + k]);
+      const dot = q0[q] * q1[q] + q0[q + 1] * q1[q + 1] + q0[q + 2] * q1[q + 2] + q0[q + 3] * q1[q + 3];
+      const near = (dot < 0 ? -1 : 1) * (1 - t);
+      let length = 0;
+      for (let k = 0; k < 4; k++) {
+        const value = near * q0[q + k] + t * q1[q + k];
+        this.quaternions[q + k] = value;
+        length += value * value;
+      }
+      const norm = length > 0 ? 1 / Math.sqrt(length) : 0;
+      for (let k = 0; k < 4; k++) this.quaternions[q + k] *= norm;
+    }
+    return true;
+  }
+
+  yaw(slot) {
+    const [x, y, z, w] = this.quaternions.subarray(4 * slot, 4 * slot + 4);
+    return Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
+  }
+
+  // "#rrggbb" of what shines or is painted, null where nothing does.
+  colour(slot, isRobot) {
+    const c = 4 * slot;
+    if (isRobot && !(this.colours[c + 3] & Flag.lit)) return null;
+    return `rgb(${this.colours[c]},${this.colours[c + 1]},${this.colours[c + 2]})`;
+  }
+}

@@ -1,0 +1,37 @@
+// The files of the bundled page, held in memory: what is not among them cannot be asked for, whatever the path says.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace swarmanoid
+{
+
+struct PageFile
+{
+  std::string type;  // content type
+  std::shared_ptr<const std::string> bytes;
+};
+
+class PageFiles
+{
+public:
+  PageFiles() = default;
+  // Reads all files of a folder and its subfolders. Throws std::runtime_error where there is no index.html.
+  explicit PageFiles(const std::filesystem::path& folder);
+
+  void Add(const std::string& path, const std::string& type, std::string bytes);
+  // "/" is "/index.html". nullptr where there is none.
+  const PageFile* Find(std::string_view path) const;
+
+private:
+  std::map<std::string, PageFile, std::less<>> files_;
+};
+
+// Beside the library that this code is part of.
+std::filesystem::path InstalledPageFolder();
+
+}  // namespace swarmanoid

@@ -1,0 +1,299 @@
+#include "visualiser/web/web_render.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "visualiser/renderer_library.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+
+constexpr auto kStatusPeriod = 250ms;
+constexpr auto kWatchedPeriod = 100ms;
+constexpr auto kFollowPeriod = 250ms;
+constexpr std::size_t kMostRequests = 1024;  // waiting for the next tick
+constexpr std::size_t kNotesKept = 100;      // by RunMonitor
+constexpr double kLate_s = 1;
+
+WebServer::Bytes Shared(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
+
+std::string NoteKey(const RunNote& note) { return fmt::format("{} {} {}", note.tick, note.from, note.text); }
+
+// Only the user may read it: the address may hold the token.
+void WriteUrl(const std::string& path, const std::string& url)
+{
+  unlink(path.c_str());
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  const std::string line = url + "\n";
+  if (file < 0 || write(file, line.data(), line.size()) != static_cast<ssize_t>(line.size()))
+    throw std::runtime_error("web_render: cannot write '" + path + "': " + std::strerror(errno));
+  close(file);
+}
+
+}  // namespace
+
+CWebRender::~CWebRender() = default;
+
+void CWebRender::Init(const RenderSetup& setup)
+{
+  const Parameters& parameters = setup.parameters;
+  space_ = &setup.space;
+  control_ = setup.control;
+  monitor_ = setup.monitor;
+  linger_s_ = parameters.Number("linger");
+  allow_control_ = parameters.Boolean("allow_control");
+  frame_period_ =
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / parameters.Number("rate")));
+  frame_writer_ = std::make_unique<FrameWriter>(*space_);
+
+  WebServerSettings settings;
+  settings.address = parameters.Text("address");
+  settings.port = static_cast<std::uint16_t>(parameters.Integer("port"));
+  settings.max_clients = static_cast<std::size_t>(parameters.Integer("clients"));
+  settings.max_connections = settings.max_clients + 48;
+  settings.access.allow_control = allow_control_;
+  if (allow_control_) settings.access.token = MakeToken();
+  server_ = std::make_unique<WebServer>(settings, PageFiles(InstalledPageFolder()), *this);
+  server_->SetGreeting(Shared(WorldText(*space_, setup.assignment)));
+  Announce(setup);
+}
+
+void CWebRender::Announce(const RenderSetup& setup)
+{
+  const std::string url = server_->Url();
+  fmt::print("web_render: {}\n", url);
+  std::fflush(stdout);
+  const std::filesystem::path folder = setup.output_folder;
+  std::string file = setup.parameters.Text("url_file");
+  if (file.empty() && std::filesystem::exists(folder / "manifest.json")) file = "web_render.url";
+  if (!file.empty()) WriteUrl((folder / file).string(), url);
+}
+
+void CWebRender::Draw() { Work(); }
+
+void CWebRender::Idle() { Work(); }
+
+void CWebRender::Finish()
+{
+  FollowStatus();
+  SendFrame();
+  SendWatched();
+  SendStatus();
+}
+
+bool CWebRender::Terminate()
+{
+  return ended_ && linger_s_ >= 0 && Clock::now() - *ended_ >= std::chrono::duration<double>(linger_s_);
+}
+
+// Called every tick of a fast run: nothing here but a look at the clock, unless something is due.
+void CWebRender::Work()
+{
+  if (has_requests_) TakeRequests();
+  const Clock::time_point now = Clock::now();
+  if (now >= followed_due_)
+  {
+    followed_due_ = now + kFollowPeriod;
+    FollowStatus();
+  }
+  if (server_->Clients() == 0) return;
+  const bool changed = shown_tick_ != space_->GetTick() || shown_revision_ != space_->Revision() ||
+                       shown_attributes_ != space_->AttributeRevision();
+  if (changed && now >= frame_due_ && server_->Hungry() > 0)
+  {
+    SendFrame();
+    // In step with the clock, so that the rate is met on average; no catching up after a break.
+    frame_due_ = std::max(frame_due_ + frame_period_, now);
+  }
+  if (now >= watched_due_)
+  {
+    watched_due_ = now + kWatchedPeriod;
+    SendWatched();
+  }
+  if (now >= status_due_)
+  {
+    status_due_ = now + kStatusPeriod;
+    SendStatus();
+  }
+}
+
+void CWebRender::SendFrame()
+{
+  shown_tick_ = space_->GetTick();
+  shown_revision_ = space_->Revision();
+  shown_attributes_ = space_->AttributeRevision();
+  server_->Publish(WebServer::Slot::kFrame, Shared(frame_writer_->Write()));
+}
+
+void CWebRender::SendStatus()
+{
+  server_->Publish(
+      WebServer::Slot::kStatus,
+      Shared(StatusText(*space_, monitor_ == nullptr ? RunStatus() : monitor_->Status(), server_->Clients())));
+  if (colours_revision_ == space_->AttributeRevision()) return;
+  colours_revision_ = space_->AttributeRevision();
+  std::string colours = ColoursText(*space_);
+  if (colours == colours_) return;
+  colours_ = std::move(colours);
+  server_->Publish(WebServer::Slot::kColours, Shared(colours_));
+}
+
+void CWebRender::SendWatched()
+{
+  for (const auto& [client, entities] : watched_)
+    if (!entities.empty())
+      server_->SendState(client, WebServer::Slot::kWatched, Shared(WatchedText(*space_, entities, monitor_)));
+}
+
+// What is worth a line of the log: the end, processes that are late, what users did.
+void CWebRender::FollowStatus()
+{
+  if (monitor_ == nullptr) return;
+  const RunStatus& status = monitor_->Status();
+  if (status.phase == RunStatus::Phase::kFinished && !ended_)
+  {
+    ended_ = Clock::now();
+    Log(status.tick, "run", status.ended.empty() ? "info" : "warning",
+        "the run has ended" + (status.ended.empty() ? "" : ": " + status.ended));
+  }
+  for (const ProcessStatus& process : status.processes)
+  {
+    const bool late = process.late_s >= kLate_s;
+    std::string trouble = !late                   ? ""
+                          : process.doing.empty() ? "the run waits for it"
+                                                  : "the run waits for it: " + process.doing;
+    std::string& known = troubles_[process.name];
+    if (trouble == known) continue;
+    Log(status.tick, process.name, late ? "warning" : "info", late ? trouble : "in time again");
+    known = std::move(trouble);
+  }
+  SendNotes();
+}
+
+// The monitor keeps the last hundred notes: those after the last one that was shown are new.
+void CWebRender::SendNotes()
+{
+  const std::span<const RunNote> notes = monitor_->Notes();
+  std::size_t first = std::min(notes_shown_, notes.size());
+  if (notes.size() >= kNotesKept && notes_shown_ >= kNotesKept)
+  {
+    first = notes.size();
+    while (first > 0 && NoteKey(notes[first - 1]) != last_note_) --first;
+  }
+  for (; first < notes.size(); ++first)
+    Log(notes[first].tick, notes[first].from.empty() ? "control" : notes[first].from,
+        notes[first].done ? "info" : "warning", notes[first].text);
+  notes_shown_ = notes.size();
+  if (!notes.empty()) last_note_ = NoteKey(notes.back());
+}
+
+// ---- what pages ask for ----
+
+std::string CWebRender::Welcome(std::uint64_t, Authority authority) { return WelcomeText(authority, allow_control_); }
+
+void CWebRender::Received(std::uint64_t client, Authority authority, std::string_view text)
+{
+  try
+  {
+    PageRequest request = ParseRequest(text);
+    if (IsCommand(request) && authority != Authority::kControl)
+      throw std::invalid_argument(allow_control_ ? "only the address with the token may control the run"
+                                                 : "this page may only look: start it with --allow-control");
+    if (const auto* rate = std::get_if<FrameRateRequest>(&request)) server_->SetFramePeriod(client, rate->period_ms);
+    const std::lock_guard lock(mutex_);
+    if (requests_.size() >= kMostRequests) throw std::invalid_argument("too many requests at once");
+    requests_.push_back({client, std::move(request)});
+    has_requests_ = true;
+  }
+  catch (const std::invalid_argument& error)
+  {
+    server_->Send(client, Shared(RefusalText(error.what())));
+  }
+}
+
+void CWebRender::Left(std::uint64_t client)
+{
+  const std::lock_guard lock(mutex_);
+  requests_.push_back({client, std::nullopt});
+  has_requests_ = true;
+}
+
+void CWebRender::TakeRequests()
+{
+  std::vector<Request> requests;
+  {
+    const std::lock_guard lock(mutex_);
+    requests.swap(requests_);
+    has_requests_ = false;
+  }
+  for (const Request& request : requests)
+    if (request.request)
+      Carry(request.client, *request.request);
+    else
+    {
+      watched_.erase(request.client);
+      WatchRobots();
+    }
+}
+
+void CWebRender::WatchRobots()
+{
+  if (monitor_ == nullptr) return;
+  std::vector<std::uint32_t> robots;
+  for (const auto& [client, entities] : watched_) robots.insert(robots.end(), entities.begin(), entities.end());
+  std::sort(robots.begin(), robots.end());
+  robots.erase(std::unique(robots.begin(), robots.end()), robots.end());
+  monitor_->Watch(robots);
+}
+
+void CWebRender::Carry(std::uint64_t client, const PageRequest& request)
+{
+  if (const auto* watch = std::get_if<WatchRequest>(&request))
+  {
+    std::vector<std::uint32_t>& entities = watched_[client];
+    entities.clear();
+    for (const std::uint32_t entity : watch->entities)
+      if (entity < space_->Size()) entities.push_back(entity);
+    WatchRobots();
+    watched_due_ = {};
+    return;
+  }
+  if (!IsCommand(request)) return;
+  if (control_ == nullptr)
+  {
+    server_->Send(client, Shared(RefusalText("this run cannot be controlled")));
+    return;
+  }
+  Obey(request);
+  followed_due_ = status_due_ = {};
+}
+
+void CWebRender::Obey(const PageRequest& request)
+{
+  if (std::holds_alternative<PauseRequest>(request)) control_->Pause();
+  if (std::holds_alternative<ResumeRequest>(request)) control_->Resume();
+  if (const auto* step = std::get_if<StepRequest>(&request)) control_->Step(step->ticks);
+  if (const auto* speed = std::get_if<SpeedRequest>(&request)) control_->SetSpeed(speed->factor);
+  if (const auto* move = std::get_if<MoveRequest>(&request)) control_->MoveEntity(move->entity, move->pose);
+  if (std::holds_alternative<StopRequest>(request)) control_->Stop();
+}
+
+void CWebRender::Log(std::uint64_t tick, const std::string& source, const std::string& level, const std::string& text)
+{
+  server_->SendAll(Shared(LogText(tick, source, level, text)));
+}
+
+}  // namespace swarmanoid
+
+EXPORT_RENDERER(swarmanoid::CWebRender)

@@ -1,0 +1,87 @@
+// web_render: serves a page that shows the experiment in a browser. Draw only hands over what pages have asked for; the
+// server's thread sends it, so no page is ever waited for.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "visualiser/render.h"
+#include "visualiser/web/frame.h"
+#include "visualiser/web/messages.h"
+#include "visualiser/web/web_server.h"
+
+namespace swarmanoid
+{
+
+class CWebRender : public CRender, private WebServerEvents
+{
+public:
+  CWebRender() = default;
+  ~CWebRender() override;
+  void Init(const RenderSetup& setup) override;
+  void Draw() override;
+  void Idle() override;
+  void Finish() override;
+  // After the end, once the page has been shown for long enough.
+  bool Terminate() override;
+  bool IsInteractive() const override { return true; }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  struct Request
+  {
+    std::uint64_t client = 0;
+    std::optional<PageRequest> request;  // nullopt: the client has left
+  };
+
+  // In the server's thread.
+  std::string Welcome(std::uint64_t client, Authority authority) override;
+  void Received(std::uint64_t client, Authority authority, std::string_view text) override;
+  void Left(std::uint64_t client) override;
+
+  void Announce(const RenderSetup& setup);
+  void Work();
+  void TakeRequests();
+  void Carry(std::uint64_t client, const PageRequest& request);
+  void Obey(const PageRequest& request);
+  void SendFrame();
+  void SendStatus();
+  void SendWatched();
+  void SendNotes();
+  void FollowStatus();
+  void WatchRobots();
+  void Log(std::uint64_t tick, const std::string& source, const std::string& level, const std::string& text);
+
+  const CSwarmanoidSpace* space_ = nullptr;
+  ExperimentControl* control_ = nullptr;
+  RunMonitor* monitor_ = nullptr;
+  bool allow_control_ = false;
+  double linger_s_ = -1;
+  Clock::duration frame_period_{};
+  std::unique_ptr<FrameWriter> frame_writer_;
+
+  Clock::time_point frame_due_, status_due_, watched_due_, followed_due_;
+  std::uint64_t shown_revision_ = 0, shown_attributes_ = 0, shown_tick_ = ~0ULL;
+  std::uint64_t colours_revision_ = 0;
+  std::string colours_;
+  std::optional<Clock::time_point> ended_;
+  std::size_t notes_shown_ = 0;
+  std::string last_note_;
+  std::map<std::string, std::string> troubles_;  // by process: what was last said of its lateness
+
+  std::map<std::uint64_t, std::vector<std::uint32_t>> watched_;  // by client
+  std::mutex mutex_;                                             // of requests_
+  std::vector<Request> requests_;
+  std::atomic<bool> has_requests_{false};
+
+  std::unique_ptr<WebServer> server_;  // last: its thread calls the above
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,87 @@
+// WebServer: the page's files by HTTP and the live state by WebSocket, on one port, in a thread of its own. The only
+// code that knows Boost.Beast.
+//
+// Nobody who looks can slow the caller: every function only hands over a message. Each client has one slot for each
+// kind of state, which holds the latest only, and a bounded queue for what must not be lost; one that reads slowly or
+// not at all gets less.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "visualiser/web/access.h"
+#include "visualiser/web/page_files.h"
+
+namespace swarmanoid
+{
+
+struct WebServerSettings
+{
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 0;  // 0: a free one
+  std::size_t max_clients = 16;
+  std::size_t max_connections = 64;       // clients, and requests for files
+  std::size_t max_message_bytes = 65536;  // of a client; longer ones end its connection
+  AccessRules access;
+};
+
+// What the server tells, in its own thread.
+class WebServerEvents
+{
+public:
+  virtual ~WebServerEvents() = default;
+  // The first message for a new client.
+  virtual std::string Welcome(std::uint64_t client, Authority authority) = 0;
+  virtual void Received(std::uint64_t client, Authority authority, std::string_view text) = 0;
+  virtual void Left(std::uint64_t client) = 0;
+};
+
+class WebServer
+{
+public:
+  using Bytes = std::shared_ptr<const std::string>;
+
+  enum class Slot
+  {
+    kFrame,  // binary; the others are text
+    kStatus,
+    kColours,
+    kWatched,
+    kCount
+  };
+
+  // Throws std::runtime_error where it cannot listen. The events outlive the server.
+  WebServer(const WebServerSettings& settings, PageFiles files, WebServerEvents& events);
+  // Sends what is ready, for a moment, and closes the connections.
+  ~WebServer();
+  WebServer(const WebServer&) = delete;
+  WebServer& operator=(const WebServer&) = delete;
+
+  std::uint16_t Port() const;
+  // "http://127.0.0.1:8080/", with the token where there is one.
+  std::string Url() const;
+  std::size_t Clients() const;
+  // Clients that have taken their last frame: without any, a new one would be made for nobody.
+  std::size_t Hungry() const;
+
+  // The message that follows the welcome.
+  void SetGreeting(Bytes text);
+  // The state for all clients, and for those who come later.
+  void Publish(Slot slot, Bytes bytes);
+  // A state for one client alone.
+  void SendState(std::uint64_t client, Slot slot, Bytes bytes);
+  // Queued. The last 256 messages for all are repeated to those who come later.
+  void Send(std::uint64_t client, Bytes text);
+  void SendAll(Bytes text);
+  // Frames for this client at most every so many milliseconds.
+  void SetFramePeriod(std::uint64_t client, unsigned period_ms);
+
+private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace swarmanoid
