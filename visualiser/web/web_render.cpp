@@ -64,7 +64,8 @@ void CWebRender::Init(const RenderSetup& setup)
   settings.max_connections = settings.max_clients + 48;
   settings.access.allow_control = allow_control_;
   if (allow_control_) settings.access.token = MakeToken();
-  server_ = std::make_unique<WebServer>(settings, PageFiles(InstalledPageFolder()), *this);
+  server_ =
+      std::make_unique<WebServer>(settings, PageFiles(InstalledPageFolder()), static_cast<WebServerEvents&>(*this));
   server_->SetGreeting(Shared(WorldText(*space_, setup.assignment)));
   Announce(setup);
 }

@@ -31,3 +31,20 @@ export function clockText(seconds) {
 }
 
 export const hex = (colour) => `#${(colour & 0xffffff).toString(16).padStart(6, "0")}`;
+
+const shapes = {
+  pause: "M4 2.5h3v11H4zM9 2.5h3v11H9z",
+  resume: "M4 2.2v11.6L13.5 8z",
+  step: "M3 2.5v11L10.5 8zM11 2.5h2.2v11H11z",
+  stop: "M3.2 3.2h9.6v9.6H3.2z",
+};
+
+export function icon(name) {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  svg.setAttribute("viewBox", "0 0 16 16");
+  svg.setAttribute("class", "shape");
+  const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+  path.setAttribute("d", shapes[name]);
+  svg.append(path);
+  return svg;
+}

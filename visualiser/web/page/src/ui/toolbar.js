@@ -1,5 +1,5 @@
 // The bar at the top: the experiment, its clock and pace, the controls, what is shown.
-import { clockText, h, setText } from "./dom.js";
+import { clockText, h, icon, setText } from "./dom.js";
 
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 10, 50, 0];
 
@@ -12,8 +12,8 @@ export class Toolbar {
     this.clock = h("span.number", { title: "Simulated time" });
     this.tick = h("span.number.dim", { title: "Tick of the picture" });
     this.pace = h("span.number.dim", { title: "Simulated seconds in a second" });
-    this.pause = h("button.icon", { onclick: () => actions.command({ do: this.isPaused ? "resume" : "pause" }) }, "⏸");
-    this.step = h("button.icon", { title: "One tick  (.)", onclick: () => actions.command({ do: "step", ticks: 1 }) }, "⏭");
+    this.pause = h("button.icon", { onclick: () => actions.command({ do: this.isPaused ? "resume" : "pause" }) }, icon("pause"));
+    this.step = h("button.icon", { title: "One tick  (.)", onclick: () => actions.command({ do: "step", ticks: 1 }) }, icon("step"));
     this.speed = h(
       "select",
       { title: "Speed", "aria-label": "Speed", onchange: () => actions.command({ do: "speed", factor: Number(this.speed.value) }) },
@@ -25,7 +25,7 @@ export class Toolbar {
         title: "End the run",
         onclick: () => confirm("End the run? Its last state stays.") && actions.command({ do: "stop" }),
       },
-      "⏹",
+      icon("stop"),
     );
     this.lock = h("span.lock", {}, "read-only");
     this.toggles = {};
@@ -90,7 +90,9 @@ export class Toolbar {
     this.isPaused = phase === "paused";
     setText(this.phase, phase === "unknown" ? "running" : phase);
     this.phase.dataset.phase = phase;
-    setText(this.pause, this.isPaused ? "▶" : "⏸");
+    const shape = this.isPaused ? "resume" : "pause";
+    if (this.pause.dataset.shape !== shape) this.pause.replaceChildren(icon(shape));
+    this.pause.dataset.shape = shape;
     this.pause.title = this.isPaused ? "Go on  (space)" : "Pause  (space)";
     if (!status) return;
     const factor = status.real_time_factor;

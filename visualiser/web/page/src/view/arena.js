@@ -8,7 +8,7 @@ function gridStep(extent) {
   return 100;
 }
 
-function floorTexture(theme, step, cells) {
+function floorTexture(theme, cells) {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = 256;
   const context = canvas.getContext("2d");
@@ -31,6 +31,7 @@ export class Arena {
     this.group = new THREE.Group();
     this.Material = quality === "low" ? THREE.MeshLambertMaterial : THREE.MeshStandardMaterial;
     this.finish = quality === "low" ? {} : { roughness: 0.85, metalness: 0 };
+    this.floorColour = new THREE.Color(theme.floor);
     this.objects = new Map(); // entity to what bears its colour
     scene.add(this.group);
     this.addFloor(theme);
@@ -55,7 +56,7 @@ export class Arena {
   addFloor(theme) {
     const [width, depth] = this.world.arena;
     const step = gridStep(Math.max(width, depth));
-    const texture = floorTexture(theme, step, [width / step, depth / step]);
+    const texture = floorTexture(theme, [width / step, depth / step]);
     const floor = new THREE.Mesh(new THREE.PlaneGeometry(width, depth), new this.Material({ map: texture, ...this.finish }));
     floor.position.set(width / 2, depth / 2, 0);
     floor.receiveShadow = true;
@@ -106,11 +107,11 @@ export class Arena {
     const tall = z > 0.7 && Math.max(x, y) > 1 && Math.max(x, y) > 8 * Math.min(x, y);
     const geometry = new THREE.BoxGeometry(x, y, z);
     if (!tall) return this.solid(geometry, colour);
-    const mesh = this.solid(geometry, colour, { transparent: true, opacity: 0.13, depthWrite: false });
+    const mesh = this.solid(geometry, colour, { transparent: true, opacity: 0.09, depthWrite: false });
     mesh.castShadow = mesh.receiveShadow = false;
     const edges = new THREE.LineSegments(
       new THREE.EdgesGeometry(geometry),
-      new THREE.LineBasicMaterial({ color: colour, transparent: true, opacity: 0.5 }),
+      new THREE.LineBasicMaterial({ color: colour, transparent: true, opacity: 0.28 }),
     );
     const foot = this.solid(new THREE.BoxGeometry(x, y, 0.06).translate(0, 0, 0.03 - Math.min(z / 2, position[2])), colour);
     mesh.add(edges, foot);
@@ -122,14 +123,22 @@ export class Arena {
     return y === 0 ? new THREE.CircleGeometry(x, 64) : new THREE.PlaneGeometry(x, y);
   }
 
+  // Large areas in a pure colour would outshine everything: they are painted softly.
   makePatch(x, y, colour, height) {
     const mesh = new THREE.Mesh(
       this.flatShape(x, y),
-      new this.Material({ color: colour, ...this.finish, polygonOffset: true, polygonOffsetFactor: -1 }),
+      new this.Material({ ...this.finish, polygonOffset: true, polygonOffsetFactor: -1 }),
     );
     mesh.receiveShadow = true;
     mesh.position.z = height;
+    mesh.userData.soft = true;
+    this.setColour(mesh, colour);
     return mesh;
+  }
+
+  setColour(mesh, colour) {
+    mesh.material.color.set(colour);
+    if (mesh.userData.soft) mesh.material.color.lerp(this.floorColour, 0.35).multiplyScalar(0.92);
   }
 
   makeHole(x, y) {
@@ -197,7 +206,7 @@ export class Arena {
     entities.forEach((entity, i) => {
       const object = this.objects.get(entity);
       if (!object?.material) return;
-      object.material.color.set(colours[i]);
+      this.setColour(object, colours[i]);
       const kind = this.world.kinds[entity];
       if (!kind.startsWith("light")) return;
       const [glow] = object.children;

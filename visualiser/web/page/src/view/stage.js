@@ -14,7 +14,7 @@ export class Stage {
     this.renderer = new THREE.WebGLRenderer({ antialias: quality !== "low", powerPreference: "high-performance" });
     this.renderer.setPixelRatio(quality === "low" ? 1 : Math.min(window.devicePixelRatio, 2));
     this.renderer.shadowMap.enabled = quality !== "low";
-    this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+    this.renderer.shadowMap.type = THREE.PCFShadowMap;
     container.append(this.renderer.domElement);
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(45, 1, 0.02, 1000);
@@ -77,16 +77,31 @@ export class Stage {
   // The whole arena in view. how: "oblique" or "top".
   frameArena([width, depth, height], how = "oblique") {
     this.extent = Math.max(width, depth, 1);
-    const centre = new THREE.Vector3(width / 2, depth / 2, Math.min(height, 1) * 0.1);
-    const angle = (this.camera.fov * Math.PI) / 180;
-    const across = Math.max(depth, width / Math.max(this.camera.aspect, 0.5));
-    const distance = (across / 2 / Math.tan(angle / 2)) * 1.12;
-    const direction = how === "top" ? new THREE.Vector3(0, -0.001, 1) : new THREE.Vector3(0.12, -0.86, 0.74).normalize();
-    this.camera.position.copy(centre).addScaledVector(direction, distance * (how === "top" ? 1.05 : 0.98));
-    this.camera.near = Math.max(0.01, this.extent / 2000);
-    this.camera.far = this.extent * 20 + 50;
-    this.camera.updateProjectionMatrix();
-    this.controls.target.copy(centre);
+    const { camera } = this;
+    const direction = how === "top" ? new THREE.Vector3(0, -0.001, 1) : new THREE.Vector3(0.1, -0.8, 0.8);
+    direction.normalize();
+    const corners = [0, width].flatMap((x) => [0, depth].flatMap((y) => [0, Math.min(height, 0.3)].map((z) => new THREE.Vector3(x, y, z))));
+    const target = new THREE.Vector3(width / 2, depth / 2, 0);
+    camera.near = Math.max(0.01, this.extent / 2000);
+    camera.far = this.extent * 20 + 50;
+    camera.updateProjectionMatrix();
+    let distance = this.extent * 2;
+    // The corners' rectangle on the screen is centred and then fitted; some rounds, for the perspective changes it.
+    for (let round = 0; round < 6; round++) {
+      camera.position.copy(target).addScaledVector(direction, distance);
+      camera.lookAt(target);
+      camera.updateMatrixWorld();
+      const box = new THREE.Box2();
+      for (const corner of corners) box.expandByPoint(corner.clone().project(camera));
+      const size = box.getSize(new THREE.Vector2());
+      const centre = box.getCenter(new THREE.Vector2());
+      const half = Math.tan((camera.fov * Math.PI) / 360) * distance;
+      target.addScaledVector(new THREE.Vector3().setFromMatrixColumn(camera.matrixWorld, 0), centre.x * half * camera.aspect);
+      target.y += (centre.y * half) / Math.max(direction.z, 0.3);
+      distance *= Math.max(size.x / 2 / 0.93, size.y / 2 / 0.9);
+    }
+    camera.position.copy(target).addScaledVector(direction, distance);
+    this.controls.target.copy(target);
     this.controls.maxDistance = this.extent * 6 + 10;
     this.controls.minDistance = 0.15;
     this.controls.update();

@@ -1,0 +1,112 @@
+#include "visualiser/web/messages.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "tests/web/small_world.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(WebMessages, RequestsAreRead)
+{
+  EXPECT_TRUE(std::holds_alternative<PauseRequest>(ParseRequest(R"({"do": "pause"})")));
+  EXPECT_TRUE(std::holds_alternative<StopRequest>(ParseRequest(R"({"do": "stop"})")));
+  EXPECT_EQ(std::get<StepRequest>(ParseRequest(R"({"do": "step", "ticks": 5})")).ticks, 5u);
+  EXPECT_EQ(std::get<SpeedRequest>(ParseRequest(R"({"do": "speed", "factor": 0})")).factor, 0);
+  EXPECT_THAT(std::get<WatchRequest>(ParseRequest(R"({"do": "watch", "entities": [3, 1]})")).entities,
+              ElementsAre(3, 1));
+  const auto move = std::get<MoveRequest>(
+      ParseRequest(R"({"do": "move", "entity": "fb_0", "position": [1, 2, 0.5], "angles": [0, 0, 90]})"));
+  EXPECT_EQ(move.entity, "fb_0");
+  EXPECT_EQ(move.pose.position, Vector3(1, 2, 0.5));
+  EXPECT_NEAR(YawOf(move.pose.orientation), 1.5707963, 1e-6);
+}
+
+TEST(WebMessages, EverythingElseIsRefusedWithAReason)
+{
+  const auto refusal = [](const std::string& text) -> std::string
+  {
+    try
+    {
+      ParseRequest(text);
+    }
+    catch (const std::invalid_argument& error)
+    {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(refusal("{"), HasSubstr("JSON"));
+  EXPECT_THAT(refusal("[1]"), HasSubstr("JSON"));
+  EXPECT_THAT(refusal("\xff\xfe"), HasSubstr("JSON"));
+  EXPECT_THAT(refusal(R"({"do": "explode"})"), HasSubstr("no request 'explode'"));
+  EXPECT_THAT(refusal(R"({"do": 3})"), HasSubstr("'do'"));
+  EXPECT_THAT(refusal(R"({"do": "step"})"), HasSubstr("'ticks'"));
+  EXPECT_THAT(refusal(R"({"do": "step", "ticks": 0})"), HasSubstr("1 to"));
+  EXPECT_THAT(refusal(R"({"do": "step", "ticks": -1})"), HasSubstr("1 to"));
+  EXPECT_THAT(refusal(R"({"do": "speed", "factor": "fast"})"), HasSubstr("'factor'"));
+  EXPECT_THAT(refusal(R"({"do": "speed", "factor": 1e300})"), HasSubstr("must be"));
+  EXPECT_THAT(refusal(R"({"do": "watch", "entities": ["fb_0"]})"), HasSubstr("number"));
+  EXPECT_THAT(refusal(R"({"do": "watch", "entities": [1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17]})"), HasSubstr("16"));
+  EXPECT_THAT(refusal(R"({"do": "move", "entity": "fb_0", "position": [1, 2]})"), HasSubstr("three"));
+  EXPECT_THAT(refusal(R"({"do": "move", "entity": "fb_0", "position": [1, 2, 1e99], "angles": [0, 0, 0]})"),
+              HasSubstr("bounds"));
+  // Deeper than any stack would like.
+  EXPECT_THAT(refusal(std::string(60000, '[')), HasSubstr("JSON"));
+}
+
+TEST(WebMessages, OnlyWhatChangesTheRunIsACommand)
+{
+  EXPECT_FALSE(IsCommand(WatchRequest{}));
+  EXPECT_FALSE(IsCommand(FrameRateRequest{}));
+  for (const PageRequest& request : std::vector<PageRequest>{PauseRequest{}, ResumeRequest{}, StepRequest{},
+                                                             SpeedRequest{}, MoveRequest{}, StopRequest{}})
+    EXPECT_TRUE(IsCommand(request));
+}
+
+TEST(WebMessages, TheWorldNamesEntitiesOwnersAndBodies)
+{
+  const SmallWorld world;
+  const auto json = nlohmann::json::parse(WorldText(world.space, world.assignment));
+  EXPECT_EQ(json["entities"]["id"][0], "fb_0");
+  EXPECT_EQ(json["kinds"][json["entities"]["kind"][0].get<int>()], "footbot");
+  EXPECT_EQ(json["entities"]["movable"], nlohmann::json({1, 1, 1, 0}));
+  EXPECT_EQ(json["entities"]["engine"][0], 0);
+  EXPECT_EQ(json["engines"][0]["id"], "ground");
+  // The robots' bodies are the page's own.
+  ASSERT_EQ(json["bodies"].size(), 2u);
+  EXPECT_EQ(json["bodies"][0]["entity"], 2);
+  EXPECT_EQ(json["bodies"][0]["size"], nlohmann::json({0.1, 0.1, 0.2}));
+}
+
+TEST(WebMessages, ColoursOfWhatStandsStillFollowTheSpace)
+{
+  SmallWorld world;
+  world.space.GetEntity(3).SetAttribute("colour", 0x123456);
+  const auto json = nlohmann::json::parse(ColoursText(world.space));
+  EXPECT_EQ(json["entities"], nlohmann::json({3}));
+  EXPECT_EQ(json["colours"], nlohmann::json({0x123456}));
+}
+
+TEST(WebMessages, WatchedEntitiesShowTheirAttributes)
+{
+  SmallWorld world;
+  world.space.GetEntity(0).SetAttribute("gripper_aperture", 0.5);
+  const std::vector<std::uint32_t> watched{0};
+  const auto json = nlohmann::json::parse(WatchedText(world.space, watched, nullptr));
+  EXPECT_EQ(json["entities"][0]["entity"], 0);
+  EXPECT_EQ(json["entities"][0]["attributes"]["gripper_aperture"], nlohmann::json({0.5}));
+  EXPECT_EQ(json["entities"][0]["attributes"]["led"].size(), 12u);
+}
+
+}  // namespace
+}  // namespace swarmanoid

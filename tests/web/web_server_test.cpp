@@ -1,0 +1,275 @@
+#include "visualiser/web/web_server.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "tests/web/web_client.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+WebServer::Bytes Shared(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
+
+void WaitFor(const std::function<bool()>& met)
+{
+  for (int i = 0; i < 1000 && !met(); ++i) std::this_thread::sleep_for(5ms);
+  ASSERT_TRUE(met());
+}
+
+class WebServerTest : public testing::Test, public WebServerEvents
+{
+protected:
+  WebServerTest()
+  {
+    files_.Add("/index.html", "text/html; charset=utf-8", "<p>page</p>");
+    files_.Add("/main.js", "text/javascript; charset=utf-8", "let x;");
+    settings_.access = {true, "secret"};
+    settings_.max_clients = 3;
+    settings_.max_message_bytes = 1000;
+  }
+  void Start() { server_ = std::make_unique<WebServer>(settings_, files_, *this); }
+  WebClient Connect() { return WebClient(server_->Port()); }
+
+  std::string Welcome(std::uint64_t, Authority authority) override
+  {
+    return R"({"type": "welcome", "authority": )" + std::to_string(static_cast<int>(authority)) + "}";
+  }
+  void Received(std::uint64_t client, Authority, std::string_view text) override
+  {
+    server_->Send(client, Shared(R"({"type": "echo", "text": ")" + std::string(text) + "\"}"));
+  }
+  void Left(std::uint64_t) override { ++left_; }
+
+  PageFiles files_;
+  WebServerSettings settings_;
+  std::atomic<int> left_{0};
+  std::unique_ptr<WebServer> server_;
+};
+
+TEST_F(WebServerTest, FilesAreServedWithTheirTypesAndNothingElseIs)
+{
+  Start();
+  WebClient client = Connect();
+  const auto page = client.Get("/");
+  EXPECT_EQ(page.result_int(), 200u);
+  EXPECT_EQ(page.body(), "<p>page</p>");
+  EXPECT_EQ(page["Content-Type"], "text/html; charset=utf-8");
+  EXPECT_EQ(page["X-Content-Type-Options"], "nosniff");
+  EXPECT_THAT(std::string(page["Content-Security-Policy"]), HasSubstr("default-src 'self'"));
+  // The connection stays for the next one.
+  EXPECT_EQ(client.Get("/main.js?v=1")["Content-Type"], "text/javascript; charset=utf-8");
+  for (const char* path :
+       {"/nothing", "/../etc/passwd", "//etc/passwd", "/%2e%2e/etc/passwd", "/index.html/", "main.js"})
+    EXPECT_EQ(Connect().Get(path).result_int(), 404u) << path;
+}
+
+TEST_F(WebServerTest, OddRequestsAreRefused)
+{
+  Start();
+  const std::string host = "Host: localhost\r\n";
+  EXPECT_EQ(Connect().Get("/", "evil.example").result_int(), 403u);
+  EXPECT_EQ(Connect().Ask("GET / HTTP/1.1\r\n\r\n").result_int(), 403u);
+  EXPECT_EQ(Connect().Ask("DELETE / HTTP/1.1\r\n" + host + "\r\n").result_int(), 405u);
+  EXPECT_EQ(Connect().Ask("POST / HTTP/1.1\r\n" + host + "Content-Length: 5\r\n\r\nabcde").result_int(), 413u);
+  EXPECT_EQ(Connect().Ask("GET / HTTP/1.1\r\n" + host + "X: " + std::string(9000, 'x') + "\r\n\r\n").result_int(),
+            431u);
+  EXPECT_EQ(Connect().Get("/").result_int(), 200u);
+}
+
+TEST_F(WebServerTest, PagesOfOtherSitesMayNotLook)
+{
+  Start();
+  WebClient own = Connect();
+  EXPECT_EQ(own.Open("/stream", "http://" + own.Host()), 101u);
+  EXPECT_EQ(Connect().Open("/stream", "http://evil.example"), 403u);
+  EXPECT_EQ(Connect().Open("/stream", "null"), 403u);
+  // The name of another site that points here (DNS rebinding).
+  EXPECT_EQ(Connect().Open("/stream", "http://evil.example", "evil.example"), 403u);
+  EXPECT_EQ(Connect().Open("/other"), 404u);
+}
+
+TEST_F(WebServerTest, TheTokenOfTheAddressDecidesWhatAClientMay)
+{
+  Start();
+  const auto authority = [&](const std::string& target)
+  {
+    WebClient client = Connect();
+    EXPECT_EQ(client.Open(target), 101u);
+    return static_cast<Authority>(client.ReadUntil("welcome")["authority"].get<int>());
+  };
+  EXPECT_EQ(authority("/stream"), Authority::kReadOnly);
+  EXPECT_EQ(authority("/stream?token=secret"), Authority::kControl);
+  EXPECT_EQ(authority("/stream?token=secre"), Authority::kWrongToken);
+  EXPECT_THAT(server_->Url(), testing::EndsWith("/?token=secret"));
+}
+
+TEST_F(WebServerTest, WhoComesLateGetsGreetingHistoryAndLatestState)
+{
+  Start();
+  server_->SetGreeting(Shared(R"({"type": "world"})"));
+  server_->SendAll(Shared(R"({"type": "log", "text": "one"})"));
+  server_->Publish(WebServer::Slot::kStatus, Shared(R"({"type": "status", "tick": 1})"));
+  server_->Publish(WebServer::Slot::kStatus, Shared(R"({"type": "status", "tick": 2})"));
+  WebClient client = Connect();
+  ASSERT_EQ(client.Open(), 101u);
+  EXPECT_EQ(nlohmann::json::parse(client.Read())["type"], "welcome");
+  EXPECT_EQ(nlohmann::json::parse(client.Read())["type"], "world");
+  EXPECT_EQ(nlohmann::json::parse(client.Read())["text"], "one");
+  EXPECT_EQ(nlohmann::json::parse(client.Read())["tick"], 2);
+}
+
+TEST_F(WebServerTest, AClientThatDoesNotReadGetsTheLatestFrameAndHoldsUpNobody)
+{
+  Start();
+  WebClient slow = Connect();
+  WebClient fast = Connect();
+  ASSERT_EQ(slow.Open(), 101u);
+  ASSERT_EQ(fast.Open(), 101u);
+  fast.ReadUntil("welcome");
+  constexpr int kFrames = 300;
+  constexpr std::size_t kBytes = 240000;  // more than the system holds for a connection, many times over
+  for (int i = 1; i <= kFrames; ++i)
+  {
+    server_->Publish(WebServer::Slot::kFrame, Shared(std::to_string(i) + ' ' + std::string(kBytes, '.')));
+    const std::string frame = fast.Read();
+    EXPECT_TRUE(fast.GotBinary());
+    EXPECT_EQ(std::stoi(frame), i);
+  }
+  // The slow one is not asked for again until it has taken what it was sent.
+  EXPECT_EQ(server_->Clients(), 2u);
+  WaitFor([&] { return server_->Hungry() == 1; });
+  slow.ReadUntil("welcome");
+  int read = 0;
+  int last = 0;
+  while (last < kFrames)
+  {
+    last = std::stoi(slow.Read());
+    ++read;
+  }
+  EXPECT_LT(read, kFrames / 2);
+  WaitFor([&] { return server_->Hungry() == 2; });
+}
+
+TEST_F(WebServerTest, ClientsAboveTheLimitAreRefusedUntilOneLeaves)
+{
+  Start();
+  auto first = std::make_unique<WebClient>(server_->Port());
+  WebClient second = Connect();
+  WebClient third = Connect();
+  EXPECT_EQ(first->Open(), 101u);
+  EXPECT_EQ(second.Open(), 101u);
+  EXPECT_EQ(third.Open(), 101u);
+  WaitFor([&] { return server_->Clients() == 3; });
+  EXPECT_EQ(Connect().Open(), 503u);
+  first.reset();
+  WaitFor([&] { return server_->Clients() == 2; });
+  EXPECT_EQ(left_, 1);
+  EXPECT_EQ(Connect().Open(), 101u);
+}
+
+TEST_F(WebServerTest, MessagesAreHeardAndTooLongOnesEndTheConnection)
+{
+  Start();
+  WebClient client = Connect();
+  ASSERT_EQ(client.Open(), 101u);
+  client.Send("hello");
+  EXPECT_EQ(client.ReadUntil("echo")["text"], "hello");
+  client.Send(std::string(1001, 'x'));
+  WebClient::ErrorCode error;
+  for (int i = 0; i < 3 && !error; ++i) client.Read(error);
+  EXPECT_TRUE(error);
+  WaitFor([&] { return server_->Clients() == 0; });
+}
+
+TEST_F(WebServerTest, AHiddenPageGetsFewerFramesAndTheLatestWhenItIsShownAgain)
+{
+  Start();
+  WebClient client = Connect();
+  ASSERT_EQ(client.Open(), 101u);
+  client.ReadUntil("welcome");
+  server_->SetFramePeriod(1, 60000);
+  for (int i = 1; i <= 20; ++i) server_->Publish(WebServer::Slot::kFrame, Shared(std::to_string(i)));
+  EXPECT_EQ(client.Read(), "1");
+  server_->SetFramePeriod(1, 0);
+  EXPECT_EQ(client.Read(), "20");
+}
+
+TEST_F(WebServerTest, AClosingServerSendsWhatIsReadyAndSaysGoodbye)
+{
+  Start();
+  WebClient client = Connect();
+  ASSERT_EQ(client.Open(), 101u);
+  client.ReadUntil("welcome");
+  std::thread closing(
+      [&]
+      {
+        server_->Publish(WebServer::Slot::kFrame, Shared("the last"));
+        server_.reset();
+      });
+  EXPECT_EQ(client.Read(), "the last");
+  WebClient::ErrorCode error;
+  client.Read(error);
+  EXPECT_EQ(error, boost::beast::websocket::error::closed);
+  EXPECT_EQ(client.CloseReason().code, boost::beast::websocket::close_code::going_away);
+  closing.join();
+}
+
+TEST_F(WebServerTest, AClosingServerWaitsForNobodyWhoDoesNotRead)
+{
+  Start();
+  WebClient client = Connect();
+  ASSERT_EQ(client.Open(), 101u);
+  WaitFor([&] { return server_->Clients() == 1; });
+  for (int i = 0; i < 20; ++i)
+  {
+    server_->Publish(WebServer::Slot::kFrame, Shared(std::string(4000000, '.')));
+    std::this_thread::sleep_for(5ms);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  server_.reset();
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 5s);
+}
+
+TEST_F(WebServerTest, ATakenPortIsAnErrorWithItsCure)
+{
+  Start();
+  WebServerSettings same = settings_;
+  same.port = server_->Port();
+  try
+  {
+    WebServer second(same, files_, *this);
+    FAIL() << "two servers on one port";
+  }
+  catch (const std::runtime_error& error)
+  {
+    EXPECT_THAT(error.what(), HasSubstr("Address already in use"));
+    EXPECT_THAT(error.what(), HasSubstr("port 0 takes a free one"));
+  }
+  same.address = "nowhere";
+  EXPECT_THROW(WebServer(same, files_, *this), std::runtime_error);
+}
+
+TEST(PageFiles, AFolderWithoutAPageIsAnErrorWithItsCure)
+{
+  try
+  {
+    const PageFiles files("/nonexistent");
+    FAIL() << "a page from nowhere";
+  }
+  catch (const std::runtime_error& error)
+  {
+    EXPECT_THAT(error.what(), HasSubstr("nodejs"));
+  }
+}
+
+}  // namespace
+}  // namespace swarmanoid
