@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "tests/web/small_world.h"
+#include "tests/web/four_entities.h"
 
 namespace swarmanoid
 {
@@ -34,15 +34,15 @@ TEST(WebFrame, ARobotTakesTwentyFourBytes)
   Experiment experiment;
   experiment.arena_size = {100, 100, 1};
   for (int i = 0; i < 1000; ++i)
-    experiment.entities.push_back(SmallWorld::Entity(EntityKind::kFootbot, "fb_" + std::to_string(i), {i * 0.1, 1, 0},
-                                                     {0.085, 0.085, 0.147}, true));
+    experiment.entities.push_back(FourEntities::Entity(EntityKind::kFootbot, "fb_" + std::to_string(i), {i * 0.1, 1, 0},
+                                                       {0.085, 0.085, 0.147}, true));
   CSwarmanoidSpace space(experiment);
   EXPECT_EQ(FrameWriter(space).Write().size(), sizeof(FrameHeader) + 24 * 1000);
 }
 
 TEST(WebFrame, PosesAreThoseOfTheMovableEntities)
 {
-  SmallWorld world;
+  FourEntities world;
   world.space.SetTick(7);
   const Quaternion turned = QuaternionFromYaw(2.5);
   world.space.SetPose(2, {{3.25, 0.5, 0.125}, turned});
@@ -62,7 +62,7 @@ TEST(WebFrame, PosesAreThoseOfTheMovableEntities)
 
 TEST(WebFrame, LedsThatAreAlikeAreOneColour)
 {
-  SmallWorld world;
+  FourEntities world;
   FrameWriter writer(world.space);
   EXPECT_EQ(ByteAt(writer.Write(), ColoursOf(3) + 3), 0);
   for (int led = 0; led < 12; ++led) world.space.GetEntity(0).SetAttribute("led", 0x0080ff, led);
@@ -76,7 +76,7 @@ TEST(WebFrame, LedsThatAreAlikeAreOneColour)
 
 TEST(WebFrame, LedsOfSeveralColoursFollowOneByOne)
 {
-  SmallWorld world;
+  FourEntities world;
   world.space.GetEntity(0).SetAttribute("led", 0xff0000, 3);
   world.space.GetEntity(0).SetAttribute("led", 0x0000ff, 4);
   const std::string bytes = FrameWriter(world.space).Write();
@@ -92,7 +92,7 @@ TEST(WebFrame, LedsOfSeveralColoursFollowOneByOne)
 
 TEST(WebFrame, GripsNameBothEntities)
 {
-  SmallWorld world;
+  FourEntities world;
   world.space.GetEntity(0).SetAttribute("gripped", 3);  // entity 2
   const std::string bytes = FrameWriter(world.space).Write();
   ASSERT_EQ(At<FrameHeader>(bytes, 0).grips, 1u);
@@ -104,7 +104,7 @@ TEST(WebFrame, GripsNameBothEntities)
 
 TEST(WebFrame, ABeamEndsOnTheFloorOrOnTheFirstBody)
 {
-  SmallWorld world;
+  FourEntities world;
   CSwarmanoidSpaceEntity& eyebot = world.space.GetEntity(1);
   eyebot.SetAttribute("laser", 1);
   eyebot.SetAttribute("laser_colour", 0x00ff00);

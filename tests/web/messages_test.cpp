@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "tests/web/small_world.h"
+#include "tests/web/four_entities.h"
 
 namespace swarmanoid
 {
@@ -24,7 +24,7 @@ TEST(WebMessages, RequestsAreRead)
   EXPECT_EQ(std::get<SpeedRequest>(ParseRequest(R"({"do": "speed", "factor": 0})")).factor, 0);
   EXPECT_THAT(std::get<WatchRequest>(ParseRequest(R"({"do": "watch", "entities": [3, 1]})")).entities,
               ElementsAre(3, 1));
-  const auto move = std::get<MoveRequest>(
+  const auto move = std::get<MoveEntityRequest>(
       ParseRequest(R"({"do": "move", "entity": "fb_0", "position": [1, 2, 0.5], "angles": [0, 0, 90]})"));
   EXPECT_EQ(move.entity, "fb_0");
   EXPECT_EQ(move.pose.position, Vector3(1, 2, 0.5));
@@ -69,13 +69,13 @@ TEST(WebMessages, OnlyWhatChangesTheRunIsACommand)
   EXPECT_FALSE(IsCommand(WatchRequest{}));
   EXPECT_FALSE(IsCommand(FrameRateRequest{}));
   for (const PageRequest& request : std::vector<PageRequest>{PauseRequest{}, ResumeRequest{}, StepRequest{},
-                                                             SpeedRequest{}, MoveRequest{}, StopRequest{}})
+                                                             SpeedRequest{}, MoveEntityRequest{}, StopRequest{}})
     EXPECT_TRUE(IsCommand(request));
 }
 
 TEST(WebMessages, TheWorldNamesEntitiesOwnersAndBodies)
 {
-  const SmallWorld world;
+  const FourEntities world;
   const auto json = nlohmann::json::parse(WorldText(world.space, world.assignment));
   EXPECT_EQ(json["entities"]["id"][0], "fb_0");
   EXPECT_EQ(json["kinds"][json["entities"]["kind"][0].get<int>()], "footbot");
@@ -90,7 +90,7 @@ TEST(WebMessages, TheWorldNamesEntitiesOwnersAndBodies)
 
 TEST(WebMessages, ColoursOfWhatStandsStillFollowTheSpace)
 {
-  SmallWorld world;
+  FourEntities world;
   world.space.GetEntity(3).SetAttribute("colour", 0x123456);
   const auto json = nlohmann::json::parse(ColoursText(world.space));
   EXPECT_EQ(json["entities"], nlohmann::json({3}));
@@ -99,7 +99,7 @@ TEST(WebMessages, ColoursOfWhatStandsStillFollowTheSpace)
 
 TEST(WebMessages, WatchedEntitiesShowTheirAttributes)
 {
-  SmallWorld world;
+  FourEntities world;
   world.space.GetEntity(0).SetAttribute("gripper_aperture", 0.5);
   const std::vector<std::uint32_t> watched{0};
   const auto json = nlohmann::json::parse(WatchedText(world.space, watched, nullptr));

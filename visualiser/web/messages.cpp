@@ -169,7 +169,7 @@ PageRequest MoveIn(const Json& json)
   if (entity == json.end() || !entity->is_string()) Refuse("'move' needs the id of an entity");
   const std::array<double, 3> position = TripleIn(json, "position");
   const std::array<double, 3> angles = TripleIn(json, "angles");
-  MoveRequest request;
+  MoveEntityRequest request;
   request.entity = entity->get<std::string>();
   request.pose.position = {position[0], position[1], position[2]};
   request.pose.orientation =

@@ -53,7 +53,7 @@ struct SpeedRequest
 {
   double factor = 0;
 };
-struct MoveRequest
+struct MoveEntityRequest
 {
   std::string entity;
   Pose pose;
@@ -62,7 +62,7 @@ struct StopRequest
 {
 };
 using PageRequest = std::variant<WatchRequest, FrameRateRequest, PauseRequest, ResumeRequest, StepRequest, SpeedRequest,
-                                 MoveRequest, StopRequest>;
+                                 MoveEntityRequest, StopRequest>;
 
 inline constexpr std::size_t kMostWatched = 16;  // entities, of one page
 

@@ -286,7 +286,7 @@ void CWebRender::Obey(const PageRequest& request)
   if (std::holds_alternative<ResumeRequest>(request)) control_->Resume();
   if (const auto* step = std::get_if<StepRequest>(&request)) control_->Step(step->ticks);
   if (const auto* speed = std::get_if<SpeedRequest>(&request)) control_->SetSpeed(speed->factor);
-  if (const auto* move = std::get_if<MoveRequest>(&request)) control_->MoveEntity(move->entity, move->pose);
+  if (const auto* move = std::get_if<MoveEntityRequest>(&request)) control_->MoveEntity(move->entity, move->pose);
   if (std::holds_alternative<StopRequest>(request)) control_->Stop();
 }
 

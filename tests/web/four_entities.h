@@ -7,7 +7,7 @@
 namespace swarmanoid
 {
 
-struct SmallWorld
+struct FourEntities
 {
   Experiment experiment = Make();
   CSwarmanoidSpace space{experiment};
