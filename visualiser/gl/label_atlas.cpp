@@ -80,7 +80,7 @@ void LabelAtlas::Append(std::string_view text, float x, float y, std::vector<Gly
 
   const auto channel = [](int shift) { return static_cast<float>((palette::kLabel >> shift) & 0xff) / 255; };
   float pen = std::round(x - width / 2);
-  const float line = std::round(y - 6);
+  const float line = std::round(y - 10);
   glyphs.push_back(
       {{pen - 5, line - 14, pen + width + 5, line + 5}, {kWhite, kWhite, kWhite, kWhite}, {1, 1, 1, 0.78F}});
   for (const char c : text)

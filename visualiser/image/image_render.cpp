@@ -29,6 +29,11 @@ std::string PathOf(const RenderSetup& setup, const std::string& name)
 
 }  // namespace
 
+CImageRender::~CImageRender()
+{
+  if (context_ != nullptr) context_->MakeCurrent();
+}
+
 void CImageRender::Init(const RenderSetup& setup)
 {
   const Parameters& parameters = setup.parameters;
@@ -98,6 +103,7 @@ void CImageRender::Draw()
   if (scene_options_.trails && !done_) scene_->Update(scene_options_);
   if (done_ || tick < next_) return;
   scene_->Update(scene_options_);
+  context_->MakeCurrent();
   renderer_->Draw(*scene_, camera_, buffer_->Framebuffer(), width_, height_, draw_options_);
   Write(buffer_->Read(), tick);
 

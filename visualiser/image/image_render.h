@@ -16,6 +16,7 @@ namespace swarmanoid
 class CImageRender : public CRender
 {
 public:
+  ~CImageRender() override;
   void Init(const RenderSetup& setup) override;
   void Draw() override;
   bool Terminate() override { return stop_ && done_; }

@@ -20,10 +20,10 @@ struct OffscreenContext::State
 
   ~State()
   {
-    if (display == EGL_NO_DISPLAY) return;
-    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
-    eglTerminate(display);
+    // The display stays open: other contexts of this process may be of the same one.
+    if (context == EGL_NO_CONTEXT) return;
+    if (eglGetCurrentContext() == context) eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglDestroyContext(display, context);
   }
 
   bool Try(EGLDisplay candidate, const std::string& name);
@@ -40,27 +40,22 @@ bool OffscreenContext::State::Try(EGLDisplay candidate, const std::string& name)
   };
   if (candidate == EGL_NO_DISPLAY || eglInitialize(candidate, nullptr, nullptr) == EGL_FALSE)
     return refuse("it does not start");
-  const auto give_up = [&](const char* why)
-  {
-    eglTerminate(candidate);
-    return refuse(why);
-  };
-  if (!epoxy_has_egl_extension(candidate, "EGL_KHR_surfaceless_context")) return give_up("it needs a window");
-  if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) return give_up("it has no OpenGL");
+  if (!epoxy_has_egl_extension(candidate, "EGL_KHR_surfaceless_context")) return refuse("it needs a window");
+  if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) return refuse("it has no OpenGL");
   constexpr std::array<EGLint, 5> kWanted{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint configs = 0;
   if (eglChooseConfig(candidate, kWanted.data(), &config, 1, &configs) == EGL_FALSE || configs == 0)
-    return give_up("it has no OpenGL");
+    return refuse("it has no OpenGL");
   constexpr std::array<EGLint, 7> kVersion{
       EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
   const EGLContext made = eglCreateContext(candidate, config, EGL_NO_CONTEXT, kVersion.data());
-  if (made == EGL_NO_CONTEXT) return give_up("it has no OpenGL 3.3");
+  if (made == EGL_NO_CONTEXT) return refuse("it has no OpenGL 3.3");
   if (eglMakeCurrent(candidate, EGL_NO_SURFACE, EGL_NO_SURFACE, made) == EGL_FALSE)
   {
     eglDestroyContext(candidate, made);
-    return give_up("its context cannot be used");
+    return refuse("its context cannot be used");
   }
   display = candidate;
   context = made;
@@ -103,6 +98,12 @@ OffscreenContext::OffscreenContext() : state_(std::make_unique<State>())
 }
 
 OffscreenContext::~OffscreenContext() = default;
+
+void OffscreenContext::MakeCurrent() const
+{
+  if (eglGetCurrentContext() != state_->context)
+    eglMakeCurrent(state_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, state_->context);
+}
 
 const std::string& OffscreenContext::Kind() const { return state_->kind; }
 

@@ -14,12 +14,14 @@ namespace swarmanoid
 class OffscreenContext
 {
 public:
-  // Current in this thread from then on. Throws std::runtime_error, saying what was tried.
+  // Current in this thread, until another one is. Throws std::runtime_error, saying what was tried.
   OffscreenContext();
   ~OffscreenContext();
   OffscreenContext(const OffscreenContext&) = delete;
   OffscreenContext& operator=(const OffscreenContext&) = delete;
 
+  // Before drawing, and before what was made in it is deleted, where the process has several contexts.
+  void MakeCurrent() const;
   // "EGL device 0", "EGL surfaceless".
   const std::string& Kind() const;
 

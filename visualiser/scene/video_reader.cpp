@@ -56,6 +56,7 @@ VideoContents ReadVideo(const std::string& path)
     if (!right) throw std::runtime_error("cannot read the video '" + path + "': " + what);
   };
   Decoder decoder;
+  av_log_set_level(AV_LOG_FATAL);
   check(avformat_open_input(&decoder.container, path.c_str(), nullptr, nullptr) == 0, "it cannot be opened");
   check(avformat_find_stream_info(decoder.container, nullptr) >= 0, "it holds no stream");
   const AVCodec* codec = nullptr;

@@ -73,7 +73,7 @@ void VideoWriter::State::ChooseEncoder()
 
 void VideoWriter::State::Open(int width, int height, double seconds_per_picture)
 {
-  av_log_set_level(AV_LOG_ERROR);
+  av_log_set_level(AV_LOG_FATAL);
   avformat_alloc_output_context2(&container, nullptr, nullptr, path.c_str());
   if (container == nullptr) Fail("its name must end in .mp4, .webm, .mkv or another ending of a video");
   ChooseEncoder();

@@ -12,6 +12,7 @@ namespace
 
 constexpr std::string_view kPlaceName = "camera_view_XYZ_";
 constexpr std::string_view kTurnName = "camera_view_HPR_";
+constexpr double kTopFieldOfView = 20;  // degrees: nearly a map
 
 // The number of a viewpoint's parameter, or -1 for another name.
 int NumberOf(std::string_view name)
@@ -115,7 +116,7 @@ Camera DefaultView(const Experiment& experiment, double aspect, bool top)
     if (entity.movable) height = std::max(height, entity.pose.position.z() + entity.size.z());
   const Vector3& size = experiment.arena_size;
   const Vector3 high(size.x(), size.y(), std::min(height, size.z()));
-  if (top) return FrameBox(Vector3::Zero(), Vector3(high.x(), high.y(), 0), aspect, 90, -90);
+  if (top) return FrameBox(Vector3::Zero(), high, aspect, 90, -90, kTopFieldOfView);
   return FrameBox(Vector3::Zero(), high, aspect);
 }
 

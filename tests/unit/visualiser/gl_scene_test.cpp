@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <octomap/octomap.h>
+
 #include <cstdlib>
 #include <filesystem>
 
+#include "common/configuration/xml_reader.h"
 #include "test_folders.h"
 #include "tests/unit/visualiser/small_world.h"
 #include "visualiser/image/offscreen_context.h"
@@ -143,6 +146,42 @@ TEST(GlScene, DrawsAnArenaWithWallsAndPatches)
   SceneOptions options;
   options.ids = true;
   ExpectGolden(world, DefaultView(world.GetExperiment(), 4.0 / 3), "arena", options);
+}
+
+// Hills from a picture, and a stair of cubes.
+TEST(GlScene, DrawsTerrain)
+{
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "gl_scene_terrain";
+  std::filesystem::create_directories(folder);
+  Picture heights{33, 33, {}};
+  for (int y = 0; y < 33; ++y)
+    for (int x = 0; x < 33; ++x)
+    {
+      const double wave = Sin(0.45 * x) * Cos(0.37 * y);
+      for (int c = 0; c < 4; ++c) heights.pixels.push_back(static_cast<std::uint8_t>(128 + 120 * wave));
+    }
+  WritePng(heights, (folder / "hills.png").string());
+  octomap::OcTree tree(0.1);
+  for (int step = 0; step < 6; ++step)
+    for (int y = 0; y < 12; ++y)
+      for (int z = 0; z <= step; ++z)
+        tree.updateNode(octomap::point3d(0.05F + 0.1F * static_cast<float>(step), 0.05F + 0.1F * static_cast<float>(y),
+                                         0.05F + 0.1F * static_cast<float>(z)),
+                        true);
+  tree.writeBinary((folder / "stair.bt").string());
+
+  SmallWorld world({4, 2, 1});
+  const auto terrain = [&](const std::string& id, const Vector3& position, const std::string& element)
+  {
+    world.Add(EntityKind::kTerrain, id, position).tree =
+        TConfigurationTree(ReadXml("<terrain>" + element + "</terrain>", "terrain.xml"));
+  };
+  terrain("hills", {0, 0, 0}, "<heightmap file=\"hills.png\" size=\"2,2\" height=\"0.3\"/>");
+  terrain("stair", {2.8, 0.4, 0}, "<octomap file=\"stair.bt\"/>");
+  world.Add(EntityKind::kFootbot, "fb_1", {1, 0.2, 0.17}, 90);
+  world.Add(EntityKind::kFootbot, "fb_2", {3.35, 0.8, 0.6}, 180);
+  world.GetExperiment().folder = folder.string();
+  ExpectGolden(world, DefaultView(world.GetExperiment(), 4.0 / 3), "terrain");
 }
 
 TEST(GlScene, DrawsTheSameBitsTwice)

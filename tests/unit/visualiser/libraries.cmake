@@ -3,6 +3,7 @@ target_link_libraries(unit_visualiser PRIVATE scene nlohmann_json::nlohmann_json
 # Where the GL renderer is not part of the build, its tests are not either.
 if(TARGET offscreen)
   target_link_libraries(unit_visualiser PRIVATE offscreen)
+  add_dependencies(unit_visualiser image_render)
 else()
   get_target_property(SOURCES unit_visualiser SOURCES)
   list(FILTER SOURCES EXCLUDE REGEX "(gl_scene|image_render)_test.cpp$")

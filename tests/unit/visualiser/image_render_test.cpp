@@ -1,0 +1,164 @@
+// image_render as an experiment file asks for it: which pictures it writes, and what its videos hold.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "common/configuration/xml_reader.h"
+#include "tests/unit/visualiser/small_world.h"
+#include "visualiser/scene/picture.h"
+#include "visualiser/scene/video_writer.h"
+#include "visualiser/visualiser.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class ImageRender : public ::testing::Test
+{
+protected:
+  ImageRender() : world_({2, 2, 1})
+  {
+    RegisterBuiltinRenderers();
+    folder_ = fs::temp_directory_path() / ("image_render_test_" + std::to_string(getpid()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    world_.Add(EntityKind::kFootbot, "fb", {1, 1, 0});
+  }
+  ~ImageRender() override { fs::remove_all(folder_); }
+
+  std::unique_ptr<Visualiser> Make(const std::string& attributes, const std::string& children = "")
+  {
+    RenderConfiguration configuration;
+    configuration.tag = "image_render";
+    configuration.id = "images";
+    configuration.tree = TConfigurationTree(
+        ReadXml("<image_render size=\"96, 64\" " + attributes + ">" + children + "</image_render>", "images.xml"));
+    return std::make_unique<Visualiser>(configuration, world_.Space(), assignment_, folder_.string(), nullptr, nullptr);
+  }
+
+  // Returns the tick after which the renderer wanted the end, or -1.
+  int Run(const std::string& attributes, int ticks, int step = 1)
+  {
+    const auto visualiser = Make(attributes);
+    int ended = -1;
+    for (int tick = 0; tick <= ticks && ended < 0; tick += step)
+    {
+      world_.Space().SetTick(static_cast<std::uint64_t>(tick));
+      world_.Space().SetPose(0, {{0.5 + 0.02 * tick, 1, 0}, Quaternion::Identity()});
+      if (visualiser->Draw()) ended = tick;
+    }
+    visualiser->Finish();
+    return ended;
+  }
+
+  std::vector<std::string> Files(const std::string& folder = "frames") const
+  {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_ / folder))
+      names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+  std::string Path(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::string ErrorOf(const std::string& attributes, const std::string& children = "")
+  {
+    try
+    {
+      Make(attributes, children);
+    }
+    catch (const std::runtime_error& error)
+    {
+      return error.what();
+    }
+    return "";
+  }
+
+  SmallWorld world_;
+  Assignment assignment_;
+  fs::path folder_;
+};
+
+TEST_F(ImageRender, WritesNumberedPicturesAtTheTicksAsked)
+{
+  Run("every=\"4\" from=\"2\" to=\"12\"", 20);
+  EXPECT_THAT(Files(), ElementsAre("frame_000002.png", "frame_000006.png", "frame_000010.png"));
+  const Picture picture = ReadPng(Path("frames/frame_000002.png"));
+  EXPECT_EQ(picture.width, 96);
+  EXPECT_EQ(picture.height, 64);
+  EXPECT_NE(picture.pixels, ReadPng(Path("frames/frame_000010.png")).pixels);
+}
+
+TEST_F(ImageRender, TakesTheNextStateWhereTicksAreMissed)
+{
+  Run("every=\"4\" directory=\"here\" filename=\"picture\"", 21, 3);
+  EXPECT_THAT(Files("here"), ElementsAre("picture_000000.png", "picture_000006.png", "picture_000009.png",
+                                         "picture_000012.png", "picture_000018.png", "picture_000021.png"));
+}
+
+TEST_F(ImageRender, WritesOnePictureAndEndsWhereAsked)
+{
+  EXPECT_EQ(Run("at=\"3\" file=\"one.png\" stop=\"true\"", 20), 3);
+  EXPECT_THAT(Files("."), ElementsAre("one.png"));
+  EXPECT_EQ(Run("at=\"3\" file=\"one.png\"", 20), -1);
+}
+
+TEST_F(ImageRender, TwoOfThemShareAProcess)
+{
+  const auto first = Make("file=\"first.png\" camera=\"top\"");
+  const auto second = Make("file=\"second.png\" camera=\"1,-1,1/90,-30,0\"");
+  first->Draw();
+  second->Draw();
+  const Picture before = ReadPng(Path("first.png"));
+  first->Draw();
+  EXPECT_EQ(ReadPng(Path("first.png")).pixels, before.pixels);
+  EXPECT_NE(ReadPng(Path("second.png")).pixels, before.pixels);
+}
+
+TEST_F(ImageRender, VideosRunInSimulatedTime)
+{
+  if (!VideoWriter::IsAvailable()) GTEST_SKIP() << "this build has no video";
+  // A tick is 0.1 s.
+  Run("video=\"run.mp4\" every=\"2\" speed=\"2\"", 40);
+  const VideoContents video = ReadVideo(Path("run.mp4"));
+  EXPECT_EQ(video.codec, "h264");
+  EXPECT_EQ(video.pictures, 21);
+  EXPECT_EQ(video.width, 96);
+  EXPECT_EQ(video.height, 64);
+  EXPECT_NEAR(video.seconds, 2.0, 0.011);
+  EXPECT_FALSE(fs::exists(folder_ / "frames"));
+}
+
+TEST_F(ImageRender, WebmHoldsThePicturesThatWereDrawn)
+{
+  if (!VideoWriter::IsAvailable()) GTEST_SKIP() << "this build has no video";
+  Run("video=\"run.webm\" directory=\"frames\"", 12);
+  const VideoContents video = ReadVideo(Path("run.webm"));
+  EXPECT_EQ(video.pictures, 13);
+  const Picture drawn = ReadPng(Path("frames/frame_000012.png"));
+  double difference = 0;
+  for (std::size_t i = 0; i < drawn.pixels.size(); ++i)
+    if (i % 4 != 3) difference += std::abs(drawn.pixels[i] - video.last.pixels[i]);
+  EXPECT_LT(difference / (3 * 96 * 64), 6);
+}
+
+TEST_F(ImageRender, MistakesAreNamedWithTheirCure)
+{
+  EXPECT_THAT(ErrorOf("camera=\"3\""), HasSubstr("there is no camera_view_XYZ_3"));
+  EXPECT_THAT(ErrorOf("camera=\"above\""), HasSubstr("it must be the number of a viewpoint, top, default"));
+  EXPECT_THAT(ErrorOf("from=\"9\" to=\"3\""), HasSubstr("the later tick"));
+  EXPECT_THAT(ErrorOf("", "<camera_view_XYZ_12>1,2,3</camera_view_XYZ_12>"), HasSubstr("0 to 9"));
+  EXPECT_THAT(ErrorOf("", "<camera_view_HPR_1>1,2,3</camera_view_HPR_1>"), HasSubstr("add camera_view_XYZ_1"));
+  if (VideoWriter::IsAvailable())
+    EXPECT_THAT(ErrorOf("video=\"run.film\""), HasSubstr("must end in .mp4, .webm"));
+  else
+    EXPECT_THAT(ErrorOf("video=\"run.mp4\""), HasSubstr("install the packages libavcodec-dev"));
+}
+
+}  // namespace
+}  // namespace swarmanoid
