@@ -1,6 +1,7 @@
 #include "controller_host/devices/blob_sources.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <mutex>
 
@@ -74,7 +75,8 @@ BlobSources::BlobSources(SensorWorld& world)
         break;
     }
   }
-  start_.assign(space.Size() + 1, 0);
+  bearer_of_.assign(space.Size(), -1);
+  for (std::size_t b = 0; b < bearers_.size(); ++b) bearer_of_[bearers_[b].entity] = static_cast<std::int32_t>(b);
 }
 
 std::shared_ptr<BlobSources> BlobSources::Of(const std::shared_ptr<SensorWorld>& world)
@@ -102,18 +104,18 @@ void BlobSources::Refresh()
 
   const std::span<const double> attributes = space.Attributes();
   sources_.clear();
-  std::uint32_t next = 0;
-  for (const Bearer& bearer : bearers_)
-  {
-    while (next <= bearer.entity) start_[next++] = static_cast<std::uint32_t>(sources_.size());
-    if (bearer.ring != nullptr)
-      AddLeds(bearer);
-    else
-      AddPoint(bearer.entity, {0, 0, bearer.middle}, ColourIn(attributes, bearer.colour_slot));
-  }
-  while (next < start_.size()) start_[next++] = static_cast<std::uint32_t>(sources_.size());
-
   free_.clear();
+  start_.clear();
+  for (const std::uint32_t entity : world_.Grid().Sorted())
+  {
+    start_.push_back(static_cast<std::uint32_t>(sources_.size()));
+    const std::int32_t bearer = bearer_of_[entity];
+    if (bearer >= 0) AddBearer(bearers_[static_cast<std::size_t>(bearer)], sources_);
+  }
+  start_.push_back(static_cast<std::uint32_t>(sources_.size()));
+  for (const Bearer& bearer : bearers_)
+    if (!space.GetEntity(bearer.entity).IsMovable()) AddBearer(bearer, free_);
+
   for (const std::uint32_t e : still_)
   {
     const std::uint32_t colour = ColourIn(attributes, space.GetEntity(e).SlotOf("colour"));
@@ -121,37 +123,93 @@ void BlobSources::Refresh()
   }
   for (const Laser& laser : lasers_)
     if (attributes[laser.slot] != 0) AddLaserSpot(laser);
+
+  for (std::vector<double>* values : {&x_, &y_, &z_}) values->resize(sources_.size() + kLanes);
+  owner_.resize(sources_.size() + kLanes);
+  for (std::size_t i = 0; i < sources_.size(); ++i)
+  {
+    x_[i] = sources_[i].position.x();
+    y_[i] = sources_[i].position.y();
+    z_[i] = sources_[i].position.z();
+    owner_[i] = static_cast<std::int32_t>(sources_[i].owner);
+  }
+
+  lowest_ = std::numeric_limits<double>::infinity();
+  for (const std::vector<BlobSource>* sources : {&sources_, &free_})
+    for (const BlobSource& source : *sources) lowest_ = std::min(lowest_, source.position.z());
 }
 
-void BlobSources::AddPoint(std::uint32_t entity, const Vector3& local, std::uint32_t colour)
+void BlobSources::CollectBelow(const Vector3& eye, double reach, double tangent, std::uint32_t left_out,
+                               SightPoints& points, std::vector<std::int32_t>& found) const
+{
+  constexpr float kMargin = 1.0001F;
+  const auto square_reach = static_cast<float>(reach * reach) * kMargin;
+  const auto square_tangent = static_cast<float>(tangent * tangent) * kMargin;
+  const IntLanes own = Everywhere(static_cast<int>(left_out));
+  IntLanes steps{};
+  for (int lane = 0; lane < kLanes; ++lane) steps[lane] = lane;
+  world_.Grid().ForEachSpanNear(eye.x(), eye.y(), reach + kStandOut,
+                                [&](std::size_t first, std::size_t behind)
+                                {
+                                  const std::size_t end = start_[behind];
+                                  if (points.count + (end - start_[first]) + kLanes > points.x.size())
+                                    points.Reserve(2 * (points.count + (end - start_[first])));
+                                  if (found.size() < points.x.size()) found.resize(points.x.size());
+                                  for (std::size_t i = start_[first]; i < end; i += kLanes)
+                                  {
+                                    const FloatLanes x = Differences(&x_[i], eye.x());
+                                    const FloatLanes y = Differences(&y_[i], eye.y());
+                                    const FloatLanes z = Differences(&z_[i], eye.z());
+                                    const IntLanes owner = LoadLanes(&owner_[i]);
+                                    const FloatLanes border = Minimum(z * z * square_tangent, Everywhere(square_reach));
+                                    unsigned hits = LaneMask((x * x + y * y <= border) & (z < 0) & (owner != own));
+                                    if (end - i < kLanes) hits &= (1U << (end - i)) - 1U;
+                                    const Selection selection(hits);
+                                    selection.Store(x, &points.x[points.count]);
+                                    selection.Store(y, &points.y[points.count]);
+                                    selection.Store(z, &points.z[points.count]);
+                                    selection.Store(owner, &points.owner[points.count]);
+                                    selection.Store(static_cast<int>(i) + steps, &found[points.count]);
+                                    points.count += selection.Count();
+                                  }
+                                });
+}
+
+void BlobSources::AddBearer(const Bearer& bearer, std::vector<BlobSource>& sources) const
+{
+  if (bearer.ring != nullptr) return AddLeds(bearer, sources);
+  AddPoint(bearer.entity, {0, 0, bearer.middle}, ColourIn(world_.Space().Attributes(), bearer.colour_slot), sources);
+}
+
+void BlobSources::AddPoint(std::uint32_t entity, const Vector3& local, std::uint32_t colour,
+                           std::vector<BlobSource>& sources) const
 {
   if (colour == 0) return;
   const PoseArrays& poses = world_.Space().Poses();
   if (!IsUpright(poses, entity))
   {
-    sources_.push_back({world_.Space().GetPose(entity).Apply(local), colour, entity});
+    sources.push_back({world_.Space().GetPose(entity).Apply(local), colour, entity});
     return;
   }
   const Heading heading = HeadingOf(poses, entity);
-  sources_.push_back(
-      {{poses.x[entity] + heading.cos * local.x() - heading.sin * local.y(),
-        poses.y[entity] + heading.sin * local.x() + heading.cos * local.y(), poses.z[entity] + local.z()},
-       colour,
-       entity});
+  sources.push_back({{poses.x[entity] + heading.cos * local.x() - heading.sin * local.y(),
+                      poses.y[entity] + heading.sin * local.x() + heading.cos * local.y(), poses.z[entity] + local.z()},
+                     colour,
+                     entity});
 }
 
-void BlobSources::AddLeds(const Bearer& bearer)
+void BlobSources::AddLeds(const Bearer& bearer, std::vector<BlobSource>& sources) const
 {
   const Ring& ring = *bearer.ring;
   const std::span<const double> attributes = world_.Space().Attributes();
   const double* leds = &attributes[bearer.led_slot];
   const auto count = static_cast<std::size_t>(ring.leds);
   if (bearer.beacon_slot != kNoSlot)
-    AddPoint(bearer.entity, {0, 0, ring.beacon_height}, ColourIn(attributes, bearer.beacon_slot));
+    AddPoint(bearer.entity, {0, 0, ring.beacon_height}, ColourIn(attributes, bearer.beacon_slot), sources);
 
   const auto differs = [&](double value) { return value != leds[0]; };
   if (std::none_of(leds + 1, leds + count, differs))
-    return AddPoint(bearer.entity, {0, 0, ring.height}, static_cast<std::uint32_t>(leds[0]));
+    return AddPoint(bearer.entity, {0, 0, ring.height}, static_cast<std::uint32_t>(leds[0]), sources);
 
   SinCos turret{0, 1};
   if (ring.turns) turret = SinCosOf(attributes[bearer.turret_slot]);
@@ -170,7 +228,7 @@ void BlobSources::AddLeds(const Bearer& bearer)
     AddPoint(bearer.entity,
              {turret.cos * middle.x() - turret.sin * middle.y(), turret.sin * middle.x() + turret.cos * middle.y(),
               ring.height},
-             static_cast<std::uint32_t>(leds[i]));
+             static_cast<std::uint32_t>(leds[i]), sources);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "controller_host/devices/disc_field.h"
 #include "controller_host/devices/sensor_world.h"
 
 namespace swarmanoid
@@ -22,6 +23,9 @@ struct BlobSource
 class BlobSources
 {
 public:
+  // No source stands out of its body by more than this, m.
+  static constexpr double kStandOut = 0.01;
+
   explicit BlobSources(SensorWorld& world);
   // One for each world while somebody holds it, as SensorWorld::Of.
   static std::shared_ptr<BlobSources> Of(const std::shared_ptr<SensorWorld>& world);
@@ -29,13 +33,21 @@ public:
   // The world must be refreshed.
   void Refresh();
 
-  // Those on a movable body.
-  std::span<const BlobSource> On(std::uint32_t entity) const
+  // Those on the movable body at a place in the grid of the world.
+  std::span<const BlobSource> At(std::uint32_t place) const
   {
-    return {sources_.data() + start_[entity], start_[entity + 1] - start_[entity]};
+    return {sources_.data() + start_[place], start_[place + 1] - start_[place]};
   }
-  // Those that are on none: lights, patches, laser spots.
+  // Those that are on none: lights, patches, laser spots, bodies that never move.
   std::span<const BlobSource> Free() const { return free_; }
+  // Puts those on movable bodies that a level camera may see into `points`, by their offsets from the eye, and their
+  // numbers into `found`: within `reach` m along the floor, and within the aperture with this tangent about the
+  // straight way down. A few are a little outside.
+  void CollectBelow(const Vector3& eye, double reach, double tangent, std::uint32_t left_out, SightPoints& points,
+                    std::vector<std::int32_t>& found) const;
+  const BlobSource& Source(std::size_t number) const { return sources_[number]; }
+  // No source is lower than this, m in the space.
+  double LowestHeight() const { return lowest_; }
 
 private:
   // Where the LEDs of a kind of robot stand.
@@ -47,7 +59,7 @@ private:
     double beacon_height = 0;     // m
     bool turns = false;           // with the turret
   };
-  // A movable entity with something coloured on it.
+  // An entity with something coloured on it.
   struct Bearer
   {
     std::uint32_t entity;
@@ -62,19 +74,26 @@ private:
   };
 
   static Ring MakeRing(int leds, double radius, double height, double beacon_height, double first_angle, bool turns);
-  void AddLeds(const Bearer& bearer);
-  void AddPoint(std::uint32_t entity, const Vector3& local, std::uint32_t colour);
+  void AddBearer(const Bearer& bearer, std::vector<BlobSource>& sources) const;
+  void AddLeds(const Bearer& bearer, std::vector<BlobSource>& sources) const;
+  void AddPoint(std::uint32_t entity, const Vector3& local, std::uint32_t colour,
+                std::vector<BlobSource>& sources) const;
   void AddLaserSpot(const Laser& laser);
 
   SensorWorld& world_;
   std::shared_ptr<SensorWorld> keeper_;  // keeps the world alive where it is shared
   Ring footbot_, eyebot_, handbot_;
   std::vector<Bearer> bearers_;
+  std::vector<std::int32_t> bearer_of_;  // by entity, -1: none
   std::vector<Laser> lasers_;
   std::vector<std::uint32_t> still_;  // lights and patches
-  std::vector<std::uint32_t> start_;  // by entity
+  std::vector<std::uint32_t> start_;  // by place in the grid
   std::vector<BlobSource> sources_;
+  // The same, by lanes.
+  std::vector<double> x_, y_, z_;
+  std::vector<std::int32_t> owner_;
   std::vector<BlobSource> free_;
+  double lowest_ = 0;
   std::uint64_t revision_ = 0, attribute_revision_ = 0;
 };
 

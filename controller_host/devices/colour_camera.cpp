@@ -32,7 +32,7 @@ void ColourCamera::InitCamera(const DeviceSetup& setup, CameraModel model)
   tangent_ = aperture.sin / aperture.cos;
   world_ = SensorWorld::Of(setup.space);
   sources_ = BlobSources::Of(world_);
-  lines_ = std::make_unique<SightLines>(*world_, model.range);
+  lines_ = std::make_unique<SightLines>(*world_, model.range + BlobSources::kStandOut);
   place_of_entity_.assign(setup.space.Size(), -1);
   for (std::size_t k = 0; k < robots_.size(); ++k) place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
 }
@@ -56,53 +56,91 @@ void ColourCamera::Look(std::size_t k)
 
   // A tilted camera sees farther to one side, down to the floor at most.
   double reach = model_.range;
+  if (upright && model_.view == CameraModel::View::kDown)
+    reach = std::min(reach, std::max(eye.z() - sources_->LowestHeight(), 0.0) * tangent_);
   if (!upright && model_.view == CameraModel::View::kDown)
   {
     const double cosine = std::min(__builtin_fabs(to_body(2, 2)), 1.0);
     reach += std::max(eye.z(), 0.0) * __builtin_sqrt(1 - cosine * cosine) / std::max(cosine, 0.1);
   }
 
-  candidates_.clear();
-  lines_->LookFrom(robot, eye, reach);
-  const auto consider = [&](const BlobSource& source)
-  {
-    const Vector3 offset = source.position - eye;
-    const double away = offset.x() * offset.x() + offset.y() * offset.y();
-    if (away > reach * reach) return;
-    const Vector3 place = to_body * offset;
-    if (model_.view == CameraModel::View::kDown)
-    {
-      const double border = -place.z() * tangent_;
-      const double square = place.x() * place.x() + place.y() * place.y();
-      if (place.z() >= 0 || square > border * border || square > model_.range * model_.range) return;
-    }
-    else
-    {
-      const double border = place.x() * tangent_;
-      const double beside = place.y() * place.y() + place.z() * place.z();
-      if (place.x() <= 0 || beside > border * border || offset.squaredNorm() > model_.range * model_.range) return;
-    }
-    lines_->AddPoint(offset, source.owner);
-    candidates_.push_back({place, source.colour, 0});
-  };
-  for (const SightLines::Neighbour& neighbour : lines_->Around())
-    for (const BlobSource& source : sources_->On(neighbour.entity)) consider(source);
-  for (const BlobSource& source : sources_->Free()) consider(source);
+  lines_->LookFrom(robot, eye, reach + BlobSources::kStandOut);
+  const bool is_level_down = upright && model_.view == CameraModel::View::kDown;
+  const View view{eye, to_body, HeadingOf(space_->Poses(), robot), upright};
+  count_ = 0;
+  if (is_level_down)
+    LookDown(robot, view, reach);
+  else
+    LookAnywhere(view);
 
+  if (x_.size() < count_)
+    for (std::vector<double>* values : {&x_, &y_, &angle_}) values->resize(2 * count_);
+  for (std::size_t i = 0; i < count_; ++i)
+  {
+    x_[i] = seen_[i].place.x();
+    y_[i] = seen_[i].place.y();
+  }
+  Atan2Each({y_.data(), count_}, {x_.data(), count_}, {angle_.data(), count_});
+  for (std::size_t i = 0; i < count_; ++i) seen_[i].angle = angle_[i];
+  Extract(k, {seen_.data(), count_});
+}
+
+inline bool ColourCamera::IsInView(const Vector3& place) const
+{
+  if (model_.view == CameraModel::View::kDown)
+  {
+    const double border = -place.z() * tangent_;
+    const double square = place.x() * place.x() + place.y() * place.y();
+    return place.z() < 0 && square <= border * border && square <= model_.range * model_.range;
+  }
+  const double border = place.x() * tangent_;
+  const double beside = place.y() * place.y() + place.z() * place.z();
+  return place.x() > 0 && beside <= border * border && place.squaredNorm() <= model_.range * model_.range;
+}
+
+// Keeps a source that is in view.
+inline void ColourCamera::Add(const BlobSource& source, const View& view)
+{
+  if (count_ == seen_.size()) seen_.resize(2 * count_ + 16);
+  Seen& seen = seen_[count_];
+  seen.offset = source.position - view.eye;
+  const Vector3& offset = seen.offset;
+  const Heading& heading = view.heading;
+  if (view.is_upright)
+    seen.place = {heading.cos * offset.x() + heading.sin * offset.y(),
+                  heading.cos * offset.y() - heading.sin * offset.x(), offset.z()};
+  else
+    seen.place = view.to_body * offset;
+  seen.colour = source.colour;
+  seen.owner = source.owner;
+  if (IsInView(seen.place)) ++count_;
+}
+
+// Upright, with the axis straight down: the search for sources tests the view too, several at a time.
+void ColourCamera::LookDown(std::uint32_t robot, const View& view, double reach)
+{
+  SightPoints& points = lines_->Points();
+  sources_->CollectBelow(view.eye, reach, tangent_, robot, points, found_);
+  const std::size_t on_bodies = points.count;
+  for (const BlobSource& source : sources_->Free()) lines_->AddPoint(source.position - view.eye, source.owner);
+  const std::span<const char> seen = lines_->Solve();
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (seen[i])
+      Add(i < on_bodies ? sources_->Source(static_cast<std::size_t>(found_[i])) : sources_->Free()[i - on_bodies],
+          view);
+}
+
+void ColourCamera::LookAnywhere(const View& view)
+{
+  for (const std::int32_t place : lines_->PlacesAround())
+    for (const BlobSource& source : sources_->At(static_cast<std::uint32_t>(place))) Add(source, view);
+  for (const BlobSource& source : sources_->Free()) Add(source, view);
+  for (std::size_t i = 0; i < count_; ++i) lines_->AddPoint(seen_[i].offset, seen_[i].owner);
   const std::span<const char> seen = lines_->Solve();
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < candidates_.size(); ++i)
-    if (seen[i]) candidates_[kept++] = candidates_[i];
-  if (x_.size() < kept)
-    for (std::vector<double>* values : {&x_, &y_, &angle_}) values->resize(2 * kept);
-  for (std::size_t i = 0; i < kept; ++i)
-  {
-    x_[i] = candidates_[i].place.x();
-    y_[i] = candidates_[i].place.y();
-  }
-  Atan2Each({y_.data(), kept}, {x_.data(), kept}, {angle_.data(), kept});
-  for (std::size_t i = 0; i < kept; ++i) candidates_[i].angle = angle_[i];
-  Extract(k, {candidates_.data(), kept});
+  for (std::size_t i = 0; i < count_; ++i)
+    if (seen[i]) seen_[kept++] = seen_[i];
+  count_ = kept;
 }
 
 }  // namespace swarmanoid

@@ -44,6 +44,8 @@ protected:
     Vector3 place;
     std::uint32_t colour;
     double angle;  // rad, of the place about the robot's z axis, -pi..pi
+    std::uint32_t owner;
+    Vector3 offset;  // m, of the place along the axes of the space
   };
   // Called once for each robot: what it sees.
   virtual void Extract(std::size_t k, std::span<const Seen> blobs) = 0;
@@ -54,14 +56,28 @@ protected:
   std::uint32_t stream_ = 0;
 
 private:
+  struct View
+  {
+    Vector3 eye;  // m, in the space
+    Eigen::Matrix3d to_body;
+    Heading heading;  // where it is upright
+    bool is_upright;
+  };
+
   void Look(std::size_t k);
+  void LookDown(std::uint32_t robot, const View& view, double reach);
+  void LookAnywhere(const View& view);
+  void Add(const BlobSource& source, const View& view);
+  bool IsInView(const Vector3& place) const;
 
   std::shared_ptr<SensorWorld> world_;
   std::shared_ptr<BlobSources> sources_;
   std::unique_ptr<SightLines> lines_;
   std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
   double tangent_ = 0;                         // of the aperture
-  std::vector<Seen> candidates_;
+  std::vector<Seen> seen_;
+  std::size_t count_ = 0;              // of those seen
+  std::vector<std::int32_t> found_;    // numbers of sources
   std::vector<double> x_, y_, angle_;  // of those seen
 };
 

@@ -75,6 +75,7 @@ NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, std::span<const Body
     if (shapes[e].kind != Shape::Kind::kNone)
     {
       bodies_.push_back(e);
+      all_cylinders_ &= shapes[e].kind == Shape::Kind::kCylinder;
       largest = std::max(largest, shapes[e].radius);
     }
   count_ = bodies_.size();
@@ -93,6 +94,11 @@ NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, std::span<const Body
   x_.resize(count_ + kLanes, kFarAway);
   y_.resize(count_ + kLanes, kFarAway);
   radius_.resize(count_ + kLanes, 0);
+  low_.resize(count_ + kLanes, 0);
+  high_.resize(count_ + kLanes, 0);
+  origin_x_.resize(count_ + kLanes, 0);
+  origin_y_.resize(count_ + kLanes, 0);
+  origin_z_.resize(count_ + kLanes, 0);
   entity_.resize(count_ + kLanes, 0);
 }
 
@@ -124,8 +130,56 @@ void NeighbourGrid::Rebuild()
     x_[place] = body_x_[b];
     y_[place] = body_y_[b];
     radius_[place] = body_radius_[b];
-    entity_[place] = bodies_[b];
+    const std::uint32_t e = bodies_[b];
+    entity_[place] = e;
+    origin_x_[place] = poses.x[e];
+    origin_y_[place] = poses.y[e];
+    origin_z_[place] = poses.z[e];
+    low_[place] = static_cast<float>(poses.z[e] + shapes_[e].low);
+    high_[place] = static_cast<float>(poses.z[e] + shapes_[e].high);
   }
+}
+
+void NearBodies::Reserve(std::size_t bodies)
+{
+  for (std::vector<float>* values : {&x, &y, &radius, &low, &high}) values->resize(bodies + kLanes);
+  entity.resize(bodies + kLanes);
+  place.resize(bodies + kLanes);
+}
+
+void NeighbourGrid::CollectNear(double x, double y, double reach, std::uint32_t left_out, NearBodies& near) const
+{
+  const auto fx = static_cast<float>(x);
+  const auto fy = static_cast<float>(y);
+  const float own = static_cast<float>(reach) + margin_;
+  IntLanes steps{};
+  for (int lane = 0; lane < kLanes; ++lane) steps[lane] = lane;
+  const IntLanes left_out_lanes = Everywhere(static_cast<int>(left_out));
+  std::size_t count = 0;
+  ForEachSpanNear(x, y, reach,
+                  [&](std::size_t first, std::size_t behind)
+                  {
+                    for (std::size_t i = first; i < behind; i += kLanes)
+                    {
+                      const FloatLanes dx = LoadLanes(&x_[i]) - fx;
+                      const FloatLanes dy = LoadLanes(&y_[i]) - fy;
+                      const FloatLanes radius = LoadLanes(&radius_[i]);
+                      const FloatLanes cut = radius + own;
+                      const IntLanes entity = LoadLanes(reinterpret_cast<const std::int32_t*>(&entity_[i]));
+                      unsigned hits = LaneMask((dx * dx + dy * dy <= cut * cut) & (entity != left_out_lanes));
+                      if (behind - i < kLanes) hits &= (1U << (behind - i)) - 1U;
+                      const Selection selection(hits);
+                      selection.Store(Differences(&origin_x_[i], x), &near.x[count]);
+                      selection.Store(Differences(&origin_y_[i], y), &near.y[count]);
+                      selection.Store(radius, &near.radius[count]);
+                      selection.Store(LoadLanes(&low_[i]), &near.low[count]);
+                      selection.Store(LoadLanes(&high_[i]), &near.high[count]);
+                      selection.Store(entity, &near.entity[count]);
+                      selection.Store(static_cast<int>(i) + steps, &near.place[count]);
+                      count += selection.Count();
+                    }
+                  });
+  near.count = count;
 }
 
 FixedBodies::FixedBodies(const CSwarmanoidSpace& space, std::span<const BodyShape> shapes, double reach)

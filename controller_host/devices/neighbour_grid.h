@@ -10,37 +10,11 @@
 #include <utility>
 #include <vector>
 
-#if defined(__SSE2__)
-#include <immintrin.h>
-#endif
-
 #include "controller_host/devices/body_shapes.h"
+#include "controller_host/devices/lanes.h"
 
 namespace swarmanoid
 {
-
-// Eight lanes where the processor has them; the lanes do not change what is found.
-#if defined(__AVX__)
-inline constexpr int kLanes = 8;
-#else
-inline constexpr int kLanes = 4;
-#endif
-typedef float FloatLanes __attribute__((vector_size(kLanes * sizeof(float)), aligned(4), may_alias));
-typedef int IntLanes __attribute__((vector_size(kLanes * sizeof(int))));
-
-// One bit for each lane that is not 0, as comparisons give them (-1 or 0).
-inline unsigned LaneMask(IntLanes lanes)
-{
-#if defined(__AVX__)
-  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(lanes)));
-#elif defined(__SSE2__)
-  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(lanes)));
-#else
-  unsigned mask = 0;
-  for (unsigned i = 0; i < kLanes; ++i) mask |= (lanes[i] != 0 ? 1U : 0U) << i;
-  return mask;
-#endif
-}
 
 // A rectangle cut into square cells; points outside belong to the nearest cell.
 struct CellFrame
@@ -68,6 +42,19 @@ private:
   }
 };
 
+// Movable bodies around a point, by lanes: room for kLanes more behind `count`.
+struct NearBodies
+{
+  std::size_t count = 0;
+  std::vector<float> x, y;       // m, of the origin of the body from the point
+  std::vector<float> radius;     // m
+  std::vector<float> low, high;  // m, in the space, where the body is upright
+  std::vector<std::int32_t> entity;
+  std::vector<std::int32_t> place;  // in the order of the cells; only where the grid filled it
+
+  void Reserve(std::size_t bodies);
+};
+
 class NeighbourGrid
 {
 public:
@@ -79,14 +66,26 @@ public:
   // The movable bodies in the order of their cells: entity indices.
   std::span<const std::uint32_t> Sorted() const { return {entity_.data(), count_}; }
 
+  // Where the bodies are, in the same order, m in the space.
+  const double* OriginX() const { return origin_x_.data(); }
+  const double* OriginY() const { return origin_y_.data(); }
+  const double* OriginZ() const { return origin_z_.data(); }
+
   // No movable body is tilted.
   bool AllUpright() const { return all_upright_; }
+  // No movable body is a box.
+  bool AllCylinders() const { return all_cylinders_; }
 
   // Calls visit(entity) for every movable body whose circle in the xy plane comes within `reach` m of (x, y), in the
   // order of the cells, and for few others.
   template <class Visit>
   void ForEachNear(double x, double y, double reach, Visit&& visit) const;
-  // The same for bodies whose circle comes near the segment between two points in the xy plane.
+  // Calls visit(first, behind) with the places, row by row of the cells, of all these bodies and others.
+  template <class Visit>
+  void ForEachSpanNear(double x, double y, double reach, Visit&& visit) const;
+  // Fills `near` with these bodies, without `left_out`; it needs room for all.
+  void CollectNear(double x, double y, double reach, std::uint32_t left_out, NearBodies& near) const;
+  // As ForEachNear for bodies whose circle comes near the segment between two points in the xy plane.
   template <class Visit>
   void ForEachAlong(const Vector3& from, const Vector3& to, Visit&& visit) const;
 
@@ -99,13 +98,15 @@ private:
   float margin_ = 0;          // covers the rounding to single precision
   float largest_radius_ = 0;  // of this tick
   bool all_upright_ = true;
+  bool all_cylinders_ = true;
 
   // By body: cell and circle in the xy plane.
   std::vector<std::uint32_t> cell_;
   std::vector<float> body_x_, body_y_, body_radius_;
   // By place in the sorted order, with far-away padding at the end.
   std::vector<std::uint32_t> start_;  // of each cell, and one more
-  std::vector<float> x_, y_, radius_;
+  std::vector<float> x_, y_, radius_, low_, high_;
+  std::vector<double> origin_x_, origin_y_, origin_z_;
   std::vector<std::uint32_t> entity_;
 };
 
@@ -216,35 +217,43 @@ void NeighbourGrid::ForEachAlong(const Vector3& from, const Vector3& to, Visit&&
 }
 
 template <class Visit>
+void NeighbourGrid::ForEachSpanNear(double x, double y, double reach, Visit&& visit) const
+{
+  const auto fx = static_cast<float>(x);
+  const auto fy = static_cast<float>(y);
+  const float widest = static_cast<float>(reach) + margin_ + largest_radius_;
+  const auto first_column = static_cast<std::size_t>(frame_.Column(fx - widest));
+  const auto last_column = static_cast<std::size_t>(frame_.Column(fx + widest));
+  const auto last_row = static_cast<std::size_t>(frame_.Row(fy + widest));
+  const auto columns = static_cast<std::size_t>(frame_.columns);
+  for (auto row = static_cast<std::size_t>(frame_.Row(fy - widest)); row <= last_row; ++row)
+    visit(start_[row * columns + first_column], start_[row * columns + last_column + 1]);
+}
+
+template <class Visit>
 void NeighbourGrid::ForEachNear(double x, double y, double reach, Visit&& visit) const
 {
   const auto fx = static_cast<float>(x);
   const auto fy = static_cast<float>(y);
   const float own = static_cast<float>(reach) + margin_;
-  const float widest = own + largest_radius_;
-  const auto first_column = static_cast<std::size_t>(frame_.Column(fx - widest));
-  const auto last_column = static_cast<std::size_t>(frame_.Column(fx + widest));
-  const auto last_row = static_cast<std::size_t>(frame_.Row(fy + widest));
-  const auto columns = static_cast<std::size_t>(frame_.columns);
   // Local copies: the compiler cannot know that visit() leaves the members alone.
-  const std::uint32_t* const start = start_.data();
   const std::uint32_t* const entity = entity_.data();
   const float* const body_x = x_.data();
   const float* const body_y = y_.data();
   const float* const body_radius = radius_.data();
-  for (auto row = static_cast<std::size_t>(frame_.Row(fy - widest)); row <= last_row; ++row)
-  {
-    const std::size_t end = start[row * columns + last_column + 1];
-    for (std::size_t i = start[row * columns + first_column]; i < end; i += kLanes)
-    {
-      const FloatLanes dx = *reinterpret_cast<const FloatLanes*>(body_x + i) - fx;
-      const FloatLanes dy = *reinterpret_cast<const FloatLanes*>(body_y + i) - fy;
-      const FloatLanes cut = *reinterpret_cast<const FloatLanes*>(body_radius + i) + own;
-      unsigned hits = LaneMask(dx * dx + dy * dy <= cut * cut);
-      if (end - i < kLanes) hits &= (1U << (end - i)) - 1U;
-      for (; hits != 0; hits &= hits - 1) visit(entity[i + static_cast<unsigned>(__builtin_ctz(hits))]);
-    }
-  }
+  ForEachSpanNear(x, y, reach,
+                  [&](std::size_t first, std::size_t behind)
+                  {
+                    for (std::size_t i = first; i < behind; i += kLanes)
+                    {
+                      const FloatLanes dx = LoadLanes(body_x + i) - fx;
+                      const FloatLanes dy = LoadLanes(body_y + i) - fy;
+                      const FloatLanes cut = LoadLanes(body_radius + i) + own;
+                      unsigned hits = LaneMask(dx * dx + dy * dy <= cut * cut);
+                      if (behind - i < kLanes) hits &= (1U << (behind - i)) - 1U;
+                      for (; hits != 0; hits &= hits - 1) visit(entity[i + static_cast<unsigned>(__builtin_ctz(hits))]);
+                    }
+                  });
 }
 
 }  // namespace swarmanoid

@@ -13,15 +13,16 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::array<std::uint32_t, 7> kColours{CCI_Colour::RED,    CCI_Colour::GREEN, CCI_Colour::BLUE,
-                                                CCI_Colour::YELLOW, CCI_Colour::CYAN,  CCI_Colour::MAGENTA,
+// At place b - 1 the colour with the bits b of red (4), green (2) and blue (1).
+constexpr std::array<std::uint32_t, 7> kColours{CCI_Colour::BLUE, CCI_Colour::GREEN,   CCI_Colour::CYAN,
+                                                CCI_Colour::RED,  CCI_Colour::MAGENTA, CCI_Colour::YELLOW,
                                                 CCI_Colour::WHITE};
 
-// The place of a colour in kColours; their number for black.
-std::size_t ClassOf(std::uint32_t colour)
+// The place of a colour in kColours, -1 for black.
+int ClassOf(std::uint32_t colour)
 {
   const std::uint32_t nearest = CCI_Colour::Nearest(colour);
-  return static_cast<std::size_t>(std::find(kColours.begin(), kColours.end(), nearest) - kColours.begin());
+  return static_cast<int>((nearest >> 14 & 4U) + (nearest >> 7 & 2U) + (nearest & 1U)) - 1;
 }
 
 class Pie : public CCI_PieCameraSensor
@@ -76,14 +77,14 @@ protected:
     RandomStream random = StreamOf(*space_, robots_[k], stream_);
     for (const Seen& blob : seen)
     {
-      const std::size_t colour = ClassOf(blob.colour);
-      if (colour == kColours.size()) continue;
+      const int colour = ClassOf(blob.colour);
+      if (colour < 0) continue;
       double angle = blob.angle;
       if (angle < 0) angle += 2 * kPi;
       const auto sector = std::min(static_cast<unsigned>(angle * (sectors / (2 * kPi))), sectors - 1);
       double distance = __builtin_sqrt(blob.place.x() * blob.place.x() + blob.place.y() * blob.place.y());
       if (noise_.IsActive()) distance = std::max(distance + noise_.Sample(random), 0.0);
-      Pie::Slice& slice = pie.slices[colour * sectors + sector];
+      Pie::Slice& slice = pie.slices[static_cast<std::size_t>(colour) * sectors + sector];
       slice.distance_m = std::min(slice.distance_m, distance);
       ++slice.blobs;
     }

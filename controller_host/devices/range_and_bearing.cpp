@@ -99,6 +99,7 @@ public:
     place_of_entity_.assign(setup.space.Size(), -1);
     for (std::size_t k = 0; k < robots_.size(); ++k) place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
     message_slots_.assign(setup.space.Size(), kNoSlot);
+    messages_.assign(setup.space.Size(), {});
     for (std::uint32_t e = 0; e < setup.space.Size(); ++e)
       if (const CSwarmanoidSpaceEntity& entity = setup.space.GetEntity(e); IsRobot(entity.GetKind()))
         message_slots_[e] = entity.SlotOf("message");
@@ -108,12 +109,38 @@ public:
   void Update(const ChannelView&) override
   {
     world_->Refresh();
+    ReadMessages();
     // In the order of the grid's cells: neighbours stay in the cache. Every robot has a body.
     for (const std::uint32_t entity : world_->Grid().Sorted())
       if (const std::int32_t k = place_of_entity_[entity]; k >= 0) Receive(static_cast<std::size_t>(k));
   }
 
 private:
+  struct Heard
+  {
+    Vector3 offset;
+    double square;        // m^2
+    std::uint32_t place;  // of the sender in the grid
+  };
+
+  void ReadMessages()
+  {
+    const std::span<const double> attributes = world_->Space().Attributes();
+    const std::span<const std::uint32_t> senders = world_->Grid().Sorted();
+    std::size_t sent = 0;
+    for (std::size_t place = 0; place < senders.size(); ++place)
+    {
+      const std::uint32_t slot = message_slots_[senders[place]];
+      Sent& message = messages_[place];
+      message.is_sent = slot != kNoSlot && attributes[slot] != 0;
+      sent += message.is_sent;
+      if (!message.is_sent) continue;
+      Unpack(attributes[slot + 1], message.bytes.data());
+      Unpack(attributes[slot + 2], message.bytes.data() + kHalf);
+    }
+    look_at_all_ = 2 * sent > senders.size() && world_->Grid().AllUpright();
+  }
+
   Vector3 AntennaOf(std::uint32_t robot) const
   {
     const PoseArrays& poses = world_->Space().Poses();
@@ -123,56 +150,66 @@ private:
 
   void Receive(std::size_t k)
   {
-    const CSwarmanoidSpace& space = world_->Space();
-    const std::span<const double> attributes = space.Attributes();
     const std::uint32_t robot = robots_[k];
-    const Vector3 antenna = AntennaOf(robot);
-    const double* const z = space.Poses().z.data();
-    const bool all_upright = world_->Grid().AllUpright();
-    const double square_range = range_ * range_;
-    lines_->LookFrom(robot, antenna, range_);
-    heard_.resize(lines_->Around().size());
+    antenna_ = AntennaOf(robot);
+    lines_->LookFrom(robot, antenna_, range_);
+    const std::span<const std::int32_t> around = lines_->PlacesAround();
+    if (heard_.size() < around.size()) heard_.resize(2 * around.size());
+    // Where most send and many hide one another it is quicker to look at all first.
     std::size_t count = 0;
-    for (const SightLines::Neighbour& other : lines_->Around())
+    if (look_at_all_)
     {
-      const std::uint32_t slot = message_slots_[other.entity];
-      if (slot == kNoSlot || attributes[slot] == 0) continue;
-      const Vector3 offset = all_upright ? Vector3(other.x, other.y, z[other.entity] - z[robot])
-                                         : Vector3(AntennaOf(other.entity) - antenna);
-      const double square = offset.squaredNorm();
-      if (square > square_range) continue;
-      lines_->AddPoint(offset, other.entity);
-      heard_[count++] = {offset, square, slot};
+      lines_->AddPointsAround();
+      const std::span<const char> seen = lines_->Solve();
+      for (std::size_t i = 0; i < around.size(); ++i)
+        if (seen[i] && IsInRange(around[i], robot, heard_[count])) ++count;
     }
-    const std::span<const char> seen = lines_->Solve();
+    else
+    {
+      for (const std::int32_t place : around)
+        if (IsInRange(place, robot, heard_[count]))
+          lines_->AddPoint(heard_[count++].offset, world_->Grid().Sorted()[static_cast<std::size_t>(place)]);
+      const std::span<const char> seen = lines_->Solve();
+      std::size_t kept = 0;
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        heard_[kept] = heard_[i];
+        kept += seen[i] != 0;
+      }
+      count = kept;
+    }
 
-    RandomStream random = StreamOf(space, robot, stream_);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < count; ++i)
-      if (seen[i] && !(loss_ > 0 && random.Uniform() < loss_)) heard_[kept++] = heard_[i];
-    heard_.resize(kept);
-    MakePackets(k, random);
+    RandomStream random = StreamOf(world_->Space(), robot, stream_);
+    if (loss_ > 0)
+    {
+      const auto end = heard_.begin() + static_cast<std::ptrdiff_t>(count);
+      count = static_cast<std::size_t>(
+          std::remove_if(heard_.begin(), end, [&](const Heard&) { return random.Uniform() < loss_; }) - heard_.begin());
+    }
+    MakePackets(k, count, random);
   }
 
-  void MakePackets(std::size_t k, RandomStream& random)
+  // Whether a robot around sends and is near enough; then where it is.
+  bool IsInRange(std::int32_t place, std::uint32_t robot, Heard& heard) const
   {
-    const CSwarmanoidSpace& space = world_->Space();
-    const std::span<const double> attributes = space.Attributes();
-    const Pose pose = space.GetPose(robots_[k]);
-    const Eigen::Matrix3d to_body = pose.orientation.toRotationMatrix().transpose();
-    const std::size_t count = heard_.size();
+    const NeighbourGrid& grid = world_->Grid();
+    const PoseArrays& poses = world_->Space().Poses();
+    const auto p = static_cast<std::uint32_t>(place);
+    if (!messages_[p].is_sent) return false;
+    heard.place = p;
+    heard.offset = grid.AllUpright() ? Vector3(grid.OriginX()[p] - poses.x[robot], grid.OriginY()[p] - poses.y[robot],
+                                               grid.OriginZ()[p] - poses.z[robot])
+                                     : Vector3(AntennaOf(grid.Sorted()[p]) - antenna_);
+    const Vector3& offset = heard.offset;
+    heard.square = offset.x() * offset.x() + offset.y() * offset.y() + offset.z() * offset.z();
+    return heard.square <= range_ * range_;
+  }
+
+  void MakePackets(std::size_t k, std::size_t count, RandomStream& random)
+  {
     for (std::vector<double>* values : {&place_x_, &place_y_, &place_z_, &flat_, &bearing_, &elevation_})
-      if (values->size() < count) values->resize(count);
-    bool is_flat = true;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      const Vector3 place(to_body * heard_[i].offset);
-      place_x_[i] = place.x();
-      place_y_[i] = place.y();
-      place_z_[i] = place.z();
-      flat_[i] = __builtin_sqrt(place.x() * place.x() + place.y() * place.y());
-      is_flat &= place.z() == 0;
-    }
+      if (values->size() < count) values->resize(2 * count);
+    const bool is_flat = TurnToBody(k, count);
     Atan2Each({place_y_.data(), count}, {place_x_.data(), count}, {bearing_.data(), count});
     if (is_flat)
       std::fill_n(elevation_.begin(), count, 0.0);
@@ -187,18 +224,55 @@ private:
       packet.range_m = __builtin_sqrt(heard_[i].square);
       packet.bearing_rad = bearing_[i];
       packet.vertical_bearing_rad = elevation_[i];
+      packet.message = messages_[heard_[i].place].bytes;
+    }
+    if (!range_noise_.IsActive() && !bearing_noise_.IsActive()) return;
+    for (CCI_RangeAndBearingSensor::Packet& packet : packets)
+    {
       if (range_noise_.IsActive()) packet.range_m = std::max(packet.range_m + range_noise_.Sample(random), 0.0);
       if (bearing_noise_.IsActive()) packet.bearing_rad = WrapAngle(packet.bearing_rad + bearing_noise_.Sample(random));
-      Unpack(attributes[heard_[i].slot + 1], packet.message.data());
-      Unpack(attributes[heard_[i].slot + 2], packet.message.data() + kHalf);
     }
   }
 
-  struct Heard
+  // The places of the senders in the frame of the robot. True where all are as high as the robot.
+  bool TurnToBody(std::size_t k, std::size_t count)
   {
-    Vector3 offset;
-    double square;
-    std::uint32_t slot;
+    const CSwarmanoidSpace& space = world_->Space();
+    bool is_flat = true;
+    if (IsUpright(space.Poses(), robots_[k]))
+    {
+      const Heading heading = HeadingOf(space.Poses(), robots_[k]);
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        const Vector3& offset = heard_[i].offset;
+        place_x_[i] = heading.cos * offset.x() + heading.sin * offset.y();
+        place_y_[i] = heading.cos * offset.y() - heading.sin * offset.x();
+        place_z_[i] = offset.z();
+        is_flat &= offset.z() == 0;
+      }
+    }
+    else
+    {
+      const Eigen::Matrix3d to_body = space.GetPose(robots_[k]).orientation.toRotationMatrix().transpose();
+      is_flat = false;
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        const Vector3 place(to_body * heard_[i].offset);
+        place_x_[i] = place.x();
+        place_y_[i] = place.y();
+        place_z_[i] = place.z();
+      }
+    }
+    if (!is_flat)
+      for (std::size_t i = 0; i < count; ++i)
+        flat_[i] = __builtin_sqrt(place_x_[i] * place_x_[i] + place_y_[i] * place_y_[i]);
+    return is_flat;
+  }
+
+  struct Sent
+  {
+    bool is_sent = false;
+    CCI_RangeAndBearingActuator::Message bytes{};
   };
 
   std::shared_ptr<SensorWorld> world_;
@@ -208,7 +282,10 @@ private:
   double range_ = 0, loss_ = 0;
   NoiseModel range_noise_, bearing_noise_;
   std::vector<std::uint32_t> message_slots_;   // by entity
+  std::vector<Sent> messages_;                 // by place in the grid, of this tick
   std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
+  bool look_at_all_ = false;
+  Vector3 antenna_ = Vector3::Zero();
   std::vector<Heard> heard_;
   std::vector<double> place_x_, place_y_, place_z_, flat_, bearing_, elevation_;  // of those heard
   std::vector<Receiver> receivers_;

@@ -72,17 +72,19 @@ TEST(ColourCameras, LedsOfOneColourAreOneBlobAtTheirMiddleAndTurnWithTheTurret)
   sensor_world.Refresh();
   BlobSources sources(sensor_world);
   sources.Refresh();
-  ASSERT_EQ(sources.On(1).size(), 3U);
+  const auto bodies = sensor_world.Grid().Sorted();
+  const auto place = std::find(bodies.begin(), bodies.end(), 1U) - bodies.begin();
+  const auto on_other = sources.At(static_cast<std::uint32_t>(place));
+  ASSERT_EQ(on_other.size(), 3U);
   const double ring = kBody + 0.005;
-  EXPECT_EQ(sources.On(1)[0].colour, CCI_Colour::WHITE);
-  EXPECT_NEAR((sources.On(1)[0].position - Vector3(5.4, 5, 0.174)).norm(), 0, 1e-12);
+  EXPECT_EQ(on_other[0].colour, CCI_Colour::WHITE);
+  EXPECT_NEAR((on_other[0].position - Vector3(5.4, 5, 0.174)).norm(), 0, 1e-12);
   // 90 - 45 + 45 degrees in the space.
   const double middle = ring * (1 + 2 * std::cos(kPi / 6)) / 3;
-  EXPECT_NEAR((sources.On(1)[1].position - Vector3(5.4, 5 + middle, 0.085)).norm(), 0, 1e-12);
+  EXPECT_NEAR((on_other[1].position - Vector3(5.4, 5 + middle, 0.085)).norm(), 0, 1e-12);
   const double green = (90 - 45 + 15 + 7 * 30) * kPi / 180;
-  EXPECT_NEAR(
-      (sources.On(1)[2].position - Vector3(5.4 + ring * std::cos(green), 5 + ring * std::sin(green), 0.085)).norm(), 0,
-      1e-12);
+  EXPECT_NEAR((on_other[2].position - Vector3(5.4 + ring * std::cos(green), 5 + ring * std::sin(green), 0.085)).norm(),
+              0, 1e-12);
 }
 
 TEST(ColourCameras, ATallBlockHidesWhatIsBehindIt)

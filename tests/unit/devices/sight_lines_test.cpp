@@ -76,8 +76,11 @@ TEST(SightLines, AgreeWithBruteForceInRandomWorlds)
         std::uint32_t owner;
       };
       std::vector<Point> points;
-      for (const auto& [e, ring, dx, dy] : lines.Around())
+      for (const std::int32_t entity : lines.Around())
+      {
+        const auto e = static_cast<std::uint32_t>(entity);
         points.push_back({world.Space().GetPose(e).Apply({0, 0, e % 3 == 0 ? 0.1 : 0.05}), e});
+      }
       for (int n = 0; n < 5; ++n)
         points.push_back({{eye.x() + random.Uniform(-2, 2), eye.y() + random.Uniform(-2, 2), random.Uniform(0, 1)},
                           SightLines::kNobody});

@@ -1,0 +1,125 @@
+// A few numbers at a time: explicit vectors for the searches of sensors and engines' worlds. Eight lanes where the
+// processor has them; the lanes do not change what is computed.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace swarmanoid
+{
+
+#if defined(__AVX__)
+inline constexpr int kLanes = 8;
+#else
+inline constexpr int kLanes = 4;
+#endif
+typedef float FloatLanes __attribute__((vector_size(kLanes * sizeof(float)), aligned(4), may_alias));
+typedef int IntLanes __attribute__((vector_size(kLanes * sizeof(int)), aligned(4), may_alias));
+
+inline FloatLanes LoadLanes(const float* from) { return *reinterpret_cast<const FloatLanes*>(from); }
+inline IntLanes LoadLanes(const std::int32_t* from) { return *reinterpret_cast<const IntLanes*>(from); }
+inline void StoreLanes(FloatLanes lanes, float* to) { *reinterpret_cast<FloatLanes*>(to) = lanes; }
+inline void StoreLanes(IntLanes lanes, std::int32_t* to) { *reinterpret_cast<IntLanes*>(to) = lanes; }
+// The difference of doubles to one, in single precision.
+inline FloatLanes Differences(const double* from, double other)
+{
+#if defined(__AVX__)
+  const __m256d origin = _mm256_set1_pd(other);
+  return reinterpret_cast<FloatLanes>(_mm256_set_m128(_mm256_cvtpd_ps(_mm256_loadu_pd(from + 4) - origin),
+                                                      _mm256_cvtpd_ps(_mm256_loadu_pd(from) - origin)));
+#else
+  FloatLanes lanes;
+  for (int i = 0; i < kLanes; ++i) lanes[i] = static_cast<float>(from[i] - other);
+  return lanes;
+#endif
+}
+
+inline FloatLanes Everywhere(float value) { return FloatLanes{} + value; }
+inline IntLanes Everywhere(int value) { return IntLanes{} + value; }
+inline FloatLanes Minimum(FloatLanes a, FloatLanes b) { return a < b ? a : b; }
+inline FloatLanes Maximum(FloatLanes a, FloatLanes b) { return a > b ? a : b; }
+inline FloatLanes Magnitude(FloatLanes lanes) { return lanes < 0 ? -lanes : lanes; }
+inline IntLanes Truncated(FloatLanes lanes) { return __builtin_convertvector(lanes, IntLanes); }
+
+inline FloatLanes SquareRoot(FloatLanes lanes)
+{
+#if defined(__AVX__)
+  return reinterpret_cast<FloatLanes>(_mm256_sqrt_ps(reinterpret_cast<__m256>(lanes)));
+#elif defined(__SSE2__)
+  return reinterpret_cast<FloatLanes>(_mm_sqrt_ps(reinterpret_cast<__m128>(lanes)));
+#else
+  for (int i = 0; i < kLanes; ++i) lanes[i] = __builtin_sqrtf(lanes[i]);
+  return lanes;
+#endif
+}
+
+// One bit for each lane that is not 0, as comparisons give them (-1 or 0).
+inline unsigned LaneMask(IntLanes lanes)
+{
+#if defined(__AVX__)
+  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(lanes)));
+#elif defined(__SSE2__)
+  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(lanes)));
+#else
+  unsigned mask = 0;
+  for (unsigned i = 0; i < kLanes; ++i) mask |= (lanes[i] != 0 ? 1U : 0U) << i;
+  return mask;
+#endif
+}
+
+// The lanes whose bits are set in a mask, one after another. Stores write all lanes: up to kLanes values beyond those
+// selected are overwritten.
+class Selection
+{
+public:
+  explicit Selection(unsigned mask) : mask_(mask)
+  {
+#if defined(__AVX2__)
+    order_ = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(kOrders[mask])));
+#endif
+  }
+  unsigned Count() const { return static_cast<unsigned>(std::popcount(mask_)); }
+  void Store(FloatLanes lanes, float* to) const
+  {
+#if defined(__AVX2__)
+    StoreLanes(reinterpret_cast<FloatLanes>(_mm256_permutevar8x32_ps(reinterpret_cast<__m256>(lanes), order_)), to);
+#else
+    for (unsigned rest = mask_; rest != 0; rest &= rest - 1) *to++ = lanes[std::countr_zero(rest)];
+#endif
+  }
+  void Store(IntLanes lanes, std::int32_t* to) const
+  {
+#if defined(__AVX2__)
+    StoreLanes(reinterpret_cast<IntLanes>(_mm256_permutevar8x32_epi32(reinterpret_cast<__m256i>(lanes), order_)), to);
+#else
+    for (unsigned rest = mask_; rest != 0; rest &= rest - 1) *to++ = lanes[std::countr_zero(rest)];
+#endif
+  }
+
+private:
+  unsigned mask_;
+#if defined(__AVX2__)
+  static constexpr std::array<std::uint64_t, 256> MakeOrders()
+  {
+    std::array<std::uint64_t, 256> orders{};
+    for (unsigned mask = 0; mask < 256; ++mask)
+      for (unsigned lane = 0, place = 0; lane < 8; ++lane)
+        if (mask >> lane & 1U) orders[mask] |= std::uint64_t{lane} << (8 * place++);
+    return orders;
+  }
+  // For each mask its set bits, a byte each.
+  static const std::array<std::uint64_t, 256> kOrders;
+  __m256i order_;
+#endif
+};
+
+#if defined(__AVX2__)
+inline constexpr std::array<std::uint64_t, 256> Selection::kOrders = Selection::MakeOrders();
+#endif
+
+}  // namespace swarmanoid
