@@ -14,7 +14,8 @@ namespace
 
 // Forces are cut off at 1.8 times the wanted distance: only the first ring of neighbours counts.
 constexpr double kReach = 1.8;
-constexpr double kForceLimit = 1.0;
+// A neighbour that is much too close must outweigh all that are a little too far.
+constexpr double kForceLimit = 10.0;
 constexpr double kLightWeight = 0.3;
 
 }  // namespace
@@ -49,11 +50,20 @@ void CBTFootbotFlocking::Step(CCI_FootBotState& cRobotState)
 
   double readings[CCI_FootBotState::NUM_LIGHT_SENSORS];
   cRobotState.GetAllLightSensorReadings(readings);
+  double light_x = 0;
+  double light_y = 0;
   for (unsigned i = 0; i < CCI_FootBotState::NUM_LIGHT_SENSORS; ++i)
   {
     const SinCos direction = SinCosOf(CCI_FootBotState::GetLightSensorAngle(i));
-    x += kLightWeight * readings[i] * direction.cos;
-    y += kLightWeight * readings[i] * direction.sin;
+    light_x += readings[i] * direction.cos;
+    light_y += readings[i] * direction.sin;
+  }
+  // Only the direction counts, so that the flock goes as fast far from the light as near it.
+  const double light = std::sqrt(light_x * light_x + light_y * light_y);
+  if (light > 0)
+  {
+    x += kLightWeight * light_x / light;
+    y += kLightWeight * light_y / light;
   }
   const double length = std::sqrt(x * x + y * y);
   if (length < 1e-6)

@@ -8,7 +8,8 @@
 namespace
 {
 
-constexpr double kStill = 1e-3;  // radians of arm motion in a tick that count as contact
+constexpr double kStill = 1e-3;   // radians of arm motion in a tick that count as contact
+constexpr double kClosed = 0.05;  // radians of aperture
 
 using Hands = CCI_HandBotHandsActuator;
 using Joints = CCI_HandBotJointsSensor;
@@ -35,6 +36,8 @@ void CBTHandbotGrasp::Step(CCI_HandBotState& cRobotState)
   const double left = cRobotState.GetJoint(Joints::ARM_LEFT);
   const double right = cRobotState.GetJoint(Joints::ARM_RIGHT);
   const bool holding = cRobotState.IsHolding(Hands::LEFT) || cRobotState.IsHolding(Hands::RIGHT);
+  const bool closed =
+      cRobotState.GetJoint(Joints::HAND_LEFT) < kClosed && cRobotState.GetJoint(Joints::HAND_RIGHT) < kClosed;
   const double moved = last_angle_ - (left + right);
   last_angle_ = left + right;
   switch (GetStateID())
@@ -54,7 +57,7 @@ void CBTHandbotGrasp::Step(CCI_HandBotState& cRobotState)
       cRobotState.SetArmVelocities(0, 0);
       cRobotState.CloseHand(Hands::LEFT);
       cRobotState.CloseHand(Hands::RIGHT);
-      input(holding ? "holding" : last_angle_ < kStill ? "missed" : "");
+      input(holding ? "holding" : closed ? "missed" : "");
       break;
     default:
       input(holding ? "" : "lost");
