@@ -8,10 +8,10 @@
 class CBTHandbotGrasp : public CCI_Behavior<CCI_HandBotState>, public FSM<std::string>
 {
 public:
-  static const unsigned int OPEN = 0;
-  static const unsigned int CLOSE_ARMS = 1;
-  static const unsigned int CLOSE_HANDS = 2;
-  static const unsigned int HOLD = 3;
+  static constexpr unsigned int OPEN = 0;
+  static constexpr unsigned int CLOSE_ARMS = 1;
+  static constexpr unsigned int CLOSE_HANDS = 2;
+  static constexpr unsigned int HOLD = 3;
 
   // opening: radians that the arms open; arm_speed: rad/s.
   explicit CBTHandbotGrasp(double opening = 0.6, double arm_speed = 0.5);

@@ -14,10 +14,10 @@
 class CBTEyebotGuide : public CCI_Behavior<CCI_EyeBotState>, public FSM<std::string>
 {
 public:
-  static const unsigned int SEARCH_FOR_PREY = 0;
-  static const unsigned int GO_TO_PREY = 1;
-  static const unsigned int WAIT_FOR_FOOTBOT_GRIPPING = 2;
-  static const unsigned int SEARCH_FOR_NEST = 3;
+  static constexpr unsigned int SEARCH_FOR_PREY = 0;
+  static constexpr unsigned int GO_TO_PREY = 1;
+  static constexpr unsigned int WAIT_FOR_FOOTBOT_GRIPPING = 2;
+  static constexpr unsigned int SEARCH_FOR_NEST = 3;
 
   CBTEyebotGuide();
 

@@ -16,11 +16,11 @@
 class CBTFootbotRetriever : public CCI_Behavior<CCI_FootBotState>, public FSM<std::string>
 {
 public:
-  static const unsigned int SEARCH_FOR_LASER = 0;
-  static const unsigned int GO_TO_LASER = 1;
-  static const unsigned int GRIP_PREY = 2;
-  static const unsigned int GO_TO_NEST = 3;
-  static const unsigned int AVOID_GRIPPING_FOOTBOT = 4;
+  static constexpr unsigned int SEARCH_FOR_LASER = 0;
+  static constexpr unsigned int GO_TO_LASER = 1;
+  static constexpr unsigned int GRIP_PREY = 2;
+  static constexpr unsigned int GO_TO_NEST = 3;
+  static constexpr unsigned int AVOID_GRIPPING_FOOTBOT = 4;
 
   CBTFootbotRetriever();
 
