@@ -39,6 +39,9 @@ set(SWARMANOID_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # False alarms of GCC 12 about std::string's operator+ at -O3 (its bugs 105329 and 105651).
   list(APPEND SWARMANOID_WARNINGS -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds)
+  if(SWARMANOID_SANITIZE)
+    list(APPEND SWARMANOID_WARNINGS -Wno-stringop-overread)
+  endif()
 endif()
 
 # swarmanoid_library(NAME [STATIC] SOURCES... [PUBLIC libs...] [PRIVATE libs...]): one library of ours, warnings as errors.

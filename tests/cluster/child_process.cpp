@@ -20,14 +20,16 @@ using Clock = std::chrono::steady_clock;
 ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::string& output_file)
     : output_file_(output_file)
 {
-  std::vector<char*> arguments;
+  // A test that is killed leaves no process.
+  static std::string with[] = {"setpriv", "--pdeathsig", "KILL"};
+  std::vector<char*> arguments{with[0].data(), with[1].data(), with[2].data()};
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, 1, output_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0600);
   posix_spawn_file_actions_adddup2(&actions, 1, 2);
-  const int error = posix_spawn(&id_, command[0].c_str(), &actions, nullptr, arguments.data(), environ);
+  const int error = posix_spawnp(&id_, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) throw std::runtime_error("cannot start " + command[0]);
 }
