@@ -5,6 +5,7 @@
 
 #include "common/math/elementary.h"
 #include "engine_worker/engines/plane_parameters.h"
+#include "engine_worker/engines/terrain_walls.h"
 
 namespace swarmanoid
 {
@@ -36,7 +37,7 @@ PluginDescription Describe(const std::string& label)
                           "footbot_turret",    "footbot_turret_torque", "footbot_wheels"};
   for (const EntityKind kind : {EntityKind::kFootbot, EntityKind::kHandbot, EntityKind::kEyebot, EntityKind::kBlock,
                                 EntityKind::kCylindricPrey, EntityKind::kLightBulb, EntityKind::kSoundSource,
-                                EntityKind::kGroundPatch, EntityKind::kHole, EntityKind::kWall})
+                                EntityKind::kGroundPatch, EntityKind::kHole, EntityKind::kWall, EntityKind::kTerrain})
     description.entity_tags.emplace_back(TagName(kind));
   return description;
 }
@@ -83,7 +84,7 @@ void Kinematics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBindin
     owned_.push_back(&entity);
   else if (binding == EBinding::kMirror)
     mirrors_.push_back({&entity, 0, 0});
-  else if (IsBlock(entity.GetKind()))
+  else if (IsBlock(entity.GetKind()) || entity.GetKind() == EntityKind::kTerrain)
     fixed_.push_back(&entity);
 }
 
@@ -124,6 +125,13 @@ void Kinematics2dEngine::Start()
   }
   for (const CSwarmanoidSpaceEntity* entity : fixed_)
   {
+    if (entity->GetKind() == EntityKind::kTerrain)
+    {
+      for (const std::vector<Vector2>& wall :
+           TerrainWalls(entity->GetConfiguration(), space_->GetExperiment().folder, frame_))
+        world_.AddStatic(MakeModel({}, {MakePolygon(wall)}));
+      continue;
+    }
     const std::vector<Vector2> outline = frame_.CutBox(entity->GetConfiguration().pose, entity->GetSize());
     if (!outline.empty()) world_.AddStatic(MakeModel({}, {MakePolygon(outline)}));
   }
