@@ -78,7 +78,9 @@ void AddRunCommand(CLI::App& app, int& exit_code)
       "  swarmanoid run configs/diffusion_10.xml\n"
       "  swarmanoid run configs/diffusion_10.xml --single-process --ticks 1000 --seed 7\n"
       "  swarmanoid run configs/diffusion_1000.xml --controller-hosts 2 --output results/first\n"
-      "  swarmanoid run configs/diffusion_10.xml --real-time 1 --set framework.clocktick=50");
+      "  swarmanoid run configs/diffusion_10.xml --real-time 1 --set framework.clocktick=50\n"
+      "  swarmanoid run configs/diffusion_10.xml --output first --checkpoint-every 500\n"
+      "  swarmanoid run first/experiment.xml --restore first/checkpoint-00000500");
   verb->callback([options, &exit_code] { exit_code = Run(*options); });
 }
 

@@ -32,6 +32,11 @@ void AddRunOptions(CLI::App& app, RunOptions& options)
   app.add_option("--hash-log", options.hash_log, "File that gets the hash of the state at every tick");
   app.add_option("--expect-hash", options.expected_hash, "Exit with 5 unless the run ends with this hash")
       ->check(hash_digits);
+  app.add_option("--checkpoint-every", options.checkpoint_every,
+                 "Write the whole state to checkpoint-<tick> in the folder of the run every so many ticks")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--restore", options.restore_file, "Go on from a checkpoint of the same experiment and seed")
+      ->check(CLI::ExistingFile);
   app.add_flag("--quiet", options.quiet, "Show no progress");
 }
 

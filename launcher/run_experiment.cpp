@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "common/space/checkpoint.h"
 #include "launcher/exit_codes.h"
 #include "launcher/load.h"
 #include "launcher/result_bits.h"
@@ -26,6 +27,24 @@ Manifest StartOfManifest(const RunOptions& options, const Experiment& experiment
   manifest.command = OriginalCommand();
   manifest.started = TimeStamp();
   return manifest;
+}
+
+// Before the folder of the run is made and processes are started.
+void RefuseBadCheckpoints(const RunOptions& options, const Experiment& experiment)
+{
+  try
+  {
+    CheckCheckpointPeriod(options.checkpoint_every, experiment);
+    if (!options.restore_file.empty()) ReadCheckpoint(options.restore_file, experiment, options.controller_hosts);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw UsageError(std::string("--checkpoint-every: ") + error.what());
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw UsageError(std::string("--restore: ") + error.what());
+  }
 }
 
 int Conclude(const RunOptions& options, const RunResult& result, const RunFolder& folder, Manifest& manifest)
@@ -69,6 +88,7 @@ int RunExperiment(const RunOptions& options,
 {
   const auto experiment = LoadOrComplain(options.experiment, ChangesOf(options));
   if (!experiment) return kInvalid;
+  RefuseBadCheckpoints(options, *experiment);
 
   try
   {

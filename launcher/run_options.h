@@ -34,6 +34,8 @@ struct RunOptions
   bool no_visualisers = false;
   std::string hash_log;
   std::string expected_hash;
+  std::uint64_t checkpoint_every = 0;  // ticks; 0: none
+  std::string restore_file;            // empty: from the start
   bool quiet = false;
   Placement placement = Placement::kAuto;
 };

@@ -11,10 +11,10 @@
 
 #include "common/experiment/load_experiment.h"
 #include "common/space/assignment.h"
+#include "common/space/checkpoint.h"
 #include "controller_host/controller_host.h"
 #include "engine_worker/engine_worker.h"
 #include "launcher/builtins.h"
-#include "launcher/checkpoint.h"
 #include "space_server/space_server.h"
 #include "visualiser/visualiser.h"
 
@@ -76,6 +76,31 @@ struct CSimulator::Roles
     for (const auto& engine : engines) updates.push_back(&engine->Update());
   }
 
+  Checkpoint TakeCheckpoint() const
+  {
+    Checkpoint checkpoint;
+    checkpoint.experiment = FingerprintOf(experiment);
+    server.WriteSnapshot(checkpoint.snapshot);
+    const auto add = [&](const std::string& name, const auto& role)
+    {
+      ByteWriter state;
+      role.SaveState(state);
+      checkpoint.parts.push_back({name, state.Bytes()});
+    };
+    add(kServerPart, server);
+    for (std::size_t e = 0; e < engines.size(); ++e) add(EngineName(experiment, e), *engines[e]);
+    add(HostName(0), *host);
+    return checkpoint;
+  }
+
+  void Restore(const Checkpoint& checkpoint)
+  {
+    checkpoint.LoadPart(kServerPart, [&](ByteReader& state) { server.LoadState(checkpoint.snapshot, state); });
+    for (std::size_t e = 0; e < engines.size(); ++e)
+      checkpoint.LoadPart(EngineName(experiment, e), [&](ByteReader& state) { engines[e]->LoadState(state); });
+    checkpoint.LoadPart(HostName(0), [&](ByteReader& state) { host->LoadState(state); });
+  }
+
   const Experiment& experiment;
   const SimulatorOptions options;
   const Assignment assignment;
@@ -89,6 +114,7 @@ struct CSimulator::Roles
   std::vector<const SensorFrame*> frames;
   std::vector<const EngineUpdate*> updates;
 
+  std::uint64_t first_tick = 0;
   Clock::time_point start;
   bool over = false;
   bool finished = false;
@@ -98,12 +124,11 @@ struct CSimulator::Roles
 CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& options)
     : roles_(std::make_unique<Roles>(experiment, options))
 {
-  if (options.checkpoint_tick % experiment.canonical_period != 0)
-    throw std::runtime_error(
-        fmt::format("a checkpoint at tick {} is not possible: only every {} ticks (canonical_period)",
-                    options.checkpoint_tick, experiment.canonical_period));
-  if (!options.restore_file.empty())
-    LoadCheckpoint(options.restore_file, experiment, roles_->space, roles_->engines, *roles_->host);
+  CheckCheckpointPeriod(options.checkpoint_every, experiment);
+  // What cannot be saved is said before the run, not in the midst of it.
+  if (options.checkpoint_every != 0) roles_->TakeCheckpoint();
+  if (!options.restore_file.empty()) roles_->Restore(ReadCheckpoint(options.restore_file, experiment, 1));
+  roles_->first_tick = roles_->space.GetTick();
   roles_->start = Clock::now();
   Show();
 }
@@ -125,7 +150,8 @@ bool CSimulator::Step()
 
   if (r.options.real_time_factor > 0)
   {
-    const double due = static_cast<double>(r.space.GetTick()) * r.experiment.TickSeconds() / r.options.real_time_factor;
+    const double due =
+        static_cast<double>(r.space.GetTick() - r.first_tick) * r.experiment.TickSeconds() / r.options.real_time_factor;
     std::this_thread::sleep_until(r.start +
                                   std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due)));
   }
@@ -137,8 +163,9 @@ bool CSimulator::Step()
 void CSimulator::Show()
 {
   Roles& r = *roles_;
-  if (r.options.checkpoint_tick != 0 && r.space.GetTick() == r.options.checkpoint_tick)
-    SaveCheckpoint(r.options.checkpoint_file, r.experiment, r.space, r.engines, *r.host);
+  const std::uint64_t tick = r.space.GetTick();
+  if (r.options.checkpoint_every != 0 && tick > r.first_tick && tick % r.options.checkpoint_every == 0)
+    WriteCheckpoint(r.options.output_folder + "/" + CheckpointName(tick), r.TakeCheckpoint());
   r.hash_log->Write(r.space);
   bool terminate = false;
   for (const auto& visualiser : r.visualisers) terminate |= visualiser->Draw();
@@ -154,8 +181,9 @@ const RunSummary& CSimulator::Finish()
   r.summary.entities = r.space.Size();
   r.summary.ticks = r.space.GetTick();
   r.summary.wall_s = SecondsSince(r.start);
-  r.summary.real_time_factor =
-      r.summary.wall_s > 0 ? static_cast<double>(r.summary.ticks) * r.experiment.TickSeconds() / r.summary.wall_s : 0;
+  r.summary.real_time_factor = r.summary.wall_s > 0 ? static_cast<double>(r.summary.ticks - r.first_tick) *
+                                                          r.experiment.TickSeconds() / r.summary.wall_s
+                                                    : 0;
   r.summary.hash = r.space.Hash();
   for (const auto& visualiser : r.visualisers) visualiser->Finish();
   r.host->Destroy();

@@ -45,6 +45,8 @@ RunResult RunHere(const RunOptions& options, const Experiment& experiment, const
   run.hash_log = options.hash_log;
   run.real_time_factor = options.real_time;
   run.visualisations = !options.no_visualisers;
+  run.checkpoint_every = options.checkpoint_every;
+  run.restore_file = options.restore_file;
   run.stop = &stop_asked;
   run.watch = watch;
   run.progress = [&](std::uint64_t tick)

@@ -16,6 +16,7 @@
 #include "common/experiment/load_experiment.h"
 #include "controller_host/controller_host.h"
 #include "engine_worker/engine_worker.h"
+#include "space_server/cluster/checkpoint_desk.h"
 #include "space_server/cluster/control_desk.h"
 #include "space_server/cluster/lockstep.h"
 #include "visualiser/render.h"
@@ -49,6 +50,8 @@ struct ServerOptions
   bool paused = false;
   double real_time_factor = 0;
   std::string hash_log;
+  std::uint64_t checkpoint_every = 0;
+  std::string restore;
   bool no_visualisers = false;
   int status_fd = -1;
   BusOptions bus;
@@ -66,19 +69,19 @@ public:
         status_(status),
         assignment_(MakeAssignment(experiment, options.hosts)),
         server_(experiment, assignment_, options.output.empty() ? "." : options.output),
-        session_(
-            options.bus,
-            DescribeWorld(server_.Space(), NewRun(), options.file, static_cast<unsigned>(assignment_.hosts.size())),
-            Expected(),
-            {[this](const ControlRequestMessage& request)
-             {
-               desk_.Ask(request);
-               Wake();
-             },
-             [this] { Wake(); }}),
+        session_(options.bus, World(), Expected(Visualisers()),
+                 {[this](const ControlRequestMessage& request)
+                  {
+                    desk_.Ask(request);
+                    Wake();
+                  },
+                  [this] { Wake(); }}),
         views_(session_.GetBus(), experiment.name),
         desk_(session_, experiment, options.paused, options.real_time_factor),
-        lockstep_(session_, server_, assignment_, !options.no_visualisers, options.hash_log, [this] { Wake(); })
+        checkpoints_(session_, experiment, Expected({}), options.output.empty() ? "." : options.output,
+                     [this] { Wake(); }),
+        lockstep_(session_, server_, assignment_, !options.no_visualisers, options.hash_log, checkpoints_,
+                  [this] { Wake(); })
   {
   }
 
@@ -114,13 +117,37 @@ private:
     return (static_cast<std::uint64_t>(device()) << 32) | device();
   }
 
-  std::vector<std::string> Expected() const
+  // The world, where the run starts or goes on.
+  WorldMessage World()
+  {
+    WorldMessage world =
+        DescribeWorld(server_.Space(), NewRun(), options_.file, static_cast<unsigned>(assignment_.hosts.size()));
+    CheckCheckpointPeriod(options_.checkpoint_every, experiment_);
+    world.checkpoint_every = options_.checkpoint_every;
+    if (options_.checkpoint_every != 0)
+    {
+      // What cannot be saved is said before the run, not in the midst of it.
+      ByteWriter scratch;
+      server_.SaveState(scratch);
+    }
+    if (options_.restore.empty()) return world;
+    const Checkpoint checkpoint = ReadCheckpoint(options_.restore, experiment_, assignment_.hosts.size());
+    checkpoint.LoadPart(kServerPart, [&](ByteReader& state) { server_.LoadState(checkpoint.snapshot, state); });
+    world.checkpoint = EncodeCheckpoint(checkpoint);
+    return world;
+  }
+
+  std::span<const RenderConfiguration> Visualisers() const
+  {
+    return options_.no_visualisers ? std::span<const RenderConfiguration>() : experiment_.visualisations;
+  }
+
+  std::vector<std::string> Expected(std::span<const RenderConfiguration> visualisers) const
   {
     std::vector<std::string> names;
     for (std::size_t e = 0; e < experiment_.engines.size(); ++e) names.push_back(EngineName(experiment_, e));
     for (std::size_t h = 0; h < assignment_.hosts.size(); ++h) names.push_back(HostName(h));
-    if (!options_.no_visualisers)
-      for (const RenderConfiguration& render : experiment_.visualisations) names.push_back(VisualiserName(render));
+    for (const RenderConfiguration& render : visualisers) names.push_back(VisualiserName(render));
     return names;
   }
 
@@ -179,7 +206,8 @@ private:
   void RunTicks()
   {
     start_ = since_ = Clock::now();
-    desk_.Start(lockstep_.Tick(), start_);
+    first_tick_ = progress_tick_ = lockstep_.Tick();
+    desk_.Start(first_tick_, start_);
     SayState();
     while (!lockstep_.Finished())
     {
@@ -197,6 +225,7 @@ private:
           next = std::min(next, *decision.due);
         view_wanted_ = true;
       }
+      checkpoints_.Work();
       Watch();
       ShowView(false);
       if (!lockstep_.Finished() && !lockstep_.Failure()) Sleep(std::min(next, NextView()));
@@ -245,7 +274,7 @@ private:
     {
       const double factor =
           static_cast<double>(tick - progress_tick_) * experiment_.TickSeconds() / Seconds(now - progress_said_);
-      real_time_factor_ = progress_tick_ == 0 ? factor : 0.7 * real_time_factor_ + 0.3 * factor;
+      real_time_factor_ = progress_tick_ == first_tick_ ? factor : 0.7 * real_time_factor_ + 0.3 * factor;
       progress_tick_ = tick;
       progress_said_ = now;
       status_.Say(fmt::format("tick {} {} {:.2f}", tick, experiment_.max_clock, real_time_factor_));
@@ -323,16 +352,31 @@ private:
       lockstep_.Repeat();
     }
     CheckFailures();
+    FinishCheckpoints();
     lockstep_.WithServer([](SpaceServer& server) { server.Destroy(); });
     session_.SayBye(result.ticks, "");
     const double wall = Seconds(end_ - start_);
-    const double factor = wall > 0 ? static_cast<double>(result.ticks) * experiment_.TickSeconds() / wall : 0;
+    const double factor =
+        wall > 0 ? static_cast<double>(result.ticks - first_tick_) * experiment_.TickSeconds() / wall : 0;
     status_.Say(fmt::format("tick {} {} {:.2f}", result.ticks, experiment_.max_clock, factor));
     status_.Say(
         fmt::format("finished {} {} {:016x} {:.3f} {:.1f}", result.ticks, result.entities, result.hash, wall, factor));
     if (!status_.IsOpen())
       fmt::print("finished: {} ticks, {} entities, hash {:016x}, {:.3f} s, {:.1f}x real time\n", result.ticks,
                  result.entities, result.hash, wall, factor);
+  }
+
+  // All parts have been sent; the last of them may still be on their way through the threads of the bus.
+  void FinishCheckpoints()
+  {
+    const auto patience = Clock::now() + kBrokenTime;
+    for (checkpoints_.Work(); !checkpoints_.Incomplete().empty(); checkpoints_.Work())
+    {
+      if (Clock::now() > patience)
+        throw BusError(fmt::format("the checkpoint of tick {} is incomplete: parts of it were lost",
+                                   checkpoints_.Incomplete().front()));
+      Sleep(Clock::now() + 10ms);
+    }
   }
 
   struct RunResult
@@ -353,6 +397,7 @@ private:
   ServerSession session_;
   Publisher<ViewMessage> views_;
   ControlDesk desk_;
+  CheckpointDesk checkpoints_;
   Lockstep lockstep_;
 
   Clock::time_point start_;
@@ -363,6 +408,7 @@ private:
   Clock::time_point repeated_;
   Clock::duration repeat_after_ = kFirstRepeat;
   Clock::duration stall_said_ = 0s;
+  std::uint64_t first_tick_ = 0;
   std::uint64_t progress_tick_ = 0;
   Clock::time_point progress_said_ = Clock::now();
   double real_time_factor_ = 0;
@@ -414,6 +460,9 @@ int Run(int argc, char** argv)
   app.add_option("--real-time", options.real_time_factor, "simulated seconds in a second; 0: as fast as possible")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--hash-log", options.hash_log, "file for the hash of every tick's state");
+  app.add_option("--checkpoint-every", options.checkpoint_every,
+                 "ticks between two checkpoints in the output folder; 0: none");
+  app.add_option("--restore", options.restore, "checkpoint to go on from")->check(CLI::ExistingFile);
   app.add_flag("--no-visualisers", options.no_visualisers, "run without the visualisations of the file");
   app.add_option("--status-fd", options.status_fd, "descriptor for status lines, see docs/wire.md");
   AddBusOptions(app, options.bus);

@@ -57,6 +57,7 @@ public:
         replica_(replica),
         number_(static_cast<std::uint32_t>(number)),
         visualiser_(visualiser),
+        next_(replica.FirstTick()),
         drawn_(session.GetBus(), session.Scope(kDrawnCapacity, 1)),
         states_in_(session.GetBus(), session.Scope(StateCapacity(*replica.space), 1),
                    {[this](const MessageHeader& header) { return PlaceOfState(header); },
@@ -139,7 +140,7 @@ private:
   SpaceState repeated_;
   bool fresh_ = false;  // state_ is to be drawn
   bool finished_ = false;
-  std::uint64_t next_ = 0;
+  std::uint64_t next_;
   DrawnMessage answer_;
   HotPublisher<DrawnMessage> drawn_;
   HotSubscription<SpaceState> states_in_;
@@ -237,6 +238,7 @@ void RunSynchronous(WorkerSession& session, const std::string& id, const std::st
   RemoteControl control(session.GetBus(), session.World().experiment);
   Visualiser visualiser(replica.experiment->visualisations[number], *replica.space, replica.assignment, output,
                         &control, nullptr);
+  replica.RestoreSpace();
   SynchronousNode node(session, replica, number, visualiser);
   node.MeetServer();
   session.SayReady();

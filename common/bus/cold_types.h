@@ -27,6 +27,7 @@ SWARMANOID_COLD_TYPE(ViewMessage, View)
 SWARMANOID_COLD_TYPE(ControlRequestMessage, ControlRequest)
 SWARMANOID_COLD_TYPE(ControlReplyMessage, ControlReply)
 SWARMANOID_COLD_TYPE(StatusMessage, Status)
+SWARMANOID_COLD_TYPE(SavedStateMessage, SavedState)
 SWARMANOID_COLD_TYPE(ByeMessage, Bye)
 #undef SWARMANOID_COLD_TYPE
 
@@ -36,6 +37,7 @@ void ToWire(const ViewMessage& message, wire::View& wire);
 void ToWire(const ControlRequestMessage& message, wire::ControlRequest& wire);
 void ToWire(const ControlReplyMessage& message, wire::ControlReply& wire);
 void ToWire(const StatusMessage& message, wire::Status& wire);
+void ToWire(const SavedStateMessage& message, wire::SavedState& wire);
 void ToWire(const ByeMessage& message, wire::Bye& wire);
 
 void FromWire(wire::World& wire, WorldMessage& message);
@@ -44,6 +46,7 @@ void FromWire(wire::View& wire, ViewMessage& message);
 void FromWire(wire::ControlRequest& wire, ControlRequestMessage& message);
 void FromWire(wire::ControlReply& wire, ControlReplyMessage& message);
 void FromWire(wire::Status& wire, StatusMessage& message);
+void FromWire(wire::SavedState& wire, SavedStateMessage& message);
 void FromWire(wire::Bye& wire, ByeMessage& message);
 
 }  // namespace swarmanoid

@@ -12,7 +12,7 @@ namespace swarmanoid
 {
 
 // Equal to PROTOCOL_VERSION of the IDL; a test says so.
-inline constexpr std::uint32_t kProtocolVersion = 1;
+inline constexpr std::uint32_t kProtocolVersion = 2;
 
 // What precedes every message of a tick.
 struct MessageHeader
@@ -51,6 +51,8 @@ struct WorldMessage
   std::uint32_t hosts = 1;
   bool spread = false;
   double tick_seconds = 0;
+  std::uint64_t checkpoint_every = 0;
+  std::vector<char> checkpoint;
   std::vector<WorldEntity> entities;
 };
 
@@ -93,6 +95,14 @@ struct StatusMessage
   std::uint64_t tick = 0;
   std::string name;
   std::string text;
+};
+
+struct SavedStateMessage
+{
+  std::uint64_t run = 0;
+  std::uint64_t tick = 0;
+  std::string name;
+  std::vector<char> state;
 };
 
 struct ByeMessage

@@ -32,6 +32,7 @@ inline constexpr TopicQos kTopics[] = {
     {"ControlRequest", false, false, false, 16, 64},
     {"ControlReply", false, false, false, 16, 64},
     {"Status", false, false, false, 4, 64},
+    {"SavedState", false, false, false, 64, 64},
     {"Bye", false, true, false, 16, 64},
 };
 

@@ -33,15 +33,18 @@ std::vector<TickGate::Part> Parts(const Experiment& experiment, const std::vecto
 }  // namespace
 
 Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
-                   const std::string& hash_log, std::function<void()> stopped)
+                   const std::string& hash_log, CheckpointDesk& checkpoints, std::function<void()> stopped)
     : session_(session),
       server_(server),
+      checkpoints_(checkpoints),
+      first_tick_(server.Space().GetTick()),
+      checkpoint_every_(session.World().checkpoint_every),
       stopped_(std::move(stopped)),
       engines_(assignment.engines.size()),
       hosts_(HostsHeard(assignment)),
       visualisers_(visualisations ? server.Space().GetExperiment().visualisations.size() : 0),
       workers_(static_cast<unsigned>(engines_ + assignment.hosts.size() + visualisers_)),
-      gate_(Parts(server.Space().GetExperiment(), hosts_, visualisers_)),
+      gate_(Parts(server.Space().GetExperiment(), hosts_, visualisers_), first_tick_),
       updates_(engines_),
       commands_(hosts_.size()),
       drawn_(visualisers_),
@@ -172,6 +175,8 @@ void Lockstep::Send(bool repeated)
 {
   const SpaceState& state = server_.State();
   if (hash_log_ != nullptr && !repeated) fmt::print(hash_log_, "{} {:016x}\n", state.tick, server_.Space().Hash());
+  if (checkpoint_every_ != 0 && !repeated && state.tick > first_tick_ && state.tick % checkpoint_every_ == 0)
+    checkpoints_.Sending(server_);
   held_ = false;
   states_.Write({session_.World().run, state.tick, 0, repeated}, state);
   if (!state.last) return;
