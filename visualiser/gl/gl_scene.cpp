@@ -269,7 +269,9 @@ void GlScene::State::Sort(const Scene& scene, const ViewVolume& view, const SunV
       continue;
     // Far away the shadow of a footbot's turret is that of the whole robot.
     const bool hidden = level == 2 && item.model == static_cast<std::uint16_t>(ModelId::kFootbotBase);
-    if (!hidden) casters.Add(item.model, std::max(level, 1), InstanceOf(item));
+    // A terrain throws shadows on itself: both have to be the same surface.
+    const bool terrain = item.model >= StandardModels().size();
+    if (!hidden) casters.Add(item.model, terrain ? level : std::max(level, 1), InstanceOf(item));
   }
 }
 
@@ -421,6 +423,9 @@ void GlScene::State::DrawFloor(const Scene& scene, const ViewVolume& view, const
   floor.Set("u_colour", Linear(palette::kFloor));
   floor.Set("u_line_colour", Linear(palette::kFloorLine));
   floor.Set("u_spacing", options.textures ? SpacingOf(scene.ArenaSize()) : 0.0F);
+  // What lies on the floor wins.
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1, 2);
   lines.DrawOne();
 
   // The ground around it, a little lower, so that bodies beyond the edge stand on something.
@@ -429,8 +434,7 @@ void GlScene::State::DrawFloor(const Scene& scene, const ViewVolume& view, const
   floor.Set("u_spacing", 0.0F);
   floor.Set("u_colour", Linear(palette::kOutside));
   floor.Set("u_rectangle", Vector4f(-reach, -reach, size.x() + reach, size.y() + reach));
-  glEnable(GL_POLYGON_OFFSET_FILL);
-  glPolygonOffset(1, 4);
+  glPolygonOffset(2, 8);
   lines.DrawOne();
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
