@@ -95,8 +95,12 @@ void CTextRender::Init(const RenderSetup& setup)
 
 void CTextRender::Draw()
 {
-  const std::uint64_t last = space_->GetExperiment().max_clock;
-  if (space_->GetTick() % every_ != 0 && space_->GetTick() != last) return;
+  // An attached one does not see every tick: a table is due once a period has begun since the last one.
+  const std::uint64_t tick = space_->GetTick();
+  const std::uint64_t period = tick / every_;
+  const bool due = period_ ? period != *period_ : tick % every_ == 0;
+  period_ = period;
+  if (!due && tick != space_->GetExperiment().max_clock) return;
   for (std::size_t i = 0; i < space_->Size(); ++i)
     if (IsShown(space_->GetEntity(i))) AppendLine(space_->GetEntity(i));
   Write();

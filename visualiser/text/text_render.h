@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,7 @@ private:
   std::string buffer_;
   int precision_ = 3;
   std::uint64_t every_ = 1;
+  std::optional<std::uint64_t> period_;  // of `every_` ticks, in which the latest tick was
 };
 
 }  // namespace swarmanoid
