@@ -207,8 +207,7 @@ std::vector<ElementSpec> MakeEntities()
       Entity(EntityKind::kWall, {}, "A box that never moves.", {box, friction, restitution, colour("silver")}),
   };
   ElementSpec terrain =
-      Entity(EntityKind::kTerrain, {},
-             "Uneven ground, from a file; walls for two-dimensional engines, at the height of their planes.",
+      Entity(EntityKind::kTerrain, {}, "Uneven ground, from a file. Engines for flat ground refuse it.",
              {Optional(kTree, "octomap", "", "", "An OctoMap: the occupied cells are solid."),
               Optional(kTree, "heightmap", "", "", "An image whose brightness is the height.")});
   for (ParameterSpec& parameter : terrain.parameters)

@@ -143,16 +143,11 @@ void MeshBuilder::Extrude(std::span<const Eigen::Vector2f> outline, float low, f
   }
 }
 
-void Measure(Model& model)
+float RadiusOf(const Mesh& mesh)
 {
   float squared = 0;
-  for (const Mesh& mesh : model.levels)
-    for (const MeshVertex& vertex : mesh.vertices)
-    {
-      squared = std::max(squared, vertex.position.squaredNorm());
-      model.box.extend(vertex.position);
-    }
-  model.radius = std::sqrt(squared);
+  for (const MeshVertex& vertex : mesh.vertices) squared = std::max(squared, vertex.position.squaredNorm());
+  return std::sqrt(squared);
 }
 
 }  // namespace swarmanoid

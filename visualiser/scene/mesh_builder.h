@@ -67,7 +67,6 @@ private:
   Mesh mesh_;
 };
 
-// Sets radius and box from the levels.
-void Measure(Model& model);
+float RadiusOf(const Mesh& mesh);
 
 }  // namespace swarmanoid
