@@ -7,10 +7,10 @@
 
 #include "common/bus/cluster_options.h"
 #include "common/bus/replica.h"
+#include "common/bus/saved_states.h"
 #include "common/bus/stall_watch.h"
 #include "common/bus/tick_gate.h"
 #include "common/bus/worker_session.h"
-#include "controller_host/cluster/robot_watch.h"
 #include "controller_host/controller_host.h"
 #include "engine_worker/engine_worker.h"
 #include "visualiser/render.h"
@@ -29,15 +29,22 @@ public:
         replica_(replica),
         host_(static_cast<std::uint32_t>(host)),
         role_(*replica.space, replica.assignment, host),
-        gate_(Parts(*replica.experiment, role_.Layout())),
-        commands_(session.GetBus(), session.Scope(CommandsCapacity(*replica.space, replica.assignment), 1)),
-        watch_robots_(session, role_, host_, mutex_)
+        saved_(session, HostName(host), role_),
+        gate_(Parts(*replica.experiment, role_.Layout()), replica.FirstTick()),
+        commands_(session.GetBus(), session.Scope(CommandsCapacity(*replica.space, replica.assignment), 1))
   {
     const auto& from = role_.Layout().frames_from;
     for (auto& frames : frames_) frames.resize(from.size());
     frames_here_.resize(from.size());
-    // There are no frames of the first tick.
-    for (std::size_t k = 0; k < from.size(); ++k) gate_.Arrived(1 + k, 0);
+    replica.Restore(HostName(host), role_);
+    // Nobody sends the frames of the first tick: there are none, or the engines saved them first of all.
+    for (std::size_t k = 0; k < from.size(); ++k)
+    {
+      gate_.Arrived(1 + k, replica.FirstTick());
+      if (!replica.checkpoint) continue;
+      ByteReader state(replica.checkpoint->StateOf(EngineName(*replica.experiment, from[k])));
+      frames_[replica.FirstTick() % 2][k].values = state.GetArray<double>();
+    }
     if (!from.empty())
       frames_in_.emplace(session.GetBus(), session.Scope(FrameCapacity(replica.assignment), FrameWriters()),
                          HotSubscription<SensorFrame>::Handler{
@@ -63,7 +70,7 @@ public:
     session_.WaitUntil(
         [&]
         {
-          return states_in_->Writers() >= 1 && commands_.Readers() >= readers &&
+          return states_in_->Writers() >= 1 && commands_.Readers() >= readers && saved_.Met() &&
                  (!frames_in_ || frames_in_->Writers() >= FrameWriters());
         },
         [&] { return std::string("the engines"); });
@@ -82,6 +89,7 @@ public:
                           gate_.Has(0) && !gate_.Complete() ? "waits for " + Joined(gate_.Missing()) : "");
   }
 
+  void Flush() { saved_.Flush(); }
   void Destroy() { role_.Destroy(); }
 
 private:
@@ -165,8 +173,8 @@ private:
       answer_ = &role_.Step(first ? std::span<const SensorFrame* const>()
                                   : std::span<const SensorFrame* const>(frames_here_));
       gate_.Next();
+      saved_.Ready(gate_.Tick(), role_);
       Answer(false);
-      watch_robots_.Stepped();
     }
     catch (const std::exception& error)
     {
@@ -186,6 +194,7 @@ private:
   std::uint32_t host_;
   std::mutex mutex_;  // of what follows
   ControllerHost role_;
+  SavedStates saved_;
   TickGate gate_;
   SpaceState state_;
   SpaceState repeated_;
@@ -195,7 +204,6 @@ private:
   std::atomic<std::uint64_t> stepping_ = 0;
   StallWatch watch_;  // main thread
   HotPublisher<ControlCommands> commands_;
-  RobotWatch watch_robots_;
   std::optional<HotSubscription<SensorFrame>> frames_in_;
   std::optional<HotSubscription<SpaceState>> states_in_;
 };
@@ -235,6 +243,7 @@ int Run(int argc, char** argv)
         node.MeetOthers();
         session.SayReady();
         session.Wait(std::chrono::milliseconds(500), [&] { return node.Stall(); });
+        node.Flush();
         node.Destroy();
       });
 }

@@ -6,6 +6,7 @@
 
 #include "common/bus/cluster_options.h"
 #include "common/bus/replica.h"
+#include "common/bus/saved_states.h"
 #include "common/bus/stall_watch.h"
 #include "common/bus/tick_gate.h"
 #include "common/bus/worker_session.h"
@@ -27,10 +28,12 @@ public:
         replica_(replica),
         engine_(static_cast<std::uint32_t>(engine)),
         role_(*replica.space, replica.assignment, engine),
-        gate_(Parts(role_.Layout())),
+        saved_(session, EngineName(*replica.experiment, engine), role_),
+        gate_(Parts(role_.Layout()), replica.FirstTick()),
         commands_(role_.Layout().commands_from.size()),
         updates_(session.GetBus(), session.Scope(UpdateCapacity(*replica.space, replica.assignment), 1))
   {
+    replica.Restore(EngineName(*replica.experiment, engine), role_);
     for (const ControlCommands& commands : commands_) commands_here_.push_back(&commands);
     const auto hosts = static_cast<unsigned>(replica.assignment.hosts.size());
     if (role_.Layout().sensor_size > 0)
@@ -55,7 +58,7 @@ public:
     session_.WaitUntil(
         [&]
         {
-          return states_in_->Writers() >= 1 && updates_.Readers() >= 1 &&
+          return states_in_->Writers() >= 1 && updates_.Readers() >= 1 && saved_.Met() &&
                  (!commands_in_ || commands_in_->Writers() >= hosts) &&
                  (!frames_ || frames_->Readers() >= frame_readers);
         },
@@ -80,6 +83,8 @@ public:
                                             ? "waits for " + Joined(gate_.Missing())
                                             : "");
   }
+
+  void Flush() { saved_.Flush(); }
 
 private:
   static std::vector<TickGate::Part> Parts(const EngineLayout& layout)
@@ -152,6 +157,7 @@ private:
       stepping_ = gate_.Tick();
       role_.Step(state_.moved, commands_here_);
       gate_.Next();
+      saved_.Ready(gate_.Tick(), role_);
       Answer(false);
     }
     catch (const std::exception& error)
@@ -173,6 +179,7 @@ private:
   std::uint32_t engine_;
   std::mutex mutex_;  // of what follows
   EngineWorker role_;
+  SavedStates saved_;
   TickGate gate_;
   SpaceState state_;
   SpaceState repeated_;
@@ -227,6 +234,7 @@ int Run(int argc, char** argv)
         node.MeetOthers();
         session.SayReady();
         session.Wait(std::chrono::milliseconds(500), [&] { return node.Stall(); });
+        node.Flush();
       });
 }
 

@@ -31,10 +31,11 @@ struct RunOptions
   std::optional<int> domain;
   double real_time = 0;  // 0: as fast as possible
   bool paused = false;
-  std::string events;  // events.csv of an earlier run
   bool no_visualisers = false;
   std::string hash_log;
   std::string expected_hash;
+  std::uint64_t checkpoint_every = 0;  // ticks; 0: none
+  std::string restore_file;            // empty: from the start
   bool quiet = false;
   Placement placement = Placement::kAuto;
 };

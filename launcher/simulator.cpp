@@ -7,15 +7,14 @@
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
+#include <thread>
 
 #include "common/experiment/load_experiment.h"
 #include "common/space/assignment.h"
+#include "common/space/checkpoint.h"
 #include "controller_host/controller_host.h"
 #include "engine_worker/engine_worker.h"
 #include "launcher/builtins.h"
-#include "launcher/checkpoint.h"
-#include "launcher/steering.h"
-#include "launcher/usage_error.h"
 #include "space_server/space_server.h"
 #include "visualiser/visualiser.h"
 
@@ -63,32 +62,43 @@ struct CSimulator::Roles
         options(with),
         assignment(MakeAssignment(of, 1)),
         server(of, assignment, with.output_folder),
-        space(server.Space()),
-        steering(of, server, DeskSetup(of, with), with.stop)
+        space(server.Space())
   {
     for (std::size_t e = 0; e < experiment.engines.size(); ++e)
       engines.push_back(std::make_unique<EngineWorker>(space, assignment, e));
     host = std::make_unique<ControllerHost>(space, assignment, 0);
-    steering.SetHost(*host);
     if (options.visualisations)
       for (const RenderConfiguration& render : experiment.visualisations)
-        visualisers.push_back(std::make_unique<Visualiser>(render, space, assignment, options.output_folder,
-                                                           &steering.Control(), &steering));
-    const auto interactive = [](const auto& visualiser) { return visualiser->IsInteractive(); };
-    if (options.paused && std::none_of(visualisers.begin(), visualisers.end(), interactive))
-      throw UsageError(
-          "the run would stay paused: none of its visualisations is a window or a page that can resume it; leave out "
-          "--paused, or run a cluster, which `swarmanoid control resume` reaches");
+        visualisers.push_back(
+            std::make_unique<Visualiser>(render, space, assignment, options.output_folder, nullptr, nullptr));
     hash_log = std::make_unique<HashLog>(options.hash_log);
     for (const std::uint32_t engine : assignment.hosts[0].frames_from) frames.push_back(&engines[engine]->Sensors());
     for (const auto& engine : engines) updates.push_back(&engine->Update());
   }
 
-  static ControlDeskSetup DeskSetup(const Experiment& experiment, const SimulatorOptions& options)
+  Checkpoint TakeCheckpoint() const
   {
-    ControlDeskSetup setup{options.paused, options.real_time_factor, options.event_log, {}};
-    if (!options.events.empty()) setup.repeated = ReadEvents(options.events, experiment);
-    return setup;
+    Checkpoint checkpoint;
+    checkpoint.experiment = FingerprintOf(experiment);
+    server.WriteSnapshot(checkpoint.snapshot);
+    const auto add = [&](const std::string& name, const auto& role)
+    {
+      ByteWriter state;
+      role.SaveState(state);
+      checkpoint.parts.push_back({name, state.Bytes()});
+    };
+    add(kServerPart, server);
+    for (std::size_t e = 0; e < engines.size(); ++e) add(EngineName(experiment, e), *engines[e]);
+    add(HostName(0), *host);
+    return checkpoint;
+  }
+
+  void Restore(const Checkpoint& checkpoint)
+  {
+    checkpoint.LoadPart(kServerPart, [&](ByteReader& state) { server.LoadState(checkpoint.snapshot, state); });
+    for (std::size_t e = 0; e < engines.size(); ++e)
+      checkpoint.LoadPart(EngineName(experiment, e), [&](ByteReader& state) { engines[e]->LoadState(state); });
+    checkpoint.LoadPart(HostName(0), [&](ByteReader& state) { host->LoadState(state); });
   }
 
   const Experiment& experiment;
@@ -96,7 +106,6 @@ struct CSimulator::Roles
   const Assignment assignment;
   SpaceServer server;
   CSwarmanoidSpace& space;
-  Steering steering;
   std::vector<std::unique_ptr<EngineWorker>> engines;
   std::unique_ptr<ControllerHost> host;
   std::vector<std::unique_ptr<Visualiser>> visualisers;
@@ -105,6 +114,7 @@ struct CSimulator::Roles
   std::vector<const SensorFrame*> frames;
   std::vector<const EngineUpdate*> updates;
 
+  std::uint64_t first_tick = 0;
   Clock::time_point start;
   bool over = false;
   bool finished = false;
@@ -114,12 +124,11 @@ struct CSimulator::Roles
 CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& options)
     : roles_(std::make_unique<Roles>(experiment, options))
 {
-  if (options.checkpoint_tick % experiment.canonical_period != 0)
-    throw std::runtime_error(
-        fmt::format("a checkpoint at tick {} is not possible: only every {} ticks (canonical_period)",
-                    options.checkpoint_tick, experiment.canonical_period));
-  if (!options.restore_file.empty())
-    LoadCheckpoint(options.restore_file, experiment, roles_->space, roles_->engines, *roles_->host);
+  CheckCheckpointPeriod(options.checkpoint_every, experiment);
+  // What cannot be saved is said before the run, not in the midst of it.
+  if (options.checkpoint_every != 0) roles_->TakeCheckpoint();
+  if (!options.restore_file.empty()) roles_->Restore(ReadCheckpoint(options.restore_file, experiment, 1));
+  roles_->first_tick = roles_->space.GetTick();
   roles_->start = Clock::now();
   Show();
 }
@@ -138,6 +147,14 @@ bool CSimulator::Step()
     r.engines[e]->Step(r.server.Moved(),
                        r.assignment.engines[e].commands_from.empty() ? Commands() : Commands(&commands, 1));
   r.server.Advance(r.updates, Commands(&commands, 1));
+
+  if (r.options.real_time_factor > 0)
+  {
+    const double due =
+        static_cast<double>(r.space.GetTick() - r.first_tick) * r.experiment.TickSeconds() / r.options.real_time_factor;
+    std::this_thread::sleep_until(r.start +
+                                  std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due)));
+  }
   Show();
   return true;
 }
@@ -146,16 +163,14 @@ bool CSimulator::Step()
 void CSimulator::Show()
 {
   Roles& r = *roles_;
-  r.steering.WaitForGo(r.visualisers);
-  if (r.options.checkpoint_tick != 0 && r.space.GetTick() == r.options.checkpoint_tick)
-    SaveCheckpoint(r.options.checkpoint_file, r.experiment, r.space, r.engines, *r.host);
+  const std::uint64_t tick = r.space.GetTick();
+  if (r.options.checkpoint_every != 0 && tick > r.first_tick && tick % r.options.checkpoint_every == 0)
+    WriteCheckpoint(r.options.output_folder + "/" + CheckpointName(tick), r.TakeCheckpoint());
   r.hash_log->Write(r.space);
-  const Visualiser* terminator = nullptr;
-  for (const auto& visualiser : r.visualisers)
-    if (visualiser->Draw() && terminator == nullptr) terminator = visualiser.get();
-  if (terminator != nullptr && !r.server.IsLast()) r.steering.Stopped(terminator->Id());
-  r.over = terminator != nullptr || r.server.IsLast();
-  r.summary.interrupted = r.steering.Interrupted();
+  bool terminate = false;
+  for (const auto& visualiser : r.visualisers) terminate |= visualiser->Draw();
+  if (r.options.stop != nullptr && *r.options.stop) r.summary.interrupted = true;
+  r.over = terminate || r.summary.interrupted || r.server.IsLast();
 }
 
 const RunSummary& CSimulator::Finish()
@@ -163,12 +178,12 @@ const RunSummary& CSimulator::Finish()
   Roles& r = *roles_;
   if (r.finished) return r.summary;
   r.finished = true;
-  r.steering.Ended();
   r.summary.entities = r.space.Size();
   r.summary.ticks = r.space.GetTick();
   r.summary.wall_s = SecondsSince(r.start);
-  r.summary.real_time_factor =
-      r.summary.wall_s > 0 ? static_cast<double>(r.summary.ticks) * r.experiment.TickSeconds() / r.summary.wall_s : 0;
+  r.summary.real_time_factor = r.summary.wall_s > 0 ? static_cast<double>(r.summary.ticks - r.first_tick) *
+                                                          r.experiment.TickSeconds() / r.summary.wall_s
+                                                    : 0;
   r.summary.hash = r.space.Hash();
   for (const auto& visualiser : r.visualisers) visualiser->Finish();
   r.host->Destroy();

@@ -28,16 +28,10 @@ struct SimulatorOptions
   std::string output_folder = ".";  // what visualisations and experiment functions write
   std::string hash_log;             // file for one hash a tick; empty: none
   double real_time_factor = 0;      // 0: as fast as possible
-  // Until a user resumes through a visualisation: the constructor waits for it, or throws UsageError where there is
-  // none.
-  bool paused = false;
-  std::string event_log;  // file for what users ask through visualisations; empty: none
-  std::string events;     // such a file of an earlier run, whose moves and stops are repeated
   bool visualisations = true;
-  // A checkpoint is written when this tick is reached; it must be a multiple of the experiment's canonical_period. 0:
-  // none.
-  std::uint64_t checkpoint_tick = 0;
-  std::string checkpoint_file;
+  // A checkpoint is written to the output folder every so many ticks: a multiple of the experiment's canonical_period.
+  // 0: none.
+  std::uint64_t checkpoint_every = 0;
   // The checkpoint to go on from; empty: start at tick 0.
   std::string restore_file;
   // Set from a signal handler: the run stops at the end of the tick.
@@ -58,8 +52,8 @@ struct RunSummary
 class CSimulator
 {
 public:
-  // The experiment at tick 0; it must outlive the simulator. Throws ConfigurationError, ControllerError or
-  // std::runtime_error with a text for the user; so do Step and Finish.
+  // The experiment at tick 0, or where its checkpoint is; it must outlive the simulator. Throws ConfigurationError,
+  // ControllerError or std::runtime_error with a text for the user; so do Step and Finish.
   explicit CSimulator(const Experiment& experiment, const SimulatorOptions& options = {});
   ~CSimulator();
   CSimulator(const CSimulator&) = delete;

@@ -7,6 +7,7 @@
 //   </experiment_functions>
 #pragma once
 
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -70,6 +71,12 @@ public:
   // Asked after Init and after each PostStep.
   virtual Outcome IsFinished(const SpaceEditor&) { return Outcome::kRunning; }
   virtual void Destroy(SpaceEditor&) {}
+
+  // Optional: all that the functions remember between ticks, so that a run can go on from a checkpoint. Functions that
+  // remember nothing override HasState alone; where it is left false, checkpoints of the run are refused.
+  virtual bool HasState() const { return false; }
+  virtual void SaveState(std::ostream&) const {}
+  virtual void LoadState(std::istream&) {}
 };
 
 template <>

@@ -1,6 +1,8 @@
 #include "space_server/space_server.h"
 
 #include <algorithm>
+#include <sstream>
+#include <stdexcept>
 
 namespace swarmanoid
 {
@@ -51,6 +53,38 @@ void SpaceServer::WriteSnapshot(SpaceSnapshot& snapshot) const
   snapshot.last = IsLast();
   space_.WritePoses(snapshot.poses);
   snapshot.attributes.assign(space_.Attributes().begin(), space_.Attributes().end());
+}
+
+void SpaceServer::SaveState(ByteWriter& state) const
+{
+  state.Put(last_);
+  state.Put(failed_);
+  state.PutArray(moved_);
+  for (const Functions& functions : functions_)
+  {
+    if (!functions.object->HasState())
+      throw std::runtime_error("experiment functions '" + functions.configuration->id +
+                               "' cannot be saved; they must override HasState, SaveState and LoadState");
+    std::ostringstream text;
+    functions.object->SaveState(text);
+    state.PutText(text.str());
+  }
+}
+
+void SpaceServer::LoadState(const SpaceSnapshot& snapshot, ByteReader& state)
+{
+  if (snapshot.poses.size() != 7 * space_.Movable().size() || snapshot.attributes.size() != space_.Attributes().size())
+    throw std::runtime_error("it has other entities");
+  space_.Apply(snapshot);
+  changed_slots_.clear();
+  last_ = state.Get<bool>();
+  failed_ = state.Get<bool>();
+  moved_ = state.GetArray<std::uint32_t>();
+  for (const Functions& functions : functions_)
+  {
+    std::istringstream text(state.GetText());
+    functions.object->LoadState(text);
+  }
 }
 
 void SpaceServer::Advance(std::span<const EngineUpdate* const> updates,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/serialisation/bytes.h"
 #include "common/space/assignment.h"
 #include "common/space/messages.h"
 #include "common/space/space.h"
@@ -36,6 +37,11 @@ public:
   // The entities that were put elsewhere at the current tick, ascending.
   std::span<const std::uint32_t> Moved();
   void WriteSnapshot(SpaceSnapshot& snapshot) const;
+  // What the server remembers beside the snapshot. Saving throws std::runtime_error where experiment functions cannot
+  // be saved (HasState is false).
+  void SaveState(ByteWriter& state) const;
+  // The space as in the snapshot, which must fit it; what is sent next is complete only for those who have it too.
+  void LoadState(const SpaceSnapshot& snapshot, ByteReader& state);
 
   // To the next tick: updates in engine order (all engines), commands in host order (those that report to the server).
   // An attribute set by both an engine and a host has the engine's value.

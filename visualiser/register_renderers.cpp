@@ -1,4 +1,5 @@
 #include "visualiser/image/description.h"
+#include "visualiser/opengl/description.h"
 #include "visualiser/render.h"
 #include "visualiser/renderer_library.h"
 #include "visualiser/text/text_render.h"
@@ -14,6 +15,8 @@ void RegisterBuiltinRenderers()
     PluginRegistry<CRender>& registry = PluginRegistry<CRender>::Instance();
     registry.Add(CTextRender::Description(), [] { return std::make_unique<CTextRender>(); });
     registry.Add(ImageRenderDescription(), RendererFromLibrary("image_render", "libepoxy-dev libstb-dev libegl1"));
+    registry.Add(OpenGlRenderDescription(),
+                 RendererFromLibrary("opengl_render", "libepoxy-dev libstb-dev libglfw3-dev libimgui-dev"));
     registry.Add(WebRenderDescription(), RendererFromLibrary("web_render", "nodejs npm libboost-dev"));
     return true;
   }();

@@ -21,6 +21,8 @@ void ToWire(const WorldMessage& message, wire::World& wire)
   wire.hosts(message.hosts);
   wire.spread(message.spread);
   wire.tick_seconds(message.tick_seconds);
+  wire.checkpoint_every(message.checkpoint_every);
+  wire.checkpoint().assign(message.checkpoint.begin(), message.checkpoint.end());
   wire.entities().resize(message.entities.size());
   for (std::size_t i = 0; i < message.entities.size(); ++i)
   {
@@ -45,6 +47,8 @@ void FromWire(wire::World& wire, WorldMessage& message)
   message.hosts = wire.hosts();
   message.spread = wire.spread();
   message.tick_seconds = wire.tick_seconds();
+  message.checkpoint_every = wire.checkpoint_every();
+  message.checkpoint.assign(wire.checkpoint().begin(), wire.checkpoint().end());
   message.entities.clear();
   for (wire::Entity& entity : wire.entities())
     message.entities.push_back(
@@ -119,6 +123,22 @@ void FromWire(wire::Status& wire, StatusMessage& message)
   message.tick = wire.tick();
   message.name = std::move(wire.name());
   message.text = std::move(wire.text());
+}
+
+void ToWire(const SavedStateMessage& message, wire::SavedState& wire)
+{
+  wire.run(message.run);
+  wire.tick(message.tick);
+  wire.name(message.name);
+  wire.state().assign(message.state.begin(), message.state.end());
+}
+
+void FromWire(wire::SavedState& wire, SavedStateMessage& message)
+{
+  message.run = wire.run();
+  message.tick = wire.tick();
+  message.name = std::move(wire.name());
+  message.state.assign(wire.state().begin(), wire.state().end());
 }
 
 void ToWire(const ByeMessage& message, wire::Bye& wire)

@@ -6,10 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/space/control_request.h"
 #include "common/space/messages.h"
-#include "common/space/robot_status.h"
-#include "common/space/run_status.h"
 
 namespace swarmanoid
 {
@@ -54,6 +51,8 @@ struct WorldMessage
   std::uint32_t hosts = 1;
   bool spread = false;
   double tick_seconds = 0;
+  std::uint64_t checkpoint_every = 0;
+  std::vector<char> checkpoint;
   std::vector<WorldEntity> entities;
 };
 
@@ -70,6 +69,15 @@ struct ViewMessage
 {
   std::uint64_t run = 0;
   SpaceSnapshot snapshot;
+};
+
+struct ControlRequestMessage
+{
+  std::string client;
+  std::uint32_t number = 0;
+  std::string verb;
+  std::string entity;
+  std::vector<double> numbers;
 };
 
 struct ControlReplyMessage
@@ -89,27 +97,12 @@ struct StatusMessage
   std::string text;
 };
 
-struct WishesMessage
-{
-  std::string client;
-  std::uint64_t run = 0;
-  double views = 0;
-  bool every_tick = false;
-  std::vector<std::uint32_t> robots;
-};
-
-struct RunStatusMessage
-{
-  std::uint64_t run = 0;
-  RunStatus status;
-};
-
-struct RobotStatusMessage
+struct SavedStateMessage
 {
   std::uint64_t run = 0;
   std::uint64_t tick = 0;
-  std::uint32_t source = 0;
-  std::vector<RobotStatus> robots;
+  std::string name;
+  std::vector<char> state;
 };
 
 struct ByeMessage

@@ -32,9 +32,7 @@ inline constexpr TopicQos kTopics[] = {
     {"ControlRequest", false, false, false, 16, 64},
     {"ControlReply", false, false, false, 16, 64},
     {"Status", false, false, false, 4, 64},
-    {"Wishes", false, true, true, 1, 1},
-    {"RunStatus", false, true, false, 1, 1},
-    {"RobotStatus", false, true, false, 1, 64},
+    {"SavedState", false, false, false, 64, 64},
     {"Bye", false, true, false, 16, 64},
 };
 

@@ -40,6 +40,12 @@ Replica::Replica(const WorldMessage& world, bool load_controllers)
   if (!std::equal(own.entities.begin(), own.entities.end(), world.entities.begin(), world.entities.end(), same))
     throw BusError(
         "the entities made from the experiment differ from those of the space server; use programs of one build");
+  if (!world.checkpoint.empty()) checkpoint = DecodeCheckpoint(world.checkpoint);
+}
+
+void Replica::RestoreSpace()
+{
+  if (checkpoint) space->Apply(checkpoint->snapshot);
 }
 
 WorldMessage DescribeWorld(const CSwarmanoidSpace& space, std::uint64_t run, const std::string& file, unsigned hosts)

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "common/bus/messages.h"
 #include "common/space/assignment.h"
+#include "common/space/checkpoint.h"
 #include "common/space/space.h"
 
 namespace swarmanoid
@@ -19,7 +21,20 @@ struct Replica
 
   std::unique_ptr<Experiment> experiment;
   Assignment assignment;
+  // At tick 0 until Restore is called, so that all are made alike, whether the run starts or goes on.
   std::unique_ptr<CSwarmanoidSpace> space;
+  std::optional<Checkpoint> checkpoint;  // to go on from
+  std::uint64_t FirstTick() const { return checkpoint ? checkpoint->snapshot.tick : 0; }
+
+  // Brings the space, and a role by its LoadState, to where the run goes on; does nothing where it starts.
+  template <class Role>
+  void Restore(const std::string& name, Role& role)
+  {
+    if (!checkpoint) return;
+    RestoreSpace();
+    checkpoint->LoadPart(name, [&](ByteReader& state) { role.LoadState(state); });
+  }
+  void RestoreSpace();
 };
 
 // What the space server says of its world.

@@ -7,8 +7,12 @@
 namespace swarmanoid
 {
 
-TickGate::TickGate(std::vector<Part> parts)
-    : parts_(std::move(parts)), here_(parts_.size(), 0), ahead_(parts_.size(), 0), missing_(parts_.size())
+TickGate::TickGate(std::vector<Part> parts, std::uint64_t first_tick)
+    : parts_(std::move(parts)),
+      here_(parts_.size(), 0),
+      ahead_(parts_.size(), 0),
+      missing_(parts_.size()),
+      tick_(first_tick)
 {
 }
 

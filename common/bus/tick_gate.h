@@ -26,7 +26,7 @@ public:
     bool may_lead = false;  // its sender does not wait for us: it may be one tick ahead
   };
 
-  explicit TickGate(std::vector<Part> parts);
+  explicit TickGate(std::vector<Part> parts, std::uint64_t first_tick = 0);
 
   // Throws BusError for a tick that cannot follow.
   Verdict Offer(std::size_t part, std::uint64_t tick) const;

@@ -207,7 +207,8 @@ std::vector<ElementSpec> MakeEntities()
       Entity(EntityKind::kWall, {}, "A box that never moves.", {box, friction, restitution, colour("silver")}),
   };
   ElementSpec terrain =
-      Entity(EntityKind::kTerrain, {}, "Uneven ground, from a file. Engines for flat ground refuse it.",
+      Entity(EntityKind::kTerrain, {},
+             "Uneven ground, from a file; walls for two-dimensional engines, at the height of their planes.",
              {Optional(kTree, "octomap", "", "", "An OctoMap: the occupied cells are solid."),
               Optional(kTree, "heightmap", "", "", "An image whose brightness is the height.")});
   for (ParameterSpec& parameter : terrain.parameters)

@@ -33,15 +33,18 @@ std::vector<TickGate::Part> Parts(const Experiment& experiment, const std::vecto
 }  // namespace
 
 Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
-                   const std::string& hash_log, std::function<void()> stopped)
+                   const std::string& hash_log, CheckpointDesk& checkpoints, std::function<void()> stopped)
     : session_(session),
       server_(server),
+      checkpoints_(checkpoints),
+      first_tick_(server.Space().GetTick()),
+      checkpoint_every_(session.World().checkpoint_every),
       stopped_(std::move(stopped)),
       engines_(assignment.engines.size()),
       hosts_(HostsHeard(assignment)),
       visualisers_(visualisations ? server.Space().GetExperiment().visualisations.size() : 0),
       workers_(static_cast<unsigned>(engines_ + assignment.hosts.size() + visualisers_)),
-      gate_(Parts(server.Space().GetExperiment(), hosts_, visualisers_)),
+      gate_(Parts(server.Space().GetExperiment(), hosts_, visualisers_), first_tick_),
       updates_(engines_),
       commands_(hosts_.size()),
       drawn_(visualisers_),
@@ -148,12 +151,10 @@ void Lockstep::Arrived(std::size_t part, std::uint64_t tick)
 
 void Lockstep::Complete()
 {
-  const auto terminating =
-      std::find_if(drawn_.begin(), drawn_.end(), [](const DrawnMessage& drawn) { return drawn.terminate; });
-  if (terminating != drawn_.end())
+  bool terminate = false;
+  for (const DrawnMessage& drawn : drawn_) terminate |= drawn.terminate;
+  if (terminate)
   {
-    const auto visualiser = static_cast<std::size_t>(terminating - drawn_.begin());
-    terminator_ = VisualiserName(server_.Space().GetExperiment().visualisations[visualiser]);
     // The tick that was drawn is the last one: its state goes out again, marked so.
     server_.Finish();
     Send(true);
@@ -174,6 +175,8 @@ void Lockstep::Send(bool repeated)
 {
   const SpaceState& state = server_.State();
   if (hash_log_ != nullptr && !repeated) fmt::print(hash_log_, "{} {:016x}\n", state.tick, server_.Space().Hash());
+  if (checkpoint_every_ != 0 && !repeated && state.tick > first_tick_ && state.tick % checkpoint_every_ == 0)
+    checkpoints_.Sending(server_);
   held_ = false;
   states_.Write({session_.World().run, state.tick, 0, repeated}, state);
   if (!state.last) return;
@@ -220,12 +223,6 @@ bool Lockstep::Finished() const
 {
   const std::lock_guard lock(mutex_);
   return finished_;
-}
-
-std::optional<std::string> Lockstep::Terminator() const
-{
-  const std::lock_guard lock(mutex_);
-  return terminator_;
 }
 
 std::optional<std::string> Lockstep::Failure() const

@@ -12,6 +12,7 @@
 
 #include "common/bus/server_session.h"
 #include "common/bus/tick_gate.h"
+#include "space_server/cluster/checkpoint_desk.h"
 #include "space_server/space_server.h"
 
 namespace swarmanoid
@@ -22,7 +23,7 @@ class Lockstep
 public:
   // `stopped`: called in a thread of the bus when the main thread has to act: the tick is held, or the run failed.
   Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
-           const std::string& hash_log, std::function<void()> stopped);
+           const std::string& hash_log, CheckpointDesk& checkpoints, std::function<void()> stopped);
   ~Lockstep();
 
   // Whether all workers' topics have met those of the server.
@@ -41,8 +42,6 @@ public:
   void Repeat();
   // The last state has gone out.
   bool Finished() const;
-  // The name of the visualiser that asked for the end, if one did.
-  std::optional<std::string> Terminator() const;
   std::optional<std::string> Failure() const;
   // Those whose answer to the current tick is missing.
   std::vector<std::string> Missing() const;
@@ -64,6 +63,9 @@ private:
   ServerSession& session_;
   mutable std::mutex mutex_;  // of what follows
   SpaceServer& server_;
+  CheckpointDesk& checkpoints_;
+  std::uint64_t first_tick_;
+  std::uint64_t checkpoint_every_;
   std::function<void()> stopped_;
   std::size_t engines_ = 0;
   std::vector<std::uint32_t> hosts_;  // that the server hears
@@ -79,7 +81,6 @@ private:
   bool hold_ = false;
   std::uint64_t until_ = 0;
   bool finished_ = false;
-  std::optional<std::string> terminator_;
   std::optional<std::string> failure_;
   std::FILE* hash_log_ = nullptr;
   HotPublisher<SpaceState> states_;

@@ -79,6 +79,19 @@ float SpacingOf(const Vector3& arena)
   return 100;
 }
 
+bool IsTerrain(const SceneItem& item) { return item.model >= StandardModels().size(); }
+
+// Metres between contour lines: about eight up the highest terrain.
+float ContourOf(const Scene& scene)
+{
+  float height = 0;
+  for (const SceneItem& item : scene.Items())
+    if (IsTerrain(item)) height = std::max(height, scene.Models()[item.model].box.sizes().z());
+  for (const float spacing : {0.005F, 0.01F, 0.02F, 0.05F, 0.1F, 0.2F, 0.5F, 1.0F})
+    if (height <= 9 * spacing) return spacing;
+  return 2;
+}
+
 bool IsSeeThrough(const Model& model)
 {
   const Mesh& mesh = model.levels[0];
@@ -101,7 +114,7 @@ struct GlScene::State
   GlObject light_texture{GlObject::Kind::kTexture};
 
   // Of one frame.
-  InstanceBuckets solid, patches, glass, casters;
+  InstanceBuckets solid, ground, patches, glass, casters;
   std::vector<GlLine> over, under;
   std::vector<GlGlow> soft, bright;
   std::vector<Glyph> letters;
@@ -180,7 +193,11 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   s.SetLight(body, scene, camera, sun, options);
   body.Set("u_view_projection", view.view_projection);
   body.Set("u_lights", kLightsUnit);
+  body.Set("u_contour", 0.0F);
   s.statistics.triangles += s.meshes.Draw(s.solid);
+  body.Set("u_contour", options.textures ? ContourOf(scene) : 0.0F);
+  s.statistics.triangles += s.meshes.Draw(s.ground);
+  body.Set("u_contour", 0.0F);
   s.shaders.floor.Use();
   s.SetLight(s.shaders.floor, scene, camera, sun, options);
   s.DrawFloor(scene, view, options);
@@ -233,7 +250,7 @@ void GlScene::State::Sort(const Scene& scene, const ViewVolume& view, const SunV
   const std::span<const Model> models = scene.Models();
   std::vector<char> see_through(models.size());
   for (std::size_t m = 0; m < models.size(); ++m) see_through[m] = IsSeeThrough(models[m]);
-  for (InstanceBuckets* buckets : {&solid, &patches, &glass, &casters})
+  for (InstanceBuckets* buckets : {&solid, &ground, &patches, &glass, &casters})
   {
     buckets->Resize(models.size());
     buckets->Clear();
@@ -262,14 +279,15 @@ void GlScene::State::Sort(const Scene& scene, const ViewVolume& view, const SunV
       else if (item.role == Role::kWall && options.glass_walls)
         SortWall(item, scene, view);
       else
-        solid.Add(item.model, level, InstanceOf(item));
+        (IsTerrain(item) ? ground : solid).Add(item.model, level, InstanceOf(item));
       if (item.role == Role::kBody && pixels > kMiddlePixels) AddUnderglow(item, scene);
     }
     if (!options.shadows || item.role != Role::kBody || see_through[item.model] || !sun.Holds(item.position, radius))
       continue;
     // Far away the shadow of a footbot's turret is that of the whole robot.
     const bool hidden = level == 2 && item.model == static_cast<std::uint16_t>(ModelId::kFootbotBase);
-    if (!hidden) casters.Add(item.model, std::max(level, 1), InstanceOf(item));
+    // A terrain throws shadows on itself: both have to be the same surface.
+    if (!hidden) casters.Add(item.model, IsTerrain(item) ? level : std::max(level, 1), InstanceOf(item));
   }
 }
 
@@ -282,7 +300,7 @@ void GlScene::State::SortWall(const SceneItem& item, const Scene& scene, const V
   const float height = item.scale.z();
   const float cut = hides ? kKerb : std::max(kCutHeight, kCutPart * static_cast<float>(arena.head<2>().maxCoeff()));
   if (height <= cut) return solid.Add(item.model, 0, InstanceOf(item));
-  glass.Add(item.model, 0, InstanceOf(item, hides ? 0.05F : 0.10F));
+  glass.Add(item.model, 0, InstanceOf(item, hides ? 0.04F : 0.07F));
   SceneItem kerb = item;
   kerb.scale.z() = cut;
   kerb.position += kerb.orientation * Vector3f(0, 0, (kerb.scale.z() - height) / 2);
@@ -292,7 +310,7 @@ void GlScene::State::SortWall(const SceneItem& item, const Scene& scene, const V
   const auto edge = [&](const Vector3f& from, const Vector3f& to)
   {
     under.push_back(
-        {{from.x(), from.y(), from.z()}, {to.x(), to.y(), to.z()}, {0.55F, 0.57F, 0.6F, 1}, {1, 0.35F, 0.35F}});
+        {{from.x(), from.y(), from.z()}, {to.x(), to.y(), to.z()}, {0.55F, 0.57F, 0.6F, 1}, {1, 0.25F, 0.25F}});
   };
   edge(corner(-1, -1, 1), corner(1, -1, 1));
   edge(corner(1, -1, 1), corner(1, 1, 1));
@@ -421,6 +439,9 @@ void GlScene::State::DrawFloor(const Scene& scene, const ViewVolume& view, const
   floor.Set("u_colour", Linear(palette::kFloor));
   floor.Set("u_line_colour", Linear(palette::kFloorLine));
   floor.Set("u_spacing", options.textures ? SpacingOf(scene.ArenaSize()) : 0.0F);
+  // What lies on the floor wins.
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1, 2);
   lines.DrawOne();
 
   // The ground around it, a little lower, so that bodies beyond the edge stand on something.
@@ -429,8 +450,7 @@ void GlScene::State::DrawFloor(const Scene& scene, const ViewVolume& view, const
   floor.Set("u_spacing", 0.0F);
   floor.Set("u_colour", Linear(palette::kOutside));
   floor.Set("u_rectangle", Vector4f(-reach, -reach, size.x() + reach, size.y() + reach));
-  glEnable(GL_POLYGON_OFFSET_FILL);
-  glPolygonOffset(1, 4);
+  glPolygonOffset(2, 8);
   lines.DrawOne();
   glDisable(GL_POLYGON_OFFSET_FILL);
 }

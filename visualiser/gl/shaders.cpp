@@ -97,6 +97,7 @@ in vec3 v_shadow;
 flat in vec4 v_colour;
 in float v_shade;
 flat in vec2 v_look;
+uniform float u_contour;  // m between the contour lines of a terrain, 0 for none
 out vec4 o_colour;
 
 void main()
@@ -113,6 +114,13 @@ void main()
   vec3 sky = mix(vec3(0.34, 0.33, 0.32), vec3(0.44, 0.47, 0.52), 0.5 * n.z + 0.5) * v_shade;
   vec3 light = sky + vec3(0.66, 0.62, 0.55) * max(slope, 0.0) * sun;
   vec3 colour = v_colour.rgb * light;
+  if (u_contour > 0.0)
+  {
+    float height = v_place.z / u_contour;
+    float width = fwidth(height);
+    float line = clamp(1.3 - abs(fract(height - 0.5) - 0.5) / max(width, 0.001), 0.0, 1.0) * clamp(1.5 - 4.0 * width, 0.0, 1.0);
+    colour *= 1.0 - 0.22 * line * clamp((1.0 - n.z) * 400.0, 0.0, 1.0);
+  }
   vec3 eye = normalize(u_eye - v_place);
   float shine = max(dot(n, normalize(eye + u_sun)), 0.0);
   shine *= shine; shine *= shine; shine *= shine; shine *= shine; shine *= shine;

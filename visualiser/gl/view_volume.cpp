@@ -23,7 +23,9 @@ ViewVolume::ViewVolume(const Camera& camera, int width, int height, const Vector
     farthest = std::max(farthest, depth);
   }
   const double size = (high - low).norm();
-  near = std::max({0.02, nearest * 0.9, 1e-4 * size});
+  // The ground in front of the arena too.
+  const double above = std::abs(camera.position.z() - low.z());
+  near = std::max({0.02, std::min(nearest * 0.9, above * 0.5), 1e-4 * size});
   far = 4 * farthest + 10 * size;
 
   const double aspect = static_cast<double>(width) / height;

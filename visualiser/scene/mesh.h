@@ -37,7 +37,8 @@ struct Model
 {
   std::string name;
   std::array<Mesh, kLevels> levels;
-  float radius = 0;  // of the sphere about the origin that holds it, m
+  float radius = 0;         // of the sphere about the origin that holds it, m
+  Eigen::AlignedBox3f box;  // that holds it
 };
 
 }  // namespace swarmanoid

@@ -143,11 +143,16 @@ void MeshBuilder::Extrude(std::span<const Eigen::Vector2f> outline, float low, f
   }
 }
 
-float RadiusOf(const Mesh& mesh)
+void Measure(Model& model)
 {
   float squared = 0;
-  for (const MeshVertex& vertex : mesh.vertices) squared = std::max(squared, vertex.position.squaredNorm());
-  return std::sqrt(squared);
+  for (const Mesh& mesh : model.levels)
+    for (const MeshVertex& vertex : mesh.vertices)
+    {
+      squared = std::max(squared, vertex.position.squaredNorm());
+      model.box.extend(vertex.position);
+    }
+  model.radius = std::sqrt(squared);
 }
 
 }  // namespace swarmanoid

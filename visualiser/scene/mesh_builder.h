@@ -67,6 +67,7 @@ private:
   Mesh mesh_;
 };
 
-float RadiusOf(const Mesh& mesh);
+// Sets radius and box from the levels.
+void Measure(Model& model);
 
 }  // namespace swarmanoid

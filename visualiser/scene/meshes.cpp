@@ -75,12 +75,8 @@ Model MakeModel(std::string name, Mesh (*make)(int level))
 {
   Model model;
   model.name = std::move(name);
-  for (int level = 0; level < kLevels; ++level)
-  {
-    Mesh& mesh = model.levels[static_cast<std::size_t>(level)];
-    mesh = make(level);
-    model.radius = std::max(model.radius, RadiusOf(mesh));
-  }
+  for (int level = 0; level < kLevels; ++level) model.levels[static_cast<std::size_t>(level)] = make(level);
+  Measure(model);
   return model;
 }
 

@@ -325,10 +325,14 @@ void Scene::Bounds(Vector3& low, Vector3& high) const
   for (const SceneItem& item : items_)
   {
     if (item.role != SceneItem::Role::kBody) continue;
-    const double radius = models_[item.model].radius * item.scale.maxCoeff();
-    const Vector3 position = item.position.cast<double>();
-    low = low.cwiseMin(position - Vector3::Constant(radius));
-    high = high.cwiseMax(position + Vector3::Constant(radius));
+    const Eigen::AlignedBox3f& box = models_[item.model].box;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      const Vector3f local = box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)).cwiseProduct(item.scale);
+      const Vector3 point = (item.position + item.orientation * local).cast<double>();
+      low = low.cwiseMin(point);
+      high = high.cwiseMax(point);
+    }
   }
 }
 

@@ -99,7 +99,7 @@ void Scene::AddGrips(const Body& robot)
     const std::uint32_t part = kind == EntityKind::kHandbot ? 3 + 3 * static_cast<std::uint32_t>(gripper) : 2;
     const Eigen::Vector3f from = items_[robot.first_item + part].position;
     Eigen::Vector3f to = space_.GetPose(other).position.cast<float>();
-    to.z() = from.z();
+    if (kind == EntityKind::kFootbot) to.z() = from.z();
     const Eigen::Vector3f way = to - from;
     const float reach = std::min(way.norm(), 0.035F);
     if (reach > 0) to = from + way.normalized() * reach;

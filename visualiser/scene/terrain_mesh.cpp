@@ -130,7 +130,7 @@ Model TerrainModel(const Terrain& terrain, const std::string& name)
     model.levels = {HeightMesh(*heights, 1), HeightMesh(*heights, 2), HeightMesh(*heights, 4)};
   else if (const auto* voxels = dynamic_cast<const VoxelTerrain*>(&terrain))
     model.levels.fill(VoxelMesh(*voxels));
-  model.radius = RadiusOf(model.levels[0]);
+  Measure(model);
   return model;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,6 @@ protected:
     std::string title;
     bool is_number = true;  // false: quoted in JSON
     std::function<void(const CSwarmanoidSpaceEntity& entity, std::string& line)> append;
-    bool by_default = true;  // false: written only where the parameter `columns` names it
   };
 
   // Extension points: the columns there are (asked once, by Init), and which entities get a line.
@@ -41,8 +41,6 @@ protected:
   // A number rounded to `precision` decimals, without trailing zeros.
   void AppendNumber(double value, std::string& line) const;
   const CSwarmanoidSpace& Space() const { return *space_; }
-  // nullptr where the renderer is used outside a run.
-  RunMonitor* Monitor() const { return monitor_; }
 
 private:
   enum class Format
@@ -54,16 +52,11 @@ private:
 
   void ChooseColumns(const std::string& names, const SourceLocation& location);
   void ChooseEntities(const std::string& kinds, const SourceLocation& location);
-  void WatchShownRobots();
   void AppendHeader();
-  void AppendStatus();
   void AppendLine(const CSwarmanoidSpaceEntity& entity);
   void Write();
 
   const CSwarmanoidSpace* space_ = nullptr;
-  const Assignment* assignment_ = nullptr;
-  RunMonitor* monitor_ = nullptr;
-  bool shows_status_ = false;
   std::vector<Column> columns_;
   std::vector<bool> shown_kinds_;  // by EntityKind
   Format format_ = Format::kTable;
@@ -72,7 +65,7 @@ private:
   std::string buffer_;
   int precision_ = 3;
   std::uint64_t every_ = 1;
-  std::uint64_t next_ = 0;  // tick from which a table is due
+  std::optional<std::uint64_t> period_;  // of `every_` ticks, in which the latest tick was
 };
 
 }  // namespace swarmanoid

@@ -56,6 +56,7 @@ void CWebRender::Init(const RenderSetup& setup)
   frame_period_ =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / parameters.Number("rate")));
   frame_writer_ = std::make_unique<FrameWriter>(*space_);
+  logs_ = std::make_unique<LogFollower>(setup.output_folder);
 
   WebServerSettings settings;
   settings.address = parameters.Text("address");
@@ -157,9 +158,11 @@ void CWebRender::SendWatched()
       server_->SendState(client, WebServer::Slot::kWatched, Shared(WatchedText(*space_, entities, monitor_)));
 }
 
-// What is worth a line of the log: the end, processes that are late, what users did.
+// What is worth a line of the log: what processes print, the end, who is late, what users did.
 void CWebRender::FollowStatus()
 {
+  logs_->Read([this](const std::string& process, const std::string& line)
+              { Log(space_->GetTick(), process, "info", line); });
   if (monitor_ == nullptr) return;
   const RunStatus& status = monitor_->Status();
   if (status.phase == RunStatus::Phase::kFinished && !ended_)

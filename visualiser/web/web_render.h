@@ -13,6 +13,7 @@
 
 #include "visualiser/render.h"
 #include "visualiser/web/frame.h"
+#include "visualiser/web/log_follower.h"
 #include "visualiser/web/messages.h"
 #include "visualiser/web/web_server.h"
 
@@ -66,6 +67,7 @@ private:
   double linger_s_ = -1;
   Clock::duration frame_period_{};
   std::unique_ptr<FrameWriter> frame_writer_;
+  std::unique_ptr<LogFollower> logs_;
 
   Clock::time_point frame_due_, status_due_, watched_due_, followed_due_;
   std::uint64_t shown_revision_ = 0, shown_attributes_ = 0, shown_tick_ = ~0ULL;

@@ -32,6 +32,7 @@ void CDynamics2dEngine::Init(const EngineSetup& setup)
   world_ =
       std::make_unique<Dynamics2dWorld>(WorldSettings{parameters_.velocity_iterations, parameters_.position_iterations,
                                                       parameters_.turret_torque, parameters_.grip_distance});
+  robots_.Init(setup.space, plane_, *this);
   steps_ = setup.configuration.subclock * parameters_.substeps;
   seconds_ = space_->GetTickSeconds() / steps_;
   body_of_entity_.assign(space_->Size(), kNoBody);
@@ -88,7 +89,9 @@ void CDynamics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding
     }
     case EBinding::kOwned:
     {
-      if (entity.GetKind() == EntityKind::kBlock && !ReachesPlane(entity, plane_))
+      // Where it began: an engine that is made anew in mid-run may find it lifted by a handbot.
+      if (entity.GetKind() == EntityKind::kBlock &&
+          plane_.CutBox(entity.GetConfiguration().pose, entity.GetSize()).empty())
         throw ConfigurationError(
             entity.GetConfiguration().location,
             fmt::format("the block '{}' does not reach the plane of the engine that moves it; put it on "
@@ -98,6 +101,7 @@ void CDynamics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding
       model.has_turret_motor = std::binary_search(turret_robots_.begin(), turret_robots_.end(), entity.GetIndex());
       body = world_->AddBody(std::move(model), pose);
       owned_.push_back({&entity, body, stance});
+      robots_.AddOwned(entity);
       if (entity.GetKind() != EntityKind::kFootbot) break;
       footbot_of_entity_[entity.GetIndex()] = static_cast<std::uint32_t>(footbots_.size());
       Footbot& footbot = footbots_.emplace_back();
@@ -138,6 +142,12 @@ void CDynamics2dEngine::Update(const EngineCommands& commands, EngineUpdate& upd
   ReadCommands(commands);
   FollowMirrors();
   ApplyGrippers();
+  robots_.Advance(space_->GetTickSeconds());
+  for (const std::uint32_t eyebot : robots_.Attached())
+  {
+    world_->SetDrive(BodyOf(eyebot), {});
+    world_->SetVelocity(BodyOf(eyebot), {});
+  }
   for (Footbot& footbot : footbots_)
   {
     footbot.left_arc = footbot.right_arc = 0;
@@ -146,7 +156,9 @@ void CDynamics2dEngine::Update(const EngineCommands& commands, EngineUpdate& upd
   }
   for (int step = 0; step < steps_; ++step) Step();
   WritePoses(update);
+  robots_.Raise(layout_->owned, update.poses);
   ReportAttributes(update);
+  robots_.Report(update.attributes);
   WriteSensors(sensors);
 }
 
@@ -181,6 +193,13 @@ void CDynamics2dEngine::ApplyGrippers()
     const int target = world_->FindGrippable(footbot.body);
     if (target != kNoBody) world_->Grip(footbot.body, target);
   }
+}
+
+bool CDynamics2dEngine::Hold(std::uint32_t robot, std::uint32_t object)
+{
+  if (world_->WouldClose(BodyOf(robot), BodyOf(object))) return false;
+  world_->Grip(BodyOf(robot), BodyOf(object));
+  return true;
 }
 
 void CDynamics2dEngine::Step()
@@ -222,6 +241,7 @@ void CDynamics2dEngine::EntityMoved(std::uint32_t entity)
     world_->ReleaseAllOf(owned.body);
     world_->Place(owned.body, StandingPose(*owned.entity, owned.stance));
     world_->SetVelocity(owned.body, {});
+    robots_.Moved(entity);
   }
 }
 
@@ -232,7 +252,7 @@ void CDynamics2dEngine::SetVelocity(std::uint32_t entity, const PlaneVelocity& v
 
 void CDynamics2dEngine::SaveState(ByteWriter& state) const
 {
-  constexpr std::uint32_t kVersion = 1;
+  constexpr std::uint32_t kVersion = 2;
   state.Put(kVersion);
   world_->SaveState(state);
   for (const Owned& owned : owned_)
@@ -248,11 +268,12 @@ void CDynamics2dEngine::SaveState(ByteWriter& state) const
     state.Put(static_cast<std::uint8_t>(mirror.seen ? 1 : 0));
     state.Put(mirror.previous);
   }
+  robots_.SaveState(state);
 }
 
 void CDynamics2dEngine::LoadState(ByteReader& state)
 {
-  if (state.Get<std::uint32_t>() != 1)
+  if (state.Get<std::uint32_t>() != 2)
     throw std::runtime_error("saved state of dynamics2d: it is of another version of the engine");
   world_->LoadState(state);
   for (Owned& owned : owned_)
@@ -268,6 +289,7 @@ void CDynamics2dEngine::LoadState(ByteReader& state)
     mirror.seen = state.Get<std::uint8_t>() != 0;
     mirror.previous = state.Get<PlanePose>();
   }
+  robots_.LoadState(state);
 }
 
 void CDynamics2dEngine::Canonicalise() { world_->Rebuild(); }

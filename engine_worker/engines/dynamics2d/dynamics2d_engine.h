@@ -8,12 +8,13 @@
 #include "engine_worker/engines/dynamics2d/body_models.h"
 #include "engine_worker/engines/dynamics2d/dynamics2d_parameters.h"
 #include "engine_worker/engines/dynamics2d/dynamics2d_world.h"
+#include "engine_worker/engines/plane_robots.h"
 #include "engine_worker/physics_engine.h"
 
 namespace swarmanoid
 {
 
-class CDynamics2dEngine : public CPhysicsEngine
+class CDynamics2dEngine : public CPhysicsEngine, private PlaneGrips
 {
 public:
   void Init(const EngineSetup& setup) override;
@@ -60,6 +61,10 @@ private:
     dynamics2d::PlaneVelocity velocity;  // at the start of the tick
   };
 
+  bool Hold(std::uint32_t robot, std::uint32_t object) override;
+  void LetGo(std::uint32_t robot) override { world_->Release(BodyOf(robot)); }
+  bool Holds(std::uint32_t robot) const override { return world_->GrippedBy(BodyOf(robot)) != dynamics2d::kNoBody; }
+
   int BodyOf(std::uint32_t entity) const;
   Footbot& FootbotOf(std::uint32_t entity);
   PlanePose StandingPose(const CSwarmanoidSpaceEntity& entity, PlaneStance& stance) const;
@@ -76,6 +81,7 @@ private:
   dynamics2d::Dynamics2dParameters parameters_;
   PlaneFrame plane_{PlaneAxis::kZ, 0};
   std::unique_ptr<dynamics2d::Dynamics2dWorld> world_;
+  PlaneRobots robots_;
   int steps_ = 4;       // in each tick
   double seconds_ = 0;  // of each step
   std::vector<Owned> owned_;

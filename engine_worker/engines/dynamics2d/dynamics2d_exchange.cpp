@@ -31,6 +31,7 @@ void CDynamics2dEngine::ReadCommands(const EngineCommands& commands)
   for (const ChannelBlock& block : commands.blocks)
   {
     const std::span<const double> values = commands.Of(block);
+    if (robots_.Command(block, values)) continue;
     const auto width = static_cast<std::size_t>(block.width);
     for (std::size_t i = 0; i < block.entities.size(); ++i)
     {

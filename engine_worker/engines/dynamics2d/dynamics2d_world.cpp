@@ -243,6 +243,7 @@ void Dynamics2dWorld::ApplyTurret(Body& body, double seconds)
 
 void Dynamics2dWorld::TurnGripper(Body& body)
 {
+  if (body.gripper == nullptr) return;  // what grips otherwise: a handbot
   const SinCos turret = SinCosOf(TurretAngleOf(static_cast<int>(&body - bodies_.data())));
   const auto point = [&](double forward, double left)
   { return ToUnits(turret.cos * forward - turret.sin * left, turret.sin * forward + turret.cos * left); };

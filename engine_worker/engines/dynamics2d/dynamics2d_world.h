@@ -104,6 +104,8 @@ public:
   // The nearest body that the gripper touches and may take, or kNoBody. A structure must not become a loop.
   int FindGrippable(int body) const;
   void Grip(int body, int target);
+  // True where a grip of this body on the target would make a loop.
+  bool WouldClose(int body, int target) const { return LeadsTo(target, body); }
   void Release(int body);
   void ReleaseAllOf(int body);  // with the grips of others on it
   int GrippedBy(int body) const { return bodies_[Index(body)].gripped; }

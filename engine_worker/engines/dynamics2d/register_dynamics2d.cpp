@@ -14,6 +14,7 @@ void RegisterDynamics2d()
     description.parameters = dynamics2d::Dynamics2dParameterTable();
     description.channels = {"footbot_wheels",   "footbot_gripper",       "footbot_turret",       "eyebot_propellers",
                             "footbot_encoders", "footbot_turret_torque", "footbot_accelerometer"};
+    for (std::string& channel : PlaneRobots::Channels()) description.channels.push_back(std::move(channel));
     description.entity_tags = {"footbot",    "handbot",      "eyebot",       "block", "wall",   "cylindric_prey",
                                "light_bulb", "sound_source", "ground_patch", "hole",  "terrain"};
     PluginRegistry<CPhysicsEngine>::Instance().Add(std::move(description),

@@ -32,7 +32,22 @@ void Kinematics2dEngine::ApplyCommands(const EngineCommands& commands)
     if (block.name == "eyebot_propellers") DrivePropellers(block, values);
     if (block.name == "footbot_turret") TurnTurrets(block, values);
     if (block.name == "footbot_gripper") UseGrippers(block, values);
+    robots_.Command(block, values);
   }
+  robots_.Advance(TickSeconds());
+  for (const std::uint32_t eyebot : robots_.Attached()) world_.SetTwist(BodyOf(eyebot), {});
+}
+
+bool Kinematics2dEngine::Hold(std::uint32_t robot, std::uint32_t object)
+{
+  const std::uint32_t body = BodyOf(robot);
+  const std::uint32_t held = BodyOf(object);
+  const std::vector<Grip>& grips = world_.Grips();
+  if (world_.FindGrip(held) != nullptr || world_.FindGrip(body) != nullptr ||
+      std::any_of(grips.begin(), grips.end(), [body](const Grip& grip) { return grip.prey == body; }))
+    return false;
+  world_.AddGrip(body, held);
+  return true;
 }
 
 // `sum` of a robot's values: not finite where one of them is not.

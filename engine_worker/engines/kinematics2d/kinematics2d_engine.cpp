@@ -5,6 +5,7 @@
 
 #include "common/math/elementary.h"
 #include "engine_worker/engines/plane_parameters.h"
+#include "engine_worker/engines/terrain_walls.h"
 
 namespace swarmanoid
 {
@@ -34,9 +35,10 @@ PluginDescription Describe(const std::string& label)
   description.parameters = ParameterTable();
   description.channels = {"eyebot_propellers", "footbot_encoders",      "footbot_gripper",
                           "footbot_turret",    "footbot_turret_torque", "footbot_wheels"};
+  for (std::string& channel : PlaneRobots::Channels()) description.channels.push_back(std::move(channel));
   for (const EntityKind kind : {EntityKind::kFootbot, EntityKind::kHandbot, EntityKind::kEyebot, EntityKind::kBlock,
                                 EntityKind::kCylindricPrey, EntityKind::kLightBulb, EntityKind::kSoundSource,
-                                EntityKind::kGroundPatch, EntityKind::kHole, EntityKind::kWall})
+                                EntityKind::kGroundPatch, EntityKind::kHole, EntityKind::kWall, EntityKind::kTerrain})
     description.entity_tags.emplace_back(TagName(kind));
   return description;
 }
@@ -75,6 +77,7 @@ void Kinematics2dEngine::Init(const EngineSetup& setup)
   subclock_ = std::max(setup.configuration.subclock, 1);
   frame_ = PlaneFrom(setup.parameters);
   world_ = KinematicWorld(setup.parameters.Number("elasticity"));
+  robots_.Init(setup.space, frame_, *this);
 }
 
 void Kinematics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding binding)
@@ -83,7 +86,7 @@ void Kinematics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBindin
     owned_.push_back(&entity);
   else if (binding == EBinding::kMirror)
     mirrors_.push_back({&entity, 0, 0});
-  else if (IsBlock(entity.GetKind()))
+  else if (IsBlock(entity.GetKind()) || entity.GetKind() == EntityKind::kTerrain)
     fixed_.push_back(&entity);
 }
 
@@ -98,6 +101,7 @@ void Kinematics2dEngine::Start()
   for (const CSwarmanoidSpaceEntity* entity : owned_)
   {
     // Robots and preys stand on the plane; blocks keep their height and lean.
+    robots_.AddOwned(*entity);
     const bool block = IsBlock(entity->GetKind());
     stances.push_back(block ? frame_.StanceOf(entity->GetConfiguration().pose) : PlaneStance{});
     const std::uint32_t model = model_for(*entity);
@@ -124,6 +128,13 @@ void Kinematics2dEngine::Start()
   }
   for (const CSwarmanoidSpaceEntity* entity : fixed_)
   {
+    if (entity->GetKind() == EntityKind::kTerrain)
+    {
+      for (const std::vector<Vector2>& wall :
+           TerrainWalls(entity->GetConfiguration(), space_->GetExperiment().folder, frame_))
+        world_.AddStatic(MakeModel({}, {MakePolygon(wall)}));
+      continue;
+    }
     const std::vector<Vector2> outline = frame_.CutBox(entity->GetConfiguration().pose, entity->GetSize());
     if (!outline.empty()) world_.AddStatic(MakeModel({}, {MakePolygon(outline)}));
   }
@@ -175,7 +186,9 @@ void Kinematics2dEngine::Update(const EngineCommands& commands, EngineUpdate& up
   for (Footbot& footbot : footbots_) footbot.tick_start = world_.PoseOf(footbot.body);
   world_.Advance(TickSeconds(), subclock_);
   writer_.Write(world_.Poses(), update.poses);
+  robots_.Raise(layout_->owned, update.poses);
   ReportFootbots(update.attributes);
+  robots_.Report(update.attributes);
   for (const ChannelBlock& block : layout_->sensors)
   {
     const std::span<double> values =
@@ -206,6 +219,7 @@ void Kinematics2dEngine::FollowMirrors()
 void Kinematics2dEngine::EntityMoved(std::uint32_t entity)
 {
   world_.Place(BodyOf(entity), PlanePoseOf(space_->GetPose(entity)));
+  robots_.Moved(entity);
 }
 
 std::uint32_t Kinematics2dEngine::BodyOf(std::uint32_t entity) const
@@ -218,12 +232,14 @@ void Kinematics2dEngine::SaveState(ByteWriter& state) const
 {
   world_.SaveState(state);
   for (const Footbot& footbot : footbots_) state.Put(footbot.reported);
+  robots_.SaveState(state);
 }
 
 void Kinematics2dEngine::LoadState(ByteReader& state)
 {
   world_.LoadState(state);
   for (Footbot& footbot : footbots_) footbot.now = footbot.reported = state.Get<Reported>();
+  robots_.LoadState(state);
 }
 
 std::string Kinematics2dEngine::StatusText() const

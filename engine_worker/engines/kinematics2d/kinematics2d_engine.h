@@ -7,6 +7,7 @@
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
 #include "engine_worker/engines/kinematics2d/plane_writer.h"
 #include "engine_worker/engines/plane_frame.h"
+#include "engine_worker/engines/plane_robots.h"
 #include "engine_worker/physics_engine.h"
 
 namespace swarmanoid
@@ -15,7 +16,7 @@ namespace swarmanoid
 // Adds the engine to the registry under both of its names. Idempotent.
 void RegisterKinematics2d();
 
-class Kinematics2dEngine : public CPhysicsEngine
+class Kinematics2dEngine : public CPhysicsEngine, private PlaneGrips
 {
 public:
   void Init(const EngineSetup& setup) override;
@@ -61,6 +62,10 @@ private:
   // not.
   kinematics2d::CollisionModel Outline(const CSwarmanoidSpaceEntity& block, const Pose& at) const;
 
+  bool Hold(std::uint32_t robot, std::uint32_t object) override;
+  void LetGo(std::uint32_t robot) override { world_.RemoveGrip(BodyOf(robot)); }
+  bool Holds(std::uint32_t robot) const override { return world_.FindGrip(BodyOf(robot)) != nullptr; }
+
   void FollowMirrors();
   void ApplyCommands(const EngineCommands& commands);
   void DriveWheels(const ChannelBlock& block, std::span<const double> values);
@@ -83,6 +88,7 @@ private:
   int subclock_ = 1;
   kinematics2d::KinematicWorld world_;
   PlaneWriter writer_;
+  PlaneRobots robots_;
 
   std::vector<const CSwarmanoidSpaceEntity*> owned_;  // body k is owned_[k]
   std::vector<Mirror> mirrors_;

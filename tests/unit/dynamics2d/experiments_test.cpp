@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "common/experiment/load_experiment.h"
+#include "common/space/checkpoint.h"
 #include "controller_host/device.h"
 #include "engine_worker/engine_worker.h"
 #include "launcher/single_process.h"
@@ -53,14 +54,13 @@ TEST_F(Dynamics2dExperiments, GoOnFromACheckpointWithTheSameHash)
     ASSERT_NE(experiment, nullptr) << name;
     SingleProcessOptions options;
     options.output_folder = folder_.string();
-    options.checkpoint_tick = 80;
-    options.checkpoint_file = (folder_ / "checkpoint").string();
+    options.checkpoint_every = 80;
     const RunSummary whole = RunSingleProcess(*experiment, options);
     EXPECT_EQ(whole.ticks, 120U);
 
     SingleProcessOptions restored;
     restored.output_folder = folder_.string();
-    restored.restore_file = options.checkpoint_file;
+    restored.restore_file = (folder_ / CheckpointName(80)).string();
     EXPECT_EQ(RunSingleProcess(*experiment, restored).hash, whole.hash) << name;
   }
 }

@@ -43,6 +43,17 @@ public:
     experiment_.entities.push_back(entity);
     return static_cast<std::uint32_t>(experiment_.entities.size() - 1);
   }
+  // Terrain from a map in an absolute path, at the origin.
+  void AddTerrain(const std::string& octomap)
+  {
+    auto file = std::make_shared<ConfigurationNode>();
+    file->name = "octomap";
+    file->attributes.push_back({"file", octomap, {}});
+    auto element = std::make_shared<ConfigurationNode>();
+    element->children.push_back(file);
+    experiment_.entities[Add(EntityKind::kTerrain, Vector3::Zero(), {}, Vector3::Zero(), false)].tree =
+        TConfigurationTree(element);
+  }
   std::uint32_t AddMirror(EntityKind kind, const Vector3& position)
   {
     const std::uint32_t entity = Add(kind, position);

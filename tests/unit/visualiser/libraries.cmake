@@ -1,5 +1,5 @@
 find_package(nlohmann_json REQUIRED)
-target_link_libraries(unit_visualiser PRIVATE scene nlohmann_json::nlohmann_json)
+target_link_libraries(unit_visualiser PRIVATE scene interaction nlohmann_json::nlohmann_json)
 # Where the GL renderer is not part of the build, its tests are not either.
 if(TARGET offscreen)
   target_link_libraries(unit_visualiser PRIVATE offscreen)

@@ -85,6 +85,9 @@ public:
 
   void Destroy(SpaceEditor&) override { file_.reset(); }
 
+  // All is in the space. The file of a restored run starts where the run does.
+  bool HasState() const override { return true; }
+
 private:
   double Distance(const CSwarmanoidSpaceEntity& prey) const
   {

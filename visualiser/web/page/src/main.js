@@ -63,7 +63,7 @@ const receive = {
     const selected = state.selected === null ? null : state.world.ids[state.selected];
     const camera = state.world?.experiment === message.experiment;
     const { stage } = view;
-    const place = camera ? [stage.camera.position.clone(), stage.controls.target.clone()] : null;
+    const place = camera && !stage.home ? [stage.camera.position.clone(), stage.controls.target.clone()] : null;
     state.world = new World(message);
     document.title = `${message.experiment} · Swarmanoid`;
     toolbar.setWorld(state.world);
@@ -74,6 +74,7 @@ const receive = {
       stage.camera.position.copy(place[0]);
       stage.controls.target.copy(place[1]);
       stage.controls.update();
+      stage.home = null;
     }
     for (const name of Object.keys(view.shows)) toolbar.setToggle(name, view.shows[name]);
     const again = selected === null ? -1 : state.world.find(selected);

@@ -19,7 +19,8 @@ export function setText(element, text) {
 }
 
 export function fixed(value, digits = 3) {
-  return Number.isFinite(value) ? (Math.abs(value) < 5e-7 ? 0 : value).toFixed(digits) : "–";
+  if (!Number.isFinite(value)) return "–";
+  return (Math.abs(value) < 0.5 * 10 ** -digits ? 0 : value).toFixed(digits);
 }
 
 // 12345.6 s as 3:25:45.6

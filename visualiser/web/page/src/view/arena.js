@@ -187,6 +187,12 @@ export class Arena {
         positions[3 * i + 1] = low[1] + ((row + 0.5) * (high[1] - low[1])) / rows;
         positions[3 * i + 2] = heights[i] ?? 0;
       }
+    const shade = new THREE.Color();
+    const colours = new Float32Array(3 * columns * rows);
+    for (let i = 0; i < columns * rows; i++) {
+      const share = (positions[3 * i + 2] - low[2]) / Math.max(high[2] - low[2], 1e-6);
+      shade.set(0x6d6a5c).lerp(new THREE.Color(0xc6bba2), share).toArray(colours, 3 * i);
+    }
     const indices = [];
     for (let row = 0; row + 1 < rows; row++)
       for (let column = 0; column + 1 < columns; column++) {
@@ -197,9 +203,10 @@ export class Arena {
       }
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+    geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
     geometry.setIndex(indices);
     geometry.computeVertexNormals();
-    return this.solid(geometry, 0x8d8471, { side: THREE.DoubleSide });
+    return this.solid(geometry, 0xffffff, { side: THREE.DoubleSide, vertexColors: true });
   }
 
   paint({ entities, colours, intensities }) {

@@ -69,7 +69,9 @@ export function ledMaterial(texture) {
       attribute float led;
       attribute float slot;
       varying vec4 shine;
+      varying float whole;
       void main() {
+        whole = step(${MEAN_LED}.0 - 0.5, led);
         int row = int(slot) / ${ROBOTS_A_ROW};
         int column = (int(slot) - row * ${ROBOTS_A_ROW}) * ${TEXELS} + int(led + 0.5);
         shine = texelFetch(leds, ivec2(column, row), 0);
@@ -78,8 +80,11 @@ export function ledMaterial(texture) {
     // Colours of LEDs are shown as they are written, whatever the light of the scene.
     fragmentShader: `
       varying vec4 shine;
+      varying float whole;
       void main() {
-        vec3 colour = mix(vec3(0.17, 0.19, 0.22), shine.rgb, step(0.5, shine.a));
+        // Dark LEDs; from far away they are the whole robot.
+        vec3 dark = mix(vec3(0.17, 0.19, 0.22), vec3(0.47, 0.51, 0.56), whole);
+        vec3 colour = mix(dark, shine.rgb, step(0.5, shine.a));
         gl_FragColor = vec4(colour, 1.0);
       }`,
   });

@@ -92,13 +92,13 @@ function footbot() {
     cylinder(0.02, 0.016, 0.034, 8, palette.glass, [-0.012, 0, 0.11]),
   ]);
   const far = mergeGeometries([
-    cylinder(0.08, 0.08, 0.115, 7, palette.light, [0, 0, 0]),
+    cylinder(0.08, 0.08, 0.115, 7, palette.metal, [0, 0, 0]),
     box(0.07, 0.03, 0.01, palette.accent, [0.05, 0, 0.118]),
   ]);
   return [
     { body: near, leds: lamps(12, 0.072, 0.0855, 0.0615, 0.0745, 0.22, fifteenDegrees), pixels: 44 },
     { body: middle, leds: lamps(12, 0.07, 0.0855, 0.055, 0.0765, 0.12, fifteenDegrees), pixels: 13 },
-    { body: far, leds: lamps(7, 0.045, 0.088, 0.05, 0.119, 0, 0, meanLed), pixels: 0 },
+    { body: far, leds: lamps(7, 0, 0.088, 0.05, 0.119, 0, 0, meanLed), pixels: 0 },
   ];
 }
 

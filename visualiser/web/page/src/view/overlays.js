@@ -1,5 +1,6 @@
 // What is drawn over the robots: laser beams, grips, the ring about the selected one, trails and names.
 import * as THREE from "three";
+import { Flag } from "../protocol.js";
 import { extentOf } from "./models.js";
 
 const BEAMS = 256;
@@ -50,7 +51,7 @@ export class Beams {
   }
 }
 
-// A line from each robot to what it holds.
+// A line from each robot to what it holds, and to the ceiling where it is attached there.
 export class Grips {
   constructor(scene, world) {
     this.world = world;
@@ -60,13 +61,19 @@ export class Grips {
     );
     this.lines.frustumCulled = false;
     this.lines.renderOrder = 4;
+    this.hangers = world.robots.filter((entity) => world.kinds[entity] !== "footbot");
+    this.on = true;
     scene.add(this.lines);
   }
 
   update(frame, motion) {
-    this.lines.visible = frame.grips.length > 0;
-    if (!this.lines.visible) return;
     const points = [];
+    for (const entity of this.hangers) {
+      const slot = this.world.slots[entity];
+      if (!(frame.colours[4 * slot + 3] & Flag.attached)) continue;
+      const [x, y, z] = motion.positions.subarray(3 * slot, 3 * slot + 3);
+      points.push(x, y, z + extentOf(this.world, entity).height, x, y, this.world.arena[2]);
+    }
     for (const { robot, held } of frame.grips) {
       for (const entity of [robot, held]) {
         const slot = this.world.slots[entity];
@@ -74,6 +81,8 @@ export class Grips {
         points.push(place[0], place[1], place[2] + extentOf(this.world, entity).height * 0.7);
       }
     }
+    this.lines.visible = this.on && points.length > 0;
+    if (points.length === 0) return;
     this.lines.geometry.dispose();
     this.lines.geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
   }
@@ -83,7 +92,7 @@ export class Grips {
 export class SelectionRing {
   constructor(scene) {
     this.mesh = new THREE.Mesh(
-      new THREE.RingGeometry(1.25, 1.42, 64),
+      new THREE.RingGeometry(1.25, 1.36, 64),
       new THREE.MeshBasicMaterial({ color: 0x3d8bfd, transparent: true, opacity: 0.95, side: THREE.DoubleSide, depthWrite: false }),
     );
     this.heading = new THREE.Mesh(
@@ -118,7 +127,7 @@ export class Trails {
     for (let i = 0; i < born.length; i++) born[i] = Math.floor(i / (2 * count));
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", this.positions);
-    geometry.setAttribute("sample", new THREE.BufferAttribute(born, 1));
+    geometry.setAttribute("born", new THREE.BufferAttribute(born, 1));
     this.material = new THREE.ShaderMaterial({
       transparent: true,
       depthWrite: false,
@@ -128,17 +137,17 @@ export class Trails {
         colour: { value: new THREE.Color(0x3d8bfd) },
       },
       vertexShader: `
-        attribute float sample;
+        attribute float born;
         uniform float head, samples;
         varying float strength;
         void main() {
-          strength = 1.0 - mod(head - sample + samples, samples) / samples;
+          strength = 1.0 - mod(head - born + samples, samples) / samples;
           gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
         }`,
       fragmentShader: `
         uniform vec3 colour;
         varying float strength;
-        void main() { gl_FragColor = vec4(colour, 0.85 * strength); }`,
+        void main() { gl_FragColor = vec4(colour, sqrt(strength)); }`,
     });
     this.lines = new THREE.LineSegments(geometry, this.material);
     this.lines.frustumCulled = false;

@@ -4,7 +4,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 const themes = {
   light: { background: 0xe9edf2, sky: 0xffffff, ground: 0xb9c0c9, sun: 2.1, hemisphere: 1.55, floor: 0xf7f8fa, line: 0xcfd6de, rim: 0x9aa5b1 },
-  dark: { background: 0x11161d, sky: 0xdfe9f5, ground: 0x2b323c, sun: 1.9, hemisphere: 1.15, floor: 0x2a313b, line: 0x39424e, rim: 0x566170 },
+  dark: { background: 0x11161d, sky: 0xdfe9f5, ground: 0x2b323c, sun: 1.9, hemisphere: 1.35, floor: 0x3a444f, line: 0x4c5763, rim: 0x687482 },
 };
 
 export class Stage {
@@ -25,6 +25,7 @@ export class Stage {
     this.controls.maxPolarAngle = Math.PI * 0.495;
     this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", () => this.invalidate());
+    this.controls.addEventListener("start", () => (this.home = null));
     this.controls.listenToKeyEvents(window);
     this.controls.keyPanSpeed = 20;
 
@@ -40,6 +41,7 @@ export class Stage {
     const dark = window.matchMedia("(prefers-color-scheme: dark)");
     dark.addEventListener("change", () => this.applyTheme(dark.matches));
     this.applyTheme(dark.matches);
+    this.home = null;
     new ResizeObserver(() => this.resize()).observe(container);
     this.resize();
   }
@@ -61,7 +63,7 @@ export class Stage {
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    this.onResize?.(width, height);
+    if (this.home) this.frameArena(...this.home);
     this.invalidate();
   }
 
@@ -75,7 +77,8 @@ export class Stage {
   }
 
   // The whole arena in view. how: "oblique" or "top".
-  frameArena([width, depth, height], how = "oblique") {
+  frameArena(arena, how = "oblique") {
+    const [width, depth, height] = arena;
     this.extent = Math.max(width, depth, 1);
     const { camera } = this;
     const direction = how === "top" ? new THREE.Vector3(0, -0.001, 1) : new THREE.Vector3(0.1, -0.8, 0.8);
@@ -105,11 +108,13 @@ export class Stage {
     this.controls.maxDistance = this.extent * 6 + 10;
     this.controls.minDistance = 0.15;
     this.controls.update();
+    this.home = [arena, how]; // until the user moves the camera
     this.invalidate();
   }
 
   // Moves camera and target to look at a point from near by.
   approach(point, distance) {
+    this.home = null;
     const direction = this.camera.position.clone().sub(this.controls.target).normalize();
     if (direction.z < 0.35) direction.setZ(0.35).normalize();
     this.controls.target.copy(point);
@@ -119,6 +124,7 @@ export class Stage {
   }
 
   shift(delta) {
+    this.home = null;
     this.controls.target.add(delta);
     this.camera.position.add(delta);
     this.invalidate();

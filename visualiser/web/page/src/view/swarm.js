@@ -4,6 +4,10 @@ import * as THREE from "three";
 import { extentOf, makeModels } from "./models.js";
 import { LedTexture, ledMaterial } from "./leds.js";
 
+// Robots are never drawn smaller than this: those of a large arena would vanish between the pixels.
+const LEAST_PIXELS = 3.4;
+const LARGEST_SCALE = 8;
+
 // One geometry drawn many times; bodies and LEDs share the matrices.
 class Layer {
   constructor(group, level, materials, capacity) {
@@ -28,8 +32,8 @@ class Layer {
     this.count = 0;
   }
 
-  add(slot, p, q) {
-    writeMatrix(this.matrices, 16 * this.count, p, 3 * slot, q, 4 * slot, 1, 1, 1);
+  add(slot, p, q, scale) {
+    writeMatrix(this.matrices, 16 * this.count, p, 3 * slot, q, 4 * slot, scale, scale, scale);
     if (this.slots) this.slots.array[this.count] = slot;
     this.count++;
   }
@@ -174,6 +178,7 @@ export class Swarm {
     for (const { slots, layers, diameter } of this.herds) {
       for (const layer of layers) layer.count = 0;
       const limits = layers.map((layer) => (layer.pixels > 0 ? ((diameter * pixelsPerRadian) / layer.pixels) ** 2 : Infinity));
+      const enlarge = LEAST_PIXELS / (diameter * pixelsPerRadian);
       for (const slot of slots) {
         const [x, y, z] = [p[3 * slot], p[3 * slot + 1], p[3 * slot + 2]];
         let hidden = false;
@@ -185,7 +190,8 @@ export class Swarm {
         const distance = (x - eye.x) ** 2 + (y - eye.y) ** 2 + (z - eye.z) ** 2;
         let level = 0;
         while (distance > limits[level]) level++;
-        layers[level].add(slot, p, q);
+        const scale = Math.min(Math.max(1, Math.sqrt(distance) * enlarge), LARGEST_SCALE);
+        layers[level].add(slot, p, q, scale);
       }
       for (const layer of layers) layer.finish();
     }

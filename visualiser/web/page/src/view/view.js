@@ -9,6 +9,7 @@ import { Stage } from "./stage.js";
 import { Swarm } from "./swarm.js";
 
 const SHADOWS_UP_TO = 2500; // robots
+const RING_PIXELS = 7; // least radius of the ring about the selected entity
 
 export class View {
   // actions: select(entity), approach(entity), move(entity, point)
@@ -64,7 +65,8 @@ export class View {
     if (name === "trails") this.trails.visible = on;
     if (name === "beams") {
       this.beams.group.visible = on;
-      this.grips.lines.visible = on;
+      this.grips.on = on;
+      this.grips.lines.visible &&= on;
     }
     if (name === "shadows") {
       this.stage.castsShadows = on && this.quality !== "low";
@@ -104,7 +106,7 @@ export class View {
     const place = this.placeOf(entity);
     if (!place) return;
     const { radius, height } = extentOf(this.world, entity);
-    this.stage.approach(new THREE.Vector3(place[0], place[1], place[2] + height / 2), Math.max(6 * radius, 1));
+    this.stage.approach(new THREE.Vector3(place[0], place[1], place[2] + height / 2), Math.max(9 * radius, 1));
     if (this.followed === entity) this.follow(entity);
   }
 
@@ -121,7 +123,7 @@ export class View {
     if (!moved && !this.stage.stale) return false;
     this.stage.camera.updateMatrixWorld();
     this.swarm.place(this.motion, this.stage.camera, this.stage.pixelsPerRadian);
-    if (this.motion.frame && this.shows.beams) {
+    if (this.motion.frame) {
       this.beams.update(this.motion.frame, this.motion);
       this.grips.update(this.motion.frame, this.motion);
     }
@@ -135,7 +137,9 @@ export class View {
     const place = this.selected === null ? null : this.placeOf(this.selected);
     if (!place) return this.ring.update(null);
     const slot = this.world.slots[this.selected];
-    this.ring.update(place, slot >= 0 ? this.motion.yaw(slot) : 0, extentOf(this.world, this.selected).radius);
+    const distance = this.stage.camera.position.distanceTo(new THREE.Vector3(...place));
+    const least = (RING_PIXELS * distance) / this.stage.pixelsPerRadian;
+    this.ring.update(place, slot >= 0 ? this.motion.yaw(slot) : 0, Math.max(extentOf(this.world, this.selected).radius, least));
   }
 
   // Where an entity is in the picture, in CSS pixels of the page.

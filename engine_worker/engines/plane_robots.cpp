@@ -1,0 +1,321 @@
+#include "engine_worker/engines/plane_robots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "common/math/elementary.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using S = PlaneHandbot;
+
+constexpr double kGravity = 9.81;      // m/s2
+constexpr double kMagnetReach = 0.03;  // m, as in dynamics3d
+
+// From a point to a body, m; 0 inside.
+double DistanceTo(const Shape& shape, const Pose& pose, const Vector3& point)
+{
+  const Vector3 local = pose.orientation.conjugate() * (point - pose.position) - shape.centre;
+  Vector3 outside = (local.cwiseAbs() - shape.half_size).cwiseMax(0);
+  if (shape.kind == Shape::Kind::kCylinder)
+  {
+    const double from_axis = std::sqrt(local.x() * local.x() + local.y() * local.y());
+    outside = {std::max(from_axis - shape.half_size.x(), 0.0), 0, outside.z()};
+  }
+  return std::sqrt(outside.squaredNorm());
+}
+
+template <class Robot>
+Robot& Find(std::vector<Robot>& robots, std::uint32_t entity)
+{
+  return *std::lower_bound(robots.begin(), robots.end(), entity,
+                           [](const Robot& robot, std::uint32_t e) { return robot.entity < e; });
+}
+
+}  // namespace
+
+void PlaneRobots::Init(const CSwarmanoidSpace& space, const PlaneFrame& frame, PlaneGrips& grips)
+{
+  space_ = &space;
+  grips_ = &grips;
+  up_ = frame.Frame().orientation * Vector3::UnitZ();
+  // A plane that leans, or stands upright, has no ceiling.
+  if (up_.z() > 1 - 1e-12) ceiling_ = std::max(space.GetExperiment().arena_size.z() - frame.Frame().position.z(), 0.0);
+}
+
+void PlaneRobots::AddOwned(const CSwarmanoidSpaceEntity& entity)
+{
+  const std::uint32_t index = entity.GetIndex();
+  switch (entity.GetKind())
+  {
+    case EntityKind::kHandbot:
+    {
+      Handbot handbot;
+      handbot.entity = index;
+      handbots_.push_back(handbot);
+      raised_.push_back({index, 0, 0, 0, 0});
+      break;
+    }
+    case EntityKind::kEyebot:
+      eyebots_.push_back({index, false});
+      break;
+    case EntityKind::kBlock:
+    case EntityKind::kCylindricPrey:
+      objects_.push_back(index);
+      raised_.push_back({index, 0, 0, 0, 0});
+      break;
+    default:
+      break;
+  }
+}
+
+PlaneRobots::Handbot& PlaneRobots::HandbotOf(std::uint32_t entity) { return Find(handbots_, entity); }
+PlaneRobots::Raised& PlaneRobots::RaisedOf(std::uint32_t entity) { return Find(raised_, entity); }
+
+bool PlaneRobots::Command(const ChannelBlock& block, std::span<const double> values)
+{
+  const bool arms = block.name == "handbot_arms";
+  const bool hands = block.name == "handbot_hands";
+  const bool rope = block.name == "handbot_rope";
+  if (!arms && !hands && !rope && block.name != "eyebot_attach") return false;
+  const auto width = static_cast<std::size_t>(block.width);
+  for (std::size_t k = 0; k < block.entities.size(); ++k)
+  {
+    const std::uint32_t entity = block.entities[k];
+    const double* const value = &values[k * width];
+    if (!std::all_of(value, value + width, [](double v) { return std::isfinite(v); }))
+      throw std::runtime_error("robot '" + space_->GetEntity(entity).GetId() + "' gave " + block.name +
+                               " a value that is not a finite number");
+    if (arms) std::copy_n(value, 5, HandbotOf(entity).rates);
+    if (hands)
+    {
+      Handbot& handbot = HandbotOf(entity);
+      handbot.has_hands = true;
+      for (std::size_t hand = 0; hand < 2; ++hand) handbot.close[hand] = value[hand] > 0.5;
+    }
+    if (rope)
+    {
+      HandbotOf(entity).launch = value[0] > 0.5;
+      HandbotOf(entity).winch = std::clamp(value[1], -S::kWinchSpeed, S::kWinchSpeed);
+    }
+    if (!arms && !hands && !rope) Find(eyebots_, entity).attach = value[0] > 0.5;
+  }
+  return true;
+}
+
+void PlaneRobots::Advance(double seconds)
+{
+  attached_.clear();
+  for (const Eyebot& eyebot : eyebots_)
+    if (eyebot.attach && ceiling_ > 0 && space_->GetEntity(eyebot.entity).GetSize().z() + kMagnetReach >= ceiling_)
+      attached_.push_back(eyebot.entity);
+  // First all that let go, then all that take hold, in entity order.
+  for (Handbot& handbot : handbots_)
+    for (std::size_t hand = 0; hand < 2; ++hand)
+      if (!handbot.close[hand] || !grips_->Holds(handbot.entity)) Release(handbot, hand);
+  for (Handbot& handbot : handbots_)
+  {
+    UseHands(handbot);
+    TurnJoints(handbot, seconds);
+    UseRope(handbot, seconds);
+  }
+  if (handbots_.empty()) return;
+  for (Raised& raised : raised_)
+  {
+    if (raised.bearer != 0)
+    {
+      raised.height = std::max(RaisedOf(raised.bearer - 1).height + raised.above_bearer, 0.0);
+      continue;
+    }
+    const auto hangs = std::find_if(handbots_.begin(), handbots_.end(),
+                                    [&](const Handbot& h) { return h.entity == raised.entity && h.is_hanging; });
+    if (hangs != handbots_.end() || raised.height == 0) continue;
+    raised.height = std::max(raised.height - (raised.fall + kGravity * seconds / 2) * seconds, 0.0);
+    raised.fall = raised.height > 0 ? raised.fall + kGravity * seconds : 0;
+  }
+}
+
+void PlaneRobots::Release(Handbot& handbot, std::size_t hand)
+{
+  const std::uint32_t held = handbot.held[hand];
+  if (held == 0) return;
+  handbot.held[hand] = 0;
+  if (handbot.held[1 - hand] == held) return;
+  if (grips_->Holds(handbot.entity)) grips_->LetGo(handbot.entity);
+  RaisedOf(held - 1).bearer = 0;
+}
+
+void PlaneRobots::UseHands(Handbot& handbot)
+{
+  for (std::size_t hand = 0; hand < 2; ++hand)
+  {
+    if (!handbot.close[hand] || handbot.held[hand] != 0) continue;
+    const std::uint32_t object = ObjectAt(handbot, hand);
+    if (object == 0) continue;
+    const std::uint32_t other = handbot.held[1 - hand];
+    if (other != 0 && other != object) continue;
+    Raised& raised = RaisedOf(object - 1);
+    if (other == 0 && (raised.bearer != 0 || !grips_->Hold(handbot.entity, object - 1))) continue;
+    handbot.held[hand] = object;
+    raised.bearer = handbot.entity + 1;
+    raised.fall = 0;
+    raised.above_bearer = raised.height - RaisedOf(handbot.entity).height;
+  }
+}
+
+// 1 + the nearest object within the reach of a hand, 0 where there is none. The head rolls about its forward axis and
+// bears both arms; an arm's aperture opens it outwards.
+std::uint32_t PlaneRobots::ObjectAt(const Handbot& handbot, std::size_t hand) const
+{
+  const double side = hand == 0 ? 1 : -1;
+  const SinCos arm = SinCosOf(handbot.arm[hand]);
+  const SinCos head = SinCosOf(handbot.head);
+  const double beside = side * (S::kShoulder + S::kArmLength * arm.sin);
+  const Vector3 tip(S::kHeadForward + S::kArmLength * arm.cos, beside * head.cos, S::kHeadHeight + beside * head.sin);
+  const Vector3 place = space_->GetPose(handbot.entity).Apply(tip);
+  double nearest = S::kReach;
+  std::uint32_t found = 0;
+  for (const std::uint32_t object : objects_)
+  {
+    const double distance =
+        DistanceTo(ShapeOf(space_->GetEntity(object).GetConfiguration()), space_->GetPose(object), place);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    found = object + 1;
+  }
+  return found;
+}
+
+void PlaneRobots::TurnJoints(Handbot& handbot, double seconds) const
+{
+  handbot.head = WrapAngle(handbot.head + handbot.rates[0] * seconds);
+  for (std::size_t k = 0; k < 2; ++k)
+  {
+    handbot.arm[k] = std::clamp(handbot.arm[k] + handbot.rates[1 + k] * seconds, 0.0, S::kWidestArm);
+    handbot.wrist[k] = std::clamp(handbot.wrist[k] + handbot.rates[3 + k] * seconds, 0.0, S::kWidestWrist);
+    if (!handbot.has_hands || handbot.held[k] != 0) continue;
+    const double turn = (handbot.close[k] ? -1 : 1) * S::kHandSpeed * seconds;
+    handbot.aperture[k] = std::clamp(handbot.aperture[k] + turn, 0.0, S::kWidestHand);
+  }
+}
+
+void PlaneRobots::UseRope(Handbot& handbot, double seconds)
+{
+  Raised& raised = RaisedOf(handbot.entity);
+  if (!handbot.launch)
+  {
+    handbot.is_hanging = false;
+    handbot.rope = 0;
+    return;
+  }
+  if (!handbot.is_hanging)
+  {
+    const double distance = ceiling_ - raised.height - S::kHeight;
+    if (ceiling_ == 0 || distance < 0 || distance > S::kLongestRope) return;
+    handbot.is_hanging = true;
+    handbot.rope = distance;
+    raised.fall = 0;
+  }
+  handbot.rope = std::clamp(handbot.rope + handbot.winch * seconds, S::kShortestRope, S::kLongestRope);
+  // A slack rope lets the robot stand.
+  raised.height = std::max(ceiling_ - S::kHeight - handbot.rope, 0.0);
+}
+
+void PlaneRobots::Moved(std::uint32_t entity)
+{
+  for (Handbot& handbot : handbots_)
+  {
+    const bool is_it = handbot.entity == entity;
+    for (std::uint32_t& held : handbot.held)
+    {
+      if (held == 0 || (!is_it && held != entity + 1)) continue;
+      RaisedOf(held - 1).bearer = 0;
+      held = 0;
+    }
+    if (is_it) handbot.is_hanging = false;
+  }
+  for (Raised& raised : raised_)
+    if (raised.entity == entity) raised = {entity, 0, 0, 0, 0};
+}
+
+void PlaneRobots::Raise(std::span<const std::uint32_t> owned, std::span<double> poses) const
+{
+  for (const Raised& raised : raised_)
+  {
+    if (raised.height == 0) continue;
+    const auto at = std::lower_bound(owned.begin(), owned.end(), raised.entity) - owned.begin();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      poses[axis * owned.size() + static_cast<std::size_t>(at)] += raised.height * up_[static_cast<int>(axis)];
+  }
+}
+
+void PlaneRobots::Report(AttributeChanges& changes) const
+{
+  const std::span<const double> known = space_->Attributes();
+  const auto report = [&](std::uint32_t slot, double value)
+  {
+    if (known[slot] != value) changes.Add(slot, value);
+  };
+  for (const Eyebot& eyebot : eyebots_)
+    report(space_->GetEntity(eyebot.entity).SlotOf("attached"),
+           std::binary_search(attached_.begin(), attached_.end(), eyebot.entity) ? 1 : 0);
+  for (const Handbot& handbot : handbots_)
+  {
+    const CSwarmanoidSpaceEntity& entity = space_->GetEntity(handbot.entity);
+    report(entity.SlotOf("head_angle"), handbot.head);
+    for (int k = 0; k < 2; ++k)
+    {
+      report(entity.SlotOf("arm", k), handbot.arm[k]);
+      report(entity.SlotOf("wrist", k), handbot.wrist[k]);
+      report(entity.SlotOf("hand_aperture", k), handbot.aperture[k]);
+      report(entity.SlotOf("gripped", k), handbot.held[k]);
+    }
+    report(entity.SlotOf("rope_attached"), handbot.is_hanging ? 1 : 0);
+    report(entity.SlotOf("rope_length"), handbot.rope);
+  }
+}
+
+// Without the commands, which come anew each tick.
+void PlaneRobots::SaveState(ByteWriter& state) const
+{
+  for (const Handbot& handbot : handbots_)
+  {
+    for (const double value : {handbot.head, handbot.arm[0], handbot.arm[1], handbot.wrist[0], handbot.wrist[1],
+                               handbot.aperture[0], handbot.aperture[1], handbot.rope})
+      state.Put(value);
+    for (const std::uint32_t held : handbot.held) state.Put(held);
+    state.Put(handbot.is_hanging);
+  }
+  for (const Raised& raised : raised_)
+  {
+    state.Put(raised.height);
+    state.Put(raised.fall);
+    state.Put(raised.bearer);
+    state.Put(raised.above_bearer);
+  }
+}
+
+void PlaneRobots::LoadState(ByteReader& state)
+{
+  for (Handbot& handbot : handbots_)
+  {
+    for (double* const value : {&handbot.head, &handbot.arm[0], &handbot.arm[1], &handbot.wrist[0], &handbot.wrist[1],
+                                &handbot.aperture[0], &handbot.aperture[1], &handbot.rope})
+      *value = state.Get<double>();
+    for (std::uint32_t& held : handbot.held) held = state.Get<std::uint32_t>();
+    handbot.is_hanging = state.Get<bool>();
+  }
+  for (Raised& raised : raised_)
+  {
+    raised.height = state.Get<double>();
+    raised.fall = state.Get<double>();
+    raised.bearer = state.Get<std::uint32_t>();
+    raised.above_bearer = state.Get<double>();
+  }
+}
+
+}  // namespace swarmanoid

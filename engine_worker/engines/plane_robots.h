@@ -1,0 +1,134 @@
+// What robots on a plane do beside driving on it: the handbot's head, arms, wrists, hands and rope, and the eyebot's
+// magnet, as kinematic models. Shared by kinematics2d and dynamics2d, in their engine's thread.
+//
+// Joints turn at the speeds that they are told, within their ranges. A hand that closes takes the nearest block or prey
+// of the engine within its reach in the space; hand and object then are one rigid whole on the plane, and a handbot
+// holds one object at a time, with one hand or both. The rope goes straight up to the ceiling; its winch sets the
+// height of the robot above the plane, and of what it holds. What is let go in the air falls freely. Collisions are
+// those of the plane at any height.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "common/serialisation/bytes.h"
+#include "common/space/assignment.h"
+#include "common/space/messages.h"
+#include "common/space/shape.h"
+#include "common/space/space.h"
+#include "engine_worker/engines/plane_frame.h"
+
+namespace swarmanoid
+{
+
+// Metres, radians and seconds; as HandbotShape of dynamics3d where both have it.
+struct PlaneHandbot
+{
+  static constexpr double kHeadForward = 0.06;
+  static constexpr double kHeadHeight = 0.10;
+  static constexpr double kShoulder = 0.05;
+  static constexpr double kArmLength = 0.196;
+  static constexpr double kWidestArm = 1.0472;
+  static constexpr double kWidestWrist = 1.5708;
+  static constexpr double kWidestHand = 3.1416;
+  static constexpr double kHandSpeed = 3;
+  static constexpr double kReach = 0.03;  // from the tip of a hand to what it can take
+  static constexpr double kHeight = 0.16;
+  static constexpr double kLongestRope = 5;
+  static constexpr double kShortestRope = 0.05;
+  static constexpr double kWinchSpeed = 0.15;
+};
+
+// What the model asks of its engine.
+class PlaneGrips
+{
+public:
+  virtual ~PlaneGrips() = default;
+  // Makes robot and object one rigid whole. False where the object may not be held: it would close a loop.
+  virtual bool Hold(std::uint32_t robot, std::uint32_t object) = 0;
+  virtual void LetGo(std::uint32_t robot) = 0;
+  virtual bool Holds(std::uint32_t robot) const = 0;
+};
+
+class PlaneRobots
+{
+public:
+  // The names of the channels that it serves.
+  static std::vector<std::string> Channels()
+  {
+    return {"eyebot_attach", "handbot_arms", "handbot_hands", "handbot_rope"};
+  }
+
+  // The references outlive it. Entities that the engine moves, in entity order.
+  void Init(const CSwarmanoidSpace& space, const PlaneFrame& frame, PlaneGrips& grips);
+  void AddOwned(const CSwarmanoidSpaceEntity& entity);
+
+  // True for a channel of this model. Throws std::runtime_error for values that are not finite.
+  bool Command(const ChannelBlock& block, std::span<const double> values);
+  // Before the plane's motion: hands and ropes take hold and let go; then all joints and heights at the end of the
+  // tick.
+  void Advance(double seconds);
+  // Eyebots that hang on the ceiling, and do not move.
+  const std::vector<std::uint32_t>& Attached() const { return attached_; }
+  // Somebody put an entity elsewhere: it lets go of everything.
+  void Moved(std::uint32_t entity);
+
+  // Raises poses (EngineUpdate::poses, of `owned`) by the heights of their entities above where they stand.
+  void Raise(std::span<const std::uint32_t> owned, std::span<double> poses) const;
+  void Report(AttributeChanges& changes) const;
+
+  void SaveState(ByteWriter& state) const;
+  void LoadState(ByteReader& state);
+
+private:
+  struct Handbot
+  {
+    std::uint32_t entity = 0;
+    double rates[5] = {};  // commands, rad/s: head, arms, wrists
+    bool close[2] = {};
+    bool has_hands = false;  // somebody commands them
+    bool launch = false;
+    double winch = 0;  // m/s
+
+    double head = 0, arm[2] = {}, wrist[2] = {}, aperture[2] = {};  // rad
+    std::uint32_t held[2] = {};                                     // 1 + entity, 0: none
+    bool is_hanging = false;
+    double rope = 0;  // m
+  };
+  struct Eyebot
+  {
+    std::uint32_t entity = 0;
+    bool attach = false;
+  };
+  // An entity that can be in the air.
+  struct Raised
+  {
+    std::uint32_t entity = 0;
+    double height = 0;         // m, above where it stands on the plane
+    double fall = 0;           // m/s
+    std::uint32_t bearer = 0;  // 1 + the handbot that holds it, 0: none
+    double above_bearer = 0;   // m
+  };
+
+  Handbot& HandbotOf(std::uint32_t entity);
+  Raised& RaisedOf(std::uint32_t entity);
+  void UseHands(Handbot& handbot);
+  void Release(Handbot& handbot, std::size_t hand);
+  std::uint32_t ObjectAt(const Handbot& handbot, std::size_t hand) const;
+  void UseRope(Handbot& handbot, double seconds);
+  void TurnJoints(Handbot& handbot, double seconds) const;
+
+  const CSwarmanoidSpace* space_ = nullptr;
+  PlaneGrips* grips_ = nullptr;
+  Vector3 up_ = Vector3::UnitZ();
+  double ceiling_ = 0;  // m above the plane; 0: none
+  std::vector<Handbot> handbots_;
+  std::vector<Eyebot> eyebots_;
+  std::vector<std::uint32_t> attached_;
+  std::vector<Raised> raised_;  // handbots, blocks and preys, by entity; none where there is no handbot
+  std::vector<std::uint32_t> objects_;
+};
+
+}  // namespace swarmanoid

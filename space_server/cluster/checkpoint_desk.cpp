@@ -1,0 +1,80 @@
+#include "space_server/cluster/checkpoint_desk.h"
+
+#include <algorithm>
+
+namespace swarmanoid
+{
+
+CheckpointDesk::CheckpointDesk(ServerSession& session, const Experiment& experiment, std::vector<std::string> parts,
+                               const std::string& folder, std::function<void()> changed)
+    : every_(session.World().checkpoint_every),
+      run_(session.World().run),
+      experiment_(FingerprintOf(experiment)),
+      parts_(std::move(parts)),
+      folder_(folder),
+      changed_(std::move(changed))
+{
+  if (every_ == 0) return;
+  states_in_ = std::make_unique<Subscription<SavedStateMessage>>(
+      session.GetBus(), session.World().experiment, [this](const SavedStateMessage& message) { Arrived(message); });
+}
+
+void CheckpointDesk::Sending(const SpaceServer& server)
+{
+  SpaceSnapshot snapshot;
+  server.WriteSnapshot(snapshot);
+  ByteWriter state;
+  server.SaveState(state);
+  const std::lock_guard lock(mutex_);
+  Checkpoint& checkpoint = unfinished_[snapshot.tick];
+  checkpoint.experiment = experiment_;
+  checkpoint.snapshot = std::move(snapshot);
+  checkpoint.parts.push_back({kServerPart, state.Bytes()});
+  if (IsComplete(checkpoint)) changed_();
+}
+
+void CheckpointDesk::Arrived(const SavedStateMessage& message)
+{
+  if (message.run != run_) return;
+  const std::lock_guard lock(mutex_);
+  Checkpoint& checkpoint = unfinished_[message.tick];
+  checkpoint.parts.push_back({message.name, message.state});
+  if (IsComplete(checkpoint)) changed_();
+}
+
+bool CheckpointDesk::IsComplete(const Checkpoint& checkpoint) const
+{
+  return checkpoint.parts.size() == parts_.size() + 1;
+}
+
+void CheckpointDesk::Work()
+{
+  while (true)
+  {
+    Checkpoint checkpoint;
+    {
+      const std::lock_guard lock(mutex_);
+      const auto found = std::find_if(unfinished_.begin(), unfinished_.end(),
+                                      [this](const auto& entry) { return IsComplete(entry.second); });
+      if (found == unfinished_.end()) return;
+      checkpoint = std::move(found->second);
+      unfinished_.erase(found);
+    }
+    // As in a run in one process: the server's part, then those of engines and hosts in their order.
+    const auto place = [this](const SavedPart& part)
+    { return part.name == kServerPart ? -1 : std::find(parts_.begin(), parts_.end(), part.name) - parts_.begin(); };
+    std::sort(checkpoint.parts.begin(), checkpoint.parts.end(),
+              [&](const SavedPart& a, const SavedPart& b) { return place(a) < place(b); });
+    WriteCheckpoint(folder_ + "/" + CheckpointName(checkpoint.snapshot.tick), checkpoint);
+  }
+}
+
+std::vector<std::uint64_t> CheckpointDesk::Incomplete() const
+{
+  std::vector<std::uint64_t> ticks;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [tick, checkpoint] : unfinished_) ticks.push_back(tick);
+  return ticks;
+}
+
+}  // namespace swarmanoid

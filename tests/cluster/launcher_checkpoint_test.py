@@ -1,0 +1,72 @@
+"""Runs that go on from a checkpoint end as if nothing had happened, in one process and as a cluster, whichever took it."""
+import unittest
+
+from harness import CONFIGS, LauncherTest, main
+
+
+class Checkpoints(LauncherTest):
+    def go(self, experiment, output, *options, ticks=200, code=0):
+        run = self.run_it("run", experiment, "--quiet", "--ticks", ticks, "--output", output, *options)
+        self.assertEqual(run.process.returncode, code, run.stderr)
+        self.assert_nothing_left(run)
+        return self.assert_finished(run, ticks)
+
+    def check(self, name, **how):
+        experiment = CONFIGS / f"{name}.xml"
+        whole = self.go(experiment, f"{name}_whole", "--single-process", **how)
+        files = []
+        for way, options in (("one", ["--single-process"]), ("cluster", [])):
+            output = f"{name}_{way}"
+            self.assertEqual(self.go(experiment, output, "--checkpoint-every", 100, *options, **how), whole)
+            files.append(self.folder / output / "checkpoint-00000100")
+            self.assertTrue((self.folder / output / "checkpoint-00000200").exists())
+        self.assertEqual(files[0].read_bytes(), files[1].read_bytes(), "the same file, whoever wrote it")
+        for way, options in (("one", ["--single-process"]), ("cluster", [])):
+            self.assertEqual(self.go(experiment, f"{name}_again_{way}", "--restore", files[1], *options, **how), whole)
+
+    def test_kinematic_engine_with_an_own_visualiser(self):
+        self.check("diffusion_10")
+
+    def test_three_kinds_of_engines_with_mirrors(self):
+        self.check("three_engines")
+
+    def test_grips_behaviours_and_experiment_functions(self):
+        self.check("prey_retrieval", code=1)  # the goal is not reached in so short a time
+
+    def test_two_controller_hosts(self):
+        experiment = CONFIGS / "diffusion_10.xml"
+        whole = self.go(experiment, "whole", "--controller-hosts", 2, "--checkpoint-every", 100)
+        file = self.folder / "whole" / "checkpoint-00000100"
+        self.assertEqual(self.go(experiment, "again", "--controller-hosts", 2, "--restore", file), whole)
+        wrong = self.run_it("run", experiment, "--quiet", "--ticks", 200, "--restore", file)
+        self.assertEqual(wrong.process.returncode, 2)
+        self.assertIn("taken with --controller-hosts 2", wrong.stderr)
+
+    def test_a_restored_run_may_be_longer(self):
+        experiment = CONFIGS / "diffusion_10.xml"
+        self.go(experiment, "short", "--single-process", "--checkpoint-every", 100)
+        longer = self.go(experiment, "longer", "--restore", self.folder / "short" / "checkpoint-00000200", ticks=300)
+        self.assertEqual(longer, self.go(experiment, "whole", "--single-process", ticks=300))
+
+    def test_what_cannot_be_done_is_said_before_the_run(self):
+        experiment = CONFIGS / "diffusion_10.xml"
+        odd = self.run_it("run", experiment, "--checkpoint-every", 30)
+        self.assertEqual(odd.process.returncode, 2)
+        self.assertIn("take 100 or change that", odd.stderr)
+        self.go(experiment, "first", "--single-process", "--checkpoint-every", 100)
+        file = self.folder / "first" / "checkpoint-00000100"
+        other = self.run_it("run", experiment, "--seed", 2, "--restore", file)
+        self.assertEqual(other.process.returncode, 2)
+        self.assertIn("another seed", other.stderr)
+        cut = self.folder / "cut"
+        cut.write_bytes(file.read_bytes()[:-5])
+        self.assertEqual(self.run_it("run", experiment, "--restore", cut).process.returncode, 2)
+        for options in (["--single-process"], []):
+            refused = self.run_it("run", self.write_faulty("none"), "--checkpoint-every", 100, *options)
+            self.assertEqual(refused.process.returncode, 4)
+            self.assertIn("robot 'robot_one': its controller cannot be saved", refused.stderr)
+            self.assert_nothing_left(refused)
+
+
+if __name__ == "__main__":
+    main()

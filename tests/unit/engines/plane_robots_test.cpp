@@ -1,0 +1,216 @@
+// Handbots and eyebots in both engines of the plane.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/kinematics2d/engine_fixture.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr double kTick = 0.1;  // s
+
+class PlaneRobotsIn : public testing::TestWithParam<const char*>
+{
+protected:
+  PlaneRobotsIn() { f.Configuration().tag = GetParam(); }
+  double Height(std::uint32_t entity) const { return f.PoseOf(entity).position.z(); }
+  double Attribute(std::uint32_t entity, const char* name, int element = 0)
+  {
+    return f.Space().GetEntity(entity).GetAttribute(name, element);
+  }
+  // A handbot at (2, 3), commands: 0-4 joints, 5-6 hands, 7-8 rope.
+  std::uint32_t AddHandbot()
+  {
+    const auto robot = f.Add(EntityKind::kHandbot, Vector3(2, 3, 0));
+    f.AddCommands("handbot_arms", 5, {robot});
+    f.AddCommands("handbot_hands", 2, {robot});
+    f.AddCommands("handbot_rope", 2, {robot});
+    return robot;
+  }
+
+  EngineFixture f;
+};
+
+INSTANTIATE_TEST_SUITE_P(Engines, PlaneRobotsIn, testing::Values("kinematics2d", "dynamics2d"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST_P(PlaneRobotsIn, TheWinchRaisesTheHandbotByTheRopeThatItTakesIn)
+{
+  const auto robot = AddHandbot();
+  f.Start();
+  f.Command(7) = 1;
+  f.Tick();
+  EXPECT_EQ(Attribute(robot, "rope_attached"), 1);
+  EXPECT_NEAR(Attribute(robot, "rope_length"), 3 - 0.16, 1e-12);  // the ceiling of the arena is at 3 m
+  EXPECT_NEAR(Height(robot), 0, 1e-12);
+  f.Command(8) = -0.1;
+  f.Ticks(50);
+  EXPECT_NEAR(Height(robot), 0.5, 1e-9);
+  EXPECT_NEAR(Attribute(robot, "rope_length"), 2.34, 1e-9);
+  EXPECT_NEAR(f.PoseOf(robot).position.x(), 2, 1e-6);
+  f.Command(8) = -5;  // limited to 0.15 m/s; ends where the rope is 5 cm long
+  f.Ticks(10);
+  EXPECT_NEAR(Height(robot), 0.65, 1e-9);
+  f.Ticks(200);
+  EXPECT_NEAR(Height(robot), 3 - 0.16 - 0.05, 1e-9);
+  // Let out again it stands; what is let out further hangs slack.
+  f.Command(8) = 0.15;
+  f.Ticks(250);
+  EXPECT_EQ(Height(robot), 0);
+  EXPECT_GT(Attribute(robot, "rope_length"), 2.9);
+}
+
+TEST_P(PlaneRobotsIn, AHandbotThatLetsGoOfItsRopeFallsFreely)
+{
+  const auto robot = AddHandbot();
+  f.Start();
+  f.Command(7) = 1;
+  f.Command(8) = -0.15;
+  f.Ticks(100);
+  ASSERT_NEAR(Height(robot), 1.5, 1e-9);
+  f.Command(7) = f.Command(8) = 0;
+  f.Ticks(3);
+  EXPECT_NEAR(Height(robot), 1.5 - 0.5 * 9.81 * std::pow(3 * kTick, 2), 1e-9);
+  EXPECT_EQ(Attribute(robot, "rope_attached"), 0);
+  f.Ticks(10);
+  EXPECT_EQ(Height(robot), 0);
+}
+
+TEST_P(PlaneRobotsIn, JointsTurnAtTheirSpeedsWithinTheirRanges)
+{
+  const auto robot = AddHandbot();
+  f.Start();
+  f.Command(0) = 1;     // head
+  f.Command(1) = 0.5;   // left arm
+  f.Command(2) = -0.5;  // right arm
+  f.Command(4) = 3;     // right wrist
+  f.Ticks(10);
+  EXPECT_NEAR(Attribute(robot, "head_angle"), 1, 1e-12);
+  EXPECT_NEAR(Attribute(robot, "arm", 0), 0.5, 1e-12);
+  EXPECT_EQ(Attribute(robot, "arm", 1), 0);
+  EXPECT_EQ(Attribute(robot, "wrist", 0), 0);
+  EXPECT_NEAR(Attribute(robot, "wrist", 1), 1.5708, 1e-12);
+  EXPECT_NEAR(Attribute(robot, "hand_aperture", 0), 3, 1e-12);  // told to open since the start, at 3 rad/s
+  f.Ticks(30);
+  EXPECT_NEAR(Attribute(robot, "head_angle"), 4 - 2 * kPi, 1e-9);  // turns on and on
+  EXPECT_NEAR(Attribute(robot, "arm", 0), 1.0472, 1e-12);
+}
+
+// The left hand's tip is 0.256 m ahead, 0.05 m to the left and 0.1 m high.
+TEST_P(PlaneRobotsIn, AHandTakesABlockItCanReachAndLiftsIt)
+{
+  const auto robot = AddHandbot();
+  const auto book = f.Add(EntityKind::kBlock, Vector3(2.3, 3.05, 0.1), {}, Vector3(0.06, 0.1, 0.2));
+  const auto far = f.Add(EntityKind::kBlock, Vector3(2.36, 3.3, 0.1), {}, Vector3(0.1, 0.2, 0.2));
+  f.Start();
+  f.Command(5) = f.Command(6) = 1;
+  f.Ticks(2);
+  EXPECT_EQ(Attribute(robot, "gripped", 0), 1 + book);
+  EXPECT_EQ(Attribute(robot, "gripped", 1), 0);  // 3 cm is the reach of a hand; the right one is 5 cm away
+  f.Command(7) = 1;
+  f.Command(8) = -0.1;
+  f.Ticks(50);
+  EXPECT_NEAR(Height(robot), 0.5, 1e-9);
+  EXPECT_NEAR(Height(book), 0.6, 1e-9);
+  EXPECT_NEAR(Height(far), 0.1, 1e-9);
+  // Opened, the hand drops it.
+  f.Command(5) = 0;
+  f.Ticks(2);
+  EXPECT_EQ(Attribute(robot, "gripped", 0), 0);
+  EXPECT_LT(Height(book), 0.6);
+  f.Ticks(10);
+  EXPECT_NEAR(Height(book), 0.1, 1e-9);
+}
+
+TEST_P(PlaneRobotsIn, AHandCannotTakeWhatStandsAboveOrBelowIt)
+{
+  const auto robot = AddHandbot();
+  f.Add(EntityKind::kBlock, Vector3(2.3, 3.05, 0.025), {}, Vector3(0.06, 0.1, 0.05));
+  f.Start();
+  f.Command(5) = 1;
+  f.Ticks(3);
+  EXPECT_EQ(Attribute(robot, "gripped", 0), 0);
+}
+
+TEST_P(PlaneRobotsIn, AHandbotAndWhatItHoldsAreOneWhole)
+{
+  const auto robot = AddHandbot();
+  const auto prey = f.Add(EntityKind::kCylindricPrey, Vector3(2.33, 3.05, 0), {}, Vector3(0.06, 0.06, 0.2));
+  const auto left = f.Add(EntityKind::kFootbot, Vector3(1.7, 3.0875, 0));
+  const auto right = f.Add(EntityKind::kFootbot, Vector3(1.7, 2.9125, 0));
+  f.AddCommands("footbot_wheels", 2, {left, right});
+  f.Start();
+  f.Command(5) = 1;
+  f.Ticks(2);
+  ASSERT_EQ(Attribute(robot, "gripped", 0), 1 + prey);
+  const Vector3 before = f.PoseOf(prey).position - f.PoseOf(robot).position;
+  for (std::size_t wheel = 9; wheel < 13; ++wheel) f.Command(wheel) = WheelSpeed(0.1);
+  f.Ticks(60);
+  EXPECT_GT(f.PoseOf(robot).position.x(), 2.02);
+  const Pose robot_pose = f.PoseOf(robot);
+  const Vector3 after = robot_pose.orientation.conjugate() * (f.PoseOf(prey).position - robot_pose.position);
+  EXPECT_LT((after - before).norm(), 2e-3);
+}
+
+TEST_P(PlaneRobotsIn, AStateRestoredInTheAirGoesOnAsBefore)
+{
+  const auto robot = AddHandbot();
+  const auto book = f.Add(EntityKind::kBlock, Vector3(2.3, 3.05, 0.1), {}, Vector3(0.06, 0.1, 0.2));
+  f.Start();
+  f.Command(5) = f.Command(7) = 1;
+  f.Command(0) = 0.2;
+  f.Command(8) = -0.1;
+  f.Ticks(20);
+  f.Engine().Canonicalise();
+  ByteWriter state;
+  f.Engine().SaveState(state);
+  auto restored = f.MakeEngine();
+  ByteReader reader(state.Bytes());
+  restored->LoadState(reader);
+  EXPECT_TRUE(reader.AtEnd());
+  std::swap(f.EnginePointer(), restored);
+  f.Ticks(5);
+  EXPECT_EQ(Attribute(robot, "gripped", 0), 1 + book);
+  EXPECT_NEAR(Height(robot), 0.25, 1e-9);
+  EXPECT_NEAR(Height(book), 0.35, 1e-9);
+  EXPECT_NEAR(Attribute(robot, "head_angle"), 0.5, 1e-9);
+}
+
+TEST_P(PlaneRobotsIn, AnEyebotOnThePlaneUnderTheCeilingHangsOnItByItsMagnet)
+{
+  f.Parameter("distance", "2.42");  // the top of the robot is 1.4 cm below the ceiling
+  const auto robot = f.Add(EntityKind::kEyebot, Vector3(2, 3, 2.42));
+  f.AddCommands("eyebot_propellers", 4, {robot});
+  f.AddCommands("eyebot_attach", 1, {robot});
+  f.Start();
+  f.Command(0) = 0.2;
+  f.Ticks(10);
+  EXPECT_EQ(Attribute(robot, "attached"), 0);
+  f.Command(4) = 1;
+  f.Ticks(2);
+  EXPECT_EQ(Attribute(robot, "attached"), 1);
+  const double x = f.PoseOf(robot).position.x();
+  EXPECT_GT(x, 2.1);
+  f.Ticks(10);
+  EXPECT_NEAR(f.PoseOf(robot).position.x(), x, 1e-6);
+  f.Command(4) = 0;
+  f.Ticks(10);
+  EXPECT_EQ(Attribute(robot, "attached"), 0);
+  EXPECT_GT(f.PoseOf(robot).position.x(), x + 0.1);
+}
+
+TEST_P(PlaneRobotsIn, FarBelowTheCeilingTheMagnetHoldsNothing)
+{
+  const auto robot = f.Add(EntityKind::kEyebot, Vector3(2, 3, 0));
+  f.AddCommands("eyebot_attach", 1, {robot});
+  f.Start();
+  f.Command(0) = 1;
+  f.Ticks(3);
+  EXPECT_EQ(Attribute(robot, "attached"), 0);
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "test_folders.h"
+#include "visualiser/interaction/frame_schedule.h"
+#include "visualiser/interaction/keys.h"
+#include "visualiser/interaction/value_history.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+TEST(Keys, ControlDigitsRecallAndWithShiftStoreTheirViewpoint)
+{
+  for (int number = 0; number <= 9; ++number)
+  {
+    const auto recall = CommandOf({'0' + number, true, false});
+    ASSERT_TRUE(recall);
+    EXPECT_EQ(recall->action, Action::kRecall);
+    EXPECT_EQ(recall->number, number);
+    const auto store = CommandOf({'0' + number, true, true});
+    ASSERT_TRUE(store);
+    EXPECT_EQ(store->action, Action::kStore);
+    EXPECT_EQ(store->number, number);
+    EXPECT_FALSE(CommandOf({'0' + number, false, false}));
+  }
+}
+
+TEST(Keys, EachPressHasOneMeaning)
+{
+  std::set<std::tuple<int, bool, bool>> presses;
+  for (const KeyBinding& binding : KeyBindings())
+    if (binding.action != Action::kMouse)
+    {
+      EXPECT_TRUE(presses.emplace(binding.press.key, binding.press.ctrl, binding.press.shift).second)
+          << binding.meaning;
+    }
+  EXPECT_EQ(CommandOf({'S', false, false})->action, Action::kShadows);
+  EXPECT_FALSE(CommandOf({'S', true, false}));  // left to the panels and the desktop
+}
+
+TEST(Keys, TheDocumentationListsThemAll)
+{
+  std::ifstream file(std::string(SWARMANOID_SOURCE_FOLDER) + "/docs/opengl_render.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  for (const KeyBinding& binding : KeyBindings())
+  {
+    if (binding.keys.empty()) continue;
+    const std::string row = "| " + std::string(binding.keys) + " | " + std::string(binding.meaning) + " |";
+    EXPECT_NE(text.str().find(row), std::string::npos) << row;
+  }
+}
+
+TEST(FrameSchedule, DrawsEveryNthTickAndTheNextOneWhereThatWasMissed)
+{
+  FrameSchedule schedule(10, 1000, false);
+  std::vector<std::uint64_t> drawn;
+  for (const std::uint64_t tick : {0, 1, 9, 10, 11, 25, 29, 30})
+    if (schedule.AtTick(tick, static_cast<double>(tick))) drawn.push_back(tick);
+  EXPECT_EQ(drawn, (std::vector<std::uint64_t>{0, 10, 25, 30}));
+}
+
+TEST(FrameSchedule, KeepsToItsRateAndCatchesUpWhenIdle)
+{
+  FrameSchedule schedule(1, 10, false);
+  EXPECT_TRUE(schedule.AtTick(0, 5.0));
+  schedule.Drawn(5.0);
+  EXPECT_FALSE(schedule.AtTick(1, 5.05));
+  EXPECT_FALSE(schedule.AtIdle(5.06));
+  EXPECT_TRUE(schedule.AtIdle(5.11));
+  schedule.Drawn(5.11);
+  EXPECT_FALSE(schedule.AtIdle(5.9));  // nothing new
+  schedule.Activity(5.9);
+  EXPECT_TRUE(schedule.AtIdle(5.91));
+  schedule.Drawn(5.91);
+  EXPECT_TRUE(schedule.AtIdle(6.95));  // the panels, once a second
+}
+
+TEST(FrameSchedule, FramesThatAreWrittenAreNeverLeftOut)
+{
+  FrameSchedule schedule(1, 10, true);
+  for (std::uint64_t tick = 0; tick < 5; ++tick)
+  {
+    EXPECT_TRUE(schedule.AtTick(tick, 1 + 0.001 * static_cast<double>(tick)));
+    schedule.Drawn(1 + 0.001 * static_cast<double>(tick));
+  }
+}
+
+TEST(ValueHistory, KeepsTheLatestPointsInOrder)
+{
+  ValueHistory history;
+  for (int i = 0; i < 5000; ++i) history.Add(0.1 * i, i);
+  const auto& points = history.Points();
+  EXPECT_GE(points.size(), ValueHistory::kMost);
+  EXPECT_LE(points.size(), 2 * ValueHistory::kMost);
+  EXPECT_EQ(points.back().value, 4999);
+  for (std::size_t p = 1; p < points.size(); ++p) EXPECT_LT(points[p - 1].time, points[p].time);
+}
+
+TEST(ValueHistory, AValueOfTheSameTickTakesThePlaceOfTheOneBefore)
+{
+  ValueHistory history;
+  history.Add(1, 5);
+  history.Add(1, 6);
+  ASSERT_EQ(history.Points().size(), 1u);
+  EXPECT_EQ(history.Points()[0].value, 6);
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,311 @@
+// What a person does at a window, without the window: keys, mouse, selection, filter, plots, requests to the run.
+#include <gmock/gmock.h>
+
+#include "common/configuration/xml_reader.h"
+#include "common/plugins/catalogue.h"
+#include "tests/unit/visualiser/small_world.h"
+#include "visualiser/interaction/viewer.h"
+#include "visualiser/opengl/description.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class Requests : public ExperimentControl
+{
+public:
+  void Pause() override { asked.push_back("pause"); }
+  void Resume() override { asked.push_back("resume"); }
+  void Step(unsigned ticks) override { asked.push_back("step " + std::to_string(ticks)); }
+  void SetSpeed(double factor) override { asked.push_back(fmt::format("speed {:g}", factor)); }
+  void MoveEntity(const std::string& id, const Pose& pose) override
+  {
+    asked.push_back("move " + id);
+    place = pose;
+  }
+  void Stop() override { asked.push_back("stop"); }
+
+  std::vector<std::string> asked;
+  Pose place;
+};
+
+class Monitor : public RunMonitor
+{
+public:
+  const RunStatus& Status() override { return status; }
+  std::span<const RunNote> Notes() override { return notes; }
+  void Watch(std::span<const std::uint32_t> robots) override { watched.assign(robots.begin(), robots.end()); }
+  const RobotStatus* Robot(std::uint32_t robot) override { return robot == inside.entity ? &inside : nullptr; }
+
+  RunStatus status;
+  std::vector<RunNote> notes;
+  std::vector<std::uint32_t> watched;
+  RobotStatus inside;
+};
+
+class ViewerTest : public ::testing::Test
+{
+protected:
+  static constexpr int kWidth = 800;
+  static constexpr int kHeight = 600;
+
+  ViewerTest() : world_({4, 4, 2}), description_(OpenGlRenderDescription())
+  {
+    world_.Add(EntityKind::kFootbot, "fb_0", {1, 1, 0});
+    world_.Add(EntityKind::kFootbot, "fb_1", {3, 3, 0});
+    world_.Add(EntityKind::kEyebot, "eb", {1, 3, 1});
+    world_.AddBody(EntityKind::kBlock, "stone", {3, 1, 0.1}, {0.4, 0.4, 0.2});
+    monitor_.inside.entity = 99;
+    monitor_.status.phase = RunStatus::Phase::kRunning;
+    world_.GetExperiment().clock_tick_ms = 100;
+  }
+
+  Viewer& Make(const std::string& elements = "", bool control = true)
+  {
+    assignment_.owner.assign(world_.Space().Size(), -1);
+    assignment_.host.assign(world_.Space().Size(), -1);
+    const TConfigurationTree tree(ReadXml("<opengl_render>" + elements + "</opengl_render>", "test.xml"));
+    viewer_ = std::make_unique<Viewer>(RenderSetup{Parameters(tree, description_.parameters), world_.Space(),
+                                                   assignment_, "", control ? &control_ : nullptr, &monitor_},
+                                       kWidth, kHeight);
+    return *viewer_;
+  }
+
+  Vector3 OnScreen(const Vector3& point) const { return viewer_->camera.Project(point, kWidth, kHeight); }
+  Vector3 OnScreen(const std::string& id) { return OnScreen(world_[id].GetPosition() + Vector3(0, 0, 0.05)); }
+  void Click(const Vector3& place, bool ctrl = false)
+  {
+    viewer_->MousePress(MouseButton::kLeft, place.x(), place.y(), ctrl, false);
+    viewer_->MouseRelease(MouseButton::kLeft);
+  }
+  std::uint32_t Index(const std::string& id) { return world_[id].GetIndex(); }
+
+  SmallWorld world_;
+  PluginDescription description_;
+  Assignment assignment_;
+  Requests control_;
+  Monitor monitor_;
+  std::unique_ptr<Viewer> viewer_;
+};
+
+TEST_F(ViewerTest, StartsAtTheFirstViewpointAndRecallsTheOthers)
+{
+  Viewer& viewer = Make(
+      "<camera_view_XYZ_0>3.30811, 3.36071, 1.0</camera_view_XYZ_0><camera_view_HPR_0>39, -34, 0</camera_view_HPR_0>"
+      "<camera_view_XYZ_2>7, 6.5, 0.83</camera_view_XYZ_2><camera_view_HPR_2>-155, 0, 0</camera_view_HPR_2>");
+  EXPECT_DOUBLE_EQ(viewer.camera.position.x(), 3.30811);
+  EXPECT_DOUBLE_EQ(viewer.camera.pitch, -34);
+  viewer.Press({'2', true});
+  EXPECT_DOUBLE_EQ(viewer.camera.position.y(), 6.5);
+  EXPECT_DOUBLE_EQ(viewer.camera.heading, -155);
+  viewer.Press({'5', true});  // not given
+  EXPECT_DOUBLE_EQ(viewer.camera.position.y(), 6.5);
+  EXPECT_TRUE(viewer.Messages().back().refused);
+}
+
+TEST_F(ViewerTest, StoresTheViewThatIsThereAndWritesItAsXml)
+{
+  Viewer& viewer = Make();
+  viewer.camera.position = {1.5, -2, 3.25};
+  viewer.camera.heading = 40;
+  viewer.camera.pitch = -12.5;
+  ::testing::internal::CaptureStdout();
+  viewer.Press({'7', true, true});
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(),
+            "<camera_view_XYZ_7>1.5, -2, 3.25</camera_view_XYZ_7>\n"
+            "<camera_view_HPR_7>40, -12.5, 0</camera_view_HPR_7>\n");
+  viewer.Press({keys::kEnd});
+  EXPECT_LT(viewer.camera.pitch, -80);
+  viewer.Press({'7', true});
+  EXPECT_DOUBLE_EQ(viewer.camera.pitch, -12.5);
+}
+
+TEST_F(ViewerTest, AClickSelectsAndInspectsOneBesideTheFloorNone)
+{
+  Viewer& viewer = Make();
+  Click(OnScreen("fb_1"));
+  EXPECT_EQ(viewer.shown.scene.selected, Index("fb_1"));
+  EXPECT_THAT(viewer.Inspected(), ElementsAre(Index("fb_1")));
+  Click(OnScreen("eb"));
+  EXPECT_THAT(viewer.Inspected(), ElementsAre(Index("eb")));
+  Click(OnScreen("fb_0"), true);
+  EXPECT_THAT(viewer.Inspected(), ElementsAre(Index("eb"), Index("fb_0")));
+  Click(OnScreen(Vector3(2, 2, 0)));
+  EXPECT_FALSE(viewer.shown.scene.selected);
+  EXPECT_EQ(viewer.Inspected().size(), 2u);
+  viewer.CloseInspector(Index("eb"));
+  EXPECT_THAT(viewer.Inspected(), ElementsAre(Index("fb_0")));
+}
+
+TEST_F(ViewerTest, WatchesTheRobotsThatAreInspectedOrPlotted)
+{
+  Viewer& viewer = Make();
+  viewer.Refresh();
+  EXPECT_THAT(monitor_.watched, IsEmpty());
+  viewer.Select(Index("fb_1"));
+  viewer.SetPlotted({Index("fb_0"), ValueGroup::Source::kPose, "pose", "speed"}, "m/s", true);
+  viewer.Refresh();
+  EXPECT_THAT(monitor_.watched, ElementsAre(Index("fb_0"), Index("fb_1")));
+  viewer.CloseInspector(Index("fb_1"));
+  viewer.Refresh();
+  EXPECT_THAT(monitor_.watched, ElementsAre(Index("fb_0")));
+}
+
+TEST_F(ViewerTest, PlotsSpeedAndReadingsOverSimulatedTime)
+{
+  Viewer& viewer = Make();
+  const std::uint32_t robot = Index("fb_0");
+  viewer.SetPlotted({robot, ValueGroup::Source::kPose, "pose", "speed"}, "m/s", true);
+  viewer.SetPlotted({robot, ValueGroup::Source::kSensor, "footbot_proximity", "3"}, "", true);
+  monitor_.inside.entity = robot;
+  monitor_.inside.sensors = {{"footbot_proximity", {{"2", "", 0.5}, {"3", "", 0}}}};
+  for (int tick = 0; tick < 5; ++tick)
+  {
+    world_.Space().SetTick(static_cast<std::uint64_t>(tick));
+    world_.Space().SetPose(robot, {{1 + 0.03 * tick, 1, 0}, Quaternion::Identity()});
+    monitor_.inside.sensors[0].readings[1].value = 0.1 * tick;
+    viewer.StateCame();
+  }
+  const auto& speed = viewer.Plots()[0].history.Points();
+  ASSERT_EQ(speed.size(), 5u);
+  EXPECT_NEAR(speed.back().time, 0.4, 1e-12);
+  EXPECT_NEAR(speed.back().value, 0.3, 1e-9);  // 3 cm in a tenth of a second
+  EXPECT_NEAR(viewer.Plots()[1].history.Points().back().value, 0.4, 1e-12);
+  EXPECT_EQ(viewer.Plots()[1].title, "fb_0 footbot_proximity 3");
+}
+
+TEST_F(ViewerTest, KeysPauseStepAndChangeTheSpeed)
+{
+  Viewer& viewer = Make();
+  viewer.Press({' '});
+  monitor_.status.phase = RunStatus::Phase::kPaused;
+  viewer.Press({'N'});
+  viewer.Press({'N', false, true});
+  viewer.Press({' '});
+  monitor_.status.speed_wanted = 2;
+  viewer.Press({'='});
+  viewer.Press({'-'});
+  monitor_.status.speed_wanted = 100;
+  viewer.Press({'='});  // as fast as possible comes next
+  monitor_.status.speed_wanted = 0;
+  viewer.Press({'-'});
+  EXPECT_THAT(control_.asked,
+              ElementsAre("pause", "step 1", "step 10", "resume", "speed 5", "speed 1", "speed 0", "speed 100"));
+}
+
+TEST_F(ViewerTest, ShiftDragAsksForThePlaceUnderTheMouse)
+{
+  Viewer& viewer = Make();
+  const Vector3 from = OnScreen(Vector3(1, 1, 0));
+  const Vector3 to = OnScreen(Vector3(2.5, 1.5, 0));
+  viewer.MousePress(MouseButton::kLeft, from.x(), from.y() - 1, false, true);
+  ASSERT_TRUE(viewer.MoveUnderWay());
+  viewer.MouseMove(to.x(), to.y() - 1);
+  viewer.Wheel(2, to.x(), to.y());  // 30 degrees
+  EXPECT_THAT(control_.asked, IsEmpty());
+  viewer.MouseRelease(MouseButton::kLeft);
+  EXPECT_THAT(control_.asked, ElementsAre("move fb_0"));
+  EXPECT_NEAR(control_.place.position.x(), 2.5, 0.02);
+  EXPECT_NEAR(control_.place.position.y(), 1.5, 0.02);
+  EXPECT_DOUBLE_EQ(control_.place.position.z(), 0);
+  EXPECT_NEAR(RadiansToDegrees(YawOf(control_.place.orientation)), 30, 1e-9);
+  EXPECT_EQ(world_["fb_0"].GetPosition(), Vector3(1, 1, 0));  // that is for the space server to do
+}
+
+TEST_F(ViewerTest, WhatStandsFastOrMayOnlyBeWatchedIsNotMoved)
+{
+  Viewer& viewer = Make();
+  const Vector3 stone = OnScreen("stone");
+  viewer.MousePress(MouseButton::kLeft, stone.x(), stone.y(), false, true);
+  EXPECT_FALSE(viewer.MoveUnderWay());
+  EXPECT_THAT(viewer.Messages().back().text, HasSubstr("'stone' stands fast"));
+  Viewer& watcher = Make("", false);
+  const Vector3 robot = OnScreen("fb_0");
+  watcher.MousePress(MouseButton::kLeft, robot.x(), robot.y(), false, true);
+  EXPECT_FALSE(watcher.MoveUnderWay());
+  watcher.Press({' '});
+  EXPECT_THAT(watcher.Messages().back().text, HasSubstr("may only watch"));
+}
+
+TEST_F(ViewerTest, SaysWhatCameOfRequestsOnce)
+{
+  Viewer& viewer = Make();
+  monitor_.notes = {{3, true, "moved 'fb_0' at tick 3", "here:1"},
+                    {4, false, "move: there is no entity 'x'", "here:2"}};
+  viewer.Refresh();
+  viewer.Refresh();
+  ASSERT_EQ(viewer.Messages().size(), 2u);
+  EXPECT_FALSE(viewer.Messages()[0].refused);
+  EXPECT_TRUE(viewer.Messages()[1].refused);
+  // A list that is full loses its oldest.
+  monitor_.notes.erase(monitor_.notes.begin());
+  monitor_.notes.push_back({5, true, "paused", "here:1"});
+  viewer.Refresh();
+  EXPECT_EQ(viewer.Messages().size(), 3u);
+  EXPECT_EQ(viewer.Messages().back().text, "paused");
+}
+
+TEST_F(ViewerTest, FollowsTheSelectedEntity)
+{
+  Viewer& viewer = Make();
+  viewer.Select(Index("fb_0"));
+  viewer.Press({'F'});
+  viewer.StateCame();
+  const Vector3 before = viewer.camera.position;
+  world_.Space().SetPose(Index("fb_0"), {{1.5, 1.2, 0}, Quaternion::Identity()});
+  viewer.StateCame();
+  EXPECT_TRUE((viewer.camera.position - before).isApprox(Vector3(0.5, 0.2, 0), 1e-9));
+}
+
+TEST_F(ViewerTest, DraggingTurnsAndShiftsTheView)
+{
+  Viewer& viewer = Make();
+  const Camera before = viewer.camera;
+  viewer.MousePress(MouseButton::kLeft, 400, 300, false, false);
+  viewer.MouseMove(500, 300);
+  viewer.MouseRelease(MouseButton::kLeft);
+  EXPECT_NEAR(viewer.camera.heading, before.heading - 30, 1e-6);
+  EXPECT_FALSE(viewer.shown.scene.selected);
+  // What was under the mouse follows it.
+  const Vector3 floor = PointOnFloor(viewer.camera.RayThrough(400, 300, kWidth, kHeight), 0, 10);
+  viewer.MousePress(MouseButton::kRight, 400, 300, false, false);
+  viewer.MouseMove(440, 280);
+  viewer.MouseRelease(MouseButton::kRight);
+  EXPECT_NEAR(OnScreen(floor).x(), 440, 0.5);
+  EXPECT_NEAR(OnScreen(floor).y(), 280, 0.5);
+}
+
+TEST_F(ViewerTest, TheFilterLooksInAllColumnsOrInOne)
+{
+  EntityFilter& filter = Make().Filter();
+  EXPECT_EQ(filter.Matching("").size(), world_.Space().Size());
+  EXPECT_THAT(filter.Matching("FB"), ElementsAre(Index("fb_0"), Index("fb_1")));
+  EXPECT_THAT(filter.Matching("foot 1"), ElementsAre(Index("fb_1")));
+  EXPECT_THAT(filter.Matching("kind:eye"), ElementsAre(Index("eb")));
+  EXPECT_THAT(filter.Matching("id:eye"), IsEmpty());
+}
+
+TEST_F(ViewerTest, ValuesReadAsPeopleReadThem)
+{
+  Make();
+  world_.Set("fb_0", "led", 0xff0000, 3);
+  world_.Set("fb_0", "gripped", 1 + Index("stone"));
+  const auto groups = ValuesOf(world_.Space(), Index("fb_0"), {}, nullptr);
+  const auto text = [&](const std::string& name)
+  {
+    const auto value = FindValue(groups, {Index("fb_0"), ValueGroup::Source::kAttributes, "attributes", name});
+    return value ? ValueText(world_.Space(), *value) : "missing";
+  };
+  EXPECT_EQ(text("led 3"), "#ff0000");
+  EXPECT_EQ(text("led 4"), "off");
+  EXPECT_EQ(text("gripped"), "stone");
+  EXPECT_EQ(text("turret angle"), "0.000 rad");
+}
+
+}  // namespace
+}  // namespace swarmanoid

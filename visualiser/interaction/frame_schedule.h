@@ -1,0 +1,53 @@
+// When a window draws: at every n-th tick, no more often than a rate, and between ticks while somebody uses it. Used by
+// renderers with a window. Times are seconds of a clock that never goes back.
+#pragma once
+
+#include <cstdint>
+
+namespace swarmanoid
+{
+
+class FrameSchedule
+{
+public:
+  FrameSchedule(std::uint64_t every, double max_rate, bool all_frames)
+      : every_(every), period_(1 / max_rate), all_frames_(all_frames)
+  {
+  }
+
+  // Whether the picture of a new tick is to be drawn now. Those that come too early are drawn by Idle.
+  bool AtTick(std::uint64_t tick, double now)
+  {
+    if (tick < next_) return false;
+    next_ = tick - tick % every_ + every_;
+    stale_ = true;
+    return all_frames_ || now >= last_ + period_;
+  }
+  // Whether to draw between ticks.
+  bool AtIdle(double now) const
+  {
+    const bool wanted = stale_ || now < active_until_ || now >= last_ + kResting;
+    return wanted && now >= last_ + period_;
+  }
+  // Somebody moved the mouse or pressed a key: panels and camera follow for a while.
+  void Activity(double now) { active_until_ = now + kActive; }
+  void Drawn(double now)
+  {
+    last_ = now;
+    stale_ = false;
+  }
+
+private:
+  static constexpr double kActive = 0.4;
+  static constexpr double kResting = 1;  // the panels show the state of the run anew
+
+  std::uint64_t every_;
+  double period_;
+  bool all_frames_;
+  std::uint64_t next_ = 0;
+  double last_ = -1e9;
+  double active_until_ = -1e9;
+  bool stale_ = true;
+};
+
+}  // namespace swarmanoid

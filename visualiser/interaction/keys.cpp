@@ -1,0 +1,76 @@
+#include "visualiser/interaction/keys.h"
+
+#include <array>
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace keys;
+
+constexpr std::array kBindings{
+    KeyBinding{Action::kPause, {' '}, "Run", "Space", "pause, go on"},
+    KeyBinding{Action::kStep, {'N'}, "Run", "N", "one tick, then pause"},
+    KeyBinding{Action::kStepTen, {'N', false, true}, "Run", "Shift-N", "ten ticks, then pause"},
+    KeyBinding{Action::kFaster, {'='}, "Run", "+", "faster"},
+    KeyBinding{Action::kFaster, {'=', false, true}, "Run", "", ""},
+    KeyBinding{Action::kFaster, {'+'}, "Run", "", ""},
+    KeyBinding{Action::kSlower, {'-'}, "Run", "-", "slower"},
+    KeyBinding{Action::kClose, {'Q', true}, "Run", "Ctrl-Q", "close the window"},
+
+    KeyBinding{Action::kIds, {'I'}, "Show", "I", "ids"},
+    KeyBinding{Action::kTrails, {'L'}, "Show", "L", "trails"},
+    KeyBinding{Action::kRays, {'R'}, "Show", "R", "rays of the proximity sensors"},
+    KeyBinding{Action::kBeams, {'B'}, "Show", "B", "laser beams"},
+    KeyBinding{Action::kCollisionModels, {'C'}, "Show", "C", "collision models"},
+    KeyBinding{Action::kTextures, {'T'}, "Show", "T", "textures"},
+    KeyBinding{Action::kShadows, {'S'}, "Show", "S", "shadows"},
+    KeyBinding{Action::kPicture, {'P'}, "Show", "P", "write a picture (PNG)"},
+
+    KeyBinding{Action::kHelp, {kFunction + 1}, "Panels", "F1", "this list"},
+    KeyBinding{Action::kRunPanel, {kFunction + 2}, "Panels", "F2", "run"},
+    KeyBinding{Action::kEntityPanel, {kFunction + 3}, "Panels", "F3", "entities"},
+    KeyBinding{Action::kPlotPanel, {kFunction + 4}, "Panels", "F4", "plots"},
+    KeyBinding{Action::kAllPanels, {kTab}, "Panels", "Tab", "all panels away, and back"},
+
+    KeyBinding{Action::kMouse, {}, "Camera", "Drag", "turn about the middle of the picture"},
+    KeyBinding{Action::kMouse, {}, "Camera", "Right drag", "shift"},
+    KeyBinding{Action::kMouse, {}, "Camera", "Wheel", "nearer, farther"},
+    KeyBinding{Action::kOrbitLeft, {kLeft}, "Camera", "Arrows", "turn"},
+    KeyBinding{Action::kOrbitRight, {kRight}, "Camera", "", ""},
+    KeyBinding{Action::kOrbitUp, {kUp}, "Camera", "", ""},
+    KeyBinding{Action::kOrbitDown, {kDown}, "Camera", "", ""},
+    KeyBinding{Action::kZoomIn, {kPageUp}, "Camera", "Page up, Page down", "nearer, farther"},
+    KeyBinding{Action::kZoomOut, {kPageDown}, "Camera", "", ""},
+    KeyBinding{Action::kWholeArena, {kHome}, "Camera", "Home", "the whole arena"},
+    KeyBinding{Action::kFromAbove, {kEnd}, "Camera", "End", "the arena from above"},
+    KeyBinding{Action::kRecall, {'0', true}, "Camera", "Ctrl-0 ... 9", "go to a viewpoint"},
+    KeyBinding{Action::kStore, {'0', true, true}, "Camera", "Ctrl-Shift-0 ... 9", "store it and print its XML"},
+
+    KeyBinding{Action::kMouse, {}, "Entities", "Click", "select and inspect"},
+    KeyBinding{Action::kMouse, {}, "Entities", "Ctrl-click", "inspect in a further window"},
+    KeyBinding{Action::kMouse, {}, "Entities", "Shift-drag", "move (wheel: turn)"},
+    KeyBinding{Action::kFollow, {'F'}, "Entities", "F", "follow the selected one"},
+    KeyBinding{Action::kDeselect, {kEscape}, "Entities", "Escape", "select nothing"},
+};
+
+}  // namespace
+
+std::span<const KeyBinding> KeyBindings() { return kBindings; }
+
+std::optional<KeyCommand> CommandOf(const KeyPress& press)
+{
+  const bool digit = press.key >= '0' && press.key <= '9';
+  for (const KeyBinding& binding : kBindings)
+  {
+    if (binding.action == Action::kMouse) continue;
+    KeyPress wanted = binding.press;
+    const bool numbered = binding.action == Action::kRecall || binding.action == Action::kStore;
+    if (numbered && digit) wanted.key = press.key;
+    if (wanted == press) return KeyCommand{binding.action, numbered ? press.key - '0' : 0};
+  }
+  return std::nullopt;
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,91 @@
+// What the keys of a window do: one table, from which come the commands, the help in the window and the list in the
+// documentation. Used by every renderer with a window, whatever library brings it the keys.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace swarmanoid
+{
+
+// Keys with a character are that character, letters in upper case.
+namespace keys
+{
+inline constexpr int kEscape = 256;
+inline constexpr int kTab = 257;
+inline constexpr int kHome = 258;
+inline constexpr int kEnd = 259;
+inline constexpr int kLeft = 260;
+inline constexpr int kRight = 261;
+inline constexpr int kUp = 262;
+inline constexpr int kDown = 263;
+inline constexpr int kPageUp = 264;
+inline constexpr int kPageDown = 265;
+inline constexpr int kFunction = 300;  // kFunction + n: the key Fn
+}  // namespace keys
+
+struct KeyPress
+{
+  int key = 0;
+  bool ctrl = false;
+  bool shift = false;
+
+  bool operator==(const KeyPress&) const = default;
+};
+
+enum class Action
+{
+  kHelp,
+  kRunPanel,
+  kEntityPanel,
+  kPlotPanel,
+  kAllPanels,
+  kPause,
+  kStep,
+  kStepTen,
+  kFaster,
+  kSlower,
+  kTextures,
+  kShadows,
+  kCollisionModels,
+  kIds,
+  kTrails,
+  kRays,
+  kBeams,
+  kFollow,
+  kDeselect,
+  kWholeArena,
+  kFromAbove,
+  kRecall,
+  kStore,
+  kOrbitLeft,
+  kOrbitRight,
+  kOrbitUp,
+  kOrbitDown,
+  kZoomIn,
+  kZoomOut,
+  kPicture,
+  kClose,
+  kMouse  // no key: a line of the help about the mouse
+};
+
+struct KeyBinding
+{
+  Action action;
+  KeyPress press;  // of kRecall and kStore: that of viewpoint 0
+  std::string_view section;
+  std::string_view keys;  // as the help names them; empty where another binding's line tells of it
+  std::string_view meaning;
+};
+
+std::span<const KeyBinding> KeyBindings();
+
+struct KeyCommand
+{
+  Action action;
+  int number = 0;  // of a viewpoint
+};
+std::optional<KeyCommand> CommandOf(const KeyPress& press);
+
+}  // namespace swarmanoid
