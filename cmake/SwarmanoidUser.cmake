@@ -42,6 +42,15 @@ function(swarmanoid_functions folder output)
   set(SWARMANOID_FUNCTIONS ${SWARMANOID_CONTROLLERS} PARENT_SCOPE)
 endfunction()
 
+# swarmanoid_engines(FOLDER OUTPUT): the same for physics engines; the names go into SWARMANOID_ENGINES.
+function(swarmanoid_engines folder output)
+  swarmanoid_controllers(${folder} ${output})
+  foreach(name IN LISTS SWARMANOID_CONTROLLERS)
+    target_link_libraries(${name} PRIVATE Swarmanoid::physics_engine)
+  endforeach()
+  set(SWARMANOID_ENGINES ${SWARMANOID_CONTROLLERS} PARENT_SCOPE)
+endfunction()
+
 # swarmanoid_driver(NAME SOURCES... [LINK libs...]): the library libNAME.so with drivers of a real robot (docs/real_robot.md).
 function(swarmanoid_driver name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})

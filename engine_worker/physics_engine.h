@@ -1,6 +1,6 @@
 // CPhysicsEngine and CPhysicsEngineEntity: what a physics engine is to the simulator. An engine is a closed world with
 // a frame of its own; it moves the entities that it owns and reports their global poses. A plug-in: see
-// docs/engines.md.
+// docs/own_engine.md.
 #pragma once
 
 #include <memory>

@@ -54,6 +54,44 @@ void AddBehavior(CLI::App& verb, int& exit_code)
       });
 }
 
+void AddTerrain(CLI::App& verb, int& exit_code)
+{
+  struct Options
+  {
+    std::string name;
+    std::vector<double> size{2, 2};
+    RoughTerrain terrain;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      verb.add_subcommand("terrain", "Rough ground with holes (an OctoMap file), and an experiment on it");
+  command->add_option("NAME", options->name, std::string("Name of the terrain") + kNameRule)->required();
+  RoughTerrain& terrain = options->terrain;
+  command->add_option("--size", options->size, "X,Y: edges in metres")
+      ->delimiter(',')
+      ->expected(2)
+      ->capture_default_str();
+  command
+      ->add_option("--resolution", terrain.resolution, "Edge of a cell in metres; footbots climb steps of up to 0.008")
+      ->capture_default_str();
+  command->add_option("--roughness", terrain.roughness, "From the lowest ground to the highest, in metres")
+      ->capture_default_str();
+  command->add_option("--holes", terrain.holes, "Number of round holes")->capture_default_str();
+  command->add_option("--depth", terrain.depth, "Of the holes, in metres")->capture_default_str();
+  command->add_option("--seed", terrain.seed, "The same seed and numbers make the same file")->capture_default_str();
+  command->footer(
+      "Examples:\n"
+      "  swarmanoid new terrain moor\n"
+      "  swarmanoid new terrain moon --size 4,3 --resolution 0.01 --roughness 0.08 --holes 10 --seed 7");
+  command->callback(
+      [options, &exit_code]
+      {
+        options->terrain.size = {options->size[0], options->size[1]};
+        NewTerrain(options->name, options->terrain);
+        exit_code = kDone;
+      });
+}
+
 }  // namespace
 
 void AddNewCommand(CLI::App& app, int& exit_code)
@@ -64,6 +102,8 @@ void AddNewCommand(CLI::App& app, int& exit_code)
       "  swarmanoid new user my_robots && cd my_robots\n"
       "  swarmanoid new behavior-controller wall_follower\n"
       "  swarmanoid new controller from_scratch\n"
+      "  swarmanoid new engine gliding\n"
+      "  swarmanoid new terrain moor --size 3,2 --seed 7\n"
       "  swarmanoid new experiment first_try");
 
   auto name = std::make_shared<std::string>();
@@ -84,10 +124,13 @@ void AddNewCommand(CLI::App& app, int& exit_code)
       "user my_robots", NewUserDirectory);
   AddBehaviorController(*verb, exit_code);
   AddBehavior(*verb, exit_code);
+  AddTerrain(*verb, exit_code);
   add("controller", "A footbot controller in one class, and an experiment with it", "NAME",
       std::string("Name of the controller") + kNameRule, "controller wall_follower", NewController);
   add("functions", "Experiment functions, which measure and decide the end, and an experiment with them", "NAME",
       std::string("Name of the functions") + kNameRule, "functions spreading", NewFunctions);
+  add("engine", "A physics engine, and an experiment with it", "NAME", std::string("Name of the engine") + kNameRule,
+      "engine gliding", NewEngine);
   add("experiment", "An experiment file with a few robots in a walled arena", "NAME",
       std::string("Name of the experiment") + kNameRule, "experiment first_try", NewExperiment);
 

@@ -27,6 +27,8 @@ namespace
 
 namespace fs = std::filesystem;
 
+constexpr double kLeastTerrain_m = 0.8;
+
 struct RobotKind
 {
   const char* name;
@@ -87,7 +89,7 @@ void RefuseTakenTarget(const fs::path& user, const std::string& name)
                                        "install", "list",  "package", "simulation", "rebuild_cache", "test"};
   if (std::find(taken.begin(), taken.end(), name) != taken.end())
     throw UsageError(fmt::format("'{}' cannot be a name: the build has a target of that name; choose another", name));
-  for (const char* folder : {"controllers", "functions"}) RefuseExisting(user / folder / name);
+  for (const char* folder : {"controllers", "functions", "engines"}) RefuseExisting(user / folder / name);
 }
 
 void RequireIdentifier(const std::string& name)
@@ -209,6 +211,60 @@ void NewFunctions(const std::string& name)
   MakeFile("functions/functions.cpp.in", user / "functions" / name / (name + ".cpp"), values);
   MakeFile("functions/experiment.xml.in", experiment, values);
   TellNext(user, experiment);
+}
+
+void NewEngine(const std::string& name)
+{
+  RequireIdentifier(name);
+  const fs::path user = RequireUserDirectory();
+  const fs::path experiment = user / "experiments" / (name + ".xml");
+  RefuseTakenTarget(user, name);
+  RefuseExisting(experiment);
+  const TemplateValues values{{"name", name}, {"class", ClassName(name)}};
+  fmt::print("Made physics engine {}:\n", name);
+  MakeFile("engine/engine.h.in", user / "engines" / name / (name + ".h"), values);
+  MakeFile("engine/engine.cpp.in", user / "engines" / name / (name + ".cpp"), values);
+  MakeFile("engine/experiment.xml.in", experiment, values);
+  TellNext(user, experiment);
+}
+
+void NewTerrain(const std::string& name, const RoughTerrain& terrain)
+{
+  RequireIdentifier(name);
+  const fs::path user = UserDirectory();
+  const fs::path folder = user.empty() ? fs::current_path() : user / "experiments";
+  const fs::path map = folder / "terrain" / (name + ".bt");
+  const fs::path experiment = folder / (name + ".xml");
+  RefuseExisting(map);
+  RefuseExisting(experiment);
+  if (!(terrain.size.minCoeff() >= kLeastTerrain_m))
+    throw UsageError(fmt::format("--size: robots need {} m and more in x and y", kLeastTerrain_m));
+  fs::create_directories(map.parent_path());
+  try
+  {
+    WriteRoughTerrain(map.string(), terrain);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw UsageError(error.what());
+  }
+  const double area = terrain.size.x() * terrain.size.y();
+  const TemplateValues values{
+      {"name", name},
+      {"size_x", fmt::format("{}", terrain.size.x())},
+      {"size_y", fmt::format("{}", terrain.size.y())},
+      {"far_x", fmt::format("{:.6g}", terrain.size.x() - 0.2)},
+      {"far_y", fmt::format("{:.6g}", terrain.size.y() - 0.2)},
+      {"start", fmt::format("{:.6g}", terrain.roughness + 0.01)},
+      {"roughness", fmt::format("{}", terrain.roughness)},
+      {"resolution", fmt::format("{}", terrain.resolution)},
+      {"robots", fmt::format("{}", std::clamp(static_cast<int>(area), 1, 20))},
+      {"options", fmt::format("--size {},{} --resolution {} --roughness {} --holes {} --depth {} --seed {}",
+                              terrain.size.x(), terrain.size.y(), terrain.resolution, terrain.roughness, terrain.holes,
+                              terrain.depth, terrain.seed)}};
+  fmt::print("Made terrain {}:\n  {}\n", name, fs::relative(map).string());
+  MakeFile("terrain/experiment.xml.in", experiment, values);
+  fmt::print("Next:\n  {} run {}\n", ProgramName(), fs::relative(experiment).string());
 }
 
 void NewBehaviorController(BehaviorControllerNames names)

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "common/space/terrain/rough_terrain.h"
+
 namespace swarmanoid
 {
 
@@ -11,6 +13,9 @@ void NewUserDirectory(const std::string& directory);
 void NewController(const std::string& name);
 void NewExperiment(const std::string& name);
 void NewFunctions(const std::string& name);
+void NewEngine(const std::string& name);
+// An OctoMap file and an experiment on it, here or in the user directory.
+void NewTerrain(const std::string& name, const RoughTerrain& terrain);
 
 // Names left empty follow from the controller's.
 struct BehaviorControllerNames

@@ -43,9 +43,10 @@ TryUserDirectory()
   sed -i 's|obstacle_avoidance_.Step(cRobotState);|&\n  stop_.Step(cRobotState);|' wall_follower/bt_along_the_wall.cpp
   grep -q 'stop_.Step' wall_follower/bt_along_the_wall.cpp
 
-  echo "== a controller in one class, and experiment functions"
+  echo "== a controller in one class, experiment functions, and a physics engine"
   swarmanoid new controller plain
   swarmanoid new functions spreading
+  swarmanoid new engine gliding
   swarmanoid new experiment first_try
 
   echo "== what is wrong is told with the cure"
@@ -86,6 +87,10 @@ TryUserDirectory()
     [ -n "$(Hash "$cluster")" ]
     [ "$(Hash "$cluster")" = "$(Hash "$own")" ]
   done
+  echo "== the engine of a run that goes on from a checkpoint"
+  cluster=$(swarmanoid run experiments/gliding.xml --ticks 200 --quiet --output "$runs/glide" --checkpoint-every 100)
+  own=$(simulation_build/simulation experiments/gliding.xml --ticks 200 --quiet --output "$runs/glide-on" --restore "$runs/glide/checkpoint-00000100")
+  [ "$(Hash "$cluster")" = "$(Hash "$own")" ]
   grep -q '^tick,mean_distance_m$' "$runs/spreading/spreading.csv"
   swarmanoid run experiments/spreading.xml --quiet --output "$runs/to_the_end"
   # The robots of each kind have moved: the footbots on, the handbot up.

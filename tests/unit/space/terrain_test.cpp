@@ -1,11 +1,17 @@
 #include "common/space/terrain/terrain.h"
+#include "common/space/terrain/rough_terrain.h"
 
 #include <gtest/gtest.h>
+
 #include <octomap/octomap.h>
 #include <png.h>
+#include <fstream>
+#include <iterator>
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "common/math/random.h"
 
@@ -173,6 +179,79 @@ TEST(HeightTerrain, APictureIsReadFromTheTop)
   const auto walls = terrain.Section(0.2);
   ASSERT_EQ(walls.size(), 1U);
   EXPECT_EQ(walls[0].high, Vector2(2, 2));
+}
+
+std::string Bytes(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+TEST(RoughTerrain, IsMadeFromItsNumbersAlone)
+{
+  TemporaryFile first("first.bt"), again("again.bt"), other("other.bt");
+  RoughTerrain numbers;
+  numbers.size = {1, 0.8};
+  numbers.resolution = 0.02;
+  WriteRoughTerrain(first.Path(), numbers);
+  WriteRoughTerrain(again.Path(), numbers);
+  EXPECT_EQ(Bytes(first.Path()), Bytes(again.Path()));
+  numbers.seed = 2;
+  WriteRoughTerrain(other.Path(), numbers);
+  EXPECT_NE(Bytes(first.Path()), Bytes(other.Path()));
+}
+
+TEST(RoughTerrain, IsAsHighAndAsDeepAsItWasAskedFor)
+{
+  TemporaryFile file("rough.bt");
+  RoughTerrain numbers;
+  numbers.size = {2, 1};
+  numbers.resolution = 0.01;
+  numbers.roughness = 0.05;
+  numbers.depth = 0.1;
+  numbers.holes = 4;
+  WriteRoughTerrain(file.Path(), numbers);
+  const VoxelTerrain terrain(file.Path());
+  EXPECT_NEAR(terrain.Low().x(), 0, 1e-9);
+  EXPECT_NEAR(terrain.High().x(), 2, 1e-9);
+  EXPECT_NEAR(terrain.High().y(), 1, 1e-9);
+  EXPECT_NEAR(terrain.High().z(), 0.05, 0.0051);
+
+  double highest = 0, steepest = 0;
+  int in_holes = 0, columns = 0;
+  for (double x = 0.005; x < 2; x += 0.01)
+    for (double y = 0.005; y < 1; y += 0.01)
+    {
+      const auto ground = terrain.GroundBelow({x, y, 1});
+      ASSERT_TRUE(ground) << x << " " << y;
+      ++columns;
+      if (*ground < -0.05)
+      {
+        ++in_holes;
+        EXPECT_NEAR(*ground, -0.1, 1e-9) << "the floor of a hole is flat";
+        continue;
+      }
+      EXPECT_GE(*ground, -1e-9);
+      highest = std::max(highest, *ground);
+      const auto beside = terrain.GroundBelow({x - 0.01, y, 1});
+      if (beside && *beside > -0.05) steepest = std::max(steepest, std::abs(*ground - *beside));
+    }
+  EXPECT_GT(highest, 0.04);
+  EXPECT_LT(steepest, 0.0101) << "at most a cell from column to column";
+  EXPECT_GT(in_holes, columns / 50);
+  EXPECT_LT(in_holes, columns / 2);
+}
+
+TEST(RoughTerrain, RefusesNumbersThatMakeNone)
+{
+  RoughTerrain numbers;
+  numbers.size = {100, 100};
+  EXPECT_THROW(WriteRoughTerrain("never.bt", numbers), std::invalid_argument);
+  numbers.size = {1, 1};
+  numbers.resolution = 0;
+  EXPECT_THROW(WriteRoughTerrain("never.bt", numbers), std::invalid_argument);
+  numbers.resolution = 0.1;
+  EXPECT_THROW(WriteRoughTerrain("/nowhere/never.bt", numbers), std::runtime_error);
 }
 
 }  // namespace
