@@ -5,13 +5,13 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "visualiser/gl/frame.h"
 #include "visualiser/gl/label_atlas.h"
 #include "visualiser/gl/mesh_store.h"
 #include "visualiser/gl/quads.h"
 #include "visualiser/gl/shaders.h"
 #include "visualiser/gl/targets.h"
 #include "visualiser/gl/view_volume.h"
-#include "visualiser/scene/picking.h"
 
 namespace swarmanoid
 {
@@ -24,53 +24,13 @@ using Eigen::Vector4f;
 
 // From the left behind the default view, rather high.
 const Vector3 kTowardsSun = Vector3(-0.58, -0.20, 0.79).normalized();
-// Levels of detail: bodies of a smaller radius (pixels) get the next one.
-constexpr float kNearPixels = 38;
-constexpr float kMiddlePixels = 11;
-// What stays solid of a wall at the edge of the arena: of one that would hide it, and of the others, m.
-constexpr float kKerb = 0.04F;
-constexpr float kCutHeight = 0.35F;
-constexpr float kCutPart = 0.07F;  // of the arena's size, where that is more
 constexpr GLint kShadowUnit = 0;
 constexpr GLint kLightsUnit = 1;
 constexpr GLint kAtlasUnit = 2;
 
-struct GlLine
-{
-  std::array<float, 3> from, to;
-  std::array<float, 4> colour;
-  std::array<float, 3> width;  // and opacity at both ends
-};
+Vector3f Linear(Colour colour) { return ChannelsOf(colour).cwiseAbs2(); }
 
-struct GlGlow
-{
-  std::array<float, 4> place;  // and radius
-  std::array<float, 4> colour;
-  std::array<float, 2> kind;  // flat, strength
-};
-
-enum GlowStrength
-{
-  kContact,
-  kLamp,
-  kSpot
-};
-
-std::array<float, 4> Components(Colour colour, float opacity = 1)
-{
-  const auto channel = [&](int shift) { return static_cast<float>((colour >> shift) & 0xff) / 255; };
-  return {channel(16), channel(8), channel(0), opacity};
-}
-
-Vector3f Picture3(Colour colour)
-{
-  const auto c = Components(colour);
-  return {c[0], c[1], c[2]};
-}
-
-Vector3f Linear(Colour colour) { return Picture3(colour).cwiseAbs2(); }
-
-// Lines of the floor: about twenty across an arena.
+// Metres between the lines of the floor: about ten across an arena.
 float SpacingOf(const Vector3& arena)
 {
   const double side = std::max(arena.x(), arena.y());
@@ -78,8 +38,6 @@ float SpacingOf(const Vector3& arena)
     if (side <= 14 * spacing) return static_cast<float>(spacing);
   return 100;
 }
-
-bool IsTerrain(const SceneItem& item) { return item.model >= StandardModels().size(); }
 
 // Metres between contour lines: about eight up the highest terrain.
 float ContourOf(const Scene& scene)
@@ -90,12 +48,6 @@ float ContourOf(const Scene& scene)
   for (const float spacing : {0.005F, 0.01F, 0.02F, 0.05F, 0.1F, 0.2F, 0.5F, 1.0F})
     if (height <= 9 * spacing) return spacing;
   return 2;
-}
-
-bool IsSeeThrough(const Model& model)
-{
-  const Mesh& mesh = model.levels[0];
-  return !mesh.vertices.empty() && LookOf(mesh.vertices[0].material).opacity < 1;
 }
 
 }  // namespace
@@ -113,18 +65,10 @@ struct GlScene::State
   GlObject light_buffer{GlObject::Kind::kBuffer};
   GlObject light_texture{GlObject::Kind::kTexture};
 
-  // Of one frame.
-  InstanceBuckets solid, ground, patches, glass, casters;
-  std::vector<GlLine> over, under;
-  std::vector<GlGlow> soft, bright;
-  std::vector<Glyph> letters;
+  Frame frame;
   std::vector<std::uint8_t> light_bytes;
   DrawStatistics statistics;
 
-  void Sort(const Scene& scene, const ViewVolume& view, const SunVolume& sun, const DrawOptions& options);
-  void SortWall(const SceneItem& item, const Scene& scene, const ViewVolume& view);
-  void AddUnderglow(const SceneItem& item, const Scene& scene);
-  void SortMarks(const Scene& scene, const Camera& camera, int width, int height);
   void UploadLights(const Scene& scene);
   void DrawShadowMap(const SunVolume& sun);
   void SetLight(const GlProgram& program, const Scene& scene, const Camera& camera, const SunVolume& sun,
@@ -168,8 +112,9 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   scene.Bounds(low, high);
   const ViewVolume view(camera, width, height, low, high);
   const SunVolume sun(kTowardsSun, view.seen_low, view.seen_high);
-  s.Sort(scene, view, sun, options);
-  s.SortMarks(scene, camera, width, height);
+  s.frame.Sort(scene, view, sun, options);
+  s.statistics.instances = s.frame.instances;
+  s.frame.SortMarks(scene, s.labels, camera, width, height);
   s.UploadLights(scene);
 
   glEnable(GL_DEPTH_TEST);
@@ -194,9 +139,9 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   body.Set("u_view_projection", view.view_projection);
   body.Set("u_lights", kLightsUnit);
   body.Set("u_contour", 0.0F);
-  s.statistics.triangles += s.meshes.Draw(s.solid);
+  s.statistics.triangles += s.meshes.Draw(s.frame.solid);
   body.Set("u_contour", options.textures ? ContourOf(scene) : 0.0F);
-  s.statistics.triangles += s.meshes.Draw(s.ground);
+  s.statistics.triangles += s.meshes.Draw(s.frame.ground);
   body.Set("u_contour", 0.0F);
   s.shaders.floor.Use();
   s.SetLight(s.shaders.floor, scene, camera, sun, options);
@@ -204,7 +149,7 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(-1, -2);
   body.Use();
-  s.statistics.triangles += s.meshes.Draw(s.patches);
+  s.statistics.triangles += s.meshes.Draw(s.frame.patches);
   glDisable(GL_POLYGON_OFFSET_FILL);
   s.DrawSky(view);
 
@@ -212,14 +157,14 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   glEnable(GL_BLEND);
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
-  s.DrawGlows(view, camera, s.soft);
-  s.DrawLines(view, width, height, s.under, true);
+  s.DrawGlows(view, camera, s.frame.soft);
+  s.DrawLines(view, width, height, s.frame.under, true);
   glDisable(GL_CULL_FACE);
   body.Use();
-  s.statistics.triangles += s.meshes.Draw(s.glass);
-  s.DrawGlows(view, camera, s.bright);
-  s.DrawLines(view, width, height, s.over, false);
-  if (!s.letters.empty())
+  s.statistics.triangles += s.meshes.Draw(s.frame.glass);
+  s.DrawGlows(view, camera, s.frame.bright);
+  s.DrawLines(view, width, height, s.frame.over, false);
+  if (!s.frame.letters.empty())
   {
     glDisable(GL_DEPTH_TEST);
     s.shaders.text.Use();
@@ -227,7 +172,7 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
     s.shaders.text.Set("u_atlas", kAtlasUnit);
     glActiveTexture(GL_TEXTURE0 + kAtlasUnit);
     glBindTexture(GL_TEXTURE_2D, s.labels.Texture());
-    s.glyphs.Draw(s.letters);
+    s.glyphs.Draw(s.frame.letters);
     glBindTexture(GL_TEXTURE_2D, 0);
   }
 
@@ -243,130 +188,6 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
   glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-}
-
-void GlScene::State::Sort(const Scene& scene, const ViewVolume& view, const SunVolume& sun, const DrawOptions& options)
-{
-  const std::span<const Model> models = scene.Models();
-  std::vector<char> see_through(models.size());
-  for (std::size_t m = 0; m < models.size(); ++m) see_through[m] = IsSeeThrough(models[m]);
-  for (InstanceBuckets* buckets : {&solid, &ground, &patches, &glass, &casters})
-  {
-    buckets->Resize(models.size());
-    buckets->Clear();
-  }
-  over.clear();
-  under.clear();
-  soft.clear();
-  bright.clear();
-
-  for (const SceneItem& item : scene.Items())
-  {
-    using Role = SceneItem::Role;
-    if (item.role == Role::kFloor) continue;
-    const Model& model = models[item.model];
-    const float radius = model.radius * item.scale.maxCoeff();
-    const float pixels = view.PixelsOf(item.position, radius);
-    const int level = pixels > kNearPixels ? 0 : pixels > kMiddlePixels ? 1 : 2;
-    const bool seen = view.Sees(item.position, radius);
-    if (seen)
-    {
-      ++statistics.instances;
-      if (item.role == Role::kPatch)
-        patches.Add(item.model, level, InstanceOf(item));
-      else if (see_through[item.model])
-        glass.Add(item.model, level, InstanceOf(item, LookOf(model.levels[0].vertices[0].material).opacity));
-      else if (item.role == Role::kWall && options.glass_walls)
-        SortWall(item, scene, view);
-      else
-        (IsTerrain(item) ? ground : solid).Add(item.model, level, InstanceOf(item));
-      if (item.role == Role::kBody && pixels > kMiddlePixels) AddUnderglow(item, scene);
-    }
-    if (!options.shadows || item.role != Role::kBody || see_through[item.model] || !sun.Holds(item.position, radius))
-      continue;
-    // Far away the shadow of a footbot's turret is that of the whole robot.
-    const bool hidden = level == 2 && item.model == static_cast<std::uint16_t>(ModelId::kFootbotBase);
-    // A terrain throws shadows on itself: both have to be the same surface.
-    if (!hidden) casters.Add(item.model, IsTerrain(item) ? level : std::max(level, 1), InstanceOf(item));
-  }
-}
-
-// Tall walls are cut open: glass over a solid lower part, with the upper edge drawn.
-void GlScene::State::SortWall(const SceneItem& item, const Scene& scene, const ViewVolume& view)
-{
-  const Vector3& arena = scene.ArenaSize();
-  const bool hides =
-      HidesArena(scene.Space().GetEntity(item.entity).GetConfiguration(), arena, view.eye.cast<double>());
-  const float height = item.scale.z();
-  const float cut = hides ? kKerb : std::max(kCutHeight, kCutPart * static_cast<float>(arena.head<2>().maxCoeff()));
-  if (height <= cut) return solid.Add(item.model, 0, InstanceOf(item));
-  glass.Add(item.model, 0, InstanceOf(item, hides ? 0.04F : 0.07F));
-  SceneItem kerb = item;
-  kerb.scale.z() = cut;
-  kerb.position += kerb.orientation * Vector3f(0, 0, (kerb.scale.z() - height) / 2);
-  solid.Add(item.model, 0, InstanceOf(kerb));
-  const auto corner = [&](float x, float y, float z)
-  { return Vector3f(item.position + item.orientation * Vector3f(x, y, z).cwiseProduct(item.scale / 2)); };
-  const auto edge = [&](const Vector3f& from, const Vector3f& to)
-  {
-    under.push_back(
-        {{from.x(), from.y(), from.z()}, {to.x(), to.y(), to.z()}, {0.55F, 0.57F, 0.6F, 1}, {1, 0.25F, 0.25F}});
-  };
-  edge(corner(-1, -1, 1), corner(1, -1, 1));
-  edge(corner(1, -1, 1), corner(1, 1, 1));
-  edge(corner(1, 1, 1), corner(-1, 1, 1));
-  edge(corner(-1, 1, 1), corner(-1, -1, 1));
-}
-
-// A soft dark spot where a body meets the floor, and what its LEDs throw on the floor.
-void GlScene::State::AddUnderglow(const SceneItem& item, const Scene& scene)
-{
-  const auto model = static_cast<ModelId>(item.model);
-  const bool robot = model == ModelId::kFootbotBase || model == ModelId::kHandbotBody;
-  if (!robot && model != ModelId::kCylinder) return;
-  if (item.position.z() > 0.05F || item.position.z() < -0.05F) return;
-  const float radius = robot ? 0.085F : item.scale.x();
-  soft.push_back({{item.position.x(), item.position.y(), item.position.z(), radius * 1.7F},
-                  {0.08F, 0.09F, 0.12F, 0.55F},
-                  {1, kContact}});
-  if (item.lights < 0) return;
-  Vector3f sum = Vector3f::Zero();
-  int lit = 0;
-  for (int led = 0; led < 12; ++led)
-    if (const Colour colour = scene.Lights()[static_cast<std::size_t>(item.lights + led)]; colour != 0)
-    {
-      sum += Picture3(colour);
-      ++lit;
-    }
-  if (lit == 0) return;
-  sum /= static_cast<float>(lit);
-  // Many colours together light the floor in none.
-  const float hue = (sum.maxCoeff() - sum.minCoeff()) / sum.maxCoeff();
-  soft.push_back({{item.position.x(), item.position.y(), item.position.z(), radius * 3.2F},
-                  {sum.x(), sum.y(), sum.z(), (0.06F + 0.24F * hue) * static_cast<float>(lit) / 12},
-                  {1, kLamp}});
-}
-
-void GlScene::State::SortMarks(const Scene& scene, const Camera& camera, int width, int height)
-{
-  for (const SceneLine& line : scene.Lines())
-  {
-    const GlLine gl{{line.from.x(), line.from.y(), line.from.z()},
-                    {line.to.x(), line.to.y(), line.to.z()},
-                    Components(line.colour),
-                    {line.width, line.opacity_from, line.opacity_to}};
-    (line.on_top ? over : under).push_back(gl);
-  }
-  for (const SceneGlow& glow : scene.Glows())
-    bright.push_back({{glow.position.x(), glow.position.y(), glow.position.z(), glow.radius},
-                      Components(glow.colour, 0.4F),
-                      {glow.flat ? 1.0F : 0.0F, static_cast<float>(glow.flat ? kSpot : kLamp)}});
-  letters.clear();
-  for (const SceneLabel& label : scene.Labels())
-  {
-    const Vector3 pixel = camera.Project(label.position.cast<double>(), width, height);
-    if (pixel.z() > 0) labels.Append(label.text, static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), letters);
-  }
 }
 
 void GlScene::State::UploadLights(const Scene& scene)
@@ -394,7 +215,7 @@ void GlScene::State::DrawShadowMap(const SunVolume& sun)
   glDisable(GL_CULL_FACE);
   shaders.caster.Use();
   shaders.caster.Set("u_view_projection", sun.view_projection);
-  statistics.triangles += meshes.Draw(casters);
+  statistics.triangles += meshes.Draw(frame.casters);
   glEnable(GL_CULL_FACE);
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
@@ -405,7 +226,7 @@ void GlScene::State::SetLight(const GlProgram& program, const Scene& scene, cons
   const auto size = static_cast<float>(scene.ArenaSize().head<2>().norm());
   program.Set("u_eye", Vector3f(camera.position.cast<float>()));
   program.Set("u_sun", Vector3f(kTowardsSun.cast<float>()));
-  program.Set("u_fog", Picture3(palette::kSky));
+  program.Set("u_fog", ChannelsOf(palette::kSky));
   program.Set("u_fog_distance", 5 * size + 10);
   program.Set("u_shadows", options.shadows ? 1 : 0);
   program.Set("u_shadow_map", kShadowUnit);
@@ -459,7 +280,7 @@ void GlScene::State::DrawSky(const ViewVolume& view)
 {
   shaders.sky.Use();
   shaders.sky.Set("u_inverse", Eigen::Matrix4f(view.view_projection.inverse()));
-  shaders.sky.Set("u_fog", Picture3(palette::kSky));
+  shaders.sky.Set("u_fog", ChannelsOf(palette::kSky));
   glDisable(GL_CULL_FACE);
   lines.DrawOne();
   glEnable(GL_CULL_FACE);

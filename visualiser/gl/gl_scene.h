@@ -33,8 +33,8 @@ public:
   GlScene();
   ~GlScene();
 
-  // Draws into a framebuffer object (0: the window's), as it is after the scene's last Update. Leaves all of OpenGL's
-  // state at its defaults but for the viewport.
+  // Draws into a framebuffer object (0: the window's), as it is after the scene's last Update. The same scene each
+  // time. Leaves all of OpenGL's state at its defaults but for the viewport.
   void Draw(const Scene& scene, const Camera& camera, unsigned framebuffer, int width, int height,
             const DrawOptions& options);
 
