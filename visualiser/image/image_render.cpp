@@ -99,8 +99,7 @@ void CImageRender::ReadOutputs(const RenderSetup& setup)
 void CImageRender::Draw()
 {
   const std::uint64_t tick = space_->GetTick();
-  // Trails are kept of every tick.
-  if (scene_options_.trails && !done_) scene_->Update(scene_options_);
+  if (scene_options_.trails && !done_) scene_->Track();
   if (done_ || tick < next_) return;
   scene_->Update(scene_options_);
   context_->MakeCurrent();

@@ -185,7 +185,7 @@ void Scene::Update(const SceneOptions& options)
       labels_.push_back({body.entity, top, entity.GetId()});
     }
   }
-  KeepTrails();
+  if (options.trails || trails_ != nullptr) Track();
   if (options.trails) AddTrails();
 }
 

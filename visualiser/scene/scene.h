@@ -83,6 +83,8 @@ public:
 
   // Brings items and marks to the present state of the space.
   void Update(const SceneOptions& options);
+  // For states that are not drawn: notes where everything is, so that trails miss nothing. Much cheaper than Update.
+  void Track();
 
   const CSwarmanoidSpace& Space() const { return space_; }
   // The standard models, then one for each terrain.
@@ -130,7 +132,6 @@ private:
   void AddRays(std::uint32_t footbot);
   void AddOutline(std::uint32_t entity, Colour colour, float width, bool on_top);
   void AddLine(const Vector3& from, const Vector3& to, Colour colour, float width, float opacity, bool on_top = false);
-  void KeepTrails();
   void AddTrails();
   // The fraction of the way to the first body but one, whatever its engine; 1 where there is none.
   double FirstHit(const Vector3& from, const Vector3& to, std::uint32_t without);

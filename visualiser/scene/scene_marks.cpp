@@ -157,10 +157,10 @@ void Scene::AddOutline(std::uint32_t entity, Colour colour, float width, bool on
   }
 }
 
-void Scene::KeepTrails()
+void Scene::Track()
 {
   const std::span<const std::uint32_t> movable = space_.Movable();
-  if (trails_ == nullptr) return;
+  if (trails_ == nullptr) trails_ = std::make_unique<Trail[]>(movable.size());
   for (std::size_t m = 0; m < movable.size(); ++m)
   {
     Eigen::Vector3f place = space_.GetPose(movable[m]).position.cast<float>();
@@ -172,11 +172,6 @@ void Scene::KeepTrails()
 void Scene::AddTrails()
 {
   const std::span<const std::uint32_t> movable = space_.Movable();
-  if (trails_ == nullptr)
-  {
-    trails_ = std::make_unique<Trail[]>(movable.size());
-    KeepTrails();
-  }
   constexpr float kOpacity = 0.75F;
   for (std::size_t m = 0; m < movable.size(); ++m)
   {
