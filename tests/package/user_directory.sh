@@ -48,6 +48,10 @@ TryUserDirectory()
   swarmanoid new functions spreading
   swarmanoid new engine gliding
   swarmanoid new experiment first_try
+  # They move a robot and light another one's beacon before the controllers of tick 10.
+  sed -i 's|void PreStep(SpaceEditor&) override {}|void PreStep(SpaceEditor\& space) override\n  {\n    if (space.GetSpace().GetTick() != 10) return;\n    space.MoveEntity("fb_0", {Vector3(2, 2, 0), Quaternion::Identity()});\n    space.SetAttribute("fb_1", "beacon", 0xff0000);\n  }|' \
+    ../functions/spreading/spreading.cpp
+  grep -q MoveEntity ../functions/spreading/spreading.cpp
 
   echo "== what is wrong is told with the cure"
   answer=$("$scripts/create_behavior_controller.sh" --name again --robot hndbot --yes 2>&1) && exit 1
@@ -71,7 +75,16 @@ TryUserDirectory()
 
   echo "== all of it builds"
   cd "$directory"
-  ./build.sh >"$runs/build.txt" 2>&1 || { cat "$runs/build.txt"; exit 1; }
+  ./build.sh all >"$runs/build.txt" 2>&1 || { cat "$runs/build.txt"; exit 1; }
+
+  echo "== for robots too: the controllers of all three have their drivers"
+  local robot
+  for robot in wall_follower:fb_0 sky_watch:eb_0 climber:hb; do
+    swarmanoid_robot "experiments/${robot%:*}.xml" --controller controller --robot "${robot#*:}" \
+      --controller-path real_robot_build/controllers --check >"$runs/robot.txt"
+    Expect "$(cat "$runs/robot.txt")" "controller controller of library ${robot%:*}"
+  done
+  [ ! -e real_robot_build/simulation ]
 
   echo "== every experiment runs, as a cluster and in the user's own simulator alike"
   local experiment name cluster own status
@@ -82,8 +95,8 @@ TryUserDirectory()
     cluster=$(swarmanoid run "$experiment" --ticks 60 --quiet --output "$runs/$name") || status=$?
     own=$(simulation_build/simulation "$experiment" --ticks 60 --quiet --output "$runs/$name-own") || [ $? -eq "$status" ]
     echo "$name: exit code $status, $(tail -n 1 <<<"$own")"
-    # 60 ticks are too few for the goal of the functions.
-    [ "$status" -eq "$([ "$name" = spreading ] && echo 1 || echo 0)" ]
+    # 60 ticks are too few for the goals of the functions.
+    [ "$status" -eq "$([ "$name" = spreading ] || [ "$name" = prey_retrieval ] && echo 1 || echo 0)" ]
     [ -n "$(Hash "$cluster")" ]
     [ "$(Hash "$cluster")" = "$(Hash "$own")" ]
   done
@@ -92,6 +105,7 @@ TryUserDirectory()
   own=$(simulation_build/simulation experiments/gliding.xml --ticks 200 --quiet --output "$runs/glide-on" --restore "$runs/glide/checkpoint-00000100")
   [ "$(Hash "$cluster")" = "$(Hash "$own")" ]
   grep -q '^tick,mean_distance_m$' "$runs/spreading/spreading.csv"
+  awk '$1 == 11 && $3 == "fb_0" { near = ($4 - 2)^2 + ($5 - 2)^2 < 0.001 } END { exit !near }' "$runs/spreading/positions.txt"
   swarmanoid run experiments/spreading.xml --quiet --output "$runs/to_the_end"
   # The robots of each kind have moved: the footbots on, the handbot up.
   awk '$3 == "hb" { z = $6 } END { exit !(z > 0.4) }' "$runs/climber/climber.txt"

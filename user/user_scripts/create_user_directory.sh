@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# create_user_directory.sh DIRECTORY: makes a directory for a user's own controllers, with sample ones and an experiment.
+# create_user_directory.sh DIRECTORY: makes a directory for a user's own controllers, with samples to run and to change.
 set -euo pipefail
 user=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 if [ $# -ne 1 ]; then
@@ -10,9 +10,17 @@ if [ -e "$1" ]; then
   echo "$1 exists; choose another name, or remove it first" >&2
   exit 1
 fi
-mkdir -p "$1/controllers" "$1/functions"
+mkdir -p "$1/controllers" "$1/functions" "$1/experiments"
 cp -r "$user/templates/user_directory/." "$1/"
-cp -r "$user/controllers/sample_footbot_controller" "$1/controllers/"
+for controller in sample_footbot_controller footbot_diffusion prey_retrieval; do
+  cp -r "$user/controllers/$controller" "$1/controllers/"
+done
+cp -r "$user/functions/prey_retrieval_goal" "$1/functions/"
+# The experiments of the samples, with the libraries that are built here.
+paths='    <controller_path>../simulation_build/controllers</controller_path>\n    <plugin_path>../simulation_build/functions</plugin_path>'
+for experiment in sample_footbot diffusion_10 prey_retrieval; do
+  sed "s|^ *<framework>|&\n$paths|" "$user/../configs/$experiment.xml" >"$1/experiments/$experiment.xml"
+done
 # What made the directory builds it: the installation that this script is part of, or the build of the source tree.
 place=$user/../../..
 if [ ! -x "$place/bin/swarmanoid" ]; then place=$user/../build; fi

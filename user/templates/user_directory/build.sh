@@ -21,6 +21,8 @@ if [ ! -d "$place" ]; then
 fi
 export CMAKE_PREFIX_PATH=${place:-}${CMAKE_PREFIX_PATH:+:$CMAKE_PREFIX_PATH}
 if command -v ninja >/dev/null; then export CMAKE_GENERATOR=Ninja; fi
+# The second of two builds of the same files comes from the cache.
+if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
 
 Build()
 {
