@@ -1,11 +1,13 @@
 // The ground sensors of the footbot: brightness of the floor under eight points, and its colour under the middle.
-// Patches lie on one another in the order of the experiment file, holes are black. Generic.
+// Patches lie on one another in the order of the experiment file; holes, of the floor or of terrain, are black.
+// Generic.
 #include <algorithm>
 
 #include "common/control_interface/footbot/ci_footbot_ground_sensor.h"
 #include "common/math/elementary.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_kit.h"
+#include "controller_host/devices/sensor_world.h"
 #include "controller_host/devices/value_devices.h"
 
 namespace swarmanoid
@@ -55,6 +57,7 @@ public:
     Reset(setup, kSensors + 1);
     ground_noise_ = NoiseFrom(setup.parameters);
     floor_colour_ = setup.parameters.Colour("floor_colour");
+    world_ = SensorWorld::Of(setup.space);
     patches_.clear();
     for (std::uint32_t e = 0; e < setup.space.Size(); ++e)
     {
@@ -104,6 +107,7 @@ private:
     double* values = ValuesOf(k);
     std::fill_n(values, kSensors, Brightness(floor_colour_));
     values[kColourValue] = floor_colour_;
+    if (!world_->Terrain().IsEmpty() && !IsOnPlane(robots_[k])) SenseTerrain(robots_[k], pose, values);
     for (const Patch& patch : patches_)
     {
       const Pose place = space_->GetPose(patch.entity);
@@ -127,6 +131,34 @@ private:
       values[i] = std::clamp(values[i] + ground_noise_.Sample(random), 0.0, 1.0);
   }
 
+  // Where a terrain of the robot's world has no ground near it, and the floor z = 0 is not near either, there is a
+  // hole. The engines of planes have ground everywhere.
+  void SenseTerrain(std::uint32_t robot, const Pose& pose, double* values) const
+  {
+    const auto counts = [&](std::uint32_t terrain) { return world_->CanHideFrom(robot, terrain); };
+    const auto is_hole = [&](const Vector2& local)
+    {
+      const Vector3 point = pose.Apply({local.x(), local.y(), kNearFloor});
+      const std::optional<double> depth = world_->Terrain().DepthOfGround(point, counts);
+      return __builtin_fabs(point.z() - kNearFloor) > kNearFloor && !(depth && *depth <= 2 * kNearFloor);
+    };
+    for (std::size_t i = 0; i < kSensors; ++i)
+      if (is_hole(points_[i])) values[i] = 0;
+    if (is_hole({0, 0})) values[kColourValue] = 0;
+  }
+
+  bool IsOnPlane(std::uint32_t robot) const
+  {
+    const auto& engines = space_->GetExperiment().engines;
+    const auto holds = [robot](const EngineConfiguration& engine)
+    {
+      const bool is_plane = engine.tag == "dummy_engine" || engine.tag == "kinematics2d" || engine.tag == "dynamics2d";
+      return is_plane && std::binary_search(engine.entities.begin(), engine.entities.end(), robot);
+    };
+    return std::any_of(engines.begin(), engines.end(), holds);
+  }
+
+  std::shared_ptr<SensorWorld> world_;
   std::uint32_t floor_colour_ = 0;
   NoiseModel ground_noise_;
   std::vector<Patch> patches_;

@@ -94,6 +94,7 @@ void FootbotProximity::Sense(std::size_t k, std::uint32_t robot)
   const double y = poses.y[robot];
   world_->Grid().ForEachNear(x, y, ring_radius_ + range_ + (upright ? 0 : kHeight), add);
   for (const std::uint32_t body : fixed_->Near(x, y)) add(body);
+  if (!world_->Terrain().IsEmpty()) AddTerrain(robot);
 
   double* readings = &readings_[k * kRays];
   if (touched_)
@@ -211,6 +212,23 @@ void FootbotProximity::AddAny(std::uint32_t robot, std::uint32_t body)
     if (!touched_) std::fill_n(distances_.values, kRays, kNothing);
     touched_ = true;
     distances_.values[i] = std::min(distances_.values[i], *hit * range_);
+  }
+}
+
+void FootbotProximity::AddTerrain(std::uint32_t robot)
+{
+  const Pose own = world_->Space().GetPose(robot);
+  const Eigen::Matrix3d rotation = own.orientation.toRotationMatrix();
+  const auto is_there = [&](std::uint32_t terrain) { return world_->Membership().ShareEngine(robot, terrain); };
+  for (unsigned i = 0; i < kRays; ++i)
+  {
+    const Vector3 ray(ray_cos_.values[i], ray_sin_.values[i], 0);
+    const Vector3 from = own.position + rotation * (ring_radius_ * ray + Vector3(0, 0, kHeight));
+    const double hit = world_->Terrain().FirstHit(from, from + rotation * (range_ * ray), is_there);
+    if (hit > 1) continue;
+    if (!touched_) std::fill_n(distances_.values, kRays, kNothing);
+    touched_ = true;
+    distances_.values[i] = std::min(distances_.values[i], hit * range_);
   }
 }
 

@@ -56,6 +56,7 @@ private:
   void AddDisc(std::uint32_t robot, std::uint32_t body);
   void AddUprightBox(std::uint32_t robot, std::uint32_t body);
   void AddAny(std::uint32_t robot, std::uint32_t body);
+  void AddTerrain(std::uint32_t robot);
 
   std::shared_ptr<SensorWorld> world_;
   std::vector<std::uint32_t> robots_;

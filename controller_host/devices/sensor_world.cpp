@@ -12,6 +12,7 @@ SensorWorld::SensorWorld(const CSwarmanoidSpace& space)
       membership_(space.GetExperiment()),
       grid_(space, bodies_),
       fixed_(space, bodies_, 0),
+      terrain_(space),
       revision_(space.Revision() - 1)
 {
   for (const BodyShape& body : bodies_)

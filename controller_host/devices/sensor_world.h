@@ -1,5 +1,5 @@
-// The world as the sensors of a process see it, shared by all batches over one space: body shapes, engine membership
-// and the grid of neighbours of the current tick. One thread at a time, as the space itself.
+// The world as the sensors of a process see it, shared by all batches over one space: body shapes, terrain, engine
+// membership and the grid of neighbours of the current tick. One thread at a time, as the space itself.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include "controller_host/devices/body_shapes.h"
 #include "controller_host/devices/engine_membership.h"
 #include "controller_host/devices/neighbour_grid.h"
+#include "controller_host/devices/sensed_terrain.h"
 
 namespace swarmanoid
 {
@@ -24,8 +25,8 @@ public:
   // Brings the grid to the poses of the space, once for all batches of a step.
   void Refresh();
 
-  // The part 0..1 of the way from one point to another at which it meets the first body for which accept(entity) holds;
-  // more than 1 where it meets none.
+  // The part 0..1 of the way from one point to another at which it meets the first body or terrain for which
+  // accept(entity) holds; more than 1 where it meets none.
   template <class Accept>
   double FirstHit(const Vector3& from, const Vector3& to, Accept&& accept) const;
   // Whether `body` can hide things from `observer`: they share an engine, or the body stands in the space without being
@@ -42,6 +43,7 @@ public:
   std::span<const BodyShape> Bodies() const { return bodies_; }
   const EngineMembership& Membership() const { return membership_; }
   const NeighbourGrid& Grid() const { return grid_; }
+  const SensedTerrain& Terrain() const { return terrain_; }
 
 private:
   const CSwarmanoidSpace& space_;
@@ -50,6 +52,7 @@ private:
   EngineMembership membership_;
   NeighbourGrid grid_;
   FixedBodies fixed_;
+  SensedTerrain terrain_;
   std::uint64_t revision_;  // of the poses in the grid
 };
 
@@ -64,7 +67,7 @@ double SensorWorld::FirstHit(const Vector3& from, const Vector3& to, Accept&& ac
   };
   grid_.ForEachAlong(from, to, test);
   fixed_.ForEachAlong(from, to, test);
-  return first;
+  return terrain_.IsEmpty() ? first : std::min(first, terrain_.FirstHit(from, to, accept));
 }
 
 }  // namespace swarmanoid

@@ -60,6 +60,9 @@ std::span<const char> SightLines::Solve()
   if (!tilted_.empty() || !foreign_.empty())
     for (std::size_t i = 0; i < points_.count; ++i)
       if (seen_[i] && HiddenByOthers(i)) seen_[i] = 0;
+  if (!world_.Terrain().IsEmpty())
+    for (std::size_t i = 0; i < points_.count; ++i)
+      if (seen_[i] && HiddenByTerrain(i)) seen_[i] = 0;
   return seen_;
 }
 
@@ -190,6 +193,21 @@ bool SightLines::HiddenByOthers(std::size_t point) const
   for (const std::uint32_t body : foreign_)
     if (world_.Membership().ShareEngine(owner, body) && hides(body)) return true;
   return false;
+}
+
+bool SightLines::HiddenByTerrain(std::size_t point) const
+{
+  const auto owner = static_cast<std::uint32_t>(points_.owner[point]);
+  const Vector3 way(points_.x[point], points_.y[point], points_.z[point]);
+  const auto hides = [&](std::uint32_t terrain)
+  {
+    return world_.CanHideFrom(observer_, terrain) ||
+           (owner != kNobody && world_.Membership().ShareEngine(owner, terrain));
+  };
+  // What lies on the ground, as spots of lasers, is not hidden by it.
+  constexpr double kOnGround = 0.005;  // m
+  const double length = way.norm();
+  return world_.Terrain().FirstHit(eye_, eye_ + way, hides) * length < length - kOnGround;
 }
 
 }  // namespace swarmanoid

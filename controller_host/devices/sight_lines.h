@@ -1,6 +1,6 @@
-// What an observer sees of some points: exact lines of sight against the bodies around, many at a time. Bodies hide
-// what lies behind them where they share an engine with the observer or with the owner of the point; nobody hides
-// himself.
+// What an observer sees of some points: exact lines of sight against the bodies around and the terrain, many at a
+// time. They hide what lies behind them where they share an engine with the observer or with the owner of the point;
+// nobody hides himself.
 #pragma once
 
 #include <span>
@@ -59,6 +59,7 @@ private:
   void AddBox(std::uint32_t body);
   void HideBehindBox(const Box& box);
   bool HiddenByOthers(std::size_t point) const;
+  bool HiddenByTerrain(std::size_t point) const;
 
   const SensorWorld& world_;
   FixedBodies fixed_;
