@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cctype>
+#include <filesystem>
 #include <memory>
 
 #include "common/bus/run_directory.h"
@@ -32,7 +33,11 @@ void PrintPlugins(PluginKind kind)
   {
     const std::string name =
         plugin->implementation.empty() ? plugin->label : fmt::format("{} / {}", plugin->label, plugin->implementation);
-    fmt::print("  {:<52} {}\n", name, plugin->brief);
+    const bool is_device = kind == PluginKind::kSensor || kind == PluginKind::kActuator;
+    fmt::print("  {:<52} {}{}\n", name, plugin->brief,
+               !is_device                ? ""
+               : plugin->channel.empty() ? " (generic)"
+                                         : " (specific)");
   }
 }
 
@@ -41,7 +46,11 @@ int ListPlugins(const std::vector<std::string>& libraries)
   RegisterBuiltins();
   for (const std::string& name : libraries)
   {
-    const PluginLibrary& library = LoadPluginLibrary(name, StandardPluginFolders());
+    // A path from here, or a name to be searched in the folders of plug-ins.
+    std::error_code none;
+    const std::string path =
+        std::filesystem::is_regular_file(name, none) ? std::filesystem::absolute(name).string() : name;
+    const PluginLibrary& library = LoadPluginLibrary(path, StandardPluginFolders());
     if (!library.error.empty()) throw UsageError(library.error);
   }
   for (const PluginKind kind : {PluginKind::kEngine, PluginKind::kSensor, PluginKind::kActuator, PluginKind::kRenderer,
@@ -68,7 +77,7 @@ void AddListCommand(CLI::App& app, int& exit_code)
   verb->footer(
       "Examples:\n"
       "  swarmanoid list plugins\n"
-      "  swarmanoid list plugins build/lib/controllers/footbot_diffusion.so\n"
+      "  swarmanoid list plugins build/lib/swarmanoid/libfootbot_diffusion.so\n"
       "  swarmanoid list experiments");
 
   auto libraries = std::make_shared<std::vector<std::string>>();

@@ -56,19 +56,23 @@ PluginRegistry<CCI_Controller>& PluginRegistry<CCI_Controller>::Instance();
 // Used by REGISTER_CONTROLLER.
 struct ControllerRegistration
 {
-  ControllerRegistration(const char* label, std::unique_ptr<CCI_Controller> (*create)());
+  // `brief`: one line for `swarmanoid list plugins`; without one it shows the name of the class.
+  ControllerRegistration(const char* label, std::unique_ptr<CCI_Controller> (*create)(), const char* class_name,
+                         const char* brief = nullptr);
 };
 
 }  // namespace swarmanoid
 
 using swarmanoid::CCI_Controller;
 
-// REGISTER_CONTROLLER(CSampleFootBotController, "sample_footbot_controller")
-#define REGISTER_CONTROLLER(CLASS, LABEL)                                                                  \
-  namespace                                                                                                \
-  {                                                                                                        \
-  const ::swarmanoid::ControllerRegistration registration_of_##CLASS(                                      \
-      LABEL, []() -> std::unique_ptr<::swarmanoid::CCI_Controller> { return std::make_unique<CLASS>(); }); \
+// REGISTER_CONTROLLER(CSampleFootBotController, "sample_footbot_controller"), and behind it, if wanted, one line that
+// says what the controller does.
+#define REGISTER_CONTROLLER(CLASS, LABEL, ...)                                                            \
+  namespace                                                                                               \
+  {                                                                                                       \
+  const ::swarmanoid::ControllerRegistration registration_of_##CLASS(                                     \
+      LABEL, []() -> std::unique_ptr<::swarmanoid::CCI_Controller> { return std::make_unique<CLASS>(); }, \
+      #CLASS __VA_OPT__(, ) __VA_ARGS__);                                                                 \
   }
 
 // The name of the framework in the code of its first users: `using namespace ahss;`.

@@ -26,6 +26,9 @@ public:
   void Init(const DeviceSetup& setup) override
   {
     Reset(setup, 1);
+    noise_ = NoiseFrom(setup.parameters);
+    least_ = 0;
+    most_ = 1;
     MakeDevices();
   }
 };
@@ -41,6 +44,8 @@ void RegisterEyebotAttachment()
   description.robots = {"eyebot"};
   description.channel = "eyebot_attach";
   description.channel_width = 1;
+  description.parameters =
+      NoiseParameters("the strength of the magnet, 0 to 1, while it is on; it holds above 0.5", "");
   AddActuatorPlugin<MagnetActuator>(description);
 }
 

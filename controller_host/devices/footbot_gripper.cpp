@@ -29,6 +29,10 @@ public:
   void Init(const DeviceSetup& setup) override
   {
     Reset(setup, 1);
+    stream_ = ActuatorStream(setup.stream);
+    noise_ = NoiseFrom(setup.parameters);
+    least_ = 0;
+    most_ = 1;
     MakeDevices();
   }
 };
@@ -79,6 +83,7 @@ void RegisterFootbotGripper()
   actuator.robots = {"footbot"};
   actuator.channel = "footbot_gripper";
   actuator.channel_width = 1;
+  actuator.parameters = NoiseParameters("how far it closes, 0 to 1, while it is told to close", "");
   AddActuatorPlugin<GripperActuator>(actuator);
 
   PluginDescription sensor;

@@ -17,17 +17,22 @@ constexpr double kRadius = CCI_FootBotWheelsActuator::WHEEL_RADIUS_M;
 
 std::vector<ParameterSpec> DummyFootbotWheels::ParameterTable()
 {
-  return {{.name = "max_speed",
-           .unit = "m/s",
-           .default_value = "0.3",
-           .description = "Speed of a wheel on the ground to which commands are clamped; 0.3 on the robot.",
-           .minimum = 0}};
+  return Joined({{.name = "max_speed",
+                  .unit = "m/s",
+                  .default_value = "0.3",
+                  .description = "Speed of a wheel on the ground to which commands are clamped; 0.3 on the robot.",
+                  .minimum = 0}},
+                NoiseParameters("the speed of each wheel while it moves", "m/s"));
 }
 
 void DummyFootbotWheels::Init(const DeviceSetup& setup)
 {
   limit_ = setup.parameters.Number("max_speed") / kRadius;
   wheels_.resize(setup.robots.size());
+  space_ = &setup.space;
+  robots_ = setup.robots;
+  stream_ = setup.stream;
+  noise_ = NoiseFrom(setup.parameters);
 }
 
 double DummyFootbotWheels::Clamped(double velocity) const
@@ -44,6 +49,22 @@ void DummyFootbotWheels::Commit(const ChannelView& channel, AttributeChanges&)
     values[0] = Clamped(wheels_[k].wanted[0]);
     values[1] = Clamped(wheels_[k].wanted[1]);
   }
+  AddNoise(channel);
+}
+
+void DummyFootbotWheels::AddNoise(const ChannelView& channel) const
+{
+  if (!noise_.IsActive()) return;
+  for (std::size_t k = 0; k < robots_.size(); ++k)
+  {
+    RandomStream random = StreamOf(*space_, robots_[k], stream_);
+    double* values = &channel.values[channel.offsets[k]];
+    for (std::size_t side = 0; side < 2; ++side)
+    {
+      const double noise = noise_.Sample(random) / kRadius;
+      if (values[side] != 0) values[side] += noise;
+    }
+  }
 }
 
 void DummyFootbotWheels::SaveState(ByteWriter& state) const
@@ -59,45 +80,38 @@ void DummyFootbotWheels::LoadState(ByteReader& state)
 std::vector<ParameterSpec> NoisyFootbotWheels::ParameterTable()
 {
   return Joined(
-      Joined(
-          DummyFootbotWheels::ParameterTable(),
-          {{.name = "bias_left",
-            .unit = "m/s",
-            .default_value = "0",
-            .description = "Added to the speed of the left wheel while it moves."},
-           {.name = "bias_right",
-            .unit = "m/s",
-            .default_value = "0",
-            .description = "Added to the speed of the right wheel while it moves."},
-           {.name = "factor_left", .default_value = "1", .description = "Multiplies the speed of the left wheel."},
-           {.name = "factor_right", .default_value = "1", .description = "Multiplies the speed of the right wheel."}}),
-      NoiseParameters("the speed of each wheel while it moves", "m/s"));
+      DummyFootbotWheels::ParameterTable(),
+      {{.name = "bias_left",
+        .unit = "m/s",
+        .default_value = "0",
+        .description = "Added to the speed of the left wheel while it moves."},
+       {.name = "bias_right",
+        .unit = "m/s",
+        .default_value = "0",
+        .description = "Added to the speed of the right wheel while it moves."},
+       {.name = "factor_left", .default_value = "1", .description = "Multiplies the speed of the left wheel."},
+       {.name = "factor_right", .default_value = "1", .description = "Multiplies the speed of the right wheel."}});
 }
 
 void NoisyFootbotWheels::Init(const DeviceSetup& setup)
 {
   DummyFootbotWheels::Init(setup);
-  space_ = &setup.space;
-  robots_ = setup.robots;
-  stream_ = setup.stream;
   bias_ = {setup.parameters.Number("bias_left") / kRadius, setup.parameters.Number("bias_right") / kRadius};
   factor_ = {setup.parameters.Number("factor_left"), setup.parameters.Number("factor_right")};
-  noise_ = NoiseFrom(setup.parameters);
 }
 
 void NoisyFootbotWheels::Commit(const ChannelView& channel, AttributeChanges&)
 {
   for (std::size_t k = 0; k < wheels_.size(); ++k)
   {
-    RandomStream random = StreamOf(*space_, robots_[k], stream_);
     double* values = &channel.values[channel.offsets[k]];
     for (std::size_t side = 0; side < 2; ++side)
     {
       const double wanted = Clamped(wheels_[k].wanted[side]);
-      const double noise = noise_.Sample(random) / kRadius;
-      values[side] = wanted == 0 ? 0 : bias_[side] + factor_[side] * wanted + noise;
+      values[side] = wanted == 0 ? 0 : bias_[side] + factor_[side] * wanted;
     }
   }
+  AddNoise(channel);
 }
 
 std::vector<ParameterSpec> PidFootbotWheels::ParameterTable()
@@ -137,6 +151,7 @@ void PidFootbotWheels::Commit(const ChannelView& channel, AttributeChanges&)
       values[side] = velocity_[k][side] += step;
     }
   }
+  AddNoise(channel);
 }
 
 void PidFootbotWheels::SaveState(ByteWriter& state) const
@@ -160,12 +175,12 @@ void RegisterFootbotWheels()
   description.channel_width = 2;
 
   description.implementation = "dummy_footbot_wheels";
-  description.brief = "ideal wheels: turn at the commanded speed at once, up to max_speed";
+  description.brief = "wheels that turn at the commanded speed at once, up to max_speed";
   description.parameters = DummyFootbotWheels::ParameterTable();
   AddActuatorPlugin<DummyFootbotWheels>(description);
 
   description.implementation = "noisy_footbot_wheels";
-  description.brief = "wheels with bias, factor and noise on their speed while they move";
+  description.brief = "wheels with a bias and a factor on their speed while they move";
   description.parameters = NoisyFootbotWheels::ParameterTable();
   AddActuatorPlugin<NoisyFootbotWheels>(description);
 

@@ -1,5 +1,6 @@
-// The wheels of footbots: ideal, noisy, and with the lag of a speed controller. Specific: the engine drives the body
-// from the channel "footbot_wheels", [left, right] wheel angular velocity in rad/s.
+// The wheels of footbots: immediate, with systematic errors, and with the lag of a speed controller; all with noise.
+// Specific: the engine drives the body from the channel "footbot_wheels", [left, right] wheel angular velocity in
+// rad/s.
 #pragma once
 
 #include <array>
@@ -20,7 +21,7 @@ public:
   std::array<double, NUM_WHEELS> wanted{};  // rad/s
 };
 
-// Ideal wheels: the speed asked for, clamped to the fastest one. The base of the others.
+// The speed asked for, clamped to the fastest one. The base of the others.
 class DummyFootbotWheels : public ActuatorBatch
 {
 public:
@@ -33,9 +34,17 @@ public:
 
 protected:
   double Clamped(double velocity) const;
+  // To each wheel that moves.
+  void AddNoise(const ChannelView& channel) const;
 
   double limit_ = 0;  // rad/s
   std::vector<SimulatedFootbotWheels> wheels_;
+
+private:
+  const CSwarmanoidSpace* space_ = nullptr;
+  std::vector<std::uint32_t> robots_;
+  std::uint32_t stream_ = 0;
+  NoiseModel noise_;  // m/s on the ground
 };
 
 // v' = bias + factor * v + noise for each wheel, only while the wheel is told to move (ARGoS3, differential steering
@@ -48,12 +57,8 @@ public:
   void Commit(const ChannelView& channel, AttributeChanges& changes) override;
 
 private:
-  const CSwarmanoidSpace* space_ = nullptr;
-  std::vector<std::uint32_t> robots_;
-  std::uint32_t stream_ = 0;
   std::array<double, 2> bias_{};  // rad/s
   std::array<double, 2> factor_{};
-  NoiseModel noise_;  // m/s on the ground
 };
 
 // First-order response: the speed approaches the one asked for with a time constant, within a largest acceleration.

@@ -64,8 +64,9 @@ private:
   double* closed_;
 };
 
-// `FIRST`: place of the first value within the channel.
-template <class Device, std::size_t FIRST, std::size_t WIDTH, bool HAS_NOISE>
+// `FIRST`: place of the first value within the channel. `MOST`: of the values with their noise, 0 where there is no
+// limit.
+template <class Device, std::size_t FIRST, std::size_t WIDTH, int MOST>
 class JointActuator : public ActuatorsOf<ChannelActuator, Device>
 {
 public:
@@ -73,7 +74,12 @@ public:
   {
     this->Reset(setup, WIDTH);
     this->first_ = FIRST;
-    if constexpr (HAS_NOISE) this->noise_ = NoiseFrom(setup.parameters);
+    this->noise_ = NoiseFrom(setup.parameters);
+    if constexpr (MOST != 0)
+    {
+      this->least_ = 0;
+      this->most_ = MOST;
+    }
     this->MakeDevices();
   }
 };
@@ -136,18 +142,20 @@ void RegisterHandbotJoints()
   head.channel = "handbot_arms";
   head.channel_width = kArmChannelWidth;
   head.parameters = NoiseParameters("the speed while the head is told to move", "rad/s");
-  AddActuatorPlugin<JointActuator<Head, 0, 1, true>>(head);
+  AddActuatorPlugin<JointActuator<Head, 0, 1, 0>>(head);
 
   PluginDescription arms = Description("handbot_arms", "dummy_handbot_arms", "moves arms and wrists at given speeds");
   arms.channel = "handbot_arms";
   arms.channel_width = kArmChannelWidth;
   arms.parameters = NoiseParameters("the speed of each joint that is told to move", "rad/s");
-  AddActuatorPlugin<JointActuator<Arms, 1, 4, true>>(arms);
+  AddActuatorPlugin<JointActuator<Arms, 1, 4, 0>>(arms);
 
   PluginDescription hands = Description("handbot_hands", "dummy_handbot_hands", "opens and closes the two hands");
   hands.channel = "handbot_hands";
   hands.channel_width = 2;
-  AddActuatorPlugin<JointActuator<Hands, 0, 2, false>>(hands);
+  hands.parameters =
+      NoiseParameters("how far each hand closes, 0 to 1, while it is told to close; it holds above 0.5", "");
+  AddActuatorPlugin<JointActuator<Hands, 0, 2, 1>>(hands);
 
   PluginDescription joints = Description("handbot_joints", "generic_handbot_joints",
                                          "angles of head, arms, wrists and hands, what the hands hold, the rope");

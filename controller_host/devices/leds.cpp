@@ -44,6 +44,7 @@ public:
   void Init(const DeviceSetup& setup) override
   {
     this->Bind(setup, {"led"});
+    this->colour_noise_ = NoiseFrom(setup.parameters);
     this->MakeDevices();
   }
 };
@@ -66,6 +67,7 @@ public:
   void Init(const DeviceSetup& setup) override
   {
     this->Bind(setup, {"beacon"});
+    this->colour_noise_ = NoiseFrom(setup.parameters);
     this->MakeDevices();
   }
 };
@@ -78,6 +80,7 @@ void Add(const char* label, const char* implementation, const char* robot, const
   description.implementation = implementation;
   description.brief = brief;
   description.robots = {robot};
+  description.parameters = ColourNoiseParameters();
   AddActuatorPlugin<Batch>(description);
 }
 

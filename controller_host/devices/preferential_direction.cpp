@@ -34,18 +34,21 @@ class DirectionActuator : public AttributeActuator
 public:
   static std::vector<ParameterSpec> ParameterTable()
   {
-    return {{.name = "width",
-             .unit = "degrees",
-             .default_value = "60",
-             .description = "LEDs within half of this angle of the direction are lit; the nearest one always is.",
-             .minimum = 0,
-             .maximum = 360}};
+    return Joined(
+        {{.name = "width",
+          .unit = "degrees",
+          .default_value = "60",
+          .description = "LEDs within half of this angle of the direction are lit; the nearest one always is.",
+          .minimum = 0,
+          .maximum = 360}},
+        NoiseParameters("the direction", "rad"));
   }
 
   void Init(const DeviceSetup& setup) override
   {
     Bind(setup, {"led"});
     half_width_ = DegreesToRadians(setup.parameters.Number("width")) / 2;
+    direction_noise_ = NoiseFrom(setup.parameters);
     directions_.resize(setup.robots.size());
     turret_slots_.clear();
     for (const std::uint32_t robot : setup.robots)
@@ -80,7 +83,12 @@ private:
   void Light(std::size_t k)
   {
     const Direction& direction = directions_[k];
-    const double on_ring = direction.angle_ - space_->Attributes()[turret_slots_[k]] - kFirstLed;
+    double on_ring = direction.angle_ - space_->Attributes()[turret_slots_[k]] - kFirstLed;
+    if (direction_noise_.IsActive())
+    {
+      RandomStream random = StreamOf(*space_, robots_[k], stream_);
+      on_ring += direction_noise_.Sample(random);
+    }
     double nearest = kPi;
     for (unsigned led = 0; led < kLeds; ++led) nearest = std::min(nearest, Away(on_ring, led));
     for (unsigned led = 0; led < kLeds; ++led)
@@ -92,6 +100,7 @@ private:
   static double Away(double on_ring, unsigned led) { return __builtin_fabs(WrapAngle(on_ring - led * kSpacing)); }
 
   double half_width_ = 0;
+  NoiseModel direction_noise_;
   std::vector<Direction> directions_;
   std::vector<std::uint32_t> turret_slots_;
 };

@@ -55,8 +55,34 @@ public:
   void Init(const DeviceSetup& setup) override
   {
     Bind(setup, {"message"});
+    stream_ = ActuatorStream(setup.stream);
+    byte_noise_ = NoiseFrom(setup.parameters);
     MakeDevices();
   }
+  void Commit(const ChannelView& channel, AttributeChanges& changes) override
+  {
+    if (!byte_noise_.IsActive()) return AttributeActuator::Commit(channel, changes);
+    const std::vector<double> wanted = values_;
+    for (std::size_t k = 0; k < robots_.size(); ++k)
+      if (ValuesOf(k)[0] != 0) Disturb(k);
+    AttributeActuator::Commit(channel, changes);
+    std::copy(wanted.begin(), wanted.end(), values_.begin());
+  }
+
+private:
+  void Disturb(std::size_t k)
+  {
+    CCI_RangeAndBearingActuator::Message message;
+    Unpack(ValuesOf(k)[1], message.data());
+    Unpack(ValuesOf(k)[2], message.data() + kHalf);
+    RandomStream random = StreamOf(*space_, robots_[k], stream_);
+    for (std::uint8_t& byte : message)
+      byte = static_cast<std::uint8_t>(std::clamp(byte + byte_noise_.Sample(random) + 0.5, 0.0, 255.0));
+    ValuesOf(k)[1] = Packed(message.data());
+    ValuesOf(k)[2] = Packed(message.data() + kHalf);
+  }
+
+  NoiseModel byte_noise_;
 };
 
 class Receiver : public CCI_RangeAndBearingSensor
@@ -300,6 +326,7 @@ void RegisterRangeAndBearing()
   sender.implementation = "generic_range_and_bearing";
   sender.brief = "broadcasts 10 bytes to all in sight";
   sender.robots = {"footbot", "eyebot", "handbot"};
+  sender.parameters = NoiseParameters("each byte of the message", "1/255");
   AddActuatorPlugin<SenderBatch>(sender);
 
   PluginDescription receiver = sender;

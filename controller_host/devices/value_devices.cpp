@@ -54,7 +54,7 @@ void ChannelActuator::Commit(const ChannelView& channel, AttributeChanges&)
     for (std::size_t i = 0; i < width_; ++i)
     {
       const double noise = noise_.Sample(random);
-      if (target[i] != 0) target[i] += noise;
+      if (target[i] != 0) target[i] = std::clamp(target[i] + noise, least_, most_);
     }
   }
 }
@@ -68,9 +68,36 @@ void AttributeActuator::Bind(const DeviceSetup& setup, const std::vector<std::st
 
 void AttributeActuator::Commit(const ChannelView&, AttributeChanges& changes)
 {
+  if (colour_noise_.IsActive()) return CommitWithNoise(changes);
   const std::span<const double> attributes = space_->Attributes();
   for (std::size_t i = 0; i < slots_.size(); ++i)
     if (attributes[slots_[i]] != values_[i]) changes.Add(slots_[i], values_[i]);
+}
+
+void AttributeActuator::CommitWithNoise(AttributeChanges& changes) const
+{
+  const std::span<const double> attributes = space_->Attributes();
+  for (std::size_t k = 0; k < robots_.size(); ++k)
+  {
+    RandomStream random = StreamOf(*space_, robots_[k], stream_);
+    for (std::size_t i = k * width_; i < (k + 1) * width_; ++i)
+    {
+      const auto colour = static_cast<std::uint32_t>(values_[i]);
+      std::uint32_t shown = 0;
+      for (const int shift : {16, 8, 0})
+      {
+        const double part = (colour >> shift & 0xff) + colour_noise_.Sample(random);
+        shown |= static_cast<std::uint32_t>(std::clamp(part + 0.5, 0.0, 255.0)) << shift;
+      }
+      const double value = colour == 0 ? 0 : shown;
+      if (attributes[slots_[i]] != value) changes.Add(slots_[i], value);
+    }
+  }
+}
+
+std::vector<ParameterSpec> ColourNoiseParameters()
+{
+  return NoiseParameters("red, green and blue of what is lit", "1/255");
 }
 
 void ValueSensor::Reset(const DeviceSetup& setup, std::size_t width)

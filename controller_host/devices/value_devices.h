@@ -2,6 +2,7 @@
 // What a controller holds is a thin object on the numbers of its robot.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,8 @@ protected:
   std::vector<double> values_;  // robot after robot
 };
 
-// Sends its numbers to the engine, from place `first` of the channel on. Noise is added to numbers that are not 0.
+// Sends its numbers to the engine, from place `first` of the channel on. Noise is added to numbers that are not 0; the
+// sum stays within least_ and most_.
 class ChannelActuator : public ValueActuator
 {
 public:
@@ -39,9 +41,12 @@ public:
 protected:
   std::size_t first_ = 0;
   NoiseModel noise_;
+  double least_ = -std::numeric_limits<double>::infinity();
+  double most_ = std::numeric_limits<double>::infinity();
 };
 
-// Writes its numbers into attributes of its robots, those that differ from the space.
+// Writes its numbers into attributes of its robots, those that differ from the space. Noise is for attributes that are
+// colours: added to red, green and blue of those that are lit.
 class AttributeActuator : public ValueActuator
 {
 public:
@@ -51,9 +56,19 @@ protected:
   // The attributes in the order of their slots, each with all its elements; numbers start with the values of the space.
   void Bind(const DeviceSetup& setup, const std::vector<std::string>& attributes);
 
+  NoiseModel colour_noise_;
+
 private:
+  void CommitWithNoise(AttributeChanges& changes) const;
+
   std::vector<std::uint32_t> slots_;  // robot after robot
 };
+
+// Of colour_noise_.
+std::vector<ParameterSpec> ColourNoiseParameters();
+
+// Where a sensor and an actuator bear one name, the actuator's random numbers are named by this.
+constexpr std::uint32_t ActuatorStream(std::uint32_t stream) { return stream ^ StreamName("actuator"); }
 
 // Numbers that controllers read.
 class ValueSensor : public SensorBatch

@@ -16,4 +16,4 @@ void CFootBotChain::ControlStep()
   wheels_->SetFootBotWheelsLinearVelocity(velocity, velocity);
 }
 
-REGISTER_CONTROLLER(CFootBotChain, "footbot_chain")
+REGISTER_CONTROLLER(CFootBotChain, "footbot_chain", "closes its gripper, and drives while it holds something")

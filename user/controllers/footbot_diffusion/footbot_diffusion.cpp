@@ -47,4 +47,5 @@ void CFootBotDiffusion::ControlStep()
     wheels_->SetFootBotWheelsLinearVelocity(0, velocity_m_s_);
 }
 
-REGISTER_CONTROLLER(CFootBotDiffusion, "footbot_diffusion")
+REGISTER_CONTROLLER(CFootBotDiffusion, "footbot_diffusion",
+                    "drives straight on and turns away from what its proximity sensors see")

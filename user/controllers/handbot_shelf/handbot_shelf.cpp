@@ -85,4 +85,4 @@ void CHandBotShelf::LoadState(std::istream& state)
   state.read(reinterpret_cast<char*>(&rope_at_floor_m_), sizeof rope_at_floor_m_);
 }
 
-REGISTER_CONTROLLER(CHandBotShelf, "handbot_shelf")
+REGISTER_CONTROLLER(CHandBotShelf, "handbot_shelf", "climbs to a shelf, takes the book and brings it down")

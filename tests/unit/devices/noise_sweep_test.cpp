@@ -1,0 +1,278 @@
+// All devices, whatever they are: each has noise on what it reads or does, with the parameters that the documentation
+// promises, from streams named by seed, robot, device and tick.
+#include "common/control_interface/ci_colour_blob_sensor.h"
+#include "common/control_interface/ci_pie_camera_sensor.h"
+#include "common/control_interface/ci_range_and_bearing.h"
+#include "common/control_interface/eyebot/ci_eyebot_altitude_sensor.h"
+#include "common/control_interface/eyebot/ci_eyebot_attachment_actuator.h"
+#include "common/control_interface/eyebot/ci_eyebot_laser_actuator.h"
+#include "common/control_interface/eyebot/ci_eyebot_leds_actuator.h"
+#include "common/control_interface/eyebot/ci_eyebot_propellers_actuator.h"
+#include "common/control_interface/footbot/ci_footbot_accelerometer_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_beacon_actuator.h"
+#include "common/control_interface/footbot/ci_footbot_encoders_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_gripper_actuator.h"
+#include "common/control_interface/footbot/ci_footbot_gripper_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_ground_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_leds_actuator.h"
+#include "common/control_interface/footbot/ci_footbot_light_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_preferential_direction_actuator.h"
+#include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_turret_actuator.h"
+#include "common/control_interface/footbot/ci_footbot_turret_encoder_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_turret_torque_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_wheels_actuator.h"
+#include "common/control_interface/handbot/ci_handbot_arms_actuator.h"
+#include "common/control_interface/handbot/ci_handbot_beacon_actuator.h"
+#include "common/control_interface/handbot/ci_handbot_hands_actuator.h"
+#include "common/control_interface/handbot/ci_handbot_head_actuator.h"
+#include "common/control_interface/handbot/ci_handbot_joints_sensor.h"
+#include "common/control_interface/handbot/ci_handbot_leds_actuator.h"
+#include "common/control_interface/handbot/ci_handbot_rope_actuator.h"
+#include "tests/unit/devices/test_world.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr std::uint32_t kColour = 0x804020;
+constexpr std::uint32_t kFootbot = 0, kHandbot = 2, kEyebot = 3;
+
+// Something for every sensor to see: robots that are lit and send, a light, a prey, an eyebot above.
+class FullWorld : public TestWorld
+{
+public:
+  explicit FullWorld(std::uint64_t seed, int tick)
+  {
+    Configuration().seed = seed;
+    Configuration().arena_size = {10, 10, 3};
+    AddFootbot(5, 5);
+    AddFootbot(5.2, 5);
+    Add(EntityKind::kHandbot, {4.6, 5.1, 0}, 0, {0.22, 0.17, 0.16});
+    AddEyebot(5, 5.5, 2);
+    Add(EntityKind::kLightBulb, {4.9, 4, 0.5}, 0, {0, 0, 0}, false);
+    AddPrey(4.95, 5.35, 0.05, 0.1);
+    for (const std::uint32_t robot : {kFootbot, 1U, kHandbot, kEyebot})
+    {
+      CSwarmanoidSpaceEntity& entity = Space().GetEntity(robot);
+      for (int led = 0; led < 12; ++led) entity.SetAttribute("led", kColour, led);
+      entity.SetAttribute("message", 1);
+    }
+    Space().GetEntity(4).SetAttribute("intensity", 0.5);
+    Space().SetTick(static_cast<std::uint64_t>(tick));
+  }
+};
+
+std::vector<double> Copied(std::span<const double> values) { return {values.begin(), values.end()}; }
+
+template <class Interface>
+const Interface* As(const CCI_Sensor& sensor)
+{
+  return dynamic_cast<const Interface*>(&sensor);
+}
+
+std::vector<double> ReadingsOf(const CCI_Sensor& sensor)
+{
+  std::vector<double> all;
+  if (const auto* s = As<CCI_FootBotProximitySensor>(sensor)) return Copied(s->GetAllSensorReadings());
+  if (const auto* s = As<CCI_FootBotLightSensor>(sensor)) return Copied(s->GetAllSensorReadings());
+  if (const auto* s = As<CCI_FootBotGroundSensor>(sensor)) return Copied(s->GetAllSensorReadings());
+  if (const auto* s = As<CCI_FootBotTurretTorqueSensor>(sensor)) return Copied(s->GetAllSensorReadings());
+  if (const auto* s = As<CCI_FootBotEncodersSensor>(sensor)) return Copied(s->GetAllSensorReadings());
+  if (const auto* s = As<CCI_FootBotAccelerometerSensor>(sensor)) return Copied(s->GetAllSensorReadings());
+  if (const auto* s = As<CCI_HandBotJointsSensor>(sensor)) return Copied(s->GetAllSensorReadings());
+  if (const auto* s = As<CCI_FootBotGripperSensor>(sensor)) return {s->GetAperture()};
+  if (const auto* s = As<CCI_FootBotTurretEncoderSensor>(sensor)) return {s->GetTurretAngle()};
+  if (const auto* s = As<CCI_EyeBotAltitudeSensor>(sensor)) return {s->GetAltitude()};
+  if (const auto* s = As<CCI_ColourBlobSensor>(sensor))
+  {
+    for (const CCI_ColourBlob& blob : s->GetAllBlobs())
+      for (const double value : {blob.distance_m, blob.angle_rad, blob.elevation_rad}) all.push_back(value);
+    return all;
+  }
+  if (const auto* s = As<CCI_PieCameraSensor>(sensor))
+  {
+    for (const std::uint32_t colour : {CCI_Colour::RED, CCI_Colour::YELLOW})
+      for (const auto& slice : s->GetAllSlices(colour)) all.push_back(std::min(slice.distance_m, 99.0));
+    return all;
+  }
+  if (const auto* s = As<CCI_RangeAndBearingSensor>(sensor))
+  {
+    for (const auto& packet : s->GetAllPackets())
+      for (const double value : {packet.range_m, packet.bearing_rad}) all.push_back(value);
+    return all;
+  }
+  ADD_FAILURE() << "a sensor that this test does not know";
+  return all;
+}
+
+template <class Interface>
+Interface* As(CCI_Actuator& actuator)
+{
+  return dynamic_cast<Interface*>(&actuator);
+}
+
+// Tells an actuator to do something that is not 0.
+void Use(CCI_Actuator& actuator)
+{
+  if (auto* a = As<CCI_FootBotWheelsActuator>(actuator)) return a->SetFootBotWheelsLinearVelocity(0.1, 0.2);
+  if (auto* a = As<CCI_FootBotGripperActuator>(actuator)) return a->SetGripper(1);
+  if (auto* a = As<CCI_FootBotTurretActuator>(actuator)) return a->SetTurretAngularVelocity(1);
+  if (auto* a = As<CCI_FootBotLedsActuator>(actuator)) return a->SetAllColours(0x205040);
+  if (auto* a = As<CCI_FootBotBeaconActuator>(actuator)) return a->SetColour(kColour);
+  if (auto* a = As<CCI_FootBotPreferentialDirectionActuator>(actuator)) return a->SetDirection(1, 0x205040);
+  if (auto* a = As<CCI_EyeBotPropellersActuator>(actuator)) return a->SetVelocity(0.1, 0.2, 0.3, 0.4);
+  if (auto* a = As<CCI_EyeBotAttachmentActuator>(actuator)) return a->Attach();
+  if (auto* a = As<CCI_EyeBotLedsActuator>(actuator)) return a->SetAllColours(0x205040);
+  if (auto* a = As<CCI_EyeBotLaserActuator>(actuator)) return a->SetDirection(0.5, 0.6);
+  if (auto* a = As<CCI_HandBotHeadActuator>(actuator)) return a->SetHeadAngularVelocity(1);
+  if (auto* a = As<CCI_HandBotArmsActuator>(actuator)) return a->SetArmVelocities(1, 2);
+  if (auto* a = As<CCI_HandBotHandsActuator>(actuator)) return a->Close(CCI_HandBotHandsActuator::LEFT);
+  if (auto* a = As<CCI_HandBotRopeActuator>(actuator)) return a->SetWinchVelocity(0.1);
+  if (auto* a = As<CCI_HandBotLedsActuator>(actuator)) return a->SetAllColours(0x205040);
+  if (auto* a = As<CCI_HandBotBeaconActuator>(actuator)) return a->SetColour(kColour);
+  if (auto* a = As<CCI_RangeAndBearingActuator>(actuator)) return a->SetMessage({9, 99, 199, 1, 2, 3, 4, 5, 6, 70});
+  ADD_FAILURE() << "an actuator that this test does not know";
+}
+
+std::uint32_t RobotFor(const PluginDescription& device)
+{
+  const std::string& robot = device.robots.front();
+  return robot == "footbot" ? kFootbot : robot == "eyebot" ? kEyebot : kHandbot;
+}
+
+struct Run
+{
+  std::uint64_t seed = 7;
+  int tick = 1;
+};
+
+std::vector<double> OutcomeOf(const SensorBatch&, const PluginDescription& device, const TestParameters& parameters,
+                              const Run& run)
+{
+  FullWorld world(run.seed, run.tick);
+  TestSensor sensor(world, device.label, device.implementation, {RobotFor(device)}, parameters);
+  std::fill(sensor.values.begin(), sensor.values.end(), 0.1);
+  sensor.Update();
+  return ReadingsOf(*sensor.batch->Sensor(0));
+}
+
+std::vector<double> OutcomeOf(const ActuatorBatch&, const PluginDescription& device, const TestParameters& parameters,
+                              const Run& run)
+{
+  FullWorld world(run.seed, run.tick);
+  TestActuator actuator(world, device.label, device.implementation, {RobotFor(device)}, parameters);
+  Use(*actuator.batch->Actuator(0));
+  actuator.Commit();
+  std::vector<double> outcome = actuator.values;
+  for (std::size_t i = 0; i < actuator.changes.slots.size(); ++i)
+  {
+    outcome.push_back(actuator.changes.slots[i]);
+    outcome.push_back(actuator.changes.values[i]);
+  }
+  return outcome;
+}
+
+// What makes a difference in a unit.
+double LargeIn(const std::string& unit)
+{
+  return unit == "1/255" ? 20 : unit == "pixels" ? 5 : unit == "rad" ? 0.5 : 0.05;
+}
+
+bool AreNear(const std::vector<double>& a, const std::vector<double>& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) { return std::abs(x - y) < 1e-6; });
+}
+
+template <class Interface>
+void CheckNoiseOfAll()
+{
+  for (const auto& [name, entry] : PluginRegistry<Interface>::Instance().Entries())
+  {
+    const PluginDescription& device = entry.description;
+    SCOPED_TRACE(device.label + " / " + device.implementation);
+    EXPECT_FALSE(device.brief.empty());
+    EXPECT_FALSE(device.robots.empty());
+    const auto batch = entry.create();
+    const auto outcome = [&](const TestParameters& parameters, const Run& run = {})
+    { return OutcomeOf(*batch, device, parameters, run); };
+    const std::vector<double> exact = outcome({});
+    EXPECT_FALSE(exact.empty());
+    EXPECT_EQ(outcome({}, {8, 2}), exact);  // without noise nothing is random
+
+    int kinds = 0;
+    for (const ParameterSpec& parameter : device.parameters)
+    {
+      constexpr std::string_view kSuffix = "noise_kind";
+      if (!parameter.name.ends_with(kSuffix)) continue;
+      ++kinds;
+      const std::string prefix = parameter.name.substr(0, parameter.name.size() - kSuffix.size());
+      SCOPED_TRACE(prefix);
+      const auto range = std::find_if(device.parameters.begin(), device.parameters.end(),
+                                      [&](const ParameterSpec& p) { return p.name == prefix + "noise_range"; });
+      ASSERT_NE(range, device.parameters.end());
+      const std::string large = std::to_string(LargeIn(range->unit));
+
+      const TestParameters uniform{{prefix + "noise_kind", "uniform"}, {prefix + "noise_range", large}};
+      const std::vector<double> noisy = outcome(uniform);
+      // Where values are at the border of what they may be, half of the noise is cut off.
+      const auto differs = [&](const TestParameters& parameters)
+      {
+        bool found = false;
+        for (int tick = 1; tick < 9; ++tick) found |= outcome(parameters, {7, tick}) != exact;
+        return found;
+      };
+      EXPECT_TRUE(differs(uniform));
+      EXPECT_EQ(noisy, outcome(uniform)) << "the same seed and tick";
+      bool differs_by_seed = false, differs_by_tick = false;
+      for (int n = 1; n < 9; ++n)
+      {
+        differs_by_seed |= outcome(uniform, {7 + static_cast<std::uint64_t>(n), 1}) != noisy;
+        differs_by_tick |= outcome(uniform, {7, 1 + n}) != noisy;
+      }
+      EXPECT_TRUE(differs_by_seed);
+      EXPECT_TRUE(differs_by_tick);
+
+      const TestParameters gaussian{{prefix + "noise_kind", "gaussian"}, {prefix + "noise_deviation", large}};
+      EXPECT_TRUE(differs(gaussian));
+      TestParameters cut = gaussian;
+      cut.emplace_back(prefix + "noise_range", "1e-9");
+      EXPECT_TRUE(AreNear(outcome(cut), exact)) << "Gaussian noise cut to almost nothing";
+
+      const TestParameters shift{{prefix + "noise_kind", "uniform"}, {prefix + "noise_mean", "-" + large}};
+      EXPECT_NE(outcome(shift), exact);
+      EXPECT_EQ(outcome(shift), outcome(shift, {8, 2})) << "a mean alone is not random";
+    }
+    EXPECT_GT(kinds, 0) << "a device without noise";
+  }
+}
+
+TEST(NoiseSweep, AllSensorsHaveNoise)
+{
+  RegisterBuiltinDevices();
+  CheckNoiseOfAll<SensorBatch>();
+}
+
+TEST(NoiseSweep, AllActuatorsHaveNoise)
+{
+  RegisterBuiltinDevices();
+  CheckNoiseOfAll<ActuatorBatch>();
+}
+
+// A gripper's sensor and actuator bear one name; what one of them draws does not tell about the other.
+TEST(NoiseSweep, SensorAndActuatorOfOneNameDrawDifferentNumbers)
+{
+  const TestParameters noise{{"noise_kind", "uniform"}, {"noise_range", "0.05"}, {"noise_mean", "-0.1"}};
+  FullWorld world(7, 1);
+  TestActuator actuator(world, "footbot_gripper", "dummy_footbot_gripper", {kFootbot}, noise);
+  actuator.Of<CCI_FootBotGripperActuator>(0).SetGripper(1);
+  actuator.Commit();
+  TestSensor sensor(world, "footbot_gripper", "generic_footbot_gripper", {kFootbot}, noise);
+  sensor.Update();
+  const double drawn = actuator.values[0] - 1;
+  EXPECT_GT(std::abs(drawn - sensor.Of<CCI_FootBotGripperSensor>(0).GetAperture()), 1e-6);
+}
+
+}  // namespace
+}  // namespace swarmanoid
