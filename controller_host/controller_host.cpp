@@ -204,6 +204,36 @@ const ControlCommands& ControllerHost::Step(std::span<const SensorFrame* const> 
   return commands_;
 }
 
+bool ControllerHost::Describe(std::uint32_t entity, RobotStatus& status) const
+{
+  const auto place = std::lower_bound(layout_.robots.begin(), layout_.robots.end(), entity);
+  if (place == layout_.robots.end() || *place != entity) return false;
+  const Robot& robot = robots_[static_cast<std::size_t>(place - layout_.robots.begin())];
+  const ControllerConfiguration& configuration =
+      *space_.GetExperiment().FindController(space_.GetEntity(entity).GetConfiguration().controller);
+  status = {entity, commands_.tick, configuration.id, {}, {}, {}, {}};
+  try
+  {
+    status.text = robot.controller->StatusText();
+    status.state = robot.controller->StateName();
+  }
+  catch (const std::exception& error)
+  {
+    status.text = std::string("its status is unknown: ") + error.what();
+  }
+  for (const DeviceConfiguration& device : configuration.sensors)
+  {
+    status.sensors.push_back({device.type, {}});
+    robot.interface->GetSensor(device.type)->Describe(status.sensors.back().readings);
+  }
+  for (const DeviceConfiguration& device : configuration.actuators)
+  {
+    status.actuators.push_back({device.type, {}});
+    robot.interface->GetActuator(device.type)->Describe(status.actuators.back().readings);
+  }
+  return true;
+}
+
 void ControllerHost::SaveState(ByteWriter& state) const
 {
   for (const Robot& robot : robots_)

@@ -8,6 +8,7 @@
 
 #include "common/control_interface/ci_controller.h"
 #include "common/space/assignment.h"
+#include "common/space/robot_status.h"
 #include "controller_host/device.h"
 
 namespace swarmanoid
@@ -37,6 +38,10 @@ public:
   void LoadState(ByteReader& state);
   // Calls Destroy of every controller, once.
   void Destroy();
+
+  // The inside of a robot after its last control step; false where it is not of this host. Changes nothing: what a
+  // controller throws here is shown instead.
+  bool Describe(std::uint32_t entity, RobotStatus& status) const;
 
   const HostLayout& Layout() const { return layout_; }
   // The robot whose control step runs now, empty between steps; readable from another thread to report a stuck

@@ -11,6 +11,7 @@
 #include "common/bus/stall_watch.h"
 #include "common/bus/tick_gate.h"
 #include "common/bus/worker_session.h"
+#include "controller_host/cluster/robot_watch.h"
 #include "controller_host/controller_host.h"
 #include "engine_worker/engine_worker.h"
 #include "visualiser/render.h"
@@ -31,7 +32,8 @@ public:
         role_(*replica.space, replica.assignment, host),
         saved_(session, HostName(host), role_),
         gate_(Parts(*replica.experiment, role_.Layout()), replica.FirstTick()),
-        commands_(session.GetBus(), session.Scope(CommandsCapacity(*replica.space, replica.assignment), 1))
+        commands_(session.GetBus(), session.Scope(CommandsCapacity(*replica.space, replica.assignment), 1)),
+        watch_robots_(session, role_, host_, mutex_)
   {
     const auto& from = role_.Layout().frames_from;
     for (auto& frames : frames_) frames.resize(from.size());
@@ -175,6 +177,7 @@ private:
       gate_.Next();
       saved_.Ready(gate_.Tick(), role_);
       Answer(false);
+      watch_robots_.Stepped();
     }
     catch (const std::exception& error)
     {
@@ -204,6 +207,7 @@ private:
   std::atomic<std::uint64_t> stepping_ = 0;
   StallWatch watch_;  // main thread
   HotPublisher<ControlCommands> commands_;
+  RobotWatch watch_robots_;
   std::optional<HotSubscription<SensorFrame>> frames_in_;
   std::optional<HotSubscription<SpaceState>> states_in_;
 };

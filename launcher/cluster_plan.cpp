@@ -130,6 +130,7 @@ std::vector<std::string> ServerArguments(const RunOptions& options, const Assign
   add("--output", folder.Path());
   if (options.paused) arguments.emplace_back("--paused");
   if (options.real_time > 0) add("--real-time", fmt::format("{}", options.real_time));
+  if (!options.events.empty()) add("--events", Absolute(options.events));
   if (!options.hash_log.empty()) add("--hash-log", Absolute(options.hash_log));
   if (options.checkpoint_every > 0) add("--checkpoint-every", std::to_string(options.checkpoint_every));
   if (!options.restore_file.empty()) add("--restore", Absolute(options.restore_file));

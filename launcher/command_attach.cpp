@@ -14,7 +14,9 @@
 #include "common/plugins/catalogue.h"
 #include "launcher/commands.h"
 #include "launcher/installation.h"
+#include "launcher/result_bits.h"
 #include "launcher/run_choice.h"
+#include "visualiser/renderer_options.h"
 
 namespace swarmanoid
 {
@@ -24,31 +26,19 @@ namespace
 struct AttachOptions
 {
   std::string kind;
-  std::vector<std::string> words;  // the experiment's name and the renderer's parameters
+  std::vector<std::string> words;       // the experiment's name and the renderer's parameters
+  std::vector<std::string> parameters;  // those given as --name value, as "name=value"
+  std::vector<std::string> passed_on;   // names of options that the visualiser program takes too
   std::string output;
+  double rate = 0;
+  bool read_only = false;
   BusOptions bus;
 };
 
-// "text" for the renderer text_render.
-std::vector<std::string> Kinds()
-{
-  const std::string ending = "_render";
-  std::vector<std::string> kinds;
-  for (const std::string& label : PluginCatalogue::Instance().Labels(PluginKind::kRenderer))
-    kinds.push_back(label.ends_with(ending) ? label.substr(0, label.size() - ending.size()) : label);
-  return kinds;
-}
-
 void Attach(const AttachOptions& options, const CLI::App& verb)
 {
-  RegisterBuiltins();
-  const std::vector<std::string> kinds = Kinds();
-  if (std::find(kinds.begin(), kinds.end(), options.kind) == kinds.end())
-    throw UsageError(fmt::format("there is no visualiser {}; this build has {}{}", Quoted(options.kind), Listed(kinds),
-                                 DidYouMean(options.kind, kinds)));
-
   std::string name;
-  std::vector<std::string> parameters;
+  std::vector<std::string> parameters = options.parameters;
   for (const std::string& word : options.words)
   {
     if (word.find('=') != std::string::npos)
@@ -57,7 +47,16 @@ void Attach(const AttachOptions& options, const CLI::App& verb)
       name = word;
     else
       throw UsageError(fmt::format(
-          "two names are given, '{}' and '{}'; options of the visualiser are written name=value", name, word));
+          "two names are given, '{}' and '{}'; options of the visualiser are written --name value or name=value", name,
+          word));
+  }
+  try
+  {
+    ConfigureRenderer(FindRenderer(options.kind), parameters);
+  }
+  catch (const ConfigurationError& error)
+  {
+    throw UsageError(error.what());
   }
   const bool domain_given = verb.get_option("--domain")->count() > 0;
   const RunChoice run = ChooseRun(name, domain_given ? std::optional(options.bus.domain) : std::nullopt);
@@ -69,12 +68,10 @@ void Attach(const AttachOptions& options, const CLI::App& verb)
                                    run.experiment,
                                    "--domain",
                                    std::to_string(run.domain)};
-  for (const CLI::Option* option : verb.get_options())
-  {
-    const std::string option_name = option->get_name();
-    if (!option_name.starts_with("--") || option_name == "--domain" || option_name == "--help") continue;
-    for (const std::string& value : option->results()) command.insert(command.end(), {option_name, value});
-  }
+  if (options.read_only) command.emplace_back("--read-only");
+  for (const std::string& option_name : options.passed_on)
+    for (const std::string& value : verb.get_option(option_name)->results())
+      command.insert(command.end(), {option_name, value});
   command.insert(command.end(), parameters.begin(), parameters.end());
 
   std::vector<char*> arguments;
@@ -82,6 +79,18 @@ void Attach(const AttachOptions& options, const CLI::App& verb)
   arguments.push_back(nullptr);
   execv(arguments[0], arguments.data());
   throw std::runtime_error(fmt::format("cannot start '{}': {}", command[0], std::strerror(errno)));
+}
+
+// The options of a visualiser are known before the words are read: its kind is the first word after `attach`.
+void AddOptionsOfKind(CLI::App& verb, AttachOptions& options)
+{
+  const std::vector<std::string> words = OriginalCommand();
+  if (words.size() < 3 || words[1] != "attach") return;
+  RegisterBuiltins();
+  for (std::size_t i = 2; i < words.size(); ++i)
+    for (const std::string& label : PluginCatalogue::Instance().Labels(PluginKind::kRenderer))
+      if (label == words[i] || label == words[i] + "_render")
+        return AddRendererOptions(verb, FindRenderer(label), options.parameters);
 }
 
 }  // namespace
@@ -95,11 +104,21 @@ void AddAttachCommand(CLI::App& app, int&)
   verb->add_option("WORDS", options->words,
                    "Name of the experiment (may be left out where one runs), and name=value for the visualiser");
   verb->add_option("--output", options->output, "Folder for the visualiser's files (default: this one)");
+  verb->add_option("--hz", options->rate, "States a second at most; 30 unless less is asked for")
+      ->check(CLI::Range(0.01, 30.0));
   AddBusOptions(*verb, options->bus);
+  for (const CLI::Option* option : verb->get_options())
+    if (const std::string name = option->get_name(); name.starts_with("--") && name != "--help" && name != "--domain")
+      options->passed_on.push_back(name);
+  verb->add_flag("--read-only", options->read_only, "Nothing can be asked of the run through this visualiser");
+  AddOptionsOfKind(*verb, *options);
   verb->footer(
+      "`swarmanoid attach KIND --help` lists the options of that kind too. An attached visualiser never slows the "
+      "run.\n"
       "Examples:\n"
       "  swarmanoid attach text                        the experiment that runs on this machine\n"
-      "  swarmanoid attach text diffusion_10 precision=4 file=watched.txt\n"
+      "  swarmanoid attach text diffusion_10 --precision 4 --file watched.txt\n"
+      "  swarmanoid attach text --csv --hz 1\n"
       "  swarmanoid attach text diffusion_10 --domain 7 --interface eth0     one on another machine");
   verb->callback([options, verb] { Attach(*options, *verb); });
 }

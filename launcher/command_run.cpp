@@ -19,7 +19,6 @@ void RefuseContradictions(const RunOptions& options)
 {
   if (!options.single_process) return;
   const std::string why = "; leave out --single-process to run a cluster";
-  if (options.paused) throw UsageError("--paused: a run in a single process cannot be resumed" + why);
   if (options.controller_hosts != 1) throw UsageError("--controller-hosts: a single process has one" + why);
   if (!options.hosts_file.empty() || !options.engine_hosts.empty())
     throw UsageError("--hosts and --engine-host: a single process runs on this machine" + why);
@@ -54,7 +53,6 @@ void AddClusterOptions(CLI::App& verb, RunOptions& options)
   verb.add_option("--hosts", options.hosts_file,
                   "File that says which process runs on which machine (docs/command.md)");
   verb.add_option("--domain", options.domain, "DDS domain (default: a free one)")->check(CLI::Range(0, 232));
-  verb.add_flag("--paused", options.paused, "Start paused; `swarmanoid control resume` goes on");
   verb.add_option("--placement", options.placement,
                   "Processor cores of the processes: auto (one core where the experiment is small), one-core or spread")
       ->transform(CLI::CheckedTransformer(placements).description(""));
@@ -79,6 +77,7 @@ void AddRunCommand(CLI::App& app, int& exit_code)
       "  swarmanoid run configs/diffusion_10.xml --single-process --ticks 1000 --seed 7\n"
       "  swarmanoid run configs/diffusion_1000.xml --controller-hosts 2 --output results/first\n"
       "  swarmanoid run configs/diffusion_10.xml --real-time 1 --set framework.clocktick=50\n"
+      "  swarmanoid run configs/diffusion_10.xml --events runs/first/events.csv    with what users did in that run\n"
       "  swarmanoid run configs/diffusion_10.xml --output first --checkpoint-every 500\n"
       "  swarmanoid run first/experiment.xml --restore first/checkpoint-00000500");
   verb->callback([options, &exit_code] { exit_code = Run(*options); });

@@ -28,6 +28,11 @@ void AddRunOptions(CLI::App& app, RunOptions& options)
   app.add_option("--output", options.output, "Folder of the run, new or empty (default: runs/<experiment>-<time>)");
   app.add_option("--real-time", options.real_time, "Run at this multiple of real time; 0: as fast as possible")
       ->check(CLI::NonNegativeNumber);
+  app.add_flag(
+      "--paused", options.paused,
+      "Start paused, until somebody resumes: in a window or page, or a cluster by `swarmanoid control resume`");
+  app.add_option("--events", options.events,
+                 "events.csv of an earlier run: its moves and its end by a user are repeated");
   app.add_flag("--no-visualisers", options.no_visualisers, "Leave out the <visualisations> of the file");
   app.add_option("--hash-log", options.hash_log, "File that gets the hash of the state at every tick");
   app.add_option("--expect-hash", options.expected_hash, "Exit with 5 unless the run ends with this hash")

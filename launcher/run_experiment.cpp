@@ -11,6 +11,7 @@
 #include "launcher/result_bits.h"
 #include "launcher/run_command_line.h"
 #include "launcher/usage_error.h"
+#include "space_server/event_log.h"
 
 namespace swarmanoid
 {
@@ -81,6 +82,21 @@ int Conclude(const RunOptions& options, const RunResult& result, const RunFolder
   return exit_code;
 }
 
+// Told before anything is started.
+bool EventsAreGood(const std::string& file, const Experiment& experiment)
+{
+  try
+  {
+    ReadEvents(file, experiment);
+    return true;
+  }
+  catch (const ConfigurationError& error)
+  {
+    fmt::print(stderr, "{}\n", error.what());
+    return false;
+  }
+}
+
 }  // namespace
 
 int RunExperiment(const RunOptions& options,
@@ -89,6 +105,7 @@ int RunExperiment(const RunOptions& options,
   const auto experiment = LoadOrComplain(options.experiment, ChangesOf(options));
   if (!experiment) return kInvalid;
   RefuseBadCheckpoints(options, *experiment);
+  if (!options.events.empty() && !EventsAreGood(options.events, *experiment)) return kInvalid;
 
   try
   {

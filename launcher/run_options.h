@@ -31,6 +31,7 @@ struct RunOptions
   std::optional<int> domain;
   double real_time = 0;  // 0: as fast as possible
   bool paused = false;
+  std::string events;  // events.csv of an earlier run
   bool no_visualisers = false;
   std::string hash_log;
   std::string expected_hash;

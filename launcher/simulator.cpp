@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
-#include <thread>
 
 #include "common/experiment/load_experiment.h"
 #include "common/space/assignment.h"
@@ -15,6 +14,8 @@
 #include "controller_host/controller_host.h"
 #include "engine_worker/engine_worker.h"
 #include "launcher/builtins.h"
+#include "launcher/steering.h"
+#include "launcher/usage_error.h"
 #include "space_server/space_server.h"
 #include "visualiser/visualiser.h"
 
@@ -62,15 +63,22 @@ struct CSimulator::Roles
         options(with),
         assignment(MakeAssignment(of, 1)),
         server(of, assignment, with.output_folder),
-        space(server.Space())
+        space(server.Space()),
+        steering(of, server, DeskSetup(of, with), with.stop)
   {
     for (std::size_t e = 0; e < experiment.engines.size(); ++e)
       engines.push_back(std::make_unique<EngineWorker>(space, assignment, e));
     host = std::make_unique<ControllerHost>(space, assignment, 0);
+    steering.SetHost(*host);
     if (options.visualisations)
       for (const RenderConfiguration& render : experiment.visualisations)
-        visualisers.push_back(
-            std::make_unique<Visualiser>(render, space, assignment, options.output_folder, nullptr, nullptr));
+        visualisers.push_back(std::make_unique<Visualiser>(render, space, assignment, options.output_folder,
+                                                           &steering.Control(), &steering));
+    const auto interactive = [](const auto& visualiser) { return visualiser->IsInteractive(); };
+    if (options.paused && std::none_of(visualisers.begin(), visualisers.end(), interactive))
+      throw UsageError(
+          "the run would stay paused: none of its visualisations is a window or a page that can resume it; leave out "
+          "--paused, or run a cluster, which `swarmanoid control resume` reaches");
     hash_log = std::make_unique<HashLog>(options.hash_log);
     for (const std::uint32_t engine : assignment.hosts[0].frames_from) frames.push_back(&engines[engine]->Sensors());
     for (const auto& engine : engines) updates.push_back(&engine->Update());
@@ -101,11 +109,19 @@ struct CSimulator::Roles
     checkpoint.LoadPart(HostName(0), [&](ByteReader& state) { host->LoadState(state); });
   }
 
+  static ControlDeskSetup DeskSetup(const Experiment& experiment, const SimulatorOptions& options)
+  {
+    ControlDeskSetup setup{options.paused, options.real_time_factor, options.event_log, {}};
+    if (!options.events.empty()) setup.repeated = ReadEvents(options.events, experiment);
+    return setup;
+  }
+
   const Experiment& experiment;
   const SimulatorOptions options;
   const Assignment assignment;
   SpaceServer server;
   CSwarmanoidSpace& space;
+  Steering steering;
   std::vector<std::unique_ptr<EngineWorker>> engines;
   std::unique_ptr<ControllerHost> host;
   std::vector<std::unique_ptr<Visualiser>> visualisers;
@@ -147,14 +163,6 @@ bool CSimulator::Step()
     r.engines[e]->Step(r.server.Moved(),
                        r.assignment.engines[e].commands_from.empty() ? Commands() : Commands(&commands, 1));
   r.server.Advance(r.updates, Commands(&commands, 1));
-
-  if (r.options.real_time_factor > 0)
-  {
-    const double due =
-        static_cast<double>(r.space.GetTick() - r.first_tick) * r.experiment.TickSeconds() / r.options.real_time_factor;
-    std::this_thread::sleep_until(r.start +
-                                  std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due)));
-  }
   Show();
   return true;
 }
@@ -163,14 +171,17 @@ bool CSimulator::Step()
 void CSimulator::Show()
 {
   Roles& r = *roles_;
+  r.steering.WaitForGo(r.visualisers);
   const std::uint64_t tick = r.space.GetTick();
   if (r.options.checkpoint_every != 0 && tick > r.first_tick && tick % r.options.checkpoint_every == 0)
     WriteCheckpoint(r.options.output_folder + "/" + CheckpointName(tick), r.TakeCheckpoint());
   r.hash_log->Write(r.space);
-  bool terminate = false;
-  for (const auto& visualiser : r.visualisers) terminate |= visualiser->Draw();
-  if (r.options.stop != nullptr && *r.options.stop) r.summary.interrupted = true;
-  r.over = terminate || r.summary.interrupted || r.server.IsLast();
+  const Visualiser* terminator = nullptr;
+  for (const auto& visualiser : r.visualisers)
+    if (visualiser->Draw() && terminator == nullptr) terminator = visualiser.get();
+  if (terminator != nullptr && !r.server.IsLast()) r.steering.Stopped(terminator->Id());
+  r.over = terminator != nullptr || r.server.IsLast();
+  r.summary.interrupted = r.steering.Interrupted();
 }
 
 const RunSummary& CSimulator::Finish()
@@ -178,6 +189,7 @@ const RunSummary& CSimulator::Finish()
   Roles& r = *roles_;
   if (r.finished) return r.summary;
   r.finished = true;
+  r.steering.Ended();
   r.summary.entities = r.space.Size();
   r.summary.ticks = r.space.GetTick();
   r.summary.wall_s = SecondsSince(r.start);

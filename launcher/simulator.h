@@ -28,6 +28,11 @@ struct SimulatorOptions
   std::string output_folder = ".";  // what visualisations and experiment functions write
   std::string hash_log;             // file for one hash a tick; empty: none
   double real_time_factor = 0;      // 0: as fast as possible
+  // Until a user resumes through a visualisation: the constructor waits for it, or throws UsageError where there is
+  // none.
+  bool paused = false;
+  std::string event_log;  // file for what users ask through visualisations; empty: none
+  std::string events;     // such a file of an earlier run, whose moves and stops are repeated
   bool visualisations = true;
   // A checkpoint is written to the output folder every so many ticks: a multiple of the experiment's canonical_period.
   // 0: none.

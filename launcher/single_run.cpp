@@ -9,6 +9,7 @@
 
 #include "launcher/exit_codes.h"
 #include "launcher/processes/progress_display.h"
+#include "launcher/usage_error.h"
 
 namespace swarmanoid
 {
@@ -44,6 +45,9 @@ RunResult RunHere(const RunOptions& options, const Experiment& experiment, const
   run.output_folder = folder.Path();
   run.hash_log = options.hash_log;
   run.real_time_factor = options.real_time;
+  run.paused = options.paused;
+  run.event_log = folder.File("events.csv");
+  run.events = options.events;
   run.visualisations = !options.no_visualisers;
   run.checkpoint_every = options.checkpoint_every;
   run.restore_file = options.restore_file;
@@ -67,6 +71,11 @@ RunResult RunHere(const RunOptions& options, const Experiment& experiment, const
     result.summary = RunSingleProcess(experiment, run);
     if (result.summary->failed) result.exit_code = kExperimentFailed;
     if (result.summary->interrupted) result.exit_code = kInterruptedByUser;
+  }
+  catch (const UsageError& error)
+  {
+    result.exit_code = kUsage;
+    result.failure = error.what();
   }
   catch (const ConfigurationError& error)
   {

@@ -16,9 +16,12 @@
 #include "common/experiment/load_experiment.h"
 #include "controller_host/controller_host.h"
 #include "engine_worker/engine_worker.h"
+#include "space_server/cluster/audience.h"
 #include "space_server/cluster/checkpoint_desk.h"
-#include "space_server/cluster/control_desk.h"
 #include "space_server/cluster/lockstep.h"
+#include "space_server/cluster/process_watch.h"
+#include "space_server/control_desk.h"
+#include "space_server/pace_meter.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid
@@ -30,12 +33,10 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kPeriod = 50ms;  // of the main thread, when nothing happens
-constexpr auto kProgressPeriod = 100ms;
 constexpr auto kFirstRepeat = 100ms;
 constexpr auto kLastRepeat = 1s;
 constexpr auto kStallTime = 2s;
 constexpr auto kBrokenTime = 5s;  // for the lease of a dead process to end
-constexpr auto kViewPeriod = 33ms;
 
 struct ServerOptions
 {
@@ -52,6 +53,7 @@ struct ServerOptions
   std::string hash_log;
   std::uint64_t checkpoint_every = 0;
   std::string restore;
+  std::string events;
   bool no_visualisers = false;
   int status_fd = -1;
   BusOptions bus;
@@ -75,9 +77,12 @@ public:
                     desk_.Ask(request);
                     Wake();
                   },
-                  [this] { Wake(); }}),
-        views_(session_.GetBus(), experiment.name),
-        desk_(session_, experiment, options.paused, options.real_time_factor),
+                  [this] { Wake(); }, [this](const std::string& process) { audience_.Gone(process); }}),
+        audience_(session_, [this] { Wake(); }),
+        desk_(experiment, DeskSetup(options, experiment),
+              [this](const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
+              { session_.Reply(request, done, tick, text); }),
+        pace_(experiment.TickSeconds()),
         checkpoints_(session_, experiment, Expected({}), options.output.empty() ? "." : options.output,
                      [this] { Wake(); }),
         lockstep_(session_, server_, assignment_, !options.no_visualisers, options.hash_log, checkpoints_,
@@ -115,6 +120,14 @@ private:
   {
     std::random_device device;
     return (static_cast<std::uint64_t>(device()) << 32) | device();
+  }
+
+  static ControlDeskSetup DeskSetup(const ServerOptions& options, const Experiment& experiment)
+  {
+    ControlDeskSetup setup{options.paused, options.real_time_factor, {}, {}};
+    if (!options.output.empty()) setup.event_log = options.output + "/events.csv";
+    if (!options.events.empty()) setup.repeated = ReadEvents(options.events, experiment);
+    return setup;
   }
 
   // The world, where the run starts or goes on.
@@ -189,6 +202,7 @@ private:
     {
       CheckFailures();
       if (Interrupted()) throw BusError("interrupted before the first tick");
+      TellAudience();
       const std::vector<std::string> missing = session_.Missing();
       if (missing.empty() && lockstep_.AllMet()) return;
       const std::string text = Joined(missing);
@@ -206,14 +220,15 @@ private:
   void RunTicks()
   {
     start_ = since_ = Clock::now();
-    first_tick_ = progress_tick_ = lockstep_.Tick();
+    started_ = true;
+    first_tick_ = lockstep_.Tick();
     desk_.Start(first_tick_, start_);
     SayState();
     while (!lockstep_.Finished())
     {
       CheckFailures();
       Clock::time_point next = Clock::now() + kPeriod;
-      if (Interrupted()) desk_.Stop();
+      if (Interrupted()) desk_.Stop("interrupt");
       if (desk_.WantsHold()) lockstep_.Hold();
       if (lockstep_.Held())
       {
@@ -223,14 +238,15 @@ private:
           lockstep_.Go(decision.until);
         else if (decision.due)
           next = std::min(next, *decision.due);
-        view_wanted_ = true;
+        audience_.Renew();
       }
       checkpoints_.Work();
       Watch();
-      ShowView(false);
-      if (!lockstep_.Finished() && !lockstep_.Failure()) Sleep(std::min(next, NextView()));
+      TellAudience();
+      if (!lockstep_.Finished() && !lockstep_.Failure()) Sleep(std::min(next, audience_.Next()));
     }
     end_ = Clock::now();
+    if (const auto who = lockstep_.Terminator()) desk_.Stopped(lockstep_.Tick(), *who);
   }
 
   void SayState()
@@ -270,64 +286,62 @@ private:
       Say(fmt::format("tick {}: waiting for {} since {:.0f} s", tick, who, Seconds(stall_said_)));
     }
     SayState();
-    if (now - progress_said_ >= kProgressPeriod && tick != progress_tick_)
-    {
-      const double factor =
-          static_cast<double>(tick - progress_tick_) * experiment_.TickSeconds() / Seconds(now - progress_said_);
-      real_time_factor_ = progress_tick_ == first_tick_ ? factor : 0.7 * real_time_factor_ + 0.3 * factor;
-      progress_tick_ = tick;
-      progress_said_ = now;
-      status_.Say(fmt::format("tick {} {} {:.2f}", tick, experiment_.max_clock, real_time_factor_));
-    }
+    if (desk_.Paused() && held)
+      pace_.Rest(tick, now);
+    else if (pace_.Observe(tick, now))
+      status_.Say(fmt::format("tick {} {} {:.2f}", tick, experiment_.max_clock, pace_.RealTimeFactor()));
   }
 
   // Whom the run waits for: those whose answer is missing, or those whom they in turn wait for.
   std::string Culprits(std::uint64_t tick) const
   {
-    std::vector<std::string> names = lockstep_.Missing();
-    constexpr std::string_view kWaits = "waits for ";
-    for (std::string& name : names)
-    {
-      const std::string status = session_.Status(name, tick);
-      if (status.empty()) continue;
-      if (!status.starts_with(kWaits))
-      {
-        name += fmt::format(" ({})", status);
-        continue;
-      }
-      name = status.substr(kWaits.size());
-      if (const std::string further = session_.Status(name, tick); !further.empty() && !further.starts_with(kWaits))
-        name += fmt::format(" ({})", further);
-    }
-    std::vector<std::string> once;
-    for (std::string& name : names)
-      if (std::find(once.begin(), once.end(), name) == once.end()) once.push_back(std::move(name));
-    return Joined(once);
+    std::vector<std::string> names;
+    for (const LateProcess& late : LateProcesses(session_, lockstep_.Missing(), tick))
+      names.push_back(late.doing.empty() ? late.name : fmt::format("{} ({})", late.name, late.doing));
+    return Joined(names);
   }
 
-  Clock::time_point NextView() const { return views_.Readers() > 0 ? shown_ + view_period_ : Clock::time_point::max(); }
+  RunStatus::Phase Phase() const
+  {
+    if (lockstep_.Finished()) return RunStatus::Phase::kFinished;
+    if (!started_) return RunStatus::Phase::kWaiting;
+    return desk_.Paused() ? RunStatus::Phase::kPaused : RunStatus::Phase::kRunning;
+  }
 
-  // The whole state for attached visualisers, now and then: they never slow the run.
-  void ShowView(bool last)
+  // Attached visualisers see the whole state now and then, and how the run goes.
+  void TellAudience()
   {
     const auto now = Clock::now();
-    const unsigned readers = views_.Readers();
-    const bool newcomers = readers > view_readers_;
-    view_readers_ = readers;
-    if (readers == 0 && !last) return;
-    if (!last && !newcomers && now < shown_ + view_period_) return;
-    const std::uint64_t tick = lockstep_.Tick();
-    if (!last && !newcomers && tick == shown_tick_ && !view_wanted_) return;
-    view_wanted_ = false;
-    lockstep_.WithServer([this](SpaceServer& server) { server.WriteSnapshot(view_.snapshot); });
-    view_.run = session_.World().run;
-    view_.snapshot.last = last;
-    view_.snapshot.real_time_factor = real_time_factor_;
-    views_.Write(view_);
-    shown_ = now;
-    shown_tick_ = tick;
-    // At most a tenth of the time goes into views.
-    view_period_ = std::max<Clock::duration>(kViewPeriod, 10 * (Clock::now() - now));
+    const bool over = lockstep_.Finished();
+    if (std::exchange(told_end_, over)) return;
+    if (started_ && (over || audience_.ViewIsDue(lockstep_.Tick(), now)))
+    {
+      lockstep_.WithServer([this](SpaceServer& server) { server.WriteSnapshot(snapshot_); });
+      snapshot_.last = over;
+      snapshot_.real_time_factor = pace_.RealTimeFactor();
+      audience_.SendView(snapshot_, now);
+    }
+    const RunStatus::Phase phase = Phase();
+    if (over || audience_.StatusIsDue(phase, now)) audience_.SendStatus(Status(phase, now), now);
+  }
+
+  RunStatus Status(RunStatus::Phase phase, Clock::time_point now)
+  {
+    RunStatus status;
+    status.phase = phase;
+    status.tick = lockstep_.Tick();
+    status.speed_wanted = desk_.Speed();
+    if (phase == RunStatus::Phase::kRunning || phase == RunStatus::Phase::kFinished)
+    {
+      status.real_time_factor = pace_.RealTimeFactor();
+      status.ticks_per_second = pace_.TicksPerSecond();
+    }
+    status.ended = desk_.WhyStopped();
+    if (const auto who = lockstep_.Terminator()) status.ended = *who + " asked for the end";
+    const bool waits = started_ && !lockstep_.Held() && !lockstep_.Finished();
+    status.processes = ProcessesNow(session_, status.tick, waits ? lockstep_.Missing() : std::vector<std::string>(),
+                                    waits ? Seconds(now - since_) : 0);
+    return status;
   }
 
   // The last state is out: all draw it, close their files and say good-bye.
@@ -339,7 +353,7 @@ private:
           result = {server.Space().GetTick(), server.Space().Size(), server.Space().Hash()};
         });
     desk_.Ended(result.ticks);
-    ShowView(true);
+    TellAudience();
     auto said = Clock::now();
     repeat_after_ = kFirstRepeat;
     while (!session_.AllSaidBye())
@@ -395,8 +409,9 @@ private:
   Assignment assignment_;
   SpaceServer server_;
   ServerSession session_;
-  Publisher<ViewMessage> views_;
+  Audience audience_;
   ControlDesk desk_;
+  PaceMeter pace_;
   CheckpointDesk checkpoints_;
   Lockstep lockstep_;
 
@@ -409,16 +424,10 @@ private:
   Clock::duration repeat_after_ = kFirstRepeat;
   Clock::duration stall_said_ = 0s;
   std::uint64_t first_tick_ = 0;
-  std::uint64_t progress_tick_ = 0;
-  Clock::time_point progress_said_ = Clock::now();
-  double real_time_factor_ = 0;
+  bool started_ = false;
+  bool told_end_ = false;
   std::optional<Clock::time_point> broken_since_;
-  ViewMessage view_;
-  bool view_wanted_ = true;
-  unsigned view_readers_ = 0;
-  std::uint64_t shown_tick_ = 0;
-  Clock::time_point shown_;
-  Clock::duration view_period_ = kViewPeriod;
+  SpaceSnapshot snapshot_;
 };
 
 LoadOptions LoadOptionsOf(const ServerOptions& options)
@@ -463,6 +472,7 @@ int Run(int argc, char** argv)
   app.add_option("--checkpoint-every", options.checkpoint_every,
                  "ticks between two checkpoints in the output folder; 0: none");
   app.add_option("--restore", options.restore, "checkpoint to go on from")->check(CLI::ExistingFile);
+  app.add_option("--events", options.events, "events.csv of an earlier run, whose moves and stops are repeated");
   app.add_flag("--no-visualisers", options.no_visualisers, "run without the visualisations of the file");
   app.add_option("--status-fd", options.status_fd, "descriptor for status lines, see docs/wire.md");
   AddBusOptions(app, options.bus);

@@ -28,6 +28,9 @@ SWARMANOID_COLD_TYPE(ControlRequestMessage, ControlRequest)
 SWARMANOID_COLD_TYPE(ControlReplyMessage, ControlReply)
 SWARMANOID_COLD_TYPE(StatusMessage, Status)
 SWARMANOID_COLD_TYPE(SavedStateMessage, SavedState)
+SWARMANOID_COLD_TYPE(WishesMessage, Wishes)
+SWARMANOID_COLD_TYPE(RunStatusMessage, RunStatus)
+SWARMANOID_COLD_TYPE(RobotStatusMessage, RobotStatus)
 SWARMANOID_COLD_TYPE(ByeMessage, Bye)
 #undef SWARMANOID_COLD_TYPE
 
@@ -38,6 +41,9 @@ void ToWire(const ControlRequestMessage& message, wire::ControlRequest& wire);
 void ToWire(const ControlReplyMessage& message, wire::ControlReply& wire);
 void ToWire(const StatusMessage& message, wire::Status& wire);
 void ToWire(const SavedStateMessage& message, wire::SavedState& wire);
+void ToWire(const WishesMessage& message, wire::Wishes& wire);
+void ToWire(const RunStatusMessage& message, wire::RunStatus& wire);
+void ToWire(const RobotStatusMessage& message, wire::RobotStatus& wire);
 void ToWire(const ByeMessage& message, wire::Bye& wire);
 
 void FromWire(wire::World& wire, WorldMessage& message);
@@ -47,6 +53,9 @@ void FromWire(wire::ControlRequest& wire, ControlRequestMessage& message);
 void FromWire(wire::ControlReply& wire, ControlReplyMessage& message);
 void FromWire(wire::Status& wire, StatusMessage& message);
 void FromWire(wire::SavedState& wire, SavedStateMessage& message);
+void FromWire(wire::Wishes& wire, WishesMessage& message);
+void FromWire(wire::RunStatus& wire, RunStatusMessage& message);
+void FromWire(wire::RobotStatus& wire, RobotStatusMessage& message);
 void FromWire(wire::Bye& wire, ByeMessage& message);
 
 }  // namespace swarmanoid

@@ -6,7 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "common/space/control_request.h"
 #include "common/space/messages.h"
+#include "common/space/robot_status.h"
+#include "common/space/run_status.h"
 
 namespace swarmanoid
 {
@@ -71,15 +74,6 @@ struct ViewMessage
   SpaceSnapshot snapshot;
 };
 
-struct ControlRequestMessage
-{
-  std::string client;
-  std::uint32_t number = 0;
-  std::string verb;
-  std::string entity;
-  std::vector<double> numbers;
-};
-
 struct ControlReplyMessage
 {
   std::string client;
@@ -103,6 +97,29 @@ struct SavedStateMessage
   std::uint64_t tick = 0;
   std::string name;
   std::vector<char> state;
+};
+
+struct WishesMessage
+{
+  std::string client;
+  std::uint64_t run = 0;
+  double views = 0;
+  bool every_tick = false;
+  std::vector<std::uint32_t> robots;
+};
+
+struct RunStatusMessage
+{
+  std::uint64_t run = 0;
+  RunStatus status;
+};
+
+struct RobotStatusMessage
+{
+  std::uint64_t run = 0;
+  std::uint64_t tick = 0;
+  std::uint32_t source = 0;
+  std::vector<RobotStatus> robots;
 };
 
 struct ByeMessage

@@ -33,6 +33,9 @@ inline constexpr TopicQos kTopics[] = {
     {"ControlReply", false, false, false, 16, 64},
     {"Status", false, false, false, 4, 64},
     {"SavedState", false, false, false, 64, 64},
+    {"Wishes", false, true, true, 1, 1},
+    {"RunStatus", false, true, false, 1, 1},
+    {"RobotStatus", false, true, false, 1, 64},
     {"Bye", false, true, false, 16, 64},
 };
 

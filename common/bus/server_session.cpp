@@ -93,7 +93,11 @@ void ServerSession::Met(const HelloMessage& hello)
   {
     const std::lock_guard lock(mutex_);
     const auto member = members_.find(hello.name);
-    if (member == members_.end()) return;  // an attached visualiser
+    if (member == members_.end())
+    {
+      attached_[hello.process] = hello.name;
+      return;
+    }
     if (member->second.process.empty() || member->second.process == hello.process)
     {
       member->second.process = hello.process;
@@ -128,6 +132,7 @@ void ServerSession::Gone(const std::string& process, bool died)
 {
   {
     const std::lock_guard lock(mutex_);
+    attached_.erase(process);
     for (auto& [name, member] : members_)
     {
       if (member.process != process) continue;
@@ -136,6 +141,7 @@ void ServerSession::Gone(const std::string& process, bool died)
       member.said_bye = true;
     }
   }
+  callbacks_.gone(process);
   callbacks_.changed();
 }
 
@@ -168,6 +174,15 @@ std::string ServerSession::Status(const std::string& name, std::uint64_t tick) c
   const std::lock_guard lock(mutex_);
   const auto member = members_.find(name);
   return member == members_.end() || member->second.status.tick != tick ? std::string() : member->second.status.text;
+}
+
+std::vector<ProcessStatus> ServerSession::Processes() const
+{
+  const std::lock_guard lock(mutex_);
+  std::vector<ProcessStatus> processes;
+  for (const std::string& name : expected_) processes.push_back({name, members_.at(name).process, 0, 0, {}});
+  for (const auto& [process, name] : attached_) processes.push_back({name, process, 0, 0, {}});
+  return processes;
 }
 
 bool ServerSession::AllSaidBye() const

@@ -24,7 +24,8 @@ public:
   struct Callbacks
   {
     std::function<void(const ControlRequestMessage&)> asked;
-    std::function<void()> changed;  // somebody joined, failed, left, or is waiting
+    std::function<void()> changed;                         // somebody joined, failed, left, or is waiting
+    std::function<void(const std::string& process)> gone;  // a process has left the bus
   };
 
   // `expected`: names of the processes that the run waits for. Throws BusError where an experiment of that name runs in
@@ -46,6 +47,8 @@ public:
   std::optional<std::string> Failure() const;
   // What `name` said last that it waits for or is busy with, at that tick; empty for nothing.
   std::string Status(const std::string& name, std::uint64_t tick) const;
+  // Those of the run in the order of `expected`, then the visualisers that are attached; names and processes only.
+  std::vector<ProcessStatus> Processes() const;
   // True once every expected process has said good-bye.
   bool AllSaidBye() const;
 
@@ -85,6 +88,7 @@ private:
   Callbacks callbacks_;
   mutable std::mutex mutex_;
   std::map<std::string, Member> members_;
+  std::map<std::string, std::string> attached_;  // name by process
   std::optional<std::string> failure_;
   std::deque<Request> requests_seen_;
   bool over_ = false;

@@ -156,10 +156,33 @@ void WorkerSession::Wait(std::chrono::milliseconds period, const std::function<s
   }
   catch (const std::exception& error)
   {
-    Say(error.what());
-    SayError(error.what());
-    directory_->Leave();
-    EndAtOnce(Interrupted() ? kExitInterrupted : kExitProcessFailed);
+    GiveUp(error.what());
+  }
+}
+
+void WorkerSession::GiveUp(const std::string& error)
+{
+  Say(error);
+  SayError(error);
+  directory_->Leave();
+  EndAtOnce(Interrupted() ? kExitInterrupted : kExitProcessFailed);
+}
+
+std::optional<std::string> WorkerSession::Follow(std::chrono::milliseconds period, const std::function<void()>& idle)
+{
+  try
+  {
+    WaitUntilDone(period,
+                  [&]
+                  {
+                    idle();
+                    return std::nullopt;
+                  });
+    return std::nullopt;
+  }
+  catch (const BusError& error)
+  {
+    return error.what();
   }
 }
 

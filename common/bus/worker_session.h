@@ -43,6 +43,11 @@ public:
   // this process waits for or is busy with since too long, which is told to the server. Ends the program where this or
   // another process failed.
   void Wait(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
+  // The same for a process that has something to do after the run: returns nothing where its work is done, or else why
+  // the run is over.
+  std::optional<std::string> Follow(std::chrono::milliseconds period, const std::function<void()>& idle);
+  // Says that this process failed, or has nothing to do any more in a run that failed, and ends the program.
+  [[noreturn]] void GiveUp(const std::string& error);
   // From any thread: the work is done, or failed, or `idle` is to be called.
   void Finish(std::uint64_t tick);
   void Fail(std::uint64_t tick, const std::string& error);

@@ -36,6 +36,19 @@ public:
     return nearest;
   }
   const CCI_ColourBlob* GetNearestBlob(std::uint32_t colour) const { return FindNearest(GetAllBlobs(), colour); }
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    for (std::size_t i = 0; i < GetAllBlobs().size(); ++i)
+    {
+      const CCI_ColourBlob& blob = GetAllBlobs()[i];
+      const std::string name = "blob " + std::to_string(i);
+      readings.push_back({name + " colour", "colour", static_cast<double>(blob.colour)});
+      readings.push_back({name + " distance", "m", blob.distance_m});
+      readings.push_back({name + " angle", "rad", blob.angle_rad});
+      if (blob.elevation_rad != 0) readings.push_back({name + " elevation", "rad", blob.elevation_rad});
+    }
+  }
 };
 
 }  // namespace swarmanoid

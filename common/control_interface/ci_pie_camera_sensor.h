@@ -28,6 +28,23 @@ public:
   // one. Throws std::invalid_argument for another colour. Valid until the next control step.
   virtual std::span<const Slice> GetAllSlices(std::uint32_t colour) const = 0;
   const Slice& GetSlice(std::uint32_t colour, unsigned sector) const { return GetAllSlices(colour)[sector]; }
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    // Only what is seen.
+    static constexpr struct
+    {
+      const char* name;
+      std::uint32_t colour;
+    } kColours[] = {{"red", CCI_Colour::RED},       {"green", CCI_Colour::GREEN}, {"blue", CCI_Colour::BLUE},
+                    {"yellow", CCI_Colour::YELLOW}, {"cyan", CCI_Colour::CYAN},   {"magenta", CCI_Colour::MAGENTA},
+                    {"white", CCI_Colour::WHITE}};
+    for (const auto& [name, colour] : kColours)
+      for (unsigned sector = 0; sector < GetNumSectors(); ++sector)
+        if (GetSlice(colour, sector).blobs > 0)
+          readings.push_back(
+              {std::string(name) + " " + std::to_string(sector), "m", GetSlice(colour, sector).distance_m});
+  }
 };
 
 }  // namespace swarmanoid

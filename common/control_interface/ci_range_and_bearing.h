@@ -36,6 +36,20 @@ public:
 
   // All packets received in this tick, in no particular order, valid until the next control step.
   virtual std::span<const Packet> GetAllPackets() const = 0;
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    for (std::size_t i = 0; i < GetAllPackets().size(); ++i)
+    {
+      const Packet& packet = GetAllPackets()[i];
+      const std::string name = "packet " + std::to_string(i);
+      readings.push_back({name + " range", "m", packet.range_m});
+      readings.push_back({name + " bearing", "rad", packet.bearing_rad});
+      for (std::size_t byte = 0; byte < packet.message.size(); ++byte)
+        if (packet.message[byte] != 0)
+          readings.push_back({name + " byte " + std::to_string(byte), "", static_cast<double>(packet.message[byte])});
+    }
+  }
 };
 
 }  // namespace swarmanoid

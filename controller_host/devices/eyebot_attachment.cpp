@@ -16,6 +16,8 @@ public:
   void Attach() override { *on_ = 1; }
   void Detach() override { *on_ = 0; }
 
+  void Describe(std::vector<CCI_Reading>& readings) const override { readings.push_back({"attached", "yes/no", *on_}); }
+
 private:
   double* on_;
 };

@@ -26,6 +26,14 @@ public:
     values_[3] = std::clamp(tilt, 0.0, MAX_TILT);
   }
 
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    readings.push_back({"on", "yes/no", values_[0]});
+    readings.push_back({"colour", "colour", values_[1]});
+    readings.push_back({"pan", "rad", values_[2]});
+    readings.push_back({"tilt", "rad", values_[3]});
+  }
+
 private:
   double* values_;  // laser, laser_colour, laser_pan, laser_tilt
 };

@@ -51,6 +51,13 @@ void PutVelocity(double* values, const Limits& limits, double forward, double le
   values[3] = Clamped(yaw_rate, limits.yaw_rate);
 }
 
+void DescribeVelocity(const double* velocity, std::vector<CCI_Reading>& readings)
+{
+  constexpr const char* kNames[] = {"forward", "left", "up", "yaw rate"};
+  for (std::size_t axis = 0; axis < kAxes; ++axis)
+    readings.push_back({kNames[axis], axis == 3 ? "rad/s" : "m/s", velocity[axis]});
+}
+
 class VelocityPropellers : public CCI_EyeBotPropellersActuator
 {
 public:
@@ -65,6 +72,7 @@ public:
         "dummy_eyebot_propellers take velocities only; for SetPosition choose <implementation> "
         "position_eyebot_propellers");
   }
+  void Describe(std::vector<CCI_Reading>& readings) const override { DescribeVelocity(values_, readings); }
   Limits limits;
 
 private:
@@ -111,6 +119,13 @@ public:
     values_[kAxes] = 1;
     for (int axis = 0; axis < 3; ++axis) values_[kAxes + 1 + static_cast<std::size_t>(axis)] = position[axis];
     values_[kAxes + 4] = yaw;
+  }
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    if (values_[kAxes] == 0) return DescribeVelocity(values_, readings);
+    constexpr const char* kNames[] = {"target x", "target y", "target z", "target yaw"};
+    for (std::size_t i = 0; i < kAxes; ++i)
+      readings.push_back({kNames[i], i == 3 ? "rad" : "m", values_[kAxes + 1 + i]});
   }
   Limits limits;
 

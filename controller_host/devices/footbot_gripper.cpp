@@ -19,6 +19,8 @@ public:
   explicit Gripper(double* closed) : closed_(closed) {}
   void SetGripper(double closed) override { *closed_ = std::clamp(closed == closed ? closed : 0.0, 0.0, 1.0); }
 
+  void Describe(std::vector<CCI_Reading>& readings) const override { readings.push_back({"closed", "", *closed_}); }
+
 private:
   double* closed_;
 };

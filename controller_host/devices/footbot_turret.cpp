@@ -24,6 +24,11 @@ public:
   {
     *velocity_ = velocity == velocity ? std::clamp(velocity, -limit, limit) : 0;
   }
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    readings.push_back({"velocity", "rad/s", *velocity_});
+  }
   double limit = 0;  // rad/s
 
 private:

@@ -18,6 +18,12 @@ class SimulatedFootbotWheels : public CCI_FootBotWheelsActuator
 {
 public:
   void SetFootBotWheelsAngularVelocity(double left, double right) override { wanted = {left, right}; }
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    readings.push_back({"left", "rad/s", wanted[0]});
+    readings.push_back({"right", "rad/s", wanted[1]});
+  }
   std::array<double, NUM_WHEELS> wanted{};  // rad/s
 };
 

@@ -30,6 +30,11 @@ public:
   explicit Head(double* velocity) : velocity_(velocity) {}
   void SetHeadAngularVelocity(double velocity) override { *velocity_ = Clamped(velocity); }
 
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    readings.push_back({"velocity", "rad/s", *velocity_});
+  }
+
 private:
   double* velocity_;
 };
@@ -49,6 +54,12 @@ public:
     velocities_[3] = Clamped(right);
   }
 
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    static constexpr const char* kNames[] = {"left arm", "right arm", "left wrist", "right wrist"};
+    for (int i = 0; i < 4; ++i) readings.push_back({kNames[i], "rad/s", velocities_[i]});
+  }
+
 private:
   double* velocities_;
 };
@@ -59,6 +70,12 @@ public:
   explicit Hands(double* closed) : closed_(closed) {}
   void Close(Hand hand) override { closed_[hand] = 1; }
   void Open(Hand hand) override { closed_[hand] = 0; }
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    readings.push_back({"left closed", "yes/no", closed_[LEFT]});
+    readings.push_back({"right closed", "yes/no", closed_[RIGHT]});
+  }
 
 private:
   double* closed_;

@@ -23,6 +23,12 @@ public:
     values_[1] = velocity == velocity ? std::clamp(velocity, -MAX_WINCH_SPEED, MAX_WINCH_SPEED) : 0;
   }
 
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    readings.push_back({"launched", "yes/no", values_[0]});
+    readings.push_back({"winch velocity", "m/s", values_[1]});
+  }
+
 private:
   double* values_;
 };

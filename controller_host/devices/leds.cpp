@@ -33,6 +33,12 @@ public:
     colours_[led] = colour & kColourBits;
   }
 
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    for (unsigned led = 0; led < Interface::NUM_LEDS; ++led)
+      readings.push_back({std::to_string(led), "colour", colours_[led]});
+  }
+
 private:
   double* colours_;
 };
@@ -55,6 +61,11 @@ class Beacon : public Interface
 public:
   explicit Beacon(double* colour) : colour_(colour) {}
   void SetColour(std::uint32_t colour) override { *colour_ = colour & kColourBits; }
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    readings.push_back({"colour", "colour", *colour_});
+  }
 
 private:
   double* colour_;

@@ -25,6 +25,12 @@ public:
   }
   void HideDirection() override { colour_ = 0; }
 
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    readings.push_back({"angle", "rad", angle_});
+    readings.push_back({"colour", "colour", static_cast<double>(colour_)});
+  }
+
   double angle_ = 0;
   std::uint32_t colour_ = 0;
 };

@@ -45,6 +45,17 @@ public:
   }
   void StopSending() override { std::fill_n(values_, 3, 0.0); }
 
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    readings.push_back({"sends", "yes/no", values_[0]});
+    if (values_[0] == 0) return;
+    Message message{};
+    Unpack(values_[1], message.data());
+    Unpack(values_[2], message.data() + kHalf);
+    for (std::size_t i = 0; i < message.size(); ++i)
+      readings.push_back({"byte " + std::to_string(i), "", static_cast<double>(message[i])});
+  }
+
 private:
   double* values_;
 };

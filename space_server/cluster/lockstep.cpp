@@ -151,10 +151,12 @@ void Lockstep::Arrived(std::size_t part, std::uint64_t tick)
 
 void Lockstep::Complete()
 {
-  bool terminate = false;
-  for (const DrawnMessage& drawn : drawn_) terminate |= drawn.terminate;
-  if (terminate)
+  const auto terminating =
+      std::find_if(drawn_.begin(), drawn_.end(), [](const DrawnMessage& drawn) { return drawn.terminate; });
+  if (terminating != drawn_.end())
   {
+    const auto visualiser = static_cast<std::size_t>(terminating - drawn_.begin());
+    terminator_ = VisualiserName(server_.Space().GetExperiment().visualisations[visualiser]);
     // The tick that was drawn is the last one: its state goes out again, marked so.
     server_.Finish();
     Send(true);
@@ -223,6 +225,12 @@ bool Lockstep::Finished() const
 {
   const std::lock_guard lock(mutex_);
   return finished_;
+}
+
+std::optional<std::string> Lockstep::Terminator() const
+{
+  const std::lock_guard lock(mutex_);
+  return terminator_;
 }
 
 std::optional<std::string> Lockstep::Failure() const

@@ -42,6 +42,8 @@ public:
   void Repeat();
   // The last state has gone out.
   bool Finished() const;
+  // The name of the visualiser that asked for the end, if one did.
+  std::optional<std::string> Terminator() const;
   std::optional<std::string> Failure() const;
   // Those whose answer to the current tick is missing.
   std::vector<std::string> Missing() const;
@@ -81,6 +83,7 @@ private:
   bool hold_ = false;
   std::uint64_t until_ = 0;
   bool finished_ = false;
+  std::optional<std::string> terminator_;
   std::optional<std::string> failure_;
   std::FILE* hash_log_ = nullptr;
   HotPublisher<SpaceState> states_;

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <stdexcept>
 
 #include "common/math/elementary.h"
+#include "visualiser/status_line.h"
 
 namespace swarmanoid
 {
@@ -52,9 +54,13 @@ PluginDescription CTextRender::Description()
        0,
        0,
        {"table", "csv", "json"}},
-      {"columns", ParameterType::kText, "", "", "Titles of the columns to write, separated by commas; all without it."},
+      {"columns", ParameterType::kText, "", "",
+       "Titles of the columns to write, separated by commas; without it all but Engine, Host and State: who moves and "
+       "who controls the entity, and the state of its controller as last heard."},
       {"entities", ParameterType::kText, "", "",
-       "Tags of the entities to write (footbot, block), separated by commas; all without it."}};
+       "Tags of the entities to write (footbot, block), separated by commas; all without it."},
+      {"status", ParameterType::kBoolean, "", "false",
+       "Whether each table starts with a line on how the run goes: its pace, and which process is late."}};
   return description;
 }
 
@@ -67,6 +73,9 @@ void CTextRender::Init(const RenderSetup& setup)
 {
   const Parameters& parameters = setup.parameters;
   space_ = &setup.space;
+  assignment_ = &setup.assignment;
+  monitor_ = setup.monitor;
+  shows_status_ = parameters.Boolean("status") && monitor_ != nullptr;
   precision_ = static_cast<int>(parameters.Integer("precision"));
   every_ = static_cast<std::uint64_t>(parameters.Integer("every"));
   const std::string format = parameters.Text("format");
@@ -74,6 +83,9 @@ void CTextRender::Init(const RenderSetup& setup)
   columns_ = Columns();
   ChooseColumns(parameters.Text("columns"), parameters.Tree().ValueLocation("columns"));
   ChooseEntities(parameters.Text("entities"), parameters.Tree().ValueLocation("entities"));
+
+  WatchShownRobots();
+  if (shows_status_) monitor_->Status();
 
   const std::string file = parameters.Text("file");
   if (file.empty())
@@ -101,6 +113,7 @@ void CTextRender::Draw()
   const bool due = period_ ? period != *period_ : tick % every_ == 0;
   period_ = period;
   if (!due && tick != space_->GetExperiment().max_clock) return;
+  if (shows_status_) AppendStatus();
   for (std::size_t i = 0; i < space_->Size(); ++i)
     if (IsShown(space_->GetEntity(i))) AppendLine(space_->GetEntity(i));
   Write();
@@ -137,7 +150,28 @@ std::vector<CTextRender::Column> CTextRender::Columns() const
           {"Z", true, position(2)},
           {"Alpha", true, angle(&EulerAngles::alpha)},
           {"Beta", true, angle(&EulerAngles::beta)},
-          {"Gamma", true, angle(&EulerAngles::gamma)}};
+          {"Gamma", true, angle(&EulerAngles::gamma)},
+          {"Engine", false,
+           [this](const CSwarmanoidSpaceEntity& e, std::string& line)
+           {
+             const int engine = assignment_->owner[e.GetIndex()];
+             if (engine >= 0) line += space_->GetExperiment().engines[static_cast<std::size_t>(engine)].id;
+           },
+           false},
+          {"Host", false,
+           [this](const CSwarmanoidSpaceEntity& e, std::string& line)
+           {
+             const int host = assignment_->host[e.GetIndex()];
+             if (host >= 0) line += std::to_string(host);
+           },
+           false},
+          {"State", false,
+           [this](const CSwarmanoidSpaceEntity& e, std::string& line)
+           {
+             const RobotStatus* robot = monitor_ == nullptr ? nullptr : monitor_->Robot(e.GetIndex());
+             if (robot != nullptr) line += robot->state.empty() ? robot->text : robot->state;
+           },
+           false}};
 }
 
 bool CTextRender::IsShown(const CSwarmanoidSpaceEntity& entity) const
@@ -160,8 +194,10 @@ void CTextRender::AppendNumber(double value, std::string& line) const
 
 void CTextRender::ChooseColumns(const std::string& names, const SourceLocation& location)
 {
-  if (names.empty()) return;
   std::vector<Column> chosen;
+  if (names.empty())
+    std::copy_if(columns_.begin(), columns_.end(), std::back_inserter(chosen),
+                 [](const Column& column) { return column.by_default; });
   for (const std::string& name : SplitList(names))
   {
     const auto column =
@@ -192,6 +228,39 @@ void CTextRender::ChooseEntities(const std::string& kinds, const SourceLocation&
     }
     if (!found) throw ConfigurationError(location, "there are no entities '" + name + "'; allowed are " + known);
   }
+}
+
+// The column State needs to hear of every robot that gets a line.
+void CTextRender::WatchShownRobots()
+{
+  const auto is_state = [](const Column& column) { return column.title == "State"; };
+  if (monitor_ == nullptr || std::none_of(columns_.begin(), columns_.end(), is_state)) return;
+  std::vector<std::uint32_t> robots;
+  for (std::size_t i = 0; i < space_->Size(); ++i)
+    if (assignment_->host[i] >= 0 && IsShown(space_->GetEntity(i))) robots.push_back(static_cast<std::uint32_t>(i));
+  monitor_->Watch(robots);
+}
+
+void CTextRender::AppendStatus()
+{
+  const RunStatus& status = monitor_->Status();
+  if (format_ != Format::kJson)
+  {
+    buffer_ += "# " + StatusLine(status) + "\n";
+    return;
+  }
+  buffer_ += "{\"tick\":" + std::to_string(status.tick) + ",\"phase\":\"" + std::string(PhaseName(status.phase)) +
+             "\",\"real_time_factor\":";
+  AppendNumber(status.real_time_factor, buffer_);
+  buffer_ += ",\"late\":[";
+  bool first = true;
+  for (const ProcessStatus& process : status.processes)
+  {
+    if (process.late_s <= 0) continue;
+    buffer_ += (first ? "\"" : ",\"") + process.name + '"';
+    first = false;
+  }
+  buffer_ += "]}\n";
 }
 
 void CTextRender::AppendHeader()

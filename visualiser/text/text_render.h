@@ -32,6 +32,7 @@ protected:
     std::string title;
     bool is_number = true;  // false: quoted in JSON
     std::function<void(const CSwarmanoidSpaceEntity& entity, std::string& line)> append;
+    bool by_default = true;  // false: written only where the parameter `columns` names it
   };
 
   // Extension points: the columns there are (asked once, by Init), and which entities get a line.
@@ -41,6 +42,8 @@ protected:
   // A number rounded to `precision` decimals, without trailing zeros.
   void AppendNumber(double value, std::string& line) const;
   const CSwarmanoidSpace& Space() const { return *space_; }
+  // nullptr where the renderer is used outside a run.
+  RunMonitor* Monitor() const { return monitor_; }
 
 private:
   enum class Format
@@ -52,11 +55,16 @@ private:
 
   void ChooseColumns(const std::string& names, const SourceLocation& location);
   void ChooseEntities(const std::string& kinds, const SourceLocation& location);
+  void WatchShownRobots();
   void AppendHeader();
+  void AppendStatus();
   void AppendLine(const CSwarmanoidSpaceEntity& entity);
   void Write();
 
   const CSwarmanoidSpace* space_ = nullptr;
+  const Assignment* assignment_ = nullptr;
+  RunMonitor* monitor_ = nullptr;
+  bool shows_status_ = false;
   std::vector<Column> columns_;
   std::vector<bool> shown_kinds_;  // by EntityKind
   Format format_ = Format::kTable;

@@ -11,6 +11,11 @@ class CCI_EyeBotAltitudeSensor : public CCI_Sensor
 public:
   // Metres from the base of the robot down to the first thing below it: floor, block, robot.
   virtual double GetAltitude() const = 0;
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    readings.push_back({"altitude", "m", GetAltitude()});
+  }
 };
 
 }  // namespace swarmanoid

@@ -26,6 +26,12 @@ public:
   {
     return GetRightVelocity() * tick_s * CCI_FootBotWheelsActuator::WHEEL_RADIUS_M;
   }
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    readings.push_back({"left", "rad/s", GetLeftVelocity()});
+    readings.push_back({"right", "rad/s", GetRightVelocity()});
+  }
 };
 
 }  // namespace swarmanoid

@@ -12,6 +12,12 @@ public:
   // Radians; 0 while nothing was ever gripped.
   virtual double GetAperture() const = 0;
   virtual bool IsGripping() const = 0;
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    readings.push_back({"aperture", "rad", GetAperture()});
+    readings.push_back({"grips", "yes/no", IsGripping() ? 1.0 : 0.0});
+  }
 };
 
 }  // namespace swarmanoid

@@ -19,6 +19,12 @@ public:
   virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
   // The colour of the floor (0xRRGGBB) under the centre of the robot.
   virtual std::uint32_t GetFloorColour() const = 0;
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    for (unsigned i = 0; i < NUM_SENSORS; ++i) readings.push_back({std::to_string(i), "", GetAllSensorReadings()[i]});
+    readings.push_back({"floor", "colour", static_cast<double>(GetFloorColour())});
+  }
 };
 
 }  // namespace swarmanoid

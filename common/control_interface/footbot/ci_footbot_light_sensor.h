@@ -20,6 +20,11 @@ public:
   virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
   double GetLightSensorReading(unsigned sensor) const { return GetAllSensorReadings()[sensor]; }
   static double AngleOf(unsigned sensor) { return FIRST_ANGLE + sensor * SPACING; }
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    for (unsigned i = 0; i < NUM_SENSORS; ++i) readings.push_back({std::to_string(i), "", GetAllSensorReadings()[i]});
+  }
 };
 
 }  // namespace swarmanoid

@@ -11,6 +11,11 @@ class CCI_FootBotTurretEncoderSensor : public CCI_Sensor
 public:
   // Radians, -pi..pi, counter-clockwise from the front.
   virtual double GetTurretAngle() const = 0;
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    readings.push_back({"angle", "rad", GetTurretAngle()});
+  }
 };
 
 }  // namespace swarmanoid

@@ -19,6 +19,13 @@ public:
   double GetForwardTraction() const { return GetAllSensorReadings()[0]; }
   double GetLeftTraction() const { return GetAllSensorReadings()[1]; }
   double GetTorque() const { return GetAllSensorReadings()[2]; }
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    readings.push_back({"forward traction", "", GetForwardTraction()});
+    readings.push_back({"left traction", "", GetLeftTraction()});
+    readings.push_back({"torque", "", GetTorque()});
+  }
 };
 
 }  // namespace swarmanoid

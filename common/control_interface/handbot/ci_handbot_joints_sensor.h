@@ -28,6 +28,27 @@ public:
   };
   virtual std::span<const double, NUM_READINGS> GetAllSensorReadings() const = 0;
   double GetReading(Reading reading) const { return GetAllSensorReadings()[reading]; }
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    static constexpr struct
+    {
+      const char* name;
+      const char* unit;
+    } kReadings[NUM_READINGS] = {{"head", "rad"},
+                                 {"left arm", "rad"},
+                                 {"right arm", "rad"},
+                                 {"left wrist", "rad"},
+                                 {"right wrist", "rad"},
+                                 {"left hand", "rad"},
+                                 {"right hand", "rad"},
+                                 {"left hand holds", "yes/no"},
+                                 {"right hand holds", "yes/no"},
+                                 {"rope attached", "yes/no"},
+                                 {"rope length", "m"}};
+    for (int i = 0; i < NUM_READINGS; ++i)
+      readings.push_back({kReadings[i].name, kReadings[i].unit, GetReading(static_cast<Reading>(i))});
+  }
 };
 
 }  // namespace swarmanoid

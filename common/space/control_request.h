@@ -1,0 +1,21 @@
+// What somebody asks of a running experiment. Carried out by the space server's control desk between two ticks; the
+// fields are explained at ControlRequest in idl/swarmanoid.idl.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace swarmanoid
+{
+
+struct ControlRequestMessage
+{
+  std::string client;  // "host:pid" of the asker; empty in one process
+  std::uint32_t number = 0;
+  std::string verb;
+  std::string entity;
+  std::vector<double> numbers;
+};
+
+}  // namespace swarmanoid

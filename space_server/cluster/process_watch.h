@@ -1,0 +1,27 @@
+// Which processes of a run are late, as people are told. Used by the main thread of the space_server program.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/bus/server_session.h"
+
+namespace swarmanoid
+{
+
+struct LateProcess
+{
+  std::string name;
+  std::string doing;  // as it says; may be empty
+};
+
+// Those whose answer to `tick` is missing, or those whom they in turn wait for; each once.
+std::vector<LateProcess> LateProcesses(const ServerSession& session, const std::vector<std::string>& missing,
+                                       std::uint64_t tick);
+
+// All processes of a run that has waited for `missing` to answer `tick` for `waited_s`.
+std::vector<ProcessStatus> ProcessesNow(const ServerSession& session, std::uint64_t tick,
+                                        const std::vector<std::string>& missing, double waited_s);
+
+}  // namespace swarmanoid

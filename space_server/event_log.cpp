@@ -1,0 +1,116 @@
+#include "space_server/event_log.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+
+#include "common/configuration/wording.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr const char* kHeader = "tick,request,entity,numbers,from";
+
+std::vector<std::string> Fields(const std::string& line)
+{
+  std::vector<std::string> fields(1);
+  for (const char c : line)
+    if (c == ',')
+      fields.emplace_back();
+    else if (c != '\r')
+      fields.back() += c;
+  return fields;
+}
+
+const std::vector<std::string> kVerbs{"pause", "resume", "step", "speed", "stop", "move"};
+
+// What can be known to be wrong before the run; the place itself is checked when it is moved there.
+std::string ErrorOf(const ControlRequestMessage& request, const Experiment& experiment)
+{
+  if (std::find(kVerbs.begin(), kVerbs.end(), request.verb) == kVerbs.end())
+    return fmt::format("there is no request {}; known are {}", Quoted(request.verb), Listed(kVerbs));
+  if (request.verb != "move") return {};
+  const auto entity = std::find_if(experiment.entities.begin(), experiment.entities.end(),
+                                   [&](const EntityConfiguration& e) { return e.id == request.entity; });
+  if (entity == experiment.entities.end())
+    return fmt::format("the experiment has no entity {}; repeat the events of a run of the same file",
+                       Quoted(request.entity));
+  if (!entity->movable) return fmt::format("{} cannot move", Quoted(request.entity));
+  if (request.numbers.size() != 3 && request.numbers.size() != 6)
+    return "a move needs 3 or 6 numbers: x y z, and alpha beta gamma";
+  return {};
+}
+
+}  // namespace
+
+std::vector<RecordedEvent> ReadEvents(const std::string& path, const Experiment& experiment)
+{
+  std::ifstream file(path);
+  if (!file) throw ConfigurationError(fmt::format("cannot read the events '{}': {}", path, std::strerror(errno)));
+  const auto name = std::make_shared<const std::string>(path);
+  std::vector<RecordedEvent> events;
+  std::string line;
+  std::uint64_t last = 0;
+  for (int number = 1; std::getline(file, line); ++number)
+  {
+    RecordedEvent event;
+    event.location = {name, number, 0};
+    const std::vector<std::string> fields = Fields(line);
+    if (line.empty() || (number == 1 && line.starts_with("tick,"))) continue;
+    if (fields.size() < 4)
+      throw ConfigurationError(event.location, fmt::format("{} is no event; a line is {}", Quoted(line), kHeader));
+
+    const auto tick = std::from_chars(fields[0].data(), fields[0].data() + fields[0].size(), event.tick);
+    if (tick.ec != std::errc() || tick.ptr != fields[0].data() + fields[0].size())
+      throw ConfigurationError(event.location, fmt::format("{} is no tick", Quoted(fields[0])));
+    if (event.tick < last)
+      throw ConfigurationError(event.location,
+                               fmt::format("tick {} comes after tick {}; events stand in order", event.tick, last));
+    last = event.tick;
+    event.request.verb = fields[1];
+    event.request.entity = fields[2];
+    const auto numbers = ParseNumbers(fields[3]);
+    if (!fields[3].empty() && !numbers)
+      throw ConfigurationError(event.location, fmt::format("{} are no numbers", Quoted(fields[3])));
+    if (numbers) event.request.numbers = *numbers;
+    if (fields.size() > 4) event.request.client = fields[4];
+    if (const std::string error = ErrorOf(event.request, experiment); !error.empty())
+      throw ConfigurationError(event.location, error);
+    if (event.request.verb == "move" || event.request.verb == "stop") events.push_back(std::move(event));
+  }
+  return events;
+}
+
+EventLog::~EventLog()
+{
+  if (file_ != nullptr) std::fclose(file_);
+}
+
+void EventLog::Write(std::uint64_t tick, const ControlRequestMessage& request)
+{
+  if (path_.empty()) return;
+  if (file_ == nullptr)
+  {
+    file_ = std::fopen(path_.c_str(), "we");
+    if (file_ != nullptr) fmt::print(file_, "{}\n", kHeader);
+  }
+  bool good = file_ != nullptr;
+  if (good)
+  {
+    // The shortest numbers that read back as the same bits.
+    fmt::print(file_, "{},{},{},{},{}\n", tick, request.verb, request.entity, fmt::join(request.numbers, " "),
+               request.client);
+    good = std::fflush(file_) == 0;
+  }
+  if (!good) throw std::runtime_error(fmt::format("cannot write the events to '{}': {}", path_, std::strerror(errno)));
+}
+
+}  // namespace swarmanoid

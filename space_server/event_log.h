@@ -1,0 +1,45 @@
+// What users changed in a run from outside, as a file: events.csv in the folder of the run. Written by the control
+// desk; read to repeat the changes in another run (`swarmanoid run EXPERIMENT --events FILE`). docs/command.md has the
+// format.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "common/experiment/experiment.h"
+#include "common/space/control_request.h"
+
+namespace swarmanoid
+{
+
+struct RecordedEvent
+{
+  std::uint64_t tick = 0;  // before whose state it is done
+  ControlRequestMessage request;
+  SourceLocation location;
+};
+
+// The events that change the outcome of a run (move, stop), in the order of the file. Throws ConfigurationError, with
+// file and line, for what is no event of this experiment.
+std::vector<RecordedEvent> ReadEvents(const std::string& path, const Experiment& experiment);
+
+class EventLog
+{
+public:
+  // The file is made with the first event. Empty path: nothing is written.
+  explicit EventLog(std::string path) : path_(std::move(path)) {}
+  ~EventLog();
+  EventLog(const EventLog&) = delete;
+  EventLog& operator=(const EventLog&) = delete;
+
+  // Throws std::runtime_error where the file cannot be written.
+  void Write(std::uint64_t tick, const ControlRequestMessage& request);
+
+private:
+  std::string path_;
+  std::FILE* file_ = nullptr;
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,274 @@
+// What visualisers can ask a running cluster beyond its state: how the run goes, and the inside of robots.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "common/bus/control_client.h"
+#include "tests/cluster/cluster_fixture.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+// The latest message of a topic.
+template <class Message>
+class Latest
+{
+public:
+  Latest(Bus& bus, const std::string& experiment)
+      : subscription_(bus, experiment,
+                      [this](const Message& message)
+                      {
+                        const std::lock_guard lock(mutex_);
+                        message_ = message;
+                        ++count_;
+                      })
+  {
+  }
+  std::optional<Message> Get() const
+  {
+    const std::lock_guard lock(mutex_);
+    return message_;
+  }
+  int Count() const
+  {
+    const std::lock_guard lock(mutex_);
+    return count_;
+  }
+
+private:
+  mutable std::mutex mutex_;
+  std::optional<Message> message_;
+  int count_ = 0;
+  Subscription<Message> subscription_;
+};
+
+class InspectionTest : public ClusterTest
+{
+protected:
+  void Begin(int ticks, int hosts, const std::vector<std::string>& options)
+  {
+    file_ = WriteExperiment("inspected", 1, ticks);
+    std::vector<std::string> all = options;
+    all.insert(all.end(), {"--hash-log", folder_ + "/hashes.txt", "--controller-hosts", std::to_string(hosts)});
+    server_.emplace(StartServer(file_, all));
+    workers_.push_back(StartEngine("inspected", 0));
+    // Stopped processes are to be late, not dead.
+    for (int host = 0; host < hosts; ++host)
+      workers_.push_back(
+          Start("controller_host", {"--host", std::to_string(host), "--experiment", "inspected", "--lease", "60"}));
+    BusOptions bus;
+    bus.domain = domain_.Id();
+    bus_.emplace(bus, "test");
+    client_.emplace(*bus_, "inspected");
+    world_.emplace(*bus_, "inspected");
+    ASSERT_TRUE(Until([&] { return world_->Get().has_value(); }));
+  }
+
+  template <class Condition>
+  static bool Until(const Condition& condition)
+  {
+    for (const auto end = std::chrono::steady_clock::now() + 10s; std::chrono::steady_clock::now() < end;)
+    {
+      if (condition()) return true;
+      std::this_thread::sleep_for(2ms);
+    }
+    return false;
+  }
+
+  ControlReplyMessage Ask(const std::string& verb, const std::vector<double>& numbers = {})
+  {
+    const auto reply = client_->Ask(verb, "", numbers, 20);
+    EXPECT_TRUE(reply.has_value()) << verb << "\n" << server_->Output();
+    return reply.value_or(ControlReplyMessage{});
+  }
+
+  WishesMessage Wishes(const std::vector<std::string>& robots)
+  {
+    WishesMessage wishes;
+    wishes.client = ProcessId();
+    wishes.run = world_->Get()->run;
+    const std::vector<WorldEntity> entities = world_->Get()->entities;
+    for (std::uint32_t i = 0; i < entities.size(); ++i)
+      if (std::ranges::find(robots, entities[i].id) != robots.end()) wishes.robots.push_back(i);
+    return wishes;
+  }
+
+  void ExpectEnd()
+  {
+    EXPECT_EQ(server_->Wait(20), 0) << server_->Output();
+    for (ChildProcess& worker : workers_) EXPECT_EQ(worker.Wait(5), 0) << worker.Output();
+    world_.reset();
+    client_.reset();
+    bus_.reset();
+    ExpectNothingLeft();
+  }
+
+  std::string file_;
+  std::optional<ChildProcess> server_;
+  std::vector<ChildProcess> workers_;
+  std::optional<Bus> bus_;
+  std::optional<ControlClient> client_;
+  std::optional<Latest<WorldMessage>> world_;
+};
+
+TEST_F(InspectionTest, TheRunTellsItsPhasePaceAndProcesses)
+{
+  Begin(0, 2, {"--paused", "--real-time", "3"});
+  Latest<RunStatusMessage> status(*bus_, "inspected");
+  const auto phase = [&] { return status.Get() ? status.Get()->status.phase : RunStatus::Phase::kUnknown; };
+  ASSERT_TRUE(Until([&] { return phase() == RunStatus::Phase::kPaused; }));
+  const RunStatus paused = status.Get()->status;
+  EXPECT_EQ(paused.speed_wanted, 3);
+  EXPECT_EQ(paused.ticks_per_second, 0);
+  ASSERT_EQ(paused.processes.size(), 4U);
+  EXPECT_EQ(paused.processes[0].name, "space server");
+  EXPECT_EQ(paused.processes[1].name, "engine 'e0'");
+  EXPECT_EQ(paused.processes[2].name, "controller host 0");
+  EXPECT_EQ(paused.processes[3].name, "controller host 1");
+  for (const ProcessStatus& process : paused.processes)
+    EXPECT_THAT(process.process, testing::ContainsRegex(":[0-9]+$"));
+
+  Ask("resume");
+  ASSERT_TRUE(Until([&] { return phase() == RunStatus::Phase::kRunning && status.Get()->status.tick > 60; }));
+  EXPECT_NEAR(status.Get()->status.real_time_factor, 3, 1);
+  EXPECT_NEAR(status.Get()->status.ticks_per_second, 30, 10);
+  Ask("stop");
+  ASSERT_TRUE(Until([&] { return phase() == RunStatus::Phase::kFinished; }));
+  EXPECT_EQ(status.Get()->status.ended, "stopped by " + ProcessId());
+  ExpectEnd();
+}
+
+TEST_F(InspectionTest, AProcessThatIsLateIsNamed)
+{
+  Begin(0, 2, {"--lease", "60"});
+  Latest<RunStatusMessage> status(*bus_, "inspected");
+  ASSERT_TRUE(Until([&] { return status.Get() && status.Get()->status.tick > 20; }));
+  ChildProcess& host = workers_.back();
+  host.Signal(SIGSTOP);
+  const auto late = [&]
+  {
+    std::vector<std::string> names;
+    const RunStatusMessage now = *status.Get();
+    for (const ProcessStatus& process : now.status.processes)
+      if (process.late_s > 1.5) names.push_back(process.name);
+    return names;
+  };
+  EXPECT_TRUE(Until([&] { return late() == std::vector<std::string>{"controller host 1"}; }))
+      << testing::PrintToString(late());
+  host.Signal(SIGCONT);
+  EXPECT_TRUE(Until(
+      [&]
+      {
+        const RunStatusMessage now = *status.Get();
+        for (const ProcessStatus& process : now.status.processes)
+          if (process.late_s > 0) return false;
+        return true;
+      }));
+  Ask("stop");
+  ExpectEnd();
+}
+
+TEST_F(InspectionTest, WatchedRobotsOfAllHostsTellTheirInside)
+{
+  Begin(0, 2, {"--paused"});
+  Latest<RobotStatusMessage> status(*bus_, "inspected");
+  Publisher<WishesMessage> wishes(*bus_, "inspected");
+  // The robots of one host; while the run is paused the answer comes too.
+  ASSERT_EQ(Ask("step", {4}).tick, 4U);
+  wishes.Write(Wishes({"robots0_2"}));
+  ASSERT_TRUE(Until([&] { return status.Get().has_value(); }));
+  const RobotStatusMessage message = *status.Get();
+  EXPECT_EQ(message.tick, 3U);
+  ASSERT_EQ(message.robots.size(), 1U);
+  const RobotStatus& robot = message.robots[0];
+  EXPECT_EQ(world_->Get()->entities[robot.entity].id, "robots0_2");
+  EXPECT_EQ(robot.controller, "diffusion");
+  ASSERT_EQ(robot.sensors.size(), 2U);
+  EXPECT_EQ(robot.sensors[0].readings.size(), 24U);
+  EXPECT_EQ(robot.sensors[1].type, "footbot_encoders");
+  EXPECT_EQ(robot.sensors[1].readings[1].unit, "rad/s");
+  ASSERT_EQ(robot.actuators.size(), 2U);
+  EXPECT_EQ(robot.actuators[1].type, "footbot_leds");
+  EXPECT_EQ(robot.actuators[1].readings.at(0).unit, "colour");
+
+  std::mutex mutex;
+  std::map<std::uint32_t, std::string> robot_of_host;
+  const std::vector<WorldEntity> entities = world_->Get()->entities;
+  Subscription<RobotStatusMessage> both(*bus_, "inspected",
+                                        [&](const RobotStatusMessage& heard)
+                                        {
+                                          const std::lock_guard lock(mutex);
+                                          robot_of_host[heard.source] = entities[heard.robots.at(0).entity].id;
+                                        });
+  wishes.Write(Wishes({"robots0_2", "robots0_11"}));
+  EXPECT_TRUE(Until(
+      [&]
+      {
+        const std::lock_guard lock(mutex);
+        return robot_of_host ==
+               std::map<std::uint32_t, std::string>{{message.source, "robots0_2"}, {1 - message.source, "robots0_11"}};
+      }));
+  Ask("stop");
+  ExpectEnd();
+}
+
+TEST_F(InspectionTest, WatchingIsForgottenWithoutRepetitionAndLeavesTheHashesAlone)
+{
+  Begin(0, 1, {"--paused"});
+  {
+    Latest<RobotStatusMessage> status(*bus_, "inspected");
+    Publisher<WishesMessage> wishes(*bus_, "inspected");
+    WishesMessage all = Wishes({"robots0_0", "robots0_1", "robots0_5"});
+    all.every_tick = true;
+    wishes.Write(all);
+    ASSERT_TRUE(Until([&] { return status.Count() > 0; }));
+    ASSERT_EQ(Ask("step", {200}).tick, 200U);
+    EXPECT_TRUE(Until([&] { return status.Get()->tick == 199; }));
+    std::this_thread::sleep_for(3500ms);
+    const int before = status.Count();
+    ASSERT_EQ(Ask("step", {200}).tick, 400U);
+    std::this_thread::sleep_for(200ms);
+    // One may come before the host notices.
+    EXPECT_LE(status.Count(), before + 1);
+  }
+  Ask("stop");
+  ExpectEnd();
+  // The same number of ticks in one process.
+  file_ = WriteExperiment("inspected", 1, 400);
+  EXPECT_EQ(Read("hashes.txt"), HashesOfSingleProcess(file_));
+}
+
+TEST_F(InspectionTest, ViewsComeAtThePaceThatIsWishedFor)
+{
+  Begin(0, 1, {});
+  Publisher<WishesMessage> wishes(*bus_, "inspected");
+  WishesMessage slow = Wishes({});
+  slow.views = 2;
+  wishes.Write(slow);
+  Latest<ViewMessage> views(*bus_, "inspected");
+  ASSERT_TRUE(Until([&] { return views.Count() > 0; }));
+  std::this_thread::sleep_for(500ms);
+  const int before = views.Count();
+  for (int k = 0; k < 4; ++k)
+  {
+    std::this_thread::sleep_for(500ms);
+    wishes.Write(slow);
+  }
+  EXPECT_GE(views.Count() - before, 3);
+  EXPECT_LE(views.Count() - before, 5);
+  Ask("stop");
+  ExpectEnd();
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,275 @@
+// A run in one process that is steered through one of its visualisations, and what the visualisation is told.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+
+#include "common/experiment/load_experiment.h"
+#include "launcher/builtins.h"
+#include "launcher/single_process.h"
+#include "launcher/usage_error.h"
+#include "test_folders.h"
+#include "visualiser/render.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// Does what a test says, at every call.
+class CScriptedRender : public CRender
+{
+public:
+  void Init(const RenderSetup& setup) override { setup_ = std::make_unique<RenderSetup>(setup); }
+  void Draw() override
+  {
+    if (on_draw) on_draw(*setup_);
+  }
+  void Idle() override
+  {
+    if (on_idle) on_idle(*setup_);
+  }
+  bool Terminate() override { return terminate; }
+  bool IsInteractive() const override { return interactive; }
+
+  using Script = std::function<void(const RenderSetup&)>;
+  static Script on_draw, on_idle;
+  static bool terminate, interactive;
+
+private:
+  std::unique_ptr<RenderSetup> setup_;
+};
+
+CScriptedRender::Script CScriptedRender::on_draw, CScriptedRender::on_idle;
+bool CScriptedRender::terminate = false, CScriptedRender::interactive = true;
+
+class SteeringTest : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    RegisterBuiltins();
+    static const bool registered = []
+    {
+      PluginDescription description;
+      description.label = "scripted_render";
+      PluginRegistry<CRender>::Instance().Add(description, [] { return std::make_unique<CScriptedRender>(); });
+      return true;
+    }();
+    static_cast<void>(registered);
+    CScriptedRender::on_draw = CScriptedRender::on_idle = nullptr;
+    CScriptedRender::terminate = false;
+    CScriptedRender::interactive = true;
+    folder_ = std::filesystem::temp_directory_path() / ("steering_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_);
+
+    std::ifstream file(SWARMANOID_SOURCE_FOLDER "/configs/diffusion_10.xml");
+    std::string text((std::istreambuf_iterator<char>(file)), {});
+    const std::size_t begin = text.find("<visualisations>");
+    const std::string scripted = "<visualisations><scripted_render id='s'/></visualisations>";
+    if (begin == std::string::npos)
+      text.insert(text.rfind("</ahss-config>"), scripted);
+    else
+      text.replace(begin, text.find("</visualisations>") + 17 - begin, scripted);
+    LoadOptions options;
+    options.settings = {{"framework.maxclock", "40"}};
+    LoadedExperiment loaded = LoadExperimentText(text, "scripted.xml", SWARMANOID_SOURCE_FOLDER "/configs", options);
+    for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
+    experiment_ = std::move(loaded.experiment);
+    options_.output_folder = folder_.string();
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string Read(const std::string& name) const
+  {
+    std::ifstream file(folder_ / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  std::filesystem::path folder_;
+  std::unique_ptr<Experiment> experiment_;
+  SingleProcessOptions options_;
+};
+
+TEST_F(SteeringTest, MovesAreWrittenDownAndRepeatedWithTheSameHashes)
+{
+  const std::uint64_t undisturbed = RunSingleProcess(*experiment_, options_).hash;
+
+  CScriptedRender::on_draw = [](const RenderSetup& setup)
+  {
+    if (setup.space.GetTick() != 6) return;
+    Pose pose = setup.space.FindEntity("fb_3")->GetPose();
+    pose.position += Vector3(0.1234567890123, -0.05, 0);
+    setup.control->MoveEntity("fb_3", pose);
+    setup.control->MoveEntity("nobody", pose);
+  };
+  options_.event_log = (folder_ / "events.csv").string();
+  options_.hash_log = (folder_ / "first").string();
+  const std::uint64_t moved = RunSingleProcess(*experiment_, options_).hash;
+  EXPECT_NE(moved, undisturbed);
+  EXPECT_THAT(Read("events.csv"), StartsWith("tick,request,entity,numbers,from\n7,move,fb_3,"));
+  EXPECT_THAT(Read("events.csv"), Not(HasSubstr("nobody")));
+
+  CScriptedRender::on_draw = nullptr;
+  options_.events = options_.event_log;
+  options_.event_log = (folder_ / "again.csv").string();
+  options_.hash_log = (folder_ / "second").string();
+  EXPECT_EQ(RunSingleProcess(*experiment_, options_).hash, moved);
+  EXPECT_EQ(Read("second"), Read("first"));
+  EXPECT_EQ(Read("again.csv"), Read("events.csv"));
+}
+
+TEST_F(SteeringTest, TheEndByAVisualisationIsRepeatedToo)
+{
+  CScriptedRender::on_draw = [](const RenderSetup& setup) { CScriptedRender::terminate = setup.space.GetTick() == 11; };
+  options_.event_log = (folder_ / "events.csv").string();
+  const RunSummary ended = RunSingleProcess(*experiment_, options_);
+  EXPECT_EQ(ended.ticks, 11U);
+  EXPECT_THAT(Read("events.csv"), HasSubstr("11,stop,,,visualiser 's'\n"));
+
+  CScriptedRender::on_draw = nullptr;
+  CScriptedRender::terminate = false;
+  options_.events = options_.event_log;
+  options_.event_log.clear();
+  const RunSummary again = RunSingleProcess(*experiment_, options_);
+  EXPECT_EQ(again.ticks, 11U);
+  EXPECT_EQ(again.hash, ended.hash);
+}
+
+TEST_F(SteeringTest, APausedRunLivesOnAndStepsAsAsked)
+{
+  std::vector<std::uint64_t> drawn;
+  std::vector<std::string> phases;
+  CScriptedRender::on_draw = [&](const RenderSetup& setup) { drawn.push_back(setup.space.GetTick()); };
+  int idle = 0;
+  CScriptedRender::on_idle = [&](const RenderSetup& setup)
+  {
+    EXPECT_EQ(setup.monitor->Status().phase, RunStatus::Phase::kPaused);
+    ++idle;
+    if (idle == 1)
+    {
+      EXPECT_TRUE(drawn.empty());
+      setup.control->MoveEntity("fb_0", Pose{{1.5, 1.25, 0}, Quaternion::Identity()});
+      setup.control->Step(3);
+    }
+    if (idle == 2)
+    {
+      // Tick 3 is made, but not shown yet.
+      EXPECT_EQ(drawn, (std::vector<std::uint64_t>{0, 1, 2}));
+      EXPECT_EQ(setup.monitor->Status().tick, 3U);
+      setup.control->Stop();
+    }
+  };
+  options_.paused = true;
+  const RunSummary summary = RunSingleProcess(*experiment_, options_);
+  EXPECT_EQ(idle, 2);
+  EXPECT_EQ(summary.ticks, 3U);
+  EXPECT_EQ(drawn.back(), 3U);
+}
+
+TEST_F(SteeringTest, NotesSayWhatCameOfARequest)
+{
+  std::vector<std::string> notes;
+  CScriptedRender::on_draw = [&](const RenderSetup& setup)
+  {
+    if (setup.space.GetTick() == 1) setup.control->MoveEntity("nobody", {});
+    notes.clear();
+    for (const RunNote& note : setup.monitor->Notes())
+      notes.push_back(fmt::format("{} {} {}", note.tick, note.done, note.text));
+  };
+  RunSingleProcess(*experiment_, options_);
+  EXPECT_THAT(notes, testing::ElementsAre("2 false move: there is no entity 'nobody'"));
+}
+
+TEST_F(SteeringTest, KeepsThePaceThatAVisualisationAsksFor)
+{
+  using Clock = std::chrono::steady_clock;
+  CScriptedRender::on_draw = [](const RenderSetup& setup)
+  {
+    if (setup.space.GetTick() == 0) setup.control->SetSpeed(20);
+    if (setup.space.GetTick() == 40)
+    {
+      EXPECT_EQ(setup.monitor->Status().speed_wanted, 20);
+      EXPECT_NEAR(setup.monitor->Status().real_time_factor, 20, 15);
+    }
+    else
+      setup.monitor->Status();
+  };
+  const auto start = Clock::now();
+  EXPECT_EQ(RunSingleProcess(*experiment_, options_).ticks, 40U);
+  // 39 intervals of 100 ms at 20 times real time.
+  EXPECT_GT(Clock::now() - start, std::chrono::milliseconds(190));
+}
+
+TEST_F(SteeringTest, WatchedRobotsShowTheirReadingsAndCommands)
+{
+  bool seen = false;
+  CScriptedRender::on_draw = [&](const RenderSetup& setup)
+  {
+    const std::uint32_t robot = setup.space.FindEntity("fb_2")->GetIndex();
+    EXPECT_EQ(setup.monitor->Robot(robot + 1), nullptr);
+    const std::vector<std::uint32_t> watched{robot};
+    setup.monitor->Watch(watched);
+    if (setup.space.GetTick() != 10) return;
+    const RobotStatus* status = setup.monitor->Robot(robot);
+    ASSERT_NE(status, nullptr);
+    EXPECT_EQ(status->tick, 9U);
+    EXPECT_EQ(status->controller, "diffusion");
+    ASSERT_EQ(status->sensors.size(), 1U);
+    EXPECT_EQ(status->sensors[0].type, "footbot_proximity");
+    EXPECT_EQ(status->sensors[0].readings.size(), 24U);
+    ASSERT_EQ(status->actuators.size(), 1U);
+    ASSERT_EQ(status->actuators[0].readings.size(), 2U);
+    EXPECT_EQ(status->actuators[0].readings[0].name, "left");
+    EXPECT_EQ(status->actuators[0].readings[0].unit, "rad/s");
+    seen = true;
+  };
+  const std::uint64_t watched = RunSingleProcess(*experiment_, options_).hash;
+  EXPECT_TRUE(seen);
+  CScriptedRender::on_draw = nullptr;
+  EXPECT_EQ(RunSingleProcess(*experiment_, options_).hash, watched);
+}
+
+TEST_F(SteeringTest, APauseThatNobodyCouldEndIsRefused)
+{
+  CScriptedRender::interactive = false;
+  options_.paused = true;
+  EXPECT_THROW(RunSingleProcess(*experiment_, options_), UsageError);
+}
+
+TEST_F(SteeringTest, WrongEventsAreToldWithTheirLine)
+{
+  const auto error_of = [&](const std::string& line)
+  {
+    std::ofstream(folder_ / "wrong.csv") << "tick,request,entity,numbers,from\n3,move,fb_0,1 1 0,\n" << line << "\n";
+    options_.events = (folder_ / "wrong.csv").string();
+    try
+    {
+      RunSingleProcess(*experiment_, options_);
+    }
+    catch (const ConfigurationError& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_THAT(error_of("2,move,fb_0,1 1 0,"), HasSubstr("wrong.csv:3: tick 2 comes after tick 3"));
+  EXPECT_THAT(error_of("4,move,fb_x,1 1 0,"), HasSubstr("wrong.csv:3: the experiment has no entity 'fb_x'"));
+  EXPECT_THAT(error_of("4,move,wall_west,1 1 0,"), HasSubstr("cannot move"));
+  EXPECT_THAT(error_of("4,move,fb_0,1 one,"), HasSubstr("no numbers"));
+  EXPECT_THAT(error_of("4,move,fb_0,1,"), HasSubstr("3 or 6 numbers"));
+  EXPECT_THAT(error_of("4,fly,fb_0,,"), HasSubstr("no request 'fly'"));
+  EXPECT_THAT(error_of("x,stop,,,"), HasSubstr("'x' is no tick"));
+  EXPECT_THAT(error_of("4,move,fb_0,100 1 0,"), HasSubstr("wrong.csv:3: move: 100, 1, 0 is outside the arena"));
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,43 @@
+// A visualiser that is attached to a run from outside: draws the newest state whenever it has time. The main thread
+// draws; a thread of the bus brings the states.
+#pragma once
+
+#include <chrono>
+#include <mutex>
+
+#include "common/bus/replica.h"
+#include "common/bus/worker_session.h"
+#include "visualiser/cluster/remote_monitor.h"
+#include "visualiser/visualiser.h"
+
+namespace swarmanoid
+{
+
+class AttachedNode
+{
+public:
+  // `rate`: pictures a second at most.
+  AttachedNode(WorkerSession& session, Replica& replica, Visualiser& visualiser, RemoteMonitor& monitor, double rate);
+
+  // Called in the main thread when a state has come, and now and then.
+  void Work();
+  // The user closed it; otherwise the run has ended.
+  bool Terminated() const { return terminated_; }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  WorkerSession& session_;
+  Replica& replica_;
+  Visualiser& visualiser_;
+  RemoteMonitor& monitor_;
+  Clock::duration period_;
+  Clock::time_point drawn_{};
+  bool terminated_ = false;
+  std::mutex mutex_;
+  SpaceSnapshot snapshot_;
+  bool fresh_ = false;
+  Subscription<ViewMessage> views_in_;
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,130 @@
+#include "visualiser/cluster/remote_monitor.h"
+
+#include <algorithm>
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kNotesKept = 100;
+constexpr auto kRepeatWishes = 1s;
+
+}  // namespace
+
+RemoteMonitor::RemoteMonitor(Bus& bus, const WorldMessage& world, bool every_tick)
+    : bus_(bus), partition_(world.experiment), run_(world.run)
+{
+  wishes_.client = ProcessId();
+  wishes_.run = world.run;
+  wishes_.every_tick = every_tick;
+}
+
+const RunStatus& RemoteMonitor::Status()
+{
+  if (statuses_in_ == nullptr)
+    statuses_in_ = std::make_unique<Subscription<RunStatusMessage>>(bus_, partition_,
+                                                                    [this](const RunStatusMessage& message)
+                                                                    {
+                                                                      const std::lock_guard lock(mutex_);
+                                                                      if (message.run == run_ && !over_)
+                                                                        heard_status_ = message.status;
+                                                                    });
+  const std::lock_guard lock(mutex_);
+  status_ = heard_status_;
+  return status_;
+}
+
+std::span<const RunNote> RemoteMonitor::Notes()
+{
+  if (replies_in_ == nullptr)
+    replies_in_ = std::make_unique<Subscription<ControlReplyMessage>>(
+        bus_, partition_,
+        [this](const ControlReplyMessage& reply)
+        {
+          const std::lock_guard lock(mutex_);
+          // An answer comes again where its asker did not hear it.
+          const auto same = [&](const RunNote& note)
+          { return note.from == reply.client && note.number == reply.number; };
+          if (std::ranges::any_of(heard_notes_, same)) return;
+          heard_notes_.push_back({reply.tick, reply.ok, reply.text, reply.client, reply.number});
+          if (heard_notes_.size() > kNotesKept) heard_notes_.erase(heard_notes_.begin());
+        });
+  const std::lock_guard lock(mutex_);
+  notes_ = heard_notes_;
+  return notes_;
+}
+
+void RemoteMonitor::Watch(std::span<const std::uint32_t> robots)
+{
+  if (std::ranges::equal(robots, wishes_.robots)) return;
+  wishes_.robots.assign(robots.begin(), robots.end());
+  if (robots_in_ == nullptr)
+    robots_in_ = std::make_unique<Subscription<RobotStatusMessage>>(bus_, partition_,
+                                                                    [this](const RobotStatusMessage& message)
+                                                                    {
+                                                                      if (message.run != run_) return;
+                                                                      const std::lock_guard lock(mutex_);
+                                                                      for (const RobotStatus& robot : message.robots)
+                                                                        heard_robots_[robot.entity] = robot;
+                                                                    });
+  // What was heard of robots that were left alone for a while is old.
+  const auto unwatched = [&](const auto& robot) { return std::ranges::find(robots, robot.first) == robots.end(); };
+  {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(heard_robots_, unwatched);
+  }
+  std::erase_if(robots_, unwatched);
+  SendWishes();
+}
+
+const RobotStatus* RemoteMonitor::Robot(std::uint32_t robot)
+{
+  if (std::ranges::find(wishes_.robots, robot) == wishes_.robots.end()) return nullptr;
+  const std::lock_guard lock(mutex_);
+  const auto heard = heard_robots_.find(robot);
+  if (heard == heard_robots_.end()) return nullptr;
+  RobotStatus& own = robots_[robot];
+  if (own.tick != heard->second.tick || own.controller.empty()) own = heard->second;
+  return &own;
+}
+
+RunStatus::Phase RemoteMonitor::KnownPhase()
+{
+  const std::lock_guard lock(mutex_);
+  return heard_status_.phase;
+}
+
+void RemoteMonitor::WishForViews(double views)
+{
+  if (wishes_.views == views) return;
+  wishes_.views = views;
+  SendWishes();
+}
+
+void RemoteMonitor::SendWishes()
+{
+  if (wishes_out_ == nullptr) wishes_out_ = std::make_unique<Publisher<WishesMessage>>(bus_, partition_);
+  wishes_out_->Write(wishes_);
+  wished_ = Clock::now();
+}
+
+void RemoteMonitor::KeepWishes()
+{
+  if (wishes_out_ == nullptr || Clock::now() - wished_ < kRepeatWishes) return;
+  if (wishes_.views > 0 || !wishes_.robots.empty()) SendWishes();
+}
+
+void RemoteMonitor::RunIsOver(const std::string& why)
+{
+  const std::lock_guard lock(mutex_);
+  over_ = true;
+  if (heard_status_.phase == RunStatus::Phase::kFinished) return;
+  heard_status_.phase = RunStatus::Phase::kFinished;
+  for (ProcessStatus& process : heard_status_.processes) process.late_s = 0;
+  heard_status_.ended = why;
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,128 @@
+#include "visualiser/cluster/synchronous_node.h"
+
+#include <fmt/format.h>
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr double kViewsWhilePaused = 30;  // a second
+
+}  // namespace
+
+SynchronousNode::SynchronousNode(WorkerSession& session, Replica& replica, std::size_t number, Visualiser& visualiser,
+                                 ExperimentControl& control, RemoteMonitor& monitor)
+    : session_(session),
+      replica_(replica),
+      number_(static_cast<std::uint32_t>(number)),
+      visualiser_(visualiser),
+      control_(control),
+      monitor_(monitor),
+      next_(replica.FirstTick()),
+      drawn_(session.GetBus(), session.Scope(kDrawnCapacity, 1)),
+      states_in_(session.GetBus(), session.Scope(StateCapacity(*replica.space), 1),
+                 {[this](const MessageHeader& header) { return PlaceOfState(header); },
+                  [this](const MessageHeader& header, SpaceState& state) { StateArrived(header, state); }})
+{
+}
+
+void SynchronousNode::MeetServer()
+{
+  session_.WaitUntil([this] { return states_in_.Writers() >= 1 && drawn_.Readers() >= 1; },
+                     [] { return std::string("the space server's topics"); });
+}
+
+void SynchronousNode::Work()
+{
+  monitor_.KeepWishes();
+  std::unique_lock lock(mutex_);
+  if (!fresh_)
+  {
+    const bool finished = finished_;
+    lock.unlock();
+    if (!finished) Idle();
+    return;
+  }
+  replica_.space->Apply(state_);
+  const bool last = state_.last;
+  const std::uint64_t tick = state_.tick;
+  lock.unlock();
+
+  answer_.terminate |= visualiser_.Draw();
+  lock.lock();
+  fresh_ = false;
+  next_ = tick + 1;
+  session_.SetTick(tick);
+  finished_ |= last;
+  drawn_.Write(session_.Header(tick, number_), answer_);
+  if (last) session_.Finish(tick);
+}
+
+void SynchronousNode::Idle()
+{
+  ShowHeldState();
+  // The answer to the last tick has gone out: a paused run would not hear of the end that is wanted now.
+  if (visualiser_.Idle() && !std::exchange(answer_.terminate, true)) control_.Stop();
+}
+
+// While the run is paused its next state is held back by the server, and users may move entities in it. Those who
+// attach see that state; so does a visualisation that shows how the run goes.
+void SynchronousNode::ShowHeldState()
+{
+  const bool paused = monitor_.KnownPhase() == RunStatus::Phase::kPaused;
+  if (paused == (views_in_ != nullptr))
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(held_fresh_, false) && held_.tick == next_ && !fresh_) replica_.space->Apply(held_);
+    return;
+  }
+  if (!paused)
+    views_in_.reset();
+  else
+    views_in_ = std::make_unique<Subscription<ViewMessage>>(session_.GetBus(), session_.World().experiment,
+                                                            [this](const ViewMessage& view)
+                                                            {
+                                                              if (view.run != session_.World().run) return;
+                                                              const std::lock_guard lock(mutex_);
+                                                              held_ = view.snapshot;
+                                                              held_fresh_ = true;
+                                                              session_.Notify();
+                                                            });
+  monitor_.WishForViews(paused ? kViewsWhilePaused : 0);
+}
+
+SpaceState* SynchronousNode::PlaceOfState(const MessageHeader& header)
+{
+  if (header.run != session_.World().run) return nullptr;
+  const std::lock_guard lock(mutex_);
+  if (header.tick > next_)
+  {
+    session_.Fail(next_, fmt::format("the state of the space server is of tick {}, but tick {} has to come first",
+                                     header.tick, next_));
+    return nullptr;
+  }
+  return header.tick == next_ && !fresh_ ? &state_ : &repeated_;
+}
+
+void SynchronousNode::StateArrived(const MessageHeader& header, SpaceState& state)
+{
+  const std::lock_guard lock(mutex_);
+  if (&state == &state_)
+  {
+    fresh_ = true;
+    session_.Notify();
+    return;
+  }
+  if (header.tick + 1 != next_ || fresh_ || finished_) return;
+  // The tick that was drawn last comes again: it is the end of the run, or our answer was lost.
+  if (state.last)
+  {
+    finished_ = true;
+    session_.Finish(header.tick);
+  }
+  else
+    drawn_.Write(session_.Header(header.tick, number_), answer_);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,52 @@
+// A visualisation of the experiment file at the bus: draws every tick and says so. The main thread draws; threads of
+// the bus bring the states.
+#pragma once
+
+#include <memory>
+#include <mutex>
+
+#include "common/bus/replica.h"
+#include "common/bus/worker_session.h"
+#include "visualiser/cluster/remote_monitor.h"
+#include "visualiser/visualiser.h"
+
+namespace swarmanoid
+{
+
+class SynchronousNode
+{
+public:
+  SynchronousNode(WorkerSession& session, Replica& replica, std::size_t number, Visualiser& visualiser,
+                  ExperimentControl& control, RemoteMonitor& monitor);
+
+  void MeetServer();
+  // Called in the main thread when a state has come, and now and then.
+  void Work();
+
+private:
+  SpaceState* PlaceOfState(const MessageHeader& header);
+  void StateArrived(const MessageHeader& header, SpaceState& state);
+  void Idle();
+  void ShowHeldState();
+
+  WorkerSession& session_;
+  Replica& replica_;
+  std::uint32_t number_;
+  Visualiser& visualiser_;
+  ExperimentControl& control_;
+  RemoteMonitor& monitor_;
+  std::mutex mutex_;  // of what follows, except answer_.terminate while fresh_
+  SpaceState state_;
+  SpaceState repeated_;
+  bool fresh_ = false;  // state_ is to be drawn
+  bool finished_ = false;
+  std::uint64_t next_;
+  DrawnMessage answer_;
+  SpaceSnapshot held_;  // the state that the paused run holds back, with what was moved
+  bool held_fresh_ = false;
+  std::unique_ptr<Subscription<ViewMessage>> views_in_;  // while the run is paused
+  HotPublisher<DrawnMessage> drawn_;
+  HotSubscription<SpaceState> states_in_;
+};
+
+}  // namespace swarmanoid

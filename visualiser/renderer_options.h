@@ -1,0 +1,28 @@
+// A renderer's parameters on a command line: as --name value, one option for each entry of its table, and as
+// name=value. Used by `swarmanoid attach` and by the visualiser program.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "visualiser/render.h"
+
+namespace CLI
+{
+class App;
+}
+
+namespace swarmanoid
+{
+
+// The description of "text" or "text_render". Throws ConfigurationError, naming those that there are.
+const PluginDescription& FindRenderer(const std::string& kind);
+
+// Adds --name for every parameter of the renderer; a value given goes to `parameters` as "name=value". Choices of a
+// parameter called `format` are flags too: --csv. A name that the command uses itself is left out.
+void AddRendererOptions(CLI::App& app, const PluginDescription& renderer, std::vector<std::string>& parameters);
+
+// The configuration of a renderer from words "name=value". Throws ConfigurationError with what is allowed.
+RenderConfiguration ConfigureRenderer(const PluginDescription& renderer, const std::vector<std::string>& parameters);
+
+}  // namespace swarmanoid

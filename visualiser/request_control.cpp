@@ -1,0 +1,25 @@
+#include "visualiser/request_control.h"
+
+#include "common/math/elementary.h"
+
+namespace swarmanoid
+{
+
+void RequestControl::MoveEntity(const std::string& id, const Pose& pose)
+{
+  const EulerAngles angles = EulerFromQuaternion(pose.orientation);
+  Ask("move", id,
+      {pose.position.x(), pose.position.y(), pose.position.z(), RadiansToDegrees(angles.alpha),
+       RadiansToDegrees(angles.beta), RadiansToDegrees(angles.gamma)});
+}
+
+void RequestControl::Ask(const std::string& verb, const std::string& entity, const std::vector<double>& numbers)
+{
+  ControlRequestMessage request;
+  request.verb = verb;
+  request.entity = entity;
+  request.numbers = numbers;
+  send_(request);
+}
+
+}  // namespace swarmanoid

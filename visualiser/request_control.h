@@ -1,0 +1,32 @@
+// ExperimentControl as requests in words, as the control service takes them. Used by the visualiser program and by the
+// runner of a single process.
+#pragma once
+
+#include <functional>
+
+#include "common/space/control_request.h"
+#include "visualiser/render.h"
+
+namespace swarmanoid
+{
+
+class RequestControl : public ExperimentControl
+{
+public:
+  // `send` gets verb, entity and numbers.
+  explicit RequestControl(std::function<void(const ControlRequestMessage& request)> send) : send_(std::move(send)) {}
+
+  void Pause() override { Ask("pause"); }
+  void Resume() override { Ask("resume"); }
+  void Step(unsigned ticks) override { Ask("step", "", {static_cast<double>(ticks)}); }
+  void SetSpeed(double real_time_factor) override { Ask("speed", "", {real_time_factor}); }
+  void MoveEntity(const std::string& id, const Pose& pose) override;
+  void Stop() override { Ask("stop"); }
+
+private:
+  void Ask(const std::string& verb, const std::string& entity = "", const std::vector<double>& numbers = {});
+
+  std::function<void(const ControlRequestMessage& request)> send_;
+};
+
+}  // namespace swarmanoid
