@@ -68,12 +68,50 @@ Mesh HeightMesh(const HeightTerrain& terrain, int step)
   return mesh;
 }
 
-// The faces between occupied and free cells; runs of equal faces along one axis are joined.
-Mesh VoxelMesh(const VoxelTerrain& terrain)
+// Cubes of `step` cells of a map on each side; occupied where any of the cells is.
+class Cubes
+{
+public:
+  Cubes(const VoxelTerrain& terrain, int step)
+      : count_{(terrain.CellsX() + step - 1) / step, (terrain.CellsY() + step - 1) / step,
+               (terrain.CellsZ() + step - 1) / step},
+        occupied_(static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
+                  static_cast<std::size_t>(count_[2]))
+  {
+    for (int z = 0; z < terrain.CellsZ(); ++z)
+      for (int y = 0; y < terrain.CellsY(); ++y)
+        for (int x = 0; x < terrain.CellsX(); ++x)
+          if (terrain.IsOccupied(x, y, z)) occupied_[Index({x / step, y / step, z / step})] = true;
+  }
+
+  const std::array<int, 3>& Count() const { return count_; }
+  // False outside.
+  bool IsOccupied(const std::array<int, 3>& at) const
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (at[axis] < 0 || at[axis] >= count_[axis]) return false;
+    return occupied_[Index(at)];
+  }
+
+private:
+  std::size_t Index(const std::array<int, 3>& at) const
+  {
+    return (static_cast<std::size_t>(at[2]) * static_cast<std::size_t>(count_[1]) + static_cast<std::size_t>(at[1])) *
+               static_cast<std::size_t>(count_[0]) +
+           static_cast<std::size_t>(at[0]);
+  }
+
+  std::array<int, 3> count_;
+  std::vector<bool> occupied_;
+};
+
+// The faces between occupied and free cubes; runs of equal faces along one axis are joined.
+Mesh VoxelMesh(const VoxelTerrain& terrain, int step)
 {
   MeshBuilder builder(4);
-  const std::array<int, 3> cells{terrain.CellsX(), terrain.CellsY(), terrain.CellsZ()};
-  const auto cell = static_cast<float>(terrain.CellSize());
+  const Cubes cubes(terrain, step);
+  const std::array<int, 3>& cells = cubes.Count();
+  const auto cell = static_cast<float>(terrain.CellSize() * step);
   const Eigen::Vector3f low = terrain.Low().cast<float>();
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -83,9 +121,9 @@ Mesh VoxelMesh(const VoxelTerrain& terrain)
     {
       const auto exposed = [&](std::array<int, 3> at)
       {
-        if (!terrain.IsOccupied(at[0], at[1], at[2])) return false;
+        if (!cubes.IsOccupied(at)) return false;
         at[axis] += side;
-        return !terrain.IsOccupied(at[0], at[1], at[2]);
+        return !cubes.IsOccupied(at);
       };
       std::array<int, 3> at{};
       for (at[axis] = 0; at[axis] < cells[axis]; ++at[axis])
@@ -129,7 +167,7 @@ Model TerrainModel(const Terrain& terrain, const std::string& name)
   if (const auto* heights = dynamic_cast<const HeightTerrain*>(&terrain))
     model.levels = {HeightMesh(*heights, 1), HeightMesh(*heights, 2), HeightMesh(*heights, 4)};
   else if (const auto* voxels = dynamic_cast<const VoxelTerrain*>(&terrain))
-    model.levels.fill(VoxelMesh(*voxels));
+    model.levels = {VoxelMesh(*voxels, 1), VoxelMesh(*voxels, 2), VoxelMesh(*voxels, 4)};
   Measure(model);
   return model;
 }

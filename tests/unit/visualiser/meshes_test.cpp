@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <octomap/octomap.h>
+
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -101,6 +104,22 @@ TEST(Meshes, HeightTerrainBecomesASmoothSurfaceWithASkirt)
   EXPECT_FLOAT_EQ(box.min().z(), 0);
   EXPECT_FLOAT_EQ(box.max().x(), 2);
   EXPECT_FLOAT_EQ(box.max().y(), 1);
+}
+
+TEST(Meshes, VoxelTerrainShowsItsSurfaceAlone)
+{
+  const std::string path = (std::filesystem::temp_directory_path() / "meshes_test_beam.bt").string();
+  octomap::OcTree tree(0.1);
+  for (int x = 0; x < 6; ++x)
+    tree.updateNode(octomap::point3d(0.05F + 0.1F * static_cast<float>(x), 0.05F, 0.05F), true);
+  tree.writeBinary(path);
+  const Model model = TerrainModel(VoxelTerrain(path), "beam");
+  std::filesystem::remove(path);
+  // Six faces, each of one piece, at every level.
+  for (const Mesh& mesh : model.levels) EXPECT_EQ(mesh.Triangles(), 12U);
+  Eigen::AlignedBox3f box;
+  for (const MeshVertex& vertex : model.levels[0].vertices) box.extend(vertex.position);
+  EXPECT_LT((box.sizes() - Eigen::Vector3f(0.6F, 0.1F, 0.1F)).norm(), 1e-5);
 }
 
 TEST(Meshes, FileForPagesHoldsAllModelsAndRobots)
