@@ -21,8 +21,6 @@
 namespace swarmanoid
 {
 
-class CCI_Controller;
-
 struct SimulatorOptions
 {
   std::string output_folder = ".";  // what visualisations and experiment functions write

@@ -5,6 +5,7 @@ namespace swarmanoid
 
 void CCI_EyeBotState::Init()
 {
+  InitCommon();
   devices_.altitude = FindSensor<CCI_EyeBotAltitudeSensor>("eyebot_altitude");
   devices_.camera = FindSensor<CCI_ColourBlobSensor>("eyebot_camera");
   devices_.propellers = FindActuator<CCI_EyeBotPropellersActuator>("eyebot_propellers");
@@ -15,6 +16,7 @@ void CCI_EyeBotState::Init()
 
 void CCI_EyeBotState::ReadSensors()
 {
+  ReadCommonSensors();
   if (devices_.altitude != nullptr) altitude_ = devices_.altitude->GetAltitude();
   if (devices_.camera == nullptr) return;
   const auto blobs = devices_.camera->GetAllBlobs();
@@ -23,7 +25,9 @@ void CCI_EyeBotState::ReadSensors()
 
 void CCI_EyeBotState::WriteActuators()
 {
+  WriteCommonActuators();
   velocity_.Flush([this](const auto& v) { devices_.propellers->SetVelocity(v[0], v[1], v[2], v[3]); });
+  position_.Flush([this](const auto& p) { devices_.propellers->SetPosition({p[0], p[1], p[2]}, p[3]); });
   leds_.Flush(
       [this](const auto& colours)
       {
@@ -60,6 +64,14 @@ void CCI_EyeBotState::SetVelocity(double forward, double left, double up, double
 {
   RequireActuator(devices_.propellers, "eyebot_propellers");
   velocity_.Set({forward, left, up, yaw_rate});
+  position_.Forget();
+}
+
+void CCI_EyeBotState::SetPosition(const Vector3& position, double yaw)
+{
+  RequireActuator(devices_.propellers, "eyebot_propellers");
+  position_.Set({position.x(), position.y(), position.z(), yaw});
+  velocity_.Forget();
 }
 
 void CCI_EyeBotState::SetAllLedColours(std::uint32_t colour)

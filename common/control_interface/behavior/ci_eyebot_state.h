@@ -38,6 +38,8 @@ public:
   // Actuators.
   void SetVelocity(double forward, double left, double up, double yaw_rate);  // m/s in the robot's frame, rad/s
   const std::array<double, 4>& GetVelocity() const { return velocity_.Get(); }
+  // Flies there and hovers, as CCI_EyeBotPropellersActuator; of velocity and position the one set later counts.
+  void SetPosition(const Vector3& position, double yaw);
   void SetAllLedColours(std::uint32_t colour);
   void SetLedColour(unsigned led, std::uint32_t colour);
   void SwitchLaserOn(std::uint32_t colour);
@@ -71,6 +73,7 @@ private:
   std::vector<CCI_ColourBlob> blobs_;
 
   PendingValue<std::array<double, 4>> velocity_;
+  PendingValue<std::array<double, 4>> position_;  // x, y, z, yaw
   PendingValue<std::array<std::uint32_t, NUM_LEDS>> leds_;
   PendingValue<Laser> laser_;
   PendingValue<bool> attached_;

@@ -1,12 +1,21 @@
 #include "common/control_interface/behavior/ci_footbot_state.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace swarmanoid
 {
+namespace
+{
+
+constexpr std::array kPieColours{CCI_Colour::RED,  CCI_Colour::GREEN,   CCI_Colour::BLUE, CCI_Colour::YELLOW,
+                                 CCI_Colour::CYAN, CCI_Colour::MAGENTA, CCI_Colour::WHITE};
+
+}  // namespace
 
 void CCI_FootBotState::Init()
 {
+  InitCommon();
   devices_.proximity = FindSensor<CCI_FootBotProximitySensor>("footbot_proximity");
   devices_.light = FindSensor<CCI_FootBotLightSensor>("footbot_light");
   devices_.ground = FindSensor<CCI_FootBotGroundSensor>("footbot_ground");
@@ -15,15 +24,19 @@ void CCI_FootBotState::Init()
   devices_.turret_encoder = FindSensor<CCI_FootBotTurretEncoderSensor>("footbot_turret_encoder");
   devices_.turret_torque = FindSensor<CCI_FootBotTurretTorqueSensor>("footbot_turret_torque");
   devices_.encoders = FindSensor<CCI_FootBotEncodersSensor>("footbot_encoders");
+  devices_.pie_camera = FindSensor<CCI_PieCameraSensor>("pie_camera");
+  devices_.accelerometer = FindSensor<CCI_FootBotAccelerometerSensor>("footbot_accelerometer");
   devices_.wheels = FindActuator<CCI_FootBotWheelsActuator>("footbot_wheels");
   devices_.gripper = FindActuator<CCI_FootBotGripperActuator>("footbot_gripper");
   devices_.turret = FindActuator<CCI_FootBotTurretActuator>("footbot_turret");
   devices_.leds = FindActuator<CCI_FootBotLedsActuator>("footbot_leds");
   devices_.beacon = FindActuator<CCI_FootBotBeaconActuator>("footbot_beacon");
+  devices_.direction = FindActuator<CCI_FootBotPreferentialDirectionActuator>("footbot_preferential_direction");
 }
 
 void CCI_FootBotState::ReadSensors()
 {
+  ReadCommonSensors();
   const auto copy = [](const auto& readings, auto& to) { std::copy(readings.begin(), readings.end(), to.begin()); };
   if (devices_.proximity != nullptr) copy(devices_.proximity->GetAllSensorReadings(), proximity_);
   if (devices_.light != nullptr) copy(devices_.light->GetAllSensorReadings(), light_);
@@ -45,10 +58,21 @@ void CCI_FootBotState::ReadSensors()
   if (devices_.turret_encoder != nullptr) turret_angle_ = devices_.turret_encoder->GetTurretAngle();
   if (devices_.turret_torque != nullptr) copy(devices_.turret_torque->GetAllSensorReadings(), turret_torque_);
   if (devices_.encoders != nullptr) copy(devices_.encoders->GetAllSensorReadings(), wheel_velocities_);
+  if (devices_.accelerometer != nullptr) copy(devices_.accelerometer->GetAllSensorReadings(), acceleration_);
+  if (devices_.pie_camera != nullptr)
+  {
+    pie_.clear();
+    for (const std::uint32_t colour : kPieColours)
+    {
+      const auto slices = devices_.pie_camera->GetAllSlices(colour);
+      pie_.insert(pie_.end(), slices.begin(), slices.end());
+    }
+  }
 }
 
 void CCI_FootBotState::WriteActuators()
 {
+  WriteCommonActuators();
   wheels_.Flush([this](const auto& v) { devices_.wheels->SetFootBotWheelsAngularVelocity(v[0], v[1]); });
   gripper_.Flush([this](double closed) { devices_.gripper->SetGripper(closed); });
   turret_.Flush([this](double velocity) { devices_.turret->SetTurretAngularVelocity(velocity); });
@@ -58,6 +82,12 @@ void CCI_FootBotState::WriteActuators()
         for (unsigned led = 0; led < NUM_LEDS; ++led) devices_.leds->SetColour(led, colours[led]);
       });
   beacon_.Flush([this](std::uint32_t colour) { devices_.beacon->SetColour(colour); });
+  direction_.Flush(
+      [this](const Direction& direction)
+      {
+        direction.shown ? devices_.direction->SetDirection(direction.angle, direction.colour)
+                        : devices_.direction->HideDirection();
+      });
 }
 
 void CCI_FootBotState::GetAllProximitySensorReadings(double* readings) const
@@ -99,6 +129,30 @@ const std::vector<CCI_ColourBlob>& CCI_FootBotState::GetColourBlobs() const
 const CCI_ColourBlob* CCI_FootBotState::GetNearestColourBlob(std::uint32_t colour) const
 {
   return CCI_ColourBlobSensor::FindNearest(GetColourBlobs(), colour);
+}
+
+unsigned CCI_FootBotState::GetNumPieCameraSectors() const
+{
+  RequireSensor(devices_.pie_camera, "pie_camera");
+  return devices_.pie_camera->GetNumSectors();
+}
+
+const CCI_PieCameraSensor::Slice& CCI_FootBotState::GetPieCameraSlice(std::uint32_t colour, unsigned sector) const
+{
+  const unsigned sectors = GetNumPieCameraSectors();
+  const auto place = std::find(kPieColours.begin(), kPieColours.end(), colour);
+  if (place == kPieColours.end())
+    throw std::invalid_argument("the pie camera knows the colours of CCI_Colour other than black");
+  if (sector >= sectors)
+    throw std::out_of_range("the pie camera has " + std::to_string(sectors) + " sectors, there is no sector " +
+                            std::to_string(sector));
+  return pie_.at(static_cast<std::size_t>(place - kPieColours.begin()) * sectors + sector);
+}
+
+const std::array<double, 3>& CCI_FootBotState::GetAcceleration() const
+{
+  RequireSensor(devices_.accelerometer, "footbot_accelerometer");
+  return acceleration_;
 }
 
 bool CCI_FootBotState::IsGripping() const
@@ -181,6 +235,18 @@ void CCI_FootBotState::SetBeaconColour(std::uint32_t colour)
 {
   RequireActuator(devices_.beacon, "footbot_beacon");
   beacon_.Set(colour);
+}
+
+void CCI_FootBotState::ShowDirection(double angle, std::uint32_t colour)
+{
+  RequireActuator(devices_.direction, "footbot_preferential_direction");
+  direction_.Set({true, angle, colour});
+}
+
+void CCI_FootBotState::HideDirection()
+{
+  RequireActuator(devices_.direction, "footbot_preferential_direction");
+  direction_.Set({});
 }
 
 }  // namespace swarmanoid

@@ -7,6 +7,8 @@
 
 #include "common/control_interface/behavior/ci_robot_state.h"
 #include "common/control_interface/ci_colour_blob_sensor.h"
+#include "common/control_interface/ci_pie_camera_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_accelerometer_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_beacon_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_encoders_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_gripper_actuator.h"
@@ -15,6 +17,7 @@
 #include "common/control_interface/footbot/ci_footbot_leds_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_light_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_omnidirectional_camera_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_preferential_direction_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_turret_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_turret_encoder_sensor.h"
@@ -51,11 +54,15 @@ public:
   const std::vector<CCI_ColourBlob>& GetColourBlobs() const;
   // The nearest blob of that hue, nullptr where none is in view.
   const CCI_ColourBlob* GetNearestColourBlob(std::uint32_t colour) const;
+  // As CCI_PieCameraSensor; the colour is one of CCI_Colour other than black.
+  unsigned GetNumPieCameraSectors() const;
+  const CCI_PieCameraSensor::Slice& GetPieCameraSlice(std::uint32_t colour, unsigned sector) const;
   bool IsGripping() const;
   double GetGripperAperture() const;
   double GetTurretAngle() const;
   const std::array<double, 3>& GetTurretTorque() const;     // as CCI_FootBotTurretTorqueSensor
   const std::array<double, 2>& GetWheelVelocities() const;  // {left, right} as they turned, rad/s
+  const std::array<double, 3>& GetAcceleration() const;     // as CCI_FootBotAccelerometerSensor
 
   // Actuators; the getters give the latest value set on this state.
   void SetFootBotWheelsAngularVelocity(double left, double right);  // rad/s
@@ -69,6 +76,8 @@ public:
   void SetLedColour(unsigned led, std::uint32_t colour);
   std::uint32_t GetLedColour(unsigned led) const { return leds_.Get().at(led); }
   void SetBeaconColour(std::uint32_t colour);
+  void ShowDirection(double angle, std::uint32_t colour);  // on the LED ring
+  void HideDirection();
 
 private:
   struct Devices
@@ -81,11 +90,20 @@ private:
     CCI_FootBotTurretEncoderSensor* turret_encoder = nullptr;
     CCI_FootBotTurretTorqueSensor* turret_torque = nullptr;
     CCI_FootBotEncodersSensor* encoders = nullptr;
+    CCI_PieCameraSensor* pie_camera = nullptr;
+    CCI_FootBotAccelerometerSensor* accelerometer = nullptr;
     CCI_FootBotWheelsActuator* wheels = nullptr;
     CCI_FootBotGripperActuator* gripper = nullptr;
     CCI_FootBotTurretActuator* turret = nullptr;
     CCI_FootBotLedsActuator* leds = nullptr;
     CCI_FootBotBeaconActuator* beacon = nullptr;
+    CCI_FootBotPreferentialDirectionActuator* direction = nullptr;
+  };
+  struct Direction
+  {
+    bool shown = false;
+    double angle = 0;
+    std::uint32_t colour = 0;
   };
 
   Devices devices_;
@@ -100,12 +118,16 @@ private:
   double turret_angle_ = 0;
   std::array<double, 3> turret_torque_{};
   std::array<double, 2> wheel_velocities_{};
+  std::array<double, 3> acceleration_{};
+  // The sectors of one colour after the other, in the order of kPieColours.
+  std::vector<CCI_PieCameraSensor::Slice> pie_;
 
   PendingValue<std::array<double, 2>> wheels_;
   PendingValue<double> gripper_;
   PendingValue<double> turret_;
   PendingValue<std::array<std::uint32_t, NUM_LEDS>> leds_;
   PendingValue<std::uint32_t> beacon_;
+  PendingValue<Direction> direction_;
 };
 
 }  // namespace swarmanoid

@@ -7,6 +7,7 @@ namespace swarmanoid
 
 void CCI_HandBotState::Init()
 {
+  InitCommon();
   devices_.joints = FindSensor<CCI_HandBotJointsSensor>("handbot_joints");
   devices_.camera = FindSensor<CCI_ColourBlobSensor>("handbot_camera");
   devices_.arms = FindActuator<CCI_HandBotArmsActuator>("handbot_arms");
@@ -14,10 +15,12 @@ void CCI_HandBotState::Init()
   devices_.hands = FindActuator<CCI_HandBotHandsActuator>("handbot_hands");
   devices_.rope = FindActuator<CCI_HandBotRopeActuator>("handbot_rope");
   devices_.leds = FindActuator<CCI_HandBotLedsActuator>("handbot_leds");
+  devices_.beacon = FindActuator<CCI_HandBotBeaconActuator>("handbot_beacon");
 }
 
 void CCI_HandBotState::ReadSensors()
 {
+  ReadCommonSensors();
   if (devices_.joints != nullptr)
   {
     const auto readings = devices_.joints->GetAllSensorReadings();
@@ -30,6 +33,7 @@ void CCI_HandBotState::ReadSensors()
 
 void CCI_HandBotState::WriteActuators()
 {
+  WriteCommonActuators();
   arms_.Flush([this](const auto& v) { devices_.arms->SetArmVelocities(v[0], v[1]); });
   wrists_.Flush([this](const auto& v) { devices_.arms->SetWristVelocities(v[0], v[1]); });
   head_.Flush([this](double v) { devices_.head->SetHeadAngularVelocity(v); });
@@ -38,6 +42,7 @@ void CCI_HandBotState::WriteActuators()
   rope_launched_.Flush([this](bool launched) { launched ? devices_.rope->Launch() : devices_.rope->Release(); });
   winch_.Flush([this](double v) { devices_.rope->SetWinchVelocity(v); });
   leds_.Flush([this](std::uint32_t colour) { devices_.leds->SetAllColours(colour); });
+  beacon_.Flush([this](std::uint32_t colour) { devices_.beacon->SetColour(colour); });
 }
 
 double CCI_HandBotState::GetJoint(CCI_HandBotJointsSensor::Reading joint) const
@@ -115,6 +120,12 @@ void CCI_HandBotState::SetAllLedColours(std::uint32_t colour)
 {
   RequireActuator(devices_.leds, "handbot_leds");
   leds_.Set(colour);
+}
+
+void CCI_HandBotState::SetBeaconColour(std::uint32_t colour)
+{
+  RequireActuator(devices_.beacon, "handbot_beacon");
+  beacon_.Set(colour);
 }
 
 }  // namespace swarmanoid

@@ -7,6 +7,7 @@
 
 #include "common/control_interface/behavior/ci_robot_state.h"
 #include "common/control_interface/handbot/ci_handbot_arms_actuator.h"
+#include "common/control_interface/handbot/ci_handbot_beacon_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_camera_sensor.h"
 #include "common/control_interface/handbot/ci_handbot_hands_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_head_actuator.h"
@@ -46,6 +47,7 @@ public:
   void ReleaseRope();
   void SetWinchVelocity(double velocity);  // of rope let out; negative pulls the robot up
   void SetAllLedColours(std::uint32_t colour);
+  void SetBeaconColour(std::uint32_t colour);
 
 private:
   struct Devices
@@ -57,6 +59,7 @@ private:
     CCI_HandBotHandsActuator* hands = nullptr;
     CCI_HandBotRopeActuator* rope = nullptr;
     CCI_HandBotLedsActuator* leds = nullptr;
+    CCI_HandBotBeaconActuator* beacon = nullptr;
   };
 
   Devices devices_;
@@ -71,6 +74,7 @@ private:
   PendingValue<bool> rope_launched_;
   PendingValue<double> winch_;
   PendingValue<std::uint32_t> leds_;
+  PendingValue<std::uint32_t> beacon_;
 };
 
 }  // namespace swarmanoid

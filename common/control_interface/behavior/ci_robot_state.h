@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/control_interface/ci_range_and_bearing.h"
 #include "common/control_interface/ci_robot.h"
 
 namespace swarmanoid
@@ -33,6 +34,9 @@ public:
     pending_ = false;
   }
 
+  // Nothing is to be written any more.
+  void Forget() { pending_ = false; }
+
 private:
   T value_{};
   bool pending_ = false;
@@ -50,7 +54,17 @@ public:
   // The random numbers of the robot in this tick; shared by all copies, drawn in the order of the calls.
   RandomStream& GetRandom() { return robot_->GetRandom(); }
 
+  // Range and bearing, of all robots. Throws CCI_DeviceError where the controller does not list it.
+  const std::vector<CCI_RangeAndBearingSensor::Packet>& GetRangeAndBearingPackets() const;
+  void SetRangeAndBearingMessage(const CCI_RangeAndBearingActuator::Message& message);
+  void StopRangeAndBearing();
+
 protected:
+  // What each robot's state does in its own functions of these names, for the devices of all robots.
+  void InitCommon();
+  void ReadCommonSensors();
+  void WriteCommonActuators();
+
   // The device that a type label names, nullptr where the controller does not list it.
   template <class Interface>
   Interface* FindSensor(const std::string& type) const
@@ -73,7 +87,17 @@ protected:
   }
 
 private:
+  struct Message
+  {
+    bool sending = false;
+    CCI_RangeAndBearingActuator::Message bytes{};
+  };
+
   CCI_Robot* robot_;
+  CCI_RangeAndBearingSensor* receiver_ = nullptr;
+  CCI_RangeAndBearingActuator* sender_ = nullptr;
+  std::vector<CCI_RangeAndBearingSensor::Packet> packets_;
+  PendingValue<Message> message_;
 };
 
 }  // namespace swarmanoid
