@@ -10,6 +10,7 @@
 #include "common/bus/replica.h"
 #include "common/bus/tick_gate.h"
 #include "common/bus/worker_session.h"
+#include "common/logging/log.h"
 #include "controller_host/controller_host.h"
 #include "engine_worker/engine_worker.h"
 #include "visualiser/cluster/attached_node.h"
@@ -146,6 +147,8 @@ int Run(int argc, char** argv)
                           fmt::format("attached {} visualiser {}", attached.configuration.id, ProcessId()));
     return session.Work([&] { RunAttached(session, attached); });
   }
+  // What people do at a window is for the run's logs.
+  OpenLog({.process = "visualiser", .stderr_level = LogLevel::kInfo});
   WorkerSession session(bus, experiment, fmt::format("visualiser '{}'", render));
   return session.Work([&] { RunSynchronous(session, render, attached.output); });
 }

@@ -122,18 +122,18 @@ struct GlWindow::Callbacks
     ImGui_ImplGlfw_MouseButtonCallback(window, button, action, mods);
     const std::optional<MouseButton> which = ButtonOf(button);
     if (self.viewer_ == nullptr || !which) return;
-    double x = 0;
-    double y = 0;
-    glfwGetCursorPos(window, &x, &y);
     if (action == GLFW_RELEASE)
       self.viewer_->MouseRelease(*which);
-    else if (!PanelAt(x, y))
-      self.viewer_->MousePress(*which, x, y, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0);
+    else if (!PanelAt(self.mouse_x_, self.mouse_y_))
+      self.viewer_->MousePress(*which, self.mouse_x_, self.mouse_y_, (mods & GLFW_MOD_CONTROL) != 0,
+                               (mods & GLFW_MOD_SHIFT) != 0);
   }
 
   static void Move(GLFWwindow* window, double x, double y)
   {
     GlWindow& self = Of(window);
+    self.mouse_x_ = x;
+    self.mouse_y_ = y;
     if (self.viewer_ != nullptr) self.viewer_->MouseMove(x, y);
   }
 
@@ -141,10 +141,8 @@ struct GlWindow::Callbacks
   {
     GlWindow& self = Of(window);
     ImGui_ImplGlfw_ScrollCallback(window, right, up);
-    double x = 0;
-    double y = 0;
-    glfwGetCursorPos(window, &x, &y);
-    if (self.viewer_ != nullptr && !PanelAt(x, y)) self.viewer_->Wheel(up, x, y);
+    if (self.viewer_ != nullptr && !PanelAt(self.mouse_x_, self.mouse_y_))
+      self.viewer_->Wheel(up, self.mouse_x_, self.mouse_y_);
   }
 
   static void Focus(GLFWwindow* window, int focused)

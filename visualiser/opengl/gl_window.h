@@ -49,6 +49,8 @@ private:
   ImGuiContext* imgui_ = nullptr;
   Viewer* viewer_ = nullptr;  // while events are polled
   bool happened_ = false;
+  // Where the mouse was at the event that is handled: GLFW would say where it is by now, several events later.
+  double mouse_x_ = 0, mouse_y_ = 0;
   int width_ = 0, height_ = 0;
   int pixel_width_ = 0, pixel_height_ = 0;
   float scale_ = 1;

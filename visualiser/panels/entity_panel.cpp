@@ -40,7 +40,7 @@ void Panels::ShowEntities()
   // Below the run panel, as high as its rows and the window allow.
   ImGui::SetNextWindowPos(ImVec2(Scaled(theme::kGap), top), ImGuiCond_Always);
   const float line = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
-  const float wanted = Scaled(80) + line * static_cast<float>(std::max<std::size_t>(rows.size(), 3) + 1);
+  const float wanted = Scaled(66) + line * static_cast<float>(std::max<std::size_t>(rows.size(), 3) + 1);
   const float room = std::max(height_ - top - Scaled(theme::kGap), Scaled(120));
   ImGui::SetNextWindowSize(ImVec2(Scaled(theme::kLeftWidth), std::min(wanted, room)), ImGuiCond_Always);
   constexpr ImGuiWindowFlags kFlags =

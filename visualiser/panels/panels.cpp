@@ -63,11 +63,12 @@ void Panels::ShowHelp()
   constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove;
   ImGui::SetNextWindowFocus();
+  ImGui::SetNextWindowBgAlpha(1);
   if (ImGui::Begin("Keys and mouse", &viewer_.shown.help, kFlags))
   {
     // Two columns of sections.
-    constexpr std::array kColumns{std::array<std::string_view, 3>{"Run", "Show", ""},
-                                  std::array<std::string_view, 3>{"Camera", "Entities", "Panels"}};
+    constexpr std::array kColumns{std::array<std::string_view, 3>{"Run", "Entities", "Panels"},
+                                  std::array<std::string_view, 3>{"Camera", "Show", ""}};
     for (const auto& sections : kColumns)
     {
       if (&sections != &kColumns.front()) ImGui::SameLine(0, Scaled(28));

@@ -63,7 +63,8 @@ private:
   Viewer& viewer_;
   float scale_;
   float width_ = 0, height_ = 0;
-  float run_bottom_ = 0;  // of the run panel, where the list of entities starts
+  float run_bottom_ = 0;    // of the run panel, where the list of entities starts
+  std::size_t charts_ = 0;  // that the panel of plots was made for
   ImGuiCond place_ = ImGuiCond_Always;
   std::array<char, 128> filter_{};
   std::map<std::uint32_t, PoseEdit> edits_;

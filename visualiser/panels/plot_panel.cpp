@@ -20,6 +20,9 @@ void Panels::ShowPlots()
   const float width = width_ - left - right - Scaled(theme::kGap);
   const float chart = Scaled(130);
   const float height = std::min((chart + Scaled(34)) * static_cast<float>(units.size()) + Scaled(34), 0.5F * height_);
+  // As high as its charts, until the person makes it otherwise.
+  if (units.size() != charts_) place_ = ImGuiCond_Always;
+  charts_ = units.size();
   PlaceNext(left, height_ - height - Scaled(theme::kGap), std::max(width, Scaled(240)), height);
   if (ImGui::Begin("Plots", &viewer_.shown.plots, ImGuiWindowFlags_NoSavedSettings))
   {

@@ -1,6 +1,8 @@
 // The panel of the run: how it goes, its processes, what is shown, and the viewpoints.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "visualiser/panels/panels.h"
 #include "visualiser/panels/theme.h"
 
@@ -8,6 +10,8 @@ namespace swarmanoid
 {
 namespace
 {
+
+constexpr double kVeryLate = 1;  // s: from here on the list of processes opens by itself
 
 struct PhaseLook
 {
@@ -117,9 +121,9 @@ void Panels::ShowPace(const RunStatus& status)
 void Panels::ShowProcesses(const RunStatus& status)
 {
   if (status.processes.empty()) return;
-  bool late = false;
-  for (const ProcessStatus& process : status.processes) late |= process.late_s > 0;
-  if (late) ImGui::SetNextItemOpen(true);
+  double latest = 0;
+  for (const ProcessStatus& process : status.processes) latest = std::max(latest, process.late_s);
+  if (latest > kVeryLate) ImGui::SetNextItemOpen(true);
   const std::string title =
       status.processes.size() == 1 ? "One process" : fmt::format("{} processes", status.processes.size());
   if (!ImGui::CollapsingHeader((title + "###processes").c_str())) return;

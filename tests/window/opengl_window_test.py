@@ -1,0 +1,229 @@
+"""The window of opengl_render on an X server without a screen, driven by keys and mouse as a person does it."""
+import contextlib
+import math
+import os
+import re
+import shutil
+import time
+import unittest
+
+import display
+from harness import CONFIGS, LauncherTest, main
+
+display.need("opengl_render")
+
+TITLE = "A test of the window"
+WIDTH, HEIGHT = 900, 600
+# Straight above the middle of the arena, 6 m high: the picture's x is the arena's, and its upper edge is at larger y.
+CAMERA_HEIGHT = 6
+VIEW = f"<camera_view_XYZ_0>2, 2, {CAMERA_HEIGHT}</camera_view_XYZ_0><camera_view_HPR_0>90, -90, 0</camera_view_HPR_0>"
+XML = re.compile(r"<camera_view_XYZ_(\d)>(.*)</camera_view_XYZ_\d>\n<camera_view_HPR_\d>(.*)</camera_view_HPR_\d>")
+
+
+def on_screen(x, y, z=0.1):
+    scale = HEIGHT / (2 * (CAMERA_HEIGHT - z) * math.tan(math.radians(45) / 2))
+    return WIDTH / 2 + scale * (x - 2), HEIGHT / 2 - scale * (y - 2)
+
+
+class Window(LauncherTest):
+    def setUp(self):
+        super().setUp()
+        self.display = display.Display(f"{WIDTH}x{HEIGHT}")
+
+    def tearDown(self):
+        super().tearDown()
+        self.display.close()
+
+    def experiment(self, render="", name="window_test"):
+        """Two footbots without a controller, fb_a at 2, 2 and fb_b at 3, 1."""
+        path = self.folder / f"{name}.xml"
+        robots = "".join(f'<footbot id="{i}"><position>{p}, 0</position><orientation>0, 0, 0</orientation></footbot>'
+                         for i, p in (("fb_a", "2, 2"), ("fb_b", "3, 1")))
+        path.write_text(f"""<ahss-config>
+  <framework><clocktick>100</clocktick><maxclock>0</maxclock></framework>
+  <controllers/>
+  <arena size="4, 4, 1" optimization="2D">{robots}</arena>
+  <engines>
+    <dummy_engine id="ground"><subclock>1</subclock><perpendicular_axis>z</perpendicular_axis><distance>0</distance></dummy_engine>
+  </engines>
+  <arena_physics><engine id="ground"><entity id="fb_a"/><entity id="fb_b"/></engine></arena_physics>
+  <visualisations>{render}</visualisations>
+</ahss-config>
+""")
+        return path
+
+    def window_element(self, extra=""):
+        return (f'<opengl_render id="mainwindow"><window_size>{WIDTH}, {HEIGHT}</window_size><window_title>{TITLE}</window_title>'
+                f"{VIEW}<antialiasing>0</antialiasing>{extra}</opengl_render>")
+
+    def start_window(self, *options):
+        """A run with a window, and with a table that says how far it is."""
+        table = '<text_render id="table"><file>table.txt</file></text_render>'
+        run = self.start("run", self.experiment(self.window_element() + table), "--output", "out", "--quiet", *options,
+                         environment=self.display.environment)
+        return run, self.display.window(TITLE, run=run)
+
+    def log(self):
+        """What the visualiser of the run has logged."""
+        with contextlib.suppress(OSError):
+            return "".join(path.read_text() for path in (self.folder / "out").glob("visualiser*.log"))
+        return ""
+
+    def wait_until(self, what, condition, run=None, timeout=20):
+        deadline = time.monotonic() + timeout
+        while not condition():
+            if run is not None and run.process.poll() is not None:
+                self.fail(f"the run ended before {what}: {run.process.stderr.read()}")
+            self.assertLess(time.monotonic(), deadline, f"{what}; the log is:\n{self.log()}")
+            time.sleep(0.05)
+
+    def wait_for_log(self, text, run):
+        self.wait_until(f"'{text}' in the log", lambda: text in self.log(), run)
+
+    def tick(self):
+        """The last one in the table, which is complete while the run is paused or slow; -1 before the first one."""
+        found = re.findall(r"^(\d+)\t", self.read("out/table.txt"), flags=re.M)
+        return int(found[-1]) if found else -1
+
+    def read(self, name):
+        with contextlib.suppress(OSError):
+            return (self.folder / name).read_text()
+        return ""
+
+    def close(self, run, window):
+        self.display.ask_to_close(window)
+        self.assertEqual(run.wait(20), 0, run.stderr)
+        self.assert_finished(run)
+        self.assert_nothing_left(run)
+
+    def test_viewpoints_are_stored_printed_and_recalled(self):
+        run, window = self.start_window("--paused")
+        self.display.key("ctrl+shift+3", "Left", "Left", "Prior", "ctrl+shift+4", "ctrl+3", "ctrl+shift+5")
+        self.wait_for_log("viewpoint 5 stored", run)
+        self.close(run, window)
+        views = {number: (place, turn) for number, place, turn in XML.findall(run.stdout)}
+        self.assertEqual(views["3"], (f"2, 2, {CAMERA_HEIGHT}", "90, -90, 0"))
+        self.assertNotEqual(views["4"], views["3"])
+        self.assertEqual(views["5"], views["3"])
+
+    def test_a_click_shows_the_entity_in_an_inspector(self):
+        run, window = self.start_window("--paused")
+        self.wait_for_log("F1 lists the keys", run)
+        corner = "200x300+690+12"
+        # Keys wait for the first picture, so this one is finished when the message comes.
+        self.display.key("i")
+        self.wait_for_log("ids on", run)
+        time.sleep(0.5)
+        self.display.screenshot(self.folder / "before.png")
+        self.display.click(*on_screen(2, 2))
+        self.wait_for_log("selected 'fb_a'", run)
+        time.sleep(1.5)
+        self.display.screenshot(self.folder / "after.png")
+        before = self.display.colours(self.folder / "before.png", corner)
+        after = self.display.colours(self.folder / "after.png", corner)
+        self.assertNotEqual(before, after)
+        # The inspector hides what is under it from the mouse, but not the robot beside it.
+        self.display.click(*on_screen(3, 1))
+        self.wait_for_log("selected 'fb_b'", run)
+        self.close(run, window)
+
+    def test_keys_switch_what_is_drawn(self):
+        run, window = self.start_window("--paused")
+        self.display.key("i", "l", "r", "c", "t", "s", "b", "t")
+        for text in ("ids on", "trails on", "rays on", "collision models on", "textures off", "shadows off", "laser beams off",
+                     "textures on"):
+            self.wait_for_log(text, run)
+        self.display.key("p")
+        self.wait_for_log("written: ", run)
+        picture = next((self.folder / "out").glob("picture_*.png"))
+        self.assertEqual(self.display.tool("identify", "-format", "%w %h", picture), f"{WIDTH} {HEIGHT}")
+        self.close(run, window)
+
+    def test_pause_and_steps_by_key(self):
+        for way in ((), ("--single-process",)):
+            run, window = self.start_window("--real-time", 1, *way)
+            self.wait_until("some ticks", lambda: self.tick() > 1, run)
+            self.display.key("space")
+            self.wait_until("the pause", self.stands_still, run)
+            paused = self.tick()
+            self.display.key("n")
+            self.wait_until("one step", lambda: self.tick() == paused + 1, run)
+            self.display.key("shift+n")
+            self.wait_until("ten steps", lambda: self.tick() == paused + 11, run)
+            self.assertTrue(self.stands_still())
+            self.assertEqual(self.tick(), paused + 11)
+            self.display.key("ctrl+shift+1", "space")
+            self.wait_until("going on", lambda: self.tick() > paused + 12, run)
+            self.close(run, window)
+            self.assertIn("<camera_view_XYZ_1>", run.stdout)
+            shutil.rmtree(self.folder / "out")
+
+    def stands_still(self):
+        """At ten ticks a second."""
+        before = self.tick()
+        time.sleep(1)
+        return self.tick() == before
+
+    def test_shift_drag_moves_a_robot(self):
+        run, window = self.start_window("--paused")
+        self.wait_for_log("F1 lists the keys", run)
+        self.display.drag(on_screen(3, 1, 0.05), on_screen(2.5, 2.8, 0.05), hold="shift")
+        self.wait_for_log("moved 'fb_b'", run)
+        table = self.start("attach", "text", "window_test", "file=table.txt", "precision=2", "--output", self.folder)
+        self.wait_until("the table", lambda: "fb_b" in self.read("table.txt"), run)
+        x, y = re.search(r"fb_b.*?(-?[\d.]+)\D+([\d.]+)", self.read("table.txt")).groups()
+        self.assertAlmostEqual(float(x), 2.5, delta=0.06)
+        self.assertAlmostEqual(float(y), 2.8, delta=0.06)
+        table.process.kill()
+        table.wait()
+        self.close(run, window)
+
+    def test_each_tick_is_a_frame(self):
+        for way in ((), ("--single-process",)):
+            name = "frames" + str(len(way))
+            extra = f"<write_frames>true</write_frames><frame_directory>{name}</frame_directory><frame_filename>f</frame_filename>"
+            run = self.start("run", self.experiment(self.window_element(extra)), "--output", name, "--quiet", "--ticks", 6, *way,
+                             environment=self.display.environment)
+            self.assertEqual(run.wait(60), 0, run.stderr)
+            self.assert_finished(run, 6)
+            frames = sorted(path.name for path in (self.folder / name / name).iterdir())
+            self.assertEqual(frames, [f"f_{tick:06}.png" for tick in range(7)])
+            sizes = self.display.tool("identify", "-format", "%w %h\n", *(self.folder / name / name).iterdir())
+            self.assertEqual(set(sizes.splitlines()), {f"{WIDTH} {HEIGHT}"})
+
+    def test_an_attached_window_comes_and_goes(self):
+        table = '<text_render id="table"><file>table.txt</file></text_render>'
+        run = self.start("run", self.experiment(table), "--output", "out", "--quiet", "--real-time", 1)
+        self.wait_until("some ticks", lambda: self.tick() > 1, run)
+        watcher = self.start("attach", "opengl", "window_test", f"window_title={TITLE}", f"window_size={WIDTH},{HEIGHT}",
+                             "antialiasing=0", environment=self.display.environment)
+        self.display.window(TITLE, run=watcher)
+        self.display.key("space")
+        self.wait_until("the pause", self.stands_still, run)
+        self.display.key("ctrl+q")
+        self.assertEqual(watcher.wait(20), 0, watcher.stderr)
+        self.assertIsNone(run.process.poll())
+        self.assertEqual(self.run_it("control", "window_test", "stop").process.returncode, 0)
+        self.assertEqual(run.wait(20), 0, run.stderr)
+
+    def test_without_a_display_it_says_what_to_do(self):
+        environment = {"DISPLAY": ""}
+        for way in ((), ("--single-process",)):
+            run = self.start("run", self.experiment(self.window_element()), "--quiet", "--ticks", 3, *way, environment=environment)
+            self.assertEqual(run.wait(30), 4, run.stderr)
+            self.assertIn("opengl_render cannot open a window", run.stderr)
+            self.assertIn("image_render draws without one", run.stderr)
+
+    def test_pictures_change_nothing_in_the_run(self):
+        options = ("--quiet", "--ticks", 8)
+        plain = self.run_it("run", CONFIGS / "diffusion_10.xml", *options, "--no-visualisers")
+        text = (CONFIGS / "diffusion_10.xml").read_text()
+        text = re.sub(r"<visualisations>.*</visualisations>|<visualisations/>", "", text, flags=re.S)
+        path = self.folder / "watched.xml"
+        path.write_text(text.replace("</ahss-config>", f"<visualisations>{self.window_element()}</visualisations></ahss-config>"))
+        watched = self.run_it("run", path, *options, environment=self.display.environment)
+        self.assertEqual(self.assert_finished(watched, 8), self.assert_finished(plain, 8))
+
+
+if __name__ == "__main__":
+    main()
