@@ -16,6 +16,7 @@ std::string TypeOf(const std::filesystem::path& path)
   static const std::map<std::string, std::string> types{{".html", "text/html; charset=utf-8"},
                                                         {".js", "text/javascript; charset=utf-8"},
                                                         {".css", "text/css; charset=utf-8"},
+                                                        {".json", "application/json"},
                                                         {".svg", "image/svg+xml"},
                                                         {".txt", "text/plain; charset=utf-8"}};
   const auto found = types.find(path.extension().string());

@@ -26,7 +26,8 @@ const banner = h("div.banner", { role: "status" });
 const picture = h("main", {}, banner);
 list.element.append(processes.element);
 document.getElementById("app").append(toolbar.element, list.element, picture, inspector.element, log.element, help.element);
-const view = new View(picture, quality, { select, approach, move, mayMove: () => state.control === "granted" });
+const meshes = await (await fetch("meshes.json")).json();
+const view = new View(picture, quality, meshes, { select, approach, move, mayMove: () => state.control === "granted" });
 
 const connection = new Connection({
   onOpen() {

@@ -1,5 +1,6 @@
 // What stands still: the floor with its grid, walls, blocks, patches, holes, lights, sounds and terrain.
 import * as THREE from "three";
+import { paint } from "./models.js";
 
 const FLAT_M = 0.0006; // between one layer on the floor and the next
 
@@ -31,7 +32,6 @@ export class Arena {
     this.group = new THREE.Group();
     this.Material = quality === "low" ? THREE.MeshLambertMaterial : THREE.MeshStandardMaterial;
     this.finish = quality === "low" ? {} : { roughness: 0.85, metalness: 0 };
-    this.floorColour = new THREE.Color(theme.floor);
     this.objects = new Map(); // entity to what bears its colour
     scene.add(this.group);
     this.addFloor(theme);
@@ -83,16 +83,13 @@ export class Arena {
       case "block":
         return this.makeBox(body);
       case "cylindric_prey":
-        return this.solid(new THREE.CylinderGeometry(x, x, z, 32).rotateX(Math.PI / 2).translate(0, 0, z / 2), body.colour);
+        return this.solid(new THREE.CylinderGeometry(x, x, z, 32).rotateX(Math.PI / 2).translate(0, 0, z / 2), paint(body.colour));
       case "ground_patch":
-      case "nest":
         return this.makePatch(x, y, body.colour, layer * FLAT_M);
       case "hole":
         return this.makeHole(x, y);
-      case "light":
       case "light_bulb":
         return this.makeLight(body.colour);
-      case "sound":
       case "sound_source":
         return this.makeSound(body.colour);
       case "terrain":
@@ -103,7 +100,8 @@ export class Arena {
   }
 
   // Walls as high as a room would hide what is inside: those are drawn as glass.
-  makeBox({ size: [x, y, z], colour, position }) {
+  makeBox({ size: [x, y, z], colour: colourOfFile, position }) {
+    const colour = paint(colourOfFile);
     const tall = z > 0.7 && Math.max(x, y) > 1 && Math.max(x, y) > 8 * Math.min(x, y);
     const geometry = new THREE.BoxGeometry(x, y, z);
     if (!tall) return this.solid(geometry, colour);
@@ -123,22 +121,14 @@ export class Arena {
     return y === 0 ? new THREE.CircleGeometry(x, 64) : new THREE.PlaneGeometry(x, y);
   }
 
-  // Large areas in a pure colour would outshine everything: they are painted softly.
   makePatch(x, y, colour, height) {
     const mesh = new THREE.Mesh(
       this.flatShape(x, y),
-      new this.Material({ ...this.finish, polygonOffset: true, polygonOffsetFactor: -1 }),
+      new this.Material({ color: paint(colour), ...this.finish, polygonOffset: true, polygonOffsetFactor: -1 }),
     );
     mesh.receiveShadow = true;
     mesh.position.z = height;
-    mesh.userData.soft = true;
-    this.setColour(mesh, colour);
     return mesh;
-  }
-
-  setColour(mesh, colour) {
-    mesh.material.color.set(colour);
-    if (mesh.userData.soft) mesh.material.color.lerp(this.floorColour, 0.35).multiplyScalar(0.92);
   }
 
   makeHole(x, y) {
@@ -213,9 +203,9 @@ export class Arena {
     entities.forEach((entity, i) => {
       const object = this.objects.get(entity);
       if (!object?.material) return;
-      this.setColour(object, colours[i]);
-      const kind = this.world.kinds[entity];
-      if (!kind.startsWith("light")) return;
+      const shines = ["light_bulb", "sound_source"].includes(this.world.kinds[entity]);
+      if (this.world.kinds[entity] !== "terrain") object.material.color.set(shines ? colours[i] : paint(colours[i]));
+      if (this.world.kinds[entity] !== "light_bulb") return;
       const [glow] = object.children;
       glow.material.color.set(colours[i]);
       glow.visible = intensities[i] > 0;

@@ -1,6 +1,7 @@
-// The colours of all LEDs in one texture, and the material that shows them: 20 texels a robot, 16 LEDs and their mean.
+// The colours of all LEDs in one texture, and the material that shows them: 20 texels a robot, 16 LEDs,
+// their mean and the beacon.
 import * as THREE from "three";
-import { MEAN_LED } from "./models.js";
+import { BEACON, MEAN_LED } from "./models.js";
 import { Flag, RING_LEDS } from "../protocol.js";
 
 const TEXELS = 20;
@@ -45,6 +46,7 @@ export class LedTexture {
 
   fill(slot, [r, g, b, flags]) {
     for (let led = 0; led <= MEAN_LED; led++) this.set(slot, led, r, g, b, flags & Flag.lit);
+    this.set(slot, BEACON, r, g, b, flags & Flag.beaconLit);
   }
 
   set(slot, led, r, g, b, lit) {
@@ -71,7 +73,7 @@ export function ledMaterial(texture) {
       varying vec4 shine;
       varying float whole;
       void main() {
-        whole = step(${MEAN_LED}.0 - 0.5, led);
+        whole = float(abs(led - ${MEAN_LED}.0) < 0.5);
         int row = int(slot) / ${ROBOTS_A_ROW};
         int column = (int(slot) - row * ${ROBOTS_A_ROW}) * ${TEXELS} + int(led + 0.5);
         shine = texelFetch(leds, ivec2(column, row), 0);
@@ -83,7 +85,7 @@ export function ledMaterial(texture) {
       varying float whole;
       void main() {
         // Dark LEDs; from far away they are the whole robot.
-        vec3 dark = mix(vec3(0.17, 0.19, 0.22), vec3(0.47, 0.51, 0.56), whole);
+        vec3 dark = mix(vec3(0.35, 0.38, 0.42), vec3(0.47, 0.51, 0.56), whole);
         vec3 colour = mix(dark, shine.rgb, step(0.5, shine.a));
         gl_FragColor = vec4(colour, 1.0);
       }`,

@@ -2,13 +2,15 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
-const themes = {
-  light: { background: 0xe9edf2, sky: 0xffffff, ground: 0xb9c0c9, sun: 2.1, hemisphere: 1.55, floor: 0xf7f8fa, line: 0xcfd6de, rim: 0x9aa5b1 },
+// By day the palette of all renderers, by night one of the page's own.
+const themesOf = (palette) => ({
+  light: { background: palette.sky, sky: 0xffffff, ground: 0xb9c0c9, sun: 2.1, hemisphere: 1.5, floor: palette.floor, line: palette.floor_line, rim: 0x9aa5b1 },
   dark: { background: 0x11161d, sky: 0xdfe9f5, ground: 0x2b323c, sun: 1.9, hemisphere: 1.35, floor: 0x3a444f, line: 0x4c5763, rim: 0x687482 },
-};
+});
 
 export class Stage {
-  constructor(container, quality) {
+  constructor(container, quality, palette) {
+    this.themes = themesOf(palette);
     this.container = container;
     this.quality = quality;
     this.renderer = new THREE.WebGLRenderer({ antialias: quality !== "low", powerPreference: "high-performance" });
@@ -47,7 +49,7 @@ export class Stage {
   }
 
   applyTheme(dark) {
-    this.theme = dark ? themes.dark : themes.light;
+    this.theme = dark ? this.themes.dark : this.themes.light;
     this.scene.background = new THREE.Color(this.theme.background);
     this.hemisphere.color.set(this.theme.sky);
     this.hemisphere.groundColor.set(this.theme.ground);

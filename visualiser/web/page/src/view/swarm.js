@@ -1,8 +1,9 @@
-// All that moves, drawn by instancing: robots at three levels of detail, chosen by their size on the screen, preys and
+// All that moves, drawn by instancing: robots at four levels of detail, chosen by their size on the screen, preys and
 // blocks. One place of every instance array is one place of the frame.
 import * as THREE from "three";
-import { extentOf, makeModels } from "./models.js";
+import { extentOf, makeModels, paint } from "./models.js";
 import { LedTexture, ledMaterial } from "./leds.js";
+import { Flag } from "../protocol.js";
 
 // Robots are never drawn smaller than this: those of a large arena would vanish between the pixels.
 const LEAST_PIXELS = 3.4;
@@ -19,6 +20,11 @@ class Layer {
       this.slots = new THREE.InstancedBufferAttribute(new Float32Array(capacity), 1);
       leds.setAttribute("slot", this.slots);
       const mesh = new THREE.InstancedMesh(leds, materials.leds, capacity);
+      mesh.instanceMatrix = this.body.instanceMatrix;
+      this.meshes.push(mesh);
+    }
+    if (level.clear) {
+      const mesh = new THREE.InstancedMesh(level.clear, materials.clear, capacity);
       mesh.instanceMatrix = this.body.instanceMatrix;
       this.meshes.push(mesh);
     }
@@ -72,14 +78,14 @@ function writeMatrix(m, o, p, i, q, k, sx, sy, sz) {
   m[o + 15] = 1;
 }
 
-function softDisc() {
+function softDisc(colour) {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = 64;
   const context = canvas.getContext("2d");
   const gradient = context.createRadialGradient(32, 32, 12, 32, 32, 32);
-  gradient.addColorStop(0, "rgba(0,0,0,0.55)");
-  gradient.addColorStop(0.5, "rgba(0,0,0,0.28)");
-  gradient.addColorStop(1, "rgba(0,0,0,0)");
+  gradient.addColorStop(0, `rgba(${colour},0.55)`);
+  gradient.addColorStop(0.5, `rgba(${colour},0.28)`);
+  gradient.addColorStop(1, `rgba(${colour},0)`);
   context.fillStyle = gradient;
   context.fillRect(0, 0, 64, 64);
   return new THREE.CanvasTexture(canvas);
@@ -87,7 +93,7 @@ function softDisc() {
 
 export class Swarm {
   // quality: "high" or "low"
-  constructor(scene, world, quality) {
+  constructor(scene, world, quality, meshes) {
     this.world = world;
     this.quality = quality;
     this.group = new THREE.Group();
@@ -95,10 +101,14 @@ export class Swarm {
     this.leds = new LedTexture(world.movable.length);
     const Material = quality === "low" ? THREE.MeshLambertMaterial : THREE.MeshStandardMaterial;
     const finish = quality === "low" ? {} : { roughness: 0.62, metalness: 0.08 };
-    const materials = { body: new Material({ vertexColors: true, ...finish }), leds: ledMaterial(this.leds.texture) };
+    const materials = {
+      body: new Material({ vertexColors: true, ...finish }),
+      leds: ledMaterial(this.leds.texture),
+      clear: new Material({ vertexColors: true, transparent: true, opacity: 0.4, depthWrite: false, ...finish }),
+    };
 
     this.herds = []; // robots of one kind and their levels
-    const models = makeModels();
+    const models = makeModels(meshes);
     for (const kind of Object.keys(models)) {
       const slots = world.robots.filter((entity) => world.kinds[entity] === kind).map((entity) => world.slots[entity]);
       if (slots.length === 0) continue;
@@ -108,6 +118,7 @@ export class Swarm {
     }
     this.things = this.makeThings(Material, finish);
     this.makeShadows();
+    this.makeGlows();
   }
 
   // Preys and blocks that move: unit solids, scaled.
@@ -136,7 +147,7 @@ export class Swarm {
   // A soft dark disc on the ground below each robot: it ties the far ones to the floor at no cost.
   makeShadows() {
     const material = new THREE.MeshBasicMaterial({
-      map: softDisc(),
+      map: softDisc("0,0,0"),
       transparent: true,
       depthWrite: false,
       polygonOffset: true,
@@ -146,7 +157,26 @@ export class Swarm {
     this.shadows.frustumCulled = false;
     this.shadows.renderOrder = 1;
     this.group.add(this.shadows);
-    this.shadowSizes = this.world.robots.map((entity) => 2.75 * extentOf(this.world, entity).radius);
+  }
+
+  // The light of the LEDs on the floor about a robot.
+  makeGlows() {
+    const material = new THREE.MeshBasicMaterial({
+      map: softDisc("255,255,255"),
+      transparent: true,
+      opacity: 0.75,
+      depthWrite: false,
+      polygonOffset: true,
+      polygonOffsetFactor: -3,
+    });
+    const count = this.world.robots.length;
+    this.glows = new THREE.InstancedMesh(new THREE.PlaneGeometry(1, 1), material, count);
+    this.glows.instanceColor = new THREE.InstancedBufferAttribute(new Float32Array(3 * count), 3);
+    this.glows.frustumCulled = false;
+    this.glows.renderOrder = 2;
+    this.glows.count = 0;
+    this.group.add(this.glows);
+    this.shining = [];
   }
 
   // Real shadows instead of the discs.
@@ -161,10 +191,21 @@ export class Swarm {
     for (const { mesh, slots } of this.things) {
       slots.forEach((slot, i) => {
         const [r, g, b] = frame.colours.subarray(4 * slot, 4 * slot + 3);
-        mesh.setColorAt(i, colour.setRGB(r / 255, g / 255, b / 255, THREE.SRGBColorSpace));
+        mesh.setColorAt(i, colour.set(paint((r << 16) | (g << 8) | b)));
       });
       mesh.instanceColor.needsUpdate = true;
     }
+    this.shining = this.world.robots.filter((entity) => {
+      const slot = this.world.slots[entity];
+      return frame.colours[4 * slot + 3] & Flag.lit && frame.positions[3 * slot + 2] < 0.5;
+    });
+    this.shining.forEach((entity, i) => {
+      const place = 4 * this.world.slots[entity];
+      colour.setRGB(...[0, 1, 2].map((k) => frame.colours[place + k] / 255), THREE.SRGBColorSpace);
+      this.glows.setColorAt(i, colour);
+    });
+    this.glows.count = this.shining.length;
+    this.glows.instanceColor.needsUpdate = this.shining.length > 0;
   }
 
   // Where everything stands, as the camera sees it. pixelsPerRadian: height of the picture over its angle.
@@ -199,21 +240,22 @@ export class Swarm {
       slots.forEach((slot, i) => writeMatrix(mesh.instanceMatrix.array, 16 * i, p, 3 * slot, q, 4 * slot, ...sizes[i]));
       mesh.instanceMatrix.needsUpdate = true;
     }
-    if (this.shadows.visible) this.placeShadows(p);
+    if (this.shadows.visible) this.placeOnFloor(this.shadows, this.world.robots, p, 0.002, 2.75);
+    if (this.shining.length > 0) this.placeOnFloor(this.glows, this.shining, p, 0.003, 4.6);
   }
 
-  placeShadows(p) {
+  // Flat squares of so many radii below robots. Not on terrain, where the floor is elsewhere.
+  placeOnFloor(mesh, entities, p, height, radii) {
     const flat = [0, 0, 0, 1];
-    const point = [0, 0, 0.002];
-    const m = this.shadows.instanceMatrix.array;
-    this.world.robots.forEach((entity, i) => {
+    const point = [0, 0, height];
+    entities.forEach((entity, i) => {
       const slot = this.world.slots[entity];
       point[0] = p[3 * slot];
       point[1] = p[3 * slot + 1];
-      const size = this.shadowSizes[i];
-      writeMatrix(m, 16 * i, point, 0, flat, 0, size, size, 1);
+      const size = radii * extentOf(this.world, entity).radius;
+      writeMatrix(mesh.instanceMatrix.array, 16 * i, point, 0, flat, 0, size, size, 1);
     });
-    this.shadows.instanceMatrix.needsUpdate = true;
+    mesh.instanceMatrix.needsUpdate = true;
   }
 
   dispose() {

@@ -13,11 +13,13 @@ const RING_PIXELS = 7; // least radius of the ring about the selected entity
 
 export class View {
   // actions: select(entity), approach(entity), move(entity, point)
-  constructor(container, quality, actions) {
+  // meshes: the models that all renderers share
+  constructor(container, quality, meshes, actions) {
     this.container = container;
+    this.meshes = meshes;
     this.quality = quality;
     this.actions = actions;
-    this.stage = new Stage(container, quality);
+    this.stage = new Stage(container, quality, meshes.palette);
     this.stage.onTheme = () => this.rebuildArena();
     this.ring = new SelectionRing(this.stage.scene);
     this.shows = { ids: false, trails: false, beams: true, shadows: false };
@@ -34,7 +36,7 @@ export class View {
     this.world = world;
     this.motion = new Motion(world.movable.length);
     this.motion.smooth = this.quality !== "low";
-    this.swarm = new Swarm(scene, world, this.quality);
+    this.swarm = new Swarm(scene, world, this.quality, this.meshes);
     this.beams = new Beams(scene, world);
     this.grips = new Grips(scene, world);
     this.trails = new Trails(scene, world);

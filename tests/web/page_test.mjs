@@ -1,0 +1,306 @@
+// The page of web_render in headless Chromium, on real runs of the command. Waits for the state of the page, never for
+// pictures a second: rendering in software is slow. Ends with 77 where there is no browser.
+//
+// Environment: SWARMANOID (the command), SWARMANOID_CONFIGS, PAGE_MODULES (node_modules with playwright-core).
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { createServer } from "node:net";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+const { SWARMANOID, SWARMANOID_CONFIGS, PAGE_MODULES } = process.env;
+const CHROMIUM = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((path) => existsSync(path));
+const TIMEOUT_MS = 30000;
+
+function skip(why) {
+  console.log(`skipped: ${why}`);
+  process.exit(77);
+}
+if (!CHROMIUM) skip("there is no Chromium (package chromium)");
+if (!existsSync(join(PAGE_MODULES, "playwright-core"))) skip("the page was not built: there is no playwright-core");
+const { chromium } = createRequire(join(PAGE_MODULES, "here.js"))("playwright-core");
+
+const folder = mkdtempSync(join(tmpdir(), "swarmanoid_page_"));
+// Shared memory of its own: other runs on the machine come and go.
+process.env.SWARMANOID_SHARED_FOLDER = `/dev/shm/swarmanoid-page-${process.pid}`;
+
+// ---- processes ----
+
+const processes = [];
+class Process {
+  constructor(...words) {
+    this.child = spawn(SWARMANOID, words.map(String), { cwd: folder });
+    this.output = "";
+    this.child.stdout.on("data", (text) => (this.output += text));
+    this.child.stderr.on("data", (text) => (this.output += text));
+    this.ended = new Promise((done) => this.child.on("exit", (code) => done((this.code = code ?? -1))));
+    processes.push(this);
+  }
+
+  // The first match of a pattern in the output, as soon as it is there.
+  async says(pattern) {
+    const deadline = Date.now() + TIMEOUT_MS;
+    while (Date.now() < deadline) {
+      const match = pattern.exec(this.output);
+      if (match) return match;
+      if (this.code !== undefined) break;
+      await new Promise((done) => setTimeout(done, 20));
+    }
+    throw new Error(`no ${pattern} in the output: ${this.output}`);
+  }
+
+  async end(signal = "SIGINT") {
+    if (this.code === undefined) this.child.kill(signal);
+    return this.ended;
+  }
+}
+
+const experiment = (name) => join(SWARMANOID_CONFIGS, `${name}.xml`);
+const run = (name, ...more) => new Process("run", experiment(name), "--quiet", ...more);
+async function attach(...words) {
+  // The run is found as soon as its server has announced itself.
+  for (let i = 0; ; i++) {
+    const viewer = new Process("attach", "web", ...words);
+    try {
+      const [, url] = await viewer.says(/web_render: (http\S+)/);
+      return { viewer, url };
+    } catch (error) {
+      if (i === 20 || !/no experiment|nothing runs|runs on this machine/.test(viewer.output)) throw error;
+      await new Promise((done) => setTimeout(done, 200));
+    }
+  }
+}
+
+function freePort() {
+  return new Promise((done) => {
+    const server = createServer().listen(0, "127.0.0.1", () => {
+      const { port } = server.address();
+      server.close(() => done(port));
+    });
+  });
+}
+
+// ---- the page ----
+
+let browser;
+async function open(url, { noise = [] } = {}) {
+  const page = await browser.newPage({ viewport: { width: 760, height: 420 } });
+  page.setDefaultTimeout(TIMEOUT_MS);
+  page.complaints = [];
+  page.on("pageerror", (error) => page.complaints.push(String(error)));
+  page.on("console", (message) => {
+    if (["error", "warning"].includes(message.type()) && !noise.some((pattern) => pattern.test(message.text())))
+      page.complaints.push(message.text());
+  });
+  await page.goto(url + (url.includes("?") ? "&" : "?") + "quality=low");
+  return page;
+}
+const until = (page, expression, argument) => page.waitForFunction(expression, argument, { polling: 50, timeout: TIMEOUT_MS });
+const read = (page, expression) => page.evaluate(expression);
+const drawn = (page) => until(page, () => window.swarmanoid?.drawn > 0);
+const tickOf = (page) => read(page, () => swarmanoid.tick);
+
+// The tick stays as it is for a while.
+async function assertStill(page) {
+  await page.waitForTimeout(300);
+  const tick = await tickOf(page);
+  await page.waitForTimeout(700);
+  assert.equal(await tickOf(page), tick);
+  return tick;
+}
+
+// ---- tests ----
+
+const tests = {
+  async "robots are drawn, picked, listed and filtered, with a clean console"() {
+    run("prey_retrieval", "--real-time", 1);
+    const { url } = await attach();
+    assert.match(url, /^http:\/\/127\.0\.0\.1:\d+\/$/);
+    const page = await open(url);
+    await drawn(page);
+    assert.equal(await read(page, () => swarmanoid.experiment), "prey_retrieval");
+    assert.equal(await read(page, () => swarmanoid.robots), 4);
+    const instances = await read(page, () => swarmanoid.instances());
+    assert.deepEqual(instances.map(({ robots }) => robots).sort(), [1, 3]);
+    assert.deepEqual(instances.map(({ drawn: counts }) => counts.reduce((a, b) => a + b)).sort(), [1, 3]);
+
+    const { x, y } = await read(page, () => swarmanoid.project("fb_3"));
+    await page.mouse.click(x, y);
+    assert.equal(await read(page, () => swarmanoid.selected), "fb_3");
+    await until(page, () => document.querySelector(".right h2")?.textContent === "fb_3");
+    await until(page, () => document.querySelector(".right").textContent.includes("gripper aperture"));
+    await page.waitForSelector(".right .plot canvas");
+
+    assert.equal(await read(page, () => swarmanoid.shown), 11);
+    await page.fill("input[type=search]", "engine:sky");
+    assert.equal(await read(page, () => swarmanoid.shown), 1);
+    await page.fill("input[type=search]", "foot fb_2");
+    await page.click(".row:not([hidden])");
+    assert.equal(await read(page, () => swarmanoid.selected), "fb_2");
+    await page.keyboard.press("Escape");
+
+    for (const key of ["i", "t", "s", "v", "r", "l"]) await page.keyboard.press(key);
+    const now = await read(page, () => swarmanoid.drawn);
+    await until(page, (before) => swarmanoid.drawn > before + 5, now);
+    await page.keyboard.press("?");
+    await page.waitForSelector(".help:not([hidden])");
+    await page.keyboard.press("?");
+    await until(page, () => swarmanoid.tick > 20);
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "with the token the run is paused, stepped, resumed, and robots are moved"() {
+    run("diffusion_10", "--real-time", 2, "--ticks", 100000);
+    const { url } = await attach("allow_control=true");
+    assert.match(url, /\?token=[0-9a-f]{32}$/);
+    const page = await open(url);
+    await drawn(page);
+    assert.equal(await read(page, () => swarmanoid.control), "granted");
+    await until(page, () => swarmanoid.phase === "running");
+    await page.click("header .controls button >> nth=0");
+    await until(page, () => swarmanoid.phase === "paused");
+    const tick = await assertStill(page);
+    await page.keyboard.press(".");
+    await until(page, (before) => swarmanoid.tick === before + 1, tick);
+    await read(page, () => swarmanoid.command({ do: "move", entity: "fb_3", position: [1.25, 0.75, 0], angles: [0, 0, 90] }));
+    await until(page, () => Math.hypot(swarmanoid.place("fb_3")[0] - 1.25, swarmanoid.place("fb_3")[1] - 0.75) < 1e-6);
+    await page.keyboard.press(" ");
+    await until(page, (before) => swarmanoid.tick > before + 3, tick);
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "without the token nothing is steered, though everything is seen"() {
+    run("diffusion_10", "--real-time", 2, "--ticks", 100000);
+    const { url } = await attach("allow_control=true");
+    const page = await open(url.replace(/\?.*/, ""));
+    await drawn(page);
+    assert.equal(await read(page, () => swarmanoid.control), "token needed");
+    assert.ok(await page.isDisabled("header .controls button >> nth=0"));
+    await read(page, () => swarmanoid.command({ do: "pause" }));
+    await until(page, () => document.querySelector("footer").textContent.includes("only the address with the token"));
+    const before = await tickOf(page);
+    await until(page, (tick) => swarmanoid.tick > tick + 5, before);
+
+    const wrong = await open(url.replace(/token=.{8}/, "token=00000000"));
+    await drawn(wrong);
+    assert.equal(await read(wrong, () => swarmanoid.control), "wrong token");
+    await read(wrong, () => swarmanoid.command({ do: "stop" }));
+    await until(wrong, () => document.querySelector("footer").textContent.includes("only the address with the token"));
+    assert.deepEqual([...page.complaints, ...wrong.complaints], []);
+  },
+
+  async "the page comes back when the server does"() {
+    run("diffusion_10", "--real-time", 2, "--ticks", 100000);
+    const port = await freePort();
+    const first = await attach(`port=${port}`);
+    const page = await open(first.url, { noise: [/ERR_CONNECTION_REFUSED/] });
+    await drawn(page);
+    await read(page, () => swarmanoid.select("fb_4"));
+    await first.viewer.end("SIGKILL");
+    await until(page, () => !swarmanoid.connected);
+    assert.ok(await page.isVisible(".banner"));
+    const before = await tickOf(page);
+    await attach(`port=${port}`);
+    await until(page, (tick) => swarmanoid.connected && swarmanoid.tick > tick, before);
+    assert.equal(await read(page, () => swarmanoid.selected), "fb_4");
+    assert.ok(await page.isHidden(".banner"));
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "opened before the first tick and after the end of the run"() {
+    const running = run("diffusion_10", "--paused", "--ticks", 50);
+    const { viewer, url } = await attach("allow_control=true");
+    const early = await open(url);
+    await drawn(early);
+    assert.equal(await read(early, () => swarmanoid.tick), 0);
+    assert.equal(await read(early, () => swarmanoid.robots), 10);
+    await read(early, () => swarmanoid.command({ do: "resume" }));
+    assert.equal(await running.ended, 0);
+    await until(early, () => swarmanoid.phase === "finished" && swarmanoid.tick === 50);
+
+    const late = await open(url);
+    await drawn(late);
+    assert.equal(await read(late, () => swarmanoid.tick), 50);
+    assert.equal(await read(late, () => swarmanoid.phase), "finished");
+    assert.match(await late.textContent(".banner"), /The run has ended/);
+    assert.equal(viewer.code, undefined);
+    await viewer.end("SIGINT");
+    await until(late, () => !swarmanoid.connected);
+    assert.deepEqual(early.complaints.concat(late.complaints).filter((text) => !/ERR_CONNECTION_REFUSED/.test(text)), []);
+  },
+
+  async "in an experiment file it lives as long as the run, in one process or several"() {
+    const text = readFileSync(experiment("diffusion_10"), "utf8").replace(/<visualisations>[^]*<\/visualisations>/, "");
+    const visualisation = '<visualisations><web_render id="page"><allow_control>true</allow_control></web_render></visualisations>';
+    writeFileSync(join(folder, "with_page.xml"), text.replace("</ahss-config>", `${visualisation}</ahss-config>`));
+    for (const more of [["--single-process"], []]) {
+      const output = `page_${more.length}`;
+      const running = new Process("run", "with_page.xml", "--quiet", "--real-time", 5, "--ticks", 200, "--output", output, ...more);
+      const [, url] = await running.says(/web_render: (http\S+)/);
+      const file = join(folder, output, existsSync(join(folder, output, "web_render.url")) ? "" : readdirSync(join(folder, output))[0], "web_render.url");
+      assert.equal(readFileSync(file, "utf8").trim(), url);
+      assert.equal(statSync(file).mode & 0o777, 0o600);
+      const page = await open(url, { noise: [/ERR_CONNECTION_REFUSED/] });
+      await drawn(page);
+      await until(page, () => swarmanoid.phase === "running" && swarmanoid.tick > 0);
+      await page.keyboard.press(" ");
+      await until(page, () => swarmanoid.phase === "paused");
+      await assertStill(page);
+      await page.keyboard.press(" ");
+      assert.equal(await running.ended, 0);
+      await until(page, () => !swarmanoid.connected && swarmanoid.tick === 200);
+      assert.deepEqual(page.complaints, []);
+      await page.close();
+    }
+  },
+
+  async "ten thousand robots are drawn and found"() {
+    run("diffusion_10000", "--real-time", 1);
+    const { url } = await attach();
+    const page = await open(url);
+    await drawn(page);
+    assert.equal(await read(page, () => swarmanoid.robots), 10000);
+    const [{ robots, drawn: counts }] = await read(page, () => swarmanoid.instances());
+    assert.equal(robots, 10000);
+    assert.ok(counts.reduce((a, b) => a + b) > 9000, `${counts} are drawn`);
+    await page.fill("input[type=search]", "fb_9876");
+    assert.equal(await read(page, () => swarmanoid.shown), 1);
+    assert.ok((await page.locator(".row").count()) < 60);
+    await page.fill("input[type=search]", "");
+    await read(page, () => swarmanoid.approach("fb_1234"));
+    await until(page, () => swarmanoid.instances()[0].drawn[0] > 0);
+    await until(page, () => swarmanoid.tick > 2);
+    assert.deepEqual(page.complaints, []);
+  },
+};
+
+// ---- running them ----
+
+const wanted = process.argv.slice(2);
+let failed = 0;
+browser = await chromium.launch({
+  executablePath: CHROMIUM,
+  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+});
+for (const [name, test] of Object.entries(tests)) {
+  if (wanted.length > 0 && !wanted.some((word) => name.includes(word))) continue;
+  const start = Date.now();
+  try {
+    await test();
+    console.log(`passed: ${name} (${Date.now() - start} ms)`);
+  } catch (error) {
+    failed++;
+    console.log(`FAILED: ${name}\n${error.stack}`);
+    for (const context of browser.contexts())
+      for (const page of context.pages()) if (page.complaints?.length) console.log("console:", page.complaints);
+    for (const process of processes) console.log("output:", process.output.slice(-1500));
+  }
+  for (const context of browser.contexts()) await context.close();
+  await Promise.all(processes.splice(0).reverse().map((process) => process.end("SIGINT")));
+}
+await browser.close();
+rmSync(folder, { recursive: true, force: true });
+rmSync(process.env.SWARMANOID_SHARED_FOLDER, { recursive: true, force: true });
+process.exit(failed > 0 ? 1 : 0);

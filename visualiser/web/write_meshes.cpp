@@ -1,0 +1,17 @@
+// write_meshes FILE: the models of all renderers as the page reads them. Run by the build.
+#include <cstdio>
+#include <fstream>
+
+#include "visualiser/scene/meshes_file.h"
+
+int main(int argc, char** argv)
+{
+  if (argc != 2)
+  {
+    std::fputs("usage: write_meshes FILE\n", stderr);
+    return 2;
+  }
+  std::ofstream file(argv[1], std::ios::binary);
+  file << swarmanoid::MeshesAsJson();
+  return file.flush().good() ? 0 : 1;
+}
