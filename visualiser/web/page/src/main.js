@@ -242,6 +242,7 @@ window.swarmanoid = {
   },
   instances: () => view.swarm.herds.map(({ slots, layers }) => ({ robots: slots.length, drawn: layers.map((layer) => layer.count) })),
   select: (id) => select(state.world.find(id)),
+  show: (name, on) => view.shows[name] !== on && toggle(name),
   approach: (id) => approach(state.world.find(id)),
   place: (id) => [...view.placeOf(state.world.find(id))],
   project: (id) => view.project(state.world.find(id)),

@@ -194,7 +194,7 @@ export class Trails {
           array[start + 6 * i + 3 + k] = now[3 * i + k];
         }
       }
-      this.positions.clearUpdateRanges();
+      // Ranges gather until the next picture uploads them.
       this.positions.addUpdateRange(start, this.block);
       this.positions.needsUpdate = true;
       this.material.uniforms.head.value = this.head;
