@@ -295,7 +295,7 @@ for (const [name, test] of Object.entries(tests)) {
     console.log(`FAILED: ${name}\n${error.stack}`);
     for (const context of browser.contexts())
       for (const page of context.pages()) if (page.complaints?.length) console.log("console:", page.complaints);
-    for (const process of processes) console.log("output:", process.output.slice(-1500));
+    for (const process of processes.slice(0, 4)) console.log("output:", process.output.slice(-600));
   }
   for (const context of browser.contexts()) await context.close();
   await Promise.all(processes.splice(0).reverse().map((process) => process.end("SIGINT")));

@@ -68,6 +68,11 @@ void CWebRender::Init(const RenderSetup& setup)
   server_ =
       std::make_unique<WebServer>(settings, PageFiles(InstalledPageFolder()), static_cast<WebServerEvents&>(*this));
   server_->SetGreeting(Shared(WorldText(*space_, setup.assignment)));
+  const Experiment& experiment = space_->GetExperiment();
+  Log(space_->GetTick(), "run", "info",
+      fmt::format("{}: {} entities, {} engine{}, {} controller host{}, seed {}", experiment.name, space_->Size(),
+                  experiment.engines.size(), experiment.engines.size() == 1 ? "" : "s", setup.assignment.hosts.size(),
+                  setup.assignment.hosts.size() == 1 ? "" : "s", experiment.seed));
   Announce(setup);
 }
 

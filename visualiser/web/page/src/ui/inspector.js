@@ -5,6 +5,7 @@ import { Plot } from "./plot.js";
 
 const DEGREES = 180 / Math.PI;
 const COLOURS = new Set(["led", "beacon", "colour", "laser_colour"]);
+const MANY = 8; // values of a device that are bars instead of rows
 const HIDDEN_ATTRIBUTES = new Set(["message"]);
 
 // A row of a table: a name and a value that can be plotted.
@@ -41,6 +42,27 @@ class Row {
   }
 }
 
+// Many values of one kind, such as the rays of a ring: a bar for each.
+class Bars {
+  constructor(card, section, key, names, unit) {
+    this.unit = unit;
+    this.names = names;
+    this.bars = names.map((name) => {
+      const bar = h("i", { onclick: () => card.togglePlot(`${key}.${name}`, name, unit) }, h("b"));
+      card.rows.set(`${key}.${name}`, { element: bar });
+      return bar;
+    });
+    section.element.append(h("div.bars", {}, ...this.bars));
+  }
+  show(values) {
+    this.most = Math.max(this.most ?? 0, 1e-9, ...values.map(Math.abs));
+    values.forEach((value, i) => {
+      this.bars[i].firstChild.style.height = `${(100 * Math.abs(value)) / this.most}%`;
+      this.bars[i].title = `${this.names[i]}: ${fixed(value)} ${this.unit}`;
+    });
+  }
+}
+
 class Card {
   constructor(panel, entity) {
     const { world } = panel;
@@ -48,6 +70,7 @@ class Card {
     this.entity = entity;
     this.rows = new Map();
     this.plots = new Map();
+    this.bars = new Map();
     this.sections = new Map();
     this.plotArea = h("div.plots");
     this.state = h("div.state");
@@ -139,6 +162,7 @@ class Card {
         const section = this.section(`${group}: ${device.type.replaceAll("_", " ")}`);
         const colours = device.values.length > 0 && device.units.every((unit) => unit === "colour");
         if (colours) this.row(section, "colours", null, `${group}.${device.type}`).colours(device.values);
+        else if (device.values.length >= MANY && new Set(device.units).size === 1) this.barsOf(section, `${group}.${device.type}`, device, time);
         else
           device.values.forEach((value, i) =>
             this.value(section, device.names[i], device.units[i], `${group}.${device.type}.${device.names[i]}`, time, value),
@@ -153,6 +177,15 @@ class Card {
     else if (unit === "yes/no") row.text(value ? "yes" : "no");
     else row.number(shown);
     this.plots.get(key)?.add(time, shown);
+  }
+
+  barsOf(section, key, { names, units, values }, time) {
+    if (this.bars.get(key)?.names.length !== names.length) {
+      section.element.querySelector(".bars")?.remove();
+      this.bars.set(key, new Bars(this, section, key, names, units[0]));
+    }
+    this.bars.get(key).show(values);
+    values.forEach((value, i) => this.plots.get(`${key}.${names[i]}`)?.add(time, value));
   }
 
   heldText(values) {

@@ -29,7 +29,7 @@ export class EntityList {
     this.actions = actions;
     this.filter = h("input", {
       type: "search",
-      [HINT]: "Filter: fb_1, eyebot, engine:ground",
+      [HINT]: "Filter: fb_1, engine:ground",
       "aria-label": "Filter entities",
       spellcheck: "false",
       oninput: () => this.refilter(),

@@ -98,8 +98,10 @@ export class Toolbar {
     const factor = status.real_time_factor;
     setText(this.pace, factor > 0 ? `${factor >= 100 ? factor.toFixed(0) : factor.toPrecision(2)}× real time` : "");
     if (document.activeElement !== this.speed) {
-      const nearest = SPEEDS.includes(status.speed_wanted) ? String(status.speed_wanted) : "";
-      if (this.speed.value !== nearest) this.speed.value = nearest;
+      const wanted = String(status.speed_wanted);
+      if (![...this.speed.options].some((option) => option.value === wanted))
+        this.speed.append(h("option", { value: wanted }, `${Number(status.speed_wanted.toPrecision(3))}×`));
+      if (this.speed.value !== wanted) this.speed.value = wanted;
     }
   }
 }

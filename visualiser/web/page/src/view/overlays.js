@@ -134,7 +134,7 @@ export class Trails {
       uniforms: {
         head: { value: 0 },
         samples: { value: this.samples },
-        colour: { value: new THREE.Color(0x3d8bfd) },
+        colour: { value: new THREE.Color().setHex(0x3d8bfd, THREE.LinearSRGBColorSpace) },
       },
       vertexShader: `
         attribute float born;
