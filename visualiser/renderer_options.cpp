@@ -47,6 +47,17 @@ void AddOption(CLI::App& app, const std::string& name, const ParameterSpec& spec
 {
   const std::string names = FreeNames(app, name);
   if (names.empty()) return;
+  if (spec.type == ParameterType::kBoolean)
+  {
+    // --name, and --no-name for one that is true otherwise.
+    const std::string opposite = ",!--no-" + names.substr(2, names.find(',') - 2);
+    app.add_flag_function(
+           names + opposite,
+           [name, &parameters](std::int64_t count) { parameters.push_back(name + (count > 0 ? "=true" : "=false")); },
+           HelpOf(spec))
+        ->group(group);
+    return;
+  }
   app.add_option_function<std::string>(
          names, [name, &parameters](const std::string& value) { parameters.push_back(name + "=" + value); },
          HelpOf(spec))

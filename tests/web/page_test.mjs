@@ -60,14 +60,17 @@ class Process {
 const experiment = (name) => join(SWARMANOID_CONFIGS, `${name}.xml`);
 const run = (name, ...more) => new Process("run", experiment(name), "--quiet", ...more);
 async function attach(...words) {
+  const [running] = processes;
   // The run is found as soon as its server has announced itself.
   for (let i = 0; ; i++) {
+    if (running.code !== undefined) throw new Error(`the run has ended: ${running.output}`);
     const viewer = new Process("attach", "web", ...words);
     try {
       const [, url] = await viewer.says(/web_render: (http\S+)/);
       return { viewer, url };
     } catch (error) {
-      if (i === 20 || !/no experiment|nothing runs|runs on this machine/.test(viewer.output)) throw error;
+      if (i === 50 || !/no experiment runs/.test(viewer.output)) throw error;
+      processes.pop();
       await new Promise((done) => setTimeout(done, 200));
     }
   }
@@ -153,7 +156,7 @@ const tests = {
 
   async "with the token the run is paused, stepped, resumed, and robots are moved"() {
     run("diffusion_10", "--real-time", 2, "--ticks", 100000);
-    const { url } = await attach("allow_control=true");
+    const { url } = await attach("--allow-control");
     assert.match(url, /\?token=[0-9a-f]{32}$/);
     const page = await open(url);
     await drawn(page);

@@ -79,12 +79,12 @@ void CWebRender::Init(const RenderSetup& setup)
 void CWebRender::Announce(const RenderSetup& setup)
 {
   const std::string url = server_->Url();
-  fmt::print("web_render: {}\n", url);
-  std::fflush(stdout);
   const std::filesystem::path folder = setup.output_folder;
   std::string file = setup.parameters.Text("url_file");
   if (file.empty() && std::filesystem::exists(folder / "manifest.json")) file = "web_render.url";
   if (!file.empty()) WriteUrl((folder / file).string(), url);
+  fmt::print("web_render: {}\n", url);
+  std::fflush(stdout);
 }
 
 void CWebRender::Draw() { Work(); }
