@@ -1,6 +1,8 @@
 #include "common/bus/worker_session.h"
 
 #include <fmt/format.h>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
 
 #include "common/bus/cluster_options.h"
@@ -59,6 +61,7 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
         "one release",
         world_.experiment, server_process_, world_.protocol, kProtocolVersion));
 
+  server_seen_ = ServerIsOnThisMachine();
   directory_ = std::make_unique<RunDirectory>(world_.experiment, world_.run);
   hello_ = std::make_unique<Publisher<HelloMessage>>(bus_, world_.experiment);
   status_ = std::make_unique<Publisher<StatusMessage>>(bus_, world_.experiment);
@@ -89,12 +92,19 @@ void WorkerSession::CheckOthers()
   const std::lock_guard lock(mutex_);
   if (Interrupted()) throw BusError("interrupted");
   if (others_error_) throw BusError(*others_error_);
+  // The leases of a run on one machine are long: its launcher sees who dies, but those who are attached have none.
+  if (server_seen_ && !ServerIsOnThisMachine()) server_gone_ = true;
   if (server_gone_) throw BusError(fmt::format("the space server has gone (process {})", server_process_));
   if (server_said_bye_) throw BusError("the run has ended");
   if (!BusIsBroken()) return;
   if (!broken_since_) broken_since_ = Clock::now();
   if (Clock::now() - *broken_since_ > kBrokenTime)
     throw BusError("a process died while it held shared memory of the run");
+}
+
+bool WorkerSession::ServerIsOnThisMachine() const
+{
+  return world_.host == MachineName() && (kill(static_cast<pid_t>(world_.pid), 0) == 0 || errno == EPERM);
 }
 
 void WorkerSession::Say(const std::string& text) const { fmt::print(stderr, "{}: {}\n", name_, text); }

@@ -57,6 +57,7 @@ public:
 
 private:
   void CheckOthers();
+  bool ServerIsOnThisMachine() const;
   void WaitUntilDone(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
   void SayError(const std::string& error);
   void Say(const std::string& text) const;
@@ -73,6 +74,7 @@ private:
   std::optional<std::string> others_error_;
   std::optional<std::chrono::steady_clock::time_point> broken_since_;
   bool server_gone_ = false;
+  bool server_seen_ = false;  // among the processes of this machine
   bool server_said_bye_ = false;
   std::string server_process_;
   std::string last_status_;

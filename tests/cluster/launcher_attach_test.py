@@ -1,0 +1,163 @@
+"""Visualisers that come, watch, are stopped and are killed while a run goes on: it gives the same hashes as without them. And what users
+change in a run can be repeated."""
+import os
+import re
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from harness import CONFIGS, LauncherTest, main
+
+EXPERIMENT = CONFIGS / "diffusion_10.xml"
+
+
+class Attaching(LauncherTest):
+    def start_paused(self, *options):
+        run = self.start("run", EXPERIMENT, "--quiet", "--paused", "--hash-log", "hashes", "--no-visualisers", *options)
+        self.wait_until(lambda: "diffusion_10" in self.run_it("list", "experiments").stdout)
+        return run
+
+    def wait_until(self, condition, timeout=10):
+        deadline = time.monotonic() + timeout
+        while not condition():
+            self.assertLess(time.monotonic(), deadline, "waited too long")
+            time.sleep(0.01)
+
+    def control(self, *words):
+        answer = self.run_it("control", *words)
+        self.assertEqual(answer.process.returncode, 0, answer.stderr)
+        return answer.stdout
+
+    def watch(self, table, *options):
+        return self.start("attach", "text", "--file", table, "--output", self.folder, *options)
+
+    def has_table(self, table):
+        path = self.folder / table
+        return path.exists() and "fb_9" in path.read_text()
+
+    def test_stopped_and_killed_visualisers_leave_the_run_alone(self):
+        plain = self.assert_finished(self.run_it("run", EXPERIMENT, "--ticks", 4000, "--quiet", "--hash-log", "plain"), 4000)
+        run = self.start_paused("--ticks", 4000)
+        watchers = [self.watch(f"table_{k}", "--hz", 10, "--columns", "clock,Entity id,X,State") for k in range(4)]
+        for k in range(4):
+            self.wait_until(lambda k=k: self.has_table(f"table_{k}"))
+        self.control("step", 500)
+        watchers[0].process.send_signal(signal.SIGSTOP)
+        watchers[1].process.kill()
+        self.control("step", 500)
+        watchers[2].process.kill()
+        start = time.monotonic()
+        self.control("resume")
+        self.assertEqual(run.wait(30), 0, run.stderr)
+        self.assertLess(time.monotonic() - start, 10)
+        self.assertEqual(self.assert_finished(run, 4000), plain)
+        self.assertEqual((self.folder / "hashes").read_text(), (self.folder / "plain").read_text())
+        self.assertEqual(watchers[3].wait(10), 0, watchers[3].stderr)
+        watchers[0].process.send_signal(signal.SIGCONT)
+        watchers[0].wait(10)
+
+    def test_one_that_is_attached_survives_the_servers_death_with_its_table(self):
+        run = self.start_paused()
+        watcher = self.watch("table")
+        self.wait_until(lambda: self.has_table("table"))
+        os.kill(run.find("space_server"), signal.SIGKILL)
+        self.assertEqual(run.wait(10), 4)
+        self.assertEqual(watcher.wait(10), 4)
+        self.assertIn("the space server", watcher.stderr)
+        self.assertTrue(self.has_table("table"))
+
+    def test_rates_are_kept(self):
+        run = self.start_paused("--ticks", 0, "--real-time", 5)
+        self.control("resume")
+        watcher = self.watch("table", "--hz", 4, "--entities", "footbot", "--csv")
+        self.wait_until(lambda: self.has_table("table"))
+        time.sleep(2)
+        ticks = {line.split(",")[0] for line in (self.folder / "table").read_text().splitlines()[1:]}
+        self.assertLess(abs(len(ticks) - 9), 4, ticks)
+        self.control("stop")
+        self.assertEqual((run.wait(10), watcher.wait(10)), (0, 0))
+
+    def test_status_and_owners_in_a_table(self):
+        run = self.start_paused("--ticks", 0, "--controller-hosts", 2)
+        self.control("step", 3)
+        watcher = self.watch("table", "--columns", "Entity id,Engine,Host", "--entities", "footbot", "--status", "true")
+        self.wait_until(lambda: self.has_table("table"))
+        self.control("step", 20)
+        self.wait_until(lambda: "# tick 23, paused" in (self.folder / "table").read_text())
+        text = (self.folder / "table").read_text()
+        self.assertIn("\nfb_0\tground\t0\n", text)
+        self.assertIn("\nfb_9\tground\t1\n", text)
+        self.control("stop")
+        self.assertEqual((run.wait(10), watcher.wait(10)), (0, 0))
+
+    def test_options_of_the_renderer_are_listed_and_checked(self):
+        answer = self.run_it("attach", "text", "--help")
+        self.assertRegex(answer.stdout, r"--every ticks +A table is written every so many ticks")
+        answer = self.run_it("attach", "text", "--every", "x")
+        self.assertEqual(answer.process.returncode, 2)
+        self.assertIn("every is 'x'; it must be a whole number", answer.stderr)
+        answer = self.run_it("attach", "text", "evry=2")
+        self.assertEqual(answer.process.returncode, 2)
+        self.assertIn("did you mean 'every'?", answer.stderr)
+
+    def test_what_users_did_is_repeated_with_the_same_hashes(self):
+        run = self.start_paused("--ticks", 200, "--output", "first")
+        self.control("step", 7)
+        self.control("move", "fb_0", "1.5,1.3,0,0,0,91.23456789")
+        self.control("step", 40)
+        self.control("move", "fb_1", "2.5,1.3,0")
+        self.control("move", "fb_1", "2.4,1.2,0")
+        self.control("step", 60)
+        self.control("stop")
+        self.assertEqual(run.wait(10), 0, run.stderr)
+        final = self.assert_finished(run, 107)
+        events = (self.folder / "first" / "events.csv").read_text()
+        self.assertRegex(events, r"\n47,move,fb_1,2.5 1.3 0,[^,]+:\d+\n47,move,fb_1,2.4 1.2 0,")
+        hashes = (self.folder / "hashes").read_text()
+        for options in ([], ["--single-process"], ["--controller-hosts", 2]):
+            again = self.run_it("run", EXPERIMENT, "--ticks", 200, "--quiet", "--no-visualisers", "--hash-log", "again", "--events",
+                                "first/events.csv", *options)
+            self.assertEqual(again.process.returncode, 0, again.stderr)
+            self.assertEqual(self.assert_finished(again, 107), final)
+            self.assertEqual((self.folder / "again").read_text(), hashes)
+
+
+@unittest.skipUnless(os.geteuid() == 0 and shutil.which("ip"), "needs root and ip")
+class AcrossNetworks(LauncherTest):
+    def ip(self, *words):
+        subprocess.run(["ip", *words], check=True, capture_output=True)
+
+    def test_from_another_network_namespace(self):
+        space = f"swarm{os.getpid() % 10000}"
+        here, there = f"sw{os.getpid() % 10000}a", f"sw{os.getpid() % 10000}b"
+        try:
+            self.ip("netns", "add", space)
+        except subprocess.CalledProcessError:
+            self.skipTest("network namespaces cannot be made here")
+        self.addCleanup(lambda: subprocess.run(["ip", "netns", "del", space], capture_output=True))
+        self.ip("link", "add", here, "type", "veth", "peer", "name", there, "netns", space)
+        self.ip("addr", "add", "10.77.3.1/24", "dev", here)
+        self.ip("link", "set", here, "up")
+        for words in (["addr", "add", "10.77.3.2/24", "dev", there], ["link", "set", there, "up"], ["link", "set", "lo", "up"]):
+            self.ip("-n", space, *words)
+        hosts = self.folder / "hosts"
+        hosts.write_text(f"options = --interface {here}\n")
+        run = self.start("run", EXPERIMENT, "--quiet", "--ticks", 0, "--real-time", 2, "--hosts", hosts, "--no-visualisers",
+                         "--hash-log", "hashes")
+        self.wait_for_tick("hashes", 5, run)
+        watcher = subprocess.Popen(["ip", "netns", "exec", space, os.environ["SWARMANOID"], "attach", "text", "--interface", there,
+                                    "--file", str(self.folder / "far"), "--entities", "footbot"], stderr=subprocess.PIPE, text=True)
+        deadline = time.monotonic() + 15
+        while not ((self.folder / "far").exists() and re.search(r"fb_9", (self.folder / "far").read_text())):
+            self.assertLess(time.monotonic(), deadline, "the visualiser of the other network shows nothing")
+            time.sleep(0.05)
+        watcher.kill()
+        watcher.communicate()
+        run.process.send_signal(signal.SIGINT)
+        self.assertEqual(run.wait(15), 130, run.stderr)
+
+
+if __name__ == "__main__":
+    main()
