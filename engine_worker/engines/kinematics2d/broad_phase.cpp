@@ -75,7 +75,6 @@ void BroadPhase::Configure(const Bounds& area, std::span<const double> radii, do
   y_.assign(PaddedCount(count_), kFarAway);
   r_.assign(PaddedCount(count_), 0);
   pairs_.reserve(4 * count_ + 64);
-  near_pairs_.reserve(4 * count_ + 64);
   static_pairs_.reserve(count_ + 64);
   SetStatics({});
 }
@@ -119,20 +118,14 @@ void BroadPhase::SetStatics(std::span<const Bounds> boxes)
   for_each_cell([&](std::uint32_t cell, std::uint32_t shape) { static_shape_[next[cell]++] = shape; });
 }
 
-void BroadPhase::FindPairs(const PoseStore& poses, std::span<const std::uint8_t> present, double margin, double near)
+void BroadPhase::FindPairs(const PoseStore& poses, std::span<const std::uint8_t> present, double margin)
 {
   const float reach = static_cast<float>(margin) + 2 * slack_;
   pairs_.clear();
-  near_pairs_.clear();
   static_pairs_.clear();
   Sort(poses, present);
-  SweepBodies(reach, static_cast<float>(near) + 2 * slack_);
-  if (!large_.empty())
-  {
-    const std::size_t first = pairs_.size();
-    FindPairsOfLarge(reach, present, poses);
-    near_pairs_.insert(near_pairs_.end(), pairs_.begin() + static_cast<std::ptrdiff_t>(first), pairs_.end());
-  }
+  SweepBodies(reach);
+  if (!large_.empty()) FindPairsOfLarge(reach, present, poses);
   if (!static_boxes_.empty()) SweepStatics(reach);
 }
 
@@ -180,23 +173,20 @@ void BroadPhase::Sort(const PoseStore& poses, std::span<const std::uint8_t> pres
   // Now start_[c + 1] is the start of cell c.
 }
 
-void BroadPhase::AddHits(unsigned hits, unsigned near, std::uint32_t sorted, std::uint32_t from)
+void BroadPhase::AddHits(unsigned hits, std::uint32_t sorted, std::uint32_t from)
 {
   for (; hits != 0; hits &= hits - 1)
   {
     const std::uint32_t a = body_[sorted];
     const std::uint32_t b = body_[from + static_cast<std::uint32_t>(__builtin_ctz(hits))];
-    const Pair pair{std::min(a, b), std::max(a, b)};
-    pairs_.push_back(pair);
-    if ((near & hits & -hits) != 0) near_pairs_.push_back(pair);
+    pairs_.push_back({std::min(a, b), std::max(a, b)});
   }
 }
 
-void BroadPhase::SweepBodies(float margin, float near)
+void BroadPhase::SweepBodies(float margin)
 {
   const std::uint32_t* const start = start_.data() + 1;
   const std::uint32_t end = start_.back();
-  const float closer = margin - near;
   for (std::uint32_t k = 0; k < end; ++k)
   {
     const std::uint32_t cell = sorted_cell_[k];
@@ -214,11 +204,7 @@ void BroadPhase::SweepBodies(float margin, float near)
         unsigned hits = Bits(squared < limit * limit);
         const std::uint32_t left = to - from;
         if (left < kFloats) hits &= (1U << left) - 1;
-        if (hits != 0)
-        {
-          const Floats near_limit = limit - closer;
-          AddHits(hits, Bits(squared < near_limit * near_limit), k, from);
-        }
+        if (hits != 0) AddHits(hits, k, from);
         from += kFloats;
       } while (from < to);
     };

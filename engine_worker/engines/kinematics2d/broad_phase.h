@@ -37,12 +37,37 @@ public:
   void SetStatics(std::span<const Bounds> boxes);
 
   // `present[k]` is 0 for bodies that are not to be found.
-  void FindPairs(const PoseStore& poses, std::span<const std::uint8_t> present, double margin, double near);
-  // Bodies whose circles are less than `margin` apart, and those of them that are less than `near` apart, in the order
-  // of their cells.
+  void FindPairs(const PoseStore& poses, std::span<const std::uint8_t> present, double margin);
+  // Bodies whose circles are less than `margin` apart, in the order of their cells.
   const std::vector<Pair>& Pairs() const { return pairs_; }
-  const std::vector<Pair>& NearPairs() const { return near_pairs_; }
   const std::vector<Pair>& StaticPairs() const { return static_pairs_; }
+
+  // Calls `act` with every body that was present and less than `reach` from a point, its radius left out, when the
+  // pairs were found; with some that were further away, too. In the order of their cells.
+  template <class Act>
+  void ForEachNear(double x, double y, double reach, const Act& act) const
+  {
+    const std::uint32_t* const start = start_.data() + 1;
+    const std::uint32_t last_column = CellX(x + reach);
+    const std::uint32_t last_row = CellY(y + reach);
+    for (std::uint32_t row = CellY(y - reach); row <= last_row; ++row)
+      for (std::uint32_t k = start[Cell(CellX(x - reach), row)]; k < start[Cell(last_column, row) + 1]; ++k)
+        act(body_[k]);
+    for (const std::uint32_t body : large_) act(body);
+  }
+  // Calls `act` with every static shape that may touch a body at a point.
+  template <class Act>
+  void ForEachStaticNear(std::uint32_t body, double x, double y, const Act& act) const
+  {
+    if (is_large_[body] != 0)
+    {
+      for (std::uint32_t shape = 0; shape < static_boxes_.size(); ++shape) act(shape);
+      return;
+    }
+    const std::uint32_t cell = Cell(CellX(x), CellY(y));
+    for (std::uint32_t s = static_start_[cell]; s < static_start_[cell + 1]; ++s) act(static_shape_[s]);
+  }
+  double LargestSmallRadius() const { return largest_small_radius_; }
 
 private:
   struct FloatBox
@@ -55,10 +80,10 @@ private:
   std::uint32_t Cell(std::uint32_t column, std::uint32_t row) const { return (row + 1) * stride_ + column + 1; }
   void FindCells(const PoseStore& poses, std::span<const std::uint8_t> present);
   void Sort(const PoseStore& poses, std::span<const std::uint8_t> present);
-  void SweepBodies(float margin, float near);
+  void SweepBodies(float margin);
   void SweepStatics(float margin);
   void FindPairsOfLarge(float margin, std::span<const std::uint8_t> present, const PoseStore& poses);
-  void AddHits(unsigned hits, unsigned near, std::uint32_t sorted, std::uint32_t from);
+  void AddHits(unsigned hits, std::uint32_t sorted, std::uint32_t from);
 
   std::size_t count_ = 0;
   double cell_ = 1;
@@ -81,7 +106,7 @@ private:
   std::vector<FloatBox> static_boxes_;
   std::vector<std::uint32_t> static_start_, static_shape_;  // the shapes near each cell
 
-  std::vector<Pair> pairs_, near_pairs_, static_pairs_;
+  std::vector<Pair> pairs_, static_pairs_;
 };
 
 }  // namespace swarmanoid::kinematics2d

@@ -43,23 +43,30 @@ Polygon MakePolygon(std::span<const Vector2> points)
 
 CollisionModel MakeModel(std::span<const Circle> circles, std::vector<Polygon> polygons)
 {
-  if (circles.size() > CollisionModel::kMaximumCircles)
-    throw std::invalid_argument("a collision model has up to 4 circles");
+  if (circles.size() + polygons.size() > CollisionModel::kMaximumParts)
+    throw std::invalid_argument("a collision model has up to 4 circles and polygons");
   CollisionModel model;
-  model.circle_x.fill(kNowhere);
-  model.circle_y.fill(kNowhere);
+  model.part_x.fill(kNowhere);
+  model.part_y.fill(kNowhere);
   model.circles = static_cast<int>(circles.size());
+  model.parts = static_cast<int>(circles.size() + polygons.size());
   for (std::size_t k = 0; k < circles.size(); ++k)
   {
-    model.circle_x[k] = circles[k].x;
-    model.circle_y[k] = circles[k].y;
-    model.circle_radius[k] = circles[k].radius;
+    model.part_x[k] = circles[k].x;
+    model.part_y[k] = circles[k].y;
+    model.part_radius[k] = circles[k].radius;
     const double centre = Distance(circles[k].x, circles[k].y);
     model.bounding_radius = std::max(model.bounding_radius, centre + circles[k].radius);
     model.core_radius = std::max(model.core_radius, circles[k].radius - centre);
   }
-  for (const Polygon& polygon : polygons)
+  for (std::size_t p = 0; p < polygons.size(); ++p)
   {
+    const Polygon& polygon = polygons[p];
+    const std::size_t part = circles.size() + p;
+    model.part_x[part] = polygon.centre_x;
+    model.part_y[part] = polygon.centre_y;
+    model.part_radius[part] = polygon.radius;
+    model.on_turret[part] = polygon.on_turret ? -1 : 0;
     double inside = kNowhere;
     for (int k = 0; k < polygon.count; ++k)
     {

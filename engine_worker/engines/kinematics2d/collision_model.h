@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -33,10 +34,13 @@ struct Polygon
 
 struct CollisionModel
 {
-  static constexpr int kMaximumCircles = 4;
+  static constexpr int kMaximumParts = 4;
+  using PartValues = std::array<double, kMaximumParts>;
 
-  // Padded with circles that are never hit, for the vector loops.
-  std::array<double, kMaximumCircles> circle_x{}, circle_y{}, circle_radius{};
+  // The circles, then circles around the polygons; padded with parts that nothing meets, for the vector loops.
+  PartValues part_x{}, part_y{}, part_radius{};
+  std::array<std::int64_t, kMaximumParts> on_turret{};  // all bits set where the part turns with the turret
+  int parts = 0;
   int circles = 0;
   std::vector<Polygon> polygons;
   double bounding_radius = 0;  // about the origin of the body, at every angle of the turret
@@ -46,6 +50,7 @@ struct CollisionModel
 
 // 3 to kMaximumVertices points of a convex outline, counter-clockwise. Throws std::invalid_argument for others.
 Polygon MakePolygon(std::span<const Vector2> points);
+// Up to kMaximumParts circles and polygons together. Throws std::invalid_argument for more.
 CollisionModel MakeModel(std::span<const Circle> circles, std::vector<Polygon> polygons);
 
 CollisionModel CircleModel(double radius);

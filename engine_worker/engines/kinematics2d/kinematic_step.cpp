@@ -10,7 +10,6 @@
 
 namespace swarmanoid::kinematics2d
 {
-
 void KinematicWorld::Advance(double seconds, int steps)
 {
   if (keeps_travel_)
@@ -126,7 +125,7 @@ void KinematicWorld::Substep(double seconds, double fraction)
 {
   Move(seconds, fraction);
   const double margin = std::min(kContactMargin, reach_);
-  broad_.FindPairs(now_, present_, 2 * reach_, margin);
+  broad_.FindPairs(now_, present_, margin);
   FindContacts(margin);
   if (solver_.HasOverlaps())
   {
@@ -163,33 +162,47 @@ void KinematicWorld::FindContacts(double margin)
 {
   solver_.Clear();
   Touches touches;
-  for (const Pair& pair : broad_.NearPairs())
+  Spot first, second;
+  for (const Pair& pair : broad_.Pairs())
   {
     const std::uint32_t a = pair.first;
     const std::uint32_t b = pair.second;
     if (leader_[a] == leader_[b] || mobility_[leader_[a]] + mobility_[leader_[b]] <= 0) continue;
-    FindTouches(PlaceAt(a, now_), PlaceAt(b, now_), margin, touches);
+    PlaceAt(a, now_, first.placed);
+    PlaceAt(b, now_, second.placed);
+    Spread(first);
+    Spread(second);
+    FindTouches(first, second, margin, touches);
     AddContacts(a, b, touches);
   }
+  second.placed = {};
   for (const Pair& pair : broad_.StaticPairs())
   {
     if (mobility_[leader_[pair.first]] <= 0) continue;
-    FindTouches(PlaceAt(pair.first, now_), Placed{&statics_[pair.second], 0, 0, 1, 0, 1, 0}, margin, touches);
+    PlaceAt(pair.first, now_, first.placed);
+    second.placed.model = &statics_[pair.second];
+    Spread(first);
+    Spread(second);
+    FindTouches(first, second, margin, touches);
     AddContacts(pair.first, static_cast<std::uint32_t>(count_), touches);
   }
 }
 
 void KinematicWorld::AddContacts(std::uint32_t first, std::uint32_t second, const Touches& touches)
 {
+  if (touches.Count() == 0) return;
   const std::uint32_t i = leader_[first];
   const std::uint32_t j = leader_[second];
   // From the difference of the leaders to that of the bodies.
-  const double shift_x = (now_.x[first] - now_.x[i]) - (now_.x[second] - now_.x[j]);
-  const double shift_y = (now_.y[first] - now_.y[i]) - (now_.y[second] - now_.y[j]);
   const double dx = now_.x[i] - now_.x[j];
   const double dy = now_.y[i] - now_.y[j];
-  const double way_x = dx - (before_.x[i] - before_.x[j]);
-  const double way_y = dy - (before_.y[i] - before_.y[j]);
+  double shift_x = 0;
+  double shift_y = 0;
+  if (i != first || j != second)
+  {
+    shift_x = (now_.x[first] - now_.x[second]) - dx;
+    shift_y = (now_.y[first] - now_.y[second]) - dy;
+  }
   for (int k = 0; k < touches.Count(); ++k)
   {
     Contact contact{i, j, touches[k], 0};
@@ -207,6 +220,8 @@ void KinematicWorld::AddContacts(std::uint32_t first, std::uint32_t second, cons
       const double length = touch.reach - touch.depth;
       const double nx = touch.face ? touch.x : length > 0 ? (dx + touch.x) / length : 1;
       const double ny = touch.face ? touch.y : length > 0 ? (dy + touch.y) / length : 0;
+      const double way_x = dx - (before_.x[i] - before_.x[j]);
+      const double way_y = dy - (before_.y[i] - before_.y[j]);
       contact.bounce = elasticity_ * std::min(touch.depth, std::max(0.0, -(way_x * nx + way_y * ny)));
     }
     solver_.Add(contact, overlapping);
@@ -218,20 +233,14 @@ void KinematicWorld::AddContacts(std::uint32_t first, std::uint32_t second, cons
 // way. Each one held may stand in the way of others, until nobody overlaps more than when the step began.
 void KinematicWorld::HoldBack()
 {
-  const std::uint32_t first_pass = ++pass_;
-  bool suspects = false;
-  const auto suspect = [&](std::uint32_t leader)
-  {
-    suspect_[leader] = first_pass;
-    suspects = true;
-  };
+  suspects_.clear();
   for (const Contact& contact : solver_.Contacts())
     if ((solver_.WasPushed(contact.first) || solver_.WasPushed(contact.second)) &&
         DepthOf(contact.touch, now_.x[contact.first] - now_.x[contact.second],
                 now_.y[contact.first] - now_.y[contact.second]) > allowed_)
     {
-      suspect(contact.first);
-      suspect(contact.second);
+      Suspect(contact.first);
+      Suspect(contact.second);
     }
   // Pushed so far that it may have met outlines that were no contacts yet.
   const double far = std::min(kContactMargin, reach_) / 2;
@@ -239,23 +248,40 @@ void KinematicWorld::HoldBack()
   {
     const double dx = now_.x[pushed.leader] - pushed.x;
     const double dy = now_.y[pushed.leader] - pushed.y;
-    if (dx * dx + dy * dy > far * far) suspect(pushed.leader);
+    if (dx * dx + dy * dy > far * far) Suspect(pushed.leader);
   }
-  suspect_[count_] = 0;
-  if (!suspects) return;
 
   held_.clear();
-  for (bool raised = true; raised; ++pass_)
+  for (std::size_t n = 0; n < suspects_.size(); ++n)
   {
-    raised = false;
-    for (const Pair& pair : broad_.Pairs())
-      if (suspect_[leader_[pair.first]] >= pass_ || suspect_[leader_[pair.second]] >= pass_)
-        raised = HoldPair(pair.first, pair.second) || raised;
-    for (const Pair& pair : broad_.StaticPairs())
-      if (suspect_[leader_[pair.first]] >= pass_) raised = HoldFromStatic(pair.first, pair.second) || raised;
+    const std::uint32_t leader = suspects_[n];
+    is_suspect_[leader] = 0;
+    HoldFromOthers(leader);
+    for (const Grip& grip : grips_)
+      if (grip.prey == leader) HoldFromOthers(grip.body);
   }
   statistics_.held_back += held_.size();
   for (const std::uint32_t leader : held_) hold_[leader] = Hold::kFree;
+}
+
+void KinematicWorld::Suspect(std::uint32_t leader)
+{
+  if (leader == count_ || is_suspect_[leader] != 0) return;
+  is_suspect_[leader] = 1;
+  suspects_.push_back(leader);
+}
+
+void KinematicWorld::HoldFromOthers(std::uint32_t body)
+{
+  // The others have moved by up to `reach_` since they were sorted into cells.
+  const double x = now_.x[body];
+  const double y = now_.y[body];
+  broad_.ForEachNear(x, y, radius_[body] + broad_.LargestSmallRadius() + reach_,
+                     [&](std::uint32_t other)
+                     {
+                       if (other != body) HoldPair(body, other);
+                     });
+  broad_.ForEachStaticNear(body, now_.x[body], now_.y[body], [&](std::uint32_t shape) { HoldFromStatic(body, shape); });
 }
 
 // Those that were put into each other have no better place to go back to; the solver parts them step by step.
@@ -264,33 +290,31 @@ bool KinematicWorld::MustNotOverlap(double overlap, double before) const
   return before <= 2 * allowed_ && overlap > before;
 }
 
-bool KinematicWorld::HoldPair(std::uint32_t a, std::uint32_t b)
+void KinematicWorld::HoldPair(std::uint32_t a, std::uint32_t b)
 {
   const double dx = now_.x[a] - now_.x[b];
   const double dy = now_.y[a] - now_.y[b];
   const double limit = radius_[a] + radius_[b];
-  if (dx * dx + dy * dy > limit * limit) return false;
+  if (dx * dx + dy * dy > limit * limit) return;
   const std::uint32_t i = leader_[a];
   const std::uint32_t j = leader_[b];
   // What a follower does is not to be undone.
-  if (i == j || mobility_[i] <= 0 || mobility_[j] <= 0) return false;
-  if (hold_[i] == Hold::kPose && hold_[j] == Hold::kPose) return false;
+  if (i == j || mobility_[i] <= 0 || mobility_[j] <= 0) return;
+  if (hold_[i] == Hold::kPose && hold_[j] == Hold::kPose) return;
   const double overlap = Overlap(PlaceAt(a, now_), PlaceAt(b, now_));
-  if (overlap <= allowed_ || !MustNotOverlap(overlap, Overlap(PlaceBefore(a), PlaceBefore(b)))) return false;
+  if (overlap <= allowed_ || !MustNotOverlap(overlap, Overlap(PlaceBefore(a), PlaceBefore(b)))) return;
   RaiseHold(i);
   RaiseHold(j);
-  return true;
 }
 
-bool KinematicWorld::HoldFromStatic(std::uint32_t body, std::uint32_t shape)
+void KinematicWorld::HoldFromStatic(std::uint32_t body, std::uint32_t shape)
 {
   const std::uint32_t leader = leader_[body];
-  if (mobility_[leader] <= 0 || hold_[leader] == Hold::kPose) return false;
+  if (mobility_[leader] <= 0 || hold_[leader] == Hold::kPose) return;
   const Placed fixed{&statics_[shape], 0, 0, 1, 0, 1, 0};
   const double overlap = Overlap(PlaceAt(body, now_), fixed);
-  if (overlap <= allowed_ || !MustNotOverlap(overlap, Overlap(PlaceBefore(body), fixed))) return false;
+  if (overlap <= allowed_ || !MustNotOverlap(overlap, Overlap(PlaceBefore(body), fixed))) return;
   RaiseHold(leader);
-  return true;
 }
 
 void KinematicWorld::RaiseHold(std::uint32_t leader)
@@ -299,7 +323,7 @@ void KinematicWorld::RaiseHold(std::uint32_t leader)
   if (hold_[leader] == Hold::kFree) held_.push_back(leader);
   const bool first = hold_[leader] == Hold::kFree;
   hold_[leader] = first ? Hold::kPosition : Hold::kPose;
-  suspect_[leader] = pass_ + 1;
+  Suspect(leader);
   now_.x[leader] = before_.x[leader];
   now_.y[leader] = before_.y[leader];
   if (!first)

@@ -16,7 +16,7 @@ namespace
 Bounds BoxOf(const CollisionModel& model)
 {
   Bounds box{1e300, 1e300, -1e300, -1e300};
-  for (int k = 0; k < model.circles; ++k) box.Include(model.circle_x[k], model.circle_y[k], model.circle_radius[k]);
+  for (int k = 0; k < model.circles; ++k) box.Include(model.part_x[k], model.part_y[k], model.part_radius[k]);
   for (const Polygon& polygon : model.polygons)
     for (int k = 0; k < polygon.count; ++k) box.Include(polygon.x[k], polygon.y[k], 0);
   return box;
@@ -58,9 +58,10 @@ void KinematicWorld::Start(Bounds area)
   turret_sin_.assign(count_, 0);
   travel_forward_.assign(count_, 0);
   travel_turn_.assign(count_, 0);
+  suspects_.reserve(count_ + 1);
   held_.reserve(count_);
   hold_.assign(count_ + 1, Hold::kFree);
-  suspect_.assign(count_ + 1, 0);
+  is_suspect_.assign(count_ + 1, 0);
   mobility_.assign(count_ + 1, 0);
   leader_.resize(count_ + 1);
   for (std::uint32_t k = 0; k <= count_; ++k) leader_[k] = k;
@@ -92,7 +93,7 @@ void KinematicWorld::Start(Bounds area)
   }
   allowed_ = kAllowedOverlap * smallest_limit_ / kWayInCore;
 
-  broad_.Configure(area, radius_, 2 * (2 * longest_way + kSlowestSeparation));
+  broad_.Configure(area, radius_, kContactMargin);
   std::vector<Bounds> boxes;
   for (const CollisionModel& shape : statics_) boxes.push_back(BoxOf(shape));
   broad_.SetStatics(boxes);

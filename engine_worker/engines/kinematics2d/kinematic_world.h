@@ -111,11 +111,22 @@ private:
     Pose2 from, goal;
   };
 
-  Placed PlaceAt(std::uint32_t body, const PoseStore& poses) const
+  void PlaceAt(std::uint32_t body, const PoseStore& poses, Placed& placed) const
   {
     const Rotor heading{poses.z[body], poses.w[body]};
-    return {&models_[model_[body]], poses.x[body],     poses.y[body],    CosOf(heading),
-            SinOf(heading),         turret_cos_[body], turret_sin_[body]};
+    placed.model = &models_[model_[body]];
+    placed.x = poses.x[body];
+    placed.y = poses.y[body];
+    placed.cos = CosOf(heading);
+    placed.sin = SinOf(heading);
+    placed.turret_cos = turret_cos_[body];
+    placed.turret_sin = turret_sin_[body];
+  }
+  Placed PlaceAt(std::uint32_t body, const PoseStore& poses) const
+  {
+    Placed placed;
+    PlaceAt(body, poses, placed);
+    return placed;
   }
   Placed PlaceBefore(std::uint32_t body) const;
   bool IsFollower(std::uint32_t body) const { return follower_[body] != 0; }
@@ -130,8 +141,10 @@ private:
   void AddContacts(std::uint32_t first, std::uint32_t second, const Touches& touches);
   void HoldBack();
   bool MustNotOverlap(double overlap, double before) const;
-  bool HoldPair(std::uint32_t a, std::uint32_t b);
-  bool HoldFromStatic(std::uint32_t body, std::uint32_t shape);
+  void Suspect(std::uint32_t leader);
+  void HoldFromOthers(std::uint32_t body);
+  void HoldPair(std::uint32_t a, std::uint32_t b);
+  void HoldFromStatic(std::uint32_t body, std::uint32_t shape);
   void RaiseHold(std::uint32_t leader);
   void KeepTravelOf(double seconds);
 
@@ -168,8 +181,8 @@ private:
   double smallest_limit_ = 0;
   std::vector<Hold> hold_;
   std::vector<std::uint32_t> held_;
-  std::vector<std::uint32_t> suspect_;  // the pass in which a leader was last suspected of overlapping
-  std::uint32_t pass_ = 0;
+  std::vector<std::uint8_t> is_suspect_;  // leaders that may overlap others
+  std::vector<std::uint32_t> suspects_;   // a queue
   WorldStatistics statistics_;
 };
 

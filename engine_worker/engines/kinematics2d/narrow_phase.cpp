@@ -32,71 +32,60 @@ Axes AxesOf(const Placed& body, const Polygon& polygon)
           body.sin * body.turret_cos + body.cos * body.turret_sin};
 }
 
-constexpr std::size_t kCircles = CollisionModel::kMaximumCircles;
+constexpr std::size_t kParts = CollisionModel::kMaximumParts;
 
-// The centres of a body's circles, relative to the body, along the axes of the world.
-struct Centres
-{
-  alignas(kVectorBytes) std::array<double, kCircles> x, y;
-};
+// For each part of `b`, the parts of `a` that are less than `margin` away from it, one bit each. Polygons count as the
+// circles around them.
+using NearParts = std::array<unsigned, kParts>;
 
-void FindCentres(const Placed& body, Centres& centres)
-{
-  for (std::size_t k = 0; k < kCircles; k += kDoubles)
-  {
-    const Doubles x = LoadDoubles(&body.model->circle_x[k]);
-    const Doubles y = LoadDoubles(&body.model->circle_y[k]);
-    Store(&centres.x[k], body.cos * x - body.sin * y);
-    Store(&centres.y[k], body.sin * x + body.cos * y);
-  }
-}
-
-// The circles that are less than `radius` away from the point (x, y), one bit each.
-unsigned CirclesNear(const CollisionModel& model, const Centres& centres, double x, double y, double radius)
+// The same for one part of `b`: where its centre is from the body `a`, and how far it reaches.
+unsigned PartsNear(const Spot& a, double x, double y, double reach)
 {
   unsigned hits = 0;
-  for (std::size_t k = 0; k < kCircles; k += kDoubles)
+  for (std::size_t k = 0; k < kParts; k += kDoubles)
   {
-    const Doubles dx = LoadDoubles(&centres.x[k]) - x;
-    const Doubles dy = LoadDoubles(&centres.y[k]) - y;
-    const Doubles limit = LoadDoubles(&model.circle_radius[k]) + radius;
+    const Doubles dx = LoadDoubles(&a.centre_x[k]) - x;
+    const Doubles dy = LoadDoubles(&a.centre_y[k]) - y;
+    const Doubles limit = LoadDoubles(&a.placed.model->part_radius[k]) + reach;
     hits |= Bits(dx * dx + dy * dy < limit * limit) << k;
   }
   return hits;
 }
 
-// All depths at once, without branches; then the few that count.
-void CirclesWithCircles(const Placed& a, const Placed& b, const Centres& of_a, const Centres& of_b, Touches& touches)
+bool FindNearParts(const Spot& a, const Spot& b, double margin, NearParts& near)
 {
-  const double dx = b.x - a.x;
-  const double dy = b.y - a.y;
-  alignas(kVectorBytes) std::array<double, kCircles * kCircles> depths;
-  Doubles deepest = touches.Deepest() + Doubles{};
-  for (int m = 0; m < b.model->circles; ++m)
-    for (std::size_t k = 0; k < kCircles; k += kDoubles)
-    {
-      const Doubles x = LoadDoubles(&of_a.x[k]) - (dx + of_b.x[m]);
-      const Doubles y = LoadDoubles(&of_a.y[k]) - (dy + of_b.y[m]);
-      const Doubles reach = LoadDoubles(&a.model->circle_radius[k]) + b.model->circle_radius[m];
-      const Doubles depth = reach - SquareRoots(x * x + y * y);
-      Store(&depths[m * kCircles + k], depth);
-      deepest = depth > deepest ? depth : deepest;
-    }
-  for (std::size_t lane = 0; lane < kDoubles; ++lane) touches.NoteDepth(deepest[lane]);
-
-  const double shallowest = -touches.Margin();
-  for (int m = 0; m < b.model->circles; ++m)
+  const double dx = b.placed.x - a.placed.x;
+  const double dy = b.placed.y - a.placed.y;
+  unsigned any = 0;
+  for (int m = 0; m < b.placed.model->parts; ++m)
   {
-    unsigned hits = 0;
-    for (std::size_t k = 0; k < kCircles; k += kDoubles)
-      hits |= Bits(LoadDoubles(&depths[m * kCircles + k]) > shallowest) << k;
-    for (; hits != 0; hits &= hits - 1)
-    {
-      const auto k = static_cast<std::size_t>(__builtin_ctz(hits));
-      touches.Add({of_a.x[k] - of_b.x[m], of_a.y[k] - of_b.y[m], a.model->circle_radius[k] + b.model->circle_radius[m],
-                   false, depths[m * kCircles + k]});
-    }
+    near[m] = PartsNear(a, dx + b.centre_x[m], dy + b.centre_y[m], b.placed.model->part_radius[m] + margin);
+    any |= near[m];
   }
+  return any != 0;
+}
+
+void CircleWithCircle(const Spot& a, const Spot& b, std::size_t k, std::size_t m, Touches& touches)
+{
+  const double x = a.centre_x[k] - b.centre_x[m];
+  const double y = a.centre_y[k] - b.centre_y[m];
+  const double dx = a.placed.x - b.placed.x + x;
+  const double dy = a.placed.y - b.placed.y + y;
+  const double reach = a.placed.model->part_radius[k] + b.placed.model->part_radius[m];
+  const double limit = reach + touches.Margin();
+  const double squared = dx * dx + dy * dy;
+  if (squared >= limit * limit) return;
+  const double depth = reach - std::sqrt(squared);
+  touches.Add({x, y, reach, false, depth});
+  touches.NoteDepth(depth);
+}
+
+void CirclesWithCircles(const Spot& a, const Spot& b, const NearParts& near, Touches& touches)
+{
+  const unsigned circles = (1U << a.placed.model->circles) - 1;
+  for (int m = 0; m < b.placed.model->circles; ++m)
+    for (unsigned hits = near[m] & circles; hits != 0; hits &= hits - 1)
+      CircleWithCircle(a, b, static_cast<std::size_t>(__builtin_ctz(hits)), static_cast<std::size_t>(m), touches);
 }
 
 // The circle around (x, y), relative to the polygon's body, against the polygon. `sign` is 1 where the circle belongs
@@ -142,22 +131,25 @@ void CircleWithPolygon(double x, double y, double radius, double offset_x, doubl
   touches.Add(sign * n.x, sign * n.y, reach, true);
 }
 
-void CirclesWithPolygons(const Placed& circles, const Placed& polygons, const Centres& centres, double sign,
+// `near_of`: for polygon p, the circles that are near it.
+template <class NearOf>
+void CirclesWithPolygons(const Spot& circles, const Spot& polygons, double sign, const NearOf& near_of,
                          Touches& touches)
 {
-  const double dx = circles.x - polygons.x;
-  const double dy = circles.y - polygons.y;
-  for (const Polygon& polygon : polygons.model->polygons)
+  const CollisionModel& model = *polygons.placed.model;
+  const double dx = circles.placed.x - polygons.placed.x;
+  const double dy = circles.placed.y - polygons.placed.y;
+  for (std::size_t p = 0; p < model.polygons.size(); ++p)
   {
-    const Axes axes = AxesOf(polygons, polygon);
-    const Point centre = axes.ToWorld(polygon.centre_x, polygon.centre_y);
-    unsigned near =
-        CirclesNear(*circles.model, centres, centre.x - dx, centre.y - dy, polygon.radius + touches.Margin());
+    unsigned near = near_of(static_cast<int>(p));
+    if (near == 0) continue;
+    const Polygon& polygon = model.polygons[p];
+    const Axes axes = AxesOf(polygons.placed, polygon);
     for (; near != 0; near &= near - 1)
     {
       const auto k = static_cast<std::size_t>(__builtin_ctz(near));
-      CircleWithPolygon(dx + centres.x[k], dy + centres.y[k], circles.model->circle_radius[k], centres.x[k],
-                        centres.y[k], polygon, axes, sign, touches);
+      CircleWithPolygon(dx + circles.centre_x[k], dy + circles.centre_y[k], circles.placed.model->part_radius[k],
+                        circles.centre_x[k], circles.centre_y[k], polygon, axes, sign, touches);
     }
   }
 }
@@ -189,37 +181,24 @@ double SeparationAlong(const Polygon& faces, const Polygon& other, const Axes& f
   return separation;
 }
 
-void PolygonsWithPolygons(const Placed& a, const Placed& b, Touches& touches)
+void PolygonWithPolygon(const Placed& a, const Placed& b, const Polygon& pa, const Polygon& pb, Touches& touches)
 {
   const double dx = a.x - b.x;
   const double dy = a.y - b.y;
-  for (const Polygon& pa : a.model->polygons)
-  {
-    const Axes axes_a = AxesOf(a, pa);
-    const Point centre_a = axes_a.ToWorld(pa.centre_x, pa.centre_y);
-    for (const Polygon& pb : b.model->polygons)
-    {
-      const Axes axes_b = AxesOf(b, pb);
-      const Point centre_b = axes_b.ToWorld(pb.centre_x, pb.centre_y);
-      const double x = dx + centre_a.x - centre_b.x;
-      const double y = dy + centre_a.y - centre_b.y;
-      const double limit = pa.radius + pb.radius + touches.Margin();
-      if (x * x + y * y > limit * limit) continue;
-
-      int face_a = 0;
-      int face_b = 0;
-      const double along_b = SeparationAlong(pb, pa, axes_b, axes_a, dx, dy, face_b);
-      if (along_b > touches.Margin()) continue;
-      const double along_a = SeparationAlong(pa, pb, axes_a, axes_b, -dx, -dy, face_a);
-      if (along_a > touches.Margin()) continue;
-      const bool from_b = along_b >= along_a;
-      const Point n =
-          from_b ? axes_b.ToWorld(pb.nx[face_b], pb.ny[face_b]) : axes_a.ToWorld(-pa.nx[face_a], -pa.ny[face_a]);
-      // depth = -separation at this place; reach makes it so.
-      const double separation = from_b ? along_b : along_a;
-      touches.Add(n.x, n.y, n.x * dx + n.y * dy - separation, true);
-    }
-  }
+  const Axes axes_a = AxesOf(a, pa);
+  const Axes axes_b = AxesOf(b, pb);
+  int face_a = 0;
+  int face_b = 0;
+  const double along_b = SeparationAlong(pb, pa, axes_b, axes_a, dx, dy, face_b);
+  if (along_b > touches.Margin()) return;
+  const double along_a = SeparationAlong(pa, pb, axes_a, axes_b, -dx, -dy, face_a);
+  if (along_a > touches.Margin()) return;
+  const bool from_b = along_b >= along_a;
+  const Point n =
+      from_b ? axes_b.ToWorld(pb.nx[face_b], pb.ny[face_b]) : axes_a.ToWorld(-pa.nx[face_a], -pa.ny[face_a]);
+  // depth = -separation at this place; reach makes it so.
+  const double separation = from_b ? along_b : along_a;
+  touches.Add(n.x, n.y, n.x * dx + n.y * dy - separation, true);
 }
 
 }  // namespace
@@ -232,23 +211,45 @@ void Touches::DropShallow()
   count_ = kept;
 }
 
-void FindTouches(const Placed& a, const Placed& b, double margin, Touches& touches)
+void FindTouches(const Spot& a, const Spot& b, double margin, Touches& touches)
 {
-  touches.Begin(a.x - b.x, a.y - b.y, margin);
-  Centres of_a, of_b;
-  FindCentres(a, of_a);
-  FindCentres(b, of_b);
-  CirclesWithCircles(a, b, of_a, of_b, touches);
-  CirclesWithPolygons(a, b, of_a, 1, touches);
-  CirclesWithPolygons(b, a, of_b, -1, touches);
-  PolygonsWithPolygons(a, b, touches);
+  touches.Begin(a.placed.x - b.placed.x, a.placed.y - b.placed.y, margin);
+  const CollisionModel& model_a = *a.placed.model;
+  const CollisionModel& model_b = *b.placed.model;
+  // The first circle of a model is its largest part: where two of them touch, little else counts.
+  const bool round = model_a.circles > 0 && model_b.circles > 0;
+  if (round) CircleWithCircle(a, b, 0, 0, touches);
+  NearParts near;
+  if (!FindNearParts(a, b, touches.Margin(), near)) return;
+  if (round) near[0] &= ~1U;
+
+  CirclesWithCircles(a, b, near, touches);
+  const int circles_a = model_a.circles;
+  const int circles_b = model_b.circles;
+  const auto circles_near_polygon_of_b = [&](int p) { return near[circles_b + p] & ((1U << circles_a) - 1); };
+  CirclesWithPolygons(a, b, 1, circles_near_polygon_of_b, touches);
+  const auto circles_near_polygon_of_a = [&](int p)
+  {
+    unsigned hits = 0;
+    for (int m = 0; m < circles_b; ++m) hits |= (near[m] >> (circles_a + p) & 1U) << m;
+    return hits;
+  };
+  CirclesWithPolygons(b, a, -1, circles_near_polygon_of_a, touches);
+  for (std::size_t pa = 0; pa < model_a.polygons.size(); ++pa)
+    for (std::size_t pb = 0; pb < model_b.polygons.size(); ++pb)
+      if ((near[circles_b + pb] >> (circles_a + pa) & 1U) != 0)
+        PolygonWithPolygon(a.placed, b.placed, model_a.polygons[pa], model_b.polygons[pb], touches);
   if (touches.Count() > 1) touches.DropShallow();
 }
 
 double Overlap(const Placed& a, const Placed& b)
 {
   Touches touches;
-  FindTouches(a, b, 0, touches);
+  Spot spot_a{a, {}, {}};
+  Spot spot_b{b, {}, {}};
+  Spread(spot_a);
+  Spread(spot_b);
+  FindTouches(spot_a, spot_b, 0, touches);
   return std::max(0.0, touches.Deepest());
 }
 

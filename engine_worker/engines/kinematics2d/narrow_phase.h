@@ -9,6 +9,7 @@
 #include "engine_worker/engines/kinematics2d/collision_model.h"
 #include "engine_worker/engines/kinematics2d/kinematic_limits.h"
 #include "engine_worker/engines/kinematics2d/motion.h"
+#include "engine_worker/engines/kinematics2d/vectors.h"
 
 namespace swarmanoid::kinematics2d
 {
@@ -21,6 +22,31 @@ struct Placed
   double cos = 1, sin = 0;
   double turret_cos = 1, turret_sin = 0;
 };
+
+// A placed model with the centres of its parts, relative to the body, along the axes of the world.
+struct Spot
+{
+  Placed placed;
+  alignas(kVectorBytes) CollisionModel::PartValues centre_x, centre_y;
+};
+
+inline void Spread(Spot& spot)
+{
+  const Placed& body = spot.placed;
+  const CollisionModel& model = *body.model;
+  const double turned_cos = body.cos * body.turret_cos - body.sin * body.turret_sin;
+  const double turned_sin = body.sin * body.turret_cos + body.cos * body.turret_sin;
+  for (std::size_t k = 0; k < CollisionModel::kMaximumParts; k += kDoubles)
+  {
+    const DoubleMask turns = LoadMask(&model.on_turret[k]);
+    const Doubles c = turns ? turned_cos + Doubles{} : body.cos + Doubles{};
+    const Doubles s = turns ? turned_sin + Doubles{} : body.sin + Doubles{};
+    const Doubles x = LoadDoubles(&model.part_x[k]);
+    const Doubles y = LoadDoubles(&model.part_y[k]);
+    Store(&spot.centre_x[k], c * x - s * y);
+    Store(&spot.centre_y[k], s * x + c * y);
+  }
+}
 
 // Where two outlines are near. As long as neither turns, their depth at other positions a, b of the two bodies is
 //   point: reach - |(a - b) + (x, y)|, pushing apart along that difference;
@@ -81,7 +107,7 @@ public:
   const Touch& operator[](int k) const { return list_[static_cast<std::size_t>(k)]; }
 
 private:
-  static constexpr int kMaximum = 24;
+  static constexpr int kMaximum = 24;  // more than two models can have
   std::array<Touch, kMaximum> list_;
   int count_;
   double dx_, dy_;  // from the second body to the first
@@ -89,7 +115,7 @@ private:
 };
 
 // All places where the outlines overlap or are less than `margin` apart.
-void FindTouches(const Placed& a, const Placed& b, double margin, Touches& touches);
+void FindTouches(const Spot& a, const Spot& b, double margin, Touches& touches);
 
 // The deepest overlap in metres; 0 where there is none.
 double Overlap(const Placed& a, const Placed& b);

@@ -46,6 +46,12 @@ inline Doubles LoadDoubles(const double* from)
   std::memcpy(&v, from, sizeof v);
   return v;
 }
+inline DoubleMask LoadMask(const std::int64_t* from)
+{
+  DoubleMask v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
 inline void Store(double* to, Doubles v) { std::memcpy(to, &v, sizeof v); }
 inline void Store(std::int32_t* to, Ints v) { std::memcpy(to, &v, sizeof v); }
 inline Floats LoadFloats(const float* from)
