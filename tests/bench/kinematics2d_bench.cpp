@@ -1,5 +1,5 @@
 // Time of the kinematic engine's solver per robot and step: footbots that wander in a walled square.
-// Arguments: robots, robots per square metre.
+// Arguments: robots, robots per square metre, threads.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -24,7 +24,7 @@ CollisionModel Box(double min_x, double min_y, double max_x, double max_y)
   return MakeModel({}, {MakePolygon(corners)});
 }
 
-KinematicWorld Crowd(std::uint32_t count, double density)
+KinematicWorld Crowd(std::uint32_t count, double density, unsigned threads)
 {
   KinematicWorld world;
   const auto footbot = world.AddModel(FootbotModel());
@@ -39,7 +39,7 @@ KinematicWorld Crowd(std::uint32_t count, double density)
   world.AddStatic(Box(side, -0.1, side + 0.1, side + 0.1));
   world.AddStatic(Box(-0.1, -0.1, side + 0.1, 0));
   world.AddStatic(Box(-0.1, side, side + 0.1, side + 0.1));
-  world.Start({0, 0, side, side});
+  world.Start({0, 0, side, side}, threads);
   return world;
 }
 
@@ -55,7 +55,7 @@ void Steer(KinematicWorld& world, std::uint32_t tick)
 void AdvanceCrowd(benchmark::State& state)
 {
   const auto count = static_cast<std::uint32_t>(state.range(0));
-  KinematicWorld world = Crowd(count, static_cast<double>(state.range(1)));
+  KinematicWorld world = Crowd(count, static_cast<double>(state.range(1)), static_cast<unsigned>(state.range(2)));
   std::uint32_t tick = 0;
   for (; tick < kWarmUp; ++tick)
   {
@@ -77,8 +77,13 @@ void AdvanceCrowd(benchmark::State& state)
   state.counters["held_back"] = static_cast<double>(world.Statistics().held_back);
 }
 BENCHMARK(AdvanceCrowd)
-    ->ArgsProduct({{100, 1000, 10000, 100000}, {1, 10}})
-    ->ArgNames({"robots", "density"})
+    ->ArgsProduct({{100, 1000, 10000, 100000}, {1, 10}, {1}})
+    ->ArgNames({"robots", "density", "threads"})
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(AdvanceCrowd)
+    ->ArgsProduct({{10000, 100000}, {1, 10}, {2, 4}})
+    ->ArgNames({"robots", "density", "threads"})
+    ->UseRealTime()
     ->Unit(benchmark::kMicrosecond);
 
 }  // namespace

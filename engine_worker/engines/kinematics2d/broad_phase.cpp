@@ -118,13 +118,20 @@ void BroadPhase::SetStatics(std::span<const Bounds> boxes)
   for_each_cell([&](std::uint32_t cell, std::uint32_t shape) { static_shape_[next[cell]++] = shape; });
 }
 
-void BroadPhase::FindPairs(const PoseStore& poses, std::span<const std::uint8_t> present, double margin)
+void BroadPhase::FindPairs(const PoseStore& poses, std::span<const std::uint8_t> present, double margin,
+                           WorkerPool* pool)
 {
   const float reach = static_cast<float>(margin) + 2 * slack_;
   pairs_.clear();
   static_pairs_.clear();
   Sort(poses, present);
-  SweepBodies(reach);
+  // Every part in the order of the cells, one after the other: the same pairs whatever the threads.
+  parts_.resize(pool == nullptr ? 0 : pool->Threads() - 1);
+  for (std::vector<Pair>& part : parts_) part.clear();
+  InParts(pool, start_.back(), 1,
+          [&](unsigned part, std::size_t begin, std::size_t end)
+          { SweepBodies(reach, begin, end, part == 0 ? pairs_ : parts_[part - 1]); });
+  for (const std::vector<Pair>& part : parts_) pairs_.insert(pairs_.end(), part.begin(), part.end());
   if (!large_.empty()) FindPairsOfLarge(reach, present, poses);
   if (!static_boxes_.empty()) SweepStatics(reach);
 }
@@ -173,21 +180,10 @@ void BroadPhase::Sort(const PoseStore& poses, std::span<const std::uint8_t> pres
   // Now start_[c + 1] is the start of cell c.
 }
 
-void BroadPhase::AddHits(unsigned hits, std::uint32_t sorted, std::uint32_t from)
-{
-  for (; hits != 0; hits &= hits - 1)
-  {
-    const std::uint32_t a = body_[sorted];
-    const std::uint32_t b = body_[from + static_cast<std::uint32_t>(__builtin_ctz(hits))];
-    pairs_.push_back({std::min(a, b), std::max(a, b)});
-  }
-}
-
-void BroadPhase::SweepBodies(float margin)
+void BroadPhase::SweepBodies(float margin, std::size_t begin, std::size_t end, std::vector<Pair>& pairs) const
 {
   const std::uint32_t* const start = start_.data() + 1;
-  const std::uint32_t end = start_.back();
-  for (std::uint32_t k = 0; k < end; ++k)
+  for (auto k = static_cast<std::uint32_t>(begin); k < end; ++k)
   {
     const std::uint32_t cell = sorted_cell_[k];
     const float x = x_[k];
@@ -204,7 +200,12 @@ void BroadPhase::SweepBodies(float margin)
         unsigned hits = Bits(squared < limit * limit);
         const std::uint32_t left = to - from;
         if (left < kFloats) hits &= (1U << left) - 1;
-        if (hits != 0) AddHits(hits, k, from);
+        for (; hits != 0; hits &= hits - 1)
+        {
+          const std::uint32_t a = body_[k];
+          const std::uint32_t b = body_[from + static_cast<std::uint32_t>(__builtin_ctz(hits))];
+          pairs.push_back({std::min(a, b), std::max(a, b)});
+        }
         from += kFloats;
       } while (from < to);
     };

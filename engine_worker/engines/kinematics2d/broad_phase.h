@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine_worker/engines/kinematics2d/motion.h"
+#include "engine_worker/engines/kinematics2d/worker_pool.h"
 
 namespace swarmanoid::kinematics2d
 {
@@ -37,7 +38,7 @@ public:
   void SetStatics(std::span<const Bounds> boxes);
 
   // `present[k]` is 0 for bodies that are not to be found.
-  void FindPairs(const PoseStore& poses, std::span<const std::uint8_t> present, double margin);
+  void FindPairs(const PoseStore& poses, std::span<const std::uint8_t> present, double margin, WorkerPool* pool);
   // Bodies whose circles are less than `margin` apart, in the order of their cells.
   const std::vector<Pair>& Pairs() const { return pairs_; }
   const std::vector<Pair>& StaticPairs() const { return static_pairs_; }
@@ -80,10 +81,9 @@ private:
   std::uint32_t Cell(std::uint32_t column, std::uint32_t row) const { return (row + 1) * stride_ + column + 1; }
   void FindCells(const PoseStore& poses, std::span<const std::uint8_t> present);
   void Sort(const PoseStore& poses, std::span<const std::uint8_t> present);
-  void SweepBodies(float margin);
+  void SweepBodies(float margin, std::size_t begin, std::size_t end, std::vector<Pair>& pairs) const;
   void SweepStatics(float margin);
   void FindPairsOfLarge(float margin, std::span<const std::uint8_t> present, const PoseStore& poses);
-  void AddHits(unsigned hits, std::uint32_t sorted, std::uint32_t from);
 
   std::size_t count_ = 0;
   double cell_ = 1;
@@ -107,6 +107,7 @@ private:
   std::vector<std::uint32_t> static_start_, static_shape_;  // the shapes near each cell
 
   std::vector<Pair> pairs_, static_pairs_;
+  std::vector<std::vector<Pair>> parts_;  // of pairs_, found by other threads
 };
 
 }  // namespace swarmanoid::kinematics2d

@@ -37,6 +37,11 @@ public:
     if (overlapping) active_.push_back(static_cast<std::uint32_t>(contacts_.size()));
     contacts_.push_back(contact);
   }
+  // In their order.
+  void Add(const std::vector<Contact>& contacts)
+  {
+    for (const Contact& contact : contacts) Add(contact, contact.touch.depth > 0);
+  }
   // Moves the leaders until no contact is deeper than `tolerance` or the sweeps are used up; shares follow `mobility`,
   // the inverse of a weight. No leader is moved further than `reach`. Contacts are handled in the order of adding.
   void Solve(const std::vector<double>& mobility, double tolerance, double reach, std::vector<double>& x,

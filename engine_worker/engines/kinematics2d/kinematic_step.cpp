@@ -125,7 +125,7 @@ void KinematicWorld::Substep(double seconds, double fraction)
 {
   Move(seconds, fraction);
   const double margin = std::min(kContactMargin, reach_);
-  broad_.FindPairs(now_, present_, margin);
+  broad_.FindPairs(now_, present_, margin, pool_.get());
   FindContacts(margin);
   if (solver_.HasOverlaps())
   {
@@ -133,7 +133,9 @@ void KinematicWorld::Substep(double seconds, double fraction)
     for (const Grip& grip : grips_) now_.Set(grip.body, Compose(now_.Get(grip.prey), grip.relative));
     HoldBack();
   }
-  if (keeps_travel_) KeepTravelOf(seconds);
+  if (keeps_travel_)
+    InParts(pool_.get(), count_, 1,
+            [&](unsigned, std::size_t begin, std::size_t end) { KeepTravelOf(seconds, begin, end); });
   statistics_.pairs = broad_.Pairs().size() + broad_.StaticPairs().size();
   statistics_.contacts = solver_.Contacts().size();
 }
@@ -141,7 +143,9 @@ void KinematicWorld::Substep(double seconds, double fraction)
 void KinematicWorld::Move(double seconds, double fraction)
 {
   std::swap(now_, before_);
-  Integrate(before_, grips_.empty() ? twists_ : effective_, seconds, 0, PaddedCount(count_), now_);
+  InParts(pool_.get(), PaddedCount(count_), kPadding,
+          [&](unsigned, std::size_t begin, std::size_t end)
+          { Integrate(before_, grips_.empty() ? twists_ : effective_, seconds, begin, end, now_); });
   for (const Grip& grip : grips_) now_.Set(grip.body, Compose(now_.Get(grip.prey), grip.relative));
   for (const Follower& follower : followers_)
   {
@@ -158,24 +162,23 @@ void KinematicWorld::Move(double seconds, double fraction)
   }
 }
 
+// Each thread some of the pairs, in their order; then one after the other into the solver.
 void KinematicWorld::FindContacts(double margin)
 {
   solver_.Clear();
+  const auto to_solver = [this](const Contact& contact) { solver_.Add(contact, contact.touch.depth > 0); };
+  for (std::vector<Contact>& contacts : contacts_of_others_) contacts.clear();
+  InParts(pool_.get(), broad_.Pairs().size(), 1,
+          [&](unsigned part, std::size_t begin, std::size_t end)
+          {
+            if (part == 0) return FindContacts(margin, begin, end, to_solver);
+            std::vector<Contact>& contacts = contacts_of_others_[part - 1];
+            FindContacts(margin, begin, end, [&](const Contact& contact) { contacts.push_back(contact); });
+          });
+  for (const std::vector<Contact>& contacts : contacts_of_others_) solver_.Add(contacts);
+
   Touches touches;
   Spot first, second;
-  for (const Pair& pair : broad_.Pairs())
-  {
-    const std::uint32_t a = pair.first;
-    const std::uint32_t b = pair.second;
-    if (leader_[a] == leader_[b] || mobility_[leader_[a]] + mobility_[leader_[b]] <= 0) continue;
-    PlaceAt(a, now_, first.placed);
-    PlaceAt(b, now_, second.placed);
-    Spread(first);
-    Spread(second);
-    FindTouches(first, second, margin, touches);
-    AddContacts(a, b, touches);
-  }
-  second.placed = {};
   for (const Pair& pair : broad_.StaticPairs())
   {
     if (mobility_[leader_[pair.first]] <= 0) continue;
@@ -184,11 +187,32 @@ void KinematicWorld::FindContacts(double margin)
     Spread(first);
     Spread(second);
     FindTouches(first, second, margin, touches);
-    AddContacts(pair.first, static_cast<std::uint32_t>(count_), touches);
+    AddContacts(pair.first, static_cast<std::uint32_t>(count_), touches, to_solver);
   }
 }
 
-void KinematicWorld::AddContacts(std::uint32_t first, std::uint32_t second, const Touches& touches)
+template <class Add>
+void KinematicWorld::FindContacts(double margin, std::size_t begin, std::size_t end, const Add& add) const
+{
+  Touches touches;
+  Spot first, second;
+  for (std::size_t n = begin; n < end; ++n)
+  {
+    const std::uint32_t a = broad_.Pairs()[n].first;
+    const std::uint32_t b = broad_.Pairs()[n].second;
+    if (leader_[a] == leader_[b] || mobility_[leader_[a]] + mobility_[leader_[b]] <= 0) continue;
+    PlaceAt(a, now_, first.placed);
+    PlaceAt(b, now_, second.placed);
+    Spread(first);
+    Spread(second);
+    FindTouches(first, second, margin, touches);
+    AddContacts(a, b, touches, add);
+  }
+}
+
+template <class Add>
+void KinematicWorld::AddContacts(std::uint32_t first, std::uint32_t second, const Touches& touches,
+                                 const Add& add) const
 {
   if (touches.Count() == 0) return;
   const std::uint32_t i = leader_[first];
@@ -214,8 +238,7 @@ void KinematicWorld::AddContacts(std::uint32_t first, std::uint32_t second, cons
       touch.x += shift_x;
       touch.y += shift_y;
     }
-    const bool overlapping = touch.depth > 0;
-    if (overlapping)
+    if (touch.depth > 0)
     {
       const double length = touch.reach - touch.depth;
       const double nx = touch.face ? touch.x : length > 0 ? (dx + touch.x) / length : 1;
@@ -224,7 +247,7 @@ void KinematicWorld::AddContacts(std::uint32_t first, std::uint32_t second, cons
       const double way_y = dy - (before_.y[i] - before_.y[j]);
       contact.bounce = elasticity_ * std::min(touch.depth, std::max(0.0, -(way_x * nx + way_y * ny)));
     }
-    solver_.Add(contact, overlapping);
+    add(contact);
   }
 }
 
@@ -351,10 +374,10 @@ Placed KinematicWorld::PlaceBefore(std::uint32_t body) const
 }
 
 // The way forward along the arc: its chord, seen from the mean heading, over sinc of half the turn.
-void KinematicWorld::KeepTravelOf(double seconds)
+void KinematicWorld::KeepTravelOf(double seconds, std::size_t begin, std::size_t end)
 {
   const TwistStore& twists = grips_.empty() ? twists_ : effective_;
-  for (std::size_t k = 0; k < count_; ++k)
+  for (std::size_t k = begin; k < end; ++k)
   {
     const Rotor old_heading{before_.z[k], before_.w[k]};
     const Rotor heading{now_.z[k], now_.w[k]};

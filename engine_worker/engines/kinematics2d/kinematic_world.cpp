@@ -45,8 +45,10 @@ std::uint32_t KinematicWorld::AddBody(std::uint32_t model, const Pose2& pose, bo
 
 void KinematicWorld::AddStatic(CollisionModel shape) { statics_.push_back(std::move(shape)); }
 
-void KinematicWorld::Start(Bounds area)
+void KinematicWorld::Start(Bounds area, unsigned threads)
 {
+  if (threads > 1) pool_ = std::make_unique<WorkerPool>(threads);
+  contacts_of_others_.resize(threads - 1);
   const std::size_t padded = PaddedCount(count_);
   now_.Resize(padded);
   before_ = now_;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -48,8 +49,8 @@ public:
   // A follower is moved from outside (Follow) and pushes without being pushed.
   std::uint32_t AddBody(std::uint32_t model, const Pose2& pose, bool follower = false);
   void AddStatic(CollisionModel shape);  // in the coordinates of the plane
-  // `area` is where most bodies will be.
-  void Start(Bounds area);
+  // `area` is where most bodies will be. `threads` work together; their number changes no bit of the results.
+  void Start(Bounds area, unsigned threads = 1);
 
   // Each tick: what the bodies do until they are told otherwise.
   void SetTwist(std::uint32_t body, const Twist& twist) { twists_.Set(body, twist); }
@@ -138,7 +139,10 @@ private:
   void Substep(double seconds, double fraction);
   void Move(double seconds, double fraction);
   void FindContacts(double margin);
-  void AddContacts(std::uint32_t first, std::uint32_t second, const Touches& touches);
+  template <class Add>
+  void FindContacts(double margin, std::size_t begin, std::size_t end, const Add& add) const;
+  template <class Add>
+  void AddContacts(std::uint32_t first, std::uint32_t second, const Touches& touches, const Add& add) const;
   void HoldBack();
   bool MustNotOverlap(double overlap, double before) const;
   void Suspect(std::uint32_t leader);
@@ -146,7 +150,7 @@ private:
   void HoldPair(std::uint32_t a, std::uint32_t b);
   void HoldFromStatic(std::uint32_t body, std::uint32_t shape);
   void RaiseHold(std::uint32_t leader);
-  void KeepTravelOf(double seconds);
+  void KeepTravelOf(double seconds, std::size_t begin, std::size_t end);
 
   double elasticity_;
   std::vector<CollisionModel> models_;
@@ -174,6 +178,8 @@ private:
   std::vector<Turret> turrets_;      // those that turn, by body
   std::vector<Follower> followers_;  // by body
 
+  std::unique_ptr<WorkerPool> pool_;                      // none for one thread
+  std::vector<std::vector<Contact>> contacts_of_others_;  // found by each further thread
   BroadPhase broad_;
   ContactSolver solver_;
   double reach_ = 0;    // no collision pushes a body further than this in one substep

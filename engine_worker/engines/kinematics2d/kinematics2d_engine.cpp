@@ -24,6 +24,12 @@ std::vector<ParameterSpec> ParameterTable()
            "Part of the approach that a collision gives back; 1 is purely elastic, 0 lets bodies stay in touch.",
        .minimum = 0,
        .maximum = 1});
+  table.push_back({.name = "threads",
+                   .type = ParameterType::kInteger,
+                   .default_value = "1",
+                   .description = "Threads that share the work; their number changes no bit of the results.",
+                   .minimum = 1,
+                   .maximum = 64});
   return table;
 }
 
@@ -76,6 +82,7 @@ void Kinematics2dEngine::Init(const EngineSetup& setup)
   configuration_ = &setup.configuration;
   subclock_ = std::max(setup.configuration.subclock, 1);
   frame_ = PlaneFrom(setup.parameters);
+  threads_ = static_cast<unsigned>(setup.parameters.Integer("threads"));
   world_ = KinematicWorld(setup.parameters.Number("elasticity"));
   robots_.Init(setup.space, frame_, *this);
 }
@@ -140,7 +147,7 @@ void Kinematics2dEngine::Start()
   }
   for (const ChannelBlock& block : layout_->sensors)
     if (block.name == "footbot_encoders") world_.KeepTravel();
-  world_.Start(AreaOf(frame_, space_->GetExperiment().arena_size));
+  world_.Start(AreaOf(frame_, space_->GetExperiment().arena_size), threads_);
   for (const Footbot& footbot : footbots_) world_.SetTurretAngle(footbot.body, footbot.now.turret_angle);
   writer_ = PlaneWriter(frame_, std::move(stances));
 }

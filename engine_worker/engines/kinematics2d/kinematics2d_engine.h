@@ -86,6 +86,7 @@ private:
   const EngineConfiguration* configuration_ = nullptr;
   PlaneFrame frame_{PlaneAxis::kZ, 0};
   int subclock_ = 1;
+  unsigned threads_ = 1;
   kinematics2d::KinematicWorld world_;
   PlaneWriter writer_;
   PlaneRobots robots_;

@@ -237,5 +237,59 @@ TEST(KinematicWorld, ASpeedBeyondAllSenseIsRefused)
   EXPECT_THROW(world.Advance(kTick, 1), std::runtime_error);
 }
 
+// 3,600 robots, a prey gripped by two of them and a follower, all driven into a corner.
+KinematicWorld CornerPile(unsigned threads)
+{
+  KinematicWorld world;
+  const auto footbot = world.AddModel(FootbotModel());
+  RandomStream random(9, 0, 0, 0);
+  for (int k = 0; k < 3600; ++k)
+    world.AddBody(footbot, {0.2 + 0.21 * (k % 60), 0.2 + 0.21 * (k / 60), RotorOf(random.Uniform(-kPi, kPi))});
+  const auto prey = world.AddBody(world.AddModel(CircleModel(0.1)), {13.2, 6, RotorOf(0)});
+  const auto left = world.AddBody(footbot, {13.2, 6.21, RotorOf(0)});
+  const auto right = world.AddBody(footbot, {13.2, 5.79, RotorOf(0)});
+  const auto follower = world.AddBody(footbot, {13.2, 8, RotorOf(0)}, true);
+  world.AddStatic(Wall(-0.05, 7, 0.1, 16));
+  world.AddStatic(Wall(7, -0.05, 16, 0.1));
+  world.KeepTravel();
+  world.Start({0, 0, 14, 14}, threads);
+  world.AddGrip(left, prey);
+  world.AddGrip(right, prey);
+  for (int tick = 0; tick < 40; ++tick)
+  {
+    for (std::uint32_t k = 0; k < world.BodyCount(); ++k)
+    {
+      const double heading = AngleOf(world.PoseOf(k).heading);
+      const double turn = WrapAngle(-0.75 * kPi - heading);
+      world.SetTwist(k, {0.25, 0, 2 * turn});
+      world.SetTurretRate(k, 0.1 * (k % 7));
+    }
+    world.Follow(follower, {13.2 - 0.02 * tick, 8, RotorOf(0)}, true);
+    world.Advance(kTick, 1);
+  }
+  return world;
+}
+
+TEST(KinematicWorld, ThreadsChangeNoBit)
+{
+  const KinematicWorld one = CornerPile(1);
+  EXPECT_GT(one.Statistics().contacts, 3000U) << "enough for all threads";
+  EXPECT_GT(one.Statistics().held_back, 0U);
+  for (const unsigned threads : {2U, 3U, 4U})
+  {
+    const KinematicWorld several = CornerPile(threads);
+    ByteWriter expected, state;
+    one.SaveState(expected);
+    several.SaveState(state);
+    EXPECT_EQ(expected.Bytes(), state.Bytes()) << threads;
+    EXPECT_EQ(one.Statistics().contacts, several.Statistics().contacts);
+    for (std::uint32_t k = 0; k < one.BodyCount(); ++k)
+    {
+      ASSERT_EQ(one.TravelForward(k), several.TravelForward(k)) << k;
+      ASSERT_EQ(one.TravelTurn(k), several.TravelTurn(k)) << k;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace swarmanoid::kinematics2d

@@ -1,0 +1,65 @@
+// Threads that do parts of one piece of work and wait for the next one. Owned by a kinematic world; its calls come from
+// one thread. Allocates nothing while it works.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <thread>
+#include <vector>
+
+namespace swarmanoid::kinematics2d
+{
+
+class WorkerPool
+{
+public:
+  // `threads`: those that work together, the caller's among them.
+  explicit WorkerPool(unsigned threads);
+  ~WorkerPool();
+  WorkerPool(const WorkerPool&) = delete;
+  WorkerPool& operator=(const WorkerPool&) = delete;
+
+  unsigned Threads() const { return static_cast<unsigned>(workers_.size()) + 1; }
+  // Calls part(k) for every k below Threads(), each in a thread of its own, and returns when all are done. Parts throw
+  // nothing and write to places of their own.
+  template <class Part>
+  void Run(const Part& part)
+  {
+    Run([](const void* context, unsigned k) { (*static_cast<const Part*>(context))(k); }, &part);
+  }
+
+private:
+  using Call = void (*)(const void*, unsigned);
+  void Run(Call call, const void* context);
+  void Work(unsigned k);
+
+  Call call_ = nullptr;  // nullptr ends the threads
+  const void* context_ = nullptr;
+  std::atomic<unsigned> piece_ = 0;
+  std::atomic<unsigned> busy_ = 0;
+  std::vector<std::thread> workers_;
+};
+
+// Work on `count` things in one part for each thread, or in one where they are few: work(part, begin, end). Borders are
+// multiples of `step`.
+template <class Work>
+void InParts(WorkerPool* pool, std::size_t count, std::size_t step, const Work& work)
+{
+  constexpr std::size_t kLeast = 1024;  // below, waking threads takes longer
+  if (pool == nullptr || count < kLeast)
+  {
+    work(0U, std::size_t{0}, count);
+    return;
+  }
+  const std::size_t threads = pool->Threads();
+  const std::size_t steps = (count + step - 1) / step;
+  pool->Run(
+      [&](unsigned k)
+      {
+        const std::size_t begin = steps * k / threads * step;
+        const std::size_t end = k + 1 == threads ? count : steps * (k + 1) / threads * step;
+        work(k, begin, end);
+      });
+}
+
+}  // namespace swarmanoid::kinematics2d
