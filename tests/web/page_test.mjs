@@ -169,8 +169,27 @@ const tests = {
     await until(page, (before) => swarmanoid.tick === before + 1, tick);
     await read(page, () => swarmanoid.command({ do: "move", entity: "fb_3", position: [1.25, 0.75, 0], angles: [0, 0, 90] }));
     await until(page, () => Math.hypot(swarmanoid.place("fb_3")[0] - 1.25, swarmanoid.place("fb_3")[1] - 0.75) < 1e-6);
+
+    // By hand: shift and drag.
+    const [from, to] = await read(page, () => ["fb_5", "fb_3"].map((id) => swarmanoid.project(id)));
+    const before = await read(page, () => swarmanoid.place("fb_5"));
+    const apart = (place) => Math.hypot(place[0] - before[0], place[1] - before[1]);
+    await page.keyboard.down("Shift");
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.mouse.move((from.x + to.x) / 2, (from.y + to.y) / 2, { steps: 4 });
+    await page.mouse.up();
+    await page.keyboard.up("Shift");
+    await until(page, ([x, y]) => Math.hypot(swarmanoid.place("fb_5")[0] - x, swarmanoid.place("fb_5")[1] - y) > 0.05, before);
+    assert.ok(apart(await read(page, () => swarmanoid.place("fb_5"))) < 3);
+    await until(page, () => document.querySelector("footer").textContent.includes("moved 'fb_5'"));
+
     await page.keyboard.press(" ");
-    await until(page, (before) => swarmanoid.tick > before + 3, tick);
+    await until(page, (last) => swarmanoid.tick > last + 3, tick);
+    await page.keyboard.press("f");
+    assert.equal(await read(page, () => swarmanoid.followed), "fb_5");
+    const camera = await read(page, () => swarmanoid.camera);
+    await until(page, ([x, y]) => Math.hypot(swarmanoid.camera[0] - x, swarmanoid.camera[1] - y) > 0.02, camera);
     assert.deepEqual(page.complaints, []);
   },
 

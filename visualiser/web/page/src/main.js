@@ -237,6 +237,12 @@ window.swarmanoid = {
   get status() {
     return state.status;
   },
+  get followed() {
+    return view.followed === null ? null : state.world.ids[view.followed];
+  },
+  get camera() {
+    return view.stage.camera.position.toArray();
+  },
   get shown() {
     return list.shown.length;
   },

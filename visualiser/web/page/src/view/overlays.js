@@ -4,6 +4,8 @@ import { Flag } from "../protocol.js";
 import { extentOf } from "./models.js";
 
 const BEAMS = 256;
+// Of trails, in turn: neighbours can be told apart.
+const TRAILS = [0x3d8bfd, 0xe08a2e, 0x2fa58a, 0xb65fcf, 0xd9575a, 0x8a9a2f, 0x4fa3c7, 0xa0785a];
 
 // Beams with a spot where they end.
 export class Beams {
@@ -125,7 +127,13 @@ export class Trails {
     this.positions = new THREE.BufferAttribute(new Float32Array(this.block * this.samples), 3).setUsage(THREE.DynamicDrawUsage);
     const born = new Float32Array(2 * count * this.samples);
     for (let i = 0; i < born.length; i++) born[i] = Math.floor(i / (2 * count));
+    const tints = new Uint8Array(6 * count * this.samples);
+    for (let i = 0; i < 2 * count * this.samples; i++) {
+      const tint = TRAILS[Math.floor((i % (2 * count)) / 2) % TRAILS.length];
+      tints.set([tint >> 16, (tint >> 8) & 255, tint & 255], 3 * i);
+    }
     const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("tint", new THREE.BufferAttribute(tints, 3, true));
     geometry.setAttribute("position", this.positions);
     geometry.setAttribute("born", new THREE.BufferAttribute(born, 1));
     this.material = new THREE.ShaderMaterial({
@@ -134,18 +142,20 @@ export class Trails {
       uniforms: {
         head: { value: 0 },
         samples: { value: this.samples },
-        colour: { value: new THREE.Color().setHex(0x3d8bfd, THREE.LinearSRGBColorSpace) },
       },
       vertexShader: `
         attribute float born;
+        attribute vec3 tint;
         uniform float head, samples;
         varying float strength;
+        varying vec3 colour;
         void main() {
+          colour = tint;
           strength = 1.0 - mod(head - born + samples, samples) / samples;
           gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
         }`,
       fragmentShader: `
-        uniform vec3 colour;
+        varying vec3 colour;
         varying float strength;
         void main() { gl_FragColor = vec4(colour, sqrt(strength)); }`,
     });

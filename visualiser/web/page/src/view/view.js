@@ -173,7 +173,6 @@ export class View {
         const entity = this.pick(event);
         if (entity === null || !this.actions.mayMove()) return;
         this.dragged = entity;
-        this.actions.select(entity);
         this.stage.controls.enabled = false;
         canvas.setPointerCapture(event.pointerId);
       },
@@ -191,6 +190,8 @@ export class View {
       const clicked = start && Math.hypot(event.clientX - start.x, event.clientY - start.y) < 4;
       if (this.dragged !== undefined) {
         if (this.dropPoint && !clicked) this.actions.move(this.dragged, this.dropPoint);
+        // Only now: the panel that opens moves the picture.
+        this.actions.select(this.dragged);
         this.dragged = this.dropPoint = undefined;
         this.stage.controls.enabled = true;
         this.stage.invalidate();
