@@ -1,7 +1,9 @@
 #include "behavior_world.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <stdexcept>
 
 #include "common/experiment/load_experiment.h"
@@ -23,7 +25,8 @@ std::string Devices(const std::string& kind, bool three_dimensional)
     return "<actuators>" + Device("footbot_wheels", "dummy_footbot_wheels") +
            Device("footbot_gripper", "dummy_footbot_gripper") + Device("footbot_leds", "generic_footbot_leds") +
            "</actuators><sensors>" + Device("footbot_proximity", "generic_footbot_proximity") +
-           Device("footbot_light", "generic_footbot_light") + Device("footbot_gripper", "generic_footbot_gripper") +
+           Device("footbot_light", "generic_footbot_light") + Device("footbot_ground", "generic_footbot_ground") +
+           Device("footbot_gripper", "generic_footbot_gripper") +
            Device("footbot_omnidirectional_camera", "generic_footbot_omnidirectional_camera",
                   "<aperture>88</aperture>") +
            "</sensors>";
@@ -100,6 +103,35 @@ BehaviorWorld& BehaviorWorld::Light(const std::string& id, const std::string& po
   return *this;
 }
 
+BehaviorWorld& BehaviorWorld::Patch(const std::string& id, double x, double y, const std::string& colour)
+{
+  arena_ += fmt::format(
+      "<nest "
+      "id=\"{}\"><position>{},{},0</position><orientation>0,0,0</orientation><size>1,1</size><colour>{}</colour></"
+      "nest>\n",
+      id, x, y, colour);
+  return *this;
+}
+
+BehaviorWorld& BehaviorWorld::Functions(const std::string& tag, const std::string& library)
+{
+  functions_ =
+      fmt::format("<experiment_functions><{0} id=\"{0}\" library=\"{1}\"/></experiment_functions>", tag, library);
+  return *this;
+}
+
+BehaviorWorld::~BehaviorWorld()
+{
+  simulator_.reset();
+  if (!folder_.empty()) std::filesystem::remove_all(folder_);
+}
+
+std::string BehaviorWorld::End()
+{
+  simulator_->Finish();
+  return folder_;
+}
+
 BehaviorWorld& BehaviorWorld::Walls(double side)
 {
   const auto wall = [this, side](const char* id, double x, double y, double size_x, double size_y)
@@ -130,13 +162,20 @@ void BehaviorWorld::Start()
   const std::string text = fmt::format(
       "<ahss-config><framework><clocktick>100</clocktick><maxclock>0</maxclock><seed>{}</seed></framework>\n"
       "<controllers>{}</controllers>\n<arena size=\"{}\" optimization=\"{}\">{}</arena>\n<engines>{}</engines>\n"
-      "<arena_physics>{}</arena_physics></ahss-config>",
-      seed_, controllers_, size_, three_dimensional_ ? "3D" : "2D", arena_, engines, physics);
+      "<arena_physics>{}</arena_physics>{}</ahss-config>",
+      seed_, controllers_, size_, three_dimensional_ ? "3D" : "2D", arena_, engines, physics, functions_);
   RegisterBuiltins();
   LoadedExperiment loaded = LoadExperimentText(text, "behaviors.xml", ".");
   if (!loaded.experiment) throw std::runtime_error(loaded.errors.front().Text());
   experiment_ = std::move(loaded.experiment);
-  simulator_ = std::make_unique<CSimulator>(*experiment_);
+  SimulatorOptions options;
+  if (!functions_.empty())
+  {
+    folder_ = (std::filesystem::temp_directory_path() / fmt::format("swarmanoid_behaviors_{}", getpid())).string();
+    std::filesystem::create_directories(folder_);
+    options.output_folder = folder_;
+  }
+  simulator_ = std::make_unique<CSimulator>(*experiment_, options);
 }
 
 const CSwarmanoidSpace& BehaviorWorld::Space()

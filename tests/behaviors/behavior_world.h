@@ -23,6 +23,10 @@ public:
   {
   }
 
+  ~BehaviorWorld();
+  BehaviorWorld(const BehaviorWorld&) = delete;
+  BehaviorWorld& operator=(const BehaviorWorld&) = delete;
+
   // behavior: a name in probe_controllers.cpp; heading in degrees.
   BehaviorWorld& Footbot(const std::string& id, const std::string& behavior, double x, double y, double heading = 0);
   BehaviorWorld& Eyebot(const std::string& id, const std::string& behavior, double x, double y, double z = 1.5);
@@ -31,6 +35,8 @@ public:
                        const std::string& more = "");
   BehaviorWorld& Prey(const std::string& id, double x, double y, const std::string& colour);
   BehaviorWorld& Light(const std::string& id, const std::string& position, double intensity = 1);
+  BehaviorWorld& Patch(const std::string& id, double x, double y, const std::string& colour);
+  BehaviorWorld& Functions(const std::string& tag, const std::string& library);
   // Walls along the edges of a square of that side whose corner is the origin.
   BehaviorWorld& Walls(double side);
   BehaviorWorld& Seed(int seed);
@@ -51,6 +57,8 @@ public:
   Vector3 Place(const std::string& id) { return Space().FindEntity(id)->GetPosition(); }
   // On the ground, in m.
   double Distance(const std::string& a, const std::string& b) { return (Place(a) - Place(b)).head<2>().norm(); }
+  // Ends the run; returns the folder of its files, which goes with the world.
+  std::string End();
   double Attribute(const std::string& id, const std::string& name, int element = 0);
 
 private:
@@ -65,6 +73,8 @@ private:
   std::string arena_;
   std::string ground_;
   std::string sky_;
+  std::string functions_;
+  std::string folder_;
   std::unique_ptr<Experiment> experiment_;
   std::unique_ptr<CSimulator> simulator_;
 };

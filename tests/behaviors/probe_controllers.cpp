@@ -103,6 +103,7 @@ const Factories<Footbot> footbots{
     {"follow_laser", [] { return new CBTFootbotFollowLaser(); }},
     {"show_blue", [] { return Leds(CCI_Colour::BLUE); }},
     {"show_red", [] { return Leds(CCI_Colour::RED); }},
+    {"show_floor", [] { return Do<Footbot>([](Footbot& state) { state.SetAllLedColours(state.GetFloorColour()); }); }},
     {"drive_blue", [] { return new Sequence<Footbot>(Straight(), Leds(CCI_Colour::BLUE)); }}};
 
 const Factories<Eyebot> eyebots{{"hover", [] { return new CBTEyebotHover(); }},
