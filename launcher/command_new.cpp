@@ -72,7 +72,8 @@ void AddTerrain(CLI::App& verb, int& exit_code)
       ->expected(2)
       ->capture_default_str();
   command
-      ->add_option("--resolution", terrain.resolution, "Edge of a cell in metres; footbots climb steps of up to 0.008")
+      ->add_option("--resolution", terrain.resolution,
+                   "Edge of a cell in metres: the height of the steps that wheels meet")
       ->capture_default_str();
   command->add_option("--roughness", terrain.roughness, "From the lowest ground to the highest, in metres")
       ->capture_default_str();
