@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "visualiser/panels/theme.h"
 
@@ -36,8 +35,7 @@ double RoundStep(double range, int most)
   return 10 * step;
 }
 
-void ShowChart(const std::string& id, std::span<const Curve> curves, const std::string& unit, ImVec2 size,
-               float line_width)
+void ShowChart(const std::string& id, std::span<const Curve> curves, ImVec2 size, float line_width)
 {
   Range time, value;
   for (const Curve& curve : curves)
@@ -90,14 +88,14 @@ void ShowChart(const std::string& id, std::span<const Curve> curves, const std::
     const float width = ImGui::CalcTextSize(label.c_str()).x;
     draw.AddText(ImVec2(std::min(place.x - width / 2, right - width), bottom + 2), theme::kFaint, label.c_str());
   }
-  if (!unit.empty()) draw.AddText(ImVec2(left + 5, top), theme::kFaint, unit.c_str());
 
-  std::vector<ImVec2> line;
+  // Piece by piece: a polyline's joints leave gaps at narrow peaks.
   for (const Curve& curve : curves)
   {
-    line.clear();
-    for (const ValueHistory::Point& point : curve.history->Points()) line.push_back(at(point.time, point.value));
-    draw.AddPolyline(line.data(), static_cast<int>(line.size()), curve.colour, 0, line_width);
+    const std::vector<ValueHistory::Point>& points = curve.history->Points();
+    for (std::size_t p = 1; p < points.size(); ++p)
+      draw.AddLine(at(points[p - 1].time, points[p - 1].value), at(points[p].time, points[p].value), curve.colour,
+                   line_width);
   }
 }
 

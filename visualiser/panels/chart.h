@@ -17,9 +17,8 @@ struct Curve
   ImU32 colour;
 };
 
-// Takes a place of this size in the present window. unit: of all curves, at the upper corner.
-void ShowChart(const std::string& id, std::span<const Curve> curves, const std::string& unit, ImVec2 size,
-               float line_width);
+// Takes a place of this size in the present window.
+void ShowChart(const std::string& id, std::span<const Curve> curves, ImVec2 size, float line_width);
 
 // A step of the form 1, 2 or 5 times a power of ten that divides a range into at most `most` parts.
 double RoundStep(double range, int most);

@@ -64,7 +64,7 @@ void Panels::ShowInspector(std::size_t number)
         ImGui::TextUnformatted(robot->state.c_str());
         ImGui::PopStyleColor();
       }
-      if (!robot->text.empty()) ImGui::TextUnformatted(robot->text.c_str());
+      if (!robot->text.empty() && robot->text != robot->state) ImGui::TextUnformatted(robot->text.c_str());
     }
     else if (!body.GetConfiguration().controller.empty())
       ImGui::TextDisabled("controller %s", body.GetConfiguration().controller.c_str());
@@ -117,7 +117,7 @@ void Panels::ShowPose(std::uint32_t entity, const ValueGroup& group)
   for (const EntityValue& value : group.values) ShowValue(entity, group, value);
   if (!viewer_.CanControl() || !viewer_.Space().GetEntity(entity).IsMovable()) return;
   ImGui::PushID(static_cast<int>(entity));
-  if (ImGui::SmallButton("move ..."))
+  if (ImGui::Button("move ..."))
   {
     PoseEdit edit;
     for (std::size_t i = 0; i < 3; ++i)
@@ -128,7 +128,7 @@ void Panels::ShowPose(std::uint32_t entity, const ValueGroup& group)
     edits_[entity] = edit;
   }
   ImGui::SameLine();
-  if (ImGui::SmallButton("go there")) viewer_.Visit(entity);
+  if (ImGui::Button("go there")) viewer_.Visit(entity);
   ImGui::SameLine();
   bool follows = viewer_.follows && viewer_.shown.scene.selected == entity;
   if (ImGui::Checkbox("follow", &follows))
@@ -147,9 +147,9 @@ void Panels::ShowPoseEdit(std::uint32_t entity)
   ImGui::InputScalarN("m", ImGuiDataType_Double, edit.position.data(), 3, nullptr, nullptr, "%.3f");
   ImGui::SetNextItemWidth(-Scaled(60));
   ImGui::InputScalarN("degrees", ImGuiDataType_Double, edit.angles.data(), 3, nullptr, nullptr, "%.1f");
-  bool done = ImGui::SmallButton("cancel");
+  bool done = ImGui::Button("cancel");
   ImGui::SameLine();
-  if (ImGui::SmallButton("move there"))
+  if (ImGui::Button("move there"))
   {
     Pose pose;
     pose.position = Vector3(edit.position[0], edit.position[1], edit.position[2]);
@@ -224,7 +224,8 @@ void Panels::ShowBars(std::uint32_t entity, const ValueGroup& group)
   }
   const std::string range =
       fmt::format("{} values, {:.3g} to {:.3g} {}", group.values.size(), low, high, group.values.front().unit);
-  const double span = high > low ? high - low : 1;
+  const bool flat = high <= low;
+  const double span = flat ? 1 : high - low;
 
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 size(ImGui::GetContentRegionAvail().x, 2.6F * ImGui::GetTextLineHeight());
@@ -233,8 +234,9 @@ void Panels::ShowBars(std::uint32_t entity, const ValueGroup& group)
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(corner, ImVec2(corner.x + size.x, corner.y + size.y), theme::kChart, 3);
   const float step = size.x / static_cast<float>(group.values.size());
+  const double ceiling = flat ? low + span : high;
   const auto y_of = [&](double value)
-  { return corner.y + 3 + static_cast<float>((high - value) / span) * (size.y - 6); };
+  { return corner.y + 3 + static_cast<float>((ceiling - value) / span) * (size.y - 6); };
   std::optional<std::size_t> under;
   for (std::size_t i = 0; i < group.values.size(); ++i)
   {

@@ -29,6 +29,7 @@ void Panels::ShowPlots()
     std::vector<ValueName> closed;
     for (const std::string& unit : units)
     {
+      const bool plain = unit.empty() || unit == "colour" || unit == "entity" || unit == "yes/no";
       std::vector<Curve> curves;
       bool first = true;
       for (std::size_t i = 0; i < plots.size(); ++i)
@@ -36,25 +37,25 @@ void Panels::ShowPlots()
         if (plots[i].unit != unit) continue;
         const ImU32 colour = theme::CurveColour(i);
         curves.push_back({&plots[i].history, colour});
+        const std::string title = plain ? plots[i].title : plots[i].title + ", " + unit;
         if (!first)
         {
           ImGui::SameLine(0, Scaled(16));
-          const float wanted = ImGui::CalcTextSize(plots[i].title.c_str()).x + Scaled(30);
+          const float wanted = ImGui::CalcTextSize(title.c_str()).x + Scaled(30);
           if (ImGui::GetContentRegionAvail().x < wanted) ImGui::NewLine();
         }
         first = false;
         ImGui::PushID(static_cast<int>(i));
         ImGui::PushStyleColor(ImGuiCol_Text, colour);
-        ImGui::TextUnformatted(plots[i].title.c_str());
+        ImGui::TextUnformatted(title.c_str());
         ImGui::PopStyleColor();
         ImGui::SameLine(0, Scaled(4));
         if (ImGui::SmallButton("x")) closed.push_back(plots[i].value);
         ImGui::PopID();
       }
       const float room = units.size() == 1 ? ImGui::GetContentRegionAvail().y : chart;
-      const bool plain = unit == "colour" || unit == "entity" || unit == "yes/no";
-      ShowChart("chart " + unit, curves, plain ? "" : unit,
-                ImVec2(ImGui::GetContentRegionAvail().x, std::max(room, Scaled(70))), Scaled(1.6F));
+      ShowChart("chart " + unit, curves, ImVec2(ImGui::GetContentRegionAvail().x, std::max(room, Scaled(70))),
+                Scaled(1.6F));
     }
     for (const ValueName& value : closed) viewer_.SetPlotted(value, "", false);
   }
