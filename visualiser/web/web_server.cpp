@@ -369,7 +369,8 @@ WebServer::Impl::Impl(const WebServerSettings& settings, PageFiles files, WebSer
   if (!error) acceptor_.set_option(asio::socket_base::reuse_address(true), error);
   if (!error) acceptor_.bind({address, settings_.port}, error);
   if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
-  if (error) fail(error.message() + "; port 0 takes a free one");
+  if (error == asio::error::address_in_use) fail(error.message() + "; port 0 takes a free one");
+  if (error) fail(error.message());
 
   port_ = acceptor_.local_endpoint().port();
 
