@@ -98,8 +98,9 @@ const PluginLibrary& LoadPluginLibrary(const std::string& name, const std::vecto
   }
   // Kept under a name that no path has, so that the reference stays valid.
   PluginLibrary& missing = LoadedLibraries()["missing " + name];
-  missing.error =
-      "the library " + Quoted(name) + " is not found; searched:" + (searched.empty() ? " nowhere" : searched);
+  missing.error = "the library " + Quoted(name) +
+                  " is not found; build it, or name its folder in <controller_path> or " +
+                  "<plugin_path>; searched:" + (searched.empty() ? " nowhere" : searched);
   return missing;
 }
 

@@ -51,8 +51,9 @@ TEST(Libraries, LackingTheTagNamesThoseThatTheyHave)
 TEST(Libraries, MissingNamesThePathsSearched)
 {
   const std::string errors = ErrorsWith("x", "missing");
-  EXPECT_EQ(errors.find("f.xml:4:11: the library 'missing' is not found; searched:\n    " + kFolder +
-                        "/libmissing.so\n    " + kFolder + "/.libs/libmissing.so\n    " + kFolder +
+  EXPECT_EQ(errors.find("f.xml:4:11: the library 'missing' is not found; build it, or name its folder in "
+                        "<controller_path> or <plugin_path>; searched:\n    " +
+                        kFolder + "/libmissing.so\n    " + kFolder + "/.libs/libmissing.so\n    " + kFolder +
                         "/missing.so\n    " + kFolder + "/.libs/missing.so\n    /experiments/libmissing.so\n"),
             0U)
       << errors;

@@ -202,7 +202,7 @@ class RobotTest(unittest.TestCase):
         code, _, errors = self.run_it(experiment)
         self.assertEqual(code, 3)
         self.assertIn(f"{experiment}:4:", errors)
-        self.assertIn("the library 'nowhere' is not found; searched:", errors)
+        self.assertIn("the library 'nowhere' is not found; build it", errors)
         self.assertIn(str(self.folder / "libnowhere.so"), errors)
 
     def robot_file(self, drivers, controller="diffusion"):
