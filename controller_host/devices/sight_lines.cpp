@@ -66,8 +66,23 @@ std::span<const char> SightLines::Solve()
   return seen_;
 }
 
+void SightLines::FindBounds()
+{
+  left_ = right_ = back_ = front_ = lowest_ = highest_ = 0;
+  for (std::size_t i = 0; i < points_.count; ++i)
+  {
+    left_ = std::min(left_, points_.x[i]);
+    right_ = std::max(right_, points_.x[i]);
+    back_ = std::min(back_, points_.y[i]);
+    front_ = std::max(front_, points_.y[i]);
+    lowest_ = std::min(lowest_, points_.z[i]);
+    highest_ = std::max(highest_, points_.z[i]);
+  }
+}
+
 void SightLines::CollectBodies()
 {
+  FindBounds();
   boxes_.clear();
   tilted_.clear();
   foreign_.clear();
@@ -100,13 +115,7 @@ void SightLines::CollectBodies()
     discs = &discs_;
   }
 
-  float lowest = 0, highest = 0;
-  for (std::size_t i = 0; i < points_.count; ++i)
-  {
-    lowest = std::min(lowest, points_.z[i]);
-    highest = std::max(highest, points_.z[i]);
-  }
-  field_.Sort(*discs, static_cast<float>(eye_.z()), lowest, highest);
+  field_.Sort(*discs, static_cast<float>(eye_.z()), lowest_, highest_);
 }
 
 void SightLines::AddBody(std::uint32_t body, bool upright)
@@ -133,6 +142,10 @@ void SightLines::AddBox(std::uint32_t body)
   const double dx = poses.x[body] - eye_.x();
   const double dy = poses.y[body] - eye_.y();
   const double z = poses.z[body] - eye_.z();
+  const double reach = static_cast<double>(extent.radius) + 1e-4;
+  if (dx < static_cast<double>(left_) - reach || dx > static_cast<double>(right_) + reach ||
+      dy < static_cast<double>(back_) - reach || dy > static_cast<double>(front_) + reach)
+    return;
   Box box{};
   box.heading = HeadingOf(poses, body);
   box.x = static_cast<float>(-(box.heading.cos * dx + box.heading.sin * dy));

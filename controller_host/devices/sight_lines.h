@@ -54,6 +54,7 @@ private:
     std::int32_t entity;
   };
 
+  void FindBounds();
   void CollectBodies();
   void AddBody(std::uint32_t body, bool upright);
   void AddBox(std::uint32_t body);
@@ -74,6 +75,7 @@ private:
 
   NearBodies discs_;  // upright cylinders that hide things from the observer, where not all that are near do
   DiscField field_;
+  float left_ = 0, right_ = 0, back_ = 0, front_ = 0, lowest_ = 0, highest_ = 0;  // of the points and the eye
   std::vector<Box> boxes_;
   std::vector<std::uint32_t> tilted_;   // tested one by one
   std::vector<std::uint32_t> foreign_;  // hide only what shares an engine with them, tested one by one

@@ -1,4 +1,4 @@
-// A walled square arena with footbots at random places, for the benchmarks of sensors.
+// A walled square arena with robots of one kind at random places, for the benchmarks of devices.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,7 @@ using BenchParameters = std::vector<std::pair<std::string, std::string>>;
 class BenchWorld
 {
 public:
-  BenchWorld(int robots, double robots_per_square_metre)
+  BenchWorld(int robots, double robots_per_square_metre, EntityKind kind = EntityKind::kFootbot)
   {
     RegisterBuiltinDevices();
     const double side = std::sqrt(robots / robots_per_square_metre);
@@ -39,9 +39,11 @@ public:
     for (int n = 0; n < robots; ++n)
     {
       EntityConfiguration robot;
-      robot.kind = EntityKind::kFootbot;
+      robot.kind = kind;
       robot.id = "fb" + std::to_string(n);
       robot.size = {0.085036758, 0.085036758, 0.146899733};
+      if (kind == EntityKind::kHandbot) robot.size = {0.22, 0.17, 0.16};
+      if (kind == EntityKind::kEyebot) robot.size = {0.25, 0.25, 0.566};
       robot.movable = true;
       const double x = 0.2 + (n % per_side + 0.5) * pitch + random.Uniform(-shake, shake);
       const double y = 0.2 + (n / per_side + 0.5) * pitch + random.Uniform(-shake, shake);
