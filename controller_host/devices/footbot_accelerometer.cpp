@@ -6,32 +6,6 @@
 
 namespace swarmanoid
 {
-namespace
-{
-
-class Accelerometer : public CCI_FootBotAccelerometerSensor
-{
-public:
-  explicit Accelerometer(const double* values) : values_(values) {}
-  std::span<const double, 3> GetAllSensorReadings() const override { return std::span<const double, 3>(values_, 3); }
-
-private:
-  const double* values_;
-};
-
-class AccelerometerSensor : public SensorsOf<ChannelSensor, Accelerometer>
-{
-public:
-  void Init(const DeviceSetup& setup) override
-  {
-    Reset(setup, 3);
-    noise_ = NoiseFrom(setup.parameters);
-    MakeDevices();
-  }
-};
-
-}  // namespace
-
 void RegisterFootbotAccelerometer()
 {
   PluginDescription description;
@@ -42,7 +16,7 @@ void RegisterFootbotAccelerometer()
   description.channel = "footbot_accelerometer";
   description.channel_width = 3;
   description.parameters = NoiseParameters("each component", "m/s^2");
-  AddSensorPlugin<AccelerometerSensor>(description);
+  AddSensorPlugin<ChannelReadings<CCI_FootBotAccelerometerSensor, 3>>(description);
 }
 
 }  // namespace swarmanoid

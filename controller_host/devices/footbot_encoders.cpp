@@ -10,17 +10,7 @@ namespace swarmanoid
 namespace
 {
 
-class Encoders : public CCI_FootBotEncodersSensor
-{
-public:
-  explicit Encoders(const double* values) : values_(values) {}
-  std::span<const double, 2> GetAllSensorReadings() const override { return std::span<const double, 2>(values_, 2); }
-
-private:
-  const double* values_;
-};
-
-class EncodersSensor : public SensorsOf<ChannelSensor, Encoders>
+class EncodersSensor : public SensorsOf<ChannelSensor, ReadingsOf<CCI_FootBotEncodersSensor, 2>>
 {
 public:
   void Init(const DeviceSetup& setup) override

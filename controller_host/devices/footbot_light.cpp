@@ -18,18 +18,7 @@ namespace
 constexpr std::size_t kSensors = CCI_FootBotLightSensor::NUM_SENSORS;
 constexpr double kHeight = 0.06;  // m: on the ring of the proximity sensors
 
-class Light : public CCI_FootBotLightSensor
-{
-public:
-  explicit Light(const double* readings) : readings_(readings) {}
-  std::span<const double, NUM_SENSORS> GetAllSensorReadings() const override
-  {
-    return std::span<const double, NUM_SENSORS>(readings_, NUM_SENSORS);
-  }
-
-private:
-  const double* readings_;
-};
+using Light = ReadingsOf<CCI_FootBotLightSensor, kSensors>;
 
 class LightSensor : public SensorsOf<ValueSensor, Light>
 {

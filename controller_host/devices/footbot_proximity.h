@@ -9,23 +9,10 @@
 #include "controller_host/device.h"
 #include "controller_host/devices/noise.h"
 #include "controller_host/devices/sensor_world.h"
+#include "controller_host/devices/value_devices.h"
 
 namespace swarmanoid
 {
-
-// What a controller holds.
-class SimulatedFootbotProximity : public CCI_FootBotProximitySensor
-{
-public:
-  explicit SimulatedFootbotProximity(const double* readings) : readings_(readings) {}
-  std::span<const double, NUM_SENSORS> GetAllSensorReadings() const override
-  {
-    return std::span<const double, NUM_SENSORS>(readings_, NUM_SENSORS);
-  }
-
-private:
-  const double* readings_;
-};
 
 // Distances, and all but the response curve. Derived classes turn distances into readings.
 class FootbotProximity : public SensorBatch
@@ -71,7 +58,7 @@ private:
   bool touched_ = false;  // some ray of it hit something
   std::vector<double> readings_;
   std::vector<char> dirty_;  // readings of a robot that are not all 0
-  std::vector<SimulatedFootbotProximity> sensors_;
+  std::vector<ReadingsOf<CCI_FootBotProximitySensor, kRays>> sensors_;
 };
 
 // y = 1 below a contact distance, else a / (d + b): the curve that ARGoS3 fitted to the robot.

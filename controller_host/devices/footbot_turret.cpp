@@ -77,27 +77,6 @@ public:
   }
 };
 
-class TurretTorque : public CCI_FootBotTurretTorqueSensor
-{
-public:
-  explicit TurretTorque(const double* values) : values_(values) {}
-  std::span<const double, 3> GetAllSensorReadings() const override { return std::span<const double, 3>(values_, 3); }
-
-private:
-  const double* values_;
-};
-
-class TurretTorqueSensor : public SensorsOf<ChannelSensor, TurretTorque>
-{
-public:
-  void Init(const DeviceSetup& setup) override
-  {
-    Reset(setup, 3);
-    noise_ = NoiseFrom(setup.parameters);
-    MakeDevices();
-  }
-};
-
 }  // namespace
 
 void RegisterFootbotTurret()
@@ -128,7 +107,7 @@ void RegisterFootbotTurret()
   torque.channel = "footbot_turret_torque";
   torque.channel_width = 3;
   torque.parameters = NoiseParameters("each of the three readings", "");
-  AddSensorPlugin<TurretTorqueSensor>(torque);
+  AddSensorPlugin<ChannelReadings<CCI_FootBotTurretTorqueSensor, 3>>(torque);
 }
 
 }  // namespace swarmanoid

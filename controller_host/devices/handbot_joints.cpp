@@ -101,18 +101,7 @@ public:
   }
 };
 
-class Joints : public CCI_HandBotJointsSensor
-{
-public:
-  explicit Joints(const double* values) : values_(values) {}
-  std::span<const double, NUM_READINGS> GetAllSensorReadings() const override
-  {
-    return std::span<const double, NUM_READINGS>(values_, NUM_READINGS);
-  }
-
-private:
-  const double* values_;
-};
+using Joints = ReadingsOf<CCI_HandBotJointsSensor, CCI_HandBotJointsSensor::NUM_READINGS>;
 
 class JointsSensor : public SensorsOf<AttributeSensor, Joints>
 {

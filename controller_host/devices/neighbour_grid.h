@@ -2,6 +2,11 @@
 // Movable bodies are counting-sorted by cell; the others are listed once in every cell that they come near. Searches
 // may report bodies that are a little too far (single precision with a margin); the exact test is the caller's. Steady
 // running allocates nothing.
+//
+// GridIndex (common/space/index) is a flat grid too, for other questions: it finds the origins of all entities,
+// exactly, in entity order, behind an interface that an oct-tree serves as well. What sensors ask of theirs would cost
+// it its speed or these promises: bodies by their outlines, eight at a time, in the order of the cells so that
+// neighbours stay in the cache. A search of 3 m among one body a square metre takes 80 ns here and 620 ns there.
 #pragma once
 
 #include <algorithm>

@@ -106,6 +106,21 @@ private:
   std::vector<std::uint32_t> slots_;
 };
 
+// What a controller holds of a sensor whose interface is one group of COUNT numbers.
+template <class Interface, std::size_t COUNT>
+class ReadingsOf : public Interface
+{
+public:
+  explicit ReadingsOf(const double* values) : values_(values) {}
+  std::span<const double, COUNT> GetAllSensorReadings() const override
+  {
+    return std::span<const double, COUNT>(values_, COUNT);
+  }
+
+private:
+  const double* values_;
+};
+
 // Actuator batches and sensor batches of one kind of object, made from the numbers of a robot.
 template <class Base, class Device>
 class ActuatorsOf : public Base
@@ -137,6 +152,19 @@ protected:
     for (std::size_t k = 0; k < this->robots_.size(); ++k) devices_.emplace_back(this->ValuesOf(k));
   }
   std::vector<Device> devices_;
+};
+
+// A specific sensor that hands on the COUNT numbers of its channel.
+template <class Interface, std::size_t COUNT>
+class ChannelReadings : public SensorsOf<ChannelSensor, ReadingsOf<Interface, COUNT>>
+{
+public:
+  void Init(const DeviceSetup& setup) override
+  {
+    this->Reset(setup, COUNT);
+    this->noise_ = NoiseFrom(setup.parameters);
+    this->MakeDevices();
+  }
 };
 
 }  // namespace swarmanoid

@@ -7,9 +7,7 @@ void CCI_EyeBotState::Init()
 {
   InitCommon();
   devices_.altitude = FindSensor<CCI_EyeBotAltitudeSensor>("eyebot_altitude");
-  devices_.camera = FindSensor<CCI_ColourBlobSensor>("eyebot_camera");
   devices_.propellers = FindActuator<CCI_EyeBotPropellersActuator>("eyebot_propellers");
-  devices_.leds = FindActuator<CCI_EyeBotLedsActuator>("eyebot_leds");
   devices_.laser = FindActuator<CCI_EyeBotLaserActuator>("eyebot_laser");
   devices_.attachment = FindActuator<CCI_EyeBotAttachmentActuator>("eyebot_attachment");
 }
@@ -18,9 +16,6 @@ void CCI_EyeBotState::ReadSensors()
 {
   ReadCommonSensors();
   if (devices_.altitude != nullptr) altitude_ = devices_.altitude->GetAltitude();
-  if (devices_.camera == nullptr) return;
-  const auto blobs = devices_.camera->GetAllBlobs();
-  blobs_.assign(blobs.begin(), blobs.end());
 }
 
 void CCI_EyeBotState::WriteActuators()
@@ -28,11 +23,6 @@ void CCI_EyeBotState::WriteActuators()
   WriteCommonActuators();
   velocity_.Flush([this](const auto& v) { devices_.propellers->SetVelocity(v[0], v[1], v[2], v[3]); });
   position_.Flush([this](const auto& p) { devices_.propellers->SetPosition({p[0], p[1], p[2]}, p[3]); });
-  leds_.Flush(
-      [this](const auto& colours)
-      {
-        for (unsigned led = 0; led < NUM_LEDS; ++led) devices_.leds->SetColour(led, colours[led]);
-      });
   laser_.Flush(
       [this](const Laser& laser)
       {
@@ -49,17 +39,6 @@ double CCI_EyeBotState::GetAltitude() const
   return altitude_;
 }
 
-const std::vector<CCI_ColourBlob>& CCI_EyeBotState::GetColourBlobs() const
-{
-  RequireSensor(devices_.camera, "eyebot_camera");
-  return blobs_;
-}
-
-const CCI_ColourBlob* CCI_EyeBotState::GetNearestColourBlob(std::uint32_t colour) const
-{
-  return CCI_ColourBlobSensor::FindNearest(GetColourBlobs(), colour);
-}
-
 void CCI_EyeBotState::SetVelocity(double forward, double left, double up, double yaw_rate)
 {
   RequireActuator(devices_.propellers, "eyebot_propellers");
@@ -72,22 +51,6 @@ void CCI_EyeBotState::SetPosition(const Vector3& position, double yaw)
   RequireActuator(devices_.propellers, "eyebot_propellers");
   position_.Set({position.x(), position.y(), position.z(), yaw});
   velocity_.Forget();
-}
-
-void CCI_EyeBotState::SetAllLedColours(std::uint32_t colour)
-{
-  RequireActuator(devices_.leds, "eyebot_leds");
-  std::array<std::uint32_t, NUM_LEDS> colours{};
-  colours.fill(colour);
-  leds_.Set(colours);
-}
-
-void CCI_EyeBotState::SetLedColour(unsigned led, std::uint32_t colour)
-{
-  RequireActuator(devices_.leds, "eyebot_leds");
-  auto colours = leds_.Get();
-  colours.at(led) = colour;
-  leds_.Set(colours);
 }
 
 void CCI_EyeBotState::SwitchLaserOn(std::uint32_t colour)

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "common/control_interface/behavior/ci_robot_state.h"
+#include "common/control_interface/behavior/ci_seeing_robot_state.h"
 #include "common/control_interface/eyebot/ci_eyebot_altitude_sensor.h"
 #include "common/control_interface/eyebot/ci_eyebot_attachment_actuator.h"
 #include "common/control_interface/eyebot/ci_eyebot_camera_sensor.h"
@@ -16,12 +16,10 @@
 namespace swarmanoid
 {
 
-class CCI_EyeBotState : public CCI_RobotState
+class CCI_EyeBotState : public CCI_SeeingRobotState<CCI_EyeBotLedsActuator>
 {
 public:
-  static constexpr unsigned NUM_LEDS = CCI_EyeBotLedsActuator::NUM_LEDS;
-
-  explicit CCI_EyeBotState(CCI_Robot* robot) : CCI_RobotState(robot) {}
+  explicit CCI_EyeBotState(CCI_Robot* robot) : CCI_SeeingRobotState(robot, "eyebot_camera", "eyebot_leds") {}
 
   // Looks up the devices that the controller lists. Once, before the first tick.
   void Init();
@@ -31,17 +29,12 @@ public:
 
   // Sensors. Angles in radians counter-clockwise from the front, distances in metres.
   double GetAltitude() const;
-  const std::vector<CCI_ColourBlob>& GetColourBlobs() const;
-  // The nearest blob of that hue, nullptr where none is in view.
-  const CCI_ColourBlob* GetNearestColourBlob(std::uint32_t colour) const;
 
   // Actuators.
   void SetVelocity(double forward, double left, double up, double yaw_rate);  // m/s in the robot's frame, rad/s
   const std::array<double, 4>& GetVelocity() const { return velocity_.Get(); }
   // Flies there and hovers, as CCI_EyeBotPropellersActuator; of velocity and position the one set later counts.
   void SetPosition(const Vector3& position, double yaw);
-  void SetAllLedColours(std::uint32_t colour);
-  void SetLedColour(unsigned led, std::uint32_t colour);
   void SwitchLaserOn(std::uint32_t colour);
   void SwitchLaserOff();
   bool IsLaserOn() const { return laser_.Get().on; }
@@ -53,9 +46,7 @@ private:
   struct Devices
   {
     CCI_EyeBotAltitudeSensor* altitude = nullptr;
-    CCI_ColourBlobSensor* camera = nullptr;
     CCI_EyeBotPropellersActuator* propellers = nullptr;
-    CCI_EyeBotLedsActuator* leds = nullptr;
     CCI_EyeBotLaserActuator* laser = nullptr;
     CCI_EyeBotAttachmentActuator* attachment = nullptr;
   };
@@ -70,11 +61,9 @@ private:
   Devices devices_;
 
   double altitude_ = 0;
-  std::vector<CCI_ColourBlob> blobs_;
 
   PendingValue<std::array<double, 4>> velocity_;
   PendingValue<std::array<double, 4>> position_;  // x, y, z, yaw
-  PendingValue<std::array<std::uint32_t, NUM_LEDS>> leds_;
   PendingValue<Laser> laser_;
   PendingValue<bool> attached_;
 };

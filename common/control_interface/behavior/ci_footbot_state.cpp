@@ -19,7 +19,6 @@ void CCI_FootBotState::Init()
   devices_.proximity = FindSensor<CCI_FootBotProximitySensor>("footbot_proximity");
   devices_.light = FindSensor<CCI_FootBotLightSensor>("footbot_light");
   devices_.ground = FindSensor<CCI_FootBotGroundSensor>("footbot_ground");
-  devices_.camera = FindSensor<CCI_ColourBlobSensor>("footbot_omnidirectional_camera");
   devices_.gripper_sensor = FindSensor<CCI_FootBotGripperSensor>("footbot_gripper");
   devices_.turret_encoder = FindSensor<CCI_FootBotTurretEncoderSensor>("footbot_turret_encoder");
   devices_.turret_torque = FindSensor<CCI_FootBotTurretTorqueSensor>("footbot_turret_torque");
@@ -29,7 +28,6 @@ void CCI_FootBotState::Init()
   devices_.wheels = FindActuator<CCI_FootBotWheelsActuator>("footbot_wheels");
   devices_.gripper = FindActuator<CCI_FootBotGripperActuator>("footbot_gripper");
   devices_.turret = FindActuator<CCI_FootBotTurretActuator>("footbot_turret");
-  devices_.leds = FindActuator<CCI_FootBotLedsActuator>("footbot_leds");
   devices_.beacon = FindActuator<CCI_FootBotBeaconActuator>("footbot_beacon");
   devices_.direction = FindActuator<CCI_FootBotPreferentialDirectionActuator>("footbot_preferential_direction");
 }
@@ -44,11 +42,6 @@ void CCI_FootBotState::ReadSensors()
   {
     copy(devices_.ground->GetAllSensorReadings(), ground_);
     floor_colour_ = devices_.ground->GetFloorColour();
-  }
-  if (devices_.camera != nullptr)
-  {
-    const auto blobs = devices_.camera->GetAllBlobs();
-    blobs_.assign(blobs.begin(), blobs.end());
   }
   if (devices_.gripper_sensor != nullptr)
   {
@@ -76,11 +69,6 @@ void CCI_FootBotState::WriteActuators()
   wheels_.Flush([this](const auto& v) { devices_.wheels->SetFootBotWheelsAngularVelocity(v[0], v[1]); });
   gripper_.Flush([this](double closed) { devices_.gripper->SetGripper(closed); });
   turret_.Flush([this](double velocity) { devices_.turret->SetTurretAngularVelocity(velocity); });
-  leds_.Flush(
-      [this](const auto& colours)
-      {
-        for (unsigned led = 0; led < NUM_LEDS; ++led) devices_.leds->SetColour(led, colours[led]);
-      });
   beacon_.Flush([this](std::uint32_t colour) { devices_.beacon->SetColour(colour); });
   direction_.Flush(
       [this](const Direction& direction)
@@ -118,17 +106,6 @@ std::uint32_t CCI_FootBotState::GetFloorColour() const
 {
   RequireSensor(devices_.ground, "footbot_ground");
   return floor_colour_;
-}
-
-const std::vector<CCI_ColourBlob>& CCI_FootBotState::GetColourBlobs() const
-{
-  RequireSensor(devices_.camera, "footbot_omnidirectional_camera");
-  return blobs_;
-}
-
-const CCI_ColourBlob* CCI_FootBotState::GetNearestColourBlob(std::uint32_t colour) const
-{
-  return CCI_ColourBlobSensor::FindNearest(GetColourBlobs(), colour);
 }
 
 unsigned CCI_FootBotState::GetNumPieCameraSectors() const
@@ -213,22 +190,6 @@ void CCI_FootBotState::SetTurretAngularVelocity(double velocity)
 {
   RequireActuator(devices_.turret, "footbot_turret");
   turret_.Set(velocity);
-}
-
-void CCI_FootBotState::SetAllLedColours(std::uint32_t colour)
-{
-  RequireActuator(devices_.leds, "footbot_leds");
-  std::array<std::uint32_t, NUM_LEDS> colours{};
-  colours.fill(colour);
-  leds_.Set(colours);
-}
-
-void CCI_FootBotState::SetLedColour(unsigned led, std::uint32_t colour)
-{
-  RequireActuator(devices_.leds, "footbot_leds");
-  auto colours = leds_.Get();
-  colours.at(led) = colour;
-  leds_.Set(colours);
 }
 
 void CCI_FootBotState::SetBeaconColour(std::uint32_t colour)

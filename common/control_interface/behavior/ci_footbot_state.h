@@ -5,8 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "common/control_interface/behavior/ci_robot_state.h"
-#include "common/control_interface/ci_colour_blob_sensor.h"
+#include "common/control_interface/behavior/ci_seeing_robot_state.h"
 #include "common/control_interface/ci_pie_camera_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_accelerometer_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_beacon_actuator.h"
@@ -27,15 +26,17 @@
 namespace swarmanoid
 {
 
-class CCI_FootBotState : public CCI_RobotState
+class CCI_FootBotState : public CCI_SeeingRobotState<CCI_FootBotLedsActuator>
 {
 public:
   static constexpr unsigned NUM_PROXIMITY_SENSORS = CCI_FootBotProximitySensor::NUM_SENSORS;
   static constexpr unsigned NUM_LIGHT_SENSORS = CCI_FootBotLightSensor::NUM_SENSORS;
   static constexpr unsigned NUM_GROUND_SENSORS = CCI_FootBotGroundSensor::NUM_SENSORS;
-  static constexpr unsigned NUM_LEDS = CCI_FootBotLedsActuator::NUM_LEDS;
 
-  explicit CCI_FootBotState(CCI_Robot* robot) : CCI_RobotState(robot) {}
+  explicit CCI_FootBotState(CCI_Robot* robot)
+      : CCI_SeeingRobotState(robot, "footbot_omnidirectional_camera", "footbot_leds")
+  {
+  }
 
   // Looks up the devices that the controller lists. Once, before the first tick.
   void Init();
@@ -51,9 +52,6 @@ public:
   static double GetLightSensorAngle(unsigned sensor) { return CCI_FootBotLightSensor::AngleOf(sensor); }
   void GetAllGroundSensorReadings(double* readings) const;  // NUM_GROUND_SENSORS values, 0..1
   std::uint32_t GetFloorColour() const;                     // 0xRRGGBB under the centre
-  const std::vector<CCI_ColourBlob>& GetColourBlobs() const;
-  // The nearest blob of that hue, nullptr where none is in view.
-  const CCI_ColourBlob* GetNearestColourBlob(std::uint32_t colour) const;
   // As CCI_PieCameraSensor; the colour is one of CCI_Colour other than black.
   unsigned GetNumPieCameraSectors() const;
   const CCI_PieCameraSensor::Slice& GetPieCameraSlice(std::uint32_t colour, unsigned sector) const;
@@ -72,9 +70,6 @@ public:
   void SetGripper(double closed);  // 0 open .. 1 closed
   double GetGripper() const { return gripper_.Get(); }
   void SetTurretAngularVelocity(double velocity);  // rad/s
-  void SetAllLedColours(std::uint32_t colour);
-  void SetLedColour(unsigned led, std::uint32_t colour);
-  std::uint32_t GetLedColour(unsigned led) const { return leds_.Get().at(led); }
   void SetBeaconColour(std::uint32_t colour);
   void ShowDirection(double angle, std::uint32_t colour);  // on the LED ring
   void HideDirection();
@@ -85,7 +80,6 @@ private:
     CCI_FootBotProximitySensor* proximity = nullptr;
     CCI_FootBotLightSensor* light = nullptr;
     CCI_FootBotGroundSensor* ground = nullptr;
-    CCI_ColourBlobSensor* camera = nullptr;
     CCI_FootBotGripperSensor* gripper_sensor = nullptr;
     CCI_FootBotTurretEncoderSensor* turret_encoder = nullptr;
     CCI_FootBotTurretTorqueSensor* turret_torque = nullptr;
@@ -95,7 +89,6 @@ private:
     CCI_FootBotWheelsActuator* wheels = nullptr;
     CCI_FootBotGripperActuator* gripper = nullptr;
     CCI_FootBotTurretActuator* turret = nullptr;
-    CCI_FootBotLedsActuator* leds = nullptr;
     CCI_FootBotBeaconActuator* beacon = nullptr;
     CCI_FootBotPreferentialDirectionActuator* direction = nullptr;
   };
@@ -112,7 +105,6 @@ private:
   std::array<double, NUM_LIGHT_SENSORS> light_{};
   std::array<double, NUM_GROUND_SENSORS> ground_{};
   std::uint32_t floor_colour_ = 0;
-  std::vector<CCI_ColourBlob> blobs_;
   bool gripping_ = false;
   double aperture_ = 0;
   double turret_angle_ = 0;
@@ -125,7 +117,6 @@ private:
   PendingValue<std::array<double, 2>> wheels_;
   PendingValue<double> gripper_;
   PendingValue<double> turret_;
-  PendingValue<std::array<std::uint32_t, NUM_LEDS>> leds_;
   PendingValue<std::uint32_t> beacon_;
   PendingValue<Direction> direction_;
 };

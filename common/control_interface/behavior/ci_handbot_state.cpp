@@ -9,12 +9,10 @@ void CCI_HandBotState::Init()
 {
   InitCommon();
   devices_.joints = FindSensor<CCI_HandBotJointsSensor>("handbot_joints");
-  devices_.camera = FindSensor<CCI_ColourBlobSensor>("handbot_camera");
   devices_.arms = FindActuator<CCI_HandBotArmsActuator>("handbot_arms");
   devices_.head = FindActuator<CCI_HandBotHeadActuator>("handbot_head");
   devices_.hands = FindActuator<CCI_HandBotHandsActuator>("handbot_hands");
   devices_.rope = FindActuator<CCI_HandBotRopeActuator>("handbot_rope");
-  devices_.leds = FindActuator<CCI_HandBotLedsActuator>("handbot_leds");
   devices_.beacon = FindActuator<CCI_HandBotBeaconActuator>("handbot_beacon");
 }
 
@@ -26,9 +24,6 @@ void CCI_HandBotState::ReadSensors()
     const auto readings = devices_.joints->GetAllSensorReadings();
     std::copy(readings.begin(), readings.end(), joints_.begin());
   }
-  if (devices_.camera == nullptr) return;
-  const auto blobs = devices_.camera->GetAllBlobs();
-  blobs_.assign(blobs.begin(), blobs.end());
 }
 
 void CCI_HandBotState::WriteActuators()
@@ -41,7 +36,6 @@ void CCI_HandBotState::WriteActuators()
     hands_closed_[hand].Flush([&](bool closed) { closed ? devices_.hands->Close(hand) : devices_.hands->Open(hand); });
   rope_launched_.Flush([this](bool launched) { launched ? devices_.rope->Launch() : devices_.rope->Release(); });
   winch_.Flush([this](double v) { devices_.rope->SetWinchVelocity(v); });
-  leds_.Flush([this](std::uint32_t colour) { devices_.leds->SetAllColours(colour); });
   beacon_.Flush([this](std::uint32_t colour) { devices_.beacon->SetColour(colour); });
 }
 
@@ -55,17 +49,6 @@ bool CCI_HandBotState::IsHolding(CCI_HandBotHandsActuator::Hand hand) const
 {
   return GetJoint(hand == CCI_HandBotHandsActuator::LEFT ? CCI_HandBotJointsSensor::HOLDS_LEFT
                                                          : CCI_HandBotJointsSensor::HOLDS_RIGHT) != 0;
-}
-
-const std::vector<CCI_ColourBlob>& CCI_HandBotState::GetColourBlobs() const
-{
-  RequireSensor(devices_.camera, "handbot_camera");
-  return blobs_;
-}
-
-const CCI_ColourBlob* CCI_HandBotState::GetNearestColourBlob(std::uint32_t colour) const
-{
-  return CCI_ColourBlobSensor::FindNearest(GetColourBlobs(), colour);
 }
 
 void CCI_HandBotState::SetArmVelocities(double left, double right)
@@ -114,12 +97,6 @@ void CCI_HandBotState::SetWinchVelocity(double velocity)
 {
   RequireActuator(devices_.rope, "handbot_rope");
   winch_.Set(velocity);
-}
-
-void CCI_HandBotState::SetAllLedColours(std::uint32_t colour)
-{
-  RequireActuator(devices_.leds, "handbot_leds");
-  leds_.Set(colour);
 }
 
 void CCI_HandBotState::SetBeaconColour(std::uint32_t colour)

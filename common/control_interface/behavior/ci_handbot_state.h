@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "common/control_interface/behavior/ci_robot_state.h"
+#include "common/control_interface/behavior/ci_seeing_robot_state.h"
 #include "common/control_interface/handbot/ci_handbot_arms_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_beacon_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_camera_sensor.h"
@@ -18,12 +18,10 @@
 namespace swarmanoid
 {
 
-class CCI_HandBotState : public CCI_RobotState
+class CCI_HandBotState : public CCI_SeeingRobotState<CCI_HandBotLedsActuator>
 {
 public:
-  static constexpr unsigned NUM_LEDS = CCI_HandBotLedsActuator::NUM_LEDS;
-
-  explicit CCI_HandBotState(CCI_Robot* robot) : CCI_RobotState(robot) {}
+  explicit CCI_HandBotState(CCI_Robot* robot) : CCI_SeeingRobotState(robot, "handbot_camera", "handbot_leds") {}
 
   // Looks up the devices that the controller lists. Once, before the first tick.
   void Init();
@@ -31,11 +29,9 @@ public:
   void ReadSensors();
   void WriteActuators();
 
-  // Sensors: joints as in CCI_HandBotJointsSensor (radians, metres), blobs of the head camera.
+  // Sensors: joints as in CCI_HandBotJointsSensor (radians, metres).
   double GetJoint(CCI_HandBotJointsSensor::Reading joint) const;
   bool IsHolding(CCI_HandBotHandsActuator::Hand hand) const;
-  const std::vector<CCI_ColourBlob>& GetColourBlobs() const;
-  const CCI_ColourBlob* GetNearestColourBlob(std::uint32_t colour) const;
 
   // Actuators. Velocities in rad/s and m/s.
   void SetArmVelocities(double left, double right);
@@ -46,26 +42,22 @@ public:
   void LaunchRope();
   void ReleaseRope();
   void SetWinchVelocity(double velocity);  // of rope let out; negative pulls the robot up
-  void SetAllLedColours(std::uint32_t colour);
   void SetBeaconColour(std::uint32_t colour);
 
 private:
   struct Devices
   {
     CCI_HandBotJointsSensor* joints = nullptr;
-    CCI_ColourBlobSensor* camera = nullptr;
     CCI_HandBotArmsActuator* arms = nullptr;
     CCI_HandBotHeadActuator* head = nullptr;
     CCI_HandBotHandsActuator* hands = nullptr;
     CCI_HandBotRopeActuator* rope = nullptr;
-    CCI_HandBotLedsActuator* leds = nullptr;
     CCI_HandBotBeaconActuator* beacon = nullptr;
   };
 
   Devices devices_;
 
   std::array<double, CCI_HandBotJointsSensor::NUM_READINGS> joints_{};
-  std::vector<CCI_ColourBlob> blobs_;
 
   PendingValue<std::array<double, 2>> arms_;
   PendingValue<std::array<double, 2>> wrists_;
@@ -73,7 +65,6 @@ private:
   std::array<PendingValue<bool>, 2> hands_closed_;
   PendingValue<bool> rope_launched_;
   PendingValue<double> winch_;
-  PendingValue<std::uint32_t> leds_;
   PendingValue<std::uint32_t> beacon_;
 };
 
