@@ -215,7 +215,11 @@ void Supervisor::JudgeEnd(const ClusterMember& member)
     return;
   }
   if (!end.Clean() || (is_server && !outcome_.finished)) return Suspect(member, times_.settle);
-  if (!outcome_.finished) Suspect(member, times_.early_end);
+  if (outcome_.finished) return;
+  // The run's last word comes after the last picture.
+  const bool draws = std::any_of(members_.begin(), members_.end(),
+                                 [](const auto& other) { return other->Plan().visualiser && other->Alive(); });
+  Suspect(member, draws ? times_.last_picture : times_.early_end);
 }
 
 void Supervisor::Suspect(const ClusterMember& member, std::chrono::milliseconds patience)

@@ -45,6 +45,7 @@ struct SupervisorTimes
   std::chrono::milliseconds stall{2000};               // silence of the space server that is worth a word
   std::chrono::milliseconds terminate{400};            // between SIGTERM and SIGKILL after a failure
   std::chrono::milliseconds early_end{1000};           // between a process's good end and the run's last word
+  std::chrono::milliseconds last_picture{15000};       // the same while visualisers of the experiment live
   std::chrono::milliseconds settle{200};               // between a bad end and the verdict on whose fault it is
   std::chrono::milliseconds finish{3000};              // for processes to end after the last tick
   std::chrono::milliseconds finish_visualiser{60000};  // visualisers may have films to finish

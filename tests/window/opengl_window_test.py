@@ -206,6 +206,39 @@ class Window(LauncherTest):
         self.assertEqual(self.run_it("control", "window_test", "stop").process.returncode, 0)
         self.assertEqual(run.wait(20), 0, run.stderr)
 
+    def test_the_listing_of_the_documentation_runs(self):
+        listing = """<visualisations>
+  <text_render id="text_world">
+    <file>experiment_output.txt</file>
+    <precision>2</precision>
+  </text_render>
+  <opengl_render id="mainwindow">
+    <window_size>1024, 768</window_size>
+    <window_title>Sample Experiment</window_title>
+    <camera_view_XYZ_0>3.30811, 3.36071, 1.0</camera_view_XYZ_0>
+    <camera_view_HPR_0>39, -34, 0</camera_view_HPR_0>
+    <camera_view_XYZ_1>6.2875, 3.33551, 1.25</camera_view_XYZ_1>
+    <camera_view_HPR_1>125, -21.5, 0</camera_view_HPR_1>
+    <camera_view_XYZ_2>7.05332, 6.88148, 0.83</camera_view_XYZ_2>
+    <camera_view_HPR_2>-155, 0, 0</camera_view_HPR_2>
+    <use_textures>true</use_textures>
+    <write_frames>false</write_frames>
+    <frame_directory>Movies</frame_directory>
+    <frame_filename>frame</frame_filename>
+  </opengl_render>
+</visualisations>"""
+        path = self.folder / "listing.xml"
+        text = (CONFIGS / "diffusion_10.xml").read_text()
+        path.write_text(re.sub(r"<visualisations>.*</visualisations>", "", text, flags=re.S)
+                        .replace("</ahss-config>", listing + "</ahss-config>"))
+        run = self.start("run", path, "--quiet", "--output", "out", "--ticks", 0, environment=self.display.environment)
+        window = self.display.window("Sample Experiment", run=run)
+        self.display.key("ctrl+1", "ctrl+shift+9")
+        self.wait_for_log("viewpoint 9 stored", run)
+        self.close(run, window)
+        self.assertEqual(XML.findall(run.stdout), [("9", "6.2875, 3.33551, 1.25", "125, -21.5, 0")])
+        self.assertFalse((self.folder / "out" / "Movies").exists())
+
     def test_without_a_display_it_says_what_to_do(self):
         environment = {"DISPLAY": ""}
         for way in ((), ("--single-process",)):

@@ -185,6 +185,14 @@ TEST_F(SupervisorTest, AWorkerThatEndsEarlyFailed)
       << outcome.reason;
 }
 
+TEST_F(SupervisorTest, WorkersMayEndBeforeTheLastPictureIsDrawn)
+{
+  AddServer("echo state running; sleep 0.5; echo finished 5 2 00000000000000ff 0.2 2.5");
+  Add("engine_worker ground", "exit 0");
+  Add("visualiser", "exec sleep 0.4");
+  EXPECT_EQ(Run().kind, ClusterOutcome::kFinished);
+}
+
 TEST_F(SupervisorTest, BlamesTheOneThatTheServerAccuses)
 {
   AddServer("echo state running; sleep 0.1; echo \"error engine 'ground': division by zero\"; exit 4");
