@@ -14,6 +14,7 @@
 #include <iterator>
 
 #include "common/math/random.h"
+#include "common/space/query.h"
 
 namespace swarmanoid
 {
@@ -252,6 +253,68 @@ TEST(RoughTerrain, RefusesNumbersThatMakeNone)
   EXPECT_THROW(WriteRoughTerrain("never.bt", numbers), std::invalid_argument);
   numbers.resolution = 0.1;
   EXPECT_THROW(WriteRoughTerrain("/nowhere/never.bt", numbers), std::runtime_error);
+}
+
+// A wall of cells of 0.1 m, 0.2 m thick at x = 2, from y = 0 to 2 and up to 0.5 m; .ot with probabilities, .bt without.
+void WriteWall(const std::string& path)
+{
+  octomap::OcTree map(0.1);
+  for (int x = 20; x < 22; ++x)
+    for (int y = 0; y < 20; ++y)
+      for (int z = 0; z < 5; ++z)
+        for (int seen = 0; seen <= z; ++seen)
+          map.updateNode(octomap::point3d(static_cast<float>((x + 0.5) * 0.1), static_cast<float>((y + 0.5) * 0.1),
+                                          static_cast<float>((z + 0.5) * 0.1)),
+                         true);
+  if (path.ends_with(".ot"))
+    map.write(path);
+  else
+    map.writeBinary(path);
+}
+
+TEST(VoxelTerrain, BothKindsOfOctoMapFilesHoldTheSameGround)
+{
+  TemporaryFile binary("wall.bt"), full("wall.ot");
+  WriteWall(binary.Path());
+  WriteWall(full.Path());
+  const VoxelTerrain a(binary.Path()), b(full.Path());
+  EXPECT_EQ(a.Low(), b.Low());
+  EXPECT_EQ(a.High(), b.High());
+  RandomStream random(8, 0, 0, 0);
+  for (int k = 0; k < 2000; ++k)
+  {
+    const Vector3 point(random.Uniform(1.5, 2.5), random.Uniform(-0.5, 2.5), random.Uniform(-0.2, 0.7));
+    ASSERT_EQ(a.IsSolid(point), b.IsSolid(point)) << point.transpose();
+  }
+}
+
+TEST(VoxelTerrain, OccludesInItsOwnWorldAlone)
+{
+  TemporaryFile file("hides.bt");
+  WriteWall(file.Path());
+  Experiment experiment;
+  experiment.arena_size = {4, 2, 1};
+  auto map = std::make_shared<ConfigurationNode>();
+  map->name = "octomap";
+  map->attributes.push_back({"file", file.Path(), {}});
+  auto element = std::make_shared<ConfigurationNode>();
+  element->children.push_back(map);
+  experiment.entities.resize(3);
+  for (std::size_t k = 0; k < 3; ++k) experiment.entities[k].id = "e" + std::to_string(k);
+  experiment.entities[0].kind = EntityKind::kTerrain;
+  experiment.entities[0].tree = TConfigurationTree(element);
+  experiment.entities[1].kind = experiment.entities[2].kind = EntityKind::kLightBulb;
+  experiment.engines.resize(2);
+  experiment.engines[0].entities = {0, 1};
+  experiment.engines[1].entities = {2};
+  const CSwarmanoidSpace space(experiment);
+  SpaceQuery query(space);
+  const auto hit = query.FindFirstHit({1, 1, 0.25}, {3, 1, 0.25}, 1, {});
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit->entity, 0U);
+  EXPECT_NEAR(hit->fraction, 0.5, 1e-9);
+  EXPECT_FALSE(query.FindFirstHit({1, 1, 0.55}, {3, 1, 0.55}, 1, {})) << "above the wall";
+  EXPECT_FALSE(query.FindFirstHit({1, 1, 0.25}, {3, 1, 0.25}, 2, {})) << "not of the observer's world";
 }
 
 }  // namespace
