@@ -26,19 +26,26 @@ public:
   // Whether to draw between ticks.
   bool AtIdle(double now) const
   {
-    const bool wanted = stale_ || now < active_until_ || now >= last_ + kResting;
+    const bool wanted = stale_ || frames_wanted_ > 0 || now < active_until_ || now >= last_ + kResting;
     return wanted && now >= last_ + period_;
   }
   // Somebody moved the mouse or pressed a key: panels and camera follow for a while.
-  void Activity(double now) { active_until_ = now + kActive; }
+  void Activity(double now)
+  {
+    active_until_ = now + kActive;
+    frames_wanted_ = kFramesOfAnEvent;
+  }
   void Drawn(double now)
   {
     last_ = now;
     stale_ = false;
+    if (frames_wanted_ > 0) --frames_wanted_;
   }
 
 private:
   static constexpr double kActive = 0.4;
+  // However slow pictures are: a panel takes a click over several of them.
+  static constexpr int kFramesOfAnEvent = 4;
   static constexpr double kResting = 1;  // the panels show the state of the run anew
 
   std::uint64_t every_;
@@ -47,6 +54,7 @@ private:
   std::uint64_t next_ = 0;
   double last_ = -1e9;
   double active_until_ = -1e9;
+  int frames_wanted_ = 0;
   bool stale_ = true;
 };
 
