@@ -182,6 +182,7 @@ const ControlCommands& ControllerHost::Step(std::span<const SensorFrame* const> 
 
   for (Robot& robot : robots_)
   {
+    if (!space_.IsPresent(robot.entity)) continue;
     robot.interface->BeginStep(tick, space_.GetTickSeconds(),
                                RandomStream(seed, robot.entity, kControllerStream, static_cast<std::uint32_t>(tick)));
     running_robot_ = robot.interface->GetId().c_str();
@@ -201,6 +202,7 @@ const ControlCommands& ControllerHost::Step(std::span<const SensorFrame* const> 
   commands_.attributes.Clear();
   for (Batches::Actuator& actuator : batches_->actuators)
     actuator.batch->Commit({commands_.values, actuator.slice.offsets, actuator.slice.width}, commands_.attributes);
+  StillAbsent();
   return commands_;
 }
 
@@ -232,6 +234,16 @@ bool ControllerHost::Describe(std::uint32_t entity, RobotStatus& status) const
     robot.interface->GetActuator(device.type)->Describe(status.actuators.back().readings);
   }
   return true;
+}
+
+// Robots that are not in the arena do nothing, whatever they were told last.
+void ControllerHost::StillAbsent()
+{
+  for (const ChannelBlock& block : layout_.commands)
+    for (std::size_t k = 0; k < block.entities.size(); ++k)
+      if (!space_.IsPresent(block.entities[k]))
+        std::fill_n(commands_.values.begin() + static_cast<std::ptrdiff_t>(block.offset + k * block.width), block.width,
+                    0.0);
 }
 
 void ControllerHost::SaveState(ByteWriter& state) const

@@ -57,6 +57,7 @@ private:
     std::unique_ptr<CCI_Controller> controller;
   };
 
+  void StillAbsent();
   void MakeBatches(const ControllerConfiguration& configuration, const std::vector<std::size_t>& robots);
 
   const CSwarmanoidSpace& space_;

@@ -1,6 +1,7 @@
 #include "engine_worker/engine_worker.h"
 
 #include <algorithm>
+#include <array>
 
 namespace swarmanoid
 {
@@ -18,7 +19,8 @@ EngineWorker::EngineWorker(const CSwarmanoidSpace& space, const Assignment& assi
   {
     const CSwarmanoidSpaceEntity& entity = space.GetEntity(index);
     const bool owned = assignment.owner[index] == static_cast<int>(engine);
-    engine_->AddEntity(entity, !entity.IsMovable() ? EBinding::kFixed : owned ? EBinding::kOwned : EBinding::kMirror);
+    const bool fixed = !entity.IsMovable() || IsBodiless(entity.GetKind());
+    engine_->AddEntity(entity, fixed ? EBinding::kFixed : owned ? EBinding::kOwned : EBinding::kMirror);
   }
   engine_->Start();
 
@@ -48,7 +50,22 @@ void EngineWorker::Step(std::span<const std::uint32_t> moved, std::span<const Co
   frame_.tick = update_.tick;
   update_.attributes.Clear();
   engine_->Update({layout_.commands, command_values_}, update_, frame_.values);
+  KeepAbsent();
   if (update_.tick % space_.GetExperiment().canonical_period == 0) engine_->Canonicalise();
+}
+
+// Entities that are not in the arena stay where they wait, whatever the engine makes of them.
+void EngineWorker::KeepAbsent()
+{
+  const PoseArrays& poses = space_.Poses();
+  const std::array components{&poses.x, &poses.y, &poses.z, &poses.qx, &poses.qy, &poses.qz, &poses.qw};
+  const std::size_t count = layout_.owned.size();
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    const std::uint32_t entity = layout_.owned[k];
+    if (space_.IsPresent(entity)) continue;
+    for (std::size_t c = 0; c < components.size(); ++c) update_.poses[c * count + k] = (*components[c])[entity];
+  }
 }
 
 void EngineWorker::SaveState(ByteWriter& state) const

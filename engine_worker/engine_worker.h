@@ -33,6 +33,8 @@ public:
   const EngineLayout& Layout() const { return layout_; }
 
 private:
+  void KeepAbsent();
+
   const CSwarmanoidSpace& space_;
   const EngineLayout& layout_;
   std::unique_ptr<CPhysicsEngine> engine_;

@@ -34,8 +34,16 @@ public:
   const CSwarmanoidSpace& GetSpace() const;
   // Questions about the space: who is near, what is between.
   SpaceQuery& GetQuery();
-  // Puts a movable entity elsewhere. Throws std::invalid_argument for an unknown id or an entity that cannot move.
+  // Puts a movable entity elsewhere. Throws std::invalid_argument for an unknown id and an entity that cannot move or
+  // is not in the arena.
   void MoveEntity(std::string_view id, const Pose& pose);
+  // Puts an entity into the arena: the next one of the <reserve> of that id, or the entity of that id, which waits or
+  // was removed. Returns its id. A robot's controller goes on with what it remembers. Throws std::invalid_argument for
+  // an unknown id, a reserve that is used up, and an entity that is there already.
+  std::string AddEntity(std::string_view id, const Pose& pose);
+  // Takes an entity that can move, or is of a <reserve>, out of the arena; it lets go of what it holds and is let go.
+  // Throws std::invalid_argument for any other, and for one that is not there.
+  void RemoveEntity(std::string_view id);
   // Changes an attribute (common/space/attributes.h), such as the colour of a nest. Throws std::invalid_argument for an
   // unknown id or name.
   void SetAttribute(std::string_view id, std::string_view attribute, double value, int element = 0);

@@ -71,7 +71,7 @@ void CheckOverlaps(Reading& reading)
       for (const std::uint32_t i : engine.entities)
       {
         const EntityConfiguration& entity = experiment.entities[i];
-        if (entity.movable != movable) continue;
+        if (entity.movable != movable || !entity.reserve.empty()) continue;
         const auto body = placement::BodyOf(entity);
         if (!body || !(entity.size.minCoeff() > 0) || !entity.pose.position.allFinite()) continue;
         // Furniture is made of blocks that overlap; only what moves must be free.

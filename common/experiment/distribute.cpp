@@ -152,6 +152,7 @@ public:
     for (std::size_t i = first; i < last; ++i)
     {
       const EntityConfiguration& entity = reading_.experiment.entities[i];
+      if (!entity.reserve.empty()) continue;
       const auto body = placement::BodyOf(entity);
       if (body && entity.size.minCoeff() > 0) grid_.Add(*body, static_cast<std::uint32_t>(i));
     }

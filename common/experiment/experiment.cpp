@@ -36,6 +36,18 @@ const T* FindById(const std::vector<T>& all, const std::string& id)
 
 }  // namespace
 
+bool IsBodiless(EntityKind kind)
+{
+  return kind == EntityKind::kLightBulb || kind == EntityKind::kSoundSource || kind == EntityKind::kGroundPatch;
+}
+
+Pose WaitingPose(const EntityConfiguration& entity, std::size_t index)
+{
+  // Twenty metres apart along x. Far in y, too, for engines whose plane is perpendicular to x.
+  const double height = entity.kind == EntityKind::kBlock ? entity.size.z() / 2 : 0;
+  return {{2 * kWaitingBelow - 20.0 * static_cast<double>(index), 3.3 * kWaitingBelow, height}, Quaternion::Identity()};
+}
+
 const ControllerConfiguration* Experiment::FindController(const std::string& id) const
 {
   return FindById(controllers, id);

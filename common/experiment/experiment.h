@@ -60,7 +60,8 @@ struct EntityConfiguration
   double mass_kg = 0;    // 0: the default of the kind
   bool movable = false;  // robots and preys always; blocks only where asked
   std::uint32_t colour = 0xc0c0c0;
-  double intensity = 1;     // lights and sounds
+  double intensity = 1;  // lights and sounds
+  std::string reserve;   // the id of the <reserve> that it is of: it is not in the arena at the start; empty for none
   TConfigurationTree tree;  // the element it came from
   SourceLocation location;
 };
@@ -124,6 +125,13 @@ struct Experiment
 };
 
 bool IsRobot(EntityKind kind);
+// Lights, sounds and patches of the floor: no engine holds a body of them.
+bool IsBodiless(EntityKind kind);
+
+// Entities that are not in the arena wait far outside, each at a place of its own, so that nothing there is near to
+// anything. Its pose tells whether an entity is in the arena: x of those that wait is below kWaitingBelow.
+inline constexpr double kWaitingBelow = -5e4;  // m
+Pose WaitingPose(const EntityConfiguration& entity, std::size_t index);
 // The word of the tables and files: "Footbot", "Block" (figure 3.11) and "footbot", "block".
 std::string_view TableName(EntityKind kind);
 std::string_view TagName(EntityKind kind);

@@ -133,6 +133,10 @@ public:
       {
         ReadEntity(child, *element);
       }
+      else if (element->HasTag("reserve"))
+      {
+        ReadReserve(child, *element);
+      }
       else
       {
         ReadDistribute(child, *element);
@@ -155,9 +159,11 @@ private:
     reading_.experiment.entities.push_back(std::move(entity));
   }
 
-  void ReadDistribute(const TConfigurationTree& tree, const ElementSpec& spec)
+  // The entities of a <distribute> or <reserve>, all alike but for their ids; their poses are still open.
+  // Their number; 0 where the element is wrong.
+  std::size_t ReadAlike(const ElementReader& reader, const ElementSpec& spec, bool waiting)
   {
-    const ElementReader reader(tree, spec, reading_.diagnostics);
+    const TConfigurationTree& tree = reader.Tree();
     std::vector<TConfigurationTree> entities;
     for (const TConfigurationTree& child : tree.Children())
     {
@@ -166,11 +172,10 @@ private:
     }
     if (entities.size() != 1)
     {
-      reading_.diagnostics.Add(tree.Location(),
-                               fmt::format("<distribute> must hold one entity element such as <footbot "
-                                           "id=\"fb\"/>; it holds {}",
-                                           entities.size()));
-      return;
+      reading_.diagnostics.Add(tree.Location(), fmt::format("<{}> must hold one entity element such as <footbot "
+                                                            "id=\"fb\"/>; it holds {}",
+                                                            tree.Name(), entities.size()));
+      return 0;
     }
 
     const TConfigurationTree& entity_tree = entities.front();
@@ -186,15 +191,42 @@ private:
     {
       reading_.diagnostics.Add(reader.Place("quantity"),
                                fmt::format("more than {} entities; lower the quantity", kMostEntities));
-      return;
+      return 0;
     }
-    distributions_.push_back({tree, all.size(), count, reader.Integer("max_trials")});
+    if (waiting && entity.kind == EntityKind::kBlock && !entity.movable)
+    {
+      reading_.diagnostics.Add(entity_tree.Location(),
+                               fmt::format("the block {} cannot come and go while it cannot move; give it "
+                                           "movable=\"true\"",
+                                           Quoted(id)));
+      return 0;
+    }
+    // Lights and patches have no body: no engine minds where they are.
+    entity.movable |= waiting;
     all.reserve(all.size() + count);
     for (std::size_t i = 0; i < count; ++i)
     {
       all.push_back(entity);
       all.back().id = id + "_" + std::to_string(i);
+      if (!waiting) continue;
+      all.back().reserve = id;
+      all.back().pose = WaitingPose(all.back(), all.size() - 1);
     }
+    return count;
+  }
+
+  void ReadDistribute(const TConfigurationTree& tree, const ElementSpec& spec)
+  {
+    const ElementReader reader(tree, spec, reading_.diagnostics);
+    const std::size_t first = reading_.experiment.entities.size();
+    const std::size_t count = ReadAlike(reader, spec, false);
+    if (count > 0) distributions_.push_back({tree, first, count, reader.Integer("max_trials")});
+  }
+
+  void ReadReserve(const TConfigurationTree& tree, const ElementSpec& spec)
+  {
+    const ElementReader reader(tree, spec, reading_.diagnostics);
+    ReadAlike(reader, spec, true);
   }
 
   void CheckIds()

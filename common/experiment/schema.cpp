@@ -232,6 +232,12 @@ std::vector<ElementSpec> MakeDistributedEntities()
   return entities;
 }
 
+// What never moves in the engines cannot come and go.
+bool CanWait(EntityKind kind)
+{
+  return kind != EntityKind::kHole && kind != EntityKind::kWall && kind != EntityKind::kTerrain;
+}
+
 ElementSpec Distribute()
 {
   using enum ParameterType;
@@ -291,6 +297,22 @@ ElementSpec Distribute()
   return element;
 }
 
+ElementSpec Reserve()
+{
+  using enum ParameterType;
+  ElementSpec element;
+  element.tags = {"reserve"};
+  element.description =
+      "Entities that are not in the arena at the start: experiment functions add them while the experiment runs. Holds "
+      "one entity element without position and orientation.";
+  element.repeatable = true;
+  element.parameters = {InRange(Required(kInteger, "quantity", "", "How many; never more are in the arena at a time."),
+                                1, static_cast<double>(kMostEntities))};
+  for (const ElementSpec& entity : DistributedEntityElements())
+    if (CanWait(*entity.entity)) element.children.push_back(entity);
+  return element;
+}
+
 ElementSpec Arena()
 {
   using enum ParameterType;
@@ -307,6 +329,7 @@ ElementSpec Arena()
   };
   element.children = EntityElements();
   element.children.push_back(Distribute());
+  element.children.push_back(Reserve());
   return element;
 }
 

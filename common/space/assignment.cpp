@@ -120,7 +120,7 @@ Assignment MakeAssignment(const Experiment& experiment, unsigned hosts)
     EngineLayout& layout = assignment.engines[e];
     for (const std::uint32_t entity : experiment.engines[e].entities)
     {
-      if (!experiment.entities[entity].movable)
+      if (!experiment.entities[entity].movable || IsBodiless(experiment.entities[entity].kind))
         layout.fixed.push_back(entity);
       else if (assignment.owner[entity] < 0)
       {

@@ -53,6 +53,7 @@ const PositionalIndex& SpaceQuery::Index()
 const std::vector<std::uint32_t>& SpaceQuery::FindWithin(const Vector3& point, double distance)
 {
   Index().FindWithin(point, distance, found_);
+  DropAbsent(found_);
   return found_;
 }
 
@@ -60,25 +61,32 @@ const std::vector<std::uint32_t>& SpaceQuery::FindWithin(const CSwarmanoidSpaceE
 {
   Index().FindWithin(entity.GetPosition(), distance, found_);
   std::erase(found_, entity.GetIndex());
+  DropAbsent(found_);
   return found_;
 }
 
 const std::vector<std::uint32_t>& SpaceQuery::FindInBox(const Vector3& low, const Vector3& high)
 {
   Index().FindInBox(low, high, found_);
+  DropAbsent(found_);
   return found_;
+}
+
+void SpaceQuery::DropAbsent(std::vector<std::uint32_t>& entities) const
+{
+  std::erase_if(entities, [this](std::uint32_t entity) { return !space_.IsPresent(entity); });
 }
 
 CSwarmanoidSpaceEntity* SpaceQuery::FindNearest(const Vector3& point, double distance)
 {
   const auto nearest = Index().FindNearest(point, distance);
-  return nearest ? &space_.GetEntity(*nearest) : nullptr;
+  return nearest && space_.IsPresent(*nearest) ? &space_.GetEntity(*nearest) : nullptr;
 }
 
 CSwarmanoidSpaceEntity* SpaceQuery::FindNearest(const CSwarmanoidSpaceEntity& entity, double distance)
 {
   const auto nearest = Index().FindNearest(entity.GetPosition(), distance, entity.GetIndex());
-  return nearest ? &space_.GetEntity(*nearest) : nullptr;
+  return nearest && space_.IsPresent(*nearest) ? &space_.GetEntity(*nearest) : nullptr;
 }
 
 std::optional<SpaceQuery::Hit> SpaceQuery::FindFirstHit(const Vector3& from, const Vector3& to, std::uint32_t observer,

@@ -1,5 +1,6 @@
 // Questions about the space: who is near, who is in a box, what stands between two points. One object for each role
-// that asks; it brings its index up to date when the space has changed. Answers are by position of the entity's origin.
+// that asks; it brings its index up to date when the space has changed. Answers are by position of the entity's origin,
+// and hold only entities that are in the arena.
 #pragma once
 
 #include <memory>
@@ -52,6 +53,7 @@ public:
 
 private:
   void Refresh();
+  void DropAbsent(std::vector<std::uint32_t>& entities) const;
 
   const CSwarmanoidSpace& space_;
   std::unique_ptr<PositionalIndex> index_;

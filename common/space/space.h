@@ -45,6 +45,8 @@ public:
 
   const PoseArrays& Poses() const { return poses_; }
   Pose GetPose(std::size_t index) const;
+  // False for the entities of a <reserve> that were not added yet, and for those that were removed.
+  bool IsPresent(std::size_t index) const { return poses_.x[index] >= kWaitingBelow; }
   std::span<const double> Attributes() const { return attributes_; }
   // Indices of the entities that can move, ascending.
   std::span<const std::uint32_t> Movable() const { return movable_; }

@@ -57,7 +57,7 @@ private:
   void AddBulb(std::uint32_t robot, const Bulb& bulb, double* readings) const
   {
     const double intensity = space_->Attributes()[bulb.intensity_slot];
-    if (intensity <= 0) return;
+    if (intensity <= 0 || !space_->IsPresent(bulb.entity)) return;
     const Pose pose = space_->GetPose(robot);
     const Vector3 from = pose.Apply({0, 0, kHeight});
     const Vector3 to = space_->GetPose(bulb.entity).position;

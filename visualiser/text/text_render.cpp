@@ -176,7 +176,7 @@ std::vector<CTextRender::Column> CTextRender::Columns() const
 
 bool CTextRender::IsShown(const CSwarmanoidSpaceEntity& entity) const
 {
-  return shown_kinds_[static_cast<std::size_t>(entity.GetKind())];
+  return shown_kinds_[static_cast<std::size_t>(entity.GetKind())] && space_->IsPresent(entity.GetIndex());
 }
 
 void CTextRender::AppendNumber(double value, std::string& line) const

@@ -185,6 +185,10 @@ void CDynamics3dEngine::Start() { AddHoles(); }
 void CDynamics3dEngine::Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors)
 {
   for (MirrorModel* mirror : mirrors_) mirror->Follow();
+  // There may be no floor where entities wait that are not in the arena: they must not fall for ever.
+  for (Model* model : owned_)
+    if (const std::uint32_t entity = model->GetSpaceEntity().GetIndex(); !space_->IsPresent(entity))
+      model->Place(scene_->frame.ToLocal(space_->GetPose(entity)));
   ApplyCommands(commands);
   for (Model* model : owned_) model->BeginTick();
   const std::uint64_t first_step = space_->GetTick() * static_cast<std::uint64_t>(steps_);

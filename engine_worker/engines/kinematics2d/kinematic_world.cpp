@@ -39,6 +39,7 @@ std::uint32_t KinematicWorld::AddBody(std::uint32_t model, const Pose2& pose, bo
   now_.Set(body, pose);
   model_.push_back(model);
   follower_.push_back(follower ? 1 : 0);
+  present_.push_back(1);
   if (follower) followers_.push_back({body, pose, pose});
   return body;
 }
@@ -54,7 +55,6 @@ void KinematicWorld::Start(Bounds area, unsigned threads)
   before_ = now_;
   twists_.Resize(padded);
   effective_.Resize(padded);
-  present_.assign(count_, 1);
   turret_angle_.assign(count_, 0);
   turret_cos_.assign(count_, 1);
   turret_sin_.assign(count_, 0);
@@ -74,7 +74,7 @@ void KinematicWorld::Start(Bounds area, unsigned threads)
     const CollisionModel& model = models_[model_[k]];
     radius_.push_back(model.bounding_radius);
     cores.push_back(std::max(model.core_radius, kThinnestCore * model.bounding_radius));
-    area.Include(now_.x[k], now_.y[k], model.bounding_radius);
+    if (present_[k] != 0) area.Include(now_.x[k], now_.y[k], model.bounding_radius);
   }
   // A wide body among narrow ones goes no further in a substep than they do, so that the cells can stay small.
   core_limit_.assign(padded, 1);

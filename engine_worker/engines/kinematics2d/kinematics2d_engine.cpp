@@ -113,6 +113,7 @@ void Kinematics2dEngine::Start()
     stances.push_back(block ? frame_.StanceOf(entity->GetConfiguration().pose) : PlaneStance{});
     const std::uint32_t model = model_for(*entity);
     const std::uint32_t body = world_.AddBody(model, PlanePoseOf(entity->GetConfiguration().pose));
+    world_.SetPresent(body, entity->GetConfiguration().reserve.empty());
     if (block && world_.ModelOf(body).polygons.empty())
       throw ConfigurationError(entity->GetConfiguration().location,
                                "the plane of engine '" + configuration_->id + "' does not cut the block '" +
@@ -227,6 +228,7 @@ void Kinematics2dEngine::EntityMoved(std::uint32_t entity)
 {
   world_.Place(BodyOf(entity), PlanePoseOf(space_->GetPose(entity)));
   robots_.Moved(entity);
+  world_.SetPresent(BodyOf(entity), space_->IsPresent(entity));
 }
 
 std::uint32_t Kinematics2dEngine::BodyOf(std::uint32_t entity) const

@@ -1,0 +1,30 @@
+// A footbot that forages: it goes to the nearest yellow prey that it sees, grips it, and carries it to the green nest;
+// it wanders while it sees none. Its LEDs are blue while it carries. What it does not achieve in half a minute it gives
+// up for some seconds, so that robots do not stand in each other's way for ever.
+#pragma once
+
+#include "behavior/ci_behavior.h"
+#include "behavior/ci_footbot_state.h"
+#include "footbot/bt_footbot_grip.h"
+#include "footbot/bt_footbot_obstacle_avoidance.h"
+#include "footbot/bt_footbot_random_walk_with_obstacle_avoidance.h"
+
+class CBTFootbotForager : public CCI_Behavior<CCI_FootBotState>
+{
+public:
+  CBTFootbotForager();
+  void Step(CCI_FootBotState& cRobotState) override;
+  void SaveState(std::ostream& state) const override;
+  void LoadState(std::istream& state) override;
+
+private:
+  void Carry(CCI_FootBotState& cRobotState);
+  void Fetch(CCI_FootBotState& cRobotState, const CCI_ColourBlob& prey);
+
+  CBTFootbotRandomWalkWithObstacleAvoidance wander_;
+  CBTFootbotObstacleAvoidance avoid_;
+  CBTFootbotGrip grip_;
+  double busy_s_ = 0;  // with one prey
+  double rest_s_ = 0;  // left of giving up
+  bool carried_ = false;
+};

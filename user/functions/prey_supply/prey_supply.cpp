@@ -1,0 +1,152 @@
+// A supply of preys: every so many ticks one is put into the arena at random, and those that reach the nest are taken
+// out. Robots may join in the same way. Done when enough preys were delivered.
+//
+//   <prey_supply id="supply" library="prey_supply">
+//     <preys>prey</preys>       id of their <reserve>
+//     <robots>late</robots>     id of the <reserve> of robots that join; empty: none
+//     <every>20</every>         ticks between two preys
+//     <nest>nest</nest>         id of the patch, a disc
+//     <enough>5</enough>        deliveries
+//     <log>supply.csv</log>     file in the folder of the run; empty: none
+//   </prey_supply>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+#include "common/math/elementary.h"
+#include "space_server/experiment_functions.h"
+
+namespace
+{
+
+using namespace swarmanoid;
+
+struct Close
+{
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+class CPreySupply : public CExperimentFunctions
+{
+public:
+  static PluginDescription Description()
+  {
+    PluginDescription description;
+    description.label = "prey_supply";
+    description.brief = "adds preys and robots from reserves while the experiment runs, and removes preys at the nest";
+    description.parameters = {
+        {.name = "preys", .type = ParameterType::kText, .description = "Id of the <reserve> of preys."},
+        {.name = "robots",
+         .type = ParameterType::kText,
+         .default_value = "",
+         .description = "Id of the <reserve> of robots that join, one with each prey; empty: none."},
+        {.name = "every",
+         .type = ParameterType::kInteger,
+         .unit = "ticks",
+         .default_value = "20",
+         .description = "Time between two preys; none is added while the reserve is used up.",
+         .minimum = 1},
+        {.name = "nest", .type = ParameterType::kText, .description = "Id of the nest, a disc."},
+        {.name = "enough",
+         .type = ParameterType::kInteger,
+         .default_value = "5",
+         .description = "The experiment is done when so many preys were delivered.",
+         .minimum = 1},
+        {.name = "log",
+         .type = ParameterType::kText,
+         .default_value = "",
+         .description = "CSV file in the folder of the run: tick, what happened, id; empty: none."}};
+    return description;
+  }
+
+  void Init(const TConfigurationTree t_tree, SpaceEditor& space) override
+  {
+    preys_ = t_tree.GetText("preys");
+    robots_ = t_tree.GetText("robots", "");
+    every_ = static_cast<std::uint64_t>(t_tree.GetInteger("every", 20));
+    enough_ = static_cast<std::uint64_t>(t_tree.GetInteger("enough", 5));
+    nest_ = space.GetSpace().FindEntity(t_tree.GetText("nest"));
+    if (nest_ == nullptr || nest_->GetKind() != EntityKind::kGroundPatch)
+      throw ConfigurationError(t_tree.ValueLocation("nest"), "the nest must be the id of a patch of the floor");
+    for (const char* name : {"preys", "robots"})
+      if (const std::string reserve = t_tree.GetText(name, ""); !reserve.empty() && !HasReserve(space, reserve))
+        throw ConfigurationError(t_tree.ValueLocation(name), "there is no <reserve> of '" + reserve + "' in the arena");
+    const std::string log = t_tree.GetText("log", "");
+    if (log.empty()) return;
+    const std::string path = (std::filesystem::path(space.GetOutputFolder()) / log).string();
+    file_.reset(std::fopen(path.c_str(), "w"));
+    if (file_ == nullptr) throw std::runtime_error("cannot write '" + path + "'");
+    std::fputs("tick,event,id\n", file_.get());
+  }
+
+  void PostStep(SpaceEditor& space) override
+  {
+    const CSwarmanoidSpace& all = space.GetSpace();
+    for (std::size_t i = 0; i < all.Size(); ++i)
+    {
+      const CSwarmanoidSpaceEntity& entity = all.GetEntity(i);
+      if (!all.IsPresent(i) || entity.GetConfiguration().reserve != preys_ || !IsInNest(entity)) continue;
+      space.RemoveEntity(entity.GetId());
+      ++delivered_;
+      Write(all, "delivered", entity.GetId());
+    }
+    if (all.GetTick() % every_ != 0) return;
+    RandomStream random = space.GetRandom();
+    AddOne(space, preys_, random);
+    if (!robots_.empty()) AddOne(space, robots_, random);
+  }
+
+  Outcome IsFinished(const SpaceEditor&) override { return delivered_ >= enough_ ? Outcome::kDone : Outcome::kRunning; }
+
+private:
+  static bool HasReserve(const SpaceEditor& space, const std::string& reserve)
+  {
+    const auto& entities = space.GetSpace().GetExperiment().entities;
+    return std::ranges::any_of(entities, [&](const auto& entity) { return entity.reserve == reserve; });
+  }
+
+  bool IsInNest(const CSwarmanoidSpaceEntity& entity) const
+  {
+    return (entity.GetPosition() - nest_->GetPosition()).head<2>().norm() < nest_->GetSize().x();
+  }
+
+  // At a place where nothing else is, if one is found in a few attempts and the reserve has one left.
+  void AddOne(SpaceEditor& space, const std::string& reserve, RandomStream& random)
+  {
+    constexpr double kClearance = 0.3;  // m
+    const CSwarmanoidSpace& all = space.GetSpace();
+    bool left = false;
+    for (std::size_t i = 0; i < all.Size() && !left; ++i)
+      left = !all.IsPresent(i) && all.GetEntity(i).GetConfiguration().reserve == reserve;
+    const Vector3& size = all.GetExperiment().arena_size;
+    for (int attempt = 0; left && attempt < 20; ++attempt)
+    {
+      const double x = random.Uniform(kClearance, size.x() - kClearance);
+      const double y = random.Uniform(kClearance, size.y() - kClearance);
+      const double heading = random.Uniform(-kPi, kPi);
+      if (!space.GetQuery().FindWithin(Vector3(x, y, 0), kClearance).empty()) continue;
+      Write(all, "added", space.AddEntity(reserve, {{x, y, 0}, QuaternionFromEuler({0, 0, heading})}));
+      return;
+    }
+  }
+
+  void Write(const CSwarmanoidSpace& space, const char* event, const std::string& id) const
+  {
+    if (file_ != nullptr)
+      std::fprintf(file_.get(), "%llu,%s,%s\n", static_cast<unsigned long long>(space.GetTick()), event, id.c_str());
+  }
+
+  std::string preys_;
+  std::string robots_;
+  std::uint64_t every_ = 0;
+  std::uint64_t enough_ = 0;
+  std::uint64_t delivered_ = 0;
+  const CSwarmanoidSpaceEntity* nest_ = nullptr;
+  std::unique_ptr<std::FILE, Close> file_;
+};
+
+REGISTER_EXPERIMENT_FUNCTIONS(CPreySupply, CPreySupply::Description())
+
+}  // namespace
