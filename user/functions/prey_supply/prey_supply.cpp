@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <istream>
 #include <memory>
+#include <ostream>
 #include <stdexcept>
 
 #include "common/math/elementary.h"
@@ -99,6 +101,10 @@ public:
   }
 
   Outcome IsFinished(const SpaceEditor&) override { return delivered_ >= enough_ ? Outcome::kDone : Outcome::kRunning; }
+
+  bool HasState() const override { return true; }
+  void SaveState(std::ostream& state) const override { state << delivered_; }
+  void LoadState(std::istream& state) override { state >> delivered_; }
 
 private:
   static bool HasReserve(const SpaceEditor& space, const std::string& reserve)

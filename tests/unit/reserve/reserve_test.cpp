@@ -1,0 +1,304 @@
+// Entities that come and go: what robots, sensors and engines notice of it.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "ci_controller.h"
+#include "footbot/ci_footbot_ground_sensor.h"
+#include "footbot/ci_footbot_light_sensor.h"
+#include "footbot/ci_footbot_proximity_sensor.h"
+#include "footbot/ci_footbot_wheels_actuator.h"
+#include "launcher/simulator.h"
+#include "space_server/experiment_functions.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+Pose At(double x, double y, double z = 0) { return {{x, y, z}, Quaternion::Identity()}; }
+
+// Does at each tick what a test says.
+class Script : public CExperimentFunctions
+{
+public:
+  static inline std::function<void(SpaceEditor&)> at_tick;
+  void Init(const TConfigurationTree, SpaceEditor&) override {}
+  void PreStep(SpaceEditor& space) override { at_tick(space); }
+};
+
+PluginDescription DescribeScript()
+{
+  PluginDescription description;
+  description.label = "reserve_script";
+  description.brief = "for tests";
+  return description;
+}
+REGISTER_EXPERIMENT_FUNCTIONS(Script, DescribeScript())
+
+// Drives straight on and writes down what it feels.
+class Feeler : public CCI_Controller
+{
+public:
+  struct Felt
+  {
+    std::uint64_t steps = 0;
+    double ahead = 0;  // the strongest of the proximity readings
+    double light = 0;
+    std::uint32_t floor = 0;
+  };
+  static inline std::map<std::string, Felt> felt;
+
+  int Init(const TConfigurationTree) override
+  {
+    wheels_ = &GetRobot()->Actuator<CCI_FootBotWheelsActuator>("footbot_wheels");
+    proximity_ = &GetRobot()->Sensor<CCI_FootBotProximitySensor>("footbot_proximity");
+    light_ = &GetRobot()->Sensor<CCI_FootBotLightSensor>("footbot_light");
+    ground_ = &GetRobot()->Sensor<CCI_FootBotGroundSensor>("footbot_ground");
+    return RETURN_OK;
+  }
+  void ControlStep() override
+  {
+    Felt& mine = felt[GetRobot()->GetId()];
+    ++mine.steps;
+    mine.ahead = std::ranges::max(proximity_->GetAllSensorReadings());
+    mine.light = std::ranges::max(light_->GetAllSensorReadings());
+    mine.floor = ground_->GetFloorColour();
+    wheels_->SetFootBotWheelsLinearVelocity(0.1, 0.1);
+  }
+
+private:
+  CCI_FootBotWheelsActuator* wheels_ = nullptr;
+  CCI_FootBotProximitySensor* proximity_ = nullptr;
+  CCI_FootBotLightSensor* light_ = nullptr;
+  CCI_FootBotGroundSensor* ground_ = nullptr;
+};
+REGISTER_CONTROLLER(Feeler, "reserve_feeler")
+
+class Reserve : public ::testing::TestWithParam<const char*>
+{
+protected:
+  Reserve() { Feeler::felt.clear(); }
+
+  static std::string Text(const std::string& engine)
+  {
+    return R"(<ahss-config>
+  <framework><clocktick>100</clocktick><maxclock>200</maxclock></framework>
+  <controllers>
+    <reserve_feeler id="feeler">
+      <actuators><footbot_wheels><implementation>dummy_footbot_wheels</implementation></footbot_wheels></actuators>
+      <sensors>
+        <footbot_proximity><implementation>generic_footbot_proximity</implementation></footbot_proximity>
+        <footbot_light><implementation>generic_footbot_light</implementation></footbot_light>
+        <footbot_ground><implementation>generic_footbot_ground</implementation></footbot_ground>
+      </sensors>
+    </reserve_feeler>
+  </controllers>
+  <arena size="10, 10, 2" optimization="2D">
+    <footbot id="fb"><position>1, 5, 0</position><orientation>0, 0, 0</orientation><controller>feeler</controller></footbot>
+    <reserve quantity="2"><footbot id="late"><controller>feeler</controller></footbot></reserve>
+    <reserve quantity="2"><cylindric_prey id="prey"><radius>0.1</radius><height>0.1</height></cylindric_prey></reserve>
+    <reserve quantity="1"><block id="box" movable="true"><size>0.2, 0.2, 0.2</size></block></reserve>
+    <reserve quantity="1"><light_bulb id="lamp"><intensity>0.5</intensity></light_bulb></reserve>
+    <reserve quantity="1"><ground_patch id="mat"><size>0.5, 0.5</size><colour>red</colour></ground_patch></reserve>
+    <wall id="wall"><position>9, 5, 0.5</position><orientation>0, 0, 0</orientation><size>0.1, 5, 1</size></wall>
+  </arena>
+  <engines>)" +
+           engine +
+           R"(</engines>
+  <arena_physics><engine id="ground"><all/></engine></arena_physics>
+  <experiment_functions><reserve_script id="script"/></experiment_functions>
+</ahss-config>)";
+  }
+  static std::string Engine(const std::string& tag)
+  {
+    return "<" + tag + " id=\"ground\">" +
+           (tag == "dynamics3d" ? "" : "<perpendicular_axis>z</perpendicular_axis><distance>0</distance>") + "</" +
+           tag + ">";
+  }
+
+  static std::unique_ptr<Experiment> Load(const std::string& engine)
+  {
+    const auto file = std::filesystem::path(::testing::TempDir()) / ("reserve_" + std::to_string(getpid()) + ".xml");
+    std::ofstream(file) << Text(Engine(engine));
+    std::unique_ptr<Experiment> experiment = ReadExperiment(file);
+    std::filesystem::remove(file);
+    return experiment;
+  }
+
+  static void Run(CSimulator& simulator, int ticks)
+  {
+    for (int tick = 0; tick < ticks; ++tick) simulator.Step();
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(AllEngines, Reserve, ::testing::Values("dummy_engine", "dynamics2d", "dynamics3d"));
+
+TEST_P(Reserve, RobotsJoinDriveAndLeave)
+{
+  Script::at_tick = [](SpaceEditor& space)
+  {
+    const std::uint64_t tick = space.GetSpace().GetTick();
+    if (tick == 40) space.RemoveEntity("late_0");
+    if (tick != 20 && tick != 60) return;
+    EXPECT_EQ(space.AddEntity("late", At(tick == 20 ? 2 : 4, 3)), "late_0");
+  };
+  const auto experiment = Load(GetParam());
+  CSimulator simulator(*experiment);
+  const CSwarmanoidSpace& space = simulator.GetSpace();
+  const CSwarmanoidSpaceEntity& late = *space.FindEntity("late_0");
+  Run(simulator, 20);
+  EXPECT_FALSE(space.IsPresent(late.GetIndex()) && space.GetTick() < 20);
+  EXPECT_EQ(Feeler::felt.count("late_0"), 0U);
+  Run(simulator, 19);
+  // 0.1 m/s for 1.9 s; wheels of dynamic engines start more slowly.
+  EXPECT_NEAR(late.GetPosition().x(), 2.19, 0.03);
+  EXPECT_EQ(Feeler::felt["late_0"].steps, 19U);
+  Run(simulator, 20);
+  EXPECT_FALSE(space.IsPresent(late.GetIndex()));
+  EXPECT_EQ(Feeler::felt["late_0"].steps, 20U);
+  Run(simulator, 21);
+  EXPECT_NEAR(late.GetPosition().x(), 4.2, 0.03);
+  EXPECT_EQ(Feeler::felt["late_0"].steps, 40U);
+  // The robot that was there all the time noticed nothing of it.
+  EXPECT_NEAR(space.FindEntity("fb")->GetPosition().x(), 1 + 0.01 * static_cast<double>(space.GetTick()), 0.03);
+  EXPECT_FALSE(space.IsPresent(space.FindEntity("late_1")->GetIndex()));
+}
+
+TEST_P(Reserve, SensorsSeeWhatIsInTheArenaAndNothingElse)
+{
+  Script::at_tick = [](SpaceEditor& space)
+  {
+    if (space.GetSpace().GetTick() == 1)
+    {
+      space.AddEntity("box", At(1.25, 5, 0.1));
+      space.AddEntity("lamp", At(1, 6, 0.05));
+      space.AddEntity("mat", At(1, 5));
+    }
+    if (space.GetSpace().GetTick() == 3)
+      for (const char* id : {"box_0", "lamp_0", "mat_0"}) space.RemoveEntity(id);
+  };
+  const auto experiment = Load(GetParam());
+  CSimulator simulator(*experiment);
+  const Feeler::Felt& felt = Feeler::felt["fb"];
+  const auto expect = [&](bool there)
+  {
+    EXPECT_EQ(felt.ahead > 0, there);
+    EXPECT_EQ(felt.light > 0, there);
+    EXPECT_EQ(felt.floor, there ? 0xff0000U : 0xffffffU);
+  };
+  Run(simulator, 1);
+  expect(false);
+  Run(simulator, 1);
+  expect(true);
+  Run(simulator, 2);
+  expect(false);
+}
+
+TEST_P(Reserve, BodiesThatAreAddedPushBackAndThoseThatWaitDoNot)
+{
+  Script::at_tick = [](SpaceEditor& space)
+  {
+    if (space.GetSpace().GetTick() == 0) space.AddEntity("prey_1", At(1.5, 5));
+  };
+  const auto experiment = Load(GetParam());
+  CSimulator simulator(*experiment);
+  Run(simulator, 100);
+  const CSwarmanoidSpace& space = simulator.GetSpace();
+  EXPECT_GT(space.FindEntity("prey_1")->GetPosition().x(), 1.55) << "the robot drove through the prey";
+  EXPECT_LT(space.FindEntity("fb")->GetPosition().x(), space.FindEntity("prey_1")->GetPosition().x() - 0.15);
+  // Those that wait stay exactly where they were put at the start.
+  for (const char* id : {"prey_0", "late_0", "late_1", "box_0"})
+  {
+    const CSwarmanoidSpaceEntity& entity = *space.FindEntity(id);
+    EXPECT_EQ(entity.GetPosition(), entity.GetConfiguration().pose.position) << id;
+  }
+}
+
+TEST_F(Reserve, MistakesAreNamed)
+{
+  std::vector<std::string> mistakes;
+  Script::at_tick = [&](SpaceEditor& space)
+  {
+    if (space.GetSpace().GetTick() > 0) return;
+    const auto keep = [&](const std::function<void()>& call)
+    {
+      try
+      {
+        call();
+        mistakes.emplace_back("none");
+      }
+      catch (const std::invalid_argument& error)
+      {
+        mistakes.emplace_back(error.what());
+      }
+    };
+    keep([&] { space.AddEntity("pray", At(1, 1)); });
+    keep([&] { space.AddEntity("fb", At(1, 1)); });
+    keep([&] { space.RemoveEntity("late_0"); });
+    keep([&] { space.MoveEntity("late_0", At(1, 1)); });
+    keep([&] { space.RemoveEntity("wall"); });
+    space.AddEntity("late", At(3, 3));
+    space.AddEntity("late", At(4, 4));
+    keep([&] { space.AddEntity("late", At(5, 5)); });
+    keep([&] { space.AddEntity("prey", At(-1e9, 5)); });
+  };
+  const auto experiment = Load("dummy_engine");
+  CSimulator simulator(*experiment);
+  EXPECT_THAT(
+      mistakes,
+      ElementsAre(
+          "there is no reserve and no entity 'pray'; reserves are: box, lamp, late, mat, prey",
+          "entity 'fb' is in the arena already", "entity 'late_0' is not in the arena",
+          "entity 'late_0' is not in the arena",
+          "the wall 'wall' never moves, so it cannot be added or removed; only robots, preys, movable blocks and "
+          "what is in a <reserve> can",
+          "all 2 entities of the reserve 'late' are in the arena; give its <reserve> (line 15) a larger quantity",
+          "'prey' cannot be added there: it is outside all arenas"));
+}
+
+TEST_F(Reserve, QueriesFindOnlyWhatIsInTheArena)
+{
+  std::vector<std::size_t> found;
+  Script::at_tick = [&](SpaceEditor& space)
+  {
+    const Vector3 everywhere = Vector3::Constant(1e9);
+    found.push_back(space.GetQuery().FindInBox(-everywhere, everywhere).size());
+    if (space.GetSpace().GetTick() == 0) space.AddEntity("prey", At(5, 5));
+  };
+  const auto experiment = Load("dummy_engine");
+  CSimulator simulator(*experiment);
+  Run(simulator, 1);
+  EXPECT_THAT(found, ElementsAre(2, 3));
+}
+
+TEST_F(Reserve, FixedBlocksAndWallsCannotWait)
+{
+  const auto mistake = [](const std::string& element)
+  {
+    const auto file = std::filesystem::path(::testing::TempDir()) / ("reserve_" + std::to_string(getpid()) + ".xml");
+    std::string text = Text(Engine("dummy_engine"));
+    text.insert(text.find("    <wall id"), "<reserve quantity=\"1\">" + element + "</reserve>");
+    std::ofstream(file) << text;
+    try
+    {
+      ReadExperiment(file);
+    }
+    catch (const ConfigurationError& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_THAT(mistake("<block id=\"stone\"><size>1, 1, 1</size></block>"),
+              HasSubstr("the block 'stone' cannot come and go while it cannot move; give it movable=\"true\""));
+  EXPECT_THAT(mistake("<wall id=\"w\"><size>1, 1, 1</size></wall>"), HasSubstr("<reserve> has no element <wall>"));
+}
+
+}  // namespace
+}  // namespace swarmanoid
