@@ -119,7 +119,8 @@ const Mistake kMistakes[] = {
      "test.xml:18:22: 'fb' is outside the arena: y is 12 m; it must be from 0 to 10 m\n"},
     {"UnknownEntity", "<light_bulb id=\"lamp\"", "<lightbulb id=\"lamp\"",
      "test.xml:21:5: <arena> has no element <lightbulb>; allowed: footbot, eyebot, handbot, block, cylindric_prey, "
-     "light_bulb, sound_source, ground_patch, hole, wall, terrain, distribute, size, optimization; did you mean "
+     "light_bulb, sound_source, ground_patch, hole, wall, terrain, distribute, reserve, size, optimization; did you "
+     "mean "
      "'light_bulb'?\n"},
     {"UnknownParameter", "orientation=\"0,0,90\"", "orientaton=\"0,0,90\"",
      "test.xml:19:42: <footbot> has no attribute 'orientaton'; allowed: id, position, orientation, controller; did you "
