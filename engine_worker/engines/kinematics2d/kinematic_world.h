@@ -56,8 +56,9 @@ public:
   void SetTwist(std::uint32_t body, const Twist& twist) { twists_.Set(body, twist); }
   // The turret turns against the body at this rate (rad/s); while its body grips, it is locked.
   void SetTurretRate(std::uint32_t body, double rate);
-  // Where a follower will be at the end of the next Advance; `present` tells whether it is in the plane at all.
+  // Bodies that are not present touch nothing. All are at first.
   void SetPresent(std::uint32_t body, bool present) { present_[body] = present ? 1 : 0; }
+  // Where a follower will be at the end of the next Advance; `present` tells whether it is in the plane at all.
   void Follow(std::uint32_t body, const Pose2& pose, bool present);
   // Puts a body elsewhere at once. A grip that it has part in ends.
   void Place(std::uint32_t body, const Pose2& pose);
