@@ -163,6 +163,12 @@ void Scene::Track()
   if (trails_ == nullptr) trails_ = std::make_unique<Trail[]>(movable.size());
   for (std::size_t m = 0; m < movable.size(); ++m)
   {
+    // The way of one that leaves the arena ends there; it does not lead to where it waits.
+    if (!space_.IsPresent(movable[m]))
+    {
+      trails_[m].count = 0;
+      continue;
+    }
     Eigen::Vector3f place = space_.GetPose(movable[m]).position.cast<float>();
     place.z() += 0.012F;
     trails_[m].Add(place);
