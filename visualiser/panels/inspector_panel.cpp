@@ -37,7 +37,7 @@ void Panels::ShowInspector(std::size_t number)
   const CSwarmanoidSpaceEntity& body = viewer_.Space().GetEntity(entity);
   // From the right edge to the left, as long as there is room beside the column at the left.
   const float step = Scaled(theme::kInspectorWidth + theme::kGap);
-  const auto columns = std::max(1, static_cast<int>((width_ - static_cast<float>(LeftColumn())) / step));
+  const int columns = InspectorColumns();
   const auto column = static_cast<float>(static_cast<int>(number) % columns);
   const auto round = static_cast<float>(static_cast<int>(number) / columns);
   const float top = Scaled(theme::kGap) * (1 + 3 * round);

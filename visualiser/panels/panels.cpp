@@ -51,6 +51,19 @@ int Panels::LeftColumn() const
                                                        : 0;
 }
 
+int Panels::InspectorColumns() const
+{
+  const float step = Scaled(theme::kInspectorWidth + theme::kGap);
+  return std::max(1, static_cast<int>((width_ - static_cast<float>(LeftColumn())) / step));
+}
+
+float Panels::InspectorEdge() const
+{
+  const int shown = viewer_.shown.panels ? static_cast<int>(viewer_.Inspected().size()) : 0;
+  return width_ -
+         static_cast<float>(std::min(shown, InspectorColumns())) * Scaled(theme::kInspectorWidth + theme::kGap);
+}
+
 void Panels::PlaceNext(float x, float y, float w, float h)
 {
   ImGui::SetNextWindowPos(ImVec2(x, y), place_);
@@ -100,9 +113,7 @@ void Panels::ShowMessages()
   if (messages.empty()) return;
   // In the middle of what no panel hides.
   const auto left = static_cast<float>(LeftColumn());
-  const float right = viewer_.shown.panels && !viewer_.Inspected().empty()
-                          ? width_ - Scaled(theme::kInspectorWidth + 2 * theme::kGap)
-                          : width_;
+  const float right = InspectorEdge();
   ImGui::SetNextWindowPos(ImVec2((left + std::max(right, left)) / 2, Scaled(theme::kGap)), ImGuiCond_Always,
                           ImVec2(0.5F, 0));
   constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |

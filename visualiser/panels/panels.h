@@ -56,6 +56,10 @@ private:
   void ShowMessages();
   void ShowMove();
 
+  // Inspectors stand side by side from the right edge, as many as there is room for.
+  int InspectorColumns() const;
+  // Where the inspectors begin: what is left of it is free.
+  float InspectorEdge() const;
   // The place of the next window; it stays where the person puts it, until the size of the picture changes.
   void PlaceNext(float x, float y, float w, float h);
   float Scaled(float pixels) const { return pixels * scale_; }

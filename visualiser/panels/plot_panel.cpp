@@ -16,8 +16,7 @@ void Panels::ShowPlots()
     if (std::find(units.begin(), units.end(), plot.unit) == units.end()) units.push_back(plot.unit);
 
   const auto left = std::max(static_cast<float>(LeftColumn()), Scaled(theme::kGap));
-  const float right = viewer_.Inspected().empty() ? 0 : Scaled(theme::kInspectorWidth + theme::kGap);
-  const float width = width_ - left - right - Scaled(theme::kGap);
+  const float width = InspectorEdge() - left - Scaled(theme::kGap);
   const float chart = Scaled(130);
   const float height = std::min((chart + Scaled(34)) * static_cast<float>(units.size()) + Scaled(34), 0.5F * height_);
   // As high as its charts, until the person makes it otherwise.
