@@ -26,6 +26,8 @@ def on_screen(x, y, z=0.1):
 
 
 class Window(LauncherTest):
+    KIND = "opengl"  # other windows with the same keys and panels are tested by deriving
+
     def setUp(self):
         super().setUp()
         self.display = display.Display(f"{WIDTH}x{HEIGHT}")
@@ -53,8 +55,8 @@ class Window(LauncherTest):
         return path
 
     def window_element(self, extra=""):
-        return (f'<opengl_render id="mainwindow"><window_size>{WIDTH}, {HEIGHT}</window_size><window_title>{TITLE}</window_title>'
-                f"{VIEW}<antialiasing>0</antialiasing>{extra}</opengl_render>")
+        return (f'<{self.KIND}_render id="mainwindow"><window_size>{WIDTH}, {HEIGHT}</window_size><window_title>{TITLE}</window_title>'
+                f"{VIEW}<antialiasing>0</antialiasing>{extra}</{self.KIND}_render>")
 
     def start_window(self, *options):
         """A run with a window, and with a table that says how far it is."""
@@ -195,7 +197,7 @@ class Window(LauncherTest):
         table = '<text_render id="table"><file>table.txt</file></text_render>'
         run = self.start("run", self.experiment(table), "--output", "out", "--quiet", "--real-time", 1)
         self.wait_until("some ticks", lambda: self.tick() > 1, run)
-        watcher = self.start("attach", "opengl", "window_test", f"window_title={TITLE}", f"window_size={WIDTH},{HEIGHT}",
+        watcher = self.start("attach", self.KIND, "window_test", f"window_title={TITLE}", f"window_size={WIDTH},{HEIGHT}",
                              "antialiasing=0", environment=self.display.environment)
         self.display.window(TITLE, run=watcher)
         self.display.key("space")
@@ -244,7 +246,7 @@ class Window(LauncherTest):
         for way in ((), ("--single-process",)):
             run = self.start("run", self.experiment(self.window_element()), "--quiet", "--ticks", 3, *way, environment=environment)
             self.assertEqual(run.wait(30), 4, run.stderr)
-            self.assertIn("opengl_render cannot open a window", run.stderr)
+            self.assertIn(f"{self.KIND}_render cannot open a window", run.stderr)
             self.assertIn("image_render draws without one", run.stderr)
 
     def test_pictures_change_nothing_in_the_run(self):

@@ -18,7 +18,7 @@ void RequireDisplay()
     throw std::runtime_error(
         std::string("ogre_render cannot open a window: ") +
         (name == nullptr || *name == '\0' ? "DISPLAY is not set" : std::string("there is no X server at ") + name) +
-        "; run it on a desktop, or use `ssh -X` or `xvfb-run -a`. image_render draws without a display, and "
+        "; run it on a desktop, or use `ssh -X` or `xvfb-run -a`. image_render draws without one, and "
         "`swarmanoid "
         "run --no-visualisers` runs without any visualisation");
   }
