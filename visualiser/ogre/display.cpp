@@ -9,7 +9,7 @@
 namespace swarmanoid
 {
 
-void RequireDisplay()
+std::shared_ptr<void> ConnectToDisplay()
 {
   Display* display = XOpenDisplay(nullptr);
   if (display == nullptr)
@@ -22,7 +22,7 @@ void RequireDisplay()
         "`swarmanoid "
         "run --no-visualisers` runs without any visualisation");
   }
-  XCloseDisplay(display);
+  return {display, [](void* open) { XCloseDisplay(static_cast<Display*>(open)); }};
 }
 
 }  // namespace swarmanoid

@@ -85,7 +85,7 @@ MouseButton ButtonOf(unsigned char button)
 OgreWindow::OgreWindow(const std::string& title, int width, int height, int samples)
     : OgreBites::ApplicationContext("swarmanoid"), title_(title), width_(width), height_(height), samples_(samples)
 {
-  RequireDisplay();
+  const std::shared_ptr<void> display = ConnectToDisplay();
   // Ctrl-C belongs to the program.
   setenv("SDL_NO_SIGNAL_HANDLERS", "1", 1);
   log_ = std::make_unique<Ogre::LogManager>();
