@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include "visualiser/ogre/display.h"
 #include "visualiser/panels/panels.h"
@@ -214,7 +215,7 @@ void OgreWindow::SetShadows(bool on)
 
 bool OgreWindow::TakeEvents(Viewer& viewer)
 {
-  happened_ = false;
+  happened_ = std::exchange(released_late_, false);
   viewer_ = &viewer;
   pollEvents();
   viewer_ = nullptr;
@@ -228,6 +229,10 @@ void OgreWindow::Present(Viewer& viewer, const std::function<void()>& panels)
   mRoot->renderOneFrame();
   panels_ = nullptr;
   viewer_ = nullptr;
+  pressed_ = 0;
+  for (const OgreBites::MouseButtonEvent& event : early_releases_) imgui_input_->mouseReleased(event);
+  released_late_ = !early_releases_.empty();
+  early_releases_.clear();
 }
 
 // Events are taken before ImGui's frame begins: a key that changes within a frame is an error to it.
@@ -303,6 +308,7 @@ bool OgreWindow::mouseWheelRolled(const OgreBites::MouseWheelEvent& event)
 bool OgreWindow::mousePressed(const OgreBites::MouseButtonEvent& event)
 {
   happened_ = true;
+  pressed_ |= 1U << event.button;
   imgui_input_->mousePressed(event);
   if (viewer_ != nullptr && !PanelAt(event.x, event.y))
     viewer_->MousePress(ButtonOf(event.button), event.x, event.y, ctrl_, shift_);
@@ -312,7 +318,10 @@ bool OgreWindow::mousePressed(const OgreBites::MouseButtonEvent& event)
 bool OgreWindow::mouseReleased(const OgreBites::MouseButtonEvent& event)
 {
   happened_ = true;
-  imgui_input_->mouseReleased(event);
+  if ((pressed_ & 1U << event.button) != 0)
+    early_releases_.push_back(event);
+  else
+    imgui_input_->mouseReleased(event);
   if (viewer_ != nullptr) viewer_->MouseRelease(ButtonOf(event.button));
   return true;
 }

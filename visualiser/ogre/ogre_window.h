@@ -15,6 +15,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "visualiser/interaction/viewer.h"
 #include "visualiser/scene/picture.h"
@@ -70,6 +71,11 @@ private:
   std::function<void()> panels_;
   Viewer* viewer_ = nullptr;  // while events are taken
   bool happened_ = false;
+  // Buttons that were pressed since the last frame, and releases that came as early: ImGui sees a click only where a
+  // frame lies between the two.
+  unsigned pressed_ = 0;
+  std::vector<OgreBites::MouseButtonEvent> early_releases_;
+  bool released_late_ = false;
   bool shadows_ = false;
   bool ctrl_ = false, shift_ = false;
   int mouse_x_ = 0, mouse_y_ = 0;
