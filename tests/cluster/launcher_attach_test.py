@@ -82,7 +82,7 @@ class Attaching(LauncherTest):
     def test_status_and_owners_in_a_table(self):
         run = self.start_paused("--ticks", 0, "--controller-hosts", 2)
         self.control("step", 3)
-        watcher = self.watch("table", "--columns", "Entity id,Engine,Host", "--entities", "footbot", "--status", "true")
+        watcher = self.watch("table", "--columns", "Entity id,Engine,Host", "--entities", "footbot", "--status")
         self.wait_until(lambda: self.has_table("table"))
         self.control("step", 20)
         self.wait_until(lambda: "# tick 23, paused" in (self.folder / "table").read_text())
