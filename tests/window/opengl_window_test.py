@@ -193,6 +193,20 @@ class Window(LauncherTest):
             sizes = self.display.tool("identify", "-format", "%w %h\n", *(self.folder / name / name).iterdir())
             self.assertEqual(set(sizes.splitlines()), {f"{WIDTH} {HEIGHT}"})
 
+    def test_leds_shine_in_their_colours(self):
+        """At tick 420 of the sample experiment a footbot holds its prey and says so by blue LEDs; nothing else is blue."""
+        text = (CONFIGS / "prey_retrieval.xml").read_text()
+        element = (f'<{self.KIND}_render id="window" window_size="{WIDTH},{HEIGHT}" write_frames="true" frame_directory="frames" every="420">'
+                   "<camera_view_XYZ_0>1.7, -2.3, 3.0</camera_view_XYZ_0><camera_view_HPR_0>74, -30, 0</camera_view_HPR_0>"
+                   f"</{self.KIND}_render>")
+        path = self.folder / "leds.xml"
+        path.write_text(re.sub(r"<visualisations>.*</visualisations>", f"<visualisations>{element}</visualisations>", text, flags=re.S))
+        self.run_it("run", path, "--quiet", "--output", "out", "--ticks", 420, "--single-process", environment=self.display.environment)
+        blue = [float(self.display.tool("convert", self.folder / "out" / "frames" / f"frame_{tick:06}.png", "-fx",
+                                        "b > 0.75 && r < 0.2 && g < 0.2", "-format", "%[fx:mean*w*h]", "info:")) for tick in (0, 420)]
+        self.assertEqual(blue[0], 0)
+        self.assertGreater(blue[1], 5)
+
     def test_an_attached_window_comes_and_goes(self):
         table = '<text_render id="table"><file>table.txt</file></text_render>'
         run = self.start("run", self.experiment(table), "--output", "out", "--quiet", "--real-time", 1)
