@@ -27,6 +27,7 @@ const Vector3 kTowardsSun = Vector3(-0.58, -0.20, 0.79).normalized();
 constexpr GLint kShadowUnit = 0;
 constexpr GLint kLightsUnit = 1;
 constexpr GLint kAtlasUnit = 2;
+constexpr float kCaptionMargin = 12;  // pixels
 
 Vector3f Linear(Colour colour) { return ChannelsOf(colour).cwiseAbs2(); }
 
@@ -115,6 +116,8 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   s.frame.Sort(scene, view, sun, options);
   s.statistics.instances = s.frame.instances;
   s.frame.SortMarks(scene, s.labels, camera, width, height);
+  if (!options.caption.empty())
+    s.labels.AppendFrom(options.caption, kCaptionMargin, static_cast<float>(height) - kCaptionMargin, s.frame.letters);
   s.UploadLights(scene);
 
   glEnable(GL_DEPTH_TEST);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "visualiser/scene/camera.h"
 #include "visualiser/scene/picture.h"
@@ -17,6 +18,7 @@ struct DrawOptions
   bool textures = true;
   int samples = 4;          // a pixel, for smooth edges; 0 or 1: none
   bool glass_walls = true;  // tall walls at the edge of the arena are cut open, so that they hide nothing
+  std::string caption{};    // a line in the lower left corner; empty: none
 };
 
 // What was drawn last, for a status line.

@@ -67,25 +67,35 @@ LabelAtlas::LabelAtlas()
   glBindTexture(GL_TEXTURE_2D, 0);
 }
 
+const LabelAtlas::Letter& LabelAtlas::LetterOf(char c) const
+{
+  const bool known = c >= ' ' && c <= '~';
+  return letters_[static_cast<std::size_t>((known ? c : '?') - kFirst)];
+}
+
+float LabelAtlas::WidthOf(std::string_view text) const
+{
+  float width = 0;
+  for (const char c : text) width += LetterOf(c).advance;
+  return width;
+}
+
 void LabelAtlas::Append(std::string_view text, float x, float y, std::vector<Glyph>& glyphs) const
 {
-  if (IsEmpty()) return;
-  const auto letter = [&](char c) -> const Letter&
-  {
-    const bool known = c >= ' ' && c <= '~';
-    return letters_[static_cast<std::size_t>((known ? c : '?') - kFirst)];
-  };
-  float width = 0;
-  for (const char c : text) width += letter(c).advance;
+  if (!IsEmpty()) AppendFrom(text, x - WidthOf(text) / 2, y - 10, glyphs);
+}
 
+void LabelAtlas::AppendFrom(std::string_view text, float x, float y, std::vector<Glyph>& glyphs) const
+{
+  if (IsEmpty()) return;
   const auto channel = [](int shift) { return static_cast<float>((palette::kLabel >> shift) & 0xff) / 255; };
-  float pen = std::round(x - width / 2);
-  const float line = std::round(y - 10);
+  float pen = std::round(x);
+  const float line = std::round(y);
   glyphs.push_back(
-      {{pen - 5, line - 14, pen + width + 5, line + 5}, {kWhite, kWhite, kWhite, kWhite}, {1, 1, 1, 0.78F}});
+      {{pen - 5, line - 14, pen + WidthOf(text) + 5, line + 5}, {kWhite, kWhite, kWhite, kWhite}, {1, 1, 1, 0.78F}});
   for (const char c : text)
   {
-    const Letter& l = letter(c);
+    const Letter& l = LetterOf(c);
     glyphs.push_back({{pen + l.left, line + l.top, pen + l.right, line + l.bottom},
                       l.texture,
                       {channel(16), channel(8), channel(0), 1}});

@@ -30,7 +30,11 @@ PluginDescription ImageRenderDescription()
        "A video file, taken from the run's folder: .mp4 (H.264), .webm (VP9) or another ending that FFmpeg knows."},
       {"speed", ParameterType::kNumber, "", "1", "Simulated seconds that pass in a second of the video.", 1e-3, 1e6},
       {"stop", ParameterType::kBoolean, "", "false",
-       "Whether the run, or the watching where it is attached, ends after the last picture."}};
+       "Whether the run, or the watching where it is attached, ends after the last picture."},
+      {"show_status", ParameterType::kBoolean, "", "false",
+       "Whether a line below says how the run goes: tick, real-time factor, processes that are late."},
+      {"show_owners", ParameterType::kBoolean, "", "false",
+       "Whether the labels of robots and preys name the engine and the controller host that own them."}};
   for (std::vector<ParameterSpec> more : {ViewpointParameters(), QualityParameters()})
     description.parameters.insert(description.parameters.end(), more.begin(), more.end());
   return description;

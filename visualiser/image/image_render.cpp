@@ -9,6 +9,7 @@
 #include "visualiser/gl/quality.h"
 #include "visualiser/renderer_library.h"
 #include "visualiser/scene/viewpoints.h"
+#include "visualiser/status_line.h"
 
 namespace swarmanoid
 {
@@ -57,12 +58,30 @@ void CImageRender::Init(const RenderSetup& setup)
     camera_ = viewpoints.First().value_or(DefaultView(space_->GetExperiment(), aspect));
   draw_options_ = DrawOptionsOf(parameters);
   scene_options_ = SceneOptionsOf(parameters);
+  if (parameters.Boolean("show_owners")) NameOwners(setup);
+  if (parameters.Boolean("show_status")) monitor_ = setup.monitor;
 
   scene_ = std::make_unique<Scene>(*space_);
   context_ = std::make_unique<OffscreenContext>();
   buffer_ = std::make_unique<PictureBuffer>(width_, height_);
   renderer_ = std::make_unique<GlScene>();
   ReadOutputs(setup);
+}
+
+// "fb_1: engine 'ground', controller host 0".
+void CImageRender::NameOwners(const RenderSetup& setup)
+{
+  for (std::size_t e = 0; e < space_->Size(); ++e)
+  {
+    std::string owners = OwnerName(space_->GetExperiment(), setup.assignment, e);
+    const std::string host = HostNameOf(setup.assignment, e);
+    if (!owners.empty() && !host.empty()) owners += ", ";
+    owners += host;
+    const std::string& id = space_->GetEntity(e).GetId();
+    names_.push_back(owners.empty() ? id : id + ": " + owners);
+  }
+  scene_options_.names = names_;
+  scene_options_.ids = true;
 }
 
 void CImageRender::ReadTicks(const Parameters& parameters)
@@ -102,6 +121,13 @@ void CImageRender::Draw()
   if (scene_options_.trails && !done_) scene_->Track();
   if (done_ || tick < next_) return;
   scene_->Update(scene_options_);
+  if (monitor_ != nullptr)
+  {
+    RunStatus status = monitor_->Status();
+    status.tick = tick;
+    const bool is_known = status.phase != RunStatus::Phase::kUnknown;
+    draw_options_.caption = is_known ? StatusLine(status) : fmt::format("tick {}", tick);
+  }
   context_->MakeCurrent();
   renderer_->Draw(*scene_, camera_, buffer_->Framebuffer(), width_, height_, draw_options_);
   Write(buffer_->Read(), tick);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "visualiser/gl/gl_scene.h"
 #include "visualiser/image/offscreen_context.h"
@@ -25,6 +26,7 @@ public:
 private:
   void ReadTicks(const Parameters& parameters);
   void ReadOutputs(const RenderSetup& setup);
+  void NameOwners(const RenderSetup& setup);
   void Write(const Picture& picture, std::uint64_t tick);
 
   const CSwarmanoidSpace* space_ = nullptr;
@@ -32,6 +34,8 @@ private:
   Camera camera_;
   DrawOptions draw_options_;
   SceneOptions scene_options_;
+  RunMonitor* monitor_ = nullptr;   // where the pictures show how the run goes
+  std::vector<std::string> names_;  // of the entities, with their owners
   std::uint64_t every_ = 1;
   std::uint64_t next_ = 0;  // tick of the next picture: drawn at this one or the first one after it
   std::uint64_t last_ = 0;

@@ -182,7 +182,8 @@ void Scene::Update(const SceneOptions& options)
     {
       Vector3f top = entity.GetPosition().cast<float>();
       top.z() += static_cast<float>(kind == EntityKind::kFootbot ? 0.33 : entity.GetSize().z() + 0.06);
-      labels_.push_back({body.entity, top, entity.GetId()});
+      labels_.push_back(
+          {body.entity, top, options.names.empty() ? std::string_view(entity.GetId()) : options.names[body.entity]});
     }
   }
   if (options.trails || trails_ != nullptr) Track();

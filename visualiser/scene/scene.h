@@ -67,6 +67,7 @@ struct SceneLabel
 struct SceneOptions
 {
   bool ids = false;
+  std::span<const std::string> names;  // what labels say, by entity; empty: the ids
   bool trails = false;
   bool rays = false;
   bool collision_models = false;

@@ -18,6 +18,17 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
+class PacedRun : public RunMonitor
+{
+public:
+  const RunStatus& Status() override { return status; }
+  std::span<const RunNote> Notes() override { return {}; }
+  void Watch(std::span<const std::uint32_t>) override {}
+  const RobotStatus* Robot(std::uint32_t) override { return nullptr; }
+
+  RunStatus status;
+};
+
 class ImageRender : public ::testing::Test
 {
 protected:
@@ -38,7 +49,7 @@ protected:
     configuration.id = "images";
     configuration.tree = TConfigurationTree(
         ReadXml("<image_render size=\"96, 64\" " + attributes + ">" + children + "</image_render>", "images.xml"));
-    return std::make_unique<Visualiser>(configuration, world_.Space(), assignment_, folder_.string(), nullptr, nullptr);
+    return std::make_unique<Visualiser>(configuration, world_.Space(), assignment_, folder_.string(), nullptr, &run_);
   }
 
   // Returns the tick after which the renderer wanted the end, or -1.
@@ -81,8 +92,19 @@ protected:
 
   SmallWorld world_;
   Assignment assignment_;
+  PacedRun run_;
   fs::path folder_;
 };
+
+// The rows of two pictures of the same size that differ.
+std::vector<int> RowsThatDiffer(const Picture& one, const Picture& other)
+{
+  std::vector<int> rows;
+  const auto row = static_cast<std::ptrdiff_t>(4 * one.width);
+  for (int y = 0; y < one.height; ++y)
+    if (!std::equal(one.At(0, y), one.At(0, y) + row, other.At(0, y))) rows.push_back(y);
+  return rows;
+}
 
 TEST_F(ImageRender, WritesNumberedPicturesAtTheTicksAsked)
 {
@@ -106,6 +128,33 @@ TEST_F(ImageRender, WritesOnePictureAndEndsWhereAsked)
   EXPECT_EQ(Run("at=\"3\" file=\"one.png\" stop=\"true\"", 20), 3);
   EXPECT_THAT(Files("."), ElementsAre("one.png"));
   EXPECT_EQ(Run("at=\"3\" file=\"one.png\"", 20), -1);
+}
+
+TEST_F(ImageRender, ALineBelowSaysHowTheRunGoes)
+{
+  Run("file=\"plain.png\"", 0);
+  Run("file=\"tick.png\" show_status=\"true\"", 0);
+  run_.status.phase = RunStatus::Phase::kRunning;
+  run_.status.processes.push_back({"engine 'ground'", "here:1", 0, 3, ""});
+  Run("file=\"late.png\" show_status=\"true\"", 0);
+  const Picture plain = ReadPng(Path("plain.png"));
+  const Picture tick = ReadPng(Path("tick.png"));
+  ASSERT_FALSE(RowsThatDiffer(plain, tick).empty());
+  EXPECT_GE(RowsThatDiffer(plain, tick).front(), 64 - 30);
+  EXPECT_FALSE(RowsThatDiffer(tick, ReadPng(Path("late.png"))).empty());
+}
+
+TEST_F(ImageRender, LabelsNameTheOwners)
+{
+  assignment_.owner = {-1};
+  assignment_.host = {-1};
+  Run("file=\"ids.png\" show_ids=\"true\"", 0);
+  Run("file=\"nobody.png\" show_owners=\"true\"", 0);
+  assignment_.host = {1};
+  Run("file=\"host.png\" show_owners=\"true\"", 0);
+  const Picture ids = ReadPng(Path("ids.png"));
+  EXPECT_TRUE(RowsThatDiffer(ids, ReadPng(Path("nobody.png"))).empty());
+  EXPECT_FALSE(RowsThatDiffer(ids, ReadPng(Path("host.png"))).empty());
 }
 
 TEST_F(ImageRender, TwoOfThemShareAProcess)
