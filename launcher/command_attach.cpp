@@ -91,6 +91,15 @@ void AddOptionsOfKind(CLI::App& verb, AttachOptions& options)
     for (const std::string& label : PluginCatalogue::Instance().Labels(PluginKind::kRenderer))
       if (label == words[i] || label == words[i] + "_render")
         return AddRendererOptions(verb, FindRenderer(label), options.parameters);
+  if (words[2].starts_with("-")) return;
+  try
+  {
+    AddRendererOptions(verb, FindRenderer(words[2]), options.parameters);
+  }
+  catch (const ConfigurationError&)
+  {
+    // Attach says what is wrong with it.
+  }
 }
 
 }  // namespace
@@ -99,7 +108,10 @@ void AddAttachCommand(CLI::App& app, int&)
 {
   auto options = std::make_shared<AttachOptions>();
   CLI::App* verb = app.add_subcommand("attach", "Look at a running experiment; it is not slowed");
-  verb->add_option("KIND", options->kind, "text, image, opengl, ogre or web, as far as they are part of this build")
+  verb->add_option(
+          "KIND", options->kind,
+          "text, image, opengl, ogre or web, as far as they are part of this build, or a library with a renderer "
+          "of your own: its path, or its name where SWARMANOID_PLUGIN_PATH holds its folder")
       ->required();
   verb->add_option("WORDS", options->words,
                    "Name of the experiment (may be left out where one runs), and name=value for the visualiser");

@@ -4,8 +4,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 
 #include "common/configuration/wording.h"
+#include "common/plugins/library.h"
 
 namespace swarmanoid
 {
@@ -72,6 +74,15 @@ const PluginDescription& FindRenderer(const std::string& kind)
   const PluginCatalogue& catalogue = PluginCatalogue::Instance();
   for (const std::string& label : {kind, kind + std::string(kEnding)})
     if (const PluginDescription* found = catalogue.Find(PluginKind::kRenderer, label)) return *found;
+
+  const bool is_path = kind.find('/') != std::string::npos;
+  const PluginLibrary& library =
+      LoadPluginLibrary(is_path ? std::filesystem::absolute(kind).string() : kind, StandardPluginFolders());
+  for (const auto& [plugin, label] : library.registrations.labels)
+    if (plugin == PluginKind::kRenderer && library.error.empty()) return *catalogue.Find(PluginKind::kRenderer, label);
+  if (is_path || !library.path.empty())
+    throw ConfigurationError(
+        library.error.empty() ? library.path + " holds no visualiser; REGISTER_RENDER makes one known" : library.error);
   std::vector<std::string> kinds;
   for (const std::string& label : catalogue.Labels(PluginKind::kRenderer)) kinds.push_back(KindOf(label));
   throw ConfigurationError(fmt::format("there is no visualiser {}; this build has {}{}", Quoted(kind), Listed(kinds),

@@ -15,7 +15,8 @@ class App;
 namespace swarmanoid
 {
 
-// The description of "text" or "text_render". Throws ConfigurationError, naming those that there are.
+// The description of "text" or "text_render", or of the renderer in a user's library: a path, or a name that is looked
+// for in SWARMANOID_PLUGIN_PATH. Throws ConfigurationError, naming those that there are.
 const PluginDescription& FindRenderer(const std::string& kind);
 
 // Adds --name for every parameter of the renderer; a value given goes to `parameters` as "name=value". Choices of a

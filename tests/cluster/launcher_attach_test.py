@@ -1,6 +1,7 @@
 """Visualisers that come, watch, are stopped and are killed while a run goes on: it gives the same hashes as without them. And what users
 change in a run can be repeated."""
 import os
+import pathlib
 import re
 import shutil
 import signal
@@ -89,6 +90,29 @@ class Attaching(LauncherTest):
         text = (self.folder / "table").read_text()
         self.assertIn("\nfb_0\tground\t0\n", text)
         self.assertIn("\nfb_9\tground\t1\n", text)
+        self.control("stop")
+        self.assertEqual((run.wait(10), watcher.wait(10)), (0, 0))
+
+    def test_a_renderer_of_a_users_library_in_the_file_and_attached(self):
+        library = pathlib.Path(os.environ["TEST_CONTROLLERS"]) / "libdistance_render.so"
+        text = EXPERIMENT.read_text()
+        path = self.folder / "own.xml"
+        element = f'<visualisations><distance_render id="own" library="{library}" file="distances" every="10"/></visualisations>'
+        text = re.sub(r"<visualisations>.*</visualisations>|<visualisations/>", "", text, flags=re.S)
+        path.write_text(text.replace("</ahss-config>", element + "</ahss-config>"))
+        self.assert_finished(self.run_it("run", path, "--ticks", 20, "--quiet", "--output", "out"), 20)
+        self.assertIn("\nfb_0\t3.767\n", (self.folder / "out" / "distances").read_text())
+
+        run = self.start_paused("--ticks", 0)
+        self.control("step", 3)
+        answer = self.run_it("attach", library, "--help")
+        self.assertIn("--precision", answer.stdout)
+        watcher = self.start("attach", "distance_render", "--file", "table", "--output", self.folder, "--precision", 2,
+                             environment={"SWARMANOID_PLUGIN_PATH": str(library.parent)})
+        self.wait_until(lambda: self.has_table("table"))
+        self.assertRegex((self.folder / "table").read_text(), r"\nfb_9\t\d+(\.\d{1,2})?\n")
+        self.assertIn("there is no visualiser 'distances'", self.run_it("attach", "distances").stderr)
+        self.assertIn("holds no visualiser", self.run_it("attach", library.parent / "libfaulty_controller.so").stderr)
         self.control("stop")
         self.assertEqual((run.wait(10), watcher.wait(10)), (0, 0))
 
