@@ -11,6 +11,7 @@
 #include "common/math/elementary.h"
 #include "common/space/attributes.h"
 #include "common/space/terrain/terrain.h"
+#include "visualiser/status_line.h"
 
 namespace swarmanoid
 {
@@ -72,23 +73,6 @@ Json AttributeTable()
     table[std::string(TagName(static_cast<EntityKind>(kind)))] = specs;
   }
   return table;
-}
-
-const char* PhaseName(RunStatus::Phase phase)
-{
-  switch (phase)
-  {
-    case RunStatus::Phase::kWaiting:
-      return "waiting";
-    case RunStatus::Phase::kRunning:
-      return "running";
-    case RunStatus::Phase::kPaused:
-      return "paused";
-    case RunStatus::Phase::kFinished:
-      return "finished";
-    default:
-      return "unknown";
-  }
 }
 
 // {"left": [1.5, "m/s"], …} as columns.
