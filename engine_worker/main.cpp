@@ -2,13 +2,11 @@
 #include <CLI/CLI.hpp>
 
 #include <fmt/format.h>
-#include <mutex>
 
 #include "common/bus/cluster_options.h"
 #include "common/bus/replica.h"
 #include "common/bus/saved_states.h"
-#include "common/bus/stall_watch.h"
-#include "common/bus/tick_gate.h"
+#include "common/bus/tick_inputs.h"
 #include "common/bus/worker_session.h"
 #include "controller_host/controller_host.h"
 #include "engine_worker/engine_worker.h"
@@ -29,146 +27,69 @@ public:
         engine_(static_cast<std::uint32_t>(engine)),
         role_(*replica.space, replica.assignment, engine),
         saved_(session, EngineName(*replica.experiment, engine), role_),
-        gate_(Parts(role_.Layout()), replica.FirstTick()),
+        inputs_(session, replica, Hosts(role_.Layout())),
         commands_(role_.Layout().commands_from.size()),
         updates_(session.GetBus(), session.Scope(UpdateCapacity(*replica.space, replica.assignment), 1))
   {
     replica.Restore(EngineName(*replica.experiment, engine), role_);
     for (const ControlCommands& commands : commands_) commands_here_.push_back(&commands);
-    const auto hosts = static_cast<unsigned>(replica.assignment.hosts.size());
     if (role_.Layout().sensor_size > 0)
       frames_.emplace(session.GetBus(), session.Scope(FrameCapacity(replica.assignment), 1));
-    if (!commands_.empty())
-      commands_in_.emplace(session.GetBus(), session.Scope(CommandsCapacity(*replica.space, replica.assignment), hosts),
-                           HotSubscription<ControlCommands>::Handler{
-                               [this](const MessageHeader& header) { return PlaceOfCommands(header); },
-                               [this](const MessageHeader& header, ControlCommands&) { CommandsArrived(header); }});
-    states_in_.emplace(session.GetBus(), session.Scope(StateCapacity(*replica.space), 1),
-                       HotSubscription<SpaceState>::Handler{
-                           [this](const MessageHeader& header) { return PlaceOfState(header); },
-                           [this](const MessageHeader& header, SpaceState& state) { StateArrived(header, state); }});
+    inputs_.Open(
+        {[this](std::size_t k, std::uint64_t) { return &commands_[k]; }, [this] { Step(); }, [this] { Answer(true); }},
+        CommandsCapacity(*replica.space, replica.assignment), HostCount());
   }
+  ~EngineNode() { inputs_.Close(); }
 
   // Until all whom this engine hears or speaks to are there.
   void MeetOthers()
   {
-    const auto hosts = static_cast<unsigned>(replica_.assignment.hosts.size());
     unsigned frame_readers = 0;
     for (const HostLayout& host : replica_.assignment.hosts) frame_readers += host.frames_from.empty() ? 0 : 1;
     session_.WaitUntil(
         [&]
         {
-          return states_in_->Writers() >= 1 && updates_.Readers() >= 1 && saved_.Met() &&
-                 (!commands_in_ || commands_in_->Writers() >= hosts) &&
+          return inputs_.ServerIsHere() && inputs_.MissingWriters() == 0 && updates_.Readers() >= 1 && saved_.Met() &&
                  (!frames_ || frames_->Readers() >= frame_readers);
         },
         [&]
         {
-          const unsigned here = commands_in_ ? commands_in_->Writers() : hosts;
-          return here < hosts ? fmt::format("{} of {} controller hosts", hosts - here, hosts)
-                              : std::string("the space server's topics");
+          const unsigned missing = inputs_.MissingWriters();
+          return missing > 0 ? fmt::format("{} of {} controller hosts", missing, HostCount())
+                             : std::string("the space server's topics");
         });
   }
 
   std::optional<std::string> Stall()
   {
-    std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock)
-    {
-      session_.SetTick(stepping_);
-      return watch_.Observe(stepping_, "runs its engine");
-    }
-    session_.SetTick(gate_.Tick());
-    return watch_.Observe(gate_.Tick(), !commands_.empty() && gate_.Has(0) && !gate_.Complete()
-                                            ? "waits for " + Joined(gate_.Missing())
-                                            : "");
+    return inputs_.Stall([] { return std::string("runs its engine"); });
   }
 
   void Flush() { saved_.Flush(); }
 
 private:
-  static std::vector<TickGate::Part> Parts(const EngineLayout& layout)
+  using Inputs = TickInputs<ControlCommands>;
+
+  static std::vector<Inputs::Other> Hosts(const EngineLayout& layout)
   {
-    std::vector<TickGate::Part> parts{{"space server"}};
-    for (const std::uint32_t host : layout.commands_from) parts.push_back({HostName(host)});
-    return parts;
+    std::vector<Inputs::Other> hosts;
+    for (const std::uint32_t host : layout.commands_from) hosts.push_back({host, {HostName(host)}});
+    return hosts;
   }
 
-  SpaceState* PlaceOfState(const MessageHeader& header)
-  {
-    if (header.run != session_.World().run) return nullptr;
-    const std::lock_guard lock(mutex_);
-    try
-    {
-      // A repeated state is read too: it may say that the run ends here.
-      return gate_.Offer(0, header.tick) == TickGate::Verdict::kExpected ? &state_ : &repeated_;
-    }
-    catch (const BusError& error)
-    {
-      session_.Fail(gate_.Tick(), error.what());
-      return nullptr;
-    }
-  }
-
-  void StateArrived(const MessageHeader& header, SpaceState& state)
-  {
-    const std::lock_guard lock(mutex_);
-    if (&state == &repeated_ && header.tick + 1 < gate_.Tick()) return;
-    if (state.last) return session_.Finish(header.tick);
-    if (&state == &state_)
-    {
-      replica_.space->Apply(state_);
-      if (gate_.Arrived(0, header.tick)) Step();
-    }
-    else if (header.tick + 1 == gate_.Tick())
-      Answer(true);
-  }
-
-  ControlCommands* PlaceOfCommands(const MessageHeader& header)
-  {
-    const auto& from = role_.Layout().commands_from;
-    const auto host = std::find(from.begin(), from.end(), header.source);
-    if (header.run != session_.World().run || host == from.end()) return nullptr;
-    const auto k = static_cast<std::size_t>(host - from.begin());
-    const std::lock_guard lock(mutex_);
-    try
-    {
-      return gate_.Offer(1 + k, header.tick) == TickGate::Verdict::kExpected ? &commands_[k] : nullptr;
-    }
-    catch (const BusError& error)
-    {
-      session_.Fail(gate_.Tick(), error.what());
-      return nullptr;
-    }
-  }
-
-  void CommandsArrived(const MessageHeader& header)
-  {
-    const auto& from = role_.Layout().commands_from;
-    const auto k = static_cast<std::size_t>(std::find(from.begin(), from.end(), header.source) - from.begin());
-    const std::lock_guard lock(mutex_);
-    if (gate_.Arrived(1 + k, header.tick)) Step();
-  }
+  unsigned HostCount() const { return static_cast<unsigned>(replica_.assignment.hosts.size()); }
 
   void Step()
   {
-    try
-    {
-      stepping_ = gate_.Tick();
-      role_.Step(state_.moved, commands_here_);
-      gate_.Next();
-      saved_.Ready(gate_.Tick(), role_);
-      Answer(false);
-    }
-    catch (const std::exception& error)
-    {
-      session_.Fail(gate_.Tick(), error.what());
-    }
+    role_.Step(inputs_.State().moved, commands_here_);
+    inputs_.Next();
+    saved_.Ready(inputs_.Tick(), role_);
+    Answer(false);
   }
 
   void Answer(bool repeated)
   {
-    MessageHeader header = session_.Header(gate_.Tick(), engine_);
+    MessageHeader header = session_.Header(inputs_.Tick(), engine_);
     header.repeated = repeated;
     updates_.Write(header, role_.Update());
     if (frames_) frames_->Write(header, role_.Sensors());
@@ -177,20 +98,13 @@ private:
   WorkerSession& session_;
   Replica& replica_;
   std::uint32_t engine_;
-  std::mutex mutex_;  // of what follows
   EngineWorker role_;
   SavedStates saved_;
-  TickGate gate_;
-  SpaceState state_;
-  SpaceState repeated_;
+  Inputs inputs_;  // its mutex guards the role and what follows
   std::vector<ControlCommands> commands_;
   std::vector<const ControlCommands*> commands_here_;
-  std::atomic<std::uint64_t> stepping_ = 0;
-  StallWatch watch_;  // main thread
   HotPublisher<EngineUpdate> updates_;
   std::optional<HotPublisher<SensorFrame>> frames_;
-  std::optional<HotSubscription<ControlCommands>> commands_in_;
-  std::optional<HotSubscription<SpaceState>> states_in_;
 };
 
 std::size_t FindEngine(const Experiment& experiment, const std::string& id)

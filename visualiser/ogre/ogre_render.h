@@ -4,36 +4,25 @@
 #include <memory>
 #include <string>
 
-#include "visualiser/interaction/frame_schedule.h"
-#include "visualiser/interaction/viewer.h"
+#include "visualiser/interaction/window_render.h"
 #include "visualiser/ogre/ogre_scene.h"
 #include "visualiser/ogre/ogre_window.h"
 #include "visualiser/panels/panels.h"
-#include "visualiser/render.h"
 
 namespace swarmanoid
 {
 
-class COgreRender : public CRender
+class COgreRender : public WindowRender
 {
-public:
-  void Init(const RenderSetup& setup) override;
-  void Draw() override;
-  void Idle() override;
-  bool Terminate() override { return window_->WantsToClose() || viewer_->WantsToClose(); }
-  bool IsInteractive() const override { return true; }
-
 private:
-  void TakeEvents();
-  void DrawFrame(bool of_a_tick);
+  void Open(const std::string& title, int width, int height, const Parameters& parameters) override;
+  bool TakeEvents() override { return window_->TakeEvents(GetViewer()); }
+  bool WindowWantsToClose() const override { return window_->WantsToClose(); }
+  bool WindowIsVisible() const override { return window_->IsVisible(); }
+  void Show(const TakePicture& take) override;
   void ShowPanels(const Scene& scene);
-  void WritePicture(const std::string& path);
 
-  std::string output_folder_;
-  std::string frames_;  // folder and first part of the name; empty: none are written
-  std::unique_ptr<FrameSchedule> schedule_;
   // In the order in which they need one another.
-  std::unique_ptr<Viewer> viewer_;
   std::unique_ptr<OgreWindow> window_;
   std::unique_ptr<OgreScene> scene_;
   std::unique_ptr<Panels> panels_;

@@ -1,0 +1,196 @@
+// TickInputs: what a worker takes in before each of its steps: the state of the space, and one message from each of
+// some other processes. They come in any order, early, late or again; once all of a tick are here, the worker steps, in
+// the thread of the bus that brought the last one. Used by engine_worker and controller_host.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/bus/replica.h"
+#include "common/bus/stall_watch.h"
+#include "common/bus/tick_gate.h"
+#include "common/bus/worker_session.h"
+
+namespace swarmanoid
+{
+
+template <class Message>
+class TickInputs
+{
+public:
+  // One of the other processes. `source`: the number in its messages.
+  struct Other
+  {
+    std::uint32_t source;
+    TickGate::Part part;
+  };
+
+  // All are called with Mutex() locked. What step throws ends the run.
+  struct Calls
+  {
+    std::function<Message*(std::size_t other, std::uint64_t tick)> place;  // where a message is to be put
+    std::function<void()> step;                                            // all of tick Tick() is here
+    std::function<void()> answer_again;  // the server has not got the answer to the tick before Tick()
+  };
+
+  TickInputs(WorkerSession& session, Replica& replica, const std::vector<Other>& others)
+      : session_(session), space_(*replica.space), gate_(Parts(others), replica.FirstTick())
+  {
+    for (const Other& other : others) sources_.push_back(other.source);
+  }
+
+  // Messages come from now on. `writers`: of all messages of this kind, no matter for whom they are; `capacity`: bytes
+  // of the largest.
+  void Open(Calls calls, std::size_t capacity, unsigned writers)
+  {
+    calls_ = std::move(calls);
+    writers_ = sources_.empty() ? 0 : writers;
+    if (writers_ > 0)
+      others_in_.emplace(session_.GetBus(), session_.Scope(capacity, writers),
+                         typename HotSubscription<Message>::Handler{
+                             [this](const MessageHeader& header) { return PlaceOf(header); },
+                             [this](const MessageHeader& header, Message&) { Arrived(header); }});
+    states_in_.emplace(session_.GetBus(), session_.Scope(StateCapacity(space_), 1),
+                       HotSubscription<SpaceState>::Handler{
+                           [this](const MessageHeader& header) { return PlaceOfState(header); },
+                           [this](const MessageHeader& header, SpaceState& state) { StateArrived(header, state); }});
+  }
+
+  // No message comes and none of the calls runs after this. Before anything that they use goes.
+  void Close()
+  {
+    states_in_.reset();
+    others_in_.reset();
+  }
+
+  // Whether the server is heard, and how many of the other writers are missing.
+  bool ServerIsHere() const { return states_in_->Writers() >= 1; }
+  unsigned MissingWriters() const
+  {
+    const unsigned here = others_in_ ? others_in_->Writers() : 0;
+    return writers_ - std::min(here, writers_);
+  }
+
+  // Nobody sends what this process begins with.
+  void HaveFirst(std::size_t other) { gate_.Arrived(1 + other, gate_.Tick()); }
+
+  // What the worker waits for, or `busy`, what it does, where that takes long. Of the main thread.
+  std::optional<std::string> Stall(const std::function<std::string()>& busy)
+  {
+    std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock)
+    {
+      session_.SetTick(stepping_);
+      return watch_.Observe(stepping_, busy());
+    }
+    session_.SetTick(gate_.Tick());
+    const bool waits = !sources_.empty() && gate_.Has(0) && !gate_.Complete();
+    return watch_.Observe(gate_.Tick(), waits ? "waits for " + Joined(gate_.Missing()) : "");
+  }
+
+  std::mutex& Mutex() { return mutex_; }
+  const SpaceState& State() const { return state_; }
+  std::uint64_t Tick() const { return gate_.Tick(); }
+  // The step of Tick() is done.
+  void Next() { gate_.Next(); }
+
+private:
+  static std::vector<TickGate::Part> Parts(const std::vector<Other>& others)
+  {
+    std::vector<TickGate::Part> parts{{"space server"}};
+    for (const Other& other : others) parts.push_back(other.part);
+    return parts;
+  }
+
+  // Which of the other processes sent it; their number where it is none of them.
+  std::size_t OtherOf(const MessageHeader& header) const
+  {
+    return static_cast<std::size_t>(std::find(sources_.begin(), sources_.end(), header.source) - sources_.begin());
+  }
+
+  // What the gate says to a message; nothing for a tick that cannot follow, which ends the run.
+  std::optional<TickGate::Verdict> Offer(std::size_t part, std::uint64_t tick)
+  {
+    try
+    {
+      return gate_.Offer(part, tick);
+    }
+    catch (const BusError& error)
+    {
+      session_.Fail(gate_.Tick(), error.what());
+      return std::nullopt;
+    }
+  }
+
+  SpaceState* PlaceOfState(const MessageHeader& header)
+  {
+    if (header.run != session_.World().run) return nullptr;
+    const std::lock_guard lock(mutex_);
+    const auto verdict = Offer(0, header.tick);
+    if (!verdict) return nullptr;
+    // A repeated state is read too: it may say that the run ends here.
+    return verdict == TickGate::Verdict::kExpected ? &state_ : &repeated_;
+  }
+
+  void StateArrived(const MessageHeader& header, SpaceState& state)
+  {
+    const std::lock_guard lock(mutex_);
+    if (&state == &repeated_ && header.tick + 1 < gate_.Tick()) return;
+    if (state.last) return session_.Finish(header.tick);
+    if (&state == &state_)
+    {
+      space_.Apply(state_);
+      if (gate_.Arrived(0, header.tick)) Step();
+    }
+    else if (header.tick + 1 == gate_.Tick())
+      calls_.answer_again();
+  }
+
+  Message* PlaceOf(const MessageHeader& header)
+  {
+    const std::size_t other = OtherOf(header);
+    if (header.run != session_.World().run || other == sources_.size()) return nullptr;
+    const std::lock_guard lock(mutex_);
+    return Offer(1 + other, header.tick) == TickGate::Verdict::kExpected ? calls_.place(other, header.tick) : nullptr;
+  }
+
+  void Arrived(const MessageHeader& header)
+  {
+    const std::lock_guard lock(mutex_);
+    if (gate_.Arrived(1 + OtherOf(header), header.tick)) Step();
+  }
+
+  void Step()
+  {
+    stepping_ = gate_.Tick();
+    try
+    {
+      calls_.step();
+    }
+    catch (const std::exception& error)
+    {
+      session_.Fail(gate_.Tick(), error.what());
+    }
+  }
+
+  WorkerSession& session_;
+  CSwarmanoidSpace& space_;
+  std::vector<std::uint32_t> sources_;
+  unsigned writers_ = 0;
+  Calls calls_;
+  std::mutex mutex_;  // of the gate, the states and all that the calls touch
+  TickGate gate_;
+  SpaceState state_;
+  SpaceState repeated_;
+  std::atomic<std::uint64_t> stepping_ = 0;
+  StallWatch watch_;  // main thread
+  std::optional<HotSubscription<Message>> others_in_;
+  std::optional<HotSubscription<SpaceState>> states_in_;
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,351 @@
+#include "space_server/cluster/server_program.h"
+
+#include <fmt/format.h>
+
+#include <random>
+
+#include "common/bus/cluster_options.h"
+#include "space_server/cluster/process_watch.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+
+constexpr auto kPeriod = 50ms;  // of the main thread, when nothing happens
+constexpr auto kFirstRepeat = 100ms;
+constexpr auto kLastRepeat = 1s;
+constexpr auto kStallTime = 2s;
+constexpr auto kBrokenTime = 5s;  // for the lease of a dead process to end
+
+struct RunResult
+{
+  std::uint64_t ticks = 0;
+  std::size_t entities = 0;
+  std::uint64_t hash = 0;
+};
+
+double Seconds(std::chrono::steady_clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
+
+std::uint64_t NewRun()
+{
+  std::random_device device;
+  return (static_cast<std::uint64_t>(device()) << 32) | device();
+}
+
+ControlDeskSetup DeskSetup(const ServerOptions& options, const Experiment& experiment)
+{
+  ControlDeskSetup setup{options.paused, options.real_time_factor, {}, {}};
+  if (!options.output.empty()) setup.event_log = options.output + "/events.csv";
+  if (!options.events.empty()) setup.repeated = ReadEvents(options.events, experiment);
+  return setup;
+}
+
+}  // namespace
+
+ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& experiment, StatusChannel& status)
+    : options_(options),
+      experiment_(experiment),
+      status_(status),
+      assignment_(MakeAssignment(experiment, options.hosts)),
+      server_(experiment, assignment_, options.output.empty() ? "." : options.output),
+      session_(options.bus, World(), Expected(Visualisers()),
+               {[this](const ControlRequestMessage& request)
+                {
+                  desk_.Ask(request);
+                  Wake();
+                },
+                [this] { Wake(); }, [this](const std::string& process) { audience_.Gone(process); }}),
+      audience_(session_, [this] { Wake(); }),
+      desk_(experiment, DeskSetup(options, experiment),
+            [this](const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
+            { session_.Reply(request, done, tick, text); }),
+      pace_(experiment.TickSeconds()),
+      checkpoints_(session_, experiment, Expected({}), options.output.empty() ? "." : options.output,
+                   [this] { Wake(); }),
+      lockstep_(session_, server_, assignment_, !options.no_visualisers, options.hash_log, checkpoints_,
+                [this] { Wake(); })
+{
+}
+
+int ServerProgram::Run()
+{
+  try
+  {
+    session_.Open();
+    Gather();
+    RunTicks();
+    Close();
+  }
+  catch (const std::exception& error)
+  {
+    session_.SayBye(lockstep_.Tick(), error.what());
+    fmt::print(stderr, "space_server: {}\n", error.what());
+    status_.Say(fmt::format("error {}", error.what()));
+    session_.LeaveDirectory();
+    EndAtOnce(Interrupted() ? kExitInterrupted : kExitProcessFailed);
+  }
+  if (Interrupted()) return kExitInterrupted;
+  return server_.HasFailed() ? kExitExperimentFailed : kExitDone;
+}
+
+WorldMessage ServerProgram::World()
+{
+  WorldMessage world =
+      DescribeWorld(server_.Space(), NewRun(), options_.file, static_cast<unsigned>(assignment_.hosts.size()));
+  CheckCheckpointPeriod(options_.checkpoint_every, experiment_);
+  world.checkpoint_every = options_.checkpoint_every;
+  if (options_.checkpoint_every != 0)
+  {
+    // What cannot be saved is said before the run, not in the midst of it.
+    ByteWriter scratch;
+    server_.SaveState(scratch);
+  }
+  if (options_.restore.empty()) return world;
+  const Checkpoint checkpoint = ReadCheckpoint(options_.restore, experiment_, assignment_.hosts.size());
+  checkpoint.LoadPart(kServerPart, [&](ByteReader& state) { server_.LoadState(checkpoint.snapshot, state); });
+  world.checkpoint = EncodeCheckpoint(checkpoint);
+  return world;
+}
+
+std::span<const RenderConfiguration> ServerProgram::Visualisers() const
+{
+  return options_.no_visualisers ? std::span<const RenderConfiguration>() : experiment_.visualisations;
+}
+
+std::vector<std::string> ServerProgram::Expected(std::span<const RenderConfiguration> visualisers) const
+{
+  std::vector<std::string> names;
+  for (std::size_t e = 0; e < experiment_.engines.size(); ++e) names.push_back(EngineName(experiment_, e));
+  for (std::size_t h = 0; h < assignment_.hosts.size(); ++h) names.push_back(HostName(h));
+  for (const RenderConfiguration& render : visualisers) names.push_back(VisualiserName(render));
+  return names;
+}
+
+void ServerProgram::Wake()
+{
+  const std::lock_guard lock(wake_mutex_);
+  awake_ = true;
+  wake_.notify_all();
+}
+
+void ServerProgram::Sleep(Clock::time_point until)
+{
+  std::unique_lock lock(wake_mutex_);
+  wake_.wait_until(lock, until, [this] { return awake_; });
+  awake_ = false;
+}
+
+void ServerProgram::CheckFailures()
+{
+  if (const auto failure = session_.Failure()) throw BusError(*failure);
+  if (const auto failure = lockstep_.Failure()) throw BusError(*failure);
+  if (!BusIsBroken()) return;
+  if (!broken_since_) broken_since_ = Clock::now();
+  if (Clock::now() - *broken_since_ > kBrokenTime)
+    throw BusError("a process died while it held shared memory of the run");
+}
+
+void ServerProgram::Say(const std::string& text) const
+{
+  if (!status_.IsOpen()) fmt::print(stderr, "space server: {}\n", text);
+}
+
+void ServerProgram::Gather()
+{
+  const auto start = Clock::now();
+  std::string said;
+  while (true)
+  {
+    CheckFailures();
+    if (Interrupted()) throw BusError("interrupted before the first tick");
+    TellAudience();
+    const std::vector<std::string> missing = session_.Missing();
+    if (missing.empty() && lockstep_.AllMet()) return;
+    const std::string text = Joined(missing);
+    if (text != said && !text.empty() && (Clock::now() - start > 300ms || !said.empty()))
+    {
+      Say(fmt::format("waiting for {} (experiment '{}', domain {}) …", text, experiment_.name, options_.bus.domain));
+      status_.Say("state waiting " + text);
+      said = text;
+    }
+    // Endpoints of others are met without a word: look often while nobody is missing.
+    Sleep(Clock::now() + (missing.empty() ? 1ms : 10ms));
+  }
+}
+
+void ServerProgram::RunTicks()
+{
+  start_ = since_ = repeated_ = Clock::now();
+  repeat_after_ = kFirstRepeat;
+  started_ = true;
+  first_tick_ = lockstep_.Tick();
+  desk_.Start(first_tick_, start_);
+  SayState();
+  while (!lockstep_.Finished())
+  {
+    CheckFailures();
+    Clock::time_point next = Clock::now() + kPeriod;
+    if (Interrupted()) desk_.Stop("interrupt");
+    if (desk_.WantsHold()) lockstep_.Hold();
+    if (lockstep_.Held())
+    {
+      lockstep_.WithServer([this](SpaceServer& server) { desk_.Work(server); });
+      const ControlDesk::Decision decision = desk_.Decide(lockstep_.Tick(), Clock::now());
+      if (decision.go)
+        lockstep_.Go(decision.until);
+      else if (decision.due)
+        next = std::min(next, *decision.due);
+      audience_.Renew();
+    }
+    checkpoints_.Work();
+    Watch();
+    TellAudience();
+    if (!lockstep_.Finished() && !lockstep_.Failure()) Sleep(std::min(next, audience_.Next()));
+  }
+  end_ = Clock::now();
+  if (const auto who = lockstep_.Terminator()) desk_.Stopped(lockstep_.Tick(), *who);
+}
+
+void ServerProgram::SayState()
+{
+  const std::string state = desk_.Paused() ? "state paused" : "state running";
+  if (state == said_state_) return;
+  said_state_ = state;
+  status_.Say(state);
+  Say(desk_.Paused() ? fmt::format("paused at tick {}", lockstep_.Tick()) : "running");
+}
+
+void ServerProgram::Watch()
+{
+  const auto now = Clock::now();
+  const std::uint64_t tick = lockstep_.Tick();
+  const bool held = lockstep_.Held();
+  if (tick != last_tick_ || held)
+  {
+    last_tick_ = tick;
+    since_ = now;
+    repeat_after_ = kFirstRepeat;
+    repeated_ = now;
+    stall_said_ = 0s;
+  }
+  else if (now - repeated_ >= repeat_after_)
+  {
+    lockstep_.Repeat();
+    repeated_ = now;
+    repeat_after_ = std::min<Clock::duration>(2 * repeat_after_, kLastRepeat);
+  }
+  if (now - since_ >= kStallTime && now - since_ >= stall_said_ + 1s)
+  {
+    stall_said_ = now - since_;
+    const std::string who = Culprits(tick);
+    status_.Say(fmt::format("stalled {} {:.0f}", who, Seconds(stall_said_)));
+    Say(fmt::format("tick {}: waiting for {} since {:.0f} s", tick, who, Seconds(stall_said_)));
+  }
+  SayState();
+  if (desk_.Paused() && held)
+    pace_.Rest(tick, now);
+  else if (pace_.Observe(tick, now))
+    status_.Say(fmt::format("tick {} {} {:.2f}", tick, experiment_.max_clock, pace_.RealTimeFactor()));
+}
+
+std::string ServerProgram::Culprits(std::uint64_t tick) const
+{
+  std::vector<std::string> names;
+  for (const LateProcess& late : LateProcesses(session_, lockstep_.Missing(), tick))
+    names.push_back(late.doing.empty() ? late.name : fmt::format("{} ({})", late.name, late.doing));
+  return Joined(names);
+}
+
+RunStatus::Phase ServerProgram::Phase() const
+{
+  if (lockstep_.Finished()) return RunStatus::Phase::kFinished;
+  if (!started_) return RunStatus::Phase::kWaiting;
+  return desk_.Paused() ? RunStatus::Phase::kPaused : RunStatus::Phase::kRunning;
+}
+
+void ServerProgram::TellAudience()
+{
+  const auto now = Clock::now();
+  const bool over = lockstep_.Finished();
+  if (std::exchange(told_end_, over)) return;
+  if (started_ && (over || audience_.ViewIsDue(lockstep_.Tick(), now)))
+  {
+    lockstep_.WithServer([this](SpaceServer& server) { server.WriteSnapshot(snapshot_); });
+    snapshot_.last = over;
+    snapshot_.real_time_factor = pace_.RealTimeFactor();
+    audience_.SendView(snapshot_, now);
+  }
+  const RunStatus::Phase phase = Phase();
+  if (over || audience_.StatusIsDue(phase, now)) audience_.SendStatus(Status(phase, now), now);
+}
+
+RunStatus ServerProgram::Status(RunStatus::Phase phase, Clock::time_point now)
+{
+  RunStatus status;
+  status.phase = phase;
+  status.tick = lockstep_.Tick();
+  status.speed_wanted = desk_.Speed();
+  if (phase == RunStatus::Phase::kRunning || phase == RunStatus::Phase::kFinished)
+  {
+    status.real_time_factor = pace_.RealTimeFactor();
+    status.ticks_per_second = pace_.TicksPerSecond();
+  }
+  status.ended = desk_.WhyStopped();
+  if (const auto who = lockstep_.Terminator()) status.ended = *who + " asked for the end";
+  const bool waits = started_ && !lockstep_.Held() && !lockstep_.Finished();
+  status.processes = ProcessesNow(session_, status.tick, waits ? lockstep_.Missing() : std::vector<std::string>(),
+                                  waits ? Seconds(now - since_) : 0);
+  return status;
+}
+
+void ServerProgram::Close()
+{
+  RunResult result;
+  lockstep_.WithServer(
+      [&](SpaceServer& server) {
+        result = {server.Space().GetTick(), server.Space().Size(), server.Space().Hash()};
+      });
+  desk_.Ended(result.ticks);
+  TellAudience();
+  auto said = Clock::now();
+  repeat_after_ = kFirstRepeat;
+  while (!session_.AllSaidBye())
+  {
+    CheckFailures();
+    Sleep(Clock::now() + 10ms);
+    if (Clock::now() - said < repeat_after_) continue;
+    said = Clock::now();
+    repeat_after_ = std::min<Clock::duration>(2 * repeat_after_, kLastRepeat);
+    lockstep_.Repeat();
+  }
+  CheckFailures();
+  FinishCheckpoints();
+  lockstep_.WithServer([](SpaceServer& server) { server.Destroy(); });
+  session_.SayBye(result.ticks, "");
+  const double wall = Seconds(end_ - start_);
+  const double factor =
+      wall > 0 ? static_cast<double>(result.ticks - first_tick_) * experiment_.TickSeconds() / wall : 0;
+  status_.Say(fmt::format("tick {} {} {:.2f}", result.ticks, experiment_.max_clock, factor));
+  status_.Say(
+      fmt::format("finished {} {} {:016x} {:.3f} {:.1f}", result.ticks, result.entities, result.hash, wall, factor));
+  if (!status_.IsOpen())
+    fmt::print("finished: {} ticks, {} entities, hash {:016x}, {:.3f} s, {:.1f}x real time\n", result.ticks,
+               result.entities, result.hash, wall, factor);
+}
+
+void ServerProgram::FinishCheckpoints()
+{
+  const auto patience = Clock::now() + kBrokenTime;
+  for (checkpoints_.Work(); !checkpoints_.Incomplete().empty(); checkpoints_.Work())
+  {
+    if (Clock::now() > patience)
+      throw BusError(fmt::format("the checkpoint of tick {} is incomplete: parts of it were lost",
+                                 checkpoints_.Incomplete().front()));
+    Sleep(Clock::now() + 10ms);
+  }
+}
+
+}  // namespace swarmanoid

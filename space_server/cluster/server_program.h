@@ -1,0 +1,118 @@
+// ServerProgram: the main thread of the space_server program. Starts the run, paces it, answers users, watches who is
+// late, and ends it; the ticks themselves run in threads of the bus (Lockstep).
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/bus/replica.h"
+#include "common/bus/server_session.h"
+#include "common/bus/status_channel.h"
+#include "space_server/cluster/audience.h"
+#include "space_server/cluster/checkpoint_desk.h"
+#include "space_server/cluster/lockstep.h"
+#include "space_server/control_desk.h"
+#include "space_server/pace_meter.h"
+#include "space_server/space_server.h"
+
+namespace swarmanoid
+{
+
+struct ServerOptions
+{
+  std::string file;
+  std::vector<std::string> settings;
+  std::uint64_t seed = 0;
+  bool has_seed = false;
+  std::uint64_t ticks = 0;
+  bool has_ticks = false;
+  unsigned hosts = 1;
+  std::string output;
+  bool paused = false;
+  double real_time_factor = 0;
+  std::string hash_log;
+  std::uint64_t checkpoint_every = 0;
+  std::string restore;
+  std::string events;
+  bool no_visualisers = false;
+  int status_fd = -1;
+  BusOptions bus;
+};
+
+class ServerProgram
+{
+public:
+  // All are used as long as the program runs. Throws ConfigurationError and BusError.
+  ServerProgram(const ServerOptions& options, const Experiment& experiment, StatusChannel& status);
+  ~ServerProgram() { session_.Close(); }
+  ServerProgram(const ServerProgram&) = delete;
+  ServerProgram& operator=(const ServerProgram&) = delete;
+
+  // The whole run. Returns the exit code; ends the process where the run fails.
+  int Run();
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  // The world, where the run starts or goes on.
+  WorldMessage World();
+  std::span<const RenderConfiguration> Visualisers() const;
+  std::vector<std::string> Expected(std::span<const RenderConfiguration> visualisers) const;
+  void Wake();
+  void Sleep(Clock::time_point until);
+  void CheckFailures();
+  void Say(const std::string& text) const;
+  // Until all processes of the run are there.
+  void Gather();
+  void RunTicks();
+  void SayState();
+  // Progress, late answers, stalls.
+  void Watch();
+  // Whom the run waits for: those whose answer is missing, or those whom they in turn wait for.
+  std::string Culprits(std::uint64_t tick) const;
+  RunStatus::Phase Phase() const;
+  // Attached visualisers see the whole state now and then, and how the run goes.
+  void TellAudience();
+  RunStatus Status(RunStatus::Phase phase, Clock::time_point now);
+  // The last state is out: all draw it, close their files and say good-bye.
+  void Close();
+  // All parts have been sent; the last of them may still be on their way through the threads of the bus.
+  void FinishCheckpoints();
+
+  const ServerOptions& options_;
+  const Experiment& experiment_;
+  StatusChannel& status_;
+  std::mutex wake_mutex_;
+  std::condition_variable wake_;
+  bool awake_ = false;
+  Assignment assignment_;
+  SpaceServer server_;
+  ServerSession session_;
+  Audience audience_;
+  ControlDesk desk_;
+  PaceMeter pace_;
+  CheckpointDesk checkpoints_;
+  Lockstep lockstep_;
+
+  Clock::time_point start_;
+  Clock::time_point end_;
+  std::string said_state_;
+  std::uint64_t last_tick_ = 0;
+  Clock::time_point since_;  // the current tick is waited for
+  Clock::time_point repeated_;
+  Clock::duration repeat_after_{};
+  Clock::duration stall_said_{};
+  std::uint64_t first_tick_ = 0;
+  bool started_ = false;
+  bool told_end_ = false;
+  std::optional<Clock::time_point> broken_since_;
+  SpaceSnapshot snapshot_;
+};
+
+}  // namespace swarmanoid
