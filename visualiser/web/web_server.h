@@ -1,5 +1,5 @@
-// WebServer: the page's files by HTTP and the live state by WebSocket, on one port, in a thread of its own. The only
-// code that knows Boost.Beast.
+// WebServer: the page's files by HTTP and the live state by WebSocket, on one port, in a thread of its own. Only
+// its sources (web_server.cpp and the headers that it includes) know Boost.Beast.
 //
 // Nobody who looks can slow the caller: every function only hands over a message. Each client has one slot for each
 // kind of state, which holds the latest only, and a bounded queue for what must not be lost; one that reads slowly or

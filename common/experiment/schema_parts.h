@@ -1,0 +1,62 @@
+// The words in which the tables of experiment files are written, and the part of <arena>. For schema*.cpp alone.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/experiment/schema.h"
+
+namespace swarmanoid
+{
+
+inline constexpr double kMostMetres = 1e6;
+inline constexpr double kMostDegrees = 1e5;
+
+inline ParameterSpec Required(ParameterType type, std::string name, std::string unit, std::string description)
+{
+  ParameterSpec spec;
+  spec.name = std::move(name);
+  spec.type = type;
+  spec.unit = std::move(unit);
+  spec.description = std::move(description);
+  return spec;
+}
+
+inline ParameterSpec Optional(ParameterType type, std::string name, std::string unit, std::string default_value,
+                              std::string description)
+{
+  ParameterSpec spec = Required(type, std::move(name), std::move(unit), std::move(description));
+  spec.default_value = std::move(default_value);
+  return spec;
+}
+
+inline ParameterSpec InRange(ParameterSpec spec, double minimum, double maximum)
+{
+  spec.minimum = minimum;
+  spec.maximum = maximum;
+  return spec;
+}
+
+inline ParameterSpec OneOf(ParameterSpec spec, std::vector<std::string> choices)
+{
+  spec.choices = std::move(choices);
+  return spec;
+}
+
+inline ParameterSpec Id(std::string description)
+{
+  return Required(ParameterType::kText, "id", "", std::move(description) + " Letters, digits and _ . : -");
+}
+
+inline ParameterSpec Place(ParameterSpec spec) { return InRange(std::move(spec), -kMostMetres, kMostMetres); }
+
+// The trigonometric functions lose accuracy with large angles.
+inline ParameterSpec Angles(ParameterSpec spec) { return InRange(std::move(spec), -kMostDegrees, kMostDegrees); }
+
+inline ParameterSpec Size(ParameterSpec spec) { return InRange(std::move(spec), kLeastSize, kMostMetres); }
+
+// <arena>: the space, its entities, and those that are distributed or wait in a reserve.
+ElementSpec Arena();
+
+}  // namespace swarmanoid

@@ -1,0 +1,181 @@
+// One page that looks at a WebServer: what waits for it, and how it is sent. In the server's thread.
+#pragma once
+
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <chrono>
+#include <utility>
+
+#include "visualiser/web/web_server_impl.h"
+
+namespace swarmanoid
+{
+
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+
+class WebServer::Impl::Client : public std::enable_shared_from_this<Client>
+{
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::size_t kQueueLength = 512;
+  // Several frames of thousands of robots; what the system takes beyond that is only late.
+  static constexpr int kSocketBytes = 1 << 20;
+
+public:
+  Client(Impl& server, beast::tcp_stream stream, Authority authority)
+      : server_(server), stream_(std::move(stream)), authority_(authority)
+  {
+  }
+
+  void Run(http::request<http::empty_body> request)
+  {
+    request_ = std::move(request);
+    ErrorCode ignored;
+    auto& socket = beast::get_lowest_layer(stream_).socket();
+    socket.set_option(tcp::no_delay(true), ignored);
+    socket.set_option(asio::socket_base::send_buffer_size(kSocketBytes), ignored);
+    beast::get_lowest_layer(stream_).expires_never();
+    websocket::stream_base::timeout times = websocket::stream_base::timeout::suggested(beast::role_type::server);
+    times.keep_alive_pings = true;
+    times.idle_timeout = std::chrono::seconds(60);
+    stream_.set_option(times);
+    // Whole messages in one piece: half the cost of sending.
+    stream_.auto_fragment(false);
+    stream_.write_buffer_bytes(65536);
+    stream_.read_message_max(server_.settings_.max_message_bytes);
+    stream_.async_accept(request_,
+                         [self = shared_from_this()](ErrorCode error)
+                         {
+                           if (error) return self->Gone();
+                           self->open_ = true;
+                           self->server_.Join(self);
+                           self->Read();
+                           self->Write();
+                         });
+  }
+
+  void Put(Slot slot, Bytes bytes)
+  {
+    if (slot == Slot::kFrame && frame_period_.count() > 0)
+    {
+      const auto now = Clock::now();
+      if (now - frame_time_ < frame_period_) return;
+      frame_time_ = now;
+    }
+    slots_[Index(slot)] = std::move(bytes);
+    Write();
+  }
+
+  void Queue(Bytes text)
+  {
+    if (queue_.size() >= kQueueLength) queue_.pop_front();
+    queue_.push_back(std::move(text));
+    Write();
+  }
+
+  void SetFramePeriod(std::chrono::milliseconds period) { frame_period_ = period; }
+  bool IsHungry() const { return open_ && !writing_ && !slots_[Index(Slot::kFrame)]; }
+  Authority GetAuthority() const { return authority_; }
+
+  // When everything is sent.
+  void Close()
+  {
+    closing_ = true;
+    Write();
+  }
+
+  std::uint64_t id = 0;
+
+private:
+  void Read()
+  {
+    stream_.async_read(buffer_,
+                       [self = shared_from_this()](ErrorCode error, std::size_t)
+                       {
+                         if (error) return self->Gone();
+                         const auto data = self->buffer_.cdata();
+                         if (self->stream_.got_text())
+                           self->server_.events_.Received(self->id, self->authority_,
+                                                          {static_cast<const char*>(data.data()), data.size()});
+                         self->buffer_.consume(self->buffer_.size());
+                         self->Read();
+                       });
+  }
+
+  void Write()
+  {
+    if (!open_ || writing_) return;
+    bool binary = false;
+    Bytes bytes = Next(binary);
+    if (!bytes)
+    {
+      if (closing_) SayGoodbye();
+      return;
+    }
+    writing_ = true;
+    stream_.binary(binary);
+    const auto place = asio::buffer(*bytes);
+    stream_.async_write(place,
+                        [self = shared_from_this(), bytes](ErrorCode error, std::size_t)
+                        {
+                          self->writing_ = false;
+                          if (error) return self->Gone();
+                          self->Write();
+                          self->server_.Count();
+                        });
+  }
+
+  // What is to be sent next: the queue first, then the slots in turn.
+  Bytes Next(bool& binary)
+  {
+    if (!queue_.empty())
+    {
+      Bytes bytes = std::move(queue_.front());
+      queue_.pop_front();
+      return bytes;
+    }
+    for (std::size_t i = 0; i < kSlots; ++i)
+    {
+      const std::size_t slot = (next_slot_ + i) % kSlots;
+      if (!slots_[slot]) continue;
+      next_slot_ = (slot + 1) % kSlots;
+      binary = slot == Index(Slot::kFrame);
+      return std::exchange(slots_[slot], nullptr);
+    }
+    return nullptr;
+  }
+
+  void SayGoodbye()
+  {
+    open_ = false;
+    stream_.async_close(websocket::close_code::going_away, [self = shared_from_this()](ErrorCode) { self->Gone(); });
+  }
+
+  void Gone()
+  {
+    open_ = false;
+    if (gone_) return;
+    gone_ = true;
+    --server_.connections_;
+    ErrorCode ignored;
+    beast::get_lowest_layer(stream_).socket().close(ignored);
+    if (id != 0) server_.Leave(id);
+  }
+
+  Impl& server_;
+  websocket::stream<beast::tcp_stream> stream_;
+  Authority authority_;
+  http::request<http::empty_body> request_;
+  beast::flat_buffer buffer_;
+  std::deque<Bytes> queue_;
+  std::array<Bytes, kSlots> slots_;
+  std::size_t next_slot_ = 0;
+  std::chrono::milliseconds frame_period_{0};
+  Clock::time_point frame_time_;
+  bool open_ = false;
+  bool writing_ = false;
+  bool closing_ = false;
+  bool gone_ = false;
+};
+
+}  // namespace swarmanoid

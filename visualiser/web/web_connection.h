@@ -1,0 +1,123 @@
+// One connection to a WebServer: it asks for files, until it becomes a client. In the server's thread.
+#pragma once
+
+#include <optional>
+
+#include "visualiser/web/web_client.h"
+
+namespace swarmanoid
+{
+
+class WebServer::Impl::Connection : public std::enable_shared_from_this<Connection>
+{
+  static constexpr auto kRequestTime = std::chrono::seconds(15);
+  static constexpr std::size_t kRequestBytes = 8192;
+
+public:
+  Connection(Impl& server, tcp::socket socket) : server_(server), stream_(std::move(socket)) {}
+  ~Connection()
+  {
+    if (!handed_over_) --server_.connections_;
+  }
+
+  void Read()
+  {
+    parser_.emplace();
+    parser_->header_limit(kRequestBytes);
+    parser_->body_limit(0);
+    stream_.expires_after(kRequestTime);
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = shared_from_this()](ErrorCode error, std::size_t)
+                     {
+                       if (error == http::error::header_limit)
+                         return self->Refuse(http::status::request_header_fields_too_large, "the request is too long");
+                       if (error == http::error::body_limit)
+                         return self->Refuse(http::status::payload_too_large, "a request has no body here");
+                       if (!error) self->Answer();
+                     });
+  }
+
+private:
+  void Answer()
+  {
+    const auto& request = parser_->get();
+    const std::string_view host = Field(http::field::host);
+    if (!IsKnownHost(host)) return Refuse(http::status::forbidden, "this server is not known by that name");
+    const std::string_view target(request.target().data(), request.target().size());
+    if (websocket::is_upgrade(request)) return Upgrade(target);
+    if (request.method() != http::verb::get && request.method() != http::verb::head)
+      return Refuse(http::status::method_not_allowed, "only GET and HEAD are answered");
+    const PageFile* file = server_.files_.Find(PathOf(target));
+    if (file == nullptr) return Refuse(http::status::not_found, "there is no such file");
+    Respond(http::status::ok, file->type, file->bytes);
+  }
+
+  void Upgrade(std::string_view target)
+  {
+    if (PathOf(target) != "/stream") return Refuse(http::status::not_found, "the stream is at /stream");
+    if (!IsOwnOrigin(Field(http::field::origin), Field(http::field::host)))
+      return Refuse(http::status::forbidden, "a page of another site may not look");
+    if (server_.clients_.size() >= server_.settings_.max_clients)
+      return Refuse(http::status::service_unavailable, "as many pages look as may");
+    const Authority authority = AuthorityOf(server_.settings_.access, QueryValue(target, "token"));
+    handed_over_ = true;
+    std::make_shared<Client>(server_, std::move(stream_), authority)->Run(parser_->release());
+  }
+
+  void Refuse(http::status status, std::string_view why)
+  {
+    Respond(status, "text/plain; charset=utf-8", std::make_shared<const std::string>(std::string(why) + "\n"));
+  }
+
+  void Respond(http::status status, const std::string& type, std::shared_ptr<const std::string> bytes)
+  {
+    const auto& request = parser_->get();
+    bytes_ = std::move(bytes);
+    response_ = {};
+    response_.version(11);
+    response_.result(status);
+    response_.set(http::field::content_type, type);
+    response_.set(http::field::cache_control, "no-cache");
+    response_.set("X-Content-Type-Options", "nosniff");
+    response_.set("X-Frame-Options", "DENY");
+    response_.set("Referrer-Policy", "no-referrer");
+    response_.set("Content-Security-Policy",
+                  "default-src 'self'; img-src 'self' data: blob:; connect-src 'self' ws://" +
+                      std::string(IsKnownHost(Field(http::field::host)) ? Field(http::field::host) : "localhost") +
+                      "; frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
+    response_.content_length(bytes_->size());
+    const bool keep = status == http::status::ok && request.keep_alive();
+    response_.keep_alive(keep);
+    if (request.method() != http::verb::head)
+    {
+      response_.body().data = const_cast<char*>(bytes_->data());  // a buffer body only reads what it sends
+      response_.body().size = bytes_->size();
+    }
+    response_.body().more = false;
+    serializer_.emplace(response_);
+    http::async_write(stream_, *serializer_,
+                      [self = shared_from_this(), keep](ErrorCode error, std::size_t)
+                      {
+                        if (!error && keep) return self->Read();
+                        ErrorCode ignored;
+                        self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+                      });
+  }
+
+  std::string_view Field(http::field field) const
+  {
+    const auto text = parser_->get()[field];
+    return {text.data(), text.size()};
+  }
+
+  Impl& server_;
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_{kRequestBytes * 2};
+  std::optional<http::request_parser<http::empty_body>> parser_;
+  http::response<http::buffer_body> response_;
+  std::optional<http::response_serializer<http::buffer_body>> serializer_;
+  std::shared_ptr<const std::string> bytes_;
+  bool handed_over_ = false;
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,68 @@
+// The inside of WebServer, for its own sources alone.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "visualiser/web/web_server.h"
+
+namespace swarmanoid
+{
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+using tcp = asio::ip::tcp;
+using ErrorCode = beast::error_code;
+
+inline constexpr std::size_t kSlots = static_cast<std::size_t>(WebServer::Slot::kCount);
+constexpr std::size_t Index(WebServer::Slot slot) { return static_cast<std::size_t>(slot); }
+
+// Everything below runs in the server's thread, but for the constructor, the destructor and the counters.
+class WebServer::Impl
+{
+public:
+  class Client;
+  class Connection;
+
+  Impl(const WebServerSettings& settings, PageFiles files, WebServerEvents& events);
+  ~Impl();
+
+  void Post(std::function<void()> work) { asio::post(context_, std::move(work)); }
+  void Accept();
+  void Join(const std::shared_ptr<Client>& client);
+  void Leave(std::uint64_t client);
+  void Count();
+  template <class Work>
+  void With(std::uint64_t client, Work work);
+
+  WebServerSettings settings_;
+  PageFiles files_;
+  WebServerEvents& events_;
+  std::size_t connections_ = 0;
+  asio::io_context context_{1};
+  tcp::acceptor acceptor_{context_};
+  asio::steady_timer pause_{context_};  // before the next accept, after a failed one
+  std::uint16_t port_ = 0;
+  std::string url_;
+  std::map<std::uint64_t, std::shared_ptr<Client>> clients_;
+  std::uint64_t last_client_ = 0;
+  bool closing_ = false;
+  Bytes greeting_;
+  std::array<Bytes, kSlots> states_;
+  std::deque<Bytes> history_;
+  std::atomic<std::size_t> client_count_{0};
+  std::atomic<std::size_t> hungry_{0};
+  std::thread thread_;
+};
+
+}  // namespace swarmanoid
