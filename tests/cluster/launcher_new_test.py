@@ -1,9 +1,10 @@
 """What `swarmanoid new` makes builds and runs."""
 import os
+import re
 import subprocess
 import unittest
 
-from harness import LauncherTest, main
+from harness import CONFIGS, LauncherTest, main
 
 BUILD = os.environ["SWARMANOID_BUILD"]
 
@@ -34,6 +35,28 @@ class New(LauncherTest):
         self.assertEqual(run.process.returncode, 0, run.stderr)
         self.assert_finished(run, 600)
         self.assertTrue((self.folder / "out" / "first_try.txt").exists())
+
+    def test_a_terrain_is_made_without_a_word_too_many_and_runs(self):
+        made = self.run_it("new", "terrain", "moor", "--size", "1.2,1", "--holes", "1", "--seed", "7")
+        self.assertEqual((made.process.returncode, made.stderr), (0, ""))
+        self.assertTrue((self.folder / "terrain" / "moor.bt").exists())
+        run = self.run_it("run", "moor.xml", "--quiet", "--ticks", 50)
+        self.assertEqual((run.process.returncode, run.stderr), (0, ""))
+        cluster = self.assert_finished(run, 50)
+        one = self.run_it("run", "moor.xml", "--quiet", "--ticks", 50, "--single-process")
+        self.assertEqual(self.assert_finished(one, 50), cluster)
+        again = self.run_it("new", "terrain", "moor")
+        self.assertEqual(again.process.returncode, 2)
+        self.assertIn("is there already", again.stderr)
+
+    def test_the_terrain_of_the_sample_is_made_by_the_command_that_it_names(self):
+        sample = (CONFIGS / "rough_holes.xml").read_text()
+        command = re.search(r"swarmanoid new terrain (.*) -->", sample).group(1)
+        made = self.run_it("new", "terrain", *command.split())
+        self.assertEqual(made.process.returncode, 0, made.stderr)
+        self.assertEqual((self.folder / "terrain" / "rough_holes.bt").read_bytes(),
+                         (CONFIGS / "terrain" / "rough_holes.bt").read_bytes())
+        self.assertEqual((self.folder / "rough_holes.xml").read_text(), sample)
 
     def test_bad_names_and_places_are_told_with_the_cure(self):
         answer = self.run_it("new", "experiment", "First-Try")

@@ -1,7 +1,5 @@
 #include "common/space/terrain/rough_terrain.h"
 
-#include <octomap/octomap.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "common/math/random.h"
+#include "common/space/terrain/octomap_file.h"
 
 namespace swarmanoid
 {
@@ -138,7 +137,7 @@ void WriteRoughTerrain(const std::string& path, const RoughTerrain& terrain)
   map.updateInnerOccupancy();
   map.toMaxLikelihood();
   map.prune();
-  if (!map.writeBinaryConst(path)) throw std::runtime_error("cannot write '" + path + "'");
+  WriteOctoMap(path, map);
 }
 
 }  // namespace swarmanoid

@@ -1,11 +1,9 @@
-#include <octomap/octomap.h>
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <stdexcept>
 
+#include "common/space/terrain/octomap_file.h"
 #include "common/space/terrain/rectangles.h"
 #include "common/space/terrain/terrain.h"
 
@@ -17,34 +15,11 @@ namespace
 // A bitmap of more cells than this (512 MiB of bits) is refused.
 constexpr double kMostCells = 4.0e9;
 
-std::unique_ptr<octomap::OcTree> ReadTree(const std::string& path)
-{
-  const std::string extension = std::filesystem::path(path).extension().string();
-  if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("'" + path + "' is not there");
-  if (extension == ".bt")
-  {
-    auto tree = std::make_unique<octomap::OcTree>(0.1);
-    if (tree->readBinary(path)) return tree;
-  }
-  else if (extension == ".ot")
-  {
-    std::unique_ptr<octomap::AbstractOcTree> tree(octomap::AbstractOcTree::read(path));
-    if (auto* occupancy = dynamic_cast<octomap::OcTree*>(tree.get()))
-    {
-      static_cast<void>(tree.release());
-      return std::unique_ptr<octomap::OcTree>(occupancy);
-    }
-  }
-  else
-    throw std::runtime_error("'" + path + "' must end in .bt or .ot");
-  throw std::runtime_error("'" + path + "' is not an OctoMap occupancy tree");
-}
-
 }  // namespace
 
 VoxelTerrain::VoxelTerrain(const std::string& path)
 {
-  const auto tree = ReadTree(path);
+  const auto tree = ReadOctoMap(path);
   cell_ = tree->getResolution();
 
   // The occupied leaves in units of the smallest cell; large leaves stand for many cells.

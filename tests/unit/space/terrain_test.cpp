@@ -5,8 +5,6 @@
 
 #include <octomap/octomap.h>
 #include <png.h>
-#include <fstream>
-#include <iterator>
 
 #include <cmath>
 #include <filesystem>
@@ -125,6 +123,26 @@ TEST(VoxelTerrain, FilesThatAreNoMapsAreRefusedByName)
   EXPECT_THROW(VoxelTerrain{file.Path()}, std::runtime_error);
 }
 
+TEST(VoxelTerrain, AFileThatIsCutShortIsRefusedByName)
+{
+  TemporaryFile whole("whole.bt"), cut("cut.bt");
+  RoughTerrain numbers;
+  numbers.size = {0.5, 0.5};
+  numbers.resolution = 0.05;
+  WriteRoughTerrain(whole.Path(), numbers);
+  std::filesystem::copy_file(whole.Path(), cut.Path());
+  std::filesystem::resize_file(cut.Path(), std::filesystem::file_size(whole.Path()) - 1);
+  try
+  {
+    VoxelTerrain terrain(cut.Path());
+    FAIL() << "it was accepted";
+  }
+  catch (const std::runtime_error& error)
+  {
+    EXPECT_EQ(std::string(error.what()), "'" + cut.Path() + "' is cut short");
+  }
+}
+
 HeightTerrain Hills()
 {
   RandomStream random(5, 0, 0, 0);
@@ -200,6 +218,20 @@ TEST(RoughTerrain, IsMadeFromItsNumbersAlone)
   numbers.seed = 2;
   WriteRoughTerrain(other.Path(), numbers);
   EXPECT_NE(Bytes(first.Path()), Bytes(other.Path()));
+}
+
+// OctoMap as Debian builds it tells on standard error what it does.
+TEST(RoughTerrain, IsMadeAndReadInSilence)
+{
+  TemporaryFile file("silent.bt");
+  RoughTerrain numbers;
+  numbers.size = {0.5, 0.5};
+  numbers.resolution = 0.05;
+  testing::internal::CaptureStderr();
+  WriteRoughTerrain(file.Path(), numbers);
+  const VoxelTerrain terrain(file.Path());
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(octomap::OcTree(file.Path()).getResolution(), 0.05) << "OctoMap reads it too";
 }
 
 TEST(RoughTerrain, IsAsHighAndAsDeepAsItWasAskedFor)
