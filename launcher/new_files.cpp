@@ -253,6 +253,8 @@ void NewTerrain(const std::string& name, const RoughTerrain& terrain)
       {"name", name},
       {"size_x", fmt::format("{}", terrain.size.x())},
       {"size_y", fmt::format("{}", terrain.size.y())},
+      {"middle_x", fmt::format("{:.6g}", terrain.size.x() / 2)},
+      {"middle_y", fmt::format("{:.6g}", terrain.size.y() / 2)},
       {"far_x", fmt::format("{:.6g}", terrain.size.x() - 0.2)},
       {"far_y", fmt::format("{:.6g}", terrain.size.y() - 0.2)},
       {"start", fmt::format("{:.6g}", terrain.roughness + 0.01)},
