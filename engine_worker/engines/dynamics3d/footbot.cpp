@@ -12,6 +12,8 @@ namespace
 using S = FootbotShape;
 
 constexpr double kOpenAperture = kPi / 2;
+constexpr double kTurretGain = 40;   // 1/s: at few iterations a motor that is told to stand creeps under a load
+constexpr double kTurretLead = 0.1;  // rad: how far the target runs ahead of a turret that is held back
 constexpr GraspGeometry kGripper{0.02, S::kTurretTorque, false};
 
 Vector3 WheelCentre(int wheel) { return {0, wheel == 0 ? S::kHalfTrack : -S::kHalfTrack, S::kWheelRadius}; }
@@ -104,12 +106,18 @@ void FootbotModel::UpdateGripper()
   gripper_.TryToHold(Entity(), bodies_[0].number,
                      chassis.Apply({turret.cos * S::kRadius, turret.sin * S::kRadius, height}),
                      chassis.Apply({0, 0, height}), chassis.orientation * Vector3::UnitZ(), nullptr);
+  turret_target_ = turret_angle_;
 }
 
-void FootbotModel::BeforeStep(double)
+void FootbotModel::BeforeStep(double seconds)
 {
   for (std::size_t wheel = 0; wheel < 2; ++wheel) dJointSetHingeParam(axles_[wheel], dParamVel, wheel_command_[wheel]);
-  if (Link* link = gripper_.link()) link->SetMotorSpeed(turret_command_);
+  Link* link = gripper_.link();
+  if (link == nullptr) return;
+  turret_target_ =
+      std::clamp(turret_target_ + turret_command_ * seconds, turret_angle_ - kTurretLead, turret_angle_ + kTurretLead);
+  const double speed = turret_command_ + kTurretGain * (turret_target_ - turret_angle_);
+  link->SetMotorSpeed(std::clamp(speed, -S::kMaximumTurretSpeed, S::kMaximumTurretSpeed));
 }
 
 double FootbotModel::WheelSpeed(std::size_t wheel) const { return dJointGetHingeAngleRate(axles_[wheel]); }
@@ -164,6 +172,7 @@ void FootbotModel::Report(AttributeReport& report) const
 void FootbotModel::Save(ByteWriter& state) const
 {
   state.Put(turret_angle_);
+  state.Put(turret_target_);
   state.Put(aperture_);
   gripper_.Save(state);
 }
@@ -171,6 +180,7 @@ void FootbotModel::Save(ByteWriter& state) const
 void FootbotModel::Load(ByteReader& state)
 {
   turret_angle_ = state.Get<double>();
+  turret_target_ = state.Get<double>();
   aperture_ = state.Get<double>();
   gripper_.Load(state);
 }

@@ -54,8 +54,9 @@ private:
   double wheel_command_[2] = {0, 0};        // rad/s
   double turret_command_ = 0;               // rad/s
   bool lock_ = false;
-  double turret_angle_ = 0;  // rad
-  double aperture_ = 0;      // rad
+  double turret_angle_ = 0;   // rad
+  double turret_target_ = 0;  // rad: where the motor wants a loaded turret
+  double aperture_ = 0;       // rad
   Grasp gripper_;
   // Of the last tick.
   Vector3 velocity_at_start_ = Vector3::Zero();

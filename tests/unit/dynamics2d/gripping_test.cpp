@@ -49,8 +49,8 @@ TEST(Dynamics2d, NeitherEyebotsNorBlocksAreGripped)
   Dynamics2dTestWorld world;
   const auto a = world.AddFootbot(1, 1);
   const auto b = world.AddFootbot(1, 3);
-  world.Add(EntityKind::kBlock, {1 + kReach + 0.1, 1, 0.1}, {}, {0.2, 0.2, 0.2}, 1, true);
-  world.Add(EntityKind::kEyebot, {1 + kReach + 0.25, 3, 0}, {}, {0.25, 0.25, 0.566});
+  world.AddBlock({1 + kReach + 0.1, 1, 0.1}, {0.2, 0.2, 0.2}, 1);
+  world.AddEyebot({1 + kReach + 0.25, 3, 0});
   AddGrippingChannels(world, false);
   world.Start();
   world.Command("footbot_gripper", a, {1});
@@ -64,7 +64,8 @@ TEST(Dynamics2d, AHandbotCanBeGrippedByTwo)
 {
   Dynamics2dTestWorld world;
   const auto a = world.AddFootbot(1, 1);
-  const auto handbot = world.Add(EntityKind::kHandbot, {1 + kReach + 0.1, 1, 0}, {}, {0.2, 0.3, 0.4});
+  const auto handbot =
+      world.Add(EntityKind::kHandbot, {1 + kReach + 0.1, 1, 0}, Quaternion::Identity(), {0.2, 0.3, 0.4});
   const auto b = world.AddFootbot(1 + 2 * kReach + 0.2, 1, kPi);
   AddGrippingChannels(world, false);
   world.Start();
@@ -132,6 +133,26 @@ TEST(Dynamics2d, ATurretTurnsItsLoadWithinItsTorque)
       << "nothing resists a steady turn but the solver's steps along the arc";
 }
 
+// Turned at a steady speed, a load rubs with mu m g at its distance from the axis and, as it turns itself, with
+// 2/3 mu m g R: the turret's motor gives all of it, the load stands against it.
+TEST(Dynamics2d, TheTorqueSensorReadsTheFrictionOfATurnedLoad)
+{
+  Dynamics2dTestWorld world;
+  const auto robot = world.AddFootbot(2, 2);
+  const double mass = 0.5;
+  const double radius = 0.1;
+  world.AddPrey(2 + kReach + radius, 2, mass, radius);
+  AddGrippingChannels(world, true);
+  world.Start();
+  world.Command("footbot_gripper", robot, {1});
+  world.Command("footbot_turret", robot, {0.5});
+  world.Run(30);
+  const double friction = 0.5 * mass * 9.81;
+  const double torque = friction * (kReach + radius) + 2.0 / 3 * friction * radius;
+  EXPECT_NEAR(world.Sensor("footbot_turret_torque", robot, 2) * 1.5, -torque, 0.02 * torque);
+  EXPECT_NEAR(world.Sensor("footbot_turret_torque", robot, 1) * 25, -friction, 0.02 * friction) << "against the turn";
+}
+
 // Two footbots hold a bar-like handbot, one drives sideways: the other's turret feels force times lever.
 TEST(Dynamics2d, TheTorqueSensorReadsALeverOnTheTurret)
 {
@@ -140,7 +161,7 @@ TEST(Dynamics2d, TheTorqueSensorReadsALeverOnTheTurret)
   world.Set("wheel_friction", "50");
   world.Set("drive_force", "2");
   const auto holder = world.AddFootbot(1, 1, 0);
-  const auto handbot = world.Add(EntityKind::kHandbot, {1 + kReach + 0.5, 1, 0}, {}, {1, 0.2, 0.4});
+  const auto handbot = world.Add(EntityKind::kHandbot, {1 + kReach + 0.5, 1, 0}, Quaternion::Identity(), {1, 0.2, 0.4});
   const auto puller = world.AddFootbot(1 + kReach + 0.9, 1 + 0.1 + kReach, -kPi / 2);
   AddGrippingChannels(world, true);
   world.Start();

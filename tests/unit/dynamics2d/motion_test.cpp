@@ -73,6 +73,23 @@ TEST(Dynamics2d, ASlidingPreyStopsAfterTheDistanceOfCoulombFriction)
   }
 }
 
+// The subclock cuts the solver's steps: the shortfall v h / 2 goes with them.
+TEST(Dynamics2d, TheSubclockShortensTheSteps)
+{
+  for (const int subclock : {1, 5})
+  {
+    Dynamics2dTestWorld world;
+    world.Set("ground_friction", "0.25");
+    world.SetSubclock(subclock);
+    const auto prey = world.AddPrey(1, 1, 2);
+    world.Start();
+    world.engine->SetVelocity(prey, {1.5, 0, 0});
+    world.Run(30);
+    const double step = 0.1 / (4 * subclock);
+    EXPECT_NEAR(world.Position(prey).x() - 1, 1.5 * 1.5 / (2 * 0.25 * kGravity) - 1.5 * step / 2, 1e-3) << subclock;
+  }
+}
+
 // Angle = w^2 / (2 a), a = (2/3 mu m g R) / (m R^2 / 2).
 TEST(Dynamics2d, ASpinningPreyStopsByTheFrictionOfADisc)
 {
@@ -173,7 +190,7 @@ TEST(Dynamics2d, EyebotsFlyWhereTheirPropellersPush)
 {
   Dynamics2dTestWorld world;
   world.Set("distance", "1");
-  const auto eyebot = world.Add(EntityKind::kEyebot, {3, 3, 1}, {0, 0, kPi / 2}, {0.25, 0.25, 0.566});
+  const auto eyebot = world.AddEyebot({3, 3, 1}, kPi / 2);
   world.AddCommands("eyebot_propellers", 4);
   world.Start();
   world.Command("eyebot_propellers", eyebot, {0.2, 0.1, 0, 0});

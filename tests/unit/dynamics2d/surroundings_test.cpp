@@ -32,8 +32,8 @@ TEST(Dynamics2d, AStaticBlockBlocksWhereItIsCutHoweverFarItsCentre)
 {
   Dynamics2dTestWorld world;
   const auto robot = world.AddFootbot(1, 1);
-  world.AddWall({30, 1, 45}, {57, 1, 100}, 0);  // reaches from x = 1.5 and from below the ground to 95 m
-  world.AddWall({1.3, 1, 45}, {0.1, 1, 89});    // starts half a metre above the ground
+  world.AddWall({30, 1, 45}, {57, 1, 100});   // reaches from x = 1.5 and from below the ground to 95 m
+  world.AddWall({1.3, 1, 45}, {0.1, 1, 89});  // starts half a metre above the ground
   world.AddCommands("footbot_wheels", 2);
   world.Start();
   world.Drive(robot, 0.3, 0.3);
@@ -52,9 +52,9 @@ TEST(Dynamics2d, RobotsWorkOnAllThreePlanes)
     Dynamics2dTestWorld world;
     world.Set("perpendicular_axis", axis);
     world.Set("distance", "0.5");
-    const auto robot = world.Add(EntityKind::kFootbot, start.first, {}, {0.085036758, 0.085036758, 0.146899733});
+    const auto robot = world.EngineTestWorld::AddFootbot(start.first);
     const Vector3 obstacle = start.first + start.second;
-    world.Add(EntityKind::kBlock, obstacle, {}, {0.2, 0.2, 0.2}, 0, false);
+    world.AddWall(obstacle, {0.2, 0.2, 0.2});
     world.AddCommands("footbot_wheels", 2);
     world.Start();
     // Robots stand on the plane: forward is its first axis at heading 0.
@@ -92,7 +92,7 @@ TEST(Dynamics2d, AMirrorPushesAndIsNotPushed)
 TEST(Dynamics2d, AMirrorAboveThePlaneTouchesNothing)
 {
   Dynamics2dTestWorld world;
-  const auto mirror = world.Add(EntityKind::kEyebot, {1, 1, 1}, {}, {0.25, 0.25, 0.566});
+  const auto mirror = world.AddEyebot({1, 1, 1});
   const auto prey = world.AddPrey(1.4, 1, 1);
   world.MakeMirror(mirror);
   world.Start();
@@ -190,13 +190,7 @@ TEST(Dynamics2d, TerrainIsWallsAtTheHeightOfThePlane)
 
   Dynamics2dTestWorld world;
   world.Set("distance", std::to_string(level));
-  const auto ground = world.Add(EntityKind::kTerrain, {0, 0, 0}, {}, {0, 0, 0}, 0, false);
-  auto file = std::make_shared<ConfigurationNode>();
-  file->name = "octomap";
-  file->attributes.push_back({"file", map, {}});
-  auto element = std::make_shared<ConfigurationNode>();
-  element->children.push_back(file);
-  world.experiment.entities[ground].tree = TConfigurationTree(element);
+  world.AddTerrain("octomap", {{"file", map}}, Vector3::Zero());
   RandomStream random(5, 0, 0, 0);
   std::vector<std::uint32_t> robots;
   while (robots.size() < 60)

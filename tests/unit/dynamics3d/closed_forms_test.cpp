@@ -22,6 +22,16 @@ TEST(Dynamics3dClosedForms, ABlockFallsFreely)
   EXPECT_NEAR(20 - world.Position(block).z(), kGravity / 2, 0.03);
 }
 
+TEST(Dynamics3dClosedForms, TheSubclockShortensTheSteps)
+{
+  Dynamics3dTestWorld world;
+  world.SetSubclock(4);
+  const auto block = world.AddBlock({5, 5, 20}, {0.2, 0.2, 0.2}, 1);
+  world.Start();
+  world.Run(10);
+  EXPECT_NEAR(20 - world.Position(block).z(), kGravity * 0.00125 * 0.00125 * 800 * 801 / 2, 1e-9);
+}
+
 TEST(Dynamics3dClosedForms, GravityPullsAlongTheAxisThatIsAskedFor)
 {
   Dynamics3dTestWorld world;
@@ -179,6 +189,26 @@ TEST(Dynamics3dClosedForms, ABlockTipsWhereItsCentreOfMassPassesItsEdge)
     world.Run(30);
     const double turned = Acos((tilt.conjugate() * world.Orientation(block) * Vector3::UnitZ()).z());
     if (degrees < 26)
+      EXPECT_LT(turned, DegreesToRadians(2));
+    else
+      EXPECT_GT(turned, DegreesToRadians(45));
+  }
+}
+
+TEST(Dynamics3dClosedForms, AnUprightPreyTopplesWhereItsCentreOfMassPassesItsRim)
+{
+  // Radius 0.05 and height 0.25: atan(0.05 / 0.125) = 21.8 degrees.
+  for (const double degrees : {19.0, 25.0})
+  {
+    Dynamics3dTestWorld world;
+    world.Set("orientation", "0, " + std::to_string(degrees) + ", 0");
+    world.Set("friction", "2");
+    const Quaternion tilt = QuaternionFromEuler({0, DegreesToRadians(degrees), 0});
+    const auto prey = world.Add(EntityKind::kCylindricPrey, Vector3::Zero(), tilt, {0.05, 0.05, 0.25}, 1);
+    world.Start();
+    world.Run(30);
+    const double turned = Acos((tilt.conjugate() * world.Orientation(prey) * Vector3::UnitZ()).z());
+    if (degrees < 20)
       EXPECT_LT(turned, DegreesToRadians(2));
     else
       EXPECT_GT(turned, DegreesToRadians(45));
