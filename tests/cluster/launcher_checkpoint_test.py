@@ -11,15 +11,16 @@ class Checkpoints(LauncherTest):
         self.assert_nothing_left(run)
         return self.assert_finished(run, ticks)
 
-    def check(self, name, **how):
+    def check(self, name, at=100, **how):
+        """`at`: the checkpoint from which runs go on, a multiple of 100 and at least 100 ticks before the end."""
         experiment = CONFIGS / f"{name}.xml"
         whole = self.go(experiment, f"{name}_whole", "--single-process", **how)
         files = []
         for way, options in (("one", ["--single-process"]), ("cluster", [])):
             output = f"{name}_{way}"
             self.assertEqual(self.go(experiment, output, "--checkpoint-every", 100, *options, **how), whole)
-            files.append(self.folder / output / "checkpoint-00000100")
-            self.assertTrue((self.folder / output / "checkpoint-00000200").exists())
+            files.append(self.folder / output / f"checkpoint-{at:08}")
+            self.assertTrue((self.folder / output / f"checkpoint-{at + 100:08}").exists())
         self.assertEqual(files[0].read_bytes(), files[1].read_bytes(), "the same file, whoever wrote it")
         for way, options in (("one", ["--single-process"]), ("cluster", [])):
             self.assertEqual(self.go(experiment, f"{name}_again_{way}", "--restore", files[1], *options, **how), whole)
@@ -27,11 +28,23 @@ class Checkpoints(LauncherTest):
     def test_kinematic_engine_with_an_own_visualiser(self):
         self.check("diffusion_10")
 
-    def test_three_kinds_of_engines_with_mirrors(self):
-        self.check("three_engines")
+    def test_kinematic_engine_with_a_pile_of_contacts(self):
+        self.check("pile", at=300, ticks=400)
 
-    def test_grips_behaviours_and_experiment_functions(self):
-        self.check("prey_retrieval", code=1)  # the goal is not reached in so short a time
+    def test_kinematic_engine_with_a_gripped_prey_behaviours_and_experiment_functions(self):
+        self.check("prey_retrieval", at=3400, ticks=3500, code=1)  # the prey is on its way, and not in the nest yet
+
+    def test_box2d_with_ten_grips(self):
+        self.check("gripped_chain", ticks=200)
+
+    def test_ode_with_a_book_in_the_hand_and_a_rope(self):
+        self.check("handbot_shelf", at=200, ticks=350)
+
+    def test_three_engines_with_contacts(self):
+        self.check("three_engines", at=200, ticks=300)
+
+    def test_three_engines_with_mirrors(self):
+        self.check("mirrors")
 
     def test_two_controller_hosts(self):
         experiment = CONFIGS / "diffusion_10.xml"

@@ -1,0 +1,60 @@
+// Runs that go on from a checkpoint, at ticks at which something is held. tests/cluster/launcher_checkpoint_test.py
+// does the same with these files and ticks, as clusters too.
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "common/space/checkpoint.h"
+#include "tests/experiments/running_experiment.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+int GripsIn(RunningExperiment& run)
+{
+  int grips = 0;
+  for (std::size_t k = 0; k < run.Space().Size(); ++k)
+  {
+    const CSwarmanoidSpaceEntity& entity = run.Space().GetEntity(k);
+    if (entity.GetKind() == EntityKind::kFootbot || entity.GetKind() == EntityKind::kHandbot)
+      grips += entity.GetAttribute("gripped") != 0;
+  }
+  return grips;
+}
+
+class HeldThings : public testing::TestWithParam<std::tuple<const char*, int, int>>
+{
+};
+
+TEST_P(HeldThings, GoOnFromACheckpointWithTheSameHash)
+{
+  const auto [name, tick, last] = GetParam();
+  const std::string file = std::string(name) + ".xml";
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / (std::string(name) + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  const RunningExperiment::Settings settings{{"framework.maxclock", std::to_string(last)}};
+  SimulatorOptions options;
+  options.output_folder = folder.string();
+  options.checkpoint_every = 100;
+  RunningExperiment whole(file, settings, options);
+  whole.Run(tick);
+  EXPECT_GT(GripsIn(whole), 0);
+  const std::uint64_t expected = whole.HashAtTheEnd();
+
+  SimulatorOptions restored;
+  restored.output_folder = folder.string();
+  restored.restore_file = (folder / CheckpointName(static_cast<std::uint64_t>(tick))).string();
+  EXPECT_EQ(RunningExperiment(file, settings, restored).HashAtTheEnd(), expected);
+  std::filesystem::remove_all(folder);
+}
+
+INSTANTIATE_TEST_SUITE_P(Experiments, HeldThings,
+                         testing::Values(std::tuple("prey_retrieval", 3400, 3500),
+                                         std::tuple("gripped_chain", 100, 200), std::tuple("handbot_shelf", 200, 350)),
+                         [](const auto& test) { return std::string(std::get<0>(test.param)); });
+
+}  // namespace
+}  // namespace swarmanoid
