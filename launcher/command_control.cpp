@@ -1,11 +1,12 @@
-// `swarmanoid control`: asks the space server of a running experiment to pause, go on, step, change speed, stop or move
-// an entity.
+// `swarmanoid control`: asks the space server of a running experiment to pause, go on, step, change speed, stop, or to
+// move, add or remove an entity.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "common/bus/cluster_options.h"
 #include "common/bus/control_client.h"
@@ -29,6 +30,21 @@ struct ControlOptions
   BusOptions bus;
 };
 
+// For those who got no answer.
+std::string WhatItDoes(const std::optional<RunStatus>& status)
+{
+  if (!status) return ", and nothing is heard of it; see the log of its space server";
+  std::string text = fmt::format("; it is at tick {}", status->tick);
+  const char* before = " and waits for ";
+  for (const ProcessStatus& process : status->processes)
+  {
+    if (process.late_s <= 0) continue;
+    text += fmt::format("{}{} since {:.0f} s{}", std::exchange(before, ", "), process.name, process.late_s,
+                        process.doing.empty() ? "" : " (" + process.doing + ")");
+  }
+  return text;
+}
+
 int Control(ControlOptions& options, bool domain_given)
 {
   const ControlRequest request = ParseControlRequest(options.words);
@@ -39,7 +55,8 @@ int Control(ControlOptions& options, bool domain_given)
   const auto reply = client.Ask(request.verb, request.entity, request.numbers, kPatience_s);
   if (!reply)
   {
-    fmt::print(stderr, "swarmanoid: experiment {} in domain {} does not answer\n", Quoted(run.experiment), run.domain);
+    fmt::print(stderr, "swarmanoid: experiment {} in domain {} does not answer{}\n", Quoted(run.experiment), run.domain,
+               WhatItDoes(client.LatestStatus()));
     return kProcessFailed;
   }
   if (!reply->ok)
@@ -56,19 +73,24 @@ int Control(ControlOptions& options, bool domain_given)
 void AddControlCommand(CLI::App& app, int& exit_code)
 {
   auto options = std::make_shared<ControlOptions>();
-  CLI::App* verb =
-      app.add_subcommand("control", "Pause, resume, step, speed up, slow down or stop a running experiment");
+  CLI::App* verb = app.add_subcommand("control",
+                                      "Pause, resume, step, speed up, slow down or stop a running experiment, and\n"
+                                      "move, add or remove entities of it");
   verb->add_option("WORDS", options->words,
-                   "[EXPERIMENT] pause | resume | step [N] | speed F | stop | move ENTITY X,Y,Z[,A,B,G]")
+                   "[EXPERIMENT] pause | resume | step [N] | speed F | stop | move ENTITY X,Y,Z[,A,B,G] |\n"
+                   "add ENTITY X,Y,Z[,A,B,G] | remove ENTITY")
       ->required();
   AddBusOptions(*verb, options->bus);
   verb->footer(
       "speed is a multiple of real time, 0 is as fast as possible. Positions are in metres, angles in degrees.\n"
+      "add takes an entity that was removed, or the id of a <reserve>.\n"
       "Examples:\n"
       "  swarmanoid control pause\n"
       "  swarmanoid control diffusion_10 step 5\n"
       "  swarmanoid control speed 2\n"
       "  swarmanoid control move fb_0 1.5,2,0\n"
+      "  swarmanoid control add prey 1.5,2,0\n"
+      "  swarmanoid control remove prey_0\n"
       "  swarmanoid control diffusion_10 stop --domain 7 --interface eth0    one on another machine");
   verb->callback([options, verb, &exit_code]
                  { exit_code = Control(*options, verb->get_option("--domain")->count() > 0); });

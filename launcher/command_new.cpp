@@ -45,6 +45,7 @@ void AddBehavior(CLI::App& verb, int& exit_code)
   command->add_option("--class", names->class_name, "Its class (default: CBTName)");
   command->add_option("--controller", names->controller,
                       "The behaviour controller that it is for (default: the one in this folder)");
+  command->add_option("--robot", names->robot, "The robot that it is for; it is that of the controller in any case");
   command->footer("Example:\n  swarmanoid new behavior bt_footbot_stop --controller wall_follower");
   command->callback(
       [names, &exit_code]

@@ -6,6 +6,7 @@
 
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/wording.h"
+#include "common/space/control_request.h"
 #include "launcher/commands.h"
 
 namespace swarmanoid
@@ -13,9 +14,13 @@ namespace swarmanoid
 namespace
 {
 
-const std::vector<std::string> kVerbs{"pause", "resume", "step", "speed", "stop", "move"};
+bool IsVerb(const std::string& word)
+{
+  return std::find(kControlVerbs.begin(), kControlVerbs.end(), word) != kControlVerbs.end();
+}
 
-bool IsVerb(const std::string& word) { return std::find(kVerbs.begin(), kVerbs.end(), word) != kVerbs.end(); }
+// An entity follows.
+bool TakesEntity(const std::string& verb) { return verb == "move" || verb == "add" || verb == "remove"; }
 
 double NumberOf(const std::string& text, const std::string& form)
 {
@@ -42,9 +47,10 @@ void TakeSpeed(ControlRequest& request, const std::vector<std::string>& rest)
   if (request.numbers[0] < 0) throw UsageError(fmt::format("{} is negative; write {}", Quoted(rest[0]), form));
 }
 
-void TakeMove(ControlRequest& request, const std::vector<std::string>& rest)
+// After "move" and "add".
+void TakePlace(ControlRequest& request, const std::vector<std::string>& rest)
 {
-  const std::string form = "move ENTITY X,Y,Z or move ENTITY X,Y,Z,ALPHA,BETA,GAMMA";
+  const std::string form = fmt::format("{0} ENTITY X,Y,Z or {0} ENTITY X,Y,Z,ALPHA,BETA,GAMMA", request.verb);
   if (rest.size() < 2) throw UsageError("write " + form);
   request.entity = rest[0];
   std::string numbers;
@@ -56,13 +62,19 @@ void TakeMove(ControlRequest& request, const std::vector<std::string>& rest)
   request.numbers = *values;
 }
 
+void TakeEntity(ControlRequest& request, const std::vector<std::string>& rest)
+{
+  if (rest.size() != 1) throw UsageError(fmt::format("write {} ENTITY", request.verb));
+  request.entity = rest[0];
+}
+
 }  // namespace
 
 ControlRequest ParseControlRequest(std::vector<std::string> words)
 {
   ControlRequest request;
   // An experiment may be called like a verb: then a verb follows it.
-  if (words.size() > 1 && IsVerb(words[1]) && words[0] != "move")
+  if (words.size() > 1 && IsVerb(words[1]) && !TakesEntity(words[0]))
   {
     request.experiment = words[0];
     words.erase(words.begin());
@@ -75,8 +87,8 @@ ControlRequest ParseControlRequest(std::vector<std::string> words)
   if (words.empty() || !IsVerb(words[0]))
   {
     const std::string word = words.empty() ? "" : words[0];
-    throw UsageError(fmt::format("control: there is no {}; write one of {}{}", Quoted(word), Listed(kVerbs),
-                                 DidYouMean(word, kVerbs)));
+    throw UsageError(fmt::format("control: there is no {}; write one of {}{}", Quoted(word), Listed(kControlVerbs),
+                                 DidYouMean(word, kControlVerbs)));
   }
 
   request.verb = words[0];
@@ -85,8 +97,10 @@ ControlRequest ParseControlRequest(std::vector<std::string> words)
     TakeStep(request, rest);
   else if (request.verb == "speed")
     TakeSpeed(request, rest);
-  else if (request.verb == "move")
-    TakeMove(request, rest);
+  else if (request.verb == "move" || request.verb == "add")
+    TakePlace(request, rest);
+  else if (request.verb == "remove")
+    TakeEntity(request, rest);
   else if (!rest.empty())
     throw UsageError(fmt::format("{} takes nothing after it, but {} is there", request.verb, Quoted(rest[0])));
   return request;

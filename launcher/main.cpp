@@ -10,6 +10,7 @@
 #include "common/configuration/wording.h"
 #include "launcher/commands.h"
 #include "launcher/exit_codes.h"
+#include "launcher/unexpected_words.h"
 
 namespace
 {
@@ -37,8 +38,8 @@ int main(int count, char** arguments)
   CLI::App app("Runs swarm-robotics experiments, and looks at those that run.", "swarmanoid");
   app.set_version_flag("--version", "swarmanoid " SWARMANOID_VERSION);
   app.require_subcommand(1);
-  app.failure_message([](const CLI::App*, const CLI::Error& error)
-                      { return fmt::format("swarmanoid: {}\n", error.what()); });
+  app.failure_message([](const CLI::App* failed, const CLI::Error& error)
+                      { return fmt::format("swarmanoid: {}\n", CommandLineComplaint(*failed, error)); });
   app.footer(
       "Start with:\n  swarmanoid run configs/diffusion_10.xml\n`swarmanoid COMMAND --help` explains a command with "
       "examples.");

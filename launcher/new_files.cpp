@@ -309,6 +309,7 @@ void NewBehavior(BehaviorNames names)
   RequireIdentifier(names.name);
   if (names.class_name.empty()) names.class_name = BehaviorClassName(names.name);
   RequireClassName(names.class_name);
+  if (!names.robot.empty()) Robot(names.robot);
   const fs::path user = RequireUserDirectory();
   const fs::path folder = names.controller.empty() ? fs::current_path() : user / "controllers" / names.controller;
   if (!fs::is_directory(folder))
@@ -320,6 +321,11 @@ void NewBehavior(BehaviorNames names)
         "there is no behavior controller in {}; go into the folder of one, or name it by --controller. To make one:\n"
         "  swarmanoid new behavior-controller NAME",
         names.controller.empty() ? "this folder" : Quoted(fs::relative(folder).string())));
+  if (!names.robot.empty() && names.robot != robot->name)
+    throw UsageError(
+        fmt::format("the controller in {} is of {}: a behavior there cannot be of {}; choose another controller, or "
+                    "leave --robot out",
+                    Quoted(fs::relative(folder, user).string()), WithArticle(*robot), WithArticle(Robot(names.robot))));
   const fs::path header = folder / (names.name + ".h");
   const fs::path source = folder / (names.name + ".cpp");
   RefuseExisting(header);

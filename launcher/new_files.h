@@ -34,6 +34,7 @@ struct BehaviorNames
   std::string name;        // bt_footbot_wall_watch: its files
   std::string class_name;  // CBTFootbotWallWatch
   std::string controller;  // the behaviour controller that it is for; empty: the one in this folder
+  std::string robot;       // refused where it is not that controller's; empty: whatever that is
 };
 void NewBehavior(BehaviorNames names);
 

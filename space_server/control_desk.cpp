@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <stdexcept>
+
+#include "space_server/space_changes.h"
 
 namespace swarmanoid
 {
@@ -92,12 +94,27 @@ void ControlDesk::Repeat(SpaceServer& server)
       Stop(event.request.client);
       continue;
     }
-    const MoveOutcome outcome = ReadMove(event.request, server.Space());
-    if (!outcome.error.empty()) throw ConfigurationError(event.location, outcome.error);
-    server.Move(outcome.move);
-    event_log_.Write(tick, event.request);
-    answer_(event.request, true, tick, fmt::format("moved '{}' at tick {}", event.request.entity, tick));
+    try
+    {
+      Change(event.request, server);
+    }
+    catch (const std::invalid_argument& error)
+    {
+      throw ConfigurationError(event.location, error.what());
+    }
   }
+}
+
+void ControlDesk::Change(const ControlRequestMessage& request, SpaceServer& server)
+{
+  const std::uint64_t tick = server.Space().GetTick();
+  const SpaceChange change = ReadSpaceChange(request, server.Space());
+  server.Move(change.move);
+  // Of a reserve, the one that was taken: so a repetition does not depend on who waits.
+  ControlRequestMessage done = request;
+  done.entity = change.entity;
+  event_log_.Write(tick, done);
+  answer_(request, true, tick, fmt::format("{} at tick {}", change.done, tick));
 }
 
 void ControlDesk::Carry(const ControlRequestMessage& request, SpaceServer& server)
@@ -151,15 +168,19 @@ void ControlDesk::Carry(const ControlRequestMessage& request, SpaceServer& serve
     why_stopped_ = request.client.empty() ? "stopped" : "stopped by " + request.client;
     reply(true, fmt::format("stopped at tick {}", tick));
   }
-  else if (request.verb == "move")
+  else if (IsSpaceChange(request.verb))
   {
-    const MoveOutcome outcome = ReadMove(request, server.Space());
-    if (outcome.error.empty()) server.Move(outcome.move);
-    reply(outcome.error.empty(),
-          outcome.error.empty() ? fmt::format("moved '{}' at tick {}", request.entity, tick) : outcome.error);
+    try
+    {
+      Change(request, server);
+    }
+    catch (const std::invalid_argument& error)
+    {
+      reply(false, error.what());
+    }
   }
   else
-    reply(false, fmt::format("unknown request '{}'; known: pause, resume, step, speed, stop, move", request.verb));
+    reply(false, fmt::format("unknown request '{}'; known: {}", request.verb, fmt::join(kControlVerbs, ", ")));
 }
 
 void ControlDesk::DropStep(std::uint64_t tick, const char* why)
@@ -209,31 +230,6 @@ void ControlDesk::Ended(std::uint64_t tick)
   for (const ControlRequestMessage& request : requests_)
     answer_(request, false, tick, fmt::format("the run ended at tick {}", tick));
   requests_.clear();
-}
-
-MoveOutcome ReadMove(const ControlRequestMessage& request, const CSwarmanoidSpace& space)
-{
-  const auto refuse = [](std::string error) { return MoveOutcome{{}, std::move(error)}; };
-  const CSwarmanoidSpaceEntity* entity = space.FindEntity(request.entity);
-  if (entity == nullptr) return refuse(fmt::format("move: there is no entity '{}'", request.entity));
-  if (!entity->IsMovable()) return refuse(fmt::format("move: '{}' cannot move", request.entity));
-  const auto& numbers = request.numbers;
-  if (numbers.size() != 3 && numbers.size() != 6) return refuse("move: write X,Y,Z or X,Y,Z,ALPHA,BETA,GAMMA");
-  for (const double number : numbers)
-    if (!std::isfinite(number)) return refuse("move: the numbers must be finite");
-
-  Pose pose = entity->GetPose();
-  pose.position = {numbers[0], numbers[1], numbers[2]};
-  const Vector3& size = space.GetExperiment().arena_size;
-  for (int axis = 0; axis < 3; ++axis)
-    if (pose.position[axis] < 0 || pose.position[axis] > size[axis])
-      return refuse(
-          fmt::format("move: {:g}, {:g}, {:g} is outside the arena, which reaches from 0, 0, 0 to {:g}, {:g}, {:g}",
-                      numbers[0], numbers[1], numbers[2], size.x(), size.y(), size.z()));
-  constexpr double kRadians = std::numbers::pi / 180;
-  if (numbers.size() == 6)
-    pose.orientation = QuaternionFromEuler({numbers[3] * kRadians, numbers[4] * kRadians, numbers[5] * kRadians});
-  return {{entity->GetIndex(), pose}, {}};
 }
 
 }  // namespace swarmanoid

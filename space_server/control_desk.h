@@ -1,7 +1,7 @@
 // ControlDesk: what users ask of a running experiment, and when the next tick may start: pause, resume, step, speed,
-// stop, move. What changed the experiment from outside is written down and can be done again in another run. Requests
-// come from any thread; all else is called by the thread that paces the run, in a cluster the main thread of the
-// space_server program.
+// stop, move, add, remove. What changed the experiment from outside is written down and can be done again in another
+// run. Requests come from any thread; all else is called by the thread that paces the run, in a cluster the main thread
+// of the space_server program.
 #pragma once
 
 #include <chrono>
@@ -68,6 +68,8 @@ public:
 private:
   void Repeat(SpaceServer& server);
   void Carry(const ControlRequestMessage& request, SpaceServer& server);
+  // Moves, adds or removes an entity, and says so. Throws std::invalid_argument.
+  void Change(const ControlRequestMessage& request, SpaceServer& server);
   void DropStep(std::uint64_t tick, const char* why);
   void SetPace(std::uint64_t tick, Clock::time_point now);
 
@@ -90,13 +92,5 @@ private:
   std::uint64_t pace_tick_ = 0;
   Clock::time_point pace_start_;
 };
-
-// The place that a move asks for, from `pose`; or what is wrong with it, for the asker.
-struct MoveOutcome
-{
-  MoveRequest move;
-  std::string error;
-};
-MoveOutcome ReadMove(const ControlRequestMessage& request, const CSwarmanoidSpace& space);
 
 }  // namespace swarmanoid

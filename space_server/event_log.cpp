@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "common/configuration/wording.h"
+#include "space_server/space_changes.h"
 
 namespace swarmanoid
 {
@@ -30,22 +31,20 @@ std::vector<std::string> Fields(const std::string& line)
   return fields;
 }
 
-const std::vector<std::string> kVerbs{"pause", "resume", "step", "speed", "stop", "move"};
-
 // What can be known to be wrong before the run; the place itself is checked when it is moved there.
 std::string ErrorOf(const ControlRequestMessage& request, const Experiment& experiment)
 {
-  if (std::find(kVerbs.begin(), kVerbs.end(), request.verb) == kVerbs.end())
-    return fmt::format("there is no request {}; known are {}", Quoted(request.verb), Listed(kVerbs));
-  if (request.verb != "move") return {};
+  if (std::find(kControlVerbs.begin(), kControlVerbs.end(), request.verb) == kControlVerbs.end())
+    return fmt::format("there is no request {}; known are {}", Quoted(request.verb), Listed(kControlVerbs));
+  if (!IsSpaceChange(request.verb)) return {};
   const auto entity = std::find_if(experiment.entities.begin(), experiment.entities.end(),
                                    [&](const EntityConfiguration& e) { return e.id == request.entity; });
   if (entity == experiment.entities.end())
     return fmt::format("the experiment has no entity {}; repeat the events of a run of the same file",
                        Quoted(request.entity));
   if (!entity->movable) return fmt::format("{} cannot move", Quoted(request.entity));
-  if (request.numbers.size() != 3 && request.numbers.size() != 6)
-    return "a move needs 3 or 6 numbers: x y z, and alpha beta gamma";
+  if (request.verb != "remove" && request.numbers.size() != 3 && request.numbers.size() != 6)
+    return fmt::format("{} needs 3 or 6 numbers: x y z, and alpha beta gamma", Quoted(request.verb));
   return {};
 }
 
@@ -84,7 +83,7 @@ std::vector<RecordedEvent> ReadEvents(const std::string& path, const Experiment&
     if (fields.size() > 4) event.request.client = fields[4];
     if (const std::string error = ErrorOf(event.request, experiment); !error.empty())
       throw ConfigurationError(event.location, error);
-    if (event.request.verb == "move" || event.request.verb == "stop") events.push_back(std::move(event));
+    if (IsSpaceChange(event.request.verb) || event.request.verb == "stop") events.push_back(std::move(event));
   }
   return events;
 }

@@ -21,8 +21,8 @@ struct RecordedEvent
   SourceLocation location;
 };
 
-// The events that change the outcome of a run (move, stop), in the order of the file. Throws ConfigurationError, with
-// file and line, for what is no event of this experiment.
+// The events that change the outcome of a run (move, add, remove, stop), in the order of the file. Throws
+// ConfigurationError, with file and line, for what is no event of this experiment.
 std::vector<RecordedEvent> ReadEvents(const std::string& path, const Experiment& experiment);
 
 class EventLog

@@ -39,8 +39,11 @@ public:
   void MoveEntity(std::string_view id, const Pose& pose);
   // Puts an entity into the arena: the next one of the <reserve> of that id, or the entity of that id, which waits or
   // was removed. Returns its id. A robot's controller goes on with what it remembers. Throws std::invalid_argument for
-  // an unknown id, a reserve that is used up, and an entity that is there already.
+  // an unknown id, a reserve that is used up, an entity that is there already, and a place where its body would overlap
+  // another one of the same engine.
   std::string AddEntity(std::string_view id, const Pose& pose);
+  // Whether AddEntity would find the place free of bodies. Throws as AddEntity does, except for the place.
+  bool IsFree(std::string_view id, const Pose& pose) const;
   // Takes an entity that can move, or is of a <reserve>, out of the arena; it lets go of what it holds and is let go.
   // Throws std::invalid_argument for any other, and for one that is not there.
   void RemoveEntity(std::string_view id);

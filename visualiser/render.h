@@ -27,6 +27,9 @@ public:
   virtual void Step(unsigned ticks) = 0;
   virtual void SetSpeed(double real_time_factor) = 0;  // 0: as fast as possible
   virtual void MoveEntity(const std::string& id, const Pose& pose) = 0;
+  // Puts an entity that is not in the arena into it: the one of that id, or the next one of the <reserve> of that id.
+  virtual void AddEntity(const std::string& id, const Pose& pose) = 0;
+  virtual void RemoveEntity(const std::string& id) = 0;
   virtual void Stop() = 0;  // the run ends at its tick
 };
 

@@ -5,10 +5,10 @@
 namespace swarmanoid
 {
 
-void RequestControl::MoveEntity(const std::string& id, const Pose& pose)
+void RequestControl::AskWithPose(const std::string& verb, const std::string& entity, const Pose& pose)
 {
   const EulerAngles angles = EulerFromQuaternion(pose.orientation);
-  Ask("move", id,
+  Ask(verb, entity,
       {pose.position.x(), pose.position.y(), pose.position.z(), RadiansToDegrees(angles.alpha),
        RadiansToDegrees(angles.beta), RadiansToDegrees(angles.gamma)});
 }

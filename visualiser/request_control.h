@@ -20,10 +20,13 @@ public:
   void Resume() override { Ask("resume"); }
   void Step(unsigned ticks) override { Ask("step", "", {static_cast<double>(ticks)}); }
   void SetSpeed(double real_time_factor) override { Ask("speed", "", {real_time_factor}); }
-  void MoveEntity(const std::string& id, const Pose& pose) override;
+  void MoveEntity(const std::string& id, const Pose& pose) override { AskWithPose("move", id, pose); }
+  void AddEntity(const std::string& id, const Pose& pose) override { AskWithPose("add", id, pose); }
+  void RemoveEntity(const std::string& id) override { Ask("remove", id); }
   void Stop() override { Ask("stop"); }
 
 private:
+  void AskWithPose(const std::string& verb, const std::string& entity, const Pose& pose);
   void Ask(const std::string& verb, const std::string& entity = "", const std::vector<double>& numbers = {});
 
   std::function<void(const ControlRequestMessage& request)> send_;

@@ -1,6 +1,6 @@
 #include "common/bus/control_client.h"
 
-#include <chrono>
+#include <algorithm>
 #include <random>
 
 namespace swarmanoid
@@ -12,12 +12,15 @@ namespace
 {
 
 constexpr auto kRepeat = 250ms;
+constexpr double kLate_s = 0.5;
 
 }  // namespace
 
 // Process ids come again: requests of another process of our number must not be taken for repetitions of ours.
 ControlClient::ControlClient(Bus& bus, const std::string& experiment)
-    : number_(std::random_device()()),
+    : bus_(bus),
+      experiment_(experiment),
+      number_(std::random_device()()),
       requests_(bus, experiment),
       replies_(bus, experiment,
                [this](const ControlReplyMessage& reply)
@@ -33,14 +36,19 @@ ControlClient::ControlClient(Bus& bus, const std::string& experiment)
 std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, const std::string& entity,
                                                       const std::vector<double>& numbers, double timeout_s)
 {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
+  if (statuses_ == nullptr)
+    statuses_ = std::make_unique<Subscription<RunStatusMessage>>(
+        bus_, experiment_, [this](const RunStatusMessage& message) { Heard(message.status); });
+  const auto patience = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_s));
   std::unique_lock lock(mutex_);
+  got_on_ = Clock::now();
+  const auto is_patient = [&] { return Clock::now() < got_on_ + patience; };
   while (requests_.Readers() == 0 || replies_.Writers() == 0)
-    if (answered_.wait_for(lock, 2ms), std::chrono::steady_clock::now() > deadline) return std::nullopt;
+    if (answered_.wait_for(lock, 2ms), !is_patient()) return std::nullopt;
   reply_.reset();
   const ControlRequestMessage request{ProcessId(), ++number_, verb, entity, numbers};
   // We may know the server before it knows us: then its answer finds nobody, and the same request is answered again.
-  while (!reply_ && std::chrono::steady_clock::now() < deadline)
+  while (!reply_ && is_patient())
   {
     requests_.Write(request);
     answered_.wait_for(lock, kRepeat, [this] { return reply_.has_value(); });
@@ -51,6 +59,22 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, c
     }
   }
   return reply_;
+}
+
+// A run that is slow because it is told to be has nobody who is late.
+void ControlClient::Heard(const RunStatus& status)
+{
+  const std::lock_guard lock(mutex_);
+  const bool waits =
+      std::ranges::any_of(status.processes, [](const ProcessStatus& process) { return process.late_s > kLate_s; });
+  if (!waits || !status_ || status.tick != status_->tick) got_on_ = Clock::now();
+  status_ = status;
+}
+
+std::optional<RunStatus> ControlClient::LatestStatus()
+{
+  const std::lock_guard lock(mutex_);
+  return status_;
 }
 
 void ControlClient::Tell(const std::string& verb, const std::string& entity, const std::vector<double>& numbers)

@@ -1,7 +1,8 @@
-// ControlClient: asks the space server of a running experiment to pause, resume, step, change speed, stop or move an
-// entity. Used by `swarmanoid control` and by interactive visualisers.
+// ControlClient: asks the space server of a running experiment to pause, resume, step, change speed or stop, or to
+// move, add or remove an entity. Used by `swarmanoid control` and by interactive visualisers.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
@@ -19,20 +20,32 @@ class ControlClient
 public:
   ControlClient(Bus& bus, const std::string& experiment);
 
-  // Sends a request (ControlRequest in idl/swarmanoid.idl) and waits for the answer. nullopt where none came in time,
-  // for instance because no such experiment runs.
+  // Sends a request (ControlRequest in idl/swarmanoid.idl) and waits for the answer, as long as the run gets on: the
+  // answer to a step comes at its end. nullopt where the run told nothing for `timeout_s`, or stood still that long and
+  // waits for one of its processes.
   std::optional<ControlReplyMessage> Ask(const std::string& verb, const std::string& entity,
                                          const std::vector<double>& numbers, double timeout_s);
+  // How the run went when it was heard last; nullopt where no Ask has heard of it.
+  std::optional<RunStatus> LatestStatus();
   // Sends without waiting for an answer.
   void Tell(const std::string& verb, const std::string& entity, const std::vector<double>& numbers);
 
 private:
+  using Clock = std::chrono::steady_clock;
+
+  void Heard(const RunStatus& status);
+
+  Bus& bus_;
+  std::string experiment_;
   std::mutex mutex_;
   std::condition_variable answered_;
-  std::uint32_t number_;  // of the last request
+  std::optional<RunStatus> status_;
+  Clock::time_point got_on_;  // when the run was last seen to get on
+  std::uint32_t number_;      // of the last request
   std::optional<ControlReplyMessage> reply_;
   Publisher<ControlRequestMessage> requests_;
   Subscription<ControlReplyMessage> replies_;
+  std::unique_ptr<Subscription<RunStatusMessage>> statuses_;  // made by Ask, for those who wait
 };
 
 }  // namespace swarmanoid

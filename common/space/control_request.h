@@ -9,6 +9,9 @@
 namespace swarmanoid
 {
 
+inline const std::vector<std::string> kControlVerbs{"pause", "resume", "step", "speed",
+                                                    "stop",  "move",   "add",  "remove"};
+
 struct ControlRequestMessage
 {
   std::string client;  // "host:pid" of the asker; empty in one process

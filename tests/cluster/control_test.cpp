@@ -70,6 +70,15 @@ TEST_F(ControlTest, StepsPausesAndResumes)
   ExpectEnd();
 }
 
+TEST_F(ControlTest, AStepIsWaitedForAsLongAsTheRunGetsOn)
+{
+  Begin({"--paused", "--real-time", "1"});
+  const auto step = client_->Ask("step", "", {25}, 1);
+  ASSERT_TRUE(step.has_value());
+  EXPECT_EQ(step->tick, 25U);
+  ExpectEnd();
+}
+
 TEST_F(ControlTest, KeepsTheAskedPace)
 {
   Begin({"--paused", "--real-time", "2"});

@@ -1,5 +1,7 @@
 """Entities that are added and removed while an experiment runs: the same in one process and in a cluster, and over a
 checkpoint."""
+import time
+
 from harness import CONFIGS, LauncherTest, main
 
 ENGINES = {
@@ -17,8 +19,8 @@ class Reserve(LauncherTest):
         path.write_text(text[:start] + ENGINES[engine] + text[end:])
         return path
 
-    def go(self, experiment, output, *options):
-        run = self.run_it("run", experiment, "--quiet", "--ticks", 600, "--output", output, "--hash-log", f"{output}.txt",
+    def go(self, experiment, output, *options, ticks=600):
+        run = self.run_it("run", experiment, "--quiet", "--ticks", ticks, "--output", output, "--hash-log", f"{output}.txt",
                           *options)
         self.assertEqual(run.process.returncode, 0, run.stderr)
         self.assert_finished(run)
@@ -42,6 +44,55 @@ class Reserve(LauncherTest):
         whole = self.go(experiment, "whole", "--single-process", "--checkpoint-every", 300)
         rest = self.go(experiment, "rest", "--restore", self.folder / "whole" / "checkpoint-00000300")
         self.assertEqual(whole.splitlines()[-250:], rest.splitlines()[-250:])
+
+    def control(self, *words, code=0):
+        answer = self.run_it("control", *words)
+        self.assertEqual(answer.process.returncode, code, answer.stderr)
+        return answer.stdout if code == 0 else answer.stderr
+
+    def shown(self, table):
+        """Who is in the last picture of a table of ids."""
+        lines = [line.split("\t") for line in (self.folder / table).read_text().splitlines() if not line.startswith("#")]
+        return {entity for tick, entity in lines if tick == lines[-1][0]}
+
+    def test_users_add_and_remove(self):
+        run = self.start("run", CONFIGS / "prey_supply.xml", "--quiet", "--paused", "--ticks", 400, "--no-visualisers", "--output",
+                         "asked", "--hash-log", "asked.txt", "--checkpoint-every", 100)
+        deadline = time.monotonic() + 20
+        while "prey_supply" not in self.run_it("list", "experiments").stdout:
+            self.assertLess(time.monotonic(), deadline, "the run does not start")
+        self.assertEqual(self.control("add", "prey", "0.3,2.6,0"), "prey_supply: added 'prey_0' at tick 0\n")
+        self.assertIn("'prey_1' does not fit at 0.35, 2.6, 0: the cylindric_prey 'prey_0' stands there, at 0.3, 2.6, 0",
+                      self.control("add", "prey", "0.35,2.6,0", code=2))
+        self.assertIn("outside the arena", self.control("add", "prey", "5,0.5,0", code=2))
+        self.assertIn("reserves are: late, prey", self.control("add", "pray", "1,1,0", code=2))
+        self.assertIn("'late_0' is not in the arena", self.control("move", "late_0", "1,1,0", code=2))
+        self.assertIn("did you mean 'fb_1'?", self.control("remove", "fb1", code=2))
+        self.control("step", 30)
+        self.assertEqual(self.control("prey_supply", "add", "late", "2.5,2.5,0,0,0,180"), "prey_supply: added 'late_0' at tick 30\n")
+        self.assertEqual(self.control("remove", "fb_1"), "prey_supply: removed 'fb_1' at tick 30\n")
+        self.assertIn("'fb_1' is not in the arena", self.control("remove", "fb_1", code=2))
+        # Who comes late sees those who are there, and no other.
+        watcher = self.start("attach", "text", "--file", "late.txt", "--columns", "clock,Entity id", "--entities",
+                             "footbot,cylindric_prey", "--output", self.folder)
+        expected = {"fb_0", "fb_2", "late_0", "prey_0"}
+        while not (self.folder / "late.txt").exists() or self.shown("late.txt") != expected:
+            self.assertLess(time.monotonic(), deadline + 10, "the late table is another one")
+        self.control("resume")
+        self.assertEqual(run.wait(60), 0, run.stderr)
+        self.assertEqual(watcher.wait(10), 0, watcher.stderr)
+        events = (self.folder / "asked" / "events.csv").read_text()
+        self.assertRegex(events, "\n0,add,prey_0,0.3 2.6 0,")
+        self.assertRegex(events, "\n30,remove,fb_1,,")
+
+        # Again in one process; and from a checkpoint after it all, as a cluster.
+        self.go(CONFIGS / "prey_supply.xml", "again", "--single-process", "--no-visualisers", "--events",
+                self.folder / "asked" / "events.csv", ticks=400)
+        asked = (self.folder / "asked.txt").read_text()
+        self.assertEqual((self.folder / "again.txt").read_text(), asked)
+        rest = self.go(self.folder / "asked" / "experiment.xml", "rest", "--no-visualisers", "--restore",
+                       self.folder / "asked" / "checkpoint-00000100", ticks=400)
+        self.assertEqual(rest.splitlines()[-250:], asked.splitlines()[-250:])
 
     def test_only_those_who_are_there_are_shown(self):
         self.go(self.experiment("dummy_engine"), "shown", "--single-process")

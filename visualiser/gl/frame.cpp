@@ -61,7 +61,7 @@ void Frame::Sort(const Scene& scene, const ViewVolume& view, const SunVolume& su
   for (const SceneItem& item : scene.Items())
   {
     using Role = SceneItem::Role;
-    if (item.role == Role::kFloor) continue;
+    if (item.role == Role::kFloor || !item.present) continue;
     const Model& model = models[item.model];
     const float radius = model.radius * item.scale.maxCoeff();
     const float pixels = view.PixelsOf(item.position, radius);

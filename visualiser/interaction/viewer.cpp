@@ -276,6 +276,7 @@ void Viewer::CloseInspector(std::uint32_t entity)
 void Viewer::Visit(std::uint32_t entity)
 {
   const CSwarmanoidSpaceEntity& body = Space().GetEntity(entity);
+  if (!Space().IsPresent(entity)) return Say(fmt::format("'{}' is not in the arena", body.GetId()), true);
   camera.pitch = std::clamp(camera.pitch, -60.0, -20.0);
   camera.roll = 0;
   camera.position = body.GetPosition() - (1.2 + 2 * body.GetSize().maxCoeff()) * camera.Forward();
@@ -355,6 +356,8 @@ void Viewer::StateCame()
   }
 
   if (!follows || !shown.scene.selected) return;
+  // One that leaves the arena is waited for where it was.
+  if (!Space().IsPresent(*shown.scene.selected)) return followed_place_.reset();
   const Vector3 place = Space().GetPose(*shown.scene.selected).position;
   if (followed_place_) camera.position += place - *followed_place_;
   followed_place_ = place;

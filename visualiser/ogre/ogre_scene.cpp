@@ -200,6 +200,12 @@ void OgreScene::Place(Body& body, const Scene& scene, const SceneItem& item, con
                       float pixels_per_radian)
 {
   if (body.node == nullptr) body.node = manager_.getRootSceneNode()->createChildSceneNode();
+  if (!item.present)
+  {
+    if (body.shown >= 0) body.node->setVisible(false);
+    body.shown = -1;
+    return;
+  }
   Eigen::Vector3f position = item.position;
   Eigen::Vector3f scale = item.scale;
   if (item.role == SceneItem::Role::kPatch) position.z() += kPatchLift;

@@ -93,6 +93,11 @@ void Panels::ShowEntityRow(std::uint32_t entity)
   ImGui::TableNextColumn();
   ImGui::TextDisabled("%s", ShortKind(body.GetKind()).c_str());
   ImGui::TableNextColumn();
+  if (!viewer_.Space().IsPresent(entity))
+  {
+    ImGui::TextDisabled("absent");
+    return;
+  }
   ImGui::Text("%.2f", place.x());
   ImGui::TableNextColumn();
   ImGui::Text("%.2f", place.y());

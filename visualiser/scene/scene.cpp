@@ -93,7 +93,7 @@ void Scene::AddEntity(std::uint32_t entity)
   const CSwarmanoidSpaceEntity& e = space_.GetEntity(entity);
   const EntityConfiguration& configuration = e.GetConfiguration();
   const Vector3f size = configuration.size.cast<float>();
-  Body body{entity, static_cast<std::uint32_t>(items_.size()), e.FirstSlot(), -1};
+  Body body{entity, static_cast<std::uint32_t>(items_.size()), e.FirstSlot(), -1, 0};
   switch (configuration.kind)
   {
     case EntityKind::kFootbot:
@@ -128,6 +128,7 @@ void Scene::AddEntity(std::uint32_t entity)
       AddTerrain(entity);
       break;
   }
+  body.items = static_cast<std::uint32_t>(items_.size()) - body.first_item;
   bodies_.push_back(body);
 }
 
@@ -166,6 +167,7 @@ void Scene::Update(const SceneOptions& options)
   labels_.clear();
   for (const Body& body : bodies_)
   {
+    if (!space_.IsPresent(body.entity)) continue;
     const CSwarmanoidSpaceEntity& entity = space_.GetEntity(body.entity);
     const EntityKind kind = entity.GetKind();
     if (kind == EntityKind::kEyebot && options.beams) AddBeam(body);
@@ -235,6 +237,9 @@ void Scene::UpdateBodies()
   for (const Body& body : bodies_)
   {
     const CSwarmanoidSpaceEntity& entity = space_.GetEntity(body.entity);
+    const bool present = space_.IsPresent(body.entity);
+    for (std::uint32_t i = 0; i < body.items; ++i) items_[body.first_item + i].present = present;
+    if (!present) continue;
     switch (entity.GetKind())
     {
       case EntityKind::kFootbot:
@@ -325,7 +330,7 @@ void Scene::Bounds(Vector3& low, Vector3& high) const
   high = Vector3(ArenaSize().x(), ArenaSize().y(), 0.3);
   for (const SceneItem& item : items_)
   {
-    if (item.role != SceneItem::Role::kBody) continue;
+    if (item.role != SceneItem::Role::kBody || !item.present) continue;
     const Eigen::AlignedBox3f& box = models_[item.model].box;
     for (int corner = 0; corner < 8; ++corner)
     {

@@ -31,6 +31,7 @@ struct SceneItem
   std::uint32_t entity = kNoEntity;
   std::uint16_t model = 0;  // into Scene::Models()
   Role role = Role::kBody;
+  bool present = true;  // false while its entity is not in the arena: not drawn
   Eigen::Vector3f position = Eigen::Vector3f::Zero();
   Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
   Eigen::Vector3f scale = Eigen::Vector3f::Ones();  // along the axes of the model, before it is turned
@@ -100,7 +101,7 @@ public:
 
   // Of the arena, in metres.
   const Vector3& ArenaSize() const { return space_.GetExperiment().arena_size; }
-  // What holds all bodies and the arena's floor.
+  // What holds all bodies that are in the arena, and its floor.
   void Bounds(Vector3& low, Vector3& high) const;
 
 private:
@@ -111,6 +112,7 @@ private:
     std::uint32_t first_item;
     std::uint32_t first_slot;
     std::int32_t lights;
+    std::uint32_t items;
   };
   struct Trail;
 

@@ -126,7 +126,7 @@ void FrameWriter::ReadAttributes()
     for (std::uint32_t hand = 0; hand < bearer.hands; ++hand)
     {
       const double held = attributes[bearer.gripped + hand];
-      if (held <= 0) continue;
+      if (held <= 0 || !space_.IsPresent(bearer.entity)) continue;
       flags |= kGripping;
       grips_.push_back({bearer.entity, static_cast<std::uint32_t>(held) - 1});
     }
@@ -189,7 +189,7 @@ void FrameWriter::FindBeams()
   const std::span<const double> attributes = space_.Attributes();
   for (const Bearer& bearer : bearers_)
   {
-    if (bearer.laser == kNone || attributes[bearer.laser] == 0) continue;
+    if (bearer.laser == kNone || attributes[bearer.laser] == 0 || !space_.IsPresent(bearer.entity)) continue;
     const CSwarmanoidSpaceEntity& entity = space_.GetEntity(bearer.entity);
     const double pan = entity.GetAttribute("laser_pan");
     const double tilt = entity.GetAttribute("laser_tilt");

@@ -227,7 +227,8 @@ std::string ColoursText(const CSwarmanoidSpace& space)
   for (std::size_t e = 0; e < space.Size(); ++e)
   {
     const CSwarmanoidSpaceEntity& entity = space.GetEntity(e);
-    if (entity.IsMovable() || AttributeOffset(entity.GetKind(), "colour") < 0) continue;
+    const bool in_frames = entity.IsMovable() && !IsBodiless(entity.GetKind());
+    if (in_frames || AttributeOffset(entity.GetKind(), "colour") < 0) continue;
     entities.push_back(e);
     colours.push_back(static_cast<std::uint32_t>(entity.GetAttribute("colour")));
     intensities.push_back(AttributeOffset(entity.GetKind(), "intensity") < 0 ? 1.0 : entity.GetAttribute("intensity"));

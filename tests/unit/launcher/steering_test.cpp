@@ -127,6 +127,46 @@ TEST_F(SteeringTest, MovesAreWrittenDownAndRepeatedWithTheSameHashes)
   EXPECT_EQ(Read("again.csv"), Read("events.csv"));
 }
 
+TEST_F(SteeringTest, EntitiesAreRemovedAndAddedAndThatIsRepeatedWithTheSameHashes)
+{
+  std::vector<std::size_t> present;
+  std::vector<std::string> notes;
+  CScriptedRender::on_draw = [&](const RenderSetup& setup)
+  {
+    const CSwarmanoidSpace& space = setup.space;
+    present.push_back(space.IsPresent(space.FindEntity("fb_3")->GetIndex()) ? 1 : 0);
+    notes.clear();
+    for (const RunNote& note : setup.monitor->Notes()) notes.push_back(note.text);
+    const Pose taken = space.FindEntity("fb_4")->GetPose();
+    if (space.GetTick() == 4) setup.control->RemoveEntity("fb_3");
+    if (space.GetTick() == 9)
+    {
+      setup.control->MoveEntity("fb_3", taken);
+      setup.control->AddEntity("fb_3", taken);
+      setup.control->RemoveEntity("wall_west");
+    }
+    if (space.GetTick() == 14) setup.control->AddEntity("fb_3", {{1, 1, 0}, Quaternion::Identity()});
+  };
+  options_.event_log = (folder_ / "events.csv").string();
+  options_.hash_log = (folder_ / "first").string();
+  const std::uint64_t changed = RunSingleProcess(*experiment_, options_).hash;
+  for (std::size_t tick = 0; tick < present.size(); ++tick)
+    EXPECT_EQ(present[tick], tick < 5 || tick > 14 ? 1U : 0U) << "at tick " << tick;
+  EXPECT_THAT(notes,
+              testing::ElementsAre("removed 'fb_3' at tick 5", "move: entity 'fb_3' is not in the arena",
+                                   testing::AllOf(StartsWith("add: 'fb_3' does not fit at "),
+                                                  HasSubstr(": the footbot 'fb_4' stands there, at ")),
+                                   HasSubstr("remove: the block 'wall_west' never moves"), "added 'fb_3' at tick 15"));
+  EXPECT_THAT(Read("events.csv"), testing::AllOf(HasSubstr("\n5,remove,fb_3,,"), HasSubstr("\n15,add,fb_3,1 1 0")));
+
+  CScriptedRender::on_draw = nullptr;
+  options_.events = options_.event_log;
+  options_.event_log = (folder_ / "again.csv").string();
+  options_.hash_log = (folder_ / "second").string();
+  EXPECT_EQ(RunSingleProcess(*experiment_, options_).hash, changed);
+  EXPECT_EQ(Read("second"), Read("first"));
+}
+
 TEST_F(SteeringTest, TheEndByAVisualisationIsRepeatedToo)
 {
   CScriptedRender::on_draw = [](const RenderSetup& setup) { CScriptedRender::terminate = setup.space.GetTick() == 11; };
@@ -266,6 +306,9 @@ TEST_F(SteeringTest, WrongEventsAreToldWithTheirLine)
   EXPECT_THAT(error_of("4,move,wall_west,1 1 0,"), HasSubstr("cannot move"));
   EXPECT_THAT(error_of("4,move,fb_0,1 one,"), HasSubstr("no numbers"));
   EXPECT_THAT(error_of("4,move,fb_0,1,"), HasSubstr("3 or 6 numbers"));
+  EXPECT_THAT(error_of("4,add,fb_0,,"), HasSubstr("'add' needs 3 or 6 numbers"));
+  EXPECT_THAT(error_of("4,add,fb_0,1 1 0,"), HasSubstr("wrong.csv:3: add: entity 'fb_0' is in the arena already"));
+  EXPECT_THAT(error_of("4,remove,fb_x,,"), HasSubstr("wrong.csv:3: the experiment has no entity 'fb_x'"));
   EXPECT_THAT(error_of("4,fly,fb_0,,"), HasSubstr("no request 'fly'"));
   EXPECT_THAT(error_of("x,stop,,,"), HasSubstr("'x' is no tick"));
   EXPECT_THAT(error_of("4,move,fb_0,100 1 0,"), HasSubstr("wrong.csv:3: move: 100, 1, 0 is outside the arena"));

@@ -47,6 +47,14 @@ TEST(ControlRequest, ReadsNumbers)
   EXPECT_THAT(move.numbers, ElementsAre(1, 2, 0, 0, 0, 90));
   // An entity may be called like a verb.
   EXPECT_EQ(ParseControlRequest({"move", "stop", "-1,2,0"}).entity, "stop");
+  const ControlRequest add = ParseControlRequest({"add", "remove", "1,2,0"});
+  EXPECT_EQ(add.verb, "add");
+  EXPECT_EQ(add.entity, "remove");
+  EXPECT_THAT(add.numbers, ElementsAre(1, 2, 0));
+  const ControlRequest remove = ParseControlRequest({"world", "remove", "fb0"});
+  EXPECT_EQ(remove.experiment, "world");
+  EXPECT_EQ(remove.entity, "fb0");
+  EXPECT_THAT(remove.numbers, ElementsAre());
 }
 
 TEST(ControlRequest, ErrorsSayTheRightForm)
@@ -58,6 +66,9 @@ TEST(ControlRequest, ErrorsSayTheRightForm)
   EXPECT_THAT(ErrorOf({"speed", "-1"}), HasSubstr("negative"));
   EXPECT_THAT(ErrorOf({"move", "fb0", "1,2"}), HasSubstr("X,Y,Z"));
   EXPECT_THAT(ErrorOf({"pause", "now"}), HasSubstr("'now'"));
+  EXPECT_THAT(ErrorOf({"add", "fb0"}), HasSubstr("add ENTITY X,Y,Z"));
+  EXPECT_THAT(ErrorOf({"remove"}), HasSubstr("remove ENTITY"));
+  EXPECT_THAT(ErrorOf({"world", "remove", "fb0", "1,2,0"}), HasSubstr("remove ENTITY"));
 }
 
 TEST(ResultBits, AddsItselfToWhatIsThere)

@@ -247,6 +247,13 @@ TEST_F(Reserve, MistakesAreNamed)
     space.AddEntity("late", At(4, 4));
     keep([&] { space.AddEntity("late", At(5, 5)); });
     keep([&] { space.AddEntity("prey", At(-1e9, 5)); });
+    // A footbot of 0.085 m and a prey of 0.1 m.
+    EXPECT_TRUE(space.IsFree("prey", At(3.186, 3)));
+    EXPECT_FALSE(space.IsFree("prey", At(3.175, 3)));
+    keep([&] { space.AddEntity("prey", At(3.175, 3)); });
+    keep([&] { space.AddEntity("box", At(9, 6, 0.1)); });
+    // What has no body fits anywhere.
+    EXPECT_TRUE(space.IsFree("lamp", At(3, 3)));
   };
   const auto experiment = Load("dummy_engine");
   CSimulator simulator(*experiment);
@@ -259,7 +266,9 @@ TEST_F(Reserve, MistakesAreNamed)
           "the wall 'wall' never moves, so it cannot be added or removed; only robots, preys, movable blocks and "
           "what is in a <reserve> can",
           "all 2 entities of the reserve 'late' are in the arena; give its <reserve> (line 15) a larger quantity",
-          "'prey' cannot be added there: it is outside all arenas"));
+          "'prey' cannot be added there: it is outside all arenas",
+          "'prey_0' does not fit at 3.175, 3, 0: the footbot 'late_0' stands there, at 3, 3, 0; choose a free place",
+          "'box_0' does not fit at 9, 6, 0.1: the wall 'wall' stands there, at 9, 5, 0.5; choose a free place"));
 }
 
 TEST_F(Reserve, QueriesFindOnlyWhatIsInTheArena)

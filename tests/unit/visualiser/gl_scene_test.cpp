@@ -248,6 +248,36 @@ TEST(GlScene, MarksAreDrawnWhereAsked)
   EXPECT_GT(CountDifferent(bare, DrawWorld(world, camera, selected)), 60);
 }
 
+// Neither they nor their marks, nor the depth of the picture, which reaches as far as there are bodies.
+TEST(GlScene, WhatIsNotInTheArenaChangesNoPixel)
+{
+  const auto picture = [](bool with_absent)
+  {
+    SmallWorld world({2, 2, 1});
+    world.Add(EntityKind::kFootbot, "fb", {1, 1, 0}, 0);
+    world.AddBody(EntityKind::kCylindricPrey, "prey", {1.3, 0.9, 0}, {0.1, 0.1, 0.1}, 0xffff00);
+    if (with_absent)
+    {
+      const Vector3 nowhere = Vector3::Zero();
+      world.Add(EntityKind::kEyebot, "late_eb", nowhere);
+      world.Add(EntityKind::kFootbot, "late_fb", nowhere);
+      world.AddBody(EntityKind::kCylindricPrey, "late_prey", nowhere, {0.1, 0.1, 0.1});
+      world.Add(EntityKind::kLightBulb, "late_lamp", nowhere);
+      world.AddBody(EntityKind::kGroundPatch, "late_mat", nowhere, {0.5, 0.5, 0}, 0xff0000);
+      auto& entities = world.GetExperiment().entities;
+      for (std::size_t e = 2; e < entities.size(); ++e) entities[e].pose = WaitingPose(entities[e], e);
+      world.Set("late_eb", "laser", 1);
+      world.Set("late_eb", "laser_colour", 0xff0000);
+      world.SetLeds("late_fb", 12, 0x0000ff);
+    }
+    SceneOptions options;
+    options.ids = options.collision_models = options.rays = true;
+    if (with_absent) options.selected = 3;
+    return DrawWorld(world, Camera::LookAt({1, -0.2, 0.8}, {1, 1, 0.1}), options);
+  };
+  EXPECT_EQ(picture(true).pixels, picture(false).pixels);
+}
+
 TEST(GlScene, AWallThatHidesTheArenaIsGlass)
 {
   SmallWorld world({2, 2, 1});

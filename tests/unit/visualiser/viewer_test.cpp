@@ -28,6 +28,12 @@ public:
     asked.push_back("move " + id);
     place = pose;
   }
+  void AddEntity(const std::string& id, const Pose& pose) override
+  {
+    asked.push_back("add " + id);
+    place = pose;
+  }
+  void RemoveEntity(const std::string& id) override { asked.push_back("remove " + id); }
   void Stop() override { asked.push_back("stop"); }
 
   std::vector<std::string> asked;
@@ -260,6 +266,28 @@ TEST_F(ViewerTest, FollowsTheSelectedEntity)
   world_.Space().SetPose(Index("fb_0"), {{1.5, 1.2, 0}, Quaternion::Identity()});
   viewer.StateCame();
   EXPECT_TRUE((viewer.camera.position - before).isApprox(Vector3(0.5, 0.2, 0), 1e-9));
+}
+
+TEST_F(ViewerTest, FollowsNobodyOutOfTheArena)
+{
+  Viewer& viewer = Make();
+  const std::uint32_t fb = Index("fb_0");
+  viewer.Select(fb);
+  viewer.Press({'F'});
+  viewer.StateCame();
+  const Vector3 before = viewer.camera.position;
+  world_.Space().SetPose(fb, WaitingPose(world_["fb_0"].GetConfiguration(), fb));
+  viewer.StateCame();
+  viewer.Visit(fb);
+  EXPECT_EQ(viewer.camera.position, before);
+  EXPECT_EQ(viewer.Messages().back().text, "'fb_0' is not in the arena");
+  // Where it comes back it is followed from.
+  world_.Space().SetPose(fb, {{2, 2, 0}, Quaternion::Identity()});
+  viewer.StateCame();
+  EXPECT_EQ(viewer.camera.position, before);
+  world_.Space().SetPose(fb, {{2, 2.5, 0}, Quaternion::Identity()});
+  viewer.StateCame();
+  EXPECT_TRUE((viewer.camera.position - before).isApprox(Vector3(0, 0.5, 0), 1e-9));
 }
 
 TEST_F(ViewerTest, DraggingTurnsAndShiftsTheView)

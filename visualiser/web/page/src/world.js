@@ -1,5 +1,5 @@
 // What is known of the experiment: the table of entities, which stays, and the newest state, which moves.
-import { Flag } from "./protocol.js";
+import { Flag, WAITING_BELOW_M } from "./protocol.js";
 
 const ROBOTS = new Set(["footbot", "handbot", "eyebot"]);
 // A jump further than this between two frames is no movement: somebody put the entity there.
@@ -108,6 +108,11 @@ export class Motion {
       for (let k = 0; k < 4; k++) this.quaternions[q + k] *= norm;
     }
     return true;
+  }
+
+  // Whether a movable entity is in the arena.
+  isPresent(slot) {
+    return this.positions[3 * slot] >= WAITING_BELOW_M;
   }
 
   yaw(slot) {

@@ -103,7 +103,10 @@ export class EntityList {
       const body = this.world.bodyOf.get(entity);
       const still = body ? `#${body.colour.toString(16).padStart(6, "0")}` : null;
       const colour = slot >= 0 && motion?.frame ? motion.colour(slot, this.world.isRobot(entity)) : still;
-      row.dot.style.background = colour ?? "transparent";
+      const absent = slot >= 0 && motion?.frame && !motion.isPresent(slot);
+      row.dot.style.background = absent ? "transparent" : colour ?? "transparent";
+      row.element.classList.toggle("absent", Boolean(absent));
+      row.element.title = absent ? "not in the arena" : "";
     });
   }
 

@@ -1,4 +1,5 @@
-// What stands still: the floor with its grid, walls, blocks, patches, holes, lights, sounds and terrain.
+// The floor with its grid, and what stands on it: walls, blocks, patches, holes, lights, sounds and terrain. Of these only
+// lights, sounds and patches may come, go and move.
 import * as THREE from "three";
 import { paint } from "./models.js";
 
@@ -26,6 +27,8 @@ function floorTexture(theme, cells) {
   return texture;
 }
 
+const MOVING = new Set(["ground_patch", "light_bulb", "sound_source"]);
+
 export class Arena {
   constructor(scene, world, theme, quality) {
     this.world = world;
@@ -33,13 +36,19 @@ export class Arena {
     this.Material = quality === "low" ? THREE.MeshLambertMaterial : THREE.MeshStandardMaterial;
     this.finish = quality === "low" ? {} : { roughness: 0.85, metalness: 0 };
     this.objects = new Map(); // entity to what bears its colour
+    this.moving = []; // those that movable entities have
     scene.add(this.group);
     this.addFloor(theme);
     let layer = 1;
     for (const body of world.bodies) {
-      if (world.slots[body.entity] >= 0) continue;
+      const slot = world.slots[body.entity];
+      if (slot >= 0 && !MOVING.has(world.kinds[body.entity])) continue;
       const object = this.make(world.kinds[body.entity], body, layer++ % 40);
       if (!object) continue;
+      if (slot >= 0) {
+        object.visible = false;
+        this.moving.push({ object, slot, height: object.position.z });
+      }
       object.position.x += body.position[0];
       object.position.y += body.position[1];
       object.position.z += body.position[2];
@@ -51,6 +60,17 @@ export class Arena {
       object.matrixAutoUpdate = false;
       object.updateMatrix();
     });
+  }
+
+  place(motion) {
+    for (const { object, slot, height } of this.moving) {
+      object.visible = motion.isPresent(slot);
+      if (!object.visible) continue;
+      object.position.fromArray(motion.positions, 3 * slot);
+      object.position.z += height;
+      object.quaternion.fromArray(motion.quaternions, 4 * slot);
+      object.updateMatrix();
+    }
   }
 
   addFloor(theme) {

@@ -72,7 +72,7 @@ export class Grips {
     const points = [];
     for (const entity of this.hangers) {
       const slot = this.world.slots[entity];
-      if (!(frame.colours[4 * slot + 3] & Flag.attached)) continue;
+      if (!(frame.colours[4 * slot + 3] & Flag.attached) || !motion.isPresent(slot)) continue;
       const [x, y, z] = motion.positions.subarray(3 * slot, 3 * slot + 3);
       points.push(x, y, z + extentOf(this.world, entity).height, x, y, this.world.arena[2]);
     }
@@ -242,7 +242,7 @@ export class Labels {
     const point = new THREE.Vector3();
     const consider = (entity) => {
       const slot = this.world.slots[entity];
-      if (slot < 0) return;
+      if (slot < 0 || !motion.isPresent(slot)) return;
       point.fromArray(motion.positions, 3 * slot);
       const distance = point.distanceToSquared(camera.position);
       point.z += extentOf(this.world, entity).height + 0.02;

@@ -12,7 +12,7 @@ export function pick(world, motion, camera, x, y, slack = 0.004) {
   let nearest = Infinity;
   for (let entity = 0; entity < world.size; entity++) {
     const slot = world.slots[entity];
-    if (slot < 0) continue;
+    if (slot < 0 || !motion.isPresent(slot)) continue;
     const { radius, height } = extentOf(world, entity);
     const dx = motion.positions[3 * slot] - origin.x;
     const dy = motion.positions[3 * slot + 1] - origin.y;

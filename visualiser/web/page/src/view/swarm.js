@@ -3,7 +3,7 @@
 import * as THREE from "three";
 import { extentOf, makeModels, paint } from "./models.js";
 import { LedTexture, ledMaterial } from "./leds.js";
-import { Flag } from "../protocol.js";
+import { Flag, WAITING_BELOW_M } from "../protocol.js";
 
 // Robots are never drawn smaller than this: those of a large arena would vanish between the pixels.
 const LEAST_PIXELS = 3.4;
@@ -197,7 +197,8 @@ export class Swarm {
     }
     this.shining = this.world.robots.filter((entity) => {
       const slot = this.world.slots[entity];
-      return frame.colours[4 * slot + 3] & Flag.lit && frame.positions[3 * slot + 2] < 0.5;
+      const present = frame.positions[3 * slot] >= WAITING_BELOW_M;
+      return present && frame.colours[4 * slot + 3] & Flag.lit && frame.positions[3 * slot + 2] < 0.5;
     });
     this.shining.forEach((entity, i) => {
       const place = 4 * this.world.slots[entity];
@@ -221,6 +222,7 @@ export class Swarm {
       const limits = layers.map((layer) => (layer.pixels > 0 ? ((diameter * pixelsPerRadian) / layer.pixels) ** 2 : Infinity));
       const enlarge = LEAST_PIXELS / (diameter * pixelsPerRadian);
       for (const slot of slots) {
+        if (!motion.isPresent(slot)) continue;
         const [x, y, z] = [p[3 * slot], p[3 * slot + 1], p[3 * slot + 2]];
         let hidden = false;
         for (let i = 0; i < 6 && !hidden; i++) {
@@ -237,7 +239,10 @@ export class Swarm {
       for (const layer of layers) layer.finish();
     }
     for (const { mesh, sizes, slots } of this.things) {
-      slots.forEach((slot, i) => writeMatrix(mesh.instanceMatrix.array, 16 * i, p, 3 * slot, q, 4 * slot, ...sizes[i]));
+      slots.forEach((slot, i) => {
+        const size = motion.isPresent(slot) ? sizes[i] : [0, 0, 0];
+        writeMatrix(mesh.instanceMatrix.array, 16 * i, p, 3 * slot, q, 4 * slot, ...size);
+      });
       mesh.instanceMatrix.needsUpdate = true;
     }
     if (this.shadows.visible) this.placeOnFloor(this.shadows, this.world.robots, p, 0.002, 2.75);

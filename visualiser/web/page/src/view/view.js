@@ -95,13 +95,14 @@ export class View {
     this.followed = entity;
     if (entity === null) return;
     const place = this.placeOf(entity);
-    if (place) this.lastFollowed = new THREE.Vector3(...place);
+    this.lastFollowed = place && new THREE.Vector3(...place);
   }
 
+  // null while it is not in the arena.
   placeOf(entity) {
     const slot = this.world.slots[entity];
     if (slot < 0) return this.world.bodyOf.get(entity).position;
-    return this.motion.frame ? this.motion.positions.subarray(3 * slot, 3 * slot + 3) : null;
+    return this.motion.frame && this.motion.isPresent(slot) ? this.motion.positions.subarray(3 * slot, 3 * slot + 3) : null;
   }
 
   approach(entity) {
@@ -118,13 +119,16 @@ export class View {
     this.stage.controls.update();
     const moved = this.motion.sample(now);
     if (moved && this.followed !== null) {
-      const place = new THREE.Vector3(...this.placeOf(this.followed));
-      this.stage.shift(place.clone().sub(this.lastFollowed));
+      // One that leaves the arena is waited for where it was.
+      const at = this.placeOf(this.followed);
+      const place = at && new THREE.Vector3(...at);
+      if (place && this.lastFollowed) this.stage.shift(place.clone().sub(this.lastFollowed));
       this.lastFollowed = place;
     }
     if (!moved && !this.stage.stale) return false;
     this.stage.camera.updateMatrixWorld();
     this.swarm.place(this.motion, this.stage.camera, this.stage.pixelsPerRadian);
+    this.arena.place(this.motion);
     if (this.motion.frame) {
       this.beams.update(this.motion.frame, this.motion);
       this.grips.update(this.motion.frame, this.motion);

@@ -1,0 +1,44 @@
+// Changes of the arena from outside physics: who may be moved, added and removed, and where to. Experiment functions
+// (SpaceEditor) and users (ControlDesk) share these rules; what passes is carried out by SpaceServer::Move, for an
+// entity is taken out by moving it to the place where it waits.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "common/space/control_request.h"
+#include "common/space/space.h"
+#include "space_server/space_server.h"
+
+namespace swarmanoid
+{
+
+// All of these throw std::invalid_argument that names the entity and what is wrong.
+
+// An entity that can move and is in the arena.
+const CSwarmanoidSpaceEntity& FindToMove(const CSwarmanoidSpace& space, std::string_view id);
+// An entity that can come, and is not in the arena: the one of that id, or the next one of the <reserve> of that id.
+const CSwarmanoidSpaceEntity& FindToAdd(const CSwarmanoidSpace& space, std::string_view id);
+// An entity that can go, and is in the arena.
+const CSwarmanoidSpaceEntity& FindToRemove(const CSwarmanoidSpace& space, std::string_view id);
+
+// One that is in the arena and that the entity, at this pose, would stick in: their bodies overlap, and an engine has
+// both. nullptr where the place is free. As when the experiment file is read: by the plain bodies, without terrain.
+const CSwarmanoidSpaceEntity* FindInTheWay(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& entity,
+                                           const Pose& pose);
+void RequireFree(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& entity, const Pose& pose);
+
+// Where an entity waits while it is not in the arena.
+Pose WaitingPose(const CSwarmanoidSpaceEntity& entity);
+
+// What the requests "move", "add" and "remove" ask for.
+struct SpaceChange
+{
+  MoveRequest move;
+  std::string entity;  // its id; of a reserve, the one that was taken
+  std::string done;    // "moved 'fb_0'"
+};
+bool IsSpaceChange(const std::string& verb);
+SpaceChange ReadSpaceChange(const ControlRequestMessage& request, const CSwarmanoidSpace& space);
+
+}  // namespace swarmanoid
