@@ -11,10 +11,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "geometry_msgs.h"
 #include "sensor_msgs.h"
+#include "stand_in_endpoints.h"
 #include "std_msgs.h"
 
 #define RAYS 72
@@ -40,13 +40,6 @@ struct World
   double prey[2];
   bool held;
 };
-
-static double Seconds(void)
-{
-  struct timespec time;
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
-}
 
 static void Move(struct World* world)
 {
@@ -92,58 +85,6 @@ static float RangeTo(const struct World* world, double direction)
   if (along > 0 && off2 < kPreyRadius * kPreyRadius)
     range = fmin(range, along - sqrt(kPreyRadius * kPreyRadius - off2));
   return (float)range;
-}
-
-static dds_entity_t Participant(int domain)
-{
-  setenv("CYCLONEDDS_URI",
-         "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" multicast=\"true\"/></Interfaces>"
-         "</General></Domain></CycloneDDS>",
-         0);
-  return dds_create_participant((dds_domainid_t)domain, NULL, NULL);
-}
-
-static dds_qos_t* Qos(dds_reliability_kind_t reliability)
-{
-  dds_qos_t* qos = dds_create_qos();
-  dds_qset_reliability(qos, reliability, DDS_MSECS(10));
-  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 10);
-  const dds_data_representation_id_t xcdr1 = DDS_DATA_REPRESENTATION_XCDR1;
-  dds_qset_data_representation(qos, 1, &xcdr1);
-  return qos;
-}
-
-static dds_entity_t MakeWriter(dds_entity_t participant, const dds_topic_descriptor_t* type, const char* name)
-{
-  /* As ROS 2 publishes sensors. */
-  dds_qos_t* qos = Qos(DDS_RELIABILITY_BEST_EFFORT);
-  const dds_entity_t writer =
-      dds_create_writer(participant, dds_create_topic(participant, type, name, NULL, NULL), qos, NULL);
-  dds_delete_qos(qos);
-  return writer;
-}
-
-static dds_entity_t MakeReader(dds_entity_t participant, const dds_topic_descriptor_t* type, const char* name)
-{
-  dds_qos_t* qos = Qos(DDS_RELIABILITY_RELIABLE);
-  const dds_entity_t reader =
-      dds_create_reader(participant, dds_create_topic(participant, type, name, NULL, NULL), qos, NULL);
-  dds_delete_qos(qos);
-  return reader;
-}
-
-/* The next message of a reader, to be given back; NULL where there is none. */
-static void* Next(dds_entity_t reader)
-{
-  void* sample = NULL;
-  dds_sample_info_t about;
-  while (dds_take(reader, &sample, &about, 1, 1) == 1)
-  {
-    if (about.valid_data) return sample;
-    dds_return_loan(reader, &sample, 1);
-    sample = NULL;
-  }
-  return NULL;
 }
 
 static void Listen(struct World* world, dds_entity_t velocity, dds_entity_t leds, dds_entity_t gripper)

@@ -12,7 +12,7 @@
 #include "common/control_interface/handbot/ci_handbot_beacon_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_leds_actuator.h"
 #include "common/math/elementary.h"
-#include "real_robot/drivers/ros2/ros2_kit.h"
+#include "real_robot/drivers/ros2/topic_driver.h"
 
 namespace swarmanoid::ros2
 {
@@ -55,19 +55,16 @@ private:
 };
 
 template <class Interface>
-class Leds : public CActuatorDriver, public Interface
+class Leds : public TopicActuator<Interface, RingPublisher>
 {
 public:
-  void Init(const DriverSetup& setup) override { publisher_.emplace(setup, colours_.size()); }
-  CCI_Actuator* Actuator() override { return this; }
+  void Init(const DriverSetup& setup) override { this->output_.emplace(setup, colours_.size()); }
   void SetAllColours(std::uint32_t colour) override { std::ranges::fill(colours_, colour); }
   void SetColour(unsigned led, std::uint32_t colour) override { colours_.at(led) = colour; }
-  void Push() override { publisher_->Publish(colours_); }
-  void Stop() override { publisher_->Publish(std::vector<std::uint32_t>(colours_.size())); }
-  std::vector<std::string> Sinks() const override { return {publisher_->Name()}; }
+  void Push() override { this->output_->Publish(colours_); }
+  void Stop() override { this->output_->Publish(std::vector<std::uint32_t>(colours_.size())); }
 
 private:
-  std::optional<RingPublisher> publisher_;
   std::vector<std::uint32_t> colours_ = std::vector<std::uint32_t>(Interface::NUM_LEDS);
 };
 
@@ -86,23 +83,20 @@ REGISTER_ACTUATOR_DRIVER(EyebotLeds, DescribeRing("eyebot_leds", "eyebot"))
 REGISTER_ACTUATOR_DRIVER(HandbotLeds, DescribeRing("handbot_leds", "handbot"))
 
 template <class Interface>
-class Beacon : public CActuatorDriver, public Interface
+class Beacon : public TopicActuator<Interface, Publisher<ColorRGBA>>
 {
 public:
-  void Init(const DriverSetup& setup) override { publisher_.emplace(setup, setup.parameters.Text("topic")); }
-  CCI_Actuator* Actuator() override { return this; }
+  void Init(const DriverSetup& setup) override { this->output_.emplace(setup, setup.parameters.Text("topic")); }
   void SetColour(std::uint32_t colour) override { colour_ = colour; }
   void Push() override { Show(colour_); }
   void Stop() override { Show(0); }
-  std::vector<std::string> Sinks() const override { return {publisher_->Name()}; }
 
 private:
   void Show(std::uint32_t colour)
   {
     ColorRGBA message = ToMessage(colour);
-    publisher_->Publish(message);
+    this->output_->Publish(message);
   }
-  std::optional<Publisher<ColorRGBA>> publisher_;
   std::uint32_t colour_ = 0;
 };
 
@@ -118,16 +112,15 @@ PluginDescription DescribeBeacon(const std::string& type, const std::string& rob
 REGISTER_ACTUATOR_DRIVER(FootbotBeacon, DescribeBeacon("footbot_beacon", "footbot"))
 REGISTER_ACTUATOR_DRIVER(HandbotBeacon, DescribeBeacon("handbot_beacon", "handbot"))
 
-class PreferentialDirection : public CActuatorDriver, public CCI_FootBotPreferentialDirectionActuator
+class PreferentialDirection : public TopicActuator<CCI_FootBotPreferentialDirectionActuator, RingPublisher>
 {
 public:
   void Init(const DriverSetup& setup) override
   {
-    publisher_.emplace(setup, kLeds);
+    output_.emplace(setup, kLeds);
     half_width_ = DegreesToRadians(setup.parameters.Number("width")) / 2;
     turret_.emplace(setup, setup.parameters.Text("turret_topic"), std::vector{setup.parameters.Text("turret_joint")});
   }
-  CCI_Actuator* Actuator() override { return this; }
   void SetDirection(double angle, std::uint32_t colour) override
   {
     angle_ = angle;
@@ -147,15 +140,13 @@ public:
     std::vector<std::uint32_t> colours(kLeds);
     for (std::size_t led = 0; led < kLeds; ++led)
       colours[led] = away(led) <= half_width_ + 1e-9 || away(led) <= nearest ? colour_ : 0;
-    publisher_->Publish(colours);
+    output_->Publish(colours);
   }
-  void Stop() override { publisher_->Publish(std::vector<std::uint32_t>(kLeds)); }
-  std::vector<std::string> Sinks() const override { return {publisher_->Name()}; }
+  void Stop() override { output_->Publish(std::vector<std::uint32_t>(kLeds)); }
 
 private:
   static constexpr std::size_t kLeds = CCI_FootBotLedsActuator::NUM_LEDS;
   static constexpr double kSpacing = 2 * kPi / kLeds;
-  std::optional<RingPublisher> publisher_;
   std::optional<JointReader> turret_;
   double half_width_ = 0;
   double angle_ = 0;

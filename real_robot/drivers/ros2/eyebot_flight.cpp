@@ -5,7 +5,7 @@
 #include "common/control_interface/eyebot/ci_eyebot_attachment_actuator.h"
 #include "common/control_interface/eyebot/ci_eyebot_propellers_actuator.h"
 #include "common/math/elementary.h"
-#include "real_robot/drivers/ros2/ros2_kit.h"
+#include "real_robot/drivers/ros2/topic_driver.h"
 
 namespace swarmanoid::ros2
 {
@@ -86,19 +86,16 @@ REGISTER_ACTUATOR_DRIVER(
                     NumberParameter("max_speed", "m/s", "1", "Fastest speed along each axis."),
                     NumberParameter("max_yaw_rate", "degrees/s", "90", "Fastest turn.")}))
 
-class Attachment : public CActuatorDriver, public CCI_EyeBotAttachmentActuator
+class Attachment : public TopicActuator<CCI_EyeBotAttachmentActuator, SwitchPublisher>
 {
 public:
-  void Init(const DriverSetup& setup) override { publisher_.emplace(setup, setup.parameters.Text("topic")); }
-  CCI_Actuator* Actuator() override { return this; }
+  void Init(const DriverSetup& setup) override { output_.emplace(setup, setup.parameters.Text("topic")); }
   void Attach() override { attach_ = true; }
   void Detach() override { attach_ = false; }
-  void Push() override { publisher_->Publish(attach_); }
+  void Push() override { output_->Publish(attach_); }
   void Stop() override {}  // a robot that hangs must not fall
-  std::vector<std::string> Sinks() const override { return {publisher_->Name()}; }
 
 private:
-  std::optional<SwitchPublisher> publisher_;
   bool attach_ = false;
 };
 

@@ -1,7 +1,6 @@
 // The gripper and the turret of a footbot.
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include "common/control_interface/footbot/ci_footbot_gripper_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_gripper_sensor.h"
@@ -9,25 +8,22 @@
 #include "common/control_interface/footbot/ci_footbot_turret_encoder_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_turret_torque_sensor.h"
 #include "common/math/elementary.h"
-#include "real_robot/drivers/ros2/ros2_kit.h"
+#include "real_robot/drivers/ros2/topic_driver.h"
 
 namespace swarmanoid::ros2
 {
 namespace
 {
 
-class Gripper : public CActuatorDriver, public CCI_FootBotGripperActuator
+class Gripper : public TopicActuator<CCI_FootBotGripperActuator, NumberPublisher>
 {
 public:
-  void Init(const DriverSetup& setup) override { publisher_.emplace(setup, setup.parameters.Text("topic")); }
-  CCI_Actuator* Actuator() override { return this; }
+  void Init(const DriverSetup& setup) override { output_.emplace(setup, setup.parameters.Text("topic")); }
   void SetGripper(double closed) override { closed_ = std::clamp(closed, 0.0, 1.0); }
-  void Push() override { publisher_->Publish(closed_); }
+  void Push() override { output_->Publish(closed_); }
   void Stop() override {}  // what is held must not fall
-  std::vector<std::string> Sinks() const override { return {publisher_->Name()}; }
 
 private:
-  std::optional<NumberPublisher> publisher_;
   double closed_ = 0;
 };
 
@@ -35,33 +31,15 @@ REGISTER_ACTUATOR_DRIVER(
     Gripper, DescribeDriver("footbot_gripper", "ros2", "std_msgs/msg/Float64 on gripper/command", {"footbot"},
                             {TopicParameter("topic", "gripper/command", "Topic of 0 (open) to 1 (closed).")}))
 
-class GripperSensor : public CSensorDriver, public CCI_FootBotGripperSensor
+class GripperSensor : public JointSensor<CCI_FootBotGripperSensor>
 {
 public:
   void Init(const DriverSetup& setup) override
   {
-    joints_.emplace(setup, setup.parameters.Text("topic"), std::vector{setup.parameters.Text("joint")});
-    holding_.emplace(setup, setup.parameters.Text("holding_topic"));
+    Listen(setup, {setup.parameters.Text("joint")}, {setup.parameters.Text("holding_topic")});
   }
-  CCI_Sensor* Sensor() override { return this; }
-  double GetAperture() const override { return joints_->Position(0); }
-  bool IsGripping() const override { return gripping_; }
-  void Poll() override
-  {
-    joints_->Poll();
-    if (holding_->TakeLatest()) gripping_ = holding_->Latest().data();
-  }
-  std::vector<DriverSource> Sources() const override
-  {
-    std::vector<DriverSource> sources{holding_->Source()};
-    joints_->AddSources(sources);
-    return sources;
-  }
-
-private:
-  std::optional<JointReader> joints_;
-  std::optional<Subscriber<Bool>> holding_;
-  bool gripping_ = false;
+  double GetAperture() const override { return Position(0); }
+  bool IsGripping() const override { return IsOn(0); }
 };
 
 REGISTER_SENSOR_DRIVER(
@@ -72,22 +50,19 @@ REGISTER_SENSOR_DRIVER(
                     TopicParameter("joint", "gripper", "Name of the gripper's joint; its position is the aperture."),
                     TopicParameter("holding_topic", "gripper/holding", "Topic of whether it holds something.")}))
 
-class Turret : public CActuatorDriver, public CCI_FootBotTurretActuator
+class Turret : public TopicActuator<CCI_FootBotTurretActuator, NumberPublisher>
 {
 public:
   void Init(const DriverSetup& setup) override
   {
-    publisher_.emplace(setup, setup.parameters.Text("topic"));
+    output_.emplace(setup, setup.parameters.Text("topic"));
     limit_ = setup.parameters.Number("max_speed");
   }
-  CCI_Actuator* Actuator() override { return this; }
   void SetTurretAngularVelocity(double velocity) override { velocity_ = std::clamp(velocity, -limit_, limit_); }
-  void Push() override { publisher_->Publish(velocity_); }
-  void Stop() override { publisher_->Publish(0); }
-  std::vector<std::string> Sinks() const override { return {publisher_->Name()}; }
+  void Push() override { output_->Publish(velocity_); }
+  void Stop() override { output_->Publish(0); }
 
 private:
-  std::optional<NumberPublisher> publisher_;
   double limit_ = 0;
   double velocity_ = 0;
 };
@@ -97,25 +72,11 @@ REGISTER_ACTUATOR_DRIVER(
                            {TopicParameter("topic", "turret/velocity", "Topic of the angular velocity, rad/s."),
                             NumberParameter("max_speed", "rad/s", "2", "Fastest angular velocity.")}))
 
-class TurretEncoder : public CSensorDriver, public CCI_FootBotTurretEncoderSensor
+class TurretEncoder : public JointSensor<CCI_FootBotTurretEncoderSensor>
 {
 public:
-  void Init(const DriverSetup& setup) override
-  {
-    joints_.emplace(setup, setup.parameters.Text("topic"), std::vector{setup.parameters.Text("joint")});
-  }
-  CCI_Sensor* Sensor() override { return this; }
-  double GetTurretAngle() const override { return WrapAngle(joints_->Position(0)); }
-  void Poll() override { joints_->Poll(); }
-  std::vector<DriverSource> Sources() const override
-  {
-    std::vector<DriverSource> sources;
-    joints_->AddSources(sources);
-    return sources;
-  }
-
-private:
-  std::optional<JointReader> joints_;
+  void Init(const DriverSetup& setup) override { Listen(setup, {setup.parameters.Text("joint")}); }
+  double GetTurretAngle() const override { return WrapAngle(Position(0)); }
 };
 
 REGISTER_SENSOR_DRIVER(TurretEncoder,
@@ -124,29 +85,27 @@ REGISTER_SENSOR_DRIVER(TurretEncoder,
                                       {TopicParameter("topic", "joint_states", "Topic of the joint states."),
                                        TopicParameter("joint", "turret", "Name of the turret's joint.")}))
 
-class TurretTorque : public CSensorDriver, public CCI_FootBotTurretTorqueSensor
+using WrenchStamped = geometry_msgs::msg::dds_::WrenchStamped_;
+
+class TurretTorque : public TopicSensor<CCI_FootBotTurretTorqueSensor, WrenchStamped>
 {
 public:
-  void Init(const DriverSetup& setup) override
-  {
-    subscriber_.emplace(setup, setup.parameters.Text("topic"));
-    max_force_ = setup.parameters.Number("max_force");
-    max_torque_ = setup.parameters.Number("max_torque");
-  }
-  CCI_Sensor* Sensor() override { return this; }
   std::span<const double, 3> GetAllSensorReadings() const override { return readings_; }
-  void Poll() override
+
+private:
+  void Configure(const Parameters& parameters) override
   {
-    if (!subscriber_->TakeLatest()) return;
-    const auto& wrench = subscriber_->Latest().wrench();
+    max_force_ = parameters.Number("max_force");
+    max_torque_ = parameters.Number("max_torque");
+  }
+  void Read(const WrenchStamped& message) override
+  {
+    const auto& wrench = message.wrench();
     readings_ = {std::clamp(wrench.force().x() / max_force_, -1.0, 1.0),
                  std::clamp(wrench.force().y() / max_force_, -1.0, 1.0),
                  std::clamp(wrench.torque().z() / max_torque_, -1.0, 1.0)};
   }
-  std::vector<DriverSource> Sources() const override { return {subscriber_->Source()}; }
 
-private:
-  std::optional<Subscriber<geometry_msgs::msg::dds_::WrenchStamped_>> subscriber_;
   double max_force_ = 0;
   double max_torque_ = 0;
   std::array<double, 3> readings_{};

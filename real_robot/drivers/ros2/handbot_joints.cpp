@@ -8,7 +8,7 @@
 #include "common/control_interface/handbot/ci_handbot_head_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_joints_sensor.h"
 #include "common/control_interface/handbot/ci_handbot_rope_actuator.h"
-#include "real_robot/drivers/ros2/ros2_kit.h"
+#include "real_robot/drivers/ros2/topic_driver.h"
 
 namespace swarmanoid::ros2
 {
@@ -46,18 +46,15 @@ std::vector<ParameterSpec> JointParameters()
           NumberParameter("max_speed", "rad/s", "3", "Fastest angular velocity.")};
 }
 
-class Head : public CActuatorDriver, public CCI_HandBotHeadActuator
+class Head : public TopicActuator<CCI_HandBotHeadActuator, JointCommand>
 {
 public:
-  void Init(const DriverSetup& setup) override { command_.emplace(setup, std::vector<std::string>{"head"}); }
-  CCI_Actuator* Actuator() override { return this; }
+  void Init(const DriverSetup& setup) override { output_.emplace(setup, std::vector<std::string>{"head"}); }
   void SetHeadAngularVelocity(double velocity) override { velocity_ = velocity; }
-  void Push() override { command_->Publish({velocity_}); }
-  void Stop() override { command_->Publish({0}); }
-  std::vector<std::string> Sinks() const override { return {command_->Name()}; }
+  void Push() override { output_->Publish({velocity_}); }
+  void Stop() override { output_->Publish({0}); }
 
 private:
-  std::optional<JointCommand> command_;
   double velocity_ = 0;
 };
 
@@ -65,14 +62,13 @@ REGISTER_ACTUATOR_DRIVER(Head,
                          DescribeDriver("handbot_head", "ros2", "sensor_msgs/msg/JointState (head) on joint_commands",
                                         {"handbot"}, JointParameters()))
 
-class Arms : public CActuatorDriver, public CCI_HandBotArmsActuator
+class Arms : public TopicActuator<CCI_HandBotArmsActuator, JointCommand>
 {
 public:
   void Init(const DriverSetup& setup) override
   {
-    command_.emplace(setup, std::vector<std::string>{"arm_left", "arm_right", "wrist_left", "wrist_right"});
+    output_.emplace(setup, std::vector<std::string>{"arm_left", "arm_right", "wrist_left", "wrist_right"});
   }
-  CCI_Actuator* Actuator() override { return this; }
   void SetArmVelocities(double left, double right) override
   {
     velocities_[0] = left;
@@ -83,12 +79,10 @@ public:
     velocities_[2] = left;
     velocities_[3] = right;
   }
-  void Push() override { command_->Publish(velocities_); }
-  void Stop() override { command_->Publish({0, 0, 0, 0}); }
-  std::vector<std::string> Sinks() const override { return {command_->Name()}; }
+  void Push() override { output_->Publish(velocities_); }
+  void Stop() override { output_->Publish({0, 0, 0, 0}); }
 
 private:
-  std::optional<JointCommand> command_;
   std::vector<double> velocities_ = std::vector<double>(4);
 };
 
@@ -161,38 +155,24 @@ REGISTER_ACTUATOR_DRIVER(
                    {TopicParameter("attach_topic", "rope/attach", "Topic of whether the rope is to hold."),
                     TopicParameter("winch_topic", "rope/velocity", "Topic of the rope let out, m/s.")}))
 
-class Joints : public CSensorDriver, public CCI_HandBotJointsSensor
+class Joints : public JointSensor<CCI_HandBotJointsSensor>
 {
 public:
   void Init(const DriverSetup& setup) override
   {
-    joints_.emplace(setup, setup.parameters.Text("topic"),
-                    std::vector<std::string>{"head", "arm_left", "arm_right", "wrist_left", "wrist_right", "hand_left",
-                                             "hand_right", "rope"});
-    constexpr std::array kSwitches{"hand_left/holding", "hand_right/holding", "rope/attached"};
-    for (std::size_t k = 0; k < switches_.size(); ++k) switches_[k].emplace(setup, kSwitches[k]);
+    Listen(setup, {"head", "arm_left", "arm_right", "wrist_left", "wrist_right", "hand_left", "hand_right", "rope"},
+           {"hand_left/holding", "hand_right/holding", "rope/attached"});
   }
-  CCI_Sensor* Sensor() override { return this; }
   std::span<const double, NUM_READINGS> GetAllSensorReadings() const override { return readings_; }
-  void Poll() override
-  {
-    joints_->Poll();
-    for (std::size_t k = HEAD; k <= HAND_RIGHT; ++k) readings_[k] = joints_->Position(k);
-    readings_[ROPE_LENGTH] = joints_->Position(7);
-    for (std::size_t k = 0; k < switches_.size(); ++k)
-      if (switches_[k]->TakeLatest()) readings_[HOLDS_LEFT + k] = switches_[k]->Latest().data() ? 1 : 0;
-  }
-  std::vector<DriverSource> Sources() const override
-  {
-    std::vector<DriverSource> sources;
-    joints_->AddSources(sources);
-    for (const auto& each : switches_) sources.push_back(each->Source());
-    return sources;
-  }
 
 private:
-  std::optional<JointReader> joints_;
-  std::array<std::optional<Subscriber<Bool>>, 3> switches_;
+  void Update() override
+  {
+    for (std::size_t k = HEAD; k <= HAND_RIGHT; ++k) readings_[k] = Position(k);
+    readings_[ROPE_LENGTH] = Position(7);
+    for (std::size_t k = 0; k < 3; ++k) readings_[HOLDS_LEFT + k] = IsOn(k) ? 1 : 0;
+  }
+
   std::array<double, NUM_READINGS> readings_{};
 };
 

@@ -3,12 +3,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "common/control_interface/eyebot/ci_eyebot_altitude_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
 #include "common/math/elementary.h"
-#include "real_robot/drivers/ros2/ros2_kit.h"
+#include "real_robot/drivers/ros2/topic_driver.h"
 
 namespace swarmanoid::ros2
 {
@@ -36,23 +35,21 @@ double Measured(float range, float least, float most)
   return range >= least && range <= most ? static_cast<double>(range) : kNothing;
 }
 
-class ScanProximity : public CSensorDriver, public CCI_FootBotProximitySensor
+class ScanProximity : public TopicSensor<CCI_FootBotProximitySensor, LaserScan>
 {
 public:
-  void Init(const DriverSetup& setup) override
-  {
-    subscriber_.emplace(setup, setup.parameters.Text("topic"));
-    radius_ = setup.parameters.Number("body_radius");
-    range_ = setup.parameters.Number("range");
-  }
-  CCI_Sensor* Sensor() override { return this; }
   std::span<const double, NUM_SENSORS> GetAllSensorReadings() const override { return readings_; }
 
-  // Each sensor sees what is nearest within its 15 degrees of the scan; those that the scan does not reach see nothing.
-  void Poll() override
+private:
+  void Configure(const Parameters& parameters) override
   {
-    if (!subscriber_->TakeLatest()) return;
-    const LaserScan& scan = subscriber_->Latest();
+    radius_ = parameters.Number("body_radius");
+    range_ = parameters.Number("range");
+  }
+
+  // Each sensor sees what is nearest within its 15 degrees of the scan; those that the scan does not reach see nothing.
+  void Read(const LaserScan& scan) override
+  {
     std::array<double, kSensors> nearest;
     nearest.fill(kNothing);
     for (std::size_t ray = 0; ray < scan.ranges().size(); ++ray)
@@ -67,10 +64,7 @@ public:
     }
     for (unsigned i = 0; i < kSensors; ++i) readings_[i] = ReadingAt(std::max(nearest[i] - radius_, 0.0), range_);
   }
-  std::vector<DriverSource> Sources() const override { return {subscriber_->Source()}; }
 
-private:
-  std::optional<Subscriber<LaserScan>> subscriber_;
   double radius_ = 0;
   double range_ = 0;
   std::array<double, kSensors> readings_{};
@@ -89,37 +83,15 @@ REGISTER_SENSOR_DRIVER(
                                     "Distance from the origin of the scan, the middle of the robot, to its surface."),
                     RangeParameter()}))
 
-class RangeProximity : public CSensorDriver, public CCI_FootBotProximitySensor
+class RangeProximity : public RingSensor<CCI_FootBotProximitySensor, Range>
 {
-public:
-  void Init(const DriverSetup& setup) override
+  void Configure(const Parameters& parameters) override { range_ = parameters.Number("range"); }
+  double ReadingOf(const Range& range) const override
   {
-    for (unsigned i = 0; i < kSensors; ++i)
-      subscribers_[i].emplace(setup, setup.parameters.Text("topic") + "_" + std::to_string(i));
-    range_ = setup.parameters.Number("range");
-  }
-  CCI_Sensor* Sensor() override { return this; }
-  std::span<const double, NUM_SENSORS> GetAllSensorReadings() const override { return readings_; }
-  void Poll() override
-  {
-    for (unsigned i = 0; i < kSensors; ++i)
-    {
-      if (!subscribers_[i]->TakeLatest()) continue;
-      const Range& range = subscribers_[i]->Latest();
-      readings_[i] = ReadingAt(Measured(range.range(), range.min_range(), range.max_range()), range_);
-    }
-  }
-  std::vector<DriverSource> Sources() const override
-  {
-    std::vector<DriverSource> sources;
-    for (const auto& subscriber : subscribers_) sources.push_back(subscriber->Source());
-    return sources;
+    return ReadingAt(Measured(range.range(), range.min_range(), range.max_range()), range_);
   }
 
-private:
-  std::array<std::optional<Subscriber<Range>>, kSensors> subscribers_;
   double range_ = 0;
-  std::array<double, kSensors> readings_{};
 };
 
 REGISTER_SENSOR_DRIVER(
@@ -128,22 +100,14 @@ REGISTER_SENSOR_DRIVER(
                                    {TopicParameter("topic", "proximity", "Topics of the 24 sensors, before _0 to _23."),
                                     RangeParameter()}))
 
-class Altitude : public CSensorDriver, public CCI_EyeBotAltitudeSensor
+class Altitude : public TopicSensor<CCI_EyeBotAltitudeSensor, Range>
 {
 public:
-  void Init(const DriverSetup& setup) override { subscriber_.emplace(setup, setup.parameters.Text("topic")); }
-  CCI_Sensor* Sensor() override { return this; }
   double GetAltitude() const override { return altitude_; }
-  void Poll() override
-  {
-    if (!subscriber_->TakeLatest()) return;
-    const Range& range = subscriber_->Latest();
-    altitude_ = Measured(range.range(), range.min_range(), range.max_range());
-  }
-  std::vector<DriverSource> Sources() const override { return {subscriber_->Source()}; }
 
 private:
-  std::optional<Subscriber<Range>> subscriber_;
+  void Read(const Range& range) override { altitude_ = Measured(range.range(), range.min_range(), range.max_range()); }
+
   double altitude_ = 0;
 };
 

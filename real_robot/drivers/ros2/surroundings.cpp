@@ -6,41 +6,24 @@
 #include "common/control_interface/footbot/ci_footbot_accelerometer_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_light_sensor.h"
-#include "real_robot/drivers/ros2/ros2_kit.h"
+#include "real_robot/drivers/ros2/topic_driver.h"
 
 namespace swarmanoid::ros2
 {
 namespace
 {
 
-class Light : public CSensorDriver, public CCI_FootBotLightSensor
+using Illuminance = sensor_msgs::msg::dds_::Illuminance_;
+
+class Light : public RingSensor<CCI_FootBotLightSensor, Illuminance>
 {
-public:
-  void Init(const DriverSetup& setup) override
+  void Configure(const Parameters& parameters) override { full_scale_ = parameters.Number("full_scale"); }
+  double ReadingOf(const Illuminance& felt) const override
   {
-    for (unsigned i = 0; i < NUM_SENSORS; ++i)
-      subscribers_[i].emplace(setup, setup.parameters.Text("topic") + "_" + std::to_string(i));
-    full_scale_ = setup.parameters.Number("full_scale");
-  }
-  CCI_Sensor* Sensor() override { return this; }
-  std::span<const double, NUM_SENSORS> GetAllSensorReadings() const override { return readings_; }
-  void Poll() override
-  {
-    for (unsigned i = 0; i < NUM_SENSORS; ++i)
-      if (subscribers_[i]->TakeLatest())
-        readings_[i] = std::clamp(subscribers_[i]->Latest().illuminance() / full_scale_, 0.0, 1.0);
-  }
-  std::vector<DriverSource> Sources() const override
-  {
-    std::vector<DriverSource> sources;
-    for (const auto& subscriber : subscribers_) sources.push_back(subscriber->Source());
-    return sources;
+    return std::clamp(felt.illuminance() / full_scale_, 0.0, 1.0);
   }
 
-private:
-  std::array<std::optional<Subscriber<sensor_msgs::msg::dds_::Illuminance_>>, NUM_SENSORS> subscribers_;
   double full_scale_ = 1;
-  std::array<double, NUM_SENSORS> readings_{};
 };
 
 REGISTER_SENSOR_DRIVER(Light,
@@ -99,22 +82,20 @@ REGISTER_SENSOR_DRIVER(
                     TopicParameter("colour_topic", "floor_color",
                                    "Topic of the colour below the middle; empty: the mean brightness as grey.")}))
 
-class Accelerometer : public CSensorDriver, public CCI_FootBotAccelerometerSensor
+using Imu = sensor_msgs::msg::dds_::Imu_;
+
+class Accelerometer : public TopicSensor<CCI_FootBotAccelerometerSensor, Imu>
 {
 public:
-  void Init(const DriverSetup& setup) override { subscriber_.emplace(setup, setup.parameters.Text("topic")); }
-  CCI_Sensor* Sensor() override { return this; }
   std::span<const double, 3> GetAllSensorReadings() const override { return readings_; }
-  void Poll() override
-  {
-    if (!subscriber_->TakeLatest()) return;
-    const auto& felt = subscriber_->Latest().linear_acceleration();
-    readings_ = {felt.x(), felt.y(), felt.z()};
-  }
-  std::vector<DriverSource> Sources() const override { return {subscriber_->Source()}; }
 
 private:
-  std::optional<Subscriber<sensor_msgs::msg::dds_::Imu_>> subscriber_;
+  void Read(const Imu& message) override
+  {
+    const auto& felt = message.linear_acceleration();
+    readings_ = {felt.x(), felt.y(), felt.z()};
+  }
+
   std::array<double, 3> readings_{};
 };
 

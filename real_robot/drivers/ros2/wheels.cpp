@@ -1,12 +1,11 @@
 // The wheels of a footbot as a velocity command, and its encoders from odometry or joint states.
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include "common/control_interface/footbot/ci_footbot_encoders_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_wheels_actuator.h"
 #include "nav_msgs.h"
-#include "real_robot/drivers/ros2/ros2_kit.h"
+#include "real_robot/drivers/ros2/topic_driver.h"
 
 namespace swarmanoid::ros2
 {
@@ -20,17 +19,16 @@ std::vector<ParameterSpec> WithWheels(std::vector<ParameterSpec> others)
   return others;
 }
 
-class Wheels : public CActuatorDriver, public CCI_FootBotWheelsActuator
+class Wheels : public TopicActuator<CCI_FootBotWheelsActuator, Publisher<Twist>>
 {
 public:
   void Init(const DriverSetup& setup) override
   {
-    publisher_.emplace(setup, setup.parameters.Text("topic"));
+    output_.emplace(setup, setup.parameters.Text("topic"));
     radius_ = setup.parameters.Number("wheel_radius");
     distance_ = setup.parameters.Number("interwheel_distance");
     limit_ = setup.parameters.Number("max_speed") / radius_;
   }
-  CCI_Actuator* Actuator() override { return this; }
   void SetFootBotWheelsAngularVelocity(double left, double right) override { wanted_ = {left, right}; }
 
   void Push() override
@@ -42,9 +40,8 @@ public:
   void Stop() override
   {
     Command(0, 0);
-    publisher_->Flush();
+    output_->Flush();
   }
-  std::vector<std::string> Sinks() const override { return {publisher_->Name()}; }
 
 private:
   void Command(double forward, double turn)
@@ -52,10 +49,9 @@ private:
     Twist message;
     message.linear().x(forward);
     message.angular().z(turn);
-    publisher_->Publish(message);
+    output_->Publish(message);
   }
 
-  std::optional<Publisher<Twist>> publisher_;
   std::array<double, 2> wanted_{};  // rad/s
   double radius_ = 0;
   double distance_ = 0;
@@ -67,28 +63,26 @@ REGISTER_ACTUATOR_DRIVER(
                            WithWheels({TopicParameter("topic", "cmd_vel", "Topic of the velocity command."),
                                        NumberParameter("max_speed", "m/s", "0.3", "Fastest speed of a wheel.")})))
 
-class OdometryEncoders : public CSensorDriver, public CCI_FootBotEncodersSensor
+using Odometry = nav_msgs::msg::dds_::Odometry_;
+
+class OdometryEncoders : public TopicSensor<CCI_FootBotEncodersSensor, Odometry>
 {
 public:
-  void Init(const DriverSetup& setup) override
-  {
-    subscriber_.emplace(setup, setup.parameters.Text("topic"));
-    radius_ = setup.parameters.Number("wheel_radius");
-    distance_ = setup.parameters.Number("interwheel_distance");
-  }
-  CCI_Sensor* Sensor() override { return this; }
   std::span<const double, 2> GetAllSensorReadings() const override { return velocities_; }
-  void Poll() override
+
+private:
+  void Configure(const Parameters& parameters) override
   {
-    if (!subscriber_->TakeLatest()) return;
-    const auto& twist = subscriber_->Latest().twist().twist();
+    radius_ = parameters.Number("wheel_radius");
+    distance_ = parameters.Number("interwheel_distance");
+  }
+  void Read(const Odometry& message) override
+  {
+    const auto& twist = message.twist().twist();
     const double turning = twist.angular().z() * distance_ / 2;
     velocities_ = {(twist.linear().x() - turning) / radius_, (twist.linear().x() + turning) / radius_};
   }
-  std::vector<DriverSource> Sources() const override { return {subscriber_->Source()}; }
 
-private:
-  std::optional<Subscriber<nav_msgs::msg::dds_::Odometry_>> subscriber_;
   double radius_ = 0;
   double distance_ = 0;
   std::array<double, 2> velocities_{};
@@ -98,30 +92,18 @@ REGISTER_SENSOR_DRIVER(OdometryEncoders,
                        DescribeDriver("footbot_encoders", "ros2", "nav_msgs/msg/Odometry on odom", {"footbot"},
                                       WithWheels({TopicParameter("topic", "odom", "Topic of the odometry.")})))
 
-class JointEncoders : public CSensorDriver, public CCI_FootBotEncodersSensor
+class JointEncoders : public JointSensor<CCI_FootBotEncodersSensor>
 {
 public:
   void Init(const DriverSetup& setup) override
   {
-    joints_.emplace(setup, setup.parameters.Text("topic"),
-                    std::vector{setup.parameters.Text("left_joint"), setup.parameters.Text("right_joint")});
+    Listen(setup, {setup.parameters.Text("left_joint"), setup.parameters.Text("right_joint")});
   }
-  CCI_Sensor* Sensor() override { return this; }
   std::span<const double, 2> GetAllSensorReadings() const override { return velocities_; }
-  void Poll() override
-  {
-    joints_->Poll();
-    velocities_ = {joints_->Velocity(0), joints_->Velocity(1)};
-  }
-  std::vector<DriverSource> Sources() const override
-  {
-    std::vector<DriverSource> sources;
-    joints_->AddSources(sources);
-    return sources;
-  }
 
 private:
-  std::optional<JointReader> joints_;
+  void Update() override { velocities_ = {Velocity(0), Velocity(1)}; }
+
   std::array<double, 2> velocities_{};
 };
 
