@@ -51,6 +51,15 @@ function(swarmanoid_engines folder output)
   set(SWARMANOID_ENGINES ${SWARMANOID_CONTROLLERS} PARENT_SCOPE)
 endfunction()
 
+# swarmanoid_renderers(FOLDER OUTPUT): the same for visualisations; the names go into SWARMANOID_RENDERERS.
+function(swarmanoid_renderers folder output)
+  swarmanoid_controllers(${folder} ${output})
+  foreach(name IN LISTS SWARMANOID_CONTROLLERS)
+    target_link_libraries(${name} PRIVATE Swarmanoid::render)
+  endforeach()
+  set(SWARMANOID_RENDERERS ${SWARMANOID_CONTROLLERS} PARENT_SCOPE)
+endfunction()
+
 # swarmanoid_driver(NAME SOURCES... [LINK libs...]): the library libNAME.so with drivers of a real robot (docs/real_robot.md).
 function(swarmanoid_driver name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})

@@ -105,6 +105,7 @@ void AddNewCommand(CLI::App& app, int& exit_code)
       "  swarmanoid new behavior-controller wall_follower\n"
       "  swarmanoid new controller from_scratch\n"
       "  swarmanoid new engine gliding\n"
+      "  swarmanoid new renderer plan\n"
       "  swarmanoid new terrain moor --size 3,2 --seed 7\n"
       "  swarmanoid new experiment first_try");
 
@@ -133,6 +134,8 @@ void AddNewCommand(CLI::App& app, int& exit_code)
       std::string("Name of the functions") + kNameRule, "functions spreading", NewFunctions);
   add("engine", "A physics engine, and an experiment with it", "NAME", std::string("Name of the engine") + kNameRule,
       "engine gliding", NewEngine);
+  add("renderer", "A visualisation, and an experiment with it", "NAME",
+      std::string("Name of the visualisation") + kNameRule, "renderer plan", NewRenderer);
   add("experiment", "An experiment file with a few robots in a walled arena", "NAME",
       std::string("Name of the experiment") + kNameRule, "experiment first_try", NewExperiment);
 

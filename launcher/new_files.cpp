@@ -89,7 +89,7 @@ void RefuseTakenTarget(const fs::path& user, const std::string& name)
                                        "install", "list",  "package", "simulation", "rebuild_cache", "test"};
   if (std::find(taken.begin(), taken.end(), name) != taken.end())
     throw UsageError(fmt::format("'{}' cannot be a name: the build has a target of that name; choose another", name));
-  for (const char* folder : {"controllers", "functions", "engines"}) RefuseExisting(user / folder / name);
+  for (const char* folder : {"controllers", "functions", "engines", "renderers"}) RefuseExisting(user / folder / name);
 }
 
 void RequireIdentifier(const std::string& name)
@@ -137,6 +137,24 @@ void TellNext(const fs::path& user, const fs::path& experiment)
   if (!experiment.empty()) fmt::print("  {} run {}\n", ProgramName(), fs::relative(experiment).string());
 }
 
+// A plug-in of the user directory that we are in, in `folder`, and an experiment with it. `templates`: their folder,
+// and the start of their names.
+void NewPlugin(const std::string& name, const char* what, const char* folder, const std::string& templates,
+               const std::vector<std::string>& endings)
+{
+  RequireIdentifier(name);
+  const fs::path user = RequireUserDirectory();
+  const fs::path experiment = user / "experiments" / (name + ".xml");
+  RefuseTakenTarget(user, name);
+  RefuseExisting(experiment);
+  const TemplateValues values{{"name", name}, {"class", ClassName(name)}};
+  fmt::print("Made {} {}:\n", what, name);
+  for (const std::string& ending : endings)
+    MakeFile(templates + "/" + templates + ending + ".in", user / folder / name / (name + ending), values);
+  MakeFile(templates + "/experiment.xml.in", experiment, values);
+  TellNext(user, experiment);
+}
+
 std::string WithArticle(const RobotKind& robot)
 {
   return std::string(robot.name[0] == 'e' ? "an " : "a ") + robot.name;
@@ -174,18 +192,7 @@ void NewUserDirectory(const std::string& directory)
 
 void NewController(const std::string& name)
 {
-  RequireIdentifier(name);
-  const fs::path user = RequireUserDirectory();
-  const fs::path folder = user / "controllers" / name;
-  const fs::path experiment = user / "experiments" / (name + ".xml");
-  RefuseTakenTarget(user, name);
-  RefuseExisting(experiment);
-  const TemplateValues values{{"name", name}, {"class", ClassName(name)}};
-  fmt::print("Made controller {}:\n", name);
-  MakeFile("controller/controller.h.in", folder / (name + ".h"), values);
-  MakeFile("controller/controller.cpp.in", folder / (name + ".cpp"), values);
-  MakeFile("controller/experiment.xml.in", experiment, values);
-  TellNext(user, experiment);
+  NewPlugin(name, "controller", "controllers", "controller", {".h", ".cpp"});
 }
 
 void NewExperiment(const std::string& name)
@@ -201,32 +208,12 @@ void NewExperiment(const std::string& name)
 
 void NewFunctions(const std::string& name)
 {
-  RequireIdentifier(name);
-  const fs::path user = RequireUserDirectory();
-  const fs::path experiment = user / "experiments" / (name + ".xml");
-  RefuseTakenTarget(user, name);
-  RefuseExisting(experiment);
-  const TemplateValues values{{"name", name}, {"class", ClassName(name)}};
-  fmt::print("Made experiment functions {}:\n", name);
-  MakeFile("functions/functions.cpp.in", user / "functions" / name / (name + ".cpp"), values);
-  MakeFile("functions/experiment.xml.in", experiment, values);
-  TellNext(user, experiment);
+  NewPlugin(name, "experiment functions", "functions", "functions", {".cpp"});
 }
 
-void NewEngine(const std::string& name)
-{
-  RequireIdentifier(name);
-  const fs::path user = RequireUserDirectory();
-  const fs::path experiment = user / "experiments" / (name + ".xml");
-  RefuseTakenTarget(user, name);
-  RefuseExisting(experiment);
-  const TemplateValues values{{"name", name}, {"class", ClassName(name)}};
-  fmt::print("Made physics engine {}:\n", name);
-  MakeFile("engine/engine.h.in", user / "engines" / name / (name + ".h"), values);
-  MakeFile("engine/engine.cpp.in", user / "engines" / name / (name + ".cpp"), values);
-  MakeFile("engine/experiment.xml.in", experiment, values);
-  TellNext(user, experiment);
-}
+void NewEngine(const std::string& name) { NewPlugin(name, "physics engine", "engines", "engine", {".h", ".cpp"}); }
+
+void NewRenderer(const std::string& name) { NewPlugin(name, "visualisation", "renderers", "renderer", {".cpp"}); }
 
 void NewTerrain(const std::string& name, const RoughTerrain& terrain)
 {

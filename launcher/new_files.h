@@ -14,6 +14,7 @@ void NewController(const std::string& name);
 void NewExperiment(const std::string& name);
 void NewFunctions(const std::string& name);
 void NewEngine(const std::string& name);
+void NewRenderer(const std::string& name);
 // An OctoMap file and an experiment on it, here or in the user directory.
 void NewTerrain(const std::string& name, const RoughTerrain& terrain);
 

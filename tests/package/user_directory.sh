@@ -43,10 +43,11 @@ TryUserDirectory()
   sed -i 's|obstacle_avoidance_.Step(cRobotState);|&\n  stop_.Step(cRobotState);|' wall_follower/bt_along_the_wall.cpp
   grep -q 'stop_.Step' wall_follower/bt_along_the_wall.cpp
 
-  echo "== a controller in one class, experiment functions, and a physics engine"
+  echo "== a controller in one class, experiment functions, a physics engine, and a visualisation"
   swarmanoid new controller plain
   swarmanoid new functions spreading
   swarmanoid new engine gliding
+  swarmanoid new renderer plan
   swarmanoid new experiment first_try
   # They move a robot and light another one's beacon before the controllers of tick 10.
   sed -i 's|void PreStep(SpaceEditor&) override {}|void PreStep(SpaceEditor\& space) override\n  {\n    if (space.GetSpace().GetTick() != 10) return;\n    space.MoveEntity("fb_0", {Vector3(2, 2, 0), Quaternion::Identity()});\n    space.SetAttribute("fb_1", "beacon", 0xff0000);\n  }|' \
@@ -100,6 +101,20 @@ TryUserDirectory()
     [ -n "$(Hash "$cluster")" ]
     [ "$(Hash "$cluster")" = "$(Hash "$own")" ]
   done
+  echo "== a visualisation of the user draws in the file, and attached"
+  # Ten robots at most, those that share a place are one letter.
+  awk '/^tick 0$/ { n = 0; seen = 1 } { n += gsub("f", "") } END { exit !(seen && n > 5 && n <= 10) }' "$runs/plan/plan.txt"
+  swarmanoid run experiments/diffusion_10.xml --paused --quiet --no-visualisers --output "$runs/watched" &
+  local watched=$!
+  until swarmanoid list experiments | grep -q diffusion_10; do sleep 0.1; done
+  swarmanoid attach simulation_build/renderers/libplan.so --help | grep -q -- '--columns'
+  SWARMANOID_PLUGIN_PATH=simulation_build/renderers swarmanoid attach plan --columns 20 --every 1 --file attached.txt --output "$runs" &
+  local watcher=$!
+  until grep -qs '^[.f]*f[.f]*$' "$runs/attached.txt"; do sleep 0.1; done
+  [ "$(sed -n 2p "$runs/attached.txt" | wc -c)" -eq 21 ]
+  swarmanoid control stop
+  wait "$watched" "$watcher"
+
   echo "== the engine of a run that goes on from a checkpoint"
   cluster=$(swarmanoid run experiments/gliding.xml --ticks 200 --quiet --output "$runs/glide" --checkpoint-every 100)
   own=$(simulation_build/simulation experiments/gliding.xml --ticks 200 --quiet --output "$runs/glide-on" --restore "$runs/glide/checkpoint-00000100")
