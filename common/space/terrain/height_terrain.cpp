@@ -1,55 +1,27 @@
-#include <png.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "common/space/terrain/grey_picture.h"
 #include "common/space/terrain/rectangles.h"
 #include "common/space/terrain/terrain.h"
 
 namespace swarmanoid
 {
-namespace
-{
-
-struct Picture
-{
-  std::vector<std::uint16_t> brightness;  // 0..65535, rows from the top
-  int columns = 0;
-  int rows = 0;
-};
-
-Picture ReadPicture(const std::string& path)
-{
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_file(&image, path.c_str()) == 0)
-    throw std::runtime_error("cannot read the PNG '" + path + "': " + image.message);
-  image.format = PNG_FORMAT_LINEAR_Y;  // 16 bits; 8-bit pictures are converted by libpng
-  Picture picture;
-  picture.columns = static_cast<int>(image.width);
-  picture.rows = static_cast<int>(image.height);
-  picture.brightness.resize(static_cast<std::size_t>(image.width) * image.height);
-  if (png_image_finish_read(&image, nullptr, picture.brightness.data(), 0, nullptr) == 0)
-    throw std::runtime_error("cannot read the PNG '" + path + "': " + image.message);
-  return picture;
-}
-
-}  // namespace
 
 HeightTerrain::HeightTerrain(const std::string& path, double size_x, double size_y, double height)
     : size_x_(size_x), size_y_(size_y)
 {
-  const Picture picture = ReadPicture(path);
+  const GreyPicture picture = ReadGreyPicture(path);
   columns_ = picture.columns;
   rows_ = picture.rows;
   if (columns_ < 2 || rows_ < 2) throw std::runtime_error("the PNG '" + path + "' must have at least 2 by 2 pixels");
-  heights_.resize(picture.brightness.size());
+  heights_.resize(picture.values.size());
   const auto columns = static_cast<std::size_t>(columns_);
   for (std::size_t row = 0; row < static_cast<std::size_t>(rows_); ++row)
     for (std::size_t column = 0; column < columns; ++column)
       heights_[row * columns + column] =
-          height * picture.brightness[(static_cast<std::size_t>(rows_) - 1 - row) * columns + column] / 65535.0;
+          height * picture.values[(static_cast<std::size_t>(rows_) - 1 - row) * columns + column];
   FindExtremes();
 }
 

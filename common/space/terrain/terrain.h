@@ -79,13 +79,13 @@ private:
   std::vector<bool> occupied_;
 };
 
-// A surface over a regular grid, two triangles a cell, solid below; from the brightness of a PNG.
+// A surface over a regular grid, two triangles a cell, solid below; from the greys of a PNG.
 class HeightTerrain : public Terrain
 {
 public:
   // The picture spans size_x by size_y metres, its upper left pixel at x = 0 and the largest y; black is 0, white
-  // `height` metres. Throws std::runtime_error, naming the file, where it cannot be read or is smaller than 2 by 2
-  // pixels.
+  // `height` metres, grey in proportion (grey_picture.h). Throws std::runtime_error, naming the file, where it cannot
+  // be read or is smaller than 2 by 2 pixels.
   HeightTerrain(const std::string& path, double size_x, double size_y, double height);
   // From heights in metres, columns * rows of them, along x first, the first row at y = 0.
   HeightTerrain(std::vector<double> heights, int columns, int rows, double size_x, double size_y);

@@ -1,6 +1,7 @@
 #include "common/space/terrain/terrain.h"
 #include "common/space/terrain/rough_terrain.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <octomap/octomap.h>
@@ -198,6 +199,72 @@ TEST(HeightTerrain, APictureIsReadFromTheTop)
   const auto walls = terrain.Section(0.2);
   ASSERT_EQ(walls.size(), 1U);
   EXPECT_EQ(walls[0].high, Vector2(2, 2));
+}
+
+// Writes samples as they are, with a claim about their gamma.
+void WritePicture(const std::string& path, int columns, int colour_type, int bits, std::vector<std::uint8_t> bytes)
+{
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_init_io(png, file);
+  const std::size_t stride = bytes.size() / 2;
+  png_set_IHDR(png, info, static_cast<png_uint_32>(columns), 2, bits, colour_type, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_gAMA(png, info, 0.45455);
+  const png_color greys[] = {{0, 0, 0}, {51, 51, 51}, {255, 255, 255}};
+  if (colour_type == PNG_COLOR_TYPE_PALETTE) png_set_PLTE(png, info, greys, 3);
+  png_write_info(png, info);
+  png_write_row(png, bytes.data());
+  png_write_row(png, bytes.data() + stride);
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  std::fclose(file);
+}
+
+TEST(HeightTerrain, GreyIsHeightInProportionInAnyKindOfPicture)
+{
+  TemporaryFile file("greys.png");
+  const auto heights = [&](int columns)
+  {
+    const HeightTerrain terrain(file.Path(), 1, 1, 10);
+    std::vector<double> found;
+    for (int column = 0; column < columns; ++column) found.push_back(terrain.Height(column, 1));
+    return found;
+  };
+  const auto near = [](std::vector<double> expected)
+  { return testing::Pointwise(testing::DoubleNear(1e-12), std::move(expected)); };
+  WritePicture(file.Path(), 3, PNG_COLOR_TYPE_GRAY, 8, {0, 51, 255, 0, 0, 0});
+  EXPECT_THAT(heights(3), near({0, 2, 10}));
+  WritePicture(file.Path(), 3, PNG_COLOR_TYPE_GRAY, 16, {0, 0, 0x33, 0x33, 255, 255, 0, 0, 0, 0, 0, 0});
+  EXPECT_THAT(heights(3), near({0, 2, 10}));
+  WritePicture(file.Path(), 3, PNG_COLOR_TYPE_PALETTE, 8, {0, 1, 2, 0, 0, 0});
+  EXPECT_THAT(heights(3), near({0, 2, 10}));
+  WritePicture(file.Path(), 2, PNG_COLOR_TYPE_GRAY_ALPHA, 8, {51, 0, 255, 128, 0, 0, 0, 0});
+  EXPECT_THAT(heights(2), near({2, 10}));
+  WritePicture(file.Path(), 2, PNG_COLOR_TYPE_RGB, 8, {51, 51, 51, 255, 0, 0, 0, 0, 0, 0, 0, 0});
+  EXPECT_THAT(heights(2), near({2, 2.99}));
+  WritePicture(file.Path(), 8, PNG_COLOR_TYPE_GRAY, 1, {0b01000001, 0});
+  EXPECT_THAT(heights(8), near({0, 10, 0, 0, 0, 0, 0, 10}));
+}
+
+TEST(HeightTerrain, FilesThatAreNoPicturesAreRefusedByName)
+{
+  EXPECT_THROW(HeightTerrain("/nowhere/hills.png", 1, 1, 1), std::runtime_error);
+  TemporaryFile file("nonsense.png");
+  std::ofstream(file.Path()) << "this is no picture";
+  try
+  {
+    HeightTerrain terrain(file.Path(), 1, 1, 1);
+    FAIL() << "it was accepted";
+  }
+  catch (const std::runtime_error& error)
+  {
+    EXPECT_EQ(std::string(error.what()), "cannot read the PNG '" + file.Path() + "': Not a PNG file");
+  }
+  WritePicture(file.Path(), 3, PNG_COLOR_TYPE_GRAY, 8, {0, 51, 255, 0, 0, 0});
+  std::filesystem::resize_file(file.Path(), std::filesystem::file_size(file.Path()) - 20);
+  EXPECT_THROW(HeightTerrain(file.Path(), 1, 1, 1), std::runtime_error);
 }
 
 std::string Bytes(const std::string& path)

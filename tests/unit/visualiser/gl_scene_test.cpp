@@ -178,7 +178,7 @@ TEST(GlScene, DrawsTerrain)
   };
   terrain("hills", {0, 0, 0}, "<heightmap file=\"hills.png\" size=\"2,2\" height=\"0.3\"/>");
   terrain("stair", {2.8, 0.4, 0}, "<octomap file=\"stair.bt\"/>");
-  world.Add(EntityKind::kFootbot, "fb_1", {1, 0.2, 0.17}, 90);
+  world.Add(EntityKind::kFootbot, "fb_1", {1, 0.2, 0.115}, 90);
   world.Add(EntityKind::kFootbot, "fb_2", {3.35, 0.8, 0.6}, 180);
   world.GetExperiment().folder = folder.string();
   ExpectGolden(world, DefaultView(world.GetExperiment(), 4.0 / 3), "terrain");

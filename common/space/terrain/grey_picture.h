@@ -1,0 +1,22 @@
+// The pixels of a PNG as numbers, for height maps. Used by HeightTerrain, in any process.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace swarmanoid
+{
+
+struct GreyPicture
+{
+  std::vector<double> values;  // 0 black … 1 white, rows from the top
+  int columns = 0;
+  int rows = 0;
+};
+
+// The samples as they stand in the file, of 1 to 16 bits: a grey of half the range is 0.5, whatever gamma the file
+// claims. Colours count as 0.299 R + 0.587 G + 0.114 B, transparency does not. Throws std::runtime_error naming a file
+// that cannot be read.
+GreyPicture ReadGreyPicture(const std::string& path);
+
+}  // namespace swarmanoid
