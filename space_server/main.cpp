@@ -32,7 +32,7 @@ LoadOptions LoadOptionsOf(const ServerOptions& options)
   }
   if (options.has_seed) load.settings.emplace_back("framework.seed", std::to_string(options.seed));
   if (options.has_ticks) load.settings.emplace_back("framework.maxclock", std::to_string(options.ticks));
-  load.check_controller_libraries = false;
+  load.check_files = false;
   return load;
 }
 

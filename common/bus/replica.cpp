@@ -21,7 +21,7 @@ std::size_t AttributeBytes(const CSwarmanoidSpace& space) { return space.Attribu
 Replica::Replica(const WorldMessage& world, bool load_controllers)
 {
   LoadOptions options;
-  options.check_controller_libraries = load_controllers;
+  options.check_files = load_controllers;
   LoadedExperiment loaded = LoadExperimentText(world.xml, world.file, world.folder, options);
   if (!loaded.experiment)
   {

@@ -22,7 +22,9 @@ struct Diagnostic
 struct LoadOptions
 {
   std::vector<std::pair<std::string, std::string>> settings;  // --set PATH=VALUE
-  bool check_controller_libraries = true;  // load the libraries and check that they register the tags
+  // Whether what runs the experiment is on this machine: the libraries of the controllers are loaded and must register
+  // the tags, and the maps of terrains must be there.
+  bool check_files = true;
 };
 
 // Exactly one of the two is filled.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <unordered_map>
 
 #include "common/configuration/wording.h"
@@ -12,6 +13,8 @@ namespace swarmanoid
 {
 namespace
 {
+
+namespace fs = std::filesystem;
 
 SpaceOptimization OptimizationOf(const std::string& text)
 {
@@ -43,6 +46,29 @@ Vector3 AreaSize(const ElementReader& reader, Reading& reading)
         fmt::format("<{}> lacks its extent: give 'size' (\"x, y\" in m) or 'radius' (m)", tree.Name()));
   }
   return rectangle ? reader.Vector("size") : Vector3(reader.Number("radius"), 0, 0);
+}
+
+// The one map that a terrain holds.
+void CheckTerrain(const TConfigurationTree& tree, const ElementSpec& spec, Reading& reading)
+{
+  int maps = 0;
+  for (const TConfigurationTree& child : tree.Children())
+  {
+    const ElementSpec* element = spec.FindChild(child.Name());
+    if (element == nullptr) continue;  // reported already, or a value
+    ++maps;
+    const ElementReader reader(child, *element, reading.diagnostics);
+    if (!reading.options.check_files || !reader.IsGood("file")) continue;
+    const fs::path path = fs::path(reading.experiment.folder) / reader.Text("file");
+    if (!fs::is_regular_file(path))
+      reading.diagnostics.Add(reader.Place("file"),
+                              fmt::format("there is no file {}", Quoted(path.lexically_normal().string())));
+  }
+  if (maps != 1)
+    reading.diagnostics.Add(tree.Location(),
+                            fmt::format("<{}> must hold one map, <octomap file=\"…\"/> or <heightmap file=\"…\" "
+                                        "size=\"…\" height=\"…\"/>; it holds {}",
+                                        tree.Name(), maps));
 }
 
 // All but id and pose.
@@ -92,6 +118,7 @@ EntityConfiguration ReadEntityBody(const ElementReader& reader, const ElementSpe
       entity.colour = reader.Colour("colour");
       break;
     case EntityKind::kTerrain:
+      CheckTerrain(entity.tree, spec, reading);
       break;
   }
   return entity;

@@ -80,7 +80,7 @@ ControllerConfiguration ReadController(const TConfigurationTree& tree, Reading& 
   if (reader.IsGiven("id")) CheckId(controller.id, reader.Place("id"), reading.diagnostics);
   controller.actuators = ReadDevices(tree.Child("actuators"), spec.Child("actuators"), reading);
   controller.sensors = ReadDevices(tree.Child("sensors"), spec.Child("sensors"), reading);
-  if (reading.options.check_controller_libraries) CheckController(controller, tree, reading);
+  if (reading.options.check_files) CheckController(controller, tree, reading);
   return controller;
 }
 

@@ -34,6 +34,31 @@ ElementSpec Robot(EntityKind kind, const char* description)
                           "The id of its controller; empty: it has none and does nothing by itself.")});
 }
 
+ElementSpec OctoMap()
+{
+  ElementSpec octomap;
+  octomap.tags = {"octomap"};
+  octomap.description = "An OctoMap: the occupied cells are solid.";
+  octomap.parameters = {Required(ParameterType::kText, "file", "",
+                                 "A .bt or .ot file; a relative path starts at the folder of the experiment file.")};
+  return octomap;
+}
+
+ElementSpec HeightMap()
+{
+  using enum ParameterType;
+  ElementSpec heightmap;
+  heightmap.tags = {"heightmap"};
+  heightmap.description =
+      "A picture of heights. It spans its size along x and y from the position; its upper edge is at the largest y.";
+  heightmap.parameters = {
+      Required(kText, "file", "", "A PNG; a relative path starts at the folder of the experiment file."),
+      Size(Required(kVector2, "size", "m", "What the picture spans.")),
+      Size(Required(kNumber, "height", "m", "Of white; black is 0, greys are between in proportion.")),
+  };
+  return heightmap;
+}
+
 std::vector<ElementSpec> MakeEntities()
 {
   using enum ParameterType;
@@ -79,9 +104,10 @@ std::vector<ElementSpec> MakeEntities()
   };
   ElementSpec terrain =
       Entity(EntityKind::kTerrain, {},
-             "Uneven ground, from a file; walls for two-dimensional engines, at the height of their planes.",
-             {Optional(kTree, "octomap", "", "", "An OctoMap: the occupied cells are solid."),
-              Optional(kTree, "heightmap", "", "", "An image whose brightness is the height.")});
+             "Uneven ground, from the one file that it holds; walls for two-dimensional engines, at the height of "
+             "their planes.",
+             {});
+  terrain.children = {OctoMap(), HeightMap()};
   for (ParameterSpec& parameter : terrain.parameters)
   {
     if (parameter.name == "position") parameter.default_value = "0, 0, 0";

@@ -62,7 +62,7 @@ TEST(Chapter4, EffectiveTextGivesTheSameExperiment)
   ASSERT_TRUE(first.experiment);
   RegisterFakePlugins();
   LoadOptions options;
-  options.check_controller_libraries = false;
+  options.check_files = false;
   const LoadedExperiment second =
       LoadExperimentText(first.experiment->effective_xml, "elsewhere/copy.xml", "/elsewhere", options);
   ASSERT_TRUE(second.experiment) << second.errors.front().Text();

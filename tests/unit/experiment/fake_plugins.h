@@ -91,7 +91,7 @@ inline void RegisterFakePlugins()
 inline LoadedExperiment LoadText(const std::string& text, LoadOptions options = {})
 {
   RegisterFakePlugins();
-  options.check_controller_libraries = false;
+  options.check_files = false;
   return LoadExperimentText(text, "test.xml", "/experiments", options);
 }
 

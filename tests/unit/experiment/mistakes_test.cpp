@@ -125,6 +125,20 @@ const Mistake kMistakes[] = {
     {"UnknownParameter", "orientation=\"0,0,90\"", "orientaton=\"0,0,90\"",
      "test.xml:19:42: <footbot> has no attribute 'orientaton'; allowed: id, position, orientation, controller; did you "
      "mean 'orientation'?\n"},
+    {"TerrainWithoutMap", "<light_bulb id=\"lamp\" position=\"1, 1, 2\"/>", "<terrain id=\"lamp\"/>",
+     "test.xml:21:5: <terrain> must hold one map, <octomap file=\"…\"/> or <heightmap file=\"…\" size=\"…\" "
+     "height=\"…\"/>; it holds 0\n"},
+    {"TerrainWithTwoMaps", "<light_bulb id=\"lamp\" position=\"1, 1, 2\"/>",
+     "<terrain id=\"lamp\"><octomap file=\"a.bt\"/><heightmap file=\"a.png\" size=\"1,1\" height=\"1\"/></terrain>",
+     "test.xml:21:5: <terrain> must hold one map, <octomap file=\"…\"/> or <heightmap file=\"…\" size=\"…\" "
+     "height=\"…\"/>; it holds 2\n"},
+    {"HeightMapWithoutHeight", "<light_bulb id=\"lamp\" position=\"1, 1, 2\"/>",
+     "<terrain id=\"lamp\"><heightmap file=\"a.png\" size=\"1,1\"/></terrain>",
+     "test.xml:21:24: <heightmap> lacks 'height': a number in m, from 1e-06 to 1000000 m\n"},
+    {"OctoMapWithAnUnknownAttribute", "<light_bulb id=\"lamp\" position=\"1, 1, 2\"/>",
+     "<terrain id=\"lamp\"><octomap fil=\"a.bt\"/></terrain>",
+     "test.xml:21:24: <octomap> lacks 'file': a text\ntest.xml:21:33: <octomap> has no attribute 'fil'; allowed: file; "
+     "did you mean 'file'?\n"},
     {"DuplicateId", "id=\"fb2\" position", "id=\"fb\" position",
      "test.xml:19:14: two entities have the id 'fb'; the first is in line 18\ntest.xml:27:50: there is no entity "
      "'fb2'; there are: fb, fb, wall, lamp; did you mean 'fb'?\n"},
@@ -241,6 +255,19 @@ TEST(MistakesTogether, ThousandsAreCutShort)
   const LoadedExperiment loaded = LoadText(text + "</arena></ahss-config>");
   ASSERT_EQ(loaded.errors.size(), 1001U);
   EXPECT_EQ(loaded.errors.back().Text(), "test.xml: and 2000 more mistakes");
+}
+
+TEST(MistakesTogether, AMissingMapIsNamedWhereTheRunWillBe)
+{
+  const std::string text =
+      "<ahss-config><arena size='1,1,1' optimization='3D'><terrain id='t'><octomap "
+      "file='maps/none.bt'/></terrain></arena></ahss-config>";
+  LoadOptions options;
+  const LoadedExperiment here = LoadExperimentText(text, "test.xml", "/nowhere", options);
+  ASSERT_EQ(here.errors.size(), 1U);
+  EXPECT_EQ(here.errors[0].Text(), "test.xml:1:77: there is no file '/nowhere/maps/none.bt'");
+  options.check_files = false;
+  EXPECT_TRUE(LoadExperimentText(text, "test.xml", "/nowhere", options).errors.empty());
 }
 
 TEST(MistakesTogether, AMissingFileIsNamed)
