@@ -14,21 +14,21 @@ namespace
 class BusyWorld : public Dynamics3dTestWorld
 {
 public:
-  explicit BusyWorld(std::uint64_t seed, const char* iterations = "8") : seed_(seed)
+  explicit BusyWorld(std::uint64_t seed, const char* iterations = "8", int footbots = 9) : seed_(seed)
   {
     Set("ceiling", "true");
     Set("arena_walls", "true");
     Set("iterations", iterations);
     experiment.arena_size = {3, 3, 3};
-    for (int k = 0; k < 9; ++k)
+    for (int k = 0; k < footbots; ++k)
       footbots_.push_back(AddFootbot({0.5 + 0.25 * (k % 3), 0.5 + 0.25 * (k / 3), 0}, 0.7 * k));
     for (int k = 0; k < 3; ++k) AddPrey({0.63 + 0.25 * k, 1.3, 0}, 0.3, 0.08);
-    AddBlock({1.5, 0.7, 0.05}, {0.1, 0.1, 0.1}, 0.2);
+    AddBlock({1.75, 0.7, 0.05}, {0.1, 0.1, 0.1}, 0.2);
     AddWall({1.0, 1.6, 0.2}, {1, 0.1, 0.4});
     handbot_ = AddHandbot({2, 2, 0});
     AddBlock({2.27, 2, 0.1}, {0.03, 0.16, 0.2}, 0.4);
     eyebot_ = AddEyebot({2, 0.8, 1});
-    mirror_ = AddFootbot({1.5, 1.2, 0});
+    mirror_ = AddFootbot({1.5, 0.75, 0});
     MakeMirror(mirror_);
     AddCommands("footbot_wheels", 2);
     AddCommands("footbot_gripper", 1);
@@ -66,6 +66,7 @@ public:
     Space().SetPose(mirror_, {Vector3(x, 1.2 - 0.3 * x, 0), QuaternionFromYaw(0.1 * tick)});
   }
 
+  std::uint32_t Mirror() const { return mirror_; }
   int Grips() const
   {
     int grips = 0;
@@ -126,6 +127,36 @@ TEST(Dynamics3dCheckpoint, SavingAndLoadingIntoARunningEngineChangesNothing)
   ByteWriter after;
   world.engine->SaveState(after);
   EXPECT_EQ(before.Bytes(), after.Bytes());
+}
+
+// Driving, gripping, climbing and bumping for 100,000 steps of the solver: nothing leaves the walls, sinks or is flung.
+TEST(Dynamics3dStability, ABusyWorldKeepsItsBoundsFor100000Steps)
+{
+  BusyWorld world(6, "8", 3);
+  std::vector<Vector3> before;
+  for (std::size_t k = 0; k < world.Space().Size(); ++k) before.push_back(world.Space().GetPose(k).position);
+  double travelled = 0;
+  for (int tick = 0; tick < 5000; ++tick)
+  {
+    world.Advance();
+    for (std::uint32_t k = 0; k < world.Space().Size(); ++k)
+    {
+      if (!world.Space().GetEntity(k).IsMovable() || k == world.Mirror()) continue;
+      const Vector3 p = world.Position(k);
+      const double way = (p - before[k]).head<2>().norm();  // what is let go falls as fast as it may
+      ASSERT_LT(way, 0.25) << "e" << k << " at tick " << tick;
+      ASSERT_GT(p.z(), -0.02) << "e" << k << " at tick " << tick;
+      ASSERT_LT(p.z(), 3) << "e" << k << " at tick " << tick;
+      for (const int axis : {0, 1})
+      {
+        ASSERT_GT(p[axis], 0) << "e" << k << " at tick " << tick;
+        ASSERT_LT(p[axis], 3) << "e" << k << " at tick " << tick;
+      }
+      travelled += way;
+      before[k] = p;
+    }
+  }
+  EXPECT_GT(travelled, 100) << "metres, of all";
 }
 
 TEST(Dynamics3dCheckpoint, AStateOfAnotherExperimentIsRefused)

@@ -1,5 +1,6 @@
 // Grippers, hands, ropes and magnets.
 #include "dynamics3d_test_world.h"
+#include "engine_worker/engines/dynamics3d/handbot.h"
 
 namespace swarmanoid
 {
@@ -192,6 +193,49 @@ TEST(Dynamics3dGripping, AHandbotHangsOnAShelfByItsHandsAlone)
   world.Command("handbot_hands", handbot, {0, 0});
   world.Run(20);
   EXPECT_LT(world.Position(handbot).z(), -5);
+}
+
+// The head turns one hand up and the other down. A robot that holds on with the upper one and turns its head the other
+// way goes up by twice the height of that hand above the head, and takes hold with the other hand, which is up then.
+// The rope bears the weight, which is more than a wrist can.
+TEST(Dynamics3dGripping, AHandbotClimbsAShelfHandOverHandOnItsRope)
+{
+  Dynamics3dTestWorld world;
+  world.Set("ceiling", "true");
+  const auto handbot = world.AddHandbot({5, 5, 0});
+  const auto shelf = world.AddWall({5.29, 5, 1}, {0.04, 0.4, 2});
+  world.AddCommands("handbot_arms", 5);
+  world.AddCommands("handbot_hands", 2);
+  world.AddCommands("handbot_rope", 2);
+  world.Start();
+  const double turn = kPi / 3;  // of the head to each side
+  const double rate = 0.5;
+  const double rise = 2 * dynamics3d::HandbotShape::kShoulder * Sin(turn);
+  const auto turn_head = [&](double speed, double angle)
+  {
+    world.Command("handbot_arms", handbot, {speed, 0, 0, -speed, -speed});
+    world.Run(static_cast<int>(angle / rate * 10));
+    world.Command("handbot_arms", handbot, {0, 0, 0, 0, 0});
+  };
+  const auto run_winch = [&](double speed) { world.Command("handbot_rope", handbot, {1, speed}); };
+
+  run_winch(0);
+  turn_head(rate, turn);
+  for (int step = 0; step < 8; ++step)
+  {
+    const bool left = step % 2 == 0;
+    world.Command("handbot_hands", handbot, {left ? 1.0 : 0.0, left ? 0.0 : 1.0});
+    world.Run(3);
+    ASSERT_EQ(world.Attribute(handbot, "gripped", left ? 0 : 1), 1 + shelf) << "step " << step;
+    run_winch(-rise / (2 * turn / rate));
+    turn_head(left ? -rate : rate, 2 * turn);
+    run_winch(0);
+    world.Command("handbot_hands", handbot, {1, 1});
+    world.Run(3);
+    for (const int hand : {0, 1}) ASSERT_EQ(world.Attribute(handbot, "gripped", hand), 1 + shelf) << "step " << step;
+    EXPECT_NEAR(world.Position(handbot).z(), (step + 1) * rise, 0.02);
+    EXPECT_LT(world.Tilt(handbot), DegreesToRadians(15));
+  }
 }
 
 TEST(Dynamics3dGripping, ArmsHeadAndWristsMoveWithinTheirLimits)

@@ -163,13 +163,17 @@ TEST(KinematicWorld, AThousandRobotsPushedIntoACornerStayApartAndFinite)
       world.SetTwist(k, {0.3 * Cos(angle), 0.3 * Sin(angle), random.Uniform(-1, 1)});
     }
     world.Advance(kTick, 1);
-    // No energy from nothing: nobody is thrown further than a collision at full speed explains.
+    // No energy from nothing: nobody is thrown further than a collision at full speed explains, and all together do not
+    // go further than all alone would, in the squares that stand for the energy.
+    double energy = 0;
     for (std::uint32_t k = 0; k < 1000; ++k)
     {
       const double dx = world.Poses().x[k] - before.x[k];
       const double dy = world.Poses().y[k] - before.y[k];
       ASSERT_LT(std::sqrt(dx * dx + dy * dy), 0.1);
+      energy += dx * dx + dy * dy;
     }
+    ASSERT_LE(energy, 1000 * 0.03 * 0.03 * (1 + 1e-9));
   }
   double reach = 0;
   for (std::uint32_t k = 0; k < 1000; ++k) reach = std::max(reach, world.Poses().x[k] + world.Poses().y[k]);

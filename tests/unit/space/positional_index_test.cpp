@@ -54,7 +54,7 @@ protected:
   }
 };
 
-// 10^5 random moves in all: points wander, also over the border of the arena, and stand on borders of cells.
+// 10^5 random moves in all: points wander, also over the border of the arena, stand on borders of cells, and meet.
 TEST_P(PositionalIndexTest, AnswersAsBruteForceWhilePointsMove)
 {
   const Vector3 arena(20, 15, 4);
@@ -79,12 +79,23 @@ TEST_P(PositionalIndexTest, AnswersAsBruteForceWhilePointsMove)
       cloud.z[i] += random.Uniform(-0.1, 0.1);
       if (random.Below(20) == 0) cloud.x[i] = std::round(cloud.x[i]);
       if (random.Below(50) == 0) cloud.y[i] = random.Uniform(-100, 100);
+      if (random.Below(20) == 0)
+      {
+        const auto other = random.Below(kPoints);
+        cloud.x[i] = cloud.x[other];
+        cloud.y[i] = cloud.y[other];
+        cloud.z[i] = cloud.z[other];
+      }
     }
     index->Update(cloud.Arrays());
     for (int query = 0; query < 20; ++query)
     {
       const Vector3 centre(random.Uniform(-3, 23), random.Uniform(-3, 18), random.Uniform(-1, 5));
-      const double radius = random.Uniform(0, 5);
+      // Some exactly as far as a point is.
+      const auto rim = random.Below(kPoints);
+      const double radius = query % 4 == 0
+                                ? std::min(5.0, (Vector3(cloud.x[rim], cloud.y[rim], cloud.z[rim]) - centre).norm())
+                                : random.Uniform(0, 5);
       index->FindWithin(centre, radius, found);
       ASSERT_EQ(found, BruteWithin(cloud, centre, radius));
       const Vector3 high = centre + Vector3(random.Uniform(0, 4), random.Uniform(0, 4), random.Uniform(0, 4));
