@@ -59,6 +59,18 @@ TryUserDirectory()
   Expect "$answer" "footbot, handbot or eyebot"
   answer=$("$scripts/create_behavior_controller.sh" </dev/null 2>&1) && exit 1
   Expect "$answer" "(or give --name)"
+  # On a terminal a wrong answer is asked for again, before the next question; elsewhere it ends the script.
+  answer=$(printf 'Late-Riser\nlate_riser\nhndbot\nhandbot\n\n\n\nno\n' | script -qec "$scripts/create_behavior_controller.sh" /dev/null)
+  Expect "$answer" "'Late-Riser' cannot be taken: it must be small letters"
+  Expect "$answer" "'hndbot' cannot be taken"
+  Expect "$answer" "late_riser/bt_handbot_late_riser.h"
+  rm -r late_riser
+  answer=$(printf 'Late-Riser\nlate_riser\n' | "$scripts/create_behavior_controller.sh" 2>&1) && exit 1
+  Expect "$answer" "'Late-Riser' cannot be taken"
+  answer=$(cd / && "$scripts/create_behavior_controller.sh" --yes 2>&1 </dev/null) && exit 1
+  Expect "$answer" "this is no user directory"
+  answer=$("$scripts/create_behavior.sh" --name bt_stop --yes 2>&1) && exit 1
+  Expect "$answer" "there is no behaviour controller in this folder"
   answer=$(swarmanoid new behavior-controller again --robot hndbot 2>&1) && exit 1
   Expect "$answer" "did you mean 'handbot'?"
   answer=$(swarmanoid new behavior-controller sky_watch 2>&1) && exit 1

@@ -29,6 +29,11 @@ TEST(WebMessages, RequestsAreRead)
   EXPECT_EQ(move.entity, "fb_0");
   EXPECT_EQ(move.pose.position, Vector3(1, 2, 0.5));
   EXPECT_NEAR(YawOf(move.pose.orientation), 1.5707963, 1e-6);
+  const auto add = std::get<AddEntityRequest>(
+      ParseRequest(R"({"do": "add", "entity": "prey", "position": [3, 2, 0], "angles": [0, 0, 0]})"));
+  EXPECT_EQ(add.entity, "prey");
+  EXPECT_EQ(add.pose.position, Vector3(3, 2, 0));
+  EXPECT_EQ(std::get<RemoveEntityRequest>(ParseRequest(R"({"do": "remove", "entity": "prey_0"})")).entity, "prey_0");
 }
 
 TEST(WebMessages, EverythingElseIsRefusedWithAReason)
@@ -58,6 +63,7 @@ TEST(WebMessages, EverythingElseIsRefusedWithAReason)
   EXPECT_THAT(refusal(R"({"do": "watch", "entities": ["fb_0"]})"), HasSubstr("number"));
   EXPECT_THAT(refusal(R"({"do": "watch", "entities": [1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17]})"), HasSubstr("16"));
   EXPECT_THAT(refusal(R"({"do": "move", "entity": "fb_0", "position": [1, 2]})"), HasSubstr("three"));
+  EXPECT_THAT(refusal(R"({"do": "remove"})"), HasSubstr("'remove' needs the id"));
   EXPECT_THAT(refusal(R"({"do": "move", "entity": "fb_0", "position": [1, 2, 1e99], "angles": [0, 0, 0]})"),
               HasSubstr("bounds"));
   // Deeper than any stack would like.

@@ -154,6 +154,33 @@ const tests = {
     assert.deepEqual(page.complaints, []);
   },
 
+  async "who is not in the arena is listed as absent, and drawn once he comes"() {
+    run("prey_supply", "--paused", "--ticks", 0, "--no-visualisers");
+    const { url } = await attach();
+    const page = await open(url);
+    await drawn(page);
+    const absent = () => [...document.querySelectorAll(".row.absent:not([hidden]) .id")].map((id) => id.textContent).sort();
+    await page.fill("input[type=search]", "late");
+    await until(page, () => document.querySelectorAll(".row.absent:not([hidden])").length === 2);
+    assert.deepEqual(await read(page, absent), ["late_0", "late_1"]);
+    assert.deepEqual(await read(page, () => swarmanoid.place("late_0")), []);
+    const robots = () => swarmanoid.instances().flatMap(({ drawn: counts }) => counts).reduce((a, b) => a + b);
+    assert.equal(await read(page, robots), 3);
+    // Nothing follows him to where he waits.
+    const camera = await read(page, () => swarmanoid.camera);
+    await read(page, () => swarmanoid.approach("late_0"));
+    assert.deepEqual(await read(page, () => swarmanoid.camera), camera);
+
+    await new Process("control", "add", "late", "2.5,2.2,0").says(/added 'late_0'/);
+    await until(page, () => Math.hypot(swarmanoid.place("late_0")[0] - 2.5, swarmanoid.place("late_0")[1] - 2.2) < 1e-6);
+    await until(page, () => document.querySelectorAll(".row.absent:not([hidden])").length === 1);
+    assert.deepEqual(await read(page, absent), ["late_1"]);
+    await until(page, () => swarmanoid.instances().flatMap(({ drawn: counts }) => counts).reduce((a, b) => a + b) === 4);
+    await new Process("control", "remove", "late_0").says(/removed 'late_0'/);
+    await until(page, () => swarmanoid.place("late_0").length === 0);
+    assert.deepEqual(page.complaints, []);
+  },
+
   async "with the token the run is paused, stepped, resumed, and robots are moved"() {
     run("diffusion_10", "--real-time", 2, "--ticks", 100000);
     const { url } = await attach("--allow-control");

@@ -22,7 +22,11 @@ while [ $# -gt 0 ]; do
 done
 
 program=$(Program)
-Ask name --name "File name of the behaviour, such as bt_footbot_stop" ""
+if ! grep -qs 'CCI_BehaviorController<' ./*.h; then
+  echo "$0: there is no behaviour controller in this folder; go to the folder controllers/NAME of one, or make one by create_behavior_controller.sh" >&2
+  exit 2
+fi
+Ask name --name "File name of the behaviour, such as bt_footbot_stop" "" NAME
 if [ -n "$suggestions" ]; then exec </dev/null; fi
-Ask class --class "Its class name" "CBT$(Camel "${name#bt_}")"
+Ask class --class "Its class name" "CBT$(Camel "${name#bt_}")" CLASS
 exec "$program" new behavior "$name" --class "$class"

@@ -29,21 +29,15 @@ while [ $# -gt 0 ]; do
 done
 
 program=$(Program)
-Ask name --name "File name of the controller, such as wall_follower" ""
+RequireUserDirectory
+Ask name --name "File name of the controller, such as wall_follower" "" NAME
 if [ -n "$suggestions" ]; then exec </dev/null; fi
-Ask robot --robot "Robot: footbot, handbot or eyebot" footbot
-case $robot in
-  footbot | handbot | eyebot) ;;
-  *) echo "$0: there is no robot '$robot'; it is footbot, handbot or eyebot" >&2; exit 2 ;;
-esac
-Ask class --class "Class name of the controller" "C$(Camel "$name")"
-Ask behavior --behavior "File name of its root behaviour" "bt_${robot}_$name"
-Ask behavior_class --behavior-class "Class name of its root behaviour" "CBT$(Camel "${behavior#bt_}")"
-Ask experiment --experiment "Make an experiment XML with it? (yes, no)" yes
-case $experiment in
-  y | yes) options=() ;;
-  n | no) options=(--no-experiment) ;;
-  *) echo "$0: '$experiment' is neither yes nor no" >&2; exit 2 ;;
-esac
+Ask robot --robot "Robot: footbot, handbot or eyebot" footbot ROBOT
+Ask class --class "Class name of the controller" "C$(Camel "$name")" CLASS
+Ask behavior --behavior "File name of its root behaviour" "bt_${robot}_$name" NAME
+Ask behavior_class --behavior-class "Class name of its root behaviour" "CBT$(Camel "${behavior#bt_}")" CLASS
+Ask experiment --experiment "Make an experiment XML with it? (yes, no)" yes YES_NO
+options=()
+if [[ $experiment = n* ]]; then options=(--no-experiment); fi
 exec "$program" new behavior-controller "$name" --robot "$robot" --class "$class" --behavior "$behavior" \
   --behavior-class "$behavior_class" "${options[@]}"

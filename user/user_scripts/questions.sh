@@ -10,15 +10,43 @@ Program()
   command -v swarmanoid || { echo "$0: there is no program swarmanoid; build it first, or put it on the PATH" >&2; exit 1; }
 }
 
-# Ask VARIABLE OPTION QUESTION DEFAULT: leaves what an option has set; otherwise asks, an empty answer is the default.
+# Rules for answers: a pattern, and what it means.
+NAME=('^[a-z][a-z0-9_]*$' "small letters, digits and '_', starting with a letter")
+CLASS=('^[A-Z][A-Za-z0-9_]*$' "letters, digits and '_', starting with a capital letter")
+ROBOT=('^(footbot|handbot|eyebot)$' "footbot, handbot or eyebot")
+YES_NO=('^(yes|no|y|n)$' "yes or no")
+
+# Ask VARIABLE OPTION QUESTION DEFAULT RULE: leaves what an option has set; otherwise asks, an empty answer is the default. On a
+# terminal a wrong answer is asked for again.
 Ask()
 {
-  local -n variable=$1
-  [ -z "$variable" ] || return 0
-  if [ -t 0 ]; then printf '%s%s: ' "$3" "${4:+ [$4]}" >&2; fi
-  read -r variable || true
-  variable=${variable:-$4}
-  [ -n "$variable" ] || { echo "$0: no answer to: $3 (or give $2)" >&2; exit 2; }
+  local -n variable=$1 rule=$5
+  local given=$variable
+  while true; do
+    if [ -z "$given" ]; then
+      if [ -t 0 ]; then printf '%s%s: ' "$3" "${4:+ [$4]}" >&2; fi
+      variable="" # where the input has ended
+      read -r variable || true
+      variable=${variable:-$4}
+      [ -n "$variable" ] || { echo "$0: no answer to: $3 (or give $2)" >&2; exit 2; }
+    fi
+    if [[ $variable =~ ${rule[0]} ]]; then return; fi
+    echo "$0: '$variable' cannot be taken: it must be ${rule[1]}" >&2
+    [ -z "$given" ] && [ -t 0 ] || exit 2
+  done
+}
+
+# RequireUserDirectory: before anything is asked.
+RequireUserDirectory()
+{
+  local folder=$PWD
+  until [ -d "$folder/controllers" ] && [ -e "$folder/build.sh" ]; do
+    if [ "$folder" = / ]; then
+      echo "$0: this is no user directory; go to the folder controllers of one, or make one by: swarmanoid new user my_robots" >&2
+      exit 2
+    fi
+    folder=$(dirname "$folder")
+  done
 }
 
 # Camel "bt_wall_follower": BtWallFollower

@@ -19,6 +19,8 @@ using Eigen::Vector3f;
 
 constexpr Colour kPlainColour = 0xc0c0c0;  // of a block that has none of its own
 constexpr double kLargeBody = 1;           // m: beyond it bodies are tested one by one
+constexpr float kLayer = 0.0003F;          // m between one area of the floor and the next
+constexpr std::uint32_t kLayers = 40;
 
 struct FootbotSlots
 {
@@ -93,7 +95,7 @@ void Scene::AddEntity(std::uint32_t entity)
   const CSwarmanoidSpaceEntity& e = space_.GetEntity(entity);
   const EntityConfiguration& configuration = e.GetConfiguration();
   const Vector3f size = configuration.size.cast<float>();
-  Body body{entity, static_cast<std::uint32_t>(items_.size()), e.FirstSlot(), -1, 0};
+  Body body{entity, static_cast<std::uint32_t>(items_.size()), e.FirstSlot(), -1, 0, 0};
   switch (configuration.kind)
   {
     case EntityKind::kFootbot:
@@ -122,6 +124,7 @@ void Scene::AddEntity(std::uint32_t entity)
       break;
     case EntityKind::kGroundPatch:
     case EntityKind::kHole:
+      body.lift = kLayer * static_cast<float>(areas_++ % kLayers);
       AddArea(entity);
       break;
     case EntityKind::kTerrain:
@@ -253,6 +256,7 @@ void Scene::UpdateBodies()
         break;
       default:
         Place(body.first_item, PlaceOf(space_.GetPose(body.entity)));
+        items_[body.first_item].position.z() += body.lift;
     }
   }
 }

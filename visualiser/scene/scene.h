@@ -113,6 +113,7 @@ private:
     std::uint32_t first_slot;
     std::int32_t lights;
     std::uint32_t items;
+    float lift;  // m above its place: of patches, so that the one that counts lies on top of those it overlaps
   };
   struct Trail;
 
@@ -154,6 +155,7 @@ private:
   std::vector<std::pair<std::uint32_t, std::shared_ptr<const Terrain>>> terrains_;
   std::vector<std::uint32_t> large_;   // bodies too large for the search about a line
   double search_radius_ = 0;           // of the largest of the others
+  std::uint32_t areas_ = 0;            // patches and holes
   std::unique_ptr<SpaceQuery> query_;  // made when first needed
   std::unique_ptr<Trail[]> trails_;    // of the movable entities, once shown
   std::uint64_t revision_ = 0;

@@ -147,18 +147,19 @@ PageRequest WatchIn(const Json& json)
   return request;
 }
 
-PageRequest MoveIn(const Json& json)
+std::string EntityIn(const Json& json, const std::string& verb)
 {
   const auto entity = json.find("entity");
-  if (entity == json.end() || !entity->is_string()) Refuse("'move' needs the id of an entity");
+  if (entity == json.end() || !entity->is_string()) Refuse(fmt::format("'{}' needs the id of an entity", verb));
+  return entity->get<std::string>();
+}
+
+Pose PoseIn(const Json& json)
+{
   const std::array<double, 3> position = TripleIn(json, "position");
   const std::array<double, 3> angles = TripleIn(json, "angles");
-  MoveEntityRequest request;
-  request.entity = entity->get<std::string>();
-  request.pose.position = {position[0], position[1], position[2]};
-  request.pose.orientation =
-      QuaternionFromEuler({DegreesToRadians(angles[0]), DegreesToRadians(angles[1]), DegreesToRadians(angles[2])});
-  return request;
+  return {{position[0], position[1], position[2]},
+          QuaternionFromEuler({DegreesToRadians(angles[0]), DegreesToRadians(angles[1]), DegreesToRadians(angles[2])})};
 }
 
 }  // namespace
@@ -299,7 +300,9 @@ PageRequest ParseRequest(std::string_view text)
   if (name == "resume") return ResumeRequest{};
   if (name == "step") return StepRequest{static_cast<unsigned>(NumberIn(json, "ticks", 1, kMostSteps))};
   if (name == "speed") return SpeedRequest{NumberIn(json, "factor", 0, 1e6)};
-  if (name == "move") return MoveIn(json);
+  if (name == "move") return MoveEntityRequest{EntityIn(json, name), PoseIn(json)};
+  if (name == "add") return AddEntityRequest{EntityIn(json, name), PoseIn(json)};
+  if (name == "remove") return RemoveEntityRequest{EntityIn(json, name)};
   if (name == "stop") return StopRequest{};
   Refuse(fmt::format("there is no request '{}'", name.substr(0, 40)));
 }

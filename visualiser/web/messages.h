@@ -19,7 +19,7 @@ namespace swarmanoid
 std::string WelcomeText(Authority authority, bool control_possible);
 // "world": all that stays: the table of entities, the bodies that are no robots, engines, hosts, controllers.
 std::string WorldText(const CSwarmanoidSpace& space, const Assignment& assignment);
-// "colours": colours and intensities of the entities that cannot move, which a frame does not hold.
+// "colours": colours and intensities of lights, patches and all that cannot move, which a frame does not hold.
 std::string ColoursText(const CSwarmanoidSpace& space);
 // "log": a line for the page's log. level: "info", "warning".
 std::string LogText(std::uint64_t tick, const std::string& source, const std::string& level, const std::string& text);
@@ -58,11 +58,20 @@ struct MoveEntityRequest
   std::string entity;
   Pose pose;
 };
+struct AddEntityRequest
+{
+  std::string entity;  // or its reserve
+  Pose pose;
+};
+struct RemoveEntityRequest
+{
+  std::string entity;
+};
 struct StopRequest
 {
 };
 using PageRequest = std::variant<WatchRequest, FrameRateRequest, PauseRequest, ResumeRequest, StepRequest, SpeedRequest,
-                                 MoveEntityRequest, StopRequest>;
+                                 MoveEntityRequest, AddEntityRequest, RemoveEntityRequest, StopRequest>;
 
 inline constexpr std::size_t kMostWatched = 16;  // entities, of one page
 

@@ -295,6 +295,8 @@ void CWebRender::Obey(const PageRequest& request)
   if (const auto* step = std::get_if<StepRequest>(&request)) control_->Step(step->ticks);
   if (const auto* speed = std::get_if<SpeedRequest>(&request)) control_->SetSpeed(speed->factor);
   if (const auto* move = std::get_if<MoveEntityRequest>(&request)) control_->MoveEntity(move->entity, move->pose);
+  if (const auto* add = std::get_if<AddEntityRequest>(&request)) control_->AddEntity(add->entity, add->pose);
+  if (const auto* remove = std::get_if<RemoveEntityRequest>(&request)) control_->RemoveEntity(remove->entity);
   if (std::holds_alternative<StopRequest>(request)) control_->Stop();
 }
 

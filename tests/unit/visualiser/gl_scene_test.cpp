@@ -248,6 +248,29 @@ TEST(GlScene, MarksAreDrawnWhereAsked)
   EXPECT_GT(CountDifferent(bare, DrawWorld(world, camera, selected)), 60);
 }
 
+// As the ground sensors see them: the later one in the file.
+TEST(GlScene, OfPatchesThatOverlapTheLaterOneIsOnTop)
+{
+  for (const bool red_last : {false, true})
+  {
+    SmallWorld world({2, 2, 1});
+    world.AddBody(EntityKind::kGroundPatch, "a", {1, 1, 0}, {1, 1, 0}, red_last ? 0x0000ff : 0xff0000);
+    world.AddBody(EntityKind::kGroundPatch, "b", {1, 1, 0}, {1, 1, 0}, red_last ? 0xff0000 : 0x0000ff);
+    const Picture picture = DrawWorld(world, Camera::LookAt({1, -3, 1.5}, {1, 1, 0}));
+    int red = 0;
+    int blue = 0;
+    for (int y = 0; y < picture.height; ++y)
+      for (int x = 0; x < picture.width; ++x)
+      {
+        const std::uint8_t* pixel = picture.At(x, y);
+        red += pixel[0] > pixel[2] + 60;
+        blue += pixel[2] > pixel[0] + 60;
+      }
+    EXPECT_GT(red_last ? red : blue, 500);
+    EXPECT_EQ(red_last ? blue : red, 0);
+  }
+}
+
 // Neither they nor their marks, nor the depth of the picture, which reaches as far as there are bodies.
 TEST(GlScene, WhatIsNotInTheArenaChangesNoPixel)
 {

@@ -132,8 +132,10 @@ private:
       const double x = random.Uniform(kClearance, size.x() - kClearance);
       const double y = random.Uniform(kClearance, size.y() - kClearance);
       const double heading = random.Uniform(-kPi, kPi);
-      if (!space.GetQuery().FindWithin(Vector3(x, y, 0), kClearance).empty()) continue;
-      Write(all, "added", space.AddEntity(reserve, {{x, y, 0}, QuaternionFromEuler({0, 0, heading})}));
+      const Pose pose{{x, y, 0}, QuaternionFromEuler({0, 0, heading})};
+      // Large bodies reach farther than the clearance of their middles.
+      if (!space.GetQuery().FindWithin(pose.position, kClearance).empty() || !space.IsFree(reserve, pose)) continue;
+      Write(all, "added", space.AddEntity(reserve, pose));
       return;
     }
   }

@@ -17,6 +17,7 @@ void Watch(CSimulator& simulator)
   if (space.GetTick() % 100 != 0) return;
   for (const std::uint32_t i : space.Movable())
   {
+    if (!space.IsPresent(i)) continue;
     const CSwarmanoidSpaceEntity& entity = space.GetEntity(i);
     const Vector3 place = entity.GetPosition();
     std::printf("%6.1f s  %-8s  %7.3f %7.3f %7.3f\n", space.GetTime(), entity.GetId().c_str(), place.x(), place.y(),

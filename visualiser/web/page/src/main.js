@@ -250,7 +250,7 @@ window.swarmanoid = {
   select: (id) => select(state.world.find(id)),
   show: (name, on) => view.shows[name] !== on && toggle(name),
   approach: (id) => approach(state.world.find(id)),
-  place: (id) => [...view.placeOf(state.world.find(id))],
+  place: (id) => Array.from(view.placeOf(state.world.find(id)) ?? []),
   project: (id) => view.project(state.world.find(id)),
   command: (request) => connection.send(request),
 };
