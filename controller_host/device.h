@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "common/configuration/parameter.h"
@@ -14,6 +15,7 @@
 #include "common/serialisation/bytes.h"
 #include "common/space/messages.h"
 #include "common/space/space.h"
+#include "controller_host/devices/noise.h"
 
 namespace swarmanoid
 {
@@ -75,6 +77,8 @@ struct DeviceRegistration
 {
   DeviceRegistration(PluginDescription description, std::unique_ptr<Interface> (*create)())
   {
+    constexpr bool kIsSensor = std::is_same_v<Interface, SensorBatch>;
+    CheckNoiseOf(kIsSensor ? PluginKind::kSensor : PluginKind::kActuator, description);
     PluginRegistry<Interface>::Instance().Add(std::move(description), create);
   }
 };

@@ -7,11 +7,20 @@
 #include "common/experiment/element_reader.h"
 #include "common/experiment/sections.h"
 #include "common/plugins/library.h"
+#include "common/plugins/parameter_checks.h"
 
 namespace swarmanoid
 {
 namespace
 {
+
+// Values that are right each by itself and do not fit each other.
+void CheckTogether(const TConfigurationTree& device, PluginKind kind, const PluginDescription& plugin, Reading& reading)
+{
+  const Parameters parameters(device, plugin.parameters);
+  for (const ConfigurationError& mistake : ParameterChecks::Instance().Mistakes(kind, plugin, parameters))
+    reading.diagnostics.Add(mistake.Location(), mistake.Message());
+}
 
 std::vector<DeviceConfiguration> ReadDevices(const TConfigurationTree& tree, const ElementSpec& spec, Reading& reading)
 {
@@ -24,7 +33,9 @@ std::vector<DeviceConfiguration> ReadDevices(const TConfigurationTree& tree, con
     const PluginDescription* plugin = FindPlugin(*spec.plugins, device, reading);
     // Without a description, which is reported, the other parameters cannot be judged.
     if (plugin == nullptr) continue;
+    const std::size_t mistakes = reading.diagnostics.Count();
     const ElementReader reader(device, spec.plugin_element.front(), reading.diagnostics, &plugin->parameters);
+    if (reading.diagnostics.Count() == mistakes) CheckTogether(device, *spec.plugins, *plugin, reading);
     const auto [first, is_first] = lines.emplace(device.Name(), device.Location().line);
     if (!is_first)
     {

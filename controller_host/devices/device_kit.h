@@ -8,6 +8,7 @@
 
 #include "common/math/random.h"
 #include "controller_host/device.h"
+#include "controller_host/devices/noise.h"
 
 namespace swarmanoid
 {
@@ -15,12 +16,14 @@ namespace swarmanoid
 template <class Batch>
 void AddSensorPlugin(PluginDescription description)
 {
+  CheckNoiseOf(PluginKind::kSensor, description);
   PluginRegistry<SensorBatch>::Instance().Add(std::move(description), [] { return std::make_unique<Batch>(); });
 }
 
 template <class Batch>
 void AddActuatorPlugin(PluginDescription description)
 {
+  CheckNoiseOf(PluginKind::kActuator, description);
   PluginRegistry<ActuatorBatch>::Instance().Add(std::move(description), [] { return std::make_unique<Batch>(); });
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/math/elementary.h"
+#include "common/plugins/parameter_checks.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_kit.h"
 
@@ -23,6 +24,24 @@ constexpr double kHyperbolaOffset = 0.000163144;
 // The hyperbola above between contact and 0.1 m, by Chebyshev interpolation of degree 8; largest error 0.0036.
 constexpr const char* kDefaultCoefficients =
     "2.910682, -347.09805, 22120.741, -833767.85, 19426124, -282177360, 2484022100, -12111713000, 25077147000";
+
+constexpr double kFittedRange = 0.1;  // m
+
+// Coefficients that are no numbers; the default ones beyond the distances that they were fitted to.
+std::vector<ConfigurationError> MistakesInPolynomial(const Parameters& parameters)
+{
+  const std::string text = parameters.Text("coefficients");
+  const auto coefficients = ParseNumbers(text);
+  if (!coefficients || coefficients->empty())
+    return {ConfigurationError(parameters.Tree().ValueLocation("coefficients"),
+                               "<coefficients> '" + text + "' is not a list of numbers; write \"c0, c1, c2\"")};
+  if (parameters.Number("range") > kFittedRange && !parameters.IsGiven("coefficients"))
+    return {ConfigurationError(parameters.Tree().ValueLocation("range"),
+                               "'range' of <" + parameters.Tree().Name() + "> is " + parameters.Text("range") +
+                                   " m, but the default coefficients are a fit up to 0.1 m; give <coefficients> too, "
+                                   "or use generic_footbot_proximity")};
+  return {};
+}
 
 }  // namespace
 
@@ -250,19 +269,16 @@ std::vector<ParameterSpec> PolynomialProximity::ParameterTable()
       {{.name = "coefficients",
         .type = ParameterType::kText,
         .default_value = kDefaultCoefficients,
-        .description = "c0, c1, c2 ... of the reading c0 + c1 d + c2 d^2 + ..., d the distance in m; cut to 0..1."}},
+        .description = "c0, c1, c2 ... of the reading c0 + c1 d + c2 d^2 + ..., d the distance in m; cut to 0..1. The "
+                       "default is a fit up to 0.1 m."}},
       CommonParameters());
 }
 
 void PolynomialProximity::Init(const DeviceSetup& setup)
 {
   FootbotProximity::Init(setup);
-  const auto coefficients = ParseNumbers(setup.parameters.Text("coefficients"));
-  if (!coefficients || coefficients->empty())
-    throw ConfigurationError(setup.parameters.Tree().ValueLocation("coefficients"),
-                             "<coefficients> '" + setup.parameters.Text("coefficients") +
-                                 "' is not a list of numbers; write \"c0, c1, c2\"");
-  coefficients_ = *coefficients;
+  for (const ConfigurationError& mistake : MistakesInPolynomial(setup.parameters)) throw mistake;
+  coefficients_ = *ParseNumbers(setup.parameters.Text("coefficients"));
 }
 
 void PolynomialProximity::Respond(const double* distances, double* readings) const
@@ -288,6 +304,7 @@ void RegisterFootbotProximity()
   description.implementation = "generic_footbot_polynomial_proximity";
   description.brief = "the same rays; the response is a polynomial of the distance with given coefficients";
   description.parameters = PolynomialProximity::ParameterTable();
+  ParameterChecks::Instance().Add(PluginKind::kSensor, description, MistakesInPolynomial);
   AddSensorPlugin<PolynomialProximity>(description);
 }
 

@@ -1,9 +1,45 @@
 #include "controller_host/devices/noise.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "common/plugins/parameter_checks.h"
 
 namespace swarmanoid
 {
+namespace
+{
+
+constexpr std::string_view kKind = "noise_kind";
+
+// Of one set of noise parameters: those with `prefix`.
+void CheckSet(const Parameters& parameters, const std::string& prefix, std::vector<ConfigurationError>& mistakes)
+{
+  const TConfigurationTree& tree = parameters.Tree();
+  const auto is_given = [&](const char* name) { return parameters.IsGiven(prefix + name); };
+  const auto quoted = [&](const char* name) { return "'" + prefix + name + "'"; };
+  const std::string of = " of <" + tree.Name() + ">";
+  if (!is_given("noise_kind"))
+  {
+    for (const char* name : {"noise_mean", "noise_deviation", "noise_range"})
+      if (is_given(name))
+      {
+        mistakes.emplace_back(tree.ValueLocation(prefix + name),
+                              quoted(name) + of + " has no effect without " + quoted("noise_kind") +
+                                  "; give that too: uniform or gaussian, or none to switch the noise off");
+        return;
+      }
+    return;
+  }
+  const std::string kind = parameters.Text(prefix + "noise_kind");
+  const char* needed = kind == "uniform" ? "noise_range" : kind == "gaussian" ? "noise_deviation" : nullptr;
+  if (needed == nullptr || is_given(needed) || is_given("noise_mean")) return;
+  mistakes.emplace_back(tree.ValueLocation(prefix + "noise_kind"),
+                        quoted("noise_kind") + of + " is " + kind + ", which changes nothing without " +
+                            quoted(needed) + "; give that, or " + quoted("noise_mean"));
+}
+
+}  // namespace
 
 double NoiseModel::Sample(RandomStream& random) const
 {
@@ -56,6 +92,22 @@ NoiseModel NoiseFrom(const Parameters& parameters, const std::string& prefix)
   noise.deviation = parameters.Number(prefix + "noise_deviation");
   noise.range = parameters.Number(prefix + "noise_range");
   return noise;
+}
+
+void CheckNoiseOf(PluginKind kind, const PluginDescription& device)
+{
+  std::vector<std::string> prefixes;
+  for (const ParameterSpec& parameter : device.parameters)
+    if (parameter.name.ends_with(kKind))
+      prefixes.push_back(parameter.name.substr(0, parameter.name.size() - kKind.size()));
+  if (prefixes.empty()) return;
+  ParameterChecks::Instance().Add(kind, device,
+                                  [prefixes = std::move(prefixes)](const Parameters& parameters)
+                                  {
+                                    std::vector<ConfigurationError> mistakes;
+                                    for (const std::string& prefix : prefixes) CheckSet(parameters, prefix, mistakes);
+                                    return mistakes;
+                                  });
 }
 
 std::vector<ParameterSpec> Joined(std::vector<ParameterSpec> own, const std::vector<ParameterSpec>& more)

@@ -6,6 +6,7 @@
 
 #include "common/configuration/parameter.h"
 #include "common/math/random.h"
+#include "common/plugins/catalogue.h"
 
 namespace swarmanoid
 {
@@ -33,6 +34,9 @@ struct NoiseModel
 std::vector<ParameterSpec> NoiseParameters(const std::string& of, const std::string& unit,
                                            const std::string& prefix = "");
 NoiseModel NoiseFrom(const Parameters& parameters, const std::string& prefix = "");
+// Has the reader of experiment files refuse noise that would be none: numbers without a kind, a kind without its
+// numbers. For every device; nothing for those without such parameters.
+void CheckNoiseOf(PluginKind kind, const PluginDescription& device);
 
 // `own`, followed by `more`: tables of parameters are put together from parts.
 std::vector<ParameterSpec> Joined(std::vector<ParameterSpec> own, const std::vector<ParameterSpec>& more);

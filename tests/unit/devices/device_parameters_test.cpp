@@ -1,0 +1,82 @@
+// Parameters of devices that are right each by itself and make no sense together: refused before anything starts, with
+// place and cure.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "common/experiment/load_experiment.h"
+#include "controller_host/device.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+// The mistakes of a file whose only sensor, in line 2, has these parameters.
+std::string MistakesOf(const std::string& type, const std::string& implementation, const std::string& parameters)
+{
+  RegisterBuiltinDevices();
+  const std::string text =
+      "<ahss-config><framework><clocktick>100</clocktick><maxclock>1</maxclock></framework>"
+      "<controllers><any id=\"c\" library=\"none\"><sensors>\n<" +
+      type + " implementation=\"" + implementation + "\" " + parameters +
+      "/></sensors></any></controllers>"
+      "<arena size=\"1,1,1\" optimization=\"2D\"/><engines/><arena_physics/></ahss-config>";
+  LoadOptions options;
+  options.check_files = false;
+  std::string mistakes;
+  for (const Diagnostic& mistake : LoadExperimentText(text, "test.xml", "/", options).errors)
+    mistakes += mistake.Text() + "\n";
+  return mistakes;
+}
+
+std::string TurretEncoder(const std::string& parameters)
+{
+  return MistakesOf("footbot_turret_encoder", "generic_footbot_turret_encoder", parameters);
+}
+
+TEST(DeviceParameters, NoiseWithoutAKindIsRefused)
+{
+  EXPECT_EQ(TurretEncoder("noise_range=\"0.1\""),
+            "test.xml:2:73: 'noise_range' of <footbot_turret_encoder> has no effect without 'noise_kind'; give that "
+            "too: uniform or gaussian, or none to switch the noise off\n");
+  EXPECT_EQ(TurretEncoder(""), "");
+  EXPECT_EQ(TurretEncoder("noise_kind=\"none\" noise_range=\"0.1\""), "") << "switched off";
+}
+
+TEST(DeviceParameters, AKindOfNoiseWithoutItsNumbersIsRefused)
+{
+  EXPECT_EQ(TurretEncoder("noise_kind=\"gaussian\" noise_range=\"0.1\""),
+            "test.xml:2:73: 'noise_kind' of <footbot_turret_encoder> is gaussian, which changes nothing without "
+            "'noise_deviation'; give that, or 'noise_mean'\n");
+  EXPECT_EQ(TurretEncoder("noise_kind=\"uniform\" noise_deviation=\"0.1\""),
+            "test.xml:2:73: 'noise_kind' of <footbot_turret_encoder> is uniform, which changes nothing without "
+            "'noise_range'; give that, or 'noise_mean'\n");
+  EXPECT_EQ(TurretEncoder("noise_kind=\"uniform\" noise_range=\"0\""), "") << "one end of a series of runs";
+  EXPECT_EQ(TurretEncoder("noise_kind=\"gaussian\" noise_mean=\"0.1\""), "") << "a systematic error";
+}
+
+TEST(DeviceParameters, EachSetOfNoiseIsJudgedByItself)
+{
+  EXPECT_EQ(MistakesOf("eyebot_camera", "generic_eyebot_camera",
+                       "distance_noise_kind=\"uniform\" distance_noise_range=\"0.1\" angle_noise_deviation=\"0.1\""),
+            "test.xml:2:112: 'angle_noise_deviation' of <eyebot_camera> has no effect without 'angle_noise_kind'; give "
+            "that too: uniform or gaussian, or none to switch the noise off\n");
+}
+
+TEST(DeviceParameters, ThePolynomialIsNotUsedBeyondItsFit)
+{
+  const auto polynomial = [](const std::string& parameters)
+  { return MistakesOf("footbot_proximity", "generic_footbot_polynomial_proximity", parameters); };
+  EXPECT_EQ(
+      polynomial("range=\"0.2\""),
+      "test.xml:2:74: 'range' of <footbot_proximity> is 0.2 m, but the default coefficients are a fit up to 0.1 m; "
+      "give <coefficients> too, or use generic_footbot_proximity\n");
+  EXPECT_EQ(polynomial("range=\"0.05\""), "");
+  EXPECT_EQ(polynomial("range=\"0.2\" coefficients=\"1, -5\""), "");
+  EXPECT_EQ(polynomial("coefficients=\"1, two\""),
+            "test.xml:2:74: <coefficients> '1, two' is not a list of numbers; write \"c0, c1, c2\"\n");
+}
+
+}  // namespace
+}  // namespace swarmanoid
