@@ -1,4 +1,7 @@
 // CCI_Sensor and CCI_Actuator: a set of devices of one type on one robot, as a controller sees them.
+//
+// The label of a type, by which the experiment file and controllers name it, is the name of its header without ci_,
+// _sensor and _actuator: footbot/ci_footbot_wheels_actuator.h declares the actuator "footbot_wheels".
 #pragma once
 
 #include <string>

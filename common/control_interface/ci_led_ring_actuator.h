@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
 
 #include "common/control_interface/ci_colour.h"
 #include "common/control_interface/ci_device.h"
@@ -13,9 +16,17 @@ class CCI_LedRingActuator : public CCI_Actuator
 {
 public:
   virtual unsigned GetNumLeds() const = 0;
-  // Colours are 0xRRGGBB, 0 is off. LEDs count counter-clockwise from the front left; an index beyond the ring throws
-  // std::out_of_range.
+  // Colours are 0xRRGGBB, 0 is off; higher bits are ignored. LEDs count counter-clockwise from the front left; an index
+  // beyond the ring throws std::out_of_range.
   virtual void SetAllColours(std::uint32_t colour) = 0;
+  // A colour for each LED; another number of them than GetNumLeds() throws std::invalid_argument.
+  void SetAllActuatorOutputs(std::span<const std::uint32_t> colours)
+  {
+    if (colours.size() != GetNumLeds())
+      throw std::invalid_argument(std::to_string(colours.size()) + " colours for a ring of " +
+                                  std::to_string(GetNumLeds()) + " LEDs");
+    for (unsigned led = 0; led < GetNumLeds(); ++led) SetColour(led, colours[led]);
+  }
   virtual void SetColour(unsigned led, std::uint32_t colour) = 0;
 };
 

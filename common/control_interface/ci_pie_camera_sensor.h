@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "common/control_interface/ci_colour.h"
 #include "common/control_interface/ci_device.h"
@@ -27,7 +30,13 @@ public:
   // All sectors for one of the colours of CCI_Colour other than black; blobs of other colours count for the nearest
   // one. Throws std::invalid_argument for another colour. Valid until the next control step.
   virtual std::span<const Slice> GetAllSlices(std::uint32_t colour) const = 0;
-  const Slice& GetSlice(std::uint32_t colour, unsigned sector) const { return GetAllSlices(colour)[sector]; }
+  // Throws std::out_of_range for a sector from GetNumSectors() on.
+  const Slice& GetSlice(std::uint32_t colour, unsigned sector) const
+  {
+    if (sector >= GetNumSectors())
+      throw std::out_of_range("sector " + std::to_string(sector) + " of " + std::to_string(GetNumSectors()));
+    return GetAllSlices(colour)[sector];
+  }
 
   void Describe(std::vector<CCI_Reading>& readings) const override
   {

@@ -1,6 +1,6 @@
-// Range and bearing: robots broadcast a few bytes to all in line of sight within 3 m; receivers also learn from where.
-// Type label "range_and_bearing", as an actuator (sends) and as a sensor (receives). Footbots, eyebots and handbots
-// carry it.
+// Range and bearing: robots broadcast a few bytes to all in line of sight and in range (3 m); receivers also learn from
+// where. Type label "range_and_bearing", as an actuator (sends) and as a sensor (receives). Footbots, eyebots and
+// handbots carry it.
 #pragma once
 
 #include <array>

@@ -1,27 +1,38 @@
 #include "common/control_interface/ci_robot.h"
 
+#include "common/configuration/wording.h"
+
 namespace swarmanoid
 {
 namespace
 {
 
-template <class Device>
-Device* Find(const std::map<std::string, Device*>& devices, const std::string& type, const std::string& robot,
-             const char* what)
+// The device, or an error that says what to do: list it, ask for the other kind, or spell it as listed.
+template <class Device, class Other>
+Device* Find(const std::map<std::string, Device*>& devices, const std::map<std::string, Other*>& others,
+             const std::string& type, const std::string& robot, const std::string& what, const std::string& other)
 {
   const auto found = devices.find(type);
   if (found != devices.end()) return found->second;
-  std::string listed;
-  for (const auto& [name, device] : devices) listed += (listed.empty() ? "" : ", ") + name;
+  std::vector<std::string> listed;
+  for (const auto& [name, device] : devices) listed.push_back(name);
+  const std::string cure = others.contains(type)
+                               ? "It lists the " + other + " of that name"
+                               : "Add <" + type + "> to <" + what + "s> of the controller in the experiment file";
   throw CCI_DeviceError("robot '" + robot + "' has no " + what + " '" + type + "'; its controller lists " +
-                        (listed.empty() ? "none" : listed) + ". Add <" + type + "> to <" + what +
-                        "s> of the controller in the experiment file");
+                        Listed(listed) + ". " + cure + DidYouMean(type, listed));
 }
 
 }  // namespace
 
-CCI_Actuator* CCI_Robot::GetActuator(const std::string& type) const { return Find(actuators_, type, id_, "actuator"); }
+CCI_Actuator* CCI_Robot::GetActuator(const std::string& type) const
+{
+  return Find(actuators_, sensors_, type, id_, "actuator", "sensor");
+}
 
-CCI_Sensor* CCI_Robot::GetSensor(const std::string& type) const { return Find(sensors_, type, id_, "sensor"); }
+CCI_Sensor* CCI_Robot::GetSensor(const std::string& type) const
+{
+  return Find(sensors_, actuators_, type, id_, "sensor", "actuator");
+}
 
 }  // namespace swarmanoid

@@ -47,6 +47,7 @@ public:
       *ValuesOf(k) = std::max(from.z(), 0.0) * std::min(world_->FirstHit(from, floor, is_below), 1.0);
     }
     AddNoise();
+    for (double& altitude : values_) altitude = std::max(altitude, 0.0);
   }
 
 private:

@@ -45,6 +45,12 @@ public:
   explicit GripperState(const double* values) : values_(values) {}
   double GetAperture() const override { return values_[0]; }
   bool IsGripping() const override { return values_[1] != 0; }
+  std::string GetHeldId() const override
+  {
+    return IsGripping() ? space->GetEntity(static_cast<std::uint32_t>(values_[1]) - 1).GetId() : std::string();
+  }
+
+  const CSwarmanoidSpace* space = nullptr;
 
 private:
   const double* values_;  // aperture, held entity
@@ -58,6 +64,7 @@ public:
     Bind(setup, {"gripper_aperture", "gripped"});
     aperture_noise_ = NoiseFrom(setup.parameters);
     MakeDevices();
+    for (GripperState& device : devices_) device.space = &setup.space;
   }
   void Update(const ChannelView& channel) override
   {
@@ -66,7 +73,8 @@ public:
     for (std::size_t k = 0; k < robots_.size(); ++k)
     {
       RandomStream random = StreamOf(*space_, robots_[k], stream_);
-      ValuesOf(k)[0] += aperture_noise_.Sample(random);
+      double& aperture = ValuesOf(k)[0];
+      aperture = std::clamp(aperture + aperture_noise_.Sample(random), 0.0, CCI_FootBotGripperSensor::OPEN_APERTURE);
     }
   }
 
@@ -91,7 +99,7 @@ void RegisterFootbotGripper()
   PluginDescription sensor;
   sensor.label = "footbot_gripper";
   sensor.implementation = "generic_footbot_gripper";
-  sensor.brief = "aperture of the gripper and whether it holds something";
+  sensor.brief = "aperture of the gripper, whether it holds something and what";
   sensor.robots = {"footbot"};
   sensor.parameters = NoiseParameters("the aperture", "rad");
   AddSensorPlugin<GripperSensor>(sensor);

@@ -77,6 +77,16 @@ public:
   }
 };
 
+class TorqueSensor : public ChannelReadings<CCI_FootBotTurretTorqueSensor, 3>
+{
+public:
+  void Update(const ChannelView& channel) override
+  {
+    ChannelReadings::Update(channel);
+    for (double& value : values_) value = std::clamp(value, -1.0, 1.0);
+  }
+};
+
 }  // namespace
 
 void RegisterFootbotTurret()
@@ -107,7 +117,7 @@ void RegisterFootbotTurret()
   torque.channel = "footbot_turret_torque";
   torque.channel_width = 3;
   torque.parameters = NoiseParameters("each of the three readings", "");
-  AddSensorPlugin<ChannelReadings<CCI_FootBotTurretTorqueSensor, 3>>(torque);
+  AddSensorPlugin<TorqueSensor>(torque);
 }
 
 }  // namespace swarmanoid

@@ -17,11 +17,11 @@ namespace
 {
 
 constexpr int kArmChannelWidth = 5;
-constexpr double kMaxJointSpeed = 3;  // rad/s
 
 double Clamped(double velocity)
 {
-  return velocity == velocity ? std::clamp(velocity, -kMaxJointSpeed, kMaxJointSpeed) : 0;
+  constexpr double kLimit = CCI_HandBotArmsActuator::MAX_SPEED;
+  return velocity == velocity ? std::clamp(velocity, -kLimit, kLimit) : 0;
 }
 
 class Head : public CCI_HandBotHeadActuator
@@ -101,7 +101,19 @@ public:
   }
 };
 
-using Joints = ReadingsOf<CCI_HandBotJointsSensor, CCI_HandBotJointsSensor::NUM_READINGS>;
+class Joints : public ReadingsOf<CCI_HandBotJointsSensor, CCI_HandBotJointsSensor::NUM_READINGS>
+{
+public:
+  using ReadingsOf::ReadingsOf;
+  std::string GetHeldId(CCI_HandBotHandsActuator::Hand hand) const override
+  {
+    const auto held = static_cast<std::uint32_t>(space->Attributes()[gripped_slot + static_cast<std::uint32_t>(hand)]);
+    return held == 0 ? std::string() : space->GetEntity(held - 1).GetId();
+  }
+
+  const CSwarmanoidSpace* space = nullptr;
+  std::uint32_t gripped_slot = 0;
+};
 
 class JointsSensor : public SensorsOf<AttributeSensor, Joints>
 {
@@ -112,6 +124,11 @@ public:
     Bind(setup, {"head_angle", "arm", "wrist", "hand_aperture", "gripped", "rope_attached", "rope_length"});
     joint_noise_ = NoiseFrom(setup.parameters);
     MakeDevices();
+    for (std::size_t k = 0; k < devices_.size(); ++k)
+    {
+      devices_[k].space = &setup.space;
+      devices_[k].gripped_slot = setup.space.GetEntity(robots_[k]).SlotOf("gripped");
+    }
   }
   void Update(const ChannelView& channel) override
   {

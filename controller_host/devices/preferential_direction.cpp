@@ -20,7 +20,7 @@ class Direction : public CCI_FootBotPreferentialDirectionActuator
 public:
   void SetDirection(double angle, std::uint32_t colour) override
   {
-    angle_ = WrapAngle(angle);
+    if (angle - angle == 0) angle_ = WrapAngle(angle);
     colour_ = colour & 0xffffff;
   }
   void HideDirection() override { colour_ = 0; }

@@ -77,22 +77,32 @@ void AttributeActuator::Commit(const ChannelView&, AttributeChanges& changes)
 void AttributeActuator::CommitWithNoise(AttributeChanges& changes) const
 {
   const std::span<const double> attributes = space_->Attributes();
+  std::vector<double> shown(width_);
   for (std::size_t k = 0; k < robots_.size(); ++k)
   {
     RandomStream random = StreamOf(*space_, robots_[k], stream_);
-    for (std::size_t i = k * width_; i < (k + 1) * width_; ++i)
+    const std::span<const double> wanted(&values_[k * width_], width_);
+    for (std::size_t i = 0; i < width_; ++i)
     {
-      const auto colour = static_cast<std::uint32_t>(values_[i]);
-      std::uint32_t shown = 0;
-      for (const int shift : {16, 8, 0})
-      {
-        const double part = (colour >> shift & 0xff) + colour_noise_.Sample(random);
-        shown |= static_cast<std::uint32_t>(std::clamp(part + 0.5, 0.0, 255.0)) << shift;
-      }
-      const double value = colour == 0 ? 0 : shown;
-      if (attributes[slots_[i]] != value) changes.Add(slots_[i], value);
+      // What was told one colour stays of one colour: cameras make one blob of it.
+      const auto same = static_cast<std::size_t>(std::find(wanted.begin(), wanted.end(), wanted[i]) - wanted.begin());
+      shown[i] = same < i ? shown[same] : Disturbed(static_cast<std::uint32_t>(wanted[i]), random);
+      const std::uint32_t slot = slots_[k * width_ + i];
+      if (attributes[slot] != shown[i]) changes.Add(slot, shown[i]);
     }
   }
+}
+
+std::uint32_t AttributeActuator::Disturbed(std::uint32_t colour, RandomStream& random) const
+{
+  if (colour == 0) return 0;
+  std::uint32_t disturbed = 0;
+  for (const int shift : {16, 8, 0})
+  {
+    const double part = (colour >> shift & 0xff) + colour_noise_.Sample(random);
+    disturbed |= static_cast<std::uint32_t>(std::clamp(part + 0.5, 0.0, 255.0)) << shift;
+  }
+  return disturbed;
 }
 
 std::vector<ParameterSpec> ColourNoiseParameters()

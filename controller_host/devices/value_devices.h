@@ -46,7 +46,7 @@ protected:
 };
 
 // Writes its numbers into attributes of its robots, those that differ from the space. Noise is for attributes that are
-// colours: added to red, green and blue of those that are lit.
+// colours: added to red, green and blue of those that are lit, the same for all of a robot that are of one colour.
 class AttributeActuator : public ValueActuator
 {
 public:
@@ -60,6 +60,7 @@ protected:
 
 private:
   void CommitWithNoise(AttributeChanges& changes) const;
+  std::uint32_t Disturbed(std::uint32_t colour, RandomStream& random) const;
 
   std::vector<std::uint32_t> slots_;  // robot after robot
 };

@@ -47,6 +47,7 @@ void CCI_FootBotState::ReadSensors()
   {
     gripping_ = devices_.gripper_sensor->IsGripping();
     aperture_ = devices_.gripper_sensor->GetAperture();
+    held_id_ = devices_.gripper_sensor->GetHeldId();
   }
   if (devices_.turret_encoder != nullptr) turret_angle_ = devices_.turret_encoder->GetTurretAngle();
   if (devices_.turret_torque != nullptr) copy(devices_.turret_torque->GetAllSensorReadings(), turret_torque_);
@@ -142,6 +143,12 @@ double CCI_FootBotState::GetGripperAperture() const
 {
   RequireSensor(devices_.gripper_sensor, "footbot_gripper");
   return aperture_;
+}
+
+const std::string& CCI_FootBotState::GetHeldId() const
+{
+  RequireSensor(devices_.gripper_sensor, "footbot_gripper");
+  return held_id_;
 }
 
 double CCI_FootBotState::GetTurretAngle() const

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "common/control_interface/behavior/ci_seeing_robot_state.h"
@@ -56,7 +57,8 @@ public:
   unsigned GetNumPieCameraSectors() const;
   const CCI_PieCameraSensor::Slice& GetPieCameraSlice(std::uint32_t colour, unsigned sector) const;
   bool IsGripping() const;
-  double GetGripperAperture() const;
+  double GetGripperAperture() const;     // radians, 0 is closed
+  const std::string& GetHeldId() const;  // of what the gripper holds, as CCI_FootBotGripperSensor
   double GetTurretAngle() const;
   const std::array<double, 3>& GetTurretTorque() const;     // as CCI_FootBotTurretTorqueSensor
   const std::array<double, 2>& GetWheelVelocities() const;  // {left, right} as they turned, rad/s
@@ -107,6 +109,7 @@ private:
   std::uint32_t floor_colour_ = 0;
   bool gripping_ = false;
   double aperture_ = 0;
+  std::string held_id_;
   double turret_angle_ = 0;
   std::array<double, 3> turret_torque_{};
   std::array<double, 2> wheel_velocities_{};

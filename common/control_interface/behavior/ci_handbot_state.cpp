@@ -23,6 +23,8 @@ void CCI_HandBotState::ReadSensors()
   {
     const auto readings = devices_.joints->GetAllSensorReadings();
     std::copy(readings.begin(), readings.end(), joints_.begin());
+    for (const auto hand : {CCI_HandBotHandsActuator::LEFT, CCI_HandBotHandsActuator::RIGHT})
+      held_ids_.at(hand) = devices_.joints->GetHeldId(hand);
   }
 }
 
@@ -49,6 +51,12 @@ bool CCI_HandBotState::IsHolding(CCI_HandBotHandsActuator::Hand hand) const
 {
   return GetJoint(hand == CCI_HandBotHandsActuator::LEFT ? CCI_HandBotJointsSensor::HOLDS_LEFT
                                                          : CCI_HandBotJointsSensor::HOLDS_RIGHT) != 0;
+}
+
+const std::string& CCI_HandBotState::GetHeldId(CCI_HandBotHandsActuator::Hand hand) const
+{
+  RequireSensor(devices_.joints, "handbot_joints");
+  return held_ids_.at(hand);
 }
 
 void CCI_HandBotState::SetArmVelocities(double left, double right)

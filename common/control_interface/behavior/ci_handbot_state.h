@@ -32,6 +32,7 @@ public:
   // Sensors: joints as in CCI_HandBotJointsSensor (radians, metres).
   double GetJoint(CCI_HandBotJointsSensor::Reading joint) const;
   bool IsHolding(CCI_HandBotHandsActuator::Hand hand) const;
+  const std::string& GetHeldId(CCI_HandBotHandsActuator::Hand hand) const;
 
   // Actuators. Velocities in rad/s and m/s.
   void SetArmVelocities(double left, double right);
@@ -58,6 +59,7 @@ private:
   Devices devices_;
 
   std::array<double, CCI_HandBotJointsSensor::NUM_READINGS> joints_{};
+  std::array<std::string, 2> held_ids_;
 
   PendingValue<std::array<double, 2>> arms_;
   PendingValue<std::array<double, 2>> wrists_;

@@ -9,7 +9,8 @@ namespace swarmanoid
 class CCI_EyeBotAltitudeSensor : public CCI_Sensor
 {
 public:
-  // Metres from the base of the robot down to the first thing below it: floor, block, robot.
+  // Metres from the base of the robot down to the first thing of its engines below it: floor, block, robot; never below
+  // 0.
   virtual double GetAltitude() const = 0;
 
   void Describe(std::vector<CCI_Reading>& readings) const override

@@ -14,9 +14,9 @@ class CCI_EyeBotLaserActuator : public CCI_Actuator
 public:
   virtual void SwitchOn() = 0;
   virtual void SwitchOff() = 0;
-  virtual void SetColour(std::uint32_t colour) = 0;  // 0xRRGGBB; red at first
-  // Tilt: radians from straight down, at most MAX_TILT. Pan: the direction of the tilt, counter-clockwise from the
-  // front.
+  virtual void SetColour(std::uint32_t colour) = 0;  // 0xRRGGBB; red at first; 0 shows no spot
+  // Tilt: radians from straight down, cut to 0..MAX_TILT. Pan: the direction of the tilt, radians counter-clockwise
+  // from the front. Where one of them is not a finite number the direction stays as it is.
   static constexpr double MAX_TILT = 1.2217304763960306;  // 70 degrees
   virtual void SetDirection(double pan, double tilt) = 0;
 };

@@ -12,7 +12,7 @@ namespace swarmanoid
 class CCI_FootBotBeaconActuator : public CCI_Actuator
 {
 public:
-  virtual void SetColour(std::uint32_t colour) = 0;  // 0xRRGGBB, 0 is off
+  virtual void SetColour(std::uint32_t colour) = 0;  // 0xRRGGBB, 0 is off; higher bits are ignored
 };
 
 }  // namespace swarmanoid

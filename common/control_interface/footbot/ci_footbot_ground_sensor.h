@@ -17,7 +17,7 @@ public:
   // Brightness of the floor under each sensor, 0 (black, or a hole) to 1 (white). The sensors stand on a ring of 0.08
   // m, counter-clockwise from the front.
   virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
-  // The colour of the floor (0xRRGGBB) under the centre of the robot.
+  // The colour of the floor (0xRRGGBB) under the centre of the robot; without noise.
   virtual std::uint32_t GetFloorColour() const = 0;
 
   void Describe(std::vector<CCI_Reading>& readings) const override

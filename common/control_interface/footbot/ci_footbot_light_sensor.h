@@ -2,6 +2,8 @@
 #pragma once
 
 #include <span>
+#include <stdexcept>
+#include <string>
 
 #include "common/control_interface/ci_device.h"
 
@@ -18,7 +20,12 @@ public:
 
   // 0 (dark) to 1, valid until the next control step.
   virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
-  double GetLightSensorReading(unsigned sensor) const { return GetAllSensorReadings()[sensor]; }
+  // Throws std::out_of_range from NUM_SENSORS on.
+  double GetLightSensorReading(unsigned sensor) const
+  {
+    if (sensor >= NUM_SENSORS) throw std::out_of_range("light sensor " + std::to_string(sensor) + " of 24");
+    return GetAllSensorReadings()[sensor];
+  }
   static double AngleOf(unsigned sensor) { return FIRST_ANGLE + sensor * SPACING; }
 
   void Describe(std::vector<CCI_Reading>& readings) const override

@@ -13,7 +13,8 @@ namespace swarmanoid
 class CCI_FootBotPreferentialDirectionActuator : public CCI_Actuator
 {
 public:
-  // Lights the LEDs around this direction, radians counter-clockwise from the front of the body, in a colour.
+  // Lights the LEDs around this direction, radians counter-clockwise from the front of the body, in a colour
+  // (0xRRGGBB). A direction that is not a finite number leaves the last one.
   virtual void SetDirection(double angle, std::uint32_t colour) = 0;
   virtual void HideDirection() = 0;
 };

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <span>
+#include <stdexcept>
+#include <string>
 
 #include "common/control_interface/ci_device.h"
 
@@ -16,16 +18,22 @@ public:
   // The angle (radians, counter-clockwise from the front) of sensor i is FIRST_ANGLE + i * SPACING (ARGoS3, foot-bot).
   static constexpr double FIRST_ANGLE = 0.1308996938995747;  // 7.5 degrees
   static constexpr double SPACING = 0.2617993877991494;      // 15 degrees
-  static constexpr double RANGE_M = 0.1;
+  static constexpr double RANGE_M = 0.1;                     // unless the experiment file says otherwise
 
   // All readings, 0 (nothing in range) to 1 (touching), valid until the next control step.
   virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
 
+  // Copies them to `readings`, which holds NUM_SENSORS numbers.
   void GetAllProximitySensorReadings(double* readings) const
   {
     for (const double reading : GetAllSensorReadings()) *readings++ = reading;
   }
-  double GetProximitySensorReading(unsigned sensor) const { return GetAllSensorReadings()[sensor]; }
+  // Throws std::out_of_range from NUM_SENSORS on.
+  double GetProximitySensorReading(unsigned sensor) const
+  {
+    if (sensor >= NUM_SENSORS) throw std::out_of_range("proximity sensor " + std::to_string(sensor) + " of 24");
+    return GetAllSensorReadings()[sensor];
+  }
   static double AngleOf(unsigned sensor) { return FIRST_ANGLE + sensor * SPACING; }
 
   void Describe(std::vector<CCI_Reading>& readings) const override

@@ -9,7 +9,7 @@ namespace swarmanoid
 class CCI_FootBotTurretActuator : public CCI_Actuator
 {
 public:
-  // rad/s, positive counter-clockwise.
+  // rad/s, positive counter-clockwise; clamped to the limit of the implementation. One that is not a number stops it.
   virtual void SetTurretAngularVelocity(double velocity) = 0;
 };
 

@@ -9,10 +9,17 @@ namespace swarmanoid
 class CCI_HandBotArmsActuator : public CCI_Actuator
 {
 public:
-  // Angular velocities in rad/s. An arm opens from 0 (along the robot) to MAX_ARM, a wrist turns from 0 to MAX_WRIST
-  // (ARGoS 2, hand-bot); the joints stop there.
+  // Angular velocities in rad/s, clamped to MAX_SPEED; one that is not a number stops the joint. An arm opens from 0
+  // (along the robot) to MAX_ARM, a wrist turns from 0 to MAX_WRIST (ARGoS 2, hand-bot); the joints stop there.
   static constexpr double MAX_ARM = 1.0471975511965976;    // 60 degrees
   static constexpr double MAX_WRIST = 1.5707963267948966;  // 90 degrees
+  static constexpr double MAX_SPEED = 3;                   // rad/s
+  // Group-level form: {left arm, right arm, left wrist, right wrist}.
+  void SetAllActuatorOutputs(const double (&velocities)[4])
+  {
+    SetArmVelocities(velocities[0], velocities[1]);
+    SetWristVelocities(velocities[2], velocities[3]);
+  }
   virtual void SetArmVelocities(double left, double right) = 0;
   virtual void SetWristVelocities(double left, double right) = 0;
 };

@@ -14,7 +14,11 @@ public:
     LEFT = 0,
     RIGHT = 1
   };
-  // A closing hand takes hold of what it touches; an opening one lets go.
+  // A closing hand takes hold of what it touches; an opening one lets go. Group-level form: {left, right}.
+  void SetAllActuatorOutputs(const bool (&closed)[2])
+  {
+    for (const Hand hand : {LEFT, RIGHT}) closed[hand] ? Close(hand) : Open(hand);
+  }
   virtual void Close(Hand hand) = 0;
   virtual void Open(Hand hand) = 0;
 };

@@ -9,7 +9,9 @@ namespace swarmanoid
 class CCI_HandBotHeadActuator : public CCI_Actuator
 {
 public:
-  virtual void SetHeadAngularVelocity(double velocity) = 0;  // rad/s
+  static constexpr double MAX_SPEED = 3;  // rad/s
+  // rad/s, positive raises the left arm; clamped to MAX_SPEED. One that is not a number stops the head.
+  virtual void SetHeadAngularVelocity(double velocity) = 0;
 };
 
 }  // namespace swarmanoid

@@ -1,9 +1,11 @@
-// The state of a handbot's joints, hands and rope.
+// The state of a handbot's joints, hands and rope, and what the hands hold.
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "common/control_interface/ci_device.h"
+#include "common/control_interface/handbot/ci_handbot_hands_actuator.h"
 
 namespace swarmanoid
 {
@@ -28,6 +30,8 @@ public:
   };
   virtual std::span<const double, NUM_READINGS> GetAllSensorReadings() const = 0;
   double GetReading(Reading reading) const { return GetAllSensorReadings()[reading]; }
+  // The id of the entity that a hand holds, empty for none. Real robots cannot tell: there it is always empty.
+  virtual std::string GetHeldId(CCI_HandBotHandsActuator::Hand) const { return {}; }
 
   void Describe(std::vector<CCI_Reading>& readings) const override
   {

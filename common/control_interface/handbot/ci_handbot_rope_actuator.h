@@ -12,7 +12,8 @@ public:
   static constexpr double MAX_WINCH_SPEED = 0.15;  // m/s
   virtual void Launch() = 0;                       // attaches to what is above; stays so until Release
   virtual void Release() = 0;
-  virtual void SetWinchVelocity(double velocity) = 0;  // m/s of rope let out; negative pulls the robot up
+  // m/s of rope let out; negative pulls the robot up. Clamped to MAX_WINCH_SPEED; one that is not a number stops it.
+  virtual void SetWinchVelocity(double velocity) = 0;
 };
 
 }  // namespace swarmanoid

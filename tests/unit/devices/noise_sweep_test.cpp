@@ -60,6 +60,7 @@ public:
       entity.SetAttribute("message", 1);
     }
     Space().GetEntity(4).SetAttribute("intensity", 0.5);
+    Space().GetEntity(kFootbot).SetAttribute("gripper_aperture", 0.8);
     Space().SetTick(static_cast<std::uint64_t>(tick));
   }
 };

@@ -51,6 +51,8 @@ TEST(ValueDevices, GripperSendsHowFarItIsClosedAndReportsWhatItHolds)
   EXPECT_FALSE(sensor.Of<CCI_FootBotGripperSensor>(0).IsGripping());
   EXPECT_TRUE(sensor.Of<CCI_FootBotGripperSensor>(1).IsGripping());
   EXPECT_EQ(sensor.Of<CCI_FootBotGripperSensor>(1).GetAperture(), 0.25);
+  EXPECT_EQ(sensor.Of<CCI_FootBotGripperSensor>(0).GetHeldId(), "");
+  EXPECT_EQ(sensor.Of<CCI_FootBotGripperSensor>(1).GetHeldId(), world.Space().GetEntity(prey).GetId());
 }
 
 TEST(ValueDevices, TurretTurnsAtClampedSpeedAndKnowsAngleAndTorque)
@@ -148,6 +150,34 @@ TEST(ValueDevices, RingsOfTheOtherRobotsHaveTheirOwnSizes)
   EXPECT_EQ(handbot.changes.slots.size(), 12U);
 }
 
+// Noise leaves the LEDs of one colour together, so that cameras see them as one blob.
+TEST(ValueDevices, NoiseGivesLedsOfOneColourOneColour)
+{
+  TestWorld world;
+  world.AddFootbot(1, 1);
+  world.AddFootbot(2, 1);
+  TestActuator leds(world, "footbot_leds", "generic_footbot_leds", {0, 1},
+                    {{"noise_kind", "uniform"}, {"noise_range", "30"}});
+  for (std::size_t k = 0; k < 2; ++k)
+  {
+    auto& ring = leds.Of<CCI_FootBotLedsActuator>(k);
+    ring.SetAllColours(0x804040);
+    ring.SetColour(3, 0x408040);
+    ring.SetColour(7, 0);
+    ring.SetColour(9, 0x408040);
+  }
+  leds.Commit();
+  world.Space().SetAttributes(leds.changes);
+  const auto shown = [&](std::uint32_t robot, int led)
+  { return world.Space().GetEntity(robot).GetAttribute("led", led); };
+  for (const int led : {1, 2, 4, 5, 6, 8, 10, 11}) EXPECT_EQ(shown(0, led), shown(0, 0));
+  EXPECT_EQ(shown(0, 9), shown(0, 3));
+  EXPECT_EQ(shown(0, 7), 0);
+  EXPECT_NE(shown(0, 0), 0x804040);
+  EXPECT_NE(shown(0, 3), 0x408040);
+  EXPECT_NE(shown(0, 0), shown(1, 0)) << "another robot draws other numbers";
+}
+
 TEST(ValueDevices, PreferentialDirectionLightsTheLedsThatPointThereWhateverTheTurret)
 {
   TestWorld world;
@@ -167,6 +197,9 @@ TEST(ValueDevices, PreferentialDirectionLightsTheLedsThatPointThereWhateverTheTu
   EXPECT_EQ(lit(), (std::vector<int>{2, 3}));
   world.Space().GetEntity(0).SetAttribute("turret_angle", kPi / 2);
   EXPECT_EQ(lit(), (std::vector<int>{0, 11}));
+  direction.SetDirection(__builtin_nan(""), CCI_Colour::RED);
+  EXPECT_EQ(lit(), (std::vector<int>{0, 11})) << "keeps its direction";
+  EXPECT_EQ(world.Space().GetEntity(0).GetAttribute("led", 0), CCI_Colour::RED);
   direction.HideDirection();
   EXPECT_TRUE(lit().empty());
 }
@@ -234,6 +267,7 @@ TEST(ValueDevices, HandbotJointsShareOneChannelAndReportTheirState)
 {
   TestWorld world;
   AddHandbot(world);
+  const auto prey = world.AddPrey(1, 1, 0.1, 0.1);
   TestActuator head(world, "handbot_head", "dummy_handbot_head", {0});
   TestActuator arms(world, "handbot_arms", "dummy_handbot_arms", {0});
   head.Of<CCI_HandBotHeadActuator>(0).SetHeadAngularVelocity(0.5);
@@ -258,7 +292,7 @@ TEST(ValueDevices, HandbotJointsShareOneChannelAndReportTheirState)
   auto& entity = world.Space().GetEntity(0);
   entity.SetAttribute("head_angle", 0.1);
   entity.SetAttribute("wrist", 0.4, 1);
-  entity.SetAttribute("gripped", 17, 0);
+  entity.SetAttribute("gripped", 1 + prey, 0);
   entity.SetAttribute("rope_length", 2.5);
   TestSensor joints(world, "handbot_joints", "generic_handbot_joints", {0});
   joints.Update();
@@ -268,6 +302,8 @@ TEST(ValueDevices, HandbotJointsShareOneChannelAndReportTheirState)
   EXPECT_EQ(sensor.GetReading(CCI_HandBotJointsSensor::HOLDS_LEFT), 1);
   EXPECT_EQ(sensor.GetReading(CCI_HandBotJointsSensor::HOLDS_RIGHT), 0);
   EXPECT_EQ(sensor.GetReading(CCI_HandBotJointsSensor::ROPE_LENGTH), 2.5);
+  EXPECT_EQ(sensor.GetHeldId(CCI_HandBotHandsActuator::LEFT), world.Space().GetEntity(prey).GetId());
+  EXPECT_EQ(sensor.GetHeldId(CCI_HandBotHandsActuator::RIGHT), "");
 }
 
 TEST(ValueDevices, WhatControllersSetSurvivesSaveAndRestore)
