@@ -161,6 +161,58 @@ TEST(Dynamics3dClosedForms, AFootbotDrivesAtTheSpeedOfItsWheels)
   EXPECT_LT(world.Tilt(footbot), DegreesToRadians(1));
 }
 
+// What the accelerometer reads, along the axes of the space and without gravity.
+Vector3 AccelerationOf(Dynamics3dTestWorld& world, std::uint32_t footbot)
+{
+  Vector3 felt;
+  for (int k = 0; k < 3; ++k) felt[k] = world.Sensor("footbot_accelerometer", footbot, k);
+  return world.Space().GetPose(footbot).orientation * felt - kGravity * Vector3::UnitZ();
+}
+
+TEST(Dynamics3dClosedForms, TheAccelerometerSumsUpToTheSpeedOfTheWheels)
+{
+  Dynamics3dTestWorld world;
+  const auto footbot = world.AddFootbot({2, 5, 0}, 0.6);
+  world.AddCommands("footbot_wheels", 2);
+  world.AddSensors("footbot_encoders", 2);
+  world.AddSensors("footbot_accelerometer", 3);
+  world.Start();
+  world.Run(10);
+  world.Drive(footbot, 0.2, 0.2);
+  Vector3 velocity = Vector3::Zero();
+  for (int tick = 0; tick < 15; ++tick)
+  {
+    world.Tick();
+    velocity += 0.1 * AccelerationOf(world, footbot);
+  }
+  EXPECT_LT((velocity - Vector3(0.2 * std::cos(0.6), 0.2 * std::sin(0.6), 0)).norm(), 0.002);
+  EXPECT_NEAR(world.Sensor("footbot_encoders", footbot, 0) / 0.1, 0.2, 0.002);
+}
+
+// At rest the accelerometer feels what holds the robot, upwards, however it leans; in free fall it feels nothing.
+TEST(Dynamics3dClosedForms, TheAccelerometerFeelsTheSlopeAndNoFall)
+{
+  Dynamics3dTestWorld world;
+  world.Set("orientation", "0, 10, 0");
+  const double slope = DegreesToRadians(10);
+  const Quaternion tilt(Eigen::AngleAxisd(slope, Vector3::UnitY()));
+  const auto ahead = world.AddFootbot({0, 0, 0});
+  const auto across = world.AddFootbot({0, 1, 0});
+  const auto falling = world.AddFootbot({0, 3, 3});
+  world.experiment.entities[ahead].pose.orientation = tilt;
+  world.experiment.entities[across].pose.orientation = tilt * QuaternionFromYaw(kPi / 2);
+  world.AddCommands("footbot_wheels", 2);
+  world.AddSensors("footbot_accelerometer", 3);
+  world.Start();
+  world.Run(4);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(world.Sensor("footbot_accelerometer", falling, k), 0, 1e-6) << k;
+  world.Run(16);
+  for (const auto footbot : {ahead, across}) EXPECT_LT(AccelerationOf(world, footbot).norm(), 0.02);
+  // The front of the one is its lower end, the right side of the other; on their springs they lean a little more.
+  EXPECT_NEAR(world.Sensor("footbot_accelerometer", ahead, 0), -kGravity * std::sin(slope), 0.2);
+  EXPECT_NEAR(world.Sensor("footbot_accelerometer", across, 1), kGravity * std::sin(slope), 0.2);
+}
+
 TEST(Dynamics3dClosedForms, AFootbotTurnsOnTheSpotAtTheDifferentialRate)
 {
   Dynamics3dTestWorld world;
