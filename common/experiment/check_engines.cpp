@@ -36,6 +36,43 @@ void CheckChannels(const EngineConfiguration& engine, const PluginDescription& p
   check(controller.sensors, PluginKind::kSensor);
 }
 
+// The first device of a controller that needs an engine, nullptr where there is none.
+const DeviceConfiguration* FirstSpecificDevice(const ControllerConfiguration& controller)
+{
+  const auto find = [](const std::vector<DeviceConfiguration>& devices, PluginKind kind) -> const DeviceConfiguration*
+  {
+    for (const DeviceConfiguration& device : devices)
+    {
+      const PluginDescription* found = PluginCatalogue::Instance().Find(kind, device.type, device.implementation);
+      if (found != nullptr && !found->channel.empty()) return &device;
+    }
+    return nullptr;
+  };
+  const DeviceConfiguration* actuator = find(controller.actuators, PluginKind::kActuator);
+  return actuator != nullptr ? actuator : find(controller.sensors, PluginKind::kSensor);
+}
+
+// Robots that no engine holds stay where they are; devices that act through an engine would do nothing, unnoticed.
+// Once for each controller.
+void CheckRobotsWithoutEngine(const std::vector<bool>& owned, Reading& reading)
+{
+  const Experiment& experiment = reading.experiment;
+  std::map<std::string, bool> checked;
+  for (std::size_t i = 0; i < owned.size(); ++i)
+  {
+    const EntityConfiguration& robot = experiment.entities[i];
+    if (owned[i] || robot.controller.empty() || !checked.emplace(robot.controller, true).second) continue;
+    const ControllerConfiguration* controller = experiment.FindController(robot.controller);
+    const DeviceConfiguration* device = controller == nullptr ? nullptr : FirstSpecificDevice(*controller);
+    if (device == nullptr) continue;
+    reading.diagnostics.Add(
+        robot.location,
+        fmt::format("the robot '{}' is in no engine, but <{}> ({}) of its controller '{}' needs one; list the robot "
+                    "under an engine in <arena_physics>, or leave the device out",
+                    robot.id, device->type, device->implementation, controller->id));
+  }
+}
+
 }  // namespace
 
 void CheckDevicesOfEngines(Reading& reading)
@@ -57,6 +94,8 @@ void CheckDevicesOfEngines(Reading& reading)
       if (controller != nullptr) CheckChannels(engine, *plugin, *controller, entity, reading);
     }
   }
+  // A mistake in the lists of engines would be blamed on the robots.
+  if (reading.diagnostics.Empty()) CheckRobotsWithoutEngine(owned, reading);
 }
 
 void CheckOverlaps(Reading& reading)

@@ -181,6 +181,10 @@ const Mistake kMistakes[] = {
      "test.xml:9:9: the actuator <footbot_wheels> (dynamic_footbot_wheels) of the robot 'fb' needs 'footbot_forces' "
      "from its engine, which 'ground' (dummy_engine) does not offer; it offers: footbot_wheels, footbot_gripper. Use "
      "another implementation or another engine\n"},
+    {"RobotWithoutTheEngineThatItsDevicesNeed", "<entity id=\"fb\"/>", "",
+     "test.xml:18:5: the robot 'fb' is in no engine, but <footbot_wheels> (dummy_footbot_wheels) of its controller "
+     "'fc' "
+     "needs one; list the robot under an engine in <arena_physics>, or leave the device out\n"},
     {"ParametersAsAttribute", "<footbot_sample_controller id=\"fc\">",
      "<footbot_sample_controller id=\"fc\" parameters=\"1\">",
      "test.xml:7:40: 'parameters' must be written as an element, <parameters>…</parameters>\ntest.xml:14:7: "
