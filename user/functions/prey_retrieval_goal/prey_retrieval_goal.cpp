@@ -1,14 +1,19 @@
-// The goal of the prey retrieval experiment: it is done when a prey stands in the nest, and failed where that takes too
-// long. Writes the distance of each prey to the nest as CSV.
+// The goal of the prey retrieval experiment: it is done when the prey that the guide chose stands in the nest, and
+// failed where that takes too long, or another prey is brought. Nobody tells which one it chose: it is the one below
+// the guide when a footbot grips for the first time. Writes the distance of each prey to the nest as CSV.
 //
 //   <prey_retrieval_goal id="goal" library="prey_retrieval_goal">
 //     <preys>prey_yellow, prey_magenta</preys>
+//     <guide>eb</guide>     the eyebot that chooses; empty: any prey will do
 //     <nest>nest</nest>
 //     <metrics>retrieval.csv</metrics>
 //   </prey_retrieval_goal>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <istream>
 #include <memory>
+#include <ostream>
 #include <stdexcept>
 
 #include "space_server/experiment_functions.h"
@@ -30,9 +35,14 @@ public:
   {
     PluginDescription description;
     description.label = "prey_retrieval_goal";
-    description.brief = "done when a prey stands in the nest; writes the distances";
+    description.brief = "done when the chosen prey stands in the nest, failed with another one; writes the distances";
     description.parameters = {
         {.name = "preys", .type = ParameterType::kText, .description = "Ids of the preys, separated by commas."},
+        {.name = "guide",
+         .type = ParameterType::kText,
+         .default_value = "",
+         .description = "Id of the eyebot that chooses a prey: the one below it when a footbot grips for the first "
+                        "time; empty: any prey will do."},
         {.name = "nest", .type = ParameterType::kText, .description = "Id of the nest."},
         {.name = "metrics",
          .type = ParameterType::kText,
@@ -49,6 +59,7 @@ public:
       throw ConfigurationError(t_tree.Location(), "there is no entity '" + id + "'");
     };
     nest_ = find(t_tree.GetText("nest"));
+    if (const std::string guide = t_tree.GetText("guide", ""); !guide.empty()) guide_ = find(guide);
     std::string list = t_tree.GetText("preys");
     for (std::size_t start = 0; start < list.size();)
     {
@@ -69,6 +80,7 @@ public:
 
   void PostStep(SpaceEditor& space) override
   {
+    if (guide_ != nullptr && chosen_ == nullptr && AFootbotGrips(space.GetSpace())) chosen_ = Nearest(*guide_);
     if (file_ == nullptr) return;
     std::fprintf(file_.get(), "%llu", static_cast<unsigned long long>(space.GetSpace().GetTick()));
     for (const auto* prey : preys_) std::fprintf(file_.get(), ",%.4f", Distance(*prey));
@@ -78,17 +90,44 @@ public:
   Outcome IsFinished(const SpaceEditor& space) override
   {
     for (const auto* prey : preys_)
-      if (IsInNest(*prey)) return Outcome::kDone;
+    {
+      if ((guide_ != nullptr && chosen_ == nullptr) || !IsInNest(*prey)) continue;
+      return chosen_ == nullptr || prey == chosen_ ? Outcome::kDone : Outcome::kFailed;
+    }
     const std::uint64_t last = space.GetSpace().GetExperiment().max_clock;
     return last != 0 && space.GetSpace().GetTick() >= last ? Outcome::kFailed : Outcome::kRunning;
   }
 
   void Destroy(SpaceEditor&) override { file_.reset(); }
 
-  // All is in the space. The file of a restored run starts where the run does.
+  // The file of a restored run starts where the run does.
   bool HasState() const override { return true; }
+  void SaveState(std::ostream& state) const override
+  {
+    state << (std::find(preys_.begin(), preys_.end(), chosen_) - preys_.begin());
+  }
+  void LoadState(std::istream& state) override
+  {
+    std::size_t number = 0;
+    state >> number;
+    chosen_ = number < preys_.size() ? preys_[number] : nullptr;
+  }
 
 private:
+  static bool AFootbotGrips(const CSwarmanoidSpace& space)
+  {
+    for (std::size_t i = 0; i < space.Size(); ++i)
+      if (space.GetEntity(i).GetKind() == EntityKind::kFootbot && space.GetEntity(i).GetAttribute("gripped") > 0)
+        return true;
+    return false;
+  }
+  const CSwarmanoidSpaceEntity* Nearest(const CSwarmanoidSpaceEntity& guide) const
+  {
+    const auto away = [&](const CSwarmanoidSpaceEntity* prey)
+    { return (prey->GetPosition() - guide.GetPosition()).head<2>().norm(); };
+    return *std::min_element(preys_.begin(), preys_.end(),
+                             [&](const auto* a, const auto* b) { return away(a) < away(b); });
+  }
   double Distance(const CSwarmanoidSpaceEntity& prey) const
   {
     return (prey.GetPosition() - nest_->GetPosition()).head<2>().norm();
@@ -102,6 +141,8 @@ private:
   }
 
   const CSwarmanoidSpaceEntity* nest_ = nullptr;
+  const CSwarmanoidSpaceEntity* guide_ = nullptr;
+  const CSwarmanoidSpaceEntity* chosen_ = nullptr;  // while it is not known, none has been brought
   std::vector<const CSwarmanoidSpaceEntity*> preys_;
   std::unique_ptr<std::FILE, Close> file_;
 };
