@@ -1,6 +1,7 @@
 #include "engine_worker/engines/kinematics2d/broad_phase.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine_worker/engines/kinematics2d/vectors.h"
@@ -182,36 +183,48 @@ void BroadPhase::Sort(const PoseStore& poses, std::span<const std::uint8_t> pres
 
 void BroadPhase::SweepBodies(float margin, std::size_t begin, std::size_t end, std::vector<Pair>& pairs) const
 {
+  // Most searches find nobody or one. Those that do are noted without a branch, and only then taken apart.
+  struct Finds
+  {
+    std::uint32_t body, from, hits;
+  };
+  constexpr std::size_t kMost = 256;
+  std::array<Finds, kMost> finds;
+  std::size_t count = 0;
+  const auto take_apart = [&]
+  {
+    for (std::size_t n = 0; n < count; ++n)
+    {
+      const Finds& find = finds[n];
+      ForEachBit(find.hits,
+                 [&](unsigned bit)
+                 {
+                   const std::uint32_t a = body_[find.body];
+                   const std::uint32_t b = body_[find.from + bit];
+                   pairs.push_back({std::min(a, b), std::max(a, b)});
+                 });
+    }
+    count = 0;
+  };
   const std::uint32_t* const start = start_.data() + 1;
   for (auto k = static_cast<std::uint32_t>(begin); k < end; ++k)
   {
     const std::uint32_t cell = sorted_cell_[k];
-    const float x = x_[k];
-    const float y = y_[k];
-    const float r = r_[k] + margin;
-    // The rest of this cell and the next one; then three cells of the next row. Most ranges fit one vector.
-    const auto sweep = [&](std::uint32_t from, std::uint32_t to)
+    const float reach = r_[k] + margin;
+    const auto search = [&](std::uint32_t from, std::uint32_t to)
     {
-      do {
-        const Floats dx = LoadFloats(&x_[from]) - x;
-        const Floats dy = LoadFloats(&y_[from]) - y;
-        const Floats limit = LoadFloats(&r_[from]) + r;
-        const Floats squared = dx * dx + dy * dy;
-        unsigned hits = Bits(squared < limit * limit);
-        const std::uint32_t left = to - from;
-        if (left < kFloats) hits &= (1U << left) - 1;
-        for (; hits != 0; hits &= hits - 1)
-        {
-          const std::uint32_t a = body_[k];
-          const std::uint32_t b = body_[from + static_cast<std::uint32_t>(__builtin_ctz(hits))];
-          pairs.push_back({std::min(a, b), std::max(a, b)});
-        }
+      do {  // most ranges fit one vector
+        finds[count] = {k, from, Within(x_[k], y_[k], reach, from, to)};
+        count += finds[count].hits != 0 ? 1 : 0;
+        if (count == kMost) take_apart();
         from += kFloats;
       } while (from < to);
     };
-    sweep(k + 1, start[cell + 2]);
-    sweep(start[cell + stride_ - 1], start[cell + stride_ + 2]);
+    // The rest of this cell and the next one; then three cells of the next row.
+    search(k + 1, start[cell + 2]);
+    search(start[cell + stride_ - 1], start[cell + stride_ + 2]);
   }
+  take_apart();
 }
 
 void BroadPhase::FindPairsOfLarge(float margin, std::span<const std::uint8_t> present, const PoseStore& poses)

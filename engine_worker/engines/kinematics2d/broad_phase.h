@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine_worker/engines/kinematics2d/motion.h"
+#include "engine_worker/engines/kinematics2d/vectors.h"
 #include "engine_worker/engines/kinematics2d/worker_pool.h"
 
 namespace swarmanoid::kinematics2d
@@ -43,17 +44,24 @@ public:
   const std::vector<Pair>& Pairs() const { return pairs_; }
   const std::vector<Pair>& StaticPairs() const { return static_pairs_; }
 
-  // Calls `act` with every body that was present and less than `reach` from a point, its radius left out, when the
-  // pairs were found; with some that were further away, too. In the order of their cells.
+  // Calls `act` with every body that was present and whose circle was less than `reach` from a point when the pairs
+  // were found; with some that were further away, too. In the order of their cells.
   template <class Act>
   void ForEachNear(double x, double y, double reach, const Act& act) const
   {
     const std::uint32_t* const start = start_.data() + 1;
-    const std::uint32_t last_column = CellX(x + reach);
-    const std::uint32_t last_row = CellY(y + reach);
-    for (std::uint32_t row = CellY(y - reach); row <= last_row; ++row)
-      for (std::uint32_t k = start[Cell(CellX(x - reach), row)]; k < start[Cell(last_column, row) + 1]; ++k)
-        act(body_[k]);
+    const double widest = reach + largest_small_radius_;
+    const std::uint32_t first_column = CellX(x - widest);
+    const std::uint32_t last_column = CellX(x + widest);
+    const std::uint32_t last_row = CellY(y + widest);
+    for (std::uint32_t row = CellY(y - widest); row <= last_row; ++row)
+    {
+      const std::uint32_t to = start[Cell(last_column, row) + 1];
+      for (std::uint32_t from = start[Cell(first_column, row)]; from < to; from += kFloats)
+        ForEachBit(
+            Within(static_cast<float>(x), static_cast<float>(y), static_cast<float>(reach) + 2 * slack_, from, to),
+            [&](unsigned bit) { act(body_[from + bit]); });
+    }
     for (const std::uint32_t body : large_) act(body);
   }
   // Calls `act` with every static shape that may touch a body at a point.
@@ -68,7 +76,6 @@ public:
     const std::uint32_t cell = Cell(CellX(x), CellY(y));
     for (std::uint32_t s = static_start_[cell]; s < static_start_[cell + 1]; ++s) act(static_shape_[s]);
   }
-  double LargestSmallRadius() const { return largest_small_radius_; }
 
 private:
   struct FloatBox
@@ -76,6 +83,17 @@ private:
     float min_x, min_y, max_x, max_y;
   };
 
+  // Those of the sorted bodies `from`, `from` + 1, ... before `to` whose circle is less than `reach` from a point: one
+  // bit each, for as many as fit a vector.
+  unsigned Within(float x, float y, float reach, std::uint32_t from, std::uint32_t to) const
+  {
+    const Floats dx = LoadFloats(&x_[from]) - x;
+    const Floats dy = LoadFloats(&y_[from]) - y;
+    const Floats limit = LoadFloats(&r_[from]) + reach;
+    const unsigned hits = Bits(dx * dx + dy * dy < limit * limit);
+    const std::uint32_t left = to - from;
+    return left < kFloats ? hits & ((1U << left) - 1) : hits;
+  }
   std::uint32_t CellX(double x) const;
   std::uint32_t CellY(double y) const;
   std::uint32_t Cell(std::uint32_t column, std::uint32_t row) const { return (row + 1) * stride_ + column + 1; }

@@ -9,9 +9,6 @@ namespace swarmanoid::kinematics2d
 namespace
 {
 
-// Far and empty: no test against it succeeds.
-constexpr double kNowhere = 1e30;
-
 double Distance(double x, double y) { return std::sqrt(x * x + y * y); }
 
 }  // namespace
@@ -46,8 +43,6 @@ CollisionModel MakeModel(std::span<const Circle> circles, std::vector<Polygon> p
   if (circles.size() + polygons.size() > CollisionModel::kMaximumParts)
     throw std::invalid_argument("a collision model has up to 4 circles and polygons");
   CollisionModel model;
-  model.part_x.fill(kNowhere);
-  model.part_y.fill(kNowhere);
   model.circles = static_cast<int>(circles.size());
   model.parts = static_cast<int>(circles.size() + polygons.size());
   for (std::size_t k = 0; k < circles.size(); ++k)
@@ -66,8 +61,8 @@ CollisionModel MakeModel(std::span<const Circle> circles, std::vector<Polygon> p
     model.part_x[part] = polygon.centre_x;
     model.part_y[part] = polygon.centre_y;
     model.part_radius[part] = polygon.radius;
-    model.on_turret[part] = polygon.on_turret ? -1 : 0;
-    double inside = kNowhere;
+    model.on_turret[part] = polygon.on_turret;
+    double inside = 1e30;
     for (int k = 0; k < polygon.count; ++k)
     {
       model.bounding_radius = std::max(model.bounding_radius, Distance(polygon.x[k], polygon.y[k]));

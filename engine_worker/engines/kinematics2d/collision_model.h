@@ -37,9 +37,9 @@ struct CollisionModel
   static constexpr int kMaximumParts = 4;
   using PartValues = std::array<double, kMaximumParts>;
 
-  // The circles, then circles around the polygons; padded with parts that nothing meets, for the vector loops.
+  // The circles, then circles around the polygons.
   PartValues part_x{}, part_y{}, part_radius{};
-  std::array<std::int64_t, kMaximumParts> on_turret{};  // all bits set where the part turns with the turret
+  std::array<bool, kMaximumParts> on_turret{};
   int parts = 0;
   int circles = 0;
   std::vector<Polygon> polygons;

@@ -1,4 +1,5 @@
-// KinematicWorld::Advance: move all, find who meets, push apart, hold back those who still overlap.
+// KinematicWorld::Advance: move all, find who meets, push apart, hold back those who still overlap. The middle of it is
+// in kinematic_contacts.cpp, the end in kinematic_holds.cpp.
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -127,7 +128,7 @@ void KinematicWorld::Substep(double seconds, double fraction)
   const double margin = std::min(kContactMargin, reach_);
   broad_.FindPairs(now_, present_, margin, pool_.get());
   FindContacts(margin);
-  if (solver_.HasOverlaps())
+  if (!solver_.Contacts().Overlapping().empty())
   {
     solver_.Solve(mobility_, kSolverTolerance * allowed_, reach_, now_.x, now_.y);
     for (const Grip& grip : grips_) now_.Set(grip.body, Compose(now_.Get(grip.prey), grip.relative));
@@ -137,15 +138,25 @@ void KinematicWorld::Substep(double seconds, double fraction)
     InParts(pool_.get(), count_, 1,
             [&](unsigned, std::size_t begin, std::size_t end) { KeepTravelOf(seconds, begin, end); });
   statistics_.pairs = broad_.Pairs().size() + broad_.StaticPairs().size();
-  statistics_.contacts = solver_.Contacts().size();
+  statistics_.contacts = solver_.Contacts().AllEnds().size();
 }
 
 void KinematicWorld::Move(double seconds, double fraction)
 {
   std::swap(now_, before_);
+  // In pieces that stay in the cache.
+  constexpr std::size_t kPiece = 16 * kPadding;
   InParts(pool_.get(), PaddedCount(count_), kPadding,
           [&](unsigned, std::size_t begin, std::size_t end)
-          { Integrate(before_, grips_.empty() ? twists_ : effective_, seconds, begin, end, now_); });
+          {
+            for (; begin < end; begin += kPiece)
+            {
+              const std::size_t piece_end = std::min(begin + kPiece, end);
+              Integrate(before_, grips_.empty() ? twists_ : effective_, seconds, begin, piece_end, now_);
+              for (std::size_t k = begin; k < std::min(piece_end, count_); ++k)
+                placed_[k] = PlaceAt(static_cast<std::uint32_t>(k), now_);
+            }
+          });
   for (const Grip& grip : grips_) now_.Set(grip.body, Compose(now_.Get(grip.prey), grip.relative));
   for (const Follower& follower : followers_)
   {
@@ -160,217 +171,9 @@ void KinematicWorld::Move(double seconds, double fraction)
     turret.before = turret_angle_[turret.body];
     if (leader_[turret.body] == turret.body) SetTurretAngle(turret.body, turret.before + turret.rate * seconds);
   }
-}
-
-// Each thread some of the pairs, in their order; then one after the other into the solver.
-void KinematicWorld::FindContacts(double margin)
-{
-  solver_.Clear();
-  const auto to_solver = [this](const Contact& contact) { solver_.Add(contact, contact.touch.depth > 0); };
-  for (std::vector<Contact>& contacts : contacts_of_others_) contacts.clear();
-  InParts(pool_.get(), broad_.Pairs().size(), 1,
-          [&](unsigned part, std::size_t begin, std::size_t end)
-          {
-            if (part == 0) return FindContacts(margin, begin, end, to_solver);
-            std::vector<Contact>& contacts = contacts_of_others_[part - 1];
-            FindContacts(margin, begin, end, [&](const Contact& contact) { contacts.push_back(contact); });
-          });
-  for (const std::vector<Contact>& contacts : contacts_of_others_) solver_.Add(contacts);
-
-  Touches touches;
-  Spot first, second;
-  for (const Pair& pair : broad_.StaticPairs())
-  {
-    if (mobility_[leader_[pair.first]] <= 0) continue;
-    PlaceAt(pair.first, now_, first.placed);
-    second.placed.model = &statics_[pair.second];
-    Spread(first);
-    Spread(second);
-    FindTouches(first, second, margin, touches);
-    AddContacts(pair.first, static_cast<std::uint32_t>(count_), touches, to_solver);
-  }
-}
-
-template <class Add>
-void KinematicWorld::FindContacts(double margin, std::size_t begin, std::size_t end, const Add& add) const
-{
-  Touches touches;
-  Spot first, second;
-  for (std::size_t n = begin; n < end; ++n)
-  {
-    const std::uint32_t a = broad_.Pairs()[n].first;
-    const std::uint32_t b = broad_.Pairs()[n].second;
-    if (leader_[a] == leader_[b] || mobility_[leader_[a]] + mobility_[leader_[b]] <= 0) continue;
-    PlaceAt(a, now_, first.placed);
-    PlaceAt(b, now_, second.placed);
-    Spread(first);
-    Spread(second);
-    FindTouches(first, second, margin, touches);
-    AddContacts(a, b, touches, add);
-  }
-}
-
-template <class Add>
-void KinematicWorld::AddContacts(std::uint32_t first, std::uint32_t second, const Touches& touches,
-                                 const Add& add) const
-{
-  if (touches.Count() == 0) return;
-  const std::uint32_t i = leader_[first];
-  const std::uint32_t j = leader_[second];
-  // From the difference of the leaders to that of the bodies.
-  const double dx = now_.x[i] - now_.x[j];
-  const double dy = now_.y[i] - now_.y[j];
-  double shift_x = 0;
-  double shift_y = 0;
-  if (i != first || j != second)
-  {
-    shift_x = (now_.x[first] - now_.x[second]) - dx;
-    shift_y = (now_.y[first] - now_.y[second]) - dy;
-  }
-  for (int k = 0; k < touches.Count(); ++k)
-  {
-    Contact contact{i, j, touches[k], 0};
-    Touch& touch = contact.touch;
-    if (touch.face)
-      touch.reach -= shift_x * touch.x + shift_y * touch.y;
-    else
-    {
-      touch.x += shift_x;
-      touch.y += shift_y;
-    }
-    if (touch.depth > 0)
-    {
-      const double length = touch.reach - touch.depth;
-      const double nx = touch.face ? touch.x : length > 0 ? (dx + touch.x) / length : 1;
-      const double ny = touch.face ? touch.y : length > 0 ? (dy + touch.y) / length : 0;
-      const double way_x = dx - (before_.x[i] - before_.x[j]);
-      const double way_y = dy - (before_.y[i] - before_.y[j]);
-      contact.bounce = elasticity_ * std::min(touch.depth, std::max(0.0, -(way_x * nx + way_y * ny)));
-    }
-    add(contact);
-  }
-}
-
-// The solver's sweeps may end before a dense crowd is at peace. Where the step began there was no such overlap, so
-// those that still overlap go back: first to their old position, turned as they wish; if that does not help, all the
-// way. Each one held may stand in the way of others, until nobody overlaps more than when the step began.
-void KinematicWorld::HoldBack()
-{
-  suspects_.clear();
-  for (const Contact& contact : solver_.Contacts())
-    if ((solver_.WasPushed(contact.first) || solver_.WasPushed(contact.second)) &&
-        DepthOf(contact.touch, now_.x[contact.first] - now_.x[contact.second],
-                now_.y[contact.first] - now_.y[contact.second]) > allowed_)
-    {
-      Suspect(contact.first);
-      Suspect(contact.second);
-    }
-  // Pushed so far that it may have met outlines that were no contacts yet.
-  const double far = std::min(kContactMargin, reach_) / 2;
-  for (const PushedLeader& pushed : solver_.Pushed())
-  {
-    const double dx = now_.x[pushed.leader] - pushed.x;
-    const double dy = now_.y[pushed.leader] - pushed.y;
-    if (dx * dx + dy * dy > far * far) Suspect(pushed.leader);
-  }
-
-  held_.clear();
-  for (std::size_t n = 0; n < suspects_.size(); ++n)
-  {
-    const std::uint32_t leader = suspects_[n];
-    is_suspect_[leader] = 0;
-    HoldFromOthers(leader);
-    for (const Grip& grip : grips_)
-      if (grip.prey == leader) HoldFromOthers(grip.body);
-  }
-  statistics_.held_back += held_.size();
-  for (const std::uint32_t leader : held_) hold_[leader] = Hold::kFree;
-}
-
-void KinematicWorld::Suspect(std::uint32_t leader)
-{
-  if (leader == count_ || is_suspect_[leader] != 0) return;
-  is_suspect_[leader] = 1;
-  suspects_.push_back(leader);
-}
-
-void KinematicWorld::HoldFromOthers(std::uint32_t body)
-{
-  // The others have moved by up to `reach_` since they were sorted into cells.
-  const double x = now_.x[body];
-  const double y = now_.y[body];
-  broad_.ForEachNear(x, y, radius_[body] + broad_.LargestSmallRadius() + reach_,
-                     [&](std::uint32_t other)
-                     {
-                       if (other != body) HoldPair(body, other);
-                     });
-  broad_.ForEachStaticNear(body, now_.x[body], now_.y[body], [&](std::uint32_t shape) { HoldFromStatic(body, shape); });
-}
-
-// Those that were put into each other have no better place to go back to; the solver parts them step by step.
-bool KinematicWorld::MustNotOverlap(double overlap, double before) const
-{
-  return before <= 2 * allowed_ && overlap > before;
-}
-
-void KinematicWorld::HoldPair(std::uint32_t a, std::uint32_t b)
-{
-  const double dx = now_.x[a] - now_.x[b];
-  const double dy = now_.y[a] - now_.y[b];
-  const double limit = radius_[a] + radius_[b];
-  if (dx * dx + dy * dy > limit * limit) return;
-  const std::uint32_t i = leader_[a];
-  const std::uint32_t j = leader_[b];
-  // What a follower does is not to be undone.
-  if (i == j || mobility_[i] <= 0 || mobility_[j] <= 0) return;
-  if (hold_[i] == Hold::kPose && hold_[j] == Hold::kPose) return;
-  const double overlap = Overlap(PlaceAt(a, now_), PlaceAt(b, now_));
-  if (overlap <= allowed_ || !MustNotOverlap(overlap, Overlap(PlaceBefore(a), PlaceBefore(b)))) return;
-  RaiseHold(i);
-  RaiseHold(j);
-}
-
-void KinematicWorld::HoldFromStatic(std::uint32_t body, std::uint32_t shape)
-{
-  const std::uint32_t leader = leader_[body];
-  if (mobility_[leader] <= 0 || hold_[leader] == Hold::kPose) return;
-  const Placed fixed{&statics_[shape], 0, 0, 1, 0, 1, 0};
-  const double overlap = Overlap(PlaceAt(body, now_), fixed);
-  if (overlap <= allowed_ || !MustNotOverlap(overlap, Overlap(PlaceBefore(body), fixed))) return;
-  RaiseHold(leader);
-}
-
-void KinematicWorld::RaiseHold(std::uint32_t leader)
-{
-  if (hold_[leader] == Hold::kPose) return;
-  if (hold_[leader] == Hold::kFree) held_.push_back(leader);
-  const bool first = hold_[leader] == Hold::kFree;
-  hold_[leader] = first ? Hold::kPosition : Hold::kPose;
-  Suspect(leader);
-  now_.x[leader] = before_.x[leader];
-  now_.y[leader] = before_.y[leader];
-  if (!first)
-  {
-    now_.z[leader] = before_.z[leader];
-    now_.w[leader] = before_.w[leader];
-    const auto turret = FindTurret(leader);
-    if (turret != turrets_.end() && turret->body == leader) SetTurretAngle(leader, turret->before);
-  }
-  for (const Grip& grip : grips_)
-    if (grip.prey == leader) now_.Set(grip.body, Compose(now_.Get(leader), grip.relative));
-}
-
-Placed KinematicWorld::PlaceBefore(std::uint32_t body) const
-{
-  Placed placed = PlaceAt(body, before_);
-  const auto turret = const_cast<KinematicWorld*>(this)->FindTurret(body);
-  if (turret != turrets_.end() && turret->body == body)
-  {
-    const SinCos turned = SinCosOf(turret->before);
-    placed.turret_cos = turned.cos;
-    placed.turret_sin = turned.sin;
-  }
-  return placed;
+  for (const Grip& grip : grips_) placed_[grip.body] = PlaceAt(grip.body, now_);
+  for (const Follower& follower : followers_) placed_[follower.body] = PlaceAt(follower.body, now_);
+  for (const Turret& turret : turrets_) placed_[turret.body] = PlaceAt(turret.body, now_);
 }
 
 // The way forward along the arc: its chord, seen from the mean heading, over sinc of half the turn.

@@ -53,6 +53,8 @@ void KinematicWorld::Start(Bounds area, unsigned threads)
   const std::size_t padded = PaddedCount(count_);
   now_.Resize(padded);
   before_ = now_;
+  placed_.resize(count_);
+  for (const CollisionModel& shape : statics_) placed_.push_back({.model = &shape});
   twists_.Resize(padded);
   effective_.Resize(padded);
   turret_angle_.assign(count_, 0);
@@ -203,7 +205,7 @@ double KinematicWorld::StaticOverlapOf(std::uint32_t body) const
 {
   double deepest = 0;
   for (const CollisionModel& shape : statics_)
-    deepest = std::max(deepest, Overlap(PlaceAt(body, now_), Placed{&shape, 0, 0, 1, 0, 1, 0}));
+    deepest = std::max(deepest, Overlap(PlaceAt(body, now_), Placed{.model = &shape}));
   return deepest;
 }
 

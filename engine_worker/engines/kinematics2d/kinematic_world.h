@@ -114,23 +114,19 @@ private:
     Pose2 from, goal;
   };
 
-  void PlaceAt(std::uint32_t body, const PoseStore& poses, Placed& placed) const
-  {
-    const Rotor heading{poses.z[body], poses.w[body]};
-    placed.model = &models_[model_[body]];
-    placed.x = poses.x[body];
-    placed.y = poses.y[body];
-    placed.cos = CosOf(heading);
-    placed.sin = SinOf(heading);
-    placed.turret_cos = turret_cos_[body];
-    placed.turret_sin = turret_sin_[body];
-  }
   Placed PlaceAt(std::uint32_t body, const PoseStore& poses) const
   {
-    Placed placed;
-    PlaceAt(body, poses, placed);
-    return placed;
+    const Rotor heading{poses.z[body], poses.w[body]};
+    return {poses.x[body],     poses.y[body],     CosOf(heading),        SinOf(heading),
+            turret_cos_[body], turret_sin_[body], &models_[model_[body]]};
   }
+  // To where the body is now; its heading and turret are as they were when the substep's motion ended.
+  void MovePlaced(std::uint32_t body)
+  {
+    placed_[body].x = now_.x[body];
+    placed_[body].y = now_.y[body];
+  }
+  std::uint32_t NumberOf(const Placed& placed) const { return static_cast<std::uint32_t>(&placed - placed_.data()); }
   Placed PlaceBefore(std::uint32_t body) const;
   bool IsFollower(std::uint32_t body) const { return follower_[body] != 0; }
   void RebuildGroups();
@@ -141,13 +137,16 @@ private:
   void Substep(double seconds, double fraction);
   void Move(double seconds, double fraction);
   void FindContacts(double margin);
-  template <class Add>
-  void FindContacts(double margin, std::size_t begin, std::size_t end, const Add& add) const;
-  template <class Add>
-  void AddContacts(std::uint32_t first, std::uint32_t second, const Touches& touches, const Add& add) const;
+  void FindContacts(double margin, std::size_t begin, std::size_t end, ContactList& contacts) const;
+  void FindStaticContacts(double margin, ContactList& contacts) const;
+  void AddContacts(PairBatch& batch, double margin, ContactList& contacts) const;
   void HoldBack();
   bool MustNotOverlap(double overlap, double before) const;
   void Suspect(std::uint32_t leader);
+  void SuspectThosePushedFar();
+  template <class Act>
+  void ForEachNear(std::uint32_t body, const Act& act) const;
+  bool CirclesMeet(std::uint32_t a, std::uint32_t b) const;
   void HoldFromOthers(std::uint32_t body);
   void HoldPair(std::uint32_t a, std::uint32_t b);
   void HoldFromStatic(std::uint32_t body, std::uint32_t shape);
@@ -161,6 +160,8 @@ private:
 
   // Of each body.
   PoseStore now_, before_;  // before_: where the substep began
+  // Where the substep's motion ended, before collisions; behind the bodies, the static shapes.
+  std::vector<Placed> placed_;
   TwistStore twists_;
   TwistStore effective_;  // twists_ with those of groups filled in; used while there are groups
   std::vector<std::uint32_t> model_;
@@ -180,8 +181,8 @@ private:
   std::vector<Turret> turrets_;      // those that turn, by body
   std::vector<Follower> followers_;  // by body
 
-  std::unique_ptr<WorkerPool> pool_;                      // none for one thread
-  std::vector<std::vector<Contact>> contacts_of_others_;  // found by each further thread
+  std::unique_ptr<WorkerPool> pool_;             // none for one thread
+  std::vector<ContactList> contacts_of_others_;  // found by each further thread
   BroadPhase broad_;
   ContactSolver solver_;
   double reach_ = 0;    // no collision pushes a body further than this in one substep
@@ -191,6 +192,7 @@ private:
   std::vector<std::uint32_t> held_;
   std::vector<std::uint8_t> is_suspect_;  // leaders that may overlap others
   std::vector<std::uint32_t> suspects_;   // a queue
+  std::vector<Pair> near_;                // bodies pushed far, and those that are near them
   WorldStatistics statistics_;
 };
 

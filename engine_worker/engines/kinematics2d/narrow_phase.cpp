@@ -1,256 +1,215 @@
 #include "engine_worker/engines/kinematics2d/narrow_phase.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine_worker/engines/kinematics2d/kinematic_limits.h"
-#include "engine_worker/engines/kinematics2d/vectors.h"
 
 namespace swarmanoid::kinematics2d
 {
 namespace
 {
 
-struct Point
-{
-  double x, y;
-};
-
-// The axes of the frame that a polygon is fixed to: the body's or its turret's.
-struct Axes
-{
-  double cos, sin;
-
-  Point ToWorld(double x, double y) const { return {cos * x - sin * y, sin * x + cos * y}; }
-  Point ToLocal(double x, double y) const { return {cos * x + sin * y, cos * y - sin * x}; }
-};
-
-Axes AxesOf(const Placed& body, const Polygon& polygon)
-{
-  if (!polygon.on_turret) return {body.cos, body.sin};
-  return {body.cos * body.turret_cos - body.sin * body.turret_sin,
-          body.sin * body.turret_cos + body.cos * body.turret_sin};
-}
-
-constexpr std::size_t kParts = CollisionModel::kMaximumParts;
-
-// For each part of `b`, the parts of `a` that are less than `margin` away from it, one bit each. Polygons count as the
-// circles around them.
-using NearParts = std::array<unsigned, kParts>;
-
-// The same for one part of `b`: where its centre is from the body `a`, and how far it reaches.
-unsigned PartsNear(const Spot& a, double x, double y, double reach)
-{
-  unsigned hits = 0;
-  for (std::size_t k = 0; k < kParts; k += kDoubles)
-  {
-    const Doubles dx = LoadDoubles(&a.centre_x[k]) - x;
-    const Doubles dy = LoadDoubles(&a.centre_y[k]) - y;
-    const Doubles limit = LoadDoubles(&a.placed.model->part_radius[k]) + reach;
-    hits |= Bits(dx * dx + dy * dy < limit * limit) << k;
-  }
-  return hits;
-}
-
-bool FindNearParts(const Spot& a, const Spot& b, double margin, NearParts& near)
-{
-  const double dx = b.placed.x - a.placed.x;
-  const double dy = b.placed.y - a.placed.y;
-  unsigned any = 0;
-  for (int m = 0; m < b.placed.model->parts; ++m)
-  {
-    near[m] = PartsNear(a, dx + b.centre_x[m], dy + b.centre_y[m], b.placed.model->part_radius[m] + margin);
-    any |= near[m];
-  }
-  return any != 0;
-}
-
-void CircleWithCircle(const Spot& a, const Spot& b, std::size_t k, std::size_t m, Touches& touches)
-{
-  const double x = a.centre_x[k] - b.centre_x[m];
-  const double y = a.centre_y[k] - b.centre_y[m];
-  const double dx = a.placed.x - b.placed.x + x;
-  const double dy = a.placed.y - b.placed.y + y;
-  const double reach = a.placed.model->part_radius[k] + b.placed.model->part_radius[m];
-  const double limit = reach + touches.Margin();
-  const double squared = dx * dx + dy * dy;
-  if (squared >= limit * limit) return;
-  const double depth = reach - std::sqrt(squared);
-  touches.Add({x, y, reach, false, depth});
-  touches.NoteDepth(depth);
-}
-
-void CirclesWithCircles(const Spot& a, const Spot& b, const NearParts& near, Touches& touches)
-{
-  const unsigned circles = (1U << a.placed.model->circles) - 1;
-  for (int m = 0; m < b.placed.model->circles; ++m)
-    for (unsigned hits = near[m] & circles; hits != 0; hits &= hits - 1)
-      CircleWithCircle(a, b, static_cast<std::size_t>(__builtin_ctz(hits)), static_cast<std::size_t>(m), touches);
-}
-
-// The circle around (x, y), relative to the polygon's body, against the polygon. `sign` is 1 where the circle belongs
-// to the first body of the pair, else -1.
-void CircleWithPolygon(double x, double y, double radius, double offset_x, double offset_y, const Polygon& polygon,
-                       const Axes& axes, double sign, Touches& touches)
-{
-  const Point q = axes.ToLocal(x, y);
-  int best = 0;
-  double separation = -1e300;
-  for (int k = 0; k < polygon.count; ++k)
-  {
-    const double s = polygon.nx[k] * q.x + polygon.ny[k] * q.y - polygon.offset[k];
-    if (s > separation)
-    {
-      separation = s;
-      best = k;
-    }
-  }
-  if (separation > radius + touches.Margin()) return;
-
-  // Outside and beyond an end of the nearest edge: the corner counts, as a circle of radius 0.
-  if (separation > 0)
-  {
-    const int next = best + 1 == polygon.count ? 0 : best + 1;
-    const double edge_x = polygon.x[next] - polygon.x[best];
-    const double edge_y = polygon.y[next] - polygon.y[best];
-    const double along = (q.x - polygon.x[best]) * edge_x + (q.y - polygon.y[best]) * edge_y;
-    const bool before = along < 0;
-    if (before || along > edge_x * edge_x + edge_y * edge_y)
-    {
-      const int corner = before ? best : next;
-      const double corner_x = q.x - polygon.x[corner];
-      const double corner_y = q.y - polygon.y[corner];
-      if (corner_x * corner_x + corner_y * corner_y > (radius + touches.Margin()) * (radius + touches.Margin())) return;
-      const Point p = axes.ToWorld(polygon.x[corner], polygon.y[corner]);
-      touches.Add(sign * (offset_x - p.x), sign * (offset_y - p.y), radius, false);
-      return;
-    }
-  }
-  const Point n = axes.ToWorld(polygon.nx[best], polygon.ny[best]);
-  const double reach = radius + polygon.offset[best] - (n.x * offset_x + n.y * offset_y);
-  touches.Add(sign * n.x, sign * n.y, reach, true);
-}
-
-// `near_of`: for polygon p, the circles that are near it.
-template <class NearOf>
-void CirclesWithPolygons(const Spot& circles, const Spot& polygons, double sign, const NearOf& near_of,
-                         Touches& touches)
-{
-  const CollisionModel& model = *polygons.placed.model;
-  const double dx = circles.placed.x - polygons.placed.x;
-  const double dy = circles.placed.y - polygons.placed.y;
-  for (std::size_t p = 0; p < model.polygons.size(); ++p)
-  {
-    unsigned near = near_of(static_cast<int>(p));
-    if (near == 0) continue;
-    const Polygon& polygon = model.polygons[p];
-    const Axes axes = AxesOf(polygons.placed, polygon);
-    for (; near != 0; near &= near - 1)
-    {
-      const auto k = static_cast<std::size_t>(__builtin_ctz(near));
-      CircleWithPolygon(dx + circles.centre_x[k], dy + circles.centre_y[k], circles.placed.model->part_radius[k],
-                        circles.centre_x[k], circles.centre_y[k], polygon, axes, sign, touches);
-    }
-  }
-}
-
-// The largest separation of `other`'s vertices along the normals of `faces`, in the frame of `faces`.
-double SeparationAlong(const Polygon& faces, const Polygon& other, const Axes& faces_axes, const Axes& other_axes,
-                       double dx, double dy, int& best)
-{
-  // The vertices of `other` relative to the body of `faces`; (dx, dy): from that body to the other.
-  std::array<Point, Polygon::kMaximumVertices> vertices;
-  for (int k = 0; k < other.count; ++k)
-  {
-    const Point p = other_axes.ToWorld(other.x[k], other.y[k]);
-    vertices[k] = faces_axes.ToLocal(p.x + dx, p.y + dy);
-  }
-  double separation = -1e300;
-  for (int k = 0; k < faces.count; ++k)
-  {
-    double nearest = 1e300;
-    for (int m = 0; m < other.count; ++m)
-      nearest = std::min(nearest, faces.nx[k] * vertices[m].x + faces.ny[k] * vertices[m].y);
-    nearest -= faces.offset[k];
-    if (nearest > separation)
-    {
-      separation = nearest;
-      best = k;
-    }
-  }
-  return separation;
-}
-
-void PolygonWithPolygon(const Placed& a, const Placed& b, const Polygon& pa, const Polygon& pb, Touches& touches)
-{
-  const double dx = a.x - b.x;
-  const double dy = a.y - b.y;
-  const Axes axes_a = AxesOf(a, pa);
-  const Axes axes_b = AxesOf(b, pb);
-  int face_a = 0;
-  int face_b = 0;
-  const double along_b = SeparationAlong(pb, pa, axes_b, axes_a, dx, dy, face_b);
-  if (along_b > touches.Margin()) return;
-  const double along_a = SeparationAlong(pa, pb, axes_a, axes_b, -dx, -dy, face_a);
-  if (along_a > touches.Margin()) return;
-  const bool from_b = along_b >= along_a;
-  const Point n =
-      from_b ? axes_b.ToWorld(pb.nx[face_b], pb.ny[face_b]) : axes_a.ToWorld(-pa.nx[face_a], -pa.ny[face_a]);
-  // depth = -separation at this place; reach makes it so.
-  const double separation = from_b ? along_b : along_a;
-  touches.Add(n.x, n.y, n.x * dx + n.y * dy - separation, true);
-}
+constexpr double kNone = 1e300;
+constexpr unsigned kFirstOfEach = 0x1111;  // in a set of near parts: the first one of a with every one of b
 
 }  // namespace
 
-void Touches::DropShallow()
+void PairBatch::Side::Spread(std::size_t count)
 {
-  int kept = 0;
-  for (int k = 0; k < count_; ++k)
-    if (list_[k].depth >= -margin_) list_[kept++] = list_[k];
-  count_ = kept;
+  for (std::size_t lane = count; lane < kDoubles; ++lane) placed[lane] = placed[0];
+  const auto of_all = [this](double Placed::*value)
+  { return InLanes([&](std::size_t lane) { return placed[lane]->*value; }); };
+  position = {of_all(&Placed::x), of_all(&Placed::y)};
+  body = {of_all(&Placed::cos), of_all(&Placed::sin)};
+  const Points turn{of_all(&Placed::turret_cos), of_all(&Placed::turret_sin)};
+  turret = {body.cos * turn.x - body.sin * turn.y, body.sin * turn.x + body.cos * turn.y};
+  const CollisionModel& model = Model();
+  for (int k = 0; k < model.parts; ++k)
+    centre[k] = (model.on_turret[k] ? turret : body).ToWorld(model.part_x[k], model.part_y[k]);
 }
 
-void FindTouches(const Spot& a, const Spot& b, double margin, Touches& touches)
+void PairBatch::FindTouches(double margin)
 {
-  touches.Begin(a.placed.x - b.placed.x, a.placed.y - b.placed.y, margin);
-  const CollisionModel& model_a = *a.placed.model;
-  const CollisionModel& model_b = *b.placed.model;
-  // The first circle of a model is its largest part: where two of them touch, little else counts.
-  const bool round = model_a.circles > 0 && model_b.circles > 0;
-  if (round) CircleWithCircle(a, b, 0, 0, touches);
-  NearParts near;
-  if (!FindNearParts(a, b, touches.Margin(), near)) return;
-  if (round) near[0] &= ~1U;
+  first_.Spread(count_);
+  second_.Spread(count_);
+  between_ = {first_.position.x - second_.position.x, first_.position.y - second_.position.y};
+  margin_ = margin + Doubles{};
+  deepest_ = -kNone + Doubles{};
+  finds_ = 0;
 
-  CirclesWithCircles(a, b, near, touches);
-  const int circles_a = model_a.circles;
-  const int circles_b = model_b.circles;
-  const auto circles_near_polygon_of_b = [&](int p) { return near[circles_b + p] & ((1U << circles_a) - 1); };
-  CirclesWithPolygons(a, b, 1, circles_near_polygon_of_b, touches);
-  const auto circles_near_polygon_of_a = [&](int p)
+  const CollisionModel& a = first_.Model();
+  const CollisionModel& b = second_.Model();
+  const unsigned circles_a = a.circles;
+  const unsigned circles_b = b.circles;
+  const unsigned all_circles_a = (1U << circles_a) - 1;
+  const unsigned all_circles_b = kFirstOfEach & ((1U << (kParts * circles_b)) - 1);
+  // The first circle of a model is its largest part: where two of them touch, little else counts.
+  const bool round = circles_a > 0 && circles_b > 0;
+  if (round) CircleWithCircle(0, 0);
+  const unsigned near = NearParts();
+  ForEachBit(near & all_circles_a * all_circles_b & ~1U,
+             [&](unsigned bit) { CircleWithCircle(bit % kParts, bit / kParts); });
+  for (unsigned q = circles_b; q < static_cast<unsigned>(b.parts); ++q)
+    ForEachBit(near >> (kParts * q) & all_circles_a,
+               [&](unsigned k) { CircleWithPolygon(first_, second_, k, q - circles_b, 1); });
+  for (unsigned p = circles_a; p < static_cast<unsigned>(a.parts); ++p)
+    ForEachBit(near >> p & all_circles_b,
+               [&](unsigned bit) { CircleWithPolygon(second_, first_, bit / kParts, p - circles_a, -1); });
+  for (unsigned p = circles_a; p < static_cast<unsigned>(a.parts); ++p)
+    for (unsigned q = circles_b; q < static_cast<unsigned>(b.parts); ++q)
+      if ((near >> (kParts * q + p) & 1) != 0) PolygonWithPolygon(p - circles_a, q - circles_b);
+
+  kept_ = DoubleMask{};
+  for (int k = 0; k < finds_; ++k) kept_ |= (found_[k].depth >= -margin_) & (std::int64_t{1} << k);
+}
+
+// The parts that are near in any pair, polygons as the circles around them. Bit kParts * m + k: part k of the first
+// body and part m of the second.
+unsigned PairBatch::NearParts() const
+{
+  const CollisionModel& a = first_.Model();
+  const CollisionModel& b = second_.Model();
+  unsigned near = 0;
+  for (int m = 0; m < b.parts; ++m)
   {
-    unsigned hits = 0;
-    for (int m = 0; m < circles_b; ++m) hits |= (near[m] >> (circles_a + p) & 1U) << m;
-    return hits;
-  };
-  CirclesWithPolygons(b, a, -1, circles_near_polygon_of_a, touches);
-  for (std::size_t pa = 0; pa < model_a.polygons.size(); ++pa)
-    for (std::size_t pb = 0; pb < model_b.polygons.size(); ++pb)
-      if ((near[circles_b + pb] >> (circles_a + pa) & 1U) != 0)
-        PolygonWithPolygon(a.placed, b.placed, model_a.polygons[pa], model_b.polygons[pb], touches);
-  if (touches.Count() > 1) touches.DropShallow();
+    const Points to{between_.x - second_.centre[m].x, between_.y - second_.centre[m].y};
+    const Doubles reach = b.part_radius[m] + margin_;
+    for (int k = 0; k < a.parts; ++k)
+    {
+      const Doubles dx = first_.centre[k].x + to.x;
+      const Doubles dy = first_.centre[k].y + to.y;
+      const Doubles limit = a.part_radius[k] + reach;
+      near |= (Bits(dx * dx + dy * dy < limit * limit) != 0 ? 1U : 0U) << (static_cast<int>(kParts) * m + k);
+    }
+  }
+  return near;
+}
+
+void PairBatch::Add(const Touches& touches)
+{
+  Touches& found = found_[finds_++];
+  found = touches;
+  found.depth = touches.depth > -margin_ ? touches.depth : -kNone + Doubles{};
+  deepest_ = found.depth > deepest_ ? found.depth : deepest_;
+  const Doubles apart = kTouchesApart - deepest_;
+  margin_ = apart < margin_ ? apart : margin_;
+}
+
+void PairBatch::CircleWithCircle(std::size_t k, std::size_t m)
+{
+  const Doubles x = first_.centre[k].x - second_.centre[m].x;
+  const Doubles y = first_.centre[k].y - second_.centre[m].y;
+  const Doubles dx = between_.x + x;
+  const Doubles dy = between_.y + y;
+  const double reach = first_.Model().part_radius[k] + second_.Model().part_radius[m];
+  Add({x, y, reach + Doubles{}, reach - SquareRoots(dx * dx + dy * dy), DoubleMask{}});
+}
+
+// `sign` is 1 where the circles belong to the first body of the pair, else -1.
+void PairBatch::CircleWithPolygon(const Side& circles, const Side& polygons, std::size_t k, std::size_t p, double sign)
+{
+  const Polygon& polygon = polygons.Model().polygons[p];
+  const Axes& axes = polygons.AxesOf(polygon);
+  const double radius = circles.Model().part_radius[k];
+  const Points& offset = circles.centre[k];
+  const Points q = axes.ToLocal({sign * between_.x + offset.x, sign * between_.y + offset.y});
+  Doubles separations[Polygon::kMaximumVertices];
+  Doubles separation = -kNone + Doubles{};
+  for (int n = 0; n < polygon.count; ++n)
+  {
+    separations[n] = polygon.nx[n] * q.x + polygon.ny[n] * q.y - polygon.offset[n];
+    separation = separations[n] > separation ? separations[n] : separation;
+  }
+  if (Bits(separation <= radius + margin_) == 0) return;
+
+  // The first face from which the circle is separated most: its ends, and its normal and offset.
+  Points begin{}, end{}, normal{};
+  Doubles face_offset{};
+  for (int n = polygon.count - 1, next = 0; n >= 0; next = n--)
+  {
+    const DoubleMask best = separations[n] == separation;
+    const auto set = [&](Doubles& v, double value) { v = best ? value + Doubles{} : v; };
+    set(begin.x, polygon.x[n]);
+    set(begin.y, polygon.y[n]);
+    set(end.x, polygon.x[next]);
+    set(end.y, polygon.y[next]);
+    set(normal.x, polygon.nx[n]);
+    set(normal.y, polygon.ny[n]);
+    set(face_offset, polygon.offset[n]);
+  }
+  const Points n = axes.ToWorld(normal);
+  const Doubles face_reach = radius + face_offset - (n.x * offset.x + n.y * offset.y);
+
+  // Outside and beyond an end of that face: the corner counts, as a circle of radius 0.
+  const Points edge{end.x - begin.x, end.y - begin.y};
+  const Doubles along = (q.x - begin.x) * edge.x + (q.y - begin.y) * edge.y;
+  const DoubleMask before = along < 0.0;
+  const DoubleMask beyond = (separation > 0.0) & (before | (along > edge.x * edge.x + edge.y * edge.y));
+  const Points corner = axes.ToWorld(Points{before ? begin.x : end.x, before ? begin.y : end.y});
+  const Doubles x = sign * (beyond ? offset.x - corner.x : n.x);
+  const Doubles y = sign * (beyond ? offset.y - corner.y : n.y);
+  const Doubles reach = beyond ? radius + Doubles{} : face_reach;
+  const Doubles face_length = between_.x * x + between_.y * y;
+  const Doubles dx = between_.x + x;
+  const Doubles dy = between_.y + y;
+  Add({x, y, reach, reach - (beyond ? SquareRoots(dx * dx + dy * dy) : face_length), ~beyond});
+}
+
+// `between`: from the body of `faces` to that of `other`.
+PairBatch::Faces PairBatch::SeparationAlong(const Polygon& faces, const Polygon& other, const Axes& faces_axes,
+                                            const Axes& other_axes, Points between)
+{
+  // The vertices of `other` relative to the body of `faces`.
+  Points vertices[Polygon::kMaximumVertices];
+  for (int k = 0; k < other.count; ++k)
+  {
+    const Points p = other_axes.ToWorld(other.x[k], other.y[k]);
+    vertices[k] = faces_axes.ToLocal({p.x + between.x, p.y + between.y});
+  }
+  Faces best{-kNone + Doubles{}, {}};
+  for (int k = 0; k < faces.count; ++k)
+  {
+    Doubles nearest = kNone + Doubles{};
+    for (int m = 0; m < other.count; ++m)
+    {
+      const Doubles distance = faces.nx[k] * vertices[m].x + faces.ny[k] * vertices[m].y;
+      nearest = distance < nearest ? distance : nearest;
+    }
+    nearest -= faces.offset[k];
+    const DoubleMask better = nearest > best.separation;
+    best.separation = better ? nearest : best.separation;
+    best.normal.x = better ? faces.nx[k] + Doubles{} : best.normal.x;
+    best.normal.y = better ? faces.ny[k] + Doubles{} : best.normal.y;
+  }
+  return best;
+}
+
+void PairBatch::PolygonWithPolygon(std::size_t p, std::size_t q)
+{
+  const Polygon& a = first_.Model().polygons[p];
+  const Polygon& b = second_.Model().polygons[q];
+  const Axes& axes_a = first_.AxesOf(a);
+  const Axes& axes_b = second_.AxesOf(b);
+  const Faces along_b = SeparationAlong(b, a, axes_b, axes_a, between_);
+  if (Bits(along_b.separation <= margin_) == 0) return;
+  const Faces along_a = SeparationAlong(a, b, axes_a, axes_b, {-between_.x, -between_.y});
+  const DoubleMask from_b = along_b.separation >= along_a.separation;
+  const Points n_b = axes_b.ToWorld(along_b.normal);
+  const Points n_a = axes_a.ToWorld({-along_a.normal.x, -along_a.normal.y});
+  const Points n{from_b ? n_b.x : n_a.x, from_b ? n_b.y : n_a.y};
+  // depth = -separation at this place; reach makes it so.
+  const Doubles separation = from_b ? along_b.separation : along_a.separation;
+  const Doubles reach = n.x * between_.x + n.y * between_.y - separation;
+  const Doubles depth = reach - (between_.x * n.x + between_.y * n.y);
+  Add({n.x, n.y, reach, depth, ~DoubleMask{}});
 }
 
 double Overlap(const Placed& a, const Placed& b)
 {
-  Touches touches;
-  Spot spot_a{a, {}, {}};
-  Spot spot_b{b, {}, {}};
-  Spread(spot_a);
-  Spread(spot_b);
-  FindTouches(spot_a, spot_b, 0, touches);
-  return std::max(0.0, touches.Deepest());
+  PairBatch batch;
+  batch.Add(a, b);
+  batch.FindTouches(0);
+  return std::max(0.0, batch.Deepest(0));
 }
 
 }  // namespace swarmanoid::kinematics2d

@@ -1,52 +1,24 @@
-// Exact contacts between two collision models at given poses. Used by the kinematic world for the few pairs whose
-// bounding circles meet.
+// Exact contacts between collision models at given poses, for a few pairs side by side: one in each lane of a vector.
+// Used by the kinematic world for the pairs whose bounding circles meet; each batch within one thread.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "engine_worker/engines/kinematics2d/collision_model.h"
-#include "engine_worker/engines/kinematics2d/kinematic_limits.h"
-#include "engine_worker/engines/kinematics2d/motion.h"
 #include "engine_worker/engines/kinematics2d/vectors.h"
 
 namespace swarmanoid::kinematics2d
 {
 
 // A model put somewhere: position, heading and turret as cosine and sine.
-struct Placed
+struct alignas(64) Placed
 {
-  const CollisionModel* model = nullptr;
   double x = 0, y = 0;
   double cos = 1, sin = 0;
   double turret_cos = 1, turret_sin = 0;
+  const CollisionModel* model = nullptr;
 };
-
-// A placed model with the centres of its parts, relative to the body, along the axes of the world.
-struct Spot
-{
-  Placed placed;
-  alignas(kVectorBytes) CollisionModel::PartValues centre_x, centre_y;
-};
-
-inline void Spread(Spot& spot)
-{
-  const Placed& body = spot.placed;
-  const CollisionModel& model = *body.model;
-  const double turned_cos = body.cos * body.turret_cos - body.sin * body.turret_sin;
-  const double turned_sin = body.sin * body.turret_cos + body.cos * body.turret_sin;
-  for (std::size_t k = 0; k < CollisionModel::kMaximumParts; k += kDoubles)
-  {
-    const DoubleMask turns = LoadMask(&model.on_turret[k]);
-    const Doubles c = turns ? turned_cos + Doubles{} : body.cos + Doubles{};
-    const Doubles s = turns ? turned_sin + Doubles{} : body.sin + Doubles{};
-    const Doubles x = LoadDoubles(&model.part_x[k]);
-    const Doubles y = LoadDoubles(&model.part_y[k]);
-    Store(&spot.centre_x[k], c * x - s * y);
-    Store(&spot.centre_y[k], s * x + c * y);
-  }
-}
 
 // Where two outlines are near. As long as neither turns, their depth at other positions a, b of the two bodies is
 //   point: reach - |(a - b) + (x, y)|, pushing apart along that difference;
@@ -59,63 +31,107 @@ struct Touch
   double depth;  // where it was found
 };
 
-// The depth of a touch where the first body is (dx, dy) from the second.
-inline double DepthOf(const Touch& touch, double dx, double dy)
-{
-  if (touch.face) return touch.reach - (dx * touch.x + dy * touch.y);
-  const double x = dx + touch.x;
-  const double y = dy + touch.y;
-  return touch.reach - std::sqrt(x * x + y * y);
-}
-
-// The touches of one pair. Those that are kTouchesApart less deep than the deepest one are left out.
-class Touches
+// All pairs of a batch are of the same two models.
+class PairBatch
 {
 public:
-  // Touches less deep than -margin are of no interest.
-  void Begin(double dx, double dy, double margin)
+  std::size_t Count() const { return count_; }
+  bool IsFull() const { return count_ == kDoubles; }
+  bool Takes(const Placed& a, const Placed& b) const
   {
-    count_ = 0;
-    dx_ = dx;
-    dy_ = dy;
-    deepest_ = -1e300;
-    margin_ = margin;
+    return count_ == 0 || (a.model == first_.placed[0]->model && b.model == second_.placed[0]->model);
   }
-  // A touch that is not too shallow.
-  void Add(const Touch& touch)
+  // The two must stay where they are until the batch is cleared.
+  void Add(const Placed& a, const Placed& b)
   {
-    if (count_ < kMaximum) list_[static_cast<std::size_t>(count_++)] = touch;
+    first_.placed[count_] = &a;
+    second_.placed[count_] = &b;
+    ++count_;
   }
-  void Add(double x, double y, double reach, bool face)
+  void Clear() { count_ = 0; }
+  const Placed& First(std::size_t lane) const { return *first_.placed[lane]; }
+  const Placed& Second(std::size_t lane) const { return *second_.placed[lane]; }
+
+  // For every pair, all places where the outlines overlap or are less than `margin` apart. Those that are
+  // kTouchesApart less deep than the deepest one of their pair are left out.
+  void FindTouches(double margin);
+  // After FindTouches: the depth of the deepest touch of a pair; far below 0 where there is none.
+  double Deepest(std::size_t lane) const { return deepest_[lane]; }
+  // After FindTouches: calls act(lane, touch) with the touches of each pair, one pair after the other.
+  template <class Act>
+  void ForEachTouch(const Act& act) const
   {
-    Touch touch{x, y, reach, face, 0};
-    touch.depth = DepthOf(touch, dx_, dy_);
-    if (touch.depth <= -margin_) return;
-    Add(touch);
-    NoteDepth(touch.depth);
+    std::uint64_t left = 0;
+    for (std::size_t lane = 0; lane < count_; ++lane)
+      left |= static_cast<std::uint64_t>(kept_[lane]) << (lane * kParts * kParts);
+    for (; left != 0; left &= left - 1)
+    {
+      const auto bit = static_cast<unsigned>(__builtin_ctzll(left));
+      const unsigned lane = bit / (kParts * kParts);
+      const Touches& touches = found_[bit % (kParts * kParts)];
+      act(lane,
+          Touch{touches.x[lane], touches.y[lane], touches.reach[lane], touches.face[lane] != 0, touches.depth[lane]});
+    }
   }
-  void NoteDepth(double depth)
-  {
-    if (depth <= deepest_) return;
-    deepest_ = depth;
-    margin_ = std::min(margin_, kTouchesApart - depth);
-  }
-  void DropShallow();
-  double Margin() const { return margin_; }
-  double Deepest() const { return deepest_; }
-  int Count() const { return count_; }
-  const Touch& operator[](int k) const { return list_[static_cast<std::size_t>(k)]; }
 
 private:
-  static constexpr int kMaximum = 24;  // more than two models can have
-  std::array<Touch, kMaximum> list_;
-  int count_;
-  double dx_, dy_;  // from the second body to the first
-  double deepest_, margin_;
-};
+  static constexpr unsigned kParts = CollisionModel::kMaximumParts;
+  static_assert(kDoubles * kParts * kParts <= 64);
 
-// All places where the outlines overlap or are less than `margin` apart.
-void FindTouches(const Spot& a, const Spot& b, double margin, Touches& touches);
+  struct Points
+  {
+    Doubles x, y;
+  };
+  struct Axes
+  {
+    Doubles cos, sin;
+
+    Points ToWorld(Points p) const { return {cos * p.x - sin * p.y, sin * p.x + cos * p.y}; }
+    Points ToWorld(double x, double y) const { return {cos * x - sin * y, sin * x + cos * y}; }
+    Points ToLocal(Points p) const { return {cos * p.x + sin * p.y, cos * p.y - sin * p.x}; }
+  };
+  // One body of each pair.
+  struct Side
+  {
+    std::array<const Placed*, kDoubles> placed;
+    Points position;
+    Axes body, turret;
+    Points centre[kParts];  // of the parts, relative to the body, along the axes of the world
+
+    const CollisionModel& Model() const { return *placed[0]->model; }
+    const Axes& AxesOf(const Polygon& polygon) const { return polygon.on_turret ? turret : body; }
+    void Spread(std::size_t count);
+  };
+  // The faces of a polygon from which something is separated most.
+  struct Faces
+  {
+    Doubles separation;
+    Points normal;
+  };
+  struct Touches
+  {
+    Doubles x, y, reach, depth;
+    DoubleMask face;
+  };
+
+  unsigned NearParts() const;
+  void CircleWithCircle(std::size_t k, std::size_t m);
+  void CircleWithPolygon(const Side& circles, const Side& polygons, std::size_t k, std::size_t p, double sign);
+  void PolygonWithPolygon(std::size_t p, std::size_t q);
+  static Faces SeparationAlong(const Polygon& faces, const Polygon& other, const Axes& faces_axes,
+                               const Axes& other_axes, Points between);
+  // Those that are not too shallow.
+  void Add(const Touches& touches);
+
+  std::size_t count_ = 0;
+  Side first_, second_;
+  Points between_;  // from the second body to the first
+  Doubles margin_;  // touches less deep than -margin are of no interest
+  Doubles deepest_;
+  Touches found_[kParts * kParts];
+  int finds_ = 0;
+  DoubleMask kept_;  // of each lane: the finds that count, one bit each
+};
 
 // The deepest overlap in metres; 0 where there is none.
 double Overlap(const Placed& a, const Placed& b);

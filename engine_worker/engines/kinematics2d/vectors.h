@@ -46,11 +46,14 @@ inline Doubles LoadDoubles(const double* from)
   std::memcpy(&v, from, sizeof v);
   return v;
 }
-inline DoubleMask LoadMask(const std::int64_t* from)
+// value(0), value(1), ... in the lanes.
+template <class Value>
+Doubles InLanes(const Value& value)
 {
-  DoubleMask v;
-  std::memcpy(&v, from, sizeof v);
-  return v;
+  if constexpr (kDoubles == 4)
+    return Doubles{value(0), value(1), value(2), value(3)};
+  else
+    return Doubles{value(0), value(1)};
 }
 inline void Store(double* to, Doubles v) { std::memcpy(to, &v, sizeof v); }
 inline void Store(std::int32_t* to, Ints v) { std::memcpy(to, &v, sizeof v); }
@@ -98,6 +101,13 @@ inline unsigned Bits(DoubleMask mask)
   for (std::size_t k = 0; k < kDoubles; ++k) bits |= (mask[k] != 0 ? 1U : 0U) << k;
   return bits;
 #endif
+}
+
+// Calls `act` with the place of each bit that is set, from the lowest.
+template <class Act>
+void ForEachBit(unsigned bits, const Act& act)
+{
+  for (; bits != 0; bits &= bits - 1) act(static_cast<unsigned>(__builtin_ctz(bits)));
 }
 
 constexpr std::size_t PaddedCount(std::size_t count) { return (count + 2 * kPadding - 1) / kPadding * kPadding; }
