@@ -71,7 +71,7 @@ void CDynamics3dEngine::AddHoles()
     }
   }
   world_->BeginEntity(kNoEntity);
-  world_->AddSolid(dCreatePlane(nullptr, 0, 0, 1, -kPitDepth), -1, ELayer::kStatic);
+  world_->AddSolid(dCreatePlane(nullptr, 0, 0, 1, -kPitDepth), -1, ELayer::kStatic, ESurface::kTerrain);
   world_->SetOpenings(
       [outlines](const Vector3& point)
       {

@@ -34,6 +34,14 @@ Pose CentreOf(const CSwarmanoidSpaceEntity& entity)
   return {Vector3(0, 0, height), Quaternion::Identity()};
 }
 
+Touch TouchOf(const CSwarmanoidSpaceEntity& entity)
+{
+  const TConfigurationTree& tree = entity.GetConfiguration().tree;
+  const auto given = [&](const char* name)
+  { return tree.Value(name) ? std::optional(tree.GetNumber(name)) : std::nullopt; };
+  return {given("friction"), given("restitution"), given("ground_friction")};
+}
+
 // Spheres at the corners and rims of a body, which meet voxels in its place.
 void AddProbes(Scene& scene, const CSwarmanoidSpaceEntity& entity, int body)
 {
@@ -73,7 +81,7 @@ ObjectModel::ObjectModel(Scene& scene, const CSwarmanoidSpaceEntity& entity) : M
   const double given = entity.GetConfiguration().mass_kg;
   const double mass = given > 0 ? given : scene.density * volume;
   AddBody(round ? CylinderMass(mass, size.x(), size.z()) : BoxMass(mass, size), CentreOf(entity));
-  scene.world.BeginEntity(Entity());
+  scene.world.BeginEntity(Entity(), TouchOf(entity));
   scene.world.AddSolid(OutlineOf(entity), MainBody(), ELayer::kObject);
   if (scene.has_voxels) AddProbes(scene, entity, MainBody());
 }
@@ -81,7 +89,7 @@ ObjectModel::ObjectModel(Scene& scene, const CSwarmanoidSpaceEntity& entity) : M
 MirrorModel::MirrorModel(Scene& scene, const CSwarmanoidSpaceEntity& entity) : Model(scene, entity)
 {
   AddKinematicBody(CentreOf(entity));
-  scene.world.BeginEntity(Entity());
+  scene.world.BeginEntity(Entity(), TouchOf(entity));
   scene.world.AddSolid(OutlineOf(entity), MainBody(), ELayer::kStatic);
   last_ = RawOf(scene.frame.ToLocal(entity.GetPose()).Compose(MainOffset()));
 }
@@ -112,7 +120,7 @@ void AddStaticObject(Scene& scene, const CSwarmanoidSpaceEntity& entity)
   const dGeomID geom = OutlineOf(entity);
   dGeomSetPosition(geom, pose.position[0], pose.position[1], pose.position[2]);
   dGeomSetQuaternion(geom, pose.quaternion);
-  scene.world.BeginEntity(entity.GetIndex());
+  scene.world.BeginEntity(entity.GetIndex(), TouchOf(entity));
   scene.world.AddSolid(geom, -1, ELayer::kStatic);
 }
 

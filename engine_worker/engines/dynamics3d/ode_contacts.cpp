@@ -32,6 +32,16 @@ int Flipped(std::span<dContactGeom> contacts, int count)
   return count;
 }
 
+bool IsGround(const Solid& solid) { return solid.surface == ESurface::kGround || solid.surface == ESurface::kTerrain; }
+
+// Of two things, one of which may be the ground.
+double FrictionOf(const Solid& a, const Solid& b, double of_world)
+{
+  if (IsGround(a)) return b.touch.ground_friction.value_or(of_world);
+  if (IsGround(b)) return a.touch.ground_friction.value_or(of_world);
+  return std::sqrt(a.touch.friction.value_or(of_world) * b.touch.friction.value_or(of_world));
+}
+
 }  // namespace
 
 void OdeWorld::MakeContacts(const Solid& a, const Solid& b)
@@ -91,8 +101,9 @@ void OdeWorld::AddContact(const dContactGeom& geometry, const Solid& a, const So
   }
   else if (a.surface == ESurface::kWheel || b.surface == ESurface::kWheel)
   {
-    surface.mu = settings_.wheel_friction;
     const bool first = a.surface == ESurface::kWheel;
+    const std::optional<double> other = (first ? b : a).touch.friction;
+    surface.mu = other ? std::sqrt(settings_.wheel_friction * *other) : settings_.wheel_friction;
     const dBodyID wheel = first ? body_a : body_b;
     // Rolls on its own radius, however deep it stands in the ground.
     const double radius = dGeomSphereGetRadius(first ? a.geom : b.geom);
@@ -102,7 +113,7 @@ void OdeWorld::AddContact(const dContactGeom& geometry, const Solid& a, const So
   }
   else
   {
-    surface.mu = settings_.friction;
+    surface.mu = FrictionOf(a, b, settings_.friction);
     // ODE's friction is a box: put its first edge along the slip, or along the slip that gravity asks for.
     const Vector3 point = VectorOf(geometry.pos);
     Vector3 slip = Vector3::Zero();
@@ -117,10 +128,12 @@ void OdeWorld::AddContact(const dContactGeom& geometry, const Solid& a, const So
     surface.mode |= dContactFDir1;
     for (int k = 0; k < 3; ++k) contact.fdir1[k] = along[k] / length;
   }
-  if (settings_.restitution > 0)
+  const double restitution = std::max(a.touch.restitution.value_or(settings_.restitution),
+                                      b.touch.restitution.value_or(settings_.restitution));
+  if (restitution > 0)
   {
     surface.mode |= dContactBounce;
-    surface.bounce = settings_.restitution;
+    surface.bounce = restitution;
     surface.bounce_vel = 0.05;
   }
   dJointAttach(dJointCreateContact(world_, contact_joints_, &contact), body_a, body_b);

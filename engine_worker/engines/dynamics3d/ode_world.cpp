@@ -109,9 +109,10 @@ int OdeWorld::Register(dBodyID body)
   return static_cast<int>(number);
 }
 
-void OdeWorld::BeginEntity(std::uint32_t entity)
+void OdeWorld::BeginEntity(std::uint32_t entity, const Touch& touch)
 {
   current_entity_ = entity;
+  current_touch_ = touch;
   current_set_ = nullptr;
 }
 
@@ -123,6 +124,7 @@ void OdeWorld::AddSolid(dGeomID geom, int body, ELayer layer, ESurface surface, 
   solid->entity = current_entity_;
   solid->surface = surface;
   solid->layer = layer;
+  solid->touch = current_touch_;
   dGeomSetData(geom, solid.get());
   const LayerBits bits = BitsOf(layer);
   dGeomSetCategoryBits(geom, bits.category);

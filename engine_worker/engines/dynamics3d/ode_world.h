@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,7 +27,16 @@ enum class ESurface : std::uint8_t
   kPlain,
   kWheel,   // a sphere that stands for a wheel about the y axis of its body: its flanks touch nothing
   kCaster,  // frictionless and springy
-  kGround   // the ground plane: open where there are holes
+  kGround,  // the ground plane: open where there are holes
+  kTerrain  // ground too
+};
+
+// How an entity rubs and bounces; what is left open is as the world has it.
+struct Touch
+{
+  std::optional<double> friction;         // with others: the geometric mean of both
+  std::optional<double> restitution;      // the larger one of both
+  std::optional<double> ground_friction;  // on ground and terrain
 };
 
 // Who collides with whom. Static solids, mirrors included, never meet one another; wheels pass other robots (the wheel
@@ -50,6 +60,7 @@ struct Solid
   std::uint32_t entity = kNoEntity;
   ESurface surface = ESurface::kPlain;
   ELayer layer = ELayer::kStatic;
+  Touch touch;
 };
 
 // The bits of a body's position and quaternion (w x y z), as ODE holds them.
@@ -88,7 +99,7 @@ public:
   static int NumberOf(dBodyID body) { return static_cast<int>(reinterpret_cast<std::intptr_t>(dBodyGetData(body))); }
 
   // Starts the set of solids of one entity; those of a set never collide with one another.
-  void BeginEntity(std::uint32_t entity);
+  void BeginEntity(std::uint32_t entity, const Touch& touch = {});
   // Takes over a geom made with no space. body -1: it stands where it is.
   void AddSolid(dGeomID geom, int body, ELayer layer, ESurface surface = ESurface::kPlain,
                 const Pose& offset_in_body = {});
@@ -137,6 +148,7 @@ private:
   dWorldID world_ = nullptr;
   dSpaceID space_ = nullptr;
   dSpaceID current_set_ = nullptr;
+  Touch current_touch_;
   std::uint32_t current_entity_ = kNoEntity;
   dJointGroupID contact_joints_ = nullptr;
   dThreadingImplementationID threading_ = nullptr;

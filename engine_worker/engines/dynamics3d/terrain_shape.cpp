@@ -196,7 +196,7 @@ std::unique_ptr<TerrainShape> AddHeightfield(OdeWorld& world, std::uint32_t enti
   dGeomSetPosition(geom, raw.position[0], raw.position[1], raw.position[2]);
   dGeomSetQuaternion(geom, raw.quaternion);
   world.BeginEntity(entity);
-  world.AddSolid(geom, -1, ELayer::kStatic);
+  world.AddSolid(geom, -1, ELayer::kStatic, ESurface::kTerrain);
   return shape;
 }
 
@@ -207,7 +207,7 @@ std::unique_ptr<TerrainShape> AddVoxels(OdeWorld& world, std::uint32_t entity,
   const dGeomID geom = dCreateGeom(VoxelClass());
   *static_cast<const VoxelShape**>(dGeomGetClassData(geom)) = shape.get();
   world.BeginEntity(entity);
-  world.AddSolid(geom, -1, ELayer::kVoxels);
+  world.AddSolid(geom, -1, ELayer::kVoxels, ESurface::kTerrain);
   return shape;
 }
 
