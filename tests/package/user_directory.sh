@@ -140,5 +140,34 @@ TryUserDirectory()
        END { exit !(n > 3) }' "$runs/wall_follower/wall_follower.txt"
   awk '$2 == "Eyebot" && $1 == 0 { x[$3] = $4; y[$3] = $5 } $2 == "Eyebot" && $1 == 60 { d = (x[$3] - $4)^2 + (y[$3] - $5)^2; if (d > 0.01) n++ }
        END { exit !(n > 1) }' "$runs/sky_watch/sky_watch.txt"
+
+  echo "== a simulator of the user's runs an experiment with many seeds"
+  cat >simulation_main.cpp <<'END'
+#include <cstdio>
+
+#include "simulation.h"
+
+using namespace swarmanoid;
+
+int main()
+{
+  for (int seed = 1; seed <= 3; ++seed)
+  {
+    const auto experiment = ReadExperiment("experiments/diffusion_10.xml",
+                                           {{"framework.seed", std::to_string(seed)}, {"framework.maxclock", "50"}});
+    CSimulator simulator(*experiment, {.visualisations = false});
+    std::uint64_t steps = 0;
+    while (simulator.Step()) ++steps;
+    std::printf("%llu steps, hash %016llx\n", static_cast<unsigned long long>(steps),
+                static_cast<unsigned long long>(simulator.Finish().hash));
+  }
+}
+END
+  ./build.sh >"$runs/build.txt" 2>&1 || { cat "$runs/build.txt"; exit 1; }
+  own=$(simulation_build/simulation)
+  for seed in 1 2 3; do
+    cluster=$(swarmanoid run experiments/diffusion_10.xml --ticks 50 --seed "$seed" --quiet --no-visualisers --output "$runs/seed-$seed")
+    Expect "$(sed -n "${seed}p" <<<"$own")" "50 steps, $(Hash "$cluster")"
+  done
   rm -rf "$runs"
 }
