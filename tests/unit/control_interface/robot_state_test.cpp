@@ -68,6 +68,15 @@ public:
   std::vector<std::string> calls;
 };
 
+class FakeGripper : public CCI_FootBotGripperSensor
+{
+public:
+  double GetAperture() const override { return 0.5; }
+  bool IsGripping() const override { return !held.empty(); }
+  std::string GetHeldId() const override { return held; }
+  std::string held = "prey_1";
+};
+
 class FakeBeacon : public CCI_HandBotBeaconActuator
 {
 public:
@@ -146,6 +155,22 @@ TEST(FootBotState, HoldsTheAccelerometerAndShowsADirection)
   state.HideDirection();
   state.WriteActuators();
   EXPECT_THAT(direction.calls, ElementsAre("show 0.500000", "hide"));
+}
+
+TEST(FootBotState, HoldsWhatTheGripperHeldWhenItWasRead)
+{
+  CCI_Robot robot("fb", "footbot");
+  FakeGripper gripper;
+  CCI_FootBotState state(&robot);
+  state.Init();
+  EXPECT_THROW(state.GetHeldId(), CCI_DeviceError);
+  robot.AddSensor("footbot_gripper", &gripper);
+  state.Init();
+  state.ReadSensors();
+  gripper.held.clear();
+  EXPECT_TRUE(state.IsGripping());
+  EXPECT_EQ(state.GetHeldId(), "prey_1");
+  EXPECT_EQ(state.GetGripperAperture(), 0.5);
 }
 
 TEST(EyeBotState, OfVelocityAndPositionTheLaterOneCounts)
