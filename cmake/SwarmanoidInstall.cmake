@@ -8,6 +8,9 @@ set(PACKAGE_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/Swarmanoid)
 install(DIRECTORY common engine_worker controller_host visualiser space_server
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid
   FILES_MATCHING PATTERN "*.h" PATTERN "bus" EXCLUDE PATTERN "engines" EXCLUDE PATTERN "devices" EXCLUDE)
+# Of the devices, what those of users are made from.
+install(FILES controller_host/devices/noise.h controller_host/devices/value_devices.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid/controller_host/devices)
 
 install(FILES launcher/simulation.h launcher/simulator.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid/launcher)
 install(DIRECTORY user/behavior_toolkit DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid/user FILES_MATCHING PATTERN "*.h")

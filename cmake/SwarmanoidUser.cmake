@@ -60,6 +60,15 @@ function(swarmanoid_renderers folder output)
   set(SWARMANOID_RENDERERS ${SWARMANOID_CONTROLLERS} PARENT_SCOPE)
 endfunction()
 
+# swarmanoid_devices(FOLDER OUTPUT): the same for simulated sensors and actuators; the names go into SWARMANOID_DEVICES.
+function(swarmanoid_devices folder output)
+  swarmanoid_controllers(${folder} ${output})
+  foreach(name IN LISTS SWARMANOID_CONTROLLERS)
+    target_link_libraries(${name} PRIVATE Swarmanoid::controller_host_role)
+  endforeach()
+  set(SWARMANOID_DEVICES ${SWARMANOID_CONTROLLERS} PARENT_SCOPE)
+endfunction()
+
 # swarmanoid_driver(NAME SOURCES... [LINK libs...]): the library libNAME.so with drivers of a real robot (docs/real_robot.md).
 function(swarmanoid_driver name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
