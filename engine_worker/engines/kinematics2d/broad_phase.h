@@ -64,6 +64,21 @@ public:
     }
     for (const std::uint32_t body : large_) act(body);
   }
+  // Fetches into the cache what ForEachNear and ForEachStaticNear will look at.
+  void PrefetchNear(double x, double y) const
+  {
+    const std::uint32_t* const start = start_.data() + 1;
+    const std::uint32_t cell = Cell(CellX(x), CellY(y));
+    __builtin_prefetch(&static_start_[cell]);
+    for (const std::uint32_t row : {cell - stride_, cell, cell + stride_})
+    {
+      const std::uint32_t first = start[row];
+      __builtin_prefetch(&x_[first]);
+      __builtin_prefetch(&y_[first]);
+      __builtin_prefetch(&r_[first]);
+      __builtin_prefetch(&body_[first]);
+    }
+  }
   // Calls `act` with every static shape that may touch a body at a point.
   template <class Act>
   void ForEachStaticNear(std::uint32_t body, double x, double y, const Act& act) const

@@ -76,22 +76,25 @@ inline bool ContactSolver::IsDeep(const ContactList::Outline& outline, bool face
 [[gnu::always_inline]] inline void ContactSolver::PushApart(ContactList::Ends ends, const ContactList::Outline& outline,
                                                             std::uint8_t sweep, double limit, const Leaders& leaders)
 {
-  const auto [mobility, x, y] = leaders;
+  double* const x = leaders.x;
+  double* const y = leaders.y;
   const auto [i, j, face] = ends;
   Push push;
   if (!IsDeep(outline, face != 0, limit, x[i] - x[j], y[i] - y[j], push)) return;
-  const double way = (sweep == 1 ? push.depth + outline.bounce : push.depth) / (mobility[i] + mobility[j]);
-  if (mobility[i] > 0)
+  const double mobility_i = leaders.MobilityOf(i);
+  const double mobility_j = leaders.MobilityOf(j);
+  const double way = (sweep == 1 ? push.depth + outline.bounce : push.depth) / (mobility_i + mobility_j);
+  if (mobility_i > 0)
   {
     NotePush(i, sweep, x[i], y[i]);
-    x[i] += push.x * (way * mobility[i]);
-    y[i] += push.y * (way * mobility[i]);
+    x[i] += push.x * (way * mobility_i);
+    y[i] += push.y * (way * mobility_i);
   }
-  if (mobility[j] > 0)
+  if (mobility_j > 0)
   {
     NotePush(j, sweep, x[j], y[j]);
-    x[j] -= push.x * (way * mobility[j]);
-    y[j] -= push.y * (way * mobility[j]);
+    x[j] -= push.x * (way * mobility_j);
+    y[j] -= push.y * (way * mobility_j);
   }
 }
 
@@ -121,10 +124,10 @@ void ContactSolver::ActivateNeighbours(std::uint8_t sweep)
   active_count_ = found;
 }
 
-void ContactSolver::Solve(const std::vector<double>& mobility, double tolerance, double reach, std::vector<double>& x,
+void ContactSolver::Solve(std::span<const double> mobility, double tolerance, double reach, std::vector<double>& x,
                           std::vector<double>& y)
 {
-  const Leaders leaders{mobility.data(), x.data(), y.data()};
+  const Leaders leaders{mobility.data(), x.data(), y.data(), static_cast<std::uint32_t>(last_push_.size() - 1)};
   last_search_ = 0;
   const std::span<const std::uint32_t> overlapping = contacts_.Overlapping();
   const ContactList::Ends* const ends = contacts_.AllEnds().data();

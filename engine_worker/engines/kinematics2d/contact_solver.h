@@ -79,8 +79,9 @@ public:
   void Clear();
   ContactList& Contacts() { return contacts_; }
   // Moves the leaders until no contact is deeper than `tolerance` or the sweeps are used up; shares follow `mobility`,
-  // the inverse of a weight. No leader is moved further than `reach`. Contacts are handled in the order of adding.
-  void Solve(const std::vector<double>& mobility, double tolerance, double reach, std::vector<double>& x,
+  // the inverse of a weight; empty where all bodies have the same. No leader is moved further than `reach`. Contacts
+  // are handled in the order of adding.
+  void Solve(std::span<const double> mobility, double tolerance, double reach, std::vector<double>& x,
              std::vector<double>& y);
 
   const std::vector<PushedLeader>& Pushed() const { return pushed_; }
@@ -107,9 +108,15 @@ private:
   // What the solver works on, of each leader.
   struct Leaders
   {
-    const double* mobility;
+    const double* mobility;  // nullptr where those of all bodies are 1
     double* x;
     double* y;
+    std::uint32_t statics;  // the leader of all static shapes
+
+    double MobilityOf(std::uint32_t leader) const
+    {
+      return mobility != nullptr ? mobility[leader] : leader != statics ? 1.0 : 0.0;
+    }
   };
 
   static bool IsDeep(const ContactList::Outline& outline, bool face, double limit, double dx, double dy, Push& push);

@@ -28,13 +28,18 @@ void KinematicWorld::FindContacts(double margin)
 void KinematicWorld::FindContacts(double margin, std::size_t begin, std::size_t end, ContactList& contacts) const
 {
   PairBatch batch;
+  const bool everyone_is_free = EveryoneIsFree();
   for (std::size_t n = begin; n < end; ++n)
   {
     const Pair& ahead = broad_.Pairs()[std::min(n + kPairsAhead, end - 1)];
     __builtin_prefetch(&placed_[ahead.first]);
     __builtin_prefetch(&placed_[ahead.second]);
+    __builtin_prefetch(&before_.x[ahead.first]);
+    __builtin_prefetch(&before_.y[ahead.first]);
+    __builtin_prefetch(&before_.x[ahead.second]);
+    __builtin_prefetch(&before_.y[ahead.second]);
     const auto [a, b] = broad_.Pairs()[n];
-    if (leader_[a] == leader_[b] || mobility_[leader_[a]] + mobility_[leader_[b]] <= 0) continue;
+    if (!everyone_is_free && (leader_[a] == leader_[b] || mobility_[leader_[a]] + mobility_[leader_[b]] <= 0)) continue;
     if (batch.IsFull() || !batch.Takes(placed_[a], placed_[b])) AddContacts(batch, margin, contacts);
     batch.Add(placed_[a], placed_[b]);
   }

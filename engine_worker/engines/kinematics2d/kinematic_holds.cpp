@@ -7,6 +7,13 @@
 
 namespace swarmanoid::kinematics2d
 {
+namespace
+{
+
+// Cells are asked for this many bodies before they are needed.
+constexpr std::size_t kFarAhead = 6;
+
+}  // namespace
 
 // The solver's sweeps may end before a dense crowd is at peace. Where the step began there was no such overlap, so
 // those that still overlap go back: first to their old position, turned as they wish; if that does not help, all the
@@ -42,33 +49,56 @@ void KinematicWorld::Suspect(std::uint32_t leader)
   suspects_.push_back(leader);
 }
 
-// Those pushed so far that they may have met outlines that were no contacts yet, and did. Most did not: they are looked
-// at in batches.
-void KinematicWorld::SuspectThosePushedFar()
+// Into `near_`: those pushed so far that they may have met outlines that were no contacts yet, each with everybody
+// whose bounding circle now meets its own. Those near static shapes are suspects at once: they are few.
+void KinematicWorld::ListNearThosePushedFar()
 {
-  near_.clear();
-  const auto look_around = [&](std::uint32_t body)
-  {
-    ForEachNear(body,
-                [&](std::uint32_t other)
-                {
-                  if (other == body || !CirclesMeet(body, other)) return;
-                  near_.push_back({body, other});
-                  __builtin_prefetch(&placed_[other]);
-                });
-    broad_.ForEachStaticNear(body, now_.x[body], now_.y[body], [&](std::uint32_t) { Suspect(leader_[body]); });
-  };
+  far_.clear();
   const double far = std::min(kContactMargin, reach_) / 2;
   for (const PushedLeader& pushed : solver_.Pushed())
   {
     const double dx = now_.x[pushed.leader] - pushed.x;
     const double dy = now_.y[pushed.leader] - pushed.y;
     if (dx * dx + dy * dy <= far * far) continue;
-    look_around(pushed.leader);
+    far_.push_back(pushed.leader);
     for (const Grip& grip : grips_)
-      if (grip.prey == pushed.leader) look_around(grip.body);
+      if (grip.prey == pushed.leader) far_.push_back(grip.body);
   }
 
+  // Each stage asks ahead for what the next one needs: in large crowds it is not in the cache.
+  near_.clear();
+  for (std::size_t n = 0; n < far_.size(); ++n)
+  {
+    const std::uint32_t ahead = far_[std::min(n + kFarAhead, far_.size() - 1)];
+    broad_.PrefetchNear(now_.x[ahead], now_.y[ahead]);
+    const std::uint32_t body = far_[n];
+    ForEachNear(body,
+                [&](std::uint32_t other)
+                {
+                  if (other == body) return;
+                  near_.push_back({body, other});
+                  __builtin_prefetch(&now_.x[other]);
+                  __builtin_prefetch(&now_.y[other]);
+                  __builtin_prefetch(&radius_[other]);
+                });
+    broad_.ForEachStaticNear(body, now_.x[body], now_.y[body], [&](std::uint32_t) { Suspect(leader_[body]); });
+  }
+  std::size_t kept = 0;
+  for (const auto [body, other] : near_)
+  {
+    near_[kept] = {body, other};
+    if (!CirclesMeet(body, other)) continue;
+    ++kept;
+    __builtin_prefetch(&placed_[body]);
+    __builtin_prefetch(&placed_[other]);
+  }
+  near_.resize(kept);
+}
+
+// Those pushed far who overlap others now. Few do: they are looked at in batches.
+void KinematicWorld::SuspectThosePushedFar()
+{
+  ListNearThosePushedFar();
   PairBatch batch;
   const auto look = [&]
   {

@@ -130,7 +130,8 @@ void KinematicWorld::Substep(double seconds, double fraction)
   FindContacts(margin);
   if (!solver_.Contacts().Overlapping().empty())
   {
-    solver_.Solve(mobility_, kSolverTolerance * allowed_, reach_, now_.x, now_.y);
+    const std::span<const double> mobility = EveryoneIsFree() ? std::span<const double>() : mobility_;
+    solver_.Solve(mobility, kSolverTolerance * allowed_, reach_, now_.x, now_.y);
     for (const Grip& grip : grips_) now_.Set(grip.body, Compose(now_.Get(grip.prey), grip.relative));
     HoldBack();
   }

@@ -128,6 +128,8 @@ private:
   }
   std::uint32_t NumberOf(const Placed& placed) const { return static_cast<std::uint32_t>(&placed - placed_.data()); }
   Placed PlaceBefore(std::uint32_t body) const;
+  // Each body leads itself and can be pushed.
+  bool EveryoneIsFree() const { return grips_.empty() && followers_.empty(); }
   bool IsFollower(std::uint32_t body) const { return follower_[body] != 0; }
   void RebuildGroups();
   Twist GroupTwist(std::span<const Grip> members) const;
@@ -143,6 +145,7 @@ private:
   void HoldBack();
   bool MustNotOverlap(double overlap, double before) const;
   void Suspect(std::uint32_t leader);
+  void ListNearThosePushedFar();
   void SuspectThosePushedFar();
   template <class Act>
   void ForEachNear(std::uint32_t body, const Act& act) const;
@@ -192,7 +195,8 @@ private:
   std::vector<std::uint32_t> held_;
   std::vector<std::uint8_t> is_suspect_;  // leaders that may overlap others
   std::vector<std::uint32_t> suspects_;   // a queue
-  std::vector<Pair> near_;                // bodies pushed far, and those that are near them
+  std::vector<std::uint32_t> far_;        // bodies pushed far
+  std::vector<Pair> near_;                // of them and others
   WorldStatistics statistics_;
 };
 
