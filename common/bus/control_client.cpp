@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <random>
+#include <string>
 
 namespace swarmanoid
 {
@@ -53,10 +54,13 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, c
     requests_.Write(request);
     answered_.wait_for(lock, kRepeat, [this] { return reply_.has_value(); });
     // A run that ends upon the request may be gone before its answer finds us.
-    if (!reply_ && verb == "stop" && requests_.Readers() == 0)
-    {
-      reply_ = ControlReplyMessage{.client = request.client, .number = request.number, .ok = true, .text = "stopped"};
-    }
+    if (reply_ || requests_.Readers() > 0) continue;
+    const bool finished = status_ && status_->phase == RunStatus::Phase::kFinished;
+    if (verb != "stop" && !finished) continue;
+    reply_ = ControlReplyMessage{.client = request.client, .number = request.number, .text = {}};
+    reply_->ok = verb == "stop" || verb == "resume" || verb == "step";
+    reply_->tick = finished ? status_->tick : 0;
+    reply_->text = verb == "stop" ? "stopped" : "the run ended at tick " + std::to_string(reply_->tick);
   }
   return reply_;
 }

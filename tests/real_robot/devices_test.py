@@ -7,6 +7,7 @@ import pathlib
 import shutil
 import subprocess
 import tempfile
+import time
 import unittest
 
 from robot_test import LIBRARIES, ROBOT, free_domain
@@ -26,8 +27,9 @@ class Devices(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="swarmanoid_devices_test_"))
         self.addCleanup(shutil.rmtree, self.folder, True)
 
-    def run_robot(self, kind, sensors=(), actuators=(), drivers=""):
-        """Readings by sensor and name, and what each topic of an actuator was told, in order and without repetitions."""
+    def run_robot(self, kind, sensors, actuators=(), drivers=""):
+        """Readings by sensor and name, and what each topic of an actuator was told, in order and without repetitions. The robot begins
+        once its sensors are heard: then those who listen to its actuators have met it, too."""
         elements = lambda types: "".join(f"<{type}/>" for type in types)
         (self.folder / "e.xml").write_text(f"""<ahss-config>
   <framework><controller_path>{LIBRARIES}</controller_path><clocktick>50</clocktick></framework>
@@ -41,18 +43,20 @@ class Devices(unittest.TestCase):
         (self.folder / "r.xml").write_text(f'<ahss-robot id="r" kind="{kind}"><experiment file="e.xml" controller="c"/>'
                                            f'<drivers>{drivers}</drivers></ahss-robot>')
         domain = free_domain()
-        stand_in = subprocess.Popen([STAND_IN, str(domain), "6"], stdout=subprocess.PIPE, text=True)
-        self.addCleanup(stand_in.kill)
+        stand_in = subprocess.Popen([STAND_IN, str(domain), "60"], stdout=subprocess.PIPE, text=True)
         environment = {**os.environ, "ROS_DOMAIN_ID": str(domain), "ROS_LOCALHOST_ONLY": "1"}
-        robot = subprocess.run([ROBOT, "r.xml", "--steps", str(STEPS)], cwd=self.folder, env=environment, capture_output=True,
-                               text=True, timeout=60)
+        robot = subprocess.run([ROBOT, "r.xml", "--steps", str(STEPS), "--wait", "30"], cwd=self.folder, env=environment,
+                               capture_output=True, text=True, timeout=90)
+        time.sleep(0.5)
+        stand_in.terminate()
+        heard = stand_in.communicate(timeout=30)[0]
         self.assertEqual(robot.returncode, 0, robot.stderr)
         readings, told = {}, {}
         for line in robot.stdout.splitlines():
             if line.count("\t") == 3:
                 sensor, name, unit, value = line.split("\t")
                 readings.setdefault(sensor, {})[name] = (float(value), unit)
-        for line in stand_in.communicate(timeout=30)[0].splitlines():
+        for line in heard.splitlines():
             topic, value = line.split(" ", 1)
             told.setdefault(topic, []).append(value)
         return readings, told
@@ -115,8 +119,8 @@ class Devices(unittest.TestCase):
         self.expect(readings, "handbot_camera", blob_1_distance=math.sqrt(5), blob_1_elevation=math.atan2(1, 2))
 
     def test_actuators_of_a_footbot(self):
-        _, told = self.run_robot("footbot", actuators=["footbot_wheels", "footbot_beacon", "footbot_gripper", "footbot_turret",
-                                                       "footbot_leds"])
+        _, told = self.run_robot("footbot", ["footbot_accelerometer"], ["footbot_wheels", "footbot_beacon", "footbot_gripper",
+                                                                          "footbot_turret", "footbot_leds"])
         self.expect_numbers(told["cmd_vel"][0], 3 * WHEEL_RADIUS, 0, 0, 0, 0, 2 * WHEEL_RADIUS / WHEEL_DISTANCE)
         # Cut to 0.3 m/s a wheel.
         self.expect_numbers(told["cmd_vel"][1], 0, 0, 0, 0, 0, 0.6 / WHEEL_DISTANCE)
@@ -128,12 +132,12 @@ class Devices(unittest.TestCase):
 
     def test_a_preferential_direction_turns_against_the_turret(self):
         # The turret looks to -90 degrees: ahead is 90 degrees on its ring, the three LEDs about it.
-        _, told = self.run_robot("footbot", actuators=["footbot_preferential_direction"])
+        _, told = self.run_robot("footbot", ["footbot_turret_encoder"], ["footbot_preferential_direction"])
         lit = [i for i, led in enumerate(told["leds"][-2].split()[4:]) if led == "100"]
         self.assertEqual(lit, [2, 3])
 
     def test_actuators_of_an_eyebot(self):
-        _, told = self.run_robot("eyebot", actuators=["eyebot_propellers", "eyebot_laser", "eyebot_attachment", "eyebot_leds"])
+        _, told = self.run_robot("eyebot", ["eyebot_altitude"], ["eyebot_propellers", "eyebot_laser", "eyebot_attachment", "eyebot_leds"])
         # Cut to 90 degrees a second.
         self.expect_numbers(told["cmd_vel"][0], 0.3, -0.2, 0.1, 0, 0, math.pi / 2)
         frame, pose = told["goal_pose"][0].split(" ", 1)
@@ -147,8 +151,8 @@ class Devices(unittest.TestCase):
         self.assertEqual(told["leds"][0], "led 16 rgb 3" + " 100" * 16)
 
     def test_actuators_of_a_handbot(self):
-        _, told = self.run_robot("handbot", actuators=["handbot_head", "handbot_arms", "handbot_hands", "handbot_rope",
-                                                       "handbot_beacon", "handbot_leds"])
+        _, told = self.run_robot("handbot", ["handbot_joints"], ["handbot_head", "handbot_arms", "handbot_hands", "handbot_rope",
+                                                                    "handbot_beacon", "handbot_leds"])
         commands = set(told["joint_commands"])
         self.assertIn("0 positions head 0.5", commands)
         self.assertIn("0 positions head -3", commands)
