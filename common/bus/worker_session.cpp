@@ -99,7 +99,7 @@ void WorkerSession::CheckOthers()
   if (!BusIsBroken()) return;
   if (!broken_since_) broken_since_ = Clock::now();
   if (Clock::now() - *broken_since_ > kBrokenTime)
-    throw BusError("a process died while it held shared memory of the run");
+    throw BusError("a process died, or was stopped, while it held shared memory of the run");
 }
 
 bool WorkerSession::ServerIsOnThisMachine() const

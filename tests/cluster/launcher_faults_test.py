@@ -86,7 +86,8 @@ class Kills(LauncherTest):
 
 class Stalls(LauncherTest):
     def test_a_stopped_process_is_named_and_the_run_goes_on_with_it(self):
-        run = self.start("run", CONFIGS / "diffusion_10.xml", "--ticks", 3000, "--hash-log", "hashes")
+        # Slowly enough that it is stopped while it waits: who is stopped with a lock of shared memory ends the run (docs/wire.md).
+        run = self.start("run", CONFIGS / "diffusion_10.xml", "--ticks", 1000, "--real-time", 20, "--hash-log", "hashes")
         pid = run.find("controller_host")
         self.wait_for_tick("hashes", 100, run)
         os.kill(pid, signal.SIGSTOP)
@@ -94,8 +95,8 @@ class Stalls(LauncherTest):
         os.kill(pid, signal.SIGCONT)
         self.assertEqual(run.wait(), 0, run.stderr)
         self.assertIn("waiting for controller host 0", run.stderr)
-        hash_after = self.assert_finished(run, 3000)
-        plain = self.run_it("run", CONFIGS / "diffusion_10.xml", "--ticks", 3000, "--quiet")
+        hash_after = self.assert_finished(run, 1000)
+        plain = self.run_it("run", CONFIGS / "diffusion_10.xml", "--ticks", 1000, "--quiet")
         self.assertEqual(self.assert_finished(plain), hash_after)
 
     def test_a_stopped_process_does_not_survive_the_end(self):
