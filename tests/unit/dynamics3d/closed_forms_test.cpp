@@ -120,6 +120,36 @@ TEST(Dynamics3dClosedForms, AnEyebotHoversWithAThrustOfItsWeight)
   EXPECT_NEAR(model->Thrust(), dynamics3d::EyebotShape::kMass * kGravity, 1e-3);
 }
 
+TEST(Dynamics3dClosedForms, TheWorkOfAnEyebotsThrustIsTheEnergyThatItGains)
+{
+  Dynamics3dTestWorld world;
+  world.experiment.clock_tick_ms = 5;  // a tick is a step: the thrust of each is seen
+  const auto eyebot = world.AddEyebot({5, 5, 0.5});
+  world.AddCommands("eyebot_propellers", 4);
+  world.Start();
+  world.Run(20);
+  world.Command("eyebot_propellers", eyebot, {0, 0, 0.4, 0});
+  const auto* model = dynamic_cast<const dynamics3d::EyebotModel*>(world.engine->ModelOf(eyebot));
+  ASSERT_NE(model, nullptr);
+  const double mass = dynamics3d::EyebotShape::kMass;
+  const double start = world.Position(eyebot).z();
+  double work = 0;
+  double speed = 0;
+  for (int step = 0; step < 400; ++step)
+  {
+    const double before = world.Position(eyebot).z();
+    world.Tick();
+    const double way = world.Position(eyebot).z() - before;
+    // x' = x + h v' : the mean speed of the step is half of the old and half of the new one.
+    work += model->Thrust() * (speed + way / 0.005) / 2 * 0.005;
+    speed = way / 0.005;
+  }
+  const double risen = world.Position(eyebot).z() - start;
+  EXPECT_NEAR(speed, 0.4, 0.01);
+  const double gained = mass * kGravity * risen + mass * speed * speed / 2;
+  EXPECT_NEAR(work, gained, 0.005 * gained);
+}
+
 TEST(Dynamics3dClosedForms, AnEyebotReachesTheCommandedVelocityAndYawRate)
 {
   Dynamics3dTestWorld world;
@@ -225,6 +255,53 @@ TEST(Dynamics3dClosedForms, AFootbotTurnsOnTheSpotAtTheDifferentialRate)
   world.Run(20);
   EXPECT_NEAR(WrapAngle(world.Yaw(footbot) - yaw), 2, 0.01);
   EXPECT_LT((world.Position(footbot) - Vector3(5, 5, 0)).norm(), 2e-3);
+}
+
+// Up a slope of the angle a the wheels need m g sin a, and have mu times what they bear of m g cos a.
+TEST(Dynamics3dClosedForms, AFootbotClimbsWhatItsWheelsGripAndNothingSteeper)
+{
+  const auto climbed = [](double degrees, const char* friction)
+  {
+    Dynamics3dTestWorld world;
+    world.Set("orientation", "0, " + std::to_string(-degrees) + ", 0");
+    world.Set("wheel_friction", friction);
+    world.Set("friction", "0.1");
+    const Quaternion tilt = QuaternionFromEuler({0, DegreesToRadians(-degrees), 0});
+    const auto footbot =
+        world.Add(EntityKind::kFootbot, Vector3::Zero(), tilt, {0.085036758, 0.085036758, 0.146899733});
+    world.AddCommands("footbot_wheels", 2);
+    world.Start();
+    world.Drive(footbot, 0.1, 0.1);
+    world.Run(10);
+    const double start = (tilt.conjugate() * world.Position(footbot)).x();
+    world.Run(20);
+    return (tilt.conjugate() * world.Position(footbot)).x() - start;
+  };
+  EXPECT_NEAR(climbed(20, "1"), 0.2, 0.01);
+  EXPECT_NEAR(climbed(8, "0.4"), 0.2, 0.01);
+  EXPECT_LT(climbed(25, "0.4"), -0.2) << "atan(0.4) is 21.8 degrees";
+}
+
+// Across a slope, over its lower wheel: 70 mm out, the centre of mass 44.8 mm high, atan(70 / 44.8) is 57.4 degrees.
+TEST(Dynamics3dClosedForms, AFootbotTipsWhereItsCentreOfMassPassesItsWheel)
+{
+  for (const double degrees : {54.0, 61.0})
+  {
+    Dynamics3dTestWorld world;
+    world.Set("orientation", "0, " + std::to_string(degrees) + ", 0");
+    world.Set("wheel_friction", "20");
+    world.Set("friction", "20");
+    const Quaternion tilt = QuaternionFromEuler({0, DegreesToRadians(degrees), 0});
+    const auto footbot = world.Add(EntityKind::kFootbot, Vector3::Zero(), tilt * QuaternionFromYaw(kPi / 2),
+                                   {0.085036758, 0.085036758, 0.146899733});
+    world.Start();
+    world.Run(20);
+    const double turned = Acos((tilt.conjugate() * world.Orientation(footbot) * Vector3::UnitZ()).z());
+    if (degrees < 57)
+      EXPECT_LT(turned, DegreesToRadians(3));
+    else
+      EXPECT_GT(turned, DegreesToRadians(30));
+  }
 }
 
 TEST(Dynamics3dClosedForms, ABlockTipsWhereItsCentreOfMassPassesItsEdge)
