@@ -36,6 +36,24 @@ SpaceQuery& SpaceEditor::GetQuery()
   return *query_;
 }
 
+const StructuralTree& SpaceEditor::GetStructure()
+{
+  if (structure_ == nullptr) structure_ = std::make_unique<StructuralTree>(server_.Space());
+  structure_->Rebuild();
+  return *structure_;
+}
+
+void SpaceEditor::MoveCompound(std::string_view id, const Pose& pose)
+{
+  CSwarmanoidSpace& space = server_.Space();
+  const std::uint32_t entity = FindToMove(space, id).GetIndex();
+  GetStructure();
+  const CCompoundEntity compound = structure_->GetCompound(entity);
+  const Pose root_in_entity = space.GetPose(entity).Inverse().Compose(space.GetPose(compound.GetRoot()));
+  const std::vector<Pose> poses = compound.PosesAt(pose.Compose(root_in_entity));
+  for (std::size_t k = 0; k < poses.size(); ++k) server_.Move({compound.GetMembers()[k], poses[k]});
+}
+
 void SpaceEditor::MoveEntity(std::string_view id, const Pose& pose)
 {
   server_.Move({FindToMove(server_.Space(), id).GetIndex(), pose});

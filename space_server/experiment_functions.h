@@ -16,6 +16,7 @@
 #include "common/plugins/registry.h"
 #include "common/space/query.h"
 #include "common/space/space.h"
+#include "common/space/structure/structural_tree.h"
 
 namespace swarmanoid
 {
@@ -34,6 +35,12 @@ public:
   const CSwarmanoidSpace& GetSpace() const;
   // Questions about the space: who is near, what is between.
   SpaceQuery& GetQuery();
+  // Who holds whom, as the engines last told.
+  const StructuralTree& GetStructure();
+  // Puts a movable entity elsewhere, and all that are connected to it by grips along with it, as one rigid body. For
+  // the engines they let go of one another and, where the grippers are still told to close, take hold again in the same
+  // tick. Throws as MoveEntity.
+  void MoveCompound(std::string_view id, const Pose& pose);
   // Puts a movable entity elsewhere. Throws std::invalid_argument for an unknown id and an entity that cannot move or
   // is not in the arena.
   void MoveEntity(std::string_view id, const Pose& pose);
@@ -59,6 +66,7 @@ private:
   SpaceServer& server_;
   std::string output_folder_;
   std::unique_ptr<SpaceQuery> query_;
+  std::unique_ptr<StructuralTree> structure_;
 };
 
 class CExperimentFunctions

@@ -10,12 +10,19 @@ CCompoundEntity::CCompoundEntity(CSwarmanoidSpace& space, std::uint32_t root, st
 {
 }
 
-void CCompoundEntity::MoveTo(const Pose& root_pose)
+std::vector<Pose> CCompoundEntity::PosesAt(const Pose& root_pose) const
 {
   const Pose from_root = space_.GetPose(root_).Inverse();
+  std::vector<Pose> poses;
   for (const std::uint32_t member : members_)
-    if (member != root_) space_.SetPose(member, root_pose.Compose(from_root.Compose(space_.GetPose(member))));
-  space_.SetPose(root_, root_pose);
+    poses.push_back(member == root_ ? root_pose : root_pose.Compose(from_root.Compose(space_.GetPose(member))));
+  return poses;
+}
+
+void CCompoundEntity::MoveTo(const Pose& root_pose)
+{
+  const std::vector<Pose> poses = PosesAt(root_pose);
+  for (std::size_t k = 0; k < members_.size(); ++k) space_.SetPose(members_[k], poses[k]);
 }
 
 StructuralTree::StructuralTree(CSwarmanoidSpace& space) : space_(space), held_(space.Size(), -1) {}

@@ -31,7 +31,9 @@ public:
   std::uint32_t GetRoot() const { return root_; }
   // The root and all that are connected to it, ascending.
   const std::vector<std::uint32_t>& GetMembers() const { return members_; }
-  // Puts the root at a pose and carries the others along, as one rigid body.
+  // Where each member is, in their order, when the root is at a pose and carries the others along as one rigid body.
+  std::vector<Pose> PosesAt(const Pose& root_pose) const;
+  // Puts them there.
   void MoveTo(const Pose& root_pose);
 
 private:

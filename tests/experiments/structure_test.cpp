@@ -1,0 +1,92 @@
+// What holds together, as experiment functions see and move it while an engine runs.
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include "space_server/experiment_functions.h"
+#include "tests/experiments/running_experiment.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+class StructureScript : public CExperimentFunctions
+{
+public:
+  static inline std::function<void(SpaceEditor&)> before_tick;
+  void Init(const TConfigurationTree, SpaceEditor&) override {}
+  void PreStep(SpaceEditor& space) override { before_tick(space); }
+};
+
+PluginDescription DescribeScript()
+{
+  PluginDescription description;
+  description.label = "structure_script";
+  description.brief = "for tests";
+  return description;
+}
+REGISTER_EXPERIMENT_FUNCTIONS(StructureScript, DescribeScript())
+
+// The gripped chain with these functions, in that engine.
+std::unique_ptr<Experiment> ChainIn(const std::string& engine)
+{
+  std::ifstream file(SWARMANOID_SOURCE_FOLDER "/configs/gripped_chain.xml");
+  std::stringstream text;
+  text << file.rdbuf();
+  std::string xml = text.str();
+  for (std::size_t at = 0; (at = xml.find("dynamics2d", at)) != std::string::npos; at += engine.size())
+    xml.replace(at, 10, engine);
+  xml.insert(xml.rfind("</ahss-config>"),
+             "<experiment_functions><structure_script id=\"script\"/></experiment_functions>");
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("chain_" + engine + std::to_string(getpid()) + ".xml");
+  std::ofstream(path) << xml;
+  auto experiment = ReadExperiment(path.string());
+  std::filesystem::remove(path);
+  return experiment;
+}
+
+TEST(Structure, ACompoundThatIsMovedKeepsItsShapeAndItsGrips)
+{
+  for (const std::string engine : {"dynamics2d", "dummy_engine"})
+  {
+    const auto experiment = ChainIn(engine);
+    SimulatorOptions options;
+    options.visualisations = false;
+    StructureScript::before_tick = [](SpaceEditor&) {};
+    CSimulator simulator(*experiment, options);
+    const CSwarmanoidSpace& space = simulator.GetSpace();
+    const auto index = [&](const char* id) { return space.FindEntity(id)->GetIndex(); };
+    for (int tick = 0; tick < 50; ++tick) simulator.Step();
+
+    // In the plane of masses each grips the next one, in the kinematic one the last footbot has the prey alone.
+    const bool all = engine == "dynamics2d";
+    const Pose held = space.GetPose(index("fb_9")).Inverse().Compose(space.GetPose(index("prey")));
+    const Pose first = space.GetPose(index("fb_0"));
+    const Pose away{Vector3(1, 1.5, 0), QuaternionFromYaw(0.3)};
+    StructureScript::before_tick = [&](SpaceEditor& editor)
+    {
+      const StructuralTree& structure = editor.GetStructure();
+      EXPECT_EQ(structure.GetRoot(index("fb_9")), index("prey"));
+      EXPECT_EQ(structure.GetRoot(index("fb_0")), index(all ? "prey" : "fb_0"));
+      EXPECT_EQ(structure.GetHolders(index("prey")), std::vector<std::uint32_t>{index("fb_9")});
+      editor.MoveCompound("fb_9", away);
+    };
+    simulator.Step();
+    StructureScript::before_tick = [](SpaceEditor&) {};
+    EXPECT_LT((space.GetPose(index("fb_9")).position - away.position).norm(), 0.02) << engine;
+    EXPECT_EQ((space.GetPose(index("fb_0")).position - first.position).norm() > 0.5, all) << engine;
+    for (int tick = 0; tick < 20; ++tick) simulator.Step();
+    EXPECT_EQ(space.FindEntity("fb_9")->GetAttribute("gripped"), 1 + index("prey")) << engine;
+    EXPECT_EQ(space.FindEntity("fb_0")->GetAttribute("gripped"), all ? 1 + index("fb_1") : 0) << engine;
+    const Pose now = space.GetPose(index("fb_9")).Inverse().Compose(space.GetPose(index("prey")));
+    EXPECT_LT((now.position - held.position).norm(), 3e-3) << engine;
+  }
+}
+
+}  // namespace
+}  // namespace swarmanoid
