@@ -1,0 +1,93 @@
+// Who stands in the way of an entity that is added.
+#include "space_server/space_changes.h"
+
+#include <gtest/gtest.h>
+
+#include "common/experiment/body.h"
+#include "common/math/elementary.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+class InTheWay : public ::testing::Test
+{
+protected:
+  InTheWay() { experiment_.arena_size = {10, 10, 3}; }
+
+  // Engines by number; an entity may be in any number of them.
+  std::uint32_t Add(EntityKind kind, const std::string& id, const Pose& pose, std::vector<std::size_t> engines,
+                    const Vector3& size = Vector3::Zero())
+  {
+    const auto index = static_cast<std::uint32_t>(experiment_.entities.size());
+    EntityConfiguration& entity = experiment_.entities.emplace_back();
+    entity.kind = kind;
+    entity.id = id;
+    entity.pose = pose;
+    entity.movable = true;
+    entity.size = IsRobot(kind) ? placement::RobotSize(kind) : size;
+    experiment_.engines.resize(2);
+    for (const std::size_t engine : engines) experiment_.engines[engine].entities.push_back(index);
+    return index;
+  }
+  // The id of who stands in the way, "" for nobody.
+  std::string At(const std::string& id, const Vector3& place, double yaw = 0)
+  {
+    const CSwarmanoidSpace space(experiment_);
+    const CSwarmanoidSpaceEntity* other = FindInTheWay(space, *space.FindEntity(id), {place, QuaternionFromYaw(yaw)});
+    return other == nullptr ? "" : other->GetId();
+  }
+  void AddWaiting(EntityKind kind, const std::string& id, std::vector<std::size_t> engines,
+                  const Vector3& size = Vector3::Zero())
+  {
+    const std::uint32_t index = Add(kind, id, {}, std::move(engines), size);
+    experiment_.entities[index].pose = WaitingPose(experiment_.entities[index], index);
+  }
+
+  Experiment experiment_;
+};
+
+TEST_F(InTheWay, EnginesAreClosedWorlds)
+{
+  Add(EntityKind::kFootbot, "ground", {{2, 2, 0}, Quaternion::Identity()}, {0});
+  Add(EntityKind::kFootbot, "nowhere", {{3, 3, 0}, Quaternion::Identity()}, {});
+  Add(EntityKind::kFootbot, "both", {{4, 4, 0}, Quaternion::Identity()}, {0, 1});
+  AddWaiting(EntityKind::kFootbot, "late_ground", {0});
+  AddWaiting(EntityKind::kFootbot, "late_sky", {1});
+  AddWaiting(EntityKind::kFootbot, "late_ghost", {});
+  EXPECT_EQ(At("late_ground", {2.1, 2, 0}), "ground");
+  EXPECT_EQ(At("late_sky", {2.1, 2, 0}), "");
+  EXPECT_EQ(At("late_ground", {3, 3, 0}), "");
+  EXPECT_EQ(At("late_sky", {4, 4, 0}), "both");
+  EXPECT_EQ(At("late_ghost", {4, 4, 0}), "");
+}
+
+TEST_F(InTheWay, NobodyWhoWaitsAndNothingWithoutABody)
+{
+  AddWaiting(EntityKind::kFootbot, "a", {0});
+  AddWaiting(EntityKind::kFootbot, "b", {0});
+  Add(EntityKind::kGroundPatch, "mat", {{2, 2, 0}, Quaternion::Identity()}, {}, {1, 1, 0});
+  AddWaiting(EntityKind::kLightBulb, "lamp", {});
+  Add(EntityKind::kFootbot, "fb", {{5, 5, 0}, Quaternion::Identity()}, {0});
+  EXPECT_EQ(At("a", {2, 2, 0}), "");
+  EXPECT_EQ(At("lamp", {5, 5, 0}), "");
+  // Where it would be beside the other one, outside all arenas.
+  EXPECT_EQ(At("a", WaitingPose(experiment_.entities[1], 1).position), "");
+}
+
+// A plank of 2 m x 0.1 m and a prey of 0.1 m: along the plank it is taken, beside it is free, and turned the other way.
+TEST_F(InTheWay, BodiesCountWithTheirShapeHeightAndHeading)
+{
+  Add(EntityKind::kCylindricPrey, "prey", {{5, 5.8, 0}, Quaternion::Identity()}, {0}, {0.1, 0.1, 0.2});
+  AddWaiting(EntityKind::kBlock, "plank", {0}, {2, 0.1, 0.1});
+  EXPECT_EQ(At("plank", {5, 5, 0.05}), "");
+  EXPECT_EQ(At("plank", {5, 5, 0.05}, kPi / 2), "prey");
+  EXPECT_EQ(At("plank", {5.141, 5, 0.05}, kPi / 2), "prey");
+  EXPECT_EQ(At("plank", {5.151, 5, 0.05}, kPi / 2), "");
+  EXPECT_EQ(At("plank", {5, 5, 0.249}, kPi / 2), "prey");
+  EXPECT_EQ(At("plank", {5, 5, 0.251}, kPi / 2), "");
+}
+
+}  // namespace
+}  // namespace swarmanoid
