@@ -76,6 +76,7 @@ GreyPicture ReadGreyPicture(const std::string& path)
   const std::size_t stride = png_get_rowbytes(reader.png, reader.info);
   std::vector<std::uint8_t> bytes(stride * static_cast<std::size_t>(picture.rows));
   std::vector<png_bytep> rows;
+  rows.reserve(static_cast<std::size_t>(picture.rows));
   for (int row = 0; row < picture.rows; ++row) rows.push_back(bytes.data() + static_cast<std::size_t>(row) * stride);
   if (!reader.ReadRows(rows.data())) fail(reader.error);
 
