@@ -5,6 +5,7 @@
 #include <map>
 #include <mutex>
 
+#include "common/control_interface/ci_colour.h"
 #include "common/math/elementary.h"
 #include "controller_host/devices/sight_lines.h"
 
@@ -104,112 +105,89 @@ void BlobSources::Refresh()
 
   const std::span<const double> attributes = space.Attributes();
   sources_.clear();
-  free_.clear();
   start_.clear();
   for (const std::uint32_t entity : world_.Grid().Sorted())
   {
     start_.push_back(static_cast<std::uint32_t>(sources_.size()));
     const std::int32_t bearer = bearer_of_[entity];
-    if (bearer >= 0) AddBearer(bearers_[static_cast<std::size_t>(bearer)], sources_);
+    if (bearer >= 0) AddBearer(bearers_[static_cast<std::size_t>(bearer)]);
   }
   start_.push_back(static_cast<std::uint32_t>(sources_.size()));
   for (const Bearer& bearer : bearers_)
-    if (!space.GetEntity(bearer.entity).IsMovable()) AddBearer(bearer, free_);
+    if (!space.GetEntity(bearer.entity).IsMovable()) AddBearer(bearer);
 
   for (const std::uint32_t e : still_)
   {
     const std::uint32_t colour = ColourIn(attributes, space.GetEntity(e).SlotOf("colour"));
-    if (colour != 0) free_.push_back({space.GetPose(e).position, colour, e});
+    if (colour != 0) sources_.push_back({space.GetPose(e).position, colour, e});
   }
   for (const Laser& laser : lasers_)
     if (attributes[laser.slot] != 0) AddLaserSpot(laser);
 
-  for (std::vector<double>* values : {&x_, &y_, &z_}) values->resize(sources_.size() + kLanes);
-  owner_.resize(sources_.size() + kLanes);
+  hue_.resize(sources_.size());
+  lowest_ = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < sources_.size(); ++i)
   {
-    x_[i] = sources_[i].position.x();
-    y_[i] = sources_[i].position.y();
-    z_[i] = sources_[i].position.z();
-    owner_[i] = static_cast<std::int32_t>(sources_[i].owner);
+    const std::uint32_t nearest = CCI_Colour::Nearest(sources_[i].colour);
+    hue_[i] = static_cast<std::uint8_t>((nearest >> 14 & 4U) | (nearest >> 7 & 2U) | (nearest & 1U));
+    lowest_ = std::min(lowest_, sources_[i].position.z());
   }
-
-  lowest_ = std::numeric_limits<double>::infinity();
-  for (const std::vector<BlobSource>* sources : {&sources_, &free_})
-    for (const BlobSource& source : *sources) lowest_ = std::min(lowest_, source.position.z());
 }
 
-void BlobSources::CollectBelow(const Vector3& eye, double reach, double tangent, std::uint32_t left_out,
-                               SightPoints& points, std::vector<std::int32_t>& found) const
+std::size_t BlobSources::Collect(std::span<const std::int32_t> places, std::vector<std::int32_t>& numbers) const
 {
-  constexpr float kMargin = 1.0001F;
-  const auto square_reach = static_cast<float>(reach * reach) * kMargin;
-  const auto square_tangent = static_cast<float>(tangent * tangent) * kMargin;
-  const IntLanes own = Everywhere(static_cast<int>(left_out));
-  IntLanes steps{};
-  for (int lane = 0; lane < kLanes; ++lane) steps[lane] = lane;
-  world_.Grid().ForEachSpanNear(eye.x(), eye.y(), reach + kStandOut,
-                                [&](std::size_t first, std::size_t behind)
-                                {
-                                  const std::size_t end = start_[behind];
-                                  if (points.count + (end - start_[first]) + kLanes > points.x.size())
-                                    points.Reserve(2 * (points.count + (end - start_[first])));
-                                  if (found.size() < points.x.size()) found.resize(points.x.size());
-                                  for (std::size_t i = start_[first]; i < end; i += kLanes)
-                                  {
-                                    const FloatLanes x = Differences(&x_[i], eye.x());
-                                    const FloatLanes y = Differences(&y_[i], eye.y());
-                                    const FloatLanes z = Differences(&z_[i], eye.z());
-                                    const IntLanes owner = LoadLanes(&owner_[i]);
-                                    const FloatLanes border = Minimum(z * z * square_tangent, Everywhere(square_reach));
-                                    unsigned hits = LaneMask((x * x + y * y <= border) & (z < 0) & (owner != own));
-                                    if (end - i < kLanes) hits &= (1U << (end - i)) - 1U;
-                                    const Selection selection(hits);
-                                    selection.Store(x, &points.x[points.count]);
-                                    selection.Store(y, &points.y[points.count]);
-                                    selection.Store(z, &points.z[points.count]);
-                                    selection.Store(owner, &points.owner[points.count]);
-                                    selection.Store(static_cast<int>(i) + steps, &found[points.count]);
-                                    points.count += selection.Count();
-                                  }
-                                });
+  if (numbers.size() < sources_.size() + 1) numbers.resize(sources_.size() + 1);
+  const std::uint32_t* const start = start_.data();
+  std::int32_t* const to = numbers.data();
+  std::size_t count = 0;
+  for (const std::int32_t place : places)
+  {
+    // Most bodies have one: written without asking.
+    const std::uint32_t first = start[place];
+    const std::uint32_t end = start[place + 1];
+    to[count] = static_cast<std::int32_t>(first);
+    for (std::uint32_t i = first + 1; i < end; ++i) to[count + i - first] = static_cast<std::int32_t>(i);
+    count += end - first;
+  }
+  for (std::size_t i = start_.back(); i < sources_.size(); ++i) to[count++] = static_cast<std::int32_t>(i);
+  return count;
 }
 
-void BlobSources::AddBearer(const Bearer& bearer, std::vector<BlobSource>& sources) const
+void BlobSources::AddBearer(const Bearer& bearer)
 {
-  if (bearer.ring != nullptr) return AddLeds(bearer, sources);
-  AddPoint(bearer.entity, {0, 0, bearer.middle}, ColourIn(world_.Space().Attributes(), bearer.colour_slot), sources);
+  if (bearer.ring != nullptr) return AddLeds(bearer);
+  AddPoint(bearer.entity, {0, 0, bearer.middle}, ColourIn(world_.Space().Attributes(), bearer.colour_slot));
 }
 
-void BlobSources::AddPoint(std::uint32_t entity, const Vector3& local, std::uint32_t colour,
-                           std::vector<BlobSource>& sources) const
+void BlobSources::AddPoint(std::uint32_t entity, const Vector3& local, std::uint32_t colour)
 {
   if (colour == 0) return;
   const PoseArrays& poses = world_.Space().Poses();
   if (!IsUpright(poses, entity))
   {
-    sources.push_back({world_.Space().GetPose(entity).Apply(local), colour, entity});
+    sources_.push_back({world_.Space().GetPose(entity).Apply(local), colour, entity});
     return;
   }
   const Heading heading = HeadingOf(poses, entity);
-  sources.push_back({{poses.x[entity] + heading.cos * local.x() - heading.sin * local.y(),
-                      poses.y[entity] + heading.sin * local.x() + heading.cos * local.y(), poses.z[entity] + local.z()},
-                     colour,
-                     entity});
+  sources_.push_back(
+      {{poses.x[entity] + heading.cos * local.x() - heading.sin * local.y(),
+        poses.y[entity] + heading.sin * local.x() + heading.cos * local.y(), poses.z[entity] + local.z()},
+       colour,
+       entity});
 }
 
-void BlobSources::AddLeds(const Bearer& bearer, std::vector<BlobSource>& sources) const
+void BlobSources::AddLeds(const Bearer& bearer)
 {
   const Ring& ring = *bearer.ring;
   const std::span<const double> attributes = world_.Space().Attributes();
   const double* leds = &attributes[bearer.led_slot];
   const auto count = static_cast<std::size_t>(ring.leds);
   if (bearer.beacon_slot != kNoSlot)
-    AddPoint(bearer.entity, {0, 0, ring.beacon_height}, ColourIn(attributes, bearer.beacon_slot), sources);
+    AddPoint(bearer.entity, {0, 0, ring.beacon_height}, ColourIn(attributes, bearer.beacon_slot));
 
   const auto differs = [&](double value) { return value != leds[0]; };
   if (std::none_of(leds + 1, leds + count, differs))
-    return AddPoint(bearer.entity, {0, 0, ring.height}, static_cast<std::uint32_t>(leds[0]), sources);
+    return AddPoint(bearer.entity, {0, 0, ring.height}, static_cast<std::uint32_t>(leds[0]));
 
   SinCos turret{0, 1};
   if (ring.turns) turret = SinCosOf(attributes[bearer.turret_slot]);
@@ -228,7 +206,7 @@ void BlobSources::AddLeds(const Bearer& bearer, std::vector<BlobSource>& sources
     AddPoint(bearer.entity,
              {turret.cos * middle.x() - turret.sin * middle.y(), turret.sin * middle.x() + turret.cos * middle.y(),
               ring.height},
-             static_cast<std::uint32_t>(leds[i]), sources);
+             static_cast<std::uint32_t>(leds[i]));
   }
 }
 
@@ -249,7 +227,7 @@ void BlobSources::AddLaserSpot(const Laser& laser)
   const Vector3 to = from + length * beam;
   const double hit = world_.FirstHit(from, to, [&](std::uint32_t body) { return body != laser.entity; });
   if (hit > 1 && !reaches_floor) return;
-  free_.push_back({from + std::min(hit, 1.0) * (to - from), colour, SightLines::kNobody});
+  sources_.push_back({from + std::min(hit, 1.0) * (to - from), colour, SightLines::kNobody});
 }
 
 }  // namespace swarmanoid

@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "controller_host/devices/disc_field.h"
 #include "controller_host/devices/sensor_world.h"
 
 namespace swarmanoid
@@ -39,13 +38,15 @@ public:
     return {sources_.data() + start_[place], start_[place + 1] - start_[place]};
   }
   // Those that are on none: lights, patches, laser spots, bodies that never move.
-  std::span<const BlobSource> Free() const { return free_; }
-  // Puts those on movable bodies that a level camera may see into `points`, by their offsets from the eye, and their
-  // numbers into `found`: within `reach` m along the floor, and within the aperture with this tangent about the
-  // straight way down. A few are a little outside.
-  void CollectBelow(const Vector3& eye, double reach, double tangent, std::uint32_t left_out, SightPoints& points,
-                    std::vector<std::int32_t>& found) const;
+  std::span<const BlobSource> Free() const { return All().subspan(FirstFree()); }
+  std::span<const BlobSource> All() const { return sources_; }
+  std::size_t FirstFree() const { return start_.back(); }
+  // The numbers of those on the bodies at these places, and then of the free ones: fills the start of `numbers`, and
+  // returns how many they are.
+  std::size_t Collect(std::span<const std::int32_t> places, std::vector<std::int32_t>& numbers) const;
   const BlobSource& Source(std::size_t number) const { return sources_[number]; }
+  // Of each source the nearest of the eight colours with the bits red (4), green (2) and blue (1); 0 is black.
+  const std::uint8_t* Hues() const { return hue_.data(); }
   // No source is lower than this, m in the space.
   double LowestHeight() const { return lowest_; }
 
@@ -74,10 +75,9 @@ private:
   };
 
   static Ring MakeRing(int leds, double radius, double height, double beacon_height, double first_angle, bool turns);
-  void AddBearer(const Bearer& bearer, std::vector<BlobSource>& sources) const;
-  void AddLeds(const Bearer& bearer, std::vector<BlobSource>& sources) const;
-  void AddPoint(std::uint32_t entity, const Vector3& local, std::uint32_t colour,
-                std::vector<BlobSource>& sources) const;
+  void AddBearer(const Bearer& bearer);
+  void AddLeds(const Bearer& bearer);
+  void AddPoint(std::uint32_t entity, const Vector3& local, std::uint32_t colour);
   void AddLaserSpot(const Laser& laser);
 
   SensorWorld& world_;
@@ -87,12 +87,9 @@ private:
   std::vector<std::int32_t> bearer_of_;  // by entity, -1: none
   std::vector<Laser> lasers_;
   std::vector<std::uint32_t> still_;  // lights and patches
-  std::vector<std::uint32_t> start_;  // by place in the grid
-  std::vector<BlobSource> sources_;
-  // The same, by lanes.
-  std::vector<double> x_, y_, z_;
-  std::vector<std::int32_t> owner_;
-  std::vector<BlobSource> free_;
+  std::vector<BlobSource> sources_;   // by place in the grid; then those on no movable body
+  std::vector<std::uint32_t> start_;  // by place in the grid, and of the others
+  std::vector<std::uint8_t> hue_;     // of each source
   double lowest_ = 0;
   std::uint64_t revision_ = 0, attribute_revision_ = 0;
 };

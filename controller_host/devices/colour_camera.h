@@ -38,17 +38,23 @@ protected:
   static std::vector<ParameterSpec> ViewParameters(const char* aperture_degrees, const char* range_m);
   void InitCamera(const DeviceSetup& setup, CameraModel model);
 
-  // A blob in view at `place`, in the frame of the robot, relative to the eye.
+  // Blobs in view, those of several robots one behind another, by lanes: room for more behind `count`.
   struct Seen
   {
-    Vector3 place;
-    std::uint32_t colour;
-    double angle;  // rad, of the place about the robot's z axis, -pi..pi
-    std::uint32_t owner;
-    Vector3 offset;  // m, of the place along the axes of the space
+    std::size_t count = 0;
+    std::vector<double> x, y, z;        // m, from the eye, in the frame of the robot
+    std::vector<double> angle;          // rad, about the robot's z axis, -pi..pi
+    std::vector<double> distance;       // m, in the plane of the robot's base
+    std::vector<std::uint32_t> source;  // its number in Sources()
+
+    void Reserve(std::size_t blobs);
+    Vector3 Place(std::size_t i) const { return {x[i], y[i], z[i]}; }
   };
-  // Called once for each robot: what it sees.
-  virtual void Extract(std::size_t k, std::span<const Seen> blobs) = 0;
+  // Called before some calls of Extract: computes more about all that were seen.
+  virtual void Measure(const Seen&) {}
+  // Called once for each robot: it sees those from `first` to before `behind`.
+  virtual void Extract(std::size_t k, const Seen& seen, std::size_t first, std::size_t behind) = 0;
+  const BlobSources& Sources() const { return *sources_; }
 
   CameraModel model_;
   const CSwarmanoidSpace* space_ = nullptr;
@@ -59,15 +65,23 @@ private:
   struct View
   {
     Vector3 eye;  // m, in the space
-    Eigen::Matrix3d to_body;
-    Heading heading;  // where it is upright
     bool is_upright;
+    Heading heading;          // where it is upright
+    Eigen::Matrix3d to_body;  // where it is not
+  };
+  struct Looked
+  {
+    std::size_t k, behind;  // where those that robot k sees end
   };
 
+  View ViewOf(std::uint32_t robot) const;
   void Look(std::size_t k);
-  void LookDown(std::uint32_t robot, const View& view, double reach);
+  void ExtractAll();
+  void LookDown(const View& view);
   void LookAnywhere(const View& view);
-  void Add(const BlobSource& source, const View& view);
+  void Add(std::size_t source, const View& view);
+  void KeepSeen(std::size_t first);
+  void KeepFreeInView(std::size_t first);
   bool IsInView(const Vector3& place) const;
 
   std::shared_ptr<SensorWorld> world_;
@@ -75,10 +89,9 @@ private:
   std::unique_ptr<SightLines> lines_;
   std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
   double tangent_ = 0;                         // of the aperture
-  std::vector<Seen> seen_;
-  std::size_t count_ = 0;              // of those seen
-  std::vector<std::int32_t> found_;    // numbers of sources
-  std::vector<double> x_, y_, angle_;  // of those seen
+  Seen seen_;
+  std::vector<Looked> looked_;
+  std::vector<std::int32_t> found_;  // numbers of sources
 };
 
 }  // namespace swarmanoid

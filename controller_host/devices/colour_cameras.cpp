@@ -52,16 +52,16 @@ public:
   std::vector<CCI_ColourBlob> blobs;
 };
 
-CCI_ColourBlob BlobAt(CameraModel::View view, const Vector3& place, std::uint32_t colour, double angle)
+// `distance` in the plane of the robot's base.
+CCI_ColourBlob BlobAt(CameraModel::View view, const Vector3& place, std::uint32_t colour, double angle, double distance)
 {
-  const double along_floor = __builtin_sqrt(place.x() * place.x() + place.y() * place.y());
   CCI_ColourBlob blob;
   blob.colour = colour;
   blob.angle_rad = angle;
-  blob.distance_m = along_floor;
+  blob.distance_m = distance;
   if (view == CameraModel::View::kDown) return blob;
   blob.distance_m = __builtin_sqrt(place.squaredNorm());
-  blob.elevation_rad = Atan2(place.z(), along_floor);
+  blob.elevation_rad = Atan2(place.z(), distance);
   return blob;
 }
 
@@ -99,11 +99,13 @@ public:
   }
 
 protected:
-  void Extract(std::size_t k, std::span<const ColourCamera::Seen> seen) override
+  void Extract(std::size_t k, const ColourCamera::Seen& seen, std::size_t first, std::size_t behind) override
   {
     auto& blobs = this->cameras_[k].blobs;
-    blobs.clear();
-    for (const auto& one : seen) blobs.push_back(BlobAt(this->model_.view, one.place, one.colour, one.angle));
+    blobs.resize(behind - first);
+    for (std::size_t i = first; i < behind; ++i)
+      blobs[i - first] = BlobAt(this->model_.view, seen.Place(i), this->Sources().Source(seen.source[i]).colour,
+                                seen.angle[i], seen.distance[i]);
     if (!distance_noise_.IsActive() && !angle_noise_.IsActive()) return;
     RandomStream random = StreamOf(*this->space_, this->robots_[k], this->stream_);
     for (CCI_ColourBlob& blob : blobs)
@@ -148,17 +150,19 @@ public:
   }
 
 protected:
-  void Extract(std::size_t k, std::span<const ColourCamera::Seen> seen) override
+  void Extract(std::size_t k, const ColourCamera::Seen& seen, std::size_t first, std::size_t behind) override
   {
     auto& blobs = this->cameras_[k].blobs;
     blobs.clear();
     RandomStream random = StreamOf(*this->space_, this->robots_[k], this->stream_);
-    for (const auto& one : seen)
+    for (std::size_t i = first; i < behind; ++i)
     {
       if (miss_ > 0 && random.Uniform() < miss_) continue;
-      const Vector3 place =
-          this->model_.view == CameraModel::View::kDown ? Down(one.place, random) : Ahead(one.place, random);
-      blobs.push_back(BlobAt(this->model_.view, place, one.colour, Atan2(place.y(), place.x())));
+      const bool is_down = this->model_.view == CameraModel::View::kDown;
+      const Vector3 place = is_down ? Down(seen.Place(i), random) : Ahead(seen.Place(i), random);
+      blobs.push_back(BlobAt(this->model_.view, place, this->Sources().Source(seen.source[i]).colour,
+                             Atan2(place.y(), place.x()),
+                             __builtin_sqrt(place.x() * place.x() + place.y() * place.y())));
     }
   }
 

@@ -10,24 +10,6 @@ namespace
 {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-// More than this are split into sectors.
-constexpr std::size_t kFew = 56;
-
-IntLanes FirstLanes(std::size_t count)
-{
-  IntLanes lanes{};
-  for (int i = 0; i < kLanes; ++i) lanes[i] = static_cast<std::size_t>(i) < count ? -1 : 0;
-  return lanes;
-}
-
-float Lowest(FloatLanes lanes)
-{
-  float lowest = lanes[0];
-  for (int i = 1; i < kLanes; ++i) lowest = std::min(lowest, lanes[i]);
-  return lowest;
-}
-
-float Highest(FloatLanes lanes) { return -Lowest(-lanes); }
 
 // Directions at equal steps of y / (x + y), from +x to +y, of length 1.
 struct Borders
@@ -68,19 +50,25 @@ void DiscField::Cells::Reserve(std::size_t cells, std::size_t places)
 void DiscField::Sort(const NearBodies& discs, float eye, float lowest, float highest)
 {
   Classify(discs, eye, lowest, highest);
-  is_split_ = discs.count > kFew;
+  few_ = discs.count <= kFew ? &discs : nullptr;
+  if (few_ != nullptr) return CutIntoStrips(discs, eye, lowest, highest);
   SortByQuadrants(discs, eye, lowest, highest);
-  if (is_split_)
-  {
-    const auto end = quadrants_.filled.begin() + kQuadrants;
-    cells_.Reserve(kQuadrants * kSectors, *std::max_element(quadrants_.filled.begin(), end));
-    for (std::size_t quadrant = 0; quadrant < kQuadrants; ++quadrant) SplitQuadrant(quadrant);
-  }
-  Close(is_split_ ? kQuadrants * kSectors : kQuadrants);
+  cells_.Reserve(kQuadrants * kSectors,
+                 *std::max_element(quadrants_.filled.begin(), quadrants_.filled.begin() + kQuadrants));
+  for (std::size_t quadrant = 0; quadrant < kQuadrants; ++quadrant) SplitQuadrant(quadrant);
+  Close();
 }
 
 void DiscField::Classify(const NearBodies& discs, float eye, float lowest, float highest)
 {
+  if (discs.are_alike && discs.count > 0)
+  {
+    low_ = discs.low[0] - eye;
+    high_ = discs.high[0] - eye;
+    all_count_ = low_ <= highest && high_ >= lowest;
+    heights_ = low_ <= lowest && high_ >= highest ? Heights::kSpanning : Heights::kEqual;
+    return;
+  }
   FloatLanes lowest_low = Everywhere(kInfinity), highest_low = -lowest_low;
   FloatLanes lowest_high = lowest_low, highest_high = -lowest_low;
   all_count_ = true;
@@ -108,6 +96,31 @@ void DiscField::Classify(const NearBodies& discs, float eye, float lowest, float
     heights_ = Heights::kMixed;
 }
 
+void DiscField::CutIntoStrips(const NearBodies& discs, float eye, float lowest, float highest)
+{
+  strips_ = (discs.count + kStrip - 1) / kStrip;
+  for (std::size_t i = 0; i < discs.count; i += kLanes)
+  {
+    IntLanes counts = FirstLanes(discs.count - i);
+    if (!all_count_)
+      counts &= (LoadLanes(&discs.low[i]) - eye <= highest) & (LoadLanes(&discs.high[i]) - eye >= lowest);
+    const FloatLanes y = LoadLanes(&discs.y[i]);
+    const FloatLanes radius = LoadLanes(&discs.radius[i]);
+    const FloatLanes reach = radius * 1.0001F + 1e-4F;  // covers the rounding of the test
+    const FloatLanes back = LowestOfFour(counts ? y - reach : Everywhere(kInfinity));
+    const FloatLanes front = HighestOfFour(counts ? y + reach : Everywhere(-kInfinity));
+    for (int strip = 0; strip < kLanes / 4; ++strip)
+    {
+      strip_back_[i / kStrip + static_cast<std::size_t>(strip)] = back[strip * 4];
+      strip_front_[i / kStrip + static_cast<std::size_t>(strip)] = front[strip * 4];
+    }
+    StoreLanes(counts ? radius * radius : Everywhere(-1.0F), &square_[i]);
+    if (heights_ != Heights::kMixed) continue;
+    StoreLanes(LoadLanes(&discs.low[i]) - eye, &few_low_[i]);
+    StoreLanes(LoadLanes(&discs.high[i]) - eye, &few_high_[i]);
+  }
+}
+
 void DiscField::SortByQuadrants(const NearBodies& discs, float eye, float lowest, float highest)
 {
   Cells& cells = quadrants_;
@@ -132,7 +145,7 @@ void DiscField::SortByQuadrants(const NearBodies& discs, float eye, float lowest
       const std::size_t place = quadrant * cells.stride + filled[quadrant];
       selection.Store(x, &cells.x[place]);
       selection.Store(y, &cells.y[place]);
-      selection.Store(is_split_ ? radius : radius * radius, &cells.radius[place]);
+      selection.Store(radius, &cells.radius[place]);
       selection.Store(entity, &cells.entity[place]);
       if (heights_ == Heights::kMixed)
       {
@@ -185,95 +198,177 @@ void DiscField::SplitQuadrant(std::size_t quadrant)
 }
 
 // Fills the cells with cylinders that hide nothing, all to a depth that is enough for most.
-void DiscField::Close(std::size_t cells)
+void DiscField::Close()
 {
-  Cells& tested = is_split_ ? cells_ : quadrants_;
-  const auto end = tested.filled.begin() + static_cast<std::ptrdiff_t>(cells);
   const auto whole_lanes = [](std::size_t places) { return (places + kLanes - 1) / kLanes * kLanes; };
-  const std::size_t all = std::accumulate(tested.filled.begin(), end, std::size_t{0});
-  const std::size_t usual = whole_lanes((all + all / 3) / cells);
-  for (std::size_t cell = 0; cell < cells; ++cell)
+  const std::size_t all = std::accumulate(cells_.filled.begin(), cells_.filled.end(), std::size_t{0});
+  const std::size_t usual = whole_lanes((all + all / 3) / cells_.filled.size());
+  for (std::size_t cell = 0; cell < cells_.filled.size(); ++cell)
   {
-    depth_[cell] = std::max(usual, whole_lanes(tested.filled[cell]));
-    for (std::size_t place = tested.filled[cell]; place < depth_[cell]; place += kLanes)
-      StoreLanes(Everywhere(-1.0F), &tested.radius[cell * tested.stride + place]);
+    depth_[cell] = std::max(usual, whole_lanes(cells_.filled[cell]));
+    for (std::size_t place = cells_.filled[cell]; place < depth_[cell]; place += kLanes)
+      StoreLanes(Everywhere(-1.0F), &cells_.radius[cell * cells_.stride + place]);
   }
 }
 
+inline DiscField::Lines DiscField::LinesTo(const SightPoints& points, std::size_t group) const
+{
+  FloatLanes x = LoadLanes(&points.x[group]);
+  const FloatLanes y = LoadLanes(&points.y[group]);
+  // Straight above or below: moved aside by a micrometre, so that it has a direction.
+  x = x * x + y * y < 1e-12F ? Everywhere(1e-6F) : x;
+  Lines lines;
+  lines.length = SquareRoot(x * x + y * y);
+  lines.x = x / lines.length;
+  lines.y = y / lines.length;
+  lines.from = lines.inverse = FloatLanes{};
+  lines.to = Everywhere(1.0F);
+  if (heights_ != Heights::kSpanning)
+  {
+    constexpr float kTiny = 1e-20F;  // a level line: the quotients become huge, not NaN
+    const FloatLanes z = LoadLanes(&points.z[group]);
+    lines.inverse = 1 / (z == 0 ? Everywhere(kTiny) : z);
+  }
+  if (heights_ == Heights::kEqual)
+  {
+    const FloatLanes low = low_ * lines.inverse;
+    const FloatLanes high = high_ * lines.inverse;
+    lines.from = Maximum(Minimum(low, high), lines.from);
+    lines.to = Minimum(Maximum(low, high), lines.to);
+  }
+  lines.first = lines.from * lines.length;
+  lines.last = lines.to * lines.length;
+  return lines;
+}
+
+namespace
+{
+
+// Whether what is nearest to the middle of a circle, between two places of a line, is within it.
+inline IntLanes Meets(FloatLanes circle_x, FloatLanes circle_y, FloatLanes square, FloatLanes x, FloatLanes y,
+                      FloatLanes first, FloatLanes last)
+{
+  const FloatLanes along = circle_x * x + circle_y * y;
+  const FloatLanes nearest = Minimum(Maximum(along, first), last);
+  const FloatLanes beside_x = nearest * x - circle_x;
+  const FloatLanes beside_y = nearest * y - circle_y;
+  return beside_x * beside_x + beside_y * beside_y <= square;
+}
+
+}  // namespace
+
 // The line from the eye to a point is as high as a cylinder from one place of it to another; the cylinder hides the
 // point where what is nearest between these places is within its circle.
-template <bool kMixedHeights>
-void DiscField::LookEach(const SightPoints& points, char* seen) const
+template <bool kMixedHeights, bool kOwnHit>
+void DiscField::LookAtFew(const SightPoints& points, SeenPoints& seen) const
 {
-  const Cells& cells = is_split_ ? cells_ : quadrants_;
+  const float* const disc_x = few_->x.data();
+  const float* const disc_y = few_->y.data();
+  const std::int32_t* const entity = few_->entity.data();
   for (std::size_t group = 0; group < points.count; group += kLanes)
   {
-    FloatLanes group_x = LoadLanes(&points.x[group]);
-    const FloatLanes group_y = LoadLanes(&points.y[group]);
-    // Straight above or below: moved aside by a micrometre, so that it has a direction.
-    group_x = group_x * group_x + group_y * group_y < 1e-12F ? Everywhere(1e-6F) : group_x;
-    FloatLanes z = LoadLanes(&points.z[group]);
-    const FloatLanes lengths = SquareRoot(group_x * group_x + group_y * group_y);
-    const FloatLanes units_x = group_x / lengths;
-    const FloatLanes units_y = group_y / lengths;
-    FloatLanes from{}, to = Everywhere(1.0F);
-    if (heights_ != Heights::kSpanning)
-    {
-      constexpr float kTiny = 1e-20F;  // a level line: the quotients become huge, not NaN
-      z = z == 0 ? Everywhere(kTiny) : z;
-      const FloatLanes inverse = 1 / z;
-      from = kMixedHeights ? inverse : Maximum(Minimum(low_ * inverse, high_ * inverse), from);
-      to = Minimum(Maximum(low_ * inverse, high_ * inverse), to);
-    }
-    IntLanes cell = (group_x < 0 ? Everywhere(1) : IntLanes{}) + (group_y < 0 ? Everywhere(2) : IntLanes{});
-    if (is_split_)
-    {
-      const FloatLanes beside = Magnitude(group_y);
-      const IntLanes sector = Truncated(beside / (Magnitude(group_x) + beside) * static_cast<float>(kSectors));
-      constexpr int kLast = static_cast<int>(kSectors) - 1;
-      cell = cell * static_cast<int>(kSectors) + (sector < kLast ? sector : Everywhere(kLast));
-    }
+    const Lines lines = LinesTo(points, group);
+    const IntLanes are_there = FirstLanes(points.count - group);
+    const IntLanes owner = LoadLanes(&points.owner[group]);
+
+    // The strips that any of the lines reaches at the heights of the cylinders.
+    const FloatLanes y = are_there ? LoadLanes(&points.y[group]) : Everywhere(points.y[group]);
+    const FloatLanes one_end = lines.from * y;
+    const FloatLanes other_end = lines.to * y;
+    const float back = Lowest(Minimum(one_end, other_end));
+    const float front = Highest(Maximum(one_end, other_end));
+    unsigned strips = 0;
+    for (std::size_t strip = 0; strip < strips_; strip += kLanes)
+      strips |= LaneMask((LoadLanes(&strip_back_[strip]) <= front) & (LoadLanes(&strip_front_[strip]) >= back))
+                << strip;
+    strips &= (1U << strips_) - 1U;
+    // Those between the first and the last one too: they are few, and branches cost more.
+    const std::size_t begin = kStrip * static_cast<std::size_t>(std::countr_zero(strips | 1U << strips_));
+    const std::size_t end = kStrip * static_cast<std::size_t>(std::bit_width(strips));
+
+    const FloatLanes slope = lines.inverse * lines.length;
+    IntLanes hits{};
+    for (std::size_t strip = begin; strip < end; strip += kStrip)
+      for (std::size_t i = strip; i < strip + kStrip; ++i)
+      {
+        FloatLanes first = lines.first;
+        FloatLanes last = lines.last;
+        if constexpr (kMixedHeights)
+        {
+          const FloatLanes a = few_low_[i] * slope;
+          const FloatLanes b = few_high_[i] * slope;
+          first = Maximum(Minimum(a, b), FloatLanes{});
+          last = Minimum(Maximum(a, b), lines.length);
+        }
+        IntLanes meets =
+            Meets(Everywhere(disc_x[i]), Everywhere(disc_y[i]), Everywhere(square_[i]), lines.x, lines.y, first, last);
+        if constexpr (kMixedHeights) meets &= first <= last;
+        if constexpr (kOwnHit)
+          hits += meets;
+        else
+          hits |= ~(owner == entity[i]) & meets;
+      }
+    if constexpr (!kMixedHeights) hits &= lines.first <= lines.last;
+    const IntLanes hidden = kOwnHit ? hits < -1 : hits;
+    seen.SetGroup(group, LaneMask(are_there & ~hidden));
+  }
+}
+
+template <bool kMixedHeights>
+void DiscField::LookAtMany(const SightPoints& points, SeenPoints& seen) const
+{
+  const Cells& cells = cells_;
+  for (std::size_t group = 0; group < points.count; group += kLanes)
+  {
+    const Lines lines = LinesTo(points, group);
+    const FloatLanes slopes = lines.inverse * lines.length;
+    const FloatLanes beside = Magnitude(lines.y);
+    const IntLanes sector = Truncated(beside / (Magnitude(lines.x) + beside) * static_cast<float>(kSectors));
+    constexpr int kLast = static_cast<int>(kSectors) - 1;
+    const IntLanes cell = ((lines.x < 0 ? Everywhere(1) : IntLanes{}) + (lines.y < 0 ? Everywhere(2) : IntLanes{})) *
+                              static_cast<int>(kSectors) +
+                          (sector < kLast ? sector : Everywhere(kLast));
     const std::size_t count = std::min<std::size_t>(kLanes, points.count - group);
+    unsigned mask = 0;
     for (std::size_t i = 0; i < count; ++i)
     {
-      const float x = units_x[i];
-      const float y = units_y[i];
+      const FloatLanes x = Everywhere(lines.x[i]);
+      const FloatLanes y = Everywhere(lines.y[i]);
       const std::int32_t owner = points.owner[group + i];
-      FloatLanes first = Everywhere(from[i] * lengths[i]);
-      FloatLanes last = Everywhere(to[i] * lengths[i]);
-      const float slope = from[i] * lengths[i];  // of kMixed: m along the floor for each metre of height
+      FloatLanes first = Everywhere(lines.first[i]);
+      FloatLanes last = Everywhere(lines.last[i]);
       IntLanes hits{};
       const std::size_t begin = static_cast<std::size_t>(cell[i]) * cells.stride;
       const std::size_t end = begin + depth_[static_cast<std::size_t>(cell[i])];
       for (std::size_t place = begin; place < end; place += kLanes)
       {
-        const FloatLanes disc_x = LoadLanes(&cells.x[place]);
-        const FloatLanes disc_y = LoadLanes(&cells.y[place]);
         if constexpr (kMixedHeights)
         {
-          const FloatLanes a = LoadLanes(&cells.low[place]) * slope;
-          const FloatLanes b = LoadLanes(&cells.high[place]) * slope;
+          const FloatLanes a = LoadLanes(&cells.low[place]) * slopes[i];
+          const FloatLanes b = LoadLanes(&cells.high[place]) * slopes[i];
           first = Maximum(Minimum(a, b), FloatLanes{});
-          last = Minimum(Maximum(a, b), Everywhere(lengths[i]));
+          last = Minimum(Maximum(a, b), Everywhere(lines.length[i]));
         }
-        const FloatLanes along = disc_x * x + disc_y * y;
-        const FloatLanes nearest = Minimum(Maximum(along, first), last);
-        const FloatLanes beside_x = nearest * x - disc_x;
-        const FloatLanes beside_y = nearest * y - disc_y;
-        hits |= (beside_x * beside_x + beside_y * beside_y <= LoadLanes(&cells.radius[place])) &
+        hits |= Meets(LoadLanes(&cells.x[place]), LoadLanes(&cells.y[place]), LoadLanes(&cells.radius[place]), x, y,
+                      first, last) &
                 (LoadLanes(&cells.entity[place]) != owner) & (first <= last);
       }
-      seen[group + i] = LaneMask(hits) == 0;
+      mask |= (LaneMask(hits) == 0 ? 1U : 0U) << i;
     }
+    seen.SetGroup(group, mask);
   }
 }
 
-void DiscField::Look(const SightPoints& points, char* seen) const
+void DiscField::Look(const SightPoints& points, bool are_origins, SeenPoints& seen) const
 {
-  if (heights_ == Heights::kMixed)
-    LookEach<true>(points, seen);
-  else
-    LookEach<false>(points, seen);
+  seen.Resize(points.count);
+  const bool are_mixed = heights_ == Heights::kMixed;
+  if (few_ == nullptr) return are_mixed ? LookAtMany<true>(points, seen) : LookAtMany<false>(points, seen);
+  if (are_mixed) return LookAtFew<true, false>(points, seen);
+  constexpr float kThick = 0.01F;  // m, far beyond rounding
+  const bool has_own = are_origins && heights_ == Heights::kSpanning && all_count_ && few_->are_alike &&
+                       few_->count > 0 && few_->radius[0] > kThick;
+  return has_own ? LookAtFew<false, true>(points, seen) : LookAtFew<false, false>(points, seen);
 }
 
 }  // namespace swarmanoid

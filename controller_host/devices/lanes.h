@@ -4,6 +4,7 @@
 
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #if defined(__SSE2__)
@@ -39,12 +40,44 @@ inline FloatLanes Differences(const double* from, double other)
 #endif
 }
 
-inline FloatLanes Everywhere(float value) { return FloatLanes{} + value; }
+// (Adding to 0 would be a second instruction: it turns -0 into 0.)
+inline FloatLanes Everywhere(float value) { return value - FloatLanes{}; }
 inline IntLanes Everywhere(int value) { return IntLanes{} + value; }
 inline FloatLanes Minimum(FloatLanes a, FloatLanes b) { return a < b ? a : b; }
 inline FloatLanes Maximum(FloatLanes a, FloatLanes b) { return a > b ? a : b; }
 inline FloatLanes Magnitude(FloatLanes lanes) { return lanes < 0 ? -lanes : lanes; }
 inline IntLanes Truncated(FloatLanes lanes) { return __builtin_convertvector(lanes, IntLanes); }
+// 0, 1, 2 …
+inline IntLanes LaneNumbers()
+{
+#if defined(__AVX__)
+  return IntLanes{0, 1, 2, 3, 4, 5, 6, 7};
+#else
+  return IntLanes{0, 1, 2, 3};
+#endif
+}
+// The first `count` lanes -1, the others 0.
+inline IntLanes FirstLanes(std::size_t count) { return LaneNumbers() < static_cast<int>(count); }
+
+// Of each four lanes, in all four of them.
+inline FloatLanes LowestOfFour(FloatLanes lanes)
+{
+#if defined(__AVX__)
+  lanes = Minimum(lanes, __builtin_shufflevector(lanes, lanes, 2, 3, 0, 1, 6, 7, 4, 5));
+  return Minimum(lanes, __builtin_shufflevector(lanes, lanes, 1, 0, 3, 2, 5, 4, 7, 6));
+#else
+  lanes = Minimum(lanes, __builtin_shufflevector(lanes, lanes, 2, 3, 0, 1));
+  return Minimum(lanes, __builtin_shufflevector(lanes, lanes, 1, 0, 3, 2));
+#endif
+}
+inline FloatLanes HighestOfFour(FloatLanes lanes) { return -LowestOfFour(-lanes); }
+// Of all lanes.
+inline float Lowest(FloatLanes lanes)
+{
+  lanes = LowestOfFour(lanes);
+  return lanes[0] < lanes[kLanes - 1] ? lanes[0] : lanes[kLanes - 1];
+}
+inline float Highest(FloatLanes lanes) { return -Lowest(-lanes); }
 
 inline FloatLanes SquareRoot(FloatLanes lanes)
 {
@@ -101,9 +134,28 @@ public:
 #endif
   }
 
+  // kLanes numbers.
+  void Store(const double* from, double* to) const
+  {
+#if defined(__AVX2__)
+    const unsigned low = mask_ & 15U;
+    StoreFour(from, low, to);
+    StoreFour(from + 4, mask_ >> 4, to + std::popcount(low));
+#else
+    for (unsigned rest = mask_; rest != 0; rest &= rest - 1) *to++ = from[std::countr_zero(rest)];
+#endif
+  }
+
 private:
   unsigned mask_;
 #if defined(__AVX2__)
+  static void StoreFour(const double* from, unsigned mask, double* to)
+  {
+    const __m256i order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(kPairOrders[mask])));
+    const __m256i chosen =
+        _mm256_permutevar8x32_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)), order);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), chosen);
+  }
   static constexpr std::array<std::uint64_t, 256> MakeOrders()
   {
     std::array<std::uint64_t, 256> orders{};
@@ -112,14 +164,25 @@ private:
         if (mask >> lane & 1U) orders[mask] |= std::uint64_t{lane} << (8 * place++);
     return orders;
   }
+  // The same for masks of four, each bit standing for two lanes.
+  static constexpr std::array<std::uint64_t, 16> MakePairOrders()
+  {
+    std::array<std::uint64_t, 16> orders{};
+    for (unsigned mask = 0; mask < 16; ++mask)
+      for (unsigned lane = 0, place = 0; lane < 4; ++lane)
+        if (mask >> lane & 1U) orders[mask] |= std::uint64_t{2 * lane | (2 * lane + 1) << 8} << (16 * place++);
+    return orders;
+  }
   // For each mask its set bits, a byte each.
   static const std::array<std::uint64_t, 256> kOrders;
+  static const std::array<std::uint64_t, 16> kPairOrders;
   __m256i order_;
 #endif
 };
 
 #if defined(__AVX2__)
 inline constexpr std::array<std::uint64_t, 256> Selection::kOrders = Selection::MakeOrders();
+inline constexpr std::array<std::uint64_t, 16> Selection::kPairOrders = Selection::MakePairOrders();
 #endif
 
 }  // namespace swarmanoid

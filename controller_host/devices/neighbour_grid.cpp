@@ -138,48 +138,87 @@ void NeighbourGrid::Rebuild()
     low_[place] = static_cast<float>(poses.z[e] + shapes_[e].low);
     high_[place] = static_cast<float>(poses.z[e] + shapes_[e].high);
   }
+  bool alike = true;
+  bool level = true;
+  for (std::size_t place = 1; place < count_; ++place)
+  {
+    level &= origin_z_[place] == origin_z_[0];
+    alike &= (radius_[place] == radius_[0]) & (low_[place] == low_[0]) & (high_[place] == high_[0]);
+  }
+  are_alike_ = alike;
+  all_level_ = level;
 }
 
 void NearBodies::Reserve(std::size_t bodies)
 {
-  for (std::vector<float>* values : {&x, &y, &radius, &low, &high}) values->resize(bodies + kLanes);
-  entity.resize(bodies + kLanes);
-  place.resize(bodies + kLanes);
+  for (std::vector<float>* values : {&x, &y, &radius, &low, &high}) values->resize(bodies + 2 * kLanes);
+  entity.resize(bodies + 2 * kLanes);
+  place.resize(bodies + 2 * kLanes);
 }
 
 void NeighbourGrid::CollectNear(double x, double y, double reach, std::uint32_t left_out, NearBodies& near) const
 {
+  near.are_alike = are_alike_;
+  near.count = are_alike_ ? Collect<true>(x, y, reach, left_out, near) : Collect<false>(x, y, reach, left_out, near);
+  if (are_alike_)
+    for (std::size_t i = 0; i < near.count; i += kLanes)
+    {
+      StoreLanes(Everywhere(radius_[0]), &near.radius[i]);
+      StoreLanes(Everywhere(low_[0]), &near.low[i]);
+      StoreLanes(Everywhere(high_[0]), &near.high[i]);
+    }
+}
+
+template <bool kAlike>
+std::size_t NeighbourGrid::Collect(double x, double y, double reach, std::uint32_t left_out, NearBodies& near) const
+{
   const auto fx = static_cast<float>(x);
   const auto fy = static_cast<float>(y);
   const float own = static_cast<float>(reach) + margin_;
-  IntLanes steps{};
-  for (int lane = 0; lane < kLanes; ++lane) steps[lane] = lane;
   const IntLanes left_out_lanes = Everywhere(static_cast<int>(left_out));
+  // Local copies: stores of lanes may change anything, for all that the compiler knows.
+  const float* const body_x = x_.data();
+  const float* const body_y = y_.data();
+  const float* const body_radius = radius_.data();
+  const float* const body_low = low_.data();
+  const float* const body_high = high_.data();
+  const double* const origin_x = origin_x_.data();
+  const double* const origin_y = origin_y_.data();
+  const auto* const body_entity = reinterpret_cast<const std::int32_t*>(entity_.data());
+  float* const near_x = near.x.data();
+  float* const near_y = near.y.data();
+  float* const near_radius = near.radius.data();
+  float* const near_low = near.low.data();
+  float* const near_high = near.high.data();
+  std::int32_t* const near_entity = near.entity.data();
+  std::int32_t* const near_place = near.place.data();
   std::size_t count = 0;
   ForEachSpanNear(x, y, reach,
                   [&](std::size_t first, std::size_t behind)
                   {
                     for (std::size_t i = first; i < behind; i += kLanes)
                     {
-                      const FloatLanes dx = LoadLanes(&x_[i]) - fx;
-                      const FloatLanes dy = LoadLanes(&y_[i]) - fy;
-                      const FloatLanes radius = LoadLanes(&radius_[i]);
+                      const FloatLanes dx = LoadLanes(body_x + i) - fx;
+                      const FloatLanes dy = LoadLanes(body_y + i) - fy;
+                      const FloatLanes radius = kAlike ? Everywhere(body_radius[0]) : LoadLanes(body_radius + i);
                       const FloatLanes cut = radius + own;
-                      const IntLanes entity = LoadLanes(reinterpret_cast<const std::int32_t*>(&entity_[i]));
-                      unsigned hits = LaneMask((dx * dx + dy * dy <= cut * cut) & (entity != left_out_lanes));
-                      if (behind - i < kLanes) hits &= (1U << (behind - i)) - 1U;
-                      const Selection selection(hits);
-                      selection.Store(Differences(&origin_x_[i], x), &near.x[count]);
-                      selection.Store(Differences(&origin_y_[i], y), &near.y[count]);
-                      selection.Store(radius, &near.radius[count]);
-                      selection.Store(LoadLanes(&low_[i]), &near.low[count]);
-                      selection.Store(LoadLanes(&high_[i]), &near.high[count]);
-                      selection.Store(entity, &near.entity[count]);
-                      selection.Store(static_cast<int>(i) + steps, &near.place[count]);
+                      const IntLanes entity = LoadLanes(body_entity + i);
+                      const Selection selection(LaneMask((dx * dx + dy * dy <= cut * cut) &
+                                                         ~(entity == left_out_lanes) & FirstLanes(behind - i)));
+                      selection.Store(Differences(origin_x + i, x), near_x + count);
+                      selection.Store(Differences(origin_y + i, y), near_y + count);
+                      selection.Store(entity, near_entity + count);
+                      selection.Store(static_cast<int>(i) + LaneNumbers(), near_place + count);
+                      if constexpr (!kAlike)
+                      {
+                        selection.Store(radius, near_radius + count);
+                        selection.Store(LoadLanes(body_low + i), near_low + count);
+                        selection.Store(LoadLanes(body_high + i), near_high + count);
+                      }
                       count += selection.Count();
                     }
                   });
-  near.count = count;
+  return count;
 }
 
 FixedBodies::FixedBodies(const CSwarmanoidSpace& space, std::span<const BodyShape> shapes, double reach)
@@ -188,10 +227,11 @@ FixedBodies::FixedBodies(const CSwarmanoidSpace& space, std::span<const BodyShap
   for (std::uint32_t e = 0; e < space.Size(); ++e)
     if (!space.GetEntity(e).IsMovable() && shapes[e].kind != Shape::Kind::kNone) fixed.push_back(e);
 
-  constexpr double kSmallestCell = 0.25;
+  // Small against the reach, so that few bodies beyond it are listed, but few enough to stay in the cache.
+  const double smallest_cell = std::max(0.25, reach / 6);
   constexpr std::size_t kCells = 65536;
   const Extent extent = ExtentOf(space);
-  frame_ = CellFrame::Over(extent.left, extent.bottom, extent.width, extent.height, kSmallestCell,
+  frame_ = CellFrame::Over(extent.left, extent.bottom, extent.width, extent.height, smallest_cell,
                            fixed.empty() ? 1 : kCells);
   margin_ = MarginOf(extent);
 

@@ -38,6 +38,12 @@ struct CellFrame
   // points.
   template <class Visit>
   void ForEachSpanAlong(float x0, float y0, float x1, float y1, float width, Visit&& visit) const;
+  // The first and the last cells that come within `reach` of a point, for kLanes rows; a few are farther.
+  struct Chords
+  {
+    std::array<std::int32_t, kLanes> first, last;
+  };
+  Chords ChordsFrom(int row, float x, float y, float reach) const;
   std::size_t Cells() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 
 private:
@@ -47,10 +53,11 @@ private:
   }
 };
 
-// Movable bodies around a point, by lanes: room for kLanes more behind `count`.
+// Movable bodies around a point, by lanes: room for 2 * kLanes more behind `count`.
 struct NearBodies
 {
   std::size_t count = 0;
+  bool are_alike = false;        // all have one radius, one low and one high
   std::vector<float> x, y;       // m, of the origin of the body from the point
   std::vector<float> radius;     // m
   std::vector<float> low, high;  // m, in the space, where the body is upright
@@ -78,6 +85,8 @@ public:
 
   // No movable body is tilted.
   bool AllUpright() const { return all_upright_; }
+  // All movable bodies have their origins at one height.
+  bool AllLevel() const { return all_level_; }
   // No movable body is a box.
   bool AllCylinders() const { return all_cylinders_; }
 
@@ -95,6 +104,9 @@ public:
   void ForEachAlong(const Vector3& from, const Vector3& to, Visit&& visit) const;
 
 private:
+  template <bool kAlike>
+  std::size_t Collect(double x, double y, double reach, std::uint32_t left_out, NearBodies& near) const;
+
   const CSwarmanoidSpace& space_;
   std::span<const BodyShape> shapes_;
   CellFrame frame_;
@@ -104,6 +116,8 @@ private:
   float largest_radius_ = 0;  // of this tick
   bool all_upright_ = true;
   bool all_cylinders_ = true;
+  bool all_level_ = true;
+  bool are_alike_ = true;  // as in NearBodies
 
   // By body: cell and circle in the xy plane.
   std::vector<std::uint32_t> cell_;
@@ -164,6 +178,29 @@ private:
   std::vector<std::uint32_t> entities_;
 };
 
+inline CellFrame::Chords CellFrame::ChordsFrom(int row, float x, float y, float reach) const
+{
+  // How far each row is from the point along y, border rows reaching to infinity; a little less covers the rounding.
+  const float size = 1 / inverse_size;
+  const IntLanes number = row + LaneNumbers();
+  const FloatLanes low = bottom + __builtin_convertvector(number, FloatLanes) * size;
+  const FloatLanes above = number == rows - 1 ? Everywhere(0.0F) : y - (low + size);
+  const FloatLanes below = number == 0 ? Everywhere(0.0F) : low - y;
+  const FloatLanes away = Maximum(Maximum(above, below) - 1e-3F * size, FloatLanes{});
+  const FloatLanes half = SquareRoot(Maximum(reach * reach - away * away, FloatLanes{})) + 1e-3F * size;
+
+  const auto column = [&](FloatLanes at)
+  {
+    const FloatLanes cell = (at - left) * inverse_size;
+    return Truncated(Minimum(Maximum(cell, FloatLanes{}), Everywhere(static_cast<float>(columns - 1))));
+  };
+  const IntLanes line = number * columns;
+  Chords chords;
+  StoreLanes(line + column(x - half), chords.first.data());
+  StoreLanes(line + column(x + half), chords.last.data());
+  return chords;
+}
+
 template <class Visit>
 void CellFrame::ForEachSpanAlong(float x0, float y0, float x1, float y1, float width, Visit&& visit) const
 {
@@ -221,18 +258,22 @@ void NeighbourGrid::ForEachAlong(const Vector3& from, const Vector3& to, Visit&&
                           });
 }
 
+// Always inline: else what visit() changes would stand in memory.
 template <class Visit>
-void NeighbourGrid::ForEachSpanNear(double x, double y, double reach, Visit&& visit) const
+[[gnu::always_inline]] inline void NeighbourGrid::ForEachSpanNear(double x, double y, double reach, Visit&& visit) const
 {
   const auto fx = static_cast<float>(x);
   const auto fy = static_cast<float>(y);
   const float widest = static_cast<float>(reach) + margin_ + largest_radius_;
-  const auto first_column = static_cast<std::size_t>(frame_.Column(fx - widest));
-  const auto last_column = static_cast<std::size_t>(frame_.Column(fx + widest));
-  const auto last_row = static_cast<std::size_t>(frame_.Row(fy + widest));
-  const auto columns = static_cast<std::size_t>(frame_.columns);
-  for (auto row = static_cast<std::size_t>(frame_.Row(fy - widest)); row <= last_row; ++row)
-    visit(start_[row * columns + first_column], start_[row * columns + last_column + 1]);
+  const int first_row = frame_.Row(fy - widest);
+  const int last_row = frame_.Row(fy + widest);
+  const std::uint32_t* const start = start_.data();
+  for (int row = first_row; row <= last_row; row += kLanes)
+  {
+    const CellFrame::Chords chords = frame_.ChordsFrom(row, fx, fy, widest);
+    const int count = std::min(kLanes, last_row - row + 1);
+    for (int i = 0; i < count; ++i) visit(start[chords.first[i]], start[chords.last[i] + 1]);
+  }
 }
 
 template <class Visit>

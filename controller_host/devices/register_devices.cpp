@@ -20,7 +20,8 @@ void RegisterBuiltinDevices()
     RegisterPreferentialDirection();
     RegisterColourCameras();
     RegisterPieCamera();
-    RegisterRangeAndBearing();
+    RegisterRangeAndBearingSender();
+    RegisterRangeAndBearingReceiver();
     RegisterEyebotPropellers();
     RegisterEyebotAttachment();
     RegisterEyebotAltitude();

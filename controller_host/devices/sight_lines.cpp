@@ -34,55 +34,82 @@ void SightLines::LookFrom(std::uint32_t observer, const Vector3& eye, double rea
   eye_ = eye;
   reach_ = reach;
   points_.count = 0;
+  are_origins_ = false;
   world_.Grid().CollectNear(eye.x(), eye.y(), reach, observer, near_);
 }
 
-void SightLines::AddPointsAround()
+void SightLines::LookAtBodiesAround()
 {
-  if (points_.count + near_.count + kLanes > points_.x.size()) points_.Reserve(2 * (points_.count + near_.count));
-  std::copy_n(near_.x.begin(), near_.count, &points_.x[points_.count]);
-  std::copy_n(near_.y.begin(), near_.count, &points_.y[points_.count]);
-  std::copy_n(near_.entity.begin(), near_.count, &points_.owner[points_.count]);
+  if (near_.count + kLanes > points_.x.size()) points_.Reserve(2 * near_.count);
+  for (std::size_t i = 0; i < near_.count; i += kLanes)
+  {
+    StoreLanes(LoadLanes(&near_.x[i]), &points_.x[i]);
+    StoreLanes(LoadLanes(&near_.y[i]), &points_.y[i]);
+    StoreLanes(FloatLanes{}, &points_.z[i]);
+    StoreLanes(LoadLanes(&near_.entity[i]), &points_.owner[i]);
+  }
+  points_.count = near_.count;
+  are_origins_ = true;
+  if (world_.Grid().AllLevel()) return;
   const double* const z = world_.Grid().OriginZ();
   const double own = world_.Space().Poses().z[observer_];
   for (std::size_t i = 0; i < near_.count; ++i)
-    points_.z[points_.count + i] = static_cast<float>(z[static_cast<std::size_t>(near_.place[i])] - own);
-  points_.count += near_.count;
+    points_.z[i] = static_cast<float>(z[static_cast<std::size_t>(near_.place[i])] - own);
 }
 
-std::span<const char> SightLines::Solve()
+const SeenPoints& SightLines::Solve()
 {
-  seen_.resize(points_.count);
+  seen_.Resize(points_.count);
   if (points_.count == 0) return seen_;
   CollectBodies();
-  field_.Look(points_, seen_.data());
+  field_.Look(points_, are_origins_, seen_);
   for (const Box& box : boxes_) HideBehindBox(box);
   if (!tilted_.empty() || !foreign_.empty())
     for (std::size_t i = 0; i < points_.count; ++i)
-      if (seen_[i] && HiddenByOthers(i)) seen_[i] = 0;
+      if (seen_[i] && HiddenByOthers(i)) seen_.Hide(i);
   if (!world_.Terrain().IsEmpty())
     for (std::size_t i = 0; i < points_.count; ++i)
-      if (seen_[i] && HiddenByTerrain(i)) seen_[i] = 0;
+      if (seen_[i] && HiddenByTerrain(i)) seen_.Hide(i);
   return seen_;
 }
 
-void SightLines::FindBounds()
+void SightLines::FindHeights()
 {
-  left_ = right_ = back_ = front_ = lowest_ = highest_ = 0;
-  for (std::size_t i = 0; i < points_.count; ++i)
+  FloatLanes lowest{}, highest{};
+  for (std::size_t i = 0; i < points_.count; i += kLanes)
   {
-    left_ = std::min(left_, points_.x[i]);
-    right_ = std::max(right_, points_.x[i]);
-    back_ = std::min(back_, points_.y[i]);
-    front_ = std::max(front_, points_.y[i]);
-    lowest_ = std::min(lowest_, points_.z[i]);
-    highest_ = std::max(highest_, points_.z[i]);
+    const FloatLanes z = FirstLanes(points_.count - i) ? LoadLanes(&points_.z[i]) : FloatLanes{};
+    lowest = Minimum(lowest, z);
+    highest = Maximum(highest, z);
   }
+  lowest_ = Lowest(lowest);
+  highest_ = Highest(highest);
+}
+
+void SightLines::FindOutline()
+{
+  has_outline_ = true;
+  FloatLanes left{}, right{}, back{}, front{};
+  for (std::size_t i = 0; i < points_.count; i += kLanes)
+  {
+    const IntLanes are_there = FirstLanes(points_.count - i);
+    const FloatLanes x = are_there ? LoadLanes(&points_.x[i]) : FloatLanes{};
+    const FloatLanes y = are_there ? LoadLanes(&points_.y[i]) : FloatLanes{};
+    left = Minimum(left, x);
+    right = Maximum(right, x);
+    back = Minimum(back, y);
+    front = Maximum(front, y);
+  }
+  left_ = Lowest(left);
+  right_ = Highest(right);
+  back_ = Lowest(back);
+  front_ = Highest(front);
 }
 
 void SightLines::CollectBodies()
 {
-  FindBounds();
+  FindHeights();
+  has_outline_ = false;
   boxes_.clear();
   tilted_.clear();
   foreign_.clear();
@@ -107,15 +134,27 @@ void SightLines::CollectBodies()
   const NeighbourGrid& grid = world_.Grid();
   if (discs_.count > 0 || !grid.AllUpright() || !grid.AllCylinders() || !world_.Membership().IsOneWorld())
   {
-    for (const std::int32_t entity : Around())
+    for (std::size_t i = 0; i < near_.count; ++i)
     {
-      const auto body = static_cast<std::uint32_t>(entity);
-      AddBody(body, grid.AllUpright() || IsUpright(world_.Space().Poses(), body));
+      const auto body = static_cast<std::uint32_t>(near_.entity[i]);
+      const bool is_upright = grid.AllUpright() || IsUpright(world_.Space().Poses(), body);
+      if (is_upright && world_.Extent(body).kind == Shape::Kind::kBox && IsOutside(i)) continue;
+      AddBody(body, is_upright);
     }
     discs = &discs_;
   }
 
   field_.Sort(*discs, static_cast<float>(eye_.z()), lowest_, highest_);
+}
+
+// Whether an upright body around the eye is surely farther to one side than all points and the eye.
+bool SightLines::IsOutside(std::size_t near)
+{
+  if (!has_outline_) FindOutline();
+  const float reach = near_.radius[near] + 1e-3F;
+  const float x = near_.x[near];
+  const float y = near_.y[near];
+  return (x < left_ - reach) | (x > right_ + reach) | (y < back_ - reach) | (y > front_ + reach);
 }
 
 void SightLines::AddBody(std::uint32_t body, bool upright)
@@ -143,6 +182,7 @@ void SightLines::AddBox(std::uint32_t body)
   const double dy = poses.y[body] - eye_.y();
   const double z = poses.z[body] - eye_.z();
   const double reach = static_cast<double>(extent.radius) + 1e-4;
+  if (!has_outline_) FindOutline();
   if (dx < static_cast<double>(left_) - reach || dx > static_cast<double>(right_) + reach ||
       dy < static_cast<double>(back_) - reach || dy > static_cast<double>(front_) + reach)
     return;
@@ -177,10 +217,9 @@ void SightLines::HideBehindBox(const Box& box)
   for (std::size_t group = 0; group < points_.count; group += kLanes)
   {
     const FloatLanes toward = LoadLanes(&points_.x[group]) * box.normal_x + LoadLanes(&points_.y[group]) * box.normal_y;
-    for (unsigned rest = LaneMask(toward >= box.distance); rest != 0; rest &= rest - 1)
+    for (unsigned rest = LaneMask(toward >= box.distance) & seen_.Group(group); rest != 0; rest &= rest - 1)
     {
       const std::size_t i = group + static_cast<unsigned>(__builtin_ctz(rest));
-      if (i >= points_.count) break;
       if (points_.owner[i] == box.entity) continue;
       const float x = points_.x[i];
       const float y = points_.y[i];
@@ -188,7 +227,7 @@ void SightLines::HideBehindBox(const Box& box)
       ClipSlab(box.x, cosine * x + sine * y, -box.half_x, box.half_x, enter, leave);
       ClipSlab(box.y, cosine * y - sine * x, -box.half_y, box.half_y, enter, leave);
       ClipSlab(0, points_.z[i], box.low, box.high, enter, leave);
-      if (enter <= leave) seen_[i] = 0;
+      if (enter <= leave) seen_.Hide(i);
     }
   }
 }

@@ -35,13 +35,13 @@ public:
     points_.z[i] = static_cast<float>(offset.z());
     points_.owner[i] = static_cast<std::int32_t>(owner);
   }
-  // A point on each movable body around the eye, in the order of Around(): at its origin, moved by the height of the
-  // eye above the origin of the observer. For worlds without tilted bodies.
-  void AddPointsAround();
+  // Instead of adding points: one on each movable body around the eye, in the order of Around(), at its origin moved by
+  // the height of the eye above the origin of the observer. For worlds without tilted bodies.
+  void LookAtBodiesAround();
   // Where callers put many points at once.
   SightPoints& Points() { return points_; }
   // For each point, in the order of AddPoint, whether it is seen. Valid until the next LookFrom.
-  std::span<const char> Solve();
+  const SeenPoints& Solve();
 
 private:
   // An upright box, relative to the eye.
@@ -54,8 +54,10 @@ private:
     std::int32_t entity;
   };
 
-  void FindBounds();
+  void FindHeights();
+  void FindOutline();
   void CollectBodies();
+  bool IsOutside(std::size_t near);
   void AddBody(std::uint32_t body, bool upright);
   void AddBox(std::uint32_t body);
   void HideBehindBox(const Box& box);
@@ -71,11 +73,15 @@ private:
   double reach_ = 0;
   NearBodies near_;
   SightPoints points_;
-  std::vector<char> seen_;
+  bool are_origins_ = false;  // the points are those of LookAtBodiesAround
+  SeenPoints seen_;
 
   NearBodies discs_;  // upright cylinders that hide things from the observer, where not all that are near do
   DiscField field_;
-  float left_ = 0, right_ = 0, back_ = 0, front_ = 0, lowest_ = 0, highest_ = 0;  // of the points and the eye
+  // Of the points and the eye.
+  float lowest_ = 0, highest_ = 0;
+  bool has_outline_ = false;
+  float left_ = 0, right_ = 0, back_ = 0, front_ = 0;
   std::vector<Box> boxes_;
   std::vector<std::uint32_t> tilted_;   // tested one by one
   std::vector<std::uint32_t> foreign_;  // hide only what shares an engine with them, tested one by one

@@ -1,6 +1,7 @@
 #include "common/control_interface/ci_range_and_bearing.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "tests/unit/devices/test_world.h"
 
@@ -89,6 +90,54 @@ TEST(RangeAndBearing, RobotsAndBlocksBlockIt)
   for (const auto& packet : PacketsOf(receivers, 0)) heard.push_back(packet.message[0] - 200);
   std::sort(heard.begin(), heard.end());
   EXPECT_EQ(heard, (std::vector<int>{3, 5}));
+}
+
+// What a robot receives does not depend on who else receives, nor on how many others send.
+TEST(RangeAndBearing, EachReceiverOfACrowdHearsWhatItHearsAlone)
+{
+  TestWorld world;
+  RandomStream random(5, 5, 5, 5);
+  for (int n = 0; n < 120; ++n)
+    world.AddFootbot(random.Uniform(0, 10), random.Uniform(0, 10), random.Uniform(-kPi, kPi));
+  const auto robots = world.RobotsOf(EntityKind::kFootbot);
+  TestActuator senders(world, "range_and_bearing", "generic_range_and_bearing", robots);
+  TestSensor crowd(world, "range_and_bearing", "generic_range_and_bearing", robots);
+  std::vector<std::size_t> all(robots.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  Send(world, senders, {all.begin(), all.begin() + 55});
+  crowd.Update();
+  std::vector<std::vector<CCI_RangeAndBearingSensor::Packet>> of_few;
+  for (const std::size_t k : all) of_few.emplace_back(PacketsOf(crowd, k).begin(), PacketsOf(crowd, k).end());
+
+  Send(world, senders, all);
+  crowd.Update();
+  const CSwarmanoidSpace& space = world.Space();
+  std::size_t packets = 0;
+  for (const std::size_t k : all)
+  {
+    TestSensor alone(world, "range_and_bearing", "generic_range_and_bearing", {robots[k]});
+    alone.Update();
+    const Packets expected = PacketsOf(alone, 0);
+    const Packets received = PacketsOf(crowd, k);
+    ASSERT_EQ(received.size(), expected.size());
+    std::size_t of_first = 0;
+    for (std::size_t i = 0; i < received.size(); ++i)
+    {
+      ASSERT_EQ(received[i].range_m, expected[i].range_m);
+      ASSERT_EQ(received[i].bearing_rad, expected[i].bearing_rad);
+      ASSERT_EQ(received[i].message, expected[i].message);
+      const std::size_t sender = static_cast<std::uint8_t>(received[i].message[0] - 200);
+      const Vector3 way = space.GetPose(robots[k]).Inverse().Apply(space.GetPose(robots[sender]).position);
+      ASSERT_NEAR(received[i].range_m, way.norm(), 1e-12);
+      ASSERT_NEAR(received[i].bearing_rad, std::atan2(way.y(), way.x()), 1e-12);
+      if (sender >= 55) continue;
+      ASSERT_LT(of_first, of_few[k].size());
+      ASSERT_EQ(received[i].range_m, of_few[k][of_first++].range_m);
+    }
+    ASSERT_EQ(of_first, of_few[k].size());
+    packets += received.size();
+  }
+  EXPECT_GT(packets, 1500U);
 }
 
 TEST(RangeAndBearing, LossAndNoiseAsAsked)

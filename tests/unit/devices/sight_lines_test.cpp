@@ -101,6 +101,81 @@ TEST(SightLines, AgreeWithBruteForceInRandomWorlds)
   EXPECT_GT(seen, 3000);
 }
 
+// Robots of one kind, few and many, on one level and not: these worlds take shorter ways.
+TEST(SightLines, BodiesAroundAgreeWithBruteForce)
+{
+  int hidden = 0, seen = 0;
+  for (std::uint32_t trial = 0; trial < 30; ++trial)
+  {
+    TestWorld world;
+    world.Configuration().arena_size = {6, 6, 3};
+    RandomStream random(trial, 2, 2, 2);
+    const int robots = trial % 2 == 0 ? 30 : 200;
+    for (int n = 0; n < robots; ++n)
+      world.AddFootbot(random.Uniform(-1, 7), random.Uniform(-1, 7), 0, trial % 3 == 0 ? random.Uniform(0, 0.3) : 0);
+    world.AddBlock({3, 3, 0.2}, {0.5, 0.3, 0.4}, 1);
+    SensorWorld sensor_world(world.Space());
+    sensor_world.Refresh();
+    SightLines lines(sensor_world, 3);
+    for (std::uint32_t observer = 0; observer < 30; ++observer)
+    {
+      const double height = observer % 2 == 0 ? 0.1 : 0.14;
+      const Vector3 eye = world.Space().GetPose(observer).position + Vector3(0, 0, height);
+      lines.LookFrom(observer, eye, 3);
+      lines.LookAtBodiesAround();
+      const SeenPoints& answers = lines.Solve();
+      for (std::size_t i = 0; i < lines.Around().size(); ++i)
+      {
+        const auto owner = static_cast<std::uint32_t>(lines.Around()[i]);
+        const Vector3 point = world.Space().GetPose(owner).position + Vector3(0, 0, height);
+        if ((point - eye).head<2>().norm() > 3) continue;  // perhaps hidden by bodies still farther away
+        const Verdict verdict = ByBruteForce(sensor_world, observer, eye, point, owner);
+        const bool wrong = (answers[i] && verdict.surely_hidden) || (!answers[i] && !verdict.perhaps_hidden);
+        ASSERT_FALSE(wrong) << "trial " << trial << " observer " << observer << " body " << owner;
+        ++(answers[i] ? seen : hidden);
+      }
+    }
+  }
+  EXPECT_GT(hidden, 10000);
+  EXPECT_GT(seen, 3000);
+}
+
+TEST(SightLines, TheBodiesAroundAreAllWithinReach)
+{
+  for (std::uint32_t trial = 0; trial < 20; ++trial)
+  {
+    TestWorld world;
+    world.Configuration().arena_size = {trial % 2 == 0 ? 4.0 : 30.0, 7, 3};
+    RandomStream random(trial, 4, 4, 4);
+    for (int n = 0; n < 150; ++n)
+    {
+      world.AddFootbot(random.Uniform(-2, 9), random.Uniform(-2, 9));
+      if (trial % 3 == 0 && n % 5 == 0) world.AddPrey(random.Uniform(-2, 9), random.Uniform(-2, 9), 0.3, 0.1);
+    }
+    SensorWorld sensor_world(world.Space());
+    sensor_world.Refresh();
+    SightLines lines(sensor_world, 3);
+    for (std::uint32_t observer = 0; observer < 20; ++observer)
+    {
+      const Vector3 eye = world.Space().GetPose(observer).position;
+      const double reach = 0.2 * observer;
+      lines.LookFrom(observer, eye, reach);
+      std::vector<std::uint32_t> found(lines.Around().begin(), lines.Around().end());
+      std::sort(found.begin(), found.end());
+      EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());
+      for (std::uint32_t e = 0; e < world.Space().Size(); ++e)
+      {
+        const double distance = (world.Space().GetPose(e).position - eye).head<2>().norm();
+        const double beyond = distance - reach - sensor_world.Body(e).radius;
+        const bool is_found = std::binary_search(found.begin(), found.end(), e);
+        if (e != observer && beyond > 0 && beyond < 1e-3) continue;  // may be there or not
+        EXPECT_EQ(is_found, e != observer && beyond <= 0)
+            << "trial " << trial << " observer " << observer << " body " << e;
+      }
+    }
+  }
+}
+
 TEST(SightLines, ARobotBetweenHidesALowPointAndNotAHighOne)
 {
   TestWorld world;
