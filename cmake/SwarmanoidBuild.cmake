@@ -24,8 +24,13 @@ if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>)
 endif()
 
-# Same bits whatever the optimisation level: no contraction, no Eigen vector code (it would use FMA instructions).
-add_compile_options(-ffp-contract=off -fno-trapping-math -fno-math-errno)
+# Same bits whatever the optimisation level: no contraction, no Eigen vector code (it would use FMA instructions). GCC 12
+# makes fused instructions out of rotations whatever -ffp-contract says (its bug 106902).
+set(SWARMANOID_EXACT -ffp-contract=off)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  list(APPEND SWARMANOID_EXACT -mno-fma)
+endif()
+add_compile_options(${SWARMANOID_EXACT} -fno-trapping-math -fno-math-errno)
 add_compile_definitions(EIGEN_DONT_VECTORIZE)
 if(SWARMANOID_CPU AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   add_compile_options(-march=${SWARMANOID_CPU})
@@ -64,7 +69,7 @@ function(swarmanoid_library name)
   target_precompile_headers(${name} REUSE_FROM pch)
   # Code built outside needs these two of the settings above: they decide the layout of a Pose and the bits of a sum.
   target_compile_definitions(${name} INTERFACE EIGEN_DONT_VECTORIZE)
-  target_compile_options(${name} INTERFACE -ffp-contract=off)
+  target_compile_options(${name} INTERFACE ${SWARMANOID_EXACT})
   target_compile_features(${name} INTERFACE cxx_std_20)
   set_property(GLOBAL APPEND PROPERTY SWARMANOID_LIBRARIES ${name})
 endfunction()

@@ -1,6 +1,7 @@
 """How runs end as they should: last line, exit codes, Ctrl-C, run folders, full disks, runs side by side."""
 import json
 import os
+import re
 import signal
 import subprocess
 import time
@@ -28,6 +29,15 @@ class Ends(LauncherTest):
             effective = self.run_it("run", f"{out}/experiment.xml", "--single-process", "--quiet", "--output", out + "again")
             self.assertEqual(self.assert_finished(effective, 200), manifest["state_hash"])
         self.assertEqual(len(hashes), 1, hashes)
+
+    def test_pages_show_what_runs_give(self):
+        # Another hash than last time is a change for users: the page and the changelog have to tell it.
+        for page, experiment in (("README.md", "prey_retrieval.xml"), ("docs/command.md", "prey_retrieval.xml"),
+                                 ("docs/running_a_cluster.md", "diffusion_10.xml")):
+            shown = re.search(r"finished: (\d+) ticks, \d+ entities, hash [0-9a-f]{16}",
+                              (CONFIGS.parent / page).read_text())
+            run = self.run_it("run", CONFIGS / experiment, "--single-process", "--no-visualisers", "--ticks", shown[1])
+            self.assertIn(shown[0], run.stdout, page)
 
     def test_hash_options(self):
         run = self.run_it("run", EXPERIMENT, "--ticks", 50, "--quiet", "--hash-log", "hashes")
