@@ -87,15 +87,17 @@ class IdealCamera : public CameraBatch<Traits>
 public:
   static std::vector<ParameterSpec> ParameterTable()
   {
-    return Joined(Joined(ColourCamera::ViewParameters(Traits::kAperture, Traits::kRange),
-                         NoiseParameters("each distance", "m", "distance_")),
-                  NoiseParameters("each angle", "rad", "angle_"));
+    std::vector<ParameterSpec> table = Joined(Joined(ColourCamera::ViewParameters(Traits::kAperture, Traits::kRange),
+                                                     NoiseParameters("each distance", "m", "distance_")),
+                                              NoiseParameters("each angle", "rad", "angle_"));
+    return kHasElevation ? Joined(table, NoiseParameters("each elevation", "rad", "elevation_")) : table;
   }
   void Init(const DeviceSetup& setup) override
   {
     this->InitBatch(setup);
     distance_noise_ = NoiseFrom(setup.parameters, "distance_");
     angle_noise_ = NoiseFrom(setup.parameters, "angle_");
+    if (kHasElevation) elevation_noise_ = NoiseFrom(setup.parameters, "elevation_");
   }
 
 protected:
@@ -106,17 +108,22 @@ protected:
     for (std::size_t i = first; i < behind; ++i)
       blobs[i - first] = BlobAt(this->model_.view, seen.Place(i), this->Sources().Source(seen.source[i]).colour,
                                 seen.angle[i], seen.distance[i]);
-    if (!distance_noise_.IsActive() && !angle_noise_.IsActive()) return;
+    if (!distance_noise_.IsActive() && !angle_noise_.IsActive() && !elevation_noise_.IsActive()) return;
     RandomStream random = StreamOf(*this->space_, this->robots_[k], this->stream_);
     for (CCI_ColourBlob& blob : blobs)
     {
       blob.distance_m = std::max(blob.distance_m + distance_noise_.Sample(random), 0.0);
       blob.angle_rad = WrapAngle(blob.angle_rad + angle_noise_.Sample(random));
+      if (elevation_noise_.IsActive())
+        blob.elevation_rad = std::clamp(blob.elevation_rad + elevation_noise_.Sample(random), -kPi / 2, kPi / 2);
     }
   }
 
 private:
-  NoiseModel distance_noise_, angle_noise_;
+  // Cameras that look down report no elevation.
+  inline static const bool kHasElevation = Traits::Model().view == CameraModel::View::kAhead;
+
+  NoiseModel distance_noise_, angle_noise_, elevation_noise_;
 };
 
 // The place of a blob in the image, in whole pixels with noise, turned back into readings; some blobs are missed.
@@ -210,7 +217,7 @@ void RegisterCameras(const std::string& what)
   description.robots = {Traits::kRobot};
 
   description.implementation = std::string("generic_") + Traits::kLabel;
-  description.brief = what + ": blobs at their exact places, with noise on distance and angle where asked";
+  description.brief = what + ": blobs at their exact places, with noise on distance and angles where asked";
   description.parameters = IdealCamera<Traits>::ParameterTable();
   AddSensorPlugin<IdealCamera<Traits>>(description);
 

@@ -38,18 +38,20 @@ class ReceiverBatch : public SensorBatch
 public:
   static std::vector<ParameterSpec> ParameterTable()
   {
-    return Joined(Joined({{.name = "range",
-                           .unit = "m",
-                           .default_value = "3",
-                           .description = "Distance from which packets are received.",
-                           .minimum = 0.001},
-                          {.name = "loss_probability",
-                           .default_value = "0",
-                           .description = "Share of the packets that get lost.",
-                           .minimum = 0,
-                           .maximum = 1}},
-                         NoiseParameters("each range", "m", "range_")),
-                  NoiseParameters("each bearing", "rad", "bearing_"));
+    const std::vector<ParameterSpec> noise =
+        Joined(Joined(NoiseParameters("each range", "m", "range_"), NoiseParameters("each bearing", "rad", "bearing_")),
+               NoiseParameters("each vertical bearing", "rad", "vertical_bearing_"));
+    return Joined({{.name = "range",
+                    .unit = "m",
+                    .default_value = "3",
+                    .description = "Distance from which packets are received.",
+                    .minimum = 0.001},
+                   {.name = "loss_probability",
+                    .default_value = "0",
+                    .description = "Share of the packets that get lost.",
+                    .minimum = 0,
+                    .maximum = 1}},
+                  noise);
   }
 
   void Init(const DeviceSetup& setup) override
@@ -61,6 +63,7 @@ public:
     loss_ = setup.parameters.Number("loss_probability");
     range_noise_ = NoiseFrom(setup.parameters, "range_");
     bearing_noise_ = NoiseFrom(setup.parameters, "bearing_");
+    vertical_bearing_noise_ = NoiseFrom(setup.parameters, "vertical_bearing_");
     lines_ = std::make_unique<SightLines>(*world_, range_);
     receivers_.resize(robots_.size());
     place_of_entity_.assign(setup.space.Size(), -1);
@@ -273,12 +276,15 @@ private:
 
   void AddNoise(Receiver& receiver, RandomStream& random) const
   {
-    if (!range_noise_.IsActive() && !bearing_noise_.IsActive()) return;
+    if (!range_noise_.IsActive() && !bearing_noise_.IsActive() && !vertical_bearing_noise_.IsActive()) return;
     for (std::size_t i = 0; i < receiver.count; ++i)
     {
       CCI_RangeAndBearingSensor::Packet& packet = receiver.packets[i];
       if (range_noise_.IsActive()) packet.range_m = std::max(packet.range_m + range_noise_.Sample(random), 0.0);
       if (bearing_noise_.IsActive()) packet.bearing_rad = WrapAngle(packet.bearing_rad + bearing_noise_.Sample(random));
+      if (vertical_bearing_noise_.IsActive())
+        packet.vertical_bearing_rad =
+            std::clamp(packet.vertical_bearing_rad + vertical_bearing_noise_.Sample(random), -kPi / 2, kPi / 2);
     }
   }
 
@@ -287,7 +293,7 @@ private:
   std::vector<std::uint32_t> robots_;
   std::uint32_t stream_ = 0;
   double range_ = 0, loss_ = 0;
-  NoiseModel range_noise_, bearing_noise_;
+  NoiseModel range_noise_, bearing_noise_, vertical_bearing_noise_;
   std::vector<std::uint32_t> message_slots_;   // by entity
   std::vector<Sent> messages_;                 // by place in the grid, of this tick
   std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1

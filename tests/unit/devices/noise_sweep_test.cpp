@@ -101,7 +101,7 @@ std::vector<double> ReadingsOf(const CCI_Sensor& sensor)
   if (const auto* s = As<CCI_RangeAndBearingSensor>(sensor))
   {
     for (const auto& packet : s->GetAllPackets())
-      for (const double value : {packet.range_m, packet.bearing_rad}) all.push_back(value);
+      for (const double value : {packet.range_m, packet.bearing_rad, packet.vertical_bearing_rad}) all.push_back(value);
     return all;
   }
   ADD_FAILURE() << "a sensor that this test does not know";
