@@ -268,6 +268,15 @@ template <class Visit>
   const int first_row = frame_.Row(fy - widest);
   const int last_row = frame_.Row(fy + widest);
   const std::uint32_t* const start = start_.data();
+  // In few rows there are no corners worth cutting off.
+  if (last_row - first_row < 3)
+  {
+    const int first_column = frame_.Column(fx - widest);
+    const int last_column = frame_.Column(fx + widest);
+    for (int row = first_row; row <= last_row; ++row)
+      visit(start[row * frame_.columns + first_column], start[row * frame_.columns + last_column + 1]);
+    return;
+  }
   for (int row = first_row; row <= last_row; row += kLanes)
   {
     const CellFrame::Chords chords = frame_.ChordsFrom(row, fx, fy, widest);
