@@ -25,11 +25,4 @@ std::shared_ptr<void> ConnectToDisplay()
   return {display, [](void* open) { XCloseDisplay(static_cast<Display*>(open)); }};
 }
 
-bool IsOnScreen(void* display, unsigned long window)
-{
-  XWindowAttributes attributes;
-  return XGetWindowAttributes(static_cast<Display*>(display), window, &attributes) != 0 &&
-         attributes.map_state == IsViewable;
-}
-
 }  // namespace swarmanoid

@@ -84,13 +84,9 @@ MouseButton ButtonOf(unsigned char button)
 }  // namespace
 
 OgreWindow::OgreWindow(const std::string& title, int width, int height, int samples)
-    : OgreBites::ApplicationContext("swarmanoid"),
-      display_(ConnectToDisplay()),
-      title_(title),
-      width_(width),
-      height_(height),
-      samples_(samples)
+    : OgreBites::ApplicationContext("swarmanoid"), title_(title), width_(width), height_(height), samples_(samples)
 {
+  const std::shared_ptr<void> display = ConnectToDisplay();
   // Ctrl-C belongs to the program.
   setenv("SDL_NO_SIGNAL_HANDLERS", "1", 1);
   log_ = std::make_unique<Ogre::LogManager>();
@@ -240,13 +236,6 @@ void OgreWindow::Present(Viewer& viewer, const std::function<void()>& panels)
 }
 
 // Events are taken before ImGui's frame begins: a key that changes within a frame is an error to it.
-bool OgreWindow::IsVisible() const
-{
-  unsigned long window = 0;
-  getRenderWindow()->getCustomAttribute("WINDOW", &window);
-  return IsOnScreen(display_.get(), window);
-}
-
 bool OgreWindow::frameStarted(const Ogre::FrameEvent& event)
 {
   const bool goes_on = OgreBites::ApplicationContext::frameStarted(event);

@@ -41,7 +41,6 @@ public:
   // The same picture without panels.
   Picture TakePicture(Ogre::Camera* camera);
 
-  bool IsVisible() const;
   bool WantsToClose() const { return getRoot()->endRenderingQueued(); }
   int Width() const { return static_cast<int>(getRenderWindow()->getWidth()); }
   int Height() const { return static_cast<int>(getRenderWindow()->getHeight()); }
@@ -64,7 +63,6 @@ private:
 
   void OpenImGui();
 
-  std::shared_ptr<void> display_;
   std::string title_;
   int width_, height_, samples_;
   std::unique_ptr<Ogre::LogManager> log_;  // before the root, which would write a file
