@@ -33,39 +33,36 @@ function(swarmanoid_controllers folder output)
   set(SWARMANOID_CONTROLLERS ${controllers} PARENT_SCOPE)
 endfunction()
 
-# swarmanoid_functions(FOLDER OUTPUT): the same for experiment functions; the names go into SWARMANOID_FUNCTIONS.
-function(swarmanoid_functions folder output)
+# The same for plug-ins of another kind, which need that target; their names go into SWARMANOID_CONTROLLERS.
+function(swarmanoid_plugins folder output target)
   swarmanoid_controllers(${folder} ${output})
   foreach(name IN LISTS SWARMANOID_CONTROLLERS)
-    target_link_libraries(${name} PRIVATE Swarmanoid::space_server_role)
+    target_link_libraries(${name} PRIVATE ${target})
   endforeach()
+  set(SWARMANOID_CONTROLLERS ${SWARMANOID_CONTROLLERS} PARENT_SCOPE)
+endfunction()
+
+# swarmanoid_functions(FOLDER OUTPUT): the same for experiment functions; the names go into SWARMANOID_FUNCTIONS.
+function(swarmanoid_functions folder output)
+  swarmanoid_plugins(${folder} ${output} Swarmanoid::space_server_role)
   set(SWARMANOID_FUNCTIONS ${SWARMANOID_CONTROLLERS} PARENT_SCOPE)
 endfunction()
 
 # swarmanoid_engines(FOLDER OUTPUT): the same for physics engines; the names go into SWARMANOID_ENGINES.
 function(swarmanoid_engines folder output)
-  swarmanoid_controllers(${folder} ${output})
-  foreach(name IN LISTS SWARMANOID_CONTROLLERS)
-    target_link_libraries(${name} PRIVATE Swarmanoid::physics_engine)
-  endforeach()
+  swarmanoid_plugins(${folder} ${output} Swarmanoid::physics_engine)
   set(SWARMANOID_ENGINES ${SWARMANOID_CONTROLLERS} PARENT_SCOPE)
 endfunction()
 
 # swarmanoid_renderers(FOLDER OUTPUT): the same for visualisations; the names go into SWARMANOID_RENDERERS.
 function(swarmanoid_renderers folder output)
-  swarmanoid_controllers(${folder} ${output})
-  foreach(name IN LISTS SWARMANOID_CONTROLLERS)
-    target_link_libraries(${name} PRIVATE Swarmanoid::render)
-  endforeach()
+  swarmanoid_plugins(${folder} ${output} Swarmanoid::render)
   set(SWARMANOID_RENDERERS ${SWARMANOID_CONTROLLERS} PARENT_SCOPE)
 endfunction()
 
 # swarmanoid_devices(FOLDER OUTPUT): the same for simulated sensors and actuators; the names go into SWARMANOID_DEVICES.
 function(swarmanoid_devices folder output)
-  swarmanoid_controllers(${folder} ${output})
-  foreach(name IN LISTS SWARMANOID_CONTROLLERS)
-    target_link_libraries(${name} PRIVATE Swarmanoid::controller_host_role)
-  endforeach()
+  swarmanoid_plugins(${folder} ${output} Swarmanoid::controller_host_role)
   set(SWARMANOID_DEVICES ${SWARMANOID_CONTROLLERS} PARENT_SCOPE)
 endfunction()
 
