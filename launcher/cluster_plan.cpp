@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 #include <filesystem>
 
 #include "common/bus/replica.h"
 #include "common/configuration/wording.h"
 #include "launcher/commands.h"
 #include "launcher/installation.h"
-#include "launcher/result_bits.h"
 
 namespace swarmanoid
 {
@@ -66,8 +64,6 @@ public:
   Planner(const Experiment& experiment, const Hosts& hosts, const RunFolder& folder, int domain)
       : experiment_(experiment), hosts_(hosts), folder_(folder), domain_(std::to_string(domain))
   {
-    const char* tunables = std::getenv("GLIBC_TUNABLES");
-    tunables_ = ResultBitsTunables(tunables == nullptr ? "" : tunables);
   }
 
   MemberPlan& Add(const std::string& name, const std::string& program, const std::string& role,
@@ -86,7 +82,6 @@ public:
       command.arguments.emplace_back("3600");
     }
     command.arguments.insert(command.arguments.end(), hosts_.Options().begin(), hosts_.Options().end());
-    command.environment = {{"GLIBC_TUNABLES", tunables_}};
     MemberPlan plan;
     plan.command = hosts_.Placed(command, hosts_.HostOf(role, which));
     plan.log_path = folder_.File(LogName(program, which));
@@ -110,7 +105,6 @@ private:
   const Hosts& hosts_;
   const RunFolder& folder_;
   std::string domain_;
-  std::string tunables_;
   std::vector<MemberPlan> plans_;
 };
 

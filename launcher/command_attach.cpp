@@ -14,7 +14,7 @@
 #include "common/plugins/catalogue.h"
 #include "launcher/commands.h"
 #include "launcher/installation.h"
-#include "launcher/result_bits.h"
+#include "launcher/original_command.h"
 #include "launcher/run_choice.h"
 #include "visualiser/renderer_options.h"
 

@@ -6,7 +6,6 @@
 
 #include "launcher/cluster_run.h"
 #include "launcher/commands.h"
-#include "launcher/result_bits.h"
 #include "launcher/run_command_line.h"
 #include "launcher/run_experiment.h"
 
@@ -28,8 +27,6 @@ void RefuseContradictions(const RunOptions& options)
 int Run(const RunOptions& options)
 {
   RefuseContradictions(options);
-  // The programs of a cluster get their environment from us.
-  if (options.single_process) EnsureResultBits();
   return RunExperiment(options,
                        [&options](const Experiment& experiment, const RunFolder& folder, Manifest& manifest)
                        {

@@ -8,7 +8,7 @@
 #include "common/space/checkpoint.h"
 #include "launcher/exit_codes.h"
 #include "launcher/load.h"
-#include "launcher/result_bits.h"
+#include "launcher/original_command.h"
 #include "launcher/run_command_line.h"
 #include "launcher/usage_error.h"
 #include "space_server/event_log.h"

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "launcher/exit_codes.h"
-#include "launcher/result_bits.h"
 #include "launcher/run_command_line.h"
 #include "launcher/run_experiment.h"
 #include "launcher/usage_error.h"
@@ -30,7 +29,6 @@ int RunSimulation(int count, char** arguments, const std::function<void(CSimulat
   try
   {
     app.parse(count, arguments);
-    EnsureResultBits();
     return RunExperiment(options, [&](const Experiment& experiment, const RunFolder& folder, Manifest&)
                          { return RunHere(options, experiment, folder, watch); });
   }

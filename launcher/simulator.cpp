@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "common/experiment/load_experiment.h"
+#include "common/math/reproducible_math.h"
 #include "common/space/assignment.h"
 #include "common/space/checkpoint.h"
 #include "controller_host/controller_host.h"
@@ -140,6 +141,7 @@ struct CSimulator::Roles
 CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& options)
     : roles_(std::make_unique<Roles>(experiment, options))
 {
+  RequireReproducibleMath();
   CheckCheckpointPeriod(options.checkpoint_every, experiment);
   // What cannot be saved is said before the run, not in the midst of it.
   if (options.checkpoint_every != 0) roles_->TakeCheckpoint();

@@ -1,10 +1,9 @@
-// The small languages of the command: control requests, templates, tunables.
+// The small languages of the command: control requests, templates.
 #include <gmock/gmock.h>
 
 #include "launcher/commands.h"
 #include "launcher/control_request.h"
 #include "launcher/load.h"
-#include "launcher/result_bits.h"
 #include "launcher/template_files.h"
 
 namespace swarmanoid
@@ -69,15 +68,6 @@ TEST(ControlRequest, ErrorsSayTheRightForm)
   EXPECT_THAT(ErrorOf({"add", "fb0"}), HasSubstr("add ENTITY X,Y,Z"));
   EXPECT_THAT(ErrorOf({"remove"}), HasSubstr("remove ENTITY"));
   EXPECT_THAT(ErrorOf({"world", "remove", "fb0", "1,2,0"}), HasSubstr("remove ENTITY"));
-}
-
-TEST(ResultBits, AddsItselfToWhatIsThere)
-{
-  EXPECT_EQ(ResultBitsTunables(""), "glibc.cpu.hwcaps=-FMA");
-  EXPECT_EQ(ResultBitsTunables("glibc.malloc.check=1"), "glibc.malloc.check=1:glibc.cpu.hwcaps=-FMA");
-  EXPECT_EQ(ResultBitsTunables("glibc.cpu.hwcaps=-AVX2"), "glibc.cpu.hwcaps=-FMA,-AVX2");
-  EXPECT_EQ(ResultBitsTunables("glibc.cpu.hwcaps=-AVX2,-FMA"), "glibc.cpu.hwcaps=-AVX2,-FMA");
-  EXPECT_EQ(ResultBitsTunables("glibc.cpu.hwcaps=-FMA4:a=b"), "glibc.cpu.hwcaps=-FMA,-FMA4:a=b");
 }
 
 TEST(TemplateFiles, FillInTheNames)

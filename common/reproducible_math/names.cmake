@@ -1,0 +1,44 @@
+# The functions of <math.h> and <complex.h> whose results differ between C libraries or processors. The others (sqrt,
+# fma, floor, fmod, remainder, ldexp …) are exact by IEEE 754 everywhere and stay those of libm.
+
+# From musl: double and float, and the complex ones that it computes as carefully.
+set(MUSL_FUNCTIONS)
+foreach(name sin cos tan sincos asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 expm1 log log2 log10 log1p
+    pow cbrt hypot erf erfc tgamma)
+  list(APPEND MUSL_FUNCTIONS ${name} ${name}f)
+endforeach()
+list(APPEND MUSL_FUNCTIONS lgamma_r lgammaf_r j0 j1 jn y0 y1 yn
+  cexp csqrt csin ccos ctan csinh ccosh ctanh)
+
+# From wider.c: where musl's are imprecise, and those of long double and of complex numbers.
+set(WIDER_FUNCTIONS lgamma lgammaf exp10 exp10f j0f j1f jnf y0f y1f ynf)
+foreach(name sin cos tan sincos asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 exp10 expm1 log log2 log10
+    log1p pow cbrt hypot erf erfc tgamma lgamma j0 j1 jn y0 y1 yn)
+  list(APPEND WIDER_FUNCTIONS ${name}l)
+endforeach()
+list(APPEND WIDER_FUNCTIONS lgammal_r)
+list(APPEND WIDER_FUNCTIONS clog)
+foreach(name cexp clog csqrt csin ccos ctan csinh ccosh ctanh)
+  list(APPEND WIDER_FUNCTIONS ${name}f ${name}l)
+endforeach()
+foreach(name cabs carg cpow clog10 casin cacos catan casinh cacosh catanh)
+  list(APPEND WIDER_FUNCTIONS ${name} ${name}f ${name}l)
+endforeach()
+
+# reproducible_math_alias(SYMBOL OUTPUT): which of our functions the symbol of libm is another name of; empty if none.
+function(reproducible_math_alias symbol output)
+  set(names ${MUSL_FUNCTIONS} ${WIDER_FUNCTIONS})
+  set(${output} "" PARENT_SCOPE)
+  string(REGEX REPLACE "^__(.*)_finite$" "\\1" symbol ${symbol})
+  string(REGEX REPLACE "^gamma" "lgamma" symbol ${symbol})
+  string(REGEX MATCH "_r$" ending ${symbol})
+  string(REGEX REPLACE "_r$" "" stem ${symbol})
+  string(REGEX REPLACE "f(64|32x)$" "" as_double ${stem})
+  string(REGEX REPLACE "f32$" "f" as_float ${stem})
+  string(REGEX REPLACE "f64x$" "l" as_long_double ${stem})
+  foreach(name IN ITEMS ${stem} ${as_double} ${as_float} ${as_long_double})
+    if(${name}${ending} IN_LIST names)
+      set(${output} ${name}${ending} PARENT_SCOPE)
+    endif()
+  endforeach()
+endfunction()

@@ -1,0 +1,443 @@
+// The functions of libm that this process finds: that they are ours, how precise they are, that their special values
+// are those of IEEE 754, and that their bits never change. Reference: libquadmath, 113 bits.
+#include "common/math/reproducible_math.h"
+
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+#include <math.h>
+#include <quadmath.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "common/math/random.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+__extension__ typedef __float128 Quad;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kSmallest = std::numeric_limits<double>::denorm_min();
+
+// The arguments of a check: evenly spread, or so that every power of two comes as often.
+enum class Spread
+{
+  kEven,
+  kPowers,
+  kPowersOfBothSigns
+};
+
+// In the first line of each function stand the bounds of docs/determinism.md: units in the last place.
+struct Function
+{
+  const char* name;
+  double (*function)(double);
+  float (*of_float)(float);
+  Quad (*reference)(Quad);
+  double bound;
+  double float_bound;
+  Spread spread;
+  double low, high;
+};
+
+Quad Exp10Reference(Quad x) { return powq(10, x); }
+
+constexpr auto kEven = Spread::kEven;
+constexpr auto kPowers = Spread::kPowers;
+constexpr auto kBoth = Spread::kPowersOfBothSigns;
+
+const Function kFunctions[] = {
+    {"sin", ::sin, ::sinf, sinq, 0.85, 0.52, kEven, -100, 100},
+    {"sin", ::sin, ::sinf, sinq, 0.85, 0.52, kBoth, 1e-300, 1e300},
+    {"cos", ::cos, ::cosf, cosq, 0.85, 0.52, kEven, -100, 100},
+    {"cos", ::cos, ::cosf, cosq, 0.85, 0.52, kBoth, 1e-300, 1e300},
+    {"tan", ::tan, ::tanf, tanq, 0.95, 0.9, kEven, -100, 100},
+    {"tan", ::tan, ::tanf, tanq, 0.95, 0.9, kBoth, 1e-300, 1e300},
+    {"asin", ::asin, ::asinf, asinq, 0.9, 0.9, kEven, -1, 1},
+    {"acos", ::acos, ::acosf, acosq, 0.95, 0.95, kEven, -1, 1},
+    {"atan", ::atan, ::atanf, atanq, 0.9, 0.9, kBoth, 1e-10, 1e10},
+    {"sinh", ::sinh, ::sinhf, sinhq, 2.1, 2.1, kEven, -20, 20},
+    {"sinh", ::sinh, ::sinhf, sinhq, 2.1, 2.1, kBoth, 1e-5, 710},
+    {"cosh", ::cosh, ::coshf, coshq, 1.5, 1.5, kEven, -700, 700},
+    {"tanh", ::tanh, ::tanhf, tanhq, 2.3, 2.3, kEven, -20, 20},
+    {"tanh", ::tanh, ::tanhf, tanhq, 2.3, 2.3, kBoth, 1e-10, 10},
+    {"asinh", ::asinh, ::asinhf, asinhq, 1.9, 1.9, kEven, -4, 4},
+    {"asinh", ::asinh, ::asinhf, asinhq, 1.9, 1.9, kBoth, 1e-10, 1e300},
+    {"acosh", ::acosh, ::acoshf, acoshq, 2.0, 2.0, kEven, 1, 4},
+    {"acosh", ::acosh, ::acoshf, acoshq, 2.0, 2.0, kPowers, 1, 1e300},
+    {"atanh", ::atanh, ::atanhf, atanhq, 1.9, 1.9, kEven, -0.999, 0.999},
+    {"atanh", ::atanh, ::atanhf, atanhq, 1.9, 1.9, kBoth, 1e-10, 0.999},
+    {"exp", ::exp, ::expf, expq, 0.53, 0.51, kEven, -708, 709},
+    {"exp2", ::exp2, ::exp2f, exp2q, 0.53, 0.51, kEven, -1022, 1023},
+    {"exp10", ::exp10, ::exp10f, Exp10Reference, 0.55, 0.51, kEven, -300, 300},
+    {"expm1", ::expm1, ::expm1f, expm1q, 1.0, 1.0, kEven, -40, 700},
+    {"expm1", ::expm1, ::expm1f, expm1q, 1.0, 1.0, kBoth, 1e-10, 1},
+    {"log", ::log, ::logf, logq, 0.53, 0.85, kPowers, 1e-300, 1e300},
+    {"log", ::log, ::logf, logq, 0.53, 0.85, kEven, 0.5, 2},
+    {"log2", ::log2, ::log2f, log2q, 0.56, 0.8, kPowers, 1e-300, 1e300},
+    {"log2", ::log2, ::log2f, log2q, 0.56, 0.8, kEven, 0.5, 2},
+    {"log10", ::log10, ::log10f, log10q, 0.75, 0.9, kPowers, 1e-300, 1e300},
+    {"log10", ::log10, ::log10f, log10q, 0.75, 0.9, kEven, 0.5, 2},
+    {"log1p", ::log1p, ::log1pf, log1pq, 0.95, 0.95, kEven, -0.99, 4},
+    {"log1p", ::log1p, ::log1pf, log1pq, 0.95, 0.95, kPowers, 1e-10, 1e300},
+    {"cbrt", ::cbrt, ::cbrtf, cbrtq, 0.7, 0.51, kBoth, 1e-300, 1e300},
+    {"erf", ::erf, ::erff, erfq, 1.0, 1.0, kEven, -6, 6},
+    {"erfc", ::erfc, ::erfcf, erfcq, 3.2, 3.2, kEven, -6, 9},
+    {"erfc", ::erfc, ::erfcf, erfcq, 3.2, 3.2, kEven, 0, 26},
+    {"lgamma", ::lgamma, ::lgammaf, lgammaq, 2.6, 2.6, kEven, 0.01, 100},
+    {"lgamma", ::lgamma, ::lgammaf, lgammaq, 2.6, 2.6, kPowers, 1e-10, 1e300},
+    {"lgamma", ::lgamma, ::lgammaf, lgammaq, 2.6, 2.6, kEven, -20, 0},
+    {"tgamma", ::tgamma, ::tgammaf, tgammaq, 10, 0.51, kEven, 0.01, 171},
+    {"tgamma", ::tgamma, ::tgammaf, tgammaq, 10, 0.51, kEven, -20, 0},
+};
+
+struct FunctionOfTwo
+{
+  const char* name;
+  double (*function)(double, double);
+  float (*of_float)(float, float);
+  Quad (*reference)(Quad, Quad);
+  double bound;
+  double float_bound;
+  double x_low, x_high, y_low, y_high;
+};
+
+const FunctionOfTwo kFunctionsOfTwo[] = {
+    {"atan2", ::atan2, ::atan2f, atan2q, 1.6, 1.6, -10, 10, -10, 10},
+    {"pow", ::pow, ::powf, powq, 0.55, 0.85, 0, 10, -20, 20},
+    {"pow", ::pow, ::powf, powq, 0.55, 0.85, 0.9, 1.1, -700, 700},
+    {"hypot", ::hypot, ::hypotf, hypotq, 1.0, 1.0, -10, 10, -10, 10},
+    {"hypot", ::hypot, ::hypotf, hypotq, 1.0, 1.0, -1e300, 1e300, -1e299, 1e299},
+};
+
+constexpr int kArguments = 1500;
+
+double Argument(RandomStream& random, Spread spread, double low, double high)
+{
+  const double share = random.Uniform();
+  if (spread == Spread::kEven) return low + (high - low) * share;
+  const double size = static_cast<double>(expq(logq(low) + (logq(high) - logq(low)) * static_cast<Quad>(share)));
+  return spread == Spread::kPowersOfBothSigns && random.Bits() % 2 == 0 ? -size : size;
+}
+
+// The error in units in the last place of the right result; 0 where that is no normal number.
+template <class Number>
+double Error(Number result, Quad right)
+{
+  const Quad size = fabsq(right);
+  if (!(size <= static_cast<Quad>(std::numeric_limits<Number>::max()))) return 0;
+  if (size < static_cast<Quad>(std::numeric_limits<Number>::min())) return 0;
+  if (!std::isfinite(result)) return kInfinity;
+  int exponent = 0;
+  frexpq(size, &exponent);
+  return static_cast<double>(fabsq(static_cast<Quad>(result) - right) /
+                             ldexpq(1, exponent - std::numeric_limits<Number>::digits));
+}
+
+std::string FileOf(const void* function)
+{
+  Dl_info place{};
+  return dladdr(function, &place) != 0 ? place.dli_fname : "";
+}
+
+TEST(ReproducibleMath, ComesBeforeLibm)
+{
+  EXPECT_NO_THROW(RequireReproducibleMath());
+  const std::string library = "libswarmanoid_reproducible_math.so";
+  for (const char* name :
+       {"sin",    "cosf",   "tanl", "atan2", "exp", "exp2f", "pow",    "powf",   "log",    "hypot",   "lgamma",
+        "tgamma", "sincos", "cexp", "cpowf", "j0",  "expl",  "cacosl", "sinf64", "powf32", "lgamma_r"})
+  {
+    void* const own = dlvsym(RTLD_DEFAULT, name, "SWARMANOID_1");
+    const bool only_for_others =
+        std::string(name).find("f64") != std::string::npos || std::string(name).find("f32") != std::string::npos;
+    EXPECT_EQ(own == nullptr, only_for_others) << name;
+    // What is linked against libm finds its versions with us, too.
+    void* const libm = dlopen("libm.so.6", RTLD_NOW | RTLD_NOLOAD);
+    ASSERT_NE(libm, nullptr);
+    int versions = 0;
+    for (const char* version : {"GLIBC_2.2.5", "GLIBC_2.17", "GLIBC_2.23", "GLIBC_2.27", "GLIBC_2.29", "GLIBC_2.35"})
+    {
+      if (dlvsym(libm, name, version) == nullptr) continue;
+      ++versions;
+      EXPECT_NE(FileOf(dlvsym(RTLD_DEFAULT, name, version)).find(library), std::string::npos) << name << version;
+    }
+    EXPECT_GT(versions, 0) << name;
+    dlclose(libm);
+  }
+}
+
+TEST(ReproducibleMath, FunctionsOfOneNumberKeepTheirErrorBounds)
+{
+  RandomStream random(1, 2, 3, 4);
+  for (const Function& f : kFunctions)
+  {
+    double worst = 0;
+    double worst_of_float = 0;
+    for (int i = 0; i < kArguments; ++i)
+    {
+      const double x = Argument(random, f.spread, f.low, f.high);
+      worst = std::max(worst, Error(f.function(x), f.reference(x)));
+      const auto rounded = static_cast<float>(x);
+      if (!std::isfinite(rounded)) continue;
+      worst_of_float = std::max(worst_of_float, Error(f.of_float(rounded), f.reference(rounded)));
+    }
+    EXPECT_LE(worst, f.bound) << f.name << " from " << f.low << " to " << f.high;
+    EXPECT_LE(worst_of_float, f.float_bound) << f.name << "f from " << f.low << " to " << f.high;
+  }
+}
+
+TEST(ReproducibleMath, FunctionsOfTwoNumbersKeepTheirErrorBounds)
+{
+  RandomStream random(5, 6, 7, 8);
+  for (const FunctionOfTwo& f : kFunctionsOfTwo)
+  {
+    double worst = 0;
+    double worst_of_float = 0;
+    for (int i = 0; i < kArguments; ++i)
+    {
+      const double x = random.Uniform(f.x_low, f.x_high);
+      const double y = random.Uniform(f.y_low, f.y_high);
+      worst = std::max(worst, Error(f.function(x, y), f.reference(x, y)));
+      const auto xf = static_cast<float>(x);
+      const auto yf = static_cast<float>(y);
+      if (!std::isfinite(xf) || !std::isfinite(yf)) continue;
+      worst_of_float = std::max(worst_of_float, Error(f.of_float(xf, yf), f.reference(xf, yf)));
+    }
+    EXPECT_LE(worst, f.bound) << f.name;
+    EXPECT_LE(worst_of_float, f.float_bound) << f.name << "f";
+  }
+}
+
+TEST(ReproducibleMath, ComplexNumbersAndLongDoublesArePrecise)
+{
+  RandomStream random(9, 10, 11, 12);
+  using Complex = std::complex<double>;
+  struct OfComplex
+  {
+    const char* name;
+    Complex (*function)(const Complex&);
+    __complex128 (*reference)(__complex128);
+  };
+  const OfComplex functions[] = {{"exp", std::exp<double>, cexpq},      {"log", std::log<double>, clogq},
+                                 {"sqrt", std::sqrt<double>, csqrtq},   {"sin", std::sin<double>, csinq},
+                                 {"tanh", std::tanh<double>, ctanhq},   {"acos", std::acos<double>, cacosq},
+                                 {"atanh", std::atanh<double>, catanhq}};
+  for (const OfComplex& f : functions)
+    for (int i = 0; i < kArguments / 2; ++i)
+    {
+      const Complex z(random.Uniform(-3, 3), random.Uniform(-3, 3));
+      __complex128 wide;
+      __real__ wide = z.real();
+      __imag__ wide = z.imag();
+      wide = f.reference(wide);
+      const Complex result = f.function(z);
+      const Quad error = hypotq(result.real() - __real__ wide, result.imag() - __imag__ wide) / cabsq(wide);
+      EXPECT_LE(static_cast<double>(error), 6 * 0x1p-53) << f.name << z;
+    }
+  long double (*const of_long_double[])(long double) = {::sinl, ::expl, ::logl, ::tanhl, ::erfl};
+  Quad (*const references[])(Quad) = {sinq, expq, logq, tanhq, erfq};
+  for (int i = 0; i < kArguments / 2; ++i)
+    for (int f = 0; f < 5; ++f)
+    {
+      const long double x = random.Uniform(0, 20);
+      EXPECT_LE(Error(of_long_double[f](x), references[f](x)), 0.51) << f;
+    }
+}
+
+TEST(ReproducibleMath, SpecialValuesAreThoseOfTheStandard)
+{
+  struct OfOne
+  {
+    double (*function)(double);
+    double argument;
+    double result;
+  };
+  const OfOne ones[] = {
+      {::sin, -0.0, -0.0},
+      {::sin, kInfinity, kNan},
+      {::sin, kSmallest, kSmallest},
+      {::sin, 1e22, -0.8522008497671888},
+      {::cos, 1e22, 0.52321478539513895},
+      {::cos, -kInfinity, kNan},
+      {::tan, -0.0, -0.0},
+      {::asin, 1.0000000000000002, kNan},
+      {::asin, -0.0, -0.0},
+      {::acos, 1, 0},
+      {::acos, -2, kNan},
+      {::atan, kInfinity, 0x1.921fb54442d18p+0},
+      {::sinh, -kInfinity, -kInfinity},
+      {::cosh, -kInfinity, kInfinity},
+      {::tanh, -kInfinity, -1},
+      {::tanh, -0.0, -0.0},
+      {::asinh, -kInfinity, -kInfinity},
+      {::acosh, 0.5, kNan},
+      {::acosh, 1, 0},
+      {::atanh, -1, -kInfinity},
+      {::atanh, 2, kNan},
+      {::exp, -kInfinity, 0},
+      {::exp, 710, kInfinity},
+      {::exp, -746, 0},
+      {::exp, -745, kSmallest},
+      {::exp2, -1074, kSmallest},
+      {::exp2, 1024, kInfinity},
+      {::exp10, 22, 1e22},
+      {::exp10, -400, 0},
+      {::expm1, -kInfinity, -1},
+      {::expm1, -0.0, -0.0},
+      {::log, -0.0, -kInfinity},
+      {::log, -1, kNan},
+      {::log, 1, 0},
+      {::log, kInfinity, kInfinity},
+      {::log2, 8, 3},
+      {::log2, kSmallest, -1074},
+      {::log10, 1000, 3},
+      {::log10, 0, -kInfinity},
+      {::log1p, -1, -kInfinity},
+      {::log1p, -0.0, -0.0},
+      {::cbrt, -27, -3},
+      {::cbrt, -0.0, -0.0},
+      {::erf, kInfinity, 1},
+      {::erfc, -kInfinity, 2},
+      {::erfc, 30, 0},
+      {::lgamma, 1, 0},
+      {::lgamma, -3, kInfinity},
+      {::lgamma, -kInfinity, kInfinity},
+      {::tgamma, 5, 24},
+      {::tgamma, -1, kNan},
+      {::tgamma, -0.0, -kInfinity},
+      {::tgamma, 172, kInfinity},
+      {::exp, kNan, kNan},
+      {::lgamma, kNan, kNan},
+      {::j0, 0, 1},
+      {::y0, 0, -kInfinity},
+  };
+  int line = 0;
+  for (const OfOne& one : ones)
+  {
+    const double result = one.function(one.argument);
+    if (std::isnan(one.result))
+      EXPECT_TRUE(std::isnan(result)) << line << ": " << one.argument;
+    else
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(result), std::bit_cast<std::uint64_t>(one.result))
+          << line << ": " << one.argument << " gives " << result;
+    ++line;
+  }
+  struct OfTwo
+  {
+    double (*function)(double, double);
+    double x, y;
+    double result;
+  };
+  const OfTwo twos[] = {
+      {::atan2, 0, -0.0, 0x1.921fb54442d18p+1},
+      {::atan2, -0.0, 1, -0.0},
+      {::atan2, 0, 0, 0},
+      {::atan2, -0.0, -0.0, -0x1.921fb54442d18p+1},
+      {::atan2, kInfinity, -kInfinity, 0x1.2d97c7f3321d2p+1},
+      {::pow, kNan, 0, 1},
+      {::pow, 1, kNan, 1},
+      {::pow, -2, 3, -8},
+      {::pow, -2, 0.5, kNan},
+      {::pow, 0, -3, kInfinity},
+      {::pow, -0.0, -3, -kInfinity},
+      {::pow, -1, kInfinity, 1},
+      {::pow, 0.5, -kInfinity, kInfinity},
+      {::pow, 10, 22, 1e22},
+      {::pow, 2, -1074, kSmallest},
+      {::hypot, kInfinity, kNan, kInfinity},
+      {::hypot, 0x3p600, 0x4p600, 0x5p600},
+      {::hypot, kSmallest, 0, kSmallest},
+  };
+  line = 0;
+  for (const OfTwo& two : twos)
+  {
+    const double result = two.function(two.x, two.y);
+    if (std::isnan(two.result))
+      EXPECT_TRUE(std::isnan(result)) << line;
+    else
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(result), std::bit_cast<std::uint64_t>(two.result))
+          << line << ": " << two.x << ", " << two.y << " gives " << result;
+    ++line;
+  }
+  for (const double x : {-2.5, -3.5, 0.5, -0.0, 3.0})
+  {
+    int sign = 0;
+    lgamma_r(x, &sign);
+    EXPECT_EQ(sign, std::tgamma(x) < 0 ? -1 : 1) << x;
+  }
+}
+
+// The compiler joins sin and cos of one argument to a call of sincos.
+TEST(ReproducibleMath, SineAndCosineTogetherAreThoseApart)
+{
+  double (*const sine)(double) = ::sin;
+  float (*const sine_of_float)(float) = ::sinf;
+  RandomStream random(13, 14, 15, 16);
+  for (int i = 0; i < kArguments; ++i)
+  {
+    const double x = Argument(random, Spread::kPowersOfBothSigns, 1e-10, 1e10);
+    double s = 0, c = 0;
+    ::sincos(x, &s, &c);
+    ASSERT_EQ(s, sine(x));
+    ASSERT_EQ(c, ::cos(x));
+    float sf = 0, cf = 0;
+    ::sincosf(static_cast<float>(x), &sf, &cf);
+    ASSERT_EQ(sf, sine_of_float(static_cast<float>(x)));
+  }
+}
+
+// A hash over the results of every function. A change of it changes the results of experiments: the changelog says so.
+TEST(ReproducibleMath, HasTheBitsThatItAlwaysHad)
+{
+  std::uint64_t hash = 14695981039346656037ULL;
+  const auto add = [&hash](std::uint64_t bits) { hash = (hash ^ bits) * 1099511628211ULL; };
+  const auto add_number = [&add](auto number)
+  { add(std::isnan(number) ? 1 : std::bit_cast<std::uint64_t>(static_cast<double>(number))); };
+  // Arguments from a generator that never changes (that of Lehmer, 1951, with the constants of Knuth's MMIX).
+  std::uint64_t state = 1;
+  const auto share_of = [&state]
+  {
+    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+    return static_cast<double>(state >> 11) * 0x1p-53;
+  };
+  const auto between = [&share_of](double low, double high) { return low + (high - low) * share_of(); };
+  for (const Function& f : kFunctions)
+    for (int i = 0; i < 500; ++i)
+    {
+      const double x = i % 2 == 0 ? between(f.low, f.high) : std::ldexp(between(-1, 1), i - 250);
+      add_number(f.function(x));
+      add_number(f.of_float(static_cast<float>(x)));
+    }
+  for (const FunctionOfTwo& f : kFunctionsOfTwo)
+    for (int i = 0; i < 500; ++i)
+    {
+      const double x = between(f.x_low, f.x_high);
+      const double y = between(f.y_low, f.y_high);
+      add_number(f.function(x, y));
+      add_number(f.of_float(static_cast<float>(x), static_cast<float>(y)));
+    }
+  for (int i = 0; i < 200; ++i)
+  {
+    const std::complex<double> z(between(-2, 2), between(-2, 2));
+    for (const auto& result : {std::exp(z), std::log(z), std::sqrt(z), std::tan(z), std::asin(z), std::pow(z, z)})
+    {
+      add_number(result.real());
+      add_number(result.imag());
+    }
+  }
+  EXPECT_EQ(hash, 0x729ee2d95e9ce5c6ULL);
+}
+
+}  // namespace
+}  // namespace swarmanoid
