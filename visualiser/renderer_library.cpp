@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "common/math/reproducible_math.h"
+
 namespace swarmanoid
 {
 namespace
@@ -27,6 +29,7 @@ std::function<std::unique_ptr<CRender>()> RendererFromLibrary(const std::string&
     if (!std::filesystem::exists(path))
       throw ConfigurationError(name + " is not part of this build, there is no " + path + "; install the packages " +
                                packages + " and build again");
+    const FloatingPointGuard guard;
     void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) throw ConfigurationError(name + " cannot be loaded: " + dlerror());
     const auto create = reinterpret_cast<CRender* (*)()>(dlsym(library, "CreateSwarmanoidRenderer"));

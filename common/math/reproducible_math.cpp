@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 #include <math.h>
 
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -17,9 +18,17 @@ std::string FileOf(const void* function)
   return dladdr(function, &place) != 0 && place.dli_fname != nullptr ? place.dli_fname : "an unknown file";
 }
 
-}  // namespace
+void RequireModes()
+{
+  volatile double tiny = std::numeric_limits<double>::min();
+  if (std::fegetround() != FE_TONEAREST)
+    throw std::runtime_error("this thread does not round to nearest; call std::fesetround(FE_TONEAREST) before a run");
+  if (tiny / 2 == 0)
+    throw std::runtime_error(
+        "this thread counts numbers below 2.2e-308 as 0, as no other program does; link this one without -ffast-math");
+}
 
-void RequireReproducibleMath()
+void RequireFunctions()
 {
   // What this library was linked against, and what others find who were linked against libm.
   double (*const own)(double) = &::sin;
@@ -30,6 +39,14 @@ void RequireReproducibleMath()
                            ", whose results depend on the processor; link it by CMake with Swarmanoid::simulation, put "
                            "-lswarmanoid_reproducible_math before other libraries, or start it with LD_PRELOAD=" +
                            ours);
+}
+
+}  // namespace
+
+void RequireReproducibleMath()
+{
+  RequireFunctions();
+  RequireModes();
 }
 
 }  // namespace swarmanoid

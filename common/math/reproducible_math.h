@@ -1,12 +1,30 @@
-// Where this process takes sin, exp and the like from. Programs that CMake links to a library of ours take them from
-// libswarmanoid_reproducible_math (docs/determinism.md); one that is linked otherwise may have libm before it, and the
-// bits of ODE and Box2D would then depend on the processor.
+// Whether this process computes as every other does: where it takes sin, exp and the like from, and how it rounds.
+// Programs that CMake links to a library of ours take them from libswarmanoid_reproducible_math (docs/determinism.md);
+// one that is linked otherwise may have libm before it, and the bits of ODE and Box2D would then depend on the
+// processor.
 #pragma once
+
+#include <cfenv>
 
 namespace swarmanoid
 {
 
-// Throws std::runtime_error, with the cure, where this process takes them from elsewhere.
+// Throws std::runtime_error, with the cure, where this process takes them from elsewhere, or where this thread rounds
+// otherwise than to nearest or counts tiny numbers as 0.
 void RequireReproducibleMath();
+
+// Restores the floating-point modes of this thread when it ends. Libraries that were linked with -ffast-math set, when
+// they are loaded, that tiny numbers count as 0, for all that the thread computes from then on.
+class FloatingPointGuard
+{
+public:
+  FloatingPointGuard() { std::fegetenv(&modes_); }
+  ~FloatingPointGuard() { std::fesetenv(&modes_); }
+  FloatingPointGuard(const FloatingPointGuard&) = delete;
+  FloatingPointGuard& operator=(const FloatingPointGuard&) = delete;
+
+private:
+  std::fenv_t modes_;
+};
 
 }  // namespace swarmanoid

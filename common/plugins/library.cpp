@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "common/configuration/wording.h"
+#include "common/math/reproducible_math.h"
 
 namespace swarmanoid
 {
@@ -60,6 +61,7 @@ PluginLibrary Load(const std::string& path)
   library.path = path;
   PluginCatalogue& catalogue = PluginCatalogue::Instance();
   catalogue.BeginLibrary();
+  const FloatingPointGuard guard;
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   const char* reason = handle == nullptr ? dlerror() : nullptr;
   library.registrations = catalogue.EndLibrary();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <limits>
 
 #include "common/control_interface/ci_controller.h"
 #include "common/experiment/load_experiment.h"
@@ -32,6 +33,13 @@ TEST(Libraries, AreFoundInDotLibsAndRegisterTheirController)
   const auto* entry = PluginRegistry<CCI_Controller>::Instance().Find("good_controller");
   ASSERT_NE(entry, nullptr);
   EXPECT_EQ(entry->create()->Init({}), CCI_Controller::RETURN_OK);
+}
+
+TEST(Libraries, LinkedWithFastMathLeaveTinyNumbersAsTheyAre)
+{
+  volatile double tiny = std::numeric_limits<double>::min();
+  EXPECT_EQ(ErrorsWith("fast_math_controller", "fast_math_controller"), "");
+  EXPECT_GT(tiny / 2, 0);
 }
 
 TEST(Libraries, AreFoundByPathToo)

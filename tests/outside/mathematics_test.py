@@ -2,6 +2,7 @@
 import ctypes
 import os
 import random
+import shutil
 import socket
 import subprocess
 import sys
@@ -102,6 +103,38 @@ class Mathematics(OutsideTest):
             answer = self.command(sys.executable, "-c", script, environment=environment)
             self.assertEqual(answer.returncode, 0, answer.stderr)
             self.assertEqual(answer.stdout, self.digests.read_text(), name)
+
+    def test_a_program_that_names_libm_first_and_drops_what_it_does_not_need(self):
+        """Ours comes before libm all the same, and stays, for the plug-ins that the program will load."""
+        (self.folder / "CMakeLists.txt").write_text("""cmake_minimum_required(VERSION 3.25)
+project(linked LANGUAGES CXX)
+find_package(Swarmanoid REQUIRED)
+add_executable(linked linked.cpp)
+target_link_libraries(linked PRIVATE m ${CMAKE_DL_LIBS} Swarmanoid::control_interface)
+target_link_options(linked PRIVATE -Wl,--as-needed)
+""")
+        (self.folder / "linked.cpp").write_text("""#include <cmath>
+#include <cstdio>
+#include <dlfcn.h>
+#include <initializer_list>
+int main(int count, char**)
+{
+  for (const char* version : {"GLIBC_2.2.5", "GLIBC_2.17", "SWARMANOID_1"})
+  {
+    Dl_info place{};
+    if (void* found = dlvsym(RTLD_DEFAULT, "sin", version)) dladdr(found, &place);
+    if (place.dli_fname != nullptr) std::puts(place.dli_fname);
+  }
+  return std::fmod(count, 7.0) > 6;
+}
+""")
+        for arguments in [["-S", ".", "-B", "build", f"-DCMAKE_PREFIX_PATH={PREFIX}"], ["--build", "build"]]:
+            done = self.command(shutil.which("cmake"), *arguments, timeout=120)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        found = self.command(self.folder / "build" / "linked").stdout.splitlines()
+        self.assertGreaterEqual(len(found), 2)
+        for path in found:
+            self.assertTrue(path.endswith("libswarmanoid_reproducible_math.so"), found)
 
     def test_a_simulator_that_finds_libm_first_is_refused(self):
         """Box2D and ODE would take their functions from it."""
