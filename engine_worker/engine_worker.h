@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <stdexcept>
 
 #include "engine_worker/physics_engine.h"
 
@@ -12,6 +13,13 @@ namespace swarmanoid
 // Adds dummy_engine (kinematics2d), dynamics2d and dynamics3d to the registry. Idempotent.
 void RegisterBuiltinEngines();
 
+// An engine failed, or gave what cannot be part of the state: what() names the engine, the tick and what is wrong.
+class EngineError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
 class EngineWorker
 {
 public:
@@ -20,7 +28,8 @@ public:
   ~EngineWorker();
 
   // From the state in the space and the commands of its tick (one for each of layout.commands_from, in that order) to
-  // the update of the next tick. `moved`: SpaceState::moved. The results are valid until the next call.
+  // the update of the next tick. `moved`: SpaceState::moved. The results are valid until the next call. Throws
+  // EngineError.
   void Step(std::span<const std::uint32_t> moved, std::span<const ControlCommands* const> commands);
   const EngineUpdate& Update() const { return update_; }
   const SensorFrame& Sensors() const { return frame_; }
@@ -33,10 +42,14 @@ public:
   const EngineLayout& Layout() const { return layout_; }
 
 private:
+  void ReadCommands(std::span<const ControlCommands* const> commands);
   void KeepAbsent();
+  void CheckResults() const;
 
   const CSwarmanoidSpace& space_;
+  const Assignment& assignment_;
   const EngineLayout& layout_;
+  std::uint32_t index_ = 0;
   std::unique_ptr<CPhysicsEngine> engine_;
   std::vector<double> command_values_;
   EngineUpdate update_;

@@ -120,7 +120,7 @@ struct CSimulator::Roles
   const SimulatorOptions options;
   const Assignment assignment;
   SpaceServer server;
-  CSwarmanoidSpace& space;
+  const CSwarmanoidSpace& space;
   Steering steering;
   std::vector<std::unique_ptr<EngineWorker>> engines;
   std::unique_ptr<ControllerHost> host;
@@ -204,7 +204,9 @@ const RunSummary& CSimulator::Finish()
   return r.summary;
 }
 
-CSwarmanoidSpace& CSimulator::GetSpace() { return roles_->space; }
+const CSwarmanoidSpace& CSimulator::GetSpace() const { return roles_->space; }
+
+SpaceEditor& CSimulator::GetEditor() { return roles_->server.Editor(); }
 
 const Experiment& CSimulator::GetExperiment() const { return roles_->experiment; }
 

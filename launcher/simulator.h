@@ -21,6 +21,8 @@
 namespace swarmanoid
 {
 
+class SpaceEditor;
+
 struct SimulatorOptions
 {
   std::string output_folder = ".";  // what visualisations and experiment functions write
@@ -67,8 +69,12 @@ public:
   // Ends controllers, experiment functions and visualisations; later calls give the same summary.
   const RunSummary& Finish();
 
-  // The state at the current tick. What a program changes here is part of the experiment: it changes the hash.
-  CSwarmanoidSpace& GetSpace();
+  // The state at the current tick, to be read.
+  const CSwarmanoidSpace& GetSpace() const;
+  // For changes between two steps, with the rules of experiment functions (space_server/experiment_functions.h). They
+  // take effect with the next step and are part of the experiment: they change the hash, and a run without the program
+  // lacks them.
+  SpaceEditor& GetEditor();
   const Experiment& GetExperiment() const;
 
 private:

@@ -23,7 +23,10 @@ namespace swarmanoid
 
 class SpaceServer;
 
-// What the functions may do to the space: every change is seen by all processes in the state that goes out next.
+// What experiment functions, and programs around a CSimulator, may do to the space: every change is seen by all
+// processes in the state that goes out next, and is part of the experiment: the state hash covers it. What cannot be
+// part of a state is refused by std::invalid_argument: numbers that are not finite, orientations that are no unit
+// quaternions, places farther outside the arena than its limit.
 class SpaceEditor
 {
 public:
@@ -55,7 +58,7 @@ public:
   // Throws std::invalid_argument for any other, and for one that is not there.
   void RemoveEntity(std::string_view id);
   // Changes an attribute (common/space/attributes.h), such as the colour of a nest. Throws std::invalid_argument for an
-  // unknown id or name.
+  // unknown id or name, an element that the attribute does not have, and a value that it cannot have.
   void SetAttribute(std::string_view id, std::string_view attribute, double value, int element = 0);
   // Random numbers of these functions at the tick of the space: equal in every run of the same seed.
   RandomStream GetRandom() const;

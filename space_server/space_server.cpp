@@ -1,8 +1,13 @@
 #include "space_server/space_server.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
+
+#include "common/logging/log.h"
+#include "common/space/state_checks.h"
 
 namespace swarmanoid
 {
@@ -73,13 +78,14 @@ void SpaceServer::SaveState(ByteWriter& state) const
 
 void SpaceServer::LoadState(const SpaceSnapshot& snapshot, ByteReader& state)
 {
-  if (snapshot.poses.size() != 7 * space_.Movable().size() || snapshot.attributes.size() != space_.Attributes().size())
-    throw std::runtime_error("it has other entities");
+  CheckSnapshot(space_, snapshot);
   space_.Apply(snapshot);
   changed_slots_.clear();
   last_ = state.Get<bool>();
   failed_ = state.Get<bool>();
   moved_ = state.GetArray<std::uint32_t>();
+  for (const std::uint32_t entity : moved_)
+    if (entity >= space_.Size()) throw std::runtime_error("it has other entities");
   for (const Functions& functions : functions_)
   {
     std::istringstream text(state.GetText());
@@ -92,12 +98,8 @@ void SpaceServer::Advance(std::span<const EngineUpdate* const> updates,
 {
   changed_slots_.clear();
   moved_.clear();
-  for (const ControlCommands* command : commands) Merge(command->attributes);
-  for (const EngineUpdate* update : updates)
-  {
-    space_.SetPoses(assignment_.engines[update->engine].owned, update->poses);
-    Merge(update->attributes);
-  }
+  for (const ControlCommands* command : commands) Merge(*command);
+  for (const EngineUpdate* update : updates) Merge(*update);
   space_.SetTick(space_.GetTick() + 1);
 
   CallFunctions("PostStep", [this](const Functions& functions) { functions.object->PostStep(editor_); });
@@ -106,6 +108,12 @@ void SpaceServer::Advance(std::span<const EngineUpdate* const> updates,
 }
 
 void SpaceServer::SetAttribute(std::uint32_t slot, double value)
+{
+  CheckAttribute(space_, slot, value);
+  Change(slot, value);
+}
+
+void SpaceServer::Change(std::uint32_t slot, double value)
 {
   if (space_.Attributes()[slot] == value) return;
   space_.SetAttribute(slot, value);
@@ -154,16 +162,87 @@ void SpaceServer::AskWhetherFinished()
 
 void SpaceServer::Move(const MoveRequest& request)
 {
+  if (request.present) CheckPose(space_, request.entity, request.pose);
+  Put(request);
+}
+
+void SpaceServer::Put(const MoveRequest& request)
+{
   space_.SetPose(request.entity, request.pose);
+  Change(space_.PresenceSlot(request.entity), request.present ? 1 : 0);
   moved_.push_back(request.entity);
+}
+
+void SpaceServer::Merge(const ControlCommands& commands)
+{
+  try
+  {
+    CheckAttributes(space_, commands.attributes);
+  }
+  catch (const StateError& error)
+  {
+    throw std::runtime_error(fmt::format("{} at tick {}: {}", HostName(commands.host), space_.GetTick(), error.what()));
+  }
+  Merge(commands.attributes);
+}
+
+void SpaceServer::Merge(const EngineUpdate& update)
+{
+  if (update.engine >= assignment_.engines.size())
+    throw std::runtime_error(fmt::format("an update of engine {} came, but there are {} engines", update.engine,
+                                         assignment_.engines.size()));
+  const std::vector<std::uint32_t>& owned = assignment_.engines[update.engine].owned;
+  try
+  {
+    CheckPoses(space_, owned, update.poses);
+    CheckAttributes(space_, update.attributes);
+    if (experiment_.beyond_limit == BeyondLimit::kStop) CheckWithinLimit(space_, owned, update.poses);
+  }
+  catch (const StateError& error)
+  {
+    throw std::runtime_error(
+        fmt::format("{} at tick {}: {}", EngineName(experiment_, update.engine), space_.GetTick() + 1, error.what()));
+  }
+  if (experiment_.beyond_limit == BeyondLimit::kStop)
+    space_.SetPoses(owned, update.poses);
+  else
+    SetPosesWithinLimit(update, owned);
+  Merge(update.attributes);
+}
+
+void SpaceServer::SetPosesWithinLimit(const EngineUpdate& update, std::span<const std::uint32_t> owned)
+{
+  const std::vector<std::size_t> beyond = FindBeyondLimit(space_, owned, update.poses);
+  std::vector<Pose> before;
+  for (const std::size_t k : beyond) before.push_back(space_.GetPose(owned[k]));
+  space_.SetPoses(owned, update.poses);
+
+  const bool hold = experiment_.beyond_limit == BeyondLimit::kHold;
+  told_.resize(space_.Size());
+  for (std::size_t n = 0; n < beyond.size(); ++n)
+  {
+    const CSwarmanoidSpaceEntity& entity = space_.GetEntity(owned[beyond[n]]);
+    if (const std::uint32_t index = entity.GetIndex(); !hold || !told_[index])
+    {
+      const Vector3 at = entity.GetPosition();
+      LogWarning(
+          "{} at tick {}: the {} '{}' left the world at {:.6g}, {:.6g}, {:.6g}, more than {:g} m outside the arena; it "
+          "is "
+          "{}",
+          EngineName(experiment_, update.engine), space_.GetTick() + 1, TagName(entity.GetKind()), entity.GetId(),
+          at.x(), at.y(), at.z(), experiment_.limit_m, hold ? "held where it was before" : "removed");
+      told_[index] = true;
+    }
+    if (hold)
+      Put({entity.GetIndex(), before[n]});
+    else
+      Put({entity.GetIndex(), WaitingPose(entity.GetConfiguration(), entity.GetIndex()), false});
+  }
 }
 
 void SpaceServer::Merge(const AttributeChanges& changes)
 {
-  for (std::size_t k = 0; k < changes.slots.size(); ++k)
-  {
-    SetAttribute(changes.slots[k], changes.values[k]);
-  }
+  for (std::size_t k = 0; k < changes.slots.size(); ++k) Change(changes.slots[k], changes.values[k]);
 }
 
 }  // namespace swarmanoid

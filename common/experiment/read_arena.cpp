@@ -22,6 +22,12 @@ SpaceOptimization OptimizationOf(const std::string& text)
   return text == "3D" ? SpaceOptimization::k3D : SpaceOptimization::k2D;
 }
 
+BeyondLimit BeyondLimitOf(const std::string& text)
+{
+  if (text == "hold") return BeyondLimit::kHold;
+  return text == "remove" ? BeyondLimit::kRemove : BeyondLimit::kStop;
+}
+
 Quaternion OrientationOf(const Vector3& degrees)
 {
   return QuaternionFromEuler(
@@ -152,6 +158,9 @@ public:
     Experiment& experiment = reading_.experiment;
     experiment.arena_size = reader.Vector("size");
     experiment.optimization = OptimizationOf(reader.Text("optimization"));
+    const double limit_m = reader.Number("limit");
+    experiment.limit_m = limit_m > 0 ? limit_m : UsualLimit(experiment.arena_size);
+    experiment.beyond_limit = BeyondLimitOf(reader.Text("beyond_limit"));
     for (const TConfigurationTree& child : tree.Children())
     {
       const ElementSpec* element = spec.FindChild(child.Name());
@@ -237,6 +246,7 @@ private:
       all.back().id = id + "_" + std::to_string(i);
       if (!waiting) continue;
       all.back().reserve = id;
+      all.back().waits = true;
       all.back().pose = WaitingPose(all.back(), all.size() - 1);
     }
     return count;
