@@ -4,6 +4,8 @@
 #include <map>
 #include <sstream>
 
+#include "common/space/state_checks.h"
+
 namespace swarmanoid
 {
 namespace
@@ -48,6 +50,8 @@ struct ControllerHost::Batches
   {
     std::unique_ptr<ActuatorBatch> batch;
     ChannelSlice slice;
+    const DeviceConfiguration* device = nullptr;
+    std::vector<std::uint32_t> robots;
   };
   std::vector<Sensor> sensors;
   std::vector<Actuator> actuators;
@@ -155,7 +159,8 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
   {
     const auto* entry = PluginRegistry<ActuatorBatch>::Instance().Find(device.type, device.implementation);
     if (entry == nullptr) throw unknown(device);
-    Batches::Actuator actuator{entry->create(), SliceOf(layout_.commands, entry->description.channel, entities)};
+    Batches::Actuator actuator{entry->create(), SliceOf(layout_.commands, entry->description.channel, entities),
+                               &device, entities};
     actuator.batch->Init(setup_of(device, entry->description));
     for (std::size_t n = 0; n < robots.size(); ++n)
       robots_[robots[n]].interface->AddActuator(device.type, actuator.batch->Actuator(n));
@@ -199,11 +204,71 @@ const ControlCommands& ControllerHost::Step(std::span<const SensorFrame* const> 
   running_robot_ = "";
 
   commands_.tick = tick;
+  CommitActuators();
+  return commands_;
+}
+
+void ControllerHost::CommitActuators()
+{
   commands_.attributes.Clear();
   for (Batches::Actuator& actuator : batches_->actuators)
+  {
+    const std::size_t first = commands_.attributes.slots.size();
     actuator.batch->Commit({commands_.values, actuator.slice.offsets, actuator.slice.width}, commands_.attributes);
+    CheckAttributesOf(*actuator.device, actuator.robots, first);
+  }
   StillAbsent();
-  return commands_;
+  CheckCommands();
+}
+
+// What a device has just added, from `first` on.
+void ControllerHost::CheckAttributesOf(const DeviceConfiguration& device, std::span<const std::uint32_t> robots,
+                                       std::size_t first) const
+{
+  const AttributeChanges& changes = commands_.attributes;
+  for (std::size_t k = first; k < changes.slots.size(); ++k)
+  {
+    try
+    {
+      CheckAttribute(space_, changes.slots[k], changes.values[k]);
+    }
+    catch (const StateError& error)
+    {
+      const std::uint32_t entity = EntityOfSlot(space_, changes.slots[k]);
+      if (!AllFinite({&changes.values[k], 1}) && std::binary_search(robots.begin(), robots.end(), entity))
+        FailCommand(entity, device, changes.values[k]);
+      throw ControllerError("actuator '" + device.type + "' (" + device.implementation + ") at tick " +
+                            std::to_string(commands_.tick) + ": " + error.what());
+    }
+  }
+}
+
+void ControllerHost::CheckCommands()
+{
+  if (AllFinite(commands_.values)) return;
+  // Devices may share a channel: the one that does it again is the one.
+  for (Batches::Actuator& actuator : batches_->actuators)
+    for (std::size_t k = 0; k < actuator.slice.offsets.size(); ++k)
+      for (int i = 0; i < actuator.slice.width; ++i)
+      {
+        double& value = commands_.values[actuator.slice.offsets[k] + static_cast<std::size_t>(i)];
+        if (AllFinite({&value, 1})) continue;
+        const double found = value;
+        value = 0;
+        AttributeChanges again;
+        actuator.batch->Commit({commands_.values, actuator.slice.offsets, actuator.slice.width}, again);
+        if (!AllFinite({&value, 1})) FailCommand(actuator.robots[k], *actuator.device, found);
+        value = found;
+      }
+  throw ControllerError("the commands at tick " + std::to_string(commands_.tick) + " are not finite");
+}
+
+void ControllerHost::FailCommand(std::uint32_t robot, const DeviceConfiguration& device, double value) const
+{
+  const CSwarmanoidSpaceEntity& entity = space_.GetEntity(robot);
+  throw ControllerError("robot '" + entity.GetId() + "': its controller '" + entity.GetConfiguration().controller +
+                        "' commanded " + std::to_string(value) + " to the actuator '" + device.type + "' at tick " +
+                        std::to_string(commands_.tick) + "; commands must be finite numbers");
 }
 
 bool ControllerHost::Describe(std::uint32_t entity, RobotStatus& status) const
@@ -239,6 +304,7 @@ bool ControllerHost::Describe(std::uint32_t entity, RobotStatus& status) const
 // Robots that are not in the arena do nothing, whatever they were told last.
 void ControllerHost::StillAbsent()
 {
+  if (space_.Absent().empty()) return;
   for (const ChannelBlock& block : layout_.commands)
     for (std::size_t k = 0; k < block.entities.size(); ++k)
       if (!space_.IsPresent(block.entities[k]))

@@ -57,7 +57,13 @@ private:
     std::unique_ptr<CCI_Controller> controller;
   };
 
+  void CommitActuators();
   void StillAbsent();
+  // What no controller may command: throws ControllerError with robot, device, tick and value.
+  void CheckCommands();
+  void CheckAttributesOf(const DeviceConfiguration& device, std::span<const std::uint32_t> robots,
+                         std::size_t first) const;
+  [[noreturn]] void FailCommand(std::uint32_t robot, const DeviceConfiguration& device, double value) const;
   void MakeBatches(const ControllerConfiguration& configuration, const std::vector<std::size_t>& robots);
 
   const CSwarmanoidSpace& space_;

@@ -21,7 +21,6 @@ public:
   void SetColour(std::uint32_t colour) override { values_[1] = colour & 0xffffff; }
   void SetDirection(double pan, double tilt) override
   {
-    if (!(pan - pan == 0 && tilt - tilt == 0)) return;  // not finite: stays as it is
     values_[2] = WrapAngle(pan);
     values_[3] = std::clamp(tilt, 0.0, MAX_TILT);
   }

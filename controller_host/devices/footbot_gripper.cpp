@@ -17,7 +17,7 @@ class Gripper : public CCI_FootBotGripperActuator
 {
 public:
   explicit Gripper(double* closed) : closed_(closed) {}
-  void SetGripper(double closed) override { *closed_ = std::clamp(closed == closed ? closed : 0.0, 0.0, 1.0); }
+  void SetGripper(double closed) override { *closed_ = std::clamp(closed, 0.0, 1.0); }
 
   void Describe(std::vector<CCI_Reading>& readings) const override { readings.push_back({"closed", "", *closed_}); }
 

@@ -37,8 +37,8 @@ void DummyFootbotWheels::Init(const DeviceSetup& setup)
 
 double DummyFootbotWheels::Clamped(double velocity) const
 {
-  // A NaN stops the wheel: it must not reach the engine.
-  return velocity == velocity ? std::clamp(velocity, -limit_, limit_) : 0.0;
+  // A NaN stays one: the host says whose it is.
+  return std::clamp(velocity, -limit_, limit_);
 }
 
 void DummyFootbotWheels::Commit(const ChannelView& channel, AttributeChanges&)

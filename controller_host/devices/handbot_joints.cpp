@@ -21,7 +21,7 @@ constexpr int kArmChannelWidth = 5;
 double Clamped(double velocity)
 {
   constexpr double kLimit = CCI_HandBotArmsActuator::MAX_SPEED;
-  return velocity == velocity ? std::clamp(velocity, -kLimit, kLimit) : 0;
+  return std::clamp(velocity, -kLimit, kLimit);
 }
 
 class Head : public CCI_HandBotHeadActuator

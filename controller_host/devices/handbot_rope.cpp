@@ -20,7 +20,7 @@ public:
   void Release() override { values_[0] = 0; }
   void SetWinchVelocity(double velocity) override
   {
-    values_[1] = velocity == velocity ? std::clamp(velocity, -MAX_WINCH_SPEED, MAX_WINCH_SPEED) : 0;
+    values_[1] = std::clamp(velocity, -MAX_WINCH_SPEED, MAX_WINCH_SPEED);
   }
 
   void Describe(std::vector<CCI_Reading>& readings) const override
