@@ -4,6 +4,8 @@
 #include <map>
 #include <sstream>
 
+#include "common/control_interface/init_controller.h"
+
 namespace swarmanoid
 {
 namespace
@@ -101,7 +103,12 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
     int result = CCI_Controller::RETURN_OK;
     try
     {
-      result = robot.controller->Init(configuration.parameters);
+      const auto* entry = PluginRegistry<CCI_Controller>::Instance().Find(configuration.tag);
+      result = InitController(*robot.controller, entry->description, configuration.id, configuration.parameters);
+    }
+    catch (const ConfigurationError&)
+    {
+      throw;  // a mistake of the file
     }
     catch (const std::exception& error)
     {

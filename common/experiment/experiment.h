@@ -27,7 +27,8 @@ struct ControllerConfiguration
   std::string library;
   std::vector<DeviceConfiguration> actuators;
   std::vector<DeviceConfiguration> sensors;
-  TConfigurationTree parameters;  // <parameters>, given to CCI_Controller::Init
+  // <parameters>, given to CCI_Controller::Init: with all defaults where the controller declared them.
+  TConfigurationTree parameters;
   SourceLocation location;
 };
 
@@ -96,7 +97,7 @@ struct FunctionsConfiguration
 {
   std::string tag;
   std::string id;
-  TConfigurationTree tree;
+  TConfigurationTree tree;  // with the defaults of all parameters
   SourceLocation location;
 };
 

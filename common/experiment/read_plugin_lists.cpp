@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "common/configuration/parameter_table.h"
 #include "common/configuration/wording.h"
 #include "common/experiment/element_reader.h"
 #include "common/experiment/sections.h"
@@ -49,8 +50,13 @@ void ReadVisualisations(const TConfigurationTree& tree, Reading& reading)
 void ReadExperimentFunctions(const TConfigurationTree& tree, Reading& reading)
 {
   ReadPluginList(tree, PluginKind::kExperimentFunctions, reading,
-                 [&](const TConfigurationTree& child, const std::string& id) {
-                   reading.experiment.functions.push_back({child.Name(), id, child, child.Location()});
+                 [&](const TConfigurationTree& child, const std::string& id)
+                 {
+                   const auto* plugin =
+                       PluginCatalogue::Instance().Find(PluginKind::kExperimentFunctions, child.Name());
+                   const TConfigurationTree filled =
+                       plugin == nullptr ? child : WithDefaults(child, plugin->parameters, reading.experiment.folder);
+                   reading.experiment.functions.push_back({child.Name(), id, filled, child.Location()});
                  });
 }
 
