@@ -4,6 +4,8 @@
 #include <map>
 #include <sstream>
 
+#include "common/experiment/actors.h"
+
 namespace swarmanoid
 {
 namespace
@@ -43,11 +45,13 @@ struct ControllerHost::Batches
   {
     std::unique_ptr<SensorBatch> batch;
     ChannelSlice slice;
+    Actor actor;
   };
   struct Actuator
   {
     std::unique_ptr<ActuatorBatch> batch;
     ChannelSlice slice;
+    Actor actor;
   };
   std::vector<Sensor> sensors;
   std::vector<Actuator> actuators;
@@ -69,6 +73,7 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
     const ControllerConfiguration* configuration = experiment.FindController(entity.GetConfiguration().controller);
     robots_of[static_cast<std::size_t>(configuration - experiment.controllers.data())].push_back(k);
     robots_[k].entity = layout_.robots[k];
+    robots_[k].actor = RobotActor(experiment, layout_.robots[k]);
     robots_[k].interface = std::make_unique<CCI_Robot>(entity.GetId(), std::string(TagName(entity.GetKind())));
   }
 
@@ -86,7 +91,7 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
       Robot& robot = robots_[k];
       robot.interface->BeginStep(0, space.GetTickSeconds(),
                                  RandomStream(experiment.seed, robot.entity, kControllerStream, 0));
-      robot.controller = entry->create();
+      RunCodeOf(robot.actor, ActivityStep::kInit, 0, [&] { robot.controller = entry->create(); });
       robot.controller->SetRobot(robot.interface.get());
     }
   }
@@ -94,25 +99,14 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
   // Init in entity order, whatever the controllers.
   for (Robot& robot : robots_)
   {
-    const std::string& id = robot.interface->GetId();
     const ControllerConfiguration& configuration =
         *experiment.FindController(space.GetEntity(robot.entity).GetConfiguration().controller);
-    running_robot_ = id.c_str();
     int result = CCI_Controller::RETURN_OK;
-    try
-    {
-      result = robot.controller->Init(configuration.parameters);
-    }
-    catch (const std::exception& error)
-    {
-      throw ControllerError("robot '" + id + "': Init of controller '" + configuration.id +
-                            "' failed: " + error.what());
-    }
+    RunCodeOf(robot.actor, ActivityStep::kInit, 0, [&] { result = robot.controller->Init(configuration.parameters); });
     if (result != CCI_Controller::RETURN_OK)
-      throw ControllerError("robot '" + id + "': Init of controller '" + configuration.id + "' returned " +
+      throw ControllerError(ActivityText(robot.actor, ActivityStep::kInit, 0) + " failed: it returned " +
                             std::to_string(result));
   }
-  running_robot_ = "";
 }
 
 ControllerHost::~ControllerHost()
@@ -141,22 +135,30 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
                                                           device.type + "> is registered");
   };
 
-  for (const DeviceConfiguration& device : configuration.sensors)
+  const Experiment& experiment = space_.GetExperiment();
+  const auto number = static_cast<std::size_t>(&configuration - experiment.controllers.data());
+  for (std::size_t d = 0; d < configuration.sensors.size(); ++d)
   {
+    const DeviceConfiguration& device = configuration.sensors[d];
     const auto* entry = PluginRegistry<SensorBatch>::Instance().Find(device.type, device.implementation);
     if (entry == nullptr) throw unknown(device);
-    Batches::Sensor sensor{entry->create(), SliceOf(layout_.sensors, entry->description.channel, entities)};
-    sensor.batch->Init(setup_of(device, entry->description));
+    Batches::Sensor sensor{entry->create(), SliceOf(layout_.sensors, entry->description.channel, entities),
+                           SensorActor(experiment, number, d)};
+    RunCodeOf<ConfigurationError>(sensor.actor, ActivityStep::kInit, 0,
+                                  [&] { sensor.batch->Init(setup_of(device, entry->description)); });
     for (std::size_t n = 0; n < robots.size(); ++n)
       robots_[robots[n]].interface->AddSensor(device.type, sensor.batch->Sensor(n));
     batches_->sensors.push_back(std::move(sensor));
   }
-  for (const DeviceConfiguration& device : configuration.actuators)
+  for (std::size_t d = 0; d < configuration.actuators.size(); ++d)
   {
+    const DeviceConfiguration& device = configuration.actuators[d];
     const auto* entry = PluginRegistry<ActuatorBatch>::Instance().Find(device.type, device.implementation);
     if (entry == nullptr) throw unknown(device);
-    Batches::Actuator actuator{entry->create(), SliceOf(layout_.commands, entry->description.channel, entities)};
-    actuator.batch->Init(setup_of(device, entry->description));
+    Batches::Actuator actuator{entry->create(), SliceOf(layout_.commands, entry->description.channel, entities),
+                               ActuatorActor(experiment, number, d)};
+    RunCodeOf<ConfigurationError>(actuator.actor, ActivityStep::kInit, 0,
+                                  [&] { actuator.batch->Init(setup_of(device, entry->description)); });
     for (std::size_t n = 0; n < robots.size(); ++n)
       robots_[robots[n]].interface->AddActuator(device.type, actuator.batch->Actuator(n));
     batches_->actuators.push_back(std::move(actuator));
@@ -166,7 +168,6 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
 const ControlCommands& ControllerHost::Step(std::span<const SensorFrame* const> frames)
 {
   const std::uint64_t tick = space_.GetTick();
-  const std::uint64_t seed = space_.GetExperiment().seed;
 
   // What the engines sensed.
   if (!frames.empty())
@@ -178,32 +179,46 @@ const ControlCommands& ControllerHost::Step(std::span<const SensorFrame* const> 
                   sensor_values_.begin() + static_cast<std::ptrdiff_t>(copy.to));
     }
   for (Batches::Sensor& sensor : batches_->sensors)
-    sensor.batch->Update({sensor_values_, sensor.slice.offsets, sensor.slice.width});
-
-  for (Robot& robot : robots_)
-  {
-    if (!space_.IsPresent(robot.entity)) continue;
-    robot.interface->BeginStep(tick, space_.GetTickSeconds(),
-                               RandomStream(seed, robot.entity, kControllerStream, static_cast<std::uint32_t>(tick)));
-    running_robot_ = robot.interface->GetId().c_str();
-    try
-    {
-      robot.controller->ControlStep();
-    }
-    catch (const std::exception& error)
-    {
-      throw ControllerError("robot '" + robot.interface->GetId() + "': ControlStep at tick " + std::to_string(tick) +
-                            " failed: " + error.what());
-    }
-  }
-  running_robot_ = "";
+    RunCodeOf(sensor.actor, ActivityStep::kUpdate, tick,
+              [&] {
+                sensor.batch->Update({sensor_values_, sensor.slice.offsets, sensor.slice.width});
+              });
+  RunControllers(tick);
 
   commands_.tick = tick;
   commands_.attributes.Clear();
   for (Batches::Actuator& actuator : batches_->actuators)
-    actuator.batch->Commit({commands_.values, actuator.slice.offsets, actuator.slice.width}, commands_.attributes);
+    RunCodeOf(actuator.actor, ActivityStep::kUpdate, tick,
+              [&] {
+                actuator.batch->Commit({commands_.values, actuator.slice.offsets, actuator.slice.width},
+                                       commands_.attributes);
+              });
   StillAbsent();
   return commands_;
+}
+
+void ControllerHost::RunControllers(std::uint64_t tick)
+{
+  if (robots_.empty()) return;
+  const std::uint64_t seed = space_.GetExperiment().seed;
+  const Actor* running = &robots_.front().actor;
+  Activity activity(*running, ActivityStep::kControlStep, tick);
+  try
+  {
+    for (Robot& robot : robots_)
+    {
+      if (!space_.IsPresent(robot.entity)) continue;
+      robot.interface->BeginStep(tick, space_.GetTickSeconds(),
+                                 RandomStream(seed, robot.entity, kControllerStream, static_cast<std::uint32_t>(tick)));
+      running = &robot.actor;
+      activity.Next(*running);
+      robot.controller->ControlStep();
+    }
+  }
+  catch (...)
+  {
+    RethrowFor(*running, ActivityStep::kControlStep, tick);
+  }
 }
 
 bool ControllerHost::Describe(std::uint32_t entity, RobotStatus& status) const
@@ -216,10 +231,14 @@ bool ControllerHost::Describe(std::uint32_t entity, RobotStatus& status) const
   status = {entity, commands_.tick, configuration.id, {}, {}, {}, {}};
   try
   {
-    status.text = robot.controller->StatusText();
-    status.state = robot.controller->StateName();
+    RunCodeOf(robot.actor, ActivityStep::kStatusText, commands_.tick,
+              [&]
+              {
+                status.text = robot.controller->StatusText();
+                status.state = robot.controller->StateName();
+              });
   }
-  catch (const std::exception& error)
+  catch (const ActivityError& error)
   {
     status.text = std::string("its status is unknown: ") + error.what();
   }
@@ -255,7 +274,7 @@ void ControllerHost::SaveState(ByteWriter& state) const
                             "': its controller cannot be saved; it must override HasState, " +
                             "SaveState and LoadState");
     std::ostringstream text;
-    robot.controller->SaveState(text);
+    RunCodeOf(robot.actor, ActivityStep::kSaveState, space_.GetTick(), [&] { robot.controller->SaveState(text); });
     state.PutText(text.str());
   }
   for (const Batches::Sensor& sensor : batches_->sensors) sensor.batch->SaveState(state);
@@ -267,7 +286,7 @@ void ControllerHost::LoadState(ByteReader& state)
   for (Robot& robot : robots_)
   {
     std::istringstream text(state.GetText());
-    robot.controller->LoadState(text);
+    RunCodeOf(robot.actor, ActivityStep::kLoadState, space_.GetTick(), [&] { robot.controller->LoadState(text); });
   }
   for (Batches::Sensor& sensor : batches_->sensors) sensor.batch->LoadState(state);
   for (Batches::Actuator& actuator : batches_->actuators) actuator.batch->LoadState(state);
@@ -280,14 +299,7 @@ void ControllerHost::Destroy()
   for (Robot& robot : robots_)
   {
     if (robot.controller == nullptr) continue;
-    try
-    {
-      robot.controller->Destroy();
-    }
-    catch (const std::exception& error)
-    {
-      throw ControllerError("robot '" + robot.interface->GetId() + "': Destroy failed: " + error.what());
-    }
+    RunCodeOf(robot.actor, ActivityStep::kDestroy, space_.GetTick(), [&] { robot.controller->Destroy(); });
   }
 }
 

@@ -72,7 +72,7 @@ public:
 
   std::optional<std::string> Stall()
   {
-    return inputs_.Stall([this] { return fmt::format("runs the controller of {}", role_.RunningRobot()); });
+    return inputs_.Stall([] { return "runs " + CurrentActivity(); });
   }
 
   void Flush() { saved_.Flush(); }

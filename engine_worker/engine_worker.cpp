@@ -3,26 +3,33 @@
 #include <algorithm>
 #include <array>
 
+#include "common/experiment/actors.h"
+
 namespace swarmanoid
 {
 
 EngineWorker::EngineWorker(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t engine)
-    : space_(space), layout_(assignment.engines[engine])
+    : space_(space), layout_(assignment.engines[engine]), actor_(EngineActor(space.GetExperiment(), engine))
 {
   const EngineConfiguration& configuration = space.GetExperiment().engines[engine];
   const auto* entry = PluginRegistry<CPhysicsEngine>::Instance().Find(configuration.tag);
   if (entry == nullptr)
     throw ConfigurationError(configuration.location, "no engine is registered as '" + configuration.tag + "'");
-  engine_ = entry->create();
-  engine_->Init({configuration, Parameters(configuration.tree, entry->description.parameters), space, layout_});
-  for (const std::uint32_t index : configuration.entities)
-  {
-    const CSwarmanoidSpaceEntity& entity = space.GetEntity(index);
-    const bool owned = assignment.owner[index] == static_cast<int>(engine);
-    const bool fixed = !entity.IsMovable() || IsBodiless(entity.GetKind());
-    engine_->AddEntity(entity, fixed ? EBinding::kFixed : owned ? EBinding::kOwned : EBinding::kMirror);
-  }
-  engine_->Start();
+  RunCodeOf<ConfigurationError>(
+      actor_, ActivityStep::kInit, space.GetTick(),
+      [&]
+      {
+        engine_ = entry->create();
+        engine_->Init({configuration, Parameters(configuration.tree, entry->description.parameters), space, layout_});
+        for (const std::uint32_t index : configuration.entities)
+        {
+          const CSwarmanoidSpaceEntity& entity = space.GetEntity(index);
+          const bool owned = assignment.owner[index] == static_cast<int>(engine);
+          const bool fixed = !entity.IsMovable() || IsBodiless(entity.GetKind());
+          engine_->AddEntity(entity, fixed ? EBinding::kFixed : owned ? EBinding::kOwned : EBinding::kMirror);
+        }
+        engine_->Start();
+      });
 
   command_values_.resize(layout_.command_size);
   update_.engine = static_cast<std::uint32_t>(engine);
@@ -35,9 +42,6 @@ EngineWorker::~EngineWorker() = default;
 
 void EngineWorker::Step(std::span<const std::uint32_t> moved, std::span<const ControlCommands* const> commands)
 {
-  for (const std::uint32_t entity : moved)
-    if (std::binary_search(layout_.owned.begin(), layout_.owned.end(), entity)) engine_->EntityMoved(entity);
-
   for (const ValueCopy& copy : layout_.command_copies)
   {
     const auto source = std::find(layout_.commands_from.begin(), layout_.commands_from.end(), copy.source);
@@ -49,9 +53,17 @@ void EngineWorker::Step(std::span<const std::uint32_t> moved, std::span<const Co
   update_.tick = space_.GetTick() + 1;
   frame_.tick = update_.tick;
   update_.attributes.Clear();
-  engine_->Update({layout_.commands, command_values_}, update_, frame_.values);
+  RunCodeOf(actor_, ActivityStep::kUpdate, space_.GetTick(),
+            [&]
+            {
+              for (const std::uint32_t entity : moved)
+                if (std::binary_search(layout_.owned.begin(), layout_.owned.end(), entity))
+                  engine_->EntityMoved(entity);
+              engine_->Update({layout_.commands, command_values_}, update_, frame_.values);
+            });
   KeepAbsent();
-  if (update_.tick % space_.GetExperiment().canonical_period == 0) engine_->Canonicalise();
+  if (update_.tick % space_.GetExperiment().canonical_period == 0)
+    RunCodeOf(actor_, ActivityStep::kUpdate, space_.GetTick(), [&] { engine_->Canonicalise(); });
 }
 
 // Entities that are not in the arena stay where they wait, whatever the engine makes of them.
@@ -71,14 +83,14 @@ void EngineWorker::KeepAbsent()
 void EngineWorker::SaveState(ByteWriter& state) const
 {
   state.PutArray(frame_.values);
-  engine_->SaveState(state);
+  RunCodeOf(actor_, ActivityStep::kSaveState, space_.GetTick(), [&] { engine_->SaveState(state); });
 }
 
 void EngineWorker::LoadState(ByteReader& state)
 {
   frame_.values = state.GetArray<double>();
   if (frame_.values.size() != layout_.sensor_size) throw std::runtime_error("saved state: it is of another experiment");
-  engine_->LoadState(state);
+  RunCodeOf(actor_, ActivityStep::kLoadState, space_.GetTick(), [&] { engine_->LoadState(state); });
 }
 
 }  // namespace swarmanoid

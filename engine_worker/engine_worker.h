@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 
+#include "common/activity/failure_report.h"
 #include "engine_worker/physics_engine.h"
 
 namespace swarmanoid
@@ -15,7 +16,8 @@ void RegisterBuiltinEngines();
 class EngineWorker
 {
 public:
-  // `space` is the replica of this process; it and `assignment` outlive the worker.
+  // `space` is the replica of this process; it and `assignment` outlive the worker. Throws ConfigurationError, or
+  // ActivityError naming the engine that failed; so does Step.
   EngineWorker(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t engine);
   ~EngineWorker();
 
@@ -37,6 +39,7 @@ private:
 
   const CSwarmanoidSpace& space_;
   const EngineLayout& layout_;
+  const Actor actor_;
   std::unique_ptr<CPhysicsEngine> engine_;
   std::vector<double> command_values_;
   EngineUpdate update_;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "common/activity/activity.h"
 #include "common/bus/cluster_options.h"
 #include "common/bus/replica.h"
 #include "common/bus/saved_states.h"
@@ -62,7 +63,7 @@ public:
 
   std::optional<std::string> Stall()
   {
-    return inputs_.Stall([] { return std::string("runs its engine"); });
+    return inputs_.Stall([] { return "runs " + CurrentActivity(); });
   }
 
   void Flush() { saved_.Flush(); }

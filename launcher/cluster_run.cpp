@@ -8,6 +8,7 @@
 
 #include "common/bus/domain.h"
 #include "common/bus/run_directory.h"
+#include "common/experiment/actors.h"
 #include "common/space/assignment.h"
 #include "launcher/cluster_plan.h"
 #include "launcher/exit_codes.h"
@@ -81,7 +82,9 @@ RunResult RunCluster(const RunOptions& options, const Experiment& experiment, co
   SystemSpawner spawner;
   Interrupts interrupts;
   ProgressDisplay display(ProgressDisplay::StyleFor(STDERR_FILENO, options.quiet), STDERR_FILENO);
-  Supervisor supervisor(spawner, interrupts, display, STDOUT_FILENO);
+  Supervisor supervisor(spawner, interrupts, display, STDOUT_FILENO,
+                        [&experiment](Actor::Kind kind, std::uint32_t number)
+                        { return ActorOf(experiment, kind, number); });
   const ClusterOutcome outcome = supervisor.Run(plans);
   RemoveDeadRuns();
   if (!outcome.reason.empty()) Complain(outcome);

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "common/activity/failure_report.h"
 #include "common/experiment/load_experiment.h"
 #include "common/space/assignment.h"
 #include "common/space/checkpoint.h"
@@ -138,7 +139,7 @@ struct CSimulator::Roles
 };
 
 CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& options)
-    : roles_(std::make_unique<Roles>(experiment, options))
+    : roles_((ReportDeaths(program_invocation_short_name), std::make_unique<Roles>(experiment, options)))
 {
   CheckCheckpointPeriod(options.checkpoint_every, experiment);
   // What cannot be saved is said before the run, not in the midst of it.

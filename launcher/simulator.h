@@ -56,7 +56,9 @@ class CSimulator
 {
 public:
   // The experiment at tick 0, or where its checkpoint is; it must outlive the simulator. Throws ConfigurationError,
-  // ControllerError or std::runtime_error with a text for the user; so do Step and Finish.
+  // ActivityError (common/activity/failure_report.h), which names whose code failed, or another std::runtime_error with
+  // a text for the user; so do Step and Finish. Code that crashes or calls exit ends the program with such a line and
+  // exit code 4.
   explicit CSimulator(const Experiment& experiment, const SimulatorOptions& options = {});
   ~CSimulator();
   CSimulator(const CSimulator&) = delete;

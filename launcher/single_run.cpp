@@ -7,6 +7,9 @@
 #include <chrono>
 #include <csignal>
 
+#include "common/activity/failure_report.h"
+#include "common/activity/memory_limit.h"
+#include "common/activity/step_watch.h"
 #include "launcher/exit_codes.h"
 #include "launcher/processes/progress_display.h"
 #include "launcher/usage_error.h"
@@ -19,14 +22,19 @@ namespace
 std::atomic<bool> stop_asked = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-// The first signal ends the run after its tick, a second one has its usual effect.
+// The first signal ends the run after its tick, a second one at once.
 void CatchFirstInterrupt()
 {
   struct sigaction action
   {
   };
-  action.sa_handler = [](int) { stop_asked = true; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+  action.sa_handler = [](int)
+  {
+    if (!stop_asked.exchange(true)) return;
+    // Who does not end his step is told.
+    DieInterrupted();
+  };
+  action.sa_flags = static_cast<int>(SA_RESTART | SA_ONSTACK);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
 }
 
@@ -38,6 +46,8 @@ RunResult RunHere(const RunOptions& options, const Experiment& experiment, const
   using Clock = ProgressDisplay::Clock;
 
   CatchFirstInterrupt();
+  ReportDeaths("swarmanoid");
+  LimitMemory(0);
   ProgressDisplay display(ProgressDisplay::StyleFor(STDERR_FILENO, options.quiet), STDERR_FILENO);
   const Clock::time_point start = Clock::now();
 
@@ -52,6 +62,11 @@ RunResult RunHere(const RunOptions& options, const Experiment& experiment, const
   run.checkpoint_every = options.checkpoint_every;
   run.restore_file = options.restore_file;
   run.stop = &stop_asked;
+  StepWatch::Settings watching;
+  if (!options.quiet)
+    watching.stalled = [](const std::string& activity, double seconds)
+    { fmt::print(stderr, "waiting since {} for {}\n", DurationText(seconds), activity); };
+  const StepWatch step_watch(watching);
   run.watch = watch;
   run.progress = [&](std::uint64_t tick)
   {

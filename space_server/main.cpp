@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/activity/failure_report.h"
 #include "common/bus/cluster_options.h"
 #include "common/bus/status_channel.h"
 #include "common/experiment/load_experiment.h"
@@ -99,6 +100,10 @@ int Run(int argc, char** argv)
   }
   catch (const std::exception& error)
   {
+    const bool invalid = dynamic_cast<const ConfigurationError*>(&error) != nullptr;
+    const bool complete = invalid || dynamic_cast<const ActivityError*>(&error) != nullptr;
+    NoteEnd(invalid ? EndReason::kInvalid : EndReason::kFailed, 0,
+            complete ? error.what() : fmt::format("space server failed at tick 0: {}", error.what()), complete);
     status.Say(fmt::format("error {}", error.what()));
     throw;
   }

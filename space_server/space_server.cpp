@@ -4,6 +4,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/experiment/actors.h"
+
 namespace swarmanoid
 {
 
@@ -16,12 +18,16 @@ SpaceServer::SpaceServer(const Experiment& experiment, const Assignment& assignm
     if (entry == nullptr)
       throw ConfigurationError(configuration.location,
                                "no experiment functions are registered as '" + configuration.tag + "'");
-    functions_.push_back({&configuration, entry->create()});
+    const Actor actor =
+        FunctionsActor(experiment, static_cast<std::size_t>(&configuration - experiment.functions.data()));
+    functions_.push_back({&configuration, actor, nullptr});
+    RunCodeOf<ConfigurationError>(actor, ActivityStep::kInit, 0, [&] { functions_.back().object = entry->create(); });
   }
-  CallFunctions("Init",
+  CallFunctions(ActivityStep::kInit,
                 [this](const Functions& functions) { functions.object->Init(functions.configuration->tree, editor_); });
   AskWhetherFinished();
-  if (!IsLast()) CallFunctions("PreStep", [this](const Functions& functions) { functions.object->PreStep(editor_); });
+  if (!IsLast())
+    CallFunctions(ActivityStep::kPreStep, [this](const Functions& functions) { functions.object->PreStep(editor_); });
 }
 
 SpaceServer::~SpaceServer() = default;
@@ -66,7 +72,7 @@ void SpaceServer::SaveState(ByteWriter& state) const
       throw std::runtime_error("experiment functions '" + functions.configuration->id +
                                "' cannot be saved; they must override HasState, SaveState and LoadState");
     std::ostringstream text;
-    functions.object->SaveState(text);
+    RunCodeOf(functions.actor, ActivityStep::kSaveState, space_.GetTick(), [&] { functions.object->SaveState(text); });
     state.PutText(text.str());
   }
 }
@@ -83,7 +89,7 @@ void SpaceServer::LoadState(const SpaceSnapshot& snapshot, ByteReader& state)
   for (const Functions& functions : functions_)
   {
     std::istringstream text(state.GetText());
-    functions.object->LoadState(text);
+    RunCodeOf(functions.actor, ActivityStep::kLoadState, space_.GetTick(), [&] { functions.object->LoadState(text); });
   }
 }
 
@@ -100,9 +106,10 @@ void SpaceServer::Advance(std::span<const EngineUpdate* const> updates,
   }
   space_.SetTick(space_.GetTick() + 1);
 
-  CallFunctions("PostStep", [this](const Functions& functions) { functions.object->PostStep(editor_); });
+  CallFunctions(ActivityStep::kPostStep, [this](const Functions& functions) { functions.object->PostStep(editor_); });
   AskWhetherFinished();
-  if (!IsLast()) CallFunctions("PreStep", [this](const Functions& functions) { functions.object->PreStep(editor_); });
+  if (!IsLast())
+    CallFunctions(ActivityStep::kPreStep, [this](const Functions& functions) { functions.object->PreStep(editor_); });
 }
 
 void SpaceServer::SetAttribute(std::uint32_t slot, double value)
@@ -116,33 +123,21 @@ void SpaceServer::Destroy()
 {
   if (destroyed_) return;
   destroyed_ = true;
-  CallFunctions("Destroy", [this](const Functions& functions) { functions.object->Destroy(editor_); });
+  CallFunctions(ActivityStep::kDestroy, [this](const Functions& functions) { functions.object->Destroy(editor_); });
 }
 
 template <class Call>
-void SpaceServer::CallFunctions(const char* step, Call call)
+void SpaceServer::CallFunctions(ActivityStep step, Call call)
 {
   for (const Functions& functions : functions_)
   {
-    try
-    {
-      call(functions);
-    }
-    catch (const ConfigurationError&)
-    {
-      throw;
-    }
-    catch (const std::exception& error)
-    {
-      throw std::runtime_error("experiment functions '" + functions.configuration->id + "': " + step + " at tick " +
-                               std::to_string(space_.GetTick()) + " failed: " + error.what());
-    }
+    RunCodeOf<ConfigurationError>(functions.actor, step, space_.GetTick(), [&] { call(functions); });
   }
 }
 
 void SpaceServer::AskWhetherFinished()
 {
-  CallFunctions("IsFinished",
+  CallFunctions(ActivityStep::kIsFinished,
                 [this](const Functions& functions)
                 {
                   const auto outcome = functions.object->IsFinished(editor_);

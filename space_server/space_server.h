@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/activity/failure_report.h"
 #include "common/serialisation/bytes.h"
 #include "common/space/assignment.h"
 #include "common/space/messages.h"
@@ -27,7 +28,7 @@ class SpaceServer
 {
 public:
   // The space at tick 0, its experiment functions initialised. Both references outlive the server. Throws
-  // ConfigurationError, or std::runtime_error naming the functions that failed; so does Advance.
+  // ConfigurationError, or ActivityError naming the functions that failed; so does Advance.
   SpaceServer(const Experiment& experiment, const Assignment& assignment, const std::string& output_folder);
   ~SpaceServer();
 
@@ -64,13 +65,14 @@ private:
   struct Functions
   {
     const FunctionsConfiguration* configuration;
+    Actor actor;
     std::unique_ptr<CExperimentFunctions> object;
   };
 
   void Merge(const AttributeChanges& changes);
   // Calls a step of all functions in the order of the file; what fails is named.
   template <class Call>
-  void CallFunctions(const char* step, Call call);
+  void CallFunctions(ActivityStep step, Call call);
   void AskWhetherFinished();
 
   const Experiment& experiment_;

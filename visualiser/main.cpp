@@ -53,14 +53,14 @@ void RunSynchronous(WorkerSession& session, const std::string& id, const std::st
   session.SayReady();
   try
   {
-    const std::optional<std::string> over = session.Follow(kIdlePeriod, [&] { node.Work(); });
+    const std::optional<BusError> over = session.Follow(kIdlePeriod, [&] { node.Work(); });
     // Films and tables of a run that failed are finished too.
     visualiser.Finish();
     if (over) session.GiveUp(*over);
   }
   catch (const std::exception& error)
   {
-    session.GiveUp(error.what());
+    session.GiveUp(error);
   }
 }
 
@@ -82,8 +82,8 @@ void RunAttached(WorkerSession& session, const AttachedOptions& options)
                         options.read_only ? nullptr : &control, &monitor);
   AttachedNode node(session, replica, visualiser, monitor, options.rate);
   session.SayReady();
-  const std::optional<std::string> over = session.Follow(kIdlePeriod, [&] { node.Work(); });
-  monitor.RunIsOver(over.value_or(""));
+  const std::optional<BusError> over = session.Follow(kIdlePeriod, [&] { node.Work(); });
+  monitor.RunIsOver(over ? over->what() : "");
   // A window stays for those who look at it.
   if (visualiser.IsInteractive() && !node.Terminated())
     while (!visualiser.Idle() && !Interrupted()) std::this_thread::sleep_for(kIdlePeriod);

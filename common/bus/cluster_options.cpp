@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 
+#include "common/activity/failure_report.h"
 #include "common/configuration/configuration_tree.h"
 
 namespace swarmanoid
@@ -55,6 +56,7 @@ int ParseCommandLine(CLI::App& app, int argc, char** argv)
 
 int RunProgram(const std::string& program, int (*run)(int argc, char** argv), int argc, char** argv)
 {
+  ReportDeaths(program);
   try
   {
     return run(argc, argv);

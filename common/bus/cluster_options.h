@@ -22,6 +22,7 @@ inline constexpr int kExitExperimentFailed = 1;
 inline constexpr int kExitUsage = 2;
 inline constexpr int kExitInvalidFile = 3;
 inline constexpr int kExitProcessFailed = 4;
+inline constexpr int kExitOthersFailed = 6;  // of a process of a cluster: the run failed elsewhere
 inline constexpr int kExitInterrupted = 130;
 
 // Parses; the exit code where the program is to end at once (help, usage error), else -1.

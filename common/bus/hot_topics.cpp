@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include "common/activity/shared_memory.h"
 #include "common/bus/hot_type.h"
 #include "common/bus/machine_id.h"
 #include "common/bus/participant.h"
@@ -8,11 +11,23 @@ namespace swarmanoid
 namespace
 {
 
+constexpr std::size_t kOtherFiles = 128 * 1024;  // of the bus itself: who reads what
+
 template <class Message>
 dds::Topic* HotTopic(Bus& bus, const HotScope& scope)
 {
   return bus.Internals().TopicOf(kTopicOf<Message>,
                                  [&] { return dds::TypeSupport(new HotType<Message>(scope.capacity)); });
+}
+
+// Whoever writes to memory that is not there is killed.
+void RequireSharedMemory(std::size_t bytes)
+{
+  if (SharedMemoryFree() >= bytes + kOtherFiles) return;
+  throw BusError(fmt::format(
+      "shared memory is full: {} has {} KiB left, and the messages of this run need {} KiB; free some of it, "
+      "or let SWARMANOID_SHARED_FOLDER name a folder with more room",
+      SharedMemoryFolder(), SharedMemoryFree() / 1024, (bytes + kOtherFiles) / 1024));
 }
 
 void ShareData(dds::DataSharingQosPolicy& policy, const HotScope& scope)
@@ -31,6 +46,8 @@ struct HotPublisher<Message>::Impl
   static dds::DataWriterQos Qos(const HotScope& scope)
   {
     dds::DataWriterQos qos = WriterQos(QosOf(kTopicOf<Message>));
+    const auto samples = qos.resource_limits().max_samples + qos.resource_limits().extra_samples;
+    if (!scope.directory.empty()) RequireSharedMemory(scope.capacity * static_cast<std::size_t>(samples));
     ShareData(qos.data_sharing(), scope);
     return qos;
   }

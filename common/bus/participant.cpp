@@ -19,6 +19,8 @@
 
 #include <fmt/format.h>
 
+#include "common/activity/failure_report.h"
+
 namespace swarmanoid
 {
 
@@ -49,15 +51,33 @@ std::string ResolveHost(const std::string& host)
   return text;
 }
 
+bool LoopbackIsUp(const ifaddrs* interfaces)
+{
+  for (const ifaddrs* entry = interfaces; entry != nullptr; entry = entry->ifa_next)
+    if (entry->ifa_addr != nullptr && entry->ifa_addr->sa_family == AF_INET && (entry->ifa_flags & IFF_LOOPBACK) != 0 &&
+        (entry->ifa_flags & IFF_UP) != 0)
+      return true;
+  return false;
+}
+
 // The IPv4 addresses that the participant may use; empty for all. An address that no interface has would make it deaf.
 std::vector<std::string> InterfaceAddresses(const std::string& wanted)
 {
   if (wanted == "all") return {};
-  if (wanted == "lo") return {"127.0.0.1"};
   std::vector<std::string> addresses;
   std::string known = "lo, all";
   ifaddrs* list = nullptr;
   if (getifaddrs(&list) != 0) throw BusError("cannot list the network interfaces");
+  if (wanted == "lo")
+  {
+    const bool up = LoopbackIsUp(list);
+    freeifaddrs(list);
+    if (!up)
+      throw BusError(
+          "the network interface of this machine alone, lo, is down: processes on it cannot hear one another; `ip link "
+          "set lo up` cures it");
+    return {"127.0.0.1"};
+  }
   for (const ifaddrs* entry = list; entry != nullptr; entry = entry->ifa_next)
   {
     if (entry->ifa_addr == nullptr || entry->ifa_addr->sa_family != AF_INET) continue;
@@ -84,24 +104,14 @@ std::atomic<bool> broken = false;
 // sleep; the lease of the dead process tells the main thread who it was.
 void SleepInsteadOfTerminate()
 {
-  try
+  if (!std::current_exception()) DieOf("called std::terminate");
+  const std::string text = CurrentExceptionText();
+  if (text.find("Interprocess") != std::string::npos)
   {
-    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+    MarkBroken();
+    while (true) pause();
   }
-  catch (const std::exception& error)
-  {
-    if (std::string_view(error.what()).find("Interprocess") != std::string_view::npos)
-    {
-      MarkBroken();
-      while (true) pause();
-    }
-    fmt::print(stderr, "unexpected: {}\n", error.what());
-  }
-  catch (...)
-  {
-    fmt::print(stderr, "unexpected: an exception of unknown type\n");
-  }
-  std::abort();
+  DieOf("ended by an exception that nobody caught: " + text);
 }
 
 rtps::Locator_t LocatorOf(const std::string& host, unsigned port)
@@ -145,11 +155,7 @@ void MarkBroken() { broken = true; }
 
 bool BusIsBroken() { return broken; }
 
-void EndAtOnce(int code)
-{
-  std::fflush(nullptr);
-  std::_Exit(code);
-}
+void EndAtOnce(int code) { LeaveAtOnce(code); }
 
 std::string MachineName()
 {

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/activity/shared_memory.h"
 #include "common/bus/bus.h"
 
 namespace swarmanoid
@@ -118,6 +119,7 @@ RunDirectory::RunDirectory(const std::string& experiment, std::uint64_t run)
   path_ = SharedFolder() + "/" + FileName(experiment, run);
   if (mkdir(path_.c_str(), 0700) != 0 && errno != EEXIST)
     throw BusError("cannot create '" + path_ + "': " + std::strerror(errno));
+  SetSharedMemoryFolder(path_);
   marker_ = fmt::format("{}/{}{}", path_, kMarkerPrefix, getpid());
   lock_ = OpenLocked(marker_, LOCK_EX | LOCK_NB);
   if (lock_ < 0) throw BusError("'" + marker_ + "' is locked by another process");

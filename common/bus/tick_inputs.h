@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "common/bus/replica.h"
-#include "common/bus/stall_watch.h"
+#include "common/bus/stall_detector.h"
 #include "common/bus/tick_gate.h"
 #include "common/bus/worker_session.h"
 
@@ -86,11 +86,11 @@ public:
     if (!lock)
     {
       session_.SetTick(stepping_);
-      return watch_.Observe(stepping_, busy());
+      return stall_.Observe(stepping_, busy());
     }
     session_.SetTick(gate_.Tick());
     const bool waits = !sources_.empty() && gate_.Has(0) && !gate_.Complete();
-    return watch_.Observe(gate_.Tick(), waits ? "waits for " + Joined(gate_.Missing()) : "");
+    return stall_.Observe(gate_.Tick(), waits ? "waits for " + Joined(gate_.Missing()) : "");
   }
 
   std::mutex& Mutex() { return mutex_; }
@@ -172,6 +172,10 @@ private:
     {
       calls_.step();
     }
+    catch (const ActivityError& error)
+    {
+      session_.Fail(gate_.Tick(), error.what(), true);
+    }
     catch (const std::exception& error)
     {
       session_.Fail(gate_.Tick(), error.what());
@@ -188,7 +192,7 @@ private:
   SpaceState state_;
   SpaceState repeated_;
   std::atomic<std::uint64_t> stepping_ = 0;
-  StallWatch watch_;  // main thread
+  StallDetector stall_;  // main thread
   std::optional<HotSubscription<Message>> others_in_;
   std::optional<HotSubscription<SpaceState>> states_in_;
 };

@@ -4,8 +4,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <utility>
 
 #include "common/bus/cluster_options.h"
+#include "common/configuration/configuration_tree.h"
 
 namespace swarmanoid
 {
@@ -19,6 +21,19 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kPatience = 1s;      // before what is waited for is said
 constexpr auto kBrokenTime = 5s;    // for the lease of a dead process to end
 constexpr double kByeTime_s = 1.0;  // for the last message to arrive
+
+int ExitCodeOf(EndReason reason)
+{
+  switch (reason)
+  {
+    case EndReason::kInterrupted:
+      return kExitInterrupted;
+    case EndReason::kOthers:
+      return kExitOthersFailed;
+    default:
+      return kExitProcessFailed;
+  }
+}
 
 }  // namespace
 
@@ -90,16 +105,25 @@ HotScope WorkerSession::Scope(std::size_t capacity, unsigned writers) const
 void WorkerSession::CheckOthers()
 {
   const std::lock_guard lock(mutex_);
-  if (Interrupted()) throw BusError("interrupted");
+  if (Interrupted())
+  {
+    reason_ = EndReason::kInterrupted;
+    throw BusError("interrupted");
+  }
+  // Whatever is thrown below, it is not this process that failed.
+  const EndReason before = std::exchange(reason_, EndReason::kOthers);
   if (others_error_) throw BusError(*others_error_);
   // The leases of a run on one machine are long: its launcher sees who dies, but those who are attached have none.
   if (server_seen_ && !ServerIsOnThisMachine()) server_gone_ = true;
   if (server_gone_) throw BusError(fmt::format("the space server has gone (process {})", server_process_));
   if (server_said_bye_) throw BusError("the run has ended");
-  if (!BusIsBroken()) return;
-  if (!broken_since_) broken_since_ = Clock::now();
-  if (Clock::now() - *broken_since_ > kBrokenTime)
-    throw BusError("a process died, or was stopped, while it held shared memory of the run");
+  if (BusIsBroken())
+  {
+    if (!broken_since_) broken_since_ = Clock::now();
+    if (Clock::now() - *broken_since_ > kBrokenTime)
+      throw BusError("a process died, or was stopped, while it held shared memory of the run");
+  }
+  reason_ = before;
 }
 
 bool WorkerSession::ServerIsOnThisMachine() const
@@ -137,11 +161,17 @@ void WorkerSession::Finish(std::uint64_t tick)
   changed_.notify_all();
 }
 
-void WorkerSession::Fail(std::uint64_t tick, const std::string& error)
+void WorkerSession::Fail(std::uint64_t tick, const std::string& error, bool complete)
 {
   const std::lock_guard lock(mutex_);
   tick_ = tick;
-  if (!own_error_) own_error_ = error;
+  if (!own_error_)
+  {
+    own_error_ = error;
+    // At once: others may end because of it before this process does.
+    NoteEnd(EndReason::kFailed, tick, complete ? error : fmt::format("{} failed at tick {}: {}", name_, tick, error),
+            complete);
+  }
   changed_.notify_all();
 }
 
@@ -166,19 +196,19 @@ void WorkerSession::Wait(std::chrono::milliseconds period, const std::function<s
   }
   catch (const std::exception& error)
   {
-    GiveUp(error.what());
+    GiveUp(error);
   }
 }
 
-void WorkerSession::GiveUp(const std::string& error)
+void WorkerSession::GiveUp(const std::exception& error)
 {
-  Say(error);
-  SayError(error);
+  Say(error.what());
+  ReportFailure(error);
   directory_->Leave();
-  EndAtOnce(Interrupted() ? kExitInterrupted : kExitProcessFailed);
+  EndAtOnce(ExitCodeOf(reason_));
 }
 
-std::optional<std::string> WorkerSession::Follow(std::chrono::milliseconds period, const std::function<void()>& idle)
+std::optional<BusError> WorkerSession::Follow(std::chrono::milliseconds period, const std::function<void()>& idle)
 {
   try
   {
@@ -192,7 +222,7 @@ std::optional<std::string> WorkerSession::Follow(std::chrono::milliseconds perio
   }
   catch (const BusError& error)
   {
-    return error.what();
+    return error;
   }
 }
 
@@ -208,7 +238,11 @@ void WorkerSession::WaitUntilDone(std::chrono::milliseconds period,
     }
     {
       const std::lock_guard lock(mutex_);
-      if (own_error_) throw BusError(*own_error_);
+      if (own_error_)
+      {
+        reason_ = EndReason::kFailed;
+        throw BusError(*own_error_);
+      }
       if (done_) return;
     }
     CheckOthers();
@@ -220,13 +254,19 @@ void WorkerSession::WaitUntilDone(std::chrono::milliseconds period,
   }
 }
 
-void WorkerSession::SayError(const std::string& error)
+void WorkerSession::ReportFailure(const std::exception& error)
 {
+  const bool complete = dynamic_cast<const ActivityError*>(&error) != nullptr;
+  if (dynamic_cast<const ConfigurationError*>(&error) != nullptr)
+    NoteEnd(EndReason::kInvalid, tick_, error.what(), true);
+  else
+    NoteEnd(reason_, tick_,
+            complete ? error.what() : fmt::format("{} failed at tick {}: {}", name_, tick_, error.what()), complete);
   {
     const std::lock_guard lock(mutex_);
     if (server_gone_ || server_said_bye_) return;
   }
-  bye_->Write({world_.run, tick_, name_, "", error});
+  bye_->Write({world_.run, tick_, name_, "", error.what()});
   bye_->WaitUntilRead(kByeTime_s);
 }
 
@@ -238,9 +278,12 @@ int WorkerSession::Work(const std::function<void()>& work)
   }
   catch (const std::exception& error)
   {
-    SayError(error.what());
-    throw;
+    ReportFailure(error);
+    if (reason_ == EndReason::kFailed) throw;
+    Say(error.what());
+    return ExitCodeOf(reason_);
   }
+  NoteEnd(EndReason::kDone, tick_, "");
   bye_->Write({world_.run, tick_, name_, "", ""});
   bye_->WaitUntilRead(kByeTime_s);
   return kExitDone;

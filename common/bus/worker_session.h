@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "common/activity/failure_report.h"
 #include "common/bus/bus.h"
 #include "common/bus/run_directory.h"
 
@@ -45,12 +46,13 @@ public:
   void Wait(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
   // The same for a process that has something to do after the run: returns nothing where its work is done, or else why
   // the run is over.
-  std::optional<std::string> Follow(std::chrono::milliseconds period, const std::function<void()>& idle);
+  std::optional<BusError> Follow(std::chrono::milliseconds period, const std::function<void()>& idle);
   // Says that this process failed, or has nothing to do any more in a run that failed, and ends the program.
-  [[noreturn]] void GiveUp(const std::string& error);
+  [[noreturn]] void GiveUp(const std::exception& error);
   // From any thread: the work is done, or failed, or `idle` is to be called.
   void Finish(std::uint64_t tick);
-  void Fail(std::uint64_t tick, const std::string& error);
+  // `complete`: the text says by itself who failed.
+  void Fail(std::uint64_t tick, const std::string& error, bool complete = false);
   void Notify();
   // The tick that Status messages bear.
   void SetTick(std::uint64_t tick);
@@ -59,7 +61,8 @@ private:
   void CheckOthers();
   bool ServerIsOnThisMachine() const;
   void WaitUntilDone(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
-  void SayError(const std::string& error);
+  // Why this process ends, to whoever started it and to the server.
+  void ReportFailure(const std::exception& error);
   void Say(const std::string& text) const;
 
   std::string name_;
@@ -70,6 +73,7 @@ private:
   bool notified_ = false;
   bool done_ = false;
   std::uint64_t tick_ = 0;
+  EndReason reason_ = EndReason::kFailed;  // why this process ends before its work is done
   std::optional<std::string> own_error_;
   std::optional<std::string> others_error_;
   std::optional<std::chrono::steady_clock::time_point> broken_since_;

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "common/activity/failure_report.h"
 #include "common/bus/replica.h"
 
 namespace swarmanoid
@@ -144,6 +145,10 @@ void Lockstep::Arrived(std::size_t part, std::uint64_t tick)
   }
   catch (const std::exception& error)
   {
+    const bool complete = dynamic_cast<const ActivityError*>(&error) != nullptr;
+    NoteEnd(EndReason::kFailed, gate_.Tick(),
+            complete ? error.what() : fmt::format("space server failed at tick {}: {}", gate_.Tick(), error.what()),
+            complete);
     failure_ = error.what();
     stopped_();
   }

@@ -75,19 +75,30 @@ int ServerProgram::Run()
   try
   {
     session_.Open();
-    Gather();
+    Collect();
     RunTicks();
     Close();
   }
   catch (const std::exception& error)
   {
-    session_.SayBye(lockstep_.Tick(), error.what());
+    const bool complete = dynamic_cast<const ActivityError*>(&error) != nullptr;
+    const bool interrupted = Interrupted() && reason_ == EndReason::kFailed;
+    NoteEnd(interrupted ? EndReason::kInterrupted : reason_, lockstep_.Tick(),
+            complete ? error.what() : fmt::format("space server failed at tick {}: {}", lockstep_.Tick(), error.what()),
+            complete);
+    session_.Leave(lockstep_.Tick(), error.what());
     fmt::print(stderr, "space_server: {}\n", error.what());
     status_.Say(fmt::format("error {}", error.what()));
     session_.LeaveDirectory();
-    EndAtOnce(Interrupted() ? kExitInterrupted : kExitProcessFailed);
+    EndAtOnce(interrupted ? kExitInterrupted : reason_ == EndReason::kOthers ? kExitOthersFailed : kExitProcessFailed);
   }
-  if (Interrupted()) return kExitInterrupted;
+  if (Interrupted())
+  {
+    NoteEnd(EndReason::kInterrupted, lockstep_.Tick(),
+            fmt::format("space server was asked by a signal to end the run at tick {}", lockstep_.Tick()));
+    return kExitInterrupted;
+  }
+  NoteEnd(EndReason::kDone, lockstep_.Tick(), "");
   return server_.HasFailed() ? kExitExperimentFailed : kExitDone;
 }
 
@@ -140,12 +151,17 @@ void ServerProgram::Sleep(Clock::time_point until)
 
 void ServerProgram::CheckFailures()
 {
-  if (const auto failure = session_.Failure()) throw BusError(*failure);
   if (const auto failure = lockstep_.Failure()) throw BusError(*failure);
+  if (const auto failure = session_.Failure())
+  {
+    reason_ = EndReason::kOthers;
+    throw BusError(*failure);
+  }
   if (!BusIsBroken()) return;
   if (!broken_since_) broken_since_ = Clock::now();
-  if (Clock::now() - *broken_since_ > kBrokenTime)
-    throw BusError("a process died, or was stopped, while it held shared memory of the run");
+  if (Clock::now() - *broken_since_ <= kBrokenTime) return;
+  reason_ = EndReason::kOthers;
+  throw BusError("a process died, or was stopped, while it held shared memory of the run");
 }
 
 void ServerProgram::Say(const std::string& text) const
@@ -153,7 +169,7 @@ void ServerProgram::Say(const std::string& text) const
   if (!status_.IsOpen()) fmt::print(stderr, "space server: {}\n", text);
 }
 
-void ServerProgram::Gather()
+void ServerProgram::Collect()
 {
   const auto start = Clock::now();
   std::string said;
@@ -240,7 +256,7 @@ void ServerProgram::Watch()
   if (now - since_ >= kStallTime && now - since_ >= stall_said_ + 1s)
   {
     stall_said_ = now - since_;
-    const std::string who = Culprits(tick);
+    const std::string who = LateNames(tick);
     status_.Say(fmt::format("stalled {} {:.0f}", who, Seconds(stall_said_)));
     Say(fmt::format("tick {}: waiting for {} since {:.0f} s", tick, who, Seconds(stall_said_)));
   }
@@ -251,7 +267,7 @@ void ServerProgram::Watch()
     status_.Say(fmt::format("tick {} {} {:.2f}", tick, experiment_.max_clock, pace_.RealTimeFactor()));
 }
 
-std::string ServerProgram::Culprits(std::uint64_t tick) const
+std::string ServerProgram::LateNames(std::uint64_t tick) const
 {
   std::vector<std::string> names;
   for (const LateProcess& late : LateProcesses(session_, lockstep_.Missing(), tick))
@@ -312,7 +328,7 @@ void ServerProgram::Close()
   TellAudience();
   auto said = Clock::now();
   repeat_after_ = kFirstRepeat;
-  while (!session_.AllSaidBye())
+  while (!session_.AllLeft())
   {
     CheckFailures();
     Sleep(Clock::now() + 10ms);
@@ -324,7 +340,7 @@ void ServerProgram::Close()
   CheckFailures();
   FinishCheckpoints();
   lockstep_.WithServer([](SpaceServer& server) { server.Destroy(); });
-  session_.SayBye(result.ticks, "");
+  session_.Leave(result.ticks, "");
   const double wall = Seconds(end_ - start_);
   const double factor =
       wall > 0 ? static_cast<double>(result.ticks - first_tick_) * experiment_.TickSeconds() / wall : 0;

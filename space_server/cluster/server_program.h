@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "common/activity/failure_report.h"
 #include "common/bus/replica.h"
 #include "common/bus/server_session.h"
 #include "common/bus/status_channel.h"
@@ -69,18 +70,18 @@ private:
   void CheckFailures();
   void Say(const std::string& text) const;
   // Until all processes of the run are there.
-  void Gather();
+  void Collect();
   void RunTicks();
   void SayState();
   // Progress, late answers, stalls.
   void Watch();
   // Whom the run waits for: those whose answer is missing, or those whom they in turn wait for.
-  std::string Culprits(std::uint64_t tick) const;
+  std::string LateNames(std::uint64_t tick) const;
   RunStatus::Phase Phase() const;
   // Attached visualisers see the whole state now and then, and how the run goes.
   void TellAudience();
   RunStatus Status(RunStatus::Phase phase, Clock::time_point now);
-  // The last state is out: all draw it, close their files and say good-bye.
+  // The last state is out: all draw it, close their files and leave.
   void Close();
   // All parts have been sent; the last of them may still be on their way through the threads of the bus.
   void FinishCheckpoints();
@@ -112,6 +113,7 @@ private:
   bool started_ = false;
   bool told_end_ = false;
   std::optional<Clock::time_point> broken_since_;
+  EndReason reason_ = EndReason::kFailed;  // why the run ends before its end
   SpaceSnapshot snapshot_;
 };
 

@@ -10,7 +10,7 @@ COMMON = [
     ["common/math"],
     ["common/configuration"],
     ["common/plugins"],
-    ["common/logging", "common/serialisation"],
+    ["common/logging", "common/serialisation", "common/activity"],
     ["common/control_interface"],
     ["common/experiment"],
     ["common/space"],

@@ -1,4 +1,4 @@
-// StallWatch: notices that a process has been in one state for too long. Asked from time to time, by one thread.
+// StallDetector: notices that a process has been in one state for too long. Asked from time to time, by one thread.
 #pragma once
 
 #include <chrono>
@@ -9,7 +9,7 @@
 namespace swarmanoid
 {
 
-class StallWatch
+class StallDetector
 {
 public:
   // `state`: what the process waits for or does at `tick`, empty for nothing worth telling. Returned once it has been
