@@ -63,8 +63,8 @@ void RefuseUnknown(const Hosts& hosts, const std::string& role, const std::vecto
 class Planner
 {
 public:
-  Planner(const Experiment& experiment, const Hosts& hosts, const RunFolder& folder, int domain)
-      : experiment_(experiment), hosts_(hosts), folder_(folder), domain_(std::to_string(domain))
+  Planner(const Experiment& experiment, const Hosts& hosts, const RunFolder& folder, int domain, const Limits& limits)
+      : experiment_(experiment), hosts_(hosts), folder_(folder), domain_(std::to_string(domain)), limits_(limits)
   {
     const char* tunables = std::getenv("GLIBC_TUNABLES");
     tunables_ = ResultBitsTunables(tunables == nullptr ? "" : tunables);
@@ -86,7 +86,8 @@ public:
       command.arguments.emplace_back("3600");
     }
     command.arguments.insert(command.arguments.end(), hosts_.Options().begin(), hosts_.Options().end());
-    command.environment = {{"GLIBC_TUNABLES", tunables_}};
+    command.environment = EnvironmentOf(limits_);
+    command.environment.emplace_back("GLIBC_TUNABLES", tunables_);
     MemberPlan plan;
     plan.command = hosts_.Placed(command, hosts_.HostOf(role, which));
     plan.log_path = folder_.File(LogName(program, which));
@@ -110,6 +111,7 @@ private:
   const Hosts& hosts_;
   const RunFolder& folder_;
   std::string domain_;
+  Limits limits_;
   std::string tunables_;
   std::vector<MemberPlan> plans_;
 };
@@ -156,7 +158,7 @@ std::vector<MemberPlan> PlanCluster(const RunOptions& options, const Experiment&
   if (!options.no_visualisers) RefuseUnknown(hosts, "visualiser", visualisers);
 
   const std::vector<int> cores = CoresOf(options, experiment, domain);
-  Planner planner(experiment, hosts, folder, domain);
+  Planner planner(experiment, hosts, folder, domain, options.limits);
   MemberPlan& server =
       planner.Add("space server", "space_server", "space_server", "", ServerArguments(options, assignment, folder));
   server.output = MemberPlan::kStatus;

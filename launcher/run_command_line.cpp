@@ -43,6 +43,12 @@ void AddRunOptions(CLI::App& app, RunOptions& options)
   app.add_option("--restore", options.restore_file, "Go on from a checkpoint of the same experiment and seed")
       ->check(CLI::ExistingFile);
   app.add_flag("--quiet", options.quiet, "Show no progress");
+  app.add_option("--step-timeout", options.limits.step_s,
+                 "Seconds that one step of a controller, engine, functions, device or renderer may take; 0: any time")
+      ->check(CLI::Range(0.0, 1e6));
+  app.add_option("--memory-limit", options.limits.memory_bytes,
+                 "Memory that each process may take, such as 2GiB (default: nine tenths of what this machine has)")
+      ->transform(CLI::AsSizeValue(false));
 }
 
 LoadOptions ChangesOf(const RunOptions& options)

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "common/activity/limits.h"
+
 namespace swarmanoid
 {
 
@@ -38,6 +40,7 @@ struct RunOptions
   std::uint64_t checkpoint_every = 0;  // ticks; 0: none
   std::string restore_file;            // empty: from the start
   bool quiet = false;
+  Limits limits = LimitsOfEnvironment();
   Placement placement = Placement::kAuto;
 };
 

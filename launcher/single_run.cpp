@@ -8,8 +8,7 @@
 #include <csignal>
 
 #include "common/activity/failure_report.h"
-#include "common/activity/memory_limit.h"
-#include "common/activity/step_watch.h"
+#include "common/activity/limits.h"
 #include "launcher/exit_codes.h"
 #include "launcher/processes/progress_display.h"
 #include "launcher/usage_error.h"
@@ -47,7 +46,11 @@ RunResult RunHere(const RunOptions& options, const Experiment& experiment, const
 
   CatchFirstInterrupt();
   ReportDeaths("swarmanoid");
-  LimitMemory(0);
+  std::function<void(const std::string&, double)> stalled;
+  if (!options.quiet)
+    stalled = [](const std::string& activity, double seconds)
+    { fmt::print(stderr, "waiting since {} for {}\n", DurationText(seconds), activity); };
+  ApplyLimits(options.limits, stalled);
   ProgressDisplay display(ProgressDisplay::StyleFor(STDERR_FILENO, options.quiet), STDERR_FILENO);
   const Clock::time_point start = Clock::now();
 
@@ -62,11 +65,6 @@ RunResult RunHere(const RunOptions& options, const Experiment& experiment, const
   run.checkpoint_every = options.checkpoint_every;
   run.restore_file = options.restore_file;
   run.stop = &stop_asked;
-  StepWatch::Settings watching;
-  if (!options.quiet)
-    watching.stalled = [](const std::string& activity, double seconds)
-    { fmt::print(stderr, "waiting since {} for {}\n", DurationText(seconds), activity); };
-  const StepWatch step_watch(watching);
   run.watch = watch;
   run.progress = [&](std::uint64_t tick)
   {

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "common/activity/failure_report.h"
+#include "common/activity/limits.h"
 #include "common/configuration/configuration_tree.h"
 
 namespace swarmanoid
@@ -57,6 +58,7 @@ int ParseCommandLine(CLI::App& app, int argc, char** argv)
 int RunProgram(const std::string& program, int (*run)(int argc, char** argv), int argc, char** argv)
 {
   ReportDeaths(program);
+  ApplyLimits(LimitsOfEnvironment());
   try
   {
     return run(argc, argv);

@@ -108,7 +108,7 @@ void WorkerSession::CheckOthers()
   if (Interrupted())
   {
     reason_ = EndReason::kInterrupted;
-    throw BusError("interrupted");
+    throw BusError("interrupted by a signal");
   }
   // Whatever is thrown below, it is not this process that failed.
   const EndReason before = std::exchange(reason_, EndReason::kOthers);

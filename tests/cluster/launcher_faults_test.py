@@ -94,7 +94,7 @@ class Kills(LauncherTest):
                 self.wait_for_tick("hashes", 50, run)
                 os.kill(pid, signal.SIGTERM)
                 self.assertEqual(run.wait(), 4, run.stderr)
-                self.assertRegex(run.stderr.splitlines()[0], rf"^{NAMES[program]} failed at tick \d+: interrupted; its log is ")
+                self.assertRegex(run.stderr.splitlines()[0], rf"^{NAMES[program]} failed at tick \d+: interrupted by a signal; its log is ")
 
 
 class Stalls(LauncherTest):

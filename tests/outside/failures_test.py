@@ -1,10 +1,8 @@
 """Whatever the code of a user does, the run ends with exit code 4, and the first line names whose code it was and the tick."""
-import contextlib
 import os
 import pathlib
 import re
 import resource
-import shutil
 import signal
 import subprocess
 import time
@@ -117,6 +115,19 @@ class Failures(OutsideTest):
                 run.send_signal(signal.SIGINT)
                 run.communicate(timeout=30)
                 self.assertEqual(run.returncode, 130)
+
+
+    def test_a_step_that_takes_too_long_ends_the_run(self):
+        for way, options in WAYS.items():
+            with self.subTest(way):
+                self.assertRegex(self.fail("controller", "loop", "--step-timeout", "0.5", *options),
+                                 "^" + re.escape(ROBOT) + r" did not return within 0.5 s \(--step-timeout\)")
+
+    def test_a_memory_limit_is_told(self):
+        for way, options in WAYS.items():
+            with self.subTest(way):
+                self.assertRegex(self.fail("controller", "memory", "--memory-limit", "640MiB", *options),
+                                 "^" + re.escape(ROBOT) + r" failed: no memory is left: it may take 640 MiB")
 
 
 class Surroundings(OutsideTest):
