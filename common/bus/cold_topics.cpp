@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "common/bus/cold_types.h"
 #include "common/bus/participant.h"
 
@@ -7,11 +9,20 @@ namespace swarmanoid
 namespace
 {
 
+constexpr std::uint32_t kFirstRoom = 1024;  // bytes; grows with the messages
+
 template <class Message>
 dds::Topic* ColdTopic(Bus& bus)
 {
   using Traits = ColdTraits<Message>;
-  return bus.Internals().TopicOf(Traits::kTopic, [] { return dds::TypeSupport(new typename Traits::Support()); });
+  const auto make_type = []
+  {
+    auto* type = new typename Traits::Support();
+    // Room is made for a message of the largest size otherwise: gigabytes for the insides of robots.
+    type->m_typeSize = std::min<std::uint32_t>(type->m_typeSize, kFirstRoom);
+    return dds::TypeSupport(type);
+  };
+  return bus.Internals().TopicOf(Traits::kTopic, make_type);
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <new>
 #include <utility>
 
+#include "common/activity/memory_limit.h"
 #include "common/bus/cluster_options.h"
 #include "common/configuration/configuration_tree.h"
 
@@ -257,16 +259,17 @@ void WorkerSession::WaitUntilDone(std::chrono::milliseconds period,
 void WorkerSession::ReportFailure(const std::exception& error)
 {
   const bool complete = dynamic_cast<const ActivityError*>(&error) != nullptr;
+  const std::string text =
+      dynamic_cast<const std::bad_alloc*>(&error) != nullptr ? OutOfMemoryText() : std::string(error.what());
   if (dynamic_cast<const ConfigurationError*>(&error) != nullptr)
-    NoteEnd(EndReason::kInvalid, tick_, error.what(), true);
+    NoteEnd(EndReason::kInvalid, tick_, text, true);
   else
-    NoteEnd(reason_, tick_,
-            complete ? error.what() : fmt::format("{} failed at tick {}: {}", name_, tick_, error.what()), complete);
+    NoteEnd(reason_, tick_, complete ? text : fmt::format("{} failed at tick {}: {}", name_, tick_, text), complete);
   {
     const std::lock_guard lock(mutex_);
     if (server_gone_ || server_said_bye_) return;
   }
-  bye_->Write({world_.run, tick_, name_, "", error.what()});
+  bye_->Write({world_.run, tick_, name_, "", text});
   bye_->WaitUntilRead(kByeTime_s);
 }
 
