@@ -65,11 +65,13 @@ int RunProgram(const std::string& program, int (*run)(int argc, char** argv), in
   }
   catch (const ConfigurationError& error)
   {
+    NoteEnd(EndReason::kInvalid, 0, error.what(), true);
     fmt::print(stderr, "{}\n", error.what());
     return kExitInvalidFile;
   }
   catch (const std::exception& error)
   {
+    NoteEnd(Interrupted() ? EndReason::kInterrupted : EndReason::kFailed, 0, error.what(), true);
     fmt::print(stderr, "{}: {}\n", program, error.what());
     return Interrupted() ? kExitInterrupted : kExitProcessFailed;
   }
