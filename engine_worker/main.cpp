@@ -1,6 +1,4 @@
 // The program that runs one physics engine of an experiment: the engine worker's role at the bus.
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
 
 #include "common/bus/cluster_options.h"
@@ -8,9 +6,9 @@
 #include "common/bus/saved_states.h"
 #include "common/bus/tick_inputs.h"
 #include "common/bus/worker_session.h"
-#include "controller_host/controller_host.h"
+#include "common/program/program.h"
 #include "engine_worker/engine_worker.h"
-#include "visualiser/render.h"
+#include "roles/builtins.h"
 
 namespace swarmanoid
 {
@@ -119,32 +117,14 @@ std::size_t FindEngine(const Experiment& experiment, const std::string& id)
                                        known.empty() ? "none" : Joined(known)));
 }
 
-int Run(int argc, char** argv)
+int Run(const WorkerSettings& settings, const BusOptions& bus)
 {
-  CLI::App app{"Runs one physics engine of a Swarmanoid experiment."};
-  app.footer(
-      "Examples:\n"
-      "  engine_worker --engine ground                              the experiment that runs on this machine\n"
-      "  engine_worker --engine ground --experiment diffusion_10 --domain 7\n"
-      "  engine_worker --engine ground --interface eth0             space server on another machine");
-  std::string engine;
-  std::string experiment;
-  BusOptions bus;
-  app.add_option("--engine", engine, "the engine's id in the experiment file")->required();
-  app.add_option("--experiment", experiment, "name of the experiment; default: the first one that is heard");
-  AddBusOptions(app, bus);
-  if (const int code = ParseCommandLine(app, argc, argv); code >= 0) return code;
-
-  CatchInterrupts();
-  RegisterBuiltinEngines();
-  RegisterBuiltinDevices();
-  RegisterBuiltinRenderers();
-  WorkerSession session(bus, experiment, fmt::format("engine '{}'", engine));
+  WorkerSession session(bus, settings.experiment, fmt::format("engine '{}'", settings.engine));
   return session.Work(
       [&]
       {
         Replica replica(session.World(), false);
-        EngineNode node(session, replica, FindEngine(*replica.experiment, engine));
+        EngineNode node(session, replica, FindEngine(*replica.experiment, settings.engine));
         node.MeetOthers();
         session.SayReady();
         session.Wait(std::chrono::milliseconds(500), [&] { return node.Stall(); });
@@ -155,4 +135,25 @@ int Run(int argc, char** argv)
 }  // namespace
 }  // namespace swarmanoid
 
-int main(int argc, char** argv) { return swarmanoid::RunProgram("engine_worker", swarmanoid::Run, argc, argv); }
+int main(int count, char** arguments)
+{
+  using namespace swarmanoid;
+
+  WorkerSettings settings;
+  BusOptions bus;
+  const ProgramDescription program{
+      "engine_worker", "Runs one physics engine of a Swarmanoid experiment.",
+      "Examples:\n"
+      "  engine_worker --engine ground                              the experiment that runs on this machine\n"
+      "  engine_worker --engine ground --experiment diffusion_10 --domain 7\n"
+      "  engine_worker --engine ground --interface eth0             space server on another machine",
+      RegisterBuiltins};
+  return RunProgram(
+      program, count, arguments,
+      [&](CLI::App& app)
+      {
+        AddOptions(app, EngineOptionTable(settings));
+        AddOptions(app, BusOptionTable(bus));
+      },
+      [&] { return Run(settings, bus); });
+}

@@ -8,9 +8,9 @@
 
 #include "common/bus/domain.h"
 #include "common/bus/run_directory.h"
+#include "common/program/exit_codes.h"
 #include "common/space/assignment.h"
 #include "launcher/cluster_plan.h"
-#include "launcher/exit_codes.h"
 #include "launcher/processes/supervisor.h"
 
 namespace swarmanoid
@@ -30,19 +30,19 @@ RunResult ResultOf(const ClusterOutcome& outcome)
   switch (outcome.kind)
   {
     case ClusterOutcome::kFinished:
-      result.exit_code = kDone;
+      result.exit_code = kExitDone;
       break;
     case ClusterOutcome::kUnsuccessful:
-      result.exit_code = kExperimentFailed;
+      result.exit_code = kExitExperimentFailed;
       break;
     case ClusterOutcome::kInterrupted:
-      result.exit_code = kInterruptedByUser;
+      result.exit_code = kExitInterrupted;
       break;
     case ClusterOutcome::kFailed:
-      result.exit_code = kProcessFailed;
+      result.exit_code = kExitProcessFailed;
       break;
     case ClusterOutcome::kInvalid:
-      result.exit_code = kInvalid;
+      result.exit_code = kExitInvalidFile;
       break;
   }
   result.failure = outcome.reason;
@@ -60,7 +60,7 @@ RunResult ResultOf(const ClusterOutcome& outcome)
 
 }  // namespace
 
-RunResult RunCluster(const RunOptions& options, const Experiment& experiment, const RunFolder& folder,
+RunResult RunCluster(const RunSettings& options, const Experiment& experiment, const RunFolder& folder,
                      Manifest& manifest)
 {
   Hosts hosts = options.hosts_file.empty() ? Hosts() : Hosts::FromFile(options.hosts_file);

@@ -7,7 +7,7 @@ namespace swarmanoid
 {
 
 // Adds the domain and the processes to the manifest, and writes it. Throws UsageError.
-RunResult RunCluster(const RunOptions& options, const Experiment& experiment, const RunFolder& folder,
+RunResult RunCluster(const RunSettings& options, const Experiment& experiment, const RunFolder& folder,
                      Manifest& manifest);
 
 }  // namespace swarmanoid

@@ -9,8 +9,8 @@
 #include "common/bus/run_directory.h"
 #include "common/plugins/catalogue.h"
 #include "common/plugins/library.h"
+#include "common/program/exit_codes.h"
 #include "launcher/commands.h"
-#include "launcher/exit_codes.h"
 
 namespace swarmanoid
 {
@@ -56,7 +56,7 @@ int ListPlugins(const std::vector<std::string>& libraries)
   for (const PluginKind kind : {PluginKind::kEngine, PluginKind::kSensor, PluginKind::kActuator, PluginKind::kRenderer,
                                 PluginKind::kExperimentFunctions, PluginKind::kController})
     PrintPlugins(kind);
-  return kDone;
+  return kExitDone;
 }
 
 int ListExperiments()
@@ -65,7 +65,7 @@ int ListExperiments()
   if (runs.empty()) fmt::print("no experiment runs on this machine\n");
   for (const LocalRun& run : runs)
     fmt::print("{:<32} domain {:<4} space server {}\n", run.experiment, run.domain, run.server);
-  return kDone;
+  return kExitDone;
 }
 
 }  // namespace

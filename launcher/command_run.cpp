@@ -1,13 +1,12 @@
 // `swarmanoid run`: as a cluster or in this process.
 #include <CLI/CLI.hpp>
-#include <map>
 #include <memory>
 #include <string>
 
+#include "common/program/exit_codes.h"
 #include "launcher/cluster_run.h"
 #include "launcher/commands.h"
 #include "launcher/result_bits.h"
-#include "launcher/run_command_line.h"
 #include "launcher/run_experiment.h"
 
 namespace swarmanoid
@@ -15,7 +14,7 @@ namespace swarmanoid
 namespace
 {
 
-void RefuseContradictions(const RunOptions& options)
+void RefuseContradictions(const RunSettings& options)
 {
   if (!options.single_process) return;
   const std::string why = "; leave out --single-process to run a cluster";
@@ -25,7 +24,7 @@ void RefuseContradictions(const RunOptions& options)
   if (options.domain) throw UsageError("--domain: a single process uses no DDS" + why);
 }
 
-int Run(const RunOptions& options)
+int Run(const RunSettings& options)
 {
   RefuseContradictions(options);
   // The programs of a cluster get their environment from us.
@@ -38,40 +37,19 @@ int Run(const RunOptions& options)
                        });
 }
 
-void AddClusterOptions(CLI::App& verb, RunOptions& options)
-{
-  const std::map<std::string, Placement> placements{
-      {"auto", Placement::kAuto}, {"one-core", Placement::kOneCore}, {"spread", Placement::kSpread}};
-
-  verb.add_flag("--single-process", options.single_process, "Run everything in this process, without DDS");
-  verb.add_option("--controller-hosts", options.controller_hosts, "Processes that share the robots' controllers")
-      ->check(CLI::Range(1U, 1000U))
-      ->capture_default_str();
-  verb.add_option("--engine-host", options.engine_hosts, "ENGINE=HOST: run an engine on another machine")
-      ->expected(1)
-      ->take_all();
-  verb.add_option("--hosts", options.hosts_file,
-                  "File that says which process runs on which machine (docs/command.md)");
-  verb.add_option("--domain", options.domain, "DDS domain (default: a free one)")->check(CLI::Range(0, 232));
-  verb.add_option("--placement", options.placement,
-                  "Processor cores of the processes: auto (one core where the experiment is small), one-core or spread")
-      ->transform(CLI::CheckedTransformer(placements).description(""));
-}
-
 }  // namespace
 
 void AddRunCommand(CLI::App& app, int& exit_code)
 {
-  auto options = std::make_shared<RunOptions>();
+  auto options = std::make_shared<RunSettings>();
   CLI::App* verb = app.add_subcommand("run", "Run an experiment");
-  AddRunOptions(*verb, *options);
-  AddClusterOptions(*verb, *options);
+  AddOptions(*verb, RunOptionTable(*options));
   verb->footer(
-      "The last line on standard output is\n"
-      "  finished: <ticks> ticks, <entities> entities, hash <16 hex digits>, <wall> s, <factor>x real time\n"
-      "Ctrl-C once ends the run after the current tick and keeps all output, twice kills it.\n"
-      "Exit codes: 0 done, 1 the experiment failed by its own measure, 2 usage, 3 the experiment file is invalid,\n"
-      "4 a process failed, 5 the hash differs, 130 interrupted.\n"
+      std::string(
+          "The last line on standard output is\n"
+          "  finished: <ticks> ticks, <entities> entities, hash <16 hex digits>, <wall> s, <factor>x real time\n"
+          "Ctrl-C once ends the run after the current tick and keeps all output, twice kills it.\n") +
+      kExitCodesText +
       "Examples:\n"
       "  swarmanoid run configs/diffusion_10.xml\n"
       "  swarmanoid run configs/diffusion_10.xml --single-process --ticks 1000 --seed 7\n"

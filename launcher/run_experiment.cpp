@@ -5,12 +5,11 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "common/program/exit_codes.h"
+#include "common/program/usage_error.h"
 #include "common/space/checkpoint.h"
-#include "launcher/exit_codes.h"
 #include "launcher/load.h"
 #include "launcher/result_bits.h"
-#include "launcher/run_command_line.h"
-#include "launcher/usage_error.h"
 #include "space_server/event_log.h"
 
 namespace swarmanoid
@@ -18,11 +17,11 @@ namespace swarmanoid
 namespace
 {
 
-Manifest StartOfManifest(const RunOptions& options, const Experiment& experiment)
+Manifest StartOfManifest(const RunSettings& options, const Experiment& experiment)
 {
   Manifest manifest;
   manifest.experiment = experiment.name;
-  manifest.file = std::filesystem::absolute(options.experiment).lexically_normal();
+  manifest.file = std::filesystem::absolute(options.file).lexically_normal();
   manifest.experiment_hash = TextHash(experiment.effective_xml);
   manifest.seed = experiment.seed;
   manifest.command = OriginalCommand();
@@ -31,7 +30,7 @@ Manifest StartOfManifest(const RunOptions& options, const Experiment& experiment
 }
 
 // Before the folder of the run is made and processes are started.
-void RefuseBadCheckpoints(const RunOptions& options, const Experiment& experiment)
+void RefuseBadCheckpoints(const RunSettings& options, const Experiment& experiment)
 {
   try
   {
@@ -48,15 +47,15 @@ void RefuseBadCheckpoints(const RunOptions& options, const Experiment& experimen
   }
 }
 
-int Conclude(const RunOptions& options, const RunResult& result, const RunFolder& folder, Manifest& manifest)
+int Conclude(const RunSettings& options, const RunResult& result, const RunFolder& folder, Manifest& manifest)
 {
   int exit_code = result.exit_code;
-  if (result.summary && !options.expected_hash.empty() && exit_code == kDone &&
+  if (result.summary && !options.expected_hash.empty() && exit_code == kExitDone &&
       result.summary->hash != std::stoull(options.expected_hash, nullptr, 16))
   {
     fmt::print(stderr, "the hash differs: expected {:0>16}, got {:016x}\n", options.expected_hash,
                result.summary->hash);
-    exit_code = kHashDiffers;
+    exit_code = kExitHashDiffers;
   }
 
   manifest.ended = TimeStamp();
@@ -76,7 +75,7 @@ int Conclude(const RunOptions& options, const RunResult& result, const RunFolder
   catch (const RunFolderError& error)
   {
     fmt::print(stderr, "swarmanoid: {}\n", error.what());
-    if (exit_code == kDone) exit_code = kProcessFailed;
+    if (exit_code == kExitDone) exit_code = kExitProcessFailed;
   }
   if (result.summary) fmt::print("{}\n", FinishedLine(*result.summary));
   return exit_code;
@@ -99,17 +98,17 @@ bool EventsAreGood(const std::string& file, const Experiment& experiment)
 
 }  // namespace
 
-int RunExperiment(const RunOptions& options,
+int RunExperiment(const RunSettings& options,
                   const std::function<RunResult(const Experiment&, const RunFolder&, Manifest&)>& execute)
 {
-  const auto experiment = LoadOrComplain(options.experiment, ChangesOf(options));
-  if (!experiment) return kInvalid;
+  const auto experiment = LoadOrComplain(options.file, ChangesOf(options));
+  if (!experiment) return kExitInvalidFile;
   RefuseBadCheckpoints(options, *experiment);
-  if (!options.events.empty() && !EventsAreGood(options.events, *experiment)) return kInvalid;
+  if (!options.events.empty() && !EventsAreGood(options.events, *experiment)) return kExitInvalidFile;
 
   try
   {
-    const RunFolder folder(options.output, experiment->name);
+    const RunFolder folder(options.output_folder, experiment->name);
     Manifest manifest = StartOfManifest(options, *experiment);
     folder.Write("experiment.xml", experiment->effective_xml);
     folder.Write("manifest.json", manifest.Text());

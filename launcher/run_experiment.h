@@ -11,7 +11,7 @@ namespace swarmanoid
 
 // Runs an experiment and tells the user how it went; `execute` may add to the manifest. Returns the exit code. Throws
 // UsageError.
-int RunExperiment(const RunOptions& options,
+int RunExperiment(const RunSettings& options,
                   const std::function<RunResult(const Experiment&, const RunFolder&, Manifest&)>& execute);
 
 }  // namespace swarmanoid

@@ -8,7 +8,6 @@
 //   simulator.Finish();
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -16,41 +15,12 @@
 #include <vector>
 
 #include "common/experiment/experiment.h"
+#include "common/run/run_settings.h"
+#include "common/run/run_summary.h"
 #include "common/space/space.h"
 
 namespace swarmanoid
 {
-
-struct SimulatorOptions
-{
-  std::string output_folder = ".";  // what visualisations and experiment functions write
-  std::string hash_log;             // file for one hash a tick; empty: none
-  double real_time_factor = 0;      // 0: as fast as possible
-  // Until a user resumes through a visualisation: the constructor waits for it, or throws UsageError where there is
-  // none.
-  bool paused = false;
-  std::string event_log;  // file for what users ask through visualisations; empty: none
-  std::string events;     // such a file of an earlier run, whose moves and stops are repeated
-  bool visualisations = true;
-  // A checkpoint is written to the output folder every so many ticks: a multiple of the experiment's canonical_period.
-  // 0: none.
-  std::uint64_t checkpoint_every = 0;
-  // The checkpoint to go on from; empty: start at tick 0.
-  std::string restore_file;
-  // Set from a signal handler: the run stops at the end of the tick.
-  const std::atomic<bool>* stop = nullptr;
-};
-
-struct RunSummary
-{
-  std::uint64_t ticks = 0;
-  std::size_t entities = 0;
-  std::uint64_t hash = 0;  // of the final state
-  double wall_s = 0;       // from the first tick on
-  double real_time_factor = 0;
-  bool interrupted = false;
-  bool failed = false;  // the experiment functions said so
-};
 
 class CSimulator
 {
@@ -82,9 +52,5 @@ private:
 // ConfigurationError with all mistakes of the file, one a line.
 std::unique_ptr<Experiment> ReadExperiment(const std::string& file,
                                            const std::vector<std::pair<std::string, std::string>>& settings = {});
-
-// The last line of every run: "finished: <ticks> ticks, <entities> entities, hash <16 hex digits>, <wall> s, <factor>x
-// real time".
-std::string FinishedLine(const RunSummary& summary);
 
 }  // namespace swarmanoid

@@ -19,6 +19,8 @@
 
 #include <fmt/format.h>
 
+#include "common/bus/cluster_options.h"
+
 namespace swarmanoid
 {
 
@@ -116,12 +118,11 @@ rtps::Locator_t LocatorOf(const std::string& host, unsigned port)
 // Discovery through the space server: its participant bears a prefix that follows from the domain.
 void UseDiscoveryServer(const BusOptions& options, rtps::BuiltinAttributes& builtin, rtps::GuidPrefix_t& own_prefix)
 {
-  const std::size_t colon = options.discovery_server.rfind(':');
-  const int port = colon == std::string::npos ? 0 : std::atoi(options.discovery_server.c_str() + colon + 1);
-  if (port <= 0 || port > 65535)
+  const auto address = ParseServerAddress(options.discovery_server);
+  if (!address)
     throw BusError(
         fmt::format("'{}' is not the address of a discovery server; write ADDRESS:PORT", options.discovery_server));
-  const rtps::Locator_t locator = LocatorOf(options.discovery_server.substr(0, colon), static_cast<unsigned>(port));
+  const rtps::Locator_t locator = LocatorOf(address->first, address->second);
   const std::string prefix = fmt::format("53.57.41.52.4d.41.4e.4f.49.44.{:02x}.01", options.domain);
 
   builtin.discovery_config.discoveryServer_client_syncperiod = Seconds(0.05);

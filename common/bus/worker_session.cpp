@@ -5,7 +5,8 @@
 #include <csignal>
 #include <cstdio>
 
-#include "common/bus/cluster_options.h"
+#include "common/program/exit_codes.h"
+#include "common/program/interrupts.h"
 
 namespace swarmanoid
 {
@@ -20,9 +21,12 @@ constexpr auto kPatience = 1s;      // before what is waited for is said
 constexpr auto kBrokenTime = 5s;    // for the lease of a dead process to end
 constexpr double kByeTime_s = 1.0;  // for the last message to arrive
 
+bool IsAlive(pid_t process) { return kill(process, 0) == 0 || errno == EPERM; }
+
 }  // namespace
 
-WorkerSession::WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name)
+WorkerSession::WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name,
+                             std::optional<int> server)
     : name_(name), bus_(options, name), domain_(options.domain)
 {
   bus_.OnProcessGone(
@@ -45,9 +49,12 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
                                                            changed_.notify_all();
                                                          });
   WaitUntil(
-      [this]
+      [&]
       {
         const std::lock_guard lock(mutex_);
+        if (!have_world_ && server && !IsAlive(*server))
+          throw BusError(
+              fmt::format("experiment '{}' has ended: its space server, process {}, has gone", experiment, *server));
         return have_world_;
       },
       [&]
@@ -104,7 +111,7 @@ void WorkerSession::CheckOthers()
 
 bool WorkerSession::ServerIsOnThisMachine() const
 {
-  return world_.host == MachineName() && (kill(static_cast<pid_t>(world_.pid), 0) == 0 || errno == EPERM);
+  return world_.host == MachineName() && IsAlive(static_cast<pid_t>(world_.pid));
 }
 
 void WorkerSession::Say(const std::string& text) const { fmt::print(stderr, "{}: {}\n", name_, text); }

@@ -22,7 +22,9 @@ class WorkerSession
 public:
   // Waits for the space server of `experiment` (empty: of the first one that is heard), saying so. `name` as in
   // HelloMessage. Throws BusError where its protocol is another one, or when interrupted.
-  WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name);
+  // `server`: the process on this machine that is expected to be it; BusError where it ends before it is heard.
+  WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name,
+                std::optional<int> server = std::nullopt);
   ~WorkerSession();
 
   const WorldMessage& World() const { return world_; }

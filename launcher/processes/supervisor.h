@@ -8,19 +8,20 @@
 #include <string>
 #include <vector>
 
+#include "common/program/exit_codes.h"
+#include "common/run/server_status.h"
 #include "launcher/processes/cluster_member.h"
 #include "launcher/processes/interrupts.h"
 #include "launcher/processes/process.h"
 #include "launcher/processes/progress_display.h"
-#include "launcher/processes/server_status.h"
 
 namespace swarmanoid
 {
 
 // Exit codes of the programs: of the space server when the experiment failed by its own measure, and of any program
 // that finds the experiment file wrong.
-constexpr int kUnsuccessfulExperiment = 1;
-constexpr int kInvalidExperiment = 3;
+constexpr int kUnsuccessfulExperiment = kExitExperimentFailed;
+constexpr int kInvalidExperiment = kExitInvalidFile;
 
 struct ClusterOutcome
 {

@@ -1,8 +1,6 @@
 #include "space_server/cluster/lockstep.h"
 
-#include <fmt/format.h>
-#include <cerrno>
-#include <cstring>
+#include <algorithm>
 
 #include "common/bus/replica.h"
 
@@ -48,14 +46,9 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
       updates_(engines_),
       commands_(hosts_.size()),
       drawn_(visualisers_),
+      hash_log_(hash_log),
       states_(session.GetBus(), session.Scope(StateCapacity(server.Space()), 1))
 {
-  if (!hash_log.empty())
-  {
-    hash_log_ = std::fopen(hash_log.c_str(), "w");
-    if (hash_log_ == nullptr)
-      throw BusError(fmt::format("cannot write the hash log '{}': {}", hash_log, std::strerror(errno)));
-  }
   for (const EngineUpdate& update : updates_) updates_here_.push_back(&update);
   for (const ControlCommands& commands : commands_) commands_here_.push_back(&commands);
 
@@ -106,7 +99,6 @@ Lockstep::~Lockstep()
   drawn_in_.reset();
   commands_in_.reset();
   updates_in_.reset();
-  if (hash_log_ != nullptr) std::fclose(hash_log_);
 }
 
 bool Lockstep::AllMet() const
@@ -176,7 +168,7 @@ void Lockstep::Complete()
 void Lockstep::Send(bool repeated)
 {
   const SpaceState& state = server_.State();
-  if (hash_log_ != nullptr && !repeated) fmt::print(hash_log_, "{} {:016x}\n", state.tick, server_.Space().Hash());
+  if (hash_log_.IsOpen() && !repeated) hash_log_.Write(state.tick, server_.Space().Hash());
   if (checkpoint_every_ != 0 && !repeated && state.tick > first_tick_ && state.tick % checkpoint_every_ == 0)
     checkpoints_.Sending(server_);
   held_ = false;
@@ -237,6 +229,12 @@ std::optional<std::string> Lockstep::Failure() const
 {
   const std::lock_guard lock(mutex_);
   return failure_;
+}
+
+void Lockstep::CloseHashLog()
+{
+  const std::lock_guard lock(mutex_);
+  hash_log_.Close();
 }
 
 std::vector<std::string> Lockstep::Missing() const

@@ -3,7 +3,6 @@
 // where the main thread asks for it (pause, pace, commands). Used by the space_server program alone.
 #pragma once
 
-#include <cstdio>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -12,6 +11,7 @@
 
 #include "common/bus/server_session.h"
 #include "common/bus/tick_gate.h"
+#include "common/run/hash_log.h"
 #include "space_server/cluster/checkpoint_desk.h"
 #include "space_server/space_server.h"
 
@@ -45,6 +45,8 @@ public:
   // The name of the visualiser that asked for the end, if one did.
   std::optional<std::string> Terminator() const;
   std::optional<std::string> Failure() const;
+  // After the last state. Throws where lines of it are lost.
+  void CloseHashLog();
   // Those whose answer to the current tick is missing.
   std::vector<std::string> Missing() const;
   // Calls `use` with the server between two steps.
@@ -85,7 +87,7 @@ private:
   bool finished_ = false;
   std::optional<std::string> terminator_;
   std::optional<std::string> failure_;
-  std::FILE* hash_log_ = nullptr;
+  HashLog hash_log_;
   HotPublisher<SpaceState> states_;
   std::optional<HotSubscription<EngineUpdate>> updates_in_;
   std::optional<HotSubscription<ControlCommands>> commands_in_;

@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <random>
 
-#include "common/bus/cluster_options.h"
+#include "common/program/exit_codes.h"
+#include "common/program/interrupts.h"
+#include "common/run/run_summary.h"
+#include "common/serialisation/trial.h"
 #include "space_server/cluster/process_watch.h"
 
 namespace swarmanoid
@@ -20,13 +24,6 @@ constexpr auto kLastRepeat = 1s;
 constexpr auto kStallTime = 2s;
 constexpr auto kBrokenTime = 5s;  // for the lease of a dead process to end
 
-struct RunResult
-{
-  std::uint64_t ticks = 0;
-  std::size_t entities = 0;
-  std::uint64_t hash = 0;
-};
-
 double Seconds(std::chrono::steady_clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 std::uint64_t NewRun()
@@ -38,7 +35,7 @@ std::uint64_t NewRun()
 ControlDeskSetup DeskSetup(const ServerOptions& options, const Experiment& experiment)
 {
   ControlDeskSetup setup{options.paused, options.real_time_factor, {}, {}};
-  if (!options.output.empty()) setup.event_log = options.output + "/events.csv";
+  if (!options.output_folder.empty()) setup.event_log = options.output_folder + "/events.csv";
   if (!options.events.empty()) setup.repeated = ReadEvents(options.events, experiment);
   return setup;
 }
@@ -49,8 +46,8 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
     : options_(options),
       experiment_(experiment),
       status_(status),
-      assignment_(MakeAssignment(experiment, options.hosts)),
-      server_(experiment, assignment_, options.output.empty() ? "." : options.output),
+      assignment_(MakeAssignment(experiment, options.controller_hosts)),
+      server_(experiment, assignment_, options.output_folder.empty() ? "." : options.output_folder),
       session_(options.bus, World(), Expected(Visualisers()),
                {[this](const ControlRequestMessage& request)
                 {
@@ -63,9 +60,9 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
             [this](const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
             { session_.Reply(request, done, tick, text); }),
       pace_(experiment.TickSeconds()),
-      checkpoints_(session_, experiment, Expected({}), options.output.empty() ? "." : options.output,
+      checkpoints_(session_, experiment, Expected({}), options.output_folder.empty() ? "." : options.output_folder,
                    [this] { Wake(); }),
-      lockstep_(session_, server_, assignment_, !options.no_visualisers, options.hash_log, checkpoints_,
+      lockstep_(session_, server_, assignment_, options.visualisations, options.hash_log, checkpoints_,
                 [this] { Wake(); })
 {
 }
@@ -83,7 +80,7 @@ int ServerProgram::Run()
   {
     session_.SayBye(lockstep_.Tick(), error.what());
     fmt::print(stderr, "space_server: {}\n", error.what());
-    status_.Say(fmt::format("error {}", error.what()));
+    status_.Tell(ServerError{error.what()});
     session_.LeaveDirectory();
     EndAtOnce(Interrupted() ? kExitInterrupted : kExitProcessFailed);
   }
@@ -97,14 +94,9 @@ WorldMessage ServerProgram::World()
       DescribeWorld(server_.Space(), NewRun(), options_.file, static_cast<unsigned>(assignment_.hosts.size()));
   CheckCheckpointPeriod(options_.checkpoint_every, experiment_);
   world.checkpoint_every = options_.checkpoint_every;
-  if (options_.checkpoint_every != 0)
-  {
-    // What cannot be saved is said before the run, not in the midst of it.
-    ByteWriter scratch;
-    server_.SaveState(scratch);
-  }
-  if (options_.restore.empty()) return world;
-  const Checkpoint checkpoint = ReadCheckpoint(options_.restore, experiment_, assignment_.hosts.size());
+  if (options_.checkpoint_every != 0) TrySaving(server_);
+  if (options_.restore_file.empty()) return world;
+  const Checkpoint checkpoint = ReadCheckpoint(options_.restore_file, experiment_, assignment_.hosts.size());
   checkpoint.LoadPart(kServerPart, [&](ByteReader& state) { server_.LoadState(checkpoint.snapshot, state); });
   world.checkpoint = EncodeCheckpoint(checkpoint);
   return world;
@@ -112,7 +104,8 @@ WorldMessage ServerProgram::World()
 
 std::span<const RenderConfiguration> ServerProgram::Visualisers() const
 {
-  return options_.no_visualisers ? std::span<const RenderConfiguration>() : experiment_.visualisations;
+  return options_.visualisations ? std::span<const RenderConfiguration>(experiment_.visualisations)
+                                 : std::span<const RenderConfiguration>();
 }
 
 std::vector<std::string> ServerProgram::Expected(std::span<const RenderConfiguration> visualisers) const
@@ -168,7 +161,7 @@ void ServerProgram::Gather()
     if (text != said && !text.empty() && (Clock::now() - start > 300ms || !said.empty()))
     {
       Say(fmt::format("waiting for {} (experiment '{}', domain {}) …", text, experiment_.name, options_.bus.domain));
-      status_.Say("state waiting " + text);
+      status_.Tell(ServerState{ServerState::kWaiting, text});
       said = text;
     }
     // Endpoints of others are met without a word: look often while nobody is missing.
@@ -211,10 +204,10 @@ void ServerProgram::RunTicks()
 
 void ServerProgram::SayState()
 {
-  const std::string state = desk_.Paused() ? "state paused" : "state running";
-  if (state == said_state_) return;
-  said_state_ = state;
-  status_.Say(state);
+  const ServerState::Phase phase = desk_.Paused() ? ServerState::kPaused : ServerState::kRunning;
+  if (phase == said_phase_) return;
+  said_phase_ = phase;
+  status_.Tell(ServerState{phase, {}});
   Say(desk_.Paused() ? fmt::format("paused at tick {}", lockstep_.Tick()) : "running");
 }
 
@@ -241,14 +234,14 @@ void ServerProgram::Watch()
   {
     stall_said_ = now - since_;
     const std::string who = Culprits(tick);
-    status_.Say(fmt::format("stalled {} {:.0f}", who, Seconds(stall_said_)));
+    status_.Tell(ServerStall{who, std::round(Seconds(stall_said_))});
     Say(fmt::format("tick {}: waiting for {} since {:.0f} s", tick, who, Seconds(stall_said_)));
   }
   SayState();
   if (desk_.Paused() && held)
     pace_.Rest(tick, now);
   else if (pace_.Observe(tick, now))
-    status_.Say(fmt::format("tick {} {} {:.2f}", tick, experiment_.max_clock, pace_.RealTimeFactor()));
+    status_.Tell(ServerTick{tick, experiment_.max_clock, pace_.RealTimeFactor()});
 }
 
 std::string ServerProgram::Culprits(std::uint64_t tick) const
@@ -303,11 +296,15 @@ RunStatus ServerProgram::Status(RunStatus::Phase phase, Clock::time_point now)
 
 void ServerProgram::Close()
 {
-  RunResult result;
+  RunSummary result;
   lockstep_.WithServer(
-      [&](SpaceServer& server) {
-        result = {server.Space().GetTick(), server.Space().Size(), server.Space().Hash()};
+      [&](SpaceServer& server)
+      {
+        result.ticks = server.Space().GetTick();
+        result.entities = server.Space().Size();
+        result.hash = server.Space().Hash();
       });
+  lockstep_.CloseHashLog();
   desk_.Ended(result.ticks);
   TellAudience();
   auto said = Clock::now();
@@ -325,15 +322,11 @@ void ServerProgram::Close()
   FinishCheckpoints();
   lockstep_.WithServer([](SpaceServer& server) { server.Destroy(); });
   session_.SayBye(result.ticks, "");
-  const double wall = Seconds(end_ - start_);
-  const double factor =
-      wall > 0 ? static_cast<double>(result.ticks - first_tick_) * experiment_.TickSeconds() / wall : 0;
-  status_.Say(fmt::format("tick {} {} {:.2f}", result.ticks, experiment_.max_clock, factor));
-  status_.Say(
-      fmt::format("finished {} {} {:016x} {:.3f} {:.1f}", result.ticks, result.entities, result.hash, wall, factor));
-  if (!status_.IsOpen())
-    fmt::print("finished: {} ticks, {} entities, hash {:016x}, {:.3f} s, {:.1f}x real time\n", result.ticks,
-               result.entities, result.hash, wall, factor);
+  result.wall_s = Seconds(end_ - start_);
+  result.real_time_factor = RealTimeFactor(result.ticks - first_tick_, experiment_.TickSeconds(), result.wall_s);
+  status_.Tell(ServerTick{result.ticks, experiment_.max_clock, result.real_time_factor});
+  status_.Tell(ServerFinished{result.ticks, result.entities, result.hash, result.wall_s, result.real_time_factor});
+  if (!status_.IsOpen()) fmt::print("{}\n", FinishedLine(result));
 }
 
 void ServerProgram::FinishCheckpoints()

@@ -14,6 +14,7 @@
 #include "common/bus/replica.h"
 #include "common/bus/server_session.h"
 #include "common/bus/status_channel.h"
+#include "common/run/run_settings.h"
 #include "space_server/cluster/audience.h"
 #include "space_server/cluster/checkpoint_desk.h"
 #include "space_server/cluster/lockstep.h"
@@ -24,23 +25,8 @@
 namespace swarmanoid
 {
 
-struct ServerOptions
+struct ServerOptions : RunSettings
 {
-  std::string file;
-  std::vector<std::string> settings;
-  std::uint64_t seed = 0;
-  bool has_seed = false;
-  std::uint64_t ticks = 0;
-  bool has_ticks = false;
-  unsigned hosts = 1;
-  std::string output;
-  bool paused = false;
-  double real_time_factor = 0;
-  std::string hash_log;
-  std::uint64_t checkpoint_every = 0;
-  std::string restore;
-  std::string events;
-  bool no_visualisers = false;
   int status_fd = -1;
   BusOptions bus;
 };
@@ -102,7 +88,7 @@ private:
 
   Clock::time_point start_;
   Clock::time_point end_;
-  std::string said_state_;
+  std::optional<ServerState::Phase> said_phase_;
   std::uint64_t last_tick_ = 0;
   Clock::time_point since_;  // the current tick is waited for
   Clock::time_point repeated_;

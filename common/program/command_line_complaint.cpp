@@ -1,4 +1,4 @@
-#include "launcher/unexpected_words.h"
+#include "common/program/command_line_complaint.h"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 namespace swarmanoid
 {
 
-// what() says why and what would do. Ends the command with kUsage.
+// what() says why and what would do. Ends the program with kExitUsage.
 class UsageError : public std::runtime_error
 {
 public:

@@ -1,0 +1,28 @@
+#include "common/program/interrupts.h"
+
+#include <csignal>
+
+namespace swarmanoid
+{
+namespace
+{
+
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+}  // namespace
+
+void CatchInterrupts(SecondInterrupt second)
+{
+  struct sigaction action
+  {
+  };
+  action.sa_handler = [](int) { interrupted = true; };
+  if (second == SecondInterrupt::kKills) action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+const std::atomic<bool>& InterruptFlag() { return interrupted; }
+
+}  // namespace swarmanoid
