@@ -1,9 +1,9 @@
 // The small languages of the command: control requests, templates, tunables.
 #include <gmock/gmock.h>
 
+#include "common/run/run_settings.h"
 #include "launcher/commands.h"
 #include "launcher/control_request.h"
-#include "launcher/load.h"
 #include "launcher/result_bits.h"
 #include "launcher/template_files.h"
 
@@ -60,6 +60,10 @@ TEST(ControlRequest, ReadsNumbers)
 TEST(ControlRequest, ErrorsSayTheRightForm)
 {
   EXPECT_THAT(ErrorOf({"paus"}), HasSubstr("did you mean 'pause'?"));
+  EXPECT_THAT(ErrorOf({"spede", "2"}), HasSubstr("there is no 'spede'"));
+  EXPECT_THAT(ErrorOf({"spede", "2"}), HasSubstr("did you mean 'speed'?"));
+  EXPECT_THAT(ErrorOf({"diffusion_10", "spede", "2"}), HasSubstr("did you mean 'speed'?"));
+  EXPECT_THAT(ErrorOf({"mvoe", "fb0", "1,2,0"}), HasSubstr("did you mean 'move'?"));
   EXPECT_THAT(ErrorOf({"step", "0"}), HasSubstr("step N"));
   EXPECT_THAT(ErrorOf({"step", "1.5"}), HasSubstr("step N"));
   EXPECT_THAT(ErrorOf({"speed"}), HasSubstr("speed F"));
