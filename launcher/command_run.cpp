@@ -4,41 +4,11 @@
 #include <string>
 
 #include "common/program/exit_codes.h"
-#include "launcher/cluster_run.h"
 #include "launcher/commands.h"
-#include "launcher/result_bits.h"
 #include "launcher/run_experiment.h"
 
 namespace swarmanoid
 {
-namespace
-{
-
-void RefuseContradictions(const RunSettings& options)
-{
-  if (!options.single_process) return;
-  const std::string why = "; leave out --single-process to run a cluster";
-  if (options.controller_hosts != 1) throw UsageError("--controller-hosts: a single process has one" + why);
-  if (!options.hosts_file.empty() || !options.engine_hosts.empty())
-    throw UsageError("--hosts and --engine-host: a single process runs on this machine" + why);
-  if (options.domain) throw UsageError("--domain: a single process uses no DDS" + why);
-}
-
-int Run(const RunSettings& options)
-{
-  RefuseContradictions(options);
-  // The programs of a cluster get their environment from us.
-  if (options.single_process) EnsureResultBits();
-  return RunExperiment(options,
-                       [&options](const Experiment& experiment, const RunFolder& folder, Manifest& manifest)
-                       {
-                         if (options.single_process) return RunHere(options, experiment, folder);
-                         return RunCluster(options, experiment, folder, manifest);
-                       });
-}
-
-}  // namespace
-
 void AddRunCommand(CLI::App& app, int& exit_code)
 {
   auto options = std::make_shared<RunSettings>();
@@ -58,7 +28,7 @@ void AddRunCommand(CLI::App& app, int& exit_code)
       "  swarmanoid run configs/diffusion_10.xml --events runs/first/events.csv    with what users did in that run\n"
       "  swarmanoid run configs/diffusion_10.xml --output first --checkpoint-every 500\n"
       "  swarmanoid run first/experiment.xml --restore first/checkpoint-00000500");
-  verb->callback([options, &exit_code] { exit_code = Run(*options); });
+  verb->callback([options, &exit_code] { exit_code = RunExperiment(*options); });
 }
 
 }  // namespace swarmanoid

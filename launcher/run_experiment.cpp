@@ -8,6 +8,7 @@
 #include "common/program/exit_codes.h"
 #include "common/program/usage_error.h"
 #include "common/space/checkpoint.h"
+#include "launcher/cluster_run.h"
 #include "launcher/load.h"
 #include "launcher/result_bits.h"
 #include "space_server/event_log.h"
@@ -96,11 +97,23 @@ bool EventsAreGood(const std::string& file, const Experiment& experiment)
   }
 }
 
+void RefuseContradictions(const RunSettings& options)
+{
+  if (!options.single_process) return;
+  const std::string why = "; leave out --single-process to run a cluster";
+  if (options.controller_hosts != 1) throw UsageError("--controller-hosts: a single process has one" + why);
+  if (!options.hosts_file.empty() || !options.engine_hosts.empty())
+    throw UsageError("--hosts and --engine-host: a single process runs on this machine" + why);
+  if (options.domain) throw UsageError("--domain: a single process uses no DDS" + why);
+}
+
 }  // namespace
 
-int RunExperiment(const RunSettings& options,
-                  const std::function<RunResult(const Experiment&, const RunFolder&, Manifest&)>& execute)
+int RunExperiment(const RunSettings& options, const WatchFunction& watch)
 {
+  RefuseContradictions(options);
+  // The programs of a cluster get their environment from us; watched, this is one of them.
+  if (options.single_process || watch) EnsureResultBits();
   const auto experiment = LoadOrComplain(options.file, ChangesOf(options));
   if (!experiment) return kExitInvalidFile;
   RefuseBadCheckpoints(options, *experiment);
@@ -112,7 +125,8 @@ int RunExperiment(const RunSettings& options,
     Manifest manifest = StartOfManifest(options, *experiment);
     folder.Write("experiment.xml", experiment->effective_xml);
     folder.Write("manifest.json", manifest.Text());
-    const RunResult result = execute(*experiment, folder, manifest);
+    const RunResult result = options.single_process ? RunHere(options, *experiment, folder, watch)
+                                                    : RunCluster(options, *experiment, folder, manifest, watch);
     return Conclude(options, result, folder, manifest);
   }
   catch (const RunFolderError& error)

@@ -5,7 +5,6 @@
 
 #include "common/program/program.h"
 #include "common/run/run_settings.h"
-#include "launcher/result_bits.h"
 #include "launcher/run_experiment.h"
 #include "roles/builtins.h"
 
@@ -16,20 +15,14 @@ int RunSimulation(int count, char** arguments, const std::function<void(CSimulat
 {
   const std::string name = std::filesystem::path(count > 0 ? arguments[0] : "simulation").filename();
   RunSettings settings;
-  settings.single_process = true;
   return RunProgram(
       {.name = name,
-       .purpose = "Runs an experiment in this process.",
-       .footer = "The same as `swarmanoid run EXPERIMENT.xml --single-process`.",
+       .purpose = "Runs an experiment as a cluster, of which this process is the space server.",
+       .footer = "The same options, output and exit codes as those of `swarmanoid run`.",
        .register_plugins = RegisterBuiltins,
        .catches_interrupts = false},
       count, arguments, [&](CLI::App& app) { AddOptions(app, RunOptionTable(settings)); },
-      [&]
-      {
-        EnsureResultBits();
-        return RunExperiment(settings, [&](const Experiment& experiment, const RunFolder& folder, Manifest&)
-                             { return RunHere(settings, experiment, folder, watch); });
-      });
+      [&] { return RunExperiment(settings, watch); });
 }
 
 }  // namespace swarmanoid

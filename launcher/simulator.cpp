@@ -118,14 +118,25 @@ struct CSimulator::Roles
 
   std::uint64_t first_tick = 0;
   Clock::time_point start;
+  Watch watch;
+  bool watching = false;
   bool over = false;
   bool finished = false;
   RunSummary summary;
 };
 
 CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& options)
+    : CSimulator(experiment, options, {})
+{
+}
+
+CSimulator::CSimulator(SpaceServer& server) : server_(&server) {}
+
+CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& options, Watch watch)
     : roles_(std::make_unique<Roles>(experiment, options))
 {
+  server_ = &roles_->server;
+  roles_->watch = std::move(watch);
   CheckCheckpointPeriod(options.checkpoint_every, experiment);
   if (options.checkpoint_every != 0) roles_->TrySavingAll();
   if (!options.restore_file.empty()) roles_->Restore(ReadCheckpoint(options.restore_file, experiment, 1));
@@ -141,6 +152,7 @@ bool CSimulator::Step()
   using Frames = std::span<const SensorFrame* const>;
   using Commands = std::span<const ControlCommands* const>;
 
+  RefuseWithin("Step");
   Roles& r = *roles_;
   if (r.over || r.finished) return false;
   const ControlCommands* commands = &r.host->Step(r.space.GetTick() == 0 ? Frames() : Frames(r.frames));
@@ -160,6 +172,13 @@ void CSimulator::Show()
   const std::uint64_t tick = r.space.GetTick();
   if (r.options.checkpoint_every != 0 && tick > r.first_tick && tick % r.options.checkpoint_every == 0)
     WriteCheckpoint(r.options.output_folder + "/" + CheckpointName(tick), r.TakeCheckpoint());
+  // Whoever goes on from the checkpoint watches this tick again.
+  if (r.watch)
+  {
+    r.watching = true;
+    r.watch(*this);
+    r.watching = false;
+  }
   if (r.hash_log.IsOpen()) r.hash_log.Write(r.space.GetTick(), r.space.Hash());
   const Visualiser* terminator = nullptr;
   for (const auto& visualiser : r.visualisers)
@@ -169,8 +188,17 @@ void CSimulator::Show()
   r.summary.interrupted = r.steering.Interrupted();
 }
 
+void CSimulator::RefuseWithin(const char* function) const
+{
+  if (!roles_ || roles_->watching)
+    throw std::logic_error(fmt::format(
+        "{} was called by the function that looks at each tick; the run goes on by itself when that returns",
+        function));
+}
+
 const RunSummary& CSimulator::Finish()
 {
+  RefuseWithin("Finish");
   Roles& r = *roles_;
   if (r.finished) return r.summary;
   r.finished = true;
@@ -189,9 +217,11 @@ const RunSummary& CSimulator::Finish()
   return r.summary;
 }
 
-CSwarmanoidSpace& CSimulator::GetSpace() { return roles_->space; }
+CSwarmanoidSpace& CSimulator::GetSpace() { return server_->Space(); }
 
-const Experiment& CSimulator::GetExperiment() const { return roles_->experiment; }
+SpaceEditor& CSimulator::GetEditor() { return server_->Editor(); }
+
+const Experiment& CSimulator::GetExperiment() const { return server_->Space().GetExperiment(); }
 
 std::unique_ptr<Experiment> ReadExperiment(const std::string& file,
                                            const std::vector<std::pair<std::string, std::string>>& settings)

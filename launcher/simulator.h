@@ -8,7 +8,7 @@
 //   simulator.Finish();
 #pragma once
 
-#include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -22,11 +22,15 @@
 namespace swarmanoid
 {
 
+class SpaceEditor;
+class SpaceServer;
+
 class CSimulator
 {
 public:
   // The experiment at tick 0, or where its checkpoint is; it must outlive the simulator. Throws ConfigurationError,
-  // ControllerError or std::runtime_error with a text for the user; so do Step and Finish.
+  // ControllerError or std::runtime_error with a text for the user; so do Step and Finish. The function that
+  // RunSimulation calls at each tick gets one too, only to look at: there Step and Finish throw std::logic_error.
   explicit CSimulator(const Experiment& experiment, const SimulatorOptions& options = {});
   ~CSimulator();
   CSimulator(const CSimulator&) = delete;
@@ -39,13 +43,25 @@ public:
 
   // The state at the current tick. What a program changes here is part of the experiment: it changes the hash.
   CSwarmanoidSpace& GetSpace();
+  // For changes between two steps, with the rules of experiment functions (space_server/experiment_functions.h). They
+  // take effect with the next step and are part of the experiment: they change the hash, and a run without the program
+  // lacks them.
+  SpaceEditor& GetEditor();
   const Experiment& GetExperiment() const;
 
 private:
   struct Roles;
+  friend struct WatchedSimulator;
+  using Watch = std::function<void(CSimulator&)>;
+  // `watch` is called at each tick, before anybody else is shown its state.
+  CSimulator(const Experiment& experiment, const SimulatorOptions& options, Watch watch);
+  // Of a run that others step: to look at it.
+  explicit CSimulator(SpaceServer& server);
   void Show();
+  void RefuseWithin(const char* function) const;
 
-  std::unique_ptr<Roles> roles_;
+  SpaceServer* server_ = nullptr;
+  std::unique_ptr<Roles> roles_;  // where this steps them
 };
 
 // Reads an experiment file with all built-in plug-ins, `settings` as for --set (path and value). Throws

@@ -32,6 +32,8 @@ public:
   ~SpaceServer();
 
   CSwarmanoidSpace& Space() { return space_; }
+  // For those who change the experiment from outside physics.
+  SpaceEditor& Editor() { return editor_; }
   // The state at the current tick as what changed; what the cluster publishes.
   const SpaceState& State();
   // The entities that were put elsewhere at the current tick, ascending.

@@ -31,12 +31,14 @@ std::vector<TickGate::Part> Parts(const Experiment& experiment, const std::vecto
 }  // namespace
 
 Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
-                   const std::string& hash_log, CheckpointDesk& checkpoints, std::function<void()> stopped)
+                   const std::string& hash_log, std::function<void(SpaceServer&)> watch, CheckpointDesk& checkpoints,
+                   std::function<void()> stopped)
     : session_(session),
       server_(server),
       checkpoints_(checkpoints),
       first_tick_(server.Space().GetTick()),
       checkpoint_every_(session.World().checkpoint_every),
+      watch_(std::move(watch)),
       stopped_(std::move(stopped)),
       engines_(assignment.engines.size()),
       hosts_(HostsHeard(assignment)),
@@ -156,7 +158,7 @@ void Lockstep::Complete()
   }
   server_.Advance(updates_here_, commands_here_);
   gate_.Next();
-  if (hold_ || gate_.Tick() == until_)
+  if (hold_ || watch_ || gate_.Tick() == until_)
   {
     held_ = true;
     stopped_();
@@ -167,10 +169,13 @@ void Lockstep::Complete()
 
 void Lockstep::Send(bool repeated)
 {
+  const std::uint64_t tick = server_.Space().GetTick();
+  // Whoever goes on from the checkpoint watches this tick again.
+  if (checkpoint_every_ != 0 && !repeated && tick > first_tick_ && tick % checkpoint_every_ == 0)
+    checkpoints_.Sending(server_);
+  if (watch_ && !repeated) watch_(server_);
   const SpaceState& state = server_.State();
   if (hash_log_.IsOpen() && !repeated) hash_log_.Write(state.tick, server_.Space().Hash());
-  if (checkpoint_every_ != 0 && !repeated && state.tick > first_tick_ && state.tick % checkpoint_every_ == 0)
-    checkpoints_.Sending(server_);
   held_ = false;
   states_.Write({session_.World().run, state.tick, 0, repeated}, state);
   if (!state.last) return;

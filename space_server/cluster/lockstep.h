@@ -21,9 +21,11 @@ namespace swarmanoid
 class Lockstep
 {
 public:
+  // `watch`, where there is one: called in the main thread before the state of a tick goes out.
   // `stopped`: called in a thread of the bus when the main thread has to act: the tick is held, or the run failed.
   Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
-           const std::string& hash_log, CheckpointDesk& checkpoints, std::function<void()> stopped);
+           const std::string& hash_log, std::function<void(SpaceServer&)> watch, CheckpointDesk& checkpoints,
+           std::function<void()> stopped);
   ~Lockstep();
 
   // Whether all workers' topics have met those of the server.
@@ -70,6 +72,7 @@ private:
   CheckpointDesk& checkpoints_;
   std::uint64_t first_tick_;
   std::uint64_t checkpoint_every_;
+  std::function<void(SpaceServer&)> watch_;
   std::function<void()> stopped_;
   std::size_t engines_ = 0;
   std::vector<std::uint32_t> hosts_;  // that the server hears

@@ -6,7 +6,6 @@
 #include <random>
 
 #include "common/program/exit_codes.h"
-#include "common/program/interrupts.h"
 #include "common/run/run_summary.h"
 #include "common/serialisation/trial.h"
 #include "space_server/cluster/process_watch.h"
@@ -62,7 +61,7 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
       pace_(experiment.TickSeconds()),
       checkpoints_(session_, experiment, Expected({}), options.output_folder.empty() ? "." : options.output_folder,
                    [this] { Wake(); }),
-      lockstep_(session_, server_, assignment_, options.visualisations, options.hash_log, checkpoints_,
+      lockstep_(session_, server_, assignment_, options.visualisations, options.hash_log, options.watch, checkpoints_,
                 [this] { Wake(); })
 {
 }
@@ -79,12 +78,14 @@ int ServerProgram::Run()
   catch (const std::exception& error)
   {
     session_.SayBye(lockstep_.Tick(), error.what());
-    fmt::print(stderr, "space_server: {}\n", error.what());
+    // Within another program, that one says it.
+    if (options_.abandon == nullptr) fmt::print(stderr, "space_server: {}\n", error.what());
     status_.Tell(ServerError{error.what()});
     session_.LeaveDirectory();
-    EndAtOnce(Interrupted() ? kExitInterrupted : kExitProcessFailed);
+    failed_ = true;
+    return IsInterrupted() ? kExitInterrupted : kExitProcessFailed;
   }
-  if (Interrupted()) return kExitInterrupted;
+  if (IsInterrupted()) return kExitInterrupted;
   return server_.HasFailed() ? kExitExperimentFailed : kExitDone;
 }
 
@@ -133,6 +134,7 @@ void ServerProgram::Sleep(Clock::time_point until)
 
 void ServerProgram::CheckFailures()
 {
+  if (options_.abandon != nullptr && *options_.abandon) throw BusError("the run was given up");
   if (const auto failure = session_.Failure()) throw BusError(*failure);
   if (const auto failure = lockstep_.Failure()) throw BusError(*failure);
   if (!BusIsBroken()) return;
@@ -153,7 +155,7 @@ void ServerProgram::Gather()
   while (true)
   {
     CheckFailures();
-    if (Interrupted()) throw BusError("interrupted before the first tick");
+    if (IsInterrupted()) throw BusError("interrupted before the first tick");
     TellAudience();
     const std::vector<std::string> missing = session_.Missing();
     if (missing.empty() && lockstep_.AllMet()) return;
@@ -181,7 +183,7 @@ void ServerProgram::RunTicks()
   {
     CheckFailures();
     Clock::time_point next = Clock::now() + kPeriod;
-    if (Interrupted()) desk_.Stop("interrupt");
+    if (IsInterrupted()) desk_.Stop("interrupt");
     if (desk_.WantsHold()) lockstep_.Hold();
     if (lockstep_.Held())
     {

@@ -2,9 +2,11 @@
 // late, and ends it; the ticks themselves run in threads of the bus (Lockstep).
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -29,6 +31,11 @@ struct ServerOptions : RunSettings
 {
   int status_fd = -1;
   BusOptions bus;
+  // Called before the state of each tick goes out, in the thread that runs the program; what it changes through the
+  // server is part of the state.
+  std::function<void(SpaceServer&)> watch;
+  // In a process that lives on after the run: set where the run is to be given up at once.
+  const std::atomic<bool>* abandon = nullptr;
 };
 
 class ServerProgram
@@ -40,8 +47,10 @@ public:
   ServerProgram(const ServerProgram&) = delete;
   ServerProgram& operator=(const ServerProgram&) = delete;
 
-  // The whole run. Returns the exit code; ends the process where the run fails.
+  // The whole run. Returns the exit code. Where the run has failed, threads of the bus may be stuck for ever: then the
+  // program is not to be destroyed, and the process ends by EndAtOnce.
   int Run();
+  bool Failed() const { return failed_; }
 
 private:
   using Clock = std::chrono::steady_clock;
@@ -50,6 +59,7 @@ private:
   WorldMessage World();
   std::span<const RenderConfiguration> Visualisers() const;
   std::vector<std::string> Expected(std::span<const RenderConfiguration> visualisers) const;
+  bool IsInterrupted() const { return options_.stop != nullptr && *options_.stop; }
   void Wake();
   void Sleep(Clock::time_point until);
   void CheckFailures();
@@ -97,6 +107,7 @@ private:
   std::uint64_t first_tick_ = 0;
   bool started_ = false;
   bool told_end_ = false;
+  bool failed_ = false;
   std::optional<Clock::time_point> broken_since_;
   SpaceSnapshot snapshot_;
 };

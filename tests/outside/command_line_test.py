@@ -3,7 +3,7 @@ import re
 import signal
 import subprocess
 
-from outside import OutsideTest, PREFIX, main
+from outside import BUILT, PREFIX, WAYS, OutsideTest, main
 
 PROGRAMS = ["swarmanoid", "space_server", "engine_worker", "controller_host", "visualiser", "swarmanoid_robot"]
 
@@ -59,6 +59,14 @@ class CommandLine(OutsideTest):
                    for name in [("swarmanoid", "run"), ("space_server",)]}
         own = {"--status-fd", "--domain", "--interface", "--peers", "--discovery-server", "--lease", "--datagram"}
         self.assertLessEqual(options[("space_server",)] - own, options[("swarmanoid", "run")])
+
+    def test_what_functions_print_is_no_word_of_the_server(self):
+        file = self.experiment(functions='<outside_printer id="prints" library="outside_printer"/>',
+                               framework=f"<plugin_path>{BUILT}/functions</plugin_path>")
+        hashes = {way: self.hash_of(self.run_experiment(file, "--output", self.folder / way, *options))
+                  for way, options in WAYS.items()}
+        self.assertEqual(len(set(hashes.values())), 1, hashes)
+        self.assertIn("finished 1 1 00000000000000ff 1 1", (self.folder / "cluster" / "space_server.log").read_text(errors="replace"))
 
     def test_attach_notices_that_its_run_has_ended(self):
         # A run whose space server has been stopped before it speaks, and dies while the visualiser looks for it.
