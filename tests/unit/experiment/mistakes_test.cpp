@@ -278,7 +278,7 @@ TEST(MistakesTogether, AMissingFileIsNamed)
 {
   const LoadedExperiment loaded = LoadExperimentFile("/nowhere/at_all.xml");
   ASSERT_EQ(loaded.errors.size(), 1U);
-  EXPECT_EQ(loaded.errors[0].Text(), "/nowhere/at_all.xml: the file cannot be opened: No such file or directory");
+  EXPECT_EQ(loaded.errors[0].Text(), "/nowhere/at_all.xml: the file cannot be read: there is no such file");
 }
 
 }  // namespace
