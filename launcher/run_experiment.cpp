@@ -36,7 +36,7 @@ void RefuseBadCheckpoints(const RunOptions& options, const Experiment& experimen
   try
   {
     CheckCheckpointPeriod(options.checkpoint_every, experiment);
-    if (!options.restore_file.empty()) ReadCheckpoint(options.restore_file, experiment, options.controller_hosts);
+    if (!options.restore_file.empty()) ReadCheckpoint(options.restore_file, experiment, {options.controller_hosts});
   }
   catch (const std::invalid_argument& error)
   {

@@ -87,7 +87,7 @@ struct CSimulator::Roles
   Checkpoint TakeCheckpoint() const
   {
     Checkpoint checkpoint;
-    checkpoint.experiment = FingerprintOf(experiment);
+    checkpoint.origin = origin;
     server.WriteSnapshot(checkpoint.snapshot);
     const auto add = [&](const std::string& name, const auto& role)
     {
@@ -119,6 +119,7 @@ struct CSimulator::Roles
   const Experiment& experiment;
   const SimulatorOptions options;
   const Assignment assignment;
+  const CheckpointOrigin origin = OriginOf(experiment);
   SpaceServer server;
   CSwarmanoidSpace& space;
   Steering steering;
@@ -143,7 +144,7 @@ CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& opt
   CheckCheckpointPeriod(options.checkpoint_every, experiment);
   // What cannot be saved is said before the run, not in the midst of it.
   if (options.checkpoint_every != 0) roles_->TakeCheckpoint();
-  if (!options.restore_file.empty()) roles_->Restore(ReadCheckpoint(options.restore_file, experiment, 1));
+  if (!options.restore_file.empty()) roles_->Restore(ReadCheckpoint(options.restore_file, experiment, {}));
   roles_->first_tick = roles_->space.GetTick();
   roles_->start = Clock::now();
   Show();

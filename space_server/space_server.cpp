@@ -80,6 +80,8 @@ void SpaceServer::LoadState(const SpaceSnapshot& snapshot, ByteReader& state)
   last_ = state.Get<bool>();
   failed_ = state.Get<bool>();
   moved_ = state.GetArray<std::uint32_t>();
+  for (const std::uint32_t entity : moved_)
+    if (entity >= space_.Size()) throw std::runtime_error("it moved an entity that does not exist");
   for (const Functions& functions : functions_)
   {
     std::istringstream text(state.GetText());

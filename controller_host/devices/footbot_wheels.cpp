@@ -163,7 +163,9 @@ void PidFootbotWheels::SaveState(ByteWriter& state) const
 void PidFootbotWheels::LoadState(ByteReader& state)
 {
   DummyFootbotWheels::LoadState(state);
-  velocity_ = state.GetArray<std::array<double, 2>>();
+  const auto velocity = state.GetArray<std::array<double, 2>>();
+  if (velocity.size() != velocity_.size()) throw std::runtime_error("saved state: a device has other robots");
+  velocity_ = velocity;
 }
 
 void RegisterFootbotWheels()

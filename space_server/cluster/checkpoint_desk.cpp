@@ -9,7 +9,7 @@ CheckpointDesk::CheckpointDesk(ServerSession& session, const Experiment& experim
                                const std::string& folder, std::function<void()> changed)
     : every_(session.World().checkpoint_every),
       run_(session.World().run),
-      experiment_(FingerprintOf(experiment)),
+      origin_(OriginOf(experiment)),
       parts_(std::move(parts)),
       folder_(folder),
       changed_(std::move(changed))
@@ -27,7 +27,7 @@ void CheckpointDesk::Sending(const SpaceServer& server)
   server.SaveState(state);
   const std::lock_guard lock(mutex_);
   Checkpoint& checkpoint = unfinished_[snapshot.tick];
-  checkpoint.experiment = experiment_;
+  checkpoint.origin = origin_;
   checkpoint.snapshot = std::move(snapshot);
   checkpoint.parts.push_back({kServerPart, state.Bytes()});
   if (IsComplete(checkpoint)) changed_();

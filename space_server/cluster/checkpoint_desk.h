@@ -37,7 +37,7 @@ private:
 
   std::uint64_t every_;
   std::uint64_t run_;
-  std::uint64_t experiment_;
+  CheckpointOrigin origin_;
   std::vector<std::string> parts_;
   std::string folder_;
   std::function<void()> changed_;
