@@ -79,7 +79,7 @@ int Run(int argc, char** argv)
   status.Say("state loading");
   try
   {
-    const LoadedExperiment loaded = LoadExperimentFile(options.file, LoadOptionsOf(options));
+    LoadedExperiment loaded = LoadExperimentFile(options.file, LoadOptionsOf(options));
     if (!loaded.experiment)
     {
       for (const Diagnostic& error : loaded.errors) fmt::print(stderr, "{}\n", error.Text());
@@ -94,6 +94,7 @@ int Run(int argc, char** argv)
       if (!(file << loaded.experiment->effective_xml << std::flush))
         throw BusError(fmt::format("cannot write '{}/experiment.xml'", options.output));
     }
+    options.places = std::move(loaded.places);
     ServerProgram program(options, *loaded.experiment, status);
     return program.Run();
   }

@@ -95,6 +95,7 @@ WorldMessage ServerProgram::World()
 {
   WorldMessage world =
       DescribeWorld(server_.Space(), NewRun(), options_.file, static_cast<unsigned>(assignment_.hosts.size()));
+  world.xml += options_.places;
   CheckCheckpointPeriod(options_.checkpoint_every, experiment_);
   world.checkpoint_every = options_.checkpoint_every;
   if (options_.checkpoint_every != 0)
@@ -104,7 +105,7 @@ WorldMessage ServerProgram::World()
     server_.SaveState(scratch);
   }
   if (options_.restore.empty()) return world;
-  const Checkpoint checkpoint = ReadCheckpoint(options_.restore, experiment_, assignment_.hosts.size());
+  const Checkpoint checkpoint = ReadCheckpoint(options_.restore, experiment_, {assignment_.hosts.size()});
   checkpoint.LoadPart(kServerPart, [&](ByteReader& state) { server_.LoadState(checkpoint.snapshot, state); });
   world.checkpoint = EncodeCheckpoint(checkpoint);
   return world;

@@ -43,6 +43,7 @@ struct ServerOptions
   bool no_visualisers = false;
   int status_fd = -1;
   BusOptions bus;
+  std::string places;  // LoadedExperiment::places
 };
 
 class ServerProgram
