@@ -9,6 +9,7 @@
 #include "launcher/commands.h"
 #include "launcher/exit_codes.h"
 #include "launcher/load.h"
+#include "launcher/trial_start.h"
 
 namespace swarmanoid
 {
@@ -58,6 +59,7 @@ int Check(const CheckOptions& options)
   for (const std::string& setting : options.settings) load.settings.push_back(SplitSetting(setting));
   const auto experiment = LoadOrComplain(options.file, load);
   if (!experiment) return kInvalid;
+  if (const int code = TrialStart(*experiment); code != kDone) return code;
 
   fmt::print("{} is valid: experiment {}\n", options.file, experiment->name);
   fmt::print("  clock         {} ms a tick, {}, seed {}\n", experiment->clock_tick_ms,
@@ -66,6 +68,8 @@ int Check(const CheckOptions& options)
   for (const EngineConfiguration& engine : experiment->engines)
     fmt::print("  engine        {} ({}): {} of the entities\n", engine.id, engine.tag, engine.entities.size());
   PrintControllers(*experiment);
+  for (const FunctionsConfiguration& functions : experiment->functions)
+    fmt::print("  functions     {} ({})\n", functions.id, functions.tag);
   for (const RenderConfiguration& render : experiment->visualisations)
     fmt::print("  visualisation {} ({})\n", render.id, render.tag);
   return kDone;
@@ -83,6 +87,7 @@ void AddCheckCommand(CLI::App& app, int& exit_code)
       ->take_all();
   verb->footer(
       "Prints what the experiment holds and exits with 0, or prints every mistake with its place and exits with 3.\n"
+      "Everything is made as a run makes it and thrown away: Init of controllers and experiment functions is called.\n"
       "Examples:\n"
       "  swarmanoid check configs/diffusion_10.xml\n"
       "  swarmanoid check configs/diffusion_10.xml --set framework.maxclock=100");

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "common/space/terrain/terrain.h"
 #include "controller_host/device.h"
 #include "engine_worker/engine_worker.h"
 #include "launcher/builtins.h"
@@ -12,6 +13,30 @@
 
 namespace swarmanoid
 {
+namespace
+{
+
+// Every process of a run reads the maps of terrains; what is wrong with them is said before any of them starts.
+bool TerrainsAreGood(const Experiment& experiment)
+{
+  bool good = true;
+  for (const EntityConfiguration& entity : experiment.entities)
+  {
+    if (entity.kind != EntityKind::kTerrain) continue;
+    try
+    {
+      LoadTerrain(entity, experiment.folder);
+    }
+    catch (const ConfigurationError& error)
+    {
+      good = false;
+      fmt::print(stderr, "{}\n", error.what());
+    }
+  }
+  return good;
+}
+
+}  // namespace
 
 void RegisterBuiltins()
 {
@@ -28,6 +53,7 @@ std::unique_ptr<Experiment> LoadOrComplain(const std::string& file, const LoadOp
   if (!loaded.experiment)
     fmt::print(stderr, "{}: {}\n", file,
                loaded.errors.size() == 1 ? "1 error" : fmt::format("{} errors", loaded.errors.size()));
+  if (loaded.experiment && !TerrainsAreGood(*loaded.experiment)) return nullptr;
   return std::move(loaded.experiment);
 }
 
