@@ -32,8 +32,8 @@ struct LoadedExperiment
 {
   std::unique_ptr<Experiment> experiment;
   std::vector<Diagnostic> errors;
-  // With the experiment: where the elements of its effective text stand in what the user wrote. Put behind that text, it
-  // lets whoever reads it name the user's places.
+  // With the experiment: where the elements of its effective text stand in what the user wrote. Put behind that text,
+  // it lets whoever reads it name the user's places.
   std::string places;
 };
 
