@@ -60,7 +60,7 @@ TEST(Places, OfAWorkerAreThoseOfTheUserAndOfOptions)
   const LoadedExperiment worker =
       LoadExperimentText(loaded.experiment->effective_xml + loaded.places, "copy.xml", "/", {});
   ASSERT_TRUE(worker.experiment);
-  EXPECT_EQ(worker.experiment->entities[0].location.Text(), "test.xml:3:44");
+  EXPECT_EQ(worker.experiment->entities[0].location.Text(), "test.xml:3:39");
   EXPECT_EQ(worker.experiment->effective_xml, loaded.experiment->effective_xml);
   const auto root = ReadXmlWithPlaces(loaded.experiment->effective_xml + loaded.places, "copy.xml");
   EXPECT_THAT(PlacesOf(*root), testing::HasSubstr("seed --set framework.seed\n"));
