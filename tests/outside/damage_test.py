@@ -107,7 +107,7 @@ class Damage(OutsideTest):
         damaged = [good[:n] for n in (0, 1, 7, 8, 24, len(good) // 2, len(good) - 1)] + [good + b"x"]
         for start, value in ((24, 2**61), (24, 2**64 - 1), (8, 2**63)):
             damaged.append(good[:start] + struct.pack("<Q", value) + good[start + 8:])
-        for _ in range(20):
+        for _ in range(8):  # each bit: tests/unit/space/checkpoint_test.cpp
             flipped = bytearray(good)
             flipped[chance.randrange(len(good))] ^= 1 << chance.randrange(8)
             damaged.append(bytes(flipped))
@@ -115,6 +115,8 @@ class Damage(OutsideTest):
         for number, content in enumerate(damaged):
             bad.write_bytes(content)
             for way, options in WAYS.items():
+                if way == "cluster" and number % 4 != 0:  # both ways read the file before anything starts
+                    continue
                 done = self.run_experiment(file, "--restore", bad, *options)
                 self.assertEqual(done.returncode, 2, f"{number} {way}: {done.stdout}{done.stderr}")
                 self.assertIn(f"--restore: checkpoint '{bad}': it", done.stderr.replace("its format", "it"))
