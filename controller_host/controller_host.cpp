@@ -9,8 +9,6 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::uint32_t kControllerStream = StreamName("controller");
-
 // The slice of a host's channel values that belongs to the robots of one batch.
 struct ChannelSlice
 {
@@ -62,14 +60,14 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
   sensor_values_.resize(layout_.sensor_size);
 
   std::vector<std::vector<std::size_t>> robots_of(experiment.controllers.size());
-  robots_.resize(layout_.robots.size());
-  for (std::size_t k = 0; k < robots_.size(); ++k)
+  robots_.reserve(layout_.robots.size());
+  for (std::size_t k = 0; k < layout_.robots.size(); ++k)
   {
     const CSwarmanoidSpaceEntity& entity = space.GetEntity(layout_.robots[k]);
     const ControllerConfiguration* configuration = experiment.FindController(entity.GetConfiguration().controller);
     robots_of[static_cast<std::size_t>(configuration - experiment.controllers.data())].push_back(k);
-    robots_[k].entity = layout_.robots[k];
-    robots_[k].interface = std::make_unique<CCI_Robot>(entity.GetId(), std::string(TagName(entity.GetKind())));
+    robots_.push_back({layout_.robots[k], StreamKey(experiment.seed, StreamName(entity.GetId()), kControlStepStream),
+                       std::make_unique<CCI_Robot>(entity.GetId(), std::string(TagName(entity.GetKind()))), nullptr});
   }
 
   for (std::size_t c = 0; c < experiment.controllers.size(); ++c)
@@ -85,7 +83,7 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
     {
       Robot& robot = robots_[k];
       robot.interface->BeginStep(0, space.GetTickSeconds(),
-                                 RandomStream(experiment.seed, robot.entity, kControllerStream, 0));
+                                 {experiment.seed, StreamName(robot.interface->GetId()), kInitStream, 0});
       robot.controller = entry->create();
       robot.controller->SetRobot(robot.interface.get());
     }
@@ -132,8 +130,9 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
   std::vector<std::uint32_t> entities;
   for (const std::size_t k : robots) entities.push_back(robots_[k].entity);
 
-  const auto setup_of = [&](const DeviceConfiguration& device, const PluginDescription& description) {
-    return DeviceSetup{Parameters(device.tree, description.parameters), space_, entities, StreamName(device.type)};
+  const auto setup_of = [&](const DeviceConfiguration& device, const PluginDescription& description,
+                            std::uint64_t stream) {
+    return DeviceSetup{Parameters(device.tree, description.parameters), space_, entities, stream};
   };
   const auto unknown = [&](const DeviceConfiguration& device)
   {
@@ -146,7 +145,7 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
     const auto* entry = PluginRegistry<SensorBatch>::Instance().Find(device.type, device.implementation);
     if (entry == nullptr) throw unknown(device);
     Batches::Sensor sensor{entry->create(), SliceOf(layout_.sensors, entry->description.channel, entities)};
-    sensor.batch->Init(setup_of(device, entry->description));
+    sensor.batch->Init(setup_of(device, entry->description, SensorStream(device.type)));
     for (std::size_t n = 0; n < robots.size(); ++n)
       robots_[robots[n]].interface->AddSensor(device.type, sensor.batch->Sensor(n));
     batches_->sensors.push_back(std::move(sensor));
@@ -156,7 +155,7 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
     const auto* entry = PluginRegistry<ActuatorBatch>::Instance().Find(device.type, device.implementation);
     if (entry == nullptr) throw unknown(device);
     Batches::Actuator actuator{entry->create(), SliceOf(layout_.commands, entry->description.channel, entities)};
-    actuator.batch->Init(setup_of(device, entry->description));
+    actuator.batch->Init(setup_of(device, entry->description, ActuatorStream(device.type)));
     for (std::size_t n = 0; n < robots.size(); ++n)
       robots_[robots[n]].interface->AddActuator(device.type, actuator.batch->Actuator(n));
     batches_->actuators.push_back(std::move(actuator));
@@ -166,7 +165,6 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
 const ControlCommands& ControllerHost::Step(std::span<const SensorFrame* const> frames)
 {
   const std::uint64_t tick = space_.GetTick();
-  const std::uint64_t seed = space_.GetExperiment().seed;
 
   // What the engines sensed.
   if (!frames.empty())
@@ -183,8 +181,7 @@ const ControlCommands& ControllerHost::Step(std::span<const SensorFrame* const> 
   for (Robot& robot : robots_)
   {
     if (!space_.IsPresent(robot.entity)) continue;
-    robot.interface->BeginStep(tick, space_.GetTickSeconds(),
-                               RandomStream(seed, robot.entity, kControllerStream, static_cast<std::uint32_t>(tick)));
+    robot.interface->BeginStep(tick, space_.GetTickSeconds(), {robot.random, tick});
     running_robot_ = robot.interface->GetId().c_str();
     try
     {
@@ -280,6 +277,10 @@ void ControllerHost::Destroy()
   for (Robot& robot : robots_)
   {
     if (robot.controller == nullptr) continue;
+    const std::uint64_t tick = space_.GetTick();
+    robot.interface->BeginStep(
+        tick, space_.GetTickSeconds(),
+        {space_.GetExperiment().seed, StreamName(robot.interface->GetId()), kDestroyStream, tick});
     try
     {
       robot.controller->Destroy();

@@ -53,6 +53,7 @@ private:
   struct Robot
   {
     std::uint32_t entity = 0;
+    StreamKey random;  // of its control steps
     std::unique_ptr<CCI_Robot> interface;
     std::unique_ptr<CCI_Controller> controller;
   };

@@ -11,8 +11,6 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::uint32_t kControllerStream = StreamName("controller");
-
 // Every sensor driver has it.
 const ParameterSpec kTimeout{.name = "timeout_s",
                              .unit = "s",
@@ -248,17 +246,16 @@ std::string Robot::Silent() const
   return {};
 }
 
-void Robot::BeginStep()
+void Robot::BeginStep(std::uint64_t step_stream)
 {
-  // Each robot of a swarm has random numbers of its own, the same ones each time it runs.
-  const RandomStream random(configuration_.seed, StreamName(configuration_.id), kControllerStream,
-                            static_cast<std::uint32_t>(steps_));
-  interface_.BeginStep(steps_, configuration_.clock_tick_ms * 1e-3, random);
+  // Each robot of a swarm has random numbers of its own, the same ones each time it runs, here and in the simulator.
+  interface_.BeginStep(steps_, configuration_.clock_tick_ms * 1e-3,
+                       {configuration_.seed, StreamName(configuration_.id), step_stream, steps_});
 }
 
 void Robot::Start()
 {
-  BeginStep();
+  BeginStep(kInitStream);
   int result = CCI_Controller::RETURN_OK;
   started_ = true;
   try
@@ -277,7 +274,7 @@ void Robot::Start()
 
 void Robot::Step()
 {
-  BeginStep();
+  BeginStep(kControlStepStream);
   try
   {
     controller_->ControlStep();
@@ -314,7 +311,9 @@ void Robot::End()
   if (ended_) return;
   ended_ = true;
   Stop();
-  if (started_) controller_->Destroy();
+  if (!started_) return;
+  BeginStep(kDestroyStream);
+  controller_->Destroy();
 }
 
 std::vector<std::string> Robot::Wiring() const

@@ -73,7 +73,7 @@ private:
     std::unique_ptr<CActuatorDriver> driver;
   };
 
-  void BeginStep();
+  void BeginStep(std::uint64_t step_stream);
 
   RobotConfiguration configuration_;
   CCI_Robot interface_;

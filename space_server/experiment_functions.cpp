@@ -90,11 +90,4 @@ void SpaceEditor::SetAttribute(std::string_view id, std::string_view attribute, 
   server_.SetAttribute(entity.SlotOf(attribute, element), value);
 }
 
-RandomStream SpaceEditor::GetRandom() const
-{
-  const CSwarmanoidSpace& space = GetSpace();
-  return {space.GetExperiment().seed, 0, StreamName("experiment_functions"),
-          static_cast<std::uint32_t>(space.GetTick())};
-}
-
 }  // namespace swarmanoid

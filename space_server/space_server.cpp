@@ -122,8 +122,10 @@ void SpaceServer::Destroy()
 template <class Call>
 void SpaceServer::CallFunctions(const char* step, Call call)
 {
+  const std::uint64_t what = StreamName(std::string("functions ") + step);
   for (const Functions& functions : functions_)
   {
+    editor_.BeginStep({experiment_.seed, StreamName(functions.configuration->id), what, space_.GetTick()});
     try
     {
       call(functions);

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <unordered_map>
 
 #include "common/configuration/wording.h"
 #include "common/experiment/body.h"
 #include "common/experiment/element_reader.h"
 #include "common/experiment/sections.h"
+#include "common/experiment/unique_ids.h"
 #include "common/math/elementary.h"
 
 namespace swarmanoid
@@ -258,17 +258,11 @@ private:
 
   void CheckIds()
   {
-    std::unordered_map<std::string_view, const EntityConfiguration*> first_of_id;
     const auto& entities = reading_.experiment.entities;
-    first_of_id.reserve(entities.size());
+    UniqueIds ids("entities", entities.size());
     for (const EntityConfiguration& entity : entities)
-    {
-      const auto [first, is_first] = first_of_id.emplace(entity.id, &entity);
-      if (is_first || entity.id.empty()) continue;
-      reading_.diagnostics.Add(entity.tree.ValueLocation("id"),
-                               fmt::format("two entities have the id {}; the first is in line {}", Quoted(entity.id),
-                                           first->second->location.line));
-    }
+      if (const std::string mistake = ids.Add(entity.id, entity.location.line); !mistake.empty())
+        reading_.diagnostics.Add(entity.tree.ValueLocation("id"), mistake);
   }
 
   Reading& reading_;

@@ -1,10 +1,7 @@
-#include <fmt/format.h>
-
-#include <map>
-
 #include "common/configuration/wording.h"
 #include "common/experiment/element_reader.h"
 #include "common/experiment/sections.h"
+#include "common/experiment/unique_ids.h"
 
 namespace swarmanoid
 {
@@ -18,7 +15,7 @@ void ReadPluginList(const TConfigurationTree& tree, PluginKind kind, Reading& re
   if (!tree.Exists()) return;
   const ElementSpec& spec = ExperimentSchema().Child(tree.Name());
   const ElementReader list(tree, spec, reading.diagnostics);
-  std::map<std::string, int> lines;
+  UniqueIds ids(tree.Name());
   for (const TConfigurationTree& child : tree.Children())
   {
     const PluginDescription* plugin = FindPlugin(kind, child, reading);
@@ -26,12 +23,8 @@ void ReadPluginList(const TConfigurationTree& tree, PluginKind kind, Reading& re
                                plugin != nullptr ? &plugin->parameters : nullptr, plugin == nullptr);
     const std::string id = reader.Text("id");
     if (reader.IsGiven("id")) CheckId(id, reader.Place("id"), reading.diagnostics);
-    const auto [first, is_first] = lines.emplace(id, child.Location().line);
-    if (!is_first && !id.empty())
-    {
-      reading.diagnostics.Add(reader.Place("id"), fmt::format("two {} have the id {}; the first is in line {}",
-                                                              tree.Name(), Quoted(id), first->second));
-    }
+    if (const std::string mistake = ids.Add(id, child.Location().line); !mistake.empty())
+      reading.diagnostics.Add(reader.Place("id"), mistake);
     add(child, id);
   }
 }

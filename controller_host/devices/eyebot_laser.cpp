@@ -53,7 +53,7 @@ public:
     const std::vector<double> wanted = values_;
     for (std::size_t k = 0; k < robots_.size(); ++k)
     {
-      RandomStream random = StreamOf(*space_, robots_[k], stream_);
+      RandomStream random = streams_.Of(k);
       ValuesOf(k)[2] = WrapAngle(ValuesOf(k)[2] + direction_noise_.Sample(random));
       ValuesOf(k)[3] = std::clamp(ValuesOf(k)[3] + direction_noise_.Sample(random), 0.0, Laser::MAX_TILT);
     }

@@ -166,7 +166,7 @@ public:
       else
         std::copy_n(ValuesOf(k), kAxes, velocity);
       if (!noise_.IsActive()) continue;
-      RandomStream random = StreamOf(*space_, robots_[k], stream_);
+      RandomStream random = streams_.Of(k);
       for (std::size_t axis = 0; axis < kAxes; ++axis)
       {
         const double noise = noise_.Sample(random);

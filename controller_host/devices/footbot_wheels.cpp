@@ -29,9 +29,7 @@ void DummyFootbotWheels::Init(const DeviceSetup& setup)
 {
   limit_ = setup.parameters.Number("max_speed") / kRadius;
   wheels_.resize(setup.robots.size());
-  space_ = &setup.space;
-  robots_ = setup.robots;
-  stream_ = setup.stream;
+  streams_ = DeviceStreams(setup);
   noise_ = NoiseFrom(setup.parameters);
 }
 
@@ -55,9 +53,9 @@ void DummyFootbotWheels::Commit(const ChannelView& channel, AttributeChanges&)
 void DummyFootbotWheels::AddNoise(const ChannelView& channel) const
 {
   if (!noise_.IsActive()) return;
-  for (std::size_t k = 0; k < robots_.size(); ++k)
+  for (std::size_t k = 0; k < wheels_.size(); ++k)
   {
-    RandomStream random = StreamOf(*space_, robots_[k], stream_);
+    RandomStream random = streams_.Of(k);
     double* values = &channel.values[channel.offsets[k]];
     for (std::size_t side = 0; side < 2; ++side)
     {

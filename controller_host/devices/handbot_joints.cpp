@@ -138,7 +138,7 @@ public:
       double* values = ValuesOf(k);
       for (const auto holds : {Joints::HOLDS_LEFT, Joints::HOLDS_RIGHT}) values[holds] = values[holds] != 0 ? 1 : 0;
       if (!joint_noise_.IsActive()) continue;
-      RandomStream random = StreamOf(*space_, robots_[k], stream_);
+      RandomStream random = streams_.Of(k);
       for (std::size_t i = 0; i <= Joints::HAND_RIGHT; ++i) values[i] += joint_noise_.Sample(random);
     }
   }

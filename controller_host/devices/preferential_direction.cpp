@@ -92,7 +92,7 @@ private:
     double on_ring = direction.angle_ - space_->Attributes()[turret_slots_[k]] - kFirstLed;
     if (direction_noise_.IsActive())
     {
-      RandomStream random = StreamOf(*space_, robots_[k], stream_);
+      RandomStream random = streams_.Of(k);
       on_ring += direction_noise_.Sample(random);
     }
     double nearest = kPi;

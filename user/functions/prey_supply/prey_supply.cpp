@@ -95,7 +95,7 @@ public:
       Write(all, "delivered", entity.GetId());
     }
     if (all.GetTick() % every_ != 0) return;
-    RandomStream random = space.GetRandom();
+    RandomStream& random = space.GetRandom();
     AddOne(space, preys_, random);
     if (!robots_.empty()) AddOne(space, robots_, random);
   }
