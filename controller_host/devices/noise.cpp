@@ -37,12 +37,12 @@ void CheckSet(const Parameters& parameters, const std::string& prefix, std::vect
   if (kind == "truncated_gaussian")
   {
     for (const char* name : {"noise_deviation", "noise_range"})
-      if (!(parameters.Number(prefix + name) > 0))
+      if (!is_given(name))
       {
-        mistakes.emplace_back(tree.ValueLocation(prefix + (is_given(name) ? name : "noise_kind")),
+        mistakes.emplace_back(tree.ValueLocation(prefix + "noise_kind"),
                               quoted("noise_kind") + of + " is truncated_gaussian, which needs " +
-                                  quoted("noise_deviation") + " and " + quoted("noise_range") + " above 0; " +
-                                  quoted(name) + " is " + parameters.Text(prefix + name));
+                                  quoted("noise_deviation") + " and " + quoted("noise_range") + "; give " +
+                                  quoted(name) + " too, or take gaussian, which needs no range");
         return;
       }
     return;

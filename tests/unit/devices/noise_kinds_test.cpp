@@ -120,8 +120,9 @@ TEST(NoiseKinds, TruncatedWithoutItsNumbersIsRefused)
   };
   const std::pair<std::string, std::string> kind{"range_noise_kind", "truncated_gaussian"};
   EXPECT_EQ(mistakes({kind, {"range_noise_deviation", "1"}, {"range_noise_range", "2"}}), "");
-  EXPECT_NE(mistakes({kind, {"range_noise_deviation", "1"}}).find("'range_noise_range' is 0"), std::string::npos);
-  EXPECT_NE(mistakes({kind, {"range_noise_range", "1"}}).find("'range_noise_deviation' is 0"), std::string::npos);
+  EXPECT_EQ(mistakes({kind, {"range_noise_deviation", "0"}, {"range_noise_range", "2"}}), "") << "one end of a series";
+  EXPECT_NE(mistakes({kind, {"range_noise_deviation", "1"}}).find("give 'range_noise_range' too"), std::string::npos);
+  EXPECT_NE(mistakes({kind, {"range_noise_range", "1"}}).find("give 'range_noise_deviation' too"), std::string::npos);
 }
 
 }  // namespace
