@@ -277,7 +277,8 @@ void ControllerHost::Destroy()
   for (Robot& robot : robots_)
   {
     if (robot.controller == nullptr) continue;
-    const std::uint64_t tick = space_.GetTick();
+    // Of the last control step: whether the last state still reaches a host depends on how it is started.
+    const std::uint64_t tick = commands_.tick;
     robot.interface->BeginStep(
         tick, space_.GetTickSeconds(),
         {space_.GetExperiment().seed, StreamName(robot.interface->GetId()), kDestroyStream, tick});

@@ -2,7 +2,7 @@
 seed draws the same ones, in one process, as a cluster, and from a checkpoint."""
 import collections
 
-from outside import WAYS, OutsideTest, main
+from outside import BUILT, WAYS, OutsideTest, main
 
 TICKS = 12
 
@@ -16,7 +16,7 @@ class Random(OutsideTest):
         listed = "".join(f'<outside_random_functions id="{f}" library="outside_random_functions"><file>{folder}/functions_{f}.txt</file></outside_random_functions>'
                          for f in functions)
         file = self.experiment(name, controller="outside_random", parameters=f"<folder>{folder}</folder>", ticks=TICKS, functions=listed,
-                               arena=second + before, entities="robot_two", framework="<canonical_period>5</canonical_period>")
+                               arena=second + before, entities="robot_two", framework=f"<canonical_period>5</canonical_period><plugin_path>{BUILT}/functions</plugin_path>")
         return file, folder
 
     def drawn(self, folder):

@@ -116,7 +116,7 @@ TEST(CommonRandomNumbers, StepsOfOneRobotDrawDifferentNumbers)
   const Record all = Recorded({});
   std::vector<double> drawn;
   for (const char* step :
-       {"a Init 0", "a ControlStep 0", "a ControlStep 1", "b Init 0", "b ControlStep 0", "a Destroy 4"})
+       {"a Init 0", "a ControlStep 0", "a ControlStep 1", "b Init 0", "b ControlStep 0", "a Destroy 3"})
     drawn.insert(drawn.end(), all.at(step).begin(), all.at(step).end());
   ASSERT_EQ(drawn.size(), 24U);
   std::sort(drawn.begin(), drawn.end());
