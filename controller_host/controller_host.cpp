@@ -4,6 +4,8 @@
 #include <map>
 #include <sstream>
 
+#include "common/space/attribute_changes.h"
+
 namespace swarmanoid
 {
 namespace
@@ -51,6 +53,7 @@ struct ControllerHost::Batches
   };
   std::vector<Sensor> sensors;
   std::vector<Actuator> actuators;
+  AttributeOrder order;
 };
 
 ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t host)
@@ -202,6 +205,7 @@ const ControlCommands& ControllerHost::Step(std::span<const SensorFrame* const> 
   commands_.attributes.Clear();
   for (Batches::Actuator& actuator : batches_->actuators)
     actuator.batch->Commit({commands_.values, actuator.slice.offsets, actuator.slice.width}, commands_.attributes);
+  batches_->order.Apply(commands_.attributes);
   StillAbsent();
   return commands_;
 }

@@ -30,7 +30,7 @@ public:
         role_(*replica.space, replica.assignment, host),
         saved_(session, HostName(host), role_),
         inputs_(session, replica, Engines(*replica.experiment, role_.Layout())),
-        commands_(session.GetBus(), session.Scope(CommandsCapacity(*replica.space, replica.assignment), 1)),
+        commands_(session.GetBus(), session.Scope(replica.limits->CommandBytes(), 1)),
         watch_robots_(session, role_, host_, inputs_.Mutex())
   {
     const auto& from = role_.Layout().frames_from;
@@ -47,7 +47,7 @@ public:
     }
     inputs_.Open({[this](std::size_t k, std::uint64_t tick) { return &frames_[tick % 2][k]; }, [this] { Step(); },
                   [this] { AnswerAgain(); }},
-                 FrameCapacity(replica.assignment), FrameWriters());
+                 replica.limits->FrameBytes(), FrameWriters());
   }
   ~HostNode() { inputs_.Close(); }
 

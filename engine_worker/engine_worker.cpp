@@ -50,6 +50,7 @@ void EngineWorker::Step(std::span<const std::uint32_t> moved, std::span<const Co
   frame_.tick = update_.tick;
   update_.attributes.Clear();
   engine_->Update({layout_.commands, command_values_}, update_, frame_.values);
+  order_.Apply(update_.attributes);
   KeepAbsent();
   if (update_.tick % space_.GetExperiment().canonical_period == 0) engine_->Canonicalise();
 }

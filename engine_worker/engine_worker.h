@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 
+#include "common/space/attribute_changes.h"
 #include "engine_worker/physics_engine.h"
 
 namespace swarmanoid
@@ -41,6 +42,7 @@ private:
   std::vector<double> command_values_;
   EngineUpdate update_;
   SensorFrame frame_;
+  AttributeOrder order_;
 };
 
 }  // namespace swarmanoid

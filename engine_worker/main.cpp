@@ -29,15 +29,15 @@ public:
         saved_(session, EngineName(*replica.experiment, engine), role_),
         inputs_(session, replica, Hosts(role_.Layout())),
         commands_(role_.Layout().commands_from.size()),
-        updates_(session.GetBus(), session.Scope(UpdateCapacity(*replica.space, replica.assignment), 1))
+        updates_(session.GetBus(), session.Scope(replica.limits->UpdateBytes(), 1))
   {
     replica.Restore(EngineName(*replica.experiment, engine), role_);
     for (const ControlCommands& commands : commands_) commands_here_.push_back(&commands);
     if (role_.Layout().sensor_size > 0)
-      frames_.emplace(session.GetBus(), session.Scope(FrameCapacity(replica.assignment), 1));
+      frames_.emplace(session.GetBus(), session.Scope(replica.limits->FrameBytes(), 1));
     inputs_.Open(
         {[this](std::size_t k, std::uint64_t) { return &commands_[k]; }, [this] { Step(); }, [this] { Answer(true); }},
-        CommandsCapacity(*replica.space, replica.assignment), HostCount());
+        replica.limits->CommandBytes(), HostCount());
   }
   ~EngineNode() { inputs_.Close(); }
 

@@ -1,6 +1,8 @@
-#include "common/bus/hot_type.h"
 #include "common/bus/machine_id.h"
+#include "common/bus/message_type.h"
 #include "common/bus/participant.h"
+
+#include <fmt/format.h>
 
 namespace swarmanoid
 {
@@ -26,7 +28,10 @@ void ShareData(dds::DataSharingQosPolicy& policy, const HotScope& scope)
 template <class Message>
 struct HotPublisher<Message>::Impl
 {
-  Impl(Bus& bus, const HotScope& scope) : writer(bus, HotTopic<Message>(bus, scope), scope.experiment, Qos(scope)) {}
+  Impl(Bus& bus, const HotScope& scope)
+      : capacity(scope.capacity), writer(bus, HotTopic<Message>(bus, scope), scope.experiment, Qos(scope))
+  {
+  }
 
   static dds::DataWriterQos Qos(const HotScope& scope)
   {
@@ -35,6 +40,7 @@ struct HotPublisher<Message>::Impl
     return qos;
   }
 
+  std::size_t capacity;
   WriterEnd writer;
 };
 
@@ -49,7 +55,10 @@ HotPublisher<Message>::~HotPublisher() = default;
 template <class Message>
 void HotPublisher<Message>::Write(const MessageHeader& header, const Message& message)
 {
-  HotWrite<Message> call{&header, &message};
+  HotWrite<Message> call{&header, &message, PayloadSize(header, message)};
+  if (call.size > impl_->capacity)
+    throw BusError(fmt::format("cannot send {} of tick {}: it has {} bytes, and {} at most by the experiment",
+                               kTopicOf<Message>, header.tick, call.size, impl_->capacity));
   bool written = false;
   try
   {
@@ -62,8 +71,7 @@ void HotPublisher<Message>::Write(const MessageHeader& header, const Message& me
     return;
   }
   if (!written)
-    throw BusError(std::string("cannot send ") + kTopicOf<Message> + " of tick " + std::to_string(header.tick) +
-                   ": the message is too large or the bus is full");
+    throw BusError(fmt::format("cannot send {} of tick {}: the bus is full", kTopicOf<Message>, header.tick));
 }
 
 template <class Message>
@@ -75,8 +83,10 @@ unsigned HotPublisher<Message>::Readers() const
 template <class Message>
 struct HotSubscription<Message>::Impl : dds::DataReaderListener
 {
-  Impl(Bus& bus, const HotScope& scope, Handler its_handler)
-      : handler(std::move(its_handler)), reader(bus, HotTopic<Message>(bus, scope), scope.experiment, Qos(scope), this)
+  Impl(Bus& its_bus, const HotScope& scope, Handler its_handler)
+      : bus(its_bus),
+        handler(std::move(its_handler)),
+        reader(bus, HotTopic<Message>(bus, scope), scope.experiment, Qos(scope), this)
   {
   }
 
@@ -91,12 +101,19 @@ struct HotSubscription<Message>::Impl : dds::DataReaderListener
   void on_data_available(dds::DataReader* source) override
   {
     const std::lock_guard lock(mutex);
-    HotRead<Message> call{&handler.choose, {}, nullptr};
+    HotRead<Message> call{&handler, {}, nullptr, {}};
     dds::SampleInfo about;
     while (source->take_next_sample(&call, &about) == ReturnCode::RETCODE_OK)
-      if (about.valid_data && call.message != nullptr) handler.received(call.header, *call.message);
+    {
+      if (!about.valid_data) continue;
+      if (!call.error.empty())
+        bus.Internals().Report(kTopicOf<Message>, about.sample_identity.writer_guid(), call.header.tick, call.error);
+      else if (call.message != nullptr)
+        handler.received(call.header, *call.message);
+    }
   }
 
+  Bus& bus;
   Handler handler;
   std::mutex mutex;  // data sharing and network readers call from threads of their own
   ReaderEnd reader;

@@ -15,9 +15,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <sstream>
 #include <string_view>
+#include <tuple>
 
 #include <fmt/format.h>
+
+#include "common/bus/shown_text.h"
 
 namespace swarmanoid
 {
@@ -28,6 +32,8 @@ namespace
 {
 
 constexpr unsigned kSocketBuffer = 4U << 20;  // bytes; 10,000 robots lose datagrams with the system's default
+constexpr std::size_t kSendersTold = 100;     // of bad messages, by topic
+constexpr std::size_t kLongestSender = 200;   // bytes of a name in the log
 constexpr unsigned kPeerProcesses = 100;      // looked for on each machine named as a peer
 
 eprosima::fastrtps::Duration_t Seconds(double seconds)
@@ -160,7 +166,7 @@ std::string MachineName()
 
 std::string ProcessId() { return fmt::format("{}:{}", MachineName(), getpid()); }
 
-Bus::Impl::Impl(const BusOptions& options, const std::string& name)
+Bus::Impl::Impl(const BusOptions& options, const std::string& name) : own_name(name)
 {
   if (options.domain < 0 || options.domain > 232)
     throw BusError(fmt::format("domain {}: it must be 0 to 232", options.domain));
@@ -208,6 +214,9 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name)
 Bus::Impl::~Impl()
 {
   participant->set_listener(nullptr);
+  for (const auto& [of, count] : dropped_of)
+    if (count > 1)
+      fmt::print(stderr, "{}: dropped {} bad {} messages of {} in all\n", own_name, count, of.second, of.first);
   for (const auto& [name, topic] : topics) participant->delete_topic(topic);
   dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
 }
@@ -236,6 +245,33 @@ void Bus::Impl::on_participant_discovery(dds::DomainParticipant*, rtps::Particip
     callback(gone.first, gone.second, discovery.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT);
 }
 
+void Bus::Impl::Report(const std::string& topic, const rtps::GUID_t& writer, std::uint64_t tick,
+                       const std::string& what)
+{
+  BadMessageReport report{topic, {}, {}, tick, what};
+  std::function<bool(const BadMessageReport&)> callback;
+  {
+    const std::lock_guard lock(mutex);
+    const auto sender = processes.find(writer.guidPrefix);
+    if (sender != processes.end()) std::tie(report.process, report.name) = sender->second;
+    callback = on_bad;
+  }
+  if (callback && callback(report)) return;
+
+  std::ostringstream guid;
+  guid << writer.guidPrefix;
+  const std::string sender = report.process.empty()
+                                 ? "an unknown process (" + guid.str() + ")"
+                                 : fmt::format("'{}' (process {})", Showable(report.name, kLongestSender),
+                                               Showable(report.process, kLongestSender));
+  const std::lock_guard lock(mutex);
+  ++dropped;
+  if (dropped_of.size() >= kSendersTold && dropped_of.count({sender, topic}) == 0) return;
+  if (++dropped_of[{sender, topic}] == 1)
+    fmt::print(stderr, "{}: dropped a bad {} message of {}: {}; further ones are counted only\n", own_name, topic,
+               sender, what);
+}
+
 dds::Topic* Bus::Impl::TopicOf(const std::string& name, const std::function<dds::TypeSupport()>& make_type)
 {
   const std::lock_guard lock(mutex);
@@ -256,6 +292,18 @@ void Bus::OnProcessGone(std::function<void(const std::string&, const std::string
 {
   const std::lock_guard lock(impl_->mutex);
   impl_->on_gone = std::move(callback);
+}
+
+void Bus::OnBadMessage(std::function<bool(const BadMessageReport&)> callback)
+{
+  const std::lock_guard lock(impl_->mutex);
+  impl_->on_bad = std::move(callback);
+}
+
+std::uint64_t Bus::Dropped() const
+{
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->dropped;
 }
 
 }  // namespace swarmanoid

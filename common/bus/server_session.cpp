@@ -49,6 +49,7 @@ void ServerSession::Open()
 {
   const std::string& partition = world_.experiment;
   bus_.OnProcessGone([this](const std::string& gone, const std::string&, bool died) { Gone(gone, died); });
+  bus_.OnBadMessage([this](const BadMessageReport& report) { return FailedBy(report); });
   hellos_ =
       std::make_unique<Subscription<HelloMessage>>(bus_, partition, [this](const HelloMessage& hello) { Met(hello); });
   byes_ = std::make_unique<Subscription<ByeMessage>>(bus_, partition, [this](const ByeMessage& bye) { Left(bye); });
@@ -68,6 +69,7 @@ void ServerSession::Open()
 
 void ServerSession::Close()
 {
+  bus_.OnBadMessage(nullptr);
   bus_.OnProcessGone(nullptr);
   requests_.reset();
   statuses_.reset();
@@ -148,6 +150,21 @@ void ServerSession::Gone(const std::string& process, bool died)
 void ServerSession::Fail(const std::string& text)
 {
   if (!failure_) failure_ = text;
+}
+
+// Whoever is in the run ends it by what he sends; anybody else is not heard.
+bool ServerSession::FailedBy(const BadMessageReport& report)
+{
+  {
+    const std::lock_guard lock(mutex_);
+    const auto sender = std::find_if(members_.begin(), members_.end(),
+                                     [&](const auto& member) { return member.second.process == report.process; });
+    if (report.process.empty() || sender == members_.end()) return false;
+    if (!over_)
+      Fail(fmt::format("{} sent a bad {} at tick {}: {}", sender->first, report.topic, report.tick, report.what));
+  }
+  callbacks_.changed();
+  return true;
 }
 
 std::vector<std::string> ServerSession::Missing() const

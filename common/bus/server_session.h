@@ -82,6 +82,7 @@ private:
   void Gone(const std::string& process, bool died);
   void Refuse(const HelloMessage& hello, const std::string& reason);
   void Fail(const std::string& text);
+  bool FailedBy(const BadMessageReport& report);
 
   WorldMessage world_;
   std::vector<std::string> expected_;

@@ -33,6 +33,7 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
         server_gone_ = true;
         changed_.notify_all();
       });
+  bus_.OnBadMessage([this](const BadMessageReport& report) { return FailedBy(report); });
   worlds_ = std::make_unique<Subscription<WorldMessage>>(bus_, experiment.empty() ? "*" : experiment,
                                                          [this](const WorldMessage& world)
                                                          {
@@ -80,7 +81,32 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
   hello_->Write({ProcessId(), kProtocolVersion, world_.run, name_, false});
 }
 
-WorkerSession::~WorkerSession() { bus_.OnProcessGone(nullptr); }
+WorkerSession::~WorkerSession()
+{
+  bus_.OnBadMessage(nullptr);
+  bus_.OnProcessGone(nullptr);
+}
+
+void WorkerSession::Trust(const std::string& name)
+{
+  const std::lock_guard lock(mutex_);
+  trusted_.insert(name);
+}
+
+bool WorkerSession::IsOfTheRun(const BadMessageReport& report) const
+{
+  return (have_world_ && report.process == server_process_) || trusted_.count(report.name) > 0;
+}
+
+bool WorkerSession::FailedBy(const BadMessageReport& report)
+{
+  const std::lock_guard lock(mutex_);
+  if (!IsOfTheRun(report)) return false;
+  if (!own_error_)
+    own_error_ = fmt::format("{} sent a bad {} at tick {}: {}", report.name, report.topic, report.tick, report.what);
+  changed_.notify_all();
+  return true;
+}
 
 HotScope WorkerSession::Scope(std::size_t capacity, unsigned writers) const
 {

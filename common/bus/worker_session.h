@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "common/bus/bus.h"
@@ -48,6 +49,9 @@ public:
   std::optional<std::string> Follow(std::chrono::milliseconds period, const std::function<void()>& idle);
   // Says that this process failed, or has nothing to do any more in a run that failed, and ends the program.
   [[noreturn]] void GiveUp(const std::string& error);
+  // Before messages come: `name` is a process of the run, which ends when it sends a bad message. The space server is
+  // one from the start.
+  void Trust(const std::string& name);
   // From any thread: the work is done, or failed, or `idle` is to be called.
   void Finish(std::uint64_t tick);
   void Fail(std::uint64_t tick, const std::string& error);
@@ -56,6 +60,8 @@ public:
   void SetTick(std::uint64_t tick);
 
 private:
+  bool IsOfTheRun(const BadMessageReport& report) const;
+  bool FailedBy(const BadMessageReport& report);
   void CheckOthers();
   bool ServerIsOnThisMachine() const;
   void WaitUntilDone(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
@@ -77,6 +83,7 @@ private:
   bool server_seen_ = false;  // among the processes of this machine
   bool server_said_bye_ = false;
   std::string server_process_;
+  std::set<std::string> trusted_;
   std::string last_status_;
   WorldMessage world_;
   bool have_world_ = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/space/attribute_changes.h"
 #include "common/space/attributes.h"
 #include "controller_host/devices/device_kit.h"
 
@@ -69,15 +70,12 @@ void AttributeActuator::Bind(const DeviceSetup& setup, const std::vector<std::st
 void AttributeActuator::Commit(const ChannelView&, AttributeChanges& changes)
 {
   if (colour_noise_.IsActive()) return CommitWithNoise(changes);
-  const std::span<const double> attributes = space_->Attributes();
-  for (std::size_t i = 0; i < slots_.size(); ++i)
-    if (attributes[slots_[i]] != values_[i]) changes.Add(slots_[i], values_[i]);
+  ReportChanges(slots_, values_, space_->Attributes(), changes);
 }
 
 void AttributeActuator::CommitWithNoise(AttributeChanges& changes) const
 {
-  const std::span<const double> attributes = space_->Attributes();
-  std::vector<double> shown(width_);
+  std::vector<double> shown(values_.size());
   for (std::size_t k = 0; k < robots_.size(); ++k)
   {
     RandomStream random = StreamOf(*space_, robots_[k], stream_);
@@ -86,11 +84,11 @@ void AttributeActuator::CommitWithNoise(AttributeChanges& changes) const
     {
       // What was told one colour stays of one colour: cameras make one blob of it.
       const auto same = static_cast<std::size_t>(std::find(wanted.begin(), wanted.end(), wanted[i]) - wanted.begin());
-      shown[i] = same < i ? shown[same] : Disturbed(static_cast<std::uint32_t>(wanted[i]), random);
-      const std::uint32_t slot = slots_[k * width_ + i];
-      if (attributes[slot] != shown[i]) changes.Add(slot, shown[i]);
+      double* its = &shown[k * width_];
+      its[i] = same < i ? its[same] : Disturbed(static_cast<std::uint32_t>(wanted[i]), random);
     }
   }
+  ReportChanges(slots_, shown, space_->Attributes(), changes);
 }
 
 std::uint32_t AttributeActuator::Disturbed(std::uint32_t colour, RandomStream& random) const

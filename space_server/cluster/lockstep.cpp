@@ -37,6 +37,7 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
     : session_(session),
       server_(server),
       checkpoints_(checkpoints),
+      limits_(server.Space(), assignment),
       first_tick_(server.Space().GetTick()),
       checkpoint_every_(session.World().checkpoint_every),
       stopped_(std::move(stopped)),
@@ -48,7 +49,7 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
       updates_(engines_),
       commands_(hosts_.size()),
       drawn_(visualisers_),
-      states_(session.GetBus(), session.Scope(StateCapacity(server.Space()), 1))
+      states_(session.GetBus(), session.Scope(limits_.StateBytes(), 1))
 {
   if (!hash_log.empty())
   {
@@ -61,20 +62,20 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
 
   Bus& bus = session.GetBus();
   if (engines_ > 0)
-    updates_in_.emplace(bus, session.Scope(UpdateCapacity(server.Space(), assignment), static_cast<unsigned>(engines_)),
-                        HotSubscription<EngineUpdate>::Handler{[this](const MessageHeader& header) -> EngineUpdate*
-                                                               {
-                                                                 if (header.source >= engines_ || header.tick == 0)
-                                                                   return nullptr;
-                                                                 return PlaceOf(header, header.tick - 1, header.source,
-                                                                                updates_[header.source]);
-                                                               },
-                                                               [this](const MessageHeader& header, EngineUpdate&)
-                                                               { Arrived(header.source, header.tick - 1); }});
+    updates_in_.emplace(
+        bus, session.Scope(limits_.UpdateBytes(), static_cast<unsigned>(engines_)),
+        HotSubscription<EngineUpdate>::Handler{
+            [this](const MessageHeader& header) -> EngineUpdate*
+            {
+              if (header.source >= engines_) throw BadMessage(fmt::format("there is no engine {}", header.source));
+              if (header.tick == 0) throw BadMessage("an update cannot lead to tick 0");
+              return PlaceOf(header, header.tick - 1, header.source, updates_[header.source]);
+            },
+            [this](const MessageHeader& header, EngineUpdate&) { Arrived(header.source, header.tick - 1); },
+            [this](const MessageHeader& header, const EngineUpdate& update) { limits_.Check(header, update); }});
   if (!hosts_.empty())
     commands_in_.emplace(
-        bus,
-        session.Scope(CommandsCapacity(server.Space(), assignment), static_cast<unsigned>(assignment.hosts.size())),
+        bus, session.Scope(limits_.CommandBytes(), static_cast<unsigned>(assignment.hosts.size())),
         HotSubscription<ControlCommands>::Handler{
             [this](const MessageHeader& header) -> ControlCommands*
             {
@@ -87,13 +88,15 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
             {
               const auto host = std::find(hosts_.begin(), hosts_.end(), header.source);
               Arrived(engines_ + static_cast<std::size_t>(host - hosts_.begin()), header.tick);
-            }});
+            },
+            [this](const MessageHeader& header, const ControlCommands& commands) { limits_.Check(header, commands); }});
   if (visualisers_ > 0)
-    drawn_in_.emplace(bus, session.Scope(kDrawnCapacity, static_cast<unsigned>(visualisers_)),
+    drawn_in_.emplace(bus, session.Scope(TickLimits::DrawnBytes(), static_cast<unsigned>(visualisers_)),
                       HotSubscription<DrawnMessage>::Handler{
                           [this](const MessageHeader& header) -> DrawnMessage*
                           {
-                            if (header.source >= visualisers_) return nullptr;
+                            if (header.source >= visualisers_)
+                              throw BadMessage(fmt::format("there is no visualiser {}", header.source));
                             return PlaceOf(header, header.tick, engines_ + hosts_.size() + header.source,
                                            drawn_[header.source]);
                           },
@@ -122,16 +125,7 @@ Message* Lockstep::PlaceOf(const MessageHeader& header, std::uint64_t tick, std:
 {
   if (header.run != session_.World().run) return nullptr;
   const std::lock_guard lock(mutex_);
-  try
-  {
-    return !held_ && gate_.Offer(*part, tick) == TickGate::Verdict::kExpected ? &place : nullptr;
-  }
-  catch (const BusError& error)
-  {
-    if (!failure_) failure_ = error.what();
-    stopped_();
-    return nullptr;
-  }
+  return !held_ && gate_.Offer(*part, tick) == TickGate::Verdict::kExpected ? &place : nullptr;
 }
 
 void Lockstep::Arrived(std::size_t part, std::uint64_t tick)

@@ -12,6 +12,7 @@
 
 #include "common/bus/server_session.h"
 #include "common/bus/tick_gate.h"
+#include "common/bus/tick_limits.h"
 #include "space_server/cluster/checkpoint_desk.h"
 #include "space_server/space_server.h"
 
@@ -66,6 +67,7 @@ private:
   mutable std::mutex mutex_;  // of what follows
   SpaceServer& server_;
   CheckpointDesk& checkpoints_;
+  TickLimits limits_;
   std::uint64_t first_tick_;
   std::uint64_t checkpoint_every_;
   std::function<void()> stopped_;
