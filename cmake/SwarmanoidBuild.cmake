@@ -41,6 +41,15 @@ if(SWARMANOID_SANITIZE)
   add_link_options(-fsanitize=${SWARMANOID_SANITIZE})
 endif()
 
+option(SWARMANOID_BUILD_FUZZERS "Build the fuzzers of tests/fuzz with libFuzzer (Clang only), and everything instrumented for them" OFF)
+if(SWARMANOID_BUILD_FUZZERS)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    message(FATAL_ERROR "SWARMANOID_BUILD_FUZZERS needs Clang: add -DCMAKE_CXX_COMPILER=clang++")
+  endif()
+  add_compile_options(-g -O1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
 set(SWARMANOID_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # False alarms of GCC 12 about std::string's operator+ at -O3 (its bugs 105329 and 105651).

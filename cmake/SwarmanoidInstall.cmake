@@ -5,11 +5,11 @@ include(CMakePackageConfigHelpers)
 set(PACKAGE_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/Swarmanoid)
 
 # What only the programs of the cluster use stays out: DDS is no part of the interface.
-install(DIRECTORY common engine_worker controller_host visualiser space_server
+install(DIRECTORY common roles engine_worker controller_host visualiser space_server
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid
   FILES_MATCHING PATTERN "*.h" PATTERN "bus" EXCLUDE PATTERN "engines" EXCLUDE PATTERN "devices" EXCLUDE)
 # Of the devices, what those of users are made from.
-install(FILES controller_host/devices/noise.h controller_host/devices/value_devices.h
+install(FILES controller_host/devices/device_streams.h controller_host/devices/noise.h controller_host/devices/value_devices.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid/controller_host/devices)
 
 install(FILES launcher/simulation.h launcher/simulator.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid/launcher)

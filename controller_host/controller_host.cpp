@@ -4,12 +4,15 @@
 #include <map>
 #include <sstream>
 
+#include "common/control_interface/init_controller.h"
+#include "common/experiment/actors.h"
+#include "common/space/attribute_changes.h"
+#include "common/space/state_checks.h"
+
 namespace swarmanoid
 {
 namespace
 {
-
-constexpr std::uint32_t kControllerStream = StreamName("controller");
 
 // The slice of a host's channel values that belongs to the robots of one batch.
 struct ChannelSlice
@@ -43,14 +46,19 @@ struct ControllerHost::Batches
   {
     std::unique_ptr<SensorBatch> batch;
     ChannelSlice slice;
+    Actor actor;
   };
   struct Actuator
   {
     std::unique_ptr<ActuatorBatch> batch;
     ChannelSlice slice;
+    Actor actor;
+    const DeviceConfiguration* device = nullptr;
+    std::vector<std::uint32_t> robots;
   };
   std::vector<Sensor> sensors;
   std::vector<Actuator> actuators;
+  AttributeOrder order;
 };
 
 ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t host)
@@ -62,14 +70,15 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
   sensor_values_.resize(layout_.sensor_size);
 
   std::vector<std::vector<std::size_t>> robots_of(experiment.controllers.size());
-  robots_.resize(layout_.robots.size());
-  for (std::size_t k = 0; k < robots_.size(); ++k)
+  robots_.reserve(layout_.robots.size());
+  for (std::size_t k = 0; k < layout_.robots.size(); ++k)
   {
     const CSwarmanoidSpaceEntity& entity = space.GetEntity(layout_.robots[k]);
     const ControllerConfiguration* configuration = experiment.FindController(entity.GetConfiguration().controller);
     robots_of[static_cast<std::size_t>(configuration - experiment.controllers.data())].push_back(k);
-    robots_[k].entity = layout_.robots[k];
-    robots_[k].interface = std::make_unique<CCI_Robot>(entity.GetId(), std::string(TagName(entity.GetKind())));
+    robots_.push_back({layout_.robots[k], RobotActor(experiment, layout_.robots[k]),
+                       StreamKey(experiment.seed, StreamName(entity.GetId()), kControlStepStream),
+                       std::make_unique<CCI_Robot>(entity.GetId(), std::string(TagName(entity.GetKind()))), nullptr});
   }
 
   for (std::size_t c = 0; c < experiment.controllers.size(); ++c)
@@ -85,8 +94,8 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
     {
       Robot& robot = robots_[k];
       robot.interface->BeginStep(0, space.GetTickSeconds(),
-                                 RandomStream(experiment.seed, robot.entity, kControllerStream, 0));
-      robot.controller = entry->create();
+                                 {experiment.seed, StreamName(robot.interface->GetId()), kInitStream, 0});
+      RunCodeOf(robot.actor, ActivityStep::kInit, 0, [&] { robot.controller = entry->create(); });
       robot.controller->SetRobot(robot.interface.get());
     }
   }
@@ -94,25 +103,19 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
   // Init in entity order, whatever the controllers.
   for (Robot& robot : robots_)
   {
-    const std::string& id = robot.interface->GetId();
     const ControllerConfiguration& configuration =
         *experiment.FindController(space.GetEntity(robot.entity).GetConfiguration().controller);
-    running_robot_ = id.c_str();
     int result = CCI_Controller::RETURN_OK;
-    try
-    {
-      result = robot.controller->Init(configuration.parameters);
-    }
-    catch (const std::exception& error)
-    {
-      throw ControllerError("robot '" + id + "': Init of controller '" + configuration.id +
-                            "' failed: " + error.what());
-    }
+    const auto* entry = PluginRegistry<CCI_Controller>::Instance().Find(configuration.tag);
+    RunCodeOf<ConfigurationError>(robot.actor, ActivityStep::kInit, 0,
+                                  [&] {
+                                    result = InitController(*robot.controller, entry->description, configuration.id,
+                                                            configuration.parameters);
+                                  });
     if (result != CCI_Controller::RETURN_OK)
-      throw ControllerError("robot '" + id + "': Init of controller '" + configuration.id + "' returned " +
+      throw ControllerError(ActivityText(robot.actor, ActivityStep::kInit, 0) + " failed: it returned " +
                             std::to_string(result));
   }
-  running_robot_ = "";
 }
 
 ControllerHost::~ControllerHost()
@@ -132,8 +135,9 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
   std::vector<std::uint32_t> entities;
   for (const std::size_t k : robots) entities.push_back(robots_[k].entity);
 
-  const auto setup_of = [&](const DeviceConfiguration& device, const PluginDescription& description) {
-    return DeviceSetup{Parameters(device.tree, description.parameters), space_, entities, StreamName(device.type)};
+  const auto setup_of = [&](const DeviceConfiguration& device, const PluginDescription& description,
+                            std::uint64_t stream) {
+    return DeviceSetup{Parameters(device.tree, description.parameters), space_, entities, stream};
   };
   const auto unknown = [&](const DeviceConfiguration& device)
   {
@@ -141,22 +145,32 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
                                                           device.type + "> is registered");
   };
 
-  for (const DeviceConfiguration& device : configuration.sensors)
+  const Experiment& experiment = space_.GetExperiment();
+  const auto number = static_cast<std::size_t>(&configuration - experiment.controllers.data());
+  for (std::size_t d = 0; d < configuration.sensors.size(); ++d)
   {
+    const DeviceConfiguration& device = configuration.sensors[d];
     const auto* entry = PluginRegistry<SensorBatch>::Instance().Find(device.type, device.implementation);
     if (entry == nullptr) throw unknown(device);
-    Batches::Sensor sensor{entry->create(), SliceOf(layout_.sensors, entry->description.channel, entities)};
-    sensor.batch->Init(setup_of(device, entry->description));
+    Batches::Sensor sensor{entry->create(), SliceOf(layout_.sensors, entry->description.channel, entities),
+                           SensorActor(experiment, number, d)};
+    RunCodeOf<ConfigurationError>(
+        sensor.actor, ActivityStep::kInit, 0,
+        [&] { sensor.batch->Init(setup_of(device, entry->description, SensorStream(device.type))); });
     for (std::size_t n = 0; n < robots.size(); ++n)
       robots_[robots[n]].interface->AddSensor(device.type, sensor.batch->Sensor(n));
     batches_->sensors.push_back(std::move(sensor));
   }
-  for (const DeviceConfiguration& device : configuration.actuators)
+  for (std::size_t d = 0; d < configuration.actuators.size(); ++d)
   {
+    const DeviceConfiguration& device = configuration.actuators[d];
     const auto* entry = PluginRegistry<ActuatorBatch>::Instance().Find(device.type, device.implementation);
     if (entry == nullptr) throw unknown(device);
-    Batches::Actuator actuator{entry->create(), SliceOf(layout_.commands, entry->description.channel, entities)};
-    actuator.batch->Init(setup_of(device, entry->description));
+    Batches::Actuator actuator{entry->create(), SliceOf(layout_.commands, entry->description.channel, entities),
+                               ActuatorActor(experiment, number, d), &device, entities};
+    RunCodeOf<ConfigurationError>(
+        actuator.actor, ActivityStep::kInit, 0,
+        [&] { actuator.batch->Init(setup_of(device, entry->description, ActuatorStream(device.type))); });
     for (std::size_t n = 0; n < robots.size(); ++n)
       robots_[robots[n]].interface->AddActuator(device.type, actuator.batch->Actuator(n));
     batches_->actuators.push_back(std::move(actuator));
@@ -166,7 +180,6 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
 const ControlCommands& ControllerHost::Step(std::span<const SensorFrame* const> frames)
 {
   const std::uint64_t tick = space_.GetTick();
-  const std::uint64_t seed = space_.GetExperiment().seed;
 
   // What the engines sensed.
   if (!frames.empty())
@@ -178,32 +191,105 @@ const ControlCommands& ControllerHost::Step(std::span<const SensorFrame* const> 
                   sensor_values_.begin() + static_cast<std::ptrdiff_t>(copy.to));
     }
   for (Batches::Sensor& sensor : batches_->sensors)
-    sensor.batch->Update({sensor_values_, sensor.slice.offsets, sensor.slice.width});
-
-  for (Robot& robot : robots_)
-  {
-    if (!space_.IsPresent(robot.entity)) continue;
-    robot.interface->BeginStep(tick, space_.GetTickSeconds(),
-                               RandomStream(seed, robot.entity, kControllerStream, static_cast<std::uint32_t>(tick)));
-    running_robot_ = robot.interface->GetId().c_str();
-    try
-    {
-      robot.controller->ControlStep();
-    }
-    catch (const std::exception& error)
-    {
-      throw ControllerError("robot '" + robot.interface->GetId() + "': ControlStep at tick " + std::to_string(tick) +
-                            " failed: " + error.what());
-    }
-  }
-  running_robot_ = "";
+    RunCodeOf(sensor.actor, ActivityStep::kUpdate, tick,
+              [&] {
+                sensor.batch->Update({sensor_values_, sensor.slice.offsets, sensor.slice.width});
+              });
+  RunControllers(tick);
 
   commands_.tick = tick;
+  CommitActuators();
+  return commands_;
+}
+
+void ControllerHost::CommitActuators()
+{
   commands_.attributes.Clear();
   for (Batches::Actuator& actuator : batches_->actuators)
-    actuator.batch->Commit({commands_.values, actuator.slice.offsets, actuator.slice.width}, commands_.attributes);
+  {
+    const std::size_t first = commands_.attributes.slots.size();
+    RunCodeOf(actuator.actor, ActivityStep::kUpdate, commands_.tick,
+              [&] {
+                actuator.batch->Commit({commands_.values, actuator.slice.offsets, actuator.slice.width},
+                                       commands_.attributes);
+              });
+    CheckAttributesOf(*actuator.device, actuator.robots, first);
+  }
+  batches_->order.Apply(commands_.attributes);
   StillAbsent();
-  return commands_;
+  CheckCommands();
+}
+
+// What a device has just added, from `first` on.
+void ControllerHost::CheckAttributesOf(const DeviceConfiguration& device, std::span<const std::uint32_t> robots,
+                                       std::size_t first) const
+{
+  const AttributeChanges& changes = commands_.attributes;
+  for (std::size_t k = first; k < changes.slots.size(); ++k)
+  {
+    try
+    {
+      CheckAttribute(space_, changes.slots[k], changes.values[k]);
+    }
+    catch (const StateError& error)
+    {
+      const std::uint32_t entity = EntityOfSlot(space_, changes.slots[k]);
+      if (!AllFinite({&changes.values[k], 1}) && std::binary_search(robots.begin(), robots.end(), entity))
+        FailCommand(entity, device, changes.values[k]);
+      throw ControllerError("actuator '" + device.type + "' (" + device.implementation + ") at tick " +
+                            std::to_string(commands_.tick) + ": " + error.what());
+    }
+  }
+}
+
+void ControllerHost::CheckCommands()
+{
+  if (AllFinite(commands_.values)) return;
+  // Devices may share a channel: the one that does it again is the one.
+  for (Batches::Actuator& actuator : batches_->actuators)
+    for (std::size_t k = 0; k < actuator.slice.offsets.size(); ++k)
+      for (int i = 0; i < actuator.slice.width; ++i)
+      {
+        double& value = commands_.values[actuator.slice.offsets[k] + static_cast<std::size_t>(i)];
+        if (AllFinite({&value, 1})) continue;
+        const double found = value;
+        value = 0;
+        AttributeChanges again;
+        actuator.batch->Commit({commands_.values, actuator.slice.offsets, actuator.slice.width}, again);
+        if (!AllFinite({&value, 1})) FailCommand(actuator.robots[k], *actuator.device, found);
+        value = found;
+      }
+  throw ControllerError("the commands at tick " + std::to_string(commands_.tick) + " are not finite");
+}
+
+void ControllerHost::FailCommand(std::uint32_t robot, const DeviceConfiguration& device, double value) const
+{
+  const CSwarmanoidSpaceEntity& entity = space_.GetEntity(robot);
+  throw ControllerError("robot '" + entity.GetId() + "': its controller '" + entity.GetConfiguration().controller +
+                        "' commanded " + std::to_string(value) + " to the actuator '" + device.type + "' at tick " +
+                        std::to_string(commands_.tick) + "; commands must be finite numbers");
+}
+
+void ControllerHost::RunControllers(std::uint64_t tick)
+{
+  if (robots_.empty()) return;
+  const Actor* running = &robots_.front().actor;
+  Activity activity(*running, ActivityStep::kControlStep, tick);
+  try
+  {
+    for (Robot& robot : robots_)
+    {
+      if (!space_.IsPresent(robot.entity)) continue;
+      robot.interface->BeginStep(tick, space_.GetTickSeconds(), {robot.random, tick});
+      running = &robot.actor;
+      activity.Next(*running);
+      robot.controller->ControlStep();
+    }
+  }
+  catch (...)
+  {
+    RethrowFor(*running, ActivityStep::kControlStep, tick);
+  }
 }
 
 bool ControllerHost::Describe(std::uint32_t entity, RobotStatus& status) const
@@ -216,10 +302,14 @@ bool ControllerHost::Describe(std::uint32_t entity, RobotStatus& status) const
   status = {entity, commands_.tick, configuration.id, {}, {}, {}, {}};
   try
   {
-    status.text = robot.controller->StatusText();
-    status.state = robot.controller->StateName();
+    RunCodeOf(robot.actor, ActivityStep::kStatusText, commands_.tick,
+              [&]
+              {
+                status.text = robot.controller->StatusText();
+                status.state = robot.controller->StateName();
+              });
   }
-  catch (const std::exception& error)
+  catch (const ActivityError& error)
   {
     status.text = std::string("its status is unknown: ") + error.what();
   }
@@ -239,6 +329,7 @@ bool ControllerHost::Describe(std::uint32_t entity, RobotStatus& status) const
 // Robots that are not in the arena do nothing, whatever they were told last.
 void ControllerHost::StillAbsent()
 {
+  if (space_.Absent().empty()) return;
   for (const ChannelBlock& block : layout_.commands)
     for (std::size_t k = 0; k < block.entities.size(); ++k)
       if (!space_.IsPresent(block.entities[k]))
@@ -255,7 +346,7 @@ void ControllerHost::SaveState(ByteWriter& state) const
                             "': its controller cannot be saved; it must override HasState, " +
                             "SaveState and LoadState");
     std::ostringstream text;
-    robot.controller->SaveState(text);
+    RunCodeOf(robot.actor, ActivityStep::kSaveState, space_.GetTick(), [&] { robot.controller->SaveState(text); });
     state.PutText(text.str());
   }
   for (const Batches::Sensor& sensor : batches_->sensors) sensor.batch->SaveState(state);
@@ -267,7 +358,7 @@ void ControllerHost::LoadState(ByteReader& state)
   for (Robot& robot : robots_)
   {
     std::istringstream text(state.GetText());
-    robot.controller->LoadState(text);
+    RunCodeOf(robot.actor, ActivityStep::kLoadState, space_.GetTick(), [&] { robot.controller->LoadState(text); });
   }
   for (Batches::Sensor& sensor : batches_->sensors) sensor.batch->LoadState(state);
   for (Batches::Actuator& actuator : batches_->actuators) actuator.batch->LoadState(state);
@@ -280,14 +371,12 @@ void ControllerHost::Destroy()
   for (Robot& robot : robots_)
   {
     if (robot.controller == nullptr) continue;
-    try
-    {
-      robot.controller->Destroy();
-    }
-    catch (const std::exception& error)
-    {
-      throw ControllerError("robot '" + robot.interface->GetId() + "': Destroy failed: " + error.what());
-    }
+    // Of the last control step: whether the last state still reaches a host depends on how it is started.
+    const std::uint64_t tick = commands_.tick;
+    robot.interface->BeginStep(
+        tick, space_.GetTickSeconds(),
+        {space_.GetExperiment().seed, StreamName(robot.interface->GetId()), kDestroyStream, tick});
+    RunCodeOf(robot.actor, ActivityStep::kDestroy, tick, [&] { robot.controller->Destroy(); });
   }
 }
 

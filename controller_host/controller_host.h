@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/activity/failure_report.h"
 #include "common/control_interface/ci_controller.h"
 #include "common/space/assignment.h"
 #include "common/space/robot_status.h"
@@ -14,25 +15,26 @@
 namespace swarmanoid
 {
 
-// A controller failed: what() names the robot, the tick and the reason.
-class ControllerError : public std::runtime_error
+// A controller failed: what() names the robot, the controller, the tick and the reason.
+class ControllerError : public ActivityError
 {
 public:
-  using std::runtime_error::runtime_error;
+  using ActivityError::ActivityError;
 };
 
 class ControllerHost
 {
 public:
   // `space` is the replica of this process; it and `assignment` outlive the host. Loads the controller libraries,
-  // creates devices and controllers and calls Init. Throws ControllerError or ConfigurationError.
+  // creates devices and controllers and calls Init. Throws ActivityError, which names the robot or device whose code
+  // failed, or ConfigurationError.
   ControllerHost(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t host);
   ~ControllerHost();
 
   // Senses, runs the controllers and commits the actuators at the tick of the space. `frames`: one for each of
   // layout.frames_from, in that order; empty at tick 0. The result is valid until the next call.
   const ControlCommands& Step(std::span<const SensorFrame* const> frames);
-  // What controllers and devices remember. Saving throws ControllerError where a controller cannot be saved (HasState
+  // What controllers and devices remember. Saving throws ActivityError where a controller cannot be saved (HasState
   // is false).
   void SaveState(ByteWriter& state) const;
   void LoadState(ByteReader& state);
@@ -44,20 +46,26 @@ public:
   bool Describe(std::uint32_t entity, RobotStatus& status) const;
 
   const HostLayout& Layout() const { return layout_; }
-  // The robot whose control step runs now, empty between steps; readable from another thread to report a stuck
-  // controller.
-  const char* RunningRobot() const { return running_robot_; }
 
 private:
   struct Batches;
   struct Robot
   {
     std::uint32_t entity = 0;
+    Actor actor;
+    StreamKey random;  // of its control steps
     std::unique_ptr<CCI_Robot> interface;
     std::unique_ptr<CCI_Controller> controller;
   };
 
+  void RunControllers(std::uint64_t tick);
+  void CommitActuators();
   void StillAbsent();
+  // What no controller may command: throws ControllerError with robot, device, tick and value.
+  void CheckCommands();
+  void CheckAttributesOf(const DeviceConfiguration& device, std::span<const std::uint32_t> robots,
+                         std::size_t first) const;
+  [[noreturn]] void FailCommand(std::uint32_t robot, const DeviceConfiguration& device, double value) const;
   void MakeBatches(const ControllerConfiguration& configuration, const std::vector<std::size_t>& robots);
 
   const CSwarmanoidSpace& space_;
@@ -66,7 +74,6 @@ private:
   std::unique_ptr<Batches> batches_;
   std::vector<double> sensor_values_;
   ControlCommands commands_;
-  const char* volatile running_robot_ = "";
   bool destroyed_ = false;
 };
 

@@ -20,13 +20,17 @@
 namespace swarmanoid
 {
 
+// What a device of a type draws random numbers for; a sensor and an actuator of one type draw different ones.
+inline std::uint64_t SensorStream(const std::string& type) { return StreamName("sensor " + type); }
+inline std::uint64_t ActuatorStream(const std::string& type) { return StreamName("actuator " + type); }
+
 // What a batch is made from. The references outlive the batch.
 struct DeviceSetup
 {
   Parameters parameters;              // of the device's element
   const CSwarmanoidSpace& space;      // this process's replica
   std::vector<std::uint32_t> robots;  // entity indices, ascending: robot k of the batch is entity robots[k]
-  std::uint32_t stream = 0;           // the device's name for RandomStream: StreamName(type)
+  std::uint64_t stream = 0;           // the device's name for random numbers: SensorStream or ActuatorStream(type)
 };
 
 // The channel values of the robots of a batch, `width` doubles each; robot k stands at values[offsets[k]].

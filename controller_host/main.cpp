@@ -1,6 +1,4 @@
 // The program that runs the controllers of some robots of an experiment: the controller host's role at the bus.
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
 #include <array>
 
@@ -9,10 +7,10 @@
 #include "common/bus/saved_states.h"
 #include "common/bus/tick_inputs.h"
 #include "common/bus/worker_session.h"
+#include "common/program/program.h"
 #include "controller_host/cluster/robot_watch.h"
 #include "controller_host/controller_host.h"
-#include "engine_worker/engine_worker.h"
-#include "visualiser/render.h"
+#include "roles/builtins.h"
 
 namespace swarmanoid
 {
@@ -30,7 +28,7 @@ public:
         role_(*replica.space, replica.assignment, host),
         saved_(session, HostName(host), role_),
         inputs_(session, replica, Engines(*replica.experiment, role_.Layout())),
-        commands_(session.GetBus(), session.Scope(CommandsCapacity(*replica.space, replica.assignment), 1)),
+        commands_(session.GetBus(), session.Scope(replica.limits->CommandBytes(), 1)),
         watch_robots_(session, role_, host_, inputs_.Mutex())
   {
     const auto& from = role_.Layout().frames_from;
@@ -47,7 +45,7 @@ public:
     }
     inputs_.Open({[this](std::size_t k, std::uint64_t tick) { return &frames_[tick % 2][k]; }, [this] { Step(); },
                   [this] { AnswerAgain(); }},
-                 FrameCapacity(replica.assignment), FrameWriters());
+                 replica.limits->FrameBytes(), FrameWriters());
   }
   ~HostNode() { inputs_.Close(); }
 
@@ -72,7 +70,7 @@ public:
 
   std::optional<std::string> Stall()
   {
-    return inputs_.Stall([this] { return fmt::format("runs the controller of {}", role_.RunningRobot()); });
+    return inputs_.Stall([] { return "runs " + CurrentActivity(); });
   }
 
   void Flush() { saved_.Flush(); }
@@ -134,29 +132,10 @@ private:
   RobotWatch watch_robots_;
 };
 
-int Run(int argc, char** argv)
+int Run(const WorkerSettings& settings, const BusOptions& bus)
 {
-  CLI::App app{"Runs the controllers of some robots of a Swarmanoid experiment."};
-  app.footer(
-      "Examples:\n"
-      "  controller_host                                    host 0 of the experiment that runs on this machine\n"
-      "  controller_host --host 1 --experiment diffusion_10 --domain 7\n"
-      "  controller_host --host 1 --interface eth0          space server on another machine");
-  std::size_t host = 0;
-  std::string experiment;
-  BusOptions bus;
-  app.add_option("--host", host,
-                 "number of this host, from 0; the space server's --controller-hosts says how many there are")
-      ->capture_default_str();
-  app.add_option("--experiment", experiment, "name of the experiment; default: the first one that is heard");
-  AddBusOptions(app, bus);
-  if (const int code = ParseCommandLine(app, argc, argv); code >= 0) return code;
-
-  CatchInterrupts();
-  RegisterBuiltinEngines();
-  RegisterBuiltinDevices();
-  RegisterBuiltinRenderers();
-  WorkerSession session(bus, experiment, HostName(host));
+  const std::size_t host = settings.host;
+  WorkerSession session(bus, settings.experiment, HostName(host));
   return session.Work(
       [&]
       {
@@ -177,4 +156,28 @@ int Run(int argc, char** argv)
 }  // namespace
 }  // namespace swarmanoid
 
-int main(int argc, char** argv) { return swarmanoid::RunProgram("controller_host", swarmanoid::Run, argc, argv); }
+int main(int count, char** arguments)
+{
+  using namespace swarmanoid;
+
+  WorkerSettings settings;
+  BusOptions bus;
+  const ProgramDescription program{
+      "controller_host",
+      "Runs the controllers of some robots of a Swarmanoid experiment.",
+      "Examples:\n"
+      "  controller_host                                host 0 of the experiment that runs on this machine\n"
+      "  controller_host --host 1 --experiment diffusion_10 --domain 7\n"
+      "  controller_host --host 1 --interface eth0          space server on another machine",
+      RegisterBuiltins,
+      true,
+      true};
+  return RunProgram(
+      program, count, arguments,
+      [&](CLI::App& app)
+      {
+        AddOptions(app, HostOptionTable(settings));
+        AddOptions(app, BusOptionTable(bus));
+      },
+      [&] { return Run(settings, bus); });
+}

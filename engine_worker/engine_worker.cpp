@@ -1,31 +1,45 @@
 #include "engine_worker/engine_worker.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+
+#include "common/experiment/actors.h"
+#include "common/space/state_checks.h"
 
 namespace swarmanoid
 {
 
 EngineWorker::EngineWorker(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t engine)
-    : space_(space), layout_(assignment.engines[engine])
+    : space_(space),
+      assignment_(assignment),
+      layout_(assignment.engines[engine]),
+      actor_(EngineActor(space.GetExperiment(), engine))
 {
   const EngineConfiguration& configuration = space.GetExperiment().engines[engine];
   const auto* entry = PluginRegistry<CPhysicsEngine>::Instance().Find(configuration.tag);
   if (entry == nullptr)
     throw ConfigurationError(configuration.location, "no engine is registered as '" + configuration.tag + "'");
-  engine_ = entry->create();
-  engine_->Init({configuration, Parameters(configuration.tree, entry->description.parameters), space, layout_});
-  for (const std::uint32_t index : configuration.entities)
-  {
-    const CSwarmanoidSpaceEntity& entity = space.GetEntity(index);
-    const bool owned = assignment.owner[index] == static_cast<int>(engine);
-    const bool fixed = !entity.IsMovable() || IsBodiless(entity.GetKind());
-    engine_->AddEntity(entity, fixed ? EBinding::kFixed : owned ? EBinding::kOwned : EBinding::kMirror);
-  }
-  engine_->Start();
+  RunCodeOf<ConfigurationError>(
+      actor_, ActivityStep::kInit, space.GetTick(),
+      [&]
+      {
+        engine_ = entry->create();
+        engine_->Init({configuration, Parameters(configuration.tree, entry->description.parameters), space, layout_});
+        for (const std::uint32_t index : configuration.entities)
+        {
+          const CSwarmanoidSpaceEntity& entity = space.GetEntity(index);
+          const bool owned = assignment.owner[index] == static_cast<int>(engine);
+          const bool fixed = !entity.IsMovable() || IsBodiless(entity.GetKind());
+          engine_->AddEntity(entity, fixed ? EBinding::kFixed : owned ? EBinding::kOwned : EBinding::kMirror);
+        }
+        engine_->Start();
+      });
 
   command_values_.resize(layout_.command_size);
-  update_.engine = static_cast<std::uint32_t>(engine);
+  index_ = static_cast<std::uint32_t>(engine);
+  update_.engine = index_;
   update_.poses.resize(7 * layout_.owned.size());
   frame_.engine = static_cast<std::uint32_t>(engine);
   frame_.values.resize(layout_.sensor_size);
@@ -35,50 +49,97 @@ EngineWorker::~EngineWorker() = default;
 
 void EngineWorker::Step(std::span<const std::uint32_t> moved, std::span<const ControlCommands* const> commands)
 {
-  for (const std::uint32_t entity : moved)
-    if (std::binary_search(layout_.owned.begin(), layout_.owned.end(), entity)) engine_->EntityMoved(entity);
+  const std::uint64_t tick = space_.GetTick();
+  update_.tick = tick + 1;
+  frame_.tick = update_.tick;
+  update_.attributes.Clear();
+  Checked([&] { ReadCommands(commands); });
+  RunCodeOf(actor_, ActivityStep::kUpdate, tick,
+            [&]
+            {
+              for (const std::uint32_t entity : moved)
+                if (std::binary_search(layout_.owned.begin(), layout_.owned.end(), entity))
+                  engine_->EntityMoved(entity);
+              engine_->Update({layout_.commands, command_values_}, update_, frame_.values);
+            });
+  // The engine was lent these.
+  update_.tick = frame_.tick;
+  update_.engine = index_;
+  Checked(
+      [&]
+      {
+        KeepAbsent();
+        CheckResults();
+        order_.Apply(update_.attributes);
+      });
+  if (frame_.tick % space_.GetExperiment().canonical_period == 0)
+    RunCodeOf(actor_, ActivityStep::kUpdate, tick, [&] { engine_->Canonicalise(); });
+}
 
+template <class Check>
+void EngineWorker::Checked(const Check& check) const
+{
+  try
+  {
+    check();
+  }
+  catch (const std::exception& error)
+  {
+    throw EngineError(ActivityText(actor_, ActivityStep::kUpdate, space_.GetTick()) + " failed: " + error.what());
+  }
+}
+
+void EngineWorker::ReadCommands(std::span<const ControlCommands* const> commands)
+{
   for (const ValueCopy& copy : layout_.command_copies)
   {
     const auto source = std::find(layout_.commands_from.begin(), layout_.commands_from.end(), copy.source);
     const ControlCommands& message = *commands[static_cast<std::size_t>(source - layout_.commands_from.begin())];
+    if (message.values.size() != assignment_.hosts[copy.source].command_size)
+      throw std::runtime_error(fmt::format("{} sent {} values of commands; there must be {}", HostName(copy.source),
+                                           message.values.size(), assignment_.hosts[copy.source].command_size));
     std::copy_n(message.values.begin() + static_cast<std::ptrdiff_t>(copy.from), copy.count,
                 command_values_.begin() + static_cast<std::ptrdiff_t>(copy.to));
   }
-
-  update_.tick = space_.GetTick() + 1;
-  frame_.tick = update_.tick;
-  update_.attributes.Clear();
-  engine_->Update({layout_.commands, command_values_}, update_, frame_.values);
-  KeepAbsent();
-  if (update_.tick % space_.GetExperiment().canonical_period == 0) engine_->Canonicalise();
+  CheckChannels(space_, layout_.commands, command_values_, "commands");
 }
 
 // Entities that are not in the arena stay where they wait, whatever the engine makes of them.
 void EngineWorker::KeepAbsent()
 {
+  if (space_.Absent().empty() || update_.poses.size() != 7 * layout_.owned.size()) return;
   const PoseArrays& poses = space_.Poses();
   const std::array components{&poses.x, &poses.y, &poses.z, &poses.qx, &poses.qy, &poses.qz, &poses.qw};
   const std::size_t count = layout_.owned.size();
-  for (std::size_t k = 0; k < count; ++k)
+  for (const std::uint32_t entity : space_.Absent())
   {
-    const std::uint32_t entity = layout_.owned[k];
-    if (space_.IsPresent(entity)) continue;
+    const auto place = std::lower_bound(layout_.owned.begin(), layout_.owned.end(), entity);
+    if (place == layout_.owned.end() || *place != entity) continue;
+    const auto k = static_cast<std::size_t>(place - layout_.owned.begin());
     for (std::size_t c = 0; c < components.size(); ++c) update_.poses[c * count + k] = (*components[c])[entity];
   }
+}
+
+// The server checks again what reaches it; here the engine itself is told.
+void EngineWorker::CheckResults() const
+{
+  CheckPoses(space_, layout_.owned, update_.poses);
+  CheckAttributes(space_, update_.attributes);
+  if (space_.GetExperiment().beyond_limit == BeyondLimit::kStop) CheckWithinLimit(space_, layout_.owned, update_.poses);
+  CheckChannels(space_, layout_.sensors, frame_.values, "readings");
 }
 
 void EngineWorker::SaveState(ByteWriter& state) const
 {
   state.PutArray(frame_.values);
-  engine_->SaveState(state);
+  RunCodeOf(actor_, ActivityStep::kSaveState, space_.GetTick(), [&] { engine_->SaveState(state); });
 }
 
 void EngineWorker::LoadState(ByteReader& state)
 {
   frame_.values = state.GetArray<double>();
   if (frame_.values.size() != layout_.sensor_size) throw std::runtime_error("saved state: it is of another experiment");
-  engine_->LoadState(state);
+  RunCodeOf(actor_, ActivityStep::kLoadState, space_.GetTick(), [&] { engine_->LoadState(state); });
 }
 
 }  // namespace swarmanoid

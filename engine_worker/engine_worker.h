@@ -3,7 +3,10 @@
 
 #include <memory>
 #include <span>
+#include <stdexcept>
 
+#include "common/activity/failure_report.h"
+#include "common/space/attribute_changes.h"
 #include "engine_worker/physics_engine.h"
 
 namespace swarmanoid
@@ -12,15 +15,24 @@ namespace swarmanoid
 // Adds dummy_engine (kinematics2d), dynamics2d and dynamics3d to the registry. Idempotent.
 void RegisterBuiltinEngines();
 
+// An engine failed, or gave what cannot be part of the state: what() names the engine, the tick and what is wrong.
+class EngineError : public ActivityError
+{
+public:
+  using ActivityError::ActivityError;
+};
+
 class EngineWorker
 {
 public:
-  // `space` is the replica of this process; it and `assignment` outlive the worker.
+  // `space` is the replica of this process; it and `assignment` outlive the worker. Throws ConfigurationError, or
+  // ActivityError naming the engine that failed; so does Step.
   EngineWorker(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t engine);
   ~EngineWorker();
 
   // From the state in the space and the commands of its tick (one for each of layout.commands_from, in that order) to
-  // the update of the next tick. `moved`: SpaceState::moved. The results are valid until the next call.
+  // the update of the next tick. `moved`: SpaceState::moved. The results are valid until the next call. Throws
+  // EngineError.
   void Step(std::span<const std::uint32_t> moved, std::span<const ControlCommands* const> commands);
   const EngineUpdate& Update() const { return update_; }
   const SensorFrame& Sensors() const { return frame_; }
@@ -33,14 +45,23 @@ public:
   const EngineLayout& Layout() const { return layout_; }
 
 private:
+  // Runs a check of what came or was made; what fails bears the engine and the tick.
+  template <class Check>
+  void Checked(const Check& check) const;
+  void ReadCommands(std::span<const ControlCommands* const> commands);
   void KeepAbsent();
+  void CheckResults() const;
 
   const CSwarmanoidSpace& space_;
+  const Assignment& assignment_;
   const EngineLayout& layout_;
+  const Actor actor_;
+  std::uint32_t index_ = 0;
   std::unique_ptr<CPhysicsEngine> engine_;
   std::vector<double> command_values_;
   EngineUpdate update_;
   SensorFrame frame_;
+  AttributeOrder order_;
 };
 
 }  // namespace swarmanoid

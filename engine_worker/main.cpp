@@ -1,16 +1,15 @@
 // The program that runs one physics engine of an experiment: the engine worker's role at the bus.
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
 
+#include "common/activity/activity.h"
 #include "common/bus/cluster_options.h"
 #include "common/bus/replica.h"
 #include "common/bus/saved_states.h"
 #include "common/bus/tick_inputs.h"
 #include "common/bus/worker_session.h"
-#include "controller_host/controller_host.h"
+#include "common/program/program.h"
 #include "engine_worker/engine_worker.h"
-#include "visualiser/render.h"
+#include "roles/builtins.h"
 
 namespace swarmanoid
 {
@@ -29,15 +28,15 @@ public:
         saved_(session, EngineName(*replica.experiment, engine), role_),
         inputs_(session, replica, Hosts(role_.Layout())),
         commands_(role_.Layout().commands_from.size()),
-        updates_(session.GetBus(), session.Scope(UpdateCapacity(*replica.space, replica.assignment), 1))
+        updates_(session.GetBus(), session.Scope(replica.limits->UpdateBytes(), 1))
   {
     replica.Restore(EngineName(*replica.experiment, engine), role_);
     for (const ControlCommands& commands : commands_) commands_here_.push_back(&commands);
     if (role_.Layout().sensor_size > 0)
-      frames_.emplace(session.GetBus(), session.Scope(FrameCapacity(replica.assignment), 1));
+      frames_.emplace(session.GetBus(), session.Scope(replica.limits->FrameBytes(), 1));
     inputs_.Open(
         {[this](std::size_t k, std::uint64_t) { return &commands_[k]; }, [this] { Step(); }, [this] { Answer(true); }},
-        CommandsCapacity(*replica.space, replica.assignment), HostCount());
+        replica.limits->CommandBytes(), HostCount());
   }
   ~EngineNode() { inputs_.Close(); }
 
@@ -62,7 +61,7 @@ public:
 
   std::optional<std::string> Stall()
   {
-    return inputs_.Stall([] { return std::string("runs its engine"); });
+    return inputs_.Stall([] { return "runs " + CurrentActivity(); });
   }
 
   void Flush() { saved_.Flush(); }
@@ -119,32 +118,14 @@ std::size_t FindEngine(const Experiment& experiment, const std::string& id)
                                        known.empty() ? "none" : Joined(known)));
 }
 
-int Run(int argc, char** argv)
+int Run(const WorkerSettings& settings, const BusOptions& bus)
 {
-  CLI::App app{"Runs one physics engine of a Swarmanoid experiment."};
-  app.footer(
-      "Examples:\n"
-      "  engine_worker --engine ground                              the experiment that runs on this machine\n"
-      "  engine_worker --engine ground --experiment diffusion_10 --domain 7\n"
-      "  engine_worker --engine ground --interface eth0             space server on another machine");
-  std::string engine;
-  std::string experiment;
-  BusOptions bus;
-  app.add_option("--engine", engine, "the engine's id in the experiment file")->required();
-  app.add_option("--experiment", experiment, "name of the experiment; default: the first one that is heard");
-  AddBusOptions(app, bus);
-  if (const int code = ParseCommandLine(app, argc, argv); code >= 0) return code;
-
-  CatchInterrupts();
-  RegisterBuiltinEngines();
-  RegisterBuiltinDevices();
-  RegisterBuiltinRenderers();
-  WorkerSession session(bus, experiment, fmt::format("engine '{}'", engine));
+  WorkerSession session(bus, settings.experiment, fmt::format("engine '{}'", settings.engine));
   return session.Work(
       [&]
       {
         Replica replica(session.World(), false);
-        EngineNode node(session, replica, FindEngine(*replica.experiment, engine));
+        EngineNode node(session, replica, FindEngine(*replica.experiment, settings.engine));
         node.MeetOthers();
         session.SayReady();
         session.Wait(std::chrono::milliseconds(500), [&] { return node.Stall(); });
@@ -155,4 +136,28 @@ int Run(int argc, char** argv)
 }  // namespace
 }  // namespace swarmanoid
 
-int main(int argc, char** argv) { return swarmanoid::RunProgram("engine_worker", swarmanoid::Run, argc, argv); }
+int main(int count, char** arguments)
+{
+  using namespace swarmanoid;
+
+  WorkerSettings settings;
+  BusOptions bus;
+  const ProgramDescription program{
+      "engine_worker",
+      "Runs one physics engine of a Swarmanoid experiment.",
+      "Examples:\n"
+      "  engine_worker --engine ground                              the experiment that runs on this machine\n"
+      "  engine_worker --engine ground --experiment diffusion_10 --domain 7\n"
+      "  engine_worker --engine ground --interface eth0             space server on another machine",
+      RegisterBuiltins,
+      true,
+      true};
+  return RunProgram(
+      program, count, arguments,
+      [&](CLI::App& app)
+      {
+        AddOptions(app, EngineOptionTable(settings));
+        AddOptions(app, BusOptionTable(bus));
+      },
+      [&] { return Run(settings, bus); });
+}

@@ -76,7 +76,9 @@ public:
   // Advances the engine by one clock tick in `subclock` equal steps. Mirrors are first put where the space has them.
   // Fills `update.poses` (sized by the caller: 7 doubles for each of layout.owned, structure of arrays x y z qx qy qz
   // qw, global frame), adds to update.attributes what changed (grips, turret angles …), fills `sensors`
-  // (layout.sensors).
+  // (layout.sensors). What it gives is checked: as many poses as there are, all numbers finite, quaternions of norm 1,
+  // slots and values of attributes as common/space/attributes.h has them. A mistake, and any exception, ends the run
+  // with an error that names the engine, the entity, the tick and the value.
   virtual void Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors) = 0;
 
   // An owned entity was put elsewhere from outside; its pose is to be read from the space.

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <filesystem>
 
+#include "common/bus/cluster_options.h"
 #include "common/bus/replica.h"
 #include "common/configuration/wording.h"
 #include "launcher/commands.h"
@@ -21,8 +22,6 @@ namespace fs = std::filesystem;
 // Up to here the wake-ups across cores cost more than the work that they let run side by side (10 robots: 51 us a tick
 // on one core, 70 us on two; 1,000 robots: 260 us on either).
 constexpr std::size_t kRobotsForOneCore = 300;
-
-std::string Absolute(const std::string& path) { return fs::absolute(path).lexically_normal(); }
 
 // The name of a log; ids may hold anything.
 std::string LogName(const std::string& program, const std::string& which)
@@ -41,10 +40,10 @@ std::size_t Robots(const Experiment& experiment)
 }
 
 // Runs side by side take different cores.
-std::vector<int> CoresOf(const RunOptions& options, const Experiment& experiment, int domain)
+std::vector<int> CoresOf(const RunSettings& options, const Experiment& experiment, int domain)
 {
   const bool small = Robots(experiment) <= kRobotsForOneCore;
-  if (options.placement == Placement::kSpread || (options.placement == Placement::kAuto && !small)) return {};
+  if (options.placement == "spread" || (options.placement == "auto" && !small)) return {};
   const std::vector<int> cores = AvailableCores();
   if (cores.empty()) return {};
   return {cores[static_cast<std::size_t>(domain) % cores.size()]};
@@ -61,9 +60,12 @@ void RefuseUnknown(const Hosts& hosts, const std::string& role, const std::vecto
 class Planner
 {
 public:
-  Planner(const Experiment& experiment, const Hosts& hosts, const RunFolder& folder, int domain)
-      : experiment_(experiment), hosts_(hosts), folder_(folder), domain_(std::to_string(domain))
+  Planner(const Experiment& experiment, const Hosts& hosts, const RunFolder& folder, int domain, const Limits& limits)
+      : experiment_(experiment), hosts_(hosts), folder_(folder), limits_(limits)
   {
+    bus_.domain = domain;
+    // Deaths on this machine are seen from here, and a stopped process (a debugger's) is not dead.
+    if (hosts_.AllHere()) bus_.lease_s = 3600;
   }
 
   MemberPlan& Add(const std::string& name, const std::string& program, const std::string& role,
@@ -73,15 +75,10 @@ public:
     command.name = name;
     command.arguments.push_back(fs::path(ProgramFolder()) / program);
     command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
-    command.arguments.emplace_back("--domain");
-    command.arguments.push_back(domain_);
-    // Deaths on this machine are seen from here, and a stopped process (a debugger's) is not dead.
-    if (hosts_.AllHere())
-    {
-      command.arguments.emplace_back("--lease");
-      command.arguments.emplace_back("3600");
-    }
+    const std::vector<std::string> bus = BusWords(bus_);
+    command.arguments.insert(command.arguments.end(), bus.begin(), bus.end());
     command.arguments.insert(command.arguments.end(), hosts_.Options().begin(), hosts_.Options().end());
+    command.environment = EnvironmentOf(limits_);
     MemberPlan plan;
     plan.command = hosts_.Placed(command, hosts_.HostOf(role, which));
     plan.log_path = folder_.File(LogName(program, which));
@@ -91,11 +88,10 @@ public:
 
   // The same for a process that finds its experiment by name.
   MemberPlan& AddWorker(const std::string& name, const std::string& program, const std::string& role,
-                        const std::string& option, const std::string& which, std::vector<std::string> arguments = {})
+                        const std::string& which, WorkerTable table, WorkerSettings settings)
   {
-    for (const std::string& argument : {experiment_.name, std::string("--experiment"), which, option})
-      arguments.insert(arguments.begin(), argument);
-    return Add(name, program, role, which, arguments);
+    settings.experiment = experiment_.name;
+    return Add(name, program, role, which, WorkerWords(table, settings));
   }
 
   std::vector<MemberPlan> Take() { return std::move(plans_); }
@@ -104,67 +100,57 @@ private:
   const Experiment& experiment_;
   const Hosts& hosts_;
   const RunFolder& folder_;
-  std::string domain_;
+  BusOptions bus_;
+  Limits limits_;
   std::vector<MemberPlan> plans_;
 };
 
-std::vector<std::string> ServerArguments(const RunOptions& options, const Assignment& assignment,
-                                         const RunFolder& folder)
+std::vector<std::string> ServerArguments(RunSettings settings, const Assignment& assignment, const RunFolder& folder)
 {
-  std::vector<std::string> arguments{Absolute(options.experiment)};
-  const auto add = [&](const std::string& name, const std::string& value)
-  {
-    arguments.push_back(name);
-    arguments.push_back(value);
-  };
-  for (const std::string& setting : options.settings) add("--set", setting);
-  if (options.seed) add("--seed", std::to_string(*options.seed));
-  if (options.ticks) add("--ticks", std::to_string(*options.ticks));
-  add("--controller-hosts", std::to_string(assignment.hosts.size()));
-  add("--output", folder.Path());
-  if (options.paused) arguments.emplace_back("--paused");
-  if (options.real_time > 0) add("--real-time", fmt::format("{}", options.real_time));
-  if (!options.events.empty()) add("--events", Absolute(options.events));
-  if (!options.hash_log.empty()) add("--hash-log", Absolute(options.hash_log));
-  if (options.checkpoint_every > 0) add("--checkpoint-every", std::to_string(options.checkpoint_every));
-  if (!options.restore_file.empty()) add("--restore", Absolute(options.restore_file));
-  if (options.no_visualisers) arguments.emplace_back("--no-visualisers");
-  add("--status-fd", "1");
-  return arguments;
+  settings.controller_hosts = static_cast<unsigned>(assignment.hosts.size());
+  settings.output_folder = folder.Path();
+  std::vector<std::string> words = ServerWords(settings);
+  words.insert(words.end(), {"--status-fd", "1"});
+  return words;
 }
 
 }  // namespace
 
-std::vector<MemberPlan> PlanCluster(const RunOptions& options, const Experiment& experiment,
+std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment& experiment,
                                     const Assignment& assignment, const Hosts& hosts, const RunFolder& folder,
                                     int domain)
 {
   std::vector<std::string> engines, controller_hosts, visualisers;
   for (const EngineConfiguration& engine : experiment.engines) engines.push_back(engine.id);
   for (std::size_t host = 0; host < assignment.hosts.size(); ++host) controller_hosts.push_back(std::to_string(host));
-  if (!options.no_visualisers)
+  if (options.visualisations)
     for (const RenderConfiguration& render : experiment.visualisations) visualisers.push_back(render.id);
   RefuseUnknown(hosts, "space_server", {});
   RefuseUnknown(hosts, "engine", engines);
   RefuseUnknown(hosts, "controller_host", controller_hosts);
-  if (!options.no_visualisers) RefuseUnknown(hosts, "visualiser", visualisers);
+  if (options.visualisations) RefuseUnknown(hosts, "visualiser", visualisers);
 
   const std::vector<int> cores = CoresOf(options, experiment, domain);
-  Planner planner(experiment, hosts, folder, domain);
+  Planner planner(experiment, hosts, folder, domain, LimitsOf(options));
   MemberPlan& server =
       planner.Add("space server", "space_server", "space_server", "", ServerArguments(options, assignment, folder));
   server.output = MemberPlan::kStatus;
   server.command.cores = cores;
   for (std::size_t e = 0; e < engines.size(); ++e)
-    planner.AddWorker(EngineName(experiment, e), "engine_worker", "engine", "--engine", engines[e]).command.cores =
-        cores;
+    planner
+        .AddWorker(EngineName(experiment, e), "engine_worker", "engine", engines[e], EngineOptionTable,
+                   {.engine = engines[e]})
+        .command.cores = cores;
   for (std::size_t host = 0; host < controller_hosts.size(); ++host)
-    planner.AddWorker(HostName(host), "controller_host", "controller_host", "--host", controller_hosts[host])
+    planner
+        .AddWorker(HostName(host), "controller_host", "controller_host", controller_hosts[host], HostOptionTable,
+                   {.host = static_cast<unsigned>(host)})
         .command.cores = cores;
   for (std::size_t v = 0; v < visualisers.size(); ++v)
   {
-    MemberPlan& plan = planner.AddWorker(VisualiserName(experiment.visualisations[v]), "visualiser", "visualiser",
-                                         "--render", visualisers[v], {"--output", folder.Path()});
+    MemberPlan& plan =
+        planner.AddWorker(VisualiserName(experiment.visualisations[v]), "visualiser", "visualiser", visualisers[v],
+                          VisualiserOptionTable, {.render = visualisers[v], .output = folder.Path()});
     plan.output = MemberPlan::kScreen;
     plan.visualiser = true;
   }

@@ -4,17 +4,17 @@
 #include <vector>
 
 #include "common/experiment/experiment.h"
+#include "common/run/run_settings.h"
 #include "common/space/assignment.h"
 #include "launcher/hosts.h"
 #include "launcher/processes/cluster_member.h"
 #include "launcher/run_folder.h"
-#include "launcher/run_options.h"
 
 namespace swarmanoid
 {
 
 // The space server's plan is the first. Throws UsageError where `hosts` places what the experiment does not have.
-std::vector<MemberPlan> PlanCluster(const RunOptions& options, const Experiment& experiment,
+std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment& experiment,
                                     const Assignment& assignment, const Hosts& hosts, const RunFolder& folder,
                                     int domain);
 

@@ -5,13 +5,21 @@
 
 #include <csignal>
 #include <optional>
+#include <thread>
 
+#include "common/activity/limits.h"
 #include "common/bus/domain.h"
 #include "common/bus/run_directory.h"
+#include "common/experiment/actors.h"
+#include "common/program/exit_codes.h"
+#include "common/program/program.h"
+#include "common/program/usage_error.h"
 #include "common/space/assignment.h"
 #include "launcher/cluster_plan.h"
-#include "launcher/exit_codes.h"
+#include "launcher/processes/in_process_server.h"
 #include "launcher/processes/supervisor.h"
+#include "roles/builtins.h"
+#include "space_server/cluster/server_main.h"
 
 namespace swarmanoid
 {
@@ -30,19 +38,19 @@ RunResult ResultOf(const ClusterOutcome& outcome)
   switch (outcome.kind)
   {
     case ClusterOutcome::kFinished:
-      result.exit_code = kDone;
+      result.exit_code = kExitDone;
       break;
     case ClusterOutcome::kUnsuccessful:
-      result.exit_code = kExperimentFailed;
+      result.exit_code = kExitExperimentFailed;
       break;
     case ClusterOutcome::kInterrupted:
-      result.exit_code = kInterruptedByUser;
+      result.exit_code = kExitInterrupted;
       break;
     case ClusterOutcome::kFailed:
-      result.exit_code = kProcessFailed;
+      result.exit_code = kExitProcessFailed;
       break;
     case ClusterOutcome::kInvalid:
-      result.exit_code = kInvalid;
+      result.exit_code = kExitInvalidFile;
       break;
   }
   result.failure = outcome.reason;
@@ -58,13 +66,58 @@ RunResult ResultOf(const ClusterOutcome& outcome)
   return result;
 }
 
+// The space server's program, with a function of the user that looks at each tick.
+int ServeHere(std::vector<std::string> words, int status, const std::atomic<bool>& stop,
+              const std::atomic<bool>& abandon, const WatchFunction& watch)
+{
+  ServerOptions options;
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  return RunProgram(
+      {"space_server", "", "", RegisterBuiltins, false, true}, static_cast<int>(arguments.size()), arguments.data(),
+      [&](CLI::App& app) { AddServerOptions(app, options); },
+      [&]
+      {
+        options.status_fd = status;
+        options.stop = &stop;
+        options.abandon = &abandon;
+        options.watch = [watch](SpaceServer& server)
+        {
+          CSimulator simulator = WatchedSimulator::Of(server);
+          watch(simulator);
+        };
+        return Serve(options);
+      });
+}
+
+// Watched, the space server's role is this thread's; the supervisor has one of its own, for which the signals are
+// blocked already.
+ClusterOutcome RunWatched(const std::vector<MemberPlan>& plans, Interrupts& interrupts, ProgressDisplay& display,
+                          const ActorNames& actor_of, const WatchFunction& watch)
+{
+  InProcessServer server;
+  ClusterOutcome outcome;
+  std::thread supervising(
+      [&]
+      {
+        outcome = Supervisor(server, interrupts, display, STDOUT_FILENO, actor_of).Run(plans);
+        server.Cancel();
+      });
+  server.Run([&](const auto& words, int status, const auto& stop, const auto& abandon)
+             { return ServeHere(words, status, stop, abandon, watch); });
+  supervising.join();
+  return outcome;
+}
+
 }  // namespace
 
-RunResult RunCluster(const RunOptions& options, const Experiment& experiment, const RunFolder& folder,
-                     Manifest& manifest)
+RunResult RunCluster(const RunSettings& options, const Experiment& experiment, const RunFolder& folder,
+                     Manifest& manifest, const WatchFunction& watch)
 {
   Hosts hosts = options.hosts_file.empty() ? Hosts() : Hosts::FromFile(options.hosts_file);
   for (const std::string& setting : options.engine_hosts) hosts.AddEngine(setting);
+  if (watch && !hosts.HostOf("space_server", "").empty())
+    throw UsageError("--hosts: the space server is this process, which looks at each tick; leave space_server out");
   RemoveDeadRuns();
 
   // Kept until the end, so that no other run takes it.
@@ -78,11 +131,21 @@ RunResult RunCluster(const RunOptions& options, const Experiment& experiment, co
 
   // Until the process ends: the last line may find no reader either.
   std::signal(SIGPIPE, SIG_IGN);
-  SystemSpawner spawner;
   Interrupts interrupts;
   ProgressDisplay display(ProgressDisplay::StyleFor(STDERR_FILENO, options.quiet), STDERR_FILENO);
-  Supervisor supervisor(spawner, interrupts, display, STDOUT_FILENO);
-  const ClusterOutcome outcome = supervisor.Run(plans);
+  const ActorNames actor_of = [&experiment](Actor::Kind kind, std::uint32_t number)
+  { return ActorOf(experiment, kind, number); };
+  ClusterOutcome outcome;
+  if (watch)
+  {
+    ApplyLimits(LimitsOf(options));
+    outcome = RunWatched(plans, interrupts, display, actor_of, watch);
+  }
+  else
+  {
+    SystemSpawner spawner;
+    outcome = Supervisor(spawner, interrupts, display, STDOUT_FILENO, actor_of).Run(plans);
+  }
   RemoveDeadRuns();
   if (!outcome.reason.empty()) Complain(outcome);
   return ResultOf(outcome);

@@ -28,14 +28,11 @@ struct AttachOptions
   std::string kind;
   std::vector<std::string> words;       // the experiment's name and the renderer's parameters
   std::vector<std::string> parameters;  // those given as --name value, as "name=value"
-  std::vector<std::string> passed_on;   // names of options that the visualiser program takes too
-  std::string output;
-  double rate = 0;
-  bool read_only = false;
+  WorkerSettings visualiser;
   BusOptions bus;
 };
 
-void Attach(const AttachOptions& options, const CLI::App& verb)
+void Attach(AttachOptions& options, const CLI::App& verb)
 {
   std::string name;
   std::vector<std::string> parameters = options.parameters;
@@ -61,18 +58,14 @@ void Attach(const AttachOptions& options, const CLI::App& verb)
   const bool domain_given = verb.get_option("--domain")->count() > 0;
   const RunChoice run = ChooseRun(name, domain_given ? std::optional(options.bus.domain) : std::nullopt);
 
-  std::vector<std::string> command{(std::filesystem::path(ProgramFolder()) / "visualiser").string(),
-                                   "--attach",
-                                   options.kind,
-                                   "--experiment",
-                                   run.experiment,
-                                   "--domain",
-                                   std::to_string(run.domain)};
-  if (options.read_only) command.emplace_back("--read-only");
-  for (const std::string& option_name : options.passed_on)
-    for (const std::string& value : verb.get_option(option_name)->results())
-      command.insert(command.end(), {option_name, value});
-  command.insert(command.end(), parameters.begin(), parameters.end());
+  options.visualiser.attach = options.kind;
+  options.visualiser.experiment = run.experiment;
+  options.visualiser.server = run.server;
+  options.bus.domain = run.domain;
+  std::vector<std::string> command{(std::filesystem::path(ProgramFolder()) / "visualiser").string()};
+  for (const std::vector<std::string>& words :
+       {WorkerWords(VisualiserOptionTable, options.visualiser), BusWords(options.bus), parameters})
+    command.insert(command.end(), words.begin(), words.end());
 
   std::vector<char*> arguments;
   for (std::string& argument : command) arguments.push_back(argument.data());
@@ -115,14 +108,10 @@ void AddAttachCommand(CLI::App& app, int&)
       ->required();
   verb->add_option("WORDS", options->words,
                    "Name of the experiment (may be left out where one runs), and name=value for the visualiser");
-  verb->add_option("--output", options->output, "Folder for the visualiser's files (default: this one)");
-  verb->add_option("--hz", options->rate, "States a second at most; 30 unless less is asked for")
-      ->check(CLI::Range(0.01, 30.0));
-  AddBusOptions(*verb, options->bus);
-  for (const CLI::Option* option : verb->get_options())
-    if (const std::string name = option->get_name(); name.starts_with("--") && name != "--help" && name != "--domain")
-      options->passed_on.push_back(name);
-  verb->add_flag("--read-only", options->read_only, "Nothing can be asked of the run through this visualiser");
+  for (const OptionSpec& option : VisualiserOptionTable(options->visualiser))
+    if (const std::string& name = option.value.name; name == "output" || name == "hz" || name == "read-only")
+      AddOptions(*verb, {option});
+  AddOptions(*verb, BusOptionTable(options->bus));
   AddOptionsOfKind(*verb, *options);
   verb->footer(
       "`swarmanoid attach KIND --help` lists the options of that kind too. An attached visualiser never slows the "

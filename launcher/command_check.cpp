@@ -6,20 +6,16 @@
 #include <map>
 #include <memory>
 
+#include "common/program/exit_codes.h"
+#include "common/run/run_settings.h"
 #include "launcher/commands.h"
-#include "launcher/exit_codes.h"
 #include "launcher/load.h"
+#include "launcher/trial_start.h"
 
 namespace swarmanoid
 {
 namespace
 {
-
-struct CheckOptions
-{
-  std::string file;
-  std::vector<std::string> settings;
-};
 
 std::string Counted(std::size_t count, std::string_view noun)
 {
@@ -52,12 +48,11 @@ void PrintControllers(const Experiment& experiment)
   }
 }
 
-int Check(const CheckOptions& options)
+int Check(const RunSettings& options)
 {
-  LoadOptions load;
-  for (const std::string& setting : options.settings) load.settings.push_back(SplitSetting(setting));
-  const auto experiment = LoadOrComplain(options.file, load);
-  if (!experiment) return kInvalid;
+  const auto experiment = LoadOrComplain(options.file, ChangesOf(options));
+  if (!experiment) return kExitInvalidFile;
+  if (const int code = TrialStart(*experiment); code != kExitDone) return code;
 
   fmt::print("{} is valid: experiment {}\n", options.file, experiment->name);
   fmt::print("  clock         {} ms a tick, {}, seed {}\n", experiment->clock_tick_ms,
@@ -66,23 +61,23 @@ int Check(const CheckOptions& options)
   for (const EngineConfiguration& engine : experiment->engines)
     fmt::print("  engine        {} ({}): {} of the entities\n", engine.id, engine.tag, engine.entities.size());
   PrintControllers(*experiment);
+  for (const FunctionsConfiguration& functions : experiment->functions)
+    fmt::print("  functions     {} ({})\n", functions.id, functions.tag);
   for (const RenderConfiguration& render : experiment->visualisations)
     fmt::print("  visualisation {} ({})\n", render.id, render.tag);
-  return kDone;
+  return kExitDone;
 }
 
 }  // namespace
 
 void AddCheckCommand(CLI::App& app, int& exit_code)
 {
-  auto options = std::make_shared<CheckOptions>();
+  auto options = std::make_shared<RunSettings>();
   CLI::App* verb = app.add_subcommand("check", "Look for mistakes in an experiment file without running it");
-  verb->add_option("EXPERIMENT", options->file, "The experiment file")->required();
-  verb->add_option("--set", options->settings, "PATH=VALUE: change the experiment, as `run` does")
-      ->expected(1)
-      ->take_all();
+  AddOptions(*verb, ChoiceOptionTable(*options));
   verb->footer(
       "Prints what the experiment holds and exits with 0, or prints every mistake with its place and exits with 3.\n"
+      "Everything is made as a run makes it and thrown away: Init of controllers and experiment functions is called.\n"
       "Examples:\n"
       "  swarmanoid check configs/diffusion_10.xml\n"
       "  swarmanoid check configs/diffusion_10.xml --set framework.maxclock=100");

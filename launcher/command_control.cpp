@@ -12,9 +12,9 @@
 #include "common/bus/control_client.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/wording.h"
+#include "common/program/exit_codes.h"
 #include "launcher/commands.h"
 #include "launcher/control_request.h"
-#include "launcher/exit_codes.h"
 #include "launcher/run_choice.h"
 
 namespace swarmanoid
@@ -57,15 +57,15 @@ int Control(ControlOptions& options, bool domain_given)
   {
     fmt::print(stderr, "swarmanoid: experiment {} in domain {} does not answer{}\n", Quoted(run.experiment), run.domain,
                WhatItDoes(client.LatestStatus()));
-    return kProcessFailed;
+    return kExitProcessFailed;
   }
   if (!reply->ok)
   {
     fmt::print(stderr, "swarmanoid: {}\n", reply->text);
-    return kUsage;
+    return kExitUsage;
   }
   fmt::print("{}: {}\n", run.experiment, reply->text.empty() ? fmt::format("tick {}", reply->tick) : reply->text);
-  return kDone;
+  return kExitDone;
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ void AddControlCommand(CLI::App& app, int& exit_code)
                    "[EXPERIMENT] pause | resume | step [N] | speed F | stop | move ENTITY X,Y,Z[,A,B,G] |\n"
                    "add ENTITY X,Y,Z[,A,B,G] | remove ENTITY")
       ->required();
-  AddBusOptions(*verb, options->bus);
+  AddOptions(*verb, BusOptionTable(options->bus));
   verb->footer(
       "speed is a multiple of real time, 0 is as fast as possible. Positions are in metres, angles in degrees.\n"
       "add takes an entity that was removed, or the id of a <reserve>.\n"

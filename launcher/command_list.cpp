@@ -2,61 +2,167 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cctype>
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 
 #include "common/bus/run_directory.h"
+#include "common/configuration/wording.h"
+#include "common/experiment/reference.h"
 #include "common/plugins/catalogue.h"
 #include "common/plugins/library.h"
+#include "common/program/exit_codes.h"
 #include "launcher/commands.h"
-#include "launcher/exit_codes.h"
+#include "launcher/load.h"
+#include "launcher/plugin_text.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-std::string Title(PluginKind kind)
+namespace fs = std::filesystem;
+
+constexpr std::array kKinds{PluginKind::kEngine,
+                            PluginKind::kSensor,
+                            PluginKind::kActuator,
+                            PluginKind::kRenderer,
+                            PluginKind::kExperimentFunctions,
+                            PluginKind::kController};
+
+// Of a user directory, where build.sh puts its plug-ins; the current folder is taken for one.
+std::vector<std::string> OwnFolders()
 {
-  std::string title(PluginKindName(kind));
-  title[0] = static_cast<char>(std::toupper(title[0]));
-  return title.ends_with('s') ? title : title + "s";
+  std::vector<std::string> folders;
+  for (const char* kind : {"controllers", "functions", "engines", "devices", "renderers"})
+    folders.push_back((fs::current_path() / "simulation_build" / kind).string());
+  return folders;
+}
+
+std::vector<std::string> SearchedFolders()
+{
+  std::vector<std::string> folders = OwnFolders();
+  for (std::string& folder : StandardPluginFolders()) folders.push_back(std::move(folder));
+  return folders;
+}
+
+bool IsLabel(const std::string& name)
+{
+  return std::ranges::any_of(
+      kKinds, [&](PluginKind kind) { return !PluginCatalogue::Instance().Implementations(kind, name).empty(); });
+}
+
+// Libraries are loaded. The labels of which more is to be said: those that stand among the names, and those of a
+// library that was found by its name.
+std::vector<std::string> LoadNamed(const std::vector<std::string>& names)
+{
+  std::vector<std::string> labels;
+  for (const std::string& name : names)
+  {
+    std::error_code none;
+    const bool is_file = fs::is_regular_file(name, none);
+    if (!is_file && IsLabel(name))
+    {
+      labels.push_back(name);
+      continue;
+    }
+    const PluginLibrary& library = LoadPluginLibrary(is_file ? fs::absolute(name).string() : name, SearchedFolders());
+    if (library.path.empty())
+    {
+      std::vector<std::string> known;
+      for (const PluginKind kind : kKinds)
+        for (std::string& label : PluginCatalogue::Instance().Labels(kind)) known.push_back(std::move(label));
+      throw UsageError(
+          fmt::format("there is no plug-in {}{}; {}", Quoted(name), DidYouMean(name, known), library.error));
+    }
+    if (!library.error.empty()) throw UsageError(library.error);
+    if (is_file) continue;
+    for (const auto& [kind, label] : library.registrations.labels) labels.push_back(label);
+  }
+  return labels;
+}
+
+// Every library of plug-ins that came with the simulator or was built here. Those that cannot be loaded are named.
+void LoadAll()
+{
+  for (const std::string& folder : SearchedFolders())
+  {
+    const fs::path path(folder);
+    std::error_code none;
+    // The simulator's own libraries lie in folders that hold others, too.
+    const bool holds_plugins = path.filename() == "swarmanoid" || path.parent_path().filename() == "simulation_build" ||
+                               path.filename() == "controllers";
+    if (!holds_plugins || !fs::is_directory(path, none)) continue;
+    std::vector<std::string> files;
+    for (const auto& entry : fs::directory_iterator(path))
+      if (entry.path().extension() == ".so") files.push_back(entry.path().string());
+    std::ranges::sort(files);
+    for (const std::string& file : files)
+      if (const PluginLibrary& library = LoadPluginLibrary(file, {}); !library.error.empty())
+        fmt::print(stderr, "{}\n", library.error);
+  }
 }
 
 void PrintPlugins(PluginKind kind)
 {
   const auto plugins = PluginCatalogue::Instance().Of(kind);
   if (plugins.empty()) return;
-  fmt::print("{}\n", Title(kind));
+  fmt::print("{}\n", PluginKindTitle(kind));
   for (const PluginDescription* plugin : plugins)
   {
-    const std::string name =
-        plugin->implementation.empty() ? plugin->label : fmt::format("{} / {}", plugin->label, plugin->implementation);
     const bool is_device = kind == PluginKind::kSensor || kind == PluginKind::kActuator;
-    fmt::print("  {:<52} {}{}\n", name, plugin->brief,
+    fmt::print("  {:<52} {}{}\n", PluginName(*plugin), plugin->brief,
                !is_device                ? ""
                : plugin->channel.empty() ? " (generic)"
                                          : " (specific)");
   }
 }
 
-int ListPlugins(const std::vector<std::string>& libraries)
+struct ListOptions
+{
+  std::vector<std::string> names;
+  bool all = false;
+  bool rows = false;
+};
+
+int ListPlugins(const ListOptions& options)
 {
   RegisterBuiltins();
-  for (const std::string& name : libraries)
+  if (options.all) LoadAll();
+  const std::vector<std::string> labels = LoadNamed(options.names);
+  const auto wanted = [&](const PluginDescription& plugin)
+  { return labels.empty() || std::ranges::find(labels, plugin.label) != labels.end(); };
+  for (const PluginKind kind : kKinds)
   {
-    // A path from here, or a name to be searched in the folders of plug-ins.
-    std::error_code none;
-    const std::string path =
-        std::filesystem::is_regular_file(name, none) ? std::filesystem::absolute(name).string() : name;
-    const PluginLibrary& library = LoadPluginLibrary(path, StandardPluginFolders());
-    if (!library.error.empty()) throw UsageError(library.error);
+    if (labels.empty() && !options.rows) PrintPlugins(kind);
+    for (const PluginDescription* plugin : PluginCatalogue::Instance().Of(kind))
+    {
+      if (!wanted(*plugin)) continue;
+      if (options.rows)
+        fmt::print("{}", PluginRows(kind, *plugin));
+      else if (!labels.empty())
+        fmt::print("{}", PluginDetails(kind, *plugin));
+    }
   }
-  for (const PluginKind kind : {PluginKind::kEngine, PluginKind::kSensor, PluginKind::kActuator, PluginKind::kRenderer,
-                                PluginKind::kExperimentFunctions, PluginKind::kController})
-    PrintPlugins(kind);
-  return kDone;
+  return kExitDone;
+}
+
+int ListSchema(const ListOptions& options)
+{
+  RegisterBuiltins();
+  LoadAll();
+  LoadNamed(options.names);
+  fmt::print("{}", ExperimentXsd());
+  return kExitDone;
+}
+
+int ListSettings(const std::string& file)
+{
+  const auto experiment = LoadOrComplain(file, {});
+  if (!experiment) return kExitInvalidFile;
+  fmt::print("{}", SettingRows(*experiment));
+  return kExitDone;
 }
 
 int ListExperiments()
@@ -65,25 +171,45 @@ int ListExperiments()
   if (runs.empty()) fmt::print("no experiment runs on this machine\n");
   for (const LocalRun& run : runs)
     fmt::print("{:<32} domain {:<4} space server {}\n", run.experiment, run.domain, run.server);
-  return kDone;
+  return kExitDone;
 }
 
 }  // namespace
 
 void AddListCommand(CLI::App& app, int& exit_code)
 {
-  CLI::App* verb = app.add_subcommand("list", "List plug-ins, or the experiments that run on this machine");
+  CLI::App* verb =
+      app.add_subcommand("list", "List plug-ins and parameters, or the experiments that run on this machine");
   verb->require_subcommand(1);
   verb->footer(
       "Examples:\n"
       "  swarmanoid list plugins\n"
+      "  swarmanoid list plugins footbot_diffusion                  its parameters\n"
       "  swarmanoid list plugins build/lib/swarmanoid/libfootbot_diffusion.so\n"
+      "  swarmanoid list settings configs/diffusion_10.xml          what --set may change in it\n"
+      "  swarmanoid list schema > experiment.xsd                    for editors, with the plug-ins built here\n"
       "  swarmanoid list experiments");
 
-  auto libraries = std::make_shared<std::vector<std::string>>();
-  CLI::App* plugins = verb->add_subcommand("plugins", "Engines, sensors, actuators, visualisations and controllers");
-  plugins->add_option("LIBRARY", *libraries, "Libraries to load first, whose plug-ins are to be listed too");
-  plugins->callback([libraries, &exit_code] { exit_code = ListPlugins(*libraries); });
+  auto options = std::make_shared<ListOptions>();
+  CLI::App* plugins = verb->add_subcommand("plugins",
+                                           "Engines, sensors, actuators, visualisations, experiment functions "
+                                           "and controllers");
+  plugins->add_option("NAME", options->names,
+                      "A plug-in, whose parameters are to be shown, or a library to load first");
+  plugins->add_flag("--all", options->all, "With the controllers and functions that came along, and those built here");
+  plugins->add_flag("--rows", options->rows, "For programs: a line for each parameter, fields separated by tabs");
+  plugins->callback([options, &exit_code] { exit_code = ListPlugins(*options); });
+
+  CLI::App* schema =
+      verb->add_subcommand("schema", "The XML schema of experiment files, with all plug-ins, for editors");
+  schema->add_option("LIBRARY", options->names, "Libraries to load first, beside those built here");
+  schema->callback([options, &exit_code] { exit_code = ListSchema(*options); });
+
+  auto file = std::make_shared<std::string>();
+  CLI::App* settings =
+      verb->add_subcommand("settings", "What --set may change in an experiment, as PATH=VALUE, and what it means");
+  settings->add_option("EXPERIMENT", *file, "The experiment file")->required();
+  settings->callback([file, &exit_code] { exit_code = ListSettings(*file); });
 
   CLI::App* experiments = verb->add_subcommand("experiments", "Experiments that run on this machine as clusters");
   experiments->callback([&exit_code] { exit_code = ListExperiments(); });

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "common/configuration/wording.h"
+#include "common/program/exit_codes.h"
 #include "launcher/commands.h"
-#include "launcher/exit_codes.h"
 #include "launcher/new_files.h"
 
 namespace swarmanoid
@@ -33,7 +33,7 @@ void AddBehaviorController(CLI::App& verb, int& exit_code)
       [names, &exit_code]
       {
         NewBehaviorController(*names);
-        exit_code = kDone;
+        exit_code = kExitDone;
       });
 }
 
@@ -51,7 +51,7 @@ void AddBehavior(CLI::App& verb, int& exit_code)
       [names, &exit_code]
       {
         NewBehavior(*names);
-        exit_code = kDone;
+        exit_code = kExitDone;
       });
 }
 
@@ -90,7 +90,7 @@ void AddTerrain(CLI::App& verb, int& exit_code)
       {
         options->terrain.size = {options->size[0], options->size[1]};
         NewTerrain(options->name, options->terrain);
-        exit_code = kDone;
+        exit_code = kExitDone;
       });
 }
 
@@ -120,7 +120,7 @@ void AddNewCommand(CLI::App& app, int& exit_code)
         [name, make, &exit_code]
         {
           make(*name);
-          exit_code = kDone;
+          exit_code = kExitDone;
         });
   };
   add("user", "A directory for your own controllers and experiments", "DIRECTORY", "The directory to make",

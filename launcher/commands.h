@@ -2,8 +2,8 @@
 // its exit code in `exit_code`.
 #pragma once
 
-#include "launcher/builtins.h"
-#include "launcher/usage_error.h"
+#include "common/program/usage_error.h"
+#include "roles/builtins.h"
 
 namespace CLI
 {

@@ -19,6 +19,12 @@ bool IsVerb(const std::string& word)
   return std::find(kControlVerbs.begin(), kControlVerbs.end(), word) != kControlVerbs.end();
 }
 
+// Of two words that are no verbs: whether the first one is a verb misspelt, rather than an experiment's name.
+bool IsMisspelt(const std::string& word, const std::string& next)
+{
+  return !NearestName(word, kControlVerbs).empty() && NearestName(next, kControlVerbs).empty();
+}
+
 // An entity follows.
 bool TakesEntity(const std::string& verb) { return verb == "move" || verb == "add" || verb == "remove"; }
 
@@ -79,7 +85,7 @@ ControlRequest ParseControlRequest(std::vector<std::string> words)
     request.experiment = words[0];
     words.erase(words.begin());
   }
-  else if (!words.empty() && !IsVerb(words[0]) && words.size() > 1)
+  else if (words.size() > 1 && !IsVerb(words[0]) && !IsMisspelt(words[0], words[1]))
   {
     request.experiment = words[0];
     words.erase(words.begin());

@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "common/configuration/configuration_tree.h"
+#include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
 #include "launcher/commands.h"
 
@@ -18,6 +16,7 @@ namespace swarmanoid
 namespace
 {
 
+constexpr std::uint64_t kMostBytes = 1U << 20U;
 const std::vector<std::string> kRoles{"space_server", "engine", "controller_host", "visualiser"};
 const std::vector<std::string> kKeys{"command", "program_folder",  "options",   "space_server",
                                      "engine",  "controller_host", "visualiser"};
@@ -69,11 +68,14 @@ Hosts::Hosts(const std::string& file, const std::string& text)
 
 Hosts Hosts::FromFile(const std::string& file)
 {
-  std::ifstream stream(file);
-  std::ostringstream text;
-  if (!(text << stream.rdbuf()))
-    throw UsageError(fmt::format("--hosts: cannot read '{}': {}", file, std::strerror(errno)));
-  return {file, text.str()};
+  try
+  {
+    return {file, ReadRegularFile(file, kMostBytes)};
+  }
+  catch (const FileError& error)
+  {
+    throw UsageError(fmt::format("--hosts: cannot read '{}': {}", file, error.what()));
+  }
 }
 
 void Hosts::TakeLine(const std::string& line, const std::string& place)

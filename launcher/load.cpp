@@ -2,41 +2,66 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
-#include "controller_host/device.h"
-#include "engine_worker/engine_worker.h"
-#include "launcher/builtins.h"
-#include "launcher/usage_error.h"
-#include "visualiser/render.h"
+#include "common/configuration/wording.h"
+#include "common/space/terrain/terrain.h"
+#include "roles/builtins.h"
 
 namespace swarmanoid
 {
-
-void RegisterBuiltins()
+namespace
 {
-  RegisterBuiltinEngines();
-  RegisterBuiltinDevices();
-  RegisterBuiltinRenderers();
+
+// Every process of a run reads the maps of terrains; what is wrong with them is said before any of them starts.
+bool TerrainsAreGood(const Experiment& experiment)
+{
+  bool good = true;
+  for (const EntityConfiguration& entity : experiment.entities)
+  {
+    if (entity.kind != EntityKind::kTerrain) continue;
+    try
+    {
+      LoadTerrain(entity, experiment.folder);
+    }
+    catch (const ConfigurationError& error)
+    {
+      good = false;
+      fmt::print(stderr, "{}\n", error.what());
+    }
+  }
+  return good;
 }
+
+// For a file that is not there: the one beside it that may be meant.
+std::string NearFile(const std::string& file)
+{
+  namespace fs = std::filesystem;
+  std::error_code none;
+  const fs::path path(file);
+  if (fs::exists(path, none)) return {};
+  std::vector<std::string> names;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+    if (entry.path().extension() == ".xml") names.push_back((path.parent_path() / entry.path().filename()).string());
+  std::sort(names.begin(), names.end());
+  return DidYouMean(file, names);
+}
+
+}  // namespace
 
 std::unique_ptr<Experiment> LoadOrComplain(const std::string& file, const LoadOptions& options)
 {
   RegisterBuiltins();
   LoadedExperiment loaded = LoadExperimentFile(file, options);
-  for (const Diagnostic& error : loaded.errors) fmt::print(stderr, "{}\n", error.Text());
+  for (const Diagnostic& error : loaded.errors) fmt::print(stderr, "{}{}\n", error.Text(), NearFile(file));
   if (!loaded.experiment)
     fmt::print(stderr, "{}: {}\n", file,
                loaded.errors.size() == 1 ? "1 error" : fmt::format("{} errors", loaded.errors.size()));
+  if (loaded.experiment && !TerrainsAreGood(*loaded.experiment)) return nullptr;
   return std::move(loaded.experiment);
-}
-
-std::pair<std::string, std::string> SplitSetting(const std::string& text)
-{
-  const std::size_t sign = text.find('=');
-  if (sign == std::string::npos || sign == 0)
-    throw UsageError(fmt::format("--set {}: write PATH=VALUE, for example --set framework.maxclock=100", text));
-  return {text.substr(0, sign), text.substr(sign + 1)};
 }
 
 }  // namespace swarmanoid

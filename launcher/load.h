@@ -14,7 +14,4 @@ namespace swarmanoid
 // nullptr where the file is wrong: then all its errors are on standard error.
 std::unique_ptr<Experiment> LoadOrComplain(const std::string& file, const LoadOptions& options);
 
-// "PATH=VALUE" to a pair; throws UsageError where there is no '='.
-std::pair<std::string, std::string> SplitSetting(const std::string& text);
-
 }  // namespace swarmanoid

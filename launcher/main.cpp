@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "common/configuration/wording.h"
+#include "common/program/program.h"
 #include "launcher/commands.h"
-#include "launcher/exit_codes.h"
-#include "launcher/unexpected_words.h"
 
 namespace
 {
@@ -18,14 +17,24 @@ namespace
 const std::vector<std::string> kVerbs{"run", "attach", "control", "check", "list", "new"};
 
 // CLI11 would only say that the word was not expected.
-bool ComplainsAboutVerb(int count, char** arguments)
+bool ComplainsAboutVerb(const std::vector<std::string>& words)
 {
-  if (count < 2 || arguments[1][0] == '-') return false;
-  const std::string verb = arguments[1];
+  if (words.size() < 2 || words[1].starts_with("-")) return false;
+  const std::string& verb = words[1];
   if (std::find(kVerbs.begin(), kVerbs.end(), verb) != kVerbs.end()) return false;
   fmt::print(stderr, "swarmanoid: there is no command {}; the commands are {}{}\n", swarmanoid::Quoted(verb),
              swarmanoid::Listed(kVerbs), swarmanoid::DidYouMean(verb, kVerbs));
   return true;
+}
+
+// `help` and `help COMMAND` are other ways to write --help; so is no word at all.
+std::vector<std::string> WithHelp(std::vector<std::string> words)
+{
+  if (words.size() == 1) words.emplace_back("help");
+  if (words.size() < 2 || words[1] != "help") return words;
+  words.erase(words.begin() + 1);
+  words.emplace_back("--help");
+  return words;
 }
 
 }  // namespace
@@ -34,41 +43,32 @@ int main(int count, char** arguments)
 {
   using namespace swarmanoid;
 
-  if (ComplainsAboutVerb(count, arguments)) return kUsage;
-  CLI::App app("Runs swarm-robotics experiments, and looks at those that run.", "swarmanoid");
-  app.set_version_flag("--version", "swarmanoid " SWARMANOID_VERSION);
-  app.require_subcommand(1);
-  app.failure_message([](const CLI::App* failed, const CLI::Error& error)
-                      { return fmt::format("swarmanoid: {}\n", CommandLineComplaint(*failed, error)); });
-  app.footer(
-      "Start with:\n  swarmanoid run configs/diffusion_10.xml\n`swarmanoid COMMAND --help` explains a command with "
-      "examples.");
+  std::vector<std::string> words = WithHelp({arguments, arguments + count});
+  if (ComplainsAboutVerb(words)) return kExitUsage;
+  std::vector<char*> given;
+  for (std::string& word : words) given.push_back(word.data());
 
-  int exit_code = kDone;
-  AddRunCommand(app, exit_code);
-  AddAttachCommand(app, exit_code);
-  AddControlCommand(app, exit_code);
-  AddCheckCommand(app, exit_code);
-  AddListCommand(app, exit_code);
-  AddNewCommand(app, exit_code);
-
-  try
-  {
-    app.parse(count, arguments);
-  }
-  catch (const CLI::ParseError& error)
-  {
-    return app.exit(error) == 0 ? kDone : kUsage;
-  }
-  catch (const UsageError& error)
-  {
-    fmt::print(stderr, "swarmanoid: {}\n", error.what());
-    return kUsage;
-  }
-  catch (const std::exception& error)
-  {
-    fmt::print(stderr, "swarmanoid: {}\n", error.what());
-    return kProcessFailed;
-  }
-  return exit_code;
+  int verb_code = kExitDone;
+  const int exit_code = RunProgram(
+      {.name = "swarmanoid",
+       .purpose = "Runs swarm-robotics experiments, and looks at those that run.",
+       .footer =
+           "Start with:\n  swarmanoid run configs/diffusion_10.xml\n`swarmanoid COMMAND --help` explains a command "
+           "with examples.",
+       .catches_interrupts = false},
+      static_cast<int>(given.size()), given.data(),
+      [&](CLI::App& app)
+      {
+        app.set_version_flag("--version", "swarmanoid " SWARMANOID_VERSION);
+        app.require_subcommand(1);
+        AddRunCommand(app, verb_code);
+        AddAttachCommand(app, verb_code);
+        AddControlCommand(app, verb_code);
+        AddCheckCommand(app, verb_code);
+        AddListCommand(app, verb_code);
+        AddNewCommand(app, verb_code);
+      },
+      [&] { return verb_code; });
+  // The help was not asked for.
+  return count == 1 && exit_code == kExitDone ? kExitUsage : exit_code;
 }

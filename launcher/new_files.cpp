@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "common/configuration/wording.h"
+#include "common/program/usage_error.h"
 #include "launcher/installation.h"
 #include "launcher/template_files.h"
-#include "launcher/usage_error.h"
 
 namespace swarmanoid
 {

@@ -33,13 +33,13 @@ RunChoice ChooseRun(const std::string& name, std::optional<int> domain)
     names.push_back(run.experiment);
     if ((name.empty() || run.experiment == name) && (!domain || run.domain == *domain)) fitting.push_back(run);
   }
-  if (fitting.size() == 1) return {fitting[0].experiment, fitting[0].domain};
+  if (fitting.size() == 1) return {fitting[0].experiment, fitting[0].domain, static_cast<int>(fitting[0].server)};
   if (fitting.size() > 1)
     throw UsageError(
         fmt::format("several experiments run on this machine; name one, or its --domain:{}", Described(fitting)));
 
   // It may run elsewhere.
-  if (domain && !name.empty()) return {name, *domain};
+  if (domain && !name.empty()) return {name, *domain, std::nullopt};
   if (domain)
     throw UsageError("no experiment runs on this machine in that domain; name the experiment if it runs elsewhere");
   if (all.empty())

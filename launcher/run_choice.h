@@ -11,6 +11,7 @@ struct RunChoice
 {
   std::string experiment;
   int domain = 0;
+  std::optional<int> server;  // process id of its space server, where that is on this machine
 };
 
 // The one on this machine, or the one of that name. With a domain, experiments of other machines can be meant too.

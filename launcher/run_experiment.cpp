@@ -5,12 +5,13 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "common/math/reproducible_math.h"
+#include "common/program/exit_codes.h"
+#include "common/program/usage_error.h"
 #include "common/space/checkpoint.h"
-#include "launcher/exit_codes.h"
+#include "launcher/cluster_run.h"
 #include "launcher/load.h"
 #include "launcher/original_command.h"
-#include "launcher/run_command_line.h"
-#include "launcher/usage_error.h"
 #include "space_server/event_log.h"
 
 namespace swarmanoid
@@ -18,11 +19,11 @@ namespace swarmanoid
 namespace
 {
 
-Manifest StartOfManifest(const RunOptions& options, const Experiment& experiment)
+Manifest StartOfManifest(const RunSettings& options, const Experiment& experiment)
 {
   Manifest manifest;
   manifest.experiment = experiment.name;
-  manifest.file = std::filesystem::absolute(options.experiment).lexically_normal();
+  manifest.file = std::filesystem::absolute(options.file).lexically_normal();
   manifest.experiment_hash = TextHash(experiment.effective_xml);
   manifest.seed = experiment.seed;
   manifest.command = OriginalCommand();
@@ -31,12 +32,12 @@ Manifest StartOfManifest(const RunOptions& options, const Experiment& experiment
 }
 
 // Before the folder of the run is made and processes are started.
-void RefuseBadCheckpoints(const RunOptions& options, const Experiment& experiment)
+void RefuseBadCheckpoints(const RunSettings& options, const Experiment& experiment)
 {
   try
   {
     CheckCheckpointPeriod(options.checkpoint_every, experiment);
-    if (!options.restore_file.empty()) ReadCheckpoint(options.restore_file, experiment, options.controller_hosts);
+    if (!options.restore_file.empty()) ReadCheckpoint(options.restore_file, experiment, {options.controller_hosts});
   }
   catch (const std::invalid_argument& error)
   {
@@ -48,15 +49,15 @@ void RefuseBadCheckpoints(const RunOptions& options, const Experiment& experimen
   }
 }
 
-int Conclude(const RunOptions& options, const RunResult& result, const RunFolder& folder, Manifest& manifest)
+int Conclude(const RunSettings& options, const RunResult& result, const RunFolder& folder, Manifest& manifest)
 {
   int exit_code = result.exit_code;
-  if (result.summary && !options.expected_hash.empty() && exit_code == kDone &&
+  if (result.summary && !options.expected_hash.empty() && exit_code == kExitDone &&
       result.summary->hash != std::stoull(options.expected_hash, nullptr, 16))
   {
     fmt::print(stderr, "the hash differs: expected {:0>16}, got {:016x}\n", options.expected_hash,
                result.summary->hash);
-    exit_code = kHashDiffers;
+    exit_code = kExitHashDiffers;
   }
 
   manifest.ended = TimeStamp();
@@ -76,7 +77,7 @@ int Conclude(const RunOptions& options, const RunResult& result, const RunFolder
   catch (const RunFolderError& error)
   {
     fmt::print(stderr, "swarmanoid: {}\n", error.what());
-    if (exit_code == kDone) exit_code = kProcessFailed;
+    if (exit_code == kExitDone) exit_code = kExitProcessFailed;
   }
   if (result.summary) fmt::print("{}\n", FinishedLine(*result.summary));
   return exit_code;
@@ -97,23 +98,35 @@ bool EventsAreGood(const std::string& file, const Experiment& experiment)
   }
 }
 
+void RefuseContradictions(const RunSettings& options)
+{
+  if (!options.single_process) return;
+  const std::string why = "; leave out --single-process to run a cluster";
+  if (options.controller_hosts != 1) throw UsageError("--controller-hosts: a single process has one" + why);
+  if (!options.hosts_file.empty() || !options.engine_hosts.empty())
+    throw UsageError("--hosts and --engine-host: a single process runs on this machine" + why);
+  if (options.domain) throw UsageError("--domain: a single process uses no DDS" + why);
+}
+
 }  // namespace
 
-int RunExperiment(const RunOptions& options,
-                  const std::function<RunResult(const Experiment&, const RunFolder&, Manifest&)>& execute)
+int RunExperiment(const RunSettings& options, const WatchFunction& watch)
 {
-  const auto experiment = LoadOrComplain(options.experiment, ChangesOf(options));
-  if (!experiment) return kInvalid;
+  RequireReproducibleMath();
+  RefuseContradictions(options);
+  const auto experiment = LoadOrComplain(options.file, ChangesOf(options));
+  if (!experiment) return kExitInvalidFile;
   RefuseBadCheckpoints(options, *experiment);
-  if (!options.events.empty() && !EventsAreGood(options.events, *experiment)) return kInvalid;
+  if (!options.events.empty() && !EventsAreGood(options.events, *experiment)) return kExitInvalidFile;
 
   try
   {
-    const RunFolder folder(options.output, experiment->name);
+    const RunFolder folder(options.output_folder, experiment->name);
     Manifest manifest = StartOfManifest(options, *experiment);
     folder.Write("experiment.xml", experiment->effective_xml);
     folder.Write("manifest.json", manifest.Text());
-    const RunResult result = execute(*experiment, folder, manifest);
+    const RunResult result = options.single_process ? RunHere(options, *experiment, folder, watch)
+                                                    : RunCluster(options, *experiment, folder, manifest, watch);
     return Conclude(options, result, folder, manifest);
   }
   catch (const RunFolderError& error)

@@ -2,16 +2,14 @@
 // code.
 #pragma once
 
-#include <functional>
-
 #include "launcher/single_run.h"
+#include "launcher/watched_simulator.h"
 
 namespace swarmanoid
 {
 
-// Runs an experiment and tells the user how it went; `execute` may add to the manifest. Returns the exit code. Throws
-// UsageError.
-int RunExperiment(const RunOptions& options,
-                  const std::function<RunResult(const Experiment&, const RunFolder&, Manifest&)>& execute);
+// Runs an experiment, in this process or as a cluster, and tells the user how it went. `watch`, where there is one, is
+// called at each tick. Returns the exit code. Throws UsageError.
+int RunExperiment(const RunSettings& options, const WatchFunction& watch = {});
 
 }  // namespace swarmanoid

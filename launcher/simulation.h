@@ -1,7 +1,7 @@
-// The main function of a simulation, for programs of users that wrap it: the same run as that of
-// `swarmanoid run --single-process`, with the same options, output and exit code.
+// The main function of a simulation, for programs of users that wrap it: the same run as that of `swarmanoid run`, with
+// the same options, output and exit code, as a cluster or, with --single-process, in this process.
 //
-//   int main(int count, char** arguments) { return swarmanoid::RunSimulation(count, arguments); }
+//   int main(int count, char** arguments) { return swarmanoid::RunSimulation(count, arguments, Watch); }
 #pragma once
 
 #include <functional>
@@ -11,7 +11,8 @@
 namespace swarmanoid
 {
 
-// `watch`, where there is one, is called at tick 0 and after every tick.
+// `watch`, where there is one, is called at each tick from the first one on, before the state of the tick is written,
+// drawn or sent, always in this process and this thread: with it, this process is the space server of the cluster.
 int RunSimulation(int count, char** arguments, const std::function<void(CSimulator&)>& watch = {});
 
 }  // namespace swarmanoid

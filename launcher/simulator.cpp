@@ -2,21 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <chrono>
-#include <cstdio>
-#include <cstring>
 #include <stdexcept>
 
+#include "common/activity/failure_report.h"
 #include "common/experiment/load_experiment.h"
 #include "common/math/reproducible_math.h"
+#include "common/program/usage_error.h"
+#include "common/run/hash_log.h"
+#include "common/serialisation/trial.h"
 #include "common/space/assignment.h"
 #include "common/space/checkpoint.h"
 #include "controller_host/controller_host.h"
 #include "engine_worker/engine_worker.h"
-#include "launcher/builtins.h"
 #include "launcher/steering.h"
-#include "launcher/usage_error.h"
+#include "roles/builtins.h"
 #include "space_server/space_server.h"
 #include "visualiser/visualiser.h"
 
@@ -29,43 +29,18 @@ using Clock = std::chrono::steady_clock;
 
 double SecondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-// One hash a line, from tick 0 on.
-class HashLog
-{
-public:
-  explicit HashLog(const std::string& path)
-  {
-    if (path.empty()) return;
-    file_ = std::fopen(path.c_str(), "w");
-    if (file_ == nullptr) throw std::runtime_error("cannot write the hash log '" + path + "': " + std::strerror(errno));
-  }
-  ~HashLog()
-  {
-    if (file_ != nullptr) std::fclose(file_);
-  }
-  HashLog(const HashLog&) = delete;
-  HashLog& operator=(const HashLog&) = delete;
-
-  void Write(const CSwarmanoidSpace& space)
-  {
-    if (file_ != nullptr) fmt::print(file_, "{} {:016x}\n", space.GetTick(), space.Hash());
-  }
-
-private:
-  std::FILE* file_ = nullptr;
-};
-
 }  // namespace
 
 struct CSimulator::Roles
 {
   Roles(const Experiment& of, const SimulatorOptions& with)
       : experiment(of),
-        options(with),
+        options(WithFolder(with)),
         assignment(MakeAssignment(of, 1)),
-        server(of, assignment, with.output_folder),
+        server(of, assignment, options.output_folder),
         space(server.Space()),
-        steering(of, server, DeskSetup(of, with), with.stop)
+        steering(of, server, DeskSetup(of, with), with.stop),
+        hash_log(with.hash_log)
   {
     for (std::size_t e = 0; e < experiment.engines.size(); ++e)
       engines.push_back(std::make_unique<EngineWorker>(space, assignment, e));
@@ -80,7 +55,6 @@ struct CSimulator::Roles
       throw UsageError(
           "the run would stay paused: none of its visualisations is a window or a page that can resume it; leave out "
           "--paused, or run a cluster, which `swarmanoid control resume` reaches");
-    hash_log = std::make_unique<HashLog>(options.hash_log);
     for (const std::uint32_t engine : assignment.hosts[0].frames_from) frames.push_back(&engines[engine]->Sensors());
     for (const auto& engine : engines) updates.push_back(&engine->Update());
   }
@@ -88,7 +62,7 @@ struct CSimulator::Roles
   Checkpoint TakeCheckpoint() const
   {
     Checkpoint checkpoint;
-    checkpoint.experiment = FingerprintOf(experiment);
+    checkpoint.origin = origin;
     server.WriteSnapshot(checkpoint.snapshot);
     const auto add = [&](const std::string& name, const auto& role)
     {
@@ -102,12 +76,25 @@ struct CSimulator::Roles
     return checkpoint;
   }
 
+  void TrySavingAll() const
+  {
+    TrySaving(server);
+    for (const auto& engine : engines) TrySaving(*engine);
+    TrySaving(*host);
+  }
+
   void Restore(const Checkpoint& checkpoint)
   {
     checkpoint.LoadPart(kServerPart, [&](ByteReader& state) { server.LoadState(checkpoint.snapshot, state); });
     for (std::size_t e = 0; e < engines.size(); ++e)
       checkpoint.LoadPart(EngineName(experiment, e), [&](ByteReader& state) { engines[e]->LoadState(state); });
     checkpoint.LoadPart(HostName(0), [&](ByteReader& state) { host->LoadState(state); });
+  }
+
+  static SimulatorOptions WithFolder(SimulatorOptions options)
+  {
+    if (options.output_folder.empty()) options.output_folder = ".";
+    return options;
   }
 
   static ControlDeskSetup DeskSetup(const Experiment& experiment, const SimulatorOptions& options)
@@ -120,32 +107,43 @@ struct CSimulator::Roles
   const Experiment& experiment;
   const SimulatorOptions options;
   const Assignment assignment;
+  const CheckpointOrigin origin = OriginOf(experiment);
   SpaceServer server;
-  CSwarmanoidSpace& space;
+  const CSwarmanoidSpace& space;
   Steering steering;
   std::vector<std::unique_ptr<EngineWorker>> engines;
   std::unique_ptr<ControllerHost> host;
   std::vector<std::unique_ptr<Visualiser>> visualisers;
-  std::unique_ptr<HashLog> hash_log;
+  HashLog hash_log;
   // The messages of a tick; the roles reuse their buffers, so these pointers stay.
   std::vector<const SensorFrame*> frames;
   std::vector<const EngineUpdate*> updates;
 
   std::uint64_t first_tick = 0;
   Clock::time_point start;
+  Watch watch;
+  bool watching = false;
   bool over = false;
   bool finished = false;
   RunSummary summary;
 };
 
 CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& options)
-    : roles_(std::make_unique<Roles>(experiment, options))
+    : CSimulator(experiment, options, {})
 {
-  RequireReproducibleMath();
+}
+
+CSimulator::CSimulator(SpaceServer& server) : server_(&server) {}
+
+CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& options, Watch watch)
+    : roles_((RequireReproducibleMath(), ReportDeaths(program_invocation_short_name),
+              std::make_unique<Roles>(experiment, options)))
+{
+  server_ = &roles_->server;
+  roles_->watch = std::move(watch);
   CheckCheckpointPeriod(options.checkpoint_every, experiment);
-  // What cannot be saved is said before the run, not in the midst of it.
-  if (options.checkpoint_every != 0) roles_->TakeCheckpoint();
-  if (!options.restore_file.empty()) roles_->Restore(ReadCheckpoint(options.restore_file, experiment, 1));
+  if (options.checkpoint_every != 0) roles_->TrySavingAll();
+  if (!options.restore_file.empty()) roles_->Restore(ReadCheckpoint(options.restore_file, experiment, {}));
   roles_->first_tick = roles_->space.GetTick();
   roles_->start = Clock::now();
   Show();
@@ -158,6 +156,7 @@ bool CSimulator::Step()
   using Frames = std::span<const SensorFrame* const>;
   using Commands = std::span<const ControlCommands* const>;
 
+  RefuseWithin("Step");
   Roles& r = *roles_;
   if (r.over || r.finished) return false;
   const ControlCommands* commands = &r.host->Step(r.space.GetTick() == 0 ? Frames() : Frames(r.frames));
@@ -177,7 +176,14 @@ void CSimulator::Show()
   const std::uint64_t tick = r.space.GetTick();
   if (r.options.checkpoint_every != 0 && tick > r.first_tick && tick % r.options.checkpoint_every == 0)
     WriteCheckpoint(r.options.output_folder + "/" + CheckpointName(tick), r.TakeCheckpoint());
-  r.hash_log->Write(r.space);
+  // Whoever goes on from the checkpoint watches this tick again.
+  if (r.watch)
+  {
+    r.watching = true;
+    r.watch(*this);
+    r.watching = false;
+  }
+  if (r.hash_log.IsOpen()) r.hash_log.Write(r.space.GetTick(), r.space.Hash());
   const Visualiser* terminator = nullptr;
   for (const auto& visualiser : r.visualisers)
     if (visualiser->Draw() && terminator == nullptr) terminator = visualiser.get();
@@ -186,8 +192,17 @@ void CSimulator::Show()
   r.summary.interrupted = r.steering.Interrupted();
 }
 
+void CSimulator::RefuseWithin(const char* function) const
+{
+  if (!roles_ || roles_->watching)
+    throw std::logic_error(fmt::format(
+        "{} was called by the function that looks at each tick; the run goes on by itself when that returns",
+        function));
+}
+
 const RunSummary& CSimulator::Finish()
 {
+  RefuseWithin("Finish");
   Roles& r = *roles_;
   if (r.finished) return r.summary;
   r.finished = true;
@@ -195,9 +210,9 @@ const RunSummary& CSimulator::Finish()
   r.summary.entities = r.space.Size();
   r.summary.ticks = r.space.GetTick();
   r.summary.wall_s = SecondsSince(r.start);
-  r.summary.real_time_factor = r.summary.wall_s > 0 ? static_cast<double>(r.summary.ticks - r.first_tick) *
-                                                          r.experiment.TickSeconds() / r.summary.wall_s
-                                                    : 0;
+  r.summary.real_time_factor =
+      RealTimeFactor(r.summary.ticks - r.first_tick, r.experiment.TickSeconds(), r.summary.wall_s);
+  r.hash_log.Close();
   r.summary.hash = r.space.Hash();
   for (const auto& visualiser : r.visualisers) visualiser->Finish();
   r.host->Destroy();
@@ -206,9 +221,11 @@ const RunSummary& CSimulator::Finish()
   return r.summary;
 }
 
-CSwarmanoidSpace& CSimulator::GetSpace() { return roles_->space; }
+const CSwarmanoidSpace& CSimulator::GetSpace() const { return server_->Space(); }
 
-const Experiment& CSimulator::GetExperiment() const { return roles_->experiment; }
+SpaceEditor& CSimulator::GetEditor() { return server_->Editor(); }
+
+const Experiment& CSimulator::GetExperiment() const { return server_->Space().GetExperiment(); }
 
 std::unique_ptr<Experiment> ReadExperiment(const std::string& file,
                                            const std::vector<std::pair<std::string, std::string>>& settings)
@@ -221,12 +238,6 @@ std::unique_ptr<Experiment> ReadExperiment(const std::string& file,
   std::string mistakes;
   for (const Diagnostic& error : loaded.errors) mistakes += (mistakes.empty() ? "" : "\n") + error.Text();
   throw ConfigurationError(mistakes);
-}
-
-std::string FinishedLine(const RunSummary& summary)
-{
-  return fmt::format("finished: {} ticks, {} entities, hash {:016x}, {:.3f} s, {:.1f}x real time", summary.ticks,
-                     summary.entities, summary.hash, summary.wall_s, summary.real_time_factor);
 }
 
 }  // namespace swarmanoid

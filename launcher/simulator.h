@@ -8,55 +8,31 @@
 //   simulator.Finish();
 #pragma once
 
-#include <atomic>
-#include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common/experiment/experiment.h"
+#include "common/run/run_settings.h"
+#include "common/run/run_summary.h"
 #include "common/space/space.h"
 
 namespace swarmanoid
 {
 
-struct SimulatorOptions
-{
-  std::string output_folder = ".";  // what visualisations and experiment functions write
-  std::string hash_log;             // file for one hash a tick; empty: none
-  double real_time_factor = 0;      // 0: as fast as possible
-  // Until a user resumes through a visualisation: the constructor waits for it, or throws UsageError where there is
-  // none.
-  bool paused = false;
-  std::string event_log;  // file for what users ask through visualisations; empty: none
-  std::string events;     // such a file of an earlier run, whose moves and stops are repeated
-  bool visualisations = true;
-  // A checkpoint is written to the output folder every so many ticks: a multiple of the experiment's canonical_period.
-  // 0: none.
-  std::uint64_t checkpoint_every = 0;
-  // The checkpoint to go on from; empty: start at tick 0.
-  std::string restore_file;
-  // Set from a signal handler: the run stops at the end of the tick.
-  const std::atomic<bool>* stop = nullptr;
-};
-
-struct RunSummary
-{
-  std::uint64_t ticks = 0;
-  std::size_t entities = 0;
-  std::uint64_t hash = 0;  // of the final state
-  double wall_s = 0;       // from the first tick on
-  double real_time_factor = 0;
-  bool interrupted = false;
-  bool failed = false;  // the experiment functions said so
-};
+class SpaceEditor;
+class SpaceServer;
 
 class CSimulator
 {
 public:
   // The experiment at tick 0, or where its checkpoint is; it must outlive the simulator. Throws ConfigurationError,
-  // ControllerError or std::runtime_error with a text for the user; so do Step and Finish.
+  // ActivityError (common/activity/failure_report.h), which names whose code failed, or another std::runtime_error with
+  // a text for the user; so do Step and Finish. Code that crashes or calls exit ends the program with such a line and
+  // exit code 4. The function that RunSimulation calls at each tick gets one too, only to look at: there Step and
+  // Finish throw std::logic_error.
   explicit CSimulator(const Experiment& experiment, const SimulatorOptions& options = {});
   ~CSimulator();
   CSimulator(const CSimulator&) = delete;
@@ -67,24 +43,32 @@ public:
   // Ends controllers, experiment functions and visualisations; later calls give the same summary.
   const RunSummary& Finish();
 
-  // The state at the current tick. What a program changes here is part of the experiment: it changes the hash.
-  CSwarmanoidSpace& GetSpace();
+  // The state at the current tick, to be read.
+  const CSwarmanoidSpace& GetSpace() const;
+  // For changes between two steps, with the rules of experiment functions (space_server/experiment_functions.h). They
+  // take effect with the next step and are part of the experiment: they change the hash, and a run without the program
+  // lacks them.
+  SpaceEditor& GetEditor();
   const Experiment& GetExperiment() const;
 
 private:
   struct Roles;
+  friend struct WatchedSimulator;
+  using Watch = std::function<void(CSimulator&)>;
+  // `watch` is called at each tick, before anybody else is shown its state.
+  CSimulator(const Experiment& experiment, const SimulatorOptions& options, Watch watch);
+  // Of a run that others step: to look at it.
+  explicit CSimulator(SpaceServer& server);
   void Show();
+  void RefuseWithin(const char* function) const;
 
-  std::unique_ptr<Roles> roles_;
+  SpaceServer* server_ = nullptr;
+  std::unique_ptr<Roles> roles_;  // where this steps them
 };
 
 // Reads an experiment file with all built-in plug-ins, `settings` as for --set (path and value). Throws
 // ConfigurationError with all mistakes of the file, one a line.
 std::unique_ptr<Experiment> ReadExperiment(const std::string& file,
                                            const std::vector<std::pair<std::string, std::string>>& settings = {});
-
-// The last line of every run: "finished: <ticks> ticks, <entities> entities, hash <16 hex digits>, <wall> s, <factor>x
-// real time".
-std::string FinishedLine(const RunSummary& summary);
 
 }  // namespace swarmanoid

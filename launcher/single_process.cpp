@@ -2,6 +2,8 @@
 
 #include <chrono>
 
+#include "launcher/watched_simulator.h"
+
 namespace swarmanoid
 {
 
@@ -9,12 +11,10 @@ RunSummary RunSingleProcess(const Experiment& experiment, const SingleProcessOpt
 {
   using Clock = std::chrono::steady_clock;
 
-  CSimulator simulator(experiment, options);
-  if (options.watch) options.watch(simulator);
+  CSimulator simulator = WatchedSimulator::Running(experiment, options, options.watch);
   Clock::time_point reported = Clock::now();
   while (simulator.Step())
   {
-    if (options.watch) options.watch(simulator);
     const std::uint64_t tick = simulator.GetSpace().GetTick();
     if (options.progress && (tick & 15U) == 0 && Clock::now() - reported >= std::chrono::milliseconds(100))
     {

@@ -11,7 +11,7 @@ namespace swarmanoid
 
 struct SingleProcessOptions : SimulatorOptions
 {
-  // Called at tick 0 and after every tick.
+  // Called at each tick from the first one on, before its state is written or drawn.
   std::function<void(CSimulator&)> watch;
   // Called now and then (at most ten times a second) with the tick just finished.
   std::function<void(std::uint64_t tick)> progress;

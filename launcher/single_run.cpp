@@ -3,55 +3,37 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <chrono>
-#include <csignal>
 
-#include "launcher/exit_codes.h"
+#include "common/activity/failure_report.h"
+#include "common/activity/limits.h"
+#include "common/program/exit_codes.h"
+#include "common/program/interrupts.h"
+#include "common/program/usage_error.h"
 #include "launcher/processes/progress_display.h"
-#include "launcher/usage_error.h"
 
 namespace swarmanoid
 {
-namespace
-{
-
-std::atomic<bool> stop_asked = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-// The first signal ends the run after its tick, a second one has its usual effect.
-void CatchFirstInterrupt()
-{
-  struct sigaction action
-  {
-  };
-  action.sa_handler = [](int) { stop_asked = true; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
-}
-
-}  // namespace
-
-RunResult RunHere(const RunOptions& options, const Experiment& experiment, const RunFolder& folder,
+RunResult RunHere(const RunSettings& options, const Experiment& experiment, const RunFolder& folder,
                   const std::function<void(CSimulator&)>& watch)
 {
   using Clock = ProgressDisplay::Clock;
 
-  CatchFirstInterrupt();
+  CatchInterrupts(SecondInterrupt::kKills);
+  ReportDeaths("swarmanoid");
+  std::function<void(const std::string&, double)> stalled;
+  if (!options.quiet)
+    stalled = [](const std::string& activity, double seconds)
+    { fmt::print(stderr, "waiting since {} for {}\n", DurationText(seconds), activity); };
+  ApplyLimits(LimitsOf(options), stalled);
   ProgressDisplay display(ProgressDisplay::StyleFor(STDERR_FILENO, options.quiet), STDERR_FILENO);
   const Clock::time_point start = Clock::now();
 
   SingleProcessOptions run;
+  static_cast<SimulatorOptions&>(run) = options;
   run.output_folder = folder.Path();
-  run.hash_log = options.hash_log;
-  run.real_time_factor = options.real_time;
-  run.paused = options.paused;
   run.event_log = folder.File("events.csv");
-  run.events = options.events;
-  run.visualisations = !options.no_visualisers;
-  run.checkpoint_every = options.checkpoint_every;
-  run.restore_file = options.restore_file;
-  run.stop = &stop_asked;
+  run.stop = &InterruptFlag();
   run.watch = watch;
   run.progress = [&](std::uint64_t tick)
   {
@@ -69,22 +51,22 @@ RunResult RunHere(const RunOptions& options, const Experiment& experiment, const
   try
   {
     result.summary = RunSingleProcess(experiment, run);
-    if (result.summary->failed) result.exit_code = kExperimentFailed;
-    if (result.summary->interrupted) result.exit_code = kInterruptedByUser;
+    if (result.summary->failed) result.exit_code = kExitExperimentFailed;
+    if (result.summary->interrupted) result.exit_code = kExitInterrupted;
   }
   catch (const UsageError& error)
   {
-    result.exit_code = kUsage;
+    result.exit_code = kExitUsage;
     result.failure = error.what();
   }
   catch (const ConfigurationError& error)
   {
-    result.exit_code = kInvalid;
+    result.exit_code = kExitInvalidFile;
     result.failure = error.what();
   }
   catch (const std::exception& error)
   {
-    result.exit_code = kProcessFailed;
+    result.exit_code = kExitProcessFailed;
     result.failure = error.what();
   }
   display.Clear();

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "common/run/run_settings.h"
 #include "launcher/run_folder.h"
-#include "launcher/run_options.h"
 #include "launcher/single_process.h"
 
 namespace swarmanoid
@@ -21,7 +21,7 @@ struct RunResult
 };
 
 // `watch`: as in SingleProcessOptions.
-RunResult RunHere(const RunOptions& options, const Experiment& experiment, const RunFolder& folder,
+RunResult RunHere(const RunSettings& options, const Experiment& experiment, const RunFolder& folder,
                   const std::function<void(CSimulator&)>& watch = {});
 
 }  // namespace swarmanoid

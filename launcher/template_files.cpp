@@ -10,7 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "launcher/usage_error.h"
+#include "common/program/usage_error.h"
 
 namespace swarmanoid
 {

@@ -1,12 +1,14 @@
 // The program of a real robot: runs a controller library, the one that the simulator runs, on the drivers of the robot.
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
-#include <csignal>
+
 #include <cstdio>
 
 #include "common/logging/log.h"
 #include "common/plugins/library.h"
+#include "common/program/interrupts.h"
+#include "common/program/options.h"
+#include "common/program/program.h"
+#include "common/program/usage_error.h"
 #include "real_robot/control_loop.h"
 #include "real_robot/robot.h"
 
@@ -14,12 +16,6 @@ namespace swarmanoid
 {
 namespace
 {
-
-// As for the command `swarmanoid`.
-constexpr int kDone = 0;
-constexpr int kUsage = 2;
-constexpr int kInvalidFile = 3;
-constexpr int kFailed = 4;
 
 constexpr const char* kExamples =
     "FILE is an experiment file, of which one controller is run, or a robot file that names one and chooses drivers.\n"
@@ -32,17 +28,6 @@ constexpr const char* kExamples =
     "\n"
     "Environment: ROS_DOMAIN_ID and ROS_LOCALHOST_ONLY for the ros2 drivers; SWARMANOID_PLUGIN_PATH, further folders\n"
     "of libraries. Exit codes: 0 done or stopped by Ctrl-C, 2 wrong usage, 3 the file is invalid, 4 the robot failed.";
-
-volatile std::sig_atomic_t told_to_stop = 0;
-
-void CatchSignals()
-{
-  struct sigaction action
-  {
-  };
-  action.sa_handler = [](int) { told_to_stop = 1; };
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
-}
 
 struct Options
 {
@@ -57,31 +42,77 @@ struct Options
   bool quiet = false;
 };
 
-void AddOptions(CLI::App& app, Options& options)
+std::vector<OptionSpec> OptionTable(Options& o)
 {
-  app.footer(kExamples);
-  app.add_option("FILE", options.file, "Experiment file or robot file")->check(CLI::ExistingFile);
-  app.add_option("--controller", options.choice.controller, "Id of the controller, where the file has several");
-  app.add_option("--robot", options.choice.id, "Id of this robot; otherwise the file's, else the machine's name");
-  app.add_option("--kind", options.choice.kind, "footbot, eyebot or handbot; otherwise as in the file's arena");
-  app.add_option("--namespace", options.choice.name_space, "Put before the names of all topics: fb_1/cmd_vel");
-  app.add_option("--steps", options.loop.steps, "End after so many control steps; 0: run until Ctrl-C")
-      ->capture_default_str();
-  app.add_option("--wait", options.loop.wait_s, "Seconds to wait for the first value of each sensor; 0: for ever")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  app.add_flag("--end-on-silence", options.loop.end_on_silence,
-               "End when a sensor falls silent; otherwise the robot stands until it is back");
-  app.add_option("--drivers", options.choice.driver_libraries,
-                 "Libraries of drivers; otherwise the file's, else ros2_drivers")
-      ->delimiter(',');
-  app.add_option("--driver-path", options.driver_path, "Folders of drivers' libraries, separated by colons");
-  app.add_option("--controller-path", options.controller_path,
-                 "Folders of controllers' libraries, separated by colons");
-  app.add_option("--log", options.log_folder, "Folder of the log; otherwise it goes to standard error alone");
-  app.add_flag("--quiet", options.quiet, "Only warnings and errors on standard error");
-  app.add_flag("--check", options.check, "Show drivers and topics, then end");
-  app.add_flag("--list-drivers", options.list_drivers, "List the drivers there are, then end");
+  using enum ParameterType;
+  constexpr double kYear_s = 31'536'000;
+  constexpr double kMostSteps = 1e15;
+  return {
+      {{.name = "FILE", .type = kPath, .description = "Experiment file or robot file"},
+       &o.file,
+       "diffusion.xml",
+       "",
+       FileMistake},
+      {{.name = "controller", .type = kText, .description = "Id of the controller, where the file has several"},
+       &o.choice.controller,
+       "retriever"},
+      {{.name = "robot",
+        .type = kText,
+        .description = "Id of this robot; otherwise the file's, else the machine's name"},
+       &o.choice.id,
+       "fb_1"},
+      {{.name = "kind",
+        .type = kChoice,
+        .description = "Kind of the robot; otherwise as in the file's arena",
+        .choices = {"footbot", "eyebot", "handbot"}},
+       &o.choice.kind},
+      {{.name = "namespace", .type = kText, .description = "Put before the names of all topics: fb_1/cmd_vel"},
+       &o.choice.name_space,
+       "fb_1"},
+      {{.name = "steps",
+        .type = kInteger,
+        .description = "End after so many control steps; 0: run until Ctrl-C",
+        .minimum = 0,
+        .maximum = kMostSteps},
+       &o.loop.steps,
+       "100"},
+      {{.name = "wait",
+        .type = kNumber,
+        .unit = "s",
+        .description = "Time to wait for the first value of each sensor; 0: for ever",
+        .minimum = 0,
+        .maximum = kYear_s},
+       &o.loop.wait_s,
+       "30"},
+      {{.name = "end-on-silence",
+        .type = kBoolean,
+        .description = "End when a sensor falls silent; otherwise the robot stands until it is back"},
+       &o.loop.end_on_silence},
+      {{.name = "drivers",
+        .type = kText,
+        .description = "Libraries of drivers; otherwise the file's, else ros2_drivers"},
+       &o.choice.driver_libraries,
+       "ros2_drivers",
+       "A,B,...",
+       {},
+       false,
+       true},
+      {{.name = "driver-path", .type = kText, .description = "Folders of drivers' libraries, separated by colons"},
+       &o.driver_path,
+       "drivers:/opt/drivers"},
+      {{.name = "controller-path",
+        .type = kText,
+        .description = "Folders of controllers' libraries, separated by colons"},
+       &o.controller_path,
+       "real_robot_build/controllers"},
+      {{.name = "log", .type = kPath, .description = "Folder of the log; otherwise it goes to standard error alone"},
+       &o.log_folder,
+       "logs"},
+      {{.name = "quiet", .type = kBoolean, .description = "Only warnings and errors on standard error"}, &o.quiet},
+      {{.name = "check", .type = kBoolean, .description = "Show drivers and topics, then end"}, &o.check},
+      {{.name = "list-drivers", .type = kBoolean, .description = "List the drivers there are, then end"},
+       &o.list_drivers},
+  };
 }
 
 int ListDrivers(const Options& options)
@@ -93,7 +124,7 @@ int ListDrivers(const Options& options)
   for (const std::string& folder : StandardPluginFolders()) configuration.driver_path.push_back(folder);
   LoadDriverLibraries(configuration);
   fmt::print("{}", DriverList());
-  return kDone;
+  return kExitDone;
 }
 
 int RunRobot(Options& options)
@@ -113,34 +144,24 @@ int RunRobot(Options& options)
   {
     fmt::print("{}\n", title);
     for (const std::string& line : robot.Wiring()) fmt::print("  {}\n", line);
-    return kDone;
+    return kExitDone;
   }
   LogInfo("{}", title);
   for (const std::string& line : robot.Wiring()) LogInfo("{}", line);
 
-  CatchSignals();
-  options.loop.told_to_stop = [] { return told_to_stop != 0; };
+  options.loop.told_to_stop = [] { return Interrupted(); };
   const LoopReport report = RunControlLoop(robot, options.loop, MonotonicClock());
   LogInfo("stopped");
   fmt::print("finished: {} steps, {:.3f} s, {} overruns, longest step {:.3f} ms, {:.1f} s without sensors\n",
              report.steps, report.seconds, report.overruns, report.longest_step_s * 1e3, report.silent_s);
-  return kDone;
+  return kExitDone;
 }
 
-int Run(int argc, char** argv)
+int Run(Options& options)
 {
-  CLI::App app("Runs a controller on a real robot", "swarmanoid_robot");
-  Options options;
-  AddOptions(app, options);
-  try
-  {
-    app.parse(argc, argv);
-    if (options.file.empty() && !options.list_drivers) throw CLI::RequiredError("FILE");
-  }
-  catch (const CLI::ParseError& error)
-  {
-    return app.exit(error) == 0 ? kDone : kUsage;
-  }
+  if (options.file.empty() && !options.list_drivers)
+    throw UsageError(
+        "give the FILE whose controller is to run; for example swarmanoid_robot diffusion.xml --robot fb_1");
   options.choice.driver_path = SplitSearchPath(options.driver_path, ".");
   options.choice.controller_path = SplitSearchPath(options.controller_path, ".");
   return options.list_drivers ? ListDrivers(options) : RunRobot(options);
@@ -149,20 +170,12 @@ int Run(int argc, char** argv)
 }  // namespace
 }  // namespace swarmanoid
 
-int main(int argc, char** argv)
+int main(int count, char** arguments)
 {
-  try
-  {
-    return swarmanoid::Run(argc, argv);
-  }
-  catch (const swarmanoid::ConfigurationError& error)
-  {
-    fmt::print(stderr, "{}\n", error.what());
-    return swarmanoid::kInvalidFile;
-  }
-  catch (const std::exception& error)
-  {
-    fmt::print(stderr, "swarmanoid_robot: {}\n", error.what());
-    return swarmanoid::kFailed;
-  }
+  using namespace swarmanoid;
+
+  Options options;
+  return RunProgram(
+      {"swarmanoid_robot", "Runs a controller on a real robot.", kExamples}, count, arguments,
+      [&](CLI::App& app) { AddOptions(app, OptionTable(options)); }, [&] { return Run(options); });
 }

@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "common/configuration/parameter_table.h"
 #include "common/configuration/wording.h"
+#include "common/control_interface/init_controller.h"
 #include "common/plugins/library.h"
 
 namespace swarmanoid
 {
 namespace
 {
-
-constexpr std::uint32_t kControllerStream = StreamName("controller");
 
 // Every sensor driver has it.
 const ParameterSpec kTimeout{.name = "timeout_s",
@@ -27,29 +27,16 @@ std::vector<ParameterSpec> ParametersOf(const PluginDescription& description, bo
   return parameters;
 }
 
-// Refuses unknown and wrong parameters of a driver.
-void CheckParameters(const TConfigurationTree& tree, const std::vector<ParameterSpec>& specs)
+// Throws the first mistake in the parameters of a driver or controller.
+void CheckParameters(const TConfigurationTree& tree, const std::vector<ParameterSpec>& specs, const std::string& owner,
+                     const std::vector<std::string>& others)
 {
-  if (!tree.Exists()) return;
-  std::vector<std::string> names;
-  for (const ParameterSpec& spec : specs) names.push_back(spec.name);
-  const auto check = [&](const std::string& name, const std::string& value, const SourceLocation& location)
-  {
-    const auto spec = std::ranges::find_if(specs, [&](const ParameterSpec& s) { return Matches(s, name); });
-    if (spec == specs.end())
-      throw ConfigurationError(
-          location, fmt::format("the driver of <{}> has no parameter {}; it has: {}{}", tree.Name(), Quoted(name),
-                                Listed(names), DidYouMean(name, names)));
-    if (const std::string mistake = MistakeIn(*spec, value, name); !mistake.empty())
-      throw ConfigurationError(location, mistake);
-  };
-  for (const auto& attribute : tree.Node()->attributes)
-    if (attribute.name != "driver") check(attribute.name, attribute.value, attribute.location);
-  for (const TConfigurationTree& child : tree.Children()) check(child.Name(), child.Text(), child.Location());
-  for (const ParameterSpec& spec : specs)
-    if (!spec.default_value && !IsNumbered(spec) && !tree.Value(spec.name))
-      throw ConfigurationError(tree.Location(), fmt::format("the driver of <{}> needs the parameter {}: {}",
-                                                            tree.Name(), spec.name, AllowedText(spec)));
+  for (const ConfigurationError& mistake : MistakesIn(tree, specs, owner, others)) throw mistake;
+}
+
+void CheckDriverParameters(const RobotDevice& device, const std::vector<ParameterSpec>& specs)
+{
+  CheckParameters(device.tree, specs, "driver of <" + device.type + ">", {"driver"});
 }
 
 // The drivers of a type of device, or the types that there are drivers for.
@@ -118,12 +105,14 @@ void PrintDrivers(const char* title, std::string& text)
     text += fmt::format("  {:<48} {}\n", key.first + " / " + key.second, entry.description.brief);
 }
 
-std::unique_ptr<CCI_Controller> MakeController(const RobotConfiguration& configuration)
+using ControllerEntry = PluginRegistry<CCI_Controller>::Entry;
+
+const ControllerEntry& FindController(const RobotConfiguration& configuration)
 {
   if (configuration.controller_library.empty())
   {
     const auto* built_in = PluginRegistry<CCI_Controller>::Instance().Find(configuration.controller_tag);
-    if (built_in != nullptr) return built_in->create();
+    if (built_in != nullptr) return *built_in;
     throw ConfigurationError(
         configuration.location,
         fmt::format("the controller {} names no library; give the one that holds <{}>, as library=\"name\"",
@@ -132,7 +121,7 @@ std::unique_ptr<CCI_Controller> MakeController(const RobotConfiguration& configu
   const PluginLibrary& library = LoadPluginLibrary(configuration.controller_library, configuration.controller_path);
   if (!library.error.empty()) throw ConfigurationError(configuration.library_location, library.error);
   const auto* entry = PluginRegistry<CCI_Controller>::Instance().Find(configuration.controller_tag);
-  if (entry != nullptr) return entry->create();
+  if (entry != nullptr) return *entry;
   std::vector<std::string> labels;
   for (const auto& [kind, label] : library.registrations.labels)
     if (kind == PluginKind::kController) labels.push_back(label);
@@ -140,6 +129,15 @@ std::unique_ptr<CCI_Controller> MakeController(const RobotConfiguration& configu
       configuration.location,
       fmt::format("the library {} registers no controller <{}>; it registers: {}{}", library.path,
                   configuration.controller_tag, Listed(labels), DidYouMean(configuration.controller_tag, labels)));
+}
+
+// As the simulator reads them: those of a controller that declared its parameters are checked and complete.
+TConfigurationTree ParametersOfController(const RobotConfiguration& configuration, const PluginDescription& description)
+{
+  if (!description.declares_parameters) return configuration.parameters;
+  const TConfigurationTree given = OrEmpty(configuration.parameters, "parameters", configuration.location);
+  CheckParameters(given, description.parameters, "controller <" + description.label + ">", {});
+  return WithDefaults(given, description.parameters, configuration.folder);
 }
 
 }  // namespace
@@ -165,7 +163,9 @@ Robot::Robot(RobotConfiguration configuration)
     : configuration_(std::move(configuration)), interface_(configuration_.id, configuration_.kind)
 {
   LoadDriverLibraries(configuration_);
-  controller_ = MakeController(configuration_);
+  controller_entry_ = &FindController(configuration_);
+  configuration_.parameters = ParametersOfController(configuration_, controller_entry_->description);
+  controller_ = controller_entry_->create();
   controller_->SetRobot(&interface_);
 
   // All choices first, so that a mistake is found before any device moves.
@@ -173,13 +173,13 @@ Robot::Robot(RobotConfiguration configuration)
   for (const RobotDevice& device : configuration_.sensors)
   {
     sensor_entries.push_back(&ChooseDriver<CSensorDriver>(device, "sensor", configuration_));
-    CheckParameters(device.tree, ParametersOf(sensor_entries.back()->description, true));
+    CheckDriverParameters(device, ParametersOf(sensor_entries.back()->description, true));
   }
   std::vector<const PluginRegistry<CActuatorDriver>::Entry*> actuator_entries;
   for (const RobotDevice& device : configuration_.actuators)
   {
     actuator_entries.push_back(&ChooseDriver<CActuatorDriver>(device, "actuator", configuration_));
-    CheckParameters(device.tree, ParametersOf(actuator_entries.back()->description, false));
+    CheckDriverParameters(device, ParametersOf(actuator_entries.back()->description, false));
   }
 
   const auto setup_of = [this](const RobotDevice& device, const std::vector<ParameterSpec>& specs)
@@ -248,22 +248,26 @@ std::string Robot::Silent() const
   return {};
 }
 
-void Robot::BeginStep()
+void Robot::BeginStep(std::uint64_t step_stream)
 {
-  // Each robot of a swarm has random numbers of its own, the same ones each time it runs.
-  const RandomStream random(configuration_.seed, StreamName(configuration_.id), kControllerStream,
-                            static_cast<std::uint32_t>(steps_));
-  interface_.BeginStep(steps_, configuration_.clock_tick_ms * 1e-3, random);
+  // Each robot of a swarm has random numbers of its own, the same ones each time it runs, here and in the simulator.
+  interface_.BeginStep(steps_, configuration_.clock_tick_ms * 1e-3,
+                       {configuration_.seed, StreamName(configuration_.id), step_stream, steps_});
 }
 
 void Robot::Start()
 {
-  BeginStep();
+  BeginStep(kInitStream);
   int result = CCI_Controller::RETURN_OK;
   started_ = true;
   try
   {
-    result = controller_->Init(configuration_.parameters);
+    result = InitController(*controller_, controller_entry_->description, configuration_.controller_id,
+                            configuration_.parameters);
+  }
+  catch (const ConfigurationError&)
+  {
+    throw;  // a mistake of the file
   }
   catch (const std::exception& error)
   {
@@ -277,7 +281,7 @@ void Robot::Start()
 
 void Robot::Step()
 {
-  BeginStep();
+  BeginStep(kControlStepStream);
   try
   {
     controller_->ControlStep();
@@ -314,7 +318,9 @@ void Robot::End()
   if (ended_) return;
   ended_ = true;
   Stop();
-  if (started_) controller_->Destroy();
+  if (!started_) return;
+  BeginStep(kDestroyStream);
+  controller_->Destroy();
 }
 
 std::vector<std::string> Robot::Wiring() const

@@ -73,12 +73,13 @@ private:
     std::unique_ptr<CActuatorDriver> driver;
   };
 
-  void BeginStep();
+  void BeginStep(std::uint64_t step_stream);
 
   RobotConfiguration configuration_;
   CCI_Robot interface_;
   std::vector<Sensor> sensors_;
   std::vector<Actuator> actuators_;
+  const PluginRegistry<CCI_Controller>::Entry* controller_entry_ = nullptr;
   std::unique_ptr<CCI_Controller> controller_;
   std::uint64_t steps_ = 0;
   bool started_ = false;

@@ -130,6 +130,7 @@ void ReadExperiment(const File& file, const std::string& controller_id, const ch
   robot.controller_id = controller.GetText("id", "");
   robot.controller_library = controller.GetText("library", "");
   robot.parameters = controller.Child("parameters");
+  robot.folder = file.folder;
   robot.location = controller.Location();
   robot.library_location =
       robot.controller_library.empty() ? controller.Location() : controller.ValueLocation("library");

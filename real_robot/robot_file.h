@@ -31,6 +31,7 @@ struct RobotConfiguration
   std::string controller_id;
   std::string controller_library;
   TConfigurationTree parameters;
+  std::string folder;       // of the experiment file: relative paths of parameters start here
   SourceLocation location;  // of the controller
   SourceLocation library_location;
   std::vector<std::string> controller_path;

@@ -6,10 +6,11 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <fstream>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 
+#include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
 #include "space_server/space_changes.h"
 
@@ -18,6 +19,7 @@ namespace swarmanoid
 namespace
 {
 
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30U;
 constexpr const char* kHeader = "tick,request,entity,numbers,from";
 
 std::vector<std::string> Fields(const std::string& line)
@@ -52,8 +54,19 @@ std::string ErrorOf(const ControlRequestMessage& request, const Experiment& expe
 
 std::vector<RecordedEvent> ReadEvents(const std::string& path, const Experiment& experiment)
 {
-  std::ifstream file(path);
-  if (!file) throw ConfigurationError(fmt::format("cannot read the events '{}': {}", path, std::strerror(errno)));
+  try
+  {
+    return ParseEvents(ReadRegularFile(path, kMostBytes), path, experiment);
+  }
+  catch (const FileError& error)
+  {
+    throw ConfigurationError(fmt::format("cannot read the events '{}': {}", path, error.what()));
+  }
+}
+
+std::vector<RecordedEvent> ParseEvents(const std::string& text, const std::string& path, const Experiment& experiment)
+{
+  std::istringstream file(text);
   const auto name = std::make_shared<const std::string>(path);
   std::vector<RecordedEvent> events;
   std::string line;

@@ -1,8 +1,12 @@
 #include "space_server/experiment_functions.h"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 
+#include "common/configuration/wording.h"
 #include "common/space/attributes.h"
+#include "common/space/state_checks.h"
 #include "space_server/space_changes.h"
 #include "space_server/space_server.h"
 
@@ -11,9 +15,9 @@ namespace swarmanoid
 namespace
 {
 
-CSwarmanoidSpaceEntity& FindOrThrow(CSwarmanoidSpace& space, std::string_view id)
+const CSwarmanoidSpaceEntity& FindOrThrow(const CSwarmanoidSpace& space, std::string_view id)
 {
-  if (CSwarmanoidSpaceEntity* entity = space.FindEntity(id)) return *entity;
+  if (const CSwarmanoidSpaceEntity* entity = space.FindEntity(id)) return *entity;
   throw std::invalid_argument("there is no entity '" + std::string(id) + "'");
 }
 
@@ -45,12 +49,14 @@ const StructuralTree& SpaceEditor::GetStructure()
 
 void SpaceEditor::MoveCompound(std::string_view id, const Pose& pose)
 {
-  CSwarmanoidSpace& space = server_.Space();
+  const CSwarmanoidSpace& space = server_.Space();
   const std::uint32_t entity = FindToMove(space, id).GetIndex();
+  CheckPose(space, entity, pose);
   GetStructure();
   const CCompoundEntity compound = structure_->GetCompound(entity);
   const Pose root_in_entity = space.GetPose(entity).Inverse().Compose(space.GetPose(compound.GetRoot()));
   const std::vector<Pose> poses = compound.PosesAt(pose.Compose(root_in_entity));
+  for (std::size_t k = 0; k < poses.size(); ++k) CheckPose(space, compound.GetMembers()[k], poses[k]);
   for (std::size_t k = 0; k < poses.size(); ++k) server_.Move({compound.GetMembers()[k], poses[k]});
 }
 
@@ -68,33 +74,32 @@ bool SpaceEditor::IsFree(std::string_view id, const Pose& pose) const
 std::string SpaceEditor::AddEntity(std::string_view id, const Pose& pose)
 {
   const CSwarmanoidSpace& space = server_.Space();
-  if (!pose.position.allFinite() || pose.position.x() < kWaitingBelow)
-    throw std::invalid_argument("'" + std::string(id) + "' cannot be added there: it is outside all arenas");
   const CSwarmanoidSpaceEntity& added = FindToAdd(space, id);
+  CheckPose(space, added.GetIndex(), pose);
   RequireFree(space, added, pose);
   server_.Move({added.GetIndex(), pose});
   return added.GetId();
 }
 
-void SpaceEditor::RemoveEntity(std::string_view id)
-{
-  const CSwarmanoidSpaceEntity& entity = FindToRemove(server_.Space(), id);
-  server_.Move({entity.GetIndex(), WaitingPose(entity)});
-}
+void SpaceEditor::RemoveEntity(std::string_view id) { server_.Move(Removal(FindToRemove(server_.Space(), id))); }
 
 void SpaceEditor::SetAttribute(std::string_view id, std::string_view attribute, double value, int element)
 {
   const CSwarmanoidSpaceEntity& entity = FindOrThrow(server_.Space(), id);
-  if (AttributeOffset(entity.GetKind(), attribute) < 0)
-    throw std::invalid_argument("entity '" + std::string(id) + "' has no attribute '" + std::string(attribute) + "'");
+  const AttributeSpec* spec = FindAttribute(entity.GetKind(), attribute);
+  if (spec == nullptr)
+  {
+    std::vector<std::string> names;
+    for (const AttributeSpec& one : AttributesOf(entity.GetKind())) names.emplace_back(one.name);
+    throw std::invalid_argument(fmt::format("entity '{}' has no attribute {}; it has: {}{}", id, Quoted(attribute),
+                                            Listed(names), DidYouMean(attribute, names)));
+  }
+  if (element < 0 || element >= spec->count)
+    throw std::invalid_argument(
+        fmt::format("the attribute '{}' of '{}' has {} element{}, numbered from 0; there is no "
+                    "element {}",
+                    attribute, id, spec->count, spec->count == 1 ? "" : "s", element));
   server_.SetAttribute(entity.SlotOf(attribute, element), value);
-}
-
-RandomStream SpaceEditor::GetRandom() const
-{
-  const CSwarmanoidSpace& space = GetSpace();
-  return {space.GetExperiment().seed, 0, StreamName("experiment_functions"),
-          static_cast<std::uint32_t>(space.GetTick())};
 }
 
 }  // namespace swarmanoid

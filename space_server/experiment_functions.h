@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "common/math/random.h"
 #include "common/plugins/registry.h"
@@ -23,7 +24,10 @@ namespace swarmanoid
 
 class SpaceServer;
 
-// What the functions may do to the space: every change is seen by all processes in the state that goes out next.
+// What experiment functions, and programs around a CSimulator, may do to the space: every change is seen by all
+// processes in the state that goes out next, and is part of the experiment: the state hash covers it. What cannot be
+// part of a state is refused by std::invalid_argument: numbers that are not finite, orientations that are no unit
+// quaternions, places farther outside the arena than its limit.
 class SpaceEditor
 {
 public:
@@ -55,18 +59,24 @@ public:
   // Throws std::invalid_argument for any other, and for one that is not there.
   void RemoveEntity(std::string_view id);
   // Changes an attribute (common/space/attributes.h), such as the colour of a nest. Throws std::invalid_argument for an
-  // unknown id or name.
+  // unknown id or name, an element that the attribute does not have, and a value that it cannot have.
   void SetAttribute(std::string_view id, std::string_view attribute, double value, int element = 0);
-  // Random numbers of these functions at the tick of the space: equal in every run of the same seed.
-  RandomStream GetRandom() const;
+  // Random numbers of these functions in this step: Init, a PreStep, PostStep or IsFinished, Destroy. They go on from
+  // call to call, are others in the next step, and depend on the seed, the id of the functions, the step and the tick
+  // alone, so that they are equal in every run. Keep no reference beyond the step.
+  RandomStream& GetRandom() const { return random_; }
   // The folder of the run: files of the functions go there.
   const std::string& GetOutputFolder() const { return output_folder_; }
+
+  // For the server, before it calls functions.
+  void BeginStep(RandomStream random) { random_ = std::move(random); }
 
 private:
   SpaceServer& server_;
   std::string output_folder_;
   std::unique_ptr<SpaceQuery> query_;
   std::unique_ptr<StructuralTree> structure_;
+  mutable RandomStream random_{0, 0, 0, 0};  // IsFinished, which changes nothing, may draw too
 };
 
 class CExperimentFunctions

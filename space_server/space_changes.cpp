@@ -155,9 +155,9 @@ void RequireFree(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& en
                   there->GetId(), at.x(), at.y(), at.z()));
 }
 
-Pose WaitingPose(const CSwarmanoidSpaceEntity& entity)
+MoveRequest Removal(const CSwarmanoidSpaceEntity& entity)
 {
-  return WaitingPose(entity.GetConfiguration(), entity.GetIndex());
+  return {entity.GetIndex(), WaitingPose(entity.GetConfiguration(), entity.GetIndex()), false};
 }
 
 bool IsSpaceChange(const std::string& verb) { return verb == "move" || verb == "add" || verb == "remove"; }
@@ -170,7 +170,7 @@ SpaceChange ReadSpaceChange(const ControlRequestMessage& request, const CSwarman
     {
       if (!request.numbers.empty()) Refuse("nothing follows the entity");
       const CSwarmanoidSpaceEntity& entity = FindToRemove(space, request.entity);
-      return {{entity.GetIndex(), WaitingPose(entity)}, entity.GetId(), fmt::format("removed '{}'", entity.GetId())};
+      return {Removal(entity), entity.GetId(), fmt::format("removed '{}'", entity.GetId())};
     }
     if (request.verb == "add")
     {

@@ -1,6 +1,5 @@
 // Changes of the arena from outside physics: who may be moved, added and removed, and where to. Experiment functions
-// (SpaceEditor) and users (ControlDesk) share these rules; what passes is carried out by SpaceServer::Move, for an
-// entity is taken out by moving it to the place where it waits.
+// (SpaceEditor) and users (ControlDesk) share these rules; what passes is carried out by SpaceServer::Move.
 #pragma once
 
 #include <string>
@@ -28,8 +27,8 @@ const CSwarmanoidSpaceEntity* FindInTheWay(const CSwarmanoidSpace& space, const 
                                            const Pose& pose);
 void RequireFree(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& entity, const Pose& pose);
 
-// Where an entity waits while it is not in the arena.
-Pose WaitingPose(const CSwarmanoidSpaceEntity& entity);
+// An entity goes to where it waits while it is not in the arena.
+MoveRequest Removal(const CSwarmanoidSpaceEntity& entity);
 
 // What the requests "move", "add" and "remove" ask for.
 struct SpaceChange

@@ -1,14 +1,24 @@
 #include "space_server/space_server.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
+
+#include "common/experiment/actors.h"
+#include "common/logging/log.h"
+#include "common/space/state_checks.h"
 
 namespace swarmanoid
 {
 
 SpaceServer::SpaceServer(const Experiment& experiment, const Assignment& assignment, const std::string& output_folder)
-    : experiment_(experiment), assignment_(assignment), space_(experiment), editor_(*this, output_folder)
+    : experiment_(experiment),
+      assignment_(assignment),
+      space_(experiment),
+      editor_(*this, output_folder),
+      program_random_(experiment.seed, StreamName("program"), StreamName("between steps"))
 {
   for (const FunctionsConfiguration& configuration : experiment.functions)
   {
@@ -16,12 +26,17 @@ SpaceServer::SpaceServer(const Experiment& experiment, const Assignment& assignm
     if (entry == nullptr)
       throw ConfigurationError(configuration.location,
                                "no experiment functions are registered as '" + configuration.tag + "'");
-    functions_.push_back({&configuration, entry->create()});
+    const Actor actor =
+        FunctionsActor(experiment, static_cast<std::size_t>(&configuration - experiment.functions.data()));
+    functions_.push_back({&configuration, actor, nullptr});
+    RunCodeOf<ConfigurationError>(actor, ActivityStep::kInit, 0, [&] { functions_.back().object = entry->create(); });
   }
-  CallFunctions("Init",
+  CallFunctions(ActivityStep::kInit,
                 [this](const Functions& functions) { functions.object->Init(functions.configuration->tree, editor_); });
   AskWhetherFinished();
-  if (!IsLast()) CallFunctions("PreStep", [this](const Functions& functions) { functions.object->PreStep(editor_); });
+  if (!IsLast())
+    CallFunctions(ActivityStep::kPreStep, [this](const Functions& functions) { functions.object->PreStep(editor_); });
+  editor_.BeginStep({program_random_, space_.GetTick()});
 }
 
 SpaceServer::~SpaceServer() = default;
@@ -66,24 +81,25 @@ void SpaceServer::SaveState(ByteWriter& state) const
       throw std::runtime_error("experiment functions '" + functions.configuration->id +
                                "' cannot be saved; they must override HasState, SaveState and LoadState");
     std::ostringstream text;
-    functions.object->SaveState(text);
+    RunCodeOf(functions.actor, ActivityStep::kSaveState, space_.GetTick(), [&] { functions.object->SaveState(text); });
     state.PutText(text.str());
   }
 }
 
 void SpaceServer::LoadState(const SpaceSnapshot& snapshot, ByteReader& state)
 {
-  if (snapshot.poses.size() != 7 * space_.Movable().size() || snapshot.attributes.size() != space_.Attributes().size())
-    throw std::runtime_error("it has other entities");
+  CheckSnapshot(space_, snapshot);
   space_.Apply(snapshot);
   changed_slots_.clear();
   last_ = state.Get<bool>();
   failed_ = state.Get<bool>();
   moved_ = state.GetArray<std::uint32_t>();
+  for (const std::uint32_t entity : moved_)
+    if (entity >= space_.Size()) throw std::runtime_error("it moved an entity that does not exist");
   for (const Functions& functions : functions_)
   {
     std::istringstream text(state.GetText());
-    functions.object->LoadState(text);
+    RunCodeOf(functions.actor, ActivityStep::kLoadState, space_.GetTick(), [&] { functions.object->LoadState(text); });
   }
 }
 
@@ -92,20 +108,24 @@ void SpaceServer::Advance(std::span<const EngineUpdate* const> updates,
 {
   changed_slots_.clear();
   moved_.clear();
-  for (const ControlCommands* command : commands) Merge(command->attributes);
-  for (const EngineUpdate* update : updates)
-  {
-    space_.SetPoses(assignment_.engines[update->engine].owned, update->poses);
-    Merge(update->attributes);
-  }
+  for (const ControlCommands* command : commands) Merge(*command);
+  for (const EngineUpdate* update : updates) Merge(*update);
   space_.SetTick(space_.GetTick() + 1);
 
-  CallFunctions("PostStep", [this](const Functions& functions) { functions.object->PostStep(editor_); });
+  CallFunctions(ActivityStep::kPostStep, [this](const Functions& functions) { functions.object->PostStep(editor_); });
   AskWhetherFinished();
-  if (!IsLast()) CallFunctions("PreStep", [this](const Functions& functions) { functions.object->PreStep(editor_); });
+  if (!IsLast())
+    CallFunctions(ActivityStep::kPreStep, [this](const Functions& functions) { functions.object->PreStep(editor_); });
+  editor_.BeginStep({program_random_, space_.GetTick()});
 }
 
 void SpaceServer::SetAttribute(std::uint32_t slot, double value)
+{
+  CheckAttribute(space_, slot, value);
+  Change(slot, value);
+}
+
+void SpaceServer::Change(std::uint32_t slot, double value)
 {
   if (space_.Attributes()[slot] == value) return;
   space_.SetAttribute(slot, value);
@@ -116,33 +136,24 @@ void SpaceServer::Destroy()
 {
   if (destroyed_) return;
   destroyed_ = true;
-  CallFunctions("Destroy", [this](const Functions& functions) { functions.object->Destroy(editor_); });
+  CallFunctions(ActivityStep::kDestroy, [this](const Functions& functions) { functions.object->Destroy(editor_); });
 }
 
 template <class Call>
-void SpaceServer::CallFunctions(const char* step, Call call)
+void SpaceServer::CallFunctions(ActivityStep step, Call call)
 {
+  if (functions_.empty()) return;
+  const std::uint64_t what = StreamName(std::string("functions ") + NameOf(step));
   for (const Functions& functions : functions_)
   {
-    try
-    {
-      call(functions);
-    }
-    catch (const ConfigurationError&)
-    {
-      throw;
-    }
-    catch (const std::exception& error)
-    {
-      throw std::runtime_error("experiment functions '" + functions.configuration->id + "': " + step + " at tick " +
-                               std::to_string(space_.GetTick()) + " failed: " + error.what());
-    }
+    editor_.BeginStep({experiment_.seed, StreamName(functions.configuration->id), what, space_.GetTick()});
+    RunCodeOf<ConfigurationError>(functions.actor, step, space_.GetTick(), [&] { call(functions); });
   }
 }
 
 void SpaceServer::AskWhetherFinished()
 {
-  CallFunctions("IsFinished",
+  CallFunctions(ActivityStep::kIsFinished,
                 [this](const Functions& functions)
                 {
                   const auto outcome = functions.object->IsFinished(editor_);
@@ -154,16 +165,87 @@ void SpaceServer::AskWhetherFinished()
 
 void SpaceServer::Move(const MoveRequest& request)
 {
+  if (request.present) CheckPose(space_, request.entity, request.pose);
+  Put(request);
+}
+
+void SpaceServer::Put(const MoveRequest& request)
+{
   space_.SetPose(request.entity, request.pose);
+  Change(space_.PresenceSlot(request.entity), request.present ? 1 : 0);
   moved_.push_back(request.entity);
+}
+
+void SpaceServer::Merge(const ControlCommands& commands)
+{
+  try
+  {
+    CheckAttributes(space_, commands.attributes);
+  }
+  catch (const StateError& error)
+  {
+    throw std::runtime_error(fmt::format("{} at tick {}: {}", HostName(commands.host), space_.GetTick(), error.what()));
+  }
+  Merge(commands.attributes);
+}
+
+void SpaceServer::Merge(const EngineUpdate& update)
+{
+  if (update.engine >= assignment_.engines.size())
+    throw std::runtime_error(fmt::format("an update of engine {} came, but there are {} engines", update.engine,
+                                         assignment_.engines.size()));
+  const std::vector<std::uint32_t>& owned = assignment_.engines[update.engine].owned;
+  try
+  {
+    CheckPoses(space_, owned, update.poses);
+    CheckAttributes(space_, update.attributes);
+    if (experiment_.beyond_limit == BeyondLimit::kStop) CheckWithinLimit(space_, owned, update.poses);
+  }
+  catch (const StateError& error)
+  {
+    throw std::runtime_error(
+        fmt::format("{} at tick {}: {}", EngineName(experiment_, update.engine), space_.GetTick() + 1, error.what()));
+  }
+  if (experiment_.beyond_limit == BeyondLimit::kStop)
+    space_.SetPoses(owned, update.poses);
+  else
+    SetPosesWithinLimit(update, owned);
+  Merge(update.attributes);
+}
+
+void SpaceServer::SetPosesWithinLimit(const EngineUpdate& update, std::span<const std::uint32_t> owned)
+{
+  const std::vector<std::size_t> beyond = FindBeyondLimit(space_, owned, update.poses);
+  std::vector<Pose> before;
+  for (const std::size_t k : beyond) before.push_back(space_.GetPose(owned[k]));
+  space_.SetPoses(owned, update.poses);
+
+  const bool hold = experiment_.beyond_limit == BeyondLimit::kHold;
+  told_.resize(space_.Size());
+  for (std::size_t n = 0; n < beyond.size(); ++n)
+  {
+    const CSwarmanoidSpaceEntity& entity = space_.GetEntity(owned[beyond[n]]);
+    if (const std::uint32_t index = entity.GetIndex(); !hold || !told_[index])
+    {
+      const Vector3 at = entity.GetPosition();
+      LogWarning(
+          "{} at tick {}: the {} '{}' left the world at {:.6g}, {:.6g}, {:.6g}, more than {:g} m outside the arena; it "
+          "is "
+          "{}",
+          EngineName(experiment_, update.engine), space_.GetTick() + 1, TagName(entity.GetKind()), entity.GetId(),
+          at.x(), at.y(), at.z(), experiment_.limit_m, hold ? "held where it was before" : "removed");
+      told_[index] = true;
+    }
+    if (hold)
+      Put({entity.GetIndex(), before[n]});
+    else
+      Put({entity.GetIndex(), WaitingPose(entity.GetConfiguration(), entity.GetIndex()), false});
+  }
 }
 
 void SpaceServer::Merge(const AttributeChanges& changes)
 {
-  for (std::size_t k = 0; k < changes.slots.size(); ++k)
-  {
-    SetAttribute(changes.slots[k], changes.values[k]);
-  }
+  for (std::size_t k = 0; k < changes.slots.size(); ++k) Change(changes.slots[k], changes.values[k]);
 }
 
 }  // namespace swarmanoid

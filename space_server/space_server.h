@@ -1,5 +1,5 @@
 // The role that owns the original space and its clock. A step function: merges what engines and hosts did into the next
-// state.
+// state, after it has checked it: nothing else writes to the space.
 #pragma once
 
 #include <memory>
@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/activity/failure_report.h"
 #include "common/serialisation/bytes.h"
 #include "common/space/assignment.h"
 #include "common/space/messages.h"
@@ -21,17 +22,20 @@ struct MoveRequest
 {
   std::uint32_t entity = 0;
   Pose pose;
+  bool present = true;  // false: it leaves the arena, and the pose is where it waits
 };
 
 class SpaceServer
 {
 public:
   // The space at tick 0, its experiment functions initialised. Both references outlive the server. Throws
-  // ConfigurationError, or std::runtime_error naming the functions that failed; so does Advance.
+  // ConfigurationError, or ActivityError naming the functions that failed; so does Advance.
   SpaceServer(const Experiment& experiment, const Assignment& assignment, const std::string& output_folder);
   ~SpaceServer();
 
-  CSwarmanoidSpace& Space() { return space_; }
+  const CSwarmanoidSpace& Space() const { return space_; }
+  // For those who change the experiment from outside physics.
+  SpaceEditor& Editor() { return editor_; }
   // The state at the current tick as what changed; what the cluster publishes.
   const SpaceState& State();
   // The entities that were put elsewhere at the current tick, ascending.
@@ -44,11 +48,15 @@ public:
   void LoadState(const SpaceSnapshot& snapshot, ByteReader& state);
 
   // To the next tick: updates in engine order (all engines), commands in host order (those that report to the server).
-  // An attribute set by both an engine and a host has the engine's value.
+  // An attribute set by both an engine and a host has the engine's value. Entities that their engine took beyond the
+  // limit of the world are treated as the experiment says. Throws std::runtime_error that names the engine or the host
+  // which gave what cannot be part of the state, the entity, the tick and the value.
   void Advance(std::span<const EngineUpdate* const> updates, std::span<const ControlCommands* const> commands);
-  // Puts an entity elsewhere at the current tick, before its state goes out.
+  // Puts an entity elsewhere, into the arena or out of it at the current tick, before its state goes out. Throws
+  // StateError for what cannot be a pose, or is too far from the arena.
   void Move(const MoveRequest& request);
-  // Changes one attribute at the current tick, before its state goes out.
+  // Changes one attribute at the current tick, before its state goes out. Throws StateError for a value that it cannot
+  // have.
   void SetAttribute(std::uint32_t slot, double value);
   // The current tick is the last one.
   void Finish() { last_ = true; }
@@ -64,13 +72,20 @@ private:
   struct Functions
   {
     const FunctionsConfiguration* configuration;
+    Actor actor;
     std::unique_ptr<CExperimentFunctions> object;
   };
 
+  void Merge(const ControlCommands& commands);
+  void Merge(const EngineUpdate& update);
   void Merge(const AttributeChanges& changes);
+  // Holds or removes those that the engine took beyond the limit.
+  void SetPosesWithinLimit(const EngineUpdate& update, std::span<const std::uint32_t> owned);
+  void Put(const MoveRequest& request);
+  void Change(std::uint32_t slot, double value);
   // Calls a step of all functions in the order of the file; what fails is named.
   template <class Call>
-  void CallFunctions(const char* step, Call call);
+  void CallFunctions(ActivityStep step, Call call);
   void AskWhetherFinished();
 
   const Experiment& experiment_;
@@ -79,10 +94,12 @@ private:
   SpaceState state_;
   std::vector<std::uint32_t> changed_slots_;
   std::vector<std::uint32_t> moved_;
+  std::vector<bool> told_;  // of each entity: whether the log says already that it was held
   bool last_ = false;
   bool failed_ = false;
   bool destroyed_ = false;
   SpaceEditor editor_;
+  StreamKey program_random_;  // of those who change the experiment between two steps
   std::vector<Functions> functions_;
 };
 

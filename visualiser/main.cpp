@@ -11,8 +11,10 @@
 #include "common/bus/tick_gate.h"
 #include "common/bus/worker_session.h"
 #include "common/logging/log.h"
-#include "controller_host/controller_host.h"
-#include "engine_worker/engine_worker.h"
+#include "common/program/interrupts.h"
+#include "common/program/program.h"
+#include "common/program/usage_error.h"
+#include "roles/builtins.h"
 #include "visualiser/cluster/attached_node.h"
 #include "visualiser/cluster/synchronous_node.h"
 #include "visualiser/renderer_options.h"
@@ -24,7 +26,6 @@ namespace
 {
 
 constexpr auto kIdlePeriod = std::chrono::milliseconds(15);
-constexpr double kMostViews = 30;  // a second
 
 std::size_t FindVisualisation(const Experiment& experiment, const std::string& id)
 {
@@ -53,37 +54,29 @@ void RunSynchronous(WorkerSession& session, const std::string& id, const std::st
   session.SayReady();
   try
   {
-    const std::optional<std::string> over = session.Follow(kIdlePeriod, [&] { node.Work(); });
+    const std::optional<BusError> over = session.Follow(kIdlePeriod, [&] { node.Work(); });
     // Films and tables of a run that failed are finished too.
     visualiser.Finish();
     if (over) session.GiveUp(*over);
   }
   catch (const std::exception& error)
   {
-    session.GiveUp(error.what());
+    session.GiveUp(error);
   }
 }
 
-struct AttachedOptions
-{
-  RenderConfiguration configuration;
-  std::string output = ".";
-  double rate = kMostViews;
-  bool read_only = false;
-};
-
-void RunAttached(WorkerSession& session, const AttachedOptions& options)
+void RunAttached(WorkerSession& session, const WorkerSettings& settings, const RenderConfiguration& configuration)
 {
   Replica replica(session.World(), false);
   ControlClient client(session.GetBus(), session.World().experiment);
   RequestControl control([&](const ControlRequestMessage& r) { client.Tell(r.verb, r.entity, r.numbers); });
   RemoteMonitor monitor(session.GetBus(), session.World(), false);
-  Visualiser visualiser(options.configuration, *replica.space, replica.assignment, options.output,
-                        options.read_only ? nullptr : &control, &monitor);
-  AttachedNode node(session, replica, visualiser, monitor, options.rate);
+  Visualiser visualiser(configuration, *replica.space, replica.assignment, settings.output,
+                        settings.read_only ? nullptr : &control, &monitor);
+  AttachedNode node(session, replica, visualiser, monitor, settings.rate);
   session.SayReady();
-  const std::optional<std::string> over = session.Follow(kIdlePeriod, [&] { node.Work(); });
-  monitor.RunIsOver(over.value_or(""));
+  const std::optional<BusError> over = session.Follow(kIdlePeriod, [&] { node.Work(); });
+  monitor.RunIsOver(over ? over->what() : "");
   // A window stays for those who look at it.
   if (visualiser.IsInteractive() && !node.Terminated())
     while (!visualiser.Idle() && !Interrupted()) std::this_thread::sleep_for(kIdlePeriod);
@@ -99,61 +92,54 @@ std::string AttachedKind(int argc, char** argv)
   return {};
 }
 
-int Run(int argc, char** argv)
+int Run(const WorkerSettings& settings, const std::vector<std::string>& parameters, const BusOptions& bus)
 {
-  RegisterBuiltinEngines();
-  RegisterBuiltinDevices();
-  RegisterBuiltinRenderers();
-  CLI::App app{"Shows a Swarmanoid experiment through one renderer."};
-  app.footer(
-      "Examples:\n"
-      "  visualiser --render text                                the visualisation 'text' of the experiment on this "
-      "machine\n"
-      "  visualiser --attach text --experiment diffusion_10 --file table.txt\n"
-      "  visualiser --attach text --interface eth0               space server on another machine");
-  std::string render;
-  std::string attach;
-  std::string experiment;
-  AttachedOptions attached;
-  std::vector<std::string> parameters;
-  BusOptions bus;
-  auto* render_option =
-      app.add_option("--render", render, "id of a visualisation of the experiment file; every tick waits for it");
-  auto* attach_option =
-      app.add_option("--attach", attach, "kind of renderer to attach to a running experiment, which it never slows");
-  render_option->excludes(attach_option);
-  app.add_option("--experiment", experiment, "name of the experiment; default: the first one that is heard");
-  app.add_option("--output", attached.output, "folder for relative output files")->capture_default_str();
-  app.add_option("PARAMETERS", parameters, "with --attach: the renderer's parameters, as NAME=VALUE");
-  app.add_option("--hz", attached.rate, "with --attach: states a second at most")
-      ->check(CLI::Range(0.01, kMostViews))
-      ->capture_default_str();
-  app.add_flag("--read-only", attached.read_only, "with --attach: nothing can be asked of the run through it");
-  AddBusOptions(app, bus);
-  if (const std::string kind = AttachedKind(argc, argv); !kind.empty())
-    AddRendererOptions(app, FindRenderer(kind), parameters);
-  if (const int code = ParseCommandLine(app, argc, argv); code >= 0) return code;
-  if (render.empty() == attach.empty())
+  if (settings.render.empty() == settings.attach.empty())
+    throw UsageError("give either --render ID or --attach KIND; for example --attach text");
+  if (!settings.attach.empty())
   {
-    fmt::print(stderr, "visualiser: give either --render ID or --attach KIND\n");
-    return kExitUsage;
-  }
-
-  CatchInterrupts();
-  if (!attach.empty())
-  {
-    attached.configuration = ConfigureRenderer(FindRenderer(attach), parameters);
-    WorkerSession session(bus, experiment,
-                          fmt::format("attached {} visualiser {}", attached.configuration.id, ProcessId()));
-    return session.Work([&] { RunAttached(session, attached); });
+    const RenderConfiguration configuration = ConfigureRenderer(FindRenderer(settings.attach), parameters);
+    WorkerSession session(bus, settings.experiment,
+                          fmt::format("attached {} visualiser {}", configuration.id, ProcessId()), settings.server);
+    session.LookOn();
+    return session.Work([&] { RunAttached(session, settings, configuration); });
   }
   // What people do at a window is for the run's logs.
   OpenLog({.process = "visualiser", .stderr_level = LogLevel::kInfo});
-  WorkerSession session(bus, experiment, fmt::format("visualiser '{}'", render));
-  return session.Work([&] { RunSynchronous(session, render, attached.output); });
+  WorkerSession session(bus, settings.experiment, fmt::format("visualiser '{}'", settings.render));
+  return session.Work([&] { RunSynchronous(session, settings.render, settings.output); });
 }
 
 }  // namespace
 }  // namespace swarmanoid
 
-int main(int argc, char** argv) { return swarmanoid::RunProgram("visualiser", swarmanoid::Run, argc, argv); }
+int main(int count, char** arguments)
+{
+  using namespace swarmanoid;
+
+  WorkerSettings settings;
+  std::vector<std::string> parameters;
+  BusOptions bus;
+  const ProgramDescription program{
+      "visualiser",
+      "Shows a Swarmanoid experiment through one renderer.",
+      "Examples:\n"
+      "  visualiser --render text                                the visualisation 'text' of the experiment on this "
+      "machine\n"
+      "  visualiser --attach text --experiment diffusion_10 --file table.txt\n"
+      "  visualiser --attach text --interface eth0               space server on another machine",
+      RegisterBuiltins,
+      true,
+      true};
+  return RunProgram(
+      program, count, arguments,
+      [&](CLI::App& app)
+      {
+        AddOptions(app, VisualiserOptionTable(settings));
+        app.add_option("PARAMETERS", parameters, "With --attach: the renderer's parameters, as NAME=VALUE");
+        AddOptions(app, BusOptionTable(bus));
+        if (const std::string kind = AttachedKind(count, arguments); !kind.empty())
+          AddRendererOptions(app, FindRenderer(kind), parameters);
+      },
+      [&] { return Run(settings, parameters, bus); });
+}

@@ -1,40 +1,62 @@
 #include "visualiser/visualiser.h"
 
+#include <utility>
+
+#include "common/experiment/actors.h"
+
 namespace swarmanoid
 {
+
+namespace
+{
+
+// One that is attached from outside is none of the experiment.
+Actor ActorOf(const RenderConfiguration& configuration, const Experiment& experiment)
+{
+  std::size_t number = 0;
+  while (number < experiment.visualisations.size() && experiment.visualisations[number].id != configuration.id)
+    ++number;
+  return VisualisationActor(configuration, number);
+}
+
+}  // namespace
 
 Visualiser::Visualiser(const RenderConfiguration& configuration, const CSwarmanoidSpace& space,
                        const Assignment& assignment, const std::string& output_folder, ExperimentControl* control,
                        RunMonitor* monitor)
-    : id_(configuration.id)
+    : space_(space), configuration_(configuration), actor_(ActorOf(configuration_, space.GetExperiment()))
 {
   const auto* entry = PluginRegistry<CRender>::Instance().Find(configuration.tag);
   if (entry == nullptr)
     throw ConfigurationError(configuration.location, "no renderer is registered as '" + configuration.tag +
                                                          "'; `swarmanoid list plugins` shows those of this build");
-  render_ = entry->create();
-  render_->Init({Parameters(configuration.tree, entry->description.parameters), space, assignment, output_folder,
-                 control, monitor});
+  RunCodeOf<ConfigurationError>(actor_, ActivityStep::kInit, space.GetTick(),
+                                [&]
+                                {
+                                  render_ = entry->create();
+                                  render_->Init({Parameters(configuration.tree, entry->description.parameters), space,
+                                                 assignment, output_folder, control, monitor});
+                                });
 }
 
 Visualiser::~Visualiser() = default;
 
 bool Visualiser::Draw()
 {
-  render_->Draw();
+  RunCodeOf(actor_, ActivityStep::kDraw, space_.GetTick(), [&] { render_->Draw(); });
   return render_->Terminate();
 }
 
 bool Visualiser::Idle()
 {
-  render_->Idle();
+  RunCodeOf(actor_, ActivityStep::kIdle, space_.GetTick(), [&] { render_->Idle(); });
   return render_->Terminate();
 }
 
 void Visualiser::Finish()
 {
-  if (!finished_) render_->Finish();
-  finished_ = true;
+  if (std::exchange(finished_, true)) return;
+  RunCodeOf(actor_, ActivityStep::kFinish, space_.GetTick(), [&] { render_->Finish(); });
 }
 
 }  // namespace swarmanoid

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "common/activity/failure_report.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid
@@ -11,7 +12,8 @@ namespace swarmanoid
 class Visualiser
 {
 public:
-  // Makes and initialises the renderer. Throws ConfigurationError or std::runtime_error with a clear text.
+  // Makes and initialises the renderer. Throws ConfigurationError, or ActivityError naming the renderer that failed; so
+  // do the others.
   Visualiser(const RenderConfiguration& configuration, const CSwarmanoidSpace& space, const Assignment& assignment,
              const std::string& output_folder, ExperimentControl* control, RunMonitor* monitor);
   ~Visualiser();
@@ -22,11 +24,13 @@ public:
   // Closes the outputs; later calls do nothing.
   void Finish();
 
-  const std::string& Id() const { return id_; }
+  const std::string& Id() const { return configuration_.id; }
   bool IsInteractive() const { return render_->IsInteractive(); }
 
 private:
-  std::string id_;
+  const CSwarmanoidSpace& space_;
+  RenderConfiguration configuration_;
+  Actor actor_;
   std::unique_ptr<CRender> render_;
   bool finished_ = false;
 };

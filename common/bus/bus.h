@@ -23,6 +23,23 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+// What came over the wire is not what a message of its kind may be. Thrown by whoever reads or takes a message; the bus
+// drops the message and knows who sent it.
+class BadMessage : public BusError
+{
+public:
+  using BusError::BusError;
+};
+
+struct BadMessageReport
+{
+  std::string topic;
+  std::string process;     // "host:pid" of the sender, as it said when it joined; empty where it did not
+  std::string name;        // likewise, "engine 'ground'"
+  std::uint64_t tick = 0;  // of the message, where it has one
+  std::string what;
+};
+
 // True once a process died while it held a lock in shared memory: threads of the bus wait for it and cannot be ended.
 bool BusIsBroken();
 // Ends the program without waiting for threads of the bus. A failed run ends so: somebody may have died as above.
@@ -59,6 +76,12 @@ public:
   // Called when another process of the domain has gone (without a word where `died`), with "host:pid" and its name.
   void OnProcessGone(std::function<void(const std::string& process, const std::string& name, bool died)> callback);
 
+  // Called with each bad message. True: its sender belongs to the run, which ends for that. Otherwise the message is
+  // dropped and counted, and the first of a sender on a topic is told on standard error.
+  void OnBadMessage(std::function<bool(const BadMessageReport&)> callback);
+  // Bad messages that were dropped.
+  std::uint64_t Dropped() const;
+
   struct Impl;
   Impl& Internals() { return *impl_; }
 
@@ -76,7 +99,7 @@ struct HotScope
   std::string experiment;    // partition
   std::string directory;     // of this machine's shared memory for the run (run_directory.h)
   bool spread = false;       // WorldMessage::spread
-  std::size_t capacity = 0;  // bytes of the largest message
+  std::size_t capacity = 0;  // bytes of the largest message (TickLimits)
   unsigned writers = 1;      // of the topic
 };
 
@@ -103,10 +126,13 @@ class HotSubscription
 public:
   struct Handler
   {
-    // The place for a message that has arrived, or nullptr to drop it. The place is filled after the call.
+    // The place for a message that has arrived, or nullptr to drop it. The place is filled after the call, wholly only
+    // if the message is received. May throw BadMessage.
     std::function<Message*(const MessageHeader&)> choose;
     // The message has been filled in.
     std::function<void(const MessageHeader&, Message&)> received;
+    // Throws BadMessage where a message is not what the experiment makes of it; it is not received then. Optional.
+    std::function<void(const MessageHeader&, const Message&)> check{};
   };
 
   HotSubscription(Bus& bus, const HotScope& scope, Handler handler);
@@ -119,7 +145,8 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-// All other messages. `partition`: the experiment's name; for subscriptions a pattern such as "*" is allowed.
+// All other messages. `partition`: the experiment's name; for subscriptions a pattern such as "*" is allowed. What is
+// called with a message may throw BadMessage.
 template <class Message>
 class Publisher
 {
@@ -127,6 +154,7 @@ public:
   Publisher(Bus& bus, const std::string& partition);
   ~Publisher();
 
+  // Throws BadMessage where a name in the message cannot be sent, BusError where the bus does not take it.
   void Write(const Message& message);
   unsigned Readers() const;
   // False where not all readers confirmed in time.

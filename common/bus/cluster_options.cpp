@@ -1,87 +1,159 @@
 #include "common/bus/cluster_options.h"
 
-#include <CLI/CLI.hpp>
-
-#include <fmt/format.h>
-#include <csignal>
-#include <cstdio>
-
 #include "common/configuration/configuration_tree.h"
 
 namespace swarmanoid
 {
-
 namespace
 {
 
-volatile std::sig_atomic_t interrupted = 0;
+using enum ParameterType;
+
+constexpr double kLargestPid = 1 << 22;
+
+std::string ServerAddressMistake(const std::string& text)
+{
+  return ParseServerAddress(text) ? "" : "it must be an address and a port from 1 to 65535";
+}
+
+OptionSpec Experiment(WorkerSettings& s)
+{
+  return {{.name = "experiment",
+           .type = kText,
+           .description = "Name of the experiment; otherwise the first one that is heard"},
+          &s.experiment,
+          "diffusion_10"};
+}
 
 }  // namespace
 
-void AddBusOptions(CLI::App& app, BusOptions& options)
+std::optional<std::pair<std::string, unsigned>> ParseServerAddress(const std::string& text)
 {
-  app.add_option("--domain", options.domain, "DDS domain of the experiment; programs of different domains never meet")
-      ->check(CLI::Range(0, 232))
-      ->capture_default_str();
-  app.add_option(
-      "--interface", options.network_interface,
-      "network to use: lo (this machine only), all, or the name or IPv4 address of an interface. With --peers or "
-      "--discovery-server: all");
-  app.add_option("--peers", options.peers, "machines that take part, where the network has no multicast: A,B,...")
-      ->delimiter(',');
-  app.add_option("--discovery-server", options.discovery_server,
-                 "ADDRESS:PORT where the space server listens for the others, where the network has no multicast; the "
-                 "same for all");
-  app.add_option("--lease", options.lease_s, "seconds of silence after which a process is taken for dead")
-      ->check(CLI::Range(0.2, 3600.0))
-      ->capture_default_str();
-  app.add_option("--datagram", options.datagram_bytes, "largest datagram in bytes; 1440 on networks that lose packets")
-      ->check(CLI::Range(1024, 65500))
-      ->capture_default_str();
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos || colon == 0) return std::nullopt;
+  const std::string digits = text.substr(colon + 1);
+  if (digits.empty() || digits.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
+  const auto port = ParseInteger(digits);
+  if (!port || *port < 1 || *port > 65535) return std::nullopt;
+  return std::pair(text.substr(0, colon), static_cast<unsigned>(*port));
 }
 
-int ParseCommandLine(CLI::App& app, int argc, char** argv)
+std::vector<OptionSpec> BusOptionTable(BusOptions& options)
 {
-  try
-  {
-    app.parse(argc, argv);
-    return -1;
-  }
-  catch (const CLI::ParseError& error)
-  {
-    return app.exit(error) == 0 ? kExitDone : kExitUsage;
-  }
-}
-
-int RunProgram(const std::string& program, int (*run)(int argc, char** argv), int argc, char** argv)
-{
-  try
-  {
-    return run(argc, argv);
-  }
-  catch (const ConfigurationError& error)
-  {
-    fmt::print(stderr, "{}\n", error.what());
-    return kExitInvalidFile;
-  }
-  catch (const std::exception& error)
-  {
-    fmt::print(stderr, "{}: {}\n", program, error.what());
-    return Interrupted() ? kExitInterrupted : kExitProcessFailed;
-  }
-}
-
-void CatchInterrupts()
-{
-  struct sigaction action
-  {
+  return {
+      {{.name = "domain",
+        .type = kInteger,
+        .description = "DDS domain of the experiment; programs of different domains never meet",
+        .minimum = 0,
+        .maximum = 232},
+       &options.domain,
+       "7"},
+      {{.name = "interface",
+        .type = kText,
+        .description = "Network to use: lo (this machine only), all, or the name or IPv4 address of an interface. With "
+                       "--peers or --discovery-server: all"},
+       &options.network_interface,
+       "eth0"},
+      {{.name = "peers", .type = kText, .description = "Machines that take part, where the network has no multicast"},
+       &options.peers,
+       "alpha,beta",
+       "A,B,...",
+       {},
+       false,
+       true},
+      {{.name = "discovery-server",
+        .type = kText,
+        .description = "Where the space server listens for the others, where the network has no multicast; the same "
+                       "for all"},
+       &options.discovery_server,
+       "10.77.0.1:21900",
+       "ADDRESS:PORT",
+       ServerAddressMistake},
+      {{.name = "lease",
+        .type = kNumber,
+        .unit = "s",
+        .description = "Silence after which a process is taken for dead",
+        .minimum = 0.2,
+        .maximum = 3600},
+       &options.lease_s,
+       "10"},
+      {{.name = "datagram",
+        .type = kInteger,
+        .unit = "bytes",
+        .description = "Largest datagram; 1440 on networks that lose packets",
+        .minimum = 1024,
+        .maximum = 65500},
+       &options.datagram_bytes,
+       "1440"},
   };
-  action.sa_handler = [](int) { interrupted = 1; };
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  std::signal(SIGPIPE, SIG_IGN);
 }
 
-bool Interrupted() { return interrupted != 0; }
+std::vector<OptionSpec> EngineOptionTable(WorkerSettings& s)
+{
+  OptionSpec engine{
+      {.name = "engine", .type = kText, .description = "The engine's id in the experiment file"}, &s.engine, "ground"};
+  engine.required = true;
+  return {engine, Experiment(s)};
+}
+
+std::vector<OptionSpec> HostOptionTable(WorkerSettings& s)
+{
+  return {{{.name = "host",
+            .type = kInteger,
+            .description = "Number of this host; the space server's --controller-hosts says how many there are",
+            .minimum = 0,
+            .maximum = 999},
+           &s.host,
+           "1"},
+          Experiment(s)};
+}
+
+std::vector<OptionSpec> VisualiserOptionTable(WorkerSettings& s)
+{
+  return {{{.name = "render",
+            .type = kText,
+            .description = "Id of a visualisation of the experiment file; every tick waits for it"},
+           &s.render,
+           "positions"},
+          {{.name = "attach",
+            .type = kText,
+            .description = "Kind of renderer to attach to a running experiment, which it never slows"},
+           &s.attach,
+           "text"},
+          Experiment(s),
+          {{.name = "output", .type = kPath, .description = "Folder for relative output files"}, &s.output, "watched"},
+          {{.name = "hz",
+            .type = kNumber,
+            .unit = "1/s",
+            .description = "With --attach: states a second at most",
+            .minimum = 0.01,
+            .maximum = 30},
+           &s.rate,
+           "1"},
+          {{.name = "read-only",
+            .type = kBoolean,
+            .description = "With --attach: nothing can be asked of the run through it"},
+           &s.read_only},
+          {{.name = "server",
+            .type = kInteger,
+            .description = "With --attach: process id of the space server on this machine; the visualiser ends when it "
+                           "has gone",
+            .minimum = 1,
+            .maximum = kLargestPid},
+           &s.server,
+           "17811"}};
+}
+
+std::vector<std::string> WorkerWords(WorkerTable table, WorkerSettings settings)
+{
+  WorkerSettings untouched;
+  return WordsOf(table(settings), table(untouched));
+}
+
+std::vector<std::string> BusWords(BusOptions options)
+{
+  BusOptions untouched;
+  return WordsOf(BusOptionTable(options), BusOptionTable(untouched));
+}
 
 }  // namespace swarmanoid

@@ -1,37 +1,45 @@
-// The command-line options that all programs of a cluster share.
+// The command-line options that the programs of a cluster share, and those of the workers: declared here, read by the
+// programs, and written by whoever starts them.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "common/bus/bus.h"
-
-namespace CLI
-{
-class App;
-}
+#include "common/program/options.h"
 
 namespace swarmanoid
 {
 
-// Adds --domain, --interface, --peers, --discovery-server, --lease and --datagram.
-void AddBusOptions(CLI::App& app, BusOptions& options);
+// --domain, --interface, --peers, --discovery-server, --lease and --datagram.
+std::vector<OptionSpec> BusOptionTable(BusOptions& options);
+// "10.77.0.1:21900" to address and port; nullopt for anything else.
+std::optional<std::pair<std::string, unsigned>> ParseServerAddress(const std::string& text);
 
-// Exit codes of all programs.
-inline constexpr int kExitDone = 0;
-inline constexpr int kExitExperimentFailed = 1;
-inline constexpr int kExitUsage = 2;
-inline constexpr int kExitInvalidFile = 3;
-inline constexpr int kExitProcessFailed = 4;
-inline constexpr int kExitInterrupted = 130;
+// What a worker is to do, whichever it is.
+struct WorkerSettings
+{
+  std::string experiment{};  // its name; empty: the first one that is heard
+  std::string engine{};
+  unsigned host = 0;
+  // Visualisers: one of the experiment, by its id, or one that is attached, by its kind.
+  std::string render{};
+  std::string attach{};
+  std::string output = ".";
+  double rate = 30;
+  bool read_only = false;
+  std::optional<int> server{};
+};
 
-// Parses; the exit code where the program is to end at once (help, usage error), else -1.
-int ParseCommandLine(CLI::App& app, int argc, char** argv);
+std::vector<OptionSpec> EngineOptionTable(WorkerSettings& settings);
+std::vector<OptionSpec> HostOptionTable(WorkerSettings& settings);
+std::vector<OptionSpec> VisualiserOptionTable(WorkerSettings& settings);
 
-// Calls `run` and turns what it throws into a message on standard error and an exit code.
-int RunProgram(const std::string& program, int (*run)(int argc, char** argv), int argc, char** argv);
-
-// Set by SIGINT and SIGTERM after CatchInterrupts.
-void CatchInterrupts();
-bool Interrupted();
+// The words that give a worker, or its bus, these settings.
+using WorkerTable = std::vector<OptionSpec> (*)(WorkerSettings&);
+std::vector<std::string> WorkerWords(WorkerTable table, WorkerSettings settings);
+std::vector<std::string> BusWords(BusOptions options);
 
 }  // namespace swarmanoid

@@ -1,4 +1,4 @@
-#include "common/bus/cold_types.h"
+#include "common/bus/message_type.h"
 #include "common/bus/participant.h"
 
 namespace swarmanoid
@@ -10,8 +10,16 @@ namespace
 template <class Message>
 dds::Topic* ColdTopic(Bus& bus)
 {
-  using Traits = ColdTraits<Message>;
-  return bus.Internals().TopicOf(Traits::kTopic, [] { return dds::TypeSupport(new typename Traits::Support()); });
+  return bus.Internals().TopicOf(kTopicOf<Message>, [] { return dds::TypeSupport(new ColdType<Message>()); });
+}
+
+template <class Message>
+std::uint64_t TickOf(const Message& message)
+{
+  if constexpr (requires { message.tick; })
+    return message.tick;
+  else
+    return 0;
 }
 
 }  // namespace
@@ -20,13 +28,12 @@ template <class Message>
 struct Publisher<Message>::Impl
 {
   Impl(Bus& bus, const std::string& partition)
-      : writer(bus, ColdTopic<Message>(bus), partition, WriterQos(QosOf(ColdTraits<Message>::kTopic)))
+      : writer(bus, ColdTopic<Message>(bus), partition, WriterQos(QosOf(kTopicOf<Message>)))
   {
   }
 
   WriterEnd writer;
   std::mutex mutex;
-  typename ColdTraits<Message>::Wire wire;
 };
 
 template <class Message>
@@ -40,9 +47,18 @@ Publisher<Message>::~Publisher() = default;
 template <class Message>
 void Publisher<Message>::Write(const Message& message)
 {
+  ColdCall<Message> call;
+  call.out = &message;
+  try
+  {
+    call.size = PayloadSize(message);
+  }
+  catch (const BadMessage& error)
+  {
+    throw BadMessage(std::string("cannot send ") + kTopicOf<Message> + ": " + error.what());
+  }
   const std::lock_guard lock(impl_->mutex);
-  ToWire(message, impl_->wire);
-  if (!impl_->writer->write(&impl_->wire)) throw BusError(std::string("cannot send ") + ColdTraits<Message>::kTopic);
+  if (!impl_->writer->write(&call)) throw BusError(std::string("cannot send ") + kTopicOf<Message>);
 }
 
 template <class Message>
@@ -61,27 +77,38 @@ bool Publisher<Message>::WaitUntilRead(double seconds)
 template <class Message>
 struct Subscription<Message>::Impl : dds::DataReaderListener
 {
-  Impl(Bus& bus, const std::string& partition, std::function<void(const Message&)> callback)
-      : received(std::move(callback)),
-        reader(bus, ColdTopic<Message>(bus), partition, ReaderQos(QosOf(ColdTraits<Message>::kTopic), 1), this)
+  Impl(Bus& its_bus, const std::string& partition, std::function<void(const Message&)> callback)
+      : bus(its_bus),
+        received(std::move(callback)),
+        reader(bus, ColdTopic<Message>(bus), partition, ReaderQos(QosOf(kTopicOf<Message>), 1), this)
   {
   }
 
   void on_data_available(dds::DataReader* source) override
   {
     const std::lock_guard lock(mutex);
+    ColdCall<Message> call;
+    call.in = &message;
     dds::SampleInfo about;
-    while (source->take_next_sample(&wire, &about) == ReturnCode::RETCODE_OK)
+    while (source->take_next_sample(&call, &about) == ReturnCode::RETCODE_OK)
     {
       if (!about.valid_data) continue;
-      FromWire(wire, message);
-      received(message);
+      try
+      {
+        if (call.error.empty()) received(message);
+      }
+      catch (const BadMessage& error)
+      {
+        call.error = error.what();
+      }
+      if (!call.error.empty())
+        bus.Internals().Report(kTopicOf<Message>, about.sample_identity.writer_guid(), TickOf(message), call.error);
     }
   }
 
+  Bus& bus;
   std::function<void(const Message&)> received;
   std::mutex mutex;
-  typename ColdTraits<Message>::Wire wire;
   Message message;
   ReaderEnd reader;
 };

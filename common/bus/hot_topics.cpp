@@ -1,6 +1,9 @@
-#include "common/bus/hot_type.h"
+#include "common/activity/shared_memory.h"
 #include "common/bus/machine_id.h"
+#include "common/bus/message_type.h"
 #include "common/bus/participant.h"
+
+#include <fmt/format.h>
 
 namespace swarmanoid
 {
@@ -8,11 +11,23 @@ namespace swarmanoid
 namespace
 {
 
+constexpr std::size_t kOtherFiles = 128 * 1024;  // of the bus itself: who reads what
+
 template <class Message>
 dds::Topic* HotTopic(Bus& bus, const HotScope& scope)
 {
   return bus.Internals().TopicOf(kTopicOf<Message>,
                                  [&] { return dds::TypeSupport(new HotType<Message>(scope.capacity)); });
+}
+
+// Whoever writes to memory that is not there is killed.
+void RequireSharedMemory(std::size_t bytes)
+{
+  if (SharedMemoryFree() >= bytes + kOtherFiles) return;
+  throw BusError(fmt::format(
+      "shared memory is full: {} has {} KiB left, and the messages of this run need {} KiB; free some of it, "
+      "or let SWARMANOID_SHARED_FOLDER name a folder with more room",
+      SharedMemoryFolder(), SharedMemoryFree() / 1024, (bytes + kOtherFiles) / 1024));
 }
 
 void ShareData(dds::DataSharingQosPolicy& policy, const HotScope& scope)
@@ -26,15 +41,21 @@ void ShareData(dds::DataSharingQosPolicy& policy, const HotScope& scope)
 template <class Message>
 struct HotPublisher<Message>::Impl
 {
-  Impl(Bus& bus, const HotScope& scope) : writer(bus, HotTopic<Message>(bus, scope), scope.experiment, Qos(scope)) {}
+  Impl(Bus& bus, const HotScope& scope)
+      : capacity(scope.capacity), writer(bus, HotTopic<Message>(bus, scope), scope.experiment, Qos(scope))
+  {
+  }
 
   static dds::DataWriterQos Qos(const HotScope& scope)
   {
     dds::DataWriterQos qos = WriterQos(QosOf(kTopicOf<Message>));
+    const auto samples = qos.resource_limits().max_samples + qos.resource_limits().extra_samples;
+    if (!scope.directory.empty()) RequireSharedMemory(scope.capacity * static_cast<std::size_t>(samples));
     ShareData(qos.data_sharing(), scope);
     return qos;
   }
 
+  std::size_t capacity;
   WriterEnd writer;
 };
 
@@ -49,7 +70,10 @@ HotPublisher<Message>::~HotPublisher() = default;
 template <class Message>
 void HotPublisher<Message>::Write(const MessageHeader& header, const Message& message)
 {
-  HotWrite<Message> call{&header, &message};
+  HotWrite<Message> call{&header, &message, PayloadSize(header, message)};
+  if (call.size > impl_->capacity)
+    throw BusError(fmt::format("cannot send {} of tick {}: it has {} bytes, and {} at most by the experiment",
+                               kTopicOf<Message>, header.tick, call.size, impl_->capacity));
   bool written = false;
   try
   {
@@ -62,8 +86,7 @@ void HotPublisher<Message>::Write(const MessageHeader& header, const Message& me
     return;
   }
   if (!written)
-    throw BusError(std::string("cannot send ") + kTopicOf<Message> + " of tick " + std::to_string(header.tick) +
-                   ": the message is too large or the bus is full");
+    throw BusError(fmt::format("cannot send {} of tick {}: the bus is full", kTopicOf<Message>, header.tick));
 }
 
 template <class Message>
@@ -75,8 +98,10 @@ unsigned HotPublisher<Message>::Readers() const
 template <class Message>
 struct HotSubscription<Message>::Impl : dds::DataReaderListener
 {
-  Impl(Bus& bus, const HotScope& scope, Handler its_handler)
-      : handler(std::move(its_handler)), reader(bus, HotTopic<Message>(bus, scope), scope.experiment, Qos(scope), this)
+  Impl(Bus& its_bus, const HotScope& scope, Handler its_handler)
+      : bus(its_bus),
+        handler(std::move(its_handler)),
+        reader(bus, HotTopic<Message>(bus, scope), scope.experiment, Qos(scope), this)
   {
   }
 
@@ -91,12 +116,19 @@ struct HotSubscription<Message>::Impl : dds::DataReaderListener
   void on_data_available(dds::DataReader* source) override
   {
     const std::lock_guard lock(mutex);
-    HotRead<Message> call{&handler.choose, {}, nullptr};
+    HotRead<Message> call{&handler, {}, nullptr, {}};
     dds::SampleInfo about;
     while (source->take_next_sample(&call, &about) == ReturnCode::RETCODE_OK)
-      if (about.valid_data && call.message != nullptr) handler.received(call.header, *call.message);
+    {
+      if (!about.valid_data) continue;
+      if (!call.error.empty())
+        bus.Internals().Report(kTopicOf<Message>, about.sample_identity.writer_guid(), call.header.tick, call.error);
+      else if (call.message != nullptr)
+        handler.received(call.header, *call.message);
+    }
   }
 
+  Bus& bus;
   Handler handler;
   std::mutex mutex;  // data sharing and network readers call from threads of their own
   ReaderEnd reader;

@@ -17,7 +17,7 @@ std::uint16_t MachineId()
   char link[128] = {};
   if (readlink("/proc/self/ns/net", link, sizeof(link) - 1) > 0) identity += link;
   identity += std::to_string(getuid());
-  const std::uint32_t hash = StreamName(identity);
+  const auto hash = static_cast<std::uint32_t>(StreamName(identity));
   return static_cast<std::uint16_t>(hash ^ (hash >> 16));
 }
 

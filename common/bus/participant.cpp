@@ -15,9 +15,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <sstream>
 #include <string_view>
+#include <tuple>
 
 #include <fmt/format.h>
+
+#include "common/activity/failure_report.h"
+#include "common/bus/cluster_options.h"
+#include "common/bus/shown_text.h"
 
 namespace swarmanoid
 {
@@ -28,6 +34,8 @@ namespace
 {
 
 constexpr unsigned kSocketBuffer = 4U << 20;  // bytes; 10,000 robots lose datagrams with the system's default
+constexpr std::size_t kSendersTold = 100;     // of bad messages, by topic
+constexpr std::size_t kLongestSender = 200;   // bytes of a name in the log
 constexpr unsigned kPeerProcesses = 100;      // looked for on each machine named as a peer
 
 eprosima::fastrtps::Duration_t Seconds(double seconds)
@@ -49,15 +57,33 @@ std::string ResolveHost(const std::string& host)
   return text;
 }
 
+bool LoopbackIsUp(const ifaddrs* interfaces)
+{
+  for (const ifaddrs* entry = interfaces; entry != nullptr; entry = entry->ifa_next)
+    if (entry->ifa_addr != nullptr && entry->ifa_addr->sa_family == AF_INET && (entry->ifa_flags & IFF_LOOPBACK) != 0 &&
+        (entry->ifa_flags & IFF_UP) != 0)
+      return true;
+  return false;
+}
+
 // The IPv4 addresses that the participant may use; empty for all. An address that no interface has would make it deaf.
 std::vector<std::string> InterfaceAddresses(const std::string& wanted)
 {
   if (wanted == "all") return {};
-  if (wanted == "lo") return {"127.0.0.1"};
   std::vector<std::string> addresses;
   std::string known = "lo, all";
   ifaddrs* list = nullptr;
   if (getifaddrs(&list) != 0) throw BusError("cannot list the network interfaces");
+  if (wanted == "lo")
+  {
+    const bool up = LoopbackIsUp(list);
+    freeifaddrs(list);
+    if (!up)
+      throw BusError(
+          "the network interface of this machine alone, lo, is down: processes on it cannot hear one another; `ip link "
+          "set lo up` cures it");
+    return {"127.0.0.1"};
+  }
   for (const ifaddrs* entry = list; entry != nullptr; entry = entry->ifa_next)
   {
     if (entry->ifa_addr == nullptr || entry->ifa_addr->sa_family != AF_INET) continue;
@@ -84,24 +110,14 @@ std::atomic<bool> broken = false;
 // sleep; the lease of the dead process tells the main thread who it was.
 void SleepInsteadOfTerminate()
 {
-  try
+  if (!std::current_exception()) DieOf("called std::terminate");
+  const std::string text = CurrentExceptionText();
+  if (text.find("Interprocess") != std::string::npos)
   {
-    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+    MarkBroken();
+    while (true) pause();
   }
-  catch (const std::exception& error)
-  {
-    if (std::string_view(error.what()).find("Interprocess") != std::string_view::npos)
-    {
-      MarkBroken();
-      while (true) pause();
-    }
-    fmt::print(stderr, "unexpected: {}\n", error.what());
-  }
-  catch (...)
-  {
-    fmt::print(stderr, "unexpected: an exception of unknown type\n");
-  }
-  std::abort();
+  DieOf("ended by an exception that nobody caught: " + text);
 }
 
 rtps::Locator_t LocatorOf(const std::string& host, unsigned port)
@@ -116,12 +132,11 @@ rtps::Locator_t LocatorOf(const std::string& host, unsigned port)
 // Discovery through the space server: its participant bears a prefix that follows from the domain.
 void UseDiscoveryServer(const BusOptions& options, rtps::BuiltinAttributes& builtin, rtps::GuidPrefix_t& own_prefix)
 {
-  const std::size_t colon = options.discovery_server.rfind(':');
-  const int port = colon == std::string::npos ? 0 : std::atoi(options.discovery_server.c_str() + colon + 1);
-  if (port <= 0 || port > 65535)
+  const auto address = ParseServerAddress(options.discovery_server);
+  if (!address)
     throw BusError(
         fmt::format("'{}' is not the address of a discovery server; write ADDRESS:PORT", options.discovery_server));
-  const rtps::Locator_t locator = LocatorOf(options.discovery_server.substr(0, colon), static_cast<unsigned>(port));
+  const rtps::Locator_t locator = LocatorOf(address->first, address->second);
   const std::string prefix = fmt::format("53.57.41.52.4d.41.4e.4f.49.44.{:02x}.01", options.domain);
 
   builtin.discovery_config.discoveryServer_client_syncperiod = Seconds(0.05);
@@ -145,11 +160,7 @@ void MarkBroken() { broken = true; }
 
 bool BusIsBroken() { return broken; }
 
-void EndAtOnce(int code)
-{
-  std::fflush(nullptr);
-  std::_Exit(code);
-}
+void EndAtOnce(int code) { LeaveAtOnce(code); }
 
 std::string MachineName()
 {
@@ -160,7 +171,7 @@ std::string MachineName()
 
 std::string ProcessId() { return fmt::format("{}:{}", MachineName(), getpid()); }
 
-Bus::Impl::Impl(const BusOptions& options, const std::string& name)
+Bus::Impl::Impl(const BusOptions& options, const std::string& name) : own_name(name)
 {
   if (options.domain < 0 || options.domain > 232)
     throw BusError(fmt::format("domain {}: it must be 0 to 232", options.domain));
@@ -208,6 +219,9 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name)
 Bus::Impl::~Impl()
 {
   participant->set_listener(nullptr);
+  for (const auto& [of, count] : dropped_of)
+    if (count > 1)
+      fmt::print(stderr, "{}: dropped {} bad {} messages of {} in all\n", own_name, count, of.second, of.first);
   for (const auto& [name, topic] : topics) participant->delete_topic(topic);
   dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
 }
@@ -236,6 +250,33 @@ void Bus::Impl::on_participant_discovery(dds::DomainParticipant*, rtps::Particip
     callback(gone.first, gone.second, discovery.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT);
 }
 
+void Bus::Impl::Report(const std::string& topic, const rtps::GUID_t& writer, std::uint64_t tick,
+                       const std::string& what)
+{
+  BadMessageReport report{topic, {}, {}, tick, what};
+  std::function<bool(const BadMessageReport&)> callback;
+  {
+    const std::lock_guard lock(mutex);
+    const auto sender = processes.find(writer.guidPrefix);
+    if (sender != processes.end()) std::tie(report.process, report.name) = sender->second;
+    callback = on_bad;
+  }
+  if (callback && callback(report)) return;
+
+  std::ostringstream guid;
+  guid << writer.guidPrefix;
+  const std::string sender = report.process.empty()
+                                 ? "an unknown process (" + guid.str() + ")"
+                                 : fmt::format("'{}' (process {})", Showable(report.name, kLongestSender),
+                                               Showable(report.process, kLongestSender));
+  const std::lock_guard lock(mutex);
+  ++dropped;
+  if (dropped_of.size() >= kSendersTold && dropped_of.count({sender, topic}) == 0) return;
+  if (++dropped_of[{sender, topic}] == 1)
+    fmt::print(stderr, "{}: dropped a bad {} message of {}: {}; further ones are counted only\n", own_name, topic,
+               sender, what);
+}
+
 dds::Topic* Bus::Impl::TopicOf(const std::string& name, const std::function<dds::TypeSupport()>& make_type)
 {
   const std::lock_guard lock(mutex);
@@ -256,6 +297,18 @@ void Bus::OnProcessGone(std::function<void(const std::string&, const std::string
 {
   const std::lock_guard lock(impl_->mutex);
   impl_->on_gone = std::move(callback);
+}
+
+void Bus::OnBadMessage(std::function<bool(const BadMessageReport&)> callback)
+{
+  const std::lock_guard lock(impl_->mutex);
+  impl_->on_bad = std::move(callback);
+}
+
+std::uint64_t Bus::Dropped() const
+{
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->dropped;
 }
 
 }  // namespace swarmanoid

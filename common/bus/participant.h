@@ -35,6 +35,10 @@ struct Bus::Impl : dds::DomainParticipantListener
   void on_participant_discovery(dds::DomainParticipant*,
                                 eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& discovery) override;
 
+  // A message that was dropped for what is wrong with it.
+  void Report(const std::string& topic, const eprosima::fastrtps::rtps::GUID_t& writer, std::uint64_t tick,
+              const std::string& what);
+
   // The topic of that name; its type is registered by the first who asks.
   dds::Topic* TopicOf(const std::string& name, const std::function<dds::TypeSupport()>& make_type);
 
@@ -43,6 +47,10 @@ struct Bus::Impl : dds::DomainParticipantListener
   std::map<std::string, dds::Topic*> topics;
   std::map<eprosima::fastrtps::rtps::GuidPrefix_t, std::pair<std::string, std::string>> processes;  // "host:pid", name
   std::function<void(const std::string&, const std::string&, bool)> on_gone;
+  std::function<bool(const BadMessageReport&)> on_bad;
+  std::string own_name;
+  std::uint64_t dropped = 0;                                                // bad messages
+  std::map<std::pair<std::string, std::string>, std::uint64_t> dropped_of;  // by sender and topic
 };
 
 // One writer or reader with the publisher or subscriber that bears its partition.

@@ -8,16 +8,6 @@
 namespace swarmanoid
 {
 
-namespace
-{
-
-constexpr std::size_t kFixedBytes = 64;  // headers, flags and the lengths of the arrays, generously
-constexpr std::size_t kSlotBytes = sizeof(double) + sizeof(std::uint32_t);
-
-std::size_t AttributeBytes(const CSwarmanoidSpace& space) { return space.Attributes().size() * kSlotBytes; }
-
-}  // namespace
-
 Replica::Replica(const WorldMessage& world, bool load_controllers)
 {
   LoadOptions options;
@@ -32,6 +22,7 @@ Replica::Replica(const WorldMessage& world, bool load_controllers)
   experiment = std::move(loaded.experiment);
   assignment = MakeAssignment(*experiment, world.hosts);
   space = std::make_unique<CSwarmanoidSpace>(*experiment);
+  limits = std::make_unique<const TickLimits>(*space, assignment);
 
   // A worker on another machine may have other plug-ins, and so another world, under the same names.
   const WorldMessage own = DescribeWorld(*space, world.run, world.file, world.hosts);
@@ -68,32 +59,6 @@ WorldMessage DescribeWorld(const CSwarmanoidSpace& space, std::uint64_t run, con
         {entity.GetId(), std::string(TagName(entity.GetKind())), entity.IsMovable(), entity.FirstSlot()});
   }
   return world;
-}
-
-std::size_t StateCapacity(const CSwarmanoidSpace& space)
-{
-  return kFixedBytes + space.Movable().size() * (7 * sizeof(double) + sizeof(std::uint32_t)) + AttributeBytes(space);
-}
-
-std::size_t CommandsCapacity(const CSwarmanoidSpace& space, const Assignment& assignment)
-{
-  std::size_t values = 0;
-  for (const HostLayout& host : assignment.hosts) values = std::max(values, host.command_size);
-  return kFixedBytes + values * sizeof(double) + AttributeBytes(space);
-}
-
-std::size_t UpdateCapacity(const CSwarmanoidSpace& space, const Assignment& assignment)
-{
-  std::size_t owned = 0;
-  for (const EngineLayout& engine : assignment.engines) owned = std::max(owned, engine.owned.size());
-  return kFixedBytes + 7 * owned * sizeof(double) + AttributeBytes(space);
-}
-
-std::size_t FrameCapacity(const Assignment& assignment)
-{
-  std::size_t values = 0;
-  for (const EngineLayout& engine : assignment.engines) values = std::max(values, engine.sensor_size);
-  return kFixedBytes + values * sizeof(double);
 }
 
 // No engine waits for a host without robots.

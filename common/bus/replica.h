@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/bus/messages.h"
+#include "common/bus/tick_limits.h"
 #include "common/space/assignment.h"
 #include "common/space/checkpoint.h"
 #include "common/space/space.h"
@@ -23,6 +24,7 @@ struct Replica
   Assignment assignment;
   // At tick 0 until Restore is called, so that all are made alike, whether the run starts or goes on.
   std::unique_ptr<CSwarmanoidSpace> space;
+  std::unique_ptr<const TickLimits> limits;
   std::optional<Checkpoint> checkpoint;  // to go on from
   std::uint64_t FirstTick() const { return checkpoint ? checkpoint->snapshot.tick : 0; }
 
@@ -39,13 +41,6 @@ struct Replica
 
 // What the space server says of its world.
 WorldMessage DescribeWorld(const CSwarmanoidSpace& space, std::uint64_t run, const std::string& file, unsigned hosts);
-
-// Bytes of the largest message of a tick.
-std::size_t StateCapacity(const CSwarmanoidSpace& space);
-std::size_t CommandsCapacity(const CSwarmanoidSpace& space, const Assignment& assignment);
-std::size_t UpdateCapacity(const CSwarmanoidSpace& space, const Assignment& assignment);
-inline constexpr std::size_t kDrawnCapacity = 24;
-std::size_t FrameCapacity(const Assignment& assignment);
 
 // Whether the server waits for the commands of a host.
 bool ServerHears(const HostLayout& host);

@@ -1,5 +1,6 @@
 #include "common/bus/run_directory.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -10,8 +11,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string_view>
+#include <utility>
 
+#include "common/activity/shared_memory.h"
 #include "common/bus/bus.h"
 
 namespace swarmanoid
@@ -22,70 +27,178 @@ namespace fs = std::filesystem;
 namespace
 {
 
+constexpr const char* kSharedVariable = "SWARMANOID_SHARED_FOLDER";
+constexpr const char* kLockVariable = "XDG_RUNTIME_DIR";
 constexpr const char* kServerFile = "server";
 constexpr const char* kMarkerPrefix = "process.";
+// In every folder that we make for a run: what lacks it is not ours to remove.
+constexpr const char* kRunFile = ".swarmanoid-run";
+constexpr std::string_view kRunText = "This folder belongs to a run of Swarmanoid, and is removed with it.\n";
 
-int OpenLocked(const std::string& path, int flags)
+class Descriptor
 {
-  const int file = open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
-  if (file < 0) throw BusError("cannot write '" + path + "': " + std::strerror(errno));
-  if (flock(file, flags) == 0) return file;
-  close(file);
+public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor()
+  {
+    if (number_ >= 0) close(number_);
+  }
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&&) = delete;
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  explicit operator bool() const { return number_ >= 0; }
+  int operator*() const { return number_; }
+  int Release() { return std::exchange(number_, -1); }
+
+private:
+  int number_;
+};
+
+// What a folder or file of ours is not: null text where it is one. `status` is of an open descriptor.
+const char* WhyNotOurs(const struct stat& status)
+{
+  if (status.st_uid != geteuid()) return "belongs to another user";
+  if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0) return "can be written by other users";
+  return nullptr;
+}
+
+// A folder within `parent` (AT_FDCWD: a path) that is no link and only this user can write. Otherwise none, with errno
+// or, where it is there and not ours, `why`.
+Descriptor OpenOwnFolder(int parent, const std::string& name, const char** why = nullptr)
+{
+  Descriptor folder(openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+  struct stat status
+  {
+  };
+  if (!folder || fstat(*folder, &status) != 0) return Descriptor(-1);
+  const char* reason = WhyNotOurs(status);
+  if (why != nullptr) *why = reason;
+  return reason == nullptr ? std::move(folder) : Descriptor(-1);
+}
+
+// A regular file of this user, within a folder of this user.
+Descriptor OpenOwnFile(int folder, const std::string& name, int flags)
+{
+  Descriptor file(openat(folder, name.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600));
+  struct stat status
+  {
+  };
+  if (!file || fstat(*file, &status) != 0 || !S_ISREG(status.st_mode) || status.st_uid != geteuid())
+    return Descriptor(-1);
+  return file;
+}
+
+std::string TextOf(int folder, const std::string& name)
+{
+  const Descriptor file = OpenOwnFile(folder, name, O_RDONLY);
+  if (!file) return {};
+  std::string text(4096, '\0');
+  const ssize_t count = read(*file, text.data(), text.size());
+  text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
+  return text;
+}
+
+bool WriteText(int folder, const std::string& name, std::string_view text)
+{
+  const Descriptor file = OpenOwnFile(folder, name, O_CREAT | O_TRUNC | O_WRONLY);
+  return file && write(*file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+}
+
+std::vector<std::string> NamesIn(int folder)
+{
+  std::vector<std::string> names;
+  // The stream closes a descriptor of its own.
+  const int copy = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (copy < 0) return names;
+  const std::unique_ptr<DIR, int (*)(DIR*)> stream(fdopendir(copy), &closedir);
+  if (stream == nullptr)
+  {
+    close(copy);
+    return names;
+  }
+  while (const dirent* entry = readdir(stream.get()))
+    if (const std::string name = entry->d_name; name != "." && name != "..") names.push_back(name);
+  return names;
+}
+
+int OpenLocked(int folder, const std::string& name, const std::string& path, int flags)
+{
+  Descriptor file = OpenOwnFile(folder, name, O_CREAT | O_RDWR);
+  if (!file) throw BusError("cannot write '" + path + "': " + std::strerror(errno));
+  if (flock(*file, flags) == 0) return file.Release();
   return -1;
+}
+
+// Made where it is not there. `variable`: of the environment, which puts it elsewhere.
+Descriptor MakeOwnFolder(int parent, const std::string& name, const std::string& path, const char* variable)
+{
+  if (mkdirat(parent, name.c_str(), 0700) != 0 && errno != EEXIST)
+    throw BusError("cannot create '" + path + "': " + std::strerror(errno));
+  const char* why = nullptr;
+  Descriptor folder = OpenOwnFolder(parent, name, &why);
+  if (folder) return folder;
+  if (why == nullptr)
+    why = errno == ELOOP || errno == ENOTDIR ? "is a link or a file, not a folder" : std::strerror(errno);
+  throw BusError(fmt::format("'{}' {}; remove it, or name another folder by {}", path, why, variable));
 }
 
 // Held while folders are made or removed, so that no half-made folder is taken for a dead one.
 class FolderLock
 {
 public:
-  FolderLock() : file_(OpenLocked(LockFolder() + "/folders.lock", LOCK_EX)) {}
+  FolderLock()
+  {
+    const std::string path = LockFolder();
+    const Descriptor folder = MakeOwnFolder(AT_FDCWD, path, path, kLockVariable);
+    file_ = OpenLocked(*folder, "folders.lock", path + "/folders.lock", LOCK_EX);
+  }
   ~FolderLock() { close(file_); }
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
 private:
-  int file_;
+  int file_ = -1;
 };
 
-bool IsLocked(const fs::path& marker)
+bool IsLocked(int folder, const std::string& marker)
 {
-  const int file = open(marker.c_str(), O_RDWR | O_CLOEXEC);
-  if (file < 0) return errno == EACCES;
-  const bool locked = flock(file, LOCK_EX | LOCK_NB) != 0;
-  close(file);
-  return locked;
+  const Descriptor file = OpenOwnFile(folder, marker, O_RDWR);
+  return file && flock(*file, LOCK_EX | LOCK_NB) != 0;
 }
 
-bool HasLiveProcess(const fs::path& run)
+bool HasLiveProcess(int run)
 {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(run, error))
-    if (entry.path().filename().string().starts_with(kMarkerPrefix) && IsLocked(entry.path())) return true;
+  for (const std::string& name : NamesIn(run))
+    if (name.starts_with(kMarkerPrefix) && IsLocked(run, name)) return true;
   return false;
 }
 
-std::vector<fs::path> RunFolders()
+bool IsRun(int folder) { return TextOf(folder, kRunFile) == kRunText; }
+
+// The files of a run lie flat in its folder. What else somebody put there stays, and the folder with it.
+void RemoveRun(int parent, const std::string& name)
 {
-  std::vector<fs::path> folders;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(SharedFolder(), error))
-    if (entry.is_directory(error)) folders.push_back(entry.path());
-  return folders;
+  const Descriptor run = OpenOwnFolder(parent, name);
+  if (!run || !IsRun(*run)) return;
+  // Last of all the file that says whose it is, so that what is left of a removal that was interrupted is known.
+  for (const std::string& file : NamesIn(*run))
+    if (file != kRunFile) unlinkat(*run, file.c_str(), 0);
+  const std::vector<std::string> rest = NamesIn(*run);
+  if (rest.size() > 1) return;
+  unlinkat(*run, kRunFile, 0);
+  unlinkat(parent, name.c_str(), AT_REMOVEDIR);
 }
 
-void MakeOwnFolder(const std::string& folder)
-{
-  if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
-    throw BusError("cannot create '" + folder + "': " + std::strerror(errno));
-  struct stat status
-  {
-  };
-  if (stat(folder.c_str(), &status) != 0 || !S_ISDIR(status.st_mode) || status.st_uid != getuid())
-    throw BusError("'" + folder + "' is not a folder of this user; remove it");
-}
+// None where there is no such folder, or it is not ours.
+Descriptor OpenSharedFolder() { return OpenOwnFolder(AT_FDCWD, SharedFolder()); }
 
 // With a FolderLock.
-void RemoveSharedFolderIfEmpty() { rmdir(SharedFolder().c_str()); }
+void RemoveSharedFolderIfEmpty()
+{
+  if (OpenSharedFolder()) rmdir(SharedFolder().c_str());
+}
 
 std::string FileName(const std::string& experiment, std::uint64_t run)
 {
@@ -94,33 +207,44 @@ std::string FileName(const std::string& experiment, std::uint64_t run)
   return fmt::format("{}-{:016x}", name.substr(0, 100), run);
 }
 
+// A slash at the end would make the kernel follow a link.
+std::string WithoutSlashes(std::string path)
+{
+  while (path.size() > 1 && path.back() == '/') path.pop_back();
+  return path;
+}
+
 }  // namespace
 
 std::string SharedFolder()
 {
-  const char* elsewhere = std::getenv("SWARMANOID_SHARED_FOLDER");
-  return elsewhere != nullptr && *elsewhere != 0 ? elsewhere : fmt::format("/dev/shm/swarmanoid-{}", getuid());
+  const char* elsewhere = std::getenv(kSharedVariable);
+  return elsewhere != nullptr && *elsewhere != 0 ? WithoutSlashes(elsewhere)
+                                                 : fmt::format("/dev/shm/swarmanoid-{}", geteuid());
 }
 
 std::string LockFolder()
 {
-  const char* runtime = std::getenv("XDG_RUNTIME_DIR");
+  const char* runtime = std::getenv(kLockVariable);
   const bool usable = runtime != nullptr && *runtime != 0 && access(runtime, W_OK) == 0;
-  const std::string folder = fmt::format("{}/swarmanoid-{}", usable ? runtime : "/tmp", getuid());
-  MakeOwnFolder(folder);
+  const std::string folder = fmt::format("{}/swarmanoid-{}", usable ? runtime : "/tmp", geteuid());
+  MakeOwnFolder(AT_FDCWD, folder, folder, kLockVariable);
   return folder;
 }
 
 RunDirectory::RunDirectory(const std::string& experiment, std::uint64_t run)
 {
   const FolderLock lock;
-  MakeOwnFolder(SharedFolder());
-  path_ = SharedFolder() + "/" + FileName(experiment, run);
-  if (mkdir(path_.c_str(), 0700) != 0 && errno != EEXIST)
-    throw BusError("cannot create '" + path_ + "': " + std::strerror(errno));
-  marker_ = fmt::format("{}/{}{}", path_, kMarkerPrefix, getpid());
-  lock_ = OpenLocked(marker_, LOCK_EX | LOCK_NB);
-  if (lock_ < 0) throw BusError("'" + marker_ + "' is locked by another process");
+  const Descriptor shared = MakeOwnFolder(AT_FDCWD, SharedFolder(), SharedFolder(), kSharedVariable);
+  name_ = FileName(experiment, run);
+  path_ = SharedFolder() + "/" + name_;
+  const Descriptor folder = MakeOwnFolder(*shared, name_, path_, kSharedVariable);
+  if (!IsRun(*folder) && (!NamesIn(*folder).empty() || !WriteText(*folder, kRunFile, kRunText)))
+    throw BusError(fmt::format("'{}' holds other files, or cannot be written; remove it", path_));
+  SetSharedMemoryFolder(path_);
+  marker_ = fmt::format("{}{}", kMarkerPrefix, getpid());
+  lock_ = OpenLocked(*folder, marker_, path_ + "/" + marker_, LOCK_EX | LOCK_NB);
+  if (lock_ < 0) throw BusError(fmt::format("'{}/{}' is locked by another process", path_, marker_));
 }
 
 void RunDirectory::Leave()
@@ -129,12 +253,13 @@ void RunDirectory::Leave()
   try
   {
     const FolderLock lock;
-    unlink(marker_.c_str());
+    const Descriptor shared = OpenSharedFolder();
+    const Descriptor folder = shared ? OpenOwnFolder(*shared, name_) : Descriptor(-1);
+    if (folder) unlinkat(*folder, marker_.c_str(), 0);
     close(lock_);
     lock_ = -1;
-    std::error_code error;
     // Processes that still run have what they need mapped.
-    if (server_ || !HasLiveProcess(path_)) fs::remove_all(path_, error);
+    if (folder && (server_ || !HasLiveProcess(*folder))) RemoveRun(*shared, name_);
     RemoveSharedFolderIfEmpty();
   }
   catch (const BusError&)
@@ -145,40 +270,45 @@ void RunDirectory::Leave()
 
 void RunDirectory::Announce(const std::string& experiment, int domain)
 {
-  const std::string part = path_ + "/" + kServerFile + ".part";
-  {
-    std::ofstream file(part);
-    file << domain << ' ' << getpid() << '\n' << experiment << '\n';
-  }
-  std::error_code error;
-  fs::rename(part, path_ + "/" + kServerFile, error);
+  const std::string part = std::string(kServerFile) + ".part";
+  const Descriptor folder = OpenOwnFolder(AT_FDCWD, path_);
   server_ = true;
-  if (error) throw BusError("cannot write '" + path_ + "/" + kServerFile + "': " + error.message());
+  if (!folder || !WriteText(*folder, part, fmt::format("{} {}\n{}\n", domain, getpid(), experiment)) ||
+      renameat(*folder, part.c_str(), *folder, kServerFile) != 0)
+    throw BusError("cannot write '" + path_ + "/" + kServerFile + "': " + std::strerror(errno));
 }
 
 std::vector<LocalRun> FindLocalRuns()
 {
   std::vector<LocalRun> runs;
-  for (const fs::path& folder : RunFolders())
+  const Descriptor shared = OpenSharedFolder();
+  if (!shared) return runs;
+  for (const std::string& name : NamesIn(*shared))
   {
-    std::ifstream file(folder / kServerFile);
+    const Descriptor folder = OpenOwnFolder(*shared, name);
+    if (!folder || !IsRun(*folder)) continue;
+    std::istringstream text(TextOf(*folder, kServerFile));
     LocalRun run;
-    run.directory = folder.string();
-    if (!(file >> run.domain >> run.server)) continue;
-    file.ignore();
-    std::getline(file, run.experiment);
-    if (IsLocked(folder / fmt::format("{}{}", kMarkerPrefix, run.server))) runs.push_back(run);
+    run.directory = SharedFolder() + "/" + name;
+    if (!(text >> run.domain >> run.server)) continue;
+    text.ignore();
+    std::getline(text, run.experiment);
+    if (IsLocked(*folder, fmt::format("{}{}", kMarkerPrefix, run.server))) runs.push_back(run);
   }
   return runs;
 }
 
 void RemoveDeadRuns()
 {
-  if (!fs::is_directory(SharedFolder())) return;
+  if (!OpenSharedFolder()) return;
   const FolderLock lock;
-  std::error_code error;
-  for (const fs::path& folder : RunFolders())
-    if (!HasLiveProcess(folder)) fs::remove_all(folder, error);
+  const Descriptor shared = OpenSharedFolder();
+  if (!shared) return;
+  for (const std::string& name : NamesIn(*shared))
+  {
+    const Descriptor folder = OpenOwnFolder(*shared, name);
+    if (folder && IsRun(*folder) && !HasLiveProcess(*folder)) RemoveRun(*shared, name);
+  }
   RemoveSharedFolderIfEmpty();
 }
 

@@ -2,7 +2,8 @@
 // tells which experiments run here. Used by the four programs and the launcher.
 //
 // Every process of the run holds a locked file in the folder, so that folders of dead runs can be told from live ones,
-// however their processes ended.
+// however their processes ended. Only folders that hold our own mark, belong to this user and are reached without
+// following links are used or removed.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,8 @@
 namespace swarmanoid
 {
 
-// The folder of all runs of this user. The environment variable SWARMANOID_SHARED_FOLDER puts it elsewhere.
+// The folder of all runs of this user. The environment variable SWARMANOID_SHARED_FOLDER puts it elsewhere; what else
+// lies there stays untouched.
 std::string SharedFolder();
 
 // Where the lock files of this user are, which outlive runs: in XDG_RUNTIME_DIR, or else in /tmp. Made where needed.
@@ -36,7 +38,8 @@ public:
 
 private:
   std::string path_;
-  std::string marker_;
+  std::string name_;    // of the folder, within SharedFolder()
+  std::string marker_;  // of this process, within the folder
   int lock_ = -1;
   bool server_ = false;
 };
@@ -51,7 +54,7 @@ struct LocalRun
 };
 
 std::vector<LocalRun> FindLocalRuns();
-// Removes the folders of runs of which no process is alive.
+// Removes the folders of runs of which no process is alive, and nothing else.
 void RemoveDeadRuns();
 
 }  // namespace swarmanoid

@@ -7,6 +7,7 @@
 
 #include "common/bus/worker_session.h"
 #include "common/serialisation/bytes.h"
+#include "common/serialisation/trial.h"
 
 namespace swarmanoid
 {
@@ -22,8 +23,7 @@ public:
   {
     if (every_ == 0) return;
     publisher_.emplace(session.GetBus(), session.World().experiment);
-    ByteWriter scratch;
-    role.SaveState(scratch);
+    TrySaving(role);
   }
 
   // Whether the server is there.

@@ -48,10 +48,12 @@ ServerSession::ServerSession(const BusOptions& options, WorldMessage world, std:
 void ServerSession::Open()
 {
   const std::string& partition = world_.experiment;
-  bus_.OnProcessGone([this](const std::string& gone, const std::string&, bool died) { Gone(gone, died); });
-  hellos_ =
-      std::make_unique<Subscription<HelloMessage>>(bus_, partition, [this](const HelloMessage& hello) { Met(hello); });
-  byes_ = std::make_unique<Subscription<ByeMessage>>(bus_, partition, [this](const ByeMessage& bye) { Left(bye); });
+  bus_.OnProcessGone([this](const std::string& gone, const std::string&, bool died) { Lost(gone, died); });
+  bus_.OnBadMessage([this](const BadMessageReport& report) { return FailedBy(report); });
+  hellos_ = std::make_unique<Subscription<HelloMessage>>(bus_, partition,
+                                                         [this](const HelloMessage& hello) { Joined(hello); });
+  byes_ =
+      std::make_unique<Subscription<ByeMessage>>(bus_, partition, [this](const ByeMessage& bye) { MemberLeft(bye); });
   statuses_ = std::make_unique<Subscription<StatusMessage>>(bus_, partition,
                                                             [this](const StatusMessage& status)
                                                             {
@@ -68,6 +70,7 @@ void ServerSession::Open()
 
 void ServerSession::Close()
 {
+  bus_.OnBadMessage(nullptr);
   bus_.OnProcessGone(nullptr);
   requests_.reset();
   statuses_.reset();
@@ -82,7 +85,7 @@ HotScope ServerSession::Scope(std::size_t capacity, unsigned writers) const
   return {world_.experiment, directory_.Path(), world_.spread, capacity, writers};
 }
 
-void ServerSession::Met(const HelloMessage& hello)
+void ServerSession::Joined(const HelloMessage& hello)
 {
   if (hello.protocol != kProtocolVersion)
     return Refuse(
@@ -115,20 +118,20 @@ void ServerSession::Refuse(const HelloMessage& hello, const std::string& reason)
   bye_->Write({hello.run, 0, "space server", hello.process, reason});
 }
 
-void ServerSession::Left(const ByeMessage& bye)
+void ServerSession::MemberLeft(const ByeMessage& bye)
 {
   if (bye.run != world_.run || bye.name == "space server") return;
   {
     const std::lock_guard lock(mutex_);
     const auto member = members_.find(bye.name);
     if (member == members_.end()) return;
-    member->second.said_bye = true;
+    member->second.left = true;
     if (!over_ && !bye.error.empty()) Fail(fmt::format("{} failed at tick {}: {}", bye.name, bye.tick, bye.error));
   }
   callbacks_.changed();
 }
 
-void ServerSession::Gone(const std::string& process, bool died)
+void ServerSession::Lost(const std::string& process, bool died)
 {
   {
     const std::lock_guard lock(mutex_);
@@ -136,9 +139,9 @@ void ServerSession::Gone(const std::string& process, bool died)
     for (auto& [name, member] : members_)
     {
       if (member.process != process) continue;
-      if (!member.said_bye && !over_)
+      if (!member.left && !over_)
         Fail(fmt::format("{} {} (process {})", name, died ? "does not answer any more" : "has left", process));
-      member.said_bye = true;
+      member.left = true;
     }
   }
   callbacks_.gone(process);
@@ -148,6 +151,21 @@ void ServerSession::Gone(const std::string& process, bool died)
 void ServerSession::Fail(const std::string& text)
 {
   if (!failure_) failure_ = text;
+}
+
+// Whoever is in the run ends it by what he sends; anybody else is not heard.
+bool ServerSession::FailedBy(const BadMessageReport& report)
+{
+  {
+    const std::lock_guard lock(mutex_);
+    const auto sender = std::find_if(members_.begin(), members_.end(),
+                                     [&](const auto& member) { return member.second.process == report.process; });
+    if (report.process.empty() || sender == members_.end()) return false;
+    if (!over_)
+      Fail(fmt::format("{} sent a bad {} at tick {}: {}", sender->first, report.topic, report.tick, report.what));
+  }
+  callbacks_.changed();
+  return true;
 }
 
 std::vector<std::string> ServerSession::Missing() const
@@ -185,11 +203,11 @@ std::vector<ProcessStatus> ServerSession::Processes() const
   return processes;
 }
 
-bool ServerSession::AllSaidBye() const
+bool ServerSession::AllLeft() const
 {
   const std::lock_guard lock(mutex_);
   for (const auto& [name, member] : members_)
-    if (!member.said_bye && !member.process.empty()) return false;
+    if (!member.left && !member.process.empty()) return false;
   return true;
 }
 
@@ -227,7 +245,7 @@ void ServerSession::Reply(const ControlRequestMessage& request, bool ok, std::ui
   replies_->Write(reply);
 }
 
-void ServerSession::SayBye(std::uint64_t tick, const std::string& error)
+void ServerSession::Leave(std::uint64_t tick, const std::string& error)
 {
   {
     const std::lock_guard lock(mutex_);

@@ -49,20 +49,20 @@ public:
   std::string Status(const std::string& name, std::uint64_t tick) const;
   // Those of the run in the order of `expected`, then the visualisers that are attached; names and processes only.
   std::vector<ProcessStatus> Processes() const;
-  // True once every expected process has said good-bye.
-  bool AllSaidBye() const;
+  // True once every expected process has left.
+  bool AllLeft() const;
 
   void Reply(const ControlRequestMessage& request, bool ok, std::uint64_t tick, const std::string& text);
   void LeaveDirectory() { directory_.Leave(); }
   // Tells all that the run is over, and why.
-  void SayBye(std::uint64_t tick, const std::string& error);
+  void Leave(std::uint64_t tick, const std::string& error);
 
 private:
   struct Member
   {
     std::string process;  // empty: not here yet
     bool ready = false;
-    bool said_bye = false;
+    bool left = false;
     StatusMessage status;
   };
 
@@ -77,11 +77,12 @@ private:
 
   void Asked(const ControlRequestMessage& request);
   Request* FindRequest(const ControlRequestMessage& request);
-  void Met(const HelloMessage& hello);
-  void Left(const ByeMessage& bye);
-  void Gone(const std::string& process, bool died);
+  void Joined(const HelloMessage& hello);
+  void MemberLeft(const ByeMessage& bye);
+  void Lost(const std::string& process, bool died);
   void Refuse(const HelloMessage& hello, const std::string& reason);
   void Fail(const std::string& text);
+  bool FailedBy(const BadMessageReport& report);
 
   WorldMessage world_;
   std::vector<std::string> expected_;

@@ -1,11 +1,13 @@
-// StatusChannel: how the space server tells the launcher what it is doing: one line an event on a descriptor, at most
-// ten progress lines a second. The format is in docs/wire.md.
+// StatusChannel: how the space server tells whoever started it what it is doing: one line an event on a descriptor, at
+// most ten progress lines a second (server_status.h).
 #pragma once
 
+#include <fcntl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <string>
+
+#include "common/run/server_status.h"
 
 namespace swarmanoid
 {
@@ -13,16 +15,21 @@ namespace swarmanoid
 class StatusChannel
 {
 public:
-  // Negative: nobody listens.
-  explicit StatusChannel(int descriptor) : descriptor_(descriptor) {}
+  // Negative: nobody listens. Where the descriptor is standard output, what anybody prints goes to standard error from
+  // here on: no word of experiment functions is taken for one of the server.
+  explicit StatusChannel(int descriptor) : descriptor_(descriptor)
+  {
+    if (descriptor_ != STDOUT_FILENO) return;
+    descriptor_ = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
+    dup2(STDERR_FILENO, STDOUT_FILENO);
+  }
 
   bool IsOpen() const { return descriptor_ >= 0; }
 
-  void Say(std::string line)
+  void Tell(const ServerStatus& status)
   {
     if (descriptor_ < 0) return;
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    line += '\n';
+    const std::string line = ServerStatusLine(status) + "\n";
     // A launcher that has gone is noticed elsewhere.
     if (write(descriptor_, line.data(), line.size()) < 0) descriptor_ = -1;
   }

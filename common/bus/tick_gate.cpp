@@ -22,7 +22,7 @@ TickGate::Verdict TickGate::Offer(std::size_t part, std::uint64_t tick) const
   if (tick + 1 == tick_) return Verdict::kBefore;
   if (tick < tick_) return Verdict::kDrop;
   if (tick == tick_ + 1 && parts_[part].may_lead) return ahead_[part] ? Verdict::kDrop : Verdict::kExpected;
-  throw BusError(fmt::format("the {} is of tick {}, but tick {} has to come first", parts_[part].name, tick, tick_));
+  throw BadMessage(fmt::format("the {} is of tick {}, but tick {} has to come first", parts_[part].name, tick, tick_));
 }
 
 bool TickGate::Arrived(std::size_t part, std::uint64_t tick)

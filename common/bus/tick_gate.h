@@ -28,7 +28,7 @@ public:
 
   explicit TickGate(std::vector<Part> parts, std::uint64_t first_tick = 0);
 
-  // Throws BusError for a tick that cannot follow.
+  // Throws BadMessage for a tick that cannot follow.
   Verdict Offer(std::size_t part, std::uint64_t tick) const;
   // The expected message is in its place. True where nothing is missing for the current tick any more.
   bool Arrived(std::size_t part, std::uint64_t tick);

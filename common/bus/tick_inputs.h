@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "common/bus/replica.h"
-#include "common/bus/stall_watch.h"
+#include "common/bus/stall_detector.h"
 #include "common/bus/tick_gate.h"
 #include "common/bus/worker_session.h"
 
@@ -39,9 +39,13 @@ public:
   };
 
   TickInputs(WorkerSession& session, Replica& replica, const std::vector<Other>& others)
-      : session_(session), space_(*replica.space), gate_(Parts(others), replica.FirstTick())
+      : session_(session), space_(*replica.space), limits_(*replica.limits), gate_(Parts(others), replica.FirstTick())
   {
-    for (const Other& other : others) sources_.push_back(other.source);
+    for (const Other& other : others)
+    {
+      sources_.push_back(other.source);
+      session.Trust(other.part.name);
+    }
   }
 
   // Messages come from now on. `writers`: of all messages of this kind, no matter for whom they are; `capacity`: bytes
@@ -54,11 +58,13 @@ public:
       others_in_.emplace(session_.GetBus(), session_.Scope(capacity, writers),
                          typename HotSubscription<Message>::Handler{
                              [this](const MessageHeader& header) { return PlaceOf(header); },
-                             [this](const MessageHeader& header, Message&) { Arrived(header); }});
-    states_in_.emplace(session_.GetBus(), session_.Scope(StateCapacity(space_), 1),
+                             [this](const MessageHeader& header, Message&) { Arrived(header); },
+                             [this](const MessageHeader& header, const Message& m) { limits_.Check(header, m); }});
+    states_in_.emplace(session_.GetBus(), session_.Scope(limits_.StateBytes(), 1),
                        HotSubscription<SpaceState>::Handler{
                            [this](const MessageHeader& header) { return PlaceOfState(header); },
-                           [this](const MessageHeader& header, SpaceState& state) { StateArrived(header, state); }});
+                           [this](const MessageHeader& header, SpaceState& state) { StateArrived(header, state); },
+                           [this](const MessageHeader& header, const SpaceState& s) { limits_.Check(header, s); }});
   }
 
   // No message comes and none of the calls runs after this. Before anything that they use goes.
@@ -86,11 +92,11 @@ public:
     if (!lock)
     {
       session_.SetTick(stepping_);
-      return watch_.Observe(stepping_, busy());
+      return stall_.Observe(stepping_, busy());
     }
     session_.SetTick(gate_.Tick());
     const bool waits = !sources_.empty() && gate_.Has(0) && !gate_.Complete();
-    return watch_.Observe(gate_.Tick(), waits ? "waits for " + Joined(gate_.Missing()) : "");
+    return stall_.Observe(gate_.Tick(), waits ? "waits for " + Joined(gate_.Missing()) : "");
   }
 
   std::mutex& Mutex() { return mutex_; }
@@ -113,26 +119,11 @@ private:
     return static_cast<std::size_t>(std::find(sources_.begin(), sources_.end(), header.source) - sources_.begin());
   }
 
-  // What the gate says to a message; nothing for a tick that cannot follow, which ends the run.
-  std::optional<TickGate::Verdict> Offer(std::size_t part, std::uint64_t tick)
-  {
-    try
-    {
-      return gate_.Offer(part, tick);
-    }
-    catch (const BusError& error)
-    {
-      session_.Fail(gate_.Tick(), error.what());
-      return std::nullopt;
-    }
-  }
-
   SpaceState* PlaceOfState(const MessageHeader& header)
   {
     if (header.run != session_.World().run) return nullptr;
     const std::lock_guard lock(mutex_);
-    const auto verdict = Offer(0, header.tick);
-    if (!verdict) return nullptr;
+    const auto verdict = gate_.Offer(0, header.tick);
     // A repeated state is read too: it may say that the run ends here.
     return verdict == TickGate::Verdict::kExpected ? &state_ : &repeated_;
   }
@@ -156,7 +147,8 @@ private:
     const std::size_t other = OtherOf(header);
     if (header.run != session_.World().run || other == sources_.size()) return nullptr;
     const std::lock_guard lock(mutex_);
-    return Offer(1 + other, header.tick) == TickGate::Verdict::kExpected ? calls_.place(other, header.tick) : nullptr;
+    return gate_.Offer(1 + other, header.tick) == TickGate::Verdict::kExpected ? calls_.place(other, header.tick)
+                                                                               : nullptr;
   }
 
   void Arrived(const MessageHeader& header)
@@ -172,6 +164,10 @@ private:
     {
       calls_.step();
     }
+    catch (const ActivityError& error)
+    {
+      session_.Fail(gate_.Tick(), error.what(), true);
+    }
     catch (const std::exception& error)
     {
       session_.Fail(gate_.Tick(), error.what());
@@ -180,6 +176,7 @@ private:
 
   WorkerSession& session_;
   CSwarmanoidSpace& space_;
+  const TickLimits& limits_;
   std::vector<std::uint32_t> sources_;
   unsigned writers_ = 0;
   Calls calls_;
@@ -188,7 +185,7 @@ private:
   SpaceState state_;
   SpaceState repeated_;
   std::atomic<std::uint64_t> stepping_ = 0;
-  StallWatch watch_;  // main thread
+  StallDetector stall_;  // main thread
   std::optional<HotSubscription<Message>> others_in_;
   std::optional<HotSubscription<SpaceState>> states_in_;
 };

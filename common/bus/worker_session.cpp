@@ -4,8 +4,13 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <new>
+#include <utility>
 
-#include "common/bus/cluster_options.h"
+#include "common/activity/memory_limit.h"
+#include "common/configuration/configuration_tree.h"
+#include "common/program/exit_codes.h"
+#include "common/program/interrupts.h"
 
 namespace swarmanoid
 {
@@ -20,9 +25,25 @@ constexpr auto kPatience = 1s;      // before what is waited for is said
 constexpr auto kBrokenTime = 5s;    // for the lease of a dead process to end
 constexpr double kByeTime_s = 1.0;  // for the last message to arrive
 
+int ExitCodeOf(EndReason reason, bool looks_on)
+{
+  switch (reason)
+  {
+    case EndReason::kInterrupted:
+      return kExitInterrupted;
+    case EndReason::kOthers:
+      return looks_on ? kExitProcessFailed : kExitOthersFailed;
+    default:
+      return kExitProcessFailed;
+  }
+}
+
+bool IsAlive(pid_t process) { return kill(process, 0) == 0 || errno == EPERM; }
+
 }  // namespace
 
-WorkerSession::WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name)
+WorkerSession::WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name,
+                             std::optional<int> server)
     : name_(name), bus_(options, name), domain_(options.domain)
 {
   bus_.OnProcessGone(
@@ -33,6 +54,7 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
         server_gone_ = true;
         changed_.notify_all();
       });
+  bus_.OnBadMessage([this](const BadMessageReport& report) { return FailedBy(report); });
   worlds_ = std::make_unique<Subscription<WorldMessage>>(bus_, experiment.empty() ? "*" : experiment,
                                                          [this](const WorldMessage& world)
                                                          {
@@ -45,9 +67,12 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
                                                            changed_.notify_all();
                                                          });
   WaitUntil(
-      [this]
+      [&]
       {
         const std::lock_guard lock(mutex_);
+        if (!have_world_ && server && !IsAlive(*server))
+          throw BusError(
+              fmt::format("experiment '{}' has ended: its space server, process {}, has gone", experiment, *server));
         return have_world_;
       },
       [&]
@@ -80,7 +105,35 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
   hello_->Write({ProcessId(), kProtocolVersion, world_.run, name_, false});
 }
 
-WorkerSession::~WorkerSession() { bus_.OnProcessGone(nullptr); }
+WorkerSession::~WorkerSession()
+{
+  bus_.OnBadMessage(nullptr);
+  bus_.OnProcessGone(nullptr);
+}
+
+void WorkerSession::Trust(const std::string& name)
+{
+  const std::lock_guard lock(mutex_);
+  trusted_.insert(name);
+}
+
+bool WorkerSession::IsOfTheRun(const BadMessageReport& report) const
+{
+  return (have_world_ && report.process == server_process_) || trusted_.count(report.name) > 0;
+}
+
+bool WorkerSession::FailedBy(const BadMessageReport& report)
+{
+  const std::lock_guard lock(mutex_);
+  if (!IsOfTheRun(report)) return false;
+  if (!own_error_)
+  {
+    own_error_ = fmt::format("{} sent a bad {} at tick {}: {}", report.name, report.topic, report.tick, report.what);
+    NoteEnd(EndReason::kFailed, report.tick, *own_error_, true);
+  }
+  changed_.notify_all();
+  return true;
+}
 
 HotScope WorkerSession::Scope(std::size_t capacity, unsigned writers) const
 {
@@ -90,21 +143,30 @@ HotScope WorkerSession::Scope(std::size_t capacity, unsigned writers) const
 void WorkerSession::CheckOthers()
 {
   const std::lock_guard lock(mutex_);
-  if (Interrupted()) throw BusError("interrupted");
+  if (Interrupted())
+  {
+    reason_ = EndReason::kInterrupted;
+    throw BusError("interrupted by a signal");
+  }
+  // Whatever is thrown below, it is not this process that failed.
+  const EndReason before = std::exchange(reason_, EndReason::kOthers);
   if (others_error_) throw BusError(*others_error_);
   // The leases of a run on one machine are long: its launcher sees who dies, but those who are attached have none.
   if (server_seen_ && !ServerIsOnThisMachine()) server_gone_ = true;
   if (server_gone_) throw BusError(fmt::format("the space server has gone (process {})", server_process_));
   if (server_said_bye_) throw BusError("the run has ended");
-  if (!BusIsBroken()) return;
-  if (!broken_since_) broken_since_ = Clock::now();
-  if (Clock::now() - *broken_since_ > kBrokenTime)
-    throw BusError("a process died, or was stopped, while it held shared memory of the run");
+  if (BusIsBroken())
+  {
+    if (!broken_since_) broken_since_ = Clock::now();
+    if (Clock::now() - *broken_since_ > kBrokenTime)
+      throw BusError("a process died, or was stopped, while it held shared memory of the run");
+  }
+  reason_ = before;
 }
 
 bool WorkerSession::ServerIsOnThisMachine() const
 {
-  return world_.host == MachineName() && (kill(static_cast<pid_t>(world_.pid), 0) == 0 || errno == EPERM);
+  return world_.host == MachineName() && IsAlive(static_cast<pid_t>(world_.pid));
 }
 
 void WorkerSession::Say(const std::string& text) const { fmt::print(stderr, "{}: {}\n", name_, text); }
@@ -137,11 +199,17 @@ void WorkerSession::Finish(std::uint64_t tick)
   changed_.notify_all();
 }
 
-void WorkerSession::Fail(std::uint64_t tick, const std::string& error)
+void WorkerSession::Fail(std::uint64_t tick, const std::string& error, bool complete)
 {
   const std::lock_guard lock(mutex_);
   tick_ = tick;
-  if (!own_error_) own_error_ = error;
+  if (!own_error_)
+  {
+    own_error_ = error;
+    // At once: others may end because of it before this process does.
+    NoteEnd(EndReason::kFailed, tick, complete ? error : fmt::format("{} failed at tick {}: {}", name_, tick, error),
+            complete);
+  }
   changed_.notify_all();
 }
 
@@ -166,19 +234,19 @@ void WorkerSession::Wait(std::chrono::milliseconds period, const std::function<s
   }
   catch (const std::exception& error)
   {
-    GiveUp(error.what());
+    GiveUp(error);
   }
 }
 
-void WorkerSession::GiveUp(const std::string& error)
+void WorkerSession::GiveUp(const std::exception& error)
 {
-  Say(error);
-  SayError(error);
+  Say(error.what());
+  ReportFailure(error);
   directory_->Leave();
-  EndAtOnce(Interrupted() ? kExitInterrupted : kExitProcessFailed);
+  EndAtOnce(ExitCodeOf(reason_, looks_on_));
 }
 
-std::optional<std::string> WorkerSession::Follow(std::chrono::milliseconds period, const std::function<void()>& idle)
+std::optional<BusError> WorkerSession::Follow(std::chrono::milliseconds period, const std::function<void()>& idle)
 {
   try
   {
@@ -192,7 +260,7 @@ std::optional<std::string> WorkerSession::Follow(std::chrono::milliseconds perio
   }
   catch (const BusError& error)
   {
-    return error.what();
+    return error;
   }
 }
 
@@ -208,7 +276,11 @@ void WorkerSession::WaitUntilDone(std::chrono::milliseconds period,
     }
     {
       const std::lock_guard lock(mutex_);
-      if (own_error_) throw BusError(*own_error_);
+      if (own_error_)
+      {
+        reason_ = EndReason::kFailed;
+        throw BusError(*own_error_);
+      }
       if (done_) return;
     }
     CheckOthers();
@@ -220,13 +292,20 @@ void WorkerSession::WaitUntilDone(std::chrono::milliseconds period,
   }
 }
 
-void WorkerSession::SayError(const std::string& error)
+void WorkerSession::ReportFailure(const std::exception& error)
 {
+  const bool complete = dynamic_cast<const ActivityError*>(&error) != nullptr;
+  const std::string text =
+      dynamic_cast<const std::bad_alloc*>(&error) != nullptr ? OutOfMemoryText() : std::string(error.what());
+  if (dynamic_cast<const ConfigurationError*>(&error) != nullptr)
+    NoteEnd(EndReason::kInvalid, tick_, text, true);
+  else
+    NoteEnd(reason_, tick_, complete ? text : fmt::format("{} failed at tick {}: {}", name_, tick_, text), complete);
   {
     const std::lock_guard lock(mutex_);
     if (server_gone_ || server_said_bye_) return;
   }
-  bye_->Write({world_.run, tick_, name_, "", error});
+  bye_->Write({world_.run, tick_, name_, "", text});
   bye_->WaitUntilRead(kByeTime_s);
 }
 
@@ -238,9 +317,12 @@ int WorkerSession::Work(const std::function<void()>& work)
   }
   catch (const std::exception& error)
   {
-    SayError(error.what());
-    throw;
+    ReportFailure(error);
+    if (reason_ == EndReason::kFailed) throw;
+    Say(error.what());
+    return ExitCodeOf(reason_, looks_on_);
   }
+  NoteEnd(EndReason::kDone, tick_, "");
   bye_->Write({world_.run, tick_, name_, "", ""});
   bye_->WaitUntilRead(kByeTime_s);
   return kExitDone;

@@ -9,8 +9,10 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 
+#include "common/activity/failure_report.h"
 #include "common/bus/bus.h"
 #include "common/bus/run_directory.h"
 
@@ -22,8 +24,12 @@ class WorkerSession
 public:
   // Waits for the space server of `experiment` (empty: of the first one that is heard), saying so. `name` as in
   // HelloMessage. Throws BusError where its protocol is another one, or when interrupted.
-  WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name);
+  // `server`: the process on this machine that is expected to be it; BusError where it ends before it is heard.
+  WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name,
+                std::optional<int> server = std::nullopt);
   ~WorkerSession();
+  // For one who only looks on: to whoever started it, a run that failed elsewhere is a process that failed.
+  void LookOn() { looks_on_ = true; }
 
   const WorldMessage& World() const { return world_; }
   Bus& GetBus() { return bus_; }
@@ -45,21 +51,28 @@ public:
   void Wait(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
   // The same for a process that has something to do after the run: returns nothing where its work is done, or else why
   // the run is over.
-  std::optional<std::string> Follow(std::chrono::milliseconds period, const std::function<void()>& idle);
+  std::optional<BusError> Follow(std::chrono::milliseconds period, const std::function<void()>& idle);
   // Says that this process failed, or has nothing to do any more in a run that failed, and ends the program.
-  [[noreturn]] void GiveUp(const std::string& error);
+  [[noreturn]] void GiveUp(const std::exception& error);
+  // Before messages come: `name` is a process of the run, which ends when it sends a bad message. The space server is
+  // one from the start.
+  void Trust(const std::string& name);
   // From any thread: the work is done, or failed, or `idle` is to be called.
   void Finish(std::uint64_t tick);
-  void Fail(std::uint64_t tick, const std::string& error);
+  // `complete`: the text says by itself who failed.
+  void Fail(std::uint64_t tick, const std::string& error, bool complete = false);
   void Notify();
   // The tick that Status messages bear.
   void SetTick(std::uint64_t tick);
 
 private:
+  bool IsOfTheRun(const BadMessageReport& report) const;
+  bool FailedBy(const BadMessageReport& report);
   void CheckOthers();
   bool ServerIsOnThisMachine() const;
   void WaitUntilDone(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
-  void SayError(const std::string& error);
+  // Why this process ends, to whoever started it and to the server.
+  void ReportFailure(const std::exception& error);
   void Say(const std::string& text) const;
 
   std::string name_;
@@ -70,6 +83,8 @@ private:
   bool notified_ = false;
   bool done_ = false;
   std::uint64_t tick_ = 0;
+  bool looks_on_ = false;
+  EndReason reason_ = EndReason::kFailed;  // why this process ends before its work is done
   std::optional<std::string> own_error_;
   std::optional<std::string> others_error_;
   std::optional<std::chrono::steady_clock::time_point> broken_since_;
@@ -77,6 +92,7 @@ private:
   bool server_seen_ = false;  // among the processes of this machine
   bool server_said_bye_ = false;
   std::string server_process_;
+  std::set<std::string> trusted_;
   std::string last_status_;
   WorldMessage world_;
   bool have_world_ = false;

@@ -2,6 +2,7 @@
 // the subtree that concerns them. Immutable; copying shares the element. Knows nothing of the simulator.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -58,11 +59,15 @@ struct ConfigurationNode
   SourceLocation location;
 };
 
+class ConfigurationReads;
+
 class TConfigurationTree
 {
 public:
   TConfigurationTree() = default;
   explicit TConfigurationTree(std::shared_ptr<const ConfigurationNode> node) : node_(std::move(node)) {}
+  // A handle to the same element that notes what it and the handles made from it are asked for (configuration_reads.h).
+  TConfigurationTree RecordedIn(std::shared_ptr<ConfigurationReads> reads) const;
 
   // False for the handle of an element that is not in the file; every getter of such a handle yields its default.
   bool Exists() const { return node_ != nullptr; }
@@ -82,21 +87,36 @@ public:
   SourceLocation ValueLocation(std::string_view name) const;
 
   // Typed values; the forms with a default return it where the parameter is absent, those without throw
-  // ConfigurationError, and both throw where the text is not of the type.
+  // ConfigurationError, and both throw where the text is not of the type. Controllers and experiment functions that
+  // declare their parameters get a tree that holds all of them, with the declared defaults: they need no default here.
   double GetNumber(std::string_view name) const;
   double GetNumber(std::string_view name, double fallback) const;
   long long GetInteger(std::string_view name) const;
   long long GetInteger(std::string_view name, long long fallback) const;
+  bool GetBoolean(std::string_view name) const;
   bool GetBoolean(std::string_view name, bool fallback) const;
   std::string GetText(std::string_view name) const;
   std::string GetText(std::string_view name, const std::string& fallback) const;
+  Vector2 GetVector2(std::string_view name) const;
+  Vector2 GetVector2(std::string_view name, const Vector2& fallback) const;
   Vector3 GetVector3(std::string_view name) const;
   Vector3 GetVector3(std::string_view name, const Vector3& fallback) const;
+  std::uint32_t GetColour(std::string_view name) const;  // 0xRRGGBB
+  std::uint32_t GetColour(std::string_view name, std::uint32_t fallback) const;
 
-  const ConfigurationNode* Node() const { return node_.get(); }
+  const ConfigurationNode* Node() const;
 
 private:
+  TConfigurationTree(std::shared_ptr<const ConfigurationNode> node, std::shared_ptr<ConfigurationReads> reads)
+      : node_(std::move(node)), reads_(std::move(reads))
+  {
+  }
+
+  // The text of the parameter; throws where it is absent.
+  std::string Required(std::string_view name) const;
+
   std::shared_ptr<const ConfigurationNode> node_;
+  std::shared_ptr<ConfigurationReads> reads_;  // where reading is noted; often nowhere
 };
 
 // Conversions of whole texts, surrounding blanks allowed; nullopt where the text is something else.
@@ -104,6 +124,8 @@ std::optional<double> ParseNumber(std::string_view text);
 std::optional<long long> ParseInteger(std::string_view text);
 std::optional<bool> ParseBoolean(std::string_view text);                 // true/false, yes/no, on/off, 1/0
 std::optional<std::vector<double>> ParseNumbers(std::string_view text);  // separated by commas or blanks
+// "red", "#ff0000" and "255,0,0" are the same; 0xRRGGBB.
+std::optional<std::uint32_t> ParseColour(std::string_view text);
 std::string_view TrimBlanks(std::string_view text);
 
 }  // namespace swarmanoid

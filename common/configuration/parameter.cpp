@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
@@ -14,27 +13,6 @@ namespace swarmanoid
 {
 namespace
 {
-
-struct NamedColour
-{
-  std::string_view name;
-  std::uint32_t rgb;
-};
-
-constexpr std::array<NamedColour, 14> kColours{{{"black", 0x000000},
-                                                {"white", 0xffffff},
-                                                {"red", 0xff0000},
-                                                {"green", 0x00ff00},
-                                                {"blue", 0x0000ff},
-                                                {"yellow", 0xffff00},
-                                                {"cyan", 0x00ffff},
-                                                {"magenta", 0xff00ff},
-                                                {"orange", 0xff8c00},
-                                                {"purple", 0xa020f0},
-                                                {"brown", 0xa52a2a},
-                                                {"gray", 0x808080},
-                                                {"grey", 0x808080},
-                                                {"silver", 0xc0c0c0}}};
 
 std::size_t ComponentsOf(ParameterType type) { return type == ParameterType::kVector2 ? 2 : 3; }
 
@@ -210,30 +188,5 @@ Vector3 Parameters::Vector3Of(std::string_view name) const
 }
 
 std::uint32_t Parameters::Colour(std::string_view name) const { return ParseColour(ValueOf(name)).value(); }
-
-std::optional<std::uint32_t> ParseColour(std::string_view text)
-{
-  text = TrimBlanks(text);
-  for (const NamedColour& colour : kColours)
-  {
-    if (colour.name == text) return colour.rgb;
-  }
-  if (text.size() == 7 && text.front() == '#')
-  {
-    std::uint32_t rgb = 0;
-    const auto result = std::from_chars(text.data() + 1, text.data() + text.size(), rgb, 16);
-    const bool whole = result.ec == std::errc() && result.ptr == text.data() + text.size();
-    return whole ? std::optional(rgb) : std::nullopt;
-  }
-  const auto numbers = ParseNumbers(text);
-  if (!numbers || numbers->size() != 3) return std::nullopt;
-  std::uint32_t rgb = 0;
-  for (const double part : *numbers)
-  {
-    if (part < 0 || part > 255 || part != std::floor(part)) return std::nullopt;
-    rgb = rgb * 256 + static_cast<std::uint32_t>(part);
-  }
-  return rgb;
-}
 
 }  // namespace swarmanoid

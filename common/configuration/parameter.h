@@ -54,7 +54,8 @@ std::string MistakeIn(const ParameterSpec& spec, std::string_view text, const st
 class Parameters
 {
 public:
-  Parameters(TConfigurationTree tree, const std::vector<ParameterSpec>& specs) : tree_(std::move(tree)), specs_(specs)
+  Parameters(TConfigurationTree tree, std::vector<ParameterSpec> specs)
+      : tree_(std::move(tree)), specs_(std::move(specs))
   {
   }
 
@@ -73,10 +74,7 @@ private:
   const ParameterSpec& SpecOf(std::string_view name) const;
 
   TConfigurationTree tree_;
-  const std::vector<ParameterSpec>& specs_;
+  std::vector<ParameterSpec> specs_;
 };
-
-// "red", "#ff0000" and "255,0,0" are the same; nullopt for anything else.
-std::optional<std::uint32_t> ParseColour(std::string_view text);
 
 }  // namespace swarmanoid

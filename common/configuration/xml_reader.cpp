@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <pugixml.hpp>
 
+#include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
 #include "common/configuration/xml_scan.h"
 
@@ -190,23 +188,15 @@ std::shared_ptr<const ConfigurationNode> ReadXml(std::string_view text, const st
 
 std::string ReadTextFile(const std::string& path, std::size_t most_bytes)
 {
-  const SourceLocation place{std::make_shared<const std::string>(path), 0, 0};
-  const auto reason = [&] { return std::string(std::strerror(errno)); };
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!file) throw ConfigurationError(place, "the file cannot be opened: " + reason());
-  std::string text;
-  char block[65536];
-  while (const std::size_t count = std::fread(block, 1, sizeof block, file.get()))
+  try
   {
-    text.append(block, count);
-    if (text.size() > most_bytes)
-    {
-      throw ConfigurationError(place,
-                               fmt::format("the file is larger than {} bytes, the most that is read", most_bytes));
-    }
+    return ReadRegularFile(path, most_bytes);
   }
-  if (std::ferror(file.get()) != 0) throw ConfigurationError(place, "the file cannot be read: " + reason());
-  return text;
+  catch (const FileError& error)
+  {
+    throw ConfigurationError({std::make_shared<const std::string>(path), 0, 0},
+                             std::string("the file cannot be read: ") + error.what());
+  }
 }
 
 std::string WriteXml(const ConfigurationNode& root)

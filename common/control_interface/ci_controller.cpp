@@ -14,13 +14,18 @@ PluginRegistry<CCI_Controller>& PluginRegistry<CCI_Controller>::Instance()
 
 std::string CCI_Controller::StateName() const { return StateNameOf(dynamic_cast<const CCI_StateMachine*>(this)); }
 
-ControllerRegistration::ControllerRegistration(const char* label, std::unique_ptr<CCI_Controller> (*create)(),
-                                               const char* class_name, const char* brief)
+ControllerRegistration::ControllerRegistration(Create create, const char* class_name, PluginDescription description)
 {
-  PluginDescription description;
-  description.label = label;
-  description.brief = brief != nullptr ? brief : std::string("controller of class ") + class_name;
+  if (description.brief.empty()) description.brief = std::string("controller of class ") + class_name;
   PluginRegistry<CCI_Controller>::Instance().Add(std::move(description), create);
+}
+
+ControllerRegistration::ControllerRegistration(Create create, const char* class_name, const char* label,
+                                               const char* brief)
+    : ControllerRegistration(
+          create, class_name,
+          PluginDescription{.label = label, .brief = brief != nullptr ? brief : "", .declares_parameters = false})
+{
 }
 
 }  // namespace swarmanoid

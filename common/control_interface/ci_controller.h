@@ -1,8 +1,8 @@
 // CCI_Controller: the base of every robot controller. The same class runs in the simulator and on the robot.
 //
 // A controller library holds one or more such classes, each registered by REGISTER_CONTROLLER with the tag that names
-// it in <controllers>. The runtime makes one object for each robot, calls Init once, ControlStep every tick, Destroy at
-// the end, all from one thread.
+// it in <controllers> and the table of its <parameters>. The runtime makes one object for each robot, calls Init once,
+// ControlStep every tick, Destroy at the end, all from one thread.
 #pragma once
 
 #include <iosfwd>
@@ -24,8 +24,9 @@ public:
 
   virtual ~CCI_Controller() = default;
 
-  // Gets the <parameters> of the controller; here the devices are looked up. Anything but RETURN_OK, and any exception,
-  // stops the experiment with the robot's name.
+  // Gets the <parameters> of the controller; here the devices are looked up. Where the controller declared its
+  // parameters, the tree was checked and holds all of them, with their defaults. Anything but RETURN_OK, and any
+  // exception, stops the experiment with the robot's name; a ConfigurationError is shown as a mistake of the file.
   virtual int Init(const TConfigurationTree t_tree) = 0;
   // Reads the sensors and sets the actuators, once each tick.
   virtual void ControlStep() = 0;
@@ -42,6 +43,10 @@ public:
   // Likewise: the current state of its state machine. Controllers made of behaviours or derived from FSM have it.
   virtual std::string StateName() const;
 
+  // Controllers that declare no parameters: what Init did not ask for is taken for misspelt and refused. True for one
+  // that keeps the tree and asks later, or asks for some parameters only now and then.
+  virtual bool ReadsParametersLater() const { return false; }
+
   CCI_Robot* GetRobot() const { return robot_; }
   // For the runtime, before Init.
   void SetRobot(CCI_Robot* robot) { robot_ = robot; }
@@ -56,23 +61,35 @@ PluginRegistry<CCI_Controller>& PluginRegistry<CCI_Controller>::Instance();
 // Used by REGISTER_CONTROLLER.
 struct ControllerRegistration
 {
+  using Create = std::unique_ptr<CCI_Controller> (*)();
+
+  ControllerRegistration(Create create, const char* class_name, PluginDescription description);
   // `brief`: one line for `swarmanoid list plugins`; without one it shows the name of the class.
-  ControllerRegistration(const char* label, std::unique_ptr<CCI_Controller> (*create)(), const char* class_name,
-                         const char* brief = nullptr);
+  ControllerRegistration(Create create, const char* class_name, const char* label, const char* brief = nullptr);
 };
 
 }  // namespace swarmanoid
 
 using swarmanoid::CCI_Controller;
+using swarmanoid::ParameterType;
 
 // REGISTER_CONTROLLER(CSampleFootBotController, "sample_footbot_controller"), and behind it, if wanted, one line that
-// says what the controller does.
-#define REGISTER_CONTROLLER(CLASS, LABEL, ...)                                                            \
-  namespace                                                                                               \
-  {                                                                                                       \
-  const ::swarmanoid::ControllerRegistration registration_of_##CLASS(                                     \
-      LABEL, []() -> std::unique_ptr<::swarmanoid::CCI_Controller> { return std::make_unique<CLASS>(); }, \
-      #CLASS __VA_OPT__(, ) __VA_ARGS__);                                                                 \
+// says what the controller does. Or with the table of its parameters, so that mistakes in them are found before a run:
+//
+//   REGISTER_CONTROLLER(CWalker, {.label = "walker",
+//                                 .brief = "walks straight on",
+//                                 .parameters = {{.name = "speed",
+//                                                 .unit = "m/s",
+//                                                 .default_value = "0.1",
+//                                                 .description = "Forward velocity.",
+//                                                 .minimum = 0,
+//                                                 .maximum = 0.3}}})
+#define REGISTER_CONTROLLER(CLASS, ...)                                                                    \
+  namespace                                                                                                \
+  {                                                                                                        \
+  const ::swarmanoid::ControllerRegistration registration_of_##CLASS(                                      \
+      []() -> std::unique_ptr<::swarmanoid::CCI_Controller> { return std::make_unique<CLASS>(); }, #CLASS, \
+      __VA_ARGS__);                                                                                        \
   }
 
 // The name of the framework in the code of its first users: `using namespace ahss;`.

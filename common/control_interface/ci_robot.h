@@ -5,6 +5,7 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/control_interface/ci_device.h"
@@ -19,6 +20,11 @@ class CCI_DeviceError : public std::runtime_error
 public:
   using std::runtime_error::runtime_error;
 };
+
+// What a controller draws random numbers for: its steps. The runtime names the streams of GetRandom by them.
+inline constexpr std::uint64_t kInitStream = StreamName("controller Init");
+inline constexpr std::uint64_t kControlStepStream = StreamName("controller ControlStep");
+inline constexpr std::uint64_t kDestroyStream = StreamName("controller Destroy");
 
 class CCI_Robot
 {
@@ -53,17 +59,19 @@ public:
   double GetTickSeconds() const { return tick_seconds_; }
   double GetTime() const { return static_cast<double>(tick_) * tick_seconds_; }
 
-  // Random numbers of this robot in this control step: equal in every run of the same seed.
+  // Random numbers of this robot in this step: Init, a ControlStep or Destroy. They go on from call to call, are others
+  // in the next step, and depend on the seed, the id of the robot, the step and its tick alone, so that they are equal
+  // in every run. Keep no reference beyond the step.
   RandomStream& GetRandom() { return random_; }
 
   // For the runtime that owns the robot.
   void AddActuator(const std::string& type, CCI_Actuator* actuator) { actuators_[type] = actuator; }
   void AddSensor(const std::string& type, CCI_Sensor* sensor) { sensors_[type] = sensor; }
-  void BeginStep(std::uint64_t tick, double tick_seconds, const RandomStream& random)
+  void BeginStep(std::uint64_t tick, double tick_seconds, RandomStream random)
   {
     tick_ = tick;
     tick_seconds_ = tick_seconds;
-    random_ = random;
+    random_ = std::move(random);
   }
 
 private:

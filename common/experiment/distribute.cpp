@@ -1,5 +1,5 @@
 // Placing the entities of <distribute>. Each entity draws from a random stream of its own, so that its place depends on
-// the seed, its index and the bodies that are there already, and on nothing else.
+// the seed, its id and the bodies that are there already, and on nothing else.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +17,8 @@ namespace swarmanoid
 {
 namespace
 {
+
+constexpr std::uint64_t kPlacement = StreamName("placement");
 
 Vector3 DrawUniform(RandomStream& random, const Vector3& low, const Vector3& high)
 {
@@ -187,7 +189,7 @@ private:
   {
     const std::size_t index = distribution.first + i;
     EntityConfiguration& entity = reading_.experiment.entities[index];
-    RandomStream random(reading_.experiment.seed, static_cast<std::uint32_t>(index), StreamName("placement"), 0);
+    RandomStream random(reading_.experiment.seed, StreamName(entity.id), kPlacement, 0);
     const long long trials = positions.IsRandom() ? distribution.max_trials : 1;
     for (long long trial = 0; trial < trials; ++trial)
     {

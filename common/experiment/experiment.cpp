@@ -41,11 +41,13 @@ bool IsBodiless(EntityKind kind)
   return kind == EntityKind::kLightBulb || kind == EntityKind::kSoundSource || kind == EntityKind::kGroundPatch;
 }
 
+double UsualLimit(const Vector3& arena_size) { return std::max(100.0, 10 * arena_size.maxCoeff()); }
+
 Pose WaitingPose(const EntityConfiguration& entity, std::size_t index)
 {
   // Twenty metres apart along x. Far in y, too, for engines whose plane is perpendicular to x.
   const double height = entity.kind == EntityKind::kBlock ? entity.size.z() / 2 : 0;
-  return {{2 * kWaitingBelow - 20.0 * static_cast<double>(index), 3.3 * kWaitingBelow, height}, Quaternion::Identity()};
+  return {{-1e5 - 20.0 * static_cast<double>(index), -1.65e5, height}, Quaternion::Identity()};
 }
 
 const ControllerConfiguration* Experiment::FindController(const std::string& id) const

@@ -27,7 +27,8 @@ struct ControllerConfiguration
   std::string library;
   std::vector<DeviceConfiguration> actuators;
   std::vector<DeviceConfiguration> sensors;
-  TConfigurationTree parameters;  // <parameters>, given to CCI_Controller::Init
+  // <parameters>, given to CCI_Controller::Init: with all defaults where the controller declared them.
+  TConfigurationTree parameters;
   SourceLocation location;
 };
 
@@ -60,8 +61,9 @@ struct EntityConfiguration
   double mass_kg = 0;    // 0: the default of the kind
   bool movable = false;  // robots and preys always; blocks only where asked
   std::uint32_t colour = 0xc0c0c0;
-  double intensity = 1;  // lights and sounds
-  std::string reserve;   // the id of the <reserve> that it is of: it is not in the arena at the start; empty for none
+  double intensity = 1;     // lights and sounds
+  std::string reserve;      // the id of the <reserve> that it is of; empty for none
+  bool waits = false;       // it is not in the arena at the start
   TConfigurationTree tree;  // the element it came from
   SourceLocation location;
 };
@@ -91,12 +93,20 @@ enum class SpaceOptimization : std::uint8_t
   kOctree
 };
 
+// What happens to an entity that physics takes farther from the arena than the limit.
+enum class BeyondLimit : std::uint8_t
+{
+  kStop,   // the run ends with an error that names it
+  kHold,   // it is put back to where it was one tick before, at rest
+  kRemove  // it leaves the arena, as by SpaceEditor::RemoveEntity
+};
+
 // One entry of <experiment_functions>.
 struct FunctionsConfiguration
 {
   std::string tag;
   std::string id;
-  TConfigurationTree tree;
+  TConfigurationTree tree;  // with the defaults of all parameters
   SourceLocation location;
 };
 
@@ -112,6 +122,8 @@ struct Experiment
   std::vector<std::string> plugin_path;
   Vector3 arena_size = Vector3::Zero();
   SpaceOptimization optimization = SpaceOptimization::k2D;
+  double limit_m = 1e4;  // how far outside the arena an entity may be, along each axis
+  BeyondLimit beyond_limit = BeyondLimit::kStop;
   std::vector<ControllerConfiguration> controllers;
   std::vector<EntityConfiguration> entities;
   std::vector<EngineConfiguration> engines;
@@ -128,9 +140,10 @@ bool IsRobot(EntityKind kind);
 // Lights, sounds and patches of the floor: no engine holds a body of them.
 bool IsBodiless(EntityKind kind);
 
-// Entities that are not in the arena wait far outside, each at a place of its own, so that nothing there is near to
-// anything. Its pose tells whether an entity is in the arena: x of those that wait is below kWaitingBelow.
-inline constexpr double kWaitingBelow = -5e4;  // m
+// The limit where the file gives none: ten times the longest side of the arena, and at least 100 m.
+double UsualLimit(const Vector3& arena_size);
+// Where an entity stands that is not in the arena: some 100 km away and at a place of its own, so that engines that
+// know nothing of absence let it touch nothing.
 Pose WaitingPose(const EntityConfiguration& entity, std::size_t index);
 // The word of the tables and files: "Footbot", "Block" (figure 3.11) and "footbot", "block".
 std::string_view TableName(EntityKind kind);

@@ -7,6 +7,7 @@
 #include "common/configuration/wording.h"
 #include "common/configuration/xml_reader.h"
 #include "common/experiment/element_reader.h"
+#include "common/experiment/places.h"
 #include "common/experiment/sections.h"
 #include "common/experiment/settings.h"
 
@@ -82,7 +83,7 @@ LoadedExperiment LoadExperimentText(const std::string& text, const std::string& 
   Diagnostics diagnostics;
   try
   {
-    const Node file_root = ReadXml(text, file_name);
+    const Node file_root = ReadXmlWithPlaces(text, file_name);
     if (file_root->name != ExperimentSchema().Name())
     {
       return Refused(
@@ -101,7 +102,7 @@ LoadedExperiment LoadExperimentText(const std::string& text, const std::string& 
     const Node named =
         WithSetting(WithSetting(root, "framework.name", experiment->name), "framework.folder", experiment->folder);
     experiment->effective_xml = WriteXml(*named);
-    return {std::move(experiment), {}};
+    return {std::move(experiment), {}, WritePlaces(*named)};
   }
   catch (const ConfigurationError& error)
   {

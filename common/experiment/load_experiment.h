@@ -27,11 +27,14 @@ struct LoadOptions
   bool check_files = true;
 };
 
-// Exactly one of the two is filled.
+// Either an experiment or errors.
 struct LoadedExperiment
 {
   std::unique_ptr<Experiment> experiment;
   std::vector<Diagnostic> errors;
+  // With the experiment: where the elements of its effective text stand in what the user wrote. Put behind that text,
+  // it lets whoever reads it name the user's places.
+  std::string places;
 };
 
 // Call RegisterBuiltinEngines, ...Devices and ...Renderers before; their tables decide what the file may contain.

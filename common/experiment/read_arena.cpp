@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <unordered_map>
 
 #include "common/configuration/wording.h"
 #include "common/experiment/body.h"
 #include "common/experiment/element_reader.h"
 #include "common/experiment/sections.h"
+#include "common/experiment/unique_ids.h"
 #include "common/math/elementary.h"
 
 namespace swarmanoid
@@ -20,6 +20,12 @@ SpaceOptimization OptimizationOf(const std::string& text)
 {
   if (text == "octree") return SpaceOptimization::kOctree;
   return text == "3D" ? SpaceOptimization::k3D : SpaceOptimization::k2D;
+}
+
+BeyondLimit BeyondLimitOf(const std::string& text)
+{
+  if (text == "hold") return BeyondLimit::kHold;
+  return text == "remove" ? BeyondLimit::kRemove : BeyondLimit::kStop;
 }
 
 Quaternion OrientationOf(const Vector3& degrees)
@@ -152,6 +158,9 @@ public:
     Experiment& experiment = reading_.experiment;
     experiment.arena_size = reader.Vector("size");
     experiment.optimization = OptimizationOf(reader.Text("optimization"));
+    const double limit_m = reader.Number("limit");
+    experiment.limit_m = limit_m > 0 ? limit_m : UsualLimit(experiment.arena_size);
+    experiment.beyond_limit = BeyondLimitOf(reader.Text("beyond_limit"));
     for (const TConfigurationTree& child : tree.Children())
     {
       const ElementSpec* element = spec.FindChild(child.Name());
@@ -237,6 +246,7 @@ private:
       all.back().id = id + "_" + std::to_string(i);
       if (!waiting) continue;
       all.back().reserve = id;
+      all.back().waits = true;
       all.back().pose = WaitingPose(all.back(), all.size() - 1);
     }
     return count;
@@ -258,17 +268,11 @@ private:
 
   void CheckIds()
   {
-    std::unordered_map<std::string_view, const EntityConfiguration*> first_of_id;
     const auto& entities = reading_.experiment.entities;
-    first_of_id.reserve(entities.size());
+    UniqueIds ids("entities", entities.size());
     for (const EntityConfiguration& entity : entities)
-    {
-      const auto [first, is_first] = first_of_id.emplace(entity.id, &entity);
-      if (is_first || entity.id.empty()) continue;
-      reading_.diagnostics.Add(entity.tree.ValueLocation("id"),
-                               fmt::format("two entities have the id {}; the first is in line {}", Quoted(entity.id),
-                                           first->second->location.line));
-    }
+      if (const std::string mistake = ids.Add(entity.id, entity.location.line); !mistake.empty())
+        reading_.diagnostics.Add(entity.tree.ValueLocation("id"), mistake);
   }
 
   Reading& reading_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "common/configuration/parameter_table.h"
 #include "common/configuration/wording.h"
 #include "common/experiment/element_reader.h"
 #include "common/experiment/sections.h"
@@ -78,6 +79,19 @@ void CheckController(const ControllerConfiguration& controller, const TConfigura
                                       controller.tag, Listed(labels), DidYouMean(controller.tag, labels)));
 }
 
+// The parameters of a controller that declared them: checked and complete. Those of any other, as they stand.
+TConfigurationTree ReadParameters(const ControllerConfiguration& controller, const TConfigurationTree& given,
+                                  Reading& reading)
+{
+  const PluginDescription* plugin = PluginCatalogue::Instance().Find(PluginKind::kController, controller.tag);
+  if (plugin == nullptr || !plugin->declares_parameters) return given;
+  const TConfigurationTree tree = OrEmpty(given, "parameters", controller.location);
+  const auto mistakes = MistakesIn(tree, plugin->parameters, "controller <" + controller.tag + ">");
+  for (const ConfigurationError& mistake : mistakes) reading.diagnostics.Add(mistake.Location(), mistake.Message());
+  if (mistakes.empty()) CheckTogether(tree, PluginKind::kController, *plugin, reading);
+  return WithDefaults(tree, plugin->parameters, reading.experiment.folder);
+}
+
 ControllerConfiguration ReadController(const TConfigurationTree& tree, Reading& reading)
 {
   const ElementSpec& spec = ExperimentSchema().Child("controllers").plugin_element.front();
@@ -92,6 +106,7 @@ ControllerConfiguration ReadController(const TConfigurationTree& tree, Reading& 
   controller.actuators = ReadDevices(tree.Child("actuators"), spec.Child("actuators"), reading);
   controller.sensors = ReadDevices(tree.Child("sensors"), spec.Child("sensors"), reading);
   if (reading.options.check_files) CheckController(controller, tree, reading);
+  controller.parameters = ReadParameters(controller, controller.parameters, reading);
   return controller;
 }
 

@@ -1,10 +1,8 @@
-#include <fmt/format.h>
-
-#include <map>
-
+#include "common/configuration/parameter_table.h"
 #include "common/configuration/wording.h"
 #include "common/experiment/element_reader.h"
 #include "common/experiment/sections.h"
+#include "common/experiment/unique_ids.h"
 
 namespace swarmanoid
 {
@@ -18,7 +16,7 @@ void ReadPluginList(const TConfigurationTree& tree, PluginKind kind, Reading& re
   if (!tree.Exists()) return;
   const ElementSpec& spec = ExperimentSchema().Child(tree.Name());
   const ElementReader list(tree, spec, reading.diagnostics);
-  std::map<std::string, int> lines;
+  UniqueIds ids(tree.Name());
   for (const TConfigurationTree& child : tree.Children())
   {
     const PluginDescription* plugin = FindPlugin(kind, child, reading);
@@ -26,12 +24,8 @@ void ReadPluginList(const TConfigurationTree& tree, PluginKind kind, Reading& re
                                plugin != nullptr ? &plugin->parameters : nullptr, plugin == nullptr);
     const std::string id = reader.Text("id");
     if (reader.IsGiven("id")) CheckId(id, reader.Place("id"), reading.diagnostics);
-    const auto [first, is_first] = lines.emplace(id, child.Location().line);
-    if (!is_first && !id.empty())
-    {
-      reading.diagnostics.Add(reader.Place("id"), fmt::format("two {} have the id {}; the first is in line {}",
-                                                              tree.Name(), Quoted(id), first->second));
-    }
+    if (const std::string mistake = ids.Add(id, child.Location().line); !mistake.empty())
+      reading.diagnostics.Add(reader.Place("id"), mistake);
     add(child, id);
   }
 }
@@ -49,8 +43,13 @@ void ReadVisualisations(const TConfigurationTree& tree, Reading& reading)
 void ReadExperimentFunctions(const TConfigurationTree& tree, Reading& reading)
 {
   ReadPluginList(tree, PluginKind::kExperimentFunctions, reading,
-                 [&](const TConfigurationTree& child, const std::string& id) {
-                   reading.experiment.functions.push_back({child.Name(), id, child, child.Location()});
+                 [&](const TConfigurationTree& child, const std::string& id)
+                 {
+                   const auto* plugin =
+                       PluginCatalogue::Instance().Find(PluginKind::kExperimentFunctions, child.Name());
+                   const TConfigurationTree filled =
+                       plugin == nullptr ? child : WithDefaults(child, plugin->parameters, reading.experiment.folder);
+                   reading.experiment.functions.push_back({child.Name(), id, filled, child.Location()});
                  });
 }
 

@@ -10,34 +10,6 @@ namespace swarmanoid
 namespace
 {
 
-std::string TypeText(const ParameterSpec& parameter)
-{
-  switch (parameter.type)
-  {
-    case ParameterType::kBoolean:
-      return "true or false";
-    case ParameterType::kInteger:
-      return "whole number";
-    case ParameterType::kNumber:
-      return "number";
-    case ParameterType::kText:
-      return "text";
-    case ParameterType::kChoice:
-      return Listed(parameter.choices);
-    case ParameterType::kVector2:
-      return "x, y";
-    case ParameterType::kVector3:
-      return "x, y, z";
-    case ParameterType::kPath:
-      return "file name";
-    case ParameterType::kColour:
-      return "colour";
-    case ParameterType::kTree:
-      return "elements";
-  }
-  return {};
-}
-
 std::string DefaultText(const ParameterSpec& parameter)
 {
   if (IsNumbered(parameter) && !parameter.default_value) return "none";
@@ -117,10 +89,39 @@ void AppendPlugin(std::string& page, const PluginDescription& plugin)
     page.pop_back();
     page += "\n\n";
   }
+  if (!plugin.declares_parameters) page += "It declares no parameters: what its `Init` asks for decides.\n\n";
   AppendParameters(page, plugin.parameters);
 }
 
 }  // namespace
+
+std::string TypeText(const ParameterSpec& parameter)
+{
+  switch (parameter.type)
+  {
+    case ParameterType::kBoolean:
+      return "true or false";
+    case ParameterType::kInteger:
+      return "whole number";
+    case ParameterType::kNumber:
+      return "number";
+    case ParameterType::kText:
+      return "text";
+    case ParameterType::kChoice:
+      return Listed(parameter.choices);
+    case ParameterType::kVector2:
+      return "x, y";
+    case ParameterType::kVector3:
+      return "x, y, z";
+    case ParameterType::kPath:
+      return "file name";
+    case ParameterType::kColour:
+      return "colour";
+    case ParameterType::kTree:
+      return "elements";
+  }
+  return {};
+}
 
 std::string ExperimentReference()
 {
@@ -128,7 +129,9 @@ std::string ExperimentReference()
       "# Reference of the experiment file\n\n"
       "Generated from the table that the reader uses (`common/experiment/schema.cpp`) by `write_experiment_reference`; "
       "do not edit. [Experiment files](experiment_files.md) explains how to write one; `swarmanoid list plugins` and "
-      "[plug-ins](plugin_reference.md) have the parameters of engines, devices and visualisations.\n\n"
+      "[plug-ins](plugin_reference.md) have the parameters of engines, devices, visualisations, experiment functions "
+      "and "
+      "controllers.\n\n"
       "Every parameter may be written as an attribute (`<footbot id=\"fb\">`) or as a child element "
       "(`<position>1, 1, 0</position>`), once. Elements and parameters that are not listed are errors. Numbers of a "
       "vector are "
@@ -158,7 +161,8 @@ std::string PluginReference()
                                                          {PluginKind::kActuator, "Actuators"},
                                                          {PluginKind::kSensor, "Sensors"},
                                                          {PluginKind::kRenderer, "Visualisations"},
-                                                         {PluginKind::kExperimentFunctions, "Experiment functions"}};
+                                                         {PluginKind::kExperimentFunctions, "Experiment functions"},
+                                                         {PluginKind::kController, "Controllers"}};
   for (const auto& [kind, title] : sections)
   {
     page += fmt::format("## {}\n\n", title);

@@ -11,10 +11,14 @@ namespace swarmanoid
 // docs/experiment_reference.md: every element and parameter but those of plug-ins.
 std::string ExperimentReference();
 
-// docs/experiment.xsd: the same as an XML schema, for editors. Elements of plug-ins may hold anything in it.
+// docs/experiment.xsd: the same as an XML schema, for editors, with the registered plug-ins and their parameters.
+// Elements of other plug-ins may hold anything in it.
 std::string ExperimentXsd();
 
-// A page about the registered plug-ins of all kinds but controllers: labels, robots, channels, parameters.
+// docs/plugin_reference.md: the registered plug-ins of all kinds: labels, robots, channels, parameters.
 std::string PluginReference();
+
+// As these pages say it: "number", "x, y", "calm, wild".
+std::string TypeText(const ParameterSpec& parameter);
 
 }  // namespace swarmanoid

@@ -80,7 +80,10 @@ ElementSpec Controllers()
                "The library that holds it: x stands for libx.so or x.so in one of the folders of controller_path, or "
                "in .libs "
                "within it. Empty: the program itself holds it."),
-      Optional(kTree, "parameters", "", "", "Free content for the controller: it is given to its Init."),
+      Optional(
+          kTree, "parameters", "", "",
+          "The parameters of the controller, given to its Init: those that it declared, or free content for one that "
+          "declared none; what it never reads is refused."),
   };
   controller.children = {
       DeviceList("actuators", PluginKind::kActuator, "The actuators that the controller may use; no other ones exist."),

@@ -225,6 +225,16 @@ ElementSpec Arena()
                      "How positions are indexed: 2D where most robots are in 2D engines, 3D otherwise; "
                      "octree asks for the oct-tree by name. It changes speed, never results."),
             {"2D", "3D", "octree"}),
+      InRange(
+          Optional(kNumber, "limit", "m", "0",
+                   "How far outside the arena an entity may get, along each axis, in all directions; 0: ten times the "
+                   "longest side of the arena, and at least 100 m."),
+          0, kMostMetres),
+      OneOf(Optional(kChoice, "beyond_limit", "", "stop",
+                     "What happens to an entity that physics takes farther than that: stop ends the run with an error "
+                     "that names it, hold puts it back to where it was one tick before, remove takes it out of the "
+                     "arena."),
+            {"stop", "hold", "remove"}),
   };
   element.children = EntityElements();
   element.children.push_back(Distribute());

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "common/experiment/reference.h"
 #include "common/experiment/schema.h"
@@ -87,16 +90,87 @@ std::string SimpleType(const ParameterSpec& parameter)
   return "<xs:simpleType><xs:restriction base=\"xs:token\"/></xs:simpleType>";
 }
 
+// What the elements of plug-ins of each kind have in common.
+void CollectPluginElements(const ElementSpec& element, std::map<PluginKind, const ElementSpec*>& found)
+{
+  if (element.plugins) found[*element.plugins] = &element.plugin_element.front();
+  for (const ElementSpec& child : element.children) CollectPluginElements(child, found);
+  for (const ElementSpec& child : element.plugin_element) CollectPluginElements(child, found);
+}
+
+// The element of a label, whatever stands for it: a sensor and an actuator may have the same one, and each of them
+// several implementations. It allows what one of them allows.
+struct LabelElement
+{
+  ElementSpec element;
+  std::set<std::string> implementations;
+  std::vector<ParameterSpec> controller_parameters;
+  bool declares_parameters = false;  // a controller
+  bool open = false;                 // a family of parameters: any names
+};
+
+bool SameValues(const ParameterSpec& a, const ParameterSpec& b)
+{
+  return a.type == b.type && a.minimum == b.minimum && a.maximum == b.maximum && a.choices == b.choices;
+}
+
+void AddParameter(std::vector<ParameterSpec>& parameters, const ParameterSpec& added)
+{
+  const auto known = std::ranges::find(parameters, added.name, &ParameterSpec::name);
+  if (known == parameters.end())
+    parameters.push_back(added);
+  else if (!SameValues(*known, added))
+    known->type = ParameterType::kText;
+}
+
+std::map<std::string, LabelElement> LabelElements(const ElementSpec& root)
+{
+  std::map<PluginKind, const ElementSpec*> common;
+  CollectPluginElements(root, common);
+  std::map<std::string, LabelElement> elements;
+  for (const auto& [kind, shared] : common)
+  {
+    for (const PluginDescription* plugin : PluginCatalogue::Instance().Of(kind))
+    {
+      LabelElement& label = elements[plugin->label];
+      std::string& text = label.element.description;
+      if (text.find(plugin->brief) == std::string::npos) text += (text.empty() ? "" : "; ") + plugin->brief;
+      for (const ElementSpec& child : shared->children)
+        if (label.element.children.empty() || !label.element.FindChild(child.Name()))
+          label.element.children.push_back(child);
+      for (const ParameterSpec& parameter : shared->parameters) AddParameter(label.element.parameters, parameter);
+      if (!plugin->implementation.empty()) label.implementations.insert(plugin->implementation);
+      if (kind == PluginKind::kController)
+      {
+        label.declares_parameters = plugin->declares_parameters;
+        label.controller_parameters = plugin->parameters;
+        continue;
+      }
+      label.open |= std::ranges::any_of(plugin->parameters, IsNumbered);
+      for (const ParameterSpec& parameter : plugin->parameters) AddParameter(label.element.parameters, parameter);
+    }
+  }
+  for (auto& [name, label] : elements)
+  {
+    const auto implementation = std::ranges::find(label.element.parameters, "implementation", &ParameterSpec::name);
+    if (label.implementations.empty() || implementation == label.element.parameters.end()) continue;
+    implementation->type = ParameterType::kChoice;
+    implementation->choices.assign(label.implementations.begin(), label.implementations.end());
+  }
+  return elements;
+}
+
 class XsdWriter
 {
 public:
   std::string Write(const ElementSpec& root)
   {
     Line("<?xml version=\"1.0\" encoding=\"UTF-8\"?>");
-    Line("<!-- Generated from common/experiment/schema.cpp by write_experiment_reference; do not edit. -->");
+    Line("<!-- Generated from the tables of the experiment file and of the plug-ins; do not edit. -->");
     Line("<xs:schema xmlns:xs=\"http://www.w3.org/2001/XMLSchema\">");
     ++depth_;
     Element(root, root.Name());
+    for (const auto& [label, element] : LabelElements(root)) PluginElement(label, element);
     --depth_;
     Line("</xs:schema>");
     return std::move(text_);
@@ -112,7 +186,8 @@ private:
     ++depth_;
     if (element.plugins)
     {
-      Line("<xs:any processContents=\"skip\"/>");
+      // Those that are declared below as what they are; others may hold anything.
+      Line("<xs:any processContents=\"lax\"/>");
     }
     else
     {
@@ -124,17 +199,76 @@ private:
     }
     --depth_;
     Line("</xs:choice>");
-    for (const ParameterSpec& parameter : element.parameters)
+    Attributes(element.parameters);
+  }
+
+  void Attributes(const std::vector<ParameterSpec>& parameters)
+  {
+    for (const ParameterSpec& parameter : parameters)
     {
       if (parameter.type == ParameterType::kTree) continue;
       Line(fmt::format("<xs:attribute name=\"{}\">{}{}</xs:attribute>", parameter.name,
-                       Documentation(parameter.description), SimpleType(parameter)));
+                       Documentation(TextOf(parameter)), SimpleType(parameter)));
     }
+  }
+
+  // "Forward velocity. A number in m/s, at least 0; 0.1 where it is left out."
+  static std::string TextOf(const ParameterSpec& parameter)
+  {
+    std::string text = parameter.description;
+    if (!parameter.unit.empty()) text += fmt::format("{}In {}.", text.empty() ? "" : " ", parameter.unit);
+    if (parameter.default_value && !parameter.default_value->empty())
+      text += fmt::format("{}Default: {}.", text.empty() ? "" : " ", *parameter.default_value);
+    return text;
+  }
+
+  void PluginElement(const std::string& label, const LabelElement& plugin)
+  {
+    Line(fmt::format("<xs:element name=\"{}\">", label));
+    ++depth_;
+    Line(Documentation(plugin.element.description));
+    Line(plugin.open ? "<xs:complexType mixed=\"true\">" : "<xs:complexType>");
+    ++depth_;
+    Line("<xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">");
+    ++depth_;
+    if (plugin.open)
+      Line("<xs:any processContents=\"skip\"/>");
+    else
+    {
+      for (const ElementSpec& child : plugin.element.children) Element(child, child.Name());
+      for (const ParameterSpec& parameter : plugin.element.parameters)
+      {
+        if (parameter.name == "parameters" && plugin.declares_parameters)
+          Table(parameter, plugin.controller_parameters);
+        else
+          ParameterElement(parameter);
+      }
+    }
+    --depth_;
+    Line("</xs:choice>");
+    if (plugin.open)
+      Line("<xs:anyAttribute processContents=\"skip\"/>");
+    else
+      Attributes(plugin.element.parameters);
+    --depth_;
+    Line("</xs:complexType>");
+    --depth_;
+    Line("</xs:element>");
+  }
+
+  // <parameters> of a controller that declared them.
+  void Table(const ParameterSpec& holder, const std::vector<ParameterSpec>& parameters)
+  {
+    if (std::ranges::any_of(parameters, IsNumbered)) return ParameterElement(holder);
+    ElementSpec element;
+    element.description = holder.description;
+    element.parameters = parameters;
+    Element(element, holder.name);
   }
 
   void ParameterElement(const ParameterSpec& parameter)
   {
-    const std::string documentation = Documentation(parameter.description);
+    const std::string documentation = Documentation(TextOf(parameter));
     if (parameter.type == ParameterType::kTree)
     {
       Line(fmt::format("<xs:element name=\"{}\" type=\"xs:anyType\">{}</xs:element>", parameter.name, documentation));

@@ -1,6 +1,8 @@
 #include "common/math/random.h"
 
-#include "common/math/elementary.h"
+#include <algorithm>
+
+#include "common/math/normal.h"
 
 namespace swarmanoid
 {
@@ -37,10 +39,23 @@ double RandomStream::Uniform()
   return static_cast<double>(((high << 32) | low) >> 11) * 0x1.0p-53;
 }
 
-double RandomStream::Gaussian(double mean, double deviation)
+double RandomStream::Centred()
 {
-  const double radius = __builtin_sqrt(-2 * Log(1 - Uniform()));
-  return mean + deviation * radius * Cos(2 * kPi * Uniform());
+  // The middle of one of 2^53 equal parts: an odd number of 2^-54, exact.
+  const std::uint64_t high = Bits();
+  const std::uint64_t low = Bits();
+  const auto part = static_cast<std::int64_t>(((high << 32) | low) >> 11);
+  return static_cast<double>(2 * part + 1 - (std::int64_t{1} << 53)) * 0x1.0p-54;
+}
+
+double RandomStream::Gaussian(double mean, double deviation) { return mean + deviation * NormalQuantile(Centred()); }
+
+double RandomStream::TruncatedGaussian(double mean, double deviation, double range)
+{
+  const double centred = Centred();
+  if (!(deviation > 0) || !(range > 0)) return mean;
+  const double away = deviation * NormalQuantile(2 * NormalMass(range / deviation) * centred);
+  return mean + std::clamp(away, -range, range);
 }
 
 std::uint32_t RandomStream::Below(std::uint32_t count)

@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/configuration/parameter_table.h"
+
 namespace swarmanoid
 {
 
@@ -37,10 +39,17 @@ bool PluginCatalogue::Add(PluginKind kind, const PluginDescription& description)
   const bool added =
       plugins_.emplace(std::tuple{kind, description.label, description.implementation}, description).second;
   if (loading_) current_.labels.emplace_back(kind, description.label);
-  if (added) return true;
+  const std::string wrong = MistakeInTable(description.parameters);
+  if (added && wrong.empty()) return true;
 
   std::string name = std::string(PluginKindName(kind)) + " '" + description.label + "'";
   if (!description.implementation.empty()) name += " (" + description.implementation + ")";
+  if (!wrong.empty())
+  {
+    if (!loading_) throw std::invalid_argument("the table of the " + name + " is wrong: " + wrong);
+    current_.problems.push_back("the table of the " + name + " is wrong: " + wrong);
+    return added;
+  }
   if (!loading_) throw std::invalid_argument("the " + name + " is registered twice");
   current_.problems.push_back("it registers the " + name + ", which exists already; give one of them another name");
   return false;

@@ -30,17 +30,20 @@ std::string_view PluginKindName(PluginKind kind);
 // What `swarmanoid list plugins` and the reference pages show of a plug-in.
 struct PluginDescription
 {
-  std::string label;           // the XML tag: type of device, engine, renderer or controller
-  std::string implementation;  // devices only: the text of <implementation>
-  std::string brief;           // one line
-  std::vector<ParameterSpec> parameters;
-  std::vector<std::string> robots;  // devices only: the robot tags that can carry it; empty: all
+  std::string label{};           // the XML tag: type of device, engine, renderer or controller
+  std::string implementation{};  // devices only: the text of <implementation>
+  std::string brief{};           // one line
+  std::vector<ParameterSpec> parameters{};
+  std::vector<std::string> robots{};  // devices only: the robot tags that can carry it; empty: all
   // Specific devices only: the channel of values between host and engine, and its doubles per robot. Empty: generic.
-  std::string channel;
+  std::string channel{};
   int channel_width = 0;
   // Engines only: the channels and the entity tags that it can serve.
-  std::vector<std::string> channels;
-  std::vector<std::string> entity_tags;
+  std::vector<std::string> channels{};
+  std::vector<std::string> entity_tags{};
+  // Controllers only: false where it was registered by its label alone. `parameters` says nothing then; what its Init
+  // asks for decides.
+  bool declares_parameters = true;
 };
 
 class PluginCatalogue
@@ -50,7 +53,7 @@ public:
 
   // False for a second plug-in of the same kind and name: the first one stays. While a library is being loaded the name
   // is kept as a problem of that library (throwing through dlopen would end the program), otherwise
-  // std::invalid_argument is thrown.
+  // std::invalid_argument is thrown. Likewise for a table of parameters that contradicts itself.
   bool Add(PluginKind kind, const PluginDescription& description);
 
   // nullptr where there is none.

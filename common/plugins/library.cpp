@@ -9,6 +9,7 @@
 
 #include "common/configuration/wording.h"
 #include "common/math/reproducible_math.h"
+#include "common/plugins/elf_file.h"
 
 namespace swarmanoid
 {
@@ -48,6 +49,14 @@ std::vector<std::string> Candidates(const std::string& name, const std::vector<s
   return candidates;
 }
 
+// The path without links; empty where there is no such file.
+std::string RealFile(const std::string& path)
+{
+  std::error_code error;
+  const fs::path real = fs::canonical(path, error);
+  return error || !fs::is_regular_file(real, error) ? std::string() : real.string();
+}
+
 // The loaded libraries by their real paths; those that could not be loaded too, so that each error is found once.
 std::map<std::string, PluginLibrary>& LoadedLibraries()
 {
@@ -59,6 +68,12 @@ PluginLibrary Load(const std::string& path)
 {
   PluginLibrary library;
   library.path = path;
+  // Loading what is cut short would end the program by a signal.
+  if (const std::string mistake = MistakeInLibrary(path); !mistake.empty())
+  {
+    library.error = "the library " + path + " cannot be loaded: " + mistake;
+    return library;
+  }
   PluginCatalogue& catalogue = PluginCatalogue::Instance();
   catalogue.BeginLibrary();
   const FloatingPointGuard guard;
@@ -78,25 +93,32 @@ PluginLibrary Load(const std::string& path)
 
 }  // namespace
 
+std::string FindPluginLibrary(const std::string& name, const std::vector<std::string>& folders)
+{
+  for (const std::string& candidate : Candidates(name, folders))
+    if (const std::string file = RealFile(candidate); !file.empty()) return file;
+  return {};
+}
+
 const PluginLibrary& LoadPluginLibrary(const std::string& name, const std::vector<std::string>& folders)
 {
   std::string searched;
   std::string before;
   for (const std::string& candidate : Candidates(name, folders))
   {
-    std::error_code error;
-    const fs::path real = fs::canonical(candidate, error);
-    if (error || !fs::is_regular_file(real, error))
+    const std::string file = RealFile(candidate);
+    if (file.empty())
     {
       if (candidate == before) continue;
       searched += "\n    " + candidate;
+      std::error_code error;
+      if (fs::exists(candidate, error)) searched += " (which is not a file)";
       before = candidate;
       continue;
     }
     auto& libraries = LoadedLibraries();
-    const auto found = libraries.find(real.string());
-    return found != libraries.end() ? found->second
-                                    : libraries.emplace(real.string(), Load(real.string())).first->second;
+    const auto found = libraries.find(file);
+    return found != libraries.end() ? found->second : libraries.emplace(file, Load(file)).first->second;
   }
   // Kept under a name that no path has, so that the reference stays valid.
   PluginLibrary& missing = LoadedLibraries()["missing " + name];
@@ -133,16 +155,22 @@ std::vector<std::string> SplitSearchPath(const std::string& list, const std::str
   return folders;
 }
 
+std::string OwnLibraryFolder()
+{
+  Dl_info place{};
+  if (dladdr(reinterpret_cast<const void*>(&StandardPluginFolders), &place) == 0 || place.dli_fname == nullptr)
+    return {};
+  std::error_code error;
+  return fs::weakly_canonical(place.dli_fname, error).parent_path().string();
+}
+
 std::vector<std::string> StandardPluginFolders()
 {
   std::vector<std::string> folders;
   if (const char* list = std::getenv("SWARMANOID_PLUGIN_PATH"))
     folders = SplitSearchPath(list, fs::current_path().string());
-  Dl_info place{};
-  if (dladdr(reinterpret_cast<const void*>(&StandardPluginFolders), &place) != 0 && place.dli_fname != nullptr)
+  if (const fs::path own = OwnLibraryFolder(); !own.empty())
   {
-    std::error_code error;
-    const fs::path own = fs::weakly_canonical(place.dli_fname, error).parent_path();
     folders.push_back(own.string());
     folders.push_back((own / "swarmanoid").string());
     folders.push_back((own / "swarmanoid" / "controllers").string());

@@ -21,6 +21,9 @@ struct PluginLibrary
 // loads it. A name with a '/' is a path. Loading a library again yields what the first time yielded.
 const PluginLibrary& LoadPluginLibrary(const std::string& name, const std::vector<std::string>& folders);
 
+// The file that LoadPluginLibrary would load, without links; empty where there is none.
+std::string FindPluginLibrary(const std::string& name, const std::vector<std::string>& folders);
+
 // The folders of a list separated by colons: backslashes at the ends of lines and blanks around the entries are
 // dropped, relative ones start at `base`.
 std::vector<std::string> SplitSearchPath(const std::string& list, const std::string& base);
@@ -28,5 +31,8 @@ std::vector<std::string> SplitSearchPath(const std::string& list, const std::str
 // Searched after those of the experiment: those of the environment variable SWARMANOID_PLUGIN_PATH, then the folder
 // of our own libraries with its subfolders swarmanoid and swarmanoid/controllers.
 std::vector<std::string> StandardPluginFolders();
+
+// The folder of our own libraries, such as libswarmanoid_space.so.
+std::string OwnLibraryFolder();
 
 }  // namespace swarmanoid

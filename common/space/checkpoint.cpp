@@ -1,5 +1,7 @@
 #include "common/space/checkpoint.h"
 
+#include <fmt/format.h>
+
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
@@ -9,15 +11,102 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
+
+#include "common/configuration/regular_file.h"
+#include "common/configuration/wording.h"
+#include "common/space/checkpoint_format.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-constexpr std::array<char, 8> kMagic{'S', 'W', 'A', 'R', 'M', 'C', 'P', '1'};
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 36U;  // 64 GiB
+
+class FieldWriter
+{
+public:
+  explicit FieldWriter(ByteWriter& bytes) : bytes_(bytes) {}
+  void Number(std::uint64_t value) { bytes_.Put(value); }
+  void Text(const std::string& text) { bytes_.PutText(text); }
+  template <class T>
+  void Array(const std::vector<T>& values)
+  {
+    bytes_.PutArray(values);
+  }
+  template <class T, class Visit>
+  void List(const std::vector<T>& entries, const Visit& visit)
+  {
+    Number(entries.size());
+    for (const T& entry : entries) visit(entry);
+  }
+
+private:
+  ByteWriter& bytes_;
+};
+
+class FieldReader
+{
+public:
+  explicit FieldReader(std::span<const char> bytes) : bytes_(bytes) {}
+  void Number(std::uint64_t& value) { value = bytes_.Get<std::uint64_t>(); }
+  void Text(std::string& text) { text = bytes_.GetText(); }
+  template <class T>
+  void Array(std::vector<T>& values)
+  {
+    values = bytes_.GetArray<T>();
+  }
+  // A count that is too large ends at the end of the bytes.
+  template <class T, class Visit>
+  void List(std::vector<T>& entries, const Visit& visit)
+  {
+    for (auto count = bytes_.Get<std::uint64_t>(); count > 0; --count) visit(entries.emplace_back());
+  }
+  bool AtEnd() const { return bytes_.AtEnd(); }
+
+private:
+  ByteReader bytes_;
+};
+
+std::uint64_t NumberAt(std::span<const char> bytes, std::size_t at)
+{
+  std::uint64_t number;
+  std::memcpy(&number, bytes.data() + at, sizeof number);
+  return number;
+}
+
+std::uint64_t ChecksumOf(std::span<const char> bytes)
+{
+  return XXH3_64bits(bytes.data(), bytes.size() - kCheckpointChecksumBytes);
+}
+
+// `start`: the first bytes of the file, all where it is shorter than a header.
+void CheckHeader(std::span<const char> start, std::uint64_t file_bytes)
+{
+  if (std::string_view(start.data(), std::min(start.size(), kCheckpointMagic.size())) != kCheckpointMagic)
+    throw std::runtime_error("it is not a checkpoint");
+  if (start.size() > kCheckpointMagic.size() && start[kCheckpointMagic.size()] != kCheckpointVersion)
+    throw std::runtime_error(fmt::format(
+        "its format has the version {}, this program reads {}; go on with the Swarmanoid that took it, or "
+        "take it again",
+        Quoted(std::string(1, start[kCheckpointMagic.size()])), Quoted(std::string(1, kCheckpointVersion))));
+  if (start.size() < kCheckpointHeaderBytes || file_bytes < kCheckpointHeaderBytes + kCheckpointChecksumBytes)
+    throw std::runtime_error(fmt::format("it is cut short: it has {} bytes", file_bytes));
+  const std::uint64_t said = NumberAt(start, kCheckpointMagic.size() + 1);
+  if (said != file_bytes)
+    throw std::runtime_error(
+        fmt::format("it is damaged: it should have {} bytes and has {}; go on from another one", said, file_bytes));
+}
+
+std::vector<char> ReadWhole(const std::string& path)
+{
+  const RegularFile file(path);
+  // Nothing is read of what is no checkpoint.
+  CheckHeader(file.Read(0, kCheckpointHeaderBytes), file.Size());
+  if (file.Size() > kMostBytes) throw FileError(fmt::format("it is longer than {} bytes", kMostBytes));
+  return file.Read(0, file.Size());
+}
 
 }  // namespace
 
@@ -40,40 +129,44 @@ std::uint64_t FingerprintOf(const Experiment& experiment)
   return XXH3_64bits(text.data(), text.size());
 }
 
+CheckpointOrigin OriginOf(const Experiment& experiment)
+{
+  return {FingerprintOf(experiment), LibraryBuildsOf(experiment)};
+}
+
 std::vector<char> EncodeCheckpoint(const Checkpoint& checkpoint)
 {
-  ByteWriter bytes;
-  bytes.Put(kMagic);
-  bytes.Put(checkpoint.experiment);
-  bytes.Put(checkpoint.snapshot.tick);
-  bytes.PutArray(checkpoint.snapshot.poses);
-  bytes.PutArray(checkpoint.snapshot.attributes);
-  bytes.Put(static_cast<std::uint64_t>(checkpoint.parts.size()));
-  for (const SavedPart& part : checkpoint.parts)
-  {
-    bytes.PutText(part.name);
-    bytes.PutArray(part.state);
-  }
-  return bytes.Bytes();
+  ByteWriter writer;
+  for (const char c : kCheckpointMagic) writer.Put(c);
+  writer.Put(kCheckpointVersion);
+  writer.Put(std::uint64_t{0});
+  FieldWriter fields(writer);
+  ForEachCheckpointField(fields, checkpoint);
+  writer.Put(std::uint64_t{0});
+  std::vector<char> bytes = writer.Bytes();
+  SealCheckpoint(bytes);
+  return bytes;
+}
+
+void SealCheckpoint(std::vector<char>& bytes)
+{
+  bytes.resize(std::max(bytes.size(), kCheckpointHeaderBytes + kCheckpointChecksumBytes));
+  const std::uint64_t size = bytes.size();
+  std::memcpy(bytes.data() + kCheckpointMagic.size() + 1, &size, sizeof size);
+  const std::uint64_t checksum = ChecksumOf(bytes);
+  std::memcpy(bytes.data() + bytes.size() - sizeof checksum, &checksum, sizeof checksum);
 }
 
 Checkpoint DecodeCheckpoint(std::span<const char> bytes)
 {
-  ByteReader reader(bytes);
-  if (bytes.size() < kMagic.size() || reader.Get<std::array<char, 8>>() != kMagic)
-    throw std::runtime_error("it is not a checkpoint");
+  CheckHeader(bytes.first(std::min(bytes.size(), kCheckpointHeaderBytes)), bytes.size());
+  const std::size_t end = bytes.size() - kCheckpointChecksumBytes;
+  if (NumberAt(bytes, end) != ChecksumOf(bytes))
+    throw std::runtime_error("it is damaged: its checksum is not that of its content; go on from another one");
+  FieldReader fields(bytes.subspan(kCheckpointHeaderBytes, end - kCheckpointHeaderBytes));
   Checkpoint checkpoint;
-  checkpoint.experiment = reader.Get<std::uint64_t>();
-  checkpoint.snapshot.tick = reader.Get<std::uint64_t>();
-  checkpoint.snapshot.poses = reader.GetArray<double>();
-  checkpoint.snapshot.attributes = reader.GetArray<double>();
-  for (auto count = reader.Get<std::uint64_t>(); count > 0; --count)
-  {
-    SavedPart& part = checkpoint.parts.emplace_back();
-    part.name = reader.GetText();
-    part.state = reader.GetArray<char>();
-  }
-  if (!reader.AtEnd()) throw std::runtime_error("it is longer than its content");
+  ForEachCheckpointField(fields, checkpoint);
+  if (!fields.AtEnd()) throw std::runtime_error("it is longer than its content");
   return checkpoint;
 }
 
@@ -94,21 +187,23 @@ void WriteCheckpoint(const std::string& path, const Checkpoint& checkpoint)
   std::filesystem::rename(unfinished, path);
 }
 
-Checkpoint ReadCheckpoint(const std::string& path, const Experiment& experiment, std::size_t hosts)
+Checkpoint ReadCheckpoint(const std::string& path, const Experiment& experiment, const RestoreOptions& options)
 {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("cannot read the checkpoint '" + path + "': " + std::strerror(errno));
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   try
   {
-    Checkpoint checkpoint = DecodeCheckpoint(bytes);
-    if (checkpoint.experiment != FingerprintOf(experiment))
+    Checkpoint checkpoint = DecodeCheckpoint(ReadWhole(path));
+    if (checkpoint.origin.experiment != FingerprintOf(experiment))
       throw std::runtime_error(
           "it is of another experiment, or of other settings or another seed; restore it with the experiment.xml "
           "beside it");
+    if (!options.any_build)
+    {
+      const std::string difference = DifferenceOfBuilds(checkpoint.origin.libraries, LibraryBuildsOf(experiment));
+      if (!difference.empty()) throw std::runtime_error(difference);
+    }
     const std::size_t parts = checkpoint.parts.size();
     const std::size_t others = 1 + experiment.engines.size();
-    if (parts != others + hosts)
+    if (parts != others + options.hosts)
       throw std::runtime_error("it was taken with --controller-hosts " +
                                std::to_string(parts > others ? parts - others : 0) + "; restore it with as many");
     return checkpoint;

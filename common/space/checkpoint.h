@@ -1,8 +1,6 @@
 // Checkpoints: all that is needed to go on from a tick with the same bits as if nothing had happened. Each role saves a
-// part; whoever runs the roles puts them together. The same file serves a run in one process and a cluster.
-//
-// File: "SWARMCP1", fingerprint of the experiment (u64), tick (u64), poses of the movable entities, attributes, number
-// of parts (u64), then name and state of each; arrays as in common/serialisation/bytes.h.
+// part; whoever runs the roles puts them together. The same file serves a run in one process and a cluster; its format
+// is in checkpoint_format.h.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +10,7 @@
 
 #include "common/experiment/experiment.h"
 #include "common/serialisation/bytes.h"
+#include "common/space/library_builds.h"
 #include "common/space/messages.h"
 
 namespace swarmanoid
@@ -25,9 +24,17 @@ struct SavedPart
 };
 inline constexpr const char* kServerPart = "space server";
 
+// What a checkpoint was taken from.
+struct CheckpointOrigin
+{
+  std::uint64_t experiment = 0;  // FingerprintOf
+  std::vector<LibraryBuild> libraries;
+};
+CheckpointOrigin OriginOf(const Experiment& experiment);
+
 struct Checkpoint
 {
-  std::uint64_t experiment = 0;
+  CheckpointOrigin origin;
   SpaceSnapshot snapshot;
   std::vector<SavedPart> parts;
 
@@ -54,14 +61,22 @@ struct Checkpoint
 std::uint64_t FingerprintOf(const Experiment& experiment);
 
 std::vector<char> EncodeCheckpoint(const Checkpoint& checkpoint);
-// Throws std::runtime_error where the bytes are damaged.
+// Throws std::runtime_error where the bytes are no checkpoint, of another version of the format, cut short or damaged.
 Checkpoint DecodeCheckpoint(std::span<const char> bytes);
+// Gives bytes that were changed on purpose the length and checksum that they need to be read; for tests of readers.
+void SealCheckpoint(std::vector<char>& bytes);
 
 // The file is complete or absent: it is written beside and renamed. Throws std::runtime_error with the path.
 void WriteCheckpoint(const std::string& path, const Checkpoint& checkpoint);
-// Throws std::runtime_error, with the path, where the file cannot be read, is damaged, is of another experiment, or was
-// taken with another number of controller hosts.
-Checkpoint ReadCheckpoint(const std::string& path, const Experiment& experiment, std::size_t hosts);
+
+struct RestoreOptions
+{
+  std::size_t hosts = 1;   // controller hosts of the run that goes on
+  bool any_build = false;  // take what other builds of the libraries saved
+};
+// Throws std::runtime_error, with the path and the cure, where the file cannot be read, is damaged, is of another
+// experiment or of other builds of its libraries, or was taken with another number of controller hosts.
+Checkpoint ReadCheckpoint(const std::string& path, const Experiment& experiment, const RestoreOptions& options);
 
 // "checkpoint-00000500"
 std::string CheckpointName(std::uint64_t tick);

@@ -16,7 +16,7 @@ std::uint32_t ColourOf(double value) { return static_cast<std::uint32_t>(value);
 
 CSwarmanoidSpaceEntity::CSwarmanoidSpaceEntity(CSwarmanoidSpace& space, std::uint32_t index,
                                                const EntityConfiguration& configuration, std::uint32_t first_slot)
-    : space_(space), configuration_(configuration), index_(index), first_slot_(first_slot)
+    : configuration_(configuration), space_(space), index_(index), first_slot_(first_slot)
 {
 }
 
@@ -28,10 +28,15 @@ Quaternion CSwarmanoidSpaceEntity::GetOrientation() const { return GetPose().ori
 
 std::uint32_t CSwarmanoidSpaceEntity::SlotOf(std::string_view name, int element) const
 {
-  const int offset = AttributeOffset(GetKind(), name);
-  if (offset < 0)
+  const AttributeSpec* attribute = FindAttribute(GetKind(), name);
+  if (attribute == nullptr)
     throw std::out_of_range("entity '" + GetId() + "' (" + std::string(TagName(GetKind())) + ") has no attribute '" +
                             std::string(name) + "'");
+  if (element < 0 || element >= attribute->count)
+    throw std::out_of_range("the attribute '" + std::string(name) + "' of '" + GetId() + "' has " +
+                            std::to_string(attribute->count) + " elements, numbered from 0; there is no element " +
+                            std::to_string(element));
+  const int offset = AttributeOffset(GetKind(), name);
   return first_slot_ + static_cast<std::uint32_t>(offset + element);
 }
 
@@ -51,20 +56,20 @@ std::uint32_t CFootBotEntity::GetBeaconColour() const { return ColourOf(GetAttri
 
 double CFootBotEntity::GetGripperAperture() const { return GetAttribute("gripper_aperture"); }
 
-CSwarmanoidSpaceEntity* CFootBotEntity::GetGrippedEntity() const
+const CSwarmanoidSpaceEntity* CFootBotEntity::GetGrippedEntity() const
 {
   const auto held = static_cast<std::size_t>(GetAttribute("gripped"));
-  return held == 0 ? nullptr : &space_.GetEntity(held - 1);
+  return held == 0 ? nullptr : &Space().GetEntity(held - 1);
 }
 
 double CFootBotEntity::GetTurretAngle() const { return GetAttribute("turret_angle"); }
 
 std::uint32_t CHandBotEntity::GetLedColour(int led) const { return ColourOf(GetAttribute("led", led)); }
 
-CSwarmanoidSpaceEntity* CHandBotEntity::GetGrippedEntity(int hand) const
+const CSwarmanoidSpaceEntity* CHandBotEntity::GetGrippedEntity(int hand) const
 {
   const auto held = static_cast<std::size_t>(GetAttribute("gripped", hand));
-  return held == 0 ? nullptr : &space_.GetEntity(held - 1);
+  return held == 0 ? nullptr : &Space().GetEntity(held - 1);
 }
 
 std::uint32_t CEyeBotEntity::GetLedColour(int led) const { return ColourOf(GetAttribute("led", led)); }

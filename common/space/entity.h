@@ -1,5 +1,6 @@
 // The entities of the space: identity, pose, attributes. They hold what sensors and renderers need; masses, speeds and
-// forces live in the engines (CPhysicsEngineEntity). Thin views on the flat arrays of their space.
+// forces live in the engines (CPhysicsEngineEntity). Thin views on the flat arrays of their space: what a const space
+// gives can be read alone.
 #pragma once
 
 #include <array>
@@ -36,15 +37,20 @@ public:
   Vector3 GetPosition() const;
   Quaternion GetOrientation() const;
 
-  // The number of an attribute (attributes.h); throws std::out_of_range for a name that the kind does not have.
+  // The number of an attribute (attributes.h); throws std::out_of_range for a name that the kind does not have, and for
+  // an element beyond its number.
   double GetAttribute(std::string_view name, int element = 0) const;
+  // For the one who owns the space (the space server, a replica). Experiment functions take SpaceEditor::SetAttribute.
   void SetAttribute(std::string_view name, double value, int element = 0);
   std::uint32_t SlotOf(std::string_view name, int element = 0) const;
   std::uint32_t FirstSlot() const { return first_slot_; }
 
 protected:
-  CSwarmanoidSpace& space_;
+  const CSwarmanoidSpace& Space() const { return space_; }
   const EntityConfiguration& configuration_;
+
+private:
+  CSwarmanoidSpace& space_;
   std::uint32_t index_;
   std::uint32_t first_slot_;
 };
@@ -67,7 +73,7 @@ public:
   std::uint32_t GetBeaconColour() const;
   double GetGripperAperture() const;
   // The entity held by the gripper, or nullptr.
-  CSwarmanoidSpaceEntity* GetGrippedEntity() const;
+  const CSwarmanoidSpaceEntity* GetGrippedEntity() const;
   double GetTurretAngle() const;
 };
 
@@ -78,7 +84,7 @@ public:
   static constexpr int kLeds = 12;
   std::uint32_t GetLedColour(int led) const;
   // The entity held by a hand (0 left, 1 right), or nullptr.
-  CSwarmanoidSpaceEntity* GetGrippedEntity(int hand) const;
+  const CSwarmanoidSpaceEntity* GetGrippedEntity(int hand) const;
 };
 
 class CEyeBotEntity : public CRobotEntity

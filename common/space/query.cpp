@@ -77,13 +77,13 @@ void SpaceQuery::DropAbsent(std::vector<std::uint32_t>& entities) const
   std::erase_if(entities, [this](std::uint32_t entity) { return !space_.IsPresent(entity); });
 }
 
-CSwarmanoidSpaceEntity* SpaceQuery::FindNearest(const Vector3& point, double distance)
+const CSwarmanoidSpaceEntity* SpaceQuery::FindNearest(const Vector3& point, double distance)
 {
   const auto nearest = Index().FindNearest(point, distance);
   return nearest && space_.IsPresent(*nearest) ? &space_.GetEntity(*nearest) : nullptr;
 }
 
-CSwarmanoidSpaceEntity* SpaceQuery::FindNearest(const CSwarmanoidSpaceEntity& entity, double distance)
+const CSwarmanoidSpaceEntity* SpaceQuery::FindNearest(const CSwarmanoidSpaceEntity& entity, double distance)
 {
   const auto nearest = Index().FindNearest(entity.GetPosition(), distance, entity.GetIndex());
   return nearest && space_.IsPresent(*nearest) ? &space_.GetEntity(*nearest) : nullptr;

@@ -30,8 +30,8 @@ public:
   const std::vector<std::uint32_t>& FindWithin(const CSwarmanoidSpaceEntity& entity, double distance);
   const std::vector<std::uint32_t>& FindInBox(const Vector3& low, const Vector3& high);
   // The nearest entity within a distance; nullptr where there is none.
-  CSwarmanoidSpaceEntity* FindNearest(const Vector3& point, double distance);
-  CSwarmanoidSpaceEntity* FindNearest(const CSwarmanoidSpaceEntity& entity, double distance);
+  const CSwarmanoidSpaceEntity* FindNearest(const Vector3& point, double distance);
+  const CSwarmanoidSpaceEntity* FindNearest(const CSwarmanoidSpaceEntity& entity, double distance);
 
   struct Hit
   {

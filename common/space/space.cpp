@@ -64,17 +64,29 @@ CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(e
                              : spec.name == "intensity" ? configuration.intensity
                                                         : spec.initial;
       attributes_.insert(attributes_.end(), static_cast<std::size_t>(spec.count), initial);
+      attribute_values_.insert(attribute_values_.end(), static_cast<std::size_t>(spec.count), spec.value);
     }
     entities_.push_back(MakeEntity(*this, index, configuration, first_slot));
     index_of_id_.emplace(configuration.id, index);
     if (configuration.movable) movable_.push_back(index);
     SetPose(i, configuration.pose);
   }
+  first_presence_ = static_cast<std::uint32_t>(attributes_.size());
+  for (const EntityConfiguration& configuration : experiment.entities)
+    attributes_.push_back(configuration.waits ? 0 : 1);
+  attribute_values_.resize(attributes_.size(), AttributeValue::kPresence);
+  FindAbsent();
 }
 
 CSwarmanoidSpace::~CSwarmanoidSpace() = default;
 
-CSwarmanoidSpaceEntity* CSwarmanoidSpace::FindEntity(std::string_view id) const
+const CSwarmanoidSpaceEntity* CSwarmanoidSpace::FindEntity(std::string_view id) const
+{
+  const auto found = index_of_id_.find(id);
+  return found == index_of_id_.end() ? nullptr : entities_[found->second].get();
+}
+
+CSwarmanoidSpaceEntity* CSwarmanoidSpace::FindEntity(std::string_view id)
 {
   const auto found = index_of_id_.find(id);
   return found == index_of_id_.end() ? nullptr : entities_[found->second].get();
@@ -116,10 +128,32 @@ void CSwarmanoidSpace::SetPoses(std::span<const std::uint32_t> entities, std::sp
   }
 }
 
+void CSwarmanoidSpace::SetAttribute(std::uint32_t slot, double value)
+{
+  ++attribute_revision_;
+  attributes_[slot] = value;
+  if (slot >= first_presence_) FindAbsent();
+}
+
 void CSwarmanoidSpace::SetAttributes(const AttributeChanges& changes)
 {
-  if (!changes.slots.empty()) ++attribute_revision_;
-  for (std::size_t k = 0; k < changes.slots.size(); ++k) attributes_[changes.slots[k]] = changes.values[k];
+  if (changes.slots.empty()) return;
+  ++attribute_revision_;
+  bool presence = false;
+  for (std::size_t k = 0; k < changes.slots.size(); ++k)
+  {
+    attributes_[changes.slots[k]] = changes.values[k];
+    presence |= changes.slots[k] >= first_presence_;
+  }
+  if (presence) FindAbsent();
+}
+
+void CSwarmanoidSpace::FindAbsent()
+{
+  ++revision_;
+  absent_.clear();
+  for (std::uint32_t i = 0; i < Size(); ++i)
+    if (!IsPresent(i)) absent_.push_back(i);
 }
 
 void CSwarmanoidSpace::Apply(const SpaceState& state)
@@ -135,6 +169,7 @@ void CSwarmanoidSpace::Apply(const SpaceSnapshot& snapshot)
   SetPoses(movable_, snapshot.poses);
   attributes_ = snapshot.attributes;
   ++attribute_revision_;
+  FindAbsent();
 }
 
 void CSwarmanoidSpace::WritePoses(std::vector<double>& poses) const
@@ -162,7 +197,8 @@ std::uint64_t CSwarmanoidSpace::Hash() const
   XXH3_64bits_update(&state, &tick_, sizeof tick_);
   for (const auto* component : Components(poses_))
     XXH3_64bits_update(&state, component->data(), component->size() * sizeof(double));
-  XXH3_64bits_update(&state, attributes_.data(), attributes_.size() * sizeof(double));
+  XXH3_64bits_update(&state, attributes_.data(), first_presence_ * sizeof(double));
+  XXH3_64bits_update(&state, absent_.data(), absent_.size() * sizeof(std::uint32_t));
   return XXH3_64bits_digest(&state);
 }
 

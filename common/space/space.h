@@ -1,6 +1,7 @@
 // CSwarmanoidSpace: the 3D space in which everything is simulated. Entities with global poses, their attributes, the
-// clock. Every process holds one; the space server's is the original, the others follow it by SpaceState. One thread at
-// a time.
+// clock. Every process holds one; the space server's is the original, the others follow it by SpaceState. Whoever reads
+// (sensors, engines, renderers, experiment functions, programs of users) gets a const one, which gives const entities;
+// only the server and the replicas have one to write to. One thread at a time.
 #pragma once
 
 #include <memory>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "common/experiment/experiment.h"
+#include "common/space/attributes.h"
 #include "common/space/entity.h"
 #include "common/space/messages.h"
 
@@ -39,15 +41,23 @@ public:
   double GetTime() const { return static_cast<double>(tick_) * GetTickSeconds(); }
 
   std::size_t Size() const { return entities_.size(); }
-  CSwarmanoidSpaceEntity& GetEntity(std::size_t index) const { return *entities_[index]; }
+  const CSwarmanoidSpaceEntity& GetEntity(std::size_t index) const { return *entities_[index]; }
+  CSwarmanoidSpaceEntity& GetEntity(std::size_t index) { return *entities_[index]; }
   // nullptr where no entity has that id.
-  CSwarmanoidSpaceEntity* FindEntity(std::string_view id) const;
+  const CSwarmanoidSpaceEntity* FindEntity(std::string_view id) const;
+  CSwarmanoidSpaceEntity* FindEntity(std::string_view id);
 
   const PoseArrays& Poses() const { return poses_; }
   Pose GetPose(std::size_t index) const;
   // False for the entities of a <reserve> that were not added yet, and for those that were removed.
-  bool IsPresent(std::size_t index) const { return poses_.x[index] >= kWaitingBelow; }
+  bool IsPresent(std::size_t index) const { return attributes_[first_presence_ + index] != 0; }
+  // Those that are not in the arena, ascending.
+  std::span<const std::uint32_t> Absent() const { return absent_; }
+  // All slots: those of the entities in their order, then the presence of each, 1 or 0.
   std::span<const double> Attributes() const { return attributes_; }
+  // What each slot stands for.
+  std::span<const AttributeValue> AttributeValues() const { return attribute_values_; }
+  std::uint32_t PresenceSlot(std::size_t index) const { return first_presence_ + static_cast<std::uint32_t>(index); }
   // Indices of the entities that can move, ascending.
   std::span<const std::uint32_t> Movable() const { return movable_; }
 
@@ -61,11 +71,7 @@ public:
   void SetPose(std::size_t index, const Pose& pose);
   // poses: structure of arrays over `entities`, as in EngineUpdate.
   void SetPoses(std::span<const std::uint32_t> entities, std::span<const double> poses);
-  void SetAttribute(std::uint32_t slot, double value)
-  {
-    ++attribute_revision_;
-    attributes_[slot] = value;
-  }
+  void SetAttribute(std::uint32_t slot, double value);
   void SetAttributes(const AttributeChanges& changes);
 
   // Brings a replica to the tick of the message.
@@ -73,16 +79,22 @@ public:
   void Apply(const SpaceSnapshot& snapshot);
   void WritePoses(std::vector<double>& poses) const;  // of the movable entities, as in SpaceState
 
-  // XXH3-64 over the tick, the bits of all poses and the attributes, in entity order.
+  // XXH3-64 over the tick, the bits of all poses and the attributes, in entity order, and the indices of those that are
+  // not in the arena.
   std::uint64_t Hash() const;
 
 private:
+  void FindAbsent();
+
   const Experiment& experiment_;
   std::uint64_t tick_ = 0;
   std::uint64_t revision_ = 1;
   std::uint64_t attribute_revision_ = 1;
   PoseArrays poses_;
   std::vector<double> attributes_;
+  std::vector<AttributeValue> attribute_values_;
+  std::uint32_t first_presence_ = 0;  // slot
+  std::vector<std::uint32_t> absent_;
   std::vector<std::uint32_t> movable_;
   std::vector<std::unique_ptr<CSwarmanoidSpaceEntity>> entities_;
   std::unordered_map<std::string_view, std::uint32_t> index_of_id_;

@@ -7,6 +7,7 @@
 
 #include "common/control_interface/ci_colour.h"
 #include "common/math/elementary.h"
+#include "common/math/random.h"
 #include "controller_host/devices/sight_lines.h"
 
 namespace swarmanoid
@@ -17,6 +18,9 @@ namespace
 constexpr std::uint32_t kNoSlot = 0xffffffff;
 // A beam that meets nothing ends here, m.
 constexpr double kLongestBeam = 30;
+// Widths of the fields of a source.
+constexpr std::uint32_t kRgb = 0xffffff;
+constexpr std::uint32_t kParts = 0xff;
 
 std::uint32_t ColourIn(std::span<const double> attributes, std::uint32_t slot)
 {
@@ -105,6 +109,7 @@ void BlobSources::Refresh()
 
   const std::span<const double> attributes = space.Attributes();
   sources_.clear();
+  lit_by_.clear();
   start_.clear();
   for (const std::uint32_t entity : world_.Grid().Sorted())
   {
@@ -119,7 +124,7 @@ void BlobSources::Refresh()
   for (const std::uint32_t e : still_)
   {
     const std::uint32_t colour = ColourIn(attributes, space.GetEntity(e).SlotOf("colour"));
-    if (colour != 0) sources_.push_back({space.GetPose(e).position, colour, e});
+    if (colour != 0) sources_.push_back({space.GetPose(e).position, colour & kRgb, BlobSource::kBody, e});
   }
   for (const Laser& laser : lasers_)
     if (attributes[laser.slot] != 0) AddLaserSpot(laser);
@@ -153,26 +158,36 @@ std::size_t BlobSources::Collect(std::span<const std::int32_t> places, std::vect
   return count;
 }
 
+std::uint64_t BlobSources::NameOf(std::size_t number) const
+{
+  const BlobSource& source = sources_[number];
+  const bool is_spot = source.part == BlobSource::kLaserSpot;
+  const std::uint32_t entity = is_spot ? lit_by_[number - (sources_.size() - lit_by_.size())] : source.owner;
+  return StreamPart(world_.Names()[entity], source.part);
+}
+
 void BlobSources::AddBearer(const Bearer& bearer)
 {
   if (bearer.ring != nullptr) return AddLeds(bearer);
-  AddPoint(bearer.entity, {0, 0, bearer.middle}, ColourIn(world_.Space().Attributes(), bearer.colour_slot));
+  AddPoint(bearer.entity, {0, 0, bearer.middle}, ColourIn(world_.Space().Attributes(), bearer.colour_slot),
+           BlobSource::kBody);
 }
 
-void BlobSources::AddPoint(std::uint32_t entity, const Vector3& local, std::uint32_t colour)
+void BlobSources::AddPoint(std::uint32_t entity, const Vector3& local, std::uint32_t colour, std::uint32_t part)
 {
   if (colour == 0) return;
   const PoseArrays& poses = world_.Space().Poses();
   if (!IsUpright(poses, entity))
   {
-    sources_.push_back({world_.Space().GetPose(entity).Apply(local), colour, entity});
+    sources_.push_back({world_.Space().GetPose(entity).Apply(local), colour & kRgb, part & kParts, entity});
     return;
   }
   const Heading heading = HeadingOf(poses, entity);
   sources_.push_back(
       {{poses.x[entity] + heading.cos * local.x() - heading.sin * local.y(),
         poses.y[entity] + heading.sin * local.x() + heading.cos * local.y(), poses.z[entity] + local.z()},
-       colour,
+       colour & kRgb,
+       part & kParts,
        entity});
 }
 
@@ -183,11 +198,11 @@ void BlobSources::AddLeds(const Bearer& bearer)
   const double* leds = &attributes[bearer.led_slot];
   const auto count = static_cast<std::size_t>(ring.leds);
   if (bearer.beacon_slot != kNoSlot)
-    AddPoint(bearer.entity, {0, 0, ring.beacon_height}, ColourIn(attributes, bearer.beacon_slot));
+    AddPoint(bearer.entity, {0, 0, ring.beacon_height}, ColourIn(attributes, bearer.beacon_slot), BlobSource::kBeacon);
 
   const auto differs = [&](double value) { return value != leds[0]; };
   if (std::none_of(leds + 1, leds + count, differs))
-    return AddPoint(bearer.entity, {0, 0, ring.height}, static_cast<std::uint32_t>(leds[0]));
+    return AddPoint(bearer.entity, {0, 0, ring.height}, static_cast<std::uint32_t>(leds[0]), BlobSource::kFirstLed);
 
   SinCos turret{0, 1};
   if (ring.turns) turret = SinCosOf(attributes[bearer.turret_slot]);
@@ -206,7 +221,7 @@ void BlobSources::AddLeds(const Bearer& bearer)
     AddPoint(bearer.entity,
              {turret.cos * middle.x() - turret.sin * middle.y(), turret.sin * middle.x() + turret.cos * middle.y(),
               ring.height},
-             static_cast<std::uint32_t>(leds[i]));
+             static_cast<std::uint32_t>(leds[i]), static_cast<std::uint32_t>(BlobSource::kFirstLed + i));
   }
 }
 
@@ -227,7 +242,9 @@ void BlobSources::AddLaserSpot(const Laser& laser)
   const Vector3 to = from + length * beam;
   const double hit = world_.FirstHit(from, to, [&](std::uint32_t body) { return body != laser.entity; });
   if (hit > 1 && !reaches_floor) return;
-  sources_.push_back({from + std::min(hit, 1.0) * (to - from), colour, SightLines::kNobody});
+  sources_.push_back(
+      {from + std::min(hit, 1.0) * (to - from), colour & kRgb, BlobSource::kLaserSpot, SightLines::kNobody});
+  lit_by_.push_back(laser.entity);
 }
 
 }  // namespace swarmanoid

@@ -14,8 +14,18 @@ namespace swarmanoid
 
 struct BlobSource
 {
+  // Which of the coloured parts of an entity; LEDs of one colour on one ring are named by the first of them.
+  enum Part : std::uint32_t
+  {
+    kFirstLed = 0,
+    kBeacon = 64,
+    kBody,
+    kLaserSpot
+  };
+
   Vector3 position;  // m, in the space
-  std::uint32_t colour;
+  std::uint32_t colour : 24;
+  std::uint32_t part : 8;
   std::uint32_t owner;  // entity, or SightLines::kNobody for laser spots
 };
 
@@ -45,6 +55,8 @@ public:
   // returns how many they are.
   std::size_t Collect(std::span<const std::int32_t> places, std::vector<std::int32_t>& numbers) const;
   const BlobSource& Source(std::size_t number) const { return sources_[number]; }
+  // The name of a source for random streams, by the id of its entity and its part. Laser spots bear the eyebot's.
+  std::uint64_t NameOf(std::size_t number) const;
   // Of each source the nearest of the eight colours with the bits red (4), green (2) and blue (1); 0 is black.
   const std::uint8_t* Hues() const { return hue_.data(); }
   // No source is lower than this, m in the space.
@@ -77,7 +89,7 @@ private:
   static Ring MakeRing(int leds, double radius, double height, double beacon_height, double first_angle, bool turns);
   void AddBearer(const Bearer& bearer);
   void AddLeds(const Bearer& bearer);
-  void AddPoint(std::uint32_t entity, const Vector3& local, std::uint32_t colour);
+  void AddPoint(std::uint32_t entity, const Vector3& local, std::uint32_t colour, std::uint32_t part);
   void AddLaserSpot(const Laser& laser);
 
   SensorWorld& world_;
@@ -86,10 +98,11 @@ private:
   std::vector<Bearer> bearers_;
   std::vector<std::int32_t> bearer_of_;  // by entity, -1: none
   std::vector<Laser> lasers_;
-  std::vector<std::uint32_t> still_;  // lights and patches
-  std::vector<BlobSource> sources_;   // by place in the grid; then those on no movable body
-  std::vector<std::uint32_t> start_;  // by place in the grid, and of the others
-  std::vector<std::uint8_t> hue_;     // of each source
+  std::vector<std::uint32_t> still_;   // lights and patches
+  std::vector<BlobSource> sources_;    // by place in the grid; then those on no movable body, laser spots at last
+  std::vector<std::uint32_t> lit_by_;  // of each laser spot the eyebot
+  std::vector<std::uint32_t> start_;   // by place in the grid, and of the others
+  std::vector<std::uint8_t> hue_;      // of each source
   double lowest_ = 0;
   std::uint64_t revision_ = 0, attribute_revision_ = 0;
 };

@@ -39,7 +39,6 @@ void ColourCamera::InitCamera(const DeviceSetup& setup, CameraModel model)
   model_ = model;
   space_ = &setup.space;
   robots_ = setup.robots;
-  stream_ = setup.stream;
   const SinCos aperture = SinCosOf(model.aperture);
   tangent_ = aperture.sin / aperture.cos;
   world_ = SensorWorld::Of(setup.space);

@@ -59,7 +59,6 @@ protected:
   CameraModel model_;
   const CSwarmanoidSpace* space_ = nullptr;
   std::vector<std::uint32_t> robots_;
-  std::uint32_t stream_ = 0;
 
 private:
   struct View

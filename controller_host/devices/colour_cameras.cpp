@@ -98,6 +98,9 @@ public:
     distance_noise_ = NoiseFrom(setup.parameters, "distance_");
     angle_noise_ = NoiseFrom(setup.parameters, "angle_");
     if (kHasElevation) elevation_noise_ = NoiseFrom(setup.parameters, "elevation_");
+    distance_streams_ = DeviceStreams(setup, "distance");
+    angle_streams_ = DeviceStreams(setup, "angle");
+    elevation_streams_ = DeviceStreams(setup, "elevation");
   }
 
 protected:
@@ -109,13 +112,17 @@ protected:
       blobs[i - first] = BlobAt(this->model_.view, seen.Place(i), this->Sources().Source(seen.source[i]).colour,
                                 seen.angle[i], seen.distance[i]);
     if (!distance_noise_.IsActive() && !angle_noise_.IsActive() && !elevation_noise_.IsActive()) return;
-    RandomStream random = StreamOf(*this->space_, this->robots_[k], this->stream_);
-    for (CCI_ColourBlob& blob : blobs)
+    for (std::size_t i = first; i < behind; ++i)
     {
-      blob.distance_m = std::max(blob.distance_m + distance_noise_.Sample(random), 0.0);
-      blob.angle_rad = WrapAngle(blob.angle_rad + angle_noise_.Sample(random));
+      CCI_ColourBlob& blob = blobs[i - first];
+      const std::uint64_t name = this->Sources().NameOf(seen.source[i]);
+      if (distance_noise_.IsActive())
+        blob.distance_m = std::max(blob.distance_m + distance_noise_.Sample(distance_streams_.Of(k, name)), 0.0);
+      if (angle_noise_.IsActive())
+        blob.angle_rad = WrapAngle(blob.angle_rad + angle_noise_.Sample(angle_streams_.Of(k, name)));
       if (elevation_noise_.IsActive())
-        blob.elevation_rad = std::clamp(blob.elevation_rad + elevation_noise_.Sample(random), -kPi / 2, kPi / 2);
+        blob.elevation_rad =
+            std::clamp(blob.elevation_rad + elevation_noise_.Sample(elevation_streams_.Of(k, name)), -kPi / 2, kPi / 2);
     }
   }
 
@@ -124,6 +131,7 @@ private:
   inline static const bool kHasElevation = Traits::Model().view == CameraModel::View::kAhead;
 
   NoiseModel distance_noise_, angle_noise_, elevation_noise_;
+  DeviceStreams distance_streams_, angle_streams_, elevation_streams_;
 };
 
 // The place of a blob in the image, in whole pixels with noise, turned back into readings; some blobs are missed.
@@ -154,6 +162,8 @@ public:
     noise_ = NoiseFrom(setup.parameters);
     image_radius_ = setup.parameters.Number("image_radius");
     miss_ = setup.parameters.Number("miss_probability");
+    streams_ = DeviceStreams(setup, "pixels");
+    miss_streams_ = DeviceStreams(setup, "miss");
   }
 
 protected:
@@ -161,10 +171,11 @@ protected:
   {
     auto& blobs = this->cameras_[k].blobs;
     blobs.clear();
-    RandomStream random = StreamOf(*this->space_, this->robots_[k], this->stream_);
     for (std::size_t i = first; i < behind; ++i)
     {
-      if (miss_ > 0 && random.Uniform() < miss_) continue;
+      const std::uint64_t name = IsRandom() ? this->Sources().NameOf(seen.source[i]) : 0;
+      if (miss_ > 0 && miss_streams_.Of(k, name).Uniform() < miss_) continue;
+      RandomStream random = streams_.Of(k, name);
       const bool is_down = this->model_.view == CameraModel::View::kDown;
       const Vector3 place = is_down ? Down(seen.Place(i), random) : Ahead(seen.Place(i), random);
       blobs.push_back(BlobAt(this->model_.view, place, this->Sources().Source(seen.source[i]).colour,
@@ -174,6 +185,8 @@ protected:
   }
 
 private:
+  bool IsRandom() const { return noise_.IsActive() || miss_ > 0; }
+
   double Pixel(double coordinate, RandomStream& random) const
   {
     constexpr double kRounder = 6755399441055744.0;  // 1.5 * 2^52: adding and subtracting it rounds
@@ -205,6 +218,7 @@ private:
   }
 
   NoiseModel noise_;
+  DeviceStreams streams_, miss_streams_;
   double image_radius_ = 0;
   double miss_ = 0;
 };

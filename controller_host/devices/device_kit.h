@@ -1,13 +1,11 @@
 // Small parts that the simulated devices share: registration, and the objects that controllers hold.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <utility>
-#include <vector>
 
-#include "common/math/random.h"
 #include "controller_host/device.h"
+#include "controller_host/devices/device_streams.h"
 #include "controller_host/devices/noise.h"
 
 namespace swarmanoid
@@ -25,12 +23,6 @@ void AddActuatorPlugin(PluginDescription description)
 {
   CheckNoiseOf(PluginKind::kActuator, description);
   PluginRegistry<ActuatorBatch>::Instance().Add(std::move(description), [] { return std::make_unique<Batch>(); });
-}
-
-// The random numbers of one device of one robot at the tick of the space.
-inline RandomStream StreamOf(const CSwarmanoidSpace& space, std::uint32_t robot, std::uint32_t device)
-{
-  return {space.GetExperiment().seed, robot, device, static_cast<std::uint32_t>(space.GetTick())};
 }
 
 }  // namespace swarmanoid

@@ -21,7 +21,6 @@ public:
   void SetColour(std::uint32_t colour) override { values_[1] = colour & 0xffffff; }
   void SetDirection(double pan, double tilt) override
   {
-    if (!(pan - pan == 0 && tilt - tilt == 0)) return;  // not finite: stays as it is
     values_[2] = WrapAngle(pan);
     values_[3] = std::clamp(tilt, 0.0, MAX_TILT);
   }
@@ -53,7 +52,7 @@ public:
     const std::vector<double> wanted = values_;
     for (std::size_t k = 0; k < robots_.size(); ++k)
     {
-      RandomStream random = StreamOf(*space_, robots_[k], stream_);
+      RandomStream random = streams_.Of(k);
       ValuesOf(k)[2] = WrapAngle(ValuesOf(k)[2] + direction_noise_.Sample(random));
       ValuesOf(k)[3] = std::clamp(ValuesOf(k)[3] + direction_noise_.Sample(random), 0.0, Laser::MAX_TILT);
     }

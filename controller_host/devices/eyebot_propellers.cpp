@@ -16,7 +16,7 @@ namespace
 
 constexpr std::size_t kAxes = 4;
 
-double Clamped(double value, double limit) { return value == value ? std::clamp(value, -limit, limit) : 0; }
+double Clamped(double value, double limit) { return std::clamp(value, -limit, limit); }
 
 std::vector<ParameterSpec> SpeedLimits()
 {
@@ -115,7 +115,6 @@ public:
   }
   void SetPosition(const Vector3& position, double yaw) override
   {
-    if (!(position.allFinite() && yaw - yaw == 0)) return SetVelocity(0, 0, 0, 0);
     values_[kAxes] = 1;
     for (int axis = 0; axis < 3; ++axis) values_[kAxes + 1 + static_cast<std::size_t>(axis)] = position[axis];
     values_[kAxes + 4] = yaw;
@@ -166,7 +165,7 @@ public:
       else
         std::copy_n(ValuesOf(k), kAxes, velocity);
       if (!noise_.IsActive()) continue;
-      RandomStream random = StreamOf(*space_, robots_[k], stream_);
+      RandomStream random = streams_.Of(k);
       for (std::size_t axis = 0; axis < kAxes; ++axis)
       {
         const double noise = noise_.Sample(random);

@@ -17,7 +17,7 @@ class Gripper : public CCI_FootBotGripperActuator
 {
 public:
   explicit Gripper(double* closed) : closed_(closed) {}
-  void SetGripper(double closed) override { *closed_ = std::clamp(closed == closed ? closed : 0.0, 0.0, 1.0); }
+  void SetGripper(double closed) override { *closed_ = std::clamp(closed, 0.0, 1.0); }
 
   void Describe(std::vector<CCI_Reading>& readings) const override { readings.push_back({"closed", "", *closed_}); }
 
@@ -31,7 +31,6 @@ public:
   void Init(const DeviceSetup& setup) override
   {
     Reset(setup, 1);
-    stream_ = ActuatorStream(setup.stream);
     noise_ = NoiseFrom(setup.parameters);
     least_ = 0;
     most_ = 1;
@@ -72,7 +71,7 @@ public:
     if (!aperture_noise_.IsActive()) return;
     for (std::size_t k = 0; k < robots_.size(); ++k)
     {
-      RandomStream random = StreamOf(*space_, robots_[k], stream_);
+      RandomStream random = streams_.Of(k);
       double& aperture = ValuesOf(k)[0];
       aperture = std::clamp(aperture + aperture_noise_.Sample(random), 0.0, CCI_FootBotGripperSensor::OPEN_APERTURE);
     }

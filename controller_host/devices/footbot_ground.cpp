@@ -126,7 +126,7 @@ private:
       if (patch.Contains(relative.position.x(), relative.position.y())) values[kColourValue] = colour;
     }
     if (!ground_noise_.IsActive()) return;
-    RandomStream random = StreamOf(*space_, robots_[k], stream_);
+    RandomStream random = streams_.Of(k);
     for (std::size_t i = 0; i < kSensors; ++i)
       values[i] = std::clamp(values[i] + ground_noise_.Sample(random), 0.0, 1.0);
   }

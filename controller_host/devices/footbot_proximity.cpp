@@ -59,7 +59,7 @@ void FootbotProximity::Init(const DeviceSetup& setup)
 {
   world_ = SensorWorld::Of(setup.space);
   robots_ = setup.robots;
-  stream_ = setup.stream;
+  streams_ = DeviceStreams(setup);
   range_ = setup.parameters.Number("range");
   noise_ = NoiseFrom(setup.parameters);
   for (unsigned i = 0; i < kRays; ++i)
@@ -126,7 +126,7 @@ void FootbotProximity::Sense(std::size_t k, std::uint32_t robot)
   dirty_[k] = touched_;
 
   if (!noise_.IsActive()) return;
-  RandomStream random = StreamOf(world_->Space(), robot, stream_);
+  RandomStream random = streams_.Of(k);
   for (unsigned i = 0; i < kRays; ++i) readings[i] = std::clamp(readings[i] + noise_.Sample(random), 0.0, 1.0);
   dirty_[k] = true;
 }

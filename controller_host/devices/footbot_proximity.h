@@ -7,6 +7,7 @@
 
 #include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
 #include "controller_host/device.h"
+#include "controller_host/devices/device_streams.h"
 #include "controller_host/devices/noise.h"
 #include "controller_host/devices/sensor_world.h"
 #include "controller_host/devices/value_devices.h"
@@ -51,7 +52,7 @@ private:
   std::unique_ptr<FixedBodies> fixed_;
   double ring_radius_ = 0;  // m: where the rays start
   NoiseModel noise_;
-  std::uint32_t stream_ = 0;
+  DeviceStreams streams_;
 
   Rays ray_cos_{}, ray_sin_{};
   Rays distances_{};      // of the robot being sensed

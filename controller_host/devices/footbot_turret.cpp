@@ -20,10 +20,7 @@ class Turret : public CCI_FootBotTurretActuator
 {
 public:
   explicit Turret(double* velocity) : velocity_(velocity) {}
-  void SetTurretAngularVelocity(double velocity) override
-  {
-    *velocity_ = velocity == velocity ? std::clamp(velocity, -limit, limit) : 0;
-  }
+  void SetTurretAngularVelocity(double velocity) override { *velocity_ = std::clamp(velocity, -limit, limit); }
 
   void Describe(std::vector<CCI_Reading>& readings) const override
   {

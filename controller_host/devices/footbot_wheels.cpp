@@ -29,16 +29,14 @@ void DummyFootbotWheels::Init(const DeviceSetup& setup)
 {
   limit_ = setup.parameters.Number("max_speed") / kRadius;
   wheels_.resize(setup.robots.size());
-  space_ = &setup.space;
-  robots_ = setup.robots;
-  stream_ = setup.stream;
+  streams_ = DeviceStreams(setup);
   noise_ = NoiseFrom(setup.parameters);
 }
 
 double DummyFootbotWheels::Clamped(double velocity) const
 {
-  // A NaN stops the wheel: it must not reach the engine.
-  return velocity == velocity ? std::clamp(velocity, -limit_, limit_) : 0.0;
+  // A NaN stays one: the host says whose it is.
+  return std::clamp(velocity, -limit_, limit_);
 }
 
 void DummyFootbotWheels::Commit(const ChannelView& channel, AttributeChanges&)
@@ -55,9 +53,9 @@ void DummyFootbotWheels::Commit(const ChannelView& channel, AttributeChanges&)
 void DummyFootbotWheels::AddNoise(const ChannelView& channel) const
 {
   if (!noise_.IsActive()) return;
-  for (std::size_t k = 0; k < robots_.size(); ++k)
+  for (std::size_t k = 0; k < wheels_.size(); ++k)
   {
-    RandomStream random = StreamOf(*space_, robots_[k], stream_);
+    RandomStream random = streams_.Of(k);
     double* values = &channel.values[channel.offsets[k]];
     for (std::size_t side = 0; side < 2; ++side)
     {
@@ -163,7 +161,9 @@ void PidFootbotWheels::SaveState(ByteWriter& state) const
 void PidFootbotWheels::LoadState(ByteReader& state)
 {
   DummyFootbotWheels::LoadState(state);
-  velocity_ = state.GetArray<std::array<double, 2>>();
+  const auto velocity = state.GetArray<std::array<double, 2>>();
+  if (velocity.size() != velocity_.size()) throw std::runtime_error("saved state: a device has other robots");
+  velocity_ = velocity;
 }
 
 void RegisterFootbotWheels()

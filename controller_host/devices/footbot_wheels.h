@@ -8,6 +8,7 @@
 
 #include "common/control_interface/footbot/ci_footbot_wheels_actuator.h"
 #include "controller_host/device.h"
+#include "controller_host/devices/device_streams.h"
 #include "controller_host/devices/noise.h"
 
 namespace swarmanoid
@@ -47,9 +48,7 @@ protected:
   std::vector<SimulatedFootbotWheels> wheels_;
 
 private:
-  const CSwarmanoidSpace* space_ = nullptr;
-  std::vector<std::uint32_t> robots_;
-  std::uint32_t stream_ = 0;
+  DeviceStreams streams_;
   NoiseModel noise_;  // m/s on the ground
 };
 

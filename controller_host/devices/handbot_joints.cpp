@@ -21,7 +21,7 @@ constexpr int kArmChannelWidth = 5;
 double Clamped(double velocity)
 {
   constexpr double kLimit = CCI_HandBotArmsActuator::MAX_SPEED;
-  return velocity == velocity ? std::clamp(velocity, -kLimit, kLimit) : 0;
+  return std::clamp(velocity, -kLimit, kLimit);
 }
 
 class Head : public CCI_HandBotHeadActuator
@@ -138,7 +138,7 @@ public:
       double* values = ValuesOf(k);
       for (const auto holds : {Joints::HOLDS_LEFT, Joints::HOLDS_RIGHT}) values[holds] = values[holds] != 0 ? 1 : 0;
       if (!joint_noise_.IsActive()) continue;
-      RandomStream random = StreamOf(*space_, robots_[k], stream_);
+      RandomStream random = streams_.Of(k);
       for (std::size_t i = 0; i <= Joints::HAND_RIGHT; ++i) values[i] += joint_noise_.Sample(random);
     }
   }

@@ -20,7 +20,7 @@ public:
   void Release() override { values_[0] = 0; }
   void SetWinchVelocity(double velocity) override
   {
-    values_[1] = velocity == velocity ? std::clamp(velocity, -MAX_WINCH_SPEED, MAX_WINCH_SPEED) : 0;
+    values_[1] = std::clamp(velocity, -MAX_WINCH_SPEED, MAX_WINCH_SPEED);
   }
 
   void Describe(std::vector<CCI_Reading>& readings) const override
@@ -48,7 +48,7 @@ public:
     if (!winch_noise_.IsActive()) return;
     for (std::size_t k = 0; k < robots_.size(); ++k)
     {
-      RandomStream random = StreamOf(*space_, robots_[k], stream_);
+      RandomStream random = streams_.Of(k);
       double& winch = channel.values[channel.offsets[k] + 1];
       const double noise = winch_noise_.Sample(random);
       if (winch != 0) winch += noise;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/math/normal.h"
 #include "common/plugins/parameter_checks.h"
 
 namespace swarmanoid
@@ -24,14 +25,28 @@ void CheckSet(const Parameters& parameters, const std::string& prefix, std::vect
     for (const char* name : {"noise_mean", "noise_deviation", "noise_range"})
       if (is_given(name))
       {
-        mistakes.emplace_back(tree.ValueLocation(prefix + name),
-                              quoted(name) + of + " has no effect without " + quoted("noise_kind") +
-                                  "; give that too: uniform or gaussian, or none to switch the noise off");
+        mistakes.emplace_back(
+            tree.ValueLocation(prefix + name),
+            quoted(name) + of + " has no effect without " + quoted("noise_kind") +
+                "; give that too: uniform, gaussian or truncated_gaussian, or none to switch the noise off");
         return;
       }
     return;
   }
   const std::string kind = parameters.Text(prefix + "noise_kind");
+  if (kind == "truncated_gaussian")
+  {
+    for (const char* name : {"noise_deviation", "noise_range"})
+      if (!is_given(name))
+      {
+        mistakes.emplace_back(tree.ValueLocation(prefix + "noise_kind"),
+                              quoted("noise_kind") + of + " is truncated_gaussian, which needs " +
+                                  quoted("noise_deviation") + " and " + quoted("noise_range") + "; give " +
+                                  quoted(name) + " too, or take gaussian, which needs no range");
+        return;
+      }
+    return;
+  }
   const char* needed = kind == "uniform" ? "noise_range" : kind == "gaussian" ? "noise_deviation" : nullptr;
   if (needed == nullptr || is_given(needed) || is_given("noise_mean")) return;
   mistakes.emplace_back(tree.ValueLocation(prefix + "noise_kind"),
@@ -46,12 +61,14 @@ double NoiseModel::Sample(RandomStream& random) const
   switch (kind)
   {
     case Kind::kUniform:
-      return mean + random.Uniform(-range, range);
+      return mean + 2 * range * random.Centred();
     case Kind::kGaussian:
     {
-      const double sample = random.Gaussian(0, deviation);
+      const double sample = deviation * NormalQuantile(random.Centred());
       return mean + (range > 0 ? std::clamp(sample, -range, range) : sample);
     }
+    case Kind::kTruncatedGaussian:
+      return mean + std::clamp(deviation * NormalQuantile(2 * mass * random.Centred()), -range, range);
     default:
       return 0;
   }
@@ -59,38 +76,44 @@ double NoiseModel::Sample(RandomStream& random) const
 
 std::vector<ParameterSpec> NoiseParameters(const std::string& of, const std::string& unit, const std::string& prefix)
 {
-  return {{.name = prefix + "noise_kind",
-           .type = ParameterType::kChoice,
-           .unit = "",
-           .default_value = "none",
-           .description = "Kind of the noise added to " + of + ".",
-           .choices = {"none", "uniform", "gaussian"}},
-          {.name = prefix + "noise_mean",
-           .unit = unit,
-           .default_value = "0",
-           .description = "Mean of the noise on " + of + ": a systematic error."},
-          {.name = prefix + "noise_deviation",
-           .unit = unit,
-           .default_value = "0",
-           .description = "Standard deviation of Gaussian noise on " + of + ".",
-           .minimum = 0},
-          {.name = prefix + "noise_range",
-           .unit = unit,
-           .default_value = "0",
-           .description = "Uniform noise lies within the mean +- this; Gaussian noise is cut to it where it is not 0.",
-           .minimum = 0}};
+  return {
+      {.name = prefix + "noise_kind",
+       .type = ParameterType::kChoice,
+       .unit = "",
+       .default_value = "none",
+       .description = "Kind of the noise added to " + of + ".",
+       .choices = {"none", "uniform", "gaussian", "truncated_gaussian"}},
+      {.name = prefix + "noise_mean",
+       .unit = unit,
+       .default_value = "0",
+       .description = "Mean of the noise on " + of + ": a systematic error."},
+      {.name = prefix + "noise_deviation",
+       .unit = unit,
+       .default_value = "0",
+       .description = "Standard deviation of Gaussian noise on " + of + ".",
+       .minimum = 0},
+      {.name = prefix + "noise_range",
+       .unit = unit,
+       .default_value = "0",
+       .description =
+           "Uniform noise lies within the mean +- this. Gaussian noise beyond it is put onto its border where it is "
+           "not 0; truncated Gaussian noise is drawn from within it.",
+       .minimum = 0}};
 }
 
 NoiseModel NoiseFrom(const Parameters& parameters, const std::string& prefix)
 {
   const std::string kind = parameters.Text(prefix + "noise_kind");
   NoiseModel noise;
-  noise.kind = kind == "uniform"    ? NoiseModel::Kind::kUniform
-               : kind == "gaussian" ? NoiseModel::Kind::kGaussian
-                                    : NoiseModel::Kind::kNone;
+  noise.kind = kind == "uniform"              ? NoiseModel::Kind::kUniform
+               : kind == "gaussian"           ? NoiseModel::Kind::kGaussian
+               : kind == "truncated_gaussian" ? NoiseModel::Kind::kTruncatedGaussian
+                                              : NoiseModel::Kind::kNone;
   noise.mean = parameters.Number(prefix + "noise_mean");
   noise.deviation = parameters.Number(prefix + "noise_deviation");
   noise.range = parameters.Number(prefix + "noise_range");
+  if (noise.kind == NoiseModel::Kind::kTruncatedGaussian && noise.deviation > 0)
+    noise.mass = NormalMass(noise.range / noise.deviation);
   return noise;
 }
 

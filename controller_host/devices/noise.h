@@ -1,4 +1,5 @@
-// The one noise model of all sensors and actuators: uniform or Gaussian, from the counter-based streams.
+// The one noise model of all sensors and actuators, from the counter-based streams. Each sample takes one uniform
+// number, whatever the kind: another kind or size of noise disturbs by the same numbers, scaled.
 #pragma once
 
 #include <string>
@@ -17,16 +18,19 @@ struct NoiseModel
   {
     kNone,
     kUniform,   // mean + U(-range, range)
-    kGaussian,  // mean + N(0, deviation), cut to mean +- range where range is positive
+    kGaussian,  // mean + N(0, deviation), what lies beyond mean +- range put onto the border where range is positive
+    kTruncatedGaussian,  // mean + N(0, deviation) given that it lies within mean +- range
   };
 
   Kind kind = Kind::kNone;
   double mean = 0;
   double deviation = 0;
   double range = 0;
+  double mass = 0;  // truncated: of the normal distribution within 0 ... range
 
   bool IsActive() const { return kind != Kind::kNone; }
   double Sample(RandomStream& random) const;
+  double Sample(RandomStream&& random) const { return Sample(random); }
 };
 
 // The parameters <prefix>noise_kind, ..._mean, ..._deviation and ..._range, in `unit`. `of` says what is disturbed:

@@ -70,6 +70,7 @@ public:
     // The eye of the omnidirectional camera.
     InitCamera(setup, {CameraModel::View::kDown, {0, 0, 0.2887}, 0, 0});
     noise_ = NoiseFrom(setup.parameters);
+    streams_ = DeviceStreams(setup);
     sectors_ = static_cast<unsigned>(setup.parameters.Integer("sectors"));
     pies_.assign(setup.robots.size(), Pie(sectors_));
   }
@@ -105,13 +106,12 @@ protected:
     const std::size_t sectors = sectors_;
     const bool is_noisy = noise_.IsActive();
     unsigned colours = 0;
-    RandomStream random = StreamOf(*space_, robots_[k], stream_);
     for (std::size_t i = first; i < behind; ++i)
     {
       const std::size_t hue = hues[source[i]];
       if (hue == 0) continue;
       double distance = distances[i];
-      if (is_noisy) distance = std::max(distance + noise_.Sample(random), 0.0);
+      if (is_noisy) distance = std::max(distance + noise_.Sample(streams_.Of(k, Sources().NameOf(source[i]))), 0.0);
       Pie::Slice& slice = slices[(hue - 1) * sectors + static_cast<std::size_t>(sector[i])];
       slice.distance_m = std::min(slice.distance_m, distance);
       ++slice.blobs;
@@ -124,6 +124,7 @@ private:
   unsigned sectors_ = 1;
   std::vector<std::int32_t> sector_;  // of each blob seen
   NoiseModel noise_;
+  DeviceStreams streams_;
   std::vector<Pie> pies_;
 };
 

@@ -1,5 +1,6 @@
 // Showing a direction on the footbot's LED ring: lights the LEDs nearest to it. The ring turns with the turret, so the
 // lit LEDs are chosen anew each tick. Generic.
+#include "common/control_interface/ci_robot.h"
 #include "common/control_interface/footbot/ci_footbot_preferential_direction_actuator.h"
 #include "common/math/elementary.h"
 #include "controller_host/devices/builtin_devices.h"
@@ -20,7 +21,10 @@ class Direction : public CCI_FootBotPreferentialDirectionActuator
 public:
   void SetDirection(double angle, std::uint32_t colour) override
   {
-    if (angle - angle == 0) angle_ = WrapAngle(angle);
+    if (angle - angle != 0)
+      throw CCI_DeviceError("footbot_preferential_direction was told the direction " + std::to_string(angle) +
+                            "; it must be a finite number");
+    angle_ = WrapAngle(angle);
     colour_ = colour & 0xffffff;
   }
   void HideDirection() override { colour_ = 0; }
@@ -92,7 +96,7 @@ private:
     double on_ring = direction.angle_ - space_->Attributes()[turret_slots_[k]] - kFirstLed;
     if (direction_noise_.IsActive())
     {
-      RandomStream random = StreamOf(*space_, robots_[k], stream_);
+      RandomStream random = streams_.Of(k);
       on_ring += direction_noise_.Sample(random);
     }
     double nearest = kPi;

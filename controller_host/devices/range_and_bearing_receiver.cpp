@@ -58,12 +58,17 @@ public:
   {
     world_ = SensorWorld::Of(setup.space);
     robots_ = setup.robots;
-    stream_ = setup.stream;
+    loss_streams_ = DeviceStreams(setup, "loss");
+    range_streams_ = DeviceStreams(setup, "range");
+    bearing_streams_ = DeviceStreams(setup, "bearing");
+    vertical_bearing_streams_ = DeviceStreams(setup, "vertical_bearing");
     range_ = setup.parameters.Number("range");
     loss_ = setup.parameters.Number("loss_probability");
     range_noise_ = NoiseFrom(setup.parameters, "range_");
     bearing_noise_ = NoiseFrom(setup.parameters, "bearing_");
     vertical_bearing_noise_ = NoiseFrom(setup.parameters, "vertical_bearing_");
+    has_noise_ = range_noise_.IsActive() || bearing_noise_.IsActive() || vertical_bearing_noise_.IsActive();
+    if (has_noise_ || loss_ > 0) names_ = world_->Names();
     lines_ = std::make_unique<SightLines>(*world_, range_);
     receivers_.resize(robots_.size());
     place_of_entity_.assign(setup.space.Size(), -1);
@@ -92,11 +97,10 @@ private:
     RangeAndBearingMessage bytes{};
     bool is_sent = false;
   };
-  // Where those heard by one robot end in the list of all; noise goes on where losses have ended.
+  // Where those heard by one robot end in the list of all.
   struct Ear
   {
     std::size_t k, behind;
-    RandomStream random;
   };
 
   void ReadMessages()
@@ -135,18 +139,17 @@ private:
     else
       ListenThenLook(robot);
 
-    RandomStream random = StreamOf(space, robot, stream_);
     if (loss_ > 0)
     {
       KeepSenders(first);
-      KeepOnly(first, [&](std::size_t) { return random.Uniform() >= loss_; });
+      KeepOnly(first, [&](std::size_t i) { return loss_streams_.Of(k, SenderOf(i)).Uniform() >= loss_; });
     }
     if (IsUpright(space.Poses(), robot))
       heard_.Turn(first, HeadingOf(space.Poses(), robot));
     else
       heard_.Turn(first, space.GetPose(robot).orientation.toRotationMatrix().transpose());
 
-    ears_.push_back({k, heard_.count, random});
+    ears_.push_back({k, heard_.count});
     constexpr std::size_t kManyAtATime = 128;
     if (heard_.count >= kManyAtATime) Deliver();
   }
@@ -246,7 +249,7 @@ private:
     for (Ear& ear : ears_)
     {
       MakePackets(receivers_[ear.k], first, ear.behind);
-      AddNoise(receivers_[ear.k], ear.random);
+      if (has_noise_) AddNoise(ear.k, first, ear.behind);
       first = ear.behind;
     }
     ears_.clear();
@@ -274,24 +277,43 @@ private:
     receiver.count = count;
   }
 
-  void AddNoise(Receiver& receiver, RandomStream& random) const
+  // The name of a sender in the list of those heard.
+  std::uint64_t SenderOf(std::size_t i) const
   {
-    if (!range_noise_.IsActive() && !bearing_noise_.IsActive() && !vertical_bearing_noise_.IsActive()) return;
-    for (std::size_t i = 0; i < receiver.count; ++i)
+    return names_[world_->Grid().Sorted()[static_cast<std::size_t>(heard_.At().place[i])]];
+  }
+
+  // To the packets that MakePackets made of the same.
+  void AddNoise(std::size_t k, std::size_t first, std::size_t behind)
+  {
+    const HeardSenders::Lanes& from = heard_.At();
+    const double largest = range_ * range_;
+    CCI_RangeAndBearingSensor::Packet* packet = receivers_[k].packets.data();
+    for (std::size_t i = first; i < behind; ++i)
     {
-      CCI_RangeAndBearingSensor::Packet& packet = receiver.packets[i];
-      if (range_noise_.IsActive()) packet.range_m = std::max(packet.range_m + range_noise_.Sample(random), 0.0);
-      if (bearing_noise_.IsActive()) packet.bearing_rad = WrapAngle(packet.bearing_rad + bearing_noise_.Sample(random));
-      if (vertical_bearing_noise_.IsActive())
-        packet.vertical_bearing_rad =
-            std::clamp(packet.vertical_bearing_rad + vertical_bearing_noise_.Sample(random), -kPi / 2, kPi / 2);
+      if (!messages_[static_cast<std::size_t>(from.place[i])].is_sent || from.square[i] > largest) continue;
+      Disturb(*packet++, k, SenderOf(i));
     }
+  }
+
+  void Disturb(CCI_RangeAndBearingSensor::Packet& packet, std::size_t k, std::uint64_t sender) const
+  {
+    const auto drawn = [=](const NoiseModel& noise, const DeviceStreams& streams)
+    { return noise.Sample(streams.Of(k, sender)); };
+    if (range_noise_.IsActive()) packet.range_m = std::max(packet.range_m + drawn(range_noise_, range_streams_), 0.0);
+    if (bearing_noise_.IsActive())
+      packet.bearing_rad = WrapAngle(packet.bearing_rad + drawn(bearing_noise_, bearing_streams_));
+    if (vertical_bearing_noise_.IsActive())
+      packet.vertical_bearing_rad = std::clamp(
+          packet.vertical_bearing_rad + drawn(vertical_bearing_noise_, vertical_bearing_streams_), -kPi / 2, kPi / 2);
   }
 
   std::shared_ptr<SensorWorld> world_;
   std::unique_ptr<SightLines> lines_;
   std::vector<std::uint32_t> robots_;
-  std::uint32_t stream_ = 0;
+  std::span<const std::uint64_t> names_;  // of the entities for random streams; empty where none are drawn
+  bool has_noise_ = false;
+  DeviceStreams loss_streams_, range_streams_, bearing_streams_, vertical_bearing_streams_;
   double range_ = 0, loss_ = 0;
   NoiseModel range_noise_, bearing_noise_, vertical_bearing_noise_;
   std::vector<std::uint32_t> message_slots_;   // by entity

@@ -41,7 +41,6 @@ public:
   void Init(const DeviceSetup& setup) override
   {
     Bind(setup, {"message"});
-    stream_ = ActuatorStream(setup.stream);
     byte_noise_ = NoiseFrom(setup.parameters);
     MakeDevices();
   }
@@ -59,7 +58,7 @@ private:
   void Disturb(std::size_t k)
   {
     RangeAndBearingMessage message = UnpackedMessage(&ValuesOf(k)[1]);
-    RandomStream random = StreamOf(*space_, robots_[k], stream_);
+    RandomStream random = streams_.Of(k);
     for (std::uint8_t& byte : message)
       byte = static_cast<std::uint8_t>(std::clamp(byte + byte_noise_.Sample(random) + 0.5, 0.0, 255.0));
     PackMessage(message, &ValuesOf(k)[1]);

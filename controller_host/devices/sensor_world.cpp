@@ -3,6 +3,8 @@
 #include <map>
 #include <mutex>
 
+#include "common/math/random.h"
+
 namespace swarmanoid
 {
 
@@ -33,6 +35,14 @@ std::shared_ptr<SensorWorld> SensorWorld::Of(const CSwarmanoidSpace& space)
     worlds[&space] = world;
   }
   return world;
+}
+
+std::span<const std::uint64_t> SensorWorld::Names()
+{
+  if (names_.empty())
+    for (std::uint32_t entity = 0; entity < space_.Size(); ++entity)
+      names_.push_back(StreamName(space_.GetEntity(entity).GetId()));
+  return names_;
 }
 
 void SensorWorld::Refresh()

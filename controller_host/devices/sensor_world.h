@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "controller_host/devices/body_shapes.h"
@@ -43,6 +44,8 @@ public:
   std::span<const BodyShape> Bodies() const { return bodies_; }
   const EngineMembership& Membership() const { return membership_; }
   const NeighbourGrid& Grid() const { return grid_; }
+  // StreamName of the id of each entity; made when first asked for. Valid as long as the world.
+  std::span<const std::uint64_t> Names();
   const SensedTerrain& Terrain() const { return terrain_; }
 
 private:
@@ -53,6 +56,7 @@ private:
   NeighbourGrid grid_;
   FixedBodies fixed_;
   SensedTerrain terrain_;
+  std::vector<std::uint64_t> names_;
   std::uint64_t revision_;  // of the poses in the grid
 };
 

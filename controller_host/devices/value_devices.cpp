@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/space/attribute_changes.h"
 #include "common/space/attributes.h"
 #include "controller_host/devices/device_kit.h"
 
@@ -30,7 +31,7 @@ void ValueActuator::Reset(const DeviceSetup& setup, std::size_t width)
 {
   space_ = &setup.space;
   robots_ = setup.robots;
-  stream_ = setup.stream;
+  streams_ = DeviceStreams(setup);
   width_ = width;
   values_.assign(robots_.size() * width, 0);
 }
@@ -50,7 +51,7 @@ void ChannelActuator::Commit(const ChannelView& channel, AttributeChanges&)
     double* target = &channel.values[channel.offsets[k] + first_];
     std::copy_n(values, width_, target);
     if (!noise_.IsActive()) continue;
-    RandomStream random = StreamOf(*space_, robots_[k], stream_);
+    RandomStream random = streams_.Of(k);
     for (std::size_t i = 0; i < width_; ++i)
     {
       const double noise = noise_.Sample(random);
@@ -69,31 +70,28 @@ void AttributeActuator::Bind(const DeviceSetup& setup, const std::vector<std::st
 void AttributeActuator::Commit(const ChannelView&, AttributeChanges& changes)
 {
   if (colour_noise_.IsActive()) return CommitWithNoise(changes);
-  const std::span<const double> attributes = space_->Attributes();
-  for (std::size_t i = 0; i < slots_.size(); ++i)
-    if (attributes[slots_[i]] != values_[i]) changes.Add(slots_[i], values_[i]);
+  ReportChanges(slots_, values_, space_->Attributes(), changes);
 }
 
 void AttributeActuator::CommitWithNoise(AttributeChanges& changes) const
 {
-  const std::span<const double> attributes = space_->Attributes();
-  std::vector<double> shown(width_);
+  std::vector<double> shown(values_.size());
   for (std::size_t k = 0; k < robots_.size(); ++k)
   {
-    RandomStream random = StreamOf(*space_, robots_[k], stream_);
     const std::span<const double> wanted(&values_[k * width_], width_);
     for (std::size_t i = 0; i < width_; ++i)
     {
       // What was told one colour stays of one colour: cameras make one blob of it.
       const auto same = static_cast<std::size_t>(std::find(wanted.begin(), wanted.end(), wanted[i]) - wanted.begin());
-      shown[i] = same < i ? shown[same] : Disturbed(static_cast<std::uint32_t>(wanted[i]), random);
-      const std::uint32_t slot = slots_[k * width_ + i];
-      if (attributes[slot] != shown[i]) changes.Add(slot, shown[i]);
+      double* its = &shown[k * width_];
+      its[i] =
+          same < i ? its[same] : Disturbed(static_cast<std::uint32_t>(wanted[i]), streams_.Of(k, StreamPart(0, i)));
     }
   }
+  ReportChanges(slots_, shown, space_->Attributes(), changes);
 }
 
-std::uint32_t AttributeActuator::Disturbed(std::uint32_t colour, RandomStream& random) const
+std::uint32_t AttributeActuator::Disturbed(std::uint32_t colour, RandomStream random) const
 {
   if (colour == 0) return 0;
   std::uint32_t disturbed = 0;
@@ -114,7 +112,7 @@ void ValueSensor::Reset(const DeviceSetup& setup, std::size_t width)
 {
   space_ = &setup.space;
   robots_ = setup.robots;
-  stream_ = setup.stream;
+  streams_ = DeviceStreams(setup);
   width_ = width;
   values_.assign(robots_.size() * width, 0);
 }
@@ -124,7 +122,7 @@ void ValueSensor::AddNoise()
   if (!noise_.IsActive()) return;
   for (std::size_t k = 0; k < robots_.size(); ++k)
   {
-    RandomStream random = StreamOf(*space_, robots_[k], stream_);
+    RandomStream random = streams_.Of(k);
     for (std::size_t i = 0; i < width_; ++i) ValuesOf(k)[i] += noise_.Sample(random);
   }
 }

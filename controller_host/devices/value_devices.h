@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "controller_host/device.h"
+#include "controller_host/devices/device_streams.h"
 #include "controller_host/devices/noise.h"
 
 namespace swarmanoid
@@ -26,7 +27,7 @@ protected:
 
   const CSwarmanoidSpace* space_ = nullptr;
   std::vector<std::uint32_t> robots_;
-  std::uint32_t stream_ = 0;
+  DeviceStreams streams_;
   std::size_t width_ = 0;
   std::vector<double> values_;  // robot after robot
 };
@@ -60,16 +61,13 @@ protected:
 
 private:
   void CommitWithNoise(AttributeChanges& changes) const;
-  std::uint32_t Disturbed(std::uint32_t colour, RandomStream& random) const;
+  std::uint32_t Disturbed(std::uint32_t colour, RandomStream random) const;
 
   std::vector<std::uint32_t> slots_;  // robot after robot
 };
 
 // Of colour_noise_.
 std::vector<ParameterSpec> ColourNoiseParameters();
-
-// Where a sensor and an actuator bear one name, the actuator's random numbers are named by this.
-constexpr std::uint32_t ActuatorStream(std::uint32_t stream) { return stream ^ StreamName("actuator"); }
 
 // Numbers that controllers read.
 class ValueSensor : public SensorBatch
@@ -81,7 +79,7 @@ protected:
 
   const CSwarmanoidSpace* space_ = nullptr;
   std::vector<std::uint32_t> robots_;
-  std::uint32_t stream_ = 0;
+  DeviceStreams streams_;
   std::size_t width_ = 0;
   std::vector<double> values_;
   NoiseModel noise_;

@@ -301,19 +301,28 @@ void PlaneRobots::SaveState(ByteWriter& state) const
 
 void PlaneRobots::LoadState(ByteReader& state)
 {
+  // 1 + an entity of raised_, or 0.
+  const auto raised_number = [&]
+  {
+    const auto number = state.Get<std::uint32_t>();
+    const auto is_it = [&](const Raised& raised) { return raised.entity + 1 == number; };
+    if (number != 0 && std::none_of(raised_.begin(), raised_.end(), is_it))
+      throw std::runtime_error("saved state: a hand holds an entity that the engine does not have");
+    return number;
+  };
   for (Handbot& handbot : handbots_)
   {
     for (double* const value : {&handbot.head, &handbot.arm[0], &handbot.arm[1], &handbot.wrist[0], &handbot.wrist[1],
                                 &handbot.aperture[0], &handbot.aperture[1], &handbot.rope})
       *value = state.Get<double>();
-    for (std::uint32_t& held : handbot.held) held = state.Get<std::uint32_t>();
+    for (std::uint32_t& held : handbot.held) held = raised_number();
     handbot.is_hanging = state.Get<bool>();
   }
   for (Raised& raised : raised_)
   {
     raised.height = state.Get<double>();
     raised.fall = state.Get<double>();
-    raised.bearer = state.Get<std::uint32_t>();
+    raised.bearer = raised_number();
     raised.above_bearer = state.Get<double>();
   }
 }

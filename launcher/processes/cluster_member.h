@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "launcher/processes/attribution.h"
 #include "launcher/processes/line_splitter.h"
 #include "launcher/processes/process.h"
 #include "launcher/processes/process_log.h"
@@ -48,6 +49,7 @@ public:
   const MemberPlan& Plan() const { return plan_; }
   const std::string& Name() const { return plan_.command.name; }
   const SpawnedProcess& Process() const { return process_; }
+  ActivityRecord Record() const { return ReadActivity(process_.activity.get()); }
   const ProcessLog& Log() const { return log_; }
   bool Alive() const { return !end_; }
   const std::optional<ProcessEnd>& End() const { return end_; }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <sched.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -58,8 +59,30 @@ std::vector<char*> Pointers(std::vector<std::string>& texts)
   return pointers;
 }
 
+// The page by which a process says what it does: mapped here, and the descriptor that the process inherits.
+struct PageOfChild
+{
+  FileDescriptor descriptor;
+  std::shared_ptr<const ActivityPage> page;
+};
+
+PageOfChild MakePage()
+{
+  PageOfChild made;
+  made.descriptor.Reset(memfd_create("swarmanoid_activity", MFD_CLOEXEC));
+  if (!made.descriptor.IsOpen() || ftruncate(made.descriptor.Get(), sizeof(ActivityPage)) != 0) return {};
+  void* memory = mmap(nullptr, sizeof(ActivityPage), PROT_READ | PROT_WRITE, MAP_SHARED, made.descriptor.Get(), 0);
+  if (memory == MAP_FAILED) return {};
+  auto* page = static_cast<ActivityPage*>(memory);
+  page->magic = ActivityPage::kMagic;
+  made.page =
+      std::shared_ptr<const ActivityPage>(page, [memory](const void*) { munmap(memory, sizeof(ActivityPage)); });
+  return made;
+}
+
 // The part between fork and exec: system calls only. Returns errno where one fails.
-int BecomeChild(pid_t launcher, const cpu_set_t* cores, int output, int errors, char** arguments, char** environment)
+int BecomeChild(pid_t launcher, const cpu_set_t* cores, int output, int errors, int page, char** arguments,
+                char** environment)
 {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != launcher) return ESRCH;
@@ -72,6 +95,7 @@ int BecomeChild(pid_t launcher, const cpu_set_t* cores, int output, int errors, 
   const int nothing = open("/dev/null", O_RDONLY);
   if (nothing < 0 || dup2(nothing, 0) < 0 || dup2(output, 1) < 0 || dup2(errors, 2) < 0) return errno;
   if (nothing > 2) close(nothing);
+  if (page >= 0) fcntl(page, F_SETFD, 0);
   execvpe(arguments[0], arguments, environment);
   return errno;
 }
@@ -93,7 +117,10 @@ SpawnedProcess SystemSpawner::Start(const ProcessCommand& command)
   fcntl(failure.read.Get(), F_SETFL, 0);
   std::vector<std::string> argument_texts = command.arguments;
   std::vector<char*> arguments = Pointers(argument_texts);
-  std::vector<std::string> environment_texts = EnvironmentWith(command.environment);
+  PageOfChild page = MakePage();
+  std::vector<std::pair<std::string, std::string>> additions = command.environment;
+  additions.emplace_back(kActivityVariable, std::to_string(page.descriptor.Get()));
+  std::vector<std::string> environment_texts = EnvironmentWith(additions);
   std::vector<char*> environment = Pointers(environment_texts);
   cpu_set_t cores;
   CPU_ZERO(&cores);
@@ -105,14 +132,14 @@ SpawnedProcess SystemSpawner::Start(const ProcessCommand& command)
   if (pid == 0)
   {
     const int error = BecomeChild(launcher, command.cores.empty() ? nullptr : &cores, output.write.Get(),
-                                  errors.write.Get(), arguments.data(), environment.data());
+                                  errors.write.Get(), page.descriptor.Get(), arguments.data(), environment.data());
     [[maybe_unused]] const ssize_t written = write(failure.write.Get(), &error, sizeof error);
     _exit(127);
   }
   setpgid(pid, pid);
   failure.write.Reset();
   SpawnedProcess process{pid, std::move(output.read), std::move(errors.read),
-                         FileDescriptor(static_cast<int>(syscall(SYS_pidfd_open, pid, 0)))};
+                         FileDescriptor(static_cast<int>(syscall(SYS_pidfd_open, pid, 0))), std::move(page.page)};
 
   // The pipe closes without a word when exec succeeds.
   int error = 0;

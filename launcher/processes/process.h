@@ -2,12 +2,14 @@
 // behind it. Used by the launcher's one thread.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <sys/types.h>
 
+#include "common/activity/activity.h"
 #include "launcher/processes/file_descriptor.h"
 
 namespace swarmanoid
@@ -39,6 +41,9 @@ struct SpawnedProcess
   FileDescriptor output;  // its standard output
   FileDescriptor errors;  // its standard error
   FileDescriptor end;     // readable once it has ended
+  // What it says of itself, also when it is dead; null if this system has no memory for it. One that was started on
+  // another machine says nothing.
+  std::shared_ptr<const ActivityPage> activity;
 };
 
 class ProcessSpawner

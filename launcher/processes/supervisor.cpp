@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <tuple>
+#include <utility>
 
 namespace swarmanoid
 {
@@ -33,8 +35,14 @@ bool TakesMore(int descriptor)
 }  // namespace
 
 Supervisor::Supervisor(ProcessSpawner& spawner, Interrupts& interrupts, ProgressDisplay& display, int screen,
-                       const SupervisorTimes& times)
-    : spawner_(spawner), interrupts_(interrupts), display_(display), screen_(screen), times_(times)
+                       ActorNames actor_of, const SupervisorTimes& times)
+    : spawner_(spawner),
+      interrupts_(interrupts),
+      display_(display),
+      screen_(screen),
+      times_(times),
+      actor_of_(std::move(actor_of)),
+      kills_for_memory_(KernelKillsForMemory())
 {
 }
 
@@ -50,7 +58,7 @@ ClusterOutcome Supervisor::Run(const std::vector<MemberPlan>& plans)
     CheckDeadlines();
     ShowProgress();
   }
-  if (judge_at_ && phase_ != Phase::kDying) JudgeSuspects();
+  if (attribute_at_ && phase_ != Phase::kDying) Attribute();
   display_.Clear();
   return outcome_;
 }
@@ -89,7 +97,7 @@ void Supervisor::WaitForEvents()
   if (screen_full_) entries.push_back({screen_, POLLOUT, 0});
 
   auto timeout = times_.refresh;
-  if (judge_at_) timeout = std::min(timeout, times_.settle / 4);
+  if (attribute_at_) timeout = std::min(timeout, times_.settle / 4);
   if (deadline_)
     timeout = std::clamp(
         std::chrono::duration_cast<std::chrono::milliseconds>(*deadline_ - Clock::now()) + std::chrono::milliseconds(1),
@@ -186,21 +194,14 @@ void Supervisor::CollectEnds()
     ReadMember(*member);
     ended.push_back(member.get());
   }
-  // Several may end within one look: the one that a signal killed is rather the cause than those that ended by
-  // themselves.
-  std::stable_sort(ended.begin(), ended.end(),
-                   [](const auto* a, const auto* b) { return a->End()->signal != 0 && b->End()->signal == 0; });
-  for (const ClusterMember* member : ended) JudgeEnd(*member);
+  for (const ClusterMember* member : ended) TakeEnd(*member);
 }
 
-void Supervisor::JudgeEnd(const ClusterMember& member)
+void Supervisor::TakeEnd(const ClusterMember& member)
 {
   if (phase_ == Phase::kDying) return;
   const ProcessEnd& end = *member.End();
   const bool is_server = &member == members_.front().get();
-  // It may not have got as far as catching the signal that asks it to stop.
-  const bool stopped_early = is_server && phase_ == Phase::kStopping && end.signal == SIGINT;
-  if (end.signal != 0 && !stopped_early) return Fail(member, end.Text());
 
   if (is_server && outcome_.kind == ClusterOutcome::kFinished && end.exit_code == kUnsuccessfulExperiment)
   {
@@ -208,41 +209,76 @@ void Supervisor::JudgeEnd(const ClusterMember& member)
     return;
   }
 
-  // After Ctrl-C all end as interrupted ones do, and some may complain that the space server has gone.
-  if (phase_ == Phase::kStopping || (phase_ == Phase::kFinishing && outcome_.kind == ClusterOutcome::kInterrupted))
+  // After Ctrl-C all end as interrupted ones do, and some may complain that the space server has gone. The server may
+  // not have got as far as catching the signal that asks it to stop.
+  const bool stopped_early = is_server && phase_ == Phase::kStopping && end.signal == SIGINT;
+  const bool stopping =
+      phase_ == Phase::kStopping || (phase_ == Phase::kFinishing && outcome_.kind == ClusterOutcome::kInterrupted);
+  if (stopping && (end.signal == 0 || stopped_early))
   {
     if (is_server && !outcome_.finished) Die(Clock::now() + times_.terminate);
     return;
   }
-  if (!end.Clean() || (is_server && !outcome_.finished)) return Suspect(member, times_.settle);
+
+  switch (EvidenceOf(end, member.Record()))
+  {
+    case Evidence::kDeath:
+      ended_.push_back(&member);
+      return Attribute();
+    case Evidence::kFailure:
+      ended_.push_back(&member);
+      return AttributeWithin(times_.settle);
+    case Evidence::kConsequence:
+      ended_.push_back(&member);
+      return AttributeWithin(times_.others);
+    case Evidence::kEarlyEnd:
+      break;
+    case Evidence::kNone:
+      return;
+  }
   if (outcome_.finished) return;
+  ended_.push_back(&member);
+  if (is_server) return AttributeWithin(times_.settle);
   // The run's last word comes after the last picture.
   const bool draws = std::any_of(members_.begin(), members_.end(),
                                  [](const auto& other) { return other->Plan().visualiser && other->Alive(); });
-  Suspect(member, draws ? times_.last_picture : times_.early_end);
+  AttributeWithin(draws ? times_.last_picture : times_.early_end);
 }
 
-void Supervisor::Suspect(const ClusterMember& member, std::chrono::milliseconds patience)
+void Supervisor::AttributeWithin(std::chrono::milliseconds patience)
 {
-  suspects_.push_back(&member);
-  const Clock::time_point judge_at = Clock::now() + patience;
-  if (!judge_at_ || judge_at < *judge_at_) judge_at_ = judge_at;
+  const Clock::time_point at = Clock::now() + patience;
+  if (!attribute_at_ || at < *attribute_at_) attribute_at_ = at;
 }
 
-// One failure makes the others end too. The space server often knows who began.
-void Supervisor::JudgeSuspects()
+// One failure makes the others end too, and they may be collected first. A process that still runs may have said that
+// it failed.
+void Supervisor::Attribute()
 {
-  judge_at_.reset();
-  const auto unclean = [](const ClusterMember* member) { return !member->End()->Clean(); };
-  const auto accused = [this](const ClusterMember* member) { return server_error_.starts_with(member->Name()); };
-  auto culprit = std::find_if(suspects_.begin(), suspects_.end(), accused);
-  if (culprit == suspects_.end()) culprit = std::find_if(suspects_.begin(), suspects_.end(), unclean);
-  if (culprit == suspects_.end())
+  attribute_at_.reset();
+  const ClusterMember* first = nullptr;
+  std::tuple<Evidence, std::uint64_t> first_rank;
+  for (const auto& member : members_)
   {
-    if (outcome_.finished) return;
-    culprit = suspects_.begin();
+    const ActivityRecord record = member->Record();
+    const auto noticed = std::find(ended_.begin(), ended_.end(), member.get());
+    if (noticed == ended_.end() && member->End()) continue;
+    Evidence evidence = EvidenceOf(member->End(), record);
+    // For processes of other machines: the server often knows who began.
+    const bool accused = evidence == Evidence::kFailure && server_error_.starts_with(member->Name());
+    if (accused) evidence = Evidence::kDeath;
+    const auto order = static_cast<std::uint64_t>(noticed - ended_.begin());
+    const std::tuple rank(evidence, record.ended_ns == 0 ? order : record.ended_ns);
+    if (evidence == Evidence::kNone || (first != nullptr && first_rank <= rank)) continue;
+    first = member.get();
+    first_rank = rank;
   }
-  Fail(**culprit, unclean(*culprit) ? (*culprit)->End()->Text() : "ended before the last tick");
+  const Evidence evidence = std::get<0>(first_rank);
+  if (first == nullptr || (evidence == Evidence::kEarlyEnd && outcome_.finished)) return;
+  if (evidence == Evidence::kConsequence && !server_error_.empty()) return Fail(*members_.front(), server_error_, true);
+  const FailedProcess failed{first->Name(), first->End(), first->Record()};
+  Fail(*first, FailureText(failed, progress_.tick, actor_of_, KernelKillsForMemory() > kills_for_memory_),
+       failed.record.complete && !failed.record.cause.empty());
 }
 
 void Supervisor::TakeInterrupts()
@@ -277,7 +313,7 @@ void Supervisor::StopAtTick(std::string_view why)
 void Supervisor::CheckDeadlines()
 {
   const Clock::time_point now = Clock::now();
-  if (judge_at_ && now >= *judge_at_ && phase_ != Phase::kDying) return JudgeSuspects();
+  if (attribute_at_ && now >= *attribute_at_ && phase_ != Phase::kDying) return Attribute();
   if (!deadline_ || now < *deadline_) return;
 
   if (phase_ == Phase::kDying)
@@ -296,20 +332,28 @@ void Supervisor::CheckDeadlines()
     progress_.waited_s = std::chrono::duration<double>(now - heard_).count();
     const auto patience = member->Plan().visualiser ? times_.finish_visualiser : times_.finish;
     if (now - heard_ >= patience)
-      return Fail(*member, fmt::format("did not end within {} of the last tick",
-                                       DurationText(std::chrono::duration<double>(patience).count())));
+      return Fail(*member,
+                  fmt::format("{} did not end within {} of the last tick, at tick {}", member->Name(),
+                              DurationText(std::chrono::duration<double>(patience).count()), progress_.tick),
+                  false);
   }
   deadline_ = now + times_.refresh;
 }
 
-void Supervisor::Fail(const ClusterMember& member, const std::string& what)
+// `complete`: the text does not begin with the name of the process.
+void Supervisor::Fail(const ClusterMember& member, const std::string& text, bool complete)
 {
-  outcome_.kind = member.End() && member.End()->exit_code == kInvalidExperiment ? ClusterOutcome::kInvalid
-                                                                                : ClusterOutcome::kFailed;
+  const bool invalid =
+      member.Record().end == EndReason::kInvalid || (member.End() && member.End()->exit_code == kInvalidExperiment);
+  outcome_.kind = invalid ? ClusterOutcome::kInvalid : ClusterOutcome::kFailed;
   outcome_.finished.reset();
-  outcome_.reason = fmt::format("{} {} at tick {}", member.Name(), what, progress_.tick);
-  if (!server_error_.empty()) outcome_.reason += fmt::format(" ({})", server_error_);
-  outcome_.reason += fmt::format("; its log is {}", member.Log().Path());
+  outcome_.reason = text;
+  // A mistake of the experiment file bears its place: nobody has to look for it in a log.
+  if (invalid && member.Record().end == EndReason::kInvalid) return Die(Clock::now() + times_.terminate);
+  const bool told = text.find(server_error_) != std::string::npos || member.Record().end != EndReason::kUnknown;
+  if (!told) outcome_.reason += fmt::format(" ({})", server_error_);
+  outcome_.reason += complete ? fmt::format("; the log of {} is {}", member.Name(), member.Log().Path())
+                              : fmt::format("; its log is {}", member.Log().Path());
   if (!member.Log().Trouble().empty()) outcome_.reason += fmt::format(" (incomplete: {})", member.Log().Trouble());
   outcome_.log_lines.assign(member.Log().LastLines().begin(), member.Log().LastLines().end());
   Die(Clock::now() + times_.terminate);

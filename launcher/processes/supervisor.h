@@ -8,19 +8,21 @@
 #include <string>
 #include <vector>
 
+#include "common/program/exit_codes.h"
+#include "common/run/server_status.h"
+#include "launcher/processes/attribution.h"
 #include "launcher/processes/cluster_member.h"
 #include "launcher/processes/interrupts.h"
 #include "launcher/processes/process.h"
 #include "launcher/processes/progress_display.h"
-#include "launcher/processes/server_status.h"
 
 namespace swarmanoid
 {
 
 // Exit codes of the programs: of the space server when the experiment failed by its own measure, and of any program
 // that finds the experiment file wrong.
-constexpr int kUnsuccessfulExperiment = 1;
-constexpr int kInvalidExperiment = 3;
+constexpr int kUnsuccessfulExperiment = kExitExperimentFailed;
+constexpr int kInvalidExperiment = kExitInvalidFile;
 
 struct ClusterOutcome
 {
@@ -34,20 +36,21 @@ struct ClusterOutcome
   };
   Kind kind = kFailed;
   std::optional<ServerFinished> finished;  // where the space server came to its end
-  std::string reason;                      // of a failure: one line that names the process, its last tick and its log
+  std::string reason;                      // of a failure: one line that names who failed, the tick and the log
   std::vector<std::string> log_lines;      // the last ones of that process
 };
 
 // Times that users notice; tests shorten them.
 struct SupervisorTimes
 {
-  std::chrono::milliseconds refresh{200};              // between two looks at the progress
-  std::chrono::milliseconds stall{2000};               // silence of the space server that is worth a word
-  std::chrono::milliseconds terminate{400};            // between SIGTERM and SIGKILL after a failure
-  std::chrono::milliseconds early_end{1000};           // between a process's good end and the run's last word
-  std::chrono::milliseconds last_picture{15000};       // the same while visualisers of the experiment live
-  std::chrono::milliseconds settle{200};               // between a bad end and the verdict on whose fault it is
-  std::chrono::milliseconds finish{3000};              // for processes to end after the last tick
+  std::chrono::milliseconds refresh{200};         // between two looks at the progress
+  std::chrono::milliseconds stall{2000};          // silence of the space server that is worth a word
+  std::chrono::milliseconds terminate{400};       // between SIGTERM and SIGKILL after a failure
+  std::chrono::milliseconds early_end{1000};      // between a process's good end and the run's last word
+  std::chrono::milliseconds last_picture{15000};  // the same while visualisers of the experiment live
+  std::chrono::milliseconds settle{200};          // between a failure and its attribution: a cause may be told late
+  std::chrono::milliseconds others{3000};         // between the end of one that ended for another, and that one's
+  std::chrono::milliseconds finish{3000};         // for processes to end after the last tick
   std::chrono::milliseconds finish_visualiser{60000};  // visualisers may have films to finish
   std::chrono::milliseconds forced_stop{5000};         // after SIGTERM or SIGHUP to the launcher
 };
@@ -56,8 +59,9 @@ class Supervisor
 {
 public:
   // All references outlive the supervisor. `screen`: descriptor that gets what visualisers write to standard output.
+  // `actor_of`: of the experiment.
   Supervisor(ProcessSpawner& spawner, Interrupts& interrupts, ProgressDisplay& display, int screen,
-             const SupervisorTimes& times = {});
+             ActorNames actor_of = {}, const SupervisorTimes& times = {});
 
   // The first plan is the space server's.
   ClusterOutcome Run(const std::vector<MemberPlan>& plans);
@@ -79,13 +83,14 @@ private:
   void ReadMember(ClusterMember& member);
   void TakeStatus(const ServerStatus& status);
   void CollectEnds();
-  void JudgeEnd(const ClusterMember& member);
-  void Suspect(const ClusterMember& member, std::chrono::milliseconds patience);
-  void JudgeSuspects();
+  void TakeEnd(const ClusterMember& member);
+  void AttributeWithin(std::chrono::milliseconds patience);
+  // Ends the run by the fault of the process that failed first, if any of those that have ended, or said so, failed.
+  void Attribute();
   void TakeInterrupts();
   void StopAtTick(std::string_view why);
   void CheckDeadlines();
-  void Fail(const ClusterMember& member, const std::string& what);
+  void Fail(const ClusterMember& member, const std::string& text, bool complete);
   void Die(Clock::time_point kill_at);
   void KillAll();
   void SignalAll(int signal);
@@ -109,9 +114,11 @@ private:
   std::string shown_phase_;
   bool screen_full_ = false;  // it takes no more for now: visualisers wait
   bool screen_gone_ = false;
-  Clock::time_point heard_{};                   // when the server last said anything
-  std::vector<const ClusterMember*> suspects_;  // ended too early or badly, in the order of their ends
-  std::optional<Clock::time_point> judge_at_;
+  Clock::time_point heard_{};                // when the server last said anything
+  std::vector<const ClusterMember*> ended_;  // too early or badly, in the order in which that was noticed
+  std::optional<Clock::time_point> attribute_at_;
+  ActorNames actor_of_;
+  std::uint64_t kills_for_memory_;             // by the kernel, before the run
   std::optional<Clock::time_point> deadline_;  // of the phase
 };
 

@@ -1,5 +1,6 @@
 #include "space_server/cluster/checkpoint_desk.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 
 namespace swarmanoid
@@ -9,7 +10,7 @@ CheckpointDesk::CheckpointDesk(ServerSession& session, const Experiment& experim
                                const std::string& folder, std::function<void()> changed)
     : every_(session.World().checkpoint_every),
       run_(session.World().run),
-      experiment_(FingerprintOf(experiment)),
+      origin_(OriginOf(experiment)),
       parts_(std::move(parts)),
       folder_(folder),
       changed_(std::move(changed))
@@ -26,8 +27,9 @@ void CheckpointDesk::Sending(const SpaceServer& server)
   ByteWriter state;
   server.SaveState(state);
   const std::lock_guard lock(mutex_);
+  sent_ = snapshot.tick;
   Checkpoint& checkpoint = unfinished_[snapshot.tick];
-  checkpoint.experiment = experiment_;
+  checkpoint.origin = origin_;
   checkpoint.snapshot = std::move(snapshot);
   checkpoint.parts.push_back({kServerPart, state.Bytes()});
   if (IsComplete(checkpoint)) changed_();
@@ -37,7 +39,14 @@ void CheckpointDesk::Arrived(const SavedStateMessage& message)
 {
   if (message.run != run_) return;
   const std::lock_guard lock(mutex_);
+  // Nobody is more than one checkpoint ahead of the server.
+  if (message.tick % every_ != 0 || (sent_ && message.tick > *sent_ + every_))
+    throw BadMessage(fmt::format("tick: {} is none of a checkpoint that is due", message.tick));
+  if (std::find(parts_.begin(), parts_.end(), message.name) == parts_.end())
+    throw BadMessage(fmt::format("name: no process '{}' has a part in checkpoints", message.name));
   Checkpoint& checkpoint = unfinished_[message.tick];
+  for (const SavedPart& part : checkpoint.parts)
+    if (part.name == message.name) throw BadMessage(fmt::format("name: the part of {} is here already", part.name));
   checkpoint.parts.push_back({message.name, message.state});
   if (IsComplete(checkpoint)) changed_();
 }

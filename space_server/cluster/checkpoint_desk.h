@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,12 +38,13 @@ private:
 
   std::uint64_t every_;
   std::uint64_t run_;
-  std::uint64_t experiment_;
+  CheckpointOrigin origin_;
   std::vector<std::string> parts_;
   std::string folder_;
   std::function<void()> changed_;
   mutable std::mutex mutex_;                        // of what follows
   std::map<std::uint64_t, Checkpoint> unfinished_;  // by tick
+  std::optional<std::uint64_t> sent_;               // the last tick of which the server gave its part
   std::unique_ptr<Subscription<SavedStateMessage>> states_in_;
 };
 

@@ -1,9 +1,8 @@
 #include "space_server/cluster/lockstep.h"
 
-#include <fmt/format.h>
-#include <cerrno>
-#include <cstring>
+#include <algorithm>
 
+#include "common/activity/failure_report.h"
 #include "common/bus/replica.h"
 
 namespace swarmanoid
@@ -33,12 +32,15 @@ std::vector<TickGate::Part> Parts(const Experiment& experiment, const std::vecto
 }  // namespace
 
 Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
-                   const std::string& hash_log, CheckpointDesk& checkpoints, std::function<void()> stopped)
+                   const std::string& hash_log, std::function<void(SpaceServer&)> watch, CheckpointDesk& checkpoints,
+                   std::function<void()> stopped)
     : session_(session),
       server_(server),
       checkpoints_(checkpoints),
+      limits_(server.Space(), assignment),
       first_tick_(server.Space().GetTick()),
       checkpoint_every_(session.World().checkpoint_every),
+      watch_(std::move(watch)),
       stopped_(std::move(stopped)),
       engines_(assignment.engines.size()),
       hosts_(HostsHeard(assignment)),
@@ -48,33 +50,28 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
       updates_(engines_),
       commands_(hosts_.size()),
       drawn_(visualisers_),
-      states_(session.GetBus(), session.Scope(StateCapacity(server.Space()), 1))
+      hash_log_(hash_log),
+      states_(session.GetBus(), session.Scope(limits_.StateBytes(), 1))
 {
-  if (!hash_log.empty())
-  {
-    hash_log_ = std::fopen(hash_log.c_str(), "w");
-    if (hash_log_ == nullptr)
-      throw BusError(fmt::format("cannot write the hash log '{}': {}", hash_log, std::strerror(errno)));
-  }
   for (const EngineUpdate& update : updates_) updates_here_.push_back(&update);
   for (const ControlCommands& commands : commands_) commands_here_.push_back(&commands);
 
   Bus& bus = session.GetBus();
   if (engines_ > 0)
-    updates_in_.emplace(bus, session.Scope(UpdateCapacity(server.Space(), assignment), static_cast<unsigned>(engines_)),
-                        HotSubscription<EngineUpdate>::Handler{[this](const MessageHeader& header) -> EngineUpdate*
-                                                               {
-                                                                 if (header.source >= engines_ || header.tick == 0)
-                                                                   return nullptr;
-                                                                 return PlaceOf(header, header.tick - 1, header.source,
-                                                                                updates_[header.source]);
-                                                               },
-                                                               [this](const MessageHeader& header, EngineUpdate&)
-                                                               { Arrived(header.source, header.tick - 1); }});
+    updates_in_.emplace(
+        bus, session.Scope(limits_.UpdateBytes(), static_cast<unsigned>(engines_)),
+        HotSubscription<EngineUpdate>::Handler{
+            [this](const MessageHeader& header) -> EngineUpdate*
+            {
+              if (header.source >= engines_) throw BadMessage(fmt::format("there is no engine {}", header.source));
+              if (header.tick == 0) throw BadMessage("an update cannot lead to tick 0");
+              return PlaceOf(header, header.tick - 1, header.source, updates_[header.source]);
+            },
+            [this](const MessageHeader& header, EngineUpdate&) { Arrived(header.source, header.tick - 1); },
+            [this](const MessageHeader& header, const EngineUpdate& update) { limits_.Check(header, update); }});
   if (!hosts_.empty())
     commands_in_.emplace(
-        bus,
-        session.Scope(CommandsCapacity(server.Space(), assignment), static_cast<unsigned>(assignment.hosts.size())),
+        bus, session.Scope(limits_.CommandBytes(), static_cast<unsigned>(assignment.hosts.size())),
         HotSubscription<ControlCommands>::Handler{
             [this](const MessageHeader& header) -> ControlCommands*
             {
@@ -87,13 +84,15 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
             {
               const auto host = std::find(hosts_.begin(), hosts_.end(), header.source);
               Arrived(engines_ + static_cast<std::size_t>(host - hosts_.begin()), header.tick);
-            }});
+            },
+            [this](const MessageHeader& header, const ControlCommands& commands) { limits_.Check(header, commands); }});
   if (visualisers_ > 0)
-    drawn_in_.emplace(bus, session.Scope(kDrawnCapacity, static_cast<unsigned>(visualisers_)),
+    drawn_in_.emplace(bus, session.Scope(TickLimits::DrawnBytes(), static_cast<unsigned>(visualisers_)),
                       HotSubscription<DrawnMessage>::Handler{
                           [this](const MessageHeader& header) -> DrawnMessage*
                           {
-                            if (header.source >= visualisers_) return nullptr;
+                            if (header.source >= visualisers_)
+                              throw BadMessage(fmt::format("there is no visualiser {}", header.source));
                             return PlaceOf(header, header.tick, engines_ + hosts_.size() + header.source,
                                            drawn_[header.source]);
                           },
@@ -106,7 +105,6 @@ Lockstep::~Lockstep()
   drawn_in_.reset();
   commands_in_.reset();
   updates_in_.reset();
-  if (hash_log_ != nullptr) std::fclose(hash_log_);
 }
 
 bool Lockstep::AllMet() const
@@ -122,16 +120,7 @@ Message* Lockstep::PlaceOf(const MessageHeader& header, std::uint64_t tick, std:
 {
   if (header.run != session_.World().run) return nullptr;
   const std::lock_guard lock(mutex_);
-  try
-  {
-    return !held_ && gate_.Offer(*part, tick) == TickGate::Verdict::kExpected ? &place : nullptr;
-  }
-  catch (const BusError& error)
-  {
-    if (!failure_) failure_ = error.what();
-    stopped_();
-    return nullptr;
-  }
+  return !held_ && gate_.Offer(*part, tick) == TickGate::Verdict::kExpected ? &place : nullptr;
 }
 
 void Lockstep::Arrived(std::size_t part, std::uint64_t tick)
@@ -144,6 +133,10 @@ void Lockstep::Arrived(std::size_t part, std::uint64_t tick)
   }
   catch (const std::exception& error)
   {
+    const bool complete = dynamic_cast<const ActivityError*>(&error) != nullptr;
+    NoteEnd(EndReason::kFailed, gate_.Tick(),
+            complete ? error.what() : fmt::format("space server failed at tick {}: {}", gate_.Tick(), error.what()),
+            complete);
     failure_ = error.what();
     stopped_();
   }
@@ -164,7 +157,7 @@ void Lockstep::Complete()
   }
   server_.Advance(updates_here_, commands_here_);
   gate_.Next();
-  if (hold_ || gate_.Tick() == until_)
+  if (hold_ || watch_ || gate_.Tick() == until_)
   {
     held_ = true;
     stopped_();
@@ -175,10 +168,13 @@ void Lockstep::Complete()
 
 void Lockstep::Send(bool repeated)
 {
-  const SpaceState& state = server_.State();
-  if (hash_log_ != nullptr && !repeated) fmt::print(hash_log_, "{} {:016x}\n", state.tick, server_.Space().Hash());
-  if (checkpoint_every_ != 0 && !repeated && state.tick > first_tick_ && state.tick % checkpoint_every_ == 0)
+  const std::uint64_t tick = server_.Space().GetTick();
+  // Whoever goes on from the checkpoint watches this tick again.
+  if (checkpoint_every_ != 0 && !repeated && tick > first_tick_ && tick % checkpoint_every_ == 0)
     checkpoints_.Sending(server_);
+  if (watch_ && !repeated) watch_(server_);
+  const SpaceState& state = server_.State();
+  if (hash_log_.IsOpen() && !repeated) hash_log_.Write(state.tick, server_.Space().Hash());
   held_ = false;
   states_.Write({session_.World().run, state.tick, 0, repeated}, state);
   if (!state.last) return;
@@ -237,6 +233,12 @@ std::optional<std::string> Lockstep::Failure() const
 {
   const std::lock_guard lock(mutex_);
   return failure_;
+}
+
+void Lockstep::CloseHashLog()
+{
+  const std::lock_guard lock(mutex_);
+  hash_log_.Close();
 }
 
 std::vector<std::string> Lockstep::Missing() const

@@ -3,7 +3,6 @@
 // where the main thread asks for it (pause, pace, commands). Used by the space_server program alone.
 #pragma once
 
-#include <cstdio>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -12,6 +11,8 @@
 
 #include "common/bus/server_session.h"
 #include "common/bus/tick_gate.h"
+#include "common/bus/tick_limits.h"
+#include "common/run/hash_log.h"
 #include "space_server/cluster/checkpoint_desk.h"
 #include "space_server/space_server.h"
 
@@ -21,9 +22,11 @@ namespace swarmanoid
 class Lockstep
 {
 public:
+  // `watch`, where there is one: called in the main thread before the state of a tick goes out.
   // `stopped`: called in a thread of the bus when the main thread has to act: the tick is held, or the run failed.
   Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
-           const std::string& hash_log, CheckpointDesk& checkpoints, std::function<void()> stopped);
+           const std::string& hash_log, std::function<void(SpaceServer&)> watch, CheckpointDesk& checkpoints,
+           std::function<void()> stopped);
   ~Lockstep();
 
   // Whether all workers' topics have met those of the server.
@@ -45,6 +48,8 @@ public:
   // The name of the visualiser that asked for the end, if one did.
   std::optional<std::string> Terminator() const;
   std::optional<std::string> Failure() const;
+  // After the last state. Throws where lines of it are lost.
+  void CloseHashLog();
   // Those whose answer to the current tick is missing.
   std::vector<std::string> Missing() const;
   // Calls `use` with the server between two steps.
@@ -66,8 +71,10 @@ private:
   mutable std::mutex mutex_;  // of what follows
   SpaceServer& server_;
   CheckpointDesk& checkpoints_;
+  TickLimits limits_;
   std::uint64_t first_tick_;
   std::uint64_t checkpoint_every_;
+  std::function<void(SpaceServer&)> watch_;
   std::function<void()> stopped_;
   std::size_t engines_ = 0;
   std::vector<std::uint32_t> hosts_;  // that the server hears
@@ -85,7 +92,7 @@ private:
   bool finished_ = false;
   std::optional<std::string> terminator_;
   std::optional<std::string> failure_;
-  std::FILE* hash_log_ = nullptr;
+  HashLog hash_log_;
   HotPublisher<SpaceState> states_;
   std::optional<HotSubscription<EngineUpdate>> updates_in_;
   std::optional<HotSubscription<ControlCommands>> commands_in_;

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <random>
 
-#include "common/bus/cluster_options.h"
+#include "common/program/exit_codes.h"
+#include "common/run/run_summary.h"
+#include "common/serialisation/trial.h"
 #include "space_server/cluster/process_watch.h"
 
 namespace swarmanoid
@@ -20,13 +23,6 @@ constexpr auto kLastRepeat = 1s;
 constexpr auto kStallTime = 2s;
 constexpr auto kBrokenTime = 5s;  // for the lease of a dead process to end
 
-struct RunResult
-{
-  std::uint64_t ticks = 0;
-  std::size_t entities = 0;
-  std::uint64_t hash = 0;
-};
-
 double Seconds(std::chrono::steady_clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 std::uint64_t NewRun()
@@ -38,7 +34,7 @@ std::uint64_t NewRun()
 ControlDeskSetup DeskSetup(const ServerOptions& options, const Experiment& experiment)
 {
   ControlDeskSetup setup{options.paused, options.real_time_factor, {}, {}};
-  if (!options.output.empty()) setup.event_log = options.output + "/events.csv";
+  if (!options.output_folder.empty()) setup.event_log = options.output_folder + "/events.csv";
   if (!options.events.empty()) setup.repeated = ReadEvents(options.events, experiment);
   return setup;
 }
@@ -49,8 +45,8 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
     : options_(options),
       experiment_(experiment),
       status_(status),
-      assignment_(MakeAssignment(experiment, options.hosts)),
-      server_(experiment, assignment_, options.output.empty() ? "." : options.output),
+      assignment_(MakeAssignment(experiment, options.controller_hosts)),
+      server_(experiment, assignment_, options.output_folder.empty() ? "." : options.output_folder),
       session_(options.bus, World(), Expected(Visualisers()),
                {[this](const ControlRequestMessage& request)
                 {
@@ -63,9 +59,9 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
             [this](const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
             { session_.Reply(request, done, tick, text); }),
       pace_(experiment.TickSeconds()),
-      checkpoints_(session_, experiment, Expected({}), options.output.empty() ? "." : options.output,
+      checkpoints_(session_, experiment, Expected({}), options.output_folder.empty() ? "." : options.output_folder,
                    [this] { Wake(); }),
-      lockstep_(session_, server_, assignment_, !options.no_visualisers, options.hash_log, checkpoints_,
+      lockstep_(session_, server_, assignment_, options.visualisations, options.hash_log, options.watch, checkpoints_,
                 [this] { Wake(); })
 {
 }
@@ -75,19 +71,32 @@ int ServerProgram::Run()
   try
   {
     session_.Open();
-    Gather();
+    Collect();
     RunTicks();
     Close();
   }
   catch (const std::exception& error)
   {
-    session_.SayBye(lockstep_.Tick(), error.what());
-    fmt::print(stderr, "space_server: {}\n", error.what());
-    status_.Say(fmt::format("error {}", error.what()));
+    const bool complete = dynamic_cast<const ActivityError*>(&error) != nullptr;
+    const bool interrupted = IsInterrupted() && reason_ == EndReason::kFailed;
+    NoteEnd(interrupted ? EndReason::kInterrupted : reason_, lockstep_.Tick(),
+            complete ? error.what() : fmt::format("space server failed at tick {}: {}", lockstep_.Tick(), error.what()),
+            complete);
+    session_.Leave(lockstep_.Tick(), error.what());
+    // Within another program, that one says it.
+    if (options_.abandon == nullptr) fmt::print(stderr, "space_server: {}\n", error.what());
+    status_.Tell(ServerError{error.what()});
     session_.LeaveDirectory();
-    EndAtOnce(Interrupted() ? kExitInterrupted : kExitProcessFailed);
+    failed_ = true;
+    return interrupted ? kExitInterrupted : reason_ == EndReason::kOthers ? kExitOthersFailed : kExitProcessFailed;
   }
-  if (Interrupted()) return kExitInterrupted;
+  if (IsInterrupted())
+  {
+    NoteEnd(EndReason::kInterrupted, lockstep_.Tick(),
+            fmt::format("space server was asked by a signal to end the run at tick {}", lockstep_.Tick()));
+    return kExitInterrupted;
+  }
+  NoteEnd(EndReason::kDone, lockstep_.Tick(), "");
   return server_.HasFailed() ? kExitExperimentFailed : kExitDone;
 }
 
@@ -95,16 +104,12 @@ WorldMessage ServerProgram::World()
 {
   WorldMessage world =
       DescribeWorld(server_.Space(), NewRun(), options_.file, static_cast<unsigned>(assignment_.hosts.size()));
+  world.xml += options_.places;
   CheckCheckpointPeriod(options_.checkpoint_every, experiment_);
   world.checkpoint_every = options_.checkpoint_every;
-  if (options_.checkpoint_every != 0)
-  {
-    // What cannot be saved is said before the run, not in the midst of it.
-    ByteWriter scratch;
-    server_.SaveState(scratch);
-  }
-  if (options_.restore.empty()) return world;
-  const Checkpoint checkpoint = ReadCheckpoint(options_.restore, experiment_, assignment_.hosts.size());
+  if (options_.checkpoint_every != 0) TrySaving(server_);
+  if (options_.restore_file.empty()) return world;
+  const Checkpoint checkpoint = ReadCheckpoint(options_.restore_file, experiment_, {assignment_.hosts.size()});
   checkpoint.LoadPart(kServerPart, [&](ByteReader& state) { server_.LoadState(checkpoint.snapshot, state); });
   world.checkpoint = EncodeCheckpoint(checkpoint);
   return world;
@@ -112,7 +117,8 @@ WorldMessage ServerProgram::World()
 
 std::span<const RenderConfiguration> ServerProgram::Visualisers() const
 {
-  return options_.no_visualisers ? std::span<const RenderConfiguration>() : experiment_.visualisations;
+  return options_.visualisations ? std::span<const RenderConfiguration>(experiment_.visualisations)
+                                 : std::span<const RenderConfiguration>();
 }
 
 std::vector<std::string> ServerProgram::Expected(std::span<const RenderConfiguration> visualisers) const
@@ -140,12 +146,18 @@ void ServerProgram::Sleep(Clock::time_point until)
 
 void ServerProgram::CheckFailures()
 {
-  if (const auto failure = session_.Failure()) throw BusError(*failure);
+  if (options_.abandon != nullptr && *options_.abandon) throw BusError("the run was given up");
   if (const auto failure = lockstep_.Failure()) throw BusError(*failure);
+  if (const auto failure = session_.Failure())
+  {
+    reason_ = EndReason::kOthers;
+    throw BusError(*failure);
+  }
   if (!BusIsBroken()) return;
   if (!broken_since_) broken_since_ = Clock::now();
-  if (Clock::now() - *broken_since_ > kBrokenTime)
-    throw BusError("a process died, or was stopped, while it held shared memory of the run");
+  if (Clock::now() - *broken_since_ <= kBrokenTime) return;
+  reason_ = EndReason::kOthers;
+  throw BusError("a process died, or was stopped, while it held shared memory of the run");
 }
 
 void ServerProgram::Say(const std::string& text) const
@@ -153,14 +165,14 @@ void ServerProgram::Say(const std::string& text) const
   if (!status_.IsOpen()) fmt::print(stderr, "space server: {}\n", text);
 }
 
-void ServerProgram::Gather()
+void ServerProgram::Collect()
 {
   const auto start = Clock::now();
   std::string said;
   while (true)
   {
     CheckFailures();
-    if (Interrupted()) throw BusError("interrupted before the first tick");
+    if (IsInterrupted()) throw BusError("interrupted before the first tick");
     TellAudience();
     const std::vector<std::string> missing = session_.Missing();
     if (missing.empty() && lockstep_.AllMet()) return;
@@ -168,7 +180,7 @@ void ServerProgram::Gather()
     if (text != said && !text.empty() && (Clock::now() - start > 300ms || !said.empty()))
     {
       Say(fmt::format("waiting for {} (experiment '{}', domain {}) …", text, experiment_.name, options_.bus.domain));
-      status_.Say("state waiting " + text);
+      status_.Tell(ServerState{ServerState::kWaiting, text});
       said = text;
     }
     // Endpoints of others are met without a word: look often while nobody is missing.
@@ -188,7 +200,7 @@ void ServerProgram::RunTicks()
   {
     CheckFailures();
     Clock::time_point next = Clock::now() + kPeriod;
-    if (Interrupted()) desk_.Stop("interrupt");
+    if (IsInterrupted()) desk_.Stop("interrupt");
     if (desk_.WantsHold()) lockstep_.Hold();
     if (lockstep_.Held())
     {
@@ -211,10 +223,10 @@ void ServerProgram::RunTicks()
 
 void ServerProgram::SayState()
 {
-  const std::string state = desk_.Paused() ? "state paused" : "state running";
-  if (state == said_state_) return;
-  said_state_ = state;
-  status_.Say(state);
+  const ServerState::Phase phase = desk_.Paused() ? ServerState::kPaused : ServerState::kRunning;
+  if (phase == said_phase_) return;
+  said_phase_ = phase;
+  status_.Tell(ServerState{phase, {}});
   Say(desk_.Paused() ? fmt::format("paused at tick {}", lockstep_.Tick()) : "running");
 }
 
@@ -240,18 +252,18 @@ void ServerProgram::Watch()
   if (now - since_ >= kStallTime && now - since_ >= stall_said_ + 1s)
   {
     stall_said_ = now - since_;
-    const std::string who = Culprits(tick);
-    status_.Say(fmt::format("stalled {} {:.0f}", who, Seconds(stall_said_)));
+    const std::string who = LateNames(tick);
+    status_.Tell(ServerStall{who, std::round(Seconds(stall_said_))});
     Say(fmt::format("tick {}: waiting for {} since {:.0f} s", tick, who, Seconds(stall_said_)));
   }
   SayState();
   if (desk_.Paused() && held)
     pace_.Rest(tick, now);
   else if (pace_.Observe(tick, now))
-    status_.Say(fmt::format("tick {} {} {:.2f}", tick, experiment_.max_clock, pace_.RealTimeFactor()));
+    status_.Tell(ServerTick{tick, experiment_.max_clock, pace_.RealTimeFactor()});
 }
 
-std::string ServerProgram::Culprits(std::uint64_t tick) const
+std::string ServerProgram::LateNames(std::uint64_t tick) const
 {
   std::vector<std::string> names;
   for (const LateProcess& late : LateProcesses(session_, lockstep_.Missing(), tick))
@@ -303,16 +315,20 @@ RunStatus ServerProgram::Status(RunStatus::Phase phase, Clock::time_point now)
 
 void ServerProgram::Close()
 {
-  RunResult result;
+  RunSummary result;
   lockstep_.WithServer(
-      [&](SpaceServer& server) {
-        result = {server.Space().GetTick(), server.Space().Size(), server.Space().Hash()};
+      [&](SpaceServer& server)
+      {
+        result.ticks = server.Space().GetTick();
+        result.entities = server.Space().Size();
+        result.hash = server.Space().Hash();
       });
+  lockstep_.CloseHashLog();
   desk_.Ended(result.ticks);
   TellAudience();
   auto said = Clock::now();
   repeat_after_ = kFirstRepeat;
-  while (!session_.AllSaidBye())
+  while (!session_.AllLeft())
   {
     CheckFailures();
     Sleep(Clock::now() + 10ms);
@@ -324,16 +340,12 @@ void ServerProgram::Close()
   CheckFailures();
   FinishCheckpoints();
   lockstep_.WithServer([](SpaceServer& server) { server.Destroy(); });
-  session_.SayBye(result.ticks, "");
-  const double wall = Seconds(end_ - start_);
-  const double factor =
-      wall > 0 ? static_cast<double>(result.ticks - first_tick_) * experiment_.TickSeconds() / wall : 0;
-  status_.Say(fmt::format("tick {} {} {:.2f}", result.ticks, experiment_.max_clock, factor));
-  status_.Say(
-      fmt::format("finished {} {} {:016x} {:.3f} {:.1f}", result.ticks, result.entities, result.hash, wall, factor));
-  if (!status_.IsOpen())
-    fmt::print("finished: {} ticks, {} entities, hash {:016x}, {:.3f} s, {:.1f}x real time\n", result.ticks,
-               result.entities, result.hash, wall, factor);
+  session_.Leave(result.ticks, "");
+  result.wall_s = Seconds(end_ - start_);
+  result.real_time_factor = RealTimeFactor(result.ticks - first_tick_, experiment_.TickSeconds(), result.wall_s);
+  status_.Tell(ServerTick{result.ticks, experiment_.max_clock, result.real_time_factor});
+  status_.Tell(ServerFinished{result.ticks, result.entities, result.hash, result.wall_s, result.real_time_factor});
+  if (!status_.IsOpen()) fmt::print("{}\n", FinishedLine(result));
 }
 
 void ServerProgram::FinishCheckpoints()

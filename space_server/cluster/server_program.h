@@ -2,18 +2,22 @@
 // late, and ends it; the ticks themselves run in threads of the bus (Lockstep).
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "common/activity/failure_report.h"
 #include "common/bus/replica.h"
 #include "common/bus/server_session.h"
 #include "common/bus/status_channel.h"
+#include "common/run/run_settings.h"
 #include "space_server/cluster/audience.h"
 #include "space_server/cluster/checkpoint_desk.h"
 #include "space_server/cluster/lockstep.h"
@@ -24,25 +28,16 @@
 namespace swarmanoid
 {
 
-struct ServerOptions
+struct ServerOptions : RunSettings
 {
-  std::string file;
-  std::vector<std::string> settings;
-  std::uint64_t seed = 0;
-  bool has_seed = false;
-  std::uint64_t ticks = 0;
-  bool has_ticks = false;
-  unsigned hosts = 1;
-  std::string output;
-  bool paused = false;
-  double real_time_factor = 0;
-  std::string hash_log;
-  std::uint64_t checkpoint_every = 0;
-  std::string restore;
-  std::string events;
-  bool no_visualisers = false;
   int status_fd = -1;
   BusOptions bus;
+  // Called before the state of each tick goes out, in the thread that runs the program; what it changes through the
+  // server is part of the state.
+  std::function<void(SpaceServer&)> watch;
+  // In a process that lives on after the run: set where the run is to be given up at once.
+  const std::atomic<bool>* abandon = nullptr;
+  std::string places;  // LoadedExperiment::places
 };
 
 class ServerProgram
@@ -54,8 +49,10 @@ public:
   ServerProgram(const ServerProgram&) = delete;
   ServerProgram& operator=(const ServerProgram&) = delete;
 
-  // The whole run. Returns the exit code; ends the process where the run fails.
+  // The whole run. Returns the exit code. Where the run has failed, threads of the bus may be stuck for ever: then the
+  // program is not to be destroyed, and the process ends by EndAtOnce.
   int Run();
+  bool Failed() const { return failed_; }
 
 private:
   using Clock = std::chrono::steady_clock;
@@ -64,23 +61,24 @@ private:
   WorldMessage World();
   std::span<const RenderConfiguration> Visualisers() const;
   std::vector<std::string> Expected(std::span<const RenderConfiguration> visualisers) const;
+  bool IsInterrupted() const { return options_.stop != nullptr && *options_.stop; }
   void Wake();
   void Sleep(Clock::time_point until);
   void CheckFailures();
   void Say(const std::string& text) const;
   // Until all processes of the run are there.
-  void Gather();
+  void Collect();
   void RunTicks();
   void SayState();
   // Progress, late answers, stalls.
   void Watch();
   // Whom the run waits for: those whose answer is missing, or those whom they in turn wait for.
-  std::string Culprits(std::uint64_t tick) const;
+  std::string LateNames(std::uint64_t tick) const;
   RunStatus::Phase Phase() const;
   // Attached visualisers see the whole state now and then, and how the run goes.
   void TellAudience();
   RunStatus Status(RunStatus::Phase phase, Clock::time_point now);
-  // The last state is out: all draw it, close their files and say good-bye.
+  // The last state is out: all draw it, close their files and leave.
   void Close();
   // All parts have been sent; the last of them may still be on their way through the threads of the bus.
   void FinishCheckpoints();
@@ -102,7 +100,7 @@ private:
 
   Clock::time_point start_;
   Clock::time_point end_;
-  std::string said_state_;
+  std::optional<ServerState::Phase> said_phase_;
   std::uint64_t last_tick_ = 0;
   Clock::time_point since_;  // the current tick is waited for
   Clock::time_point repeated_;
@@ -111,7 +109,9 @@ private:
   std::uint64_t first_tick_ = 0;
   bool started_ = false;
   bool told_end_ = false;
+  bool failed_ = false;
   std::optional<Clock::time_point> broken_since_;
+  EndReason reason_ = EndReason::kFailed;  // why the run ends before its end
   SpaceSnapshot snapshot_;
 };
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "common/experiment/load_experiment.h"
-#include "launcher/builtins.h"
+#include "roles/builtins.h"
 
 namespace swarmanoid::test
 {

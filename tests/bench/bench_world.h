@@ -81,7 +81,7 @@ public:
     const auto* entry = PluginRegistry<SensorBatch>::Instance().Find(type, implementation);
     auto sensor = entry->create();
     sensor->Init(
-        {Parameters(TConfigurationTree(node), entry->description.parameters), *space_, robots_, StreamName(type)});
+        {Parameters(TConfigurationTree(node), entry->description.parameters), *space_, robots_, SensorStream(type)});
     return sensor;
   }
 

@@ -38,6 +38,10 @@ BENCHMARK_CAPTURE(Proximity, rays_with_noise, "generic_footbot_proximity",
                   BenchParameters{{"noise_kind", "uniform"}, {"noise_range", "0.05"}})
     ->Args({1000, 10})
     ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Proximity, rays_with_gaussian_noise, "generic_footbot_proximity",
+                  BenchParameters{{"noise_kind", "gaussian"}, {"noise_deviation", "0.05"}})
+    ->Args({1000, 10})
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace swarmanoid

@@ -41,6 +41,21 @@ BENCHMARK_CAPTURE(Sense, pie_camera, "pie_camera", "generic_pie_camera", BenchPa
 BENCHMARK_CAPTURE(Sense, omnidirectional_camera, "footbot_omnidirectional_camera",
                   "generic_footbot_omnidirectional_camera", BenchParameters{})
     ->Apply(Densities);
+BENCHMARK_CAPTURE(Sense, range_and_bearing_with_noise, "range_and_bearing", "generic_range_and_bearing",
+                  BenchParameters{{"range_noise_kind", "gaussian"},
+                                  {"range_noise_deviation", "0.05"},
+                                  {"bearing_noise_kind", "gaussian"},
+                                  {"bearing_noise_deviation", "0.05"}})
+    ->Args({1000, 10})
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Sense, omnidirectional_camera_with_noise, "footbot_omnidirectional_camera",
+                  "generic_footbot_omnidirectional_camera",
+                  BenchParameters{{"distance_noise_kind", "gaussian"},
+                                  {"distance_noise_deviation", "0.02"},
+                                  {"angle_noise_kind", "gaussian"},
+                                  {"angle_noise_deviation", "0.02"}})
+    ->Args({1000, 10})
+    ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(Sense, ground, "footbot_ground", "generic_footbot_ground", BenchParameters{})->Args({1000, 10});
 BENCHMARK_CAPTURE(Sense, light, "footbot_light", "generic_footbot_light", BenchParameters{})->Args({1000, 10});
 

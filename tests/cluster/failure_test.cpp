@@ -25,12 +25,12 @@ TEST_F(ClusterTest, AKilledWorkerEndsTheRunWithinTheLeaseAndIsNamed)
   std::this_thread::sleep_for(300ms);
   const auto killed = std::chrono::steady_clock::now();
   workers[1].Signal(SIGKILL);
-  EXPECT_EQ(server.Wait(10), 4);
+  EXPECT_EQ(server.Wait(10), 6);
   EXPECT_LT(std::chrono::steady_clock::now() - killed, 3s);
   EXPECT_THAT(server.Output(), HasSubstr(fmt::format("engine 'e1' does not answer any more (process {}:{}",
                                                      MachineName(), workers[1].Id())));
-  EXPECT_EQ(workers[0].Wait(5), 4);
-  EXPECT_EQ(workers[2].Wait(5), 4);
+  EXPECT_EQ(workers[0].Wait(5), 6);
+  EXPECT_EQ(workers[2].Wait(5), 6);
   ExpectNothingLeft();
 }
 
@@ -45,7 +45,7 @@ TEST_F(ClusterTest, WorkersEndWhenTheServerIsKilled)
   }
   for (ChildProcess& worker : workers)
   {
-    EXPECT_EQ(worker.Wait(5), 4);
+    EXPECT_EQ(worker.Wait(5), 6);
     EXPECT_THAT(worker.Output(), HasSubstr("the space server has gone"));
   }
   ExpectNothingLeft();

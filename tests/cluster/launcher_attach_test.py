@@ -101,7 +101,7 @@ class Attaching(LauncherTest):
         text = re.sub(r"<visualisations>.*</visualisations>|<visualisations/>", "", text, flags=re.S)
         path.write_text(text.replace("</ahss-config>", element + "</ahss-config>"))
         self.assert_finished(self.run_it("run", path, "--ticks", 20, "--quiet", "--output", "out"), 20)
-        self.assertIn("\nfb_0\t3.767\n", (self.folder / "out" / "distances").read_text())
+        self.assertIn("\nfb_0\t3.421\n", (self.folder / "out" / "distances").read_text())
 
         run = self.start_paused("--ticks", 0)
         self.control("step", 3)

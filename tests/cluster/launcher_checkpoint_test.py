@@ -32,7 +32,7 @@ class Checkpoints(LauncherTest):
         self.check("pile", at=300, ticks=400)
 
     def test_kinematic_engine_with_a_gripped_prey_behaviours_and_experiment_functions(self):
-        self.check("prey_retrieval", at=3400, ticks=3500, code=1)  # the prey is on its way, and not in the nest yet
+        self.check("prey_retrieval", at=2100, ticks=2200, code=1)  # the prey is on its way, and not in the nest yet
 
     def test_box2d_with_ten_grips(self):
         self.check("gripped_chain", ticks=200)

@@ -26,7 +26,7 @@ class Kills(LauncherTest):
         self.assertEqual(run.wait(), 4, run.stderr)
         self.assertLess(time.monotonic() - killed_at, AT_ONCE_S)
         first = run.stderr.splitlines()[0]
-        self.assertRegex(first, rf"^{NAMES[program]} was killed by signal 9 \(Killed\) at tick \d+; its log is {self.folder}/out/")
+        self.assertRegex(first, rf"^{NAMES[program]} was killed by signal 9 \(Killed\)(, during .*)? at tick \d+; its log is {self.folder}/out/")
         self.assertEqual(run.stdout, "")
         self.assert_nothing_left(run, pids)
 
@@ -84,6 +84,19 @@ class Kills(LauncherTest):
         self.assert_nothing_left(run, pids)
 
 
+    def test_one_that_is_asked_to_end_by_a_signal_is_named(self):
+        for program in ["visualiser", "engine_worker"]:
+            with self.subTest(program):
+                self.tearDown()
+                self.setUp()
+                run = self.start("run", CONFIGS / "diffusion_10.xml", *LONG, "--quiet")
+                pid = run.find(program)
+                self.wait_for_tick("hashes", 50, run)
+                os.kill(pid, signal.SIGTERM)
+                self.assertEqual(run.wait(), 4, run.stderr)
+                self.assertRegex(run.stderr.splitlines()[0], rf"^{NAMES[program]} failed at tick \d+: interrupted by a signal; its log is ")
+
+
 class Stalls(LauncherTest):
     def test_a_stopped_process_is_named_and_the_run_goes_on_with_it(self):
         # Slowly enough that it is stopped while it waits: who is stopped with a lock of shared memory ends the run (docs/wire.md).
@@ -136,17 +149,15 @@ class Controllers(LauncherTest):
             self.assertIn("17", run.stderr)
             self.assertIn("cannot go on", run.stderr)
 
-    def test_crashing_names_the_signal(self):
-        run = self.failing("step_crashes", 17)
-        self.assertEqual(run.process.returncode, 4)
-        self.assertIn("controller host 0 was killed by signal 6 (Aborted)", run.stderr)
-        self.assert_nothing_left(run)
+    def test_crashing_names_the_robot_and_the_tick(self):
+        for run in self.both_ways("step_crashes", 17):
+            self.assertEqual(run.process.returncode, 4)
+            self.assertRegex(run.stderr, "^robot 'robot_one', controller 'c': ControlStep at tick 17 aborted")
 
     def test_leaving_is_no_end_of_the_run(self):
-        run = self.failing("step_exits", 17)
-        self.assertEqual(run.process.returncode, 4)
-        self.assertRegex(run.stderr, "^controller host 0 (ended|was killed)")
-        self.assert_nothing_left(run)
+        for run in self.both_ways("step_exits", 17):
+            self.assertEqual(run.process.returncode, 4)
+            self.assertRegex(run.stderr, r"^robot 'robot_one', controller 'c': ControlStep at tick 17 called exit\(0\)")
 
     def test_one_that_never_returns_is_waited_for_and_can_be_killed(self):
         run = self.start("run", self.write_faulty("step_hangs", 17), "--paused")

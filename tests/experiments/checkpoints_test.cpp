@@ -52,7 +52,7 @@ TEST_P(HeldThings, GoOnFromACheckpointWithTheSameHash)
 }
 
 INSTANTIATE_TEST_SUITE_P(Experiments, HeldThings,
-                         testing::Values(std::tuple("prey_retrieval", 3400, 3500),
+                         testing::Values(std::tuple("prey_retrieval", 2100, 2200),
                                          std::tuple("gripped_chain", 100, 200), std::tuple("handbot_shelf", 200, 350)),
                          [](const auto& test) { return std::string(std::get<0>(test.param)); });
 

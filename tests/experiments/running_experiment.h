@@ -37,14 +37,14 @@ public:
     while (simulator_->Step()) continue;
     return simulator_->Finish().hash;
   }
-  CSwarmanoidSpace& Space() { return simulator_->GetSpace(); }
-  CSwarmanoidSpaceEntity& Entity(const std::string& id) { return *Space().FindEntity(id); }
+  const CSwarmanoidSpace& Space() { return simulator_->GetSpace(); }
+  const CSwarmanoidSpaceEntity& Entity(const std::string& id) { return *Space().FindEntity(id); }
   const Experiment& File() const { return *experiment_; }
 
   // The entities whose ids begin so, in entity order.
-  std::vector<CSwarmanoidSpaceEntity*> EntitiesOf(const std::string& prefix)
+  std::vector<const CSwarmanoidSpaceEntity*> EntitiesOf(const std::string& prefix)
   {
-    std::vector<CSwarmanoidSpaceEntity*> found;
+    std::vector<const CSwarmanoidSpaceEntity*> found;
     for (std::size_t k = 0; k < Space().Size(); ++k)
       if (Space().GetEntity(k).GetId().starts_with(prefix)) found.push_back(&Space().GetEntity(k));
     return found;

@@ -51,8 +51,9 @@ class OutsideTest(unittest.TestCase):
         path = self.folder / f"{name}.xml"
         in_engine = "".join(f'<entity id="{i}"/>' for i in ["robot_one", *entities.split()])
         around = f"<experiment_functions>{functions}</experiment_functions>" if functions else ""
+        plugins = f"<plugin_path>{BUILT}/functions:{BUILT}/engines:{BUILT}/devices</plugin_path>"
         path.write_text(f"""<ahss-config>
-  <framework><clocktick>100</clocktick><maxclock>{ticks}</maxclock><controller_path>{BUILT}/controllers:{BUILT}/functions:{BUILT}/engines:{BUILT}/devices</controller_path>{framework}</framework>
+  <framework><clocktick>100</clocktick><maxclock>{ticks}</maxclock><controller_path>{BUILT}/controllers</controller_path>{plugins}{framework}</framework>
   <controllers>
     <{controller} id="c" library="{controller}">
       <actuators>{actuators}</actuators><sensors>{sensors}</sensors>

@@ -10,9 +10,11 @@ COMMON = [
     ["common/math"],
     ["common/configuration"],
     ["common/plugins"],
-    ["common/logging", "common/serialisation"],
+    ["common/logging", "common/serialisation", "common/activity"],
+    ["common/program"],
     ["common/control_interface"],
     ["common/experiment"],
+    ["common/run"],
     ["common/space"],
     ["common/bus"],
 ]
@@ -36,8 +38,9 @@ def allowed():
     without_bus = [folder for folder in below if folder != "common/bus"]
     for role in ROLES:
         rules[role] = without_bus + [role]
-    rules["launcher"] = below + ROLES + ["launcher"]
-    rules["real_robot"] = INTERFACE + ["common/logging", "real_robot"]
+    rules["roles"] = without_bus + ROLES + ["roles"]
+    rules["launcher"] = below + ROLES + ["roles", "launcher"]
+    rules["real_robot"] = INTERFACE + ["common/logging", "common/program", "real_robot"]
     # A folder of drivers sees what drivers are made from, and no other drivers.
     rules["real_robot/drivers/ros2"] = rules["real_robot"] + ["real_robot/drivers/ros2"]
     rules["user"] = INTERFACE + ["user"]
@@ -68,7 +71,7 @@ def main():
             continue
         may_include = rules[folder]
         if folder in ROLES and (os.path.basename(path) == "main.cpp" or "/cluster/" in path):
-            may_include = may_include + ["common/bus"] + ROLES  # the program around the role
+            may_include = may_include + ["common/bus", "roles"] + ROLES  # the program around the role
         for number, quoted, included in includes(path):
             if DDS_HEADER.search(included) and folder not in DDS_FOLDERS:
                 mistakes.append(f"{path}:{number}: only {' and '.join(DDS_FOLDERS)} may include DDS headers, not {folder} "

@@ -11,8 +11,8 @@
 
 #include "common/control_interface/footbot/ci_footbot_wheels_actuator.h"
 #include "common/experiment/load_experiment.h"
-#include "launcher/builtins.h"
 #include "launcher/simulator.h"
+#include "roles/builtins.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid

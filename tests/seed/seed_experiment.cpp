@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/experiment/load_experiment.h"
-#include "launcher/builtins.h"
+#include "roles/builtins.h"
 
 namespace swarmanoid::test
 {

@@ -40,6 +40,19 @@ TEST(WebFrame, ARobotTakesTwentyFourBytes)
   EXPECT_EQ(FrameWriter(space).Write().size(), sizeof(FrameHeader) + 24 * 1000);
 }
 
+TEST(WebFrame, WhoIsNotInTheArenaIsMarked)
+{
+  FourEntities world;
+  FrameWriter writer(world.space);
+  const auto flags = [&] { return writer.Write()[EndOf(3) - 4 * 3 + 4 * 1 + 3] & kAbsent; };
+  const std::uint32_t entity = world.space.Movable()[1];
+  EXPECT_EQ(flags(), 0);
+  world.space.SetAttribute(world.space.PresenceSlot(entity), 0);
+  EXPECT_EQ(flags(), kAbsent);
+  world.space.SetAttribute(world.space.PresenceSlot(entity), 1);
+  EXPECT_EQ(flags(), 0);
+}
+
 TEST(WebFrame, PosesAreThoseOfTheMovableEntities)
 {
   FourEntities world;

@@ -15,6 +15,7 @@ AttachedNode::AttachedNode(WorkerSession& session, Replica& replica, Visualiser&
                 [this](const ViewMessage& view)
                 {
                   if (view.run != session_.World().run) return;
+                  replica_.limits->Check(view.snapshot);
                   const std::lock_guard lock(mutex_);
                   snapshot_ = view.snapshot;
                   fresh_ = true;

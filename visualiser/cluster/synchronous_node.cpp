@@ -20,10 +20,11 @@ SynchronousNode::SynchronousNode(WorkerSession& session, Replica& replica, std::
       control_(control),
       monitor_(monitor),
       next_(replica.FirstTick()),
-      drawn_(session.GetBus(), session.Scope(kDrawnCapacity, 1)),
-      states_in_(session.GetBus(), session.Scope(StateCapacity(*replica.space), 1),
+      drawn_(session.GetBus(), session.Scope(TickLimits::DrawnBytes(), 1)),
+      states_in_(session.GetBus(), session.Scope(replica.limits->StateBytes(), 1),
                  {[this](const MessageHeader& header) { return PlaceOfState(header); },
-                  [this](const MessageHeader& header, SpaceState& state) { StateArrived(header, state); }})
+                  [this](const MessageHeader& header, SpaceState& state) { StateArrived(header, state); },
+                  [this](const MessageHeader& header, const SpaceState& s) { replica_.limits->Check(header, s); }})
 {
 }
 
@@ -84,6 +85,7 @@ void SynchronousNode::ShowHeldState()
                                                             [this](const ViewMessage& view)
                                                             {
                                                               if (view.run != session_.World().run) return;
+                                                              replica_.limits->Check(view.snapshot);
                                                               const std::lock_guard lock(mutex_);
                                                               held_ = view.snapshot;
                                                               held_fresh_ = true;
@@ -97,11 +99,8 @@ SpaceState* SynchronousNode::PlaceOfState(const MessageHeader& header)
   if (header.run != session_.World().run) return nullptr;
   const std::lock_guard lock(mutex_);
   if (header.tick > next_)
-  {
-    session_.Fail(next_, fmt::format("the state of the space server is of tick {}, but tick {} has to come first",
-                                     header.tick, next_));
-    return nullptr;
-  }
+    throw BadMessage(
+        fmt::format("the state of the space server is of tick {}, but tick {} has to come first", header.tick, next_));
   return header.tick == next_ && !fresh_ ? &state_ : &repeated_;
 }
 

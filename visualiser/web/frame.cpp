@@ -133,6 +133,7 @@ void FrameWriter::ReadAttributes()
     if (bearer.laser != kNone && attributes[bearer.laser] != 0) flags |= kLaserOn;
     if (bearer.beacon != kNone && ColourOf(attributes[bearer.beacon]) != 0) flags |= kBeaconLit;
     if (bearer.attached != kNone && attributes[bearer.attached] != 0) flags |= kAttached;
+    if (!space_.IsPresent(bearer.entity)) flags |= kAbsent;
     *bytes++ = static_cast<std::uint8_t>(colour >> 16U);
     *bytes++ = static_cast<std::uint8_t>(colour >> 8U);
     *bytes++ = static_cast<std::uint8_t>(colour);

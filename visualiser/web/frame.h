@@ -36,6 +36,7 @@ enum FrameFlag : std::uint8_t
   kLaserOn = 8,
   kBeaconLit = 16,
   kAttached = 32,  // to the ceiling or by the rope
+  kAbsent = 64,    // it is not in the arena
 };
 
 // A laser beam from the entity's position to where it ends.

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -141,7 +142,8 @@ PageRequest WatchIn(const Json& json)
   WatchRequest request;
   for (const Json& entity : *found)
   {
-    if (!entity.is_number_unsigned()) Refuse("entities are watched by their number");
+    if (!entity.is_number_unsigned() || entity.get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max())
+      Refuse("entities are watched by their number");
     request.entities.push_back(entity.get<std::uint32_t>());
   }
   return request;

@@ -16,7 +16,7 @@ public:
   virtual void SwitchOff() = 0;
   virtual void SetColour(std::uint32_t colour) = 0;  // 0xRRGGBB; red at first; 0 shows no spot
   // Tilt: radians from straight down, cut to 0..MAX_TILT. Pan: the direction of the tilt, radians counter-clockwise
-  // from the front. Where one of them is not a finite number the direction stays as it is.
+  // from the front. One that is not finite ends a simulation with an error.
   static constexpr double MAX_TILT = 1.2217304763960306;  // 70 degrees
   virtual void SetDirection(double pan, double tilt) = 0;
 };

@@ -11,10 +11,11 @@ class CCI_EyeBotPropellersActuator : public CCI_Actuator
 {
 public:
   // Velocity in the frame of the robot: forward, left, up in m/s; yaw rate in rad/s, positive counter-clockwise.
-  // Clamped to the limits of the implementation; what is not a number counts as 0. Engines of a plane ignore `up`.
+  // Clamped to the limits of the implementation; what is not a number ends a simulation. Planes ignore `up`.
   virtual void SetVelocity(double forward, double left, double up, double yaw_rate) = 0;
-  // Flies to a position (m, in the space) and a heading (radians) and hovers there, until told otherwise. Hovers where
-  // one of them is not a finite number. Implementations without position control throw CCI_DeviceError.
+  // Flies to a position (m, in the space) and a heading (radians) and hovers there, until told otherwise. What
+  // is not a finite number ends a simulation with an error. Implementations without position control throw
+  // CCI_DeviceError.
   virtual void SetPosition(const Vector3& position, double yaw) = 0;
   void Hover() { SetVelocity(0, 0, 0, 0); }
 };

@@ -12,7 +12,7 @@ public:
   // 0 opens it, 1 closes it; beyond LOCK_THRESHOLD it takes hold of what it touches and keeps it (ARGoS3, foot-bot).
   static constexpr double LOCK_THRESHOLD = 0.5;
 
-  // Values are cut to 0..1; one that is not a number opens it.
+  // Values are cut to 0..1; one that is not a number ends a simulation with an error.
   virtual void SetGripper(double closed) = 0;
   void Grip() { SetGripper(1); }
   void Release() { SetGripper(0); }

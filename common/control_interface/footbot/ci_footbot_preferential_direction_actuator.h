@@ -14,7 +14,7 @@ class CCI_FootBotPreferentialDirectionActuator : public CCI_Actuator
 {
 public:
   // Lights the LEDs around this direction, radians counter-clockwise from the front of the body, in a colour
-  // (0xRRGGBB). A direction that is not a finite number leaves the last one.
+  // (0xRRGGBB). A direction that is not a finite number ends a simulation with an error.
   virtual void SetDirection(double angle, std::uint32_t colour) = 0;
   virtual void HideDirection() = 0;
 };

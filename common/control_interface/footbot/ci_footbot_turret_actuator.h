@@ -9,7 +9,8 @@ namespace swarmanoid
 class CCI_FootBotTurretActuator : public CCI_Actuator
 {
 public:
-  // rad/s, positive counter-clockwise; clamped to the limit of the implementation. One that is not a number stops it.
+  // rad/s, positive counter-clockwise; clamped to the limit of the implementation. What is not a number ends a
+  // simulation.
   virtual void SetTurretAngularVelocity(double velocity) = 0;
 };
 

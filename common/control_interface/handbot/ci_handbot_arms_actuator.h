@@ -9,7 +9,7 @@ namespace swarmanoid
 class CCI_HandBotArmsActuator : public CCI_Actuator
 {
 public:
-  // Angular velocities in rad/s, clamped to MAX_SPEED; one that is not a number stops the joint. An arm opens from 0
+  // Angular velocities in rad/s, clamped to MAX_SPEED; what is no number ends a simulation. An arm opens from 0
   // (along the robot) to MAX_ARM, a wrist turns from 0 to MAX_WRIST (ARGoS 2, hand-bot); the joints stop there.
   static constexpr double MAX_ARM = 1.0471975511965976;    // 60 degrees
   static constexpr double MAX_WRIST = 1.5707963267948966;  // 90 degrees

@@ -10,7 +10,7 @@ class CCI_HandBotHeadActuator : public CCI_Actuator
 {
 public:
   static constexpr double MAX_SPEED = 3;  // rad/s
-  // rad/s, positive raises the left arm; clamped to MAX_SPEED. One that is not a number stops the head.
+  // rad/s, positive raises the left arm; clamped to MAX_SPEED. What is not a number ends a simulation.
   virtual void SetHeadAngularVelocity(double velocity) = 0;
 };
 

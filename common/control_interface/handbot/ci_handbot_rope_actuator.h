@@ -12,7 +12,7 @@ public:
   static constexpr double MAX_WINCH_SPEED = 0.15;  // m/s
   virtual void Launch() = 0;                       // attaches to what is above; stays so until Release
   virtual void Release() = 0;
-  // m/s of rope let out; negative pulls the robot up. Clamped to MAX_WINCH_SPEED; one that is not a number stops it.
+  // m/s of rope let out; negative pulls the robot up. Clamped to MAX_WINCH_SPEED; what is no number ends a simulation.
   virtual void SetWinchVelocity(double velocity) = 0;
 };
 

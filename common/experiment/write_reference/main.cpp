@@ -1,5 +1,4 @@
-// write_experiment_reference FOLDER: writes experiment_reference.md and experiment.xsd, which the repository keeps in
-// docs/.
+// write_experiment_reference FOLDER: writes experiment_reference.md, which the repository keeps in docs/.
 #include <cstdio>
 #include <fstream>
 #include <string>
@@ -28,7 +27,5 @@ int main(int argc, char** argv)
     return 2;
   }
   const std::string folder = argv[1];
-  const bool written = Write(folder + "/experiment_reference.md", swarmanoid::ExperimentReference()) &&
-                       Write(folder + "/experiment.xsd", swarmanoid::ExperimentXsd());
-  return written ? 0 : 1;
+  return Write(folder + "/experiment_reference.md", swarmanoid::ExperimentReference()) ? 0 : 1;
 }

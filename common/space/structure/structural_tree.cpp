@@ -5,7 +5,7 @@
 namespace swarmanoid
 {
 
-CCompoundEntity::CCompoundEntity(CSwarmanoidSpace& space, std::uint32_t root, std::vector<std::uint32_t> members)
+CCompoundEntity::CCompoundEntity(const CSwarmanoidSpace& space, std::uint32_t root, std::vector<std::uint32_t> members)
     : space_(space), root_(root), members_(std::move(members))
 {
 }
@@ -19,13 +19,7 @@ std::vector<Pose> CCompoundEntity::PosesAt(const Pose& root_pose) const
   return poses;
 }
 
-void CCompoundEntity::MoveTo(const Pose& root_pose)
-{
-  const std::vector<Pose> poses = PosesAt(root_pose);
-  for (std::size_t k = 0; k < members_.size(); ++k) space_.SetPose(members_[k], poses[k]);
-}
-
-StructuralTree::StructuralTree(CSwarmanoidSpace& space) : space_(space), held_(space.Size(), -1) {}
+StructuralTree::StructuralTree(const CSwarmanoidSpace& space) : space_(space), held_(space.Size(), -1) {}
 
 void StructuralTree::Rebuild()
 {
@@ -86,7 +80,7 @@ std::uint32_t StructuralTree::GetRoot(std::uint32_t entity) const
   return entity;
 }
 
-CCompoundEntity StructuralTree::GetCompound(std::uint32_t member)
+CCompoundEntity StructuralTree::GetCompound(std::uint32_t member) const
 {
   const std::uint32_t root = GetRoot(member);
   std::vector<std::uint32_t> members;

@@ -26,18 +26,17 @@ public:
 class CCompoundEntity
 {
 public:
-  CCompoundEntity(CSwarmanoidSpace& space, std::uint32_t root, std::vector<std::uint32_t> members);
+  CCompoundEntity(const CSwarmanoidSpace& space, std::uint32_t root, std::vector<std::uint32_t> members);
 
   std::uint32_t GetRoot() const { return root_; }
   // The root and all that are connected to it, ascending.
   const std::vector<std::uint32_t>& GetMembers() const { return members_; }
   // Where each member is, in their order, when the root is at a pose and carries the others along as one rigid body.
+  // SpaceEditor::MoveCompound puts them there.
   std::vector<Pose> PosesAt(const Pose& root_pose) const;
-  // Puts them there.
-  void MoveTo(const Pose& root_pose);
 
 private:
-  CSwarmanoidSpace& space_;
+  const CSwarmanoidSpace& space_;
   std::uint32_t root_;
   std::vector<std::uint32_t> members_;
 };
@@ -46,7 +45,7 @@ class StructuralTree
 {
 public:
   // No connections yet. The space outlives the tree.
-  explicit StructuralTree(CSwarmanoidSpace& space);
+  explicit StructuralTree(const CSwarmanoidSpace& space);
 
   // Reads the connections that the space has: the attributes "gripped" of all robots. Throws StructureError for a loop.
   void Rebuild();
@@ -63,7 +62,7 @@ public:
   std::vector<std::uint32_t> GetHolders(std::uint32_t gripped) const;
   // Itself where it holds nothing.
   std::uint32_t GetRoot(std::uint32_t entity) const;
-  CCompoundEntity GetCompound(std::uint32_t member);
+  CCompoundEntity GetCompound(std::uint32_t member) const;
 
   // Kinds with a gripper: footbots and handbots. Kinds that can be held: those with a gripping strip (footbots,
   // handbots, preys) and movable blocks.
@@ -73,7 +72,7 @@ public:
 private:
   void Check(std::uint32_t gripper, std::uint32_t gripped) const;
 
-  CSwarmanoidSpace& space_;
+  const CSwarmanoidSpace& space_;
   std::vector<int> held_;
 };
 

@@ -3,28 +3,31 @@
 #include <png.h>
 
 #include <cstdint>
-#include <cstdio>
-#include <memory>
+#include <cstring>
 #include <stdexcept>
+#include <string_view>
+
+#include "common/configuration/regular_file.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30U;
+constexpr png_uint_32 kMostPixelsOfRow = 1U << 16U;
+// A picture of so many takes a gigabyte.
+constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26U;
+
 // A file that libpng reads. Its errors come back by longjmp, so no function that may meet one has objects of its own.
 struct Reader
 {
-  explicit Reader(const std::string& path) : file(std::fopen(path.c_str(), "rb"))
+  explicit Reader(std::string_view bytes) : rest(bytes)
   {
     png = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, &OnError, [](png_structp, png_const_charp) {});
     if (png != nullptr) info = png_create_info_struct(png);
   }
-  ~Reader()
-  {
-    png_destroy_read_struct(&png, &info, nullptr);
-    if (file != nullptr) std::fclose(file);
-  }
+  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
@@ -34,12 +37,23 @@ struct Reader
     png_longjmp(png, 1);
   }
 
+  static void OnRead(png_structp png, png_bytep target, std::size_t count)
+  {
+    std::string_view& rest = static_cast<Reader*>(png_get_io_ptr(png))->rest;
+    if (count > rest.size()) png_error(png, "it is cut short");
+    std::memcpy(target, rest.data(), count);
+    rest.remove_prefix(count);
+  }
+
   // Palettes and few bits become 8 bits a sample; 16 bits stay. False after an error.
   bool ReadHeader()
   {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
-    png_init_io(png, file);
+    png_set_user_limits(png, kMostPixelsOfRow, kMostPixelsOfRow);
+    png_set_read_fn(png, this, &OnRead);
     png_read_info(png, info);
+    if (std::uint64_t{png_get_image_width(png, info)} * png_get_image_height(png, info) > kMostPixels)
+      png_error(png, "it has more than 67,108,864 pixels, the most that are read");
     png_set_expand(png);
     png_set_strip_alpha(png);
     png_set_interlace_handling(png);
@@ -53,7 +67,7 @@ struct Reader
     return true;
   }
 
-  std::FILE* file;
+  std::string_view rest;  // of the bytes
   png_structp png = nullptr;
   png_infop info = nullptr;
   std::string error;
@@ -63,10 +77,18 @@ struct Reader
 
 GreyPicture ReadGreyPicture(const std::string& path)
 {
-  Reader reader(path);
   const auto fail = [&](const std::string& why)
   { throw std::runtime_error("cannot read the PNG '" + path + "': " + why); };
-  if (reader.file == nullptr) fail("it cannot be opened");
+  std::string file;
+  try
+  {
+    file = ReadRegularFile(path, kMostBytes);
+  }
+  catch (const FileError& error)
+  {
+    fail(error.what());
+  }
+  Reader reader(file);
   if (reader.info == nullptr) fail("out of memory");
   if (!reader.ReadHeader()) fail(reader.error);
 

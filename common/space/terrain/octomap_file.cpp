@@ -2,9 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <limits>
+#include <sstream>
 #include <stdexcept>
+#include <string_view>
+
+#include "common/configuration/regular_file.h"
 
 namespace swarmanoid
 {
@@ -14,9 +22,16 @@ namespace
 constexpr const char* kBinaryStart = "# Octomap OcTree binary file";
 constexpr const char* kFullStart = "# Octomap OcTree file";
 
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30U;
+// A tree of so many takes some gigabytes.
+constexpr std::size_t kMostNodes = std::size_t{1} << 26U;
+constexpr int kDepth = 16;  // of OctoMap's trees
+constexpr double kFinest = 1e-6;
+constexpr double kCoarsest = 1e6;
+
 struct Header
 {
-  std::string type;
+  std::string type = "OcTree";
   std::size_t nodes = 0;
   double resolution = 0;
 };
@@ -32,48 +47,117 @@ bool ReadHeader(std::istream& file, Header& header)
     if (word == "res") file >> header.resolution;
     if (word.front() == '#') std::getline(file, word);
   }
-  return file && file.get() == '\n' && header.resolution > 0;
+  return file && file.get() == '\n' && header.type == "OcTree";
+}
+
+// Very old .bt files have a header of bytes instead.
+bool ReadOldHeader(std::istream& file, Header& header)
+{
+  constexpr std::int32_t kOccupancyTree = 3;
+  std::int32_t type = 0;
+  std::uint32_t nodes = 0;
+  file.read(reinterpret_cast<char*>(&type), sizeof type);
+  file.read(reinterpret_cast<char*>(&header.resolution), sizeof header.resolution);
+  file.read(reinterpret_cast<char*>(&nodes), sizeof nodes);
+  header.nodes = nodes;
+  return file && type == kOccupancyTree;
+}
+
+// What a node in the data says of its eight children.
+struct Children
+{
+  int nodes = 0;
+  int described = 0;  // those that follow in the data, one after the other, each with its own children
+};
+
+// Two bytes, two bits a child: unknown, a free leaf, an occupied leaf, described.
+Children ChildrenInBinary(const char* node)
+{
+  Children children;
+  for (unsigned child = 0; child < 8; ++child)
+  {
+    const unsigned bits = static_cast<unsigned char>(node[child / 4]) >> (2 * (child % 4)) & 3U;
+    children.nodes += bits != 0;
+    children.described += bits == 3;
+  }
+  return children;
+}
+
+// A probability (float), then one bit a child.
+Children ChildrenInFull(const char* node)
+{
+  const int count = std::popcount(static_cast<unsigned char>(node[sizeof(float)]));
+  return {count, count};
+}
+
+// OctoMap reads a node within a node, as deep as the data says, and makes what it says: both are bounded here. Returns
+// why the data is no tree of that many nodes, nullptr where it is.
+const char* MistakeInData(std::string_view data, bool is_binary, std::size_t nodes)
+{
+  const std::size_t bytes = is_binary ? 2 : sizeof(float) + 1;
+  std::array<int, kDepth + 1> left{1};  // described nodes that are still to come, by depth
+  int depth = 0;
+  std::size_t count = 1;
+  std::size_t at = 0;
+  while (depth >= 0)
+  {
+    if (left[static_cast<std::size_t>(depth)] == 0)
+    {
+      --depth;
+      continue;
+    }
+    --left[static_cast<std::size_t>(depth)];
+    if (data.size() - at < bytes) return "is cut short";
+    const Children children = is_binary ? ChildrenInBinary(data.data() + at) : ChildrenInFull(data.data() + at);
+    at += bytes;
+    count += static_cast<std::size_t>(children.nodes);
+    if (count > nodes || (children.nodes > 0 && depth == kDepth)) return "is damaged";
+    if (children.described == 0) continue;
+    ++depth;
+    left[static_cast<std::size_t>(depth)] = children.described;
+  }
+  return count == nodes ? nullptr : "is damaged";
 }
 
 }  // namespace
 
 std::unique_ptr<octomap::OcTree> ReadOctoMap(const std::string& path)
 {
+  const auto fail = [&](const std::string& why) { throw std::runtime_error(fmt::format("'{}' {}", path, why)); };
   const std::string extension = std::filesystem::path(path).extension().string();
-  if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("'" + path + "' is not there");
   const bool is_binary = extension == ".bt";
-  if (!is_binary && extension != ".ot") throw std::runtime_error("'" + path + "' must end in .bt or .ot");
-
-  std::ifstream file(path, std::ios::binary);
-  std::string first;
-  std::getline(file, first);
-  if (!first.starts_with(is_binary ? kBinaryStart : kFullStart))
+  if (!is_binary && extension != ".ot") fail("must end in .bt or .ot");
+  std::string bytes;
+  try
   {
-    // Very old .bt files have no header; OctoMap knows them.
-    auto map = std::make_unique<octomap::OcTree>(0.1);
-    if (is_binary && map->readBinary(path)) return map;
-    throw std::runtime_error("'" + path + "' is not an OctoMap occupancy tree");
+    bytes = ReadRegularFile(path, kMostBytes);
   }
+  catch (const FileError& error)
+  {
+    fail(fmt::format("cannot be read: {}", error.what()));
+  }
+
+  std::istringstream file(bytes);
   Header header;
-  if (!ReadHeader(file, header) || header.type != "OcTree")
-    throw std::runtime_error("'" + path + "' is not an OctoMap occupancy tree");
+  const bool has_lines = bytes.starts_with(is_binary ? kBinaryStart : kFullStart);
+  if (has_lines) file.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  const bool good = has_lines ? ReadHeader(file, header) : is_binary && ReadOldHeader(file, header);
+  if (!good) fail("is not an OctoMap occupancy tree");
+  if (!(header.resolution >= kFinest && header.resolution <= kCoarsest))
+    fail(fmt::format("has cells of {} m; they must be from {} to {} m", header.resolution, kFinest, kCoarsest));
+  if (header.nodes > kMostNodes)
+    fail(fmt::format("has {} nodes, or says so; {} are the most that are read", header.nodes, kMostNodes));
 
   auto map = std::make_unique<octomap::OcTree>(header.resolution);
   if (header.nodes == 0) return map;
-  try
-  {
-    // OctoMap itself goes on at the end of a file that is too short.
-    file.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
-    if (is_binary)
-      map->readBinaryData(file);
-    else
-      map->readData(file);
-  }
-  catch (const std::ios::failure&)
-  {
-    throw std::runtime_error("'" + path + "' is cut short");
-  }
-  if (map->size() != header.nodes) throw std::runtime_error("'" + path + "' is damaged");
+  const auto start = static_cast<std::size_t>(file.tellg());
+  if (const char* mistake = MistakeInData(std::string_view(bytes).substr(start), is_binary, header.nodes))
+    fail(mistake);
+  if (is_binary)
+    map->readBinaryData(file);
+  else
+    map->readData(file);
+  if (map->size() != header.nodes) fail("is damaged");
   return map;
 }
 

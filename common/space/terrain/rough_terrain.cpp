@@ -16,8 +16,8 @@ namespace
 
 constexpr double kMostColumns = 1e6;
 constexpr double kMostLayers = 200;
-constexpr std::uint32_t kHoles = StreamName("holes of a terrain");
-constexpr std::uint32_t kBumps = StreamName("bumps of a terrain");
+constexpr std::uint64_t kHoles = StreamName("holes of a terrain");
+constexpr std::uint64_t kBumps = StreamName("bumps of a terrain");
 // Wave lengths of the bumps (m), each half as high as the one before.
 constexpr std::array kWaves{0.5, 0.25, 0.125};
 constexpr double kNarrowestHole_m = 0.12;
@@ -52,7 +52,7 @@ public:
       : spacing_(spacing), columns_(static_cast<int>(size.x() / spacing) + 2)
   {
     const int rows = static_cast<int>(size.y() / spacing) + 2;
-    RandomStream random(seed, wave, kBumps, 0);
+    RandomStream random(seed, kBumps, wave, 0);
     for (int k = 0; k < columns_ * rows; ++k) heights_.push_back(random.Uniform(0, 1));
   }
 
@@ -77,7 +77,7 @@ private:
 
 std::vector<Hole> HolesOf(const RoughTerrain& terrain)
 {
-  RandomStream random(terrain.seed, 0, kHoles, 0);
+  RandomStream random(terrain.seed, kHoles, 0, 0);
   std::vector<Hole> holes;
   for (int k = 0; k < terrain.holes; ++k)
   {

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -53,16 +55,19 @@ VoxelTerrain::VoxelTerrain(const std::string& path)
   ny_ = static_cast<int>(high[1] - low[1]);
   nz_ = static_cast<int>(high[2] - low[2]);
   if (static_cast<double>(nx_) * ny_ * nz_ > kMostCells)
-    throw std::runtime_error("'" + path + "' spans too many cells");
+    throw std::runtime_error(
+        fmt::format("'{}' spans {} x {} x {} cells; {} are the most", path, nx_, ny_, nz_, kMostCells));
   low_ = cell_ * Vector3(static_cast<double>(low[0]), static_cast<double>(low[1]), static_cast<double>(low[2]));
   occupied_.assign(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_) * static_cast<std::size_t>(nz_),
                    false);
   for (const Cube& cube : cubes)
     for (long z = cube.z; z < cube.z + cube.width; ++z)
       for (long y = cube.y; y < cube.y + cube.width; ++y)
-        for (long x = cube.x; x < cube.x + cube.width; ++x)
-          occupied_[Bit(static_cast<int>(x - low[0]), static_cast<int>(y - low[1]), static_cast<int>(z - low[2]))] =
-              true;
+      {
+        const std::size_t first =
+            Bit(static_cast<int>(cube.x - low[0]), static_cast<int>(y - low[1]), static_cast<int>(z - low[2]));
+        std::fill_n(occupied_.begin() + static_cast<std::ptrdiff_t>(first), cube.width, true);
+      }
 }
 
 bool VoxelTerrain::IsOccupied(int x, int y, int z) const

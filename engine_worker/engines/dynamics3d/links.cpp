@@ -201,7 +201,8 @@ void LinkTable::Load(ByteReader& state)
     const auto length = state.Get<double>();
 
     const auto bodies = static_cast<int>(world_.BodyCount());
-    if (spec.body_a < 0 || spec.body_a >= bodies || spec.body_b >= bodies)
+    if (spec.kind > ELink::kRope || spec.body_a < 0 || spec.body_a >= bodies || spec.body_b < -1 ||
+        spec.body_b >= bodies)
       throw std::runtime_error("saved state: a grip names a body that the engine does not have");
     SetRawPose(world_.Body(spec.body_a), pose_a);
     if (spec.body_b >= 0) SetRawPose(world_.Body(spec.body_b), pose_b);

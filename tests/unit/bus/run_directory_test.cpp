@@ -6,8 +6,11 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
+
+#include "common/bus/bus.h"
 
 namespace swarmanoid
 {
@@ -74,6 +77,89 @@ TEST_F(RunDirectoryTest, WhatAKilledProcessLeftIsRemovedByTheNext)
   EXPECT_TRUE(fs::exists(folder_ + "/killed-0000000000000001"));
   RemoveDeadRuns();
   EXPECT_FALSE(fs::exists(folder_ + "/killed-0000000000000001"));
+}
+
+TEST_F(RunDirectoryTest, WhatIsNotOursStaysWhereItIs)
+{
+  fs::create_directories(folder_ + "/thesis/chapters");
+  std::ofstream(folder_ + "/thesis/chapters/one.tex") << "text";
+  std::ofstream(folder_ + "/thesis/process.1") << "";
+  std::ofstream(folder_ + "/thesis/server") << "7 1\nthesis\n";
+  fs::create_directories(folder_ + "/empty");
+  RemoveDeadRuns();
+  {
+    RunDirectory directory("ours", 1);
+    directory.Announce("ours", 7);
+    EXPECT_EQ(FindLocalRuns().size(), 1U);
+  }
+  RemoveDeadRuns();
+  EXPECT_FALSE(fs::exists(folder_ + "/ours-0000000000000001"));
+  EXPECT_TRUE(fs::exists(folder_ + "/thesis/chapters/one.tex"));
+  EXPECT_TRUE(fs::exists(folder_ + "/thesis/process.1"));
+  EXPECT_TRUE(fs::exists(folder_ + "/empty"));
+}
+
+TEST_F(RunDirectoryTest, AFolderOfOthersIsNotTakenForARun)
+{
+  fs::create_directories(folder_ + "/ours-0000000000000001");
+  std::ofstream(folder_ + "/ours-0000000000000001/letter") << "text";
+  EXPECT_THROW(RunDirectory("ours", 1), BusError);
+  EXPECT_TRUE(fs::exists(folder_ + "/ours-0000000000000001/letter"));
+}
+
+TEST_F(RunDirectoryTest, LinksAreNotFollowed)
+{
+  const std::string victim = folder_ + ".victim";
+  fs::create_directories(victim);
+  {
+    // A run that died, by all that its folder says.
+    setenv("SWARMANOID_SHARED_FOLDER", victim.c_str(), 1);
+    RunDirectory directory("dead", 1);
+    fs::create_directories(victim + "/kept-1");
+    fs::copy(directory.Path() + "/.swarmanoid-run", victim + "/kept-1/.swarmanoid-run");
+    std::ofstream(victim + "/kept-1/letter") << "text";
+    setenv("SWARMANOID_SHARED_FOLDER", folder_.c_str(), 1);
+    fs::create_symlink(victim, folder_);
+    RemoveDeadRuns();
+    EXPECT_TRUE(FindLocalRuns().empty());
+    EXPECT_THROW(RunDirectory("other", 2), BusError);
+    setenv("SWARMANOID_SHARED_FOLDER", (folder_ + "/").c_str(), 1);
+    RemoveDeadRuns();
+    EXPECT_THROW(RunDirectory("other", 2), BusError);
+    EXPECT_TRUE(fs::exists(victim + "/kept-1/letter"));
+
+    // A link within the folder.
+    fs::remove(folder_);
+    fs::create_directory(folder_);
+    fs::create_symlink(victim + "/kept-1", folder_ + "/dead-2");
+    RemoveDeadRuns();
+    EXPECT_TRUE(fs::exists(victim + "/kept-1/letter"));
+    EXPECT_TRUE(fs::is_symlink(folder_ + "/dead-2"));
+    setenv("SWARMANOID_SHARED_FOLDER", victim.c_str(), 1);
+  }
+  fs::remove_all(victim);
+}
+
+TEST_F(RunDirectoryTest, OnlyThisUserMayWriteThere)
+{
+  {
+    const RunDirectory directory("ours", 1);
+    EXPECT_EQ(fs::status(folder_).permissions(), fs::perms::owner_all);
+    EXPECT_EQ(fs::status(directory.Path()).permissions(), fs::perms::owner_all);
+  }
+  fs::create_directory(folder_);
+  fs::permissions(folder_, fs::perms::all);
+  try
+  {
+    RunDirectory directory("ours", 1);
+    FAIL() << "it was taken";
+  }
+  catch (const BusError& error)
+  {
+    EXPECT_EQ(std::string(error.what()),
+              "'" + folder_ +
+                  "' can be written by other users; remove it, or name another folder by SWARMANOID_SHARED_FOLDER");
+  }
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ TEST(DeviceParameters, NoiseWithoutAKindIsRefused)
 {
   EXPECT_EQ(TurretEncoder("noise_range=\"0.1\""),
             "test.xml:2:73: 'noise_range' of <footbot_turret_encoder> has no effect without 'noise_kind'; give that "
-            "too: uniform or gaussian, or none to switch the noise off\n");
+            "too: uniform, gaussian or truncated_gaussian, or none to switch the noise off\n");
   EXPECT_EQ(TurretEncoder(""), "");
   EXPECT_EQ(TurretEncoder("noise_kind=\"none\" noise_range=\"0.1\""), "") << "switched off";
 }
@@ -61,7 +61,7 @@ TEST(DeviceParameters, EachSetOfNoiseIsJudgedByItself)
   EXPECT_EQ(MistakesOf("eyebot_camera", "generic_eyebot_camera",
                        "distance_noise_kind=\"uniform\" distance_noise_range=\"0.1\" angle_noise_deviation=\"0.1\""),
             "test.xml:2:112: 'angle_noise_deviation' of <eyebot_camera> has no effect without 'angle_noise_kind'; give "
-            "that too: uniform or gaussian, or none to switch the noise off\n");
+            "that too: uniform, gaussian or truncated_gaussian, or none to switch the noise off\n");
 }
 
 TEST(DeviceParameters, ThePolynomialIsNotUsedBeyondItsFit)

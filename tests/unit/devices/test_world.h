@@ -117,8 +117,9 @@ public:
     for (std::size_t k = 0; k < robots.size(); ++k) offsets_.push_back(k * width);
     channel_ = {values, offsets_, entry->description.channel_width};
     batch = entry->create();
-    batch->Init(
-        {Parameters(TreeOf(parameters), entry->description.parameters), world.Space(), robots, StreamName(type)});
+    const bool is_sensor = std::is_same_v<Interface, SensorBatch>;
+    batch->Init({Parameters(TreeOf(parameters), entry->description.parameters), world.Space(), robots,
+                 is_sensor ? SensorStream(type) : ActuatorStream(type)});
   }
   TestBatch(const TestBatch&) = delete;
   TestBatch& operator=(const TestBatch&) = delete;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <map>
 
 #include "common/experiment/body.h"
 #include "common/math/elementary.h"
@@ -68,6 +69,41 @@ TEST(Distribute, TheSeedDecidesThePlacesAndNothingElse)
   }
 }
 
+// Common random numbers: an entity is placed by its id, wherever in the file it stands and whoever stands before it.
+TEST(Distribute, OthersInTheFileShiftNoPlaces)
+{
+  const std::string robots = "<distribute quantity='20'><footbot id='fb'/></distribute>";
+  const std::string preys =
+      "<distribute quantity='20'><cylindric_prey id='p' radius='0.01' height='0.1'/></distribute>";
+  const std::string block = "<block id='b' position='39,39,0.5' size='0.2,0.2,1'/>";
+  const auto places = [](const std::string& content)
+  {
+    std::map<std::string, Pose> poses;
+    for (const EntityConfiguration& entity : EntitiesOf(Arena(content, "40,40,3"))) poses[entity.id] = entity.pose;
+    return poses;
+  };
+  const auto alone = places(robots);
+  for (const std::string& content : {block + robots, robots + block, robots + preys, preys + robots,
+                                     "<distribute quantity='30'><footbot id='fb'/></distribute>" + block})
+  {
+    const auto among_others = places(content);
+    for (const auto& [id, pose] : alone)
+    {
+      EXPECT_EQ(among_others.at(id).position, pose.position) << id << " in " << content;
+      EXPECT_EQ(among_others.at(id).orientation.coeffs(), pose.orientation.coeffs()) << id;
+    }
+  }
+}
+
+TEST(Distribute, IdsWhoseRandomNumbersWouldBeEqualAreRefused)
+{
+  EXPECT_EQ(
+      ErrorsOf(Arena("<light_bulb id='7mohtcOFVz' position='1,1,1'/>\n<light_bulb id='c1E51sSEyx' "
+                     "position='2,1,1'/>")),
+      "test.xml:4:13: the ids 'c1E51sSEyx' and '7mohtcOFVz' (line 3) of two entities have the same 64-bit name, by "
+      "which random numbers are drawn; rename one of them\n");
+}
+
 TEST(Distribute, UniformStaysInItsBoxWithTheGivenHeadings)
 {
   const auto entities =
@@ -129,7 +165,7 @@ TEST(Distribute, GridWithoutSettingsHoldsAll)
 TEST(Distribute, ErrorsSayWhatDoesNotFit)
 {
   EXPECT_EQ(ErrorsOf(Arena("<distribute quantity='100' max_trials='50'><footbot id='fb'/></distribute>", "1,1,1")),
-            "test.xml:3:1: the footbot 'fb_16' does not fit after 16 of 100 were placed: no free place in 50 trials; "
+            "test.xml:3:1: the footbot 'fb_15' does not fit after 15 of 100 were placed: no free place in 50 trials; "
             "lower the "
             "quantity, enlarge the region or raise max_trials\n");
   EXPECT_EQ(ErrorsOf(Arena(

@@ -80,6 +80,7 @@ inline void RegisterFakePlugins()
     {
       PluginDescription controller;
       controller.label = label;
+      controller.declares_parameters = false;
       PluginCatalogue::Instance().Add(PluginKind::kController, controller);
     }
     return true;

@@ -83,7 +83,7 @@ const Mistake kMistakes[] = {
      "test.xml:17:3: <arena> lacks 'size': three numbers \"x, y, z\" in m, from 1e-06 to 1000000 m\n"},
     {"UnknownAttribute", "optimization=\"2D\"", "optimisation=\"2D\"",
      "test.xml:17:3: <arena> lacks 'optimization': one of 2D, 3D, octree\ntest.xml:17:25: <arena> has no attribute "
-     "'optimisation'; allowed: size, optimization; did you mean 'optimization'?\n"},
+     "'optimisation'; allowed: size, optimization, limit, beyond_limit; did you mean 'optimization'?\n"},
     {"BadChoice", "optimization=\"2D\"", "optimization=\"2d\"",
      "test.xml:17:25: 'optimization' of <arena> is '2d'; it must be one of 2D, 3D, octree; did you mean '2D'?\n"},
     {"NotANumber", "<maxclock>500</maxclock>", "<maxclock>5OO</maxclock>",
@@ -119,9 +119,10 @@ const Mistake kMistakes[] = {
      "test.xml:18:22: 'fb' is outside the arena: y is 12 m; it must be from 0 to 10 m\n"},
     {"UnknownEntity", "<light_bulb id=\"lamp\"", "<lightbulb id=\"lamp\"",
      "test.xml:21:5: <arena> has no element <lightbulb>; allowed: footbot, eyebot, handbot, block, cylindric_prey, "
-     "light_bulb, sound_source, ground_patch, hole, wall, terrain, distribute, reserve, size, optimization; did you "
-     "mean "
-     "'light_bulb'?\n"},
+     "light_bulb, sound_source, ground_patch, hole, wall, terrain, distribute, reserve, size, optimization, limit, "
+     "beyond_limit; did you mean 'light_bulb'?\n"},
+    {"UnknownPolicy", "optimization=\"2D\"", "optimization=\"2D\" beyond_limit=\"ignore\"",
+     "test.xml:17:43: 'beyond_limit' of <arena> is 'ignore'; it must be one of stop, hold, remove\n"},
     {"UnknownParameter", "orientation=\"0,0,90\"", "orientaton=\"0,0,90\"",
      "test.xml:19:42: <footbot> has no attribute 'orientaton'; allowed: id, position, orientation, controller; did you "
      "mean 'orientation'?\n"},
@@ -278,7 +279,7 @@ TEST(MistakesTogether, AMissingFileIsNamed)
 {
   const LoadedExperiment loaded = LoadExperimentFile("/nowhere/at_all.xml");
   ASSERT_EQ(loaded.errors.size(), 1U);
-  EXPECT_EQ(loaded.errors[0].Text(), "/nowhere/at_all.xml: the file cannot be opened: No such file or directory");
+  EXPECT_EQ(loaded.errors[0].Text(), "/nowhere/at_all.xml: the file cannot be read: there is no such file");
 }
 
 }  // namespace

@@ -1,13 +1,16 @@
-// docs/plugin_reference.md is generated from the tables of all plug-ins. After a change of one, write it anew:
+// docs/plugin_reference.md and docs/experiment.xsd are generated from the tables of all plug-ins, those of the shipped
+// controllers and experiment functions too. After a change of one, write them anew:
 //   SWARMANOID_WRITE_REFERENCE=1 build/bin/tests/unit_launcher --gtest_filter='PluginReference.*'
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 
 #include "common/experiment/reference.h"
+#include "common/plugins/library.h"
 #include "controller_host/device.h"
 #include "engine_worker/engine_worker.h"
 #include "test_folders.h"
@@ -18,16 +21,40 @@ namespace swarmanoid
 namespace
 {
 
-TEST(PluginReference, TheCommittedPageIsThatOfTheTables)
+void LoadAllPlugins()
 {
   RegisterBuiltinEngines();
   RegisterBuiltinDevices();
   RegisterBuiltinRenderers();
-  const std::string path = std::string(SWARMANOID_SOURCE_FOLDER) + "/docs/plugin_reference.md";
-  if (std::getenv("SWARMANOID_WRITE_REFERENCE") != nullptr) std::ofstream(path) << PluginReference();
+  namespace fs = std::filesystem;
+  for (const char* folder : {"controllers", "functions"})
+    for (const auto& entry : fs::directory_iterator(fs::path(SWARMANOID_SOURCE_FOLDER) / "user" / folder))
+    {
+      const PluginLibrary& library =
+          LoadPluginLibrary(entry.path().filename(), {SWARMANOID_BUILD_FOLDER "/lib/swarmanoid"});
+      EXPECT_EQ(library.error, "");
+    }
+}
+
+void ExpectCommitted(const std::string& name, const std::string& generated)
+{
+  const std::string path = std::string(SWARMANOID_SOURCE_FOLDER) + "/docs/" + name;
+  if (std::getenv("SWARMANOID_WRITE_REFERENCE") != nullptr) std::ofstream(path) << generated;
   std::ifstream file(path);
-  const std::string page{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  EXPECT_EQ(page, PluginReference());
+  const std::string committed{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  EXPECT_TRUE(committed == generated) << path << " is not up to date";
+}
+
+TEST(PluginReference, TheCommittedPageIsThatOfTheTables)
+{
+  LoadAllPlugins();
+  ExpectCommitted("plugin_reference.md", PluginReference());
+}
+
+TEST(PluginReference, TheCommittedSchemaIsThatOfTheTables)
+{
+  LoadAllPlugins();
+  ExpectCommitted("experiment.xsd", ExperimentXsd());
 }
 
 }  // namespace

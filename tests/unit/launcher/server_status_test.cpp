@@ -1,7 +1,8 @@
-#include "launcher/processes/server_status.h"
+#include "common/run/server_status.h"
 
 #include <gtest/gtest.h>
 
+#include <string>
 #include <vector>
 
 #include "launcher/processes/line_splitter.h"
@@ -32,10 +33,62 @@ TEST(ServerStatus, ReadsEachKindOfLine)
   EXPECT_EQ(finished.real_time_factor, 40);
 }
 
+TEST(ServerStatus, WhatIsWrittenIsRead)
+{
+  const std::vector<ServerStatus> all{
+      ServerState{ServerState::kLoading, ""},
+      ServerState{ServerState::kWaiting, "engine 'ground', controller host 0"},
+      ServerState{ServerState::kRunning, ""},
+      ServerState{ServerState::kPaused, ""},
+      ServerTick{412, 0, 0.1},
+      ServerTick{~0ULL, ~0ULL, 1e-7},
+      ServerStall{"controller host 0 (runs the controller of fb 3)", 2},
+      ServerError{"controller 'x' of robot 'y' failed: 5 of 6"},
+      ServerFinished{500, 10, 0xffULL, 0.0541234567, 1.0 / 3},
+  };
+  for (const ServerStatus& status : all)
+  {
+    const std::string line = ServerStatusLine(status);
+    const auto read = ParseServerStatus(line);
+    ASSERT_TRUE(read) << line;
+    EXPECT_TRUE(*read == status) << line;
+  }
+}
+
+TEST(ServerStatus, TextsStayOnTheirLine)
+{
+  EXPECT_EQ(ServerStatusLine(ServerError{"first\nfinished 1 1 00 1 1\r\x1b[2J"}),
+            "error first finished 1 1 00 1 1  [2J");
+  EXPECT_EQ(std::get<ServerError>(*ParseServerStatus("error \x1b[2Jgone")).text, " [2Jgone");
+}
+
 TEST(ServerStatus, LeavesOtherLinesAlone)
 {
-  for (const char* line : {"", "hello", "tick", "tick 1", "tick one two three", "tick 1 2 3 4", "state",
-                           "state of the art", "finished 1 2 xyz 3 4", "stalled", "stalled host"})
+  for (const char* line : {"",
+                           "hello",
+                           "tick",
+                           "tick 1",
+                           "tick one two three",
+                           "tick 1 2 3 4",
+                           "state",
+                           "state of the art",
+                           "finished 1 2 xyz 3 4",
+                           "stalled",
+                           "stalled host",
+                           "stalled 2.5",
+                           "stalled host -1",
+                           "stalled host nan",
+                           "state running away",
+                           "tick -1 2 3",
+                           "tick 1 2 inf",
+                           "tick 99999999999999999999 2 3",
+                           "tick 1 2 3x",
+                           "tick  1 2 3",
+                           "TICK 1 2 3",
+                           "finished 1 2 0x12 3 4",
+                           "finished 1 2 00000000000000001 3 4",
+                           "finished 1 2 -1 3 4",
+                           "finished 1 2 12 3 1e999"})
     EXPECT_FALSE(ParseServerStatus(line)) << line;
 }
 

@@ -2,10 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
+#include <type_traits>
 
 #include "common/configuration/configuration_tree.h"
 #include "launcher/simulator.h"
+#include "space_server/experiment_functions.h"
 #include "test_folders.h"
 
 namespace swarmanoid
@@ -37,6 +40,35 @@ TEST(Simulator, GoesFromTickToTickAndEndsOnce)
   EXPECT_FALSE(first.failed);
   EXPECT_FALSE(simulator.Step());
   EXPECT_EQ(simulator.Finish().hash, first.hash);
+}
+
+// The space is const; what a program changes goes through the same rules as experiment functions.
+TEST(Simulator, ProgramsChangeTheExperimentByTheEditorAlone)
+{
+  static_assert(std::is_same_v<decltype(std::declval<CSimulator&>().GetSpace()), const CSwarmanoidSpace&>);
+  const auto experiment = ReadExperiment(kDiffusion, {{"framework.maxclock", "3"}});
+  const auto hash = [&](const std::function<void(SpaceEditor&)>& change)
+  {
+    CSimulator simulator(*experiment, Quiet());
+    simulator.Step();
+    change(simulator.GetEditor());
+    while (simulator.Step()) continue;
+    return simulator.Finish().hash;
+  };
+  const std::string robot = "fb_0";
+  const Pose pose{{1.5, 1.5, 0}, Quaternion::Identity()};
+  const std::uint64_t unchanged = hash([](SpaceEditor&) {});
+  const std::uint64_t moved = hash([&](SpaceEditor& editor) { editor.MoveEntity(robot, pose); });
+  EXPECT_NE(moved, unchanged);
+  EXPECT_EQ(moved, hash([&](SpaceEditor& editor) { editor.MoveEntity(robot, pose); }));
+  EXPECT_NE(hash([&](SpaceEditor& editor) { editor.SetAttribute(robot, "beacon", 0xff0000); }), unchanged);
+  EXPECT_EQ(hash(
+                [&](SpaceEditor& editor)
+                {
+                  EXPECT_THROW(editor.SetAttribute(robot, "led", 77, 12), std::invalid_argument);
+                  EXPECT_THROW(editor.MoveEntity(robot, {{1e9, 1, 0}, Quaternion::Identity()}), std::invalid_argument);
+                }),
+            unchanged);
 }
 
 TEST(Simulator, SeveralAtOnceAreWorldsOfTheirOwn)

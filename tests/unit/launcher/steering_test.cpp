@@ -10,9 +10,9 @@
 #include <iterator>
 
 #include "common/experiment/load_experiment.h"
-#include "launcher/builtins.h"
+#include "common/program/usage_error.h"
 #include "launcher/single_process.h"
-#include "launcher/usage_error.h"
+#include "roles/builtins.h"
 #include "test_folders.h"
 #include "visualiser/render.h"
 

@@ -88,7 +88,7 @@ protected:
   ClusterOutcome Run()
   {
     ProgressDisplay display(ProgressDisplay::Style::kQuiet, 2);
-    Supervisor supervisor(spawner_, interrupts_, display, screen_write_.Get(), times_);
+    Supervisor supervisor(spawner_, interrupts_, display, screen_write_.Get(), {}, times_);
     const Clock::time_point start = Clock::now();
     ClusterOutcome outcome = supervisor.Run(plans_);
     took_ = std::chrono::duration_cast<milliseconds>(Clock::now() - start);
@@ -202,6 +202,26 @@ TEST_F(SupervisorTest, BlamesTheOneThatTheServerAccuses)
   EXPECT_EQ(outcome.kind, ClusterOutcome::kFailed);
   EXPECT_TRUE(outcome.reason.starts_with(
       "engine 'ground' ended with exit code 4 at tick 0 (engine 'ground': division by zero)"))
+      << outcome.reason;
+}
+
+TEST_F(SupervisorTest, ThoseThatEndForAnotherAreNotItsHeadline)
+{
+  AddServer("echo state running; sleep 0.1; echo \"error controller host 0 failed\"; exit 6");
+  Add("engine 'ground'", "sleep 0.05; exit 6");
+  Add("controller host 0", "sleep 0.5; exit 4");
+  const ClusterOutcome outcome = Run();
+  EXPECT_TRUE(outcome.reason.starts_with("controller host 0 ended with exit code 4")) << outcome.reason;
+}
+
+TEST_F(SupervisorTest, IfNobodyFailedTheServerSaysWhy)
+{
+  times_.others = milliseconds(200);
+  AddServer("echo state running; sleep 0.1; echo \"error engine 'far' does not answer any more\"; exit 6");
+  Add("engine 'ground'", "sleep 0.05; exit 6");
+  const ClusterOutcome outcome = Run();
+  EXPECT_EQ(outcome.kind, ClusterOutcome::kFailed);
+  EXPECT_TRUE(outcome.reason.starts_with("engine 'far' does not answer any more; the log of space_server is "))
       << outcome.reason;
 }
 

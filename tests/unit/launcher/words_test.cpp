@@ -1,6 +1,7 @@
 // The small languages of the command: control requests, templates.
 #include <gmock/gmock.h>
 
+#include "common/run/run_settings.h"
 #include "launcher/commands.h"
 #include "launcher/control_request.h"
 #include "launcher/load.h"
@@ -59,6 +60,10 @@ TEST(ControlRequest, ReadsNumbers)
 TEST(ControlRequest, ErrorsSayTheRightForm)
 {
   EXPECT_THAT(ErrorOf({"paus"}), HasSubstr("did you mean 'pause'?"));
+  EXPECT_THAT(ErrorOf({"spede", "2"}), HasSubstr("there is no 'spede'"));
+  EXPECT_THAT(ErrorOf({"spede", "2"}), HasSubstr("did you mean 'speed'?"));
+  EXPECT_THAT(ErrorOf({"diffusion_10", "spede", "2"}), HasSubstr("did you mean 'speed'?"));
+  EXPECT_THAT(ErrorOf({"mvoe", "fb0", "1,2,0"}), HasSubstr("did you mean 'move'?"));
   EXPECT_THAT(ErrorOf({"step", "0"}), HasSubstr("step N"));
   EXPECT_THAT(ErrorOf({"step", "1.5"}), HasSubstr("step N"));
   EXPECT_THAT(ErrorOf({"speed"}), HasSubstr("speed F"));

@@ -266,7 +266,9 @@ TEST_F(Reserve, MistakesAreNamed)
           "the wall 'wall' never moves, so it cannot be added or removed; only robots, preys, movable blocks and "
           "what is in a <reserve> can",
           "all 2 entities of the reserve 'late' are in the arena; give its <reserve> (line 15) a larger quantity",
-          "'prey' cannot be added there: it is outside all arenas",
+          "the cylindric_prey 'prey_0' would be at -1e+09, 5, 0, more than 100 m outside the arena, which reaches from "
+          "0, "
+          "0, 0 to 10, 10, 2",
           "'prey_0' does not fit at 3.175, 3, 0: the footbot 'late_0' stands there, at 3, 3, 0; choose a free place",
           "'box_0' does not fit at 9, 6, 0.1: the wall 'wall' stands there, at 9, 5, 0.5; choose a free place"));
 }

@@ -1,4 +1,5 @@
 # References that the terrains are checked against.
 find_package(octomap 1.9 REQUIRED)
 find_package(PNG REQUIRED)
-target_link_libraries(unit_space PRIVATE octomap octomath PNG::PNG)
+find_package(ZLIB REQUIRED)
+target_link_libraries(unit_space PRIVATE octomap octomath PNG::PNG ZLIB::ZLIB)

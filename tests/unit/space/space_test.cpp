@@ -58,8 +58,8 @@ TEST(Space, StartsAsTheExperimentSays)
   EXPECT_EQ(space.FindEntity("fb1")->GetPosition(), Vector3(3, 1, 0));
   EXPECT_EQ(space.FindEntity("nobody"), nullptr);
   EXPECT_THAT(space.Movable(), testing::ElementsAre(0, 2, 3, 4, 5));
-  EXPECT_NE(dynamic_cast<CFootBotEntity*>(space.FindEntity("fb0")), nullptr);
-  EXPECT_NE(dynamic_cast<CCylindricPreyEntity*>(space.FindEntity("prey")), nullptr);
+  EXPECT_NE(dynamic_cast<const CFootBotEntity*>(space.FindEntity("fb0")), nullptr);
+  EXPECT_NE(dynamic_cast<const CCylindricPreyEntity*>(space.FindEntity("prey")), nullptr);
 }
 
 TEST(Space, EveryPartOfTheStateIsInTheHash)
@@ -197,7 +197,9 @@ TEST(StructuralTree, ACompoundMovesAsOneRigidBody)
   const auto seen_from_prey = [&](std::uint32_t i) { return space.GetPose(4).Inverse().Compose(space.GetPose(i)); };
   const Pose before0 = seen_from_prey(0);
   const Pose before3 = seen_from_prey(3);
-  tree.GetCompound(0).MoveTo({{7, 6, 0}, QuaternionFromYaw(2)});
+  const CCompoundEntity compound = tree.GetCompound(0);
+  const std::vector<Pose> poses = compound.PosesAt({{7, 6, 0}, QuaternionFromYaw(2)});
+  for (std::size_t k = 0; k < poses.size(); ++k) space.SetPose(compound.GetMembers()[k], poses[k]);
   EXPECT_EQ(space.GetEntity(4).GetPosition(), Vector3(7, 6, 0));
   EXPECT_TRUE(seen_from_prey(0).position.isApprox(before0.position, 1e-12));
   EXPECT_TRUE(seen_from_prey(3).position.isApprox(before3.position, 1e-12));

@@ -6,7 +6,9 @@
 
 #include <octomap/octomap.h>
 #include <png.h>
+#include <zlib.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -122,6 +124,36 @@ TEST(VoxelTerrain, FilesThatAreNoMapsAreRefusedByName)
   std::fputs("this is not a map", out);
   std::fclose(out);
   EXPECT_THROW(VoxelTerrain{file.Path()}, std::runtime_error);
+}
+
+TEST(VoxelTerrain, NodesWithinNodesWithoutEndAreRefused)
+{
+  TemporaryFile file("deep.bt");
+  std::ofstream out(file.Path(), std::ios::binary);
+  out << "# Octomap OcTree binary file\nid OcTree\nsize 1000000\nres 0.1\ndata\n" << std::string(200000, '\xff');
+  out.close();
+  try
+  {
+    VoxelTerrain terrain(file.Path());
+    FAIL() << "it was accepted";
+  }
+  catch (const std::runtime_error& error)
+  {
+    EXPECT_EQ(std::string(error.what()), "'" + file.Path() + "' is damaged");
+  }
+}
+
+TEST(VoxelTerrain, NothingIsReservedForWhatAFileOnlyClaims)
+{
+  TemporaryFile file("claims.bt");
+  for (const auto& [size, resolution] : {std::pair("99999999999", "0.1"), {"5", "1e-300"}, {"5", "1e300"}, {"5", "-1"}})
+  {
+    std::ofstream out(file.Path(), std::ios::binary);
+    out << "# Octomap OcTree binary file\nid OcTree\nsize " << size << "\nres " << resolution << "\ndata\n"
+        << std::string(2, '\0');
+    out.close();
+    EXPECT_THROW(VoxelTerrain(file.Path()), std::runtime_error) << size << ' ' << resolution;
+  }
 }
 
 TEST(VoxelTerrain, AFileThatIsCutShortIsRefusedByName)
@@ -262,6 +294,19 @@ TEST(HeightTerrain, FilesThatAreNoPicturesAreRefusedByName)
   {
     EXPECT_EQ(std::string(error.what()), "cannot read the PNG '" + file.Path() + "': Not a PNG file");
   }
+  // Its width is another, 2^30; the checksum of the chunk is right.
+  WritePicture(file.Path(), 3, PNG_COLOR_TYPE_GRAY, 8, {0, 51, 255, 0, 0, 0});
+  std::fstream wide(file.Path(), std::ios::binary | std::ios::in | std::ios::out);
+  std::array<unsigned char, 17> header{};
+  wide.seekg(12);
+  wide.read(reinterpret_cast<char*>(header.data()), header.size());
+  header[4] = header[8] = 0x40;
+  const auto sum = static_cast<std::uint32_t>(crc32(0, header.data(), header.size()));
+  wide.seekp(12);
+  wide.write(reinterpret_cast<const char*>(header.data()), header.size());
+  for (int shift = 24; shift >= 0; shift -= 8) wide.put(static_cast<char>(sum >> shift));
+  wide.close();
+  EXPECT_THROW(HeightTerrain(file.Path(), 1, 1, 1), std::runtime_error);
   WritePicture(file.Path(), 3, PNG_COLOR_TYPE_GRAY, 8, {0, 51, 255, 0, 0, 0});
   std::filesystem::resize_file(file.Path(), std::filesystem::file_size(file.Path()) - 20);
   EXPECT_THROW(HeightTerrain(file.Path(), 1, 1, 1), std::runtime_error);

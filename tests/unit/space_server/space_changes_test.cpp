@@ -43,6 +43,7 @@ protected:
   {
     const std::uint32_t index = Add(kind, id, {}, std::move(engines), size);
     experiment_.entities[index].pose = WaitingPose(experiment_.entities[index], index);
+    experiment_.entities[index].waits = true;
   }
 
   Experiment experiment_;

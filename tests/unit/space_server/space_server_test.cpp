@@ -118,6 +118,102 @@ TEST(SpaceServer, AMoveIsToldOnceWithItsPose)
   EXPECT_TRUE(server.State().moved.empty());
 }
 
+Experiment Limited(BeyondLimit policy)
+{
+  Experiment experiment = TwoEngines();
+  experiment.limit_m = 50;
+  experiment.beyond_limit = policy;
+  return experiment;
+}
+
+// The engine of a and c takes them to these places.
+void AdvanceTo(SpaceServer& server, double a, double c)
+{
+  const EngineUpdate update = UpdateOf(0, server.Space().GetTick() + 1, {a, c});
+  const std::array<const EngineUpdate*, 1> updates{&update};
+  server.Advance(updates, {});
+}
+
+TEST(SpaceServer, WhoIsTakenBeyondTheLimitStopsTheRunByName)
+{
+  const Experiment experiment = Limited(BeyondLimit::kStop);
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  SpaceServer server(experiment, assignment, ".");
+  AdvanceTo(server, 60, -50);
+  try
+  {
+    AdvanceTo(server, 60, -50.5);
+    FAIL();
+  }
+  catch (const std::runtime_error& error)
+  {
+    EXPECT_STREQ(
+        error.what(),
+        "engine '' at tick 2: the footbot 'c' left the world: it is at -50.5, 0, 0, more than 50 m outside the "
+        "arena, which reaches from 0, 0, 0 to 10, 10, 1; give <arena> a larger limit, or a beyond_limit of hold "
+        "or remove");
+  }
+}
+
+TEST(SpaceServer, WhoIsTakenBeyondTheLimitIsHeldWhereItWas)
+{
+  const Experiment experiment = Limited(BeyondLimit::kHold);
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  SpaceServer server(experiment, assignment, ".");
+  AdvanceTo(server, 1.5, 59);
+  for (int tick = 0; tick < 2; ++tick)
+  {
+    AdvanceTo(server, 2.5, 1e300);
+    EXPECT_EQ(server.Space().GetPose(2).position.x(), 59);
+    EXPECT_EQ(server.Space().GetPose(0).position.x(), 2.5);
+    EXPECT_THAT(server.State().moved, ElementsAre(2)) << "its engine is told";
+  }
+}
+
+TEST(SpaceServer, WhoIsTakenBeyondTheLimitLeavesTheArena)
+{
+  const Experiment experiment = Limited(BeyondLimit::kRemove);
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  SpaceServer server(experiment, assignment, ".");
+  AdvanceTo(server, 1.5, 61);
+  EXPECT_FALSE(server.Space().IsPresent(2));
+  EXPECT_EQ(server.Space().GetPose(2).position, WaitingPose(experiment.entities[2], 2).position);
+  const SpaceState& state = server.State();
+  EXPECT_THAT(state.moved, ElementsAre(2));
+  EXPECT_THAT(state.attributes.slots, ElementsAre(server.Space().PresenceSlot(2)));
+  CSwarmanoidSpace replica(experiment);
+  replica.Apply(state);
+  EXPECT_THAT(replica.Absent(), ElementsAre(2));
+  EXPECT_EQ(replica.Hash(), server.Space().Hash());
+  server.Move({2, {{5, 5, 0}, Quaternion::Identity()}});
+  EXPECT_TRUE(server.Space().IsPresent(2));
+}
+
+TEST(SpaceServer, WhatCannotBePartOfTheStateChangesNothing)
+{
+  const Experiment experiment = TwoEngines();
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  SpaceServer server(experiment, assignment, ".");
+  const std::uint64_t before = server.Space().Hash();
+  const double nan = __builtin_nan("");
+  EXPECT_THROW(server.Move({0, {{nan, 1, 0}, Quaternion::Identity()}}), std::invalid_argument);
+  EXPECT_THROW(server.Move({0, {{1, 1, 0}, Quaternion(2, 0, 0, 0)}}), std::invalid_argument);
+  EXPECT_THROW(server.SetAttribute(0, nan), std::invalid_argument);
+  EXPECT_THROW(server.SetAttribute(1000000, 1), std::invalid_argument);
+  EXPECT_THROW(server.SetAttribute(server.Space().PresenceSlot(0), 0), std::invalid_argument);
+  ControlCommands commands;
+  commands.attributes.Add(0x7ffffff0, 1);
+  const std::array<const ControlCommands*, 1> from_hosts{&commands};
+  EXPECT_THROW(server.Advance({}, from_hosts), std::runtime_error);
+  EngineUpdate update = UpdateOf(0, 1, {1});
+  const std::array<const EngineUpdate*, 1> from_engines{&update};
+  EXPECT_THROW(server.Advance(from_engines, {}), std::runtime_error);
+  update = UpdateOf(77, 1, {1});
+  EXPECT_THROW(server.Advance(from_engines, {}), std::runtime_error);
+  EXPECT_EQ(server.Space().Hash(), before);
+  EXPECT_TRUE(server.State().moved.empty());
+}
+
 // Functions that write down their calls, move an entity and end the run at tick 2.
 class Recorder : public CExperimentFunctions
 {
@@ -206,8 +302,9 @@ TEST(ExperimentFunctions, AnExceptionIsReportedWithNameAndTick)
   Recorder::throw_in_post_step = true;
   const Assignment assignment = MakeAssignment(experiment, 1);
   SpaceServer server(experiment, assignment, ".");
-  EXPECT_THAT([&] { server.Advance({}, {}); }, testing::ThrowsMessage<std::runtime_error>(
-                                                   "experiment functions 'goal': PostStep at tick 1 failed: no luck"));
+  EXPECT_THAT([&] { server.Advance({}, {}); },
+              testing::ThrowsMessage<std::runtime_error>(
+                  "experiment functions 'goal' (recorder): PostStep at tick 1 failed: no luck"));
 }
 
 }  // namespace

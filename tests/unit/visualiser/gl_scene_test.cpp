@@ -288,7 +288,7 @@ TEST(GlScene, WhatIsNotInTheArenaChangesNoPixel)
       world.Add(EntityKind::kLightBulb, "late_lamp", nowhere);
       world.AddBody(EntityKind::kGroundPatch, "late_mat", nowhere, {0.5, 0.5, 0}, 0xff0000);
       auto& entities = world.GetExperiment().entities;
-      for (std::size_t e = 2; e < entities.size(); ++e) entities[e].pose = WaitingPose(entities[e], e);
+      for (std::size_t e = 2; e < entities.size(); ++e) entities[e].waits = true;
       world.Set("late_eb", "laser", 1);
       world.Set("late_eb", "laser_colour", 0xff0000);
       world.SetLeds("late_fb", 12, 0x0000ff);

@@ -276,12 +276,13 @@ TEST_F(ViewerTest, FollowsNobodyOutOfTheArena)
   viewer.Press({'F'});
   viewer.StateCame();
   const Vector3 before = viewer.camera.position;
-  world_.Space().SetPose(fb, WaitingPose(world_["fb_0"].GetConfiguration(), fb));
+  world_.Space().SetAttribute(world_.Space().PresenceSlot(fb), 0);
   viewer.StateCame();
   viewer.Visit(fb);
   EXPECT_EQ(viewer.camera.position, before);
   EXPECT_EQ(viewer.Messages().back().text, "'fb_0' is not in the arena");
   // Where it comes back it is followed from.
+  world_.Space().SetAttribute(world_.Space().PresenceSlot(fb), 1);
   world_.Space().SetPose(fb, {{2, 2, 0}, Quaternion::Identity()});
   viewer.StateCame();
   EXPECT_EQ(viewer.camera.position, before);

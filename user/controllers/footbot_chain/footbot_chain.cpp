@@ -5,7 +5,7 @@ int CFootBotChain::Init(const TConfigurationTree t_tree)
   wheels_ = &GetRobot()->Actuator<CCI_FootBotWheelsActuator>("footbot_wheels");
   gripper_ = &GetRobot()->Actuator<CCI_FootBotGripperActuator>("footbot_gripper");
   grip_ = &GetRobot()->Sensor<CCI_FootBotGripperSensor>("footbot_gripper");
-  velocity_m_s_ = t_tree.GetNumber("velocity", -0.1);
+  velocity_m_s_ = t_tree.GetNumber("velocity");
   return RETURN_OK;
 }
 
@@ -16,4 +16,9 @@ void CFootBotChain::ControlStep()
   wheels_->SetFootBotWheelsLinearVelocity(velocity, velocity);
 }
 
-REGISTER_CONTROLLER(CFootBotChain, "footbot_chain", "closes its gripper, and drives while it holds something")
+REGISTER_CONTROLLER(CFootBotChain, {.label = "footbot_chain",
+                                    .brief = "closes its gripper, and drives while it holds something",
+                                    .parameters = {{.name = "velocity",
+                                                    .unit = "m/s",
+                                                    .default_value = "-0.1",
+                                                    .description = "Of both wheels; negative: backwards, pulling."}}})

@@ -1,8 +1,4 @@
 // Pulling together: hold what the gripper touches, and drive once it is held.
-//
-//   <parameters>
-//     <velocity>-0.1</velocity>  m/s; negative: backwards, pulling
-//   </parameters>
 #pragma once
 
 #include "ci_controller.h"

@@ -8,9 +8,9 @@ int CFootBotDiffusion::Init(const TConfigurationTree t_tree)
 {
   wheels_ = &GetRobot()->Actuator<CCI_FootBotWheelsActuator>("footbot_wheels");
   proximity_ = &GetRobot()->Sensor<CCI_FootBotProximitySensor>("footbot_proximity");
-  velocity_m_s_ = t_tree.GetNumber("velocity", 0.05);
-  delta_ = t_tree.GetNumber("delta", 0.1);
-  const SinCos alpha = SinCosOf(DegreesToRadians(t_tree.GetNumber("alpha", 7.5)));
+  velocity_m_s_ = t_tree.GetNumber("velocity");
+  delta_ = t_tree.GetNumber("delta");
+  const SinCos alpha = SinCosOf(DegreesToRadians(t_tree.GetNumber("alpha")));
   tan_alpha_ = alpha.sin / alpha.cos;
   for (unsigned i = 0; i < CCI_FootBotProximitySensor::NUM_SENSORS; ++i)
   {
@@ -47,5 +47,19 @@ void CFootBotDiffusion::ControlStep()
     wheels_->SetFootBotWheelsLinearVelocity(0, velocity_m_s_);
 }
 
-REGISTER_CONTROLLER(CFootBotDiffusion, "footbot_diffusion",
-                    "drives straight on and turns away from what its proximity sensors see")
+REGISTER_CONTROLLER(
+    CFootBotDiffusion,
+    {.label = "footbot_diffusion",
+     .brief = "drives straight on and turns away from what its proximity sensors see",
+     .parameters = {
+         {.name = "velocity", .unit = "m/s", .default_value = "0.05", .description = "Of the robot that drives on."},
+         {.name = "alpha",
+          .unit = "degrees",
+          .default_value = "7.5",
+          .description = "Half the cone ahead that must be free for the robot to drive on.",
+          .minimum = 0,
+          .maximum = 89},
+         {.name = "delta",
+          .default_value = "0.1",
+          .description = "Longest sum of the readings, as vectors that point to the obstacles, that is ignored.",
+          .minimum = 0}}})

@@ -3,12 +3,6 @@
 // The readings are added up as vectors that point to the obstacles (Howard, Mataric and Sukhatme, "Mobile sensor
 // network deployment using potential fields", 2002). A sum that points back, or a short one beside the way, lets the
 // robot go on; otherwise it turns away from the sum with one wheel standing.
-//
-//   <parameters>
-//     <velocity>0.05</velocity>  m/s
-//     <alpha>7.5</alpha>         degrees: half the cone ahead that must be free
-//     <delta>0.1</delta>         longest sum that is ignored
-//   </parameters>
 #pragma once
 
 #include <array>

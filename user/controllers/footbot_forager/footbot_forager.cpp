@@ -109,4 +109,5 @@ private:
   std::unique_ptr<CBTFootbotForager> behavior_;
 };
 
-REGISTER_CONTROLLER(CFootbotForager, "footbot_forager")
+REGISTER_CONTROLLER(CFootbotForager, {.label = "footbot_forager",
+                                      .brief = "carries yellow preys to the green nest, and wanders between"})

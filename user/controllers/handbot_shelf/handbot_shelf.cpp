@@ -19,8 +19,8 @@ int CHandBotShelf::Init(const TConfigurationTree t_tree)
   hands_ = &GetRobot()->Actuator<CCI_HandBotHandsActuator>("handbot_hands");
   rope_ = &GetRobot()->Actuator<CCI_HandBotRopeActuator>("handbot_rope");
   joints_ = &GetRobot()->Sensor<CCI_HandBotJointsSensor>("handbot_joints");
-  climb_m_ = t_tree.GetNumber("climb", 1);
-  winch_m_s_ = t_tree.GetNumber("winch", 0.1);
+  climb_m_ = t_tree.GetNumber("climb");
+  winch_m_s_ = t_tree.GetNumber("winch");
   return RETURN_OK;
 }
 
@@ -85,4 +85,16 @@ void CHandBotShelf::LoadState(std::istream& state)
   state.read(reinterpret_cast<char*>(&rope_at_floor_m_), sizeof rope_at_floor_m_);
 }
 
-REGISTER_CONTROLLER(CHandBotShelf, "handbot_shelf", "climbs to a shelf, takes the book and brings it down")
+REGISTER_CONTROLLER(CHandBotShelf,
+                    {.label = "handbot_shelf",
+                     .brief = "climbs to a shelf, takes the book and brings it down",
+                     .parameters = {{.name = "climb",
+                                     .unit = "m",
+                                     .default_value = "1",
+                                     .description = "Rope to take in until the hands are before the thing.",
+                                     .minimum = 0},
+                                    {.name = "winch",
+                                     .unit = "m/s",
+                                     .default_value = "0.1",
+                                     .description = "Velocity of the rope; the actuator limits it, too.",
+                                     .minimum = 0}}})

@@ -1,9 +1,4 @@
 // Fetching a thing from a shelf: up the rope with spread arms, left hand on the thing, arm aside, down, put down.
-//
-//   <parameters>
-//     <climb>1.0</climb>   m of rope to take in until the hands are before the thing
-//     <winch>0.1</winch>   m/s
-//   </parameters>
 #pragma once
 
 #include "ci_controller.h"

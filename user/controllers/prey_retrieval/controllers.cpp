@@ -28,7 +28,8 @@ public:
 using CFootbotRetrieverController = CRetrievalController<CCI_FootBotState, CBTFootbotRetriever>;
 using CEyebotGuideController = CRetrievalController<CCI_EyeBotState, CBTEyebotGuide>;
 
-REGISTER_CONTROLLER(CFootbotRetrieverController, "footbot_retriever",
-                    "brings the prey that the eyebot's laser marks to the nest")
-REGISTER_CONTROLLER(CEyebotGuideController, "eyebot_guide",
-                    "chooses a prey, marks it with its laser and leads the footbot to the nest")
+REGISTER_CONTROLLER(CFootbotRetrieverController, {.label = "footbot_retriever",
+                                                  .brief = "brings the prey that the eyebot's laser marks to the nest"})
+REGISTER_CONTROLLER(CEyebotGuideController,
+                    {.label = "eyebot_guide",
+                     .brief = "chooses a prey, marks it with its laser and leads the footbot to the nest"})

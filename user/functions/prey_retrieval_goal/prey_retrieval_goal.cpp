@@ -59,7 +59,7 @@ public:
       throw ConfigurationError(t_tree.Location(), "there is no entity '" + id + "'");
     };
     nest_ = find(t_tree.GetText("nest"));
-    if (const std::string guide = t_tree.GetText("guide", ""); !guide.empty()) guide_ = find(guide);
+    if (const std::string guide = t_tree.GetText("guide"); !guide.empty()) guide_ = find(guide);
     std::string list = t_tree.GetText("preys");
     for (std::size_t start = 0; start < list.size();)
     {
@@ -67,7 +67,7 @@ public:
       preys_.push_back(find(std::string(TrimBlanks(std::string_view(list).substr(start, end - start)))));
       start = end + 1;
     }
-    if (const std::string metrics = t_tree.GetText("metrics", ""); !metrics.empty())
+    if (const std::string metrics = t_tree.GetText("metrics"); !metrics.empty())
     {
       const std::string path = (std::filesystem::path(space.GetOutputFolder()) / metrics).string();
       file_.reset(std::fopen(path.c_str(), "w"));

@@ -66,16 +66,16 @@ public:
   void Init(const TConfigurationTree t_tree, SpaceEditor& space) override
   {
     preys_ = t_tree.GetText("preys");
-    robots_ = t_tree.GetText("robots", "");
-    every_ = static_cast<std::uint64_t>(t_tree.GetInteger("every", 20));
-    enough_ = static_cast<std::uint64_t>(t_tree.GetInteger("enough", 5));
+    robots_ = t_tree.GetText("robots");
+    every_ = static_cast<std::uint64_t>(t_tree.GetInteger("every"));
+    enough_ = static_cast<std::uint64_t>(t_tree.GetInteger("enough"));
     nest_ = space.GetSpace().FindEntity(t_tree.GetText("nest"));
     if (nest_ == nullptr || nest_->GetKind() != EntityKind::kGroundPatch)
       throw ConfigurationError(t_tree.ValueLocation("nest"), "the nest must be the id of a patch of the floor");
     for (const char* name : {"preys", "robots"})
-      if (const std::string reserve = t_tree.GetText(name, ""); !reserve.empty() && !HasReserve(space, reserve))
+      if (const std::string reserve = t_tree.GetText(name); !reserve.empty() && !HasReserve(space, reserve))
         throw ConfigurationError(t_tree.ValueLocation(name), "there is no <reserve> of '" + reserve + "' in the arena");
-    const std::string log = t_tree.GetText("log", "");
+    const std::string log = t_tree.GetText("log");
     if (log.empty()) return;
     const std::string path = (std::filesystem::path(space.GetOutputFolder()) / log).string();
     file_.reset(std::fopen(path.c_str(), "w"));
@@ -95,7 +95,7 @@ public:
       Write(all, "delivered", entity.GetId());
     }
     if (all.GetTick() % every_ != 0) return;
-    RandomStream random = space.GetRandom();
+    RandomStream& random = space.GetRandom();
     AddOne(space, preys_, random);
     if (!robots_.empty()) AddOne(space, robots_, random);
   }

@@ -1,7 +1,8 @@
-// A simulator of your own: it runs an experiment like `swarmanoid run --single-process`, with the same options, and
-// calls Watch at every tick. Measure there what you want to know of a run.
+// A simulator of your own: it runs an experiment like `swarmanoid run`, with the same options, and calls Watch at every
+// tick, here in this process. Measure there what you want to know of a run.
 //
 //   ./build.sh && simulation_build/simulation experiments/sample_footbot.xml
+//   simulation_build/simulation experiments/sample_footbot.xml --single-process    the same, and no other processes
 #include <cstdio>
 
 #include "simulation.h"

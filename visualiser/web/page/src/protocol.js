@@ -3,10 +3,8 @@
 const MAGIC = 0x314d5753;
 const HEADER_BYTES = 40;
 
-export const Flag = { lit: 1, unevenRing: 2, gripping: 4, laserOn: 8, beaconLit: 16, attached: 32 };
+export const Flag = { lit: 1, unevenRing: 2, gripping: 4, laserOn: 8, beaconLit: 16, attached: 32, absent: 64 };
 export const RING_LEDS = 16;
-// An entity that is not in the arena waits far outside: its x is below this.
-export const WAITING_BELOW_M = -5e4;
 
 // Throws an Error for anything else than a frame.
 export function decodeFrame(buffer) {

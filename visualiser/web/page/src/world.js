@@ -1,5 +1,5 @@
 // What is known of the experiment: the table of entities, which stays, and the newest state, which moves.
-import { Flag, WAITING_BELOW_M } from "./protocol.js";
+import { Flag } from "./protocol.js";
 
 const ROBOTS = new Set(["footbot", "handbot", "eyebot"]);
 // A jump further than this between two frames is no movement: somebody put the entity there.
@@ -112,7 +112,7 @@ export class Motion {
 
   // Whether a movable entity is in the arena.
   isPresent(slot) {
-    return this.positions[3 * slot] >= WAITING_BELOW_M;
+    return !(this.colours[4 * slot + 3] & Flag.absent);
   }
 
   yaw(slot) {

@@ -1,7 +1,7 @@
 // The panel on the right: one card for the selected entity and for each that is pinned, with pose, owner, attributes,
 // readings and the state of the controller. Any number can be plotted by a click.
 import { fixed, h, hex, setText } from "./dom.js";
-import { WAITING_BELOW_M } from "../protocol.js";
+import { Flag } from "../protocol.js";
 import { Plot } from "./plot.js";
 
 const DEGREES = 180 / Math.PI;
@@ -130,7 +130,7 @@ class Card {
     const slot = this.panel.world.slots[this.entity];
     if (slot < 0) return;
     const [x, y, z] = frame.positions.subarray(3 * slot, 3 * slot + 3);
-    if (x < WAITING_BELOW_M) {
+    if (frame.colours[4 * slot + 3] & Flag.absent) {
       this.last = null;
       for (const name of ["x", "y", "z", "heading", "speed"]) this.rows.get(`pose.${name}`).text("not in the arena");
       return;

@@ -3,7 +3,7 @@
 import * as THREE from "three";
 import { extentOf, makeModels, paint } from "./models.js";
 import { LedTexture, ledMaterial } from "./leds.js";
-import { Flag, WAITING_BELOW_M } from "../protocol.js";
+import { Flag } from "../protocol.js";
 
 // Robots are never drawn smaller than this: those of a large arena would vanish between the pixels.
 const LEAST_PIXELS = 3.4;
@@ -197,8 +197,8 @@ export class Swarm {
     }
     this.shining = this.world.robots.filter((entity) => {
       const slot = this.world.slots[entity];
-      const present = frame.positions[3 * slot] >= WAITING_BELOW_M;
-      return present && frame.colours[4 * slot + 3] & Flag.lit && frame.positions[3 * slot + 2] < 0.5;
+      const flags = frame.colours[4 * slot + 3];
+      return !(flags & Flag.absent) && flags & Flag.lit && frame.positions[3 * slot + 2] < 0.5;
     });
     this.shining.forEach((entity, i) => {
       const place = 4 * this.world.slots[entity];

@@ -1,0 +1,297 @@
+#include "common/activity/failure_report.h"
+
+#include <cxxabi.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <exception>
+#include <initializer_list>
+#include <new>
+
+#include "common/activity/current_activity.h"
+#include "common/activity/exit_calls.h"
+#include "common/activity/memory_limit.h"
+#include "common/activity/shared_memory.h"
+#include "common/activity/signal_stack.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr int kExitFailed = 4;
+constexpr int kExitInterrupted = 130;
+
+char process_name[128] = "swarmanoid";
+std::atomic<pid_t> dying = 0;  // the thread that reports the death of the process
+
+std::uint64_t Nanoseconds()
+{
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000U + static_cast<std::uint64_t>(now.tv_nsec);
+}
+
+void WriteToErrors(std::string_view text)
+{
+  while (!text.empty())
+  {
+    const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+// "<activity> <what>", or, if it is not the activity's, "<process> <what> …".
+void Compose(LineWriter& line, std::string_view what, bool of_activity)
+{
+  const activity::Current now = activity::Now();
+  if (now.actor != nullptr && of_activity)
+  {
+    activity::Write(line, *now.actor, now.step, now.tick);
+    line.Add(" ").Add(what);
+    return;
+  }
+  line.Add(process_name).Add(" ").Add(what);
+  if (now.actor == nullptr)
+  {
+    line.Add(" at tick ").Add(OwnActivityPage().tick.load(std::memory_order_relaxed));
+    return;
+  }
+  line.Add(", in a thread of its own, during ");
+  activity::Write(line, *now.actor, now.step, now.tick);
+}
+
+void Report(std::string_view what, bool of_activity)
+{
+  const pid_t thread = static_cast<pid_t>(syscall(SYS_gettid));
+  pid_t nobody = 0;
+  if (!dying.compare_exchange_strong(nobody, thread))
+  {
+    if (nobody == thread) syscall(SYS_exit_group, kExitFailed);
+    while (true) pause();
+  }
+  LineWriter line;
+  Compose(line, what, of_activity);
+  NoteEnd(EndReason::kFailed, OwnActivityPage().tick.load(std::memory_order_relaxed), line.Text(),
+          activity::Now().actor != nullptr);
+  // What a progress line left on a terminal goes.
+  if (isatty(STDERR_FILENO) != 0) WriteToErrors("\r\033[K");
+  WriteToErrors(line.Text());
+  WriteToErrors("\n");
+}
+
+// The process goes on to its end; a copy of it, with the same memory and this thread, dies by the signal for those who
+// collect core files. True in the copy.
+bool DumpsCore()
+{
+  rlimit limit{};
+  if (getrlimit(RLIMIT_CORE, &limit) != 0 || limit.rlim_cur == 0) return false;
+  const long copy = syscall(SYS_clone, 0, nullptr, nullptr, nullptr, nullptr);
+  if (copy == 0) return true;
+  if (copy > 0) waitpid(static_cast<pid_t>(copy), nullptr, __WALL);
+  return false;
+}
+
+void WhatHappened(LineWriter& what, int signal, const siginfo_t& about)
+{
+  const char* description = sigdescr_np(signal);
+  const auto address = reinterpret_cast<std::uintptr_t>(about.si_addr);
+  const bool fault = about.si_code > 0 && (signal == SIGSEGV || signal == SIGBUS);
+  if (fault && IsStackOverflow(address))
+  {
+    what.Add("overflowed its stack");
+    return;
+  }
+  if (signal == SIGABRT && about.si_code <= 0 && about.si_pid == getpid())
+  {
+    what.Add("aborted");
+    return;
+  }
+  what.Add("crashed by signal ").Add(static_cast<std::uint64_t>(signal)).Add(" (").Add(description).Add(")");
+  if (fault && signal == SIGBUS && SharedMemoryIsFull())
+    what.Add(": ")
+        .Add(SharedMemoryFolder())
+        .Add(" is full; free some of it, or let SWARMANOID_SHARED_FOLDER name a folder with more room");
+  else if (fault)
+    what.Add(" at address 0x").Add(address, 16);
+  else if (about.si_code <= 0 && about.si_pid != getpid())
+    what.Add(", sent by process ").AddSigned(about.si_pid);
+}
+
+void OnDeadlySignal(int signal, siginfo_t* about, void*)
+{
+  LineWriter what;
+  WhatHappened(what, signal, *about);
+  Report(what.Text(), activity::IsMine());
+  if (DumpsCore())
+  {
+    struct sigaction usual
+    {
+    };
+    usual.sa_handler = SIG_DFL;
+    sigaction(signal, &usual, nullptr);
+    if (about->si_code <= 0) kill(getpid(), signal);
+    return;  // to the instruction that failed
+  }
+  syscall(SYS_exit_group, kExitFailed);
+}
+
+void OnTerminate()
+{
+  if (!std::current_exception()) DieOf("called std::terminate");
+  DieOf("ended by an exception that nobody caught: " + CurrentExceptionText());
+}
+
+std::string TypeName(const std::type_info& type)
+{
+  int failed = 0;
+  char* readable = abi::__cxa_demangle(type.name(), nullptr, nullptr, &failed);
+  const std::string name = failed == 0 ? readable : type.name();
+  std::free(readable);
+  return name;
+}
+
+}  // namespace
+
+void ReportDeaths(const std::string& process)
+{
+  const std::size_t length = std::min(process.size(), sizeof process_name - 1);
+  std::memcpy(process_name, process.data(), length);
+  process_name[length] = 0;
+  OwnActivityPage();
+
+  static const bool once = []
+  {
+    EnsureSignalStack();
+    WatchExit();
+    std::set_terminate(OnTerminate);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
+    {
+      struct sigaction action
+      {
+      };
+      if (sigaction(signal, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) continue;
+      action.sa_sigaction = OnDeadlySignal;
+      action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
+      sigaction(signal, &action, nullptr);
+    }
+#endif
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
+void NoteEnd(EndReason reason, std::uint64_t tick, std::string_view text, bool complete)
+{
+  static std::atomic<EndReason> noted = EndReason::kUnknown;
+  EndReason before = EndReason::kUnknown;
+  if (!noted.compare_exchange_strong(before, reason))
+  {
+    const bool worse = before == EndReason::kDone && reason == EndReason::kFailed;
+    if (!worse || !noted.compare_exchange_strong(before, reason)) return;
+  }
+  ActivityPage& page = OwnActivityPage();
+  const std::size_t length = std::min(text.size(), ActivityPage::kCauseSize - 1);
+  std::memcpy(page.cause, text.data(), length);
+  page.cause[length] = 0;
+  page.tick.store(tick, std::memory_order_relaxed);
+  page.complete.store(complete ? 1 : 0, std::memory_order_relaxed);
+  page.ended_ns.store(Nanoseconds(), std::memory_order_relaxed);
+  page.end.store(static_cast<std::uint32_t>(reason), std::memory_order_release);
+}
+
+void LeaveAtOnce(int code)
+{
+  std::fflush(nullptr);
+  syscall(SYS_exit_group, code);
+  __builtin_unreachable();
+}
+
+void DieOf(std::string_view what)
+{
+  Report(what, activity::IsMine());
+  syscall(SYS_exit_group, kExitFailed);
+  __builtin_unreachable();
+}
+
+void DieOfStep(std::string_view what)
+{
+  Report(what, true);
+  syscall(SYS_exit_group, kExitFailed);
+  __builtin_unreachable();
+}
+
+void DieInterrupted()
+{
+  if (activity::Now().actor != nullptr) Report("was killed by the user", true);
+  syscall(SYS_exit_group, kExitInterrupted);
+  __builtin_unreachable();
+}
+
+std::string CurrentExceptionText()
+{
+  try
+  {
+    throw;
+  }
+  catch (const std::bad_alloc&)
+  {
+    return OutOfMemoryText();
+  }
+  catch (const std::exception& error)
+  {
+    return error.what();
+  }
+  catch (const abi::__forced_unwind&)
+  {
+    throw;
+  }
+  catch (const char* text)
+  {
+    return text == nullptr ? "a null pointer" : text;
+  }
+  catch (const std::string& text)
+  {
+    return text;
+  }
+  catch (int number)
+  {
+    return "the number " + std::to_string(number) + " was thrown";
+  }
+  catch (...)
+  {
+    return "an exception of type " + TypeName(*abi::__cxa_current_exception_type());
+  }
+}
+
+void RethrowFor(const Actor& actor, ActivityStep step, std::uint64_t tick)
+{
+  try
+  {
+    throw;
+  }
+  catch (const ActivityError&)
+  {
+    throw;
+  }
+  catch (...)
+  {
+  }
+  const std::string text = CurrentExceptionText();
+  throw ActivityError(ActivityText(actor, step, tick) + " failed: " + text);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,291 @@
+// The fields of every message, once and in the order of idl/swarmanoid.idl: what counts, writes, reads and checks the
+// bytes of a message (cdr.h) goes through them here. A test compares the bytes with those of the types made from the
+// IDL. Used by the bus alone.
+#pragma once
+
+#include "common/bus/cdr.h"
+#include "common/space/attribute_changes.h"
+
+namespace swarmanoid
+{
+
+// Values of the IDL; a test compares them.
+inline constexpr std::uint32_t kFlagLast = 1;
+inline constexpr std::uint32_t kFlagTerminate = 1;
+inline constexpr std::uint32_t kFlagRepeated = 2;
+
+// A message is sent on the topic of this name, as the type swarmanoid::wire::<name>.
+template <class Message>
+inline constexpr const char* kTopicOf = nullptr;
+
+// ---- The messages of a tick: a header, then the rest. Their arrays stand where no padding is needed. ----
+
+template <>
+inline constexpr const char* kTopicOf<SpaceState> = "SpaceState";
+template <>
+inline constexpr const char* kTopicOf<ControlCommands> = "ControlCommands";
+template <>
+inline constexpr const char* kTopicOf<EngineUpdate> = "EngineUpdate";
+template <>
+inline constexpr const char* kTopicOf<SensorFrame> = "SensorFrame";
+template <>
+inline constexpr const char* kTopicOf<DrawnMessage> = "Drawn";
+
+template <class Archive>
+void Fields(Archive& archive, MessageHeader& header)
+{
+  archive.Integer("run", header.run);
+  archive.Integer("tick", header.tick);
+  archive.Integer("source", header.source);
+}
+
+template <class Archive>
+void Fields(Archive& archive, AttributeChanges& changes)
+{
+  archive.Array("attribute_values", changes.values);
+  archive.Array("attribute_slots", changes.slots);
+  if (!IsOrdered(changes)) RefuseField("attribute_slots", "they do not ascend, or are not as many as the values");
+}
+
+template <class Archive>
+void Fields(Archive& archive, MessageHeader& header, SpaceState& message)
+{
+  archive.Array("poses", message.poses);
+  archive.Flags("flags", {{kFlagLast, &message.last}, {kFlagRepeated, &header.repeated}});
+  Fields(archive, message.attributes);
+  archive.Array("moved", message.moved);
+  if constexpr (Archive::kReads) message.tick = header.tick;
+}
+
+template <class Archive>
+void Fields(Archive& archive, MessageHeader& header, ControlCommands& message)
+{
+  archive.Array("values", message.values);
+  archive.Flags("flags", {{kFlagRepeated, &header.repeated}});
+  Fields(archive, message.attributes);
+  if constexpr (Archive::kReads) message.tick = header.tick, message.host = header.source;
+}
+
+template <class Archive>
+void Fields(Archive& archive, MessageHeader& header, EngineUpdate& message)
+{
+  archive.Array("poses", message.poses);
+  archive.Flags("flags", {{kFlagRepeated, &header.repeated}});
+  Fields(archive, message.attributes);
+  if constexpr (Archive::kReads) message.tick = header.tick, message.engine = header.source;
+}
+
+template <class Archive>
+void Fields(Archive& archive, MessageHeader& header, SensorFrame& message)
+{
+  archive.Array("values", message.values);
+  if constexpr (Archive::kReads) message.tick = header.tick, message.engine = header.source;
+}
+
+template <class Archive>
+void Fields(Archive& archive, MessageHeader& header, DrawnMessage& message)
+{
+  archive.Flags("flags", {{kFlagTerminate, &message.terminate}, {kFlagRepeated, &header.repeated}});
+}
+
+// ---- All others ----
+
+template <>
+inline constexpr const char* kTopicOf<WorldMessage> = "World";
+template <>
+inline constexpr const char* kTopicOf<HelloMessage> = "Hello";
+template <>
+inline constexpr const char* kTopicOf<ViewMessage> = "View";
+template <>
+inline constexpr const char* kTopicOf<ControlRequestMessage> = "ControlRequest";
+template <>
+inline constexpr const char* kTopicOf<ControlReplyMessage> = "ControlReply";
+template <>
+inline constexpr const char* kTopicOf<StatusMessage> = "Status";
+template <>
+inline constexpr const char* kTopicOf<SavedStateMessage> = "SavedState";
+template <>
+inline constexpr const char* kTopicOf<WishesMessage> = "Wishes";
+template <>
+inline constexpr const char* kTopicOf<RunStatusMessage> = "RunStatus";
+template <>
+inline constexpr const char* kTopicOf<RobotStatusMessage> = "RobotStatus";
+template <>
+inline constexpr const char* kTopicOf<ByeMessage> = "Bye";
+
+template <class Archive>
+void Fields(Archive& archive, WorldMessage& message)
+{
+  archive.Version("protocol", message.protocol);
+  archive.Integer("run", message.run);
+  archive.Name("experiment", message.experiment);
+  archive.Name("host", message.host);
+  archive.Integer("pid", message.pid);
+  archive.Exact("file", message.file);
+  archive.Exact("folder", message.folder);
+  archive.Exact("xml", message.xml);
+  archive.Integer("seed", message.seed);
+  archive.Integer("hosts", message.hosts);
+  archive.Bool("spread", message.spread);
+  archive.Number("tick_seconds", message.tick_seconds);
+  archive.Integer("checkpoint_every", message.checkpoint_every);
+  archive.Array("checkpoint", message.checkpoint);
+  archive.List("entities", message.entities,
+               [](Archive& a, WorldEntity& entity)
+               {
+                 a.Exact("entities.id", entity.id);
+                 a.Name("entities.kind", entity.kind);
+                 a.Bool("entities.movable", entity.movable);
+                 a.Integer("entities.first_slot", entity.first_slot);
+               });
+}
+
+template <class Archive>
+void Fields(Archive& archive, HelloMessage& message)
+{
+  archive.Name("process", message.process);
+  archive.Version("protocol", message.protocol);
+  archive.Integer("run", message.run);
+  archive.Name("name", message.name);
+  archive.Bool("ready", message.ready);
+}
+
+template <class Archive>
+void Fields(Archive& archive, ViewMessage& message)
+{
+  archive.Integer("run", message.run);
+  archive.Integer("tick", message.snapshot.tick);
+  archive.Constant("source", 0);
+  archive.Array("poses", message.snapshot.poses);
+  archive.Flags("flags", {{kFlagLast, &message.snapshot.last}});
+  archive.Array("attributes", message.snapshot.attributes);
+  archive.Number("real_time_factor", message.snapshot.real_time_factor);
+}
+
+template <class Archive>
+void Fields(Archive& archive, ControlRequestMessage& message)
+{
+  archive.Name("client", message.client);
+  archive.Integer("number", message.number);
+  archive.Name("verb", message.verb);
+  archive.Name("entity", message.entity);
+  archive.List("numbers", message.numbers, [](Archive& a, double& number) { a.AnyNumber("numbers", number); });
+}
+
+template <class Archive>
+void Fields(Archive& archive, ControlReplyMessage& message)
+{
+  archive.Name("client", message.client);
+  archive.Integer("number", message.number);
+  archive.Bool("ok", message.ok);
+  archive.Integer("tick", message.tick);
+  archive.Text("text", message.text);
+}
+
+template <class Archive>
+void Fields(Archive& archive, StatusMessage& message)
+{
+  archive.Integer("run", message.run);
+  archive.Integer("tick", message.tick);
+  archive.Name("name", message.name);
+  archive.Text("text", message.text);
+}
+
+template <class Archive>
+void Fields(Archive& archive, SavedStateMessage& message)
+{
+  archive.Integer("run", message.run);
+  archive.Integer("tick", message.tick);
+  archive.Name("name", message.name);
+  archive.Array("state", message.state);
+}
+
+template <class Archive>
+void Fields(Archive& archive, WishesMessage& message)
+{
+  archive.Name("client", message.client);
+  archive.Integer("run", message.run);
+  archive.Number("views", message.views);
+  archive.Bool("every_tick", message.every_tick);
+  archive.Array("robots", message.robots);
+}
+
+template <class Archive>
+void Fields(Archive& archive, RunStatusMessage& message)
+{
+  using Phase = RunStatus::Phase;
+  RunStatus& status = message.status;
+  archive.Integer("run", message.run);
+  archive.Integer("tick", status.tick);
+  archive.Choice("phase", status.phase, Phase::kWaiting, Phase::kFinished);
+  archive.Number("speed_wanted", status.speed_wanted);
+  archive.Number("real_time_factor", status.real_time_factor);
+  archive.Number("ticks_per_second", status.ticks_per_second);
+  archive.Text("ended", status.ended);
+  archive.List("processes", status.processes,
+               [](Archive& a, ProcessStatus& process)
+               {
+                 a.Name("processes.name", process.name);
+                 a.Name("processes.process", process.process);
+                 a.Integer("processes.tick", process.tick);
+                 a.Number("processes.late_s", process.late_s);
+                 a.Text("processes.doing", process.doing);
+               });
+}
+
+template <class Archive>
+void Fields(Archive& archive, std::vector<DeviceStatus>& devices)
+{
+  archive.List("devices", devices,
+               [](Archive& a, DeviceStatus& device)
+               {
+                 a.Text("devices.type", device.type);
+                 a.List("readings", device.readings,
+                        [](Archive& b, CCI_Reading& reading)
+                        {
+                          b.Text("readings.name", reading.name);
+                          b.Text("readings.unit", reading.unit);
+                          b.AnyNumber("readings.value", reading.value);  // a range without an echo is infinite
+                        });
+               });
+}
+
+template <class Archive>
+void Fields(Archive& archive, RobotStatusMessage& message)
+{
+  archive.Integer("run", message.run);
+  archive.Integer("tick", message.tick);
+  archive.Integer("source", message.source);
+  archive.List("robots", message.robots,
+               [&message](Archive& a, RobotStatus& robot)
+               {
+                 a.Integer("robots.entity", robot.entity);
+                 a.Text("robots.controller", robot.controller);
+                 a.Text("robots.text", robot.text);
+                 a.Text("robots.state", robot.state);
+                 Fields(a, robot.sensors);
+                 Fields(a, robot.actuators);
+                 if constexpr (Archive::kReads) robot.tick = message.tick;
+               });
+}
+
+template <class Archive>
+void Fields(Archive& archive, ByeMessage& message)
+{
+  archive.Integer("run", message.run);
+  archive.Integer("tick", message.tick);
+  archive.Name("name", message.name);
+  archive.Name("to", message.to);
+  archive.Text("error", message.error);
+}
+
+// The key of topics with instances, nullptr for others.
+template <class Message>
+const std::string* KeyOf(const Message&)
+{
+  return nullptr;
+}
+inline const std::string* KeyOf(const HelloMessage& message) { return &message.process; }
+inline const std::string* KeyOf(const WishesMessage& message) { return &message.client; }
+
+}  // namespace swarmanoid

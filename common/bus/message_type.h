@@ -1,0 +1,192 @@
+// Type support of all messages: between the plain structs of the roles and the payloads of DDS, in one pass. Nothing is
+// ever thrown into DDS: what is wrong with a payload is kept for the reader, which knows the sender.
+#pragma once
+
+#include <fastrtps/utils/md5.h>
+#include <fastdds/dds/topic/TopicDataType.hpp>
+
+#include <array>
+#include <functional>
+#include <string>
+
+#include "common/bus/message_bytes.h"
+
+namespace swarmanoid
+{
+
+using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
+
+template <class Message>
+class MessageType : public eprosima::fastdds::dds::TopicDataType
+{
+public:
+  // `payload_bytes`: room that is made for each message at first.
+  explicit MessageType(std::size_t payload_bytes)
+  {
+    setName((std::string("swarmanoid::wire::") + kTopicOf<Message>).c_str());
+    m_typeSize = static_cast<std::uint32_t>(payload_bytes);
+    m_isGetKeyDefined = false;
+    auto_fill_type_object(false);
+    auto_fill_type_information(false);
+  }
+  bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
+  bool is_plain() const override { return false; }
+
+protected:
+  static std::span<const char> BytesOf(const Payload& payload)
+  {
+    return {reinterpret_cast<const char*>(payload.data), payload.length};
+  }
+  template <class... Parts>
+  static bool Write(Payload& payload, std::size_t size, const Parts&... parts)
+  {
+    if (size > payload.max_size) return false;
+    payload.encapsulation = CDR_LE;
+    WritePayload(reinterpret_cast<char*>(payload.data), parts...);
+    payload.length = static_cast<std::uint32_t>(size);
+    return true;
+  }
+};
+
+// ---- Messages of a tick ----
+
+template <class Message>
+struct HotWrite
+{
+  const MessageHeader* header;
+  const Message* message;
+  std::size_t size;  // of the payload
+};
+
+// What a reader hands to the type support: where the message goes is decided when its header is known.
+template <class Message>
+struct HotRead
+{
+  const typename HotSubscription<Message>::Handler* handler;
+  MessageHeader header;
+  Message* message = nullptr;  // nullptr: dropped
+  std::string error;           // not empty: what is wrong with it
+};
+
+// Bounded by a capacity chosen at run time, which data sharing asks for.
+template <class Message>
+class HotType : public MessageType<Message>
+{
+public:
+  explicit HotType(std::size_t capacity) : MessageType<Message>(capacity) {}
+
+  bool serialize(void* data, Payload* payload) override
+  {
+    const auto& call = *static_cast<const HotWrite<Message>*>(data);
+    return this->Write(*payload, call.size, *call.header, *call.message);
+  }
+
+  bool deserialize(Payload* payload, void* data) override
+  {
+    auto& call = *static_cast<HotRead<Message>*>(data);
+    call.message = nullptr;
+    call.error.clear();
+    try
+    {
+      const auto check = [&](const MessageHeader& header, const Message& message)
+      {
+        if (call.handler->check) call.handler->check(header, message);
+      };
+      call.message = ReadTickPayload<Message>(this->BytesOf(*payload), call.header, call.handler->choose, check);
+    }
+    catch (const std::exception& error)
+    {
+      call.error = error.what();
+    }
+    return true;
+  }
+
+  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override
+  {
+    const std::size_t size = static_cast<const HotWrite<Message>*>(data)->size;
+    return [size] { return static_cast<std::uint32_t>(size); };
+  }
+
+  void* createData() override { return new HotRead<Message>(); }
+  void deleteData(void* data) override { delete static_cast<HotRead<Message>*>(data); }
+  bool is_bounded() const override { return true; }
+};
+
+// ---- All others ----
+
+template <class Message>
+struct ColdCall
+{
+  const Message* out = nullptr;  // to write
+  std::size_t size = 0;          // of its payload
+  Message* in = nullptr;         // to read
+  std::string error;             // not empty: what is wrong with it
+};
+
+template <class Message>
+class ColdType : public MessageType<Message>
+{
+public:
+  ColdType() : MessageType<Message>(kFirstRoom) { this->m_isGetKeyDefined = KeyOf(Message()) != nullptr; }
+
+  bool serialize(void* data, Payload* payload) override
+  {
+    const auto& call = *static_cast<const ColdCall<Message>*>(data);
+    return this->Write(*payload, call.size, *call.out);
+  }
+
+  bool deserialize(Payload* payload, void* data) override
+  {
+    auto& call = *static_cast<ColdCall<Message>*>(data);
+    call.error.clear();
+    try
+    {
+      ReadPayload(this->BytesOf(*payload), *call.in);
+    }
+    catch (const std::exception& error)
+    {
+      call.error = error.what();
+    }
+    return true;
+  }
+
+  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override
+  {
+    const std::size_t size = static_cast<const ColdCall<Message>*>(data)->size;
+    return [size] { return static_cast<std::uint32_t>(size); };
+  }
+
+  // The MD5 of the key as big-endian XCDR1: keys that may be longer than 16 bytes are told so (DDSI-RTPS 9.6.3.8).
+  bool getKey(void* data, eprosima::fastrtps::rtps::InstanceHandle_t* handle, bool) override
+  {
+    const auto& call = *static_cast<const ColdCall<Message>*>(data);
+    const std::string* key = KeyOf(call.out != nullptr ? *call.out : *call.in);
+    if (key == nullptr) return false;
+    const auto length = static_cast<std::uint32_t>(key->size() + 1);
+    const std::array<char, 4> big_endian{static_cast<char>(length >> 24U), static_cast<char>(length >> 16U),
+                                         static_cast<char>(length >> 8U), static_cast<char>(length)};
+    MD5 digest;
+    digest.init();
+    digest.update(big_endian.data(), 4);
+    digest.update(key->c_str(), length);
+    digest.finalize();
+    for (std::size_t i = 0; i < 16; ++i) handle->value[i] = digest.digest[i];
+    return true;
+  }
+
+  void* createData() override { return static_cast<ColdCall<Message>*>(new OwnedCall()); }
+  void deleteData(void* data) override { delete static_cast<OwnedCall*>(static_cast<ColdCall<Message>*>(data)); }
+  bool is_bounded() const override { return false; }
+
+private:
+  static constexpr std::size_t kFirstRoom = 1024;
+
+  // Of DDS itself, to find the key of a message.
+  struct OwnedCall : ColdCall<Message>
+  {
+    OwnedCall() { this->in = &message; }
+    Message message;
+  };
+};
+
+}  // namespace swarmanoid

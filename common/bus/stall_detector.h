@@ -1,0 +1,36 @@
+// StallDetector: notices that a process has been in one state for too long. Asked from time to time, by one thread.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace swarmanoid
+{
+
+class StallDetector
+{
+public:
+  // `state`: what the process waits for or does at `tick`, empty for nothing worth telling. Returned once it has been
+  // the same for a second.
+  std::optional<std::string> Observe(std::uint64_t tick, const std::string& state)
+  {
+    const auto now = std::chrono::steady_clock::now();
+    if (tick != tick_ || state != state_)
+    {
+      tick_ = tick;
+      state_ = state;
+      since_ = now;
+    }
+    if (state.empty() || now - since_ < std::chrono::seconds(1)) return std::nullopt;
+    return state;
+  }
+
+private:
+  std::uint64_t tick_ = 0;
+  std::string state_;
+  std::chrono::steady_clock::time_point since_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,124 @@
+#include "common/bus/tick_limits.h"
+
+#include <fmt/format.h>
+
+#include "common/bus/message_bytes.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr std::size_t kPoseNumbers = 7;
+
+std::size_t Largest(const std::vector<std::size_t>& numbers)
+{
+  return numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end());
+}
+
+void FillSlots(AttributeChanges& changes, std::size_t slots)
+{
+  for (std::size_t slot = 0; slot < slots; ++slot) changes.Add(static_cast<std::uint32_t>(slot), 0);
+}
+
+void CheckLength(const char* field, std::size_t length, std::size_t wanted)
+{
+  if (length != wanted) RefuseField(field, fmt::format("it has {} numbers, not {}", length, wanted));
+}
+
+// Of the senders of a kind, the one that the message names.
+std::size_t OfSource(const std::vector<std::size_t>& numbers, std::uint32_t source)
+{
+  if (source >= numbers.size()) RefuseField("source", fmt::format("there is no number {}", source));
+  return numbers[source];
+}
+
+}  // namespace
+
+TickLimits::TickLimits(const CSwarmanoidSpace& space, const Assignment& assignment)
+    : entities_(space.Size()), movable_(space.Movable().size()), slots_(space.Attributes().size())
+{
+  for (const HostLayout& host : assignment.hosts) command_values_.push_back(host.command_size);
+  for (const EngineLayout& engine : assignment.engines)
+  {
+    owned_.push_back(engine.owned.size());
+    sensor_values_.push_back(engine.sensor_size);
+  }
+}
+
+std::size_t TickLimits::StateBytes() const
+{
+  SpaceState state;
+  state.poses.resize(kPoseNumbers * movable_);
+  FillSlots(state.attributes, slots_);
+  state.moved.resize(entities_);
+  return PayloadSize(MessageHeader(), state);
+}
+
+std::size_t TickLimits::CommandBytes() const
+{
+  ControlCommands commands;
+  commands.values.resize(Largest(command_values_));
+  FillSlots(commands.attributes, slots_);
+  return PayloadSize(MessageHeader(), commands);
+}
+
+std::size_t TickLimits::UpdateBytes() const
+{
+  EngineUpdate update;
+  update.poses.resize(kPoseNumbers * Largest(owned_));
+  FillSlots(update.attributes, slots_);
+  return PayloadSize(MessageHeader(), update);
+}
+
+std::size_t TickLimits::FrameBytes() const
+{
+  SensorFrame frame;
+  frame.values.resize(Largest(sensor_values_));
+  return PayloadSize(MessageHeader(), frame);
+}
+
+std::size_t TickLimits::DrawnBytes() { return PayloadSize(MessageHeader(), DrawnMessage()); }
+
+void TickLimits::Check(const MessageHeader& header, const SpaceState& state) const
+{
+  if (header.source != 0) RefuseField("source", "the space server is number 0");
+  CheckLength("poses", state.poses.size(), kPoseNumbers * movable_);
+  CheckSlots(state.attributes);
+  for (std::size_t k = 0; k < state.moved.size(); ++k)
+    if (state.moved[k] >= entities_ || (k > 0 && state.moved[k] <= state.moved[k - 1]))
+      RefuseField("moved", fmt::format("entity {} of {} does not ascend, or there is none", state.moved[k], entities_));
+}
+
+void TickLimits::Check(const MessageHeader& header, const ControlCommands& commands) const
+{
+  CheckLength("values", commands.values.size(), OfSource(command_values_, header.source));
+  CheckSlots(commands.attributes);
+}
+
+void TickLimits::Check(const MessageHeader& header, const EngineUpdate& update) const
+{
+  CheckLength("poses", update.poses.size(), kPoseNumbers * OfSource(owned_, header.source));
+  CheckSlots(update.attributes);
+}
+
+void TickLimits::Check(const MessageHeader& header, const SensorFrame& frame) const
+{
+  CheckLength("values", frame.values.size(), OfSource(sensor_values_, header.source));
+}
+
+void TickLimits::Check(const SpaceSnapshot& snapshot) const
+{
+  CheckLength("poses", snapshot.poses.size(), kPoseNumbers * movable_);
+  CheckLength("attributes", snapshot.attributes.size(), slots_);
+}
+
+// They ascend: the last one is the largest.
+void TickLimits::CheckSlots(const AttributeChanges& changes) const
+{
+  const std::vector<std::uint32_t>& slots = changes.slots;
+  if (!slots.empty() && slots.back() >= slots_)
+    RefuseField("attribute_slots", fmt::format("there is no slot {}; there are {}", slots.back(), slots_));
+}
+
+}  // namespace swarmanoid

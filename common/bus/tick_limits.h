@@ -1,0 +1,46 @@
+// TickLimits: what an experiment makes of the messages of a tick: how long their arrays are, and which slots and
+// entities there are. From it follow the room that messages need and the check of those that arrive. Same in every
+// process of a run; read-only, so any thread may ask.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/bus/messages.h"
+#include "common/space/assignment.h"
+#include "common/space/space.h"
+
+namespace swarmanoid
+{
+
+class TickLimits
+{
+public:
+  TickLimits(const CSwarmanoidSpace& space, const Assignment& assignment);
+
+  // Bytes of the largest message of a kind, no matter of whom.
+  std::size_t StateBytes() const;
+  std::size_t CommandBytes() const;
+  std::size_t UpdateBytes() const;
+  std::size_t FrameBytes() const;
+  static std::size_t DrawnBytes();
+
+  // Throw BadMessage, with the name of the field.
+  void Check(const MessageHeader& header, const SpaceState& state) const;
+  void Check(const MessageHeader& header, const ControlCommands& commands) const;
+  void Check(const MessageHeader& header, const EngineUpdate& update) const;
+  void Check(const MessageHeader& header, const SensorFrame& frame) const;
+  void Check(const SpaceSnapshot& snapshot) const;
+
+private:
+  void CheckSlots(const AttributeChanges& changes) const;
+
+  std::size_t entities_;
+  std::size_t movable_;
+  std::size_t slots_;
+  std::vector<std::size_t> command_values_;  // of each host
+  std::vector<std::size_t> owned_;           // of each engine
+  std::vector<std::size_t> sensor_values_;   // of each engine
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,69 @@
+#include "common/math/normal.h"
+
+#include <algorithm>
+#include <array>
+
+#include "common/math/elementary.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+// AS 241, PPND16: rational approximations of the middle, of the flanks and of the far tails; highest power first.
+constexpr std::array kMiddleNumerator{2.5090809287301226727e3, 3.3430575583588128105e4, 6.7265770927008700853e4,
+                                      4.5921953931549871457e4, 1.3731693765509461125e4, 1.9715909503065514427e3,
+                                      1.3314166789178437745e2, 3.3871328727963666080};
+constexpr std::array kMiddleDenominator{
+    5.2264952788528545610e3, 2.8729085735721942674e4, 3.9307895800092710610e4, 2.1213794301586595867e4,
+    5.3941960214247511077e3, 6.8718700749205790830e2, 4.2313330701600911252e1, 1.0};
+constexpr std::array kFlankNumerator{7.74545014278341407640e-4, 2.27238449892691845833e-2, 2.41780725177450611770e-1,
+                                     1.27045825245236838258,    3.64784832476320460504,    5.76949722146069140550,
+                                     4.63033784615654529590,    1.42343711074968357734};
+constexpr std::array kFlankDenominator{
+    1.05075007164441684324e-9, 5.47593808499534494600e-4, 1.51986665636164571966e-2, 1.48103976427480074590e-1,
+    6.89767334985100004550e-1, 1.67638483018380384940,    2.05319162663775882187,    1.0};
+constexpr std::array kTailNumerator{2.01033439929228813265e-7, 2.71155556874348757815e-5, 1.24266094738807843860e-3,
+                                    2.65321895265761230930e-2, 2.96560571828504891230e-1, 1.78482653991729133580,
+                                    5.46378491116411436990,    6.65790464350110377720};
+constexpr std::array kTailDenominator{
+    2.04426310338993978564e-15, 1.42151175831644588870e-7, 1.84631831751005468180e-5, 7.86869131145613259100e-4,
+    1.48753612908506148525e-2,  1.36929880922735805310e-1, 5.99832206555887937690e-1, 1.0};
+
+inline double Quotient(const std::array<double, 8>& numerator, const std::array<double, 8>& denominator, double r)
+{
+  double above = numerator[0];
+  double below = denominator[0];
+  for (std::size_t i = 1; i < 8; ++i)
+  {
+    above = above * r + numerator[i];
+    below = below * r + denominator[i];
+  }
+  return above / below;
+}
+
+}  // namespace
+
+double NormalQuantile(double mass)
+{
+  constexpr double kMiddle = 0.425;
+  const double away = __builtin_fabs(mass);
+  if (away <= kMiddle) return mass * Quotient(kMiddleNumerator, kMiddleDenominator, kMiddle * kMiddle - mass * mass);
+  const double r = __builtin_sqrt(-Log(0.5 - away));
+  const double x = r <= 5 ? Quotient(kFlankNumerator, kFlankDenominator, r - 1.6)
+                          : Quotient(kTailNumerator, kTailDenominator, r - 5);
+  return mass < 0 ? -x : x;
+}
+
+double NormalMass(double x)
+{
+  constexpr double kRootOfTwoPi = 2.50662827463100050242;
+  if (x > 8.5) return 0.5;  // what lies beyond is below the last bit
+  const double square = x * x;
+  double term = x;
+  double sum = x;
+  for (double power = 3; term > 1e-17 * sum; power += 2) sum += term *= square / power;
+  return std::min(sum * Exp(-0.5 * square) / kRootOfTwoPi, 0.5);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,102 @@
+#include "common/program/program.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "common/activity/failure_report.h"
+#include "common/activity/limits.h"
+#include "common/configuration/configuration_tree.h"
+#include "common/program/command_line_complaint.h"
+#include "common/program/interrupts.h"
+#include "common/program/usage_error.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+std::string terminating_program;
+
+// What the exception being handled says, and the exit code that it means.
+int Report(const std::string& program)
+{
+  try
+  {
+    throw;
+  }
+  catch (const UsageError& error)
+  {
+    fmt::print(stderr, "{}: {}\n", program, error.what());
+    return kExitUsage;
+  }
+  catch (const ConfigurationError& error)
+  {
+    NoteEnd(EndReason::kInvalid, 0, error.what(), true);
+    // Where there is a file, its place comes first, as editors expect it.
+    if (error.Location().file)
+      fmt::print(stderr, "{}\n", error.what());
+    else
+      fmt::print(stderr, "{}: {}\n", program, error.what());
+    return kExitInvalidFile;
+  }
+  catch (const std::exception& error)
+  {
+    NoteEnd(Interrupted() ? EndReason::kInterrupted : EndReason::kFailed, 0, error.what(), true);
+    fmt::print(stderr, "{}: {}\n", program, error.what());
+  }
+  catch (...)
+  {
+    fmt::print(stderr, "{}: something was thrown that is no std::exception\n", program);
+  }
+  return Interrupted() ? kExitInterrupted : kExitProcessFailed;
+}
+
+// An exception that left a thread, or a destructor: nothing can be tidied up any more.
+[[noreturn]] void Terminate()
+{
+  int code = kExitProcessFailed;
+  if (std::current_exception())
+    code = Report(terminating_program);
+  else
+    fmt::print(stderr, "{}: std::terminate was called\n", terminating_program);
+  LeaveAtOnce(code == kExitInterrupted ? code : kExitProcessFailed);
+}
+
+}  // namespace
+
+int RunProgram(const ProgramDescription& program, int count, char** arguments,
+               const std::function<void(CLI::App&)>& declare, const std::function<int()>& run)
+{
+  terminating_program = program.name;
+  std::set_terminate(Terminate);
+  CLI::App app(program.purpose, program.name);
+  app.failure_message([&](const CLI::App* failed, const CLI::Error& error)
+                      { return fmt::format("{}: {}\n", program.name, CommandLineComplaint(*failed, error)); });
+  app.footer(program.footer);
+  try
+  {
+    if (program.register_plugins != nullptr) program.register_plugins();
+    declare(app);
+    app.parse(count, arguments);
+    if (program.catches_interrupts) CatchInterrupts();
+    if (program.runs_code_of_users)
+    {
+      ReportDeaths(program.name);
+      ApplyLimits(LimitsOfEnvironment());
+    }
+    return run();
+  }
+  catch (const CLI::ParseError& error)
+  {
+    return app.exit(error) == 0 ? kExitDone : kExitUsage;
+  }
+  catch (...)
+  {
+    return Report(program.name);
+  }
+}
+
+}  // namespace swarmanoid

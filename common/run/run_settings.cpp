@@ -1,0 +1,230 @@
+#include "common/run/run_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "common/configuration/wording.h"
+#include "common/program/usage_error.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using enum ParameterType;
+
+// As for the elements of the experiment file.
+constexpr double kMostTicks = 1e15;
+constexpr double kLargestSeed = 9e18;
+constexpr double kFastest = 1e6;
+constexpr double kLongestStep_s = 1e6;
+
+// Who takes a setting; each is for those before it too.
+enum class For
+{
+  kLauncher,
+  kServer,
+  kChoice  // whoever reads the experiment
+};
+
+struct RunOption : OptionSpec
+{
+  For whom = For::kLauncher;
+};
+
+ParameterSpec Text(const std::string& name, const std::string& description)
+{
+  return {.name = name, .type = kText, .description = description};
+}
+
+ParameterSpec Path(const std::string& name, const std::string& description)
+{
+  return {.name = name, .type = kPath, .description = description};
+}
+
+ParameterSpec Flag(const std::string& name, const std::string& description)
+{
+  return {.name = name, .type = kBoolean, .description = description};
+}
+
+ParameterSpec Whole(const std::string& name, const std::string& description, double minimum, double maximum)
+{
+  return {.name = name, .type = kInteger, .description = description, .minimum = minimum, .maximum = maximum};
+}
+
+std::string PairMistake(const std::string& text, const std::string& form, bool value_needed)
+{
+  const std::size_t sign = text.find('=');
+  const bool good = sign != std::string::npos && sign > 0 && (!value_needed || sign + 1 < text.size());
+  return good ? "" : "write " + form;
+}
+
+std::string SettingMistake(const std::string& text) { return PairMistake(text, "PATH=VALUE", false); }
+std::string EngineHostMistake(const std::string& text) { return PairMistake(text, "ENGINE=HOST", true); }
+
+std::string HashMistake(const std::string& text)
+{
+  const bool good =
+      !text.empty() && text.size() <= 16 && text.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
+  return good ? "" : "it must be up to 16 hexadecimal digits";
+}
+
+// "2GiB", "500M", "1073741824": units of 1024. nullopt for anything else, and for what no memory has.
+std::optional<std::uint64_t> SizeOf(const std::string& text)
+{
+  constexpr double kMostBytes = 1e15;
+  const std::size_t end = std::min(text.find_first_not_of("0123456789."), text.size());
+  const auto number = ParseNumber(text.substr(0, end));
+  if (!number) return std::nullopt;
+  std::string unit = text.substr(end);
+  double factor = 1;
+  if (!unit.empty() && unit != "B")
+  {
+    const std::size_t power = std::string_view("KMGT").find(unit[0]);
+    const std::string rest = unit.substr(1);
+    if (power == std::string_view::npos || (!rest.empty() && rest != "B" && rest != "iB")) return std::nullopt;
+    factor = std::exp2(10.0 * static_cast<double>(power + 1));
+  }
+  const double bytes = *number * factor;
+  if (!(bytes >= 1) || bytes > kMostBytes) return std::nullopt;
+  return static_cast<std::uint64_t>(bytes);
+}
+
+std::string SizeMistake(const std::string& text)
+{
+  return SizeOf(text) ? "" : "write a number of bytes, or one with KiB, MiB, GiB or TiB";
+}
+
+std::vector<RunOption> Table(RunSettings& s)
+{
+  OptionSpec file{Path("EXPERIMENT", "The experiment file"), &s.file, "configs/diffusion_10.xml"};
+  file.required = true;
+  return {
+      {file, For::kChoice},
+      {{Whole("seed", "Seed of all random numbers, instead of the file's", 0, kLargestSeed), &s.seed, "7"},
+       For::kChoice},
+      {{Whole("ticks", "Ticks to run, instead of the file's maxclock; 0: until stopped", 0, kMostTicks), &s.ticks,
+        "1000"},
+       For::kChoice},
+      {{Text("set", "Change the experiment: another value for an element or attribute of the file"), &s.settings,
+        "arena.fb.position=1,2,0", "PATH=VALUE", SettingMistake},
+       For::kChoice},
+      {{Path("output",
+             "Folder of the run; `swarmanoid run` takes a new or empty one, otherwise runs/<experiment>-<time>"),
+        &s.output_folder, "results/first"},
+       For::kServer},
+      {{{.name = "real-time",
+         .type = kNumber,
+         .description = "Run at this multiple of real time; 0: as fast as possible",
+         .minimum = 0,
+         .maximum = kFastest},
+        &s.real_time_factor,
+        "2"},
+       For::kServer},
+      {{Flag("paused",
+             "Start paused, until somebody resumes: in a window or page, or a cluster by `swarmanoid control resume`"),
+        &s.paused},
+       For::kServer},
+      {{Path("events", "events.csv of an earlier run: its moves and its end by a user are repeated"), &s.events,
+        "runs/first/events.csv", "", FileMistake},
+       For::kServer},
+      {{Flag("no-visualisers", "Leave out the <visualisations> of the file"), &s.visualisations}, For::kServer},
+      {{Path("hash-log", "File that gets the hash of the state at every tick"), &s.hash_log, "hashes.txt"},
+       For::kServer},
+      {{Text("expect-hash", "Exit with 5 unless the run ends with this hash"), &s.expected_hash, "bfe0390c84c85930",
+        "HASH", HashMistake},
+       For::kLauncher},
+      {{Whole("checkpoint-every",
+              "Write the whole state to checkpoint-<tick> in the folder of the run every so many ticks; 0: never", 0,
+              kMostTicks),
+        &s.checkpoint_every, "500"},
+       For::kServer},
+      {{Path("restore", "Go on from a checkpoint of the same experiment and seed"), &s.restore_file,
+        "first/checkpoint-00000500", "", FileMistake},
+       For::kServer},
+      {{Flag("quiet", "Show no progress"), &s.quiet}, For::kLauncher},
+      {{{.name = "step-timeout",
+         .type = kNumber,
+         .unit = "s",
+         .description = "Time that one step of a controller, engine, functions, device or renderer may take; 0: any",
+         .minimum = 0,
+         .maximum = kLongestStep_s},
+        &s.step_timeout_s,
+        "5"},
+       For::kLauncher},
+      {{Text("memory-limit", "Memory that each process may take; otherwise nine tenths of what this machine has"),
+        &s.memory_limit, "2GiB", "SIZE", SizeMistake},
+       For::kLauncher},
+      {{Flag("single-process", "Run everything in this process, without DDS"), &s.single_process}, For::kLauncher},
+      {{Whole("controller-hosts", "Processes that share the robots' controllers", 1, 1000), &s.controller_hosts, "2"},
+       For::kServer},
+      {{Text("engine-host", "Run an engine on another machine"), &s.engine_hosts, "ground=alpha", "ENGINE=HOST",
+        EngineHostMistake},
+       For::kLauncher},
+      {{Path("hosts", "File that says which process runs on which machine (docs/command.md)"), &s.hosts_file,
+        "hosts.txt", "", FileMistake},
+       For::kLauncher},
+      {{Whole("domain", "DDS domain, otherwise a free one", 0, 232), &s.domain, "7"}, For::kLauncher},
+      {{{.name = "placement",
+         .type = kChoice,
+         .description = "Processor cores of the processes; auto: one core where the experiment is small",
+         .choices = {"auto", "one-core", "spread"}},
+        &s.placement},
+       For::kLauncher},
+  };
+}
+
+std::vector<OptionSpec> OptionsFor(For whom, RunSettings& settings)
+{
+  std::vector<OptionSpec> options;
+  for (const RunOption& option : Table(settings))
+    if (option.whom >= whom) options.push_back(option);
+  return options;
+}
+
+}  // namespace
+
+std::vector<OptionSpec> RunOptionTable(RunSettings& settings) { return OptionsFor(For::kLauncher, settings); }
+std::vector<OptionSpec> ServerOptionTable(RunSettings& settings) { return OptionsFor(For::kServer, settings); }
+std::vector<OptionSpec> ChoiceOptionTable(RunSettings& settings) { return OptionsFor(For::kChoice, settings); }
+
+std::vector<std::string> ServerWords(const RunSettings& settings)
+{
+  RunSettings absolute = settings;
+  const std::vector<OptionSpec> options = ServerOptionTable(absolute);
+  for (const OptionSpec& option : options)
+    if (auto* const* path = std::get_if<std::string*>(&option.target); path != nullptr && !(*path)->empty())
+      if (option.value.type == kPath) **path = std::filesystem::absolute(**path).lexically_normal();
+  RunSettings untouched;
+  return WordsOf(options, ServerOptionTable(untouched));
+}
+
+Limits LimitsOf(const RunSettings& settings)
+{
+  Limits limits = LimitsOfEnvironment();
+  if (settings.step_timeout_s > 0) limits.step_s = settings.step_timeout_s;
+  if (const auto bytes = SizeOf(settings.memory_limit)) limits.memory_bytes = *bytes;
+  return limits;
+}
+
+std::pair<std::string, std::string> SplitSetting(const std::string& text)
+{
+  if (const std::string mistake = SettingMistake(text); !mistake.empty())
+    throw UsageError(fmt::format("--set is {}; {}; for example --set framework.maxclock=100", Quoted(text), mistake));
+  const std::size_t sign = text.find('=');
+  return {text.substr(0, sign), text.substr(sign + 1)};
+}
+
+LoadOptions ChangesOf(const ExperimentChoice& choice)
+{
+  LoadOptions changes;
+  for (const std::string& setting : choice.settings) changes.settings.push_back(SplitSetting(setting));
+  if (choice.seed) changes.settings.emplace_back("framework.seed", std::to_string(*choice.seed));
+  if (choice.ticks) changes.settings.emplace_back("framework.maxclock", std::to_string(*choice.ticks));
+  return changes;
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,76 @@
+// What the space server tells whoever started it, line by line, on the descriptor of --status-fd: state, tick, stalled,
+// error, finished. Writer and reader of each kind come from one description (server_status.cpp).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace swarmanoid
+{
+
+// "state loading|waiting NAMES|running|paused"
+struct ServerState
+{
+  enum Phase
+  {
+    kLoading,
+    kWaiting,
+    kRunning,
+    kPaused
+  };
+  Phase phase = kLoading;
+  std::string waiting_for;  // the names of those who have not joined
+
+  friend bool operator==(const ServerState&, const ServerState&) = default;
+};
+
+// "tick T MAX RTF"; MAX is 0 for a run without end.
+struct ServerTick
+{
+  std::uint64_t tick = 0;
+  std::uint64_t max = 0;
+  double real_time_factor = 0;
+
+  friend bool operator==(const ServerTick&, const ServerTick&) = default;
+};
+
+// "stalled NAME SECONDS"
+struct ServerStall
+{
+  std::string name;
+  double seconds = 0;
+
+  friend bool operator==(const ServerStall&, const ServerStall&) = default;
+};
+
+// "error TEXT"
+struct ServerError
+{
+  std::string text;
+
+  friend bool operator==(const ServerError&, const ServerError&) = default;
+};
+
+// "finished TICKS ENTITIES HASH WALL RTF"
+struct ServerFinished
+{
+  std::uint64_t ticks = 0;
+  std::uint64_t entities = 0;
+  std::uint64_t hash = 0;
+  double wall_s = 0;
+  double real_time_factor = 0;
+
+  friend bool operator==(const ServerFinished&, const ServerFinished&) = default;
+};
+
+using ServerStatus = std::variant<ServerState, ServerTick, ServerStall, ServerError, ServerFinished>;
+
+// The line, without its end. Line breaks and other control characters in texts become blanks.
+std::string ServerStatusLine(const ServerStatus& status);
+// nullopt for a line that is none of these, whole and with numbers that a run can have.
+std::optional<ServerStatus> ParseServerStatus(std::string_view line);
+
+}  // namespace swarmanoid

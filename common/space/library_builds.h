@@ -1,0 +1,27 @@
+// The builds of what computes the state of a run: Swarmanoid itself and the libraries of controllers, devices, engines
+// and experiment functions. Checkpoints keep them, since the state that one build saved means nothing sure to another.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/experiment/experiment.h"
+
+namespace swarmanoid
+{
+
+struct LibraryBuild
+{
+  std::string name;   // the name of the file without folder, or kSwarmanoidBuild
+  std::string build;  // as BuildOfLibrary says; empty: the file is not on the machine that looked
+};
+inline constexpr const char* kSwarmanoidBuild = "Swarmanoid";
+
+// In the order of their names, each once. They are looked for where they would be loaded from, and not loaded. Taken
+// when a run starts: a file may be built anew while the run goes on with the old one.
+std::vector<LibraryBuild> LibraryBuildsOf(const Experiment& experiment);
+
+// What differs, with the cure; empty where nothing does. Libraries that are unknown on either side differ in nothing.
+std::string DifferenceOfBuilds(const std::vector<LibraryBuild>& saved, const std::vector<LibraryBuild>& here);
+
+}  // namespace swarmanoid

@@ -1,0 +1,251 @@
+#include "common/space/state_checks.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr std::array<const char*, 7> kComponents{"x", "y", "z", "qx", "qy", "qz", "qw"};
+
+[[noreturn]] void Refuse(const std::string& text) { throw StateError(text); }
+
+std::string NameOf(const CSwarmanoidSpace& space, std::uint32_t entity)
+{
+  const CSwarmanoidSpaceEntity& it = space.GetEntity(entity);
+  return fmt::format("the {} '{}'", TagName(it.GetKind()), it.GetId());
+}
+
+// 1 where a value is infinite or not a number: the exponent has all its bits.
+std::uint64_t IsNotFinite(double value)
+{
+  constexpr std::uint64_t kExponent = 0x7ff0000000000000;
+  return static_cast<std::uint64_t>((std::bit_cast<std::uint64_t>(value) & kExponent) == kExponent);
+}
+
+// 1 where a value is outside, or not a number.
+std::uint64_t IsOutside(double value, double low, double high)
+{
+  return static_cast<std::uint64_t>(!(value >= low)) | static_cast<std::uint64_t>(!(value <= high));
+}
+
+bool AllWithin(const double* values, std::size_t count, double low, double high)
+{
+  std::uint64_t bad = 0;
+  for (std::size_t k = 0; k < count; ++k) bad |= IsOutside(values[k], low, high);
+  return bad == 0;
+}
+
+bool IsWithinLimit(const Experiment& experiment, const Vector3& position)
+{
+  const double limit = experiment.limit_m;
+  std::uint64_t bad = 0;
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    bad |= IsOutside(position[axis], -limit, experiment.arena_size[axis] + limit);
+  return bad == 0;
+}
+
+bool AllOfNormOne(const double* qx, const double* qy, const double* qz, const double* qw, std::size_t count)
+{
+  std::uint64_t bad = 0;
+  for (std::size_t k = 0; k < count; ++k)
+    bad |= IsOutside(qx[k] * qx[k] + qy[k] * qy[k] + qz[k] * qz[k] + qw[k] * qw[k], 1 - kNormTolerance,
+                     1 + kNormTolerance);
+  return bad == 0;
+}
+
+[[noreturn]] void RefusePose(const CSwarmanoidSpace& space, std::uint32_t entity, const std::array<double, 7>& pose)
+{
+  for (std::size_t c = 0; c < pose.size(); ++c)
+    if (IsNotFinite(pose[c]) != 0)
+      Refuse(fmt::format("{} has a pose with {} = {}; the numbers of a pose must be finite", NameOf(space, entity),
+                         kComponents[c], pose[c]));
+  Refuse(fmt::format(
+      "{} has an orientation of norm {:.9g} (qx {:g}, qy {:g}, qz {:g}, qw {:g}); it must be 1, so the "
+      "quaternion must be normalised",
+      NameOf(space, entity), std::sqrt(pose[3] * pose[3] + pose[4] * pose[4] + pose[5] * pose[5] + pose[6] * pose[6]),
+      pose[3], pose[4], pose[5], pose[6]));
+}
+
+[[noreturn]] void RefuseBeyondLimit(const CSwarmanoidSpace& space, std::uint32_t entity, const Vector3& position)
+{
+  const Experiment& experiment = space.GetExperiment();
+  const Vector3& size = experiment.arena_size;
+  Refuse(fmt::format(
+      "{} left the world: it is at {:.6g}, {:.6g}, {:.6g}, more than {:g} m outside the arena, which reaches "
+      "from 0, 0, 0 to {:g}, {:g}, {:g}; give <arena> a larger limit, or a beyond_limit of hold or remove",
+      NameOf(space, entity), position.x(), position.y(), position.z(), experiment.limit_m, size.x(), size.y(),
+      size.z()));
+}
+
+// What a slot must hold; nullptr where the value is right.
+const char* MistakeOf(AttributeValue kind, double value, std::size_t entities)
+{
+  const auto whole = [value](double most) { return value >= 0 && value <= most && value == std::floor(value); };
+  switch (kind)
+  {
+    case AttributeValue::kNumber:
+      return std::abs(value) <= 1e9 ? nullptr : "it must be finite and at most 1e9 from 0";
+    case AttributeValue::kColour:
+      return whole(0xffffff) ? nullptr : "a colour is a whole number from 0 to 0xffffff";
+    case AttributeValue::kSwitch:
+      return whole(1) ? nullptr : "it must be 0 or 1";
+    case AttributeValue::kEntity:
+      return whole(static_cast<double>(entities)) ? nullptr : "it must be 0 or 1 + the index of an entity";
+    case AttributeValue::kBytes:
+      return whole(0xffffffffff) ? nullptr : "it must be a whole number from 0 to 2^40 - 1";
+    case AttributeValue::kPresence:
+      return "entities are added and removed by AddEntity and RemoveEntity of the space's editor";
+  }
+  return nullptr;
+}
+
+std::string NameOfSlot(const CSwarmanoidSpace& space, std::uint32_t slot)
+{
+  if (slot >= space.PresenceSlot(0)) return "the presence of " + NameOf(space, slot - space.PresenceSlot(0));
+  const std::uint32_t entity = EntityOfSlot(space, slot);
+  std::uint32_t element = slot - space.GetEntity(entity).FirstSlot();
+  for (const AttributeSpec& spec : AttributesOf(space.GetEntity(entity).GetKind()))
+  {
+    const auto count = static_cast<std::uint32_t>(spec.count);
+    if (element < count)
+      return fmt::format("the attribute '{}'{} of {}", spec.name, count > 1 ? fmt::format(" {}", element) : "",
+                         NameOf(space, entity));
+    element -= count;
+  }
+  return fmt::format("slot {}", slot);
+}
+
+}  // namespace
+
+std::uint32_t EntityOfSlot(const CSwarmanoidSpace& space, std::uint32_t slot)
+{
+  if (slot >= space.PresenceSlot(0)) return slot - space.PresenceSlot(0);
+  // The last one that starts there or before.
+  std::uint32_t low = 0;
+  auto high = static_cast<std::uint32_t>(space.Size());
+  while (high - low > 1)
+  {
+    const std::uint32_t middle = low + (high - low) / 2;
+    (space.GetEntity(middle).FirstSlot() <= slot ? low : high) = middle;
+  }
+  return low;
+}
+
+bool AllFinite(std::span<const double> values)
+{
+  std::uint64_t bad = 0;
+  for (const double value : values) bad |= IsNotFinite(value);
+  return bad == 0;
+}
+
+void CheckPoses(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities, std::span<const double> poses)
+{
+  const std::size_t count = entities.size();
+  if (poses.size() != 7 * count)
+    Refuse(fmt::format("there are {} numbers for the poses of {} entities; there must be 7 for each, {}", poses.size(),
+                       count, 7 * count));
+  const auto of = [&](std::size_t component) { return poses.data() + component * count; };
+  if (AllFinite(poses) && AllOfNormOne(of(3), of(4), of(5), of(6), count)) return;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    std::array<double, 7> pose;
+    for (std::size_t c = 0; c < pose.size(); ++c) pose[c] = of(c)[k];
+    if (!AllFinite(pose) || !AllOfNormOne(&pose[3], &pose[4], &pose[5], &pose[6], 1))
+      RefusePose(space, entities[k], pose);
+  }
+}
+
+std::vector<std::size_t> FindBeyondLimit(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities,
+                                         std::span<const double> poses)
+{
+  const std::size_t count = entities.size();
+  const Experiment& experiment = space.GetExperiment();
+  const double limit = experiment.limit_m;
+  bool inside = true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    inside &= AllWithin(poses.data() + axis * count, count, -limit,
+                        experiment.arena_size[static_cast<Eigen::Index>(axis)] + limit);
+  std::vector<std::size_t> found;
+  if (inside) return found;
+  for (std::size_t k = 0; k < count; ++k)
+    if (space.IsPresent(entities[k]) && !IsWithinLimit(experiment, {poses[k], poses[count + k], poses[2 * count + k]}))
+      found.push_back(k);
+  return found;
+}
+
+void CheckWithinLimit(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities,
+                      std::span<const double> poses)
+{
+  const std::vector<std::size_t> beyond = FindBeyondLimit(space, entities, poses);
+  if (beyond.empty()) return;
+  const std::size_t count = entities.size();
+  const std::size_t first = beyond.front();
+  RefuseBeyondLimit(space, entities[first], {poses[first], poses[count + first], poses[2 * count + first]});
+}
+
+void CheckPose(const CSwarmanoidSpace& space, std::uint32_t entity, const Pose& pose)
+{
+  const Vector3& p = pose.position;
+  const Quaternion& q = pose.orientation;
+  const std::array<double, 7> values{p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};
+  CheckPoses(space, {&entity, 1}, values);
+  if (!IsWithinLimit(space.GetExperiment(), p))
+  {
+    const Vector3& size = space.GetExperiment().arena_size;
+    Refuse(fmt::format(
+        "{} would be at {:.6g}, {:.6g}, {:.6g}, more than {:g} m outside the arena, which reaches from 0, 0, "
+        "0 to {:g}, {:g}, {:g}",
+        NameOf(space, entity), p.x(), p.y(), p.z(), space.GetExperiment().limit_m, size.x(), size.y(), size.z()));
+  }
+}
+
+void CheckAttribute(const CSwarmanoidSpace& space, std::uint32_t slot, double value)
+{
+  const std::span<const AttributeValue> kinds = space.AttributeValues();
+  if (slot >= kinds.size())
+    Refuse(fmt::format("there is no attribute slot {}; the experiment has {}", slot, space.PresenceSlot(0)));
+  const char* mistake = MistakeOf(kinds[slot], value, space.Size());
+  if (mistake != nullptr) Refuse(fmt::format("{} is {:.17g}: {}", NameOfSlot(space, slot), value, mistake));
+}
+
+void CheckAttributes(const CSwarmanoidSpace& space, const AttributeChanges& changes)
+{
+  if (changes.slots.size() != changes.values.size())
+    Refuse(fmt::format("there are {} values for {} slots of attributes", changes.values.size(), changes.slots.size()));
+  for (std::size_t k = 0; k < changes.slots.size(); ++k) CheckAttribute(space, changes.slots[k], changes.values[k]);
+}
+
+void CheckSnapshot(const CSwarmanoidSpace& space, const SpaceSnapshot& snapshot)
+{
+  if (snapshot.poses.size() != 7 * space.Movable().size() || snapshot.attributes.size() != space.Attributes().size())
+    Refuse("it has other entities");
+  CheckPoses(space, space.Movable(), snapshot.poses);
+  const std::uint32_t first_presence = space.PresenceSlot(0);
+  for (std::uint32_t slot = 0; slot < first_presence; ++slot) CheckAttribute(space, slot, snapshot.attributes[slot]);
+  for (std::uint32_t slot = first_presence; slot < snapshot.attributes.size(); ++slot)
+    if (snapshot.attributes[slot] != 0 && snapshot.attributes[slot] != 1)
+      Refuse(fmt::format("{} is {}: it must be 0 or 1", NameOfSlot(space, slot), snapshot.attributes[slot]));
+}
+
+void CheckChannels(const CSwarmanoidSpace& space, std::span<const ChannelBlock> blocks, std::span<const double> values,
+                   const char* what)
+{
+  if (AllFinite(values)) return;
+  for (const ChannelBlock& block : blocks)
+  {
+    const auto width = static_cast<std::size_t>(block.width);
+    for (std::size_t k = 0; k < block.entities.size(); ++k)
+      for (std::size_t i = 0; i < width; ++i)
+        if (const double value = values[block.offset + k * width + i]; IsNotFinite(value) != 0)
+          Refuse(fmt::format("the {} of {} on the channel '{}' hold {}; they must be finite", what,
+                             NameOf(space, block.entities[k]), block.name, value));
+  }
+}
+
+}  // namespace swarmanoid

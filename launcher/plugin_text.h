@@ -1,0 +1,30 @@
+// What `swarmanoid list` says about plug-ins and their parameters, for people and for programs that complete words.
+#pragma once
+
+#include <string>
+
+#include "common/experiment/experiment.h"
+#include "common/plugins/catalogue.h"
+
+namespace swarmanoid
+{
+
+// "Physics engines", "Experiment functions".
+std::string PluginKindTitle(PluginKind kind);
+
+// The label, with the implementation of a device: "footbot_wheels / dummy_footbot_wheels".
+std::string PluginName(const PluginDescription& plugin);
+
+// Several lines: what it is, and a line for each parameter.
+std::string PluginDetails(PluginKind kind, const PluginDescription& plugin);
+
+// For programs. A line for each plug-in and one for each of its parameters, fields separated by tabs: kind, label,
+// implementation, parameter (empty for the plug-in itself), type, unit, default, least, largest, choices, text;
+// "required" stands for the default of a parameter that has none.
+std::string PluginRows(PluginKind kind, const PluginDescription& plugin);
+
+// For programs. A line for each value that --set may change in an experiment: PATH=VALUE with the present value, what
+// is allowed, and what it means, separated by tabs. Without the arena.
+std::string SettingRows(const Experiment& experiment);
+
+}  // namespace swarmanoid

@@ -1,0 +1,62 @@
+// Attribution: which process of a cluster failed, as opposed to those that ended because it did, and the line that says
+// so. Pure functions over what processes say of themselves and how they ended; used by the supervisor.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "common/activity/activity.h"
+#include "launcher/processes/process.h"
+
+namespace swarmanoid
+{
+
+// What a process says of itself on its page (ActivityPage).
+struct ActivityRecord
+{
+  bool taken = false;  // it has the page
+  std::uint64_t tick = 0;
+  Actor::Kind kind = Actor::kNobody;
+  std::uint32_t number = 0;
+  ActivityStep step = ActivityStep::kNone;
+  EndReason end = EndReason::kUnknown;
+  std::uint64_t ended_ns = 0;
+  bool complete = false;
+  std::string cause;
+};
+ActivityRecord ReadActivity(const ActivityPage* page);
+
+// How much an end says about who failed; the lower, the more.
+enum class Evidence
+{
+  kDeath,        // it was killed, or reports the failure of somebody's code
+  kFailure,      // it failed by itself
+  kEarlyEnd,     // it ended without a failure before the run did; that may still come to its end
+  kConsequence,  // it ended since another one did
+  kNone
+};
+// `ended`: nothing while the process runs; it may have said already that it failed.
+Evidence EvidenceOf(const std::optional<ProcessEnd>& ended, const ActivityRecord& record);
+
+// The exit code of a process that ended since another one failed.
+inline constexpr int kOthersFailed = 6;
+
+// One line: who failed, how, and at which tick. `actor_of` names who ran in a process that was killed; `server_tick` is
+// that of the run, for processes that say none; `killed_for_memory` as KernelKillsForMemory tells.
+struct FailedProcess
+{
+  std::string name;
+  std::optional<ProcessEnd> end;
+  ActivityRecord record;
+};
+using ActorNames = std::function<Actor(Actor::Kind kind, std::uint32_t number)>;
+std::string FailureText(const FailedProcess& failed, std::uint64_t server_tick, const ActorNames& actor_of,
+                        bool killed_for_memory);
+
+// How many processes the kernel has killed so far for want of memory.
+std::uint64_t KernelKillsForMemory();
+
+}  // namespace swarmanoid

@@ -1,0 +1,98 @@
+#include "launcher/processes/in_process_server.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+
+#include "common/activity/failure_report.h"
+#include "common/program/exit_codes.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+// The supervisor repeats SIGKILL every 200 ms. A function of the user that never returns keeps the thread of the run.
+constexpr int kMostKills = 15;
+
+std::array<FileDescriptor, 2> MakePipe()
+{
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0)
+    throw std::runtime_error(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
+  fcntl(ends[0], F_SETFL, O_NONBLOCK);
+  return {FileDescriptor(ends[0]), FileDescriptor(ends[1])};
+}
+
+}  // namespace
+
+bool InProcessServer::IsServer(const SpawnedProcess& process) const { return process.pid == getpid(); }
+
+SpawnedProcess InProcessServer::Start(const ProcessCommand& command)
+{
+  {
+    const std::lock_guard lock(mutex_);
+    if (!command_)
+    {
+      auto [status_read, status_write] = MakePipe();
+      auto [end_read, end_write] = MakePipe();
+      status_ = std::move(status_write);
+      end_ = std::move(end_write);
+      command_ = command;
+      changed_.notify_all();
+      return {getpid(),
+              std::move(status_read),
+              {},
+              std::move(end_read),
+              std::shared_ptr<const ActivityPage>(&OwnActivityPage(), [](const ActivityPage*) {})};
+    }
+  }
+  return others_.Start(command);
+}
+
+ProcessEnd InProcessServer::Collect(const SpawnedProcess& process)
+{
+  if (!IsServer(process)) return others_.Collect(process);
+  const std::lock_guard lock(mutex_);
+  return {exit_code_, 0};
+}
+
+void InProcessServer::Signal(const SpawnedProcess& process, int signal)
+{
+  if (!IsServer(process)) return others_.Signal(process, signal);
+  stop_ = true;
+  if (signal != SIGKILL) return;
+  abandon_ = true;
+  if (++kills_ < kMostKills) return;
+  fmt::print(stderr, "the function that looks at each tick does not return: this process ends without it\n");
+  LeaveAtOnce(kExitProcessFailed);
+}
+
+void InProcessServer::Run(const Work& work)
+{
+  {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return command_ || cancelled_; });
+    if (!command_) return;
+  }
+  const int code = work(command_->arguments, status_.Get(), stop_, abandon_);
+  const std::lock_guard lock(mutex_);
+  exit_code_ = code;
+  status_.Reset();
+  end_.Reset();
+}
+
+void InProcessServer::Cancel()
+{
+  const std::lock_guard lock(mutex_);
+  cancelled_ = true;
+  changed_.notify_all();
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,49 @@
+// A cluster whose space server is this process: so a user's program looks at each tick where its own variables are. The
+// supervisor starts, stops and hears it like any other process, from a thread of its own.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+
+#include "launcher/processes/process.h"
+
+namespace swarmanoid
+{
+
+// The first process that is started is the server; all others are real.
+class InProcessServer : public ProcessSpawner
+{
+public:
+  SpawnedProcess Start(const ProcessCommand& command) override;
+  ProcessEnd Collect(const SpawnedProcess& process) override;
+  void Signal(const SpawnedProcess& process, int signal) override;
+
+  // What there is to do, in the thread that calls Run: the command line, the descriptor for status lines, and what
+  // asks for the end of the run after its tick, and at once. Returns the exit code.
+  using Work = std::function<int(const std::vector<std::string>& arguments, int status, const std::atomic<bool>& stop,
+                                 const std::atomic<bool>& abandon)>;
+  // Waits until the server is started, does its work, and returns when it has ended, or will not be started.
+  void Run(const Work& work);
+  // No server will be started any more.
+  void Cancel();
+
+private:
+  bool IsServer(const SpawnedProcess& process) const;
+
+  SystemSpawner others_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<ProcessCommand> command_;
+  bool cancelled_ = false;
+  FileDescriptor status_;
+  FileDescriptor end_;  // the supervisor sees it close
+  int exit_code_ = 0;
+  std::atomic<bool> stop_ = false;
+  std::atomic<bool> abandon_ = false;
+  int kills_ = 0;
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,129 @@
+#include "launcher/trial_start.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+#include "common/activity/failure_report.h"
+#include "common/program/exit_codes.h"
+#include "launcher/simulator.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+class ScratchFolder
+{
+public:
+  ScratchFolder() : path_((fs::temp_directory_path() / "swarmanoid-check-XXXXXX").string())
+  {
+    if (mkdtemp(path_.data()) == nullptr)
+      throw std::runtime_error(fmt::format("cannot make the folder '{}': {}", path_, std::strerror(errno)));
+  }
+  ~ScratchFolder()
+  {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::string& Path() const { return path_; }
+
+private:
+  std::string path_;
+};
+
+// What came of it goes into the pipe: code of users may end the process with any exit code.
+int TryHere(const Experiment& experiment, const std::string& folder)
+{
+  try
+  {
+    SimulatorOptions options;
+    options.output_folder = folder;
+    options.visualisations = false;
+    const CSimulator simulator(experiment, options);
+    return kExitDone;
+  }
+  catch (const ConfigurationError& error)
+  {
+    fmt::print(stderr, "{}\n", error.what());
+    return kExitInvalidFile;
+  }
+  catch (const std::exception& error)
+  {
+    fmt::print(stderr, "{}\n", error.what());
+    return kExitProcessFailed;
+  }
+  catch (...)
+  {
+    fmt::print(stderr, "the start threw what is no std::exception\n");
+    return kExitProcessFailed;
+  }
+}
+
+// The process ended, and its end of the pipe was closed. False: it did not in time.
+bool Ended(int pipe, std::chrono::seconds most)
+{
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point last = Clock::now() + most;
+  while (true)
+  {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(last - Clock::now());
+    pollfd end{pipe, POLLIN, 0};
+    const int ready = poll(&end, 1, static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
+    if (ready > 0) return true;
+    if (ready == 0) return false;
+  }
+}
+
+}  // namespace
+
+int TrialStart(const Experiment& experiment, std::chrono::seconds most)
+{
+  const ScratchFolder folder;
+  int ends[2];
+  if (pipe(ends) != 0) throw std::runtime_error(std::string("cannot make a pipe: ") + std::strerror(errno));
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error(std::string("cannot start a process: ") + std::strerror(errno));
+  if (child == 0)
+  {
+    close(ends[0]);
+    dup2(STDERR_FILENO, STDOUT_FILENO);
+    const auto code = static_cast<char>(TryHere(experiment, folder.Path()));
+    std::fflush(nullptr);
+    LeaveAtOnce(write(ends[1], &code, 1) == 1 ? 0 : 1);
+  }
+  close(ends[1]);
+  const bool in_time = Ended(ends[0], most);
+  char code = 0;
+  const bool said = in_time && read(ends[0], &code, 1) == 1;
+  close(ends[0]);
+  if (!in_time) kill(child, SIGKILL);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+    ;
+  if (!in_time)
+    fmt::print(stderr, "the start takes longer than {} s; does Init of a controller return?\n", most.count());
+  else if (WIFSIGNALED(status))
+    fmt::print(stderr, "the start was ended by signal {} ({}); does Init of a controller crash?\n", WTERMSIG(status),
+               strsignal(WTERMSIG(status)));
+  else if (!said && WEXITSTATUS(status) != kExitProcessFailed)
+    fmt::print(stderr, "the start was ended by exit({}); does Init of a controller call it?\n", WEXITSTATUS(status));
+  return said && WIFEXITED(status) ? code : static_cast<int>(kExitProcessFailed);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,18 @@
+// Whether a run of an experiment can start: everything is made as at tick 0 and thrown away, so that `swarmanoid check`
+// refuses what engines, controllers and experiment functions refuse. In a process of its own, since code of users may
+// crash or never return.
+#pragma once
+
+#include <chrono>
+
+#include "common/experiment/experiment.h"
+
+namespace swarmanoid
+{
+
+// kExitDone, or another exit code of common/program/exit_codes.h, with the mistake on standard error. What the code of
+// users prints goes there too; files that experiment functions write go into a folder that is removed. Does not return
+// before the trial ends, which is ended after `most`.
+int TrialStart(const Experiment& experiment, std::chrono::seconds most = std::chrono::seconds(60));
+
+}  // namespace swarmanoid

@@ -1,0 +1,17 @@
+#include "roles/builtins.h"
+
+#include "controller_host/device.h"
+#include "engine_worker/engine_worker.h"
+#include "visualiser/render.h"
+
+namespace swarmanoid
+{
+
+void RegisterBuiltins()
+{
+  RegisterBuiltinEngines();
+  RegisterBuiltinDevices();
+  RegisterBuiltinRenderers();
+}
+
+}  // namespace swarmanoid

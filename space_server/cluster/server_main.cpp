@@ -1,0 +1,93 @@
+#include "space_server/cluster/server_main.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "common/activity/failure_report.h"
+#include "common/bus/cluster_options.h"
+#include "common/experiment/load_experiment.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+OptionSpec StatusOption(int& descriptor)
+{
+  constexpr double kLargestDescriptor = 1'048'575;
+  return {{.name = "status-fd",
+           .type = ParameterType::kInteger,
+           .description = "Descriptor for status lines, see docs/wire.md; -1: none",
+           .minimum = -1,
+           .maximum = kLargestDescriptor},
+          &descriptor,
+          "1"};
+}
+
+}  // namespace
+
+void AddServerOptions(CLI::App& app, ServerOptions& options)
+{
+  AddOptions(app, ServerOptionTable(options));
+  AddOptions(app, {StatusOption(options.status_fd)});
+  AddOptions(app, BusOptionTable(options.bus));
+}
+
+int Serve(const ServerOptions& options)
+{
+  // All that the program refers to, which may have to outlive a run that failed.
+  struct Server
+  {
+    explicit Server(const ServerOptions& given) : options(given), status(given.status_fd) {}
+
+    ServerOptions options;
+    StatusChannel status;
+    LoadedExperiment loaded;
+    std::unique_ptr<ServerProgram> program;
+  };
+  auto server = std::make_unique<Server>(options);
+  StatusChannel& status = server->status;
+  status.Tell(ServerState{ServerState::kLoading, {}});
+  try
+  {
+    LoadOptions load = ChangesOf(options);
+    load.check_files = false;
+    LoadedExperiment& loaded = server->loaded = LoadExperimentFile(options.file, load);
+    if (!loaded.experiment)
+    {
+      for (const Diagnostic& error : loaded.errors) fmt::print(stderr, "{}\n", error.Text());
+      status.Tell(ServerError{fmt::format("the experiment file has {} mistake{}", loaded.errors.size(),
+                                          loaded.errors.size() == 1 ? "" : "s")});
+      return kExitInvalidFile;
+    }
+    if (!options.output_folder.empty())
+    {
+      std::filesystem::create_directories(options.output_folder);
+      std::ofstream file(options.output_folder + "/experiment.xml");
+      if (!(file << loaded.experiment->effective_xml << std::flush))
+        throw BusError(fmt::format("cannot write '{}/experiment.xml'", options.output_folder));
+    }
+    server->options.bus.serves_discovery = true;
+    server->options.places = std::move(loaded.places);
+    server->program = std::make_unique<ServerProgram>(server->options, *loaded.experiment, status);
+    const int code = server->program->Run();
+    if (!server->program->Failed()) return code;
+    if (options.abandon == nullptr) EndAtOnce(code);
+    [[maybe_unused]] const Server* left = server.release();
+    return code;
+  }
+  catch (const std::exception& error)
+  {
+    const bool invalid = dynamic_cast<const ConfigurationError*>(&error) != nullptr;
+    const bool complete = invalid || dynamic_cast<const ActivityError*>(&error) != nullptr;
+    NoteEnd(invalid ? EndReason::kInvalid : EndReason::kFailed, 0,
+            complete ? error.what() : fmt::format("space server failed at tick 0: {}", error.what()), complete);
+    status.Tell(ServerError{error.what()});
+    throw;
+  }
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,16 @@
+// All that the program space_server does: its options, and the run. Users' simulations do the same in their own process
+// (launcher/processes/in_process_server.h).
+#pragma once
+
+#include "common/program/program.h"
+#include "space_server/cluster/server_program.h"
+
+namespace swarmanoid
+{
+
+void AddServerOptions(CLI::App& app, ServerOptions& options);
+// Reads the experiment and serves it. Returns the exit code, where the run has failed too, which is told on the status
+// channel.
+int Serve(const ServerOptions& options);
+
+}  // namespace swarmanoid

@@ -1,0 +1,30 @@
+// Any text is refused as a file of hosts with its line, or places processes whose commands have words.
+#include <cstdlib>
+#include <string>
+
+#include "common/program/usage_error.h"
+#include "launcher/hosts.h"
+#include "tests/fuzz/fuzz_driver.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* input, std::size_t count)
+{
+  using namespace swarmanoid;
+  const std::string text(reinterpret_cast<const char*>(input), count);
+  try
+  {
+    const Hosts hosts("hosts", text);
+    ProcessCommand command;
+    command.name = "engine 'ground'";
+    command.arguments = {"/usr/bin/engine_worker", "--engine", "ground"};
+    command.environment = {{"NAME", "a value"}};
+    for (const char* role : {"engine", "controller_host", "space_server", "visualiser"})
+      if (hosts.Placed(command, hosts.HostOf(role, "ground")).arguments.empty()) std::abort();
+    for (const std::string& name : hosts.Named("engine"))
+      if (name.empty()) std::abort();
+  }
+  catch (const UsageError& error)
+  {
+    if (!std::string(error.what()).starts_with("hosts:")) std::abort();
+  }
+  return 0;
+}

@@ -1,0 +1,87 @@
+// Any text that a page sends is a request within its bounds, or is refused with a text for the user.
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "tests/fuzz/fuzz_driver.h"
+#include "visualiser/web/messages.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+void Promise(bool kept)
+{
+  if (!kept) std::abort();
+}
+
+bool IsPose(const Pose& pose)
+{
+  return pose.position.allFinite() && std::abs(pose.orientation.coeffs().norm() - 1) < 1e-6;
+}
+
+struct Check
+{
+  void operator()(const WatchRequest& request) const { Promise(request.entities.size() <= kMostWatched); }
+  void operator()(const FrameRateRequest& request) const { Promise(request.period_ms <= 60000); }
+  void operator()(const StepRequest& request) const { Promise(request.ticks >= 1); }
+  void operator()(const SpeedRequest& request) const { Promise(std::isfinite(request.factor) && request.factor >= 0); }
+  void operator()(const MoveEntityRequest& request) const { Promise(IsPose(request.pose)); }
+  void operator()(const AddEntityRequest& request) const { Promise(IsPose(request.pose)); }
+  template <class Other>
+  void operator()(const Other&) const
+  {
+  }
+};
+
+fuzz::Input InputOf(std::string_view text) { return {text.begin(), text.end()}; }
+
+}  // namespace
+
+std::vector<fuzz::Input> fuzz::FirstInputs()
+{
+  return {InputOf(R"({"do":"watch","entities":[0,3,4294967295]})"),
+          InputOf(R"({"do":"frame_period","ms":40})"),
+          InputOf(R"({"do":"pause"})"),
+          InputOf(R"({"do":"resume"})"),
+          InputOf(R"({"do":"step","ticks":10})"),
+          InputOf(R"({"do":"speed","factor":1.5})"),
+          InputOf(R"({"do":"move","entity":"fb_0","position":[1,2.5,0],"angles":[0,0,90]})"),
+          InputOf(R"({"do":"add","entity":"reserve","position":[-1e3,2,0],"angles":[1,2,3]})"),
+          InputOf(R"({"do":"remove","entity":"\u00fcber \ud834\udd1e"})"),
+          InputOf(R"({"do":"stop"})")};
+}
+
+std::vector<fuzz::Input> fuzz::Words()
+{
+  return {InputOf("\"entities\":["),
+          InputOf("\"position\":[1e308,1e308,1e308]"),
+          InputOf("-1"),
+          InputOf("1e999"),
+          InputOf("18446744073709551616"),
+          InputOf("null"),
+          InputOf("\\ud800"),
+          InputOf("[[[[[[[[[[[[[[[["),
+          InputOf("{\"do\":{\"do\":"),
+          InputOf("\"ticks\":4294967296"),
+          InputOf("0.5")};
+}
+
+}  // namespace swarmanoid
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count)
+{
+  using namespace swarmanoid;
+  const std::string_view text(reinterpret_cast<const char*>(bytes), count);
+  try
+  {
+    std::visit(Check(), ParseRequest(text));
+  }
+  catch (const std::invalid_argument& error)
+  {
+    if (error.what()[0] == '\0') std::abort();
+    RefusalText(error.what());
+  }
+  return 0;
+}

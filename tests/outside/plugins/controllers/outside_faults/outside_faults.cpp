@@ -1,0 +1,13 @@
+// A controller that fails as OUTSIDE_FAULT says.
+#include "controllers/outside_faults/faults.h"
+
+#include "ci_controller.h"
+
+class COutsideFaults : public CCI_Controller
+{
+public:
+  int Init(const TConfigurationTree) override { return RETURN_OK; }
+  void ControlStep() override { faults::FailIfAsked("controller", GetRobot()->GetTick()); }
+};
+
+REGISTER_CONTROLLER(COutsideFaults, "outside_faults")

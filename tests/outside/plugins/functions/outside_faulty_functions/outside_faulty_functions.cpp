@@ -1,0 +1,23 @@
+// Experiment functions that fail as OUTSIDE_FAULT says.
+#include "controllers/outside_faults/faults.h"
+
+#include "space_server/experiment_functions.h"
+
+using namespace swarmanoid;
+
+class COutsideFaultyFunctions : public CExperimentFunctions
+{
+public:
+  static PluginDescription Description()
+  {
+    PluginDescription description;
+    description.label = "outside_faulty_functions";
+    description.brief = "functions that fail when they are told to";
+    return description;
+  }
+
+  void Init(const TConfigurationTree, SpaceEditor&) override {}
+  void PostStep(SpaceEditor& editor) override { faults::FailIfAsked("functions", editor.GetSpace().GetTick()); }
+};
+
+REGISTER_EXPERIMENT_FUNCTIONS(COutsideFaultyFunctions, COutsideFaultyFunctions::Description())

@@ -1,0 +1,42 @@
+// Experiment functions that print what a space server tells its launcher, and what no program should trip over.
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "space_server/experiment_functions.h"
+
+namespace
+{
+
+using namespace swarmanoid;
+
+class COutsidePrinter : public CExperimentFunctions
+{
+public:
+  static PluginDescription Description()
+  {
+    PluginDescription description;
+    description.label = "outside_printer";
+    description.brief = "prints lines that look like those of the space server";
+    return description;
+  }
+
+  void Init(const TConfigurationTree, SpaceEditor&) override {}
+
+  void PostStep(SpaceEditor& space) override
+  {
+    if (space.GetSpace().GetTick() != 5) return;
+    const std::string lines =
+        "error forged\nfinished 1 1 00000000000000ff 1 1\ntick 99999999999999999999 1 nan\nstate\n";
+    std::fputs(lines.c_str(), stdout);
+    std::fflush(stdout);
+    const std::string raw = "stalled forged 9\n" + std::string(200'000, 'x') + "\n\x01\n";
+    [[maybe_unused]] const ssize_t written = write(STDOUT_FILENO, raw.data(), raw.size());
+  }
+};
+
+REGISTER_EXPERIMENT_FUNCTIONS(COutsidePrinter, COutsidePrinter::Description())
+
+}  // namespace

@@ -1,0 +1,26 @@
+// A renderer that shows nothing and fails as OUTSIDE_FAULT says.
+#include "controllers/outside_faults/faults.h"
+
+#include "visualiser/render.h"
+
+using namespace swarmanoid;
+
+class COutsideFaultyRender : public CRender
+{
+public:
+  static PluginDescription Description()
+  {
+    PluginDescription description;
+    description.label = "outside_faulty_render";
+    description.brief = "nothing, until it fails";
+    return description;
+  }
+
+  void Init(const RenderSetup& setup) override { space_ = &setup.space; }
+  void Draw() override { faults::FailIfAsked("render", space_->GetTick()); }
+
+private:
+  const CSwarmanoidSpace* space_ = nullptr;
+};
+
+REGISTER_RENDER(COutsideFaultyRender, COutsideFaultyRender::Description())

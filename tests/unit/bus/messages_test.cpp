@@ -1,0 +1,434 @@
+// Every message, with random contents, has the bytes of the type that is made from the IDL, both ways.
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <random>
+
+#include "common/bus/message_type.h"
+#include "swarmanoid.h"
+#include "swarmanoidPubSubTypes.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr int kRounds = 100;
+
+class Random
+{
+public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  std::uint64_t Number() { return engine_(); }
+  std::uint32_t Number32() { return static_cast<std::uint32_t>(engine_()); }
+  std::size_t Length() { return engine_() % 6; }
+  bool Flag() { return engine_() % 2 == 1; }
+  double Real()
+  {
+    return std::ldexp(static_cast<double>(engine_() % 2000001) - 1e6, static_cast<int>(engine_() % 60) - 30);
+  }
+  std::string Text()
+  {
+    static const std::string kLetters[] = {"a", "Z", " ", "'", "é", "→", "𝄞", "0"};
+    std::string text;
+    for (std::size_t k = engine_() % 12; k > 0; --k) text += kLetters[engine_() % 8];
+    return text;
+  }
+  std::vector<double> Reals()
+  {
+    std::vector<double> reals(Length());
+    for (double& real : reals) real = Real();
+    return reals;
+  }
+  std::vector<std::uint32_t> Ascending()
+  {
+    std::vector<std::uint32_t> numbers;
+    std::uint32_t number = 0;
+    for (std::size_t k = Length(); k > 0; --k)
+      numbers.push_back(number += 1 + static_cast<std::uint32_t>(engine_() % 9));
+    return numbers;
+  }
+  std::vector<char> Bytes()
+  {
+    std::vector<char> bytes(Length());
+    for (char& byte : bytes) byte = static_cast<char>(engine_());
+    return bytes;
+  }
+
+private:
+  std::mt19937_64 engine_;
+};
+
+template <class Support, class Wire>
+std::string GeneratedBytes(Wire& wire)
+{
+  static Support support;  // the largest size of a type takes long to count
+  Payload payload(100000);
+  EXPECT_TRUE(support.serialize(&wire, &payload));
+  return {reinterpret_cast<const char*>(payload.data), payload.length};
+}
+
+template <class... Parts>
+std::string OurBytes(const Parts&... parts)
+{
+  std::string bytes(PayloadSize(parts...), '?');
+  WritePayload(bytes.data(), parts...);
+  return bytes;
+}
+
+// What we write is what the generated type writes, and what we read of it is what we wrote.
+template <class Support, class Message, class Wire>
+void ExpectSame(const Message& message, Wire& wire)
+{
+  const std::string theirs = GeneratedBytes<Support>(wire);
+  ASSERT_EQ(OurBytes(message), theirs);
+  Message read;
+  ReadPayload<Message>(theirs, read);
+  EXPECT_EQ(OurBytes(read), theirs);
+}
+
+template <class Support, class Message, class Wire>
+void ExpectSame(const MessageHeader& header, const Message& message, Wire& wire)
+{
+  wire.run(header.run);
+  wire.tick(header.tick);
+  wire.source(header.source);
+  const std::string theirs = GeneratedBytes<Support>(wire);
+  ASSERT_EQ(OurBytes(header, message), theirs);
+  MessageHeader seen;
+  Message read;
+  const auto choose = [&](const MessageHeader&) { return &read; };
+  EXPECT_EQ(ReadTickPayload<Message>(theirs, seen, choose, [](const MessageHeader&, const Message&) {}), &read);
+  EXPECT_EQ(OurBytes(seen, read), theirs);
+}
+
+MessageHeader RandomHeader(Random& random)
+{
+  return {random.Number(), random.Number(), random.Number32(), random.Flag()};
+}
+
+AttributeChanges RandomChanges(Random& random)
+{
+  AttributeChanges changes;
+  for (const std::uint32_t slot : random.Ascending()) changes.Add(slot, random.Real());
+  return changes;
+}
+
+std::uint32_t FlagsOf(bool first, bool repeated)
+{
+  return (first ? wire::FLAG_LAST : 0U) | (repeated ? wire::FLAG_REPEATED : 0U);
+}
+
+TEST(MessageConstants, AreThoseOfTheIdl)
+{
+  EXPECT_EQ(kProtocolVersion, wire::PROTOCOL_VERSION);
+  EXPECT_EQ(kFlagLast, wire::FLAG_LAST);
+  EXPECT_EQ(kFlagTerminate, wire::FLAG_TERMINATE);
+  EXPECT_EQ(kFlagRepeated, wire::FLAG_REPEATED);
+  EXPECT_EQ(static_cast<std::uint32_t>(RunStatus::Phase::kWaiting), wire::PHASE_WAITING);
+  EXPECT_EQ(static_cast<std::uint32_t>(RunStatus::Phase::kRunning), wire::PHASE_RUNNING);
+  EXPECT_EQ(static_cast<std::uint32_t>(RunStatus::Phase::kPaused), wire::PHASE_PAUSED);
+  EXPECT_EQ(static_cast<std::uint32_t>(RunStatus::Phase::kFinished), wire::PHASE_FINISHED);
+}
+
+TEST(MessageBytes, OfATickAreThoseOfTheIdl)
+{
+  Random random(1);
+  for (int round = 0; round < kRounds; ++round)
+  {
+    const MessageHeader header = RandomHeader(random);
+    SpaceState state;
+    state.last = random.Flag();
+    state.poses = random.Reals();
+    state.attributes = RandomChanges(random);
+    state.moved = random.Ascending();
+    wire::SpaceState wire_state;
+    wire_state.poses(state.poses);
+    wire_state.flags(FlagsOf(state.last, header.repeated));
+    wire_state.attribute_values(state.attributes.values);
+    wire_state.attribute_slots(state.attributes.slots);
+    wire_state.moved(state.moved);
+    ExpectSame<wire::SpaceStatePubSubType>(header, state, wire_state);
+
+    ControlCommands commands;
+    commands.values = random.Reals();
+    commands.attributes = RandomChanges(random);
+    wire::ControlCommands wire_commands;
+    wire_commands.values(commands.values);
+    wire_commands.flags(FlagsOf(false, header.repeated));
+    wire_commands.attribute_values(commands.attributes.values);
+    wire_commands.attribute_slots(commands.attributes.slots);
+    ExpectSame<wire::ControlCommandsPubSubType>(header, commands, wire_commands);
+
+    EngineUpdate update;
+    update.poses = random.Reals();
+    update.attributes = RandomChanges(random);
+    wire::EngineUpdate wire_update;
+    wire_update.poses(update.poses);
+    wire_update.flags(FlagsOf(false, header.repeated));
+    wire_update.attribute_values(update.attributes.values);
+    wire_update.attribute_slots(update.attributes.slots);
+    ExpectSame<wire::EngineUpdatePubSubType>(header, update, wire_update);
+
+    SensorFrame frame;
+    frame.values = random.Reals();
+    wire::SensorFrame wire_frame;
+    wire_frame.values(frame.values);
+    ExpectSame<wire::SensorFramePubSubType>(header, frame, wire_frame);
+
+    const DrawnMessage drawn{random.Flag()};
+    wire::Drawn wire_drawn;
+    wire_drawn.flags(FlagsOf(drawn.terminate, header.repeated));
+    ExpectSame<wire::DrawnPubSubType>(header, drawn, wire_drawn);
+  }
+}
+
+TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
+{
+  Random random(2);
+  for (int round = 0; round < kRounds; ++round)
+  {
+    const WorldMessage world{
+        kProtocolVersion,
+        random.Number(),
+        random.Text(),
+        random.Text(),
+        random.Number32(),
+        random.Text(),
+        random.Text(),
+        random.Text(),
+        random.Number(),
+        random.Number32(),
+        random.Flag(),
+        random.Real(),
+        random.Number(),
+        random.Bytes(),
+        std::vector<WorldEntity>(random.Length(), {random.Text(), random.Text(), random.Flag(), random.Number32()})};
+    wire::World wire_world;
+    wire_world.protocol(world.protocol);
+    wire_world.run(world.run);
+    wire_world.experiment(world.experiment);
+    wire_world.host(world.host);
+    wire_world.pid(world.pid);
+    wire_world.file(world.file);
+    wire_world.folder(world.folder);
+    wire_world.xml(world.xml);
+    wire_world.seed(world.seed);
+    wire_world.hosts(world.hosts);
+    wire_world.spread(world.spread);
+    wire_world.tick_seconds(world.tick_seconds);
+    wire_world.checkpoint_every(world.checkpoint_every);
+    wire_world.checkpoint().assign(world.checkpoint.begin(), world.checkpoint.end());
+    for (const WorldEntity& entity : world.entities)
+    {
+      wire_world.entities().emplace_back();
+      wire_world.entities().back().id(entity.id);
+      wire_world.entities().back().kind(entity.kind);
+      wire_world.entities().back().movable(entity.movable);
+      wire_world.entities().back().first_slot(entity.first_slot);
+    }
+    ExpectSame<wire::WorldPubSubType>(world, wire_world);
+
+    const HelloMessage hello{random.Text(), kProtocolVersion, random.Number(), random.Text(), random.Flag()};
+    wire::Hello wire_hello;
+    wire_hello.process(hello.process);
+    wire_hello.protocol(hello.protocol);
+    wire_hello.run(hello.run);
+    wire_hello.name(hello.name);
+    wire_hello.ready(hello.ready);
+    ExpectSame<wire::HelloPubSubType>(hello, wire_hello);
+
+    const ByeMessage bye{random.Number(), random.Number(), random.Text(), random.Text(), random.Text()};
+    wire::Bye wire_bye;
+    wire_bye.run(bye.run);
+    wire_bye.tick(bye.tick);
+    wire_bye.name(bye.name);
+    wire_bye.to(bye.to);
+    wire_bye.error(bye.error);
+    ExpectSame<wire::ByePubSubType>(bye, wire_bye);
+
+    const StatusMessage status{random.Number(), random.Number(), random.Text(), random.Text()};
+    wire::Status wire_status;
+    wire_status.run(status.run);
+    wire_status.tick(status.tick);
+    wire_status.name(status.name);
+    wire_status.text(status.text);
+    ExpectSame<wire::StatusPubSubType>(status, wire_status);
+
+    const SavedStateMessage saved{random.Number(), random.Number(), random.Text(), random.Bytes()};
+    wire::SavedState wire_saved;
+    wire_saved.run(saved.run);
+    wire_saved.tick(saved.tick);
+    wire_saved.name(saved.name);
+    wire_saved.state().assign(saved.state.begin(), saved.state.end());
+    ExpectSame<wire::SavedStatePubSubType>(saved, wire_saved);
+  }
+}
+
+TEST(MessageBytes, OfUsersRequestsAreThoseOfTheIdl)
+{
+  Random random(3);
+  for (int round = 0; round < kRounds; ++round)
+  {
+    const ControlRequestMessage request{random.Text(), random.Number32(), random.Text(), random.Text(), random.Reals()};
+    wire::ControlRequest wire_request;
+    wire_request.client(request.client);
+    wire_request.number(request.number);
+    wire_request.verb(request.verb);
+    wire_request.entity(request.entity);
+    wire_request.numbers(request.numbers);
+    ExpectSame<wire::ControlRequestPubSubType>(request, wire_request);
+
+    const ControlReplyMessage reply{random.Text(), random.Number32(), random.Flag(), random.Number(), random.Text()};
+    wire::ControlReply wire_reply;
+    wire_reply.client(reply.client);
+    wire_reply.number(reply.number);
+    wire_reply.ok(reply.ok);
+    wire_reply.tick(reply.tick);
+    wire_reply.text(reply.text);
+    ExpectSame<wire::ControlReplyPubSubType>(reply, wire_reply);
+
+    const WishesMessage wishes{random.Text(), random.Number(), random.Real(), random.Flag(), random.Ascending()};
+    wire::Wishes wire_wishes;
+    wire_wishes.client(wishes.client);
+    wire_wishes.run(wishes.run);
+    wire_wishes.views(wishes.views);
+    wire_wishes.every_tick(wishes.every_tick);
+    wire_wishes.robots(wishes.robots);
+    ExpectSame<wire::WishesPubSubType>(wishes, wire_wishes);
+  }
+}
+
+std::vector<DeviceStatus> RandomDevices(Random& random, std::vector<wire::Device>& wire)
+{
+  std::vector<DeviceStatus> devices(random.Length());
+  for (DeviceStatus& device : devices)
+  {
+    device.type = random.Text();
+    wire.emplace_back();
+    wire.back().type(device.type);
+    for (std::size_t k = random.Length(); k > 0; --k)
+    {
+      device.readings.push_back({random.Text(), random.Text(), random.Flag() ? HUGE_VAL : random.Real()});
+      wire.back().readings().emplace_back();
+      wire.back().readings().back().name(device.readings.back().name);
+      wire.back().readings().back().unit(device.readings.back().unit);
+      wire.back().readings().back().value(device.readings.back().value);
+    }
+  }
+  return devices;
+}
+
+TEST(MessageBytes, OfWhatIsShownAreThoseOfTheIdl)
+{
+  Random random(4);
+  for (int round = 0; round < kRounds; ++round)
+  {
+    ViewMessage view;
+    view.run = random.Number();
+    view.snapshot.tick = random.Number();
+    view.snapshot.last = random.Flag();
+    view.snapshot.real_time_factor = random.Real();
+    view.snapshot.poses = random.Reals();
+    view.snapshot.attributes = random.Reals();
+    wire::View wire_view;
+    wire_view.run(view.run);
+    wire_view.tick(view.snapshot.tick);
+    wire_view.source(0);
+    wire_view.poses(view.snapshot.poses);
+    wire_view.flags(FlagsOf(view.snapshot.last, false));
+    wire_view.attributes(view.snapshot.attributes);
+    wire_view.real_time_factor(view.snapshot.real_time_factor);
+    ExpectSame<wire::ViewPubSubType>(view, wire_view);
+
+    RunStatusMessage status;
+    status.run = random.Number();
+    status.status.tick = random.Number();
+    status.status.phase = random.Flag() ? RunStatus::Phase::kPaused : RunStatus::Phase::kFinished;
+    status.status.speed_wanted = random.Real();
+    status.status.real_time_factor = random.Real();
+    status.status.ticks_per_second = random.Real();
+    status.status.ended = random.Text();
+    wire::RunStatus wire_status;
+    wire_status.run(status.run);
+    wire_status.tick(status.status.tick);
+    wire_status.phase(status.status.phase == RunStatus::Phase::kPaused ? wire::PHASE_PAUSED : wire::PHASE_FINISHED);
+    wire_status.speed_wanted(status.status.speed_wanted);
+    wire_status.real_time_factor(status.status.real_time_factor);
+    wire_status.ticks_per_second(status.status.ticks_per_second);
+    wire_status.ended(status.status.ended);
+    for (std::size_t k = random.Length(); k > 0; --k)
+    {
+      const ProcessStatus process{random.Text(), random.Text(), random.Number(), random.Real(), random.Text()};
+      status.status.processes.push_back(process);
+      wire_status.processes().emplace_back();
+      wire_status.processes().back().name(process.name);
+      wire_status.processes().back().process(process.process);
+      wire_status.processes().back().tick(process.tick);
+      wire_status.processes().back().late_s(process.late_s);
+      wire_status.processes().back().doing(process.doing);
+    }
+    ExpectSame<wire::RunStatusPubSubType>(status, wire_status);
+
+    RobotStatusMessage robots;
+    robots.run = random.Number();
+    robots.tick = random.Number();
+    robots.source = random.Number32();
+    wire::RobotStatus wire_robots;
+    wire_robots.run(robots.run);
+    wire_robots.tick(robots.tick);
+    wire_robots.source(robots.source);
+    for (std::size_t k = random.Length(); k > 0; --k)
+    {
+      RobotStatus robot;
+      wire::Robot wire_robot;
+      robot.entity = random.Number32();
+      robot.controller = random.Text();
+      robot.text = random.Text();
+      robot.state = random.Text();
+      robot.sensors = RandomDevices(random, wire_robot.sensors());
+      robot.actuators = RandomDevices(random, wire_robot.actuators());
+      wire_robot.entity(robot.entity);
+      wire_robot.controller(robot.controller);
+      wire_robot.text(robot.text);
+      wire_robot.state(robot.state);
+      robots.robots.push_back(robot);
+      wire_robots.robots().push_back(wire_robot);
+    }
+    ExpectSame<wire::RobotStatusPubSubType>(robots, wire_robots);
+    RobotStatusMessage read;
+    ReadPayload<RobotStatusMessage>(OurBytes(robots), read);
+    for (const RobotStatus& robot : read.robots) EXPECT_EQ(robot.tick, robots.tick);
+  }
+}
+
+// Fast DDS of an earlier release and other vendors tell instances by the same hash.
+TEST(MessageKeys, AreThoseOfTheIdl)
+{
+  eprosima::fastrtps::rtps::InstanceHandle_t ours;
+  eprosima::fastrtps::rtps::InstanceHandle_t theirs;
+  const HelloMessage hello{"some-machine.example:12345", kProtocolVersion, 7, "engine 'ground'", true};
+  ColdCall<HelloMessage> call;
+  call.out = &hello;
+  ASSERT_TRUE(ColdType<HelloMessage>().getKey(&call, &ours, false));
+  wire::Hello wire_hello;
+  wire_hello.process(hello.process);
+  wire::HelloPubSubType hello_type;
+  ASSERT_TRUE(hello_type.getKey(&wire_hello, &theirs, false));
+  EXPECT_EQ(ours, theirs);
+
+  const WishesMessage wishes{"x:1", 7, 30, false, {}};
+  ColdCall<WishesMessage> wish;
+  wish.out = &wishes;
+  ASSERT_TRUE(ColdType<WishesMessage>().getKey(&wish, &ours, false));
+  wire::Wishes wire_wishes;
+  wire_wishes.client("x:1");
+  wire::WishesPubSubType wishes_type;
+  ASSERT_TRUE(wishes_type.getKey(&wire_wishes, &theirs, false));
+  EXPECT_EQ(ours, theirs);
+  EXPECT_FALSE(ColdType<ByeMessage>().m_isGetKeyDefined);
+  EXPECT_FALSE(wire::ByePubSubType().m_isGetKeyDefined);
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,129 @@
+// A participant that is no process of Swarmanoid: it says no name, and writes any bytes to any topic, on the loopback
+// interface alone.
+#pragma once
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/topic/TopicDataType.hpp>
+
+#include <chrono>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "common/bus/message_bytes.h"
+#include "common/bus/qos.h"
+
+namespace swarmanoid::test
+{
+
+namespace dds = eprosima::fastdds::dds;
+
+class Stranger
+{
+public:
+  Stranger(int domain, const std::string& partition)
+  {
+    dds::DomainParticipantQos qos;
+    qos.transport().use_builtin_transports = false;
+    auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+    udp->interfaceWhiteList = {"127.0.0.1"};
+    qos.transport().user_transports.push_back(udp);
+    participant_ =
+        dds::DomainParticipantFactory::get_instance()->create_participant(static_cast<std::uint32_t>(domain), qos);
+    if (participant_ == nullptr) throw std::runtime_error("the stranger has no participant");
+    dds::PublisherQos publisher;
+    publisher.partition().push_back(partition.c_str());
+    publisher_ = participant_->create_publisher(publisher);
+  }
+  ~Stranger()
+  {
+    participant_->delete_contained_entities();
+    dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+  }
+  Stranger(const Stranger&) = delete;
+  Stranger& operator=(const Stranger&) = delete;
+
+  // Writes each of the payloads, once `readers` are there, and waits until they have got them. False where none comes.
+  bool Send(const std::string& topic_name, const std::vector<std::string>& payloads, int readers = 1)
+  {
+    dds::TypeSupport type(new RawType("swarmanoid::wire::" + topic_name));
+    type.register_type(participant_);
+    dds::Topic* topic = participant_->create_topic(topic_name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
+    dds::DataWriterQos qos;
+    qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
+    qos.durability().kind = dds::TRANSIENT_LOCAL_DURABILITY_QOS;
+    qos.history().kind = dds::KEEP_ALL_HISTORY_QOS;
+    qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+    qos.data_sharing().off();
+    dds::DataWriter* writer = publisher_->create_datawriter(topic, qos);
+    if (writer == nullptr) return false;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    dds::PublicationMatchedStatus status;
+    do {
+      if (std::chrono::steady_clock::now() > end) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      writer->get_publication_matched_status(status);
+    } while (status.current_count < readers);
+    for (std::string payload : payloads) writer->write(&payload);
+    const bool got = writer->wait_for_acknowledgments({20, 0}) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
+    publisher_->delete_datawriter(writer);
+    participant_->delete_topic(topic);
+    return got;
+  }
+
+private:
+  // The bytes of a std::string, as they are.
+  class RawType : public eprosima::fastdds::dds::TopicDataType
+  {
+  public:
+    using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
+    explicit RawType(const std::string& name)
+    {
+      setName(name.c_str());
+      m_typeSize = 4096;
+      m_isGetKeyDefined = QosOf(name.substr(name.rfind(':') + 1)).keyed;
+      auto_fill_type_object(false);
+      auto_fill_type_information(false);
+    }
+    bool serialize(void* data, Payload* payload) override
+    {
+      const auto& bytes = *static_cast<const std::string*>(data);
+      if (bytes.size() > payload->max_size) return false;
+      std::memcpy(payload->data, bytes.data(), bytes.size());
+      payload->length = static_cast<std::uint32_t>(bytes.size());
+      return true;
+    }
+    bool deserialize(Payload*, void*) override { return true; }
+    std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override
+    {
+      const auto size = static_cast<std::uint32_t>(static_cast<const std::string*>(data)->size());
+      return [size] { return size; };
+    }
+    void* createData() override { return new std::string(); }
+    void deleteData(void* data) override { delete static_cast<std::string*>(data); }
+    bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t* handle, bool) override
+    {
+      for (std::size_t k = 0; k < 16; ++k) handle->value[k] = 7;
+      return true;
+    }
+  };
+
+  eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
+  eprosima::fastdds::dds::Publisher* publisher_ = nullptr;
+};
+
+// The payload of a message, well-formed.
+template <class... Parts>
+std::string PayloadOf(const Parts&... parts)
+{
+  std::string bytes(PayloadSize(parts...), '\0');
+  WritePayload(bytes.data(), parts...);
+  return bytes;
+}
+
+}  // namespace swarmanoid::test

@@ -1,0 +1,116 @@
+// Bad messages on the wire: those of strangers are dropped and counted, one of a member ends the run by his name.
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <random>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "common/bus/domain.h"
+#include "common/bus/server_session.h"
+#include "tests/unit/bus/stranger.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+bool Eventually(const std::function<bool()>& met)
+{
+  const auto end = std::chrono::steady_clock::now() + 20s;
+  while (!met())
+  {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(1ms);
+  }
+  return true;
+}
+
+class Strangers : public testing::Test
+{
+protected:
+  Strangers()
+  {
+    setenv("SWARMANOID_SHARED_FOLDER", folder_.c_str(), 1);
+    options_.domain = domain_.Id();
+    world_.run = 5;
+    world_.experiment = "strangers";
+  }
+  ~Strangers() override
+  {
+    unsetenv("SWARMANOID_SHARED_FOLDER");
+    std::filesystem::remove_all(folder_);
+  }
+
+  const std::string folder_ = fmt::format("/dev/shm/swarmanoid-strangers-test-{}", getpid());
+  FreeDomain domain_;
+  BusOptions options_;
+  WorldMessage world_;
+};
+
+TEST_F(Strangers, AreDroppedAndCountedWhateverTheySend)
+{
+  ServerSession session(options_, world_, {"engine 'ground'"}, {[](const auto&) {}, [] {}, [](const auto&) {}});
+  session.Open();
+  test::Stranger stranger(options_.domain, "strangers");
+  std::mt19937 random(1);
+  std::uint64_t sent = 0;
+  for (const char* topic : {"Hello", "Status", "Bye", "ControlRequest"})
+  {
+    std::vector<std::string> payloads{"", std::string("\0\1\0", 3), std::string("\0\1\0\0", 4)};
+    for (int k = 0; k < 20; ++k)
+    {
+      std::string payload(4 + random() % 60, '\0');
+      for (char& byte : payload) byte = static_cast<char>(random());
+      payload[0] = '\0';
+      payload[1] = '\1';
+      payloads.push_back(payload);
+      const std::uint32_t length = 0xfffffff0U;
+      if (payload.size() > 24) std::memcpy(payloads.back().data() + 20, &length, 4);
+    }
+    ASSERT_TRUE(stranger.Send(topic, payloads)) << topic;
+    sent += payloads.size();
+  }
+  // Only the newest of one instance is kept by a reader that is slow.
+  EXPECT_TRUE(Eventually([&] { return session.GetBus().Dropped() >= sent / 4; })) << session.GetBus().Dropped();
+  EXPECT_FALSE(session.Failure().has_value()) << *session.Failure();
+}
+
+TEST_F(Strangers, AMemberOfTheRunEndsItByName)
+{
+  ServerSession session(options_, world_, {"engine 'ground'"}, {[](const auto&) {}, [] {}, [](const auto&) {}});
+  session.Open();
+  Bus engine(options_, "engine 'ground'");
+  Publisher<HelloMessage> hello(engine, "strangers");
+  hello.Write({ProcessId(), kProtocolVersion, world_.run, "engine 'ground'", true});
+  ASSERT_TRUE(Eventually([&] { return session.Missing().empty(); }));
+
+  // As if the engine sent an array that is too short.
+  HotScope scope = session.Scope(1000, 1);
+  EngineUpdate place;
+  const HotSubscription<EngineUpdate> updates(
+      session.GetBus(), scope,
+      {[&](const MessageHeader&) { return &place; },
+       [](const MessageHeader&, EngineUpdate&) { FAIL() << "a bad message was received"; },
+       [](const MessageHeader&, const EngineUpdate&) { throw BadMessage("poses: it has 3 numbers, not 70"); }});
+  HotPublisher<EngineUpdate> publisher(engine, scope);
+  ASSERT_TRUE(Eventually([&] { return publisher.Readers() == 1 && updates.Writers() == 1; }));
+  const EngineUpdate update;
+  EXPECT_TRUE(Eventually(
+      [&]
+      {
+        publisher.Write({world_.run, 17, 0, false}, update);
+        return session.Failure().has_value();
+      }));
+  EXPECT_EQ(session.Failure(), "engine 'ground' sent a bad EngineUpdate at tick 17: poses: it has 3 numbers, not 70");
+  EXPECT_EQ(session.GetBus().Dropped(), 0U);
+}
+
+}  // namespace
+}  // namespace swarmanoid

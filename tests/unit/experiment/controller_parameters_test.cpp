@@ -1,0 +1,111 @@
+// Parameters of controllers and experiment functions that declared them are checked with the file, and complete in the
+// experiment.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "tests/unit/experiment/fake_plugins.h"
+
+namespace swarmanoid::test
+{
+namespace
+{
+
+std::string File(const std::string& parameters, const std::string& functions = "")
+{
+  static const bool once = []
+  {
+    PluginCatalogue::Instance().Add(
+        PluginKind::kController,
+        {.label = "declared_walker",
+         .parameters = {{.name = "velocity", .unit = "m/s", .default_value = "0.1", .minimum = 0, .maximum = 0.3},
+                        {.name = "target", .type = ParameterType::kVector2},
+                        {.name = "weights", .type = ParameterType::kPath, .default_value = ""}}});
+    PluginCatalogue::Instance().Add(PluginKind::kExperimentFunctions, {.label = "declared_functions",
+                                                                       .parameters = {{.name = "every",
+                                                                                       .type = ParameterType::kInteger,
+                                                                                       .unit = "ticks",
+                                                                                       .default_value = "20",
+                                                                                       .minimum = 1}}});
+    return true;
+  }();
+  static_cast<void>(once);
+  return fmt::format(R"(<ahss-config><framework/>
+<controllers><declared_walker id="w">{}</declared_walker></controllers>
+<arena size="4,4,1" optimization="2D"/>
+<experiment_functions>{}</experiment_functions></ahss-config>)",
+                     parameters, functions);
+}
+
+constexpr const char* kGood = "<parameters><target>1, 2</target></parameters>";
+
+LoadOptions With(const std::string& path, const std::string& value)
+{
+  LoadOptions options;
+  options.settings = {{path, value}};
+  return options;
+}
+
+TEST(ControllerParameters, AreCompleteInTheExperiment)
+{
+  const auto loaded = LoadText(File("<parameters target='1, 2' weights='net.txt'/>", "<declared_functions id='f'/>"));
+  ASSERT_TRUE(loaded.experiment) << ErrorsOf(File(kGood));
+  const TConfigurationTree& tree = loaded.experiment->controllers.at(0).parameters;
+  EXPECT_EQ(tree.GetNumber("velocity"), 0.1);
+  EXPECT_EQ(tree.GetVector2("target"), Vector2(1, 2));
+  EXPECT_EQ(tree.GetText("weights"), "/experiments/net.txt");
+  EXPECT_EQ(loaded.experiment->functions.at(0).tree.GetInteger("every"), 20);
+  // Whoever reads the experiment from this text fills in the defaults himself.
+  EXPECT_EQ(loaded.experiment->effective_xml.find("velocity"), std::string::npos);
+}
+
+TEST(ControllerParameters, MistakesInThemAreMistakesOfTheFile)
+{
+  EXPECT_EQ(ErrorsOf(File("<parameters target='1, 2'><velocty>0.2</velocty></parameters>")),
+            "test.xml:2:64: the controller <declared_walker> has no parameter 'velocty'; it has: velocity, target, "
+            "weights; did you mean 'velocity'?\n");
+  EXPECT_EQ(ErrorsOf(File("<parameters target='1, 2'><velocity>0.5</velocity></parameters>")),
+            "test.xml:2:64: 'velocity' of the controller <declared_walker> is 0.5 m/s; it must be from 0 to 0.3 m/s\n");
+}
+
+TEST(ControllerParameters, RequiredOnesAreMissedWithoutTheElement)
+{
+  EXPECT_EQ(ErrorsOf(File("")),
+            "test.xml:2:14: the controller <declared_walker> lacks the parameter 'target': two numbers \"x, y\"\n");
+}
+
+TEST(ControllerParameters, AreSetFromTheCommandLine)
+{
+  const auto changed = LoadText(File(kGood), With("controllers.w.parameters.velocity", "0.2"));
+  ASSERT_TRUE(changed.experiment);
+  EXPECT_EQ(changed.experiment->controllers.at(0).parameters.GetNumber("velocity"), 0.2);
+  EXPECT_EQ(ErrorsOf(File(""), With("controllers.w.parameters.target", "1, 2")), "");
+  EXPECT_EQ(ErrorsOf(File(kGood), With("controllers.w.parameters.target_distnce", "0.5")),
+            "--set controllers.w.parameters.target_distnce: the controller <declared_walker> has no parameter "
+            "'target_distnce'; it has: velocity, target, weights; did you mean 'target'?\n");
+  EXPECT_EQ(
+      ErrorsOf(File(kGood), With("controllers.w.parameters.velocity", "fast")),
+      "--set controllers.w.parameters.velocity: 'velocity' of the controller <declared_walker> is 'fast'; it must "
+      "be a number in m/s, from 0 to 0.3 m/s\n");
+}
+
+TEST(ControllerParameters, ThoseOfFunctionsLikewise)
+{
+  EXPECT_EQ(ErrorsOf(File(kGood, "<declared_functions id='f'><evry>5</evry></declared_functions>")),
+            "test.xml:4:50: <declared_functions> has no element <evry>; allowed: id, library, every; did you mean "
+            "'every'?\n");
+  EXPECT_EQ(ErrorsOf(File(kGood, "<declared_functions id='f'/>"), With("experiment_functions.f.every", "0")),
+            "--set experiment_functions.f.every: 'every' of <declared_functions> is 0 ticks; it must be at least 1 "
+            "ticks\n");
+  const auto changed = LoadText(File(kGood, "<declared_functions id='f'/>"), With("experiment_functions.f.every", "7"));
+  ASSERT_TRUE(changed.experiment);
+  EXPECT_EQ(changed.experiment->functions.at(0).tree.GetInteger("every"), 7);
+}
+
+TEST(ControllerParameters, OfAControllerThatDeclaresNothingAreLeftToIt)
+{
+  EXPECT_EQ(ErrorsOf(kChapter4, With("controllers.fc.parameters.anything", "x")), "");
+}
+
+}  // namespace
+}  // namespace swarmanoid::test

@@ -1,0 +1,80 @@
+// Which process failed, as told from what each says of itself and how it ended.
+#include "launcher/processes/attribution.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+namespace swarmanoid
+{
+namespace
+{
+
+ActivityRecord Record(EndReason end, bool complete = false)
+{
+  ActivityRecord record;
+  record.taken = true;
+  record.tick = 50;
+  record.end = end;
+  record.complete = complete;
+  if (end == EndReason::kFailed) record.cause = "the cause";
+  return record;
+}
+
+constexpr ProcessEnd Exited(int code) { return {code, 0}; }
+constexpr ProcessEnd Killed(int number) { return {0, number}; }
+
+TEST(Attribution, AFailureThatIsToldCountsBeforeTheProcessEnds)
+{
+  EXPECT_EQ(EvidenceOf(std::nullopt, Record(EndReason::kFailed, true)), Evidence::kDeath);
+  EXPECT_EQ(EvidenceOf(std::nullopt, Record(EndReason::kFailed)), Evidence::kFailure);
+  EXPECT_EQ(EvidenceOf(std::nullopt, Record(EndReason::kOthers)), Evidence::kNone);
+}
+
+TEST(Attribution, OneThatEndsForAnotherIsAConsequence)
+{
+  EXPECT_EQ(EvidenceOf(Exited(4), Record(EndReason::kOthers)), Evidence::kConsequence);
+  EXPECT_EQ(EvidenceOf(Exited(6), ActivityRecord()), Evidence::kConsequence);
+}
+
+TEST(Attribution, AnEndByZeroIsGoodOnlyIfTheWorkIsSaidToBeDone)
+{
+  EXPECT_EQ(EvidenceOf(Exited(0), Record(EndReason::kDone)), Evidence::kEarlyEnd);
+  EXPECT_EQ(EvidenceOf(Exited(0), Record(EndReason::kUnknown)), Evidence::kDeath);
+  EXPECT_EQ(EvidenceOf(Exited(0), ActivityRecord()), Evidence::kEarlyEnd) << "a process of another machine";
+}
+
+TEST(Attribution, AKilledProcessIsToldByWhomItRan)
+{
+  ActivityRecord record = Record(EndReason::kUnknown);
+  record.kind = Actor::kRobot;
+  record.number = 3;
+  record.step = ActivityStep::kControlStep;
+  EXPECT_EQ(EvidenceOf(Killed(SIGKILL), record), Evidence::kDeath);
+  const auto actor_of = [](Actor::Kind kind, std::uint32_t number)
+  {
+    EXPECT_EQ(kind, Actor::kRobot);
+    EXPECT_EQ(number, 3U);
+    return Actor{kind, number, "fb_3", "diffusion"};
+  };
+  EXPECT_EQ(
+      FailureText({"controller host 0", Killed(SIGKILL), record}, 51, actor_of, false),
+      "controller host 0 was killed by signal 9 (Killed), during robot 'fb_3', controller 'diffusion': ControlStep at "
+      "tick 50");
+  EXPECT_NE(FailureText({"controller host 0", Killed(SIGKILL), record}, 51, actor_of, true).find("memory was short"),
+            std::string::npos);
+}
+
+TEST(Attribution, TheCauseThatAProcessTellsIsTheHeadline)
+{
+  EXPECT_EQ(FailureText({"controller host 0", std::nullopt, Record(EndReason::kFailed, true)}, 51, {}, false),
+            "the cause");
+}
+
+TEST(Attribution, WithoutAWordTheTickIsTheServers)
+{
+  EXPECT_EQ(FailureText({"engine 'ground'", Exited(1), ActivityRecord()}, 51, {}, false),
+            "engine 'ground' ended with exit code 1 at tick 51");
+}
+
+}  // namespace
+}  // namespace swarmanoid

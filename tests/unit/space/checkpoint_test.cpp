@@ -1,0 +1,173 @@
+// The file of a checkpoint: whatever happens to it on the way is noticed.
+#include "common/space/checkpoint.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/space/checkpoint_format.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+Experiment SmallExperiment()
+{
+  Experiment experiment;
+  experiment.effective_xml = "<ahss-config><framework><maxclock>10</maxclock></framework></ahss-config>";
+  experiment.engines.resize(1);
+  return experiment;
+}
+
+Checkpoint SmallCheckpoint()
+{
+  Checkpoint checkpoint;
+  checkpoint.origin = OriginOf(SmallExperiment());
+  checkpoint.snapshot.tick = 200;
+  checkpoint.snapshot.poses = {1, 2, 0, 0, 0, 0, 1};
+  checkpoint.snapshot.attributes = {0.5};
+  checkpoint.parts = {{kServerPart, {'a', 'b'}}, {"engine 'ground'", {}}, {"controller host 0", {'c'}}};
+  return checkpoint;
+}
+
+class CheckpointFile : public testing::Test
+{
+protected:
+  CheckpointFile() : folder_(fs::temp_directory_path() / ("checkpoint_test_" + std::to_string(getpid())))
+  {
+    fs::create_directories(folder_);
+    path_ = folder_ / "checkpoint";
+  }
+  ~CheckpointFile() override { fs::remove_all(folder_); }
+
+  void Write(const std::vector<char>& bytes) const
+  {
+    std::ofstream(path_, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  }
+  // Why a file is refused; empty where it is taken.
+  std::string Refusal(const RestoreOptions& options = {}) const
+  {
+    try
+    {
+      ReadCheckpoint(path_, SmallExperiment(), options);
+      return {};
+    }
+    catch (const std::runtime_error& error)
+    {
+      return error.what();
+    }
+  }
+
+  fs::path folder_;
+  std::string path_;
+};
+
+TEST_F(CheckpointFile, ComesBackAsItWas)
+{
+  WriteCheckpoint(path_, SmallCheckpoint());
+  const Checkpoint read = ReadCheckpoint(path_, SmallExperiment(), {});
+  EXPECT_EQ(EncodeCheckpoint(read), EncodeCheckpoint(SmallCheckpoint()));
+  EXPECT_EQ(read.snapshot.poses, SmallCheckpoint().snapshot.poses);
+  EXPECT_EQ(read.parts[2].name, "controller host 0");
+}
+
+TEST_F(CheckpointFile, EachChangedBitIsRefused)
+{
+  std::vector<char> bytes = EncodeCheckpoint(SmallCheckpoint());
+  for (std::size_t at = 0; at < bytes.size(); ++at)
+    for (const int bit : {0, 3, 7})
+    {
+      bytes[at] ^= static_cast<char>(1 << bit);
+      EXPECT_THROW(DecodeCheckpoint(bytes), std::runtime_error) << "bit " << bit << " of byte " << at;
+      bytes[at] ^= static_cast<char>(1 << bit);
+    }
+  EXPECT_NO_THROW(DecodeCheckpoint(bytes));
+}
+
+TEST_F(CheckpointFile, EachLengthButItsOwnIsRefused)
+{
+  const std::vector<char> bytes = EncodeCheckpoint(SmallCheckpoint());
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+  {
+    Write({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)});
+    EXPECT_THAT(Refusal(), testing::StartsWith("checkpoint '" + path_ + "': it is ")) << size;
+  }
+  std::vector<char> longer = bytes;
+  longer.push_back('x');
+  Write(longer);
+  EXPECT_THAT(Refusal(), HasSubstr("it should have " + std::to_string(bytes.size()) + " bytes and has " +
+                                   std::to_string(bytes.size() + 1)));
+}
+
+TEST_F(CheckpointFile, LengthsThatAreSealedAndWrongAreRefused)
+{
+  const std::vector<char> good = EncodeCheckpoint(SmallCheckpoint());
+  for (std::size_t at = kCheckpointHeaderBytes; at + 8 < good.size(); ++at)
+  {
+    std::vector<char> bytes = good;
+    std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), 8, '\xff');
+    SealCheckpoint(bytes);
+    try
+    {
+      DecodeCheckpoint(bytes);  // a number or text was changed
+    }
+    catch (const std::runtime_error& error)
+    {
+      EXPECT_THAT(error.what(), testing::AnyOf(HasSubstr("too early"), HasSubstr("longer")));
+    }
+  }
+}
+
+TEST_F(CheckpointFile, OfAnotherFormatNamesBothVersions)
+{
+  std::vector<char> bytes = EncodeCheckpoint(SmallCheckpoint());
+  bytes[kCheckpointMagic.size()] = '1';
+  Write(bytes);
+  EXPECT_THAT(Refusal(), HasSubstr("its format has the version '1', this program reads '" +
+                                   std::string(1, kCheckpointVersion) + "'; go on with the Swarmanoid that took it"));
+}
+
+TEST_F(CheckpointFile, OfAnotherBuildIsRefusedUnlessAskedFor)
+{
+  Checkpoint checkpoint = SmallCheckpoint();
+  checkpoint.origin.libraries.front().build = "another";
+  WriteCheckpoint(path_, checkpoint);
+  EXPECT_THAT(Refusal(), HasSubstr("it was taken with another build of Swarmanoid"));
+  EXPECT_EQ(Refusal({1, true}), "");
+}
+
+TEST_F(CheckpointFile, PipesDevicesAndFoldersAreRefusedAtOnce)
+{
+  ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);
+  EXPECT_THAT(Refusal(), HasSubstr("it is a pipe, not a file"));
+  path_ = "/dev/zero";
+  EXPECT_THAT(Refusal(), HasSubstr("it is a device, not a file"));
+  path_ = folder_;
+  EXPECT_THAT(Refusal(), HasSubstr("it is a folder, not a file"));
+  path_ = folder_ / "absent";
+  EXPECT_THAT(Refusal(), HasSubstr("there is no such file"));
+}
+
+TEST(LibraryBuilds, KnowSwarmanoidItselfAndNameWhatDiffers)
+{
+  const std::vector<LibraryBuild> here = LibraryBuildsOf(SmallExperiment());
+  ASSERT_EQ(here.size(), 1U);
+  EXPECT_EQ(here[0].name, kSwarmanoidBuild);
+  EXPECT_GT(here[0].build.size(), 9 * 16U) << "each of its libraries has a build";
+  EXPECT_EQ(DifferenceOfBuilds({{"libwave.so", "1"}}, {{"libwave.so", "1"}}), "");
+  EXPECT_THAT(DifferenceOfBuilds({{"libwave.so", "1"}}, {{"libwave.so", "2"}}),
+              HasSubstr("another build of the library 'libwave.so'; go on with that build"));
+  EXPECT_EQ(DifferenceOfBuilds({{"libwave.so", ""}}, {{"libwave.so", "2"}}), "") << "it was elsewhere";
+}
+
+}  // namespace
+}  // namespace swarmanoid
