@@ -5,6 +5,8 @@
 
 #include <fstream>
 
+#include "common/program/exit_codes.h"
+
 namespace swarmanoid
 {
 
@@ -41,7 +43,7 @@ Evidence EvidenceOf(const std::optional<ProcessEnd>& ended, const ActivityRecord
   }
   if (!ended) return Evidence::kNone;
   if (ended->signal != 0) return Evidence::kDeath;
-  if (ended->exit_code == kOthersFailed) return Evidence::kConsequence;
+  if (ended->exit_code == kExitOthersFailed) return Evidence::kConsequence;
   if (ended->exit_code != 0) return Evidence::kFailure;
   // A program of ours says that its work is done.
   return record.taken && record.end == EndReason::kUnknown ? Evidence::kDeath : Evidence::kEarlyEnd;

@@ -41,9 +41,6 @@ enum class Evidence
 // `ended`: nothing while the process runs; it may have said already that it failed.
 Evidence EvidenceOf(const std::optional<ProcessEnd>& ended, const ActivityRecord& record);
 
-// The exit code of a process that ended since another one failed.
-inline constexpr int kOthersFailed = 6;
-
 // One line: who failed, how, and at which tick. `actor_of` names who ran in a process that was killed; `server_tick` is
 // that of the run, for processes that say none; `killed_for_memory` as KernelKillsForMemory tells.
 struct FailedProcess

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "common/program/exit_codes.h"
+
 namespace swarmanoid
 {
 namespace
@@ -203,7 +205,7 @@ void Supervisor::TakeEnd(const ClusterMember& member)
   const ProcessEnd& end = *member.End();
   const bool is_server = &member == members_.front().get();
 
-  if (is_server && outcome_.kind == ClusterOutcome::kFinished && end.exit_code == kUnsuccessfulExperiment)
+  if (is_server && outcome_.kind == ClusterOutcome::kFinished && end.exit_code == kExitExperimentFailed)
   {
     outcome_.kind = ClusterOutcome::kUnsuccessful;
     return;
@@ -344,7 +346,7 @@ void Supervisor::CheckDeadlines()
 void Supervisor::Fail(const ClusterMember& member, const std::string& text, bool complete)
 {
   const bool invalid =
-      member.Record().end == EndReason::kInvalid || (member.End() && member.End()->exit_code == kInvalidExperiment);
+      member.Record().end == EndReason::kInvalid || (member.End() && member.End()->exit_code == kExitInvalidFile);
   outcome_.kind = invalid ? ClusterOutcome::kInvalid : ClusterOutcome::kFailed;
   outcome_.finished.reset();
   outcome_.reason = text;

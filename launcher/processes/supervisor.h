@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "common/program/exit_codes.h"
 #include "common/run/server_status.h"
 #include "launcher/processes/attribution.h"
 #include "launcher/processes/cluster_member.h"
@@ -18,11 +17,6 @@
 
 namespace swarmanoid
 {
-
-// Exit codes of the programs: of the space server when the experiment failed by its own measure, and of any program
-// that finds the experiment file wrong.
-constexpr int kUnsuccessfulExperiment = kExitExperimentFailed;
-constexpr int kInvalidExperiment = kExitInvalidFile;
 
 struct ClusterOutcome
 {
