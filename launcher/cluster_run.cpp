@@ -11,7 +11,7 @@
 #include "common/bus/domain.h"
 #include "common/bus/run_directory.h"
 #include "common/experiment/actors.h"
-#include "common/program/exit_codes.h"
+#include "common/activity/exit_codes.h"
 #include "common/program/program.h"
 #include "common/program/usage_error.h"
 #include "common/space/assignment.h"

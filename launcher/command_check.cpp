@@ -6,7 +6,7 @@
 #include <map>
 #include <memory>
 
-#include "common/program/exit_codes.h"
+#include "common/activity/exit_codes.h"
 #include "common/run/run_settings.h"
 #include "launcher/commands.h"
 #include "launcher/load.h"

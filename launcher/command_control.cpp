@@ -12,7 +12,7 @@
 #include "common/bus/control_client.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/wording.h"
-#include "common/program/exit_codes.h"
+#include "common/activity/exit_codes.h"
 #include "launcher/commands.h"
 #include "launcher/control_request.h"
 #include "launcher/run_choice.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/configuration/wording.h"
-#include "common/program/exit_codes.h"
+#include "common/activity/exit_codes.h"
 #include "launcher/commands.h"
 #include "launcher/new_files.h"
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "common/program/exit_codes.h"
+#include "common/activity/exit_codes.h"
 #include "launcher/commands.h"
 #include "launcher/run_experiment.h"
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "common/math/reproducible_math.h"
-#include "common/program/exit_codes.h"
+#include "common/activity/exit_codes.h"
 #include "common/program/usage_error.h"
 #include "common/space/checkpoint.h"
 #include "launcher/cluster_run.h"

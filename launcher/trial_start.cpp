@@ -15,7 +15,7 @@
 #include <string>
 
 #include "common/activity/failure_report.h"
-#include "common/program/exit_codes.h"
+#include "common/activity/exit_codes.h"
 #include "launcher/simulator.h"
 
 namespace swarmanoid

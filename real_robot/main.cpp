@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "common/configuration/regular_file.h"
 #include "common/logging/log.h"
 #include "common/plugins/library.h"
 #include "common/program/interrupts.h"

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "common/configuration/parameter.h"
+#include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
 #include "common/configuration/xml_reader.h"
 #include "common/plugins/library.h"
@@ -178,8 +179,8 @@ void ReadOwnFile(const File& file, const RobotChoice& choice, RobotConfiguration
                              "<experiment file=\"experiment.xml\" controller=\"its id\"/>");
   CheckNames(experiment, {"file", "controller"}, {});
   const std::string path = (fs::path(file.folder) / experiment.Attribute("file")).lexically_normal().string();
-  if (!fs::is_regular_file(path))
-    throw ConfigurationError(experiment.ValueLocation("file"), fmt::format("there is no file {}", Quoted(path)));
+  if (const std::string mistake = FileMistake(path); !mistake.empty())
+    throw ConfigurationError(experiment.ValueLocation("file"), fmt::format("{}: {}", Quoted(path), mistake));
   ReadExperiment(Read(path), choice.controller.empty() ? experiment.Attribute("controller") : choice.controller,
                  "<experiment controller=\"…\"/> or --controller", robot);
 

@@ -108,7 +108,7 @@ void SpaceServer::Advance(std::span<const EngineUpdate* const> updates,
 {
   changed_slots_.clear();
   moved_.clear();
-  for (const ControlCommands* command : commands) Merge(*command);
+  for (const ControlCommands* command : commands) Merge(command->attributes);
   for (const EngineUpdate* update : updates) Merge(*update);
   space_.SetTick(space_.GetTick() + 1);
 
@@ -176,7 +176,7 @@ void SpaceServer::Put(const MoveRequest& request)
   moved_.push_back(request.entity);
 }
 
-void SpaceServer::Merge(const ControlCommands& commands)
+void SpaceServer::Check(const ControlCommands& commands) const
 {
   try
   {
@@ -186,10 +186,9 @@ void SpaceServer::Merge(const ControlCommands& commands)
   {
     throw std::runtime_error(fmt::format("{} at tick {}: {}", HostName(commands.host), space_.GetTick(), error.what()));
   }
-  Merge(commands.attributes);
 }
 
-void SpaceServer::Merge(const EngineUpdate& update)
+void SpaceServer::Check(const EngineUpdate& update) const
 {
   if (update.engine >= assignment_.engines.size())
     throw std::runtime_error(fmt::format("an update of engine {} came, but there are {} engines", update.engine,
@@ -204,8 +203,13 @@ void SpaceServer::Merge(const EngineUpdate& update)
   catch (const StateError& error)
   {
     throw std::runtime_error(
-        fmt::format("{} at tick {}: {}", EngineName(experiment_, update.engine), space_.GetTick() + 1, error.what()));
+        fmt::format("{} at tick {}: {}", EngineName(experiment_, update.engine), space_.GetTick(), error.what()));
   }
+}
+
+void SpaceServer::Merge(const EngineUpdate& update)
+{
+  const std::vector<std::uint32_t>& owned = assignment_.engines[update.engine].owned;
   if (experiment_.beyond_limit == BeyondLimit::kStop)
     space_.SetPoses(owned, update.poses);
   else
@@ -230,10 +234,9 @@ void SpaceServer::SetPosesWithinLimit(const EngineUpdate& update, std::span<cons
       const Vector3 at = entity.GetPosition();
       LogWarning(
           "{} at tick {}: the {} '{}' left the world at {:.6g}, {:.6g}, {:.6g}, more than {:g} m outside the arena; it "
-          "is "
-          "{}",
-          EngineName(experiment_, update.engine), space_.GetTick() + 1, TagName(entity.GetKind()), entity.GetId(),
-          at.x(), at.y(), at.z(), experiment_.limit_m, hold ? "held where it was before" : "removed");
+          "is {}",
+          EngineName(experiment_, update.engine), space_.GetTick(), TagName(entity.GetKind()), entity.GetId(), at.x(),
+          at.y(), at.z(), experiment_.limit_m, hold ? "held where it was before" : "removed");
       told_[index] = true;
     }
     if (hold)

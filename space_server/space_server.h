@@ -47,10 +47,14 @@ public:
   // The space as in the snapshot, which must fit it; what is sent next is complete only for those who have it too.
   void LoadState(const SpaceSnapshot& snapshot, ByteReader& state);
 
-  // To the next tick: updates in engine order (all engines), commands in host order (those that report to the server).
-  // An attribute set by both an engine and a host has the engine's value. Entities that their engine took beyond the
-  // limit of the world are treated as the experiment says. Throws std::runtime_error that names the engine or the host
-  // which gave what cannot be part of the state, the entity, the tick and the value.
+  // For what comes from another process, before Advance; roles of this process have checked their results themselves.
+  // Throw std::runtime_error that names the engine or the host which gave what cannot be part of the state, the entity,
+  // the tick of the step and the value.
+  void Check(const EngineUpdate& update) const;
+  void Check(const ControlCommands& commands) const;
+  // To the next tick: updates in engine order (all engines), commands in host order (those that report to the server),
+  // all checked. An attribute set by both an engine and a host has the engine's value. Entities that their engine took
+  // beyond the limit of the world are treated as the experiment says.
   void Advance(std::span<const EngineUpdate* const> updates, std::span<const ControlCommands* const> commands);
   // Puts an entity elsewhere, into the arena or out of it at the current tick, before its state goes out. Throws
   // StateError for what cannot be a pose, or is too far from the arena.
@@ -76,7 +80,6 @@ private:
     std::unique_ptr<CExperimentFunctions> object;
   };
 
-  void Merge(const ControlCommands& commands);
   void Merge(const EngineUpdate& update);
   void Merge(const AttributeChanges& changes);
   // Holds or removes those that the engine took beyond the limit.

@@ -20,6 +20,7 @@
 
 #include "common/activity/current_activity.h"
 #include "common/activity/exit_calls.h"
+#include "common/activity/exit_codes.h"
 #include "common/activity/memory_limit.h"
 #include "common/activity/shared_memory.h"
 #include "common/activity/signal_stack.h"
@@ -28,9 +29,6 @@ namespace swarmanoid
 {
 namespace
 {
-
-constexpr int kExitFailed = 4;
-constexpr int kExitInterrupted = 130;
 
 char process_name[128] = "swarmanoid";
 std::atomic<pid_t> dying = 0;  // the thread that reports the death of the process
@@ -79,7 +77,7 @@ void Report(std::string_view what, bool of_activity)
   pid_t nobody = 0;
   if (!dying.compare_exchange_strong(nobody, thread))
   {
-    if (nobody == thread) syscall(SYS_exit_group, kExitFailed);
+    if (nobody == thread) syscall(SYS_exit_group, kExitProcessFailed);
     while (true) pause();
   }
   LineWriter line;
@@ -145,7 +143,7 @@ void OnDeadlySignal(int signal, siginfo_t* about, void*)
     if (about->si_code <= 0) kill(getpid(), signal);
     return;  // to the instruction that failed
   }
-  syscall(SYS_exit_group, kExitFailed);
+  syscall(SYS_exit_group, kExitProcessFailed);
 }
 
 void OnTerminate()
@@ -223,14 +221,14 @@ void LeaveAtOnce(int code)
 void DieOf(std::string_view what)
 {
   Report(what, activity::IsMine());
-  syscall(SYS_exit_group, kExitFailed);
+  syscall(SYS_exit_group, kExitProcessFailed);
   __builtin_unreachable();
 }
 
 void DieOfStep(std::string_view what)
 {
   Report(what, true);
-  syscall(SYS_exit_group, kExitFailed);
+  syscall(SYS_exit_group, kExitProcessFailed);
   __builtin_unreachable();
 }
 

@@ -9,7 +9,7 @@
 
 #include "common/activity/memory_limit.h"
 #include "common/configuration/configuration_tree.h"
-#include "common/program/exit_codes.h"
+#include "common/activity/exit_codes.h"
 #include "common/program/interrupts.h"
 
 namespace swarmanoid

@@ -63,6 +63,19 @@ std::vector<char> RegularFile::Read(std::uint64_t offset, std::size_t count) con
   return bytes;
 }
 
+std::string FileMistake(const std::string& path)
+{
+  try
+  {
+    RegularFile{path};
+    return {};
+  }
+  catch (const FileError& error)
+  {
+    return error.what();
+  }
+}
+
 std::string ReadRegularFile(const std::string& path, std::uint64_t most_bytes)
 {
   const RegularFile file(path);

@@ -36,6 +36,9 @@ private:
   std::uint64_t size_ = 0;
 };
 
+// Why it cannot be read; empty where it can.
+std::string FileMistake(const std::string& path);
+
 // The whole of a file. Throws FileError, also where it is longer than `most_bytes`.
 std::string ReadRegularFile(const std::string& path, std::uint64_t most_bytes);
 

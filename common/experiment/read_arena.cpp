@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
 #include "common/experiment/body.h"
 #include "common/experiment/element_reader.h"
@@ -66,9 +67,9 @@ void CheckTerrain(const TConfigurationTree& tree, const ElementSpec& spec, Readi
     const ElementReader reader(child, *element, reading.diagnostics);
     if (!reading.options.check_files || !reader.IsGood("file")) continue;
     const fs::path path = fs::path(reading.experiment.folder) / reader.Text("file");
-    if (!fs::is_regular_file(path))
+    if (const std::string mistake = FileMistake(path); !mistake.empty())
       reading.diagnostics.Add(reader.Place("file"),
-                              fmt::format("there is no file {}", Quoted(path.lexically_normal().string())));
+                              fmt::format("{}: {}", Quoted(path.lexically_normal().string()), mistake));
   }
   if (maps != 1)
     reading.diagnostics.Add(tree.Location(),

@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
 
 #include "common/configuration/wording.h"
 #include "common/program/usage_error.h"
@@ -169,16 +168,6 @@ std::vector<std::string> WordsOf(const std::vector<OptionSpec>& options, const s
     }
   }
   return words;
-}
-
-std::string FileMistake(const std::string& path)
-{
-  namespace fs = std::filesystem;
-  std::error_code none;
-  const fs::file_status status = fs::status(path, none);
-  if (!fs::exists(status)) return "there is no such file";
-  if (fs::is_directory(status)) return "it must be a file, and this is a folder";
-  return fs::is_regular_file(status) ? "" : "it must be a file, and this is a pipe or a device";
 }
 
 }  // namespace swarmanoid

@@ -47,7 +47,4 @@ std::string MistakeIn(const OptionSpec& option, const std::string& text);
 // touched, differ.
 std::vector<std::string> WordsOf(const std::vector<OptionSpec>& options, const std::vector<OptionSpec>& defaults);
 
-// For OptionSpec::mistake: a file that is there and no folder, pipe or device.
-std::string FileMistake(const std::string& path);
-
 }  // namespace swarmanoid

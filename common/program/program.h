@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "common/program/exit_codes.h"
+#include "common/activity/exit_codes.h"
 
 namespace CLI
 {

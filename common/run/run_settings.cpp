@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
 #include "common/program/usage_error.h"
 

@@ -132,7 +132,13 @@ void CSwarmanoidSpace::SetAttribute(std::uint32_t slot, double value)
 {
   ++attribute_revision_;
   attributes_[slot] = value;
-  if (slot >= first_presence_) FindAbsent();
+  if (slot < first_presence_) return;
+  ++revision_;
+  const std::uint32_t entity = slot - first_presence_;
+  const auto place = std::lower_bound(absent_.begin(), absent_.end(), entity);
+  const bool was_absent = place != absent_.end() && *place == entity;
+  if (value == 0 && !was_absent) absent_.insert(place, entity);
+  if (value != 0 && was_absent) absent_.erase(place);
 }
 
 void CSwarmanoidSpace::SetAttributes(const AttributeChanges& changes)

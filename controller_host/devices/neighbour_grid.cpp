@@ -79,6 +79,7 @@ NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, std::span<const Body
       largest = std::max(largest, shapes[e].radius);
     }
   count_ = bodies_.size();
+  here_ = bodies_;
 
   // About one body a cell, and no cell smaller than a body (facts: the optimum is flat).
   const Extent extent = ExtentOf(space);
@@ -105,13 +106,17 @@ NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, std::span<const Body
 void NeighbourGrid::Rebuild()
 {
   const PoseArrays& poses = space_.Poses();
+  here_.clear();
+  std::ranges::copy_if(bodies_, std::back_inserter(here_),
+                       [this](std::uint32_t entity) { return space_.IsPresent(entity); });
+  count_ = here_.size();
   // Counts two places up: after the scatter below, start_[c] is where cell c begins.
   std::fill(start_.begin(), start_.end(), 0U);
   float largest = 0;
   bool upright = true;
   for (std::size_t b = 0; b < count_; ++b)
   {
-    const std::uint32_t e = bodies_[b];
+    const std::uint32_t e = here_[b];
     const Circle circle = CircleOf(poses, e, shapes_[e]);
     upright &= IsUpright(poses, e);
     body_x_[b] = circle.x;
@@ -130,7 +135,7 @@ void NeighbourGrid::Rebuild()
     x_[place] = body_x_[b];
     y_[place] = body_y_[b];
     radius_[place] = body_radius_[b];
-    const std::uint32_t e = bodies_[b];
+    const std::uint32_t e = here_[b];
     entity_[place] = e;
     origin_x_[place] = poses.x[e];
     origin_y_[place] = poses.y[e];

@@ -72,9 +72,12 @@ class NeighbourGrid
 public:
   NeighbourGrid(const CSwarmanoidSpace& space, std::span<const BodyShape> shapes);
 
-  // Sorts the movable bodies from the poses of the space.
+  // Sorts the movable bodies that are in the arena from the poses of the space: those that wait outside it sense
+  // nothing and are not sensed.
   void Rebuild();
 
+  // How many may ever be sorted.
+  std::size_t MostBodies() const { return bodies_.size(); }
   // The movable bodies in the order of their cells: entity indices.
   std::span<const std::uint32_t> Sorted() const { return {entity_.data(), count_}; }
 
@@ -111,6 +114,7 @@ private:
   std::span<const BodyShape> shapes_;
   CellFrame frame_;
   std::vector<std::uint32_t> bodies_;  // movable entities with a body, ascending
+  std::vector<std::uint32_t> here_;    // those of them that are in the arena
   std::size_t count_ = 0;
   float margin_ = 0;          // covers the rounding to single precision
   float largest_radius_ = 0;  // of this tick

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "common/math/elementary.h"
@@ -65,9 +66,13 @@ void PlaneRobots::AddOwned(const CSwarmanoidSpaceEntity& entity)
       break;
     case EntityKind::kBlock:
     case EntityKind::kCylindricPrey:
+    {
       objects_.push_back(index);
+      const Shape shape = ShapeOf(entity.GetConfiguration());
+      near_objects_.Add(shape.centre.norm() + BoundingRadius(shape));
       raised_.push_back({index, 0, 0, 0, 0});
       break;
+    }
     default:
       break;
   }
@@ -109,6 +114,7 @@ bool PlaneRobots::Command(const ChannelBlock& block, std::span<const double> val
 
 void PlaneRobots::Advance(double seconds)
 {
+  near_objects_.Forget();
   attached_.clear();
   for (const Eyebot& eyebot : eyebots_)
     if (eyebot.attach && ceiling_ > 0 && space_->GetEntity(eyebot.entity).GetSize().z() + kMagnetReach >= ceiling_)
@@ -131,12 +137,17 @@ void PlaneRobots::Advance(double seconds)
       raised.height = std::max(RaisedOf(raised.bearer - 1).height + raised.above_bearer, 0.0);
       continue;
     }
-    const auto hangs = std::find_if(handbots_.begin(), handbots_.end(),
-                                    [&](const Handbot& h) { return h.entity == raised.entity && h.is_hanging; });
-    if (hangs != handbots_.end() || raised.height == 0) continue;
+    if (raised.height == 0 || Hangs(raised.entity)) continue;
     raised.height = std::max(raised.height - (raised.fall + kGravity * seconds / 2) * seconds, 0.0);
     raised.fall = raised.height > 0 ? raised.fall + kGravity * seconds : 0;
   }
+}
+
+bool PlaneRobots::Hangs(std::uint32_t entity) const
+{
+  const auto handbot = std::lower_bound(handbots_.begin(), handbots_.end(), entity,
+                                        [](const Handbot& h, std::uint32_t e) { return h.entity < e; });
+  return handbot != handbots_.end() && handbot->entity == entity && handbot->is_hanging;
 }
 
 void PlaneRobots::Release(Handbot& handbot, std::size_t hand)
@@ -177,10 +188,16 @@ std::uint32_t PlaneRobots::ObjectAt(const Handbot& handbot, std::size_t hand) co
   const double beside = side * (S::kShoulder + S::kArmLength * arm.sin);
   const Vector3 tip(S::kHeadForward + S::kArmLength * arm.cos, beside * head.cos, S::kHeadHeight + beside * head.sin);
   const Vector3 place = space_->GetPose(handbot.entity).Apply(tip);
+  const auto origin = [this](std::size_t k) -> Vector3
+  {
+    if (!space_->IsPresent(objects_[k])) return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+    return space_->GetPose(objects_[k]).position;
+  };
   double nearest = S::kReach;
   std::uint32_t found = 0;
-  for (const std::uint32_t object : objects_)
+  for (const std::uint32_t k : near_objects_.Near(space_->GetExperiment(), place, nearest, origin))
   {
+    const std::uint32_t object = objects_[k];
     const double distance =
         DistanceTo(ShapeOf(space_->GetEntity(object).GetConfiguration()), space_->GetPose(object), place);
     if (distance >= nearest) continue;

@@ -18,6 +18,7 @@
 #include "common/space/messages.h"
 #include "common/space/shape.h"
 #include "common/space/space.h"
+#include "engine_worker/engines/near_objects.h"
 #include "engine_worker/engines/plane_frame.h"
 
 namespace swarmanoid
@@ -114,6 +115,7 @@ private:
 
   Handbot& HandbotOf(std::uint32_t entity);
   Raised& RaisedOf(std::uint32_t entity);
+  bool Hangs(std::uint32_t entity) const;
   void UseHands(Handbot& handbot);
   void Release(Handbot& handbot, std::size_t hand);
   std::uint32_t ObjectAt(const Handbot& handbot, std::size_t hand) const;
@@ -129,6 +131,7 @@ private:
   std::vector<std::uint32_t> attached_;
   std::vector<Raised> raised_;  // handbots, blocks and preys, by entity; none where there is no handbot
   std::vector<std::uint32_t> objects_;
+  mutable NearObjects near_objects_;  // by place in objects_
 };
 
 }  // namespace swarmanoid

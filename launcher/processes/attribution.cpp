@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "common/program/exit_codes.h"
+#include "common/activity/exit_codes.h"
 
 namespace swarmanoid
 {

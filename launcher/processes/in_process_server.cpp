@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "common/activity/failure_report.h"
-#include "common/program/exit_codes.h"
+#include "common/activity/exit_codes.h"
 
 namespace swarmanoid
 {

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "common/program/exit_codes.h"
+#include "common/activity/exit_codes.h"
 
 namespace swarmanoid
 {

@@ -155,6 +155,8 @@ void Lockstep::Complete()
     Send(true);
     return;
   }
+  for (const ControlCommands& commands : commands_) server_.Check(commands);
+  for (const EngineUpdate& update : updates_) server_.Check(update);
   server_.Advance(updates_here_, commands_here_);
   gate_.Next();
   if (hold_ || watch_ || gate_.Tick() == until_)

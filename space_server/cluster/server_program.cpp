@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "common/program/exit_codes.h"
+#include "common/activity/exit_codes.h"
 #include "common/run/run_summary.h"
 #include "common/serialisation/trial.h"
 #include "space_server/cluster/process_watch.h"

@@ -19,7 +19,8 @@ using BenchParameters = std::vector<std::pair<std::string, std::string>>;
 class BenchWorld
 {
 public:
-  BenchWorld(int robots, double robots_per_square_metre, EntityKind kind = EntityKind::kFootbot)
+  // `waiting`: robots more, which wait outside the arena.
+  BenchWorld(int robots, double robots_per_square_metre, EntityKind kind = EntityKind::kFootbot, int waiting = 0)
   {
     RegisterBuiltinDevices();
     const double side = std::sqrt(robots / robots_per_square_metre);
@@ -55,6 +56,15 @@ public:
     for (std::size_t n = robots_.size() - 1; n > 0; --n)
       std::swap(experiment_.entities[robots_[n]].pose,
                 experiment_.entities[robots_[random.Below(static_cast<std::uint32_t>(n + 1))]].pose);
+    for (int n = 0; n < waiting; ++n)
+    {
+      EntityConfiguration robot = experiment_.entities[robots_[0]];
+      robot.id = "late" + std::to_string(n);
+      robot.waits = true;
+      robot.pose = WaitingPose(robot, experiment_.entities.size());
+      robots_.push_back(static_cast<std::uint32_t>(experiment_.entities.size()));
+      Add(robot);
+    }
     space_ = std::make_unique<CSwarmanoidSpace>(experiment_);
   }
 

@@ -43,6 +43,19 @@ BENCHMARK_CAPTURE(Proximity, rays_with_gaussian_noise, "generic_footbot_proximit
     ->Args({1000, 10})
     ->Unit(benchmark::kMicrosecond);
 
+// A hundred footbots, and as many as the argument says that wait outside the arena.
+void Reserve(benchmark::State& state)
+{
+  BenchWorld world(100, 1, EntityKind::kFootbot, static_cast<int>(state.range(0)));
+  const auto sensor = world.MakeSensor("footbot_proximity", "generic_footbot_proximity", {});
+  for (auto _ : state)
+  {
+    world.NextTick();
+    sensor->Update({});
+  }
+}
+BENCHMARK(Reserve)->Arg(0)->Arg(1000)->Arg(4000)->Arg(16000)->ArgName("waiting")->Unit(benchmark::kMicrosecond);
+
 }  // namespace
 }  // namespace swarmanoid
 

@@ -89,7 +89,7 @@ class State(OutsideTest):
                 # In a cluster the space server has a log of its own.
                 logs = (self.folder / f"{policy}{len(options)}").glob("space_server.log")
                 told = "".join([done.stderr, *(log.read_text() for log in logs)])
-                self.assertIn("engine 'ground' at tick 5: the footbot 'robot_one' left the world at 1, 1, -300, more than 50 m", told)
+                self.assertIn("engine 'ground' at tick 4: the footbot 'robot_one' left the world at 1, 1, -300, more than 50 m", told)
                 self.assertIn(words, told)
                 self.assertNotIn("robot_two", told)
             self.assertEqual(len(hashes), 1, policy)

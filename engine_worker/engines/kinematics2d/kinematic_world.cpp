@@ -22,6 +22,9 @@ Bounds BoxOf(const CollisionModel& model)
   return box;
 }
 
+// The order of grips.
+bool IsBefore(const Grip& a, const Grip& b) { return std::tie(a.prey, a.body) < std::tie(b.prey, b.body); }
+
 }  // namespace
 
 std::uint32_t KinematicWorld::AddModel(CollisionModel model)
@@ -160,8 +163,7 @@ void KinematicWorld::Place(std::uint32_t body, const Pose2& pose)
 void KinematicWorld::AddGrip(std::uint32_t body, std::uint32_t prey)
 {
   const Grip grip{body, prey, Relative(now_.Get(prey), now_.Get(body))};
-  const auto later = [](const Grip& a, const Grip& b) { return std::tie(a.prey, a.body) < std::tie(b.prey, b.body); };
-  grips_.insert(std::upper_bound(grips_.begin(), grips_.end(), grip, later), grip);
+  grips_.insert(std::upper_bound(grips_.begin(), grips_.end(), grip, IsBefore), grip);
   RebuildGroups();
 }
 
@@ -174,8 +176,9 @@ void KinematicWorld::RemoveGrip(std::uint32_t body)
 const Grip* KinematicWorld::FindGrip(std::uint32_t body) const
 {
   if (leader_[body] == body) return nullptr;
-  const auto found = std::find_if(grips_.begin(), grips_.end(), [body](const Grip& grip) { return grip.body == body; });
-  return found == grips_.end() ? nullptr : &*found;
+  // Its leader is what it holds.
+  const auto found = std::lower_bound(grips_.begin(), grips_.end(), Grip{body, leader_[body], {}}, IsBefore);
+  return found == grips_.end() || found->body != body ? nullptr : &*found;
 }
 
 void KinematicWorld::RebuildGroups()
@@ -233,6 +236,8 @@ void KinematicWorld::LoadState(ByteReader& state)
   for (const Grip& grip : grips_)
     if (grip.body >= count_ || grip.prey >= count_)
       throw std::runtime_error("saved state of a kinematic world: a grip of a body that does not exist");
+  if (!std::is_sorted(grips_.begin(), grips_.end(), IsBefore))
+    throw std::runtime_error("saved state of a kinematic world: its grips are not in order");
   grips_.reserve(count_);
   RebuildGroups();
 }

@@ -1,6 +1,7 @@
 // Commands and sensors of the kinematic engine.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "common/math/elementary.h"
@@ -93,6 +94,7 @@ void Kinematics2dEngine::TurnTurrets(const ChannelBlock& block, std::span<const 
 
 void Kinematics2dEngine::UseGrippers(const ChannelBlock& block, std::span<const double> values)
 {
+  near_preys_.Forget();
   for (std::size_t k = 0; k < block.entities.size(); ++k)
   {
     CheckCommand(values[k], block.entities[k], block);
@@ -112,8 +114,15 @@ void Kinematics2dEngine::GripNearest(std::uint32_t body)
   const double front_y = robot.y + kFootbotGripperReach * (robot.sin * robot.turret_cos + robot.cos * robot.turret_sin);
   double nearest = kGripRange;
   std::uint32_t found = body;
-  for (const std::uint32_t prey : preys_)
+  const auto origin = [this](std::size_t k) -> Vector3
   {
+    const std::uint32_t prey = preys_[k];
+    if (!space_->IsPresent(layout_->owned[prey])) return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+    return {world_.Poses().x[prey], world_.Poses().y[prey], 0};
+  };
+  for (const std::uint32_t k : near_preys_.Near(space_->GetExperiment(), {front_x, front_y, 0}, nearest, origin))
+  {
+    const std::uint32_t prey = preys_[k];
     const double dx = world_.Poses().x[prey] - front_x;
     const double dy = world_.Poses().y[prey] - front_y;
     const double gap = std::sqrt(dx * dx + dy * dy) - world_.ModelOf(prey).bounding_radius;

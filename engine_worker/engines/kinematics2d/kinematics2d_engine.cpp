@@ -118,7 +118,11 @@ void Kinematics2dEngine::Start()
       throw ConfigurationError(entity->GetConfiguration().location,
                                "the plane of engine '" + configuration_->id + "' does not cut the block '" +
                                    entity->GetId() + "'; move the block or the plane, or list it in another engine");
-    if (entity->GetKind() == EntityKind::kCylindricPrey) preys_.push_back(body);
+    if (entity->GetKind() == EntityKind::kCylindricPrey)
+    {
+      preys_.push_back(body);
+      near_preys_.Add(world_.ModelOf(body).bounding_radius);
+    }
     if (entity->GetKind() == EntityKind::kFootbot)
     {
       const Reported shown{entity->GetAttribute("gripper_aperture"), entity->GetAttribute("gripped"),

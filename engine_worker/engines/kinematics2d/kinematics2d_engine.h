@@ -6,6 +6,7 @@
 
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
 #include "engine_worker/engines/kinematics2d/plane_writer.h"
+#include "engine_worker/engines/near_objects.h"
 #include "engine_worker/engines/plane_frame.h"
 #include "engine_worker/engines/plane_robots.h"
 #include "engine_worker/physics_engine.h"
@@ -95,6 +96,7 @@ private:
   std::vector<Mirror> mirrors_;
   std::vector<const CSwarmanoidSpaceEntity*> fixed_;
   std::vector<std::uint32_t> preys_;  // bodies
+  NearObjects near_preys_;            // by place in preys_
   std::vector<Footbot> footbots_;     // owned, by body
 };
 

@@ -270,7 +270,7 @@ TEST(MistakesTogether, AMissingMapIsNamedWhereTheRunWillBe)
   LoadOptions options;
   const LoadedExperiment here = LoadExperimentText(text, "test.xml", "/nowhere", options);
   ASSERT_EQ(here.errors.size(), 1U);
-  EXPECT_EQ(here.errors[0].Text(), "test.xml:1:77: there is no file '/nowhere/maps/none.bt'");
+  EXPECT_EQ(here.errors[0].Text(), "test.xml:1:77: '/nowhere/maps/none.bt': there is no such file");
   options.check_files = false;
   EXPECT_TRUE(LoadExperimentText(text, "test.xml", "/nowhere", options).errors.empty());
 }

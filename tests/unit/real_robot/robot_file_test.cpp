@@ -120,7 +120,7 @@ TEST_F(RobotFile, NamesThePlaceOfEachMistake)
             "r.xml:1:1: a robot file names the experiment whose controller is to run: <experiment "
             "file=\"experiment.xml\" controller=\"its id\"/>");
   EXPECT_THAT(Mistake(Write("r.xml", "<ahss-robot><experiment file=\"none.xml\"/></ahss-robot>")),
-              HasSubstr("there is no file '"));
+              HasSubstr("there is no such file"));
   EXPECT_EQ(
       Mistake(Write("r.xml", "<ahss-robot><driver/></ahss-robot>")),
       "r.xml:1:13: <driver> cannot stand in <ahss-robot>; allowed are: experiment, drivers; did you mean 'drivers'?");

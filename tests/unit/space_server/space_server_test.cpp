@@ -130,6 +130,7 @@ Experiment Limited(BeyondLimit policy)
 void AdvanceTo(SpaceServer& server, double a, double c)
 {
   const EngineUpdate update = UpdateOf(0, server.Space().GetTick() + 1, {a, c});
+  server.Check(update);
   const std::array<const EngineUpdate*, 1> updates{&update};
   server.Advance(updates, {});
 }
@@ -149,7 +150,7 @@ TEST(SpaceServer, WhoIsTakenBeyondTheLimitStopsTheRunByName)
   {
     EXPECT_STREQ(
         error.what(),
-        "engine '' at tick 2: the footbot 'c' left the world: it is at -50.5, 0, 0, more than 50 m outside the "
+        "engine '' at tick 1: the footbot 'c' left the world: it is at -50.5, 0, 0, more than 50 m outside the "
         "arena, which reaches from 0, 0, 0 to 10, 10, 1; give <arena> a larger limit, or a beyond_limit of hold "
         "or remove");
   }
@@ -203,13 +204,9 @@ TEST(SpaceServer, WhatCannotBePartOfTheStateChangesNothing)
   EXPECT_THROW(server.SetAttribute(server.Space().PresenceSlot(0), 0), std::invalid_argument);
   ControlCommands commands;
   commands.attributes.Add(0x7ffffff0, 1);
-  const std::array<const ControlCommands*, 1> from_hosts{&commands};
-  EXPECT_THROW(server.Advance({}, from_hosts), std::runtime_error);
-  EngineUpdate update = UpdateOf(0, 1, {1});
-  const std::array<const EngineUpdate*, 1> from_engines{&update};
-  EXPECT_THROW(server.Advance(from_engines, {}), std::runtime_error);
-  update = UpdateOf(77, 1, {1});
-  EXPECT_THROW(server.Advance(from_engines, {}), std::runtime_error);
+  EXPECT_THROW(server.Check(commands), std::runtime_error);
+  EXPECT_THROW(server.Check(UpdateOf(0, 1, {1})), std::runtime_error);
+  EXPECT_THROW(server.Check(UpdateOf(77, 1, {1})), std::runtime_error);
   EXPECT_EQ(server.Space().Hash(), before);
   EXPECT_TRUE(server.State().moved.empty());
 }
