@@ -111,11 +111,12 @@ void EngineWorker::KeepAbsent()
   const PoseArrays& poses = space_.Poses();
   const std::array components{&poses.x, &poses.y, &poses.z, &poses.qx, &poses.qy, &poses.qz, &poses.qw};
   const std::size_t count = layout_.owned.size();
+  std::size_t k = 0;  // both ascend
   for (const std::uint32_t entity : space_.Absent())
   {
-    const auto place = std::lower_bound(layout_.owned.begin(), layout_.owned.end(), entity);
-    if (place == layout_.owned.end() || *place != entity) continue;
-    const auto k = static_cast<std::size_t>(place - layout_.owned.begin());
+    while (k < count && layout_.owned[k] < entity) ++k;
+    if (k == count) return;
+    if (layout_.owned[k] != entity) continue;
     for (std::size_t c = 0; c < components.size(); ++c) update_.poses[c * count + k] = (*components[c])[entity];
   }
 }
