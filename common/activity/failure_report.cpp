@@ -30,6 +30,13 @@ namespace swarmanoid
 namespace
 {
 
+// Sanitizers report crashes themselves, with the place.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kReportCrashes = false;
+#else
+constexpr bool kReportCrashes = true;
+#endif
+
 char process_name[128] = "swarmanoid";
 std::atomic<pid_t> dying = 0;  // the thread that reports the death of the process
 
@@ -175,9 +182,9 @@ void ReportDeaths(const std::string& process)
     EnsureSignalStack();
     WatchExit();
     std::set_terminate(OnTerminate);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
     {
+      if (!kReportCrashes) break;
       struct sigaction action
       {
       };
@@ -186,7 +193,6 @@ void ReportDeaths(const std::string& process)
       action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
       sigaction(signal, &action, nullptr);
     }
-#endif
     return true;
   }();
   static_cast<void>(once);
