@@ -15,7 +15,7 @@ void HeardSenders::Reserve(std::size_t more)
   const std::size_t size = 2 * (count + more) + kLanes;
   place_.resize(size);
   std::vector<double> values(size * kArrays);
-  for (std::size_t array = 0; array < kArrays; ++array) std::copy_n(&values_[array * old], old, &values[array * size]);
+  for (std::size_t array = 0; array < kArrays; ++array) std::copy_n(values_.data() + array * old, old, values.data() + array * size);
   values_ = std::move(values);
   double* const start = values_.data();
   lanes_ = {place_.data(),    start,
