@@ -51,7 +51,7 @@ class New(LauncherTest):
 
     def test_the_terrain_of_the_sample_is_made_by_the_command_that_it_names(self):
         sample = (CONFIGS / "rough_holes.xml").read_text()
-        command = re.search(r"swarmanoid new terrain (.*) -->", sample).group(1)
+        command = re.search(r"<\?command swarmanoid new terrain (.*)\?>", sample).group(1)
         made = self.run_it("new", "terrain", *command.split())
         self.assertEqual(made.process.returncode, 0, made.stderr)
         self.assertEqual((self.folder / "terrain" / "rough_holes.bt").read_bytes(),
