@@ -51,6 +51,7 @@ Node WithSettings(Node root, const LoadOptions& options, Diagnostics& diagnostic
   {
     try
     {
+      CheckSettingValue(path, value);
       root = WithSetting(root, path, value);
     }
     catch (const ConfigurationError& error)
