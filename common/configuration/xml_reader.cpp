@@ -122,8 +122,11 @@ private:
     Fail(mistake.offset, mistake.message);
   }
 
-  void Declaration(std::size_t offset, const XML_Char* /*version*/, const XML_Char* encoding, int /*standalone*/)
+  void Declaration(std::size_t offset, const XML_Char* version, const XML_Char* encoding, int /*standalone*/)
   {
+    const std::string_view number(version);
+    if (!number.starts_with("1.") || number.size() == 2 || number.find_first_not_of("0123456789", 2) != number.npos)
+      Refuse(XML_ERROR_XML_DECL);
     const bool is_ascii = std::none_of(text_.begin(), text_.end(), [](char c) { return (c & 0x80) != 0; });
     if (encoding == nullptr || strcasecmp(encoding, "UTF-8") == 0 || is_ascii) return;
     Fail(offset, fmt::format("the encoding {} is not read; save the file as UTF-8, and write encoding=\"UTF-8\"",

@@ -123,6 +123,8 @@ TEST(XmlReader, RefusesWhatOtherParsersRefuse)
   EXPECT_EQ(ErrorOf("<![CDATA[x]]><a/>"), "f.xml:1:1: there is text outside the root element");
   EXPECT_EQ(ErrorOf("\n<?xml version='1.0'?><a/>"),
             "f.xml:2:1: an XML declaration (<?xml …?>) must be the first of the file; remove what is before it");
+  EXPECT_EQ(ErrorOf("<?xml version='2.0'?><a/>"),
+            "f.xml:1:1: an XML declaration must read <?xml version=\"1.0\" encoding=\"UTF-8\"?>");
   EXPECT_EQ(ErrorOf("<?xml?><a/>"),
             "f.xml:1:1: an XML declaration must read <?xml version=\"1.0\" encoding=\"UTF-8\"?>");
 }
