@@ -12,6 +12,7 @@
 
 #include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
+#include "common/program/csv.h"
 #include "space_server/space_changes.h"
 
 namespace swarmanoid
@@ -21,17 +22,6 @@ namespace
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30U;
 constexpr const char* kHeader = "tick,request,entity,numbers,from";
-
-std::vector<std::string> Fields(const std::string& line)
-{
-  std::vector<std::string> fields(1);
-  for (const char c : line)
-    if (c == ',')
-      fields.emplace_back();
-    else if (c != '\r')
-      fields.back() += c;
-  return fields;
-}
 
 // What can be known to be wrong before the run; the place itself is checked when it is moved there.
 std::string ErrorOf(const ControlRequestMessage& request, const Experiment& experiment)
@@ -75,7 +65,8 @@ std::vector<RecordedEvent> ParseEvents(const std::string& text, const std::strin
   {
     RecordedEvent event;
     event.location = {name, number, 0};
-    const std::vector<std::string> fields = Fields(line);
+    if (line.ends_with('\r')) line.pop_back();
+    const std::vector<std::string> fields = CsvFields(line);
     if (line.empty() || (number == 1 && line.starts_with("tick,"))) continue;
     if (fields.size() < 4)
       throw ConfigurationError(event.location, fmt::format("{} is no event; a line is {}", Quoted(line), kHeader));
@@ -119,7 +110,7 @@ void EventLog::Write(std::uint64_t tick, const ControlRequestMessage& request)
   {
     // The shortest numbers that read back as the same bits.
     fmt::print(file_, "{},{},{},{},{}\n", tick, request.verb, request.entity, fmt::join(request.numbers, " "),
-               request.client);
+               CsvField(request.client));
     good = std::fflush(file_) == 0;
   }
   if (!good) throw std::runtime_error(fmt::format("cannot write the events to '{}': {}", path_, std::strerror(errno)));

@@ -1,12 +1,18 @@
 #include "common/configuration/xml_reader.h"
 
+#include <expat.h>
 #include <fmt/format.h>
+#include <strings.h>
 
-#include <pugixml.hpp>
+#include <algorithm>
+#include <climits>
+#include <exception>
+#include <new>
+#include <vector>
 
 #include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
-#include "common/configuration/xml_scan.h"
+#include "common/configuration/xml_mistake.h"
 
 namespace swarmanoid
 {
@@ -15,144 +21,185 @@ namespace
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
-// The offset of the first byte that is not well-formed UTF-8 or a control character that XML forbids.
-std::optional<std::size_t> FirstBadByte(std::string_view text)
-{
-  for (std::size_t i = 0; i < text.size();)
-  {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    if (byte < 0x20U && byte != '\t' && byte != '\n' && byte != '\r') return i;
-    const std::size_t length = byte < 0x80U                    ? 1
-                               : byte >= 0xc2U && byte < 0xe0U ? 2
-                               : byte >= 0xe0U && byte < 0xf0U ? 3
-                               : byte >= 0xf0U && byte < 0xf5U ? 4
-                                                               : 0;
-    if (length == 0 || i + length > text.size()) return i;
-    for (std::size_t k = 1; k < length; ++k)
-    {
-      if ((static_cast<unsigned char>(text[i + k]) & 0xc0U) != 0x80U) return i;
-    }
-    i += length;
-  }
-  return std::nullopt;
-}
-
-// Builds our nodes from the parser's; the depth was limited by the scan.
-class TreeBuilder
+// Line and column (from 1, in characters) of byte offsets. Quick where they ascend.
+class PlaceCounter
 {
 public:
-  TreeBuilder(std::string_view text, const LineTable& lines, std::shared_ptr<const std::string> file)
-      : text_(text), lines_(lines), file_(std::move(file))
+  PlaceCounter(std::string_view text, std::shared_ptr<const std::string> file)
+      : text_(text), place_{std::move(file), 1, 1}
   {
   }
 
-  std::shared_ptr<const ConfigurationNode> Build(const pugi::xml_node& source) const
+  SourceLocation At(std::size_t offset)
   {
-    auto node = std::make_shared<ConfigurationNode>();
-    node->name = source.name();
-    const auto name_offset = static_cast<std::size_t>(source.offset_debug());
-    node->location = At(name_offset - 1);
-
-    if (source.first_attribute())
+    if (offset < offset_)
     {
-      const std::vector<std::size_t> offsets = AttributeOffsets(text_, name_offset);
-      std::size_t i = 0;
-      for (const pugi::xml_attribute& attribute : source.attributes())
+      offset_ = 0;
+      place_.line = place_.column = 1;
+    }
+    for (; offset_ < std::min(offset, text_.size()); ++offset_)
+    {
+      const bool continues = (static_cast<unsigned char>(text_[offset_]) & 0xC0U) == 0x80U;
+      if (text_[offset_] == '\n')
       {
-        node->attributes.push_back(
-            {attribute.name(), attribute.value(), At(i < offsets.size() ? offsets[i] : name_offset)});
-        ++i;
+        ++place_.line;
+        place_.column = 1;
+      }
+      else if (!continues)
+      {
+        ++place_.column;
       }
     }
-    std::string characters;
-    for (const pugi::xml_node& child : source.children())
-    {
-      if (child.type() == pugi::node_element)
-      {
-        node->children.push_back(Build(child));
-      }
-      else
-      {
-        characters += child.value();
-      }
-    }
-    node->text = TrimBlanks(characters);
-    return node;
+    return place_;
   }
 
 private:
-  SourceLocation At(std::size_t offset) const { return {file_, lines_.Line(offset), lines_.Column(offset)}; }
-
   std::string_view text_;
-  const LineTable& lines_;
-  std::shared_ptr<const std::string> file_;
+  std::size_t offset_ = 0;
+  SourceLocation place_;
 };
 
-void AppendEscaped(std::string& xml, std::string_view text)
+// Builds the tree from what expat reports.
+class TreeReader
 {
-  for (const char c : text)
+public:
+  TreeReader(std::string_view text, const std::shared_ptr<const std::string>& file, const XmlLimits& limits)
+      : text_(text), places_(text, file), limits_(limits), parser_(XML_ParserCreate("UTF-8"), XML_ParserFree)
   {
-    switch (c)
+    if (!parser_) throw std::bad_alloc();
+    XML_SetUserData(parser_.get(), this);
+    XML_SetXmlDeclHandler(parser_.get(), Handler<&TreeReader::Declaration, const XML_Char*, const XML_Char*, int>);
+    XML_SetElementHandler(parser_.get(), Handler<&TreeReader::Start, const XML_Char*, const XML_Char**>,
+                          Handler<&TreeReader::End, const XML_Char*>);
+    XML_SetCharacterDataHandler(parser_.get(), Handler<&TreeReader::Characters, const XML_Char*, int>);
+    XML_SetDefaultHandler(parser_.get(), Handler<&TreeReader::Other, const XML_Char*, int>);
+  }
+
+  std::shared_ptr<const ConfigurationNode> Read()
+  {
+    // expat would read the text as UTF-16, whatever it is told.
+    constexpr std::string_view kUtf16("\0\xfe\xff", 3);
+    const std::size_t wide = text_.substr(0, 2).find_first_of(kUtf16);
+    if (wide != std::string_view::npos) Fail(wide, "a byte that is not UTF-8 text; save the file as UTF-8");
+
+    const XML_Status status = XML_Parse(parser_.get(), text_.data(), static_cast<int>(text_.size()), 1);
+    if (failure_) std::rethrow_exception(failure_);
+    if (status != XML_STATUS_OK) Refuse(XML_GetErrorCode(parser_.get()));
+    return root_;
+  }
+
+private:
+  // expat is C: no exception may pass through it. After the first one it goes on to the end of a tag.
+  template <auto Method, class... Arguments>
+  static void Handler(void* user, Arguments... arguments)
+  {
+    auto* const self = static_cast<TreeReader*>(user);
+    if (self->failure_) return;
+    try
     {
-      case '<':
-        xml += "&lt;";
-        break;
-      case '>':
-        xml += "&gt;";
-        break;
-      case '&':
-        xml += "&amp;";
-        break;
-      case '"':
-        xml += "&quot;";
-        break;
-      case '\r':
-        xml += "&#13;";
-        break;
-      default:
-        xml += c;
+      const auto offset = static_cast<std::size_t>(XML_GetCurrentByteIndex(self->parser_.get()));
+      (self->*Method)(offset, arguments...);
+      self->markup_ = offset + static_cast<std::size_t>(XML_GetCurrentByteCount(self->parser_.get()));
+    }
+    catch (...)
+    {
+      self->failure_ = std::current_exception();
+      XML_StopParser(self->parser_.get(), XML_FALSE);
     }
   }
-}
 
-// A parser turns line ends and tabs within attributes into blanks unless they are written as references.
-void AppendAttribute(std::string& xml, const ConfigurationNode::Attribute& attribute)
-{
-  xml += " " + attribute.name + "=\"";
-  for (const char c : attribute.value)
+  [[noreturn]] void Fail(std::size_t offset, const std::string& message)
   {
-    if (c == '\n' || c == '\t')
+    throw ConfigurationError(places_.At(offset), message);
+  }
+
+  [[noreturn]] void Refuse(XML_Error error)
+  {
+    if (error == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
+    const auto offset = static_cast<std::size_t>(std::max<XML_Index>(XML_GetCurrentByteIndex(parser_.get()), 0));
+    const auto line = [this](std::size_t at) { return places_.At(at).line; };
+    const XmlMistake mistake = ExplainRefusal(text_, {error, offset, markup_, section_, tags_, line});
+    Fail(mistake.offset, mistake.message);
+  }
+
+  void Declaration(std::size_t offset, const XML_Char* version, const XML_Char* encoding, int /*standalone*/)
+  {
+    const std::string_view number(version);
+    if (!number.starts_with("1.") || number.size() == 2 || number.find_first_not_of("0123456789", 2) != number.npos)
+      Refuse(XML_ERROR_XML_DECL);
+    const bool is_ascii = std::none_of(text_.begin(), text_.end(), [](char c) { return (c & 0x80) != 0; });
+    if (encoding == nullptr || strcasecmp(encoding, "UTF-8") == 0 || is_ascii) return;
+    Fail(offset, fmt::format("the encoding {} is not read; save the file as UTF-8, and write encoding=\"UTF-8\"",
+                             Quoted(encoding)));
+  }
+
+  void Start(std::size_t offset, const XML_Char* name, const XML_Char** attributes)
+  {
+    if (static_cast<int>(open_.size()) >= limits_.depth)
+      Fail(offset, fmt::format("elements are nested deeper than {} levels", limits_.depth));
+    if (++elements_ > limits_.elements)
+      Fail(offset, fmt::format("more than {} elements; use <distribute> for many entities", limits_.elements));
+    auto node = std::make_shared<ConfigurationNode>();
+    node->name = name;
+    node->location = places_.At(offset);
+    if (*attributes != nullptr) AddAttributes(*node, offset, attributes);
+    tags_.push_back(offset);
+    open_.push_back(std::move(node));
+  }
+
+  void AddAttributes(ConfigurationNode& node, std::size_t tag, const XML_Char** attributes)
+  {
+    for (const std::size_t offset : AttributeOffsets(text_, tag))
     {
-      xml += fmt::format("&#{};", static_cast<int>(c));
+      if (++attributes_ > limits_.attributes || static_cast<int>(node.attributes.size()) >= limits_.attributes_of_one)
+      {
+        Fail(offset, fmt::format("too many attributes: at most {} in one element and {} in all",
+                                 limits_.attributes_of_one, limits_.attributes));
+      }
+      node.attributes.push_back({attributes[0], attributes[1], places_.At(offset)});
+      attributes += 2;
     }
+  }
+
+  void End(std::size_t /*offset*/, const XML_Char* /*name*/)
+  {
+    std::shared_ptr<ConfigurationNode> node = std::move(open_.back());
+    open_.pop_back();
+    tags_.pop_back();
+    node->text = std::string(TrimBlanks(node->text));
+    if (open_.empty())
+      root_ = std::move(node);
     else
-    {
-      AppendEscaped(xml, {&c, 1});
-    }
+      open_.back()->children.push_back(std::move(node));
   }
-  xml += '"';
-}
 
-void AppendNode(std::string& xml, const ConfigurationNode& node, int depth)
-{
-  const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
-  xml += indent + "<" + node.name;
-  for (const auto& attribute : node.attributes) AppendAttribute(xml, attribute);
-  if (node.text.empty() && node.children.empty())
+  void Characters(std::size_t /*offset*/, const XML_Char* text, int count)
   {
-    xml += "/>\n";
-    return;
+    open_.back()->text.append(text, static_cast<std::size_t>(count));
   }
-  xml += '>';
-  AppendEscaped(xml, node.text);
-  if (!node.children.empty())
+
+  // Comments, processing instructions, the borders of CDATA sections; and the first word of a document type, behind
+  // which entities could be declared.
+  void Other(std::size_t offset, const XML_Char* text, int count)
   {
-    xml += '\n';
-    for (const auto& child : node.children) AppendNode(xml, *child, depth + 1);
-    xml += indent;
+    const std::string_view markup(text, static_cast<std::size_t>(count));
+    if (markup == "<![CDATA[") section_ = offset;
+    if (markup == "<!DOCTYPE") Refuse(XML_ERROR_SYNTAX);
   }
-  xml += "</" + node.name + ">\n";
-}
+
+  std::string_view text_;
+  PlaceCounter places_;
+  const XmlLimits& limits_;
+  std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser_;
+  std::vector<std::size_t> tags_;  // of the open elements
+  std::vector<std::shared_ptr<ConfigurationNode>> open_;
+  std::shared_ptr<const ConfigurationNode> root_;
+  std::size_t markup_ = 0;   // where the markup or text begins that is not reported yet
+  std::size_t section_ = 0;  // where the last CDATA section begins
+  std::size_t elements_ = 0;
+  std::size_t attributes_ = 0;
+  std::exception_ptr failure_;
+};
 
 }  // namespace
 
@@ -160,30 +207,14 @@ std::shared_ptr<const ConfigurationNode> ReadXml(std::string_view text, const st
                                                  const XmlLimits& limits)
 {
   const auto file = std::make_shared<const std::string>(file_name);
-  if (text.size() > limits.bytes)
+  const std::size_t most_bytes = std::min<std::size_t>(limits.bytes, INT_MAX);
+  if (text.size() > most_bytes)
   {
     throw ConfigurationError({file, 0, 0},
-                             fmt::format("the file has {} bytes; at most {} are read", text.size(), limits.bytes));
+                             fmt::format("the file has {} bytes; at most {} are read", text.size(), most_bytes));
   }
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-  const LineTable lines(text);
-  const auto fail = [&](std::size_t offset, const std::string& message) -> ConfigurationError {
-    return {{file, lines.Line(offset), lines.Column(offset)}, message};
-  };
-
-  if (const auto bad = FirstBadByte(text)) throw fail(*bad, "a byte that is not UTF-8 text; save the file as UTF-8");
-  if (const auto mistake = ScanXml(text, lines, limits)) throw fail(mistake->offset, mistake->message);
-
-  pugi::xml_document document;
-  const pugi::xml_parse_result result =
-      document.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
-  if (!result)
-  {
-    throw fail(std::min(static_cast<std::size_t>(result.offset), text.size()),
-               fmt::format("not well-formed XML: {}", result.description()));
-  }
-  if (!document.document_element()) throw fail(0, "the file holds no element");
-  return TreeBuilder(text, lines, file).Build(document.document_element());
+  return TreeReader(text, file, limits).Read();
 }
 
 std::string ReadTextFile(const std::string& path, std::size_t most_bytes)
@@ -197,13 +228,6 @@ std::string ReadTextFile(const std::string& path, std::size_t most_bytes)
     throw ConfigurationError({std::make_shared<const std::string>(path), 0, 0},
                              std::string("the file cannot be read: ") + error.what());
   }
-}
-
-std::string WriteXml(const ConfigurationNode& root)
-{
-  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-  AppendNode(xml, root, 0);
-  return xml;
 }
 
 }  // namespace swarmanoid

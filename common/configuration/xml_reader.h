@@ -1,10 +1,9 @@
-// Reading XML text into a configuration tree whose elements and attributes know their line and column. Made for files
-// from anywhere: it refuses document types and entities of their own, and more than the limits allow, before it builds
-// anything.
+// Reading XML text (UTF-8) into a configuration tree whose elements and attributes know their line and column, with the
+// parser expat. Made for files from anywhere: it refuses document types and entities of their own, and stops where the
+// limits are passed.
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -28,8 +27,5 @@ std::shared_ptr<const ConfigurationNode> ReadXml(std::string_view text, const st
 
 // The whole file; throws ConfigurationError where it cannot be read or is larger than the limit.
 std::string ReadTextFile(const std::string& path, std::size_t most_bytes = XmlLimits{}.bytes);
-
-// XML text of a tree, indented by two blanks. Reading it gives the same tree.
-std::string WriteXml(const ConfigurationNode& root);
 
 }  // namespace swarmanoid

@@ -6,6 +6,7 @@
 
 #include "common/configuration/wording.h"
 #include "common/configuration/xml_reader.h"
+#include "common/configuration/xml_writer.h"
 #include "common/experiment/element_reader.h"
 #include "common/experiment/places.h"
 #include "common/experiment/sections.h"
@@ -50,6 +51,7 @@ Node WithSettings(Node root, const LoadOptions& options, Diagnostics& diagnostic
   {
     try
     {
+      CheckSettingValue(path, value);
       root = WithSetting(root, path, value);
     }
     catch (const ConfigurationError& error)

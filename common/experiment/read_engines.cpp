@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fnmatch.h>
 
 #include <algorithm>
 #include <map>
@@ -13,35 +14,10 @@ namespace swarmanoid
 namespace
 {
 
-// Whether a text fits a pattern in which * stands for any characters and ? for one.
-bool FitsPattern(std::string_view text, std::string_view pattern)
+// Patterns have * for any characters and ? for one; '[' would be a third sign for fnmatch, and no id has it.
+bool FitsPattern(const std::string& id, const std::string& pattern)
 {
-  std::size_t t = 0, p = 0;
-  std::size_t star = std::string_view::npos, resume = 0;
-  while (t < text.size())
-  {
-    if (p < pattern.size() && pattern[p] == '*')
-    {
-      star = p++;
-      resume = t;
-    }
-    else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t]))
-    {
-      ++p;
-      ++t;
-    }
-    else if (star != std::string_view::npos)
-    {
-      p = star + 1;
-      t = ++resume;
-    }
-    else
-    {
-      return false;
-    }
-  }
-  while (p < pattern.size() && pattern[p] == '*') ++p;
-  return p == pattern.size();
+  return pattern.find('[') == std::string::npos && fnmatch(pattern.c_str(), id.c_str(), FNM_NOESCAPE) == 0;
 }
 
 bool CanSimulate(const PluginDescription& engine, EntityKind kind)

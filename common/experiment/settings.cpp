@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "common/configuration/wording.h"
+#include "common/configuration/xml_reader.h"
+#include "common/configuration/xml_writer.h"
 #include "common/experiment/schema.h"
 
 namespace swarmanoid
@@ -26,6 +28,20 @@ std::string IdOf(const ConfigurationNode& node)
   return TConfigurationTree(Node(Node(), &node)).Value("id").value_or("");
 }
 
+// Whether a file can hold the element.
+bool CanBeWritten(const ConfigurationNode& element)
+{
+  try
+  {
+    const Node read = ReadXml(WriteXml(element), "");
+    return read->name == element.name && read->attributes.empty() && read->text == element.text;
+  }
+  catch (const ConfigurationError&)
+  {
+    return false;
+  }
+}
+
 class Setting
 {
 public:
@@ -36,6 +52,15 @@ public:
   }
 
   Node ApplyTo(const Node& root) const { return Apply(root, 0); }
+
+  void CheckValue() const
+  {
+    ConfigurationNode element;
+    element.name = "value";
+    element.text = TrimBlanks(value_);
+    if (!CanBeWritten(element))
+      Fail(fmt::format("{} holds bytes that are not UTF-8 text, or control characters", Quoted(value_)));
+  }
 
 private:
   [[noreturn]] void Fail(const std::string& message) const { throw ConfigurationError(place_, message); }
@@ -169,6 +194,7 @@ private:
     }
     auto added = std::make_shared<ConfigurationNode>();
     added->name = name;
+    if (!CanBeWritten(*added)) Fail(fmt::format("{} is no name of a parameter", Quoted(name)));
     added->text = TrimBlanks(value_);
     added->location = place_;
     node.children.push_back(std::move(added));
@@ -186,5 +212,7 @@ Node WithSetting(const Node& root, const std::string& path, const std::string& v
 {
   return Setting(path, value).ApplyTo(root);
 }
+
+void CheckSettingValue(const std::string& path, const std::string& value) { Setting(path, value).CheckValue(); }
 
 }  // namespace swarmanoid

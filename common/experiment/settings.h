@@ -16,4 +16,7 @@ namespace swarmanoid
 std::shared_ptr<const ConfigurationNode> WithSetting(const std::shared_ptr<const ConfigurationNode>& root,
                                                      const std::string& path, const std::string& value);
 
+// Throws where no file can hold the value, so that no process could read the changed experiment.
+void CheckSettingValue(const std::string& path, const std::string& value);
+
 }  // namespace swarmanoid

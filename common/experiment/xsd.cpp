@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "common/configuration/xml_writer.h"
 #include "common/experiment/reference.h"
 #include "common/experiment/schema.h"
 
@@ -13,19 +14,9 @@ namespace swarmanoid
 namespace
 {
 
-std::string Escaped(const std::string& text)
-{
-  std::string escaped;
-  for (const char c : text)
-  {
-    escaped += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
-  }
-  return escaped;
-}
-
 std::string Documentation(const std::string& text)
 {
-  return fmt::format("<xs:annotation><xs:documentation>{}</xs:documentation></xs:annotation>", Escaped(text));
+  return fmt::format("<xs:annotation><xs:documentation>{}</xs:documentation></xs:annotation>", EscapedXml(text));
 }
 
 std::string Facets(const ParameterSpec& parameter)
@@ -68,7 +59,7 @@ std::string SimpleType(const ParameterSpec& parameter)
     {
       std::string values;
       for (const std::string& choice : parameter.choices)
-        values += fmt::format("<xs:enumeration value=\"{}\"/>", Escaped(choice));
+        values += fmt::format("<xs:enumeration value=\"{}\"/>", EscapedXml(choice));
       return "<xs:simpleType><xs:restriction base=\"xs:token\">" + values + "</xs:restriction></xs:simpleType>";
     }
     case ParameterType::kVector2:

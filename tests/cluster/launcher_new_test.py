@@ -36,6 +36,25 @@ class New(LauncherTest):
         self.assert_finished(run, 600)
         self.assertTrue((self.folder / "out" / "first_try.txt").exists())
 
+    def test_what_is_written_is_xml_for_other_programs_too(self):
+        made = [("user", "mine"), ("experiment", "first_try"), ("terrain", "moor", "--holes", "1", "--seed", "7")]
+        made_inside = [("controller", "follower"), ("functions", "spreading"), ("engine", "gliding"), ("renderer", "plan"),
+                       *(("behavior-controller", f"{robot}_watch", "--robot", robot) for robot in ("footbot", "handbot", "eyebot"))]
+        for words in made:
+            self.assertEqual(self.run_it("new", *words).process.returncode, 0, words)
+        run = self.run_it("run", "first_try.xml", "--quiet", "--single-process", "--ticks", 2, "--output", "out", "--set",
+                          "visualisations.table.file=<ä> & \"b\"\n--> ]]>")
+        self.assertEqual(run.process.returncode, 0, run.stderr)
+        (self.folder / "schema.xml").write_text(self.run_it("list", "schema").stdout)
+        outside, self.folder = self.folder, self.folder / "mine"
+        for words in made_inside:
+            self.assertEqual(self.run_it("new", *words).process.returncode, 0, words)
+        self.folder = outside
+        files = sorted(str(path.relative_to(outside)) for path in outside.rglob("*.xml"))
+        self.assertEqual(len(files), 14, files)
+        checked = subprocess.run(["xmllint", "--noout", "--nonet", *files], cwd=outside, capture_output=True, text=True)
+        self.assertEqual((checked.returncode, checked.stderr), (0, ""))
+
     def test_a_terrain_is_made_without_a_word_too_many_and_runs(self):
         made = self.run_it("new", "terrain", "moor", "--size", "1.2,1", "--holes", "1", "--seed", "7")
         self.assertEqual((made.process.returncode, made.stderr), (0, ""))
@@ -51,7 +70,7 @@ class New(LauncherTest):
 
     def test_the_terrain_of_the_sample_is_made_by_the_command_that_it_names(self):
         sample = (CONFIGS / "rough_holes.xml").read_text()
-        command = re.search(r"swarmanoid new terrain (.*) -->", sample).group(1)
+        command = re.search(r"<\?command swarmanoid new terrain (.*)\?>", sample).group(1)
         made = self.run_it("new", "terrain", *command.split())
         self.assertEqual(made.process.returncode, 0, made.stderr)
         self.assertEqual((self.folder / "terrain" / "rough_holes.bt").read_bytes(),

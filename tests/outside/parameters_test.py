@@ -112,10 +112,6 @@ class Parameters(OutsideTest):
         schema = self.folder / "experiment.xsd"
         schema.write_text(self.command("swarmanoid", "list", "schema", BUILT / "controllers" / "liboutside_walker.so").stdout)
         self.assertIn('<xs:element name="outside_walker">', schema.read_text())
-        try:
-            subprocess.run(["xmllint", "--version"], capture_output=True, check=True)
-        except FileNotFoundError:
-            self.skipTest("xmllint is not installed")
         for parameters, right in [("<velocity>0.2</velocity>", True), ("<velocty>0.2</velocty>", False),
                                   ("<velocity>0.5</velocity>", False)]:
             done = self.command("/usr/bin/xmllint", "--noout", "--schema", schema, self.walker(parameters))

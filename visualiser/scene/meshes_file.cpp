@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "visualiser/scene/meshes.h"
 
 namespace swarmanoid
@@ -9,102 +11,83 @@ namespace swarmanoid
 namespace
 {
 
-using Buffer = fmt::memory_buffer;
+using Json = nlohmann::ordered_json;
 
-template <class... Arguments>
-void Append(Buffer& text, fmt::format_string<Arguments...> format, Arguments&&... arguments)
+// What a picture shows needs no more digits, and a page loads the less the sooner.
+Json Rounded(double value, int digits) { return Json::parse(fmt::format("{:.{}g}", value, digits)); }
+
+template <class Range, class Value>
+Json List(const Range& range, const Value& value)
 {
-  fmt::format_to(std::back_inserter(text), format, std::forward<Arguments>(arguments)...);
+  Json list = Json::array();
+  for (const auto& element : range) list.push_back(value(element));
+  return list;
 }
 
-// "name": [a, b ...] of what `write` appends for each element, with commas between.
-template <class Range, class Write>
-void AppendList(Buffer& text, std::string_view name, const Range& range, const Write& write)
+void AddVector(Json& list, const Eigen::Vector3f& vector)
 {
-  Append(text, "\"{}\":[", name);
-  bool first = true;
-  for (const auto& element : range)
+  for (const float number : vector) list.push_back(Rounded(number, 5));
+}
+
+Json MeshOf(const Mesh& mesh)
+{
+  Json positions = Json::array(), normals = Json::array(), materials = Json::array(), shades = Json::array();
+  for (const MeshVertex& vertex : mesh.vertices)
   {
-    if (!first) text.push_back(',');
-    first = false;
-    write(element);
+    AddVector(positions, vertex.position);
+    AddVector(normals, vertex.normal);
+    materials.push_back(static_cast<int>(vertex.material));
+    shades.push_back(Rounded(vertex.shade, 3));
   }
-  text.push_back(']');
+  return {{"positions", positions},
+          {"normals", normals},
+          {"materials", materials},
+          {"shades", shades},
+          {"indices", mesh.indices}};
 }
 
-void AppendVector(Buffer& text, const Eigen::Vector3f& vector)
+Json MaterialOf(const MaterialLook& look)
 {
-  Append(text, "{:.5g},{:.5g},{:.5g}", vector.x(), vector.y(), vector.z());
+  return {{"name", look.name},
+          {"colour", look.colour},
+          {"gloss", Rounded(look.gloss, 3)},
+          {"opacity", Rounded(look.opacity, 3)},
+          {"tint", look.takes_tint},
+          {"light", look.led}};
 }
 
-void AppendMesh(Buffer& text, const Mesh& mesh)
+Json RestingRobot(EntityKind robot)
 {
-  text.push_back('{');
-  AppendList(text, "positions", mesh.vertices, [&](const MeshVertex& v) { AppendVector(text, v.position); });
-  text.push_back(',');
-  AppendList(text, "normals", mesh.vertices, [&](const MeshVertex& v) { AppendVector(text, v.normal); });
-  text.push_back(',');
-  AppendList(text, "materials", mesh.vertices,
-             [&](const MeshVertex& v) { Append(text, "{}", static_cast<int>(v.material)); });
-  text.push_back(',');
-  AppendList(text, "shades", mesh.vertices, [&](const MeshVertex& v) { Append(text, "{:.3g}", v.shade); });
-  text.push_back(',');
-  AppendList(text, "indices", mesh.indices, [&](std::uint32_t index) { Append(text, "{}", index); });
-  text.push_back('}');
-}
-
-void AppendMaterial(Buffer& text, int number)
-{
-  const MaterialLook& look = LookOf(static_cast<Material>(number));
-  Append(text, R"({{"name":"{}","colour":{},"gloss":{:.3g},"opacity":{:.3g},"tint":{},"light":{}}})", look.name,
-         look.colour, look.gloss, look.opacity, look.takes_tint, look.led);
-}
-
-void AppendRobot(Buffer& text, EntityKind robot)
-{
-  AppendList(text, TagName(robot), RestingParts(robot),
-             [&](const RestingPart& part)
-             {
-               Append(text, R"({{"model":"{}",)", ModelOf(part.model).name);
-               const Eigen::Matrix4f matrix = part.place.matrix();
-               AppendList(text, "matrix", std::span(matrix.data(), 16),
-                          [&](float value) { Append(text, "{:.6g}", value); });
-               text.push_back('}');
-             });
+  return List(RestingParts(robot),
+              [](const RestingPart& part) -> Json
+              {
+                const Eigen::Matrix4f matrix = part.place.matrix();
+                const auto number = [](float value) { return Rounded(value, 6); };
+                return {{"model", ModelOf(part.model).name}, {"matrix", List(std::span(matrix.data(), 16), number)}};
+              });
 }
 
 }  // namespace
 
 std::string MeshesAsJson()
 {
-  Buffer text;
-  text.push_back('{');
-  std::vector<int> materials;
-  for (int m = 0; m < static_cast<int>(Material::kEnd); ++m) materials.push_back(m);
-  AppendList(text, "materials", materials, [&](int number) { AppendMaterial(text, number); });
-
-  Append(text, ",\"models\":{{");
-  bool first = true;
+  Json file;
+  file["materials"] = Json::array();
+  for (int m = 0; m < static_cast<int>(Material::kEnd); ++m)
+    file["materials"].push_back(MaterialOf(LookOf(static_cast<Material>(m))));
   for (const Model& model : StandardModels())
-  {
-    Append(text, R"({}"{}":{{"radius":{:.5g},)", first ? "" : ",", model.name, model.radius);
-    first = false;
-    AppendList(text, "levels", model.levels, [&](const Mesh& mesh) { AppendMesh(text, mesh); });
-    text.push_back('}');
-  }
-
-  Append(text, "}},\"robots\":{{");
-  AppendRobot(text, EntityKind::kFootbot);
-  text.push_back(',');
-  AppendRobot(text, EntityKind::kEyebot);
-  text.push_back(',');
-  AppendRobot(text, EntityKind::kHandbot);
-  Append(
-      text,
-      R"(}},"palette":{{"sky":{},"floor":{},"floor_line":{},"outside":{},"wall":{},"hole":{},"selection":{},"label":{}}}}})",
-      palette::kSky, palette::kFloor, palette::kFloorLine, palette::kOutside, palette::kWall, palette::kHole,
-      palette::kSelection, palette::kLabel);
-  return fmt::to_string(text);
+    file["models"][model.name] = {{"radius", Rounded(model.radius, 5)}, {"levels", List(model.levels, MeshOf)}};
+  for (const EntityKind robot : {EntityKind::kFootbot, EntityKind::kEyebot, EntityKind::kHandbot})
+    file["robots"][std::string(TagName(robot))] = RestingRobot(robot);
+  file["palette"] = {{"sky", palette::kSky},
+                     {"floor", palette::kFloor},
+                     {"floor_line", palette::kFloorLine},
+                     {"outside", palette::kOutside},
+                     {"wall", palette::kWall},
+                     {"hole", palette::kHole},
+                     {"selection", palette::kSelection},
+                     {"label", palette::kLabel}};
+  return file.dump();
 }
 
 }  // namespace swarmanoid

@@ -1,20 +1,26 @@
 #include "visualiser/text/text_render.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "common/math/elementary.h"
+#include "common/program/csv.h"
 #include "visualiser/status_line.h"
 
 namespace swarmanoid
 {
 namespace
 {
+
+using Json = nlohmann::ordered_json;
 
 // Ascending: the last kind of the enumeration.
 constexpr auto kKinds = static_cast<std::size_t>(EntityKind::kTerrain) + 1;
@@ -32,6 +38,20 @@ std::vector<std::string> SplitList(const std::string& text)
   }
   return items;
 }
+
+std::string TextOf(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+// JSON has no number for what is infinite or none.
+Json NumberOf(const std::string& text)
+{
+  Json number = Json::parse(text, nullptr, false);
+  return number.is_discarded() ? Json(nullptr) : number;
+}
+
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
+// Needs no escape in JSON: nearly all texts, in tables of thousands of lines.
+bool IsPlain(char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; }
 
 }  // namespace
 
@@ -181,7 +201,7 @@ bool CTextRender::IsShown(const CSwarmanoidSpaceEntity& entity) const
 
 void CTextRender::AppendNumber(double value, std::string& line) const
 {
-  char text[64];
+  char text[400];  // the largest number has 309 digits
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, precision_).ptr;
   std::string_view number(text, static_cast<std::size_t>(end - text));
   if (number.find('.') != std::string_view::npos)
@@ -249,29 +269,31 @@ void CTextRender::AppendStatus()
     buffer_ += "# " + StatusLine(status) + "\n";
     return;
   }
-  buffer_ += "{\"tick\":" + std::to_string(status.tick) + ",\"phase\":\"" + std::string(PhaseName(status.phase)) +
-             "\",\"real_time_factor\":";
-  AppendNumber(status.real_time_factor, buffer_);
-  buffer_ += ",\"late\":[";
-  bool first = true;
+  std::string factor;
+  AppendNumber(status.real_time_factor, factor);
+  Json late = Json::array();
   for (const ProcessStatus& process : status.processes)
-  {
-    if (process.late_s <= 0) continue;
-    buffer_ += (first ? "\"" : ",\"") + process.name + '"';
-    first = false;
-  }
-  buffer_ += "]}\n";
+    if (process.late_s > 0) late.push_back(process.name);
+  const Json line{{"tick", status.tick},
+                  {"phase", PhaseName(status.phase)},
+                  {"real_time_factor", NumberOf(factor)},
+                  {"late", late}};
+  buffer_ += TextOf(line) + '\n';
 }
 
 void CTextRender::AppendHeader()
 {
-  if (format_ == Format::kJson) return;
+  if (format_ == Format::kJson)
+  {
+    for (const Column& column : columns_) keys_.push_back(TextOf(column.title));
+    return;
+  }
   const char separator = format_ == Format::kCsv ? ',' : '\t';
   if (format_ == Format::kTable) buffer_ += "# ";
   for (std::size_t c = 0; c < columns_.size(); ++c)
   {
     if (c > 0) buffer_ += separator;
-    buffer_ += columns_[c].title;
+    buffer_ += format_ == Format::kCsv ? CsvField(columns_[c].title) : columns_[c].title;
   }
   buffer_ += '\n';
 }
@@ -284,12 +306,34 @@ void CTextRender::AppendLine(const CSwarmanoidSpaceEntity& entity)
   for (std::size_t c = 0; c < columns_.size(); ++c)
   {
     if (c > 0) buffer_ += separator;
-    if (json) buffer_ += '"' + columns_[c].title + "\":";
-    if (json && !columns_[c].is_number) buffer_ += '"';
-    columns_[c].append(entity, buffer_);
-    if (json && !columns_[c].is_number) buffer_ += '"';
+    if (json) buffer_ += keys_[c] + ':';
+    cell_.clear();
+    columns_[c].append(entity, cell_);
+    AppendCell(columns_[c].is_number);
   }
   buffer_ += json ? "}\n" : "\n";
+}
+
+void CTextRender::AppendCell(bool is_number)
+{
+  switch (format_)
+  {
+    case Format::kTable:
+      std::replace_if(
+          cell_.begin(), cell_.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+      buffer_ += cell_;
+      return;
+    case Format::kCsv:
+      buffer_ += CsvField(cell_);
+      return;
+    case Format::kJson:
+      if (is_number)
+        buffer_ += IsDigit(cell_.empty() ? '?' : cell_.back()) ? cell_ : TextOf(NumberOf(cell_));
+      else if (std::all_of(cell_.begin(), cell_.end(), IsPlain))
+        buffer_ += '"' + cell_ + '"';
+      else
+        buffer_ += TextOf(cell_);
+  }
 }
 
 void CTextRender::Write()

@@ -30,7 +30,7 @@ protected:
   struct Column
   {
     std::string title;
-    bool is_number = true;  // false: quoted in JSON
+    bool is_number = true;  // false: a text in JSON
     std::function<void(const CSwarmanoidSpaceEntity& entity, std::string& line)> append;
     bool by_default = true;  // false: written only where the parameter `columns` names it
   };
@@ -59,6 +59,7 @@ private:
   void AppendHeader();
   void AppendStatus();
   void AppendLine(const CSwarmanoidSpaceEntity& entity);
+  void AppendCell(bool is_number);
   void Write();
 
   const CSwarmanoidSpace* space_ = nullptr;
@@ -71,6 +72,8 @@ private:
   std::string path_;  // empty: the screen
   std::FILE* file_ = nullptr;
   std::string buffer_;
+  std::string cell_;
+  std::vector<std::string> keys_;  // the titles of the columns as JSON has them
   int precision_ = 3;
   std::uint64_t every_ = 1;
   std::optional<std::uint64_t> period_;  // of `every_` ticks, in which the latest tick was

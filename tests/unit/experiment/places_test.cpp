@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/configuration/xml_reader.h"
+#include "common/configuration/xml_writer.h"
 #include "tests/unit/experiment/fake_plugins.h"
 
 namespace swarmanoid

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "common/configuration/xml_reader.h"
+#include "common/configuration/xml_writer.h"
 #include "common/experiment/reference.h"
 #include "test_folders.h"
 #include "tests/unit/experiment/fake_plugins.h"

@@ -1,4 +1,5 @@
 // --set PATH=VALUE.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/unit/experiment/fake_plugins.h"
@@ -52,6 +53,24 @@ TEST(Settings, StandInTheEffectiveText)
   const LoadedExperiment again = LoadText(experiment->effective_xml);
   ASSERT_TRUE(again.experiment);
   EXPECT_EQ(again.experiment->max_clock, 7U);
+}
+
+TEST(Settings, RefuseWhatNoFileCanHold)
+{
+  for (const std::string value : {"a\1b", "a\xff", "\xc0\xaf"})
+  {
+    EXPECT_THAT(
+        ErrorsOf(kChapter4, With("visualisations.text_world.file", value)),
+        testing::MatchesRegex("--set visualisations.text_world.file: '.*' holds bytes that are not UTF-8 text, or "
+                              "control characters\n"));
+  }
+  EXPECT_EQ(Changed("visualisations.text_world.file", " <ä>\t&\n\"b\" ")->visualisations.at(0).tree.GetText("file"),
+            "<ä>\t&\n\"b\"");
+  for (const std::string name : {"a b", "1", "a/><b", "a b='1'", "a="})
+  {
+    EXPECT_EQ(ErrorsOf(kChapter4, With("controllers.fc.parameters." + name, "1")),
+              "--set controllers.fc.parameters." + name + ": '" + name + "' is no name of a parameter\n");
+  }
 }
 
 TEST(Settings, MistakesNameThePath)

@@ -1,0 +1,38 @@
+// What to tell the user about XML text that the parser refuses: the parser says where it stopped, not what is meant.
+// Used by ReadXml alone.
+#pragma once
+
+#include <expat.h>
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace swarmanoid
+{
+
+struct XmlMistake
+{
+  std::size_t offset = 0;
+  std::string message;
+};
+
+// Where and why the parser stopped; all offsets are in bytes of the text.
+struct XmlRefusal
+{
+  XML_Error error;
+  std::size_t offset;                    // of the byte that the parser refuses
+  std::size_t markup;                    // of the markup or text that this byte belongs to
+  std::size_t section;                   // of the last CDATA section
+  std::span<const std::size_t> open;     // of the start tags of the open elements
+  std::function<int(std::size_t)> line;  // of an offset
+};
+
+XmlMistake ExplainRefusal(std::string_view text, const XmlRefusal& refusal);
+
+// The offset of each attribute of the start tag at `tag`, which the parser has taken.
+std::vector<std::size_t> AttributeOffsets(std::string_view text, std::size_t tag);
+
+}  // namespace swarmanoid

@@ -1,0 +1,17 @@
+// Lines of comma-separated values, as RFC 4180 has them, for all that writes or reads them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace swarmanoid
+{
+
+// A text as one field: in quotes where it holds a comma, a quote or a line end.
+std::string CsvField(std::string_view text);
+
+// The fields of one line, without their quotes.
+std::vector<std::string> CsvFields(std::string_view line);
+
+}  // namespace swarmanoid

@@ -1,0 +1,56 @@
+// Which entities an engine gets by patterns of their ids.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/experiment/fake_plugins.h"
+
+namespace swarmanoid::test
+{
+namespace
+{
+
+std::string Fitting(const std::string& pattern)
+{
+  std::string text = "<ahss-config><arena size='90, 9, 2' optimization='2D'>";
+  int x = 0;
+  for (const char* id : {"fb_1", "fb_2", "fb_12", "fb", "b.x:y-z", "a_fb_1"})
+    text += fmt::format("<block id='{}' position='{}, 1, 1' size='1, 1, 1'/>", id, x += 3);
+  text +=
+      "</arena><engines><dummy_engine id='e'><perpendicular_axis>z</perpendicular_axis></dummy_engine></engines>"
+      "<arena_physics><engine id='e'><entity id='" +
+      pattern + "'/></engine></arena_physics></ahss-config>";
+  const LoadedExperiment loaded = LoadText(text);
+  if (!loaded.experiment) return ErrorsOf(text);
+  std::string ids;
+  for (const std::uint32_t entity : loaded.experiment->engines.at(0).entities)
+    ids += (ids.empty() ? "" : " ") + loaded.experiment->entities.at(entity).id;
+  return ids;
+}
+
+TEST(ArenaPhysics, TakesTheEntitiesWhoseIdsFitAPattern)
+{
+  EXPECT_EQ(Fitting("fb_*"), "fb_1 fb_2 fb_12");
+  EXPECT_EQ(Fitting("fb_?"), "fb_1 fb_2");
+  EXPECT_EQ(Fitting("fb*"), "fb_1 fb_2 fb_12 fb");
+  EXPECT_EQ(Fitting("*_1"), "fb_1 a_fb_1");
+  EXPECT_EQ(Fitting("*fb*1*"), "fb_1 fb_12 a_fb_1");
+  EXPECT_EQ(Fitting("?.?:*-z"), "b.x:y-z");
+  EXPECT_EQ(Fitting("**"), "fb_1 fb_2 fb_12 fb b.x:y-z a_fb_1");
+  EXPECT_EQ(Fitting("f?"), "fb");
+}
+
+TEST(ArenaPhysics, KnowsNoOtherSignsInPatterns)
+{
+  for (const char* pattern : {"fb_[12]*", "fb_[!3]*", "fb\\_*", "FB_*", "[*", "fb_*\\"})
+    EXPECT_NE(Fitting(pattern).find("no entity fits '" + std::string(pattern) + "'"), std::string::npos) << pattern;
+}
+
+TEST(ArenaPhysics, FindsOutQuicklyThatNoIdFitsALongPattern)
+{
+  std::string pattern;
+  for (int k = 0; k < 5000; ++k) pattern += "*?b*";
+  EXPECT_NE(Fitting(pattern + "q").find("no entity fits"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace swarmanoid::test
