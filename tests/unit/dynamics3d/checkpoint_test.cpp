@@ -110,6 +110,31 @@ TEST(Dynamics3dCheckpoint, ARestoredRunHasTheSameHashAtEveryTick)
   }
 }
 
+// The fans keep the heading at which the rope was shot: it is none that a fresh engine would keep.
+TEST(Dynamics3dCheckpoint, AHandbotOnItsRopeKeepsItsHeadingWhenRestored)
+{
+  const auto hashes = [](bool restarts)
+  {
+    Dynamics3dTestWorld world;
+    world.Set("ceiling", "true");
+    const auto handbot = world.AddHandbot({5, 5, 0}, 1);
+    world.AddCommands("handbot_rope", 2);
+    world.Start();
+    world.Command("handbot_rope", handbot, {1, -0.15});
+    std::vector<std::uint64_t> found;
+    for (int tick = 0; tick < 40; ++tick)
+    {
+      if (restarts && tick == 10) world.ReplaceEngineBySavedState();
+      world.Tick();
+      found.push_back(world.Space().Hash());
+    }
+    EXPECT_GT(world.Position(handbot).z(), 0.4);
+    EXPECT_NEAR(world.Yaw(handbot), 1, 0.01);
+    return found;
+  };
+  EXPECT_EQ(hashes(true), hashes(false));
+}
+
 TEST(Dynamics3dCheckpoint, ManyIterationsAreRepeatableToo)
 {
   EXPECT_EQ(HashesOfRun(4, 60, {}, "20"), HashesOfRun(4, 60, {7, 21, 22, 40}, "20"));
