@@ -3,6 +3,7 @@
 
 #include "common/math/random.h"
 #include "dynamics3d_test_world.h"
+#include "tests/unit/engines/saved_state_bytes.h"
 
 namespace swarmanoid
 {
@@ -133,6 +134,18 @@ TEST(Dynamics3dCheckpoint, AHandbotOnItsRopeKeepsItsHeadingWhenRestored)
     return found;
   };
   EXPECT_EQ(hashes(true), hashes(false));
+}
+
+// Every field of a checkpoint, also those that have their values of the start in most runs.
+TEST(Dynamics3dCheckpoint, EachByteOfASavedStateIsTakenBack)
+{
+  BusyWorld world(1, "8", 2);
+  for (int tick = 0; tick < 60; ++tick) world.Advance();
+  world.engine->Canonicalise();
+  ByteWriter state;
+  world.engine->SaveState(state);
+  EXPECT_EQ(LostBytes(state.Bytes(), [&](const auto& changed) { return SavedAgain(*world.engine, changed); }),
+            std::vector<std::size_t>{});
 }
 
 TEST(Dynamics3dCheckpoint, ManyIterationsAreRepeatableToo)

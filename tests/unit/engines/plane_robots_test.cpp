@@ -1,8 +1,10 @@
 // Handbots and eyebots in both engines of the plane.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "tests/unit/engines/saved_state_bytes.h"
 #include "tests/unit/kinematics2d/engine_fixture.h"
 
 namespace swarmanoid
@@ -243,6 +245,32 @@ TEST_P(PlaneRobotsIn, AMirroredBlockBlocksAsItStandsNow)
   EXPECT_NEAR(stops_at({Vector3(5, 3, 0.1), Quaternion::Identity()}), 4.6, 5e-3);
   EXPECT_NEAR(stops_at({Vector3(5, 3, 0.1), QuaternionFromYaw(kPi / 2)}), 4.9, 5e-3);
   EXPECT_NEAR(stops_at({Vector3(5.4, 3, 0.4), QuaternionFromEuler({0, kPi / 2, 0})}), 5.3, 5e-3);
+}
+
+// Every field of a checkpoint, also those that have their values of the start in most runs.
+TEST_P(PlaneRobotsIn, EachByteOfASavedStateIsTakenBack)
+{
+  AddHandbot();
+  f.Add(EntityKind::kBlock, Vector3(2.3, 3.05, 0.1), {}, Vector3(0.06, 0.1, 0.2));
+  f.AddMirror(EntityKind::kBlock, Vector3(5, 3, 0.1), Vector3(0.8, 0.2, 0.2));
+  const auto footbot = f.Add(EntityKind::kFootbot, Vector3(7, 3, 0));
+  const auto prey = f.Add(EntityKind::kCylindricPrey, Vector3(7.205, 3, 0), {}, Vector3(0.1, 0.1, 0.1));
+  f.Add(EntityKind::kEyebot, Vector3(8, 8, 0));
+  f.AddCommands("footbot_wheels", 2, {footbot});
+  f.AddCommands("footbot_gripper", 1, {footbot});
+  f.AddCommands("footbot_turret", 1, {footbot});
+  f.Start();
+  for (const std::size_t command : {0, 1, 3, 5, 7, 11}) f.Command(command) = 1;
+  f.Command(8) = -0.1;
+  f.Command(9) = -1;
+  f.Command(12) = 0.3;
+  f.Ticks(20);
+  ASSERT_EQ(Attribute(footbot, "gripped"), 1 + prey);
+  f.Engine().Canonicalise();
+  ByteWriter state;
+  f.Engine().SaveState(state);
+  EXPECT_THAT(LostBytes(state.Bytes(), [this](const auto& changed) { return SavedAgain(f.Engine(), changed); }),
+              testing::IsEmpty());
 }
 
 // Another engine tips a block over while a robot leans against it.

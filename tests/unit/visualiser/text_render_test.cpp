@@ -63,6 +63,8 @@ TEST_F(TextRender, WritesEveryNthTickAndTheLastOne)
   EXPECT_THAT(Written(clock + "every=\"4\"", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}),
               ElementsAre("clock", "0", "4", "8", "10"));
   EXPECT_THAT(Written(clock + "every=\"5\"", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}), ElementsAre("clock", "0", "5", "10"));
+  // A run that is stopped, or ends by itself, has a last tick too.
+  EXPECT_THAT(Written(clock + "every=\"4\"", {0, 1, 2, 3, 4, 5, 6}), ElementsAre("clock", "0", "4", "6"));
   // One that is attached misses ticks: a table is due at the first one of each period.
   EXPECT_THAT(Written(clock + "every=\"4\"", {1, 2, 5, 7, 8, 10}), ElementsAre("clock", "5", "8", "10"));
 }
