@@ -44,7 +44,7 @@ ChildProcess::~ChildProcess()
 {
   if (id_ < 0 || !Running()) return;
   Signal(SIGKILL);
-  Wait(10);
+  Wait();
 }
 
 int ChildProcess::Wait(double seconds)

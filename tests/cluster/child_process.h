@@ -9,6 +9,9 @@
 namespace swarmanoid
 {
 
+// For what comes within moments, on a machine that is busy with much else.
+inline constexpr double kGenerous_s = 100;
+
 class ChildProcess
 {
 public:
@@ -19,13 +22,13 @@ public:
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   // The exit code; -1 where the process still runs after that time, 128 + signal where a signal ended it.
-  int Wait(double seconds);
+  int Wait(double seconds = kGenerous_s);
   void Signal(int signal) const;
   bool Running() { return Wait(0) < 0; }
   pid_t Id() const { return id_; }
   // What it wrote so far, standard output and error together.
   std::string Output() const;
-  bool WaitForOutput(const std::string& text, double seconds) const;
+  bool WaitForOutput(const std::string& text, double seconds = kGenerous_s) const;
 
 private:
   pid_t id_ = -1;

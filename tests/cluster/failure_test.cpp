@@ -21,16 +21,17 @@ TEST_F(ClusterTest, AKilledWorkerEndsTheRunWithinTheLeaseAndIsNamed)
 {
   ChildProcess server = StartServer(WriteExperiment("deadly", 2, 0));
   std::vector<ChildProcess> workers = StartWorkers("deadly", 2, 1);
-  ASSERT_TRUE(server.WaitForOutput("running", 20)) << server.Output();
+  ASSERT_TRUE(server.WaitForOutput("running")) << server.Output();
   std::this_thread::sleep_for(300ms);
   const auto killed = std::chrono::steady_clock::now();
   workers[1].Signal(SIGKILL);
-  EXPECT_EQ(server.Wait(10), 6);
-  EXPECT_LT(std::chrono::steady_clock::now() - killed, 3s);
+  EXPECT_EQ(server.Wait(), 6);
+  // A lease is a second; the rest is for a busy machine.
+  EXPECT_LT(std::chrono::steady_clock::now() - killed, 10s);
   EXPECT_THAT(server.Output(), HasSubstr(fmt::format("engine 'e1' does not answer any more (process {}:{}",
                                                      MachineName(), workers[1].Id())));
-  EXPECT_EQ(workers[0].Wait(5), 6);
-  EXPECT_EQ(workers[2].Wait(5), 6);
+  EXPECT_EQ(workers[0].Wait(), 6);
+  EXPECT_EQ(workers[2].Wait(), 6);
   ExpectNothingLeft();
 }
 
@@ -39,13 +40,13 @@ TEST_F(ClusterTest, WorkersEndWhenTheServerIsKilled)
   std::vector<ChildProcess> workers = StartWorkers("orphaned", 1, 1);
   {
     ChildProcess server = StartServer(WriteExperiment("orphaned", 1, 0));
-    ASSERT_TRUE(server.WaitForOutput("running", 20)) << server.Output();
+    ASSERT_TRUE(server.WaitForOutput("running")) << server.Output();
     server.Signal(SIGKILL);
-    server.Wait(5);
+    server.Wait();
   }
   for (ChildProcess& worker : workers)
   {
-    EXPECT_EQ(worker.Wait(5), 6);
+    EXPECT_EQ(worker.Wait(), 6);
     EXPECT_THAT(worker.Output(), HasSubstr("the space server has gone"));
   }
   ExpectNothingLeft();
@@ -54,13 +55,13 @@ TEST_F(ClusterTest, WorkersEndWhenTheServerIsKilled)
 TEST_F(ClusterTest, TheServerSaysWhomItWaitsForAndWorkersTooInAnyOrder)
 {
   ChildProcess engine = StartEngine("patient", 0);
-  EXPECT_TRUE(engine.WaitForOutput("waiting for the space server of 'patient' in domain " + DomainText(), 10));
+  EXPECT_TRUE(engine.WaitForOutput("waiting for the space server of 'patient' in domain " + DomainText()));
   ChildProcess server = StartServer(WriteExperiment("patient", 1, 20), {"--controller-hosts", "2"});
-  EXPECT_TRUE(server.WaitForOutput("waiting for controller host 0, controller host 1 ", 10)) << server.Output();
+  EXPECT_TRUE(server.WaitForOutput("waiting for controller host 0, controller host 1 ")) << server.Output();
   ChildProcess first = StartHost("patient", 0);
-  EXPECT_TRUE(engine.WaitForOutput("waiting for 1 of 2 controller hosts", 10)) << engine.Output();
+  EXPECT_TRUE(engine.WaitForOutput("waiting for 1 of 2 controller hosts")) << engine.Output();
   ChildProcess second = StartHost("patient", 1);
-  EXPECT_EQ(server.Wait(20), 0) << server.Output();
+  EXPECT_EQ(server.Wait(), 0) << server.Output();
 }
 
 TEST_F(ClusterTest, AStoppedWorkerIsNamedAfterTwoSecondsAndTheRunGoesOnWhenItDoes)
@@ -68,11 +69,11 @@ TEST_F(ClusterTest, AStoppedWorkerIsNamedAfterTwoSecondsAndTheRunGoesOnWhenItDoe
   ChildProcess server = StartServer(WriteExperiment("stalled", 1, 300), {"--real-time", "20", "--lease", "30"});
   ChildProcess engine = Start("engine_worker", {"--experiment", "stalled", "--engine", "e0", "--lease", "30"});
   ChildProcess host = Start("controller_host", {"--experiment", "stalled", "--lease", "30"});
-  ASSERT_TRUE(server.WaitForOutput("running", 20)) << server.Output();
+  ASSERT_TRUE(server.WaitForOutput("running")) << server.Output();
   host.Signal(SIGSTOP);
-  EXPECT_TRUE(server.WaitForOutput("waiting for controller host 0 since 2 s", 10)) << server.Output();
+  EXPECT_TRUE(server.WaitForOutput("waiting for controller host 0 since 2 s")) << server.Output();
   host.Signal(SIGCONT);
-  EXPECT_EQ(server.Wait(20), 0) << server.Output();
+  EXPECT_EQ(server.Wait(), 0) << server.Output();
 }
 
 TEST_F(ClusterTest, AWorkerOfAnotherProtocolIsRefusedByName)
@@ -121,7 +122,7 @@ TEST_F(ClusterTest, AWorkerRefusesAServerOfAnotherProtocol)
   world.experiment = "future";
   worlds.Write(world);
   ChildProcess engine = StartEngine("future", 0);
-  EXPECT_EQ(engine.Wait(10), 4);
+  EXPECT_EQ(engine.Wait(), 4);
   EXPECT_THAT(engine.Output(), AllOf(HasSubstr("'future'"), HasSubstr("protocol version 99"),
                                      HasSubstr(fmt::format("this program version {}", kProtocolVersion))));
 }
@@ -130,7 +131,7 @@ TEST_F(ClusterTest, AnEngineThatTheExperimentLacksEndsTheRunWithTheKnownOnes)
 {
   ChildProcess server = StartServer(WriteExperiment("lacking", 2, 10));
   ChildProcess engine = StartEngine("lacking", 5);
-  EXPECT_EQ(engine.Wait(20), 3);
+  EXPECT_EQ(engine.Wait(), 3);
   EXPECT_THAT(engine.Output(), HasSubstr("has no engine 'e5'; it has 'e0', 'e1'"));
 }
 

@@ -23,8 +23,8 @@ TEST_P(HashEquality, ClusterHasTheHashesOfASingleProcess)
     std::vector<ChildProcess> workers = StartWorkers("equal", engines, hosts);
     ChildProcess server =
         StartServer(file, {"--controller-hosts", std::to_string(hosts), "--hash-log", folder_ + "/cluster.txt"});
-    EXPECT_EQ(server.Wait(60), 0) << server.Output();
-    for (ChildProcess& worker : workers) EXPECT_EQ(worker.Wait(5), 0) << worker.Output();
+    EXPECT_EQ(server.Wait(), 0) << server.Output();
+    for (ChildProcess& worker : workers) EXPECT_EQ(worker.Wait(), 0) << worker.Output();
     EXPECT_THAT(server.Output(), testing::HasSubstr("finished: 150 ticks, 16 entities, hash "));
   }
   EXPECT_EQ(Read("cluster.txt"), expected);
@@ -48,8 +48,8 @@ TEST_F(ClusterTest, TwoExperimentsSideBySideDoNotHearEachOther)
   ChildProcess server_two = StartServer(two, {"--hash-log", folder_ + "/two.txt"});
   std::vector<ChildProcess> workers_one = StartWorkers("one", 1, 1);
   std::vector<ChildProcess> workers_two = StartWorkers("two", 2, 1);
-  EXPECT_EQ(server_one.Wait(60), 0) << server_one.Output();
-  EXPECT_EQ(server_two.Wait(60), 0) << server_two.Output();
+  EXPECT_EQ(server_one.Wait(), 0) << server_one.Output();
+  EXPECT_EQ(server_two.Wait(), 0) << server_two.Output();
   EXPECT_EQ(Read("one.txt"), expected_one);
   EXPECT_EQ(Read("two.txt"), expected_two);
 }
@@ -58,9 +58,9 @@ TEST_F(ClusterTest, ASecondExperimentOfTheSameNameInTheDomainIsRefused)
 {
   const std::string file = WriteExperiment("same", 1, 10);
   ChildProcess first = StartServer(file);
-  ASSERT_TRUE(first.WaitForOutput("waiting for", 10));
+  ASSERT_TRUE(first.WaitForOutput("waiting for"));
   ChildProcess second = StartServer(file);
-  EXPECT_EQ(second.Wait(10), 4);
+  EXPECT_EQ(second.Wait(), 4);
   EXPECT_THAT(second.Output(), testing::HasSubstr("experiment 'same' runs already in domain " + DomainText()));
 }
 
@@ -72,8 +72,8 @@ TEST_F(ClusterTest, SynchronousVisualiserDrawsEveryTickAndTheHashStaysTheSame)
   ChildProcess visualiser = Start("visualiser", {"--render", "table", "--output", folder_});
   std::vector<ChildProcess> workers = StartWorkers("drawn", 1, 1);
   ChildProcess server = StartServer(file, {"--hash-log", folder_ + "/cluster.txt"});
-  EXPECT_EQ(server.Wait(60), 0) << server.Output();
-  EXPECT_EQ(visualiser.Wait(5), 0) << visualiser.Output();
+  EXPECT_EQ(server.Wait(), 0) << server.Output();
+  EXPECT_EQ(visualiser.Wait(), 0) << visualiser.Output();
   EXPECT_EQ(Read("cluster.txt"), expected);
   const std::string table = Read("table.txt");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 51 * 16);

@@ -77,7 +77,7 @@ protected:
   template <class Condition>
   static bool Until(const Condition& condition)
   {
-    for (const auto end = std::chrono::steady_clock::now() + 10s; std::chrono::steady_clock::now() < end;)
+    for (const auto end = std::chrono::steady_clock::now() + 100s; std::chrono::steady_clock::now() < end;)
     {
       if (condition()) return true;
       std::this_thread::sleep_for(2ms);
@@ -105,8 +105,8 @@ protected:
 
   void ExpectEnd()
   {
-    EXPECT_EQ(server_->Wait(20), 0) << server_->Output();
-    for (ChildProcess& worker : workers_) EXPECT_EQ(worker.Wait(5), 0) << worker.Output();
+    EXPECT_EQ(server_->Wait(), 0) << server_->Output();
+    for (ChildProcess& worker : workers_) EXPECT_EQ(worker.Wait(), 0) << worker.Output();
     world_.reset();
     client_.reset();
     bus_.reset();
@@ -258,15 +258,16 @@ TEST_F(InspectionTest, ViewsComeAtThePaceThatIsWishedFor)
   wishes.Write(slow);
   Latest<ViewMessage> views(*bus_, "inspected");
   ASSERT_TRUE(Until([&] { return views.Count() > 0; }));
-  std::this_thread::sleep_for(500ms);
   const int before = views.Count();
-  for (int k = 0; k < 4; ++k)
-  {
-    std::this_thread::sleep_for(500ms);
-    wishes.Write(slow);
-  }
-  EXPECT_GE(views.Count() - before, 3);
-  EXPECT_LE(views.Count() - before, 5);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_TRUE(Until(
+      [&]
+      {
+        wishes.Write(slow);
+        return views.Count() >= before + 5;
+      }));
+  // Two a second, and never more however busy the machine is.
+  EXPECT_GE(std::chrono::steady_clock::now() - start, 1500ms);
   Ask("stop");
   ExpectEnd();
 }

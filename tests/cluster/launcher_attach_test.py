@@ -9,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from harness import CONFIGS, LauncherTest, main
+from harness import CONFIGS, GENEROUS_S, LauncherTest, end, main
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 
@@ -17,14 +17,8 @@ EXPERIMENT = CONFIGS / "diffusion_10.xml"
 class Attaching(LauncherTest):
     def start_paused(self, *options):
         run = self.start("run", EXPERIMENT, "--quiet", "--paused", "--hash-log", "hashes", "--no-visualisers", *options)
-        self.wait_until(lambda: "diffusion_10" in self.run_it("list", "experiments").stdout)
+        self.wait_for_experiment("diffusion_10")
         return run
-
-    def wait_until(self, condition, timeout=10):
-        deadline = time.monotonic() + timeout
-        while not condition():
-            self.assertLess(time.monotonic(), deadline, "waited too long")
-            time.sleep(0.01)
 
     def control(self, *words):
         answer = self.run_it("control", *words)
@@ -34,64 +28,64 @@ class Attaching(LauncherTest):
     def watch(self, table, *options):
         return self.start("attach", "text", "--file", table, "--output", self.folder, *options)
 
-    def has_table(self, table):
-        path = self.folder / table
-        return path.exists() and "fb_9" in path.read_text()
-
     def test_stopped_and_killed_visualisers_leave_the_run_alone(self):
         plain = self.assert_finished(self.run_it("run", EXPERIMENT, "--ticks", 4000, "--quiet", "--hash-log", "plain"), 4000)
         run = self.start_paused("--ticks", 4000)
         watchers = [self.watch(f"table_{k}", "--hz", 10, "--columns", "clock,Entity id,X,State") for k in range(4)]
         for k in range(4):
-            self.wait_until(lambda k=k: self.has_table(f"table_{k}"))
+            self.wait_until(f"table {k}", lambda k=k: self.has_table(f"table_{k}"))
         self.control("step", 500)
         watchers[0].process.send_signal(signal.SIGSTOP)
         watchers[1].process.kill()
         self.control("step", 500)
         watchers[2].process.kill()
-        start = time.monotonic()
         self.control("resume")
-        self.assertEqual(run.wait(30), 0, run.stderr)
-        self.assertLess(time.monotonic() - start, 10)
+        # One that is stopped would hold it up for ever.
+        self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
         self.assertEqual(self.assert_finished(run, 4000), plain)
         self.assertEqual((self.folder / "hashes").read_text(), (self.folder / "plain").read_text())
-        self.assertEqual(watchers[3].wait(10), 0, watchers[3].stderr)
+        self.assertEqual(watchers[3].wait(GENEROUS_S), 0, watchers[3].stderr)
         watchers[0].process.send_signal(signal.SIGCONT)
-        watchers[0].wait(10)
+        watchers[0].wait(GENEROUS_S)
 
     def test_one_that_is_attached_survives_the_servers_death_with_its_table(self):
         run = self.start_paused()
         watcher = self.watch("table")
-        self.wait_until(lambda: self.has_table("table"))
+        self.wait_until("a table", lambda: self.has_table("table"))
         os.kill(run.find("space_server"), signal.SIGKILL)
-        self.assertEqual(run.wait(10), 4)
-        self.assertEqual(watcher.wait(10), 4)
+        self.assertEqual(run.wait(GENEROUS_S), 4)
+        self.assertEqual(watcher.wait(GENEROUS_S), 4)
         self.assertIn("the space server", watcher.stderr)
         self.assertTrue(self.has_table("table"))
 
     def test_rates_are_kept(self):
         run = self.start_paused("--ticks", 0, "--real-time", 5)
         self.control("resume")
+        before = time.monotonic()
         watcher = self.watch("table", "--hz", 4, "--entities", "footbot", "--csv")
-        self.wait_until(lambda: self.has_table("table"))
-        time.sleep(2)
-        ticks = {line.split(",")[0] for line in (self.folder / "table").read_text().splitlines()[1:]}
-        self.assertLess(abs(len(ticks) - 9), 4, ticks)
+
+        def ticks():
+            text = (self.folder / "table").read_text() if (self.folder / "table").exists() else ""
+            return {line.split(",")[0] for line in text.splitlines()[1:]}
+
+        # However busy the machine is: never more often than asked, and on and on. 50 ticks of the run pass in a second.
+        self.wait_until("eight tables", lambda: len(ticks()) >= 8)
+        self.assertLessEqual(len(ticks()), 4 * (time.monotonic() - before) + 2)
         self.control("stop")
-        self.assertEqual((run.wait(10), watcher.wait(10)), (0, 0))
+        self.assertEqual((run.wait(GENEROUS_S), watcher.wait(GENEROUS_S)), (0, 0))
 
     def test_status_and_owners_in_a_table(self):
         run = self.start_paused("--ticks", 0, "--controller-hosts", 2)
         self.control("step", 3)
         watcher = self.watch("table", "--columns", "Entity id,Engine,Host", "--entities", "footbot", "--status")
-        self.wait_until(lambda: self.has_table("table"))
+        self.wait_until("a table", lambda: self.has_table("table"))
         self.control("step", 20)
-        self.wait_until(lambda: "# tick 23, paused" in (self.folder / "table").read_text())
+        self.wait_until("tick 23", lambda: "# tick 23, paused" in (self.folder / "table").read_text())
         text = (self.folder / "table").read_text()
         self.assertIn("\nfb_0\tground\t0\n", text)
         self.assertIn("\nfb_9\tground\t1\n", text)
         self.control("stop")
-        self.assertEqual((run.wait(10), watcher.wait(10)), (0, 0))
+        self.assertEqual((run.wait(GENEROUS_S), watcher.wait(GENEROUS_S)), (0, 0))
 
     def test_a_renderer_of_a_users_library_in_the_file_and_attached(self):
         library = pathlib.Path(os.environ["TEST_CONTROLLERS"]) / "libdistance_render.so"
@@ -109,12 +103,12 @@ class Attaching(LauncherTest):
         self.assertIn("--precision", answer.stdout)
         watcher = self.start("attach", "distance_render", "--file", "table", "--output", self.folder, "--precision", 2,
                              environment={"SWARMANOID_PLUGIN_PATH": str(library.parent)})
-        self.wait_until(lambda: self.has_table("table"))
+        self.wait_until("a table", lambda: self.has_table("table"))
         self.assertRegex((self.folder / "table").read_text(), r"\nfb_9\t\d+(\.\d{1,2})?\n")
         self.assertIn("there is no visualiser 'distances'", self.run_it("attach", "distances").stderr)
         self.assertIn("holds no visualiser", self.run_it("attach", library.parent / "libfaulty_controller.so").stderr)
         self.control("stop")
-        self.assertEqual((run.wait(10), watcher.wait(10)), (0, 0))
+        self.assertEqual((run.wait(GENEROUS_S), watcher.wait(GENEROUS_S)), (0, 0))
 
     def test_options_of_the_renderer_are_listed_and_checked(self):
         answer = self.run_it("attach", "text", "--help")
@@ -135,7 +129,7 @@ class Attaching(LauncherTest):
         self.control("move", "fb_1", "2.4,1.2,0")
         self.control("step", 60)
         self.control("stop")
-        self.assertEqual(run.wait(10), 0, run.stderr)
+        self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
         final = self.assert_finished(run, 107)
         events = (self.folder / "first" / "events.csv").read_text()
         self.assertRegex(events, r"\n47,move,fb_1,2.5 1.3 0,[^,]+:\d+\n47,move,fb_1,2.4 1.2 0,")
@@ -173,14 +167,12 @@ class AcrossNetworks(LauncherTest):
         self.wait_for_tick("hashes", 5, run)
         watcher = subprocess.Popen(["ip", "netns", "exec", space, os.environ["SWARMANOID"], "attach", "text", "--interface", there,
                                     "--file", str(self.folder / "far"), "--entities", "footbot"], stderr=subprocess.PIPE, text=True)
-        deadline = time.monotonic() + 15
-        while not ((self.folder / "far").exists() and re.search(r"fb_9", (self.folder / "far").read_text())):
-            self.assertLess(time.monotonic(), deadline, "the visualiser of the other network shows nothing")
-            time.sleep(0.05)
-        watcher.kill()
-        watcher.communicate()
+        # One that outlives a test that failed would hold the output that ctest waits for.
+        self.addCleanup(end, watcher)
+        self.wait_until("the table of the other network", lambda: self.has_table("far"))
+        end(watcher)
         run.process.send_signal(signal.SIGINT)
-        self.assertEqual(run.wait(15), 130, run.stderr)
+        self.assertEqual(run.wait(GENEROUS_S), 130, run.stderr)
 
 
 if __name__ == "__main__":

@@ -162,9 +162,7 @@ class Controllers(LauncherTest):
     def test_one_that_never_returns_is_waited_for_and_can_be_killed(self):
         run = self.start("run", self.write_faulty("step_hangs", 17), "--paused")
         # Who steps it is told whom it waits for.
-        deadline = time.monotonic() + 10
-        while "faulty" not in self.run_it("list", "experiments").stdout:
-            self.assertLess(time.monotonic(), deadline, "the run does not start")
+        self.wait_for_experiment("faulty")
         step = self.run_it("control", "step", 30)
         self.assertEqual(step.process.returncode, 4)
         self.assertRegex(step.stderr, r"does not answer; it is at tick 17 and waits for controller host 0 since \d+ s \(.*robot_one")

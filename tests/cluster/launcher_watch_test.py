@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from harness import CONFIGS, SWARMANOID, LauncherTest, main
+from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, main
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 
@@ -15,10 +15,7 @@ EXPERIMENT = CONFIGS / "diffusion_10.xml"
 class Watching(LauncherTest):
     def start_paused(self, *options):
         run = self.start("run", EXPERIMENT, "--quiet", "--paused", "--hash-log", "hashes", "--no-visualisers", *options)
-        deadline = time.monotonic() + 10
-        while "diffusion_10" not in self.run_it("list", "experiments").stdout:
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.05)
+        self.wait_for_experiment("diffusion_10")
         return run
 
     def control(self, *words):
@@ -37,7 +34,7 @@ class Watching(LauncherTest):
         self.wait_for_tick("hashes", 20, run)
         self.control("pause")
         self.control("stop")
-        self.assertEqual(run.wait(10), 0, run.stderr)
+        self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
         self.assert_finished(run)
         self.assert_nothing_left(run)
 
@@ -46,7 +43,7 @@ class Watching(LauncherTest):
         run = self.start_paused("--ticks", 300)
         self.control("step", 7)
         self.control("resume")
-        self.assertEqual(run.wait(10), 0, run.stderr)
+        self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
         self.assertEqual(self.assert_finished(run, 300), plain)
         hashes = set()
         for out in ("first", "second"):
@@ -54,7 +51,7 @@ class Watching(LauncherTest):
             self.control("step", 7)
             self.control("move", "fb_0", "1.5,1.5,0,0,0,90")
             self.control("resume")
-            self.assertEqual(run.wait(10), 0, run.stderr)
+            self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
             hashes.add(self.assert_finished(run, 300))
         self.assertEqual(len(hashes), 1)
         self.assertNotEqual(hashes.pop(), plain)
@@ -68,7 +65,7 @@ class Watching(LauncherTest):
         self.assertEqual(answer.process.returncode, 2)
         self.assertIn("no experiment 'other' runs", answer.stderr)
         self.control("stop")
-        self.assertEqual(run.wait(10), 0, run.stderr)
+        self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
         answer = self.run_it("control", "pause")
         self.assertEqual(answer.process.returncode, 2)
         self.assertIn("no experiment runs on this machine", answer.stderr)
@@ -76,29 +73,20 @@ class Watching(LauncherTest):
     def test_of_several_one_is_to_be_named(self):
         first = self.start_paused()
         second = self.start("run", CONFIGS / "sample_footbot.xml", "--quiet", "--paused")
-        deadline = time.monotonic() + 10
-        while len(self.run_it("list", "experiments").stdout.splitlines()) < 2:
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.05)
+        self.wait_for_experiment("sample_footbot")
         answer = self.run_it("control", "pause")
         self.assertEqual(answer.process.returncode, 2)
         self.assertIn("diffusion_10 (domain ", answer.stderr)
         self.assertIn("sample_footbot (domain ", answer.stderr)
         self.control("sample_footbot", "stop")
         self.control("diffusion_10", "stop")
-        self.assertEqual((first.wait(10), second.wait(10)), (0, 0))
+        self.assertEqual((first.wait(GENEROUS_S), second.wait(GENEROUS_S)), (0, 0))
 
     def test_attached_visualisers_see_the_world_and_do_not_hold_it(self):
         run = self.start_paused("--ticks", 0)
         self.control("step", 5)
         watcher = self.start("attach", "text", "diffusion_10", "precision=2", "file=watched.txt", "--output", self.folder)
-        deadline = time.monotonic() + 10
-        while True:
-            with contextlib.suppress(OSError):
-                if "fb_9" in (self.folder / "watched.txt").read_text():
-                    break
-            self.assertLess(time.monotonic(), deadline, "the attached visualiser shows nothing")
-            time.sleep(0.02)
+        self.wait_until("a table", lambda: self.has_table("watched.txt"))
         self.assertIn("\n5\t", (self.folder / "watched.txt").read_text())
         self.control("resume")
         self.wait_for_tick("hashes", 500, run)
@@ -107,8 +95,8 @@ class Watching(LauncherTest):
         self.wait_for_tick("hashes", reached + 2000, run)
         watcher.process.send_signal(signal.SIGCONT)
         self.control("stop")
-        self.assertEqual(run.wait(10), 0, run.stderr)
-        self.assertEqual(watcher.wait(10), 0, watcher.stderr)
+        self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
+        self.assertEqual(watcher.wait(GENEROUS_S), 0, watcher.stderr)
 
     def test_unknown_visualisers_are_named(self):
         answer = self.run_it("attach", "txt")

@@ -101,19 +101,24 @@ class Failures(OutsideTest):
                 run = subprocess.Popen([PREFIX / "bin" / "swarmanoid", "run", self.file, *options], cwd=self.folder,
                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                        env=self.environment({"OUTSIDE_FAULT": f"controller loop {TICK}"}))
+                self.addCleanup(run.kill)
                 said = ""
-                while "waiting" not in said or "robot_one" not in said:
-                    line = run.stderr.readline()
-                    self.assertNotEqual(line, "", said)
-                    said += line
+
+                def read_until(*words):
+                    nonlocal said
+                    while not all(word in said for word in words):
+                        line = run.stderr.readline()
+                        self.assertNotEqual(line, "", said)
+                        said += line
+
+                read_until("waiting", "robot_one")
                 run.send_signal(signal.SIGINT)
                 if way == "cluster":
-                    while "Ctrl-C again" not in said:
-                        said += run.stderr.readline()
+                    read_until("Ctrl-C again")
                 else:
                     time.sleep(0.2)  # two signals that are pending at once are one
                 run.send_signal(signal.SIGINT)
-                run.communicate(timeout=30)
+                run.communicate(timeout=100)
                 self.assertEqual(run.returncode, 130)
 
 

@@ -8,7 +8,6 @@ import signal
 import socket
 import subprocess
 import tempfile
-import time
 import unittest
 
 BUILD = pathlib.Path(os.environ["SWARMANOID_BUILD"])
@@ -55,16 +54,28 @@ def free_domain():
 
 
 class StandIn:
-    """The stand-in robot, with what it wrote."""
+    """The stand-in robot, with what it wrote. It ends by itself, long after a test that passes."""
+    SECONDS = 90
+    NAMES = ("time", "x", "y", "heading", "forward", "turn", "clearance", "commands", "blue", "held", "to_nest")
 
-    def __init__(self, domain, seconds, *silence):
-        self.process = subprocess.Popen([STAND_IN, str(domain), str(seconds), *map(str, silence)], stdout=subprocess.PIPE,
+    def __init__(self, domain, *silence):
+        self.process = subprocess.Popen([STAND_IN, str(domain), str(self.SECONDS), *map(str, silence)], stdout=subprocess.PIPE,
                                         text=True)
+        self.record = []
 
-    def finish(self):
-        output, _ = self.process.communicate(timeout=60)
-        names = ("time", "x", "y", "heading", "forward", "turn", "clearance", "commands", "blue", "held", "to_nest")
-        return [dict(zip(names, map(float, line.split()))) for line in output.splitlines()]
+    def until(self, condition, what):
+        """Reads on to the first state that meets the condition."""
+        for line in self.process.stdout:
+            self.record.append(dict(zip(self.NAMES, map(float, line.split()))))
+            if condition(self.record[-1]):
+                return self.record[-1]
+        raise AssertionError(f"in {self.SECONDS} s the robot never {what}")
+
+    def stands(self):
+        return self.until(lambda state: state["forward"] == 0 and state["turn"] == 0, "stood")
+
+    def drives(self):
+        return self.until(lambda state: state["forward"] > 0, "drove")
 
 
 class RobotTest(unittest.TestCase):
@@ -89,8 +100,8 @@ class RobotTest(unittest.TestCase):
     def experiment(self):
         return self.write(EXPERIMENT.format(path="", library="footbot_diffusion"))
 
-    def stand_in(self, seconds, *silence):
-        stand_in = StandIn(self.domain, seconds, *silence)
+    def stand_in(self, *silence):
+        stand_in = StandIn(self.domain, *silence)
         self.started.append(stand_in.process)
         return stand_in
 
@@ -105,31 +116,29 @@ class RobotTest(unittest.TestCase):
         output, errors = process.communicate(timeout=60)
         return process.returncode, output, errors
 
-    def run_for(self, seconds, *arguments):
-        """Runs the robot, then interrupts it."""
-        process = self.start(*arguments)
-        time.sleep(seconds)
+    def interrupt(self, process):
         process.send_signal(signal.SIGINT)
-        output, errors = process.communicate(timeout=20)
+        output, errors = process.communicate(timeout=60)
         return process.returncode, output, errors
 
     def test_keeps_off_the_walls_and_stops_when_interrupted(self):
-        stand_in = self.stand_in(15)
-        code, output, errors = self.run_for(13, self.experiment(), "--robot", "fb_1")
-        record = stand_in.finish()
+        stand_in = self.stand_in()
+        process = self.start(self.experiment(), "--robot", "fb_1")
+        # It comes near a wall and turns away from it, one wheel standing: half the speed, 0.1 m/s over 0.14 m.
+        turned = stand_in.until(lambda r: abs(r["forward"] - 0.05) < 1e-3 and abs(abs(r["turn"]) - 0.1 / 0.14) < 1e-3, "turned away")
+        self.assertLess(turned["clearance"], 0.2)
+        stand_in.until(lambda r: abs(r["forward"] - 0.1) < 1e-3 and r["turn"] == 0 and r["time"] > turned["time"], "went on")
+        stand_in.until(lambda r: r["time"] > turned["time"] + 3, "lived on")
+        code, output, errors = self.interrupt(process)
+        end = stand_in.stands()
+        record = stand_in.record
         self.assertEqual(code, 0, errors)
         self.assertRegex(output, r"^finished: \d+ steps, [0-9.]+ s, \d+ overruns, longest step [0-9.]+ ms, 0\.0 s without")
         steps = int(output.split()[1])
-        self.assertGreater(steps, 200)
-        self.assertGreater(sum(abs(b["x"] - a["x"]) + abs(b["y"] - a["y"]) for a, b in zip(record, record[1:])), 0.8)
-        # It came near a wall and turned away from it, one wheel standing: half the speed, 0.1 m/s over 0.14 m.
-        self.assertLess(record[-1]["clearance"], 0.1)
-        self.assertGreater(record[-1]["clearance"], 0)
-        self.assertTrue(any(abs(r["forward"] - 0.05) < 1e-3 and abs(abs(r["turn"]) - 0.1 / 0.14) < 1e-3 for r in record))
+        self.assertGreater(sum(abs(b["x"] - a["x"]) + abs(b["y"] - a["y"]) for a, b in zip(record, record[1:])), 0.5)
+        self.assertGreater(end["clearance"], 0)
         # One command for each step, and one that stops: before the watchdog of the base would.
-        self.assertAlmostEqual(record[-1]["commands"], steps + 1, delta=3)
-        end = next(r for r in record if r["commands"] == record[-1]["commands"])
-        self.assertEqual((end["forward"], end["turn"]), (0, 0))
+        self.assertAlmostEqual(end["commands"], steps + 1, delta=3)
 
     def test_one_library_file_serves_simulator_and_robot(self):
         # Under a name that nothing else has, so that it cannot come from elsewhere.
@@ -141,53 +150,55 @@ class RobotTest(unittest.TestCase):
                                    cwd=self.folder, capture_output=True, text=True, timeout=60)
         self.assertEqual(simulated.returncode, 0, simulated.stderr)
         self.assertIn("finished: 40 ticks", simulated.stdout)
-        stand_in = self.stand_in(6)
-        process = self.start(experiment, "--steps", 40)
-        time.sleep(1.5)
+        stand_in = self.stand_in()
+        process = self.start(experiment, "--steps", 200)
+        stand_in.until(lambda r: r["forward"] > 0.09, "drove")
         self.assertIn(str(library), pathlib.Path(f"/proc/{process.pid}/maps").read_text())
-        output, errors = process.communicate(timeout=30)
-        self.assertIn("finished: 40 steps", output, errors)
-        self.assertGreater(max(r["forward"] for r in stand_in.finish()), 0.09)
+        output, errors = process.communicate(timeout=60)
+        self.assertIn("finished: 200 steps", output, errors)
         self.assertEqual(library.read_bytes(), before)
 
     def test_the_retriever_of_the_sample_experiment_brings_a_prey_to_the_nest(self):
-        stand_in = self.stand_in(21)
-        code, output, errors = self.run_for(19, SOURCE / "configs" / "prey_retrieval.xml", "--controller", "retriever")
-        record = stand_in.finish()
-        self.assertEqual(code, 0, errors)
-        self.assertTrue(any(r["held"] for r in record), "it never gripped the prey")
+        stand_in = self.stand_in()
+        process = self.start(SOURCE / "configs" / "prey_retrieval.xml", "--controller", "retriever")
+        stand_in.until(lambda r: r["held"], "gripped the prey")
         # All LEDs are blue while it carries, and dark when it is stopped.
-        self.assertEqual(max(r["blue"] for r in record), 12)
-        self.assertEqual(record[-1]["blue"], 0)
-        self.assertLess(min(r["to_nest"] for r in record), 0.2)
-        self.assertTrue(record[-1]["held"], "it dropped the prey when it was stopped")
+        stand_in.until(lambda r: r["held"] and r["blue"] == 12, "was blue")
+        stand_in.until(lambda r: r["held"] and r["to_nest"] < 0.4, "came near the nest")
+        code, output, errors = self.interrupt(process)
+        self.assertEqual(code, 0, errors)
+        dark = stand_in.until(lambda r: r["blue"] == 0, "was dark")
+        self.assertTrue(dark["held"], "it dropped the prey when it was stopped")
 
     def test_stands_while_the_scan_is_silent(self):
-        stand_in = self.stand_in(9, 2.5, 3)
-        code, output, errors = self.run_for(8, self.experiment())
-        record = stand_in.finish()
+        stand_in = self.stand_in(1, 5)
+        process = self.start(self.experiment())
+        began = stand_in.drives()["time"]
+        stood = stand_in.until(lambda r: r["time"] > began + 1.5 and r["forward"] == 0, "stood")["time"]
+        went_on = stand_in.drives()["time"]
+        code, output, errors = self.interrupt(process)
         self.assertEqual(code, 0, errors)
+        # The scan is silent from 1 s after the first command on for 5 s; after 1 s of that the robot stands.
+        self.assertLess(stood, began + 5.5)
+        self.assertGreater(went_on, began + 5.5)
         self.assertRegex(errors, r"warning: sensor 'footbot_proximity': topic rt/scan \(sensor_msgs/msg/LaserScan\) is "
-                                 r"silent for 1\.\d s; the robot stands until it is back")
+                                 r"silent for \d+\.\d s; the robot stands until it is back")
         self.assertIn("all sensors are back", errors)
-        self.assertGreater(next(r for r in record if r["time"] >= 2.4)["forward"], 0)
-        self.assertEqual({r["forward"] for r in record if 4.2 < r["time"] < 5.4}, {0})
-        self.assertGreater(max(r["forward"] for r in record if 6 < r["time"] < 7.5), 0)
         self.assertNotIn(" 0.0 s without sensors", output)
 
     def test_ends_on_silence_where_asked(self):
-        stand_in = self.stand_in(6, 2.5, 10)
+        stand_in = self.stand_in(1, 1000)
         code, _, errors = self.run_it(self.experiment(), "--end-on-silence")
-        record = stand_in.finish()
         self.assertEqual(code, 4)
-        self.assertRegex(errors, r"LaserScan\) is silent for 1\.\d s; the robot is stopped")
-        self.assertEqual(record[-1]["forward"], 0)
+        self.assertRegex(errors, r"LaserScan\) is silent for \d+\.\d s; the robot is stopped")
+        stand_in.drives()
+        stand_in.stands()
 
     def test_says_what_it_waits_for(self):
         code, _, errors = self.run_it(self.experiment(), "--wait", 1)
         self.assertEqual(code, 4)
         self.assertRegex(errors, r"sensor 'footbot_proximity': nothing heard from topic rt/scan \(sensor_msgs/msg/LaserScan\) "
-                                 r"in 1\.\d s; is its publisher running")
+                                 r"in \d+\.\d s; is its publisher running")
 
     def test_a_device_without_driver_is_refused_with_those_that_have_one(self):
         text = EXPERIMENT.format(path="", library="footbot_diffusion")
@@ -213,9 +224,8 @@ class RobotTest(unittest.TestCase):
 
     def test_drivers_of_a_user(self):
         robot = self.robot_file('<actuators><footbot_wheels driver="printed"><scale>2</scale></footbot_wheels></actuators>')
-        stand_in = self.stand_in(4)
+        self.stand_in()
         code, output, errors = self.run_it(robot, "--steps", 10)
-        stand_in.finish()
         self.assertEqual(code, 0, errors)
         lines = output.splitlines()
         # 2 * 0.1 m/s over the radius of a wheel.

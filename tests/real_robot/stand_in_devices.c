@@ -107,14 +107,15 @@ static void PublishFloor(dds_entity_t ground, dds_entity_t colour)
   dds_write(colour, &orange);
 }
 
-/* Two rows of one point each, rgb as a float32 and other bytes between: a cloud as drivers of cameras make them. */
+/* Two rows of one point each, rgb as a float32 whose highest byte is an alpha, and other bytes between: a cloud as
+   drivers of cameras make them. */
 static void PublishBlobs(dds_entity_t writer)
 {
   struct Point
   {
     float x, y, z, unused;
     uint32_t rgb;
-  } points[2] = {{1, 1, 0, 0, 0xff0000}, {0, -2, 1, 0, 0x0000ff}};
+  } points[2] = {{1, 1, 0, 0, 0xffff0000}, {0, -2, 1, 0, 0x800000ff}};
   sensor_msgs_msg_dds__PointField_ fields[4] = {{"x", 0, 7, 1}, {"y", 4, 7, 1}, {"z", 8, 7, 1}, {"rgb", 16, 7, 1}};
   sensor_msgs_msg_dds__PointCloud2_ cloud = {.header.frame_id = "base_link", .height = 2, .width = 1};
   cloud.fields._buffer = fields;

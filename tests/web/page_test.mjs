@@ -102,7 +102,18 @@ async function open(url, { noise = [] } = {}) {
 }
 const until = (page, expression, argument) => page.waitForFunction(expression, argument, { polling: 50, timeout: TIMEOUT_MS });
 const read = (page, expression) => page.evaluate(expression);
-const drawn = (page) => until(page, () => window.swarmanoid?.drawn > 0);
+// The first picture, with the camera at rest: panels that come in and the last push of a hand still move it for some frames.
+async function drawn(page) {
+  await until(page, () => window.swarmanoid?.drawn > 0);
+  await until(page, () => {
+    const place = () => JSON.stringify([swarmanoid.camera, document.querySelector("canvas").getBoundingClientRect()]);
+    const before = place();
+    return new Promise((done) => {
+      const look = (frames) => requestAnimationFrame(() => (place() !== before ? done(false) : frames === 0 ? done(true) : look(frames - 1)));
+      look(4);
+    });
+  });
+}
 const tickOf = (page) => read(page, () => swarmanoid.tick);
 
 // The tick stays as it is for a while.

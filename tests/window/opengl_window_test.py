@@ -71,14 +71,6 @@ class Window(LauncherTest):
             return "".join(path.read_text() for path in (self.folder / "out").glob("visualiser*.log"))
         return ""
 
-    def wait_until(self, what, condition, run=None, timeout=20):
-        deadline = time.monotonic() + timeout
-        while not condition():
-            if run is not None and run.process.poll() is not None:
-                self.fail(f"the run ended before {what}: {run.process.stderr.read()}")
-            self.assertLess(time.monotonic(), deadline, f"{what}; the log is:\n{self.log()}")
-            time.sleep(0.05)
-
     def wait_for_log(self, text, run):
         self.wait_until(f"'{text}' in the log", lambda: text in self.log(), run)
 

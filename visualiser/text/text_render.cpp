@@ -132,10 +132,9 @@ void CTextRender::Draw()
   const std::uint64_t period = tick / every_;
   const bool due = period_ ? period != *period_ : tick % every_ == 0;
   period_ = period;
-  if (!due && tick != space_->GetExperiment().max_clock) return;
-  if (shows_status_) AppendStatus();
-  for (std::size_t i = 0; i < space_->Size(); ++i)
-    if (IsShown(space_->GetEntity(i))) AppendLine(space_->GetEntity(i));
+  is_left_out_ = !due && tick != space_->GetExperiment().max_clock;
+  if (is_left_out_) return;
+  AppendTable();
   Write();
 }
 
@@ -143,6 +142,9 @@ void CTextRender::Idle() { std::fflush(file_); }
 
 void CTextRender::Finish()
 {
+  // A run may end before its last tick.
+  if (is_left_out_) AppendTable();
+  is_left_out_ = false;
   Write();
   if (std::fflush(file_) != 0)
     throw std::runtime_error("text_render: cannot write '" + path_ + "': " + std::strerror(errno));
@@ -279,6 +281,13 @@ void CTextRender::AppendStatus()
                   {"real_time_factor", NumberOf(factor)},
                   {"late", late}};
   buffer_ += TextOf(line) + '\n';
+}
+
+void CTextRender::AppendTable()
+{
+  if (shows_status_) AppendStatus();
+  for (std::size_t i = 0; i < space_->Size(); ++i)
+    if (IsShown(space_->GetEntity(i))) AppendLine(space_->GetEntity(i));
 }
 
 void CTextRender::AppendHeader()

@@ -56,6 +56,7 @@ private:
   void ChooseColumns(const std::string& names, const SourceLocation& location);
   void ChooseEntities(const std::string& kinds, const SourceLocation& location);
   void WatchShownRobots();
+  void AppendTable();
   void AppendHeader();
   void AppendStatus();
   void AppendLine(const CSwarmanoidSpaceEntity& entity);
@@ -77,6 +78,7 @@ private:
   int precision_ = 3;
   std::uint64_t every_ = 1;
   std::optional<std::uint64_t> period_;  // of `every_` ticks, in which the latest tick was
+  bool is_left_out_ = false;             // the latest tick has no table
 };
 
 }  // namespace swarmanoid

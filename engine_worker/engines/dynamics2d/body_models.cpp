@@ -54,13 +54,13 @@ double UnitInertia(const std::vector<Vector2>& polygon)
   return moment / 12 / AreaOf(polygon);
 }
 
-// The cut of a block by the plane, in the frame of the block's pose on the plane; of one that does not reach the plane
-// yet, its base.
-std::vector<Vector2> BlockOutline(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane)
+bool IsBlock(EntityKind kind) { return kind == EntityKind::kBlock || kind == EntityKind::kWall; }
+
+// The cut of a block at `at` by the plane, in the frame of its pose on the plane; empty where it does not reach it.
+std::vector<Vector2> CutOf(const CSwarmanoidSpaceEntity& entity, const Pose& at, const PlaneFrame& plane)
 {
-  std::vector<Vector2> outline = plane.CutBox(entity.GetPose(), entity.GetSize());
-  if (outline.empty()) return Rectangle(entity.GetSize().x(), entity.GetSize().y());
-  const PlanePose pose = plane.ToPlane(entity.GetPose());
+  std::vector<Vector2> outline = plane.CutBox(at, entity.GetSize());
+  const PlanePose pose = plane.ToPlane(at);
   const SinCos heading = SinCosOf(pose.heading);
   for (Vector2& point : outline)
   {
@@ -147,7 +147,12 @@ BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, con
   else
   {
     if (size.x() < kSmallest_m || size.y() < kSmallest_m || size.z() < kSmallest_m) TooSmall(entity);
-    model.polygon = kind == EntityKind::kHandbot ? Rectangle(size.x(), size.y()) : BlockOutline(entity, plane);
+    // An engine that is made anew in mid-run finds blocks elsewhere: those that it moves keep the outline of the start.
+    if (motion == EMotion::kDynamic && IsBlock(kind))
+      model.polygon = CutOf(entity, entity.GetConfiguration().pose, plane);
+    else
+      model.polygon = MirrorOutline(entity, plane);
+    if (model.polygon.empty()) model.polygon = Rectangle(size.x(), size.y());
     if (WidthOf(model.polygon) < kSmallest_m) TooSmall(entity);
     model.inertia = model.mass * UnitInertia(model.polygon);
   }
@@ -173,6 +178,14 @@ BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, con
   return model;
 }
 
+std::vector<Vector2> MirrorOutline(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane)
+{
+  if (!IsBlock(entity.GetKind())) return {};
+  std::vector<Vector2> outline = CutOf(entity, entity.GetPose(), plane);
+  if (!outline.empty() && WidthOf(outline) < kSmallest_m) outline.clear();
+  return outline;
+}
+
 BodyModel StaticModel(std::vector<Vector2> polygon, const Dynamics2dParameters& parameters)
 {
   BodyModel model;
@@ -195,9 +208,7 @@ std::optional<BodyModel> FixedModel(const CSwarmanoidSpaceEntity& entity, const 
 
 bool ReachesPlane(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane)
 {
-  const EntityKind kind = entity.GetKind();
-  if (kind == EntityKind::kBlock || kind == EntityKind::kWall)
-    return !plane.CutBox(entity.GetPose(), entity.GetSize()).empty();
+  if (IsBlock(entity.GetKind())) return !MirrorOutline(entity, plane).empty();
   return plane.CutsUpright(entity.GetPose(), entity.GetSize().z());
 }
 

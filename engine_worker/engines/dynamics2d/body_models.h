@@ -29,6 +29,10 @@ std::optional<BodyModel> FixedModel(const CSwarmanoidSpaceEntity& entity, const 
 // An immovable polygon (m, in the plane) of something that has no contact parameters of its own.
 BodyModel StaticModel(std::vector<Vector2> polygon, const Dynamics2dParameters& parameters);
 
+// The outline of a mirrored block as it stands now, in the frame of its pose on the plane; empty for other kinds, and
+// where the plane does not cut it or cuts less than the solver can hold.
+std::vector<Vector2> MirrorOutline(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane);
+
 // True while a mirror's body reaches the plane.
 bool ReachesPlane(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane);
 

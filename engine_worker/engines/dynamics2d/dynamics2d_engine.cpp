@@ -20,6 +20,9 @@ namespace
 
 // A mirror that jumps farther than this in a tick was put elsewhere; it pushes nothing on its way.
 constexpr double kMirrorJump_m = 0.5;
+constexpr double kSameOutline_m = 1e-6;
+constexpr std::uint32_t kVersion = 3;    // of saved states
+constexpr std::size_t kMostCorners = 6;  // of the cut of a box
 
 }  // namespace
 
@@ -170,6 +173,8 @@ void CDynamics2dEngine::FollowMirrors()
   {
     const PlanePose now = plane_.ToPlane(mirror.entity->GetPose());
     world_->SetSolid(mirror.body, ReachesPlane(*mirror.entity, plane_));
+    const std::vector<Vector2> outline = MirrorOutline(*mirror.entity, plane_);
+    if (!outline.empty()) world_->SetOutline(mirror.body, outline, kSameOutline_m);
     world_->Place(mirror.body, now);
     const double du = now.u - mirror.previous.u;
     const double dv = now.v - mirror.previous.v;
@@ -252,8 +257,18 @@ void CDynamics2dEngine::SetVelocity(std::uint32_t entity, const PlaneVelocity& v
 
 void CDynamics2dEngine::SaveState(ByteWriter& state) const
 {
-  constexpr std::uint32_t kVersion = 2;
   state.Put(kVersion);
+  // First: the world is built from them.
+  for (const Mirror& mirror : mirrors_)
+  {
+    const std::vector<Vector2>& outline = world_->OutlineOf(mirror.body);
+    state.Put(static_cast<std::uint8_t>(outline.size()));
+    for (const Vector2& point : outline)
+    {
+      state.Put(point.x());
+      state.Put(point.y());
+    }
+  }
   world_->SaveState(state);
   for (const Owned& owned : owned_)
   {
@@ -273,8 +288,21 @@ void CDynamics2dEngine::SaveState(ByteWriter& state) const
 
 void CDynamics2dEngine::LoadState(ByteReader& state)
 {
-  if (state.Get<std::uint32_t>() != 2)
+  if (state.Get<std::uint32_t>() != kVersion)
     throw std::runtime_error("saved state of dynamics2d: it is of another version of the engine");
+  for (const Mirror& mirror : mirrors_)
+  {
+    const std::size_t size = world_->OutlineOf(mirror.body).size();
+    std::vector<Vector2> outline(state.Get<std::uint8_t>());
+    if ((size == 0) != outline.empty() || (size > 0 && outline.size() < 3) || outline.size() > kMostCorners)
+      throw std::runtime_error("saved state of dynamics2d: a mirror has an outline that it cannot have");
+    for (Vector2& point : outline)
+    {
+      point.x() = state.Get<double>();
+      point.y() = state.Get<double>();
+    }
+    world_->SetOutline(mirror.body, outline, 0);
+  }
   world_->LoadState(state);
   for (Owned& owned : owned_)
   {

@@ -106,11 +106,7 @@ void Dynamics2dWorld::BuildBody(Body& body)
   body.gripper = nullptr;
   body.joint = nullptr;
 
-  b2FixtureDef fixture;
-  fixture.density = 0;  // the mass is set below
-  fixture.friction = static_cast<float>(model.friction);
-  fixture.restitution = static_cast<float>(model.restitution);
-  fixture.userData.pointer = static_cast<uintptr_t>(&body - bodies_.data());
+  b2FixtureDef fixture = FixtureOf(body);
   b2CircleShape circle;
   b2PolygonShape polygon;
   if (model.radius > 0)
@@ -120,10 +116,7 @@ void Dynamics2dWorld::BuildBody(Body& body)
   }
   else
   {
-    std::array<b2Vec2, b2_maxPolygonVertices> points;
-    for (std::size_t i = 0; i < model.polygon.size(); ++i)
-      points[i] = ToUnits(model.polygon[i].x(), model.polygon[i].y());
-    polygon.Set(points.data(), static_cast<int32>(model.polygon.size()));
+    polygon = ShapeOf(model.polygon);
     fixture.shape = &polygon;
   }
   body.b2->CreateFixture(&fixture);
@@ -154,6 +147,25 @@ void Dynamics2dWorld::BuildBody(Body& body)
 }
 
 // A revolute joint about the axis of the turret where a motor turns it, a rigid one where none does.
+b2FixtureDef Dynamics2dWorld::FixtureOf(const Body& body) const
+{
+  b2FixtureDef fixture;
+  fixture.density = 0;  // the mass of a body is set as a whole
+  fixture.friction = static_cast<float>(body.model.friction);
+  fixture.restitution = static_cast<float>(body.model.restitution);
+  fixture.userData.pointer = static_cast<uintptr_t>(&body - bodies_.data());
+  return fixture;
+}
+
+b2PolygonShape Dynamics2dWorld::ShapeOf(const std::vector<Vector2>& outline)
+{
+  std::array<b2Vec2, b2_maxPolygonVertices> points;
+  for (std::size_t i = 0; i < outline.size(); ++i) points[i] = ToUnits(outline[i].x(), outline[i].y());
+  b2PolygonShape polygon;
+  polygon.Set(points.data(), static_cast<int32>(outline.size()));
+  return polygon;
+}
+
 void Dynamics2dWorld::BuildGrip(Body& body)
 {
   b2Body* target = bodies_[Index(body.gripped)].b2;
@@ -284,6 +296,21 @@ void Dynamics2dWorld::SetVelocity(int number, const PlaneVelocity& velocity)
   b2Body* body = bodies_[Index(number)].b2;
   body->SetLinearVelocity(ToUnits(velocity.u, velocity.v));
   body->SetAngularVelocity(static_cast<float>(velocity.turn));
+}
+
+void Dynamics2dWorld::SetOutline(int number, const std::vector<Vector2>& polygon, double tolerance)
+{
+  Body& body = bodies_[Index(number)];
+  std::vector<Vector2>& outline = body.model.polygon;
+  const auto same = [=](const Vector2& a, const Vector2& b) { return (a - b).squaredNorm() <= tolerance * tolerance; };
+  if (std::equal(outline.begin(), outline.end(), polygon.begin(), polygon.end(), same)) return;
+  outline = polygon;
+  if (body.b2 == nullptr) return;
+  body.b2->DestroyFixture(body.b2->GetFixtureList());
+  const b2PolygonShape shape = ShapeOf(outline);
+  b2FixtureDef fixture = FixtureOf(body);
+  fixture.shape = &shape;
+  body.b2->CreateFixture(&fixture);
 }
 
 void Dynamics2dWorld::SetSolid(int number, bool solid)

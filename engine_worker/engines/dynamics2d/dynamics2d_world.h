@@ -93,6 +93,9 @@ public:
   PlaneVelocity VelocityOf(int body) const;
   void Place(int body, const PlanePose& pose);
   void SetVelocity(int body, const PlaneVelocity& velocity);
+  // Another polygon for a body that has one; the old one stays where no corner is farther off than `tolerance` (m).
+  void SetOutline(int body, const std::vector<Vector2>& polygon, double tolerance);
+  const std::vector<Vector2>& OutlineOf(int body) const { return bodies_[Index(body)].model.polygon; }
   // Takes a body out of all collisions, or puts it back.
   void SetSolid(int body, bool solid);
 
@@ -150,6 +153,8 @@ private:
   static std::size_t Index(int body) { return static_cast<std::size_t>(body); }
   BodyState StateOf(const Body& body) const;
   void BuildBody(Body& body);
+  b2FixtureDef FixtureOf(const Body& body) const;
+  static b2PolygonShape ShapeOf(const std::vector<Vector2>& outline);
   void BuildGrip(Body& body);
   void TurnGripper(Body& body);
   void ApplyDrive(Body& body, double seconds);

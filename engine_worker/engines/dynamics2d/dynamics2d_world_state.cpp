@@ -52,7 +52,7 @@ void Dynamics2dWorld::SaveState(ByteWriter& state) const
     if (!body.model.has_gripper) continue;
     state.Put(body.turret_angle);
     state.Put(static_cast<std::uint8_t>(body.held_angle ? 1 : 0));
-    state.Put(body.held_angle.value_or(0));
+    if (body.held_angle) state.Put(*body.held_angle);
     state.Put(static_cast<std::int32_t>(body.gripped));
     state.Put(body.grip.anchor.x);
     state.Put(body.grip.anchor.y);
@@ -72,8 +72,7 @@ void Dynamics2dWorld::LoadState(ByteReader& state)
     if (!body.model.has_gripper) continue;
     body.turret_angle = state.Get<double>();
     const bool held = state.Get<std::uint8_t>() != 0;
-    const auto held_angle = state.Get<double>();
-    body.held_angle = held ? std::optional(held_angle) : std::nullopt;
+    body.held_angle = held ? std::optional(state.Get<double>()) : std::nullopt;
     body.gripped = state.Get<std::int32_t>();
     if (body.gripped < kNoBody || body.gripped >= static_cast<int>(bodies_.size()))
       throw std::runtime_error("saved state of dynamics2d: a gripper holds a body that does not exist");

@@ -8,7 +8,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 }  // namespace
 

@@ -175,7 +175,7 @@ void LinkTable::Save(ByteWriter& state) const
     state.Put(spec.motor_torque);
     state.Put(link->pose_a_);
     state.Put(link->pose_b_);
-    state.Put(link->length_);
+    if (spec.kind == ELink::kRope) state.Put(link->length_);
   }
 }
 
@@ -198,7 +198,7 @@ void LinkTable::Load(ByteReader& state)
     spec.motor_torque = state.Get<double>();
     const auto pose_a = state.Get<RawPose>();
     const auto pose_b = state.Get<RawPose>();
-    const auto length = state.Get<double>();
+    const double length = spec.kind == ELink::kRope ? state.Get<double>() : 0;
 
     const auto bodies = static_cast<int>(world_.BodyCount());
     if (spec.kind > ELink::kRope || spec.body_a < 0 || spec.body_a >= bodies || spec.body_b < -1 ||

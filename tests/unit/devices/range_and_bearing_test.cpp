@@ -140,6 +140,54 @@ TEST(RangeAndBearing, EachReceiverOfACrowdHearsWhatItHearsAlone)
   EXPECT_GT(packets, 1500U);
 }
 
+// The way from antenna to antenna in the frame of the receiver's body decides all three numbers: robots at different
+// heights, receivers and senders that lean, few who send or nearly all, with packets lost or without.
+TEST(RangeAndBearing, EveryPacketIsOfItsSenderInThreeDimensions)
+{
+  for (const bool leaning : {false, true})
+    for (const std::size_t senders_count : {8U, 24U})
+      for (const char* const loss : {"0", "0.4"})
+      {
+        SCOPED_TRACE(testing::Message() << leaning << " " << senders_count << " " << loss);
+        TestWorld world;
+        RandomStream random(6, 0, 0, 0);
+        for (int n = 0; n < 12; ++n)
+          world.AddFootbot(random.Uniform(4, 6), random.Uniform(4, 6), random.Uniform(-kPi, kPi));
+        for (int n = 0; n < 12; ++n)
+          world.AddEyebot(random.Uniform(4, 6), random.Uniform(4, 6), random.Uniform(0.5, 2),
+                          random.Uniform(-kPi, kPi));
+        CSwarmanoidSpace& space = world.Space();
+        if (leaning)
+          for (std::uint32_t robot = 0; robot < 24; robot += 2)
+            space.SetPose(robot, {space.GetPose(robot).position,
+                                  QuaternionFromEuler({random.Uniform(-0.5, 0.5), random.Uniform(-0.5, 0.5),
+                                                       random.Uniform(-kPi, kPi)})});
+        std::vector<std::uint32_t> robots(24);
+        std::iota(robots.begin(), robots.end(), 0U);
+        TestActuator senders(world, "range_and_bearing", "generic_range_and_bearing", robots);
+        TestSensor receivers(world, "range_and_bearing", "generic_range_and_bearing", robots,
+                             {{"loss_probability", loss}});
+        std::vector<std::size_t> sending(senders_count);
+        std::iota(sending.begin(), sending.end(), std::size_t{0});
+        Send(world, senders, sending);
+        receivers.Update();
+        std::size_t packets = 0;
+        for (std::uint32_t k = 0; k < 24; ++k)
+          for (const auto& packet : PacketsOf(receivers, k))
+          {
+            const auto sender = static_cast<std::uint8_t>(packet.message[0] - 200);
+            ASSERT_LT(sender, senders_count);
+            const Vector3 antenna(0, 0, 0.1);
+            const Vector3 way = space.GetPose(k).Inverse().Apply(space.GetPose(sender).Apply(antenna)) - antenna;
+            EXPECT_NEAR(packet.range_m, way.norm(), 1e-9);
+            EXPECT_NEAR(WrapAngle(packet.bearing_rad - std::atan2(way.y(), way.x())), 0, 1e-9);
+            EXPECT_NEAR(packet.vertical_bearing_rad, std::atan2(way.z(), way.head<2>().norm()), 1e-9);
+            ++packets;
+          }
+        EXPECT_GT(packets, senders_count * 4);
+      }
+}
+
 TEST(RangeAndBearing, LossAndNoiseAsAsked)
 {
   TestWorld world;

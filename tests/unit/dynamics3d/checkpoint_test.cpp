@@ -3,6 +3,7 @@
 
 #include "common/math/random.h"
 #include "dynamics3d_test_world.h"
+#include "tests/unit/engines/saved_state_bytes.h"
 
 namespace swarmanoid
 {
@@ -108,6 +109,43 @@ TEST(Dynamics3dCheckpoint, ARestoredRunHasTheSameHashAtEveryTick)
     for (int k = 0; k < 12; ++k) restarts.push_back(static_cast<int>(random.Below(120)));
     EXPECT_EQ(HashesOfRun(seed, 120, {}), HashesOfRun(seed, 120, restarts));
   }
+}
+
+// The fans keep the heading at which the rope was shot: it is none that a fresh engine would keep.
+TEST(Dynamics3dCheckpoint, AHandbotOnItsRopeKeepsItsHeadingWhenRestored)
+{
+  const auto hashes = [](bool restarts)
+  {
+    Dynamics3dTestWorld world;
+    world.Set("ceiling", "true");
+    const auto handbot = world.AddHandbot({5, 5, 0}, 1);
+    world.AddCommands("handbot_rope", 2);
+    world.Start();
+    world.Command("handbot_rope", handbot, {1, -0.15});
+    std::vector<std::uint64_t> found;
+    for (int tick = 0; tick < 40; ++tick)
+    {
+      if (restarts && tick == 10) world.ReplaceEngineBySavedState();
+      world.Tick();
+      found.push_back(world.Space().Hash());
+    }
+    EXPECT_GT(world.Position(handbot).z(), 0.4);
+    EXPECT_NEAR(world.Yaw(handbot), 1, 0.01);
+    return found;
+  };
+  EXPECT_EQ(hashes(true), hashes(false));
+}
+
+// Every field of a checkpoint, also those that have their values of the start in most runs.
+TEST(Dynamics3dCheckpoint, EachByteOfASavedStateIsTakenBack)
+{
+  BusyWorld world(1, "8", 2);
+  for (int tick = 0; tick < 60; ++tick) world.Advance();
+  world.engine->Canonicalise();
+  ByteWriter state;
+  world.engine->SaveState(state);
+  EXPECT_EQ(LostBytes(state.Bytes(), [&](const auto& changed) { return SavedAgain(*world.engine, changed); }),
+            std::vector<std::size_t>{});
 }
 
 TEST(Dynamics3dCheckpoint, ManyIterationsAreRepeatableToo)

@@ -1,8 +1,10 @@
 // Handbots and eyebots in both engines of the plane.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "tests/unit/engines/saved_state_bytes.h"
 #include "tests/unit/kinematics2d/engine_fixture.h"
 
 namespace swarmanoid
@@ -29,6 +31,23 @@ protected:
     f.AddCommands("handbot_hands", 2, {robot});
     f.AddCommands("handbot_rope", 2, {robot});
     return robot;
+  }
+
+  // Puts a fresh engine in place of the running one, from its saved state, as a checkpoint does.
+  void ReplaceEngineBySavedState()
+  {
+    f.Engine().Canonicalise();
+    RestoreFromSavedState(f);
+  }
+  static void RestoreFromSavedState(EngineFixture& world)
+  {
+    ByteWriter state;
+    world.Engine().SaveState(state);
+    auto restored = world.MakeEngine();
+    ByteReader reader(state.Bytes());
+    restored->LoadState(reader);
+    EXPECT_TRUE(reader.AtEnd());
+    std::swap(world.EnginePointer(), restored);
   }
 
   EngineFixture f;
@@ -164,19 +183,120 @@ TEST_P(PlaneRobotsIn, AStateRestoredInTheAirGoesOnAsBefore)
   f.Command(0) = 0.2;
   f.Command(8) = -0.1;
   f.Ticks(20);
-  f.Engine().Canonicalise();
-  ByteWriter state;
-  f.Engine().SaveState(state);
-  auto restored = f.MakeEngine();
-  ByteReader reader(state.Bytes());
-  restored->LoadState(reader);
-  EXPECT_TRUE(reader.AtEnd());
-  std::swap(f.EnginePointer(), restored);
+  ReplaceEngineBySavedState();
   f.Ticks(5);
   EXPECT_EQ(Attribute(robot, "gripped", 0), 1 + book);
   EXPECT_NEAR(Height(robot), 0.25, 1e-9);
   EXPECT_NEAR(Height(book), 0.35, 1e-9);
   EXPECT_NEAR(Attribute(robot, "head_angle"), 0.5, 1e-9);
+}
+
+TEST_P(PlaneRobotsIn, WhatAHandTakesStaysAtItsHeightHoweverHighTheHandbotHangs)
+{
+  AddHandbot();
+  const auto book = f.Add(EntityKind::kBlock, Vector3(2.3, 3.05, 0.1), {}, Vector3(0.06, 0.1, 0.2));
+  f.Start();
+  f.Command(7) = 1;
+  f.Command(8) = -0.1;
+  f.Ticks(6);
+  f.Command(5) = 1;
+  f.Command(8) = 0;
+  f.Ticks(3);
+  EXPECT_NEAR(Height(book), 0.1, 1e-9);
+  ReplaceEngineBySavedState();
+  f.Command(8) = -0.1;
+  f.Ticks(10);
+  EXPECT_NEAR(Height(book), 0.2, 1e-9);
+}
+
+TEST_P(PlaneRobotsIn, AFallGoesOnAtItsSpeedWhenRestored)
+{
+  const auto robot = AddHandbot();
+  f.Start();
+  f.Command(7) = 1;
+  f.Command(8) = -0.15;
+  f.Ticks(100);
+  f.Command(7) = f.Command(8) = 0;
+  f.Ticks(3);
+  ReplaceEngineBySavedState();
+  f.Ticks(2);
+  EXPECT_NEAR(Height(robot), 1.5 - 0.5 * 9.81 * std::pow(5 * kTick, 2), 1e-9);
+}
+
+// A block that another engine turns or tips meets the plane in another outline: here its half length along x is 0.4 m
+// as it lies, 0.1 m once turned, and it is 0.1 m wide at the floor once tipped up.
+TEST_P(PlaneRobotsIn, AMirroredBlockBlocksAsItStandsNow)
+{
+  const auto block = f.AddMirror(EntityKind::kBlock, Vector3(5, 3, 0.1), Vector3(0.8, 0.2, 0.2));
+  const auto robot = f.Add(EntityKind::kFootbot, Vector3(4, 3, 0));
+  if (std::string(GetParam()) == "kinematics2d") f.Parameter("elasticity", "0");
+  f.AddCommands("footbot_wheels", 2, {robot});
+  f.Start();
+  // Where the front of the gripper comes to rest. What is put elsewhere pushes nothing on its way.
+  const auto stops_at = [&](const Pose& pose)
+  {
+    f.Space().SetPose(block, {Vector3(8, 8, 0.1), pose.orientation});
+    f.Tick();
+    f.Space().SetPose(block, pose);
+    f.Ticks(60);
+    return f.PoseOf(robot).position.x() + 0.1;
+  };
+  f.Command(0) = f.Command(1) = WheelSpeed(0.2);
+  EXPECT_NEAR(stops_at({Vector3(5, 3, 0.1), Quaternion::Identity()}), 4.6, 5e-3);
+  EXPECT_NEAR(stops_at({Vector3(5, 3, 0.1), QuaternionFromYaw(kPi / 2)}), 4.9, 5e-3);
+  EXPECT_NEAR(stops_at({Vector3(5.4, 3, 0.4), QuaternionFromEuler({0, kPi / 2, 0})}), 5.3, 5e-3);
+}
+
+// Every field of a checkpoint, also those that have their values of the start in most runs.
+TEST_P(PlaneRobotsIn, EachByteOfASavedStateIsTakenBack)
+{
+  AddHandbot();
+  f.Add(EntityKind::kBlock, Vector3(2.3, 3.05, 0.1), {}, Vector3(0.06, 0.1, 0.2));
+  f.AddMirror(EntityKind::kBlock, Vector3(5, 3, 0.1), Vector3(0.8, 0.2, 0.2));
+  const auto footbot = f.Add(EntityKind::kFootbot, Vector3(7, 3, 0));
+  const auto prey = f.Add(EntityKind::kCylindricPrey, Vector3(7.205, 3, 0), {}, Vector3(0.1, 0.1, 0.1));
+  f.Add(EntityKind::kEyebot, Vector3(8, 8, 0));
+  f.AddCommands("footbot_wheels", 2, {footbot});
+  f.AddCommands("footbot_gripper", 1, {footbot});
+  f.AddCommands("footbot_turret", 1, {footbot});
+  f.Start();
+  for (const std::size_t command : {0, 1, 3, 5, 7, 11}) f.Command(command) = 1;
+  f.Command(8) = -0.1;
+  f.Command(9) = -1;
+  f.Command(12) = 0.3;
+  f.Ticks(20);
+  ASSERT_EQ(Attribute(footbot, "gripped"), 1 + prey);
+  f.Engine().Canonicalise();
+  ByteWriter state;
+  f.Engine().SaveState(state);
+  EXPECT_THAT(LostBytes(state.Bytes(), [this](const auto& changed) { return SavedAgain(f.Engine(), changed); }),
+              testing::IsEmpty());
+}
+
+// Another engine tips a block over while a robot leans against it.
+TEST_P(PlaneRobotsIn, AMirrorThatTipsGoesOnWithTheSameBitsWhenRestored)
+{
+  const auto hashes = [this](int restored_at)
+  {
+    EngineFixture world;
+    world.Configuration().tag = GetParam();
+    const auto block = world.AddMirror(EntityKind::kBlock, Vector3(5, 3, 0.1), Vector3(0.8, 0.2, 0.2));
+    const auto robot = world.Add(EntityKind::kFootbot, Vector3(4.5, 3, 0));
+    world.AddCommands("footbot_wheels", 2, {robot});
+    world.Start();
+    world.Command(0) = world.Command(1) = WheelSpeed(0.2);
+    std::vector<std::uint64_t> found;
+    for (int tick = 0; tick < 60; ++tick)
+    {
+      world.Space().SetPose(block, {Vector3(5, 3, 0.1), QuaternionFromEuler({0, 0.02 * tick, 0.003 * tick})});
+      world.Engine().Canonicalise();
+      if (tick == restored_at) RestoreFromSavedState(world);
+      world.Tick();
+      found.push_back(world.Space().Hash());
+    }
+    return found;
+  };
+  for (const int tick : {5, 30, 50}) EXPECT_EQ(hashes(tick), hashes(-1)) << tick;
 }
 
 TEST_P(PlaneRobotsIn, AnEyebotOnThePlaneUnderTheCeilingHangsOnItByItsMagnet)

@@ -55,6 +55,25 @@ TEST(Distribute, BodiesNeitherOverlapNorLeaveTheFloor)
   }
 }
 
+// A body counts wherever in the file it is written: before, between or after the elements that distribute.
+TEST(Distribute, EveryBodyOfTheFileIsInTheWay)
+{
+  const std::string left = "<block id='left' position='0.75,1,0.5' size='1.5,2,1'/>";
+  const std::string right = "<block id='right' position='3.25,1,0.5' size='1.5,2,1'/>";
+  const std::string robots = "<distribute quantity='8'><footbot id='fb'/></distribute>";
+  const std::string preys = "<distribute quantity='8'><cylindric_prey id='p' radius='0.05' height='0.1'/></distribute>";
+  for (const std::string& content : {left + right + robots + preys, left + robots + right + preys,
+                                     robots + left + preys + right, robots + preys + left + right})
+  {
+    for (const EntityConfiguration& entity : EntitiesOf(Arena(content, "4,2,1")))
+    {
+      if (entity.kind == EntityKind::kBlock) continue;
+      EXPECT_GT(entity.pose.position.x(), 1.5) << entity.id << " in " << content;
+      EXPECT_LT(entity.pose.position.x(), 2.5) << entity.id << " in " << content;
+    }
+  }
+}
+
 TEST(Distribute, TheSeedDecidesThePlacesAndNothingElse)
 {
   const std::string content = "<distribute quantity='50'><footbot id='fb'/></distribute>";

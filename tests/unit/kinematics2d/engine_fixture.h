@@ -54,9 +54,9 @@ public:
     experiment_.entities[Add(EntityKind::kTerrain, Vector3::Zero(), {}, Vector3::Zero(), false)].tree =
         TConfigurationTree(element);
   }
-  std::uint32_t AddMirror(EntityKind kind, const Vector3& position)
+  std::uint32_t AddMirror(EntityKind kind, const Vector3& position, const Vector3& size = Vector3::Zero())
   {
-    const std::uint32_t entity = Add(kind, position);
+    const std::uint32_t entity = Add(kind, position, {}, size);
     mirrors_.push_back(entity);
     return entity;
   }

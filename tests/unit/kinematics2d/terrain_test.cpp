@@ -28,7 +28,7 @@ std::string WriteSteps()
         map.updateNode(octomap::point3d(static_cast<float>(1 + (x + 0.5) * kCell),
                                         static_cast<float>((y + 0.5) * kCell), static_cast<float>((z + 0.5) * kCell)),
                        true);
-  const std::string path = ::testing::TempDir() + "swarmanoid_steps.bt";
+  const std::string path = ::testing::TempDir() + "swarmanoid_steps_" + std::to_string(getpid()) + ".bt";
   map.writeBinary(path);
   return path;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <string>
@@ -74,7 +75,9 @@ struct File
 
 Record Recorded(const File& file)
 {
-  const std::string path = testing::TempDir() + "common_random_numbers.xml";
+  const std::string folder = testing::TempDir() + "common_random_numbers_" + std::to_string(getpid());
+  std::filesystem::create_directories(folder);
+  const std::string path = folder + "/common_random_numbers.xml";
   std::ofstream(path)
       << "<ahss-config><framework>" << file.framework
       << "</framework><controllers><crn_recorder id='c'><actuators><range_and_bearing "
@@ -93,10 +96,11 @@ Record Recorded(const File& file)
   record.clear();
   const auto experiment = ReadExperiment(path);
   SimulatorOptions options;
-  options.output_folder = testing::TempDir();
+  options.output_folder = folder;
   CSimulator simulator(*experiment, options);
   while (simulator.Step()) continue;
   simulator.Finish();
+  std::filesystem::remove_all(folder);
   return record;
 }
 

@@ -238,7 +238,8 @@ TEST_F(SteeringTest, KeepsThePaceThatAVisualisationAsksFor)
     if (setup.space.GetTick() == 40)
     {
       EXPECT_EQ(setup.monitor->Status().speed_wanted, 20);
-      EXPECT_NEAR(setup.monitor->Status().real_time_factor, 20, 15);
+      EXPECT_GT(setup.monitor->Status().real_time_factor, 0);
+      EXPECT_LT(setup.monitor->Status().real_time_factor, 35);
     }
     else
       setup.monitor->Status();

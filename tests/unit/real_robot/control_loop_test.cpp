@@ -23,6 +23,7 @@ struct World
   std::vector<std::string> events;
   bool heard = true;
   double silence_s = 0;
+  std::vector<double> drawn;  // by the controller: in Init, in each step, in Destroy
   std::function<void(std::uint64_t step)> in_step;
   int destroyed = 0;
 };
@@ -66,17 +67,25 @@ public:
   int Init(const TConfigurationTree) override
   {
     wheels_ = &GetRobot()->Actuator<CCI_FootBotWheelsActuator>("footbot_wheels");
+    Draw();
     return RETURN_OK;
   }
   void ControlStep() override
   {
     world->events.emplace_back("step");
+    Draw();
     wheels_->SetFootBotWheelsAngularVelocity(static_cast<double>(GetRobot()->GetTick()), 0);
     if (world->in_step) world->in_step(GetRobot()->GetTick());
   }
-  void Destroy() override { ++world->destroyed; }
+  void Destroy() override
+  {
+    ++world->destroyed;
+    Draw();
+  }
 
 private:
+  void Draw() { world->drawn.push_back(GetRobot()->GetRandom().Uniform()); }
+
   CCI_FootBotWheelsActuator* wheels_ = nullptr;
 };
 REGISTER_CONTROLLER(TestController, "control_loop_test")
@@ -121,6 +130,23 @@ TEST_F(ControlLoop, PollsStepsAndPushesOnceEachPeriodAndStopsAtTheEnd)
   EXPECT_EQ(report.steps, 2U);
   EXPECT_EQ(report.overruns, 0U);
   EXPECT_EQ(world_.destroyed, 1);
+}
+
+// The same ones as in the simulator: by seed, id, purpose and step.
+TEST_F(ControlLoop, RandomNumbersAreOnesOfTheRobotTheSeedAndTheStep)
+{
+  RobotConfiguration configuration = Configuration();
+  configuration.seed = 9;
+  {
+    Robot robot(configuration);
+    options_.steps = 2;
+    Run(robot);
+  }
+  const std::uint64_t name = StreamName("r1");
+  EXPECT_THAT(world_.drawn, ElementsAre(RandomStream(9, name, kInitStream, 0).Uniform(),
+                                        RandomStream(9, name, kControlStepStream, 0).Uniform(),
+                                        RandomStream(9, name, kControlStepStream, 1).Uniform(),
+                                        RandomStream(9, name, kDestroyStream, 2).Uniform()));
 }
 
 TEST_F(ControlLoop, LeavesOutStepsThatALongOneMissed)

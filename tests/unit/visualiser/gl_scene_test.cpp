@@ -151,7 +151,8 @@ TEST(GlScene, DrawsAnArenaWithWallsAndPatches)
 // Hills from a picture, and a stair of cubes.
 TEST(GlScene, DrawsTerrain)
 {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "gl_scene_terrain";
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("gl_scene_terrain_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
   Picture heights{33, 33, {}};
   for (int y = 0; y < 33; ++y)
@@ -182,6 +183,7 @@ TEST(GlScene, DrawsTerrain)
   world.Add(EntityKind::kFootbot, "fb_2", {3.35, 0.8, 0.6}, 180);
   world.GetExperiment().folder = folder.string();
   ExpectGolden(world, DefaultView(world.GetExperiment(), 4.0 / 3), "terrain");
+  std::filesystem::remove_all(folder);
 }
 
 TEST(GlScene, DrawsTheSameBitsTwice)

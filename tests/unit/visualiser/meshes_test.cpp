@@ -108,7 +108,8 @@ TEST(Meshes, HeightTerrainBecomesASmoothSurfaceWithASkirt)
 
 TEST(Meshes, VoxelTerrainShowsItsSurfaceAlone)
 {
-  const std::string path = (std::filesystem::temp_directory_path() / "meshes_test_beam.bt").string();
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("meshes_test_beam_" + std::to_string(getpid()) + ".bt")).string();
   octomap::OcTree tree(0.1);
   for (int x = 0; x < 6; ++x)
     tree.updateNode(octomap::point3d(0.05F + 0.1F * static_cast<float>(x), 0.05F, 0.05F), true);

@@ -89,6 +89,87 @@ TEST(Scene, ItemsFollowTheSpace)
   EXPECT_EQ(FirstItemOf(scene, world["nest"].GetIndex()).tint, Paint(0xff0000));
 }
 
+// Parts of a robot in the order of RestingParts.
+const SceneItem& PartOf(const Scene& scene, std::uint32_t entity, std::size_t part)
+{
+  return (&FirstItemOf(scene, entity))[part];
+}
+
+// The direction in which an axis of a part looks.
+Eigen::Vector3f Looks(const SceneItem& part, const Eigen::Vector3f& axis) { return part.orientation * axis; }
+
+void ExpectNear(const Eigen::Vector3f& is, const Eigen::Vector3f& expected)
+{
+  EXPECT_LT((is - expected).norm(), 1e-5) << is.transpose() << " instead of " << expected.transpose();
+}
+
+TEST(Scene, ATurretTurnsToTheLeftWithItsJaws)
+{
+  SmallWorld world({4, 4, 2});
+  world.Add(EntityKind::kFootbot, "fb", {1, 1, 0}, 90);
+  world.Set("fb", "turret_angle", kPi / 6);
+  world.Set("fb", "gripper_aperture", kPi / 4);
+  Scene scene(world.Space());
+  scene.Update({});
+  const auto at = [](double degrees)
+  {
+    const auto angle = static_cast<float>(DegreesToRadians(degrees));
+    return Eigen::Vector3f(std::cos(angle), std::sin(angle), 0);
+  };
+  ExpectNear(Looks(PartOf(scene, 0, 1), Eigen::Vector3f::UnitX()), at(120));
+  // The left jaw opens to the left, the right one to the right, each from its side of the turret.
+  ExpectNear(Looks(PartOf(scene, 0, 2), Eigen::Vector3f::UnitX()), at(165));
+  ExpectNear(Looks(PartOf(scene, 0, 3), Eigen::Vector3f::UnitX()), at(75));
+  const Eigen::Vector3f hinge(1, 1, 0.085F);
+  ExpectNear(PartOf(scene, 0, 2).position, hinge + 0.086F * at(120) + 0.008F * at(210));
+  ExpectNear(PartOf(scene, 0, 3).position, hinge + 0.086F * at(120) - 0.008F * at(210));
+}
+
+// Positive angles of head and wrists turn about the forward axis as a right hand does, those of arms and hands open
+// outwards (docs/devices.md). Each joint by itself, and each side for itself.
+TEST(Scene, HeadArmsWristsAndFingersTurnToTheirOwnSides)
+{
+  SmallWorld world({4, 4, 2});
+  world.Add(EntityKind::kHandbot, "hb", {1, 1, 0});
+  Scene scene(world.Space());
+  const Eigen::Vector3f x(1, 0, 0), y(0, 1, 0), z(0, 0, 1), chest(1.06F, 1, 0.1F);
+  constexpr std::size_t kHead = 1, kLeftArm = 2, kRightArm = 5;
+  const auto fingers_of = [](std::size_t arm) { return arm + 1; };
+
+  world.Set("hb", "head_angle", kPi / 2);
+  scene.Update({});
+  ExpectNear(Looks(PartOf(scene, 0, kHead), y), z);
+  ExpectNear(PartOf(scene, 0, kLeftArm).position, chest + 0.05F * z);
+  ExpectNear(PartOf(scene, 0, kRightArm).position, chest - 0.05F * z);
+  world.Set("hb", "head_angle", 0);
+
+  for (const int side : {0, 1})
+  {
+    const std::size_t arm = side == 0 ? kLeftArm : kRightArm;
+    const std::size_t other = side == 0 ? kRightArm : kLeftArm;
+    const float sign = side == 0 ? 1.0F : -1.0F;
+    world.Set("hb", "arm", kPi / 2, side);
+    scene.Update({});
+    ExpectNear(Looks(PartOf(scene, 0, arm), x), sign * y);
+    ExpectNear(Looks(PartOf(scene, 0, other), x), x);
+    world.Set("hb", "arm", 0, side);
+
+    world.Set("hb", "wrist", kPi / 2, side);
+    scene.Update({});
+    ExpectNear(Looks(PartOf(scene, 0, fingers_of(arm)), y), z);
+    ExpectNear(Looks(PartOf(scene, 0, fingers_of(other)), y), y);
+    world.Set("hb", "wrist", 0, side);
+
+    world.Set("hb", "hand_aperture", kPi / 2, side);
+    scene.Update({});
+    const float half = std::sqrt(0.5F);
+    ExpectNear(Looks(PartOf(scene, 0, fingers_of(arm)), x), half * x + half * y);
+    ExpectNear(Looks(PartOf(scene, 0, fingers_of(arm) + 1), x), half * x - half * y);
+    ExpectNear(Looks(PartOf(scene, 0, fingers_of(other)), x), x);
+    world.Set("hb", "hand_aperture", 0, side);
+  }
+}
+
 TEST(Scene, ABeamEndsOnTheFirstBodyOrTheFloor)
 {
   SmallWorld world({4, 4, 2});

@@ -1,0 +1,164 @@
+// ServerSession: what the threads of the bus write is read by the server's own at the same time.
+#include "common/bus/server_session.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <thread>
+
+#include "common/bus/domain.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+
+bool Eventually(const std::function<bool()>& met)
+{
+  const auto end = std::chrono::steady_clock::now() + 30s;
+  while (!met())
+  {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(1ms);
+  }
+  return true;
+}
+
+class ServerSessionTest : public testing::Test
+{
+protected:
+  ServerSessionTest()
+  {
+    setenv("SWARMANOID_SHARED_FOLDER", folder_.c_str(), 1);
+    options_.domain = domain_.Id();
+    world_.run = 5;
+    world_.experiment = "session";
+  }
+  ~ServerSessionTest() override
+  {
+    unsetenv("SWARMANOID_SHARED_FOLDER");
+    std::filesystem::remove_all(folder_);
+  }
+
+  const std::string folder_ = fmt::format("/dev/shm/swarmanoid-session-test-{}", getpid());
+  FreeDomain domain_;
+  BusOptions options_;
+  WorldMessage world_;
+};
+
+// A text of one letter alone: torn, it would hold two.
+std::string TextOf(std::uint64_t tick) { return std::string(20 + tick % 200, static_cast<char>('a' + tick % 26)); }
+
+bool IsWhole(const std::string& text) { return text.find_first_not_of(text.front()) == std::string::npos; }
+
+TEST_F(ServerSessionTest, IsReadWhileProcessesComeAndTellWhatTheyDo)
+{
+  constexpr std::uint64_t kCount = 2000;
+  ServerSession session(options_, world_, {"engine 'ground'"}, {[](const auto&) {}, [] {}, [](const auto&) {}});
+  session.Open();
+  Bus crowd(options_, "the crowd");
+  Publisher<HelloMessage> hello(crowd, "session");
+  Publisher<StatusMessage> status(crowd, "session");
+  Publisher<ControlRequestMessage> requests(crowd, "session");
+  hello.Write({"first", kProtocolVersion, world_.run, "visualiser", true});
+  ASSERT_TRUE(Eventually([&] { return session.Processes().size() == 2; }));
+  const auto told = [&](std::uint64_t tick)
+  {
+    status.Write({world_.run, tick, "engine 'ground'", TextOf(tick)});
+    return session.Status("engine 'ground'", tick) == TextOf(tick);
+  };
+  ASSERT_TRUE(Eventually([&] { return told(0); }));
+
+  std::atomic<bool> done = false;
+  std::atomic<int> torn = 0;
+  std::vector<std::jthread> readers;
+  for (int k = 0; k < 2; ++k)
+    readers.emplace_back(
+        [&]
+        {
+          std::size_t most = 0;
+          while (!done)
+          {
+            const std::vector<ProcessStatus> processes = session.Processes();
+            torn += processes.size() < most;
+            most = processes.size();
+            for (const ProcessStatus& process : processes)
+              torn += process.name != "visualiser" && process.name != "engine 'ground'";
+            for (std::uint64_t tick = 0; tick < kCount; tick += 7)
+              if (const std::string text = session.Status("engine 'ground'", tick); !text.empty())
+                torn += !IsWhole(text);
+            torn += session.Missing().size() > 1 || session.Failure().has_value() || session.AllLeft() != true;
+          }
+        });
+  for (std::uint64_t k = 1; k < kCount; ++k)
+  {
+    hello.Write({fmt::format("process {}", k), kProtocolVersion, world_.run, "visualiser", true});
+    status.Write({world_.run, k, "engine 'ground'", TextOf(k)});
+  }
+  EXPECT_TRUE(Eventually([&] { return session.Processes().size() == 1 + kCount; })) << session.Processes().size();
+  done = true;
+  readers.clear();
+  EXPECT_EQ(torn, 0);
+}
+
+// Users ask from threads of the bus, the server answers from its own: each request is passed on once, and all are
+// answered.
+TEST_F(ServerSessionTest, EachRequestIsPassedOnceAndAnsweredEachTime)
+{
+  std::mutex mutex;
+  std::map<std::uint32_t, int> asked;
+  ServerSession* opened = nullptr;
+  ServerSession session(options_, world_, {},
+                        {[&](const ControlRequestMessage& request)
+                         {
+                           {
+                             const std::lock_guard lock(mutex);
+                             ++asked[request.number];
+                           }
+                           opened->Reply(request, true, request.number, "done");
+                         },
+                         [] {}, [](const auto&) {}});
+  opened = &session;
+  session.Open();
+  Bus user(options_, "a user");
+  std::map<std::uint32_t, int> answers;
+  const Subscription<ControlReplyMessage> replies(user, "session",
+                                                  [&](const ControlReplyMessage& reply)
+                                                  {
+                                                    const std::lock_guard lock(mutex);
+                                                    answers[reply.number] += reply.ok && reply.tick == reply.number;
+                                                  });
+  Publisher<ControlRequestMessage> requests(user, "session");
+  const auto ask = [&](std::uint32_t number)
+  {
+    ControlRequestMessage request;
+    request.client = "user";
+    request.number = number;
+    request.verb = "pause";
+    requests.Write(request);
+  };
+  const auto answers_to = [&](std::uint32_t number)
+  {
+    const std::lock_guard lock(mutex);
+    return answers[number];
+  };
+  // It is answered again each time that it is repeated, and done once.
+  for (std::uint32_t number = 1; number <= 20; ++number)
+    for (int times = 1; times <= 3; ++times)
+      ASSERT_TRUE(Eventually(
+          [&]
+          {
+            ask(number);
+            return answers_to(number) >= times;
+          }));
+  const std::lock_guard lock(mutex);
+  for (const auto& [number, times] : asked) EXPECT_EQ(times, 1) << number;
+  EXPECT_EQ(asked.size(), 20U);
+}
+
+}  // namespace
+}  // namespace swarmanoid
