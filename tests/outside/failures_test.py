@@ -1,9 +1,11 @@
-"""Whatever the code of a user does, the run ends with exit code 4, and the first line names whose code it was and the tick."""
+"""Whatever the code of a user does, the run ends at once with exit code 4, and the first line names whose code it was and
+the tick."""
 import os
 import pathlib
 import re
 import resource
 import signal
+import statistics
 import subprocess
 import time
 
@@ -30,19 +32,36 @@ UNSEEN = {"system_call": "ended before the last tick", "kill": r"was killed by s
 ROBOT = f"robot 'robot_one', controller 'c': ControlStep at tick {TICK}"
 # Enough for any of our processes, and soon used up.
 MEMORY = 768 << 20
+# A run that fails ends within a second; a machine with much other work takes longer.
+LONGEST_S = 5
+LONGEST_MEDIAN_S = 2
 
 
 class Failures(OutsideTest):
+    took = {}  # by way: the seconds from each failure to the end of its run
+
     def setUp(self):
         super().setUp()
         self.file = self.experiment(controller="outside_faults", ticks=100)
 
-    def fail(self, who, fault, *options, file=None, tick=TICK, timeout=60):
+    @classmethod
+    def tearDownClass(cls):
+        for way, times in cls.took.items():
+            print(f"{way}: {len(times)} runs ended after a median of {statistics.median(times):.3f} s, {max(times):.3f} s at most")
+            assert statistics.median(times) < LONGEST_MEDIAN_S, way
+
+    def fail(self, who, fault, *options, file=None, tick=TICK, timeout=60, allowed=0):
+        """The first line of a run that fails; `allowed`: seconds that the fault may go on."""
+        time_of_failure = self.folder / "time_of_failure"
         done = subprocess.run([PREFIX / "bin" / "swarmanoid", "run", file or self.file, "--quiet", *options], cwd=self.folder,
                               capture_output=True, text=True, timeout=timeout,
-                              env=self.environment({"OUTSIDE_FAULT": f"{who} {fault} {tick}"}),
+                              env=self.environment({"OUTSIDE_FAULT": f"{who} {fault} {tick}", "OUTSIDE_FAULT_TIME": str(time_of_failure)}),
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, resource.RLIM_INFINITY)))
+        took = time.monotonic() - float(time_of_failure.read_text()) - allowed
+        time_of_failure.unlink()
+        self.took.setdefault("one process" if "--single-process" in options else "cluster", []).append(took)
         self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
+        self.assertLess(took, LONGEST_S, done.stderr)
         self.assertNotIn("finished:", done.stdout)
         return done.stderr.splitlines()[0] if done.stderr else ""
 
@@ -120,7 +139,7 @@ class Failures(OutsideTest):
     def test_a_step_that_takes_too_long_ends_the_run(self):
         for way, options in WAYS.items():
             with self.subTest(way):
-                self.assertRegex(self.fail("controller", "loop", "--step-timeout", "0.5", *options),
+                self.assertRegex(self.fail("controller", "loop", "--step-timeout", "0.5", *options, allowed=0.5),
                                  "^" + re.escape(ROBOT) + r" did not return within 0.5 s \(--step-timeout\)")
 
     def test_a_memory_limit_is_told(self):

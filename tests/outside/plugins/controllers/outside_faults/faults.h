@@ -1,5 +1,5 @@
 // What goes wrong in the code of users, for plug-ins that fail when the environment variable OUTSIDE_FAULT says so:
-// "<who> <fault> <tick>".
+// "<who> <fault> <tick>". The file OUTSIDE_FAULT_TIME gets the time of the failure, in seconds of the monotonic clock.
 #pragma once
 
 #include <signal.h>
@@ -7,8 +7,10 @@
 #include <unistd.h>
 
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <sstream>
 #include <stdexcept>
@@ -36,8 +38,20 @@ struct Foreign
 {
 };
 
+inline void NoteTime()
+{
+  const char* path = std::getenv("OUTSIDE_FAULT_TIME");
+  std::FILE* const file = path == nullptr ? nullptr : std::fopen(path, "w");
+  if (file == nullptr) return;
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  std::fprintf(file, "%lld.%09ld", static_cast<long long>(now.tv_sec), now.tv_nsec);
+  std::fclose(file);
+}
+
 inline void Fail(const std::string& fault)
 {
+  NoteTime();
   if (fault == "throw") throw std::runtime_error("cannot go on");
   if (fault == "throw_number") throw 42;
   if (fault == "throw_foreign") throw Foreign();
