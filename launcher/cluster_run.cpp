@@ -7,7 +7,7 @@
 #include <optional>
 #include <thread>
 
-#include "common/activity/limits.h"
+#include "common/activity/failure_report.h"
 #include "common/bus/domain.h"
 #include "common/bus/run_directory.h"
 #include "common/experiment/actors.h"
@@ -16,6 +16,7 @@
 #include "common/program/usage_error.h"
 #include "common/space/assignment.h"
 #include "launcher/cluster_plan.h"
+#include "launcher/manifest_at_death.h"
 #include "launcher/processes/in_process_server.h"
 #include "launcher/processes/supervisor.h"
 #include "roles/builtins.h"
@@ -28,6 +29,7 @@ namespace
 
 void Complain(const ClusterOutcome& outcome)
 {
+  if (outcome.reason.empty()) return;
   fmt::print(stderr, "{}\n", outcome.reason);
   for (const std::string& line : outcome.log_lines) fmt::print(stderr, "  | {}\n", line);
 }
@@ -90,10 +92,21 @@ int ServeHere(std::vector<std::string> words, int status, const std::atomic<bool
       });
 }
 
+// The thread of the run does not come back.
+[[noreturn]] void LeaveStuck(const ClusterOutcome& outcome, const std::function<int(const RunResult&)>& conclude)
+{
+  RemoveDeadRuns();
+  Complain(outcome);
+  if (const std::string activity = CurrentActivity(); !activity.empty())
+    fmt::print(stderr, "{} does not return: this process ends without it\n", activity);
+  LeaveAtOnce(conclude(ResultOf(outcome)));
+}
+
 // Watched, the space server's role is this thread's; the supervisor has one of its own, for which the signals are
 // blocked already.
 ClusterOutcome RunWatched(const std::vector<MemberPlan>& plans, Interrupts& interrupts, ProgressDisplay& display,
-                          const ActorNames& actor_of, const WatchFunction& watch)
+                          const ActorNames& actor_of, const WatchFunction& watch,
+                          const std::function<int(const RunResult&)>& conclude)
 {
   InProcessServer server;
   ClusterOutcome outcome;
@@ -101,6 +114,7 @@ ClusterOutcome RunWatched(const std::vector<MemberPlan>& plans, Interrupts& inte
       [&]
       {
         outcome = Supervisor(server, interrupts, display, STDOUT_FILENO, actor_of).Run(plans);
+        if (server.IsStuck()) LeaveStuck(outcome, conclude);
         server.Cancel();
       });
   server.Run([&](const auto& words, int status, const auto& stop, const auto& abandon)
@@ -112,7 +126,8 @@ ClusterOutcome RunWatched(const std::vector<MemberPlan>& plans, Interrupts& inte
 }  // namespace
 
 RunResult RunCluster(const RunSettings& options, const Experiment& experiment, const RunFolder& folder,
-                     Manifest& manifest, const WatchFunction& watch)
+                     Manifest& manifest, const WatchFunction& watch,
+                     const std::function<int(const RunResult&)>& conclude)
 {
   Hosts hosts = options.hosts_file.empty() ? Hosts() : Hosts::FromFile(options.hosts_file);
   for (const std::string& setting : options.engine_hosts) hosts.AddEngine(setting);
@@ -138,8 +153,9 @@ RunResult RunCluster(const RunSettings& options, const Experiment& experiment, c
   ClusterOutcome outcome;
   if (watch)
   {
-    ApplyLimits(LimitsOf(options));
-    outcome = RunWatched(plans, interrupts, display, actor_of, watch);
+    const ManifestAtDeath at_death(folder, manifest);
+    ApplyLimitsHere(options);
+    outcome = RunWatched(plans, interrupts, display, actor_of, watch, conclude);
   }
   else
   {
@@ -147,7 +163,7 @@ RunResult RunCluster(const RunSettings& options, const Experiment& experiment, c
     outcome = Supervisor(spawner, interrupts, display, STDOUT_FILENO, actor_of).Run(plans);
   }
   RemoveDeadRuns();
-  if (!outcome.reason.empty()) Complain(outcome);
+  Complain(outcome);
   return ResultOf(outcome);
 }
 

@@ -7,9 +7,11 @@
 namespace swarmanoid
 {
 
-// With a `watch`, the space server is this process, and calls it in this thread at each tick.
+// With a `watch`, the space server is this process, and calls it in this thread at each tick. One that never returns is
+// left: then `conclude` gets the result, in another thread, and the process ends with the exit code that it returns.
 // Adds the domain and the processes to the manifest, and writes it. Throws UsageError.
 RunResult RunCluster(const RunSettings& options, const Experiment& experiment, const RunFolder& folder,
-                     Manifest& manifest, const WatchFunction& watch);
+                     Manifest& manifest, const WatchFunction& watch,
+                     const std::function<int(const RunResult&)>& conclude);
 
 }  // namespace swarmanoid

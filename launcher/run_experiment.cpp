@@ -11,6 +11,7 @@
 #include "common/space/checkpoint.h"
 #include "launcher/cluster_run.h"
 #include "launcher/load.h"
+#include "launcher/manifest_at_death.h"
 #include "launcher/original_command.h"
 #include "space_server/event_log.h"
 
@@ -31,13 +32,25 @@ Manifest StartOfManifest(const RunSettings& options, const Experiment& experimen
   return manifest;
 }
 
+void ReadCheckpointOf(const RunSettings& options, const Experiment& experiment)
+{
+  const Checkpoint checkpoint =
+      ReadCheckpoint(options.restore_file, experiment, {options.controller_hosts, options.any_build});
+  const std::string difference = DifferenceOfBuilds(checkpoint.origin.libraries, LibraryBuildsOf(experiment));
+  if (!difference.empty())
+    fmt::print(stderr,
+               "swarmanoid: warning: the checkpoint was taken with another build of {}: what it saved may mean "
+               "something else to this one, and the run need not have the bits of one that was never interrupted\n",
+               difference);
+}
+
 // Before the folder of the run is made and processes are started.
 void RefuseBadCheckpoints(const RunSettings& options, const Experiment& experiment)
 {
   try
   {
     CheckCheckpointPeriod(options.checkpoint_every, experiment);
-    if (!options.restore_file.empty()) ReadCheckpoint(options.restore_file, experiment, {options.controller_hosts});
+    if (!options.restore_file.empty()) ReadCheckpointOf(options, experiment);
   }
   catch (const std::invalid_argument& error)
   {
@@ -100,6 +113,8 @@ bool EventsAreGood(const std::string& file, const Experiment& experiment)
 
 void RefuseContradictions(const RunSettings& options)
 {
+  if (options.any_build && options.restore_file.empty())
+    throw UsageError("--any-build is about a checkpoint; name it with --restore");
   if (!options.single_process) return;
   const std::string why = "; leave out --single-process to run a cluster";
   if (options.controller_hosts != 1) throw UsageError("--controller-hosts: a single process has one" + why);
@@ -125,9 +140,14 @@ int RunExperiment(const RunSettings& options, const WatchFunction& watch)
     Manifest manifest = StartOfManifest(options, *experiment);
     folder.Write("experiment.xml", experiment->effective_xml);
     folder.Write("manifest.json", manifest.Text());
-    const RunResult result = options.single_process ? RunHere(options, *experiment, folder, watch)
-                                                    : RunCluster(options, *experiment, folder, manifest, watch);
-    return Conclude(options, result, folder, manifest);
+    const auto conclude = [&](const RunResult& result) { return Conclude(options, result, folder, manifest); };
+    if (!options.single_process) return conclude(RunCluster(options, *experiment, folder, manifest, watch, conclude));
+    const auto run_here = [&]
+    {
+      const ManifestAtDeath at_death(folder, manifest);
+      return RunHere(options, *experiment, folder, watch);
+    };
+    return conclude(run_here());
   }
   catch (const RunFolderError& error)
   {

@@ -143,7 +143,8 @@ CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& opt
   roles_->watch = std::move(watch);
   CheckCheckpointPeriod(options.checkpoint_every, experiment);
   if (options.checkpoint_every != 0) roles_->TrySavingAll();
-  if (!options.restore_file.empty()) roles_->Restore(ReadCheckpoint(options.restore_file, experiment, {}));
+  if (!options.restore_file.empty())
+    roles_->Restore(ReadCheckpoint(options.restore_file, experiment, {1, options.any_build}));
   roles_->first_tick = roles_->space.GetTick();
   roles_->start = Clock::now();
   Show();
@@ -180,7 +181,7 @@ void CSimulator::Show()
   if (r.watch)
   {
     r.watching = true;
-    r.watch(*this);
+    RunCodeOf({Actor::kWatcher}, ActivityStep::kWatch, tick, [&] { r.watch(*this); });
     r.watching = false;
   }
   if (r.hash_log.IsOpen()) r.hash_log.Write(r.space.GetTick(), r.space.Hash());

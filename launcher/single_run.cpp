@@ -14,6 +14,16 @@
 
 namespace swarmanoid
 {
+
+void ApplyLimitsHere(const RunSettings& options)
+{
+  std::function<void(const std::string&, double)> stalled;
+  if (!options.quiet)
+    stalled = [](const std::string& activity, double seconds)
+    { fmt::print(stderr, "waiting since {} for {}\n", DurationText(seconds), activity); };
+  ApplyLimits(LimitsOf(options), stalled);
+}
+
 RunResult RunHere(const RunSettings& options, const Experiment& experiment, const RunFolder& folder,
                   const std::function<void(CSimulator&)>& watch)
 {
@@ -21,11 +31,7 @@ RunResult RunHere(const RunSettings& options, const Experiment& experiment, cons
 
   CatchInterrupts(SecondInterrupt::kKills);
   ReportDeaths("swarmanoid");
-  std::function<void(const std::string&, double)> stalled;
-  if (!options.quiet)
-    stalled = [](const std::string& activity, double seconds)
-    { fmt::print(stderr, "waiting since {} for {}\n", DurationText(seconds), activity); };
-  ApplyLimits(LimitsOf(options), stalled);
+  ApplyLimitsHere(options);
   ProgressDisplay display(ProgressDisplay::StyleFor(STDERR_FILENO, options.quiet), STDERR_FILENO);
   const Clock::time_point start = Clock::now();
 

@@ -20,6 +20,9 @@ struct RunResult
   std::string failure;                // as shown on standard error
 };
 
+// From now on the code of users in this process runs within the limits of the settings; one that takes long is told.
+void ApplyLimitsHere(const RunSettings& options);
+
 // `watch`: as in SingleProcessOptions.
 RunResult RunHere(const RunSettings& options, const Experiment& experiment, const RunFolder& folder,
                   const std::function<void(CSimulator&)>& watch = {});

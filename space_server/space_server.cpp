@@ -18,7 +18,8 @@ SpaceServer::SpaceServer(const Experiment& experiment, const Assignment& assignm
       assignment_(assignment),
       space_(experiment),
       editor_(*this, output_folder),
-      program_random_(experiment.seed, StreamName("program"), StreamName("between steps"))
+      program_random_(experiment.seed, StreamName("program"), StreamName("between steps")),
+      warn_([](const std::string& text) { LogWarning("{}", text); })
 {
   for (const FunctionsConfiguration& configuration : experiment.functions)
   {
@@ -232,11 +233,11 @@ void SpaceServer::SetPosesWithinLimit(const EngineUpdate& update, std::span<cons
     if (const std::uint32_t index = entity.GetIndex(); !hold || !told_[index])
     {
       const Vector3 at = entity.GetPosition();
-      LogWarning(
+      warn_(fmt::format(
           "{} at tick {}: the {} '{}' left the world at {:.6g}, {:.6g}, {:.6g}, more than {:g} m outside the arena; it "
           "is {}",
-          EngineName(experiment_, update.engine), space_.GetTick(), TagName(entity.GetKind()), entity.GetId(), at.x(),
-          at.y(), at.z(), experiment_.limit_m, hold ? "held where it was before" : "removed");
+          EngineName(experiment_, update.engine), space_.GetTick(), TagName(entity.GetKind()), entity.GetId(),
+          at.x(), at.y(), at.z(), experiment_.limit_m, hold ? "held where it was before" : "removed"));
       told_[index] = true;
     }
     if (hold)

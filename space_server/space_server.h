@@ -2,6 +2,7 @@
 // state, after it has checked it: nothing else writes to the space.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -32,6 +33,9 @@ public:
   // ConfigurationError, or ActivityError naming the functions that failed; so does Advance.
   SpaceServer(const Experiment& experiment, const Assignment& assignment, const std::string& output_folder);
   ~SpaceServer();
+
+  // Who hears that the run goes on, but not as asked; otherwise the log. Called within Advance.
+  void SetWarningHandler(std::function<void(const std::string&)> warn) { warn_ = std::move(warn); }
 
   const CSwarmanoidSpace& Space() const { return space_; }
   // For those who change the experiment from outside physics.
@@ -97,13 +101,14 @@ private:
   SpaceState state_;
   std::vector<std::uint32_t> changed_slots_;
   std::vector<std::uint32_t> moved_;
-  std::vector<bool> told_;  // of each entity: whether the log says already that it was held
+  std::vector<bool> told_;  // of each entity: whether it is told already that it was held
   bool last_ = false;
   bool failed_ = false;
   bool destroyed_ = false;
   SpaceEditor editor_;
   StreamKey program_random_;  // of those who change the experiment between two steps
   std::vector<Functions> functions_;
+  std::function<void(const std::string&)> warn_;
 };
 
 }  // namespace swarmanoid

@@ -17,9 +17,9 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::array kSteps{"",           "loading",   "Init",    "ControlStep", "StatusText",
-                            "SaveState",  "LoadState", "Destroy", "PreStep",     "PostStep",
-                            "IsFinished", "Update",    "Draw",    "Idle",        "Finish"};
+constexpr std::array kSteps{"",          "loading", "Init",    "ControlStep", "StatusText", "SaveState",
+                            "LoadState", "Destroy", "PreStep", "PostStep",    "IsFinished", "Update",
+                            "Draw",      "Idle",    "Finish",  "Watch"};
 
 std::atomic<const Actor*> current_actor = nullptr;
 std::atomic<ActivityStep> current_step = ActivityStep::kNone;
@@ -117,11 +117,19 @@ bool IsMine() { return depth > 0; }
 
 void Write(LineWriter& line, const Actor& actor, ActivityStep step, std::uint64_t tick)
 {
-  constexpr std::array kKinds{"",         "robot '",   "experiment functions '", "engine '", "visualisation '",
-                              "sensor '", "actuator '"};
+  constexpr std::array kKinds{"",
+                              "robot '",
+                              "experiment functions '",
+                              "engine '",
+                              "visualisation '",
+                              "sensor '",
+                              "actuator '",
+                              "the function that looks at each tick"};
   line.Add(kKinds[actor.kind]).Add(actor.id);
   if (actor.kind == Actor::kRobot)
     line.Add("', controller '").Add(actor.type).Add("': ");
+  else if (actor.kind == Actor::kWatcher)
+    line.Add(": ");
   else if (actor.kind == Actor::kSensor || actor.kind == Actor::kActuator)
     line.Add("' of controller '").Add(actor.type).Add("': ");
   else

@@ -22,7 +22,8 @@ struct Actor
     kEngine,
     kVisualisation,
     kSensor,
-    kActuator
+    kActuator,
+    kWatcher  // of a program of a user: the function that looks at each tick
   };
   Kind kind = kNobody;
   std::uint32_t number = 0;  // of the entity, or in the list of the experiment
@@ -46,7 +47,8 @@ enum class ActivityStep : std::uint32_t
   kUpdate,
   kDraw,
   kIdle,
-  kFinish
+  kFinish,
+  kWatch
 };
 
 // "ControlStep"; of several functions of an engine, the one that users know.

@@ -39,6 +39,7 @@ constexpr bool kReportCrashes = true;
 
 char process_name[128] = "swarmanoid";
 std::atomic<pid_t> dying = 0;  // the thread that reports the death of the process
+std::atomic<LastCall> last_call = nullptr;
 
 std::uint64_t Nanoseconds()
 {
@@ -78,7 +79,12 @@ void Compose(LineWriter& line, std::string_view what, bool of_activity)
   activity::Write(line, *now.actor, now.step, now.tick);
 }
 
-void Report(std::string_view what, bool of_activity)
+void CallLast(std::string_view line, int exit_code)
+{
+  if (const LastCall call = last_call.exchange(nullptr)) call(line, exit_code);
+}
+
+void Report(std::string_view what, bool of_activity, int exit_code = kExitFailed)
 {
   const pid_t thread = static_cast<pid_t>(syscall(SYS_gettid));
   pid_t nobody = 0;
@@ -95,6 +101,7 @@ void Report(std::string_view what, bool of_activity)
   if (isatty(STDERR_FILENO) != 0) WriteToErrors("\r\033[K");
   WriteToErrors(line.Text());
   WriteToErrors("\n");
+  CallLast(line.Text(), exit_code);
 }
 
 // The process goes on to its end; a copy of it, with the same memory and this thread, dies by the signal for those who
@@ -240,10 +247,13 @@ void DieOfStep(std::string_view what)
 
 void DieInterrupted()
 {
-  if (activity::Now().actor != nullptr) Report("was killed by the user", true);
+  if (activity::Now().actor != nullptr) Report("was killed by the user", true, kExitInterrupted);
+  CallLast({}, kExitInterrupted);
   syscall(SYS_exit_group, kExitInterrupted);
   __builtin_unreachable();
 }
+
+void SetLastCall(LastCall call) { last_call = call; }
 
 std::string CurrentExceptionText()
 {

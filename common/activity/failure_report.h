@@ -45,6 +45,12 @@ void NoteEnd(EndReason reason, std::uint64_t tick, std::string_view text, bool c
 // What the exception that is being handled says, for a user: its text, or its type where it has none.
 std::string CurrentExceptionText();
 
+// Called when this process dies of somebody's code, or is killed by the user, once that is told: with the line that
+// says so, or an empty one, and the exit code. It must be safe in signal handlers. One at a time; nullptr: nobody is
+// called.
+using LastCall = void (*)(std::string_view line, int exit_code);
+void SetLastCall(LastCall call);
+
 // Throws an ActivityError about the activity that just failed by the exception that is being handled. One that says so
 // already goes on, and so does the end of a thread.
 [[noreturn]] void RethrowFor(const Actor& actor, ActivityStep step, std::uint64_t tick);

@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <string>
 
 #include "common/run/server_status.h"
@@ -26,16 +27,17 @@ public:
 
   bool IsOpen() const { return descriptor_ >= 0; }
 
+  // From any thread.
   void Tell(const ServerStatus& status)
   {
-    if (descriptor_ < 0) return;
+    if (!IsOpen()) return;
     const std::string line = ServerStatusLine(status) + "\n";
     // A launcher that has gone is noticed elsewhere.
     if (write(descriptor_, line.data(), line.size()) < 0) descriptor_ = -1;
   }
 
 private:
-  int descriptor_;
+  std::atomic<int> descriptor_;
 };
 
 }  // namespace swarmanoid

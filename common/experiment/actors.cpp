@@ -84,6 +84,8 @@ Actor ActorOf(const Experiment& experiment, Actor::Kind kind, std::uint32_t numb
       if (controller < experiment.controllers.size() && device < experiment.controllers[controller].actuators.size())
         return ActuatorActor(experiment, controller, device);
       break;
+    case Actor::kWatcher:
+      return {Actor::kWatcher};
     case Actor::kNobody:
       break;
   }

@@ -40,6 +40,8 @@ struct SimulatorOptions
   // 0: none.
   std::uint64_t checkpoint_every = 0;
   std::string restore_file;  // the checkpoint to go on from; empty: start at tick 0
+  // Take one that other builds of Swarmanoid or of the libraries saved. The bits of the run are then nobody's promise.
+  bool any_build = false;
   // In one process. Set from a signal handler: the run stops at the end of the tick.
   const std::atomic<bool>* stop = nullptr;
 };

@@ -43,6 +43,12 @@ struct Form<ServerStall>
   static constexpr std::tuple fields{&ServerStall::name, &ServerStall::seconds};
 };
 template <>
+struct Form<ServerWarning>
+{
+  static constexpr std::string_view word = "warning";
+  static constexpr std::tuple fields{&ServerWarning::text};
+};
+template <>
 struct Form<ServerError>
 {
   static constexpr std::string_view word = "error";

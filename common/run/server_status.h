@@ -1,5 +1,5 @@
 // What the space server tells whoever started it, line by line, on the descriptor of --status-fd: state, tick, stalled,
-// error, finished. Writer and reader of each kind come from one description (server_status.cpp).
+// warning, error, finished. Writer and reader of each kind come from one description (server_status.cpp).
 #pragma once
 
 #include <cstdint>
@@ -46,6 +46,14 @@ struct ServerStall
   friend bool operator==(const ServerStall&, const ServerStall&) = default;
 };
 
+// "warning TEXT": the run goes on, but not as asked
+struct ServerWarning
+{
+  std::string text;
+
+  friend bool operator==(const ServerWarning&, const ServerWarning&) = default;
+};
+
 // "error TEXT"
 struct ServerError
 {
@@ -66,7 +74,7 @@ struct ServerFinished
   friend bool operator==(const ServerFinished&, const ServerFinished&) = default;
 };
 
-using ServerStatus = std::variant<ServerState, ServerTick, ServerStall, ServerError, ServerFinished>;
+using ServerStatus = std::variant<ServerState, ServerTick, ServerStall, ServerWarning, ServerError, ServerFinished>;
 
 // The line, without its end. Line breaks and other control characters in texts become blanks.
 std::string ServerStatusLine(const ServerStatus& status);

@@ -199,7 +199,10 @@ Checkpoint ReadCheckpoint(const std::string& path, const Experiment& experiment,
     if (!options.any_build)
     {
       const std::string difference = DifferenceOfBuilds(checkpoint.origin.libraries, LibraryBuildsOf(experiment));
-      if (!difference.empty()) throw std::runtime_error(difference);
+      if (!difference.empty())
+        throw std::runtime_error("it was taken with another build of " + difference +
+                                 "; go on with that build, start anew with this one, or let --any-build take it, which "
+                                 "promises no equal bits");
     }
     const std::size_t parts = checkpoint.parts.size();
     const std::size_t others = 1 + experiment.engines.size();

@@ -79,8 +79,7 @@ std::string DifferenceOfBuilds(const std::vector<LibraryBuild>& saved, const std
     const auto now =
         std::find_if(here.begin(), here.end(), [&](const LibraryBuild& one) { return one.name == then.name; });
     if (now == here.end() || then.build.empty() || now->build.empty() || now->build == then.build) continue;
-    return fmt::format("it was taken with another build of {}; go on with that build, or start anew with this one",
-                       then.name == kSwarmanoidBuild ? "Swarmanoid" : "the library '" + then.name + "'");
+    return then.name == kSwarmanoidBuild ? "Swarmanoid" : "the library '" + then.name + "'";
   }
   return {};
 }

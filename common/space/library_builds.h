@@ -21,7 +21,8 @@ inline constexpr const char* kSwarmanoidBuild = "Swarmanoid";
 // when a run starts: a file may be built anew while the run goes on with the old one.
 std::vector<LibraryBuild> LibraryBuildsOf(const Experiment& experiment);
 
-// What differs, with the cure; empty where nothing does. Libraries that are unknown on either side differ in nothing.
+// Whose build differs: "Swarmanoid", "the library 'libx.so'"; empty where none does. Libraries that are unknown on
+// either side differ in nothing.
 std::string DifferenceOfBuilds(const std::vector<LibraryBuild>& saved, const std::vector<LibraryBuild>& here);
 
 }  // namespace swarmanoid

@@ -6,12 +6,10 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <stdexcept>
 
-#include "common/activity/failure_report.h"
-#include "common/activity/exit_codes.h"
+#include "common/activity/activity.h"
 
 namespace swarmanoid
 {
@@ -45,6 +43,7 @@ SpawnedProcess InProcessServer::Start(const ProcessCommand& command)
       status_ = std::move(status_write);
       end_ = std::move(end_write);
       command_ = command;
+      OwnActivityPage().taken = 1;
       changed_.notify_all();
       return {getpid(),
               std::move(status_read),
@@ -60,7 +59,7 @@ ProcessEnd InProcessServer::Collect(const SpawnedProcess& process)
 {
   if (!IsServer(process)) return others_.Collect(process);
   const std::lock_guard lock(mutex_);
-  return {exit_code_, 0};
+  return stuck_ ? ProcessEnd{0, SIGKILL} : ProcessEnd{exit_code_, 0};
 }
 
 void InProcessServer::Signal(const SpawnedProcess& process, int signal)
@@ -69,9 +68,16 @@ void InProcessServer::Signal(const SpawnedProcess& process, int signal)
   stop_ = true;
   if (signal != SIGKILL) return;
   abandon_ = true;
-  if (++kills_ < kMostKills) return;
-  fmt::print(stderr, "the function that looks at each tick does not return: this process ends without it\n");
-  LeaveAtOnce(kExitProcessFailed);
+  const std::lock_guard lock(mutex_);
+  if (++kills_ < kMostKills || stuck_ || !end_.IsOpen()) return;
+  stuck_ = true;
+  end_.Reset();
+}
+
+bool InProcessServer::IsStuck() const
+{
+  const std::lock_guard lock(mutex_);
+  return stuck_;
 }
 
 void InProcessServer::Run(const Work& work)
@@ -82,7 +88,8 @@ void InProcessServer::Run(const Work& work)
     if (!command_) return;
   }
   const int code = work(command_->arguments, status_.Get(), stop_, abandon_);
-  const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
+  while (stuck_) changed_.wait(lock);  // the process ends
   exit_code_ = code;
   status_.Reset();
   end_.Reset();

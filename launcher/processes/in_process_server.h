@@ -29,12 +29,14 @@ public:
   void Run(const Work& work);
   // No server will be started any more.
   void Cancel();
+  // It was killed and goes on all the same: somebody's code does not return. The supervisor takes it for dead.
+  bool IsStuck() const;
 
 private:
   bool IsServer(const SpawnedProcess& process) const;
 
   SystemSpawner others_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<ProcessCommand> command_;
   bool cancelled_ = false;
@@ -44,6 +46,7 @@ private:
   std::atomic<bool> stop_ = false;
   std::atomic<bool> abandon_ = false;
   int kills_ = 0;
+  bool stuck_ = false;
 };
 
 }  // namespace swarmanoid

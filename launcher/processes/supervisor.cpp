@@ -124,7 +124,10 @@ void Supervisor::ReadMember(ClusterMember& member)
       member.ReadOutput(
           [this, &member](std::string_view line)
           {
-            if (const auto status = ParseServerStatus(line))
+            const auto status = ParseServerStatus(line);
+            if (const auto* warning = status ? std::get_if<ServerWarning>(&*status) : nullptr)
+              TakeWarning(member, *warning);
+            else if (status)
               TakeStatus(*status);
             else
               member.AddToLog(line);
@@ -183,6 +186,13 @@ void Supervisor::TakeStatus(const ServerStatus& status)
     phase_ = Phase::kFinishing;
     deadline_ = heard_ + times_.finish;
   }
+}
+
+// As a run in one process says it.
+void Supervisor::TakeWarning(ClusterMember& member, const ServerWarning& warning)
+{
+  member.AddToLog(fmt::format("warning: {}", warning.text));
+  display_.Note(fmt::format("swarmanoid: warning: {}", warning.text));
 }
 
 void Supervisor::CollectEnds()
@@ -321,7 +331,6 @@ void Supervisor::CheckDeadlines()
   if (phase_ == Phase::kDying)
   {
     KillAll();
-    deadline_ = now + times_.refresh;
     return;
   }
   if (phase_ == Phase::kStopping) return Die(now + times_.terminate);
@@ -372,6 +381,7 @@ void Supervisor::KillAll()
 {
   phase_ = Phase::kDying;
   SignalAll(SIGKILL);
+  deadline_ = Clock::now() + times_.refresh;
 }
 
 void Supervisor::SignalAll(int signal)

@@ -76,6 +76,7 @@ private:
   void WaitForEvents();
   void ReadMember(ClusterMember& member);
   void TakeStatus(const ServerStatus& status);
+  void TakeWarning(ClusterMember& member, const ServerWarning& warning);
   void CollectEnds();
   void TakeEnd(const ClusterMember& member);
   void AttributeWithin(std::chrono::milliseconds patience);

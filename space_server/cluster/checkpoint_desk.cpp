@@ -7,13 +7,14 @@ namespace swarmanoid
 {
 
 CheckpointDesk::CheckpointDesk(ServerSession& session, const Experiment& experiment, std::vector<std::string> parts,
-                               const std::string& folder, std::function<void()> changed)
+                               std::uint64_t first_tick, const std::string& folder, std::function<void()> changed)
     : every_(session.World().checkpoint_every),
       run_(session.World().run),
       origin_(OriginOf(experiment)),
       parts_(std::move(parts)),
       folder_(folder),
-      changed_(std::move(changed))
+      changed_(std::move(changed)),
+      sent_(first_tick)
 {
   if (every_ == 0) return;
   states_in_ = std::make_unique<Subscription<SavedStateMessage>>(
@@ -39,9 +40,7 @@ void CheckpointDesk::Arrived(const SavedStateMessage& message)
 {
   if (message.run != run_) return;
   const std::lock_guard lock(mutex_);
-  // Nobody is more than one checkpoint ahead of the server.
-  if (message.tick % every_ != 0 || (sent_ && message.tick > *sent_ + every_))
-    throw BadMessage(fmt::format("tick: {} is none of a checkpoint that is due", message.tick));
+  if (!IsDue(message.tick)) throw BadMessage(fmt::format("tick: {} is none of a checkpoint that is due", message.tick));
   if (std::find(parts_.begin(), parts_.end(), message.name) == parts_.end())
     throw BadMessage(fmt::format("name: no process '{}' has a part in checkpoints", message.name));
   Checkpoint& checkpoint = unfinished_[message.tick];
@@ -49,6 +48,13 @@ void CheckpointDesk::Arrived(const SavedStateMessage& message)
     if (part.name == message.name) throw BadMessage(fmt::format("name: the part of {} is here already", part.name));
   checkpoint.parts.push_back({message.name, message.state});
   if (IsComplete(checkpoint)) changed_();
+}
+
+// One that the server waits for, or the next one: nobody is more than one checkpoint ahead of the server.
+bool CheckpointDesk::IsDue(std::uint64_t tick) const
+{
+  const std::uint64_t next = (sent_ / every_ + 1) * every_;
+  return tick == next || (tick <= sent_ && unfinished_.contains(tick));
 }
 
 bool CheckpointDesk::IsComplete(const Checkpoint& checkpoint) const
@@ -82,7 +88,8 @@ std::vector<std::uint64_t> CheckpointDesk::Incomplete() const
 {
   std::vector<std::uint64_t> ticks;
   const std::lock_guard lock(mutex_);
-  for (const auto& [tick, checkpoint] : unfinished_) ticks.push_back(tick);
+  for (const auto& [tick, checkpoint] : unfinished_)
+    if (tick <= sent_) ticks.push_back(tick);
   return ticks;
 }
 

@@ -20,20 +20,21 @@ namespace swarmanoid
 class CheckpointDesk
 {
 public:
-  // `every` as in WorldMessage::checkpoint_every. `parts`: the processes that save one. `changed`: a checkpoint is
-  // complete; called from any thread.
+  // `parts`: the processes that save one. `first_tick`: where the run starts. `changed`: a checkpoint is complete;
+  // called from any thread.
   CheckpointDesk(ServerSession& session, const Experiment& experiment, std::vector<std::string> parts,
-                 const std::string& folder, std::function<void()> changed);
+                 std::uint64_t first_tick, const std::string& folder, std::function<void()> changed);
 
   // The state of the server's tick goes out now. Throws std::runtime_error where it cannot be saved.
   void Sending(const SpaceServer& server);
   // Main thread: writes what is complete. Throws std::runtime_error.
   void Work();
-  // Ticks of checkpoints that parts are missing of.
+  // Ticks of checkpoints that the server gave its part of, and others not.
   std::vector<std::uint64_t> Incomplete() const;
 
 private:
   void Arrived(const SavedStateMessage& message);
+  bool IsDue(std::uint64_t tick) const;
   bool IsComplete(const Checkpoint& checkpoint) const;
 
   std::uint64_t every_;
@@ -44,7 +45,7 @@ private:
   std::function<void()> changed_;
   mutable std::mutex mutex_;                        // of what follows
   std::map<std::uint64_t, Checkpoint> unfinished_;  // by tick
-  std::optional<std::uint64_t> sent_;               // the last tick of which the server gave its part
+  std::uint64_t sent_;                              // the last tick of which the server gave its part, or the first
   std::unique_ptr<Subscription<SavedStateMessage>> states_in_;
 };
 

@@ -75,6 +75,7 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
         HotSubscription<ControlCommands>::Handler{
             [this](const MessageHeader& header) -> ControlCommands*
             {
+              limits_.CheckSource<ControlCommands>(header);
               const auto host = std::find(hosts_.begin(), hosts_.end(), header.source);
               if (host == hosts_.end()) return nullptr;
               const auto k = static_cast<std::size_t>(host - hosts_.begin());
@@ -174,7 +175,7 @@ void Lockstep::Send(bool repeated)
   // Whoever goes on from the checkpoint watches this tick again.
   if (checkpoint_every_ != 0 && !repeated && tick > first_tick_ && tick % checkpoint_every_ == 0)
     checkpoints_.Sending(server_);
-  if (watch_ && !repeated) watch_(server_);
+  if (watch_ && !repeated) RunCodeOf({Actor::kWatcher}, ActivityStep::kWatch, tick, [&] { watch_(server_); });
   const SpaceState& state = server_.State();
   if (hash_log_.IsOpen() && !repeated) hash_log_.Write(state.tick, server_.Space().Hash());
   held_ = false;

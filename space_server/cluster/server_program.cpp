@@ -59,11 +59,13 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
             [this](const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
             { session_.Reply(request, done, tick, text); }),
       pace_(experiment.TickSeconds()),
-      checkpoints_(session_, experiment, Expected({}), options.output_folder.empty() ? "." : options.output_folder,
-                   [this] { Wake(); }),
+      checkpoints_(session_, experiment, Expected({}), server_.Space().GetTick(),
+                   options.output_folder.empty() ? "." : options.output_folder, [this] { Wake(); }),
       lockstep_(session_, server_, assignment_, options.visualisations, options.hash_log, options.watch, checkpoints_,
                 [this] { Wake(); })
 {
+  if (status_.IsOpen())
+    server_.SetWarningHandler([this](const std::string& text) { status_.Tell(ServerWarning{text}); });
 }
 
 int ServerProgram::Run()
@@ -109,7 +111,8 @@ WorldMessage ServerProgram::World()
   world.checkpoint_every = options_.checkpoint_every;
   if (options_.checkpoint_every != 0) TrySaving(server_);
   if (options_.restore_file.empty()) return world;
-  const Checkpoint checkpoint = ReadCheckpoint(options_.restore_file, experiment_, {assignment_.hosts.size()});
+  const Checkpoint checkpoint =
+      ReadCheckpoint(options_.restore_file, experiment_, {assignment_.hosts.size(), options_.any_build});
   checkpoint.LoadPart(kServerPart, [&](ByteReader& state) { server_.LoadState(checkpoint.snapshot, state); });
   world.checkpoint = EncodeCheckpoint(checkpoint);
   return world;

@@ -139,6 +139,13 @@ class Damage(OutsideTest):
             done = self.run_experiment(file, "--restore", checkpoint, *options)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn("taken with another build of the library 'liboutside_needy.so'; go on with that build", done.stderr)
+            self.assertIn("or let --any-build take it", done.stderr)
+            done = self.run_experiment(file, "--restore", checkpoint, "--any-build", *options)
+            self.assertEqual(self.hash_of(done), whole, "nothing but the note differs")
+            self.assertIn("warning: the checkpoint was taken with another build of the library 'liboutside_needy.so'", done.stderr)
+        refused = self.run_experiment(file, "--any-build")
+        self.assertEqual(refused.returncode, 2, refused.stderr)
+        self.assertIn("name it with --restore", refused.stderr)
 
     def test_a_shared_folder_keeps_what_is_not_of_a_run(self):
         thesis = self.shared / "thesis" / "chapters"

@@ -1,10 +1,14 @@
-"""Whatever the code of a user does, the run ends with exit code 4, and the first line names whose code it was and the tick."""
+"""Whatever the code of a user does, the run ends at once with exit code 4, and the first line names whose code it was and
+the tick."""
+import json
 import os
 import pathlib
 import re
 import resource
 import signal
+import statistics
 import subprocess
+import tempfile
 import time
 
 from outside import PREFIX, WAYS, OutsideTest, main
@@ -30,32 +34,55 @@ UNSEEN = {"system_call": "ended before the last tick", "kill": r"was killed by s
 ROBOT = f"robot 'robot_one', controller 'c': ControlStep at tick {TICK}"
 # Enough for any of our processes, and soon used up.
 MEMORY = 768 << 20
+# A run that fails ends within a second; a machine with much other work takes longer.
+LONGEST_S = 5
+LONGEST_MEDIAN_S = 2
 
 
 class Failures(OutsideTest):
+    took = {}  # by way: the seconds from each failure to the end of its run
+
     def setUp(self):
         super().setUp()
         self.file = self.experiment(controller="outside_faults", ticks=100)
 
-    def fail(self, who, fault, *options, file=None, tick=TICK, timeout=60):
-        done = subprocess.run([PREFIX / "bin" / "swarmanoid", "run", file or self.file, "--quiet", *options], cwd=self.folder,
+    @classmethod
+    def tearDownClass(cls):
+        for way, times in cls.took.items():
+            print(f"{way}: {len(times)} runs ended after a median of {statistics.median(times):.3f} s, {max(times):.3f} s at most")
+            assert statistics.median(times) < LONGEST_MEDIAN_S, way
+
+    def first_line(self, who, fault, *options, file=None, tick=TICK, timeout=60, allowed=0):
+        """The first line of a run that fails; `allowed`: seconds that the fault may go on."""
+        time_of_failure = self.folder / "time_of_failure"
+        output = pathlib.Path(tempfile.mkdtemp(prefix="run_", dir=self.folder))
+        done = subprocess.run([PREFIX / "bin" / "swarmanoid", "run", file or self.file, "--quiet", "--output", output, *options], cwd=self.folder,
                               capture_output=True, text=True, timeout=timeout,
-                              env=self.environment({"OUTSIDE_FAULT": f"{who} {fault} {tick}"}),
+                              env=self.environment({"OUTSIDE_FAULT": f"{who} {fault} {tick}", "OUTSIDE_FAULT_TIME": str(time_of_failure)}),
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, resource.RLIM_INFINITY)))
+        took = time.monotonic() - float(time_of_failure.read_text()) - allowed
+        time_of_failure.unlink()
+        self.took.setdefault("one process" if "--single-process" in options else "cluster", []).append(took)
         self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
+        self.assertLess(took, LONGEST_S, done.stderr)
         self.assertNotIn("finished:", done.stdout)
-        return done.stderr.splitlines()[0] if done.stderr else ""
+        first = done.stderr.splitlines()[0] if done.stderr else ""
+        manifest = json.loads((output / "manifest.json").read_text())
+        self.assertEqual([manifest["exit_code"], manifest["failure"]], [4, first])
+        self.assertRegex(manifest["ended"], re.sub(r"\d", r"\\d", re.escape(manifest["started"])))
+        self.assertGreaterEqual(manifest["ended"], manifest["started"])
+        return first
 
     def test_whatever_a_controller_does_the_robot_is_named(self):
         for way, options in WAYS.items():
             for fault, words in FAULTS.items():
                 with self.subTest(fault, way=way):
-                    self.assertRegex(self.fail("controller", fault, *options), "^" + re.escape(ROBOT) + " " + words)
+                    self.assertRegex(self.first_line("controller", fault, *options), "^" + re.escape(ROBOT) + " " + words)
 
     def test_a_cluster_names_the_robot_when_its_process_could_say_nothing(self):
         for fault, words in UNSEEN.items():
             with self.subTest(fault):
-                first = self.fail("controller", fault)
+                first = self.first_line("controller", fault)
                 self.assertRegex(first, f"^controller host 0 {words}, during {re.escape(ROBOT)}; its log is ")
 
     def test_others_are_named_by_their_id(self):
@@ -77,7 +104,7 @@ class Failures(OutsideTest):
             for who, name in names.items():
                 for fault in ("throw", "_exit", "segfault"):
                     with self.subTest(who, fault=fault, way=way):
-                        first = self.fail(who, fault, *options, file=file)
+                        first = self.first_line(who, fault, *options, file=file)
                         self.assertRegex(first, "^" + re.escape(name) + " " + FAULTS[fault])
 
     @staticmethod
@@ -92,13 +119,14 @@ class Failures(OutsideTest):
         for turn in range(10):
             for fault in ("throw", "_exit"):
                 with self.subTest(fault, turn=turn):
-                    self.assertRegex(self.fail("controller", fault, tick=50),
+                    self.assertRegex(self.first_line("controller", fault, tick=50),
                                      "^robot 'robot_one', controller 'c': ControlStep at tick 50 " + FAULTS[fault])
 
     def test_one_that_never_ends_is_named_and_can_be_ended(self):
         for way, options in WAYS.items():
             with self.subTest(way):
-                run = subprocess.Popen([PREFIX / "bin" / "swarmanoid", "run", self.file, *options], cwd=self.folder,
+                output = self.folder / way
+                run = subprocess.Popen([PREFIX / "bin" / "swarmanoid", "run", self.file, "--output", output, *options], cwd=self.folder,
                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                        env=self.environment({"OUTSIDE_FAULT": f"controller loop {TICK}"}))
                 self.addCleanup(run.kill)
@@ -120,18 +148,18 @@ class Failures(OutsideTest):
                 run.send_signal(signal.SIGINT)
                 run.communicate(timeout=100)
                 self.assertEqual(run.returncode, 130)
-
+                self.assertEqual(json.loads((output / "manifest.json").read_text())["exit_code"], 130)
 
     def test_a_step_that_takes_too_long_ends_the_run(self):
         for way, options in WAYS.items():
             with self.subTest(way):
-                self.assertRegex(self.fail("controller", "loop", "--step-timeout", "0.5", *options),
+                self.assertRegex(self.first_line("controller", "loop", "--step-timeout", "0.5", *options, allowed=0.5),
                                  "^" + re.escape(ROBOT) + r" did not return within 0.5 s \(--step-timeout\)")
 
     def test_a_memory_limit_is_told(self):
         for way, options in WAYS.items():
             with self.subTest(way):
-                self.assertRegex(self.fail("controller", "memory", "--memory-limit", "640MiB", *options),
+                self.assertRegex(self.first_line("controller", "memory", "--memory-limit", "640MiB", *options),
                                  "^" + re.escape(ROBOT) + r" failed: no memory is left: it may take 640 MiB")
 
 

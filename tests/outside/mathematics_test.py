@@ -19,6 +19,7 @@ ENVIRONMENTS = {
     "bound at once": {"LD_BIND_NOW": "1"},
 }
 TICKS = 3
+SENSED_TICKS = 8
 
 
 def free_domain():
@@ -54,13 +55,17 @@ class Mathematics(OutsideTest):
             self.assertEqual(self.seen.setdefault("hash", (what, hash_of_run))[1], hash_of_run,
                              f"{self.seen['hash'][0]} and {what}")
 
-    def by_hand(self, environment):
+    def robot(self, file, environment, steps=TICKS):
+        return self.command("swarmanoid_robot", file, "--robot", "robot_one", "--steps", steps,
+                            environment={**environment, "ROS_LOCALHOST_ONLY": "1", "ROS_DOMAIN_ID": str(free_domain())})
+
+    def by_hand(self, of_host, of_server, of_engine):
         """The three processes of a cluster, each with its own environment."""
         domain = str(free_domain())
         commands = [
-            (["space_server", str(self.file), "--no-visualisers", "--domain", domain], environment),
-            (["engine_worker", "--engine", "ground", "--experiment", self.file.stem, "--domain", domain], {}),
-            (["controller_host", "--experiment", self.file.stem, "--domain", domain], environment),
+            (["space_server", str(self.file), "--no-visualisers", "--domain", domain], of_server),
+            (["engine_worker", "--engine", "ground", "--experiment", self.file.stem, "--domain", domain], of_engine),
+            (["controller_host", "--experiment", self.file.stem, "--domain", domain], of_host),
         ]
         processes = [subprocess.Popen([str(PREFIX / "bin" / words[0]), *words[1:]], cwd=self.folder, stdout=subprocess.PIPE,
                                       stderr=subprocess.STDOUT, text=True, env=self.environment(own))
@@ -77,20 +82,65 @@ class Mathematics(OutsideTest):
 
     def test_the_same_bits_however_started(self):
         simulation = BUILT / "simulation"
-        for name, environment in ENVIRONMENTS.items():
-            way, options = "one process", WAYS["one process"]
-            done = self.run_experiment(self.file, *options, environment=environment)
-            self.compare(f"run, {way}, {name}", self.hash_of(done))
-            done = self.command(simulation, self.file, environment=environment)
-            self.compare(f"a user's simulator, {name}", self.hash_of(done))
-            done = self.command("swarmanoid_robot", self.file, "--robot", "robot_one", "--steps", TICKS,
-                                environment={**environment, "ROS_LOCALHOST_ONLY": "1", "ROS_DOMAIN_ID": str(free_domain())})
+        environments = list(ENVIRONMENTS.values())
+        for turn, (name, environment) in enumerate(ENVIRONMENTS.items()):
+            for way, options in WAYS.items():
+                done = self.run_experiment(self.file, *options, environment=environment)
+                self.compare(f"run, {way}, {name}", self.hash_of(done))
+                done = self.command(simulation, self.file, "--quiet", *options, environment=environment)
+                self.compare(f"a user's simulator, {way}, {name}", self.hash_of(done))
+            others = [environments[(turn + k) % len(environments)] for k in (1, 2)]
+            self.compare(f"by hand, the host with {name}", self.hash_of(self.by_hand(environment, *others)))
+            done = self.robot(self.file, environment)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.compare(f"the robot, {name}", None)
-        for name in ["as it is", "no FMA, no AVX2"]:
-            done = self.run_experiment(self.file, *WAYS["cluster"], environment=ENVIRONMENTS[name])
-            self.compare(f"run, cluster, {name}", self.hash_of(done))
-            self.compare(f"by hand, {name}", self.hash_of(self.by_hand(ENVIRONMENTS[name])))
+
+    def test_the_robot_commands_what_the_simulated_one_does_by_the_same_readings(self):
+        noise = "<noise_kind>gaussian</noise_kind><noise_deviation>0.01</noise_deviation>"
+        devices = {"footbot_proximity": noise, "footbot_encoders": "", "footbot_omnidirectional_camera": ""}
+        sensors = "".join(f"<{name}><implementation>{find}{name}</implementation>{more}</{name}>"
+                          for (name, more), find in zip(devices.items(), ["generic_", "engine_", "generic_"]))
+        commands = {"footbot_wheels": "dummy_", "footbot_leds": "generic_"}
+        actuators = "".join(f"<{name}><implementation>{kind}{name}</implementation></{name}>" for name, kind in commands.items())
+        second = '<footbot id="robot_two"><position>1.25,1,0</position><orientation>0,0,100</orientation><controller>c</controller></footbot>'
+
+        def experiment(name):
+            folder = self.folder / name
+            folder.mkdir()
+            file = self.experiment(f"senses_{name}_{os.getpid()}", controller="outside_senses", ticks=SENSED_TICKS, sensors=sensors,
+                                   actuators=actuators, arena=second, entities="robot_two",
+                                   parameters=f"<record>{folder}</record>")
+            file.write_text(file.read_text().replace("<clocktick>100<", "<clocktick>20<"))
+            return file, folder
+
+        def recorded(folder, ending=""):
+            return {name: (folder / f"robot_one.{name}{ending}.txt").read_text() for name in [*devices, *commands]
+                    if not ending or name in commands}
+
+        simulated, known = experiment("simulated")
+        expected_hash = self.hash_of(self.run_experiment(simulated, *WAYS["one process"]))
+        expected = recorded(known)
+        for name, lines in expected.items():
+            self.assertGreater(len(set(lines.splitlines())), SENSED_TICKS // 2, f"{name} varies")
+        again, folder = experiment("cluster")
+        self.assertEqual(self.hash_of(self.run_experiment(again, environment=ENVIRONMENTS["no FMA, no AVX2"])), expected_hash)
+        self.assertEqual(recorded(folder), expected)
+
+        for turn, (name, environment) in enumerate(ENVIRONMENTS.items()):
+            file, folder = experiment(f"robot_{turn}")
+            robot = self.folder / f"robot_{turn}.xml"
+            robot.write_text(f'''<ahss-robot id="robot_one" kind="footbot">
+  <experiment file="{file}" controller="c"/>
+  <drivers library="recorded_drivers" path="{BUILT}/drivers" prefer="recorded">
+    <sensors>{"".join(f"<{d}><file>{known}/robot_one.{d}.txt</file></{d}>" for d in devices)}</sensors>
+    <actuators>{"".join(f"<{d}><file>{folder}/robot_one.{d}.driver.txt</file></{d}>" for d in commands)}</actuators>
+  </drivers>
+</ahss-robot>
+''')
+            done = self.robot(robot, environment, SENSED_TICKS)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(recorded(folder), expected, name)
+            self.assertEqual(recorded(folder, ".driver"), {d: expected[d] for d in commands}, name)
 
     def test_a_program_that_has_libm_of_its_own_loads_a_controller(self):
         """Python: its functions are libm's, those of the controller are ours all the same."""

@@ -1,10 +1,19 @@
 """A simulator of a user's own sees, prints and changes the same in one process and as a cluster, with the hash of the
 command's own runs."""
+import json
+import os
+import pathlib
 import re
+import signal
+import subprocess
+import tempfile
+import time
 
+from failures_test import FAULTS
 from outside import BUILT, WAYS, OutsideTest, main
 
 TICKS = 20
+WATCH = "the function that looks at each tick: Watch at tick 7"
 
 
 class OwnSimulator(OutsideTest):
@@ -37,14 +46,77 @@ class OwnSimulator(OutsideTest):
         self.assertEqual(*(self.seen_in(done) for done in runs.values()))
         self.assertEqual(*((self.folder / f"{way}.txt").read_text() for way in WAYS))
 
-    def test_its_mistakes_end_the_run(self):
-        file = self.experiment(ticks=TICKS)
+    def failing(self, fault, way, *options):
+        output = pathlib.Path(tempfile.mkdtemp(prefix="run_", dir=self.folder))
+        done = self.watched(self.experiment(ticks=TICKS), "--output", output, *WAYS[way], *options,
+                            environment={"OUTSIDE_FAULT": f"watch {fault} 7"})
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertNotIn("finished:", done.stdout)
+        first = done.stderr.splitlines()[0]
+        manifest = json.loads((output / "manifest.json").read_text())
+        self.assertEqual([manifest["exit_code"], manifest["failure"]], [4, first])
+        return done, first
+
+    def test_whatever_it_does_the_run_ends_by_its_name(self):
+        for way in WAYS:
+            for fault, words in FAULTS.items():
+                with self.subTest(fault, way=way):
+                    done, first = self.failing(fault, way, "--memory-limit", "640MiB")
+                    self.assertRegex(first, "^" + re.escape(WATCH) + " " + words)
+                    if fault.startswith("throw"):
+                        self.assertIn("watched 8 ticks", done.stdout, "the program goes on")
+
+    def test_one_that_takes_too_long_ends_the_run(self):
+        for way in WAYS:
+            with self.subTest(way):
+                _, first = self.failing("loop", way, "--step-timeout", "0.5")
+                self.assertEqual(first, WATCH + " did not return within 0.5 s (--step-timeout)")
+
+    def test_one_that_never_ends_is_named_and_can_be_ended(self):
         for way, options in WAYS.items():
-            done = self.watched(file, *options, environment={"OUTSIDE_FAILS": "7"}, timeout=60)
-            self.assertEqual(done.returncode, 4, way + done.stderr)
-            self.assertIn("the stranger's own mistake", done.stderr, way)
-            self.assertNotIn("finished:", done.stdout, way)
-            self.assertIn("watched 8 ticks", done.stdout, way)
+            with self.subTest(way):
+                output = self.folder / way
+                run = subprocess.Popen([BUILT / "simulation", self.experiment(ticks=TICKS), "--output", output, *options],
+                                       cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                       env=self.environment({"OUTSIDE_FAULT": "watch loop 7"}))
+                said = ""
+                while "waiting since" not in said:
+                    line = run.stderr.readline()
+                    self.assertNotEqual(line, "", said)
+                    said += line
+                self.assertIn(f"for {WATCH}\n", said)
+                run.send_signal(signal.SIGINT)
+                if way == "cluster":
+                    while "Ctrl-C again" not in said:
+                        said += run.stderr.readline()
+                else:
+                    time.sleep(0.2)  # two signals that are pending at once are one
+                run.send_signal(signal.SIGINT)
+                said = run.communicate(timeout=30)[1]
+                self.assertIn(f"{WATCH} ", said)
+                self.assertEqual(run.returncode, 130, said)
+                self.assertEqual(json.loads((output / "manifest.json").read_text())["exit_code"], 130)
+
+    def test_another_failure_meanwhile_stays_the_headline(self):
+        """The function of the program does not return, and a process of its cluster dies."""
+        output = self.folder / "run"
+        run = subprocess.Popen([BUILT / "simulation", self.experiment(ticks=TICKS), "--output", output, "--quiet"],
+                               cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               env=self.environment({"OUTSIDE_FAULT": "watch loop 7", "OUTSIDE_FAULT_TIME": str(self.folder / "stuck")}))
+        while not (self.folder / "stuck").exists():
+            self.assertIsNone(run.poll())
+            time.sleep(0.01)
+        children = pathlib.Path(f"/proc/{run.pid}/task").glob("*/children")
+        workers = [int(pid) for list_ in children for pid in list_.read_text().split()
+                   if "engine_worker" in pathlib.Path(f"/proc/{pid}/cmdline").read_text()]
+        self.assertEqual(len(workers), 1)
+        os.kill(workers[0], signal.SIGKILL)
+        said = run.communicate(timeout=30)[1].splitlines()
+        self.assertRegex(said[0], r"^engine 'ground' was killed by signal 9 \(Killed\)")
+        self.assertIn(f"{WATCH} does not return: this process ends without it", said)
+        self.assertEqual(run.returncode, 4)
+        manifest = json.loads((output / "manifest.json").read_text())
+        self.assertEqual([manifest["exit_code"], manifest["failure"]], [4, said[0]])
 
 
 if __name__ == "__main__":

@@ -1,9 +1,10 @@
 // A stranger's own simulator: it looks at every tick, gathers what it saw in variables of main, and, where
-// OUTSIDE_CHANGES says so, changes the experiment through the editor. OUTSIDE_FAILS names a tick at which it throws.
+// OUTSIDE_CHANGES says so, changes the experiment through the editor. It fails as OUTSIDE_FAULT says.
 #include <cstdio>
 #include <cstdlib>
-#include <stdexcept>
 #include <thread>
+
+#include "controllers/outside_faults/faults.h"
 
 #include "simulation.h"
 #include "space_server/experiment_functions.h"
@@ -13,7 +14,6 @@ using namespace swarmanoid;
 int main(int count, char** arguments)
 {
   const bool changes = std::getenv("OUTSIDE_CHANGES") != nullptr;
-  const char* fails = std::getenv("OUTSIDE_FAILS");
   int seen = 0;
   double way = 0;
   bool same_thread = true;
@@ -28,8 +28,7 @@ int main(int count, char** arguments)
                       const Vector3 place = space.FindEntity("robot_one")->GetPosition();
                       way += place.x();
                       std::printf("watch %d %.17g %.17g\n", static_cast<int>(space.GetTick()), place.x(), place.y());
-                      if (fails != nullptr && space.GetTick() == std::strtoull(fails, nullptr, 10))
-                        throw std::runtime_error("the stranger's own mistake");
+                      faults::FailIfAsked("watch", space.GetTick());
                       if (!changes || space.GetTick() % 5 != 0) return;
                       const double x = 1 + 0.1 * static_cast<double>(space.GetTick());
                       simulator.GetEditor().MoveEntity("robot_one", {Vector3(x, 2, 0), Quaternion::Identity()});

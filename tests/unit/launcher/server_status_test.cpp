@@ -43,6 +43,7 @@ TEST(ServerStatus, WhatIsWrittenIsRead)
       ServerTick{412, 0, 0.1},
       ServerTick{~0ULL, ~0ULL, 1e-7},
       ServerStall{"controller host 0 (runs the controller of fb 3)", 2},
+      ServerWarning{"engine 'ground' at tick 5: the footbot 'fb' left the world at 1, 1, -300"},
       ServerError{"controller 'x' of robot 'y' failed: 5 of 6"},
       ServerFinished{500, 10, 0xffULL, 0.0541234567, 1.0 / 3},
   };

@@ -17,7 +17,7 @@ namespace
 using ::testing::ElementsAre;
 namespace fs = std::filesystem;
 
-class TextRender : public ::testing::Test
+class TextRenderTicks : public ::testing::Test
 {
 protected:
   TextRender() : world_({4, 4, 2})
@@ -57,7 +57,7 @@ protected:
   fs::path folder_;
 };
 
-TEST_F(TextRender, WritesEveryNthTickAndTheLastOne)
+TEST_F(TextRenderTicks, WritesEveryNthTickAndTheLastOne)
 {
   const std::string clock = "format=\"csv\" columns=\"clock\" ";
   EXPECT_THAT(Written(clock + "every=\"4\"", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}),
@@ -69,7 +69,7 @@ TEST_F(TextRender, WritesEveryNthTickAndTheLastOne)
   EXPECT_THAT(Written(clock + "every=\"4\"", {1, 2, 5, 7, 8, 10}), ElementsAre("clock", "5", "8", "10"));
 }
 
-TEST_F(TextRender, WritesPlacesAndAnglesInDegreesInTheFormatThatIsAskedFor)
+TEST_F(TextRenderTicks, WritesPlacesAndAnglesInDegreesInTheFormatThatIsAskedFor)
 {
   EXPECT_THAT(Written("", {0}), ElementsAre("# clock\tEntity type\tEntity id\tX\tY\tZ\tAlpha\tBeta\tGamma",
                                             "0\tFootbot\tfb\t1\t2\t0.5\t0\t0\t90"));

@@ -1,15 +1,19 @@
 // What goes wrong in the code of users, for plug-ins that fail when the environment variable OUTSIDE_FAULT says so:
-// "<who> <fault> <tick>".
+// "<who> <fault> <tick>". The file OUTSIDE_FAULT_TIME gets the time of the failure, in seconds of the monotonic clock.
 #pragma once
 
+#include <fcntl.h>
 #include <signal.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <exception>
+#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -26,10 +30,32 @@ namespace faults
   return Recurse(depth + 1) + room[depth % 4096];
 }
 
+// There may be no memory left.
+inline void NoteTime()
+{
+  const char* path = std::getenv("OUTSIDE_FAULT_TIME");
+  if (path == nullptr) return;
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  char text[40];
+  const int size = std::snprintf(text, sizeof text, "%lld.%09ld", static_cast<long long>(now.tv_sec), now.tv_nsec);
+  const int file = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  if (write(file, text, static_cast<std::size_t>(size)) < 0) std::abort();
+  close(file);
+}
+
 inline void TakeAllMemory()
 {
   std::vector<std::vector<char>> taken;
-  while (true) taken.emplace_back(std::size_t{4} << 20, 'x');
+  try
+  {
+    while (true) taken.emplace_back(std::size_t{4} << 20, 'x');
+  }
+  catch (const std::bad_alloc&)
+  {
+    NoteTime();
+    throw;
+  }
 }
 
 struct Foreign
@@ -38,6 +64,7 @@ struct Foreign
 
 inline void Fail(const std::string& fault)
 {
+  NoteTime();
   if (fault == "throw") throw std::runtime_error("cannot go on");
   if (fault == "throw_number") throw 42;
   if (fault == "throw_foreign") throw Foreign();
@@ -58,7 +85,7 @@ inline void Fail(const std::string& fault)
   }
 }
 
-// `who`: controller, functions, engine or render.
+// `who`: controller, functions, engine, render or watch.
 inline void FailIfAsked(const char* who, std::uint64_t tick)
 {
   const char* asked = std::getenv("OUTSIDE_FAULT");

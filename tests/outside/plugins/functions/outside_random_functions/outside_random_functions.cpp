@@ -15,12 +15,14 @@ public:
     PluginDescription description;
     description.label = "outside_random_functions";
     description.brief = "draws random numbers in each step";
-    description.parameters = {{.name = "file", .type = ParameterType::kText, .description = "Where they are written."}};
+    description.parameters = {{.name = "file", .type = ParameterType::kText, .description = "Where they are written."},
+                              {.name = "any", .default_value = "0", .description = "Nothing depends on it."}};
     return description;
   }
   void Init(const TConfigurationTree tree, SpaceEditor& space) override
   {
     path_ = tree.GetText("file");
+    tree.GetNumber("any", 0);
     Draw("Init", space);
   }
   void PreStep(SpaceEditor& space) override { Draw("PreStep", space); }
