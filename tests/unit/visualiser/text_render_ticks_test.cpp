@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 class TextRenderTicks : public ::testing::Test
 {
 protected:
-  TextRender() : world_({4, 4, 2})
+  TextRenderTicks() : world_({4, 4, 2})
   {
     RegisterBuiltinRenderers();
     folder_ = fs::temp_directory_path() / ("text_render_test_" + std::to_string(getpid()));
@@ -29,7 +29,7 @@ protected:
     world_.Add(EntityKind::kFootbot, "fb", {1, 2, 0.5}, 90);
     world_.GetExperiment().max_clock = 10;
   }
-  ~TextRender() override { fs::remove_all(folder_); }
+  ~TextRenderTicks() override { fs::remove_all(folder_); }
 
   // The lines of its file after having seen these ticks.
   std::vector<std::string> Written(const std::string& attributes, const std::vector<std::uint64_t>& ticks)
