@@ -6,7 +6,7 @@
 
 #include "common/control_interface/init_controller.h"
 #include "common/experiment/actors.h"
-#include "common/space/attribute_changes.h"
+#include "common/messages/attribute_changes.h"
 #include "common/space/state_checks.h"
 
 namespace swarmanoid
@@ -216,7 +216,7 @@ void ControllerHost::CommitActuators()
     CheckAttributesOf(*actuator.device, actuator.robots, first);
   }
   batches_->order.Apply(commands_.attributes);
-  StillAbsent();
+  StopInactive();
   CheckCommands();
 }
 
@@ -327,7 +327,7 @@ bool ControllerHost::Describe(std::uint32_t entity, RobotStatus& status) const
 }
 
 // Robots that are not in the arena do nothing, whatever they were told last.
-void ControllerHost::StillAbsent()
+void ControllerHost::StopInactive()
 {
   if (space_.Absent().empty()) return;
   for (const ChannelBlock& block : layout_.commands)

@@ -8,8 +8,8 @@
 
 #include "common/activity/failure_report.h"
 #include "common/control_interface/ci_controller.h"
-#include "common/space/assignment.h"
-#include "common/space/robot_status.h"
+#include "common/messages/assignment.h"
+#include "common/messages/robot_status.h"
 #include "controller_host/device.h"
 
 namespace swarmanoid
@@ -60,7 +60,7 @@ private:
 
   void RunControllers(std::uint64_t tick);
   void CommitActuators();
-  void StillAbsent();
+  void StopInactive();
   // What no controller may command: throws ControllerError with robot, device, tick and value.
   void CheckCommands();
   void CheckAttributesOf(const DeviceConfiguration& device, std::span<const std::uint32_t> robots,

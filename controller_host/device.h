@@ -11,9 +11,9 @@
 
 #include "common/configuration/parameter.h"
 #include "common/control_interface/ci_device.h"
+#include "common/messages/messages.h"
 #include "common/plugins/registry.h"
 #include "common/serialisation/bytes.h"
-#include "common/space/messages.h"
 #include "common/space/space.h"
 #include "controller_host/devices/noise.h"
 

@@ -8,7 +8,7 @@
 #include "common/bus/tick_inputs.h"
 #include "common/bus/worker_session.h"
 #include "common/program/program.h"
-#include "controller_host/cluster/robot_watch.h"
+#include "controller_host/cluster/robot_inspection.h"
 #include "controller_host/controller_host.h"
 #include "roles/builtins.h"
 
@@ -29,7 +29,7 @@ public:
         saved_(session, HostName(host), role_),
         inputs_(session, replica, Engines(*replica.experiment, role_.Layout())),
         commands_(session.GetBus(), session.Scope(replica.limits->CommandBytes(), 1)),
-        watch_robots_(session, role_, host_, inputs_.Mutex())
+        inspection_(session, role_, host_, inputs_.Mutex())
   {
     const auto& from = role_.Layout().frames_from;
     for (auto& frames : frames_) frames.resize(from.size());
@@ -50,7 +50,7 @@ public:
   ~HostNode() { inputs_.Close(); }
 
   // Until all whom this host hears or speaks to are there.
-  void MeetOthers()
+  void WaitForOthers()
   {
     unsigned readers = 0;
     for (const EngineLayout& engine : replica_.assignment.engines) readers += engine.commands_from.empty() ? 0 : 1;
@@ -61,9 +61,10 @@ public:
         break;
       }
     session_.WaitUntil(
-        [&] {
+        [&]
+        {
           return inputs_.ServerIsHere() && inputs_.MissingWriters() == 0 && commands_.Readers() >= readers &&
-                 saved_.Met();
+                 saved_.Matched();
         },
         [&] { return std::string("the engines"); });
   }
@@ -104,7 +105,7 @@ private:
     inputs_.Next();
     saved_.Ready(inputs_.Tick(), role_);
     Answer(false);
-    watch_robots_.Stepped();
+    inspection_.Stepped();
   }
 
   void AnswerAgain()
@@ -129,7 +130,7 @@ private:
   std::vector<const SensorFrame*> frames_here_;
   const ControlCommands* answer_ = nullptr;
   HotPublisher<ControlCommands> commands_;
-  RobotWatch watch_robots_;
+  RobotInspection inspection_;
 };
 
 int Run(const WorkerSettings& settings, const BusOptions& bus)
@@ -145,8 +146,8 @@ int Run(const WorkerSettings& settings, const BusOptions& bus)
           throw ConfigurationError(fmt::format("experiment '{}' has {} controller host{}, numbered from 0",
                                                replica.experiment->name, hosts, hosts == 1 ? "" : "s"));
         HostNode node(session, replica, host);
-        node.MeetOthers();
-        session.SayReady();
+        node.WaitForOthers();
+        session.ReportReady();
         session.Wait(std::chrono::milliseconds(500), [&] { return node.Stall(); });
         node.Flush();
         node.Destroy();

@@ -68,7 +68,7 @@ void EngineWorker::Step(std::span<const std::uint32_t> moved, std::span<const Co
   Checked(
       [&]
       {
-        KeepAbsent();
+        KeepInactive();
         CheckResults();
         order_.Apply(update_.attributes);
       });
@@ -105,7 +105,7 @@ void EngineWorker::ReadCommands(std::span<const ControlCommands* const> commands
 }
 
 // Entities that are not in the arena stay where they wait, whatever the engine makes of them.
-void EngineWorker::KeepAbsent()
+void EngineWorker::KeepInactive()
 {
   if (space_.Absent().empty() || update_.poses.size() != 7 * layout_.owned.size()) return;
   const PoseArrays& poses = space_.Poses();

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "common/activity/failure_report.h"
-#include "common/space/attribute_changes.h"
+#include "common/messages/attribute_changes.h"
 #include "engine_worker/physics_engine.h"
 
 namespace swarmanoid
@@ -45,11 +45,11 @@ public:
   const EngineLayout& Layout() const { return layout_; }
 
 private:
-  // Runs a check of what came or was made; what fails bears the engine and the tick.
+  // Runs a check of what came or was made; what fails has the engine and the tick.
   template <class Check>
   void Checked(const Check& check) const;
   void ReadCommands(std::span<const ControlCommands* const> commands);
-  void KeepAbsent();
+  void KeepInactive();
   void CheckResults() const;
 
   const CSwarmanoidSpace& space_;

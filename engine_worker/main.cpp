@@ -41,15 +41,15 @@ public:
   ~EngineNode() { inputs_.Close(); }
 
   // Until all whom this engine hears or speaks to are there.
-  void MeetOthers()
+  void WaitForOthers()
   {
     unsigned frame_readers = 0;
     for (const HostLayout& host : replica_.assignment.hosts) frame_readers += host.frames_from.empty() ? 0 : 1;
     session_.WaitUntil(
         [&]
         {
-          return inputs_.ServerIsHere() && inputs_.MissingWriters() == 0 && updates_.Readers() >= 1 && saved_.Met() &&
-                 (!frames_ || frames_->Readers() >= frame_readers);
+          return inputs_.ServerIsHere() && inputs_.MissingWriters() == 0 && updates_.Readers() >= 1 &&
+                 saved_.Matched() && (!frames_ || frames_->Readers() >= frame_readers);
         },
         [&]
         {
@@ -126,8 +126,8 @@ int Run(const WorkerSettings& settings, const BusOptions& bus)
       {
         Replica replica(session.World(), false);
         EngineNode node(session, replica, FindEngine(*replica.experiment, settings.engine));
-        node.MeetOthers();
-        session.SayReady();
+        node.WaitForOthers();
+        session.ReportReady();
         session.Wait(std::chrono::milliseconds(500), [&] { return node.Stall(); });
         node.Flush();
       });

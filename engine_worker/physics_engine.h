@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "common/configuration/parameter.h"
+#include "common/messages/assignment.h"
+#include "common/messages/messages.h"
 #include "common/plugins/registry.h"
 #include "common/serialisation/bytes.h"
-#include "common/space/assignment.h"
-#include "common/space/messages.h"
 #include "common/space/space.h"
 
 namespace swarmanoid

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "common/experiment/experiment.h"
+#include "common/messages/assignment.h"
 #include "common/run/run_settings.h"
-#include "common/space/assignment.h"
 #include "launcher/hosts.h"
 #include "launcher/processes/cluster_member.h"
 #include "launcher/run_folder.h"

@@ -7,14 +7,14 @@
 #include <optional>
 #include <thread>
 
+#include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
 #include "common/bus/domain.h"
 #include "common/bus/run_directory.h"
 #include "common/experiment/actors.h"
-#include "common/activity/exit_codes.h"
+#include "common/messages/assignment.h"
 #include "common/program/program.h"
 #include "common/program/usage_error.h"
-#include "common/space/assignment.h"
 #include "launcher/cluster_plan.h"
 #include "launcher/manifest_at_death.h"
 #include "launcher/processes/in_process_server.h"

@@ -8,11 +8,11 @@
 #include <memory>
 #include <utility>
 
+#include "common/activity/exit_codes.h"
 #include "common/bus/cluster_options.h"
 #include "common/bus/control_client.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/wording.h"
-#include "common/activity/exit_codes.h"
 #include "launcher/commands.h"
 #include "launcher/control_request.h"
 #include "launcher/run_choice.h"

@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <memory>
 
+#include "common/activity/exit_codes.h"
 #include "common/bus/run_directory.h"
 #include "common/configuration/wording.h"
 #include "common/experiment/reference.h"
 #include "common/plugins/catalogue.h"
 #include "common/plugins/library.h"
-#include "common/activity/exit_codes.h"
 #include "launcher/commands.h"
 #include "launcher/load.h"
 #include "launcher/plugin_text.h"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "common/configuration/wording.h"
 #include "common/activity/exit_codes.h"
+#include "common/configuration/wording.h"
 #include "launcher/commands.h"
 #include "launcher/new_files.h"
 

@@ -6,7 +6,7 @@
 
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/wording.h"
-#include "common/space/control_request.h"
+#include "common/messages/control_request.h"
 #include "launcher/commands.h"
 
 namespace swarmanoid

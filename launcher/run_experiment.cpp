@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "common/math/reproducible_math.h"
 #include "common/activity/exit_codes.h"
+#include "common/checkpoint/checkpoint.h"
+#include "common/math/reproducible_math.h"
 #include "common/program/usage_error.h"
-#include "common/space/checkpoint.h"
 #include "launcher/cluster_run.h"
 #include "launcher/load.h"
 #include "launcher/manifest_at_death.h"

@@ -6,13 +6,13 @@
 #include <stdexcept>
 
 #include "common/activity/failure_report.h"
+#include "common/checkpoint/checkpoint.h"
 #include "common/experiment/load_experiment.h"
 #include "common/math/reproducible_math.h"
+#include "common/messages/assignment.h"
 #include "common/program/usage_error.h"
 #include "common/run/hash_log.h"
 #include "common/serialisation/trial.h"
-#include "common/space/assignment.h"
-#include "common/space/checkpoint.h"
 #include "controller_host/controller_host.h"
 #include "engine_worker/engine_worker.h"
 #include "launcher/steering.h"
@@ -39,7 +39,7 @@ struct CSimulator::Roles
         assignment(MakeAssignment(of, 1)),
         server(of, assignment, options.output_folder),
         space(server.Space()),
-        steering(of, server, DeskSetup(of, with), with.stop),
+        steering(of, server, MakeRunControlSetup(of, with), with.stop),
         hash_log(with.hash_log)
   {
     for (std::size_t e = 0; e < experiment.engines.size(); ++e)
@@ -97,9 +97,9 @@ struct CSimulator::Roles
     return options;
   }
 
-  static ControlDeskSetup DeskSetup(const Experiment& experiment, const SimulatorOptions& options)
+  static RunControlSetup MakeRunControlSetup(const Experiment& experiment, const SimulatorOptions& options)
   {
-    ControlDeskSetup setup{options.paused, options.real_time_factor, options.event_log, {}};
+    RunControlSetup setup{options.paused, options.real_time_factor, options.event_log, {}};
     if (!options.events.empty()) setup.repeated = ReadEvents(options.events, experiment);
     return setup;
   }

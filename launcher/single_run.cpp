@@ -5,9 +5,9 @@
 
 #include <chrono>
 
+#include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
 #include "common/activity/limits.h"
-#include "common/activity/exit_codes.h"
 #include "common/program/interrupts.h"
 #include "common/program/usage_error.h"
 #include "launcher/processes/progress_display.h"

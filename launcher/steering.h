@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "controller_host/controller_host.h"
-#include "space_server/control_desk.h"
 #include "space_server/pace_meter.h"
+#include "space_server/run_control.h"
 #include "visualiser/request_control.h"
 #include "visualiser/visualiser.h"
 
@@ -21,7 +21,7 @@ class Steering : public RunMonitor
 {
 public:
   // `stop`: as in SimulatorOptions. The references outlive this.
-  Steering(const Experiment& experiment, SpaceServer& server, ControlDeskSetup setup, const std::atomic<bool>* stop);
+  Steering(const Experiment& experiment, SpaceServer& server, RunControlSetup setup, const std::atomic<bool>* stop);
 
   ExperimentControl& Control() { return control_; }
   // Whose robots can be watched.
@@ -42,12 +42,12 @@ public:
   const RobotStatus* Robot(std::uint32_t robot) override;
 
 private:
-  using Clock = ControlDesk::Clock;
+  using Clock = RunControl::Clock;
 
   SpaceServer& server_;
   const ControllerHost* host_ = nullptr;
   const std::atomic<bool>* stop_;
-  ControlDesk desk_;
+  RunControl run_control_;
   RequestControl control_;
   PaceMeter pace_;
   bool started_ = false;

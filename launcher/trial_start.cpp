@@ -14,8 +14,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/activity/failure_report.h"
 #include "common/activity/exit_codes.h"
+#include "common/activity/failure_report.h"
 #include "launcher/simulator.h"
 
 namespace swarmanoid

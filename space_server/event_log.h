@@ -1,6 +1,6 @@
 // What users changed in a run from outside, as a file: events.csv in the folder of the run. Written by the control
-// desk; read to repeat the changes in another run (`swarmanoid run EXPERIMENT --events FILE`). docs/command.md has the
-// format.
+// control; read to repeat the changes in another run (`swarmanoid run EXPERIMENT --events FILE`). docs/command.md has
+// the format.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/experiment/experiment.h"
-#include "common/space/control_request.h"
+#include "common/messages/control_request.h"
 
 namespace swarmanoid
 {

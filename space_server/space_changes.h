@@ -1,11 +1,11 @@
 // Changes of the arena from outside physics: who may be moved, added and removed, and where to. Experiment functions
-// (SpaceEditor) and users (ControlDesk) share these rules; what passes is carried out by SpaceServer::Move.
+// (SpaceEditor) and users (RunControl) share these rules; what passes is carried out by SpaceServer::Move.
 #pragma once
 
 #include <string>
 #include <string_view>
 
-#include "common/space/control_request.h"
+#include "common/messages/control_request.h"
 #include "common/space/space.h"
 #include "space_server/space_server.h"
 

@@ -236,8 +236,8 @@ void SpaceServer::SetPosesWithinLimit(const EngineUpdate& update, std::span<cons
       warn_(fmt::format(
           "{} at tick {}: the {} '{}' left the world at {:.6g}, {:.6g}, {:.6g}, more than {:g} m outside the arena; it "
           "is {}",
-          EngineName(experiment_, update.engine), space_.GetTick(), TagName(entity.GetKind()), entity.GetId(),
-          at.x(), at.y(), at.z(), experiment_.limit_m, hold ? "held where it was before" : "removed"));
+          EngineName(experiment_, update.engine), space_.GetTick(), TagName(entity.GetKind()), entity.GetId(), at.x(),
+          at.y(), at.z(), experiment_.limit_m, hold ? "held where it was before" : "removed"));
       told_[index] = true;
     }
     if (hold)

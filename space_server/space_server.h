@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "common/activity/failure_report.h"
+#include "common/messages/assignment.h"
+#include "common/messages/messages.h"
 #include "common/serialisation/bytes.h"
-#include "common/space/assignment.h"
-#include "common/space/messages.h"
 #include "common/space/space.h"
 #include "space_server/experiment_functions.h"
 

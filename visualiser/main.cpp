@@ -50,8 +50,8 @@ void RunSynchronous(WorkerSession& session, const std::string& id, const std::st
                         &control, &monitor);
   replica.RestoreSpace();
   SynchronousNode node(session, replica, number, visualiser, control, monitor);
-  node.MeetServer();
-  session.SayReady();
+  node.WaitForServer();
+  session.ReportReady();
   try
   {
     const std::optional<BusError> over = session.Follow(kIdlePeriod, [&] { node.Work(); });
@@ -74,7 +74,7 @@ void RunAttached(WorkerSession& session, const WorkerSettings& settings, const R
   Visualiser visualiser(configuration, *replica.space, replica.assignment, settings.output,
                         settings.read_only ? nullptr : &control, &monitor);
   AttachedNode node(session, replica, visualiser, monitor, settings.rate);
-  session.SayReady();
+  session.ReportReady();
   const std::optional<BusError> over = session.Follow(kIdlePeriod, [&] { node.Work(); });
   monitor.RunIsOver(over ? over->what() : "");
   // A window stays for those who look at it.

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "common/configuration/parameter.h"
+#include "common/messages/assignment.h"
+#include "common/messages/robot_status.h"
+#include "common/messages/run_status.h"
 #include "common/plugins/registry.h"
-#include "common/space/assignment.h"
-#include "common/space/robot_status.h"
-#include "common/space/run_status.h"
 #include "common/space/space.h"
 
 namespace swarmanoid

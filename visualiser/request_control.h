@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "common/space/control_request.h"
+#include "common/messages/control_request.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid

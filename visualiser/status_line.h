@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/space/run_status.h"
+#include "common/messages/run_status.h"
 
 namespace swarmanoid
 {

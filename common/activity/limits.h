@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/activity/step_watch.h"
+#include "common/activity/step_timeout.h"
 
 namespace swarmanoid
 {

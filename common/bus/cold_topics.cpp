@@ -133,16 +133,16 @@ unsigned Subscription<Message>::Writers() const
   template class Publisher<MESSAGE>;    \
   template class Subscription<MESSAGE>;
 SWARMANOID_INSTANTIATE(WorldMessage)
-SWARMANOID_INSTANTIATE(HelloMessage)
+SWARMANOID_INSTANTIATE(JoinMessage)
 SWARMANOID_INSTANTIATE(ViewMessage)
 SWARMANOID_INSTANTIATE(ControlRequestMessage)
 SWARMANOID_INSTANTIATE(ControlReplyMessage)
 SWARMANOID_INSTANTIATE(StatusMessage)
 SWARMANOID_INSTANTIATE(SavedStateMessage)
-SWARMANOID_INSTANTIATE(WishesMessage)
+SWARMANOID_INSTANTIATE(ViewRequestMessage)
 SWARMANOID_INSTANTIATE(RunStatusMessage)
 SWARMANOID_INSTANTIATE(RobotStatusMessage)
-SWARMANOID_INSTANTIATE(ByeMessage)
+SWARMANOID_INSTANTIATE(LeaveMessage)
 #undef SWARMANOID_INSTANTIATE
 
 }  // namespace swarmanoid

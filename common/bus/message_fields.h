@@ -4,7 +4,7 @@
 #pragma once
 
 #include "common/bus/cdr.h"
-#include "common/space/attribute_changes.h"
+#include "common/messages/attribute_changes.h"
 
 namespace swarmanoid
 {
@@ -93,7 +93,7 @@ void Fields(Archive& archive, MessageHeader& header, DrawnMessage& message)
 template <>
 inline constexpr const char* kTopicOf<WorldMessage> = "World";
 template <>
-inline constexpr const char* kTopicOf<HelloMessage> = "Hello";
+inline constexpr const char* kTopicOf<JoinMessage> = "Join";
 template <>
 inline constexpr const char* kTopicOf<ViewMessage> = "View";
 template <>
@@ -105,13 +105,13 @@ inline constexpr const char* kTopicOf<StatusMessage> = "Status";
 template <>
 inline constexpr const char* kTopicOf<SavedStateMessage> = "SavedState";
 template <>
-inline constexpr const char* kTopicOf<WishesMessage> = "Wishes";
+inline constexpr const char* kTopicOf<ViewRequestMessage> = "ViewRequest";
 template <>
 inline constexpr const char* kTopicOf<RunStatusMessage> = "RunStatus";
 template <>
 inline constexpr const char* kTopicOf<RobotStatusMessage> = "RobotStatus";
 template <>
-inline constexpr const char* kTopicOf<ByeMessage> = "Bye";
+inline constexpr const char* kTopicOf<LeaveMessage> = "Leave";
 
 template <class Archive>
 void Fields(Archive& archive, WorldMessage& message)
@@ -141,7 +141,7 @@ void Fields(Archive& archive, WorldMessage& message)
 }
 
 template <class Archive>
-void Fields(Archive& archive, HelloMessage& message)
+void Fields(Archive& archive, JoinMessage& message)
 {
   archive.Name("process", message.process);
   archive.Version("protocol", message.protocol);
@@ -201,7 +201,7 @@ void Fields(Archive& archive, SavedStateMessage& message)
 }
 
 template <class Archive>
-void Fields(Archive& archive, WishesMessage& message)
+void Fields(Archive& archive, ViewRequestMessage& message)
 {
   archive.Name("client", message.client);
   archive.Integer("run", message.run);
@@ -270,7 +270,7 @@ void Fields(Archive& archive, RobotStatusMessage& message)
 }
 
 template <class Archive>
-void Fields(Archive& archive, ByeMessage& message)
+void Fields(Archive& archive, LeaveMessage& message)
 {
   archive.Integer("run", message.run);
   archive.Integer("tick", message.tick);
@@ -285,7 +285,7 @@ const std::string* KeyOf(const Message&)
 {
   return nullptr;
 }
-inline const std::string* KeyOf(const HelloMessage& message) { return &message.process; }
-inline const std::string* KeyOf(const WishesMessage& message) { return &message.client; }
+inline const std::string* KeyOf(const JoinMessage& message) { return &message.process; }
+inline const std::string* KeyOf(const ViewRequestMessage& message) { return &message.client; }
 
 }  // namespace swarmanoid

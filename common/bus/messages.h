@@ -1,21 +1,21 @@
-// What the processes of a run say to each other beside the messages of a tick (common/space/messages.h). The plain side
-// of idl/swarmanoid.idl, where each field is explained.
+// What the processes of a run say to each other beside the messages of a tick (common/messages/messages.h). The plain
+// side of idl/swarmanoid.idl, where each field is explained.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "common/space/control_request.h"
-#include "common/space/messages.h"
-#include "common/space/robot_status.h"
-#include "common/space/run_status.h"
+#include "common/messages/control_request.h"
+#include "common/messages/messages.h"
+#include "common/messages/robot_status.h"
+#include "common/messages/run_status.h"
 
 namespace swarmanoid
 {
 
 // Equal to PROTOCOL_VERSION of the IDL; a test says so.
-inline constexpr std::uint32_t kProtocolVersion = 3;
+inline constexpr std::uint32_t kProtocolVersion = 4;
 
 // What precedes every message of a tick.
 struct MessageHeader
@@ -59,7 +59,7 @@ struct WorldMessage
   std::vector<WorldEntity> entities;
 };
 
-struct HelloMessage
+struct JoinMessage
 {
   std::string process;
   std::uint32_t protocol = kProtocolVersion;
@@ -99,7 +99,7 @@ struct SavedStateMessage
   std::vector<char> state;
 };
 
-struct WishesMessage
+struct ViewRequestMessage
 {
   std::string client;
   std::uint64_t run = 0;
@@ -122,7 +122,7 @@ struct RobotStatusMessage
   std::vector<RobotStatus> robots;
 };
 
-struct ByeMessage
+struct LeaveMessage
 {
   std::uint64_t run = 0;
   std::uint64_t tick = 0;

@@ -129,7 +129,7 @@ rtps::Locator_t LocatorOf(const std::string& host, unsigned port)
   return locator;
 }
 
-// Discovery through the space server: its participant bears a prefix that follows from the domain.
+// Discovery through the space server: its participant has a prefix that follows from the domain.
 void UseDiscoveryServer(const BusOptions& options, rtps::BuiltinAttributes& builtin, rtps::GuidPrefix_t& own_prefix)
 {
   const auto address = ParseServerAddress(options.discovery_server);

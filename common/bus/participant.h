@@ -53,7 +53,7 @@ struct Bus::Impl : dds::DomainParticipantListener
   std::map<std::pair<std::string, std::string>, std::uint64_t> dropped_of;  // by sender and topic
 };
 
-// One writer or reader with the publisher or subscriber that bears its partition.
+// One writer or reader with the publisher or subscriber that has its partition.
 class WriterEnd
 {
 public:

@@ -27,16 +27,16 @@ inline constexpr TopicQos kTopics[] = {
     {"SensorFrame", true, false, false, 2, 4},      // reader: for each writer
     {"Drawn", true, false, false, 2, 4},            // reader: for each writer
     {"World", false, true, false, 1, 8},
-    {"Hello", false, true, true, 1, 1},
+    {"Join", false, true, true, 1, 1},
     {"View", false, true, false, 1, 1},
     {"ControlRequest", false, false, false, 16, 64},
     {"ControlReply", false, false, false, 16, 64},
     {"Status", false, false, false, 4, 64},
     {"SavedState", false, false, false, 64, 64},
-    {"Wishes", false, true, true, 1, 1},
+    {"ViewRequest", false, true, true, 1, 1},
     {"RunStatus", false, true, false, 1, 1},
     {"RobotStatus", false, true, false, 1, 64},
-    {"Bye", false, true, false, 16, 64},
+    {"Leave", false, true, false, 16, 64},
 };
 
 const TopicQos& QosOf(std::string_view topic);

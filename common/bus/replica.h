@@ -7,8 +7,8 @@
 
 #include "common/bus/messages.h"
 #include "common/bus/tick_limits.h"
-#include "common/space/assignment.h"
-#include "common/space/checkpoint.h"
+#include "common/checkpoint/checkpoint.h"
+#include "common/messages/assignment.h"
 #include "common/space/space.h"
 
 namespace swarmanoid

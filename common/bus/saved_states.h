@@ -27,7 +27,7 @@ public:
   }
 
   // Whether the server is there.
-  bool Met() const { return !publisher_ || publisher_->Readers() >= 1; }
+  bool Matched() const { return !publisher_ || publisher_->Readers() >= 1; }
   // The role has stepped and is about to step at `tick`.
   template <class Role>
   void Ready(std::uint64_t tick, const Role& role)

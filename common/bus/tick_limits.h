@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/bus/messages.h"
-#include "common/space/assignment.h"
+#include "common/messages/assignment.h"
 #include "common/space/space.h"
 
 namespace swarmanoid

@@ -7,9 +7,9 @@
 #include <new>
 #include <utility>
 
+#include "common/activity/exit_codes.h"
 #include "common/activity/memory_limit.h"
 #include "common/configuration/configuration_tree.h"
-#include "common/activity/exit_codes.h"
 #include "common/program/interrupts.h"
 
 namespace swarmanoid
@@ -21,9 +21,9 @@ namespace
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kPatience = 1s;      // before what is waited for is said
-constexpr auto kBrokenTime = 5s;    // for the lease of a dead process to end
-constexpr double kByeTime_s = 1.0;  // for the last message to arrive
+constexpr auto kPatience = 1s;        // before what is waited for is said
+constexpr auto kBrokenTime = 5s;      // for the lease of a dead process to end
+constexpr double kLeaveTime_s = 1.0;  // for the last message to arrive
 
 int ExitCodeOf(EndReason reason, bool looks_on)
 {
@@ -51,7 +51,7 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
       {
         const std::lock_guard lock(mutex_);
         if (process != server_process_) return;
-        server_gone_ = true;
+        server_lost_ = true;
         changed_.notify_all();
       });
   bus_.OnBadMessage([this](const BadMessageReport& report) { return FailedBy(report); });
@@ -88,21 +88,21 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
 
   server_seen_ = ServerIsOnThisMachine();
   directory_ = std::make_unique<RunDirectory>(world_.experiment, world_.run);
-  hello_ = std::make_unique<Publisher<HelloMessage>>(bus_, world_.experiment);
+  join_ = std::make_unique<Publisher<JoinMessage>>(bus_, world_.experiment);
   status_ = std::make_unique<Publisher<StatusMessage>>(bus_, world_.experiment);
-  bye_ = std::make_unique<Publisher<ByeMessage>>(bus_, world_.experiment);
-  byes_ = std::make_unique<Subscription<ByeMessage>>(bus_, world_.experiment,
-                                                     [this](const ByeMessage& bye)
-                                                     {
-                                                       if (bye.run != world_.run) return;
-                                                       if (!bye.to.empty() && bye.to != ProcessId()) return;
-                                                       const std::lock_guard lock(mutex_);
-                                                       if (bye.name != "space server") return;
-                                                       server_said_bye_ = true;
-                                                       if (!bye.error.empty()) others_error_ = bye.error;
-                                                       changed_.notify_all();
-                                                     });
-  hello_->Write({ProcessId(), kProtocolVersion, world_.run, name_, false});
+  leave_ = std::make_unique<Publisher<LeaveMessage>>(bus_, world_.experiment);
+  leaves_ = std::make_unique<Subscription<LeaveMessage>>(bus_, world_.experiment,
+                                                         [this](const LeaveMessage& leave)
+                                                         {
+                                                           if (leave.run != world_.run) return;
+                                                           if (!leave.to.empty() && leave.to != ProcessId()) return;
+                                                           const std::lock_guard lock(mutex_);
+                                                           if (leave.name != "space server") return;
+                                                           server_left_ = true;
+                                                           if (!leave.error.empty()) others_error_ = leave.error;
+                                                           changed_.notify_all();
+                                                         });
+  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, false});
 }
 
 WorkerSession::~WorkerSession()
@@ -152,9 +152,9 @@ void WorkerSession::CheckOthers()
   const EndReason before = std::exchange(reason_, EndReason::kOthers);
   if (others_error_) throw BusError(*others_error_);
   // The leases of a run on one machine are long: its launcher sees who dies, but those who are attached have none.
-  if (server_seen_ && !ServerIsOnThisMachine()) server_gone_ = true;
-  if (server_gone_) throw BusError(fmt::format("the space server has gone (process {})", server_process_));
-  if (server_said_bye_) throw BusError("the run has ended");
+  if (server_seen_ && !ServerIsOnThisMachine()) server_lost_ = true;
+  if (server_lost_) throw BusError(fmt::format("the space server has gone (process {})", server_process_));
+  if (server_left_) throw BusError("the run has ended");
   if (BusIsBroken())
   {
     if (!broken_since_) broken_since_ = Clock::now();
@@ -189,7 +189,7 @@ void WorkerSession::WaitUntil(const std::function<bool()>& met, const std::funct
   }
 }
 
-void WorkerSession::SayReady() { hello_->Write({ProcessId(), kProtocolVersion, world_.run, name_, true}); }
+void WorkerSession::ReportReady() { join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, true}); }
 
 void WorkerSession::Finish(std::uint64_t tick)
 {
@@ -285,9 +285,9 @@ void WorkerSession::WaitUntilDone(std::chrono::milliseconds period,
     }
     CheckOthers();
     std::unique_lock lock(mutex_);
-    changed_.wait_for(
-        lock, period,
-        [this] { return notified_ || done_ || own_error_ || others_error_ || server_gone_ || server_said_bye_; });
+    changed_.wait_for(lock, period,
+                      [this]
+                      { return notified_ || done_ || own_error_ || others_error_ || server_lost_ || server_left_; });
     notified_ = false;
   }
 }
@@ -303,10 +303,10 @@ void WorkerSession::ReportFailure(const std::exception& error)
     NoteEnd(reason_, tick_, complete ? text : fmt::format("{} failed at tick {}: {}", name_, tick_, text), complete);
   {
     const std::lock_guard lock(mutex_);
-    if (server_gone_ || server_said_bye_) return;
+    if (server_lost_ || server_left_) return;
   }
-  bye_->Write({world_.run, tick_, name_, "", text});
-  bye_->WaitUntilRead(kByeTime_s);
+  leave_->Write({world_.run, tick_, name_, "", text});
+  leave_->WaitUntilRead(kLeaveTime_s);
 }
 
 int WorkerSession::Work(const std::function<void()>& work)
@@ -323,8 +323,8 @@ int WorkerSession::Work(const std::function<void()>& work)
     return ExitCodeOf(reason_, looks_on_);
   }
   NoteEnd(EndReason::kDone, tick_, "");
-  bye_->Write({world_.run, tick_, name_, "", ""});
-  bye_->WaitUntilRead(kByeTime_s);
+  leave_->Write({world_.run, tick_, name_, "", ""});
+  leave_->WaitUntilRead(kLeaveTime_s);
   return kExitDone;
 }
 

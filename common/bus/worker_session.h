@@ -23,7 +23,7 @@ class WorkerSession
 {
 public:
   // Waits for the space server of `experiment` (empty: of the first one that is heard), saying so. `name` as in
-  // HelloMessage. Throws BusError where its protocol is another one, or when interrupted.
+  // JoinMessage. Throws BusError where its protocol is another one, or when interrupted.
   // `server`: the process on this machine that is expected to be it; BusError where it ends before it is heard.
   WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name,
                 std::optional<int> server = std::nullopt);
@@ -39,7 +39,7 @@ public:
   // Waits until `met` and says so after a while: "waiting for <what>". Throws BusError when the run ends before.
   void WaitUntil(const std::function<bool()>& met, const std::function<std::string()>& what);
   // Tells the server that this process can step.
-  void SayReady();
+  void ReportReady();
 
   // Does the work of the process, all of it after the constructor, and tells the server how it ended. Returns the exit
   // code; throws what `work` throws.
@@ -62,7 +62,7 @@ public:
   // `complete`: the text says by itself who failed.
   void Fail(std::uint64_t tick, const std::string& error, bool complete = false);
   void Notify();
-  // The tick that Status messages bear.
+  // The tick that Status messages have.
   void SetTick(std::uint64_t tick);
 
 private:
@@ -88,9 +88,9 @@ private:
   std::optional<std::string> own_error_;
   std::optional<std::string> others_error_;
   std::optional<std::chrono::steady_clock::time_point> broken_since_;
-  bool server_gone_ = false;
+  bool server_lost_ = false;
   bool server_seen_ = false;  // among the processes of this machine
-  bool server_said_bye_ = false;
+  bool server_left_ = false;
   std::string server_process_;
   std::set<std::string> trusted_;
   std::string last_status_;
@@ -98,10 +98,10 @@ private:
   bool have_world_ = false;
   std::unique_ptr<RunDirectory> directory_;
   std::unique_ptr<Subscription<WorldMessage>> worlds_;
-  std::unique_ptr<Publisher<HelloMessage>> hello_;
+  std::unique_ptr<Publisher<JoinMessage>> join_;
   std::unique_ptr<Publisher<StatusMessage>> status_;
-  std::unique_ptr<Publisher<ByeMessage>> bye_;
-  std::unique_ptr<Subscription<ByeMessage>> byes_;
+  std::unique_ptr<Publisher<LeaveMessage>> leave_;
+  std::unique_ptr<Subscription<LeaveMessage>> leaves_;
 };
 
 }  // namespace swarmanoid

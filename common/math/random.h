@@ -31,7 +31,7 @@ constexpr std::uint64_t StreamName(std::string_view text)
   return MixedBits(hash);
 }
 
-// The name of a numbered part of what bears `name`: an LED of a robot, a wave of a terrain.
+// The name of a numbered part of what has `name`: an LED of a robot, a wave of a terrain.
 constexpr std::uint64_t StreamPart(std::uint64_t name, std::uint64_t part)
 {
   return MixedBits(name + (part + 1) * 0x9e3779b97f4a7c15ULL);

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "common/experiment/experiment.h"
+#include "common/messages/messages.h"
 #include "common/space/attributes.h"
 #include "common/space/entity.h"
-#include "common/space/messages.h"
 
 namespace swarmanoid
 {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "common/space/assignment.h"
-#include "common/space/messages.h"
+#include "common/messages/assignment.h"
+#include "common/messages/messages.h"
 #include "common/space/space.h"
 
 namespace swarmanoid
@@ -38,7 +38,7 @@ std::vector<std::size_t> FindBeyondLimit(const CSwarmanoidSpace& space, std::spa
 // None of them is.
 void CheckWithinLimit(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities,
                       std::span<const double> poses);
-// What shall be the pose of an entity in the arena.
+// What is to be the pose of an entity in the arena.
 void CheckPose(const CSwarmanoidSpace& space, std::uint32_t entity, const Pose& pose);
 
 // Slots of entities (none of the presence) with values of their kind.

@@ -7,7 +7,7 @@
 #include "common/control_interface/handbot/ci_handbot_beacon_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_leds_actuator.h"
 #include "controller_host/devices/builtin_devices.h"
-#include "controller_host/devices/device_kit.h"
+#include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"
 
 namespace swarmanoid

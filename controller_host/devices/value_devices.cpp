@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "common/space/attribute_changes.h"
+#include "common/messages/attribute_changes.h"
 #include "common/space/attributes.h"
-#include "controller_host/devices/device_kit.h"
+#include "controller_host/devices/device_plugins.h"
 
 namespace swarmanoid
 {

@@ -58,7 +58,7 @@ void PlaneRobots::AddOwned(const CSwarmanoidSpaceEntity& entity)
       Handbot handbot;
       handbot.entity = index;
       handbots_.push_back(handbot);
-      raised_.push_back({index, 0, 0, 0, 0});
+      lifted_.push_back({index, 0, 0, 0, 0});
       break;
     }
     case EntityKind::kEyebot:
@@ -70,7 +70,7 @@ void PlaneRobots::AddOwned(const CSwarmanoidSpaceEntity& entity)
       objects_.push_back(index);
       const Shape shape = ShapeOf(entity.GetConfiguration());
       near_objects_.Add(shape.centre.norm() + BoundingRadius(shape));
-      raised_.push_back({index, 0, 0, 0, 0});
+      lifted_.push_back({index, 0, 0, 0, 0});
       break;
     }
     default:
@@ -79,7 +79,7 @@ void PlaneRobots::AddOwned(const CSwarmanoidSpaceEntity& entity)
 }
 
 PlaneRobots::Handbot& PlaneRobots::HandbotOf(std::uint32_t entity) { return Find(handbots_, entity); }
-PlaneRobots::Raised& PlaneRobots::RaisedOf(std::uint32_t entity) { return Find(raised_, entity); }
+PlaneRobots::Lifted& PlaneRobots::LiftedOf(std::uint32_t entity) { return Find(lifted_, entity); }
 
 bool PlaneRobots::Command(const ChannelBlock& block, std::span<const double> values)
 {
@@ -130,16 +130,16 @@ void PlaneRobots::Advance(double seconds)
     UseRope(handbot, seconds);
   }
   if (handbots_.empty()) return;
-  for (Raised& raised : raised_)
+  for (Lifted& lifted : lifted_)
   {
-    if (raised.bearer != 0)
+    if (lifted.bearer != 0)
     {
-      raised.height = std::max(RaisedOf(raised.bearer - 1).height + raised.above_bearer, 0.0);
+      lifted.height = std::max(LiftedOf(lifted.bearer - 1).height + lifted.above_bearer, 0.0);
       continue;
     }
-    if (raised.height == 0 || Hangs(raised.entity)) continue;
-    raised.height = std::max(raised.height - (raised.fall + kGravity * seconds / 2) * seconds, 0.0);
-    raised.fall = raised.height > 0 ? raised.fall + kGravity * seconds : 0;
+    if (lifted.height == 0 || Hangs(lifted.entity)) continue;
+    lifted.height = std::max(lifted.height - (lifted.fall + kGravity * seconds / 2) * seconds, 0.0);
+    lifted.fall = lifted.height > 0 ? lifted.fall + kGravity * seconds : 0;
   }
 }
 
@@ -157,7 +157,7 @@ void PlaneRobots::Release(Handbot& handbot, std::size_t hand)
   handbot.held[hand] = 0;
   if (handbot.held[1 - hand] == held) return;
   if (grips_->Holds(handbot.entity)) grips_->LetGo(handbot.entity);
-  RaisedOf(held - 1).bearer = 0;
+  LiftedOf(held - 1).bearer = 0;
 }
 
 void PlaneRobots::UseHands(Handbot& handbot)
@@ -169,17 +169,17 @@ void PlaneRobots::UseHands(Handbot& handbot)
     if (object == 0) continue;
     const std::uint32_t other = handbot.held[1 - hand];
     if (other != 0 && other != object) continue;
-    Raised& raised = RaisedOf(object - 1);
-    if (other == 0 && (raised.bearer != 0 || !grips_->Hold(handbot.entity, object - 1))) continue;
+    Lifted& lifted = LiftedOf(object - 1);
+    if (other == 0 && (lifted.bearer != 0 || !grips_->Hold(handbot.entity, object - 1))) continue;
     handbot.held[hand] = object;
-    raised.bearer = handbot.entity + 1;
-    raised.fall = 0;
-    raised.above_bearer = raised.height - RaisedOf(handbot.entity).height;
+    lifted.bearer = handbot.entity + 1;
+    lifted.fall = 0;
+    lifted.above_bearer = lifted.height - LiftedOf(handbot.entity).height;
   }
 }
 
 // 1 + the nearest object within the reach of a hand, 0 where there is none. The head rolls about its forward axis and
-// bears both arms; an arm's aperture opens it outwards.
+// has both arms; an arm's aperture opens it outwards.
 std::uint32_t PlaneRobots::ObjectAt(const Handbot& handbot, std::size_t hand) const
 {
   const double side = hand == 0 ? 1 : -1;
@@ -222,7 +222,7 @@ void PlaneRobots::TurnJoints(Handbot& handbot, double seconds) const
 
 void PlaneRobots::UseRope(Handbot& handbot, double seconds)
 {
-  Raised& raised = RaisedOf(handbot.entity);
+  Lifted& lifted = LiftedOf(handbot.entity);
   if (!handbot.launch)
   {
     handbot.is_hanging = false;
@@ -231,15 +231,15 @@ void PlaneRobots::UseRope(Handbot& handbot, double seconds)
   }
   if (!handbot.is_hanging)
   {
-    const double distance = ceiling_ - raised.height - S::kHeight;
+    const double distance = ceiling_ - lifted.height - S::kHeight;
     if (ceiling_ == 0 || distance < 0 || distance > S::kLongestRope) return;
     handbot.is_hanging = true;
     handbot.rope = distance;
-    raised.fall = 0;
+    lifted.fall = 0;
   }
   handbot.rope = std::clamp(handbot.rope + handbot.winch * seconds, S::kShortestRope, S::kLongestRope);
   // A slack rope lets the robot stand.
-  raised.height = std::max(ceiling_ - S::kHeight - handbot.rope, 0.0);
+  lifted.height = std::max(ceiling_ - S::kHeight - handbot.rope, 0.0);
 }
 
 void PlaneRobots::Moved(std::uint32_t entity)
@@ -250,23 +250,23 @@ void PlaneRobots::Moved(std::uint32_t entity)
     for (std::uint32_t& held : handbot.held)
     {
       if (held == 0 || (!is_it && held != entity + 1)) continue;
-      RaisedOf(held - 1).bearer = 0;
+      LiftedOf(held - 1).bearer = 0;
       held = 0;
     }
     if (is_it) handbot.is_hanging = false;
   }
-  for (Raised& raised : raised_)
-    if (raised.entity == entity) raised = {entity, 0, 0, 0, 0};
+  for (Lifted& lifted : lifted_)
+    if (lifted.entity == entity) lifted = {entity, 0, 0, 0, 0};
 }
 
 void PlaneRobots::Raise(std::span<const std::uint32_t> owned, std::span<double> poses) const
 {
-  for (const Raised& raised : raised_)
+  for (const Lifted& lifted : lifted_)
   {
-    if (raised.height == 0) continue;
-    const auto at = std::lower_bound(owned.begin(), owned.end(), raised.entity) - owned.begin();
+    if (lifted.height == 0) continue;
+    const auto at = std::lower_bound(owned.begin(), owned.end(), lifted.entity) - owned.begin();
     for (std::size_t axis = 0; axis < 3; ++axis)
-      poses[axis * owned.size() + static_cast<std::size_t>(at)] += raised.height * up_[static_cast<int>(axis)];
+      poses[axis * owned.size() + static_cast<std::size_t>(at)] += lifted.height * up_[static_cast<int>(axis)];
   }
 }
 
@@ -307,23 +307,23 @@ void PlaneRobots::SaveState(ByteWriter& state) const
     for (const std::uint32_t held : handbot.held) state.Put(held);
     state.Put(handbot.is_hanging);
   }
-  for (const Raised& raised : raised_)
+  for (const Lifted& lifted : lifted_)
   {
-    state.Put(raised.height);
-    state.Put(raised.fall);
-    state.Put(raised.bearer);
-    state.Put(raised.above_bearer);
+    state.Put(lifted.height);
+    state.Put(lifted.fall);
+    state.Put(lifted.bearer);
+    state.Put(lifted.above_bearer);
   }
 }
 
 void PlaneRobots::LoadState(ByteReader& state)
 {
-  // 1 + an entity of raised_, or 0.
-  const auto raised_number = [&]
+  // 1 + an entity of lifted_, or 0.
+  const auto lifted_number = [&]
   {
     const auto number = state.Get<std::uint32_t>();
-    const auto is_it = [&](const Raised& raised) { return raised.entity + 1 == number; };
-    if (number != 0 && std::none_of(raised_.begin(), raised_.end(), is_it))
+    const auto is_it = [&](const Lifted& lifted) { return lifted.entity + 1 == number; };
+    if (number != 0 && std::none_of(lifted_.begin(), lifted_.end(), is_it))
       throw std::runtime_error("saved state: a hand holds an entity that the engine does not have");
     return number;
   };
@@ -332,15 +332,15 @@ void PlaneRobots::LoadState(ByteReader& state)
     for (double* const value : {&handbot.head, &handbot.arm[0], &handbot.arm[1], &handbot.wrist[0], &handbot.wrist[1],
                                 &handbot.aperture[0], &handbot.aperture[1], &handbot.rope})
       *value = state.Get<double>();
-    for (std::uint32_t& held : handbot.held) held = raised_number();
+    for (std::uint32_t& held : handbot.held) held = lifted_number();
     handbot.is_hanging = state.Get<bool>();
   }
-  for (Raised& raised : raised_)
+  for (Lifted& lifted : lifted_)
   {
-    raised.height = state.Get<double>();
-    raised.fall = state.Get<double>();
-    raised.bearer = raised_number();
-    raised.above_bearer = state.Get<double>();
+    lifted.height = state.Get<double>();
+    lifted.fall = state.Get<double>();
+    lifted.bearer = lifted_number();
+    lifted.above_bearer = state.Get<double>();
   }
 }
 

@@ -13,9 +13,9 @@
 #include <string_view>
 #include <vector>
 
+#include "common/messages/assignment.h"
+#include "common/messages/messages.h"
 #include "common/serialisation/bytes.h"
-#include "common/space/assignment.h"
-#include "common/space/messages.h"
 #include "common/space/shape.h"
 #include "common/space/space.h"
 #include "engine_worker/engines/near_objects.h"
@@ -104,7 +104,7 @@ private:
     bool attach = false;
   };
   // An entity that can be in the air.
-  struct Raised
+  struct Lifted
   {
     std::uint32_t entity = 0;
     double height = 0;         // m, above where it stands on the plane
@@ -114,7 +114,7 @@ private:
   };
 
   Handbot& HandbotOf(std::uint32_t entity);
-  Raised& RaisedOf(std::uint32_t entity);
+  Lifted& LiftedOf(std::uint32_t entity);
   bool Hangs(std::uint32_t entity) const;
   void UseHands(Handbot& handbot);
   void Release(Handbot& handbot, std::size_t hand);
@@ -129,7 +129,7 @@ private:
   std::vector<Handbot> handbots_;
   std::vector<Eyebot> eyebots_;
   std::vector<std::uint32_t> attached_;
-  std::vector<Raised> raised_;  // handbots, blocks and preys, by entity; none where there is no handbot
+  std::vector<Lifted> lifted_;  // handbots, blocks and preys, by entity; none where there is no handbot
   std::vector<std::uint32_t> objects_;
   mutable NearObjects near_objects_;  // by place in objects_
 };

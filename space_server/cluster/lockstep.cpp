@@ -32,7 +32,7 @@ std::vector<TickGate::Part> Parts(const Experiment& experiment, const std::vecto
 }  // namespace
 
 Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
-                   const std::string& hash_log, std::function<void(SpaceServer&)> watch, CheckpointDesk& checkpoints,
+                   const std::string& hash_log, std::function<void(SpaceServer&)> watch, CheckpointWriter& checkpoints,
                    std::function<void()> stopped)
     : session_(session),
       server_(server),
@@ -108,7 +108,7 @@ Lockstep::~Lockstep()
   updates_in_.reset();
 }
 
-bool Lockstep::AllMet() const
+bool Lockstep::AllMatched() const
 {
   return states_.Readers() >= workers_ && (!updates_in_ || updates_in_->Writers() >= engines_) &&
          (!commands_in_ || commands_in_->Writers() >= hosts_.size()) &&

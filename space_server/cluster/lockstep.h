@@ -1,4 +1,4 @@
-// Lockstep: the space server's side of the ticks. It sends the state of a tick, gathers what engines, hosts and
+// Lockstep: the space server's side of the ticks. It sends the state of a tick, collects what engines, hosts and
 // visualisers answer, and lets the role make the next state. It runs in the threads of the bus and stops before a tick
 // where the main thread asks for it (pause, pace, commands). Used by the space_server program alone.
 #pragma once
@@ -13,7 +13,7 @@
 #include "common/bus/tick_gate.h"
 #include "common/bus/tick_limits.h"
 #include "common/run/hash_log.h"
-#include "space_server/cluster/checkpoint_desk.h"
+#include "space_server/cluster/checkpoint_writer.h"
 #include "space_server/space_server.h"
 
 namespace swarmanoid
@@ -25,12 +25,12 @@ public:
   // `watch`, where there is one: called in the main thread before the state of a tick goes out.
   // `stopped`: called in a thread of the bus when the main thread has to act: the tick is held, or the run failed.
   Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
-           const std::string& hash_log, std::function<void(SpaceServer&)> watch, CheckpointDesk& checkpoints,
+           const std::string& hash_log, std::function<void(SpaceServer&)> watch, CheckpointWriter& checkpoints,
            std::function<void()> stopped);
   ~Lockstep();
 
   // Whether all workers' topics have met those of the server.
-  bool AllMet() const;
+  bool AllMatched() const;
 
   // What follows is for the main thread.
 
@@ -70,7 +70,7 @@ private:
   ServerSession& session_;
   mutable std::mutex mutex_;  // of what follows
   SpaceServer& server_;
-  CheckpointDesk& checkpoints_;
+  CheckpointWriter& checkpoints_;
   TickLimits limits_;
   std::uint64_t first_tick_;
   std::uint64_t checkpoint_every_;

@@ -8,7 +8,7 @@
 #include "common/activity/exit_codes.h"
 #include "common/run/run_summary.h"
 #include "common/serialisation/trial.h"
-#include "space_server/cluster/process_watch.h"
+#include "space_server/cluster/process_liveness.h"
 
 namespace swarmanoid
 {
@@ -31,9 +31,9 @@ std::uint64_t NewRun()
   return (static_cast<std::uint64_t>(device()) << 32) | device();
 }
 
-ControlDeskSetup DeskSetup(const ServerOptions& options, const Experiment& experiment)
+RunControlSetup MakeRunControlSetup(const ServerOptions& options, const Experiment& experiment)
 {
-  ControlDeskSetup setup{options.paused, options.real_time_factor, {}, {}};
+  RunControlSetup setup{options.paused, options.real_time_factor, {}, {}};
   if (!options.output_folder.empty()) setup.event_log = options.output_folder + "/events.csv";
   if (!options.events.empty()) setup.repeated = ReadEvents(options.events, experiment);
   return setup;
@@ -50,14 +50,14 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
       session_(options.bus, World(), Expected(Visualisers()),
                {[this](const ControlRequestMessage& request)
                 {
-                  desk_.Ask(request);
+                  run_control_.Ask(request);
                   Wake();
                 },
-                [this] { Wake(); }, [this](const std::string& process) { audience_.Gone(process); }}),
-      audience_(session_, [this] { Wake(); }),
-      desk_(experiment, DeskSetup(options, experiment),
-            [this](const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
-            { session_.Reply(request, done, tick, text); }),
+                [this] { Wake(); }, [this](const std::string& process) { views_.Lost(process); }}),
+      views_(session_, [this] { Wake(); }),
+      run_control_(experiment, MakeRunControlSetup(options, experiment),
+                   [this](const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
+                   { session_.Reply(request, done, tick, text); }),
       pace_(experiment.TickSeconds()),
       checkpoints_(session_, experiment, Expected({}), server_.Space().GetTick(),
                    options.output_folder.empty() ? "." : options.output_folder, [this] { Wake(); }),
@@ -176,9 +176,9 @@ void ServerProgram::Collect()
   {
     CheckFailures();
     if (IsInterrupted()) throw BusError("interrupted before the first tick");
-    TellAudience();
+    PublishViews();
     const std::vector<std::string> missing = session_.Missing();
-    if (missing.empty() && lockstep_.AllMet()) return;
+    if (missing.empty() && lockstep_.AllMatched()) return;
     const std::string text = Joined(missing);
     if (text != said && !text.empty() && (Clock::now() - start > 300ms || !said.empty()))
     {
@@ -197,40 +197,40 @@ void ServerProgram::RunTicks()
   repeat_after_ = kFirstRepeat;
   started_ = true;
   first_tick_ = lockstep_.Tick();
-  desk_.Start(first_tick_, start_);
-  SayState();
+  run_control_.Start(first_tick_, start_);
+  ReportState();
   while (!lockstep_.Finished())
   {
     CheckFailures();
     Clock::time_point next = Clock::now() + kPeriod;
-    if (IsInterrupted()) desk_.Stop("interrupt");
-    if (desk_.WantsHold()) lockstep_.Hold();
+    if (IsInterrupted()) run_control_.Stop("interrupt");
+    if (run_control_.WantsHold()) lockstep_.Hold();
     if (lockstep_.Held())
     {
-      lockstep_.WithServer([this](SpaceServer& server) { desk_.Work(server); });
-      const ControlDesk::Decision decision = desk_.Decide(lockstep_.Tick(), Clock::now());
+      lockstep_.WithServer([this](SpaceServer& server) { run_control_.Work(server); });
+      const RunControl::Decision decision = run_control_.Decide(lockstep_.Tick(), Clock::now());
       if (decision.go)
         lockstep_.Go(decision.until);
       else if (decision.due)
         next = std::min(next, *decision.due);
-      audience_.Renew();
+      views_.Renew();
     }
     checkpoints_.Work();
     Watch();
-    TellAudience();
-    if (!lockstep_.Finished() && !lockstep_.Failure()) Sleep(std::min(next, audience_.Next()));
+    PublishViews();
+    if (!lockstep_.Finished() && !lockstep_.Failure()) Sleep(std::min(next, views_.Next()));
   }
   end_ = Clock::now();
-  if (const auto who = lockstep_.Terminator()) desk_.Stopped(lockstep_.Tick(), *who);
+  if (const auto who = lockstep_.Terminator()) run_control_.Stopped(lockstep_.Tick(), *who);
 }
 
-void ServerProgram::SayState()
+void ServerProgram::ReportState()
 {
-  const ServerState::Phase phase = desk_.Paused() ? ServerState::kPaused : ServerState::kRunning;
+  const ServerState::Phase phase = run_control_.Paused() ? ServerState::kPaused : ServerState::kRunning;
   if (phase == said_phase_) return;
   said_phase_ = phase;
   status_.Tell(ServerState{phase, {}});
-  Say(desk_.Paused() ? fmt::format("paused at tick {}", lockstep_.Tick()) : "running");
+  Say(run_control_.Paused() ? fmt::format("paused at tick {}", lockstep_.Tick()) : "running");
 }
 
 void ServerProgram::Watch()
@@ -259,8 +259,8 @@ void ServerProgram::Watch()
     status_.Tell(ServerStall{who, std::round(Seconds(stall_said_))});
     Say(fmt::format("tick {}: waiting for {} since {:.0f} s", tick, who, Seconds(stall_said_)));
   }
-  SayState();
-  if (desk_.Paused() && held)
+  ReportState();
+  if (run_control_.Paused() && held)
     pace_.Rest(tick, now);
   else if (pace_.Observe(tick, now))
     status_.Tell(ServerTick{tick, experiment_.max_clock, pace_.RealTimeFactor()});
@@ -278,23 +278,23 @@ RunStatus::Phase ServerProgram::Phase() const
 {
   if (lockstep_.Finished()) return RunStatus::Phase::kFinished;
   if (!started_) return RunStatus::Phase::kWaiting;
-  return desk_.Paused() ? RunStatus::Phase::kPaused : RunStatus::Phase::kRunning;
+  return run_control_.Paused() ? RunStatus::Phase::kPaused : RunStatus::Phase::kRunning;
 }
 
-void ServerProgram::TellAudience()
+void ServerProgram::PublishViews()
 {
   const auto now = Clock::now();
   const bool over = lockstep_.Finished();
   if (std::exchange(told_end_, over)) return;
-  if (started_ && (over || audience_.ViewIsDue(lockstep_.Tick(), now)))
+  if (started_ && (over || views_.ViewIsDue(lockstep_.Tick(), now)))
   {
     lockstep_.WithServer([this](SpaceServer& server) { server.WriteSnapshot(snapshot_); });
     snapshot_.last = over;
     snapshot_.real_time_factor = pace_.RealTimeFactor();
-    audience_.SendView(snapshot_, now);
+    views_.SendView(snapshot_, now);
   }
   const RunStatus::Phase phase = Phase();
-  if (over || audience_.StatusIsDue(phase, now)) audience_.SendStatus(Status(phase, now), now);
+  if (over || views_.StatusIsDue(phase, now)) views_.SendStatus(Status(phase, now), now);
 }
 
 RunStatus ServerProgram::Status(RunStatus::Phase phase, Clock::time_point now)
@@ -302,13 +302,13 @@ RunStatus ServerProgram::Status(RunStatus::Phase phase, Clock::time_point now)
   RunStatus status;
   status.phase = phase;
   status.tick = lockstep_.Tick();
-  status.speed_wanted = desk_.Speed();
+  status.speed_wanted = run_control_.Speed();
   if (phase == RunStatus::Phase::kRunning || phase == RunStatus::Phase::kFinished)
   {
     status.real_time_factor = pace_.RealTimeFactor();
     status.ticks_per_second = pace_.TicksPerSecond();
   }
-  status.ended = desk_.WhyStopped();
+  status.ended = run_control_.WhyStopped();
   if (const auto who = lockstep_.Terminator()) status.ended = *who + " asked for the end";
   const bool waits = started_ && !lockstep_.Held() && !lockstep_.Finished();
   status.processes = ProcessesNow(session_, status.tick, waits ? lockstep_.Missing() : std::vector<std::string>(),
@@ -327,8 +327,8 @@ void ServerProgram::Close()
         result.hash = server.Space().Hash();
       });
   lockstep_.CloseHashLog();
-  desk_.Ended(result.ticks);
-  TellAudience();
+  run_control_.Ended(result.ticks);
+  PublishViews();
   auto said = Clock::now();
   repeat_after_ = kFirstRepeat;
   while (!session_.AllLeft())

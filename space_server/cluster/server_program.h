@@ -18,11 +18,11 @@
 #include "common/bus/server_session.h"
 #include "common/bus/status_channel.h"
 #include "common/run/run_settings.h"
-#include "space_server/cluster/audience.h"
-#include "space_server/cluster/checkpoint_desk.h"
+#include "space_server/cluster/checkpoint_writer.h"
 #include "space_server/cluster/lockstep.h"
-#include "space_server/control_desk.h"
+#include "space_server/cluster/view_publisher.h"
 #include "space_server/pace_meter.h"
+#include "space_server/run_control.h"
 #include "space_server/space_server.h"
 
 namespace swarmanoid
@@ -69,14 +69,14 @@ private:
   // Until all processes of the run are there.
   void Collect();
   void RunTicks();
-  void SayState();
+  void ReportState();
   // Progress, late answers, stalls.
   void Watch();
   // Whom the run waits for: those whose answer is missing, or those whom they in turn wait for.
   std::string LateNames(std::uint64_t tick) const;
   RunStatus::Phase Phase() const;
   // Attached visualisers see the whole state now and then, and how the run goes.
-  void TellAudience();
+  void PublishViews();
   RunStatus Status(RunStatus::Phase phase, Clock::time_point now);
   // The last state is out: all draw it, close their files and leave.
   void Close();
@@ -92,10 +92,10 @@ private:
   Assignment assignment_;
   SpaceServer server_;
   ServerSession session_;
-  Audience audience_;
-  ControlDesk desk_;
+  ViewPublisher views_;
+  RunControl run_control_;
   PaceMeter pace_;
-  CheckpointDesk checkpoints_;
+  CheckpointWriter checkpoints_;
   Lockstep lockstep_;
 
   Clock::time_point start_;

@@ -63,9 +63,8 @@ void LookForObjects(benchmark::State& state)
   for (std::uint32_t k = 0; k < count; ++k) hands.entities.push_back(k);
   robots.Command(hands, std::vector<double>(2 * count, 1.0));
   for (auto _ : state) robots.Advance(kTick);
-  state.counters["ns_per_handbot"] =
-      benchmark::Counter(static_cast<double>(count) * 1e-9,
-                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["ns_per_handbot"] = benchmark::Counter(
+      static_cast<double>(count) * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(LookForObjects)->Arg(10)->Arg(100)->Arg(800)->Arg(6400)->ArgName("handbots")->Unit(benchmark::kMicrosecond);
 

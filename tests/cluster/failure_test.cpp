@@ -85,13 +85,13 @@ TEST_F(ClusterTest, AWorkerOfAnotherProtocolIsRefusedByName)
   std::mutex mutex;
   std::uint64_t run = 0;
   std::string refusal;
-  Publisher<HelloMessage> hellos(bus, "strict");
-  Subscription<ByeMessage> byes(bus, "strict",
-                                [&](const ByeMessage& bye)
-                                {
-                                  const std::lock_guard lock(mutex);
-                                  if (bye.to == ProcessId()) refusal = bye.error;
-                                });
+  Publisher<JoinMessage> joins(bus, "strict");
+  Subscription<LeaveMessage> leaves(bus, "strict",
+                                    [&](const LeaveMessage& leave)
+                                    {
+                                      const std::lock_guard lock(mutex);
+                                      if (leave.to == ProcessId()) refusal = leave.error;
+                                    });
   Subscription<WorldMessage> worlds(bus, "strict",
                                     [&](const WorldMessage& world)
                                     {
@@ -102,7 +102,7 @@ TEST_F(ClusterTest, AWorkerOfAnotherProtocolIsRefusedByName)
   {
     std::this_thread::sleep_for(10ms);
     const std::lock_guard lock(mutex);
-    if (run != 0 && k % 50 == 0) hellos.Write({ProcessId(), kProtocolVersion + 1, run, "engine 'e0'", false});
+    if (run != 0 && k % 50 == 0) joins.Write({ProcessId(), kProtocolVersion + 1, run, "engine 'e0'", false});
   }
   const std::lock_guard lock(mutex);
   EXPECT_THAT(refusal, AllOf(HasSubstr("engine 'e0'"), HasSubstr(fmt::format("version {}", kProtocolVersion + 1)),

@@ -92,15 +92,15 @@ protected:
     return reply.value_or(ControlReplyMessage{});
   }
 
-  WishesMessage Wishes(const std::vector<std::string>& robots)
+  ViewRequestMessage Request(const std::vector<std::string>& robots)
   {
-    WishesMessage wishes;
-    wishes.client = ProcessId();
-    wishes.run = world_->Get()->run;
+    ViewRequestMessage request;
+    request.client = ProcessId();
+    request.run = world_->Get()->run;
     const std::vector<WorldEntity> entities = world_->Get()->entities;
     for (std::uint32_t i = 0; i < entities.size(); ++i)
-      if (std::ranges::find(robots, entities[i].id) != robots.end()) wishes.robots.push_back(i);
-    return wishes;
+      if (std::ranges::find(robots, entities[i].id) != robots.end()) request.robots.push_back(i);
+    return request;
   }
 
   void ExpectEnd()
@@ -183,10 +183,10 @@ TEST_F(InspectionTest, WatchedRobotsOfAllHostsTellTheirInside)
 {
   Begin(0, 2, {"--paused"});
   Latest<RobotStatusMessage> status(*bus_, "inspected");
-  Publisher<WishesMessage> wishes(*bus_, "inspected");
+  Publisher<ViewRequestMessage> request(*bus_, "inspected");
   // The robots of one host; while the run is paused the answer comes too.
   ASSERT_EQ(Ask("step", {4}).tick, 4U);
-  wishes.Write(Wishes({"robots0_2"}));
+  request.Write(Request({"robots0_2"}));
   ASSERT_TRUE(Until([&] { return status.Get().has_value(); }));
   const RobotStatusMessage message = *status.Get();
   EXPECT_EQ(message.tick, 3U);
@@ -211,7 +211,7 @@ TEST_F(InspectionTest, WatchedRobotsOfAllHostsTellTheirInside)
                                           const std::lock_guard lock(mutex);
                                           robot_of_host[heard.source] = entities[heard.robots.at(0).entity].id;
                                         });
-  wishes.Write(Wishes({"robots0_2", "robots0_11"}));
+  request.Write(Request({"robots0_2", "robots0_11"}));
   EXPECT_TRUE(Until(
       [&]
       {
@@ -228,10 +228,10 @@ TEST_F(InspectionTest, WatchingIsForgottenWithoutRepetitionAndLeavesTheHashesAlo
   Begin(0, 1, {"--paused"});
   {
     Latest<RobotStatusMessage> status(*bus_, "inspected");
-    Publisher<WishesMessage> wishes(*bus_, "inspected");
-    WishesMessage all = Wishes({"robots0_0", "robots0_1", "robots0_5"});
+    Publisher<ViewRequestMessage> request(*bus_, "inspected");
+    ViewRequestMessage all = Request({"robots0_0", "robots0_1", "robots0_5"});
     all.every_tick = true;
-    wishes.Write(all);
+    request.Write(all);
     ASSERT_TRUE(Until([&] { return status.Count() > 0; }));
     ASSERT_EQ(Ask("step", {200}).tick, 200U);
     EXPECT_TRUE(Until([&] { return status.Get()->tick == 199; }));
@@ -252,10 +252,10 @@ TEST_F(InspectionTest, WatchingIsForgottenWithoutRepetitionAndLeavesTheHashesAlo
 TEST_F(InspectionTest, ViewsComeAtThePaceThatIsWishedFor)
 {
   Begin(0, 1, {});
-  Publisher<WishesMessage> wishes(*bus_, "inspected");
-  WishesMessage slow = Wishes({});
+  Publisher<ViewRequestMessage> request(*bus_, "inspected");
+  ViewRequestMessage slow = Request({});
   slow.views = 2;
-  wishes.Write(slow);
+  request.Write(slow);
   Latest<ViewMessage> views(*bus_, "inspected");
   ASSERT_TRUE(Until([&] { return views.Count() > 0; }));
   const int before = views.Count();
@@ -263,7 +263,7 @@ TEST_F(InspectionTest, ViewsComeAtThePaceThatIsWishedFor)
   EXPECT_TRUE(Until(
       [&]
       {
-        wishes.Write(slow);
+        request.Write(slow);
         return views.Count() >= before + 5;
       }));
   // Two a second, and never more however busy the machine is.

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "common/space/checkpoint.h"
+#include "common/checkpoint/checkpoint.h"
 #include "tests/experiments/running_experiment.h"
 
 namespace swarmanoid

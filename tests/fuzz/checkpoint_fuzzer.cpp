@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "common/space/checkpoint.h"
-#include "common/space/checkpoint_format.h"
+#include "common/checkpoint/checkpoint.h"
+#include "common/checkpoint/checkpoint_format.h"
 #include "tests/fuzz/fuzz_driver.h"
 
 namespace swarmanoid

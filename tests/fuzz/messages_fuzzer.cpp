@@ -55,10 +55,10 @@ void TryOfTick(std::span<const char> payload)
 constexpr void (*kTries[])(std::span<const char>) = {
     TryOfTick<SpaceState>,         TryOfTick<ControlCommands>, TryOfTick<EngineUpdate>,
     TryOfTick<SensorFrame>,        TryOfTick<DrawnMessage>,    TryOther<WorldMessage>,
-    TryOther<HelloMessage>,        TryOther<ViewMessage>,      TryOther<ControlRequestMessage>,
+    TryOther<JoinMessage>,         TryOther<ViewMessage>,      TryOther<ControlRequestMessage>,
     TryOther<ControlReplyMessage>, TryOther<StatusMessage>,    TryOther<SavedStateMessage>,
-    TryOther<WishesMessage>,       TryOther<RunStatusMessage>, TryOther<RobotStatusMessage>,
-    TryOther<ByeMessage>};
+    TryOther<ViewRequestMessage>,  TryOther<RunStatusMessage>, TryOther<RobotStatusMessage>,
+    TryOther<LeaveMessage>};
 
 fuzz::Input InputOf(std::uint8_t topic, const std::string& payload)
 {
@@ -113,16 +113,16 @@ std::vector<fuzz::Input> fuzz::FirstInputs()
           InputOf(3, BytesOf(header, frame)),
           InputOf(4, BytesOf(header, DrawnMessage{true})),
           InputOf(5, BytesOf(world)),
-          InputOf(6, BytesOf(HelloMessage{"host:1", kProtocolVersion, 5, "engine 'ground'", true})),
+          InputOf(6, BytesOf(JoinMessage{"host:1", kProtocolVersion, 5, "engine 'ground'", true})),
           InputOf(7, BytesOf(view)),
           InputOf(8, BytesOf(ControlRequestMessage{"host:1", 9, "move", "fb", {1, 2, 0, 0, 0, 90}})),
           InputOf(9, BytesOf(ControlReplyMessage{"host:1", 9, true, 7, "moved 'fb' at tick 7"})),
           InputOf(10, BytesOf(StatusMessage{5, 7, "engine 'ground'", "waits for controller host 0"})),
           InputOf(11, BytesOf(SavedStateMessage{5, 7, "engine 'ground'", {'a', 'b', 'c'}})),
-          InputOf(12, BytesOf(WishesMessage{"host:1", 5, 30, true, {1, 2}})),
+          InputOf(12, BytesOf(ViewRequestMessage{"host:1", 5, 30, true, {1, 2}})),
           InputOf(13, BytesOf(status)),
           InputOf(14, BytesOf(robots)),
-          InputOf(15, BytesOf(ByeMessage{5, 7, "engine 'ground'", "", "über"}))};
+          InputOf(15, BytesOf(LeaveMessage{5, 7, "engine 'ground'", "", "über"}))};
 }
 
 }  // namespace swarmanoid

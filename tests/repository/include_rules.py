@@ -15,7 +15,9 @@ COMMON = [
     ["common/control_interface"],
     ["common/experiment"],
     ["common/run"],
+    ["common/messages"],
     ["common/space"],
+    ["common/checkpoint"],
     ["common/bus"],
 ]
 ROLES = ["space_server", "engine_worker", "controller_host", "visualiser"]

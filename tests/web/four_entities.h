@@ -1,7 +1,7 @@
 // A footbot, an eyebot above it, a prey and a nest, in one engine.
 #pragma once
 
-#include "common/space/assignment.h"
+#include "common/messages/assignment.h"
 #include "common/space/space.h"
 
 namespace swarmanoid

@@ -22,12 +22,12 @@ AttachedNode::AttachedNode(WorkerSession& session, Replica& replica, Visualiser&
                   session_.Notify();
                 })
 {
-  monitor_.WishForViews(rate);
+  monitor_.RequestViews(rate);
 }
 
 void AttachedNode::Work()
 {
-  monitor_.KeepWishes();
+  monitor_.RenewRequests();
   std::unique_lock lock(mutex_);
   const bool last = fresh_ && snapshot_.last;
   const bool draw = fresh_ && (last || Clock::now() - drawn_ >= period_);

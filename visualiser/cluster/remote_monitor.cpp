@@ -10,16 +10,16 @@ namespace
 using namespace std::chrono_literals;
 
 constexpr std::size_t kNotesKept = 100;
-constexpr auto kRepeatWishes = 1s;
+constexpr auto kRenewRequests = 1s;
 
 }  // namespace
 
 RemoteMonitor::RemoteMonitor(Bus& bus, const WorldMessage& world, bool every_tick)
     : bus_(bus), partition_(world.experiment), run_(world.run)
 {
-  wishes_.client = ProcessId();
-  wishes_.run = world.run;
-  wishes_.every_tick = every_tick;
+  requests_.client = ProcessId();
+  requests_.run = world.run;
+  requests_.every_tick = every_tick;
 }
 
 const RunStatus& RemoteMonitor::Status()
@@ -59,8 +59,8 @@ std::span<const RunNote> RemoteMonitor::Notes()
 
 void RemoteMonitor::Watch(std::span<const std::uint32_t> robots)
 {
-  if (std::ranges::equal(robots, wishes_.robots)) return;
-  wishes_.robots.assign(robots.begin(), robots.end());
+  if (std::ranges::equal(robots, requests_.robots)) return;
+  requests_.robots.assign(robots.begin(), robots.end());
   if (robots_in_ == nullptr)
     robots_in_ = std::make_unique<Subscription<RobotStatusMessage>>(bus_, partition_,
                                                                     [this](const RobotStatusMessage& message)
@@ -77,12 +77,12 @@ void RemoteMonitor::Watch(std::span<const std::uint32_t> robots)
     std::erase_if(heard_robots_, unwatched);
   }
   std::erase_if(robots_, unwatched);
-  SendWishes();
+  SendRequests();
 }
 
 const RobotStatus* RemoteMonitor::Robot(std::uint32_t robot)
 {
-  if (std::ranges::find(wishes_.robots, robot) == wishes_.robots.end()) return nullptr;
+  if (std::ranges::find(requests_.robots, robot) == requests_.robots.end()) return nullptr;
   const std::lock_guard lock(mutex_);
   const auto heard = heard_robots_.find(robot);
   if (heard == heard_robots_.end()) return nullptr;
@@ -97,24 +97,24 @@ RunStatus::Phase RemoteMonitor::KnownPhase()
   return heard_status_.phase;
 }
 
-void RemoteMonitor::WishForViews(double views)
+void RemoteMonitor::RequestViews(double views)
 {
-  if (wishes_.views == views) return;
-  wishes_.views = views;
-  SendWishes();
+  if (requests_.views == views) return;
+  requests_.views = views;
+  SendRequests();
 }
 
-void RemoteMonitor::SendWishes()
+void RemoteMonitor::SendRequests()
 {
-  if (wishes_out_ == nullptr) wishes_out_ = std::make_unique<Publisher<WishesMessage>>(bus_, partition_);
-  wishes_out_->Write(wishes_);
-  wished_ = Clock::now();
+  if (requests_out_ == nullptr) requests_out_ = std::make_unique<Publisher<ViewRequestMessage>>(bus_, partition_);
+  requests_out_->Write(requests_);
+  requested_ = Clock::now();
 }
 
-void RemoteMonitor::KeepWishes()
+void RemoteMonitor::RenewRequests()
 {
-  if (wishes_out_ == nullptr || Clock::now() - wished_ < kRepeatWishes) return;
-  if (wishes_.views > 0 || !wishes_.robots.empty()) SendWishes();
+  if (requests_out_ == nullptr || Clock::now() - requested_ < kRenewRequests) return;
+  if (requests_.views > 0 || !requests_.robots.empty()) SendRequests();
 }
 
 void RemoteMonitor::RunIsOver(const std::string& why)

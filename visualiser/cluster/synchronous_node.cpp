@@ -28,7 +28,7 @@ SynchronousNode::SynchronousNode(WorkerSession& session, Replica& replica, std::
 {
 }
 
-void SynchronousNode::MeetServer()
+void SynchronousNode::WaitForServer()
 {
   session_.WaitUntil([this] { return states_in_.Writers() >= 1 && drawn_.Readers() >= 1; },
                      [] { return std::string("the space server's topics"); });
@@ -36,7 +36,7 @@ void SynchronousNode::MeetServer()
 
 void SynchronousNode::Work()
 {
-  monitor_.KeepWishes();
+  monitor_.RenewRequests();
   std::unique_lock lock(mutex_);
   if (!fresh_)
   {
@@ -91,7 +91,7 @@ void SynchronousNode::ShowHeldState()
                                                               held_fresh_ = true;
                                                               session_.Notify();
                                                             });
-  monitor_.WishForViews(paused ? kViewsWhilePaused : 0);
+  monitor_.RequestViews(paused ? kViewsWhilePaused : 0);
 }
 
 SpaceState* SynchronousNode::PlaceOfState(const MessageHeader& header)

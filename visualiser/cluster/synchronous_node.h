@@ -19,7 +19,7 @@ public:
   SynchronousNode(WorkerSession& session, Replica& replica, std::size_t number, Visualiser& visualiser,
                   ExperimentControl& control, RemoteMonitor& monitor);
 
-  void MeetServer();
+  void WaitForServer();
   // Called in the main thread when a state has come, and now and then.
   void Work();
 

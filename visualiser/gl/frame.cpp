@@ -142,7 +142,7 @@ void Frame::AddUnderglow(const SceneItem& item, const Scene& scene)
   const float hue = (sum.maxCoeff() - sum.minCoeff()) / sum.maxCoeff();
   soft.push_back({{item.position.x(), item.position.y(), item.position.z(), radius * 3.2F},
                   {sum.x(), sum.y(), sum.z(), (0.06F + 0.24F * hue) * static_cast<float>(lit) / 12},
-                  {1, kLamp}});
+                  {1, kLight}});
 }
 
 void Frame::SortMarks(const Scene& scene, const LabelAtlas& labels, const Camera& camera, int width, int height)
@@ -158,12 +158,12 @@ void Frame::SortMarks(const Scene& scene, const LabelAtlas& labels, const Camera
   for (const SceneGlow& glow : scene.Glows())
     bright.push_back({{glow.position.x(), glow.position.y(), glow.position.z(), glow.radius},
                       Components(glow.colour, 0.4F),
-                      {glow.flat ? 1.0F : 0.0F, static_cast<float>(glow.flat ? kSpot : kLamp)}});
-  letters.clear();
+                      {glow.flat ? 1.0F : 0.0F, static_cast<float>(glow.flat ? kSpot : kLight)}});
+  glyphs.clear();
   for (const SceneLabel& label : scene.Labels())
   {
     const Vector3 pixel = camera.Project(label.position.cast<double>(), width, height);
-    if (pixel.z() > 0) labels.Append(label.text, static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), letters);
+    if (pixel.z() > 0) labels.Append(label.text, static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), glyphs);
   }
 }
 

@@ -31,7 +31,7 @@ struct GlGlow
 enum GlowStrength
 {
   kContact,
-  kLamp,
+  kLight,
   kSpot
 };
 
@@ -50,7 +50,7 @@ struct Frame
   std::vector<GlLine> over;   // lines over everything
   std::vector<GlGlow> soft;   // on the floor, under everything that is see-through
   std::vector<GlGlow> bright;
-  std::vector<Glyph> letters;
+  std::vector<Glyph> glyphs;
   std::size_t instances = 0;
 
 private:

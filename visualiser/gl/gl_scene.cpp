@@ -117,7 +117,7 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   s.statistics.instances = s.frame.instances;
   s.frame.SortMarks(scene, s.labels, camera, width, height);
   if (!options.caption.empty())
-    s.labels.AppendFrom(options.caption, kCaptionMargin, static_cast<float>(height) - kCaptionMargin, s.frame.letters);
+    s.labels.AppendFrom(options.caption, kCaptionMargin, static_cast<float>(height) - kCaptionMargin, s.frame.glyphs);
   s.UploadLights(scene);
 
   glEnable(GL_DEPTH_TEST);
@@ -167,7 +167,7 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   s.statistics.triangles += s.meshes.Draw(s.frame.glass);
   s.DrawGlows(view, camera, s.frame.bright);
   s.DrawLines(view, width, height, s.frame.over, false);
-  if (!s.frame.letters.empty())
+  if (!s.frame.glyphs.empty())
   {
     glDisable(GL_DEPTH_TEST);
     s.shaders.text.Use();
@@ -175,7 +175,7 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
     s.shaders.text.Set("u_atlas", kAtlasUnit);
     glActiveTexture(GL_TEXTURE0 + kAtlasUnit);
     glBindTexture(GL_TEXTURE_2D, s.labels.Texture());
-    s.glyphs.Draw(s.frame.letters);
+    s.glyphs.Draw(s.frame.glyphs);
     glBindTexture(GL_TEXTURE_2D, 0);
   }
 

@@ -50,13 +50,13 @@ LabelAtlas::LabelAtlas()
   {
     const auto width = static_cast<float>(letter.x1 - letter.x0);
     const auto height = static_cast<float>(letter.y1 - letter.y0);
-    letters_.push_back({{static_cast<float>(letter.x0) / kSide, static_cast<float>(letter.y0) / kSide,
-                         static_cast<float>(letter.x1) / kSide, static_cast<float>(letter.y1) / kSide},
-                        letter.xoff,
-                        letter.yoff,
-                        letter.xoff + width,
-                        letter.yoff + height,
-                        letter.xadvance});
+    glyphs_.push_back({{static_cast<float>(letter.x0) / kSide, static_cast<float>(letter.y0) / kSide,
+                        static_cast<float>(letter.x1) / kSide, static_cast<float>(letter.y1) / kSide},
+                       letter.xoff,
+                       letter.yoff,
+                       letter.xoff + width,
+                       letter.yoff + height,
+                       letter.xadvance});
   }
   glBindTexture(GL_TEXTURE_2D, texture_.Name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -67,16 +67,16 @@ LabelAtlas::LabelAtlas()
   glBindTexture(GL_TEXTURE_2D, 0);
 }
 
-const LabelAtlas::Letter& LabelAtlas::LetterOf(char c) const
+const LabelAtlas::BakedGlyph& LabelAtlas::GlyphOf(char c) const
 {
   const bool known = c >= ' ' && c <= '~';
-  return letters_[static_cast<std::size_t>((known ? c : '?') - kFirst)];
+  return glyphs_[static_cast<std::size_t>((known ? c : '?') - kFirst)];
 }
 
 float LabelAtlas::WidthOf(std::string_view text) const
 {
   float width = 0;
-  for (const char c : text) width += LetterOf(c).advance;
+  for (const char c : text) width += GlyphOf(c).advance;
   return width;
 }
 
@@ -95,7 +95,7 @@ void LabelAtlas::AppendFrom(std::string_view text, float x, float y, std::vector
       {{pen - 5, line - 14, pen + WidthOf(text) + 5, line + 5}, {kWhite, kWhite, kWhite, kWhite}, {1, 1, 1, 0.78F}});
   for (const char c : text)
   {
-    const Letter& l = LetterOf(c);
+    const BakedGlyph& l = GlyphOf(c);
     glyphs.push_back({{pen + l.left, line + l.top, pen + l.right, line + l.bottom},
                       l.texture,
                       {channel(16), channel(8), channel(0), 1}});

@@ -25,25 +25,25 @@ public:
   LabelAtlas();
 
   GLuint Texture() const { return texture_.Name(); }
-  bool IsEmpty() const { return letters_.empty(); }
+  bool IsEmpty() const { return glyphs_.empty(); }
   // A text on a light plate, its middle above x, y (pixels). Letters outside ASCII become '?'.
   void Append(std::string_view text, float x, float y, std::vector<Glyph>& glyphs) const;
   // The same from a place to the right: x, y (pixels) is where the first letter stands.
   void AppendFrom(std::string_view text, float x, float y, std::vector<Glyph>& glyphs) const;
 
 private:
-  struct Letter
+  struct BakedGlyph
   {
     std::array<float, 4> texture;
     float left, top, right, bottom;  // from the pen
     float advance;
   };
 
-  const Letter& LetterOf(char c) const;
+  const BakedGlyph& GlyphOf(char c) const;
   float WidthOf(std::string_view text) const;
 
   GlObject texture_{GlObject::Kind::kTexture};
-  std::vector<Letter> letters_;  // from ' ' to '~'
+  std::vector<BakedGlyph> glyphs_;  // from ' ' to '~'
 };
 
 }  // namespace swarmanoid

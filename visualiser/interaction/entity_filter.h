@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/space/assignment.h"
+#include "common/messages/assignment.h"
 #include "common/space/space.h"
 
 namespace swarmanoid

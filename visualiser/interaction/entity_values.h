@@ -1,12 +1,12 @@
 // The numbers of one entity as people read them: where it is, its attributes, and what goes on inside a robot. Each
-// bears a name by which it is found again at a later tick, for plots.
+// has a name by which it is found again at a later tick, for plots.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "common/space/robot_status.h"
+#include "common/messages/robot_status.h"
 #include "common/space/space.h"
 
 namespace swarmanoid

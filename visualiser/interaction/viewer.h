@@ -121,7 +121,7 @@ public:
 
   bool WantsToClose() const { return close_; }
   // True once after the key for it.
-  bool TakePictureWish() { return std::exchange(picture_, false); }
+  bool TakePictureRequest() { return std::exchange(picture_, false); }
 
   Shown shown;
   Camera camera;

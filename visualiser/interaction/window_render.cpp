@@ -74,7 +74,7 @@ void WindowRender::DrawFrame(bool of_a_tick)
 {
   schedule_->Drawn(Now());
   const bool write_frame = of_a_tick && !frames_.empty();
-  const bool write_picture = viewer_->TakePictureWish();
+  const bool write_picture = viewer_->TakePictureRequest();
   if (!write_frame && !write_picture)
   {
     if (WindowIsVisible()) Show({});

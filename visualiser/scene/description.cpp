@@ -18,7 +18,7 @@ std::vector<ParameterSpec> QualityParameters()
           {"use_shadows", ParameterType::kBoolean, "", "true", "Whether bodies throw shadows; the dearest switch."},
           {"antialiasing", ParameterType::kInteger, "", "4",
            "Samples a pixel that smooth edges; 0 draws fastest, with jagged edges.", 0, 16},
-          {"show_ids", ParameterType::kBoolean, "", "false", "Whether robots and preys bear their ids as labels."},
+          {"show_ids", ParameterType::kBoolean, "", "false", "Whether robots and preys have their ids as labels."},
           {"show_trails", ParameterType::kBoolean, "", "false", "Whether robots and preys leave a trail."},
           {"show_rays", ParameterType::kBoolean, "", "false",
            "Whether the rays of the footbots' proximity sensors are drawn, red where they meet something."},

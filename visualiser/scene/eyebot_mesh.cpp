@@ -1,4 +1,4 @@
-// The eyebot: four ducted rotors within a ring of 50 cm that bears the LEDs, four thin legs, a rod with the ceiling
+// The eyebot: four ducted rotors within a ring of 50 cm that has the LEDs, four thin legs, a rod with the ceiling
 // magnet. Lengths: engine_worker/engines/dynamics3d/eyebot.h.
 #include <numbers>
 

@@ -3,7 +3,7 @@
 //
 // A page of any web site can open a connection to this machine, so an open port is no secret: the Host header must not
 // be a name that somebody's DNS could point here, a page must come from this very server (Origin), and commands need a
-// token that only the printed address bears.
+// token that only the printed address has.
 #pragma once
 
 #include <string>

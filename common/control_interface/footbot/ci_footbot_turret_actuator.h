@@ -1,4 +1,4 @@
-// The turret of a footbot: it bears gripper and LED ring and turns against the body.
+// The turret of a footbot: it has gripper and LED ring and turns against the body.
 #pragma once
 
 #include "common/control_interface/ci_device.h"

@@ -1,4 +1,4 @@
-// The head of a handbot: it bears the two arms and turns about the forward axis.
+// The head of a handbot: it has the two arms and turns about the forward axis.
 #pragma once
 
 #include "common/control_interface/ci_device.h"

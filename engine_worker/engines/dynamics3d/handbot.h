@@ -1,4 +1,4 @@
-// The handbot in 3D: a trunk, a head that turns about the forward axis and bears two arms, a hand on a wrist at the end
+// The handbot in 3D: a trunk, a head that turns about the forward axis and has two arms, a hand on a wrist at the end
 // of each, a rope to the ceiling with a winch, and fans that keep the heading while the robot hangs on it.
 #pragma once
 
@@ -61,7 +61,7 @@ private:
   struct Servo
   {
     dJointID joint = nullptr;
-    int inner = 0;  // indices into bodies_: the one that bears, the one that turns
+    int inner = 0;  // indices into bodies_: the one that has, the one that turns
     int outer = 0;
     Vector3 axis = Vector3::UnitX();
     double sign = 1;  // a positive angle turns the outer body by sign about the axis

@@ -16,24 +16,24 @@ constexpr std::size_t kFarAhead = 6;
 }  // namespace
 
 // The solver's sweeps may end before a dense crowd is at peace. Where the step began there was no such overlap, so
-// those that still overlap go back: first to their old position, turned as they wish; if that does not help, all the
+// those that still overlap go back: first to their old position, turned as commanded; if that does not help, all the
 // way. Each one held may stand in the way of others, until nobody overlaps more than when the step began.
 void KinematicWorld::HoldBack()
 {
-  suspects_.clear();
+  queue_.clear();
   solver_.ForEachDeeper(allowed_, now_.x, now_.y,
                         [this](std::uint32_t first, std::uint32_t second)
                         {
-                          Suspect(first);
-                          Suspect(second);
+                          Enqueue(first);
+                          Enqueue(second);
                         });
-  SuspectThosePushedFar();
+  EnqueueThosePushedFar();
 
   held_.clear();
-  for (std::size_t n = 0; n < suspects_.size(); ++n)
+  for (std::size_t n = 0; n < queue_.size(); ++n)
   {
-    const std::uint32_t leader = suspects_[n];
-    is_suspect_[leader] = 0;
+    const std::uint32_t leader = queue_[n];
+    is_queued_[leader] = 0;
     HoldFromOthers(leader);
     for (const Grip& grip : grips_)
       if (grip.prey == leader) HoldFromOthers(grip.body);
@@ -42,15 +42,15 @@ void KinematicWorld::HoldBack()
   for (const std::uint32_t leader : held_) hold_[leader] = Hold::kFree;
 }
 
-void KinematicWorld::Suspect(std::uint32_t leader)
+void KinematicWorld::Enqueue(std::uint32_t leader)
 {
-  if (leader == count_ || is_suspect_[leader] != 0) return;
-  is_suspect_[leader] = 1;
-  suspects_.push_back(leader);
+  if (leader == count_ || is_queued_[leader] != 0) return;
+  is_queued_[leader] = 1;
+  queue_.push_back(leader);
 }
 
 // Into `near_`: those pushed so far that they may have met outlines that were no contacts yet, each with everybody
-// whose bounding circle now meets its own. Those near static shapes are suspects at once: they are few.
+// whose bounding circle now meets its own. Those near static shapes are queued at once: they are few.
 void KinematicWorld::ListNearThosePushedFar()
 {
   far_.clear();
@@ -81,7 +81,7 @@ void KinematicWorld::ListNearThosePushedFar()
                   __builtin_prefetch(&now_.y[other]);
                   __builtin_prefetch(&radius_[other]);
                 });
-    broad_.ForEachStaticNear(body, now_.x[body], now_.y[body], [&](std::uint32_t) { Suspect(leader_[body]); });
+    broad_.ForEachStaticNear(body, now_.x[body], now_.y[body], [&](std::uint32_t) { Enqueue(leader_[body]); });
   }
   std::size_t kept = 0;
   for (const auto [body, other] : near_)
@@ -96,7 +96,7 @@ void KinematicWorld::ListNearThosePushedFar()
 }
 
 // Those pushed far who overlap others now. Few do: they are looked at in batches.
-void KinematicWorld::SuspectThosePushedFar()
+void KinematicWorld::EnqueueThosePushedFar()
 {
   ListNearThosePushedFar();
   PairBatch batch;
@@ -105,7 +105,7 @@ void KinematicWorld::SuspectThosePushedFar()
     if (batch.Count() == 0) return;
     batch.FindTouches(-allowed_);
     for (std::size_t lane = 0; lane < batch.Count(); ++lane)
-      if (batch.Deepest(lane) > allowed_) Suspect(leader_[NumberOf(batch.First(lane))]);
+      if (batch.Deepest(lane) > allowed_) Enqueue(leader_[NumberOf(batch.First(lane))]);
     batch.Clear();
   };
   for (const auto [body, other] : near_)
@@ -179,7 +179,7 @@ void KinematicWorld::RaiseHold(std::uint32_t leader)
   if (hold_[leader] == Hold::kFree) held_.push_back(leader);
   const bool first = hold_[leader] == Hold::kFree;
   hold_[leader] = first ? Hold::kPosition : Hold::kPose;
-  Suspect(leader);
+  Enqueue(leader);
   now_.x[leader] = before_.x[leader];
   now_.y[leader] = before_.y[leader];
   if (!first)

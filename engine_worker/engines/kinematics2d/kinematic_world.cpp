@@ -65,10 +65,10 @@ void KinematicWorld::Start(Bounds area, unsigned threads)
   turret_sin_.assign(count_, 0);
   travel_forward_.assign(count_, 0);
   travel_turn_.assign(count_, 0);
-  suspects_.reserve(count_ + 1);
+  queue_.reserve(count_ + 1);
   held_.reserve(count_);
   hold_.assign(count_ + 1, Hold::kFree);
-  is_suspect_.assign(count_ + 1, 0);
+  is_queued_.assign(count_ + 1, 0);
   mobility_.assign(count_ + 1, 0);
   leader_.resize(count_ + 1);
   for (std::uint32_t k = 0; k <= count_; ++k) leader_[k] = k;

@@ -98,7 +98,7 @@ private:
   enum class Hold : std::uint8_t
   {
     kFree,
-    kPosition,  // back where the step began, turned as wished
+    kPosition,  // back where the step began, turned as commanded
     kPose       // all as it was when the step began
   };
 
@@ -144,9 +144,9 @@ private:
   void AddContacts(PairBatch& batch, double margin, ContactList& contacts) const;
   void HoldBack();
   bool MustNotOverlap(double overlap, double before) const;
-  void Suspect(std::uint32_t leader);
+  void Enqueue(std::uint32_t leader);
   void ListNearThosePushedFar();
-  void SuspectThosePushedFar();
+  void EnqueueThosePushedFar();
   template <class Act>
   void ForEachNear(std::uint32_t body, const Act& act) const;
   bool CirclesMeet(std::uint32_t a, std::uint32_t b) const;
@@ -193,10 +193,10 @@ private:
   double smallest_limit_ = 0;
   std::vector<Hold> hold_;
   std::vector<std::uint32_t> held_;
-  std::vector<std::uint8_t> is_suspect_;  // leaders that may overlap others
-  std::vector<std::uint32_t> suspects_;   // a queue
-  std::vector<std::uint32_t> far_;        // bodies pushed far
-  std::vector<Pair> near_;                // of them and others
+  std::vector<std::uint8_t> is_queued_;  // leaders that may overlap others
+  std::vector<std::uint32_t> queue_;     // a queue
+  std::vector<std::uint32_t> far_;       // bodies pushed far
+  std::vector<Pair> near_;               // of them and others
   WorldStatistics statistics_;
 };
 

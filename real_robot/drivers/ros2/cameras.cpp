@@ -10,7 +10,7 @@
 #include "common/control_interface/footbot/ci_footbot_omnidirectional_camera_sensor.h"
 #include "common/control_interface/handbot/ci_handbot_camera_sensor.h"
 #include "common/math/elementary.h"
-#include "real_robot/drivers/ros2/ros2_kit.h"
+#include "real_robot/drivers/ros2/ros2_messages.h"
 
 namespace swarmanoid::ros2
 {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "real_robot/drivers/ros2/ros2_kit.h"
+#include "real_robot/drivers/ros2/ros2_messages.h"
 
 namespace swarmanoid::ros2
 {

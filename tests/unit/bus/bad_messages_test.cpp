@@ -139,7 +139,8 @@ TEST(BadMessages, NumbersThatAreNotFiniteAreRefused)
     bytes = SampleBytes();
     Put(bytes, kValues + 4 + 8, number);
     EXPECT_THAT(TickRefusal<SpaceState>(bytes), HasSubstr("attribute_values"));
-    EXPECT_THAT(Refusal<WishesMessage>(BytesOf(WishesMessage{"x:1", 7, number, false, {}})), HasSubstr("views"));
+    EXPECT_THAT(Refusal<ViewRequestMessage>(BytesOf(ViewRequestMessage{"x:1", 7, number, false, {}})),
+                HasSubstr("views"));
   }
   // Wherever it stands in a long array, and the largest numbers are none.
   SensorFrame frame;
@@ -207,8 +208,8 @@ TEST(BadMessages, TextsThatTerminalsObeyAreRefused)
 // What a controller or an exception says is never the reason why a message is not sent.
 TEST(Messages, TextsAreMadeShowableAndShortWhenSent)
 {
-  ByeMessage read;
-  ReadPayload<ByeMessage>(BytesOf(ByeMessage{1, 2, "name", "", "a\x1b[31mb\xff" + std::string(100000, 'x')}), read);
+  LeaveMessage read;
+  ReadPayload<LeaveMessage>(BytesOf(LeaveMessage{1, 2, "name", "", "a\x1b[31mb\xff" + std::string(100000, 'x')}), read);
   EXPECT_THAT(read.error, testing::StartsWith("a?[31mb?xxx"));
   EXPECT_EQ(read.error.size(), kLongestText);
   // A cut is not within a character.

@@ -229,23 +229,23 @@ TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
     }
     ExpectSame<wire::WorldPubSubType>(world, wire_world);
 
-    const HelloMessage hello{random.Text(), kProtocolVersion, random.Number(), random.Text(), random.Flag()};
-    wire::Hello wire_hello;
-    wire_hello.process(hello.process);
-    wire_hello.protocol(hello.protocol);
-    wire_hello.run(hello.run);
-    wire_hello.name(hello.name);
-    wire_hello.ready(hello.ready);
-    ExpectSame<wire::HelloPubSubType>(hello, wire_hello);
+    const JoinMessage join{random.Text(), kProtocolVersion, random.Number(), random.Text(), random.Flag()};
+    wire::Join wire_join;
+    wire_join.process(join.process);
+    wire_join.protocol(join.protocol);
+    wire_join.run(join.run);
+    wire_join.name(join.name);
+    wire_join.ready(join.ready);
+    ExpectSame<wire::JoinPubSubType>(join, wire_join);
 
-    const ByeMessage bye{random.Number(), random.Number(), random.Text(), random.Text(), random.Text()};
-    wire::Bye wire_bye;
-    wire_bye.run(bye.run);
-    wire_bye.tick(bye.tick);
-    wire_bye.name(bye.name);
-    wire_bye.to(bye.to);
-    wire_bye.error(bye.error);
-    ExpectSame<wire::ByePubSubType>(bye, wire_bye);
+    const LeaveMessage leave{random.Number(), random.Number(), random.Text(), random.Text(), random.Text()};
+    wire::Leave wire_leave;
+    wire_leave.run(leave.run);
+    wire_leave.tick(leave.tick);
+    wire_leave.name(leave.name);
+    wire_leave.to(leave.to);
+    wire_leave.error(leave.error);
+    ExpectSame<wire::LeavePubSubType>(leave, wire_leave);
 
     const StatusMessage status{random.Number(), random.Number(), random.Text(), random.Text()};
     wire::Status wire_status;
@@ -288,14 +288,14 @@ TEST(MessageBytes, OfUsersRequestsAreThoseOfTheIdl)
     wire_reply.text(reply.text);
     ExpectSame<wire::ControlReplyPubSubType>(reply, wire_reply);
 
-    const WishesMessage wishes{random.Text(), random.Number(), random.Real(), random.Flag(), random.Ascending()};
-    wire::Wishes wire_wishes;
-    wire_wishes.client(wishes.client);
-    wire_wishes.run(wishes.run);
-    wire_wishes.views(wishes.views);
-    wire_wishes.every_tick(wishes.every_tick);
-    wire_wishes.robots(wishes.robots);
-    ExpectSame<wire::WishesPubSubType>(wishes, wire_wishes);
+    const ViewRequestMessage request{random.Text(), random.Number(), random.Real(), random.Flag(), random.Ascending()};
+    wire::ViewRequest wire_request;
+    wire_request.client(request.client);
+    wire_request.run(request.run);
+    wire_request.views(request.views);
+    wire_request.every_tick(request.every_tick);
+    wire_request.robots(request.robots);
+    ExpectSame<wire::ViewRequestPubSubType>(request, wire_request);
   }
 }
 
@@ -407,27 +407,27 @@ TEST(MessageKeys, AreThoseOfTheIdl)
 {
   eprosima::fastrtps::rtps::InstanceHandle_t ours;
   eprosima::fastrtps::rtps::InstanceHandle_t theirs;
-  const HelloMessage hello{"some-machine.example:12345", kProtocolVersion, 7, "engine 'ground'", true};
-  ColdCall<HelloMessage> call;
-  call.out = &hello;
-  ASSERT_TRUE(ColdType<HelloMessage>().getKey(&call, &ours, false));
-  wire::Hello wire_hello;
-  wire_hello.process(hello.process);
-  wire::HelloPubSubType hello_type;
-  ASSERT_TRUE(hello_type.getKey(&wire_hello, &theirs, false));
+  const JoinMessage join{"some-machine.example:12345", kProtocolVersion, 7, "engine 'ground'", true};
+  ColdCall<JoinMessage> call;
+  call.out = &join;
+  ASSERT_TRUE(ColdType<JoinMessage>().getKey(&call, &ours, false));
+  wire::Join wire_join;
+  wire_join.process(join.process);
+  wire::JoinPubSubType join_type;
+  ASSERT_TRUE(join_type.getKey(&wire_join, &theirs, false));
   EXPECT_EQ(ours, theirs);
 
-  const WishesMessage wishes{"x:1", 7, 30, false, {}};
-  ColdCall<WishesMessage> wish;
-  wish.out = &wishes;
-  ASSERT_TRUE(ColdType<WishesMessage>().getKey(&wish, &ours, false));
-  wire::Wishes wire_wishes;
-  wire_wishes.client("x:1");
-  wire::WishesPubSubType wishes_type;
-  ASSERT_TRUE(wishes_type.getKey(&wire_wishes, &theirs, false));
+  const ViewRequestMessage request{"x:1", 7, 30, false, {}};
+  ColdCall<ViewRequestMessage> client_request;
+  client_request.out = &request;
+  ASSERT_TRUE(ColdType<ViewRequestMessage>().getKey(&client_request, &ours, false));
+  wire::ViewRequest wire_request;
+  wire_request.client("x:1");
+  wire::ViewRequestPubSubType request_type;
+  ASSERT_TRUE(request_type.getKey(&wire_request, &theirs, false));
   EXPECT_EQ(ours, theirs);
-  EXPECT_FALSE(ColdType<ByeMessage>().m_isGetKeyDefined);
-  EXPECT_FALSE(wire::ByePubSubType().m_isGetKeyDefined);
+  EXPECT_FALSE(ColdType<LeaveMessage>().m_isGetKeyDefined);
+  EXPECT_FALSE(wire::LeavePubSubType().m_isGetKeyDefined);
 }
 
 }  // namespace

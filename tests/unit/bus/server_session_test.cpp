@@ -61,10 +61,10 @@ TEST_F(ServerSessionTest, IsReadWhileProcessesComeAndTellWhatTheyDo)
   ServerSession session(options_, world_, {"engine 'ground'"}, {[](const auto&) {}, [] {}, [](const auto&) {}});
   session.Open();
   Bus crowd(options_, "the crowd");
-  Publisher<HelloMessage> hello(crowd, "session");
+  Publisher<JoinMessage> join(crowd, "session");
   Publisher<StatusMessage> status(crowd, "session");
   Publisher<ControlRequestMessage> requests(crowd, "session");
-  hello.Write({"first", kProtocolVersion, world_.run, "visualiser", true});
+  join.Write({"first", kProtocolVersion, world_.run, "visualiser", true});
   ASSERT_TRUE(Eventually([&] { return session.Processes().size() == 2; }));
   const auto told = [&](std::uint64_t tick)
   {
@@ -96,7 +96,7 @@ TEST_F(ServerSessionTest, IsReadWhileProcessesComeAndTellWhatTheyDo)
         });
   for (std::uint64_t k = 1; k < kCount; ++k)
   {
-    hello.Write({fmt::format("process {}", k), kProtocolVersion, world_.run, "visualiser", true});
+    join.Write({fmt::format("process {}", k), kProtocolVersion, world_.run, "visualiser", true});
     status.Write({world_.run, k, "engine 'ground'", TextOf(k)});
   }
   EXPECT_TRUE(Eventually([&] { return session.Processes().size() == 1 + kCount; })) << session.Processes().size();

@@ -61,7 +61,7 @@ TEST_F(Strangers, AreDroppedAndCountedWhateverTheySend)
   test::Stranger stranger(options_.domain, "strangers");
   std::mt19937 random(1);
   std::uint64_t sent = 0;
-  for (const char* topic : {"Hello", "Status", "Bye", "ControlRequest"})
+  for (const char* topic : {"Join", "Status", "Leave", "ControlRequest"})
   {
     std::vector<std::string> payloads{"", std::string("\0\1\0", 3), std::string("\0\1\0\0", 4)};
     for (int k = 0; k < 20; ++k)
@@ -87,8 +87,8 @@ TEST_F(Strangers, AMemberOfTheRunEndsItByName)
   ServerSession session(options_, world_, {"engine 'ground'"}, {[](const auto&) {}, [] {}, [](const auto&) {}});
   session.Open();
   Bus engine(options_, "engine 'ground'");
-  Publisher<HelloMessage> hello(engine, "strangers");
-  hello.Write({ProcessId(), kProtocolVersion, world_.run, "engine 'ground'", true});
+  Publisher<JoinMessage> join(engine, "strangers");
+  join.Write({ProcessId(), kProtocolVersion, world_.run, "engine 'ground'", true});
   ASSERT_TRUE(Eventually([&] { return session.Missing().empty(); }));
 
   // As if the engine sent an array that is too short.

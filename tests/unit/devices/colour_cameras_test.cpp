@@ -2,7 +2,7 @@
 
 #include "common/control_interface/ci_colour_blob_sensor.h"
 #include "common/control_interface/ci_pie_camera_sensor.h"
-#include "controller_host/devices/blob_sources.h"
+#include "controller_host/devices/cameras/blob_sources.h"
 #include "tests/unit/devices/test_world.h"
 
 namespace swarmanoid

@@ -1,5 +1,5 @@
 #include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
-#include "controller_host/devices/body_shapes.h"
+#include "controller_host/devices/sensing/body_shapes.h"
 #include "tests/unit/devices/test_world.h"
 
 namespace swarmanoid

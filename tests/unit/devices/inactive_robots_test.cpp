@@ -1,8 +1,8 @@
 // Robots that wait outside the arena are no work for the sensors of those inside, nor have any themselves.
 #include <gmock/gmock.h>
 
-#include "controller_host/devices/sensor_world.h"
-#include "controller_host/devices/sight_lines.h"
+#include "controller_host/devices/sensing/sensor_world.h"
+#include "controller_host/devices/sensing/sight_lines.h"
 #include "test_world.h"
 
 namespace swarmanoid

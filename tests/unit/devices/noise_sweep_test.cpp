@@ -277,7 +277,7 @@ TEST(NoiseSweep, AllActuatorsHaveNoise)
   CheckNoiseOfAll<ActuatorBatch>();
 }
 
-// A gripper's sensor and actuator bear one name; what one of them draws does not tell about the other.
+// A gripper's sensor and actuator have one name; what one of them draws does not tell about the other.
 TEST(NoiseSweep, SensorAndActuatorOfOneNameDrawDifferentNumbers)
 {
   const TestParameters noise{{"noise_kind", "uniform"}, {"noise_range", "0.05"}, {"noise_mean", "-0.1"}};

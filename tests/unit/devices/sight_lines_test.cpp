@@ -1,4 +1,4 @@
-#include "controller_host/devices/sight_lines.h"
+#include "controller_host/devices/sensing/sight_lines.h"
 
 #include "tests/unit/devices/test_world.h"
 

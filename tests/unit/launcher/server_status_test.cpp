@@ -66,7 +66,7 @@ TEST(ServerStatus, TextsStayOnTheirLine)
 TEST(ServerStatus, LeavesOtherLinesAlone)
 {
   for (const char* line : {"",
-                           "hello",
+                           "join",
                            "tick",
                            "tick 1",
                            "tick one two three",

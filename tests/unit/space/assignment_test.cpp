@@ -1,4 +1,4 @@
-#include "common/space/assignment.h"
+#include "common/messages/assignment.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

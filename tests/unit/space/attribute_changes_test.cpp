@@ -1,5 +1,5 @@
 // Slots ascend and stand once, in whatever order devices and engines add them.
-#include "common/space/attribute_changes.h"
+#include "common/messages/attribute_changes.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // The file of a checkpoint: whatever happens to it on the way is noticed.
-#include "common/space/checkpoint.h"
+#include "common/checkpoint/checkpoint.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "common/space/checkpoint_format.h"
+#include "common/checkpoint/checkpoint_format.h"
 
 namespace swarmanoid
 {

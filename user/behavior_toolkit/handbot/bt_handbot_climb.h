@@ -7,7 +7,7 @@
 class CBTHandbotClimb : public CCI_Behavior<CCI_HandBotState>
 {
 public:
-  // rope_length: m of rope that shall be left between robot and ceiling; speed: m/s of rope.
+  // rope_length: m of rope to leave between robot and ceiling; speed: m/s of rope.
   explicit CBTHandbotClimb(double rope_length, double speed = 0.1)
       : CCI_Behavior("climb"), rope_length_(rope_length), speed_(speed)
   {

@@ -1,0 +1,237 @@
+#include "common/checkpoint/checkpoint.h"
+
+#include <fmt/format.h>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "common/checkpoint/checkpoint_format.h"
+#include "common/configuration/regular_file.h"
+#include "common/configuration/wording.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 36U;  // 64 GiB
+
+class FieldWriter
+{
+public:
+  explicit FieldWriter(ByteWriter& bytes) : bytes_(bytes) {}
+  void Number(std::uint64_t value) { bytes_.Put(value); }
+  void Text(const std::string& text) { bytes_.PutText(text); }
+  template <class T>
+  void Array(const std::vector<T>& values)
+  {
+    bytes_.PutArray(values);
+  }
+  template <class T, class Visit>
+  void List(const std::vector<T>& entries, const Visit& visit)
+  {
+    Number(entries.size());
+    for (const T& entry : entries) visit(entry);
+  }
+
+private:
+  ByteWriter& bytes_;
+};
+
+class FieldReader
+{
+public:
+  explicit FieldReader(std::span<const char> bytes) : bytes_(bytes) {}
+  void Number(std::uint64_t& value) { value = bytes_.Get<std::uint64_t>(); }
+  void Text(std::string& text) { text = bytes_.GetText(); }
+  template <class T>
+  void Array(std::vector<T>& values)
+  {
+    values = bytes_.GetArray<T>();
+  }
+  // A count that is too large ends at the end of the bytes.
+  template <class T, class Visit>
+  void List(std::vector<T>& entries, const Visit& visit)
+  {
+    for (auto count = bytes_.Get<std::uint64_t>(); count > 0; --count) visit(entries.emplace_back());
+  }
+  bool AtEnd() const { return bytes_.AtEnd(); }
+
+private:
+  ByteReader bytes_;
+};
+
+std::uint64_t NumberAt(std::span<const char> bytes, std::size_t at)
+{
+  std::uint64_t number;
+  std::memcpy(&number, bytes.data() + at, sizeof number);
+  return number;
+}
+
+std::uint64_t ChecksumOf(std::span<const char> bytes)
+{
+  return XXH3_64bits(bytes.data(), bytes.size() - kCheckpointChecksumBytes);
+}
+
+// `start`: the first bytes of the file, all where it is shorter than a header.
+void CheckHeader(std::span<const char> start, std::uint64_t file_bytes)
+{
+  if (std::string_view(start.data(), std::min(start.size(), kCheckpointMagic.size())) != kCheckpointMagic)
+    throw std::runtime_error("it is not a checkpoint");
+  if (start.size() > kCheckpointMagic.size() && start[kCheckpointMagic.size()] != kCheckpointVersion)
+    throw std::runtime_error(fmt::format(
+        "its format has the version {}, this program reads {}; go on with the Swarmanoid that took it, or "
+        "take it again",
+        Quoted(std::string(1, start[kCheckpointMagic.size()])), Quoted(std::string(1, kCheckpointVersion))));
+  if (start.size() < kCheckpointHeaderBytes || file_bytes < kCheckpointHeaderBytes + kCheckpointChecksumBytes)
+    throw std::runtime_error(fmt::format("it is cut short: it has {} bytes", file_bytes));
+  const std::uint64_t said = NumberAt(start, kCheckpointMagic.size() + 1);
+  if (said != file_bytes)
+    throw std::runtime_error(
+        fmt::format("it is damaged: it should have {} bytes and has {}; go on from another one", said, file_bytes));
+}
+
+std::vector<char> ReadWhole(const std::string& path)
+{
+  const RegularFile file(path);
+  // Nothing is read of what is no checkpoint.
+  CheckHeader(file.Read(0, kCheckpointHeaderBytes), file.Size());
+  if (file.Size() > kMostBytes) throw FileError(fmt::format("it is longer than {} bytes", kMostBytes));
+  return file.Read(0, file.Size());
+}
+
+}  // namespace
+
+std::span<const char> Checkpoint::StateOf(const std::string& name) const
+{
+  for (const SavedPart& part : parts)
+    if (part.name == name) return part.state;
+  throw std::runtime_error("the checkpoint has no part of the " + name);
+}
+
+std::uint64_t FingerprintOf(const Experiment& experiment)
+{
+  // A restored run may be longer than the one that it goes on from.
+  std::string text = experiment.effective_xml;
+  const std::string_view open = "<maxclock>";
+  const std::size_t start = text.find(open);
+  const std::size_t end = text.find("</maxclock>", start);
+  if (start != std::string::npos && end != std::string::npos)
+    text.erase(start + open.size(), end - start - open.size());
+  return XXH3_64bits(text.data(), text.size());
+}
+
+CheckpointOrigin OriginOf(const Experiment& experiment)
+{
+  return {FingerprintOf(experiment), LibraryBuildsOf(experiment)};
+}
+
+std::vector<char> EncodeCheckpoint(const Checkpoint& checkpoint)
+{
+  ByteWriter writer;
+  for (const char c : kCheckpointMagic) writer.Put(c);
+  writer.Put(kCheckpointVersion);
+  writer.Put(std::uint64_t{0});
+  FieldWriter fields(writer);
+  ForEachCheckpointField(fields, checkpoint);
+  writer.Put(std::uint64_t{0});
+  std::vector<char> bytes = writer.Bytes();
+  SealCheckpoint(bytes);
+  return bytes;
+}
+
+void SealCheckpoint(std::vector<char>& bytes)
+{
+  bytes.resize(std::max(bytes.size(), kCheckpointHeaderBytes + kCheckpointChecksumBytes));
+  const std::uint64_t size = bytes.size();
+  std::memcpy(bytes.data() + kCheckpointMagic.size() + 1, &size, sizeof size);
+  const std::uint64_t checksum = ChecksumOf(bytes);
+  std::memcpy(bytes.data() + bytes.size() - sizeof checksum, &checksum, sizeof checksum);
+}
+
+Checkpoint DecodeCheckpoint(std::span<const char> bytes)
+{
+  CheckHeader(bytes.first(std::min(bytes.size(), kCheckpointHeaderBytes)), bytes.size());
+  const std::size_t end = bytes.size() - kCheckpointChecksumBytes;
+  if (NumberAt(bytes, end) != ChecksumOf(bytes))
+    throw std::runtime_error("it is damaged: its checksum is not that of its content; go on from another one");
+  FieldReader fields(bytes.subspan(kCheckpointHeaderBytes, end - kCheckpointHeaderBytes));
+  Checkpoint checkpoint;
+  ForEachCheckpointField(fields, checkpoint);
+  if (!fields.AtEnd()) throw std::runtime_error("it is longer than its content");
+  return checkpoint;
+}
+
+void WriteCheckpoint(const std::string& path, const Checkpoint& checkpoint)
+{
+  const std::vector<char> bytes = EncodeCheckpoint(checkpoint);
+  const std::string unfinished = path + ".part";
+  std::ofstream file(unfinished, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file)
+  {
+    const int error = errno;
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+    throw std::runtime_error("cannot write the checkpoint '" + path + "': " + std::strerror(error));
+  }
+  std::filesystem::rename(unfinished, path);
+}
+
+Checkpoint ReadCheckpoint(const std::string& path, const Experiment& experiment, const RestoreOptions& options)
+{
+  try
+  {
+    Checkpoint checkpoint = DecodeCheckpoint(ReadWhole(path));
+    if (checkpoint.origin.experiment != FingerprintOf(experiment))
+      throw std::runtime_error(
+          "it is of another experiment, or of other settings or another seed; restore it with the experiment.xml "
+          "beside it");
+    if (!options.any_build)
+    {
+      const std::string difference = DifferenceOfBuilds(checkpoint.origin.libraries, LibraryBuildsOf(experiment));
+      if (!difference.empty())
+        throw std::runtime_error("it was taken with another build of " + difference +
+                                 "; go on with that build, start anew with this one, or let --any-build take it, which "
+                                 "promises no equal bits");
+    }
+    const std::size_t parts = checkpoint.parts.size();
+    const std::size_t others = 1 + experiment.engines.size();
+    if (parts != others + options.hosts)
+      throw std::runtime_error("it was taken with --controller-hosts " +
+                               std::to_string(parts > others ? parts - others : 0) + "; restore it with as many");
+    return checkpoint;
+  }
+  catch (const std::exception& error)
+  {
+    throw std::runtime_error("checkpoint '" + path + "': " + error.what());
+  }
+}
+
+std::string CheckpointName(std::uint64_t tick)
+{
+  std::array<char, 40> name;
+  std::snprintf(name.data(), name.size(), "checkpoint-%08llu", static_cast<unsigned long long>(tick));
+  return name.data();
+}
+
+void CheckCheckpointPeriod(std::uint64_t every, const Experiment& experiment)
+{
+  if (every % experiment.canonical_period == 0) return;
+  const std::uint64_t period = experiment.canonical_period;
+  throw std::invalid_argument("checkpoints every " + std::to_string(every) +
+                              " ticks are not possible: the engines can " + "be saved every " + std::to_string(period) +
+                              " ticks (framework.canonical_period); take " +
+                              std::to_string((every / period + 1) * period) + " or change that");
+}
+
+}  // namespace swarmanoid

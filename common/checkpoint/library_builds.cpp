@@ -1,0 +1,87 @@
+#include "common/checkpoint/library_builds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
+
+#include "common/configuration/regular_file.h"
+#include "common/plugins/elf_file.h"
+#include "common/plugins/library.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+// Those of ours whose code what is saved depends on.
+constexpr std::array<const char*, 9> kOwnLibraries{
+    "reproducible_math", "common", "control_interface", "behavior_toolkit",
+    "experiment",        "space",  "physics_engine",    "controller_host_role",
+    "space_server_role"};
+
+std::string BuildOfFile(const std::string& path)
+{
+  try
+  {
+    return path.empty() ? std::string() : BuildOfLibrary(path);
+  }
+  catch (const FileError&)
+  {
+    return {};
+  }
+}
+
+std::string OwnBuild()
+{
+  const std::string folder = OwnLibraryFolder();
+  std::string builds;
+  for (const char* name : kOwnLibraries)
+    builds += BuildOfFile(fmt::format("{}/libswarmanoid_{}.so", folder, name)).substr(0, 16) + ".";
+  return builds;
+}
+
+}  // namespace
+
+std::vector<LibraryBuild> LibraryBuildsOf(const Experiment& experiment)
+{
+  std::map<std::string, std::string> builds{{kSwarmanoidBuild, OwnBuild()}};
+  const auto add = [&](const std::string& library, const std::vector<std::string>& folders)
+  {
+    if (library.empty()) return;
+    const std::string file = FindPluginLibrary(library, folders);
+    builds[fs::path(file.empty() ? library : file).filename().string()] = BuildOfFile(file);
+  };
+  const auto add_plugin = [&](const TConfigurationTree& tree)
+  { add(tree.Value("library").value_or(""), experiment.plugin_path); };
+  for (const ControllerConfiguration& controller : experiment.controllers)
+  {
+    add(controller.library, experiment.controller_path);
+    for (const DeviceConfiguration& device : controller.actuators) add_plugin(device.tree);
+    for (const DeviceConfiguration& device : controller.sensors) add_plugin(device.tree);
+  }
+  for (const EngineConfiguration& engine : experiment.engines) add_plugin(engine.tree);
+  for (const FunctionsConfiguration& functions : experiment.functions) add_plugin(functions.tree);
+
+  std::vector<LibraryBuild> all;
+  for (const auto& [name, build] : builds) all.push_back({name, build});
+  return all;
+}
+
+std::string DifferenceOfBuilds(const std::vector<LibraryBuild>& saved, const std::vector<LibraryBuild>& here)
+{
+  for (const LibraryBuild& then : saved)
+  {
+    const auto now =
+        std::find_if(here.begin(), here.end(), [&](const LibraryBuild& one) { return one.name == then.name; });
+    if (now == here.end() || then.build.empty() || now->build.empty() || now->build == then.build) continue;
+    return then.name == kSwarmanoidBuild ? "Swarmanoid" : "the library '" + then.name + "'";
+  }
+  return {};
+}
+
+}  // namespace swarmanoid

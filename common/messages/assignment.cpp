@@ -1,0 +1,208 @@
+#include "common/messages/assignment.h"
+
+#include <algorithm>
+#include <map>
+
+#include "common/plugins/catalogue.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+// The channels of the specific devices of a controller, by name, with their widths.
+struct ControllerChannels
+{
+  std::map<std::string, int> commands;
+  std::map<std::string, int> sensors;
+  bool has_generic_actuators = false;
+};
+
+ControllerChannels ChannelsOf(const ControllerConfiguration& controller)
+{
+  ControllerChannels channels;
+  const PluginCatalogue& catalogue = PluginCatalogue::Instance();
+  for (const DeviceConfiguration& device : controller.actuators)
+  {
+    const PluginDescription* description = catalogue.Find(PluginKind::kActuator, device.type, device.implementation);
+    if (description == nullptr || description->channel.empty())
+      channels.has_generic_actuators = true;
+    else
+      channels.commands[description->channel] = description->channel_width;
+  }
+  for (const DeviceConfiguration& device : controller.sensors)
+  {
+    const PluginDescription* description = catalogue.Find(PluginKind::kSensor, device.type, device.implementation);
+    if (description != nullptr && !description->channel.empty())
+      channels.sensors[description->channel] = description->channel_width;
+  }
+  return channels;
+}
+
+using ChannelMap = std::map<std::string, int> ControllerChannels::*;
+
+// The blocks of one message: channels in order of their names, robots ascending. `robots` must be ascending.
+std::vector<ChannelBlock> MakeBlocks(const std::vector<std::uint32_t>& robots,
+                                     const std::vector<const ControllerChannels*>& channels_of, ChannelMap member,
+                                     std::size_t& size)
+{
+  std::map<std::string, ChannelBlock> blocks;
+  for (const std::uint32_t robot : robots)
+  {
+    if (channels_of[robot] == nullptr) continue;
+    for (const auto& [name, width] : channels_of[robot]->*member)
+    {
+      ChannelBlock& block = blocks[name];
+      block.name = name;
+      block.width = width;
+      block.entities.push_back(robot);
+    }
+  }
+  std::vector<ChannelBlock> ordered;
+  size = 0;
+  for (auto& [name, block] : blocks)
+  {
+    block.offset = size;
+    size += block.entities.size() * static_cast<std::size_t>(block.width);
+    ordered.push_back(std::move(block));
+  }
+  return ordered;
+}
+
+// Copies that bring the values of `source` blocks to their places in `target` blocks; neighbouring ones are merged.
+void AppendCopies(std::uint32_t source_index, const std::vector<ChannelBlock>& source,
+                  const std::vector<ChannelBlock>& target, std::vector<ValueCopy>& copies)
+{
+  for (const ChannelBlock& to : target)
+  {
+    const auto from =
+        std::find_if(source.begin(), source.end(), [&](const ChannelBlock& b) { return b.name == to.name; });
+    if (from == source.end()) continue;
+    const auto width = static_cast<std::size_t>(to.width);
+    std::size_t k = 0;
+    for (std::size_t n = 0; n < to.entities.size(); ++n)
+    {
+      while (k < from->entities.size() && from->entities[k] < to.entities[n]) ++k;
+      if (k == from->entities.size()) break;
+      if (from->entities[k] != to.entities[n]) continue;
+      const ValueCopy copy{source_index, from->offset + k * width, to.offset + n * width, width};
+      ValueCopy* last = copies.empty() ? nullptr : &copies.back();
+      if (last != nullptr && last->source == copy.source && last->from + last->count == copy.from &&
+          last->to + last->count == copy.to)
+        last->count += width;
+      else
+        copies.push_back(copy);
+    }
+  }
+}
+
+std::vector<std::uint32_t> SourcesOf(const std::vector<ValueCopy>& copies)
+{
+  std::vector<std::uint32_t> sources;
+  for (const ValueCopy& copy : copies) sources.push_back(copy.source);
+  std::sort(sources.begin(), sources.end());
+  sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
+  return sources;
+}
+
+}  // namespace
+
+Assignment MakeAssignment(const Experiment& experiment, unsigned hosts)
+{
+  Assignment assignment;
+  const std::size_t count = experiment.entities.size();
+
+  // Engines: a movable entity is owned by the first engine that lists it.
+  assignment.owner.assign(count, -1);
+  assignment.engines.resize(experiment.engines.size());
+  for (std::size_t e = 0; e < experiment.engines.size(); ++e)
+  {
+    EngineLayout& layout = assignment.engines[e];
+    for (const std::uint32_t entity : experiment.engines[e].entities)
+    {
+      if (!experiment.entities[entity].movable || IsBodiless(experiment.entities[entity].kind))
+        layout.fixed.push_back(entity);
+      else if (assignment.owner[entity] < 0)
+      {
+        assignment.owner[entity] = static_cast<int>(e);
+        layout.owned.push_back(entity);
+      }
+      else
+        layout.mirrored.push_back(entity);
+    }
+  }
+
+  // Controllers: what each robot's devices exchange.
+  std::map<std::string, ControllerChannels> channels_by_id;
+  for (const ControllerConfiguration& controller : experiment.controllers)
+    channels_by_id.emplace(controller.id, ChannelsOf(controller));
+  std::vector<const ControllerChannels*> channels_of(count, nullptr);
+  std::vector<std::uint32_t> robots;
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    const EntityConfiguration& entity = experiment.entities[i];
+    if (!IsRobot(entity.kind) || entity.controller.empty()) continue;
+    channels_of[i] = &channels_by_id.at(entity.controller);
+    robots.push_back(i);
+  }
+
+  // Hosts: contiguous runs of the robots ordered by engine, then entity.
+  std::stable_sort(robots.begin(), robots.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return assignment.owner[a] < assignment.owner[b]; });
+  const std::size_t host_count = std::clamp<std::size_t>(hosts, 1, std::max<std::size_t>(robots.size(), 1));
+  assignment.host.assign(count, -1);
+  assignment.hosts.resize(host_count);
+  for (std::size_t h = 0; h < host_count; ++h)
+  {
+    HostLayout& layout = assignment.hosts[h];
+    const auto begin = robots.begin() + static_cast<std::ptrdiff_t>(h * robots.size() / host_count);
+    const auto end = robots.begin() + static_cast<std::ptrdiff_t>((h + 1) * robots.size() / host_count);
+    layout.robots.assign(begin, end);
+    std::sort(layout.robots.begin(), layout.robots.end());
+    for (const std::uint32_t robot : layout.robots)
+    {
+      assignment.host[robot] = static_cast<int>(h);
+      layout.reports_to_server |= channels_of[robot]->has_generic_actuators || channels_of[robot]->commands.empty() ||
+                                  assignment.owner[robot] < 0;
+    }
+    layout.commands = MakeBlocks(layout.robots, channels_of, &ControllerChannels::commands, layout.command_size);
+    layout.sensors = MakeBlocks(layout.robots, channels_of, &ControllerChannels::sensors, layout.sensor_size);
+  }
+
+  for (std::size_t e = 0; e < assignment.engines.size(); ++e)
+  {
+    EngineLayout& layout = assignment.engines[e];
+    layout.commands = MakeBlocks(layout.owned, channels_of, &ControllerChannels::commands, layout.command_size);
+    layout.sensors = MakeBlocks(layout.owned, channels_of, &ControllerChannels::sensors, layout.sensor_size);
+    for (std::uint32_t h = 0; h < host_count; ++h)
+    {
+      AppendCopies(h, assignment.hosts[h].commands, layout.commands, layout.command_copies);
+      AppendCopies(static_cast<std::uint32_t>(e), layout.sensors, assignment.hosts[h].sensors,
+                   assignment.hosts[h].sensor_copies);
+    }
+    layout.commands_from = SourcesOf(layout.command_copies);
+  }
+  for (HostLayout& layout : assignment.hosts) layout.frames_from = SourcesOf(layout.sensor_copies);
+  return assignment;
+}
+
+std::string EngineName(const Experiment& experiment, std::size_t engine)
+{
+  return "engine '" + experiment.engines[engine].id + "'";
+}
+
+std::string HostName(std::size_t host) { return "controller host " + std::to_string(host); }
+
+std::string OwnerName(const Experiment& experiment, const Assignment& assignment, std::size_t entity)
+{
+  const int engine = assignment.owner[entity];
+  return engine < 0 ? std::string() : EngineName(experiment, static_cast<std::size_t>(engine));
+}
+
+std::string HostNameOf(const Assignment& assignment, std::size_t entity)
+{
+  const int host = assignment.host[entity];
+  return host < 0 ? std::string() : HostName(static_cast<std::size_t>(host));
+}
+
+}  // namespace swarmanoid

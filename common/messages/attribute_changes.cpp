@@ -1,0 +1,66 @@
+#include "common/messages/attribute_changes.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace swarmanoid
+{
+
+bool IsOrdered(const AttributeChanges& changes)
+{
+  return changes.slots.size() == changes.values.size() &&
+         std::adjacent_find(changes.slots.begin(), changes.slots.end(), std::greater_equal<>()) == changes.slots.end();
+}
+
+// Whoever adds goes through his robots in order, so there are a few ascending runs to merge.
+void AttributeOrder::Apply(AttributeChanges& changes)
+{
+  if (IsOrdered(changes)) return;
+  places_.clear();
+  for (std::size_t i = 0; i < changes.slots.size(); ++i)
+    places_.push_back(static_cast<std::uint64_t>(changes.slots[i]) << 32U | i);
+  merged_.resize(places_.size());
+  while (!std::is_sorted(places_.begin(), places_.end()))
+  {
+    for (auto first = places_.begin(); first != places_.end();)
+    {
+      const auto second = std::is_sorted_until(first, places_.end());
+      const auto end = std::is_sorted_until(second, places_.end());
+      std::merge(first, second, second, end, merged_.begin() + (first - places_.begin()));
+      first = end;
+    }
+    places_.swap(merged_);
+  }
+
+  ordered_.Clear();
+  for (std::size_t k = 0; k < places_.size(); ++k)
+  {
+    const auto slot = static_cast<std::uint32_t>(places_[k] >> 32U);
+    if (k + 1 < places_.size() && places_[k + 1] >> 32U == slot) continue;  // a later value counts
+    ordered_.Add(slot, changes.values[static_cast<std::uint32_t>(places_[k])]);
+  }
+  std::swap(changes, ordered_);
+}
+
+void ReportChanges(std::span<const std::uint32_t> slots, std::span<const double> values, std::span<const double> known,
+                   AttributeChanges& changes)
+{
+  if (changes.slots.empty())
+  {
+    for (std::size_t i = 0; i < slots.size(); ++i)
+      if (known[slots[i]] != values[i]) changes.Add(slots[i], values[i]);
+    return;
+  }
+  thread_local AttributeOrder order;
+  order.Apply(changes);
+  const std::size_t others = changes.slots.size();
+  std::size_t other = 0;
+  for (std::size_t i = 0; i < slots.size(); ++i)
+  {
+    while (other < others && changes.slots[other] < slots[i]) ++other;
+    const bool changed_before = other < others && changes.slots[other] == slots[i];
+    if (changed_before || known[slots[i]] != values[i]) changes.Add(slots[i], values[i]);
+  }
+}
+
+}  // namespace swarmanoid

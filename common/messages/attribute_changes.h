@@ -1,0 +1,33 @@
+// The order of AttributeChanges: slots ascend and stand once, whoever added them. Used by the roles before they hand
+// their changes over, and by devices.
+#pragma once
+
+#include <span>
+
+#include "common/messages/messages.h"
+
+namespace swarmanoid
+{
+
+// Puts changes in order; of values for one slot the last one counts. Keeps its scratch memory, so that steady running
+// allocates nothing.
+class AttributeOrder
+{
+public:
+  void Apply(AttributeChanges& changes);
+
+private:
+  std::vector<std::uint64_t> places_;  // the slot above, the index below
+  std::vector<std::uint64_t> merged_;
+  AttributeChanges ordered_;
+};
+
+// Whether slots ascend, each with a value.
+bool IsOrdered(const AttributeChanges& changes);
+
+// Adds the values of `slots` (ascending) that differ from those of the space (`known`, all slots), or for whose slot
+// there is a change already: who reports last decides on a slot, even by leaving it as it is.
+void ReportChanges(std::span<const std::uint32_t> slots, std::span<const double> values, std::span<const double> known,
+                   AttributeChanges& changes);
+
+}  // namespace swarmanoid

@@ -1,0 +1,24 @@
+// What somebody asks of a running experiment. Carried out by the space server's run control between two ticks; the
+// fields are explained at ControlRequest in idl/swarmanoid.idl.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace swarmanoid
+{
+
+inline const std::vector<std::string> kControlVerbs{"pause", "resume", "step", "speed",
+                                                    "stop",  "move",   "add",  "remove"};
+
+struct ControlRequestMessage
+{
+  std::string client;  // "host:pid" of the asker; empty in one process
+  std::uint32_t number = 0;
+  std::string verb;
+  std::string entity;
+  std::vector<double> numbers;
+};
+
+}  // namespace swarmanoid

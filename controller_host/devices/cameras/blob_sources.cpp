@@ -1,0 +1,250 @@
+#include "controller_host/devices/cameras/blob_sources.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <mutex>
+
+#include "common/control_interface/ci_colour.h"
+#include "common/math/elementary.h"
+#include "common/math/random.h"
+#include "controller_host/devices/sensing/sight_lines.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr std::uint32_t kNoSlot = 0xffffffff;
+// A beam that meets nothing ends here, m.
+constexpr double kLongestBeam = 30;
+// Widths of the fields of a source.
+constexpr std::uint32_t kRgb = 0xffffff;
+constexpr std::uint32_t kParts = 0xff;
+
+std::uint32_t ColourIn(std::span<const double> attributes, std::uint32_t slot)
+{
+  return static_cast<std::uint32_t>(attributes[slot]);
+}
+
+}  // namespace
+
+BlobSources::Ring BlobSources::MakeRing(int leds, double radius, double height, double beacon_height,
+                                        double first_angle, bool turns)
+{
+  Ring ring;
+  ring.leds = leds;
+  ring.height = height;
+  ring.beacon_height = beacon_height;
+  ring.turns = turns;
+  for (int i = 0; i < leds; ++i)
+  {
+    const SinCos angle = SinCosOf(first_angle + i * (2 * kPi / leds));
+    ring.places.emplace_back(radius * angle.cos, radius * angle.sin);
+  }
+  return ring;
+}
+
+BlobSources::BlobSources(SensorWorld& world)
+    : world_(world),
+      // Footbot and eyebot: ARGoS3. The handbot's ring is an assumption: around its body, at half its height.
+      footbot_(MakeRing(12, 0.085036758 + 0.005, 0.085, 0.174, kPi / 12, true)),
+      eyebot_(MakeRing(16, 0.255, 0.1535, 0, kPi / 16, false)),
+      handbot_(MakeRing(12, 0.09, 0.08, 0.17, kPi / 12, false))
+{
+  const CSwarmanoidSpace& space = world.Space();
+  for (std::uint32_t e = 0; e < space.Size(); ++e)
+  {
+    const CSwarmanoidSpaceEntity& entity = space.GetEntity(e);
+    switch (entity.GetKind())
+    {
+      case EntityKind::kFootbot:
+        bearers_.push_back(
+            {e, &footbot_, entity.SlotOf("led"), entity.SlotOf("beacon"), entity.SlotOf("turret_angle"), kNoSlot, 0});
+        break;
+      case EntityKind::kEyebot:
+        bearers_.push_back({e, &eyebot_, entity.SlotOf("led"), kNoSlot, kNoSlot, kNoSlot, 0});
+        lasers_.push_back({e, entity.SlotOf("laser")});
+        break;
+      case EntityKind::kHandbot:
+        bearers_.push_back({e, &handbot_, entity.SlotOf("led"), entity.SlotOf("beacon"), kNoSlot, kNoSlot, 0});
+        break;
+      case EntityKind::kCylindricPrey:
+        bearers_.push_back({e, nullptr, kNoSlot, kNoSlot, kNoSlot, entity.SlotOf("colour"), entity.GetSize().z() / 2});
+        break;
+      case EntityKind::kLightBulb:
+      case EntityKind::kGroundPatch:
+        still_.push_back(e);
+        break;
+      default:
+        break;
+    }
+  }
+  bearer_of_.assign(space.Size(), -1);
+  for (std::size_t b = 0; b < bearers_.size(); ++b) bearer_of_[bearers_[b].entity] = static_cast<std::int32_t>(b);
+}
+
+std::shared_ptr<BlobSources> BlobSources::Of(const std::shared_ptr<SensorWorld>& world)
+{
+  static std::mutex mutex;
+  static std::map<const SensorWorld*, std::weak_ptr<BlobSources>> all;
+  const std::lock_guard lock(mutex);
+  std::erase_if(all, [](const auto& entry) { return entry.second.expired(); });
+  std::shared_ptr<BlobSources> sources = all[world.get()].lock();
+  if (sources == nullptr)
+  {
+    sources = std::make_shared<BlobSources>(*world);
+    sources->keeper_ = world;
+    all[world.get()] = sources;
+  }
+  return sources;
+}
+
+void BlobSources::Refresh()
+{
+  const CSwarmanoidSpace& space = world_.Space();
+  if (revision_ == space.Revision() && attribute_revision_ == space.AttributeRevision()) return;
+  revision_ = space.Revision();
+  attribute_revision_ = space.AttributeRevision();
+
+  const std::span<const double> attributes = space.Attributes();
+  sources_.clear();
+  lit_by_.clear();
+  start_.clear();
+  for (const std::uint32_t entity : world_.Grid().Sorted())
+  {
+    start_.push_back(static_cast<std::uint32_t>(sources_.size()));
+    const std::int32_t bearer = bearer_of_[entity];
+    if (bearer >= 0) AddBearer(bearers_[static_cast<std::size_t>(bearer)]);
+  }
+  start_.push_back(static_cast<std::uint32_t>(sources_.size()));
+  for (const Bearer& bearer : bearers_)
+    if (!space.GetEntity(bearer.entity).IsMovable()) AddBearer(bearer);
+
+  for (const std::uint32_t e : still_)
+  {
+    const std::uint32_t colour = ColourIn(attributes, space.GetEntity(e).SlotOf("colour"));
+    if (colour != 0) sources_.push_back({space.GetPose(e).position, colour & kRgb, BlobSource::kBody, e});
+  }
+  for (const Laser& laser : lasers_)
+    if (attributes[laser.slot] != 0) AddLaserSpot(laser);
+
+  hue_.resize(sources_.size());
+  lowest_ = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < sources_.size(); ++i)
+  {
+    const std::uint32_t nearest = CCI_Colour::Nearest(sources_[i].colour);
+    hue_[i] = static_cast<std::uint8_t>((nearest >> 14 & 4U) | (nearest >> 7 & 2U) | (nearest & 1U));
+    lowest_ = std::min(lowest_, sources_[i].position.z());
+  }
+}
+
+std::size_t BlobSources::Collect(std::span<const std::int32_t> places, std::vector<std::int32_t>& numbers) const
+{
+  if (numbers.size() < sources_.size() + 1) numbers.resize(sources_.size() + 1);
+  const std::uint32_t* const start = start_.data();
+  std::int32_t* const to = numbers.data();
+  std::size_t count = 0;
+  for (const std::int32_t place : places)
+  {
+    // Most bodies have one: written without asking.
+    const std::uint32_t first = start[place];
+    const std::uint32_t end = start[place + 1];
+    to[count] = static_cast<std::int32_t>(first);
+    for (std::uint32_t i = first + 1; i < end; ++i) to[count + i - first] = static_cast<std::int32_t>(i);
+    count += end - first;
+  }
+  for (std::size_t i = start_.back(); i < sources_.size(); ++i) to[count++] = static_cast<std::int32_t>(i);
+  return count;
+}
+
+std::uint64_t BlobSources::NameOf(std::size_t number) const
+{
+  const BlobSource& source = sources_[number];
+  const bool is_spot = source.part == BlobSource::kLaserSpot;
+  const std::uint32_t entity = is_spot ? lit_by_[number - (sources_.size() - lit_by_.size())] : source.owner;
+  return StreamPart(world_.Names()[entity], source.part);
+}
+
+void BlobSources::AddBearer(const Bearer& bearer)
+{
+  if (bearer.ring != nullptr) return AddLeds(bearer);
+  AddPoint(bearer.entity, {0, 0, bearer.middle}, ColourIn(world_.Space().Attributes(), bearer.colour_slot),
+           BlobSource::kBody);
+}
+
+void BlobSources::AddPoint(std::uint32_t entity, const Vector3& local, std::uint32_t colour, std::uint32_t part)
+{
+  if (colour == 0) return;
+  const PoseArrays& poses = world_.Space().Poses();
+  if (!IsUpright(poses, entity))
+  {
+    sources_.push_back({world_.Space().GetPose(entity).Apply(local), colour & kRgb, part & kParts, entity});
+    return;
+  }
+  const Heading heading = HeadingOf(poses, entity);
+  sources_.push_back(
+      {{poses.x[entity] + heading.cos * local.x() - heading.sin * local.y(),
+        poses.y[entity] + heading.sin * local.x() + heading.cos * local.y(), poses.z[entity] + local.z()},
+       colour & kRgb,
+       part & kParts,
+       entity});
+}
+
+void BlobSources::AddLeds(const Bearer& bearer)
+{
+  const Ring& ring = *bearer.ring;
+  const std::span<const double> attributes = world_.Space().Attributes();
+  const double* leds = &attributes[bearer.led_slot];
+  const auto count = static_cast<std::size_t>(ring.leds);
+  if (bearer.beacon_slot != kNoSlot)
+    AddPoint(bearer.entity, {0, 0, ring.beacon_height}, ColourIn(attributes, bearer.beacon_slot), BlobSource::kBeacon);
+
+  const auto differs = [&](double value) { return value != leds[0]; };
+  if (std::none_of(leds + 1, leds + count, differs))
+    return AddPoint(bearer.entity, {0, 0, ring.height}, static_cast<std::uint32_t>(leds[0]), BlobSource::kFirstLed);
+
+  SinCos turret{0, 1};
+  if (ring.turns) turret = SinCosOf(attributes[bearer.turret_slot]);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (leds[i] == 0 || std::find(leds, leds + i, leds[i]) != leds + i) continue;
+    Vector2 sum = Vector2::Zero();
+    int lit = 0;
+    for (std::size_t j = i; j < count; ++j)
+      if (leds[j] == leds[i])
+      {
+        sum += ring.places[j];
+        ++lit;
+      }
+    const Vector2 middle = sum / lit;
+    AddPoint(bearer.entity,
+             {turret.cos * middle.x() - turret.sin * middle.y(), turret.sin * middle.x() + turret.cos * middle.y(),
+              ring.height},
+             static_cast<std::uint32_t>(leds[i]), static_cast<std::uint32_t>(BlobSource::kFirstLed + i));
+  }
+}
+
+// The beam leaves the middle of the eyebot's base; tilt 0 is straight down. It ends at the first body, whatever its
+// engine, or on the floor.
+void BlobSources::AddLaserSpot(const Laser& laser)
+{
+  const std::span<const double> attributes = world_.Space().Attributes();
+  const std::uint32_t colour = ColourIn(attributes, laser.slot + 1);
+  if (colour == 0) return;
+  const SinCos pan = SinCosOf(attributes[laser.slot + 2]);
+  const SinCos tilt = SinCosOf(attributes[laser.slot + 3]);
+  const Pose pose = world_.Space().GetPose(laser.entity);
+  const Vector3 from = pose.position;
+  const Vector3 beam = pose.orientation * Vector3(tilt.sin * pan.cos, tilt.sin * pan.sin, -tilt.cos);
+  const bool reaches_floor = beam.z() < 0 && from.z() + kLongestBeam * beam.z() <= 0;
+  const double length = reaches_floor ? std::max(from.z() / -beam.z(), 0.0) : kLongestBeam;
+  const Vector3 to = from + length * beam;
+  const double hit = world_.FirstHit(from, to, [&](std::uint32_t body) { return body != laser.entity; });
+  if (hit > 1 && !reaches_floor) return;
+  sources_.push_back(
+      {from + std::min(hit, 1.0) * (to - from), colour & kRgb, BlobSource::kLaserSpot, SightLines::kNobody});
+  lit_by_.push_back(laser.entity);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,110 @@
+// Everything coloured that cameras see as blobs: lit LEDs and beacons, laser spots, preys, light bulbs, ground patches.
+// LEDs of one colour on one robot are one blob at their middle, as connected pixels of one colour are in an image.
+// Shared by the cameras of a process; brought to the space's state when poses or attributes changed.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "controller_host/devices/sensing/sensor_world.h"
+
+namespace swarmanoid
+{
+
+struct BlobSource
+{
+  // Which of the coloured parts of an entity; LEDs of one colour on one ring are named by the first of them.
+  enum Part : std::uint32_t
+  {
+    kFirstLed = 0,
+    kBeacon = 64,
+    kBody,
+    kLaserSpot
+  };
+
+  Vector3 position;  // m, in the space
+  std::uint32_t colour : 24;
+  std::uint32_t part : 8;
+  std::uint32_t owner;  // entity, or SightLines::kNobody for laser spots
+};
+
+class BlobSources
+{
+public:
+  // No source stands out of its body by more than this, m.
+  static constexpr double kStandOut = 0.01;
+
+  explicit BlobSources(SensorWorld& world);
+  // One for each world while somebody holds it, as SensorWorld::Of.
+  static std::shared_ptr<BlobSources> Of(const std::shared_ptr<SensorWorld>& world);
+
+  // The world must be refreshed.
+  void Refresh();
+
+  // Those on the movable body at a place in the grid of the world.
+  std::span<const BlobSource> At(std::uint32_t place) const
+  {
+    return {sources_.data() + start_[place], start_[place + 1] - start_[place]};
+  }
+  // Those that are on none: lights, patches, laser spots, bodies that never move.
+  std::span<const BlobSource> Free() const { return All().subspan(FirstFree()); }
+  std::span<const BlobSource> All() const { return sources_; }
+  std::size_t FirstFree() const { return start_.back(); }
+  // The numbers of those on the bodies at these places, and then of the free ones: fills the start of `numbers`, and
+  // returns how many they are.
+  std::size_t Collect(std::span<const std::int32_t> places, std::vector<std::int32_t>& numbers) const;
+  const BlobSource& Source(std::size_t number) const { return sources_[number]; }
+  // The name of a source for random streams, by the id of its entity and its part. Laser spots have the eyebot's.
+  std::uint64_t NameOf(std::size_t number) const;
+  // Of each source the nearest of the eight colours with the bits red (4), green (2) and blue (1); 0 is black.
+  const std::uint8_t* Hues() const { return hue_.data(); }
+  // No source is lower than this, m in the space.
+  double LowestHeight() const { return lowest_; }
+
+private:
+  // Where the LEDs of a kind of robot stand.
+  struct Ring
+  {
+    int leds = 0;
+    std::vector<Vector2> places;  // m, about the z axis
+    double height = 0;            // m
+    double beacon_height = 0;     // m
+    bool turns = false;           // with the turret
+  };
+  // An entity with something coloured on it.
+  struct Bearer
+  {
+    std::uint32_t entity;
+    const Ring* ring;  // nullptr: the entity has one colour of its own
+    std::uint32_t led_slot, beacon_slot, turret_slot, colour_slot;
+    double middle;  // m: height of the middle of the body
+  };
+  struct Laser
+  {
+    std::uint32_t entity;
+    std::uint32_t slot;  // laser, laser_colour, laser_pan, laser_tilt
+  };
+
+  static Ring MakeRing(int leds, double radius, double height, double beacon_height, double first_angle, bool turns);
+  void AddBearer(const Bearer& bearer);
+  void AddLeds(const Bearer& bearer);
+  void AddPoint(std::uint32_t entity, const Vector3& local, std::uint32_t colour, std::uint32_t part);
+  void AddLaserSpot(const Laser& laser);
+
+  SensorWorld& world_;
+  std::shared_ptr<SensorWorld> keeper_;  // keeps the world alive where it is shared
+  Ring footbot_, eyebot_, handbot_;
+  std::vector<Bearer> bearers_;
+  std::vector<std::int32_t> bearer_of_;  // by entity, -1: none
+  std::vector<Laser> lasers_;
+  std::vector<std::uint32_t> still_;   // lights and patches
+  std::vector<BlobSource> sources_;    // by place in the grid; then those on no movable body, laser spots at last
+  std::vector<std::uint32_t> lit_by_;  // of each laser spot the eyebot
+  std::vector<std::uint32_t> start_;   // by place in the grid, and of the others
+  std::vector<std::uint8_t> hue_;      // of each source
+  double lowest_ = 0;
+  std::uint64_t revision_ = 0, attribute_revision_ = 0;
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,96 @@
+// Cameras with colour blob extraction: which blobs are in the field of view and not hidden, for all robots of a batch.
+// The base of the cameras of all robots and of the pie camera; see blob_sources.h for what they see. Generic.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/control_interface/ci_colour_blob_sensor.h"
+#include "controller_host/device.h"
+#include "controller_host/devices/cameras/blob_sources.h"
+#include "controller_host/devices/noise.h"
+#include "controller_host/devices/sensing/sight_lines.h"
+
+namespace swarmanoid
+{
+
+// Where a camera sits and looks, in the frame of its robot.
+struct CameraModel
+{
+  enum class View
+  {
+    kDown,  // also by a mirror above: all around, below the eye
+    kAhead
+  };
+  View view = View::kDown;
+  Vector3 eye = Vector3::Zero();  // m
+  double aperture = 0;            // rad, from the axis to the border of the view
+  double range = 0;               // m: along the floor (kDown), along the line of sight (kAhead)
+};
+
+class ColourCamera : public SensorBatch
+{
+public:
+  void Update(const ChannelView& channel) override;
+
+protected:
+  // <aperture> and <range> with these defaults.
+  static std::vector<ParameterSpec> ViewParameters(const char* aperture_degrees, const char* range_m);
+  void InitCamera(const DeviceSetup& setup, CameraModel model);
+
+  // Blobs in view, those of several robots one behind another, by lanes: room for more behind `count`.
+  struct Seen
+  {
+    std::size_t count = 0;
+    std::vector<double> x, y, z;        // m, from the eye, in the frame of the robot
+    std::vector<double> angle;          // rad, about the robot's z axis, -pi..pi
+    std::vector<double> distance;       // m, in the plane of the robot's base
+    std::vector<std::uint32_t> source;  // its number in Sources()
+
+    void Reserve(std::size_t blobs);
+    Vector3 Place(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  };
+  // Called before some calls of Extract: computes more about all that were seen.
+  virtual void Measure(const Seen&) {}
+  // Called once for each robot: it sees those from `first` to before `behind`.
+  virtual void Extract(std::size_t k, const Seen& seen, std::size_t first, std::size_t behind) = 0;
+  const BlobSources& Sources() const { return *sources_; }
+
+  CameraModel model_;
+  const CSwarmanoidSpace* space_ = nullptr;
+  std::vector<std::uint32_t> robots_;
+
+private:
+  struct View
+  {
+    Vector3 eye;  // m, in the space
+    bool is_upright;
+    Heading heading;          // where it is upright
+    Eigen::Matrix3d to_body;  // where it is not
+  };
+  struct Viewed
+  {
+    std::size_t k, behind;  // where those that robot k sees end
+  };
+
+  View ViewOf(std::uint32_t robot) const;
+  void Look(std::size_t k);
+  void ExtractAll();
+  void LookDown(const View& view);
+  void LookAnywhere(const View& view);
+  void Add(std::size_t source, const View& view);
+  void KeepSeen(std::size_t first);
+  void KeepFreeInView(std::size_t first);
+  bool IsInView(const Vector3& place) const;
+
+  std::shared_ptr<SensorWorld> world_;
+  std::shared_ptr<BlobSources> sources_;
+  std::unique_ptr<SightLines> lines_;
+  std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
+  double tangent_ = 0;                         // of the aperture
+  Seen seen_;
+  std::vector<Viewed> viewed_;
+  std::vector<std::int32_t> found_;  // numbers of sources
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,253 @@
+// The cameras of the three robots: the footbot's omnidirectional one, the eyebot's that looks down, the handbot's that
+// looks ahead; each ideal (with noise on distance and angle) and with noise in pixels.
+#include <algorithm>
+
+#include "common/control_interface/eyebot/ci_eyebot_camera_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_omnidirectional_camera_sensor.h"
+#include "common/control_interface/handbot/ci_handbot_camera_sensor.h"
+#include "common/math/elementary.h"
+#include "controller_host/devices/builtin_devices.h"
+#include "controller_host/devices/cameras/colour_camera.h"
+#include "controller_host/devices/device_plugins.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+// What differs between the robots.
+struct FootbotCamera
+{
+  using Interface = CCI_FootBotOmnidirectionalCameraSensor;
+  static constexpr const char* kRobot = "footbot";
+  static constexpr const char* kLabel = "footbot_omnidirectional_camera";
+  static constexpr const char* kAperture = "70";  // ARGoS3
+  static constexpr const char* kRange = "3";
+  static CameraModel Model() { return {CameraModel::View::kDown, {0, 0, 0.2887}, 0, 0}; }
+};
+struct EyebotCamera
+{
+  using Interface = CCI_EyeBotCameraSensor;
+  static constexpr const char* kRobot = "eyebot";
+  static constexpr const char* kLabel = "eyebot_camera";
+  static constexpr const char* kAperture = "30";  // ARGoS 2
+  static constexpr const char* kRange = "3";
+  static CameraModel Model() { return {CameraModel::View::kDown, {0, 0, 0}, 0, 0}; }
+};
+struct HandbotCamera
+{
+  using Interface = CCI_HandBotCameraSensor;
+  static constexpr const char* kRobot = "handbot";
+  static constexpr const char* kLabel = "handbot_camera";
+  static constexpr const char* kAperture = "30";
+  static constexpr const char* kRange = "2";
+  static CameraModel Model() { return {CameraModel::View::kAhead, {0.09, 0, 0.1}, 0, 0}; }
+};
+
+template <class Interface>
+class Camera : public Interface
+{
+public:
+  std::span<const CCI_ColourBlob> GetAllBlobs() const override { return blobs; }
+  std::vector<CCI_ColourBlob> blobs;
+};
+
+// `distance` in the plane of the robot's base.
+CCI_ColourBlob BlobAt(CameraModel::View view, const Vector3& place, std::uint32_t colour, double angle, double distance)
+{
+  CCI_ColourBlob blob;
+  blob.colour = colour;
+  blob.angle_rad = angle;
+  blob.distance_m = distance;
+  if (view == CameraModel::View::kDown) return blob;
+  blob.distance_m = __builtin_sqrt(place.squaredNorm());
+  blob.elevation_rad = Atan2(place.z(), distance);
+  return blob;
+}
+
+template <class Traits>
+class CameraBatch : public ColourCamera
+{
+public:
+  CCI_Sensor* Sensor(std::size_t k) override { return &cameras_[k]; }
+
+protected:
+  void InitBatch(const DeviceSetup& setup)
+  {
+    InitCamera(setup, Traits::Model());
+    cameras_.resize(setup.robots.size());
+  }
+  std::vector<Camera<typename Traits::Interface>> cameras_;
+};
+
+// Exact places, with noise on the readings.
+template <class Traits>
+class IdealCamera : public CameraBatch<Traits>
+{
+public:
+  static std::vector<ParameterSpec> ParameterTable()
+  {
+    std::vector<ParameterSpec> table = Joined(Joined(ColourCamera::ViewParameters(Traits::kAperture, Traits::kRange),
+                                                     NoiseParameters("each distance", "m", "distance_")),
+                                              NoiseParameters("each angle", "rad", "angle_"));
+    return kHasElevation ? Joined(table, NoiseParameters("each elevation", "rad", "elevation_")) : table;
+  }
+  void Init(const DeviceSetup& setup) override
+  {
+    this->InitBatch(setup);
+    distance_noise_ = NoiseFrom(setup.parameters, "distance_");
+    angle_noise_ = NoiseFrom(setup.parameters, "angle_");
+    if (kHasElevation) elevation_noise_ = NoiseFrom(setup.parameters, "elevation_");
+    distance_streams_ = DeviceStreams(setup, "distance");
+    angle_streams_ = DeviceStreams(setup, "angle");
+    elevation_streams_ = DeviceStreams(setup, "elevation");
+  }
+
+protected:
+  void Extract(std::size_t k, const ColourCamera::Seen& seen, std::size_t first, std::size_t behind) override
+  {
+    auto& blobs = this->cameras_[k].blobs;
+    blobs.resize(behind - first);
+    for (std::size_t i = first; i < behind; ++i)
+      blobs[i - first] = BlobAt(this->model_.view, seen.Place(i), this->Sources().Source(seen.source[i]).colour,
+                                seen.angle[i], seen.distance[i]);
+    if (!distance_noise_.IsActive() && !angle_noise_.IsActive() && !elevation_noise_.IsActive()) return;
+    for (std::size_t i = first; i < behind; ++i)
+    {
+      CCI_ColourBlob& blob = blobs[i - first];
+      const std::uint64_t name = this->Sources().NameOf(seen.source[i]);
+      if (distance_noise_.IsActive())
+        blob.distance_m = std::max(blob.distance_m + distance_noise_.Sample(distance_streams_.Of(k, name)), 0.0);
+      if (angle_noise_.IsActive())
+        blob.angle_rad = WrapAngle(blob.angle_rad + angle_noise_.Sample(angle_streams_.Of(k, name)));
+      if (elevation_noise_.IsActive())
+        blob.elevation_rad =
+            std::clamp(blob.elevation_rad + elevation_noise_.Sample(elevation_streams_.Of(k, name)), -kPi / 2, kPi / 2);
+    }
+  }
+
+private:
+  // Cameras that look down report no elevation.
+  inline static const bool kHasElevation = Traits::Model().view == CameraModel::View::kAhead;
+
+  NoiseModel distance_noise_, angle_noise_, elevation_noise_;
+  DeviceStreams distance_streams_, angle_streams_, elevation_streams_;
+};
+
+// The place of a blob in the image, in whole pixels with noise, turned back into readings; some blobs are missed.
+// Looking down, the distance from the middle of the image is proportional to the angle from the axis; looking ahead, to
+// its tangent.
+template <class Traits>
+class PixelCamera : public CameraBatch<Traits>
+{
+public:
+  static std::vector<ParameterSpec> ParameterTable()
+  {
+    return Joined(Joined(ColourCamera::ViewParameters(Traits::kAperture, Traits::kRange),
+                         {{.name = "image_radius",
+                           .unit = "pixels",
+                           .default_value = "240",
+                           .description = "Pixels from the middle of the image to the border of the view.",
+                           .minimum = 1},
+                          {.name = "miss_probability",
+                           .default_value = "0",
+                           .description = "Share of the blobs that are not extracted in a tick.",
+                           .minimum = 0,
+                           .maximum = 1}}),
+                  NoiseParameters("each coordinate in the image, before rounding to whole pixels", "pixels"));
+  }
+  void Init(const DeviceSetup& setup) override
+  {
+    this->InitBatch(setup);
+    noise_ = NoiseFrom(setup.parameters);
+    image_radius_ = setup.parameters.Number("image_radius");
+    miss_ = setup.parameters.Number("miss_probability");
+    streams_ = DeviceStreams(setup, "pixels");
+    miss_streams_ = DeviceStreams(setup, "miss");
+  }
+
+protected:
+  void Extract(std::size_t k, const ColourCamera::Seen& seen, std::size_t first, std::size_t behind) override
+  {
+    auto& blobs = this->cameras_[k].blobs;
+    blobs.clear();
+    for (std::size_t i = first; i < behind; ++i)
+    {
+      const std::uint64_t name = IsRandom() ? this->Sources().NameOf(seen.source[i]) : 0;
+      if (miss_ > 0 && miss_streams_.Of(k, name).Uniform() < miss_) continue;
+      RandomStream random = streams_.Of(k, name);
+      const bool is_down = this->model_.view == CameraModel::View::kDown;
+      const Vector3 place = is_down ? Down(seen.Place(i), random) : Ahead(seen.Place(i), random);
+      blobs.push_back(BlobAt(this->model_.view, place, this->Sources().Source(seen.source[i]).colour,
+                             Atan2(place.y(), place.x()),
+                             __builtin_sqrt(place.x() * place.x() + place.y() * place.y())));
+    }
+  }
+
+private:
+  bool IsRandom() const { return noise_.IsActive() || miss_ > 0; }
+
+  double Pixel(double coordinate, RandomStream& random) const
+  {
+    constexpr double kRounder = 6755399441055744.0;  // 1.5 * 2^52: adding and subtracting it rounds
+    return (coordinate + noise_.Sample(random) + kRounder) - kRounder;
+  }
+
+  Vector3 Down(const Vector3& place, RandomStream& random) const
+  {
+    const double along_floor = __builtin_sqrt(place.x() * place.x() + place.y() * place.y());
+    const double per_radian = image_radius_ / this->model_.aperture;
+    const double from_middle = Atan2(along_floor, -place.z()) * per_radian;
+    const double scale = along_floor > 0 ? from_middle / along_floor : 0;
+    const double u = Pixel(scale * place.x(), random);
+    const double v = Pixel(scale * place.y(), random);
+    const double radius = std::min(__builtin_sqrt(u * u + v * v), image_radius_);
+    if (radius == 0) return {0, 0, place.z()};
+    const SinCos angle = SinCosOf(radius / per_radian);
+    const double floor = -place.z() * angle.sin / angle.cos;
+    const double length = __builtin_sqrt(u * u + v * v);
+    return {u / length * floor, v / length * floor, place.z()};
+  }
+  Vector3 Ahead(const Vector3& place, RandomStream& random) const
+  {
+    const SinCos aperture = SinCosOf(this->model_.aperture);
+    const double per_tangent = image_radius_ * aperture.cos / aperture.sin;
+    const double u = Pixel(place.y() / place.x() * per_tangent, random) / per_tangent;
+    const double v = Pixel(place.z() / place.x() * per_tangent, random) / per_tangent;
+    return {place.x(), place.x() * u, place.x() * v};
+  }
+
+  NoiseModel noise_;
+  DeviceStreams streams_, miss_streams_;
+  double image_radius_ = 0;
+  double miss_ = 0;
+};
+
+template <class Traits>
+void RegisterCameras(const std::string& what)
+{
+  PluginDescription description;
+  description.label = Traits::kLabel;
+  description.robots = {Traits::kRobot};
+
+  description.implementation = std::string("generic_") + Traits::kLabel;
+  description.brief = what + ": blobs at their exact places, with noise on distance and angles where asked";
+  description.parameters = IdealCamera<Traits>::ParameterTable();
+  AddSensorPlugin<IdealCamera<Traits>>(description);
+
+  description.implementation = std::string("pixel_noise_") + Traits::kLabel;
+  description.brief = what + ": blobs in whole pixels with noise, some of them missed";
+  description.parameters = PixelCamera<Traits>::ParameterTable();
+  AddSensorPlugin<PixelCamera<Traits>>(description);
+}
+
+}  // namespace
+
+void RegisterColourCameras()
+{
+  RegisterCameras<FootbotCamera>("omnidirectional camera");
+  RegisterCameras<EyebotCamera>("camera that looks down");
+  RegisterCameras<HandbotCamera>("camera that looks ahead");
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,54 @@
+// The magnet of the eyebot: 1 (attach) or 0 (detach) to the engine on channel "eyebot_attach".
+#include "common/control_interface/eyebot/ci_eyebot_attachment_actuator.h"
+#include "controller_host/devices/builtin_devices.h"
+#include "controller_host/devices/device_plugins.h"
+#include "controller_host/devices/value_devices.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+class Magnet : public CCI_EyeBotAttachmentActuator
+{
+public:
+  explicit Magnet(double* on) : on_(on) {}
+  void Attach() override { *on_ = 1; }
+  void Detach() override { *on_ = 0; }
+
+  void Describe(std::vector<CCI_Reading>& readings) const override { readings.push_back({"attached", "yes/no", *on_}); }
+
+private:
+  double* on_;
+};
+
+class MagnetActuator : public ActuatorsOf<ChannelActuator, Magnet>
+{
+public:
+  void Init(const DeviceSetup& setup) override
+  {
+    Reset(setup, 1);
+    noise_ = NoiseFrom(setup.parameters);
+    least_ = 0;
+    most_ = 1;
+    MakeDevices();
+  }
+};
+
+}  // namespace
+
+void RegisterEyebotAttachment()
+{
+  PluginDescription description;
+  description.label = "eyebot_attachment";
+  description.implementation = "dummy_eyebot_attachment";
+  description.brief = "hangs the robot on the ceiling by its magnet";
+  description.robots = {"eyebot"};
+  description.channel = "eyebot_attach";
+  description.channel_width = 1;
+  description.parameters =
+      NoiseParameters("the strength of the magnet, 0 to 1, while it is on; it holds above 0.5", "");
+  AddActuatorPlugin<MagnetActuator>(description);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,217 @@
+// Propulsion of the eyebot: velocities to the engine on channel "eyebot_propellers": forward, left, up in m/s, yaw rate
+// in rad/s. The position-controlled implementation closes its loop on the robot's own pose.
+#include <algorithm>
+
+#include "common/control_interface/ci_robot.h"
+#include "common/control_interface/eyebot/ci_eyebot_propellers_actuator.h"
+#include "common/math/elementary.h"
+#include "controller_host/devices/builtin_devices.h"
+#include "controller_host/devices/device_plugins.h"
+#include "controller_host/devices/value_devices.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr std::size_t kAxes = 4;
+
+double Clamped(double value, double limit) { return std::clamp(value, -limit, limit); }
+
+std::vector<ParameterSpec> SpeedLimits()
+{
+  return {{.name = "max_speed",
+           .unit = "m/s",
+           .default_value = "1",
+           .description = "Horizontal and vertical speed to which commands are clamped, along each axis.",
+           .minimum = 0},
+          {.name = "max_yaw_rate",
+           .unit = "rad/s",
+           .default_value = "1.57079633",
+           .description = "Yaw rate to which commands are clamped.",
+           .minimum = 0}};
+}
+
+struct Limits
+{
+  double speed = 0;     // m/s
+  double yaw_rate = 0;  // rad/s
+};
+
+Limits LimitsFrom(const Parameters& parameters)
+{
+  return {parameters.Number("max_speed"), parameters.Number("max_yaw_rate")};
+}
+
+void PutVelocity(double* values, const Limits& limits, double forward, double left, double up, double yaw_rate)
+{
+  values[0] = Clamped(forward, limits.speed);
+  values[1] = Clamped(left, limits.speed);
+  values[2] = Clamped(up, limits.speed);
+  values[3] = Clamped(yaw_rate, limits.yaw_rate);
+}
+
+void DescribeVelocity(const double* velocity, std::vector<CCI_Reading>& readings)
+{
+  constexpr const char* kNames[] = {"forward", "left", "up", "yaw rate"};
+  for (std::size_t axis = 0; axis < kAxes; ++axis)
+    readings.push_back({kNames[axis], axis == 3 ? "rad/s" : "m/s", velocity[axis]});
+}
+
+class VelocityPropellers : public CCI_EyeBotPropellersActuator
+{
+public:
+  explicit VelocityPropellers(double* values) : values_(values) {}
+  void SetVelocity(double forward, double left, double up, double yaw_rate) override
+  {
+    PutVelocity(values_, limits, forward, left, up, yaw_rate);
+  }
+  void SetPosition(const Vector3&, double) override
+  {
+    throw CCI_DeviceError(
+        "dummy_eyebot_propellers take velocities only; for SetPosition choose <implementation> "
+        "position_eyebot_propellers");
+  }
+  void Describe(std::vector<CCI_Reading>& readings) const override { DescribeVelocity(values_, readings); }
+  Limits limits;
+
+private:
+  double* values_;
+};
+
+class VelocityActuator : public ActuatorsOf<ChannelActuator, VelocityPropellers>
+{
+public:
+  static std::vector<ParameterSpec> ParameterTable()
+  {
+    return Joined(SpeedLimits(), NoiseParameters("each velocity that is not 0", "m/s, rad/s"));
+  }
+  void Init(const DeviceSetup& setup) override
+  {
+    Reset(setup, kAxes);
+    noise_ = NoiseFrom(setup.parameters);
+    MakeDevices();
+    for (VelocityPropellers& propellers : devices_) propellers.limits = LimitsFrom(setup.parameters);
+  }
+};
+
+// A target, kept beside the velocity: by position where `has_target` is not 0.
+struct Flight
+{
+  double velocity[kAxes];
+  double has_target;
+  double x, y, z, yaw;
+};
+constexpr std::size_t kFlightWidth = sizeof(Flight) / sizeof(double);
+
+class PositionPropellers : public CCI_EyeBotPropellersActuator
+{
+public:
+  explicit PositionPropellers(double* values) : values_(values) {}
+  void SetVelocity(double forward, double left, double up, double yaw_rate) override
+  {
+    PutVelocity(values_, limits, forward, left, up, yaw_rate);
+    values_[kAxes] = 0;
+  }
+  void SetPosition(const Vector3& position, double yaw) override
+  {
+    values_[kAxes] = 1;
+    for (int axis = 0; axis < 3; ++axis) values_[kAxes + 1 + static_cast<std::size_t>(axis)] = position[axis];
+    values_[kAxes + 4] = yaw;
+  }
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    if (values_[kAxes] == 0) return DescribeVelocity(values_, readings);
+    constexpr const char* kNames[] = {"target x", "target y", "target z", "target yaw"};
+    for (std::size_t i = 0; i < kAxes; ++i)
+      readings.push_back({kNames[i], i == 3 ? "rad" : "m", values_[kAxes + 1 + i]});
+  }
+  Limits limits;
+
+private:
+  double* values_;  // laid out as Flight
+};
+
+// v = gain * (target - position), turned into the frame of the robot and clamped; likewise the yaw rate.
+class PositionActuator : public ActuatorsOf<ValueActuator, PositionPropellers>
+{
+public:
+  static std::vector<ParameterSpec> ParameterTable()
+  {
+    return Joined(Joined(SpeedLimits(), {{.name = "gain",
+                                          .unit = "1/s",
+                                          .default_value = "1",
+                                          .description = "Speed for each metre (and yaw rate for each radian) that is "
+                                                         "left; larger values arrive sooner and overshoot more.",
+                                          .minimum = 0}}),
+                  NoiseParameters("each velocity that is not 0", "m/s, rad/s"));
+  }
+  void Init(const DeviceSetup& setup) override
+  {
+    Reset(setup, kFlightWidth);
+    limits_ = LimitsFrom(setup.parameters);
+    gain_ = setup.parameters.Number("gain");
+    noise_ = NoiseFrom(setup.parameters);
+    MakeDevices();
+    for (PositionPropellers& propellers : devices_) propellers.limits = limits_;
+  }
+  void Commit(const ChannelView& channel, AttributeChanges&) override
+  {
+    for (std::size_t k = 0; k < robots_.size(); ++k)
+    {
+      double* velocity = &channel.values[channel.offsets[k]];
+      if (ValuesOf(k)[kAxes] != 0)
+        Approach(k, velocity);
+      else
+        std::copy_n(ValuesOf(k), kAxes, velocity);
+      if (!noise_.IsActive()) continue;
+      RandomStream random = streams_.Of(k);
+      for (std::size_t axis = 0; axis < kAxes; ++axis)
+      {
+        const double noise = noise_.Sample(random);
+        if (velocity[axis] != 0) velocity[axis] += noise;
+      }
+    }
+  }
+
+private:
+  void Approach(std::size_t k, double* velocity)
+  {
+    const double* target = ValuesOf(k) + kAxes + 1;
+    const Pose pose = space_->GetPose(robots_[k]);
+    const double yaw = YawOf(pose.orientation);
+    const SinCos heading = SinCosOf(yaw);
+    const double dx = target[0] - pose.position.x();
+    const double dy = target[1] - pose.position.y();
+    PutVelocity(velocity, limits_, gain_ * (heading.cos * dx + heading.sin * dy),
+                gain_ * (heading.cos * dy - heading.sin * dx), gain_ * (target[2] - pose.position.z()),
+                gain_ * WrapAngle(target[3] - yaw));
+  }
+
+  Limits limits_;
+  double gain_ = 0;
+  NoiseModel noise_;
+};
+
+}  // namespace
+
+void RegisterEyebotPropellers()
+{
+  PluginDescription description;
+  description.label = "eyebot_propellers";
+  description.robots = {"eyebot"};
+  description.channel = "eyebot_propellers";
+  description.channel_width = kAxes;
+
+  description.implementation = "dummy_eyebot_propellers";
+  description.brief = "flies at given velocities";
+  description.parameters = VelocityActuator::ParameterTable();
+  AddActuatorPlugin<VelocityActuator>(description);
+
+  description.implementation = "position_eyebot_propellers";
+  description.brief = "flies at given velocities or to a given position and heading";
+  description.parameters = PositionActuator::ParameterTable();
+  AddActuatorPlugin<PositionActuator>(description);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,107 @@
+// Gripper of the footbot: the actuator sends 0 (open) to 1 (closed) to the engine on channel "footbot_gripper"; the
+// sensor reads the aperture and the grip that the engine reports as attributes.
+#include <algorithm>
+
+#include "common/control_interface/footbot/ci_footbot_gripper_actuator.h"
+#include "common/control_interface/footbot/ci_footbot_gripper_sensor.h"
+#include "controller_host/devices/builtin_devices.h"
+#include "controller_host/devices/device_plugins.h"
+#include "controller_host/devices/value_devices.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+class Gripper : public CCI_FootBotGripperActuator
+{
+public:
+  explicit Gripper(double* closed) : closed_(closed) {}
+  void SetGripper(double closed) override { *closed_ = std::clamp(closed, 0.0, 1.0); }
+
+  void Describe(std::vector<CCI_Reading>& readings) const override { readings.push_back({"closed", "", *closed_}); }
+
+private:
+  double* closed_;
+};
+
+class GripperActuator : public ActuatorsOf<ChannelActuator, Gripper>
+{
+public:
+  void Init(const DeviceSetup& setup) override
+  {
+    Reset(setup, 1);
+    noise_ = NoiseFrom(setup.parameters);
+    least_ = 0;
+    most_ = 1;
+    MakeDevices();
+  }
+};
+
+class GripperState : public CCI_FootBotGripperSensor
+{
+public:
+  explicit GripperState(const double* values) : values_(values) {}
+  double GetAperture() const override { return values_[0]; }
+  bool IsGripping() const override { return values_[1] != 0; }
+  std::string GetHeldId() const override
+  {
+    return IsGripping() ? space->GetEntity(static_cast<std::uint32_t>(values_[1]) - 1).GetId() : std::string();
+  }
+
+  const CSwarmanoidSpace* space = nullptr;
+
+private:
+  const double* values_;  // aperture, held entity
+};
+
+class GripperSensor : public SensorsOf<AttributeSensor, GripperState>
+{
+public:
+  void Init(const DeviceSetup& setup) override
+  {
+    Bind(setup, {"gripper_aperture", "gripped"});
+    aperture_noise_ = NoiseFrom(setup.parameters);
+    MakeDevices();
+    for (GripperState& device : devices_) device.space = &setup.space;
+  }
+  void Update(const ChannelView& channel) override
+  {
+    AttributeSensor::Update(channel);
+    if (!aperture_noise_.IsActive()) return;
+    for (std::size_t k = 0; k < robots_.size(); ++k)
+    {
+      RandomStream random = streams_.Of(k);
+      double& aperture = ValuesOf(k)[0];
+      aperture = std::clamp(aperture + aperture_noise_.Sample(random), 0.0, CCI_FootBotGripperSensor::OPEN_APERTURE);
+    }
+  }
+
+private:
+  NoiseModel aperture_noise_;
+};
+
+}  // namespace
+
+void RegisterFootbotGripper()
+{
+  PluginDescription actuator;
+  actuator.label = "footbot_gripper";
+  actuator.implementation = "dummy_footbot_gripper";
+  actuator.brief = "opens and closes the gripper; closed, it holds what it touches";
+  actuator.robots = {"footbot"};
+  actuator.channel = "footbot_gripper";
+  actuator.channel_width = 1;
+  actuator.parameters = NoiseParameters("how far it closes, 0 to 1, while it is told to close", "");
+  AddActuatorPlugin<GripperActuator>(actuator);
+
+  PluginDescription sensor;
+  sensor.label = "footbot_gripper";
+  sensor.implementation = "generic_footbot_gripper";
+  sensor.brief = "aperture of the gripper, whether it holds something and what";
+  sensor.robots = {"footbot"};
+  sensor.parameters = NoiseParameters("the aperture", "rad");
+  AddSensorPlugin<GripperSensor>(sensor);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,311 @@
+#include "controller_host/devices/footbot/footbot_proximity.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "common/math/elementary.h"
+#include "common/plugins/parameter_checks.h"
+#include "controller_host/devices/builtin_devices.h"
+#include "controller_host/devices/device_plugins.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr unsigned kRays = FootbotProximity::kRays;
+constexpr double kNothing = std::numeric_limits<double>::infinity();
+
+// ARGoS3, foot-bot proximity sensor: distance of full response, and the hyperbola beyond it.
+constexpr double kContactDistance = 0.009889556;
+constexpr double kHyperbolaScale = 0.0100527;
+constexpr double kHyperbolaOffset = 0.000163144;
+
+// The hyperbola above between contact and 0.1 m, by Chebyshev interpolation of degree 8; largest error 0.0036.
+constexpr const char* kDefaultCoefficients =
+    "2.910682, -347.09805, 22120.741, -833767.85, 19426124, -282177360, 2484022100, -12111713000, 25077147000";
+
+constexpr double kFittedRange = 0.1;  // m
+
+// Coefficients that are no numbers; the default ones beyond the distances that they were fitted to.
+std::vector<ConfigurationError> MistakesInPolynomial(const Parameters& parameters)
+{
+  const std::string text = parameters.Text("coefficients");
+  const auto coefficients = ParseNumbers(text);
+  if (!coefficients || coefficients->empty())
+    return {ConfigurationError(parameters.Tree().ValueLocation("coefficients"),
+                               "<coefficients> '" + text + "' is not a list of numbers; write \"c0, c1, c2\"")};
+  if (parameters.Number("range") > kFittedRange && !parameters.IsGiven("coefficients"))
+    return {ConfigurationError(parameters.Tree().ValueLocation("range"),
+                               "'range' of <" + parameters.Tree().Name() + "> is " + parameters.Text("range") +
+                                   " m, but the default coefficients are a fit up to 0.1 m; give <coefficients> too, "
+                                   "or use generic_footbot_proximity")};
+  return {};
+}
+
+}  // namespace
+
+std::vector<ParameterSpec> FootbotProximity::CommonParameters()
+{
+  return Joined({{.name = "range",
+                  .unit = "m",
+                  .default_value = "0.1",
+                  .description = "Distance from the body beyond which nothing is seen.",
+                  .minimum = 0}},
+                NoiseParameters("each reading", ""));
+}
+
+void FootbotProximity::Init(const DeviceSetup& setup)
+{
+  world_ = SensorWorld::Of(setup.space);
+  robots_ = setup.robots;
+  streams_ = DeviceStreams(setup);
+  range_ = setup.parameters.Number("range");
+  noise_ = NoiseFrom(setup.parameters);
+  for (unsigned i = 0; i < kRays; ++i)
+  {
+    const SinCos angle = SinCosOf(CCI_FootBotProximitySensor::AngleOf(i));
+    ray_cos_.values[i] = angle.cos;
+    ray_sin_.values[i] = angle.sin;
+  }
+
+  ring_radius_ = robots_.empty() ? 0 : world_->Body(robots_.front()).radius;
+  // A tilted robot's rays start up to kHeight beside its base.
+  fixed_ = std::make_unique<FixedBodies>(setup.space, world_->Bodies(), ring_radius_ + range_ + kHeight);
+
+  sensors_.reserve(robots_.size());
+  place_of_entity_.assign(setup.space.Size(), -1);
+  readings_.assign(robots_.size() * kRays, 0);
+  dirty_.assign(robots_.size(), 0);
+  for (std::size_t k = 0; k < robots_.size(); ++k)
+  {
+    place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
+    sensors_.emplace_back(&readings_[k * kRays]);
+  }
+}
+
+void FootbotProximity::Update(const ChannelView&)
+{
+  world_->Refresh();
+  // In the order of the grid's cells: neighbours stay in the cache.
+  for (const std::uint32_t entity : world_->Grid().Sorted())
+    if (const std::int32_t k = place_of_entity_[entity]; k >= 0) Sense(static_cast<std::size_t>(k), entity);
+}
+
+void FootbotProximity::Sense(std::size_t k, std::uint32_t robot)
+{
+  const PoseArrays& poses = world_->Space().Poses();
+  const EngineMembership& membership = world_->Membership();
+  const bool upright = IsUpright(poses, robot);
+  const double height = poses.z[robot] + kHeight;
+  touched_ = false;
+
+  const auto add = [&](std::uint32_t body)
+  {
+    if (body == robot || !membership.ShareEngine(robot, body)) return;
+    const BodyShape& shape = world_->Body(body);
+    if (!upright || !IsUpright(poses, body)) return AddAny(robot, body);
+    if (height < poses.z[body] + shape.low || height > poses.z[body] + shape.high) return;
+    if (shape.kind == Shape::Kind::kCylinder) return AddDisc(robot, body);
+    AddUprightBox(robot, body);
+  };
+  const double x = poses.x[robot];
+  const double y = poses.y[robot];
+  world_->Grid().ForEachNear(x, y, ring_radius_ + range_ + (upright ? 0 : kHeight), add);
+  for (const std::uint32_t body : fixed_->Near(x, y)) add(body);
+  if (!world_->Terrain().IsEmpty()) AddTerrain(robot);
+
+  double* readings = &readings_[k * kRays];
+  if (touched_)
+  {
+    Respond(distances_.values, readings);
+    for (unsigned i = 0; i < kRays; ++i) readings[i] = std::clamp(readings[i], 0.0, 1.0);
+  }
+  else if (dirty_[k])
+    std::fill_n(readings, kRays, 0.0);
+  dirty_[k] = touched_;
+
+  if (!noise_.IsActive()) return;
+  RandomStream random = streams_.Of(k);
+  for (unsigned i = 0; i < kRays; ++i) readings[i] = std::clamp(readings[i] + noise_.Sample(random), 0.0, 1.0);
+  dirty_[k] = true;
+}
+
+// Rays from the centre of the robot's ring against a disc: with p its centre in the robot's frame and b = ray . p, the
+// ray is within the disc from b - s to b + s, s^2 = b^2 - |p|^2 + r^2.
+void FootbotProximity::AddDisc(std::uint32_t robot, std::uint32_t body)
+{
+  const PoseArrays& poses = world_->Space().Poses();
+  const double dx = poses.x[body] - poses.x[robot];
+  const double dy = poses.y[body] - poses.y[robot];
+  const double radius = world_->Body(body).radius;
+  const double square = dx * dx + dy * dy;
+  const double reach = ring_radius_ + range_ + radius;
+  if (square > reach * reach) return;
+
+  const Heading heading = HeadingOf(poses, robot);
+  const double px = heading.cos * dx + heading.sin * dy;
+  const double py = heading.cos * dy - heading.sin * dx;
+  const double c = square - radius * radius;
+  const double ring = ring_radius_;
+  const double far = ring + range_;
+  if (!touched_) std::fill_n(distances_.values, kRays, kNothing);
+  touched_ = true;
+  for (unsigned i = 0; i < kRays; ++i)
+  {
+    const double b = ray_cos_.values[i] * px + ray_sin_.values[i] * py;
+    const double discriminant = b * b - c;
+    const double s = __builtin_sqrt(discriminant > 0 ? discriminant : 0);
+    const double enter = b - s;
+    const double distance = enter > ring ? enter - ring : 0;
+    const bool hit = (discriminant >= 0) & (b + s >= ring) & (enter <= far);
+    const double nearest = distances_.values[i];
+    const double candidate = hit ? distance : nearest;
+    distances_.values[i] = candidate < nearest ? candidate : nearest;
+  }
+}
+
+void FootbotProximity::AddUprightBox(std::uint32_t robot, std::uint32_t body)
+{
+  const PoseArrays& poses = world_->Space().Poses();
+  const BodyShape& shape = world_->Body(body);
+  const Heading box = HeadingOf(poses, body);
+  const double dx = poses.x[robot] - poses.x[body];
+  const double dy = poses.y[robot] - poses.y[body];
+  const double ox = box.cos * dx + box.sin * dy;
+  const double oy = box.cos * dy - box.sin * dx;
+  const double near = ring_radius_;
+  const double far = near + range_;
+  const double outside_x = std::max(__builtin_fabs(ox) - shape.half_size.x(), 0.0);
+  const double outside_y = std::max(__builtin_fabs(oy) - shape.half_size.y(), 0.0);
+  if (outside_x * outside_x + outside_y * outside_y > far * far) return;
+
+  // The rays turned into the frame of the box.
+  const Heading own = HeadingOf(poses, robot);
+  const double c = own.cos * box.cos + own.sin * box.sin;
+  const double s = own.sin * box.cos - own.cos * box.sin;
+  if (!touched_) std::fill_n(distances_.values, kRays, kNothing);
+  touched_ = true;
+  constexpr double kTiny = 1e-300;  // a ray along a side: the quotients become huge, not NaN
+  for (unsigned i = 0; i < kRays; ++i)
+  {
+    double ux = c * ray_cos_.values[i] - s * ray_sin_.values[i];
+    double uy = s * ray_cos_.values[i] + c * ray_sin_.values[i];
+    ux = ux == 0 ? kTiny : ux;
+    uy = uy == 0 ? kTiny : uy;
+    const double ax = (-shape.half_size.x() - ox) / ux;
+    const double bx = (shape.half_size.x() - ox) / ux;
+    const double ay = (-shape.half_size.y() - oy) / uy;
+    const double by = (shape.half_size.y() - oy) / uy;
+    const double enter_x = ax < bx ? ax : bx;
+    const double leave_x = ax < bx ? bx : ax;
+    const double enter_y = ay < by ? ay : by;
+    const double leave_y = ay < by ? by : ay;
+    double enter = enter_x > enter_y ? enter_x : enter_y;
+    enter = enter > near ? enter : near;
+    double leave = leave_x < leave_y ? leave_x : leave_y;
+    leave = leave < far ? leave : far;
+    const double nearest = distances_.values[i];
+    const double candidate = enter <= leave ? enter - near : nearest;
+    distances_.values[i] = candidate < nearest ? candidate : nearest;
+  }
+}
+
+// Any body, any orientation: each ray as a segment in the space.
+void FootbotProximity::AddAny(std::uint32_t robot, std::uint32_t body)
+{
+  const CSwarmanoidSpace& space = world_->Space();
+  const BodyShape& shape = world_->Body(body);
+  const Pose own = space.GetPose(robot);
+  const Pose other = space.GetPose(body);
+  const double reach = ring_radius_ + range_ + BoundingRadius(shape);
+  if ((own.Apply({0, 0, kHeight}) - other.Apply(shape.centre)).squaredNorm() > reach * reach) return;
+
+  const Eigen::Matrix3d rotation = own.orientation.toRotationMatrix();
+  for (unsigned i = 0; i < kRays; ++i)
+  {
+    const Vector3 ray(ray_cos_.values[i], ray_sin_.values[i], 0);
+    const Vector3 from = own.position + rotation * (ring_radius_ * ray + Vector3(0, 0, kHeight));
+    const auto hit = SegmentHit(shape, other, from, from + rotation * (range_ * ray));
+    if (!hit) continue;
+    if (!touched_) std::fill_n(distances_.values, kRays, kNothing);
+    touched_ = true;
+    distances_.values[i] = std::min(distances_.values[i], *hit * range_);
+  }
+}
+
+void FootbotProximity::AddTerrain(std::uint32_t robot)
+{
+  const Pose own = world_->Space().GetPose(robot);
+  const Eigen::Matrix3d rotation = own.orientation.toRotationMatrix();
+  const auto is_there = [&](std::uint32_t terrain) { return world_->Membership().ShareEngine(robot, terrain); };
+  for (unsigned i = 0; i < kRays; ++i)
+  {
+    const Vector3 ray(ray_cos_.values[i], ray_sin_.values[i], 0);
+    const Vector3 from = own.position + rotation * (ring_radius_ * ray + Vector3(0, 0, kHeight));
+    const double hit = world_->Terrain().FirstHit(from, from + rotation * (range_ * ray), is_there);
+    if (hit > 1) continue;
+    if (!touched_) std::fill_n(distances_.values, kRays, kNothing);
+    touched_ = true;
+    distances_.values[i] = std::min(distances_.values[i], hit * range_);
+  }
+}
+
+std::vector<ParameterSpec> RayCastProximity::ParameterTable() { return CommonParameters(); }
+
+void RayCastProximity::Respond(const double* distances, double* readings) const
+{
+  for (unsigned i = 0; i < kRays; ++i)
+  {
+    // The quotient is 0 where nothing was hit.
+    const double reading = kHyperbolaScale / (distances[i] + kHyperbolaOffset);
+    readings[i] = distances[i] < kContactDistance ? 1 : reading;
+  }
+}
+
+std::vector<ParameterSpec> PolynomialProximity::ParameterTable()
+{
+  return Joined(
+      {{.name = "coefficients",
+        .type = ParameterType::kText,
+        .default_value = kDefaultCoefficients,
+        .description = "c0, c1, c2 ... of the reading c0 + c1 d + c2 d^2 + ..., d the distance in m; cut to 0..1. The "
+                       "default is a fit up to 0.1 m."}},
+      CommonParameters());
+}
+
+void PolynomialProximity::Init(const DeviceSetup& setup)
+{
+  FootbotProximity::Init(setup);
+  for (const ConfigurationError& mistake : MistakesInPolynomial(setup.parameters)) throw mistake;
+  coefficients_ = *ParseNumbers(setup.parameters.Text("coefficients"));
+}
+
+void PolynomialProximity::Respond(const double* distances, double* readings) const
+{
+  for (unsigned i = 0; i < kRays; ++i) readings[i] = coefficients_.back();
+  for (std::size_t c = coefficients_.size() - 1; c-- > 0;)
+    for (unsigned i = 0; i < kRays; ++i)
+      readings[i] = readings[i] * (distances[i] <= range_ ? distances[i] : 0) + coefficients_[c];
+  for (unsigned i = 0; i < kRays; ++i) readings[i] = distances[i] <= range_ ? readings[i] : 0;
+}
+
+void RegisterFootbotProximity()
+{
+  PluginDescription description;
+  description.label = "footbot_proximity";
+  description.robots = {"footbot"};
+
+  description.implementation = "generic_footbot_proximity";
+  description.brief = "24 rays of 0.1 m against robots, preys and blocks; response measured on the robot";
+  description.parameters = RayCastProximity::ParameterTable();
+  AddSensorPlugin<RayCastProximity>(description);
+
+  description.implementation = "generic_footbot_polynomial_proximity";
+  description.brief = "the same rays; the response is a polynomial of the distance with given coefficients";
+  description.parameters = PolynomialProximity::ParameterTable();
+  ParameterChecks::Instance().Add(PluginKind::kSensor, description, MistakesInPolynomial);
+  AddSensorPlugin<PolynomialProximity>(description);
+}
+
+}  // namespace swarmanoid

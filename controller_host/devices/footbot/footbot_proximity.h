@@ -1,0 +1,89 @@
+// The 24 infrared proximity sensors of footbots, all robots of a batch at once: a grid finds the bodies in range, 24
+// rays per robot against their exact outlines give distances, a response curve gives readings. Generic.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
+#include "controller_host/device.h"
+#include "controller_host/devices/device_streams.h"
+#include "controller_host/devices/noise.h"
+#include "controller_host/devices/sensing/sensor_world.h"
+#include "controller_host/devices/value_devices.h"
+
+namespace swarmanoid
+{
+
+// Distances, and all but the response curve. Derived classes turn distances into readings.
+class FootbotProximity : public SensorBatch
+{
+public:
+  static constexpr unsigned kRays = CCI_FootBotProximitySensor::NUM_SENSORS;
+  // Of the sensors above the base of the footbot (ARGoS3, foot-bot).
+  static constexpr double kHeight = 0.06;
+
+  void Init(const DeviceSetup& setup) override;
+  CCI_Sensor* Sensor(std::size_t k) override { return &sensors_[k]; }
+  void Update(const ChannelView& channel) override;
+
+protected:
+  static std::vector<ParameterSpec> CommonParameters();
+  // From distances in m (more than the range: nothing there) to readings, before noise and the cut to 0..1.
+  virtual void Respond(const double* distances, double* readings) const = 0;
+
+  double range_ = 0;  // m
+
+private:
+  struct alignas(64) Rays
+  {
+    double values[kRays];
+  };
+
+  void Sense(std::size_t k, std::uint32_t robot);
+  void AddDisc(std::uint32_t robot, std::uint32_t body);
+  void AddUprightBox(std::uint32_t robot, std::uint32_t body);
+  void AddAny(std::uint32_t robot, std::uint32_t body);
+  void AddTerrain(std::uint32_t robot);
+
+  std::shared_ptr<SensorWorld> world_;
+  std::vector<std::uint32_t> robots_;
+  std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
+  std::unique_ptr<FixedBodies> fixed_;
+  double ring_radius_ = 0;  // m: where the rays start
+  NoiseModel noise_;
+  DeviceStreams streams_;
+
+  Rays ray_cos_{}, ray_sin_{};
+  Rays distances_{};      // of the robot being sensed
+  bool touched_ = false;  // some ray of it hit something
+  std::vector<double> readings_;
+  std::vector<char> dirty_;  // readings of a robot that are not all 0
+  std::vector<ReadingsOf<CCI_FootBotProximitySensor, kRays>> sensors_;
+};
+
+// y = 1 below a contact distance, else a / (d + b): the curve that ARGoS3 fitted to the robot.
+class RayCastProximity : public FootbotProximity
+{
+public:
+  static std::vector<ParameterSpec> ParameterTable();
+
+protected:
+  void Respond(const double* distances, double* readings) const override;
+};
+
+// y = c0 + c1 d + c2 d^2 + ..., the coefficients given by the user.
+class PolynomialProximity : public FootbotProximity
+{
+public:
+  static std::vector<ParameterSpec> ParameterTable();
+  void Init(const DeviceSetup& setup) override;
+
+protected:
+  void Respond(const double* distances, double* readings) const override;
+
+private:
+  std::vector<double> coefficients_;
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,120 @@
+// Turret of the footbot: its motor (channel "footbot_turret", rad/s), its encoder (attribute turret_angle) and the
+// torque sensor between body and turret (channel "footbot_turret_torque": traction ahead, traction to the left, torque,
+// each -1..1 of the engine's range).
+#include <algorithm>
+
+#include "common/control_interface/footbot/ci_footbot_turret_actuator.h"
+#include "common/control_interface/footbot/ci_footbot_turret_encoder_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_turret_torque_sensor.h"
+#include "common/math/elementary.h"
+#include "controller_host/devices/builtin_devices.h"
+#include "controller_host/devices/device_plugins.h"
+#include "controller_host/devices/value_devices.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+class Turret : public CCI_FootBotTurretActuator
+{
+public:
+  explicit Turret(double* velocity) : velocity_(velocity) {}
+  void SetTurretAngularVelocity(double velocity) override { *velocity_ = std::clamp(velocity, -limit, limit); }
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    readings.push_back({"velocity", "rad/s", *velocity_});
+  }
+  double limit = 0;  // rad/s
+
+private:
+  double* velocity_;
+};
+
+class TurretActuator : public ActuatorsOf<ChannelActuator, Turret>
+{
+public:
+  static std::vector<ParameterSpec> ParameterTable()
+  {
+    return Joined({{.name = "max_speed",
+                    .unit = "rad/s",
+                    .default_value = "3.14159265",
+                    .description = "Speed to which commands are clamped.",
+                    .minimum = 0}},
+                  NoiseParameters("the speed while the turret is told to move", "rad/s"));
+  }
+  void Init(const DeviceSetup& setup) override
+  {
+    Reset(setup, 1);
+    noise_ = NoiseFrom(setup.parameters);
+    MakeDevices();
+    for (Turret& turret : devices_) turret.limit = setup.parameters.Number("max_speed");
+  }
+};
+
+class TurretAngle : public CCI_FootBotTurretEncoderSensor
+{
+public:
+  explicit TurretAngle(const double* angle) : angle_(angle) {}
+  double GetTurretAngle() const override { return WrapAngle(*angle_); }
+
+private:
+  const double* angle_;
+};
+
+class TurretEncoder : public SensorsOf<AttributeSensor, TurretAngle>
+{
+public:
+  void Init(const DeviceSetup& setup) override
+  {
+    Bind(setup, {"turret_angle"});
+    noise_ = NoiseFrom(setup.parameters);
+    MakeDevices();
+  }
+};
+
+class TorqueSensor : public ChannelReadings<CCI_FootBotTurretTorqueSensor, 3>
+{
+public:
+  void Update(const ChannelView& channel) override
+  {
+    ChannelReadings::Update(channel);
+    for (double& value : values_) value = std::clamp(value, -1.0, 1.0);
+  }
+};
+
+}  // namespace
+
+void RegisterFootbotTurret()
+{
+  PluginDescription motor;
+  motor.label = "footbot_turret";
+  motor.implementation = "dummy_footbot_turret";
+  motor.brief = "turns the turret with gripper and LED ring at a given speed";
+  motor.robots = {"footbot"};
+  motor.channel = "footbot_turret";
+  motor.channel_width = 1;
+  motor.parameters = TurretActuator::ParameterTable();
+  AddActuatorPlugin<TurretActuator>(motor);
+
+  PluginDescription encoder;
+  encoder.label = "footbot_turret_encoder";
+  encoder.implementation = "generic_footbot_turret_encoder";
+  encoder.brief = "angle of the turret against the body";
+  encoder.robots = {"footbot"};
+  encoder.parameters = NoiseParameters("the angle", "rad");
+  AddSensorPlugin<TurretEncoder>(encoder);
+
+  PluginDescription torque;
+  torque.label = "footbot_turret_torque";
+  torque.implementation = "engine_footbot_turret_torque";
+  torque.brief = "torque and pull between body and turret, as the engine computes them";
+  torque.robots = {"footbot"};
+  torque.channel = "footbot_turret_torque";
+  torque.channel_width = 3;
+  torque.parameters = NoiseParameters("each of the three readings", "");
+  AddSensorPlugin<TorqueSensor>(torque);
+}
+
+}  // namespace swarmanoid

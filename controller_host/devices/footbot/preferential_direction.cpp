@@ -1,0 +1,131 @@
+// Showing a direction on the footbot's LED ring: lights the LEDs nearest to it. The ring turns with the turret, so the
+// lit LEDs are chosen anew each tick. Generic.
+#include "common/control_interface/ci_robot.h"
+#include "common/control_interface/footbot/ci_footbot_preferential_direction_actuator.h"
+#include "common/math/elementary.h"
+#include "controller_host/devices/builtin_devices.h"
+#include "controller_host/devices/device_plugins.h"
+#include "controller_host/devices/value_devices.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr unsigned kLeds = 12;
+constexpr double kFirstLed = kPi / 12;  // angle of LED 0 against the turret's front
+constexpr double kSpacing = kPi / 6;
+
+class Direction : public CCI_FootBotPreferentialDirectionActuator
+{
+public:
+  void SetDirection(double angle, std::uint32_t colour) override
+  {
+    if (angle - angle != 0)
+      throw CCI_DeviceError("footbot_preferential_direction was told the direction " + std::to_string(angle) +
+                            "; it must be a finite number");
+    angle_ = WrapAngle(angle);
+    colour_ = colour & 0xffffff;
+  }
+  void HideDirection() override { colour_ = 0; }
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    readings.push_back({"angle", "rad", angle_});
+    readings.push_back({"colour", "colour", static_cast<double>(colour_)});
+  }
+
+  double angle_ = 0;
+  std::uint32_t colour_ = 0;
+};
+
+class DirectionActuator : public AttributeActuator
+{
+public:
+  static std::vector<ParameterSpec> ParameterTable()
+  {
+    return Joined(
+        {{.name = "width",
+          .unit = "degrees",
+          .default_value = "60",
+          .description = "LEDs within half of this angle of the direction are lit; the nearest one always is.",
+          .minimum = 0,
+          .maximum = 360}},
+        NoiseParameters("the direction", "rad"));
+  }
+
+  void Init(const DeviceSetup& setup) override
+  {
+    Bind(setup, {"led"});
+    half_width_ = DegreesToRadians(setup.parameters.Number("width")) / 2;
+    direction_noise_ = NoiseFrom(setup.parameters);
+    directions_.resize(setup.robots.size());
+    turret_slots_.clear();
+    for (const std::uint32_t robot : setup.robots)
+      turret_slots_.push_back(setup.space.GetEntity(robot).SlotOf("turret_angle"));
+  }
+  CCI_Actuator* Actuator(std::size_t k) override { return &directions_[k]; }
+
+  void Commit(const ChannelView& channel, AttributeChanges& changes) override
+  {
+    for (std::size_t k = 0; k < directions_.size(); ++k) Light(k);
+    AttributeActuator::Commit(channel, changes);
+  }
+
+  void SaveState(ByteWriter& state) const override
+  {
+    for (const Direction& direction : directions_)
+    {
+      state.Put(direction.angle_);
+      state.Put(direction.colour_);
+    }
+  }
+  void LoadState(ByteReader& state) override
+  {
+    for (Direction& direction : directions_)
+    {
+      direction.angle_ = state.Get<double>();
+      direction.colour_ = state.Get<std::uint32_t>();
+    }
+  }
+
+private:
+  void Light(std::size_t k)
+  {
+    const Direction& direction = directions_[k];
+    double on_ring = direction.angle_ - space_->Attributes()[turret_slots_[k]] - kFirstLed;
+    if (direction_noise_.IsActive())
+    {
+      RandomStream random = streams_.Of(k);
+      on_ring += direction_noise_.Sample(random);
+    }
+    double nearest = kPi;
+    for (unsigned led = 0; led < kLeds; ++led) nearest = std::min(nearest, Away(on_ring, led));
+    for (unsigned led = 0; led < kLeds; ++led)
+    {
+      const double away = Away(on_ring, led);
+      ValuesOf(k)[led] = away <= half_width_ + 1e-9 || away <= nearest ? direction.colour_ : 0;
+    }
+  }
+  static double Away(double on_ring, unsigned led) { return __builtin_fabs(WrapAngle(on_ring - led * kSpacing)); }
+
+  double half_width_ = 0;
+  NoiseModel direction_noise_;
+  std::vector<Direction> directions_;
+  std::vector<std::uint32_t> turret_slots_;
+};
+
+}  // namespace
+
+void RegisterPreferentialDirection()
+{
+  PluginDescription description;
+  description.label = "footbot_preferential_direction";
+  description.implementation = "led_ring_preferential_direction";
+  description.brief = "shows a direction by lighting the LEDs that point to it";
+  description.robots = {"footbot"};
+  description.parameters = DirectionActuator::ParameterTable();
+  AddActuatorPlugin<DirectionActuator>(description);
+}
+
+}  // namespace swarmanoid

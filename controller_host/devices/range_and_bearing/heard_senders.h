@@ -1,0 +1,48 @@
+// Those whom receivers of range and bearing hear, robot after robot in one list, so that their angles are computed many
+// at a time. Used by the receivers' batch. Steady running allocates nothing.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/math/pose.h"
+#include "controller_host/devices/sensing/body_shapes.h"
+
+namespace swarmanoid
+{
+
+class HeardSenders
+{
+public:
+  // From antenna to antenna, m: along the axes of the space, then, once turned, of the receiver's body. `place`: of the
+  // sender in the grid. There is always room for some behind `count`.
+  struct Lanes
+  {
+    std::int32_t* place;
+    double *x, *y, *z;
+    double* square;                       // of the distance, m^2: once turned
+    double *range, *bearing, *elevation;  // m, rad: once measured
+    double* flat;                         // m, in the plane of the body
+  };
+
+  // Room for so many more, and some lanes.
+  void Reserve(std::size_t more);
+  const Lanes& At() const { return lanes_; }
+  void Move(std::size_t from, std::size_t to);
+
+  // From the axes of the space to those of a body: those from `first` on.
+  void Turn(std::size_t first, const Heading& heading);
+  void Turn(std::size_t first, const Eigen::Matrix3d& to_body);
+  // Range and angles of all.
+  void Measure();
+
+  std::size_t count = 0;
+
+private:
+  static constexpr std::size_t kArrays = 8;  // of doubles
+  std::vector<std::int32_t> place_;
+  std::vector<double> values_;
+  Lanes lanes_{};
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,342 @@
+// Receives the bytes of range and bearing, for all robots: those within range and in line of sight of a sender get its
+// message one tick later, with the place of the sender.
+#include <algorithm>
+#include <memory>
+
+#include "common/math/elementary.h"
+#include "controller_host/devices/builtin_devices.h"
+#include "controller_host/devices/device_plugins.h"
+#include "controller_host/devices/noise.h"
+#include "controller_host/devices/range_and_bearing/heard_senders.h"
+#include "controller_host/devices/range_and_bearing/range_and_bearing_message.h"
+#include "controller_host/devices/sensing/sight_lines.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr double kAntennaHeight = 0.1;  // m above the base (ARGoS3, foot-bot)
+constexpr std::uint32_t kNoSlot = 0xffffffff;
+
+class Receiver : public CCI_RangeAndBearingSensor
+{
+public:
+  std::span<const Packet> GetAllPackets() const override { return {packets.data(), count}; }
+  Packet* MakeRoom(std::size_t room)
+  {
+    if (packets.size() < room) packets.resize(2 * room);
+    return packets.data();
+  }
+
+  std::vector<Packet> packets;  // the first `count` of them
+  std::size_t count = 0;
+};
+
+class ReceiverBatch : public SensorBatch
+{
+public:
+  static std::vector<ParameterSpec> ParameterTable()
+  {
+    const std::vector<ParameterSpec> noise =
+        Joined(Joined(NoiseParameters("each range", "m", "range_"), NoiseParameters("each bearing", "rad", "bearing_")),
+               NoiseParameters("each vertical bearing", "rad", "vertical_bearing_"));
+    return Joined({{.name = "range",
+                    .unit = "m",
+                    .default_value = "3",
+                    .description = "Distance from which packets are received.",
+                    .minimum = 0.001},
+                   {.name = "loss_probability",
+                    .default_value = "0",
+                    .description = "Share of the packets that get lost.",
+                    .minimum = 0,
+                    .maximum = 1}},
+                  noise);
+  }
+
+  void Init(const DeviceSetup& setup) override
+  {
+    world_ = SensorWorld::Of(setup.space);
+    robots_ = setup.robots;
+    loss_streams_ = DeviceStreams(setup, "loss");
+    range_streams_ = DeviceStreams(setup, "range");
+    bearing_streams_ = DeviceStreams(setup, "bearing");
+    vertical_bearing_streams_ = DeviceStreams(setup, "vertical_bearing");
+    range_ = setup.parameters.Number("range");
+    loss_ = setup.parameters.Number("loss_probability");
+    range_noise_ = NoiseFrom(setup.parameters, "range_");
+    bearing_noise_ = NoiseFrom(setup.parameters, "bearing_");
+    vertical_bearing_noise_ = NoiseFrom(setup.parameters, "vertical_bearing_");
+    has_noise_ = range_noise_.IsActive() || bearing_noise_.IsActive() || vertical_bearing_noise_.IsActive();
+    if (has_noise_ || loss_ > 0) names_ = world_->Names();
+    lines_ = std::make_unique<SightLines>(*world_, range_);
+    receivers_.resize(robots_.size());
+    place_of_entity_.assign(setup.space.Size(), -1);
+    for (std::size_t k = 0; k < robots_.size(); ++k) place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
+    message_slots_.assign(setup.space.Size(), kNoSlot);
+    messages_.assign(setup.space.Size(), {});
+    for (std::uint32_t e = 0; e < setup.space.Size(); ++e)
+      if (const CSwarmanoidSpaceEntity& entity = setup.space.GetEntity(e); IsRobot(entity.GetKind()))
+        message_slots_[e] = entity.SlotOf("message");
+  }
+  CCI_Sensor* Sensor(std::size_t k) override { return &receivers_[k]; }
+
+  void Update(const ChannelView&) override
+  {
+    world_->Refresh();
+    ReadMessages();
+    // In the order of the grid's cells: neighbours stay in the cache. Every robot has a body.
+    for (const std::uint32_t entity : world_->Grid().Sorted())
+      if (const std::int32_t k = place_of_entity_[entity]; k >= 0) Receive(static_cast<std::size_t>(k));
+    Deliver();
+  }
+
+private:
+  struct alignas(16) Sent
+  {
+    RangeAndBearingMessage bytes{};
+    bool is_sent = false;
+  };
+  // Where those heard by one robot end in the list of all.
+  struct Receiver
+  {
+    std::size_t k, behind;
+  };
+
+  void ReadMessages()
+  {
+    const std::span<const double> attributes = world_->Space().Attributes();
+    const std::span<const std::uint32_t> senders = world_->Grid().Sorted();
+    std::size_t sent = 0;
+    for (std::size_t place = 0; place < senders.size(); ++place)
+    {
+      const std::uint32_t slot = message_slots_[senders[place]];
+      Sent& message = messages_[place];
+      message.is_sent = slot != kNoSlot && attributes[slot] != 0;
+      sent += message.is_sent;
+      if (message.is_sent) message.bytes = UnpackedMessage(&attributes[slot + 1]);
+    }
+    look_at_all_ = 2 * sent > senders.size() && world_->Grid().AllUpright();
+  }
+
+  Vector3 AntennaOf(std::uint32_t robot) const
+  {
+    const PoseArrays& poses = world_->Space().Poses();
+    if (IsUpright(poses, robot)) return {poses.x[robot], poses.y[robot], poses.z[robot] + kAntennaHeight};
+    return world_->Space().GetPose(robot).Apply({0, 0, kAntennaHeight});
+  }
+
+  void Receive(std::size_t k)
+  {
+    const CSwarmanoidSpace& space = world_->Space();
+    const std::uint32_t robot = robots_[k];
+    const std::size_t first = heard_.count;
+    antenna_ = AntennaOf(robot);
+    lines_->LookFrom(robot, antenna_, range_);
+    heard_.Reserve(lines_->PlacesAround().size());
+    if (look_at_all_)
+      LookThenListen(robot);
+    else
+      ListenThenLook(robot);
+
+    if (loss_ > 0)
+    {
+      KeepSenders(first);
+      KeepOnly(first, [&](std::size_t i) { return loss_streams_.Of(k, SenderOf(i)).Uniform() >= loss_; });
+    }
+    if (IsUpright(space.Poses(), robot))
+      heard_.Turn(first, HeadingOf(space.Poses(), robot));
+    else
+      heard_.Turn(first, space.GetPose(robot).orientation.toRotationMatrix().transpose());
+
+    receivers_.push_back({k, heard_.count});
+    constexpr std::size_t kManyAtATime = 128;
+    if (heard_.count >= kManyAtATime) Deliver();
+  }
+
+  // Quicker where most send and many hide one another.
+  void LookThenListen(std::uint32_t robot)
+  {
+    lines_->LookAtBodiesAround();
+    const SeenPoints& seen = lines_->Solve();
+    const std::span<const std::int32_t> around = lines_->PlacesAround();
+    std::int32_t* const places = heard_.At().place + heard_.count;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < around.size(); i += kLanes)
+    {
+      const Selection selection(seen.Group(i));
+      selection.Store(LoadLanes(&around[i]), places + count);
+      count += selection.Count();
+    }
+    Listen({places, count}, robot);
+  }
+
+  void ListenThenLook(std::uint32_t robot)
+  {
+    const std::size_t first = heard_.count;
+    Listen(lines_->PlacesAround(), robot);
+    KeepSenders(first);
+    const HeardSenders::Lanes& at = heard_.At();
+    for (std::size_t i = first; i < heard_.count; ++i)
+      lines_->AddPoint({at.x[i], at.y[i], at.z[i]}, world_->Grid().Sorted()[static_cast<std::size_t>(at.place[i])]);
+    const SeenPoints& seen = lines_->Solve();
+    KeepOnly(first, [&](std::size_t i) { return seen[i - first]; });
+  }
+
+  // Adds those at these places. The places may stand where they are written to.
+  void Listen(std::span<const std::int32_t> places, std::uint32_t robot)
+  {
+    const NeighbourGrid& grid = world_->Grid();
+    const HeardSenders::Lanes& at = heard_.At();
+    std::int32_t* const place = at.place + heard_.count;
+    double* const x = at.x + heard_.count;
+    double* const y = at.y + heard_.count;
+    double* const z = at.z + heard_.count;
+    heard_.count += places.size();
+    if (!grid.AllUpright())
+    {
+      for (std::size_t i = 0; i < places.size(); ++i)
+      {
+        const Vector3 way = AntennaOf(grid.Sorted()[static_cast<std::size_t>(places[i])]) - antenna_;
+        place[i] = places[i];
+        x[i] = way.x();
+        y[i] = way.y();
+        z[i] = way.z();
+      }
+      return;
+    }
+    const double* const origin_x = grid.OriginX();
+    const double* const origin_y = grid.OriginY();
+    const double* const origin_z = grid.OriginZ();
+    const PoseArrays& poses = world_->Space().Poses();
+    const double own_x = poses.x[robot], own_y = poses.y[robot], own_z = poses.z[robot];
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      const auto p = static_cast<std::uint32_t>(places[i]);
+      place[i] = places[i];
+      x[i] = origin_x[p] - own_x;
+      y[i] = origin_y[p] - own_y;
+      z[i] = origin_z[p] - own_z;
+    }
+  }
+
+  // Of those added from `first` on, keeps those for whom keep(i) holds.
+  template <class Keep>
+  void KeepOnly(std::size_t first, Keep&& keep)
+  {
+    std::size_t kept = first;
+    for (std::size_t i = first; i < heard_.count; ++i)
+      if (keep(i)) heard_.Move(i, kept++);
+    heard_.count = kept;
+  }
+  // Keeps those who send and are near enough.
+  void KeepSenders(std::size_t first)
+  {
+    const HeardSenders::Lanes& at = heard_.At();
+    KeepOnly(first,
+             [&](std::size_t i)
+             {
+               const double square = at.x[i] * at.x[i] + at.y[i] * at.y[i] + at.z[i] * at.z[i];
+               return messages_[static_cast<std::size_t>(at.place[i])].is_sent && square <= range_ * range_;
+             });
+  }
+
+  // Packets for all who have listened since the last time.
+  void Deliver()
+  {
+    heard_.Measure();
+    std::size_t first = 0;
+    for (Receiver& receiver : receivers_)
+    {
+      MakePackets(receivers_[receiver.k], first, receiver.behind);
+      if (has_noise_) AddNoise(receiver.k, first, receiver.behind);
+      first = receiver.behind;
+    }
+    receivers_.clear();
+    heard_.count = 0;
+  }
+
+  // A packet from each of those heard who sends and is near enough.
+  void MakePackets(Receiver& receiver, std::size_t first, std::size_t behind) const
+  {
+    CCI_RangeAndBearingSensor::Packet* const packets = receiver.MakeRoom(behind - first);
+    const HeardSenders::Lanes from = heard_.At();
+    const Sent* const sent = messages_.data();
+    const double largest = range_ * range_;
+    std::size_t count = 0;
+    for (std::size_t i = first; i < behind; ++i)
+    {
+      CCI_RangeAndBearingSensor::Packet& packet = packets[count];
+      const Sent& message = sent[from.place[i]];
+      packet.range_m = from.range[i];
+      packet.bearing_rad = from.bearing[i];
+      packet.vertical_bearing_rad = from.elevation[i];
+      packet.message = message.bytes;
+      count += static_cast<std::size_t>(message.is_sent & (from.square[i] <= largest));
+    }
+    receiver.count = count;
+  }
+
+  // The name of a sender in the list of those heard.
+  std::uint64_t SenderOf(std::size_t i) const
+  {
+    return names_[world_->Grid().Sorted()[static_cast<std::size_t>(heard_.At().place[i])]];
+  }
+
+  // To the packets that MakePackets made of the same.
+  void AddNoise(std::size_t k, std::size_t first, std::size_t behind)
+  {
+    const HeardSenders::Lanes& from = heard_.At();
+    const double largest = range_ * range_;
+    CCI_RangeAndBearingSensor::Packet* packet = receivers_[k].packets.data();
+    for (std::size_t i = first; i < behind; ++i)
+    {
+      if (!messages_[static_cast<std::size_t>(from.place[i])].is_sent || from.square[i] > largest) continue;
+      Disturb(*packet++, k, SenderOf(i));
+    }
+  }
+
+  void Disturb(CCI_RangeAndBearingSensor::Packet& packet, std::size_t k, std::uint64_t sender) const
+  {
+    const auto drawn = [=](const NoiseModel& noise, const DeviceStreams& streams)
+    { return noise.Sample(streams.Of(k, sender)); };
+    if (range_noise_.IsActive()) packet.range_m = std::max(packet.range_m + drawn(range_noise_, range_streams_), 0.0);
+    if (bearing_noise_.IsActive())
+      packet.bearing_rad = WrapAngle(packet.bearing_rad + drawn(bearing_noise_, bearing_streams_));
+    if (vertical_bearing_noise_.IsActive())
+      packet.vertical_bearing_rad = std::clamp(
+          packet.vertical_bearing_rad + drawn(vertical_bearing_noise_, vertical_bearing_streams_), -kPi / 2, kPi / 2);
+  }
+
+  std::shared_ptr<SensorWorld> world_;
+  std::unique_ptr<SightLines> lines_;
+  std::vector<std::uint32_t> robots_;
+  std::span<const std::uint64_t> names_;  // of the entities for random streams; empty where none are drawn
+  bool has_noise_ = false;
+  DeviceStreams loss_streams_, range_streams_, bearing_streams_, vertical_bearing_streams_;
+  double range_ = 0, loss_ = 0;
+  NoiseModel range_noise_, bearing_noise_, vertical_bearing_noise_;
+  std::vector<std::uint32_t> message_slots_;   // by entity
+  std::vector<Sent> messages_;                 // by place in the grid, of this tick
+  std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
+  bool look_at_all_ = false;
+  Vector3 antenna_ = Vector3::Zero();
+  HeardSenders heard_;
+  std::vector<Receiver> receivers_;
+  std::vector<Receiver> receivers_;
+};
+
+}  // namespace
+
+void RegisterRangeAndBearingReceiver()
+{
+  PluginDescription receiver;
+  receiver.label = "range_and_bearing";
+  receiver.implementation = "generic_range_and_bearing";
+  receiver.brief = "receives the bytes of all in sight within 3 m, with distance and direction";
+  receiver.robots = {"footbot", "eyebot", "handbot"};
+  receiver.parameters = ReceiverBatch::ParameterTable();
+  AddSensorPlugin<ReceiverBatch>(receiver);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,121 @@
+// Upright cylinders around an eye, and which lines of sight they hide, several at a time. Used by SightLines. Steady
+// running allocates nothing.
+//
+// A few cylinders stay in the order in which they come; each four of them are tested only for lines that reach their
+// strip of the y axis. Many are held by direction: split into the four quadrants around the eye and into eight sectors
+// of each; one that touches several stands in all of them. Cells are tested to one depth, only the fullest further,
+// whatever hides a point: branches that depend on it would be guessed wrong half of the time and cost more than the
+// tests.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "controller_host/devices/sensing/neighbour_grid.h"
+
+namespace swarmanoid
+{
+
+// Points to look at: offsets from the eye in m. Room for kLanes more behind `count`.
+struct SightPoints
+{
+  std::size_t count = 0;
+  std::vector<float> x, y, z;
+  std::vector<std::int32_t> owner;  // the entity that a point is part of: it does not hide its own points
+
+  // Room for so many, and the kLanes.
+  void Reserve(std::size_t points);
+};
+
+// Which of the points are seen.
+class SeenPoints
+{
+public:
+  void Resize(std::size_t points) { groups_.resize((points + kLanes - 1) / kLanes); }
+  bool operator[](std::size_t point) const { return (groups_[point / kLanes] >> point % kLanes & 1U) != 0; }
+  // A bit for each of the kLanes points from `first` on, a multiple of kLanes. Bits behind the last point are 0.
+  unsigned Group(std::size_t first) const { return groups_[first / kLanes]; }
+  void SetGroup(std::size_t first, unsigned seen) { groups_[first / kLanes] = static_cast<std::uint8_t>(seen); }
+  void Hide(std::size_t point)
+  {
+    groups_[point / kLanes] = static_cast<std::uint8_t>(Group(point) & ~(1U << point % kLanes));
+  }
+
+private:
+  std::vector<std::uint8_t> groups_;
+};
+
+class DiscField
+{
+public:
+  // Takes the cylinders around an eye at height `eye` (m, in the space) that reach into the heights from `lowest` to
+  // `highest`, which hold 0, relative to the eye. They must stay until the last Look.
+  void Sort(const NearBodies& discs, float eye, float lowest, float highest);
+  // Which of the points none of them hides; the heights of the points are within those given to Sort. `are_origins`:
+  // the points are the origins of the cylinders, in their order, moved by one height.
+  void Look(const SightPoints& points, bool are_origins, SeenPoints& seen) const;
+
+private:
+  static constexpr std::size_t kQuadrants = 4;
+  static constexpr std::size_t kSectors = 8;  // of a quadrant
+  static constexpr std::size_t kFew = 56;     // more than this are split into sectors
+  static constexpr std::size_t kStrip = 4;    // cylinders
+  static constexpr std::size_t kStrips = kFew / kStrip + kLanes;
+
+  // How the cylinders' heights go with those of the points.
+  enum class Heights
+  {
+    kSpanning,  // all are as high and as low as every line
+    kEqual,
+    kMixed
+  };
+
+  // Cells of equal size, each a list of cylinders relative to the eye.
+  struct Cells
+  {
+    std::size_t stride = 0;
+    std::array<std::size_t, kQuadrants * kSectors> filled{};
+    std::vector<float> x, y, radius, low, high;  // radius: its square in the cells that are tested
+    std::vector<std::int32_t> entity;
+
+    void Reserve(std::size_t cells, std::size_t places);
+  };
+  // Lines from the eye to kLanes points.
+  struct Lines
+  {
+    FloatLanes x, y;  // directions along the floor, of length 1
+    FloatLanes length;
+    FloatLanes from, to;     // the parts of the way, 0..1, at the heights of the cylinders
+    FloatLanes inverse;      // of the height of the point: kMixed
+    FloatLanes first, last;  // from and to in m
+  };
+
+  void Classify(const NearBodies& discs, float eye, float lowest, float highest);
+  void CutIntoStrips(const NearBodies& discs, float eye, float lowest, float highest);
+  void SortByQuadrants(const NearBodies& discs, float eye, float lowest, float highest);
+  void SplitQuadrant(std::size_t quadrant);
+  void Close();
+  Lines LinesTo(const SightPoints& points, std::size_t group) const;
+  // kOwnHit: every point lies well within a cylinder of its own, which is not tested for: it hits once.
+  template <bool kMixedHeights, bool kOwnHit>
+  void LookAtFew(const SightPoints& points, SeenPoints& seen) const;
+  template <bool kMixedHeights>
+  void LookAtMany(const SightPoints& points, SeenPoints& seen) const;
+
+  Heights heights_ = Heights::kSpanning;
+  float low_ = 0, high_ = 0;  // kEqual: of all, from the eye
+  bool all_count_ = true;     // none of them is too low or too high to hide anything
+
+  // Few.
+  const NearBodies* few_ = nullptr;
+  std::size_t strips_ = 0;
+  alignas(32) std::array<float, kStrips> strip_front_{}, strip_back_{};  // m, along y
+  alignas(32) std::array<float, kStrips * kStrip> square_{}, few_low_{}, few_high_{};
+
+  // Many.
+  std::array<std::size_t, kQuadrants * kSectors> depth_{};  // places of each cell to test
+  Cells quadrants_, cells_;
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,77 @@
+// The world as the sensors of a process see it, shared by all batches over one space: body shapes, terrain, engine
+// membership and the grid of neighbours of the current tick. One thread at a time, as the space itself.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "controller_host/devices/sensing/body_shapes.h"
+#include "controller_host/devices/sensing/engine_membership.h"
+#include "controller_host/devices/sensing/neighbour_grid.h"
+#include "controller_host/devices/sensing/sensed_terrain.h"
+
+namespace swarmanoid
+{
+
+class SensorWorld
+{
+public:
+  explicit SensorWorld(const CSwarmanoidSpace& space);
+
+  // The world of a space: the same object for all who ask while one of them holds it (shared: batches come and go).
+  static std::shared_ptr<SensorWorld> Of(const CSwarmanoidSpace& space);
+
+  // Brings the grid to the poses of the space, once for all batches of a step.
+  void Refresh();
+
+  // The part 0..1 of the way from one point to another at which it meets the first body or terrain for which
+  // accept(entity) holds; more than 1 where it meets none.
+  template <class Accept>
+  double FirstHit(const Vector3& from, const Vector3& to, Accept&& accept) const;
+  // Whether `body` can hide things from `observer`: they share an engine, or the body stands in the space without being
+  // part of any engine's world.
+  bool CanHideFrom(std::uint32_t observer, std::uint32_t body) const
+  {
+    return membership_.ShareEngine(observer, body) ||
+           (!membership_.IsInSomeEngine(body) && !space_.GetEntity(body).IsMovable());
+  }
+
+  const CSwarmanoidSpace& Space() const { return space_; }
+  const BodyShape& Body(std::uint32_t entity) const { return bodies_[entity]; }
+  const BodyExtent& Extent(std::uint32_t entity) const { return extents_[entity]; }
+  std::span<const BodyShape> Bodies() const { return bodies_; }
+  const EngineMembership& Membership() const { return membership_; }
+  const NeighbourGrid& Grid() const { return grid_; }
+  // StreamName of the id of each entity; made when first asked for. Valid as long as the world.
+  std::span<const std::uint64_t> Names();
+  const SensedTerrain& Terrain() const { return terrain_; }
+
+private:
+  const CSwarmanoidSpace& space_;
+  std::vector<BodyShape> bodies_;
+  std::vector<BodyExtent> extents_;
+  EngineMembership membership_;
+  NeighbourGrid grid_;
+  FixedBodies fixed_;
+  SensedTerrain terrain_;
+  std::vector<std::uint64_t> names_;
+  std::uint64_t revision_;  // of the poses in the grid
+};
+
+template <class Accept>
+double SensorWorld::FirstHit(const Vector3& from, const Vector3& to, Accept&& accept) const
+{
+  double first = 2;
+  const auto test = [&](std::uint32_t body)
+  {
+    if (!accept(body)) return;
+    if (const auto hit = SegmentHit(bodies_[body], space_.GetPose(body), from, to)) first = std::min(first, *hit);
+  };
+  grid_.ForEachAlong(from, to, test);
+  fixed_.ForEachAlong(from, to, test);
+  return terrain_.IsEmpty() ? first : std::min(first, terrain_.FirstHit(from, to, accept));
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,265 @@
+#include "controller_host/devices/sensing/sight_lines.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace swarmanoid
+{
+namespace
+{
+
+// Narrows the part [enter, leave] of the way to where start + t * step lies between low and high.
+void ClipSlab(float start, float step, float low, float high, float& enter, float& leave)
+{
+  constexpr float kTiny = 1e-20F;  // parallel ones: the quotients become huge, not NaN
+  if (step == 0) step = kTiny;
+  const float a = (low - start) / step;
+  const float b = (high - start) / step;
+  enter = std::max(enter, std::min(a, b));
+  leave = std::min(leave, std::max(a, b));
+}
+
+}  // namespace
+
+SightLines::SightLines(const SensorWorld& world, double reach)
+    : world_(world), fixed_(world.Space(), world.Bodies(), reach), usual_reach_(reach), stamps_(world.Space().Size(), 0)
+{
+  near_.Reserve(world.Grid().MostBodies());
+  discs_.Reserve(world.Space().Size());
+}
+
+void SightLines::LookFrom(std::uint32_t observer, const Vector3& eye, double reach)
+{
+  observer_ = observer;
+  eye_ = eye;
+  reach_ = reach;
+  points_.count = 0;
+  are_origins_ = false;
+  world_.Grid().CollectNear(eye.x(), eye.y(), reach, observer, near_);
+}
+
+void SightLines::LookAtBodiesAround()
+{
+  if (near_.count + kLanes > points_.x.size()) points_.Reserve(2 * near_.count);
+  for (std::size_t i = 0; i < near_.count; i += kLanes)
+  {
+    StoreLanes(LoadLanes(&near_.x[i]), &points_.x[i]);
+    StoreLanes(LoadLanes(&near_.y[i]), &points_.y[i]);
+    StoreLanes(FloatLanes{}, &points_.z[i]);
+    StoreLanes(LoadLanes(&near_.entity[i]), &points_.owner[i]);
+  }
+  points_.count = near_.count;
+  are_origins_ = true;
+  if (world_.Grid().AllLevel()) return;
+  const double* const z = world_.Grid().OriginZ();
+  const double own = world_.Space().Poses().z[observer_];
+  for (std::size_t i = 0; i < near_.count; ++i)
+    points_.z[i] = static_cast<float>(z[static_cast<std::size_t>(near_.place[i])] - own);
+}
+
+const SeenPoints& SightLines::Solve()
+{
+  seen_.Resize(points_.count);
+  if (points_.count == 0) return seen_;
+  CollectBodies();
+  field_.Look(points_, are_origins_, seen_);
+  for (const Box& box : boxes_) HideBehindBox(box);
+  if (!tilted_.empty() || !foreign_.empty())
+    for (std::size_t i = 0; i < points_.count; ++i)
+      if (seen_[i] && HiddenByOthers(i)) seen_.Hide(i);
+  if (!world_.Terrain().IsEmpty())
+    for (std::size_t i = 0; i < points_.count; ++i)
+      if (seen_[i] && HiddenByTerrain(i)) seen_.Hide(i);
+  return seen_;
+}
+
+void SightLines::FindHeights()
+{
+  FloatLanes lowest{}, highest{};
+  for (std::size_t i = 0; i < points_.count; i += kLanes)
+  {
+    const FloatLanes z = FirstLanes(points_.count - i) ? LoadLanes(&points_.z[i]) : FloatLanes{};
+    lowest = Minimum(lowest, z);
+    highest = Maximum(highest, z);
+  }
+  lowest_ = Lowest(lowest);
+  highest_ = Highest(highest);
+}
+
+void SightLines::FindOutline()
+{
+  has_outline_ = true;
+  FloatLanes left{}, right{}, back{}, front{};
+  for (std::size_t i = 0; i < points_.count; i += kLanes)
+  {
+    const IntLanes are_there = FirstLanes(points_.count - i);
+    const FloatLanes x = are_there ? LoadLanes(&points_.x[i]) : FloatLanes{};
+    const FloatLanes y = are_there ? LoadLanes(&points_.y[i]) : FloatLanes{};
+    left = Minimum(left, x);
+    right = Maximum(right, x);
+    back = Minimum(back, y);
+    front = Maximum(front, y);
+  }
+  left_ = Lowest(left);
+  right_ = Highest(right);
+  back_ = Lowest(back);
+  front_ = Highest(front);
+}
+
+void SightLines::CollectBodies()
+{
+  FindHeights();
+  has_outline_ = false;
+  boxes_.clear();
+  tilted_.clear();
+  foreign_.clear();
+  discs_.count = 0;
+  if (reach_ <= usual_reach_)
+    for (const std::uint32_t body : fixed_.Near(eye_.x(), eye_.y()))
+      AddBody(body, IsUpright(world_.Space().Poses(), body));
+  else
+  {
+    ++stamp_;
+    fixed_.ForEachInSquare(eye_.x(), eye_.y(), reach_,
+                           [&](std::uint32_t body)
+                           {
+                             if (stamps_[body] == stamp_) return;
+                             stamps_[body] = stamp_;
+                             AddBody(body, IsUpright(world_.Space().Poses(), body));
+                           });
+  }
+
+  // All that are near, where all of them are upright cylinders and hide things from the observer.
+  const NearBodies* discs = &near_;
+  const NeighbourGrid& grid = world_.Grid();
+  if (discs_.count > 0 || !grid.AllUpright() || !grid.AllCylinders() || !world_.Membership().IsOneWorld())
+  {
+    for (std::size_t i = 0; i < near_.count; ++i)
+    {
+      const auto body = static_cast<std::uint32_t>(near_.entity[i]);
+      const bool is_upright = grid.AllUpright() || IsUpright(world_.Space().Poses(), body);
+      if (is_upright && world_.Extent(body).kind == Shape::Kind::kBox && IsOutside(i)) continue;
+      AddBody(body, is_upright);
+    }
+    discs = &discs_;
+  }
+
+  field_.Sort(*discs, static_cast<float>(eye_.z()), lowest_, highest_);
+}
+
+// Whether an upright body around the eye is surely farther to one side than all points and the eye.
+bool SightLines::IsOutside(std::size_t near)
+{
+  if (!has_outline_) FindOutline();
+  const float reach = near_.radius[near] + 1e-3F;
+  const float x = near_.x[near];
+  const float y = near_.y[near];
+  return (x < left_ - reach) | (x > right_ + reach) | (y < back_ - reach) | (y > front_ + reach);
+}
+
+void SightLines::AddBody(std::uint32_t body, bool upright)
+{
+  if (!world_.CanHideFrom(observer_, body)) return foreign_.push_back(body);
+  if (!upright) return tilted_.push_back(body);
+  const BodyExtent& extent = world_.Extent(body);
+  if (extent.kind == Shape::Kind::kBox) return AddBox(body);
+  const PoseArrays& poses = world_.Space().Poses();
+  const std::size_t i = discs_.count++;
+  discs_.x[i] = static_cast<float>(poses.x[body] - eye_.x());
+  discs_.y[i] = static_cast<float>(poses.y[body] - eye_.y());
+  discs_.radius[i] = extent.radius;
+  discs_.low[i] = static_cast<float>(poses.z[body] + extent.low);
+  discs_.high[i] = static_cast<float>(poses.z[body] + extent.high);
+  discs_.entity[i] = static_cast<std::int32_t>(body);
+}
+
+void SightLines::AddBox(std::uint32_t body)
+{
+  const PoseArrays& poses = world_.Space().Poses();
+  const BodyExtent& extent = world_.Extent(body);
+  const Vector3& half = world_.Body(body).half_size;
+  const double dx = poses.x[body] - eye_.x();
+  const double dy = poses.y[body] - eye_.y();
+  const double z = poses.z[body] - eye_.z();
+  const double reach = static_cast<double>(extent.radius) + 1e-4;
+  if (!has_outline_) FindOutline();
+  if (dx < static_cast<double>(left_) - reach || dx > static_cast<double>(right_) + reach ||
+      dy < static_cast<double>(back_) - reach || dy > static_cast<double>(front_) + reach)
+    return;
+  Box box{};
+  box.heading = HeadingOf(poses, body);
+  box.x = static_cast<float>(-(box.heading.cos * dx + box.heading.sin * dy));
+  box.y = static_cast<float>(box.heading.sin * dx - box.heading.cos * dy);
+  box.half_x = static_cast<float>(half.x());
+  box.half_y = static_cast<float>(half.y());
+  box.low = static_cast<float>(z) + extent.low;
+  box.high = static_cast<float>(z) + extent.high;
+  box.entity = static_cast<std::int32_t>(body);
+
+  // Towards the box along one of its axes.
+  const float outside_x = __builtin_fabsf(box.x) - box.half_x;
+  const float outside_y = __builtin_fabsf(box.y) - box.half_y;
+  const auto cosine = static_cast<float>(box.heading.cos);
+  const auto sine = static_cast<float>(box.heading.sin);
+  const bool along_x = outside_x > outside_y;
+  const float side = (along_x ? box.x : box.y) > 0 ? -1.0F : 1.0F;
+  box.normal_x = side * (along_x ? cosine : -sine);
+  box.normal_y = side * (along_x ? sine : cosine);
+  const float outside = std::max(outside_x, outside_y);
+  box.distance = outside > 0 ? outside * 0.9999F - 1e-5F : -std::numeric_limits<float>::infinity();
+  boxes_.push_back(box);
+}
+
+void SightLines::HideBehindBox(const Box& box)
+{
+  const auto cosine = static_cast<float>(box.heading.cos);
+  const auto sine = static_cast<float>(box.heading.sin);
+  for (std::size_t group = 0; group < points_.count; group += kLanes)
+  {
+    const FloatLanes toward = LoadLanes(&points_.x[group]) * box.normal_x + LoadLanes(&points_.y[group]) * box.normal_y;
+    for (unsigned rest = LaneMask(toward >= box.distance) & seen_.Group(group); rest != 0; rest &= rest - 1)
+    {
+      const std::size_t i = group + static_cast<unsigned>(__builtin_ctz(rest));
+      if (points_.owner[i] == box.entity) continue;
+      const float x = points_.x[i];
+      const float y = points_.y[i];
+      float enter = 0, leave = 1;
+      ClipSlab(box.x, cosine * x + sine * y, -box.half_x, box.half_x, enter, leave);
+      ClipSlab(box.y, cosine * y - sine * x, -box.half_y, box.half_y, enter, leave);
+      ClipSlab(0, points_.z[i], box.low, box.high, enter, leave);
+      if (enter <= leave) seen_.Hide(i);
+    }
+  }
+}
+
+bool SightLines::HiddenByOthers(std::size_t point) const
+{
+  const CSwarmanoidSpace& space = world_.Space();
+  const auto owner = static_cast<std::uint32_t>(points_.owner[point]);
+  const Vector3 target = eye_ + Vector3(points_.x[point], points_.y[point], points_.z[point]);
+  const auto hides = [&](std::uint32_t body)
+  { return body != owner && SegmentHit(world_.Body(body), space.GetPose(body), eye_, target).has_value(); };
+  for (const std::uint32_t body : tilted_)
+    if (hides(body)) return true;
+  if (owner == kNobody) return false;
+  for (const std::uint32_t body : foreign_)
+    if (world_.Membership().ShareEngine(owner, body) && hides(body)) return true;
+  return false;
+}
+
+bool SightLines::HiddenByTerrain(std::size_t point) const
+{
+  const auto owner = static_cast<std::uint32_t>(points_.owner[point]);
+  const Vector3 way(points_.x[point], points_.y[point], points_.z[point]);
+  const auto hides = [&](std::uint32_t terrain)
+  {
+    return world_.CanHideFrom(observer_, terrain) ||
+           (owner != kNobody && world_.Membership().ShareEngine(owner, terrain));
+  };
+  // What lies on the ground, as spots of lasers, is not hidden by it.
+  constexpr double kOnGround = 0.005;  // m
+  const double length = way.norm();
+  return world_.Terrain().FirstHit(eye_, eye_ + way, hides) * length < length - kOnGround;
+}
+
+}  // namespace swarmanoid

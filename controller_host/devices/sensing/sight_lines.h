@@ -1,0 +1,92 @@
+// What an observer sees of some points: exact lines of sight against the bodies around and the terrain, many at a
+// time. They hide what lies behind them where they share an engine with the observer or with the owner of the point;
+// nobody hides himself.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "controller_host/devices/sensing/disc_field.h"
+#include "controller_host/devices/sensing/sensor_world.h"
+
+namespace swarmanoid
+{
+
+class SightLines
+{
+public:
+  static constexpr std::uint32_t kNobody = 0xffffffff;
+
+  // `reach`: how far points usually lie from the eye in the xy plane, m.
+  SightLines(const SensorWorld& world, double reach);
+
+  // Starts anew: an eye of `observer`, for points within `reach` m in the xy plane. The world must be refreshed.
+  void LookFrom(std::uint32_t observer, const Vector3& eye, double reach);
+  // The movable bodies around the eye, without the observer: entity indices, and places in the order of the grid.
+  std::span<const std::int32_t> Around() const { return {near_.entity.data(), near_.count}; }
+  std::span<const std::int32_t> PlacesAround() const { return {near_.place.data(), near_.count}; }
+  // A point by its offset from the eye; `owner`: the entity that it is part of, or kNobody.
+  void AddPoint(const Vector3& offset, std::uint32_t owner)
+  {
+    const std::size_t i = points_.count++;
+    if (i + kLanes >= points_.x.size()) points_.Reserve(2 * i + 64);
+    points_.x[i] = static_cast<float>(offset.x());
+    points_.y[i] = static_cast<float>(offset.y());
+    points_.z[i] = static_cast<float>(offset.z());
+    points_.owner[i] = static_cast<std::int32_t>(owner);
+  }
+  // Instead of adding points: one on each movable body around the eye, in the order of Around(), at its origin moved by
+  // the height of the eye above the origin of the observer. For worlds without tilted bodies.
+  void LookAtBodiesAround();
+  // Where callers put many points at once.
+  SightPoints& Points() { return points_; }
+  // For each point, in the order of AddPoint, whether it is seen. Valid until the next LookFrom.
+  const SeenPoints& Solve();
+
+private:
+  // An upright box, relative to the eye.
+  struct Box
+  {
+    Heading heading;
+    float x, y;  // of the eye in the frame of the box
+    float half_x, half_y, low, high;
+    float normal_x, normal_y, distance;  // of a side that faces the eye: lines that do not reach its plane pass
+    std::int32_t entity;
+  };
+
+  void FindHeights();
+  void FindOutline();
+  void CollectBodies();
+  bool IsOutside(std::size_t near);
+  void AddBody(std::uint32_t body, bool upright);
+  void AddBox(std::uint32_t body);
+  void HideBehindBox(const Box& box);
+  bool HiddenByOthers(std::size_t point) const;
+  bool HiddenByTerrain(std::size_t point) const;
+
+  const SensorWorld& world_;
+  FixedBodies fixed_;
+  double usual_reach_;
+
+  std::uint32_t observer_ = 0;
+  Vector3 eye_ = Vector3::Zero();
+  double reach_ = 0;
+  NearBodies near_;
+  SightPoints points_;
+  bool are_origins_ = false;  // the points are those of LookAtBodiesAround
+  SeenPoints seen_;
+
+  NearBodies discs_;  // upright cylinders that hide things from the observer, where not all that are near do
+  DiscField field_;
+  // Of the points and the eye.
+  float lowest_ = 0, highest_ = 0;
+  bool has_outline_ = false;
+  float left_ = 0, right_ = 0, back_ = 0, front_ = 0;
+  std::vector<Box> boxes_;
+  std::vector<std::uint32_t> tilted_;   // tested one by one
+  std::vector<std::uint32_t> foreign_;  // hide only what shares an engine with them, tested one by one
+  std::vector<std::uint32_t> stamps_;
+  std::uint32_t stamp_ = 0;
+};
+
+}  // namespace swarmanoid

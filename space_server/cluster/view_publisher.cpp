@@ -1,0 +1,119 @@
+#include "space_server/cluster/view_publisher.h"
+
+#include <algorithm>
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+
+constexpr double kMostViews = 30;  // a second
+constexpr auto kStatusPeriod = 100ms;
+constexpr auto kRequestTime = 3s;  // after which a request that is not repeated is void
+
+ViewPublisher::Clock::duration Period(double rate)
+{
+  return std::chrono::duration_cast<ViewPublisher::Clock::duration>(std::chrono::duration<double>(1 / rate));
+}
+
+}  // namespace
+
+ViewPublisher::ViewPublisher(ServerSession& session, std::function<void()> woken)
+    : session_(session),
+      woken_(std::move(woken)),
+      views_(session.GetBus(), session.World().experiment),
+      statuses_(session.GetBus(), session.World().experiment),
+      requests_in_(std::make_unique<Subscription<ViewRequestMessage>>(
+          session.GetBus(), session.World().experiment, [this](const ViewRequestMessage& w) { Requested(w); }))
+{
+  view_.run = status_.run = session.World().run;
+}
+
+ViewPublisher::~ViewPublisher() { requests_in_.reset(); }
+
+void ViewPublisher::Requested(const ViewRequestMessage& request)
+{
+  if (request.run != session_.World().run) return;
+  {
+    const std::lock_guard lock(mutex_);
+    Request& client_request = requests_[request.client];
+    const bool same = client_request.views == request.views;
+    client_request = {request.views, Clock::now()};
+    if (same) return;
+  }
+  woken_();
+}
+
+void ViewPublisher::Lost(const std::string& process)
+{
+  const std::lock_guard lock(mutex_);
+  requests_.erase(process);
+}
+
+// The pace of the one who asks for most. Readers that have sent no request get the most there is.
+ViewPublisher::Clock::duration ViewPublisher::ViewPeriod(Clock::time_point now) const
+{
+  const std::lock_guard lock(mutex_);
+  double rate = 0;
+  unsigned viewers = 0;
+  for (const auto& [client, client_request] : requests_)
+  {
+    if (now - client_request.heard < kRequestTime) rate = std::max(rate, client_request.views);
+    if (client_request.views > 0) ++viewers;
+  }
+  if (viewers_ > viewers) rate = kMostViews;
+  if (rate <= 0) return 1h;
+  return std::max(Period(std::min(rate, kMostViews)), shortest_period_);
+}
+
+bool ViewPublisher::ViewIsDue(std::uint64_t tick, Clock::time_point now)
+{
+  const unsigned readers = views_.Readers();
+  const bool newcomers = readers > viewers_;
+  viewers_ = readers;
+  if (readers == 0) return false;
+  if (newcomers) return true;
+  if (tick == viewed_tick_ && !changed_) return false;
+  return now >= viewed_ + ViewPeriod(now);
+}
+
+void ViewPublisher::SendView(SpaceSnapshot& snapshot, Clock::time_point now)
+{
+  std::swap(view_.snapshot, snapshot);
+  views_.Write(view_);
+  std::swap(view_.snapshot, snapshot);
+  changed_ = false;
+  viewed_tick_ = snapshot.tick;
+  viewed_ = now;
+  // At most a tenth of the time goes into views.
+  shortest_period_ = 10 * (Clock::now() - now);
+}
+
+bool ViewPublisher::StatusIsDue(RunStatus::Phase phase, Clock::time_point now)
+{
+  const unsigned readers = statuses_.Readers();
+  const bool newcomers = readers > status_readers_;
+  status_readers_ = readers;
+  if (readers == 0) return false;
+  return newcomers || phase != said_phase_ || now >= said_ + kStatusPeriod;
+}
+
+void ViewPublisher::SendStatus(const RunStatus& status, Clock::time_point now)
+{
+  status_.status = status;
+  statuses_.Write(status_);
+  said_phase_ = status.phase;
+  said_ = now;
+}
+
+ViewPublisher::Clock::time_point ViewPublisher::Next() const
+{
+  Clock::time_point next = Clock::time_point::max();
+  if (viewers_ > 0) next = viewed_ + ViewPeriod(Clock::now());
+  if (status_readers_ > 0) next = std::min(next, said_ + kStatusPeriod);
+  return next;
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,75 @@
+// ViewPublisher: sends views to those who watch the run from outside it. They get the whole state at the pace that they
+// ask for, and how the run goes; they never slow it. Requests come in threads of the bus; all else is called by the
+// main thread of the space_server program.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "common/bus/server_session.h"
+#include "space_server/space_server.h"
+
+namespace swarmanoid
+{
+
+class ViewPublisher
+{
+public:
+  using Clock = std::chrono::steady_clock;
+
+  // `woken`: called in a thread of the bus when somebody asks for something else.
+  ViewPublisher(ServerSession& session, std::function<void()> woken);
+  ~ViewPublisher();
+
+  // Views. A view is due when somebody has come, or it is time and there is something new at `tick`.
+  bool ViewIsDue(std::uint64_t tick, Clock::time_point now);
+  void SendView(SpaceSnapshot& snapshot, Clock::time_point now);
+  // The state changed though the tick is the same.
+  void Renew() { changed_ = true; }
+
+  // RunStatus. `phase`: as it would be told.
+  bool StatusIsDue(RunStatus::Phase phase, Clock::time_point now);
+  void SendStatus(const RunStatus& status, Clock::time_point now);
+
+  // When one of them may be due.
+  Clock::time_point Next() const;
+  // A process is lost or has left.
+  void Lost(const std::string& process);
+
+private:
+  struct Request
+  {
+    double views = 0;
+    Clock::time_point heard;
+  };
+
+  void Requested(const ViewRequestMessage& request);
+  Clock::duration ViewPeriod(Clock::time_point now) const;
+
+  ServerSession& session_;
+  std::function<void()> woken_;
+  mutable std::mutex mutex_;
+  std::map<std::string, Request> requests_;  // by client
+
+  Publisher<ViewMessage> views_;
+  ViewMessage view_;
+  bool changed_ = true;
+  unsigned viewers_ = 0;
+  std::uint64_t viewed_tick_ = 0;
+  Clock::time_point viewed_;
+  Clock::duration shortest_period_{};
+
+  Publisher<RunStatusMessage> statuses_;
+  RunStatusMessage status_;
+  unsigned status_readers_ = 0;
+  RunStatus::Phase said_phase_ = RunStatus::Phase::kUnknown;
+  Clock::time_point said_;
+
+  std::unique_ptr<Subscription<ViewRequestMessage>> requests_in_;
+};
+
+}  // namespace swarmanoid

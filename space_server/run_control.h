@@ -1,0 +1,96 @@
+// RunControl: what users ask of a running experiment, and when the next tick may start: pause, resume, step, speed,
+// stop, move, add, remove. What changed the experiment from outside is written down and can be done again in another
+// run. Requests come from any thread; all else is called by the thread that paces the run, in a cluster the main thread
+// of the space_server program.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/messages/control_request.h"
+#include "space_server/event_log.h"
+#include "space_server/space_server.h"
+
+namespace swarmanoid
+{
+
+struct RunControlSetup
+{
+  bool paused = false;                  // at first
+  double real_time_factor = 0;          // 0: as fast as possible
+  std::string event_log;                // file for what users ask; empty: none
+  std::vector<RecordedEvent> repeated;  // of an earlier run, to be done again
+};
+
+class RunControl
+{
+public:
+  using Clock = std::chrono::steady_clock;
+  // Called with what came of a request, by the thread that paces the run.
+  using Answer =
+      std::function<void(const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)>;
+
+  struct Decision
+  {
+    bool go = false;
+    std::uint64_t until = 0;               // with go: hold before this tick is sent; 0: run on
+    std::optional<Clock::time_point> due;  // without go: when it will be time, unless paused
+  };
+
+  RunControl(const Experiment& experiment, RunControlSetup setup, Answer answer);
+
+  // From any thread: a request has come.
+  void Ask(const ControlRequestMessage& request);
+
+  // The first tick may start.
+  void Start(std::uint64_t tick, Clock::time_point now);
+  // The run is to hold before the next state is sent: requests wait, or somebody sets the pace.
+  bool WantsHold() const;
+  // Carries out what was asked; the server is between two ticks. Throws ConfigurationError where an event of an earlier
+  // run cannot be repeated.
+  void Work(SpaceServer& server);
+  Decision Decide(std::uint64_t tick, Clock::time_point now);
+  // The run is to end at its tick. `who` asked for it, for the log of events.
+  void Stop(const std::string& who);
+  // The run ends at `tick` already, because a visualiser of it asked.
+  void Stopped(std::uint64_t tick, const std::string& who);
+  bool Paused() const { return paused_ && !stop_; }
+  double Speed() const { return real_time_factor_; }
+  // "stopped by <who>", empty unless somebody asked for the end.
+  const std::string& WhyStopped() const { return why_stopped_; }
+  // Answers those who still wait for a step.
+  void Ended(std::uint64_t tick);
+
+private:
+  void Repeat(SpaceServer& server);
+  void Carry(const ControlRequestMessage& request, SpaceServer& server);
+  // Moves, adds or removes an entity, and says so. Throws std::invalid_argument.
+  void Change(const ControlRequestMessage& request, SpaceServer& server);
+  void DropStep(std::uint64_t tick, const char* why);
+  void SetPace(std::uint64_t tick, Clock::time_point now);
+
+  const Experiment& experiment_;
+  Answer answer_;
+  EventLog event_log_;
+  std::vector<RecordedEvent> repeated_;
+  std::size_t next_repeated_ = 0;
+  mutable std::mutex mutex_;
+  std::vector<ControlRequestMessage> requests_;
+
+  bool paused_;
+  bool stop_ = false;
+  std::optional<std::string> stop_unlogged_;  // who asked
+  std::string why_stopped_;
+  double real_time_factor_;
+  std::uint64_t pause_at_ = 0;  // tick at which a step ends; 0: none
+  std::optional<ControlRequestMessage> step_;
+  bool pace_changed_ = false;
+  std::uint64_t pace_tick_ = 0;
+  Clock::time_point pace_start_;
+};
+
+}  // namespace swarmanoid
