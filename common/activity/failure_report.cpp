@@ -84,7 +84,7 @@ void CallLast(std::string_view line, int exit_code)
   if (const LastCall call = last_call.exchange(nullptr)) call(line, exit_code);
 }
 
-void Report(std::string_view what, bool of_activity, int exit_code = kExitFailed)
+void Report(std::string_view what, bool of_activity, int exit_code = kExitProcessFailed)
 {
   const pid_t thread = static_cast<pid_t>(syscall(SYS_gettid));
   pid_t nobody = 0;
