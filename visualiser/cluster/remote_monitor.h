@@ -38,10 +38,12 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
   void SendWishes();
+  void Heard(const RobotStatusMessage& message);
 
   Bus& bus_;
   std::string partition_;
   std::uint64_t run_;
+  std::size_t entities_;  // of the space
   WishesMessage wishes_;
   Clock::time_point wished_{};
 
