@@ -119,6 +119,7 @@ TEST(WebMessages, WatchedEntitiesShowTheirAttributes)
 // JSON has no word for numbers that are not finite.
 TEST(WebMessages, ReadingsMayBeAnyNumber)
 {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   class Monitor : public RunMonitor
   {
   public:
@@ -128,7 +129,6 @@ TEST(WebMessages, ReadingsMayBeAnyNumber)
     const RobotStatus* Robot(std::uint32_t) override { return &robot_; }
 
   private:
-    static constexpr double kInfinity = std::numeric_limits<double>::infinity();
     RunStatus status_;
     RobotStatus robot_{.controller = "c",
                        .text = {},
