@@ -144,8 +144,10 @@ private:
 
   Message* PlaceOf(const MessageHeader& header)
   {
+    if (header.run != session_.World().run) return nullptr;
+    limits_.template CheckSource<Message>(header);
     const std::size_t other = OtherOf(header);
-    if (header.run != session_.World().run || other == sources_.size()) return nullptr;
+    if (other == sources_.size()) return nullptr;
     const std::lock_guard lock(mutex_);
     return gate_.Offer(1 + other, header.tick) == TickGate::Verdict::kExpected ? calls_.place(other, header.tick)
                                                                                : nullptr;

@@ -113,6 +113,18 @@ void TickLimits::Check(const SpaceSnapshot& snapshot) const
   CheckLength("attributes", snapshot.attributes.size(), slots_);
 }
 
+template <>
+void TickLimits::CheckSource<ControlCommands>(const MessageHeader& header) const
+{
+  OfSource(command_values_, header.source);
+}
+
+template <>
+void TickLimits::CheckSource<SensorFrame>(const MessageHeader& header) const
+{
+  OfSource(sensor_values_, header.source);
+}
+
 // They ascend: the last one is the largest.
 void TickLimits::CheckSlots(const AttributeChanges& changes) const
 {

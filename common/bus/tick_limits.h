@@ -31,6 +31,9 @@ public:
   void Check(const MessageHeader& header, const EngineUpdate& update) const;
   void Check(const MessageHeader& header, const SensorFrame& frame) const;
   void Check(const SpaceSnapshot& snapshot) const;
+  // The same for who sends a message of that kind, before it is read.
+  template <class Message>
+  void CheckSource(const MessageHeader& header) const;
 
 private:
   void CheckSlots(const AttributeChanges& changes) const;

@@ -1,6 +1,8 @@
 // A program that does not belong to the run writes to all of its topics: what is malformed, or is not what the
 // experiment makes of a message, changes nothing.
 #include <csignal>
+#include <filesystem>
+#include <limits>
 #include <mutex>
 #include <random>
 
@@ -9,6 +11,7 @@
 #include "common/bus/control_client.h"
 #include "tests/cluster/cluster_fixture.h"
 #include "tests/unit/bus/stranger.h"
+#include "visualiser/cluster/remote_monitor.h"
 
 namespace swarmanoid
 {
@@ -43,6 +46,41 @@ protected:
     return payloads;
   }
 
+  // The world of the run on this bus, once it is heard.
+  static std::optional<WorldMessage> WorldOn(Bus& bus, const std::string& experiment)
+  {
+    std::mutex mutex;
+    std::optional<WorldMessage> world;
+    const Subscription<WorldMessage> worlds(bus, experiment,
+                                            [&](const WorldMessage& heard)
+                                            {
+                                              const std::lock_guard lock(mutex);
+                                              if (!world) world = heard;
+                                            });
+    for (int k = 0; k < 20000; ++k, std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+    {
+      const std::lock_guard lock(mutex);
+      if (world) return world;
+    }
+    return std::nullopt;
+  }
+
+  static std::size_t Count(const std::string& text, const std::string& part)
+  {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+    return count;
+  }
+
+  // Each is told, and only once of a sender.
+  static void ExpectTold(const std::string& output, const std::vector<std::string>& topics)
+  {
+    for (const std::string& topic : topics)
+      EXPECT_EQ(Count(output, fmt::format("dropped a bad {} message of an unknown process", topic)), 1U)
+          << topic << "\n"
+          << output;
+  }
+
   std::mt19937 random_{1};
 };
 
@@ -54,31 +92,19 @@ TEST_F(StrangersTest, DoNotChangeARunByBadMessages)
   BusOptions options;
   options.domain = domain_.Id();
   Bus bus(options, "test");
-  std::mutex mutex;
-  std::optional<WorldMessage> world;
-  Subscription<WorldMessage> worlds(bus, "strangers",
-                                    [&](const WorldMessage& heard)
-                                    {
-                                      const std::lock_guard lock(mutex);
-                                      if (!world) world = heard;
-                                    });
-  ASSERT_TRUE(server.WaitForOutput("paused at tick 0")) << server.Output();
-  const auto run = [&]
-  {
-    const std::lock_guard lock(mutex);
-    return world ? world->run : 0;
-  };
-  for (int k = 0; k < 20000 && run() == 0; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  ASSERT_NE(run(), 0U);
+  ASSERT_TRUE(server.WaitForOutput("paused at tick 0", 30)) << server.Output();
+  const std::optional<WorldMessage> world = WorldOn(bus, "strangers");
+  ASSERT_TRUE(world.has_value());
+  const std::uint64_t run = world->run;
 
   test::Stranger stranger(domain_.Id(), "strangers");
-  for (const char* topic : {"SpaceState", "ControlCommands", "EngineUpdate", "Join", "ControlRequest", "Status",
-                            "Leave", "ViewRequest", "World"})
-    EXPECT_TRUE(stranger.Send(topic, Noise(run()))) << topic;
+  for (const char* topic :
+       {"SpaceState", "ControlCommands", "EngineUpdate", "Hello", "ControlRequest", "Status", "Bye", "Wishes", "World"})
+    EXPECT_TRUE(stranger.Send(topic, Noise(run))) << topic;
 
   // Well-formed, of this run and of the tick that is waited for, but not what the experiment makes of them.
-  const MessageHeader now{run(), 0, 0, false};
-  const MessageHeader later{run(), 1000000, 0, false};
+  const MessageHeader now{run, 0, 0, false};
+  const MessageHeader later{run, 1000000, 0, false};
   SpaceState short_state;
   short_state.poses = {1};
   SpaceState slot_state;
@@ -99,8 +125,8 @@ TEST_F(StrangersTest, DoNotChangeARunByBadMessages)
   ControlClient client(bus, "strangers");
   workers[0].Signal(SIGSTOP);
   client.Tell("resume", "", {});
-  const MessageHeader next{run(), 1, 0, false};
-  const MessageHeader nobody{run(), 1, 77, false};
+  const MessageHeader next{run, 1, 0, false};
+  const MessageHeader nobody{run, 1, 77, false};
   EngineUpdate update;
   update.poses = {1};
   EngineUpdate slot;
@@ -116,15 +142,101 @@ TEST_F(StrangersTest, DoNotChangeARunByBadMessages)
   EXPECT_TRUE(dropped);
   workers[0].Signal(SIGCONT);
 
-  EXPECT_EQ(server.Wait(), 0) << server.Output();
-  for (ChildProcess& worker : workers) EXPECT_EQ(worker.Wait(), 0) << worker.Output();
+  EXPECT_EQ(server.Wait(60), 0) << server.Output();
+  for (ChildProcess& worker : workers) EXPECT_EQ(worker.Wait(10), 0) << worker.Output();
   EXPECT_EQ(Read("hashes.txt"), HashesOfSingleProcess(file));
   EXPECT_THAT(server.Output(), AllOf(HasSubstr("dropped a bad Status message of an unknown process"),
-                                     HasSubstr("dropped a bad Leave message of an unknown process")));
+                                     HasSubstr("dropped a bad Bye message of an unknown process")));
   EXPECT_THAT(workers[0].Output(), AllOf(HasSubstr("dropped a bad SpaceState message of an unknown process"),
                                          HasSubstr("dropped a bad ControlCommands message of an unknown process"),
                                          HasSubstr("dropped a bad World message of an unknown process")));
   EXPECT_THAT(workers[1].Output(), HasSubstr("dropped a bad SpaceState message of an unknown process"));
+}
+
+// Checkpoints, pictures that each tick waits for, sensors of an engine, and all that those hear who look on.
+TEST_F(StrangersTest, DoNotChangeARunThatIsWatchedByBadMessages)
+{
+  constexpr std::uint64_t kCheckpoint = 100;
+  const std::string file = WriteExperiment("watched", 1, kCheckpoint + 20, "<text_render id='table'/>");
+  const std::string output = folder_ + "/run";
+  ChildProcess server = StartServer(file, {"--paused", "--hash-log", folder_ + "/hashes.txt", "--checkpoint-every",
+                                           std::to_string(kCheckpoint), "--output", output});
+  std::vector<ChildProcess> workers = StartWorkers("watched", 1, 1);
+  workers.push_back(Start("visualiser", {"--experiment", "watched", "--render", "table", "--output", folder_}));
+  ASSERT_TRUE(server.WaitForOutput("paused at tick 0", 30)) << server.Output();
+  workers.push_back(Start("visualiser", {"--experiment", "watched", "--attach", "text", "--output", folder_}));
+  const std::size_t attached = workers.size() - 1;
+
+  testing::internal::CaptureStderr();
+  BusOptions options;
+  options.domain = domain_.Id();
+  Bus bus(options, "test");
+  const std::optional<WorldMessage> world = WorldOn(bus, "watched");
+  ASSERT_TRUE(world.has_value());
+  const std::uint64_t run = world->run;
+  RemoteMonitor monitor(bus, *world, false);
+  monitor.Status();
+  monitor.Notes();
+  const std::vector<std::uint32_t> robots{static_cast<std::uint32_t>(world->entities.size() - 1)};
+  monitor.Watch(robots);
+  ControlClient client(bus, "watched");
+
+  test::Stranger stranger(domain_.Id(), "watched");
+  const auto send = [&](const std::string& topic, const std::vector<std::string>& out_of_place, int readers = 1)
+  {
+    std::vector<std::string> payloads = Noise(run);
+    payloads.insert(payloads.end(), out_of_place.begin(), out_of_place.end());
+    EXPECT_TRUE(stranger.Send(topic, payloads, readers)) << topic;
+  };
+  const std::string engine = "engine 'e0'";
+  const std::vector<char> state(10, 'x');
+  send("SavedState", {PayloadOf(SavedStateMessage{run, 0, engine, state}),
+                      PayloadOf(SavedStateMessage{run, kCheckpoint / 2, engine, state}),
+                      PayloadOf(SavedStateMessage{run, 1000 * kCheckpoint, engine, state}),
+                      PayloadOf(SavedStateMessage{run, kCheckpoint, "nobody", state})});
+  send("Drawn", {PayloadOf(MessageHeader{run, 0, 77, false}, DrawnMessage{true})});
+  SensorFrame frame;
+  frame.values = {1};
+  send("SensorFrame", {PayloadOf(MessageHeader{run, 1, 77, false}, frame)});
+  ViewMessage view{run, {}};
+  view.snapshot.poses = {1};
+  send("View", {PayloadOf(view)});
+  RunStatusMessage status{run, {}};
+  status.status.phase = static_cast<RunStatus::Phase>(77);
+  RunStatusMessage fast{run, {}};
+  fast.status.real_time_factor = std::numeric_limits<double>::infinity();
+  send("RunStatus", {PayloadOf(status), PayloadOf(fast)});
+  RobotStatus nobody;
+  nobody.entity = 0x7fffffffU;
+  nobody.controller = "nobody";
+  send("RobotStatus", {PayloadOf(RobotStatusMessage{run, 1, 0, {nobody}})});
+  // Ours, and those of the visualisers.
+  send("ControlReply", {PayloadOf(ControlReplyMessage{"somebody", 7, true, 5, "paused"})}, 4);
+
+  // While the visualiser sleeps the server waits for its word.
+  workers[2].Signal(SIGSTOP);
+  const auto reply = client.Ask("resume", "", {}, 20);
+  ASSERT_TRUE(reply.has_value()) << server.Output();
+  EXPECT_TRUE(reply->ok) << reply->text;
+  std::string flags = PayloadOf(MessageHeader{run, 0, 0, false}, DrawnMessage());
+  flags.back() = '\x40';
+  EXPECT_TRUE(stranger.Send("Drawn", {flags}));
+  workers[2].Signal(SIGCONT);
+
+  EXPECT_EQ(server.Wait(60), 0) << server.Output();
+  for (ChildProcess& worker : workers) EXPECT_EQ(worker.Wait(20), 0) << worker.Output();
+  const std::string heard = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(Read("hashes.txt"), HashesOfSingleProcess(file));
+  EXPECT_TRUE(std::filesystem::exists(output + "/checkpoint-00000100"));
+  EXPECT_FALSE(std::filesystem::exists(output + "/checkpoint-00000000"));
+  ExpectTold(server.Output(), {"SavedState", "Drawn"});
+  ExpectTold(workers[1].Output(), {"SensorFrame"});
+  ExpectTold(workers[attached].Output(), {"View", "ControlReply"});
+  ExpectTold(heard, {"RunStatus", "RobotStatus", "ControlReply"});
+  // What is noise, and what is out of place; two of us hear the replies.
+  constexpr std::uint64_t kNoise = 21;
+  EXPECT_EQ(bus.Dropped(), 2 * kNoise + (kNoise + 1) + (kNoise + 2));
+  EXPECT_NE(monitor.Status().phase, static_cast<RunStatus::Phase>(77));
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -112,6 +114,35 @@ TEST(WebMessages, WatchedEntitiesShowTheirAttributes)
   EXPECT_EQ(json["entities"][0]["entity"], 0);
   EXPECT_EQ(json["entities"][0]["attributes"]["gripper_aperture"], nlohmann::json({0.5}));
   EXPECT_EQ(json["entities"][0]["attributes"]["led"].size(), 12u);
+}
+
+// JSON has no word for numbers that are not finite.
+TEST(WebMessages, ReadingsMayBeAnyNumber)
+{
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  class Monitor : public RunMonitor
+  {
+  public:
+    const RunStatus& Status() override { return status_; }
+    std::span<const RunNote> Notes() override { return {}; }
+    void Watch(std::span<const std::uint32_t>) override {}
+    const RobotStatus* Robot(std::uint32_t) override { return &robot_; }
+
+  private:
+    RunStatus status_;
+    RobotStatus robot_{.controller = "c",
+                       .text = {},
+                       .state = {},
+                       .sensors = {{"eyebot_altitude",
+                                    {{"ground", "m", kInfinity}, {"drift", "rad", std::nan("")}, {"sum", "", 1.5}}}},
+                       .actuators = {{"footbot_wheels", {{"left", "rad/s", -kInfinity}}}}};
+  };
+  const FourEntities world;
+  const std::vector<std::uint32_t> watched{0};
+  Monitor monitor;
+  const auto json = nlohmann::json::parse(WatchedText(world.space, watched, &monitor))["entities"][0];
+  EXPECT_EQ(json["sensors"][0]["values"], nlohmann::json({nullptr, nullptr, 1.5}));
+  EXPECT_EQ(json["actuators"][0]["values"], nlohmann::json::array({nullptr}));
 }
 
 }  // namespace

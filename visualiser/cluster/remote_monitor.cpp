@@ -1,5 +1,7 @@
 #include "visualiser/cluster/remote_monitor.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace swarmanoid
@@ -15,7 +17,7 @@ constexpr auto kRenewRequests = 1s;
 }  // namespace
 
 RemoteMonitor::RemoteMonitor(Bus& bus, const WorldMessage& world, bool every_tick)
-    : bus_(bus), partition_(world.experiment), run_(world.run)
+    : bus_(bus), partition_(world.experiment), run_(world.run), entities_(world.entities.size())
 {
   requests_.client = ProcessId();
   requests_.run = world.run;
@@ -65,10 +67,7 @@ void RemoteMonitor::Watch(std::span<const std::uint32_t> robots)
     robots_in_ = std::make_unique<Subscription<RobotStatusMessage>>(bus_, partition_,
                                                                     [this](const RobotStatusMessage& message)
                                                                     {
-                                                                      if (message.run != run_) return;
-                                                                      const std::lock_guard lock(mutex_);
-                                                                      for (const RobotStatus& robot : message.robots)
-                                                                        heard_robots_[robot.entity] = robot;
+                                                                      if (message.run == run_) Heard(message);
                                                                     });
   // What was heard of robots that were left alone for a while is old.
   const auto unwatched = [&](const auto& robot) { return std::ranges::find(robots, robot.first) == robots.end(); };
@@ -78,6 +77,15 @@ void RemoteMonitor::Watch(std::span<const std::uint32_t> robots)
   }
   std::erase_if(robots_, unwatched);
   SendRequests();
+}
+
+void RemoteMonitor::Heard(const RobotStatusMessage& message)
+{
+  for (const RobotStatus& robot : message.robots)
+    if (robot.entity >= entities_)
+      throw BadMessage(fmt::format("robots.entity: there is no entity {} of {}", robot.entity, entities_));
+  const std::lock_guard lock(mutex_);
+  for (const RobotStatus& robot : message.robots) heard_robots_[robot.entity] = robot;
 }
 
 const RobotStatus* RemoteMonitor::Robot(std::uint32_t robot)

@@ -87,15 +87,22 @@ std::optional<EntityValue> FindValue(const std::vector<ValueGroup>& groups, cons
   return std::nullopt;
 }
 
+std::optional<std::uint32_t> WholeNumber(double value, std::uint32_t most)
+{
+  if (!(value >= 0 && value <= most)) return std::nullopt;
+  return static_cast<std::uint32_t>(value);
+}
+
 std::string ValueText(const CSwarmanoidSpace& space, const EntityValue& value)
 {
   if (value.unit == "yes/no") return value.value != 0 ? "yes" : "no";
   if (value.unit == "colour")
-    return value.value == 0 ? "off" : fmt::format("#{:06x}", static_cast<std::uint32_t>(value.value));
+    if (const auto colour = WholeNumber(value.value, 0xffffff))
+      return *colour == 0 ? "off" : fmt::format("#{:06x}", *colour);
   if (value.unit == "entity")
   {
-    const auto number = static_cast<std::size_t>(value.value);
-    return number == 0 || number > space.Size() ? "none" : space.GetEntity(number - 1).GetId();
+    const auto number = WholeNumber(value.value, static_cast<std::uint32_t>(space.Size()));
+    return number.value_or(0) == 0 ? "none" : space.GetEntity(*number - 1).GetId();
   }
   // No minus sign before zeros.
   const double shown = std::abs(value.value) < 5e-4 ? 0 : value.value;

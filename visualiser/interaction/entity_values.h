@@ -2,6 +2,7 @@
 // has a name by which it is found again at a later tick, for plots.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,7 +59,11 @@ struct ValueName
 // nullopt where the groups do not have it (now).
 std::optional<EntityValue> FindValue(const std::vector<ValueGroup>& groups, const ValueName& name);
 
-// "0.123 m", "yes", "#ff0000", the id of an entity.
+// A number that stands for a colour or an entity, up to `most`; nullopt where it is none of them. Readings of
+// controllers may be any number: an infinite one is a range without an echo.
+std::optional<std::uint32_t> WholeNumber(double value, std::uint32_t most);
+
+// "0.123 m", "inf m", "yes", "#ff0000", the id of an entity.
 std::string ValueText(const CSwarmanoidSpace& space, const EntityValue& value);
 
 }  // namespace swarmanoid

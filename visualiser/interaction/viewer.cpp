@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "common/logging/log.h"
@@ -352,7 +353,7 @@ void Viewer::StateCame()
   {
     const std::uint32_t entity = plot.value.entity;
     const auto value = FindValue(ValuesOf(Space(), entity, Motion(entity), Robot(entity)), plot.value);
-    if (value) plot.history.Add(time, value->value);
+    if (value && std::isfinite(value->value)) plot.history.Add(time, value->value);
   }
 
   if (!follows || !shown.scene.selected) return;

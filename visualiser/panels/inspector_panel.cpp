@@ -18,7 +18,7 @@ constexpr std::size_t kManyValues = 7;  // from here on bars instead of lines
 
 ImU32 ColourOf(double value)
 {
-  const auto rgb = static_cast<std::uint32_t>(value);
+  const std::uint32_t rgb = WholeNumber(value, 0xffffff).value_or(0);
   return rgb == 0 ? IM_COL32(214, 219, 225, 255) : IM_COL32((rgb >> 16) & 255, (rgb >> 8) & 255, rgb & 255, 255);
 }
 
@@ -219,6 +219,7 @@ void Panels::ShowBars(std::uint32_t entity, const ValueGroup& group)
   double high = 0;
   for (const EntityValue& value : group.values)
   {
+    if (!std::isfinite(value.value)) continue;
     low = std::min(low, value.value);
     high = std::max(high, value.value);
   }
@@ -243,8 +244,9 @@ void Panels::ShowBars(std::uint32_t entity, const ValueGroup& group)
     const EntityValue& value = group.values[i];
     const float x = corner.x + step * static_cast<float>(i);
     const bool plotted = viewer_.IsPlotted({entity, group.source, group.name, value.name});
-    const float top = std::min(y_of(value.value), y_of(0));
-    const float bottom = std::max(y_of(value.value), y_of(0)) + 1;
+    const double end = std::isnan(value.value) ? 0 : std::clamp(value.value, low, high);
+    const float top = std::min(y_of(end), y_of(0));
+    const float bottom = std::max(y_of(end), y_of(0)) + 1;
     draw.AddRectFilled(ImVec2(x + 1, top), ImVec2(x + std::max(step - 1, 2.0F), bottom),
                        plotted ? theme::kWarning : theme::kAccent);
     const float mouse = ImGui::GetIO().MousePos.x;

@@ -1,10 +1,15 @@
 #include "launcher/run_folder.h"
 
 #include <gmock/gmock.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "common/activity/failure_report.h"
+#include "launcher/manifest_at_death.h"
 
 namespace swarmanoid
 {
@@ -85,6 +90,33 @@ TEST(Manifest, HoldsWhatIsKnown)
   EXPECT_THAT(text, HasSubstr("\"seed\": 7"));
   EXPECT_THAT(text, HasSubstr("\"state_hash\": \"00000000000000ff\""));
   EXPECT_THAT(text, testing::Not(HasSubstr("exit_code")));
+}
+
+// By a signal handler, which has no JSON library.
+TEST_F(RunFolderTest, AProcessThatDiesCompletesItsManifest)
+{
+  const RunFolder folder("mine", "world");
+  Manifest manifest;
+  manifest.experiment = "world";
+  manifest.started = TimeStamp();
+  folder.Write("manifest.json", manifest.Text());
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    const ManifestAtDeath at_death(folder, manifest);
+    DieOf("said \"no\" \\ \x01 \xff \xed\xa0\x80 \xc3\xbc");
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(WEXITSTATUS(status), 4);
+  std::ifstream file(folder.File("manifest.json"));
+  const auto json = nlohmann::json::parse(file);
+  EXPECT_EQ(json["experiment"], "world");
+  EXPECT_EQ(json["exit_code"], 4);
+  EXPECT_EQ(json["failure"], "swarmanoid said \"no\" \\   ? ??? \xc3\xbc at tick 0");
+  EXPECT_GE(json["ended"], manifest.started);
+  EXPECT_EQ(json["ended"].get<std::string>().size(), manifest.started.size());
+  EXPECT_FALSE(fs::exists(folder.File("manifest.json.last")));
 }
 
 }  // namespace

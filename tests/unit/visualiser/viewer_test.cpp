@@ -1,6 +1,9 @@
 // What a person does at a window, without the window: keys, mouse, selection, filter, plots, requests to the run.
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <limits>
+
 #include "common/configuration/xml_reader.h"
 #include "common/plugins/catalogue.h"
 #include "tests/unit/visualiser/small_world.h"
@@ -334,6 +337,21 @@ TEST_F(ViewerTest, ValuesReadAsPeopleReadThem)
   EXPECT_EQ(text("led 4"), "off");
   EXPECT_EQ(text("gripped"), "stone");
   EXPECT_EQ(text("turret angle"), "0.000 rad");
+}
+
+TEST_F(ViewerTest, ReadingsMayBeAnyNumber)
+{
+  Make();
+  const auto text = [&](double value, const std::string& unit) { return ValueText(world_.Space(), {"", unit, value}); };
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(text(kInfinity, "m"), "inf m");
+  EXPECT_EQ(text(-kInfinity, ""), "-inf");
+  EXPECT_EQ(text(std::nan(""), "rad"), "nan rad");
+  for (const double none : {kInfinity, std::nan(""), -1.0, 1e300, 4294967296.0})
+  {
+    EXPECT_EQ(text(none, "entity"), "none") << none;
+    EXPECT_THAT(text(none, "colour"), testing::EndsWith(" colour")) << none;
+  }
 }
 
 }  // namespace

@@ -177,7 +177,7 @@ class Card {
   }
 
   value(section, name, unit, key, time, value) {
-    const shown = unit === "rad" ? value * DEGREES : value;
+    const shown = unit === "rad" && value !== null ? value * DEGREES : value; // null: infinite, or not a number
     const row = this.row(section, name, unit === "colour" || unit === "yes/no" ? null : unit === "rad" ? "°" : unit, key);
     if (unit === "colour") row.colours([value]);
     else if (unit === "yes/no") row.text(value ? "yes" : "no");
