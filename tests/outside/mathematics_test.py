@@ -1,13 +1,15 @@
 """What a controller computes with <cmath> and <complex> has the same bits however the experiment is started, on any processor."""
 import ctypes
 import os
-import random
+import pathlib
 import shutil
-import socket
 import subprocess
 import sys
 
 from outside import BUILT, PREFIX, WAYS, OutsideTest, main
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import free_domain as domains  # noqa: E402
 
 LIBRARY = BUILT / "controllers" / "liboutside_mathematics.so"
 # What changes the choice among the variants of libm, and when its functions are looked up.
@@ -23,17 +25,7 @@ SENSED_TICKS = 8
 
 
 def free_domain():
-    """A DDS domain whose discovery port nobody uses."""
-    domains = list(range(100, 160))
-    random.shuffle(domains)
-    for domain in domains:
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as test:
-            try:
-                test.bind(("", 7400 + 250 * domain))
-                return domain
-            except OSError:
-                pass
-    raise AssertionError("all DDS domains are in use")
+    return domains.free_domain(range(100, 160))
 
 
 class Mathematics(OutsideTest):

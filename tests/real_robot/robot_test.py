@@ -1,14 +1,15 @@
 """The robot program on a stand-in robot made with another vendor's DDS: the same controller libraries as in the simulator."""
-import contextlib
 import os
 import pathlib
-import random
 import shutil
 import signal
-import socket
 import subprocess
+import sys
 import tempfile
 import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import free_domain as domains  # noqa: E402
 
 BUILD = pathlib.Path(os.environ["SWARMANOID_BUILD"])
 SOURCE = pathlib.Path(os.environ["SWARMANOID_SOURCE"])
@@ -42,15 +43,7 @@ EXPERIMENT = """<ahss-config>
 
 
 def free_domain():
-    """A DDS domain whose discovery port nobody uses."""
-    domains = list(range(40, 99))
-    random.shuffle(domains)
-    for domain in domains:
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as test:
-            with contextlib.suppress(OSError):
-                test.bind(("", 7400 + 250 * domain))
-                return domain
-    raise AssertionError("all DDS domains are in use")
+    return domains.free_domain(range(40, 99))
 
 
 class StandIn:
