@@ -98,8 +98,8 @@ TEST_F(StrangersTest, DoNotChangeARunByBadMessages)
   const std::uint64_t run = world->run;
 
   test::Stranger stranger(domain_.Id(), "strangers");
-  for (const char* topic :
-       {"SpaceState", "ControlCommands", "EngineUpdate", "Hello", "ControlRequest", "Status", "Bye", "Wishes", "World"})
+  for (const char* topic : {"SpaceState", "ControlCommands", "EngineUpdate", "Join", "ControlRequest", "Status",
+                            "Leave", "ViewRequest", "World"})
     EXPECT_TRUE(stranger.Send(topic, Noise(run))) << topic;
 
   // Well-formed, of this run and of the tick that is waited for, but not what the experiment makes of them.
@@ -146,7 +146,7 @@ TEST_F(StrangersTest, DoNotChangeARunByBadMessages)
   for (ChildProcess& worker : workers) EXPECT_EQ(worker.Wait(10), 0) << worker.Output();
   EXPECT_EQ(Read("hashes.txt"), HashesOfSingleProcess(file));
   EXPECT_THAT(server.Output(), AllOf(HasSubstr("dropped a bad Status message of an unknown process"),
-                                     HasSubstr("dropped a bad Bye message of an unknown process")));
+                                     HasSubstr("dropped a bad Leave message of an unknown process")));
   EXPECT_THAT(workers[0].Output(), AllOf(HasSubstr("dropped a bad SpaceState message of an unknown process"),
                                          HasSubstr("dropped a bad ControlCommands message of an unknown process"),
                                          HasSubstr("dropped a bad World message of an unknown process")));

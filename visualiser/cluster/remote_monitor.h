@@ -29,23 +29,23 @@ public:
   // What was heard, without asking for it: kUnknown unless the renderer shows how the run goes.
   RunStatus::Phase KnownPhase();
   // Asks for this many states a second; 0: none.
-  void WishForViews(double views);
-  // To be called often: repeats the wishes in time.
-  void KeepWishes();
+  void RequestViews(double views);
+  // To be called often: repeats the request in time.
+  void RenewRequests();
   // The server has gone. `why` is shown unless it said that the run is finished.
   void RunIsOver(const std::string& why);
 
 private:
   using Clock = std::chrono::steady_clock;
-  void SendWishes();
+  void SendRequests();
   void Heard(const RobotStatusMessage& message);
 
   Bus& bus_;
   std::string partition_;
   std::uint64_t run_;
   std::size_t entities_;  // of the space
-  WishesMessage wishes_;
-  Clock::time_point wished_{};
+  ViewRequestMessage requests_;
+  Clock::time_point requested_{};
 
   std::mutex mutex_;  // of what the bus brings
   RunStatus heard_status_;
@@ -57,7 +57,7 @@ private:
   std::vector<RunNote> notes_;
   std::map<std::uint32_t, RobotStatus> robots_;
 
-  std::unique_ptr<Publisher<WishesMessage>> wishes_out_;
+  std::unique_ptr<Publisher<ViewRequestMessage>> requests_out_;
   std::unique_ptr<Subscription<RunStatusMessage>> statuses_in_;
   std::unique_ptr<Subscription<ControlReplyMessage>> replies_in_;
   std::unique_ptr<Subscription<RobotStatusMessage>> robots_in_;
