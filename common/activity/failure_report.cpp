@@ -191,7 +191,7 @@ void ReportDeaths(const std::string& process)
     std::set_terminate(OnTerminate);
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
     {
-      if (!kReportCrashes) break;
+      if (!kReportCrashes && signal != SIGABRT) continue;
       struct sigaction action
       {
       };

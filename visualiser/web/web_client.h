@@ -109,7 +109,7 @@ private:
     Bytes bytes = Next(binary);
     if (!bytes)
     {
-      if (closing_) Close();
+      if (closing_) SendClose();
       return;
     }
     writing_ = true;
@@ -145,7 +145,7 @@ private:
     return nullptr;
   }
 
-  void Close()
+  void SendClose()
   {
     open_ = false;
     stream_.async_close(websocket::close_code::going_away, [self = shared_from_this()](ErrorCode) { self->Gone(); });

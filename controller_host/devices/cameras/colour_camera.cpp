@@ -123,7 +123,7 @@ void ColourCamera::ExtractAll()
   Measure(seen_);
 
   std::size_t first = 0;
-  for (const Viewed& looked : viewed_)
+  for (const Viewed& viewed : viewed_)
   {
     Extract(viewed.k, seen_, first, viewed.behind);
     first = viewed.behind;

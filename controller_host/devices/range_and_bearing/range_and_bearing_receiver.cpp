@@ -98,7 +98,7 @@ private:
     bool is_sent = false;
   };
   // Where those heard by one robot end in the list of all.
-  struct Receiver
+  struct Reception
   {
     std::size_t k, behind;
   };
@@ -149,7 +149,7 @@ private:
     else
       heard_.Turn(first, space.GetPose(robot).orientation.toRotationMatrix().transpose());
 
-    receivers_.push_back({k, heard_.count});
+    receptions_.push_back({k, heard_.count});
     constexpr std::size_t kManyAtATime = 128;
     if (heard_.count >= kManyAtATime) Deliver();
   }
@@ -246,13 +246,13 @@ private:
   {
     heard_.Measure();
     std::size_t first = 0;
-    for (Receiver& receiver : receivers_)
+    for (const Reception& reception : receptions_)
     {
-      MakePackets(receivers_[receiver.k], first, receiver.behind);
-      if (has_noise_) AddNoise(receiver.k, first, receiver.behind);
-      first = receiver.behind;
+      MakePackets(receivers_[reception.k], first, reception.behind);
+      if (has_noise_) AddNoise(reception.k, first, reception.behind);
+      first = reception.behind;
     }
-    receivers_.clear();
+    receptions_.clear();
     heard_.count = 0;
   }
 
@@ -322,7 +322,7 @@ private:
   bool look_at_all_ = false;
   Vector3 antenna_ = Vector3::Zero();
   HeardSenders heard_;
-  std::vector<Receiver> receivers_;
+  std::vector<Reception> receptions_;
   std::vector<Receiver> receivers_;
 };
 
