@@ -1,11 +1,11 @@
-// node web_page.mjs URL PICTURE ROBOT COMMAND...: opens the page of web_render, selects a robot, has the command let the
-// run go on, and takes a picture after its last tick. Used by docs/pictures/make. Environment: PAGE_MODULES.
-import { execFileSync } from "node:child_process";
+// node web_page.mjs URL PICTURE ROBOT TICK COMMAND...: opens the page of web_render, selects a robot, has the command bring
+// the run to the tick, and takes a picture. Used by docs/pictures/make. Environment: PAGE_MODULES.
+import { spawn } from "node:child_process";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 
 const { chromium } = createRequire(join(process.env.PAGE_MODULES, "here.js"))("playwright-core");
-const [url, picture, robot, ...command] = process.argv.slice(2);
+const [url, picture, robot, tick, ...command] = process.argv.slice(2);
 
 const browser = await chromium.launch({
   executablePath: "/usr/bin/chromium",
@@ -19,8 +19,15 @@ await page.evaluate((id) => {
   swarmanoid.show("trails", true);
   swarmanoid.select(id);
 }, robot);
-execFileSync(command[0], command.slice(1));
-await page.waitForFunction(() => swarmanoid.phase === "finished");
-await page.waitForTimeout(1500);
+await page.waitForTimeout(5000); // until the arena fits between the panels
+// A drag turns the view to where the robot does not hide its prey, the wheel leaves room for what turns with it.
+await page.mouse.move(620, 640);
+await page.mouse.down();
+await page.mouse.move(576, 640, { steps: 8 });
+await page.mouse.up();
+await page.mouse.wheel(0, 60);
+spawn(command[0], command.slice(1), { stdio: "inherit" });
+await page.waitForFunction((last) => swarmanoid.tick === last, Number(tick), { timeout: 600000 });
+await page.waitForTimeout(3000);
 await page.screenshot({ path: picture });
 await browser.close();

@@ -1,7 +1,5 @@
 """Parameters of a stranger's controllers and experiment functions: what is misspelt or wrong is a mistake of the file, found
 before anything starts where they are declared, and after Init where they are not, with the same words in all ways."""
-import subprocess
-
 from outside import BUILT, PREFIX, WAYS, OutsideTest, main
 
 WHEELS = "<footbot_wheels><implementation>dummy_footbot_wheels</implementation></footbot_wheels>"
