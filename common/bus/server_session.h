@@ -6,12 +6,12 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/bus/bus.h"
+#include "common/bus/guarded.h"
 #include "common/bus/run_directory.h"
 
 namespace swarmanoid
@@ -75,24 +75,30 @@ private:
   };
   static constexpr std::size_t kRequestsKept = 256;
 
+  // What the threads of the bus and the server's own share.
+  struct State
+  {
+    std::map<std::string, Member> members;
+    std::map<std::string, std::string> attached;  // name by process
+    std::optional<std::string> failure;
+    std::deque<Request> requests_seen;
+    bool over = false;
+
+    Request* FindRequest(const ControlRequestMessage& request);
+    void Fail(const std::string& text);
+  };
+
   void Asked(const ControlRequestMessage& request);
-  Request* FindRequest(const ControlRequestMessage& request);
   void Joined(const HelloMessage& hello);
   void MemberLeft(const ByeMessage& bye);
   void Lost(const std::string& process, bool died);
   void Refuse(const HelloMessage& hello, const std::string& reason);
-  void Fail(const std::string& text);
   bool FailedBy(const BadMessageReport& report);
 
   WorldMessage world_;
   std::vector<std::string> expected_;
   Callbacks callbacks_;
-  mutable std::mutex mutex_;
-  std::map<std::string, Member> members_;
-  std::map<std::string, std::string> attached_;  // name by process
-  std::optional<std::string> failure_;
-  std::deque<Request> requests_seen_;
-  bool over_ = false;
+  Guarded<State> state_;
   RunDirectory directory_;
   Bus bus_;
   std::unique_ptr<Publisher<ByeMessage>> bye_;
