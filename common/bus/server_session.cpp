@@ -9,7 +9,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr double kLeaveTime_s = 1.0;
+constexpr double kByeTime_s = 1.0;
 
 // Two experiments of one name in one domain would hear each other.
 void RefuseSecondServer(const std::string& experiment, int domain)
@@ -32,7 +32,7 @@ ServerSession::ServerSession(const BusOptions& options, WorldMessage world, std:
                  world_.run),
       bus_(options, "space server")
 {
-  for (const std::string& name : expected_) members_[name];
+  for (const std::string& name : expected_) state_.Lock()->members[name];
   directory_.Announce(world_.experiment, options.domain);
   world_.host = MachineName();
   const std::string process = ProcessId();
@@ -40,7 +40,7 @@ ServerSession::ServerSession(const BusOptions& options, WorldMessage world, std:
   world_.spread = options.Spread();
 
   const std::string& partition = world_.experiment;
-  leave_ = std::make_unique<Publisher<LeaveMessage>>(bus_, partition);
+  bye_ = std::make_unique<Publisher<ByeMessage>>(bus_, partition);
   replies_ = std::make_unique<Publisher<ControlReplyMessage>>(bus_, partition);
   worlds_ = std::make_unique<Publisher<WorldMessage>>(bus_, partition);
 }
@@ -50,17 +50,17 @@ void ServerSession::Open()
   const std::string& partition = world_.experiment;
   bus_.OnProcessGone([this](const std::string& gone, const std::string&, bool died) { Lost(gone, died); });
   bus_.OnBadMessage([this](const BadMessageReport& report) { return FailedBy(report); });
-  joins_ =
-      std::make_unique<Subscription<JoinMessage>>(bus_, partition, [this](const JoinMessage& join) { Joined(join); });
-  leaves_ = std::make_unique<Subscription<LeaveMessage>>(bus_, partition,
-                                                         [this](const LeaveMessage& leave) { MemberLeft(leave); });
+  hellos_ = std::make_unique<Subscription<HelloMessage>>(bus_, partition,
+                                                         [this](const HelloMessage& hello) { Joined(hello); });
+  byes_ =
+      std::make_unique<Subscription<ByeMessage>>(bus_, partition, [this](const ByeMessage& bye) { MemberLeft(bye); });
   statuses_ = std::make_unique<Subscription<StatusMessage>>(bus_, partition,
                                                             [this](const StatusMessage& status)
                                                             {
                                                               if (status.run != world_.run) return;
-                                                              const std::lock_guard lock(mutex_);
-                                                              const auto member = members_.find(status.name);
-                                                              if (member != members_.end())
+                                                              const auto state = state_.Lock();
+                                                              const auto member = state->members.find(status.name);
+                                                              if (member != state->members.end())
                                                                 member->second.status = status;
                                                             });
   requests_ = std::make_unique<Subscription<ControlRequestMessage>>(
@@ -74,8 +74,8 @@ void ServerSession::Close()
   bus_.OnProcessGone(nullptr);
   requests_.reset();
   statuses_.reset();
-  leaves_.reset();
-  joins_.reset();
+  byes_.reset();
+  hellos_.reset();
 }
 
 ServerSession::~ServerSession() { Close(); }
@@ -85,49 +85,49 @@ HotScope ServerSession::Scope(std::size_t capacity, unsigned writers) const
   return {world_.experiment, directory_.Path(), world_.spread, capacity, writers};
 }
 
-void ServerSession::Joined(const JoinMessage& join)
+void ServerSession::Joined(const HelloMessage& hello)
 {
-  if (join.protocol != kProtocolVersion)
+  if (hello.protocol != kProtocolVersion)
     return Refuse(
-        join,
+        hello,
         fmt::format("{} ({}) speaks protocol version {}, the space server version {}; use programs of one release",
-                    join.name, join.process, join.protocol, kProtocolVersion));
-  if (join.run != world_.run) return;
+                    hello.name, hello.process, hello.protocol, kProtocolVersion));
+  if (hello.run != world_.run) return;
   {
-    const std::lock_guard lock(mutex_);
-    const auto member = members_.find(join.name);
-    if (member == members_.end())
+    const auto state = state_.Lock();
+    const auto member = state->members.find(hello.name);
+    if (member == state->members.end())
     {
-      attached_[join.process] = join.name;
+      state->attached[hello.process] = hello.name;
       return;
     }
-    if (member->second.process.empty() || member->second.process == join.process)
+    if (member->second.process.empty() || member->second.process == hello.process)
     {
-      member->second.process = join.process;
-      member->second.ready = join.ready;
+      member->second.process = hello.process;
+      member->second.ready = hello.ready;
       callbacks_.changed();
       return;
     }
   }
-  Refuse(join, fmt::format("{} runs already; process {} is one too many", join.name, join.process));
+  Refuse(hello, fmt::format("{} runs already; process {} is one too many", hello.name, hello.process));
 }
 
-void ServerSession::Refuse(const JoinMessage& join, const std::string& reason)
+void ServerSession::Refuse(const HelloMessage& hello, const std::string& reason)
 {
   fmt::print(stderr, "space server: refused: {}\n", reason);
-  leave_->Write({join.run, 0, "space server", join.process, reason});
+  bye_->Write({hello.run, 0, "space server", hello.process, reason});
 }
 
-void ServerSession::MemberLeft(const LeaveMessage& leave)
+void ServerSession::MemberLeft(const ByeMessage& bye)
 {
-  if (leave.run != world_.run || leave.name == "space server") return;
+  if (bye.run != world_.run || bye.name == "space server") return;
   {
-    const std::lock_guard lock(mutex_);
-    const auto member = members_.find(leave.name);
-    if (member == members_.end()) return;
+    const auto state = state_.Lock();
+    const auto member = state->members.find(bye.name);
+    if (member == state->members.end()) return;
     member->second.left = true;
-    if (!over_ && !leave.error.empty())
-      Fail(fmt::format("{} failed at tick {}: {}", leave.name, leave.tick, leave.error));
+    if (!state->over && !bye.error.empty())
+      state->Fail(fmt::format("{} failed at tick {}: {}", bye.name, bye.tick, bye.error));
   }
   callbacks_.changed();
 }
@@ -135,13 +135,13 @@ void ServerSession::MemberLeft(const LeaveMessage& leave)
 void ServerSession::Lost(const std::string& process, bool died)
 {
   {
-    const std::lock_guard lock(mutex_);
-    attached_.erase(process);
-    for (auto& [name, member] : members_)
+    const auto state = state_.Lock();
+    state->attached.erase(process);
+    for (auto& [name, member] : state->members)
     {
       if (member.process != process) continue;
-      if (!member.left && !over_)
-        Fail(fmt::format("{} {} (process {})", name, died ? "does not answer any more" : "has left", process));
+      if (!member.left && !state->over)
+        state->Fail(fmt::format("{} {} (process {})", name, died ? "does not answer any more" : "has left", process));
       member.left = true;
     }
   }
@@ -149,21 +149,22 @@ void ServerSession::Lost(const std::string& process, bool died)
   callbacks_.changed();
 }
 
-void ServerSession::Fail(const std::string& text)
+void ServerSession::State::Fail(const std::string& text)
 {
-  if (!failure_) failure_ = text;
+  if (!failure) failure = text;
 }
 
 // Whoever is in the run ends it by what he sends; anybody else is not heard.
 bool ServerSession::FailedBy(const BadMessageReport& report)
 {
   {
-    const std::lock_guard lock(mutex_);
-    const auto sender = std::find_if(members_.begin(), members_.end(),
+    const auto state = state_.Lock();
+    const auto sender = std::find_if(state->members.begin(), state->members.end(),
                                      [&](const auto& member) { return member.second.process == report.process; });
-    if (report.process.empty() || sender == members_.end()) return false;
-    if (!over_)
-      Fail(fmt::format("{} sent a bad {} at tick {}: {}", sender->first, report.topic, report.tick, report.what));
+    if (report.process.empty() || sender == state->members.end()) return false;
+    if (!state->over)
+      state->Fail(
+          fmt::format("{} sent a bad {} at tick {}: {}", sender->first, report.topic, report.tick, report.what));
   }
   callbacks_.changed();
   return true;
@@ -171,43 +172,40 @@ bool ServerSession::FailedBy(const BadMessageReport& report)
 
 std::vector<std::string> ServerSession::Missing() const
 {
-  const std::lock_guard lock(mutex_);
+  const auto state = state_.Lock();
   std::vector<std::string> missing;
   for (const std::string& name : expected_)
-    if (members_.at(name).process.empty()) missing.push_back(name);
+    if (state->members.at(name).process.empty()) missing.push_back(name);
   if (!missing.empty()) return missing;
   // All have come; some still meet each other.
   for (const std::string& name : expected_)
-    if (!members_.at(name).ready) missing.push_back(name);
+    if (!state->members.at(name).ready) missing.push_back(name);
   return missing;
 }
 
-std::optional<std::string> ServerSession::Failure() const
-{
-  const std::lock_guard lock(mutex_);
-  return failure_;
-}
+std::optional<std::string> ServerSession::Failure() const { return state_.Lock()->failure; }
 
 std::string ServerSession::Status(const std::string& name, std::uint64_t tick) const
 {
-  const std::lock_guard lock(mutex_);
-  const auto member = members_.find(name);
-  return member == members_.end() || member->second.status.tick != tick ? std::string() : member->second.status.text;
+  const auto state = state_.Lock();
+  const auto member = state->members.find(name);
+  return member == state->members.end() || member->second.status.tick != tick ? std::string()
+                                                                              : member->second.status.text;
 }
 
 std::vector<ProcessStatus> ServerSession::Processes() const
 {
-  const std::lock_guard lock(mutex_);
+  const auto state = state_.Lock();
   std::vector<ProcessStatus> processes;
-  for (const std::string& name : expected_) processes.push_back({name, members_.at(name).process, 0, 0, {}});
-  for (const auto& [process, name] : attached_) processes.push_back({name, process, 0, 0, {}});
+  for (const std::string& name : expected_) processes.push_back({name, state->members.at(name).process, 0, 0, {}});
+  for (const auto& [process, name] : state->attached) processes.push_back({name, process, 0, 0, {}});
   return processes;
 }
 
 bool ServerSession::AllLeft() const
 {
-  const std::lock_guard lock(mutex_);
-  for (const auto& [name, member] : members_)
+  const auto state = state_.Lock();
+  for (const auto& [name, member] : state->members)
     if (!member.left && !member.process.empty()) return false;
   return true;
 }
@@ -215,45 +213,43 @@ bool ServerSession::AllLeft() const
 // Askers repeat what is not answered in time: it is done once, and answered each time.
 void ServerSession::Asked(const ControlRequestMessage& request)
 {
-  std::unique_lock lock(mutex_);
-  if (Request* known = FindRequest(request))
+  std::optional<Request> known;
   {
-    const std::optional<ControlReplyMessage> reply = known->reply;
-    lock.unlock();
-    if (reply) replies_->Write(*reply);
-    return;
+    const auto state = state_.Lock();
+    if (const Request* seen = state->FindRequest(request))
+      known = *seen;
+    else
+    {
+      state->requests_seen.push_back({request.client, request.number, std::nullopt});
+      if (state->requests_seen.size() > kRequestsKept) state->requests_seen.pop_front();
+    }
   }
-  requests_seen_.push_back({request.client, request.number, std::nullopt});
-  if (requests_seen_.size() > kRequestsKept) requests_seen_.pop_front();
-  lock.unlock();
-  callbacks_.asked(request);
+  if (!known) return callbacks_.asked(request);
+  if (known->reply) replies_->Write(*known->reply);
 }
 
-ServerSession::Request* ServerSession::FindRequest(const ControlRequestMessage& request)
+ServerSession::Request* ServerSession::State::FindRequest(const ControlRequestMessage& request)
 {
   const auto same = [&](const Request& r) { return r.client == request.client && r.number == request.number; };
-  const auto found = std::find_if(requests_seen_.begin(), requests_seen_.end(), same);
-  return found == requests_seen_.end() ? nullptr : &*found;
+  const auto found = std::find_if(requests_seen.begin(), requests_seen.end(), same);
+  return found == requests_seen.end() ? nullptr : &*found;
 }
 
 void ServerSession::Reply(const ControlRequestMessage& request, bool ok, std::uint64_t tick, const std::string& text)
 {
   const ControlReplyMessage reply{request.client, request.number, ok, tick, text};
   {
-    const std::lock_guard lock(mutex_);
-    if (Request* known = FindRequest(request)) known->reply = reply;
+    const auto state = state_.Lock();
+    if (Request* known = state->FindRequest(request)) known->reply = reply;
   }
   replies_->Write(reply);
 }
 
 void ServerSession::Leave(std::uint64_t tick, const std::string& error)
 {
-  {
-    const std::lock_guard lock(mutex_);
-    over_ = true;
-  }
-  leave_->Write({world_.run, tick, "space server", "", error});
-  leave_->WaitUntilRead(kLeaveTime_s);
+  state_.Lock()->over = true;
+  bye_->Write({world_.run, tick, "space server", "", error});
+  bye_->WaitUntilRead(kByeTime_s);
 }
 
 }  // namespace swarmanoid

@@ -1,4 +1,4 @@
-// ServerSession: what the space server does beside its step: it publishes the world, collects the processes of the run,
+// ServerSession: what the space server does beside its step: it publishes the world, gathers the processes of the run,
 // notices when one fails or dies, and hears what users ask for. Its step runs in threads of the bus.
 #pragma once
 
@@ -6,12 +6,12 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/bus/bus.h"
+#include "common/bus/guarded.h"
 #include "common/bus/run_directory.h"
 
 namespace swarmanoid
@@ -75,32 +75,38 @@ private:
   };
   static constexpr std::size_t kRequestsKept = 256;
 
+  // What the threads of the bus and the server's own share.
+  struct State
+  {
+    std::map<std::string, Member> members;
+    std::map<std::string, std::string> attached;  // name by process
+    std::optional<std::string> failure;
+    std::deque<Request> requests_seen;
+    bool over = false;
+
+    Request* FindRequest(const ControlRequestMessage& request);
+    void Fail(const std::string& text);
+  };
+
   void Asked(const ControlRequestMessage& request);
-  Request* FindRequest(const ControlRequestMessage& request);
-  void Joined(const JoinMessage& join);
-  void MemberLeft(const LeaveMessage& leave);
+  void Joined(const HelloMessage& hello);
+  void MemberLeft(const ByeMessage& bye);
   void Lost(const std::string& process, bool died);
-  void Refuse(const JoinMessage& join, const std::string& reason);
-  void Fail(const std::string& text);
+  void Refuse(const HelloMessage& hello, const std::string& reason);
   bool FailedBy(const BadMessageReport& report);
 
   WorldMessage world_;
   std::vector<std::string> expected_;
   Callbacks callbacks_;
-  mutable std::mutex mutex_;
-  std::map<std::string, Member> members_;
-  std::map<std::string, std::string> attached_;  // name by process
-  std::optional<std::string> failure_;
-  std::deque<Request> requests_seen_;
-  bool over_ = false;
+  Guarded<State> state_;
   RunDirectory directory_;
   Bus bus_;
-  std::unique_ptr<Publisher<LeaveMessage>> leave_;
+  std::unique_ptr<Publisher<ByeMessage>> bye_;
   std::unique_ptr<Publisher<ControlReplyMessage>> replies_;
   std::unique_ptr<Publisher<WorldMessage>> worlds_;
-  std::unique_ptr<Subscription<JoinMessage>> joins_;
+  std::unique_ptr<Subscription<HelloMessage>> hellos_;
   std::unique_ptr<Subscription<StatusMessage>> statuses_;
-  std::unique_ptr<Subscription<LeaveMessage>> leaves_;
+  std::unique_ptr<Subscription<ByeMessage>> byes_;
   std::unique_ptr<Subscription<ControlRequestMessage>> requests_;
 };
 

@@ -1,4 +1,5 @@
-// ServerSession: what the threads of the bus write is read by the server's own at the same time.
+// ServerSession: what the threads of the bus write is read by the server's own at the same time (with data races looked
+// for: the preset tsan).
 #include "common/bus/server_session.h"
 
 #include <fmt/format.h>

@@ -1,0 +1,36 @@
+// Guarded: a value that several threads share, and its lock. There is no way to the value but through the lock, so that
+// none can be forgotten.
+#pragma once
+
+#include <mutex>
+
+namespace swarmanoid
+{
+
+template <class Value>
+class Guarded
+{
+public:
+  // Holds the lock for as long as it lives.
+  template <class Held>
+  class Access
+  {
+  public:
+    Access(std::mutex& mutex, Held& value) : lock_(mutex), value_(value) {}
+    Held* operator->() const { return &value_; }
+    Held& operator*() const { return value_; }
+
+  private:
+    std::unique_lock<std::mutex> lock_;
+    Held& value_;
+  };
+
+  Access<Value> Lock() { return {mutex_, value_}; }
+  Access<const Value> Lock() const { return {mutex_, value_}; }
+
+private:
+  mutable std::mutex mutex_;
+  Value value_;
+};
+
+}  // namespace swarmanoid
