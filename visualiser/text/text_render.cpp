@@ -50,8 +50,8 @@ Json NumberOf(const std::string& text)
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
-// Needs no escape in JSON: nearly all texts, in tables of thousands of lines.
-bool IsPlain(char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; }
+// Stands for itself in every format.
+bool IsPlain(char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\' && c != ','; }
 
 }  // namespace
 
@@ -315,34 +315,36 @@ void CTextRender::AppendLine(const CSwarmanoidSpaceEntity& entity)
   for (std::size_t c = 0; c < columns_.size(); ++c)
   {
     if (c > 0) buffer_ += separator;
-    if (json) buffer_ += keys_[c] + ':';
-    cell_.clear();
-    columns_[c].append(entity, cell_);
-    AppendCell(columns_[c].is_number);
+    if (json) buffer_.append(keys_[c]).append(columns_[c].is_number ? ":" : ":\"");
+    const std::size_t start = buffer_.size();
+    columns_[c].append(entity, buffer_);
+    MendCell(start, columns_[c].is_number);
+    if (json && !columns_[c].is_number) buffer_ += '"';
   }
   buffer_ += json ? "}\n" : "\n";
 }
 
-void CTextRender::AppendCell(bool is_number)
+// Nearly all cells are fine as they are.
+void CTextRender::MendCell(std::size_t start, bool is_number)
 {
-  switch (format_)
+  const std::string_view cell = std::string_view(buffer_).substr(start);
+  if (format_ == Format::kJson && is_number ? !cell.empty() && IsDigit(cell.back())
+                                            : std::all_of(cell.begin(), cell.end(), IsPlain))
+    return;
+  std::string mended(cell);
+  if (format_ == Format::kTable)
+    std::replace_if(
+        mended.begin(), mended.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+  else if (format_ == Format::kCsv)
+    mended = CsvField(cell);
+  else if (is_number)
+    mended = TextOf(NumberOf(mended));
+  else
   {
-    case Format::kTable:
-      std::replace_if(
-          cell_.begin(), cell_.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
-      buffer_ += cell_;
-      return;
-    case Format::kCsv:
-      buffer_ += CsvField(cell_);
-      return;
-    case Format::kJson:
-      if (is_number)
-        buffer_ += IsDigit(cell_.empty() ? '?' : cell_.back()) ? cell_ : TextOf(NumberOf(cell_));
-      else if (std::all_of(cell_.begin(), cell_.end(), IsPlain))
-        buffer_ += '"' + cell_ + '"';
-      else
-        buffer_ += TextOf(cell_);
+    mended = TextOf(mended);
+    mended = mended.substr(1, mended.size() - 2);
   }
+  buffer_.replace(start, std::string::npos, mended);
 }
 
 void CTextRender::Write()

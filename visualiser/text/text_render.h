@@ -60,7 +60,8 @@ private:
   void AppendHeader();
   void AppendStatus();
   void AppendLine(const CSwarmanoidSpaceEntity& entity);
-  void AppendCell(bool is_number);
+  // Makes what was appended from `start` on one cell of the format.
+  void MendCell(std::size_t start, bool is_number);
   void Write();
 
   const CSwarmanoidSpace* space_ = nullptr;
@@ -73,7 +74,6 @@ private:
   std::string path_;  // empty: the screen
   std::FILE* file_ = nullptr;
   std::string buffer_;
-  std::string cell_;
   std::vector<std::string> keys_;  // the titles of the columns as JSON has them
   int precision_ = 3;
   std::uint64_t every_ = 1;
