@@ -9,7 +9,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr double kByeTime_s = 1.0;
+constexpr double kLeaveTime_s = 1.0;
 
 // Two experiments of one name in one domain would hear each other.
 void RefuseSecondServer(const std::string& experiment, int domain)
@@ -40,7 +40,7 @@ ServerSession::ServerSession(const BusOptions& options, WorldMessage world, std:
   world_.spread = options.Spread();
 
   const std::string& partition = world_.experiment;
-  bye_ = std::make_unique<Publisher<ByeMessage>>(bus_, partition);
+  leave_ = std::make_unique<Publisher<LeaveMessage>>(bus_, partition);
   replies_ = std::make_unique<Publisher<ControlReplyMessage>>(bus_, partition);
   worlds_ = std::make_unique<Publisher<WorldMessage>>(bus_, partition);
 }
@@ -50,10 +50,10 @@ void ServerSession::Open()
   const std::string& partition = world_.experiment;
   bus_.OnProcessGone([this](const std::string& gone, const std::string&, bool died) { Lost(gone, died); });
   bus_.OnBadMessage([this](const BadMessageReport& report) { return FailedBy(report); });
-  hellos_ = std::make_unique<Subscription<HelloMessage>>(bus_, partition,
-                                                         [this](const HelloMessage& hello) { Joined(hello); });
-  byes_ =
-      std::make_unique<Subscription<ByeMessage>>(bus_, partition, [this](const ByeMessage& bye) { MemberLeft(bye); });
+  joins_ =
+      std::make_unique<Subscription<JoinMessage>>(bus_, partition, [this](const JoinMessage& join) { Joined(join); });
+  leaves_ = std::make_unique<Subscription<LeaveMessage>>(bus_, partition,
+                                                         [this](const LeaveMessage& leave) { MemberLeft(leave); });
   statuses_ = std::make_unique<Subscription<StatusMessage>>(bus_, partition,
                                                             [this](const StatusMessage& status)
                                                             {
@@ -74,8 +74,8 @@ void ServerSession::Close()
   bus_.OnProcessGone(nullptr);
   requests_.reset();
   statuses_.reset();
-  byes_.reset();
-  hellos_.reset();
+  leaves_.reset();
+  joins_.reset();
 }
 
 ServerSession::~ServerSession() { Close(); }
@@ -85,49 +85,49 @@ HotScope ServerSession::Scope(std::size_t capacity, unsigned writers) const
   return {world_.experiment, directory_.Path(), world_.spread, capacity, writers};
 }
 
-void ServerSession::Joined(const HelloMessage& hello)
+void ServerSession::Joined(const JoinMessage& join)
 {
-  if (hello.protocol != kProtocolVersion)
+  if (join.protocol != kProtocolVersion)
     return Refuse(
-        hello,
+        join,
         fmt::format("{} ({}) speaks protocol version {}, the space server version {}; use programs of one release",
-                    hello.name, hello.process, hello.protocol, kProtocolVersion));
-  if (hello.run != world_.run) return;
+                    join.name, join.process, join.protocol, kProtocolVersion));
+  if (join.run != world_.run) return;
   {
     const auto state = state_.Lock();
-    const auto member = state->members.find(hello.name);
+    const auto member = state->members.find(join.name);
     if (member == state->members.end())
     {
-      state->attached[hello.process] = hello.name;
+      state->attached[join.process] = join.name;
       return;
     }
-    if (member->second.process.empty() || member->second.process == hello.process)
+    if (member->second.process.empty() || member->second.process == join.process)
     {
-      member->second.process = hello.process;
-      member->second.ready = hello.ready;
+      member->second.process = join.process;
+      member->second.ready = join.ready;
       callbacks_.changed();
       return;
     }
   }
-  Refuse(hello, fmt::format("{} runs already; process {} is one too many", hello.name, hello.process));
+  Refuse(join, fmt::format("{} runs already; process {} is one too many", join.name, join.process));
 }
 
-void ServerSession::Refuse(const HelloMessage& hello, const std::string& reason)
+void ServerSession::Refuse(const JoinMessage& join, const std::string& reason)
 {
   fmt::print(stderr, "space server: refused: {}\n", reason);
-  bye_->Write({hello.run, 0, "space server", hello.process, reason});
+  leave_->Write({join.run, 0, "space server", join.process, reason});
 }
 
-void ServerSession::MemberLeft(const ByeMessage& bye)
+void ServerSession::MemberLeft(const LeaveMessage& leave)
 {
-  if (bye.run != world_.run || bye.name == "space server") return;
+  if (leave.run != world_.run || leave.name == "space server") return;
   {
     const auto state = state_.Lock();
-    const auto member = state->members.find(bye.name);
+    const auto member = state->members.find(leave.name);
     if (member == state->members.end()) return;
     member->second.left = true;
-    if (!state->over && !bye.error.empty())
-      state->Fail(fmt::format("{} failed at tick {}: {}", bye.name, bye.tick, bye.error));
+    if (!state->over && !leave.error.empty())
+      state->Fail(fmt::format("{} failed at tick {}: {}", leave.name, leave.tick, leave.error));
   }
   callbacks_.changed();
 }
@@ -248,8 +248,8 @@ void ServerSession::Reply(const ControlRequestMessage& request, bool ok, std::ui
 void ServerSession::Leave(std::uint64_t tick, const std::string& error)
 {
   state_.Lock()->over = true;
-  bye_->Write({world_.run, tick, "space server", "", error});
-  bye_->WaitUntilRead(kByeTime_s);
+  leave_->Write({world_.run, tick, "space server", "", error});
+  leave_->WaitUntilRead(kLeaveTime_s);
 }
 
 }  // namespace swarmanoid

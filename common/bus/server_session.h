@@ -1,4 +1,4 @@
-// ServerSession: what the space server does beside its step: it publishes the world, gathers the processes of the run,
+// ServerSession: what the space server does beside its step: it publishes the world, collects the processes of the run,
 // notices when one fails or dies, and hears what users ask for. Its step runs in threads of the bus.
 #pragma once
 
@@ -89,10 +89,10 @@ private:
   };
 
   void Asked(const ControlRequestMessage& request);
-  void Joined(const HelloMessage& hello);
-  void MemberLeft(const ByeMessage& bye);
+  void Joined(const JoinMessage& join);
+  void MemberLeft(const LeaveMessage& leave);
   void Lost(const std::string& process, bool died);
-  void Refuse(const HelloMessage& hello, const std::string& reason);
+  void Refuse(const JoinMessage& join, const std::string& reason);
   bool FailedBy(const BadMessageReport& report);
 
   WorldMessage world_;
@@ -101,12 +101,12 @@ private:
   Guarded<State> state_;
   RunDirectory directory_;
   Bus bus_;
-  std::unique_ptr<Publisher<ByeMessage>> bye_;
+  std::unique_ptr<Publisher<LeaveMessage>> leave_;
   std::unique_ptr<Publisher<ControlReplyMessage>> replies_;
   std::unique_ptr<Publisher<WorldMessage>> worlds_;
-  std::unique_ptr<Subscription<HelloMessage>> hellos_;
+  std::unique_ptr<Subscription<JoinMessage>> joins_;
   std::unique_ptr<Subscription<StatusMessage>> statuses_;
-  std::unique_ptr<Subscription<ByeMessage>> byes_;
+  std::unique_ptr<Subscription<LeaveMessage>> leaves_;
   std::unique_ptr<Subscription<ControlRequestMessage>> requests_;
 };
 
