@@ -328,9 +328,8 @@ void CTextRender::AppendLine(const CSwarmanoidSpaceEntity& entity)
 void CTextRender::MendCell(std::size_t start, bool is_number)
 {
   const std::string_view cell = std::string_view(buffer_).substr(start);
-  if (format_ == Format::kJson && is_number ? !cell.empty() && IsDigit(cell.back())
-                                            : std::all_of(cell.begin(), cell.end(), IsPlain))
-    return;
+  if (is_number && !cell.empty() && IsDigit(cell.back()) && cell.find(',') == std::string_view::npos) return;
+  if (!(is_number && format_ == Format::kJson) && std::all_of(cell.begin(), cell.end(), IsPlain)) return;
   std::string mended(cell);
   if (format_ == Format::kTable)
     std::replace_if(
