@@ -288,14 +288,15 @@ TEST(MessageBytes, OfUsersRequestsAreThoseOfTheIdl)
     wire_reply.text(reply.text);
     ExpectSame<wire::ControlReplyPubSubType>(reply, wire_reply);
 
-    const ViewRequestMessage request{random.Text(), random.Number(), random.Real(), random.Flag(), random.Ascending()};
-    wire::ViewRequest wire_request;
-    wire_request.client(request.client);
-    wire_request.run(request.run);
-    wire_request.views(request.views);
-    wire_request.every_tick(request.every_tick);
-    wire_request.robots(request.robots);
-    ExpectSame<wire::ViewRequestPubSubType>(request, wire_request);
+    const ViewRequestMessage view_request{random.Text(), random.Number(), random.Real(), random.Flag(),
+                                          random.Ascending()};
+    wire::ViewRequest wire_view_request;
+    wire_view_request.client(view_request.client);
+    wire_view_request.run(view_request.run);
+    wire_view_request.views(view_request.views);
+    wire_view_request.every_tick(view_request.every_tick);
+    wire_view_request.robots(view_request.robots);
+    ExpectSame<wire::ViewRequestPubSubType>(view_request, wire_view_request);
   }
 }
 

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/configuration/configuration_tree.h"
-#include "common/program/exit_codes.h"
+#include "common/activity/exit_codes.h"
 #include "common/program/usage_error.h"
 
 namespace swarmanoid
