@@ -5,8 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "common/configuration/configuration_tree.h"
 #include "common/activity/exit_codes.h"
+#include "common/configuration/configuration_tree.h"
 #include "common/program/usage_error.h"
 
 namespace swarmanoid
