@@ -105,7 +105,7 @@ class Interrupts(LauncherTest):
         run.process.send_signal(signal.SIGINT)
         self.assertEqual(run.wait(GENEROUS_S), 130, run.stderr)
         run = self.start("run", EXPERIMENT, "--quiet", "--paused")
-        self.wait_until("the pause", lambda: "paused" in self.run_it("list", "experiments").stdout)
+        self.wait_until("the pause", lambda: "paused at tick 0" in self.run_it("control", "pause").stdout)
         run.process.send_signal(signal.SIGINT)
         self.assertEqual(run.wait(GENEROUS_S), 130, run.stderr)
         self.assert_finished(run, 0)
