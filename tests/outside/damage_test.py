@@ -92,10 +92,10 @@ class Damage(OutsideTest):
                     for option in ("--restore", "--events"):
                         said = self.run_experiment(good, option, file, *options)
                         self.assertEqual(said.returncode, 2, said.stderr)
-                        self.assertIn("a pipe or a device", said.stderr)
+                        self.assertRegex(said.stderr, "it is a (pipe|device), not a file")
         hosts = self.run_experiment(good, "--hosts", pipe)
         self.assertEqual(hosts.returncode, 2, hosts.stderr)
-        self.assertIn("a pipe or a device", hosts.stderr)
+        self.assertIn("it is a pipe, not a file", hosts.stderr)
 
     def checkpoint(self, file):
         self.hash_of(self.run_experiment(file, "--single-process", "--checkpoint-every", 100, "--output", "first"))
