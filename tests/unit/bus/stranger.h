@@ -51,16 +51,7 @@ public:
   // Writes each of the payloads, once `readers` are there, and waits until they have got them. False where none comes.
   bool Send(const std::string& topic_name, const std::vector<std::string>& payloads, int readers = 1)
   {
-    dds::TypeSupport type(new RawType("swarmanoid::wire::" + topic_name));
-    type.register_type(participant_);
-    dds::Topic* topic = participant_->create_topic(topic_name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
-    dds::DataWriterQos qos;
-    qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
-    qos.durability().kind = dds::TRANSIENT_LOCAL_DURABILITY_QOS;
-    qos.history().kind = dds::KEEP_ALL_HISTORY_QOS;
-    qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
-    qos.data_sharing().off();
-    dds::DataWriter* writer = publisher_->create_datawriter(topic, qos);
+    dds::DataWriter* const writer = WriterOf(topic_name);
     if (writer == nullptr) return false;
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     dds::PublicationMatchedStatus status;
@@ -71,12 +62,28 @@ public:
     } while (status.current_count < readers);
     for (std::string payload : payloads) writer->write(&payload);
     const bool got = writer->wait_for_acknowledgments({20, 0}) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
-    publisher_->delete_datawriter(writer);
-    participant_->delete_topic(topic);
+    std::size_t cleared = 0;
+    writer->clear_history(&cleared);  // nobody who comes later gets them
     return got;
   }
 
 private:
+  // It stays as long as the stranger: what a reader has acknowledged, but not looked at, goes with its writer.
+  dds::DataWriter* WriterOf(const std::string& topic_name)
+  {
+    if (dds::DataWriter* const known = publisher_->lookup_datawriter(topic_name)) return known;
+    dds::TypeSupport type(new RawType("swarmanoid::wire::" + topic_name));
+    type.register_type(participant_);
+    dds::Topic* topic = participant_->create_topic(topic_name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
+    dds::DataWriterQos qos;
+    qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
+    qos.durability().kind = dds::TRANSIENT_LOCAL_DURABILITY_QOS;
+    qos.history().kind = dds::KEEP_ALL_HISTORY_QOS;
+    qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+    qos.data_sharing().off();
+    return publisher_->create_datawriter(topic, qos);
+  }
+
   // The bytes of a std::string, as they are.
   class RawType : public eprosima::fastdds::dds::TopicDataType
   {
