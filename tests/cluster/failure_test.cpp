@@ -98,10 +98,11 @@ TEST_F(ClusterTest, AWorkerOfAnotherProtocolIsRefusedByName)
                                       const std::lock_guard lock(mutex);
                                       run = world.run;
                                     });
-  for (int k = 0; k < 1000 && refusal.empty(); ++k)
+  for (int k = 0; k < 1000; ++k)
   {
     std::this_thread::sleep_for(10ms);
     const std::lock_guard lock(mutex);
+    if (!refusal.empty()) break;
     if (run != 0 && k % 50 == 0) joins.Write({ProcessId(), kProtocolVersion + 1, run, "engine 'e0'", false});
   }
   const std::lock_guard lock(mutex);
