@@ -5,13 +5,13 @@
 
 #include <array>
 #include <atomic>
-#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <string_view>
 
 #include "common/activity/failure_report.h"
+#include "common/configuration/utf8.h"
 
 namespace swarmanoid
 {
@@ -57,7 +57,7 @@ public:
     Add("\"");
     while (!text.empty())
     {
-      const std::size_t size = SizeOfCharacter(text);
+      const std::size_t size = Utf8Length(text);
       const char first = text.front();
       if (size == 0)
         Add("?");
@@ -74,27 +74,6 @@ public:
   std::string_view Text() const { return {text_.data(), length_}; }
 
 private:
-  static bool IsWithin(unsigned char byte, unsigned low, unsigned high) { return byte >= low && byte <= high; }
-  // Bytes of the character at the front; 0 where it is none (Unicode 15, table 3-7).
-  static std::size_t SizeOfCharacter(std::string_view text)
-  {
-    const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(k < text.size() ? text[k] : 0); };
-    const unsigned char first = byte(0);
-    if (first < 0x80) return 1;
-    const bool second_fits = IsWithin(byte(1),
-                                      first == 0xe0   ? 0xa0
-                                      : first == 0xf0 ? 0x90
-                                                      : 0x80,
-                                      first == 0xed   ? 0x9f
-                                      : first == 0xf4 ? 0x8f
-                                                      : 0xbf);
-    const auto follows = [&](std::size_t k) { return IsWithin(byte(k), 0x80, 0xbf); };
-    if (IsWithin(first, 0xc2, 0xdf)) return second_fits ? 2 : 0;
-    if (IsWithin(first, 0xe0, 0xef)) return second_fits && follows(2) ? 3 : 0;
-    if (IsWithin(first, 0xf0, 0xf4)) return second_fits && follows(2) && follows(3) ? 4 : 0;
-    return 0;
-  }
-
   std::array<char, 4096> text_;  // a line of a report, each of its characters escaped, and the rest
   std::size_t length_ = 0;
 };
@@ -127,18 +106,6 @@ void AddTime(Json& json, std::chrono::seconds offset)
   number(minutes / 60);
   number(minutes % 60);
   json.Add("\"");
-}
-
-bool WriteAll(int file, std::string_view text)
-{
-  while (!text.empty())
-  {
-    const ssize_t written = write(file, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
 }
 
 void WriteAtDeath(std::string_view line, int exit_code)

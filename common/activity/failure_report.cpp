@@ -48,17 +48,6 @@ std::uint64_t Nanoseconds()
   return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000U + static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-void WriteToErrors(std::string_view text)
-{
-  while (!text.empty())
-  {
-    const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return;
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
-}
-
 // "<activity> <what>", or, if it is not the activity's, "<process> <what> …".
 void Compose(LineWriter& line, std::string_view what, bool of_activity)
 {
@@ -98,9 +87,9 @@ void Report(std::string_view what, bool of_activity, int exit_code = kExitProces
   NoteEnd(EndReason::kFailed, OwnActivityPage().tick.load(std::memory_order_relaxed), line.Text(),
           activity::Now().actor != nullptr);
   // What a progress line left on a terminal goes.
-  if (isatty(STDERR_FILENO) != 0) WriteToErrors("\r\033[K");
-  WriteToErrors(line.Text());
-  WriteToErrors("\n");
+  if (isatty(STDERR_FILENO) != 0) WriteAll(STDERR_FILENO, "\r\033[K");
+  WriteAll(STDERR_FILENO, line.Text());
+  WriteAll(STDERR_FILENO, "\n");
   CallLast(line.Text(), exit_code);
 }
 
@@ -176,6 +165,18 @@ std::string TypeName(const std::type_info& type)
 }
 
 }  // namespace
+
+bool WriteAll(int file, std::string_view text)
+{
+  while (!text.empty())
+  {
+    const ssize_t written = write(file, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
 
 void ReportDeaths(const std::string& process)
 {

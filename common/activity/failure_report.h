@@ -45,6 +45,9 @@ void NoteEnd(EndReason reason, std::uint64_t tick, std::string_view text, bool c
 // What the exception that is being handled says, for a user: its text, or its type where it has none.
 std::string CurrentExceptionText();
 
+// Writes the whole text to an open file. Safe in signal handlers. False where it cannot.
+bool WriteAll(int file, std::string_view text);
+
 // Called when this process dies of somebody's code, or is killed by the user, once that is told: with the line that
 // says so, or an empty one, and the exit code. It must be safe in signal handlers. One at a time; nullptr: nobody is
 // called.

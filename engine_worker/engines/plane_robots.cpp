@@ -30,11 +30,18 @@ double DistanceTo(const Shape& shape, const Pose& pose, const Vector3& point)
   return std::sqrt(outside.squaredNorm());
 }
 
+// In robots by ascending entity; the end where all come before.
+template <class Robots>
+auto PlaceOf(Robots& robots, std::uint32_t entity)
+{
+  return std::lower_bound(robots.begin(), robots.end(), entity,
+                          [](const auto& robot, std::uint32_t e) { return robot.entity < e; });
+}
+
 template <class Robot>
 Robot& Find(std::vector<Robot>& robots, std::uint32_t entity)
 {
-  return *std::lower_bound(robots.begin(), robots.end(), entity,
-                           [](const Robot& robot, std::uint32_t e) { return robot.entity < e; });
+  return *PlaceOf(robots, entity);
 }
 
 }  // namespace
@@ -145,8 +152,7 @@ void PlaneRobots::Advance(double seconds)
 
 bool PlaneRobots::Hangs(std::uint32_t entity) const
 {
-  const auto handbot = std::lower_bound(handbots_.begin(), handbots_.end(), entity,
-                                        [](const Handbot& h, std::uint32_t e) { return h.entity < e; });
+  const auto handbot = PlaceOf(handbots_, entity);
   return handbot != handbots_.end() && handbot->entity == entity && handbot->is_hanging;
 }
 
