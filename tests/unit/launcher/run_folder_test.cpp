@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "common/activity/activity.h"
 #include "common/activity/failure_report.h"
 #include "launcher/manifest_at_death.h"
 
@@ -104,6 +105,7 @@ TEST_F(RunFolderTest, AProcessThatDiesCompletesItsManifest)
   if (child == 0)
   {
     const ManifestAtDeath at_death(folder, manifest);
+    OwnActivityPage().tick = 17;
     DieOf("said \"no\" \\ \x01 \xff \xed\xa0\x80 \xc3\xbc");
   }
   int status = 0;
@@ -113,7 +115,7 @@ TEST_F(RunFolderTest, AProcessThatDiesCompletesItsManifest)
   const auto json = nlohmann::json::parse(file);
   EXPECT_EQ(json["experiment"], "world");
   EXPECT_EQ(json["exit_code"], 4);
-  EXPECT_EQ(json["failure"], "swarmanoid said \"no\" \\   ? ??? \xc3\xbc at tick 0");
+  EXPECT_EQ(json["failure"], "swarmanoid said \"no\" \\   ? ??? \xc3\xbc at tick 17");
   EXPECT_GE(json["ended"], manifest.started);
   EXPECT_EQ(json["ended"].get<std::string>().size(), manifest.started.size());
   EXPECT_FALSE(fs::exists(folder.File("manifest.json.last")));
