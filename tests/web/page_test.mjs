@@ -88,7 +88,7 @@ function freePort() {
 // ---- the page ----
 
 let browser;
-async function open(url, { noise = [] } = {}) {
+async function open(url, { noise = [], quality = "low" } = {}) {
   const page = await browser.newPage({ viewport: { width: 760, height: 420 } });
   page.setDefaultTimeout(TIMEOUT_MS);
   page.complaints = [];
@@ -97,7 +97,7 @@ async function open(url, { noise = [] } = {}) {
     if (["error", "warning"].includes(message.type()) && !noise.some((pattern) => pattern.test(message.text())))
       page.complaints.push(message.text());
   });
-  await page.goto(url + (url.includes("?") ? "&" : "?") + "quality=low");
+  await page.goto(url + (url.includes("?") ? "&" : "?") + `quality=${quality}`);
   return page;
 }
 const until = (page, expression, argument) => page.waitForFunction(expression, argument, { polling: 50, timeout: TIMEOUT_MS });
@@ -115,6 +115,33 @@ async function drawn(page) {
   });
 }
 const tickOf = (page) => read(page, () => swarmanoid.tick);
+
+// Red, green and blue (0 to 255) of the picture in a square of 2 `half` + 1 CSS pixels about a place of the page, row by row.
+async function pixelsAbout(page, { x, y }, half) {
+  const side = 2 * half + 1;
+  const png = await page.screenshot({ clip: { x: Math.round(x) - half, y: Math.round(y) - half, width: side, height: side } });
+  return page.evaluate(async ([base64, size]) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${base64}`;
+    await image.decode();
+    const canvas = new OffscreenCanvas(size, size);
+    const context = canvas.getContext("2d");
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, size, size);
+    return Array.from({ length: size * size }, (_, i) => [...data.slice(4 * i, 4 * i + 3)]);
+  }, [png.toString("base64"), side]);
+}
+const brightness = ([r, g, b]) => (r + g + b) / 3;
+const saturation = (colour) => Math.max(...colour) - Math.min(...colour);
+
+// One robot that stands still in a walled square of ten metres.
+function oneRobot(name, at) {
+  const text = readFileSync(experiment("diffusion_100"), "utf8")
+    .replace(/<distribute[^]*<\/distribute>/, `<footbot id="fb"><position>${at}</position><orientation>0, 0, 0</orientation><controller>diffusion</controller></footbot>`)
+    .replace(/<visualisations>[^]*<\/visualisations>/, "");
+  writeFileSync(join(folder, `${name}.xml`), text);
+  return new Process("run", `${name}.xml`, "--quiet", "--paused", "--ticks", 0);
+}
 
 // The tick stays as it is for a while.
 async function assertStill(page) {
@@ -317,6 +344,35 @@ const tests = {
       assert.deepEqual(page.complaints, []);
       await page.close();
     }
+  },
+
+  async "the floor is as light without shadows as with them"() {
+    oneRobot("bright", "5, 5, 0");
+    const { url } = await attach();
+    for (const quality of ["low", "high"]) {
+      const page = await open(url, { quality });
+      await drawn(page);
+      const robot = await read(page, () => swarmanoid.project("fb"));
+      const floor = await pixelsAbout(page, { x: robot.x - 60, y: robot.y }, 4);
+      const mean = floor.reduce((sum, colour) => sum + brightness(colour), 0) / floor.length;
+      assert.ok(mean > 195 && mean < 245, `quality ${quality}: ${mean}`);
+      await page.close();
+    }
+  },
+
+  async "walls between the eye and the arena hide no robot"() {
+    oneRobot("behind_wall", "5, 0.2, 0");
+    const { url } = await attach();
+    const page = await open(url);
+    await drawn(page);
+    const [, y] = await read(page, () => swarmanoid.camera);
+    assert.ok(y < 0, "the camera looks over the south wall");
+    const seen = await pixelsAbout(page, await read(page, () => swarmanoid.project("fb")), 6);
+    assert.ok(Math.max(...seen.map(saturation)) > 60, `walls are grey, robots are not: ${seen.slice(70, 90)}`);
+    // The one that hides nothing stands at its full height: 0.5 m above the floor's far edge is wall, not sky.
+    const far = await read(page, () => swarmanoid.projectPoint(5, 10, 0.4));
+    const wall = await pixelsAbout(page, far, 1);
+    assert.ok(wall.every((colour) => brightness(colour) < 190 && saturation(colour) < 12), `${wall}`);
   },
 
   async "ten thousand robots are drawn and found"() {

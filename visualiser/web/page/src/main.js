@@ -252,5 +252,6 @@ window.swarmanoid = {
   approach: (id) => approach(state.world.find(id)),
   place: (id) => Array.from(view.placeOf(state.world.find(id)) ?? []),
   project: (id) => view.project(state.world.find(id)),
+  projectPoint: (x, y, z) => view.projectPoint(x, y, z),
   command: (request) => connection.send(request),
 };

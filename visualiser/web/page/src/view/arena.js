@@ -2,6 +2,7 @@
 // lights, sounds and patches may come, go and move.
 import * as THREE from "three";
 import { paint } from "./models.js";
+import { BoundaryWall, isBoundaryWall } from "./walls.js";
 
 const FLAT_M = 0.0006; // between one layer on the floor and the next
 
@@ -37,6 +38,7 @@ export class Arena {
     this.finish = quality === "low" ? {} : { roughness: 0.85, metalness: 0 };
     this.objects = new Map(); // entity to what bears its colour
     this.moving = []; // those that movable entities have
+    this.walls = []; // at the edge of the arena
     scene.add(this.group);
     this.addFloor(theme);
     let layer = 1;
@@ -62,7 +64,8 @@ export class Arena {
     });
   }
 
-  place(motion) {
+  place(motion, eye) {
+    for (const wall of this.walls) wall.cutFor(eye);
     for (const { object, slot, height } of this.moving) {
       object.visible = motion.isPresent(slot);
       if (!object.visible) continue;
@@ -119,21 +122,13 @@ export class Arena {
     }
   }
 
-  // Walls as high as a room would hide what is inside: those are drawn as glass.
-  makeBox({ size: [x, y, z], colour: colourOfFile, position }) {
-    const colour = paint(colourOfFile);
-    const tall = z > 0.7 && Math.max(x, y) > 1 && Math.max(x, y) > 8 * Math.min(x, y);
-    const geometry = new THREE.BoxGeometry(x, y, z);
-    if (!tall) return this.solid(geometry, colour);
-    const mesh = this.solid(geometry, colour, { transparent: true, opacity: 0.09, depthWrite: false });
-    mesh.castShadow = mesh.receiveShadow = false;
-    const edges = new THREE.LineSegments(
-      new THREE.EdgesGeometry(geometry),
-      new THREE.LineBasicMaterial({ color: colour, transparent: true, opacity: 0.28 }),
-    );
-    const foot = this.solid(new THREE.BoxGeometry(x, y, 0.06).translate(0, 0, 0.03 - Math.min(z / 2, position[2])), colour);
-    mesh.add(edges, foot);
-    return mesh;
+  makeBox(body) {
+    const colour = paint(body.colour);
+    if (!isBoundaryWall(body, this.world.arena))
+      return this.solid(new THREE.BoxGeometry(...body.size), colour);
+    const wall = new BoundaryWall(body, this.world.arena, colour, (...words) => this.solid(...words));
+    this.walls.push(wall);
+    return wall.object;
   }
 
   // y of 0: a disc of radius x.

@@ -132,7 +132,7 @@ export class Stage {
     this.invalidate();
   }
 
-  // The shadow map covers what is looked at, not the whole arena.
+  // The sun stands above what is looked at; so its shadow map covers that, and not the whole arena.
   aimSun() {
     const distance = this.camera.position.distanceTo(this.controls.target);
     const reach = Math.min(Math.max(distance * 0.95, 0.8), (this.extent ?? 10) * 1.1);
@@ -155,7 +155,7 @@ export class Stage {
   }
 
   draw() {
-    if (this.castsShadows) this.aimSun();
+    this.aimSun();
     this.renderer.render(this.scene, this.camera);
     this.stale = false;
   }

@@ -128,7 +128,7 @@ export class View {
     if (!moved && !this.stage.stale) return false;
     this.stage.camera.updateMatrixWorld();
     this.swarm.place(this.motion, this.stage.camera, this.stage.pixelsPerRadian);
-    this.arena.place(this.motion);
+    this.arena.place(this.motion, this.stage.camera.position);
     if (this.motion.frame) {
       this.beams.update(this.motion.frame, this.motion);
       this.grips.update(this.motion.frame, this.motion);
@@ -151,7 +151,11 @@ export class View {
   // Where an entity is in the picture, in CSS pixels of the page.
   project(entity) {
     const [x, y, z] = this.placeOf(entity);
-    const point = new THREE.Vector3(x, y, z + extentOf(this.world, entity).height / 2).project(this.stage.camera);
+    return this.projectPoint(x, y, z + extentOf(this.world, entity).height / 2);
+  }
+
+  projectPoint(x, y, z) {
+    const point = new THREE.Vector3(x, y, z).project(this.stage.camera);
     const box = this.stage.renderer.domElement.getBoundingClientRect();
     return { x: box.left + ((point.x + 1) / 2) * box.width, y: box.top + ((1 - point.y) / 2) * box.height };
   }
