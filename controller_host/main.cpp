@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <array>
 
+#include "common/builtins/builtins.h"
 #include "common/bus/cluster_options.h"
 #include "common/bus/replica.h"
 #include "common/bus/saved_states.h"
@@ -10,7 +11,6 @@
 #include "common/program/program.h"
 #include "controller_host/cluster/robot_inspection.h"
 #include "controller_host/controller_host.h"
-#include "roles/builtins.h"
 
 namespace swarmanoid
 {
@@ -170,7 +170,11 @@ int main(int count, char** arguments)
       "  controller_host                                host 0 of the experiment that runs on this machine\n"
       "  controller_host --host 1 --experiment diffusion_10 --domain 7\n"
       "  controller_host --host 1 --interface eth0          space server on another machine",
-      RegisterBuiltins,
+      []
+      {
+        DescribeBuiltins();
+        RegisterBuiltinDevices();
+      },
       true,
       true};
   return RunProgram(

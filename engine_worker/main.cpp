@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "common/activity/activity.h"
+#include "common/builtins/builtins.h"
 #include "common/bus/cluster_options.h"
 #include "common/bus/replica.h"
 #include "common/bus/saved_states.h"
@@ -9,7 +10,6 @@
 #include "common/bus/worker_session.h"
 #include "common/program/program.h"
 #include "engine_worker/engine_worker.h"
-#include "roles/builtins.h"
 
 namespace swarmanoid
 {
@@ -149,7 +149,11 @@ int main(int count, char** arguments)
       "  engine_worker --engine ground                              the experiment that runs on this machine\n"
       "  engine_worker --engine ground --experiment diffusion_10 --domain 7\n"
       "  engine_worker --engine ground --interface eth0             space server on another machine",
-      RegisterBuiltins,
+      []
+      {
+        DescribeBuiltins();
+        RegisterBuiltinEngines();
+      },
       true,
       true};
   return RunProgram(

@@ -1,5 +1,5 @@
-// All engines, devices and renderers of the simulator, so that experiments can be read. Called by the programs of the
-// roles, the launcher, and whoever reads experiments.
+// All engines, devices and renderers of the simulator with their code, for processes that have all roles: the launcher,
+// and simulators of users. A program of one role describes them all (common/builtins) and registers its own.
 #pragma once
 
 namespace swarmanoid

@@ -1,8 +1,8 @@
 // The program that holds the state and the clock of an experiment: the space server's role at the bus, with the control
 // service and what the launcher is told.
+#include "common/builtins/builtins.h"
 #include "common/program/interrupts.h"
 #include "common/program/program.h"
-#include "roles/builtins.h"
 #include "space_server/cluster/server_main.h"
 
 int main(int count, char** arguments)
@@ -18,7 +18,7 @@ int main(int count, char** arguments)
       "controller_host\n"
       "  space_server configs/diffusion_10.xml --domain 7 --seed 3 --ticks 500 --hash-log hashes.txt\n"
       "  space_server configs/diffusion_1000.xml --controller-hosts 2 --interface eth0    workers on other machines",
-      RegisterBuiltins,
+      DescribeBuiltins,
       true,
       true};
   options.stop = &InterruptFlag();

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <thread>
 
+#include "common/builtins/builtins.h"
 #include "common/bus/cluster_options.h"
 #include "common/bus/control_client.h"
 #include "common/bus/replica.h"
@@ -14,7 +15,6 @@
 #include "common/program/interrupts.h"
 #include "common/program/program.h"
 #include "common/program/usage_error.h"
-#include "roles/builtins.h"
 #include "visualiser/cluster/attached_node.h"
 #include "visualiser/cluster/synchronous_node.h"
 #include "visualiser/renderer_options.h"
@@ -128,7 +128,11 @@ int main(int count, char** arguments)
       "machine\n"
       "  visualiser --attach text --experiment diffusion_10 --file table.txt\n"
       "  visualiser --attach text --interface eth0               space server on another machine",
-      RegisterBuiltins,
+      []
+      {
+        DescribeBuiltins();
+        RegisterBuiltinRenderers();
+      },
       true,
       true};
   return RunProgram(

@@ -1,26 +1,32 @@
-#include "visualiser/image/description.h"
-#include "visualiser/ogre/description.h"
-#include "visualiser/opengl/description.h"
+// The renderers that come with the simulator; common/builtins describes them.
+#include "common/builtins/builtins.h"
 #include "visualiser/render.h"
 #include "visualiser/renderer_library.h"
 #include "visualiser/text/text_render.h"
-#include "visualiser/web/description.h"
 
 namespace swarmanoid
 {
+namespace
+{
+
+void BindLibrary(const std::string& label, const std::string& packages)
+{
+  PluginRegistry<CRender>::Instance().Bind(label, "", RendererFromLibrary(label, packages));
+}
+
+}  // namespace
 
 void RegisterBuiltinRenderers()
 {
   static const bool registered = []
   {
-    PluginRegistry<CRender>& registry = PluginRegistry<CRender>::Instance();
-    registry.Add(CTextRender::Description(), [] { return std::make_unique<CTextRender>(); });
-    registry.Add(ImageRenderDescription(), RendererFromLibrary("image_render", "libepoxy-dev libstb-dev libegl1"));
-    registry.Add(OpenGlRenderDescription(),
-                 RendererFromLibrary("opengl_render", "libepoxy-dev libstb-dev libglfw3-dev libimgui-dev"));
-    registry.Add(OgreRenderDescription(),
-                 RendererFromLibrary("ogre_render", "libogre-1.12-dev libimgui-dev libx11-dev"));
-    registry.Add(WebRenderDescription(), RendererFromLibrary("web_render", "nodejs npm libboost-dev"));
+    DescribeBuiltinRenderers();
+    PluginRegistry<CRender>::Instance().Bind("text_render", "", [] { return std::make_unique<CTextRender>(); });
+    BindLibrary("image_render", "libepoxy-dev libstb-dev libegl1");
+    BindLibrary("opengl_render", "libepoxy-dev libstb-dev libglfw3-dev libimgui-dev");
+    BindLibrary("ogre_render", "libogre-1.12-dev libimgui-dev libx11-dev");
+    BindLibrary("web_render", "nodejs npm libboost-dev");
+    PluginRegistry<CRender>::Instance().RequireCode();
     return true;
   }();
   static_cast<void>(registered);

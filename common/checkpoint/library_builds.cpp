@@ -19,9 +19,9 @@ namespace
 namespace fs = std::filesystem;
 
 // Those of ours whose code what is saved depends on.
-constexpr std::array<const char*, 9> kOwnLibraries{
-    "reproducible_math", "common", "control_interface", "behavior_toolkit",
-    "experiment",        "space",  "physics_engine",    "controller_host_role",
+constexpr std::array kOwnLibraries{
+    "reproducible_math", "common", "builtins",       "control_interface", "behavior_toolkit",
+    "experiment",        "space",  "physics_engine", "engines",           "controller_host_role",
     "space_server_role"};
 
 std::string BuildOfFile(const std::string& path)

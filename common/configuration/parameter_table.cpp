@@ -177,6 +177,12 @@ TConfigurationTree WithDefaults(const TConfigurationTree& tree, const std::vecto
   return TConfigurationTree(std::move(filled));
 }
 
+std::vector<ParameterSpec> Joined(std::vector<ParameterSpec> own, const std::vector<ParameterSpec>& more)
+{
+  own.insert(own.end(), more.begin(), more.end());
+  return own;
+}
+
 std::string MistakeInTable(const std::vector<ParameterSpec>& specs)
 {
   for (const ParameterSpec& spec : specs)

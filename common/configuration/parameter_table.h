@@ -24,6 +24,9 @@ TConfigurationTree OrEmpty(const TConfigurationTree& tree, const std::string& na
 TConfigurationTree WithDefaults(const TConfigurationTree& tree, const std::vector<ParameterSpec>& specs,
                                 const std::string& folder);
 
+// `own`, followed by `more`: tables of parameters are put together from parts.
+std::vector<ParameterSpec> Joined(std::vector<ParameterSpec> own, const std::vector<ParameterSpec>& more);
+
 // What is wrong with a table itself, such as a default outside of the range; empty where it is right.
 std::string MistakeInTable(const std::vector<ParameterSpec>& specs);
 

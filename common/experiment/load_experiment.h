@@ -37,7 +37,7 @@ struct LoadedExperiment
   std::string places;
 };
 
-// Call RegisterBuiltinEngines, ...Devices and ...Renderers before; their tables decide what the file may contain.
+// Call DescribeBuiltins before; the tables of all plug-ins decide what the file may contain.
 LoadedExperiment LoadExperimentFile(const std::string& path, const LoadOptions& options = {});
 // The same from text, as a role gets it from the space server; `folder` resolves relative paths.
 LoadedExperiment LoadExperimentText(const std::string& text, const std::string& file_name, const std::string& folder,

@@ -28,6 +28,12 @@ std::string_view PluginKindName(PluginKind kind)
   return "plug-in";
 }
 
+std::string NameOfPlugin(PluginKind kind, const std::string& label, const std::string& implementation)
+{
+  const std::string name = std::string(PluginKindName(kind)) + " '" + label + "'";
+  return implementation.empty() ? name : name + " (" + implementation + ")";
+}
+
 PluginCatalogue& PluginCatalogue::Instance()
 {
   static PluginCatalogue catalogue;
@@ -42,8 +48,7 @@ bool PluginCatalogue::Add(PluginKind kind, const PluginDescription& description)
   const std::string wrong = MistakeInTable(description.parameters);
   if (added && wrong.empty()) return true;
 
-  std::string name = std::string(PluginKindName(kind)) + " '" + description.label + "'";
-  if (!description.implementation.empty()) name += " (" + description.implementation + ")";
+  const std::string name = NameOfPlugin(kind, description.label, description.implementation);
   if (!wrong.empty())
   {
     if (!loading_) throw std::invalid_argument("the table of the " + name + " is wrong: " + wrong);

@@ -26,6 +26,8 @@ enum class PluginKind
 
 // "controller", "actuator", "sensor", "physics engine", "visualisation", "experiment functions".
 std::string_view PluginKindName(PluginKind kind);
+// "sensor 'footbot_light' (generic_footbot_light)"; without the parentheses where there is no implementation.
+std::string NameOfPlugin(PluginKind kind, const std::string& label, const std::string& implementation);
 
 // What `swarmanoid list plugins` and the reference pages show of a plug-in.
 struct PluginDescription

@@ -1,10 +1,12 @@
-// Registries of plug-ins: one per interface. Built-in plug-ins are added by explicit functions (RegisterBuiltin...),
-// a user's by the REGISTER_... macros when the library is loaded. Filled before roles start, read-only afterwards.
+// Registries of plug-ins: one per interface. A user's plug-in is added, with its description, by the REGISTER_...
+// macros when its library is loaded. The simulator's own are described in every process (common/builtins); the role
+// that runs them binds their code to that (RegisterBuiltin...). Filled before roles start, read-only afterwards.
 #pragma once
 
 #include <functional>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -21,7 +23,7 @@ public:
   using Factory = std::function<std::unique_ptr<Interface>()>;
   struct Entry
   {
-    PluginDescription description;
+    const PluginDescription& description;  // the catalogue's
     Factory create;
   };
 
@@ -30,11 +32,26 @@ public:
   static PluginRegistry& Instance();
 
   // A second plug-in of the same name: see PluginCatalogue::Add.
-  void Add(PluginDescription description, Factory create)
+  void Add(const PluginDescription& description, Factory create)
   {
-    if (!PluginCatalogue::Instance().Add(kind_, description)) return;
-    std::pair<std::string, std::string> key{description.label, description.implementation};
-    entries_.emplace(std::move(key), Entry{std::move(description), std::move(create)});
+    if (PluginCatalogue::Instance().Add(kind_, description))
+      Bind(description.label, description.implementation, std::move(create));
+  }
+  // The code of a plug-in that is described already. Throws std::logic_error for one that is not, or has code.
+  void Bind(const std::string& label, const std::string& implementation, Factory create)
+  {
+    const PluginDescription* description = PluginCatalogue::Instance().Find(kind_, label, implementation);
+    if (description == nullptr)
+      throw std::logic_error(NameOfPlugin(kind_, label, implementation) + " is not described");
+    if (!entries_.emplace(std::pair{label, implementation}, Entry{*description, std::move(create)}).second)
+      throw std::logic_error(NameOfPlugin(kind_, label, implementation) + " has code already");
+  }
+  // Throws std::logic_error for a plug-in that is described and has no code.
+  void RequireCode() const
+  {
+    for (const PluginDescription* description : PluginCatalogue::Instance().Of(kind_))
+      if (Find(description->label, description->implementation) == nullptr)
+        throw std::logic_error(NameOfPlugin(kind_, description->label, description->implementation) + " has no code");
   }
 
   // nullptr where there is none.

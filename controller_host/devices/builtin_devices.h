@@ -1,4 +1,4 @@
-// What each file of this folder adds to the registries of devices.
+// The code that each file of this folder binds to the descriptions of common/builtins.
 #pragma once
 
 namespace swarmanoid

@@ -1,8 +1,8 @@
-// Small parts that the simulated devices share: registration, and the objects that controllers hold.
+// Small parts that the simulated devices share: registration, random numbers, noise.
 #pragma once
 
 #include <memory>
-#include <utility>
+#include <string>
 
 #include "controller_host/device.h"
 #include "controller_host/devices/device_streams.h"
@@ -11,18 +11,17 @@
 namespace swarmanoid
 {
 
+// Sensors and actuators that common/builtins describes.
 template <class Batch>
-void AddSensorPlugin(PluginDescription description)
+void BindSensor(const std::string& label, const std::string& implementation)
 {
-  CheckNoiseOf(PluginKind::kSensor, description);
-  PluginRegistry<SensorBatch>::Instance().Add(std::move(description), [] { return std::make_unique<Batch>(); });
+  PluginRegistry<SensorBatch>::Instance().Bind(label, implementation, [] { return std::make_unique<Batch>(); });
 }
 
 template <class Batch>
-void AddActuatorPlugin(PluginDescription description)
+void BindActuator(const std::string& label, const std::string& implementation)
 {
-  CheckNoiseOf(PluginKind::kActuator, description);
-  PluginRegistry<ActuatorBatch>::Instance().Add(std::move(description), [] { return std::make_unique<Batch>(); });
+  PluginRegistry<ActuatorBatch>::Instance().Bind(label, implementation, [] { return std::make_unique<Batch>(); });
 }
 
 }  // namespace swarmanoid

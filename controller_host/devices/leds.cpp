@@ -83,32 +83,15 @@ public:
   }
 };
 
-template <class Batch>
-void Add(const char* label, const char* implementation, const char* robot, const char* brief)
-{
-  PluginDescription description;
-  description.label = label;
-  description.implementation = implementation;
-  description.brief = brief;
-  description.robots = {robot};
-  description.parameters = ColourNoiseParameters();
-  AddActuatorPlugin<Batch>(description);
-}
-
 }  // namespace
 
 void RegisterLeds()
 {
-  Add<RingActuator<CCI_FootBotLedsActuator>>("footbot_leds", "generic_footbot_leds", "footbot",
-                                             "the 12 LEDs around the turret");
-  Add<BeaconActuator<CCI_FootBotBeaconActuator>>("footbot_beacon", "generic_footbot_beacon", "footbot",
-                                                 "the LED on top of the robot");
-  Add<RingActuator<CCI_EyeBotLedsActuator>>("eyebot_leds", "generic_eyebot_leds", "eyebot",
-                                            "the 16 LEDs around the robot");
-  Add<BeaconActuator<CCI_HandBotBeaconActuator>>("handbot_beacon", "generic_handbot_beacon", "handbot",
-                                                 "the LED on top of the robot");
-  Add<RingActuator<CCI_HandBotLedsActuator>>("handbot_leds", "generic_handbot_leds", "handbot",
-                                             "the 12 LEDs around the robot");
+  BindActuator<RingActuator<CCI_FootBotLedsActuator>>("footbot_leds", "generic_footbot_leds");
+  BindActuator<BeaconActuator<CCI_FootBotBeaconActuator>>("footbot_beacon", "generic_footbot_beacon");
+  BindActuator<RingActuator<CCI_EyeBotLedsActuator>>("eyebot_leds", "generic_eyebot_leds");
+  BindActuator<BeaconActuator<CCI_HandBotBeaconActuator>>("handbot_beacon", "generic_handbot_beacon");
+  BindActuator<RingActuator<CCI_HandBotLedsActuator>>("handbot_leds", "generic_handbot_leds");
 }
 
 }  // namespace swarmanoid

@@ -3,11 +3,10 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "common/configuration/parameter.h"
 #include "common/math/random.h"
-#include "common/plugins/catalogue.h"
+#include "common/plugins/noise_parameters.h"
 
 namespace swarmanoid
 {
@@ -33,16 +32,7 @@ struct NoiseModel
   double Sample(RandomStream&& random) const { return Sample(random); }
 };
 
-// The parameters <prefix>noise_kind, ..._mean, ..._deviation and ..._range, in `unit`. `of` says what is disturbed:
-// "each reading".
-std::vector<ParameterSpec> NoiseParameters(const std::string& of, const std::string& unit,
-                                           const std::string& prefix = "");
+// From NoiseParameters(…, prefix).
 NoiseModel NoiseFrom(const Parameters& parameters, const std::string& prefix = "");
-// Has the reader of experiment files refuse noise that would be none: numbers without a kind, a kind without its
-// numbers. For every device; nothing for those without such parameters.
-void CheckNoiseOf(PluginKind kind, const PluginDescription& device);
-
-// `own`, followed by `more`: tables of parameters are put together from parts.
-std::vector<ParameterSpec> Joined(std::vector<ParameterSpec> own, const std::vector<ParameterSpec>& more);
 
 }  // namespace swarmanoid

@@ -1,3 +1,4 @@
+#include "common/builtins/builtins.h"
 #include "controller_host/device.h"
 #include "controller_host/devices/builtin_devices.h"
 
@@ -8,6 +9,7 @@ void RegisterBuiltinDevices()
 {
   static const bool registered = []
   {
+    DescribeBuiltinDevices();
     RegisterFootbotWheels();
     RegisterFootbotProximity();
     RegisterFootbotGripper();
@@ -28,6 +30,8 @@ void RegisterBuiltinDevices()
     RegisterEyebotLaser();
     RegisterHandbotJoints();
     RegisterHandbotRope();
+    PluginRegistry<SensorBatch>::Instance().RequireCode();
+    PluginRegistry<ActuatorBatch>::Instance().RequireCode();
     return true;
   }();
   static_cast<void>(registered);

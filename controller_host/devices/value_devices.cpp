@@ -103,11 +103,6 @@ std::uint32_t AttributeActuator::Disturbed(std::uint32_t colour, RandomStream ra
   return disturbed;
 }
 
-std::vector<ParameterSpec> ColourNoiseParameters()
-{
-  return NoiseParameters("red, green and blue of what is lit", "1/255");
-}
-
 void ValueSensor::Reset(const DeviceSetup& setup, std::size_t width)
 {
   space_ = &setup.space;

@@ -66,9 +66,6 @@ private:
   std::vector<std::uint32_t> slots_;  // robot after robot
 };
 
-// Of colour_noise_.
-std::vector<ParameterSpec> ColourNoiseParameters();
-
 // Numbers that controllers read.
 class ValueSensor : public SensorBatch
 {

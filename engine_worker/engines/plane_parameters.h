@@ -1,7 +1,6 @@
-// The parameters that place the plane of a two-dimensional engine in the space; the same for all such engines.
+// Where the plane of a two-dimensional engine lies in the space; the parameters are the same for all such engines
+// (PlaneParameters, common/builtins).
 #pragma once
-
-#include <vector>
 
 #include "common/configuration/parameter.h"
 #include "engine_worker/engines/plane_frame.h"
@@ -9,8 +8,6 @@
 namespace swarmanoid
 {
 
-// perpendicular_axis, distance, tilt.
-std::vector<ParameterSpec> PlaneParameters();
 PlaneFrame PlaneFrom(const Parameters& parameters);
 
 }  // namespace swarmanoid

@@ -56,12 +56,6 @@ public:
 class PlaneRobots
 {
 public:
-  // The names of the channels that it serves.
-  static std::vector<std::string> Channels()
-  {
-    return {"eyebot_attach", "handbot_arms", "handbot_hands", "handbot_rope"};
-  }
-
   // The references outlive it. Entities that the engine moves, in entity order.
   void Init(const CSwarmanoidSpace& space, const PlaneFrame& frame, PlaneGrips& grips);
   void AddOwned(const CSwarmanoidSpaceEntity& entity);

@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench_world.h"
+#include "common/builtins/engines.h"
 #include "engine_worker/engines/dynamics2d/dynamics2d_engine.h"
 
 namespace swarmanoid
@@ -28,7 +29,7 @@ public:
     }
     layout_.commands.push_back(wheels);
     layout_.command_size = commands_.size();
-    const Parameters parameters(TConfigurationTree(), dynamics2d::Dynamics2dParameterTable());
+    const Parameters parameters(TConfigurationTree(), Dynamics2dDescription().parameters);
     engine_.Init({configuration_, parameters, space, layout_});
     for (std::uint32_t i = 0; i < space.Size(); ++i)
       engine_.AddEntity(space.GetEntity(i), space.GetEntity(i).IsMovable() ? EBinding::kOwned : EBinding::kFixed);

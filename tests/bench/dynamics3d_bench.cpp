@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "common/builtins/engines.h"
 #include "common/math/elementary.h"
 #include "common/math/random.h"
 #include "common/space/space.h"
@@ -81,7 +82,7 @@ private:
   Experiment experiment_;
   EngineConfiguration configuration_;
   EngineLayout layout_;
-  std::vector<ParameterSpec> table_ = dynamics3d::ParameterTable();
+  std::vector<ParameterSpec> table_ = Dynamics3dDescription().parameters;
   std::shared_ptr<ConfigurationNode> node_ = std::make_shared<ConfigurationNode>();
   std::unique_ptr<CSwarmanoidSpace> space_;
   std::unique_ptr<dynamics3d::TerrainShape> hills_;

@@ -1,14 +1,4 @@
-// The parameters that all renderers with a window share. Light, as view_parameters.h.
+// The parameters that renderers with a window share: WindowParameters.
 #pragma once
 
-#include <vector>
-
-#include "common/configuration/parameter.h"
-
-namespace swarmanoid
-{
-
-// window_size, window_title, write_frames, frame_directory, frame_filename, every, max_frame_rate, show_panels.
-std::vector<ParameterSpec> WindowParameters();
-
-}  // namespace swarmanoid
+#include "common/builtins/renderers.h"

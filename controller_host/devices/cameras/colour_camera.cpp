@@ -17,21 +17,6 @@ inline bool IsBelow(double x, double y, double z, double tangent, double square_
 
 }  // namespace
 
-std::vector<ParameterSpec> ColourCamera::ViewParameters(const char* aperture_degrees, const char* range_m)
-{
-  return {{.name = "aperture",
-           .unit = "degrees",
-           .default_value = aperture_degrees,
-           .description = "Angle between the axis of the camera and the border of its view.",
-           .minimum = 0.1,
-           .maximum = 89.9},
-          {.name = "range",
-           .unit = "m",
-           .default_value = range_m,
-           .description = "Distance beyond which blobs are too small to be extracted.",
-           .minimum = 0.001}};
-}
-
 void ColourCamera::InitCamera(const DeviceSetup& setup, CameraModel model)
 {
   model.aperture = DegreesToRadians(setup.parameters.Number("aperture"));

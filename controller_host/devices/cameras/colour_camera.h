@@ -34,8 +34,7 @@ public:
   void Update(const ChannelView& channel) override;
 
 protected:
-  // <aperture> and <range> with these defaults.
-  static std::vector<ParameterSpec> ViewParameters(const char* aperture_degrees, const char* range_m);
+  // Takes <aperture> and <range> from the parameters.
   void InitCamera(const DeviceSetup& setup, CameraModel model);
 
   // Blobs in view, those of several robots one behind another, by lanes: room for more behind `count`.

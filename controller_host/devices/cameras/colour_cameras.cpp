@@ -19,28 +19,19 @@ namespace
 struct FootbotCamera
 {
   using Interface = CCI_FootBotOmnidirectionalCameraSensor;
-  static constexpr const char* kRobot = "footbot";
   static constexpr const char* kLabel = "footbot_omnidirectional_camera";
-  static constexpr const char* kAperture = "70";  // ARGoS3
-  static constexpr const char* kRange = "3";
   static CameraModel Model() { return {CameraModel::View::kDown, {0, 0, 0.2887}, 0, 0}; }
 };
 struct EyebotCamera
 {
   using Interface = CCI_EyeBotCameraSensor;
-  static constexpr const char* kRobot = "eyebot";
   static constexpr const char* kLabel = "eyebot_camera";
-  static constexpr const char* kAperture = "30";  // ARGoS 2
-  static constexpr const char* kRange = "3";
   static CameraModel Model() { return {CameraModel::View::kDown, {0, 0, 0}, 0, 0}; }
 };
 struct HandbotCamera
 {
   using Interface = CCI_HandBotCameraSensor;
-  static constexpr const char* kRobot = "handbot";
   static constexpr const char* kLabel = "handbot_camera";
-  static constexpr const char* kAperture = "30";
-  static constexpr const char* kRange = "2";
   static CameraModel Model() { return {CameraModel::View::kAhead, {0.09, 0, 0.1}, 0, 0}; }
 };
 
@@ -85,13 +76,6 @@ template <class Traits>
 class IdealCamera : public CameraBatch<Traits>
 {
 public:
-  static std::vector<ParameterSpec> ParameterTable()
-  {
-    std::vector<ParameterSpec> table = Joined(Joined(ColourCamera::ViewParameters(Traits::kAperture, Traits::kRange),
-                                                     NoiseParameters("each distance", "m", "distance_")),
-                                              NoiseParameters("each angle", "rad", "angle_"));
-    return kHasElevation ? Joined(table, NoiseParameters("each elevation", "rad", "elevation_")) : table;
-  }
   void Init(const DeviceSetup& setup) override
   {
     this->InitBatch(setup);
@@ -141,21 +125,6 @@ template <class Traits>
 class PixelCamera : public CameraBatch<Traits>
 {
 public:
-  static std::vector<ParameterSpec> ParameterTable()
-  {
-    return Joined(Joined(ColourCamera::ViewParameters(Traits::kAperture, Traits::kRange),
-                         {{.name = "image_radius",
-                           .unit = "pixels",
-                           .default_value = "240",
-                           .description = "Pixels from the middle of the image to the border of the view.",
-                           .minimum = 1},
-                          {.name = "miss_probability",
-                           .default_value = "0",
-                           .description = "Share of the blobs that are not extracted in a tick.",
-                           .minimum = 0,
-                           .maximum = 1}}),
-                  NoiseParameters("each coordinate in the image, before rounding to whole pixels", "pixels"));
-  }
   void Init(const DeviceSetup& setup) override
   {
     this->InitBatch(setup);
@@ -224,30 +193,20 @@ private:
 };
 
 template <class Traits>
-void RegisterCameras(const std::string& what)
+void BindCameras()
 {
-  PluginDescription description;
-  description.label = Traits::kLabel;
-  description.robots = {Traits::kRobot};
-
-  description.implementation = std::string("generic_") + Traits::kLabel;
-  description.brief = what + ": blobs at their exact places, with noise on distance and angles where asked";
-  description.parameters = IdealCamera<Traits>::ParameterTable();
-  AddSensorPlugin<IdealCamera<Traits>>(description);
-
-  description.implementation = std::string("pixel_noise_") + Traits::kLabel;
-  description.brief = what + ": blobs in whole pixels with noise, some of them missed";
-  description.parameters = PixelCamera<Traits>::ParameterTable();
-  AddSensorPlugin<PixelCamera<Traits>>(description);
+  const std::string label = Traits::kLabel;
+  BindSensor<IdealCamera<Traits>>(label, "generic_" + label);
+  BindSensor<PixelCamera<Traits>>(label, "pixel_noise_" + label);
 }
 
 }  // namespace
 
 void RegisterColourCameras()
 {
-  RegisterCameras<FootbotCamera>("omnidirectional camera");
-  RegisterCameras<EyebotCamera>("camera that looks down");
-  RegisterCameras<HandbotCamera>("camera that looks ahead");
+  BindCameras<FootbotCamera>();
+  BindCameras<EyebotCamera>();
+  BindCameras<HandbotCamera>();
 }
 
 }  // namespace swarmanoid

@@ -54,17 +54,6 @@ private:
 class PieCamera : public ColourCamera
 {
 public:
-  static std::vector<ParameterSpec> ParameterTable()
-  {
-    return Joined(Joined({{.name = "sectors",
-                           .type = ParameterType::kInteger,
-                           .default_value = "12",
-                           .description = "Number of equal sectors around the robot.",
-                           .minimum = 1,
-                           .maximum = 360}},
-                         ViewParameters("85", "3")),
-                  NoiseParameters("each distance", "m"));
-  }
   void Init(const DeviceSetup& setup) override
   {
     // The eye of the omnidirectional camera.
@@ -130,15 +119,6 @@ private:
 
 }  // namespace
 
-void RegisterPieCamera()
-{
-  PluginDescription description;
-  description.label = "pie_camera";
-  description.implementation = "generic_pie_camera";
-  description.brief = "nearest blob and number of blobs for each colour in each sector around the robot";
-  description.robots = {"footbot"};
-  description.parameters = PieCamera::ParameterTable();
-  AddSensorPlugin<PieCamera>(description);
-}
+void RegisterPieCamera() { BindSensor<PieCamera>("pie_camera", "generic_pie_camera"); }
 
 }  // namespace swarmanoid

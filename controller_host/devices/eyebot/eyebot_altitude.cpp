@@ -56,15 +56,6 @@ private:
 
 }  // namespace
 
-void RegisterEyebotAltitude()
-{
-  PluginDescription description;
-  description.label = "eyebot_altitude";
-  description.implementation = "generic_eyebot_altitude";
-  description.brief = "distance down to the floor or to what stands there";
-  description.robots = {"eyebot"};
-  description.parameters = NoiseParameters("the altitude", "m");
-  AddSensorPlugin<AltitudeSensor>(description);
-}
+void RegisterEyebotAltitude() { BindSensor<AltitudeSensor>("eyebot_altitude", "generic_eyebot_altitude"); }
 
 }  // namespace swarmanoid

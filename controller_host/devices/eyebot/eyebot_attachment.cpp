@@ -37,18 +37,6 @@ public:
 
 }  // namespace
 
-void RegisterEyebotAttachment()
-{
-  PluginDescription description;
-  description.label = "eyebot_attachment";
-  description.implementation = "dummy_eyebot_attachment";
-  description.brief = "hangs the robot on the ceiling by its magnet";
-  description.robots = {"eyebot"};
-  description.channel = "eyebot_attach";
-  description.channel_width = 1;
-  description.parameters =
-      NoiseParameters("the strength of the magnet, 0 to 1, while it is on; it holds above 0.5", "");
-  AddActuatorPlugin<MagnetActuator>(description);
-}
+void RegisterEyebotAttachment() { BindActuator<MagnetActuator>("eyebot_attachment", "dummy_eyebot_attachment"); }
 
 }  // namespace swarmanoid

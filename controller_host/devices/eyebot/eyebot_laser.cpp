@@ -66,15 +66,6 @@ private:
 
 }  // namespace
 
-void RegisterEyebotLaser()
-{
-  PluginDescription description;
-  description.label = "eyebot_laser";
-  description.implementation = "generic_eyebot_laser";
-  description.brief = "projects a coloured spot that cameras see";
-  description.robots = {"eyebot"};
-  description.parameters = NoiseParameters("pan and tilt", "rad");
-  AddActuatorPlugin<LaserActuator>(description);
-}
+void RegisterEyebotLaser() { BindActuator<LaserActuator>("eyebot_laser", "generic_eyebot_laser"); }
 
 }  // namespace swarmanoid

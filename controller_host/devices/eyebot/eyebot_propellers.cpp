@@ -18,20 +18,6 @@ constexpr std::size_t kAxes = 4;
 
 double Clamped(double value, double limit) { return std::clamp(value, -limit, limit); }
 
-std::vector<ParameterSpec> SpeedLimits()
-{
-  return {{.name = "max_speed",
-           .unit = "m/s",
-           .default_value = "1",
-           .description = "Horizontal and vertical speed to which commands are clamped, along each axis.",
-           .minimum = 0},
-          {.name = "max_yaw_rate",
-           .unit = "rad/s",
-           .default_value = "1.57079633",
-           .description = "Yaw rate to which commands are clamped.",
-           .minimum = 0}};
-}
-
 struct Limits
 {
   double speed = 0;     // m/s
@@ -82,10 +68,6 @@ private:
 class VelocityActuator : public ActuatorsOf<ChannelActuator, VelocityPropellers>
 {
 public:
-  static std::vector<ParameterSpec> ParameterTable()
-  {
-    return Joined(SpeedLimits(), NoiseParameters("each velocity that is not 0", "m/s, rad/s"));
-  }
   void Init(const DeviceSetup& setup) override
   {
     Reset(setup, kAxes);
@@ -136,16 +118,6 @@ private:
 class PositionActuator : public ActuatorsOf<ValueActuator, PositionPropellers>
 {
 public:
-  static std::vector<ParameterSpec> ParameterTable()
-  {
-    return Joined(Joined(SpeedLimits(), {{.name = "gain",
-                                          .unit = "1/s",
-                                          .default_value = "1",
-                                          .description = "Speed for each metre (and yaw rate for each radian) that is "
-                                                         "left; larger values arrive sooner and overshoot more.",
-                                          .minimum = 0}}),
-                  NoiseParameters("each velocity that is not 0", "m/s, rad/s"));
-  }
   void Init(const DeviceSetup& setup) override
   {
     Reset(setup, kFlightWidth);
@@ -197,21 +169,8 @@ private:
 
 void RegisterEyebotPropellers()
 {
-  PluginDescription description;
-  description.label = "eyebot_propellers";
-  description.robots = {"eyebot"};
-  description.channel = "eyebot_propellers";
-  description.channel_width = kAxes;
-
-  description.implementation = "dummy_eyebot_propellers";
-  description.brief = "flies at given velocities";
-  description.parameters = VelocityActuator::ParameterTable();
-  AddActuatorPlugin<VelocityActuator>(description);
-
-  description.implementation = "position_eyebot_propellers";
-  description.brief = "flies at given velocities or to a given position and heading";
-  description.parameters = PositionActuator::ParameterTable();
-  AddActuatorPlugin<PositionActuator>(description);
+  BindActuator<VelocityActuator>("eyebot_propellers", "dummy_eyebot_propellers");
+  BindActuator<PositionActuator>("eyebot_propellers", "position_eyebot_propellers");
 }
 
 }  // namespace swarmanoid

@@ -8,15 +8,8 @@ namespace swarmanoid
 {
 void RegisterFootbotAccelerometer()
 {
-  PluginDescription description;
-  description.label = "footbot_accelerometer";
-  description.implementation = "engine_footbot_accelerometer";
-  description.brief = "acceleration of the body, gravity included, in engines that know forces";
-  description.robots = {"footbot"};
-  description.channel = "footbot_accelerometer";
-  description.channel_width = 3;
-  description.parameters = NoiseParameters("each component", "m/s^2");
-  AddSensorPlugin<ChannelReadings<CCI_FootBotAccelerometerSensor, 3>>(description);
+  BindSensor<ChannelReadings<CCI_FootBotAccelerometerSensor, 3>>("footbot_accelerometer",
+                                                                 "engine_footbot_accelerometer");
 }
 
 }  // namespace swarmanoid

@@ -34,17 +34,6 @@ private:
 
 }  // namespace
 
-void RegisterFootbotEncoders()
-{
-  PluginDescription description;
-  description.label = "footbot_encoders";
-  description.implementation = "engine_footbot_encoders";
-  description.brief = "how the wheels turned in the last tick, collisions and pulls included";
-  description.robots = {"footbot"};
-  description.channel = "footbot_encoders";
-  description.channel_width = 2;
-  description.parameters = NoiseParameters("the speed of each wheel", "rad/s");
-  AddSensorPlugin<EncodersSensor>(description);
-}
+void RegisterFootbotEncoders() { BindSensor<EncodersSensor>("footbot_encoders", "engine_footbot_encoders"); }
 
 }  // namespace swarmanoid

@@ -85,23 +85,8 @@ private:
 
 void RegisterFootbotGripper()
 {
-  PluginDescription actuator;
-  actuator.label = "footbot_gripper";
-  actuator.implementation = "dummy_footbot_gripper";
-  actuator.brief = "opens and closes the gripper; closed, it holds what it touches";
-  actuator.robots = {"footbot"};
-  actuator.channel = "footbot_gripper";
-  actuator.channel_width = 1;
-  actuator.parameters = NoiseParameters("how far it closes, 0 to 1, while it is told to close", "");
-  AddActuatorPlugin<GripperActuator>(actuator);
-
-  PluginDescription sensor;
-  sensor.label = "footbot_gripper";
-  sensor.implementation = "generic_footbot_gripper";
-  sensor.brief = "aperture of the gripper, whether it holds something and what";
-  sensor.robots = {"footbot"};
-  sensor.parameters = NoiseParameters("the aperture", "rad");
-  AddSensorPlugin<GripperSensor>(sensor);
+  BindActuator<GripperActuator>("footbot_gripper", "dummy_footbot_gripper");
+  BindSensor<GripperSensor>("footbot_gripper", "generic_footbot_gripper");
 }
 
 }  // namespace swarmanoid

@@ -43,15 +43,6 @@ double Brightness(std::uint32_t colour)
 class GroundSensor : public SensorsOf<ValueSensor, Ground>
 {
 public:
-  static std::vector<ParameterSpec> ParameterTable()
-  {
-    return Joined({{.name = "floor_colour",
-                    .type = ParameterType::kColour,
-                    .default_value = "#ffffff",
-                    .description = "Colour of the floor outside all patches."}},
-                  NoiseParameters("each brightness", ""));
-  }
-
   void Init(const DeviceSetup& setup) override
   {
     Reset(setup, kSensors + 1);
@@ -167,15 +158,6 @@ private:
 
 }  // namespace
 
-void RegisterFootbotGround()
-{
-  PluginDescription description;
-  description.label = "footbot_ground";
-  description.implementation = "generic_footbot_ground";
-  description.brief = "brightness and colour of the floor: finds the nest";
-  description.robots = {"footbot"};
-  description.parameters = GroundSensor::ParameterTable();
-  AddSensorPlugin<GroundSensor>(description);
-}
+void RegisterFootbotGround() { BindSensor<GroundSensor>("footbot_ground", "generic_footbot_ground"); }
 
 }  // namespace swarmanoid

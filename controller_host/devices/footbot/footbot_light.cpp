@@ -80,15 +80,6 @@ private:
 
 }  // namespace
 
-void RegisterFootbotLight()
-{
-  PluginDescription description;
-  description.label = "footbot_light";
-  description.implementation = "generic_footbot_light";
-  description.brief = "24 sensors that see the light bulbs in line of sight";
-  description.robots = {"footbot"};
-  description.parameters = NoiseParameters("each reading", "");
-  AddSensorPlugin<LightSensor>(description);
-}
+void RegisterFootbotLight() { BindSensor<LightSensor>("footbot_light", "generic_footbot_light"); }
 
 }  // namespace swarmanoid

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/builtins/devices.h"
 #include "common/math/elementary.h"
-#include "common/plugins/parameter_checks.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 
@@ -21,39 +21,7 @@ constexpr double kContactDistance = 0.009889556;
 constexpr double kHyperbolaScale = 0.0100527;
 constexpr double kHyperbolaOffset = 0.000163144;
 
-// The hyperbola above between contact and 0.1 m, by Chebyshev interpolation of degree 8; largest error 0.0036.
-constexpr const char* kDefaultCoefficients =
-    "2.910682, -347.09805, 22120.741, -833767.85, 19426124, -282177360, 2484022100, -12111713000, 25077147000";
-
-constexpr double kFittedRange = 0.1;  // m
-
-// Coefficients that are no numbers; the default ones beyond the distances that they were fitted to.
-std::vector<ConfigurationError> MistakesInPolynomial(const Parameters& parameters)
-{
-  const std::string text = parameters.Text("coefficients");
-  const auto coefficients = ParseNumbers(text);
-  if (!coefficients || coefficients->empty())
-    return {ConfigurationError(parameters.Tree().ValueLocation("coefficients"),
-                               "<coefficients> '" + text + "' is not a list of numbers; write \"c0, c1, c2\"")};
-  if (parameters.Number("range") > kFittedRange && !parameters.IsGiven("coefficients"))
-    return {ConfigurationError(parameters.Tree().ValueLocation("range"),
-                               "'range' of <" + parameters.Tree().Name() + "> is " + parameters.Text("range") +
-                                   " m, but the default coefficients are a fit up to 0.1 m; give <coefficients> too, "
-                                   "or use generic_footbot_proximity")};
-  return {};
-}
-
 }  // namespace
-
-std::vector<ParameterSpec> FootbotProximity::CommonParameters()
-{
-  return Joined({{.name = "range",
-                  .unit = "m",
-                  .default_value = "0.1",
-                  .description = "Distance from the body beyond which nothing is seen.",
-                  .minimum = 0}},
-                NoiseParameters("each reading", ""));
-}
 
 void FootbotProximity::Init(const DeviceSetup& setup)
 {
@@ -251,8 +219,6 @@ void FootbotProximity::AddTerrain(std::uint32_t robot)
   }
 }
 
-std::vector<ParameterSpec> RayCastProximity::ParameterTable() { return CommonParameters(); }
-
 void RayCastProximity::Respond(const double* distances, double* readings) const
 {
   for (unsigned i = 0; i < kRays; ++i)
@@ -261,17 +227,6 @@ void RayCastProximity::Respond(const double* distances, double* readings) const
     const double reading = kHyperbolaScale / (distances[i] + kHyperbolaOffset);
     readings[i] = distances[i] < kContactDistance ? 1 : reading;
   }
-}
-
-std::vector<ParameterSpec> PolynomialProximity::ParameterTable()
-{
-  return Joined(
-      {{.name = "coefficients",
-        .type = ParameterType::kText,
-        .default_value = kDefaultCoefficients,
-        .description = "c0, c1, c2 ... of the reading c0 + c1 d + c2 d^2 + ..., d the distance in m; cut to 0..1. The "
-                       "default is a fit up to 0.1 m."}},
-      CommonParameters());
 }
 
 void PolynomialProximity::Init(const DeviceSetup& setup)
@@ -292,20 +247,8 @@ void PolynomialProximity::Respond(const double* distances, double* readings) con
 
 void RegisterFootbotProximity()
 {
-  PluginDescription description;
-  description.label = "footbot_proximity";
-  description.robots = {"footbot"};
-
-  description.implementation = "generic_footbot_proximity";
-  description.brief = "24 rays of 0.1 m against robots, preys and blocks; response measured on the robot";
-  description.parameters = RayCastProximity::ParameterTable();
-  AddSensorPlugin<RayCastProximity>(description);
-
-  description.implementation = "generic_footbot_polynomial_proximity";
-  description.brief = "the same rays; the response is a polynomial of the distance with given coefficients";
-  description.parameters = PolynomialProximity::ParameterTable();
-  ParameterChecks::Instance().Add(PluginKind::kSensor, description, MistakesInPolynomial);
-  AddSensorPlugin<PolynomialProximity>(description);
+  BindSensor<RayCastProximity>("footbot_proximity", "generic_footbot_proximity");
+  BindSensor<PolynomialProximity>("footbot_proximity", "generic_footbot_polynomial_proximity");
 }
 
 }  // namespace swarmanoid

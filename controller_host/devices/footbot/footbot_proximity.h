@@ -28,7 +28,6 @@ public:
   void Update(const ChannelView& channel) override;
 
 protected:
-  static std::vector<ParameterSpec> CommonParameters();
   // From distances in m (more than the range: nothing there) to readings, before noise and the cut to 0..1.
   virtual void Respond(const double* distances, double* readings) const = 0;
 
@@ -65,9 +64,6 @@ private:
 // y = 1 below a contact distance, else a / (d + b): the curve that ARGoS3 fitted to the robot.
 class RayCastProximity : public FootbotProximity
 {
-public:
-  static std::vector<ParameterSpec> ParameterTable();
-
 protected:
   void Respond(const double* distances, double* readings) const override;
 };
@@ -76,7 +72,6 @@ protected:
 class PolynomialProximity : public FootbotProximity
 {
 public:
-  static std::vector<ParameterSpec> ParameterTable();
   void Init(const DeviceSetup& setup) override;
 
 protected:

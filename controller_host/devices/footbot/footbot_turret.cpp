@@ -35,15 +35,6 @@ private:
 class TurretActuator : public ActuatorsOf<ChannelActuator, Turret>
 {
 public:
-  static std::vector<ParameterSpec> ParameterTable()
-  {
-    return Joined({{.name = "max_speed",
-                    .unit = "rad/s",
-                    .default_value = "3.14159265",
-                    .description = "Speed to which commands are clamped.",
-                    .minimum = 0}},
-                  NoiseParameters("the speed while the turret is told to move", "rad/s"));
-  }
   void Init(const DeviceSetup& setup) override
   {
     Reset(setup, 1);
@@ -88,33 +79,9 @@ public:
 
 void RegisterFootbotTurret()
 {
-  PluginDescription motor;
-  motor.label = "footbot_turret";
-  motor.implementation = "dummy_footbot_turret";
-  motor.brief = "turns the turret with gripper and LED ring at a given speed";
-  motor.robots = {"footbot"};
-  motor.channel = "footbot_turret";
-  motor.channel_width = 1;
-  motor.parameters = TurretActuator::ParameterTable();
-  AddActuatorPlugin<TurretActuator>(motor);
-
-  PluginDescription encoder;
-  encoder.label = "footbot_turret_encoder";
-  encoder.implementation = "generic_footbot_turret_encoder";
-  encoder.brief = "angle of the turret against the body";
-  encoder.robots = {"footbot"};
-  encoder.parameters = NoiseParameters("the angle", "rad");
-  AddSensorPlugin<TurretEncoder>(encoder);
-
-  PluginDescription torque;
-  torque.label = "footbot_turret_torque";
-  torque.implementation = "engine_footbot_turret_torque";
-  torque.brief = "torque and pull between body and turret, as the engine computes them";
-  torque.robots = {"footbot"};
-  torque.channel = "footbot_turret_torque";
-  torque.channel_width = 3;
-  torque.parameters = NoiseParameters("each of the three readings", "");
-  AddSensorPlugin<TorqueSensor>(torque);
+  BindActuator<TurretActuator>("footbot_turret", "dummy_footbot_turret");
+  BindSensor<TurretEncoder>("footbot_turret_encoder", "generic_footbot_turret_encoder");
+  BindSensor<TorqueSensor>("footbot_turret_torque", "engine_footbot_turret_torque");
 }
 
 }  // namespace swarmanoid

@@ -15,16 +15,6 @@ constexpr double kRadius = CCI_FootBotWheelsActuator::WHEEL_RADIUS_M;
 
 }  // namespace
 
-std::vector<ParameterSpec> DummyFootbotWheels::ParameterTable()
-{
-  return Joined({{.name = "max_speed",
-                  .unit = "m/s",
-                  .default_value = "0.3",
-                  .description = "Speed of a wheel on the ground to which commands are clamped; 0.3 on the robot.",
-                  .minimum = 0}},
-                NoiseParameters("the speed of each wheel while it moves", "m/s"));
-}
-
 void DummyFootbotWheels::Init(const DeviceSetup& setup)
 {
   limit_ = setup.parameters.Number("max_speed") / kRadius;
@@ -75,22 +65,6 @@ void DummyFootbotWheels::LoadState(ByteReader& state)
   for (SimulatedFootbotWheels& wheels : wheels_) wheels.wanted = state.Get<std::array<double, 2>>();
 }
 
-std::vector<ParameterSpec> NoisyFootbotWheels::ParameterTable()
-{
-  return Joined(
-      DummyFootbotWheels::ParameterTable(),
-      {{.name = "bias_left",
-        .unit = "m/s",
-        .default_value = "0",
-        .description = "Added to the speed of the left wheel while it moves."},
-       {.name = "bias_right",
-        .unit = "m/s",
-        .default_value = "0",
-        .description = "Added to the speed of the right wheel while it moves."},
-       {.name = "factor_left", .default_value = "1", .description = "Multiplies the speed of the left wheel."},
-       {.name = "factor_right", .default_value = "1", .description = "Multiplies the speed of the right wheel."}});
-}
-
 void NoisyFootbotWheels::Init(const DeviceSetup& setup)
 {
   DummyFootbotWheels::Init(setup);
@@ -110,21 +84,6 @@ void NoisyFootbotWheels::Commit(const ChannelView& channel, AttributeChanges&)
     }
   }
   AddNoise(channel);
-}
-
-std::vector<ParameterSpec> PidFootbotWheels::ParameterTable()
-{
-  return Joined(DummyFootbotWheels::ParameterTable(),
-                {{.name = "time_constant",
-                  .unit = "s",
-                  .default_value = "0.1",
-                  .description = "Time in which 63 % of a step in the commanded speed is reached; 0 follows at once.",
-                  .minimum = 0},
-                 {.name = "max_acceleration",
-                  .unit = "m/s^2",
-                  .default_value = "0",
-                  .description = "Largest change of a wheel's speed on the ground; 0 sets no limit.",
-                  .minimum = 0}});
 }
 
 void PidFootbotWheels::Init(const DeviceSetup& setup)
@@ -168,26 +127,9 @@ void PidFootbotWheels::LoadState(ByteReader& state)
 
 void RegisterFootbotWheels()
 {
-  PluginDescription description;
-  description.label = "footbot_wheels";
-  description.robots = {"footbot"};
-  description.channel = "footbot_wheels";
-  description.channel_width = 2;
-
-  description.implementation = "dummy_footbot_wheels";
-  description.brief = "wheels that turn at the commanded speed at once, up to max_speed";
-  description.parameters = DummyFootbotWheels::ParameterTable();
-  AddActuatorPlugin<DummyFootbotWheels>(description);
-
-  description.implementation = "noisy_footbot_wheels";
-  description.brief = "wheels with a bias and a factor on their speed while they move";
-  description.parameters = NoisyFootbotWheels::ParameterTable();
-  AddActuatorPlugin<NoisyFootbotWheels>(description);
-
-  description.implementation = "pid_footbot_wheels";
-  description.brief = "wheels that approach the commanded speed with the lag of a speed controller";
-  description.parameters = PidFootbotWheels::ParameterTable();
-  AddActuatorPlugin<PidFootbotWheels>(description);
+  BindActuator<DummyFootbotWheels>("footbot_wheels", "dummy_footbot_wheels");
+  BindActuator<NoisyFootbotWheels>("footbot_wheels", "noisy_footbot_wheels");
+  BindActuator<PidFootbotWheels>("footbot_wheels", "pid_footbot_wheels");
 }
 
 }  // namespace swarmanoid

@@ -32,7 +32,6 @@ public:
 class DummyFootbotWheels : public ActuatorBatch
 {
 public:
-  static std::vector<ParameterSpec> ParameterTable();
   void Init(const DeviceSetup& setup) override;
   CCI_Actuator* Actuator(std::size_t k) override { return &wheels_[k]; }
   void Commit(const ChannelView& channel, AttributeChanges& changes) override;
@@ -57,7 +56,6 @@ private:
 class NoisyFootbotWheels : public DummyFootbotWheels
 {
 public:
-  static std::vector<ParameterSpec> ParameterTable();
   void Init(const DeviceSetup& setup) override;
   void Commit(const ChannelView& channel, AttributeChanges& changes) override;
 
@@ -70,7 +68,6 @@ private:
 class PidFootbotWheels : public DummyFootbotWheels
 {
 public:
-  static std::vector<ParameterSpec> ParameterTable();
   void Init(const DeviceSetup& setup) override;
   void Commit(const ChannelView& channel, AttributeChanges& changes) override;
   void SaveState(ByteWriter& state) const override;

@@ -42,18 +42,6 @@ public:
 class DirectionActuator : public AttributeActuator
 {
 public:
-  static std::vector<ParameterSpec> ParameterTable()
-  {
-    return Joined(
-        {{.name = "width",
-          .unit = "degrees",
-          .default_value = "60",
-          .description = "LEDs within half of this angle of the direction are lit; the nearest one always is.",
-          .minimum = 0,
-          .maximum = 360}},
-        NoiseParameters("the direction", "rad"));
-  }
-
   void Init(const DeviceSetup& setup) override
   {
     Bind(setup, {"led"});
@@ -119,13 +107,7 @@ private:
 
 void RegisterPreferentialDirection()
 {
-  PluginDescription description;
-  description.label = "footbot_preferential_direction";
-  description.implementation = "led_ring_preferential_direction";
-  description.brief = "shows a direction by lighting the LEDs that point to it";
-  description.robots = {"footbot"};
-  description.parameters = DirectionActuator::ParameterTable();
-  AddActuatorPlugin<DirectionActuator>(description);
+  BindActuator<DirectionActuator>("footbot_preferential_direction", "led_ring_preferential_direction");
 }
 
 }  // namespace swarmanoid

@@ -16,8 +16,6 @@ namespace swarmanoid
 namespace
 {
 
-constexpr int kArmChannelWidth = 5;
-
 double Clamped(double velocity)
 {
   constexpr double kLimit = CCI_HandBotArmsActuator::MAX_SPEED;
@@ -147,43 +145,14 @@ private:
   NoiseModel joint_noise_;
 };
 
-PluginDescription Description(const char* label, const char* implementation, const char* brief)
-{
-  PluginDescription description;
-  description.label = label;
-  description.implementation = implementation;
-  description.brief = brief;
-  description.robots = {"handbot"};
-  return description;
-}
-
 }  // namespace
 
 void RegisterHandbotJoints()
 {
-  PluginDescription head = Description("handbot_head", "dummy_handbot_head", "turns the head with the two arms");
-  head.channel = "handbot_arms";
-  head.channel_width = kArmChannelWidth;
-  head.parameters = NoiseParameters("the speed while the head is told to move", "rad/s");
-  AddActuatorPlugin<JointActuator<Head, 0, 1, 0>>(head);
-
-  PluginDescription arms = Description("handbot_arms", "dummy_handbot_arms", "moves arms and wrists at given speeds");
-  arms.channel = "handbot_arms";
-  arms.channel_width = kArmChannelWidth;
-  arms.parameters = NoiseParameters("the speed of each joint that is told to move", "rad/s");
-  AddActuatorPlugin<JointActuator<Arms, 1, 4, 0>>(arms);
-
-  PluginDescription hands = Description("handbot_hands", "dummy_handbot_hands", "opens and closes the two hands");
-  hands.channel = "handbot_hands";
-  hands.channel_width = 2;
-  hands.parameters =
-      NoiseParameters("how far each hand closes, 0 to 1, while it is told to close; it holds above 0.5", "");
-  AddActuatorPlugin<JointActuator<Hands, 0, 2, 1>>(hands);
-
-  PluginDescription joints = Description("handbot_joints", "generic_handbot_joints",
-                                         "angles of head, arms, wrists and hands, what the hands hold, the rope");
-  joints.parameters = NoiseParameters("each angle", "rad");
-  AddSensorPlugin<JointsSensor>(joints);
+  BindActuator<JointActuator<Head, 0, 1, 0>>("handbot_head", "dummy_handbot_head");
+  BindActuator<JointActuator<Arms, 1, 4, 0>>("handbot_arms", "dummy_handbot_arms");
+  BindActuator<JointActuator<Hands, 0, 2, 1>>("handbot_hands", "dummy_handbot_hands");
+  BindSensor<JointsSensor>("handbot_joints", "generic_handbot_joints");
 }
 
 }  // namespace swarmanoid

@@ -61,17 +61,6 @@ private:
 
 }  // namespace
 
-void RegisterHandbotRope()
-{
-  PluginDescription description;
-  description.label = "handbot_rope";
-  description.implementation = "dummy_handbot_rope";
-  description.brief = "shoots the rope to the ceiling and climbs by its winch";
-  description.robots = {"handbot"};
-  description.channel = "handbot_rope";
-  description.channel_width = 2;
-  description.parameters = NoiseParameters("the speed of the winch while it runs", "m/s");
-  AddActuatorPlugin<RopeActuator>(description);
-}
+void RegisterHandbotRope() { BindActuator<RopeActuator>("handbot_rope", "dummy_handbot_rope"); }
 
 }  // namespace swarmanoid

@@ -36,24 +36,6 @@ public:
 class ReceiverBatch : public SensorBatch
 {
 public:
-  static std::vector<ParameterSpec> ParameterTable()
-  {
-    const std::vector<ParameterSpec> noise =
-        Joined(Joined(NoiseParameters("each range", "m", "range_"), NoiseParameters("each bearing", "rad", "bearing_")),
-               NoiseParameters("each vertical bearing", "rad", "vertical_bearing_"));
-    return Joined({{.name = "range",
-                    .unit = "m",
-                    .default_value = "3",
-                    .description = "Distance from which packets are received.",
-                    .minimum = 0.001},
-                   {.name = "loss_probability",
-                    .default_value = "0",
-                    .description = "Share of the packets that get lost.",
-                    .minimum = 0,
-                    .maximum = 1}},
-                  noise);
-  }
-
   void Init(const DeviceSetup& setup) override
   {
     world_ = SensorWorld::Of(setup.space);
@@ -328,15 +310,6 @@ private:
 
 }  // namespace
 
-void RegisterRangeAndBearingReceiver()
-{
-  PluginDescription receiver;
-  receiver.label = "range_and_bearing";
-  receiver.implementation = "generic_range_and_bearing";
-  receiver.brief = "receives the bytes of all in sight within 3 m, with distance and direction";
-  receiver.robots = {"footbot", "eyebot", "handbot"};
-  receiver.parameters = ReceiverBatch::ParameterTable();
-  AddSensorPlugin<ReceiverBatch>(receiver);
-}
+void RegisterRangeAndBearingReceiver() { BindSensor<ReceiverBatch>("range_and_bearing", "generic_range_and_bearing"); }
 
 }  // namespace swarmanoid

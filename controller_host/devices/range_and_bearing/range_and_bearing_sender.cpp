@@ -69,15 +69,6 @@ private:
 
 }  // namespace
 
-void RegisterRangeAndBearingSender()
-{
-  PluginDescription sender;
-  sender.label = "range_and_bearing";
-  sender.implementation = "generic_range_and_bearing";
-  sender.brief = "broadcasts 10 bytes to all in sight";
-  sender.robots = {"footbot", "eyebot", "handbot"};
-  sender.parameters = NoiseParameters("each byte of the message", "1/255");
-  AddActuatorPlugin<SenderBatch>(sender);
-}
+void RegisterRangeAndBearingSender() { BindActuator<SenderBatch>("range_and_bearing", "generic_range_and_bearing"); }
 
 }  // namespace swarmanoid

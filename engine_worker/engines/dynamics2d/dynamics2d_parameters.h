@@ -1,7 +1,5 @@
-// The parameters of the engine dynamics2d: the table for experiment files, and their values once read.
+// The values of the parameters of the engine dynamics2d.
 #pragma once
-
-#include <vector>
 
 #include "common/configuration/parameter.h"
 
@@ -30,7 +28,6 @@ struct Dynamics2dParameters
   double grip_distance = 0.01;  // m
 };
 
-const std::vector<ParameterSpec>& Dynamics2dParameterTable();
 Dynamics2dParameters ReadDynamics2dParameters(const Parameters& parameters);
 
 }  // namespace swarmanoid::dynamics2d

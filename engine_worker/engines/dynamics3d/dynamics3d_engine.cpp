@@ -14,25 +14,6 @@ namespace swarmanoid
 
 using namespace dynamics3d;
 
-void RegisterDynamics3d()
-{
-  auto& registry = PluginRegistry<CPhysicsEngine>::Instance();
-  if (registry.Find("dynamics3d") != nullptr) return;
-  PluginDescription description;
-  description.label = "dynamics3d";
-  description.brief = "3D dynamic engine: rigid bodies with masses, friction, joints and motors, solved by ODE";
-  description.parameters = ParameterTable();
-  description.channels = {"eyebot_attach",   "eyebot_propellers", "footbot_accelerometer", "footbot_encoders",
-                          "footbot_gripper", "footbot_turret",    "footbot_turret_torque", "footbot_wheels",
-                          "handbot_arms",    "handbot_hands",     "handbot_rope"};
-  for (const EntityKind kind : {EntityKind::kFootbot, EntityKind::kHandbot, EntityKind::kEyebot, EntityKind::kBlock,
-                                EntityKind::kCylindricPrey, EntityKind::kLightBulb, EntityKind::kSoundSource,
-                                EntityKind::kGroundPatch, EntityKind::kHole, EntityKind::kWall, EntityKind::kTerrain})
-    description.entity_tags.emplace_back(TagName(kind));
-  registry.Add(std::move(description),
-               []() -> std::unique_ptr<CPhysicsEngine> { return std::make_unique<CDynamics3dEngine>(); });
-}
-
 namespace
 {
 

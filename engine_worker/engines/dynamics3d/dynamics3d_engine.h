@@ -8,7 +8,6 @@
 #include "engine_worker/engines/dynamics3d/dynamics3d_parameters.h"
 #include "engine_worker/engines/dynamics3d/model.h"
 #include "engine_worker/engines/dynamics3d/objects.h"
-#include "engine_worker/engines/dynamics3d/register_dynamics3d.h"
 #include "engine_worker/engines/dynamics3d/terrain_shape.h"
 #include "engine_worker/physics_engine.h"
 

@@ -1,15 +1,11 @@
-// The parameters of the <dynamics3d> element.
+// The values of the parameters of the <dynamics3d> element.
 #pragma once
-
-#include <vector>
 
 #include "common/configuration/parameter.h"
 #include "engine_worker/engines/dynamics3d/ode_world.h"
 
 namespace swarmanoid::dynamics3d
 {
-
-std::vector<ParameterSpec> ParameterTable();
 
 struct Settings
 {

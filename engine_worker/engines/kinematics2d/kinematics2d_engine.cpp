@@ -14,41 +14,6 @@ namespace
 
 using namespace kinematics2d;
 
-std::vector<ParameterSpec> ParameterTable()
-{
-  std::vector<ParameterSpec> table = PlaneParameters();
-  table.push_back(
-      {.name = "elasticity",
-       .default_value = "1",
-       .description =
-           "Part of the approach that a collision gives back; 1 is purely elastic, 0 lets bodies stay in touch.",
-       .minimum = 0,
-       .maximum = 1});
-  table.push_back({.name = "threads",
-                   .type = ParameterType::kInteger,
-                   .default_value = "1",
-                   .description = "Threads that share the work; their number changes no bit of the results.",
-                   .minimum = 1,
-                   .maximum = 64});
-  return table;
-}
-
-PluginDescription Describe(const std::string& label)
-{
-  PluginDescription description;
-  description.label = label;
-  description.brief = "2D kinematic engine: velocities, elastic collisions, no masses; the fast one";
-  description.parameters = ParameterTable();
-  description.channels = {"eyebot_propellers", "footbot_encoders",      "footbot_gripper",
-                          "footbot_turret",    "footbot_turret_torque", "footbot_wheels"};
-  for (std::string& channel : PlaneRobots::Channels()) description.channels.push_back(std::move(channel));
-  for (const EntityKind kind : {EntityKind::kFootbot, EntityKind::kHandbot, EntityKind::kEyebot, EntityKind::kBlock,
-                                EntityKind::kCylindricPrey, EntityKind::kLightBulb, EntityKind::kSoundSource,
-                                EntityKind::kGroundPatch, EntityKind::kHole, EntityKind::kWall, EntityKind::kTerrain})
-    description.entity_tags.emplace_back(TagName(kind));
-  return description;
-}
-
 bool IsBlock(EntityKind kind) { return kind == EntityKind::kBlock || kind == EntityKind::kWall; }
 
 // The area of the plane that the arena covers.
@@ -65,15 +30,6 @@ Bounds AreaOf(const PlaneFrame& frame, const Vector3& arena)
 }
 
 }  // namespace
-
-void RegisterKinematics2d()
-{
-  auto& registry = PluginRegistry<CPhysicsEngine>::Instance();
-  if (registry.Find("dummy_engine") != nullptr) return;
-  for (const char* const label : {"dummy_engine", "kinematics2d"})
-    registry.Add(Describe(label),
-                 []() -> std::unique_ptr<CPhysicsEngine> { return std::make_unique<Kinematics2dEngine>(); });
-}
 
 void Kinematics2dEngine::Init(const EngineSetup& setup)
 {

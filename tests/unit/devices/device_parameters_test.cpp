@@ -1,26 +1,27 @@
 // Parameters of devices that are right each by itself and make no sense together: refused before anything starts, with
-// place and cure.
+// place and cure. The descriptions of the devices are enough for that.
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "common/builtins/builtins.h"
 #include "common/experiment/load_experiment.h"
-#include "controller_host/device.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-// The mistakes of a file whose only sensor, in line 2, has these parameters.
-std::string MistakesOf(const std::string& type, const std::string& implementation, const std::string& parameters)
+// The mistakes of a file whose only sensor (or actuator), in line 2, has these parameters.
+std::string MistakesOf(const std::string& type, const std::string& implementation, const std::string& parameters,
+                       const std::string& group = "sensors")
 {
-  RegisterBuiltinDevices();
+  DescribeBuiltinDevices();
   const std::string text =
       "<ahss-config><framework><clocktick>100</clocktick><maxclock>1</maxclock></framework>"
-      "<controllers><any id=\"c\" library=\"none\"><sensors>\n<" +
-      type + " implementation=\"" + implementation + "\" " + parameters +
-      "/></sensors></any></controllers>"
+      "<controllers><any id=\"c\" library=\"none\"><" +
+      group + ">\n<" + type + " implementation=\"" + implementation + "\" " + parameters + "/></" + group +
+      "></any></controllers>"
       "<arena size=\"1,1,1\" optimization=\"2D\"/><engines/><arena_physics/></ahss-config>";
   LoadOptions options;
   options.check_files = false;
@@ -62,6 +63,14 @@ TEST(DeviceParameters, EachSetOfNoiseIsJudgedByItself)
                        "distance_noise_kind=\"uniform\" distance_noise_range=\"0.1\" angle_noise_deviation=\"0.1\""),
             "test.xml:2:112: 'angle_noise_deviation' of <eyebot_camera> has no effect without 'angle_noise_kind'; give "
             "that too: uniform, gaussian or truncated_gaussian, or none to switch the noise off\n");
+}
+
+TEST(DeviceParameters, NoiseOfActuatorsIsJudgedToo)
+{
+  EXPECT_EQ(
+      MistakesOf("footbot_turret", "dummy_footbot_turret", "noise_mean=\"0.1\"", "actuators"),
+      "test.xml:2:56: 'noise_mean' of <footbot_turret> has no effect without 'noise_kind'; give that too: uniform, "
+      "gaussian or truncated_gaussian, or none to switch the noise off\n");
 }
 
 TEST(DeviceParameters, ThePolynomialIsNotUsedBeyondItsFit)

@@ -1,6 +1,7 @@
 // The test world of dynamics2d: bodies by their places on the plane z = 0.
 #pragma once
 
+#include "common/builtins/engines.h"
 #include "engine_worker/engines/dynamics2d/dynamics2d_engine.h"
 #include "tests/unit/engines/engine_test_world.h"
 
@@ -10,7 +11,7 @@ namespace swarmanoid
 class Dynamics2dTestWorld : public EngineTestWorld<CDynamics2dEngine>
 {
 public:
-  Dynamics2dTestWorld() : EngineTestWorld("dynamics2d", dynamics2d::Dynamics2dParameterTable()) {}
+  Dynamics2dTestWorld() : EngineTestWorld("dynamics2d", Dynamics2dDescription().parameters) {}
 
   std::uint32_t AddFootbot(double x, double y, double yaw = 0) { return EngineTestWorld::AddFootbot({x, y, 0}, yaw); }
   std::uint32_t AddPrey(double x, double y, double mass, double radius = 0.1)

@@ -1,6 +1,7 @@
 // The test world of dynamics3d.
 #pragma once
 
+#include "common/builtins/engines.h"
 #include "engine_worker/engines/dynamics3d/dynamics3d_engine.h"
 #include "engine_worker/engines/dynamics3d/footbot.h"
 #include "tests/unit/engines/engine_test_world.h"
@@ -11,7 +12,7 @@ namespace swarmanoid
 class Dynamics3dTestWorld : public EngineTestWorld<CDynamics3dEngine>
 {
 public:
-  Dynamics3dTestWorld() : EngineTestWorld("dynamics3d", dynamics3d::ParameterTable()) {}
+  Dynamics3dTestWorld() : EngineTestWorld("dynamics3d", Dynamics3dDescription().parameters) {}
 
   std::uint32_t AddHandbot(const Vector3& position, double yaw = 0)
   {

@@ -1,5 +1,6 @@
 // docs/plugin_reference.md and docs/experiment.xsd are generated from the tables of all plug-ins, those of the shipped
-// controllers and experiment functions too. After a change of one, write them anew:
+// controllers and experiment functions too; no engine, device or renderer is needed. After a change of one, write them
+// anew:
 //   SWARMANOID_WRITE_REFERENCE=1 build/bin/tests/unit_launcher --gtest_filter='PluginReference.*'
 #include <gtest/gtest.h>
 
@@ -9,12 +10,10 @@
 #include <iterator>
 #include <string>
 
+#include "common/builtins/builtins.h"
 #include "common/experiment/reference.h"
 #include "common/plugins/library.h"
-#include "controller_host/device.h"
-#include "engine_worker/engine_worker.h"
 #include "test_folders.h"
-#include "visualiser/render.h"
 
 namespace swarmanoid
 {
@@ -23,9 +22,7 @@ namespace
 
 void LoadAllPlugins()
 {
-  RegisterBuiltinEngines();
-  RegisterBuiltinDevices();
-  RegisterBuiltinRenderers();
+  DescribeBuiltins();
   namespace fs = std::filesystem;
   for (const char* folder : {"controllers", "functions"})
     for (const auto& entry : fs::directory_iterator(fs::path(SWARMANOID_SOURCE_FOLDER) / "user" / folder))

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "common/builtins/renderers.h"
 #include "common/configuration/xml_reader.h"
-#include "common/plugins/catalogue.h"
 #include "tests/unit/visualiser/small_world.h"
 #include "visualiser/interaction/viewer.h"
-#include "visualiser/opengl/description.h"
 
 namespace swarmanoid
 {

@@ -1,4 +1,5 @@
-#include "visualiser/interaction/window_parameters.h"
+#include "common/builtins/renderers.h"
+#include "common/configuration/parameter_table.h"
 
 namespace swarmanoid
 {
@@ -19,6 +20,30 @@ std::vector<ParameterSpec> WindowParameters()
        1000},
       {"show_panels", ParameterType::kBoolean, "", "true",
        "Whether the window starts with its panels; the key Tab shows and hides them."}};
+}
+
+namespace
+{
+
+PluginDescription WindowRenderDescription(const char* label, const char* brief)
+{
+  return {.label = label,
+          .brief = brief,
+          .parameters = Joined(Joined(WindowParameters(), ViewpointParameters()), QualityParameters())};
+}
+
+}  // namespace
+
+PluginDescription OpenGlRenderDescription()
+{
+  return WindowRenderDescription("opengl_render",
+                                 "a window on the arena, with panels to watch and steer the run; needs a display");
+}
+
+PluginDescription OgreRenderDescription()
+{
+  return WindowRenderDescription(
+      "ogre_render", "a window drawn by OGRE, with materials and soft shadows, and the same panels; needs a display");
 }
 
 }  // namespace swarmanoid

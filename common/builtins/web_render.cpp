@@ -1,4 +1,4 @@
-#include "visualiser/web/description.h"
+#include "common/builtins/renderers.h"
 
 namespace swarmanoid
 {

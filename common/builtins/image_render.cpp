@@ -1,6 +1,5 @@
-#include "visualiser/image/description.h"
-
-#include "visualiser/scene/view_parameters.h"
+#include "common/builtins/renderers.h"
+#include "common/configuration/parameter_table.h"
 
 namespace swarmanoid
 {
@@ -35,8 +34,8 @@ PluginDescription ImageRenderDescription()
        "Whether a line below says how the run goes: tick, real-time factor, processes that are late."},
       {"show_owners", ParameterType::kBoolean, "", "false",
        "Whether the labels of robots and preys name the engine and the controller host that own them."}};
-  for (std::vector<ParameterSpec> more : {ViewpointParameters(), QualityParameters()})
-    description.parameters.insert(description.parameters.end(), more.begin(), more.end());
+  description.parameters =
+      Joined(Joined(std::move(description.parameters), ViewpointParameters()), QualityParameters());
   return description;
 }
 

@@ -1,4 +1,4 @@
-#include "visualiser/scene/view_parameters.h"
+#include "common/builtins/renderers.h"
 
 namespace swarmanoid
 {

@@ -1,0 +1,32 @@
+#include "common/builtins/engines.h"
+#include "common/configuration/parameter_table.h"
+
+namespace swarmanoid
+{
+
+PluginDescription Kinematics2dDescription(const std::string& label)
+{
+  return {
+      .label = label,
+      .brief = "2D kinematic engine: velocities, elastic collisions, no masses; the fast one",
+      .parameters = Joined(
+          PlaneParameters(),
+          {{.name = "elasticity",
+            .default_value = "1",
+            .description =
+                "Part of the approach that a collision gives back; 1 is purely elastic, 0 lets bodies stay in touch.",
+            .minimum = 0,
+            .maximum = 1},
+           {.name = "threads",
+            .type = ParameterType::kInteger,
+            .default_value = "1",
+            .description = "Threads that share the work; their number changes no bit of the results.",
+            .minimum = 1,
+            .maximum = 64}}),
+      .channels = WithChannelsOfPlaneRobots({"eyebot_propellers", "footbot_encoders", "footbot_gripper",
+                                             "footbot_turret", "footbot_turret_torque", "footbot_wheels"}),
+      .entity_tags = {"footbot", "handbot", "eyebot", "block", "cylindric_prey", "light_bulb", "sound_source",
+                      "ground_patch", "hole", "wall", "terrain"}};
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,55 @@
+"""role_libraries.py PROGRAM...: the program of a role loads the libraries of its own role, and of no other.
+
+What a process must know of the others' engines, devices and renderers to read an experiment is in common/builtins.
+"""
+import os
+import re
+import subprocess
+import sys
+
+from tracked import report
+
+# Libraries of ours (libswarmanoid_<name>.so) that every role may stand on, and those of one role.
+SHARED = {"builtins", "bus", "common", "control_interface", "experiment", "reproducible_math", "run", "space"}
+OF_ROLE = {
+    "space_server": {"space_server_node", "space_server_role"},
+    "engine_worker": {"engines", "physics_engine"},
+    "controller_host": {"controller_host_role"},
+    "visualiser": {"render"},
+}
+# Solvers belong to the engines. Renderers that need graphics or films load theirs when one is made.
+SOLVERS = {"libode", "libbox2d"}
+GRAPHICS = re.compile(r"lib(GL|EGL|OpenGL|epoxy|glfw|Ogre|imgui|SDL|X11|avcodec|avformat|avutil|swscale)")
+
+
+def loaded(program):
+    """The libraries that the loader finds for the program, with all that those need, without versions."""
+    listing = subprocess.run(["ldd", program], capture_output=True, text=True, check=True).stdout
+    for line in listing.splitlines():
+        if "not found" in line:
+            raise RuntimeError(f"{program}: {line.strip()}")
+    return {os.path.basename(line.split()[0]).split(".so")[0] for line in listing.splitlines() if ".so" in line}
+
+
+def mistakes_of(program):
+    role = os.path.basename(program)
+    libraries = loaded(program)
+    ours = {name.removeprefix("libswarmanoid_") for name in libraries if name.startswith("libswarmanoid_")}
+    for name in sorted(ours - SHARED - OF_ROLE[role]):
+        yield f"{role} loads libswarmanoid_{name}.so, which is not of its role"
+    for name in sorted(OF_ROLE[role] - ours):
+        yield f"{role} does not load libswarmanoid_{name}.so, its role"
+    solvers = {solver for solver in SOLVERS if any(name.startswith(solver) for name in libraries)}
+    for name in sorted(solvers ^ (SOLVERS if role == "engine_worker" else set())):
+        yield f"{role} {'loads' if name in solvers else 'does not load'} {name}"
+    for name in sorted(filter(GRAPHICS.match, libraries)):
+        yield f"{role} loads {name}"
+
+
+def main():
+    if {os.path.basename(program) for program in sys.argv[1:]} != set(OF_ROLE):
+        report([f"give the programs {', '.join(OF_ROLE)}"])
+    report([mistake for program in sys.argv[1:] for mistake in mistakes_of(program)])
+
+
+main()
