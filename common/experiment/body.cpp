@@ -13,7 +13,7 @@ constexpr double kTolerance = 1e-6;     // m
 constexpr double kParallel = 1 - 1e-9;  // of the cosine between two axes
 constexpr double kLeastCell = 0.05;     // m
 constexpr double kMostCells = 2e6;
-constexpr std::int64_t kMostCellsOfBody = 4096;
+constexpr std::size_t kMostCellsOfBody = 4096;
 constexpr std::size_t kMostEntries = 100'000'000;
 
 // Does the interval of two bodies about each other along an axis leave no gap? `axis` of any length.
@@ -128,29 +128,19 @@ bool Overlap(const Body& a, const Body& b)
   return BoxesOverlap(a, InnerHalf(a), b, InnerHalf(b));
 }
 
-BodyGrid::BodyGrid(const Vector3& arena_size, double cell) : edge_(std::max(cell, kLeastCell))
+BodyGrid::BodyGrid(const Vector3& arena_size, double cell)
 {
-  const auto counts = [&](double edge) -> Vector3 { return (arena_size / edge).array().ceil().max(1.0); };
-  while (counts(edge_).prod() > kMostCells) edge_ *= 1.25;
-  count_ = counts(edge_).cast<int>();
-  heads_.assign(static_cast<std::size_t>(count_.prod()), -1);
+  const double smallest = std::max(cell, kLeastCell);
+  const double edge = CellEdge<3>({arena_size.x(), arena_size.y(), arena_size.z()}, smallest, kMostCells);
+  cells_ = {{0, 0, arena_size.x(), arena_size.y(), edge}, {0, arena_size.z(), edge}};
+  heads_.assign(cells_.Count(), -1);
 }
 
-BodyGrid::CellRange BodyGrid::CellsOf(const Body& body) const
+template <class Visit>
+void BodyGrid::ForEachRowOf(const Body& body, const Visit& visit) const
 {
   const Vector3 half = body.HalfExtent();
-  const auto cell = [&](const Vector3& point) -> Eigen::Vector3i
-  {
-    // Clamped before the conversion: a position may be anywhere.
-    const Vector3 last = (count_.cast<double>().array() - 1).matrix();
-    return (point / edge_).array().floor().max(0.0).min(last.array()).matrix().cast<int>();
-  };
-  return {cell(body.centre - half), cell(body.centre + half)};
-}
-
-std::size_t BodyGrid::CellIndex(int x, int y, int z) const
-{
-  return static_cast<std::size_t>((z * count_.y() + y) * count_.x() + x);
+  cells_.ForEachRow(Vector3(body.centre - half), Vector3(body.centre + half), visit);
 }
 
 void BodyGrid::Add(const Body& body, std::uint32_t name)
@@ -158,50 +148,40 @@ void BodyGrid::Add(const Body& body, std::uint32_t name)
   const auto number = static_cast<std::uint32_t>(bodies_.size());
   bodies_.push_back(body);
   names_.push_back(name);
-  const CellRange cells = CellsOf(body);
-  const Eigen::Matrix<std::int64_t, 3, 1> extent = (cells.last - cells.first).cast<std::int64_t>().array() + 1;
-  if (extent.prod() > kMostCellsOfBody || entries_.size() > kMostEntries)
+  std::size_t cells = 0;
+  ForEachRowOf(body, [&](std::uint32_t first, std::uint32_t last) { cells += last + 1 - first; });
+  if (cells > kMostCellsOfBody || entries_.size() > kMostEntries)
   {
     large_.push_back(number);
     return;
   }
-  for (int z = cells.first.z(); z <= cells.last.z(); ++z)
-  {
-    for (int y = cells.first.y(); y <= cells.last.y(); ++y)
-    {
-      for (int x = cells.first.x(); x <= cells.last.x(); ++x)
-      {
-        std::int32_t& head = heads_[CellIndex(x, y, z)];
-        entries_.push_back({number, head});
-        head = static_cast<std::int32_t>(entries_.size() - 1);
-      }
-    }
-  }
+  ForEachRowOf(body,
+               [&](std::uint32_t first, std::uint32_t last)
+               {
+                 for (std::uint32_t cell = first; cell <= last; ++cell)
+                 {
+                   entries_.push_back({number, heads_[cell]});
+                   heads_[cell] = static_cast<std::int32_t>(entries_.size() - 1);
+                 }
+               });
 }
 
 std::optional<std::uint32_t> BodyGrid::Find(const Body& body) const
 {
-  for (const std::uint32_t other : large_)
+  std::optional<std::uint32_t> found;
+  const auto look_at = [&](std::uint32_t other)
   {
-    if (Overlap(bodies_[other], body)) return names_[other];
-  }
-  const CellRange cells = CellsOf(body);
-  for (int z = cells.first.z(); z <= cells.last.z(); ++z)
-  {
-    for (int y = cells.first.y(); y <= cells.last.y(); ++y)
-    {
-      for (int x = cells.first.x(); x <= cells.last.x(); ++x)
-      {
-        for (std::int32_t entry = heads_[CellIndex(x, y, z)]; entry >= 0;
-             entry = entries_[static_cast<std::size_t>(entry)].next)
-        {
-          const std::uint32_t other = entries_[static_cast<std::size_t>(entry)].body;
-          if (Overlap(bodies_[other], body)) return names_[other];
-        }
-      }
-    }
-  }
-  return std::nullopt;
+    if (!found && Overlap(bodies_[other], body)) found = names_[other];
+  };
+  for (const std::uint32_t other : large_) look_at(other);
+  ForEachRowOf(body,
+               [&](std::uint32_t first, std::uint32_t last)
+               {
+                 for (std::uint32_t cell = first; cell <= last && !found; ++cell)
+                   for (std::int32_t entry = heads_[cell]; entry >= 0; entry = entries_[entry].next)
+                     look_at(entries_[entry].body);
+               });
+  return found;
 }
 
 }  // namespace swarmanoid::placement

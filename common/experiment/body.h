@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/experiment/experiment.h"
+#include "common/math/cells.h"
 
 namespace swarmanoid::placement
 {
@@ -50,16 +51,11 @@ private:
     std::uint32_t body;
     std::int32_t next;
   };
-  struct CellRange
-  {
-    Eigen::Vector3i first, last;
-  };
+  // The cells that the box around a body touches, as ForEachRow of these.
+  template <class Visit>
+  void ForEachRowOf(const Body& body, const Visit& visit) const;
 
-  CellRange CellsOf(const Body& body) const;
-  std::size_t CellIndex(int x, int y, int z) const;
-
-  double edge_;
-  Eigen::Vector3i count_;
+  BoxCells cells_;
   std::vector<std::int32_t> heads_;
   std::vector<Entry> entries_;
   std::vector<Body> bodies_;

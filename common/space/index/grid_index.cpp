@@ -12,102 +12,67 @@ constexpr double kSmallestCell = 0.25;       // metres
 constexpr double kLargestLayeredCell = 1.0;  // metres
 constexpr double kMostCells = 4e6;
 
-std::size_t CellCount(double length, double cell)
+double ShareOf(double content, std::size_t points) { return content / std::max(1.0, static_cast<double>(points)); }
+
+// About one point in each cell; layered ones stay within the reach of sensors, since 3D arenas are seldom evenly
+// filled.
+double LayeredEdge(const Vector3& size, std::size_t points)
 {
-  return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(length / cell)));
+  return std::clamp(std::cbrt(ShareOf(size.prod(), points)), kSmallestCell, kLargestLayeredCell);
+}
+double FlatEdge(const Vector3& size, std::size_t points)
+{
+  return std::max(std::sqrt(ShareOf(size.x() * size.y(), points)), kSmallestCell);
 }
 
 }  // namespace
 
-double GridIndex::CellSize(const Vector3& size, std::size_t points, bool layered)
-{
-  // About one point in each cell; layered ones stay within the reach of sensors, since 3D arenas are seldom evenly
-  // filled.
-  const double count = std::max<double>(1, static_cast<double>(points));
-  const double area = std::max(size.x() * size.y(), 1e-6);
-  if (layered)
-    return std::clamp(std::cbrt(area * std::max(size.z(), 1e-3) / count), kSmallestCell, kLargestLayeredCell);
-  // However large the arena: never more cells than memory is good for.
-  return std::max({std::sqrt(area / count), kSmallestCell, std::sqrt(area / kMostCells)});
-}
-
 double GridIndex::LayeredCells(const Vector3& size, std::size_t points)
 {
-  const double cell = CellSize(size, points, true);
-  return std::ceil(size.x() / cell) * std::ceil(size.y() / cell) * std::ceil(size.z() / cell);
+  const double edge = LayeredEdge(size, points);
+  return CellsAcross(size.x(), edge) * CellsAcross(size.y(), edge) * CellsAcross(size.z(), edge);
 }
 
-GridIndex::GridIndex(const Vector3& arena_size, std::size_t expected_points, bool layered)
+GridIndex::GridIndex(const Vector3& size, std::size_t expected_points, bool layered)
     : layered_(layered),
-      cell_m_(CellSize(arena_size, expected_points, layered)),
-      nx_(CellCount(arena_size.x(), cell_m_)),
-      ny_(CellCount(arena_size.y(), cell_m_)),
-      nz_(layered ? CellCount(arena_size.z(), cell_m_) : 1),
-      start_(nx_ * ny_ * nz_ + 1)
+      edge_(layered ? CellEdge<3>({size.x(), size.y(), size.z()}, LayeredEdge(size, expected_points), kMostCells)
+                    : CellEdge<2>({size.x(), size.y()}, FlatEdge(size, expected_points), kMostCells)),
+      cells_{{0, 0, size.x(), size.y(), edge_}, layered ? CellAxis<double>(0, size.z(), edge_) : CellAxis<double>()}
 {
-}
-
-std::size_t GridIndex::CellOf(double coordinate, std::size_t count) const
-{
-  const double cell = coordinate / cell_m_;
-  if (!(cell > 0)) return 0;  // also what is not a number
-  return cell >= static_cast<double>(count) ? count - 1 : static_cast<std::size_t>(cell);
-}
-
-GridIndex::Range GridIndex::CellsOf(double low, double high, std::size_t count) const
-{
-  return {CellOf(low, count), CellOf(high, count)};
+  sort_.SetCells(cells_.Count());
 }
 
 void GridIndex::Update(const PointArrays& points)
 {
   points_ = points;
   const std::size_t count = points.Size();
-  cell_.resize(count);
   id_.resize(count);
   x_.resize(count);
   y_.resize(count);
   z_.resize(count);
 
-  // Counting sort: how many in each cell, where each cell starts, each point to its place.
-  std::fill(start_.begin(), start_.end(), 0U);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const std::size_t z = layered_ ? CellOf(points.z[i], nz_) : 0;
-    const std::size_t cell = (z * ny_ + CellOf(points.y[i], ny_)) * nx_ + CellOf(points.x[i], nx_);
-    cell_[i] = static_cast<std::uint32_t>(cell);
-    ++start_[cell + 1];
-  }
-  for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
-  for (std::size_t i = count; i-- > 0;)
-  {
-    // Backwards, so that start_ ends as the start of each cell and points of a cell stay ascending.
-    const std::uint32_t place = --start_[cell_[i] + 1];
-    id_[place] = static_cast<std::uint32_t>(i);
-    x_[place] = points.x[i];
-    y_[place] = points.y[i];
-    z_[place] = points.z[i];
-  }
-  // start_[c + 1] is now the start of cell c.
-  std::copy(start_.begin() + 1, start_.end(), start_.begin());
-  start_.back() = static_cast<std::uint32_t>(count);
+  cells_.FindCells(points.x, points.y, points.z, sort_.Cells(count).data());
+  sort_.Sort(
+      [&](std::size_t i, std::uint32_t place)
+      {
+        id_[place] = static_cast<std::uint32_t>(i);
+        x_[place] = points.x[i];
+        y_[place] = points.y[i];
+        z_[place] = points.z[i];
+      });
 }
 
 template <class Accept>
 void GridIndex::Collect(const Vector3& low, const Vector3& high, Accept accept, std::vector<std::uint32_t>& found) const
 {
   found.clear();
-  const Range xs = CellsOf(low.x(), high.x(), nx_);
-  const Range ys = CellsOf(low.y(), high.y(), ny_);
-  const Range zs = layered_ ? CellsOf(low.z(), high.z(), nz_) : Range{0, 0};
-  for (std::size_t z = zs.first; z <= zs.last; ++z)
-    for (std::size_t y = ys.first; y <= ys.last; ++y)
-    {
-      // The cells of a row are neighbours in memory.
-      const std::size_t row = (z * ny_ + y) * nx_;
-      for (std::size_t k = start_[row + xs.first]; k < start_[row + xs.last + 1]; ++k)
-        if (accept(x_[k], y_[k], z_[k])) found.push_back(id_[k]);
-    }
+  const std::uint32_t* const start = sort_.Starts();
+  cells_.ForEachRow(low, high,
+                    [&](std::uint32_t first, std::uint32_t last)
+                    {
+                      for (std::size_t k = start[first]; k < start[last + 1]; ++k)
+                        if (accept(x_[k], y_[k], z_[k])) found.push_back(id_[k]);
+                    });
   std::sort(found.begin(), found.end());
 }
 

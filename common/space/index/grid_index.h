@@ -2,6 +2,7 @@
 // cells.
 #pragma once
 
+#include "common/math/cells.h"
 #include "common/space/index/positional_index.h"
 
 namespace swarmanoid
@@ -22,29 +23,20 @@ public:
   static double LayeredCells(const Vector3& arena_size, std::size_t expected_points);
 
 protected:
-  double Spacing() const override { return cell_m_; }
+  double Spacing() const override { return edge_; }
   const PointArrays& Points() const override { return points_; }
 
 private:
-  struct Range
-  {
-    std::size_t first, last;
-  };
-
-  static double CellSize(const Vector3& arena_size, std::size_t expected_points, bool layered);
-  std::size_t CellOf(double coordinate, std::size_t count) const;
-  Range CellsOf(double low, double high, std::size_t count) const;
   template <class Accept>
   void Collect(const Vector3& low, const Vector3& high, Accept accept, std::vector<std::uint32_t>& found) const;
 
   bool layered_;
-  double cell_m_;
-  std::size_t nx_, ny_, nz_;
+  double edge_;  // m
+  BoxCells cells_;
   PointArrays points_;
-  std::vector<std::uint32_t> start_;  // of each cell within the sorted arrays
-  std::vector<std::uint32_t> cell_;   // of each point
-  std::vector<std::uint32_t> id_;     // sorted by cell, then ascending
-  std::vector<double> x_, y_, z_;     // sorted likewise
+  CellSort sort_;
+  std::vector<std::uint32_t> id_;  // sorted by cell, then ascending
+  std::vector<double> x_, y_, z_;  // sorted likewise
 };
 
 }  // namespace swarmanoid

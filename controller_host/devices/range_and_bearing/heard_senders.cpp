@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/math/elementary.h"
-#include "controller_host/devices/sensing/lanes.h"
+#include "common/math/lanes.h"
 
 namespace swarmanoid
 {

@@ -48,24 +48,14 @@ float MarginOf(const Extent& extent)
   return static_cast<float>(largest * 1e-6);
 }
 
-}  // namespace
-
-CellFrame CellFrame::Over(double left, double bottom, double width, double height, double smallest_cell,
-                          std::size_t most_cells)
+// Cells over an extent, as small as they may be.
+CellFrame FrameOver(const Extent& extent, double smallest, std::size_t most)
 {
-  width = std::max(width, smallest_cell);
-  height = std::max(height, smallest_cell);
-  const auto counts = [&](double cell) { return std::ceil(width / cell) * std::ceil(height / cell); };
-  double cell = std::max(smallest_cell, std::sqrt(width * height / static_cast<double>(most_cells)));
-  while (counts(cell) > static_cast<double>(most_cells)) cell *= 1.2;
-  CellFrame frame;
-  frame.left = static_cast<float>(left);
-  frame.bottom = static_cast<float>(bottom);
-  frame.inverse_size = static_cast<float>(1 / cell);
-  frame.columns = static_cast<int>(std::ceil(width / cell));
-  frame.rows = static_cast<int>(std::ceil(height / cell));
-  return frame;
+  const double edge = CellEdge<2>({extent.width, extent.height}, smallest, static_cast<double>(most));
+  return {extent.left, extent.bottom, extent.width, extent.height, edge};
 }
+
+}  // namespace
 
 NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, std::span<const BodyShape> shapes)
     : space_(space), shapes_(shapes)
@@ -83,14 +73,13 @@ NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, std::span<const Body
 
   // About one body a cell, and no cell smaller than a body (facts: the optimum is flat).
   const Extent extent = ExtentOf(space);
-  frame_ = CellFrame::Over(extent.left, extent.bottom, extent.width, extent.height, 2 * largest + 0.02, count_ + 4);
+  frame_ = FrameOver(extent, 2 * largest + 0.02, count_ + 4);
   margin_ = MarginOf(extent);
 
-  cell_.resize(count_);
+  sort_.SetCells(frame_.Count());
   body_x_.resize(count_);
   body_y_.resize(count_);
   body_radius_.resize(count_);
-  start_.resize(frame_.Cells() + 2);
   constexpr float kFarAway = 1e18F;
   x_.resize(count_ + kLanes, kFarAway);
   y_.resize(count_ + kLanes, kFarAway);
@@ -110,8 +99,7 @@ void NeighbourGrid::Rebuild()
   std::ranges::copy_if(bodies_, std::back_inserter(here_),
                        [this](std::uint32_t entity) { return space_.IsPresent(entity); });
   count_ = here_.size();
-  // Counts two places up: after the scatter below, start_[c] is where cell c begins.
-  std::fill(start_.begin(), start_.end(), 0U);
+  const std::span<std::uint32_t> cell = sort_.Cells(count_);
   float largest = 0;
   bool upright = true;
   for (std::size_t b = 0; b < count_; ++b)
@@ -123,26 +111,24 @@ void NeighbourGrid::Rebuild()
     body_y_[b] = circle.y;
     body_radius_[b] = circle.radius;
     largest = std::max(largest, circle.radius);
-    cell_[b] = static_cast<std::uint32_t>(frame_.Row(circle.y) * frame_.columns + frame_.Column(circle.x));
-    ++start_[cell_[b] + 2];
+    cell[b] = frame_.CellOf(circle.x, circle.y);
   }
   largest_radius_ = largest;
   all_upright_ = upright;
-  for (std::size_t c = 2; c < start_.size(); ++c) start_[c] += start_[c - 1];
-  for (std::size_t b = 0; b < count_; ++b)
-  {
-    const std::uint32_t place = start_[cell_[b] + 1]++;
-    x_[place] = body_x_[b];
-    y_[place] = body_y_[b];
-    radius_[place] = body_radius_[b];
-    const std::uint32_t e = here_[b];
-    entity_[place] = e;
-    origin_x_[place] = poses.x[e];
-    origin_y_[place] = poses.y[e];
-    origin_z_[place] = poses.z[e];
-    low_[place] = static_cast<float>(poses.z[e] + shapes_[e].low);
-    high_[place] = static_cast<float>(poses.z[e] + shapes_[e].high);
-  }
+  sort_.Sort(
+      [&](std::size_t b, std::uint32_t place)
+      {
+        x_[place] = body_x_[b];
+        y_[place] = body_y_[b];
+        radius_[place] = body_radius_[b];
+        const std::uint32_t e = here_[b];
+        entity_[place] = e;
+        origin_x_[place] = poses.x[e];
+        origin_y_[place] = poses.y[e];
+        origin_z_[place] = poses.z[e];
+        low_[place] = static_cast<float>(poses.z[e] + shapes_[e].low);
+        high_[place] = static_cast<float>(poses.z[e] + shapes_[e].high);
+      });
   bool alike = true;
   bool level = true;
   for (std::size_t place = 1; place < count_; ++place)
@@ -236,46 +222,41 @@ FixedBodies::FixedBodies(const CSwarmanoidSpace& space, std::span<const BodyShap
   const double smallest_cell = std::max(0.25, reach / 6);
   constexpr std::size_t kCells = 65536;
   const Extent extent = ExtentOf(space);
-  frame_ = CellFrame::Over(extent.left, extent.bottom, extent.width, extent.height, smallest_cell,
-                           fixed.empty() ? 1 : kCells);
+  frame_ = FrameOver(extent, smallest_cell, fixed.empty() ? 1 : kCells);
   margin_ = MarginOf(extent);
 
   // For each body the rectangle of cells around its bounding circle or box; in it, the cells whose centre is near
   // enough.
-  const double cell = 1 / static_cast<double>(frame_.inverse_size);
-  const double around = reach + static_cast<double>(margin_) + cell * 0.70711;
-  std::vector<std::vector<std::uint32_t>> lists(frame_.Cells());
+  const double edge = 1 / static_cast<double>(frame_.rows.inverse_edge);
+  const double around = reach + static_cast<double>(margin_) + edge * 0.70711;
+  const std::uint32_t last_column = frame_.columns.Count() - 1;
+  const std::uint32_t last_row = frame_.rows.Count() - 1;
   for (const std::uint32_t e : fixed)
   {
-    const BodyShape& shape = shapes[e];
     const Pose pose = space.GetPose(e);
     const Eigen::Matrix3d rotation = pose.orientation.toRotationMatrix();
-    const Vector3 centre = pose.Apply(shape.centre);
-    const Vector3& half = shape.half_size;
-    const Vector3 world_half = rotation.cwiseAbs() * half;
+    const Vector3 centre = pose.Apply(shapes[e].centre);
+    const Vector3& half = shapes[e].half_size;
+    const Vector3 reached = (rotation.cwiseAbs() * half).array() + around;
     const bool upright = pose.orientation.x() == 0 && pose.orientation.y() == 0;
-    const int first_column = frame_.Column(static_cast<float>(centre.x() - world_half.x() - around));
-    const int last_column = frame_.Column(static_cast<float>(centre.x() + world_half.x() + around));
-    const int first_row = frame_.Row(static_cast<float>(centre.y() - world_half.y() - around));
-    const int last_row = frame_.Row(static_cast<float>(centre.y() + world_half.y() + around));
-    for (int row = first_row; row <= last_row; ++row)
-      for (int column = first_column; column <= last_column; ++column)
-      {
-        const bool at_border = row == 0 || column == 0 || row == frame_.rows - 1 || column == frame_.columns - 1;
-        const Vector3 middle(frame_.left + (column + 0.5) * cell, frame_.bottom + (row + 0.5) * cell, centre.z());
-        const Vector3 local = rotation.transpose() * (middle - centre);
-        const bool near = std::abs(local.x()) <= half.x() + around && std::abs(local.y()) <= half.y() + around;
-        // Cells at the border stand for all that lies outside, too.
-        if (near || at_border || !upright) lists[static_cast<std::size_t>(row * frame_.columns + column)].push_back(e);
-      }
+    const auto is_near = [&](std::uint32_t column, std::uint32_t row)
+    {
+      // Cells at the border stand for all that lies outside, too.
+      if (!upright || row == 0 || column == 0 || row == last_row || column == last_column) return true;
+      const Vector3 middle(frame_.columns.start + (column + 0.5) * edge, frame_.rows.start + (row + 0.5) * edge,
+                           centre.z());
+      const Vector3 local = rotation.transpose() * (middle - centre);
+      return std::abs(local.x()) <= half.x() + around && std::abs(local.y()) <= half.y() + around;
+    };
+    frame_.ForEachRow(static_cast<float>(centre.x() - reached.x()), static_cast<float>(centre.y() - reached.y()),
+                      static_cast<float>(centre.x() + reached.x()), static_cast<float>(centre.y() + reached.y()),
+                      [&](std::uint32_t first, std::uint32_t last)
+                      {
+                        for (std::uint32_t cell = first; cell <= last; ++cell)
+                          if (is_near(cell % frame_.stride, cell / frame_.stride)) lists_.Add(cell, e);
+                      });
   }
-
-  start_.push_back(0);
-  for (const auto& list : lists)
-  {
-    entities_.insert(entities_.end(), list.begin(), list.end());
-    start_.push_back(static_cast<std::uint32_t>(entities_.size()));
-  }
+  lists_.Close(frame_.Count());
 }
 
 }  // namespace swarmanoid

@@ -3,10 +3,11 @@
 // may report bodies that are a little too far (single precision with a margin); the exact test is the caller's. Steady
 // running allocates nothing.
 //
-// GridIndex (common/space/index) is a flat grid too, for other questions: it finds the origins of all entities,
-// exactly, in entity order, behind an interface that an oct-tree serves as well. What sensors ask of theirs would cost
-// it its speed or these promises: bodies by their outlines, eight at a time, in the order of the cells so that
-// neighbours stay in the cache. A search of 3 m among one body a square metre takes 80 ns here and 620 ns there.
+// GridIndex (common/space/index) is made from the same cells (common/math/cells.h), for other questions: it finds the
+// origins of all entities, exactly, in entity order, behind an interface that an oct-tree serves as well. What sensors
+// ask of theirs would cost it its speed or these promises: bodies by their outlines, eight at a time, in the order of
+// the cells so that neighbours stay in the cache. A search of 3 m among one body a square metre takes 80 ns here and
+// 620 ns there.
 #pragma once
 
 #include <algorithm>
@@ -15,25 +16,18 @@
 #include <utility>
 #include <vector>
 
+#include "common/math/cells.h"
+#include "common/math/lanes.h"
 #include "controller_host/devices/sensing/body_shapes.h"
-#include "controller_host/devices/sensing/lanes.h"
 
 namespace swarmanoid
 {
 
-// A rectangle cut into square cells; points outside belong to the nearest cell.
-struct CellFrame
+// Cells in single precision, and those along a way or around a point.
+struct CellFrame : PlaneCells<float>
 {
-  float left = 0, bottom = 0;
-  float inverse_size = 1;  // 1/m
-  int columns = 1, rows = 1;
+  using PlaneCells::PlaneCells;
 
-  // At most `most_cells` cells, none smaller than `smallest_cell` m.
-  static CellFrame Over(double left, double bottom, double width, double height, double smallest_cell,
-                        std::size_t most_cells);
-
-  int Column(float x) const { return Clamped((x - left) * inverse_size, columns); }
-  int Row(float y) const { return Clamped((y - bottom) * inverse_size, rows); }
   // Calls visit(first, last) with the range of cells, row by row, that come within `width` of the segment between two
   // points.
   template <class Visit>
@@ -43,14 +37,7 @@ struct CellFrame
   {
     std::array<std::int32_t, kLanes> first, last;
   };
-  Chords ChordsFrom(int row, float x, float y, float reach) const;
-  std::size_t Cells() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
-
-private:
-  static int Clamped(float cell, int count)
-  {
-    return static_cast<int>(std::min(std::max(cell, 0.0F), static_cast<float>(count - 1)));
-  }
+  Chords ChordsFrom(std::uint32_t row, float x, float y, float reach) const;
 };
 
 // Movable bodies around a point, by lanes: room for 2 * kLanes more behind `count`.
@@ -124,10 +111,9 @@ private:
   bool are_alike_ = true;  // as in NearBodies
 
   // By body: cell and circle in the xy plane.
-  std::vector<std::uint32_t> cell_;
+  CellSort sort_;
   std::vector<float> body_x_, body_y_, body_radius_;
   // By place in the sorted order, with far-away padding at the end.
-  std::vector<std::uint32_t> start_;  // of each cell, and one more
   std::vector<float> x_, y_, radius_, low_, high_;
   std::vector<double> origin_x_, origin_y_, origin_z_;
   std::vector<std::uint32_t> entity_;
@@ -142,10 +128,7 @@ public:
   // Entity indices, ascending: all that come within the reach of (x, y), and others.
   std::span<const std::uint32_t> Near(double x, double y) const
   {
-    const std::size_t cell =
-        static_cast<std::size_t>(frame_.Row(static_cast<float>(y))) * static_cast<std::size_t>(frame_.columns) +
-        static_cast<std::size_t>(frame_.Column(static_cast<float>(x)));
-    return {entities_.data() + start_[cell], start_[cell + 1] - start_[cell]};
+    return lists_.In(frame_.CellOf(static_cast<float>(x), static_cast<float>(y)));
   }
 
   // Calls visit(entity), perhaps more than once, for every body that the segment may touch if the reach is at least 0.
@@ -154,51 +137,47 @@ public:
   {
     frame_.ForEachSpanAlong(static_cast<float>(from.x()), static_cast<float>(from.y()), static_cast<float>(to.x()),
                             static_cast<float>(to.y()), margin_,
-                            [&](std::size_t first, std::size_t last)
+                            [&](std::uint32_t first, std::uint32_t last)
                             {
-                              for (std::size_t i = start_[first]; i < start_[last + 1]; ++i) visit(entities_[i]);
+                              for (const std::uint32_t body : lists_.In(first, last)) visit(body);
                             });
   }
   // Likewise for every body that comes near the square of half side `reach` around (x, y).
   template <class Visit>
   void ForEachInSquare(double x, double y, double reach, Visit&& visit) const
   {
-    const auto row_of = [&](double at) { return static_cast<std::size_t>(frame_.Row(static_cast<float>(at))); };
-    const auto column_of = [&](double at) { return static_cast<std::size_t>(frame_.Column(static_cast<float>(at))); };
     const double wide = reach + static_cast<double>(margin_);
-    const std::size_t last_row = row_of(y + wide);
-    for (std::size_t row = row_of(y - wide); row <= last_row; ++row)
-    {
-      const std::size_t line = row * static_cast<std::size_t>(frame_.columns);
-      const std::size_t end = start_[line + column_of(x + wide) + 1];
-      for (std::size_t i = start_[line + column_of(x - wide)]; i < end; ++i) visit(entities_[i]);
-    }
+    frame_.ForEachRow(static_cast<float>(x - wide), static_cast<float>(y - wide), static_cast<float>(x + wide),
+                      static_cast<float>(y + wide),
+                      [&](std::uint32_t first, std::uint32_t last)
+                      {
+                        for (const std::uint32_t body : lists_.In(first, last)) visit(body);
+                      });
   }
 
 private:
   CellFrame frame_;
   float margin_ = 0;
-  std::vector<std::uint32_t> start_;
-  std::vector<std::uint32_t> entities_;
+  CellLists lists_;
 };
 
-inline CellFrame::Chords CellFrame::ChordsFrom(int row, float x, float y, float reach) const
+inline CellFrame::Chords CellFrame::ChordsFrom(std::uint32_t row, float x, float y, float reach) const
 {
   // How far each row is from the point along y, border rows reaching to infinity; a little less covers the rounding.
-  const float size = 1 / inverse_size;
-  const IntLanes number = row + LaneNumbers();
-  const FloatLanes low = bottom + __builtin_convertvector(number, FloatLanes) * size;
-  const FloatLanes above = number == rows - 1 ? Everywhere(0.0F) : y - (low + size);
+  const float size = 1 / rows.inverse_edge;
+  const IntLanes number = static_cast<int>(row) + LaneNumbers();
+  const FloatLanes low = rows.start + __builtin_convertvector(number, FloatLanes) * size;
+  const FloatLanes above = number == static_cast<int>(rows.last) ? Everywhere(0.0F) : y - (low + size);
   const FloatLanes below = number == 0 ? Everywhere(0.0F) : low - y;
   const FloatLanes away = Maximum(Maximum(above, below) - 1e-3F * size, FloatLanes{});
   const FloatLanes half = SquareRoot(Maximum(reach * reach - away * away, FloatLanes{})) + 1e-3F * size;
 
   const auto column = [&](FloatLanes at)
   {
-    const FloatLanes cell = (at - left) * inverse_size;
-    return Truncated(Minimum(Maximum(cell, FloatLanes{}), Everywhere(static_cast<float>(columns - 1))));
+    const FloatLanes cell = (at - columns.start) * columns.inverse_edge;
+    return Truncated(Minimum(Maximum(cell, FloatLanes{}), Everywhere(columns.last)));
   };
-  const IntLanes line = number * columns;
+  const IntLanes line = number * static_cast<int>(stride);
   Chords chords;
   StoreLanes(line + column(x - half), chords.first.data());
   StoreLanes(line + column(x + half), chords.last.data());
@@ -213,22 +192,23 @@ void CellFrame::ForEachSpanAlong(float x0, float y0, float x1, float y1, float w
     std::swap(x0, x1);
     std::swap(y0, y1);
   }
-  const int first_row = Row(y0 - width);
-  const int last_row = Row(y1 + width);
-  const float size = 1 / inverse_size;
+  const std::uint32_t first_row = rows.CellOf(y0 - width);
+  const std::uint32_t last_row = rows.CellOf(y1 + width);
+  const std::uint32_t border = rows.Count() - 1;
+  const float size = 1 / rows.inverse_edge;
   const float slope = y1 > y0 ? (x1 - x0) / (y1 - y0) : 0;
-  for (int row = first_row; row <= last_row; ++row)
+  for (std::uint32_t row = first_row; row <= last_row; ++row)
   {
     // The part of the segment within `width` of this row, border rows reaching to infinity.
-    const float low = bottom + static_cast<float>(row) * size - width;
-    const float high = bottom + static_cast<float>(row + 1) * size + width;
+    const float low = rows.start + static_cast<float>(row) * size - width;
+    const float high = rows.start + static_cast<float>(row + 1) * size + width;
     const float from = row == 0 || low <= y0 ? x0 : x0 + (low - y0) * slope;
-    const float to = row == rows - 1 || high >= y1 ? x1 : x0 + (high - y0) * slope;
+    const float to = row == border || high >= y1 ? x1 : x0 + (high - y0) * slope;
     // One cell more at either end covers the rounding of the slope.
-    const int first_column = std::max(Column(std::min(from, to) - width) - 1, 0);
-    const int last_column = std::min(Column(std::max(from, to) + width) + 1, columns - 1);
-    const auto line = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns);
-    visit(line + static_cast<std::size_t>(first_column), line + static_cast<std::size_t>(last_column));
+    const std::uint32_t first_column = columns.CellOf(std::min(from, to) - width);
+    const std::uint32_t last_column = columns.CellOf(std::max(from, to) + width);
+    visit(Cell(first_column - (first_column > 0 ? 1 : 0), row),
+          Cell(std::min(last_column + 1, columns.Count() - 1), row));
   }
 }
 
@@ -240,15 +220,16 @@ void NeighbourGrid::ForEachAlong(const Vector3& from, const Vector3& to, Visit&&
   const auto step_x = static_cast<float>(to.x() - from.x());
   const auto step_y = static_cast<float>(to.y() - from.y());
   const float length = __builtin_sqrtf(step_x * step_x + step_y * step_y);
+  const std::uint32_t* const start = sort_.Starts();
   frame_.ForEachSpanAlong(x0, y0, static_cast<float>(to.x()), static_cast<float>(to.y()), largest_radius_ + margin_,
-                          [&](std::size_t first, std::size_t last)
+                          [&](std::uint32_t first, std::uint32_t last)
                           {
-                            const std::size_t end = start_[last + 1];
-                            for (std::size_t i = start_[first]; i < end; i += kLanes)
+                            const std::size_t end = start[last + 1];
+                            for (std::size_t i = start[first]; i < end; i += kLanes)
                             {
-                              const FloatLanes dx = *reinterpret_cast<const FloatLanes*>(&x_[i]) - x0;
-                              const FloatLanes dy = *reinterpret_cast<const FloatLanes*>(&y_[i]) - y0;
-                              const FloatLanes cut = *reinterpret_cast<const FloatLanes*>(&radius_[i]) + margin_;
+                              const FloatLanes dx = LoadLanes(&x_[i]) - x0;
+                              const FloatLanes dy = LoadLanes(&y_[i]) - y0;
+                              const FloatLanes cut = LoadLanes(&radius_[i]) + margin_;
                               // Within the cut of the line, and not beyond either end.
                               const FloatLanes across = dx * step_y - dy * step_x;
                               const FloatLanes along = dx * step_x + dy * step_y;
@@ -256,8 +237,7 @@ void NeighbourGrid::ForEachAlong(const Vector3& from, const Vector3& to, Visit&&
                               unsigned hits = LaneMask((across <= beyond) & (across >= -beyond) & (along >= -beyond) &
                                                        (along <= length * length + beyond));
                               if (end - i < kLanes) hits &= (1U << (end - i)) - 1U;
-                              for (; hits != 0; hits &= hits - 1)
-                                visit(entity_[i + static_cast<unsigned>(__builtin_ctz(hits))]);
+                              ForEachBit(hits, [&](unsigned bit) { visit(entity_[i + bit]); });
                             }
                           });
 }
@@ -269,23 +249,18 @@ template <class Visit>
   const auto fx = static_cast<float>(x);
   const auto fy = static_cast<float>(y);
   const float widest = static_cast<float>(reach) + margin_ + largest_radius_;
-  const int first_row = frame_.Row(fy - widest);
-  const int last_row = frame_.Row(fy + widest);
-  const std::uint32_t* const start = start_.data();
+  const std::uint32_t first_row = frame_.rows.CellOf(fy - widest);
+  const std::uint32_t last_row = frame_.rows.CellOf(fy + widest);
+  const std::uint32_t* const start = sort_.Starts();
   // In few rows there are no corners worth cutting off.
   if (last_row - first_row < 3)
-  {
-    const int first_column = frame_.Column(fx - widest);
-    const int last_column = frame_.Column(fx + widest);
-    for (int row = first_row; row <= last_row; ++row)
-      visit(start[row * frame_.columns + first_column], start[row * frame_.columns + last_column + 1]);
-    return;
-  }
-  for (int row = first_row; row <= last_row; row += kLanes)
+    return frame_.ForEachRow(fx - widest, fy - widest, fx + widest, fy + widest,
+                             [&](std::uint32_t first, std::uint32_t last) { visit(start[first], start[last + 1]); });
+  for (std::uint32_t row = first_row; row <= last_row; row += kLanes)
   {
     const CellFrame::Chords chords = frame_.ChordsFrom(row, fx, fy, widest);
-    const int count = std::min(kLanes, last_row - row + 1);
-    for (int i = 0; i < count; ++i) visit(start[chords.first[i]], start[chords.last[i] + 1]);
+    const std::uint32_t count = std::min<std::uint32_t>(kLanes, last_row - row + 1);
+    for (std::uint32_t i = 0; i < count; ++i) visit(start[chords.first[i]], start[chords.last[i] + 1]);
   }
 }
 
@@ -310,7 +285,7 @@ void NeighbourGrid::ForEachNear(double x, double y, double reach, Visit&& visit)
                       const FloatLanes cut = LoadLanes(body_radius + i) + own;
                       unsigned hits = LaneMask(dx * dx + dy * dy <= cut * cut);
                       if (behind - i < kLanes) hits &= (1U << (behind - i)) - 1U;
-                      for (; hits != 0; hits &= hits - 1) visit(entity[i + static_cast<unsigned>(__builtin_ctz(hits))]);
+                      ForEachBit(hits, [&](unsigned bit) { visit(entity[i + bit]); });
                     }
                   });
 }

@@ -217,18 +217,19 @@ void SightLines::HideBehindBox(const Box& box)
   for (std::size_t group = 0; group < points_.count; group += kLanes)
   {
     const FloatLanes toward = LoadLanes(&points_.x[group]) * box.normal_x + LoadLanes(&points_.y[group]) * box.normal_y;
-    for (unsigned rest = LaneMask(toward >= box.distance) & seen_.Group(group); rest != 0; rest &= rest - 1)
-    {
-      const std::size_t i = group + static_cast<unsigned>(__builtin_ctz(rest));
-      if (points_.owner[i] == box.entity) continue;
-      const float x = points_.x[i];
-      const float y = points_.y[i];
-      float enter = 0, leave = 1;
-      ClipSlab(box.x, cosine * x + sine * y, -box.half_x, box.half_x, enter, leave);
-      ClipSlab(box.y, cosine * y - sine * x, -box.half_y, box.half_y, enter, leave);
-      ClipSlab(0, points_.z[i], box.low, box.high, enter, leave);
-      if (enter <= leave) seen_.Hide(i);
-    }
+    ForEachBit(LaneMask(toward >= box.distance) & seen_.Group(group),
+               [&](unsigned bit)
+               {
+                 const std::size_t i = group + bit;
+                 if (points_.owner[i] == box.entity) return;
+                 const float x = points_.x[i];
+                 const float y = points_.y[i];
+                 float enter = 0, leave = 1;
+                 ClipSlab(box.x, cosine * x + sine * y, -box.half_x, box.half_x, enter, leave);
+                 ClipSlab(box.y, cosine * y - sine * x, -box.half_y, box.half_y, enter, leave);
+                 ClipSlab(0, points_.z[i], box.low, box.high, enter, leave);
+                 if (enter <= leave) seen_.Hide(i);
+               });
   }
 }
 

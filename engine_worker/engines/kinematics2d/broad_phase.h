@@ -7,8 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "common/math/cells.h"
+#include "common/math/lanes.h"
 #include "engine_worker/engines/kinematics2d/motion.h"
-#include "engine_worker/engines/kinematics2d/vectors.h"
 #include "engine_worker/engines/kinematics2d/worker_pool.h"
 
 namespace swarmanoid::kinematics2d
@@ -49,28 +50,26 @@ public:
   template <class Act>
   void ForEachNear(double x, double y, double reach, const Act& act) const
   {
-    const std::uint32_t* const start = start_.data() + 1;
+    const std::uint32_t* const start = sort_.Starts();
     const double widest = reach + largest_small_radius_;
-    const std::uint32_t first_column = CellX(x - widest);
-    const std::uint32_t last_column = CellX(x + widest);
-    const std::uint32_t last_row = CellY(y + widest);
-    for (std::uint32_t row = CellY(y - widest); row <= last_row; ++row)
-    {
-      const std::uint32_t to = start[Cell(last_column, row) + 1];
-      for (std::uint32_t from = start[Cell(first_column, row)]; from < to; from += kFloats)
-        ForEachBit(
-            Within(static_cast<float>(x), static_cast<float>(y), static_cast<float>(reach) + 2 * slack_, from, to),
-            [&](unsigned bit) { act(body_[from + bit]); });
-    }
+    const float cut = static_cast<float>(reach) + 2 * slack_;
+    cells_.ForEachRow(x - widest, y - widest, x + widest, y + widest,
+                      [&](std::uint32_t first, std::uint32_t last)
+                      {
+                        const std::uint32_t to = start[last + 1];
+                        for (std::uint32_t from = start[first]; from < to; from += kLanes)
+                          ForEachBit(Within(static_cast<float>(x), static_cast<float>(y), cut, from, to),
+                                     [&](unsigned bit) { act(body_[from + bit]); });
+                      });
     for (const std::uint32_t body : large_) act(body);
   }
   // Fetches into the cache what ForEachNear and ForEachStaticNear will look at.
   void PrefetchNear(double x, double y) const
   {
-    const std::uint32_t* const start = start_.data() + 1;
-    const std::uint32_t cell = Cell(CellX(x), CellY(y));
-    __builtin_prefetch(&static_start_[cell]);
-    for (const std::uint32_t row : {cell - stride_, cell, cell + stride_})
+    const std::uint32_t* const start = sort_.Starts();
+    const std::uint32_t cell = cells_.CellOf(x, y);
+    statics_.Prefetch(cell);
+    for (const std::uint32_t row : {cell - cells_.stride, cell, cell + cells_.stride})
     {
       const std::uint32_t first = start[row];
       __builtin_prefetch(&x_[first]);
@@ -88,8 +87,7 @@ public:
       for (std::uint32_t shape = 0; shape < static_boxes_.size(); ++shape) act(shape);
       return;
     }
-    const std::uint32_t cell = Cell(CellX(x), CellY(y));
-    for (std::uint32_t s = static_start_[cell]; s < static_start_[cell + 1]; ++s) act(static_shape_[s]);
+    for (const std::uint32_t shape : statics_.In(cells_.CellOf(x, y))) act(shape);
   }
 
 private:
@@ -102,27 +100,22 @@ private:
   // bit each, for as many as fit a vector.
   unsigned Within(float x, float y, float reach, std::uint32_t from, std::uint32_t to) const
   {
-    const Floats dx = LoadFloats(&x_[from]) - x;
-    const Floats dy = LoadFloats(&y_[from]) - y;
-    const Floats limit = LoadFloats(&r_[from]) + reach;
-    const unsigned hits = Bits(dx * dx + dy * dy < limit * limit);
+    const FloatLanes dx = LoadLanes(&x_[from]) - x;
+    const FloatLanes dy = LoadLanes(&y_[from]) - y;
+    const FloatLanes limit = LoadLanes(&r_[from]) + reach;
+    const unsigned hits = LaneMask(dx * dx + dy * dy < limit * limit);
     const std::uint32_t left = to - from;
-    return left < kFloats ? hits & ((1U << left) - 1) : hits;
+    return left < kLanes ? hits & ((1U << left) - 1) : hits;
   }
-  std::uint32_t CellX(double x) const;
-  std::uint32_t CellY(double y) const;
-  std::uint32_t Cell(std::uint32_t column, std::uint32_t row) const { return (row + 1) * stride_ + column + 1; }
-  void FindCells(const PoseStore& poses, std::span<const std::uint8_t> present);
+  // Where the sorted bodies end: those that take no part stand behind them.
+  std::uint32_t End() const { return sort_.Starts()[cells_.Count()]; }
   void Sort(const PoseStore& poses, std::span<const std::uint8_t> present);
   void SweepBodies(float margin, std::size_t begin, std::size_t end, std::vector<Pair>& pairs) const;
   void SweepStatics(float margin);
   void FindPairsOfLarge(float margin, std::span<const std::uint8_t> present, const PoseStore& poses);
 
   std::size_t count_ = 0;
-  double cell_ = 1;
-  double inverse_cell_ = 1;
-  double min_x_ = 0, min_y_ = 0;
-  std::uint32_t columns_ = 1, rows_ = 1, stride_ = 3;
+  PlaneCells<double> cells_;
   double largest_margin_ = 0;
   double largest_small_radius_ = 0;
   float slack_ = 0;  // covers the rounding of positions to float
@@ -131,13 +124,12 @@ private:
   std::vector<std::uint32_t> large_;  // bodies that are too big for the cells, ascending
   std::vector<std::uint8_t> is_large_;
 
-  std::vector<std::int32_t> cell_of_;  // of each body
-  std::vector<std::uint32_t> start_;   // of each cell in the sorted arrays
+  CellSort sort_;
   std::vector<std::uint32_t> body_, sorted_cell_;
   std::vector<float> x_, y_, r_;
 
   std::vector<FloatBox> static_boxes_;
-  std::vector<std::uint32_t> static_start_, static_shape_;  // the shapes near each cell
+  CellLists statics_;  // the shapes near each cell
 
   std::vector<Pair> pairs_, static_pairs_;
   std::vector<std::vector<Pair>> parts_;  // of pairs_, found by other threads

@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 #include "common/math/elementary.h"
+#include "common/math/lanes.h"
 #include "engine_worker/engines/kinematics2d/kinematic_limits.h"
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
-#include "engine_worker/engines/kinematics2d/vectors.h"
 
 namespace swarmanoid::kinematics2d
 {
@@ -73,19 +73,19 @@ int KinematicWorld::Substeps(double seconds, int steps)
   // The largest way against its limit, and the largest way (metres), over all bodies. Maxima do not depend on the
   // order.
   const TwistStore& twists = grips_.empty() ? twists_ : effective_;
-  Doubles most_ratio{}, most_speed{};
-  for (std::size_t k = 0; k < count_; k += kDoubles)
+  DoubleLanes most_ratio{}, most_speed{};
+  for (std::size_t k = 0; k < count_; k += kDoubleLanes)
   {
-    const Doubles forward = LoadDoubles(&twists.forward[k]);
-    const Doubles left = LoadDoubles(&twists.left[k]);
-    const Doubles inverse_limit = LoadDoubles(&inverse_limit_[k]);
-    const Doubles speed = forward * forward + left * left;
-    const Doubles ratio = speed * (inverse_limit * inverse_limit);
+    const DoubleLanes forward = LoadLanes(&twists.forward[k]);
+    const DoubleLanes left = LoadLanes(&twists.left[k]);
+    const DoubleLanes inverse_limit = LoadLanes(&inverse_limit_[k]);
+    const DoubleLanes speed = forward * forward + left * left;
+    const DoubleLanes ratio = speed * (inverse_limit * inverse_limit);
     most_ratio = ratio > most_ratio ? ratio : most_ratio;
     most_speed = speed > most_speed ? speed : most_speed;
   }
   double ratio = 0, way = 0;
-  for (std::size_t lane = 0; lane < kDoubles; ++lane)
+  for (std::size_t lane = 0; lane < kDoubleLanes; ++lane)
   {
     ratio = std::max(ratio, most_ratio[lane]);
     way = std::max(way, most_speed[lane]);

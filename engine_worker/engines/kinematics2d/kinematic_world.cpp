@@ -6,7 +6,6 @@
 
 #include "common/math/elementary.h"
 #include "engine_worker/engines/kinematics2d/kinematic_limits.h"
-#include "engine_worker/engines/kinematics2d/vectors.h"
 
 namespace swarmanoid::kinematics2d
 {

@@ -1,7 +1,7 @@
 #include "engine_worker/engines/kinematics2d/motion.h"
 
 #include "common/math/elementary.h"
-#include "engine_worker/engines/kinematics2d/vectors.h"
+#include "common/math/lanes.h"
 
 namespace swarmanoid::kinematics2d
 {
@@ -58,11 +58,6 @@ Motion<Number> Advance(Number x, Number y, Number z, Number w, Number forward, N
           new_w * scale};
 }
 
-void IntegrateFastTurner(const PoseStore& from, const TwistStore& twists, double seconds, std::size_t k, PoseStore& to)
-{
-  to.Set(k, Advanced(from.Get(k), twists.Get(k), seconds));
-}
-
 }  // namespace
 
 Rotor RotorOf(double angle)
@@ -117,22 +112,21 @@ void TwistStore::Resize(std::size_t padded)
 void Integrate(const PoseStore& from, const TwistStore& twists, double seconds, std::size_t begin, std::size_t end,
                PoseStore& to)
 {
-  for (std::size_t k = begin; k < end; k += kDoubles)
+  for (std::size_t k = begin; k < end; k += kDoubleLanes)
   {
-    const Doubles u = LoadDoubles(&twists.turn[k]) * (0.5 * seconds);
-    const Doubles squared = u * u;
-    const Doubles sinc = SincSeries(squared);
-    const auto moved = Advance<Doubles>(LoadDoubles(&from.x[k]), LoadDoubles(&from.y[k]), LoadDoubles(&from.z[k]),
-                                        LoadDoubles(&from.w[k]), LoadDoubles(&twists.forward[k]) * seconds,
-                                        LoadDoubles(&twists.left[k]) * seconds, sinc, sinc * u, CosSeries(squared));
-    Store(&to.x[k], moved.x);
-    Store(&to.y[k], moved.y);
-    Store(&to.z[k], moved.z);
-    Store(&to.w[k], moved.w);
+    const DoubleLanes u = LoadLanes(&twists.turn[k]) * (0.5 * seconds);
+    const DoubleLanes squared = u * u;
+    const DoubleLanes sinc = SincSeries(squared);
+    const auto moved = Advance<DoubleLanes>(LoadLanes(&from.x[k]), LoadLanes(&from.y[k]), LoadLanes(&from.z[k]),
+                                            LoadLanes(&from.w[k]), LoadLanes(&twists.forward[k]) * seconds,
+                                            LoadLanes(&twists.left[k]) * seconds, sinc, sinc * u, CosSeries(squared));
+    StoreLanes(moved.x, &to.x[k]);
+    StoreLanes(moved.y, &to.y[k]);
+    StoreLanes(moved.z, &to.z[k]);
+    StoreLanes(moved.w, &to.w[k]);
 
-    unsigned fast = Bits(squared > kSeriesLimit * kSeriesLimit);
-    for (; fast != 0; fast &= fast - 1)
-      IntegrateFastTurner(from, twists, seconds, k + static_cast<std::size_t>(__builtin_ctz(fast)), to);
+    ForEachBit(LaneMask(squared > kSeriesLimit * kSeriesLimit),
+               [&](unsigned lane) { to.Set(k + lane, Advanced(from.Get(k + lane), twists.Get(k + lane), seconds)); });
   }
 }
 

@@ -41,6 +41,10 @@ Pose2 Relative(const Pose2& outer, const Pose2& inner);
 // Where a body at this twist is after `seconds`.
 Pose2 Advanced(const Pose2& pose, const Twist& twist, double seconds);
 
+// Arrays that the vector loops read are padded to a multiple of this many elements.
+inline constexpr std::size_t kPadding = 16;
+constexpr std::size_t PaddedCount(std::size_t count) { return (count + 2 * kPadding - 1) / kPadding * kPadding; }
+
 // Poses of all bodies, one array a component, padded for the vector loops.
 struct PoseStore
 {

@@ -16,7 +16,7 @@ constexpr unsigned kFirstOfEach = 0x1111;  // in a set of near parts: the first 
 
 void PairBatch::Side::Spread(std::size_t count)
 {
-  for (std::size_t lane = count; lane < kDoubles; ++lane) placed[lane] = placed[0];
+  for (std::size_t lane = count; lane < kDoubleLanes; ++lane) placed[lane] = placed[0];
   const auto of_all = [this](double Placed::*value)
   { return InLanes([&](std::size_t lane) { return placed[lane]->*value; }); };
   position = {of_all(&Placed::x), of_all(&Placed::y)};
@@ -33,8 +33,8 @@ void PairBatch::FindTouches(double margin)
   first_.Spread(count_);
   second_.Spread(count_);
   between_ = {first_.position.x - second_.position.x, first_.position.y - second_.position.y};
-  margin_ = margin + Doubles{};
-  deepest_ = -kNone + Doubles{};
+  margin_ = Everywhere(margin);
+  deepest_ = Everywhere(-kNone);
   finds_ = 0;
 
   const CollisionModel& a = first_.Model();
@@ -59,7 +59,7 @@ void PairBatch::FindTouches(double margin)
     for (unsigned q = circles_b; q < static_cast<unsigned>(b.parts); ++q)
       if ((near >> (kParts * q + p) & 1) != 0) PolygonWithPolygon(p - circles_a, q - circles_b);
 
-  kept_ = DoubleMask{};
+  kept_ = LongLanes{};
   for (int k = 0; k < finds_; ++k) kept_ |= (found_[k].depth >= -margin_) & (std::int64_t{1} << k);
 }
 
@@ -73,13 +73,13 @@ unsigned PairBatch::NearParts() const
   for (int m = 0; m < b.parts; ++m)
   {
     const Points to{between_.x - second_.centre[m].x, between_.y - second_.centre[m].y};
-    const Doubles reach = b.part_radius[m] + margin_;
+    const DoubleLanes reach = b.part_radius[m] + margin_;
     for (int k = 0; k < a.parts; ++k)
     {
-      const Doubles dx = first_.centre[k].x + to.x;
-      const Doubles dy = first_.centre[k].y + to.y;
-      const Doubles limit = a.part_radius[k] + reach;
-      near |= (Bits(dx * dx + dy * dy < limit * limit) != 0 ? 1U : 0U) << (static_cast<int>(kParts) * m + k);
+      const DoubleLanes dx = first_.centre[k].x + to.x;
+      const DoubleLanes dy = first_.centre[k].y + to.y;
+      const DoubleLanes limit = a.part_radius[k] + reach;
+      near |= (LaneMask(dx * dx + dy * dy < limit * limit) != 0 ? 1U : 0U) << (static_cast<int>(kParts) * m + k);
     }
   }
   return near;
@@ -89,20 +89,20 @@ void PairBatch::Add(const Touches& touches)
 {
   Touches& found = found_[finds_++];
   found = touches;
-  found.depth = touches.depth > -margin_ ? touches.depth : -kNone + Doubles{};
+  found.depth = touches.depth > -margin_ ? touches.depth : Everywhere(-kNone);
   deepest_ = found.depth > deepest_ ? found.depth : deepest_;
-  const Doubles apart = kTouchesApart - deepest_;
+  const DoubleLanes apart = kTouchesApart - deepest_;
   margin_ = apart < margin_ ? apart : margin_;
 }
 
 void PairBatch::CircleWithCircle(std::size_t k, std::size_t m)
 {
-  const Doubles x = first_.centre[k].x - second_.centre[m].x;
-  const Doubles y = first_.centre[k].y - second_.centre[m].y;
-  const Doubles dx = between_.x + x;
-  const Doubles dy = between_.y + y;
+  const DoubleLanes x = first_.centre[k].x - second_.centre[m].x;
+  const DoubleLanes y = first_.centre[k].y - second_.centre[m].y;
+  const DoubleLanes dx = between_.x + x;
+  const DoubleLanes dy = between_.y + y;
   const double reach = first_.Model().part_radius[k] + second_.Model().part_radius[m];
-  Add({x, y, reach + Doubles{}, reach - SquareRoots(dx * dx + dy * dy), DoubleMask{}});
+  Add({x, y, Everywhere(reach), reach - SquareRoot(dx * dx + dy * dy), LongLanes{}});
 }
 
 // `sign` is 1 where the circles belong to the first body of the pair, else -1.
@@ -113,22 +113,22 @@ void PairBatch::CircleWithPolygon(const Side& circles, const Side& polygons, std
   const double radius = circles.Model().part_radius[k];
   const Points& offset = circles.centre[k];
   const Points q = axes.ToLocal({sign * between_.x + offset.x, sign * between_.y + offset.y});
-  Doubles separations[Polygon::kMaximumVertices];
-  Doubles separation = -kNone + Doubles{};
+  DoubleLanes separations[Polygon::kMaximumVertices];
+  DoubleLanes separation = Everywhere(-kNone);
   for (int n = 0; n < polygon.count; ++n)
   {
     separations[n] = polygon.nx[n] * q.x + polygon.ny[n] * q.y - polygon.offset[n];
     separation = separations[n] > separation ? separations[n] : separation;
   }
-  if (Bits(separation <= radius + margin_) == 0) return;
+  if (LaneMask(separation <= radius + margin_) == 0) return;
 
   // The first face from which the circle is separated most: its ends, and its normal and offset.
   Points begin{}, end{}, normal{};
-  Doubles face_offset{};
+  DoubleLanes face_offset{};
   for (int n = polygon.count - 1, next = 0; n >= 0; next = n--)
   {
-    const DoubleMask best = separations[n] == separation;
-    const auto set = [&](Doubles& v, double value) { v = best ? value + Doubles{} : v; };
+    const LongLanes best = separations[n] == separation;
+    const auto set = [&](DoubleLanes& v, double value) { v = best ? Everywhere(value) : v; };
     set(begin.x, polygon.x[n]);
     set(begin.y, polygon.y[n]);
     set(end.x, polygon.x[next]);
@@ -138,21 +138,21 @@ void PairBatch::CircleWithPolygon(const Side& circles, const Side& polygons, std
     set(face_offset, polygon.offset[n]);
   }
   const Points n = axes.ToWorld(normal);
-  const Doubles face_reach = radius + face_offset - (n.x * offset.x + n.y * offset.y);
+  const DoubleLanes face_reach = radius + face_offset - (n.x * offset.x + n.y * offset.y);
 
   // Outside and beyond an end of that face: the corner counts, as a circle of radius 0.
   const Points edge{end.x - begin.x, end.y - begin.y};
-  const Doubles along = (q.x - begin.x) * edge.x + (q.y - begin.y) * edge.y;
-  const DoubleMask before = along < 0.0;
-  const DoubleMask beyond = (separation > 0.0) & (before | (along > edge.x * edge.x + edge.y * edge.y));
+  const DoubleLanes along = (q.x - begin.x) * edge.x + (q.y - begin.y) * edge.y;
+  const LongLanes before = along < 0.0;
+  const LongLanes beyond = (separation > 0.0) & (before | (along > edge.x * edge.x + edge.y * edge.y));
   const Points corner = axes.ToWorld(Points{before ? begin.x : end.x, before ? begin.y : end.y});
-  const Doubles x = sign * (beyond ? offset.x - corner.x : n.x);
-  const Doubles y = sign * (beyond ? offset.y - corner.y : n.y);
-  const Doubles reach = beyond ? radius + Doubles{} : face_reach;
-  const Doubles face_length = between_.x * x + between_.y * y;
-  const Doubles dx = between_.x + x;
-  const Doubles dy = between_.y + y;
-  Add({x, y, reach, reach - (beyond ? SquareRoots(dx * dx + dy * dy) : face_length), ~beyond});
+  const DoubleLanes x = sign * (beyond ? offset.x - corner.x : n.x);
+  const DoubleLanes y = sign * (beyond ? offset.y - corner.y : n.y);
+  const DoubleLanes reach = beyond ? Everywhere(radius) : face_reach;
+  const DoubleLanes face_length = between_.x * x + between_.y * y;
+  const DoubleLanes dx = between_.x + x;
+  const DoubleLanes dy = between_.y + y;
+  Add({x, y, reach, reach - (beyond ? SquareRoot(dx * dx + dy * dy) : face_length), ~beyond});
 }
 
 // `between`: from the body of `faces` to that of `other`.
@@ -166,20 +166,20 @@ PairBatch::Faces PairBatch::SeparationAlong(const Polygon& faces, const Polygon&
     const Points p = other_axes.ToWorld(other.x[k], other.y[k]);
     vertices[k] = faces_axes.ToLocal({p.x + between.x, p.y + between.y});
   }
-  Faces best{-kNone + Doubles{}, {}};
+  Faces best{Everywhere(-kNone), {}};
   for (int k = 0; k < faces.count; ++k)
   {
-    Doubles nearest = kNone + Doubles{};
+    DoubleLanes nearest = Everywhere(kNone);
     for (int m = 0; m < other.count; ++m)
     {
-      const Doubles distance = faces.nx[k] * vertices[m].x + faces.ny[k] * vertices[m].y;
+      const DoubleLanes distance = faces.nx[k] * vertices[m].x + faces.ny[k] * vertices[m].y;
       nearest = distance < nearest ? distance : nearest;
     }
     nearest -= faces.offset[k];
-    const DoubleMask better = nearest > best.separation;
+    const LongLanes better = nearest > best.separation;
     best.separation = better ? nearest : best.separation;
-    best.normal.x = better ? faces.nx[k] + Doubles{} : best.normal.x;
-    best.normal.y = better ? faces.ny[k] + Doubles{} : best.normal.y;
+    best.normal.x = better ? Everywhere(faces.nx[k]) : best.normal.x;
+    best.normal.y = better ? Everywhere(faces.ny[k]) : best.normal.y;
   }
   return best;
 }
@@ -191,17 +191,17 @@ void PairBatch::PolygonWithPolygon(std::size_t p, std::size_t q)
   const Axes& axes_a = first_.AxesOf(a);
   const Axes& axes_b = second_.AxesOf(b);
   const Faces along_b = SeparationAlong(b, a, axes_b, axes_a, between_);
-  if (Bits(along_b.separation <= margin_) == 0) return;
+  if (LaneMask(along_b.separation <= margin_) == 0) return;
   const Faces along_a = SeparationAlong(a, b, axes_a, axes_b, {-between_.x, -between_.y});
-  const DoubleMask from_b = along_b.separation >= along_a.separation;
+  const LongLanes from_b = along_b.separation >= along_a.separation;
   const Points n_b = axes_b.ToWorld(along_b.normal);
   const Points n_a = axes_a.ToWorld({-along_a.normal.x, -along_a.normal.y});
   const Points n{from_b ? n_b.x : n_a.x, from_b ? n_b.y : n_a.y};
   // depth = -separation at this place; reach makes it so.
-  const Doubles separation = from_b ? along_b.separation : along_a.separation;
-  const Doubles reach = n.x * between_.x + n.y * between_.y - separation;
-  const Doubles depth = reach - (between_.x * n.x + between_.y * n.y);
-  Add({n.x, n.y, reach, depth, ~DoubleMask{}});
+  const DoubleLanes separation = from_b ? along_b.separation : along_a.separation;
+  const DoubleLanes reach = n.x * between_.x + n.y * between_.y - separation;
+  const DoubleLanes depth = reach - (between_.x * n.x + between_.y * n.y);
+  Add({n.x, n.y, reach, depth, ~LongLanes{}});
 }
 
 double Overlap(const Placed& a, const Placed& b)

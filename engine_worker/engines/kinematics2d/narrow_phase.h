@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "common/math/lanes.h"
 #include "engine_worker/engines/kinematics2d/collision_model.h"
-#include "engine_worker/engines/kinematics2d/vectors.h"
 
 namespace swarmanoid::kinematics2d
 {
@@ -36,7 +36,7 @@ class PairBatch
 {
 public:
   std::size_t Count() const { return count_; }
-  bool IsFull() const { return count_ == kDoubles; }
+  bool IsFull() const { return count_ == kDoubleLanes; }
   bool Takes(const Placed& a, const Placed& b) const
   {
     return count_ == 0 || (a.model == first_.placed[0]->model && b.model == second_.placed[0]->model);
@@ -76,15 +76,15 @@ public:
 
 private:
   static constexpr unsigned kParts = CollisionModel::kMaximumParts;
-  static_assert(kDoubles * kParts * kParts <= 64);
+  static_assert(kDoubleLanes * kParts * kParts <= 64);
 
   struct Points
   {
-    Doubles x, y;
+    DoubleLanes x, y;
   };
   struct Axes
   {
-    Doubles cos, sin;
+    DoubleLanes cos, sin;
 
     Points ToWorld(Points p) const { return {cos * p.x - sin * p.y, sin * p.x + cos * p.y}; }
     Points ToWorld(double x, double y) const { return {cos * x - sin * y, sin * x + cos * y}; }
@@ -93,7 +93,7 @@ private:
   // One body of each pair.
   struct Side
   {
-    std::array<const Placed*, kDoubles> placed;
+    std::array<const Placed*, kDoubleLanes> placed;
     Points position;
     Axes body, turret;
     Points centre[kParts];  // of the parts, relative to the body, along the axes of the world
@@ -105,13 +105,13 @@ private:
   // The faces of a polygon from which something is separated most.
   struct Faces
   {
-    Doubles separation;
+    DoubleLanes separation;
     Points normal;
   };
   struct Touches
   {
-    Doubles x, y, reach, depth;
-    DoubleMask face;
+    DoubleLanes x, y, reach, depth;
+    LongLanes face;
   };
 
   unsigned NearParts() const;
@@ -125,12 +125,12 @@ private:
 
   std::size_t count_ = 0;
   Side first_, second_;
-  Points between_;  // from the second body to the first
-  Doubles margin_;  // touches less deep than -margin are of no interest
-  Doubles deepest_;
+  Points between_;      // from the second body to the first
+  DoubleLanes margin_;  // touches less deep than -margin are of no interest
+  DoubleLanes deepest_;
   Touches found_[kParts * kParts];
   int finds_ = 0;
-  DoubleMask kept_;  // of each lane: the finds that count, one bit each
+  LongLanes kept_;  // of each lane: the finds that count, one bit each
 };
 
 // The deepest overlap in metres; 0 where there is none.

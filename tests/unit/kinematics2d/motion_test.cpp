@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "common/math/elementary.h"
-#include "engine_worker/engines/kinematics2d/vectors.h"
 
 namespace swarmanoid::kinematics2d
 {

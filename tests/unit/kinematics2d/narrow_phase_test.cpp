@@ -123,17 +123,17 @@ TEST(NarrowPhase, EachPairOfABatchHasTheTouchesThatItHasAlone)
   int touches = 0;
   for (int n = 0; n < 2000; ++n)
   {
-    std::array<Placed, 2 * kDoubles> placed;
+    std::array<Placed, 2 * kDoubleLanes> placed;
     for (Placed& body : placed) body = PutAtRandom(footbot, random);
     PairBatch together;
-    for (std::size_t k = 0; k < kDoubles; ++k)
+    for (std::size_t k = 0; k < kDoubleLanes; ++k)
     {
       ASSERT_TRUE(together.Takes(placed[2 * k], placed[2 * k + 1]));
       together.Add(placed[2 * k], placed[2 * k + 1]);
     }
     ASSERT_TRUE(together.IsFull());
     together.FindTouches(kContactMargin);
-    for (std::size_t k = 0; k < kDoubles; ++k)
+    for (std::size_t k = 0; k < kDoubleLanes; ++k)
     {
       std::vector<Touch> expected, found;
       PairBatch alone;

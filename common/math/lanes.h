@@ -1,11 +1,12 @@
-// A few numbers at a time: explicit vectors for the searches of sensors and engines' worlds. Eight lanes where the
-// processor has them; the lanes do not change what is computed.
+// A few numbers at a time: explicit vectors for the inner loops of sensors, engines and grids. Eight floats and four
+// doubles where the processor has them; all operations work lane by lane, so that their number changes no result.
 #pragma once
 
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -19,14 +20,31 @@ inline constexpr int kLanes = 8;
 #else
 inline constexpr int kLanes = 4;
 #endif
-typedef float FloatLanes __attribute__((vector_size(kLanes * sizeof(float)), aligned(4), may_alias));
-typedef int IntLanes __attribute__((vector_size(kLanes * sizeof(int)), aligned(4), may_alias));
+inline constexpr int kDoubleLanes = kLanes / 2;
 
-inline FloatLanes LoadLanes(const float* from) { return *reinterpret_cast<const FloatLanes*>(from); }
-inline IntLanes LoadLanes(const std::int32_t* from) { return *reinterpret_cast<const IntLanes*>(from); }
-inline void StoreLanes(FloatLanes lanes, float* to) { *reinterpret_cast<FloatLanes*>(to) = lanes; }
-inline void StoreLanes(IntLanes lanes, std::int32_t* to) { *reinterpret_cast<IntLanes*>(to) = lanes; }
-// The difference of doubles to one, in single precision.
+typedef float FloatLanes __attribute__((vector_size(kLanes * sizeof(float))));
+typedef std::int32_t IntLanes __attribute__((vector_size(kLanes * sizeof(float))));
+typedef double DoubleLanes __attribute__((vector_size(kDoubleLanes * sizeof(double))));
+typedef std::int64_t LongLanes __attribute__((vector_size(kDoubleLanes * sizeof(double))));
+// As many integers as there are double lanes.
+typedef std::int32_t HalfIntLanes __attribute__((vector_size(kDoubleLanes * sizeof(std::int32_t))));
+
+// At any address.
+template <class Lanes, class Number>
+Lanes LoadAs(const Number* from)
+{
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+inline FloatLanes LoadLanes(const float* from) { return LoadAs<FloatLanes>(from); }
+inline IntLanes LoadLanes(const std::int32_t* from) { return LoadAs<IntLanes>(from); }
+inline DoubleLanes LoadLanes(const double* from) { return LoadAs<DoubleLanes>(from); }
+inline void StoreLanes(FloatLanes lanes, float* to) { std::memcpy(to, &lanes, sizeof lanes); }
+inline void StoreLanes(IntLanes lanes, std::int32_t* to) { std::memcpy(to, &lanes, sizeof lanes); }
+inline void StoreLanes(DoubleLanes lanes, double* to) { std::memcpy(to, &lanes, sizeof lanes); }
+inline void StoreLanes(HalfIntLanes lanes, std::int32_t* to) { std::memcpy(to, &lanes, sizeof lanes); }
+// The difference of kLanes doubles to one, in single precision.
 inline FloatLanes Differences(const double* from, double other)
 {
 #if defined(__AVX__)
@@ -39,14 +57,29 @@ inline FloatLanes Differences(const double* from, double other)
   return lanes;
 #endif
 }
+// value(0), value(1) … in the lanes.
+template <class Value>
+DoubleLanes InLanes(const Value& value)
+{
+  if constexpr (kDoubleLanes == 4)
+    return DoubleLanes{value(0), value(1), value(2), value(3)};
+  else
+    return DoubleLanes{value(0), value(1)};
+}
 
 // (Adding to 0 would be a second instruction: it turns -0 into 0.)
 inline FloatLanes Everywhere(float value) { return value - FloatLanes{}; }
+inline DoubleLanes Everywhere(double value) { return value - DoubleLanes{}; }
 inline IntLanes Everywhere(int value) { return IntLanes{} + value; }
+// b where either is not a number.
 inline FloatLanes Minimum(FloatLanes a, FloatLanes b) { return a < b ? a : b; }
+inline DoubleLanes Minimum(DoubleLanes a, DoubleLanes b) { return a < b ? a : b; }
 inline FloatLanes Maximum(FloatLanes a, FloatLanes b) { return a > b ? a : b; }
+inline DoubleLanes Maximum(DoubleLanes a, DoubleLanes b) { return a > b ? a : b; }
 inline FloatLanes Magnitude(FloatLanes lanes) { return lanes < 0 ? -lanes : lanes; }
+// Towards zero; the values must fit.
 inline IntLanes Truncated(FloatLanes lanes) { return __builtin_convertvector(lanes, IntLanes); }
+inline HalfIntLanes Truncated(DoubleLanes lanes) { return __builtin_convertvector(lanes, HalfIntLanes); }
 // 0, 1, 2 …
 inline IntLanes LaneNumbers()
 {
@@ -79,6 +112,7 @@ inline float Lowest(FloatLanes lanes)
 }
 inline float Highest(FloatLanes lanes) { return -Lowest(-lanes); }
 
+// Correctly rounded, as IEEE demands.
 inline FloatLanes SquareRoot(FloatLanes lanes)
 {
 #if defined(__AVX__)
@@ -90,19 +124,44 @@ inline FloatLanes SquareRoot(FloatLanes lanes)
   return lanes;
 #endif
 }
-
-// One bit for each lane that is not 0, as comparisons give them (-1 or 0).
-inline unsigned LaneMask(IntLanes lanes)
+inline DoubleLanes SquareRoot(DoubleLanes lanes)
 {
 #if defined(__AVX__)
-  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(lanes)));
+  return _mm256_sqrt_pd(lanes);
 #elif defined(__SSE2__)
-  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(lanes)));
+  return _mm_sqrt_pd(lanes);
+#else
+  for (int i = 0; i < kDoubleLanes; ++i) lanes[i] = __builtin_sqrt(lanes[i]);
+  return lanes;
+#endif
+}
+
+// One bit for each lane that is not 0, as comparisons give them (-1 or 0); lane 0 is the lowest.
+template <class Lanes>
+unsigned LaneMask(Lanes lanes)
+{
+#if defined(__AVX__)
+  if constexpr (sizeof lanes[0] == sizeof(float))
+    return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(lanes)));
+  else
+    return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(lanes)));
+#elif defined(__SSE2__)
+  if constexpr (sizeof lanes[0] == sizeof(float))
+    return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(lanes)));
+  else
+    return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(lanes)));
 #else
   unsigned mask = 0;
-  for (unsigned i = 0; i < kLanes; ++i) mask |= (lanes[i] != 0 ? 1U : 0U) << i;
+  for (unsigned i = 0; i < sizeof lanes / sizeof lanes[0]; ++i) mask |= (lanes[i] != 0 ? 1U : 0U) << i;
   return mask;
 #endif
+}
+
+// Calls act(bit) for each bit that is set in a mask, from the lowest.
+template <class Act>
+void ForEachBit(unsigned mask, const Act& act)
+{
+  for (; mask != 0; mask &= mask - 1) act(static_cast<unsigned>(__builtin_ctz(mask)));
 }
 
 // The lanes whose bits are set in a mask, one after another. Stores write all lanes: up to kLanes values beyond those
