@@ -69,7 +69,7 @@ TEST(DeviceParameters, NoiseOfActuatorsIsJudgedToo)
 {
   EXPECT_EQ(
       MistakesOf("footbot_turret", "dummy_footbot_turret", "noise_mean=\"0.1\"", "actuators"),
-      "test.xml:2:56: 'noise_mean' of <footbot_turret> has no effect without 'noise_kind'; give that too: uniform, "
+      "test.xml:2:55: 'noise_mean' of <footbot_turret> has no effect without 'noise_kind'; give that too: uniform, "
       "gaussian or truncated_gaussian, or none to switch the noise off\n");
 }
 
