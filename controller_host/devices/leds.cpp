@@ -21,6 +21,7 @@ template <class Interface>
 class Ring : public Interface
 {
 public:
+  static constexpr const char* kAttribute = "led";
   explicit Ring(double* colours) : colours_(colours) {}
   void SetAllColours(std::uint32_t colour) override
   {
@@ -44,21 +45,10 @@ private:
 };
 
 template <class Interface>
-class RingActuator : public ActuatorsOf<AttributeActuator, Ring<Interface>>
-{
-public:
-  void Init(const DeviceSetup& setup) override
-  {
-    this->Bind(setup, {"led"});
-    this->colour_noise_ = NoiseFrom(setup.parameters);
-    this->MakeDevices();
-  }
-};
-
-template <class Interface>
 class Beacon : public Interface
 {
 public:
+  static constexpr const char* kAttribute = "beacon";
   explicit Beacon(double* colour) : colour_(colour) {}
   void SetColour(std::uint32_t colour) override { *colour_ = colour & kColourBits; }
 
@@ -71,44 +61,40 @@ private:
   double* colour_;
 };
 
-template <class Interface>
-class BeaconActuator : public ActuatorsOf<AttributeActuator, Beacon<Interface>>
+template <class Device>
+class LightActuator : public ActuatorsOf<AttributeActuator, Device>
 {
 public:
   void Init(const DeviceSetup& setup) override
   {
-    this->Bind(setup, {"beacon"});
+    this->Bind(setup, {Device::kAttribute});
     this->colour_noise_ = NoiseFrom(setup.parameters);
     this->MakeDevices();
   }
 };
 
-template <class Batch>
+template <class Device>
 void Add(const char* label, const char* implementation, const char* robot, const char* brief)
 {
-  PluginDescription description;
-  description.label = label;
-  description.implementation = implementation;
-  description.brief = brief;
-  description.robots = {robot};
-  description.parameters = ColourNoiseParameters();
-  AddActuatorPlugin<Batch>(description);
+  AddActuatorPlugin<LightActuator<Device>>({.label = label,
+                                            .implementation = implementation,
+                                            .brief = brief,
+                                            .parameters = ColourNoiseParameters(),
+                                            .robots = {robot}});
 }
 
 }  // namespace
 
 void RegisterLeds()
 {
-  Add<RingActuator<CCI_FootBotLedsActuator>>("footbot_leds", "generic_footbot_leds", "footbot",
-                                             "the 12 LEDs around the turret");
-  Add<BeaconActuator<CCI_FootBotBeaconActuator>>("footbot_beacon", "generic_footbot_beacon", "footbot",
-                                                 "the LED on top of the robot");
-  Add<RingActuator<CCI_EyeBotLedsActuator>>("eyebot_leds", "generic_eyebot_leds", "eyebot",
-                                            "the 16 LEDs around the robot");
-  Add<BeaconActuator<CCI_HandBotBeaconActuator>>("handbot_beacon", "generic_handbot_beacon", "handbot",
-                                                 "the LED on top of the robot");
-  Add<RingActuator<CCI_HandBotLedsActuator>>("handbot_leds", "generic_handbot_leds", "handbot",
-                                             "the 12 LEDs around the robot");
+  Add<Ring<CCI_FootBotLedsActuator>>("footbot_leds", "generic_footbot_leds", "footbot",
+                                     "the 12 LEDs around the turret");
+  Add<Beacon<CCI_FootBotBeaconActuator>>("footbot_beacon", "generic_footbot_beacon", "footbot",
+                                         "the LED on top of the robot");
+  Add<Ring<CCI_EyeBotLedsActuator>>("eyebot_leds", "generic_eyebot_leds", "eyebot", "the 16 LEDs around the robot");
+  Add<Beacon<CCI_HandBotBeaconActuator>>("handbot_beacon", "generic_handbot_beacon", "handbot",
+                                         "the LED on top of the robot");
+  Add<Ring<CCI_HandBotLedsActuator>>("handbot_leds", "generic_handbot_leds", "handbot", "the 12 LEDs around the robot");
 }
 
 }  // namespace swarmanoid

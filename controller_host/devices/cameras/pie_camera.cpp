@@ -132,13 +132,12 @@ private:
 
 void RegisterPieCamera()
 {
-  PluginDescription description;
-  description.label = "pie_camera";
-  description.implementation = "generic_pie_camera";
-  description.brief = "nearest blob and number of blobs for each colour in each sector around the robot";
-  description.robots = {"footbot"};
-  description.parameters = PieCamera::ParameterTable();
-  AddSensorPlugin<PieCamera>(description);
+  AddSensorPlugin<PieCamera>(
+      {.label = "pie_camera",
+       .implementation = "generic_pie_camera",
+       .brief = "nearest blob and number of blobs for each colour in each sector around the robot",
+       .parameters = PieCamera::ParameterTable(),
+       .robots = {"footbot"}});
 }
 
 }  // namespace swarmanoid

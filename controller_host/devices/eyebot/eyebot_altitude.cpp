@@ -58,13 +58,11 @@ private:
 
 void RegisterEyebotAltitude()
 {
-  PluginDescription description;
-  description.label = "eyebot_altitude";
-  description.implementation = "generic_eyebot_altitude";
-  description.brief = "distance down to the floor or to what stands there";
-  description.robots = {"eyebot"};
-  description.parameters = NoiseParameters("the altitude", "m");
-  AddSensorPlugin<AltitudeSensor>(description);
+  AddSensorPlugin<AltitudeSensor>({.label = "eyebot_altitude",
+                                   .implementation = "generic_eyebot_altitude",
+                                   .brief = "distance down to the floor or to what stands there",
+                                   .parameters = NoiseParameters("the altitude", "m"),
+                                   .robots = {"eyebot"}});
 }
 
 }  // namespace swarmanoid

@@ -22,33 +22,18 @@ private:
   double* on_;
 };
 
-class MagnetActuator : public ActuatorsOf<ChannelActuator, Magnet>
-{
-public:
-  void Init(const DeviceSetup& setup) override
-  {
-    Reset(setup, 1);
-    noise_ = NoiseFrom(setup.parameters);
-    least_ = 0;
-    most_ = 1;
-    MakeDevices();
-  }
-};
-
 }  // namespace
 
 void RegisterEyebotAttachment()
 {
-  PluginDescription description;
-  description.label = "eyebot_attachment";
-  description.implementation = "dummy_eyebot_attachment";
-  description.brief = "hangs the robot on the ceiling by its magnet";
-  description.robots = {"eyebot"};
-  description.channel = "eyebot_attach";
-  description.channel_width = 1;
-  description.parameters =
-      NoiseParameters("the strength of the magnet, 0 to 1, while it is on; it holds above 0.5", "");
-  AddActuatorPlugin<MagnetActuator>(description);
+  AddActuatorPlugin<ChannelCommands<Magnet, 1, 1>>(
+      {.label = "eyebot_attachment",
+       .implementation = "dummy_eyebot_attachment",
+       .brief = "hangs the robot on the ceiling by its magnet",
+       .parameters = NoiseParameters("the strength of the magnet, 0 to 1, while it is on; it holds above 0.5", ""),
+       .robots = {"eyebot"},
+       .channel = "eyebot_attach",
+       .channel_width = 1});
 }
 
 }  // namespace swarmanoid

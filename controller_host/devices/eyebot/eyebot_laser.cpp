@@ -68,13 +68,11 @@ private:
 
 void RegisterEyebotLaser()
 {
-  PluginDescription description;
-  description.label = "eyebot_laser";
-  description.implementation = "generic_eyebot_laser";
-  description.brief = "projects a coloured spot that cameras see";
-  description.robots = {"eyebot"};
-  description.parameters = NoiseParameters("pan and tilt", "rad");
-  AddActuatorPlugin<LaserActuator>(description);
+  AddActuatorPlugin<LaserActuator>({.label = "eyebot_laser",
+                                    .implementation = "generic_eyebot_laser",
+                                    .brief = "projects a coloured spot that cameras see",
+                                    .parameters = NoiseParameters("pan and tilt", "rad"),
+                                    .robots = {"eyebot"}});
 }
 
 }  // namespace swarmanoid

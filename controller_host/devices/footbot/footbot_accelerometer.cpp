@@ -8,15 +8,14 @@ namespace swarmanoid
 {
 void RegisterFootbotAccelerometer()
 {
-  PluginDescription description;
-  description.label = "footbot_accelerometer";
-  description.implementation = "engine_footbot_accelerometer";
-  description.brief = "acceleration of the body, gravity included, in engines that know forces";
-  description.robots = {"footbot"};
-  description.channel = "footbot_accelerometer";
-  description.channel_width = 3;
-  description.parameters = NoiseParameters("each component", "m/s^2");
-  AddSensorPlugin<ChannelReadings<CCI_FootBotAccelerometerSensor, 3>>(description);
+  AddSensorPlugin<ChannelReadings<CCI_FootBotAccelerometerSensor, 3>>(
+      {.label = "footbot_accelerometer",
+       .implementation = "engine_footbot_accelerometer",
+       .brief = "acceleration of the body, gravity included, in engines that know forces",
+       .parameters = NoiseParameters("each component", "m/s^2"),
+       .robots = {"footbot"},
+       .channel = "footbot_accelerometer",
+       .channel_width = 3});
 }
 
 }  // namespace swarmanoid

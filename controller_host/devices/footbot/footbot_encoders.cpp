@@ -36,15 +36,13 @@ private:
 
 void RegisterFootbotEncoders()
 {
-  PluginDescription description;
-  description.label = "footbot_encoders";
-  description.implementation = "engine_footbot_encoders";
-  description.brief = "how the wheels turned in the last tick, collisions and pulls included";
-  description.robots = {"footbot"};
-  description.channel = "footbot_encoders";
-  description.channel_width = 2;
-  description.parameters = NoiseParameters("the speed of each wheel", "rad/s");
-  AddSensorPlugin<EncodersSensor>(description);
+  AddSensorPlugin<EncodersSensor>({.label = "footbot_encoders",
+                                   .implementation = "engine_footbot_encoders",
+                                   .brief = "how the wheels turned in the last tick, collisions and pulls included",
+                                   .parameters = NoiseParameters("the speed of each wheel", "rad/s"),
+                                   .robots = {"footbot"},
+                                   .channel = "footbot_encoders",
+                                   .channel_width = 2});
 }
 
 }  // namespace swarmanoid

@@ -25,19 +25,6 @@ private:
   double* closed_;
 };
 
-class GripperActuator : public ActuatorsOf<ChannelActuator, Gripper>
-{
-public:
-  void Init(const DeviceSetup& setup) override
-  {
-    Reset(setup, 1);
-    noise_ = NoiseFrom(setup.parameters);
-    least_ = 0;
-    most_ = 1;
-    MakeDevices();
-  }
-};
-
 class GripperState : public CCI_FootBotGripperSensor
 {
 public:
@@ -85,23 +72,20 @@ private:
 
 void RegisterFootbotGripper()
 {
-  PluginDescription actuator;
-  actuator.label = "footbot_gripper";
-  actuator.implementation = "dummy_footbot_gripper";
-  actuator.brief = "opens and closes the gripper; closed, it holds what it touches";
-  actuator.robots = {"footbot"};
-  actuator.channel = "footbot_gripper";
-  actuator.channel_width = 1;
-  actuator.parameters = NoiseParameters("how far it closes, 0 to 1, while it is told to close", "");
-  AddActuatorPlugin<GripperActuator>(actuator);
+  AddActuatorPlugin<ChannelCommands<Gripper, 1, 1>>(
+      {.label = "footbot_gripper",
+       .implementation = "dummy_footbot_gripper",
+       .brief = "opens and closes the gripper; closed, it holds what it touches",
+       .parameters = NoiseParameters("how far it closes, 0 to 1, while it is told to close", ""),
+       .robots = {"footbot"},
+       .channel = "footbot_gripper",
+       .channel_width = 1});
 
-  PluginDescription sensor;
-  sensor.label = "footbot_gripper";
-  sensor.implementation = "generic_footbot_gripper";
-  sensor.brief = "aperture of the gripper, whether it holds something and what";
-  sensor.robots = {"footbot"};
-  sensor.parameters = NoiseParameters("the aperture", "rad");
-  AddSensorPlugin<GripperSensor>(sensor);
+  AddSensorPlugin<GripperSensor>({.label = "footbot_gripper",
+                                  .implementation = "generic_footbot_gripper",
+                                  .brief = "aperture of the gripper, whether it holds something and what",
+                                  .parameters = NoiseParameters("the aperture", "rad"),
+                                  .robots = {"footbot"}});
 }
 
 }  // namespace swarmanoid

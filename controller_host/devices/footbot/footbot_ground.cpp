@@ -169,13 +169,11 @@ private:
 
 void RegisterFootbotGround()
 {
-  PluginDescription description;
-  description.label = "footbot_ground";
-  description.implementation = "generic_footbot_ground";
-  description.brief = "brightness and colour of the floor: finds the nest";
-  description.robots = {"footbot"};
-  description.parameters = GroundSensor::ParameterTable();
-  AddSensorPlugin<GroundSensor>(description);
+  AddSensorPlugin<GroundSensor>({.label = "footbot_ground",
+                                 .implementation = "generic_footbot_ground",
+                                 .brief = "brightness and colour of the floor: finds the nest",
+                                 .parameters = GroundSensor::ParameterTable(),
+                                 .robots = {"footbot"}});
 }
 
 }  // namespace swarmanoid

@@ -82,13 +82,11 @@ private:
 
 void RegisterFootbotLight()
 {
-  PluginDescription description;
-  description.label = "footbot_light";
-  description.implementation = "generic_footbot_light";
-  description.brief = "24 sensors that see the light bulbs in line of sight";
-  description.robots = {"footbot"};
-  description.parameters = NoiseParameters("each reading", "");
-  AddSensorPlugin<LightSensor>(description);
+  AddSensorPlugin<LightSensor>({.label = "footbot_light",
+                                .implementation = "generic_footbot_light",
+                                .brief = "24 sensors that see the light bulbs in line of sight",
+                                .parameters = NoiseParameters("each reading", ""),
+                                .robots = {"footbot"}});
 }
 
 }  // namespace swarmanoid

@@ -32,7 +32,7 @@ private:
   double* velocity_;
 };
 
-class TurretActuator : public ActuatorsOf<ChannelActuator, Turret>
+class TurretActuator : public ChannelCommands<Turret, 1>
 {
 public:
   static std::vector<ParameterSpec> ParameterTable()
@@ -46,9 +46,7 @@ public:
   }
   void Init(const DeviceSetup& setup) override
   {
-    Reset(setup, 1);
-    noise_ = NoiseFrom(setup.parameters);
-    MakeDevices();
+    ChannelCommands::Init(setup);
     for (Turret& turret : devices_) turret.limit = setup.parameters.Number("max_speed");
   }
 };
@@ -88,33 +86,27 @@ public:
 
 void RegisterFootbotTurret()
 {
-  PluginDescription motor;
-  motor.label = "footbot_turret";
-  motor.implementation = "dummy_footbot_turret";
-  motor.brief = "turns the turret with gripper and LED ring at a given speed";
-  motor.robots = {"footbot"};
-  motor.channel = "footbot_turret";
-  motor.channel_width = 1;
-  motor.parameters = TurretActuator::ParameterTable();
-  AddActuatorPlugin<TurretActuator>(motor);
+  AddActuatorPlugin<TurretActuator>({.label = "footbot_turret",
+                                     .implementation = "dummy_footbot_turret",
+                                     .brief = "turns the turret with gripper and LED ring at a given speed",
+                                     .parameters = TurretActuator::ParameterTable(),
+                                     .robots = {"footbot"},
+                                     .channel = "footbot_turret",
+                                     .channel_width = 1});
 
-  PluginDescription encoder;
-  encoder.label = "footbot_turret_encoder";
-  encoder.implementation = "generic_footbot_turret_encoder";
-  encoder.brief = "angle of the turret against the body";
-  encoder.robots = {"footbot"};
-  encoder.parameters = NoiseParameters("the angle", "rad");
-  AddSensorPlugin<TurretEncoder>(encoder);
+  AddSensorPlugin<TurretEncoder>({.label = "footbot_turret_encoder",
+                                  .implementation = "generic_footbot_turret_encoder",
+                                  .brief = "angle of the turret against the body",
+                                  .parameters = NoiseParameters("the angle", "rad"),
+                                  .robots = {"footbot"}});
 
-  PluginDescription torque;
-  torque.label = "footbot_turret_torque";
-  torque.implementation = "engine_footbot_turret_torque";
-  torque.brief = "torque and pull between body and turret, as the engine computes them";
-  torque.robots = {"footbot"};
-  torque.channel = "footbot_turret_torque";
-  torque.channel_width = 3;
-  torque.parameters = NoiseParameters("each of the three readings", "");
-  AddSensorPlugin<TorqueSensor>(torque);
+  AddSensorPlugin<TorqueSensor>({.label = "footbot_turret_torque",
+                                 .implementation = "engine_footbot_turret_torque",
+                                 .brief = "torque and pull between body and turret, as the engine computes them",
+                                 .parameters = NoiseParameters("each of the three readings", ""),
+                                 .robots = {"footbot"},
+                                 .channel = "footbot_turret_torque",
+                                 .channel_width = 3});
 }
 
 }  // namespace swarmanoid

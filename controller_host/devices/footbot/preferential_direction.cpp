@@ -119,13 +119,11 @@ private:
 
 void RegisterPreferentialDirection()
 {
-  PluginDescription description;
-  description.label = "footbot_preferential_direction";
-  description.implementation = "led_ring_preferential_direction";
-  description.brief = "shows a direction by lighting the LEDs that point to it";
-  description.robots = {"footbot"};
-  description.parameters = DirectionActuator::ParameterTable();
-  AddActuatorPlugin<DirectionActuator>(description);
+  AddActuatorPlugin<DirectionActuator>({.label = "footbot_preferential_direction",
+                                        .implementation = "led_ring_preferential_direction",
+                                        .brief = "shows a direction by lighting the LEDs that point to it",
+                                        .parameters = DirectionActuator::ParameterTable(),
+                                        .robots = {"footbot"}});
 }
 
 }  // namespace swarmanoid

@@ -81,26 +81,6 @@ private:
   double* closed_;
 };
 
-// `FIRST`: place of the first value within the channel. `MOST`: of the values with their noise, 0 where there is no
-// limit.
-template <class Device, std::size_t FIRST, std::size_t WIDTH, int MOST>
-class JointActuator : public ActuatorsOf<ChannelActuator, Device>
-{
-public:
-  void Init(const DeviceSetup& setup) override
-  {
-    this->Reset(setup, WIDTH);
-    this->first_ = FIRST;
-    this->noise_ = NoiseFrom(setup.parameters);
-    if constexpr (MOST != 0)
-    {
-      this->least_ = 0;
-      this->most_ = MOST;
-    }
-    this->MakeDevices();
-  }
-};
-
 class Joints : public ReadingsOf<CCI_HandBotJointsSensor, CCI_HandBotJointsSensor::NUM_READINGS>
 {
 public:
@@ -165,20 +145,20 @@ void RegisterHandbotJoints()
   head.channel = "handbot_arms";
   head.channel_width = kArmChannelWidth;
   head.parameters = NoiseParameters("the speed while the head is told to move", "rad/s");
-  AddActuatorPlugin<JointActuator<Head, 0, 1, 0>>(head);
+  AddActuatorPlugin<ChannelCommands<Head, 1>>(head);
 
   PluginDescription arms = Description("handbot_arms", "dummy_handbot_arms", "moves arms and wrists at given speeds");
   arms.channel = "handbot_arms";
   arms.channel_width = kArmChannelWidth;
   arms.parameters = NoiseParameters("the speed of each joint that is told to move", "rad/s");
-  AddActuatorPlugin<JointActuator<Arms, 1, 4, 0>>(arms);
+  AddActuatorPlugin<ChannelCommands<Arms, 4, 0, 1>>(arms);
 
   PluginDescription hands = Description("handbot_hands", "dummy_handbot_hands", "opens and closes the two hands");
   hands.channel = "handbot_hands";
   hands.channel_width = 2;
   hands.parameters =
       NoiseParameters("how far each hand closes, 0 to 1, while it is told to close; it holds above 0.5", "");
-  AddActuatorPlugin<JointActuator<Hands, 0, 2, 1>>(hands);
+  AddActuatorPlugin<ChannelCommands<Hands, 2, 1>>(hands);
 
   PluginDescription joints = Description("handbot_joints", "generic_handbot_joints",
                                          "angles of head, arms, wrists and hands, what the hands hold, the rope");

@@ -63,15 +63,13 @@ private:
 
 void RegisterHandbotRope()
 {
-  PluginDescription description;
-  description.label = "handbot_rope";
-  description.implementation = "dummy_handbot_rope";
-  description.brief = "shoots the rope to the ceiling and climbs by its winch";
-  description.robots = {"handbot"};
-  description.channel = "handbot_rope";
-  description.channel_width = 2;
-  description.parameters = NoiseParameters("the speed of the winch while it runs", "m/s");
-  AddActuatorPlugin<RopeActuator>(description);
+  AddActuatorPlugin<RopeActuator>({.label = "handbot_rope",
+                                   .implementation = "dummy_handbot_rope",
+                                   .brief = "shoots the rope to the ceiling and climbs by its winch",
+                                   .parameters = NoiseParameters("the speed of the winch while it runs", "m/s"),
+                                   .robots = {"handbot"},
+                                   .channel = "handbot_rope",
+                                   .channel_width = 2});
 }
 
 }  // namespace swarmanoid

@@ -330,13 +330,11 @@ private:
 
 void RegisterRangeAndBearingReceiver()
 {
-  PluginDescription receiver;
-  receiver.label = "range_and_bearing";
-  receiver.implementation = "generic_range_and_bearing";
-  receiver.brief = "receives the bytes of all in sight within 3 m, with distance and direction";
-  receiver.robots = {"footbot", "eyebot", "handbot"};
-  receiver.parameters = ReceiverBatch::ParameterTable();
-  AddSensorPlugin<ReceiverBatch>(receiver);
+  AddSensorPlugin<ReceiverBatch>({.label = "range_and_bearing",
+                                  .implementation = "generic_range_and_bearing",
+                                  .brief = "receives the bytes of all in sight within 3 m, with distance and direction",
+                                  .parameters = ReceiverBatch::ParameterTable(),
+                                  .robots = {"footbot", "eyebot", "handbot"}});
 }
 
 }  // namespace swarmanoid

@@ -71,13 +71,11 @@ private:
 
 void RegisterRangeAndBearingSender()
 {
-  PluginDescription sender;
-  sender.label = "range_and_bearing";
-  sender.implementation = "generic_range_and_bearing";
-  sender.brief = "broadcasts 10 bytes to all in sight";
-  sender.robots = {"footbot", "eyebot", "handbot"};
-  sender.parameters = NoiseParameters("each byte of the message", "1/255");
-  AddActuatorPlugin<SenderBatch>(sender);
+  AddActuatorPlugin<SenderBatch>({.label = "range_and_bearing",
+                                  .implementation = "generic_range_and_bearing",
+                                  .brief = "broadcasts 10 bytes to all in sight",
+                                  .parameters = NoiseParameters("each byte of the message", "1/255"),
+                                  .robots = {"footbot", "eyebot", "handbot"}});
 }
 
 }  // namespace swarmanoid
