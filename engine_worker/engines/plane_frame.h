@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "common/configuration/parameter.h"
 #include "common/math/pose.h"
 
 namespace swarmanoid
@@ -58,5 +59,9 @@ private:
   Pose frame_;
   Pose inverse_;
 };
+
+// The parameters that place a plane, the same for all two-dimensional engines: perpendicular_axis, distance, tilt.
+std::vector<ParameterSpec> PlaneParameters();
+PlaneFrame PlaneFrom(const Parameters& parameters);
 
 }  // namespace swarmanoid

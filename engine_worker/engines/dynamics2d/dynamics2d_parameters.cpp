@@ -1,6 +1,6 @@
 #include "engine_worker/engines/dynamics2d/dynamics2d_parameters.h"
 
-#include "engine_worker/engines/plane_parameters.h"
+#include "engine_worker/engines/plane_frame.h"
 
 namespace swarmanoid::dynamics2d
 {
