@@ -3,12 +3,11 @@
 #include <array>
 
 #include "common/builtins/builtins.h"
-#include "common/bus/cluster_options.h"
 #include "common/bus/replica.h"
 #include "common/bus/saved_states.h"
 #include "common/bus/tick_inputs.h"
+#include "common/bus/worker_program.h"
 #include "common/bus/worker_session.h"
-#include "common/program/program.h"
 #include "controller_host/cluster/robot_inspection.h"
 #include "controller_host/controller_host.h"
 
@@ -161,8 +160,6 @@ int main(int count, char** arguments)
 {
   using namespace swarmanoid;
 
-  WorkerSettings settings;
-  BusOptions bus;
   const ProgramDescription program{
       "controller_host",
       "Runs the controllers of some robots of a Swarmanoid experiment.",
@@ -177,12 +174,5 @@ int main(int count, char** arguments)
       },
       true,
       true};
-  return RunProgram(
-      program, count, arguments,
-      [&](CLI::App& app)
-      {
-        AddOptions(app, HostOptionTable(settings));
-        AddOptions(app, BusOptionTable(bus));
-      },
-      [&] { return Run(settings, bus); });
+  return RunWorker(program, count, arguments, HostOptionTable, Run);
 }

@@ -3,12 +3,11 @@
 
 #include "common/activity/activity.h"
 #include "common/builtins/builtins.h"
-#include "common/bus/cluster_options.h"
 #include "common/bus/replica.h"
 #include "common/bus/saved_states.h"
 #include "common/bus/tick_inputs.h"
+#include "common/bus/worker_program.h"
 #include "common/bus/worker_session.h"
-#include "common/program/program.h"
 #include "engine_worker/engine_worker.h"
 
 namespace swarmanoid
@@ -106,18 +105,6 @@ private:
   std::optional<HotPublisher<SensorFrame>> frames_;
 };
 
-std::size_t FindEngine(const Experiment& experiment, const std::string& id)
-{
-  std::vector<std::string> known;
-  for (std::size_t e = 0; e < experiment.engines.size(); ++e)
-  {
-    if (experiment.engines[e].id == id) return e;
-    known.push_back("'" + experiment.engines[e].id + "'");
-  }
-  throw ConfigurationError(fmt::format("experiment '{}' has no engine '{}'; it has {}", experiment.name, id,
-                                       known.empty() ? "none" : Joined(known)));
-}
-
 int Run(const WorkerSettings& settings, const BusOptions& bus)
 {
   WorkerSession session(bus, settings.experiment, fmt::format("engine '{}'", settings.engine));
@@ -125,7 +112,8 @@ int Run(const WorkerSettings& settings, const BusOptions& bus)
       [&]
       {
         Replica replica(session.World(), false);
-        EngineNode node(session, replica, FindEngine(*replica.experiment, settings.engine));
+        const Experiment& experiment = *replica.experiment;
+        EngineNode node(session, replica, NumberOf(experiment, experiment.engines, "engine", settings.engine));
         node.WaitForOthers();
         session.ReportReady();
         session.Wait(std::chrono::milliseconds(500), [&] { return node.Stall(); });
@@ -140,8 +128,6 @@ int main(int count, char** arguments)
 {
   using namespace swarmanoid;
 
-  WorkerSettings settings;
-  BusOptions bus;
   const ProgramDescription program{
       "engine_worker",
       "Runs one physics engine of a Swarmanoid experiment.",
@@ -156,12 +142,5 @@ int main(int count, char** arguments)
       },
       true,
       true};
-  return RunProgram(
-      program, count, arguments,
-      [&](CLI::App& app)
-      {
-        AddOptions(app, EngineOptionTable(settings));
-        AddOptions(app, BusOptionTable(bus));
-      },
-      [&] { return Run(settings, bus); });
+  return RunWorker(program, count, arguments, EngineOptionTable, Run);
 }

@@ -6,14 +6,13 @@
 #include <thread>
 
 #include "common/builtins/builtins.h"
-#include "common/bus/cluster_options.h"
 #include "common/bus/control_client.h"
 #include "common/bus/replica.h"
 #include "common/bus/tick_gate.h"
+#include "common/bus/worker_program.h"
 #include "common/bus/worker_session.h"
 #include "common/logging/log.h"
 #include "common/program/interrupts.h"
-#include "common/program/program.h"
 #include "common/program/usage_error.h"
 #include "visualiser/cluster/attached_node.h"
 #include "visualiser/cluster/synchronous_node.h"
@@ -27,27 +26,15 @@ namespace
 
 constexpr auto kIdlePeriod = std::chrono::milliseconds(15);
 
-std::size_t FindVisualisation(const Experiment& experiment, const std::string& id)
-{
-  std::vector<std::string> known;
-  for (std::size_t v = 0; v < experiment.visualisations.size(); ++v)
-  {
-    if (experiment.visualisations[v].id == id) return v;
-    known.push_back(fmt::format("'{}'", experiment.visualisations[v].id));
-  }
-  throw ConfigurationError(fmt::format("experiment '{}' has no visualisation '{}'; it has {}", experiment.name, id,
-                                       known.empty() ? "none" : Joined(known)));
-}
-
 void RunSynchronous(WorkerSession& session, const std::string& id, const std::string& output)
 {
   Replica replica(session.World(), false);
-  const std::size_t number = FindVisualisation(*replica.experiment, id);
+  const std::vector<RenderConfiguration>& visualisations = replica.experiment->visualisations;
+  const std::size_t number = NumberOf(*replica.experiment, visualisations, "visualisation", id);
   ControlClient client(session.GetBus(), session.World().experiment);
   RequestControl control([&](const ControlRequestMessage& r) { client.Tell(r.verb, r.entity, r.numbers); });
   RemoteMonitor monitor(session.GetBus(), session.World(), true);
-  Visualiser visualiser(replica.experiment->visualisations[number], *replica.space, replica.assignment, output,
-                        &control, &monitor);
+  Visualiser visualiser(visualisations[number], *replica.space, replica.assignment, output, &control, &monitor);
   replica.RestoreSpace();
   SynchronousNode node(session, replica, number, visualiser, control, monitor);
   node.WaitForServer();
@@ -117,9 +104,7 @@ int main(int count, char** arguments)
 {
   using namespace swarmanoid;
 
-  WorkerSettings settings;
   std::vector<std::string> parameters;
-  BusOptions bus;
   const ProgramDescription program{
       "visualiser",
       "Shows a Swarmanoid experiment through one renderer.",
@@ -135,15 +120,13 @@ int main(int count, char** arguments)
       },
       true,
       true};
-  return RunProgram(
-      program, count, arguments,
+  return RunWorker(
+      program, count, arguments, VisualiserOptionTable,
+      [&](const WorkerSettings& settings, const BusOptions& bus) { return Run(settings, parameters, bus); },
       [&](CLI::App& app)
       {
-        AddOptions(app, VisualiserOptionTable(settings));
         app.add_option("PARAMETERS", parameters, "With --attach: the renderer's parameters, as NAME=VALUE");
-        AddOptions(app, BusOptionTable(bus));
         if (const std::string kind = AttachedKind(count, arguments); !kind.empty())
           AddRendererOptions(app, FindRenderer(kind), parameters);
-      },
-      [&] { return Run(settings, parameters, bus); });
+      });
 }

@@ -1,9 +1,11 @@
 #include "common/activity/shared_memory.h"
-#include "common/bus/machine_id.h"
 #include "common/bus/message_type.h"
 #include "common/bus/participant.h"
+#include "common/math/random.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
+#include <fstream>
 
 namespace swarmanoid
 {
@@ -28,6 +30,18 @@ void RequireSharedMemory(std::size_t bytes)
       "shared memory is full: {} has {} KiB left, and the messages of this run need {} KiB; free some of it, "
       "or let SWARMANOID_SHARED_FOLDER name a folder with more room",
       SharedMemoryFolder(), SharedMemoryFree() / 1024, (bytes + kOtherFiles) / 1024));
+}
+
+// Who may share memory: processes of one user, on one kernel, in one network namespace.
+std::uint16_t MachineId()
+{
+  std::string identity;
+  std::ifstream("/proc/sys/kernel/random/boot_id") >> identity;
+  char link[128] = {};
+  if (readlink("/proc/self/ns/net", link, sizeof(link) - 1) > 0) identity += link;
+  identity += std::to_string(getuid());
+  const auto hash = static_cast<std::uint32_t>(StreamName(identity));
+  return static_cast<std::uint16_t>(hash ^ (hash >> 16));
 }
 
 void ShareData(dds::DataSharingQosPolicy& policy, const HotScope& scope)

@@ -27,10 +27,10 @@ void CheckLength(const char* field, std::size_t length, std::size_t wanted)
 }
 
 // Of the senders of a kind, the one that the message names.
-std::size_t OfSource(const std::vector<std::size_t>& numbers, std::uint32_t source)
+std::size_t OfSource(const std::vector<std::size_t>& numbers, const MessageHeader& header)
 {
-  if (source >= numbers.size()) RefuseField("source", fmt::format("there is no number {}", source));
-  return numbers[source];
+  TickLimits::CheckSource(header, numbers.size());
+  return numbers[header.source];
 }
 
 }  // namespace
@@ -92,19 +92,19 @@ void TickLimits::Check(const MessageHeader& header, const SpaceState& state) con
 
 void TickLimits::Check(const MessageHeader& header, const ControlCommands& commands) const
 {
-  CheckLength("values", commands.values.size(), OfSource(command_values_, header.source));
+  CheckLength("values", commands.values.size(), OfSource(command_values_, header));
   CheckSlots(commands.attributes);
 }
 
 void TickLimits::Check(const MessageHeader& header, const EngineUpdate& update) const
 {
-  CheckLength("poses", update.poses.size(), kPoseNumbers * OfSource(owned_, header.source));
+  CheckLength("poses", update.poses.size(), kPoseNumbers * OfSource(owned_, header));
   CheckSlots(update.attributes);
 }
 
 void TickLimits::Check(const MessageHeader& header, const SensorFrame& frame) const
 {
-  CheckLength("values", frame.values.size(), OfSource(sensor_values_, header.source));
+  CheckLength("values", frame.values.size(), OfSource(sensor_values_, header));
 }
 
 void TickLimits::Check(const SpaceSnapshot& snapshot) const
@@ -113,16 +113,21 @@ void TickLimits::Check(const SpaceSnapshot& snapshot) const
   CheckLength("attributes", snapshot.attributes.size(), slots_);
 }
 
+void TickLimits::CheckSource(const MessageHeader& header, std::size_t senders)
+{
+  if (header.source >= senders) RefuseField("source", fmt::format("there is no number {}", header.source));
+}
+
 template <>
 void TickLimits::CheckSource<ControlCommands>(const MessageHeader& header) const
 {
-  OfSource(command_values_, header.source);
+  CheckSource(header, command_values_.size());
 }
 
 template <>
 void TickLimits::CheckSource<SensorFrame>(const MessageHeader& header) const
 {
-  OfSource(sensor_values_, header.source);
+  CheckSource(header, sensor_values_.size());
 }
 
 // They ascend: the last one is the largest.

@@ -34,6 +34,8 @@ public:
   // The same for who sends a message of that kind, before it is read.
   template <class Message>
   void CheckSource(const MessageHeader& header) const;
+  // Where `senders` may send such a message, numbered from 0.
+  static void CheckSource(const MessageHeader& header, std::size_t senders);
 
 private:
   void CheckSlots(const AttributeChanges& changes) const;

@@ -44,74 +44,81 @@ ElementSpec Framework()
   return element;
 }
 
-ElementSpec DeviceList(const char* tag, PluginKind kind, const char* description)
+ParameterSpec Library()
 {
-  using enum ParameterType;
+  return Optional(ParameterType::kText, "library", "", "",
+                  "The library that registers it, looked for in plugin_path; empty: it is built in.");
+}
+
+// A list of plug-ins of a kind. Of each its own tag, and what all have in common.
+ElementSpec PluginList(const char* tag, PluginKind kind, const char* description, std::string of_each,
+                       std::vector<ParameterSpec> parameters)
+{
   ElementSpec element;
   element.tags = {tag};
   element.description = description;
   element.plugins = kind;
-  ElementSpec device;
-  device.description = fmt::format(
-      "One {}: its tag is the type. Its implementation decides which further parameters it has.", PluginKindName(kind));
-  device.parameters = {
-      Required(kText, "implementation", "", "The label of the implementation to use."),
-      Optional(kText, "library", "", "",
-               "The library that registers it, looked for in plugin_path; empty: it is built in."),
-  };
-  element.plugin_element = {device};
+  ElementSpec each;
+  each.description = std::move(of_each);
+  each.parameters = std::move(parameters);
+  element.plugin_element = {each};
   return element;
+}
+
+ElementSpec DeviceList(const char* tag, PluginKind kind, const char* description)
+{
+  using enum ParameterType;
+  return PluginList(
+      tag, kind, description,
+      fmt::format("One {}: its tag is the type. Its implementation decides which further parameters it has.",
+                  PluginKindName(kind)),
+      {
+          Required(kText, "implementation", "", "The label of the implementation to use."),
+          Library(),
+      });
 }
 
 ElementSpec Controllers()
 {
   using enum ParameterType;
-  ElementSpec element;
-  element.tags = {"controllers"};
-  element.description =
+  ElementSpec element = PluginList(
+      "controllers", PluginKind::kController,
       "The controllers of the robots. The same controller may stand here several times with different ids and "
-      "parameters.";
-  element.plugins = PluginKind::kController;
-  ElementSpec controller;
-  controller.description = "One controller: its tag is the label under which REGISTER_CONTROLLER made it known.";
-  controller.parameters = {
-      Id("The name by which robots refer to it; unique among the controllers."),
-      Optional(kText, "library", "", "",
-               "The library that holds it: x stands for libx.so or x.so in one of the folders of controller_path, or "
-               "in .libs "
-               "within it. Empty: the program itself holds it."),
-      Optional(
-          kTree, "parameters", "", "",
-          "The parameters of the controller, given to its Init: those that it declared, or free content for one that "
-          "declared none; what it never reads is refused."),
-  };
-  controller.children = {
+      "parameters.",
+      "One controller: its tag is the label under which REGISTER_CONTROLLER made it known.",
+      {
+          Id("The name by which robots refer to it; unique among the controllers."),
+          Optional(
+              kText, "library", "", "",
+              "The library that holds it: x stands for libx.so or x.so in one of the folders of controller_path, or "
+              "in .libs "
+              "within it. Empty: the program itself holds it."),
+          Optional(kTree, "parameters", "", "",
+                   "The parameters of the controller, given to its Init: those that it declared, or free content for "
+                   "one that "
+                   "declared none; what it never reads is refused."),
+      });
+  element.plugin_element[0].children = {
       DeviceList("actuators", PluginKind::kActuator, "The actuators that the controller may use; no other ones exist."),
       DeviceList("sensors", PluginKind::kSensor, "The sensors that the controller may use; no other ones exist."),
   };
-  element.plugin_element = {controller};
   return element;
 }
 
 ElementSpec Engines()
 {
   using enum ParameterType;
-  ElementSpec element;
-  element.tags = {"engines"};
-  element.description = "The physics engines. Each is a closed world and, in a cluster, a process.";
-  element.plugins = PluginKind::kEngine;
-  ElementSpec engine;
-  engine.description = "One engine: its tag is its type, which decides which further parameters it has.";
-  engine.parameters = {
-      Id("The name by which <arena_physics> refers to it; unique among the engines."),
-      InRange(Optional(kInteger, "subclock", "", "1",
+  return PluginList(
+      "engines", PluginKind::kEngine, "The physics engines. Each is a closed world and, in a cluster, a process.",
+      "One engine: its tag is its type, which decides which further parameters it has.",
+      {
+          Id("The name by which <arena_physics> refers to it; unique among the engines."),
+          InRange(
+              Optional(kInteger, "subclock", "", "1",
                        "Steps of the engine in each clock tick: more find collisions more exactly and take longer."),
               1, 10'000),
-      Optional(kText, "library", "", "",
-               "The library that registers it, looked for in plugin_path; empty: it is built in."),
-  };
-  element.plugin_element = {engine};
-  return element;
+          Library(),
+      });
 }
 
 ElementSpec ArenaPhysics()
@@ -152,39 +159,27 @@ ElementSpec ArenaPhysics()
 
 ElementSpec Visualisations()
 {
-  using enum ParameterType;
-  ElementSpec element;
-  element.tags = {"visualisations"};
-  element.description = "What shows or records the experiment. The run waits for each of them at every tick.";
-  element.plugins = PluginKind::kRenderer;
-  ElementSpec render;
-  render.description = "One visualisation: its tag is its type, which decides which further parameters it has.";
-  render.parameters = {
-      Id("The name of the visualisation; unique among them."),
-      Optional(kText, "library", "", "",
-               "The library that registers it, looked for in plugin_path; empty: it is built in."),
-  };
-  element.plugin_element = {render};
-  return element;
+  return PluginList("visualisations", PluginKind::kRenderer,
+                    "What shows or records the experiment. The run waits for each of them at every tick.",
+                    "One visualisation: its tag is its type, which decides which further parameters it has.",
+                    {
+                        Id("The name of the visualisation; unique among them."),
+                        Library(),
+                    });
 }
 
 ElementSpec ExperimentFunctions()
 {
   using enum ParameterType;
-  ElementSpec element;
-  element.tags = {"experiment_functions"};
-  element.description =
+  return PluginList(
+      "experiment_functions", PluginKind::kExperimentFunctions,
       "Code around the steps of the experiment, run by the space server: it measures, changes the world, and decides "
-      "when the experiment is over.";
-  element.plugins = PluginKind::kExperimentFunctions;
-  ElementSpec functions;
-  functions.description = "One set of functions: its tag is the one they are registered with.";
-  functions.parameters = {
-      Id("The name of the functions; unique among them."),
-      Optional(kText, "library", "", "", "The library that registers them, looked for in plugin_path."),
-  };
-  element.plugin_element = {functions};
-  return element;
+      "when the experiment is over.",
+      "One set of functions: its tag is the one they are registered with.",
+      {
+          Id("The name of the functions; unique among them."),
+          Optional(kText, "library", "", "", "The library that registers them, looked for in plugin_path."),
+      });
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ template <class Interface>
 class Ring : public Interface
 {
 public:
+  static constexpr const char* kAttribute = "led";
   explicit Ring(double* colours) : colours_(colours) {}
   void SetAllColours(std::uint32_t colour) override
   {
@@ -44,21 +45,10 @@ private:
 };
 
 template <class Interface>
-class RingActuator : public ActuatorsOf<AttributeActuator, Ring<Interface>>
-{
-public:
-  void Init(const DeviceSetup& setup) override
-  {
-    this->Bind(setup, {"led"});
-    this->colour_noise_ = NoiseFrom(setup.parameters);
-    this->MakeDevices();
-  }
-};
-
-template <class Interface>
 class Beacon : public Interface
 {
 public:
+  static constexpr const char* kAttribute = "beacon";
   explicit Beacon(double* colour) : colour_(colour) {}
   void SetColour(std::uint32_t colour) override { *colour_ = colour & kColourBits; }
 
@@ -71,13 +61,13 @@ private:
   double* colour_;
 };
 
-template <class Interface>
-class BeaconActuator : public ActuatorsOf<AttributeActuator, Beacon<Interface>>
+template <class Device>
+class LightActuator : public ActuatorsOf<AttributeActuator, Device>
 {
 public:
   void Init(const DeviceSetup& setup) override
   {
-    this->Bind(setup, {"beacon"});
+    this->Bind(setup, {Device::kAttribute});
     this->colour_noise_ = NoiseFrom(setup.parameters);
     this->MakeDevices();
   }
@@ -87,11 +77,11 @@ public:
 
 void RegisterLeds()
 {
-  BindActuator<RingActuator<CCI_FootBotLedsActuator>>("footbot_leds", "generic_footbot_leds");
-  BindActuator<BeaconActuator<CCI_FootBotBeaconActuator>>("footbot_beacon", "generic_footbot_beacon");
-  BindActuator<RingActuator<CCI_EyeBotLedsActuator>>("eyebot_leds", "generic_eyebot_leds");
-  BindActuator<BeaconActuator<CCI_HandBotBeaconActuator>>("handbot_beacon", "generic_handbot_beacon");
-  BindActuator<RingActuator<CCI_HandBotLedsActuator>>("handbot_leds", "generic_handbot_leds");
+  BindActuator<LightActuator<Ring<CCI_FootBotLedsActuator>>>("footbot_leds", "generic_footbot_leds");
+  BindActuator<LightActuator<Beacon<CCI_FootBotBeaconActuator>>>("footbot_beacon", "generic_footbot_beacon");
+  BindActuator<LightActuator<Ring<CCI_EyeBotLedsActuator>>>("eyebot_leds", "generic_eyebot_leds");
+  BindActuator<LightActuator<Beacon<CCI_HandBotBeaconActuator>>>("handbot_beacon", "generic_handbot_beacon");
+  BindActuator<LightActuator<Ring<CCI_HandBotLedsActuator>>>("handbot_leds", "generic_handbot_leds");
 }
 
 }  // namespace swarmanoid

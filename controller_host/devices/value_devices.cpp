@@ -27,7 +27,7 @@ std::vector<std::uint32_t> SlotsOf(const DeviceSetup& setup, const std::vector<s
 
 }  // namespace
 
-void ValueActuator::Reset(const DeviceSetup& setup, std::size_t width)
+void DeviceValues::Reset(const DeviceSetup& setup, std::size_t width)
 {
   space_ = &setup.space;
   robots_ = setup.robots;
@@ -101,15 +101,6 @@ std::uint32_t AttributeActuator::Disturbed(std::uint32_t colour, RandomStream ra
     disturbed |= static_cast<std::uint32_t>(std::clamp(part + 0.5, 0.0, 255.0)) << shift;
   }
   return disturbed;
-}
-
-void ValueSensor::Reset(const DeviceSetup& setup, std::size_t width)
-{
-  space_ = &setup.space;
-  robots_ = setup.robots;
-  streams_ = DeviceStreams(setup);
-  width_ = width;
-  values_.assign(robots_.size() * width, 0);
 }
 
 void ValueSensor::AddNoise()

@@ -13,23 +13,29 @@
 namespace swarmanoid
 {
 
-// Numbers that controllers set. They stay until set again; saved and restored.
-class ValueActuator : public ActuatorBatch
+// As many numbers for each robot.
+class DeviceValues
 {
-public:
-  void SaveState(ByteWriter& state) const override { state.PutArray(values_); }
-  void LoadState(ByteReader& state) override;
-
 protected:
   void Reset(const DeviceSetup& setup, std::size_t width);
   double* ValuesOf(std::size_t k) { return &values_[k * width_]; }
-  std::size_t Robots() const { return robots_.size(); }
 
   const CSwarmanoidSpace* space_ = nullptr;
   std::vector<std::uint32_t> robots_;
   DeviceStreams streams_;
   std::size_t width_ = 0;
   std::vector<double> values_;  // robot after robot
+};
+
+// Numbers that controllers set. They stay until set again; saved and restored.
+class ValueActuator : public ActuatorBatch, protected DeviceValues
+{
+public:
+  void SaveState(ByteWriter& state) const override { state.PutArray(values_); }
+  void LoadState(ByteReader& state) override;
+
+protected:
+  std::size_t Robots() const { return robots_.size(); }
 };
 
 // Sends its numbers to the engine, from place `first` of the channel on. Noise is added to numbers that are not 0; the
@@ -67,18 +73,11 @@ private:
 };
 
 // Numbers that controllers read.
-class ValueSensor : public SensorBatch
+class ValueSensor : public SensorBatch, protected DeviceValues
 {
 protected:
-  void Reset(const DeviceSetup& setup, std::size_t width);
-  double* ValuesOf(std::size_t k) { return &values_[k * width_]; }
   void AddNoise();
 
-  const CSwarmanoidSpace* space_ = nullptr;
-  std::vector<std::uint32_t> robots_;
-  DeviceStreams streams_;
-  std::size_t width_ = 0;
-  std::vector<double> values_;
   NoiseModel noise_;
 };
 
@@ -119,11 +118,8 @@ private:
 
 // Actuator batches and sensor batches of one kind of object, made from the numbers of a robot.
 template <class Base, class Device>
-class ActuatorsOf : public Base
+class DevicesOf : public Base
 {
-public:
-  CCI_Actuator* Actuator(std::size_t k) override { return &devices_[k]; }
-
 protected:
   void MakeDevices()
   {
@@ -135,19 +131,37 @@ protected:
 };
 
 template <class Base, class Device>
-class SensorsOf : public Base
+class ActuatorsOf : public DevicesOf<Base, Device>
 {
 public:
-  CCI_Sensor* Sensor(std::size_t k) override { return &devices_[k]; }
+  CCI_Actuator* Actuator(std::size_t k) override { return &this->devices_[k]; }
+};
 
-protected:
-  void MakeDevices()
+template <class Base, class Device>
+class SensorsOf : public DevicesOf<Base, Device>
+{
+public:
+  CCI_Sensor* Sensor(std::size_t k) override { return &this->devices_[k]; }
+};
+
+// A specific actuator that sends what was set on it: COUNT numbers from place FIRST of the channel on, with their noise
+// from 0 to MOST; 0: without a limit.
+template <class Device, std::size_t COUNT, int MOST = 0, std::size_t FIRST = 0>
+class ChannelCommands : public ActuatorsOf<ChannelActuator, Device>
+{
+public:
+  void Init(const DeviceSetup& setup) override
   {
-    devices_.clear();
-    devices_.reserve(this->robots_.size());
-    for (std::size_t k = 0; k < this->robots_.size(); ++k) devices_.emplace_back(this->ValuesOf(k));
+    this->Reset(setup, COUNT);
+    this->first_ = FIRST;
+    this->noise_ = NoiseFrom(setup.parameters);
+    if constexpr (MOST != 0)
+    {
+      this->least_ = 0;
+      this->most_ = MOST;
+    }
+    this->MakeDevices();
   }
-  std::vector<Device> devices_;
 };
 
 // A specific sensor that hands on the COUNT numbers of its channel.

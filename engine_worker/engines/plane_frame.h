@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "common/configuration/parameter.h"
 #include "common/math/pose.h"
 
 namespace swarmanoid
@@ -58,5 +59,8 @@ private:
   Pose frame_;
   Pose inverse_;
 };
+
+// By the parameters that place a plane, the same for all two-dimensional engines (PlaneParameters, common/builtins).
+PlaneFrame PlaneFrom(const Parameters& parameters);
 
 }  // namespace swarmanoid

@@ -63,7 +63,7 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
         HotSubscription<EngineUpdate>::Handler{
             [this](const MessageHeader& header) -> EngineUpdate*
             {
-              if (header.source >= engines_) throw BadMessage(fmt::format("there is no engine {}", header.source));
+              TickLimits::CheckSource(header, engines_);
               if (header.tick == 0) throw BadMessage("an update cannot lead to tick 0");
               return PlaceOf(header, header.tick - 1, header.source, updates_[header.source]);
             },
@@ -92,8 +92,7 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
                       HotSubscription<DrawnMessage>::Handler{
                           [this](const MessageHeader& header) -> DrawnMessage*
                           {
-                            if (header.source >= visualisers_)
-                              throw BadMessage(fmt::format("there is no visualiser {}", header.source));
+                            TickLimits::CheckSource(header, visualisers_);
                             return PlaceOf(header, header.tick, engines_ + hosts_.size() + header.source,
                                            drawn_[header.source]);
                           },

@@ -15,10 +15,6 @@ using Eigen::Vector3f;
 // Levels of detail: bodies of a smaller radius (pixels) get the next one.
 constexpr float kNearPixels = 38;
 constexpr float kMiddlePixels = 11;
-// What stays solid of a wall at the edge of the arena: of one that would hide it, and of the others, m.
-constexpr float kKerb = 0.04F;
-constexpr float kCutHeight = 0.35F;
-constexpr float kCutPart = 0.07F;  // of the arena's size, where that is more
 
 std::array<float, 4> Components(Colour colour, float opacity = 1)
 {
@@ -92,11 +88,11 @@ void Frame::Sort(const Scene& scene, const ViewVolume& view, const SunVolume& su
 // Tall walls are cut open: glass over a solid lower part, with the upper edge drawn.
 void Frame::SortWall(const SceneItem& item, const Scene& scene, const ViewVolume& view)
 {
-  const Vector3& arena = scene.ArenaSize();
-  const bool hides =
-      HidesArena(scene.Space().GetEntity(item.entity).GetConfiguration(), arena, view.eye.cast<double>());
+  const EntityConfiguration& wall = scene.Space().GetEntity(item.entity).GetConfiguration();
+  const Vector3 eye = view.eye.cast<double>();
+  const bool hides = HidesArena(wall, scene.ArenaSize(), eye);
   const float height = item.scale.z();
-  const float cut = hides ? kKerb : std::max(kCutHeight, kCutPart * static_cast<float>(arena.head<2>().maxCoeff()));
+  const float cut = SolidHeight(wall, scene.ArenaSize(), eye);
   if (height <= cut) return solid.Add(item.model, 0, InstanceOf(item));
   glass.Add(item.model, 0, InstanceOf(item, hides ? 0.04F : 0.07F));
   SceneItem kerb = item;

@@ -22,51 +22,36 @@ GLuint Compile(const std::string& title, GLenum stage, const std::string& source
   throw std::runtime_error("OpenGL does not compile the shader '" + title + "': " + words.data());
 }
 
+struct Calls
+{
+  decltype(glGenBuffers) make;
+  decltype(glDeleteBuffers) remove;
+};
+Calls CallsOf(GlObject::Kind kind)
+{
+  switch (kind)
+  {
+    case GlObject::Kind::kBuffer:
+      return {glGenBuffers, glDeleteBuffers};
+    case GlObject::Kind::kVertexArray:
+      return {glGenVertexArrays, glDeleteVertexArrays};
+    case GlObject::Kind::kTexture:
+      return {glGenTextures, glDeleteTextures};
+    case GlObject::Kind::kRenderbuffer:
+      return {glGenRenderbuffers, glDeleteRenderbuffers};
+    case GlObject::Kind::kFramebuffer:
+      return {glGenFramebuffers, glDeleteFramebuffers};
+  }
+  return {};
+}
+
 }  // namespace
 
-GlObject::GlObject(Kind kind) : kind_(kind)
-{
-  switch (kind_)
-  {
-    case Kind::kBuffer:
-      glGenBuffers(1, &name_);
-      break;
-    case Kind::kVertexArray:
-      glGenVertexArrays(1, &name_);
-      break;
-    case Kind::kTexture:
-      glGenTextures(1, &name_);
-      break;
-    case Kind::kRenderbuffer:
-      glGenRenderbuffers(1, &name_);
-      break;
-    case Kind::kFramebuffer:
-      glGenFramebuffers(1, &name_);
-      break;
-  }
-}
+GlObject::GlObject(Kind kind) : kind_(kind) { CallsOf(kind).make(1, &name_); }
 
 void GlObject::Release()
 {
-  if (name_ == 0) return;
-  switch (kind_)
-  {
-    case Kind::kBuffer:
-      glDeleteBuffers(1, &name_);
-      break;
-    case Kind::kVertexArray:
-      glDeleteVertexArrays(1, &name_);
-      break;
-    case Kind::kTexture:
-      glDeleteTextures(1, &name_);
-      break;
-    case Kind::kRenderbuffer:
-      glDeleteRenderbuffers(1, &name_);
-      break;
-    case Kind::kFramebuffer:
-      glDeleteFramebuffers(1, &name_);
-      break;
-  }
+  if (name_ != 0) CallsOf(kind_).remove(1, &name_);
   name_ = 0;
 }
 

@@ -23,10 +23,6 @@ using Ogre::RenderOperation;
 // Bodies of a smaller radius (pixels) get the next level of detail.
 constexpr float kNearPixels = 38;
 constexpr float kMiddlePixels = 11;
-// What is left of a wall at the edge of the arena: of one that would hide it, and of the others, m.
-constexpr float kKerb = 0.04F;
-constexpr float kCutHeight = 0.35F;
-constexpr float kCutPart = 0.07F;     // of the arena's size, where that is more
 constexpr float kPatchLift = 0.004F;  // m above the floor, so that both can be told apart from afar
 constexpr float kAround = 60;         // m: the ground around the arena
 constexpr int kGlowCorners = 20;
@@ -212,9 +208,7 @@ void OgreScene::Place(Body& body, const Scene& scene, const SceneItem& item, con
   if (item.role == SceneItem::Role::kWall && item.entity != kNoEntity)
   {
     const EntityConfiguration& wall = scene.Space().GetEntity(item.entity).GetConfiguration();
-    const auto size = static_cast<float>(scene.ArenaSize().head<2>().maxCoeff());
-    const float left =
-        HidesArena(wall, scene.ArenaSize(), camera.position) ? kKerb : std::max(kCutHeight, kCutPart * size);
+    const float left = SolidHeight(wall, scene.ArenaSize(), camera.position);
     if (scale.z() > left)
     {
       position.z() += (left - scale.z()) / 2;

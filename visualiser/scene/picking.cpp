@@ -12,6 +12,10 @@ namespace
 constexpr double kFarthest = 1e4;      // m
 constexpr double kRobotMargin = 0.01;  // m
 constexpr double kTall = 0.25;         // m: lower walls hide nothing
+// What stays solid of a wall that hides the arena, and of the others, m.
+constexpr float kKerb = 0.04F;
+constexpr float kCutHeight = 0.35F;
+constexpr float kCutPart = 0.07F;  // of the arena's size, where that is more
 
 }  // namespace
 
@@ -35,6 +39,12 @@ bool HidesArena(const EntityConfiguration& wall, const Vector3& arena_size, cons
   const double inside = (arena_size / 2 - wall.pose.position).dot(along);
   const double outside = (eye - wall.pose.position).dot(along);
   return inside * outside < 0;
+}
+
+float SolidHeight(const EntityConfiguration& wall, const Vector3& arena_size, const Vector3& eye)
+{
+  if (HidesArena(wall, arena_size, eye)) return kKerb;
+  return std::max(kCutHeight, kCutPart * static_cast<float>(arena_size.head<2>().maxCoeff()));
 }
 
 std::optional<Pick> PickEntity(const CSwarmanoidSpace& space, const Ray& ray)

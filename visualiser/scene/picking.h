@@ -23,5 +23,7 @@ std::optional<Pick> PickEntity(const CSwarmanoidSpace& space, const Ray& ray);
 bool IsBoundaryWall(const EntityConfiguration& entity, const Vector3& arena_size);
 // Whether it stands between an eye and the middle of the arena, and is to be shown as glass.
 bool HidesArena(const EntityConfiguration& wall, const Vector3& arena_size, const Vector3& eye);
+// How much of a wall (m, from below) is drawn solid: less of one that hides the arena.
+float SolidHeight(const EntityConfiguration& wall, const Vector3& arena_size, const Vector3& eye);
 
 }  // namespace swarmanoid

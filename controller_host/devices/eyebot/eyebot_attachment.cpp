@@ -22,21 +22,8 @@ private:
   double* on_;
 };
 
-class MagnetActuator : public ActuatorsOf<ChannelActuator, Magnet>
-{
-public:
-  void Init(const DeviceSetup& setup) override
-  {
-    Reset(setup, 1);
-    noise_ = NoiseFrom(setup.parameters);
-    least_ = 0;
-    most_ = 1;
-    MakeDevices();
-  }
-};
-
 }  // namespace
 
-void RegisterEyebotAttachment() { BindActuator<MagnetActuator>("eyebot_attachment", "dummy_eyebot_attachment"); }
+void RegisterEyebotAttachment() { BindActuator<ChannelCommands<Magnet, 1, 1>>("eyebot_attachment", "dummy_eyebot_attachment"); }
 
 }  // namespace swarmanoid

@@ -65,14 +65,12 @@ private:
   double* values_;
 };
 
-class VelocityActuator : public ActuatorsOf<ChannelActuator, VelocityPropellers>
+class VelocityActuator : public ChannelCommands<VelocityPropellers, kAxes>
 {
 public:
   void Init(const DeviceSetup& setup) override
   {
-    Reset(setup, kAxes);
-    noise_ = NoiseFrom(setup.parameters);
-    MakeDevices();
+    ChannelCommands::Init(setup);
     for (VelocityPropellers& propellers : devices_) propellers.limits = LimitsFrom(setup.parameters);
   }
 };

@@ -25,19 +25,6 @@ private:
   double* closed_;
 };
 
-class GripperActuator : public ActuatorsOf<ChannelActuator, Gripper>
-{
-public:
-  void Init(const DeviceSetup& setup) override
-  {
-    Reset(setup, 1);
-    noise_ = NoiseFrom(setup.parameters);
-    least_ = 0;
-    most_ = 1;
-    MakeDevices();
-  }
-};
-
 class GripperState : public CCI_FootBotGripperSensor
 {
 public:
@@ -85,7 +72,7 @@ private:
 
 void RegisterFootbotGripper()
 {
-  BindActuator<GripperActuator>("footbot_gripper", "dummy_footbot_gripper");
+  BindActuator<ChannelCommands<Gripper, 1, 1>>("footbot_gripper", "dummy_footbot_gripper");
   BindSensor<GripperSensor>("footbot_gripper", "generic_footbot_gripper");
 }
 

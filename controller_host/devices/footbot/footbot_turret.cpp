@@ -32,14 +32,12 @@ private:
   double* velocity_;
 };
 
-class TurretActuator : public ActuatorsOf<ChannelActuator, Turret>
+class TurretActuator : public ChannelCommands<Turret, 1>
 {
 public:
   void Init(const DeviceSetup& setup) override
   {
-    Reset(setup, 1);
-    noise_ = NoiseFrom(setup.parameters);
-    MakeDevices();
+    ChannelCommands::Init(setup);
     for (Turret& turret : devices_) turret.limit = setup.parameters.Number("max_speed");
   }
 };

@@ -79,26 +79,6 @@ private:
   double* closed_;
 };
 
-// `FIRST`: place of the first value within the channel. `MOST`: of the values with their noise, 0 where there is no
-// limit.
-template <class Device, std::size_t FIRST, std::size_t WIDTH, int MOST>
-class JointActuator : public ActuatorsOf<ChannelActuator, Device>
-{
-public:
-  void Init(const DeviceSetup& setup) override
-  {
-    this->Reset(setup, WIDTH);
-    this->first_ = FIRST;
-    this->noise_ = NoiseFrom(setup.parameters);
-    if constexpr (MOST != 0)
-    {
-      this->least_ = 0;
-      this->most_ = MOST;
-    }
-    this->MakeDevices();
-  }
-};
-
 class Joints : public ReadingsOf<CCI_HandBotJointsSensor, CCI_HandBotJointsSensor::NUM_READINGS>
 {
 public:
@@ -149,9 +129,9 @@ private:
 
 void RegisterHandbotJoints()
 {
-  BindActuator<JointActuator<Head, 0, 1, 0>>("handbot_head", "dummy_handbot_head");
-  BindActuator<JointActuator<Arms, 1, 4, 0>>("handbot_arms", "dummy_handbot_arms");
-  BindActuator<JointActuator<Hands, 0, 2, 1>>("handbot_hands", "dummy_handbot_hands");
+  BindActuator<ChannelCommands<Head, 1>>("handbot_head", "dummy_handbot_head");
+  BindActuator<ChannelCommands<Arms, 4, 0, 1>>("handbot_arms", "dummy_handbot_arms");
+  BindActuator<ChannelCommands<Hands, 2, 1>>("handbot_hands", "dummy_handbot_hands");
   BindSensor<JointsSensor>("handbot_joints", "generic_handbot_joints");
 }
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "common/math/elementary.h"
-#include "engine_worker/engines/plane_parameters.h"
+#include "engine_worker/engines/plane_frame.h"
 #include "engine_worker/engines/terrain_walls.h"
 
 namespace swarmanoid

@@ -31,6 +31,21 @@ Cylinder CylinderOf(dGeomID geom)
   return {Vector3(p[0], p[1], p[2]), Vector3(r[2], r[6], r[10]), radius, length / 2};
 }
 
+dContactGeom ContactAt(const Vector3& point, const Vector3& normal, double depth, dGeomID first, dGeomID second)
+{
+  dContactGeom contact{};
+  for (int k = 0; k < 3; ++k)
+  {
+    contact.pos[k] = point[k];
+    contact.normal[k] = normal[k];
+  }
+  contact.depth = depth;
+  contact.g1 = first;
+  contact.g2 = second;
+  contact.side1 = contact.side2 = -1;
+  return contact;
+}
+
 }  // namespace
 
 int CollideParallelCylinders(dGeomID geom_a, dGeomID geom_b, std::span<dContactGeom> contacts)
@@ -59,19 +74,9 @@ int CollideParallelCylinders(dGeomID geom_a, dGeomID geom_b, std::span<dContactG
     if (distance < 1e-9) return -1;
     if (depth <= 0) continue;
     if (depth > high - low) side_by_side = false;
-    dContactGeom& contact = contacts[static_cast<std::size_t>(count++)];
-    contact = {};
     const Vector3 normal = apart / distance;
-    const Vector3 point = on_b + normal * (b.radius - depth / 2);
-    for (int k = 0; k < 3; ++k)
-    {
-      contact.pos[k] = point[k];
-      contact.normal[k] = normal[k];
-    }
-    contact.depth = depth;
-    contact.g1 = geom_a;
-    contact.g2 = geom_b;
-    contact.side1 = contact.side2 = -1;
+    contacts[static_cast<std::size_t>(count++)] =
+        ContactAt(on_b + normal * (b.radius - depth / 2), normal, depth, geom_a, geom_b);
   }
   // Deeper beside than above: one lies on top of the other.
   return side_by_side ? count : -1;
@@ -92,17 +97,7 @@ int CollideCylinderWithPlane(dGeomID geom, dGeomID plane_geom, std::span<dContac
   {
     const double depth = plane[3] - normal.dot(point);
     if (depth < 0 || count == static_cast<int>(contacts.size())) return;
-    dContactGeom& contact = contacts[static_cast<std::size_t>(count++)];
-    contact = {};
-    for (int k = 0; k < 3; ++k)
-    {
-      contact.pos[k] = point[k];
-      contact.normal[k] = normal[k];
-    }
-    contact.depth = depth;
-    contact.g1 = geom;
-    contact.g2 = plane_geom;
-    contact.side1 = contact.side2 = -1;
+    contacts[static_cast<std::size_t>(count++)] = ContactAt(point, normal, depth, geom, plane_geom);
   };
 
   // The rim's deepest point, of both rims for a cylinder that lies.

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "common/math/elementary.h"
-#include "engine_worker/engines/plane_parameters.h"
+#include "engine_worker/engines/plane_frame.h"
 #include "engine_worker/engines/terrain_walls.h"
 
 namespace swarmanoid

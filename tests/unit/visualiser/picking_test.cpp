@@ -248,5 +248,16 @@ TEST(Scene, AGripIsDrawnAndTheRopeOfAHandbot)
   EXPECT_NEAR(scene.Lines()[1].to.z(), 2, 1e-6);
 }
 
+TEST(Picking, AWallIsCutLowerWhereItHidesTheArena)
+{
+  SmallWorld world = TwoRobotsAndAWall();
+  const EntityConfiguration& wall = world["south"].GetConfiguration();
+  const Vector3 arena(4, 4, 2);
+  EXPECT_FLOAT_EQ(SolidHeight(wall, arena, {2, -1, 1}), 0.04F);
+  EXPECT_FLOAT_EQ(SolidHeight(wall, arena, {2, 1, 1}), 0.35F);
+  // In a large arena more of it is left.
+  EXPECT_FLOAT_EQ(SolidHeight(wall, {10, 4, 2}, {2, 1, 1}), 0.7F);
+}
+
 }  // namespace
 }  // namespace swarmanoid

@@ -1,0 +1,23 @@
+#include "common/bus/worker_program.h"
+
+namespace swarmanoid
+{
+
+int RunWorker(const ProgramDescription& program, int count, char** arguments, WorkerTable table,
+              const std::function<int(const WorkerSettings&, const BusOptions&)>& run,
+              const std::function<void(CLI::App&)>& declare)
+{
+  WorkerSettings settings;
+  BusOptions bus;
+  return RunProgram(
+      program, count, arguments,
+      [&](CLI::App& app)
+      {
+        AddOptions(app, table(settings));
+        AddOptions(app, BusOptionTable(bus));
+        if (declare) declare(app);
+      },
+      [&] { return run(settings, bus); });
+}
+
+}  // namespace swarmanoid
