@@ -15,7 +15,9 @@ void RegisterBuiltinDevices()
     RegisterFootbotEncoders();
     RegisterFootbotAccelerometer();
     RegisterFootbotLight();
-    RegisterFootbotGround();
+    RegisterGround();
+    RegisterProximity();
+    RegisterWheels();
     RegisterLeds();
     RegisterPreferentialDirection();
     RegisterColourCameras();

@@ -48,6 +48,8 @@ def allowed():
     rules["user"] = INTERFACE + ["user"]
     # Experiment functions run at the space server and see all of it.
     rules["user/functions"] = rules["space_server"] + ["user/functions"]
+    # Kinds of robots and objects are rows of a table of the experiment.
+    rules["user/entities"] = below[: below.index("common/experiment") + 1] + ["user/entities"]
     return rules
 
 

@@ -12,11 +12,11 @@ void RegisterDynamics2d()
     description.label = "dynamics2d";
     description.brief = "Rigid bodies with masses, friction and grips on a plane, solved by Box2D.";
     description.parameters = dynamics2d::Dynamics2dParameterTable();
-    description.channels = {"footbot_wheels",   "footbot_gripper",       "footbot_turret",       "eyebot_propellers",
-                            "footbot_encoders", "footbot_turret_torque", "footbot_accelerometer"};
+    description.channels = {"footbot_wheels",   "footbot_gripper",       "footbot_turret",        "eyebot_propellers",
+                            "footbot_encoders", "footbot_turret_torque", "footbot_accelerometer", "wheels"};
     for (std::string& channel : PlaneRobots::Channels()) description.channels.push_back(std::move(channel));
-    description.entity_tags = {"footbot",    "handbot",      "eyebot",       "block", "wall",   "cylindric_prey",
-                               "light_bulb", "sound_source", "ground_patch", "hole",  "terrain"};
+    description.entity_tags = TagsOfKinds([](const EntityKindDescription&) { return true; });
+    description.any_kind = true;
     PluginRegistry<CPhysicsEngine>::Instance().Add(std::move(description),
                                                    [] { return std::make_unique<CDynamics2dEngine>(); });
     return true;
