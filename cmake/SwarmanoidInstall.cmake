@@ -33,7 +33,7 @@ install(DIRECTORY idl DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid)
 
 # Experiments, and what a user copies.
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid)
-foreach(folder controllers functions templates)
+foreach(folder controllers entities functions templates)
   install(DIRECTORY user/${folder} DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid/user
     USE_SOURCE_PERMISSIONS PATTERN ".clang-format" EXCLUDE)
 endforeach()

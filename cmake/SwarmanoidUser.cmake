@@ -66,6 +66,12 @@ function(swarmanoid_devices folder output)
   set(SWARMANOID_DEVICES ${SWARMANOID_CONTROLLERS} PARENT_SCOPE)
 endfunction()
 
+# swarmanoid_entities(FOLDER OUTPUT): the same for kinds of robots and objects; the names go into SWARMANOID_ENTITIES.
+function(swarmanoid_entities folder output)
+  swarmanoid_plugins(${folder} ${output} Swarmanoid::experiment)
+  set(SWARMANOID_ENTITIES ${SWARMANOID_CONTROLLERS} PARENT_SCOPE)
+endfunction()
+
 # swarmanoid_driver(NAME SOURCES... [LINK libs...]): the library libNAME.so with drivers of a real robot (docs/real_robot.md).
 function(swarmanoid_driver name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})

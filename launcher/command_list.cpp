@@ -29,13 +29,14 @@ constexpr std::array kKinds{PluginKind::kEngine,
                             PluginKind::kActuator,
                             PluginKind::kRenderer,
                             PluginKind::kExperimentFunctions,
+                            PluginKind::kEntityKind,
                             PluginKind::kController};
 
 // Of a user directory, where build.sh puts its plug-ins; the current folder is taken for one.
 std::vector<std::string> OwnFolders()
 {
   std::vector<std::string> folders;
-  for (const char* kind : {"controllers", "functions", "engines", "devices", "renderers"})
+  for (const char* kind : {"controllers", "entities", "functions", "engines", "devices", "renderers"})
     folders.push_back((fs::current_path() / "simulation_build" / kind).string());
   return folders;
 }

@@ -21,7 +21,7 @@ bool TerrainsAreGood(const Experiment& experiment)
   bool good = true;
   for (const EntityConfiguration& entity : experiment.entities)
   {
-    if (entity.kind != EntityKind::kTerrain) continue;
+    if (DescriptionOf(entity.kind).role != EntityRole::kTerrain) continue;
     try
     {
       LoadTerrain(entity, experiment.folder);

@@ -43,6 +43,7 @@ void DescribeBuiltinDevices()
     DescribeHandbotDevices();
     DescribeCameras();
     DescribeRangeAndBearing();
+    DescribeAnyRobotDevices();
     return true;
   }();
   static_cast<void>(described);

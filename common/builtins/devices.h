@@ -14,7 +14,10 @@ void DescribeEyebotDevices();
 void DescribeHandbotDevices();
 void DescribeCameras();
 void DescribeRangeAndBearing();
+void DescribeAnyRobotDevices();
 
+// Of the ground sensors of footbots and of others.
+std::vector<ParameterSpec> GroundParameters();
 // For these: adds a device to the catalogue, and the checks of its noise.
 void DescribeSensor(const PluginDescription& sensor);
 void DescribeActuator(const PluginDescription& actuator);

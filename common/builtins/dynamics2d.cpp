@@ -1,5 +1,6 @@
 #include "common/builtins/engines.h"
 #include "common/configuration/parameter_table.h"
+#include "common/experiment/entity_kind.h"
 
 namespace swarmanoid
 {
@@ -54,14 +55,14 @@ std::vector<ParameterSpec> OwnParameters()
 
 PluginDescription Dynamics2dDescription()
 {
-  return {
-      .label = "dynamics2d",
-      .brief = "Rigid bodies with masses, friction and grips on a plane, solved by Box2D.",
-      .parameters = Joined(PlaneParameters(), OwnParameters()),
-      .channels = WithChannelsOfPlaneRobots({"footbot_wheels", "footbot_gripper", "footbot_turret", "eyebot_propellers",
-                                             "footbot_encoders", "footbot_turret_torque", "footbot_accelerometer"}),
-      .entity_tags = {"footbot", "handbot", "eyebot", "block", "wall", "cylindric_prey", "light_bulb", "sound_source",
-                      "ground_patch", "hole", "terrain"}};
+  return {.label = "dynamics2d",
+          .brief = "Rigid bodies with masses, friction and grips on a plane, solved by Box2D.",
+          .parameters = Joined(PlaneParameters(), OwnParameters()),
+          .channels = WithChannelsOfPlaneRobots({"footbot_wheels", "footbot_gripper", "footbot_turret",
+                                                 "eyebot_propellers", "footbot_encoders", "footbot_turret_torque",
+                                                 "footbot_accelerometer", "wheels"}),
+          .entity_tags = TagsOfKinds([](const EntityKindDescription&) { return true; }),
+          .any_kind = true};
 }
 
 }  // namespace swarmanoid

@@ -1,4 +1,5 @@
 #include "common/builtins/engines.h"
+#include "common/experiment/entity_kind.h"
 
 namespace swarmanoid
 {
@@ -78,9 +79,9 @@ PluginDescription Dynamics3dDescription()
           .parameters = OwnParameters(),
           .channels = {"eyebot_attach", "eyebot_propellers", "footbot_accelerometer", "footbot_encoders",
                        "footbot_gripper", "footbot_turret", "footbot_turret_torque", "footbot_wheels", "handbot_arms",
-                       "handbot_hands", "handbot_rope"},
-          .entity_tags = {"footbot", "handbot", "eyebot", "block", "cylindric_prey", "light_bulb", "sound_source",
-                          "ground_patch", "hole", "wall", "terrain"}};
+                       "handbot_hands", "handbot_rope", "wheels"},
+          .entity_tags = TagsOfKinds([](const EntityKindDescription&) { return true; }),
+          .any_kind = true};
 }
 
 }  // namespace swarmanoid

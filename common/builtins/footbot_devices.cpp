@@ -208,11 +208,7 @@ void DescribeFootbotDevices()
   DescribeSensor({.label = "footbot_ground",
                   .implementation = "generic_footbot_ground",
                   .brief = "brightness and colour of the floor: finds the nest",
-                  .parameters = Joined({{.name = "floor_colour",
-                                         .type = ParameterType::kColour,
-                                         .default_value = "#ffffff",
-                                         .description = "Colour of the floor outside all patches."}},
-                                       NoiseParameters("each brightness", "")),
+                  .parameters = GroundParameters(),
                   .robots = {"footbot"}});
 }
 

@@ -1,5 +1,6 @@
 #include "common/builtins/engines.h"
 #include "common/configuration/parameter_table.h"
+#include "common/experiment/entity_kind.h"
 
 namespace swarmanoid
 {
@@ -24,9 +25,9 @@ PluginDescription Kinematics2dDescription(const std::string& label)
             .minimum = 1,
             .maximum = 64}}),
       .channels = WithChannelsOfPlaneRobots({"eyebot_propellers", "footbot_encoders", "footbot_gripper",
-                                             "footbot_turret", "footbot_turret_torque", "footbot_wheels"}),
-      .entity_tags = {"footbot", "handbot", "eyebot", "block", "cylindric_prey", "light_bulb", "sound_source",
-                      "ground_patch", "hole", "wall", "terrain"}};
+                                             "footbot_turret", "footbot_turret_torque", "footbot_wheels", "wheels"}),
+      .entity_tags = TagsOfKinds([](const EntityKindDescription&) { return true; }),
+      .any_kind = true};
 }
 
 }  // namespace swarmanoid

@@ -58,6 +58,7 @@ std::vector<LibraryBuild> LibraryBuildsOf(const Experiment& experiment)
   };
   const auto add_plugin = [&](const TConfigurationTree& tree)
   { add(tree.Value("library").value_or(""), experiment.plugin_path); };
+  for (const EntityKindConfiguration& kind : experiment.entity_kinds) add(kind.library, experiment.plugin_path);
   for (const ControllerConfiguration& controller : experiment.controllers)
   {
     add(controller.library, experiment.controller_path);

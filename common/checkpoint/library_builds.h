@@ -1,5 +1,6 @@
-// The builds of what computes the state of a run: Swarmanoid itself and the libraries of controllers, devices, engines
-// and experiment functions. Checkpoints keep them, since the state that one build saved means nothing sure to another.
+// The builds of what computes the state of a run: Swarmanoid itself and the libraries of kinds of entities,
+// controllers, devices, engines and experiment functions. Checkpoints keep them, since the state that one build saved
+// means nothing sure to another.
 #pragma once
 
 #include <string>

@@ -74,47 +74,15 @@ Vector3 Body::HalfExtent() const
   return axes.cwiseAbs() * half;
 }
 
-Vector3 RobotSize(EntityKind kind)
-{
-  switch (kind)
-  {
-    case EntityKind::kFootbot:
-      return {0.085036758, 0.085036758, 0.146899733};
-    case EntityKind::kEyebot:
-      return {0.25, 0.25, 0.566};
-    case EntityKind::kHandbot:
-      return {0.22, 0.17, 0.16};
-    default:
-      return Vector3::Zero();
-  }
-}
-
 std::optional<Body> BodyOf(const EntityConfiguration& entity)
 {
+  const EntityKindDescription& kind = DescriptionOf(entity.kind);
+  if (kind.form == BodyForm::kNone) return std::nullopt;
   Body body;
+  body.cylinder = kind.form == BodyForm::kCylinder;
   body.orientation = entity.pose.orientation;
-  bool based = false;  // the position is the centre of the base
-  switch (entity.kind)
-  {
-    case EntityKind::kFootbot:
-    case EntityKind::kEyebot:
-    case EntityKind::kCylindricPrey:
-      body.cylinder = true;
-      body.half = {entity.size.x(), entity.size.x(), entity.size.z() / 2};
-      based = true;
-      break;
-    case EntityKind::kHandbot:
-      body.half = entity.size / 2;
-      based = true;
-      break;
-    case EntityKind::kBlock:
-    case EntityKind::kWall:
-      body.half = entity.size / 2;
-      break;
-    default:
-      return std::nullopt;
-  }
-  body.centre = based ? entity.pose.Apply({0, 0, body.half.z()}) : entity.pose.position;
+  body.half = body.cylinder ? Vector3(entity.size.x(), entity.size.x(), entity.size.z() / 2) : entity.size / 2;
+  body.centre = kind.origin == BodyOrigin::kBase ? entity.pose.Apply({0, 0, body.half.z()}) : entity.pose.position;
   return body;
 }
 

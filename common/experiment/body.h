@@ -23,10 +23,6 @@ struct Body
   Vector3 HalfExtent() const;
 };
 
-// The size of a robot's body: x, y, z; footbots and eyebots are cylinders (radius, radius, height). Zero for other
-// kinds.
-Vector3 RobotSize(EntityKind kind);
-
 // nullopt for kinds without a body (lights, sounds, areas of the floor, terrain).
 std::optional<Body> BodyOf(const EntityConfiguration& entity);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/configuration/configuration_tree.h"
+#include "common/experiment/entity_kind.h"
 
 namespace swarmanoid
 {
@@ -17,6 +18,13 @@ struct DeviceConfiguration
   std::string type;
   std::string implementation;
   TConfigurationTree tree;  // the element of the device: its parameters
+};
+
+// One entry of <entity_kinds>: a kind that a user's library adds to the table.
+struct EntityKindConfiguration
+{
+  std::string tag;
+  std::string library;
 };
 
 // One entry of <controllers>.
@@ -30,21 +38,6 @@ struct ControllerConfiguration
   // <parameters>, given to CCI_Controller::Init: with all defaults where the controller declared them.
   TConfigurationTree parameters;
   SourceLocation location;
-};
-
-enum class EntityKind : std::uint8_t
-{
-  kFootbot,
-  kHandbot,
-  kEyebot,
-  kBlock,
-  kCylindricPrey,
-  kLightBulb,
-  kSoundSource,
-  kGroundPatch,
-  kHole,
-  kWall,
-  kTerrain
 };
 
 // One entity of the arena; those of a <distribute> are expanded.
@@ -124,6 +117,7 @@ struct Experiment
   SpaceOptimization optimization = SpaceOptimization::k2D;
   double limit_m = 1e4;  // how far outside the arena an entity may be, along each axis
   BeyondLimit beyond_limit = BeyondLimit::kStop;
+  std::vector<EntityKindConfiguration> entity_kinds;
   std::vector<ControllerConfiguration> controllers;
   std::vector<EntityConfiguration> entities;
   std::vector<EngineConfiguration> engines;
@@ -136,17 +130,10 @@ struct Experiment
   const EngineConfiguration* FindEngine(const std::string& id) const;
 };
 
-bool IsRobot(EntityKind kind);
-// Lights, sounds and patches of the floor: no engine holds a body of them.
-bool IsBodiless(EntityKind kind);
-
 // The limit where the file gives none: ten times the longest side of the arena, and at least 100 m.
 double UsualLimit(const Vector3& arena_size);
 // Where an entity stands that is not in the arena: some 100 km away and at a place of its own, so that engines that
 // know nothing of absence let it touch nothing.
 Pose WaitingPose(const EntityConfiguration& entity, std::size_t index);
-// The word of the tables and files: "Footbot", "Block" (figure 3.11) and "footbot", "block".
-std::string_view TableName(EntityKind kind);
-std::string_view TagName(EntityKind kind);
 
 }  // namespace swarmanoid

@@ -66,6 +66,7 @@ void ReadSections(const TConfigurationTree& root, Reading& reading)
 {
   const ElementReader reader(root, ExperimentSchema(), reading.diagnostics);
   ReadFramework(root.Child("framework"), reading);
+  ReadEntityKinds(root.Child("entity_kinds"), reading);
   ReadControllers(root.Child("controllers"), reading);
   ReadArena(root.Child("arena"), reading);
   ReadEngines(root.Child("engines"), reading);

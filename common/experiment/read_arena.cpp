@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "common/configuration/regular_file.h"
@@ -78,6 +79,24 @@ void CheckTerrain(const TConfigurationTree& tree, const ElementSpec& spec, Readi
                                         tree.Name(), maps));
 }
 
+Vector3 BodySize(const ElementReader& reader, const EntityKindDescription& kind)
+{
+  if (kind.form == BodyForm::kNone || !kind.size.isZero()) return kind.size;
+  if (kind.form == BodyForm::kBox) return reader.Vector("size");
+  return {reader.Number("radius"), reader.Number("radius"), reader.Number("height")};
+}
+
+// A library that another experiment of this process named is not there for the other processes of this one.
+void CheckKindIsListed(const TConfigurationTree& tree, EntityKind kind, Reading& reading)
+{
+  const auto& listed = reading.experiment.entity_kinds;
+  const auto is_it = [&](const EntityKindConfiguration& one) { return KindOfTag(one.tag) == kind; };
+  if (IsBuiltIn(kind) || std::any_of(listed.begin(), listed.end(), is_it)) return;
+  reading.diagnostics.Add(tree.Location(), fmt::format("the kind <{0}> is of a user's library; name it as "
+                                                       "<entity_kinds><{0} library=\"…\"/></entity_kinds>",
+                                                       TagName(kind)));
+}
+
 // All but id and pose.
 EntityConfiguration ReadEntityBody(const ElementReader& reader, const ElementSpec& spec, Reading& reading)
 {
@@ -85,49 +104,19 @@ EntityConfiguration ReadEntityBody(const ElementReader& reader, const ElementSpe
   entity.kind = *spec.entity;
   entity.tree = reader.Tree();
   entity.location = reader.Tree().Location();
-  entity.movable = IsRobot(entity.kind) || entity.kind == EntityKind::kCylindricPrey;
-  switch (entity.kind)
-  {
-    case EntityKind::kFootbot:
-    case EntityKind::kHandbot:
-    case EntityKind::kEyebot:
-      entity.controller = reader.Text("controller");
-      entity.size = placement::RobotSize(entity.kind);
-      break;
-    case EntityKind::kBlock:
-      entity.size = reader.Vector("size");
-      entity.movable = reader.Boolean("movable");
-      entity.mass_kg = reader.Number("mass");
-      entity.colour = reader.Colour("colour");
-      break;
-    case EntityKind::kCylindricPrey:
-      entity.size = {reader.Number("radius"), reader.Number("radius"), reader.Number("height")};
-      entity.mass_kg = reader.Number("mass");
-      entity.colour = reader.Colour("colour");
-      break;
-    case EntityKind::kLightBulb:
-      entity.intensity = reader.Number("intensity");
-      entity.colour = reader.Colour("colour");
-      break;
-    case EntityKind::kSoundSource:
-      entity.intensity = reader.Number("intensity");
-      break;
-    case EntityKind::kGroundPatch:
-      entity.size = AreaSize(reader, reading);
-      entity.colour = reader.Colour("colour");
-      break;
-    case EntityKind::kHole:
-      entity.size = AreaSize(reader, reading);
-      entity.colour = 0;
-      break;
-    case EntityKind::kWall:
-      entity.size = reader.Vector("size");
-      entity.colour = reader.Colour("colour");
-      break;
-    case EntityKind::kTerrain:
-      CheckTerrain(entity.tree, spec, reading);
-      break;
-  }
+  CheckKindIsListed(reader.Tree(), entity.kind, reading);
+  const EntityKindDescription& kind = DescriptionOf(entity.kind);
+  const auto has = [&](std::string_view name)
+  { return std::ranges::find(spec.parameters, name, &ParameterSpec::name) != spec.parameters.end(); };
+  const bool is_area = kind.role == EntityRole::kPatch || kind.role == EntityRole::kHole;
+  entity.size = is_area ? AreaSize(reader, reading) : BodySize(reader, kind);
+  if (kind.role == EntityRole::kTerrain) CheckTerrain(entity.tree, spec, reading);
+  if (has("controller")) entity.controller = reader.Text("controller");
+  entity.movable = kind.mobility == Mobility::kIfAsked ? reader.Boolean("movable") : kind.mobility == Mobility::kAlways;
+  if (has("mass")) entity.mass_kg = reader.Number("mass");
+  if (entity.mass_kg == 0) entity.mass_kg = kind.mass_kg;
+  entity.colour = has("colour") ? reader.Colour("colour") : kind.colour;
+  if (has("intensity")) entity.intensity = reader.Number("intensity");
   return entity;
 }
 
@@ -230,12 +219,12 @@ private:
                                fmt::format("more than {} entities; lower the quantity", kMostEntities));
       return 0;
     }
-    if (waiting && entity.kind == EntityKind::kBlock && !entity.movable)
+    if (waiting && DescriptionOf(entity.kind).mobility == Mobility::kIfAsked && !entity.movable)
     {
       reading_.diagnostics.Add(entity_tree.Location(),
-                               fmt::format("the block {} cannot come and go while it cannot move; give it "
+                               fmt::format("the {} {} cannot come and go while it cannot move; give it "
                                            "movable=\"true\"",
-                                           Quoted(id)));
+                                           TagName(entity.kind), Quoted(id)));
       return 0;
     }
     // Lights and patches have no body: no engine minds where they are.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "common/configuration/parameter_table.h"
@@ -117,17 +118,49 @@ struct Use
   std::size_t count = 0;
 };
 
+// The devices of the simulator have the shape of its own robots; a row may name those of libraries.
+bool MayCarry(EntityKind kind, const DeviceConfiguration& device, const PluginDescription& plugin)
+{
+  if (!Carries(kind, device.type)) return false;
+  const std::vector<std::string>& named = DescriptionOf(kind).devices;
+  if (std::find(named.begin(), named.end(), device.type) == named.end()) return true;
+  return std::none_of(plugin.robots.begin(), plugin.robots.end(),
+                      [](const std::string& tag)
+                      {
+                        const auto robot = KindOfTag(tag);
+                        return robot && IsBuiltIn(*robot);
+                      });
+}
+
+// Devices that have the shape of the robot's kind, such as "wheels".
+void CheckOneKind(const DeviceConfiguration& device, const ControllerConfiguration& controller,
+                  const std::map<EntityKind, Use>& uses, Reading& reading)
+{
+  constexpr std::array<std::string_view, 4> kShaped{"wheels", "led_ring", "proximity", "ground"};
+  if (uses.size() < 2 || std::find(kShaped.begin(), kShaped.end(), device.type) == kShaped.end()) return;
+  const auto& [first_kind, first] = *uses.begin();
+  const auto& [second_kind, second] = *std::next(uses.begin());
+  reading.diagnostics.Add(
+      device.tree.Location(),
+      fmt::format(
+          "<{}> has the shape of one kind of robot, but the {} '{}' and the {} '{}' both use the controller '{}'; "
+          "list the controller once for each kind, with another id",
+          device.type, TagName(first_kind), first.robot->id, TagName(second_kind), second.robot->id, controller.id));
+}
+
 void CheckDevices(const std::vector<DeviceConfiguration>& devices, PluginKind kind,
                   const ControllerConfiguration& controller, const std::map<EntityKind, Use>& uses, Reading& reading)
 {
   for (const DeviceConfiguration& device : devices)
   {
     const PluginDescription* plugin = PluginCatalogue::Instance().Find(kind, device.type, device.implementation);
+    CheckOneKind(device, controller, uses, reading);
     if (plugin == nullptr || plugin->robots.empty()) continue;
     for (const auto& [robot_kind, use] : uses)
     {
       const std::string tag(TagName(robot_kind));
       if (std::find(plugin->robots.begin(), plugin->robots.end(), tag) != plugin->robots.end()) continue;
+      if (MayCarry(robot_kind, device, *plugin)) continue;
       const std::string more = use.count > 1 ? fmt::format(" and {} more {}s use", use.count - 1, tag) : " uses";
       reading.diagnostics.Add(device.tree.Location(),
                               fmt::format("the {} <{}> ({}) is for {} only, but the {} '{}'{} the controller '{}'",

@@ -22,7 +22,8 @@ bool FitsPattern(const std::string& id, const std::string& pattern)
 
 bool CanSimulate(const PluginDescription& engine, EntityKind kind)
 {
-  return std::any_of(engine.entity_tags.begin(), engine.entity_tags.end(),
+  return (engine.any_kind && !IsBuiltIn(kind)) ||
+         std::any_of(engine.entity_tags.begin(), engine.entity_tags.end(),
                      [&](const std::string& tag) { return KindOfTag(tag) == kind; });
 }
 

@@ -162,6 +162,7 @@ std::string PluginReference()
                                                          {PluginKind::kSensor, "Sensors"},
                                                          {PluginKind::kRenderer, "Visualisations"},
                                                          {PluginKind::kExperimentFunctions, "Experiment functions"},
+                                                         {PluginKind::kEntityKind, "Entity kinds"},
                                                          {PluginKind::kController, "Controllers"}};
   for (const auto& [kind, title] : sections)
   {

@@ -44,6 +44,22 @@ ElementSpec Framework()
   return element;
 }
 
+ElementSpec EntityKinds()
+{
+  using enum ParameterType;
+  ElementSpec element;
+  element.tags = {"entity_kinds"};
+  element.description = "Kinds of robots and objects that libraries of users add to those of the simulator.";
+  element.plugins = PluginKind::kEntityKind;
+  ElementSpec kind;
+  kind.description = "One kind: its tag is that of its entities in <arena>.";
+  kind.parameters = {
+      Required(kText, "library", "", "The library that registers it, looked for in plugin_path."),
+  };
+  element.plugin_element = {kind};
+  return element;
+}
+
 ParameterSpec Library()
 {
   return Optional(ParameterType::kText, "library", "", "",
@@ -206,17 +222,18 @@ const ElementSpec& ElementSpec::Child(const std::string& tag) const
 
 const ElementSpec& ExperimentSchema()
 {
-  static const ElementSpec schema = []
-  {
-    ElementSpec root;
-    root.tags = {"ahss-config"};
-    root.description = "An experiment.";
-    root.required = true;
-    root.children = {Framework(),      Controllers(),        Arena(), Engines(), ArenaPhysics(),
-                     Visualisations(), ExperimentFunctions()};
-    return root;
-  }();
-  return schema;
+  static PerTable<ElementSpec> schema;
+  return schema.Get(
+      []
+      {
+        ElementSpec root;
+        root.tags = {"ahss-config"};
+        root.description = "An experiment.";
+        root.required = true;
+        root.children = {Framework(), EntityKinds(),  Controllers(),    Arena(),
+                         Engines(),   ArenaPhysics(), Visualisations(), ExperimentFunctions()};
+        return root;
+      });
 }
 
 }  // namespace swarmanoid

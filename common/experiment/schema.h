@@ -38,7 +38,7 @@ struct ElementSpec
   const ElementSpec& Child(const std::string& tag) const;
 };
 
-// The root element, <ahss-config>.
+// The root element, <ahss-config>. It grows with the table of entity kinds; references stay valid.
 const ElementSpec& ExperimentSchema();
 
 // The element of an entity in the arena and, without position and orientation, within <distribute>.
@@ -49,8 +49,5 @@ const std::vector<ElementSpec>& DistributedEntityElements();
 inline constexpr std::size_t kMostEntities = 2'000'000;
 // The least size of a body or arena, in metres.
 inline constexpr double kLeastSize = 1e-6;
-
-// The tag that stands for an entity kind, under any of its names ("cyllindric_prej"); nullopt for no kind.
-std::optional<EntityKind> KindOfTag(const std::string& tag);
 
 }  // namespace swarmanoid

@@ -5,35 +5,6 @@ namespace swarmanoid
 namespace
 {
 
-ElementSpec Entity(EntityKind kind, std::vector<std::string> further_tags, const char* description,
-                   std::vector<ParameterSpec> parameters)
-{
-  using enum ParameterType;
-  ElementSpec element;
-  element.tags = {std::string(TagName(kind))};
-  element.tags.insert(element.tags.end(), further_tags.begin(), further_tags.end());
-  element.description = description;
-  element.entity = kind;
-  element.repeatable = true;
-  element.parameters = {
-      Id("The name of the entity; unique in the arena."),
-      Place(Required(kVector3, "position", "m",
-                     "Where it is; within the arena, which reaches from 0, 0, 0 to its size.")),
-      Angles(Optional(
-          kVector3, "orientation", "degrees", "0, 0, 0",
-          "Rotations about the fixed axes x, y and z, in this order. The heading of a robot is the last one.")),
-  };
-  element.parameters.insert(element.parameters.end(), parameters.begin(), parameters.end());
-  return element;
-}
-
-ElementSpec Robot(EntityKind kind, const char* description)
-{
-  return Entity(kind, {}, description,
-                {Optional(ParameterType::kText, "controller", "", "",
-                          "The id of its controller; empty: it has none and does nothing by itself.")});
-}
-
 ElementSpec OctoMap()
 {
   ElementSpec octomap;
@@ -59,60 +30,37 @@ ElementSpec HeightMap()
   return heightmap;
 }
 
-std::vector<ElementSpec> MakeEntities()
+ElementSpec Entity(EntityKind kind)
 {
   using enum ParameterType;
-  const auto mass =
-      InRange(Optional(kNumber, "mass", "kg", "0", "Its mass; 0: what the engine takes for its kind."), 0, 1e9);
-  const auto contact = [](const char* name, const char* description, double maximum)
-  { return InRange(Optional(kNumber, name, "", "", description), 0, maximum); };
-  const auto friction =
-      contact("friction", "Coulomb coefficient where others touch it; by default that of the engine.", 100);
-  const auto restitution =
-      contact("restitution",
-              "Part of the approach speed that a collision with it gives back; by default that of the engine.", 1);
-  const auto ground_friction =
-      contact("ground_friction", "Coulomb coefficient of its base on the ground; by default that of the engine.", 100);
-  const auto colour = [](const char* value) { return Optional(kColour, "colour", "", value, "Its colour."); };
-  const auto intensity =
-      InRange(Optional(kNumber, "intensity", "", "1", "Its strength; sensors scale their readings with it."), 0, 1e9);
-  const auto box = Size(Required(kVector3, "size", "m", "Its extent along its own axes; the position is its centre."));
-  const auto area = Size(Optional(kVector2, "size", "m", "", "The sides of a rectangle around the position."));
-  const auto disc =
-      Size(Optional(kNumber, "radius", "m", "", "The radius of a disc around the position, instead of a size."));
-
-  std::vector<ElementSpec> entities = {
-      Robot(EntityKind::kFootbot, "A footbot: a wheeled robot with a gripper. The position is the centre of its base."),
-      Robot(EntityKind::kEyebot, "An eyebot: a flying robot with a camera. The position is the centre of its base."),
-      Robot(EntityKind::kHandbot,
-            "A handbot: a climbing robot with two hands. The position is the centre of its base."),
-      Entity(EntityKind::kBlock, {}, "A brick, for obstacles, furniture and walls.",
-             {box, Optional(kBoolean, "movable", "", "false", "Whether physics can move it."), mass, friction,
-              restitution, ground_friction, colour("silver")}),
-      Entity(EntityKind::kCylindricPrey, {"cyllindric_prej"},
-             "A cylinder that robots can grip and carry. The position is the centre of its base.",
-             {Size(Optional(kNumber, "radius", "m", "0.1", "The radius of the cylinder.")),
-              Size(Optional(kNumber, "height", "m", "0.1", "The height of the cylinder.")), mass, friction, restitution,
-              ground_friction, colour("red")}),
-      Entity(EntityKind::kLightBulb, {}, "A light. It has no body.", {intensity, colour("yellow")}),
-      Entity(EntityKind::kSoundSource, {}, "A source of sound. It has no body.", {intensity}),
-      Entity(EntityKind::kGroundPatch, {"nest"},
-             "A coloured area of the floor, such as the nest. Either size or radius is given.",
-             {area, disc, colour("green")}),
-      Entity(EntityKind::kHole, {}, "An area without floor. Either size or radius is given.", {area, disc}),
-      Entity(EntityKind::kWall, {}, "A box that never moves.", {box, friction, restitution, colour("silver")}),
+  const EntityKindDescription& row = DescriptionOf(kind);
+  ElementSpec element;
+  element.tags = {row.tag};
+  element.tags.insert(element.tags.end(), row.further_tags.begin(), row.further_tags.end());
+  element.description = row.description;
+  element.entity = kind;
+  element.repeatable = true;
+  element.parameters = {
+      Id("The name of the entity; unique in the arena."),
+      Place(Required(kVector3, "position", "m",
+                     "Where it is; within the arena, which reaches from 0, 0, 0 to its size.")),
+      Angles(Optional(
+          kVector3, "orientation", "degrees", "0, 0, 0",
+          "Rotations about the fixed axes x, y and z, in this order. The heading of a robot is the last one.")),
   };
-  ElementSpec terrain =
-      Entity(EntityKind::kTerrain, {},
-             "Uneven ground, from the one file that it holds; walls for two-dimensional engines, at the height of "
-             "their planes.",
-             {});
-  terrain.children = {OctoMap(), HeightMap()};
-  for (ParameterSpec& parameter : terrain.parameters)
-  {
+  element.parameters.insert(element.parameters.end(), row.parameters.begin(), row.parameters.end());
+  if (row.role != EntityRole::kTerrain) return element;
+  element.children = {OctoMap(), HeightMap()};
+  for (ParameterSpec& parameter : element.parameters)
     if (parameter.name == "position") parameter.default_value = "0, 0, 0";
-  }
-  entities.push_back(std::move(terrain));
+  return element;
+}
+
+std::vector<ElementSpec> MakeEntities()
+{
+  std::vector<ElementSpec> entities;
+  for (std::size_t kind = 0; kind < EntityKindCount(); ++kind)
+    entities.push_back(Entity(static_cast<EntityKind>(kind)));
   return entities;
 }
 
@@ -127,12 +75,6 @@ std::vector<ElementSpec> MakeDistributedEntities()
         "The entities are called by it and a number: fb gives fb_0, fb_1 and so on.";
   }
   return entities;
-}
-
-// What never moves in the engines cannot come and go.
-bool CanWait(EntityKind kind)
-{
-  return kind != EntityKind::kHole && kind != EntityKind::kWall && kind != EntityKind::kTerrain;
 }
 
 ElementSpec Distribute()
@@ -244,23 +186,14 @@ ElementSpec Arena()
 
 const std::vector<ElementSpec>& EntityElements()
 {
-  static const std::vector<ElementSpec> entities = MakeEntities();
-  return entities;
+  static PerTable<std::vector<ElementSpec>> entities;
+  return entities.Get(MakeEntities);
 }
 
 const std::vector<ElementSpec>& DistributedEntityElements()
 {
-  static const std::vector<ElementSpec> entities = MakeDistributedEntities();
-  return entities;
-}
-
-std::optional<EntityKind> KindOfTag(const std::string& tag)
-{
-  for (const ElementSpec& element : EntityElements())
-  {
-    if (element.HasTag(tag)) return element.entity;
-  }
-  return std::nullopt;
+  static PerTable<std::vector<ElementSpec>> entities;
+  return entities.Get(MakeDistributedEntities);
 }
 
 }  // namespace swarmanoid

@@ -1,6 +1,8 @@
 // The words in which the tables of experiment files are written, and the part of <arena>. For schema*.cpp alone.
 #pragma once
 
+#include <map>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,6 +57,25 @@ inline ParameterSpec Place(ParameterSpec spec) { return InRange(std::move(spec),
 inline ParameterSpec Angles(ParameterSpec spec) { return InRange(std::move(spec), -kMostDegrees, kMostDegrees); }
 
 inline ParameterSpec Size(ParameterSpec spec) { return InRange(std::move(spec), kLeastSize, kMostMetres); }
+
+// What is made from the table of entity kinds: anew when a library has added rows. What was handed out before stays.
+template <class Made>
+class PerTable
+{
+public:
+  template <class Make>
+  const Made& Get(Make make)
+  {
+    const std::lock_guard lock(mutex_);
+    const std::size_t rows = EntityKindCount();
+    const auto found = made_.find(rows);
+    return found != made_.end() ? found->second : made_.emplace(rows, make()).first->second;
+  }
+
+private:
+  std::mutex mutex_;
+  std::map<std::size_t, Made> made_;
+};
 
 // <arena>: the space, its entities, and those that are distributed or wait in a reserve.
 ElementSpec Arena();

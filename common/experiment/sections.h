@@ -20,6 +20,7 @@ struct Reading
 };
 
 void ReadFramework(const TConfigurationTree& tree, Reading& reading);
+void ReadEntityKinds(const TConfigurationTree& tree, Reading& reading);
 void ReadControllers(const TConfigurationTree& tree, Reading& reading);
 void ReadArena(const TConfigurationTree& tree, Reading& reading);
 void ReadEngines(const TConfigurationTree& tree, Reading& reading);

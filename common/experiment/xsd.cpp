@@ -137,6 +137,8 @@ std::map<std::string, LabelElement> LabelElements(const ElementSpec& root)
         label.controller_parameters = plugin->parameters;
         continue;
       }
+      // They are those of its entities in <arena>.
+      if (kind == PluginKind::kEntityKind) continue;
       label.open |= std::ranges::any_of(plugin->parameters, IsNumbered);
       for (const ParameterSpec& parameter : plugin->parameters) AddParameter(label.element.parameters, parameter);
     }

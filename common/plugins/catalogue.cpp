@@ -24,6 +24,8 @@ std::string_view PluginKindName(PluginKind kind)
       return "visualisation";
     case PluginKind::kExperimentFunctions:
       return "experiment functions";
+    case PluginKind::kEntityKind:
+      return "entity kind";
   }
   return "plug-in";
 }
@@ -51,13 +53,18 @@ bool PluginCatalogue::Add(PluginKind kind, const PluginDescription& description)
   const std::string name = NameOfPlugin(kind, description.label, description.implementation);
   if (!wrong.empty())
   {
-    if (!loading_) throw std::invalid_argument("the table of the " + name + " is wrong: " + wrong);
-    current_.problems.push_back("the table of the " + name + " is wrong: " + wrong);
+    Refuse("the table of the " + name + " is wrong: " + wrong);
     return added;
   }
   if (!loading_) throw std::invalid_argument("the " + name + " is registered twice");
   current_.problems.push_back("it registers the " + name + ", which exists already; give one of them another name");
   return false;
+}
+
+void PluginCatalogue::Refuse(const std::string& problem)
+{
+  if (!loading_) throw std::invalid_argument(problem);
+  current_.problems.push_back(problem);
 }
 
 const PluginDescription* PluginCatalogue::Find(PluginKind kind, const std::string& label,

@@ -21,10 +21,12 @@ enum class PluginKind
   kSensor,
   kEngine,
   kRenderer,
-  kExperimentFunctions
+  kExperimentFunctions,
+  kEntityKind
 };
 
-// "controller", "actuator", "sensor", "physics engine", "visualisation", "experiment functions".
+// "controller", "actuator", "sensor", "physics engine", "visualisation", "experiment functions",
+// "entity kind".
 std::string_view PluginKindName(PluginKind kind);
 // "sensor 'footbot_light' (generic_footbot_light)"; without the parentheses where there is no implementation.
 std::string NameOfPlugin(PluginKind kind, const std::string& label, const std::string& implementation);
@@ -43,6 +45,7 @@ struct PluginDescription
   // Engines only: the channels and the entity tags that it can serve.
   std::vector<std::string> channels{};
   std::vector<std::string> entity_tags{};
+  bool any_kind = false;  // engines only: it also serves the kinds of users, by their rows alone
   // Controllers only: false where it was registered by its label alone. `parameters` says nothing then; what its Init
   // asks for decides.
   bool declares_parameters = true;
@@ -57,6 +60,9 @@ public:
   // is kept as a problem of that library (throwing through dlopen would end the program), otherwise
   // std::invalid_argument is thrown. Likewise for a table of parameters that contradicts itself.
   bool Add(PluginKind kind, const PluginDescription& description);
+  // Keeps what is wrong with a registration as a problem of the library that is being loaded; otherwise throws
+  // std::invalid_argument.
+  void Refuse(const std::string& problem);
 
   // nullptr where there is none.
   const PluginDescription* Find(PluginKind kind, const std::string& label,

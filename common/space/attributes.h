@@ -3,7 +3,6 @@
 // show.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string_view>
 
@@ -11,26 +10,6 @@
 
 namespace swarmanoid
 {
-
-// What the number in a slot stands for, and so which numbers may enter the state.
-enum class AttributeValue : std::uint8_t
-{
-  kNumber,   // finite, at most 1e9 from 0
-  kColour,   // 0xRRGGBB: a whole number from 0 to 0xffffff
-  kSwitch,   // 0 or 1
-  kEntity,   // 1 + index of an entity, or 0
-  kBytes,    // up to five bytes: a whole number from 0 to 2^40 - 1
-  kPresence  // 1 in the arena, 0 not: set by the space server alone
-};
-
-struct AttributeSpec
-{
-  std::string_view name;
-  int count;       // slots
-  double initial;  // of each slot, unless the kind says otherwise (space.cpp)
-  std::string_view description;
-  AttributeValue value = AttributeValue::kNumber;
-};
 
 // In the order of the slots.
 std::span<const AttributeSpec> AttributesOf(EntityKind kind);

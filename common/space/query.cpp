@@ -30,7 +30,7 @@ SpaceQuery::SpaceQuery(const CSwarmanoidSpace& space) : space_(space), revision_
     else
       search_radius_ = std::max(search_radius_, reach);
     shapes_.push_back(shape);
-    if (experiment.entities[i].kind == EntityKind::kTerrain)
+    if (DescriptionOf(experiment.entities[i].kind).role == EntityRole::kTerrain)
       terrains_.emplace_back(i, LoadTerrain(experiment.entities[i], experiment.folder));
   }
 }

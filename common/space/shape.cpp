@@ -39,21 +39,19 @@ bool ClipCircle(const Vector3& start, const Vector3& step, double radius, double
 
 Shape ShapeOf(const EntityConfiguration& configuration)
 {
+  const EntityKindDescription& kind = DescriptionOf(configuration.kind);
   const Vector3& size = configuration.size;
-  switch (configuration.kind)
+  const Vector3 centre = kind.origin == BodyOrigin::kBase ? Vector3(0, 0, size.z() / 2) : Vector3::Zero();
+  switch (kind.form)
   {
-    case EntityKind::kFootbot:
-    case EntityKind::kEyebot:
-    case EntityKind::kCylindricPrey:
-      return {Shape::Kind::kCylinder, {0, 0, size.z() / 2}, {size.x(), size.x(), size.z() / 2}};
-    case EntityKind::kHandbot:
-      return {Shape::Kind::kBox, {0, 0, size.z() / 2}, size / 2};
-    case EntityKind::kBlock:
-    case EntityKind::kWall:
-      return {Shape::Kind::kBox, Vector3::Zero(), size / 2};
-    default:
-      return {};
+    case BodyForm::kCylinder:
+      return {Shape::Kind::kCylinder, centre, {size.x(), size.x(), size.z() / 2}};
+    case BodyForm::kBox:
+      return {Shape::Kind::kBox, centre, size / 2};
+    case BodyForm::kNone:
+      break;
   }
+  return {};
 }
 
 double BoundingRadius(const Shape& shape)

@@ -6,38 +6,12 @@
 #include <algorithm>
 
 #include "common/space/attributes.h"
+#include "common/space/make_entity.h"
 
 namespace swarmanoid
 {
 namespace
 {
-
-std::unique_ptr<CSwarmanoidSpaceEntity> MakeEntity(CSwarmanoidSpace& space, std::uint32_t index,
-                                                   const EntityConfiguration& configuration, std::uint32_t slot)
-{
-  switch (configuration.kind)
-  {
-    case EntityKind::kFootbot:
-      return std::make_unique<CFootBotEntity>(space, index, configuration, slot);
-    case EntityKind::kHandbot:
-      return std::make_unique<CHandBotEntity>(space, index, configuration, slot);
-    case EntityKind::kEyebot:
-      return std::make_unique<CEyeBotEntity>(space, index, configuration, slot);
-    case EntityKind::kBlock:
-    case EntityKind::kWall:
-      return std::make_unique<CBlockEntity>(space, index, configuration, slot);
-    case EntityKind::kCylindricPrey:
-      return std::make_unique<CCylindricPreyEntity>(space, index, configuration, slot);
-    case EntityKind::kLightBulb:
-      return std::make_unique<CLightBulbEntity>(space, index, configuration, slot);
-    case EntityKind::kSoundSource:
-      return std::make_unique<CSoundSourceEntity>(space, index, configuration, slot);
-    case EntityKind::kGroundPatch:
-      return std::make_unique<CGroundPatchEntity>(space, index, configuration, slot);
-    default:
-      return std::make_unique<CSwarmanoidSpaceEntity>(space, index, configuration, slot);
-  }
-}
 
 template <class Space>
 auto Components(Space& poses)

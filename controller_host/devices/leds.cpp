@@ -1,11 +1,14 @@
-// LED rings of all robots, beacons of footbot and handbot: colours as attributes of the robots. Generic.
+// LED rings of all robots and kinds, beacons of footbot and handbot: colours as attributes of the robots. Generic.
+#include <algorithm>
 #include <stdexcept>
 
+#include "common/control_interface/ci_led_ring_actuator.h"
 #include "common/control_interface/eyebot/ci_eyebot_leds_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_beacon_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_leds_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_beacon_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_leds_actuator.h"
+#include "controller_host/devices/any_robot/kind_of_batch.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"
@@ -42,6 +45,44 @@ public:
 
 private:
   double* colours_;
+};
+
+// The LEDs of any kind of robot.
+class AnyRing : public CCI_LedRingActuator
+{
+public:
+  AnyRing(double* colours, unsigned leds) : colours_(colours), leds_(leds) {}
+  unsigned GetNumLeds() const override { return leds_; }
+  void SetAllColours(std::uint32_t colour) override { std::fill_n(colours_, leds_, colour & kColourBits); }
+  void SetColour(unsigned led, std::uint32_t colour) override
+  {
+    if (led >= leds_) throw std::out_of_range("LED " + std::to_string(led) + " of a ring of " + std::to_string(leds_));
+    colours_[led] = colour & kColourBits;
+  }
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    for (unsigned led = 0; led < leds_; ++led) readings.push_back({std::to_string(led), "colour", colours_[led]});
+  }
+
+private:
+  double* colours_;
+  unsigned leds_;
+};
+
+class AnyRingActuator : public AttributeActuator
+{
+public:
+  void Init(const DeviceSetup& setup) override
+  {
+    const auto leds = static_cast<unsigned>(KindOfBatch(setup).leds->places.size());
+    Bind(setup, {"led"});
+    colour_noise_ = NoiseFrom(setup.parameters);
+    for (std::size_t k = 0; k < Robots(); ++k) rings_.emplace_back(ValuesOf(k), leds);
+  }
+  CCI_Actuator* Actuator(std::size_t k) override { return &rings_[k]; }
+
+private:
+  std::vector<AnyRing> rings_;
 };
 
 template <class Interface>
@@ -82,6 +123,7 @@ void RegisterLeds()
   BindActuator<LightActuator<Ring<CCI_EyeBotLedsActuator>>>("eyebot_leds", "generic_eyebot_leds");
   BindActuator<LightActuator<Beacon<CCI_HandBotBeaconActuator>>>("handbot_beacon", "generic_handbot_beacon");
   BindActuator<LightActuator<Ring<CCI_HandBotLedsActuator>>>("handbot_leds", "generic_handbot_leds");
+  BindActuator<AnyRingActuator>("led_ring", "generic_led_ring");
 }
 
 }  // namespace swarmanoid

@@ -17,7 +17,9 @@ void RegisterBuiltinDevices()
     RegisterFootbotEncoders();
     RegisterFootbotAccelerometer();
     RegisterFootbotLight();
-    RegisterFootbotGround();
+    RegisterGround();
+    RegisterProximity();
+    RegisterWheels();
     RegisterLeds();
     RegisterPreferentialDirection();
     RegisterColourCameras();

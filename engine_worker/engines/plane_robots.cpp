@@ -58,31 +58,20 @@ void PlaneRobots::Init(const CSwarmanoidSpace& space, const PlaneFrame& frame, P
 void PlaneRobots::AddOwned(const CSwarmanoidSpaceEntity& entity)
 {
   const std::uint32_t index = entity.GetIndex();
-  switch (entity.GetKind())
+  const EntityKindDescription& kind = DescriptionOf(entity.GetKind());
+  if (kind.mechanism == Mechanism::kArms)
   {
-    case EntityKind::kHandbot:
-    {
-      Handbot handbot;
-      handbot.entity = index;
-      handbots_.push_back(handbot);
-      lifted_.push_back({index, 0, 0, 0, 0});
-      break;
-    }
-    case EntityKind::kEyebot:
-      eyebots_.push_back({index, false});
-      break;
-    case EntityKind::kBlock:
-    case EntityKind::kCylindricPrey:
-    {
-      objects_.push_back(index);
-      const Shape shape = ShapeOf(entity.GetConfiguration());
-      near_objects_.Add(shape.centre.norm() + BoundingRadius(shape));
-      lifted_.push_back({index, 0, 0, 0, 0});
-      break;
-    }
-    default:
-      break;
+    Handbot handbot;
+    handbot.entity = index;
+    handbots_.push_back(handbot);
+    lifted_.push_back({index, 0, 0, 0, 0});
   }
+  if (kind.mechanism == Mechanism::kPropellers) eyebots_.push_back({index, false});
+  if (kind.role != EntityRole::kObject || !kind.grippable) return;
+  objects_.push_back(index);
+  const Shape shape = ShapeOf(entity.GetConfiguration());
+  near_objects_.Add(shape.centre.norm() + BoundingRadius(shape));
+  lifted_.push_back({index, 0, 0, 0, 0});
 }
 
 PlaneRobots::Handbot& PlaneRobots::HandbotOf(std::uint32_t entity) { return Find(handbots_, entity); }

@@ -10,11 +10,11 @@ COMMON = [
     ["common/math"],
     ["common/configuration"],
     ["common/plugins"],
-    ["common/builtins"],
     ["common/logging", "common/serialisation", "common/activity"],
     ["common/program"],
     ["common/control_interface"],
     ["common/experiment"],
+    ["common/builtins"],
     ["common/run"],
     ["common/messages"],
     ["common/space"],
@@ -49,6 +49,8 @@ def allowed():
     rules["user"] = INTERFACE + ["user"]
     # Experiment functions run at the space server and see all of it.
     rules["user/functions"] = rules["space_server"] + ["user/functions"]
+    # Kinds of robots and objects are rows of a table of the experiment.
+    rules["user/entities"] = below[: below.index("common/experiment") + 1] + ["user/entities"]
     return rules
 
 

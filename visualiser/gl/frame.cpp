@@ -36,8 +36,6 @@ Eigen::Vector3f ChannelsOf(Colour colour)
   return {c[0], c[1], c[2]};
 }
 
-bool IsTerrain(const SceneItem& item) { return item.model >= StandardModels().size(); }
-
 void Frame::Sort(const Scene& scene, const ViewVolume& view, const SunVolume& sun, const DrawOptions& options)
 {
   const std::span<const Model> models = scene.Models();
@@ -73,7 +71,7 @@ void Frame::Sort(const Scene& scene, const ViewVolume& view, const SunVolume& su
       else if (item.role == Role::kWall && options.glass_walls)
         SortWall(item, scene, view);
       else
-        (IsTerrain(item) ? ground : solid).Add(item.model, level, InstanceOf(item));
+        (model.is_terrain ? ground : solid).Add(item.model, level, InstanceOf(item));
       if (item.role == Role::kBody && pixels > kMiddlePixels) AddUnderglow(item, scene);
     }
     if (!options.shadows || item.role != Role::kBody || see_through[item.model] || !sun.Holds(item.position, radius))
@@ -81,7 +79,7 @@ void Frame::Sort(const Scene& scene, const ViewVolume& view, const SunVolume& su
     // Far away the shadow of a footbot's turret is that of the whole robot.
     const bool hidden = level == 2 && item.model == static_cast<std::uint16_t>(ModelId::kFootbotBase);
     // A terrain throws shadows on itself: both have to be the same surface.
-    if (!hidden) casters.Add(item.model, IsTerrain(item) ? level : std::max(level, 1), InstanceOf(item));
+    if (!hidden) casters.Add(item.model, model.is_terrain ? level : std::max(level, 1), InstanceOf(item));
   }
 }
 

@@ -37,7 +37,6 @@ enum GlowStrength
 
 // Red, green, blue: 0..1.
 Eigen::Vector3f ChannelsOf(Colour colour);
-bool IsTerrain(const SceneItem& item);
 
 struct Frame
 {

@@ -45,7 +45,8 @@ float ContourOf(const Scene& scene)
 {
   float height = 0;
   for (const SceneItem& item : scene.Items())
-    if (IsTerrain(item)) height = std::max(height, scene.Models()[item.model].box.sizes().z());
+    if (const Model& model = scene.Models()[item.model]; model.is_terrain)
+      height = std::max(height, model.box.sizes().z());
   for (const float spacing : {0.005F, 0.01F, 0.02F, 0.05F, 0.1F, 0.2F, 0.5F, 1.0F})
     if (height <= 9 * spacing) return spacing;
   return 2;

@@ -6,28 +6,6 @@
 
 namespace swarmanoid
 {
-namespace
-{
-
-// A word for the narrow column.
-std::string ShortKind(EntityKind kind)
-{
-  switch (kind)
-  {
-    case EntityKind::kCylindricPrey:
-      return "prey";
-    case EntityKind::kGroundPatch:
-      return "patch";
-    case EntityKind::kLightBulb:
-      return "light";
-    case EntityKind::kSoundSource:
-      return "sound";
-    default:
-      return std::string(TagName(kind));
-  }
-}
-
-}  // namespace
 
 void Panels::ShowEntities()
 {
@@ -91,7 +69,7 @@ void Panels::ShowEntityRow(std::uint32_t entity)
                       host.empty() ? "" : "\n", host.c_str());
   }
   ImGui::TableNextColumn();
-  ImGui::TextDisabled("%s", ShortKind(body.GetKind()).c_str());
+  ImGui::TextDisabled("%s", DescriptionOf(body.GetKind()).short_word.c_str());
   ImGui::TableNextColumn();
   if (!viewer_.Space().IsPresent(entity))
   {

@@ -39,6 +39,7 @@ struct Model
   std::array<Mesh, kLevels> levels;
   float radius = 0;         // of the sphere about the origin that holds it, m
   Eigen::AlignedBox3f box;  // that holds it
+  bool is_terrain = false;
 };
 
 }  // namespace swarmanoid

@@ -114,16 +114,16 @@ const std::vector<Model>& StandardModels()
   return models;
 }
 
-std::vector<RestingPart> RestingParts(EntityKind robot)
+std::vector<RestingPart> RestingParts(Mechanism robot)
 {
   using J = RobotJoints;
   switch (robot)
   {
-    case EntityKind::kFootbot:
+    case Mechanism::kTurretGripper:
       return {At(ModelId::kFootbotBase), At(ModelId::kFootbotTurret),
               At(ModelId::kFootbotJaw, J::kFootbotJawForward, J::kFootbotJawSide, J::kFootbotJawHeight),
               At(ModelId::kFootbotJaw, J::kFootbotJawForward, -J::kFootbotJawSide, J::kFootbotJawHeight, true)};
-    case EntityKind::kEyebot:
+    case Mechanism::kPropellers:
     {
       std::vector<RestingPart> parts{At(ModelId::kEyebotBody)};
       const float reach = J::kEyebotRotorReach / std::numbers::sqrt2_v<float>;
@@ -131,7 +131,7 @@ std::vector<RestingPart> RestingParts(EntityKind robot)
         for (const float y : {reach, -reach}) parts.push_back(At(ModelId::kEyebotRotor, x, y, J::kEyebotRotorHeight));
       return parts;
     }
-    case EntityKind::kHandbot:
+    case Mechanism::kArms:
     {
       std::vector<RestingPart> parts{At(ModelId::kHandbotBody),
                                      At(ModelId::kHandbotHead, J::kHandbotHeadForward, 0, J::kHandbotHeadHeight)};
@@ -146,9 +146,10 @@ std::vector<RestingPart> RestingParts(EntityKind robot)
       }
       return parts;
     }
-    default:
-      return {};
+    case Mechanism::kNone:
+      break;
   }
+  return {};
 }
 
 }  // namespace swarmanoid

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "common/experiment/entity_kind.h"
 #include "common/space/terrain/terrain.h"
 #include "visualiser/scene/mesh.h"
 
@@ -59,7 +60,7 @@ struct RestingPart
   ModelId model;
   Eigen::Isometry3f place;
 };
-std::vector<RestingPart> RestingParts(EntityKind robot);
+std::vector<RestingPart> RestingParts(Mechanism robot);
 
 // The surface of a terrain, in its frame, coloured by the entity (Material::kTint).
 Model TerrainModel(const Terrain& terrain, const std::string& name);

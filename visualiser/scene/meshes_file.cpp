@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "visualiser/scene/kind_model.h"
 #include "visualiser/scene/meshes.h"
 
 namespace swarmanoid
@@ -46,6 +47,11 @@ Json MeshOf(const Mesh& mesh)
           {"indices", mesh.indices}};
 }
 
+Json JsonOf(const Model& model)
+{
+  return {{"radius", Rounded(model.radius, 5)}, {"levels", List(model.levels, MeshOf)}};
+}
+
 Json MaterialOf(const MaterialLook& look)
 {
   return {{"name", look.name},
@@ -56,7 +62,7 @@ Json MaterialOf(const MaterialLook& look)
           {"light", look.led}};
 }
 
-Json RestingRobot(EntityKind robot)
+Json RestingRobot(Mechanism robot)
 {
   return List(RestingParts(robot),
               [](const RestingPart& part) -> Json
@@ -69,16 +75,18 @@ Json RestingRobot(EntityKind robot)
 
 }  // namespace
 
+std::string KindModelAsJson(const EntityKindDescription& kind) { return JsonOf(KindModel(kind)).dump(); }
+
 std::string MeshesAsJson()
 {
   Json file;
   file["materials"] = Json::array();
   for (int m = 0; m < static_cast<int>(Material::kEnd); ++m)
     file["materials"].push_back(MaterialOf(LookOf(static_cast<Material>(m))));
-  for (const Model& model : StandardModels())
-    file["models"][model.name] = {{"radius", Rounded(model.radius, 5)}, {"levels", List(model.levels, MeshOf)}};
-  for (const EntityKind robot : {EntityKind::kFootbot, EntityKind::kEyebot, EntityKind::kHandbot})
-    file["robots"][std::string(TagName(robot))] = RestingRobot(robot);
+  for (const Model& model : StandardModels()) file["models"][model.name] = JsonOf(model);
+  for (std::size_t k = 0; k < EntityKindCount(); ++k)
+    if (const auto& kind = DescriptionOf(static_cast<EntityKind>(k)); kind.mechanism != Mechanism::kNone)
+      file["robots"][kind.tag] = RestingRobot(kind.mechanism);
   file["palette"] = {{"sky", palette::kSky},
                      {"floor", palette::kFloor},
                      {"floor_line", palette::kFloorLine},

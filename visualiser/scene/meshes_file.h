@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "common/experiment/entity_kind.h"
+
 namespace swarmanoid
 {
 
@@ -14,5 +16,8 @@ namespace swarmanoid
 //  "palette": {"sky", "floor", "floor_line", "outside", "wall", "hole", "selection", "label"}}
 // Lengths in metres, z up, x forward.
 std::string MeshesAsJson();
+
+// Of a user's kind, as under "models".
+std::string KindModelAsJson(const EntityKindDescription& kind);
 
 }  // namespace swarmanoid

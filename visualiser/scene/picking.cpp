@@ -21,7 +21,7 @@ constexpr float kCutPart = 0.07F;  // of the arena's size, where that is more
 
 bool IsBoundaryWall(const EntityConfiguration& entity, const Vector3& arena_size)
 {
-  if (entity.kind != EntityKind::kWall && entity.kind != EntityKind::kBlock) return false;
+  if (!IsFreeBox(entity.kind)) return false;
   if (entity.movable || entity.size.z() < kTall) return false;
   const double thickness = std::min(entity.size.x(), entity.size.y());
   const double length = std::max(entity.size.x(), entity.size.y());

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "common/space/attributes.h"
+#include "visualiser/scene/kind_model.h"
 #include "visualiser/scene/picking.h"
 #include "visualiser/scene/trail.h"
 
@@ -21,24 +22,6 @@ constexpr Colour kPlainColour = 0xc0c0c0;  // of a block that has none of its ow
 constexpr double kLargeBody = 1;           // m: beyond it bodies are tested one by one
 constexpr float kLayer = 0.0003F;          // m between one area of the floor and the next
 constexpr std::uint32_t kLayers = 40;
-
-struct FootbotSlots
-{
-  int led = AttributeOffset(EntityKind::kFootbot, "led");
-  int beacon = AttributeOffset(EntityKind::kFootbot, "beacon");
-  int aperture = AttributeOffset(EntityKind::kFootbot, "gripper_aperture");
-  int turret = AttributeOffset(EntityKind::kFootbot, "turret_angle");
-};
-
-struct HandbotSlots
-{
-  int led = AttributeOffset(EntityKind::kHandbot, "led");
-  int beacon = AttributeOffset(EntityKind::kHandbot, "beacon");
-  int head = AttributeOffset(EntityKind::kHandbot, "head_angle");
-  int arm = AttributeOffset(EntityKind::kHandbot, "arm");
-  int wrist = AttributeOffset(EntityKind::kHandbot, "wrist");
-  int hand = AttributeOffset(EntityKind::kHandbot, "hand_aperture");
-};
 
 Isometry3f PlaceOf(const Pose& pose)
 {
@@ -60,6 +43,15 @@ Scene::Scene(const CSwarmanoidSpace& space) : space_(space), models_(StandardMod
   floor.scale = {arena.x(), arena.y(), 1};
   floor.tint = palette::kFloor;
 
+  for (std::size_t k = 0; k < EntityKindCount(); ++k)
+  {
+    const auto offset = [&](std::string_view name) { return AttributeOffset(static_cast<EntityKind>(k), name); };
+    const AttributeSpec* led = FindAttribute(static_cast<EntityKind>(k), "led");
+    slots_.push_back({offset("led"), led == nullptr ? 0 : led->count, offset("beacon"), offset("colour"),
+                      offset("intensity"), offset("gripper_aperture"), offset("turret_angle"), offset("gripped"),
+                      offset("head_angle"), offset("arm"), offset("wrist"), offset("hand_aperture"),
+                      offset("rope_attached"), offset("laser")});
+  }
   for (std::uint32_t e = 0; e < space.Size(); ++e)
   {
     AddEntity(e);
@@ -95,44 +87,59 @@ void Scene::AddEntity(std::uint32_t entity)
   const CSwarmanoidSpaceEntity& e = space_.GetEntity(entity);
   const EntityConfiguration& configuration = e.GetConfiguration();
   const Vector3f size = configuration.size.cast<float>();
-  Body body{entity, static_cast<std::uint32_t>(items_.size()), e.FirstSlot(), -1, 0, 0};
-  switch (configuration.kind)
+  const EntityKindDescription& kind = DescriptionOf(configuration.kind);
+  Body body{entity,        static_cast<std::uint32_t>(items_.size()), e.FirstSlot(), -1, 0, 0, configuration.kind,
+            kind.mechanism};
+  switch (kind.role)
   {
-    case EntityKind::kFootbot:
-    case EntityKind::kEyebot:
-    case EntityKind::kHandbot:
+    case EntityRole::kRobot:
+      if (kind.mechanism == Mechanism::kNone)
+      {
+        AddUsersEntity(body);
+        break;
+      }
       body.lights = AddLights();
-      for (const RestingPart& part : RestingParts(configuration.kind)) AddItem(entity, part.model).lights = body.lights;
+      for (const RestingPart& part : RestingParts(kind.mechanism)) AddItem(entity, part.model).lights = body.lights;
       break;
-    case EntityKind::kBlock:
-    case EntityKind::kWall:
-    {
-      SceneItem& item = AddItem(entity, ModelId::kBox);
-      item.scale = size;
-      if (IsBoundaryWall(configuration, ArenaSize())) item.role = SceneItem::Role::kWall;
+    case EntityRole::kObject:
+      if (!IsBuiltIn(configuration.kind))
+      {
+        AddUsersEntity(body);
+        break;
+      }
+      AddItem(entity, kind.form == BodyForm::kBox ? ModelId::kBox : ModelId::kCylinder).scale = size;
+      if (IsBoundaryWall(configuration, ArenaSize())) items_.back().role = SceneItem::Role::kWall;
       break;
-    }
-    case EntityKind::kCylindricPrey:
-      AddItem(entity, ModelId::kCylinder).scale = size;
-      break;
-    case EntityKind::kLightBulb:
+    case EntityRole::kLight:
       body.lights = AddLights();
       AddItem(entity, ModelId::kLightBulb).lights = body.lights;
       break;
-    case EntityKind::kSoundSource:
+    case EntityRole::kSound:
       AddItem(entity, ModelId::kSoundSource);
       break;
-    case EntityKind::kGroundPatch:
-    case EntityKind::kHole:
+    case EntityRole::kPatch:
+    case EntityRole::kHole:
       body.lift = kLayer * static_cast<float>(areas_++ % kLayers);
       AddArea(entity);
       break;
-    case EntityKind::kTerrain:
+    case EntityRole::kTerrain:
       AddTerrain(entity);
       break;
   }
   body.items = static_cast<std::uint32_t>(items_.size()) - body.first_item;
   bodies_.push_back(body);
+}
+
+void Scene::AddUsersEntity(Body& body)
+{
+  const EntityKindDescription& kind = DescriptionOf(body.kind);
+  const auto [model, is_new] = users_models_.emplace(body.kind, static_cast<std::uint16_t>(models_.size()));
+  if (is_new) models_.push_back(KindModel(kind));
+  SceneItem& item = AddItem(body.entity, ModelId::kBox);
+  item.model = model->second;
+  item.tint = Paint(kind.colour);
+  if (IsScaled(kind)) item.scale = space_.GetEntity(body.entity).GetSize().cast<float>();
+  if (kind.leds) item.lights = body.lights = AddLights();
 }
 
 void Scene::AddArea(std::uint32_t entity)
@@ -172,21 +179,22 @@ void Scene::Update(const SceneOptions& options)
   {
     if (!space_.IsPresent(body.entity)) continue;
     const CSwarmanoidSpaceEntity& entity = space_.GetEntity(body.entity);
-    const EntityKind kind = entity.GetKind();
-    if (kind == EntityKind::kEyebot && options.beams) AddBeam(body);
-    if (kind == EntityKind::kHandbot) AddRope(body);
-    if (kind == EntityKind::kFootbot || kind == EntityKind::kHandbot) AddGrips(body);
-    if (kind == EntityKind::kLightBulb && lights_[static_cast<std::size_t>(body.lights)] != 0)
+    const EntityKindDescription& kind = DescriptionOf(body.kind);
+    const bool is_light = kind.role == EntityRole::kLight;
+    if (body.mechanism == Mechanism::kPropellers && options.beams) AddBeam(body);
+    if (body.mechanism == Mechanism::kArms) AddRope(body);
+    if (kind.grippers > 0) AddGrips(body);
+    if (is_light && lights_[static_cast<std::size_t>(body.lights)] != 0)
       glows_.push_back(
           {entity.GetPosition().cast<float>(), 0.35F, lights_[static_cast<std::size_t>(body.lights)], false});
     const bool selected = options.selected == body.entity;
-    if (kind == EntityKind::kFootbot && (options.rays || selected)) AddRays(body.entity);
+    if (kind.proximity && (options.rays || selected)) AddRays(body.entity, *kind.proximity);
     if (options.collision_models) AddOutline(body.entity, palette::kCollision, 1.5F, true);
     if (selected) AddOutline(body.entity, palette::kSelection, 2.5F, true);
     if ((options.ids && entity.IsMovable()) || selected)
     {
       Vector3f top = entity.GetPosition().cast<float>();
-      top.z() += static_cast<float>(kind == EntityKind::kFootbot ? 0.33 : entity.GetSize().z() + 0.06);
+      top.z() += static_cast<float>(kind.label_height_m > 0 ? kind.label_height_m : entity.GetSize().z() + 0.06);
       labels_.push_back(
           {body.entity, top, options.names.empty() ? std::string_view(entity.GetId()) : options.names[body.entity]});
     }
@@ -197,38 +205,26 @@ void Scene::Update(const SceneOptions& options)
 
 void Scene::UpdateLights()
 {
-  static const FootbotSlots footbot;
-  static const HandbotSlots handbot;
-  static const int eyebot_led = AttributeOffset(EntityKind::kEyebot, "led");
   for (const Body& body : bodies_)
   {
-    const EntityKind kind = space_.GetEntity(body.entity).GetKind();
+    const Slots& slots = SlotsOf(body);
     const auto light = [&](int number, int offset)
     { lights_[static_cast<std::size_t>(body.lights + number)] = static_cast<Colour>(Attribute(body, offset)); };
-    if (kind == EntityKind::kFootbot)
+    if (slots.led >= 0)
     {
-      for (int i = 0; i < CFootBotEntity::kLeds; ++i) light(i, footbot.led + i);
-      light(kBeaconLight, footbot.beacon);
+      for (int i = 0; i < slots.leds; ++i) light(i, slots.led + i);
+      if (slots.beacon >= 0) light(kBeaconLight, slots.beacon);
     }
-    else if (kind == EntityKind::kEyebot)
+    else if (body.lights >= 0)
     {
-      for (int i = 0; i < CEyeBotEntity::kLeds; ++i) light(i, eyebot_led + i);
-    }
-    else if (kind == EntityKind::kHandbot)
-    {
-      for (int i = 0; i < CHandBotEntity::kLeds; ++i) light(i, handbot.led + i);
-      light(kBeaconLight, handbot.beacon);
-    }
-    else if (kind == EntityKind::kLightBulb)
-    {
-      const bool on = Attribute(body, AttributeOffset(kind, "intensity")) > 0;
-      light(0, AttributeOffset(kind, "colour"));
+      const bool on = Attribute(body, slots.intensity) > 0;
+      light(0, slots.colour);
       if (!on) lights_[static_cast<std::size_t>(body.lights)] = 0;
     }
-    else if (const int colour = AttributeOffset(kind, "colour"); colour >= 0)
+    else if (slots.colour >= 0)
     {
       SceneItem& item = items_[body.first_item];
-      const auto given = static_cast<Colour>(Attribute(body, colour));
+      const auto given = static_cast<Colour>(Attribute(body, slots.colour));
       const bool plain_wall = item.role == SceneItem::Role::kWall && given == kPlainColour;
       item.tint = plain_wall ? palette::kWall : Paint(given);
     }
@@ -239,22 +235,21 @@ void Scene::UpdateBodies()
 {
   for (const Body& body : bodies_)
   {
-    const CSwarmanoidSpaceEntity& entity = space_.GetEntity(body.entity);
     const bool present = space_.IsPresent(body.entity);
     for (std::uint32_t i = 0; i < body.items; ++i) items_[body.first_item + i].present = present;
     if (!present) continue;
-    switch (entity.GetKind())
+    switch (body.mechanism)
     {
-      case EntityKind::kFootbot:
+      case Mechanism::kTurretGripper:
         PlaceFootbot(body);
         break;
-      case EntityKind::kEyebot:
+      case Mechanism::kPropellers:
         PlaceEyebot(body);
         break;
-      case EntityKind::kHandbot:
+      case Mechanism::kArms:
         PlaceHandbot(body);
         break;
-      default:
+      case Mechanism::kNone:
         Place(body.first_item, PlaceOf(space_.GetPose(body.entity)));
         items_[body.first_item].position.z() += body.lift;
     }
@@ -270,7 +265,7 @@ void Scene::Place(std::uint32_t item, const Isometry3f& place)
 // In the order of RestingParts.
 void Scene::PlaceFootbot(const Body& body)
 {
-  static const FootbotSlots slots;
+  const Slots& slots = SlotsOf(body);
   const Pose pose = space_.GetPose(body.entity);
   SceneItem& base = items_[body.first_item];
   base.position = pose.position.cast<float>();
@@ -296,13 +291,13 @@ void Scene::PlaceFootbot(const Body& body)
 void Scene::PlaceEyebot(const Body& body)
 {
   const Isometry3f place = PlaceOf(space_.GetPose(body.entity));
-  static const std::vector<RestingPart> parts = RestingParts(EntityKind::kEyebot);
+  static const std::vector<RestingPart> parts = RestingParts(Mechanism::kPropellers);
   for (std::uint32_t part = 0; part < parts.size(); ++part) Place(body.first_item + part, place * parts[part].place);
 }
 
 void Scene::PlaceHandbot(const Body& body)
 {
-  static const HandbotSlots slots;
+  const Slots& slots = SlotsOf(body);
   const Isometry3f place = PlaceOf(space_.GetPose(body.entity));
   std::uint32_t item = body.first_item;
   Place(item++, place);

@@ -3,6 +3,7 @@
 // calls Update before it draws. One thread.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -89,7 +90,7 @@ public:
   void Track();
 
   const CSwarmanoidSpace& Space() const { return space_; }
-  // The standard models, then one for each terrain.
+  // The standard models, then those of users' kinds and terrains.
   std::span<const Model> Models() const { return models_; }
   // Items never change their number, entity, model or role. Those of one entity stand together.
   std::span<const SceneItem> Items() const { return items_; }
@@ -114,11 +115,23 @@ private:
     std::int32_t lights;
     std::uint32_t items;
     float lift;  // m above its place: of patches, so that the one that counts lies on top of those it overlaps
+    EntityKind kind;
+    Mechanism mechanism;
   };
   struct Trail;
+  // Where the attributes of a kind are that are shown, -1: none.
+  struct Slots
+  {
+    int led, leds, beacon, colour, intensity;
+    int aperture, turret, gripped;  // Mechanism::kTurretGripper
+    int head, arm, wrist, hand, rope;
+    int laser;
+  };
 
   void AddEntity(std::uint32_t entity);
   SceneItem& AddItem(std::uint32_t entity, ModelId model);
+  void AddUsersEntity(Body& body);
+  const Slots& SlotsOf(const Body& body) const { return slots_[static_cast<std::size_t>(body.kind)]; }
   std::int32_t AddLights();
   void AddTerrain(std::uint32_t entity);
   void AddArea(std::uint32_t entity);
@@ -133,7 +146,7 @@ private:
   void AddBeam(const Body& eyebot);
   void AddRope(const Body& handbot);
   void AddGrips(const Body& robot);
-  void AddRays(std::uint32_t footbot);
+  void AddRays(std::uint32_t robot, const ProximityRing& ring);
   void AddOutline(std::uint32_t entity, Colour colour, float width, bool on_top);
   void AddLine(const Vector3& from, const Vector3& to, Colour colour, float width, float opacity, bool on_top = false);
   void AddTrails();
@@ -148,7 +161,9 @@ private:
   std::vector<Model> models_;
   std::vector<SceneItem> items_;
   std::vector<Colour> lights_;
-  std::vector<Body> bodies_;  // all entities that have items, ascending
+  std::vector<Slots> slots_;                          // by kind
+  std::map<EntityKind, std::uint16_t> users_models_;  // of users' kinds, once an entity has one
+  std::vector<Body> bodies_;                          // all entities that have items, ascending
   std::vector<SceneLine> lines_;
   std::vector<SceneGlow> glows_;
   std::vector<SceneLabel> labels_;

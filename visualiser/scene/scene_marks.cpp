@@ -13,17 +13,30 @@ namespace
 {
 
 constexpr double kLongestBeam = 30;  // m, as for the cameras that see the spot
-constexpr double kRayRange = 0.1;    // m, of the footbot's proximity sensors
-constexpr double kRayHeight = 0.06;
-constexpr int kRays = 24;
 
 bool HasProximity(const Experiment& experiment, const EntityConfiguration& robot)
 {
   const ControllerConfiguration* controller = experiment.FindController(robot.controller);
   if (controller == nullptr) return false;
   for (const DeviceConfiguration& sensor : controller->sensors)
-    if (sensor.type == "footbot_proximity") return true;
+    if (sensor.type == "footbot_proximity" || sensor.type == "proximity") return true;
   return false;
+}
+
+Colour TrailColour(EntityKind kind)
+{
+  switch (DescriptionOf(kind).mechanism)
+  {
+    case Mechanism::kTurretGripper:
+      return LookOf(Material::kFootbot).colour;
+    case Mechanism::kPropellers:
+      return LookOf(Material::kEyebot).colour;
+    case Mechanism::kArms:
+      return LookOf(Material::kHandbot).colour;
+    case Mechanism::kNone:
+      break;
+  }
+  return IsRobot(kind) ? DescriptionOf(kind).colour : palette::kSelection;
 }
 
 }  // namespace
@@ -58,7 +71,7 @@ double Scene::FirstHit(const Vector3& from, const Vector3& to, std::uint32_t wit
 // From the middle of the eyebot's base to the first body, or the floor; tilt 0 is straight down.
 void Scene::AddBeam(const Body& eyebot)
 {
-  static const int laser = AttributeOffset(EntityKind::kEyebot, "laser");
+  const int laser = SlotsOf(eyebot).laser;
   if (Attribute(eyebot, laser) == 0) return;
   const auto colour = static_cast<Colour>(Attribute(eyebot, laser + 1));
   if (colour == 0) return;
@@ -78,8 +91,7 @@ void Scene::AddBeam(const Body& eyebot)
 
 void Scene::AddRope(const Body& handbot)
 {
-  static const int attached = AttributeOffset(EntityKind::kHandbot, "rope_attached");
-  if (Attribute(handbot, attached) == 0) return;
+  if (Attribute(handbot, SlotsOf(handbot).rope) == 0) return;
   const Vector3 from = space_.GetPose(handbot.entity).Apply({RobotJoints::kHandbotRopeForward, 0, 0.16});
   // The magnet sits on the ceiling, straight above where the robot hangs.
   AddLine(from, {from.x(), from.y(), std::max(ArenaSize().z(), from.z())}, LookOf(Material::kRope).colour, 2, 1);
@@ -87,19 +99,19 @@ void Scene::AddRope(const Body& handbot)
 
 void Scene::AddGrips(const Body& robot)
 {
-  const EntityKind kind = space_.GetEntity(robot.entity).GetKind();
-  const int grippers = kind == EntityKind::kHandbot ? 2 : 1;
-  const int gripped = AttributeOffset(kind, "gripped");
+  const bool has_arms = robot.mechanism == Mechanism::kArms;
+  const int grippers = DescriptionOf(robot.kind).grippers;
+  const int gripped = SlotsOf(robot).gripped;
   for (int gripper = 0; gripper < grippers; ++gripper)
   {
     const double held = Attribute(robot, gripped + gripper);
     if (held < 1 || held > static_cast<double>(space_.Size())) continue;
     const auto other = static_cast<std::uint32_t>(held) - 1;
     // From the jaws (the third part of a footbot), or the finger of a hand, into the body that is held.
-    const std::uint32_t part = kind == EntityKind::kHandbot ? 3 + 3 * static_cast<std::uint32_t>(gripper) : 2;
+    const std::uint32_t part = has_arms ? 3 + 3 * static_cast<std::uint32_t>(gripper) : 2;
     const Eigen::Vector3f from = items_[robot.first_item + part].position;
     Eigen::Vector3f to = space_.GetPose(other).position.cast<float>();
-    if (kind == EntityKind::kFootbot) to.z() = from.z();
+    if (!has_arms) to.z() = from.z();
     const Eigen::Vector3f way = to - from;
     const float reach = std::min(way.norm(), 0.035F);
     if (reach > 0) to = from + way.normalized() * reach;
@@ -107,19 +119,17 @@ void Scene::AddGrips(const Body& robot)
   }
 }
 
-void Scene::AddRays(std::uint32_t footbot)
+void Scene::AddRays(std::uint32_t robot, const ProximityRing& ring)
 {
-  const EntityConfiguration& configuration = space_.GetEntity(footbot).GetConfiguration();
-  if (!HasProximity(space_.GetExperiment(), configuration)) return;
-  const Pose pose = space_.GetPose(footbot);
-  for (int i = 0; i < kRays; ++i)
+  if (!HasProximity(space_.GetExperiment(), space_.GetEntity(robot).GetConfiguration())) return;
+  const Pose pose = space_.GetPose(robot);
+  for (const ProximityRing::Sensor& sensor : ring.sensors)
   {
-    const double angle = DegreesToRadians(7.5 + 15 * i);
-    const Vector3 direction(std::cos(angle), std::sin(angle), 0);
-    const Vector3 rim = configuration.size.x() * direction + Vector3(0, 0, kRayHeight);
-    const Vector3 from = pose.Apply(rim);
-    const Vector3 to = pose.Apply(rim + kRayRange * direction);
-    const double hit = FirstHit(from, to, footbot);
+    const Vector3 direction(std::cos(sensor.direction), std::sin(sensor.direction), 0);
+    const Vector3 start(sensor.place.x(), sensor.place.y(), ring.height_m);
+    const Vector3 from = pose.Apply(start);
+    const Vector3 to = pose.Apply(start + ring.range_m * direction);
+    const double hit = FirstHit(from, to, robot);
     AddLine(from, from + hit * (to - from), hit < 1 ? palette::kRayHit : palette::kRayFree, 1.5F, hit < 1 ? 1 : 0.7F);
   }
 }
@@ -182,11 +192,7 @@ void Scene::AddTrails()
   for (std::size_t m = 0; m < movable.size(); ++m)
   {
     const Trail& trail = trails_[m];
-    const EntityKind kind = space_.GetEntity(movable[m]).GetKind();
-    const Colour colour = kind == EntityKind::kFootbot   ? LookOf(Material::kFootbot).colour
-                          : kind == EntityKind::kEyebot  ? LookOf(Material::kEyebot).colour
-                          : kind == EntityKind::kHandbot ? LookOf(Material::kHandbot).colour
-                                                         : palette::kSelection;
+    const Colour colour = TrailColour(space_.GetEntity(movable[m]).GetKind());
     const auto opacity = [&](std::size_t back)
     { return kOpacity * (1 - static_cast<float>(back) / static_cast<float>(Trail::kPlaces)); };
     for (std::size_t back = 0; back + 1 < trail.count; ++back)

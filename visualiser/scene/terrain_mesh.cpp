@@ -164,6 +164,7 @@ Model TerrainModel(const Terrain& terrain, const std::string& name)
 {
   Model model;
   model.name = name;
+  model.is_terrain = true;
   if (const auto* heights = dynamic_cast<const HeightTerrain*>(&terrain))
     model.levels = {HeightMesh(*heights, 1), HeightMesh(*heights, 2), HeightMesh(*heights, 4)};
   else if (const auto* voxels = dynamic_cast<const VoxelTerrain*>(&terrain))

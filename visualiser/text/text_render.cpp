@@ -24,7 +24,6 @@ namespace
 using Json = nlohmann::ordered_json;
 
 // Ascending: the last kind of the enumeration.
-constexpr auto kKinds = static_cast<std::size_t>(EntityKind::kTerrain) + 1;
 
 std::vector<std::string> SplitList(const std::string& text)
 {
@@ -211,12 +210,12 @@ void CTextRender::ChooseColumns(const std::string& names, const SourceLocation& 
 
 void CTextRender::ChooseEntities(const std::string& kinds, const SourceLocation& location)
 {
-  shown_kinds_.assign(kKinds, kinds.empty());
+  shown_kinds_.assign(EntityKindCount(), kinds.empty());
   for (const std::string& name : SplitList(kinds))
   {
     bool found = false;
     std::string known;
-    for (std::size_t k = 0; k < kKinds; ++k)
+    for (std::size_t k = 0; k < EntityKindCount(); ++k)
     {
       const std::string_view tag = TagName(static_cast<EntityKind>(k));
       known += (known.empty() ? "" : ", ") + std::string(tag);

@@ -51,7 +51,8 @@ FrameWriter::FrameWriter(const CSwarmanoidSpace& space) : space_(space)
     bearer.beacon = slot("beacon");
     bearer.gripped = slot("gripped");
     bearer.laser = slot("laser");
-    bearer.attached = slot(entity.GetKind() == EntityKind::kHandbot ? "rope_attached" : "attached");
+    bearer.attached = slot("rope_attached");
+    if (bearer.attached == kNone) bearer.attached = slot("attached");
     for (const AttributeSpec& spec : AttributesOf(entity.GetKind()))
     {
       if (spec.name == "led") bearer.leds = static_cast<std::uint32_t>(spec.count);

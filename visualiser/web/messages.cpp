@@ -12,6 +12,7 @@
 #include "common/math/elementary.h"
 #include "common/space/attributes.h"
 #include "common/space/terrain/terrain.h"
+#include "visualiser/scene/meshes_file.h"
 #include "visualiser/status_line.h"
 
 namespace swarmanoid
@@ -21,7 +22,6 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-constexpr auto kLastKind = static_cast<std::size_t>(EntityKind::kTerrain);
 constexpr unsigned kMostSteps = 1000000;
 constexpr int kTerrainSamples = 128;  // along each side
 
@@ -59,14 +59,15 @@ Json Body(const CSwarmanoidSpaceEntity& entity, const std::string& folder)
             {"position", Vector(pose.position)},
             {"orientation", {pose.orientation.x(), pose.orientation.y(), pose.orientation.z(), pose.orientation.w()}},
             {"colour", configuration.colour}};
-  if (entity.GetKind() == EntityKind::kTerrain) body["terrain"] = TerrainSurface(configuration, folder);
+  if (DescriptionOf(entity.GetKind()).role == EntityRole::kTerrain)
+    body["terrain"] = TerrainSurface(configuration, folder);
   return body;
 }
 
 Json AttributeTable()
 {
   Json table = Json::object();
-  for (std::size_t kind = 0; kind <= kLastKind; ++kind)
+  for (std::size_t kind = 0; kind < EntityKindCount(); ++kind)
   {
     Json specs = Json::array();
     for (const AttributeSpec& spec : AttributesOf(static_cast<EntityKind>(kind)))
@@ -74,6 +75,25 @@ Json AttributeTable()
     table[std::string(TagName(static_cast<EntityKind>(kind)))] = specs;
   }
   return table;
+}
+
+// What a page has to know of a kind to draw it; the model where its own meshes have none.
+Json Look(EntityKind kind)
+{
+  const EntityKindDescription& row = DescriptionOf(kind);
+  const bool is_box = row.form == BodyForm::kBox;
+  constexpr const char* kRoles[] = {"robot", "object", "light", "sound", "patch", "hole", "terrain"};
+  Json look{{"role", kRoles[static_cast<std::size_t>(row.role)]},
+            {"form", row.form == BodyForm::kNone ? "none"
+                     : is_box                    ? "box"
+                                                 : "cylinder"},
+            {"based", row.origin == BodyOrigin::kBase}};
+  if (IsBuiltIn(kind) || row.role != EntityRole::kRobot) return look;
+  look["radius"] = is_box ? row.size.head<2>().norm() / 2 : row.size.x();
+  look["height"] = row.size.z();
+  look["colour"] = row.colour;
+  look["model"] = Json::parse(KindModelAsJson(row));
+  return look;
 }
 
 // {"left": [1.5, "m/s"], …} as columns.
@@ -179,7 +199,12 @@ std::string WorldText(const CSwarmanoidSpace& space, const Assignment& assignmen
 {
   const Experiment& experiment = space.GetExperiment();
   Json kinds = Json::array();
-  for (std::size_t kind = 0; kind <= kLastKind; ++kind) kinds.push_back(TagName(static_cast<EntityKind>(kind)));
+  Json looks = Json::object();
+  for (std::size_t kind = 0; kind < EntityKindCount(); ++kind)
+  {
+    kinds.push_back(TagName(static_cast<EntityKind>(kind)));
+    looks[std::string(TagName(static_cast<EntityKind>(kind)))] = Look(static_cast<EntityKind>(kind));
+  }
   Json engines = Json::array();
   for (const EngineConfiguration& engine : experiment.engines)
     engines.push_back({{"id", engine.id}, {"tag", engine.tag}});
@@ -210,6 +235,7 @@ std::string WorldText(const CSwarmanoidSpace& space, const Assignment& assignmen
                {"last_tick", experiment.max_clock},
                {"arena", Vector(experiment.arena_size)},
                {"kinds", kinds},
+               {"looks", looks},
                {"engines", engines},
                {"hosts", assignment.hosts.size()},
                {"controllers", controllers},

@@ -28,7 +28,7 @@ void StructuralTree::Rebuild()
   {
     const CSwarmanoidSpaceEntity& entity = space_.GetEntity(i);
     if (!CanGrip(entity)) continue;
-    const int hands = entity.GetKind() == EntityKind::kHandbot ? 2 : 1;
+    const int hands = DescriptionOf(entity.GetKind()).grippers;
     for (int hand = 0; hand < hands; ++hand)
     {
       const double held = entity.GetAttribute("gripped", hand);
@@ -91,22 +91,12 @@ CCompoundEntity StructuralTree::GetCompound(std::uint32_t member) const
 
 bool StructuralTree::CanGrip(const CSwarmanoidSpaceEntity& entity)
 {
-  return entity.GetKind() == EntityKind::kFootbot || entity.GetKind() == EntityKind::kHandbot;
+  return DescriptionOf(entity.GetKind()).grippers > 0;
 }
 
 bool StructuralTree::CanBeGripped(const CSwarmanoidSpaceEntity& entity)
 {
-  switch (entity.GetKind())
-  {
-    case EntityKind::kFootbot:
-    case EntityKind::kHandbot:
-    case EntityKind::kCylindricPrey:
-      return true;
-    case EntityKind::kBlock:
-      return entity.IsMovable();
-    default:
-      return false;
-  }
+  return entity.IsMovable() && DescriptionOf(entity.GetKind()).grippable;
 }
 
 }  // namespace swarmanoid

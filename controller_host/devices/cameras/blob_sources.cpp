@@ -8,6 +8,7 @@
 #include "common/control_interface/ci_colour.h"
 #include "common/math/elementary.h"
 #include "common/math/random.h"
+#include "common/space/attributes.h"
 #include "controller_host/devices/sensing/sight_lines.h"
 
 namespace swarmanoid
@@ -29,59 +30,28 @@ std::uint32_t ColourIn(std::span<const double> attributes, std::uint32_t slot)
 
 }  // namespace
 
-BlobSources::Ring BlobSources::MakeRing(int leds, double radius, double height, double beacon_height,
-                                        double first_angle, bool turns)
-{
-  Ring ring;
-  ring.leds = leds;
-  ring.height = height;
-  ring.beacon_height = beacon_height;
-  ring.turns = turns;
-  for (int i = 0; i < leds; ++i)
-  {
-    const SinCos angle = SinCosOf(first_angle + i * (2 * kPi / leds));
-    ring.places.emplace_back(radius * angle.cos, radius * angle.sin);
-  }
-  return ring;
-}
-
-BlobSources::BlobSources(SensorWorld& world)
-    : world_(world),
-      // Footbot and eyebot: ARGoS3. The handbot's ring is an assumption: around its body, at half its height.
-      footbot_(MakeRing(12, 0.085036758 + 0.005, 0.085, 0.174, kPi / 12, true)),
-      eyebot_(MakeRing(16, 0.255, 0.1535, 0, kPi / 16, false)),
-      handbot_(MakeRing(12, 0.09, 0.08, 0.17, kPi / 12, false))
+BlobSources::BlobSources(SensorWorld& world) : world_(world)
 {
   const CSwarmanoidSpace& space = world.Space();
-  for (std::uint32_t e = 0; e < space.Size(); ++e)
-  {
-    const CSwarmanoidSpaceEntity& entity = space.GetEntity(e);
-    switch (entity.GetKind())
-    {
-      case EntityKind::kFootbot:
-        bearers_.push_back(
-            {e, &footbot_, entity.SlotOf("led"), entity.SlotOf("beacon"), entity.SlotOf("turret_angle"), kNoSlot, 0});
-        break;
-      case EntityKind::kEyebot:
-        bearers_.push_back({e, &eyebot_, entity.SlotOf("led"), kNoSlot, kNoSlot, kNoSlot, 0});
-        lasers_.push_back({e, entity.SlotOf("laser")});
-        break;
-      case EntityKind::kHandbot:
-        bearers_.push_back({e, &handbot_, entity.SlotOf("led"), entity.SlotOf("beacon"), kNoSlot, kNoSlot, 0});
-        break;
-      case EntityKind::kCylindricPrey:
-        bearers_.push_back({e, nullptr, kNoSlot, kNoSlot, kNoSlot, entity.SlotOf("colour"), entity.GetSize().z() / 2});
-        break;
-      case EntityKind::kLightBulb:
-      case EntityKind::kGroundPatch:
-        still_.push_back(e);
-        break;
-      default:
-        break;
-    }
-  }
+  for (std::uint32_t e = 0; e < space.Size(); ++e) AddEntity(e);
   bearer_of_.assign(space.Size(), -1);
   for (std::size_t b = 0; b < bearers_.size(); ++b) bearer_of_[bearers_[b].entity] = static_cast<std::int32_t>(b);
+}
+
+void BlobSources::AddEntity(std::uint32_t index)
+{
+  const CSwarmanoidSpaceEntity& entity = world_.Space().GetEntity(index);
+  const EntityKindDescription& kind = DescriptionOf(entity.GetKind());
+  const auto slot = [&](std::string_view name)
+  { return AttributeOffset(entity.GetKind(), name) < 0 ? kNoSlot : entity.SlotOf(name); };
+  if (kind.leds)
+    bearers_.push_back({index, &kind, slot("led"), slot("beacon"), slot("turret_angle"), kNoSlot, 0});
+  else if (kind.seen_by_cameras && kind.form == BodyForm::kNone)
+    still_.push_back(index);
+  else if (kind.seen_by_cameras)
+    bearers_.push_back({index, nullptr, kNoSlot, kNoSlot, kNoSlot, slot("colour"),
+                        kind.origin == BodyOrigin::kBase ? entity.GetSize().z() / 2 : 0});
+  if (kind.mechanism == Mechanism::kPropellers) lasers_.push_back({index, slot("laser")});
 }
 
 std::shared_ptr<BlobSources> BlobSources::Of(const std::shared_ptr<SensorWorld>& world)
@@ -193,19 +163,20 @@ void BlobSources::AddPoint(std::uint32_t entity, const Vector3& local, std::uint
 
 void BlobSources::AddLeds(const Bearer& bearer)
 {
-  const Ring& ring = *bearer.ring;
+  const LedLayout& ring = *bearer.ring->leds;
   const std::span<const double> attributes = world_.Space().Attributes();
   const double* leds = &attributes[bearer.led_slot];
-  const auto count = static_cast<std::size_t>(ring.leds);
+  const auto count = ring.places.size();
   if (bearer.beacon_slot != kNoSlot)
-    AddPoint(bearer.entity, {0, 0, ring.beacon_height}, ColourIn(attributes, bearer.beacon_slot), BlobSource::kBeacon);
+    AddPoint(bearer.entity, {0, 0, *bearer.ring->beacon_height_m}, ColourIn(attributes, bearer.beacon_slot),
+             BlobSource::kBeacon);
 
   const auto differs = [&](double value) { return value != leds[0]; };
   if (std::none_of(leds + 1, leds + count, differs))
-    return AddPoint(bearer.entity, {0, 0, ring.height}, static_cast<std::uint32_t>(leds[0]), BlobSource::kFirstLed);
+    return AddPoint(bearer.entity, {0, 0, ring.height_m}, static_cast<std::uint32_t>(leds[0]), BlobSource::kFirstLed);
 
   SinCos turret{0, 1};
-  if (ring.turns) turret = SinCosOf(attributes[bearer.turret_slot]);
+  if (ring.on_turret) turret = SinCosOf(attributes[bearer.turret_slot]);
   for (std::size_t i = 0; i < count; ++i)
   {
     if (leds[i] == 0 || std::find(leds, leds + i, leds[i]) != leds + i) continue;
@@ -220,7 +191,7 @@ void BlobSources::AddLeds(const Bearer& bearer)
     const Vector2 middle = sum / lit;
     AddPoint(bearer.entity,
              {turret.cos * middle.x() - turret.sin * middle.y(), turret.sin * middle.x() + turret.cos * middle.y(),
-              ring.height},
+              ring.height_m},
              static_cast<std::uint32_t>(leds[i]), static_cast<std::uint32_t>(BlobSource::kFirstLed + i));
   }
 }

@@ -63,20 +63,11 @@ public:
   double LowestHeight() const { return lowest_; }
 
 private:
-  // Where the LEDs of a kind of robot stand.
-  struct Ring
-  {
-    int leds = 0;
-    std::vector<Vector2> places;  // m, about the z axis
-    double height = 0;            // m
-    double beacon_height = 0;     // m
-    bool turns = false;           // with the turret
-  };
   // An entity with something coloured on it.
   struct Bearer
   {
     std::uint32_t entity;
-    const Ring* ring;  // nullptr: the entity has one colour of its own
+    const EntityKindDescription* ring;  // whose LEDs it has; nullptr: it has one colour of its own
     std::uint32_t led_slot, beacon_slot, turret_slot, colour_slot;
     double middle;  // m: height of the middle of the body
   };
@@ -86,7 +77,7 @@ private:
     std::uint32_t slot;  // laser, laser_colour, laser_pan, laser_tilt
   };
 
-  static Ring MakeRing(int leds, double radius, double height, double beacon_height, double first_angle, bool turns);
+  void AddEntity(std::uint32_t entity);
   void AddBearer(const Bearer& bearer);
   void AddLeds(const Bearer& bearer);
   void AddPoint(std::uint32_t entity, const Vector3& local, std::uint32_t colour, std::uint32_t part);
@@ -94,7 +85,6 @@ private:
 
   SensorWorld& world_;
   std::shared_ptr<SensorWorld> keeper_;  // keeps the world alive where it is shared
-  Ring footbot_, eyebot_, handbot_;
   std::vector<Bearer> bearers_;
   std::vector<std::int32_t> bearer_of_;  // by entity, -1: none
   std::vector<Laser> lasers_;

@@ -30,7 +30,7 @@ public:
     world_ = SensorWorld::Of(setup.space);
     bulbs_.clear();
     for (std::uint32_t e = 0; e < setup.space.Size(); ++e)
-      if (setup.space.GetEntity(e).GetKind() == EntityKind::kLightBulb)
+      if (DescriptionOf(setup.space.GetEntity(e).GetKind()).role == EntityRole::kLight)
         bulbs_.push_back({e, setup.space.GetEntity(e).SlotOf("intensity")});
     MakeDevices();
   }

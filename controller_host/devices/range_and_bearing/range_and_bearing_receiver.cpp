@@ -58,7 +58,8 @@ public:
     message_slots_.assign(setup.space.Size(), kNoSlot);
     messages_.assign(setup.space.Size(), {});
     for (std::uint32_t e = 0; e < setup.space.Size(); ++e)
-      if (const CSwarmanoidSpaceEntity& entity = setup.space.GetEntity(e); IsRobot(entity.GetKind()))
+      if (const CSwarmanoidSpaceEntity& entity = setup.space.GetEntity(e);
+          Carries(entity.GetKind(), "range_and_bearing"))
         message_slots_[e] = entity.SlotOf("message");
   }
   CCI_Sensor* Sensor(std::size_t k) override { return &receivers_[k]; }

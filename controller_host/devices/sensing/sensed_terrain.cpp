@@ -11,7 +11,7 @@ SensedTerrain::SensedTerrain(const CSwarmanoidSpace& space)
   for (std::uint32_t e = 0; e < experiment.entities.size(); ++e)
   {
     const EntityConfiguration& entity = experiment.entities[e];
-    if (entity.kind != EntityKind::kTerrain) continue;
+    if (DescriptionOf(entity.kind).role != EntityRole::kTerrain) continue;
     auto terrain = LoadTerrain(entity, experiment.folder);
     const Vector3 low = terrain->Low();
     const Vector3 high = terrain->High();

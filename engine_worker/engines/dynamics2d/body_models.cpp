@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/math/elementary.h"
+#include "common/space/shape.h"
 
 namespace swarmanoid::dynamics2d
 {
@@ -53,8 +54,6 @@ double UnitInertia(const std::vector<Vector2>& polygon)
   }
   return moment / 12 / AreaOf(polygon);
 }
-
-bool IsBlock(EntityKind kind) { return kind == EntityKind::kBlock || kind == EntityKind::kWall; }
 
 // The cut of a block at `at` by the plane, in the frame of its pose on the plane; empty where it does not reach it.
 std::vector<Vector2> CutOf(const CSwarmanoidSpaceEntity& entity, const Pose& at, const PlaneFrame& plane)
@@ -106,27 +105,13 @@ void SetGroundFriction(BodyModel& model, double coefficient, double gravity)
 double DefaultMass(const CSwarmanoidSpaceEntity& entity, const Dynamics2dParameters& parameters)
 {
   const Vector3& size = entity.GetSize();
-  switch (entity.GetKind())
-  {
-    case EntityKind::kFootbot:
-      return parameters.footbot_mass;
-    case EntityKind::kHandbot:
-      return parameters.handbot_mass;
-    case EntityKind::kEyebot:
-      return parameters.eyebot_mass;
-    case EntityKind::kCylindricPrey:
-      return parameters.density * kPi * size.x() * size.x() * size.z();
-    default:
-      return parameters.density * size.prod();
-  }
+  const EntityKindDescription& kind = DescriptionOf(entity.GetKind());
+  if (const auto mass = parameters.robot_mass.find(kind.tag); mass != parameters.robot_mass.end()) return mass->second;
+  if (kind.form == BodyForm::kCylinder) return parameters.density * kPi * size.x() * size.x() * size.z();
+  return parameters.density * size.prod();
 }
 
 }  // namespace
-
-bool HasBody(EntityKind kind)
-{
-  return IsRobot(kind) || kind == EntityKind::kBlock || kind == EntityKind::kWall || kind == EntityKind::kCylindricPrey;
-}
 
 BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, const PlaneFrame& plane,
                        const Dynamics2dParameters& parameters)
@@ -135,10 +120,11 @@ BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, con
   model.motion = motion;
   SetContact(model, entity, parameters);
   const Vector3& size = entity.GetSize();
-  const EntityKind kind = entity.GetKind();
+  const EntityKindDescription& kind = DescriptionOf(entity.GetKind());
+  const bool is_free_box = IsFreeBox(entity.GetKind());
   const double given = entity.GetConfiguration().mass_kg;
   model.mass = given > 0 ? given : DefaultMass(entity, parameters);
-  if (kind == EntityKind::kFootbot || kind == EntityKind::kEyebot || kind == EntityKind::kCylindricPrey)
+  if (kind.form == BodyForm::kCylinder)
   {
     if (size.x() < kSmallest_m) TooSmall(entity);
     model.radius = size.x();
@@ -148,7 +134,7 @@ BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, con
   {
     if (size.x() < kSmallest_m || size.y() < kSmallest_m || size.z() < kSmallest_m) TooSmall(entity);
     // An engine that is made anew in mid-run finds blocks elsewhere: those that it moves keep the outline of the start.
-    if (motion == EMotion::kDynamic && IsBlock(kind))
+    if (motion == EMotion::kDynamic && is_free_box)
       model.polygon = CutOf(entity, entity.GetConfiguration().pose, plane);
     else
       model.polygon = MirrorOutline(entity, plane);
@@ -158,29 +144,28 @@ BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, con
   }
   if (motion != EMotion::kDynamic) return model;
 
-  model.grippable = kind == EntityKind::kFootbot || kind == EntityKind::kHandbot || kind == EntityKind::kCylindricPrey;
-  switch (kind)
+  // Grippers find no hold on a block here.
+  model.grippable = kind.grippable && !is_free_box;
+  model.has_gripper = kind.mechanism == Mechanism::kTurretGripper;
+  if (kind.wheels)
   {
-    case EntityKind::kFootbot:
-      model.has_gripper = true;
-      model.ground_force =
-          std::min(parameters.wheel_friction * model.mass * parameters.gravity, parameters.drive_force);
-      model.ground_torque = model.ground_force * kInterWheelDistance / 2;
-      break;
-    case EntityKind::kEyebot:
-      model.ground_force = parameters.eyebot_force;
-      model.ground_torque = parameters.eyebot_torque;
-      break;
-    default:
-      SetGroundFriction(model, entity.GetConfiguration().tree.GetNumber("ground_friction", parameters.ground_friction),
-                        parameters.gravity);
+    model.ground_force = std::min(parameters.wheel_friction * model.mass * parameters.gravity, parameters.drive_force);
+    model.ground_torque = model.ground_force * kind.wheels->axle_m / 2;
   }
+  else if (kind.mechanism == Mechanism::kPropellers)
+  {
+    model.ground_force = parameters.eyebot_force;
+    model.ground_torque = parameters.eyebot_torque;
+  }
+  else
+    SetGroundFriction(model, entity.GetConfiguration().tree.GetNumber("ground_friction", parameters.ground_friction),
+                      parameters.gravity);
   return model;
 }
 
 std::vector<Vector2> MirrorOutline(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane)
 {
-  if (!IsBlock(entity.GetKind())) return {};
+  if (!IsFreeBox(entity.GetKind())) return {};
   std::vector<Vector2> outline = CutOf(entity, entity.GetPose(), plane);
   if (!outline.empty() && WidthOf(outline) < kSmallest_m) outline.clear();
   return outline;
@@ -196,19 +181,33 @@ BodyModel StaticModel(std::vector<Vector2> polygon, const Dynamics2dParameters& 
   return model;
 }
 
-std::optional<BodyModel> FixedModel(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane,
+std::optional<FixedBody> FixedModel(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane,
                                     const Dynamics2dParameters& parameters)
 {
-  BodyModel model = StaticModel(plane.CutBox(entity.GetPose(), entity.GetSize()), parameters);
-  if (model.polygon.empty()) return std::nullopt;
-  SetContact(model, entity, parameters);
-  if (WidthOf(model.polygon) < kSmallest_m) TooSmall(entity);
-  return model;
+  const Pose pose = entity.GetPose();
+  const Shape shape = ShapeOf(entity.GetConfiguration());
+  FixedBody fixed;
+  if (shape.kind == Shape::Kind::kCylinder)
+  {
+    if (!plane.CutsUpright(pose, entity.GetSize().z())) return std::nullopt;
+    if (shape.half_size.x() < kSmallest_m) TooSmall(entity);
+    fixed = {StaticModel({}, parameters), plane.ToPlane(pose)};
+    fixed.model.radius = shape.half_size.x();
+  }
+  else
+  {
+    const Pose centre{pose.Apply(shape.centre), pose.orientation};
+    fixed = {StaticModel(plane.CutBox(centre, entity.GetSize()), parameters), {}};
+    if (fixed.model.polygon.empty()) return std::nullopt;
+    if (WidthOf(fixed.model.polygon) < kSmallest_m) TooSmall(entity);
+  }
+  SetContact(fixed.model, entity, parameters);
+  return fixed;
 }
 
 bool ReachesPlane(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane)
 {
-  if (IsBlock(entity.GetKind())) return !MirrorOutline(entity, plane).empty();
+  if (IsFreeBox(entity.GetKind())) return !MirrorOutline(entity, plane).empty();
   return plane.CutsUpright(entity.GetPose(), entity.GetSize().z());
 }
 

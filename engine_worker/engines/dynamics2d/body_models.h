@@ -10,20 +10,18 @@
 namespace swarmanoid::dynamics2d
 {
 
-// Distance between the wheels of a footbot and their radius (m), as in the ARGoS3 model.
-inline constexpr double kInterWheelDistance = 0.14;
-inline constexpr double kWheelRadius = 0.029112741;
-
-// Lights, sounds and floor markings have no body.
-bool HasBody(EntityKind kind);
-
 // The body of an entity that the engine moves, or of a mirror (`motion` kKinematic). Throws ConfigurationError where it
 // is too small for the solver.
 BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, const PlaneFrame& plane,
                        const Dynamics2dParameters& parameters);
 
-// The body of something fixed, in the frame of the plane; nullopt where the plane does not cut it.
-std::optional<BodyModel> FixedModel(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane,
+struct FixedBody
+{
+  BodyModel model;
+  PlanePose pose;
+};
+// The body of something fixed; nullopt where the plane does not cut it.
+std::optional<FixedBody> FixedModel(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane,
                                     const Dynamics2dParameters& parameters);
 
 // An immovable polygon (m, in the plane) of something that has no contact parameters of its own.

@@ -48,14 +48,13 @@ void CDynamics2dEngine::Init(const EngineSetup& setup)
 PlanePose CDynamics2dEngine::StandingPose(const CSwarmanoidSpaceEntity& entity, PlaneStance& stance) const
 {
   const Pose pose = entity.GetPose();
-  stance = entity.GetKind() == EntityKind::kBlock || entity.GetKind() == EntityKind::kWall ? plane_.StanceOf(pose)
-                                                                                           : PlaneStance{};
+  stance = IsFreeBox(entity.GetKind()) ? plane_.StanceOf(pose) : PlaneStance{};
   return plane_.ToPlane(pose);
 }
 
 void CDynamics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding binding)
 {
-  if (entity.GetKind() == EntityKind::kTerrain)
+  if (DescriptionOf(entity.GetKind()).role == EntityRole::kTerrain)
   {
     for (std::vector<Vector2>& wall : TerrainWalls(entity.GetConfiguration(), space_->GetExperiment().folder, plane_))
     {
@@ -79,9 +78,9 @@ void CDynamics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding
   {
     case EBinding::kFixed:
     {
-      auto model = FixedModel(entity, plane_, parameters_);
-      if (!model) return;
-      body = world_->AddBody(std::move(*model), {});
+      auto fixed = FixedModel(entity, plane_, parameters_);
+      if (!fixed) return;
+      body = world_->AddBody(std::move(fixed->model), fixed->pose);
       break;
     }
     case EBinding::kMirror:
@@ -93,25 +92,25 @@ void CDynamics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding
     case EBinding::kOwned:
     {
       // Where it began: an engine that is made anew in mid-run may find it lifted by a handbot.
-      if (entity.GetKind() == EntityKind::kBlock &&
-          plane_.CutBox(entity.GetConfiguration().pose, entity.GetSize()).empty())
+      if (IsFreeBox(entity.GetKind()) && plane_.CutBox(entity.GetConfiguration().pose, entity.GetSize()).empty())
         throw ConfigurationError(
             entity.GetConfiguration().location,
-            fmt::format("the block '{}' does not reach the plane of the engine that moves it; put it on "
+            fmt::format("the {} '{}' does not reach the plane of the engine that moves it; put it on "
                         "the plane, or into another engine",
-                        entity.GetId()));
+                        TagName(entity.GetKind()), entity.GetId()));
       BodyModel model = MovableModel(entity, EMotion::kDynamic, plane_, parameters_);
       model.has_turret_motor = std::binary_search(turret_robots_.begin(), turret_robots_.end(), entity.GetIndex());
       body = world_->AddBody(std::move(model), pose);
       owned_.push_back({&entity, body, stance});
       robots_.AddOwned(entity);
-      if (entity.GetKind() != EntityKind::kFootbot) break;
+      if (DescriptionOf(entity.GetKind()).mechanism != Mechanism::kTurretGripper) break;
       footbot_of_entity_[entity.GetIndex()] = static_cast<std::uint32_t>(footbots_.size());
       Footbot& footbot = footbots_.emplace_back();
       footbot.entity = &entity;
       footbot.body = body;
       footbot.aperture_slot = entity.SlotOf("gripper_aperture");
       footbot.gripped_slot = entity.SlotOf("gripped");
+      footbot.half_axle = DescriptionOf(entity.GetKind()).wheels->axle_m / 2;
       footbot.turret_slot = entity.SlotOf("turret_angle");
       break;
     }
@@ -224,8 +223,8 @@ void CDynamics2dEngine::Step()
       const double turn = after.heading - before_step_[i].heading;
       const SinCos middle = SinCosOf(before_step_[i].heading + turn / 2);
       const double forward = middle.cos * (after.u - before_step_[i].u) + middle.sin * (after.v - before_step_[i].v);
-      footbots_[i].left_arc += forward - turn * kInterWheelDistance / 2;
-      footbots_[i].right_arc += forward + turn * kInterWheelDistance / 2;
+      footbots_[i].left_arc += forward - turn * footbots_[i].half_axle;
+      footbots_[i].right_arc += forward + turn * footbots_[i].half_axle;
     }
   }
   if (!measures_turrets_) return;

@@ -54,6 +54,7 @@ private:
     int body;
     bool has_gripper = false;  // there are commands for it
     double gripper = 0;        // command: 0 open … 1 closed
+    double half_axle = 0;      // m
     std::uint32_t aperture_slot, gripped_slot, turret_slot;
     // What the sensors sum up over the sub-steps of a tick.
     double left_arc = 0, right_arc = 0;  // m

@@ -40,11 +40,12 @@ void CDynamics2dEngine::ReadCommands(const EngineCommands& commands)
         throw std::runtime_error(fmt::format("'{}' was given a command on {} that is not a finite number",
                                              space_->GetEntity(block.entities[i]).GetId(), block.name));
       const int body = BodyOf(block.entities[i]);
-      if (block.name == "footbot_wheels")
+      if (block.name == "footbot_wheels" || block.name == "wheels")
       {
-        const double left = Speed(command[0] * kWheelRadius);
-        const double right = Speed(command[1] * kWheelRadius);
-        world_->SetDrive(body, {(left + right) / 2, 0, (right - left) / kInterWheelDistance});
+        const WheelDrive& wheels = *DescriptionOf(space_->GetEntity(block.entities[i]).GetKind()).wheels;
+        const double left = Speed(command[0] * wheels.radius_m);
+        const double right = Speed(command[1] * wheels.radius_m);
+        world_->SetDrive(body, {(left + right) / 2, 0, (right - left) / wheels.axle_m});
       }
       else if (block.name == "eyebot_propellers")
       {

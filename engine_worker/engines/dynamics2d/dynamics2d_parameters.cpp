@@ -15,9 +15,7 @@ Dynamics2dParameters ReadDynamics2dParameters(const Parameters& parameters)
   values.wheel_friction = parameters.Number("wheel_friction");
   values.ground_friction = parameters.Number("ground_friction");
   values.density = parameters.Number("density");
-  values.footbot_mass = parameters.Number("footbot_mass");
-  values.handbot_mass = parameters.Number("handbot_mass");
-  values.eyebot_mass = parameters.Number("eyebot_mass");
+  for (auto& [tag, mass] : values.robot_mass) mass = parameters.Number(tag + "_mass");
   values.drive_force = parameters.Number("drive_force");
   values.eyebot_force = parameters.Number("eyebot_force");
   values.eyebot_torque = parameters.Number("eyebot_torque");

@@ -1,6 +1,9 @@
 // The values of the parameters of the engine dynamics2d.
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "common/configuration/parameter.h"
 
 namespace swarmanoid::dynamics2d
@@ -16,10 +19,9 @@ struct Dynamics2dParameters
   double restitution = 0;
   double wheel_friction = 0.8;
   double ground_friction = 0.5;
-  double density = 200;         // kg/m3
-  double footbot_mass = 1.6;    // kg
-  double handbot_mass = 3;      // kg
-  double eyebot_mass = 1;       // kg
+  double density = 200;  // kg/m3
+  // kg, by the tag of the robot; others have the mass of their row, or the density.
+  std::map<std::string, double> robot_mass = {{"footbot", 1.6}, {"handbot", 3}, {"eyebot", 1}};
   double drive_force = 15;      // N
   double eyebot_force = 5;      // N
   double eyebot_torque = 0.2;   // N m

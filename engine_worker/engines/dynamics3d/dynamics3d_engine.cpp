@@ -8,6 +8,7 @@
 #include "engine_worker/engines/dynamics3d/eyebot.h"
 #include "engine_worker/engines/dynamics3d/footbot.h"
 #include "engine_worker/engines/dynamics3d/handbot.h"
+#include "engine_worker/engines/dynamics3d/wheeled.h"
 
 namespace swarmanoid
 {
@@ -25,7 +26,8 @@ bool HasVoxels(const EngineSetup& setup)
                      [&](std::uint32_t index)
                      {
                        const EntityConfiguration& entity = experiment.entities[index];
-                       return entity.kind == EntityKind::kTerrain && entity.tree.Child("octomap").Exists();
+                       return DescriptionOf(entity.kind).role == EntityRole::kTerrain &&
+                              entity.tree.Child("octomap").Exists();
                      });
 }
 
@@ -100,36 +102,28 @@ void CDynamics3dEngine::AddArenaWalls()
 
 std::unique_ptr<Model> CDynamics3dEngine::MakeModel(const CSwarmanoidSpaceEntity& entity)
 {
-  switch (entity.GetKind())
+  const EntityKindDescription& kind = DescriptionOf(entity.GetKind());
+  switch (kind.mechanism)
   {
-    case EntityKind::kFootbot:
+    case Mechanism::kTurretGripper:
       return std::make_unique<FootbotModel>(*scene_, entity);
-    case EntityKind::kHandbot:
+    case Mechanism::kArms:
       return std::make_unique<HandbotModel>(*scene_, entity);
-    case EntityKind::kEyebot:
+    case Mechanism::kPropellers:
       return std::make_unique<EyebotModel>(*scene_, entity, CeilingHeight());
-    default:
-      return std::make_unique<ObjectModel>(*scene_, entity);
+    case Mechanism::kNone:
+      break;
   }
+  if (kind.wheels) return std::make_unique<WheeledModel>(*scene_, entity, WheeledShape::Of(entity, scene_->density));
+  return std::make_unique<ObjectModel>(*scene_, entity);
 }
 
 void CDynamics3dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding binding)
 {
-  switch (entity.GetKind())
-  {
-    case EntityKind::kLightBulb:
-    case EntityKind::kSoundSource:
-    case EntityKind::kGroundPatch:
-      return;
-    case EntityKind::kHole:
-      holes_.push_back(&entity);
-      return;
-    case EntityKind::kTerrain:
-      AddTerrain(entity);
-      return;
-    default:
-      break;
-  }
+  const EntityRole role = DescriptionOf(entity.GetKind()).role;
+  if (role == EntityRole::kHole) holes_.push_back(&entity);
+  if (role == EntityRole::kTerrain) AddTerrain(entity);
+  if (!HasBody(entity.GetKind())) return;
   if (binding == EBinding::kFixed)
   {
     AddStaticObject(*scene_, entity);

@@ -1,8 +1,9 @@
-// The footbot in 3D: a chassis with two driven wheels, two casters, a turret and a gripper on it. The turret has no
-// mass: its angle counts for the gripper, whose joint it drives when something is held.
+// The footbot in 3D: a wheeled robot with a turret and a gripper on it. The turret has no mass: its angle counts for
+// the gripper, whose joint it drives when something is held.
 #pragma once
 
 #include "engine_worker/engines/dynamics3d/grasp.h"
+#include "engine_worker/engines/dynamics3d/wheeled.h"
 
 namespace swarmanoid::dynamics3d
 {
@@ -19,8 +20,7 @@ struct FootbotShape
   static constexpr double kCasterRadius = 0.01;
   static constexpr double kCasterReach = 0.065;
   static constexpr double kChassisMass = 1.2;
-  static constexpr double kWheelMass = 0.2;     // with motor and tread
-  static constexpr double kGearedInertia = 10;  // times that of a sphere
+  static constexpr double kWheelMass = 0.2;  // with motor and tread
   static constexpr double kMass = kChassisMass + 2 * kWheelMass;
   static constexpr double kCentreOfMass = 0.05;
   static constexpr double kGripperHeight = 0.085;
@@ -30,7 +30,7 @@ struct FootbotShape
   static constexpr double kMaximumTurretSpeed = 3.14159265358979323846;  // rad/s
 };
 
-class FootbotModel : public Model
+class FootbotModel : public WheeledModel
 {
 public:
   FootbotModel(Scene& scene, const CSwarmanoidSpaceEntity& entity);
@@ -46,13 +46,9 @@ public:
   void Load(ByteReader& state) override;
 
 private:
-  dBodyID Chassis() const { return scene_.world.Body(bodies_[0].number); }
-  double WheelSpeed(std::size_t wheel) const;
   void UpdateGripper();
 
-  dJointID axles_[2] = {nullptr, nullptr};  // left, right
-  double wheel_command_[2] = {0, 0};        // rad/s
-  double turret_command_ = 0;               // rad/s
+  double turret_command_ = 0;  // rad/s
   bool lock_ = false;
   double turret_angle_ = 0;   // rad
   double turret_target_ = 0;  // rad: where the motor wants a loaded turret
@@ -60,10 +56,8 @@ private:
   Grasp gripper_;
   // Of the last tick.
   Vector3 velocity_at_start_ = Vector3::Zero();
-  double wheel_turn_[2] = {0, 0};  // rad
   Vector3 grip_force_ = Vector3::Zero();
   double grip_torque_ = 0;
-  double elapsed_ = 0;  // s
 };
 
 }  // namespace swarmanoid::dynamics3d

@@ -8,16 +8,7 @@ namespace swarmanoid::dynamics3d
 bool Scene::CanBeHeld(std::uint32_t entity) const
 {
   if (entity >= models.size() || models[entity] == nullptr) return false;
-  switch (models[entity]->Kind())
-  {
-    case EntityKind::kFootbot:
-    case EntityKind::kHandbot:
-    case EntityKind::kCylindricPrey:
-    case EntityKind::kBlock:
-      return true;
-    default:
-      return false;
-  }
+  return DescriptionOf(models[entity]->GetSpaceEntity().GetKind()).grippable;
 }
 
 void AttributeReport::Set(std::string_view name, double value, int element, double tolerance)

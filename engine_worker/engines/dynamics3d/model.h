@@ -69,7 +69,6 @@ public:
   Model(Scene& scene, const CSwarmanoidSpaceEntity& entity) : CPhysicsEngineEntity(entity), scene_(scene) {}
 
   std::uint32_t Entity() const { return GetSpaceEntity().GetIndex(); }
-  EntityKind Kind() const { return GetSpaceEntity().GetKind(); }
 
   // Puts all bodies at rest where the entity's own position and orientation say.
   virtual void Place(const Pose& pose);

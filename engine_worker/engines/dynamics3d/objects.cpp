@@ -13,12 +13,9 @@ namespace
 // Faster than this, a mirror was put elsewhere rather than moved.
 constexpr double kFastestMirror = 5;  // m/s
 
-bool IsCylinder(EntityKind kind)
-{
-  return kind == EntityKind::kCylindricPrey || kind == EntityKind::kFootbot || kind == EntityKind::kEyebot;
-}
+bool IsCylinder(EntityKind kind) { return DescriptionOf(kind).form == BodyForm::kCylinder; }
 
-bool StandsOnBase(EntityKind kind) { return IsCylinder(kind) || kind == EntityKind::kHandbot; }
+bool StandsOnBase(EntityKind kind) { return DescriptionOf(kind).origin == BodyOrigin::kBase; }
 
 // The outline of an entity of any kind.
 dGeomID OutlineOf(const CSwarmanoidSpaceEntity& entity)

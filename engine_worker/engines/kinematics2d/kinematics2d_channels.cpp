@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "common/math/elementary.h"
-#include "common/space/attributes.h"
 #include "engine_worker/engines/kinematics2d/kinematics2d_engine.h"
 
 namespace swarmanoid
@@ -29,7 +28,7 @@ void Kinematics2dEngine::ApplyCommands(const EngineCommands& commands)
   for (const ChannelBlock& block : commands.blocks)
   {
     const std::span<const double> values = commands.Of(block);
-    if (block.name == "footbot_wheels") DriveWheels(block, values);
+    if (block.name == "footbot_wheels" || block.name == "wheels") DriveWheels(block, values);
     if (block.name == "eyebot_propellers") DrivePropellers(block, values);
     if (block.name == "footbot_turret") TurnTurrets(block, values);
     if (block.name == "footbot_gripper") UseGrippers(block, values);
@@ -65,10 +64,11 @@ void Kinematics2dEngine::DriveWheels(const ChannelBlock& block, std::span<const 
   for (std::size_t k = 0; k < block.entities.size(); ++k)
   {
     while (layout_->owned[body] != block.entities[k]) ++body;
-    const double left = values[2 * k] * kFootbotWheelRadius;
-    const double right = values[2 * k + 1] * kFootbotWheelRadius;
+    const Wheels& wheels = wheels_[body];
+    const double left = values[2 * k] * wheels.radius;
+    const double right = values[2 * k + 1] * wheels.radius;
     CheckCommand(left + right, block.entities[k], block);
-    world_.SetTwist(body, {0.5 * (left + right), 0, (right - left) * (1 / kFootbotInterWheel)});
+    world_.SetTwist(body, {0.5 * (left + right), 0, (right - left) * wheels.inverse_axle});
   }
 }
 
@@ -135,9 +135,6 @@ void Kinematics2dEngine::GripNearest(std::uint32_t body)
 
 void Kinematics2dEngine::ReportFootbots(AttributeChanges& changes)
 {
-  static const auto kAperture = static_cast<std::uint32_t>(AttributeOffset(EntityKind::kFootbot, "gripper_aperture"));
-  static const auto kGripped = static_cast<std::uint32_t>(AttributeOffset(EntityKind::kFootbot, "gripped"));
-  static const auto kTurret = static_cast<std::uint32_t>(AttributeOffset(EntityKind::kFootbot, "turret_angle"));
   for (Footbot& footbot : footbots_)
   {
     const Grip* grip = world_.FindGrip(footbot.body);
@@ -146,11 +143,11 @@ void Kinematics2dEngine::ReportFootbots(AttributeChanges& changes)
     if (footbot.now == footbot.reported) continue;
     const auto report = [&](std::uint32_t slot, double now, double reported)
     {
-      if (now != reported) changes.Add(footbot.first_slot + slot, now);
+      if (now != reported) changes.Add(slot, now);
     };
-    report(kAperture, footbot.now.aperture, footbot.reported.aperture);
-    report(kGripped, footbot.now.gripped, footbot.reported.gripped);
-    report(kTurret, footbot.now.turret_angle, footbot.reported.turret_angle);
+    report(footbot.slots.aperture, footbot.now.aperture, footbot.reported.aperture);
+    report(footbot.slots.gripped, footbot.now.gripped, footbot.reported.gripped);
+    report(footbot.slots.turret_angle, footbot.now.turret_angle, footbot.reported.turret_angle);
     footbot.reported = footbot.now;
   }
 }

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "common/math/elementary.h"
+#include "common/space/shape.h"
 #include "engine_worker/engines/plane_frame.h"
 #include "engine_worker/engines/terrain_walls.h"
 
@@ -14,7 +15,21 @@ namespace
 
 using namespace kinematics2d;
 
-bool IsBlock(EntityKind kind) { return kind == EntityKind::kBlock || kind == EntityKind::kWall; }
+bool HasTurret(const CSwarmanoidSpaceEntity& entity)
+{
+  return DescriptionOf(entity.GetKind()).mechanism == Mechanism::kTurretGripper;
+}
+
+bool IsTerrain(const CSwarmanoidSpaceEntity& entity)
+{
+  return DescriptionOf(entity.GetKind()).role == EntityRole::kTerrain;
+}
+
+bool IsPrey(const CSwarmanoidSpaceEntity& entity)
+{
+  const EntityKindDescription& kind = DescriptionOf(entity.GetKind());
+  return kind.role == EntityRole::kObject && kind.form == BodyForm::kCylinder && kind.grippable;
+}
 
 // The area of the plane that the arena covers.
 Bounds AreaOf(const PlaneFrame& frame, const Vector3& arena)
@@ -49,7 +64,7 @@ void Kinematics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBindin
     owned_.push_back(&entity);
   else if (binding == EBinding::kMirror)
     mirrors_.push_back({&entity, 0, 0});
-  else if (IsBlock(entity.GetKind()) || entity.GetKind() == EntityKind::kTerrain)
+  else if (HasBody(entity.GetKind()) || IsTerrain(entity))
     fixed_.push_back(&entity);
 }
 
@@ -58,14 +73,14 @@ void Kinematics2dEngine::Start()
 {
   const std::uint32_t footbot_model = world_.AddModel(FootbotModel());
   const auto model_for = [&](const CSwarmanoidSpaceEntity& entity)
-  { return entity.GetKind() == EntityKind::kFootbot ? footbot_model : world_.AddModel(ModelOf(entity)); };
+  { return HasTurret(entity) ? footbot_model : world_.AddModel(ModelOf(entity)); };
 
   std::vector<PlaneStance> stances;
   for (const CSwarmanoidSpaceEntity* entity : owned_)
   {
     // Robots and preys stand on the plane; blocks keep their height and lean.
     robots_.AddOwned(*entity);
-    const bool block = IsBlock(entity->GetKind());
+    const bool block = IsFreeBox(entity->GetKind());
     stances.push_back(block ? frame_.StanceOf(entity->GetConfiguration().pose) : PlaneStance{});
     const std::uint32_t model = model_for(*entity);
     const std::uint32_t body = world_.AddBody(model, PlanePoseOf(entity->GetConfiguration().pose));
@@ -74,43 +89,62 @@ void Kinematics2dEngine::Start()
       throw ConfigurationError(entity->GetConfiguration().location,
                                "the plane of engine '" + configuration_->id + "' does not cut the block '" +
                                    entity->GetId() + "'; move the block or the plane, or list it in another engine");
-    if (entity->GetKind() == EntityKind::kCylindricPrey)
+    const std::optional<WheelDrive>& wheels = DescriptionOf(entity->GetKind()).wheels;
+    wheels_.push_back(wheels ? Wheels{wheels->radius_m, 1 / wheels->axle_m} : Wheels{});
+    if (IsPrey(*entity))
     {
       preys_.push_back(body);
       near_preys_.Add(world_.ModelOf(body).bounding_radius);
     }
-    if (entity->GetKind() == EntityKind::kFootbot)
+    if (HasTurret(*entity))
     {
       const Reported shown{entity->GetAttribute("gripper_aperture"), entity->GetAttribute("gripped"),
                            entity->GetAttribute("turret_angle")};
-      footbots_.push_back({body, entity->FirstSlot(), shown, shown, {}});
+      const TurretSlots slots{entity->SlotOf("gripper_aperture"), entity->SlotOf("gripped"),
+                              entity->SlotOf("turret_angle")};
+      footbots_.push_back({body, slots, shown, shown, {}});
     }
   }
   for (Mirror& mirror : mirrors_)
   {
     CollisionModel model = ModelOf(*mirror.entity);
     // However another engine turns a block, the plane cuts it within this circle.
-    if (IsBlock(mirror.entity->GetKind())) model.bounding_radius = mirror.entity->GetSize().norm() / 2;
+    if (IsFreeBox(mirror.entity->GetKind())) model.bounding_radius = mirror.entity->GetSize().norm() / 2;
     mirror.model = world_.AddModel(std::move(model));
     mirror.body = world_.AddBody(mirror.model, PlanePoseOf(mirror.entity->GetConfiguration().pose), true);
   }
   for (const CSwarmanoidSpaceEntity* entity : fixed_)
   {
-    if (entity->GetKind() == EntityKind::kTerrain)
+    if (IsTerrain(*entity))
     {
       for (const std::vector<Vector2>& wall :
            TerrainWalls(entity->GetConfiguration(), space_->GetExperiment().folder, frame_))
         world_.AddStatic(MakeModel({}, {MakePolygon(wall)}));
       continue;
     }
-    const std::vector<Vector2> outline = frame_.CutBox(entity->GetConfiguration().pose, entity->GetSize());
-    if (!outline.empty()) world_.AddStatic(MakeModel({}, {MakePolygon(outline)}));
+    AddFixed(*entity);
   }
   for (const ChannelBlock& block : layout_->sensors)
     if (block.name == "footbot_encoders") world_.KeepTravel();
   world_.Start(AreaOf(frame_, space_->GetExperiment().arena_size), threads_);
   for (const Footbot& footbot : footbots_) world_.SetTurretAngle(footbot.body, footbot.now.turret_angle);
   writer_ = PlaneWriter(frame_, std::move(stances));
+}
+
+void Kinematics2dEngine::AddFixed(const CSwarmanoidSpaceEntity& entity)
+{
+  const Pose& pose = entity.GetConfiguration().pose;
+  const Shape shape = ShapeOf(entity.GetConfiguration());
+  if (shape.kind == Shape::Kind::kCylinder)
+  {
+    if (!frame_.CutsUpright(pose, entity.GetSize().z())) return;
+    const PlanePose flat = frame_.ToPlane(pose);
+    const Circle circle{flat.u, flat.v, shape.half_size.x()};
+    world_.AddStatic(MakeModel({&circle, 1}, {}));
+    return;
+  }
+  const std::vector<Vector2> outline = frame_.CutBox({pose.Apply(shape.centre), pose.orientation}, entity.GetSize());
+  if (!outline.empty()) world_.AddStatic(MakeModel({}, {MakePolygon(outline)}));
 }
 
 Pose2 Kinematics2dEngine::PlanePoseOf(const Pose& pose) const
@@ -125,10 +159,10 @@ CollisionModel Kinematics2dEngine::ModelOf(const CSwarmanoidSpaceEntity& entity)
   if (!(size.x() > 0 && size.y() > 0))
     throw ConfigurationError(entity.GetConfiguration().location, "'" + entity.GetId() + "' has no size; engine '" +
                                                                      configuration_->id + "' cannot move it");
-  if (entity.GetKind() == EntityKind::kFootbot) return FootbotModel();
-  if (!IsBlock(entity.GetKind()))
-    return entity.GetKind() == EntityKind::kHandbot ? RectangleModel(size.x(), size.y()) : CircleModel(size.x());
-  return Outline(entity, entity.GetConfiguration().pose);
+  if (HasTurret(entity)) return FootbotModel();
+  if (IsFreeBox(entity.GetKind())) return Outline(entity, entity.GetConfiguration().pose);
+  const bool is_box = DescriptionOf(entity.GetKind()).form == BodyForm::kBox;
+  return is_box ? RectangleModel(size.x(), size.y()) : CircleModel(size.x());
 }
 
 CollisionModel Kinematics2dEngine::Outline(const CSwarmanoidSpaceEntity& block, const Pose& at) const
@@ -172,7 +206,7 @@ void Kinematics2dEngine::FollowMirrors()
   {
     const Pose pose = mirror.entity->GetPose();
     bool present;
-    if (IsBlock(mirror.entity->GetKind()))
+    if (IsFreeBox(mirror.entity->GetKind()))
     {
       CollisionModel outline = Outline(*mirror.entity, pose);
       present = !outline.polygons.empty();

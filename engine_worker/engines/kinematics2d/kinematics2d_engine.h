@@ -48,12 +48,22 @@ private:
     double turret_angle = 0;
     bool operator==(const Reported&) const = default;
   };
+  struct TurretSlots
+  {
+    std::uint32_t aperture, gripped, turret_angle;
+  };
   struct Footbot
   {
     std::uint32_t body = 0;
-    std::uint32_t first_slot = 0;
+    TurretSlots slots{};
     Reported now, reported;
     kinematics2d::Pose2 tick_start;
+  };
+
+  struct Wheels
+  {
+    double radius = 0;        // m
+    double inverse_axle = 0;  // 1/m
   };
 
   std::uint32_t BodyOf(std::uint32_t entity) const;
@@ -67,6 +77,7 @@ private:
   void LetGo(std::uint32_t robot) override { world_.RemoveGrip(BodyOf(robot)); }
   bool Holds(std::uint32_t robot) const override { return world_.FindGrip(BodyOf(robot)) != nullptr; }
 
+  void AddFixed(const CSwarmanoidSpaceEntity& entity);
   void FollowMirrors();
   void ApplyCommands(const EngineCommands& commands);
   void DriveWheels(const ChannelBlock& block, std::span<const double> values);
@@ -95,6 +106,7 @@ private:
   std::vector<const CSwarmanoidSpaceEntity*> owned_;  // body k is owned_[k]
   std::vector<Mirror> mirrors_;
   std::vector<const CSwarmanoidSpaceEntity*> fixed_;
+  std::vector<Wheels> wheels_;        // by body; 0 for those without
   std::vector<std::uint32_t> preys_;  // bodies
   NearObjects near_preys_;            // by place in preys_
   std::vector<Footbot> footbots_;     // owned, by body

@@ -1,6 +1,6 @@
 // docs/plugin_reference.md and docs/experiment.xsd are generated from the tables of all plug-ins, those of the shipped
-// controllers and experiment functions too; no engine, device or renderer is needed. After a change of one, write them
-// anew:
+// controllers, kinds of entities and experiment functions too; no engine, device or renderer is needed. After a change
+// of one, write them anew:
 //   SWARMANOID_WRITE_REFERENCE=1 build/bin/tests/unit_launcher --gtest_filter='PluginReference.*'
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ void LoadAllPlugins()
 {
   DescribeBuiltins();
   namespace fs = std::filesystem;
-  for (const char* folder : {"controllers", "functions"})
+  for (const char* folder : {"controllers", "entities", "functions"})
     for (const auto& entry : fs::directory_iterator(fs::path(SWARMANOID_SOURCE_FOLDER) / "user" / folder))
     {
       const PluginLibrary& library =

@@ -26,7 +26,7 @@ protected:
     entity.id = id;
     entity.pose = pose;
     entity.movable = true;
-    entity.size = IsRobot(kind) ? placement::RobotSize(kind) : size;
+    entity.size = IsRobot(kind) ? DescriptionOf(kind).size : size;
     experiment_.engines.resize(2);
     for (const std::size_t engine : engines) experiment_.engines[engine].entities.push_back(index);
     return index;

@@ -22,7 +22,7 @@ public:
     entity.id = id;
     entity.pose = {position, QuaternionFromYaw(DegreesToRadians(gamma_degrees))};
     entity.movable = IsRobot(kind) || kind == EntityKind::kCylindricPrey;
-    if (IsRobot(kind)) entity.size = placement::RobotSize(kind);
+    if (IsRobot(kind)) entity.size = DescriptionOf(kind).size;
     return entity;
   }
   void AddBody(EntityKind kind, const std::string& id, const Vector3& position, const Vector3& size,

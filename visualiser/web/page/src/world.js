@@ -1,7 +1,6 @@
 // What is known of the experiment: the table of entities, which stays, and the newest state, which moves.
 import { Flag } from "./protocol.js";
 
-const ROBOTS = new Set(["footbot", "handbot", "eyebot"]);
 // A jump further than this between two frames is no movement: somebody put the entity there.
 const JUMP_M = 0.5;
 
@@ -18,6 +17,7 @@ export class World {
     this.bodies = message.bodies;
     this.ids = message.entities.id;
     this.kinds = message.entities.kind.map((kind) => message.kinds[kind]);
+    this.looks = message.looks; // by kind: what it is, and how it is drawn
     this.engineOf = message.entities.engine;
     this.hostOf = message.entities.host;
     this.controllerOf = message.entities.controller;
@@ -30,14 +30,17 @@ export class World {
       this.slots[entity] = this.movable.length;
       this.movable.push(entity);
     });
-    this.robots = this.ids.map((_, entity) => entity).filter((entity) => ROBOTS.has(this.kinds[entity]));
+    this.robots = this.ids.map((_, entity) => entity).filter((entity) => this.isRobot(entity));
   }
 
   get size() {
     return this.ids.length;
   }
+  look(entity) {
+    return this.looks[this.kinds[entity]];
+  }
   isRobot(entity) {
-    return ROBOTS.has(this.kinds[entity]);
+    return this.look(entity).role === "robot";
   }
   find(id) {
     return this.ids.indexOf(id);

@@ -28,8 +28,6 @@ function floorTexture(theme, cells) {
   return texture;
 }
 
-const MOVING = new Set(["ground_patch", "light_bulb", "sound_source"]);
-
 export class Arena {
   constructor(scene, world, theme, quality) {
     this.world = world;
@@ -44,8 +42,8 @@ export class Arena {
     let layer = 1;
     for (const body of world.bodies) {
       const slot = world.slots[body.entity];
-      if (slot >= 0 && !MOVING.has(world.kinds[body.entity])) continue;
-      const object = this.make(world.kinds[body.entity], body, layer++ % 40);
+      if (slot >= 0 && world.look(body.entity).form !== "none") continue;
+      const object = this.make(world.look(body.entity), body, layer++ % 40);
       if (!object) continue;
       if (slot >= 0) {
         object.visible = false;
@@ -99,21 +97,21 @@ export class Arena {
     return mesh;
   }
 
-  make(kind, body, layer) {
+  make({ role, form, based }, body, layer) {
     const [x, y, z] = body.size;
-    switch (kind) {
-      case "wall":
-      case "block":
+    if (form === "box" && based) return this.solid(new THREE.BoxGeometry(x, y, z).translate(0, 0, z / 2), paint(body.colour));
+    switch (form === "none" ? role : form) {
+      case "box":
         return this.makeBox(body);
-      case "cylindric_prey":
+      case "cylinder":
         return this.solid(new THREE.CylinderGeometry(x, x, z, 32).rotateX(Math.PI / 2).translate(0, 0, z / 2), paint(body.colour));
-      case "ground_patch":
+      case "patch":
         return this.makePatch(x, y, body.colour, layer * FLAT_M);
       case "hole":
         return this.makeHole(x, y);
-      case "light_bulb":
+      case "light":
         return this.makeLight(body.colour);
-      case "sound_source":
+      case "sound":
         return this.makeSound(body.colour);
       case "terrain":
         return this.makeTerrain(body.terrain);
@@ -218,9 +216,10 @@ export class Arena {
     entities.forEach((entity, i) => {
       const object = this.objects.get(entity);
       if (!object?.material) return;
-      const shines = ["light_bulb", "sound_source"].includes(this.world.kinds[entity]);
-      if (this.world.kinds[entity] !== "terrain") object.material.color.set(shines ? colours[i] : paint(colours[i]));
-      if (this.world.kinds[entity] !== "light_bulb") return;
+      const { role } = this.world.look(entity);
+      const shines = role === "light" || role === "sound";
+      if (role !== "terrain") object.material.color.set(shines ? colours[i] : paint(colours[i]));
+      if (role !== "light") return;
       const [glow] = object.children;
       glow.material.color.set(colours[i]);
       glow.visible = intensities[i] > 0;

@@ -12,17 +12,17 @@ const BEACON_LIGHT = 16; // in meshes.json
 const PIXELS = [70, 14, 7];
 
 // For picking, labels and the choice of the level.
-export const extents = {
+const extents = {
   footbot: { radius: 0.09, height: 0.147 },
   eyebot: { radius: 0.25, height: 0.566 },
   handbot: { radius: 0.2, height: 0.16 },
 };
 
 export function extentOf(world, entity) {
-  const known = extents[world.kinds[entity]];
-  if (known) return known;
+  const look = world.look(entity);
+  if (look.role === "robot") return extents[world.kinds[entity]] ?? look;
   const [x, y, z] = world.bodyOf.get(entity)?.size ?? [0.1, 0.1, 0.1];
-  if (world.kinds[entity] === "cylindric_prey") return { radius: x, height: z };
+  if (look.form === "cylinder") return { radius: x, height: z };
   return { radius: Math.hypot(x, y) / 2 || 0.1, height: z || 0.05 };
 }
 
@@ -52,9 +52,9 @@ class Builder {
   }
 }
 
-function buildLevel(meshes, parts, level) {
+function buildLevel(meshes, parts, level, tint) {
   const builders = { body: new Builder(), leds: new Builder(), clear: new Builder() };
-  const colours = meshes.materials.map(({ colour }) => new THREE.Color(colour));
+  const colours = meshes.materials.map((material) => new THREE.Color(material.tint && tint !== undefined ? paint(tint) : material.colour));
   const point = new THREE.Vector3();
   const normal = new THREE.Vector3();
   for (const { model, matrix } of parts) {
@@ -98,14 +98,17 @@ function buildDot({ radius, height }) {
   return { body: body.build(), leds: leds.build(), clear: null, pixels: 0 };
 }
 
-// Nearest first.
-export function makeModels(meshes) {
-  return Object.fromEntries(
-    Object.entries(meshes.robots).map(([kind, parts]) => [
-      kind,
-      [...PIXELS.map((_, level) => buildLevel(meshes, parts, level)), buildDot(extents[kind])],
-    ]),
-  );
+// By kind, nearest first. Those of users come with the world.
+export function makeModels(meshes, looks) {
+  const levels = (models, parts, extent, tint) => [...PIXELS.map((_, level) => buildLevel(models, parts, level, tint)), buildDot(extent)];
+  const own = Object.entries(meshes.robots).map(([kind, parts]) => [kind, levels(meshes, parts, extents[kind])]);
+  const users = Object.entries(looks)
+    .filter(([, look]) => look.model)
+    .map(([kind, look]) => {
+      const part = { model: kind, matrix: new THREE.Matrix4().toArray() };
+      return [kind, levels({ ...meshes, models: { [kind]: look.model } }, [part], look, look.colour)];
+    });
+  return Object.fromEntries([...own, ...users]);
 }
 
 // A paint with the same hue, less loud, as all renderers use it for floors, walls, blocks and preys.

@@ -108,7 +108,7 @@ export class Swarm {
     };
 
     this.herds = []; // robots of one kind and their levels
-    const models = makeModels(meshes);
+    const models = makeModels(meshes, world.looks);
     for (const kind of Object.keys(models)) {
       const slots = world.robots.filter((entity) => world.kinds[entity] === kind).map((entity) => world.slots[entity]);
       if (slots.length === 0) continue;
@@ -121,24 +121,26 @@ export class Swarm {
     this.makeGlows();
   }
 
-  // Preys and blocks that move: unit solids, scaled.
+  // Preys, blocks and objects of users that move: unit solids, scaled.
   makeThings(Material, finish) {
     const { world } = this;
     const unit = {
-      cylindric_prey: new THREE.CylinderGeometry(1, 1, 1, 32).rotateX(Math.PI / 2).translate(0, 0, 0.5),
-      block: new THREE.BoxGeometry(1, 1, 1),
+      cylinder: new THREE.CylinderGeometry(1, 1, 1, 32).rotateX(Math.PI / 2).translate(0, 0, 0.5),
+      box: new THREE.BoxGeometry(1, 1, 1),
+      "based box": new THREE.BoxGeometry(1, 1, 1).translate(0, 0, 0.5),
     };
-    return Object.keys(unit).flatMap((kind) => {
-      const entities = world.movable.filter((entity) => world.kinds[entity] === kind);
+    const formOf = ({ role, form, based }) => (role === "robot" ? role : form === "box" && based ? "based box" : form);
+    return Object.keys(unit).flatMap((form) => {
+      const entities = world.movable.filter((entity) => formOf(world.look(entity)) === form);
       if (entities.length === 0) return [];
-      const mesh = new THREE.InstancedMesh(unit[kind], new Material(finish), entities.length);
+      const mesh = new THREE.InstancedMesh(unit[form], new Material(finish), entities.length);
       mesh.instanceColor = new THREE.InstancedBufferAttribute(new Float32Array(3 * entities.length), 3);
       mesh.frustumCulled = false;
       mesh.castShadow = mesh.receiveShadow = true;
       this.group.add(mesh);
       const sizes = entities.map((entity) => {
         const [x, y, z] = world.bodyOf.get(entity).size;
-        return kind === "block" ? [x, y, z] : [x, x, z];
+        return form === "cylinder" ? [x, x, z] : [x, y, z];
       });
       return [{ mesh, sizes, slots: entities.map((entity) => world.slots[entity]) }];
     });

@@ -1,10 +1,11 @@
-// The ground sensors of the footbot: brightness of the floor under eight points, and its colour under the middle.
-// Patches lie on one another in the order of the experiment file; holes, of the floor or of terrain, are black.
-// Generic.
+// The ground sensors of the footbot, and of any robot whose kind has them: brightness of the floor under some points,
+// and its colour under the middle. Patches lie on one another in the order of the experiment file; holes, of the floor
+// or of terrain, are black. Generic.
 #include <algorithm>
 
+#include "common/control_interface/ci_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_ground_sensor.h"
-#include "common/math/elementary.h"
+#include "controller_host/devices/any_robot/kind_of_batch.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/sensing/sensor_world.h"
@@ -15,23 +16,34 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::size_t kSensors = CCI_FootBotGroundSensor::NUM_SENSORS;
-constexpr double kRingRadius = 0.08;            // m
-constexpr double kNearFloor = 0.1;              // m: a robot higher above a patch does not see it
-constexpr std::size_t kColourValue = kSensors;  // place of the colour behind the readings
+constexpr double kNearFloor = 0.1;  // m: a robot higher above a patch does not see it
+constexpr double kMargin = 1e-9;    // m
 
-class Ground : public CCI_FootBotGroundSensor
+// The colour stands behind the readings.
+class FootbotGround : public CCI_FootBotGroundSensor
 {
 public:
-  explicit Ground(const double* values) : values_(values) {}
+  FootbotGround(const double* values, std::size_t) : values_(values) {}
   std::span<const double, NUM_SENSORS> GetAllSensorReadings() const override
   {
     return std::span<const double, NUM_SENSORS>(values_, NUM_SENSORS);
   }
-  std::uint32_t GetFloorColour() const override { return static_cast<std::uint32_t>(values_[kColourValue]); }
+  std::uint32_t GetFloorColour() const override { return static_cast<std::uint32_t>(values_[NUM_SENSORS]); }
 
 private:
   const double* values_;
+};
+
+class AnyGround : public CCI_GroundSensor
+{
+public:
+  AnyGround(const double* values, std::size_t count) : readings_(values, count), colour_(values + count) {}
+  std::span<const double> GetAllSensorReadings() const override { return readings_; }
+  std::uint32_t GetFloorColour() const override { return static_cast<std::uint32_t>(*colour_); }
+
+private:
+  std::span<const double> readings_;
+  const double* colour_;
 };
 
 // Rec. 601 luma.
@@ -40,12 +52,14 @@ double Brightness(std::uint32_t colour)
   return (0.299 * (colour >> 16 & 0xff) + 0.587 * (colour >> 8 & 0xff) + 0.114 * (colour & 0xff)) / 255;
 }
 
-class GroundSensor : public SensorsOf<ValueSensor, Ground>
+template <class Device>
+class GroundSensor : public ValueSensor
 {
 public:
   void Init(const DeviceSetup& setup) override
   {
-    Reset(setup, kSensors + 1);
+    points_ = KindOfBatch(setup).ground_points;
+    Reset(setup, points_.size() + 1);
     ground_noise_ = NoiseFrom(setup.parameters);
     floor_colour_ = setup.parameters.Colour("floor_colour");
     world_ = SensorWorld::Of(setup.space);
@@ -53,8 +67,9 @@ public:
     for (std::uint32_t e = 0; e < setup.space.Size(); ++e)
     {
       const CSwarmanoidSpaceEntity& entity = setup.space.GetEntity(e);
-      const bool is_hole = entity.GetKind() == EntityKind::kHole;
-      if (!is_hole && entity.GetKind() != EntityKind::kGroundPatch) continue;
+      const EntityRole role = DescriptionOf(entity.GetKind()).role;
+      const bool is_hole = role == EntityRole::kHole;
+      if (!is_hole && role != EntityRole::kPatch) continue;
       // A rectangle (x, y, 0), or a disc (radius, 0, 0).
       const Vector3& size = entity.GetSize();
       Patch patch{e, is_hole, size.y() == 0, is_hole ? 0 : entity.SlotOf("colour"), size.x() / 2, size.y() / 2, 0};
@@ -62,13 +77,11 @@ public:
       patch.radius = __builtin_sqrt(patch.half_x * patch.half_x + patch.half_y * patch.half_y);
       patches_.push_back(patch);
     }
-    for (std::size_t i = 0; i < kSensors; ++i)
-    {
-      const SinCos angle = SinCosOf(static_cast<double>(i) * (2 * kPi / kSensors));
-      points_[i] = {kRingRadius * angle.cos, kRingRadius * angle.sin};
-    }
-    MakeDevices();
+    for (const Vector2& point : points_) reach_ = std::max(reach_, point.norm() + kMargin);
+    for (std::size_t k = 0; k < robots_.size(); ++k) devices_.emplace_back(ValuesOf(k), points_.size());
   }
+
+  CCI_Sensor* Sensor(std::size_t k) override { return &devices_[k]; }
 
   void Update(const ChannelView&) override
   {
@@ -96,29 +109,29 @@ private:
   {
     const Pose pose = space_->GetPose(robots_[k]);
     double* values = ValuesOf(k);
-    std::fill_n(values, kSensors, Brightness(floor_colour_));
-    values[kColourValue] = floor_colour_;
+    std::fill_n(values, points_.size(), Brightness(floor_colour_));
+    values[points_.size()] = floor_colour_;
     if (!world_->Terrain().IsEmpty() && !IsOnPlane(robots_[k])) SenseTerrain(robots_[k], pose, values);
     for (const Patch& patch : patches_)
     {
       const Pose place = space_->GetPose(patch.entity);
-      const double reach = patch.radius + kRingRadius;
+      const double reach = patch.radius + reach_;
       const Vector3 offset = pose.position - place.position;
       if (offset.x() * offset.x() + offset.y() * offset.y() > reach * reach) continue;
       if (__builtin_fabs(offset.z()) > kNearFloor) continue;
       const std::uint32_t colour =
           patch.is_hole ? 0 : static_cast<std::uint32_t>(space_->Attributes()[patch.colour_slot]);
       const Pose relative = place.Inverse().Compose(pose);
-      for (std::size_t i = 0; i < kSensors; ++i)
+      for (std::size_t i = 0; i < points_.size(); ++i)
       {
         const Vector3 point = relative.Apply({points_[i].x(), points_[i].y(), 0});
         if (patch.Contains(point.x(), point.y())) values[i] = Brightness(colour);
       }
-      if (patch.Contains(relative.position.x(), relative.position.y())) values[kColourValue] = colour;
+      if (patch.Contains(relative.position.x(), relative.position.y())) values[points_.size()] = colour;
     }
     if (!ground_noise_.IsActive()) return;
     RandomStream random = streams_.Of(k);
-    for (std::size_t i = 0; i < kSensors; ++i)
+    for (std::size_t i = 0; i < points_.size(); ++i)
       values[i] = std::clamp(values[i] + ground_noise_.Sample(random), 0.0, 1.0);
   }
 
@@ -133,9 +146,9 @@ private:
       const std::optional<double> depth = world_->Terrain().DepthOfGround(point, counts);
       return __builtin_fabs(point.z() - kNearFloor) > kNearFloor && !(depth && *depth <= 2 * kNearFloor);
     };
-    for (std::size_t i = 0; i < kSensors; ++i)
+    for (std::size_t i = 0; i < points_.size(); ++i)
       if (is_hole(points_[i])) values[i] = 0;
-    if (is_hole({0, 0})) values[kColourValue] = 0;
+    if (is_hole({0, 0})) values[points_.size()] = 0;
   }
 
   bool IsOnPlane(std::uint32_t robot) const
@@ -153,11 +166,17 @@ private:
   std::uint32_t floor_colour_ = 0;
   NoiseModel ground_noise_;
   std::vector<Patch> patches_;
-  std::array<Vector2, kSensors> points_;
+  std::vector<Vector2> points_;  // m, in the frame of the robot
+  double reach_ = 0;             // m: of the farthest of them
+  std::vector<Device> devices_;
 };
 
 }  // namespace
 
-void RegisterFootbotGround() { BindSensor<GroundSensor>("footbot_ground", "generic_footbot_ground"); }
+void RegisterGround()
+{
+  BindSensor<GroundSensor<FootbotGround>>("footbot_ground", "generic_footbot_ground");
+  BindSensor<GroundSensor<AnyGround>>("ground", "generic_ground");
+}
 
 }  // namespace swarmanoid

@@ -1,0 +1,60 @@
+// The devices of any robot whose kind has the part (common/experiment/entity_kind.h): their size and places are those
+// of its row.
+#include "common/builtins/devices.h"
+#include "common/experiment/entity_kind.h"
+#include "common/plugins/noise_parameters.h"
+
+namespace swarmanoid
+{
+
+std::vector<ParameterSpec> GroundParameters()
+{
+  return Joined({{.name = "floor_colour",
+                  .type = ParameterType::kColour,
+                  .default_value = "#ffffff",
+                  .description = "Colour of the floor outside all patches."}},
+                NoiseParameters("each brightness", ""));
+}
+
+void DescribeAnyRobotDevices()
+{
+  using Kind = EntityKindDescription;
+  DescribeActuator(
+      {.label = "wheels",
+       .implementation = "generic_wheels",
+       .brief = "the two driven wheels of any robot that has them, at the commanded speed at once",
+       .parameters =
+           Joined({{.name = "max_speed",
+                    .unit = "m/s",
+                    .default_value = "0",
+                    .description = "Speed of a wheel on the ground to which commands are clamped; 0: that of the kind.",
+                    .minimum = 0}},
+                  NoiseParameters("the speed of each wheel while it moves", "rad/s")),
+       .robots = TagsOfKinds([](const Kind& kind) { return kind.wheels.has_value(); }),
+       .channel = "wheels",
+       .channel_width = 2});
+  DescribeActuator({.label = "led_ring",
+                    .implementation = "generic_led_ring",
+                    .brief = "the LEDs of any robot that has them",
+                    .parameters = ColourNoiseParameters(),
+                    .robots = TagsOfKinds([](const Kind& kind) { return kind.leds.has_value(); })});
+  DescribeSensor(
+      {.label = "proximity",
+       .implementation = "generic_proximity",
+       .brief = "the proximity sensors of any robot that has them; 1 touching, falling evenly to 0 at the range",
+       .parameters =
+           Joined({{.name = "range",
+                    .unit = "m",
+                    .default_value = "0",
+                    .description = "Distance from the sensor beyond which nothing is seen; 0: that of the kind.",
+                    .minimum = 0}},
+                  NoiseParameters("each reading", "")),
+       .robots = TagsOfKinds([](const Kind& kind) { return kind.proximity.has_value(); })});
+  DescribeSensor({.label = "ground",
+                  .implementation = "generic_ground",
+                  .brief = "brightness and colour of the floor under any robot that looks at it",
+                  .parameters = GroundParameters(),
+                  .robots = TagsOfKinds([](const Kind& kind) { return !kind.ground_points.empty(); })});
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,27 @@
+// The two driven wheels of any robot whose kind has them.
+#pragma once
+
+#include "common/control_interface/ci_device.h"
+
+namespace swarmanoid
+{
+
+class CCI_WheelsActuator : public CCI_Actuator
+{
+public:
+  // Metres.
+  virtual double GetWheelRadius() const = 0;
+  virtual double GetInterwheelDistance() const = 0;
+  // Angular velocities in rad/s; positive drives forward. Values beyond the limit of the robot are clamped to it; one
+  // that is not a number ends a simulation with an error.
+  virtual void SetAngularVelocity(double left, double right) = 0;
+  // Speeds of the wheels on the ground in m/s.
+  void SetLinearVelocity(double left, double right)
+  {
+    SetAngularVelocity(left / GetWheelRadius(), right / GetWheelRadius());
+  }
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_WheelsActuator;

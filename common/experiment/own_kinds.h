@@ -1,0 +1,28 @@
+// The rows of the simulator's own kinds, in the order of EntityKind. For entity_kinds.cpp alone.
+#pragma once
+
+#include <vector>
+
+#include "common/experiment/entity_kind.h"
+
+namespace swarmanoid
+{
+
+std::vector<EntityKindDescription> OwnKinds();
+
+// Parameters that several kinds have.
+ParameterSpec ControllerParameter();
+ParameterSpec MassParameter();
+ParameterSpec FrictionParameter();
+ParameterSpec RestitutionParameter();
+ParameterSpec GroundFrictionParameter();
+ParameterSpec MovableParameter();
+ParameterSpec ColourParameter(std::string default_value);
+ParameterSpec IntensityParameter();
+ParameterSpec BoxSizeParameter();
+ParameterSpec RadiusParameter();
+ParameterSpec HeightParameter();
+ParameterSpec AreaSizeParameter();
+ParameterSpec AreaRadiusParameter();
+
+}  // namespace swarmanoid

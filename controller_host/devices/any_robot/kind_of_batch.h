@@ -1,0 +1,15 @@
+// What the devices that take their shape from a row of the table of kinds share.
+#pragma once
+
+#include "controller_host/device.h"
+
+namespace swarmanoid
+{
+
+// The row of the robots of a batch: the reader of experiments sees to it that they are of one kind.
+inline const EntityKindDescription& KindOfBatch(const DeviceSetup& setup)
+{
+  return DescriptionOf(setup.space.GetEntity(setup.robots.front()).GetKind());
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,117 @@
+#include "engine_worker/engines/dynamics3d/wheeled.h"
+
+#include <algorithm>
+
+#include "common/math/elementary.h"
+
+namespace swarmanoid::dynamics3d
+{
+namespace
+{
+
+constexpr double kGearedInertia = 10;  // of a wheel, times that of a sphere
+constexpr double kGravity = 9.81;      // m/s2
+
+}  // namespace
+
+WheeledShape WheeledShape::Of(const CSwarmanoidSpaceEntity& entity, double density)
+{
+  const EntityKindDescription& kind = DescriptionOf(entity.GetKind());
+  WheeledShape shape;
+  shape.size = entity.GetSize();
+  shape.is_cylinder = kind.form == BodyForm::kCylinder;
+  const double half_length = shape.is_cylinder ? shape.size.x() : shape.size.x() / 2;
+  const double area = shape.is_cylinder ? kPi * half_length * half_length : shape.size.x() * shape.size.y();
+  const double given = entity.GetConfiguration().mass_kg;
+  const double mass = given > 0 ? given : density * area * shape.size.z();
+  shape.wheel_radius = kind.wheels->radius_m;
+  shape.half_track = kind.wheels->axle_m / 2;
+  shape.clearance = std::min(shape.wheel_radius / 2, shape.size.z() / 4);
+  shape.caster_radius = shape.clearance * 2 / 3;
+  shape.caster_reach = half_length * 3 / 4;
+  shape.wheel_mass = mass / 8;
+  shape.chassis_mass = mass - 2 * shape.wheel_mass;
+  shape.centre_of_mass = shape.size.z() / 3;
+  shape.inertia_radius = half_length;
+  shape.inertia_height = shape.size.z() * 2 / 3;
+  // A little more than lets both wheels slip at a coefficient of friction of 1.
+  shape.wheel_torque = 1.1 * mass * kGravity * shape.wheel_radius / 2;
+  return shape;
+}
+
+WheeledModel::WheeledModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, const WheeledShape& shape)
+    : Model(scene, entity), wheel_radius_(shape.wheel_radius)
+{
+  OdeWorld& world = scene.world;
+  const auto wheel_centre = [&](int wheel)
+  { return Vector3(0, wheel == 0 ? shape.half_track : -shape.half_track, shape.wheel_radius); };
+
+  // Bodies, at the origin: joints made here do not depend on where the robot starts.
+  AddBody(CylinderMass(shape.chassis_mass, shape.inertia_radius, shape.inertia_height),
+          {Vector3(0, 0, shape.centre_of_mass), Quaternion::Identity()});
+  for (int wheel = 0; wheel < 2; ++wheel)
+    AddBody(Geared(SphereMass(shape.wheel_mass, shape.wheel_radius), kGearedInertia),
+            {wheel_centre(wheel), Quaternion::Identity()});
+  for (int wheel = 0; wheel < 2; ++wheel)
+  {
+    const dJointID axle = dJointCreateHinge(world.World(), nullptr);
+    const Vector3 centre = wheel_centre(wheel);
+    dJointAttach(axle, world.Body(bodies_[static_cast<std::size_t>(1 + wheel)].number), Chassis());
+    dJointSetHingeAnchor(axle, centre.x(), centre.y(), centre.z());
+    dJointSetHingeAxis(axle, 0, 1, 0);
+    dJointSetHingeParam(axle, dParamFMax, shape.wheel_torque);
+    axles_[wheel] = axle;
+  }
+
+  world.BeginEntity(Entity());
+  const auto in_chassis = [&](double x, double z) -> Pose {
+    return {Vector3(x, 0, z - shape.centre_of_mass), Quaternion::Identity()};
+  };
+  const double body_height = shape.size.z() - shape.clearance;
+  const dGeomID body = shape.is_cylinder ? dCreateCylinder(nullptr, shape.size.x(), body_height)
+                                         : dCreateBox(nullptr, shape.size.x(), shape.size.y(), body_height);
+  world.AddSolid(body, bodies_[0].number, ELayer::kRobot, ESurface::kPlain,
+                 in_chassis(0, shape.clearance + body_height / 2));
+  for (const double x : {shape.caster_reach, -shape.caster_reach})
+    world.AddSolid(dCreateSphere(nullptr, shape.caster_radius), bodies_[0].number, ELayer::kWheel, ESurface::kCaster,
+                   in_chassis(x, shape.caster_radius));
+  for (std::size_t wheel = 1; wheel <= 2; ++wheel)
+    world.AddSolid(dCreateSphere(nullptr, shape.wheel_radius), bodies_[wheel].number, ELayer::kWheel, ESurface::kWheel);
+  const double probe = shape.is_cylinder ? shape.size.x() : shape.size.head<2>().minCoeff() / 2;
+  if (scene.has_voxels)
+    world.AddSolid(dCreateSphere(nullptr, probe), bodies_[0].number, ELayer::kProbe, ESurface::kPlain,
+                   in_chassis(0, shape.clearance + probe));
+}
+
+void WheeledModel::Command(std::string_view channel, std::span<const double> values)
+{
+  if (channel != "footbot_wheels" && channel != "wheels") return;
+  wheel_command_[0] = values[0];
+  wheel_command_[1] = values[1];
+}
+
+void WheeledModel::BeginTick()
+{
+  wheel_turn_[0] = wheel_turn_[1] = 0;
+  elapsed_ = 0;
+}
+
+void WheeledModel::BeforeStep(double /*seconds*/)
+{
+  for (std::size_t wheel = 0; wheel < 2; ++wheel) dJointSetHingeParam(axles_[wheel], dParamVel, wheel_command_[wheel]);
+}
+
+void WheeledModel::AfterStep(double seconds)
+{
+  elapsed_ += seconds;
+  for (std::size_t wheel = 0; wheel < 2; ++wheel)
+    wheel_turn_[wheel] += dJointGetHingeAngleRate(axles_[wheel]) * seconds;
+}
+
+void WheeledModel::Sense(std::string_view channel, std::span<double> values) const
+{
+  if (elapsed_ <= 0 || channel != "footbot_encoders") return Model::Sense(channel, values);
+  for (std::size_t wheel = 0; wheel < 2; ++wheel) values[wheel] = wheel_turn_[wheel] * wheel_radius_;
+}
+
+}  // namespace swarmanoid::dynamics3d

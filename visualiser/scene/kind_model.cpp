@@ -1,0 +1,123 @@
+#include "visualiser/scene/kind_model.h"
+
+#include <algorithm>
+
+#include "visualiser/scene/mesh_builder.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using Eigen::Vector3f;
+
+constexpr float kLedRadius = 0.004F;  // m
+constexpr int kSegments[kLevels] = {32, 14, 8};
+
+Material MaterialOf(const MeshPart& part)
+{
+  switch (part.paint)
+  {
+    case MeshPart::Paint::kBody:
+      return Material::kTint;
+    case MeshPart::Paint::kDark:
+      return Material::kDark;
+    case MeshPart::Paint::kShell:
+      return Material::kShell;
+    case MeshPart::Paint::kMetal:
+      return Material::kMetal;
+    case MeshPart::Paint::kRubber:
+      return Material::kRubber;
+    case MeshPart::Paint::kGlass:
+      return Material::kGlass;
+    case MeshPart::Paint::kLed:
+      return LedMaterial(part.led);
+    case MeshPart::Paint::kBeacon:
+      return Material::kBeacon;
+  }
+  return Material::kTint;
+}
+
+MeshPart Rod(double radius, double low, double high)
+{
+  return {.form = MeshPart::Form::kRod, .from = {0, 0, low}, .to = {0, 0, high}, .radius = radius};
+}
+
+std::vector<MeshPart> BodyParts(const EntityKindDescription& kind)
+{
+  const Vector3 size = IsScaled(kind) ? Vector3::Ones() : kind.size;
+  const double low = kind.origin == BodyOrigin::kBase ? 0 : -size.z() / 2;
+  const bool is_robot = kind.role == EntityRole::kRobot;
+  // The upper third of a robot shows where its front is, and its LEDs.
+  const double top = low + size.z() * (is_robot ? 0.75 : 1);
+  std::vector<MeshPart> parts;
+  const bool is_box = kind.form == BodyForm::kBox;
+  if (is_box)
+    parts.push_back({.from = {-size.x() / 2, -size.y() / 2, low}, .to = {size.x() / 2, size.y() / 2, top}});
+  else
+    parts.push_back(Rod(size.x(), low, top));
+  if (!is_robot) return parts;
+  const double front = is_box ? size.x() / 2 : size.x();
+  parts.push_back({.from = {front / 2, -front / 8, top},
+                   .to = {front, front / 8, low + size.z()},
+                   .paint = MeshPart::Paint::kDark});
+  if (!kind.leds) return parts;
+  for (std::size_t led = 0; led < kind.leds->places.size(); ++led)
+  {
+    const Vector2& place = kind.leds->places[led];
+    parts.push_back({.form = MeshPart::Form::kBall,
+                     .from = {place.x(), place.y(), kind.leds->height_m},
+                     .radius = kLedRadius,
+                     .paint = MeshPart::Paint::kLed,
+                     .led = static_cast<int>(led)});
+  }
+  if (kind.beacon_height_m)
+    parts.push_back({.form = MeshPart::Form::kBall,
+                     .from = {0, 0, *kind.beacon_height_m},
+                     .radius = kLedRadius,
+                     .paint = MeshPart::Paint::kBeacon});
+  return parts;
+}
+
+void AddPart(MeshBuilder& builder, const MeshPart& part)
+{
+  const Vector3f from = part.from.cast<float>();
+  const Vector3f to = part.to.cast<float>();
+  const auto radius = static_cast<float>(part.radius);
+  const Material material = MaterialOf(part);
+  switch (part.form)
+  {
+    case MeshPart::Form::kBox:
+      builder.Box(from.cwiseMin(to), from.cwiseMax(to), material);
+      break;
+    case MeshPart::Form::kRod:
+      builder.Rod(from, to, radius, material);
+      break;
+    case MeshPart::Form::kBall:
+      builder.SetPlace(from.x(), from.y(), from.z());
+      builder.Sphere(radius, material);
+      builder.SetPlace(0, 0, 0);
+      break;
+  }
+}
+
+}  // namespace
+
+bool IsScaled(const EntityKindDescription& kind) { return kind.mesh.empty() && kind.size.isZero(); }
+
+Model KindModel(const EntityKindDescription& kind)
+{
+  const std::vector<MeshPart> parts = kind.mesh.empty() ? BodyParts(kind) : kind.mesh;
+  Model model;
+  model.name = kind.tag;
+  for (int level = 0; level < kLevels; ++level)
+  {
+    MeshBuilder builder(kSegments[level]);
+    for (const MeshPart& part : parts) AddPart(builder, part);
+    model.levels[static_cast<std::size_t>(level)] = builder.Take();
+  }
+  Measure(model);
+  return model;
+}
+
+}  // namespace swarmanoid
