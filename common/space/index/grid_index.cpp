@@ -66,12 +66,16 @@ template <class Accept>
 void GridIndex::Collect(const Vector3& low, const Vector3& high, Accept accept, std::vector<std::uint32_t>& found) const
 {
   found.clear();
+  // Local copies: the compiler cannot know that found.push_back() leaves the members alone.
   const std::uint32_t* const start = sort_.Starts();
+  const double* const x = x_.data();
+  const double* const y = y_.data();
+  const double* const z = z_.data();
   cells_.ForEachRow(low, high,
                     [&](std::uint32_t first, std::uint32_t last)
                     {
                       for (std::size_t k = start[first]; k < start[last + 1]; ++k)
-                        if (accept(x_[k], y_[k], z_[k])) found.push_back(id_[k]);
+                        if (accept(x[k], y[k], z[k])) found.push_back(id_[k]);
                     });
   std::sort(found.begin(), found.end());
 }
