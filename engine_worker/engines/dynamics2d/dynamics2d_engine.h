@@ -97,7 +97,4 @@ private:
   bool measures_turrets_ = false;
 };
 
-// Adds dynamics2d to the registry.
-void RegisterDynamics2d();
-
 }  // namespace swarmanoid
