@@ -207,6 +207,44 @@ TEST(CellSort, StandsMembersOfACellTogetherInTheirOrder)
   }
 }
 
+// Cells, sorting and rows together: whatever the grid, and wherever the points are.
+TEST(CellSort, SearchesFindWhatBruteForceFinds)
+{
+  RandomStream random(13, 0, 0, 0);
+  CellSort sort;
+  for (int round = 0; round < 300; ++round)
+  {
+    const double width = random.Uniform(0, 9), height = random.Uniform(0, 9);
+    const double edge = CellEdge<2>({width, height}, random.Uniform(0.1, 2), 1 + random.Below(400));
+    const PlaneCells<double> cells(random.Uniform(-5, 5), random.Uniform(-5, 5), width, height, edge, round % 2 == 0);
+    std::vector<double> x{kNotANumber, kInfinity, -1e300}, y{0, -kInfinity, 1e300};
+    for (int i = 0; i < 60; ++i)
+    {
+      x.push_back(random.Uniform(-12, 12));
+      y.push_back(random.Uniform(-12, 12));
+    }
+    sort.SetCells(cells.Count());
+    cells.FindCells(x, y, sort.Cells(x.size()).data());
+    std::vector<std::size_t> sorted(x.size());
+    sort.Sort([&](std::size_t member, std::uint32_t place) { sorted[place] = member; });
+
+    const double left = random.Uniform(-13, 13), bottom = random.Uniform(-13, 13);
+    const double right = left + random.Uniform(0, 15);
+    const double top = round % 7 == 0 ? kInfinity : bottom + random.Uniform(0, 15);
+    const auto is_in = [&](std::size_t i) { return x[i] >= left && x[i] <= right && y[i] >= bottom && y[i] <= top; };
+    std::vector<std::size_t> found, expected;
+    cells.ForEachRow(left, bottom, right, top,
+                     [&](std::uint32_t first, std::uint32_t last)
+                     {
+                       for (std::uint32_t k = sort.Starts()[first]; k < sort.Starts()[last + 1]; ++k)
+                         if (is_in(sorted[k])) found.push_back(sorted[k]);
+                     });
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (is_in(i)) expected.push_back(i);
+    EXPECT_THAT(found, testing::UnorderedElementsAreArray(expected));
+  }
+}
+
 TEST(CellLists, ListEachMemberInAllItsCells)
 {
   CellLists lists;
