@@ -177,7 +177,7 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
   }
 }
 
-const ControlCommands& ControllerHost::Step(std::span<const SensorFrame* const> frames)
+const ControlCommands& ControllerHost::Tick(std::span<const SensorFrame* const> frames)
 {
   const std::uint64_t tick = space_.GetTick();
 

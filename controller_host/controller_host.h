@@ -33,15 +33,15 @@ public:
 
   // Senses, runs the controllers and commits the actuators at the tick of the space. `frames`: one for each of
   // layout.frames_from, in that order; empty at tick 0. The result is valid until the next call.
-  const ControlCommands& Step(std::span<const SensorFrame* const> frames);
-  // What controllers and devices remember. Saving throws ActivityError where a controller cannot be saved (HasState
+  const ControlCommands& Tick(std::span<const SensorFrame* const> frames);
+  // What controllers and devices remember. Saving throws ActivityError if a controller cannot be saved (HasState
   // is false).
   void SaveState(ByteWriter& state) const;
   void LoadState(ByteReader& state);
   // Calls Destroy of every controller, once.
   void Destroy();
 
-  // The inside of a robot after its last control step; false where it is not of this host. Changes nothing: what a
+  // The inside of a robot after its last control step; false if it is not of this host. Changes nothing: what a
   // controller throws here is shown instead.
   bool Describe(std::uint32_t entity, RobotStatus& status) const;
 

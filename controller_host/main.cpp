@@ -42,7 +42,7 @@ public:
       ByteReader state(replica.checkpoint->StateOf(EngineName(*replica.experiment, from[k])));
       frames_[replica.FirstTick() % 2][k].values = state.GetArray<double>();
     }
-    inputs_.Open({[this](std::size_t k, std::uint64_t tick) { return &frames_[tick % 2][k]; }, [this] { Step(); },
+    inputs_.Open({[this](std::size_t k, std::uint64_t tick) { return &frames_[tick % 2][k]; }, [this] { Tick(); },
                   [this] { AnswerAgain(); }},
                  replica.limits->FrameBytes(), FrameWriters());
   }
@@ -95,12 +95,12 @@ private:
     return writers;
   }
 
-  void Step()
+  void Tick()
   {
     for (std::size_t k = 0; k < frames_here_.size(); ++k) frames_here_[k] = &frames_[inputs_.Tick() % 2][k];
     const bool first = inputs_.Tick() == 0;
     answer_ =
-        &role_.Step(first ? std::span<const SensorFrame* const>() : std::span<const SensorFrame* const>(frames_here_));
+        &role_.Tick(first ? std::span<const SensorFrame* const>() : std::span<const SensorFrame* const>(frames_here_));
     inputs_.Next();
     saved_.Ready(inputs_.Tick(), role_);
     Answer(false);

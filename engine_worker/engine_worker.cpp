@@ -47,7 +47,7 @@ EngineWorker::EngineWorker(const CSwarmanoidSpace& space, const Assignment& assi
 
 EngineWorker::~EngineWorker() = default;
 
-void EngineWorker::Step(std::span<const std::uint32_t> moved, std::span<const ControlCommands* const> commands)
+void EngineWorker::Tick(std::span<const std::uint32_t> moved, std::span<const ControlCommands* const> commands)
 {
   const std::uint64_t tick = space_.GetTick();
   update_.tick = tick + 1;

@@ -26,14 +26,14 @@ class EngineWorker
 {
 public:
   // `space` is the replica of this process; it and `assignment` outlive the worker. Throws ConfigurationError, or
-  // ActivityError naming the engine that failed; so does Step.
+  // ActivityError naming the engine that failed; so does Tick.
   EngineWorker(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t engine);
   ~EngineWorker();
 
   // From the state in the space and the commands of its tick (one for each of layout.commands_from, in that order) to
   // the update of the next tick. `moved`: SpaceState::moved. The results are valid until the next call. Throws
   // EngineError.
-  void Step(std::span<const std::uint32_t> moved, std::span<const ControlCommands* const> commands);
+  void Tick(std::span<const std::uint32_t> moved, std::span<const ControlCommands* const> commands);
   const EngineUpdate& Update() const { return update_; }
   const SensorFrame& Sensors() const { return frame_; }
 

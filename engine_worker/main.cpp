@@ -34,7 +34,7 @@ public:
     if (role_.Layout().sensor_size > 0)
       frames_.emplace(session.GetBus(), session.Scope(replica.limits->FrameBytes(), 1));
     inputs_.Open(
-        {[this](std::size_t k, std::uint64_t) { return &commands_[k]; }, [this] { Step(); }, [this] { Answer(true); }},
+        {[this](std::size_t k, std::uint64_t) { return &commands_[k]; }, [this] { Tick(); }, [this] { Answer(true); }},
         replica.limits->CommandBytes(), HostCount());
   }
   ~EngineNode() { inputs_.Close(); }
@@ -77,9 +77,9 @@ private:
 
   unsigned HostCount() const { return static_cast<unsigned>(replica_.assignment.hosts.size()); }
 
-  void Step()
+  void Tick()
   {
-    role_.Step(inputs_.State().moved, commands_here_);
+    role_.Tick(inputs_.State().moved, commands_here_);
     inputs_.Next();
     saved_.Ready(inputs_.Tick(), role_);
     Answer(false);

@@ -13,7 +13,7 @@
 namespace swarmanoid
 {
 
-// The space server's plan is the first. Throws UsageError where `hosts` places what the experiment does not have.
+// The space server's plan is the first. Throws UsageError if `hosts` places what the experiment does not have.
 std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment& experiment,
                                     const Assignment& assignment, const Hosts& hosts, const RunFolder& folder,
                                     int domain);

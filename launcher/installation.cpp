@@ -16,7 +16,7 @@ constexpr const char* kServer = "space_server";
 
 fs::path OwnFolder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
 
-// Beside this program, or, where that is a user's own, in the package that this library belongs to.
+// Beside this program, or, if that is a user's own, in the package that this library belongs to.
 fs::path FolderOfPrograms()
 {
   const fs::path own = OwnFolder();

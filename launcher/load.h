@@ -11,7 +11,7 @@
 namespace swarmanoid
 {
 
-// nullptr where the file is wrong: then all its errors are on standard error.
+// nullptr if the file is wrong: then all its errors are on standard error.
 std::unique_ptr<Experiment> LoadOrComplain(const std::string& file, const LoadOptions& options);
 
 }  // namespace swarmanoid

@@ -40,14 +40,14 @@ struct RobotKind
 constexpr std::array kRobots{
     RobotKind{
         "footbot", "CCI_FootBotState", "ci_footbot_state.h",
-        "  // For example: stands still before what is ahead. Where nothing is set, earlier behaviours decide.\n"
+        "  // For example: stands still before what is ahead. If nothing is set, earlier behaviours decide.\n"
         "  if (cRobotState.GetProximitySensorReading(0) > 0.5) cRobotState.SetFootBotWheelsLinearVelocity(0, 0);"},
     RobotKind{
         "handbot", "CCI_HandBotState", "ci_handbot_state.h",
-        "  // For example: stops the winch near the ceiling. Where nothing is set, earlier behaviours decide.\n"
+        "  // For example: stops the winch near the ceiling. If nothing is set, earlier behaviours decide.\n"
         "  if (cRobotState.GetJoint(CCI_HandBotJointsSensor::ROPE_LENGTH) < 0.5) cRobotState.SetWinchVelocity(0);"},
     RobotKind{"eyebot", "CCI_EyeBotState", "ci_eyebot_state.h",
-              "  // For example: rises where it is too low. Where nothing is set, earlier behaviours decide.\n"
+              "  // For example: rises if it is too low. If nothing is set, earlier behaviours decide.\n"
               "  if (cRobotState.GetAltitude() < 0.5) cRobotState.SetVelocity(0, 0, 0.1, 0);"}};
 
 const RobotKind& Robot(const std::string& name)
@@ -116,7 +116,7 @@ void MakeFile(const std::string& from, const fs::path& to, const TemplateValues&
   fmt::print("  {}\n", fs::relative(to).string());
 }
 
-// How the user calls this program: by its name where that finds it.
+// How the user calls this program: by its name if that finds it.
 std::string ProgramName()
 {
   const fs::path own = fs::read_symlink("/proc/self/exe");
@@ -166,7 +166,7 @@ std::string TextOf(const fs::path& file)
   return {std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
 }
 
-// The robot of the behaviour controller in a folder; nullptr where there is none.
+// The robot of the behaviour controller in a folder; nullptr if there is none.
 const RobotKind* RobotOfControllerIn(const fs::path& folder)
 {
   for (const auto& entry : fs::directory_iterator(folder))

@@ -1,4 +1,4 @@
-// What `swarmanoid new` makes. All of these write files, say which and what comes next, and throw UsageError where a
+// What `swarmanoid new` makes. All of these write files, say which and what comes next, and throw UsageError if a
 // name cannot be used, something is there already or this is the wrong folder.
 #pragma once
 
@@ -35,7 +35,7 @@ struct BehaviorNames
   std::string name;        // bt_footbot_wall_watch: its files
   std::string class_name;  // CBTFootbotWallWatch
   std::string controller;  // the behaviour controller that it is for; empty: the one in this folder
-  std::string robot;       // refused where it is not that controller's; empty: whatever that is
+  std::string robot;       // refused if it is not that controller's; empty: whatever that is
 };
 void NewBehavior(BehaviorNames names);
 

@@ -11,11 +11,11 @@ struct RunChoice
 {
   std::string experiment;
   int domain = 0;
-  std::optional<int> server;  // process id of its space server, where that is on this machine
+  std::optional<int> server;  // process id of its space server, if that is on this machine
 };
 
 // The one on this machine, or the one of that name. With a domain, experiments of other machines can be meant too.
-// Throws UsageError, listing those that run, where there is none or more than one.
+// Throws UsageError, listing those that run, if there is none or more than one.
 RunChoice ChooseRun(const std::string& name, std::optional<int> domain);
 
 }  // namespace swarmanoid

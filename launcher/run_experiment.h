@@ -8,7 +8,7 @@
 namespace swarmanoid
 {
 
-// Runs an experiment, in this process or as a cluster, and tells the user how it went. `watch`, where there is one, is
+// Runs an experiment, in this process or as a cluster, and tells the user how it went. `watch`, if there is one, is
 // called at each tick. Returns the exit code. Throws UsageError.
 int RunExperiment(const RunSettings& options, const WatchFunction& watch = {});
 

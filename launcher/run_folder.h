@@ -21,7 +21,7 @@ public:
 class RunFolder
 {
 public:
-  // Makes the folder: `asked` itself, which must be new or empty, or where that is empty, a new one of the experiment's
+  // Makes the folder: `asked` itself, which must be new or empty, or if that is empty, a new one of the experiment's
   // name and the time under runs/. Throws RunFolderError with the cure.
   RunFolder(const std::string& asked, const std::string& experiment);
 

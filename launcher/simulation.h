@@ -11,7 +11,7 @@
 namespace swarmanoid
 {
 
-// `watch`, where there is one, is called at each tick from the first one on, before the state of the tick is written,
+// `watch`, if there is one, is called at each tick from the first one on, before the state of the tick is written,
 // drawn or sent, always in this process and this thread: with it, this process is the space server of the cluster.
 int RunSimulation(int count, char** arguments, const std::function<void(CSimulator&)>& watch = {});
 

@@ -160,9 +160,9 @@ bool CSimulator::Step()
   RefuseWithin("Step");
   Roles& r = *roles_;
   if (r.over || r.finished) return false;
-  const ControlCommands* commands = &r.host->Step(r.space.GetTick() == 0 ? Frames() : Frames(r.frames));
+  const ControlCommands* commands = &r.host->Tick(r.space.GetTick() == 0 ? Frames() : Frames(r.frames));
   for (std::size_t e = 0; e < r.engines.size(); ++e)
-    r.engines[e]->Step(r.server.Moved(),
+    r.engines[e]->Tick(r.server.Moved(),
                        r.assignment.engines[e].commands_from.empty() ? Commands() : Commands(&commands, 1));
   r.server.Advance(r.updates, Commands(&commands, 1));
   Show();

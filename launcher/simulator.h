@@ -38,7 +38,7 @@ public:
   CSimulator(const CSimulator&) = delete;
   CSimulator& operator=(const CSimulator&) = delete;
 
-  // Controllers, physics, visualisations: to the next tick. False, and nothing happens, where the experiment is over.
+  // Controllers, physics, visualisations: to the next tick. False, and nothing happens, if the experiment is over.
   bool Step();
   // Ends controllers, experiment functions and visualisations; later calls give the same summary.
   const RunSummary& Finish();

@@ -16,7 +16,7 @@ namespace swarmanoid
 struct RunResult
 {
   int exit_code = 0;
-  std::optional<RunSummary> summary;  // where there is a final state
+  std::optional<RunSummary> summary;  // if there is a final state
   std::string failure;                // as shown on standard error
 };
 

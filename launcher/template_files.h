@@ -21,9 +21,9 @@ std::string ClassName(const std::string& name);
 std::string BehaviorClassName(const std::string& name);
 std::string FilledIn(std::string text, const TemplateValues& values);
 
-// Throws UsageError where there is something already.
+// Throws UsageError if there is something already.
 void RefuseExisting(const std::filesystem::path& path);
-// Writes `to`, and its folder where needed. Throws std::runtime_error.
+// Writes `to`, and its folder if needed. Throws std::runtime_error.
 void WriteFromTemplate(const std::filesystem::path& from, const std::filesystem::path& to,
                        const TemplateValues& values);
 

@@ -42,7 +42,7 @@ private:
   std::int64_t warned_at_ = 0;
 };
 
-// Until every sensor has a value; false where told to stop.
+// Until every sensor has a value; false if told to stop.
 bool WaitForSensors(Robot& robot, const LoopOptions& options, const LoopClock& clock, std::int64_t period)
 {
   const std::int64_t start = clock.now();
@@ -114,7 +114,7 @@ LoopReport RunControlLoop(Robot& robot, const LoopOptions& options, const LoopCl
     {
       if (silent) LogInfo("all sensors are back; the controller goes on with step {}", report.steps);
       silent = false;
-      robot.Step();
+      robot.Tick();
       ++report.steps;
     }
     const std::int64_t end = clock.now();

@@ -279,7 +279,7 @@ void Robot::Start()
                                  configuration_.controller_id, result));
 }
 
-void Robot::Step()
+void Robot::Tick()
 {
   BeginStep(kControlStepStream);
   try

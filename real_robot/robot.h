@@ -44,10 +44,10 @@ public:
   std::string NotHeard() const;
   std::string Silent() const;
 
-  // Init of the controller. Throws RobotError where it fails.
+  // Init of the controller. Throws RobotError if it fails.
   void Start();
   // One control step with the values of the latest Poll, then Push of all actuators. Throws RobotError.
-  void Step();
+  void Tick();
   // Stop of all actuators: the robot stands.
   void Stop();
   // Stop, and Destroy of the controller, once.

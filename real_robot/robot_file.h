@@ -16,7 +16,7 @@ struct RobotDevice
 {
   std::string type;
   std::string driver;       // implementation of the driver; empty: the preferred one
-  TConfigurationTree tree;  // of the driver: its parameters; does not exist where the file says nothing
+  TConfigurationTree tree;  // of the driver: its parameters; does not exist if the file says nothing
   SourceLocation location;  // where the controller lists it
 };
 

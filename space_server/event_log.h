@@ -36,7 +36,7 @@ public:
   EventLog(const EventLog&) = delete;
   EventLog& operator=(const EventLog&) = delete;
 
-  // Throws std::runtime_error where the file cannot be written.
+  // Throws std::runtime_error if the file cannot be written.
   void Write(std::uint64_t tick, const ControlRequestMessage& request);
 
 private:

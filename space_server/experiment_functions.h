@@ -42,7 +42,7 @@ public:
   // Who holds whom, as the engines last told.
   const StructuralTree& GetStructure();
   // Puts a movable entity elsewhere, and all that are connected to it by grips along with it, as one rigid body. For
-  // the engines they let go of one another and, where the grippers are still told to close, take hold again in the same
+  // the engines they let go of one another and, if the grippers are still told to close, take hold again in the same
   // tick. Throws as MoveEntity.
   void MoveCompound(std::string_view id, const Pose& pose);
   // Puts a movable entity elsewhere. Throws std::invalid_argument for an unknown id and an entity that cannot move or
@@ -102,7 +102,7 @@ public:
   virtual void Destroy(SpaceEditor&) {}
 
   // Optional: all that the functions remember between ticks, so that a run can go on from a checkpoint. Functions that
-  // remember nothing override HasState alone; where it is left false, checkpoints of the run are refused.
+  // remember nothing override HasState alone; if it is left false, checkpoints of the run are refused.
   virtual bool HasState() const { return false; }
   virtual void SaveState(std::ostream&) const {}
   virtual void LoadState(std::istream&) {}

@@ -50,7 +50,7 @@ public:
   void Start(std::uint64_t tick, Clock::time_point now);
   // The run is to hold before the next state is sent: requests wait, or somebody sets the pace.
   bool WantsHold() const;
-  // Carries out what was asked; the server is between two ticks. Throws ConfigurationError where an event of an earlier
+  // Carries out what was asked; the server is between two ticks. Throws ConfigurationError if an event of an earlier
   // run cannot be repeated.
   void Work(SpaceServer& server);
   Decision Decide(std::uint64_t tick, Clock::time_point now);

@@ -22,7 +22,7 @@ const CSwarmanoidSpaceEntity& FindToAdd(const CSwarmanoidSpace& space, std::stri
 const CSwarmanoidSpaceEntity& FindToRemove(const CSwarmanoidSpace& space, std::string_view id);
 
 // One that is in the arena and that the entity, at this pose, would stick in: their bodies overlap, and an engine has
-// both. nullptr where the place is free. As when the experiment file is read: by the plain bodies, without terrain.
+// both. nullptr if the place is free. As when the experiment file is read: by the plain bodies, without terrain.
 const CSwarmanoidSpaceEntity* FindInTheWay(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& entity,
                                            const Pose& pose);
 void RequireFree(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& entity, const Pose& pose);

@@ -45,7 +45,7 @@ public:
   // The entities that were put elsewhere at the current tick, ascending.
   std::span<const std::uint32_t> Moved();
   void WriteSnapshot(SpaceSnapshot& snapshot) const;
-  // What the server remembers beside the snapshot. Saving throws std::runtime_error where experiment functions cannot
+  // What the server remembers beside the snapshot. Saving throws std::runtime_error if experiment functions cannot
   // be saved (HasState is false).
   void SaveState(ByteWriter& state) const;
   // The space as in the snapshot, which must fit it; what is sent next is complete only for those who have it too.
@@ -70,10 +70,10 @@ public:
   void Finish() { last_ = true; }
   // Ends the experiment functions, once; later calls do nothing.
   void Destroy();
-  // True where the experiment functions say that the experiment failed: exit code 1.
+  // True if the experiment functions say that the experiment failed: exit code 1.
   bool HasFailed() const { return failed_; }
 
-  // True where maxclock is reached or Finish was called.
+  // True if maxclock is reached or Finish was called.
   bool IsLast() const { return last_ || (experiment_.max_clock != 0 && space_.GetTick() >= experiment_.max_clock); }
 
 private:

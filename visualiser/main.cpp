@@ -32,7 +32,7 @@ void RunSynchronous(WorkerSession& session, const std::string& id, const std::st
   const std::vector<RenderConfiguration>& visualisations = replica.experiment->visualisations;
   const std::size_t number = NumberOf(*replica.experiment, visualisations, "visualisation", id);
   ControlClient client(session.GetBus(), session.World().experiment);
-  RequestControl control([&](const ControlRequestMessage& r) { client.Tell(r.verb, r.entity, r.numbers); });
+  RequestControl control([&](const ControlRequestMessage& r) { client.Send(r.verb, r.entity, r.numbers); });
   RemoteMonitor monitor(session.GetBus(), session.World(), true);
   Visualiser visualiser(visualisations[number], *replica.space, replica.assignment, output, &control, &monitor);
   replica.RestoreSpace();
@@ -56,7 +56,7 @@ void RunAttached(WorkerSession& session, const WorkerSettings& settings, const R
 {
   Replica replica(session.World(), false);
   ControlClient client(session.GetBus(), session.World().experiment);
-  RequestControl control([&](const ControlRequestMessage& r) { client.Tell(r.verb, r.entity, r.numbers); });
+  RequestControl control([&](const ControlRequestMessage& r) { client.Send(r.verb, r.entity, r.numbers); });
   RemoteMonitor monitor(session.GetBus(), session.World(), false);
   Visualiser visualiser(configuration, *replica.space, replica.assignment, settings.output,
                         settings.read_only ? nullptr : &control, &monitor);

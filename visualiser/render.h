@@ -56,15 +56,15 @@ struct RenderSetup
   const CSwarmanoidSpace& space;
   const Assignment& assignment;          // who owns what: OwnerName, HostNameOf
   std::string output_folder;             // relative output paths start here
-  ExperimentControl* control = nullptr;  // nullptr where the renderer may only watch
-  RunMonitor* monitor = nullptr;         // nullptr only where a renderer is used outside a run
+  ExperimentControl* control = nullptr;  // nullptr if the renderer may only watch
+  RunMonitor* monitor = nullptr;         // nullptr only if a renderer is used outside a run
 };
 
 class CRender
 {
 public:
   virtual ~CRender() = default;
-  // Throws ConfigurationError or std::runtime_error with a clear text where it cannot start.
+  // Throws ConfigurationError or std::runtime_error with a clear text if it cannot start.
   virtual void Init(const RenderSetup& setup) = 0;
   // Shows the space at its tick. Synchronous visualisations are waited for.
   virtual void Draw() = 0;

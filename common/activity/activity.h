@@ -1,6 +1,6 @@
 // Activity: whose code a process runs now, in which step and at which tick. The roles say so around every call of a
 // plug-in, so that a process that fails, dies, hangs or is killed can be told by what it did (failure_report.h), from
-// within or, where a launcher gave it a page, from outside after its death. One activity at a time in a process.
+// within or, if a launcher gave it a page, from outside after its death. One activity at a time in a process.
 #pragma once
 
 #include <atomic>

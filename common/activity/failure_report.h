@@ -42,10 +42,10 @@ void NoteEnd(EndReason reason, std::uint64_t tick, std::string_view text, bool c
 // handlers.
 [[noreturn]] void DieInterrupted();
 
-// What the exception that is being handled says, for a user: its text, or its type where it has none.
+// What the exception that is being handled says, for a user: its text, or its type if it has none.
 std::string CurrentExceptionText();
 
-// Writes the whole text to an open file. Safe in signal handlers. False where it cannot.
+// Writes the whole text to an open file. Safe in signal handlers. False if it cannot.
 bool WriteAll(int file, std::string_view text);
 
 // Called when this process dies of somebody's code, or is killed by the user, once that is told: with the line that

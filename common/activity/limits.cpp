@@ -41,14 +41,14 @@ Limits LimitsOfEnvironment() { return {NumberIn<std::uint64_t>(kMemory), NumberI
 
 void ApplyLimits(const Limits& limits, std::function<void(const std::string&, double)> stalled)
 {
-  static std::unique_ptr<StepWatch> watch;
+  static std::unique_ptr<StepTimeout> watch;
   if (watch != nullptr) return;
   LimitMemory(limits.memory_bytes);
-  StepWatch::Settings settings;
+  StepTimeout::Settings settings;
   settings.limit = std::chrono::milliseconds(static_cast<std::int64_t>(limits.step_s * 1000));
   settings.stalled = std::move(stalled);
   // Without either there is nothing to watch for.
-  if (settings.limit.count() > 0 || settings.stalled) watch = std::make_unique<StepWatch>(std::move(settings));
+  if (settings.limit.count() > 0 || settings.stalled) watch = std::make_unique<StepTimeout>(std::move(settings));
 }
 
 }  // namespace swarmanoid

@@ -26,7 +26,7 @@ std::vector<std::pair<std::string, std::string>> EnvironmentOf(const Limits& lim
 // From the environment; what is no number there is taken for no limit.
 Limits LimitsOfEnvironment();
 
-// From now on, as long as the process lives; later calls do nothing. `stalled` as in StepWatch::Settings.
+// From now on, as long as the process lives; later calls do nothing. `stalled` as in StepTimeout::Settings.
 void ApplyLimits(const Limits& limits, std::function<void(const std::string& activity, double seconds)> stalled = {});
 
 }  // namespace swarmanoid

@@ -8,7 +8,7 @@
 namespace swarmanoid
 {
 
-// Nine tenths of the memory of this machine, or of the control group that the process is in; 0 where it is not known.
+// Nine tenths of the memory of this machine, or of the control group that the process is in; 0 if it is not known.
 std::uint64_t DefaultMemoryLimit();
 
 // The private memory of this process, in bytes; 0: the default. Sanitizers map more than there is: then nothing is

@@ -37,9 +37,11 @@ std::thread StartQuietly(const std::function<void()>& run)
 
 }  // namespace
 
-StepWatch::StepWatch(Settings settings) : settings_(std::move(settings)), thread_(StartQuietly([this] { Watch(); })) {}
+StepTimeout::StepTimeout(Settings settings) : settings_(std::move(settings)), thread_(StartQuietly([this] { Run(); }))
+{
+}
 
-StepWatch::~StepWatch()
+StepTimeout::~StepTimeout()
 {
   {
     const std::lock_guard lock(mutex_);
@@ -49,7 +51,7 @@ StepWatch::~StepWatch()
   thread_.join();
 }
 
-void StepWatch::Watch()
+void StepTimeout::Run()
 {
   const auto limit = settings_.limit;
   const auto period = limit > 0ms ? std::clamp<std::chrono::milliseconds>(limit / 10, 5ms, kPeriod)

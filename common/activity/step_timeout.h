@@ -1,4 +1,4 @@
-// StepWatch: notices that one step of somebody's code takes too long, says so, and ends the process where a limit is
+// StepTimeout: notices that one step of somebody's code takes too long, says so, and ends the process if a limit is
 // set. A thread of its own, since the one that runs the code does not come back.
 #pragma once
 
@@ -12,7 +12,7 @@
 namespace swarmanoid
 {
 
-class StepWatch
+class StepTimeout
 {
 public:
   struct Settings
@@ -23,13 +23,13 @@ public:
     std::function<void(const std::string& activity, double seconds)> stalled;
   };
 
-  explicit StepWatch(Settings settings);
-  ~StepWatch();
-  StepWatch(const StepWatch&) = delete;
-  StepWatch& operator=(const StepWatch&) = delete;
+  explicit StepTimeout(Settings settings);
+  ~StepTimeout();
+  StepTimeout(const StepTimeout&) = delete;
+  StepTimeout& operator=(const StepTimeout&) = delete;
 
 private:
-  void Watch();
+  void Run();
 
   Settings settings_;
   std::mutex mutex_;

@@ -34,9 +34,9 @@ public:
 struct BadMessageReport
 {
   std::string topic;
-  std::string process;     // "host:pid" of the sender, as it said when it joined; empty where it did not
+  std::string process;     // "host:pid" of the sender, as it said when it joined; empty if it did not
   std::string name;        // likewise, "engine 'ground'"
-  std::uint64_t tick = 0;  // of the message, where it has one
+  std::uint64_t tick = 0;  // of the message, if it has one
   std::string what;
 };
 
@@ -52,9 +52,9 @@ struct BusOptions
   int domain = kDefaultDomain;  // 0 to 232; processes of different domains never hear each other
   // "lo": this machine only. "all", or the name or IPv4 address of a network interface: other machines too.
   std::string network_interface = "lo";
-  // Machines (names or IPv4 addresses) that take part, where the network has no multicast. Every process names all.
+  // Machines (names or IPv4 addresses) that take part, if the network has no multicast. Every process names all.
   std::vector<std::string> peers;
-  // "address:port" of the space server that serves discovery, where the network has no multicast. Same in every
+  // "address:port" of the space server that serves discovery, if the network has no multicast. Same in every
   // process.
   std::string discovery_server;
   bool serves_discovery = false;    // this process is that server
@@ -73,7 +73,7 @@ public:
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  // Called when another process of the domain has gone (without a word where `died`), with "host:pid" and its name.
+  // Called when another process of the domain has gone (without a word if `died`), with "host:pid" and its name.
   void OnProcessGone(std::function<void(const std::string& process, const std::string& name, bool died)> callback);
 
   // Called with each bad message. True: its sender belongs to the run, which ends for that. Otherwise the message is
@@ -131,7 +131,7 @@ public:
     std::function<Message*(const MessageHeader&)> choose;
     // The message has been filled in.
     std::function<void(const MessageHeader&, Message&)> received;
-    // Throws BadMessage where a message is not what the experiment makes of it; it is not received then. Optional.
+    // Throws BadMessage if a message is not what the experiment makes of it; it is not received then. Optional.
     std::function<void(const MessageHeader&, const Message&)> check{};
   };
 
@@ -154,10 +154,10 @@ public:
   Publisher(Bus& bus, const std::string& partition);
   ~Publisher();
 
-  // Throws BadMessage where a name in the message cannot be sent, BusError where the bus does not take it.
+  // Throws BadMessage if a name in the message cannot be sent, BusError if the bus does not take it.
   void Write(const Message& message);
   unsigned Readers() const;
-  // False where not all readers confirmed in time.
+  // False if not all readers confirmed in time.
   bool WaitUntilRead(double seconds);
 
 private:

@@ -81,7 +81,7 @@ std::optional<RunStatus> ControlClient::LatestStatus()
   return status_;
 }
 
-void ControlClient::Tell(const std::string& verb, const std::string& entity, const std::vector<double>& numbers)
+void ControlClient::Send(const std::string& verb, const std::string& entity, const std::vector<double>& numbers)
 {
   const std::lock_guard lock(mutex_);
   requests_.Write({ProcessId(), ++number_, verb, entity, numbers});

@@ -21,14 +21,14 @@ public:
   ControlClient(Bus& bus, const std::string& experiment);
 
   // Sends a request (ControlRequest in idl/swarmanoid.idl) and waits for the answer, as long as the run gets on: the
-  // answer to a step comes at its end. nullopt where the run told nothing for `timeout_s`, or stood still that long and
+  // answer to a step comes at its end. nullopt if the run told nothing for `timeout_s`, or stood still that long and
   // waits for one of its processes.
   std::optional<ControlReplyMessage> Ask(const std::string& verb, const std::string& entity,
                                          const std::vector<double>& numbers, double timeout_s);
-  // How the run went when it was heard last; nullopt where no Ask has heard of it.
+  // How the run went when it was heard last; nullopt if no Ask has heard of it.
   std::optional<RunStatus> LatestStatus();
   // Sends without waiting for an answer.
-  void Tell(const std::string& verb, const std::string& entity, const std::vector<double>& numbers);
+  void Send(const std::string& verb, const std::string& entity, const std::vector<double>& numbers);
 
 private:
   using Clock = std::chrono::steady_clock;

@@ -4,7 +4,7 @@
 namespace swarmanoid
 {
 
-// A domain kept from other callers of this class until the object ends. Throws BusError where all are taken.
+// A domain kept from other callers of this class until the object ends. Throws BusError if all are taken.
 class FreeDomain
 {
 public:

@@ -10,7 +10,7 @@ namespace swarmanoid
 inline constexpr std::size_t kEncapsulation = 4;
 inline constexpr char kEncodingXcdr1[kEncapsulation] = {0, 1, 0, 0};  // little-endian; the last two bytes are options
 
-// The payload without its first bytes. Throws BadMessage where it is of another encoding.
+// The payload without its first bytes. Throws BadMessage if it is of another encoding.
 inline std::span<const char> BodyOf(std::span<const char> payload)
 {
   if (payload.size() < kEncapsulation || payload[0] != kEncodingXcdr1[0] || payload[1] != kEncodingXcdr1[1])
@@ -31,7 +31,7 @@ void GoThrough(Archive& archive, const Message& message)
   Fields(archive, const_cast<Message&>(message));
 }
 
-// Bytes of a payload. `parts`: a header and a message of a tick, or another message. Throws BadMessage where a name in
+// Bytes of a payload. `parts`: a header and a message of a tick, or another message. Throws BadMessage if a name in
 // it cannot be sent.
 template <class... Parts>
 std::size_t PayloadSize(const Parts&... parts)
@@ -68,7 +68,7 @@ void ReadPayload(std::span<const char> payload, Message& message)
 }
 
 // A message of a tick. `choose` gives the place for it when its header is known, or nullptr to drop it; `check` throws
-// BadMessage where it is not what the experiment makes of it. Returns the place.
+// BadMessage if it is not what the experiment makes of it. Returns the place.
 template <class Message, class Choose, class Check>
 Message* ReadTickPayload(std::span<const char> payload, MessageHeader& header, const Choose& choose, const Check& check)
 {

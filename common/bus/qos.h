@@ -10,7 +10,7 @@ namespace swarmanoid
 struct TopicQos
 {
   std::string_view topic;
-  // Messages of a tick: data sharing, and best-effort readers where the run stays on one machine (no acknowledgements:
+  // Messages of a tick: data sharing, and best-effort readers if the run stays on one machine (no acknowledgements:
   // half the time of a tick). Lost messages are asked for again by the lock-step protocol.
   bool hot = false;
   bool transient_local = false;  // kept for those who join later

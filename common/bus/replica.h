@@ -28,7 +28,7 @@ struct Replica
   std::optional<Checkpoint> checkpoint;  // to go on from
   std::uint64_t FirstTick() const { return checkpoint ? checkpoint->snapshot.tick : 0; }
 
-  // Brings the space, and a role by its LoadState, to where the run goes on; does nothing where it starts.
+  // Brings the space, and a role by its LoadState, to where the run goes on; does nothing if it starts.
   template <class Role>
   void Restore(const std::string& name, Role& role)
   {

@@ -56,7 +56,7 @@ private:
   int number_;
 };
 
-// What a folder or file of ours is not: null text where it is one. `status` is of an open descriptor.
+// What a folder or file of ours is not: null text if it is one. `status` is of an open descriptor.
 const char* WhyNotOurs(const struct stat& status)
 {
   if (status.st_uid != geteuid()) return "belongs to another user";
@@ -65,7 +65,7 @@ const char* WhyNotOurs(const struct stat& status)
 }
 
 // A folder within `parent` (AT_FDCWD: a path) that is no link and only this user can write. Otherwise none, with errno
-// or, where it is there and not ours, `why`.
+// or, if it is there and not ours, `why`.
 Descriptor OpenOwnFolder(int parent, const std::string& name, const char** why = nullptr)
 {
   Descriptor folder(openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
@@ -131,7 +131,7 @@ int OpenLocked(int folder, const std::string& name, const std::string& path, int
   return -1;
 }
 
-// Made where it is not there. `variable`: of the environment, which puts it elsewhere.
+// Made if it is not there. `variable`: of the environment, which puts it elsewhere.
 Descriptor MakeOwnFolder(int parent, const std::string& name, const std::string& path, const char* variable)
 {
   if (mkdirat(parent, name.c_str(), 0700) != 0 && errno != EEXIST)
@@ -191,7 +191,7 @@ void RemoveRun(int parent, const std::string& name)
   unlinkat(parent, name.c_str(), AT_REMOVEDIR);
 }
 
-// None where there is no such folder, or it is not ours.
+// None if there is no such folder, or it is not ours.
 Descriptor OpenSharedFolder() { return OpenOwnFolder(AT_FDCWD, SharedFolder()); }
 
 // With a FolderLock.

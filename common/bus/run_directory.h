@@ -17,14 +17,14 @@ namespace swarmanoid
 // lies there stays untouched.
 std::string SharedFolder();
 
-// Where the lock files of this user are, which outlive runs: in XDG_RUNTIME_DIR, or else in /tmp. Made where needed.
+// Where the lock files of this user are, which outlive runs: in XDG_RUNTIME_DIR, or else in /tmp. Made if needed.
 // Throws BusError.
 std::string LockFolder();
 
 class RunDirectory
 {
 public:
-  // Joins the run, creating its folder where needed. Throws BusError.
+  // Joins the run, creating its folder if needed. Throws BusError.
   RunDirectory(const std::string& experiment, std::uint64_t run);
   // Leaves the run; the server, or else the last process of it on this machine, removes the folder.
   ~RunDirectory() { Leave(); }

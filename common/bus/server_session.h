@@ -28,7 +28,7 @@ public:
     std::function<void(const std::string& process)> gone;  // a process has left the bus
   };
 
-  // `expected`: names of the processes that the run waits for. Throws BusError where an experiment of that name runs in
+  // `expected`: names of the processes that the run waits for. Throws BusError if an experiment of that name runs in
   // the domain already.
   ServerSession(const BusOptions& options, WorldMessage world, std::vector<std::string> expected, Callbacks callbacks);
   ~ServerSession();

@@ -10,7 +10,7 @@ namespace swarmanoid
 namespace
 {
 
-// The length of the character at the start of `text`, 0 where it is none that may be shown.
+// The length of the character at the start of `text`, 0 if it is none that may be shown.
 std::size_t CharacterLength(std::string_view text)
 {
   const auto lead = static_cast<std::uint8_t>(text.front());

@@ -16,7 +16,7 @@ namespace swarmanoid
 class StatusChannel
 {
 public:
-  // Negative: nobody listens. Where the descriptor is standard output, what anybody prints goes to standard error from
+  // Negative: nobody listens. If the descriptor is standard output, what anybody prints goes to standard error from
   // here on: no word of experiment functions is taken for one of the server.
   explicit StatusChannel(int descriptor) : descriptor_(descriptor)
   {
@@ -28,7 +28,7 @@ public:
   bool IsOpen() const { return descriptor_ >= 0; }
 
   // From any thread.
-  void Tell(const ServerStatus& status)
+  void Publish(const ServerStatus& status)
   {
     if (!IsOpen()) return;
     const std::string line = ServerStatusLine(status) + "\n";

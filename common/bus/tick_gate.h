@@ -30,7 +30,7 @@ public:
 
   // Throws BadMessage for a tick that cannot follow.
   Verdict Offer(std::size_t part, std::uint64_t tick) const;
-  // The expected message is in its place. True where nothing is missing for the current tick any more.
+  // The expected message is in its place. True if nothing is missing for the current tick any more.
   bool Arrived(std::size_t part, std::uint64_t tick);
   bool Complete() const { return missing_ == 0; }
   // To the next tick.

@@ -74,7 +74,7 @@ public:
     others_in_.reset();
   }
 
-  // Whether the server is heard, and how many of the other writers are missing.
+  // Whether the states of the server can be read, and how many of the other writers have not been found yet.
   bool ServerIsHere() const { return states_in_->Writers() >= 1; }
   unsigned MissingWriters() const
   {
@@ -82,10 +82,10 @@ public:
     return writers_ - std::min(here, writers_);
   }
 
-  // Nobody sends what this process begins with.
+  // For a message that this process has from its start, such as restored sensor values: nobody sends it.
   void HaveFirst(std::size_t other) { gate_.Arrived(1 + other, gate_.Tick()); }
 
-  // What the worker waits for, or `busy`, what it does, where that takes long. Of the main thread.
+  // If the tick takes long: whom the worker waits for or, while it works, `busy`. For the main thread.
   std::optional<std::string> Stall(const std::function<std::string()>& busy)
   {
     std::unique_lock lock(mutex_, std::try_to_lock);
@@ -113,7 +113,7 @@ private:
     return parts;
   }
 
-  // Which of the other processes sent it; their number where it is none of them.
+  // Which of the other processes sent it; their number if it is none of them.
   std::size_t OtherOf(const MessageHeader& header) const
   {
     return static_cast<std::size_t>(std::find(sources_.begin(), sources_.end(), header.source) - sources_.begin());
@@ -136,7 +136,7 @@ private:
     if (&state == &state_)
     {
       space_.Apply(state_);
-      if (gate_.Arrived(0, header.tick)) Step();
+      if (gate_.Arrived(0, header.tick)) RunTick();
     }
     else if (header.tick + 1 == gate_.Tick())
       calls_.answer_again();
@@ -156,10 +156,10 @@ private:
   void Arrived(const MessageHeader& header)
   {
     const std::lock_guard lock(mutex_);
-    if (gate_.Arrived(1 + OtherOf(header), header.tick)) Step();
+    if (gate_.Arrived(1 + OtherOf(header), header.tick)) RunTick();
   }
 
-  void Step()
+  void RunTick()
   {
     stepping_ = gate_.Tick();
     try

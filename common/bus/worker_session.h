@@ -23,8 +23,8 @@ class WorkerSession
 {
 public:
   // Waits for the space server of `experiment` (empty: of the first one that is heard), saying so. `name` as in
-  // JoinMessage. Throws BusError where its protocol is another one, or when interrupted.
-  // `server`: the process on this machine that is expected to be it; BusError where it ends before it is heard.
+  // JoinMessage. Throws BusError if its protocol is another one, or when interrupted.
+  // `server`: the process on this machine that is expected to be it; BusError if it ends before it is heard.
   WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name,
                 std::optional<int> server = std::nullopt);
   ~WorkerSession();
@@ -46,10 +46,10 @@ public:
   int Work(const std::function<void()>& work);
 
   // Within the work, until the run ends. `idle` is called when notified and at least every `period`; it may return what
-  // this process waits for or is busy with since too long, which is told to the server. Ends the program where this or
+  // this process waits for or is busy with since too long, which is told to the server. Ends the program if this or
   // another process failed.
   void Wait(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
-  // The same for a process that has something to do after the run: returns nothing where its work is done, or else why
+  // The same for a process that has something to do after the run: returns nothing if its work is done, or else why
   // the run is over.
   std::optional<BusError> Follow(std::chrono::milliseconds period, const std::function<void()>& idle);
   // Says that this process failed, or has nothing to do any more in a run that failed, and ends the program.

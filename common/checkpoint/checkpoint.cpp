@@ -81,7 +81,7 @@ std::uint64_t ChecksumOf(std::span<const char> bytes)
   return XXH3_64bits(bytes.data(), bytes.size() - kCheckpointChecksumBytes);
 }
 
-// `start`: the first bytes of the file, all where it is shorter than a header.
+// `start`: the first bytes of the file, all if it is shorter than a header.
 void CheckHeader(std::span<const char> start, std::uint64_t file_bytes)
 {
   if (std::string_view(start.data(), std::min(start.size(), kCheckpointMagic.size())) != kCheckpointMagic)

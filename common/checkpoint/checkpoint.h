@@ -61,7 +61,7 @@ struct Checkpoint
 std::uint64_t FingerprintOf(const Experiment& experiment);
 
 std::vector<char> EncodeCheckpoint(const Checkpoint& checkpoint);
-// Throws std::runtime_error where the bytes are no checkpoint, of another version of the format, cut short or damaged.
+// Throws std::runtime_error if the bytes are no checkpoint, of another version of the format, cut short or damaged.
 Checkpoint DecodeCheckpoint(std::span<const char> bytes);
 // Gives bytes that were changed on purpose the length and checksum that they need to be read; for tests of readers.
 void SealCheckpoint(std::vector<char>& bytes);
@@ -74,13 +74,13 @@ struct RestoreOptions
   std::size_t hosts = 1;   // controller hosts of the run that goes on
   bool any_build = false;  // take what other builds of the libraries saved
 };
-// Throws std::runtime_error, with the path and the cure, where the file cannot be read, is damaged, is of another
+// Throws std::runtime_error, with the path and the cure, if the file cannot be read, is damaged, is of another
 // experiment or of other builds of its libraries, or was taken with another number of controller hosts.
 Checkpoint ReadCheckpoint(const std::string& path, const Experiment& experiment, const RestoreOptions& options);
 
 // "checkpoint-00000500"
 std::string CheckpointName(std::uint64_t tick);
-// Throws std::invalid_argument, with the cure, where checkpoints cannot be taken every so many ticks.
+// Throws std::invalid_argument, with the cure, if checkpoints cannot be taken every so many ticks.
 void CheckCheckpointPeriod(std::uint64_t every, const Experiment& experiment);
 
 }  // namespace swarmanoid

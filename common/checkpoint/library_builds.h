@@ -22,7 +22,7 @@ inline constexpr const char* kSwarmanoidBuild = "Swarmanoid";
 // when a run starts: a file may be built anew while the run goes on with the old one.
 std::vector<LibraryBuild> LibraryBuildsOf(const Experiment& experiment);
 
-// Whose build differs: "Swarmanoid", "the library 'libx.so'"; empty where none does. Libraries that are unknown on
+// Whose build differs: "Swarmanoid", "the library 'libx.so'"; empty if none does. Libraries that are unknown on
 // either side differ in nothing.
 std::string DifferenceOfBuilds(const std::vector<LibraryBuild>& saved, const std::vector<LibraryBuild>& here);
 

@@ -16,7 +16,7 @@
 namespace swarmanoid
 {
 
-// Where an element or attribute stands in its file; line and column count from 1, 0 where unknown.
+// Where an element or attribute stands in its file; line and column count from 1, 0 if unknown.
 struct SourceLocation
 {
   std::shared_ptr<const std::string> file;
@@ -79,15 +79,15 @@ public:
   // The first child of that name, or a handle that does not exist.
   TConfigurationTree Child(std::string_view name) const;
   bool HasAttribute(std::string_view name) const;
-  std::string Attribute(std::string_view name) const;  // empty where absent
+  std::string Attribute(std::string_view name) const;  // empty if absent
 
   // The value of a parameter, written as a child element (<speed>3</speed>) or an attribute (speed="3").
-  // nullopt where it is in neither form.
+  // nullopt if it is in neither form.
   std::optional<std::string> Value(std::string_view name) const;
   SourceLocation ValueLocation(std::string_view name) const;
 
-  // Typed values; the forms with a default return it where the parameter is absent, those without throw
-  // ConfigurationError, and both throw where the text is not of the type. Controllers and experiment functions that
+  // Typed values; the forms with a default return it if the parameter is absent, those without throw
+  // ConfigurationError, and both throw if the text is not of the type. Controllers and experiment functions that
   // declare their parameters get a tree that holds all of them, with the declared defaults: they need no default here.
   double GetNumber(std::string_view name) const;
   double GetNumber(std::string_view name, double fallback) const;
@@ -112,14 +112,14 @@ private:
   {
   }
 
-  // The text of the parameter; throws where it is absent.
+  // The text of the parameter; throws if it is absent.
   std::string Required(std::string_view name) const;
 
   std::shared_ptr<const ConfigurationNode> node_;
   std::shared_ptr<ConfigurationReads> reads_;  // where reading is noted; often nowhere
 };
 
-// Conversions of whole texts, surrounding blanks allowed; nullopt where the text is something else.
+// Conversions of whole texts, surrounding blanks allowed; nullopt if the text is something else.
 std::optional<double> ParseNumber(std::string_view text);
 std::optional<long long> ParseInteger(std::string_view text);
 std::optional<bool> ParseBoolean(std::string_view text);                 // true/false, yes/no, on/off, 1/0

@@ -30,7 +30,7 @@ enum class ParameterType
 struct ParameterSpec
 {
   // A name that ends in "_n" stands for a family: camera_view_XYZ_n for camera_view_XYZ_0, camera_view_XYZ_1 …; a
-  // family is never required, and a member that is not given has the default, where there is one.
+  // family is never required, and a member that is not given has the default, if there is one.
   std::string name;
   ParameterType type = ParameterType::kNumber;
   std::string unit{};                          // SI symbol, empty for none
@@ -47,7 +47,7 @@ bool IsNumbered(const ParameterSpec& spec);
 // "a number in m, at least 0" and its range alone (empty for none).
 std::string AllowedText(const ParameterSpec& spec);
 std::string RangeText(const ParameterSpec& spec);
-// What is wrong with a value, as "<subject> is …; it must be …"; empty where it is right.
+// What is wrong with a value, as "<subject> is …; it must be …"; empty if it is right.
 std::string MistakeIn(const ParameterSpec& spec, std::string_view text, const std::string& subject);
 
 // Typed reading of the parameters that a table declares. Names outside the table are a programming error.

@@ -16,7 +16,7 @@ namespace swarmanoid
 std::vector<ConfigurationError> MistakesIn(const TConfigurationTree& tree, const std::vector<ParameterSpec>& specs,
                                            const std::string& owner, const std::vector<std::string>& others = {});
 
-// The element, or an empty one of that name and place where there is none.
+// The element, or an empty one of that name and place if there is none.
 TConfigurationTree OrEmpty(const TConfigurationTree& tree, const std::string& name, const SourceLocation& place);
 
 // The element with all its parameters: those that it leaves out have their defaults. Paths are absolute: relative ones
@@ -27,7 +27,7 @@ TConfigurationTree WithDefaults(const TConfigurationTree& tree, const std::vecto
 // `own`, followed by `more`: tables of parameters are put together from parts.
 std::vector<ParameterSpec> Joined(std::vector<ParameterSpec> own, const std::vector<ParameterSpec>& more);
 
-// What is wrong with a table itself, such as a default outside of the range; empty where it is right.
+// What is wrong with a table itself, such as a default outside of the range; empty if it is right.
 std::string MistakeInTable(const std::vector<ParameterSpec>& specs);
 
 }  // namespace swarmanoid

@@ -20,7 +20,7 @@ public:
 class RegularFile
 {
 public:
-  // Follows links. Throws FileError where it cannot be read or is no regular file.
+  // Follows links. Throws FileError if it cannot be read or is no regular file.
   explicit RegularFile(const std::string& path);
   ~RegularFile();
   RegularFile(const RegularFile&) = delete;
@@ -36,10 +36,10 @@ private:
   std::uint64_t size_ = 0;
 };
 
-// Why it cannot be read; empty where it can.
+// Why it cannot be read; empty if it can.
 std::string FileMistake(const std::string& path);
 
-// The whole of a file. Throws FileError, also where it is longer than `most_bytes`.
+// The whole of a file. Throws FileError, also if it is longer than `most_bytes`.
 std::string ReadRegularFile(const std::string& path, std::uint64_t most_bytes);
 
 }  // namespace swarmanoid

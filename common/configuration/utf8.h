@@ -8,7 +8,7 @@
 namespace swarmanoid
 {
 
-// Bytes of the well-formed character at the front of `text`, which is not empty; 0 where it is none (Unicode 15, table
+// Bytes of the well-formed character at the front of `text`, which is not empty; 0 if it is none (Unicode 15, table
 // 3-7).
 inline std::size_t Utf8Length(std::string_view text)
 {

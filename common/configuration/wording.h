@@ -12,9 +12,9 @@ namespace swarmanoid
 std::string Quoted(std::string_view text);
 // "a, b, c", or "none".
 std::string Listed(const std::vector<std::string>& names);
-// The candidate nearest to a misspelt name by edit distance, empty where none is near.
+// The candidate nearest to a misspelt name by edit distance, empty if none is near.
 std::string NearestName(std::string_view name, const std::vector<std::string>& candidates);
-// "; did you mean 'x'?", or nothing where no candidate is near.
+// "; did you mean 'x'?", or nothing if no candidate is near.
 std::string DidYouMean(std::string_view name, const std::vector<std::string>& candidates);
 
 }  // namespace swarmanoid

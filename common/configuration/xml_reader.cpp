@@ -21,7 +21,7 @@ namespace
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
-// Line and column (from 1, in characters) of byte offsets. Quick where they ascend.
+// Line and column (from 1, in characters) of byte offsets. Quick if they ascend.
 class PlaceCounter
 {
 public:

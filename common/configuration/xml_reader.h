@@ -25,7 +25,7 @@ struct XmlLimits
 std::shared_ptr<const ConfigurationNode> ReadXml(std::string_view text, const std::string& file_name,
                                                  const XmlLimits& limits = {});
 
-// The whole file; throws ConfigurationError where it cannot be read or is larger than the limit.
+// The whole file; throws ConfigurationError if it cannot be read or is larger than the limit.
 std::string ReadTextFile(const std::string& path, std::size_t most_bytes = XmlLimits{}.bytes);
 
 }  // namespace swarmanoid

@@ -24,7 +24,7 @@ public:
 
   virtual ~CCI_Controller() = default;
 
-  // Gets the <parameters> of the controller; here the devices are looked up. Where the controller declared its
+  // Gets the <parameters> of the controller; here the devices are looked up. If the controller declared its
   // parameters, the tree was checked and holds all of them, with their defaults. Anything but RETURN_OK, and any
   // exception, stops the experiment with the robot's name; a ConfigurationError is shown as a mistake of the file.
   virtual int Init(const TConfigurationTree t_tree) = 0;
@@ -33,7 +33,7 @@ public:
   virtual void Destroy() {}
 
   // Optional: all that the controller remembers between ticks, so that a run can go on from a checkpoint. A controller
-  // that remembers nothing overrides HasState alone; where it is left false, checkpoints of the run are refused.
+  // that remembers nothing overrides HasState alone; if it is left false, checkpoints of the run are refused.
   virtual bool HasState() const { return false; }
   virtual void SaveState(std::ostream&) const {}
   virtual void LoadState(std::istream&) {}

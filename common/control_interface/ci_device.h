@@ -24,7 +24,7 @@ class CCI_Sensor
 {
 public:
   virtual ~CCI_Sensor() = default;
-  // For people who watch the robot: appends the present readings. Never called where nobody watches.
+  // For people who watch the robot: appends the present readings. Never called if nobody watches.
   virtual void Describe(std::vector<CCI_Reading>&) const {}
 };
 
@@ -33,7 +33,7 @@ class CCI_Actuator
 {
 public:
   virtual ~CCI_Actuator() = default;
-  // For people who watch the robot: appends the values set last. Never called where nobody watches.
+  // For people who watch the robot: appends the values set last. Never called if nobody watches.
   virtual void Describe(std::vector<CCI_Reading>&) const {}
 };
 

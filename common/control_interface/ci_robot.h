@@ -36,13 +36,13 @@ public:
   const std::string& GetKind() const { return kind_; }
 
   // The device registered under a type label ("footbot_wheels"), for as long as the controller lives.
-  // Throws CCI_DeviceError, naming those listed, where the configuration does not list it.
+  // Throws CCI_DeviceError, naming those listed, if the configuration does not list it.
   CCI_Actuator* GetActuator(const std::string& type) const;
   CCI_Sensor* GetSensor(const std::string& type) const;
   bool HasActuator(const std::string& type) const { return actuators_.contains(type); }
   bool HasSensor(const std::string& type) const { return sensors_.contains(type); }
 
-  // The same, checked: throws CCI_DeviceError where the device is of another interface.
+  // The same, checked: throws CCI_DeviceError if the device is of another interface.
   template <class Interface>
   Interface& Actuator(const std::string& type) const
   {

@@ -36,7 +36,7 @@ void CheckChannels(const EngineConfiguration& engine, const PluginDescription& p
   check(controller.sensors, PluginKind::kSensor);
 }
 
-// The first device of a controller that needs an engine, nullptr where there is none.
+// The first device of a controller that needs an engine, nullptr if there is none.
 const DeviceConfiguration* FirstSpecificDevice(const ControllerConfiguration& controller)
 {
   const auto find = [](const std::vector<DeviceConfiguration>& devices, PluginKind kind) -> const DeviceConfiguration*

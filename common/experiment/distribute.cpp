@@ -160,7 +160,7 @@ public:
     }
   }
 
-  // False, and a report, where they do not fit.
+  // False, and a report, if they do not fit.
   bool Place(const Distribution& distribution)
   {
     if (distribution.count == 0) return true;

@@ -35,7 +35,7 @@ struct ControllerConfiguration
   std::string library;
   std::vector<DeviceConfiguration> actuators;
   std::vector<DeviceConfiguration> sensors;
-  // <parameters>, given to CCI_Controller::Init: with all defaults where the controller declared them.
+  // <parameters>, given to CCI_Controller::Init: with all defaults if the controller declared them.
   TConfigurationTree parameters;
   SourceLocation location;
 };
@@ -52,7 +52,7 @@ struct EntityConfiguration
   // body.
   Vector3 size = Vector3::Zero();
   double mass_kg = 0;    // 0: the default of the kind
-  bool movable = false;  // robots and preys always; blocks only where asked
+  bool movable = false;  // robots and preys always; blocks only if asked
   std::uint32_t colour = 0xc0c0c0;
   double intensity = 1;     // lights and sounds
   std::string reserve;      // the id of the <reserve> that it is of; empty for none
@@ -130,7 +130,7 @@ struct Experiment
   const EngineConfiguration* FindEngine(const std::string& id) const;
 };
 
-// The limit where the file gives none: ten times the longest side of the arena, and at least 100 m.
+// The limit if the file gives none: ten times the longest side of the arena, and at least 100 m.
 double UsualLimit(const Vector3& arena_size);
 // Where an entity stands that is not in the arena: some 100 km away and at a place of its own, so that engines that
 // know nothing of absence let it touch nothing.

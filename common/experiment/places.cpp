@@ -85,7 +85,7 @@ public:
     rest_ = text;
   }
 
-  // nullopt where there is none, or one that no writer writes.
+  // nullopt if there is none, or one that no writer writes.
   std::optional<SourceLocation> Next()
   {
     while (rest_.starts_with(' ')) rest_.remove_prefix(1);
@@ -121,7 +121,7 @@ private:
   int file_ = 0, line_ = 0, column_ = 0;
 };
 
-// nullptr where the places do not fit.
+// nullptr if the places do not fit.
 std::shared_ptr<const ConfigurationNode> Placed(const ConfigurationNode& node, PlaceReader& places)
 {
   auto placed = std::make_shared<ConfigurationNode>(node);

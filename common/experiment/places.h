@@ -14,7 +14,7 @@ namespace swarmanoid
 // The processing instruction for a tree, to be put behind its text (WriteXml).
 std::string WritePlaces(const ConfigurationNode& root);
 
-// The tree of a text, as ReadXml reads it, with the places that stand at the end of the text where there are any and
+// The tree of a text, as ReadXml reads it, with the places that stand at the end of the text if there are any and
 // they fit. Throws as ReadXml.
 std::shared_ptr<const ConfigurationNode> ReadXmlWithPlaces(const std::string& text, const std::string& file_name);
 

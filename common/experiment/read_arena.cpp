@@ -186,7 +186,7 @@ private:
   }
 
   // The entities of a <distribute> or <reserve>, all alike but for their ids; their poses are still open.
-  // Their number; 0 where the element is wrong.
+  // Their number; 0 if the element is wrong.
   std::size_t ReadAlike(const ElementReader& reader, const ElementSpec& spec, bool waiting)
   {
     const TConfigurationTree& tree = reader.Tree();

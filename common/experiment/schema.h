@@ -24,7 +24,7 @@ struct ElementSpec
   std::vector<ElementSpec> children;
   bool required = false;
   bool repeatable = false;
-  // Where set, registered labels of that kind are further child tags, and plugin_element (one) is what they have in
+  // If set, registered labels of that kind are further child tags, and plugin_element (one) is what they have in
   // common.
   std::optional<PluginKind> plugins;
   std::vector<ElementSpec> plugin_element;

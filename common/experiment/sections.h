@@ -37,8 +37,8 @@ void CheckOverlaps(Reading& reading);
 bool IsIdCharacter(char c);
 bool CheckId(const std::string& id, const SourceLocation& place, Diagnostics& diagnostics);
 
-// The description of a plug-in that an element stands for, its library loaded first where `library` names one. nullptr,
-// and a report naming those that exist, where there is none.
+// The description of a plug-in that an element stands for, its library loaded first if `library` names one. nullptr,
+// and a report naming those that exist, if there is none.
 const PluginDescription* FindPlugin(PluginKind kind, const TConfigurationTree& tree, Reading& reading);
 
 // The number of bodies' places for placing (see distribute.h).

@@ -10,13 +10,13 @@
 namespace swarmanoid
 {
 
-// The tree with the value at the path replaced or, where the last step of the path is not there, added. Elements that
-// are not on the path are shared with the old tree. Throws ConfigurationError where the path leads nowhere or to
+// The tree with the value at the path replaced or, if the last step of the path is not there, added. Elements that
+// are not on the path are shared with the old tree. Throws ConfigurationError if the path leads nowhere or to
 // several places.
 std::shared_ptr<const ConfigurationNode> WithSetting(const std::shared_ptr<const ConfigurationNode>& root,
                                                      const std::string& path, const std::string& value);
 
-// Throws where no file can hold the value, so that no process could read the changed experiment.
+// Throws if no file can hold the value, so that no process could read the changed experiment.
 void CheckSettingValue(const std::string& path, const std::string& value);
 
 }  // namespace swarmanoid

@@ -15,7 +15,7 @@ public:
   // `what`: "entities".
   explicit UniqueIds(std::string what, std::size_t expected = 0) : what_(std::move(what)) { first_.reserve(expected); }
 
-  // What is wrong with a further id, which stands in this line; empty where nothing is. Empty ids are passed over.
+  // What is wrong with a further id, which stands in this line; empty if nothing is. Empty ids are passed over.
   std::string Add(const std::string& id, int line);
 
 private:

@@ -28,7 +28,7 @@ struct LogSettings
 };
 
 // Opens the log, once, before other threads start. Until then records of level warning and above go to standard error.
-// Throws std::runtime_error, with the path and the cause, where the file cannot be written.
+// Throws std::runtime_error, with the path and the cause, if the file cannot be written.
 void OpenLog(const LogSettings& settings);
 
 // Each record is written through at once, so that the file of a killed process is complete. A full disk loses records

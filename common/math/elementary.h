@@ -1,5 +1,5 @@
 // Elementary functions with the same bits on every processor: polynomials over IEEE add, multiply and divide only.
-// glibc's sin, cos, atan2, exp and log choose other code where the processor has FMA, and differ in the last bit.
+// glibc's sin, cos, atan2, exp and log choose other code if the processor has FMA, and differ in the last bit.
 // Used by engines, sensors and everything else that reaches the state hash. All angles in radians.
 #pragma once
 

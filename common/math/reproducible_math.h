@@ -9,7 +9,7 @@
 namespace swarmanoid
 {
 
-// Throws std::runtime_error, with the cure, where this process takes them from elsewhere, or where this thread rounds
+// Throws std::runtime_error, with the cure, if this process takes them from elsewhere, or if this thread rounds
 // otherwise than to nearest or counts tiny numbers as 0.
 void RequireReproducibleMath();
 

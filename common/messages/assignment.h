@@ -67,7 +67,7 @@ Assignment MakeAssignment(const Experiment& experiment, unsigned hosts);
 
 std::string EngineName(const Experiment& experiment, std::size_t engine);  // "engine 'ground'"
 std::string HostName(std::size_t host);                                    // "controller host 1"
-// The engine that moves an entity, and the host that runs its controller; empty where there is none.
+// The engine that moves an entity, and the host that runs its controller; empty if there is none.
 std::string OwnerName(const Experiment& experiment, const Assignment& assignment, std::size_t entity);
 std::string HostNameOf(const Assignment& assignment, std::size_t entity);
 

@@ -14,7 +14,7 @@ struct ProcessStatus
   std::string name;        // "space server", "engine 'ground'", "controller host 0", "visualiser 'window'"
   std::string process;     // "host:pid"
   std::uint64_t tick = 0;  // the last one that it answered
-  // How long the run has been waiting for it by now; 0 where it is in time.
+  // How long the run has been waiting for it by now; 0 if it is in time.
   double late_s = 0;
   std::string doing;  // what it says of that, such as "runs the controller of fb_3"; mostly empty
 };
@@ -31,11 +31,11 @@ struct RunStatus
   };
 
   Phase phase = Phase::kUnknown;
-  std::uint64_t tick = 0;       // of the run; a picture may show an earlier one
-  double speed_wanted = 0;      // simulated seconds in a second; 0: as fast as possible
-  double real_time_factor = 0;  // simulated seconds in a second, over the last second or so; 0 while paused
-  double ticks_per_second = 0;  // likewise
-  std::string ended;            // kFinished: why, where it is not for maxclock or the experiment's own decision
+  std::uint64_t tick = 0;                // of the run; a picture may show an earlier one
+  double speed_wanted = 0;               // simulated seconds in a second; 0: as fast as possible
+  double real_time_factor = 0;           // simulated seconds in a second, over the last second or so; 0 while paused
+  double ticks_per_second = 0;           // likewise
+  std::string ended;                     // kFinished: why, if it is not for maxclock or the experiment's own decision
   std::vector<ProcessStatus> processes;  // the space server first; in one process that alone
 };
 

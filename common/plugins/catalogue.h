@@ -46,7 +46,7 @@ struct PluginDescription
   std::vector<std::string> channels{};
   std::vector<std::string> entity_tags{};
   bool any_kind = false;  // engines only: it also serves the kinds of users, by their rows alone
-  // Controllers only: false where it was registered by its label alone. `parameters` says nothing then; what its Init
+  // Controllers only: false if it was registered by its label alone. `parameters` says nothing then; what its Init
   // asks for decides.
   bool declares_parameters = true;
 };
@@ -64,7 +64,7 @@ public:
   // std::invalid_argument.
   void Refuse(const std::string& problem);
 
-  // nullptr where there is none.
+  // nullptr if there is none.
   const PluginDescription* Find(PluginKind kind, const std::string& label,
                                 const std::string& implementation = "") const;
   // In alphabetical order of label and implementation.

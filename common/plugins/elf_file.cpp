@@ -60,7 +60,7 @@ std::vector<Elf64_Phdr> SegmentsOf(const RegularFile& file, const Elf64_Ehdr& he
   return segments;
 }
 
-// Of the notes of one segment; empty where none is a build-id.
+// Of the notes of one segment; empty if none is a build-id.
 std::string BuildIdIn(const std::vector<char>& notes)
 {
   const auto padded = [](std::size_t count) { return (count + 3) / 4 * 4; };

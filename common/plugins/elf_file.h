@@ -8,10 +8,10 @@
 namespace swarmanoid
 {
 
-// Why the file cannot be a shared library for this machine, "it is cut short: …"; empty where it can.
+// Why the file cannot be a shared library for this machine, "it is cut short: …"; empty if it can.
 std::string MistakeInLibrary(const std::string& path);
 
-// The GNU build-id that the linker gave a library, or where it gave none, a digest (XXH3, 128 bits) of the file, as
+// The GNU build-id that the linker gave a library, or if it gave none, a digest (XXH3, 128 bits) of the file, as
 // hexadecimal digits. Stripping and installing leave a build-id as it is. Throws FileError.
 std::string BuildOfLibrary(const std::string& path);
 

@@ -49,7 +49,7 @@ std::vector<std::string> Candidates(const std::string& name, const std::vector<s
   return candidates;
 }
 
-// The path without links; empty where there is no such file.
+// The path without links; empty if there is no such file.
 std::string RealFile(const std::string& path)
 {
   std::error_code error;

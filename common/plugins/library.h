@@ -12,16 +12,16 @@ namespace swarmanoid
 
 struct PluginLibrary
 {
-  std::string path;   // of the file; empty where none was found
+  std::string path;   // of the file; empty if none was found
   std::string error;  // empty: it is loaded. Otherwise why not, with the paths that were searched
   PluginCatalogue::Registrations registrations;
 };
 
-// Finds `name` as lib<name>.so, <name>.so or, where it ends in .so, as it stands, in each folder and its .libs, and
+// Finds `name` as lib<name>.so, <name>.so or, if it ends in .so, as it stands, in each folder and its .libs, and
 // loads it. A name with a '/' is a path. Loading a library again yields what the first time yielded.
 const PluginLibrary& LoadPluginLibrary(const std::string& name, const std::vector<std::string>& folders);
 
-// The file that LoadPluginLibrary would load, without links; empty where there is none.
+// The file that LoadPluginLibrary would load, without links; empty if there is none.
 std::string FindPluginLibrary(const std::string& name, const std::vector<std::string>& folders);
 
 // The folders of a list separated by colons: backslashes at the ends of lines and blanks around the entries are

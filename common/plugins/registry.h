@@ -54,7 +54,7 @@ public:
         throw std::logic_error(NameOfPlugin(kind_, description->label, description->implementation) + " has no code");
   }
 
-  // nullptr where there is none.
+  // nullptr if there is none.
   const Entry* Find(const std::string& label, const std::string& implementation = "") const
   {
     const auto found = entries_.find({label, implementation});

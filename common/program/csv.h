@@ -8,7 +8,7 @@
 namespace swarmanoid
 {
 
-// A text as one field: in quotes where it holds a comma, a quote or a line end.
+// A text as one field: in quotes if it holds a comma, a quote or a line end.
 std::string CsvField(std::string_view text);
 
 // The fields of one line, without their quotes.

@@ -31,7 +31,7 @@ struct OptionSpec
   OptionTarget target;
   std::string example{};  // a value
   std::string form{};     // of a text: "PATH=VALUE"
-  // What is wrong with a text of the right type, as "it must be …"; empty where it is right.
+  // What is wrong with a text of the right type, as "it must be …"; empty if it is right.
   std::function<std::string(const std::string&)> mistake{};
   bool required = false;
   bool joined = false;  // several values are written as A,B instead of one after the other

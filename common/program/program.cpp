@@ -35,7 +35,7 @@ int Report(const std::string& program)
   catch (const ConfigurationError& error)
   {
     NoteEnd(EndReason::kInvalid, 0, error.what(), true);
-    // Where there is a file, its place comes first, as editors expect it.
+    // If there is a file, its place comes first, as editors expect it.
     if (error.Location().file)
       fmt::print(stderr, "{}\n", error.what());
     else

@@ -12,14 +12,14 @@ namespace swarmanoid
 class HashLog
 {
 public:
-  // Empty: nothing is written. Throws std::runtime_error where the file cannot be made.
+  // Empty: nothing is written. Throws std::runtime_error if the file cannot be made.
   explicit HashLog(const std::string& path);
   ~HashLog();
   HashLog(const HashLog&) = delete;
   HashLog& operator=(const HashLog&) = delete;
 
   bool IsOpen() const { return file_ != nullptr; }
-  // Throws std::runtime_error where the line is lost, as on a full disk; so does Close, for the last ones.
+  // Throws std::runtime_error if the line is lost, as on a full disk; so does Close, for the last ones.
   void Write(std::uint64_t tick, std::uint64_t hash);
   void Close();
 

@@ -72,7 +72,7 @@ std::vector<OptionSpec> ChoiceOptionTable(RunSettings& settings);
 // The words after `space_server` that give it these settings. Paths become absolute.
 std::vector<std::string> ServerWords(const RunSettings& settings);
 
-// "PATH=VALUE" to a pair; throws UsageError where there is no '='.
+// "PATH=VALUE" to a pair; throws UsageError if there is no '='.
 std::pair<std::string, std::string> SplitSetting(const std::string& text);
 // What is changed in the experiment, as the loader takes it. Throws UsageError.
 LoadOptions ChangesOf(const ExperimentChoice& choice);

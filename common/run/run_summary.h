@@ -19,7 +19,7 @@ struct RunSummary
   bool failed = false;  // the experiment functions said so
 };
 
-// Of `ticks` simulated ones since the start; 0 where no time has passed.
+// Of `ticks` simulated ones since the start; 0 if no time has passed.
 double RealTimeFactor(std::uint64_t ticks, double tick_s, double wall_s);
 
 // The last line of every run: "finished: <ticks> ticks, <entities> entities, hash <16 hex digits>, <wall> s, <factor>x

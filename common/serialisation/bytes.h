@@ -46,7 +46,7 @@ private:
   std::vector<char> bytes_;
 };
 
-// Throws std::runtime_error where the image ends too early.
+// Throws std::runtime_error if the image ends too early.
 class ByteReader
 {
 public:

@@ -29,7 +29,7 @@ public:
   // The same about an entity, without itself.
   const std::vector<std::uint32_t>& FindWithin(const CSwarmanoidSpaceEntity& entity, double distance);
   const std::vector<std::uint32_t>& FindInBox(const Vector3& low, const Vector3& high);
-  // The nearest entity within a distance; nullptr where there is none.
+  // The nearest entity within a distance; nullptr if there is none.
   const CSwarmanoidSpaceEntity* FindNearest(const Vector3& point, double distance);
   const CSwarmanoidSpaceEntity* FindNearest(const CSwarmanoidSpaceEntity& entity, double distance);
 

@@ -8,7 +8,7 @@ namespace swarmanoid
 namespace
 {
 
-// The part of a segment that lies between two bounds on one axis; false where there is none.
+// The part of a segment that lies between two bounds on one axis; false if there is none.
 bool ClipSlab(double start, double step, double low, double high, double& enter, double& leave)
 {
   if (step == 0) return start >= low && start <= high;

@@ -43,7 +43,7 @@ public:
   std::size_t Size() const { return entities_.size(); }
   const CSwarmanoidSpaceEntity& GetEntity(std::size_t index) const { return *entities_[index]; }
   CSwarmanoidSpaceEntity& GetEntity(std::size_t index) { return *entities_[index]; }
-  // nullptr where no entity has that id.
+  // nullptr if no entity has that id.
   const CSwarmanoidSpaceEntity* FindEntity(std::string_view id) const;
   CSwarmanoidSpaceEntity* FindEntity(std::string_view id);
 

@@ -21,14 +21,14 @@ std::string NameOf(const CSwarmanoidSpace& space, std::uint32_t entity)
   return fmt::format("the {} '{}'", TagName(it.GetKind()), it.GetId());
 }
 
-// 1 where a value is infinite or not a number: the exponent has all its bits.
+// 1 if a value is infinite or not a number: the exponent has all its bits.
 std::uint64_t IsNotFinite(double value)
 {
   constexpr std::uint64_t kExponent = 0x7ff0000000000000;
   return static_cast<std::uint64_t>((std::bit_cast<std::uint64_t>(value) & kExponent) == kExponent);
 }
 
-// 1 where a value is outside, or not a number.
+// 1 if a value is outside, or not a number.
 std::uint64_t IsOutside(double value, double low, double high)
 {
   return static_cast<std::uint64_t>(!(value >= low)) | static_cast<std::uint64_t>(!(value <= high));
@@ -83,7 +83,7 @@ bool AllOfNormOne(const double* qx, const double* qy, const double* qz, const do
       size.z()));
 }
 
-// What a slot must hold; nullptr where the value is right.
+// What a slot must hold; nullptr if the value is right.
 const char* MistakeOf(AttributeValue kind, double value, std::size_t entities)
 {
   const auto whole = [value](double most) { return value >= 0 && value <= most && value == std::floor(value); };

@@ -1,6 +1,6 @@
 // What may enter the state: finite numbers, unit quaternions, slots that exist, poses within reach of the arena. Asked
 // by the space server about all that it merges, by engine workers about what their engine gives, and by controller
-// hosts about what their controllers command. Whole arrays in one pass without branches; only where that finds a
+// hosts about what their controllers command. Whole arrays in one pass without branches; only if that finds a
 // mistake is it looked for. Any thread.
 #pragma once
 

@@ -1,5 +1,5 @@
 // RobotInspection: tells visualisers the inside of the robots that they watch, after the commands of a tick are sent.
-// Where nobody watches it costs a look at a flag. Used by the controller_host program; requests come in threads of the
+// If nobody watches it costs a look at a flag. Used by the controller_host program; requests come in threads of the
 // bus.
 #pragma once
 
@@ -50,7 +50,7 @@ private:
   std::mutex& step_;
   std::atomic<bool> watched_ = false;
 
-  std::mutex mutex_;  // of what follows; taken after step_ where both are
+  std::mutex mutex_;  // of what follows; taken after step_ if both are
   std::map<std::string, Request> requests_;
   std::vector<std::uint32_t> robots_;  // of this host, ascending
   bool every_tick_ = false;

@@ -135,7 +135,7 @@ private:
       values[i] = std::clamp(values[i] + ground_noise_.Sample(random), 0.0, 1.0);
   }
 
-  // Where a terrain of the robot's world has no ground near it, and the floor z = 0 is not near either, there is a
+  // If a terrain of the robot's world has no ground near it, and the floor z = 0 is not near either, there is a
   // hole. The engines of planes have ground everywhere.
   void SenseTerrain(std::uint32_t robot, const Pose& pose, double* values) const
   {

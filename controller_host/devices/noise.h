@@ -17,7 +17,7 @@ struct NoiseModel
   {
     kNone,
     kUniform,   // mean + U(-range, range)
-    kGaussian,  // mean + N(0, deviation), what lies beyond mean +- range put onto the border where range is positive
+    kGaussian,  // mean + N(0, deviation), what lies beyond mean +- range put onto the border if range is positive
     kTruncatedGaussian,  // mean + N(0, deviation) given that it lies within mean +- range
   };
 

@@ -28,7 +28,7 @@ public:
   void Forget() { sorted_ = false; }
 
   // The numbers of the objects that come within `distance` (m) of a point, and of some others, ascending; valid until
-  // the next call. `place_of(k)` tells the origin of object k; not a number where it is out of reach for all.
+  // the next call. `place_of(k)` tells the origin of object k; not a number if it is out of reach for all.
   template <class PlaceOf>
   std::span<const std::uint32_t> Near(const Experiment& experiment, const Vector3& point, double distance,
                                       const PlaceOf& place_of)

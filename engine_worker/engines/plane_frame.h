@@ -50,7 +50,7 @@ public:
   Pose ToSpace(const PlanePose& pose, const PlaneStance& stance = {}) const;
 
   // The convex polygon, counter-clockwise in (u, v), in which the plane cuts a box with edges `size` about the centre
-  // `pose`; empty where it does not. A box that only rests on the plane is cut by it too.
+  // `pose`; empty if it does not. A box that only rests on the plane is cut by it too.
   std::vector<Vector2> CutBox(const Pose& pose, const Vector3& size) const;
   // True where the plane cuts the upright cylinder or robot that is `height` metres high and has its base at `pose`.
   bool CutsUpright(const Pose& pose, double height) const;

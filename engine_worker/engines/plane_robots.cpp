@@ -30,7 +30,7 @@ double DistanceTo(const Shape& shape, const Pose& pose, const Vector3& point)
   return std::sqrt(outside.squaredNorm());
 }
 
-// In robots by ascending entity; the end where all come before.
+// In robots by ascending entity; the end if all come before.
 template <class Robots>
 auto PlaceOf(Robots& robots, std::uint32_t entity)
 {
@@ -173,7 +173,7 @@ void PlaneRobots::UseHands(Handbot& handbot)
   }
 }
 
-// 1 + the nearest object within the reach of a hand, 0 where there is none. The head rolls about its forward axis and
+// 1 + the nearest object within the reach of a hand, 0 if there is none. The head rolls about its forward axis and
 // has both arms; an arm's aperture opens it outwards.
 std::uint32_t PlaneRobots::ObjectAt(const Handbot& handbot, std::size_t hand) const
 {

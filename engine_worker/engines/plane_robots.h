@@ -47,7 +47,7 @@ class PlaneGrips
 {
 public:
   virtual ~PlaneGrips() = default;
-  // Makes robot and object one rigid whole. False where the object may not be held: it would close a loop.
+  // Makes robot and object one rigid whole. False if the object may not be held: it would close a loop.
   virtual bool Hold(std::uint32_t robot, std::uint32_t object) = 0;
   virtual void LetGo(std::uint32_t robot) = 0;
   virtual bool Holds(std::uint32_t robot) const = 0;
@@ -123,7 +123,7 @@ private:
   std::vector<Handbot> handbots_;
   std::vector<Eyebot> eyebots_;
   std::vector<std::uint32_t> attached_;
-  std::vector<Lifted> lifted_;  // handbots, blocks and preys, by entity; none where there is no handbot
+  std::vector<Lifted> lifted_;  // handbots, blocks and preys, by entity; none if there is no handbot
   std::vector<std::uint32_t> objects_;
   mutable NearObjects near_objects_;  // by place in objects_
 };

@@ -33,7 +33,7 @@ struct MemberPlan
 class ClusterMember
 {
 public:
-  // Starts the process. Throws std::runtime_error where that is impossible.
+  // Starts the process. Throws std::runtime_error if that is impossible.
   ClusterMember(const MemberPlan& plan, ProcessSpawner& spawner);
 
   // Reads what there is, without waiting, and calls on_line for each full line of its standard output unless that goes

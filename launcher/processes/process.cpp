@@ -80,7 +80,7 @@ PageOfChild MakePage()
   return made;
 }
 
-// The part between fork and exec: system calls only. Returns errno where one fails.
+// The part between fork and exec: system calls only. Returns errno if one fails.
 int BecomeChild(pid_t launcher, const cpu_set_t* cores, int output, int errors, int page, char** arguments,
                 char** environment)
 {

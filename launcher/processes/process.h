@@ -27,8 +27,8 @@ struct ProcessCommand
 // How a process ended.
 struct ProcessEnd
 {
-  int exit_code = 0;  // where it ended by itself
-  int signal = 0;     // where a signal ended it
+  int exit_code = 0;  // if it ended by itself
+  int signal = 0;     // if a signal ended it
 
   bool Clean() const { return exit_code == 0 && signal == 0; }
   // "was killed by signal 9 (Killed)", "ended with exit code 3", "ended".
@@ -50,7 +50,7 @@ class ProcessSpawner
 {
 public:
   virtual ~ProcessSpawner() = default;
-  // Throws std::runtime_error, naming the program, where it cannot be started.
+  // Throws std::runtime_error, naming the program, if it cannot be started.
   virtual SpawnedProcess Start(const ProcessCommand& command) = 0;
   // Of a process whose `end` is readable; waits for it otherwise. Kills what it started and left behind. Call once.
   virtual ProcessEnd Collect(const SpawnedProcess& process) = 0;

@@ -14,14 +14,14 @@ namespace swarmanoid
 class ProcessLog
 {
 public:
-  // Throws std::runtime_error where the file cannot be made.
+  // Throws std::runtime_error if the file cannot be made.
   explicit ProcessLog(std::string path);
 
   void Add(std::string_view line);
   const std::string& Path() const { return path_; }
   // At most kLines.
   const std::deque<std::string>& LastLines() const { return last_lines_; }
-  // Why lines are missing from the file; empty where none are.
+  // Why lines are missing from the file; empty if none are.
   const std::string& Trouble() const { return trouble_; }
 
   static constexpr std::size_t kLines = 8;

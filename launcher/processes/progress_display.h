@@ -40,7 +40,7 @@ public:
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
-  // kTerminal where the descriptor is one.
+  // kTerminal if the descriptor is one.
   static Style StyleFor(int descriptor, bool quiet);
 
   void Show(const RunProgress& progress, Clock::time_point now);

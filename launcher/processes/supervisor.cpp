@@ -19,7 +19,7 @@ namespace
 constexpr std::size_t kScreenBytes = 2048;  // a pipe that poll calls writable takes these without blocking
 constexpr std::size_t kOutputBytes = 65536;
 
-// True where the process waits for something by its own will, and does not work, nor was it stopped.
+// True if the process waits for something by its own will, and does not work, nor was it stopped.
 bool IsAsleep(pid_t pid)
 {
   std::ifstream stat(fmt::format("/proc/{}/stat", pid));

@@ -29,7 +29,7 @@ struct ClusterOutcome
     kInvalid        // a process found the experiment itself wrong
   };
   Kind kind = kFailed;
-  std::optional<ServerFinished> finished;  // where the space server came to its end
+  std::optional<ServerFinished> finished;  // if the space server came to its end
   std::string reason;                      // of a failure: one line that names who failed, the tick and the log
   std::vector<std::string> log_lines;      // the last ones of that process
 };

@@ -25,7 +25,7 @@ public:
   CheckpointWriter(ServerSession& session, const Experiment& experiment, std::vector<std::string> parts,
                    std::uint64_t first_tick, const std::string& folder, std::function<void()> changed);
 
-  // The state of the server's tick goes out now. Throws std::runtime_error where it cannot be saved.
+  // The state of the server's tick goes out now. Throws std::runtime_error if it cannot be saved.
   void Sending(const SpaceServer& server);
   // Main thread: writes what is complete. Throws std::runtime_error.
   void Work();

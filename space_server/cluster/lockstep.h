@@ -22,7 +22,7 @@ namespace swarmanoid
 class Lockstep
 {
 public:
-  // `watch`, where there is one: called in the main thread before the state of a tick goes out.
+  // `watch`, if there is one: called in the main thread before the state of a tick goes out.
   // `stopped`: called in a thread of the bus when the main thread has to act: the tick is held, or the run failed.
   Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
            const std::string& hash_log, std::function<void(SpaceServer&)> watch, CheckpointWriter& checkpoints,
@@ -37,7 +37,7 @@ public:
   // Between two ticks: the state of Tick() is made, but not sent.
   bool Held() const;
   std::uint64_t Tick() const;
-  // Sends the state that is held and runs on until tick `until`, or without end where `until` is 0.
+  // Sends the state that is held and runs on until tick `until`, or without end if `until` is 0.
   void Go(std::uint64_t until);
   // Asks the run to hold before the next state is sent.
   void Hold();
@@ -48,7 +48,7 @@ public:
   // The name of the visualiser that asked for the end, if one did.
   std::optional<std::string> Terminator() const;
   std::optional<std::string> Failure() const;
-  // After the last state. Throws where lines of it are lost.
+  // After the last state. Throws if lines of it are lost.
   void CloseHashLog();
   // Those whose answer to the current tick is missing.
   std::vector<std::string> Missing() const;

@@ -50,7 +50,7 @@ int Serve(const ServerOptions& options)
   };
   auto server = std::make_unique<Server>(options);
   StatusChannel& status = server->status;
-  status.Tell(ServerState{ServerState::kLoading, {}});
+  status.Publish(ServerState{ServerState::kLoading, {}});
   try
   {
     LoadOptions load = ChangesOf(options);
@@ -59,8 +59,8 @@ int Serve(const ServerOptions& options)
     if (!loaded.experiment)
     {
       for (const Diagnostic& error : loaded.errors) fmt::print(stderr, "{}\n", error.Text());
-      status.Tell(ServerError{fmt::format("the experiment file has {} mistake{}", loaded.errors.size(),
-                                          loaded.errors.size() == 1 ? "" : "s")});
+      status.Publish(ServerError{fmt::format("the experiment file has {} mistake{}", loaded.errors.size(),
+                                             loaded.errors.size() == 1 ? "" : "s")});
       return kExitInvalidFile;
     }
     if (!options.output_folder.empty())
@@ -85,7 +85,7 @@ int Serve(const ServerOptions& options)
     const bool complete = invalid || dynamic_cast<const ActivityError*>(&error) != nullptr;
     NoteEnd(invalid ? EndReason::kInvalid : EndReason::kFailed, 0,
             complete ? error.what() : fmt::format("space server failed at tick 0: {}", error.what()), complete);
-    status.Tell(ServerError{error.what()});
+    status.Publish(ServerError{error.what()});
     throw;
   }
 }

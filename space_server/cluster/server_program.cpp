@@ -65,7 +65,7 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
                 [this] { Wake(); })
 {
   if (status_.IsOpen())
-    server_.SetWarningHandler([this](const std::string& text) { status_.Tell(ServerWarning{text}); });
+    server_.SetWarningHandler([this](const std::string& text) { status_.Publish(ServerWarning{text}); });
 }
 
 int ServerProgram::Run()
@@ -87,7 +87,7 @@ int ServerProgram::Run()
     session_.Leave(lockstep_.Tick(), error.what());
     // Within another program, that one says it.
     if (options_.abandon == nullptr) fmt::print(stderr, "space_server: {}\n", error.what());
-    status_.Tell(ServerError{error.what()});
+    status_.Publish(ServerError{error.what()});
     session_.LeaveDirectory();
     failed_ = true;
     return interrupted ? kExitInterrupted : reason_ == EndReason::kOthers ? kExitOthersFailed : kExitProcessFailed;
@@ -183,7 +183,7 @@ void ServerProgram::Collect()
     if (text != said && !text.empty() && (Clock::now() - start > 300ms || !said.empty()))
     {
       Say(fmt::format("waiting for {} (experiment '{}', domain {}) …", text, experiment_.name, options_.bus.domain));
-      status_.Tell(ServerState{ServerState::kWaiting, text});
+      status_.Publish(ServerState{ServerState::kWaiting, text});
       said = text;
     }
     // Endpoints of others are met without a word: look often while nobody is missing.
@@ -216,7 +216,7 @@ void ServerProgram::RunTicks()
       views_.Renew();
     }
     checkpoints_.Work();
-    Watch();
+    ReportProgress();
     PublishViews();
     if (!lockstep_.Finished() && !lockstep_.Failure()) Sleep(std::min(next, views_.Next()));
   }
@@ -229,11 +229,11 @@ void ServerProgram::ReportState()
   const ServerState::Phase phase = run_control_.Paused() ? ServerState::kPaused : ServerState::kRunning;
   if (phase == said_phase_) return;
   said_phase_ = phase;
-  status_.Tell(ServerState{phase, {}});
+  status_.Publish(ServerState{phase, {}});
   Say(run_control_.Paused() ? fmt::format("paused at tick {}", lockstep_.Tick()) : "running");
 }
 
-void ServerProgram::Watch()
+void ServerProgram::ReportProgress()
 {
   const auto now = Clock::now();
   const std::uint64_t tick = lockstep_.Tick();
@@ -256,14 +256,14 @@ void ServerProgram::Watch()
   {
     stall_said_ = now - since_;
     const std::string who = LateNames(tick);
-    status_.Tell(ServerStall{who, std::round(Seconds(stall_said_))});
+    status_.Publish(ServerStall{who, std::round(Seconds(stall_said_))});
     Say(fmt::format("tick {}: waiting for {} since {:.0f} s", tick, who, Seconds(stall_said_)));
   }
   ReportState();
   if (run_control_.Paused() && held)
     pace_.Rest(tick, now);
   else if (pace_.Observe(tick, now))
-    status_.Tell(ServerTick{tick, experiment_.max_clock, pace_.RealTimeFactor()});
+    status_.Publish(ServerTick{tick, experiment_.max_clock, pace_.RealTimeFactor()});
 }
 
 std::string ServerProgram::LateNames(std::uint64_t tick) const
@@ -346,8 +346,8 @@ void ServerProgram::Close()
   session_.Leave(result.ticks, "");
   result.wall_s = Seconds(end_ - start_);
   result.real_time_factor = RealTimeFactor(result.ticks - first_tick_, experiment_.TickSeconds(), result.wall_s);
-  status_.Tell(ServerTick{result.ticks, experiment_.max_clock, result.real_time_factor});
-  status_.Tell(ServerFinished{result.ticks, result.entities, result.hash, result.wall_s, result.real_time_factor});
+  status_.Publish(ServerTick{result.ticks, experiment_.max_clock, result.real_time_factor});
+  status_.Publish(ServerFinished{result.ticks, result.entities, result.hash, result.wall_s, result.real_time_factor});
   if (!status_.IsOpen()) fmt::print("{}\n", FinishedLine(result));
 }
 

@@ -35,7 +35,7 @@ struct ServerOptions : RunSettings
   // Called before the state of each tick goes out, in the thread that runs the program; what it changes through the
   // server is part of the state.
   std::function<void(SpaceServer&)> watch;
-  // In a process that lives on after the run: set where the run is to be given up at once.
+  // In a process that lives on after the run: set if the run is to be given up at once.
   const std::atomic<bool>* abandon = nullptr;
   std::string places;  // LoadedExperiment::places
 };
@@ -49,7 +49,7 @@ public:
   ServerProgram(const ServerProgram&) = delete;
   ServerProgram& operator=(const ServerProgram&) = delete;
 
-  // The whole run. Returns the exit code. Where the run has failed, threads of the bus may be stuck for ever: then the
+  // The whole run. Returns the exit code. If the run has failed, threads of the bus may be stuck for ever: then the
   // program is not to be destroyed, and the process ends by EndAtOnce.
   int Run();
   bool Failed() const { return failed_; }
@@ -71,7 +71,7 @@ private:
   void RunTicks();
   void ReportState();
   // Progress, late answers, stalls.
-  void Watch();
+  void ReportProgress();
   // Whom the run waits for: those whose answer is missing, or those whom they in turn wait for.
   std::string LateNames(std::uint64_t tick) const;
   RunStatus::Phase Phase() const;

@@ -21,7 +21,7 @@ public:
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  // The exit code; -1 where the process still runs after that time, 128 + signal where a signal ended it.
+  // The exit code; -1 if the process still runs after that time, 128 + signal if a signal ended it.
   int Wait(double seconds = kGenerous_s);
   void Signal(int signal) const;
   bool Running() { return Wait(0) < 0; }

@@ -22,7 +22,7 @@ GENEROUS_S = 100
 
 
 def stat_of(pid):
-    """Parent, group and state of a process, or None where there is none."""
+    """Parent, group and state of a process, or None if there is none."""
     try:
         text = pathlib.Path(f"/proc/{pid}/stat").read_text()
     except OSError:
@@ -187,7 +187,7 @@ class LauncherTest(unittest.TestCase):
 
 
 def main():
-    """Runs the tests of a file. Where one of them was skipped, ctest says so, instead of counting it among those that passed."""
+    """Runs the tests of a file. If one of them was skipped, ctest says so, instead of counting it among those that passed."""
     result = unittest.main(exit=False).result
     for test, reason in result.skipped:
         print(f"skipped: {test}: {reason}")

@@ -124,7 +124,7 @@ TEST_F(StrangersTest, DoNotChangeARunByBadMessages)
   // While the engine sleeps the server waits for its update.
   ControlClient client(bus, "strangers");
   workers[0].Signal(SIGSTOP);
-  client.Tell("resume", "", {});
+  client.Send("resume", "", {});
   const MessageHeader next{run, 1, 0, false};
   const MessageHeader nobody{run, 1, 77, false};
   EngineUpdate update;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# prey_retrieval.sh SWARMANOID EXPERIMENT: the sample experiment reaches its goal, in one process and as a cluster alike, and says so where it does not.
+# prey_retrieval.sh SWARMANOID EXPERIMENT: the sample experiment reaches its goal, in one process and as a cluster alike, and says so if it does not.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

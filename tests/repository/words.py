@@ -17,6 +17,8 @@ METAPHORS = {
     r"\w*Suspect\w*|\w*suspects?_\w*|\bCulprits?\b|\bJudge\b": "candidates, attribution",
     r"\bstruct (Ear|Letter|Looked|Raised)\b|\bkLamp\b": "Receiver, Glyph, Viewed, Lifted, Light",
     r"\b(KeepAbsent|StillAbsent|AllMet|MeetOthers|MeetServer)\b": "KeepInactive, StopInactive, AllMatched, WaitFor",
+    r"\bStepWatch\b|(ControlClient|StatusChannel)::Tell\b|(ControllerHost|EngineWorker|HostNode|EngineNode)::Step\b":
+        "StepTimeout, Send, Publish, Tick",
     r"\w+_kit\.h\b": "a name for what is in it",
 }
 CODE = re.compile(r"^(?!tests/(seed|repository)/|user/).*\.(h|cpp|idl|py)$")

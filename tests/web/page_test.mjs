@@ -1,5 +1,5 @@
 // The page of web_render in headless Chromium, on real runs of the command. Waits for the state of the page, never for
-// pictures a second: rendering in software is slow. Ends with 77 where there is no browser.
+// pictures a second: rendering in software is slow. Ends with 77 if there is no browser.
 //
 // Environment: SWARMANOID (the command), SWARMANOID_CONFIGS, PAGE_MODULES (node_modules with playwright-core).
 import assert from "node:assert/strict";

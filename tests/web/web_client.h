@@ -39,7 +39,7 @@ public:
     return Ask("GET " + target + " HTTP/1.1\r\nHost: " + (host.empty() ? Host() : host) + "\r\n\r\n");
   }
 
-  // The status of the answer: 101 where the server takes the client.
+  // The status of the answer: 101 if the server takes the client.
   unsigned Open(const std::string& target = "/stream", const std::string& origin = "", const std::string& host = "")
   {
     stream_.set_option(boost::beast::websocket::stream_base::decorator(
@@ -65,7 +65,7 @@ public:
     stream_.write(boost::asio::buffer(text));
   }
 
-  // The next message; `error` where the connection ends.
+  // The next message; `error` if the connection ends.
   std::string Read(ErrorCode& error)
   {
     boost::beast::flat_buffer buffer;

@@ -16,7 +16,7 @@ TOOLS = {"Xvfb": "xvfb", "xdotool": "xdotool", "import": "imagemagick", "identif
 
 
 def need(renderer):
-    """Skips the file's tests where something is missing."""
+    """Skips the file's tests if something is missing."""
     library = pathlib.Path(os.environ["SWARMANOID_BUILD"]) / "lib" / f"libswarmanoid_{renderer}.so"
     if not library.exists():
         harness.skip(f"{renderer} is not part of this build")

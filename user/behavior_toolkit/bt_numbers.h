@@ -4,5 +4,5 @@
 #include <iosfwd>
 
 void BTSaveNumber(std::ostream& state, double value);
-// Throws std::runtime_error where no number follows.
+// Throws std::runtime_error if no number follows.
 double BTLoadNumber(std::istream& state);

@@ -25,7 +25,7 @@ Ask()
   while true; do
     if [ -z "$given" ]; then
       if [ -t 0 ]; then printf '%s%s: ' "$3" "${4:+ [$4]}" >&2; fi
-      variable="" # where the input has ended
+      variable="" # if the input has ended
       read -r variable || true
       variable=${variable:-$4}
       [ -n "$variable" ] || { echo "$0: no answer to: $3 (or give $2)" >&2; exit 2; }

@@ -47,7 +47,7 @@ std::span<const RunNote> RemoteMonitor::Notes()
         [this](const ControlReplyMessage& reply)
         {
           const std::lock_guard lock(mutex_);
-          // An answer comes again where its asker did not hear it.
+          // An answer comes again if its asker did not hear it.
           const auto same = [&](const RunNote& note)
           { return note.from == reply.client && note.number == reply.number; };
           if (std::ranges::any_of(heard_notes_, same)) return;

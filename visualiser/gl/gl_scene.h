@@ -31,7 +31,7 @@ struct DrawStatistics
 class GlScene
 {
 public:
-  // Throws std::runtime_error where the context is older than 3.3 or does not take the shaders.
+  // Throws std::runtime_error if the context is older than 3.3 or does not take the shaders.
   GlScene();
   ~GlScene();
 

@@ -48,7 +48,7 @@ class MeshStore
 {
 public:
   MeshStore();
-  // Uploads the models where they differ from the last ones.
+  // Uploads the models if they differ from the last ones.
   void SetModels(std::span<const Model> models);
   // Draws all buckets with the program in use. Returns the number of triangles.
   std::size_t Draw(const InstanceBuckets& instances);

@@ -10,7 +10,7 @@ namespace swarmanoid
 class PictureTarget
 {
 public:
-  // Does nothing where it is so already. Throws std::runtime_error where OpenGL refuses.
+  // Does nothing if it is so already. Throws std::runtime_error if OpenGL refuses.
   void Resize(int width, int height, int samples);
   GLuint Framebuffer() const { return framebuffer_.Name(); }
   int Samples() const { return samples_; }

@@ -34,7 +34,7 @@ private:
   Camera camera_;
   DrawOptions draw_options_;
   SceneOptions scene_options_;
-  RunMonitor* monitor_ = nullptr;   // where the pictures show how the run goes
+  RunMonitor* monitor_ = nullptr;   // if the pictures show how the run goes
   std::vector<std::string> names_;  // of the entities, with their owners
   std::uint64_t every_ = 1;
   std::uint64_t next_ = 0;  // tick of the next picture: drawn at this one or the first one after it

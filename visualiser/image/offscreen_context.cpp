@@ -86,7 +86,7 @@ bool OffscreenContext::State::TrySurfaceless()
 
 OffscreenContext::OffscreenContext() : state_(std::make_unique<State>())
 {
-  // The library of OpenGL's entry points ends the program where there is none.
+  // The library of OpenGL's entry points ends the program if there is none.
   if (dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL) == nullptr)
     throw std::runtime_error(
         "pictures need OpenGL, and there is no libEGL.so.1; install the packages libegl1 and "

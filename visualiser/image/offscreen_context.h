@@ -20,7 +20,7 @@ public:
   OffscreenContext(const OffscreenContext&) = delete;
   OffscreenContext& operator=(const OffscreenContext&) = delete;
 
-  // Before drawing, and before what was made in it is deleted, where the process has several contexts.
+  // Before drawing, and before what was made in it is deleted, if the process has several contexts.
   void MakeCurrent() const;
   // "EGL device 0", "EGL surfaceless".
   const std::string& Kind() const;

@@ -59,7 +59,7 @@ struct ValueName
 // nullopt where the groups do not have it (now).
 std::optional<EntityValue> FindValue(const std::vector<ValueGroup>& groups, const ValueName& name);
 
-// A number that stands for a colour or an entity, up to `most`; nullopt where it is none of them. Readings of
+// A number that stands for a colour or an entity, up to `most`; nullopt if it is none of them. Readings of
 // controllers may be any number: an infinite one is a range without an echo.
 std::optional<std::uint32_t> WholeNumber(double value, std::uint32_t most);
 

@@ -75,7 +75,7 @@ struct KeyBinding
   Action action;
   KeyPress press;  // of kRecall and kStore: that of viewpoint 0
   std::string_view section;
-  std::string_view keys;  // as the help names them; empty where another binding's line tells of it
+  std::string_view keys;  // as the help names them; empty if another binding's line tells of it
   std::string_view meaning;
 };
 

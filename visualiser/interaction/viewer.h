@@ -116,7 +116,7 @@ public:
   // Those that are still to be seen, oldest first.
   const std::deque<Message>& Messages();
   const Viewpoints& GetViewpoints() const { return viewpoints_; }
-  // What was stored last, as XML; empty where nothing was.
+  // What was stored last, as XML; empty if nothing was.
   const std::string& StoredXml() const { return stored_xml_; }
 
   bool WantsToClose() const { return close_; }

@@ -16,7 +16,7 @@ constexpr double kClickReach = 4;  // pixels that a click may move
 constexpr double kDegreesPerPixel = 0.3;
 constexpr double kWheelFactor = 0.88;
 constexpr double kWheelTurn = 15;  // degrees of an entity that is being moved
-constexpr double kFarPivot = 10;   // m, where the camera does not look at the floor
+constexpr double kFarPivot = 10;   // m, if the camera does not look at the floor
 
 }  // namespace
 

@@ -27,14 +27,14 @@ public:
 protected:
   using TakePicture = std::function<void(const Picture&)>;
 
-  // Sizes in the unit of the mouse. Throws std::runtime_error, saying what is missing, where there can be no window.
+  // Sizes in the unit of the mouse. Throws std::runtime_error, saying what is missing, if there can be no window.
   virtual void Open(const std::string& title, int width, int height, const Parameters& parameters) = 0;
-  // Takes what happened since the last call to the viewer. True where anything did.
+  // Takes what happened since the last call to the viewer. True if anything did.
   virtual bool TakeEvents() = 0;
   virtual bool WindowWantsToClose() const = 0;
-  // False where nobody could see what is drawn.
+  // False if nobody could see what is drawn.
   virtual bool WindowIsVisible() const = 0;
-  // Draws the viewer's scene into the window, then the panels. `take`, where it is not empty, gets the picture without
+  // Draws the viewer's scene into the window, then the panels. `take`, if it is not empty, gets the picture without
   // the panels, before they are drawn: they tell what came of it.
   virtual void Show(const TakePicture& take) = 0;
 

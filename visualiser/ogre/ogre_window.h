@@ -26,7 +26,7 @@ namespace swarmanoid
 class OgreWindow : public OgreBites::ApplicationContext, public OgreBites::InputListener
 {
 public:
-  // Throws std::runtime_error, saying what is missing, where there is no display or no OpenGL 3.3.
+  // Throws std::runtime_error, saying what is missing, if there is no display or no OpenGL 3.3.
   OgreWindow(const std::string& title, int width, int height, int samples);
   ~OgreWindow() override;
 
@@ -34,7 +34,7 @@ public:
   // From now on the window shows what this camera sees.
   void Show(Ogre::Camera* camera);
   void SetShadows(bool on);
-  // Takes what happened since the last call to the viewer. True where anything did.
+  // Takes what happened since the last call to the viewer. True if anything did.
   bool TakeEvents(Viewer& viewer);
   // Draws the window anew, with what `panels` shows over it.
   void Present(Viewer& viewer, const std::function<void()>& panels);
@@ -71,7 +71,7 @@ private:
   std::function<void()> panels_;
   Viewer* viewer_ = nullptr;  // while events are taken
   bool happened_ = false;
-  // Buttons that were pressed since the last frame, and releases that came as early: ImGui sees a click only where a
+  // Buttons that were pressed since the last frame, and releases that came as early: ImGui sees a click only if a
   // frame lies between the two.
   unsigned pressed_ = 0;
   std::vector<OgreBites::MouseButtonEvent> early_releases_;

@@ -17,13 +17,13 @@ namespace swarmanoid
 class GlWindow
 {
 public:
-  // Throws std::runtime_error, saying what is missing, where there is no display or no OpenGL 3.3.
+  // Throws std::runtime_error, saying what is missing, if there is no display or no OpenGL 3.3.
   GlWindow(const std::string& title, int width, int height);
   ~GlWindow();
   GlWindow(const GlWindow&) = delete;
   GlWindow& operator=(const GlWindow&) = delete;
 
-  // Takes what happened since the last call to the viewer. True where anything did.
+  // Takes what happened since the last call to the viewer. True if anything did.
   bool PollEvents(Viewer& viewer);
   // The context and ImGui of this window are current from then on.
   void MakeCurrent() const;

@@ -32,7 +32,7 @@ ImU32 CurveColour(std::size_t n);
 
 // Sets the style of the present context. scale: of the screen, 1 for about 96 dots an inch.
 void ApplyTheme(float scale);
-// DejaVu Sans where it is installed, otherwise empty: ImGui's own font serves.
+// DejaVu Sans if it is installed, otherwise empty: ImGui's own font serves.
 std::string PanelFont();
 
 }  // namespace swarmanoid

@@ -113,7 +113,7 @@ Camera FrameBox(const Vector3& low, const Vector3& high, double aspect, double h
   const Vector3 forward = camera.Forward();
   const Vector3 right = camera.Right();
   const Vector3 up = camera.Up();
-  // A corner is in the picture where |right| <= slope * depth and |up| <= slope * depth. The planes of the four sides,
+  // A corner is in the picture if |right| <= slope * depth and |up| <= slope * depth. The planes of the four sides,
   // pushed out until the box is inside, meet in a line for each pair; the camera stands at the greater depth of the
   // two.
   constexpr double kMargin = 1.06;

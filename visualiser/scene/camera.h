@@ -46,7 +46,7 @@ struct Camera
   void Zoom(const Vector3& at, double factor);
 };
 
-// Where a ray meets the plane of a height; the point `otherwise` metres along it where it does not come down there.
+// Where a ray meets the plane of a height; the point `otherwise` metres along it if it does not come down there.
 Vector3 PointOnFloor(const Ray& ray, double height, double otherwise);
 
 // A view from outside, above the corner of smallest x and y, from which the whole box is seen.

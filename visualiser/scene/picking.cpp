@@ -15,7 +15,7 @@ constexpr double kTall = 0.25;         // m: lower walls hide nothing
 // What stays solid of a wall that hides the arena, and of the others, m.
 constexpr float kKerb = 0.04F;
 constexpr float kCutHeight = 0.35F;
-constexpr float kCutPart = 0.07F;  // of the arena's size, where that is more
+constexpr float kCutPart = 0.07F;  // of the arena's size, if that is more
 
 }  // namespace
 

@@ -24,7 +24,7 @@ struct SceneItem
   enum class Role : std::uint8_t
   {
     kBody,   // throws a shadow
-    kWall,   // at the edge of the arena: no shadow, and glass where it hides the arena (picking.h)
+    kWall,   // at the edge of the arena: no shadow, and glass if it hides the arena (picking.h)
     kPatch,  // a painted area just above the floor: takes shadows, throws none
     kFloor   // of the arena
   };
@@ -74,7 +74,7 @@ struct SceneOptions
   bool rays = false;
   bool collision_models = false;
   bool beams = true;
-  std::optional<std::uint32_t> selected;  // an entity: marked, with its id, and its rays where `rays` is off
+  std::optional<std::uint32_t> selected;  // an entity: marked, with its id, and its rays if `rays` is off
 };
 
 class Scene
@@ -94,7 +94,7 @@ public:
   std::span<const Model> Models() const { return models_; }
   // Items never change their number, entity, model or role. Those of one entity stand together.
   std::span<const SceneItem> Items() const { return items_; }
-  // 0xRRGGBB, 0 where a light is off.
+  // 0xRRGGBB, 0 if a light is off.
   std::span<const Colour> Lights() const { return lights_; }
   std::span<const SceneLine> Lines() const { return lines_; }
   std::span<const SceneGlow> Glows() const { return glows_; }
@@ -150,7 +150,7 @@ private:
   void AddOutline(std::uint32_t entity, Colour colour, float width, bool on_top);
   void AddLine(const Vector3& from, const Vector3& to, Colour colour, float width, float opacity, bool on_top = false);
   void AddTrails();
-  // The fraction of the way to the first body but one, whatever its engine; 1 where there is none.
+  // The fraction of the way to the first body but one, whatever its engine; 1 if there is none.
   double FirstHit(const Vector3& from, const Vector3& to, std::uint32_t without);
   double Attribute(const Body& body, int offset) const
   {

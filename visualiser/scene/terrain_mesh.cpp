@@ -68,7 +68,7 @@ Mesh HeightMesh(const HeightTerrain& terrain, int step)
   return mesh;
 }
 
-// Cubes of `step` cells of a map on each side; occupied where any of the cells is.
+// Cubes of `step` cells of a map on each side; occupied if any of the cells is.
 class Cubes
 {
 public:

@@ -60,7 +60,7 @@ struct VideoWriter::State
   void Encode(const AVFrame* picture);
 };
 
-// H.264 and VP9 play everywhere; where FFmpeg was built without them, whatever the container's own codec is.
+// H.264 and VP9 play everywhere; if FFmpeg was built without them, whatever the container's own codec is.
 void VideoWriter::State::ChooseEncoder()
 {
   const std::string format = container->oformat->name;

@@ -23,7 +23,7 @@ public:
   // Writes what is left; without it the destructor does, but cannot report errors.
   void Finish();
 
-  // False where the build has no FFmpeg libraries; the constructor throws then.
+  // False if the build has no FFmpeg libraries; the constructor throws then.
   static bool IsAvailable();
 
 private:

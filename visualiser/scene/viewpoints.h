@@ -24,7 +24,7 @@ public:
 
   const std::optional<Camera>& At(int number) const { return views_[static_cast<std::size_t>(number)]; }
   void Store(int number, const Camera& camera) { views_[static_cast<std::size_t>(number)] = camera; }
-  // The one with the smallest number, where there is any.
+  // The one with the smallest number, if there is any.
   std::optional<Camera> First() const;
 
 private:

@@ -32,7 +32,7 @@ protected:
     std::string title;
     bool is_number = true;  // false: a text in JSON
     std::function<void(const CSwarmanoidSpaceEntity& entity, std::string& line)> append;
-    bool by_default = true;  // false: written only where the parameter `columns` names it
+    bool by_default = true;  // false: written only if the parameter `columns` names it
   };
 
   // Extension points: the columns there are (asked once, by Init), and which entities get a line.
@@ -42,7 +42,7 @@ protected:
   // A number rounded to `precision` decimals, without trailing zeros.
   void AppendNumber(double value, std::string& line) const;
   const CSwarmanoidSpace& Space() const { return *space_; }
-  // nullptr where the renderer is used outside a run.
+  // nullptr if the renderer is used outside a run.
   RunMonitor* Monitor() const { return monitor_; }
 
 private:

@@ -20,7 +20,7 @@ bool IsKnownHost(std::string_view host);
 // empty one is allowed.
 bool IsOwnOrigin(std::string_view origin, std::string_view host);
 
-// The part of a request's target before '?', and the value of one of its parameters; empty where there is none.
+// The part of a request's target before '?', and the value of one of its parameters; empty if there is none.
 std::string_view PathOf(std::string_view target);
 std::string_view QueryValue(std::string_view target, std::string_view name);
 

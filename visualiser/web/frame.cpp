@@ -142,7 +142,7 @@ void FrameWriter::ReadAttributes()
   }
 }
 
-// The mean colour of the LEDs that shine, or that of the beacon where none does.
+// The mean colour of the LEDs that shine, or that of the beacon if none does.
 std::uint32_t FrameWriter::ReadLeds(const Bearer& bearer, std::uint8_t& flags)
 {
   const double* leds = &space_.Attributes()[bearer.led];

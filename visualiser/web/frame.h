@@ -72,7 +72,7 @@ public:
   std::string Write();
 
 private:
-  // Where the attributes of a movable entity stand that a frame shows; kNone where it has none.
+  // Where the attributes of a movable entity stand that a frame shows; kNone if it has none.
   struct Bearer
   {
     std::uint32_t entity = 0;

@@ -14,7 +14,7 @@ namespace swarmanoid
 class LogFollower
 {
 public:
-  // Follows nothing where the folder is not that of a run.
+  // Follows nothing if the folder is not that of a run.
   explicit LogFollower(const std::filesystem::path& folder);
 
   using OnLine = std::function<void(const std::string& process, const std::string& line)>;

@@ -29,7 +29,7 @@ std::string Text(const Json& json) { return json.dump(-1, ' ', false, Json::erro
 
 Json Vector(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
-// The surface seen from above, on a grid; null where there is no ground. In the terrain's frame.
+// The surface seen from above, on a grid; null if there is no ground. In the terrain's frame.
 Json TerrainSurface(const EntityConfiguration& configuration, const std::string& folder)
 {
   const std::shared_ptr<const Terrain> terrain = LoadTerrain(configuration, folder);

@@ -20,11 +20,11 @@ class PageFiles
 {
 public:
   PageFiles() = default;
-  // Reads all files of a folder and its subfolders. Throws std::runtime_error where there is no index.html.
+  // Reads all files of a folder and its subfolders. Throws std::runtime_error if there is no index.html.
   explicit PageFiles(const std::filesystem::path& folder);
 
   void Add(const std::string& path, const std::string& type, std::string bytes);
-  // "/" is "/index.html". nullptr where there is none.
+  // "/" is "/index.html". nullptr if there is none.
   const PageFile* Find(std::string_view path) const;
 
 private:

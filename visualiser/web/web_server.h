@@ -53,7 +53,7 @@ public:
     kCount
   };
 
-  // Throws std::runtime_error where it cannot listen. The events outlive the server.
+  // Throws std::runtime_error if it cannot listen. The events outlive the server.
   WebServer(const WebServerSettings& settings, PageFiles files, WebServerEvents& events);
   // Sends what is ready, for a moment, and closes the connections.
   ~WebServer();
@@ -61,7 +61,7 @@ public:
   WebServer& operator=(const WebServer&) = delete;
 
   std::uint16_t Port() const;
-  // "http://127.0.0.1:8080/", with the token where there is one.
+  // "http://127.0.0.1:8080/", with the token if there is one.
   std::string Url() const;
   std::size_t Clients() const;
   // Clients that have taken their last frame: without any, a new one would be made for nobody.

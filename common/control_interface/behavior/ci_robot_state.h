@@ -54,7 +54,7 @@ public:
   // The random numbers of the robot in this tick; shared by all copies, drawn in the order of the calls.
   RandomStream& GetRandom() { return robot_->GetRandom(); }
 
-  // Range and bearing, of all robots. Throws CCI_DeviceError where the controller does not list it.
+  // Range and bearing, of all robots. Throws CCI_DeviceError if the controller does not list it.
   const std::vector<CCI_RangeAndBearingSensor::Packet>& GetRangeAndBearingPackets() const;
   void SetRangeAndBearingMessage(const CCI_RangeAndBearingActuator::Message& message);
   void StopRangeAndBearing();
@@ -65,7 +65,7 @@ protected:
   void ReadCommonSensors();
   void WriteCommonActuators();
 
-  // The device that a type label names, nullptr where the controller does not list it.
+  // The device that a type label names, nullptr if the controller does not list it.
   template <class Interface>
   Interface* FindSensor(const std::string& type) const
   {
@@ -76,7 +76,7 @@ protected:
   {
     return robot_->HasActuator(type) ? &robot_->Actuator<Interface>(type) : nullptr;
   }
-  // Throws CCI_DeviceError, naming the device and those listed, where `device` is nullptr.
+  // Throws CCI_DeviceError, naming the device and those listed, if `device` is nullptr.
   void RequireSensor(const void* device, const char* type) const
   {
     if (device == nullptr) robot_->GetSensor(type);

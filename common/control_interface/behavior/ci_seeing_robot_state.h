@@ -24,7 +24,7 @@ public:
     RequireSensor(camera_, camera_type_);
     return blobs_;
   }
-  // The nearest blob of that hue, nullptr where none is in view.
+  // The nearest blob of that hue, nullptr if none is in view.
   const CCI_ColourBlob* GetNearestColourBlob(std::uint32_t colour) const
   {
     return CCI_ColourBlobSensor::FindNearest(GetColourBlobs(), colour);

@@ -32,7 +32,7 @@ public:
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  // On this input, the machine goes from here to `target`. Throws std::logic_error where the input leads elsewhere
+  // On this input, the machine goes from here to `target`. Throws std::logic_error if the input leads elsewhere
   // already or the target is of another machine.
   void addTransition(const T& on, State* target)
   {
@@ -46,7 +46,7 @@ public:
 
   unsigned int GetID() const { return id_; }
   const std::string& GetName() const { return name_; }
-  // Where an input leads; this state itself where it has no transition for it.
+  // Where an input leads; this state itself if it has no transition for it.
   State* Next(const T& on)
   {
     const auto found = transitions_.find(on);

@@ -40,7 +40,7 @@ public:
   virtual void FindWithin(const Vector3& centre, double radius, std::vector<std::uint32_t>& found) const = 0;
   // The points in a closed box, ascending. `found` is cleared first.
   virtual void FindInBox(const Vector3& low, const Vector3& high, std::vector<std::uint32_t>& found) const = 0;
-  // The nearest point within `radius` other than `excluded`; of equally near ones the lowest. nullopt where there is
+  // The nearest point within `radius` other than `excluded`; of equally near ones the lowest. nullopt if there is
   // none.
   std::optional<std::uint32_t> FindNearest(const Vector3& centre, double radius, std::uint32_t excluded = kNone) const;
 
@@ -52,7 +52,7 @@ protected:
   virtual const PointArrays& Points() const = 0;
 };
 
-// The index for an arena: as <arena optimization> says; 3D takes the oct-tree where a layered grid would be mostly
+// The index for an arena: as <arena optimization> says; 3D takes the oct-tree if a layered grid would be mostly
 // empty.
 std::unique_ptr<PositionalIndex> MakePositionalIndex(SpaceOptimization optimization, const Vector3& arena_size,
                                                      std::size_t expected_points);

@@ -50,17 +50,17 @@ public:
   // Reads the connections that the space has: the attributes "gripped" of all robots. Throws StructureError for a loop.
   void Rebuild();
 
-  // gripper takes hold of gripped. Throws StructureError where gripper has no gripper or holds something already,
+  // gripper takes hold of gripped. Throws StructureError if gripper has no gripper or holds something already,
   // gripped cannot be held, both are the same, or a loop would arise.
   void Attach(std::uint32_t gripper, std::uint32_t gripped);
-  // gripper lets go; nothing happens where it holds nothing.
+  // gripper lets go; nothing happens if it holds nothing.
   void Detach(std::uint32_t gripper);
 
   // The entity that one holds, or -1.
   int GetHeld(std::uint32_t gripper) const { return held_[gripper]; }
   // Those that hold an entity, ascending.
   std::vector<std::uint32_t> GetHolders(std::uint32_t gripped) const;
-  // Itself where it holds nothing.
+  // Itself if it holds nothing.
   std::uint32_t GetRoot(std::uint32_t entity) const;
   CCompoundEntity GetCompound(std::uint32_t member) const;
 

@@ -125,7 +125,7 @@ std::optional<double> HeightTerrain::SegmentHit(const Vector3& from, const Vecto
 
 std::vector<TerrainRectangle> HeightTerrain::Section(double height) const
 {
-  // A cell counts where any of its corners reaches the height.
+  // A cell counts if any of its corners reaches the height.
   const auto reaches = [&](int x, int y) {
     return std::max({Height(x, y), Height(x + 1, y), Height(x, y + 1), Height(x + 1, y + 1)}) > height;
   };

@@ -36,7 +36,7 @@ struct Header
   double resolution = 0;
 };
 
-// The lines from after the first one to the data. False where they are none of OctoMap's.
+// The lines from after the first one to the data. False if they are none of OctoMap's.
 bool ReadHeader(std::istream& file, Header& header)
 {
   std::string word;
@@ -91,7 +91,7 @@ Children ChildrenInFull(const char* node)
 }
 
 // OctoMap reads a node within a node, as deep as the data says, and makes what it says: both are bounded here. Returns
-// why the data is no tree of that many nodes, nullptr where it is.
+// why the data is no tree of that many nodes, nullptr if it is.
 const char* MistakeInData(std::string_view data, bool is_binary, std::size_t nodes)
 {
   const std::size_t bytes = is_binary ? 2 : sizeof(float) + 1;

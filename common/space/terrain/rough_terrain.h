@@ -20,7 +20,7 @@ struct RoughTerrain
   std::uint64_t seed = 1;
 };
 
-// Throws std::invalid_argument, with the limit, for numbers that make no terrain, std::runtime_error where the file
+// Throws std::invalid_argument, with the limit, for numbers that make no terrain, std::runtime_error if the file
 // cannot be written.
 void WriteRoughTerrain(const std::string& path, const RoughTerrain& terrain);
 

@@ -35,9 +35,9 @@ public:
   virtual Vector3 Low() const = 0;
   virtual Vector3 High() const = 0;
   virtual bool IsSolid(const Vector3& point) const = 0;
-  // The highest solid surface at or below a point; nullopt where there is none.
+  // The highest solid surface at or below a point; nullopt if there is none.
   virtual std::optional<double> GroundBelow(const Vector3& point) const = 0;
-  // The fraction 0..1 of the way at which a segment enters something solid; 0 where it starts inside, nullopt where it
+  // The fraction 0..1 of the way at which a segment enters something solid; 0 if it starts inside, nullopt if it
   // never does.
   virtual std::optional<double> SegmentHit(const Vector3& from, const Vector3& to) const = 0;
   // What is solid at a height, as few rectangles: the walls that a 2D engine at this height sees.
@@ -48,7 +48,7 @@ public:
 class VoxelTerrain : public Terrain
 {
 public:
-  // Throws std::runtime_error, naming the file, where it cannot be read or holds nothing occupied.
+  // Throws std::runtime_error, naming the file, if it cannot be read or holds nothing occupied.
   explicit VoxelTerrain(const std::string& path);
 
   Vector3 Low() const override { return low_; }
@@ -84,7 +84,7 @@ class HeightTerrain : public Terrain
 {
 public:
   // The picture spans size_x by size_y metres, its upper left pixel at x = 0 and the largest y; black is 0, white
-  // `height` metres, grey in proportion (grey_picture.h). Throws std::runtime_error, naming the file, where it cannot
+  // `height` metres, grey in proportion (grey_picture.h). Throws std::runtime_error, naming the file, if it cannot
   // be read or is smaller than 2 by 2 pixels.
   HeightTerrain(const std::string& path, double size_x, double size_y, double height);
   // From heights in metres, columns * rows of them, along x first, the first row at y = 0.

@@ -84,7 +84,7 @@ private:
   void AddLaserSpot(const Laser& laser);
 
   SensorWorld& world_;
-  std::shared_ptr<SensorWorld> keeper_;  // keeps the world alive where it is shared
+  std::shared_ptr<SensorWorld> keeper_;  // keeps the world alive if it is shared
   std::vector<Bearer> bearers_;
   std::vector<std::int32_t> bearer_of_;  // by entity, -1: none
   std::vector<Laser> lasers_;

@@ -65,7 +65,7 @@ private:
     Vector3 eye;  // m, in the space
     bool is_upright;
     Heading heading;          // where it is upright
-    Eigen::Matrix3d to_body;  // where it is not
+    Eigen::Matrix3d to_body;  // if it is not
   };
   struct Viewed
   {

@@ -75,7 +75,7 @@ public:
   }
 };
 
-// A target, kept beside the velocity: by position where `has_target` is not 0.
+// A target, kept beside the velocity: by position if `has_target` is not 0.
 struct Flight
 {
   double velocity[kAxes];

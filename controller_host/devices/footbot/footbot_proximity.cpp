@@ -223,7 +223,7 @@ void RayCastProximity::Respond(const double* distances, double* readings) const
 {
   for (unsigned i = 0; i < kRays; ++i)
   {
-    // The quotient is 0 where nothing was hit.
+    // The quotient is 0 if nothing was hit.
     const double reading = kHyperbolaScale / (distances[i] + kHyperbolaOffset);
     readings[i] = distances[i] < kContactDistance ? 1 : reading;
   }

@@ -137,7 +137,7 @@ private:
     if (heard_.count >= kManyAtATime) Deliver();
   }
 
-  // Quicker where most send and many hide one another.
+  // Quicker if most send and many hide one another.
   void LookThenListen(std::uint32_t robot)
   {
     lines_->LookAtBodiesAround();
@@ -294,7 +294,7 @@ private:
   std::shared_ptr<SensorWorld> world_;
   std::unique_ptr<SightLines> lines_;
   std::vector<std::uint32_t> robots_;
-  std::span<const std::uint64_t> names_;  // of the entities for random streams; empty where none are drawn
+  std::span<const std::uint64_t> names_;  // of the entities for random streams; empty if none are drawn
   bool has_noise_ = false;
   DeviceStreams loss_streams_, range_streams_, bearing_streams_, vertical_bearing_streams_;
   double range_ = 0, loss_ = 0;

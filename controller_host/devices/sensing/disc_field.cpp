@@ -158,7 +158,7 @@ void DiscField::SortByQuadrants(const NearBodies& discs, float eye, float lowest
   std::copy(filled.begin(), filled.end(), cells.filled.begin());
 }
 
-// A cylinder touches a sector where it does not lie wholly beyond either border.
+// A cylinder touches a sector if it does not lie wholly beyond either border.
 void DiscField::SplitQuadrant(std::size_t quadrant)
 {
   const std::size_t from = quadrant * quadrants_.stride;

@@ -15,7 +15,7 @@ class EngineMembership
 public:
   explicit EngineMembership(const Experiment& experiment);
 
-  // True where some engine has both; never for an entity that is in no engine.
+  // True if some engine has both; never for an entity that is in no engine.
   bool ShareEngine(std::uint32_t a, std::uint32_t b) const
   {
     return shared_[class_of_[a] * class_count_ + class_of_[b]] != 0;

@@ -28,7 +28,7 @@ struct Extent
   double left = 0, bottom = 0, width = 0, height = 0;
 };
 
-// The arena, or where it has no size the rectangle around all entities.
+// The arena, or if it has no size the rectangle around all entities.
 Extent ExtentOf(const CSwarmanoidSpace& space)
 {
   const Vector3& size = space.GetExperiment().arena_size;

@@ -49,7 +49,7 @@ struct NearBodies
   std::vector<float> radius;     // m
   std::vector<float> low, high;  // m, in the space, where the body is upright
   std::vector<std::int32_t> entity;
-  std::vector<std::int32_t> place;  // in the order of the cells; only where the grid filled it
+  std::vector<std::int32_t> place;  // in the order of the cells; only if the grid filled it
 
   void Reserve(std::size_t bodies);
 };

@@ -21,7 +21,7 @@ public:
   bool IsEmpty() const { return terrains_.empty(); }
 
   // The part 0..1 of the way from one point to another at which it meets the first terrain for which accept(entity)
-  // holds; more than 1 where it meets none.
+  // holds; more than 1 if it meets none.
   template <class Accept>
   double FirstHit(const Vector3& from, const Vector3& to, Accept&& accept) const
   {
@@ -30,7 +30,7 @@ public:
       if (accept(placed.entity)) first = std::min(first, HitOf(placed, from, to));
     return first;
   }
-  // How far below a point (m) the highest ground of these terrains lies; nullopt where there is none.
+  // How far below a point (m) the highest ground of these terrains lies; nullopt if there is none.
   template <class Accept>
   std::optional<double> DepthOfGround(const Vector3& point, Accept&& accept) const
   {

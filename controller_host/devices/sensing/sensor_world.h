@@ -27,7 +27,7 @@ public:
   void Refresh();
 
   // The part 0..1 of the way from one point to another at which it meets the first body or terrain for which
-  // accept(entity) holds; more than 1 where it meets none.
+  // accept(entity) holds; more than 1 if it meets none.
   template <class Accept>
   double FirstHit(const Vector3& from, const Vector3& to, Accept&& accept) const;
   // Whether `body` can hide things from `observer`: they share an engine, or the body stands in the space without being

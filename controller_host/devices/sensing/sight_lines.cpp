@@ -129,7 +129,7 @@ void SightLines::CollectBodies()
                            });
   }
 
-  // All that are near, where all of them are upright cylinders and hide things from the observer.
+  // All that are near, if all of them are upright cylinders and hide things from the observer.
   const NearBodies* discs = &near_;
   const NeighbourGrid& grid = world_.Grid();
   if (discs_.count > 0 || !grid.AllUpright() || !grid.AllCylinders() || !world_.Membership().IsOneWorld())

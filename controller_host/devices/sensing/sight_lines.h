@@ -1,5 +1,5 @@
 // What an observer sees of some points: exact lines of sight against the bodies around and the terrain, many at a
-// time. They hide what lies behind them where they share an engine with the observer or with the owner of the point;
+// time. They hide what lies behind them if they share an engine with the observer or with the owner of the point;
 // nobody hides himself.
 #pragma once
 
@@ -38,7 +38,7 @@ public:
   // Instead of adding points: one on each movable body around the eye, in the order of Around(), at its origin moved by
   // the height of the eye above the origin of the observer. For worlds without tilted bodies.
   void LookAtBodiesAround();
-  // Where callers put many points at once.
+  // If callers put many points at once.
   SightPoints& Points() { return points_; }
   // For each point, in the order of AddPoint, whether it is seen. Valid until the next LookFrom.
   const SeenPoints& Solve();
@@ -76,7 +76,7 @@ private:
   bool are_origins_ = false;  // the points are those of LookAtBodiesAround
   SeenPoints seen_;
 
-  NearBodies discs_;  // upright cylinders that hide things from the observer, where not all that are near do
+  NearBodies discs_;  // upright cylinders that hide things from the observer, if not all that are near do
   DiscField field_;
   // Of the points and the eye.
   float lowest_ = 0, highest_ = 0;

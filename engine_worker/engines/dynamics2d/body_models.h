@@ -10,7 +10,7 @@
 namespace swarmanoid::dynamics2d
 {
 
-// The body of an entity that the engine moves, or of a mirror (`motion` kKinematic). Throws ConfigurationError where it
+// The body of an entity that the engine moves, or of a mirror (`motion` kKinematic). Throws ConfigurationError if it
 // is too small for the solver.
 BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, const PlaneFrame& plane,
                        const Dynamics2dParameters& parameters);

@@ -89,7 +89,7 @@ private:
   std::vector<Mirror> mirrors_;
   std::vector<Footbot> footbots_;
   std::vector<std::uint32_t> turret_robots_;  // with a motor for their turret
-  std::vector<int> body_of_entity_;           // kNoBody where it has none
+  std::vector<int> body_of_entity_;           // kNoBody if it has none
   std::vector<std::uint32_t> entity_of_body_;
   std::vector<std::uint32_t> footbot_of_entity_;
   std::vector<PlanePose> before_step_;  // of the footbots

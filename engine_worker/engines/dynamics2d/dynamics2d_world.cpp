@@ -146,7 +146,7 @@ void Dynamics2dWorld::BuildBody(Body& body)
   body.ground = static_cast<b2MotorJoint*>(world_->CreateJoint(&joint));
 }
 
-// A revolute joint about the axis of the turret where a motor turns it, a rigid one where none does.
+// A revolute joint about the axis of the turret if a motor turns it, a rigid one if none does.
 b2FixtureDef Dynamics2dWorld::FixtureOf(const Body& body) const
 {
   b2FixtureDef fixture;

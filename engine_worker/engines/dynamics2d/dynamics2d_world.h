@@ -93,7 +93,7 @@ public:
   PlaneVelocity VelocityOf(int body) const;
   void Place(int body, const PlanePose& pose);
   void SetVelocity(int body, const PlaneVelocity& velocity);
-  // Another polygon for a body that has one; the old one stays where no corner is farther off than `tolerance` (m).
+  // Another polygon for a body that has one; the old one stays if no corner is farther off than `tolerance` (m).
   void SetOutline(int body, const std::vector<Vector2>& polygon, double tolerance);
   const std::vector<Vector2>& OutlineOf(int body) const { return bodies_[Index(body)].model.polygon; }
   // Takes a body out of all collisions, or puts it back.
@@ -107,7 +107,7 @@ public:
   // The nearest body that the gripper touches and may take, or kNoBody. A structure must not become a loop.
   int FindGrippable(int body) const;
   void Grip(int body, int target);
-  // True where a grip of this body on the target would make a loop.
+  // True if a grip of this body on the target would make a loop.
   bool WouldClose(int body, int target) const { return LeadsTo(target, body); }
   void Release(int body);
   void ReleaseAllOf(int body);  // with the grips of others on it

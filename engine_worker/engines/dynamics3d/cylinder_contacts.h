@@ -12,7 +12,7 @@ namespace swarmanoid::dynamics3d
 // Two cylinders that stand side by side, such as the bodies of two robots: ODE leaves this pair to a general convex
 // algorithm that gives one contact at an arbitrary height, which tips robots over.
 // Fills up to two contacts, at the ends of the common height, for cylinders whose axes are parallel within 20 degrees.
-// Returns their number, or -1 where the cylinders stand otherwise (also one above the other) and ODE is to be asked.
+// Returns their number, or -1 if the cylinders stand otherwise (also one above the other) and ODE is to be asked.
 int CollideParallelCylinders(dGeomID a, dGeomID b, std::span<dContactGeom> contacts);
 
 // Contacts of a cylinder with a plane: where its rims are deepest, and four points of a rim that lies flat. Returns

@@ -78,7 +78,7 @@ public:
   explicit LinkTable(OdeWorld& world) : world_(world) {}
 
   Link& Add(const LinkSpec& spec);
-  // nullptr where there is none (any more). 0 is never a serial.
+  // nullptr if there is none (any more). 0 is never a serial.
   Link* Find(std::uint32_t serial);
   const Link* Find(std::uint32_t serial) const;
   void Remove(std::uint32_t serial);

@@ -49,7 +49,7 @@ void BroadPhase::Configure(const Bounds& area, std::span<const double> radii, do
     }
   }
 
-  // One body a cell where the margin allows, and never more cells than memory is good for.
+  // One body a cell if the margin allows, and never more cells than memory is good for.
   const double width = std::max(area.max_x - area.min_x, 1e-3);
   const double height = std::max(area.max_y - area.min_y, 1e-3);
   const double per_body = width * height / static_cast<double>(std::max<std::size_t>(count_, 1));

@@ -79,7 +79,7 @@ public:
   void Clear();
   ContactList& Contacts() { return contacts_; }
   // Moves the leaders until no contact is deeper than `tolerance` or the sweeps are used up; shares follow `mobility`,
-  // the inverse of a weight; empty where all bodies have the same. No leader is moved further than `reach`. Contacts
+  // the inverse of a weight; empty if all bodies have the same. No leader is moved further than `reach`. Contacts
   // are handled in the order of adding.
   void Solve(std::span<const double> mobility, double tolerance, double reach, std::vector<double>& x,
              std::vector<double>& y);
@@ -108,7 +108,7 @@ private:
   // What the solver works on, of each leader.
   struct Leaders
   {
-    const double* mobility;  // nullptr where those of all bodies are 1
+    const double* mobility;  // nullptr if those of all bodies are 1
     double* x;
     double* y;
     std::uint32_t statics;  // the leader of all static shapes

@@ -50,7 +50,7 @@ bool Kinematics2dEngine::Hold(std::uint32_t robot, std::uint32_t object)
   return true;
 }
 
-// `sum` of a robot's values: not finite where one of them is not.
+// `sum` of a robot's values: not finite if one of them is not.
 void Kinematics2dEngine::CheckCommand(double sum, std::uint32_t entity, const ChannelBlock& block) const
 {
   if (!std::isfinite(sum))

@@ -69,7 +69,7 @@ private:
   std::uint32_t BodyOf(std::uint32_t entity) const;
   kinematics2d::Pose2 PlanePoseOf(const Pose& pose) const;
   kinematics2d::CollisionModel ModelOf(const CSwarmanoidSpaceEntity& entity) const;
-  // The outline in which the plane cuts a block, in the frame of the block's plane pose; without polygons where it does
+  // The outline in which the plane cuts a block, in the frame of the block's plane pose; without polygons if it does
   // not.
   kinematics2d::CollisionModel Outline(const CSwarmanoidSpaceEntity& block, const Pose& at) const;
 

@@ -105,7 +105,7 @@ void PairBatch::CircleWithCircle(std::size_t k, std::size_t m)
   Add({x, y, Everywhere(reach), reach - SquareRoot(dx * dx + dy * dy), LongLanes{}});
 }
 
-// `sign` is 1 where the circles belong to the first body of the pair, else -1.
+// `sign` is 1 if the circles belong to the first body of the pair, else -1.
 void PairBatch::CircleWithPolygon(const Side& circles, const Side& polygons, std::size_t k, std::size_t p, double sign)
 {
   const Polygon& polygon = polygons.Model().polygons[p];

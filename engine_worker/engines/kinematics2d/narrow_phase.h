@@ -55,7 +55,7 @@ public:
   // For every pair, all places where the outlines overlap or are less than `margin` apart. Those that are
   // kTouchesApart less deep than the deepest one of their pair are left out.
   void FindTouches(double margin);
-  // After FindTouches: the depth of the deepest touch of a pair; far below 0 where there is none.
+  // After FindTouches: the depth of the deepest touch of a pair; far below 0 if there is none.
   double Deepest(std::size_t lane) const { return deepest_[lane]; }
   // After FindTouches: calls act(lane, touch) with the touches of each pair, one pair after the other.
   template <class Act>
@@ -133,7 +133,7 @@ private:
   LongLanes kept_;  // of each lane: the finds that count, one bit each
 };
 
-// The deepest overlap in metres; 0 where there is none.
+// The deepest overlap in metres; 0 if there is none.
 double Overlap(const Placed& a, const Placed& b);
 
 }  // namespace swarmanoid::kinematics2d

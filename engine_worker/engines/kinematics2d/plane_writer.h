@@ -1,4 +1,4 @@
-// Writes the poses of bodies on a plane as poses of the space, in the layout of EngineUpdate. Cheap where the plane is
+// Writes the poses of bodies on a plane as poses of the space, in the layout of EngineUpdate. Cheap if the plane is
 // perpendicular to z: then the heading of a body is its orientation in the space.
 #pragma once
 

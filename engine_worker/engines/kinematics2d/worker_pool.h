@@ -40,7 +40,7 @@ private:
   std::vector<std::thread> workers_;
 };
 
-// Work on `count` things in one part for each thread, or in one where they are few: work(part, begin, end). Borders are
+// Work on `count` things in one part for each thread, or in one if they are few: work(part, begin, end). Borders are
 // multiples of `step`.
 template <class Work>
 void InParts(WorkerPool* pool, std::size_t count, std::size_t step, const Work& work)

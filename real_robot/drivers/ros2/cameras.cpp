@@ -31,7 +31,7 @@ class PointReader
 public:
   PointReader(const DriverSetup& setup, const std::string& topic) : subscriber_(setup, topic) {}
 
-  // False where nothing new came.
+  // False if nothing new came.
   bool Poll(std::vector<ColouredPoint>& points)
   {
     if (!subscriber_.TakeLatest()) return false;

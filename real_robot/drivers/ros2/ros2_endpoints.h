@@ -45,7 +45,7 @@ class Reader
 public:
   Reader(const std::string& topic, const MessageType& type);
   ~Reader();
-  // The next message, oldest first; false where there is none.
+  // The next message, oldest first; false if there is none.
   bool Take(void* message);
 
 private:
@@ -90,7 +90,7 @@ public:
     latest_at_ = Now();
     return true;
   }
-  // The latest of all that came. False where none did.
+  // The latest of all that came. False if none did.
   bool TakeLatest()
   {
     bool taken = false;

@@ -1,4 +1,4 @@
-// A stranger's own simulator: it looks at every tick, collects what it saw in variables of main, and, where
+// A stranger's own simulator: it looks at every tick, collects what it saw in variables of main, and, if
 // OUTSIDE_CHANGES says so, changes the experiment through the editor. It fails as OUTSIDE_FAULT says.
 #include <cstdio>
 #include <cstdlib>

@@ -20,7 +20,7 @@ std::string BytesOf(const Parts&... parts)
   return bytes;
 }
 
-// Empty where it is taken.
+// Empty if it is taken.
 template <class Message>
 std::string Refusal(const std::string& bytes)
 {

@@ -48,7 +48,7 @@ public:
   Stranger(const Stranger&) = delete;
   Stranger& operator=(const Stranger&) = delete;
 
-  // Writes each of the payloads, once `readers` are there, and waits until they have got them. False where none comes.
+  // Writes each of the payloads, once `readers` are there, and waits until they have got them. False if none comes.
   bool Send(const std::string& topic_name, const std::vector<std::string>& payloads, int readers = 1)
   {
     dds::DataWriter* const writer = WriterOf(topic_name);

@@ -101,7 +101,7 @@ std::string Mistake(EntityKind kind, const std::vector<std::pair<std::string, st
   };
   try
   {
-    host.Step({});
+    host.Tick({});
   }
   catch (const ActivityError& error)
   {

@@ -58,7 +58,7 @@ Drawn DrawnBy(const std::vector<std::string>& robots, std::uint64_t seed)
   for (const std::uint64_t tick : {0U, 1U, 7U})
   {
     space.SetTick(tick);
-    host.Step({});
+    host.Tick({});
   }
   host.Destroy();
   return all;

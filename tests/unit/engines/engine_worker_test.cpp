@@ -97,7 +97,7 @@ protected:
     StillEngine::fault = std::move(fault);
     try
     {
-      worker.Step({}, {});
+      worker.Tick({}, {});
     }
     catch (const ActivityError& error)
     {
@@ -186,7 +186,7 @@ TEST_F(Worker, OwnedEntitiesThatWereMovedAreToldToTheEngine)
   StillEngine::fault = {};
   StillEngine::moved.clear();
   const std::array<std::uint32_t, 2> moved{0, 2};
-  worker.Step(moved, {});
+  worker.Tick(moved, {});
   EXPECT_THAT(StillEngine::moved, ElementsAre(0, 2));
 }
 

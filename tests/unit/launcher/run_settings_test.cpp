@@ -159,7 +159,7 @@ TEST(BusOptions, AddressesAreReadWhole)
     EXPECT_FALSE(ParseServerAddress(text)) << text;
 }
 
-// Every number has limits, so that each is refused where it cannot mean anything.
+// Every number has limits, so that each is refused if it cannot mean anything.
 TEST(RunSettings, EveryNumberHasARange)
 {
   RunSettings run;

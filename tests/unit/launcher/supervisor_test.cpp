@@ -67,7 +67,7 @@ protected:
     std::filesystem::create_directories(folder_);
     times_.refresh = milliseconds(20);
     times_.terminate = milliseconds(100);
-    // Where all processes end by themselves, nothing waits for these.
+    // If all processes end by themselves, nothing waits for these.
     times_.settle = times_.others = times_.early_end = times_.last_picture = kGenerous;
     times_.finish = times_.finish_visualiser = times_.forced_stop = kGenerous;
     int ends[2];

@@ -135,7 +135,7 @@ double Argument(RandomStream& random, Spread spread, double low, double high)
   return spread == Spread::kPowersOfBothSigns && random.Bits() % 2 == 0 ? -size : size;
 }
 
-// The error in units in the last place of the right result; 0 where that is no normal number.
+// The error in units in the last place of the right result; 0 if that is no normal number.
 template <class Number>
 double Error(Number result, Quad right)
 {

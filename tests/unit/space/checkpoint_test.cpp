@@ -56,7 +56,7 @@ protected:
   {
     std::ofstream(path_, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   }
-  // Why a file is refused; empty where it is taken.
+  // Why a file is refused; empty if it is taken.
   std::string Refusal(const RestoreOptions& options = {}) const
   {
     try

@@ -1,4 +1,4 @@
-// Hovers where it is, and keeps an altitude where the robot has an altitude sensor and one is wanted.
+// Hovers where it is, and keeps an altitude if the robot has an altitude sensor and one is wanted.
 #pragma once
 
 #include "behavior/ci_behavior.h"

@@ -1,4 +1,4 @@
-// Searches by flying straight on and taking a new heading at random times. Where the robot does not get on, such as at
+// Searches by flying straight on and taking a new heading at random times. If the robot does not get on, such as at
 // a wall, the next heading leads away sooner or later.
 #pragma once
 

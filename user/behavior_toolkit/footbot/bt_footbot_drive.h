@@ -11,7 +11,7 @@ void BTFootbotSteer(CCI_FootBotState& cRobotState, double direction, double spee
 // turns.
 double BTFootbotTurn(CCI_FootBotState& cRobotState, double angle, double speed);
 
-// The direction and length of the sum of the proximity readings as vectors; length 0 where nothing is near.
+// The direction and length of the sum of the proximity readings as vectors; length 0 if nothing is near.
 struct BTVector
 {
   double angle = 0;

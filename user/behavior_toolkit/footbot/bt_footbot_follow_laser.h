@@ -1,4 +1,4 @@
-// Follows the spot of a laser on the ground, and waits for it where it is lost.
+// Follows the spot of a laser on the ground, and waits for it if it is lost.
 #pragma once
 
 #include "footbot/bt_footbot_go_to_blob.h"

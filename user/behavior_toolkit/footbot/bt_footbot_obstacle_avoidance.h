@@ -18,7 +18,7 @@ public:
                                        double threshold = 0.02);
 
   void Step(CCI_FootBotState& cRobotState) override;
-  // True where the last step took over the wheels.
+  // True if the last step took over the wheels.
   bool IsAvoiding() const { return avoiding_; }
 
 private:

@@ -1,5 +1,5 @@
 // The goal of the prey retrieval experiment: it is done when the prey that the guide chose stands in the nest, and
-// failed where that takes too long, or another prey is brought. Nobody tells which one it chose: it is the one below
+// failed if that takes too long, or another prey is brought. Nobody tells which one it chose: it is the one below
 // the guide when a footbot grips for the first time. Writes the distance of each prey to the nest as CSV.
 //
 //   <prey_retrieval_goal id="goal" library="prey_retrieval_goal">

@@ -80,7 +80,7 @@ export class Motion {
     this.settled = false;
   }
 
-  // Fills positions and quaternions for a moment (ms). False where nothing has changed since the last call.
+  // Fills positions and quaternions for a moment (ms). False if nothing has changed since the last call.
   sample(now) {
     const { frame, previous } = this;
     if (!frame || this.settled) return false;
@@ -123,7 +123,7 @@ export class Motion {
     return Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
   }
 
-  // "#rrggbb" of what shines or is painted, null where nothing does.
+  // "#rrggbb" of what shines or is painted, null if nothing does.
   colour(slot, isRobot) {
     const c = 4 * slot;
     if (isRobot && !(this.colours[c + 3] & Flag.lit)) return null;

@@ -8,7 +8,7 @@ import * as THREE from "three";
 export const MEAN_LED = 16; // stands for the mean colour of the ring
 export const BEACON = 17;
 const BEACON_LIGHT = 16; // in meshes.json
-// A level is drawn where the robot is at least so many pixels wide.
+// A level is drawn if the robot is at least so many pixels wide.
 const PIXELS = [70, 14, 7];
 
 // For picking, labels and the choice of the level.

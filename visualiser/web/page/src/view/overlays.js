@@ -53,7 +53,7 @@ export class Beams {
   }
 }
 
-// A line from each robot to what it holds, and to the ceiling where it is attached there.
+// A line from each robot to what it holds, and to the ceiling if it is attached there.
 export class Grips {
   constructor(scene, world) {
     this.world = world;

@@ -30,7 +30,7 @@ export function pick(world, motion, camera, x, y, slack = 0.004) {
   return best;
 }
 
-// Where the ray meets the floor at a height; null where it does not.
+// Where the ray meets the floor at a height; null if it does not.
 export function floorPoint(camera, x, y, height) {
   raycaster.setFromCamera(new THREE.Vector2(x, y), camera);
   return raycaster.ray.intersectPlane(new THREE.Plane(new THREE.Vector3(0, 0, 1), -height), new THREE.Vector3());
