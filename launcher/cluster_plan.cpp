@@ -80,7 +80,8 @@ public:
     command.arguments.insert(command.arguments.end(), hosts_.Options().begin(), hosts_.Options().end());
     command.environment = EnvironmentOf(limits_);
     MemberPlan plan;
-    plan.command = hosts_.Placed(command, hosts_.HostOf(role, which));
+    plan.host = hosts_.HostOf(role, which);
+    plan.command = hosts_.Placed(command, plan.host);
     plan.log_path = folder_.File(LogName(program, which));
     plans_.push_back(plan);
     return plans_.back();

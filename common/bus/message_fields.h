@@ -275,7 +275,7 @@ void Fields(Archive& archive, LeaveMessage& message)
   archive.Integer("run", message.run);
   archive.Integer("tick", message.tick);
   archive.Name("name", message.name);
-  archive.Name("to", message.to);
+  archive.Name("process", message.process);
   archive.Text("error", message.error);
 }
 

@@ -15,7 +15,7 @@ namespace swarmanoid
 {
 
 // Equal to PROTOCOL_VERSION of the IDL; a test says so.
-inline constexpr std::uint32_t kProtocolVersion = 4;
+inline constexpr std::uint32_t kProtocolVersion = 5;
 
 // What precedes every message of a tick.
 struct MessageHeader
@@ -127,7 +127,7 @@ struct LeaveMessage
   std::uint64_t run = 0;
   std::uint64_t tick = 0;
   std::string name;
-  std::string to;
+  std::string process;
   std::string error;
 };
 

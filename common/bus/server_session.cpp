@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <cstdio>
+#include <tuple>
+#include <utility>
 
 namespace swarmanoid
 {
@@ -85,6 +87,11 @@ HotScope ServerSession::Scope(std::size_t capacity, unsigned writers) const
   return {world_.experiment, directory_.Path(), world_.spread, capacity, writers};
 }
 
+bool ServerSession::IsOf(const Member& member, const std::string& process)
+{
+  return member.process.empty() || member.process == process;
+}
+
 void ServerSession::Joined(const JoinMessage& join)
 {
   if (join.protocol != kProtocolVersion)
@@ -93,6 +100,7 @@ void ServerSession::Joined(const JoinMessage& join)
         fmt::format("{} ({}) speaks protocol version {}, the space server version {}; use programs of one release",
                     join.name, join.process, join.protocol, kProtocolVersion));
   if (join.run != world_.run) return;
+  bool taken = false;
   {
     const auto state = state_.Lock();
     const auto member = state->members.find(join.name);
@@ -101,14 +109,10 @@ void ServerSession::Joined(const JoinMessage& join)
       state->attached[join.process] = join.name;
       return;
     }
-    if (member->second.process.empty() || member->second.process == join.process)
-    {
-      member->second.process = join.process;
-      member->second.ready = join.ready;
-      callbacks_.changed();
-      return;
-    }
+    taken = IsOf(member->second, join.process);
+    if (taken) std::tie(member->second.process, member->second.ready) = std::tie(join.process, join.ready);
   }
+  if (taken) return callbacks_.changed();
   Refuse(join, fmt::format("{} runs already; process {} is one too many", join.name, join.process));
 }
 
@@ -121,15 +125,26 @@ void ServerSession::Refuse(const JoinMessage& join, const std::string& reason)
 void ServerSession::MemberLeft(const LeaveMessage& leave)
 {
   if (leave.run != world_.run || leave.name == "space server") return;
+  const bool in_order = leave.error.empty();
   {
     const auto state = state_.Lock();
     const auto member = state->members.find(leave.name);
-    if (member == state->members.end()) return;
-    member->second.left = true;
-    if (!state->over && !leave.error.empty())
+    const bool of_run = member != state->members.end() && IsOf(member->second, leave.process);
+    if (of_run && in_order && !member->second.left) state->just_left.push_back(leave.name);
+    if (of_run) member->second.left = true;
+    if (of_run && !in_order && !state->over)
       state->Fail(fmt::format("{} failed at tick {}: {}", leave.name, leave.tick, leave.error));
+    state->answers.push_back({leave.run, leave.tick, "space server", leave.process, ""});
   }
   callbacks_.changed();
+}
+
+std::vector<std::string> ServerSession::TakeLeft() { return std::exchange(state_.Lock()->just_left, {}); }
+
+void ServerSession::AnswerLeaves()
+{
+  // Not in the thread that reads them: what it writes comes to this process too.
+  for (const LeaveMessage& answer : std::exchange(state_.Lock()->answers, {})) leave_->Write(answer);
 }
 
 void ServerSession::Lost(const std::string& process, bool died)
@@ -200,6 +215,14 @@ std::vector<ProcessStatus> ServerSession::Processes() const
   for (const std::string& name : expected_) processes.push_back({name, state->members.at(name).process, 0, 0, {}});
   for (const auto& [process, name] : state->attached) processes.push_back({name, process, 0, 0, {}});
   return processes;
+}
+
+std::optional<std::string> ServerSession::FirstLeft() const
+{
+  const auto state = state_.Lock();
+  for (const std::string& name : expected_)
+    if (state->members.at(name).left) return name;
+  return std::nullopt;
 }
 
 bool ServerSession::AllLeft() const

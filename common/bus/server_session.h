@@ -49,6 +49,12 @@ public:
   std::string Status(const std::string& name, std::uint64_t tick) const;
   // Those of the run in the order of `expected`, then the visualisers that are attached; names and processes only.
   std::vector<ProcessStatus> Processes() const;
+  // One of those expected that has left, if any has.
+  std::optional<std::string> FirstLeft() const;
+  // Those expected that have said since the last call that their work is done.
+  std::vector<std::string> TakeLeft();
+  // Lets those go who said that they leave. To be called again and again by the server's own thread.
+  void AnswerLeaves();
   // True once every expected process has left.
   bool AllLeft() const;
 
@@ -82,12 +88,16 @@ private:
     std::map<std::string, std::string> attached;  // name by process
     std::optional<std::string> failure;
     std::deque<Request> requests_seen;
+    std::vector<std::string> just_left;
+    std::vector<LeaveMessage> answers;
     bool over = false;
 
     Request* FindRequest(const ControlRequestMessage& request);
     void Fail(const std::string& text);
   };
 
+  // Whether the process is the member, or may become it.
+  static bool IsOf(const Member& member, const std::string& process);
   void Asked(const ControlRequestMessage& request);
   void Joined(const JoinMessage& join);
   void MemberLeft(const LeaveMessage& leave);

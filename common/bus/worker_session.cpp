@@ -1,6 +1,7 @@
 #include "common/bus/worker_session.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -21,9 +22,11 @@ namespace
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kPatience = 1s;        // before what is waited for is said
-constexpr auto kBrokenTime = 5s;      // for the lease of a dead process to end
-constexpr double kLeaveTime_s = 1.0;  // for the last message to arrive
+constexpr auto kPatience = 1s;                             // before what is waited for is said
+constexpr auto kBrokenTime = 5s;                           // for the lease of a dead process to end
+constexpr std::chrono::milliseconds kFirstRepeat = 100ms;  // of a good-bye that is not answered
+constexpr std::chrono::milliseconds kLastRepeat = 1s;
+constexpr auto kInterruptedTime = 1s;  // for a good-bye of one that was asked to end
 
 int ExitCodeOf(EndReason reason, bool looks_on)
 {
@@ -95,10 +98,12 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
                                                          [this](const LeaveMessage& leave)
                                                          {
                                                            if (leave.run != world_.run) return;
-                                                           if (!leave.to.empty() && leave.to != ProcessId()) return;
-                                                           const std::lock_guard lock(mutex_);
                                                            if (leave.name != "space server") return;
-                                                           server_left_ = true;
+                                                           const bool own = leave.process == ProcessId();
+                                                           if (!leave.process.empty() && !own) return;
+                                                           const std::lock_guard lock(mutex_);
+                                                           const bool answered = own && leave.error.empty();
+                                                           (answered ? answered_ : server_left_) = true;
                                                            if (!leave.error.empty()) others_error_ = leave.error;
                                                            changed_.notify_all();
                                                          });
@@ -305,8 +310,26 @@ void WorkerSession::ReportFailure(const std::exception& error)
     const std::lock_guard lock(mutex_);
     if (server_lost_ || server_left_) return;
   }
-  leave_->Write({world_.run, tick_, name_, "", text});
-  leave_->WaitUntilRead(kLeaveTime_s);
+  LeaveRun(text);
+}
+
+void WorkerSession::LeaveRun(const std::string& error)
+{
+  const auto start = Clock::now();
+  auto repeat_after = kFirstRepeat;
+  std::unique_lock lock(mutex_);
+  const LeaveMessage leave{world_.run, tick_, name_, ProcessId(), error};
+  const auto over = [this] { return answered_ || server_left_ || server_lost_; };
+  while (!over())
+  {
+    lock.unlock();
+    if (server_seen_ && !ServerIsOnThisMachine()) return;
+    if (BusIsBroken() || (Interrupted() && Clock::now() - start > kInterruptedTime)) return;
+    leave_->Write(leave);
+    lock.lock();
+    changed_.wait_for(lock, repeat_after, over);
+    repeat_after = std::min(2 * repeat_after, kLastRepeat);
+  }
 }
 
 int WorkerSession::Work(const std::function<void()>& work)
@@ -323,8 +346,7 @@ int WorkerSession::Work(const std::function<void()>& work)
     return ExitCodeOf(reason_, looks_on_);
   }
   NoteEnd(EndReason::kDone, tick_, "");
-  leave_->Write({world_.run, tick_, name_, "", ""});
-  leave_->WaitUntilRead(kLeaveTime_s);
+  LeaveRun("");
   return kExitDone;
 }
 

@@ -73,6 +73,9 @@ private:
   void WaitUntilDone(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
   // Why this process ends, to whoever started it and to the server.
   void ReportFailure(const std::exception& error);
+  // Stays until the server has answered the good-bye, or is not there any more: it would take one who is gone before
+  // his word is read for dead.
+  void LeaveRun(const std::string& error);
   void Say(const std::string& text) const;
 
   std::string name_;
@@ -91,6 +94,7 @@ private:
   bool server_lost_ = false;
   bool server_seen_ = false;  // among the processes of this machine
   bool server_left_ = false;
+  bool answered_ = false;  // the server has read that this process leaves
   std::string server_process_;
   std::set<std::string> trusted_;
   std::string last_status_;

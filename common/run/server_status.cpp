@@ -55,6 +55,12 @@ struct Form<ServerError>
   static constexpr std::tuple fields{&ServerError::text};
 };
 template <>
+struct Form<ServerLeft>
+{
+  static constexpr std::string_view word = "left";
+  static constexpr std::tuple fields{&ServerLeft::name};
+};
+template <>
 struct Form<ServerFinished>
 {
   static constexpr std::string_view word = "finished";

@@ -1,5 +1,5 @@
 // What the space server tells whoever started it, line by line, on the descriptor of --status-fd: state, tick, stalled,
-// warning, error, finished. Writer and reader of each kind come from one description (server_status.cpp).
+// warning, error, left, finished. Writer and reader of each kind come from one description (server_status.cpp).
 #pragma once
 
 #include <cstdint>
@@ -62,6 +62,14 @@ struct ServerError
   friend bool operator==(const ServerError&, const ServerError&) = default;
 };
 
+// "left NAME": a process said that its work is done, and ends
+struct ServerLeft
+{
+  std::string name;
+
+  friend bool operator==(const ServerLeft&, const ServerLeft&) = default;
+};
+
 // "finished TICKS ENTITIES HASH WALL RTF"
 struct ServerFinished
 {
@@ -74,7 +82,8 @@ struct ServerFinished
   friend bool operator==(const ServerFinished&, const ServerFinished&) = default;
 };
 
-using ServerStatus = std::variant<ServerState, ServerTick, ServerStall, ServerWarning, ServerError, ServerFinished>;
+using ServerStatus =
+    std::variant<ServerState, ServerTick, ServerStall, ServerWarning, ServerError, ServerLeft, ServerFinished>;
 
 // The line, without its end. Line breaks and other control characters in texts become blanks.
 std::string ServerStatusLine(const ServerStatus& status);

@@ -9,6 +9,12 @@
 
 namespace swarmanoid
 {
+namespace
+{
+
+constexpr int kSshFailed = 255;
+
+}  // namespace
 
 ActivityRecord ReadActivity(const ActivityPage* page)
 {
@@ -60,7 +66,9 @@ std::string FailureText(const FailedProcess& failed, std::uint64_t server_tick, 
   if (failed.end) what = failed.end->Clean() ? "ended before the last tick" : failed.end->Text();
   if (failed.end && failed.end->signal == SIGKILL && killed_for_memory)
     what += " by the kernel, since memory was short (--memory-limit sets a limit that tells who takes too much)";
-  std::string text = fmt::format("{} {}", failed.name, what);
+  if (failed.end && failed.end->exit_code == kSshFailed && !failed.host.empty())
+    what += " (by ssh: the connection failed, or a signal ended the process there)";
+  std::string text = fmt::format("{}{}{} {}", failed.name, failed.host.empty() ? "" : " on ", failed.host, what);
   const Actor actor = actor_of && record.kind != Actor::kNobody ? actor_of(record.kind, record.number) : Actor();
   if (actor.kind != Actor::kNobody) return text + ", during " + ActivityText(actor, record.step, record.tick);
   return text + fmt::format(" at tick {}", record.taken && record.tick > 0 ? record.tick : server_tick);

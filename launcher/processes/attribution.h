@@ -46,6 +46,7 @@ Evidence EvidenceOf(const std::optional<ProcessEnd>& ended, const ActivityRecord
 struct FailedProcess
 {
   std::string name;
+  std::string host;  // the other machine that it was started on, or empty
   std::optional<ProcessEnd> end;
   ActivityRecord record;
 };

@@ -18,6 +18,7 @@ namespace swarmanoid
 struct MemberPlan
 {
   ProcessCommand command;
+  std::string host;  // another machine that the command starts it on, or empty
   std::string log_path;
   // Where its standard output goes; standard error always goes to the log.
   enum Output

@@ -175,6 +175,10 @@ void Supervisor::TakeStatus(const ServerStatus& status)
   {
     server_error_ = error->text;
   }
+  else if (const auto* left = std::get_if<ServerLeft>(&status))
+  {
+    left_.insert(left->name);
+  }
   else if (const auto* finished = std::get_if<ServerFinished>(&status))
   {
     outcome_.finished = *finished;
@@ -250,11 +254,7 @@ void Supervisor::TakeEnd(const ClusterMember& member)
   }
   if (outcome_.finished) return;
   ended_.push_back(&member);
-  if (is_server) return AttributeWithin(times_.settle);
-  // The run's last word comes after the last picture.
-  const bool draws = std::any_of(members_.begin(), members_.end(),
-                                 [](const auto& other) { return other->Plan().visualiser && other->Alive(); });
-  AttributeWithin(draws ? times_.last_picture : times_.early_end);
+  AttributeWithin(is_server ? times_.settle : times_.early_end);
 }
 
 void Supervisor::AttributeWithin(std::chrono::milliseconds patience)
@@ -276,6 +276,7 @@ void Supervisor::Attribute()
     const auto noticed = std::find(ended_.begin(), ended_.end(), member.get());
     if (noticed == ended_.end() && member->End()) continue;
     Evidence evidence = EvidenceOf(member->End(), record);
+    if (evidence == Evidence::kEarlyEnd && left_.contains(member->Name())) continue;
     // For processes of other machines: the server often knows who began.
     const bool accused = evidence == Evidence::kFailure && server_error_.starts_with(member->Name());
     if (accused) evidence = Evidence::kDeath;
@@ -288,7 +289,7 @@ void Supervisor::Attribute()
   const Evidence evidence = std::get<0>(first_rank);
   if (first == nullptr || (evidence == Evidence::kEarlyEnd && outcome_.finished)) return;
   if (evidence == Evidence::kConsequence && !server_error_.empty()) return Fail(*members_.front(), server_error_, true);
-  const FailedProcess failed{first->Name(), first->End(), first->Record()};
+  const FailedProcess failed{first->Name(), first->Plan().host, first->End(), first->Record()};
   Fail(*first, FailureText(failed, progress_.tick, actor_of_, KernelKillsForMemory() > kills_for_memory_),
        failed.record.complete && !failed.record.cause.empty());
 }

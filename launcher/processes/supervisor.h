@@ -5,6 +5,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,14 +38,13 @@ struct ClusterOutcome
 // Times that users notice; tests shorten them.
 struct SupervisorTimes
 {
-  std::chrono::milliseconds refresh{200};         // between two looks at the progress
-  std::chrono::milliseconds stall{2000};          // silence of the space server that is worth a word
-  std::chrono::milliseconds terminate{400};       // between SIGTERM and SIGKILL after a failure
-  std::chrono::milliseconds early_end{1000};      // between a process's good end and the run's last word
-  std::chrono::milliseconds last_picture{15000};  // the same while visualisers of the experiment live
-  std::chrono::milliseconds settle{200};          // between a failure and its attribution: a cause may be told late
-  std::chrono::milliseconds others{3000};         // between the end of one that ended for another, and that one's
-  std::chrono::milliseconds finish{3000};         // for processes to end after the last tick
+  std::chrono::milliseconds refresh{200};      // between two looks at the progress
+  std::chrono::milliseconds stall{2000};       // silence of the space server that is worth a word
+  std::chrono::milliseconds terminate{400};    // between SIGTERM and SIGKILL after a failure
+  std::chrono::milliseconds early_end{10000};  // between a process's good end and the server's word that it left
+  std::chrono::milliseconds settle{200};       // between a failure and its attribution: a cause may be told late
+  std::chrono::milliseconds others{3000};      // between the end of one that ended for another, and that one's
+  std::chrono::milliseconds finish{3000};      // for processes to end after the last tick
   std::chrono::milliseconds finish_visualiser{60000};  // visualisers may have films to finish
   std::chrono::milliseconds forced_stop{5000};         // after SIGTERM or SIGHUP to the launcher
 };
@@ -110,6 +110,7 @@ private:
   bool screen_full_ = false;  // it takes no more for now: visualisers wait
   bool screen_gone_ = false;
   Clock::time_point heard_{};                // when the server last said anything
+  std::set<std::string> left_;               // said so to the server, and may end
   std::vector<const ClusterMember*> ended_;  // too early or badly, in the order in which that was noticed
   std::optional<Clock::time_point> attribute_at_;
   ActorNames actor_of_;

@@ -150,11 +150,21 @@ void ServerProgram::Sleep(Clock::time_point until)
 void ServerProgram::CheckFailures()
 {
   if (options_.abandon != nullptr && *options_.abandon) throw BusError("the run was given up");
+  // Whoever started the processes knows that one may end before it can.
+  for (const std::string& name : session_.TakeLeft()) status_.Tell(ServerLeft{name});
+  session_.AnswerLeaves();
+  // Asked first: who leaves in good order has the last state, and who does not has failed.
+  const std::optional<std::string> left = session_.FirstLeft();
   if (const auto failure = lockstep_.Failure()) throw BusError(*failure);
   if (const auto failure = session_.Failure())
   {
     reason_ = EndReason::kOthers;
     throw BusError(*failure);
+  }
+  if (left && !lockstep_.Finished())
+  {
+    reason_ = EndReason::kOthers;
+    throw BusError(fmt::format("{} has left before the last tick", *left));
   }
   if (!BusIsBroken()) return;
   if (!broken_since_) broken_since_ = Clock::now();

@@ -1,4 +1,5 @@
 // Processes that die, hang, are of another version or are asked for what is not there.
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -90,7 +91,7 @@ TEST_F(ClusterTest, AWorkerOfAnotherProtocolIsRefusedByName)
                                     [&](const LeaveMessage& leave)
                                     {
                                       const std::lock_guard lock(mutex);
-                                      if (leave.to == ProcessId()) refusal = leave.error;
+                                      if (leave.process == ProcessId()) refusal = leave.error;
                                     });
   Subscription<WorldMessage> worlds(bus, "strict",
                                     [&](const WorldMessage& world)
@@ -109,6 +110,24 @@ TEST_F(ClusterTest, AWorkerOfAnotherProtocolIsRefusedByName)
   EXPECT_THAT(refusal, AllOf(HasSubstr("engine 'e0'"), HasSubstr(fmt::format("version {}", kProtocolVersion + 1)),
                              HasSubstr(fmt::format("version {}", kProtocolVersion))));
   EXPECT_THAT(server.Output(), HasSubstr("refused: engine 'e0'"));
+}
+
+TEST_F(ClusterTest, AWorkerThatLeavesBeforeTheLastTickEndsTheRunAndIsNamed)
+{
+  ChildProcess server = StartServer(WriteExperiment("deserted", 1, 0));
+  BusOptions options;
+  options.domain = domain_.Id();
+  Bus bus(options, "engine 'e0'");
+  std::atomic<std::uint64_t> run = 0;
+  const Subscription<WorldMessage> worlds(bus, "deserted", [&](const WorldMessage& world) { run = world.run; });
+  ASSERT_TRUE(server.WaitForOutput("waiting for")) << server.Output();
+  while (run == 0 && server.Running()) std::this_thread::sleep_for(1ms);
+  Publisher<JoinMessage> joins(bus, "deserted");
+  joins.Write({ProcessId(), kProtocolVersion, run, "engine 'e0'", true});
+  Publisher<LeaveMessage> leaves(bus, "deserted");
+  leaves.Write({run, 0, "engine 'e0'", ProcessId(), ""});
+  EXPECT_EQ(server.Wait(), 6);
+  EXPECT_THAT(server.Output(), HasSubstr("engine 'e0' has left before the last tick"));
 }
 
 TEST_F(ClusterTest, AWorkerRefusesAServerOfAnotherProtocol)

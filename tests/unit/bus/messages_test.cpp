@@ -243,7 +243,7 @@ TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
     wire_leave.run(leave.run);
     wire_leave.tick(leave.tick);
     wire_leave.name(leave.name);
-    wire_leave.to(leave.to);
+    wire_leave.process(leave.process);
     wire_leave.error(leave.error);
     ExpectSame<wire::LeavePubSubType>(leave, wire_leave);
 

@@ -1,7 +1,7 @@
 // Which process failed, as told from what each says of itself and how it ended.
 #include "launcher/processes/attribution.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <signal.h>
 
 namespace swarmanoid
@@ -57,22 +57,29 @@ TEST(Attribution, AKilledProcessIsToldByWhomItRan)
     return Actor{kind, number, "fb_3", "diffusion"};
   };
   EXPECT_EQ(
-      FailureText({"controller host 0", Killed(SIGKILL), record}, 51, actor_of, false),
+      FailureText({"controller host 0", "", Killed(SIGKILL), record}, 51, actor_of, false),
       "controller host 0 was killed by signal 9 (Killed), during robot 'fb_3', controller 'diffusion': ControlStep at "
       "tick 50");
-  EXPECT_NE(FailureText({"controller host 0", Killed(SIGKILL), record}, 51, actor_of, true).find("memory was short"),
-            std::string::npos);
+  EXPECT_NE(
+      FailureText({"controller host 0", "", Killed(SIGKILL), record}, 51, actor_of, true).find("memory was short"),
+      std::string::npos);
 }
 
 TEST(Attribution, TheCauseThatAProcessTellsIsTheHeadline)
 {
-  EXPECT_EQ(FailureText({"controller host 0", std::nullopt, Record(EndReason::kFailed, true)}, 51, {}, false),
+  EXPECT_EQ(FailureText({"controller host 0", "", std::nullopt, Record(EndReason::kFailed, true)}, 51, {}, false),
             "the cause");
 }
 
 TEST(Attribution, WithoutAWordTheTickIsTheServers)
 {
-  EXPECT_EQ(FailureText({"engine 'ground'", Exited(1), ActivityRecord()}, 51, {}, false),
+  EXPECT_EQ(FailureText({"engine 'ground'", "alpha", Exited(4), ActivityRecord()}, 51, {}, false),
+            "engine 'ground' on alpha ended with exit code 4 at tick 51");
+  EXPECT_THAT(FailureText({"engine 'ground'", "alpha", Exited(255), ActivityRecord()}, 51, {}, false),
+              testing::HasSubstr("by ssh: the connection failed"));
+  EXPECT_THAT(FailureText({"engine 'ground'", "", Exited(255), ActivityRecord()}, 51, {}, false),
+              testing::Not(testing::HasSubstr("ssh")));
+  EXPECT_EQ(FailureText({"engine 'ground'", "", Exited(1), ActivityRecord()}, 51, {}, false),
             "engine 'ground' ended with exit code 1 at tick 51");
 }
 

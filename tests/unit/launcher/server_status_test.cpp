@@ -45,6 +45,7 @@ TEST(ServerStatus, WhatIsWrittenIsRead)
       ServerStall{"controller host 0 (runs the controller of fb 3)", 2},
       ServerWarning{"engine 'ground' at tick 5: the footbot 'fb' left the world at 1, 1, -300"},
       ServerError{"controller 'x' of robot 'y' failed: 5 of 6"},
+      ServerLeft{"engine 'the ground'"},
       ServerFinished{500, 10, 0xffULL, 0.0541234567, 1.0 / 3},
   };
   for (const ServerStatus& status : all)

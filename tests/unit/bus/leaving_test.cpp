@@ -1,0 +1,197 @@
+// How a worker leaves the run: it stays until the server has read its good-bye, however long that takes, and the server
+// takes nobody for dead who said one.
+#include <fastrtps/attributes/LibrarySettingsAttributes.h>
+#include <fastrtps/xmlparser/XMLProfileManager.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "common/activity/exit_codes.h"
+#include "common/bus/domain.h"
+#include "common/bus/server_session.h"
+#include "common/bus/worker_session.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+
+bool Eventually(const std::function<bool()>& met)
+{
+  const auto end = std::chrono::steady_clock::now() + 100s;
+  while (!met())
+  {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(1ms);
+  }
+  return true;
+}
+
+// Server and worker are processes of their own: within one, messages would be read by the thread that writes them.
+class Leaving : public testing::Test
+{
+protected:
+  using Settings = eprosima::fastrtps::LibrarySettingsAttributes;
+  using Profiles = eprosima::fastrtps::xmlparser::XMLProfileManager;
+
+  Leaving() : settings_(Profiles::library_settings())
+  {
+    Settings settings = settings_;
+    settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
+    Profiles::library_settings(settings);
+    setenv("SWARMANOID_SHARED_FOLDER", folder_.c_str(), 1);
+    options_.domain = domain_.Id();
+    world_.run = 5;
+    world_.experiment = "leaving";
+    world_.host = MachineName();
+    world_.pid = static_cast<std::uint32_t>(getpid());
+  }
+  ~Leaving() override
+  {
+    Profiles::library_settings(settings_);
+    unsetenv("SWARMANOID_SHARED_FOLDER");
+    std::filesystem::remove_all(folder_);
+    std::filesystem::remove_all(folder_ + "-worker");
+  }
+
+  // A worker that has nothing to do, in a thread of its own.
+  std::jthread Worker(
+      std::atomic<int>& exit_code, const std::function<void()>& work = [] {})
+  {
+    return std::jthread(
+        [this, &exit_code, work]
+        {
+          WorkerSession session(options_, "leaving", "engine 'ground'");
+          session.ReportReady();
+          exit_code = session.Work(work);
+        });
+  }
+
+  const Settings settings_;
+  const std::string folder_ = fmt::format("/dev/shm/swarmanoid-leaving-test-{}", getpid());
+  FreeDomain domain_;
+  BusOptions options_;
+  WorldMessage world_;
+};
+
+TEST_F(Leaving, TakesAsLongAsTheServerDoesToAnswer)
+{
+  Bus server(options_, "space server");
+  std::mutex mutex;
+  int good_byes = 0;
+  std::string leaver;
+  std::atomic<bool> gone = false;
+  server.OnProcessGone([&](const std::string&, const std::string& name, bool) { gone = name == "engine 'ground'"; });
+  Publisher<LeaveMessage> answers(server, "leaving");
+  const Subscription<LeaveMessage> leaves(server, "leaving",
+                                          [&](const LeaveMessage& leave)
+                                          {
+                                            const std::lock_guard lock(mutex);
+                                            if (leave.name != "engine 'ground'") return;
+                                            ++good_byes;
+                                            leaver = leave.process;
+                                            EXPECT_EQ(leave.run, world_.run);
+                                            EXPECT_EQ(leave.error, "");
+                                          });
+  Publisher<WorldMessage> worlds(server, "leaving");
+  worlds.Write(world_);
+  std::atomic<int> exit_code = -1;
+  const std::jthread worker = Worker(exit_code);
+  // It says it again while nobody answers, and does not go. Neither do answers to others let it go.
+  ASSERT_TRUE(Eventually(
+      [&]
+      {
+        answers.Write({world_.run, 0, "space server", "another:1", ""});
+        answers.Write({world_.run + 1, 0, "space server", ProcessId(), ""});
+        const std::lock_guard lock(mutex);
+        return good_byes >= 5 || gone;
+      }));
+  EXPECT_FALSE(gone);
+  EXPECT_EQ(exit_code, -1);
+  EXPECT_EQ(leaver, ProcessId());
+  answers.Write({world_.run, 0, "space server", ProcessId(), ""});
+  EXPECT_TRUE(Eventually([&] { return exit_code == kExitDone && gone; }));
+}
+
+TEST_F(Leaving, EndsWithTheServer)
+{
+  std::atomic<int> exit_code = -1;
+  std::jthread worker;
+  {
+    Bus server(options_, "space server");
+    std::atomic<bool> heard = false;
+    const Subscription<LeaveMessage> leaves(server, "leaving", [&](const LeaveMessage&) { heard = true; });
+    Publisher<WorldMessage> worlds(server, "leaving");
+    worlds.Write(world_);
+    worker = Worker(exit_code);
+    ASSERT_TRUE(Eventually([&] { return heard.load(); }));
+    EXPECT_EQ(exit_code, -1);
+  }
+  EXPECT_TRUE(Eventually([&] { return exit_code == kExitDone; }));
+}
+
+TEST_F(Leaving, IsReadBeforeTheProcessIsMissed)
+{
+  // The thread that reads messages is held up, longer than it ever was waited for; the one that hears of departures is
+  // not.
+  options_.lease_s = 100;
+  std::atomic<int> exit_code = -1;
+  std::atomic<bool> holds = false;
+  ServerSession* opened = nullptr;
+  ServerSession session(options_, world_, {"engine 'ground'"},
+                        {[](const auto&) {},
+                         [&]
+                         {
+                           if (!opened->Missing().empty() || holds.exchange(true)) return;
+                           for (int k = 0; k < 2000 && !opened->Failure(); ++k) std::this_thread::sleep_for(1ms);
+                         },
+                         [](const auto&) {}});
+  opened = &session;
+  session.Open();
+  // A process has one folder of a run; these are two.
+  setenv("SWARMANOID_SHARED_FOLDER", (folder_ + "-worker").c_str(), 1);
+  const std::jthread worker = Worker(exit_code, [&] { EXPECT_TRUE(Eventually([&] { return holds.load(); })); });
+  EXPECT_TRUE(Eventually([&] { return session.FirstLeft() || session.Failure(); }));
+  EXPECT_EQ(session.TakeLeft(), std::vector<std::string>{"engine 'ground'"}) << session.Failure().value_or("");
+  EXPECT_EQ(exit_code, -1);
+  EXPECT_TRUE(Eventually(
+      [&]
+      {
+        session.AnswerLeaves();
+        return exit_code == kExitDone;
+      }));
+  EXPECT_EQ(session.Failure().value_or("none"), "none");
+  EXPECT_EQ(session.FirstLeft(), "engine 'ground'");
+}
+
+TEST_F(Leaving, WithoutAWordIsAFailure)
+{
+  ServerSession session(options_, world_, {"engine 'ground'"}, {[](const auto&) {}, [] {}, [](const auto&) {}});
+  session.Open();
+  {
+    Bus engine(options_, "engine 'ground'");
+    Publisher<JoinMessage> join(engine, "leaving");
+    join.Write({ProcessId(), kProtocolVersion, world_.run, "engine 'ground'", true});
+    ASSERT_TRUE(Eventually([&] { return session.Missing().empty(); }));
+    // That another process leaves under its name is none of its good-byes.
+    Publisher<LeaveMessage> leave(engine, "leaving");
+    leave.Write({world_.run, 3, "engine 'ground'", "another:1", ""});
+    leave.WaitUntilRead(20);
+    EXPECT_FALSE(session.AllLeft());
+  }
+  ASSERT_TRUE(Eventually([&] { return session.Failure().has_value(); }));
+  EXPECT_EQ(*session.Failure(), fmt::format("engine 'ground' has left (process {})", ProcessId()));
+}
+
+}  // namespace
+}  // namespace swarmanoid
