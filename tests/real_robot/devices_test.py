@@ -103,6 +103,18 @@ class Devices(unittest.TestCase):
         # Twelve sectors of 30 degrees, counter-clockwise from the front.
         self.assertEqual({name for name in readings["pie_camera"]}, {"red 1", "blue 9"})
 
+    def test_proximity_from_a_scan(self):
+        readings, _ = self.run_robot("footbot", ["footbot_proximity"])
+        # Each sensor sees the nearest of the rays in its 15 degrees, counter-clockwise from the front.
+        nearest = {}
+        for ray in range(32):
+            sensor = math.floor((-1.55 + 0.1 * ray) % (2 * math.pi) / math.radians(15))
+            distance = 0 if ray == 5 else math.inf if ray == 20 else 0.02 + 0.002 * ray
+            nearest[sensor] = min(nearest.get(sensor, math.inf), distance)
+        self.assertEqual(set(nearest), {*range(6), *range(18, 24)})
+        for i in range(24):
+            self.assertAlmostEqual(readings["footbot_proximity"][str(i)][0], infrared(nearest.get(i, math.inf)), places=5, msg=str(i))
+
     def test_encoders_from_joint_states(self):
         readings, _ = self.run_robot("footbot", ["footbot_encoders"],
                                      drivers='<sensors><footbot_encoders driver="ros2_joint_states"/></sensors>')

@@ -40,6 +40,24 @@ static void PublishRing(const dds_entity_t* proximity, const dds_entity_t* light
   }
 }
 
+/* From 1.55 rad on the right to 1.55 rad on the left, ever farther. */
+static void PublishScan(dds_entity_t writer)
+{
+  float ranges[32];
+  for (int ray = 0; ray < 32; ++ray) ranges[ray] = 0.105036758F + 0.002F * (float)ray;
+  ranges[5] = -INFINITY;
+  ranges[20] = INFINITY;
+  sensor_msgs_msg_dds__LaserScan_ scan = {.header.frame_id = "base_link"};
+  scan.angle_min = -1.55F;
+  scan.angle_increment = 0.1F;
+  scan.angle_max = 1.55F;
+  scan.range_min = 0.05F;
+  scan.range_max = 1;
+  scan.ranges._buffer = ranges;
+  scan.ranges._length = scan.ranges._maximum = COUNT(ranges);
+  dds_write(writer, &scan);
+}
+
 static void PublishMotion(dds_entity_t odom, dds_entity_t imu, dds_entity_t wrench, dds_entity_t altitude)
 {
   nav_msgs_msg_dds__Odometry_ odometry = {.header.frame_id = "odom", .child_frame_id = "base_link"};
@@ -240,6 +258,7 @@ int main(int argc, char** argv)
     Name(name, "rt/light", i);
     light[i] = MakeWriter(participant, &sensor_msgs_msg_dds__Illuminance__desc, name);
   }
+  const dds_entity_t scan = MakeWriter(participant, &sensor_msgs_msg_dds__LaserScan__desc, "rt/scan");
   const dds_entity_t odom = MakeWriter(participant, &nav_msgs_msg_dds__Odometry__desc, "rt/odom");
   const dds_entity_t imu = MakeWriter(participant, &sensor_msgs_msg_dds__Imu__desc, "rt/imu");
   const dds_entity_t wrench = MakeWriter(participant, &geometry_msgs_msg_dds__WrenchStamped__desc, "rt/turret/wrench");
@@ -271,6 +290,7 @@ int main(int argc, char** argv)
   {
     for (size_t k = 0; k < COUNT(heard); ++k) Listen(&heard[k]);
     PublishRing(proximity, light);
+    PublishScan(scan);
     PublishMotion(odom, imu, wrench, altitude);
     PublishAllJoints(joints);
     PublishFloor(ground, colour);

@@ -7,6 +7,7 @@
 #include "common/control_interface/ci_robot.h"
 #include "common/math/elementary.h"
 #include "footbot/bt_footbot_flocking.h"
+#include "tests/unit/behavior_toolkit/fake_wheels.h"
 
 namespace swarmanoid
 {
@@ -28,16 +29,6 @@ class FakeLight : public CCI_FootBotLightSensor
 public:
   std::span<const double, NUM_SENSORS> GetAllSensorReadings() const override { return readings; }
   std::array<double, NUM_SENSORS> readings{};
-};
-
-class FakeWheels : public CCI_FootBotWheelsActuator
-{
-public:
-  void SetFootBotWheelsAngularVelocity(double left, double right) override
-  {
-    speeds = {left * WHEEL_RADIUS_M, right * WHEEL_RADIUS_M};
-  }
-  std::array<double, 2> speeds{};  // m/s
 };
 
 // A red neighbour: m, radians from the front.

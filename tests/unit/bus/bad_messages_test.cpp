@@ -224,13 +224,16 @@ TEST(Messages, NamesThatOthersWouldRefuseAreNotSent)
 
 TEST(Messages, OfAnotherVersionTellItWhateverElseTheyHold)
 {
-  std::string bytes =
-      BytesOf(WorldMessage{kProtocolVersion + 1, 1, "experiment", "host", 2, "", "", "", 3, 1, false, 0, 0, {}, {}});
-  bytes.resize(bytes.size() - 20);
-  WorldMessage world;
-  ReadPayload<WorldMessage>(bytes, world);
-  EXPECT_EQ(world.protocol, kProtocolVersion + 1);
-  EXPECT_EQ(world.experiment, "experiment");
+  for (const std::uint32_t version : {kProtocolVersion - 1, kProtocolVersion + 1})
+  {
+    std::string bytes =
+        BytesOf(WorldMessage{version, 1, "experiment", "host", 2, "", "", "", 3, 1, false, 0, 0, {}, {}});
+    bytes.resize(bytes.size() - 20);
+    WorldMessage world;
+    ReadPayload<WorldMessage>(bytes, world);
+    EXPECT_EQ(world.protocol, version);
+    EXPECT_EQ(world.experiment, "experiment");
+  }
 }
 
 // Fast DDS calls these from its own threads, where an exception would end the process.

@@ -38,6 +38,19 @@ TEST(TickGate, KnowsRepetitions)
   EXPECT_EQ(gate.Offer(0, 0), Verdict::kDrop);
 }
 
+TEST(TickGate, APartThatComesAgainDoesNotStandForAnother)
+{
+  TickGate gate({{"a"}, {"b"}, {"c", true}});
+  for (int time = 0; time < 3; ++time) EXPECT_FALSE(gate.Arrived(0, 0));
+  EXPECT_FALSE(gate.Complete());
+  EXPECT_THAT(gate.Missing(), testing::ElementsAre("b", "c"));
+  gate.Arrived(1, 0);
+  for (int time = 0; time < 2; ++time) EXPECT_FALSE(gate.Arrived(2, 1));
+  EXPECT_TRUE(gate.Arrived(2, 0));
+  gate.Next();
+  EXPECT_THAT(gate.Missing(), testing::ElementsAre("a", "b"));
+}
+
 TEST(TickGate, ATickThatCannotFollowIsAnErrorWithBothNumbers)
 {
   TickGate gate({{"space server"}});

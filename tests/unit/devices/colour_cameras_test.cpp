@@ -89,6 +89,54 @@ TEST(ColourCameras, LedsOfOneColourAreOneBlobAtTheirMiddleAndTurnWithTheTurret)
               0, 1e-12);
 }
 
+// Rolled by 30 degrees to its right, about its x axis.
+TEST(ColourCameras, LedsAndBeaconLeanWithTheirRobot)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  CSwarmanoidSpace& space = world.Space();
+  const Pose pose{{5, 5, 0.02}, QuaternionFromEuler({kPi / 6, 0, 0})};
+  space.SetPose(0, pose);
+  Paint(world, 0, CCI_Colour::RED);
+  space.GetEntity(0).SetAttribute("beacon", CCI_Colour::WHITE);
+  SensorWorld sensor_world(space);
+  sensor_world.Refresh();
+  BlobSources sources(sensor_world);
+  sources.Refresh();
+  const auto blobs = sources.At(0);
+  ASSERT_EQ(blobs.size(), 2U);
+  for (const auto& [blob, height] : {std::pair(blobs[0], 0.174), std::pair(blobs[1], 0.085)})
+  {
+    const Vector3 leant(5, 5 - height * std::sin(kPi / 6), 0.02 + height * std::cos(kPi / 6));
+    EXPECT_NEAR((blob.position - leant).norm(), 0, 1e-12) << blob.position.transpose();
+  }
+}
+
+// Distances and angles are those in the plane of its base.
+TEST(ColourCameras, ALeaningCameraMeasuresInTheFrameOfItsRobot)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  const std::vector<Vector3> places{{5.3, 5, 0}, {5, 5.4, 0}, {4.8, 4.8, 0}};
+  for (const Vector3& place : places) world.AddFootbot(place.x(), place.y());
+  TestSensor camera(world, "footbot_omnidirectional_camera", "generic_footbot_omnidirectional_camera", {0});
+  const std::vector<std::uint32_t> colours{CCI_Colour::RED, CCI_Colour::GREEN, CCI_Colour::BLUE};
+  for (std::uint32_t k = 0; k < 3; ++k) Paint(world, k + 1, colours[k]);
+  const Pose pose{{5, 5, 0}, QuaternionFromEuler({0.15, -0.1, 0.7})};
+  world.Space().SetPose(0, pose);
+  camera.Update();
+  ASSERT_EQ(BlobsOf(camera, 0).size(), 3U);
+  const Vector3 eye = pose.Apply({0, 0, 0.2887});
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const Vector3 seen = pose.orientation.conjugate() * (places[k] + Vector3(0, 0, 0.085) - eye);
+    const CCI_ColourBlob* blob = camera.Of<CCI_ColourBlobSensor>(0).GetNearestBlob(colours[k]);
+    ASSERT_NE(blob, nullptr);
+    EXPECT_NEAR(blob->distance_m, std::hypot(seen.x(), seen.y()), 1e-9) << k;
+    EXPECT_NEAR(blob->angle_rad, std::atan2(seen.y(), seen.x()), 1e-9) << k;
+  }
+}
+
 TEST(ColourCameras, ATallBlockHidesWhatIsBehindIt)
 {
   TestWorld world;

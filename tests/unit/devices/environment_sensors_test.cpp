@@ -26,6 +26,25 @@ TEST(FootbotLight, FallsWithTheSquareOfTheDistanceAndTheAngle)
   }
 }
 
+TEST(FootbotLight, TheRingTurnsAndLeansWithTheRobot)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  world.Add(EntityKind::kLightBulb, {5, 7, 1.06}, 0, {0, 0, 0}, false, -1);
+  TestSensor sensor(world, "footbot_light", "generic_footbot_light", {0});
+  const Pose pose{{5, 5, 0}, QuaternionFromEuler({0.3, 0.2, kPi / 3})};
+  world.Space().SetPose(0, pose);
+  sensor.Update();
+  const Vector3 light = pose.Inverse().Apply({5, 7, 1.06}) - Vector3(0, 0, 0.06);
+  const double angle = std::atan2(light.y(), light.x()) * 180 / kPi;
+  const auto readings = sensor.Of<CCI_FootBotLightSensor>(0).GetAllSensorReadings();
+  for (unsigned i = 0; i < 24; ++i)
+  {
+    const double off = std::abs(std::remainder(7.5 + 15.0 * i - angle, 360.0));
+    EXPECT_NEAR(readings[i], std::max(1 - off / 90, 0.0) / light.squaredNorm(), 1e-9) << i;
+  }
+}
+
 TEST(FootbotLight, ShadowsAddUpAndCutOff)
 {
   TestWorld world;
@@ -99,11 +118,11 @@ TEST(EyebotAltitude, MeasuresDownToFloorOrBlock)
   world.AddEngine("sky");
   const auto eyebot = world.AddEyebot(5, 5, 2);
   world.AddFootbot(5, 5, 0, 0, 1);  // of another world
-  world.AddBlock({7, 7, 0.3}, {1, 1, 0.6});
+  world.AddBlock({7, 3, 0.3}, {1, 1, 0.6});
   TestSensor sensor(world, "eyebot_altitude", "generic_eyebot_altitude", {eyebot});
   sensor.Update();
   EXPECT_EQ(sensor.Of<CCI_EyeBotAltitudeSensor>(0).GetAltitude(), 2);
-  world.Space().SetPose(eyebot, {{7.2, 6.8, 1.5}, Quaternion::Identity()});
+  world.Space().SetPose(eyebot, {{7.2, 2.8, 1.5}, Quaternion::Identity()});
   sensor.Update();
   EXPECT_NEAR(sensor.Of<CCI_EyeBotAltitudeSensor>(0).GetAltitude(), 0.9, 1e-12);
 }

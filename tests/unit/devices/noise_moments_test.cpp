@@ -166,7 +166,9 @@ TEST(NoiseMoments, OfSensors)
       {{"eyebot_altitude", "generic_eyebot_altitude", "", kEyebot, 0.1},
        Reads<CCI_EyeBotAltitudeSensor>([](const auto& s) { return s.GetAltitude(); })},
       {{"handbot_joints", "generic_handbot_joints", "", kHandbot, 0.1},
-       Reads<CCI_HandBotJointsSensor>([](const auto& s) { return s.GetReading(CCI_HandBotJointsSensor::WRIST_LEFT); })},
+       Reads<CCI_HandBotJointsSensor>([](const auto& s) { return s.GetReading(CCI_HandBotJointsSensor::HEAD); })},
+      {{"handbot_joints", "generic_handbot_joints", "", kHandbot, 0.1},
+       Reads<CCI_HandBotJointsSensor>([](const auto& s) { return s.GetReading(CCI_HandBotJointsSensor::HAND_RIGHT); })},
   };
   for (const SensorCase& device : kCases)
   {
@@ -279,7 +281,7 @@ TEST(NoiseMoments, OfColours)
   World world;
   CSwarmanoidSpace& space = world.Space();
   TestActuator beacon(world, "footbot_beacon", "generic_footbot_beacon", {kFootbot},
-                      {{"noise_kind", "gaussian"}, {"noise_mean", "4"}, {"noise_deviation", "8"}});
+                      {{"noise_kind", "gaussian"}, {"noise_mean", "4"}, {"noise_deviation", "3"}});
   beacon.Of<CCI_FootBotBeaconActuator>(0).SetColour(0x804020);
   for (const int shift : {16, 8})
   {
@@ -292,8 +294,8 @@ TEST(NoiseMoments, OfColours)
                     const auto colour = static_cast<std::uint32_t>(space.GetEntity(kFootbot).GetAttribute("beacon"));
                     return static_cast<double>(colour >> shift & 0xff);
                   });
-    EXPECT_NEAR(moments.mean, (0x804020 >> shift & 0xff) + 4, 4 * 8 / std::sqrt(kTicks));
-    EXPECT_NEAR(moments.deviation, std::sqrt(64 + 1.0 / 12), 4 * 8 / std::sqrt(2 * kTicks));  // whole numbers
+    EXPECT_NEAR(moments.mean, (0x804020 >> shift & 0xff) + 4, 4 * 3 / std::sqrt(kTicks));
+    EXPECT_NEAR(moments.deviation, std::sqrt(9 + 1.0 / 12), 4 * 3 / std::sqrt(2 * kTicks));  // whole numbers
   }
 }
 

@@ -199,11 +199,12 @@ TEST(RangeAndBearing, LossAndNoiseAsAsked)
                        {{"loss_probability", "0.3"}, {"range_noise_kind", "uniform"}, {"range_noise_range", "0.1"}});
   Send(world, senders, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
   int received = 0;
-  double squares = 0;
+  double squares = 0, squares_of_counts = 0;
   for (std::uint64_t tick = 0; tick < 1000; ++tick)
   {
     world.Space().SetTick(tick);
     receivers.Update();
+    squares_of_counts += std::pow(static_cast<double>(PacketsOf(receivers, 0).size()), 2);
     for (const auto& packet : PacketsOf(receivers, 0))
     {
       ++received;
@@ -212,7 +213,42 @@ TEST(RangeAndBearing, LossAndNoiseAsAsked)
     }
   }
   EXPECT_NEAR(received / 11000.0, 0.7, 4 * std::sqrt(0.21 / 11000));
+  EXPECT_NEAR(squares_of_counts / 1000 - std::pow(received / 1000.0, 2), 11 * 0.21, 0.5) << "each is lost by itself";
   EXPECT_NEAR(squares / received, 0.01 / 3, 2e-4);
+}
+
+// From behind and near, so that noise leaves what a reading can be.
+TEST(RangeAndBearing, NoiseLeavesNoReadingOutsideItsRange)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  world.AddFootbot(4.8, 5);
+  TestActuator senders(world, "range_and_bearing", "generic_range_and_bearing", {0, 1});
+  TestSensor receivers(world, "range_and_bearing", "generic_range_and_bearing", {0},
+                       {{"range_noise_kind", "uniform"},
+                        {"range_noise_range", "0.5"},
+                        {"bearing_noise_kind", "uniform"},
+                        {"bearing_noise_range", "0.5"},
+                        {"vertical_bearing_noise_kind", "uniform"},
+                        {"vertical_bearing_noise_range", "3"}});
+  Send(world, senders, {1});
+  bool cut = false, left = false, right = false, up = false, down = false;
+  for (std::uint64_t tick = 0; tick < 300; ++tick)
+  {
+    world.Space().SetTick(tick);
+    receivers.Update();
+    ASSERT_EQ(PacketsOf(receivers, 0).size(), 1U);
+    const auto& packet = PacketsOf(receivers, 0)[0];
+    ASSERT_GE(packet.range_m, 0);
+    ASSERT_GE(std::abs(packet.bearing_rad), kPi - 0.5);
+    ASSERT_LE(std::abs(packet.bearing_rad), kPi);
+    ASSERT_LE(std::abs(packet.vertical_bearing_rad), kPi / 2);
+    cut |= packet.range_m == 0;
+    (packet.bearing_rad > 0 ? left : right) = true;
+    up |= packet.vertical_bearing_rad == kPi / 2;
+    down |= packet.vertical_bearing_rad == -kPi / 2;
+  }
+  EXPECT_TRUE(cut && left && right && up && down);
 }
 
 }  // namespace

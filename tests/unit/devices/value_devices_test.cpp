@@ -226,6 +226,7 @@ TEST(ValueDevices, PositionControlReachesItsTarget)
   {
     device.Commit();
     for (const double v : {device.values[0], device.values[1], device.values[2]}) ASSERT_LE(std::abs(v), 1);
+    ASSERT_TRUE(tick > 0 || device.values[3] > 0) << "not the short way round";
     // An engine that follows the velocities exactly.
     Pose pose = space.GetPose(0);
     const double yaw = YawOf(pose.orientation);

@@ -145,6 +145,27 @@ TEST(Dynamics2d, WheelsSlipUntilTheSpeedIsReached)
   EXPECT_NEAR(world.Position(robot).x() - before, 2, 1e-3) << "terminal speed";
 }
 
+TEST(Dynamics2d, TheAccelerometerReadsInTheFrameOfTheRobot)
+{
+  Dynamics2dTestWorld world;
+  world.Set("wheel_friction", "0.1");
+  world.Set("substeps", "50");
+  const auto ahead = world.AddFootbot(1, 1, kPi / 2);
+  const auto turning = world.AddFootbot(5, 5, 2);
+  world.AddCommands("footbot_wheels", 2);
+  world.AddSensors("footbot_accelerometer", 3);
+  world.Start();
+  world.Drive(ahead, 2, 2);
+  world.Drive(turning, 0.2, 0.3);
+  world.Run(10);
+  EXPECT_NEAR(world.Sensor("footbot_accelerometer", ahead, 0), 0.1 * kGravity, 1e-3);
+  EXPECT_NEAR(world.Sensor("footbot_accelerometer", ahead, 1), 0, 1e-3);
+  // To the left: v w, on a circle to the left.
+  EXPECT_NEAR(world.Sensor("footbot_accelerometer", turning, 1), 0.25 * 0.1 / 0.14, 5e-3);
+  EXPECT_NEAR(world.Sensor("footbot_accelerometer", turning, 0), 0, 1e-2);
+  EXPECT_NEAR(world.Sensor("footbot_accelerometer", turning, 2), kGravity, 1e-12);
+}
+
 TEST(Dynamics2d, MotorsLimitTheAccelerationWhereTheyAreWeakerThanTheGround)
 {
   Dynamics2dTestWorld world;

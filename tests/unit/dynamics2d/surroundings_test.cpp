@@ -89,6 +89,20 @@ TEST(Dynamics2d, AMirrorPushesAndIsNotPushed)
   EXPECT_NEAR(world.Position(prey).x(), 2 + 0.185, 5e-3) << "it keeps the distance of the two radii";
 }
 
+// Beside a prey, from far away: it did not come there through the prey.
+TEST(Dynamics2d, AMirrorThatIsPutElsewhereSweepsNobodyAway)
+{
+  Dynamics2dTestWorld world;
+  const auto mirror = world.AddFootbot(1, 1);
+  const auto prey = world.AddPrey(3.4, 1, 1);
+  world.MakeMirror(mirror);
+  world.Start();
+  world.Run(3);
+  world.Space().SetPose(mirror, {Vector3(3.2, 1, 0), Quaternion::Identity()});
+  world.Run(3);
+  EXPECT_LT((world.Position(prey) - Vector3(3.4, 1, 0)).norm(), 1e-3);
+}
+
 TEST(Dynamics2d, AMirrorAboveThePlaneTouchesNothing)
 {
   Dynamics2dTestWorld world;

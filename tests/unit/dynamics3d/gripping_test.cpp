@@ -272,6 +272,47 @@ TEST(Dynamics3dGripping, ARopePullsButDoesNotPush)
   EXPECT_NEAR(world.Attribute(handbot, "rope_length"), 2.84 + 0.3, 0.01);
 }
 
+TEST(Dynamics3dGripping, ARopeIsLetOutToItsLengthAndNoFurther)
+{
+  Dynamics3dTestWorld world;
+  world.Set("ceiling", "true");
+  const auto handbot = world.AddHandbot({5, 5, 0});
+  world.AddCommands("handbot_rope", 2);
+  world.Start();
+  world.Command("handbot_rope", handbot, {1, 0.15});
+  world.Run(200);
+  EXPECT_EQ(world.Attribute(handbot, "rope_length"), 5);
+}
+
+// An arm that opens turns the robot the other way; the fans bring it back, and it stands.
+TEST(Dynamics3dGripping, FansEndTheTurnsOfAHandbotOnItsRope)
+{
+  Dynamics3dTestWorld world;
+  world.Set("ceiling", "true");
+  const auto handbot = world.AddHandbot({5, 5, 0}, 1);
+  world.AddCommands("handbot_rope", 2);
+  world.AddCommands("handbot_arms", 5);
+  world.Start();
+  world.Command("handbot_rope", handbot, {1, -0.15});
+  world.Run(20);
+  const auto farthest_off = [&](int ticks)
+  {
+    double off = 0;
+    for (int tick = 0; tick < ticks; ++tick)
+    {
+      world.Tick();
+      off = std::max(off, std::abs(WrapAngle(world.Yaw(handbot) - 1)));
+    }
+    return off;
+  };
+  world.Command("handbot_arms", handbot, {0, 1, 0, 0, 0});
+  const double turned = farthest_off(10);
+  EXPECT_GT(turned, 0.01);
+  world.Command("handbot_arms", handbot, {0, 0, 0, 0, 0});
+  world.Run(40);
+  EXPECT_LT(farthest_off(30), 0.1 * turned);
+}
+
 TEST(Dynamics3dGripping, AnEyebotAttachesToTheCeilingAndNowhereElse)
 {
   Dynamics3dTestWorld world;

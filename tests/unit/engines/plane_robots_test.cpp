@@ -118,6 +118,22 @@ TEST_P(PlaneRobotsIn, JointsTurnAtTheirSpeedsWithinTheirRanges)
   EXPECT_NEAR(Attribute(robot, "arm", 0), 1.0472, 1e-12);
 }
 
+TEST_P(PlaneRobotsIn, ACommandThatIsNotANumberNamesRobotAndChannel)
+{
+  const std::uint32_t robot = AddHandbot();
+  f.Start();
+  for (std::size_t command = 0; command < 9; ++command)
+  {
+    f.Command(command) = std::nan("");
+    const std::string channel = command < 5 ? "handbot_arms" : command < 7 ? "handbot_hands" : "handbot_rope";
+    EXPECT_THAT([&] { f.Tick(); },
+                testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr(
+                    "robot '" + f.Space().GetEntity(robot).GetId() + "' gave " + channel + " a value")))
+        << command;
+    f.Command(command) = 0;
+  }
+}
+
 // The left hand's tip is 0.256 m ahead, 0.05 m to the left and 0.1 m high.
 TEST_P(PlaneRobotsIn, AHandTakesABlockItCanReachAndLiftsIt)
 {
@@ -142,6 +158,47 @@ TEST_P(PlaneRobotsIn, AHandTakesABlockItCanReachAndLiftsIt)
   EXPECT_LT(Height(book), 0.6);
   f.Ticks(10);
   EXPECT_NEAR(Height(book), 0.1, 1e-9);
+}
+
+// Upside down, the right hand is on the left.
+TEST_P(PlaneRobotsIn, HandsGoRoundWithTheHead)
+{
+  const auto robot = AddHandbot();
+  const auto book = f.Add(EntityKind::kBlock, Vector3(2.3, 3.05, 0.1), {}, Vector3(0.06, 0.1, 0.2));
+  f.Start();
+  f.Command(0) = kPi;
+  f.Ticks(10);
+  f.Command(0) = 0;
+  f.Command(5) = f.Command(6) = 1;
+  f.Ticks(2);
+  EXPECT_EQ(Attribute(robot, "gripped", 0), 0);
+  EXPECT_EQ(Attribute(robot, "gripped", 1), 1 + book);
+}
+
+// Opened for one tick and closed again, the hand is still within reach.
+TEST_P(PlaneRobotsIn, WhatAHandCatchesInItsFallFallsAnewFromRest)
+{
+  const auto robot = AddHandbot();
+  const auto book = f.Add(EntityKind::kBlock, Vector3(2.3, 3.05, 0.1), {}, Vector3(0.06, 0.1, 0.2));
+  f.Start();
+  f.Command(5) = 1;
+  f.Ticks(2);
+  f.Command(7) = 1;
+  f.Command(8) = -0.1;
+  f.Ticks(50);
+  f.Command(8) = 0;
+  const double height = Height(book);
+  const double fall = 0.5 * 9.81 * kTick * kTick;
+  f.Command(5) = 0;
+  f.Tick();
+  EXPECT_NEAR(Height(book), height - fall, 1e-9);
+  f.Command(5) = 1;
+  f.Tick();
+  EXPECT_EQ(Attribute(robot, "gripped", 0), 1 + book);
+  EXPECT_NEAR(Height(book), height - fall, 1e-9);
+  f.Command(5) = 0;
+  f.Tick();
+  EXPECT_NEAR(Height(book), height - 2 * fall, 1e-9);
 }
 
 TEST_P(PlaneRobotsIn, AHandCannotTakeWhatStandsAboveOrBelowIt)

@@ -108,6 +108,26 @@ TEST(Kinematics2dEngine, RobotsArePutOnThePlaneAndBlocksKeepTheirHeight)
   EXPECT_NEAR(YawOf(f.PoseOf(block).orientation), 0.5, 1e-12);
 }
 
+// Also while others on the plane drive.
+TEST(Kinematics2dEngine, BlocksThatLeanKeepTheirHeightAndLean)
+{
+  EngineFixture f;
+  const auto robot = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0));
+  const auto leaning = f.Add(EntityKind::kBlock, Vector3(5, 5, 0.25), {0.3, -0.2, 0.5}, Vector3(0.5, 0.1, 0.5));
+  const auto lying = f.Add(EntityKind::kBlock, Vector3(8, 5, 0.05), {kPi / 2, 0, 2}, Vector3(0.5, 0.5, 0.1));
+  f.AddCommands("footbot_wheels", 2, {robot});
+  f.Start();
+  f.Command(0) = f.Command(1) = WheelSpeed(0.2);
+  const Pose before[] = {f.PoseOf(leaning), f.PoseOf(lying)};
+  f.Ticks(5);
+  for (const std::uint32_t k : {0U, 1U})
+  {
+    const Pose after = f.PoseOf(k == 0 ? leaning : lying);
+    EXPECT_LT((after.position - before[k].position).norm(), 1e-12) << k;
+    EXPECT_LT(after.orientation.angularDistance(before[k].orientation), 1e-7) << k;
+  }
+}
+
 TEST(Kinematics2dEngine, OnlyBlocksThatThePlaneCutsAreInTheWay)
 {
   // One block stands on the plane, one hangs above it, one is centred far below but reaches up through it.

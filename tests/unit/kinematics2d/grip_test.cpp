@@ -125,11 +125,14 @@ TEST(Kinematics2dGrip, OnlyPreysInReachAreGripped)
   f.Add(EntityKind::kFootbot, Vector3(5.2, 5, 0), {0, 0, kPi / 2});  // touches the gripper, but is no prey
   AddPrey(f, 4.7, 5);                                                // behind
   AddPrey(f, 5 + kReach + 0.02, 5.3);                                // beside
-  f.AddCommands("footbot_gripper", 1, {robot});
+  const auto other = AddRobotAround(f, 8 + 0.05, 8, 0);
+  AddPrey(f, 8, 8);  // ahead, 5 cm from its gripper
+  f.AddCommands("footbot_gripper", 1, {robot, other});
   f.Start();
-  f.Command(0) = 1;
+  f.Command(0) = f.Command(1) = 1;
   f.Ticks(3);
   EXPECT_EQ(GrippedBy(f, robot), 0);
+  EXPECT_EQ(GrippedBy(f, other), 0);
   EXPECT_EQ(f.Space().GetEntity(robot).GetAttribute("gripper_aperture"), 0);
 }
 

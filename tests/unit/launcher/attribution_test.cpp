@@ -71,6 +71,12 @@ TEST(Attribution, TheCauseThatAProcessTellsIsTheHeadline)
             "the cause");
 }
 
+TEST(Attribution, TheTickIsThatOfTheProcessWhereItTellsOne)
+{
+  EXPECT_EQ(FailureText({"engine 'ground'", Exited(1), Record(EndReason::kUnknown)}, 51, {}, false),
+            "engine 'ground' ended with exit code 1 at tick 50");
+}
+
 TEST(Attribution, WithoutAWordTheTickIsTheServers)
 {
   EXPECT_EQ(FailureText({"engine 'ground'", "alpha", Exited(4), ActivityRecord()}, 51, {}, false),

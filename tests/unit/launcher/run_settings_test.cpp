@@ -150,6 +150,24 @@ TEST(RunSettings, NumbersOutsideTheirRangeAreRefusedWithTheCure)
   EXPECT_THAT(ErrorOf({"a.xml", "--restore", "/nowhere"}), HasSubstr("no such file"));
 }
 
+TEST(RunSettings, MemoryIsReadInItsUnit)
+{
+  const auto bytes_of = [](const std::string& text)
+  {
+    RunSettings settings;
+    settings.memory_limit = text;
+    return LimitsOf(settings).memory_bytes;
+  };
+  EXPECT_EQ(bytes_of("4096"), 4096U);
+  EXPECT_EQ(bytes_of("4096B"), 4096U);
+  EXPECT_EQ(bytes_of("1.5K"), 1536U);
+  EXPECT_EQ(bytes_of("500M"), 500U << 20U);
+  EXPECT_EQ(bytes_of("2GiB"), std::uint64_t{2} << 30U);
+  EXPECT_EQ(bytes_of("1TB"), std::uint64_t{1} << 40U);
+  for (const char* text : {"", "0", "2G5", "GiB", "2 GiB", "-1", "2000T"})
+    EXPECT_THAT(ErrorOf({"a.xml", "--memory-limit", text}), HasSubstr("--memory-limit")) << text;
+}
+
 TEST(BusOptions, AddressesAreReadWhole)
 {
   EXPECT_EQ(ParseServerAddress("127.0.0.1:11811"), std::pair(std::string("127.0.0.1"), 11811U));

@@ -417,18 +417,51 @@ TEST(SystemSpawner, TheKernelKillsTheProcessesOfAKilledLauncher)
   EXPECT_TRUE(Eventually(is_gone)) << "process " << child << " outlives its launcher";
 }
 
-// A process of a user's code may leave a child behind, in a session of its own, that keeps the output open.
-TEST(ClusterMember, OutputEndsWithItsProcessWhoeverElseHoldsItOpen)
+TEST(SystemSpawner, WhatAProcessStartedItselfEndsWithIt)
 {
-  const std::filesystem::path folder = testing::TempDir() + "swarmanoid_member_" + std::to_string(getpid());
-  std::filesystem::create_directories(folder);
   SystemSpawner spawner;
-  MemberPlan plan;
-  plan.command.name = "visualiser";
-  plan.command.arguments = {"/bin/sh", "-c", "setsid sh -c 'echo $$; exec sleep 600' & exec sleep 600"};
-  plan.log_path = folder / "visualiser.log";
-  plan.output = MemberPlan::kScreen;
-  ClusterMember member(plan, spawner);
+  const SpawnedProcess process = spawner.Start({"shell", {"sh", "-c", "sleep 600 & sleep 600 &"}, {}, {}});
+  EXPECT_TRUE(spawner.Collect(process).Clean());
+  EXPECT_TRUE(GroupIsGone(process.pid));
+}
+
+class ClusterMemberTest : public testing::Test
+{
+protected:
+  ClusterMemberTest() { std::filesystem::create_directories(folder_); }
+  ~ClusterMemberTest() override { std::filesystem::remove_all(folder_); }
+
+  MemberPlan Visualiser(const std::string& script) const
+  {
+    MemberPlan plan;
+    plan.command.name = "visualiser";
+    plan.command.arguments = {"/bin/sh", "-c", script};
+    plan.log_path = folder_ / "visualiser.log";
+    plan.output = MemberPlan::kScreen;
+    return plan;
+  }
+
+  const std::filesystem::path folder_ = testing::TempDir() + "swarmanoid_member_" + std::to_string(getpid());
+  SystemSpawner spawner;
+};
+
+TEST_F(ClusterMemberTest, TheLastWordsOfAProcessAreInItsLog)
+{
+  const MemberPlan plan = Visualiser("echo one >&2; printf two >&2; exit 3");
+  {
+    ClusterMember member(plan, spawner);
+    member.Collect(spawner);
+    EXPECT_EQ(member.End()->exit_code, 3);
+  }
+  std::ostringstream text;
+  text << std::ifstream(plan.log_path).rdbuf();
+  EXPECT_EQ(text.str(), "one\ntwo\n");
+}
+
+// A process of a user's code may leave a child behind, in a session of its own, that keeps the output open.
+TEST_F(ClusterMemberTest, OutputEndsWithItsProcessWhoeverElseHoldsItOpen)
+{
+  ClusterMember member(Visualiser("setsid sh -c 'echo $$; exec sleep 600' & exec sleep 600"), spawner);
   std::vector<std::string> lines;
   const auto read_output = [&]
   { member.ReadOutput([&](std::string_view line) { lines.emplace_back(line); }, 100'000); };
@@ -446,7 +479,6 @@ TEST(ClusterMember, OutputEndsWithItsProcessWhoeverElseHoldsItOpen)
   EXPECT_EQ(kill(left_behind, 0), 0) << "nobody held the output open";
   EXPECT_TRUE(member.OutputClosed());
   kill(left_behind, SIGKILL);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(SystemSpawner, GivesEnvironmentAndCores)

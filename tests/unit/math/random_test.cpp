@@ -146,6 +146,23 @@ TEST(Random, DrawsHaveTheirDistributions)
         << range;
 }
 
+TEST(Random, UniformHas53BitsThatKnowNothingOfEachOther)
+{
+  constexpr int kDraws = 4000;
+  constexpr double kFarOff = 5 * 0.5 * 63.25;  // five standard deviations
+  RandomStream random(1, 2, 3, 4);
+  std::vector<std::uint64_t> draws;
+  for (int k = 0; k < kDraws; ++k) draws.push_back(static_cast<std::uint64_t>(random.Uniform() * 0x1.0p53));
+  for (unsigned a = 0; a < 53; ++a)
+    for (unsigned b = a; b < 53; ++b)
+    {
+      // A bit by itself, or whether two are alike.
+      int count = 0;
+      for (const std::uint64_t bits : draws) count += static_cast<int>(((bits >> a) ^ (a == b ? 0 : bits >> b)) & 1);
+      EXPECT_NEAR(count, kDraws / 2, kFarOff) << a << " " << b;
+    }
+}
+
 TEST(Random, TruncatedStaysWithinItsRange)
 {
   RandomStream random(6, 0, 0, 0);

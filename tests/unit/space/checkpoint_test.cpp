@@ -149,6 +149,29 @@ TEST_F(CheckpointFile, OfAnotherBuildIsRefusedUnlessAskedFor)
   EXPECT_EQ(Refusal({1, true}), "");
 }
 
+TEST_F(CheckpointFile, IsRestoredIntoALongerRunAndIntoNoOtherOne)
+{
+  WriteCheckpoint(path_, SmallCheckpoint());
+  Experiment longer = SmallExperiment();
+  longer.effective_xml = "<ahss-config><framework><maxclock>2000</maxclock></framework></ahss-config>";
+  EXPECT_NO_THROW(ReadCheckpoint(path_, longer, {}));
+  Experiment other = SmallExperiment();
+  other.effective_xml = "<ahss-config><framework><maxclock>10</maxclock></framework><arena/></ahss-config>";
+  EXPECT_THAT([&] { ReadCheckpoint(path_, other, {}); },
+              testing::ThrowsMessage<std::runtime_error>(HasSubstr("it is of another experiment")));
+}
+
+TEST_F(CheckpointFile, OfMoreOrFewerControllerHostsIsRefused)
+{
+  WriteCheckpoint(path_, SmallCheckpoint());
+  EXPECT_THAT(Refusal({2, false}), HasSubstr("it was taken with --controller-hosts 1; restore it with as many"));
+  Checkpoint checkpoint = SmallCheckpoint();
+  checkpoint.parts.push_back({"controller host 1", {'d'}});
+  WriteCheckpoint(path_, checkpoint);
+  EXPECT_THAT(Refusal(), HasSubstr("it was taken with --controller-hosts 2; restore it with as many"));
+  EXPECT_EQ(Refusal({2, false}), "");
+}
+
 TEST_F(CheckpointFile, PipesDevicesAndFoldersAreRefusedAtOnce)
 {
   ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);

@@ -103,6 +103,42 @@ TEST(Space, AReplicaFollowsByMessages)
   EXPECT_EQ(replica.Hash(), original.Hash());
 }
 
+TEST(Space, WhatAMessageBringsIsFoundAtOnce)
+{
+  const Experiment experiment = TwoWorlds();
+  CSwarmanoidSpace original(experiment);
+  CSwarmanoidSpace replica(experiment);
+  SpaceQuery query(replica);
+  EXPECT_THAT(query.FindWithin(Vector3(8, 8, 0), 1), testing::ElementsAre());
+  original.SetPose(4, {{8, 8, 0}, Quaternion::Identity()});
+  SpaceState state;
+  original.WritePoses(state.poses);
+  replica.Apply(state);
+  EXPECT_THAT(query.FindWithin(Vector3(8, 8, 0), 1), testing::ElementsAre(4));
+  for (const std::uint32_t entity : replica.Movable())
+    EXPECT_EQ(replica.GetPose(entity).position, original.GetPose(entity).position) << entity;
+}
+
+TEST(Space, AReplicaThatComesLateKnowsWhoIsNotThere)
+{
+  const Experiment experiment = TwoWorlds();
+  CSwarmanoidSpace original(experiment);
+  for (const std::uint32_t entity : {2U, 4U}) original.SetAttribute(original.PresenceSlot(entity), 0);
+  original.SetPose(3, {{7, 7, 0}, Quaternion::Identity()});
+  SpaceSnapshot snapshot;
+  snapshot.tick = 9;
+  original.SetTick(9);
+  original.WritePoses(snapshot.poses);
+  snapshot.attributes.assign(original.Attributes().begin(), original.Attributes().end());
+  CSwarmanoidSpace replica(experiment);
+  SpaceQuery query(replica);
+  replica.Apply(snapshot);
+  EXPECT_THAT(replica.Absent(), testing::ElementsAre(2, 4));
+  EXPECT_EQ(replica.Hash(), original.Hash());
+  EXPECT_THAT(query.FindWithin(Vector3(3, 1, 0), 0.5), testing::ElementsAre());
+  EXPECT_THAT(query.FindWithin(Vector3(7, 7, 0), 0.5), testing::ElementsAre(3));
+}
+
 TEST(Space, AttributesThatAKindLacksAreRefusedByName)
 {
   const Experiment experiment = TwoWorlds();
@@ -139,6 +175,21 @@ TEST(SpaceQuery, WorldsThatAreClosedToEachOtherDoNotOcclude)
   const CSwarmanoidSpace space(experiment);
   SpaceQuery query(space);
   EXPECT_FALSE(query.IsOccluded({1, 1, 0.1}, {3, 1, 0.1}, 5, 2));
+}
+
+TEST(SpaceQuery, AWideBodyIsMetAtItsEdgeWhereverItStandsInTheFile)
+{
+  for (const std::uint32_t place : {0U, 3U, 4U})
+  {
+    Experiment experiment = TwoWorlds();
+    experiment.entities[place] = Entity(EntityKind::kCylindricPrey, "wide", {5, 8, 0}, {0.5, 0.5, 0.2}, true);
+    const CSwarmanoidSpace space(experiment);
+    SpaceQuery query(space);
+    const auto hit = query.FindFirstHit({3, 8.45, 0.1}, {7, 8.45, 0.1}, 2, {});
+    ASSERT_TRUE(hit.has_value()) << place;
+    EXPECT_EQ(hit->entity, place);
+    EXPECT_NEAR(hit->fraction, (2 - std::sqrt(0.25 - 0.2025)) / 4, 1e-12);
+  }
 }
 
 TEST(SpaceQuery, FirstHitGivesTheExactPlace)

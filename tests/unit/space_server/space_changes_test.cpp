@@ -64,6 +64,19 @@ TEST_F(InTheWay, EnginesAreClosedWorlds)
   EXPECT_EQ(At("late_ghost", {4, 4, 0}), "");
 }
 
+TEST_F(InTheWay, PlacesThatAreAskedForAreInMetresAndDegrees)
+{
+  Add(EntityKind::kEyebot, "eb", {{2, 2, 1}, QuaternionFromYaw(0.5)}, {0});
+  const CSwarmanoidSpace space(experiment_);
+  const auto asked_for = [&](const std::vector<double>& numbers) {
+    return ReadSpaceChange({"", 0, "move", "eb", numbers}, space).move.pose;
+  };
+  EXPECT_EQ(asked_for({3, 4, 1.5}).position, Vector3(3, 4, 1.5));
+  EXPECT_NEAR(YawOf(asked_for({3, 4, 1.5}).orientation), 0.5, 1e-12) << "it keeps its heading";
+  const Quaternion wanted = QuaternionFromEuler({DegreesToRadians(10), DegreesToRadians(20), -kPi / 2});
+  EXPECT_LT(asked_for({3, 4, 1.5, 10, 20, -90}).orientation.angularDistance(wanted), 1e-12);
+}
+
 TEST_F(InTheWay, NobodyWhoWaitsAndNothingWithoutABody)
 {
   AddWaiting(EntityKind::kFootbot, "a", {0});

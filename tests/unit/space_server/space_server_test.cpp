@@ -118,6 +118,34 @@ TEST(SpaceServer, AMoveIsToldOnceWithItsPose)
   EXPECT_TRUE(server.State().moved.empty());
 }
 
+// What a checkpoint keeps beside the snapshot.
+TEST(SpaceServer, ARestoredOneKnowsItsEndAndWhoWasMoved)
+{
+  const Experiment experiment = TwoEngines();
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  for (const bool ends : {false, true})
+  {
+    SpaceServer first(experiment, assignment, ".");
+    first.Advance({}, {});
+    first.Move({2, {{9, 9, 0}, Quaternion::Identity()}});
+    if (ends) first.Finish();
+    SpaceSnapshot snapshot;
+    first.WriteSnapshot(snapshot);
+    ByteWriter written;
+    first.SaveState(written);
+
+    SpaceServer restored(experiment, assignment, ".");
+    ByteReader state(written.Bytes());
+    restored.LoadState(snapshot, state);
+    EXPECT_TRUE(state.AtEnd());
+    EXPECT_EQ(restored.IsLast(), ends);
+    EXPECT_FALSE(restored.HasFailed());
+    EXPECT_THAT(restored.State().moved, ElementsAre(2));
+    EXPECT_EQ(restored.State().tick, 1U);
+    EXPECT_EQ(restored.Space().Hash(), first.Space().Hash());
+  }
+}
+
 Experiment Limited(BeyondLimit policy)
 {
   Experiment experiment = TwoEngines();

@@ -81,6 +81,26 @@ TEST(Camera, OrbitKeepsThePointInPlace)
   EXPECT_GE(camera.pitch, -89.5);
 }
 
+TEST(Camera, OrbitTurnsTheNearSideWithTheDrag)
+{
+  Camera camera = Camera::LookAt({4, 1, 2}, {4, 4, 0});
+  const Vector3 about(4, 4, 0);
+  const Vector3 near(4, 3, 0);
+  const double pitch = camera.pitch;
+  camera.Orbit(about, 20, 10);
+  EXPECT_NEAR(camera.heading, 70, 1e-9);
+  EXPECT_NEAR(camera.pitch, pitch - 10, 1e-9);
+  EXPECT_GT(camera.Project(near, 640, 480).x(), 320);
+}
+
+TEST(Camera, TheFieldOfViewIsTheAngleOfThePicturesHeight)
+{
+  Camera camera;
+  camera.field_of_view = 60;
+  ExpectNear(camera.RayThrough(400, 0, 800, 600).direction, {std::sqrt(0.75), 0, 0.5});
+  ExpectNear(camera.RayThrough(400, 600, 800, 600).direction, {std::sqrt(0.75), 0, -0.5});
+}
+
 TEST(Camera, ZoomMovesAlongTheLineToThePoint)
 {
   Camera camera = Somewhere();
@@ -148,6 +168,7 @@ TEST(Viewpoints, CameraIsANumberOrAPlaceOrTop)
   ExpectNear(camera("1, 2, 3.5/90,-20,0").position, {1, 2, 3.5});
   EXPECT_DOUBLE_EQ(camera("1,2,3/90,-20,0").heading, 90);
   ExpectNear(camera("top").Forward(), {0, 0, -1});
+  ExpectNear(camera("top").Right(), {1, 0, 0});  // as a map
   EXPECT_THROW(camera("5"), ConfigurationError);
   EXPECT_THROW(camera("above"), ConfigurationError);
   EXPECT_THROW(camera("1,2"), ConfigurationError);

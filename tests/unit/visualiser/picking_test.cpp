@@ -89,6 +89,22 @@ TEST(Scene, ItemsFollowTheSpace)
   EXPECT_EQ(FirstItemOf(scene, world["nest"].GetIndex()).tint, Paint(0xff0000));
 }
 
+TEST(Scene, ALampShinesInItsColourWhileItIsOn)
+{
+  SmallWorld world({4, 4, 2});
+  world.AddBody(EntityKind::kLightBulb, "lamp", {1, 1, 0.5}, Vector3::Zero(), 0xffff00);
+  Scene scene(world.Space());
+  const auto light = [&](double intensity)
+  {
+    world.Set("lamp", "intensity", intensity);
+    scene.Update({});
+    return scene.Lights()[static_cast<std::size_t>(FirstItemOf(scene, 0).lights)];
+  };
+  EXPECT_EQ(light(1), 0xffff00U);
+  EXPECT_EQ(light(0), 0U);
+  EXPECT_EQ(light(0.1), 0xffff00U);
+}
+
 // Parts of a robot in the order of RestingParts.
 const SceneItem& PartOf(const Scene& scene, std::uint32_t entity, std::size_t part)
 {

@@ -1,0 +1,115 @@
+// What arrives in a tick is measured against the experiment: lengths, slots, entities and senders.
+#include "common/bus/tick_limits.h"
+
+#include <gmock/gmock.h>
+
+#include "common/bus/bus.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using testing::HasSubstr;
+
+// Three robots, the last one of the second engine; one controller host.
+Experiment ThreeRobots()
+{
+  Experiment experiment;
+  experiment.arena_size = {10, 10, 1};
+  experiment.engines.resize(2);
+  for (std::uint32_t k = 0; k < 3; ++k)
+  {
+    EntityConfiguration robot;
+    robot.kind = EntityKind::kFootbot;
+    robot.id = std::string(1, static_cast<char>('a' + k));
+    robot.movable = true;
+    experiment.entities.push_back(robot);
+    experiment.engines[k / 2].entities.push_back(k);
+  }
+  return experiment;
+}
+
+class LimitsOfATick : public testing::Test
+{
+protected:
+  // Empty where it is taken.
+  template <class Message>
+  std::string Refusal(const Message& message, std::uint32_t source = 0) const
+  {
+    try
+    {
+      limits_.Check({1, 1, source, false}, message);
+    }
+    catch (const BadMessage& error)
+    {
+      return error.what();
+    }
+    return {};
+  }
+  SpaceState State() const
+  {
+    SpaceState state;
+    state.poses.resize(7 * 3);
+    return state;
+  }
+  std::uint32_t Slots() const { return static_cast<std::uint32_t>(space_.Attributes().size()); }
+
+  const Experiment experiment_ = ThreeRobots();
+  const CSwarmanoidSpace space_{experiment_};
+  const TickLimits limits_{space_, MakeAssignment(experiment_, 1)};
+};
+
+TEST_F(LimitsOfATick, PosesAreAsManyAsTheirEngineOwns)
+{
+  for (const std::uint32_t engine : {0U, 1U})
+    for (const std::size_t robots : {0U, 1U, 2U, 3U})
+    {
+      EngineUpdate update;
+      update.poses.resize(7 * robots);
+      EXPECT_EQ(Refusal(update, engine).empty(), robots == 2 - engine) << engine << " " << robots;
+    }
+  EXPECT_THAT(Refusal(EngineUpdate(), 2), HasSubstr("source: there is no number 2"));
+  SpaceState state = State();
+  EXPECT_EQ(Refusal(state), "");
+  EXPECT_THAT(Refusal(state, 1), HasSubstr("source: the space server is number 0"));
+  state.poses.pop_back();
+  EXPECT_THAT(Refusal(state), HasSubstr("poses: it has 20 numbers, not 21"));
+}
+
+TEST_F(LimitsOfATick, SlotsEndWithTheLastOne)
+{
+  SpaceState state = State();
+  ControlCommands commands;
+  EngineUpdate update;
+  update.poses.resize(7 * 2);
+  for (AttributeChanges* changes : {&state.attributes, &commands.attributes, &update.attributes})
+    changes->Add(Slots() - 1, 0);
+  EXPECT_EQ(Refusal(state), "");
+  EXPECT_EQ(Refusal(commands), "");
+  EXPECT_EQ(Refusal(update), "");
+  for (AttributeChanges* changes : {&state.attributes, &commands.attributes, &update.attributes})
+    changes->Add(Slots(), 0);
+  const auto refused = HasSubstr("attribute_slots: there is no slot");
+  EXPECT_THAT(Refusal(state), refused);
+  EXPECT_THAT(Refusal(commands), refused);
+  EXPECT_THAT(Refusal(update), refused);
+}
+
+TEST_F(LimitsOfATick, EntitiesThatMovedExistAndAscend)
+{
+  SpaceState state = State();
+  for (const std::vector<std::uint32_t>& good : {std::vector<std::uint32_t>{}, {0}, {2}, {0, 1, 2}})
+  {
+    state.moved = good;
+    EXPECT_EQ(Refusal(state), "");
+  }
+  for (const std::vector<std::uint32_t>& bad : {std::vector<std::uint32_t>{3}, {1, 1}, {2, 0}, {0, 2, 3}})
+  {
+    state.moved = bad;
+    EXPECT_THAT(Refusal(state), HasSubstr("moved: ")) << testing::PrintToString(bad);
+  }
+}
+
+}  // namespace
+}  // namespace swarmanoid
