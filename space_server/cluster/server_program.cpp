@@ -151,7 +151,7 @@ void ServerProgram::CheckFailures()
 {
   if (options_.abandon != nullptr && *options_.abandon) throw BusError("the run was given up");
   // Whoever started the processes knows that one may end before it can.
-  for (const std::string& name : session_.TakeLeft()) status_.Tell(ServerLeft{name});
+  for (const std::string& name : session_.TakeLeft()) status_.Publish(ServerLeft{name});
   session_.AnswerLeaves();
   // Asked first: who leaves in good order has the last state, and who does not has failed.
   const std::optional<std::string> left = session_.FirstLeft();
