@@ -174,7 +174,7 @@ TEST_P(Kinds, EPucksStopAtPillarsFootbotsAndOneAnother)
 TEST_P(Kinds, EPucksPushMovableObjectsOfUsers)
 {
   Start(
-      "<crate id='box' position='1.2, 1, 0.03' size='0.06, 0.06, 0.06' movable='true' mass='0.01'/>"
+      "<crate id='box' position='1.2, 1, 0' size='0.06, 0.06, 0.06' movable='true' mass='0.01'/>"
       "<epuck id='ep' position='1, 1, 0' controller='drive'/>",
       0.1, 0.1);
   Run(40);
@@ -208,7 +208,7 @@ TEST_P(Kinds, FootbotsSeeEPucksAndTheirLeds)
   Start(
       "<footbot id='fb' position='1, 1, 0' controller='watch'/>"
       "<epuck id='ep' position='1.4, 1, 0' controller='drive'/>"
-      "<crate id='tall' position='1, 1.2, 0.1' size='0.1, 0.1, 0.2'/>");
+      "<crate id='tall' position='1, 1.2, 0' size='0.1, 0.1, 0.2'/>");
   Run(3);
   EXPECT_GT(*std::max_element(sensed.footbot_proximity.begin(), sensed.footbot_proximity.end()), 0.05)
       << "the crate, a kind of a user";
