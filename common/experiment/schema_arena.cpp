@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "common/experiment/schema_parts.h"
 
 namespace swarmanoid
@@ -61,6 +63,9 @@ std::vector<ElementSpec> MakeEntities()
   std::vector<ElementSpec> entities;
   for (std::size_t kind = 0; kind < EntityKindCount(); ++kind)
     entities.push_back(Entity(static_cast<EntityKind>(kind)));
+  // Pages and messages name the robots in this order.
+  const auto place = [&](const char* tag) { return std::ranges::find(entities, tag, &ElementSpec::Name); };
+  std::iter_swap(place("eyebot"), place("handbot"));
   return entities;
 }
 

@@ -90,7 +90,7 @@ TEST(KindLibraries, OfWhichTwoRegisterOneKindAreRefused)
 TEST(KindLibraries, UnknownTagsOfTheArenaAreNamed)
 {
   const std::string errors = ErrorsOf(Load("<pillar library='plain_kinds'/>", "<piller id='p' position='1,1,0'/>"));
-  EXPECT_EQ(errors.substr(0, 10), "f.xml:4:41") << errors;
+  EXPECT_EQ(errors.substr(0, 10), "f.xml:4:39") << errors;
   EXPECT_NE(errors.find("did you mean 'pillar'?"), std::string::npos) << errors;
 }
 

@@ -87,6 +87,9 @@ TEST(WebMessages, TheWorldNamesEntitiesOwnersAndBodies)
   const auto json = nlohmann::json::parse(WorldText(world.space, world.assignment));
   EXPECT_EQ(json["entities"]["id"][0], "fb_0");
   EXPECT_EQ(json["kinds"][json["entities"]["kind"][0].get<int>()], "footbot");
+  EXPECT_EQ(json["looks"]["footbot"]["role"], "robot");
+  EXPECT_EQ(json["looks"]["block"]["form"], "box");
+  EXPECT_EQ(json["looks"]["light_bulb"]["form"], "none");
   EXPECT_EQ(json["entities"]["movable"], nlohmann::json({1, 1, 1, 0}));
   EXPECT_EQ(json["entities"]["engine"][0], 0);
   EXPECT_EQ(json["engines"][0]["id"], "ground");

@@ -1,5 +1,5 @@
 // The footbot: tracks with wheels, a round body of 17 cm, a turret with LED ring and gripper, the camera's tube on top.
-// Lengths: common/experiment/body.cpp, and the rings of the devices.
+// Lengths: common/experiment/own_kinds.cpp, and the rings of the devices.
 #include <numbers>
 
 #include "visualiser/scene/led_ring.h"

@@ -1,8 +1,12 @@
 // All devices, whatever they are: each has noise on what it reads or does, with the parameters that the documentation
 // promises, from streams named by seed, robot, device and tick.
 #include "common/control_interface/ci_colour_blob_sensor.h"
+#include "common/control_interface/ci_ground_sensor.h"
+#include "common/control_interface/ci_led_ring_actuator.h"
 #include "common/control_interface/ci_pie_camera_sensor.h"
+#include "common/control_interface/ci_proximity_sensor.h"
 #include "common/control_interface/ci_range_and_bearing.h"
+#include "common/control_interface/ci_wheels_actuator.h"
 #include "common/control_interface/eyebot/ci_eyebot_altitude_sensor.h"
 #include "common/control_interface/eyebot/ci_eyebot_attachment_actuator.h"
 #include "common/control_interface/eyebot/ci_eyebot_laser_actuator.h"
@@ -88,6 +92,8 @@ std::vector<double> ReadingsOf(const CCI_Sensor& sensor)
   if (const auto* s = As<CCI_FootBotProximitySensor>(sensor)) return Copied(s->GetAllSensorReadings());
   if (const auto* s = As<CCI_FootBotLightSensor>(sensor)) return Copied(s->GetAllSensorReadings());
   if (const auto* s = As<CCI_FootBotGroundSensor>(sensor)) return Copied(s->GetAllSensorReadings());
+  if (const auto* s = As<CCI_ProximitySensor>(sensor)) return Copied(s->GetAllSensorReadings());
+  if (const auto* s = As<CCI_GroundSensor>(sensor)) return Copied(s->GetAllSensorReadings());
   if (const auto* s = As<CCI_FootBotTurretTorqueSensor>(sensor)) return Copied(s->GetAllSensorReadings());
   if (const auto* s = As<CCI_FootBotEncodersSensor>(sensor)) return Copied(s->GetAllSensorReadings());
   if (const auto* s = As<CCI_FootBotAccelerometerSensor>(sensor)) return Copied(s->GetAllSensorReadings());
@@ -127,6 +133,7 @@ Interface* As(CCI_Actuator& actuator)
 void Use(CCI_Actuator& actuator)
 {
   if (auto* a = As<CCI_FootBotWheelsActuator>(actuator)) return a->SetFootBotWheelsLinearVelocity(0.1, 0.2);
+  if (auto* a = As<CCI_WheelsActuator>(actuator)) return a->SetLinearVelocity(0.1, 0.2);
   if (auto* a = As<CCI_FootBotGripperActuator>(actuator)) return a->SetGripper(1);
   if (auto* a = As<CCI_FootBotTurretActuator>(actuator)) return a->SetTurretAngularVelocity(1);
   if (auto* a = As<CCI_FootBotLedsActuator>(actuator)) return a->SetAllColours(0x205040);
@@ -143,6 +150,7 @@ void Use(CCI_Actuator& actuator)
   if (auto* a = As<CCI_HandBotLedsActuator>(actuator)) return a->SetAllColours(0x205040);
   if (auto* a = As<CCI_HandBotBeaconActuator>(actuator)) return a->SetColour(kColour);
   if (auto* a = As<CCI_RangeAndBearingActuator>(actuator)) return a->SetMessage({9, 99, 199, 1, 2, 3, 4, 5, 6, 70});
+  if (auto* a = As<CCI_LedRingActuator>(actuator)) return a->SetAllColours(0x205040);
   ADD_FAILURE() << "an actuator that this test does not know";
 }
 

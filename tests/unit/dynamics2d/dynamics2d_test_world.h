@@ -20,8 +20,8 @@ public:
   }
   void Drive(std::uint32_t footbot, double left_m_per_s, double right_m_per_s)
   {
-    Command("footbot_wheels", footbot,
-            {left_m_per_s / dynamics2d::kWheelRadius, right_m_per_s / dynamics2d::kWheelRadius});
+    const double radius = DescriptionOf(EntityKind::kFootbot).wheels->radius_m;
+    Command("footbot_wheels", footbot, {left_m_per_s / radius, right_m_per_s / radius});
   }
 };
 

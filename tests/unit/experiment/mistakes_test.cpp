@@ -74,7 +74,8 @@ const Mistake kMistakes[] = {
     {"UnknownRoot", "<ahss-config>\n  <framework>", "<argos-config>\n  <framework>",
      "test.xml:32:1: </ahss-config> does not match <argos-config>, which starts in line 1 and must be closed first\n"},
     {"UnknownSection", "<framework>\n", "<framwork/><framework>\n",
-     "test.xml:2:3: <ahss-config> has no element <framwork>; allowed: framework, controllers, arena, engines, "
+     "test.xml:2:3: <ahss-config> has no element <framwork>; allowed: framework, entity_kinds, controllers, arena, "
+     "engines, "
      "arena_physics, visualisations, experiment_functions; did you mean 'framework'?\n"},
     {"SecondSection", "<engines>\n", "<engines/>\n  <engines>\n",
      "test.xml:24:3: <ahss-config> holds a second <engines>; the first is in line 23\ntest.xml:28:13: there is no "

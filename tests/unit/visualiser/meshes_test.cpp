@@ -47,7 +47,7 @@ TEST(Meshes, EachLevelHasFewerTrianglesThanTheOneBefore)
   for (const EntityKind robot : {EntityKind::kFootbot, EntityKind::kEyebot, EntityKind::kHandbot})
   {
     std::array<std::size_t, kLevels> triangles{};
-    for (const RestingPart& part : RestingParts(robot))
+    for (const RestingPart& part : RestingParts(DescriptionOf(robot).mechanism))
       for (int level = 0; level < kLevels; ++level)
         triangles[static_cast<std::size_t>(level)] += Triangles(part.model, level);
     EXPECT_LT(2 * triangles[1], triangles[0]);
