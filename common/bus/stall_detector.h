@@ -12,25 +12,26 @@ namespace swarmanoid
 class StallDetector
 {
 public:
+  using Clock = std::chrono::steady_clock;
+
   // `state`: what the process waits for or does at `tick`, empty for nothing worth telling. Returned once it has been
   // the same for a second.
-  std::optional<std::string> Observe(std::uint64_t tick, const std::string& state)
+  std::optional<std::string> Observe(std::uint64_t tick, const std::string& state, Clock::time_point now)
   {
-    const auto now = std::chrono::steady_clock::now();
-    if (tick != tick_ || state != state_)
+    if (!since_ || tick != tick_ || state != state_)
     {
       tick_ = tick;
       state_ = state;
       since_ = now;
     }
-    if (state.empty() || now - since_ < std::chrono::seconds(1)) return std::nullopt;
+    if (state.empty() || now - *since_ < std::chrono::seconds(1)) return std::nullopt;
     return state;
   }
 
 private:
   std::uint64_t tick_ = 0;
   std::string state_;
-  std::chrono::steady_clock::time_point since_ = std::chrono::steady_clock::now();
+  std::optional<Clock::time_point> since_;
 };
 
 }  // namespace swarmanoid

@@ -92,11 +92,12 @@ public:
     if (!lock)
     {
       session_.SetTick(stepping_);
-      return stall_.Observe(stepping_, busy());
+      return stall_.Observe(stepping_, busy(), StallDetector::Clock::now());
     }
     session_.SetTick(gate_.Tick());
     const bool waits = !sources_.empty() && gate_.Has(0) && !gate_.Complete();
-    return stall_.Observe(gate_.Tick(), waits ? "waits for " + Joined(gate_.Missing()) : "");
+    return stall_.Observe(gate_.Tick(), waits ? "waits for " + Joined(gate_.Missing()) : "",
+                          StallDetector::Clock::now());
   }
 
   std::mutex& Mutex() { return mutex_; }

@@ -37,12 +37,13 @@ bool TakesMore(int descriptor)
 }  // namespace
 
 Supervisor::Supervisor(ProcessSpawner& spawner, Interrupts& interrupts, ProgressDisplay& display, int screen,
-                       ActorNames actor_of, const SupervisorTimes& times)
+                       ActorNames actor_of, const SupervisorTimes& times, std::function<Clock::time_point()> now)
     : spawner_(spawner),
       interrupts_(interrupts),
       display_(display),
       screen_(screen),
       times_(times),
+      now_(std::move(now)),
       actor_of_(std::move(actor_of)),
       kills_for_memory_(KernelKillsForMemory())
 {
@@ -69,7 +70,7 @@ void Supervisor::Start(const std::vector<MemberPlan>& plans)
 {
   outcome_.kind = ClusterOutcome::kInterrupted;
   progress_.phase = "starting";
-  heard_ = Clock::now();
+  heard_ = now_();
   try
   {
     for (const MemberPlan& plan : plans)
@@ -102,7 +103,7 @@ void Supervisor::WaitForEvents()
   if (attribute_at_) timeout = std::min(timeout, times_.settle / 4);
   if (deadline_)
     timeout = std::clamp(
-        std::chrono::duration_cast<std::chrono::milliseconds>(*deadline_ - Clock::now()) + std::chrono::milliseconds(1),
+        std::chrono::duration_cast<std::chrono::milliseconds>(*deadline_ - now_()) + std::chrono::milliseconds(1),
         std::chrono::milliseconds(1), times_.refresh);
   poll(entries.data(), entries.size(), static_cast<int>(timeout.count()));
 }
@@ -139,7 +140,7 @@ void Supervisor::ReadMember(ClusterMember& member)
 
 void Supervisor::TakeStatus(const ServerStatus& status)
 {
-  heard_ = Clock::now();
+  heard_ = now_();
   if (const auto* state = std::get_if<ServerState>(&status))
   {
     if (phase_ != Phase::kRunning) return;
@@ -232,7 +233,7 @@ void Supervisor::TakeEnd(const ClusterMember& member)
       phase_ == Phase::kStopping || (phase_ == Phase::kFinishing && outcome_.kind == ClusterOutcome::kInterrupted);
   if (stopping && (end.signal == 0 || stopped_early))
   {
-    if (is_server && !outcome_.finished) Die(Clock::now() + times_.terminate);
+    if (is_server && !outcome_.finished) Die(now_() + times_.terminate);
     return;
   }
 
@@ -259,7 +260,7 @@ void Supervisor::TakeEnd(const ClusterMember& member)
 
 void Supervisor::AttributeWithin(std::chrono::milliseconds patience)
 {
-  const Clock::time_point at = Clock::now() + patience;
+  const Clock::time_point at = now_() + patience;
   if (!attribute_at_ || at < *attribute_at_) attribute_at_ = at;
 }
 
@@ -302,7 +303,7 @@ void Supervisor::TakeInterrupts()
     {
       StopAtTick(*signal == SIGINT ? "stopping at the end of this tick; Ctrl-C again kills at once"
                                    : "asked to end: stopping");
-      if (*signal != SIGINT) deadline_ = Clock::now() + times_.forced_stop;
+      if (*signal != SIGINT) deadline_ = now_() + times_.forced_stop;
       continue;
     }
     if (phase_ != Phase::kDying)
@@ -325,7 +326,7 @@ void Supervisor::StopAtTick(std::string_view why)
 
 void Supervisor::CheckDeadlines()
 {
-  const Clock::time_point now = Clock::now();
+  const Clock::time_point now = now_();
   if (attribute_at_ && now >= *attribute_at_ && phase_ != Phase::kDying) return Attribute();
   if (!deadline_ || now < *deadline_) return;
 
@@ -361,14 +362,14 @@ void Supervisor::Fail(const ClusterMember& member, const std::string& text, bool
   outcome_.finished.reset();
   outcome_.reason = text;
   // A mistake of the experiment file has its place: nobody has to look for it in a log.
-  if (invalid && member.Record().end == EndReason::kInvalid) return Die(Clock::now() + times_.terminate);
+  if (invalid && member.Record().end == EndReason::kInvalid) return Die(now_() + times_.terminate);
   const bool told = text.find(server_error_) != std::string::npos || member.Record().end != EndReason::kUnknown;
   if (!told) outcome_.reason += fmt::format(" ({})", server_error_);
   outcome_.reason += complete ? fmt::format("; the log of {} is {}", member.Name(), member.Log().Path())
                               : fmt::format("; its log is {}", member.Log().Path());
   if (!member.Log().Trouble().empty()) outcome_.reason += fmt::format(" (incomplete: {})", member.Log().Trouble());
   outcome_.log_lines.assign(member.Log().LastLines().begin(), member.Log().LastLines().end());
-  Die(Clock::now() + times_.terminate);
+  Die(now_() + times_.terminate);
 }
 
 void Supervisor::Die(Clock::time_point kill_at)
@@ -382,7 +383,7 @@ void Supervisor::KillAll()
 {
   phase_ = Phase::kDying;
   SignalAll(SIGKILL);
-  deadline_ = Clock::now() + times_.refresh;
+  deadline_ = now_() + times_.refresh;
 }
 
 void Supervisor::SignalAll(int signal)
@@ -393,7 +394,7 @@ void Supervisor::SignalAll(int signal)
 
 void Supervisor::ShowProgress()
 {
-  const Clock::time_point now = Clock::now();
+  const Clock::time_point now = now_();
   // A paced run may be silent for long: then the space server sleeps.
   const bool silent =
       progress_.phase == "running" && now - heard_ >= times_.stall && !IsAsleep(members_.front()->Process().pid);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -52,10 +53,13 @@ struct SupervisorTimes
 class Supervisor
 {
 public:
+  using Clock = std::chrono::steady_clock;
+
   // All references outlive the supervisor. `screen`: descriptor that gets what visualisers write to standard output.
-  // `actor_of`: of the experiment.
+  // `actor_of`: of the experiment. `now`: by which all times are measured.
   Supervisor(ProcessSpawner& spawner, Interrupts& interrupts, ProgressDisplay& display, int screen,
-             ActorNames actor_of = {}, const SupervisorTimes& times = {});
+             ActorNames actor_of = {}, const SupervisorTimes& times = {},
+             std::function<Clock::time_point()> now = Clock::now);
 
   // The first plan is the space server's.
   ClusterOutcome Run(const std::vector<MemberPlan>& plans);
@@ -63,7 +67,6 @@ public:
   const std::vector<pid_t>& Pids() const { return pids_; }
 
 private:
-  using Clock = std::chrono::steady_clock;
   enum class Phase
   {
     kRunning,
@@ -98,6 +101,7 @@ private:
   ProgressDisplay& display_;
   int screen_;
   SupervisorTimes times_;
+  std::function<Clock::time_point()> now_;
 
   std::vector<std::unique_ptr<ClusterMember>> members_;
   std::vector<pid_t> pids_;

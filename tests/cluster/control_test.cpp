@@ -134,7 +134,13 @@ TEST_F(ControlTest, AStoppedOrKilledVisualiserDoesNotSlowTheRun)
   ChildProcess stopped = Start("visualiser", {"--attach", "text", "file=stopped.txt", "--output", folder_});
   ChildProcess killed = Start("visualiser", {"--attach", "text", "file=killed.txt", "--output", folder_});
   Ask("step", {5});
-  std::this_thread::sleep_for(1s);
+  const auto both_see = [this]
+  {
+    return Read("stopped.txt").find("robots0_11") < std::string::npos &&
+           Read("killed.txt").find("robots0_11") < std::string::npos;
+  };
+  for (int k = 0; k < 10'000 && !both_see(); ++k) std::this_thread::sleep_for(10ms);
+  ASSERT_TRUE(both_see());
   stopped.Signal(SIGSTOP);
   killed.Signal(SIGKILL);
   // One that is stopped would hold it up for ever.

@@ -23,7 +23,7 @@ using testing::HasSubstr;
 
 bool Eventually(const std::function<bool()>& met)
 {
-  const auto end = std::chrono::steady_clock::now() + 20s;
+  const auto end = std::chrono::steady_clock::now() + 100s;
   while (!met())
   {
     if (std::chrono::steady_clock::now() > end) return false;

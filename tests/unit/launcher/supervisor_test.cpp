@@ -94,6 +94,14 @@ protected:
   std::string Tell(const std::string& name) const { return "touch " + Mark(name) + "; "; }
   std::string Await(const std::string& name) const { return "until [ -e " + Mark(name) + " ]; do sleep 0.01; done; "; }
   bool IsTold(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+  // An hour passes for the supervisor, which has looked at all that it watches before the script goes on.
+  std::string LetAnHourPass() const { return Tell("an hour later") + Await("looked"); }
+  Clock::time_point Now()
+  {
+    if (!IsTold("an hour later")) return Clock::now();
+    if (++looks_ == 20) std::ofstream(folder_ / "looked");
+    return Clock::now() + std::chrono::hours(1);
+  }
 
   std::string Running() const
   {
@@ -122,7 +130,7 @@ protected:
   ClusterOutcome Run()
   {
     ProgressDisplay display(ProgressDisplay::Style::kQuiet, 2);
-    Supervisor supervisor(spawner_, interrupts_, display, screen_write_.Get(), {}, times_);
+    Supervisor supervisor(spawner_, interrupts_, display, screen_write_.Get(), {}, times_, [this] { return Now(); });
     const Clock::time_point start = Clock::now();
     ClusterOutcome outcome = supervisor.Run(plans_);
     EXPECT_LT(Clock::now() - start, kGenerous) << "it waited for a process that never ends";
@@ -150,6 +158,7 @@ protected:
   Interrupts interrupts_;  // first: threads of the tests must not get the signals
   std::filesystem::path folder_;
   SupervisorTimes times_;
+  int looks_ = 0;  // at the clock, since an hour passed
   SystemSpawner spawner_;
   std::vector<MemberPlan> plans_;
   FileDescriptor screen_read_, screen_write_;
@@ -221,9 +230,7 @@ TEST_F(SupervisorTest, AWorkerThatEndsEarlyFailed)
 
 TEST_F(SupervisorTest, AWorkerMayEndLongBeforeTheServersLastWordOnceItHasLeft)
 {
-  // The server is still busy long after what a worker that did not leave would be given.
-  times_.early_end = milliseconds(20);
-  AddServer("echo state running; echo left engine_worker ground; " + Tell("left") + Await("ended") + "sleep 0.4; " +
+  AddServer("echo state running; echo left engine_worker ground; " + Tell("left") + Await("ended") + LetAnHourPass() +
             kFinishing);
   Add("engine_worker ground", Await("left") + Tell("ended") + "exit 0");
   EXPECT_EQ(Run().kind, ClusterOutcome::kFinished);
@@ -232,7 +239,7 @@ TEST_F(SupervisorTest, AWorkerMayEndLongBeforeTheServersLastWordOnceItHasLeft)
 TEST_F(SupervisorTest, TheWordThatAWorkerHasLeftMayComeAfterItsEnd)
 {
   // As on another machine.
-  AddServer("echo state running; " + Await("ended") + "sleep 0.1; echo left engine_worker ground; " + kFinishing);
+  AddServer("echo state running; " + Await("ended") + "echo left engine_worker ground; " + kFinishing);
   Add("engine_worker ground", Tell("ended") + "exit 0");
   EXPECT_EQ(Run().kind, ClusterOutcome::kFinished);
 }
@@ -272,7 +279,7 @@ TEST_F(SupervisorTest, IfNobodyFailedTheServerSaysWhy)
 
 TEST_F(SupervisorTest, AWorkerMayEndJustBeforeTheServersLastWord)
 {
-  AddServer(Await("worker ends") + "sleep 0.05; " + kFinishing);
+  AddServer(Await("worker ends") + kFinishing);
   Add("engine_worker ground", Tell("worker ends") + "exit 0");
   EXPECT_EQ(Run().kind, ClusterOutcome::kFinished);
 }
@@ -305,20 +312,19 @@ TEST_F(SupervisorTest, AKilledVisualiserSpoilsAFinishedRun)
 
 TEST_F(SupervisorTest, WaitsLongerForVisualisersThanForWorkers)
 {
-  AddServer(kFinishing);
-  times_.finish = milliseconds(20);
-  Add("visualiser", "sleep 0.3", MemberPlan::kScreen);
+  times_.finish_visualiser = std::chrono::hours(2);
+  AddServer(std::string(kFinishing) + "; " + Tell("finished"));
+  Add("visualiser", Await("finished") + LetAnHourPass(), MemberPlan::kScreen);
   EXPECT_EQ(Run().kind, ClusterOutcome::kFinished);
 }
 
 TEST_F(SupervisorTest, AWorkerThatNeverEndsFailed)
 {
-  times_.finish = milliseconds(300);
-  AddServer(kFinishing);
-  Add("engine_worker ground", "exec sleep 600");
+  AddServer(std::string(kFinishing) + "; " + Tell("finished"));
+  Add("engine_worker ground", Await("finished") + LetAnHourPass() + "exec sleep 600");
   const ClusterOutcome outcome = Run();
   EXPECT_EQ(outcome.kind, ClusterOutcome::kFailed);
-  EXPECT_TRUE(outcome.reason.starts_with("engine_worker ground did not end within 300 ms of the last tick"))
+  EXPECT_TRUE(outcome.reason.starts_with("engine_worker ground did not end within 1 min 0 s of the last tick"))
       << outcome.reason;
 }
 
