@@ -59,6 +59,14 @@ TEST(ParameterTable, WrongValuesAreFoundWithWhatIsAllowed)
             "'wild'?\n");
 }
 
+TEST(ParameterTable, TheBordersOfARangeBelongToIt)
+{
+  for (const char* velocity : {"0", "0.3"})
+    EXPECT_EQ(Mistakes(std::string("steps='3'><velocity>") + velocity + "</velocity>"), "") << velocity;
+  for (const char* velocity : {"-1e-9", "0.3000001"})
+    EXPECT_NE(Mistakes(std::string("steps='3'><velocity>") + velocity + "</velocity>"), "") << velocity;
+}
+
 TEST(ParameterTable, WhatIsRequiredMustBeThere)
 {
   EXPECT_EQ(Mistakes(">"), "f.xml:1:1: the controller <walker> lacks the parameter 'steps': a whole number\n");
