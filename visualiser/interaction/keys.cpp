@@ -73,4 +73,9 @@ std::optional<KeyCommand> CommandOf(const KeyPress& press)
   return std::nullopt;
 }
 
+bool MayRepeat(int key)
+{
+  return (key >= keys::kLeft && key <= keys::kPageDown) || key == '=' || key == '-' || key == 'N';
+}
+
 }  // namespace swarmanoid

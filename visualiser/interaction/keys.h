@@ -87,5 +87,7 @@ struct KeyCommand
   int number = 0;  // of a viewpoint
 };
 std::optional<KeyCommand> CommandOf(const KeyPress& press);
+// Whether a key that is held acts again and again: those that turn, zoom and step.
+bool MayRepeat(int key);
 
 }  // namespace swarmanoid

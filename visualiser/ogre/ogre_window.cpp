@@ -70,11 +70,6 @@ int KeyOf(OgreBites::Keycode key)
   }
 }
 
-bool MayRepeat(int key)
-{
-  return (key >= keys::kLeft && key <= keys::kPageDown) || key == '=' || key == '-' || key == 'N';
-}
-
 MouseButton ButtonOf(unsigned char button)
 {
   if (button == OgreBites::BUTTON_MIDDLE) return MouseButton::kMiddle;

@@ -74,11 +74,6 @@ int KeyOf(int key, int scancode)
   return key < 128 ? key : 0;
 }
 
-bool MayRepeat(int key)
-{
-  return (key >= keys::kLeft && key <= keys::kPageDown) || key == '=' || key == '-' || key == 'N';
-}
-
 std::optional<MouseButton> ButtonOf(int button)
 {
   if (button == GLFW_MOUSE_BUTTON_LEFT) return MouseButton::kLeft;

@@ -97,6 +97,15 @@ TEST(FrameSchedule, FramesThatAreWrittenAreNeverLeftOut)
   }
 }
 
+TEST(Keys, OnlyThoseThatTurnZoomAndStepRepeatWhileTheyAreHeld)
+{
+  for (const int key : {keys::kLeft, keys::kRight, keys::kUp, keys::kDown, keys::kPageUp, keys::kPageDown})
+    EXPECT_TRUE(MayRepeat(key)) << key;
+  for (const char key : {'=', '-', 'N'}) EXPECT_TRUE(MayRepeat(key)) << key;
+  for (const int key : {keys::kEscape, keys::kTab, keys::kHome, keys::kEnd, keys::kFunction + 1, int{'F'}, int{'0'}})
+    EXPECT_FALSE(MayRepeat(key)) << key;
+}
+
 TEST(ValueHistory, KeepsTheLatestPointsInOrder)
 {
   ValueHistory history;
