@@ -73,7 +73,7 @@ TEST(Attribution, TheCauseThatAProcessTellsIsTheHeadline)
 
 TEST(Attribution, TheTickIsThatOfTheProcessWhereItTellsOne)
 {
-  EXPECT_EQ(FailureText({"engine 'ground'", Exited(1), Record(EndReason::kUnknown)}, 51, {}, false),
+  EXPECT_EQ(FailureText({"engine 'ground'", "", Exited(1), Record(EndReason::kUnknown)}, 51, {}, false),
             "engine 'ground' ended with exit code 1 at tick 50");
 }
 
