@@ -1,0 +1,101 @@
+// Whether each byte counts of what the space server and the controller hosts save, for sample experiments whose
+// devices, controllers and experiment functions remember something. The engines' parts:
+// tests/unit/*/checkpoint_test.cpp.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <filesystem>
+
+#include "common/checkpoint/checkpoint.h"
+#include "common/messages/assignment.h"
+#include "controller_host/controller_host.h"
+#include "space_server/space_server.h"
+#include "tests/experiments/running_experiment.h"
+#include "tests/unit/engines/saved_state_bytes.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+class SavedParts : public testing::TestWithParam<std::tuple<const char*, int>>
+{
+protected:
+  SavedParts()
+      : name_(std::get<0>(GetParam())),
+        tick_(std::get<1>(GetParam())),
+        folder_(std::filesystem::temp_directory_path() / ("saved_parts_" + name_ + std::to_string(getpid())))
+  {
+    std::filesystem::create_directories(folder_);
+    SimulatorOptions options;
+    options.output_folder = folder_.string();
+    options.checkpoint_every = 100;
+    RunningExperiment run(name_ + ".xml", {}, options);
+    run.Run(tick_);
+    experiment_ = ReadExperiment(SWARMANOID_SOURCE_FOLDER "/configs/" + name_ + ".xml");
+    checkpoint_ = ReadCheckpoint((folder_ / CheckpointName(static_cast<std::uint64_t>(tick_))).string(), *experiment_,
+                                 {.hosts = 1, .any_build = false});
+    assignment_ = MakeAssignment(*experiment_, 1);
+    server_ = std::make_unique<SpaceServer>(*experiment_, assignment_, folder_.string());
+    checkpoint_.LoadPart(kServerPart, [&](ByteReader& state) { server_->LoadState(checkpoint_.snapshot, state); });
+    host_ = std::make_unique<ControllerHost>(server_->Space(), assignment_, 0);
+  }
+  ~SavedParts() override { std::filesystem::remove_all(folder_); }
+
+  std::vector<char> Part(const std::string& name) const
+  {
+    const std::span<const char> state = checkpoint_.StateOf(name);
+    return {state.begin(), state.end()};
+  }
+
+  // The lost bytes, without those that only part the numbers of a text.
+  static std::vector<std::size_t> Lost(const std::vector<char>& saved,
+                                       const std::function<std::vector<char>(const std::vector<char>&)>& saved_again)
+  {
+    EXPECT_EQ(saved_again(saved), saved);
+    std::vector<std::size_t> lost = LostBytes(saved, saved_again);
+    std::erase_if(lost, [&](std::size_t place) { return std::isspace(static_cast<unsigned char>(saved[place])) != 0; });
+    return lost;
+  }
+
+  const std::string name_;
+  const int tick_;
+  const std::filesystem::path folder_;
+  std::unique_ptr<Experiment> experiment_;
+  Checkpoint checkpoint_;
+  Assignment assignment_;
+  std::unique_ptr<SpaceServer> server_;
+  std::unique_ptr<ControllerHost> host_;
+};
+
+TEST_P(SavedParts, EachByteOfTheControllerHostCounts)
+{
+  const std::vector<char> saved = Part("controller host 0");
+  ASSERT_FALSE(saved.empty());
+  EXPECT_THAT(Lost(saved, [&](const std::vector<char>& state) { return SavedAgain(*host_, state); }),
+              testing::IsEmpty())
+      << "of " << saved.size();
+}
+
+TEST_P(SavedParts, EachByteOfTheSpaceServerCounts)
+{
+  const std::vector<char> saved = Part(kServerPart);
+  const auto saved_again = [&](const std::vector<char>& state)
+  {
+    ByteReader reader(state);
+    server_->LoadState(checkpoint_.snapshot, reader);
+    ByteWriter writer;
+    server_->SaveState(writer);
+    return writer.Bytes();
+  };
+  EXPECT_THAT(Lost(saved, saved_again), testing::IsEmpty()) << "of " << saved.size();
+}
+
+INSTANTIATE_TEST_SUITE_P(Experiments, SavedParts,
+                         testing::Values(std::tuple("prey_retrieval", 2100), std::tuple("prey_supply", 300),
+                                         std::tuple("gripped_chain", 100), std::tuple("handbot_shelf", 200)),
+                         [](const auto& test) { return std::string(std::get<0>(test.param)); });
+
+}  // namespace
+}  // namespace swarmanoid
