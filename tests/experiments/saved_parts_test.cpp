@@ -49,13 +49,41 @@ protected:
     return {state.begin(), state.end()};
   }
 
+  // Of a role that has read a part, as Checkpoint::LoadPart has it read.
+  template <class Role>
+  static std::vector<char> WhatIsSaved(const Role& role, const ByteReader& read)
+  {
+    if (!read.AtEnd()) throw std::runtime_error("it is longer than its content");
+    ByteWriter writer;
+    role.SaveState(writer);
+    return writer.Bytes();
+  }
+
+  // Whether the number of a text in which a byte stands is the same with the lowest bit of that byte changed: of 17
+  // digits the last may be one of several.
+  static bool IsSameNumber(const std::vector<char>& saved, std::size_t place)
+  {
+    const auto belongs = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.'; };
+    std::size_t begin = place, end = place;
+    while (begin > 0 && belongs(saved[begin - 1])) --begin;
+    while (end < saved.size() && belongs(saved[end])) ++end;
+    std::string number(saved.begin() + static_cast<std::ptrdiff_t>(begin),
+                       saved.begin() + static_cast<std::ptrdiff_t>(end));
+    if (number.size() < 17) return false;
+    const double value = std::stod(number);
+    number[place - begin] ^= 1;
+    return belongs(number[place - begin]) && std::stod(number) == value;
+  }
+
   // The lost bytes, without those that only part the numbers of a text.
   static std::vector<std::size_t> Lost(const std::vector<char>& saved,
                                        const std::function<std::vector<char>(const std::vector<char>&)>& saved_again)
   {
     EXPECT_EQ(saved_again(saved), saved);
     std::vector<std::size_t> lost = LostBytes(saved, saved_again);
-    std::erase_if(lost, [&](std::size_t place) { return std::isspace(static_cast<unsigned char>(saved[place])) != 0; });
+    std::erase_if(
+        lost, [&](std::size_t place)
+        { return std::isspace(static_cast<unsigned char>(saved[place])) != 0 || IsSameNumber(saved, place); });
     return lost;
   }
 
@@ -73,9 +101,13 @@ TEST_P(SavedParts, EachByteOfTheControllerHostCounts)
 {
   const std::vector<char> saved = Part("controller host 0");
   ASSERT_FALSE(saved.empty());
-  EXPECT_THAT(Lost(saved, [&](const std::vector<char>& state) { return SavedAgain(*host_, state); }),
-              testing::IsEmpty())
-      << "of " << saved.size();
+  const auto saved_again = [&](const std::vector<char>& state)
+  {
+    ByteReader reader(state);
+    host_->LoadState(reader);
+    return WhatIsSaved(*host_, reader);
+  };
+  EXPECT_THAT(Lost(saved, saved_again), testing::IsEmpty()) << "of " << saved.size();
 }
 
 TEST_P(SavedParts, EachByteOfTheSpaceServerCounts)
@@ -85,9 +117,7 @@ TEST_P(SavedParts, EachByteOfTheSpaceServerCounts)
   {
     ByteReader reader(state);
     server_->LoadState(checkpoint_.snapshot, reader);
-    ByteWriter writer;
-    server_->SaveState(writer);
-    return writer.Bytes();
+    return WhatIsSaved(*server_, reader);
   };
   EXPECT_THAT(Lost(saved, saved_again), testing::IsEmpty()) << "of " << saved.size();
 }
