@@ -24,6 +24,9 @@ private:
 
 }  // namespace
 
-void RegisterEyebotAttachment() { BindActuator<ChannelCommands<Magnet, 1, 1>>("eyebot_attachment", "dummy_eyebot_attachment"); }
+void RegisterEyebotAttachment()
+{
+  BindActuator<ChannelCommands<Magnet, 1, 1>>("eyebot_attachment", "dummy_eyebot_attachment");
+}
 
 }  // namespace swarmanoid
