@@ -182,12 +182,12 @@ void Supervisor::TakeStatus(const ServerStatus& status)
   }
   else if (const auto* finished = std::get_if<ServerFinished>(&status))
   {
+    if (phase_ == Phase::kDying) return;  // one that has failed already has no result
     outcome_.finished = *finished;
     progress_.tick = finished->ticks;
     progress_.waiting_for.clear();
     progress_.phase = "finishing";
     if (phase_ == Phase::kRunning) outcome_.kind = ClusterOutcome::kFinished;
-    if (phase_ == Phase::kDying) return;
     phase_ = Phase::kFinishing;
     deadline_ = heard_ + times_.finish;
   }

@@ -228,6 +228,17 @@ TEST_F(SupervisorTest, AWorkerThatEndsEarlyFailed)
       << outcome.reason;
 }
 
+TEST_F(SupervisorTest, AResultThatComesAfterAProcessWasKilledIsNone)
+{
+  AddServer(std::string("trap 'echo finished 7 2 00000000000000ff 0.2 2.5; exit 0' TERM; echo state running; ") +
+            Tell("running") + "while true; do sleep 0.01; done");
+  Add("visualiser", Await("running") + "kill -KILL $$");
+  const ClusterOutcome outcome = Run();
+  EXPECT_EQ(outcome.kind, ClusterOutcome::kFailed);
+  EXPECT_TRUE(outcome.reason.starts_with("visualiser was killed by signal 9")) << outcome.reason;
+  EXPECT_FALSE(outcome.finished.has_value());
+}
+
 TEST_F(SupervisorTest, AWorkerMayEndLongBeforeTheServersLastWordOnceItHasLeft)
 {
   AddServer("echo state running; echo left engine_worker ground; " + Tell("left") + Await("ended") + LetAnHourPass() +
