@@ -105,6 +105,7 @@ TEST_F(RunFolderTest, AProcessThatDiesCompletesItsManifest)
   if (child == 0)
   {
     const ManifestAtDeath at_death(folder, manifest);
+    ReportDeaths("unit_test");
     OwnActivityPage().tick = 17;
     DieOf("said \"no\" \\ \x01 \xff \xed\xa0\x80 \xc3\xbc");
   }
@@ -115,7 +116,7 @@ TEST_F(RunFolderTest, AProcessThatDiesCompletesItsManifest)
   const auto json = nlohmann::json::parse(file);
   EXPECT_EQ(json["experiment"], "world");
   EXPECT_EQ(json["exit_code"], 4);
-  EXPECT_EQ(json["failure"], "swarmanoid said \"no\" \\   ? ??? \xc3\xbc at tick 17");
+  EXPECT_EQ(json["failure"], "unit_test said \"no\" \\   ? ??? \xc3\xbc at tick 17");
   EXPECT_GE(json["ended"], manifest.started);
   EXPECT_EQ(json["ended"].get<std::string>().size(), manifest.started.size());
   EXPECT_FALSE(fs::exists(folder.File("manifest.json.last")));
