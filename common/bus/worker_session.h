@@ -36,7 +36,7 @@ public:
   HotScope Scope(std::size_t capacity, unsigned writers) const;
   MessageHeader Header(std::uint64_t tick, std::uint32_t source) const { return {world_.run, tick, source, false}; }
 
-  // Waits until `met` and says so after a while: "waiting for <what>". Throws BusError when the run ends before.
+  // Waits until `met` is true; after a while it says "waiting for <what>". Throws BusError if the run ends before.
   void WaitUntil(const std::function<bool()>& met, const std::function<std::string()>& what);
   // Tells the server that this process can step.
   void ReportReady();
@@ -45,12 +45,12 @@ public:
   // code; throws what `work` throws.
   int Work(const std::function<void()>& work);
 
-  // Within the work, until the run ends. `idle` is called when notified and at least every `period`; it may return what
-  // this process waits for or is busy with since too long, which is told to the server. Ends the program if this or
-  // another process failed.
+  // Within the work: waits until the run ends. `idle` is called by every Notify, and at least once in a `period`. If
+  // this process is late, it returns why ("waits for engine 'ground'", "controller of 'fb_3'"), which goes to the
+  // server. Ends the program if this process or another one failed.
   void Wait(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
-  // The same for a process that has something to do after the run: returns nothing if its work is done, or else why
-  // the run is over.
+  // As Wait, for a process that still has something to do after the run: returns nothing once Finish was called, or the
+  // reason for which the run ended.
   std::optional<BusError> Follow(std::chrono::milliseconds period, const std::function<void()>& idle);
   // Says that this process failed, or has nothing to do any more in a run that failed, and ends the program.
   [[noreturn]] void GiveUp(const std::exception& error);

@@ -38,8 +38,8 @@ protected:
   std::size_t Robots() const { return robots_.size(); }
 };
 
-// Sends its numbers to the engine, from place `first` of the channel on. Noise is added to numbers that are not 0; the
-// sum stays within least_ and most_.
+// Sends its numbers to the engine: the first one to place first_ of the channel, the others to the places after it.
+// Noise is added to numbers that are not 0, and the sum is limited to least_ … most_.
 class ChannelActuator : public ValueActuator
 {
 public:
