@@ -11,7 +11,8 @@ namespace
 
 constexpr double kFarthest = 1e4;      // m
 constexpr double kRobotMargin = 0.01;  // m
-constexpr double kTall = 0.25;         // m: lower walls hide nothing
+constexpr double kTall = 0.25;         // m: lower walls hide nothing …
+constexpr double kTallPart = 0.08;     // … or in a small arena, lower than this part of its size
 // What stays solid of a wall that hides the arena, and of the others, m.
 constexpr float kKerb = 0.04F;
 constexpr float kCutHeight = 0.35F;
@@ -22,7 +23,7 @@ constexpr float kCutPart = 0.07F;  // of the arena's size, if that is more
 bool IsBoundaryWall(const EntityConfiguration& entity, const Vector3& arena_size)
 {
   if (!IsFreeBox(entity.kind)) return false;
-  if (entity.movable || entity.size.z() < kTall) return false;
+  if (entity.movable || entity.size.z() < std::min(kTall, kTallPart * arena_size.head<2>().maxCoeff())) return false;
   const double thickness = std::min(entity.size.x(), entity.size.y());
   const double length = std::max(entity.size.x(), entity.size.y());
   if (length < 4 * thickness) return false;

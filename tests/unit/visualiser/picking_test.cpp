@@ -264,6 +264,16 @@ TEST(Scene, AGripIsDrawnAndTheRopeOfAHandbot)
   EXPECT_NEAR(scene.Lines()[1].to.z(), 2, 1e-6);
 }
 
+TEST(Picking, AWallIsTallByTheSizeOfTheArenaToo)
+{
+  SmallWorld world({2, 2, 1});
+  world.AddBody(EntityKind::kWall, "low", {1, 0, 0.1}, {2, 0.02, 0.2});
+  world.AddBody(EntityKind::kWall, "kerb", {1, 0, 0.05}, {2, 0.02, 0.1});
+  EXPECT_TRUE(IsBoundaryWall(world["low"].GetConfiguration(), {2, 2, 1}));
+  EXPECT_FALSE(IsBoundaryWall(world["kerb"].GetConfiguration(), {2, 2, 1}));
+  EXPECT_FALSE(IsBoundaryWall(world["low"].GetConfiguration(), {4, 2, 1})) << "a wall as high as a robot, around many";
+}
+
 TEST(Picking, AWallIsCutLowerWhereItHidesTheArena)
 {
   SmallWorld world = TwoRobotsAndAWall();
