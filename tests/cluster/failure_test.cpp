@@ -135,16 +135,21 @@ TEST_F(ClusterTest, AWorkerRefusesAServerOfAnotherProtocol)
   BusOptions options;
   options.domain = domain_.Id();
   Bus bus(options, "space server");
-  Publisher<WorldMessage> worlds(bus, "future");
-  WorldMessage world;
-  world.protocol = 99;
-  world.run = 1;
-  world.experiment = "future";
-  worlds.Write(world);
-  ChildProcess engine = StartEngine("future", 0);
-  EXPECT_EQ(engine.Wait(), 4);
-  EXPECT_THAT(engine.Output(), AllOf(HasSubstr("'future'"), HasSubstr("protocol version 99"),
-                                     HasSubstr(fmt::format("this program version {}", kProtocolVersion))));
+  for (const std::uint32_t version : {kProtocolVersion - 1, kProtocolVersion + 1})
+  {
+    const std::string experiment = fmt::format("of_version_{}", version);
+    Publisher<WorldMessage> worlds(bus, experiment);
+    WorldMessage world;
+    world.protocol = version;
+    world.run = 1;
+    world.experiment = experiment;
+    worlds.Write(world);
+    ChildProcess engine = StartEngine(experiment, 0);
+    EXPECT_EQ(engine.Wait(), 4);
+    EXPECT_THAT(engine.Output(),
+                AllOf(HasSubstr("'" + experiment + "'"), HasSubstr(fmt::format("speaks protocol version {}", version)),
+                      HasSubstr(fmt::format("this program version {}", kProtocolVersion))));
+  }
 }
 
 TEST_F(ClusterTest, AnEngineThatTheExperimentLacksEndsTheRunWithTheKnownOnes)
