@@ -166,8 +166,12 @@ class Failures(OutsideTest):
 class Surroundings(OutsideTest):
     def within(self, script, *arguments):
         """Runs a shell script in namespaces of its own: no network but a loopback interface that is down, own mounts."""
+        # Within, everybody is root: the folder in /tmp that bears the number of root may be that of the real one.
+        runtime = self.folder / "runtime"
+        runtime.mkdir(mode=0o700, exist_ok=True)
         done = subprocess.run(["unshare", "-rnm", "sh", "-c", script, "sh", *map(str, arguments)], cwd=self.folder,
-                              capture_output=True, text=True, timeout=60, env=self.environment())
+                              capture_output=True, text=True, timeout=60,
+                              env={**self.environment(), "XDG_RUNTIME_DIR": str(runtime)})
         if "unshare" in done.stderr or "mount:" in done.stderr:
             self.skipTest(done.stderr)
         return done
