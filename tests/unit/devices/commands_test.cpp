@@ -63,9 +63,8 @@ PluginDescription PainterDescription()
 
 REGISTER_ACTUATOR(Painter, PainterDescription())
 
-// Two robots of a kind with these actuators, type and implementation; at tick 5 the second one does `command`.
-std::string Mistake(EntityKind kind, const std::vector<std::pair<std::string, std::string>>& actuators,
-                    const std::function<void(CCI_Robot& robot)>& command)
+// Two robots of a kind with these actuators, type and implementation.
+Experiment TwoRobots(EntityKind kind, const std::vector<std::pair<std::string, std::string>>& actuators)
 {
   RegisterBuiltinDevices();
   Experiment experiment;
@@ -91,6 +90,14 @@ std::string Mistake(EntityKind kind, const std::vector<std::pair<std::string, st
     entity.pose.position = {1.0 + i, 1, 0};
     experiment.engines[0].entities.push_back(i);
   }
+  return experiment;
+}
+
+// What is told if the second one of these robots does `command` at tick 5.
+std::string Mistake(EntityKind kind, const std::vector<std::pair<std::string, std::string>>& actuators,
+                    const std::function<void(CCI_Robot& robot)>& command)
+{
+  const Experiment experiment = TwoRobots(kind, actuators);
   const Assignment assignment = MakeAssignment(experiment, 1);
   CSwarmanoidSpace space(experiment);
   space.SetTick(5);
@@ -114,6 +121,19 @@ std::string NoNumber(const std::string& device)
 {
   return "robot 'robot_1': its controller 'driver' commanded nan to the actuator '" + device +
          "' at tick 5; commands must be finite numbers";
+}
+
+TEST(Commands, WhoIsNotInTheArenaCommandsNothing)
+{
+  const Experiment experiment = TwoRobots(EntityKind::kFootbot, {{"footbot_wheels", "dummy_footbot_wheels"}});
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  CSwarmanoidSpace space(experiment);
+  ControllerHost host(space, assignment, 0);
+  Commander::command = [](CCI_Robot& robot)
+  { robot.Actuator<CCI_FootBotWheelsActuator>("footbot_wheels").SetFootBotWheelsAngularVelocity(1, 2); };
+  EXPECT_THAT(host.Tick({}).values, testing::ElementsAre(1, 2, 1, 2));
+  space.SetAttribute(space.PresenceSlot(1), 0);
+  EXPECT_THAT(host.Tick({}).values, testing::ElementsAre(1, 2, 0, 0));
 }
 
 TEST(Commands, WhatIsNoNumberIsToldWithRobotDeviceAndTick)

@@ -89,8 +89,10 @@ TEST(Assignment, HostsFollowTheEngines)
 
 TEST(Assignment, OnlyHostsWithGenericActuatorsOrLooseRobotsReportToTheServer)
 {
-  const Assignment assignment = MakeAssignment(Mixed(), 3);
-  EXPECT_TRUE(assignment.hosts[0].reports_to_server);   // r6 is in no engine
+  Experiment experiment = Mixed();
+  experiment.entities[6].controller = "driver";
+  const Assignment assignment = MakeAssignment(experiment, 3);
+  EXPECT_TRUE(assignment.hosts[0].reports_to_server);   // r6 has wheels alone too, and is in no engine
   EXPECT_FALSE(assignment.hosts[1].reports_to_server);  // wheels alone
   EXPECT_TRUE(assignment.hosts[2].reports_to_server);   // r3 has LEDs
 }

@@ -39,6 +39,15 @@ TEST(AttributeChanges, AscendAndTheLastValueCounts)
   }
 }
 
+TEST(AttributeChanges, ASlotThatStandsTwiceIsNotOrdered)
+{
+  AttributeChanges changes;
+  changes.Add(3, 1);
+  EXPECT_TRUE(IsOrdered(changes));
+  changes.Add(3, 1);
+  EXPECT_FALSE(IsOrdered(changes));
+}
+
 TEST(AttributeChanges, WhoReportsLastDecidesOnASlot)
 {
   const std::vector<double> known{0, 10, 20, 30};

@@ -82,6 +82,11 @@ TEST(Space, EveryPartOfTheStateIsInTheHash)
   space.SetPose(2, pose);
   EXPECT_EQ(space.Hash(), initial);
 
+  space.SetAttribute(space.PresenceSlot(2), 0);
+  EXPECT_NE(space.Hash(), initial);
+  space.SetAttribute(space.PresenceSlot(2), 1);
+  EXPECT_EQ(space.Hash(), initial);
+
   space.FindEntity("fb2")->SetAttribute("led", 0xff0000, 11);
   EXPECT_NE(space.Hash(), initial);
 }
