@@ -58,7 +58,7 @@ struct BusOptions
   // process.
   std::string discovery_server;
   bool serves_discovery = false;    // this process is that server
-  double lease_s = 1;               // silence after which a process is taken for dead
+  double lease_s = 1;               // silence after which a process counts as dead
   unsigned datagram_bytes = 65500;  // larger messages are cut; 1440 on networks that lose packets
 
   bool Spread() const { return network_interface != "lo"; }

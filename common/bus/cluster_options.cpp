@@ -72,7 +72,7 @@ std::vector<OptionSpec> BusOptionTable(BusOptions& options)
       {{.name = "lease",
         .type = kNumber,
         .unit = "s",
-        .description = "Silence after which a process is taken for dead",
+        .description = "Silence after which a process counts as dead",
         .minimum = 0.2,
         .maximum = 3600},
        &options.lease_s,

@@ -24,9 +24,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kPatience = 1s;                             // before what is waited for is said
 constexpr auto kBrokenTime = 5s;                           // for the lease of a dead process to end
-constexpr std::chrono::milliseconds kFirstRepeat = 100ms;  // of a good-bye that is not answered
+constexpr std::chrono::milliseconds kFirstRepeat = 100ms;  // of a Leave that is not answered
 constexpr std::chrono::milliseconds kLastRepeat = 1s;
-constexpr auto kInterruptedTime = 1s;  // for a good-bye of one that was asked to end
+constexpr auto kInterruptedTime = 1s;  // for the answer to a Leave, if it was asked to end
 
 int ExitCodeOf(EndReason reason, bool looks_on)
 {

@@ -73,8 +73,8 @@ private:
   void WaitUntilDone(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
   // Why this process ends, to whoever started it and to the server.
   void ReportFailure(const std::exception& error);
-  // Stays until the server has answered the good-bye, or is not there any more: it would take one who is gone before
-  // his word is read for dead.
+  // Stays until the server has answered, or is not there any more: a process that goes before its Leave is read would
+  // be reported as dead.
   void LeaveRun(const std::string& error);
   void Say(const std::string& text) const;
 

@@ -1,6 +1,6 @@
 // The table of entity kinds: a row says all that the simulator has to know of a kind of robot or object. The reader of
 // experiment files, the space, the engines, the sensors and the visualisers ask the row. The simulator's own kinds are
-// rows (entity_kinds.cpp); a user's library adds others by REGISTER_ENTITY_KIND, and an experiment names it:
+// rows (own_kinds.cpp); a user's library adds others by REGISTER_ENTITY_KIND, and an experiment names it:
 //
 //   <entity_kinds><epuck library="epuck"/></entity_kinds>
 //

@@ -21,38 +21,10 @@ namespace
 constexpr std::uint32_t kColourBits = 0xffffff;
 
 template <class Interface>
-class Ring : public Interface
+class RingOf : public Interface
 {
 public:
-  static constexpr const char* kAttribute = "led";
-  explicit Ring(double* colours) : colours_(colours) {}
-  void SetAllColours(std::uint32_t colour) override
-  {
-    for (unsigned led = 0; led < Interface::NUM_LEDS; ++led) colours_[led] = colour & kColourBits;
-  }
-  void SetColour(unsigned led, std::uint32_t colour) override
-  {
-    if (led >= Interface::NUM_LEDS)
-      throw std::out_of_range("LED " + std::to_string(led) + " of a ring of " + std::to_string(Interface::NUM_LEDS));
-    colours_[led] = colour & kColourBits;
-  }
-
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    for (unsigned led = 0; led < Interface::NUM_LEDS; ++led)
-      readings.push_back({std::to_string(led), "colour", colours_[led]});
-  }
-
-private:
-  double* colours_;
-};
-
-// The LEDs of any kind of robot.
-class AnyRing : public CCI_LedRingActuator
-{
-public:
-  AnyRing(double* colours, unsigned leds) : colours_(colours), leds_(leds) {}
-  unsigned GetNumLeds() const override { return leds_; }
+  RingOf(double* colours, unsigned leds) : colours_(colours), leds_(leds) {}
   void SetAllColours(std::uint32_t colour) override { std::fill_n(colours_, leds_, colour & kColourBits); }
   void SetColour(unsigned led, std::uint32_t colour) override
   {
@@ -64,9 +36,25 @@ public:
     for (unsigned led = 0; led < leds_; ++led) readings.push_back({std::to_string(led), "colour", colours_[led]});
   }
 
-private:
+protected:
   double* colours_;
   unsigned leds_;
+};
+
+template <class Interface>
+class Ring : public RingOf<Interface>
+{
+public:
+  static constexpr const char* kAttribute = "led";
+  explicit Ring(double* colours) : RingOf<Interface>(colours, Interface::NUM_LEDS) {}
+};
+
+// The LEDs of any kind of robot.
+class AnyRing : public RingOf<CCI_LedRingActuator>
+{
+public:
+  using RingOf::RingOf;
+  unsigned GetNumLeds() const override { return leds_; }
 };
 
 class AnyRingActuator : public AttributeActuator

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -138,6 +139,16 @@ std::string ClusterTest::Read(const std::string& file) const
   std::ostringstream text;
   text << stream.rdbuf();
   return text.str();
+}
+
+bool ClusterTest::Reaches(std::ptrdiff_t ticks, const std::string& hash_log) const
+{
+  return Eventually(
+      [&]
+      {
+        const std::string log = Read(hash_log);
+        return std::count(log.begin(), log.end(), '\n') >= ticks;
+      });
 }
 
 std::string ClusterTest::HashesOfSingleProcess(const std::string& file)

@@ -8,9 +8,12 @@
 
 #include "common/bus/domain.h"
 #include "tests/cluster/child_process.h"
+#include "tests/eventually.h"
 
 namespace swarmanoid
 {
+
+using test::Eventually;
 
 class ClusterTest : public testing::Test
 {
@@ -31,6 +34,8 @@ protected:
 
   std::string DomainText() const { return std::to_string(domain_.Id()); }
   std::string Read(const std::string& file) const;
+  // Waits until the hash log has that many ticks.
+  bool Reaches(std::ptrdiff_t ticks, const std::string& hash_log = "hashes.txt") const;
   // One hash a line, of the experiment run in one process.
   std::string HashesOfSingleProcess(const std::string& file);
   // No process has left anything in shared memory.

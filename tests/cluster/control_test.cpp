@@ -110,9 +110,7 @@ TEST_F(ControlTest, MovesARobotAndRefusesImpossibleRequestsWithAReason)
   Ask("step", {1});
   // It moved on from where it was put, along the heading it was given.
   const std::string place = "Footbot\trobots0_3\t1.5\t1.26\t";
-  for (int k = 0; k < 10'000 && Read("moved.txt").find(place) == std::string::npos; ++k)
-    std::this_thread::sleep_for(10ms);
-  EXPECT_THAT(Read("moved.txt"), HasSubstr(place));
+  EXPECT_TRUE(Eventually([&] { return Read("moved.txt").find(place) != std::string::npos; })) << Read("moved.txt");
   ExpectEnd();
   EXPECT_EQ(text.Wait(), 0) << text.Output();
 }
@@ -139,8 +137,7 @@ TEST_F(ControlTest, AStoppedOrKilledVisualiserDoesNotSlowTheRun)
     return Read("stopped.txt").find("robots0_11") < std::string::npos &&
            Read("killed.txt").find("robots0_11") < std::string::npos;
   };
-  for (int k = 0; k < 10'000 && !both_see(); ++k) std::this_thread::sleep_for(10ms);
-  ASSERT_TRUE(both_see());
+  ASSERT_TRUE(Eventually(both_see));
   stopped.Signal(SIGSTOP);
   killed.Signal(SIGKILL);
   // One that is stopped would hold it up for ever.
@@ -151,8 +148,7 @@ TEST_F(ControlTest, AStoppedOrKilledVisualiserDoesNotSlowTheRun)
 TEST_F(ControlTest, AnInterruptStopsAtTheEndOfATickAndKeepsTheOutput)
 {
   Begin({"--real-time", "10"});
-  ASSERT_TRUE(server_->WaitForOutput("running")) << server_->Output();
-  std::this_thread::sleep_for(200ms);
+  ASSERT_TRUE(Reaches(3)) << server_->Output();
   server_->Signal(SIGINT);
   EXPECT_EQ(server_->Wait(), 130) << server_->Output();
   EXPECT_THAT(server_->Output(), HasSubstr("finished: "));

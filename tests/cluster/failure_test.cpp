@@ -20,10 +20,9 @@ using testing::HasSubstr;
 
 TEST_F(ClusterTest, AKilledWorkerEndsTheRunWithinTheLeaseAndIsNamed)
 {
-  ChildProcess server = StartServer(WriteExperiment("deadly", 2, 0));
+  ChildProcess server = StartServer(WriteExperiment("deadly", 2, 0), {"--hash-log", folder_ + "/hashes.txt"});
   std::vector<ChildProcess> workers = StartWorkers("deadly", 2, 1);
-  ASSERT_TRUE(server.WaitForOutput("running")) << server.Output();
-  std::this_thread::sleep_for(300ms);
+  ASSERT_TRUE(Reaches(100)) << server.Output();
   const auto killed = std::chrono::steady_clock::now();
   workers[1].Signal(SIGKILL);
   EXPECT_EQ(server.Wait(), 6);
@@ -99,13 +98,22 @@ TEST_F(ClusterTest, AWorkerOfAnotherProtocolIsRefusedByName)
                                       const std::lock_guard lock(mutex);
                                       run = world.run;
                                     });
-  for (int k = 0; k < 1000; ++k)
+  const auto refused = [&]
   {
-    std::this_thread::sleep_for(10ms);
     const std::lock_guard lock(mutex);
-    if (!refusal.empty()) break;
-    if (run != 0 && k % 50 == 0) joins.Write({ProcessId(), kProtocolVersion + 1, run, "engine 'e0'", false});
-  }
+    return !refusal.empty();
+  };
+  const auto asked = [&]
+  {
+    std::uint64_t of = 0;
+    {
+      const std::lock_guard lock(mutex);
+      of = run;
+    }
+    if (of != 0) joins.Write({ProcessId(), kProtocolVersion + 1, of, "engine 'e0'", false});
+    return Eventually(refused, 500ms);
+  };
+  EXPECT_TRUE(Eventually(asked));
   const std::lock_guard lock(mutex);
   EXPECT_THAT(refusal, AllOf(HasSubstr("engine 'e0'"), HasSubstr(fmt::format("version {}", kProtocolVersion + 1)),
                              HasSubstr(fmt::format("version {}", kProtocolVersion))));
@@ -121,7 +129,7 @@ TEST_F(ClusterTest, AWorkerThatLeavesBeforeTheLastTickEndsTheRunAndIsNamed)
   std::atomic<std::uint64_t> run = 0;
   const Subscription<WorldMessage> worlds(bus, "deserted", [&](const WorldMessage& world) { run = world.run; });
   ASSERT_TRUE(server.WaitForOutput("waiting for")) << server.Output();
-  while (run == 0 && server.Running()) std::this_thread::sleep_for(1ms);
+  ASSERT_TRUE(Eventually([&] { return run != 0; })) << server.Output();
   Publisher<JoinMessage> joins(bus, "deserted");
   joins.Write({ProcessId(), kProtocolVersion, run, "engine 'e0'", true});
   Publisher<LeaveMessage> leaves(bus, "deserted");

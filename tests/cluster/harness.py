@@ -75,6 +75,16 @@ class Run:
             time.sleep(0.002)
         raise AssertionError(f"no {program} after {timeout} s")
 
+    def read_until(self, text):
+        """What the run says on its way to this text; it is not among what wait() keeps."""
+        said = ""
+        while text not in said:
+            line = self.process.stderr.readline()
+            if not line:
+                raise AssertionError(f"the run ended without '{text}': {said}")
+            said += line
+        return said
+
     def wait(self, timeout=GENEROUS_S):
         self.stdout, self.stderr = self.process.communicate(timeout=timeout)
         return self.process.returncode

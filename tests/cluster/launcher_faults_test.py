@@ -1,10 +1,15 @@
 """Processes of a run are killed, stopped, or fail by themselves: the run ends at once, says why, and leaves nothing."""
 import os
+import pathlib
 import signal
+import sys
 import time
 import unittest
 
-from harness import AT_ONCE_S, CONFIGS, LauncherTest, main
+from harness import AT_ONCE_S, CONFIGS, LauncherTest, main, stat_of
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from signals import send_and_wait  # noqa: E402
 
 PROGRAMS = ["space_server", "engine_worker", "controller_host", "visualiser"]
 LONG = ["--ticks", "0", "--hash-log", "hashes", "--output", "out"]
@@ -20,7 +25,7 @@ class Kills(LauncherTest):
         if moment == "mid-run":
             self.wait_for_tick("hashes", 200, run)
         if moment == "paused":
-            time.sleep(1.0)
+            self.wait_for_experiment("diffusion_10")
         killed_at = time.monotonic()
         os.kill(pid, signal.SIGKILL)
         self.assertEqual(run.wait(), 4, run.stderr)
@@ -78,7 +83,7 @@ class Kills(LauncherTest):
         self.wait_for_tick("hashes", 100, run)
         run.process.kill()
         run.wait()
-        time.sleep(0.3)
+        self.wait_until("the end of its processes", lambda: all((stat_of(pid) or "  Z")[2] == "Z" for pid in pids))
         # Its shared memory goes with the next run.
         self.assertEqual(self.run_it("run", CONFIGS / "diffusion_10.xml", "--ticks", 10).process.returncode, 0)
         self.assert_nothing_left(run, pids)
@@ -104,10 +109,9 @@ class Stalls(LauncherTest):
         pid = run.find("controller_host")
         self.wait_for_tick("hashes", 100, run)
         os.kill(pid, signal.SIGSTOP)
-        time.sleep(4)
+        said = run.read_until("waiting for controller host 0")
         os.kill(pid, signal.SIGCONT)
-        self.assertEqual(run.wait(), 0, run.stderr)
-        self.assertIn("waiting for controller host 0", run.stderr)
+        self.assertEqual(run.wait(), 0, said + run.stderr)
         hash_after = self.assert_finished(run, 1000)
         plain = self.run_it("run", CONFIGS / "diffusion_10.xml", "--ticks", 1000, "--quiet")
         self.assertEqual(self.assert_finished(plain), hash_after)
@@ -166,15 +170,15 @@ class Controllers(LauncherTest):
         step = self.run_it("control", "step", 30)
         self.assertEqual(step.process.returncode, 4)
         self.assertRegex(step.stderr, r"does not answer; it is at tick 17 and waits for controller host 0 since \d+ s \(.*robot_one")
-        run.process.send_signal(signal.SIGINT)
-        time.sleep(0.3)
+        send_and_wait(run.process, signal.SIGINT)
+        said = run.read_until("Ctrl-C again")
         self.assertIsNone(run.process.poll())
         killed_at = time.monotonic()
         run.process.send_signal(signal.SIGINT)
         self.assertEqual(run.wait(), 130)
         self.assertLess(time.monotonic() - killed_at, AT_ONCE_S)
-        self.assertIn("waiting for controller host 0", run.stderr)
-        self.assertIn("robot_one", run.stderr)
+        self.assertIn("waiting for controller host 0", said + run.stderr)
+        self.assertIn("robot_one", said + run.stderr)
         self.assert_nothing_left(run)
 
     def test_a_missing_library_is_an_error_of_the_file(self):

@@ -8,10 +8,14 @@ import resource
 import signal
 import statistics
 import subprocess
+import sys
 import tempfile
 import time
 
 from outside import PREFIX, WAYS, OutsideTest, main
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from signals import send_and_wait  # noqa: E402
 
 TICK = 17
 # What the first line says of each fault. None: as the C++ library or the kernel words it.
@@ -140,11 +144,9 @@ class Failures(OutsideTest):
                         said += line
 
                 read_until("waiting", "robot_one")
-                run.send_signal(signal.SIGINT)
+                send_and_wait(run, signal.SIGINT)
                 if way == "cluster":
                     read_until("Ctrl-C again")
-                else:
-                    time.sleep(0.2)  # two signals that are pending at once are one
                 run.send_signal(signal.SIGINT)
                 run.communicate(timeout=100)
                 self.assertEqual(run.returncode, 130)

@@ -6,11 +6,15 @@ import pathlib
 import re
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 
 from failures_test import FAULTS
 from outside import BUILT, WAYS, OutsideTest, main
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from signals import send_and_wait  # noqa: E402
 
 TICKS = 20
 WATCH = "the function that looks at each tick: Watch at tick 7"
@@ -85,12 +89,10 @@ class OwnSimulator(OutsideTest):
                     self.assertNotEqual(line, "", said)
                     said += line
                 self.assertIn(f"for {WATCH}\n", said)
-                run.send_signal(signal.SIGINT)
+                send_and_wait(run, signal.SIGINT)
                 if way == "cluster":
                     while "Ctrl-C again" not in said:
                         said += run.stderr.readline()
-                else:
-                    time.sleep(0.2)  # two signals that are pending at once are one
                 run.send_signal(signal.SIGINT)
                 said = run.communicate(timeout=30)[1]
                 self.assertIn(f"{WATCH} ", said)

@@ -240,6 +240,19 @@ static void Listen(struct Heard* topic)
   }
 }
 
+/* Participants other than this one that are there. */
+static int Others(dds_entity_t participants)
+{
+  enum { kMost = 8 };
+  void* samples[kMost] = {NULL};
+  dds_sample_info_t about[kMost];
+  const uint32_t alive = DDS_ANY_SAMPLE_STATE | DDS_ANY_VIEW_STATE | DDS_ALIVE_INSTANCE_STATE;
+  const int count = dds_read_mask(participants, samples, about, kMost, kMost, alive);
+  if (count > 0) dds_return_loan(participants, samples, count);
+  return count - 1;
+}
+
+/* Plays the robot until whoever joined the domain has left it, or for that many seconds. */
 int main(int argc, char** argv)
 {
   if (argc != 3) return 2;
@@ -285,9 +298,15 @@ int main(int argc, char** argv)
     heard[k].reader = MakeReader(participant, heard[k].type, name);
   }
 
+  const dds_entity_t participants = dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, NULL, NULL);
+  bool joined = false;
+  bool left = false;
   const double end = Seconds() + atof(argv[2]);
-  while (Seconds() < end)
+  while (!left && Seconds() < end)
   {
+    const int others = Others(participants);
+    joined = joined || others > 0;
+    left = joined && others == 0;
     for (size_t k = 0; k < COUNT(heard); ++k) Listen(&heard[k]);
     PublishRing(proximity, light);
     PublishScan(scan);

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <functional>
 #include <thread>
 
+#include "tests/eventually.h"
 #include "tests/web/web_client.h"
 
 namespace swarmanoid
@@ -15,15 +15,10 @@ namespace
 {
 
 using namespace std::chrono_literals;
+using test::Eventually;
 using testing::HasSubstr;
 
 WebServer::Bytes Shared(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
-
-void WaitFor(const std::function<bool()>& met)
-{
-  for (int i = 0; i < 10'000 && !met(); ++i) std::this_thread::sleep_for(5ms);
-  ASSERT_TRUE(met());
-}
 
 class WebServerTest : public testing::Test, public WebServerEvents
 {
@@ -146,7 +141,7 @@ TEST_F(WebServerTest, AClientThatDoesNotReadGetsTheLatestFrameAndHoldsUpNobody)
   }
   // The slow one is not asked for again until it has taken what it was sent.
   EXPECT_EQ(server_->Clients(), 2u);
-  WaitFor([&] { return server_->Hungry() == 1; });
+  ASSERT_TRUE(Eventually([&] { return server_->Hungry() == 1; }));
   slow.ReadUntil("welcome");
   int read = 0;
   int last = 0;
@@ -156,7 +151,7 @@ TEST_F(WebServerTest, AClientThatDoesNotReadGetsTheLatestFrameAndHoldsUpNobody)
     ++read;
   }
   EXPECT_LT(read, kFrames / 2);
-  WaitFor([&] { return server_->Hungry() == 2; });
+  ASSERT_TRUE(Eventually([&] { return server_->Hungry() == 2; }));
 }
 
 TEST_F(WebServerTest, ClientsAboveTheLimitAreRefusedUntilOneLeaves)
@@ -168,10 +163,10 @@ TEST_F(WebServerTest, ClientsAboveTheLimitAreRefusedUntilOneLeaves)
   EXPECT_EQ(first->Open(), 101u);
   EXPECT_EQ(second.Open(), 101u);
   EXPECT_EQ(third.Open(), 101u);
-  WaitFor([&] { return server_->Clients() == 3; });
+  ASSERT_TRUE(Eventually([&] { return server_->Clients() == 3; }));
   EXPECT_EQ(Connect().Open(), 503u);
   first.reset();
-  WaitFor([&] { return server_->Clients() == 2; });
+  ASSERT_TRUE(Eventually([&] { return server_->Clients() == 2; }));
   EXPECT_EQ(left_, 1);
   EXPECT_EQ(Connect().Open(), 101u);
 }
@@ -187,7 +182,7 @@ TEST_F(WebServerTest, MessagesAreHeardAndTooLongOnesEndTheConnection)
   WebClient::ErrorCode error;
   for (int i = 0; i < 3 && !error; ++i) client.Read(error);
   EXPECT_TRUE(error);
-  WaitFor([&] { return server_->Clients() == 0; });
+  ASSERT_TRUE(Eventually([&] { return server_->Clients() == 0; }));
 }
 
 TEST_F(WebServerTest, AHiddenPageGetsFewerFramesAndTheLatestWhenItIsShownAgain)
@@ -228,7 +223,7 @@ TEST_F(WebServerTest, AClosingServerWaitsForNobodyWhoDoesNotRead)
   Start();
   WebClient client = Connect();
   ASSERT_EQ(client.Open(), 101u);
-  WaitFor([&] { return server_->Clients() == 1; });
+  ASSERT_TRUE(Eventually([&] { return server_->Clients() == 1; }));
   for (int i = 0; i < 20; ++i)
   {
     server_->Publish(WebServer::Slot::kFrame, Shared(std::string(4000000, '.')));

@@ -6,6 +6,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "cluster"))
@@ -86,9 +87,11 @@ class Display:
     def screenshot(self, path):
         self.tool("import", "-window", "root", path)
 
-    def colours(self, path, area):
-        """The number of colours in an area of a picture, WIDTHxHEIGHT+X+Y."""
-        return int(self.tool("convert", path, "-crop", area, "+repage", "-format", "%k", "info:"))
+    def colours_now(self, area):
+        """The number of colours in an area of the screen, WIDTHxHEIGHT+X+Y."""
+        with tempfile.NamedTemporaryFile(suffix=".png") as picture:
+            self.screenshot(picture.name)
+            return int(self.tool("convert", picture.name, "-crop", area, "+repage", "-format", "%k", "info:"))
 
     def ask_to_close(self, window):
         """What a window manager sends when somebody clicks on the cross."""

@@ -107,15 +107,17 @@ class Window(LauncherTest):
         # Keys wait for the first picture, so this one is finished when the message comes.
         self.display.key("i")
         self.wait_for_log("ids on", run)
-        time.sleep(0.5)
-        self.display.screenshot(self.folder / "before.png")
+        seen = []
+
+        def stands():
+            seen.append(self.display.colours_now(corner))
+            return seen[-2:-1] == seen[-1:]
+
+        self.wait_until("a picture that stands", stands, run)
+        before = seen[-1]
         self.display.click(*on_screen(2, 2))
         self.wait_for_log("selected 'fb_a'", run)
-        time.sleep(1.5)
-        self.display.screenshot(self.folder / "after.png")
-        before = self.display.colours(self.folder / "before.png", corner)
-        after = self.display.colours(self.folder / "after.png", corner)
-        self.assertNotEqual(before, after)
+        self.wait_until("the inspector", lambda: self.display.colours_now(corner) != before, run)
         # The inspector hides what is under it from the mouse, but not the robot beside it.
         self.display.click(*on_screen(3, 1))
         self.wait_for_log("selected 'fb_b'", run)

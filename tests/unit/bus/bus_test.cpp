@@ -20,6 +20,7 @@
 
 #include "common/bus/domain.h"
 #include "common/bus/run_directory.h"
+#include "tests/eventually.h"
 
 namespace swarmanoid
 {
@@ -27,19 +28,9 @@ namespace
 {
 
 using namespace std::chrono_literals;
+using test::Eventually;
 
 constexpr std::uint64_t kRounds = 200;
-
-bool Eventually(const std::function<bool()>& met, std::chrono::milliseconds patience = 60s)
-{
-  const auto end = std::chrono::steady_clock::now() + patience;
-  while (!met())
-  {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(1ms);
-  }
-  return true;
-}
 
 // Answers each state with an update whose poses are those of the state plus one, in a child process.
 int Echo(const BusOptions& options, bool share)
@@ -61,8 +52,8 @@ int Echo(const BusOptions& options, bool share)
                                         updates.Write({header.run, header.tick + 1, 3, false}, update);
                                         if (message.last) last = true;
                                       }});
-  const bool done = Eventually([&] { return last.load(); });
-  std::this_thread::sleep_for(100ms);  // for the last answer to be read
+  // The one who asks leaves when it has read the last answer.
+  const bool done = Eventually([&] { return last.load() && updates.Readers() == 0; });
   return done ? 0 : 1;
 }
 

@@ -1,11 +1,9 @@
-// How a worker leaves the run: it stays until the server has read its good-bye, however long that takes, and the server
-// takes nobody for dead who said one.
+// How a worker leaves the run: it stays until the server has answered its Leave, however long that takes, and the
+// server never reports a process that has left as dead.
 #include <fastrtps/attributes/LibrarySettingsAttributes.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
-#include <unistd.h>
 
 #include <atomic>
-#include <filesystem>
 #include <map>
 #include <mutex>
 #include <set>
@@ -15,9 +13,9 @@
 #include <gtest/gtest.h>
 
 #include "common/activity/exit_codes.h"
-#include "common/bus/domain.h"
-#include "common/bus/server_session.h"
 #include "common/bus/worker_session.h"
+#include "tests/eventually.h"
+#include "tests/unit/bus/server_fixture.h"
 
 namespace swarmanoid
 {
@@ -25,42 +23,26 @@ namespace
 {
 
 using namespace std::chrono_literals;
-
-bool Eventually(const std::function<bool()>& met)
-{
-  const auto end = std::chrono::steady_clock::now() + 100s;
-  while (!met())
-  {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(1ms);
-  }
-  return true;
-}
+using test::Eventually;
 
 // Server and worker are processes of their own: within one, messages would be read by the thread that writes them.
-class Leaving : public testing::Test
+class Leaving : public test::ServerFixture
 {
 protected:
   using Settings = eprosima::fastrtps::LibrarySettingsAttributes;
   using Profiles = eprosima::fastrtps::xmlparser::XMLProfileManager;
 
-  Leaving() : settings_(Profiles::library_settings())
+  Leaving() : ServerFixture("leaving"), settings_(Profiles::library_settings())
   {
     Settings settings = settings_;
     settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
     Profiles::library_settings(settings);
-    setenv("SWARMANOID_SHARED_FOLDER", folder_.c_str(), 1);
-    options_.domain = domain_.Id();
-    world_.run = 5;
-    world_.experiment = "leaving";
     world_.host = MachineName();
     world_.pid = static_cast<std::uint32_t>(getpid());
   }
   ~Leaving() override
   {
     Profiles::library_settings(settings_);
-    unsetenv("SWARMANOID_SHARED_FOLDER");
-    std::filesystem::remove_all(folder_);
     std::filesystem::remove_all(folder_ + "-worker");
   }
 
@@ -78,17 +60,13 @@ protected:
   }
 
   const Settings settings_;
-  const std::string folder_ = fmt::format("/dev/shm/swarmanoid-leaving-test-{}", getpid());
-  FreeDomain domain_;
-  BusOptions options_;
-  WorldMessage world_;
 };
 
 TEST_F(Leaving, TakesAsLongAsTheServerDoesToAnswer)
 {
   Bus server(options_, "space server");
   std::mutex mutex;
-  int good_byes = 0;
+  int heard = 0;
   std::string leaver;
   std::atomic<bool> gone = false;
   server.OnProcessGone([&](const std::string&, const std::string& name, bool) { gone = name == "engine 'ground'"; });
@@ -98,7 +76,7 @@ TEST_F(Leaving, TakesAsLongAsTheServerDoesToAnswer)
                                           {
                                             const std::lock_guard lock(mutex);
                                             if (leave.name != "engine 'ground'") return;
-                                            ++good_byes;
+                                            ++heard;
                                             leaver = leave.process;
                                             EXPECT_EQ(leave.run, world_.run);
                                             EXPECT_EQ(leave.error, "");
@@ -114,7 +92,7 @@ TEST_F(Leaving, TakesAsLongAsTheServerDoesToAnswer)
         answers.Write({world_.run, 0, "space server", "another:1", ""});
         answers.Write({world_.run + 1, 0, "space server", ProcessId(), ""});
         const std::lock_guard lock(mutex);
-        return good_byes >= 5 || gone;
+        return heard >= 5 || gone;
       }));
   EXPECT_FALSE(gone);
   EXPECT_EQ(exit_code, -1);
@@ -153,7 +131,7 @@ TEST_F(Leaving, IsReadBeforeTheProcessIsMissed)
                          [&]
                          {
                            if (!opened->Missing().empty() || holds.exchange(true)) return;
-                           for (int k = 0; k < 2000 && !opened->Failure(); ++k) std::this_thread::sleep_for(1ms);
+                           Eventually([&] { return opened->Failure().has_value(); }, 2s);
                          },
                          [](const auto&) {}});
   opened = &session;
@@ -183,7 +161,7 @@ TEST_F(Leaving, WithoutAWordIsAFailure)
     Publisher<JoinMessage> join(engine, "leaving");
     join.Write({ProcessId(), kProtocolVersion, world_.run, "engine 'ground'", true});
     ASSERT_TRUE(Eventually([&] { return session.Missing().empty(); }));
-    // That another process leaves under its name is none of its good-byes.
+    // A Leave of another process with the same name is not its own.
     Publisher<LeaveMessage> leave(engine, "leaving");
     leave.Write({world_.run, 3, "engine 'ground'", "another:1", ""});
     leave.WaitUntilRead(20);

@@ -1,54 +1,25 @@
 // ServerSession: what the threads of the bus write is read by the server's own at the same time (with data races looked
 // for: the preset tsan).
-#include "common/bus/server_session.h"
+#include <atomic>
+#include <thread>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <filesystem>
-#include <thread>
-
-#include "common/bus/domain.h"
+#include "tests/eventually.h"
+#include "tests/unit/bus/server_fixture.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-using namespace std::chrono_literals;
+using test::Eventually;
 
-bool Eventually(const std::function<bool()>& met)
-{
-  const auto end = std::chrono::steady_clock::now() + 30s;
-  while (!met())
-  {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(1ms);
-  }
-  return true;
-}
-
-class ServerSessionTest : public testing::Test
+class ServerSessionTest : public test::ServerFixture
 {
 protected:
-  ServerSessionTest()
-  {
-    setenv("SWARMANOID_SHARED_FOLDER", folder_.c_str(), 1);
-    options_.domain = domain_.Id();
-    world_.run = 5;
-    world_.experiment = "session";
-  }
-  ~ServerSessionTest() override
-  {
-    unsetenv("SWARMANOID_SHARED_FOLDER");
-    std::filesystem::remove_all(folder_);
-  }
-
-  const std::string folder_ = fmt::format("/dev/shm/swarmanoid-session-test-{}", getpid());
-  FreeDomain domain_;
-  BusOptions options_;
-  WorldMessage world_;
+  ServerSessionTest() : ServerFixture("session") {}
 };
 
 // A text of one letter alone: torn, it would hold two.

@@ -9,22 +9,18 @@
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/topic/TopicDataType.hpp>
 
-#include <chrono>
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <thread>
 
 #include "common/bus/message_bytes.h"
 #include "common/bus/qos.h"
+#include "tests/eventually.h"
 
 namespace swarmanoid::test
 {
 
 namespace dds = eprosima::fastdds::dds;
-
-// For what comes within moments, on a machine that is busy with much else.
-inline constexpr int kGenerous_s = 100;
 
 class Stranger
 {
@@ -56,16 +52,16 @@ public:
   {
     dds::DataWriter* const writer = WriterOf(topic_name);
     if (writer == nullptr) return false;
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(kGenerous_s);
-    dds::PublicationMatchedStatus status;
-    do {
-      if (std::chrono::steady_clock::now() > end) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const auto met = [&]
+    {
+      dds::PublicationMatchedStatus status;
       writer->get_publication_matched_status(status);
-    } while (status.current_count < readers);
+      return status.current_count >= readers;
+    };
+    if (!Eventually(met)) return false;
     for (std::string payload : payloads) writer->write(&payload);
-    const bool got =
-        writer->wait_for_acknowledgments({kGenerous_s, 0}) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
+    const bool got = writer->wait_for_acknowledgments({static_cast<std::int32_t>(kGenerous.count()), 0}) ==
+                     eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
     std::size_t cleared = 0;
     writer->clear_history(&cleared);  // nobody who comes later gets them
     return got;

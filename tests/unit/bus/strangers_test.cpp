@@ -1,16 +1,11 @@
 // Bad messages on the wire: those of strangers are dropped and counted, one of a member ends the run by his name.
-#include <unistd.h>
-
-#include <chrono>
-#include <cstdlib>
-#include <filesystem>
 #include <random>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "common/bus/domain.h"
-#include "common/bus/server_session.h"
+#include "tests/eventually.h"
+#include "tests/unit/bus/server_fixture.h"
 #include "tests/unit/bus/stranger.h"
 
 namespace swarmanoid
@@ -18,40 +13,13 @@ namespace swarmanoid
 namespace
 {
 
-using namespace std::chrono_literals;
+using test::Eventually;
 using testing::HasSubstr;
 
-bool Eventually(const std::function<bool()>& met)
-{
-  const auto end = std::chrono::steady_clock::now() + 100s;
-  while (!met())
-  {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(1ms);
-  }
-  return true;
-}
-
-class Strangers : public testing::Test
+class Strangers : public test::ServerFixture
 {
 protected:
-  Strangers()
-  {
-    setenv("SWARMANOID_SHARED_FOLDER", folder_.c_str(), 1);
-    options_.domain = domain_.Id();
-    world_.run = 5;
-    world_.experiment = "strangers";
-  }
-  ~Strangers() override
-  {
-    unsetenv("SWARMANOID_SHARED_FOLDER");
-    std::filesystem::remove_all(folder_);
-  }
-
-  const std::string folder_ = fmt::format("/dev/shm/swarmanoid-strangers-test-{}", getpid());
-  FreeDomain domain_;
-  BusOptions options_;
-  WorldMessage world_;
+  Strangers() : ServerFixture("strangers") {}
 };
 
 TEST_F(Strangers, AreDroppedAndCountedWhateverTheySend)

@@ -1,0 +1,26 @@
+// Waiting for what other threads and processes do: for a condition, never for a time.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+namespace swarmanoid::test
+{
+
+// What a test waits for comes within milliseconds; this is for a machine with much other work.
+inline constexpr std::chrono::seconds kGenerous{100};
+
+// Whether the condition was met before the time was over.
+inline bool Eventually(const std::function<bool()>& met, std::chrono::milliseconds patience = kGenerous)
+{
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (!met())
+  {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+}  // namespace swarmanoid::test
