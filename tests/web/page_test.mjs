@@ -88,8 +88,8 @@ function freePort() {
 // ---- the page ----
 
 let browser;
-async function open(url, { noise = [], quality = "low" } = {}) {
-  const page = await browser.newPage({ viewport: { width: 760, height: 420 } });
+async function open(url, { noise = [], quality = "low", ...more } = {}) {
+  const page = await browser.newPage({ viewport: { width: 760, height: 420 }, ...more });
   page.setDefaultTimeout(TIMEOUT_MS);
   page.complaints = [];
   page.on("pageerror", (error) => page.complaints.push(String(error)));
@@ -185,12 +185,19 @@ const tests = {
     assert.equal(await read(page, () => swarmanoid.selected), "fb_2");
     await page.keyboard.press("Escape");
 
-    for (const key of ["i", "t", "s", "v", "r", "l"]) await page.keyboard.press(key);
+    for (const key of ["i", "l", "s", "End", "Home", "g"]) await page.keyboard.press(key);
     const now = await read(page, () => swarmanoid.drawn);
     await until(page, (before) => swarmanoid.drawn > before + 5, now);
     await page.keyboard.press("?");
     await page.waitForSelector(".help:not([hidden])");
-    await page.keyboard.press("?");
+    await page.keyboard.press("F1");
+    await page.waitForSelector(".help", { state: "hidden" });
+    const [saved] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("p")]);
+    assert.match(saved.suggestedFilename(), /^prey_retrieval_\d+\.png$/);
+    const png = readFileSync(await saved.path());
+    assert.equal(png.toString("latin1", 1, 4), "PNG");
+    const canvas = await read(page, () => [document.querySelector("main canvas").width, document.querySelector("main canvas").height]);
+    assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], canvas);
     await until(page, () => swarmanoid.tick > 20);
     assert.deepEqual(page.complaints, []);
   },
@@ -234,8 +241,10 @@ const tests = {
     await page.click("header .controls button >> nth=0");
     await until(page, () => swarmanoid.phase === "paused");
     const tick = await assertStill(page);
-    await page.keyboard.press(".");
+    await page.keyboard.press("n");
     await until(page, (before) => swarmanoid.tick === before + 1, tick);
+    await page.keyboard.press("N");
+    await until(page, (before) => swarmanoid.tick === before + 11, tick);
     await read(page, () => swarmanoid.command({ do: "move", entity: "fb_3", position: [1.25, 0.75, 0], angles: [0, 0, 90] }));
     await until(page, () => Math.hypot(swarmanoid.place("fb_3")[0] - 1.25, swarmanoid.place("fb_3")[1] - 0.75) < 1e-6);
 
@@ -352,7 +361,7 @@ const tests = {
   async "the floor is as light without shadows as with them"() {
     oneRobot("bright", "5, 5, 0");
     const { url } = await attach();
-    for (const quality of ["low", "high"]) {
+    for (const quality of ["least", "low", "medium", "high"]) {
       const page = await open(url, { quality });
       await drawn(page);
       const robot = await read(page, () => swarmanoid.project("fb"));
@@ -376,6 +385,85 @@ const tests = {
     const far = await read(page, () => swarmanoid.projectPoint(5, 10, 0.4));
     const wall = await pixelsAbout(page, far, 1);
     assert.ok(wall.every((colour) => brightness(colour) < 190 && saturation(colour) < 12), `${wall}`);
+  },
+
+  async "it can be read by everybody, by day and night, and used by keyboard alone"() {
+    run("prey_retrieval", "--real-time", 1);
+    const { url } = await attach("--allow-control");
+    for (const colorScheme of ["light", "dark"]) {
+      const page = await open(url, { colorScheme, bypassCSP: true });
+      await drawn(page);
+      await page.addScriptTag({ path: join(PAGE_MODULES, "axe-core/axe.min.js") });
+      const violations = async () => {
+        const { violations: found } = await page.evaluate(() => axe.run({ runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"] }));
+        return found.map(({ id, nodes }) => `${id}: ${nodes.map(({ html, failureSummary }) => html + failureSummary).join("; ")}`);
+      };
+      assert.deepEqual(await violations(), [], colorScheme);
+      // The list by arrows, the inspector's values by tab and enter.
+      await page.keyboard.press("/");
+      await page.keyboard.type("fb_3");
+      await page.focus("[role=listbox]");
+      await page.keyboard.press("ArrowDown");
+      await until(page, () => document.querySelector(".right .plot-button"));
+      const plots = await page.locator(".plot").count();
+      await page.focus(".plot-button >> nth=0");
+      await page.keyboard.press("Enter");
+      assert.equal(await page.locator(".plot").count(), plots + 1);
+      await until(page, () => document.querySelector(".right").textContent.includes("Sensor"));
+      await page.keyboard.press("g");
+      assert.deepEqual(await violations(), [], `${colorScheme}, with a card and the log`);
+      await page.keyboard.press("F1");
+      assert.deepEqual(await violations(), [], `${colorScheme}, help`);
+      await page.close();
+    }
+  },
+
+  async "on a phone list and inspector open over the picture and close again"() {
+    run("diffusion_10", "--real-time", 2, "--ticks", 100000);
+    const { url } = await attach("--allow-control");
+    const page = await open(url, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+    await drawn(page);
+    // Nothing is wider than the screen, and a finger hits each button.
+    assert.ok((await read(page, () => document.documentElement.scrollWidth)) <= 390);
+    for (const box of await read(page, () => [...document.querySelectorAll("header button")].map((button) => button.getBoundingClientRect().toJSON())))
+      assert.ok(box.width >= 36 && box.height >= 32 && box.right <= 390, JSON.stringify(box));
+    const { height } = await page.locator("main").boundingBox();
+    assert.ok(height > 0.7 * 844, `the picture has ${height} pixels`);
+    assert.ok(await page.isHidden(".left"));
+    await page.tap(".list-button");
+    await page.waitForSelector(".left", { state: "visible" });
+    await page.tap(".row >> nth=3");
+    await page.waitForSelector(".right", { state: "visible" });
+    await page.tap(".list-button");
+    await page.waitForSelector(".left", { state: "hidden" });
+    // The robot is still to be seen above its card.
+    assert.ok((await page.locator(".right").boundingBox()).height < 0.5 * 844);
+    await page.tap(".right .close");
+    await page.waitForSelector(".right", { state: "hidden" });
+    await page.tap("header .controls button >> nth=0");
+    await until(page, () => swarmanoid.phase === "paused");
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "the quality follows the pace of the pictures, or the wish"() {
+    run("diffusion_10", "--real-time", 2, "--ticks", 100000);
+    const { url } = await attach();
+    const page = await open(url, { quality: "auto", viewport: { width: 1280, height: 800 } });
+    await drawn(page);
+    // The browser of this test draws in software.
+    assert.ok(["low", "least"].includes(await read(page, () => swarmanoid.quality)));
+    const size = () => [document.querySelector("main canvas").width, document.querySelector("main").clientWidth];
+    for (const [quality, ratio] of [["high", 1], ["least", 0.5], ["medium", 1], ["low", 1]]) {
+      await page.selectOption(".quality", quality);
+      assert.equal(await read(page, () => swarmanoid.quality), quality);
+      const [pixels, width] = await read(page, size);
+      assert.ok(Math.abs(pixels - ratio * width) <= 1, `${quality}: ${pixels} of ${width}`);
+      const before = await read(page, () => swarmanoid.drawn);
+      await until(page, (count) => swarmanoid.drawn > count + 2, before);
+      const counts = await read(page, () => swarmanoid.instances()[0].drawn);
+      assert.equal(counts.reduce((a, b) => a + b), 10, quality);
+    }
+    assert.deepEqual(page.complaints, []);
   },
 
   async "ten thousand robots are drawn and found"() {

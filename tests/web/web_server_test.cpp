@@ -67,6 +67,34 @@ TEST_F(WebServerTest, FilesAreServedWithTheirTypesAndNothingElseIs)
     EXPECT_EQ(Connect().Get(path).result_int(), 404u) << path;
 }
 
+TEST_F(WebServerTest, FilesAreSentCompressedAndOnlyIfTheyHaveChanged)
+{
+  files_.Add("/main.js", "text/javascript; charset=utf-8", "let x;", std::make_shared<const std::string>("compressed"));
+  Start();
+  const std::string head = "GET /main.js HTTP/1.1\r\nHost: localhost\r\n";
+  const auto plain = Connect().Ask(head + "\r\n");
+  EXPECT_EQ(plain.body(), "let x;");
+  EXPECT_EQ(plain.count("Content-Encoding"), 0u);
+  EXPECT_EQ(plain["Vary"], "Accept-Encoding");
+  for (const char* wish : {"gzip", "deflate, GZIP;q=0.5", "br, gzip"})
+  {
+    const auto compressed = Connect().Ask(head + "Accept-Encoding: " + wish + "\r\n\r\n");
+    EXPECT_EQ(compressed.body(), "compressed") << wish;
+    EXPECT_EQ(compressed["Content-Encoding"], "gzip");
+    EXPECT_EQ(compressed["Content-Type"], "text/javascript; charset=utf-8");
+  }
+  for (const char* wish : {"br", "gzip;q=0", "gzipped", ""})
+    EXPECT_EQ(Connect().Ask(head + "Accept-Encoding: " + wish + "\r\n\r\n").body(), "let x;") << wish;
+  const std::string tag(plain["ETag"]);
+  const auto kept = Connect().Ask(head + "If-None-Match: " + tag + "\r\n\r\n");
+  EXPECT_EQ(kept.result_int(), 304u);
+  EXPECT_EQ(kept.body(), "");
+  EXPECT_EQ(kept["ETag"], tag);
+  EXPECT_EQ(Connect().Ask(head + "If-None-Match: \"other\"\r\n\r\n").result_int(), 200u);
+  files_.Add("/main.js", "text/javascript; charset=utf-8", "let y;");
+  EXPECT_NE(files_.Find("/main.js")->tag, tag);
+}
+
 TEST_F(WebServerTest, OddRequestsAreRefused)
 {
   Start();

@@ -1,8 +1,10 @@
 #include "visualiser/web/page_files.h"
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <stdexcept>
 
@@ -23,6 +25,12 @@ std::string TypeOf(const std::filesystem::path& path)
   return found == types.end() ? "application/octet-stream" : found->second;
 }
 
+std::string BytesOf(const std::filesystem::path& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
 }  // namespace
 
 PageFiles::PageFiles(const std::filesystem::path& folder)
@@ -30,19 +38,22 @@ PageFiles::PageFiles(const std::filesystem::path& folder)
   std::error_code error;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error))
   {
-    if (!entry.is_regular_file()) continue;
-    std::ifstream file(entry.path(), std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    Add("/" + entry.path().lexically_relative(folder).generic_string(), TypeOf(entry.path()), std::move(bytes));
+    if (!entry.is_regular_file() || entry.path().extension() == ".gz") continue;
+    const std::filesystem::path compressed = entry.path().string() + ".gz";
+    PageFile::Bytes gzipped;
+    if (std::filesystem::exists(compressed)) gzipped = std::make_shared<const std::string>(BytesOf(compressed));
+    Add("/" + entry.path().lexically_relative(folder).generic_string(), TypeOf(entry.path()), BytesOf(entry.path()),
+        std::move(gzipped));
   }
   if (Find("/") == nullptr)
     throw std::runtime_error("web_render: the page is not in '" + folder.string() +
                              "'; install the packages nodejs and npm and build again");
 }
 
-void PageFiles::Add(const std::string& path, const std::string& type, std::string bytes)
+void PageFiles::Add(const std::string& path, const std::string& type, std::string bytes, PageFile::Bytes gzipped)
 {
-  files_[path] = {type, std::make_shared<const std::string>(std::move(bytes))};
+  std::string tag = fmt::format("\"{:016x}\"", std::hash<std::string>()(bytes));
+  files_[path] = {type, std::move(tag), std::make_shared<const std::string>(std::move(bytes)), std::move(gzipped)};
 }
 
 const PageFile* PageFiles::Find(std::string_view path) const

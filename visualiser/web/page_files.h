@@ -12,18 +12,23 @@ namespace swarmanoid
 
 struct PageFile
 {
+  using Bytes = std::shared_ptr<const std::string>;
+
   std::string type;  // content type
-  std::shared_ptr<const std::string> bytes;
+  std::string tag;   // of these bytes and no others, for ETag
+  Bytes bytes;
+  Bytes gzipped;  // the same, compressed; none if it is not worth it
 };
 
 class PageFiles
 {
 public:
   PageFiles() = default;
-  // Reads all files of a folder and its subfolders. Throws std::runtime_error if there is no index.html.
+  // Reads all files of a folder and its subfolders; FILE.gz is FILE compressed. Throws std::runtime_error if there is
+  // no index.html.
   explicit PageFiles(const std::filesystem::path& folder);
 
-  void Add(const std::string& path, const std::string& type, std::string bytes);
+  void Add(const std::string& path, const std::string& type, std::string bytes, PageFile::Bytes gzipped = {});
   // "/" is "/index.html". nullptr if there is none.
   const PageFile* Find(std::string_view path) const;
 

@@ -1,6 +1,8 @@
 // One connection to a WebServer: it asks for files, until it becomes a client. In the server's thread.
 #pragma once
 
+#include <algorithm>
+#include <boost/beast/http.hpp>
 #include <optional>
 
 #include "visualiser/web/web_client.h"
@@ -49,7 +51,19 @@ private:
       return Refuse(http::status::method_not_allowed, "only GET and HEAD are answered");
     const PageFile* file = server_.files_.Find(PathOf(target));
     if (file == nullptr) return Refuse(http::status::not_found, "there is no such file");
-    Respond(http::status::ok, file->type, file->bytes);
+    // The page asks each time whether it has changed, and keeps what it has if not.
+    if (Field(http::field::if_none_match) == file->tag) return Respond(http::status::not_modified, *file, {});
+    const bool gzipped = file->gzipped && TakesGzip(Field(http::field::accept_encoding));
+    Respond(http::status::ok, *file, gzipped ? file->gzipped : file->bytes);
+  }
+
+  static bool TakesGzip(std::string_view encodings)
+  {
+    for (const auto& [encoding, parameters] : http::ext_list({encodings.data(), encodings.size()}))
+      if (boost::beast::iequals(encoding, "gzip"))
+        return std::none_of(parameters.begin(), parameters.end(),
+                            [](const auto& parameter) { return parameter.first == "q" && parameter.second == "0"; });
+    return false;
   }
 
   void Upgrade(std::string_view target)
@@ -66,18 +80,24 @@ private:
 
   void Refuse(http::status status, std::string_view why)
   {
-    Respond(status, "text/plain; charset=utf-8", std::make_shared<const std::string>(std::string(why) + "\n"));
+    const PageFile text{
+        "text/plain; charset=utf-8", "", std::make_shared<const std::string>(std::string(why) + "\n"), {}};
+    Respond(status, text, text.bytes);
   }
 
-  void Respond(http::status status, const std::string& type, std::shared_ptr<const std::string> bytes)
+  // bytes: those of the file, compressed or not, or none.
+  void Respond(http::status status, const PageFile& file, PageFile::Bytes bytes)
   {
     const auto& request = parser_->get();
     bytes_ = std::move(bytes);
     response_ = {};
     response_.version(11);
     response_.result(status);
-    response_.set(http::field::content_type, type);
+    response_.set(http::field::content_type, file.type);
     response_.set(http::field::cache_control, "no-cache");
+    if (!file.tag.empty()) response_.set(http::field::etag, file.tag);
+    if (file.gzipped) response_.set(http::field::vary, "Accept-Encoding");
+    if (bytes && bytes == file.gzipped) response_.set(http::field::content_encoding, "gzip");
     response_.set("X-Content-Type-Options", "nosniff");
     response_.set("X-Frame-Options", "DENY");
     response_.set("Referrer-Policy", "no-referrer");
@@ -85,10 +105,10 @@ private:
                   "default-src 'self'; img-src 'self' data: blob:; connect-src 'self' ws://" +
                       std::string(IsKnownHost(Field(http::field::host)) ? Field(http::field::host) : "localhost") +
                       "; frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
-    response_.content_length(bytes_->size());
-    const bool keep = status == http::status::ok && request.keep_alive();
+    if (bytes_) response_.content_length(bytes_->size());
+    const bool keep = (status == http::status::ok || status == http::status::not_modified) && request.keep_alive();
     response_.keep_alive(keep);
-    if (request.method() != http::verb::head)
+    if (bytes_ && request.method() != http::verb::head)
     {
       response_.body().data = const_cast<char*>(bytes_->data());  // a buffer body only reads what it sends
       response_.body().size = bytes_->size();

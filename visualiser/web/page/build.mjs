@@ -3,6 +3,7 @@ import { cpSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
 
 const page = dirname(fileURLToPath(import.meta.url));
 const [modules, output] = process.argv.slice(2).map((path) => resolve(path));
@@ -20,6 +21,10 @@ await build({
   legalComments: "none",
   logLevel: "warning",
 });
+for (const name of ["main.js", "style.css"]) {
+  const file = join(output, name);
+  writeFileSync(`${file}.gz`, gzipSync(readFileSync(file), { level: 9 }));
+}
 const licence = readFileSync(join(modules, "three/LICENSE"), "utf8");
 writeFileSync(join(output, "licences.txt"), `This page contains three.js (https://threejs.org).\n\n${licence}`);
 // Last: it tells the build that all is there.

@@ -8,15 +8,17 @@ import { LogPanel } from "./ui/log.js";
 import { Processes } from "./ui/processes.js";
 import { Toolbar } from "./ui/toolbar.js";
 import { h, setText } from "./ui/dom.js";
+import { qualities } from "./view/quality.js";
 import { View } from "./view/view.js";
 import { World } from "./world.js";
 
 const HIDDEN_PERIOD_MS = 1000; // between frames while nobody sees the page
-const quality = new URLSearchParams(location.search).get("quality") === "low" ? "low" : "high";
+const asked = new URLSearchParams(location.search).get("quality");
+const quality = Object.hasOwn(qualities, asked ?? "") ? asked : "auto";
 
 const state = { world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0 };
 
-const toolbar = new Toolbar({ command, toggle, help: () => help.toggle(), top: () => frameArena("top"), fit: () => frameArena() });
+const toolbar = new Toolbar({ command, toggle, help: () => help.toggle(), top: () => frameArena("top"), fit: () => frameArena(), quality: (name) => view.setQuality(name), list: () => togglePanel() });
 const list = new EntityList({ select, approach });
 const inspector = new Inspector({ watch, follow, deselect: () => select(null) });
 const log = new LogPanel();
@@ -25,9 +27,12 @@ const help = new Help();
 const banner = h("div.banner", { role: "status" });
 const picture = h("main", {}, banner);
 list.element.append(processes.element);
-document.getElementById("app").append(toolbar.element, list.element, picture, inspector.element, log.element, help.element);
+const app = document.getElementById("app");
+app.append(toolbar.element, list.element, picture, inspector.element, log.element, help.element);
 const meshes = await (await fetch("meshes.json")).json();
 const view = new View(picture, quality, meshes, { select, approach, move, mayMove: () => state.control === "granted" });
+view.onQuality = () => toolbar.setQuality(view.wanted, view.qualityName);
+view.onQuality();
 
 const connection = new Connection({
   onOpen() {
@@ -120,6 +125,7 @@ function select(entity) {
 }
 
 function approach(entity) {
+  togglePanel(false);
   select(entity);
   view.approach(entity);
 }
@@ -152,26 +158,49 @@ function frameArena(how) {
   view.stage.frameArena(state.world.arena, how);
 }
 
+// The picture as it is drawn, as a PNG.
+function savePicture() {
+  view.stage.draw();
+  view.stage.renderer.domElement.toBlob((blob) => {
+    const link = h("a", { href: URL.createObjectURL(blob), download: `${state.world.experiment}_${state.frame?.tick ?? 0}.png` });
+    link.click();
+    URL.revokeObjectURL(link.href);
+  });
+}
+
+// On a narrow screen the list of entities covers the picture only while it is wanted.
+function togglePanel(open = !app.classList.contains("list-open")) {
+  app.classList.toggle("list-open", open);
+  toolbar.setList(open);
+}
+
 function changeSpeed(step) {
   const { speed } = toolbar;
   const place = Math.max(0, Math.min(speed.options.length - 1, speed.selectedIndex + step));
   command({ do: "speed", factor: Number(speed.options[place].value) });
 }
 
+const steps = (ticks) => command({ do: "step", ticks });
+
+// As in the windows, where they have the same function.
 const keys = {
   " ": () => toolbar.pause.click(),
-  ".": () => toolbar.step.click(),
+  n: () => steps(1),
+  N: () => steps(10),
   "+": () => changeSpeed(1),
   "-": () => changeSpeed(-1),
   f: () => state.selected !== null && follow(state.selected),
-  p: () => inspector.togglePin(),
+  k: () => inspector.togglePin(),
   i: () => toggle("ids"),
-  t: () => toggle("trails"),
+  l: () => toggle("trails"),
   b: () => toggle("beams"),
   s: () => toggle("shadows"),
-  r: () => frameArena(),
-  v: () => frameArena("top"),
-  l: () => log.toggle(),
+  p: () => savePicture(),
+  Home: () => frameArena(),
+  End: () => frameArena("top"),
+  F1: () => help.toggle(),
+  F3: () => togglePanel(),
+  g: () => log.toggle(),
   "?": () => help.toggle(),
   "/": () => list.filter.focus(),
   Escape: () => (help.element.hidden ? select(null) : help.toggle(false)),
@@ -180,7 +209,7 @@ window.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.altKey || event.metaKey) return;
   if (event.key === "Escape") document.activeElement?.blur();
   else if (["INPUT", "SELECT"].includes(event.target.tagName)) return;
-  const act = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+  const act = keys[event.key] ?? keys[event.key.toLowerCase()];
   if (!act || !state.world) return;
   event.preventDefault();
   act();
@@ -195,7 +224,7 @@ document.addEventListener("visibilitychange", sendVisibility);
 
 function drawNext(now) {
   requestAnimationFrame(drawNext);
-  if (view.draw(now)) state.drawn++;
+  if (view.draw(now) && state.drawn++ === 0) state.firstPicture = performance.now();
   inspector.draw();
 }
 requestAnimationFrame(drawNext);
@@ -230,6 +259,13 @@ window.swarmanoid = {
   },
   get drawn() {
     return state.drawn;
+  },
+  // Milliseconds from the request of the page.
+  get firstPicture() {
+    return state.firstPicture ?? null;
+  },
+  get quality() {
+    return view.qualityName;
   },
   get selected() {
     return state.selected === null ? null : state.world.ids[state.selected];

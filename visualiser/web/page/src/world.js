@@ -68,7 +68,6 @@ export class Motion {
     this.previous = null;
     this.arrived = 0;
     this.interval = 33;
-    this.smooth = true;
   }
 
   add(frame, now) {
@@ -84,7 +83,7 @@ export class Motion {
   sample(now) {
     const { frame, previous } = this;
     if (!frame || this.settled) return false;
-    const blend = this.smooth && previous ? Math.min(1, (now - this.arrived) / Math.max(this.interval, 1)) : 1;
+    const blend = previous ? Math.min(1, (now - this.arrived) / Math.max(this.interval, 1)) : 1;
     this.settled = blend >= 1;
     const scale = 1 / 32767;
     if (blend >= 1) {

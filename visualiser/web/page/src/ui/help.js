@@ -8,21 +8,24 @@ const KEYS = [
   ["click", "select"],
   ["double click", "select and go there"],
   ["shift + drag a robot", "move it (with control)"],
-  ["F", "follow what is selected"],
-  ["P", "pin what is selected"],
+  ["F", "follow the selected one"],
+  ["K", "keep its card"],
   ["Esc", "select nothing"],
   ["/", "filter the list"],
   ["space", "pause, go on (with control)"],
-  [".", "one tick (with control)"],
+  ["N", "one tick (with control)"],
+  ["shift + N", "ten ticks (with control)"],
   ["+  −", "faster, slower (with control)"],
   ["I", "ids"],
-  ["T", "trails"],
+  ["L", "trails"],
   ["B", "laser beams and grips"],
   ["S", "shadows"],
-  ["R", "the whole arena"],
-  ["V", "from above"],
-  ["L", "log"],
-  ["?", "these keys"],
+  ["P", "save the picture (PNG)"],
+  ["Home", "the whole arena"],
+  ["End", "the arena from above"],
+  ["G", "log"],
+  ["F3", "list of entities, on a narrow screen"],
+  ["F1 or ?", "these keys"],
 ];
 
 export class Help {
@@ -30,12 +33,13 @@ export class Help {
     this.element = h(
       "div.help",
       { role: "dialog", "aria-label": "Keys", onclick: () => this.toggle(false) },
-      h("div.sheet", {}, h("h2", {}, "Keys"), h("dl", {}, ...KEYS.flatMap(([key, what]) => [h("dt", {}, key), h("dd", {}, what)]))),
+      (this.sheet = h("div.sheet", { tabindex: "0" }, h("h2", {}, "Keys"), h("dl", {}, ...KEYS.flatMap(([key, what]) => [h("dt", {}, key), h("dd", {}, what)])))),
     );
     this.element.hidden = true;
   }
 
   toggle(on = this.element.hidden) {
     this.element.hidden = !on;
+    if (on) this.sheet.focus();
   }
 }

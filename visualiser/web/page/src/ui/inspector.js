@@ -18,8 +18,9 @@ class Row {
     this.element = h("tr", {}, h("th", {}, name), this.value);
     if (unit !== null) {
       this.element.className = "plottable";
-      this.element.title = "Plot";
       this.element.addEventListener("click", () => card.togglePlot(key, `${name}`, unit));
+      // The row takes clicks, its name the keyboard.
+      this.element.firstChild.replaceChildren(h("button.plot-button", { title: "Plot", "aria-label": `Plot ${name}` }, name));
     }
   }
   text(text) {
@@ -49,7 +50,7 @@ class Bars {
     this.unit = unit;
     this.names = names;
     this.bars = names.map((name) => {
-      const bar = h("i", { onclick: () => card.togglePlot(`${key}.${name}`, name, unit) }, h("b"));
+      const bar = h("button.bar-button", { "aria-label": `Plot ${name}`, onclick: () => card.togglePlot(`${key}.${name}`, name, unit) }, h("b"));
       card.rows.set(`${key}.${name}`, { element: bar });
       return bar;
     });
@@ -75,7 +76,7 @@ class Card {
     this.sections = new Map();
     this.plotArea = h("div.plots");
     this.state = h("div.state");
-    this.pin = h("button.small", { title: "Keep this card  (P)", onclick: () => panel.togglePin(this) }, "Pin");
+    this.pin = h("button.small", { title: "Keep this card  (K)", onclick: () => panel.togglePin(this) }, "Pin");
     this.follow = h("button.small", { title: "Follow  (F)", onclick: () => panel.actions.follow(entity) }, "Follow");
     this.element = h(
       "section.card",
@@ -218,7 +219,7 @@ export class Inspector {
     this.actions = actions;
     this.cards = []; // the pinned ones, then the selected one
     this.selected = null;
-    this.element = h("aside.right");
+    this.element = h("aside.right", { "aria-label": "Inspector" });
     this.element.hidden = true;
   }
 

@@ -39,7 +39,7 @@ export class EntityList {
     this.spacer = h("div.spacer", {}, this.rows);
     this.scroll = h("div.scroll", { tabindex: "0", role: "listbox", "aria-label": "Entities", onscroll: () => this.render() }, this.spacer);
     this.scroll.addEventListener("keydown", (event) => this.key(event));
-    this.element = h("aside.left", {}, h("div.head", {}, h("h2", {}, "Entities"), this.count), this.filter, this.scroll);
+    this.element = h("aside.left", { "aria-label": "Entities" }, h("div.head", {}, h("h2", {}, "Entities"), this.count), this.filter, this.scroll);
     this.shown = [];
     this.pool = [];
     this.selected = null;

@@ -1,19 +1,20 @@
 // The bar at the top: the experiment, its clock and pace, the controls, what is shown.
+import { qualities } from "../view/quality.js";
 import { clockText, h, icon, setText } from "./dom.js";
 
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 10, 50, 0];
 
 export class Toolbar {
-  // actions: command(request), toggle(name), help(), top(), fit()
+  // actions: command(request), toggle(name), help(), top(), fit(), quality(name), list()
   constructor(actions) {
     this.actions = actions;
     this.name = h("span.name", {}, "Swarmanoid");
     this.phase = h("span.pill", { role: "status" }, "connecting");
     this.clock = h("span.number", { title: "Simulated time" });
     this.tick = h("span.number.dim", { title: "Tick of the picture" });
-    this.pace = h("span.number.dim", { title: "Simulated seconds in a second" });
+    this.pace = h("span.number.dim.pace", { title: "Simulated seconds in a second" });
     this.pause = h("button.icon", { onclick: () => actions.command({ do: this.isPaused ? "resume" : "pause" }) }, icon("pause"));
-    this.step = h("button.icon", { title: "One tick  (.)", onclick: () => actions.command({ do: "step", ticks: 1 }) }, icon("step"));
+    this.step = h("button.icon", { title: "One tick  (N)", "aria-label": "One tick", onclick: () => actions.command({ do: "step", ticks: 1 }) }, icon("step"));
     this.speed = h(
       "select",
       { title: "Speed", "aria-label": "Speed", onchange: () => actions.command({ do: "speed", factor: Number(this.speed.value) }) },
@@ -23,6 +24,7 @@ export class Toolbar {
       "button.icon",
       {
         title: "End the run",
+        "aria-label": "End the run",
         onclick: () => confirm("End the run? Its last state stays.") && actions.command({ do: "stop" }),
       },
       icon("stop"),
@@ -34,10 +36,16 @@ export class Toolbar {
       this.toggles[name] = button;
       return button;
     };
+    this.list = h("button.list-button", { title: "Entities  (F3)", "aria-label": "Entities", "aria-expanded": "false", onclick: () => actions.list() }, "☰");
+    this.quality = h(
+      "select.quality",
+      { "aria-label": "Quality of the picture", onchange: () => actions.quality(this.quality.value) },
+      ...["auto", ...Object.keys(qualities)].map((name) => h("option", { value: name }, name)),
+    );
     this.element = h(
       "header",
       {},
-      h("div.group.title", {}, h("img.logo", { src: "favicon.svg", alt: "" }), this.name, this.phase),
+      h("div.group.title", {}, this.list, h("img.logo", { src: "favicon.svg", alt: "" }), this.name, this.phase),
       h("div.group", {}, this.clock, this.tick, this.pace),
       h("div.group.controls", {}, this.pause, this.step, this.speed, this.stop, this.lock),
       h("div.space"),
@@ -45,15 +53,28 @@ export class Toolbar {
         "div.group",
         {},
         toggle("ids", "Ids", "i"),
-        toggle("trails", "Trails", "t"),
+        toggle("trails", "Trails", "l"),
         toggle("beams", "Beams", "b"),
         toggle("shadows", "Shadows", "s"),
-        h("button.toggle", { title: "From above  (V)", onclick: () => actions.top() }, "Top"),
-        h("button.toggle", { title: "The whole arena  (R)", onclick: () => actions.fit() }, "Fit"),
-        h("button.toggle", { title: "Keys  (?)", onclick: () => actions.help() }, "?"),
+        this.quality,
+        h("button.toggle", { title: "From above  (End)", onclick: () => actions.top() }, "Top"),
+        h("button.toggle", { title: "The whole arena  (Home)", onclick: () => actions.fit() }, "Fit"),
+        h("button.toggle", { title: "Keys  (F1)", "aria-label": "Keys", onclick: () => actions.help() }, "?"),
       ),
     );
     this.setControl("read-only");
+  }
+
+  setList(open) {
+    this.list.setAttribute("aria-expanded", String(open));
+  }
+
+  // wanted: what was chosen; chosen: what is drawn
+  setQuality(wanted, chosen) {
+    this.quality.value = wanted;
+    const [auto] = this.quality.options;
+    setText(auto, wanted === "auto" ? `auto: ${chosen}` : "auto");
+    this.quality.title = "Quality of the picture; auto follows the speed of this machine";
   }
 
   setToggle(name, on) {
@@ -94,6 +115,7 @@ export class Toolbar {
     if (this.pause.dataset.shape !== shape) this.pause.replaceChildren(icon(shape));
     this.pause.dataset.shape = shape;
     this.pause.title = this.isPaused ? "Go on  (space)" : "Pause  (space)";
+    this.pause.setAttribute("aria-label", this.isPaused ? "Go on" : "Pause");
     if (!status) return;
     const factor = status.real_time_factor;
     setText(this.pace, factor > 0 ? `${factor >= 100 ? factor.toFixed(0) : factor.toPrecision(2)}× real time` : "");

@@ -11,6 +11,15 @@ function gridStep(extent) {
   return 100;
 }
 
+// Without a texture: to fill a picture with one costs a processor more than all that stands on it.
+function gridLines(width, depth, step, colour) {
+  const points = [];
+  for (let x = step; x < width; x += step) points.push(x, 0, FLAT_M / 2, x, depth, FLAT_M / 2);
+  for (let y = step; y < depth; y += step) points.push(0, y, FLAT_M / 2, width, y, FLAT_M / 2);
+  const geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
+  return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: colour }));
+}
+
 function floorTexture(theme, cells) {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = 256;
@@ -32,13 +41,13 @@ export class Arena {
   constructor(scene, world, theme, quality) {
     this.world = world;
     this.group = new THREE.Group();
-    this.Material = quality === "low" ? THREE.MeshLambertMaterial : THREE.MeshStandardMaterial;
-    this.finish = quality === "low" ? {} : { roughness: 0.85, metalness: 0 };
+    this.Material = quality.lit ? THREE.MeshStandardMaterial : THREE.MeshLambertMaterial;
+    this.finish = quality.lit ? { roughness: 0.85, metalness: 0 } : {};
     this.objects = new Map(); // entity to what bears its colour
     this.moving = []; // those that movable entities have
     this.walls = []; // at the edge of the arena
     scene.add(this.group);
-    this.addFloor(theme);
+    this.addFloor(theme, quality);
     let layer = 1;
     for (const body of world.bodies) {
       const slot = world.slots[body.entity];
@@ -74,11 +83,15 @@ export class Arena {
     }
   }
 
-  addFloor(theme) {
+  addFloor(theme, quality) {
     const [width, depth] = this.world.arena;
     const step = gridStep(Math.max(width, depth));
-    const texture = floorTexture(theme, [width / step, depth / step]);
-    const floor = new THREE.Mesh(new THREE.PlaneGeometry(width, depth), new this.Material({ map: texture, ...this.finish }));
+    const look = quality.plain ? null : { map: floorTexture(theme, [width / step, depth / step]) };
+    const floor = new THREE.Mesh(
+      new THREE.PlaneGeometry(width, depth),
+      look ? new this.Material({ ...look, ...this.finish }) : new THREE.MeshBasicMaterial({ color: theme.floor }),
+    );
+    if (!look) this.group.add(gridLines(width, depth, step, theme.line));
     floor.position.set(width / 2, depth / 2, 0);
     floor.receiveShadow = true;
     const rim = new THREE.LineLoop(

@@ -1,5 +1,5 @@
 // The bodies of the robots: the models that all renderers share (meshes.json), put together for instancing. Three levels of
-// detail and, for those that are a few pixels wide, a plain cylinder. Metres, base at z = 0, front along x.
+// detail and, for those that are a few pixels wide, a plain cylinder and a disc. Metres, base at z = 0, front along x.
 //
 // Of each level: `body` with colours at its vertices, `leds` whose attribute `led` is the number of each, and `clear` for
 // what is seen through.
@@ -10,6 +10,7 @@ export const BEACON = 17;
 const BEACON_LIGHT = 16; // in meshes.json
 // A level is drawn if the robot is at least so many pixels wide.
 const PIXELS = [70, 14, 7];
+const DOT_PIXELS = 5;
 
 // For picking, labels and the choice of the level.
 const extents = {
@@ -95,12 +96,36 @@ function buildDot({ radius, height }) {
   }
   const z = height * 1.02;
   for (const point of [[0, -radius / 3, z], [radius * 1.15, 0, z], [0, radius / 3, z]]) body.add(point, [0, 0, 1], nose, null);
-  return { body: body.build(), leds: leds.build(), clear: null, pixels: 0 };
+  return { body: body.build(), leds: leds.build(), clear: null, pixels: DOT_PIXELS };
+}
+
+// The cheapest: seventeen vertices.
+function buildDisc({ radius, height }) {
+  const sides = 6;
+  const fan = (r, z) => [[0, 0, z], ...Array.from({ length: sides }, (_, i) => [r * Math.cos((2 * Math.PI * i) / sides), r * Math.sin((2 * Math.PI * i) / sides), z])];
+  const fanIndices = Array.from({ length: sides }, (_, i) => [0, i + 1, ((i + 1) % sides) + 1]).flat();
+  const flat = (points, indices, name, values, size) => {
+    const geometry = new THREE.BufferGeometry().setIndex(indices);
+    geometry.setAttribute("position", new THREE.Float32BufferAttribute(points.flat(), 3));
+    geometry.setAttribute("normal", new THREE.Float32BufferAttribute(points.flatMap(() => [0, 0, 1]), 3));
+    return geometry.setAttribute(name, new THREE.Float32BufferAttribute(values, size));
+  };
+  const z = height * 1.02;
+  const nose = [[0, -radius / 3, z], [radius * 1.15, 0, z], [0, radius / 3, z]];
+  const body = [...fan(radius, height * 0.9), ...nose];
+  const colour = (hex) => new THREE.Color(hex).toArray();
+  const colours = body.flatMap((_, i) => colour(i <= sides ? 0x59626d : 0xf08a3c));
+  return {
+    body: flat(body, [...fanIndices, ...[1, 2, 3].map((i) => sides + i)], "color", colours, 3),
+    leds: flat(fan(radius * 0.8, height), fanIndices, "led", Array(sides + 1).fill(MEAN_LED), 1),
+    clear: null,
+    pixels: 0,
+  };
 }
 
 // By kind, nearest first. Those of users come with the world.
 export function makeModels(meshes, looks) {
-  const levels = (models, parts, extent, tint) => [...PIXELS.map((_, level) => buildLevel(models, parts, level, tint)), buildDot(extent)];
+  const levels = (models, parts, extent, tint) => [...PIXELS.map((_, level) => buildLevel(models, parts, level, tint)), buildDot(extent), buildDisc(extent)];
   const own = Object.entries(meshes.robots).map(([kind, parts]) => [kind, levels(meshes, parts, extents[kind])]);
   const users = Object.entries(looks)
     .filter(([, look]) => look.model)

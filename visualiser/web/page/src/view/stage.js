@@ -9,13 +9,12 @@ const themesOf = (palette) => ({
 });
 
 export class Stage {
-  constructor(container, quality, palette) {
+  // smoothEdges stays as it is; all else follows the quality.
+  constructor(container, smoothEdges, quality, palette) {
     this.themes = themesOf(palette);
     this.container = container;
-    this.quality = quality;
-    this.renderer = new THREE.WebGLRenderer({ antialias: quality !== "low", powerPreference: "high-performance" });
-    this.renderer.setPixelRatio(quality === "low" ? 1 : Math.min(window.devicePixelRatio, 2));
-    this.renderer.shadowMap.enabled = quality !== "low";
+    this.renderer = new THREE.WebGLRenderer({ antialias: smoothEdges, powerPreference: "high-performance" });
+    this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     container.append(this.renderer.domElement);
     this.scene = new THREE.Scene();
@@ -44,7 +43,12 @@ export class Stage {
     dark.addEventListener("change", () => this.applyTheme(dark.matches));
     this.applyTheme(dark.matches);
     this.home = null;
+    this.setQuality(quality);
     new ResizeObserver(() => this.resize()).observe(container);
+  }
+
+  setQuality({ ratio }) {
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, ratio));
     this.resize();
   }
 

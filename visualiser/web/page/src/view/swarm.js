@@ -1,4 +1,4 @@
-// All that moves, drawn by instancing: robots at four levels of detail, chosen by their size on the screen, preys and
+// All that moves, drawn by instancing: robots at five levels of detail, chosen by their size on the screen, preys and
 // blocks. One place of every instance array is one place of the frame.
 import * as THREE from "three";
 import { extentOf, makeModels, paint } from "./models.js";
@@ -92,15 +92,15 @@ function softDisc(colour) {
 }
 
 export class Swarm {
-  // quality: "high" or "low"
+  // quality: one of quality.js
   constructor(scene, world, quality, meshes) {
     this.world = world;
     this.quality = quality;
     this.group = new THREE.Group();
     scene.add(this.group);
     this.leds = new LedTexture(world.movable.length);
-    const Material = quality === "low" ? THREE.MeshLambertMaterial : THREE.MeshStandardMaterial;
-    const finish = quality === "low" ? {} : { roughness: 0.62, metalness: 0.08 };
+    const Material = quality.lit ? THREE.MeshStandardMaterial : THREE.MeshLambertMaterial;
+    const finish = quality.lit ? { roughness: 0.62, metalness: 0.08 } : {};
     const materials = {
       body: new Material({ vertexColors: true, ...finish }),
       leds: ledMaterial(this.leds.texture),
@@ -112,7 +112,7 @@ export class Swarm {
     for (const kind of Object.keys(models)) {
       const slots = world.robots.filter((entity) => world.kinds[entity] === kind).map((entity) => world.slots[entity]);
       if (slots.length === 0) continue;
-      const levels = quality === "low" ? models[kind].slice(1) : models[kind];
+      const levels = models[kind].slice(quality.finest);
       const layers = levels.map((level) => new Layer(this.group, level, materials, slots.length));
       this.herds.push({ slots, layers, diameter: 2 * extentOf(world, world.movable[slots[0]]).radius });
     }
@@ -183,7 +183,7 @@ export class Swarm {
 
   // Real shadows instead of the discs.
   set castsShadows(on) {
-    this.shadows.visible = !on;
+    this.shadows.visible = !on && !this.quality.plain;
     for (const { layers } of this.herds) for (const layer of layers) layer.body.castShadow = layer.body.receiveShadow = on;
   }
 
@@ -221,7 +221,7 @@ export class Swarm {
     const eye = camera.position;
     for (const { slots, layers, diameter } of this.herds) {
       for (const layer of layers) layer.count = 0;
-      const limits = layers.map((layer) => (layer.pixels > 0 ? ((diameter * pixelsPerRadian) / layer.pixels) ** 2 : Infinity));
+      const limits = layers.map((layer) => (layer.pixels > 0 ? ((diameter * pixelsPerRadian) / (layer.pixels * this.quality.coarser)) ** 2 : Infinity));
       const enlarge = LEAST_PIXELS / (diameter * pixelsPerRadian);
       for (const slot of slots) {
         if (!motion.isPresent(slot)) continue;

@@ -5,6 +5,7 @@ import { Arena } from "./arena.js";
 import { extentOf } from "./models.js";
 import { Beams, Grips, Labels, SelectionRing, Trails } from "./overlays.js";
 import { floorPoint, pick } from "./picking.js";
+import { Governor, drawsInSoftware, qualities } from "./quality.js";
 import { Stage } from "./stage.js";
 import { Swarm } from "./swarm.js";
 
@@ -14,12 +15,15 @@ const RING_PIXELS = 7; // least radius of the ring about the selected entity
 export class View {
   // actions: select(entity), approach(entity), move(entity, point)
   // meshes: the models that all renderers share
-  constructor(container, quality, meshes, actions) {
+  // wanted: one of quality.js, or "auto"
+  constructor(container, wanted, meshes, actions) {
     this.container = container;
     this.meshes = meshes;
-    this.quality = quality;
     this.actions = actions;
-    this.stage = new Stage(container, quality, meshes.palette);
+    const slow = drawsInSoftware();
+    this.governor = new Governor(slow ? "low" : "high");
+    this.wanted = wanted;
+    this.stage = new Stage(container, !slow && wanted !== "low" && wanted !== "least", this.quality, meshes.palette);
     this.stage.onTheme = () => this.rebuildArena();
     this.ring = new SelectionRing(this.stage.scene);
     this.shows = { ids: false, trails: false, beams: true, shadows: false };
@@ -29,23 +33,48 @@ export class View {
   }
 
   setWorld(world) {
-    this.swarm?.dispose();
     this.labels?.dispose();
     for (const overlay of [this.beams?.group, this.grips?.lines, this.trails?.lines]) overlay?.removeFromParent();
     const { scene } = this.stage;
     this.world = world;
     this.motion = new Motion(world.movable.length);
-    this.motion.smooth = this.quality !== "low";
-    this.swarm = new Swarm(scene, world, this.quality, this.meshes);
     this.beams = new Beams(scene, world);
     this.grips = new Grips(scene, world);
     this.trails = new Trails(scene, world);
     this.labels = new Labels(this.container, world);
     this.followed = null;
     this.rebuildArena();
-    this.show("shadows", this.quality !== "low" && world.robots.length <= SHADOWS_UP_TO);
+    this.rebuildSwarm();
     for (const name of ["ids", "trails", "beams"]) this.show(name, this.shows[name]);
     this.stage.frameArena(world.arena);
+  }
+
+  get qualityName() {
+    return this.wanted === "auto" ? this.governor.quality : this.wanted;
+  }
+  get quality() {
+    return qualities[this.qualityName];
+  }
+
+  // wanted: one of quality.js, or "auto"
+  setQuality(wanted) {
+    this.wanted = wanted;
+    this.applyQuality();
+  }
+
+  applyQuality() {
+    this.stage.setQuality(this.quality);
+    this.onQuality?.();
+    if (!this.world) return;
+    this.rebuildArena();
+    this.rebuildSwarm();
+  }
+
+  rebuildSwarm() {
+    this.swarm?.dispose();
+    this.swarm = new Swarm(this.stage.scene, this.world, this.quality, this.meshes);
+    if (this.motion.frame) this.swarm.updateColours(this.motion.frame);
+    this.show("shadows", this.quality.shadows && this.world.robots.length <= SHADOWS_UP_TO);
   }
 
   rebuildArena() {
@@ -71,7 +100,7 @@ export class View {
       this.grips.lines.visible &&= on;
     }
     if (name === "shadows") {
-      this.stage.castsShadows = on && this.quality !== "low";
+      this.stage.castsShadows = on && this.quality.shadows;
       this.swarm.castsShadows = this.stage.castsShadows;
     }
     if (this.motion) this.motion.settled = false;
@@ -116,6 +145,12 @@ export class View {
   // Called for every picture of the browser.
   draw(now) {
     if (!this.world) return false;
+    const drew = this.drawWhatChanged(now);
+    if (this.governor.observe(now, drew) && this.wanted === "auto") this.applyQuality();
+    return drew;
+  }
+
+  drawWhatChanged(now) {
     this.stage.controls.update();
     const moved = this.motion.sample(now);
     if (moved && this.followed !== null) {
