@@ -97,7 +97,7 @@ private:
     response_.set(http::field::cache_control, "no-cache");
     if (!file.tag.empty()) response_.set(http::field::etag, file.tag);
     if (file.gzipped) response_.set(http::field::vary, "Accept-Encoding");
-    if (bytes && bytes == file.gzipped) response_.set(http::field::content_encoding, "gzip");
+    if (bytes_ && bytes_ == file.gzipped) response_.set(http::field::content_encoding, "gzip");
     response_.set("X-Content-Type-Options", "nosniff");
     response_.set("X-Frame-Options", "DENY");
     response_.set("Referrer-Policy", "no-referrer");
