@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <random>
 
 #include "tests/web/four_entities.h"
 
@@ -37,14 +38,14 @@ TEST(WebFrame, ARobotTakesTwentyFourBytes)
     experiment.entities.push_back(FourEntities::Entity(EntityKind::kFootbot, "fb_" + std::to_string(i), {i * 0.1, 1, 0},
                                                        {0.085, 0.085, 0.147}, true));
   CSwarmanoidSpace space(experiment);
-  EXPECT_EQ(FrameWriter(space).Write().size(), sizeof(FrameHeader) + 24 * 1000);
+  EXPECT_EQ(FrameWriter(space).WriteKey().size(), sizeof(FrameHeader) + 24 * 1000);
 }
 
 TEST(WebFrame, WhoIsNotInTheArenaIsMarked)
 {
   FourEntities world;
   FrameWriter writer(world.space);
-  const auto flags = [&] { return writer.Write()[EndOf(3) - 4 * 3 + 4 * 1 + 3] & kAbsent; };
+  const auto flags = [&] { return writer.WriteKey()[EndOf(3) - 4 * 3 + 4 * 1 + 3] & kAbsent; };
   const std::uint32_t entity = world.space.Movable()[1];
   EXPECT_EQ(flags(), 0);
   world.space.SetAttribute(world.space.PresenceSlot(entity), 0);
@@ -59,7 +60,7 @@ TEST(WebFrame, PosesAreThoseOfTheMovableEntities)
   world.space.SetTick(7);
   const Quaternion turned = QuaternionFromYaw(2.5);
   world.space.SetPose(2, {{3.25, 0.5, 0.125}, turned});
-  const std::string bytes = FrameWriter(world.space).Write();
+  const std::string bytes = FrameWriter(world.space).WriteKey();
   const auto header = At<FrameHeader>(bytes, 0);
   EXPECT_EQ(header.magic, 0x314d5753u);
   EXPECT_EQ(header.entities, 3u);
@@ -73,13 +74,135 @@ TEST(WebFrame, PosesAreThoseOfTheMovableEntities)
   EXPECT_NEAR(2 * std::atan2(z, w), 2.5, 1e-4);
 }
 
+// The state that a page has, read by the letter of docs/web_render.md.
+struct PageState
+{
+  std::vector<float> positions;
+  std::vector<std::int16_t> quaternions;
+  std::string colours;
+  std::uint32_t key = 0;
+
+  explicit PageState(const std::string& bytes)
+  {
+    const auto header = At<FrameHeader>(bytes, 0);
+    EXPECT_EQ(header.magic, 0x314d5753u);
+    const std::size_t n = header.entities;
+    for (std::size_t i = 0; i < 3 * n; ++i) positions.push_back(At<float>(bytes, 40 + 4 * i));
+    for (std::size_t i = 0; i < 4 * n; ++i) quaternions.push_back(At<std::int16_t>(bytes, QuaternionsOf(n) + 2 * i));
+    colours = bytes.substr(ColoursOf(n), 4 * n);
+    key = header.key;
+  }
+
+  void Change(const std::string& bytes)
+  {
+    const auto header = At<FrameHeader>(bytes, 0);
+    ASSERT_EQ(header.magic, 0x324d5753u);
+    ASSERT_EQ(header.key, key);
+    const std::size_t n = header.entities;
+    ASSERT_EQ(n, positions.size() / 3);
+    const std::size_t steps = bytes.size() - 6 * n;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      for (std::size_t k = 0; k < 2; ++k)
+        positions[3 * i + k] += 1e-4F * At<std::int16_t>(bytes, steps + 6 * i + 2 * k);
+      const double yaw = At<std::int16_t>(bytes, steps + 6 * i + 4) / 32767.0 * 3.14159265358979;
+      quaternions[4 * i] = quaternions[4 * i + 1] = 0;
+      quaternions[4 * i + 2] = static_cast<std::int16_t>(std::lround(32767 * std::sin(yaw / 2)));
+      quaternions[4 * i + 3] = static_cast<std::int16_t>(std::lround(32767 * std::cos(yaw / 2)));
+    }
+    std::size_t place = 48;
+    for (std::uint32_t i = 0; i < At<std::uint32_t>(bytes, 40); ++i, place += 24)
+    {
+      const std::size_t slot = At<std::uint32_t>(bytes, place);
+      for (std::size_t k = 0; k < 3; ++k) positions.at(3 * slot + k) = At<float>(bytes, place + 4 + 4 * k);
+      for (std::size_t k = 0; k < 4; ++k) quaternions.at(4 * slot + k) = At<std::int16_t>(bytes, place + 16 + 2 * k);
+    }
+    for (std::uint32_t i = 0; i < At<std::uint32_t>(bytes, 44); ++i, place += 8)
+      colours.replace(4 * At<std::uint32_t>(bytes, place), 4, bytes.substr(place + 4, 4));
+  }
+};
+
+TEST(WebFrame, AKeyAndItsChangeAreTheStateAgain)
+{
+  FourEntities world;
+  FrameWriter writer(world.space);
+  EXPECT_EQ(writer.WriteChange(), "") << "there is nothing yet that could have changed";
+  std::mt19937 random(3);
+  const auto number = [&](double low, double high)
+  { return std::uniform_real_distribution<double>(low, high)(random); };
+  for (int round = 0; round < 500; ++round)
+  {
+    const PageState key(writer.WriteKey());
+    for (int step = 0; step < 3; ++step)
+    {
+      const std::uint32_t entity = world.space.Movable()[random() % 3];
+      const Pose pose = world.space.GetPose(entity);
+      Vector3 place = pose.position + Vector3(number(-0.1, 0.1), number(-0.1, 0.1), 0);
+      Quaternion turn = QuaternionFromYaw(number(-10, 10));
+      switch (random() % 6)
+      {
+        case 0:
+          place.z() += number(-0.1, 0.1);
+          break;
+        case 1:
+          turn = turn * Quaternion(Eigen::AngleAxisd(number(0.1, 1), Vector3::UnitX()));
+          break;
+        case 2:
+          place.x() = number(-50, 50);  // further than a step reaches
+          break;
+        case 3:
+          world.space.GetEntity(0).SetAttribute("led", static_cast<double>(random() & 0xffffffU),
+                                                static_cast<int>(random() % 12));
+          break;
+        default:
+          break;
+      }
+      world.space.SetPose(entity, {place, turn});
+      const std::string change = writer.WriteChange();
+      const std::string whole = FrameWriter(world.space).WriteKey();
+      const PageState expected(whole);
+      if (change.empty()) continue;
+      EXPECT_LT(change.size(), whole.size());
+      PageState page = key;
+      page.Change(change);
+      for (std::size_t i = 0; i < page.positions.size(); ++i)
+        EXPECT_NEAR(page.positions[i], expected.positions[i], i % 3 == 2 ? 0 : 6e-5);
+      for (std::size_t slot = 0; slot < 3; ++slot)
+      {
+        const auto* a = &page.quaternions[4 * slot];
+        const auto* b = &expected.quaternions[4 * slot];
+        const double dot = (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]) / (32767.0 * 32767.0);
+        EXPECT_NEAR(std::abs(dot), 1, 1e-4);
+      }
+      EXPECT_EQ(page.colours, expected.colours);
+    }
+  }
+}
+
+TEST(WebFrame, ARobotThatDrivesTakesSixBytesOfAChange)
+{
+  Experiment experiment;
+  experiment.arena_size = {100, 100, 1};
+  for (int i = 0; i < 1000; ++i)
+    experiment.entities.push_back(FourEntities::Entity(EntityKind::kFootbot, "fb_" + std::to_string(i), {i * 0.1, 1, 0},
+                                                       {0.085, 0.085, 0.147}, true));
+  CSwarmanoidSpace space(experiment);
+  FrameWriter writer(space);
+  writer.WriteKey();
+  for (std::uint32_t e = 0; e < 1000; ++e) space.SetPose(e, {{e * 0.1 + 0.02, 1.3, 0}, QuaternionFromYaw(e)});
+  EXPECT_EQ(writer.WriteChange().size(), sizeof(FrameHeader) + sizeof(ChangeCounts) + 6 * 1000);
+  // If most have left the plane, all of the state is shorter.
+  for (std::uint32_t e = 0; e < 600; ++e) space.SetPose(e, {{e * 0.1, 1, 0.5}, QuaternionFromYaw(0)});
+  EXPECT_EQ(writer.WriteChange(), "");
+}
+
 TEST(WebFrame, LedsThatAreAlikeAreOneColour)
 {
   FourEntities world;
   FrameWriter writer(world.space);
-  EXPECT_EQ(ByteAt(writer.Write(), ColoursOf(3) + 3), 0);
+  EXPECT_EQ(ByteAt(writer.WriteKey(), ColoursOf(3) + 3), 0);
   for (int led = 0; led < 12; ++led) world.space.GetEntity(0).SetAttribute("led", 0x0080ff, led);
-  const std::string bytes = writer.Write();
+  const std::string bytes = writer.WriteKey();
   EXPECT_EQ(ByteAt(bytes, ColoursOf(3)), 0x00);
   EXPECT_EQ(ByteAt(bytes, ColoursOf(3) + 1), 0x80);
   EXPECT_EQ(ByteAt(bytes, ColoursOf(3) + 2), 0xff);
@@ -92,7 +215,7 @@ TEST(WebFrame, LedsOfSeveralColoursFollowOneByOne)
   FourEntities world;
   world.space.GetEntity(0).SetAttribute("led", 0xff0000, 3);
   world.space.GetEntity(0).SetAttribute("led", 0x0000ff, 4);
-  const std::string bytes = FrameWriter(world.space).Write();
+  const std::string bytes = FrameWriter(world.space).WriteKey();
   EXPECT_EQ(ByteAt(bytes, ColoursOf(3) + 3), kLit | kUnevenRing);
   EXPECT_EQ(ByteAt(bytes, ColoursOf(3)), 0x7f);  // the mean of those that shine
   ASSERT_EQ(At<FrameHeader>(bytes, 0).rings, 1u);
@@ -107,7 +230,7 @@ TEST(WebFrame, GripsNameBothEntities)
 {
   FourEntities world;
   world.space.GetEntity(0).SetAttribute("gripped", 3);  // entity 2
-  const std::string bytes = FrameWriter(world.space).Write();
+  const std::string bytes = FrameWriter(world.space).WriteKey();
   ASSERT_EQ(At<FrameHeader>(bytes, 0).grips, 1u);
   const auto grip = At<FrameGrip>(bytes, EndOf(3));
   EXPECT_EQ(grip.robot, 0u);
@@ -122,7 +245,7 @@ TEST(WebFrame, ABeamEndsOnTheFloorOrOnTheFirstBody)
   eyebot.SetAttribute("laser", 1);
   eyebot.SetAttribute("laser_colour", 0x00ff00);
   FrameWriter writer(world.space);
-  std::string bytes = writer.Write();
+  std::string bytes = writer.WriteKey();
   ASSERT_EQ(At<FrameHeader>(bytes, 0).beams, 1u);
   auto beam = At<FrameBeam>(bytes, EndOf(3));
   EXPECT_EQ(beam.entity, 1u);
@@ -132,7 +255,7 @@ TEST(WebFrame, ABeamEndsOnTheFloorOrOnTheFirstBody)
 
   // Tilted towards the prey, 1 m to the side and 0.2 m high: the beam meets its top.
   eyebot.SetAttribute("laser_tilt", std::atan2(1.0, 1.3));
-  bytes = writer.Write();
+  bytes = writer.WriteKey();
   beam = At<FrameBeam>(bytes, EndOf(3));
   EXPECT_NEAR(beam.x, 3, 1e-5);
   EXPECT_NEAR(beam.z, 0.2, 1e-5);

@@ -20,6 +20,10 @@ test("it falls within two seconds", () => {
   assert.deepEqual(play(new Governor("high"), { now: 0 }, 100, 2), ["medium"]);
 });
 
+test("pictures that take seconds lower it as well", () => {
+  assert.deepEqual(play(new Governor("high"), { now: 0 }, 2500, 30), Object.keys(qualities).slice(1));
+});
+
 test("a pace that is good enough changes nothing", () => {
   assert.deepEqual(play(new Governor("medium"), { now: 0 }, 33, 60), []);
 });

@@ -162,7 +162,7 @@ TEST_F(WebServerTest, AClientThatDoesNotReadGetsTheLatestFrameAndHoldsUpNobody)
   constexpr std::size_t kBytes = 240000;  // more than the system holds for a connection, many times over
   for (int i = 1; i <= kFrames; ++i)
   {
-    server_->Publish(WebServer::Slot::kFrame, Shared(std::to_string(i) + ' ' + std::string(kBytes, '.')));
+    server_->Publish(WebServer::Slot::kChange, Shared(std::to_string(i) + ' ' + std::string(kBytes, '.')));
     const std::string frame = fast.Read();
     EXPECT_TRUE(fast.GotBinary());
     EXPECT_EQ(std::stoi(frame), i);
@@ -220,10 +220,55 @@ TEST_F(WebServerTest, AHiddenPageGetsFewerFramesAndTheLatestWhenItIsShownAgain)
   ASSERT_EQ(client.Open(), 101u);
   client.ReadUntil("welcome");
   server_->SetFramePeriod(1, 60000);
-  for (int i = 1; i <= 20; ++i) server_->Publish(WebServer::Slot::kFrame, Shared(std::to_string(i)));
+  for (int i = 1; i <= 20; ++i) server_->Publish(WebServer::Slot::kChange, Shared(std::to_string(i)));
   EXPECT_EQ(client.Read(), "1");
   server_->SetFramePeriod(1, 0);
   EXPECT_EQ(client.Read(), "20");
+}
+
+TEST_F(WebServerTest, AKeyComesBeforeItsChangesAndEndsThoseOfTheOneBefore)
+{
+  Start();
+  const auto publish = [&](WebServer::Slot slot, const char* text) { server_->Publish(slot, Shared(text)); };
+  publish(WebServer::Slot::kKey, "key 1");
+  publish(WebServer::Slot::kChange, "change of 1");
+  WebClient late = Connect();
+  ASSERT_EQ(late.Open(), 101u);
+  late.ReadUntil("welcome");
+  EXPECT_EQ(late.Read(), "key 1");
+  EXPECT_EQ(late.Read(), "change of 1");
+  publish(WebServer::Slot::kKey, "key 2");
+  EXPECT_EQ(late.Read(), "key 2");
+  // There is no change of it yet.
+  WebClient later = Connect();
+  ASSERT_EQ(later.Open(), 101u);
+  later.ReadUntil("welcome");
+  EXPECT_EQ(later.Read(), "key 2");
+  EXPECT_TRUE(later.GotBinary());
+  publish(WebServer::Slot::kChange, "change of 2");
+  EXPECT_EQ(later.Read(), "change of 2");
+}
+
+TEST_F(WebServerTest, AHiddenPageGetsEachKeyForTheChangesThatItWillGet)
+{
+  Start();
+  WebClient client = Connect();
+  ASSERT_EQ(client.Open(), 101u);
+  client.ReadUntil("welcome");
+  server_->SetFramePeriod(1, 60000);
+  for (int i = 1; i <= 5; ++i)
+  {
+    server_->Publish(WebServer::Slot::kKey, Shared("key " + std::to_string(i)));
+    server_->Publish(WebServer::Slot::kChange, Shared("change of " + std::to_string(i)));
+  }
+  server_->SetFramePeriod(1, 0);
+  std::string key = "none";
+  for (std::string text; text != "change of 5";)
+  {
+    text = client.Read();
+    if (text.starts_with("key ")) key = text.substr(4);
+  }
+  EXPECT_EQ(key, "5");
 }
 
 TEST_F(WebServerTest, AClosingServerSendsWhatIsReadyAndSaysGoodbye)
@@ -235,7 +280,7 @@ TEST_F(WebServerTest, AClosingServerSendsWhatIsReadyAndSaysGoodbye)
   std::thread closing(
       [&]
       {
-        server_->Publish(WebServer::Slot::kFrame, Shared("the last"));
+        server_->Publish(WebServer::Slot::kChange, Shared("the last"));
         server_.reset();
       });
   EXPECT_EQ(client.Read(), "the last");
@@ -254,7 +299,7 @@ TEST_F(WebServerTest, AClosingServerWaitsForNobodyWhoDoesNotRead)
   ASSERT_TRUE(Eventually([&] { return server_->Clients() == 1; }));
   for (int i = 0; i < 20; ++i)
   {
-    server_->Publish(WebServer::Slot::kFrame, Shared(std::string(4000000, '.')));
+    server_->Publish(WebServer::Slot::kChange, Shared(std::string(4000000, '.')));
     std::this_thread::sleep_for(5ms);
   }
   // Without that it would wait for ever.

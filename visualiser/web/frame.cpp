@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <optional>
+#include <numbers>
 
 #include "common/space/attributes.h"
 
@@ -16,6 +16,7 @@ namespace
 static_assert(std::endian::native == std::endian::little, "frames are little-endian");
 
 constexpr double kLongestBeam = 30;
+constexpr double kWorthwhile = 0.7;  // of a key frame: a longer change is not sent
 
 std::uint32_t ColourOf(double value) { return static_cast<std::uint32_t>(value) & 0xffffffU; }
 
@@ -25,9 +26,15 @@ std::int16_t Quantised(double value)
 }
 
 template <class Value>
+std::size_t SizeOf(const std::vector<Value>& values)
+{
+  return values.size() * sizeof(Value);
+}
+
+template <class Value>
 char* Append(char* place, const std::vector<Value>& values)
 {
-  const std::size_t size = values.size() * sizeof(Value);
+  const std::size_t size = SizeOf(values);
   if (size > 0) std::memcpy(place, values.data(), size);
   return place + size;
 }
@@ -60,6 +67,8 @@ FrameWriter::FrameWriter(const CSwarmanoidSpace& space) : space_(space)
     }
     bearers_.push_back(bearer);
   }
+  positions_.resize(bearers_.size() * 3);
+  quaternions_.resize(bearers_.size() * 4);
   colours_.resize(bearers_.size() * 4);
   for (std::uint32_t e = 0; e < space.Size(); ++e)
   {
@@ -68,7 +77,7 @@ FrameWriter::FrameWriter(const CSwarmanoidSpace& space) : space_(space)
   }
 }
 
-std::string FrameWriter::Write()
+void FrameWriter::Read()
 {
   if (attribute_revision_ != space_.AttributeRevision())
   {
@@ -76,41 +85,110 @@ std::string FrameWriter::Write()
     attribute_revision_ = space_.AttributeRevision();
   }
   FindBeams();
+  const PoseArrays& poses = space_.Poses();
+  float* position = positions_.data();
+  std::int16_t* quaternion = quaternions_.data();
+  for (const Bearer& bearer : bearers_)
+  {
+    const std::uint32_t e = bearer.entity;
+    for (const double value : {poses.x[e], poses.y[e], poses.z[e]}) *position++ = static_cast<float>(value);
+    for (const double value : {poses.qx[e], poses.qy[e], poses.qz[e], poses.qw[e]}) *quaternion++ = Quantised(value);
+  }
+}
 
+FrameHeader FrameWriter::Header(std::uint32_t magic) const
+{
   FrameHeader header;
+  header.magic = magic;
   header.entities = static_cast<std::uint32_t>(bearers_.size());
   header.tick = space_.GetTick();
   header.time_s = space_.GetTime();
   header.beams = static_cast<std::uint32_t>(beams_.size());
   header.grips = static_cast<std::uint32_t>(grips_.size());
   header.rings = static_cast<std::uint32_t>(rings_.size());
+  header.key = key_;
+  return header;
+}
 
-  const std::size_t n = bearers_.size();
-  std::string bytes(sizeof header + 24 * n + beams_.size() * sizeof(FrameBeam) + grips_.size() * sizeof(FrameGrip) +
-                        rings_.size() * sizeof(FrameRing),
-                    '\0');
-  char* place = bytes.data();
-  std::memcpy(place, &header, sizeof header);
-  place += sizeof header;
-  char* quaternions = place + 12 * n;
-  const PoseArrays& poses = space_.Poses();
-  for (const Bearer& bearer : bearers_)
-  {
-    const std::uint32_t e = bearer.entity;
-    const float position[3] = {static_cast<float>(poses.x[e]), static_cast<float>(poses.y[e]),
-                               static_cast<float>(poses.z[e])};
-    const std::int16_t quaternion[4] = {Quantised(poses.qx[e]), Quantised(poses.qy[e]), Quantised(poses.qz[e]),
-                                        Quantised(poses.qw[e])};
-    std::memcpy(place, position, sizeof position);
-    std::memcpy(quaternions, quaternion, sizeof quaternion);
-    place += sizeof position;
-    quaternions += sizeof quaternion;
-  }
-  place = Append(quaternions, colours_);
+// Room for so many bytes and the lists that end every frame.
+std::string FrameWriter::Bytes(std::size_t fixed) const
+{
+  return std::string(fixed + SizeOf(beams_) + SizeOf(grips_) + SizeOf(rings_), '\0');
+}
+
+std::string FrameWriter::WriteKey()
+{
+  Read();
+  ++key_;
+  key_positions_ = positions_;
+  key_quaternions_ = quaternions_;
+  key_colours_ = colours_;
+  const FrameHeader header = Header(kKeyMagic);
+  std::string bytes = Bytes(sizeof header + SizeOf(positions_) + SizeOf(quaternions_) + SizeOf(colours_));
+  std::memcpy(bytes.data(), &header, sizeof header);
+  char* place = Append(bytes.data() + sizeof header, positions_);
+  place = Append(place, quaternions_);
+  place = Append(place, colours_);
   place = Append(place, beams_);
   place = Append(place, grips_);
   Append(place, rings_);
   return bytes;
+}
+
+std::string FrameWriter::WriteChange()
+{
+  if (key_ == 0) return {};
+  Read();
+  steps_.clear();
+  changed_poses_.clear();
+  changed_colours_.clear();
+  for (std::size_t slot = 0; slot < bearers_.size(); ++slot)
+  {
+    const auto number = static_cast<std::uint32_t>(slot);
+    const std::optional<FrameStep> step = StepOf(slot);
+    steps_.push_back(step.value_or(FrameStep{}));
+    if (!step)
+    {
+      FramePose pose{number, positions_[3 * slot], positions_[3 * slot + 1], positions_[3 * slot + 2], {}};
+      std::memcpy(pose.quaternion, &quaternions_[4 * slot], sizeof pose.quaternion);
+      changed_poses_.push_back(pose);
+    }
+    if (std::memcmp(&colours_[4 * slot], &key_colours_[4 * slot], 4) == 0) continue;
+    FrameColour colour{number, {}};
+    std::memcpy(colour.colour, &colours_[4 * slot], 4);
+    changed_colours_.push_back(colour);
+  }
+  const ChangeCounts counts{static_cast<std::uint32_t>(changed_poses_.size()),
+                            static_cast<std::uint32_t>(changed_colours_.size())};
+  const std::size_t changes = SizeOf(steps_) + SizeOf(changed_poses_) + SizeOf(changed_colours_);
+  if (static_cast<double>(changes) > kWorthwhile * 24 * static_cast<double>(bearers_.size())) return {};
+  const FrameHeader header = Header(kChangeMagic);
+  std::string bytes = Bytes(sizeof header + sizeof counts + changes);
+  std::memcpy(bytes.data(), &header, sizeof header);
+  std::memcpy(bytes.data() + sizeof header, &counts, sizeof counts);
+  char* place = Append(bytes.data() + sizeof header + sizeof counts, changed_poses_);
+  place = Append(place, changed_colours_);
+  place = Append(place, beams_);
+  place = Append(place, grips_);
+  place = Append(place, rings_);
+  Append(place, steps_);  // last: their size is no multiple of four
+  return bytes;
+}
+
+std::optional<FrameStep> FrameWriter::StepOf(std::size_t slot) const
+{
+  const float* now = &positions_[3 * slot];
+  const float* key = &key_positions_[3 * slot];
+  const std::int16_t* turn = &quaternions_[4 * slot];
+  const std::int16_t* key_turn = &key_quaternions_[4 * slot];
+  if (now[2] != key[2] || turn[0] != 0 || turn[1] != 0 || key_turn[0] != 0 || key_turn[1] != 0) return std::nullopt;
+  const double x = (static_cast<double>(now[0]) - key[0]) / FrameStep::kUnit;
+  const double y = (static_cast<double>(now[1]) - key[1]) / FrameStep::kUnit;
+  if (!(std::abs(x) <= 32767 && std::abs(y) <= 32767)) return std::nullopt;
+  const double yaw = 2 * std::atan2(turn[2], turn[3]);
+  const double half_turns = std::remainder(yaw, 2 * std::numbers::pi) / std::numbers::pi;
+  return FrameStep{static_cast<std::int16_t>(std::lround(x)), static_cast<std::int16_t>(std::lround(y)),
+                   static_cast<std::int16_t>(std::lround(half_turns * 32767))};
 }
 
 void FrameWriter::ReadAttributes()

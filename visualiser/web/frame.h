@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,20 +13,53 @@
 namespace swarmanoid
 {
 
-inline constexpr std::uint32_t kFrameMagic = 0x314d5753;  // "SWM1"
+inline constexpr std::uint32_t kKeyMagic = 0x314d5753;     // "SWM1": all of the state
+inline constexpr std::uint32_t kChangeMagic = 0x324d5753;  // "SWM2": what has changed since a key frame
 
 struct FrameHeader
 {
-  std::uint32_t magic = kFrameMagic;
+  std::uint32_t magic = kKeyMagic;
   std::uint32_t entities = 0;  // movable ones, in the order of the world message
   std::uint64_t tick = 0;
   double time_s = 0;
   std::uint32_t beams = 0;
   std::uint32_t grips = 0;
   std::uint32_t rings = 0;
-  std::uint32_t reserved = 0;
+  std::uint32_t key = 0;  // number of the key frame: this one, or the one that the changes refer to
 };
 static_assert(sizeof(FrameHeader) == 40);
+
+// After the header of a change.
+struct ChangeCounts
+{
+  std::uint32_t poses = 0;    // FramePose
+  std::uint32_t colours = 0;  // FrameColour
+};
+
+// Of each movable entity in a change: how it has moved in the plane, and where it looks.
+struct FrameStep
+{
+  static constexpr double kUnit = 1e-4;  // m
+  std::int16_t x = 0, y = 0;             // from its place in the key frame
+  std::int16_t yaw = 0;                  // 32767: half a turn
+};
+static_assert(sizeof(FrameStep) == 6);
+
+// Of those whose pose is more than a step in the plane.
+struct FramePose
+{
+  std::uint32_t slot = 0;  // place among the movable entities
+  float x = 0, y = 0, z = 0;
+  std::int16_t quaternion[4] = {};
+};
+static_assert(sizeof(FramePose) == 24);
+
+struct FrameColour
+{
+  std::uint32_t slot = 0;
+  std::uint8_t colour[4] = {};
+};
+static_assert(sizeof(FrameColour) == 8);
 
 // The fourth byte of an entity's colour.
 enum FrameFlag : std::uint8_t
@@ -68,8 +102,10 @@ class FrameWriter
 public:
   // The space outlives the writer.
   explicit FrameWriter(const CSwarmanoidSpace& space);
-  // The bytes of the state at the space's tick.
-  std::string Write();
+  // The bytes of the whole state at the space's tick, to which later changes refer.
+  std::string WriteKey();
+  // What has changed since the last key frame; empty if there is none, or if a key frame would be hardly longer.
+  std::string WriteChange();
 
 private:
   // Where the attributes of a movable entity stand that a frame shows; kNone if it has none.
@@ -93,6 +129,12 @@ private:
   static constexpr std::uint32_t kNone = ~0U;
   static constexpr std::size_t kRings = 512;
 
+  // The state at the space's tick, in positions_ to rings_.
+  void Read();
+  FrameHeader Header(std::uint32_t magic) const;
+  std::string Bytes(std::size_t fixed) const;
+  // The step that a slot has made since the key frame; none if it is more than that.
+  std::optional<FrameStep> StepOf(std::size_t slot) const;
   void ReadAttributes();
   std::uint32_t ReadLeds(const Bearer& bearer, std::uint8_t& flags);
   void FindBeams();
@@ -102,7 +144,14 @@ private:
   std::vector<Bearer> bearers_;
   std::vector<Body> bodies_;
   std::uint64_t attribute_revision_ = 0;
-  std::vector<std::uint8_t> colours_;  // four bytes an entity
+  // By slot: position (3), quaternion (4), colour (4).
+  std::vector<float> positions_, key_positions_;
+  std::vector<std::int16_t> quaternions_, key_quaternions_;
+  std::vector<std::uint8_t> colours_, key_colours_;
+  std::uint32_t key_ = 0;
+  std::vector<FrameStep> steps_;
+  std::vector<FramePose> changed_poses_;
+  std::vector<FrameColour> changed_colours_;
   std::vector<FrameBeam> beams_;
   std::vector<FrameGrip> grips_;
   std::vector<FrameRing> rings_;

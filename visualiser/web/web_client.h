@@ -56,7 +56,8 @@ public:
 
   void Put(Slot slot, Bytes bytes)
   {
-    if (slot == Slot::kFrame && frame_period_.count() > 0)
+    if (slot == Slot::kKey) slots_[Index(Slot::kChange)] = nullptr;
+    if (slot == Slot::kChange && frame_period_.count() > 0)
     {
       const auto now = Clock::now();
       if (now - frame_time_ < frame_period_) return;
@@ -74,7 +75,7 @@ public:
   }
 
   void SetFramePeriod(std::chrono::milliseconds period) { frame_period_ = period; }
-  bool IsHungry() const { return open_ && !writing_ && !slots_[Index(Slot::kFrame)]; }
+  bool IsHungry() const { return open_ && !writing_ && !slots_[Index(Slot::kKey)] && !slots_[Index(Slot::kChange)]; }
   Authority GetAuthority() const { return authority_; }
 
   // When everything is sent.
@@ -125,7 +126,7 @@ private:
                         });
   }
 
-  // What is to be sent next: the queue first, then the slots in turn.
+  // What is to be sent next: the queue first, then a key, then the other slots in turn.
   Bytes Next(bool& binary)
   {
     if (!queue_.empty())
@@ -136,10 +137,10 @@ private:
     }
     for (std::size_t i = 0; i < kSlots; ++i)
     {
-      const std::size_t slot = (next_slot_ + i) % kSlots;
+      const std::size_t slot = slots_[Index(Slot::kKey)] ? Index(Slot::kKey) : (next_slot_ + i) % kSlots;
       if (!slots_[slot]) continue;
       next_slot_ = (slot + 1) % kSlots;
-      binary = slot == Index(Slot::kFrame);
+      binary = slot == Index(Slot::kKey) || slot == Index(Slot::kChange);
       return std::exchange(slots_[slot], nullptr);
     }
     return nullptr;

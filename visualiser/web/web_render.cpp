@@ -25,6 +25,7 @@ constexpr auto kFollowPeriod = 250ms;
 constexpr std::size_t kMostRequests = 1024;  // waiting for the next tick
 constexpr std::size_t kNotesKept = 100;      // by RunMonitor
 constexpr double kLate_s = 1;
+constexpr int kChangesOfAKey = 19;  // before the whole state is sent again
 
 WebServer::Bytes Shared(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
 
@@ -55,6 +56,7 @@ void CWebRender::Init(const RenderSetup& setup)
   allow_control_ = parameters.Boolean("allow_control");
   frame_period_ =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / parameters.Number("rate")));
+  bytes_per_second_ = 1e6 * parameters.Number("bandwidth");
   frame_writer_ = std::make_unique<FrameWriter>(*space_);
   logs_ = std::make_unique<LogFollower>(setup.output_folder);
 
@@ -121,7 +123,9 @@ void CWebRender::Work()
   {
     SendFrame();
     // In step with the clock, so that the rate is met on average; no catching up after a break.
-    frame_due_ = std::max(frame_due_ + frame_period_, now);
+    const std::chrono::duration<double> transfer(static_cast<double>(sent_bytes_) / bytes_per_second_);
+    frame_due_ =
+        std::max(frame_due_ + std::max(frame_period_, std::chrono::duration_cast<Clock::duration>(transfer)), now);
   }
   if (now >= watched_due_)
   {
@@ -140,7 +144,12 @@ void CWebRender::SendFrame()
   shown_tick_ = space_->GetTick();
   shown_revision_ = space_->Revision();
   shown_attributes_ = space_->AttributeRevision();
-  server_->Publish(WebServer::Slot::kFrame, Shared(frame_writer_->Write()));
+  std::string change = changes_ < kChangesOfAKey ? frame_writer_->WriteChange() : std::string();
+  const bool key = change.empty();
+  changes_ = key ? 0 : changes_ + 1;
+  const WebServer::Bytes bytes = Shared(key ? frame_writer_->WriteKey() : std::move(change));
+  sent_bytes_ = bytes->size();
+  server_->Publish(key ? WebServer::Slot::kKey : WebServer::Slot::kChange, bytes);
 }
 
 void CWebRender::SendStatus()

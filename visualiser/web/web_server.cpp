@@ -168,6 +168,7 @@ void WebServer::Publish(Slot slot, Bytes bytes)
       [impl = impl_.get(), slot, bytes = std::move(bytes)]
       {
         impl->states_[Index(slot)] = bytes;
+        if (slot == Slot::kKey) impl->states_[Index(Slot::kChange)] = nullptr;
         const auto clients = impl->clients_;
         for (const auto& [id, client] : clients) client->Put(slot, bytes);
         impl->Count();
@@ -202,8 +203,8 @@ void WebServer::SetFramePeriod(std::uint64_t client, unsigned period_ms)
               [impl = impl_.get(), period_ms](Impl::Client& c)
               {
                 c.SetFramePeriod(std::chrono::milliseconds(period_ms));
-                const Bytes& latest = impl->states_[Index(Slot::kFrame)];
-                if (latest) c.Put(Slot::kFrame, latest);
+                const Bytes& latest = impl->states_[Index(Slot::kChange)];
+                if (latest) c.Put(Slot::kChange, latest);
               });
 }
 

@@ -46,7 +46,8 @@ public:
 
   enum class Slot
   {
-    kFrame,  // binary; the others are text
+    kKey,     // binary: the whole state, before the changes that refer to it
+    kChange,  // binary: what has changed since; replaced by the next key
     kStatus,
     kColours,
     kWatched,
@@ -64,7 +65,7 @@ public:
   // "http://127.0.0.1:8080/", with the token if there is one.
   std::string Url() const;
   std::size_t Clients() const;
-  // Clients that have taken their last frame: without any, a new one would be made for nobody.
+  // Clients that have taken their last state: without any, a new one would be made for nobody.
   std::size_t Hungry() const;
 
   // The message that follows the welcome.

@@ -1,6 +1,6 @@
 // The page of web_render: connects to the server, keeps the state, and passes it to the picture and the panels.
 import { Connection } from "./connection.js";
-import { decodeFrame } from "./protocol.js";
+import { FrameDecoder } from "./protocol.js";
 import { EntityList } from "./ui/list.js";
 import { Help } from "./ui/help.js";
 import { Inspector } from "./ui/inspector.js";
@@ -34,8 +34,10 @@ const view = new View(picture, quality, meshes, { select, approach, move, mayMov
 view.onQuality = () => toolbar.setQuality(view.wanted, view.qualityName);
 view.onQuality();
 
+let decoder = new FrameDecoder();
 const connection = new Connection({
   onOpen() {
+    decoder = new FrameDecoder();
     state.connected = true;
     showState();
   },
@@ -47,8 +49,8 @@ const connection = new Connection({
     receive[message.type]?.(message);
   },
   onFrame(buffer) {
-    if (!state.world) return;
-    const frame = decodeFrame(buffer);
+    const frame = decoder.decode(buffer);
+    if (!frame || !state.world) return;
     state.frames++;
     state.frame = frame;
     view.addFrame(frame, performance.now());

@@ -50,10 +50,10 @@ export class Governor {
     if (took === null) return false;
     this.times.push(took);
     this.sum += took;
-    while (this.sum - this.times[0] >= FALL_AFTER_MS) this.sum -= this.times.shift();
-    if (this.sum < FALL_AFTER_MS || this.times.length < 4) return false;
+    while (this.times.length > 2 && this.sum - this.times[0] >= FALL_AFTER_MS) this.sum -= this.times.shift();
+    if (this.sum < FALL_AFTER_MS || this.times.length < 2) return false;
 
-    const typical = [...this.times].sort((a, b) => a - b)[this.times.length >> 1];
+    const typical = [...this.times].sort((a, b) => a - b)[(this.times.length - 1) >> 1];
     this.quickSince = typical < QUICK_MS ? this.quickSince ?? now : null;
     const place = names.indexOf(this.quality);
     if (typical > SLOW_MS && place + 1 < names.length) {
