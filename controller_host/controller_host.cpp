@@ -6,6 +6,7 @@
 
 #include "common/control_interface/init_controller.h"
 #include "common/experiment/actors.h"
+#include "common/logging/log.h"
 #include "common/messages/attribute_changes.h"
 #include "common/space/state_checks.h"
 
@@ -80,6 +81,10 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
                        StreamKey(experiment.seed, StreamName(entity.GetId()), kControlStepStream),
                        std::make_unique<CCI_Robot>(entity.GetId(), std::string(TagName(entity.GetKind()))), nullptr});
   }
+
+  for (const Robot& robot : robots_)
+    robot.interface->SetLog([](const CCI_Robot& of, std::string_view text)
+                            { LogInfo("robot '{}' at tick {}: {}", of.GetId(), of.GetTick(), text); });
 
   for (std::size_t c = 0; c < experiment.controllers.size(); ++c)
   {

@@ -8,6 +8,7 @@
 #include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
 #include "common/activity/limits.h"
+#include "common/logging/log.h"
 #include "common/program/interrupts.h"
 #include "common/program/usage_error.h"
 #include "launcher/processes/progress_display.h"
@@ -31,6 +32,7 @@ RunResult RunHere(const RunSettings& options, const Experiment& experiment, cons
 
   CatchInterrupts(SecondInterrupt::kKills);
   ReportDeaths("swarmanoid");
+  OpenLog({.process = "swarmanoid", .folder = folder.Path()});
   ApplyLimitsHere(options);
   ProgressDisplay display(ProgressDisplay::StyleFor(STDERR_FILENO, options.quiet), STDERR_FILENO);
   const Clock::time_point start = Clock::now();

@@ -6,6 +6,7 @@
 #include "common/configuration/parameter_table.h"
 #include "common/configuration/wording.h"
 #include "common/control_interface/init_controller.h"
+#include "common/logging/log.h"
 #include "common/plugins/library.h"
 
 namespace swarmanoid
@@ -166,6 +167,8 @@ Robot::Robot(RobotConfiguration configuration)
   controller_entry_ = &FindController(configuration_);
   configuration_.parameters = ParametersOfController(configuration_, controller_entry_->description);
   controller_ = controller_entry_->create();
+  interface_.SetLog([](const CCI_Robot& robot, std::string_view text)
+                    { LogInfo("step {}: {}", robot.GetTick(), text); });
   controller_->SetRobot(&interface_);
 
   // All choices first, so that a mistake is found before any device moves.

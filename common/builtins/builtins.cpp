@@ -44,6 +44,7 @@ void DescribeBuiltinDevices()
     DescribeCameras();
     DescribeRangeAndBearing();
     DescribeAnyRobotDevices();
+    DescribeSurroundingsDevices();
     return true;
   }();
   static_cast<void>(described);

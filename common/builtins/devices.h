@@ -2,6 +2,7 @@
 // controller_host/devices.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "common/plugins/catalogue.h"
@@ -15,7 +16,10 @@ void DescribeHandbotDevices();
 void DescribeCameras();
 void DescribeRangeAndBearing();
 void DescribeAnyRobotDevices();
+void DescribeSurroundingsDevices();
 
+// The light sensors of footbots and eyebots.
+void DescribeLight(const std::string& robot);
 // Of the ground sensors of footbots and of others.
 std::vector<ParameterSpec> GroundParameters();
 // For these: adds a device to the catalogue, and the checks of its noise.

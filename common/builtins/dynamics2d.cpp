@@ -38,7 +38,7 @@ std::vector<ParameterSpec> OwnParameters()
       Number("density", "kg/m3", "200", 1e-3, 1e5, "Of preys and movable blocks that have no mass of their own."),
       Number("footbot_mass", "kg", "1.6", 1e-3, 1e5, "The mass of a footbot."),
       Number("handbot_mass", "kg", "3", 1e-3, 1e5, "The mass of a handbot."),
-      Number("eyebot_mass", "kg", "1", 1e-3, 1e5, "The mass of an eyebot."),
+      Number("eyebot_mass", "kg", "0.5", 1e-3, 1e5, "The mass of an eyebot."),
       Number("drive_force", "N", "15", 0, 1e6,
              "What the motors of a footbot exert at most; the grip of its wheels on the ground is a second limit."),
       Number("eyebot_force", "N", "5", 0, 1e6, "The horizontal force of an eyebot's propellers at most."),

@@ -46,6 +46,7 @@ void DescribePropellers()
 void DescribeEyebotDevices()
 {
   DescribePropellers();
+  DescribeLight("eyebot");
   DescribeActuator(
       {.label = "eyebot_attachment",
        .implementation = "dummy_eyebot_attachment",

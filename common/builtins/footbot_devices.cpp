@@ -1,3 +1,6 @@
+#include <string>
+#include <string_view>
+
 #include "common/builtins/devices.h"
 #include "common/plugins/noise_parameters.h"
 #include "common/plugins/parameter_checks.h"
@@ -6,6 +9,32 @@ namespace swarmanoid
 {
 namespace
 {
+
+std::vector<ParameterSpec> Argos3WheelParameters()
+{
+  std::vector<ParameterSpec> parameters{
+      {.name = "max_speed",
+       .unit = "m/s",
+       .default_value = "0",
+       .description = "Speed of a wheel on the ground to which commands are clamped; 0: none, as in ARGoS3.",
+       .minimum = 0}};
+  for (const std::string side : {"left", "right"})
+  {
+    const auto add = [&](const char* name, const char* unit, const char* value, const std::string& description)
+    {
+      parameters.push_back({.name = name + ("_" + side),
+                            .unit = unit,
+                            .default_value = value,
+                            .description = description + " of the " + side + " wheel."});
+      if (std::string_view(name).ends_with("stddev")) parameters.back().minimum = 0;
+    };
+    add("bias_avg", "m/s", "0", "Mean of the bias");
+    add("bias_stddev", "m/s", "0", "Standard deviation of the bias");
+    add("factor_avg", "", "1", "Mean of the factor");
+    add("factor_stddev", "", "0", "Standard deviation of the factor");
+  }
+  return parameters;
+}
 
 void DescribeWheels()
 {
@@ -41,6 +70,10 @@ void DescribeWheels()
             .description = "Added to the speed of the right wheel while it moves."},
            {.name = "factor_left", .default_value = "1", .description = "Multiplies the speed of the left wheel."},
            {.name = "factor_right", .default_value = "1", .description = "Multiplies the speed of the right wheel."}}));
+  describe("argos3_footbot_wheels",
+           "ARGoS3's noise: while a wheel moves, each turns at factor * (speed + bias), a bias drawn once and a factor "
+           "drawn in every tick",
+           Joined(Argos3WheelParameters(), NoiseParameters("the speed of each wheel while it moves", "m/s")));
   describe("pid_footbot_wheels", "wheels that approach the commanded speed with the lag of a speed controller",
            Joined(common,
                   {{.name = "time_constant",
@@ -179,6 +212,20 @@ std::vector<ConfigurationError> MistakesInPolynomial(const Parameters& parameter
   return {};
 }
 
+void DescribeLight(const std::string& robot)
+{
+  const auto describe = [&](const char* model, const char* brief)
+  {
+    DescribeSensor({.label = robot + "_light",
+                    .implementation = model + ("_" + robot + "_light"),
+                    .brief = brief,
+                    .parameters = NoiseParameters("each reading", ""),
+                    .robots = {robot}});
+  };
+  describe("generic", "24 sensors that see the light bulbs in line of sight, by the inverse square of the distance");
+  describe("argos3", "the same with ARGoS3's brightness, exp(-2 d / intensity), up to d = 2.5 intensities");
+}
+
 void DescribeFootbotDevices()
 {
   DescribeWheels();
@@ -200,14 +247,20 @@ void DescribeFootbotDevices()
                   .robots = {"footbot"},
                   .channel = "footbot_accelerometer",
                   .channel_width = 3});
-  DescribeSensor({.label = "footbot_light",
-                  .implementation = "generic_footbot_light",
-                  .brief = "24 sensors that see the light bulbs in line of sight",
-                  .parameters = NoiseParameters("each reading", ""),
-                  .robots = {"footbot"}});
+  DescribeLight("footbot");
   DescribeSensor({.label = "footbot_ground",
                   .implementation = "generic_footbot_ground",
                   .brief = "brightness and colour of the floor: finds the nest",
+                  .parameters = GroundParameters(),
+                  .robots = {"footbot"}});
+  DescribeSensor({.label = "footbot_base_ground",
+                  .implementation = "generic_footbot_base_ground",
+                  .brief = "eight sensors around the base that tell black from white",
+                  .parameters = GroundParameters(),
+                  .robots = {"footbot"}});
+  DescribeSensor({.label = "footbot_motor_ground",
+                  .implementation = "generic_footbot_motor_ground",
+                  .brief = "four sensors between the tracks that see greys",
                   .parameters = GroundParameters(),
                   .robots = {"footbot"}});
 }

@@ -1,5 +1,7 @@
 #include "common/control_interface/ci_robot.h"
 
+#include <iostream>
+
 #include "common/configuration/wording.h"
 
 namespace swarmanoid
@@ -24,6 +26,11 @@ Device* Find(const std::map<std::string, Device*>& devices, const std::map<std::
 }
 
 }  // namespace
+
+void CCI_Robot::WriteLog(const CCI_Robot& robot, std::string_view text)
+{
+  std::cerr << "robot '" << robot.GetId() << "' at tick " << robot.GetTick() << ": " << text << "\n";
+}
 
 CCI_Actuator* CCI_Robot::GetActuator(const std::string& type) const
 {

@@ -5,6 +5,7 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -64,7 +65,14 @@ public:
   // in every run. Keep no reference beyond the step.
   RandomStream& GetRandom() { return random_; }
 
+  // Writes a line into the log of the process that runs the controller, with the id of the robot and the tick: in a run
+  // the files of the run's folder, on a robot the log of its program. For people; results belong into reports and
+  // files.
+  void Log(std::string_view text) const { log_(*this, text); }
+
   // For the runtime that owns the robot.
+  using LogSink = void (*)(const CCI_Robot& robot, std::string_view text);
+  void SetLog(LogSink log) { log_ = log; }
   void AddActuator(const std::string& type, CCI_Actuator* actuator) { actuators_[type] = actuator; }
   void AddSensor(const std::string& type, CCI_Sensor* sensor) { sensors_[type] = sensor; }
   void BeginStep(std::uint64_t tick, double tick_seconds, RandomStream random)
@@ -75,6 +83,9 @@ public:
   }
 
 private:
+  // To standard error: without a runtime that has a log.
+  static void WriteLog(const CCI_Robot& robot, std::string_view text);
+
   template <class Interface, class Device>
   Interface& Checked(Device* device, const std::string& type) const
   {
@@ -89,6 +100,7 @@ private:
   std::uint64_t tick_ = 0;
   double tick_seconds_ = 0.1;
   RandomStream random_{0, 0, 0, 0};
+  LogSink log_ = WriteLog;
 };
 
 }  // namespace swarmanoid

@@ -1,5 +1,5 @@
 // Placing the entities of <distribute>. Each entity draws from a random stream of its own, so that its place depends on
-// the seed, its id and the bodies that are there already, and on nothing else.
+// the seed, its id, the bodies that are there already and the terrain, and on nothing else.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include "common/configuration/wording.h"
 #include "common/experiment/body.h"
 #include "common/experiment/element_reader.h"
+#include "common/experiment/placement_ground.h"
 #include "common/experiment/sections.h"
 #include "common/math/elementary.h"
 #include "common/math/random.h"
@@ -65,6 +66,13 @@ public:
     spacing_ = spacing;
     first_ = centre - 0.5 * (layout - Vector3::Ones()).cwiseProduct(spacing);
     Check(count, arena, reading);
+  }
+
+  // The height from which they are let down onto the terrain; nullopt: they stay where they are drawn.
+  std::optional<double> DropsFrom() const
+  {
+    return reader_.IsGood("drop_from") && reader_.IsGiven("drop_from") ? std::optional(reader_.Number("drop_from"))
+                                                                       : std::nullopt;
   }
 
   // Whether another draw may give another place.
@@ -144,10 +152,28 @@ private:
   Vector3 a_, b_;
 };
 
+// Whom the kinematic engine gives the outline with the gripper of the footbot (figure 3.9 of the documentation).
+std::vector<bool> WithGripper(const Experiment& experiment)
+{
+  std::vector<bool> with_gripper(experiment.entities.size());
+  for (const EngineConfiguration& engine : experiment.engines)
+    if (engine.tag == "kinematics2d" || engine.tag == "dummy_engine")
+      for (const std::uint32_t e : engine.entities)
+        with_gripper[e] = DescriptionOf(experiment.entities[e].kind).mechanism == Mechanism::kTurretGripper;
+  return with_gripper;
+}
+
 class Placer
 {
 public:
-  Placer(const Vector3& arena, Reading& reading) : reading_(reading), arena_(arena), grid_(arena, 0.25) {}
+  Placer(const Vector3& arena, Reading& reading)
+      : reading_(reading),
+        arena_(arena),
+        grid_(arena, 0.25),
+        ground_(reading),
+        with_gripper_(WithGripper(reading.experiment))
+  {
+  }
 
   void AddPlaced(std::size_t first, std::size_t last)
   {
@@ -155,7 +181,7 @@ public:
     {
       const EntityConfiguration& entity = reading_.experiment.entities[i];
       if (!entity.reserve.empty()) continue;
-      const auto body = placement::BodyOf(entity);
+      const auto body = OutlineOf(i);
       if (body && entity.size.minCoeff() > 0) grid_.Add(*body, static_cast<std::uint32_t>(i));
     }
   }
@@ -195,12 +221,36 @@ private:
     {
       entity.pose.orientation = orientations.Draw(random);
       entity.pose.position = positions.Draw(i, random);
+      if (positions.DropsFrom() && !LetDown(index, *positions.DropsFrom())) continue;
       const auto body = placement::BodyOf(entity);
-      if (!Inside(entity.pose.position, body) || (body && grid_.Find(*body))) continue;
-      if (body) grid_.Add(*body, static_cast<std::uint32_t>(index));
+      const auto outline = OutlineOf(index);
+      if (!Inside(entity.pose.position, body) || (outline && grid_.Find(*outline))) continue;
+      if (body && ground_.IsInRock(index, *body)) continue;
+      if (outline) grid_.Add(*outline, static_cast<std::uint32_t>(index));
       return true;
     }
     return false;
+  }
+
+  // False if there is no ground under it.
+  bool LetDown(std::size_t index, double from)
+  {
+    EntityConfiguration& entity = reading_.experiment.entities[index];
+    const auto body = placement::BodyOf(entity);
+    if (!body) return true;
+    const auto ground = ground_.HighestUnder(index, *body, from);
+    if (!ground) return false;
+    entity.pose.position.z() += *ground - (body->centre.z() - body->HalfExtent().z());
+    return true;
+  }
+
+  // What must stay free: the body as its engine has it, the gripper at any angle of the turret.
+  std::optional<placement::Body> OutlineOf(std::size_t index) const
+  {
+    constexpr double kGripperReach = 0.102;  // m: a little beyond its corners
+    auto body = placement::BodyOf(reading_.experiment.entities[index]);
+    if (body && with_gripper_[index]) body->half.head<2>().setConstant(std::max(kGripperReach, body->half.x()));
+    return body;
   }
 
   // The position within the arena, and no part of the body over the edge of the floor.
@@ -222,7 +272,7 @@ private:
   {
     const EntityConfiguration& entity = reading_.experiment.entities[distribution.first + i];
     const std::string tried =
-        random ? fmt::format("no free place in {} trials", distribution.max_trials)
+        random ? fmt::format("no place free of others and of rock in {} trials", distribution.max_trials)
                : fmt::format("its point of the grid at {}, {}, {} is taken or outside the arena",
                              entity.pose.position.x(), entity.pose.position.y(), entity.pose.position.z());
     const char* cure =
@@ -235,6 +285,8 @@ private:
   Reading& reading_;
   Vector3 arena_;
   placement::BodyGrid grid_;
+  placement::Ground ground_;
+  std::vector<bool> with_gripper_;
 };
 
 // Their poses mean nothing: no later check may take them for places.
@@ -248,8 +300,9 @@ void Unplace(const Distribution& distribution, std::vector<EntityConfiguration>&
 
 }  // namespace
 
-void PlaceDistributed(const std::vector<Distribution>& distributions, Reading& reading)
+void PlaceDistributed(Reading& reading)
 {
+  const std::vector<Distribution>& distributions = reading.distributions;
   const Vector3& arena = reading.experiment.arena_size;
   if (distributions.empty() || !(arena.minCoeff() > 0)) return;
   Placer placer(arena, reading);

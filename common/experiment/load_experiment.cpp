@@ -71,6 +71,7 @@ void ReadSections(const TConfigurationTree& root, Reading& reading)
   ReadArena(root.Child("arena"), reading);
   ReadEngines(root.Child("engines"), reading);
   ReadArenaPhysics(root.Child("arena_physics"), reading);
+  PlaceDistributed(reading);
   ReadVisualisations(root.Child("visualisations"), reading);
   ReadExperimentFunctions(root.Child("experiment_functions"), reading);
   CheckControllersOfRobots(reading);

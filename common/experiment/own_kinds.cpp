@@ -1,5 +1,6 @@
 #include "common/experiment/own_kinds.h"
 
+#include "common/control_interface/footbot/ci_footbot_base_ground_sensor.h"
 #include "common/experiment/schema_parts.h"
 #include "common/math/elementary.h"
 
@@ -18,6 +19,13 @@ ParameterSpec ContactParameter(const char* name, const char* description, double
 constexpr AttributeSpec kMessage{"message", 3, 0,
                                  "range and bearing: 1 while sending, then bytes 0..4 and 5..9 as one number each",
                                  AttributeValue::kBytes};
+constexpr AttributeSpec kRadio{"radio", 8, 0,
+                               "radio: packets sent so far, bytes of the last one, the bytes by fives as numbers",
+                               AttributeValue::kBytes};
+constexpr AttributeSpec kReport{"report", 8, 0, "reports to experiment functions, as those of the radio",
+                                AttributeValue::kBytes};
+constexpr AttributeSpec kInstruction{"instruction", 8, 0, "instructions of experiment functions, likewise",
+                                     AttributeValue::kBytes};
 constexpr AttributeSpec kBeacon{"beacon", 1, 0, "colour of the beacon", AttributeValue::kColour};
 constexpr AttributeSpec kSurface{"colour", 1, 0xc0c0c0, "colour of the surface", AttributeValue::kColour};
 
@@ -26,7 +34,6 @@ EntityKindDescription Footbot()
   // Radius, height, wheels, rings: ARGoS3, foot-bot.
   constexpr double kRadius = 0.085036758;
   constexpr int kProximitySensors = 24;
-  constexpr int kGroundSensors = 8;
   EntityKindDescription row;
   row.tag = "footbot";
   row.word = "Footbot";
@@ -43,7 +50,10 @@ EntityKindDescription Footbot()
       {"gripper_aperture", 1, 0, "aperture of the gripper in radians; 0 is closed"},
       {"gripped", 1, 0, "1 + index of the entity held by the gripper; 0: none", AttributeValue::kEntity},
       {"turret_angle", 1, 0, "angle of the turret against the body in radians"},
-      kMessage};
+      kMessage,
+      kRadio,
+      kReport,
+      kInstruction};
   row.wheels = WheelDrive{0.14, 0.029112741, 0.3};
   row.leds = LedLayout{PlacesOnCircle(12, kRadius + 0.005, kPi / 12), 0.085, true};
   row.beacon_height_m = 0.174;
@@ -55,7 +65,7 @@ EntityKindDescription Footbot()
     const double angle = (2 * i + 1) * (kPi / kProximitySensors);
     ring.sensors.push_back({kRadius * Vector2(Cos(angle), Sin(angle)), angle});
   }
-  row.ground_points = PlacesOnCircle(kGroundSensors, 0.08, 0);
+  for (const auto& [x, y] : CCI_FootBotBaseGroundSensor::PLACES_M) row.ground_points.emplace_back(x, y);
   row.label_height_m = 0.33;
   row.mechanism = Mechanism::kTurretGripper;
   return row;
@@ -82,7 +92,10 @@ EntityKindDescription Handbot()
                      AttributeValue::kEntity},
                     {"rope_attached", 1, 0, "1 while the rope is attached to the ceiling", AttributeValue::kSwitch},
                     {"rope_length", 1, 0, "free length of the rope in metres"},
-                    kMessage};
+                    kMessage,
+                    kRadio,
+                    kReport,
+                    kInstruction};
   // An assumption: around its body, at half its height.
   row.leds = LedLayout{PlacesOnCircle(12, 0.09, kPi / 12), 0.08, false};
   row.beacon_height_m = 0.17;
@@ -105,7 +118,10 @@ EntityKindDescription Eyebot()
                     {"laser_pan", 1, 0, "pan of the laser in radians"},
                     {"laser_tilt", 1, 0, "tilt of the laser from straight down in radians"},
                     {"attached", 1, 0, "1 while attached to the ceiling", AttributeValue::kSwitch},
-                    kMessage};
+                    kMessage,
+                    kRadio,
+                    kReport,
+                    kInstruction};
   row.leds = LedLayout{PlacesOnCircle(16, 0.255, kPi / 16), 0.1535, false};
   row.mechanism = Mechanism::kPropellers;
   return row;
@@ -135,13 +151,18 @@ EntityKindDescription CylindricPrey()
   row.word = "CylindricPrey";
   row.short_word = "prey";
   row.further_tags = {"cyllindric_prej"};
-  row.description = "A cylinder that robots can grip and carry. The position is the centre of its base.";
+  row.description =
+      "A cylinder that robots can grip and carry, or a pillar that stands. The position is the centre of its base.";
   row.role = EntityRole::kObject;
   row.form = BodyForm::kCylinder;
+  row.mobility = Mobility::kIfAsked;
   row.grippable = true;
   row.seen_by_cameras = true;
-  row.parameters = {RadiusParameter(),      HeightParameter(),         MassParameter(),       FrictionParameter(),
-                    RestitutionParameter(), GroundFrictionParameter(), ColourParameter("red")};
+  ParameterSpec movable = MovableParameter();
+  movable.default_value = "true";
+  row.parameters = {RadiusParameter(),         HeightParameter(),     movable,
+                    MassParameter(),           FrictionParameter(),   RestitutionParameter(),
+                    GroundFrictionParameter(), ColourParameter("red")};
   row.attributes = {kSurface};
   return row;
 }

@@ -169,7 +169,6 @@ public:
       }
     }
     CheckIds();
-    PlaceDistributed(distributions_, reading_);
   }
 
 private:
@@ -247,7 +246,7 @@ private:
     const ElementReader reader(tree, spec, reading_.diagnostics);
     const std::size_t first = reading_.experiment.entities.size();
     const std::size_t count = ReadAlike(reader, spec, false);
-    if (count > 0) distributions_.push_back({tree, first, count, reader.Integer("max_trials")});
+    if (count > 0) reading_.distributions.push_back({tree, first, count, reader.Integer("max_trials")});
   }
 
   void ReadReserve(const TConfigurationTree& tree, const ElementSpec& spec)
@@ -266,7 +265,6 @@ private:
   }
 
   Reading& reading_;
-  std::vector<Distribution> distributions_;
 };
 
 }  // namespace

@@ -107,6 +107,9 @@ ElementSpec Distribute()
                   kVector3, "layout", "", "",
                   "grid: the number of points along x, y and z, filled in this order; empty: a square that holds all."),
               1, 1e6),
+      Place(Optional(kNumber, "drop_from", "m", "",
+                     "Height from which each is let down onto the terrain of its engines, so that no part of its base "
+                     "is in it; empty: the height of the drawn position stays.")),
   };
   ElementSpec orientation;
   orientation.tags = {"orientation"};

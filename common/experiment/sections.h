@@ -11,12 +11,22 @@
 namespace swarmanoid
 {
 
+// The entities of a <distribute>, whose places are still open (see PlaceDistributed).
+struct Distribution
+{
+  TConfigurationTree tree;
+  std::size_t first = 0;  // index of its first entity
+  std::size_t count = 0;
+  long long max_trials = 0;
+};
+
 // What the readers share.
 struct Reading
 {
   Experiment& experiment;
   Diagnostics& diagnostics;
   const LoadOptions& options;
+  std::vector<Distribution> distributions{};
 };
 
 void ReadFramework(const TConfigurationTree& tree, Reading& reading);
@@ -41,16 +51,8 @@ bool CheckId(const std::string& id, const SourceLocation& place, Diagnostics& di
 // and a report naming those that exist, if there is none.
 const PluginDescription* FindPlugin(PluginKind kind, const TConfigurationTree& tree, Reading& reading);
 
-// The number of bodies' places for placing (see distribute.h).
-struct Distribution
-{
-  TConfigurationTree tree;
-  std::size_t first = 0;  // index of its first entity
-  std::size_t count = 0;
-  long long max_trials = 0;
-};
-
-// Gives the entities of all <distribute> elements their poses, around all entities that have theirs already.
-void PlaceDistributed(const std::vector<Distribution>& distributions, Reading& reading);
+// Gives the entities of all <distribute> elements their poses, around all entities that have theirs already and in the
+// terrain of their engines: after ReadArena and ReadArenaPhysics.
+void PlaceDistributed(Reading& reading);
 
 }  // namespace swarmanoid

@@ -24,6 +24,8 @@ public:
   RandomStream Of(std::size_t k) const { return {Key(k), space_->GetTick()}; }
   // What robot k draws about `whom`: StreamName(id) of another entity, StreamPart(name, number) of a part.
   RandomStream Of(std::size_t k, std::uint64_t whom) const { return {Key(k), space_->GetTick(), whom}; }
+  // What robot k draws once for the whole run about part `part` of the device.
+  RandomStream Once(std::size_t k, std::uint64_t part) const { return {Key(k), 0, part}; }
 
 private:
   const StreamKey& Key(std::size_t k) const

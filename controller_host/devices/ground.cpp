@@ -1,10 +1,12 @@
-// The ground sensors of the footbot, and of any robot whose kind has them: brightness of the floor under some points,
-// and its colour under the middle. Patches lie on one another in the order of the experiment file; holes, of the floor
-// or of terrain, are black. Generic.
+// The ground sensors of the footbot (all of its eight as greys, those of its base, those of its motors), and of any
+// robot whose kind has them: brightness of the floor under some points, and its colour under the middle. Patches lie on
+// one another in the order of the experiment file; holes, of the floor or of terrain, are black. Generic.
 #include <algorithm>
 
 #include "common/control_interface/ci_ground_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_base_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_ground_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_motor_ground_sensor.h"
 #include "controller_host/devices/any_robot/kind_of_batch.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
@@ -46,19 +48,45 @@ private:
   const double* colour_;
 };
 
+template <class Interface>
+class FixedGround : public ReadingsOf<Interface, Interface::NUM_SENSORS>
+{
+public:
+  FixedGround(const double* values, std::size_t) : ReadingsOf<Interface, Interface::NUM_SENSORS>(values) {}
+};
+
+// Where the sensors look, and what they make of a brightness.
+struct AsTheKindSays
+{
+  static std::vector<Vector2> Points(const DeviceSetup& setup) { return KindOfBatch(setup).ground_points; }
+  static double Reading(double brightness) { return brightness; }
+};
+
+template <class Interface, bool kBlackOrWhite>
+struct AsTheInterfaceSays
+{
+  static std::vector<Vector2> Points(const DeviceSetup&)
+  {
+    std::vector<Vector2> points;
+    for (const auto& [x, y] : Interface::PLACES_M) points.emplace_back(x, y);
+    return points;
+  }
+  static double Reading(double brightness) { return kBlackOrWhite ? (brightness < 0.5 ? 0.0 : 1.0) : brightness; }
+};
+
 // Rec. 601 luma.
 double Brightness(std::uint32_t colour)
 {
   return (0.299 * (colour >> 16 & 0xff) + 0.587 * (colour >> 8 & 0xff) + 0.114 * (colour & 0xff)) / 255;
 }
 
-template <class Device>
+template <class Device, class Model = AsTheKindSays>
 class GroundSensor : public ValueSensor
 {
 public:
   void Init(const DeviceSetup& setup) override
   {
-    points_ = KindOfBatch(setup).ground_points;
+    points_ = Model::Points(setup);
     Reset(setup, points_.size() + 1);
     ground_noise_ = NoiseFrom(setup.parameters);
     floor_colour_ = setup.parameters.Colour("floor_colour");
@@ -129,10 +157,13 @@ private:
       }
       if (patch.Contains(relative.position.x(), relative.position.y())) values[points_.size()] = colour;
     }
-    if (!ground_noise_.IsActive()) return;
-    RandomStream random = streams_.Of(k);
-    for (std::size_t i = 0; i < points_.size(); ++i)
-      values[i] = std::clamp(values[i] + ground_noise_.Sample(random), 0.0, 1.0);
+    if (ground_noise_.IsActive())
+    {
+      RandomStream random = streams_.Of(k);
+      for (std::size_t i = 0; i < points_.size(); ++i)
+        values[i] = std::clamp(values[i] + ground_noise_.Sample(random), 0.0, 1.0);
+    }
+    for (std::size_t i = 0; i < points_.size(); ++i) values[i] = Model::Reading(values[i]);
   }
 
   // If a terrain of the robot's world has no ground near it, and the floor z = 0 is not near either, there is a
@@ -176,6 +207,12 @@ private:
 void RegisterGround()
 {
   BindSensor<GroundSensor<FootbotGround>>("footbot_ground", "generic_footbot_ground");
+  using Base = CCI_FootBotBaseGroundSensor;
+  BindSensor<GroundSensor<FixedGround<Base>, AsTheInterfaceSays<Base, true>>>("footbot_base_ground",
+                                                                              "generic_footbot_base_ground");
+  using Motor = CCI_FootBotMotorGroundSensor;
+  BindSensor<GroundSensor<FixedGround<Motor>, AsTheInterfaceSays<Motor, false>>>("footbot_motor_ground",
+                                                                                 "generic_footbot_motor_ground");
   BindSensor<GroundSensor<AnyGround>>("ground", "generic_ground");
 }
 

@@ -16,7 +16,7 @@ void RegisterBuiltinDevices()
     RegisterFootbotTurret();
     RegisterFootbotEncoders();
     RegisterFootbotAccelerometer();
-    RegisterFootbotLight();
+    RegisterLight();
     RegisterGround();
     RegisterProximity();
     RegisterWheels();
@@ -24,6 +24,14 @@ void RegisterBuiltinDevices()
     RegisterPreferentialDirection();
     RegisterColourCameras();
     RegisterPieCamera();
+    RegisterMotionSensors();
+    RegisterMicrophones();
+    RegisterDistanceScanners();
+    RegisterContact();
+    RegisterTagReader();
+    RegisterFunctionsChannel();
+    RegisterRadioSender();
+    RegisterRadioReceiver();
     RegisterRangeAndBearingSender();
     RegisterRangeAndBearingReceiver();
     RegisterEyebotPropellers();

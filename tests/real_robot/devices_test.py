@@ -73,7 +73,7 @@ class Devices(unittest.TestCase):
     def test_sensors_of_a_footbot(self):
         ring = ["footbot_proximity", "footbot_light"]
         others = ["footbot_encoders", "footbot_accelerometer", "footbot_turret_torque", "footbot_turret_encoder", "footbot_gripper",
-                  "footbot_ground", "footbot_omnidirectional_camera", "pie_camera"]
+                  "footbot_ground", "footbot_omnidirectional_camera", "pie_camera", "gyroscope", "positioning"]
         readings, _ = self.run_robot("footbot", ring + others,
                                      drivers='<sensors><footbot_proximity driver="ros2_ranges"/></sensors>')
         # Ranges from the body: too near to be measured is contact, +infinity and what is beyond 0.1 m is nothing.
@@ -89,8 +89,10 @@ class Devices(unittest.TestCase):
                     right=(0.1 + 0.5 * WHEEL_DISTANCE / 2) / WHEEL_RADIUS)
         self.assertEqual(readings["footbot_encoders"]["left"][1], "rad/s")
         self.expect(readings, "footbot_accelerometer", forward=0.5, left=-1.25, up=9.81)
-        # 10 N and 1 N m read as 1, and no more.
-        self.expect(readings, "footbot_turret_torque", forward_traction=0.5, left_traction=-1, torque=-0.25)
+        self.expect(readings, "gyroscope", roll=0, pitch=0, yaw=17)
+        self.expect(readings, "positioning", x=3, y=-0.5, z=0, heading=math.pi / 2)
+        # As in the engines, 25 N and 1.5 N m read as 1, and no more.
+        self.expect(readings, "footbot_turret_torque", forward_traction=0.2, left_traction=-1, torque=-0.25)
         self.expect(readings, "footbot_turret_encoder", angle=-math.pi / 2)
         self.expect(readings, "footbot_gripper", aperture=0.3, grips=1)
         for i, brightness in enumerate((0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 1)):
@@ -137,7 +139,7 @@ class Devices(unittest.TestCase):
         self.expect_numbers(told["cmd_vel"][-1], 0, 0, 0, 0, 0, 0)
         self.assertEqual(told["beacon"], ["1 0.502 0 1", "0 0 0 0"])
         self.assertEqual(told["gripper/command"], ["0.25", "1"])
-        self.assertEqual(told["turret/velocity"], ["0.5", "-2", "0"])
+        self.assertEqual(told["turret/velocity"], ["0.5", "-3.14159", "0"])
         self.assertEqual(told["leds"], ["led 12 rgb 3 010 101" + " 010" * 10, "led 12 rgb 3" + " 000" * 12])
 
     def test_a_preferential_direction_turns_against_the_turret(self):

@@ -62,7 +62,9 @@ static void PublishMotion(dds_entity_t odom, dds_entity_t imu, dds_entity_t wren
 {
   nav_msgs_msg_dds__Odometry_ odometry = {.header.frame_id = "odom", .child_frame_id = "base_link"};
   odometry.pose.pose.position.x = 3;
-  odometry.pose.pose.orientation.w = 1;
+  odometry.pose.pose.position.y = -0.5;
+  odometry.pose.pose.orientation.z = 2;  // not quite of length 1: a quarter turn
+  odometry.pose.pose.orientation.w = 2;
   odometry.pose.covariance[35] = 11;
   odometry.twist.twist.linear.x = 0.1;
   odometry.twist.twist.linear.y = 13;
@@ -77,8 +79,8 @@ static void PublishMotion(dds_entity_t odom, dds_entity_t imu, dds_entity_t wren
   dds_write(imu, &felt);
 
   geometry_msgs_msg_dds__WrenchStamped_ pull = {.header.frame_id = "turret"};
-  pull.wrench.force = (geometry_msgs_msg_dds__Vector3_){5, -20, 23};
-  pull.wrench.torque = (geometry_msgs_msg_dds__Vector3_){29, 31, -0.25};
+  pull.wrench.force = (geometry_msgs_msg_dds__Vector3_){5, -30, 23};
+  pull.wrench.torque = (geometry_msgs_msg_dds__Vector3_){29, 31, -0.375};
   dds_write(wrench, &pull);
 
   sensor_msgs_msg_dds__Range_ above = {

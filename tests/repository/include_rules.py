@@ -41,6 +41,10 @@ def allowed():
     without_bus = [folder for folder in below if folder != "common/bus"]
     for role in ROLES:
         rules[role] = without_bus + [role]
+    # The terrains are of the library of the experiment: <distribute> places on them.
+    experiment = rules["common/experiment"]
+    rules["common/space/terrain"] = experiment + ["common/space/terrain"]
+    rules["common/experiment"] = experiment + ["common/space/terrain"]
     rules["roles"] = without_bus + ROLES + ["roles"]
     rules["launcher"] = below + ROLES + ["roles", "launcher"]
     rules["real_robot"] = INTERFACE + ["common/logging", "common/program", "real_robot"]
@@ -51,6 +55,9 @@ def allowed():
     rules["user/functions"] = rules["space_server"] + ["user/functions"]
     # Kinds of robots and objects are rows of a table of the experiment.
     rules["user/entities"] = below[: below.index("common/experiment") + 1] + ["user/entities"]
+    for folder in rules:
+        if "common/space" in rules[folder]:
+            rules[folder] = rules[folder] + ["common/space/terrain"]
     return rules
 
 

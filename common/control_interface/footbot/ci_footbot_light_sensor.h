@@ -17,6 +17,7 @@ public:
   // The angle (radians, counter-clockwise from the front) of sensor i is FIRST_ANGLE + i * SPACING, as for proximity.
   static constexpr double FIRST_ANGLE = 0.1308996938995747;  // 7.5 degrees
   static constexpr double SPACING = 0.2617993877991494;      // 15 degrees
+  static constexpr double RING_HEIGHT_M = 0.06;              // above the base
 
   // 0 (dark) to 1, valid until the next control step.
   virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;

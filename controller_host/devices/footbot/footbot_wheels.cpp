@@ -1,6 +1,8 @@
 #include "controller_host/devices/footbot/footbot_wheels.h"
 
 #include <algorithm>
+#include <limits>
+#include <string>
 
 #include "common/math/elementary.h"
 #include "controller_host/devices/builtin_devices.h"
@@ -86,6 +88,38 @@ void NoisyFootbotWheels::Commit(const ChannelView& channel, AttributeChanges&)
   AddNoise(channel);
 }
 
+void Argos3FootbotWheels::Init(const DeviceSetup& setup)
+{
+  DummyFootbotWheels::Init(setup);
+  if (limit_ == 0) limit_ = std::numeric_limits<double>::infinity();
+  factor_streams_ = DeviceStreams(setup, "factor");
+  const DeviceStreams bias_streams(setup, "bias");
+  constexpr const char* kSides[] = {"_left", "_right"};
+  bias_.resize(wheels_.size());
+  for (std::size_t side = 0; side < 2; ++side)
+  {
+    const auto number = [&](const std::string& name) { return setup.parameters.Number(name + kSides[side]); };
+    factor_mean_[side] = number("factor_avg");
+    factor_deviation_[side] = number("factor_stddev");
+    for (std::size_t k = 0; k < wheels_.size(); ++k)
+      bias_[k][side] = bias_streams.Once(k, side).Gaussian(number("bias_avg"), number("bias_stddev")) / kRadius;
+  }
+}
+
+void Argos3FootbotWheels::Commit(const ChannelView& channel, AttributeChanges&)
+{
+  for (std::size_t k = 0; k < wheels_.size(); ++k)
+  {
+    double* values = &channel.values[channel.offsets[k]];
+    for (std::size_t side = 0; side < 2; ++side) values[side] = Clamped(wheels_[k].wanted[side]);
+    if (values[0] == 0 && values[1] == 0) continue;
+    RandomStream random = factor_streams_.Of(k);
+    for (std::size_t side = 0; side < 2; ++side)
+      values[side] = random.Gaussian(factor_mean_[side], factor_deviation_[side]) * (values[side] + bias_[k][side]);
+  }
+  AddNoise(channel);
+}
+
 void PidFootbotWheels::Init(const DeviceSetup& setup)
 {
   DummyFootbotWheels::Init(setup);
@@ -129,6 +163,7 @@ void RegisterFootbotWheels()
 {
   BindActuator<DummyFootbotWheels>("footbot_wheels", "dummy_footbot_wheels");
   BindActuator<NoisyFootbotWheels>("footbot_wheels", "noisy_footbot_wheels");
+  BindActuator<Argos3FootbotWheels>("footbot_wheels", "argos3_footbot_wheels");
   BindActuator<PidFootbotWheels>("footbot_wheels", "pid_footbot_wheels");
 }
 

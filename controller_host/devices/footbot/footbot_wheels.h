@@ -51,8 +51,8 @@ private:
   NoiseModel noise_;  // m/s on the ground
 };
 
-// v' = bias + factor * v + noise for each wheel, only while the wheel is told to move (ARGoS3, differential steering
-// noise).
+// v' = bias + factor * v + noise for each wheel, only while the wheel is told to move: a bias and a factor that never
+// change, an assumption.
 class NoisyFootbotWheels : public DummyFootbotWheels
 {
 public:
@@ -62,6 +62,20 @@ public:
 private:
   std::array<double, 2> bias_{};  // rad/s
   std::array<double, 2> factor_{};
+};
+
+// v' = factor * (v + bias) for both wheels while one of them is told to move; the bias of each wheel is drawn once, its
+// factor in every tick, both Gaussian: differential_steering_default_actuator.cpp of ARGoS3.
+class Argos3FootbotWheels : public DummyFootbotWheels
+{
+public:
+  void Init(const DeviceSetup& setup) override;
+  void Commit(const ChannelView& channel, AttributeChanges& changes) override;
+
+private:
+  std::array<double, 2> factor_mean_{}, factor_deviation_{};
+  std::vector<std::array<double, 2>> bias_;  // rad/s
+  DeviceStreams factor_streams_;
 };
 
 // First-order response: the speed approaches the one asked for with a time constant, within a largest acceleration.

@@ -70,7 +70,7 @@ private:
 REGISTER_ACTUATOR_DRIVER(
     Turret, DescribeDriver("footbot_turret", "ros2", "std_msgs/msg/Float64 on turret/velocity", {"footbot"},
                            {TopicParameter("topic", "turret/velocity", "Topic of the angular velocity, rad/s."),
-                            NumberParameter("max_speed", "rad/s", "2", "Fastest angular velocity.")}))
+                            NumberParameter("max_speed", "rad/s", "3.14159265", "Fastest angular velocity.")}))
 
 class TurretEncoder : public JointSensor<CCI_FootBotTurretEncoderSensor>
 {
@@ -115,8 +115,8 @@ REGISTER_SENSOR_DRIVER(
     TurretTorque,
     DescribeDriver("footbot_turret_torque", "ros2", "geometry_msgs/msg/WrenchStamped on turret/wrench", {"footbot"},
                    {TopicParameter("topic", "turret/wrench", "Topic of force and torque in the frame of the turret."),
-                    NumberParameter("max_force", "N", "10", "Force that reads as 1."),
-                    NumberParameter("max_torque", "N m", "1", "Torque that reads as 1.")}))
+                    NumberParameter("max_force", "N", "25", "Force that reads as 1."),
+                    NumberParameter("max_torque", "N m", "1.5", "Torque that reads as 1.")}))
 
 }  // namespace
 }  // namespace swarmanoid::ros2

@@ -3,9 +3,12 @@
 #include <array>
 #include <optional>
 
+#include "common/control_interface/ci_gyroscope_sensor.h"
+#include "common/control_interface/ci_positioning_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_accelerometer_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_light_sensor.h"
+#include "nav_msgs.h"
 #include "real_robot/drivers/ros2/topic_driver.h"
 
 namespace swarmanoid::ros2
@@ -102,6 +105,46 @@ private:
 REGISTER_SENSOR_DRIVER(Accelerometer,
                        DescribeDriver("footbot_accelerometer", "ros2", "sensor_msgs/msg/Imu on imu", {"footbot"},
                                       {TopicParameter("topic", "imu", "Topic of the inertial sensor.")}))
+
+class Gyroscope : public TopicSensor<CCI_GyroscopeSensor, Imu>
+{
+public:
+  std::span<const double, 3> GetAllSensorReadings() const override { return readings_; }
+
+private:
+  void Read(const Imu& message) override
+  {
+    const auto& turning = message.angular_velocity();
+    readings_ = {turning.x(), turning.y(), turning.z()};
+  }
+
+  std::array<double, 3> readings_{};
+};
+
+REGISTER_SENSOR_DRIVER(Gyroscope, DescribeDriver("gyroscope", "ros2", "sensor_msgs/msg/Imu on imu", {},
+                                                 {TopicParameter("topic", "imu", "Topic of the inertial sensor.")}))
+
+using Odometry = nav_msgs::msg::dds_::Odometry_;
+
+class Positioning : public TopicSensor<CCI_PositioningSensor, Odometry>
+{
+public:
+  Vector3 GetPosition() const override { return pose_.position; }
+  Quaternion GetOrientation() const override { return pose_.orientation; }
+
+private:
+  void Read(const Odometry& message) override
+  {
+    const auto& place = message.pose().pose().position();
+    const auto& turn = message.pose().pose().orientation();
+    pose_ = {{place.x(), place.y(), place.z()}, Quaternion(turn.w(), turn.x(), turn.y(), turn.z()).normalized()};
+  }
+
+  Pose pose_;
+};
+
+REGISTER_SENSOR_DRIVER(Positioning, DescribeDriver("positioning", "ros2", "nav_msgs/msg/Odometry on odom", {},
+                                                   {TopicParameter("topic", "odom", "Topic of the pose.")}))
 
 }  // namespace
 }  // namespace swarmanoid::ros2

@@ -14,6 +14,7 @@
 #include "common/control_interface/handbot/ci_handbot_arms_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_head_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_rope_actuator.h"
+#include "common/space/attributes.h"
 #include "controller_host/controller_host.h"
 
 namespace swarmanoid
@@ -226,12 +227,13 @@ TEST(Commands, AttributesOfADeviceAreChecked)
     Painter::changes.Add(slot, value);
     return Mistake(EntityKind::kFootbot, {{"commands_test_paint", "painter"}}, [](CCI_Robot&) {});
   };
+  const auto slots = static_cast<std::uint32_t>(AttributeCount(EntityKind::kFootbot));
   EXPECT_EQ(paint(3, 0xff0000), "");
-  EXPECT_EQ(paint(19 + 3, kNan), NoNumber("commands_test_paint"));
+  EXPECT_EQ(paint(slots + 3, kNan), NoNumber("commands_test_paint"));
   EXPECT_THAT(paint(3, 0.5), AllOf(HasSubstr("actuator 'commands_test_paint' (painter) at tick 5: "),
                                    HasSubstr("the attribute 'led' 3 of the footbot 'robot_0' is 0.5")));
   EXPECT_THAT(paint(0x7ffffff0, 1), HasSubstr("there is no attribute slot 2147483632"));
-  EXPECT_THAT(paint(2 * 19 + 1, 0), HasSubstr("the presence of the footbot 'robot_1' is 0"));
+  EXPECT_THAT(paint(2 * slots + 1, 0), HasSubstr("the presence of the footbot 'robot_1' is 0"));
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 // Light, ground and altitude against geometry worked out by hand.
 #include "common/control_interface/eyebot/ci_eyebot_altitude_sensor.h"
+#include "common/control_interface/eyebot/ci_eyebot_light_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_base_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_light_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_motor_ground_sensor.h"
 #include "tests/unit/devices/test_world.h"
 
 namespace swarmanoid
@@ -69,6 +72,78 @@ TEST(FootbotLight, ShadowsAddUpAndCutOff)
   world.Space().SetPose(0, {{5, 6.9, 0}, Quaternion::Identity()});
   sensor.Update();
   EXPECT_EQ(sensor.Of<CCI_FootBotLightSensor>(0).GetLightSensorReading(5), 1);
+}
+
+// exp(-2 d / I) to d / I = 2.5, d from the middle of the base: the figures of ARGoS3.
+TEST(Argos3Light, FallsExponentiallyAndEndsAtTwoAndAHalfIntensities)
+{
+  for (const double distance : {0.3, 1.0, 4.9, 5.1})
+  {
+    TestWorld world;
+    world.AddEngine("sky");
+    world.AddFootbot(2, 5, 0.3);
+    const auto eyebot = world.AddEyebot(2, 2, 0, -0.2, 1);
+    const double x = 2 + std::sqrt(distance * distance - 0.04);
+    for (const double y : {5.0, 2.0})
+    {
+      const auto bulb = world.Add(EntityKind::kLightBulb, {x, y, 0.2}, 0, {0, 0, 0}, false, -1);
+      world.Configuration().entities[bulb].intensity = 2;
+    }
+    TestSensor footbots(world, "footbot_light", "argos3_footbot_light", {0});
+    TestSensor eyebots(world, "eyebot_light", "argos3_eyebot_light", {eyebot});
+    footbots.Update();
+    eyebots.Update();
+    const auto check = [&](std::span<const double, 24> readings, double x0, double y0, double yaw)
+    {
+      for (unsigned i = 0; i < 24; ++i)
+      {
+        double expected = 0;
+        for (const double y : {5.0, 2.0})
+        {
+          const double d = std::hypot(x - x0, y - y0, 0.2);
+          const double off =
+              std::abs(std::remainder((7.5 + 15.0 * i) * kPi / 180 + yaw - std::atan2(y - y0, x - x0), 2 * kPi));
+          if (d <= 5 && off < kPi / 2) expected += std::exp(-2 * d / 2) * (1 - 2 * off / kPi);
+        }
+        EXPECT_NEAR(readings[i], expected, 1e-12) << distance << " m, sensor " << i;
+      }
+    };
+    check(footbots.Of<CCI_FootBotLightSensor>(0).GetAllSensorReadings(), 2, 5, 0.3);
+    check(eyebots.Of<CCI_EyeBotLightSensor>(0).GetAllSensorReadings(), 2, 2, -0.2);
+  }
+}
+
+TEST(FootbotBaseAndMotorGround, LookWhereArgos3HasThemAndTellBlackFromWhiteOrGreys)
+{
+  const double base[8][2] = {{0.08, 0},  {0.042, 0.065},   {0, 0.08},  {-0.042, 0.065},
+                             {-0.08, 0}, {-0.042, -0.065}, {0, -0.08}, {0.042, -0.065}};
+  const double motor[4][2] = {{0.063, 0.0116}, {-0.063, 0.0116}, {-0.063, -0.0116}, {0.063, -0.0116}};
+  const auto is_dark_only_under = [&](double x, double y, std::uint32_t grey, double in_base, double in_motor)
+  {
+    TestWorld world;
+    const Pose pose{{5, 5, 0}, QuaternionFromYaw(0.7)};
+    world.AddFootbot(5, 5, 0.7);
+    const auto spot = world.Add(EntityKind::kGroundPatch, pose.Apply({x, y, 0}), 0, {0.004, 0, 0}, false, -1);
+    world.Configuration().entities[spot].colour = grey;
+    TestSensor around(world, "footbot_base_ground", "generic_footbot_base_ground", {0});
+    TestSensor between(world, "footbot_motor_ground", "generic_footbot_motor_ground", {0});
+    around.Update();
+    between.Update();
+    for (unsigned i = 0; i < 8; ++i)
+      EXPECT_EQ(around.Of<CCI_FootBotBaseGroundSensor>(0).GetAllSensorReadings()[i],
+                base[i][0] == x && base[i][1] == y ? in_base : 1)
+          << i;
+    for (unsigned i = 0; i < 4; ++i)
+      EXPECT_NEAR(between.Of<CCI_FootBotMotorGroundSensor>(0).GetAllSensorReadings()[i],
+                  motor[i][0] == x && motor[i][1] == y ? in_motor : 1, 1e-12)
+          << i;
+  };
+  for (const auto& place : base)
+  {
+    is_dark_only_under(place[0], place[1], 0x7f7f7f, 0, 1);
+    is_dark_only_under(place[0], place[1], 0x808080, 1, 1);
+  }
+  for (const auto& place : motor) is_dark_only_under(place[0], place[1], 0x404040, 1, 0x40 / 255.0);
 }
 
 TEST(FootbotGround, SeesPatchesHolesAndTheirOrder)

@@ -127,5 +127,54 @@ TEST(FootbotWheels, SpeedControllerKeepsWithinTheAcceleration)
   }
 }
 
+// a = f (w + b) of ARGoS3: b of each wheel drawn once, f in every tick, both wheels while one of them moves.
+TEST(Argos3Wheels, HaveABiasForGoodAndAFactorOfTheTick)
+{
+  TestWorld world;
+  std::vector<std::uint32_t> robots;
+  for (int k = 0; k < 2000; ++k) robots.push_back(world.AddFootbot(0.2 + 0.2 * (k % 45), 0.2 + 0.2 * (k / 45)));
+  const auto speeds = [&](const TestParameters& parameters, std::uint64_t tick, double left, double right)
+  {
+    world.Space().SetTick(tick);
+    TestActuator wheels(world, "footbot_wheels", "argos3_footbot_wheels", robots, parameters);
+    for (std::size_t k = 0; k < robots.size(); ++k)
+      wheels.Of<CCI_FootBotWheelsActuator>(k).SetFootBotWheelsLinearVelocity(left, right);
+    wheels.Commit();
+    std::vector<double> all = wheels.values;
+    for (double& speed : all) speed *= kRadius;
+    return all;
+  };
+  const auto moments = [](const std::vector<double>& all, std::size_t side)
+  {
+    double sum = 0, squares = 0;
+    for (std::size_t i = side; i < all.size(); i += 2)
+    {
+      sum += all[i];
+      squares += all[i] * all[i];
+    }
+    const double count = static_cast<double>(all.size() / 2);
+    return std::pair(sum / count, std::sqrt(squares / count - sum / count * (sum / count)));
+  };
+  // Without its noise: what was told, faster than 0.3 m/s too.
+  for (const double speed : speeds({}, 3, 0.4, 0.4)) ASSERT_NEAR(speed, 0.4, 1e-12);
+
+  const TestParameters bias{{"bias_avg_left", "0.01"}, {"bias_stddev_left", "0.02"}, {"bias_stddev_right", "0.005"}};
+  const std::vector<double> biased = speeds(bias, 3, 0.1, 0);
+  EXPECT_EQ(biased, speeds(bias, 4, 0.1, 0)) << "drawn once";
+  for (const double speed : speeds(bias, 4, 0, 0)) ASSERT_EQ(speed, 0) << "one that stands has no noise";
+  const double error = 4 / std::sqrt(2000);
+  EXPECT_NEAR(moments(biased, 0).first, 0.11, 0.02 * error);
+  EXPECT_NEAR(moments(biased, 0).second, 0.02, 0.02 * error);
+  EXPECT_NEAR(moments(biased, 1).first, 0, 0.005 * error) << "the wheel that is told to stand turns with its bias";
+  EXPECT_NEAR(moments(biased, 1).second, 0.005, 0.005 * error);
+
+  const TestParameters factor{{"bias_avg_right", "0.05"}, {"factor_avg_right", "0.5"}, {"factor_stddev_right", "0.1"}};
+  const std::vector<double> scaled = speeds(factor, 3, 0.1, 0.1);
+  EXPECT_NE(scaled, speeds(factor, 4, 0.1, 0.1)) << "drawn in every tick";
+  EXPECT_NEAR(moments(scaled, 0).first, 0.1, 1e-12);
+  EXPECT_NEAR(moments(scaled, 1).first, 0.5 * 0.15, 0.1 * 0.15 * error);
+  EXPECT_NEAR(moments(scaled, 1).second, 0.1 * 0.15, 0.1 * 0.15 * error);
+}
+
 }  // namespace
 }  // namespace swarmanoid

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# epuck_mixed.sh SWARMANOID EXPERIMENT: kinds of robots from a library give the same hash in one process, as a cluster, and from a
-# checkpoint on.
+# same_hash.sh SWARMANOID EXPERIMENT [WORD]: the same hash in one process, as a cluster, and from a checkpoint on. The WORD stands in the
+# table of positions.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -8,4 +8,4 @@ trap 'rm -rf "$folder"' EXIT
 hash=$(grep -oE 'hash [0-9a-f]{16}' "$folder/one.txt" | tail -n 1 | cut -d' ' -f2)
 "$1" run "$2" --ticks 200 --controller-hosts 2 --expect-hash "$hash" --output "$folder/cluster"
 "$1" run "$2" --single-process --ticks 200 --restore "$folder/one/checkpoint-00000100" --expect-hash "$hash" --output "$folder/restored"
-grep -qw EPuck "$folder/cluster/positions.txt"
+[ $# -lt 3 ] || grep -qw "$3" "$folder/cluster/positions.txt"

@@ -1,0 +1,44 @@
+// The eight sensors around the base of a footbot that tell a black floor from a white one.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+
+#include "common/control_interface/ci_device.h"
+
+namespace swarmanoid
+{
+
+class CCI_FootBotBaseGroundSensor : public CCI_Sensor
+{
+public:
+  static constexpr unsigned NUM_SENSORS = 8;
+  struct Place
+  {
+    double x, y;
+  };
+  // Ahead and to the left of the middle of the robot, m: footbot_entity.cpp of ARGoS3.
+  static constexpr std::array<Place, NUM_SENSORS> PLACES_M{{
+      {0.08, 0},
+      {0.042, 0.065},
+      {0, 0.08},
+      {-0.042, 0.065},
+      {-0.08, 0},
+      {-0.042, -0.065},
+      {0, -0.08},
+      {0.042, -0.065},
+  }};
+
+  // 1 where the floor has at least half of the brightness of white, else 0.
+  virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    for (unsigned i = 0; i < NUM_SENSORS; ++i) readings.push_back({std::to_string(i), "", GetAllSensorReadings()[i]});
+  }
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_FootBotBaseGroundSensor;

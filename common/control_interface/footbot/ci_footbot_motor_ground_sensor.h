@@ -1,0 +1,40 @@
+// The four sensors between the tracks of a footbot that see the greys of the floor.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+
+#include "common/control_interface/ci_device.h"
+
+namespace swarmanoid
+{
+
+class CCI_FootBotMotorGroundSensor : public CCI_Sensor
+{
+public:
+  static constexpr unsigned NUM_SENSORS = 4;
+  struct Place
+  {
+    double x, y;
+  };
+  // Ahead and to the left of the middle of the robot, m: footbot_entity.cpp of ARGoS3.
+  static constexpr std::array<Place, NUM_SENSORS> PLACES_M{{
+      {0.063, 0.0116},
+      {-0.063, 0.0116},
+      {-0.063, -0.0116},
+      {0.063, -0.0116},
+  }};
+
+  // Brightness of the floor, 0 (black, or a hole) to 1 (white).
+  virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
+
+  void Describe(std::vector<CCI_Reading>& readings) const override
+  {
+    for (unsigned i = 0; i < NUM_SENSORS; ++i) readings.push_back({std::to_string(i), "", GetAllSensorReadings()[i]});
+  }
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_FootBotMotorGroundSensor;

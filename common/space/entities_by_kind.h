@@ -1,0 +1,16 @@
+// The entities of a kind. Used by experiment functions.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "common/space/space.h"
+
+namespace swarmanoid
+{
+
+// By the tag of the kind ("footbot"): indices, ascending, of those that are in the arena and of those that are not.
+// Throws std::invalid_argument for an unknown tag.
+std::vector<std::uint32_t> GetEntitiesByKind(const CSwarmanoidSpace& space, std::string_view tag);
+
+}  // namespace swarmanoid

@@ -1,0 +1,148 @@
+// Receives the packets of all radios in range, some time after they were sent.
+#include <algorithm>
+#include <memory>
+
+#include "common/control_interface/ci_radio.h"
+#include "common/math/elementary.h"
+#include "common/space/attributes.h"
+#include "common/space/packet_attribute.h"
+#include "common/space/query.h"
+#include "controller_host/devices/builtin_devices.h"
+#include "controller_host/devices/device_plugins.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr double kNearest = 0.01;  // m: nearer radios are as strong as there
+
+struct Receiver : public CCI_RadioSensor
+{
+  std::span<const Packet> GetAllPackets() const override { return packets; }
+  std::vector<Packet> packets;
+};
+
+class RadioReceiver : public SensorBatch
+{
+public:
+  void Init(const DeviceSetup& setup) override
+  {
+    space_ = &setup.space;
+    robots_ = setup.robots;
+    range_ = setup.parameters.Number("range");
+    loss_ = setup.parameters.Number("loss_probability");
+    const double ticks = setup.parameters.Number("latency") / setup.space.GetTickSeconds();
+    latency_ = static_cast<std::uint64_t>(__builtin_ceil(ticks - 1e-9));
+    noise_ = NoiseFrom(setup.parameters);
+    noise_streams_ = DeviceStreams(setup, "signal");
+    loss_streams_ = DeviceStreams(setup, "loss");
+    query_ = std::make_unique<SpaceQuery>(setup.space);
+    place_of_entity_.assign(setup.space.Size(), -1);
+    for (std::size_t k = 0; k < robots_.size(); ++k) place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
+    for (std::uint32_t e = 0; e < setup.space.Size(); ++e)
+      if (const CSwarmanoidSpaceEntity& entity = setup.space.GetEntity(e);
+          AttributeOffset(entity.GetKind(), "radio") >= 0)
+        senders_.push_back({e, entity.SlotOf("radio"), StreamName(entity.GetId())});
+    sent_.assign(senders_.size(), 0);
+    receivers_.resize(robots_.size());
+  }
+  CCI_Sensor* Sensor(std::size_t k) override { return &receivers_[k]; }
+
+  void Update(const ChannelView&) override
+  {
+    for (Receiver& receiver : receivers_) receiver.packets.clear();
+    for (std::size_t s = 0; s < senders_.size(); ++s)
+    {
+      const double count = space_->Attributes()[senders_[s].slot];
+      if (count == sent_[s]) continue;
+      sent_[s] = count;
+      if (space_->IsPresent(senders_[s].entity)) Spread(senders_[s]);
+    }
+    Deliver();
+  }
+
+  void SaveState(ByteWriter& state) const override
+  {
+    state.PutArray(sent_);
+    state.PutArray(flying_);
+  }
+  void LoadState(ByteReader& state) override
+  {
+    sent_ = state.GetArray<double>();
+    flying_ = state.GetArray<Flying>();
+    if (sent_.size() != senders_.size()) throw std::runtime_error("saved state: a radio hears other robots");
+  }
+
+private:
+  struct Sender
+  {
+    std::uint32_t entity, slot;
+    std::uint64_t name;
+  };
+  // A packet on its way to one robot.
+  struct Flying
+  {
+    std::uint64_t due;  // tick
+    std::uint32_t k, sender;
+    double signal;
+    AttributePacket packet;
+  };
+
+  void Spread(const Sender& sender)
+  {
+    const Vector3 place = space_->GetPose(sender.entity).position;
+    const AttributePacket packet = UnpackedPacket(&space_->Attributes()[sender.slot + 1]);
+    for (const std::uint32_t entity : query_->FindWithin(place, range_))
+    {
+      const std::int32_t place_of_robot = place_of_entity_[entity];
+      if (place_of_robot < 0 || entity == sender.entity) continue;
+      const auto k = static_cast<std::size_t>(place_of_robot);
+      if (loss_ > 0 && loss_streams_.Of(k, sender.name).Uniform() < loss_) continue;
+      const double square = (space_->GetPose(entity).position - place).squaredNorm();
+      double signal = -10 / kLog10 * Log(std::max(square, kNearest * kNearest));
+      if (noise_.IsActive()) signal += noise_.Sample(noise_streams_.Of(k, sender.name));
+      flying_.push_back({space_->GetTick() + latency_, static_cast<std::uint32_t>(k), sender.entity, signal, packet});
+    }
+  }
+
+  void Deliver()
+  {
+    std::size_t left = 0;
+    for (const Flying& flying : flying_)
+    {
+      if (flying.due > space_->GetTick())
+      {
+        flying_[left++] = flying;
+        continue;
+      }
+      if (!space_->IsPresent(robots_[flying.k])) continue;
+      CCI_RadioSensor::Packet packet{space_->GetEntity(flying.sender).GetId(), flying.signal, flying.packet.length, {}};
+      std::copy_n(flying.packet.bytes.begin(), packet.bytes.size(), packet.bytes.begin());
+      receivers_[flying.k].packets.push_back(packet);
+    }
+    flying_.resize(left);
+  }
+
+  static constexpr double kLog10 = 2.302585092994046;
+
+  const CSwarmanoidSpace* space_ = nullptr;
+  std::vector<std::uint32_t> robots_;
+  std::unique_ptr<SpaceQuery> query_;
+  double range_ = 0;  // m
+  double loss_ = 0;
+  std::uint64_t latency_ = 0;  // ticks
+  NoiseModel noise_;
+  DeviceStreams noise_streams_, loss_streams_;
+  std::vector<std::int32_t> place_of_entity_;
+  std::vector<Sender> senders_;
+  std::vector<double> sent_;  // by sender: how many packets it had sent
+  std::vector<Flying> flying_;
+  std::vector<Receiver> receivers_;
+};
+
+}  // namespace
+
+void RegisterRadioReceiver() { BindSensor<RadioReceiver>("radio", "generic_radio"); }
+
+}  // namespace swarmanoid

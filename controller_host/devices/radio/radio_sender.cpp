@@ -1,0 +1,110 @@
+// Sends packets by radio, one in a tick at most and no more bytes than the bandwidth has; the others wait in a short
+// queue.
+#include <algorithm>
+#include <stdexcept>
+
+#include "common/control_interface/ci_radio.h"
+#include "common/space/packet_attribute.h"
+#include "controller_host/devices/builtin_devices.h"
+#include "controller_host/devices/device_plugins.h"
+#include "controller_host/devices/value_devices.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr std::size_t kMostWaiting = 16;
+static_assert(CCI_RadioActuator::MAX_BYTES == kMostPacketBytes);
+
+class Radio : public CCI_RadioActuator
+{
+public:
+  struct Queue
+  {
+    std::array<AttributePacket, kMostWaiting> packets{};
+    std::uint32_t first = 0, count = 0;
+    double budget = MAX_BYTES;  // bytes that may be sent now
+  };
+
+  explicit Radio(double*) {}
+
+  bool Send(std::span<const std::uint8_t> bytes) override
+  {
+    if (bytes.size() > MAX_BYTES)
+      throw std::length_error("a radio packet of " + std::to_string(bytes.size()) + " bytes; it has at most " +
+                              std::to_string(MAX_BYTES));
+    if (queue.count == kMostWaiting) return false;
+    queue.packets[(queue.first + queue.count++) % kMostWaiting] = AttributePacket(bytes);
+    return true;
+  }
+  unsigned GetWaiting() const override { return queue.count; }
+
+  Queue queue;
+};
+
+class RadioSender : public ActuatorsOf<AttributeActuator, Radio>
+{
+public:
+  void Init(const DeviceSetup& setup) override
+  {
+    Bind(setup, {"radio"});
+    byte_noise_ = NoiseFrom(setup.parameters);
+    bytes_per_tick_ = setup.parameters.Number("bandwidth") * setup.space.GetTickSeconds();
+    MakeDevices();
+  }
+  void Commit(const ChannelView& channel, AttributeChanges& changes) override
+  {
+    for (std::size_t k = 0; k < robots_.size(); ++k)
+      if (space_->IsPresent(robots_[k])) Transmit(k);
+    AttributeActuator::Commit(channel, changes);
+  }
+  void SaveState(ByteWriter& state) const override
+  {
+    AttributeActuator::SaveState(state);
+    for (const Radio& radio : devices_) state.Put(radio.queue);
+  }
+  void LoadState(ByteReader& state) override
+  {
+    AttributeActuator::LoadState(state);
+    for (Radio& radio : devices_) radio.queue = state.Get<Radio::Queue>();
+  }
+
+private:
+  void Transmit(std::size_t k)
+  {
+    Radio::Queue& queue = devices_[k].queue;
+    const bool is_limited = bytes_per_tick_ > 0;
+    const bool may_send = queue.count > 0 && (!is_limited || queue.budget >= queue.packets[queue.first].length);
+    if (may_send)
+    {
+      AttributePacket packet = queue.packets[queue.first];
+      queue.first = (queue.first + 1) % kMostWaiting;
+      --queue.count;
+      queue.budget -= packet.length;
+      if (byte_noise_.IsActive()) Disturb(packet, streams_.Of(k));
+      double* values = ValuesOf(k);
+      values[0] += 1;
+      PackPacket(packet, values + 1);
+    }
+    // What is not used is not saved up for more than the longest packet.
+    const double most = std::max<double>(CCI_RadioActuator::MAX_BYTES, bytes_per_tick_);
+    queue.budget = is_limited ? std::min(queue.budget + bytes_per_tick_, most) : most;
+  }
+
+  void Disturb(AttributePacket& packet, RandomStream random) const
+  {
+    for (std::uint32_t i = 0; i < packet.length; ++i)
+      packet.bytes[i] =
+          static_cast<std::uint8_t>(std::clamp(packet.bytes[i] + byte_noise_.Sample(random) + 0.5, 0.0, 255.0));
+  }
+
+  NoiseModel byte_noise_;
+  double bytes_per_tick_ = 0;  // 0: no limit
+};
+
+}  // namespace
+
+void RegisterRadioSender() { BindActuator<RadioSender>("radio", "generic_radio"); }
+
+}  // namespace swarmanoid

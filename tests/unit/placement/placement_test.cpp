@@ -1,0 +1,109 @@
+// <distribute> in terrain, and with the outlines of the engines: as these are described.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/builtins/builtins.h"
+#include "common/experiment/body.h"
+#include "common/experiment/load_experiment.h"
+#include "common/math/random.h"
+#include "common/space/terrain/terrain.h"
+#include "test_folders.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+std::vector<EntityConfiguration> EntitiesOf(const std::string& text)
+{
+  DescribeBuiltins();
+  const LoadedExperiment loaded = LoadExperimentText(text, "test.xml", "/", {});
+  for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
+  return loaded.experiment ? loaded.experiment->entities : std::vector<EntityConfiguration>{};
+}
+
+// An arena with one engine of the tag that holds all.
+std::string ArenaInEngine(const std::string& content, const std::string& size, const std::string& engine)
+{
+  return "<ahss-config><arena size='" + size + "' optimization='2D'>" + content + "</arena><engines><" + engine +
+         " id='e'/></engines><arena_physics><engine id='e'><all/></engine></arena_physics></ahss-config>";
+}
+
+const std::string kHills = "<terrain id='hills' position='0,0,0'><heightmap file='" SWARMANOID_SOURCE_FOLDER
+                           "/configs/terrain/hills.png' size='4, 4' height='0.4'/></terrain>";
+
+// Points all over the body of an entity that are inside a terrain.
+int PointsInRock(const EntityConfiguration& entity, const EntityConfiguration& terrain)
+{
+  const auto rock = LoadTerrain(terrain, "/");
+  const placement::Body body = placement::BodyOf(entity).value();
+  int inside = 0;
+  RandomStream random(1, 0, 0, 0);
+  for (int i = 0; i < 3000; ++i)
+  {
+    const Vector3 part(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1));
+    if (body.cylinder && part.head<2>().norm() > 0.97) continue;
+    const Vector3 point = body.centre + body.orientation * (0.97 * part.cwiseProduct(body.half));
+    inside += rock->IsSolid(terrain.pose.Inverse().Apply(point));
+  }
+  return inside;
+}
+
+TEST(Distribute, LetsRobotsDownOntoTheTerrain)
+{
+  const auto entities = EntitiesOf(
+      ArenaInEngine(kHills + "<distribute quantity='40'><position drop_from='2'/><footbot id='fb'/></distribute>",
+                    "4,4,2", "dynamics3d"));
+  ASSERT_EQ(entities.size(), 41U);
+  const auto hills = LoadTerrain(entities[0], "/");
+  double highest = 0;
+  for (std::size_t i = 1; i < entities.size(); ++i)
+  {
+    const Vector3& place = entities[i].pose.position;
+    EXPECT_LE(PointsInRock(entities[i], entities[0]), 3) << entities[i].id;  // between the points that were looked at
+    const double below = hills->GroundBelow({place.x(), place.y(), 2}).value();
+    EXPECT_GE(place.z(), below);
+    EXPECT_LE(place.z(), below + 0.1) << "stands on the ground";
+    highest = std::max(highest, place.z());
+  }
+  EXPECT_GT(highest, 0.1);
+}
+
+TEST(Distribute, StartsNobodyInsideARock)
+{
+  for (const char* engine : {"dynamics3d", "kinematics2d"})
+  {
+    const std::string content = "<distribute quantity='20'><position max='4,4,0.6'/><footbot id='fb'/></distribute>";
+    const auto free = EntitiesOf(ArenaInEngine(content, "4,4,2", engine));
+    const auto entities = EntitiesOf(ArenaInEngine(kHills + content, "4,4,2", engine));
+    ASSERT_EQ(entities.size(), 21U);
+    int moved = 0;
+    for (std::size_t i = 0; i < free.size(); ++i) moved += free[i].pose.position != entities[i + 1].pose.position;
+    EXPECT_GT(moved, 0) << "without terrain some would start in it";
+    if (engine != std::string("dynamics3d")) continue;
+    for (std::size_t i = 1; i < entities.size(); ++i) EXPECT_LE(PointsInRock(entities[i], entities[0]), 3) << i;
+  }
+}
+
+// The outline of figure 3.9 has the gripper's square in front of the body; the turret may turn it anywhere.
+TEST(Distribute, KeepsGrippersApartWhereTheEngineHasThem)
+{
+  const std::string crowd = "<distribute quantity='250' max_trials='1000'><footbot id='fb'/></distribute>";
+  const auto least = [&](const char* engine)
+  {
+    const auto entities = EntitiesOf(ArenaInEngine(crowd, "5,5,1", engine));
+    double nearest = 10;
+    for (std::size_t i = 0; i < entities.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        nearest = std::min(nearest, (entities[i].pose.position - entities[k].pose.position).norm());
+    return nearest;
+  };
+  const double corner = std::hypot(0.1, 0.015);
+  EXPECT_GE(least("kinematics2d"), 2 * corner);
+  EXPECT_GE(least("dummy_engine"), 2 * corner);
+  EXPECT_LT(least("dynamics2d"), 2 * 0.0851 + 0.02);
+}
+
+}  // namespace
+}  // namespace swarmanoid
