@@ -235,6 +235,7 @@ void ControllerHost::CheckAttributesOf(const DeviceConfiguration& device, std::s
     try
     {
       CheckAttribute(space_, changes.slots[k], changes.values[k]);
+      CheckIsNoHold(space_, changes.slots[k]);
     }
     catch (const StateError& error)
     {

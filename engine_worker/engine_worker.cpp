@@ -126,6 +126,7 @@ void EngineWorker::CheckResults() const
 {
   CheckPoses(space_, layout_.owned, update_.poses);
   CheckAttributes(space_, update_.attributes);
+  CheckHolds(space_, layout_.owned, update_.attributes);
   if (space_.GetExperiment().beyond_limit == BeyondLimit::kStop) CheckWithinLimit(space_, layout_.owned, update_.poses);
   CheckChannels(space_, layout_.sensors, frame_.values, "readings");
 }

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "common/activity/exit_codes.h"
+#include "common/experiment/notes.h"
 #include "common/run/run_settings.h"
 #include "launcher/commands.h"
 #include "launcher/load.h"
@@ -65,6 +66,7 @@ int Check(const RunSettings& options)
     fmt::print("  functions     {} ({})\n", functions.id, functions.tag);
   for (const RenderConfiguration& render : experiment->visualisations)
     fmt::print("  visualisation {} ({})\n", render.id, render.tag);
+  for (const Diagnostic& note : NotesOn(*experiment)) fmt::print("{}: note: {}\n", note.location.Text(), note.message);
   return kExitDone;
 }
 
@@ -76,7 +78,8 @@ void AddCheckCommand(CLI::App& app, int& exit_code)
   CLI::App* verb = app.add_subcommand("check", "Look for mistakes in an experiment file without running it");
   AddOptions(*verb, ChoiceOptionTable(*options));
   verb->footer(
-      "Prints what the experiment holds and exits with 0, or prints every mistake with its place and exits with 3.\n"
+      "Prints what the experiment holds, and notes on what has no effect, and exits with 0, or prints every mistake "
+      "with its place and exits with 3.\n"
       "Everything is made as a run makes it and thrown away: Init of controllers and experiment functions is called.\n"
       "Examples:\n"
       "  swarmanoid check configs/diffusion_10.xml\n"

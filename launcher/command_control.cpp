@@ -1,5 +1,5 @@
 // `swarmanoid control`: asks the space server of a running experiment to pause, go on, step, change speed, stop, or to
-// move, add or remove an entity.
+// move, detach, add or remove an entity.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -75,14 +75,15 @@ void AddControlCommand(CLI::App& app, int& exit_code)
   auto options = std::make_shared<ControlOptions>();
   CLI::App* verb = app.add_subcommand("control",
                                       "Pause, resume, step, speed up, slow down or stop a running experiment, and\n"
-                                      "move, add or remove entities of it");
+                                      "move, detach, add or remove entities of it");
   verb->add_option("WORDS", options->words,
                    "[EXPERIMENT] pause | resume | step [N] | speed F | stop | move ENTITY X,Y,Z[,A,B,G] |\n"
-                   "add ENTITY X,Y,Z[,A,B,G] | remove ENTITY")
+                   "detach ENTITY X,Y,Z[,A,B,G] | add ENTITY X,Y,Z[,A,B,G] | remove ENTITY")
       ->required();
   AddOptions(*verb, BusOptionTable(options->bus));
   verb->footer(
       "speed is a multiple of real time, 0 is as fast as possible. Positions are in metres, angles in degrees.\n"
+      "move takes along all that hold the entity or are held with it, detach moves it alone and ends these holds.\n"
       "add takes an entity that was removed, or the id of a <reserve>.\n"
       "Examples:\n"
       "  swarmanoid control pause\n"

@@ -26,7 +26,10 @@ bool IsMisspelt(const std::string& word, const std::string& next)
 }
 
 // An entity follows.
-bool TakesEntity(const std::string& verb) { return verb == "move" || verb == "add" || verb == "remove"; }
+bool TakesEntity(const std::string& verb)
+{
+  return verb == "move" || verb == "detach" || verb == "add" || verb == "remove";
+}
 
 double NumberOf(const std::string& text, const std::string& form)
 {
@@ -53,7 +56,7 @@ void TakeSpeed(ControlRequest& request, const std::vector<std::string>& rest)
   if (request.numbers[0] < 0) throw UsageError(fmt::format("{} is negative; write {}", Quoted(rest[0]), form));
 }
 
-// After "move" and "add".
+// After "move", "detach" and "add".
 void TakePlace(ControlRequest& request, const std::vector<std::string>& rest)
 {
   const std::string form = fmt::format("{0} ENTITY X,Y,Z or {0} ENTITY X,Y,Z,ALPHA,BETA,GAMMA", request.verb);
@@ -103,7 +106,7 @@ ControlRequest ParseControlRequest(std::vector<std::string> words)
     TakeStep(request, rest);
   else if (request.verb == "speed")
     TakeSpeed(request, rest);
-  else if (request.verb == "move" || request.verb == "add")
+  else if (request.verb == "move" || request.verb == "detach" || request.verb == "add")
     TakePlace(request, rest);
   else if (request.verb == "remove")
     TakeEntity(request, rest);

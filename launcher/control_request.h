@@ -11,8 +11,9 @@ struct ControlRequest
 {
   std::string experiment;  // empty: the one that runs
   std::string verb;
-  std::string entity;           // move, add, remove
-  std::vector<double> numbers;  // step: ticks; speed: factor; move, add: x, y, z in m, alpha, beta, gamma in degrees
+  std::string entity;  // move, detach, add, remove
+  std::vector<double>
+      numbers;  // step: ticks; speed: factor; move, detach, add: x, y, z in m, alpha, beta, gamma in degrees
 };
 
 // Throws UsageError with the right form.

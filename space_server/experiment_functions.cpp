@@ -40,24 +40,11 @@ SpaceQuery& SpaceEditor::GetQuery()
   return *query_;
 }
 
-const StructuralTree& SpaceEditor::GetStructure()
-{
-  if (structure_ == nullptr) structure_ = std::make_unique<StructuralTree>(server_.Space());
-  structure_->Rebuild();
-  return *structure_;
-}
+const StructuralTree& SpaceEditor::GetStructure() const { return server_.Space().Structure(); }
 
 void SpaceEditor::MoveCompound(std::string_view id, const Pose& pose)
 {
-  const CSwarmanoidSpace& space = server_.Space();
-  const std::uint32_t entity = FindToMove(space, id).GetIndex();
-  CheckPose(space, entity, pose);
-  GetStructure();
-  const CCompoundEntity compound = structure_->GetCompound(entity);
-  const Pose root_in_entity = space.GetPose(entity).Inverse().Compose(space.GetPose(compound.GetRoot()));
-  const std::vector<Pose> poses = compound.PosesAt(pose.Compose(root_in_entity));
-  for (std::size_t k = 0; k < poses.size(); ++k) CheckPose(space, compound.GetMembers()[k], poses[k]);
-  for (std::size_t k = 0; k < poses.size(); ++k) server_.Move({compound.GetMembers()[k], poses[k]});
+  server_.Move(CompoundAt(server_.Space(), FindToMove(server_.Space(), id), pose));
 }
 
 void SpaceEditor::MoveEntity(std::string_view id, const Pose& pose)

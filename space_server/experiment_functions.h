@@ -40,13 +40,12 @@ public:
   // Questions about the space: who is near, what is between.
   SpaceQuery& GetQuery();
   // Who holds whom, as the engines last told.
-  const StructuralTree& GetStructure();
-  // Puts a movable entity elsewhere, and all that are connected to it by grips along with it, as one rigid body. For
-  // the engines they let go of one another and, if the grippers are still told to close, take hold again in the same
-  // tick. Throws as MoveEntity.
+  const StructuralTree& GetStructure() const;
+  // Puts a movable entity elsewhere, and all that are connected to it by grips along with it, as one rigid body: they
+  // go on to hold one another. Throws as MoveEntity.
   void MoveCompound(std::string_view id, const Pose& pose);
-  // Puts a movable entity elsewhere. Throws std::invalid_argument for an unknown id and an entity that cannot move or
-  // is not in the arena.
+  // Puts a movable entity elsewhere, alone: it lets go and is let go. Throws std::invalid_argument for an unknown id
+  // and an entity that cannot move or is not in the arena.
   void MoveEntity(std::string_view id, const Pose& pose);
   // Puts an entity into the arena: the next one of the <reserve> of that id, or the entity of that id, which waits or
   // was removed. Returns its id. A robot's controller goes on with what it remembers. Throws std::invalid_argument for
@@ -59,7 +58,8 @@ public:
   // Throws std::invalid_argument for any other, and for one that is not there.
   void RemoveEntity(std::string_view id);
   // Changes an attribute (common/space/attributes.h), such as the colour of a nest. Throws std::invalid_argument for an
-  // unknown id or name, an element that the attribute does not have, and a value that it cannot have.
+  // unknown id or name, an element that the attribute does not have, and a value that it cannot have. "gripped" is told
+  // by the engines: 0 makes the gripper let go, all else is refused.
   void SetAttribute(std::string_view id, std::string_view attribute, double value, int element = 0);
   // Random numbers of these functions in this step: Init, a PreStep, PostStep or IsFinished, Destroy. They go on from
   // call to call, are others in the next step, and depend on the seed, the id of the functions, the step and the tick
@@ -75,7 +75,6 @@ private:
   SpaceServer& server_;
   std::string output_folder_;
   std::unique_ptr<SpaceQuery> query_;
-  std::unique_ptr<StructuralTree> structure_;
   mutable RandomStream random_{0, 0, 0, 0};  // IsFinished, which changes nothing, may draw too
 };
 

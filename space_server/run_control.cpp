@@ -109,7 +109,7 @@ void RunControl::Change(const ControlRequestMessage& request, SpaceServer& serve
 {
   const std::uint64_t tick = server.Space().GetTick();
   const SpaceChange change = ReadSpaceChange(request, server.Space());
-  server.Move(change.move);
+  server.Move(change.moves);
   // Of a reserve, the one that was taken: so a repetition does not depend on who waits.
   ControlRequestMessage done = request;
   done.entity = change.entity;

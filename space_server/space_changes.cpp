@@ -94,6 +94,23 @@ Pose PoseOf(const ControlRequestMessage& request, const Quaternion& orientation,
   return pose;
 }
 
+// All that go elsewhere together stay in the arena, and none overlaps one that stays where it is.
+void RequireRoomFor(const CSwarmanoidSpace& space, const std::vector<MoveRequest>& moves)
+{
+  std::vector<std::uint32_t> together;
+  for (const MoveRequest& move : moves) together.push_back(move.entity);
+  for (const MoveRequest& move : moves)
+  {
+    const CSwarmanoidSpaceEntity& entity = space.GetEntity(move.entity);
+    const Vector3& at = move.pose.position;
+    const Vector3& size = space.GetExperiment().arena_size;
+    if (at.x() < 0 || at.y() < 0 || at.x() > size.x() || at.y() > size.y())
+      Refuse(fmt::format("'{}' would come to {:.4g}, {:.4g}, {:.4g}, outside the arena; `detach` moves one alone",
+                         entity.GetId(), at.x(), at.y(), at.z()));
+    RequireFree(space, entity, move.pose, together);
+  }
+}
+
 }  // namespace
 
 const CSwarmanoidSpaceEntity& FindToMove(const CSwarmanoidSpace& space, std::string_view id)
@@ -122,7 +139,7 @@ const CSwarmanoidSpaceEntity& FindToRemove(const CSwarmanoidSpace& space, std::s
 }
 
 const CSwarmanoidSpaceEntity* FindInTheWay(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& entity,
-                                           const Pose& pose)
+                                           const Pose& pose, std::span<const std::uint32_t> together)
 {
   const auto body = BodyAt(entity, pose);
   if (!body) return nullptr;
@@ -132,6 +149,7 @@ const CSwarmanoidSpaceEntity* FindInTheWay(const CSwarmanoidSpace& space, const 
     for (const std::uint32_t other : engine.entities)
     {
       if (other == entity.GetIndex() || !space.IsPresent(other)) continue;
+      if (std::binary_search(together.begin(), together.end(), other)) continue;
       const CSwarmanoidSpaceEntity& there = space.GetEntity(other);
       const Pose at = space.GetPose(other);
       const double reach = ReachOf(entity) + ReachOf(there);
@@ -143,9 +161,10 @@ const CSwarmanoidSpaceEntity* FindInTheWay(const CSwarmanoidSpace& space, const 
   return nullptr;
 }
 
-void RequireFree(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& entity, const Pose& pose)
+void RequireFree(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& entity, const Pose& pose,
+                 std::span<const std::uint32_t> together)
 {
-  const CSwarmanoidSpaceEntity* there = FindInTheWay(space, entity, pose);
+  const CSwarmanoidSpaceEntity* there = FindInTheWay(space, entity, pose, together);
   if (there == nullptr) return;
   const Vector3 at = there->GetPosition();
   Refuse(
@@ -155,12 +174,25 @@ void RequireFree(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& en
                   there->GetId(), at.x(), at.y(), at.z()));
 }
 
+std::vector<MoveRequest> CompoundAt(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& entity,
+                                    const Pose& pose)
+{
+  const CCompoundEntity compound = space.Structure().GetCompound(entity.GetIndex());
+  const std::vector<Pose> poses = compound.PosesAt(entity.GetIndex(), pose);
+  std::vector<MoveRequest> moves;
+  for (std::size_t k = 0; k < poses.size(); ++k) moves.push_back({compound.GetMembers()[k], poses[k]});
+  return moves;
+}
+
 MoveRequest Removal(const CSwarmanoidSpaceEntity& entity)
 {
   return {entity.GetIndex(), WaitingPose(entity.GetConfiguration(), entity.GetIndex()), false};
 }
 
-bool IsSpaceChange(const std::string& verb) { return verb == "move" || verb == "add" || verb == "remove"; }
+bool IsSpaceChange(const std::string& verb)
+{
+  return verb == "move" || verb == "detach" || verb == "add" || verb == "remove";
+}
 
 SpaceChange ReadSpaceChange(const ControlRequestMessage& request, const CSwarmanoidSpace& space)
 {
@@ -170,18 +202,27 @@ SpaceChange ReadSpaceChange(const ControlRequestMessage& request, const CSwarman
     {
       if (!request.numbers.empty()) Refuse("nothing follows the entity");
       const CSwarmanoidSpaceEntity& entity = FindToRemove(space, request.entity);
-      return {Removal(entity), entity.GetId(), fmt::format("removed '{}'", entity.GetId())};
+      return {{Removal(entity)}, entity.GetId(), fmt::format("removed '{}'", entity.GetId())};
     }
     if (request.verb == "add")
     {
       const CSwarmanoidSpaceEntity& entity = FindToAdd(space, request.entity);
       const Pose pose = PoseOf(request, Quaternion::Identity(), space);
       RequireFree(space, entity, pose);
-      return {{entity.GetIndex(), pose}, entity.GetId(), fmt::format("added '{}'", entity.GetId())};
+      return {{{entity.GetIndex(), pose}}, entity.GetId(), fmt::format("added '{}'", entity.GetId())};
     }
     const CSwarmanoidSpaceEntity& entity = FindToMove(space, request.entity);
     const Pose pose = PoseOf(request, entity.GetOrientation(), space);
-    return {{entity.GetIndex(), pose}, entity.GetId(), fmt::format("moved '{}'", entity.GetId())};
+    if (request.verb == "detach")
+    {
+      RequireFree(space, entity, pose);
+      return {{{entity.GetIndex(), pose}}, entity.GetId(), fmt::format("moved '{}' alone", entity.GetId())};
+    }
+    std::vector<MoveRequest> moves = CompoundAt(space, entity, pose);
+    RequireRoomFor(space, moves);
+    std::string done = fmt::format("moved '{}'", entity.GetId());
+    if (moves.size() > 1) done += fmt::format(" and {} that it is connected to", moves.size() - 1);
+    return {std::move(moves), entity.GetId(), std::move(done)};
   }
   catch (const std::invalid_argument& error)
   {

@@ -2,8 +2,10 @@
 // (SpaceEditor) and users (RunControl) share these rules; what passes is carried out by SpaceServer::Move.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/messages/control_request.h"
 #include "common/space/space.h"
@@ -23,17 +25,22 @@ const CSwarmanoidSpaceEntity& FindToRemove(const CSwarmanoidSpace& space, std::s
 
 // One that is in the arena and that the entity, at this pose, would stick in: their bodies overlap, and an engine has
 // both. nullptr if the place is free. As when the experiment file is read: by the plain bodies, without terrain.
+// `together` (ascending): entities that go elsewhere with it.
 const CSwarmanoidSpaceEntity* FindInTheWay(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& entity,
-                                           const Pose& pose);
-void RequireFree(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& entity, const Pose& pose);
+                                           const Pose& pose, std::span<const std::uint32_t> together = {});
+void RequireFree(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& entity, const Pose& pose,
+                 std::span<const std::uint32_t> together = {});
 
+// An entity goes to a pose, and all that holds it or is held with it, as one rigid body.
+std::vector<MoveRequest> CompoundAt(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& entity,
+                                    const Pose& pose);
 // An entity goes to where it waits while it is not in the arena.
 MoveRequest Removal(const CSwarmanoidSpaceEntity& entity);
 
-// What the requests "move", "add" and "remove" ask for.
+// What the requests "move", "detach", "add" and "remove" ask for.
 struct SpaceChange
 {
-  MoveRequest move;
+  std::vector<MoveRequest> moves;
   std::string entity;  // its id; of a reserve, the one that was taken
   std::string done;    // "moved 'fb_0'"
 };

@@ -123,7 +123,13 @@ void SpaceServer::Advance(std::span<const EngineUpdate* const> updates,
 void SpaceServer::SetAttribute(std::uint32_t slot, double value)
 {
   CheckAttribute(space_, slot, value);
-  Change(slot, value);
+  if (space_.AttributeValues()[slot] != AttributeValue::kEntity) return Change(slot, value);
+  if (value != 0) CheckIsNoHold(space_, slot);
+  const auto held = static_cast<std::uint32_t>(space_.Attributes()[slot]);
+  if (held == 0) return;
+  const std::uint32_t gripper = EntityOfSlot(space_, slot);
+  EndHold(gripper, held - 1);
+  moved_.push_back(gripper);
 }
 
 void SpaceServer::Change(std::uint32_t slot, double value)
@@ -164,17 +170,47 @@ void SpaceServer::AskWhetherFinished()
                 });
 }
 
-void SpaceServer::Move(const MoveRequest& request)
+void SpaceServer::Move(std::span<const MoveRequest> requests)
 {
-  if (request.present) CheckPose(space_, request.entity, request.pose);
-  Put(request);
+  for (const MoveRequest& request : requests)
+    if (request.present) CheckPose(space_, request.entity, request.pose);
+  Put(requests);
 }
 
-void SpaceServer::Put(const MoveRequest& request)
+void SpaceServer::Put(std::span<const MoveRequest> requests)
 {
-  space_.SetPose(request.entity, request.pose);
-  Change(space_.PresenceSlot(request.entity), request.present ? 1 : 0);
-  moved_.push_back(request.entity);
+  std::vector<std::uint32_t> together;
+  for (const MoveRequest& request : requests)
+    if (request.present) together.push_back(request.entity);
+  std::sort(together.begin(), together.end());
+  for (const MoveRequest& request : requests)
+  {
+    if (request.present)
+      EndHolds(request.entity, together);
+    else
+      EndHolds(request.entity, {});
+    space_.SetPose(request.entity, request.pose);
+    Change(space_.PresenceSlot(request.entity), request.present ? 1 : 0);
+    moved_.push_back(request.entity);
+  }
+}
+
+void SpaceServer::EndHolds(std::uint32_t entity, std::span<const std::uint32_t> kept)
+{
+  const auto is_kept = [&](std::uint32_t other) { return std::binary_search(kept.begin(), kept.end(), other); };
+  for (const std::uint32_t holder : space_.Structure().GetHolders(entity))
+    if (!is_kept(holder)) EndHold(holder, entity);
+  const std::span<const double> hands = space_.Hands(entity);
+  for (const double hand : std::vector<double>(hands.begin(), hands.end()))
+    if (const auto held = static_cast<std::uint32_t>(hand); held != 0 && !is_kept(held - 1)) EndHold(entity, held - 1);
+}
+
+void SpaceServer::EndHold(std::uint32_t gripper, std::uint32_t gripped)
+{
+  const std::size_t hands = space_.Hands(gripper).size();
+  for (std::size_t hand = 0; hand < hands; ++hand)
+    if (space_.Hands(gripper)[hand] == 1.0 + gripped)
+      Change(space_.FirstHandSlot(gripper) + static_cast<std::uint32_t>(hand), 0);
 }
 
 void SpaceServer::Check(const ControlCommands& commands) const
@@ -182,6 +218,7 @@ void SpaceServer::Check(const ControlCommands& commands) const
   try
   {
     CheckAttributes(space_, commands.attributes);
+    for (const std::uint32_t slot : commands.attributes.slots) CheckIsNoHold(space_, slot);
   }
   catch (const StateError& error)
   {
@@ -199,6 +236,7 @@ void SpaceServer::Check(const EngineUpdate& update) const
   {
     CheckPoses(space_, owned, update.poses);
     CheckAttributes(space_, update.attributes);
+    CheckHolds(space_, owned, update.attributes);
     if (experiment_.beyond_limit == BeyondLimit::kStop) CheckWithinLimit(space_, owned, update.poses);
   }
   catch (const StateError& error)
@@ -211,11 +249,12 @@ void SpaceServer::Check(const EngineUpdate& update) const
 void SpaceServer::Merge(const EngineUpdate& update)
 {
   const std::vector<std::uint32_t>& owned = assignment_.engines[update.engine].owned;
+  // First: who is beyond the limit lets go.
+  Merge(update.attributes);
   if (experiment_.beyond_limit == BeyondLimit::kStop)
     space_.SetPoses(owned, update.poses);
   else
     SetPosesWithinLimit(update, owned);
-  Merge(update.attributes);
 }
 
 void SpaceServer::SetPosesWithinLimit(const EngineUpdate& update, std::span<const std::uint32_t> owned)
@@ -240,10 +279,9 @@ void SpaceServer::SetPosesWithinLimit(const EngineUpdate& update, std::span<cons
           at.y(), at.z(), experiment_.limit_m, hold ? "held where it was before" : "removed"));
       told_[index] = true;
     }
-    if (hold)
-      Put({entity.GetIndex(), before[n]});
-    else
-      Put({entity.GetIndex(), WaitingPose(entity.GetConfiguration(), entity.GetIndex()), false});
+    const MoveRequest back{entity.GetIndex(), before[n]};
+    const MoveRequest out{entity.GetIndex(), WaitingPose(entity.GetConfiguration(), entity.GetIndex()), false};
+    Put({hold ? &back : &out, 1});
   }
 }
 

@@ -60,11 +60,13 @@ public:
   // all checked. An attribute set by both an engine and a host has the engine's value. Entities that their engine took
   // beyond the limit of the world are treated as the experiment says.
   void Advance(std::span<const EngineUpdate* const> updates, std::span<const ControlCommands* const> commands);
-  // Puts an entity elsewhere, into the arena or out of it at the current tick, before its state goes out. Throws
-  // StateError for what cannot be a pose, or is too far from the arena.
-  void Move(const MoveRequest& request);
+  // Puts entities elsewhere, into the arena or out of it at the current tick, before its state goes out: all or none.
+  // Those that hold one another go on to, if they all stay in the arena; what they hold otherwise, and who else holds
+  // them, lets go. Throws StateError for what cannot be a pose, or is too far from the arena.
+  void Move(std::span<const MoveRequest> requests);
+  void Move(const MoveRequest& request) { Move({&request, 1}); }
   // Changes one attribute at the current tick, before its state goes out. Throws StateError for a value that it cannot
-  // have.
+  // have. Of who is held, 0 alone is taken, which ends the hold.
   void SetAttribute(std::uint32_t slot, double value);
   // The current tick is the last one.
   void Finish() { last_ = true; }
@@ -88,7 +90,10 @@ private:
   void Merge(const AttributeChanges& changes);
   // Holds or removes those that the engine took beyond the limit.
   void SetPosesWithinLimit(const EngineUpdate& update, std::span<const std::uint32_t> owned);
-  void Put(const MoveRequest& request);
+  void Put(std::span<const MoveRequest> requests);
+  // Ends the holds of an entity but those on or by `kept` (ascending).
+  void EndHolds(std::uint32_t entity, std::span<const std::uint32_t> kept);
+  void EndHold(std::uint32_t gripper, std::uint32_t gripped);
   void Change(std::uint32_t slot, double value);
   // Calls a step of all functions in the order of the file; what fails is named.
   template <class Call>

@@ -62,7 +62,8 @@ PluginDescription Dynamics2dDescription()
                                                  "eyebot_propellers", "footbot_encoders", "footbot_turret_torque",
                                                  "footbot_accelerometer", "wheels"}),
           .entity_tags = TagsOfKinds([](const EntityKindDescription&) { return true; }),
-          .any_kind = true};
+          .any_kind = true,
+          .ignores = {"hole"}};
 }
 
 }  // namespace swarmanoid

@@ -27,7 +27,8 @@ PluginDescription Kinematics2dDescription(const std::string& label)
       .channels = WithChannelsOfPlaneRobots({"eyebot_propellers", "footbot_encoders", "footbot_gripper",
                                              "footbot_turret", "footbot_turret_torque", "footbot_wheels", "wheels"}),
       .entity_tags = TagsOfKinds([](const EntityKindDescription&) { return true; }),
-      .any_kind = true};
+      .any_kind = true,
+      .ignores = {"mass", "friction", "restitution", "ground_friction", "hole"}};
 }
 
 }  // namespace swarmanoid

@@ -18,10 +18,11 @@ PluginDescription TextRenderDescription()
        ParameterType::kChoice,
        "",
        "table",
-       "table: separated by tabs under a # line; csv; json: one object a line.",
+       "table: separated by tabs under a line that starts with #, an empty field after the first one; tsv: the same "
+       "without # and empty field; csv; json: one object a line.",
        0,
        0,
-       {"table", "csv", "json"}},
+       {"table", "tsv", "csv", "json"}},
       {"columns", ParameterType::kText, "", "",
        "Titles of the columns to write, separated by commas; without it all but Engine, Host and State: who moves and "
        "who controls the entity, and the state of its controller as last heard."},

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 
 #include "common/configuration/wording.h"
 #include "common/experiment/body.h"
 #include "common/experiment/sections.h"
+#include "common/math/elementary.h"
 
 namespace swarmanoid
 {
@@ -73,7 +76,59 @@ void CheckRobotsWithoutEngine(const std::vector<bool>& owned, Reading& reading)
   }
 }
 
+// Farther than this from its plane, an entity would jump to it in the first tick (m).
+constexpr double kOnPlane = 1e-3;
+
+// Where the plane of an engine is, if it has one.
+struct Plane
+{
+  Vector3 normal;
+  double distance;  // m, from the origin along the normal
+};
+
+std::optional<Plane> PlaneOf(const EngineConfiguration& engine, const PluginDescription& plugin)
+{
+  const auto is_axis = [](const ParameterSpec& spec) { return spec.name == "perpendicular_axis"; };
+  if (std::none_of(plugin.parameters.begin(), plugin.parameters.end(), is_axis)) return std::nullopt;
+  const Parameters parameters(engine.tree, plugin.parameters);
+  const std::string axis = parameters.Text("perpendicular_axis");
+  const Vector3 tilt = parameters.Vector3Of("tilt");
+  const Vector3 upright = axis == "x" ? Vector3::UnitX() : axis == "y" ? Vector3::UnitY() : Vector3::UnitZ();
+  const Quaternion turn =
+      QuaternionFromEuler({DegreesToRadians(tilt.x()), DegreesToRadians(tilt.y()), DegreesToRadians(tilt.z())});
+  return Plane{turn * upright, parameters.Number("distance")};
+}
+
 }  // namespace
+
+// Robots and preys stand on the plane of the engine that moves them; blocks keep their height.
+void CheckPlanes(Reading& reading)
+{
+  const Experiment& experiment = reading.experiment;
+  std::vector<bool> owned(experiment.entities.size(), false);
+  for (const EngineConfiguration& engine : experiment.engines)
+  {
+    const PluginDescription* plugin = PluginCatalogue::Instance().Find(PluginKind::kEngine, engine.tag);
+    const std::optional<Plane> plane = plugin == nullptr ? std::nullopt : PlaneOf(engine, *plugin);
+    for (const std::uint32_t i : engine.entities)
+    {
+      const EntityConfiguration& entity = experiment.entities[i];
+      const bool ours = !owned[i];
+      owned[i] = true;
+      if (!plane || !ours || !entity.movable || entity.waits || IsBodiless(entity.kind) || IsFreeBox(entity.kind))
+        continue;
+      const double height = plane->normal.dot(entity.pose.position) - plane->distance;
+      if (!(std::fabs(height) > kOnPlane)) continue;
+      const Vector3 foot = entity.pose.position - height * plane->normal;
+      reading.diagnostics.Add(
+          entity.tree.ValueLocation("position"),
+          fmt::format(
+              "the {} '{}' is {:.4g} m off the plane of the engine '{}', which moves it on that plane only; put "
+              "it to {:.6g}, {:.6g}, {:.6g}, or move the plane",
+              TagName(entity.kind), entity.id, std::fabs(height), engine.id, foot.x(), foot.y(), foot.z()));
+    }
+  }
+}
 
 void CheckDevicesOfEngines(Reading& reading)
 {

@@ -76,6 +76,7 @@ void ReadSections(const TConfigurationTree& root, Reading& reading)
   ReadExperimentFunctions(root.Child("experiment_functions"), reading);
   CheckControllersOfRobots(reading);
   CheckDevicesOfEngines(reading);
+  CheckPlanes(reading);
   CheckOverlaps(reading);
 }
 

@@ -41,6 +41,7 @@ void ReadExperimentFunctions(const TConfigurationTree& tree, Reading& reading);
 // Mistakes that only the whole experiment shows.
 void CheckControllersOfRobots(Reading& reading);
 void CheckDevicesOfEngines(Reading& reading);
+void CheckPlanes(Reading& reading);
 void CheckOverlaps(Reading& reading);
 
 // Reports an id of other than letters, digits and _ . : -, or longer than 64. `place`: of the id.

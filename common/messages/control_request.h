@@ -9,8 +9,8 @@
 namespace swarmanoid
 {
 
-inline const std::vector<std::string> kControlVerbs{"pause", "resume", "step", "speed",
-                                                    "stop",  "move",   "add",  "remove"};
+inline const std::vector<std::string> kControlVerbs{"pause", "resume", "step", "speed", "stop",
+                                                    "move",  "detach", "add",  "remove"};
 
 struct ControlRequestMessage
 {

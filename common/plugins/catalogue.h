@@ -46,6 +46,8 @@ struct PluginDescription
   std::vector<std::string> channels{};
   std::vector<std::string> entity_tags{};
   bool any_kind = false;  // engines only: it also serves the kinds of users, by their rows alone
+  // Engines only: parameters and tags of entities that have no effect in it; `swarmanoid check` tells who gives them.
+  std::vector<std::string> ignores{};
   // Controllers only: false if it was registered by its label alone. `parameters` says nothing then; what its Init
   // asks for decides.
   bool declares_parameters = true;

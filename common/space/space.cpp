@@ -7,6 +7,7 @@
 
 #include "common/space/attributes.h"
 #include "common/space/make_entity.h"
+#include "common/space/state_checks.h"
 
 namespace swarmanoid
 {
@@ -21,7 +22,7 @@ auto Components(Space& poses)
 
 }  // namespace
 
-CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(experiment)
+CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(experiment), structure_(*this)
 {
   const std::size_t count = experiment.entities.size();
   for (auto* component : Components(poses_)) component->resize(count);
@@ -71,6 +72,18 @@ Pose CSwarmanoidSpace::GetPose(std::size_t i) const
   return {{poses_.x[i], poses_.y[i], poses_.z[i]}, {poses_.qw[i], poses_.qx[i], poses_.qy[i], poses_.qz[i]}};
 }
 
+std::uint32_t CSwarmanoidSpace::FirstHandSlot(std::size_t i) const
+{
+  return entities_[i]->FirstSlot() + static_cast<std::uint32_t>(AttributeOffset(entities_[i]->GetKind(), "gripped"));
+}
+
+std::span<const double> CSwarmanoidSpace::Hands(std::size_t i) const
+{
+  const int grippers = DescriptionOf(entities_[i]->GetKind()).grippers;
+  if (grippers == 0) return {};
+  return Attributes().subspan(FirstHandSlot(i), static_cast<std::size_t>(grippers));
+}
+
 void CSwarmanoidSpace::SetPose(std::size_t i, const Pose& pose)
 {
   ++revision_;
@@ -106,6 +119,7 @@ void CSwarmanoidSpace::SetAttribute(std::uint32_t slot, double value)
 {
   ++attribute_revision_;
   attributes_[slot] = value;
+  if (attribute_values_[slot] == AttributeValue::kEntity) structure_.Follow(EntityOfSlot(*this, slot));
   if (slot < first_presence_) return;
   ++revision_;
   const std::uint32_t entity = slot - first_presence_;
@@ -120,12 +134,17 @@ void CSwarmanoidSpace::SetAttributes(const AttributeChanges& changes)
   if (changes.slots.empty()) return;
   ++attribute_revision_;
   bool presence = false;
+  bool holds = false;
   for (std::size_t k = 0; k < changes.slots.size(); ++k)
   {
     attributes_[changes.slots[k]] = changes.values[k];
     presence |= changes.slots[k] >= first_presence_;
+    holds |= attribute_values_[changes.slots[k]] == AttributeValue::kEntity;
   }
   if (presence) FindAbsent();
+  if (!holds) return;
+  for (const std::uint32_t slot : changes.slots)
+    if (attribute_values_[slot] == AttributeValue::kEntity) structure_.Follow(EntityOfSlot(*this, slot));
 }
 
 void CSwarmanoidSpace::FindAbsent()
@@ -150,6 +169,7 @@ void CSwarmanoidSpace::Apply(const SpaceSnapshot& snapshot)
   attributes_ = snapshot.attributes;
   ++attribute_revision_;
   FindAbsent();
+  structure_.FollowAll();
 }
 
 void CSwarmanoidSpace::WritePoses(std::vector<double>& poses) const

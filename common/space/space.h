@@ -15,6 +15,7 @@
 #include "common/messages/messages.h"
 #include "common/space/attributes.h"
 #include "common/space/entity.h"
+#include "common/space/structure/structural_tree.h"
 
 namespace swarmanoid
 {
@@ -58,6 +59,11 @@ public:
   // What each slot stands for.
   std::span<const AttributeValue> AttributeValues() const { return attribute_values_; }
   std::uint32_t PresenceSlot(std::size_t index) const { return first_presence_ + static_cast<std::uint32_t>(index); }
+  // Who holds whom, as the attributes "gripped" say.
+  const StructuralTree& Structure() const { return structure_; }
+  // The slots of the attribute "gripped" of an entity, one for each of its grippers.
+  std::uint32_t FirstHandSlot(std::size_t index) const;
+  std::span<const double> Hands(std::size_t index) const;
   // Indices of the entities that can move, ascending.
   std::span<const std::uint32_t> Movable() const { return movable_; }
 
@@ -98,6 +104,7 @@ private:
   std::vector<std::uint32_t> movable_;
   std::vector<std::unique_ptr<CSwarmanoidSpaceEntity>> entities_;
   std::unordered_map<std::string_view, std::uint32_t> index_of_id_;
+  StructuralTree structure_;
 };
 
 }  // namespace swarmanoid

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <map>
 
 namespace swarmanoid
 {
@@ -103,6 +104,32 @@ const char* MistakeOf(AttributeValue kind, double value, std::size_t entities)
       return "entities are added and removed by AddEntity and RemoveEntity of the space's editor";
   }
   return nullptr;
+}
+
+// What the hands of some entities hold; all others hold what they hold in the space. Each robot holds one movable
+// thing, of those that can be held, and nobody holds itself by others.
+void CheckHands(const CSwarmanoidSpace& space, const std::map<std::uint32_t, std::vector<double>>& hands)
+{
+  const StructuralTree& structure = space.Structure();
+  const auto held_after = [&](std::uint32_t entity)
+  {
+    const auto changed = hands.find(entity);
+    return changed == hands.end() ? structure.GetHeld(entity)
+                                  : StructuralTree::HeldBy(space.GetExperiment(), changed->second);
+  };
+  for (const auto& [gripper, after] : hands)
+  {
+    const int held = held_after(gripper);
+    if (held == StructuralTree::kNothing) continue;
+    const std::string mistake = structure.MistakeIn(gripper, static_cast<std::uint32_t>(held), held_after);
+    if (!mistake.empty()) Refuse(mistake);
+    for (const double hand : after)
+      if (const int other = StructuralTree::HeldBy(space.GetExperiment(), {&hand, 1});
+          other != StructuralTree::kNothing && other != held)
+        Refuse(fmt::format("{} would hold '{}' and '{}': a robot holds one thing at a time", NameOf(space, gripper),
+                           space.GetEntity(static_cast<std::size_t>(held)).GetId(),
+                           space.GetEntity(static_cast<std::size_t>(other)).GetId()));
+  }
 }
 
 std::string NameOfSlot(const CSwarmanoidSpace& space, std::uint32_t slot)
@@ -222,6 +249,37 @@ void CheckAttributes(const CSwarmanoidSpace& space, const AttributeChanges& chan
   for (std::size_t k = 0; k < changes.slots.size(); ++k) CheckAttribute(space, changes.slots[k], changes.values[k]);
 }
 
+void CheckHolds(const CSwarmanoidSpace& space, std::span<const std::uint32_t> owned, const AttributeChanges& changes)
+{
+  const auto is_hold = [&](std::uint32_t slot) { return space.AttributeValues()[slot] == AttributeValue::kEntity; };
+  if (std::none_of(changes.slots.begin(), changes.slots.end(), is_hold)) return;
+  // What those who changed hold afterwards.
+  std::map<std::uint32_t, std::vector<double>> hands;
+  for (std::size_t k = 0; k < changes.slots.size(); ++k)
+  {
+    if (!is_hold(changes.slots[k])) continue;
+    const std::uint32_t gripper = EntityOfSlot(space, changes.slots[k]);
+    const std::span<const double> before = space.Hands(gripper);
+    std::vector<double>& after = hands.try_emplace(gripper, before.begin(), before.end()).first->second;
+    after[changes.slots[k] - space.FirstHandSlot(gripper)] = changes.values[k];
+  }
+  CheckHands(space, hands);
+  for (const auto& [gripper, after] : hands)
+    for (const double hand : after)
+      if (hand != 0 && space.GetEntity(static_cast<std::size_t>(hand) - 1).IsMovable())
+        for (const std::uint32_t one : {gripper, static_cast<std::uint32_t>(hand) - 1})
+          if (!std::binary_search(owned.begin(), owned.end(), one))
+            Refuse(fmt::format("{} would hold '{}', but the engine does not move {}", NameOf(space, gripper),
+                               space.GetEntity(static_cast<std::size_t>(hand) - 1).GetId(), NameOf(space, one)));
+}
+
+void CheckIsNoHold(const CSwarmanoidSpace& space, std::uint32_t slot)
+{
+  if (space.AttributeValues()[slot] == AttributeValue::kEntity)
+    Refuse(NameOfSlot(space, slot) +
+           " is told by the engine that moves it; only 0, to let go, can be set from outside");
+}
+
 void CheckSnapshot(const CSwarmanoidSpace& space, const SpaceSnapshot& snapshot)
 {
   if (snapshot.poses.size() != 7 * space.Movable().size() || snapshot.attributes.size() != space.Attributes().size())
@@ -229,6 +287,14 @@ void CheckSnapshot(const CSwarmanoidSpace& space, const SpaceSnapshot& snapshot)
   CheckPoses(space, space.Movable(), snapshot.poses);
   const std::uint32_t first_presence = space.PresenceSlot(0);
   for (std::uint32_t slot = 0; slot < first_presence; ++slot) CheckAttribute(space, slot, snapshot.attributes[slot]);
+  std::map<std::uint32_t, std::vector<double>> hands;
+  for (std::uint32_t i = 0; i < space.Size(); ++i)
+    if (const std::size_t count = space.Hands(i).size(); count > 0)
+    {
+      const auto first = snapshot.attributes.begin() + static_cast<std::ptrdiff_t>(space.FirstHandSlot(i));
+      hands.try_emplace(i, first, first + static_cast<std::ptrdiff_t>(count));
+    }
+  CheckHands(space, hands);
   for (std::uint32_t slot = first_presence; slot < snapshot.attributes.size(); ++slot)
     if (snapshot.attributes[slot] != 0 && snapshot.attributes[slot] != 1)
       Refuse(fmt::format("{} is {}: it must be 0 or 1", NameOfSlot(space, slot), snapshot.attributes[slot]));

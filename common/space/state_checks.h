@@ -45,6 +45,13 @@ void CheckPose(const CSwarmanoidSpace& space, std::uint32_t entity, const Pose& 
 void CheckAttributes(const CSwarmanoidSpace& space, const AttributeChanges& changes);
 void CheckAttribute(const CSwarmanoidSpace& space, std::uint32_t slot, double value);
 
+// Who holds whom after the changes of an engine, of which CheckAttributes finds nothing wrong: kinds that can grip and
+// be gripped, one movable thing for each robot, no loops, and nobody but those that the engine moves (`owned`,
+// ascending).
+void CheckHolds(const CSwarmanoidSpace& space, std::span<const std::uint32_t> owned, const AttributeChanges& changes);
+// Whether a slot says who is held: only engines tell that.
+void CheckIsNoHold(const CSwarmanoidSpace& space, std::uint32_t slot);
+
 // The entity that has a slot.
 std::uint32_t EntityOfSlot(const CSwarmanoidSpace& space, std::uint32_t slot);
 

@@ -245,13 +245,18 @@ void PlaneRobots::Moved(std::uint32_t entity)
     for (std::uint32_t& held : handbot.held)
     {
       if (held == 0 || (!is_it && held != entity + 1)) continue;
+      if (space_->Structure().Holds(handbot.entity, held - 1)) continue;
       LiftedOf(held - 1).bearer = 0;
       held = 0;
     }
     if (is_it) handbot.is_hanging = false;
   }
   for (Lifted& lifted : lifted_)
-    if (lifted.entity == entity) lifted = {entity, 0, 0, 0, 0};
+  {
+    if (lifted.entity != entity) continue;
+    lifted.height = lifted.fall = 0;
+    if (lifted.bearer == 0) lifted.above_bearer = 0;
+  }
 }
 
 void PlaneRobots::Raise(std::span<const std::uint32_t> owned, std::span<double> poses) const

@@ -67,7 +67,7 @@ public:
   void Advance(double seconds);
   // Eyebots that hang on the ceiling, and do not move.
   const std::vector<std::uint32_t>& Attached() const { return attached_; }
-  // Somebody put an entity elsewhere: it lets go of everything.
+  // Somebody put an entity elsewhere: it stands on the plane there, and holds and is held by whom the space says.
   void Moved(std::uint32_t entity);
 
   // Raises poses (EngineUpdate::poses, of `owned`) by the heights of their entities above where they stand.

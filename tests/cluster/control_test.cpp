@@ -121,7 +121,7 @@ TEST_F(ControlTest, ALateVisualiserSeesAPausedWorldAtOnce)
   Ask("step", {5});
   ChildProcess text = Start("visualiser", {"--attach", "text", "--experiment", "controlled"});
   EXPECT_TRUE(text.WaitForOutput("robots0_11")) << text.Output();
-  EXPECT_THAT(text.Output(), HasSubstr("5\tFootbot\trobots0_11"));
+  EXPECT_THAT(text.Output(), HasSubstr("5\t\tFootbot\trobots0_11"));
   ExpectEnd();
   EXPECT_EQ(text.Wait(), 0) << text.Output();
 }

@@ -82,8 +82,8 @@ class Attaching(LauncherTest):
         self.control("step", 20)
         self.wait_until("tick 23", lambda: "# tick 23, paused" in (self.folder / "table").read_text())
         text = (self.folder / "table").read_text()
-        self.assertIn("\nfb_0\tground\t0\n", text)
-        self.assertIn("\nfb_9\tground\t1\n", text)
+        self.assertIn("\nfb_0\t\tground\t0\n", text)
+        self.assertIn("\nfb_9\t\tground\t1\n", text)
         self.control("stop")
         self.assertEqual((run.wait(GENEROUS_S), watcher.wait(GENEROUS_S)), (0, 0))
 
@@ -95,7 +95,7 @@ class Attaching(LauncherTest):
         text = re.sub(r"<visualisations>.*</visualisations>|<visualisations/>", "", text, flags=re.S)
         path.write_text(text.replace("</ahss-config>", element + "</ahss-config>"))
         self.assert_finished(self.run_it("run", path, "--ticks", 20, "--quiet", "--output", "out"), 20)
-        self.assertIn("\nfb_0\t3.421\n", (self.folder / "out" / "distances").read_text())
+        self.assertIn("\nfb_0\t\t3.421\n", (self.folder / "out" / "distances").read_text())
 
         run = self.start_paused("--ticks", 0)
         self.control("step", 3)
@@ -104,7 +104,7 @@ class Attaching(LauncherTest):
         watcher = self.start("attach", "distance_render", "--file", "table", "--output", self.folder, "--precision", 2,
                              environment={"SWARMANOID_PLUGIN_PATH": str(library.parent)})
         self.wait_until("a table", lambda: self.has_table("table"))
-        self.assertRegex((self.folder / "table").read_text(), r"\nfb_9\t\d+(\.\d{1,2})?\n")
+        self.assertRegex((self.folder / "table").read_text(), r"\nfb_9\t\t\d+(\.\d{1,2})?\n")
         self.assertIn("there is no visualiser 'distances'", self.run_it("attach", "distances").stderr)
         self.assertIn("holds no visualiser", self.run_it("attach", library.parent / "libfaulty_controller.so").stderr)
         self.control("stop")

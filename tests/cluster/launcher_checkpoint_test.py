@@ -1,4 +1,5 @@
 """Runs that go on from a checkpoint end as if nothing had happened, in one process and as a cluster, whichever took it."""
+import re
 import unittest
 
 from harness import CONFIGS, LauncherTest, main
@@ -45,6 +46,25 @@ class Checkpoints(LauncherTest):
 
     def test_three_engines_with_mirrors(self):
         self.check("mirrors")
+
+    def test_what_holds_together_is_moved_cut_and_removed(self):
+        """In each engine: the whole with its prey, then one of them alone, then the prey goes; from a checkpoint with holds too."""
+        events = self.folder / "asked.csv"
+        events.write_text("tick,request,entity,numbers,from\n120,move,prey,3.2 1.5 0,\n140,detach,fb_9,4.5 0.4 0,\n160,remove,prey,,\n")
+        chain = (CONFIGS / "gripped_chain.xml").read_text()
+        for engine in ["dummy_engine", "dynamics2d", "dynamics3d"]:
+            file = self.folder / f"chain_{engine}.xml"
+            text = re.sub(r"<(/?)dynamics2d", rf"<\1{engine}", chain)
+            if engine == "dynamics3d":
+                text = re.sub(r"<(perpendicular_axis|distance)>.*?</\1>", "", text)
+            file.write_text(text)
+            asked = ["--events", events]
+            whole = self.go(file, f"{engine}_whole", "--single-process", "--checkpoint-every", 100, *asked)
+            self.assertEqual(self.go(file, f"{engine}_cluster", *asked), whole)
+            self.assertNotEqual(self.go(file, f"{engine}_left_alone", "--single-process"), whole)
+            saved = self.folder / f"{engine}_whole" / "checkpoint-00000100"
+            for options in (["--single-process"], []):
+                self.assertEqual(self.go(file, f"{engine}_again", "--restore", saved, *asked, *options), whole)
 
     def test_two_controller_hosts(self):
         experiment = CONFIGS / "diffusion_10.xml"

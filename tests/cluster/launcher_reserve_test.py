@@ -52,7 +52,7 @@ class Reserve(LauncherTest):
     def shown(self, table):
         """Who is in the last picture of a table of ids."""
         lines = [line.split("\t") for line in (self.folder / table).read_text().splitlines() if not line.startswith("#")]
-        return {entity for tick, entity in lines if tick == lines[-1][0]}
+        return {entity for tick, _, entity in lines if tick == lines[-1][0]}
 
     def test_users_add_and_remove(self):
         run = self.start("run", CONFIGS / "prey_supply.xml", "--quiet", "--paused", "--ticks", 400, "--no-visualisers", "--output",

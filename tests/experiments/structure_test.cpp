@@ -40,6 +40,9 @@ std::unique_ptr<Experiment> ChainIn(const std::string& engine)
   std::string xml = text.str();
   for (std::size_t at = 0; (at = xml.find("dynamics2d", at)) != std::string::npos; at += engine.size())
     xml.replace(at, 10, engine);
+  if (engine == "dynamics3d")
+    for (const std::string plane : {"<perpendicular_axis>z</perpendicular_axis>", "<distance>0</distance>"})
+      xml.erase(xml.find(plane), plane.size());
   xml.insert(xml.rfind("</ahss-config>"),
              "<experiment_functions><structure_script id=\"script\"/></experiment_functions>");
   const std::filesystem::path path =
@@ -52,7 +55,7 @@ std::unique_ptr<Experiment> ChainIn(const std::string& engine)
 
 TEST(Structure, ACompoundThatIsMovedKeepsItsShapeAndItsGrips)
 {
-  for (const std::string engine : {"dynamics2d", "dummy_engine"})
+  for (const std::string engine : {"dynamics2d", "dummy_engine", "dynamics3d"})
   {
     const auto experiment = ChainIn(engine);
     SimulatorOptions options;
@@ -63,8 +66,8 @@ TEST(Structure, ACompoundThatIsMovedKeepsItsShapeAndItsGrips)
     const auto index = [&](const char* id) { return space.FindEntity(id)->GetIndex(); };
     for (int tick = 0; tick < 50; ++tick) simulator.Step();
 
-    // In the plane of masses each grips the next one, in the kinematic one the last footbot has the prey alone.
-    const bool all = engine == "dynamics2d";
+    // With masses each grips the next one, in the kinematic engine the last footbot has the prey alone.
+    const bool all = engine != "dummy_engine";
     const Pose held = space.GetPose(index("fb_9")).Inverse().Compose(space.GetPose(index("prey")));
     const Pose first = space.GetPose(index("fb_0"));
     const Pose away{Vector3(1, 1.5, 0), QuaternionFromYaw(0.3)};
@@ -74,7 +77,14 @@ TEST(Structure, ACompoundThatIsMovedKeepsItsShapeAndItsGrips)
       EXPECT_EQ(structure.GetRoot(index("fb_9")), index("prey"));
       EXPECT_EQ(structure.GetRoot(index("fb_0")), index(all ? "prey" : "fb_0"));
       EXPECT_EQ(structure.GetHolders(index("prey")), std::vector<std::uint32_t>{index("fb_9")});
+      const auto seen_from_robot = [&]
+      { return space.GetPose(index("fb_9")).Inverse().Compose(space.GetPose(index("prey"))).position; };
+      const Vector3 before = seen_from_robot();
       editor.MoveCompound("fb_9", away);
+      // They have not let go for a moment.
+      EXPECT_EQ(structure.GetHolders(index("prey")), std::vector<std::uint32_t>{index("fb_9")});
+      EXPECT_EQ(space.GetPose(index("fb_9")).position, away.position);
+      EXPECT_LT((seen_from_robot() - before).norm(), 1e-14);
     };
     simulator.Step();
     StructureScript::before_tick = [](SpaceEditor&) {};

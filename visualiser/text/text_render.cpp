@@ -72,7 +72,10 @@ void CTextRender::Init(const RenderSetup& setup)
   precision_ = static_cast<int>(parameters.Integer("precision"));
   every_ = static_cast<std::uint64_t>(parameters.Integer("every"));
   const std::string format = parameters.Text("format");
-  format_ = format == "csv" ? Format::kCsv : format == "json" ? Format::kJson : Format::kTable;
+  format_ = format == "csv"    ? Format::kCsv
+            : format == "tsv"  ? Format::kTsv
+            : format == "json" ? Format::kJson
+                               : Format::kTable;
   columns_ = Columns();
   ChooseColumns(parameters.Text("columns"), parameters.Tree().ValueLocation("columns"));
   ChooseEntities(parameters.Text("entities"), parameters.Tree().ValueLocation("entities"));
@@ -271,7 +274,7 @@ void CTextRender::AppendHeader()
     return;
   }
   const char separator = format_ == Format::kCsv ? ',' : '\t';
-  if (format_ == Format::kTable) buffer_ += "# ";
+  if (format_ == Format::kTable) buffer_ += "#\t";
   for (std::size_t c = 0; c < columns_.size(); ++c)
   {
     if (c > 0) buffer_ += separator;
@@ -283,11 +286,13 @@ void CTextRender::AppendHeader()
 void CTextRender::AppendLine(const CSwarmanoidSpaceEntity& entity)
 {
   const bool json = format_ == Format::kJson;
-  const char separator = format_ == Format::kTable ? '\t' : ',';
+  const char separator = format_ == Format::kTable || format_ == Format::kTsv ? '\t' : ',';
   if (json) buffer_ += '{';
   for (std::size_t c = 0; c < columns_.size(); ++c)
   {
     if (c > 0) buffer_ += separator;
+    // As in figure 3.11 of the report: under its #, the line has a field more than there are titles.
+    if (c == 1 && format_ == Format::kTable) buffer_ += separator;
     if (json) buffer_.append(keys_[c]).append(columns_[c].is_number ? ":" : ":\"");
     const std::size_t start = buffer_.size();
     columns_[c].append(entity, buffer_);
@@ -304,7 +309,7 @@ void CTextRender::MendCell(std::size_t start, bool is_number)
   if (is_number && !cell.empty() && IsDigit(cell.back()) && cell.find(',') == std::string_view::npos) return;
   if (!(is_number && format_ == Format::kJson) && std::all_of(cell.begin(), cell.end(), IsPlain)) return;
   std::string mended(cell);
-  if (format_ == Format::kTable)
+  if (format_ == Format::kTable || format_ == Format::kTsv)
     std::replace_if(
         mended.begin(), mended.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
   else if (format_ == Format::kCsv)

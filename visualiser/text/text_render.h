@@ -49,6 +49,7 @@ private:
   enum class Format
   {
     kTable,
+    kTsv,
     kCsv,
     kJson
   };

@@ -242,7 +242,12 @@ void CDynamics2dEngine::EntityMoved(std::uint32_t entity)
   for (Owned& owned : owned_)
   {
     if (owned.entity->GetIndex() != entity) continue;
-    world_->ReleaseAllOf(owned.body);
+    world_->ReleaseIf(owned.body,
+                      [&](int body, int gripped)
+                      {
+                        return !space_->Structure().Holds(entity_of_body_[static_cast<std::size_t>(body)],
+                                                          entity_of_body_[static_cast<std::size_t>(gripped)]);
+                      });
     world_->Place(owned.body, StandingPose(*owned.entity, owned.stance));
     world_->SetVelocity(owned.body, {});
     robots_.Moved(entity);

@@ -289,6 +289,19 @@ PlaneVelocity Dynamics2dWorld::VelocityOf(int number) const
 void Dynamics2dWorld::Place(int number, const PlanePose& pose)
 {
   bodies_[Index(number)].b2->SetTransform(ToUnits(pose.u, pose.v), static_cast<float>(pose.heading));
+  for (Body& body : bodies_)
+    if (body.gripped == number || (body.gripped != kNoBody && &body == &bodies_[Index(number)])) CountTurns(body);
+}
+
+// Headings come without whole turns: those that its bodies had made are taken from the angle of a grip.
+void Dynamics2dWorld::CountTurns(Body& body)
+{
+  const double angle = static_cast<double>(bodies_[Index(body.gripped)].b2->GetAngle()) - body.b2->GetAngle() -
+                       body.grip.reference_angle;
+  if (std::abs(angle) <= kPi) return;
+  body.grip.reference_angle = static_cast<float>(body.grip.reference_angle + angle - WrapAngle(angle));
+  world_->DestroyJoint(body.joint);
+  BuildGrip(body);
 }
 
 void Dynamics2dWorld::SetVelocity(int number, const PlaneVelocity& velocity)
@@ -384,13 +397,6 @@ void Dynamics2dWorld::Release(int number)
   body.gripped = kNoBody;
   body.held_angle.reset();
   TurnGripper(body);
-}
-
-void Dynamics2dWorld::ReleaseAllOf(int number)
-{
-  Release(number);
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    if (bodies_[i].gripped == number) Release(static_cast<int>(i));
 }
 
 TurretLoad Dynamics2dWorld::LoadOf(int number) const

@@ -92,6 +92,7 @@ public:
   PlanePose PoseOf(int body) const;
   PlaneVelocity VelocityOf(int body) const;
   void Place(int body, const PlanePose& pose);
+  // Grips stay: those whom it grips, and who grip it, are to be put there with it.
   void SetVelocity(int body, const PlaneVelocity& velocity);
   // Another polygon for a body that has one; the old one stays if no corner is farther off than `tolerance` (m).
   void SetOutline(int body, const std::vector<Vector2>& polygon, double tolerance);
@@ -110,7 +111,14 @@ public:
   // True if a grip of this body on the target would make a loop.
   bool WouldClose(int body, int target) const { return LeadsTo(target, body); }
   void Release(int body);
-  void ReleaseAllOf(int body);  // with the grips of others on it
+  // Of the grips of a body and on it, those for which `ends(body, gripped)` is true.
+  template <class Ends>
+  void ReleaseIf(int body, const Ends& ends)
+  {
+    if (GrippedBy(body) != kNoBody && ends(body, GrippedBy(body))) Release(body);
+    for (int other = 0; other < static_cast<int>(bodies_.size()); ++other)
+      if (GrippedBy(other) == body && ends(other, body)) Release(other);
+  }
   int GrippedBy(int body) const { return bodies_[Index(body)].gripped; }
   TurretLoad LoadOf(int body) const;
 
@@ -158,6 +166,7 @@ private:
   void BuildGrip(Body& body);
   void TurnGripper(Body& body);
   void ApplyDrive(Body& body, double seconds);
+  void CountTurns(Body& body);
   void ApplyTurret(Body& body, double seconds);
   bool LeadsTo(int from, int to) const;
   void WrapAngles();

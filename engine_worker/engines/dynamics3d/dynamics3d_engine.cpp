@@ -231,9 +231,16 @@ void CDynamics3dEngine::WriteSensors(std::span<double> sensors) const
 
 void CDynamics3dEngine::EntityMoved(std::uint32_t entity)
 {
-  links_->RemoveAllOf(entity);
+  const bool connected =
+      links_->RemoveIf(entity, [&](const LinkSpec& link)
+                       { return !JoinsTwoEntities(link) || !space_->Structure().Holds(link.entity_a, link.entity_b); });
   Model* model = scene_->models[entity];
-  if (model != nullptr) model->Place(scene_->frame.ToLocal(space_->GetPose(entity)));
+  if (model == nullptr) return;
+  const Pose pose = scene_->frame.ToLocal(space_->GetPose(entity));
+  if (connected)
+    model->Carry(pose);
+  else
+    model->Place(pose);
 }
 
 std::string CDynamics3dEngine::StatusText() const

@@ -5,16 +5,11 @@
 
 namespace swarmanoid::dynamics3d
 {
-namespace
-{
 
-// Movable things that are held do not collide with their holder: the joint keeps them apart.
 bool JoinsTwoEntities(const LinkSpec& spec)
 {
   return spec.kind != ELink::kRope && spec.body_b >= 0 && spec.entity_b != kNoEntity;
 }
-
-}  // namespace
 
 Link::Link(OdeWorld& world, const LinkSpec& spec, std::uint32_t serial) : world_(world), spec_(spec), serial_(serial)
 {
@@ -125,15 +120,6 @@ void LinkTable::Remove(std::uint32_t serial)
     if (links_[k]->serial_ != serial) continue;
     Erase(k);
     return;
-  }
-}
-
-void LinkTable::RemoveAllOf(std::uint32_t entity)
-{
-  for (std::size_t k = links_.size(); k-- > 0;)
-  {
-    const LinkSpec& spec = links_[k]->spec_;
-    if (spec.entity_a == entity || spec.entity_b == entity) Erase(k);
   }
 }
 

@@ -32,6 +32,9 @@ struct LinkSpec
   double motor_torque = 0;  // N m, hinges
 };
 
+// Movable things that are held do not collide with their holder: the joint keeps them apart.
+bool JoinsTwoEntities(const LinkSpec& spec);
+
 class Link
 {
 public:
@@ -82,7 +85,22 @@ public:
   Link* Find(std::uint32_t serial);
   const Link* Find(std::uint32_t serial) const;
   void Remove(std::uint32_t serial);
-  void RemoveAllOf(std::uint32_t entity);
+  // Of the links of an entity, those for which `ends(spec)` is true. Whether it has others.
+  template <class Ends>
+  bool RemoveIf(std::uint32_t entity, const Ends& ends)
+  {
+    bool others = false;
+    for (std::size_t k = links_.size(); k-- > 0;)
+    {
+      const LinkSpec& spec = links_[k]->Spec();
+      if (spec.entity_a != entity && spec.entity_b != entity) continue;
+      if (ends(spec))
+        Erase(k);
+      else
+        others = true;
+    }
+    return others;
+  }
   // Whether two entities hang together by links, the world not counted as a member.
   bool AreConnected(std::uint32_t a, std::uint32_t b) const;
   std::size_t Size() const { return links_.size(); }

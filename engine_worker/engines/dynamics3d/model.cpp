@@ -39,6 +39,17 @@ void Model::Place(const Pose& pose)
   }
 }
 
+void Model::Carry(const Pose& pose)
+{
+  const Pose way = pose.Compose(CurrentPose().Inverse());
+  for (const PlacedBody& placed : bodies_)
+  {
+    const dBodyID body = scene_.world.Body(placed.number);
+    SetRawPose(body, RawOf(way.Compose(PoseOf(body))));
+    Stop(body);
+  }
+}
+
 Pose Model::CurrentPose() const
 {
   const PlacedBody& main = bodies_.front();

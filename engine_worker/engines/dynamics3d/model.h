@@ -72,6 +72,8 @@ public:
 
   // Puts all bodies at rest where the entity's own position and orientation say.
   virtual void Place(const Pose& pose);
+  // Puts all bodies there as they stand to one another, at rest.
+  void Carry(const Pose& pose);
   Pose CurrentPose() const;
   int MainBody() const { return bodies_.front().number; }
   const Pose& MainOffset() const { return bodies_.front().in_entity; }

@@ -152,13 +152,6 @@ void KinematicWorld::Follow(std::uint32_t body, const Pose2& pose, bool present)
   present_[body] = present ? 1 : 0;
 }
 
-void KinematicWorld::Place(std::uint32_t body, const Pose2& pose)
-{
-  std::erase_if(grips_, [body](const Grip& grip) { return grip.body == body || grip.prey == body; });
-  RebuildGroups();
-  now_.Set(body, pose);
-}
-
 void KinematicWorld::AddGrip(std::uint32_t body, std::uint32_t prey)
 {
   const Grip grip{body, prey, Relative(now_.Get(prey), now_.Get(body))};
@@ -168,8 +161,7 @@ void KinematicWorld::AddGrip(std::uint32_t body, std::uint32_t prey)
 
 void KinematicWorld::RemoveGrip(std::uint32_t body)
 {
-  std::erase_if(grips_, [body](const Grip& grip) { return grip.body == body; });
-  RebuildGroups();
+  RemoveGripsIf([body](const Grip& grip) { return grip.body == body; });
 }
 
 const Grip* KinematicWorld::FindGrip(std::uint32_t body) const

@@ -60,8 +60,8 @@ public:
   void SetPresent(std::uint32_t body, bool present) { present_[body] = present ? 1 : 0; }
   // Where a follower will be at the end of the next Advance; `present` tells whether it is in the plane at all.
   void Follow(std::uint32_t body, const Pose2& pose, bool present);
-  // Puts a body elsewhere at once. A grip that it has part in ends.
-  void Place(std::uint32_t body, const Pose2& pose);
+  // Puts a body elsewhere at once. Its grips stay: those whom it grips, and who grip it, are to be put there with it.
+  void Place(std::uint32_t body, const Pose2& pose) { now_.Set(body, pose); }
   // Moves everything by `seconds`, in at least `steps` equal steps. Fast bodies make it use more, so that nothing
   // passes through anything. Throws std::runtime_error for speeds beyond all sense.
   void Advance(double seconds, int steps);
@@ -69,6 +69,12 @@ public:
   // The prey must be a free body or the prey of other grips, the body must not be gripping or gripped.
   void AddGrip(std::uint32_t body, std::uint32_t prey);
   void RemoveGrip(std::uint32_t body);
+  // Ends the grips for which `ends(grip)` is true.
+  template <class Ends>
+  void RemoveGripsIf(const Ends& ends)
+  {
+    if (std::erase_if(grips_, ends) > 0) RebuildGroups();
+  }
   void SetTurretAngle(std::uint32_t body, double angle);
   const Grip* FindGrip(std::uint32_t body) const;
   const std::vector<Grip>& Grips() const { return grips_; }

@@ -100,7 +100,7 @@ void Kinematics2dEngine::UseGrippers(const ChannelBlock& block, std::span<const 
     CheckCommand(values[k], block.entities[k], block);
     const double closed = std::clamp(values[k], 0.0, 1.0);
     Footbot& footbot = FootbotOf(BodyOf(block.entities[k]));
-    footbot.now.aperture = (1 - closed) * kOpenAperture;
+    footbot.aperture = (1 - closed) * kOpenAperture;
     const bool gripping = world_.FindGrip(footbot.body) != nullptr;
     if (closed > kGripThreshold && !gripping) GripNearest(footbot.body);
     if (closed <= kGripThreshold && gripping) world_.RemoveGrip(footbot.body);
@@ -133,22 +133,19 @@ void Kinematics2dEngine::GripNearest(std::uint32_t body)
   if (found != body) world_.AddGrip(body, found);
 }
 
-void Kinematics2dEngine::ReportFootbots(AttributeChanges& changes)
+void Kinematics2dEngine::ReportFootbots(AttributeChanges& changes) const
 {
-  for (Footbot& footbot : footbots_)
+  const std::span<const double> known = space_->Attributes();
+  const auto report = [&](std::uint32_t slot, double value)
   {
+    if (known[slot] != value) changes.Add(slot, value);
+  };
+  for (const Footbot& footbot : footbots_)
+  {
+    if (footbot.aperture) report(footbot.aperture_slot, *footbot.aperture);
     const Grip* grip = world_.FindGrip(footbot.body);
-    footbot.now.gripped = grip == nullptr ? 0 : 1.0 + layout_->owned[grip->prey];
-    footbot.now.turret_angle = world_.TurretAngle(footbot.body);
-    if (footbot.now == footbot.reported) continue;
-    const auto report = [&](std::uint32_t slot, double now, double reported)
-    {
-      if (now != reported) changes.Add(slot, now);
-    };
-    report(footbot.slots.aperture, footbot.now.aperture, footbot.reported.aperture);
-    report(footbot.slots.gripped, footbot.now.gripped, footbot.reported.gripped);
-    report(footbot.slots.turret_angle, footbot.now.turret_angle, footbot.reported.turret_angle);
-    footbot.reported = footbot.now;
+    report(footbot.gripped_slot, grip == nullptr ? 0 : 1.0 + layout_->owned[grip->prey]);
+    report(footbot.turret_slot, world_.TurretAngle(footbot.body));
   }
 }
 

@@ -98,11 +98,12 @@ void Kinematics2dEngine::Start()
     }
     if (HasTurret(*entity))
     {
-      const Reported shown{entity->GetAttribute("gripper_aperture"), entity->GetAttribute("gripped"),
-                           entity->GetAttribute("turret_angle")};
-      const TurretSlots slots{entity->SlotOf("gripper_aperture"), entity->SlotOf("gripped"),
-                              entity->SlotOf("turret_angle")};
-      footbots_.push_back({body, slots, shown, shown, {}});
+      footbots_.push_back({body,
+                           entity->SlotOf("gripper_aperture"),
+                           entity->SlotOf("gripped"),
+                           entity->SlotOf("turret_angle"),
+                           std::nullopt,
+                           {}});
     }
   }
   for (Mirror& mirror : mirrors_)
@@ -127,7 +128,8 @@ void Kinematics2dEngine::Start()
   for (const ChannelBlock& block : layout_->sensors)
     if (block.name == "footbot_encoders") world_.KeepTravel();
   world_.Start(AreaOf(frame_, space_->GetExperiment().arena_size), threads_);
-  for (const Footbot& footbot : footbots_) world_.SetTurretAngle(footbot.body, footbot.now.turret_angle);
+  for (const Footbot& footbot : footbots_)
+    world_.SetTurretAngle(footbot.body, space_->Attributes()[footbot.turret_slot]);
   writer_ = PlaneWriter(frame_, std::move(stances));
 }
 
@@ -220,9 +222,16 @@ void Kinematics2dEngine::FollowMirrors()
 
 void Kinematics2dEngine::EntityMoved(std::uint32_t entity)
 {
-  world_.Place(BodyOf(entity), PlanePoseOf(space_->GetPose(entity)));
+  const std::uint32_t body = BodyOf(entity);
+  world_.RemoveGripsIf(
+      [&](const Grip& grip)
+      {
+        return (grip.body == body || grip.prey == body) &&
+               !space_->Structure().Holds(layout_->owned[grip.body], layout_->owned[grip.prey]);
+      });
+  world_.Place(body, PlanePoseOf(space_->GetPose(entity)));
   robots_.Moved(entity);
-  world_.SetPresent(BodyOf(entity), space_->IsPresent(entity));
+  world_.SetPresent(body, space_->IsPresent(entity));
 }
 
 std::uint32_t Kinematics2dEngine::BodyOf(std::uint32_t entity) const
@@ -234,14 +243,12 @@ std::uint32_t Kinematics2dEngine::BodyOf(std::uint32_t entity) const
 void Kinematics2dEngine::SaveState(ByteWriter& state) const
 {
   world_.SaveState(state);
-  for (const Footbot& footbot : footbots_) state.Put(footbot.reported);
   robots_.SaveState(state);
 }
 
 void Kinematics2dEngine::LoadState(ByteReader& state)
 {
   world_.LoadState(state);
-  for (Footbot& footbot : footbots_) footbot.now = footbot.reported = state.Get<Reported>();
   robots_.LoadState(state);
 }
 

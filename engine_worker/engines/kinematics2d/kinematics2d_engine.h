@@ -2,6 +2,7 @@
 // entities, commands, sensors and poses; the motion itself is the world's. Runs in its engine worker's thread.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
@@ -40,23 +41,11 @@ private:
     std::uint32_t body = 0;
     std::uint32_t model = 0;
   };
-  // What a footbot shows of its gripper and turret, as last reported.
-  struct Reported
-  {
-    double aperture = 0;
-    double gripped = 0;
-    double turret_angle = 0;
-    bool operator==(const Reported&) const = default;
-  };
-  struct TurretSlots
-  {
-    std::uint32_t aperture, gripped, turret_angle;
-  };
   struct Footbot
   {
     std::uint32_t body = 0;
-    TurretSlots slots{};
-    Reported now, reported;
+    std::uint32_t aperture_slot, gripped_slot, turret_slot;
+    std::optional<double> aperture;  // as commanded in this tick
     kinematics2d::Pose2 tick_start;
   };
 
@@ -85,7 +74,7 @@ private:
   void TurnTurrets(const ChannelBlock& block, std::span<const double> values);
   void UseGrippers(const ChannelBlock& block, std::span<const double> values);
   void GripNearest(std::uint32_t body);
-  void ReportFootbots(AttributeChanges& changes);
+  void ReportFootbots(AttributeChanges& changes) const;
   void ReadEncoders(const ChannelBlock& block, std::span<double> values) const;
   void ReadTurretTorques(const ChannelBlock& block, std::span<double> values) const;
   Footbot& FootbotOf(std::uint32_t body);

@@ -244,11 +244,52 @@ TEST(Dynamics2d, MovingAMemberFromOutsideOpensItsGrips)
   world.Run(2);
   ASSERT_EQ(world.Attribute(b, "gripped"), 1 + prey);
   world.Space().SetPose(b, {Vector3(4, 4, 0), Quaternion::Identity()});
+  for (const auto robot : {a, b}) world.Space().GetEntity(robot).SetAttribute("gripped", 0);
   world.engine->EntityMoved(b);
   world.Run(2);
   EXPECT_EQ(world.Attribute(a, "gripped"), 0);
   EXPECT_EQ(world.Attribute(b, "gripped"), 0);
   EXPECT_LT((world.Position(b) - Vector3(4, 4, 0)).norm(), 1e-4);
+}
+
+// Turned by nearly half a turn, some headings pass from pi to -pi and others do not; the grips feel nothing of it.
+void AChainThatIsMovedKeepsItsShape(bool turrets, double yaw)
+{
+  Dynamics2dTestWorld world;
+  std::vector<std::uint32_t> robots;
+  for (int i = 0; i < 4; ++i) robots.push_back(world.AddFootbot(1 + i * (kReach + 0.085), 1, i == 0 ? 0 : 1e-3));
+  AddGrippingChannels(world, turrets);
+  world.Start();
+  for (const auto robot : robots) world.Command("footbot_gripper", robot, {1});
+  world.Run(3);
+  for (std::size_t i = 0; i + 1 < robots.size(); ++i)
+    ASSERT_EQ(world.Attribute(robots[i], "gripped"), 1 + robots[i + 1]);
+  const auto between = [&](std::size_t i)
+  { return world.Space().GetPose(robots[i]).Inverse().Compose(world.Space().GetPose(robots[i + 1])); };
+  std::vector<Pose> before;
+  for (std::size_t i = 0; i + 1 < robots.size(); ++i) before.push_back(between(i));
+
+  const std::vector<Pose> poses =
+      world.Space().Structure().GetCompound(robots[1]).PosesAt(robots[1], {Vector3(5, 5, 0), QuaternionFromYaw(yaw)});
+  for (std::size_t i = 0; i < robots.size(); ++i) world.Space().SetPose(robots[i], poses[i]);
+  for (const auto robot : robots) world.engine->EntityMoved(robot);
+  world.Run(10);
+  EXPECT_LT((world.Position(robots[1]) - Vector3(5, 5, 0)).norm(), 1e-4) << "yaw " << yaw;
+  for (std::size_t i = 0; i + 1 < robots.size(); ++i)
+  {
+    EXPECT_EQ(world.Attribute(robots[i], "gripped"), 1 + robots[i + 1]);
+    EXPECT_LT((between(i).position - before[i].position).norm(), 1e-4) << "yaw " << yaw;
+    EXPECT_LT(between(i).orientation.angularDistance(before[i].orientation), 1e-4) << "yaw " << yaw;
+  }
+}
+
+TEST(Dynamics2d, AChainThatIsMovedKeepsItsShapeWithRigidGrips)
+{
+  for (const double yaw : {1.0, kPi - 5e-4, -kPi + 5e-4}) AChainThatIsMovedKeepsItsShape(false, yaw);
+}
+TEST(Dynamics2d, AChainThatIsMovedKeepsItsShapeWithTurrets)
+{
+  for (const double yaw : {1.0, kPi - 5e-4, -kPi + 5e-4}) AChainThatIsMovedKeepsItsShape(true, yaw);
 }
 
 }  // namespace

@@ -82,6 +82,7 @@ TEST(Dynamics3dGripping, AnEntityThatIsPutElsewhereLeavesItsGripsAndStandsStill)
   world.Run(5);
   ASSERT_EQ(world.Attribute(footbot, "gripped"), 1 + prey);
   world.Space().SetPose(prey, {Vector3(8, 8, 0), QuaternionFromYaw(1)});
+  world.Space().GetEntity(footbot).SetAttribute("gripped", 0);
   world.engine->EntityMoved(prey);
   world.Run(5);
   EXPECT_EQ(world.Attribute(footbot, "gripped"), 0);
@@ -169,6 +170,38 @@ TEST(Dynamics3dGripping, AHandbotLiftsABookAndCarriesItUpItsRope)
   world.Run(20);
   EXPECT_LT(world.Position(book).z(), 0.2);
   EXPECT_GT(world.Position(handbot).z(), 0.9);
+}
+
+// Arms stay as they are, and the book in the hands; the rope stays where it was, so it ends.
+TEST(Dynamics3dGripping, AHandbotThatIsMovedTakesItsBookAlong)
+{
+  for (const bool restored : {false, true})
+  {
+    Dynamics3dTestWorld world;
+    const auto handbot = world.AddHandbot({5, 5, 0});
+    const auto book = world.AddBlock({5.27, 5, 0.1}, {0.03, 0.16, 0.2}, 0.4);
+    world.AddCommands("handbot_hands", 2);
+    world.Start();
+    world.Command("handbot_hands", handbot, {1, 1});
+    world.Run(10);
+    ASSERT_EQ(world.Attribute(handbot, "gripped", 1), 1 + book);
+    if (restored) world.ReplaceEngineBySavedState();
+    const auto in_hands = [&] { return world.Space().GetPose(handbot).Inverse().Compose(world.Space().GetPose(book)); };
+    const Pose before = in_hands();
+    const Pose there{Vector3(2, 7, world.Position(handbot).z()), QuaternionFromYaw(3.1)};
+    const std::vector<Pose> poses = world.Space().Structure().GetCompound(handbot).PosesAt(handbot, there);
+    world.Space().SetPose(handbot, poses[0]);
+    world.Space().SetPose(book, poses[1]);
+    world.engine->EntityMoved(handbot);
+    world.engine->EntityMoved(book);
+    world.Tick();
+    for (const int hand : {0, 1}) EXPECT_EQ(world.Attribute(handbot, "gripped", hand), 1 + book);
+    EXPECT_LT((in_hands().position - before.position).norm(), 1e-3);
+    EXPECT_LT((world.Position(handbot) - there.position).norm(), 1e-3);
+    world.Run(30);
+    EXPECT_LT((in_hands().position - before.position).norm(), 2e-3);
+    EXPECT_LT((world.Position(handbot) - there.position).norm(), 2e-3);
+  }
 }
 
 TEST(Dynamics3dGripping, AHandbotHangsOnAShelfByItsHandsAlone)

@@ -165,10 +165,52 @@ TEST(Kinematics2dGrip, MovingAGrippedRobotAwayEndsTheGrip)
   f.Tick();
   EXPECT_EQ(GrippedBy(f, robot), 1.0 + prey);
   f.Space().SetPose(robot, {Vector3(8, 8, 0), Quaternion::Identity()});
+  f.Space().GetEntity(robot).SetAttribute("gripped", 0);
   f.Engine().EntityMoved(robot);
   f.Tick();
   EXPECT_EQ(GrippedBy(f, robot), 0);
   EXPECT_LT((f.PoseOf(prey).position - Vector3(5, 5, 0)).norm(), 1e-12);
+}
+
+// It goes on to hold what it holds, though another prey would be nearer to the gripper; so does a restored one.
+TEST(Kinematics2dGrip, ARobotThatIsMovedWithItsPreyHoldsItToTheLastBit)
+{
+  for (const bool restored : {false, true})
+  {
+    EngineFixture f;
+    const auto prey = AddPrey(f, 5, 5);
+    const auto robot = AddRobotAround(f, 5, 5, 0.3);
+    const auto nearer = AddPrey(f, 8, 2);
+    f.AddCommands("footbot_gripper", 1, {robot});
+    f.Start();
+    f.Command(0) = 1;
+    f.Tick();
+    ASSERT_EQ(GrippedBy(f, robot), 1.0 + prey);
+    const auto grip = [&] { return dynamic_cast<Kinematics2dEngine&>(f.Engine()).World().Grips().at(0).relative; };
+    const kinematics2d::Pose2 before = grip();
+    if (restored)
+    {
+      ByteWriter state;
+      f.Engine().SaveState(state);
+      auto fresh = f.MakeEngine();
+      ByteReader reader(state.Bytes());
+      fresh->LoadState(reader);
+      std::swap(f.EnginePointer(), fresh);
+    }
+    const Pose there{Vector3(7, 3, 0), QuaternionFromYaw(3)};
+    const std::vector<Pose> poses = f.Space().Structure().GetCompound(robot).PosesAt(robot, there);
+    f.Space().SetPose(prey, poses[0]);
+    f.Space().SetPose(robot, poses[1]);
+    // Between gripper and prey.
+    f.Space().SetPose(nearer, {there.Apply({kinematics2d::kFootbotGripperReach + kPreyRadius - 0.001, 0, 0}),
+                               Quaternion::Identity()});
+    for (const std::uint32_t moved : {prey, robot, nearer}) f.Engine().EntityMoved(moved);
+    f.Tick();
+    EXPECT_EQ(GrippedBy(f, robot), 1.0 + prey);
+    EXPECT_EQ(grip().x, before.x);
+    EXPECT_EQ(grip().y, before.y);
+    EXPECT_EQ(grip().heading.z, before.heading.z);
+  }
 }
 
 // A crowd with turning turrets, grips, a mirror and walls, driven at random.

@@ -5,7 +5,6 @@
 
 #include "common/math/elementary.h"
 #include "common/space/query.h"
-#include "common/space/structure/structural_tree.h"
 
 namespace swarmanoid
 {
@@ -225,67 +224,6 @@ TEST(SegmentHit, TurnedBoxesAndLyingCylindersAreExact)
   EXPECT_NEAR(-5 + 10 * *cap, -2, 1e-12);
   EXPECT_FALSE(SegmentHit(cylinder, lying, {0, -5, 0.6}, {0, 5, 0.6}));
   EXPECT_EQ(SegmentHit(cylinder, lying, {0, 0, 0}, {0, 9, 0}), 0.0);
-}
-
-TEST(StructuralTree, TheGrippedOneIsTheRootOfAllThatHoldIt)
-{
-  const Experiment experiment = TwoWorlds();
-  CSwarmanoidSpace space(experiment);
-  StructuralTree tree(space);
-  tree.Attach(0, 4);  // fb0 and fb2 hold the prey, fb1 holds fb0
-  tree.Attach(3, 4);
-  tree.Attach(2, 0);
-  EXPECT_EQ(tree.GetRoot(2), 4U);
-  EXPECT_THAT(tree.GetHolders(4), testing::ElementsAre(0, 3));
-  EXPECT_THAT(tree.GetCompound(3).GetMembers(), testing::ElementsAre(0, 2, 3, 4));
-  tree.Detach(0);
-  EXPECT_THAT(tree.GetCompound(3).GetMembers(), testing::ElementsAre(3, 4));
-  EXPECT_THAT(tree.GetCompound(0).GetMembers(), testing::ElementsAre(0, 2));
-}
-
-TEST(StructuralTree, ACompoundMovesAsOneRigidBody)
-{
-  const Experiment experiment = TwoWorlds();
-  CSwarmanoidSpace space(experiment);
-  StructuralTree tree(space);
-  tree.Attach(0, 4);
-  tree.Attach(3, 4);
-  const auto seen_from_prey = [&](std::uint32_t i) { return space.GetPose(4).Inverse().Compose(space.GetPose(i)); };
-  const Pose before0 = seen_from_prey(0);
-  const Pose before3 = seen_from_prey(3);
-  const CCompoundEntity compound = tree.GetCompound(0);
-  const std::vector<Pose> poses = compound.PosesAt({{7, 6, 0}, QuaternionFromYaw(2)});
-  for (std::size_t k = 0; k < poses.size(); ++k) space.SetPose(compound.GetMembers()[k], poses[k]);
-  EXPECT_EQ(space.GetEntity(4).GetPosition(), Vector3(7, 6, 0));
-  EXPECT_TRUE(seen_from_prey(0).position.isApprox(before0.position, 1e-12));
-  EXPECT_TRUE(seen_from_prey(3).position.isApprox(before3.position, 1e-12));
-  EXPECT_NEAR(std::abs(seen_from_prey(3).orientation.dot(before3.orientation)), 1, 1e-12);
-}
-
-TEST(StructuralTree, ImpossibleConnectionsAreRefusedWithTheReason)
-{
-  const Experiment experiment = TwoWorlds();
-  CSwarmanoidSpace space(experiment);
-  StructuralTree tree(space);
-  const auto message = [&](std::uint32_t a, std::uint32_t b) -> std::string
-  {
-    try
-    {
-      tree.Attach(a, b);
-    }
-    catch (const StructureError& error)
-    {
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_EQ(message(0, 0), "'fb0' cannot grip 'fb0': an entity cannot grip itself");
-  EXPECT_EQ(message(4, 0), "'prey' cannot grip 'fb0': a cylindric_prey has no gripper");
-  EXPECT_EQ(message(0, 1), "'fb0' cannot grip 'wall': a fixed block has nothing to grip");
-  tree.Attach(0, 2);
-  tree.Attach(2, 3);
-  EXPECT_EQ(message(0, 4), "'fb0' cannot grip 'prey': it holds 'fb1' already");
-  EXPECT_EQ(message(3, 0), "'fb2' cannot grip 'fb0': the connection would close a loop");
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 // Who stands in the way of an entity that is added.
 #include "space_server/space_changes.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <optional>
 
 #include "common/experiment/body.h"
 #include "common/math/elementary.h"
@@ -69,7 +72,7 @@ TEST_F(InTheWay, PlacesThatAreAskedForAreInMetresAndDegrees)
   Add(EntityKind::kEyebot, "eb", {{2, 2, 1}, QuaternionFromYaw(0.5)}, {0});
   const CSwarmanoidSpace space(experiment_);
   const auto asked_for = [&](const std::vector<double>& numbers) {
-    return ReadSpaceChange({"", 0, "move", "eb", numbers}, space).move.pose;
+    return ReadSpaceChange({"", 0, "move", "eb", numbers}, space).moves.at(0).pose;
   };
   EXPECT_EQ(asked_for({3, 4, 1.5}).position, Vector3(3, 4, 1.5));
   EXPECT_NEAR(YawOf(asked_for({3, 4, 1.5}).orientation), 0.5, 1e-12) << "it keeps its heading";
@@ -101,6 +104,61 @@ TEST_F(InTheWay, BodiesCountWithTheirShapeHeightAndHeading)
   EXPECT_EQ(At("plank", {5.151, 5, 0.05}, kPi / 2), "");
   EXPECT_EQ(At("plank", {5, 5, 0.249}, kPi / 2), "prey");
   EXPECT_EQ(At("plank", {5, 5, 0.251}, kPi / 2), "");
+}
+
+// fb holds the prey, 0.2 m before it; a wall, and another one.
+class MovedTogether : public InTheWay
+{
+protected:
+  MovedTogether()
+  {
+    Add(EntityKind::kFootbot, "fb", {{2, 2, 0}, Quaternion::Identity()}, {0});
+    Add(EntityKind::kCylindricPrey, "prey", {{2.2, 2, 0}, Quaternion::Identity()}, {0}, {0.1, 0.1, 0.1});
+    Add(EntityKind::kBlock, "wall", {{5, 5, 0.1}, Quaternion::Identity()}, {0}, {0.1, 0.1, 0.2});
+    experiment_.entities.back().movable = false;
+    space.emplace(experiment_);
+    space->SetAttribute(space->FindEntity("fb")->SlotOf("gripped"), 1 + 1);
+  }
+  SpaceChange Asked(const std::string& verb, const std::string& id, const std::vector<double>& numbers)
+  {
+    return ReadSpaceChange({"", 0, verb, id, numbers}, *space);
+  }
+  std::string Mistake(const std::string& verb, const std::string& id, const std::vector<double>& numbers)
+  {
+    try
+    {
+      Asked(verb, id, numbers);
+    }
+    catch (const std::invalid_argument& error)
+    {
+      return error.what();
+    }
+    return "";
+  }
+  std::optional<CSwarmanoidSpace> space;
+};
+
+TEST_F(MovedTogether, MoveTakesAllAlongAndDetachOne)
+{
+  const SpaceChange whole = Asked("move", "fb", {7, 7, 0, 0, 0, 90});
+  ASSERT_EQ(whole.moves.size(), 2U);
+  EXPECT_LT((whole.moves[1].pose.position - Vector3(7, 7.2, 0)).norm(), 1e-12);
+  EXPECT_EQ(whole.done, "moved 'fb' and 1 that it is connected to");
+  const SpaceChange one = Asked("detach", "fb", {7, 7, 0});
+  ASSERT_EQ(one.moves.size(), 1U);
+  EXPECT_EQ(one.moves[0].pose.position, Vector3(7, 7, 0));
+}
+
+TEST_F(MovedTogether, TheWholeIsRefusedWhereAnyOfThemDoesNotFit)
+{
+  EXPECT_EQ(Mistake("move", "fb", {2.15, 2, 0}), "") << "where the prey is now";
+  EXPECT_THAT(Mistake("move", "fb", {4.8, 5, 0}),
+              testing::HasSubstr("'prey' does not fit at 5, 5, 0: the block 'wall'"));
+  EXPECT_EQ(Mistake("detach", "fb", {4.8, 5, 0}), "");
+  EXPECT_THAT(Mistake("move", "prey", {5, 5, 0}), testing::HasSubstr("'prey' does not fit"));
+  EXPECT_THAT(Mistake("move", "fb", {9.9, 5, 0}),
+              testing::HasSubstr("'prey' would come to 10.1, 5, 0, outside the arena"));
+  EXPECT_THAT(Mistake("detach", "fb", {2.15, 2, 0}), testing::HasSubstr("the cylindric_prey 'prey' stands there"));
 }
 
 }  // namespace

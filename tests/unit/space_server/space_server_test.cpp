@@ -332,5 +332,91 @@ TEST(ExperimentFunctions, AnExceptionIsReportedWithNameAndTick)
                   "experiment functions 'goal' (recorder): PostStep at tick 1 failed: no luck"));
 }
 
+// a holds b, b holds c, all in one engine; a shelf d.
+class SpaceServerHolds : public testing::Test
+{
+protected:
+  static Experiment Chain()
+  {
+    Experiment experiment = TwoEngines();
+    experiment.engines.resize(1);
+    experiment.engines[0].entities = {0, 1, 2};
+    return experiment;
+  }
+  SpaceServerHolds()
+  {
+    EngineUpdate update = UpdateOf(0, 1, {1, 2, 3});
+    update.attributes.Add(Slot("a"), 1 + 1);
+    update.attributes.Add(Slot("b"), 1 + 2);
+    server.Check(update);
+    const std::array<const EngineUpdate*, 1> updates{&update};
+    server.Advance(updates, {});
+    server.State();
+  }
+  std::uint32_t Slot(const char* id) const { return server.Space().FindEntity(id)->SlotOf("gripped"); }
+  double Held(const char* id) const { return server.Space().Attributes()[Slot(id)]; }
+  static MoveRequest To(std::uint32_t entity, double x, bool present = true)
+  {
+    return {entity, {{x, 5, 0}, Quaternion::Identity()}, present};
+  }
+
+  const Experiment experiment = Chain();
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  SpaceServer server{experiment, assignment, "."};
+};
+
+TEST_F(SpaceServerHolds, WhoIsMovedAloneLetsGoAndIsLetGo)
+{
+  server.Move(To(1, 5));
+  EXPECT_EQ(Held("a"), 0);
+  EXPECT_EQ(Held("b"), 0);
+  EXPECT_THAT(server.State().attributes.slots, testing::UnorderedElementsAre(Slot("a"), Slot("b")));
+}
+
+TEST_F(SpaceServerHolds, ThoseWhoAreMovedTogetherGoOnToHoldOneAnother)
+{
+  const std::array<MoveRequest, 2> moves{To(1, 5), To(2, 6)};
+  server.Move(moves);
+  EXPECT_EQ(Held("a"), 0);
+  EXPECT_EQ(Held("b"), 1 + 2);
+  EXPECT_THAT(server.State().moved, ElementsAre(1, 2));
+}
+
+TEST_F(SpaceServerHolds, WhoLeavesTheArenaLetsGoAndIsLetGoThoughTheOthersAreMoved)
+{
+  const std::array<MoveRequest, 3> moves{To(0, 4), To(1, -5, false), To(2, 6)};
+  server.Move(moves);
+  EXPECT_EQ(Held("a"), 0);
+  EXPECT_EQ(Held("b"), 0);
+}
+
+TEST_F(SpaceServerHolds, AMistakeInOneMoveMovesNobody)
+{
+  const std::array<MoveRequest, 2> moves{To(1, 5), To(2, 1e9)};
+  EXPECT_THROW(server.Move(moves), std::invalid_argument);
+  EXPECT_EQ(server.Space().GetPose(1).position.x(), 2);
+  EXPECT_EQ(Held("a"), 1 + 1);
+}
+
+TEST_F(SpaceServerHolds, FunctionsMayEndAHoldAndMakeNone)
+{
+  server.SetAttribute(Slot("a"), 0);
+  EXPECT_EQ(Held("a"), 0);
+  EXPECT_EQ(Held("b"), 1 + 2);
+  EXPECT_THAT(server.State().moved, ElementsAre(0)) << "the engine hears of it";
+  EXPECT_THROW(server.SetAttribute(Slot("a"), 1 + 2), std::invalid_argument);
+  EXPECT_EQ(Held("a"), 0);
+}
+
+TEST_F(SpaceServerHolds, HostsAndLoopsAreRefused)
+{
+  ControlCommands commands;
+  commands.attributes.Add(Slot("c"), 0);
+  EXPECT_THROW(server.Check(commands), std::runtime_error);
+  EngineUpdate update = UpdateOf(0, 2, {1, 2, 3});
+  update.attributes.Add(Slot("c"), 1 + 0);
+  EXPECT_THROW(server.Check(update), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace swarmanoid

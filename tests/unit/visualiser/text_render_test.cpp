@@ -97,8 +97,9 @@ protected:
 TEST_F(TextRender, WritesTheTableOfTheSeed)
 {
   EXPECT_EQ(Written(CTextRender(), ""),
-            "# clock\tEntity type\tEntity id\tX\tY\tZ\tAlpha\tBeta\tGamma\n7\tFootbot\tfb\t1.25\t2\t0\t0\t0\t90\n");
-  EXPECT_EQ(Written(CTextRender(), "columns='Entity id, State'"), "# Entity id\tState\nfb\tturn, \"left\"\\  ä \xff\n");
+            "#\tclock\tEntity type\tEntity id\tX\tY\tZ\tAlpha\tBeta\tGamma\n7\t\tFootbot\tfb\t1.25\t2\t0\t0\t0\t90\n");
+  EXPECT_EQ(Written(CTextRender(), "columns='Entity id, State'"),
+            "#\tEntity id\tState\nfb\t\tturn, \"left\"\\  ä \xff\n");
 }
 
 TEST_F(TextRender, WritesJsonThatParsersRead)

@@ -71,8 +71,8 @@ TEST_F(TextRenderTicks, WritesEveryNthTickAndTheLastOne)
 
 TEST_F(TextRenderTicks, WritesPlacesAndAnglesInDegreesInTheFormatThatIsAskedFor)
 {
-  EXPECT_THAT(Written("", {0}), ElementsAre("# clock\tEntity type\tEntity id\tX\tY\tZ\tAlpha\tBeta\tGamma",
-                                            "0\tFootbot\tfb\t1\t2\t0.5\t0\t0\t90"));
+  EXPECT_THAT(Written("", {0}), ElementsAre("#\tclock\tEntity type\tEntity id\tX\tY\tZ\tAlpha\tBeta\tGamma",
+                                            "0\t\tFootbot\tfb\t1\t2\t0.5\t0\t0\t90"));
   EXPECT_THAT(Written("format=\"json\" columns=\"Entity id, X, Gamma\"", {0}),
               ElementsAre("{\"Entity id\":\"fb\",\"X\":1,\"Gamma\":90}"));
 }

@@ -1,0 +1,72 @@
+#include "common/experiment/notes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "common/plugins/catalogue.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+bool Has(const EngineConfiguration& engine, std::uint32_t entity)
+{
+  return std::binary_search(engine.entities.begin(), engine.entities.end(), entity);
+}
+
+bool Ignores(const EngineConfiguration& engine, const std::string& name)
+{
+  const PluginDescription* plugin = PluginCatalogue::Instance().Find(PluginKind::kEngine, engine.tag);
+  return plugin != nullptr && std::find(plugin->ignores.begin(), plugin->ignores.end(), name) != plugin->ignores.end();
+}
+
+// The engine that ignores what an entity is given, if all that have it do; nullptr otherwise.
+const EngineConfiguration* OnlyIgnoredBy(const Experiment& experiment, std::uint32_t entity, const std::string& name)
+{
+  const EngineConfiguration* found = nullptr;
+  for (const EngineConfiguration& engine : experiment.engines)
+  {
+    if (!Has(engine, entity)) continue;
+    if (!Ignores(engine, name)) return nullptr;
+    found = &engine;
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<Diagnostic> NotesOn(const Experiment& experiment)
+{
+  std::vector<Diagnostic> notes;
+  std::set<std::string> places;
+  const auto note = [&](const SourceLocation& place, std::string text)
+  {
+    if (places.insert(place.Text()).second) notes.push_back({place, std::move(text)});
+  };
+  for (std::uint32_t i = 0; i < experiment.entities.size(); ++i)
+  {
+    const EntityConfiguration& entity = experiment.entities[i];
+    const EntityKindDescription& kind = DescriptionOf(entity.kind);
+    for (const ParameterSpec& parameter : kind.parameters)
+    {
+      if (!entity.tree.Value(parameter.name)) continue;
+      if (const EngineConfiguration* engine = OnlyIgnoredBy(experiment, i, parameter.name))
+        note(entity.tree.ValueLocation(parameter.name),
+             fmt::format("the {} of the {} '{}' has no effect: its engine '{}' ({}) does not use it", parameter.name,
+                         TagName(entity.kind), entity.id, engine->id, engine->tag));
+    }
+    if (kind.role != EntityRole::kHole) continue;
+    const auto heeds = [&](const EngineConfiguration& engine) { return Has(engine, i) && !Ignores(engine, kind.tag); };
+    if (std::none_of(experiment.engines.begin(), experiment.engines.end(), heeds))
+      note(entity.location,
+           fmt::format("nothing can fall into the hole '{}': none of the engines that have it knows holes, so robots "
+                       "drive over it; list it in an engine of three dimensions, such as dynamics3d, with its robots",
+                       entity.id));
+  }
+  return notes;
+}
+
+}  // namespace swarmanoid

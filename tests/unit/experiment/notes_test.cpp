@@ -1,0 +1,121 @@
+// What `swarmanoid check` tells beside mistakes, and start poses off a plane.
+#include "common/experiment/notes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/plugins/catalogue.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+PluginDescription Engine(const std::string& label)
+{
+  PluginDescription engine;
+  engine.label = label;
+  engine.any_kind = true;
+  engine.entity_tags = {"footbot", "cylindric_prey", "block", "hole"};
+  return engine;
+}
+
+LoadedExperiment Load(const std::string& arena, const std::string& engines, const std::string& lists)
+{
+  static const bool registered = []
+  {
+    PluginDescription plane = Engine("note_plane");
+    plane.ignores = {"mass", "friction", "hole"};
+    plane.parameters = {{.name = "perpendicular_axis",
+                         .type = ParameterType::kChoice,
+                         .default_value = "z",
+                         .description = "axis",
+                         .choices = {"x", "y", "z"}},
+                        {.name = "distance", .unit = "m", .default_value = "0", .description = "distance"},
+                        {.name = "tilt",
+                         .type = ParameterType::kVector3,
+                         .unit = "deg",
+                         .default_value = "0, 0, 0",
+                         .description = "tilt"}};
+    PluginCatalogue::Instance().Add(PluginKind::kEngine, plane);
+    PluginCatalogue::Instance().Add(PluginKind::kEngine, Engine("note_space"));
+    return true;
+  }();
+  static_cast<void>(registered);
+  return LoadExperimentText(
+      "<ahss-config><framework><clocktick>100</clocktick></framework>\n<controllers/>\n"
+      "<arena size='4,4,4' optimization='3D'>\n" +
+          arena + "</arena>\n<engines>" + engines + "</engines>\n<arena_physics>" + lists +
+          "</arena_physics>\n<visualisations/></ahss-config>",
+      "n.xml", "/");
+}
+
+std::vector<std::string> NotesOf(const LoadedExperiment& loaded)
+{
+  std::vector<std::string> texts;
+  for (const Diagnostic& error : loaded.errors) texts.push_back("error " + error.Text());
+  if (loaded.experiment)
+    for (const Diagnostic& note : NotesOn(*loaded.experiment)) texts.push_back(note.Text());
+  return texts;
+}
+
+const std::string kPlane = "<note_plane id='p'/>";
+const std::string kSpace = "<note_space id='s'/>";
+const std::string kAllInPlane = "<engine id='p'><all/></engine>";
+const std::string kAllInSpace = "<engine id='s'><all/></engine>";
+
+TEST(Notes, AParameterThatNoEngineUsesIsToldWhereItStands)
+{
+  const std::string preys =
+      "<cylindric_prey id='a' position='1,1,0' mass='2'/>\n<cylindric_prey id='b' position='2,1,0'/>\n";
+  EXPECT_THAT(
+      NotesOf(Load(preys, kPlane, kAllInPlane)),
+      ElementsAre(testing::AllOf(HasSubstr("n.xml:4:"), HasSubstr("the mass of the cylindric_prey 'a' has no effect: "
+                                                                  "its engine 'p' (note_plane)"))));
+  EXPECT_THAT(NotesOf(Load(preys, kSpace, kAllInSpace)), IsEmpty());
+  EXPECT_THAT(NotesOf(Load(preys, kPlane + kSpace, kAllInPlane + kAllInSpace)), IsEmpty()) << "the other one uses it";
+}
+
+TEST(Notes, OneLineForAllOfAPlaceInTheFile)
+{
+  const std::string many =
+      "<distribute quantity='5'><position method='uniform' min='1,1,0' max='3,3,0'/>"
+      "<cylindric_prey id='a' mass='2'/></distribute>";
+  EXPECT_EQ(NotesOf(Load(many, kPlane, kAllInPlane)).size(), 1U);
+}
+
+TEST(Notes, AHoleThatNothingFallsIntoIsTold)
+{
+  const std::string hole = "<hole id='h' position='2,2,0' radius='0.3'/>\n";
+  EXPECT_THAT(NotesOf(Load(hole, kSpace, kAllInSpace)), IsEmpty());
+  EXPECT_THAT(NotesOf(Load(hole, kPlane, kAllInPlane)), ElementsAre(HasSubstr("nothing can fall into the hole 'h'")));
+  EXPECT_THAT(NotesOf(Load(hole, kSpace, "")), ElementsAre(HasSubstr("nothing can fall into the hole 'h'")));
+}
+
+TEST(StartPoses, RobotsStandOnThePlaneOfTheirEngine)
+{
+  const auto robot_at = [](const std::string& place) { return "<footbot id='f' position='" + place + "'/>\n"; };
+  EXPECT_THAT(NotesOf(Load(robot_at("1,1,0.0005"), kPlane, kAllInPlane)), IsEmpty());
+  EXPECT_THAT(NotesOf(Load(robot_at("1,1,0.5"), kPlane, kAllInPlane)),
+              ElementsAre(testing::AllOf(HasSubstr("the footbot 'f' is 0.5 m off the plane of the engine 'p'"),
+                                         HasSubstr("put it to 1, 1, 0, or move the plane"))));
+  EXPECT_THAT(NotesOf(Load(robot_at("1,1,0.5"), kSpace, kAllInSpace)), IsEmpty());
+  const std::string wall = "<note_plane id='p' perpendicular_axis='x' distance='0.2'/>";
+  EXPECT_THAT(NotesOf(Load(robot_at("0.2,1,2"), wall, kAllInPlane)), IsEmpty());
+  EXPECT_THAT(NotesOf(Load(robot_at("1,1,0"), wall, kAllInPlane)), ElementsAre(HasSubstr("put it to 0.2, 1, 0")));
+  const std::string ceiling = "<note_plane id='p' distance='-3' tilt='180,0,0'/>";
+  EXPECT_THAT(NotesOf(Load(robot_at("1,1,3"), ceiling, kAllInPlane)), IsEmpty());
+  EXPECT_THAT(NotesOf(Load(robot_at("1,1,0"), ceiling, kAllInPlane)), ElementsAre(HasSubstr("put it to 1, 1, 3")));
+  // Blocks keep their height, and a mirror follows its own engine.
+  EXPECT_THAT(
+      NotesOf(Load("<block id='b' position='1,1,0.1' size='0.1,0.1,0.2' movable='true'/>", kPlane, kAllInPlane)),
+      IsEmpty());
+  EXPECT_THAT(NotesOf(Load(robot_at("1,1,1"), kSpace + kPlane, kAllInSpace + kAllInPlane)), IsEmpty());
+}
+
+}  // namespace
+}  // namespace swarmanoid
