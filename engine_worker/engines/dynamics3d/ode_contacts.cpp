@@ -13,9 +13,7 @@ namespace swarmanoid::dynamics3d
 namespace
 {
 
-// The caster's spring: soft enough to leave the weight to the wheels, hard enough to tilt by half a degree at most.
-constexpr double kCasterStiffness = 2000;  // N/m
-constexpr double kCasterDamping = 20;      // N s/m
+constexpr double kCasterDamping = 0.05;  // s: N s/m per N/m
 // Slower than this a contact is taken to stick, and its friction works along the pull of gravity.
 constexpr double kSlip = 1e-3;  // m/s
 // A wheel's contact normal stands at most this far out of the wheel's plane: sine of the angle. Half width 1 cm.
@@ -95,9 +93,9 @@ void OdeWorld::AddContact(const dContactGeom& geometry, const Solid& a, const So
   {
     // A spring and a damper as ODE's error reduction and constraint force mixing.
     surface.mode |= dContactSoftERP | dContactSoftCFM;
-    const double stiff = step_seconds_ * kCasterStiffness;
-    surface.soft_erp = stiff / (stiff + kCasterDamping);
-    surface.soft_cfm = 1 / (stiff + kCasterDamping);
+    const double stiffness = (a.surface == ESurface::kCaster ? a : b).touch.caster_stiffness;
+    surface.soft_erp = step_seconds_ / (step_seconds_ + kCasterDamping);
+    surface.soft_cfm = 1 / (stiffness * (step_seconds_ + kCasterDamping));
   }
   else if (a.surface == ESurface::kWheel || b.surface == ESurface::kWheel)
   {

@@ -26,7 +26,7 @@ enum class ESurface : std::uint8_t
 {
   kPlain,
   kWheel,   // a sphere that stands for a wheel about the y axis of its body: its flanks touch nothing
-  kCaster,  // frictionless and springy
+  kCaster,  // frictionless, with a spring and a damper
   kGround,  // the ground plane: open where there are holes
   kTerrain  // ground too
 };
@@ -37,6 +37,7 @@ struct Touch
   std::optional<double> friction;         // with others: the geometric mean of both
   std::optional<double> restitution;      // the larger one of both
   std::optional<double> ground_friction;  // on ground and terrain
+  double caster_stiffness = 0;            // N/m
 };
 
 // Who collides with whom. Static solids, mirrors included, never meet one another; wheels pass other robots (the wheel
