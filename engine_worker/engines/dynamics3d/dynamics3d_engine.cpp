@@ -238,7 +238,8 @@ void CDynamics3dEngine::EntityMoved(std::uint32_t entity)
 
 std::string CDynamics3dEngine::StatusText() const
 {
-  return fmt::format("{} contacts, {} grips and ropes", world_->ContactCount(), links_->Size());
+  return fmt::format("{} contacts, {} grips and ropes, {} objects at rest", world_->ContactCount(), links_->Size(),
+                     world_->SleeperCount());
 }
 
 }  // namespace swarmanoid

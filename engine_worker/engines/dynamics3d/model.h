@@ -96,8 +96,7 @@ protected:
     Pose in_entity;
   };
 
-  void AddBody(const dMass& mass, const Pose& in_entity);
-  void AddKinematicBody(const Pose& in_entity);
+  void AddBody(const dMass& mass, const Pose& in_entity, EBody kind = EBody::kRobot);
 
   Scene& scene_;
   std::vector<PlacedBody> bodies_;  // the first one gives the entity's pose

@@ -77,7 +77,7 @@ ObjectModel::ObjectModel(Scene& scene, const CSwarmanoidSpaceEntity& entity) : M
   const double volume = round ? kPi * size.x() * size.x() * size.z() : size.prod();
   const double given = entity.GetConfiguration().mass_kg;
   const double mass = given > 0 ? given : scene.density * volume;
-  AddBody(round ? CylinderMass(mass, size.x(), size.z()) : BoxMass(mass, size), CentreOf(entity));
+  AddBody(round ? CylinderMass(mass, size.x(), size.z()) : BoxMass(mass, size), CentreOf(entity), EBody::kObject);
   scene.world.BeginEntity(Entity(), TouchOf(entity));
   scene.world.AddSolid(OutlineOf(entity), MainBody(), ELayer::kObject);
   if (scene.has_voxels) AddProbes(scene, entity, MainBody());
@@ -85,7 +85,7 @@ ObjectModel::ObjectModel(Scene& scene, const CSwarmanoidSpaceEntity& entity) : M
 
 MirrorModel::MirrorModel(Scene& scene, const CSwarmanoidSpaceEntity& entity) : Model(scene, entity)
 {
-  AddKinematicBody(CentreOf(entity));
+  AddBody(SphereMass(1, 1), CentreOf(entity), EBody::kMirror);
   scene.world.BeginEntity(Entity(), TouchOf(entity));
   scene.world.AddSolid(OutlineOf(entity), MainBody(), ELayer::kStatic);
   last_ = RawOf(scene.frame.ToLocal(entity.GetPose()).Compose(MainOffset()));

@@ -42,7 +42,7 @@ double FrictionOf(const Solid& a, const Solid& b, double of_world)
 
 }  // namespace
 
-void OdeWorld::MakeContacts(const Solid& a, const Solid& b)
+void OdeWorld::MakeContacts(const Solid& a, const Solid& b, std::uint32_t pair)
 {
   std::array<dContactGeom, kMaximumContacts> contacts;
   int count = -1;
@@ -58,7 +58,7 @@ void OdeWorld::MakeContacts(const Solid& a, const Solid& b)
   for (int k = 0; k < count; ++k)
   {
     const dContactGeom& contact = contacts[static_cast<std::size_t>(k)];
-    if (Accept(contact, a, b)) AddContact(contact, a, b);
+    if (Accept(contact, a, b)) AddContact(contact, a, b, pair);
   }
 }
 
@@ -76,7 +76,7 @@ bool OdeWorld::Accept(const dContactGeom& contact, const Solid& a, const Solid& 
   return true;
 }
 
-void OdeWorld::AddContact(const dContactGeom& geometry, const Solid& a, const Solid& b)
+void OdeWorld::AddContact(const dContactGeom& geometry, const Solid& a, const Solid& b, std::uint32_t pair)
 {
   const dBodyID body_a = dGeomGetBody(a.geom);
   const dBodyID body_b = dGeomGetBody(b.geom);
@@ -134,8 +134,8 @@ void OdeWorld::AddContact(const dContactGeom& geometry, const Solid& a, const So
     surface.bounce = restitution;
     surface.bounce_vel = 0.05;
   }
-  dJointAttach(dJointCreateContact(world_, contact_joints_, &contact), body_a, body_b);
-  ++contact_count_;
+  const auto number = [](dBodyID body) { return body == nullptr ? -1 : NumberOf(body); };
+  contacts_.push_back({contact, number(body_a), number(body_b), pair});
 }
 
 }  // namespace swarmanoid::dynamics3d
