@@ -57,13 +57,7 @@ HandbotModel::HandbotModel(Scene& scene, const CSwarmanoidSpaceEntity& entity)
     const Pose along_x{Vector3::Zero(), QuaternionFromEuler({0, kPi / 2, 0})};
     world.AddSolid(dCreateCapsule(nullptr, S::kArmRadius, S::kArmLength - 2 * S::kArmRadius), bodies_[arm].number,
                    ELayer::kRobot, ESurface::kPlain, along_x);
-    if (scene.has_voxels)
-      world.AddSolid(dCreateCapsule(nullptr, S::kArmRadius, S::kArmLength - 2 * S::kArmRadius), bodies_[arm].number,
-                     ELayer::kProbe, ESurface::kPlain, along_x);
   }
-  if (scene.has_voxels)
-    world.AddSolid(dCreateSphere(nullptr, S::kBaseSide / 2), trunk, ELayer::kProbe, ESurface::kPlain,
-                   At(0, 0, S::kBaseSide / 2 - S::kTrunkCentre));
 }
 
 void HandbotModel::MakeServo(std::size_t k, int inner, int outer, const Vector3& anchor, const Vector3& axis,

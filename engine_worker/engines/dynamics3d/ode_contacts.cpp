@@ -44,7 +44,7 @@ double FrictionOf(const Solid& a, const Solid& b, double of_world)
 
 void OdeWorld::MakeContacts(const Solid& a, const Solid& b, std::uint32_t pair)
 {
-  std::array<dContactGeom, kMaximumContacts> contacts;
+  std::array<dContactGeom, kMaximumVoxelContacts> contacts;
   int count = -1;
   const int class_a = dGeomGetClass(a.geom);
   const int class_b = dGeomGetClass(b.geom);
@@ -54,7 +54,12 @@ void OdeWorld::MakeContacts(const Solid& a, const Solid& b, std::uint32_t pair)
     count = Flipped(contacts, CollideCylinderWithPlane(b.geom, a.geom, contacts));
   else if (class_a == dCylinderClass && class_b == dPlaneClass)
     count = CollideCylinderWithPlane(a.geom, b.geom, contacts);
-  if (count < 0) count = dCollide(a.geom, b.geom, kMaximumContacts, contacts.data(), sizeof(dContactGeom));
+  if (count < 0)
+  {
+    const bool voxels = a.layer == ELayer::kVoxels || b.layer == ELayer::kVoxels;
+    const int most = voxels ? kMaximumVoxelContacts : kMaximumContacts;
+    count = dCollide(a.geom, b.geom, most, contacts.data(), sizeof(dContactGeom));
+  }
   for (int k = 0; k < count; ++k)
   {
     const dContactGeom& contact = contacts[static_cast<std::size_t>(k)];

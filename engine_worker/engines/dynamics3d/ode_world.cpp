@@ -25,15 +25,14 @@ constexpr LayerBits BitsOf(ELayer layer)
     case ELayer::kStatic:
       return {Bit(layer), Bit(ELayer::kRobot) | Bit(ELayer::kObject) | Bit(ELayer::kWheel)};
     case ELayer::kRobot:
-      return {Bit(layer), Bit(ELayer::kStatic) | Bit(ELayer::kRobot) | Bit(ELayer::kObject)};
+      return {Bit(layer), Bit(ELayer::kStatic) | Bit(ELayer::kRobot) | Bit(ELayer::kObject) | Bit(ELayer::kVoxels)};
     case ELayer::kObject:
-      return {Bit(layer), Bit(ELayer::kStatic) | Bit(ELayer::kRobot) | Bit(ELayer::kObject) | Bit(ELayer::kWheel)};
+      return {Bit(layer), Bit(ELayer::kStatic) | Bit(ELayer::kRobot) | Bit(ELayer::kObject) | Bit(ELayer::kWheel) |
+                              Bit(ELayer::kVoxels)};
     case ELayer::kWheel:
       return {Bit(layer), Bit(ELayer::kStatic) | Bit(ELayer::kObject) | Bit(ELayer::kVoxels)};
-    case ELayer::kProbe:
-      return {Bit(layer), Bit(ELayer::kVoxels)};
     case ELayer::kVoxels:
-      return {Bit(layer), Bit(ELayer::kWheel) | Bit(ELayer::kProbe)};
+      return {Bit(layer), Bit(ELayer::kWheel) | Bit(ELayer::kRobot) | Bit(ELayer::kObject)};
   }
   return {0, 0};
 }
@@ -180,7 +179,7 @@ const Solid* OdeWorld::FindTouching(const Vector3& centre, double radius, std::u
   for (const auto& solid : solids_)
   {
     if (solid->entity == but_not || solid->entity == kNoEntity) continue;
-    if (solid->layer == ELayer::kProbe || solid->layer == ELayer::kWheel) continue;
+    if (solid->layer == ELayer::kWheel) continue;
     if (!accept(*solid)) continue;
     std::array<dReal, 6> box;
     dGeomGetAABB(solid->geom, box.data());

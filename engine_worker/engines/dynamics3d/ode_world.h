@@ -23,7 +23,8 @@ namespace swarmanoid::dynamics3d
 
 inline constexpr std::uint32_t kNoEntity = std::numeric_limits<std::uint32_t>::max();
 
-inline constexpr int kMaximumContacts = 8;  // of one pair of solids
+inline constexpr int kMaximumContacts = 8;        // of one pair of solids
+inline constexpr int kMaximumVoxelContacts = 32;  // of one solid with all voxels
 
 enum class ESurface : std::uint8_t
 {
@@ -44,15 +45,13 @@ struct Touch
 };
 
 // Who collides with whom. Static solids, mirrors included, never meet one another; wheels pass other robots (the wheel
-// stands within the outline of the chassis); probes are spheres that meet voxel terrain in place of cylinders and
-// boxes.
+// stands within the outline of the chassis).
 enum class ELayer : std::uint8_t
 {
   kStatic,
   kRobot,
   kObject,
   kWheel,
-  kProbe,
   kVoxels
 };
 

@@ -103,10 +103,6 @@ WheeledModel::WheeledModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, c
                    in_chassis(x, shape.caster_radius));
   for (std::size_t wheel = 1; wheel <= 2; ++wheel)
     world.AddSolid(dCreateSphere(nullptr, shape.wheel_radius), bodies_[wheel].number, ELayer::kWheel, ESurface::kWheel);
-  const double probe = shape.is_cylinder ? shape.size.x() : shape.size.head<2>().minCoeff() / 2;
-  if (scene.has_voxels)
-    world.AddSolid(dCreateSphere(nullptr, probe), bodies_[0].number, ELayer::kProbe, ESurface::kPlain,
-                   in_chassis(0, shape.clearance + probe));
 }
 
 void WheeledModel::Command(std::string_view channel, std::span<const double> values)
