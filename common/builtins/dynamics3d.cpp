@@ -26,6 +26,14 @@ std::vector<ParameterSpec> OwnParameters()
                       "values and cost time in proportion.",
        .minimum = 1,
        .maximum = 1000},
+      {.name = "object_iterations",
+       .type = kInteger,
+       .default_value = "50",
+       .description =
+           "Iterations, if that is more, for blocks and preys and all that touches or holds them, directly or "
+           "through others.",
+       .minimum = 1,
+       .maximum = 1000},
       {.name = "gravity",
        .type = kVector3,
        .unit = "m/s2",

@@ -1,9 +1,13 @@
 // dynamics3d: time of a clock tick (100 ms, 20 steps of the solver) and of one step, for footbots that drive about at
-// one per square metre within arena walls, one in ten of them an eyebot; on the plane and on hills.
+// one per square metre within arena walls, one in ten of them an eyebot; on the plane, on hills, on an OctoMap of
+// 2,000 cells a robot, and there with a prey and a plate to each two robots.
 //   build/bin/bench/dynamics3d_bench
 #include <benchmark/benchmark.h>
+#include <octomap/octomap.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "common/builtins/engines.h"
 #include "common/math/elementary.h"
@@ -16,10 +20,17 @@ namespace swarmanoid
 namespace
 {
 
+enum class EGround
+{
+  kPlane,
+  kHills,
+  kCells
+};
+
 class BenchWorld
 {
 public:
-  BenchWorld(int robots, bool hills)
+  BenchWorld(int robots, EGround ground, bool objects)
   {
     const double side = std::sqrt(robots) + 1;
     experiment_.arena_size = {side, side, 5};
@@ -42,15 +53,27 @@ public:
       experiment_.entities.push_back(robot);
       layout.owned.push_back(static_cast<std::uint32_t>(k));
     }
+    for (int k = 0; objects && k < robots; ++k)
+    {
+      EntityConfiguration thing;
+      thing.id = "thing" + std::to_string(k);
+      thing.kind = k % 2 == 0 ? EntityKind::kCylindricPrey : EntityKind::kBlock;
+      thing.size = k % 2 == 0 ? Vector3(0.1, 0.1, 0.1) : Vector3(0.3, 0.3, 0.05);
+      thing.movable = true;
+      thing.pose = {{0.5 + k % per_side, 0.5 + k / per_side, 0.05}, Quaternion::Identity()};
+      layout.owned.push_back(static_cast<std::uint32_t>(experiment_.entities.size()));
+      experiment_.entities.push_back(thing);
+    }
     layout.command_size = 2 * wheels.entities.size();
     layout.commands.push_back(wheels);
     layout_ = layout;
     space_ = std::make_unique<CSwarmanoidSpace>(experiment_);
 
     node_->attributes.push_back({"arena_walls", "true", {}});
-    if (hills) node_->attributes.push_back({"ground", "false", {}});
+    if (ground != EGround::kPlane) node_->attributes.push_back({"ground", "false", {}});
     engine_.Init({configuration_, Parameters(TConfigurationTree(node_), table_), *space_, layout_});
-    if (hills) AddHills(side);
+    if (ground == EGround::kHills) AddHills(side);
+    if (ground == EGround::kCells) AddCells(side);
     for (std::size_t k = 0; k < space_->Size(); ++k) engine_.AddEntity(space_->GetEntity(k), EBinding::kOwned);
     engine_.Start();
 
@@ -76,7 +99,28 @@ private:
     for (int k = 0; k < points * points; ++k) heights.push_back(random.Uniform(-0.005, 0.005));
     const auto hills =
         std::make_shared<const HeightTerrain>(heights, points, points, (points - 1) * 0.1, (points - 1) * 0.1);
-    hills_ = AddHeightfield(engine_.World(), dynamics3d::kNoEntity, hills, Pose());
+    terrain_ = AddHeightfield(engine_.World(), dynamics3d::kNoEntity, hills, Pose());
+  }
+  // Four layers of cells of 5 cm, and a cell on top of one in 400.
+  void AddCells(double side)
+  {
+    const int cells = static_cast<int>(side / 0.05) + 1;
+    RandomStream random(2, 0, 0, 0);
+    octomap::OcTree tree(0.05);
+    const auto fill = [&](int x, int y, int z)
+    {
+      const auto at = [](int k) { return 0.05F * static_cast<float>(k) + 0.025F; };
+      tree.updateNode(octomap::point3d(at(x), at(y), at(z)), true, true);
+    };
+    for (int x = 0; x < cells; ++x)
+      for (int y = 0; y < cells; ++y)
+        for (int z = -4; z < (random.Uniform() < 1.0 / 400 ? 1 : 0); ++z) fill(x, y, z);
+    tree.updateInnerOccupancy();
+    const auto path = std::filesystem::temp_directory_path() / (std::to_string(getpid()) + "dynamics3d_bench.bt");
+    tree.writeBinary(path.string());
+    terrain_ =
+        AddVoxels(engine_.World(), dynamics3d::kNoEntity, std::make_shared<const VoxelTerrain>(path.string()), Pose());
+    std::filesystem::remove(path);
   }
 
   Experiment experiment_;
@@ -85,15 +129,15 @@ private:
   std::vector<ParameterSpec> table_ = Dynamics3dDescription().parameters;
   std::shared_ptr<ConfigurationNode> node_ = std::make_shared<ConfigurationNode>();
   std::unique_ptr<CSwarmanoidSpace> space_;
-  std::unique_ptr<dynamics3d::TerrainShape> hills_;
+  std::unique_ptr<dynamics3d::TerrainShape> terrain_;
   CDynamics3dEngine engine_;
   std::vector<double> commands_;
   EngineUpdate update_;
 };
 
-void Ticks(benchmark::State& state, bool hills)
+void Ticks(benchmark::State& state, EGround ground, bool objects)
 {
-  BenchWorld world(static_cast<int>(state.range(0)), hills);
+  BenchWorld world(static_cast<int>(state.range(0)), ground, objects);
   for (auto _ : state) world.Tick();
   using benchmark::Counter;
   const auto steps = static_cast<double>(state.iterations()) * 20;
@@ -102,8 +146,11 @@ void Ticks(benchmark::State& state, bool hills)
       Counter(steps * static_cast<double>(state.range(0)), Counter::kIsRate | Counter::kInvert);
 }
 
-BENCHMARK_CAPTURE(Ticks, plane, false)->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(Ticks, hills, true)->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Ticks, plane, EGround::kPlane, false)->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Ticks, hills, EGround::kHills, false)->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Ticks, cells, EGround::kCells, false)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Ticks, objects, EGround::kPlane, true)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Ticks, objects_on_cells, EGround::kCells, true)->Arg(100)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace swarmanoid

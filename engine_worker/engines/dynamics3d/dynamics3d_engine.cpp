@@ -15,24 +15,6 @@ namespace swarmanoid
 
 using namespace dynamics3d;
 
-namespace
-{
-
-// Known before the robots are made: only then do they get probes.
-bool HasVoxels(const EngineSetup& setup)
-{
-  const Experiment& experiment = setup.space.GetExperiment();
-  return std::any_of(setup.configuration.entities.begin(), setup.configuration.entities.end(),
-                     [&](std::uint32_t index)
-                     {
-                       const EntityConfiguration& entity = experiment.entities[index];
-                       return DescriptionOf(entity.kind).role == EntityRole::kTerrain &&
-                              entity.tree.Child("octomap").Exists();
-                     });
-}
-
-}  // namespace
-
 void CDynamics3dEngine::Init(const EngineSetup& setup)
 {
   space_ = &setup.space;
@@ -57,7 +39,6 @@ void CDynamics3dEngine::Init(const EngineSetup& setup)
                                          .up = frame.VectorToLocal(Vector3::UnitZ()),
                                          .tick_seconds = tick,
                                          .density = settings_.density,
-                                         .has_voxels = HasVoxels(setup),
                                          .models = {}});
   scene_->models.assign(space_->Size(), nullptr);
 
@@ -245,7 +226,8 @@ void CDynamics3dEngine::EntityMoved(std::uint32_t entity)
 
 std::string CDynamics3dEngine::StatusText() const
 {
-  return fmt::format("{} contacts, {} grips and ropes", world_->ContactCount(), links_->Size());
+  return fmt::format("{} contacts, {} grips and ropes, {} objects at rest", world_->ContactCount(), links_->Size(),
+                     world_->SleeperCount());
 }
 
 }  // namespace swarmanoid

@@ -11,6 +11,7 @@ Settings SettingsFrom(const Parameters& parameters)
   settings.step_seconds = parameters.Number("step_ms") * 1e-3;
   settings.world.gravity = parameters.Vector3Of("gravity");
   settings.world.iterations = static_cast<int>(parameters.Integer("iterations"));
+  settings.world.object_iterations = static_cast<int>(parameters.Integer("object_iterations"));
   settings.world.friction = parameters.Number("friction");
   settings.world.wheel_friction = parameters.Number("wheel_friction");
   settings.world.restitution = parameters.Number("restitution");

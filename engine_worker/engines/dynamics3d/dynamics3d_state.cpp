@@ -8,7 +8,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 }  // namespace
 
@@ -25,6 +25,13 @@ void CDynamics3dEngine::SaveState(ByteWriter& state) const
     state.Put(RawPoseOf(body));
     for (const dReal* velocity : {dBodyGetLinearVel(body), dBodyGetAngularVel(body)})
       for (int k = 0; k < 3; ++k) state.Put(velocity[k]);
+  }
+  for (const int object : world_->Objects())
+  {
+    const Rest& rest = world_->RestOf(object);
+    state.Put(rest.reference);
+    state.Put(rest.steps);
+    state.Put(rest.asleep);
   }
   for (const auto& model : models_) model->Save(state);
 }
@@ -45,6 +52,14 @@ void CDynamics3dEngine::LoadState(ByteReader& state)
     for (double& value : velocity) value = state.Get<double>();
     dBodySetLinearVel(body, velocity[0], velocity[1], velocity[2]);
     dBodySetAngularVel(body, velocity[3], velocity[4], velocity[5]);
+  }
+  for (const int object : world_->Objects())
+  {
+    Rest rest;
+    rest.reference = state.Get<RawPose>();
+    rest.steps = state.Get<std::uint32_t>();
+    rest.asleep = state.Get<bool>();
+    world_->SetRest(object, rest);
   }
   for (const auto& model : models_) model->Load(state);
 }

@@ -50,9 +50,6 @@ EyebotModel::EyebotModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, dou
     for (const double y : {S::kLegReach, -S::kLegReach})
       world.AddSolid(dCreateCapsule(nullptr, S::kLegRadius, leg_length), MainBody(), ELayer::kRobot, ESurface::kPlain,
                      at(x, y, S::kLegRadius + leg_length / 2));
-  if (scene.has_voxels)
-    world.AddSolid(dCreateSphere(nullptr, S::kRingRadius), MainBody(), ELayer::kProbe, ESurface::kPlain,
-                   at(0, 0, S::kHeight / 2));
 }
 
 void EyebotModel::Place(const Pose& pose)

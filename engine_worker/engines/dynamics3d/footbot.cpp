@@ -31,7 +31,7 @@ WheeledShape ShapeOf(const CSwarmanoidSpaceEntity& entity)
           .centre_of_mass = S::kCentreOfMass,
           .inertia_radius = 0.08,
           .inertia_height = 0.1,
-          .wheel_torque = scale * S::kWheelTorque};
+          .free_speed = S::kFreeSpeed};
 }
 
 }  // namespace

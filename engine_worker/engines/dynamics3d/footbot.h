@@ -18,13 +18,13 @@ struct FootbotShape
   static constexpr double kWheelRadius = 0.029112741;
   static constexpr double kHalfTrack = 0.07;
   static constexpr double kCasterRadius = 0.01;
-  static constexpr double kCasterReach = 0.065;
+  static constexpr double kCasterReach = 0.075;
   static constexpr double kChassisMass = 1.2;
   static constexpr double kWheelMass = 0.2;  // with motor and tread
   static constexpr double kMass = kChassisMass + 2 * kWheelMass;
   static constexpr double kCentreOfMass = 0.05;
   static constexpr double kGripperHeight = 0.085;
-  static constexpr double kWheelTorque = 0.25;  // N m: about 17 N of drive with both wheels
+  static constexpr double kFreeSpeed = 0.6;     // m/s: twice the speed of the robot
   static constexpr double kTurretTorque = 1.5;  // N m
   static constexpr double kTractionRange = 25;  // N: the torque sensor reads 1 there, and at the turret's torque
   static constexpr double kMaximumTurretSpeed = 3.14159265358979323846;  // rad/s

@@ -12,9 +12,10 @@ namespace
 using S = HandbotShape;
 
 constexpr GraspGeometry kHandGrasp{0.03, S::kWristTorque, true};
-constexpr double kServoGain = 40;   // 1/s
-constexpr double kServoLead = 0.1;  // rad: how far the target runs ahead of an arm that is held back
-constexpr double kServoSpeed = 3;   // rad/s
+constexpr double kServoGain = 40;    // 1/s
+constexpr double kServoLead = 0.1;   // rad: how far the target runs ahead of an arm that is held back
+constexpr double kServoSpeed = 3;    // rad/s
+constexpr double kWinchLead = 0.01;  // m: a winch that pulls at what cannot follow stops there
 // The fans turn the robot to the heading that it had when the rope was shot: critically damped at 3 rad/s with a book.
 constexpr double kFanGain = 0.3;     // N m/rad
 constexpr double kFanDamping = 0.2;  // N m s
@@ -56,13 +57,7 @@ HandbotModel::HandbotModel(Scene& scene, const CSwarmanoidSpaceEntity& entity)
     const Pose along_x{Vector3::Zero(), QuaternionFromEuler({0, kPi / 2, 0})};
     world.AddSolid(dCreateCapsule(nullptr, S::kArmRadius, S::kArmLength - 2 * S::kArmRadius), bodies_[arm].number,
                    ELayer::kRobot, ESurface::kPlain, along_x);
-    if (scene.has_voxels)
-      world.AddSolid(dCreateCapsule(nullptr, S::kArmRadius, S::kArmLength - 2 * S::kArmRadius), bodies_[arm].number,
-                     ELayer::kProbe, ESurface::kPlain, along_x);
   }
-  if (scene.has_voxels)
-    world.AddSolid(dCreateSphere(nullptr, S::kBaseSide / 2), trunk, ELayer::kProbe, ESurface::kPlain,
-                   At(0, 0, S::kBaseSide / 2 - S::kTrunkCentre));
 }
 
 void HandbotModel::MakeServo(std::size_t k, int inner, int outer, const Vector3& anchor, const Vector3& axis,
@@ -199,7 +194,7 @@ void HandbotModel::BeforeStep(double seconds)
   }
   if (Link* rope = scene_.links.Find(rope_))
   {
-    const double length = rope->Length() + winch_ * seconds;
+    const double length = std::max(rope->Length() + winch_ * seconds, rope->AnchorDistance() - kWinchLead);
     rope->SetLength(std::clamp(length, S::kShortestRope, S::kLongestRope));
     rope->TightenOrSlacken();
     if (rope->IsTaut()) RunFans();

@@ -17,15 +17,10 @@ void AttributeReport::Set(std::string_view name, double value, int element, doub
   changes_.Add(entity_.SlotOf(name, element), value);
 }
 
-void Model::AddBody(const dMass& mass, const Pose& in_entity)
+void Model::AddBody(const dMass& mass, const Pose& in_entity, EBody kind)
 {
-  bodies_.push_back({scene_.world.AddBody(mass), in_entity});
-  SetRawPose(scene_.world.Body(bodies_.back().number), RawOf(in_entity));
-}
-
-void Model::AddKinematicBody(const Pose& in_entity)
-{
-  bodies_.push_back({scene_.world.AddKinematicBody(), in_entity});
+  const BodyOwner owner{Entity(), kind};
+  bodies_.push_back({scene_.world.AddBody(owner, mass), in_entity});
   SetRawPose(scene_.world.Body(bodies_.back().number), RawOf(in_entity));
 }
 
@@ -34,7 +29,9 @@ void Model::Place(const Pose& pose)
   for (const PlacedBody& placed : bodies_)
   {
     const dBodyID body = scene_.world.Body(placed.number);
-    SetRawPose(body, RawOf(pose.Compose(placed.in_entity)));
+    const RawPose here = RawOf(pose.Compose(placed.in_entity));
+    if (here != RawPoseOf(body)) scene_.world.WakeAll();
+    SetRawPose(body, here);
     Stop(body);
   }
 }

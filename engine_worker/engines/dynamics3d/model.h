@@ -41,8 +41,7 @@ struct Scene
   Frame frame;
   Vector3 up = Vector3::UnitZ();  // the space's z axis
   double tick_seconds = 0.1;
-  double density = 200;  // kg/m³, of movable objects without a mass of their own
-  bool has_voxels = false;
+  double density = 200;        // kg/m³, of movable objects without a mass of their own
   std::vector<Model*> models;  // by entity; nullptr for those without a body
 
   bool CanBeHeld(std::uint32_t entity) const;
@@ -98,8 +97,7 @@ protected:
     Pose in_entity;
   };
 
-  void AddBody(const dMass& mass, const Pose& in_entity);
-  void AddKinematicBody(const Pose& in_entity);
+  void AddBody(const dMass& mass, const Pose& in_entity, EBody kind = EBody::kRobot);
 
   Scene& scene_;
   std::vector<PlacedBody> bodies_;  // the first one gives the entity's pose

@@ -39,35 +39,6 @@ Touch TouchOf(const CSwarmanoidSpaceEntity& entity)
   return {given("friction"), given("restitution"), given("ground_friction")};
 }
 
-// Spheres at the corners and rims of a body, which meet voxels in its place.
-void AddProbes(Scene& scene, const CSwarmanoidSpaceEntity& entity, int body)
-{
-  const Vector3& size = entity.GetSize();
-  const bool round = IsCylinder(entity.GetKind());
-  const double width = round ? 2 * size.x() : std::min(size.x(), size.y());
-  const double radius = std::min(width, size.z()) / 6;
-  for (const double top : {-0.5, 0.5})
-  {
-    const double z = top * (size.z() - 2 * radius);
-    for (int k = 0; k < (round ? 8 : 4); ++k)
-    {
-      Vector3 centre(0, 0, z);
-      if (round)
-      {
-        const SinCos angle = SinCosOf(k * kPi / 4);
-        centre += Vector3(angle.cos, angle.sin, 0) * (size.x() - radius);
-      }
-      else
-      {
-        centre.x() = ((k & 1) != 0 ? 0.5 : -0.5) * (size.x() - 2 * radius);
-        centre.y() = ((k & 2) != 0 ? 0.5 : -0.5) * (size.y() - 2 * radius);
-      }
-      scene.world.AddSolid(dCreateSphere(nullptr, radius), body, ELayer::kProbe, ESurface::kPlain,
-                           {centre, Quaternion::Identity()});
-    }
-  }
-}
-
 }  // namespace
 
 ObjectModel::ObjectModel(Scene& scene, const CSwarmanoidSpaceEntity& entity) : Model(scene, entity)
@@ -77,15 +48,14 @@ ObjectModel::ObjectModel(Scene& scene, const CSwarmanoidSpaceEntity& entity) : M
   const double volume = round ? kPi * size.x() * size.x() * size.z() : size.prod();
   const double given = entity.GetConfiguration().mass_kg;
   const double mass = given > 0 ? given : scene.density * volume;
-  AddBody(round ? CylinderMass(mass, size.x(), size.z()) : BoxMass(mass, size), CentreOf(entity));
+  AddBody(round ? CylinderMass(mass, size.x(), size.z()) : BoxMass(mass, size), CentreOf(entity), EBody::kObject);
   scene.world.BeginEntity(Entity(), TouchOf(entity));
   scene.world.AddSolid(OutlineOf(entity), MainBody(), ELayer::kObject);
-  if (scene.has_voxels) AddProbes(scene, entity, MainBody());
 }
 
 MirrorModel::MirrorModel(Scene& scene, const CSwarmanoidSpaceEntity& entity) : Model(scene, entity)
 {
-  AddKinematicBody(CentreOf(entity));
+  AddBody(SphereMass(1, 1), CentreOf(entity), EBody::kMirror);
   scene.world.BeginEntity(Entity(), TouchOf(entity));
   scene.world.AddSolid(OutlineOf(entity), MainBody(), ELayer::kStatic);
   last_ = RawOf(scene.frame.ToLocal(entity.GetPose()).Compose(MainOffset()));

@@ -13,9 +13,7 @@ namespace swarmanoid::dynamics3d
 namespace
 {
 
-// The caster's spring: soft enough to leave the weight to the wheels, hard enough to tilt by half a degree at most.
-constexpr double kCasterStiffness = 2000;  // N/m
-constexpr double kCasterDamping = 20;      // N s/m
+constexpr double kCasterDamping = 0.05;  // s: N s/m per N/m
 // Slower than this a contact is taken to stick, and its friction works along the pull of gravity.
 constexpr double kSlip = 1e-3;  // m/s
 // A wheel's contact normal stands at most this far out of the wheel's plane: sine of the angle. Half width 1 cm.
@@ -44,9 +42,9 @@ double FrictionOf(const Solid& a, const Solid& b, double of_world)
 
 }  // namespace
 
-void OdeWorld::MakeContacts(const Solid& a, const Solid& b)
+void OdeWorld::MakeContacts(const Solid& a, const Solid& b, std::uint32_t pair)
 {
-  std::array<dContactGeom, kMaximumContacts> contacts;
+  std::array<dContactGeom, kMaximumVoxelContacts> contacts;
   int count = -1;
   const int class_a = dGeomGetClass(a.geom);
   const int class_b = dGeomGetClass(b.geom);
@@ -56,11 +54,16 @@ void OdeWorld::MakeContacts(const Solid& a, const Solid& b)
     count = Flipped(contacts, CollideCylinderWithPlane(b.geom, a.geom, contacts));
   else if (class_a == dCylinderClass && class_b == dPlaneClass)
     count = CollideCylinderWithPlane(a.geom, b.geom, contacts);
-  if (count < 0) count = dCollide(a.geom, b.geom, kMaximumContacts, contacts.data(), sizeof(dContactGeom));
+  if (count < 0)
+  {
+    const bool voxels = a.layer == ELayer::kVoxels || b.layer == ELayer::kVoxels;
+    const int most = voxels ? kMaximumVoxelContacts : kMaximumContacts;
+    count = dCollide(a.geom, b.geom, most, contacts.data(), sizeof(dContactGeom));
+  }
   for (int k = 0; k < count; ++k)
   {
     const dContactGeom& contact = contacts[static_cast<std::size_t>(k)];
-    if (Accept(contact, a, b)) AddContact(contact, a, b);
+    if (Accept(contact, a, b)) AddContact(contact, a, b, pair);
   }
 }
 
@@ -78,7 +81,7 @@ bool OdeWorld::Accept(const dContactGeom& contact, const Solid& a, const Solid& 
   return true;
 }
 
-void OdeWorld::AddContact(const dContactGeom& geometry, const Solid& a, const Solid& b)
+void OdeWorld::AddContact(const dContactGeom& geometry, const Solid& a, const Solid& b, std::uint32_t pair)
 {
   const dBodyID body_a = dGeomGetBody(a.geom);
   const dBodyID body_b = dGeomGetBody(b.geom);
@@ -95,9 +98,9 @@ void OdeWorld::AddContact(const dContactGeom& geometry, const Solid& a, const So
   {
     // A spring and a damper as ODE's error reduction and constraint force mixing.
     surface.mode |= dContactSoftERP | dContactSoftCFM;
-    const double stiff = step_seconds_ * kCasterStiffness;
-    surface.soft_erp = stiff / (stiff + kCasterDamping);
-    surface.soft_cfm = 1 / (stiff + kCasterDamping);
+    const double stiffness = (a.surface == ESurface::kCaster ? a : b).touch.caster_stiffness;
+    surface.soft_erp = step_seconds_ / (step_seconds_ + kCasterDamping);
+    surface.soft_cfm = 1 / (stiffness * (step_seconds_ + kCasterDamping));
   }
   else if (a.surface == ESurface::kWheel || b.surface == ESurface::kWheel)
   {
@@ -136,8 +139,8 @@ void OdeWorld::AddContact(const dContactGeom& geometry, const Solid& a, const So
     surface.bounce = restitution;
     surface.bounce_vel = 0.05;
   }
-  dJointAttach(dJointCreateContact(world_, contact_joints_, &contact), body_a, body_b);
-  ++contact_count_;
+  const auto number = [](dBodyID body) { return body == nullptr ? -1 : NumberOf(body); };
+  contacts_.push_back({contact, number(body_a), number(body_b), pair});
 }
 
 }  // namespace swarmanoid::dynamics3d

@@ -25,18 +25,19 @@ constexpr LayerBits BitsOf(ELayer layer)
     case ELayer::kStatic:
       return {Bit(layer), Bit(ELayer::kRobot) | Bit(ELayer::kObject) | Bit(ELayer::kWheel)};
     case ELayer::kRobot:
-      return {Bit(layer), Bit(ELayer::kStatic) | Bit(ELayer::kRobot) | Bit(ELayer::kObject)};
+      return {Bit(layer), Bit(ELayer::kStatic) | Bit(ELayer::kRobot) | Bit(ELayer::kObject) | Bit(ELayer::kVoxels)};
     case ELayer::kObject:
-      return {Bit(layer), Bit(ELayer::kStatic) | Bit(ELayer::kRobot) | Bit(ELayer::kObject) | Bit(ELayer::kWheel)};
+      return {Bit(layer), Bit(ELayer::kStatic) | Bit(ELayer::kRobot) | Bit(ELayer::kObject) | Bit(ELayer::kWheel) |
+                              Bit(ELayer::kVoxels)};
     case ELayer::kWheel:
       return {Bit(layer), Bit(ELayer::kStatic) | Bit(ELayer::kObject) | Bit(ELayer::kVoxels)};
-    case ELayer::kProbe:
-      return {Bit(layer), Bit(ELayer::kVoxels)};
     case ELayer::kVoxels:
-      return {Bit(layer), Bit(ELayer::kWheel) | Bit(ELayer::kProbe)};
+      return {Bit(layer), Bit(ELayer::kWheel) | Bit(ELayer::kRobot) | Bit(ELayer::kObject)};
   }
   return {0, 0};
 }
+
+}  // namespace
 
 // ODE's process-wide tables, never taken down: worlds of other engines may be in use until the process ends.
 void InitialiseOde()
@@ -47,16 +48,11 @@ void InitialiseOde()
   (void)allocated;
 }
 
-const Solid& SolidOf(dGeomID geom) { return *static_cast<const Solid*>(dGeomGetData(geom)); }
-
-}  // namespace
-
 OdeWorld::OdeWorld(const WorldSettings& settings) : settings_(settings)
 {
   InitialiseOde();
   world_ = dWorldCreate();
   dWorldSetGravity(world_, settings.gravity.x(), settings.gravity.y(), settings.gravity.z());
-  dWorldSetQuickStepNumIterations(world_, settings.iterations);
   // No over-relaxation: at few iterations it favours the rows that are solved last, and a resting robot creeps 16 mm/s
   // sideways instead of 4 um/s.
   dWorldSetQuickStepW(world_, 1.0);
@@ -85,27 +81,24 @@ OdeWorld::~OdeWorld()
   dThreadingFreeImplementation(threading_);
 }
 
-int OdeWorld::AddBody(const dMass& mass)
+int OdeWorld::AddBody(const BodyOwner& owner, const dMass& mass)
 {
   const dBodyID body = dBodyCreate(world_);
-  dBodySetMass(body, &mass);
-  return Register(body);
-}
-
-int OdeWorld::AddKinematicBody()
-{
-  const dBodyID body = dBodyCreate(world_);
-  dBodySetKinematic(body);
-  return Register(body);
-}
-
-int OdeWorld::Register(dBodyID body)
-{
+  if (owner.kind == EBody::kMirror)
+    dBodySetKinematic(body);
+  else
+    dBodySetMass(body, &mass);
   const std::size_t number = bodies_.size();
   dBodySetFiniteRotationMode(body, 0);  // the other mode calls sin(), which differs between processors
   dBodySetAutoDisableFlag(body, 0);
   dBodySetData(body, reinterpret_cast<void*>(number));
-  bodies_.push_back(body);
+  bodies_.push_back({body, owner, {}});
+  if (owner.entity >= object_of_.size()) object_of_.resize(owner.entity + 1, -1);
+  if (owner.kind == EBody::kObject)
+  {
+    objects_.push_back(static_cast<int>(number));
+    object_of_[owner.entity] = objects_.back();
+  }
   return static_cast<int>(number);
 }
 
@@ -176,41 +169,6 @@ bool OdeWorld::IsIgnored(std::uint32_t a, std::uint32_t b) const
                      [&](const IgnoredPair& pair) { return pair.low == low && pair.high == high; });
 }
 
-void OdeWorld::NearCallback(void* world, dGeomID first, dGeomID second)
-{
-  if (dGeomIsSpace(first) || dGeomIsSpace(second))
-  {
-    dSpaceCollide2(first, second, world, &NearCallback);
-    return;
-  }
-  static_cast<OdeWorld*>(world)->CollectPair(SolidOf(first), SolidOf(second));
-}
-
-void OdeWorld::CollectPair(const Solid& first, const Solid& second)
-{
-  if (!ignored_.empty() && IsIgnored(first.entity, second.entity)) return;
-  pairs_.push_back({std::min(first.number, second.number), std::max(first.number, second.number)});
-}
-
-void OdeWorld::Step(double seconds, std::uint64_t number)
-{
-  InitialiseOde();
-  step_seconds_ = seconds;
-  contact_count_ = 0;
-
-  // The space reports pairs in an order that depends on its history: contacts follow the numbers of the solids instead.
-  pairs_.clear();
-  dSpaceCollide(space_, this, &NearCallback);
-  std::sort(pairs_.begin(), pairs_.end(),
-            [](const Pair& x, const Pair& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
-  for (const Pair& pair : pairs_) MakeContacts(*solids_[pair.a], *solids_[pair.b]);
-
-  // From the eighth iteration on ODE shuffles the constraints by a generator that the whole process shares.
-  if (settings_.iterations > 8) dRandSetSeed(static_cast<unsigned long>(number));
-  dWorldQuickStep(world_, seconds);
-  dJointGroupEmpty(contact_joints_);
-}
-
 const Solid* OdeWorld::FindTouching(const Vector3& centre, double radius, std::uint32_t but_not,
                                     const std::function<bool(const Solid&)>& accept) const
 {
@@ -221,7 +179,7 @@ const Solid* OdeWorld::FindTouching(const Vector3& centre, double radius, std::u
   for (const auto& solid : solids_)
   {
     if (solid->entity == but_not || solid->entity == kNoEntity) continue;
-    if (solid->layer == ELayer::kProbe || solid->layer == ELayer::kWheel) continue;
+    if (solid->layer == ELayer::kWheel) continue;
     if (!accept(*solid)) continue;
     std::array<dReal, 6> box;
     dGeomGetAABB(solid->geom, box.data());

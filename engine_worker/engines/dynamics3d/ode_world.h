@@ -1,6 +1,8 @@
 // OdeWorld: one ODE world and its collision space, stepped so that equal states give equal next states whatever came
-// before: contacts are made in the order of the solids' numbers and poses are restored bit by bit. Owned by the engine,
-// used by one thread at a time; several worlds may be stepped by several threads.
+// before: contacts are made in the order of the solids' numbers and poses are restored bit by bit. What hangs together
+// with an object is solved with more iterations, each such island by itself; objects at rest sleep until something that
+// is awake touches them. Owned by the engine, used by one thread at a time; several worlds may be stepped by several
+// threads.
 #pragma once
 
 #include <ode/ode.h>
@@ -14,19 +16,21 @@
 #include <vector>
 
 #include "common/math/pose.h"
+#include "engine_worker/engines/dynamics3d/islands.h"
 
 namespace swarmanoid::dynamics3d
 {
 
 inline constexpr std::uint32_t kNoEntity = std::numeric_limits<std::uint32_t>::max();
 
-inline constexpr int kMaximumContacts = 8;  // of one pair of solids
+inline constexpr int kMaximumContacts = 8;        // of one pair of solids
+inline constexpr int kMaximumVoxelContacts = 32;  // of one solid with all voxels
 
 enum class ESurface : std::uint8_t
 {
   kPlain,
   kWheel,   // a sphere that stands for a wheel about the y axis of its body: its flanks touch nothing
-  kCaster,  // frictionless and springy
+  kCaster,  // frictionless, with a spring and a damper
   kGround,  // the ground plane: open where there are holes
   kTerrain  // ground too
 };
@@ -37,18 +41,17 @@ struct Touch
   std::optional<double> friction;         // with others: the geometric mean of both
   std::optional<double> restitution;      // the larger one of both
   std::optional<double> ground_friction;  // on ground and terrain
+  double caster_stiffness = 0;            // N/m
 };
 
 // Who collides with whom. Static solids, mirrors included, never meet one another; wheels pass other robots (the wheel
-// stands within the outline of the chassis); probes are spheres that meet voxel terrain in place of cylinders and
-// boxes.
+// stands within the outline of the chassis).
 enum class ELayer : std::uint8_t
 {
   kStatic,
   kRobot,
   kObject,
   kWheel,
-  kProbe,
   kVoxels
 };
 
@@ -68,12 +71,36 @@ struct RawPose
 {
   double position[3] = {0, 0, 0};
   double quaternion[4] = {1, 0, 0, 0};
+
+  bool operator==(const RawPose&) const = default;
+};
+
+enum class EBody : std::uint8_t
+{
+  kRobot,
+  kObject,  // has no drive: sleeps when at rest. One body an entity
+  kMirror   // follows only what it is told
+};
+
+struct BodyOwner
+{
+  std::uint32_t entity = kNoEntity;
+  EBody kind = EBody::kRobot;
+};
+
+// Whether an object rests. Part of the state.
+struct Rest
+{
+  RawPose reference;        // where it was when it last moved
+  std::uint32_t steps = 0;  // since then
+  bool asleep = false;
 };
 
 struct WorldSettings
 {
   Vector3 gravity = Vector3(0, 0, -9.81);  // m/s², in the frame of the engine
   int iterations = 8;
+  int object_iterations = 50;  // of islands with objects, if that is more
   double friction = 0.5;
   double wheel_friction = 1.0;
   double restitution = 0;
@@ -90,12 +117,10 @@ public:
   dWorldID World() const { return world_; }
   const WorldSettings& Settings() const { return settings_; }
 
-  // A body of that mass distribution, its centre of mass at the origin. The number counts from 0.
-  int AddBody(const dMass& mass);
-  // A body that follows only what it is told.
-  int AddKinematicBody();
+  // A body of that mass distribution, its centre of mass at the origin. The number counts from 0. Mirrors need no mass.
+  int AddBody(const BodyOwner& owner, const dMass& mass);
   std::size_t BodyCount() const { return bodies_.size(); }
-  dBodyID Body(int number) const { return bodies_[static_cast<std::size_t>(number)]; }
+  dBodyID Body(int number) const { return bodies_[static_cast<std::size_t>(number)].body; }
   static int NumberOf(dBodyID body) { return static_cast<int>(reinterpret_cast<std::intptr_t>(dBodyGetData(body))); }
 
   // Starts the set of solids of one entity; those of a set never collide with one another.
@@ -115,7 +140,14 @@ public:
   // One step of `seconds`. `number`: of the step since the start of the experiment; it decides the order of
   // constraints.
   void Step(double seconds, std::uint64_t number);
-  int ContactCount() const { return contact_count_; }
+  int ContactCount() const { return static_cast<int>(contacts_.size()); }
+
+  std::span<const int> Objects() const { return objects_; }  // numbers of bodies
+  const Rest& RestOf(int body) const { return bodies_[static_cast<std::size_t>(body)].rest; }
+  void SetRest(int body, const Rest& rest);
+  // What supported an object may be gone.
+  void WakeAll();
+  std::size_t SleeperCount() const;
 
   // The solid (of another entity, accepted by the filter) that reaches deepest into a sphere; nullptr for none.
   const Solid* FindTouching(const Vector3& centre, double radius, std::uint32_t but_not,
@@ -128,6 +160,25 @@ private:
   {
     std::uint32_t a;
     std::uint32_t b;
+    bool done;
+  };
+  struct Contact
+  {
+    dContact joint;
+    int body_a;  // -1: none
+    int body_b;
+    std::uint32_t pair;
+  };
+  struct Member  // of an island
+  {
+    std::uint32_t island;
+    std::uint32_t number;
+  };
+  struct BodyRecord
+  {
+    dBodyID body;
+    BodyOwner owner;
+    Rest rest;
   };
   struct IgnoredPair
   {
@@ -136,13 +187,26 @@ private:
     int count;
   };
 
-  int Register(dBodyID body);
+  BodyRecord& RecordOf(int body) { return bodies_[static_cast<std::size_t>(body)]; }
+  std::uint32_t EntityOf(int body) const { return bodies_[static_cast<std::size_t>(body)].owner.entity; }
+  bool IsObject(int body) const { return bodies_[static_cast<std::size_t>(body)].owner.kind == EBody::kObject; }
   static void NearCallback(void* world, dGeomID first, dGeomID second);
   void CollectPair(const Solid& first, const Solid& second);
   bool IsIgnored(std::uint32_t a, std::uint32_t b) const;
-  void MakeContacts(const Solid& a, const Solid& b);
+  void MakeContacts(const Solid& a, const Solid& b, std::uint32_t pair);
   bool Accept(const dContactGeom& contact, const Solid& a, const Solid& b) const;
-  void AddContact(const dContactGeom& geometry, const Solid& a, const Solid& b);
+  void AddContact(const dContactGeom& geometry, const Solid& a, const Solid& b, std::uint32_t pair);
+  void FindContacts();
+  void FindObjectIslands();
+  void Attach(const Contact& contact);
+  int ObjectIterations(int objects) const;
+  void Solve(double seconds, int iterations, std::uint64_t number);
+  void SolveOthers(double seconds, std::uint64_t number);
+  void SolveObjectIslands(double seconds, std::uint64_t number);
+  void RestObjects(double seconds);
+  bool IsAwake(const Solid& solid) const;
+  void PutToSleep(int body);
+  bool Wake(std::uint32_t entity);
 
   WorldSettings settings_;
   dWorldID world_ = nullptr;
@@ -153,14 +217,25 @@ private:
   dJointGroupID contact_joints_ = nullptr;
   dThreadingImplementationID threading_ = nullptr;
   dGeomID probe_ = nullptr;
-  std::vector<dBodyID> bodies_;
+  std::vector<BodyRecord> bodies_;
+  std::vector<int> objects_;    // bodies
+  std::vector<int> object_of_;  // by entity with a body; -1: not an object
   std::vector<std::unique_ptr<Solid>> solids_;
   std::vector<Pair> pairs_;
   std::vector<IgnoredPair> ignored_;
   std::function<bool(const Vector3&)> is_open_;
   double step_seconds_ = 0;
-  int contact_count_ = 0;
+  // Of the last step.
+  std::vector<Contact> contacts_;
+  Islands islands_;
+  std::vector<bool> has_object_;         // by island
+  std::vector<Member> island_bodies_;    // of islands with objects
+  std::vector<Member> island_contacts_;  // likewise
+  std::vector<bool> is_in_island_;       // by contact
 };
+
+// ODE's tables of the process and the thread.
+void InitialiseOde();
 
 // Poses, bit by bit; setting also recomputes the rotation matrix as a step of ODE does.
 RawPose RawPoseOf(dBodyID body);

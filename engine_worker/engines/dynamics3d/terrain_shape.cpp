@@ -1,8 +1,10 @@
 #include "engine_worker/engines/dynamics3d/terrain_shape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <mutex>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -30,20 +32,31 @@ private:
 struct VoxelShape : public TerrainShape
 {
   VoxelShape(std::shared_ptr<const VoxelTerrain> solid, const Pose& in_engine)
-      : terrain(std::move(solid)), pose(in_engine), inverse(in_engine.Inverse())
+      : terrain(std::move(solid)), pose(in_engine), inverse(in_engine.Inverse()), box(dCreateBox(nullptr, 1, 1, 1))
   {
+    const RawPose raw = RawOf(pose);
+    dGeomSetQuaternion(box, raw.quaternion);
   }
+  ~VoxelShape() override { dGeomDestroy(box); }
+  VoxelShape(const VoxelShape&) = delete;
+  VoxelShape& operator=(const VoxelShape&) = delete;
+
   std::shared_ptr<const VoxelTerrain> terrain;  // shared with the other roles of the process
   Pose pose;
   Pose inverse;
+  dGeomID box;  // stands for one box of cells after the other
+  // Memory to work in.
+  std::vector<VoxelContact> found;
+  std::vector<CellBox> boxes;
+  std::vector<bool> taken;
 };
 
-const VoxelShape& ShapeOf(dGeomID geom) { return **static_cast<const VoxelShape* const*>(dGeomGetClassData(geom)); }
+VoxelShape& ShapeOf(dGeomID geom) { return **static_cast<VoxelShape* const*>(dGeomGetClassData(geom)); }
 
 // Contacts with the frame of the engine, the deepest ones if there are too many.
-int Hand(std::vector<VoxelContact>& found, const VoxelShape& shape, dGeomID voxels, dGeomID other, int flags,
-         dContactGeom* contacts, int skip)
+int Hand(VoxelShape& shape, dGeomID voxels, dGeomID other, int flags, dContactGeom* contacts, int skip)
 {
+  std::vector<VoxelContact>& found = shape.found;
   const std::size_t room = static_cast<std::size_t>(flags & 0xffff);
   if (found.size() > room)
   {
@@ -73,17 +86,18 @@ int Hand(std::vector<VoxelContact>& found, const VoxelShape& shape, dGeomID voxe
 
 int CollideSphere(dGeomID voxels, dGeomID sphere, int flags, dContactGeom* contacts, int skip)
 {
-  const VoxelShape& shape = ShapeOf(voxels);
-  std::vector<VoxelContact> found;
+  VoxelShape& shape = ShapeOf(voxels);
+  shape.found.clear();
   FindVoxelContacts(*shape.terrain, shape.inverse.Apply(VectorOf(dGeomGetPosition(sphere))),
-                    dGeomSphereGetRadius(sphere), found);
-  return Hand(found, shape, voxels, sphere, flags, contacts, skip);
+                    dGeomSphereGetRadius(sphere), shape.found);
+  return Hand(shape, voxels, sphere, flags, contacts, skip);
 }
 
 // A capsule is met as a row of spheres, half a radius apart at most a cell.
 int CollideCapsule(dGeomID voxels, dGeomID capsule, int flags, dContactGeom* contacts, int skip)
 {
-  const VoxelShape& shape = ShapeOf(voxels);
+  VoxelShape& shape = ShapeOf(voxels);
+  shape.found.clear();
   dReal radius = 0;
   dReal length = 0;
   dGeomCapsuleGetParams(capsule, &radius, &length);
@@ -91,13 +105,53 @@ int CollideCapsule(dGeomID voxels, dGeomID capsule, int flags, dContactGeom* con
   const Vector3 axis(r[2], r[6], r[10]);
   const Vector3 centre = VectorOf(dGeomGetPosition(capsule));
   const int spheres = 1 + static_cast<int>(std::ceil(length / std::max(radius, shape.terrain->CellSize() / 2)));
-  std::vector<VoxelContact> found;
   for (int k = 0; k < spheres; ++k)
   {
     const double along = spheres > 1 ? length * (static_cast<double>(k) / (spheres - 1) - 0.5) : 0;
-    FindVoxelContacts(*shape.terrain, shape.inverse.Apply(centre + axis * along), radius, found);
+    FindVoxelContacts(*shape.terrain, shape.inverse.Apply(centre + axis * along), radius, shape.found);
   }
-  return Hand(found, shape, voxels, capsule, flags, contacts, skip);
+  return Hand(shape, voxels, capsule, flags, contacts, skip);
+}
+
+// A box or a cylinder meets the cells around it merged to boxes, so that a floor under it is one.
+int CollideConvex(dGeomID voxels, dGeomID body, int flags, dContactGeom* contacts, int skip)
+{
+  VoxelShape& shape = ShapeOf(voxels);
+  shape.found.clear();
+  const VoxelTerrain& terrain = *shape.terrain;
+  dReal around[6];
+  dGeomGetAABB(body, around);
+  Vector3 low = Vector3::Constant(dInfinity);
+  Vector3 high = Vector3::Constant(-dInfinity);
+  for (int k = 0; k < 8; ++k)
+  {
+    const Vector3 corner =
+        shape.inverse.Apply({around[(k & 1) != 0 ? 1 : 0], around[(k & 2) != 0 ? 3 : 2], around[(k & 4) != 0 ? 5 : 4]});
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  MergeCells(terrain, CellsAround(terrain, low, high), shape.taken, shape.boxes);
+  for (const CellBox& cells : shape.boxes)
+  {
+    const auto corner = [&](const std::array<int, 3>& cell, int more) -> Vector3
+    { return terrain.Low() + terrain.CellSize() * Vector3(cell[0] + more, cell[1] + more, cell[2] + more); };
+    const Vector3 from = corner(cells.low, 0);
+    const Vector3 to = corner(cells.high, 1);
+    if ((from.array() > high.array()).any() || (to.array() < low.array()).any()) continue;
+    const Vector3 size = to - from;
+    const Vector3 centre = shape.pose.Apply((from + to) / 2);
+    dGeomBoxSetLengths(shape.box, size.x(), size.y(), size.z());
+    dGeomSetPosition(shape.box, centre.x(), centre.y(), centre.z());
+    std::array<dContactGeom, kMaximumContacts> touching;
+    const int count = dCollide(shape.box, body, kMaximumContacts, touching.data(), sizeof(dContactGeom));
+    for (const dContactGeom& contact : std::span(touching).first(static_cast<std::size_t>(count)))
+    {
+      const Vector3 point = shape.inverse.Apply(VectorOf(contact.pos));
+      const Vector3 normal = shape.inverse.orientation * -VectorOf(contact.normal);
+      if (!IsCovered(terrain, cells, point, normal)) shape.found.push_back({point, normal, contact.depth});
+    }
+  }
+  return Hand(shape, voxels, body, flags, contacts, skip);
 }
 
 int CollideRay(dGeomID voxels, dGeomID ray, int, dContactGeom* contacts, int)
@@ -130,6 +184,7 @@ dColliderFn* ColliderWith(int other_class)
   if (other_class == dSphereClass) return &CollideSphere;
   if (other_class == dCapsuleClass) return &CollideCapsule;
   if (other_class == dRayClass) return &CollideRay;
+  if (other_class == dBoxClass || other_class == dCylinderClass) return &CollideConvex;
   return nullptr;
 }
 
@@ -162,7 +217,7 @@ int VoxelClass()
                  []
                  {
                    dGeomClass description{};
-                   description.bytes = sizeof(const VoxelShape*);
+                   description.bytes = sizeof(VoxelShape*);
                    description.collider = &ColliderWith;
                    description.aabb = &BoxAround;
                    number = dCreateGeomClass(&description);
@@ -205,7 +260,7 @@ std::unique_ptr<TerrainShape> AddVoxels(OdeWorld& world, std::uint32_t entity,
 {
   auto shape = std::make_unique<VoxelShape>(std::move(terrain), pose);
   const dGeomID geom = dCreateGeom(VoxelClass());
-  *static_cast<const VoxelShape**>(dGeomGetClassData(geom)) = shape.get();
+  *static_cast<VoxelShape**>(dGeomGetClassData(geom)) = shape.get();
   world.BeginEntity(entity);
   world.AddSolid(geom, -1, ELayer::kVoxels, ESurface::kTerrain);
   return shape;

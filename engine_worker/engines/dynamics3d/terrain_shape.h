@@ -20,7 +20,6 @@ public:
 // `pose`: of the terrain's frame in the frame of the engine.
 std::unique_ptr<TerrainShape> AddHeightfield(OdeWorld& world, std::uint32_t entity,
                                              std::shared_ptr<const HeightTerrain> terrain, const Pose& pose);
-// Meets spheres and capsules only (wheels, casters and the probes of bodies), and rays.
 std::unique_ptr<TerrainShape> AddVoxels(OdeWorld& world, std::uint32_t entity,
                                         std::shared_ptr<const VoxelTerrain> terrain, const Pose& pose);
 

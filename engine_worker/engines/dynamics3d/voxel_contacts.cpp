@@ -12,6 +12,10 @@ namespace
 
 using Cell = std::array<int, 3>;
 
+// A normal that leans to a face by more than 17 degrees, and one that is the face's to 8 degrees.
+constexpr double kFacing = 0.3;
+constexpr double kFlat = 0.99;
+
 bool IsNeighbourSolid(const VoxelTerrain& terrain, Cell cell, std::size_t axis, int step)
 {
   cell[axis] += step;
@@ -89,6 +93,86 @@ void FindVoxelContacts(const VoxelTerrain& terrain, const Vector3& centre, doubl
       for (int x = first[0]; x <= last[0]; ++x)
         if (terrain.IsOccupied(x, y, z) && FindContact(terrain, {x, y, z}, centre, radius, contact))
           contacts.push_back(contact);
+}
+
+CellBox CellsAround(const VoxelTerrain& terrain, const Vector3& low, const Vector3& high)
+{
+  const std::array<int, 3> counts = {terrain.CellsX(), terrain.CellsY(), terrain.CellsZ()};
+  CellBox range{};
+  for (const int axis : {0, 1, 2})
+  {
+    const auto k = static_cast<std::size_t>(axis);
+    const auto cell = [&](double at)
+    {
+      const double place = (at - terrain.Low()[axis]) / terrain.CellSize();
+      return static_cast<int>(std::floor(std::clamp(place, -2.0, counts[k] + 1.0)));
+    };
+    range.low[k] = std::max(cell(low[axis]) - 1, 0);
+    range.high[k] = std::min(cell(high[axis]) + 1, counts[k] - 1);
+  }
+  return range;
+}
+
+void MergeCells(const VoxelTerrain& terrain, const CellBox& range, std::vector<bool>& taken,
+                std::vector<CellBox>& boxes)
+{
+  boxes.clear();
+  std::array<int, 3> size;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    size[k] = range.high[k] - range.low[k] + 1;
+    if (size[k] <= 0) return;
+  }
+  const auto place = [&](int x, int y, int z)
+  { return static_cast<std::size_t>(((z - range.low[2]) * size[1] + y - range.low[1]) * size[0] + x - range.low[0]); };
+  taken.assign(static_cast<std::size_t>(size[0] * size[1] * size[2]), false);
+  const auto is_free = [&](const CellBox& box)
+  {
+    for (int z = box.low[2]; z <= box.high[2]; ++z)
+      for (int y = box.low[1]; y <= box.high[1]; ++y)
+        for (int x = box.low[0]; x <= box.high[0]; ++x)
+          if (taken[place(x, y, z)] || !terrain.IsOccupied(x, y, z)) return false;
+    return true;
+  };
+  for (int z = range.low[2]; z <= range.high[2]; ++z)
+    for (int y = range.low[1]; y <= range.high[1]; ++y)
+      for (int x = range.low[0]; x <= range.high[0]; ++x)
+      {
+        if (taken[place(x, y, z)] || !terrain.IsOccupied(x, y, z)) continue;
+        CellBox box{{x, y, z}, {x, y, z}};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          CellBox next = box;
+          for (next.low[axis] = next.high[axis] = box.high[axis] + 1;
+               next.low[axis] <= range.high[axis] && is_free(next); ++next.low[axis], ++next.high[axis])
+            box.high[axis] = next.high[axis];
+        }
+        for (int k = box.low[2]; k <= box.high[2]; ++k)
+          for (int j = box.low[1]; j <= box.high[1]; ++j)
+            for (int i = box.low[0]; i <= box.high[0]; ++i) taken[place(i, j, k)] = true;
+        boxes.push_back(box);
+      }
+}
+
+bool IsCovered(const VoxelTerrain& terrain, const CellBox& box, const Vector3& point, const Vector3& normal)
+{
+  Cell cell;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const auto axis = static_cast<Eigen::Index>(k);
+    const double place = std::floor((point[axis] - terrain.Low()[axis]) / terrain.CellSize());
+    cell[k] = static_cast<int>(std::clamp(place, static_cast<double>(box.low[k]), static_cast<double>(box.high[k])));
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const double along = normal[static_cast<Eigen::Index>(k)];
+    if (std::abs(along) < kFacing) continue;
+    Cell edge = cell;
+    edge[k] = along > 0 ? box.high[k] : box.low[k];
+    if (std::abs(along) < kFlat && edge[k] != cell[k]) continue;
+    if (IsNeighbourSolid(terrain, edge, k, along > 0 ? 1 : -1)) return true;
+  }
+  return false;
 }
 
 }  // namespace swarmanoid::dynamics3d

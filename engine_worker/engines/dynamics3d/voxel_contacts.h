@@ -1,6 +1,7 @@
-// Contacts of a sphere with the occupied cells of a map, in the frame of the map.
+// Contacts of a sphere with the occupied cells of a map, and boxes of cells for other bodies, in the frame of the map.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "common/space/terrain/terrain.h"
@@ -19,5 +20,20 @@ struct VoxelContact
 // normal and no edges. A centre within the solid is led out through the nearest free face.
 void FindVoxelContacts(const VoxelTerrain& terrain, const Vector3& centre, double radius,
                        std::vector<VoxelContact>& contacts);
+
+// Cells from low to high, both counted.
+struct CellBox
+{
+  std::array<int, 3> low;
+  std::array<int, 3> high;
+};
+
+// The cells that a box (m) reaches, and one more to each side, within the map; empty if it does not reach the map.
+CellBox CellsAround(const VoxelTerrain& terrain, const Vector3& low, const Vector3& high);
+// The occupied cells of a range as few boxes, none in two. `taken` is memory to work in.
+void MergeCells(const VoxelTerrain& terrain, const CellBox& range, std::vector<bool>& taken,
+                std::vector<CellBox>& boxes);
+// Whether a contact at a point of a box of cells presses against a face that a neighbouring cell covers.
+bool IsCovered(const VoxelTerrain& terrain, const CellBox& box, const Vector3& point, const Vector3& normal);
 
 }  // namespace swarmanoid::dynamics3d

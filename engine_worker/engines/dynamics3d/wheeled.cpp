@@ -1,6 +1,7 @@
 #include "engine_worker/engines/dynamics3d/wheeled.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/math/elementary.h"
 
@@ -11,6 +12,26 @@ namespace
 
 constexpr double kGearedInertia = 10;  // of a wheel, times that of a sphere
 constexpr double kGravity = 9.81;      // m/s2
+// Of a robot's weight, what its wheels can count on: they carry 77 % of it, and are to grip when the motors stall. If
+// they spun, Coulomb's friction would be the same at any speed, and nobody could say which of two robots that push
+// each other gives way.
+constexpr double kUsableWeight = 0.73;
+// Of the largest speed of a kind, where its motors have no torque left: at half of it they have most power.
+constexpr double kFreeSpeed = 2;
+
+// Casters are soft enough to leave the weight to the wheels, and so stiff that stalled motors tilt the robot by that.
+constexpr double kStallTilt = 0.02;  // rad
+
+// What both motors may exert on the ground together, N. `grip`: of the wheels, m/s2.
+double StallForce(const WheeledShape& shape, double grip)
+{
+  return kUsableWeight * (shape.chassis_mass + 2 * shape.wheel_mass) * std::min(grip, kGravity);
+}
+
+double Grip(const WorldSettings& settings)
+{
+  return settings.wheel_friction * std::sqrt(settings.gravity.squaredNorm());
+}
 
 }  // namespace
 
@@ -28,19 +49,21 @@ WheeledShape WheeledShape::Of(const CSwarmanoidSpaceEntity& entity, double densi
   shape.half_track = kind.wheels->axle_m / 2;
   shape.clearance = std::min(shape.wheel_radius / 2, shape.size.z() / 4);
   shape.caster_radius = shape.clearance * 2 / 3;
-  shape.caster_reach = half_length * 3 / 4;
+  shape.caster_reach = half_length * 7 / 8;
   shape.wheel_mass = mass / 8;
   shape.chassis_mass = mass - 2 * shape.wheel_mass;
   shape.centre_of_mass = shape.size.z() / 3;
   shape.inertia_radius = half_length;
   shape.inertia_height = shape.size.z() * 2 / 3;
-  // A little more than lets both wheels slip at a coefficient of friction of 1.
-  shape.wheel_torque = 1.1 * mass * kGravity * shape.wheel_radius / 2;
+  shape.free_speed = kFreeSpeed * kind.wheels->max_speed_m_s;
   return shape;
 }
 
 WheeledModel::WheeledModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, const WheeledShape& shape)
-    : Model(scene, entity), wheel_radius_(shape.wheel_radius)
+    : Model(scene, entity),
+      wheel_radius_(shape.wheel_radius),
+      stall_torque_(StallForce(shape, Grip(scene.world.Settings())) * shape.wheel_radius / 2),
+      free_rate_(shape.free_speed / shape.wheel_radius)
 {
   OdeWorld& world = scene.world;
   const auto wheel_centre = [&](int wheel)
@@ -59,11 +82,14 @@ WheeledModel::WheeledModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, c
     dJointAttach(axle, world.Body(bodies_[static_cast<std::size_t>(1 + wheel)].number), Chassis());
     dJointSetHingeAnchor(axle, centre.x(), centre.y(), centre.z());
     dJointSetHingeAxis(axle, 0, 1, 0);
-    dJointSetHingeParam(axle, dParamFMax, shape.wheel_torque);
     axles_[wheel] = axle;
   }
 
-  world.BeginEntity(Entity());
+  const double stall_torque = StallForce(shape, kGravity) * shape.wheel_radius;
+  const double lever = shape.caster_reach * shape.caster_reach;
+  Touch touch;
+  touch.caster_stiffness = stall_torque / (lever * kStallTilt);
+  world.BeginEntity(Entity(), touch);
   const auto in_chassis = [&](double x, double z) -> Pose {
     return {Vector3(x, 0, z - shape.centre_of_mass), Quaternion::Identity()};
   };
@@ -77,10 +103,6 @@ WheeledModel::WheeledModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, c
                    in_chassis(x, shape.caster_radius));
   for (std::size_t wheel = 1; wheel <= 2; ++wheel)
     world.AddSolid(dCreateSphere(nullptr, shape.wheel_radius), bodies_[wheel].number, ELayer::kWheel, ESurface::kWheel);
-  const double probe = shape.is_cylinder ? shape.size.x() : shape.size.head<2>().minCoeff() / 2;
-  if (scene.has_voxels)
-    world.AddSolid(dCreateSphere(nullptr, probe), bodies_[0].number, ELayer::kProbe, ESurface::kPlain,
-                   in_chassis(0, shape.clearance + probe));
 }
 
 void WheeledModel::Command(std::string_view channel, std::span<const double> values)
@@ -96,9 +118,21 @@ void WheeledModel::BeginTick()
   elapsed_ = 0;
 }
 
+// Of a direct-current motor, N m: what is left of the stall torque, or, braking, what comes on top of it.
+double WheeledModel::LargestTorque(double command, double speed) const
+{
+  const double along = command > speed ? speed : command < speed ? -speed : 0;
+  return stall_torque_ * std::clamp(1 - along / free_rate_, 0.0, 2.0);
+}
+
 void WheeledModel::BeforeStep(double /*seconds*/)
 {
-  for (std::size_t wheel = 0; wheel < 2; ++wheel) dJointSetHingeParam(axles_[wheel], dParamVel, wheel_command_[wheel]);
+  for (std::size_t wheel = 0; wheel < 2; ++wheel)
+  {
+    const double speed = dJointGetHingeAngleRate(axles_[wheel]);
+    dJointSetHingeParam(axles_[wheel], dParamVel, wheel_command_[wheel]);
+    dJointSetHingeParam(axles_[wheel], dParamFMax, LargestTorque(wheel_command_[wheel], speed));
+  }
 }
 
 void WheeledModel::AfterStep(double seconds)

@@ -22,7 +22,7 @@ struct WheeledShape
   double centre_of_mass = 0;
   double inertia_radius = 0;  // of the cylinder that has the inertia of the chassis
   double inertia_height = 0;
-  double wheel_torque = 0;  // N m
+  double free_speed = 0;  // m/s of a wheel's rim, where the motor has no torque left
 
   // What a row says, and the proportions of the footbot for what it does not. `density`: kg/m3, of one without a mass.
   static WheeledShape Of(const CSwarmanoidSpaceEntity& entity, double density);
@@ -44,7 +44,11 @@ protected:
   double Elapsed() const { return elapsed_; }  // s, of this tick
 
 private:
+  double LargestTorque(double command, double speed) const;
+
   double wheel_radius_;
+  double stall_torque_;                     // N m, of each motor
+  double free_rate_;                        // rad/s, of a wheel that needs no torque
   dJointID axles_[2] = {nullptr, nullptr};  // left, right
   double wheel_command_[2] = {0, 0};        // rad/s
   double wheel_turn_[2] = {0, 0};           // rad, of the last tick

@@ -304,6 +304,46 @@ TEST(Dynamics3dClosedForms, AFootbotTipsWhereItsCentreOfMassPassesItsWheel)
   }
 }
 
+// m v' = F (1 - v / v0), F what the wheels' grip allows and v0 = 0.6 m/s; a geared wheel of 0.2 kg weighs 4 times as
+// much along the ground.
+TEST(Dynamics3dClosedForms, AFootbotSpeedsUpAsItsMotorsLoseTorque)
+{
+  Dynamics3dTestWorld world;
+  world.experiment.clock_tick_ms = 10;
+  const auto footbot = world.AddFootbot({2, 5, 0});
+  world.AddCommands("footbot_wheels", 2);
+  world.Start();
+  world.Run(50);
+  const double start = world.Position(footbot).x();
+  world.Drive(footbot, 2, 2);
+  const double free_speed = 0.6;
+  const double time = (1.6 + 2 * 4 * 0.2) * free_speed / (0.73 * 1.6 * kGravity);
+  for (int tick = 1; tick <= 100; ++tick)
+  {
+    world.Tick();
+    const double t = 0.01 * tick;
+    EXPECT_NEAR(world.Position(footbot).x() - start, free_speed * (t - time * (1 - Exp(-t / time))), 0.006) << t;
+  }
+}
+
+TEST(Dynamics3dClosedForms, AFootbotThatStartsStopsOrTurnsBackHardlyPitches)
+{
+  Dynamics3dTestWorld world;
+  world.experiment.clock_tick_ms = 10;
+  const auto footbot = world.AddFootbot({2, 5, 0});
+  world.AddCommands("footbot_wheels", 2);
+  world.Start();
+  for (const double speed : {0.3, 0.0, 0.3, -0.3})
+  {
+    world.Drive(footbot, speed, speed);
+    for (int tick = 0; tick < 100; ++tick)
+    {
+      world.Tick();
+      ASSERT_LT(world.Tilt(footbot), DegreesToRadians(1.5)) << speed << " m/s, tick " << tick;
+    }
+  }
+}
+
 TEST(Dynamics3dClosedForms, ABlockTipsWhereItsCentreOfMassPassesItsEdge)
 {
   // 0.1 wide and 0.2 high: atan(0.1 / 0.2) = 26.6 degrees.

@@ -97,7 +97,7 @@ TEST(Dynamics3dSurfaces, WheelsSlipOnASlipperyBoard)
       EXPECT_GT(way, 0.6 * bound);
     }
     else
-      EXPECT_GT(way, 2 * bound);
+      EXPECT_GT(way, 1.5 * bound);
   }
 }
 

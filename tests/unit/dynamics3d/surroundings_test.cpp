@@ -195,7 +195,115 @@ TEST(Dynamics3dTerrain, VoxelsStopRobotsAndBearBlocksAndPreys)
   EXPECT_NEAR(world.Position(prey).z(), 0, 3e-3);
   EXPECT_NEAR(world.Position(block).z(), 0.05, 3e-3);
   EXPECT_NEAR(world.Position(handbot).z(), 0, 0.01);
-  EXPECT_NEAR(world.Position(eyebot).z(), -0.033, 0.05);  // the probe is a sphere around the middle
+  EXPECT_NEAR(world.Position(eyebot).z(), 0, 0.01);
+}
+
+// Cells of a box (m), 5 cm each.
+void Fill(octomap::OcTree& tree, const Vector3& low, const Vector3& high)
+{
+  const Vector3 half = Vector3::Constant(0.025);
+  for (Vector3 at = low + half; at.z() < high.z(); at.z() += 0.05)
+    for (at.y() = low.y() + 0.025; at.y() < high.y(); at.y() += 0.05)
+      for (at.x() = low.x() + 0.025; at.x() < high.x(); at.x() += 0.05)
+        tree.updateNode(
+            octomap::point3d(static_cast<float>(at.x()), static_cast<float>(at.y()), static_cast<float>(at.z())), true,
+            true);
+}
+
+// Things much larger than the pillar, dropped on its middle, and one that leans on two pillars of unequal height.
+TEST(Dynamics3dTerrain, WhatIsLargerThanAPillarOfCellsRestsOnItAsOnABlock)
+{
+  octomap::OcTree tree(0.05);
+  Fill(tree, {0.9, 0.9, 0}, {1.1, 1.1, 0.3});
+  Fill(tree, {2.9, 0.9, 0}, {3.1, 1.1, 0.3});
+  Fill(tree, {0.9, 2.9, 0}, {1.1, 3.1, 0.3});
+  Fill(tree, {1.5, 2.9, 0}, {1.7, 3.1, 0.4});
+  const MapFile file(tree);
+  const auto run = [&](bool cells)
+  {
+    Dynamics3dTestWorld world;
+    std::vector<std::uint32_t> things;
+    things.push_back(world.AddBlock({1, 1, 0.4}, {0.8, 0.8, 0.05}, 1));
+    things.push_back(world.AddPrey({3, 1, 0.4}, 1, 0.3, 0.1));
+    things.push_back(world.AddBlock({1.3, 3, 0.45}, {0.9, 0.1, 0.05}, 1));
+    if (cells)
+      world.AddTerrain("octomap", {{"file", file.Path()}}, Vector3::Zero());
+    else
+    {
+      world.AddWall({1, 1, 0.15}, {0.2, 0.2, 0.3});
+      world.AddWall({3, 1, 0.15}, {0.2, 0.2, 0.3});
+      world.AddWall({1, 3, 0.15}, {0.2, 0.2, 0.3});
+      world.AddWall({1.6, 3, 0.2}, {0.2, 0.2, 0.4});
+    }
+    world.Start();
+    world.Run(100);
+    EXPECT_EQ(world.engine->World().SleeperCount(), 3U) << (cells ? "cells" : "blocks");
+    std::vector<Pose> poses;
+    for (const auto thing : things) poses.push_back(world.Space().GetPose(thing));
+    return poses;
+  };
+  const std::vector<Pose> on_blocks = run(false);
+  const std::vector<Pose> on_cells = run(true);
+  EXPECT_NEAR(on_cells[0].position.z(), 0.325, 2e-3);
+  EXPECT_NEAR(on_cells[1].position.z(), 0.3, 2e-3);
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    EXPECT_LT((on_cells[k].position - on_blocks[k].position).norm(), 0.01) << k;
+    EXPECT_LT(on_cells[k].orientation.angularDistance(on_blocks[k].orientation), 0.02) << k;
+  }
+}
+
+// The merged boxes are the occupied cells, each once.
+TEST(Dynamics3dTerrain, MergedBoxesHoldTheOccupiedCellsOnce)
+{
+  octomap::OcTree tree(0.05);
+  RandomStream random(3, 0, 0, 0);
+  for (int k = 0; k < 1500; ++k)
+    tree.updateNode(
+        octomap::point3d(static_cast<float>(random.Uniform(0, 0.6)), static_cast<float>(random.Uniform(0, 0.6)),
+                         static_cast<float>(random.Uniform(0, 0.4))),
+        true, true);
+  const MapFile file(tree);
+  const VoxelTerrain terrain(file.Path());
+  std::vector<bool> taken;
+  std::vector<dynamics3d::CellBox> boxes;
+  for (int k = 0; k < 50; ++k)
+  {
+    const Vector3 low(random.Uniform(-0.2, 0.6), random.Uniform(-0.2, 0.6), random.Uniform(-0.2, 0.4));
+    const Vector3 high = low + Vector3(random.Uniform(0, 0.5), random.Uniform(0, 0.5), random.Uniform(0, 0.5));
+    const dynamics3d::CellBox range = dynamics3d::CellsAround(terrain, low, high);
+    MergeCells(terrain, range, taken, boxes);
+    for (int z = range.low[2]; z <= range.high[2]; ++z)
+      for (int y = range.low[1]; y <= range.high[1]; ++y)
+        for (int x = range.low[0]; x <= range.high[0]; ++x)
+        {
+          const auto holds = [&](const dynamics3d::CellBox& box)
+          {
+            return x >= box.low[0] && x <= box.high[0] && y >= box.low[1] && y <= box.high[1] && z >= box.low[2] &&
+                   z <= box.high[2];
+          };
+          ASSERT_EQ(std::count_if(boxes.begin(), boxes.end(), holds), terrain.IsOccupied(x, y, z) ? 1 : 0);
+        }
+  }
+}
+
+// Cells that hang 10 cm above the ground are lower than a footbot.
+TEST(Dynamics3dTerrain, ABeamOfCellsStopsARobotThatIsHigherThanTheGapBelow)
+{
+  octomap::OcTree tree(0.05);
+  Fill(tree, {2, 0.5, 0.1}, {2.05, 1.5, 0.15});
+  Fill(tree, {3, 0.5, 0.2}, {3.05, 1.5, 0.25});
+  const MapFile file(tree);
+  Dynamics3dTestWorld world;
+  const auto stopped = world.AddFootbot({1.6, 1, 0});
+  const auto free = world.AddFootbot({2.6, 1, 0});
+  world.AddTerrain("octomap", {{"file", file.Path()}}, Vector3::Zero());
+  world.AddCommands("footbot_wheels", 2);
+  world.Start();
+  for (const auto robot : {stopped, free}) world.Drive(robot, 0.2, 0.2);
+  world.Run(50);
+  EXPECT_NEAR(world.Position(stopped).x(), 2 - 0.085, 0.01);
+  EXPECT_NEAR(world.Position(free).x(), 3.6, 0.05);
 }
 
 TEST(Dynamics3dTerrain, SpheresRestOnAFlatFloorWithoutFeelingItsCells)
@@ -320,7 +428,7 @@ TEST(Dynamics3dFrame, AnEngineElsewhereInTheSpaceDoesTheSame)
   const auto [other_footbot, other_block] = run("3, -2, 1", "30, -20, 70", tilted);
   EXPECT_GT(block.position.x(), 1.35) << "the robot was to push the block";
   EXPECT_LT((footbot.position - other_footbot.position).norm(), 5e-3);
-  EXPECT_LT((block.position - other_block.position).norm(), 5e-3);
+  EXPECT_LT((block.position - other_block.position).norm(), 6e-3);
 }
 
 TEST(Dynamics3dSpeed, FlatOutFootbotsNeitherLeaveTheGroundNorTunnelThroughWalls)

@@ -1,0 +1,39 @@
+// Islands: entities that touch or hold one another, directly or through others (a union-find). Used by OdeWorld, which
+// solves each island with objects by itself.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace swarmanoid::dynamics3d
+{
+
+class Islands
+{
+public:
+  // Each of `count` entities alone.
+  void Reset(std::size_t count)
+  {
+    parents_.resize(count);
+    std::iota(parents_.begin(), parents_.end(), 0U);
+  }
+  void Join(std::uint32_t a, std::uint32_t b)
+  {
+    const std::uint32_t x = Of(a);
+    const std::uint32_t y = Of(b);
+    parents_[std::max(x, y)] = std::min(x, y);
+  }
+  // The island of an entity: the smallest entity in it.
+  std::uint32_t Of(std::uint32_t entity)
+  {
+    while (parents_[entity] != entity) entity = parents_[entity] = parents_[parents_[entity]];
+    return entity;
+  }
+
+private:
+  std::vector<std::uint32_t> parents_;
+};
+
+}  // namespace swarmanoid::dynamics3d
