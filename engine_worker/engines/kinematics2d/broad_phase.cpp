@@ -31,7 +31,6 @@ void BroadPhase::Configure(const Bounds& area, std::span<const double> radii, do
   count_ = radii.size();
   largest_margin_ = largest_margin;
   radius_.assign(radii.begin(), radii.end());
-  is_large_.assign(count_, 0);
   large_.clear();
   largest_small_radius_ = 0;
   if (count_ > 0)
@@ -41,8 +40,7 @@ void BroadPhase::Configure(const Bounds& area, std::span<const double> radii, do
     const double limit = kLargeFactor * sorted[count_ / 2];
     for (std::size_t k = 0; k < count_; ++k)
     {
-      is_large_[k] = radii[k] > limit;
-      if (is_large_[k] != 0)
+      if (radii[k] > limit)
         large_.push_back(static_cast<std::uint32_t>(k));
       else
         largest_small_radius_ = std::max(largest_small_radius_, radii[k]);
@@ -55,7 +53,21 @@ void BroadPhase::Configure(const Bounds& area, std::span<const double> radii, do
   const double per_body = width * height / static_cast<double>(std::max<std::size_t>(count_, 1));
   const double smallest = std::max(2 * largest_small_radius_ + largest_margin_, std::sqrt(per_body));
   const double edge = CellEdge<2>({width, height}, smallest, kMostCells);
-  cells_ = {area.min_x, area.min_y, width, height, edge, true};
+  // Cells and blocks start at multiples of their edges from the origin.
+  const double first_column = std::floor(area.min_x / edge);
+  const double first_row = std::floor(area.min_y / edge);
+  const double left = first_column * edge;
+  const double bottom = first_row * edge;
+  cells_ = {left, bottom, area.max_x - left, area.max_y - bottom, edge, true};
+  const auto cut = [](double first, std::uint32_t cells, std::uint32_t& missing, std::uint32_t& number)
+  {
+    const double block = std::floor(first / kBlock);
+    missing = static_cast<std::uint32_t>(first - block * kBlock);
+    number = static_cast<std::uint32_t>(block - 2 * std::floor(block / 2));
+    return (missing + cells + kBlock - 1) / kBlock;
+  };
+  block_columns_ = cut(first_column, cells_.columns.Count(), missing_columns_, first_block_column_);
+  block_rows_ = cut(first_row, cells_.rows.Count(), missing_rows_, first_block_row_);
   sort_.SetCells(cells_.Count() + 1);
   const double extent =
       std::max({std::fabs(area.min_x), std::fabs(area.max_x), std::fabs(area.min_y), std::fabs(area.max_y)});
@@ -66,8 +78,6 @@ void BroadPhase::Configure(const Bounds& area, std::span<const double> radii, do
   x_.assign(PaddedCount(count_), kFarAway);
   y_.assign(PaddedCount(count_), kFarAway);
   r_.assign(PaddedCount(count_), 0);
-  pairs_.reserve(4 * count_ + 64);
-  static_pairs_.reserve(count_ + 64);
   SetStatics({});
 }
 
@@ -93,24 +103,6 @@ void BroadPhase::SetStatics(std::span<const Bounds> boxes)
   statics_.Close(cells_.Count());
 }
 
-void BroadPhase::FindPairs(const PoseStore& poses, std::span<const std::uint8_t> present, double margin,
-                           WorkerPool* pool)
-{
-  const float reach = static_cast<float>(margin) + 2 * slack_;
-  pairs_.clear();
-  static_pairs_.clear();
-  Sort(poses, present);
-  // Every part in the order of the cells, one after the other: the same pairs whatever the threads.
-  parts_.resize(pool == nullptr ? 0 : pool->Threads() - 1);
-  for (std::vector<Pair>& part : parts_) part.clear();
-  InParts(pool, End(), 1,
-          [&](unsigned part, std::size_t begin, std::size_t end)
-          { SweepBodies(reach, begin, end, part == 0 ? pairs_ : parts_[part - 1]); });
-  for (const std::vector<Pair>& part : parts_) pairs_.insert(pairs_.end(), part.begin(), part.end());
-  if (!large_.empty()) FindPairsOfLarge(reach, present, poses);
-  if (!static_boxes_.empty()) SweepStatics(reach);
-}
-
 void BroadPhase::Sort(const PoseStore& poses, std::span<const std::uint8_t> present)
 {
   const std::span<std::uint32_t> cell = sort_.Cells(count_);
@@ -131,7 +123,44 @@ void BroadPhase::Sort(const PoseStore& poses, std::span<const std::uint8_t> pres
       });
 }
 
-void BroadPhase::SweepBodies(float margin, std::size_t begin, std::size_t end, std::vector<Pair>& pairs) const
+// Calls act(first, last) with the first and the last cell of each row of a block.
+template <class Act>
+inline void BroadPhase::ForEachRowOf(std::uint32_t block, const Act& act) const
+{
+  const auto begin = [](std::uint32_t number, std::uint32_t missing)
+  { return std::max(number * kBlock, missing) - missing; };
+  const std::uint32_t column = block % block_columns_;
+  const std::uint32_t row = block / block_columns_;
+  const std::uint32_t last_column = std::min((column + 1) * kBlock - missing_columns_, cells_.columns.Count()) - 1;
+  const std::uint32_t row_end = std::min((row + 1) * kBlock - missing_rows_, cells_.rows.Count());
+  for (std::uint32_t r = begin(row, missing_rows_); r < row_end; ++r)
+    act(cells_.Cell(begin(column, missing_columns_), r), cells_.Cell(last_column, r));
+}
+
+std::uint32_t BroadPhase::BlockAt(double part) const
+{
+  const std::uint32_t* const start = sort_.Starts();
+  const auto before = static_cast<std::uint32_t>(part * static_cast<double>(start[cells_.Count()]));
+  std::uint32_t block = 0;
+  for (std::uint32_t bodies = 0; block < BlockCount() && bodies < before; ++block)
+    ForEachRowOf(block, [&](std::uint32_t first, std::uint32_t last) { bodies += start[last + 1] - start[first]; });
+  return block;
+}
+
+void BroadPhase::FindPairs(double margin, std::uint32_t first_block, std::uint32_t last_block, PairList& found) const
+{
+  const float reach = ReachOf(margin);
+  found.pairs.clear();
+  found.ends.clear();
+  for (std::uint32_t block = first_block; block < last_block; ++block)
+  {
+    SweepBlock(reach, block, found.pairs);
+    if (!static_boxes_.empty()) SweepStatics(reach, block, found.pairs);
+    found.ends.push_back(static_cast<std::uint32_t>(found.pairs.size()));
+  }
+}
+
+void BroadPhase::SweepBlock(float margin, std::uint32_t block, std::vector<Pair>& pairs) const
 {
   // Most searches find nobody or one. Those that do are noted without a branch, and only then taken apart.
   struct Finds
@@ -157,28 +186,49 @@ void BroadPhase::SweepBodies(float margin, std::size_t begin, std::size_t end, s
     count = 0;
   };
   const std::uint32_t* const start = sort_.Starts();
-  for (auto k = static_cast<std::uint32_t>(begin); k < end; ++k)
+  const auto sweep = [&](std::uint32_t begin, std::uint32_t end)
   {
-    const std::uint32_t cell = sorted_cell_[k];
-    const float reach = r_[k] + margin;
-    const auto search = [&](std::uint32_t from, std::uint32_t to)
+    for (std::uint32_t k = begin; k < end; ++k)
     {
-      do {  // most ranges fit one vector
-        finds[count] = {k, from, Within(x_[k], y_[k], reach, from, to)};
-        count += finds[count].hits != 0 ? 1 : 0;
-        if (count == kMost) take_apart();
-        from += kLanes;
-      } while (from < to);
-    };
-    // The rest of this cell and the next one; then three cells of the next row.
-    search(k + 1, start[cell + 2]);
-    search(start[cell + cells_.stride - 1], start[cell + cells_.stride + 2]);
-  }
+      const std::uint32_t cell = sorted_cell_[k];
+      const float reach = r_[k] + margin;
+      const auto search = [&](std::uint32_t from, std::uint32_t to)
+      {
+        do {  // most ranges fit one vector
+          finds[count] = {k, from, Within(x_[k], y_[k], reach, from, to)};
+          count += finds[count].hits != 0 ? 1 : 0;
+          if (count == kMost) take_apart();
+          from += kLanes;
+        } while (from < to);
+      };
+      // The rest of this cell and the next one; then three cells of the next row.
+      search(k + 1, start[cell + 2]);
+      search(start[cell + cells_.stride - 1], start[cell + cells_.stride + 2]);
+    }
+  };
+  ForEachRowOf(block, [&](std::uint32_t first, std::uint32_t last) { sweep(start[first], start[last + 1]); });
   take_apart();
 }
 
-void BroadPhase::FindPairsOfLarge(float margin, std::span<const std::uint8_t> present, const PoseStore& poses)
+void BroadPhase::SweepStatics(float margin, std::uint32_t block, std::vector<Pair>& pairs) const
 {
+  const std::uint32_t* const start = sort_.Starts();
+  ForEachRowOf(block,
+               [&](std::uint32_t first, std::uint32_t last)
+               {
+                 if (statics_.In(first, last).empty()) return;
+                 for (std::uint32_t k = start[first]; k < start[last + 1]; ++k)
+                   for (const std::uint32_t shape : statics_.In(sorted_cell_[k]))
+                     if (static_boxes_[shape].IsNear(x_[k], y_[k], r_[k] + margin))
+                       pairs.push_back({body_[k], static_cast<std::uint32_t>(count_) + shape});
+               });
+}
+
+void BroadPhase::FindPairsOfLarge(double distance, const PoseStore& poses, std::span<const std::uint8_t> present,
+                                  std::vector<Pair>& pairs) const
+{
+  pairs.clear();
+  const float margin = ReachOf(distance);
   const std::uint32_t* const start = sort_.Starts();
   for (std::size_t n = 0; n < large_.size(); ++n)
   {
@@ -197,36 +247,17 @@ void BroadPhase::FindPairsOfLarge(float margin, std::span<const std::uint8_t> pr
                       {
                         for (std::uint32_t k = start[first]; k < start[last + 1]; ++k)
                           if (near(static_cast<double>(x_[k]), static_cast<double>(y_[k]), r_[k]))
-                            pairs_.push_back({std::min(body, body_[k]), std::max(body, body_[k])});
+                            pairs.push_back({std::min(body, body_[k]), std::max(body, body_[k])});
                       });
     for (std::size_t m = n + 1; m < large_.size(); ++m)
     {
       const std::uint32_t other = large_[m];
-      if (present[other] != 0 && near(poses.x[other], poses.y[other], radius_[other])) pairs_.push_back({body, other});
+      if (present[other] != 0 && near(poses.x[other], poses.y[other], radius_[other])) pairs.push_back({body, other});
     }
     for (std::size_t s = 0; s < static_boxes_.size(); ++s)
-    {
-      const FloatBox& box = static_boxes_[s];
-      const float r = radius_[body] + margin;
-      const auto fx = static_cast<float>(x);
-      const auto fy = static_cast<float>(y);
-      if (fx + r > box.min_x && fx - r < box.max_x && fy + r > box.min_y && fy - r < box.max_y)
-        static_pairs_.push_back({body, static_cast<std::uint32_t>(s)});
-    }
+      if (static_boxes_[s].IsNear(static_cast<float>(x), static_cast<float>(y), radius_[body] + margin))
+        pairs.push_back({body, static_cast<std::uint32_t>(count_ + s)});
   }
-}
-
-void BroadPhase::SweepStatics(float margin)
-{
-  const std::uint32_t end = End();
-  for (std::uint32_t k = 0; k < end; ++k)
-    for (const std::uint32_t shape : statics_.In(sorted_cell_[k]))
-    {
-      const FloatBox& box = static_boxes_[shape];
-      const float r = r_[k] + margin;
-      if (x_[k] + r > box.min_x && x_[k] - r < box.max_x && y_[k] + r > box.min_y && y_[k] - r < box.max_y)
-        static_pairs_.push_back({body_[k], shape});
-    }
 }
 
 }  // namespace swarmanoid::kinematics2d

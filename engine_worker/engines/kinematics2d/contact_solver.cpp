@@ -1,18 +1,26 @@
 #include "engine_worker/engines/kinematics2d/contact_solver.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+
+#include "engine_worker/engines/kinematics2d/motion.h"
 
 namespace swarmanoid::kinematics2d
 {
 namespace
 {
 
-constexpr std::uint8_t kMostSweeps = 16;
+// Each round visits every block once, colour after colour: what one block does to its border the next ones see. In
+// crowds two rounds leave much of the work undone, more than four help little.
+constexpr unsigned kRounds = 4;
+constexpr unsigned kMostSweeps = 16;  // of a visit
 // A push can wake contacts that were at rest; they are looked for once in so many sweeps.
-constexpr std::uint8_t kSweepsPerSearch = 4;
+constexpr unsigned kSweepsPerSearch = 4;
 // In large crowds the leaders are not in the cache: they are asked for this many contacts before they are needed.
-constexpr std::size_t kAhead = 8;
+constexpr std::uint32_t kAhead = 8;
+// Fewer contacts of a colour are not worth waking threads.
+constexpr std::uint32_t kLeastShared = 512;
 
 }  // namespace
 
@@ -33,24 +41,11 @@ void ContactList::Append(const ContactList& others)
   count_ += others.count_;
 }
 
-void ContactSolver::Configure(std::size_t bodies)
+void ContactSolver::Configure(std::size_t bodies, unsigned threads)
 {
-  contacts_.Grow(2 * bodies + 64);
-  pushed_.reserve(bodies + 1);
-  last_push_.assign(bodies + 1, 0);
-}
-
-void ContactSolver::Clear()
-{
-  contacts_.Clear();
-  for (const PushedLeader& pushed : pushed_) last_push_[pushed.leader] = 0;
-  pushed_.clear();
-}
-
-inline void ContactSolver::NotePush(std::uint32_t leader, std::uint8_t sweep, double x, double y)
-{
-  if (last_push_[leader] == 0) pushed_.push_back({leader, x, y});
-  last_push_[leader] = sweep;
+  statics_ = static_cast<std::uint32_t>(bodies);
+  last_push_.assign(PaddedCount(bodies + 1), 0);
+  active_.resize(threads);
 }
 
 // Whether the contact is deeper than `limit`; if so, how deep and in which direction it pushes.
@@ -73,106 +68,130 @@ inline bool ContactSolver::IsDeep(const ContactList::Outline& outline, bool face
   return true;
 }
 
-[[gnu::always_inline]] inline void ContactSolver::PushApart(ContactList::Ends ends, const ContactList::Outline& outline,
-                                                            std::uint8_t sweep, double limit, const Leaders& leaders)
+[[gnu::always_inline]] inline bool ContactSolver::PushApart(ContactList::Ends ends, const ContactList::Outline& outline,
+                                                            Stamp now, double limit, bool bounces,
+                                                            const Leaders& leaders)
 {
   double* const x = leaders.x;
   double* const y = leaders.y;
   const auto [i, j, face] = ends;
   Push push;
-  if (!IsDeep(outline, face != 0, limit, x[i] - x[j], y[i] - y[j], push)) return;
+  if (!IsDeep(outline, face != 0, limit, x[i] - x[j], y[i] - y[j], push)) return false;
   const double mobility_i = leaders.MobilityOf(i);
   const double mobility_j = leaders.MobilityOf(j);
-  const double way = (sweep == 1 ? push.depth + outline.bounce : push.depth) / (mobility_i + mobility_j);
+  const double depth = std::min(push.depth, leaders.most);
+  const double way = (bounces ? depth + outline.bounce : depth) / (mobility_i + mobility_j);
   if (mobility_i > 0)
   {
-    NotePush(i, sweep, x[i], y[i]);
+    last_push_[i] = now;
     x[i] += push.x * (way * mobility_i);
     y[i] += push.y * (way * mobility_i);
   }
   if (mobility_j > 0)
   {
-    NotePush(j, sweep, x[j], y[j]);
+    last_push_[j] = now;
     x[j] -= push.x * (way * mobility_j);
     y[j] -= push.y * (way * mobility_j);
   }
+  return true;
 }
 
-inline void ContactSolver::Prefetch(std::uint32_t contact, const Leaders& leaders) const
+inline void ContactSolver::Prefetch(ContactList::Ends ends, const Leaders& leaders)
 {
-  const auto [i, j, face] = contacts_.AllEnds()[contact];
-  __builtin_prefetch(&leaders.x[i]);
-  __builtin_prefetch(&leaders.y[i]);
-  __builtin_prefetch(&leaders.x[j]);
-  __builtin_prefetch(&leaders.y[j]);
+  __builtin_prefetch(&leaders.x[ends.first]);
+  __builtin_prefetch(&leaders.y[ends.first]);
+  __builtin_prefetch(&leaders.x[ends.second]);
+  __builtin_prefetch(&leaders.y[ends.second]);
 }
 
-// All contacts of leaders that were pushed since the last search.
-void ContactSolver::ActivateNeighbours(std::uint8_t sweep)
+// `since`: pushes from then on are news to the block; 0 for its first visit, in which overlaps bounce. Returns whether
+// anything moved.
+bool ContactSolver::Visit(const ContactBlock& block, Stamp begin, Stamp since, double tolerance, const Leaders& leaders,
+                          std::vector<std::uint32_t>& active)
 {
-  const int since = std::max(1, sweep - kSweepsPerSearch);
-  last_search_ = sweep;
-  const std::span<const ContactList::Ends> ends = contacts_.AllEnds();
-  active_.resize(std::max(active_.size(), ends.size()));
-  std::uint32_t* const active = active_.data();
-  std::size_t found = 0;
-  for (std::uint32_t index = 0; index < ends.size(); ++index)
+  const ContactList::Ends* const ends = block.list->AllEnds().data();
+  const ContactList::Outline* const outlines = block.list->Outlines().data();
+  const std::span<const std::uint32_t> overlapping =
+      block.list->Overlapping().subspan(block.first_overlapping, block.last_overlapping - block.first_overlapping);
+  bool moved = false;
+  if (since == 0)
   {
-    active[found] = index;
-    found += IsPushedSince(ends[index].first, ends[index].second, since) ? 1 : 0;
+    for (std::size_t n = 0; n < overlapping.size(); ++n)
+    {
+      if (n + kAhead < overlapping.size()) Prefetch(ends[overlapping[n + kAhead]], leaders);
+      const std::uint32_t contact = overlapping[n];
+      moved |= PushApart(ends[contact], outlines[contact], begin, 0, true, leaders);
+    }
+    since = 1;
   }
-  active_count_ = found;
-}
-
-void ContactSolver::Solve(std::span<const double> mobility, double tolerance, double reach, std::vector<double>& x,
-                          std::vector<double>& y)
-{
-  const Leaders leaders{mobility.data(), x.data(), y.data(), static_cast<std::uint32_t>(last_push_.size() - 1)};
-  last_search_ = 0;
-  const std::span<const std::uint32_t> overlapping = contacts_.Overlapping();
-  const ContactList::Ends* const ends = contacts_.AllEnds().data();
-  const ContactList::Outline* const outlines = contacts_.Outlines().data();
-  for (std::size_t n = 0; n < overlapping.size(); ++n)
+  std::size_t count = 0;
+  for (unsigned sweep = 1; sweep < kMostSweeps; ++sweep)
   {
-    if (n + kAhead < overlapping.size()) Prefetch(overlapping[n + kAhead], leaders);
-    const std::uint32_t contact = overlapping[n];
-    PushApart(ends[contact], outlines[contact], 1, 0, leaders);
-  }
-  for (std::uint8_t sweep = 2; sweep <= kMostSweeps; ++sweep)
-  {
-    const bool search = (sweep - 2) % kSweepsPerSearch == 0;
+    const auto now = static_cast<Stamp>(begin + sweep);
+    // A contact stays active as long as one of its leaders moves.
+    const bool search = (sweep - 1) % kSweepsPerSearch == 0;
     if (search)
     {
-      ActivateNeighbours(sweep);
-      if (active_count_ == 0) break;
+      const auto from = sweep == 1 ? since : static_cast<Stamp>(now - kSweepsPerSearch);
+      active.resize(std::max<std::size_t>(active.size(), block.last - block.first));
+      count = 0;
+      for (std::uint32_t contact = block.first; contact < block.last; ++contact)
+      {
+        active[count] = contact;
+        count += IsPushedSince(ends[contact], from) ? 1 : 0;
+      }
     }
-    // A contact stays active as long as one of its leaders moves.
+    if (count == 0) break;
     std::size_t kept = 0;
-    const std::size_t count = active_count_;
-    std::uint32_t* const active = active_.data();
     for (std::size_t n = 0; n < count; ++n)
     {
-      if (search && n + kAhead < count) Prefetch(active[n + kAhead], leaders);
       const std::uint32_t contact = active[n];
-      const auto [i, j, face] = ends[contact];
-      if (!search && !IsPushedSince(i, j, sweep - 1)) continue;
-      PushApart(ends[contact], outlines[contact], sweep, tolerance, leaders);
+      if (!search && !IsPushedSince(ends[contact], static_cast<Stamp>(now - 1))) continue;
+      moved |= PushApart(ends[contact], outlines[contact], now, tolerance, false, leaders);
       active[kept] = contact;
-      kept += IsPushedSince(i, j, sweep - 1) ? 1 : 0;
+      kept += IsPushedSince(ends[contact], static_cast<Stamp>(now - 1)) ? 1 : 0;
     }
-    active_count_ = kept;
+    count = kept;
   }
+  return moved;
+}
 
-  for (const PushedLeader& pushed : pushed_)
+void ContactSolver::Solve(std::span<const std::vector<ContactBlock>> colours, std::span<const double> mobility,
+                          double tolerance, double most, std::vector<double>& x, std::vector<double>& y,
+                          WorkerPool* pool)
+{
+  const Leaders leaders{mobility.data(), x.data(), y.data(), statics_, most};
+  std::fill(last_push_.begin(), last_push_.end(), Stamp{0});
+  const auto stride = static_cast<unsigned>(colours.size()) * kMostSweeps;
+  for (unsigned round = 0; round < kRounds; ++round)
   {
-    const double dx = x[pushed.leader] - pushed.x;
-    const double dy = y[pushed.leader] - pushed.y;
-    const double squared = dx * dx + dy * dy;
-    if (squared <= reach * reach) continue;
-    const double scale = reach / std::sqrt(squared);
-    x[pushed.leader] = pushed.x + dx * scale;
-    y[pushed.leader] = pushed.y + dy * scale;
-    last_push_[pushed.leader] = kMostSweeps;
+    std::atomic<bool> moved = false;
+    for (unsigned colour = 0; colour < colours.size(); ++colour)
+    {
+      const std::vector<ContactBlock>& blocks = colours[colour];
+      const unsigned begin = 1 + round * stride + colour * kMostSweeps;
+      // Its own last sweep may have left something to do.
+      const unsigned since = round == 0 ? 0 : begin - stride + kMostSweeps - 1;
+      const auto visit = [&](const ContactBlock& block, unsigned thread)
+      {
+        if (Visit(block, static_cast<Stamp>(begin), static_cast<Stamp>(since), tolerance, leaders, active_[thread]))
+          moved.store(true, std::memory_order_relaxed);
+      };
+      std::uint32_t contacts = 0;
+      for (const ContactBlock& block : blocks) contacts += block.last - block.first;
+      if (pool == nullptr || blocks.size() < 2 || contacts < kLeastShared)
+      {
+        for (const ContactBlock& block : blocks) visit(block, 0);
+        continue;
+      }
+      std::atomic<std::size_t> next = 0;
+      pool->Run(
+          [&](unsigned thread)
+          {
+            for (std::size_t n = next++; n < blocks.size(); n = next++) visit(blocks[n], thread);
+          });
+    }
+    if (!moved) break;
   }
 }
 

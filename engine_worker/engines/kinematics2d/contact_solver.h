@@ -1,13 +1,18 @@
 // Pushes overlapping bodies apart: an elastic, frictionless exchange of the ways that they made within a step. Used by
 // the kinematic world. Contacts act on leaders: a body on its own, or the prey of a gripped group, which moves as one.
+//
+// Contacts come in blocks, and blocks in colours. Those of one colour share no leader, so that threads can take any of
+// them in any order; inside a block contacts are handled in the order of adding. So threads change no bit.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
 #include "engine_worker/engines/kinematics2d/narrow_phase.h"
+#include "engine_worker/engines/kinematics2d/worker_pool.h"
 
 namespace swarmanoid::kinematics2d
 {
@@ -63,43 +68,46 @@ private:
   std::uint32_t count_ = 0, overlaps_ = 0;
 };
 
-// A leader that was pushed, and where it stood before.
-struct PushedLeader
+// Contacts of one list, and those of them that overlapped: from the first to before the last.
+struct ContactBlock
 {
-  std::uint32_t leader = 0;
-  double x = 0, y = 0;
+  const ContactList* list = nullptr;
+  std::uint32_t first = 0, last = 0;
+  std::uint32_t first_overlapping = 0, last_overlapping = 0;
 };
 
 class ContactSolver
 {
 public:
-  void Configure(std::size_t bodies);
+  void Configure(std::size_t bodies, unsigned threads);
 
-  // Without contacts and pushes.
-  void Clear();
-  ContactList& Contacts() { return contacts_; }
-  // Moves the leaders until no contact is deeper than `tolerance` or the sweeps are used up; shares follow `mobility`,
-  // the inverse of a weight; empty if all bodies have the same. No leader is moved further than `reach`. Contacts
-  // are handled in the order of adding.
-  void Solve(std::span<const double> mobility, double tolerance, double reach, std::vector<double>& x,
-             std::vector<double>& y);
+  // Moves the leaders until no contact is deeper than `tolerance` or the visits are used up; shares follow `mobility`,
+  // the inverse of a weight; empty if all bodies have the same. One push parts by up to `most` (metres), so that bodies
+  // that were put deep into each other do not jump past others.
+  void Solve(std::span<const std::vector<ContactBlock>> colours, std::span<const double> mobility, double tolerance,
+             double most, std::vector<double>& x, std::vector<double>& y, WorkerPool* pool);
 
-  const std::vector<PushedLeader>& Pushed() const { return pushed_; }
-  // After Solve. Calls `act` with both leaders of every contact that may still be deeper than `allowed`, which is more
-  // than the tolerance.
+  // Whether the last Solve moved it.
+  bool IsPushed(std::uint32_t leader) const { return last_push_[leader] != 0; }
   template <class Act>
-  void ForEachDeeper(double allowed, const std::vector<double>& x, const std::vector<double>& y, const Act& act) const
+  void ForEachPushed(const Act& act) const
   {
-    const std::span<const ContactList::Ends> ends = contacts_.AllEnds();
-    for (std::size_t k = 0; k < ends.size(); ++k)
+    // Few are: many at a time are looked at.
+    constexpr std::size_t kMany = sizeof(std::uint64_t) / sizeof(Stamp);
+    for (std::size_t k = 0; k < last_push_.size(); k += kMany)
     {
-      const auto [i, j, face] = ends[k];
-      if (!IsPushedSince(i, j, last_search_)) continue;
-      if (contacts_.Outlines()[k].Depth(face != 0, x[i] - x[j], y[i] - y[j]) > allowed) act(i, j);
+      std::uint64_t many;
+      std::memcpy(&many, &last_push_[k], sizeof many);
+      if (many == 0) continue;
+      for (std::size_t n = k; n < k + kMany; ++n)
+        if (last_push_[n] != 0) act(static_cast<std::uint32_t>(n));
     }
   }
 
 private:
+  // When a push happens: visits are numbered by round and colour, each with kMostSweeps sweeps.
+  using Stamp = std::uint16_t;
+
   struct Push
   {
     double x, y, depth;
@@ -112,6 +120,7 @@ private:
     double* x;
     double* y;
     std::uint32_t statics;  // the leader of all static shapes
+    double most;            // metres that a push parts by
 
     double MobilityOf(std::uint32_t leader) const
     {
@@ -120,22 +129,19 @@ private:
   };
 
   static bool IsDeep(const ContactList::Outline& outline, bool face, double limit, double dx, double dy, Push& push);
-  void PushApart(ContactList::Ends ends, const ContactList::Outline& outline, std::uint8_t sweep, double limit,
+  bool PushApart(ContactList::Ends ends, const ContactList::Outline& outline, Stamp now, double limit, bool bounces,
                  const Leaders& leaders);
-  void Prefetch(std::uint32_t contact, const Leaders& leaders) const;
-  void ActivateNeighbours(std::uint8_t sweep);
-  void NotePush(std::uint32_t leader, std::uint8_t sweep, double x, double y);
-  bool IsPushedSince(std::uint32_t i, std::uint32_t j, int sweep) const
+  bool Visit(const ContactBlock& block, Stamp begin, Stamp since, double tolerance, const Leaders& leaders,
+             std::vector<std::uint32_t>& active);
+  static void Prefetch(ContactList::Ends ends, const Leaders& leaders);
+  bool IsPushedSince(ContactList::Ends ends, Stamp since) const
   {
-    return ((last_push_[i] >= sweep) | (last_push_[j] >= sweep)) != 0;
+    return ((last_push_[ends.first] >= since) | (last_push_[ends.second] >= since)) != 0;
   }
 
-  ContactList contacts_;
-  std::vector<std::uint32_t> active_;  // contacts, ascending; longer than what it holds
-  std::size_t active_count_ = 0;
-  std::vector<PushedLeader> pushed_;
-  std::vector<std::uint8_t> last_push_;  // of each leader: the sweep, from 1; 0 for none
-  std::uint8_t last_search_ = 0;         // the sweep before which active contacts were looked for among all
+  std::uint32_t statics_ = 0;                       // the leader of all static shapes
+  std::vector<Stamp> last_push_;                    // of each leader; 0 for never; padded for ForEachPushed
+  std::vector<std::vector<std::uint32_t>> active_;  // of each thread: contacts, ascending; longer than what it holds
 };
 
 }  // namespace swarmanoid::kinematics2d

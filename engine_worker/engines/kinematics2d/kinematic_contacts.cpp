@@ -13,58 +13,128 @@ constexpr std::size_t kPairsAhead = 12;
 
 }  // namespace
 
-// Each thread some of the pairs, in their order; then one after the other into the solver.
-void KinematicWorld::FindContacts(double margin)
+// Blocks for the threads, about as many bodies for each.
+void KinematicWorld::SplitBlocks()
 {
-  solver_.Clear();
-  for (ContactList& contacts : contacts_of_others_) contacts.Clear();
-  InParts(pool_.get(), broad_.Pairs().size(), 1,
-          [&](unsigned part, std::size_t begin, std::size_t end)
-          { FindContacts(margin, begin, end, part == 0 ? solver_.Contacts() : contacts_of_others_[part - 1]); });
-  for (const ContactList& contacts : contacts_of_others_) solver_.Contacts().Append(contacts);
-  FindStaticContacts(margin, solver_.Contacts());
+  constexpr std::size_t kLeast = 1024;  // bodies; below, waking threads takes longer
+  const std::size_t parts = count_ < kLeast ? 1 : parts_.size();
+  std::uint32_t last = 0;
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+  {
+    parts_[k].first_block = last;
+    last =
+        k + 1 >= parts ? broad_.BlockCount() : broad_.BlockAt(static_cast<double>(k + 1) / static_cast<double>(parts));
+    parts_[k].last_block = last;
+  }
 }
 
-void KinematicWorld::FindContacts(double margin, std::size_t begin, std::size_t end, ContactList& contacts) const
+void KinematicWorld::FindContacts()
+{
+  const double margin = 2 * reach_;
+  SwapFollowers();
+  broad_.Sort(before_, present_);
+  broad_.FindPairsOfLarge(margin, before_, present_, pairs_of_large_.pairs);
+  SwapFollowers();
+  SplitBlocks();
+  for (Part& part : parts_)
+  {
+    part.pairs.pairs.clear();
+    part.contacts.Clear();
+    part.of_groups.Clear();
+  }
+  ForEachPart(
+      [&](Part& part)
+      {
+        broad_.FindPairs(margin, part.first_block, part.last_block, part.pairs);
+        FindContacts(part.pairs, block_contacts_.data() + part.first_block, part.contacts, part.of_groups);
+      });
+
+  shared_contacts_.Clear();
+  for (const Part& part : parts_) shared_contacts_.Append(part.of_groups);
+  if (!pairs_of_large_.pairs.empty())
+  {
+    ContactBlock all;
+    pairs_of_large_.ends.assign(1, static_cast<std::uint32_t>(pairs_of_large_.pairs.size()));
+    FindContacts(pairs_of_large_, &all, shared_contacts_, shared_contacts_);
+  }
+  statistics_.pairs = pairs_of_large_.pairs.size();
+  statistics_.contacts = shared_contacts_.AllEnds().size();
+  for (const Part& part : parts_)
+  {
+    statistics_.pairs += part.pairs.pairs.size();
+    statistics_.contacts += part.contacts.AllEnds().size();
+  }
+}
+
+// Writes down what of `contacts` belongs to each block of `pairs`.
+void KinematicWorld::FindContacts(const PairList& pairs, ContactBlock* blocks, ContactList& contacts,
+                                  ContactList& of_groups) const
 {
   PairBatch batch;
   const bool everyone_is_free = EveryoneIsFree();
-  for (std::size_t n = begin; n < end; ++n)
+  std::uint32_t n = 0;
+  for (const std::uint32_t end : pairs.ends)
   {
-    const Pair& ahead = broad_.Pairs()[std::min(n + kPairsAhead, end - 1)];
-    __builtin_prefetch(&placed_[ahead.first]);
-    __builtin_prefetch(&placed_[ahead.second]);
-    __builtin_prefetch(&before_.x[ahead.first]);
-    __builtin_prefetch(&before_.y[ahead.first]);
-    __builtin_prefetch(&before_.x[ahead.second]);
-    __builtin_prefetch(&before_.y[ahead.second]);
-    const auto [a, b] = broad_.Pairs()[n];
-    if (!everyone_is_free && (leader_[a] == leader_[b] || mobility_[leader_[a]] + mobility_[leader_[b]] <= 0)) continue;
-    if (batch.IsFull() || !batch.Takes(placed_[a], placed_[b])) AddContacts(batch, margin, contacts);
-    batch.Add(placed_[a], placed_[b]);
+    blocks->list = &contacts;
+    blocks->first = static_cast<std::uint32_t>(contacts.AllEnds().size());
+    blocks->first_overlapping = static_cast<std::uint32_t>(contacts.Overlapping().size());
+    for (; n < end; ++n)
+    {
+      const Pair& ahead = pairs.pairs[std::min<std::size_t>(n + kPairsAhead, pairs.pairs.size() - 1)];
+      __builtin_prefetch(&placed_[ahead.first]);
+      __builtin_prefetch(&placed_[ahead.second]);
+      __builtin_prefetch(&before_.x[ahead.first]);
+      __builtin_prefetch(&before_.y[ahead.first]);
+      const auto [a, b] = pairs.pairs[n];
+      const Placed& first = placed_[a];
+      const Placed& second = placed_[b];
+      if (b < count_)
+      {
+        const double dx = first.x - second.x;
+        const double dy = first.y - second.y;
+        const double limit = radius_[a] + radius_[b] + contact_margin_;
+        if (dx * dx + dy * dy >= limit * limit) continue;
+      }
+      if (!everyone_is_free)
+      {
+        const std::uint32_t i = leader_[a];
+        const std::uint32_t j = LeaderOf(b);
+        if (i == j || mobility_[i] + mobility_[j] <= 0) continue;
+      }
+      if (batch.IsFull() || !batch.Takes(first, second)) AddContacts(batch, contacts, of_groups);
+      batch.Add(first, second);
+    }
+    AddContacts(batch, contacts, of_groups);
+    blocks->last = static_cast<std::uint32_t>(contacts.AllEnds().size());
+    blocks->last_overlapping = static_cast<std::uint32_t>(contacts.Overlapping().size());
+    ++blocks;
   }
-  AddContacts(batch, margin, contacts);
 }
 
-void KinematicWorld::FindStaticContacts(double margin, ContactList& contacts) const
+// Whether there is an overlap anywhere.
+bool KinematicWorld::ListContactsByColour()
 {
-  PairBatch batch;
-  for (const Pair& pair : broad_.StaticPairs())
+  bool overlaps = false;
+  for (std::vector<ContactBlock>& colour : colours_) colour.clear();
+  const auto list = [&](const ContactBlock& contacts, std::size_t colour)
   {
-    if (mobility_[leader_[pair.first]] <= 0) continue;
-    const Placed& first = placed_[pair.first];
-    const Placed& second = placed_[count_ + pair.second];
-    if (batch.IsFull() || !batch.Takes(first, second)) AddContacts(batch, margin, contacts);
-    batch.Add(first, second);
-  }
-  AddContacts(batch, margin, contacts);
+    if (contacts.first == contacts.last) return;
+    colours_[colour].push_back(contacts);
+    overlaps |= contacts.first_overlapping != contacts.last_overlapping;
+  };
+  for (std::uint32_t block = 0; block < broad_.BlockCount(); ++block)
+    list(block_contacts_[block], broad_.ColourOf(block));
+  list({&shared_contacts_, 0, static_cast<std::uint32_t>(shared_contacts_.AllEnds().size()), 0,
+        static_cast<std::uint32_t>(shared_contacts_.Overlapping().size())},
+       BroadPhase::kColours);
+  return overlaps;
 }
 
 // Of all pairs of the batch, which is empty then.
-void KinematicWorld::AddContacts(PairBatch& batch, double margin, ContactList& contacts) const
+void KinematicWorld::AddContacts(PairBatch& batch, ContactList& contacts, ContactList& of_groups) const
 {
   if (batch.Count() == 0) return;
-  batch.FindTouches(margin);
+  batch.FindTouches(contact_margin_);
   batch.ForEachTouch(
       [&](std::size_t lane, Touch touch)
       {
@@ -101,7 +171,7 @@ void KinematicWorld::AddContacts(PairBatch& batch, double margin, ContactList& c
           const double way_y = dy - (before_.y[i] - before_.y[j]);
           bounce = elasticity_ * std::min(touch.depth, std::max(0.0, -(way_x * nx + way_y * ny)));
         }
-        contacts.Add(i, j, touch, bounce);
+        (i != first || j != second ? of_groups : contacts).Add(i, j, touch, bounce);
       });
   batch.Clear();
 }

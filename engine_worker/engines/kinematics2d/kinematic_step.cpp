@@ -1,5 +1,5 @@
-// KinematicWorld::Advance: move all, find who meets, push apart, hold back those who still overlap. The middle of it is
-// in kinematic_contacts.cpp, the end in kinematic_holds.cpp.
+// KinematicWorld::Advance: move all, find who meets, push apart, let nobody go so far that outlines overlap. The middle
+// of it is in kinematic_contacts.cpp, the end in kinematic_limiting.cpp.
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -118,28 +118,37 @@ int KinematicWorld::Substeps(double seconds, int steps)
                              std::to_string(kMostSubsteps * smallest_limit_) + " m in that time");
   const int needed = static_cast<int>(std::ceil(ratio / steps));
   const int substeps = steps * std::max(needed, 1);
-  reach_ = 2 * way / substeps + kSlowestSeparation;
+  reach_ = way / substeps + kSlowestSeparation;
+  contact_margin_ = std::min(kContactMargin, 2 * way / substeps + kSlowestSeparation);
   return substeps;
 }
 
 void KinematicWorld::Substep(double seconds, double fraction)
 {
   Move(seconds, fraction);
-  const double margin = std::min(kContactMargin, reach_);
-  broad_.FindPairs(now_, present_, margin, pool_.get());
-  FindContacts(margin);
-  if (!solver_.Contacts().Overlapping().empty())
+  FindContacts();
+  limiter_.Clear();
+  if (ListContactsByColour())
   {
     const std::span<const double> mobility = EveryoneIsFree() ? std::span<const double>() : mobility_;
-    solver_.Solve(mobility, kSolverTolerance * allowed_, reach_, now_.x, now_.y);
-    for (const Grip& grip : grips_) now_.Set(grip.body, Compose(now_.Get(grip.prey), grip.relative));
-    HoldBack();
+    solver_.Solve(colours_, mobility, kSolverTolerance * allowed_, 2 * reach_, now_.x, now_.y, pool_.get());
+    LimitMotions(seconds);
   }
   if (keeps_travel_)
     InParts(pool_.get(), count_, 1,
             [&](unsigned, std::size_t begin, std::size_t end) { KeepTravelOf(seconds, begin, end); });
-  statistics_.pairs = broad_.Pairs().size() + broad_.StaticPairs().size();
-  statistics_.contacts = solver_.Contacts().AllEnds().size();
+}
+
+// Between where each follower was when the substep began and where it is now, as its place in `before_`. For collisions
+// the former counts; who looks for room finds a follower where it is: it goes there whatever others do.
+void KinematicWorld::SwapFollowers()
+{
+  for (Follower& follower : followers_)
+  {
+    const Pose2 other = before_.Get(follower.body);
+    before_.Set(follower.body, follower.before);
+    follower.before = other;
+  }
 }
 
 void KinematicWorld::Move(double seconds, double fraction)
@@ -159,18 +168,26 @@ void KinematicWorld::Move(double seconds, double fraction)
             }
           });
   for (const Grip& grip : grips_) now_.Set(grip.body, Compose(now_.Get(grip.prey), grip.relative));
-  for (const Follower& follower : followers_)
+  for (Follower& follower : followers_)
   {
     const Pose2& from = follower.from;
     const Pose2& goal = follower.goal;
-    now_.Set(follower.body, fraction < 1 ? Pose2{from.x + fraction * (goal.x - from.x),
-                                                 from.y + fraction * (goal.y - from.y), goal.heading}
-                                         : goal);
+    follower.before =
+        fraction < 1 ? Pose2{from.x + fraction * (goal.x - from.x), from.y + fraction * (goal.y - from.y), goal.heading}
+                     : goal;
+    now_.Set(follower.body, follower.before);
   }
   for (Turret& turret : turrets_)
   {
-    turret.before = turret_angle_[turret.body];
-    if (leader_[turret.body] == turret.body) SetTurretAngle(turret.body, turret.before + turret.rate * seconds);
+    const std::uint32_t body = turret.body;
+    turret.before = turret_angle_[body];
+    const double before_cos = turret_cos_[body];
+    const double before_sin = turret_sin_[body];
+    const double way = leader_[body] == body ? turret.rate * seconds : 0;
+    SetTurretAngle(body, turret.before + way);
+    turret_cos_before_[body] = before_cos;
+    turret_sin_before_[body] = before_sin;
+    turret_way_[body] = way;
   }
   for (const Grip& grip : grips_) placed_[grip.body] = PlaceAt(grip.body, now_);
   for (const Follower& follower : followers_) placed_[follower.body] = PlaceAt(follower.body, now_);
@@ -187,7 +204,8 @@ void KinematicWorld::KeepTravelOf(double seconds, std::size_t begin, std::size_t
     const Rotor heading{now_.z[k], now_.w[k]};
     const Rotor middle = old_heading * heading;  // half angles of both: the sine and cosine of the mean heading
     const bool turned = old_heading.z != heading.z || old_heading.w != heading.w;
-    const double turn = turned ? twists.turn[leader_[k]] * seconds : 0;
+    const std::uint32_t leader = leader_[k];
+    const double turn = turned ? twists.turn[leader] * seconds * limiter_.PartOf(TurnMotion(leader)) : 0;
     const double chord = (now_.x[k] - before_.x[k]) * middle.w + (now_.y[k] - before_.y[k]) * middle.z;
     const double half = turn / 2;
     const double sinc = half == 0 ? 1 : SinCosOf(half).sin / half;

@@ -42,7 +42,7 @@ std::uint32_t KinematicWorld::AddBody(std::uint32_t model, const Pose2& pose, bo
   model_.push_back(model);
   follower_.push_back(follower ? 1 : 0);
   present_.push_back(1);
-  if (follower) followers_.push_back({body, pose, pose});
+  if (follower) followers_.push_back({body, pose, pose, pose});
   return body;
 }
 
@@ -51,7 +51,7 @@ void KinematicWorld::AddStatic(CollisionModel shape) { statics_.push_back(std::m
 void KinematicWorld::Start(Bounds area, unsigned threads)
 {
   if (threads > 1) pool_ = std::make_unique<WorkerPool>(threads);
-  contacts_of_others_.resize(threads - 1);
+  parts_.resize(threads);
   const std::size_t padded = PaddedCount(count_);
   now_.Resize(padded);
   before_ = now_;
@@ -62,12 +62,12 @@ void KinematicWorld::Start(Bounds area, unsigned threads)
   turret_angle_.assign(count_, 0);
   turret_cos_.assign(count_, 1);
   turret_sin_.assign(count_, 0);
+  turret_cos_before_ = turret_cos_;
+  turret_sin_before_ = turret_sin_;
+  turret_way_.assign(count_, 0);
+  way_.assign(padded, 0);
   travel_forward_.assign(count_, 0);
   travel_turn_.assign(count_, 0);
-  queue_.reserve(count_ + 1);
-  held_.reserve(count_);
-  hold_.assign(count_ + 1, Hold::kFree);
-  is_queued_.assign(count_ + 1, 0);
   mobility_.assign(count_ + 1, 0);
   leader_.resize(count_ + 1);
   for (std::uint32_t k = 0; k <= count_; ++k) leader_[k] = k;
@@ -99,11 +99,14 @@ void KinematicWorld::Start(Bounds area, unsigned threads)
   }
   allowed_ = kAllowedOverlap * smallest_limit_ / kWayInCore;
 
-  broad_.Configure(area, radius_, kContactMargin);
+  broad_.Configure(area, radius_, 2 * (longest_way + kSlowestSeparation));
   std::vector<Bounds> boxes;
   for (const CollisionModel& shape : statics_) boxes.push_back(BoxOf(shape));
   broad_.SetStatics(boxes);
-  solver_.Configure(count_);
+  block_contacts_.resize(broad_.BlockCount());
+  solver_.Configure(count_, threads);
+  limiter_.Configure(count_ + 1);
+  is_involved_.assign(count_ + 1, 0);
   grips_.reserve(count_);
   group_start_.reserve(count_ + 1);
   turrets_.reserve(count_);
@@ -122,20 +125,25 @@ void KinematicWorld::SetTurretRate(std::uint32_t body, double rate)
   const bool known = at != turrets_.end() && at->body == body;
   if (rate == 0)
   {
-    if (known) turrets_.erase(at);
+    if (known)
+    {
+      turrets_.erase(at);
+      SetTurretAngle(body, turret_angle_[body]);
+    }
   }
   else if (known)
     at->rate = rate;
   else
-    turrets_.insert(at, {body, rate, 0});
+    turrets_.insert(at, {body, rate, turret_angle_[body]});
 }
 
 void KinematicWorld::SetTurretAngle(std::uint32_t body, double angle)
 {
   turret_angle_[body] = WrapAngle(angle);
   const SinCos turned = SinCosOf(turret_angle_[body]);
-  turret_cos_[body] = turned.cos;
-  turret_sin_[body] = turned.sin;
+  turret_cos_[body] = turret_cos_before_[body] = turned.cos;
+  turret_sin_[body] = turret_sin_before_[body] = turned.sin;
+  turret_way_[body] = 0;
 }
 
 void KinematicWorld::Follow(std::uint32_t body, const Pose2& pose, bool present)
@@ -188,6 +196,14 @@ void KinematicWorld::RebuildGroups()
   group_start_.push_back(static_cast<std::uint32_t>(grips_.size()));
   for (std::size_t g = 0; g + 1 < group_start_.size(); ++g)
     mobility_[grips_[group_start_[g]].prey] = 1.0 / (1 + group_start_[g + 1] - group_start_[g]);
+}
+
+// The grips of a prey.
+std::span<const Grip> KinematicWorld::GroupOf(std::uint32_t prey) const
+{
+  const auto group = std::equal_range(grips_.begin(), grips_.end(), Grip{0, prey, {}},
+                                      [](const Grip& a, const Grip& b) { return a.prey < b.prey; });
+  return {group.first, group.second};
 }
 
 double KinematicWorld::OverlapOf(std::uint32_t a, std::uint32_t b) const

@@ -6,6 +6,9 @@
 // follows from positions and body numbers, so that equal states give equal bits.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -16,6 +19,7 @@
 #include "engine_worker/engines/kinematics2d/collision_model.h"
 #include "engine_worker/engines/kinematics2d/contact_solver.h"
 #include "engine_worker/engines/kinematics2d/motion.h"
+#include "engine_worker/engines/kinematics2d/motion_limiter.h"
 
 namespace swarmanoid::kinematics2d
 {
@@ -33,7 +37,7 @@ struct WorldStatistics
   int substeps = 0;
   std::size_t pairs = 0;  // of the last substep
   std::size_t contacts = 0;
-  std::size_t held_back = 0;  // bodies that could not go where they would
+  std::size_t held_back = 0;  // bodies that could not go or turn as far as they would
 };
 
 class KinematicWorld
@@ -63,7 +67,9 @@ public:
   // Puts a body elsewhere at once. Its grips stay: those whom it grips, and who grip it, are to be put there with it.
   void Place(std::uint32_t body, const Pose2& pose) { now_.Set(body, pose); }
   // Moves everything by `seconds`, in at least `steps` equal steps. Fast bodies make it use more, so that nothing
-  // passes through anything. Throws std::runtime_error for speeds beyond all sense.
+  // passes through anything. No two parts of outlines overlap deeper afterwards than AllowedOverlap(), or than they did
+  // before, but for followers: these may come into a body that has no room to give way.
+  // Throws std::runtime_error for speeds beyond all sense.
   void Advance(double seconds, int steps);
 
   // The prey must be a free body or the prey of other grips, the body must not be gripping or gripped.
@@ -95,19 +101,13 @@ public:
   double TravelForward(std::uint32_t body) const { return travel_forward_[body]; }
   double TravelTurn(std::uint32_t body) const { return travel_turn_[body]; }
   const WorldStatistics& Statistics() const { return statistics_; }
+  double AllowedOverlap() const { return allowed_; }
 
   // Poses, turrets and grips; twists and followers' goals are commands and not part of it.
   void SaveState(ByteWriter& state) const;
   void LoadState(ByteReader& state);
 
 private:
-  enum class Hold : std::uint8_t
-  {
-    kFree,
-    kPosition,  // back where the step began, turned as commanded
-    kPose       // all as it was when the step began
-  };
-
   struct Turret
   {
     std::uint32_t body;
@@ -118,6 +118,68 @@ private:
   {
     std::uint32_t body;
     Pose2 from, goal;
+    Pose2 before;  // where the substep began, or where it ended: see SwapFollowers
+  };
+  // What one thread finds in some of the blocks.
+  struct Part
+  {
+    std::uint32_t first_block = 0, last_block = 0;
+    PairList pairs;
+    ContactList contacts;
+    ContactList of_groups;  // contacts of bodies that are led by another one
+    LimitList limits;
+    std::vector<std::uint8_t> is_limited;  // of each pair
+  };
+  // A part of an outline where the substep began, and what its leader wants to do.
+  struct Side
+  {
+    const Placed* start = nullptr;
+    std::size_t part = 0;
+    double x = 0, y = 0;                // of the body
+    double centre_x = 0, centre_y = 0;  // of the part
+    double cos = 1, sin = 0;
+    std::uint32_t leader = 0;
+    bool can_move = false;
+    double way_x = 0, way_y = 0;
+    double turn = 0;
+    double from_x = 0, from_y = 0;              // to the body, from the leader, which is the axis
+    double centre_way_x = 0, centre_way_y = 0;  // by which turning moves the part's centre, about
+
+    // nullptr if the part is a circle.
+    const Polygon* OwnPolygon() const
+    {
+      const auto circles = static_cast<std::size_t>(start->model->circles);
+      return part < circles ? nullptr : &start->model->polygons[part - circles];
+    }
+  };
+  // Of a part, along a direction.
+  struct Extent
+  {
+    double at_start;
+    double turn_rate;
+  };
+  struct Plane
+  {
+    double gap;   // and the overlap that is allowed
+    double left;  // of it after all motions
+    std::array<Approach, 4> approaches;
+  };
+  // Pairs that can meet, where the substep began.
+  struct NearPairs
+  {
+    PairBatch batch;
+    std::array<Pair, kDoubleLanes> pairs;
+    std::array<Placed, kDoubleLanes> first, second;
+    std::array<double, kDoubleLanes> margins;
+
+    void Add(const Pair& pair, const Placed& a, const Placed& b)
+    {
+      const std::size_t lane = batch.Count();
+      pairs[lane] = pair;
+      first[lane] = a;
+      second[lane] = b;
+      batch.Add(first[lane], second[lane]);
+    }
   };
 
   Placed PlaceAt(std::uint32_t body, const PoseStore& poses) const
@@ -126,16 +188,20 @@ private:
     return {poses.x[body],     poses.y[body],     CosOf(heading),        SinOf(heading),
             turret_cos_[body], turret_sin_[body], &models_[model_[body]]};
   }
-  // To where the body is now; its heading and turret are as they were when the substep's motion ended.
-  void MovePlaced(std::uint32_t body)
-  {
-    placed_[body].x = now_.x[body];
-    placed_[body].y = now_.y[body];
-  }
   std::uint32_t NumberOf(const Placed& placed) const { return static_cast<std::uint32_t>(&placed - placed_.data()); }
-  Placed PlaceBefore(std::uint32_t body) const;
+  Placed PlaceBefore(std::uint32_t body) const
+  {
+    const Rotor heading{before_.z[body], before_.w[body]};
+    return {before_.x[body],          before_.y[body],          CosOf(heading),        SinOf(heading),
+            turret_cos_before_[body], turret_sin_before_[body], &models_[model_[body]]};
+  }
   // Each body leads itself and can be pushed.
   bool EveryoneIsFree() const { return grips_.empty() && followers_.empty(); }
+  // Of a body, or of static shapes.
+  std::uint32_t LeaderOf(std::uint32_t body) const
+  {
+    return leader_[std::min(body, static_cast<std::uint32_t>(count_))];
+  }
   bool IsFollower(std::uint32_t body) const { return follower_[body] != 0; }
   void RebuildGroups();
   Twist GroupTwist(std::span<const Grip> members) const;
@@ -144,22 +210,45 @@ private:
   int Substeps(double seconds, int steps);
   void Substep(double seconds, double fraction);
   void Move(double seconds, double fraction);
-  void FindContacts(double margin);
-  void FindContacts(double margin, std::size_t begin, std::size_t end, ContactList& contacts) const;
-  void FindStaticContacts(double margin, ContactList& contacts) const;
-  void AddContacts(PairBatch& batch, double margin, ContactList& contacts) const;
-  void HoldBack();
-  bool MustNotOverlap(double overlap, double before) const;
-  void Enqueue(std::uint32_t leader);
-  void ListNearThosePushedFar();
-  void EnqueueThosePushedFar();
+  void SwapFollowers();
+  void SplitBlocks();
+  // Calls act(part) with all that have blocks, each in a thread of its own.
   template <class Act>
-  void ForEachNear(std::uint32_t body, const Act& act) const;
+  void ForEachPart(const Act& act)
+  {
+    if (pool_ == nullptr || parts_[0].last_block == broad_.BlockCount()) return act(parts_[0]);
+    pool_->Run([&](unsigned k) { act(parts_[k]); });
+  }
+  void FindContacts();
+  void FindContacts(const PairList& pairs, ContactBlock* blocks, ContactList& contacts, ContactList& of_groups) const;
+  void AddContacts(PairBatch& batch, ContactList& contacts, ContactList& of_groups) const;
+  bool ListContactsByColour();
+  std::span<const Grip> GroupOf(std::uint32_t prey) const;
+  void LimitMotions(double seconds);
+  void LimitPushes();
+  void LimitPushesOfGroups(double seconds);
+  void LimitWay(std::uint32_t leader, double most);
+  double ArcOf(const Grip& grip, double seconds) const;
+  void FindWays(std::size_t begin, std::size_t end);
+  void Involve(std::uint32_t leader, std::atomic<bool>& more);
+  bool IsInvolved(std::uint32_t leader);
+  void FindOverlaps(std::span<const Pair> pairs, std::atomic<bool>& more);
   bool CirclesMeet(std::uint32_t a, std::uint32_t b) const;
-  void HoldFromOthers(std::uint32_t body);
-  void HoldPair(std::uint32_t a, std::uint32_t b);
-  void HoldFromStatic(std::uint32_t body, std::uint32_t shape);
-  void RaiseHold(std::uint32_t leader);
+  void FindLimits(std::span<const Pair> pairs, double seconds, std::span<std::uint8_t> is_limited, LimitList& limits,
+                  std::atomic<bool>& more);
+  void AddLimits(NearPairs& near, double seconds, LimitList& limits, std::atomic<bool>& more);
+  bool CanMeet(std::uint32_t a, std::uint32_t b) const;
+  // What a leader wants to turn by in this substep.
+  double TurnOf(std::uint32_t leader, double seconds) const
+  {
+    return (grips_.empty() ? twists_ : effective_).turn[leader] * seconds;
+  }
+  double OutlineWay(std::uint32_t body, double seconds) const;
+  Side SideOf(std::uint32_t body, const Placed& start, std::size_t part, double seconds) const;
+  Plane BestPlane(const Side& first, const Side& second, double x, double y, const Plane& shortest) const;
+  Plane PlaneAlong(const Side& first, const Side& second, double x, double y) const;
+  static Extent ExtentAlong(const Side& side, double x, double y);
+  void MoveInPart(std::uint32_t leader, double seconds);
   void KeepTravelOf(double seconds, std::size_t begin, std::size_t end);
 
   double elasticity_;
@@ -176,8 +265,11 @@ private:
   std::vector<std::uint32_t> model_;
   std::vector<std::uint8_t> follower_, present_;
   std::vector<double> turret_angle_, turret_cos_, turret_sin_;
-  std::vector<double> core_limit_, inverse_limit_;  // metres that a body may go in one substep
-  std::vector<double> radius_;                      // of the circle around it
+  std::vector<double> turret_cos_before_, turret_sin_before_;  // when the substep began
+  std::vector<double> turret_way_;                             // rad in this substep
+  std::vector<double> way_;                                    // metres that a body wants to go in this substep
+  std::vector<double> core_limit_, inverse_limit_;             // metres that a body may go in one substep
+  std::vector<double> radius_;                                 // of the circle around it
   std::vector<double> travel_forward_, travel_turn_;
   bool keeps_travel_ = false;
 
@@ -190,19 +282,23 @@ private:
   std::vector<Turret> turrets_;      // those that turn, by body
   std::vector<Follower> followers_;  // by body
 
-  std::unique_ptr<WorkerPool> pool_;             // none for one thread
-  std::vector<ContactList> contacts_of_others_;  // found by each further thread
+  std::unique_ptr<WorkerPool> pool_;  // none for one thread
+  std::vector<Part> parts_;           // one for each thread
   BroadPhase broad_;
+  PairList pairs_of_large_;
+  std::vector<ContactBlock> block_contacts_;
+  ContactList shared_contacts_;  // of large bodies and of groups: they may reach into many blocks
+  // The last one is that of the shared contacts.
+  std::array<std::vector<ContactBlock>, BroadPhase::kColours + 1> colours_;
   ContactSolver solver_;
-  double reach_ = 0;    // no collision pushes a body further than this in one substep
-  double allowed_ = 0;  // overlap that is left alone
+  MotionLimiter limiter_;
+  std::vector<std::uint8_t> is_involved_;  // of each leader: it may be limited in this substep
+  LimitList limits_of_large_;
+  std::vector<std::uint8_t> is_large_limited_;
+  double reach_ = 0;           // nobody gets further than this from where a substep began
+  double contact_margin_ = 0;  // outlines nearer than this are contacts
+  double allowed_ = 0;         // overlap that is left alone
   double smallest_limit_ = 0;
-  std::vector<Hold> hold_;
-  std::vector<std::uint32_t> held_;
-  std::vector<std::uint8_t> is_queued_;  // leaders that may overlap others
-  std::vector<std::uint32_t> queue_;     // a queue
-  std::vector<std::uint32_t> far_;       // bodies pushed far
-  std::vector<Pair> near_;               // of them and others
   WorldStatistics statistics_;
 };
 

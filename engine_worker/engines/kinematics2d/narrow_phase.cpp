@@ -28,12 +28,13 @@ void PairBatch::Side::Spread(std::size_t count)
     centre[k] = (model.on_turret[k] ? turret : body).ToWorld(model.part_x[k], model.part_y[k]);
 }
 
-void PairBatch::FindTouches(double margin)
+void PairBatch::Find(DoubleLanes margin, bool deepest_only)
 {
   first_.Spread(count_);
   second_.Spread(count_);
   between_ = {first_.position.x - second_.position.x, first_.position.y - second_.position.y};
-  margin_ = Everywhere(margin);
+  margin_ = margin;
+  deepest_only_ = deepest_only;
   deepest_ = Everywhere(-kNone);
   finds_ = 0;
 
@@ -91,6 +92,7 @@ void PairBatch::Add(const Touches& touches)
   found = touches;
   found.depth = touches.depth > -margin_ ? touches.depth : Everywhere(-kNone);
   deepest_ = found.depth > deepest_ ? found.depth : deepest_;
+  if (!deepest_only_) return;
   const DoubleLanes apart = kTouchesApart - deepest_;
   margin_ = apart < margin_ ? apart : margin_;
 }
@@ -102,7 +104,8 @@ void PairBatch::CircleWithCircle(std::size_t k, std::size_t m)
   const DoubleLanes dx = between_.x + x;
   const DoubleLanes dy = between_.y + y;
   const double reach = first_.Model().part_radius[k] + second_.Model().part_radius[m];
-  Add({x, y, Everywhere(reach), reach - SquareRoot(dx * dx + dy * dy), LongLanes{}});
+  Add({x, y, Everywhere(reach), reach - SquareRoot(dx * dx + dy * dy), LongLanes{}, static_cast<std::uint8_t>(k),
+       static_cast<std::uint8_t>(m)});
 }
 
 // `sign` is 1 if the circles belong to the first body of the pair, else -1.
@@ -152,7 +155,10 @@ void PairBatch::CircleWithPolygon(const Side& circles, const Side& polygons, std
   const DoubleLanes face_length = between_.x * x + between_.y * y;
   const DoubleLanes dx = between_.x + x;
   const DoubleLanes dy = between_.y + y;
-  Add({x, y, reach, reach - (beyond ? SquareRoot(dx * dx + dy * dy) : face_length), ~beyond});
+  const auto circle = static_cast<std::uint8_t>(k);
+  const auto other = static_cast<std::uint8_t>(static_cast<std::size_t>(polygons.Model().circles) + p);
+  Add({x, y, reach, reach - (beyond ? SquareRoot(dx * dx + dy * dy) : face_length), ~beyond, sign > 0 ? circle : other,
+       sign > 0 ? other : circle});
 }
 
 // `between`: from the body of `faces` to that of `other`.
@@ -201,7 +207,9 @@ void PairBatch::PolygonWithPolygon(std::size_t p, std::size_t q)
   const DoubleLanes separation = from_b ? along_b.separation : along_a.separation;
   const DoubleLanes reach = n.x * between_.x + n.y * between_.y - separation;
   const DoubleLanes depth = reach - (between_.x * n.x + between_.y * n.y);
-  Add({n.x, n.y, reach, depth, ~LongLanes{}});
+  const auto part = [](const Side& side, std::size_t polygon)
+  { return static_cast<std::uint8_t>(static_cast<std::size_t>(side.Model().circles) + polygon); };
+  Add({n.x, n.y, reach, depth, ~LongLanes{}, part(first_, p), part(second_, q)});
 }
 
 double Overlap(const Placed& a, const Placed& b)

@@ -28,7 +28,8 @@ struct Touch
   double x, y;
   double reach;
   bool face;
-  double depth;  // where it was found
+  std::uint8_t first_part, second_part;  // numbers of the models' parts
+  double depth;                          // where it was found
 };
 
 // All pairs of a batch are of the same two models.
@@ -54,7 +55,12 @@ public:
 
   // For every pair, all places where the outlines overlap or are less than `margin` apart. Those that are
   // kTouchesApart less deep than the deepest one of their pair are left out.
-  void FindTouches(double margin);
+  void FindTouches(double margin) { Find(Everywhere(margin), true); }
+  // The same, each pair with a margin of its own and nothing left out.
+  void FindAllTouches(const std::array<double, kDoubleLanes>& margins)
+  {
+    Find(InLanes([&](std::size_t lane) { return margins[lane < count_ ? lane : 0]; }), false);
+  }
   // After FindTouches: the depth of the deepest touch of a pair; far below 0 if there is none.
   double Deepest(std::size_t lane) const { return deepest_[lane]; }
   // After FindTouches: calls act(lane, touch) with the touches of each pair, one pair after the other.
@@ -69,8 +75,8 @@ public:
       const auto bit = static_cast<unsigned>(__builtin_ctzll(left));
       const unsigned lane = bit / (kParts * kParts);
       const Touches& touches = found_[bit % (kParts * kParts)];
-      act(lane,
-          Touch{touches.x[lane], touches.y[lane], touches.reach[lane], touches.face[lane] != 0, touches.depth[lane]});
+      act(lane, Touch{touches.x[lane], touches.y[lane], touches.reach[lane], touches.face[lane] != 0,
+                      touches.first_part, touches.second_part, touches.depth[lane]});
     }
   }
 
@@ -112,15 +118,17 @@ private:
   {
     DoubleLanes x, y, reach, depth;
     LongLanes face;
+    std::uint8_t first_part, second_part;
   };
 
+  void Find(DoubleLanes margin, bool deepest_only);
   unsigned NearParts() const;
   void CircleWithCircle(std::size_t k, std::size_t m);
   void CircleWithPolygon(const Side& circles, const Side& polygons, std::size_t k, std::size_t p, double sign);
   void PolygonWithPolygon(std::size_t p, std::size_t q);
   static Faces SeparationAlong(const Polygon& faces, const Polygon& other, const Axes& faces_axes,
                                const Axes& other_axes, Points between);
-  // Those that are not too shallow.
+  // Those that are not too shallow. Parts are numbered from the circles on.
   void Add(const Touches& touches);
 
   std::size_t count_ = 0;
@@ -130,6 +138,7 @@ private:
   DoubleLanes deepest_;
   Touches found_[kParts * kParts];
   int finds_ = 0;
+  bool deepest_only_ = true;
   LongLanes kept_;  // of each lane: the finds that count, one bit each
 };
 

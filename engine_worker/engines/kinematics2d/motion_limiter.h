@@ -1,0 +1,88 @@
+// How much of what it wants to do in a step each body may do, so that outlines that are apart stay apart. Used by the
+// kinematic world.
+//
+// A leader wants to go a way and to turn by an angle, straight from where the step began. It does a part of each, 0 to
+// 1: these are the motions. Between two parts of outlines that are near lies a plane. Each motion brings them nearer
+// along its normal by at most a rate times its part; the rates of those that part them are negative. If for all planes
+//     sum of rate * part  <=  gap,
+// no two outlines meet: along the normal, they are as far apart as that leaves.
+//
+// The parts are raised from 0. In each round a motion gets as much as its planes allow if those that make room do no
+// more than they did after the last round. As no motion ever does less later, all planes hold after any round; more
+// rounds let bodies go further that follow one another closely. Sources: docs/engines.md, "Crowds".
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace swarmanoid::kinematics2d
+{
+
+// Numbers of a leader's motions.
+constexpr std::uint32_t WayMotion(std::uint32_t leader) { return 2 * leader; }
+constexpr std::uint32_t TurnMotion(std::uint32_t leader) { return 2 * leader + 1; }
+constexpr std::uint32_t LeaderOfMotion(std::uint32_t motion) { return motion / 2; }
+
+// What a motion does to the two sides of a plane: metres that they come nearer if all of it is done.
+struct Approach
+{
+  std::uint32_t motion;
+  double rate;
+};
+
+// The limits that planes set, found by one thread.
+class LimitList
+{
+public:
+  void Clear();
+  // A plane between parts that are `gap` (m, 0 or more) apart. Two leaders have up to four motions. Returns whether it
+  // can limit them.
+  bool Add(double gap, const std::array<Approach, 4>& approaches);
+
+private:
+  friend class MotionLimiter;
+  struct Bound
+  {
+    std::uint32_t motion;
+    double most;
+  };
+  // part <= base + slope * part of those that make room.
+  struct Chase
+  {
+    std::uint32_t motion;
+    std::uint32_t ahead[2];
+    double base;
+    double slope[2];
+  };
+  std::vector<Bound> bounds_;
+  std::vector<Chase> chases_;
+};
+
+class MotionLimiter
+{
+public:
+  void Configure(std::size_t leaders);
+  // Everybody may do all again.
+  void Clear();
+  void Add(const LimitList& limits);
+  // Finds the parts under all limits that were added. Depends on their set, not on their order.
+  void Raise();
+
+  double PartOf(std::uint32_t motion) const { return part_[motion]; }
+  // Those of whose motions one is limited, after Raise; each once.
+  const std::vector<std::uint32_t>& Limited() const { return limited_; }
+
+private:
+  void Touch(std::uint32_t motion);
+
+  std::vector<LimitList::Chase> chases_;
+  // Of each motion; 1 if nothing limits it.
+  std::vector<double> most_, part_, next_;
+  std::vector<std::uint8_t> is_touched_;
+  std::vector<std::uint32_t> touched_;  // motions with limits
+  std::vector<std::uint32_t> limited_;
+};
+
+}  // namespace swarmanoid::kinematics2d
