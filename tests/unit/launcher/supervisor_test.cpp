@@ -77,12 +77,20 @@ protected:
     plan.visualiser = name == "visualiser";
     plans_.push_back(plan);
   }
-  void AddServer(const std::string& script) { Add("space_server", script, MemberPlan::kStatus); }
+  void AddServer(const std::string& script)
+  {
+    Add("space_server", "echo $$ > " + Mark("server") + "; " + script, MemberPlan::kStatus);
+  }
 
   // Scripts, and the test itself, tell one another how far they are by files.
   std::string Mark(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
   std::string Tell(const std::string& name) const { return "touch " + Mark(name) + "; "; }
   std::string Await(const std::string& name) const { return "until [ -e " + Mark(name) + " ]; do sleep 0.01; done; "; }
+  // Until the supervisor has seen that the server has ended.
+  std::string AwaitEndOfServer() const
+  {
+    return "while kill -0 $(cat " + Mark("server") + ") 2>/dev/null; do sleep 0.01; done; ";
+  }
   bool IsTold(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
   // An hour passes for the supervisor, which has looked at all that it watches before the script goes on.
   std::string LetAnHourPass() const { return Tell("an hour later") + Await("looked"); }
@@ -315,14 +323,14 @@ TEST_F(SupervisorTest, WaitsLongerForVisualisersThanForWorkers)
 {
   times_.finish_visualiser = std::chrono::hours(2);
   AddServer(std::string(kFinishing) + "; " + Tell("finished"));
-  Add("visualiser", Await("finished") + LetAnHourPass(), MemberPlan::kScreen);
+  Add("visualiser", Await("finished") + AwaitEndOfServer() + LetAnHourPass(), MemberPlan::kScreen);
   EXPECT_EQ(Run().kind, ClusterOutcome::kFinished);
 }
 
 TEST_F(SupervisorTest, AWorkerThatNeverEndsFailed)
 {
   AddServer(std::string(kFinishing) + "; " + Tell("finished"));
-  Add("engine_worker ground", Await("finished") + LetAnHourPass() + "exec sleep 600");
+  Add("engine_worker ground", Await("finished") + AwaitEndOfServer() + LetAnHourPass() + "exec sleep 600");
   const ClusterOutcome outcome = Run();
   EXPECT_EQ(outcome.kind, ClusterOutcome::kFailed);
   EXPECT_TRUE(outcome.reason.starts_with("engine_worker ground did not end within 1 min 40 s of the last tick"))
@@ -364,7 +372,8 @@ TEST_F(SupervisorTest, ShowsWhatVisualisersWriteToTheScreen)
 {
   AddServer(std::string("echo a line for the log; ") + kFinishing + "; " + Tell("finished"));
   // It ends after the server, as visualisers do; one that ends before is a failure.
-  Add("visualiser", "echo one; echo two; echo aside >&2; " + Await("finished") + "sleep 0.05", MemberPlan::kScreen);
+  Add("visualiser", "echo one; echo two; echo aside >&2; " + Await("finished") + AwaitEndOfServer(),
+      MemberPlan::kScreen);
   EXPECT_EQ(Run().kind, ClusterOutcome::kFinished);
   EXPECT_EQ(ScreenText(), "one\ntwo\n");
   EXPECT_EQ(LogText("visualiser"), "aside\n");
