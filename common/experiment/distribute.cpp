@@ -152,26 +152,11 @@ private:
   Vector3 a_, b_;
 };
 
-// Whom the kinematic engine gives the outline with the gripper of the footbot (figure 3.9 of the documentation).
-std::vector<bool> WithGripper(const Experiment& experiment)
-{
-  std::vector<bool> with_gripper(experiment.entities.size());
-  for (const EngineConfiguration& engine : experiment.engines)
-    if (engine.tag == "kinematics2d" || engine.tag == "dummy_engine")
-      for (const std::uint32_t e : engine.entities)
-        with_gripper[e] = DescriptionOf(experiment.entities[e].kind).mechanism == Mechanism::kTurretGripper;
-  return with_gripper;
-}
-
 class Placer
 {
 public:
   Placer(const Vector3& arena, Reading& reading)
-      : reading_(reading),
-        arena_(arena),
-        grid_(arena, 0.25),
-        ground_(reading),
-        with_gripper_(WithGripper(reading.experiment))
+      : reading_(reading), arena_(arena), grid_(arena, 0.25), ground_(reading)
   {
   }
 
@@ -244,12 +229,15 @@ private:
     return true;
   }
 
-  // What must stay free: the body as its engine has it, the gripper at any angle of the turret.
+  // What must stay free: the body, and the gripper of the kinematic engine at any angle of the turret (figure 3.9 of
+  // the documentation). In each engine, so that the same robots start at the same places in all.
   std::optional<placement::Body> OutlineOf(std::size_t index) const
   {
     constexpr double kGripperReach = 0.102;  // m: a little beyond its corners
-    auto body = placement::BodyOf(reading_.experiment.entities[index]);
-    if (body && with_gripper_[index]) body->half.head<2>().setConstant(std::max(kGripperReach, body->half.x()));
+    const EntityConfiguration& entity = reading_.experiment.entities[index];
+    auto body = placement::BodyOf(entity);
+    if (body && DescriptionOf(entity.kind).mechanism == Mechanism::kTurretGripper)
+      body->half.head<2>().setConstant(std::max(kGripperReach, body->half.x()));
     return body;
   }
 
@@ -286,7 +274,6 @@ private:
   Vector3 arena_;
   placement::BodyGrid grid_;
   placement::Ground ground_;
-  std::vector<bool> with_gripper_;
 };
 
 // Their poses mean nothing: no later check may take them for places.

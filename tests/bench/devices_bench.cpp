@@ -22,7 +22,7 @@ void Step(Interface& batch, const ChannelView& channel, AttributeChanges& change
 template <class Interface>
 void Run(benchmark::State& state, const PluginDescription& device)
 {
-  const std::string& robot_tag = device.robots.front();
+  const std::string robot_tag = device.robots.empty() ? "footbot" : device.robots.front();
   const EntityKind kind = robot_tag == "footbot"  ? EntityKind::kFootbot
                           : robot_tag == "eyebot" ? EntityKind::kEyebot
                                                   : EntityKind::kHandbot;

@@ -1,5 +1,6 @@
 // What an engine hands over is checked by its worker, and a mistake names the engine.
 #include "engine_worker/engine_worker.h"
+#include "common/space/attributes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -161,7 +162,8 @@ TEST_F(Worker, AttributesThatCannotBeAreTheEnginesMistake)
   EXPECT_THAT(add(gripped, 4), HasSubstr("engine 'ground' (worker_test_engine): Update at tick 4 failed: the attribute "
                                          "'gripped' of the footbot 'fb_0' is 4"));
   EXPECT_THAT(add(0x7ffffff0, 1), HasSubstr("there is no attribute slot 2147483632"));
-  EXPECT_THAT(add(3 * 19, 0), HasSubstr("the presence of the footbot 'fb_0' is 0"));
+  EXPECT_THAT(add(3 * static_cast<std::uint32_t>(AttributeCount(EntityKind::kFootbot)), 0),
+              HasSubstr("the presence of the footbot 'fb_0' is 0"));
   EXPECT_THAT(Step([](EngineUpdate& update, std::span<double>) { update.attributes.values.resize(2); }),
               HasSubstr("there are 2 values for 0 slots"));
 }

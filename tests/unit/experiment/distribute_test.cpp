@@ -184,7 +184,7 @@ TEST(Distribute, GridWithoutSettingsHoldsAll)
 TEST(Distribute, ErrorsSayWhatDoesNotFit)
 {
   EXPECT_EQ(ErrorsOf(Arena("<distribute quantity='100' max_trials='50'><footbot id='fb'/></distribute>", "1,1,1")),
-            "test.xml:3:1: the footbot 'fb_15' does not fit after 15 of 100 were placed: no place free of others and "
+            "test.xml:3:1: the footbot 'fb_8' does not fit after 8 of 100 were placed: no place free of others and "
             "of rock in 50 trials; "
             "lower the "
             "quantity, enlarge the region or raise max_trials\n");
