@@ -16,15 +16,20 @@ constexpr double kForceUnits = kUnitsPerMetre;                    // per newton
 constexpr double kTorqueUnits = kUnitsPerMetre * kUnitsPerMetre;  // per newton metre
 // The part of a ground joint's position error that becomes velocity. Drives are expressed through it; a small value
 // puts the target far ahead, where the rounding of large coordinates does not matter.
-constexpr float kDriveGain = 0.01F;
-constexpr double kHoldGain = 0.2;    // part of the error of a held turret that is corrected in a step
-constexpr double kHoldSpeed = 1.0;   // rad/s, at most
-constexpr double kOverload = 0.999;  // of the motor's torque: the turret slips
+constexpr float kDriveGain = 0.001F;
+// A remainder beyond this goes to Box2D's position.
+constexpr double kLargestRemainder = 1e-4;  // decimetres
+constexpr double kHoldGain = 0.2;           // part of the error of a held turret that is corrected in a step
+constexpr double kHoldSpeed = 1.0;          // rad/s, at most
+constexpr double kOverload = 0.999;         // of the motor's torque: the turret slips
 
 b2Vec2 ToUnits(double x, double y)
 {
   return {static_cast<float>(x * kUnitsPerMetre), static_cast<float>(y * kUnitsPerMetre)};
 }
+
+// Not inlined: GCC 12 takes a number that becomes float and double again for unchanged if it vectorises two of them.
+[[gnu::noinline]] double BeyondSinglePrecision(double x) { return x - static_cast<float>(x); }
 
 // Distance of a point from the outline of a model, in the model's frame; negative inside.
 double DistanceTo(const BodyModel& model, const Vector2& point)
@@ -66,8 +71,8 @@ int Dynamics2dWorld::AddBody(BodyModel model, const PlanePose& pose)
 {
   Body& body = bodies_.emplace_back();
   body.model = std::move(model);
-  const b2Vec2 position = ToUnits(pose.u, pose.v);
-  body.start = {position.x, position.y, static_cast<float>(pose.heading), 0, 0, 0};
+  body.start.angle = static_cast<float>(pose.heading);
+  SetPosition(body, pose.u * kUnitsPerMetre, pose.v * kUnitsPerMetre, body.start.angle);
   return static_cast<int>(bodies_.size()) - 1;
 }
 
@@ -196,8 +201,44 @@ void Dynamics2dWorld::Step(double seconds)
     if (body.ground != nullptr) ApplyDrive(body, seconds);
     if (body.gripper != nullptr) ApplyTurret(body, seconds);
   }
+  positions_.clear();
+  for (const Body& body : bodies_) positions_.push_back(body.b2->GetPosition());
   world_->Step(static_cast<float>(seconds), settings_.velocity_iterations, settings_.position_iterations);
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (bodies_[i].model.motion == EMotion::kDynamic && bodies_[i].solid)
+      KeepRemainder(bodies_[i], positions_[i], seconds);
   last_step_ = seconds;
+}
+
+// Box2D moves by x += h v in single precision: what the rounding takes or adds is carried on.
+void Dynamics2dWorld::KeepRemainder(Body& body, const b2Vec2& before, double seconds) const
+{
+  const auto h = static_cast<float>(seconds);
+  const auto lost = [&](float x, float v)
+  {
+    const float moved = x + h * v;
+    return x + seconds * v - moved;
+  };
+  const b2Vec2 velocity = body.b2->GetLinearVelocity();
+  body.remainder_x += lost(before.x, velocity.x);
+  body.remainder_y += lost(before.y, velocity.y);
+  if (std::max(std::abs(body.remainder_x), std::abs(body.remainder_y)) < kLargestRemainder) return;
+  const b2Vec2 now = body.b2->GetPosition();
+  SetPosition(body, now.x + body.remainder_x, now.y + body.remainder_y, body.b2->GetAngle());
+}
+
+void Dynamics2dWorld::SetPosition(Body& body, double x, double y, float angle)
+{
+  body.remainder_x = BeyondSinglePrecision(x);
+  body.remainder_y = BeyondSinglePrecision(y);
+  const b2Vec2 position(static_cast<float>(x), static_cast<float>(y));
+  if (body.b2 == nullptr)
+  {
+    body.start.x = position.x;
+    body.start.y = position.y;
+  }
+  else if (position != body.b2->GetPosition() || angle != body.b2->GetAngle())
+    body.b2->SetTransform(position, angle);
 }
 
 // The ground joint is given an error that asks for the wanted velocity. Solved together with contacts and grips, so
@@ -275,8 +316,10 @@ double Dynamics2dWorld::TurretAngleOf(int number) const
 
 PlanePose Dynamics2dWorld::PoseOf(int number) const
 {
-  const b2Body* body = bodies_[Index(number)].b2;
-  return {body->GetPosition().x / kUnitsPerMetre, body->GetPosition().y / kUnitsPerMetre, body->GetAngle()};
+  const Body& body = bodies_[Index(number)];
+  const b2Vec2 position = body.b2->GetPosition();
+  return {(position.x + body.remainder_x) / kUnitsPerMetre, (position.y + body.remainder_y) / kUnitsPerMetre,
+          body.b2->GetAngle()};
 }
 
 PlaneVelocity Dynamics2dWorld::VelocityOf(int number) const
@@ -288,7 +331,8 @@ PlaneVelocity Dynamics2dWorld::VelocityOf(int number) const
 
 void Dynamics2dWorld::Place(int number, const PlanePose& pose)
 {
-  bodies_[Index(number)].b2->SetTransform(ToUnits(pose.u, pose.v), static_cast<float>(pose.heading));
+  SetPosition(bodies_[Index(number)], pose.u * kUnitsPerMetre, pose.v * kUnitsPerMetre,
+              static_cast<float>(pose.heading));
   for (Body& body : bodies_)
     if (body.gripped == number || (body.gripped != kNoBody && &body == &bodies_[Index(number)])) CountTurns(body);
 }

@@ -145,6 +145,9 @@ private:
   {
     BodyModel model;
     BodyState start{};
+    // What Box2D's position lacks, decimetres: single precision would add to or take from the way of each step.
+    double remainder_x = 0;
+    double remainder_y = 0;
     bool solid = true;
     Twist drive;
     double turret_speed = 0;
@@ -168,14 +171,17 @@ private:
   void ApplyDrive(Body& body, double seconds);
   void CountTurns(Body& body);
   void ApplyTurret(Body& body, double seconds);
+  void KeepRemainder(Body& body, const b2Vec2& before, double seconds) const;
+  static void SetPosition(Body& body, double x, double y, float angle);
   bool LeadsTo(int from, int to) const;
   void WrapAngles();
 
   WorldSettings settings_;
   std::vector<Body> bodies_;
   std::unique_ptr<b2World> world_;
-  b2Body* ground_ = nullptr;  // without shape: ground joints hold on to it
-  double last_step_ = 0;      // seconds
+  b2Body* ground_ = nullptr;       // without shape: ground joints hold on to it
+  std::vector<b2Vec2> positions_;  // before a step
+  double last_step_ = 0;           // seconds
 };
 
 }  // namespace swarmanoid::dynamics2d

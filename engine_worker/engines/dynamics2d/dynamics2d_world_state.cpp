@@ -48,6 +48,8 @@ void Dynamics2dWorld::SaveState(ByteWriter& state) const
   {
     if (body.model.motion == EMotion::kStatic) continue;
     state.Put(StateOf(body));
+    state.Put(body.remainder_x);
+    state.Put(body.remainder_y);
     state.Put(static_cast<std::uint8_t>(body.solid ? 1 : 0));
     if (!body.model.has_gripper) continue;
     state.Put(body.turret_angle);
@@ -68,6 +70,8 @@ void Dynamics2dWorld::LoadState(ByteReader& state)
   {
     if (body.model.motion == EMotion::kStatic) continue;
     body.start = state.Get<BodyState>();
+    body.remainder_x = state.Get<double>();
+    body.remainder_y = state.Get<double>();
     body.solid = state.Get<std::uint8_t>() != 0;
     if (!body.model.has_gripper) continue;
     body.turret_angle = state.Get<double>();

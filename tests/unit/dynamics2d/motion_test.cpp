@@ -223,5 +223,56 @@ TEST(Dynamics2d, EyebotsFlyWhereTheirPropellersPush)
   EXPECT_NEAR(world.Position(eyebot).z(), 1, 1e-12);
 }
 
+// Box2D's positions have single precision, half a millimetre at 9 km: the way does not.
+TEST(Dynamics2d, AFootbotDrivesAsFastFarFromTheOriginAsNearIt)
+{
+  for (const double place : {0.0, 500.0, 9000.0})
+  {
+    Dynamics2dTestWorld world;
+    const auto straight = world.AddFootbot(place, place);
+    const auto slant = world.AddFootbot(place, place + 1, kPi / 6);
+    world.AddCommands("footbot_wheels", 2);
+    world.Start();
+    for (const auto robot : {straight, slant}) world.Drive(robot, 0.05, 0.05);
+    world.Run(10);
+    const Vector3 start = world.Position(straight);
+    const Vector3 slant_start = world.Position(slant);
+    world.Run(200);
+    const Vector3 way = world.Position(straight) - start;
+    EXPECT_NEAR(way.x(), 1, 1e-3) << place;
+    EXPECT_NEAR(way.y(), 0, 1e-3) << place;
+    EXPECT_NEAR((world.Position(slant) - slant_start).norm(), 1, 1e-3) << place;
+  }
+}
+
+// Whatever the phase of the sub-steps at which two robots meet: they overlap by the way of one, and by less than a
+// millimetre once they push.
+TEST(Dynamics2d, RobotsThatMeetOverlapByAtMostTheWayOfASubStep)
+{
+  double deepest = 0;
+  for (int phase = 0; phase < 12; ++phase)
+  {
+    Dynamics2dTestWorld world;
+    world.experiment.clock_tick_ms = 25;
+    world.Set("substeps", "1");  // each is seen
+    const auto left = world.AddFootbot(4, 5);
+    const auto right = world.AddFootbot(4.4 + 0.00125 * phase, 5, kPi);
+    world.AddCommands("footbot_wheels", 2);
+    world.Start();
+    for (const auto robot : {left, right}) world.Drive(robot, 0.3, 0.3);
+    // The squares of the grippers, which reach 10 cm from the axes, meet first.
+    const auto overlap = [&] { return 0.2 - (world.Position(left) - world.Position(right)).norm(); };
+    for (int step = 0; step < 120; ++step)
+    {
+      world.Tick();
+      deepest = std::max(deepest, overlap());
+    }
+    EXPECT_LT(overlap(), 0.001) << "pressed together";
+  }
+  EXPECT_LT(deepest, 2 * 0.3 * 0.025);
+  EXPECT_GT(deepest, 0.5 * 0.3 * 0.025);
+  RecordProperty("deepest_um", static_cast<int>(deepest * 1e6));
+}
+
 }  // namespace
 }  // namespace swarmanoid
