@@ -217,10 +217,15 @@ void BroadPhase::SweepStatics(float margin, std::uint32_t block, std::vector<Pai
                [&](std::uint32_t first, std::uint32_t last)
                {
                  if (statics_.In(first, last).empty()) return;
-                 for (std::uint32_t k = start[first]; k < start[last + 1]; ++k)
-                   for (const std::uint32_t shape : statics_.In(sorted_cell_[k]))
-                     if (static_boxes_[shape].IsNear(x_[k], y_[k], r_[k] + margin))
-                       pairs.push_back({body_[k], static_cast<std::uint32_t>(count_) + shape});
+                 for (std::uint32_t cell = first; cell <= last; ++cell)
+                 {
+                   const std::span<const std::uint32_t> shapes = statics_.In(cell);
+                   if (shapes.empty()) continue;
+                   for (std::uint32_t k = start[cell]; k < start[cell + 1]; ++k)
+                     for (const std::uint32_t shape : shapes)
+                       if (static_boxes_[shape].IsNear(x_[k], y_[k], r_[k] + margin))
+                         pairs.push_back({body_[k], static_cast<std::uint32_t>(count_) + shape});
+                 }
                });
 }
 
