@@ -1,3 +1,4 @@
+#include "common/builtins/collision_models.h"
 #include "common/builtins/engines.h"
 #include "common/configuration/parameter_table.h"
 #include "common/experiment/entity_kind.h"
@@ -63,7 +64,8 @@ PluginDescription Dynamics2dDescription()
                                                  "footbot_accelerometer", "wheels"}),
           .entity_tags = TagsOfKinds([](const EntityKindDescription&) { return true; }),
           .any_kind = true,
-          .ignores = {"hole"}};
+          .ignores = {"hole"},
+          .collision_model = Dynamics2dBodies};
 }
 
 }  // namespace swarmanoid

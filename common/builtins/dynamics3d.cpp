@@ -1,3 +1,4 @@
+#include "common/builtins/collision_models.h"
 #include "common/builtins/engines.h"
 #include "common/experiment/entity_kind.h"
 
@@ -89,7 +90,8 @@ PluginDescription Dynamics3dDescription()
                        "footbot_gripper", "footbot_turret", "footbot_turret_torque", "footbot_wheels", "handbot_arms",
                        "handbot_hands", "handbot_rope", "wheels"},
           .entity_tags = TagsOfKinds([](const EntityKindDescription&) { return true; }),
-          .any_kind = true};
+          .any_kind = true,
+          .collision_model = Dynamics3dBodies};
 }
 
 }  // namespace swarmanoid

@@ -1,3 +1,4 @@
+#include "common/builtins/collision_models.h"
 #include "common/builtins/engines.h"
 #include "common/configuration/parameter_table.h"
 #include "common/experiment/entity_kind.h"
@@ -28,7 +29,8 @@ PluginDescription Kinematics2dDescription(const std::string& label)
                                              "footbot_turret", "footbot_turret_torque", "footbot_wheels", "wheels"}),
       .entity_tags = TagsOfKinds([](const EntityKindDescription&) { return true; }),
       .any_kind = true,
-      .ignores = {"mass", "friction", "restitution", "ground_friction", "hole"}};
+      .ignores = {"mass", "friction", "restitution", "ground_friction", "hole"},
+      .collision_model = Kinematics2dBodies};
 }
 
 }  // namespace swarmanoid

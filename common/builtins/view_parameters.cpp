@@ -23,7 +23,7 @@ std::vector<ParameterSpec> QualityParameters()
           {"show_rays", ParameterType::kBoolean, "", "false",
            "Whether the rays of the footbots' proximity sensors are drawn, red where they meet something."},
           {"show_collision_models", ParameterType::kBoolean, "", "false",
-           "Whether the bodies that sensors see are drawn over the robots."}};
+           "Whether the bodies that the engines collide are drawn over the robots."}};
 }
 
 }  // namespace swarmanoid

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -13,6 +14,9 @@
 
 namespace swarmanoid
 {
+
+struct EntityConfiguration;
+struct CollisionBody;
 
 enum class PluginKind
 {
@@ -48,6 +52,11 @@ struct PluginDescription
   bool any_kind = false;  // engines only: it also serves the kinds of users, by their rows alone
   // Engines only: parameters and tags of entities that have no effect in it; `swarmanoid check` tells who gives them.
   std::vector<std::string> ignores{};
+  // Engines only: the bodies that it collides, of an entity with its attributes as they are now (the values of its
+  // slots), in the frame of the entity. Everybody who asks what is in the way goes by them: sensors, queries,
+  // renderers. nullptr: the plain body of the kind.
+  void (*collision_model)(const EntityConfiguration& entity, std::span<const double> attributes,
+                          std::vector<CollisionBody>& bodies) = nullptr;
   // Controllers only: false if it was registered by its label alone. `parameters` says nothing then; what its Init
   // asks for decides.
   bool declares_parameters = true;

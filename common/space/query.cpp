@@ -12,7 +12,7 @@ constexpr double kLargeBody = 0.75;
 
 }  // namespace
 
-SpaceQuery::SpaceQuery(const CSwarmanoidSpace& space) : space_(space), revision_(space.Revision() - 1)
+SpaceQuery::SpaceQuery(const CSwarmanoidSpace& space) : space_(space), revision_(space.Revision() - 1), models_(space)
 {
   const Experiment& experiment = space.GetExperiment();
   if (experiment.engines.size() > 64)
@@ -25,7 +25,7 @@ SpaceQuery::SpaceQuery(const CSwarmanoidSpace& space) : space_(space), revision_
   {
     const Shape shape = ShapeOf(experiment.entities[i]);
     const double reach = BoundingRadius(shape) + shape.centre.norm();
-    if (shape.kind != Shape::Kind::kNone && reach > kLargeBody)
+    if (models_.IsArticulated(i) || (shape.kind != Shape::Kind::kNone && reach > kLargeBody))
       large_.push_back(i);
     else
       search_radius_ = std::max(search_radius_, reach);
@@ -92,12 +92,20 @@ const CSwarmanoidSpaceEntity* SpaceQuery::FindNearest(const CSwarmanoidSpaceEnti
 std::optional<SpaceQuery::Hit> SpaceQuery::FindFirstHit(const Vector3& from, const Vector3& to, std::uint32_t observer,
                                                         std::span<const std::uint32_t> ignored)
 {
+  return FirstHit(
+      from, to, [&](std::uint32_t entity) { return ShareEngine(entity, observer); }, ignored);
+}
+
+template <class Counts>
+std::optional<SpaceQuery::Hit> SpaceQuery::FirstHit(const Vector3& from, const Vector3& to, const Counts& in_world,
+                                                    std::span<const std::uint32_t> ignored)
+{
   const Vector3 reach = Vector3::Constant(search_radius_);
   Index().FindInBox(from.cwiseMin(to) - reach, from.cwiseMax(to) + reach, candidates_);
   std::optional<Hit> first;
   const auto counts = [&](std::uint32_t entity)
   {
-    return (engines_[entity] & engines_[observer]) != 0 &&
+    return space_.IsPresent(entity) && in_world(entity) &&
            std::find(ignored.begin(), ignored.end(), entity) == ignored.end();
   };
   const auto keep = [&](std::uint32_t entity, std::optional<double> fraction)
@@ -107,7 +115,11 @@ std::optional<SpaceQuery::Hit> SpaceQuery::FindFirstHit(const Vector3& from, con
   };
   const auto test = [&](std::uint32_t entity)
   {
-    if (counts(entity)) keep(entity, SegmentHit(shapes_[entity], space_.GetPose(entity), from, to));
+    if (!counts(entity)) return;
+    if (!models_.IsArticulated(entity))
+      return keep(entity, SegmentHit(shapes_[entity], space_.GetPose(entity), from, to));
+    models_.BodiesOf(entity, bodies_);
+    keep(entity, SegmentHit(bodies_, space_.GetPose(entity), from, to));
   };
   for (const std::uint32_t entity : large_) test(entity);
   for (const std::uint32_t entity : candidates_)
@@ -124,7 +136,12 @@ std::optional<SpaceQuery::Hit> SpaceQuery::FindFirstHit(const Vector3& from, con
 bool SpaceQuery::IsOccluded(const Vector3& from, const Vector3& to, std::uint32_t observer, std::uint32_t target)
 {
   const std::array<std::uint32_t, 2> ends{observer, target};
-  return FindFirstHit(from, to, observer, ends).has_value();
+  const auto hides = [&](std::uint32_t entity)
+  {
+    return ShareEngine(entity, observer) || ShareEngine(entity, target) ||
+           (engines_[entity] == 0 && !space_.GetEntity(entity).IsMovable());
+  };
+  return FirstHit(from, to, hides, ends).has_value();
 }
 
 }  // namespace swarmanoid

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "common/space/collision_models.h"
 #include "common/space/index/positional_index.h"
 #include "common/space/shape.h"
 #include "common/space/space.h"
@@ -40,10 +41,11 @@ public:
   };
   // The first body that the straight line from one point to another meets in the worlds of an observer: engines are
   // closed to one another, so only entities that share an engine with the observer count. `ignored`: entities that are
-  // looked through.
+  // looked through. Bodies are those of CollisionModels.
   std::optional<Hit> FindFirstHit(const Vector3& from, const Vector3& to, std::uint32_t observer,
                                   std::span<const std::uint32_t> ignored = {});
-  // Whether one entity's point is hidden from another's: anything between but the two themselves.
+  // Whether one entity's point is hidden from another's: anything between but the two themselves that shares an engine
+  // with either, or never moves and is in no engine: as cameras see it.
   bool IsOccluded(const Vector3& from, const Vector3& to, std::uint32_t observer, std::uint32_t target);
 
   // One bit for each engine that an entity is bound to.
@@ -52,6 +54,10 @@ public:
   const PositionalIndex& Index();
 
 private:
+  template <class Counts>
+  std::optional<Hit> FirstHit(const Vector3& from, const Vector3& to, const Counts& counts,
+                              std::span<const std::uint32_t> ignored);
+  bool ShareEngine(std::uint32_t a, std::uint32_t b) const { return (engines_[a] & engines_[b]) != 0; }
   void Refresh();
   void DropAbsent(std::vector<std::uint32_t>& entities) const;
 
@@ -61,7 +67,9 @@ private:
   std::vector<Shape> shapes_;
   std::vector<std::pair<std::uint32_t, std::shared_ptr<const Terrain>>> terrains_;
   std::vector<std::uint64_t> engines_;
-  std::vector<std::uint32_t> large_;  // bodies too large for the search about a line; tested one by one
+  CollisionModels models_;
+  std::vector<CollisionBody> bodies_;
+  std::vector<std::uint32_t> large_;  // too large for the search about a line, or articulated; tested one by one
   double search_radius_ = 0;          // of the largest of the others
   std::vector<std::uint32_t> found_;
   std::vector<std::uint32_t> candidates_;

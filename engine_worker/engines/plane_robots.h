@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/builtins/robot_parts.h"
 #include "common/messages/assignment.h"
 #include "common/messages/messages.h"
 #include "common/serialisation/bytes.h"
@@ -25,18 +26,13 @@ namespace swarmanoid
 {
 
 // Metres, radians and seconds; as HandbotShape of dynamics3d where both have it.
-struct PlaneHandbot
+struct PlaneHandbot : HandbotParts
 {
-  static constexpr double kHeadForward = 0.06;
-  static constexpr double kHeadHeight = 0.10;
-  static constexpr double kShoulder = 0.05;
-  static constexpr double kArmLength = 0.196;
   static constexpr double kWidestArm = 1.0472;
   static constexpr double kWidestWrist = 1.5708;
   static constexpr double kWidestHand = 3.1416;
   static constexpr double kHandSpeed = 3;
   static constexpr double kReach = 0.03;  // from the tip of a hand to what it can take
-  static constexpr double kHeight = 0.16;
   static constexpr double kLongestRope = 5;
   static constexpr double kShortestRope = 0.05;
   static constexpr double kWinchSpeed = 0.15;

@@ -189,8 +189,8 @@ void Scene::Update(const SceneOptions& options)
           {entity.GetPosition().cast<float>(), 0.35F, lights_[static_cast<std::size_t>(body.lights)], false});
     const bool selected = options.selected == body.entity;
     if (kind.proximity && (options.rays || selected)) AddRays(body.entity, *kind.proximity);
-    if (options.collision_models) AddOutline(body.entity, palette::kCollision, 1.5F, true);
-    if (selected) AddOutline(body.entity, palette::kSelection, 2.5F, true);
+    if (options.collision_models) AddCollisionModel(body.entity);
+    if (selected) AddOutline(body.entity, palette::kSelection, 2.5F);
     if ((options.ids && entity.IsMovable()) || selected)
     {
       Vector3f top = entity.GetPosition().cast<float>();

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "common/space/collision_models.h"
 #include "common/space/query.h"
 #include "common/space/space.h"
 #include "visualiser/scene/meshes.h"
@@ -147,7 +148,10 @@ private:
   void AddRope(const Body& handbot);
   void AddGrips(const Body& robot);
   void AddRays(std::uint32_t robot, const ProximityRing& ring);
-  void AddOutline(std::uint32_t entity, Colour colour, float width, bool on_top);
+  // Over all else: the plain body, and what the engine collides.
+  void AddOutline(std::uint32_t entity, Colour colour, float width);
+  void AddCollisionModel(std::uint32_t entity);
+  void AddOutline(bool is_cylinder, const Pose& centre, const Vector3& half_size, Colour colour, float width);
   void AddLine(const Vector3& from, const Vector3& to, Colour colour, float width, float opacity, bool on_top = false);
   void AddTrails();
   // The fraction of the way to the first body but one, whatever its engine; 1 if there is none.
@@ -168,11 +172,14 @@ private:
   std::vector<SceneGlow> glows_;
   std::vector<SceneLabel> labels_;
   std::vector<std::pair<std::uint32_t, std::shared_ptr<const Terrain>>> terrains_;
-  std::vector<std::uint32_t> large_;   // bodies too large for the search about a line
-  double search_radius_ = 0;           // of the largest of the others
-  std::uint32_t areas_ = 0;            // patches and holes
-  std::unique_ptr<SpaceQuery> query_;  // made when first needed
-  std::unique_ptr<Trail[]> trails_;    // of the movable entities, once shown
+  std::vector<std::uint32_t> large_;  // bodies too large for the search about a line
+  double search_radius_ = 0;          // of the largest of the others
+  std::uint32_t areas_ = 0;           // patches and holes
+  // Made when first needed.
+  std::unique_ptr<SpaceQuery> query_;
+  std::unique_ptr<CollisionModels> collision_models_;
+  std::vector<CollisionBody> collision_bodies_;
+  std::unique_ptr<Trail[]> trails_;  // of the movable entities, once shown
   std::uint64_t revision_ = 0;
   std::uint64_t attribute_revision_ = 0;
 };

@@ -122,6 +122,7 @@ void Scene::AddGrips(const Body& robot)
 void Scene::AddRays(std::uint32_t robot, const ProximityRing& ring)
 {
   if (!HasProximity(space_.GetExperiment(), space_.GetEntity(robot).GetConfiguration())) return;
+  if (query_ == nullptr) query_ = std::make_unique<SpaceQuery>(space_);
   const Pose pose = space_.GetPose(robot);
   for (const ProximityRing::Sensor& sensor : ring.sensors)
   {
@@ -129,19 +130,34 @@ void Scene::AddRays(std::uint32_t robot, const ProximityRing& ring)
     const Vector3 start(sensor.place.x(), sensor.place.y(), ring.height_m);
     const Vector3 from = pose.Apply(start);
     const Vector3 to = pose.Apply(start + ring.range_m * direction);
-    const double hit = FirstHit(from, to, robot);
+    const auto first = query_->FindFirstHit(from, to, robot, {&robot, 1});
+    const double hit = first ? first->fraction : 1;
     AddLine(from, from + hit * (to - from), hit < 1 ? palette::kRayHit : palette::kRayFree, 1.5F, hit < 1 ? 1 : 0.7F);
   }
 }
 
-void Scene::AddOutline(std::uint32_t entity, Colour colour, float width, bool on_top)
+void Scene::AddOutline(std::uint32_t entity, Colour colour, float width)
 {
   const Shape shape = ShapeOf(space_.GetEntity(entity).GetConfiguration());
-  const Pose pose = space_.GetPose(entity);
-  const auto at = [&](double x, double y, double z)
-  { return pose.Apply(shape.centre + Vector3(x, y, z).cwiseProduct(shape.half_size)); };
-  const auto line = [&](const Vector3& from, const Vector3& to) { AddLine(from, to, colour, width, 0.9F, on_top); };
-  if (shape.kind == Shape::Kind::kBox)
+  if (shape.kind == Shape::Kind::kNone) return;
+  const Pose centre{shape.centre, Quaternion::Identity()};
+  AddOutline(shape.kind == Shape::Kind::kCylinder, space_.GetPose(entity).Compose(centre), shape.half_size, colour,
+             width);
+}
+
+void Scene::AddCollisionModel(std::uint32_t entity)
+{
+  if (collision_models_ == nullptr) collision_models_ = std::make_unique<CollisionModels>(space_);
+  collision_models_->BodiesOf(entity, collision_bodies_);
+  for (const CollisionBody& body : collision_bodies_)
+    AddOutline(body.is_cylinder, space_.GetPose(entity).Compose(body.pose), body.half_size, palette::kCollision, 1.5F);
+}
+
+void Scene::AddOutline(bool is_cylinder, const Pose& centre, const Vector3& half_size, Colour colour, float width)
+{
+  const auto at = [&](double x, double y, double z) { return centre.Apply(Vector3(x, y, z).cwiseProduct(half_size)); };
+  const auto line = [&](const Vector3& from, const Vector3& to) { AddLine(from, to, colour, width, 0.9F, true); };
+  if (!is_cylinder)
   {
     for (const double a : {-1.0, 1.0})
       for (const double b : {-1.0, 1.0})
@@ -151,7 +167,7 @@ void Scene::AddOutline(std::uint32_t entity, Colour colour, float width, bool on
         line(at(a, b, -1), at(a, b, 1));
       }
   }
-  else if (shape.kind == Shape::Kind::kCylinder)
+  else
   {
     constexpr int kPieces = 24;
     const auto rim = [&](int i, double z)

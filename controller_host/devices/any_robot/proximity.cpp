@@ -90,8 +90,7 @@ private:
       const Vector3 to = pose.Apply(rays_[i].from + range_ * rays_[i].direction);
       double nearest = 1;
       for (const std::uint32_t body : near_)
-        if (const auto hit = SegmentHit(world_->Body(body), space_->GetPose(body), from, to))
-          nearest = std::min(nearest, *hit);
+        if (const auto hit = world_->HitOn(body, from, to)) nearest = std::min(nearest, *hit);
       if (!world_->Terrain().IsEmpty()) nearest = std::min(nearest, world_->Terrain().FirstHit(from, to, is_there));
       readings[i] = 1 - nearest;
     }

@@ -71,8 +71,9 @@ void FootbotProximity::Sense(std::size_t k, std::uint32_t robot)
   const auto add = [&](std::uint32_t body)
   {
     if (body == robot || !membership.ShareEngine(robot, body)) return;
+    if (world_->IsArticulated(body)) return AddParts(robot, body);
     const BodyShape& shape = world_->Body(body);
-    if (!upright || !IsUpright(poses, body)) return AddAny(robot, body);
+    if (!upright || !IsUpright(poses, body)) return AddAny(robot, shape, world_->Space().GetPose(body));
     if (height < poses.z[body] + shape.low || height > poses.z[body] + shape.high) return;
     if (shape.kind == Shape::Kind::kCylinder) return AddDisc(robot, body);
     AddUprightBox(robot, body);
@@ -179,13 +180,19 @@ void FootbotProximity::AddUprightBox(std::uint32_t robot, std::uint32_t body)
   }
 }
 
-// Any body, any orientation: each ray as a segment in the space.
-void FootbotProximity::AddAny(std::uint32_t robot, std::uint32_t body)
+// As the engine collides them: a handbot's arms.
+void FootbotProximity::AddParts(std::uint32_t robot, std::uint32_t body)
 {
-  const CSwarmanoidSpace& space = world_->Space();
-  const BodyShape& shape = world_->Body(body);
-  const Pose own = space.GetPose(robot);
-  const Pose other = space.GetPose(body);
+  const Pose pose = world_->Space().GetPose(body);
+  for (const CollisionBody& part : world_->PartsOf(body))
+    AddAny(robot, {part.is_cylinder ? Shape::Kind::kCylinder : Shape::Kind::kBox, Vector3::Zero(), part.half_size},
+           pose.Compose(part.pose));
+}
+
+// Any body, any orientation: each ray as a segment in the space.
+void FootbotProximity::AddAny(std::uint32_t robot, const Shape& shape, const Pose& other)
+{
+  const Pose own = world_->Space().GetPose(robot);
   const double reach = ring_radius_ + range_ + BoundingRadius(shape);
   if ((own.Apply({0, 0, kHeight}) - other.Apply(shape.centre)).squaredNorm() > reach * reach) return;
 

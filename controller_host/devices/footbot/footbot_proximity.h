@@ -42,7 +42,8 @@ private:
   void Sense(std::size_t k, std::uint32_t robot);
   void AddDisc(std::uint32_t robot, std::uint32_t body);
   void AddUprightBox(std::uint32_t robot, std::uint32_t body);
-  void AddAny(std::uint32_t robot, std::uint32_t body);
+  void AddAny(std::uint32_t robot, const Shape& shape, const Pose& other);
+  void AddParts(std::uint32_t robot, std::uint32_t body);
   void AddTerrain(std::uint32_t robot);
 
   std::shared_ptr<SensorWorld> world_;

@@ -7,16 +7,32 @@
 
 namespace swarmanoid
 {
+namespace
+{
+
+// What is articulated is no cylinder to those who treat cylinders in short.
+std::vector<BodyShape> SensedBodies(const CSwarmanoidSpace& space, const CollisionModels& models)
+{
+  std::vector<BodyShape> bodies = BodiesOf(space);
+  for (const std::uint32_t entity : models.Articulated()) bodies[entity].kind = Shape::Kind::kBox;
+  return bodies;
+}
+
+}  // namespace
 
 SensorWorld::SensorWorld(const CSwarmanoidSpace& space)
     : space_(space),
-      bodies_(BodiesOf(space)),
+      models_(space),
+      bodies_(SensedBodies(space, models_)),
       membership_(space.GetExperiment()),
       grid_(space, bodies_),
       fixed_(space, bodies_, 0),
       terrain_(space),
       revision_(space.Revision() - 1)
 {
+  parts_.resize(models_.Articulated().size());
+  if (!parts_.empty()) parts_of_.assign(space.Size(), -1);
+  for (std::size_t k = 0; k < parts_.size(); ++k) parts_of_[models_.Articulated()[k]] = static_cast<std::int32_t>(k);
   for (const BodyShape& body : bodies_)
     extents_.push_back(
         {static_cast<float>(body.radius), static_cast<float>(body.low), static_cast<float>(body.high), body.kind});
@@ -49,7 +65,25 @@ void SensorWorld::Refresh()
 {
   if (revision_ == space_.Revision()) return;
   revision_ = space_.Revision();
+  MoveParts();
   grid_.Rebuild();
+}
+
+// The grid has them with all that they reach.
+void SensorWorld::MoveParts()
+{
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+  {
+    const std::uint32_t entity = models_.Articulated()[k];
+    models_.BodiesOf(entity, parts_[k]);
+    BodyShape& body = bodies_[entity];
+    body.radius = 0;
+    for (const CollisionBody& part : parts_[k]) body.radius = std::max(body.radius, ReachOf(part));
+    body.low = -body.radius;
+    body.high = body.radius;
+    extents_[entity] = {static_cast<float>(body.radius), static_cast<float>(body.low), static_cast<float>(body.high),
+                        body.kind};
+  }
 }
 
 }  // namespace swarmanoid

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "common/space/collision_models.h"
 #include "controller_host/devices/sensing/body_shapes.h"
 #include "controller_host/devices/sensing/engine_membership.h"
 #include "controller_host/devices/sensing/neighbour_grid.h"
@@ -25,6 +27,20 @@ public:
 
   // Brings the grid to the poses of the space, once for all batches of a step.
   void Refresh();
+
+  // Whether a body has parts that reach beyond its shape (CollisionModels::Articulated): it is sensed part by part.
+  bool IsArticulated(std::uint32_t entity) const { return !parts_of_.empty() && parts_of_[entity] >= 0; }
+  // The parts of such a body in the frame of its entity, as of the last Refresh.
+  std::span<const CollisionBody> PartsOf(std::uint32_t entity) const
+  {
+    return parts_[static_cast<std::size_t>(parts_of_[entity])];
+  }
+  // The fraction of the way from one point to another at which it meets a body; nullopt if it does not.
+  std::optional<double> HitOn(std::uint32_t body, const Vector3& from, const Vector3& to) const
+  {
+    if (IsArticulated(body)) return SegmentHit(PartsOf(body), space_.GetPose(body), from, to);
+    return SegmentHit(bodies_[body], space_.GetPose(body), from, to);
+  }
 
   // The part 0..1 of the way from one point to another at which it meets the first body or terrain for which
   // accept(entity) holds; more than 1 if it meets none.
@@ -49,7 +65,12 @@ public:
   const SensedTerrain& Terrain() const { return terrain_; }
 
 private:
+  void MoveParts();
+
   const CSwarmanoidSpace& space_;
+  CollisionModels models_;
+  std::vector<std::int32_t> parts_of_;             // of each entity its place in parts_, or -1; empty if none has parts
+  std::vector<std::vector<CollisionBody>> parts_;  // of those that are articulated
   std::vector<BodyShape> bodies_;
   std::vector<BodyExtent> extents_;
   EngineMembership membership_;
@@ -67,7 +88,7 @@ double SensorWorld::FirstHit(const Vector3& from, const Vector3& to, Accept&& ac
   const auto test = [&](std::uint32_t body)
   {
     if (!accept(body)) return;
-    if (const auto hit = SegmentHit(bodies_[body], space_.GetPose(body), from, to)) first = std::min(first, *hit);
+    if (const auto hit = HitOn(body, from, to)) first = std::min(first, *hit);
   };
   grid_.ForEachAlong(from, to, test);
   fixed_.ForEachAlong(from, to, test);

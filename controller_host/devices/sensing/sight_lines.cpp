@@ -160,7 +160,7 @@ bool SightLines::IsOutside(std::size_t near)
 void SightLines::AddBody(std::uint32_t body, bool upright)
 {
   if (!world_.CanHideFrom(observer_, body)) return foreign_.push_back(body);
-  if (!upright) return tilted_.push_back(body);
+  if (!upright || world_.IsArticulated(body)) return tilted_.push_back(body);
   const BodyExtent& extent = world_.Extent(body);
   if (extent.kind == Shape::Kind::kBox) return AddBox(body);
   const PoseArrays& poses = world_.Space().Poses();
@@ -235,11 +235,9 @@ void SightLines::HideBehindBox(const Box& box)
 
 bool SightLines::HiddenByOthers(std::size_t point) const
 {
-  const CSwarmanoidSpace& space = world_.Space();
   const auto owner = static_cast<std::uint32_t>(points_.owner[point]);
   const Vector3 target = eye_ + Vector3(points_.x[point], points_.y[point], points_.z[point]);
-  const auto hides = [&](std::uint32_t body)
-  { return body != owner && SegmentHit(world_.Body(body), space.GetPose(body), eye_, target).has_value(); };
+  const auto hides = [&](std::uint32_t body) { return body != owner && world_.HitOn(body, eye_, target).has_value(); };
   for (const std::uint32_t body : tilted_)
     if (hides(body)) return true;
   if (owner == kNobody) return false;

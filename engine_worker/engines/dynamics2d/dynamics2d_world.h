@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/builtins/robot_parts.h"
 #include "common/serialisation/bytes.h"
 #include "engine_worker/engines/plane_frame.h"
 
@@ -72,8 +73,8 @@ struct TurretLoad
 };
 
 // The square of the gripper: its edge, and how far its outer face stands from the axis of the turret (m).
-inline constexpr double kGripperSide = 0.03;
-inline constexpr double kGripperReach = 0.1;
+inline constexpr double kGripperSide = GripperSquare::kSide;
+inline constexpr double kGripperReach = GripperSquare::kReach;
 inline constexpr int kNoBody = -1;
 
 class Dynamics2dWorld
@@ -91,8 +92,8 @@ public:
 
   PlanePose PoseOf(int body) const;
   PlaneVelocity VelocityOf(int body) const;
-  void Place(int body, const PlanePose& pose);
   // Grips stay: those whom it grips, and who grip it, are to be put there with it.
+  void Place(int body, const PlanePose& pose);
   void SetVelocity(int body, const PlaneVelocity& velocity);
   // Another polygon for a body that has one; the old one stays if no corner is farther off than `tolerance` (m).
   void SetOutline(int body, const std::vector<Vector2>& polygon, double tolerance);
@@ -168,8 +169,8 @@ private:
   static b2PolygonShape ShapeOf(const std::vector<Vector2>& outline);
   void BuildGrip(Body& body);
   void TurnGripper(Body& body);
-  void ApplyDrive(Body& body, double seconds);
   void CountTurns(Body& body);
+  void ApplyDrive(Body& body, double seconds);
   void ApplyTurret(Body& body, double seconds);
   void KeepRemainder(Body& body, const b2Vec2& before, double seconds) const;
   static void SetPosition(Body& body, double x, double y, float angle);

@@ -2,31 +2,22 @@
 // of each, a rope to the ceiling with a winch, and fans that keep the heading while the robot hangs on it.
 #pragma once
 
+#include "common/builtins/robot_parts.h"
 #include "engine_worker/engines/dynamics3d/grasp.h"
 
 namespace swarmanoid::dynamics3d
 {
 
-// Metres and kilograms. Body block, arm and claw lengths, angles: the ARGoS 2 model; masses are assumptions of ours.
-struct HandbotShape
+// Metres and kilograms. Angles: the ARGoS 2 model; masses are assumptions of ours.
+struct HandbotShape : HandbotParts
 {
-  static constexpr double kBaseSide = 0.17;
-  static constexpr double kBaseHeight = 0.03;
-  static constexpr double kTrunkLength = 0.12;
-  static constexpr double kTrunkWidth = 0.10;
-  static constexpr double kHeight = 0.16;
   static constexpr double kTrunkMass = 2.2;
   static constexpr double kTrunkCentre = 0.06;
   static constexpr double kHeadMass = 0.3;
-  static constexpr double kHeadForward = 0.06;
-  static constexpr double kHeadHeight = 0.10;
-  static constexpr double kShoulder = 0.05;  // m left and right of the head's axis
   static constexpr double kArmMass = 0.25;
   // The geared motors add to what turns, times that of a plain box; less would sag under a book at few iterations.
   static constexpr double kHeadInertia = 10;
   static constexpr double kArmInertia = 4;
-  static constexpr double kArmLength = 0.196;  // upper arm 0.138 and claw 0.058
-  static constexpr double kArmRadius = 0.012;
   static constexpr double kMass = kTrunkMass + kHeadMass + 2 * kArmMass;
   static constexpr double kHeadTorque = 3;      // N m
   static constexpr double kArmTorque = 2;       // N m

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "common/builtins/robot_parts.h"
 #include "common/math/pose.h"
 
 namespace swarmanoid::kinematics2d
@@ -63,7 +64,7 @@ inline constexpr double kFootbotRadius = 0.085036758;
 inline constexpr double kFootbotInterWheel = 0.14;
 inline constexpr double kFootbotWheelRadius = 0.029112741;
 // The square's outer face stands this far from the axis of the turret.
-inline constexpr double kFootbotGripperSide = 0.03;
-inline constexpr double kFootbotGripperReach = 0.1;
+inline constexpr double kFootbotGripperSide = GripperSquare::kSide;
+inline constexpr double kFootbotGripperReach = GripperSquare::kReach;
 
 }  // namespace swarmanoid::kinematics2d

@@ -178,7 +178,25 @@ TEST(SpaceQuery, WorldsThatAreClosedToEachOtherDoNotOcclude)
   const Experiment experiment = TwoWorlds();
   const CSwarmanoidSpace space(experiment);
   SpaceQuery query(space);
-  EXPECT_FALSE(query.IsOccluded({1, 1, 0.1}, {3, 1, 0.1}, 5, 2));
+  EXPECT_FALSE(query.IsOccluded({1, 1, 0.1}, {3, 1, 0.1}, 5, 5));
+  EXPECT_FALSE(query.FindFirstHit({1, 1, 0.1}, {3, 1, 0.1}, 5).has_value());
+}
+
+// As for cameras: what is looked at is hidden by what stands in its own world.
+TEST(SpaceQuery, TheWorldOfTheOneThatIsLookedAtHidesIt)
+{
+  Experiment experiment = TwoWorlds();
+  {
+    const CSwarmanoidSpace space(experiment);
+    SpaceQuery query(space);
+    EXPECT_TRUE(query.IsOccluded({1, 1, 0.1}, {3, 1, 0.1}, 5, 2));
+    EXPECT_TRUE(query.IsOccluded({3, 1, 0.1}, {1, 1, 0.1}, 2, 5));
+  }
+  // So does a wall that is in no engine.
+  std::erase(experiment.engines[0].entities, 1U);
+  const CSwarmanoidSpace space(experiment);
+  SpaceQuery query(space);
+  EXPECT_TRUE(query.IsOccluded({1, 1, 0.1}, {3, 1, 0.1}, 5, 5));
 }
 
 TEST(SpaceQuery, AWideBodyIsMetAtItsEdgeWhereverItStandsInTheFile)

@@ -1,0 +1,31 @@
+// Where the parts of robots are that the simulator's own engines collide: the engines make their bodies from these, and
+// so does what they tell of them (CollisionBody). Metres.
+#pragma once
+
+namespace swarmanoid
+{
+
+// The square at the front of a footbot's turret in the engines of planes: its edge, and how far its outer face stands
+// from the axis of the turret.
+struct GripperSquare
+{
+  static constexpr double kSide = 0.03;
+  static constexpr double kReach = 0.1;
+};
+
+// Body block, arm and claw lengths: the ARGoS 2 model.
+struct HandbotParts
+{
+  static constexpr double kBaseSide = 0.17;
+  static constexpr double kBaseHeight = 0.03;
+  static constexpr double kTrunkLength = 0.12;
+  static constexpr double kTrunkWidth = 0.10;
+  static constexpr double kHeight = 0.16;
+  static constexpr double kHeadForward = 0.06;
+  static constexpr double kHeadHeight = 0.10;
+  static constexpr double kShoulder = 0.05;    // left and right of the head's axis
+  static constexpr double kArmLength = 0.196;  // upper arm 0.138 and claw 0.058
+  static constexpr double kArmRadius = 0.012;
+};
+
+}  // namespace swarmanoid

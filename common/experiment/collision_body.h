@@ -1,0 +1,23 @@
+// A body as an engine collides it: what PluginDescription::collision_model gives. Read by sensors, queries and
+// renderers, in their processes.
+#pragma once
+
+#include <vector>
+
+#include "common/experiment/experiment.h"
+#include "common/math/pose.h"
+
+namespace swarmanoid
+{
+
+struct CollisionBody
+{
+  bool is_cylinder = false;             // about its z axis; otherwise a box
+  Pose pose;                            // of its centre, in the frame of the entity
+  Vector3 half_size = Vector3::Zero();  // m; of a cylinder: radius, radius, half the height
+};
+
+// Adds the plain body of an entity's kind; nothing for those without one.
+void AddPlainBody(const EntityConfiguration& entity, std::vector<CollisionBody>& bodies);
+
+}  // namespace swarmanoid

@@ -1,0 +1,81 @@
+#include "common/space/collision_models.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/plugins/catalogue.h"
+#include "common/space/attributes.h"
+#include "common/space/shape.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+// What reaches less far beyond the plain body is none to sensors: a gripper, the wheels.
+constexpr double kBeyondPlainBody = 0.02;  // m
+
+}  // namespace
+
+double ReachOf(const CollisionBody& body)
+{
+  const Vector3& half = body.half_size;
+  const double across = body.is_cylinder ? half.x() * half.x() : half.x() * half.x() + half.y() * half.y();
+  return body.pose.position.norm() + std::sqrt(across + half.z() * half.z());
+}
+
+std::optional<double> SegmentHit(std::span<const CollisionBody> bodies, const Pose& pose, const Vector3& from,
+                                 const Vector3& to)
+{
+  std::optional<double> first;
+  for (const CollisionBody& body : bodies)
+  {
+    const Shape shape{body.is_cylinder ? Shape::Kind::kCylinder : Shape::Kind::kBox, Vector3::Zero(), body.half_size};
+    const std::optional<double> hit = SegmentHit(shape, pose.Compose(body.pose), from, to);
+    if (hit && (!first || *hit < *first)) first = hit;
+  }
+  return first;
+}
+
+CollisionModels::CollisionModels(const CSwarmanoidSpace& space) : space_(space), engine_of_(space.Size(), -1)
+{
+  const std::vector<EngineConfiguration>& engines = space.GetExperiment().engines;
+  for (std::size_t e = 0; e < engines.size(); ++e)
+    for (const std::uint32_t entity : engines[e].entities)
+      if (engine_of_[entity] < 0) engine_of_[entity] = static_cast<int>(e);
+
+  std::vector<CollisionBody> bodies;
+  for (const std::uint32_t entity : space.Movable())
+  {
+    std::vector<CollisionBody> plain;
+    AddPlainBody(space.GetEntity(entity).GetConfiguration(), plain);
+    BodiesOf(entity, bodies);
+    double reach = 0;
+    double plain_reach = 0;
+    for (const CollisionBody& body : bodies) reach = std::max(reach, ReachOf(body));
+    for (const CollisionBody& body : plain) plain_reach = std::max(plain_reach, ReachOf(body));
+    if (reach > plain_reach + kBeyondPlainBody) articulated_.push_back(entity);
+  }
+}
+
+void CollisionModels::BodiesOf(std::uint32_t entity, std::vector<CollisionBody>& bodies) const
+{
+  bodies.clear();
+  const EntityConfiguration& configuration = space_.GetEntity(entity).GetConfiguration();
+  const PluginDescription* engine =
+      engine_of_[entity] < 0
+          ? nullptr
+          : PluginCatalogue::Instance().Find(
+                PluginKind::kEngine, space_.GetExperiment().engines[static_cast<std::size_t>(engine_of_[entity])].tag);
+  if (engine == nullptr || engine->collision_model == nullptr) return AddPlainBody(configuration, bodies);
+  const auto slots = static_cast<std::size_t>(AttributeCount(configuration.kind));
+  engine->collision_model(configuration, space_.Attributes().subspan(space_.GetEntity(entity).FirstSlot(), slots),
+                          bodies);
+}
+
+bool CollisionModels::IsArticulated(std::uint32_t entity) const
+{
+  return std::binary_search(articulated_.begin(), articulated_.end(), entity);
+}
+
+}  // namespace swarmanoid
