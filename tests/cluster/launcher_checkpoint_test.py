@@ -63,8 +63,8 @@ class Checkpoints(LauncherTest):
             self.assertEqual(self.go(file, f"{engine}_cluster", *asked), whole)
             self.assertNotEqual(self.go(file, f"{engine}_left_alone", "--single-process"), whole)
             saved = self.folder / f"{engine}_whole" / "checkpoint-00000100"
-            for options in (["--single-process"], []):
-                self.assertEqual(self.go(file, f"{engine}_again", "--restore", saved, *asked, *options), whole)
+            for way, options in (("one", ["--single-process"]), ("cluster", [])):
+                self.assertEqual(self.go(file, f"{engine}_again_{way}", "--restore", saved, *asked, *options), whole)
 
     def test_two_controller_hosts(self):
         experiment = CONFIGS / "diffusion_10.xml"
