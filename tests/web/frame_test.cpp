@@ -30,13 +30,20 @@ std::size_t QuaternionsOf(std::size_t n) { return sizeof(FrameHeader) + 12 * n; 
 std::size_t ColoursOf(std::size_t n) { return sizeof(FrameHeader) + 20 * n; }
 std::size_t EndOf(std::size_t n) { return sizeof(FrameHeader) + 24 * n; }
 
-TEST(WebFrame, ARobotTakesTwentyFourBytes)
+// In a row, 0.1 m apart.
+Experiment AThousandFootbots()
 {
   Experiment experiment;
   experiment.arena_size = {100, 100, 1};
   for (int i = 0; i < 1000; ++i)
     experiment.entities.push_back(FourEntities::Entity(EntityKind::kFootbot, "fb_" + std::to_string(i), {i * 0.1, 1, 0},
                                                        {0.085, 0.085, 0.147}, true));
+  return experiment;
+}
+
+TEST(WebFrame, ARobotTakesTwentyFourBytes)
+{
+  const Experiment experiment = AThousandFootbots();
   CSwarmanoidSpace space(experiment);
   EXPECT_EQ(FrameWriter(space).WriteKey().size(), sizeof(FrameHeader) + 24 * 1000);
 }
@@ -181,11 +188,7 @@ TEST(WebFrame, AKeyAndItsChangeAreTheStateAgain)
 
 TEST(WebFrame, ARobotThatDrivesTakesSixBytesOfAChange)
 {
-  Experiment experiment;
-  experiment.arena_size = {100, 100, 1};
-  for (int i = 0; i < 1000; ++i)
-    experiment.entities.push_back(FourEntities::Entity(EntityKind::kFootbot, "fb_" + std::to_string(i), {i * 0.1, 1, 0},
-                                                       {0.085, 0.085, 0.147}, true));
+  const Experiment experiment = AThousandFootbots();
   CSwarmanoidSpace space(experiment);
   FrameWriter writer(space);
   writer.WriteKey();
