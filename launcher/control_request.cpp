@@ -25,12 +25,6 @@ bool IsMisspelt(const std::string& word, const std::string& next)
   return !NearestName(word, kControlVerbs).empty() && NearestName(next, kControlVerbs).empty();
 }
 
-// An entity follows.
-bool TakesEntity(const std::string& verb)
-{
-  return verb == "move" || verb == "detach" || verb == "add" || verb == "remove";
-}
-
 double NumberOf(const std::string& text, const std::string& form)
 {
   const auto number = ParseNumber(text);
@@ -83,7 +77,7 @@ ControlRequest ParseControlRequest(std::vector<std::string> words)
 {
   ControlRequest request;
   // An experiment may be called like a verb: then a verb follows it.
-  if (words.size() > 1 && IsVerb(words[1]) && !TakesEntity(words[0]))
+  if (words.size() > 1 && IsVerb(words[1]) && !IsSpaceChange(words[0]))
   {
     request.experiment = words[0];
     words.erase(words.begin());

@@ -189,11 +189,6 @@ MoveRequest Removal(const CSwarmanoidSpaceEntity& entity)
   return {entity.GetIndex(), WaitingPose(entity.GetConfiguration(), entity.GetIndex()), false};
 }
 
-bool IsSpaceChange(const std::string& verb)
-{
-  return verb == "move" || verb == "detach" || verb == "add" || verb == "remove";
-}
-
 SpaceChange ReadSpaceChange(const ControlRequestMessage& request, const CSwarmanoidSpace& space)
 {
   try

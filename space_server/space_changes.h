@@ -44,7 +44,6 @@ struct SpaceChange
   std::string entity;  // its id; of a reserve, the one that was taken
   std::string done;    // "moved 'fb_0'"
 };
-bool IsSpaceChange(const std::string& verb);
 SpaceChange ReadSpaceChange(const ControlRequestMessage& request, const CSwarmanoidSpace& space);
 
 }  // namespace swarmanoid

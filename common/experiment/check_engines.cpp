@@ -86,14 +86,10 @@ struct Plane
   double distance;  // m, from the origin along the normal
 };
 
-std::optional<Plane> PlaneOf(const EngineConfiguration& engine, const PluginDescription& plugin)
+std::optional<Plane> PlaneOf(const EngineConfiguration& engine)
 {
-  const auto has = [&](std::string_view name)
-  {
-    return std::any_of(plugin.parameters.begin(), plugin.parameters.end(),
-                       [name](const ParameterSpec& spec) { return spec.name == name; });
-  };
-  if (!has("perpendicular_axis") || !has("tilt") || !has("distance")) return std::nullopt;
+  if (!MovesOnPlane(engine)) return std::nullopt;
+  const PluginDescription& plugin = *PluginCatalogue::Instance().Find(PluginKind::kEngine, engine.tag);
   const Parameters parameters(engine.tree, plugin.parameters);
   const std::string axis = parameters.Text("perpendicular_axis");
   const Vector3 tilt = parameters.Vector3Of("tilt");
@@ -105,6 +101,18 @@ std::optional<Plane> PlaneOf(const EngineConfiguration& engine, const PluginDesc
 
 }  // namespace
 
+bool MovesOnPlane(const EngineConfiguration& engine)
+{
+  const PluginDescription* plugin = PluginCatalogue::Instance().Find(PluginKind::kEngine, engine.tag);
+  if (plugin == nullptr) return false;
+  const auto takes = [&](std::string_view name)
+  {
+    return std::any_of(plugin->parameters.begin(), plugin->parameters.end(),
+                       [name](const ParameterSpec& spec) { return spec.name == name; });
+  };
+  return takes("perpendicular_axis") && takes("tilt") && takes("distance");
+}
+
 // Robots and preys stand on the plane of the engine that moves them; blocks keep their height.
 void CheckPlanes(Reading& reading)
 {
@@ -112,8 +120,7 @@ void CheckPlanes(Reading& reading)
   std::vector<bool> owned(experiment.entities.size(), false);
   for (const EngineConfiguration& engine : experiment.engines)
   {
-    const PluginDescription* plugin = PluginCatalogue::Instance().Find(PluginKind::kEngine, engine.tag);
-    const std::optional<Plane> plane = plugin == nullptr ? std::nullopt : PlaneOf(engine, *plugin);
+    const std::optional<Plane> plane = PlaneOf(engine);
     for (const std::uint32_t i : engine.entities)
     {
       const EntityConfiguration& entity = experiment.entities[i];

@@ -15,11 +15,6 @@ constexpr double kMostPoints = 64;  // along each axis of a large body
 constexpr double kInset = 1e-3;     // m: what only touches is not inside
 constexpr double kStep = 0.02;      // m above its plane at which a two-dimensional engine cuts the terrain
 
-bool IsPlane(const EngineConfiguration& engine)
-{
-  return engine.tag == "dummy_engine" || engine.tag == "kinematics2d" || engine.tag == "dynamics2d";
-}
-
 int PointsAlong(double length) { return static_cast<int>(std::ceil(std::min(length / kSpacing, kMostPoints))); }
 
 // Points of a horizontal cut through a body, in its frame, not farther apart than kSpacing unless it is large.
@@ -81,10 +76,11 @@ Ground::Ground(Reading& reading)
     for (const EngineConfiguration& engine : experiment.engines)
     {
       if (!std::binary_search(engine.entities.begin(), engine.entities.end(), e)) continue;
+      const bool is_space = !MovesOnPlane(engine);
       for (const std::uint32_t other : engine.entities)
       {
         placed.is_walked[other] = true;
-        if (!IsPlane(engine)) placed.is_in_space[other] = true;
+        if (is_space) placed.is_in_space[other] = true;
       }
     }
     try

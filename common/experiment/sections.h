@@ -52,6 +52,9 @@ bool CheckId(const std::string& id, const SourceLocation& place, Diagnostics& di
 // and a report naming those that exist, if there is none.
 const PluginDescription* FindPlugin(PluginKind kind, const TConfigurationTree& tree, Reading& reading);
 
+// Whether an engine moves things on one plane: it takes the parameters that place the plane.
+bool MovesOnPlane(const EngineConfiguration& engine);
+
 // Gives the entities of all <distribute> elements their poses, around all entities that have theirs already and in the
 // terrain of their engines: after ReadArena and ReadArenaPhysics.
 void PlaceDistributed(Reading& reading);

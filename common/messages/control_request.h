@@ -12,6 +12,12 @@ namespace swarmanoid
 inline const std::vector<std::string> kControlVerbs{"pause", "resume", "step", "speed", "stop",
                                                     "move",  "detach", "add",  "remove"};
 
+// Whether a verb asks for another place of an entity, or for its presence; the name of the entity follows it.
+inline bool IsSpaceChange(const std::string& verb)
+{
+  return verb == "move" || verb == "detach" || verb == "add" || verb == "remove";
+}
+
 struct ControlRequestMessage
 {
   std::string client;  // "host:pid" of the asker; empty in one process

@@ -1,5 +1,6 @@
 // A program that does not belong to the run writes to all of its topics: what is malformed, or is not what the
 // experiment makes of a message, changes nothing.
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -28,7 +29,8 @@ constexpr std::uint64_t kTicks = 40;
 class StrangersTest : public ClusterTest
 {
 protected:
-  std::vector<std::string> Noise(std::uint64_t run)
+  // Payloads of no meaning, and others behind them.
+  std::vector<std::string> Noise(std::uint64_t run, const std::vector<std::string>& others = {})
   {
     std::vector<std::string> payloads{std::string("\0\1\0\0", 4)};
     for (int k = 0; k < 20; ++k)
@@ -44,6 +46,7 @@ protected:
       }
       payloads.push_back(payload);
     }
+    payloads.insert(payloads.end(), others.begin(), others.end());
     return payloads;
   }
 
@@ -75,6 +78,21 @@ protected:
     return count;
   }
 
+  // Hot topics are read at best effort: what arrives before a reader knows its writer is lost, so it is sent again
+  // until each reader has told of it.
+  static bool SendUntilTold(test::Stranger& stranger, const std::string& topic,
+                            const std::vector<std::string>& payloads, const std::vector<const ChildProcess*>& readers)
+  {
+    const std::string told = fmt::format("dropped a bad {} message of an unknown process", topic);
+    return Eventually(
+        [&]
+        {
+          EXPECT_TRUE(stranger.Send(topic, payloads, static_cast<int>(readers.size()))) << topic;
+          return std::all_of(readers.begin(), readers.end(),
+                             [&](const ChildProcess* reader) { return reader->WaitForOutput(told, 0.05); });
+        });
+  }
+
   // Each is told, and only once of a sender.
   static void ExpectTold(const std::string& output, const std::vector<std::string>& topics)
   {
@@ -101,8 +119,7 @@ TEST_F(StrangersTest, DoNotChangeARunByBadMessages)
   const std::uint64_t run = world->run;
 
   test::Stranger stranger(domain_.Id(), "strangers");
-  for (const char* topic : {"SpaceState", "ControlCommands", "EngineUpdate", "Join", "ControlRequest", "Status",
-                            "Leave", "ViewRequest", "World"})
+  for (const char* topic : {"Join", "ControlRequest", "Status", "Leave", "ViewRequest", "World"})
     EXPECT_TRUE(stranger.Send(topic, Noise(run))) << topic;
 
   // Well-formed, of this run and of the tick that is waited for, but not what the experiment makes of them.
@@ -116,13 +133,14 @@ TEST_F(StrangersTest, DoNotChangeARunByBadMessages)
   SpaceState moved_state;
   moved_state.poses.assign(7 * 12, 0.5);
   moved_state.moved = {0x7ffffff0U};
-  EXPECT_TRUE(stranger.Send("SpaceState",
-                            {PayloadOf(now, short_state), PayloadOf(now, slot_state), PayloadOf(now, moved_state),
-                             PayloadOf(later, short_state)},
-                            2));
+  EXPECT_TRUE(SendUntilTold(stranger, "SpaceState",
+                            Noise(run, {PayloadOf(now, short_state), PayloadOf(now, slot_state),
+                                        PayloadOf(now, moved_state), PayloadOf(later, short_state)}),
+                            {&workers[0], &workers[1]}));
   ControlCommands commands;
   commands.values = {1};
-  EXPECT_TRUE(stranger.Send("ControlCommands", {PayloadOf(now, commands), PayloadOf(later, commands)}));
+  EXPECT_TRUE(SendUntilTold(stranger, "ControlCommands",
+                            Noise(run, {PayloadOf(now, commands), PayloadOf(later, commands)}), {&workers[0]}));
 
   // While the engine sleeps the server waits for its update.
   ControlClient client(bus, "strangers");
@@ -135,13 +153,10 @@ TEST_F(StrangersTest, DoNotChangeARunByBadMessages)
   EngineUpdate slot;
   slot.poses.assign(7 * 12, 0.5);
   slot.attributes.Add(0x7ffffff0U, 1e308);
-  EXPECT_TRUE(Eventually(
-      [&]
-      {
-        EXPECT_TRUE(stranger.Send("EngineUpdate", {PayloadOf(next, update), PayloadOf(next, slot),
-                                                   PayloadOf(nobody, update), PayloadOf(later, update)}));
-        return server.WaitForOutput("bad EngineUpdate", 0.05);
-      }));
+  EXPECT_TRUE(SendUntilTold(
+      stranger, "EngineUpdate",
+      Noise(run, {PayloadOf(next, update), PayloadOf(next, slot), PayloadOf(nobody, update), PayloadOf(later, update)}),
+      {&server}));
   workers[0].Signal(SIGCONT);
 
   EXPECT_EQ(server.Wait(), 0) << server.Output();
@@ -185,21 +200,19 @@ TEST_F(StrangersTest, DoNotChangeARunThatIsWatchedByBadMessages)
 
   test::Stranger stranger(domain_.Id(), "watched");
   const auto send = [&](const std::string& topic, const std::vector<std::string>& out_of_place, int readers = 1)
-  {
-    std::vector<std::string> payloads = Noise(run);
-    payloads.insert(payloads.end(), out_of_place.begin(), out_of_place.end());
-    EXPECT_TRUE(stranger.Send(topic, payloads, readers)) << topic;
-  };
+  { EXPECT_TRUE(stranger.Send(topic, Noise(run, out_of_place), readers)) << topic; };
   const std::string engine = "engine 'e0'";
   const std::vector<char> state(10, 'x');
   send("SavedState", {PayloadOf(SavedStateMessage{run, 0, engine, state}),
                       PayloadOf(SavedStateMessage{run, kCheckpoint / 2, engine, state}),
                       PayloadOf(SavedStateMessage{run, 1000 * kCheckpoint, engine, state}),
                       PayloadOf(SavedStateMessage{run, kCheckpoint, "nobody", state})});
-  send("Drawn", {PayloadOf(MessageHeader{run, 0, 77, false}, DrawnMessage{true})});
+  EXPECT_TRUE(SendUntilTold(stranger, "Drawn",
+                            Noise(run, {PayloadOf(MessageHeader{run, 0, 77, false}, DrawnMessage{true})}), {&server}));
   SensorFrame frame;
   frame.values = {1};
-  send("SensorFrame", {PayloadOf(MessageHeader{run, 1, 77, false}, frame)});
+  EXPECT_TRUE(SendUntilTold(stranger, "SensorFrame", Noise(run, {PayloadOf(MessageHeader{run, 1, 77, false}, frame)}),
+                            {&workers[1]}));
   ViewMessage view{run, {}};
   view.snapshot.poses = {1};
   send("View", {PayloadOf(view)});
