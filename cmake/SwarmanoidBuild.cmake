@@ -59,6 +59,14 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   endif()
 endif()
 
+# Several sources are compiled as one: the headers, which take most of the time, are read once for all of them.
+set(CMAKE_UNITY_BUILD ON CACHE BOOL "Compile several sources of a library or program together")
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 16 CACHE STRING "Sources that are compiled together")
+if(CMAKE_UNITY_BUILD)
+  # They are included by another file, so that GCC takes their own types for those of a header.
+  list(APPEND SWARMANOID_WARNINGS -Wno-subobject-linkage)
+endif()
+
 # swarmanoid_library(NAME [STATIC] SOURCES... [PUBLIC libs...] [PRIVATE libs...]): one library of ours, warnings as errors.
 # Shared ones are installed and exported as Swarmanoid::NAME; static ones stay inside the build.
 function(swarmanoid_library name)

@@ -20,7 +20,7 @@ ParameterSpec Integer(const char* name, const char* value, double maximum, const
 }
 
 // Sources: docs/engines.md.
-std::vector<ParameterSpec> OwnParameters()
+std::vector<ParameterSpec> Dynamics2dParameters()
 {
   return {
       Integer("substeps", "4", 1000,
@@ -58,7 +58,7 @@ PluginDescription Dynamics2dDescription()
 {
   return {.label = "dynamics2d",
           .brief = "Rigid bodies with masses, friction and grips on a plane, solved by Box2D.",
-          .parameters = Joined(PlaneParameters(), OwnParameters()),
+          .parameters = Joined(PlaneParameters(), Dynamics2dParameters()),
           .channels = WithChannelsOfPlaneRobots({"footbot_wheels", "footbot_gripper", "footbot_turret",
                                                  "eyebot_propellers", "footbot_encoders", "footbot_turret_torque",
                                                  "footbot_accelerometer", "wheels"}),

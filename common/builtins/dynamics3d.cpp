@@ -7,7 +7,7 @@ namespace swarmanoid
 namespace
 {
 
-std::vector<ParameterSpec> OwnParameters()
+std::vector<ParameterSpec> Dynamics3dParameters()
 {
   using enum ParameterType;
   const auto switched = [](const char* name, const char* value, const char* description) -> ParameterSpec
@@ -85,7 +85,7 @@ PluginDescription Dynamics3dDescription()
 {
   return {.label = "dynamics3d",
           .brief = "3D dynamic engine: rigid bodies with masses, friction, joints and motors, solved by ODE",
-          .parameters = OwnParameters(),
+          .parameters = Dynamics3dParameters(),
           .channels = {"eyebot_attach", "eyebot_propellers", "footbot_accelerometer", "footbot_encoders",
                        "footbot_gripper", "footbot_turret", "footbot_turret_torque", "footbot_wheels", "handbot_arms",
                        "handbot_hands", "handbot_rope", "wheels"},

@@ -12,8 +12,6 @@ namespace swarmanoid
 namespace
 {
 
-using S = PlaneHandbot;
-
 constexpr double kGravity = 9.81;      // m/s2
 constexpr double kMagnetReach = 0.03;  // m, as in dynamics3d
 
@@ -101,7 +99,7 @@ bool PlaneRobots::Command(const ChannelBlock& block, std::span<const double> val
     if (rope)
     {
       HandbotOf(entity).launch = value[0] > 0.5;
-      HandbotOf(entity).winch = std::clamp(value[1], -S::kWinchSpeed, S::kWinchSpeed);
+      HandbotOf(entity).winch = std::clamp(value[1], -PlaneHandbot::kWinchSpeed, PlaneHandbot::kWinchSpeed);
     }
     if (!arms && !hands && !rope) Find(eyebots_, entity).attach = value[0] > 0.5;
   }
@@ -180,15 +178,16 @@ std::uint32_t PlaneRobots::ObjectAt(const Handbot& handbot, std::size_t hand) co
   const double side = hand == 0 ? 1 : -1;
   const SinCos arm = SinCosOf(handbot.arm[hand]);
   const SinCos head = SinCosOf(handbot.head);
-  const double beside = side * (S::kShoulder + S::kArmLength * arm.sin);
-  const Vector3 tip(S::kHeadForward + S::kArmLength * arm.cos, beside * head.cos, S::kHeadHeight + beside * head.sin);
+  const double beside = side * (PlaneHandbot::kShoulder + PlaneHandbot::kArmLength * arm.sin);
+  const Vector3 tip(PlaneHandbot::kHeadForward + PlaneHandbot::kArmLength * arm.cos, beside * head.cos,
+                    PlaneHandbot::kHeadHeight + beside * head.sin);
   const Vector3 place = space_->GetPose(handbot.entity).Apply(tip);
   const auto origin = [this](std::size_t k) -> Vector3
   {
     if (!space_->IsPresent(objects_[k])) return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
     return space_->GetPose(objects_[k]).position;
   };
-  double nearest = S::kReach;
+  double nearest = PlaneHandbot::kReach;
   std::uint32_t found = 0;
   for (const std::uint32_t k : near_objects_.Near(space_->GetExperiment(), place, nearest, origin))
   {
@@ -207,11 +206,11 @@ void PlaneRobots::TurnJoints(Handbot& handbot, double seconds) const
   handbot.head = WrapAngle(handbot.head + handbot.rates[0] * seconds);
   for (std::size_t k = 0; k < 2; ++k)
   {
-    handbot.arm[k] = std::clamp(handbot.arm[k] + handbot.rates[1 + k] * seconds, 0.0, S::kWidestArm);
-    handbot.wrist[k] = std::clamp(handbot.wrist[k] + handbot.rates[3 + k] * seconds, 0.0, S::kWidestWrist);
+    handbot.arm[k] = std::clamp(handbot.arm[k] + handbot.rates[1 + k] * seconds, 0.0, PlaneHandbot::kWidestArm);
+    handbot.wrist[k] = std::clamp(handbot.wrist[k] + handbot.rates[3 + k] * seconds, 0.0, PlaneHandbot::kWidestWrist);
     if (!handbot.has_hands || handbot.held[k] != 0) continue;
-    const double turn = (handbot.close[k] ? -1 : 1) * S::kHandSpeed * seconds;
-    handbot.aperture[k] = std::clamp(handbot.aperture[k] + turn, 0.0, S::kWidestHand);
+    const double turn = (handbot.close[k] ? -1 : 1) * PlaneHandbot::kHandSpeed * seconds;
+    handbot.aperture[k] = std::clamp(handbot.aperture[k] + turn, 0.0, PlaneHandbot::kWidestHand);
   }
 }
 
@@ -226,15 +225,16 @@ void PlaneRobots::UseRope(Handbot& handbot, double seconds)
   }
   if (!handbot.is_hanging)
   {
-    const double distance = ceiling_ - lifted.height - S::kHeight;
-    if (ceiling_ == 0 || distance < 0 || distance > S::kLongestRope) return;
+    const double distance = ceiling_ - lifted.height - PlaneHandbot::kHeight;
+    if (ceiling_ == 0 || distance < 0 || distance > PlaneHandbot::kLongestRope) return;
     handbot.is_hanging = true;
     handbot.rope = distance;
     lifted.fall = 0;
   }
-  handbot.rope = std::clamp(handbot.rope + handbot.winch * seconds, S::kShortestRope, S::kLongestRope);
+  handbot.rope =
+      std::clamp(handbot.rope + handbot.winch * seconds, PlaneHandbot::kShortestRope, PlaneHandbot::kLongestRope);
   // A slack rope lets the robot stand.
-  lifted.height = std::max(ceiling_ - S::kHeight - handbot.rope, 0.0);
+  lifted.height = std::max(ceiling_ - PlaneHandbot::kHeight - handbot.rope, 0.0);
 }
 
 void PlaneRobots::Moved(std::uint32_t entity)

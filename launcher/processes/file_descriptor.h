@@ -1,4 +1,4 @@
-// An owned file descriptor.
+// Owned file descriptors.
 #pragma once
 
 #include <unistd.h>
@@ -32,5 +32,14 @@ public:
 private:
   int descriptor_ = -1;
 };
+
+struct Pipe
+{
+  FileDescriptor read;  // without waiting
+  FileDescriptor write;
+};
+
+// Not handed to programs that are started later. Throws std::runtime_error.
+Pipe MakePipe();
 
 }  // namespace swarmanoid

@@ -1,13 +1,6 @@
 #include "launcher/processes/in_process_server.h"
 
-#include <fcntl.h>
-#include <fmt/format.h>
 #include <signal.h>
-
-#include <array>
-#include <cerrno>
-#include <cstring>
-#include <stdexcept>
 
 #include "common/activity/activity.h"
 
@@ -18,15 +11,6 @@ namespace
 
 // The supervisor repeats SIGKILL every 200 ms. A function of the user that never returns keeps the thread of the run.
 constexpr int kMostKills = 15;
-
-std::array<FileDescriptor, 2> MakePipe()
-{
-  std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0)
-    throw std::runtime_error(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
-  fcntl(ends[0], F_SETFL, O_NONBLOCK);
-  return {FileDescriptor(ends[0]), FileDescriptor(ends[1])};
-}
 
 }  // namespace
 

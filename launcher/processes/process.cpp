@@ -9,7 +9,6 @@
 #include <sys/syscall.h>
 #include <sys/wait.h>
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
@@ -20,22 +19,6 @@ namespace swarmanoid
 {
 namespace
 {
-
-struct Pipe
-{
-  FileDescriptor read;
-  FileDescriptor write;
-};
-
-Pipe MakePipe()
-{
-  std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0)
-    throw std::runtime_error(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
-  Pipe pipe{FileDescriptor(ends[0]), FileDescriptor(ends[1])};
-  fcntl(pipe.read.Get(), F_SETFL, O_NONBLOCK);
-  return pipe;
-}
 
 std::vector<std::string> EnvironmentWith(const std::vector<std::pair<std::string, std::string>>& additions)
 {

@@ -25,7 +25,7 @@ namespace
 {
 
 constexpr const char* kOpenGl = "OpenGL 3+ Rendering Subsystem";
-constexpr const char* kGroup = "Swarmanoid";
+constexpr const char* kFontGroup = "Swarmanoid";
 constexpr const char* kOverlay = "ImGuiOverlay";
 constexpr float kShadowReach = 40;  // m from the camera
 constexpr Ogre::uint16 kShadowPixels = 1024;
@@ -150,13 +150,14 @@ void OgreWindow::OpenImGui()
   if (const std::string file = PanelFont(); !file.empty())
   {
     const std::filesystem::path path(file);
-    Ogre::ResourceGroupManager::getSingleton().addResourceLocation(path.parent_path().string(), "FileSystem", kGroup);
-    const Ogre::FontPtr font = Ogre::FontManager::getSingleton().create("panels", kGroup);
+    Ogre::ResourceGroupManager::getSingleton().addResourceLocation(path.parent_path().string(), "FileSystem",
+                                                                   kFontGroup);
+    const Ogre::FontPtr font = Ogre::FontManager::getSingleton().create("panels", kFontGroup);
     font->setType(Ogre::FT_TRUETYPE);
     font->setSource(path.filename().string());
     font->setTrueTypeSize(theme::kFontSize);
     font->setTrueTypeResolution(72);
-    overlay->addFont("panels", kGroup);
+    overlay->addFont("panels", kFontGroup);
   }
   overlay->setZOrder(300);
   overlay->show();
@@ -246,9 +247,9 @@ Picture OgreWindow::TakePicture(Ogre::Camera* camera)
   if (!target_ || target_->getWidth() != width || target_->getHeight() != height)
   {
     if (target_) Ogre::TextureManager::getSingleton().remove(target_);
-    target_ = Ogre::TextureManager::getSingleton().createManual("swarmanoid/picture", kGroup, Ogre::TEX_TYPE_2D, width,
-                                                                height, 0, Ogre::PF_BYTE_RGBA, Ogre::TU_RENDERTARGET,
-                                                                nullptr, false, static_cast<Ogre::uint>(samples_));
+    target_ = Ogre::TextureManager::getSingleton().createManual(
+        "swarmanoid/picture", kFontGroup, Ogre::TEX_TYPE_2D, width, height, 0, Ogre::PF_BYTE_RGBA,
+        Ogre::TU_RENDERTARGET, nullptr, false, static_cast<Ogre::uint>(samples_));
     Ogre::RenderTexture* texture = target_->getBuffer()->getRenderTarget();
     texture->setAutoUpdated(false);
     Ogre::Viewport* viewport = texture->addViewport(camera);

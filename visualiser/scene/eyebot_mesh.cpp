@@ -1,6 +1,5 @@
 // The eyebot: four ducted rotors within a ring of 50 cm that has the LEDs, four thin legs, a rod with the ceiling
 // magnet. Lengths: engine_worker/engines/dynamics3d/eyebot.h.
-#include <numbers>
 
 #include "visualiser/scene/led_ring.h"
 #include "visualiser/scene/meshes.h"
@@ -11,7 +10,6 @@ namespace swarmanoid
 namespace
 {
 
-constexpr float kPiF = std::numbers::pi_v<float>;
 constexpr float kRing = 0.25F;
 constexpr float kDuct = 0.088F;
 constexpr float kReach = RobotJoints::kEyebotRotorReach;

@@ -1,6 +1,5 @@
 // The footbot: tracks with wheels, a round body of 17 cm, a turret with LED ring and gripper, the camera's tube on top.
 // Lengths: common/experiment/own_kinds.cpp, and the rings of the devices.
-#include <numbers>
 
 #include "visualiser/scene/led_ring.h"
 #include "visualiser/scene/robot_meshes.h"
@@ -10,7 +9,6 @@ namespace swarmanoid
 namespace
 {
 
-constexpr float kPiF = std::numbers::pi_v<float>;
 constexpr float kRadius = 0.085F;
 constexpr float kWheel = 0.029112741F;
 constexpr float kHalfTrack = 0.07F;  // from the middle to a wheel

@@ -1,6 +1,5 @@
 // The handbot: a trunk on a round base, a head in front that turns with two arms, a hand at the end of each, two fans.
 // Lengths: engine_worker/engines/dynamics3d/handbot.h.
-#include <numbers>
 
 #include "visualiser/scene/led_ring.h"
 #include "visualiser/scene/meshes.h"
@@ -10,8 +9,6 @@ namespace swarmanoid
 {
 namespace
 {
-
-constexpr float kPiF = std::numbers::pi_v<float>;
 
 }  // namespace
 

@@ -10,8 +10,6 @@ namespace swarmanoid
 namespace
 {
 
-constexpr float kPiF = std::numbers::pi_v<float>;
-
 Mesh BoxMesh(int)
 {
   MeshBuilder builder(4);

@@ -14,7 +14,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30U;
+constexpr std::uint64_t kMostPictureBytes = std::uint64_t{1} << 30U;
 constexpr png_uint_32 kMostPixelsOfRow = 1U << 16U;
 // A picture of so many takes a gigabyte.
 constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26U;
@@ -82,7 +82,7 @@ GreyPicture ReadGreyPicture(const std::string& path)
   std::string file;
   try
   {
-    file = ReadRegularFile(path, kMostBytes);
+    file = ReadRegularFile(path, kMostPictureBytes);
   }
   catch (const FileError& error)
   {

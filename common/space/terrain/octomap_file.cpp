@@ -22,7 +22,7 @@ namespace
 constexpr const char* kBinaryStart = "# Octomap OcTree binary file";
 constexpr const char* kFullStart = "# Octomap OcTree file";
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30U;
+constexpr std::uint64_t kMostTreeBytes = std::uint64_t{1} << 30U;
 // A tree of so many takes some gigabytes.
 constexpr std::size_t kMostNodes = std::size_t{1} << 26U;
 constexpr int kDepth = 16;  // of OctoMap's trees
@@ -130,7 +130,7 @@ std::unique_ptr<octomap::OcTree> ReadOctoMap(const std::string& path)
   std::string bytes;
   try
   {
-    bytes = ReadRegularFile(path, kMostBytes);
+    bytes = ReadRegularFile(path, kMostTreeBytes);
   }
   catch (const FileError& error)
   {

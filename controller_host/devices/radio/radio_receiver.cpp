@@ -17,7 +17,7 @@ namespace
 
 constexpr double kNearest = 0.01;  // m: nearer radios are as strong as there
 
-struct Receiver : public CCI_RadioSensor
+struct RobotReceiver : public CCI_RadioSensor
 {
   std::span<const Packet> GetAllPackets() const override { return packets; }
   std::vector<Packet> packets;
@@ -51,7 +51,7 @@ public:
 
   void Update(const ChannelView&) override
   {
-    for (Receiver& receiver : receivers_) receiver.packets.clear();
+    for (RobotReceiver& receiver : receivers_) receiver.packets.clear();
     for (std::size_t s = 0; s < senders_.size(); ++s)
     {
       const double count = space_->Attributes()[senders_[s].slot];
@@ -138,7 +138,7 @@ private:
   std::vector<Sender> senders_;
   std::vector<double> sent_;  // by sender: how many packets it had sent
   std::vector<Flying> flying_;
-  std::vector<Receiver> receivers_;
+  std::vector<RobotReceiver> receivers_;
 };
 
 }  // namespace

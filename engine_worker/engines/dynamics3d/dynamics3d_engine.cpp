@@ -28,7 +28,7 @@ void CDynamics3dEngine::Init(const EngineSetup& setup)
   step_seconds_ = tick / steps_;
 
   const Frame frame(settings_.frame);
-  WorldSettings world = settings_.world;
+  dynamics3d::WorldSettings world = settings_.world;
   world.gravity = frame.VectorToLocal(world.gravity);
   world_ = std::make_unique<OdeWorld>(world);
   links_ = std::make_unique<LinkTable>(*world_);

@@ -10,8 +10,6 @@ namespace swarmanoid::dynamics3d
 namespace
 {
 
-using S = EyebotShape;
-
 // Place: critically damped at 3 rad/s. Attitude: at 12 rad/s, so that the place loop may take it as instant.
 constexpr double kPlaceGain = 9;
 constexpr double kVelocityGain = 6;
@@ -33,23 +31,23 @@ EyebotModel::EyebotModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, dou
 {
   OdeWorld& world = scene.world;
   const double given = entity.GetConfiguration().mass_kg;
-  AddBody(CylinderMass(given > 0 ? given : S::kMass, 0.18, 0.3),
-          {Vector3(0, 0, S::kCentreOfMass), Quaternion::Identity()});
+  AddBody(CylinderMass(given > 0 ? given : EyebotShape::kMass, 0.18, 0.3),
+          {Vector3(0, 0, EyebotShape::kCentreOfMass), Quaternion::Identity()});
 
   world.BeginEntity(Entity());
   const auto at = [](double x, double y, double z) -> Pose {
-    return {Vector3(x, y, z - S::kCentreOfMass), Quaternion::Identity()};
+    return {Vector3(x, y, z - EyebotShape::kCentreOfMass), Quaternion::Identity()};
   };
-  world.AddSolid(dCreateCylinder(nullptr, S::kRingRadius, S::kRingHeight), MainBody(), ELayer::kRobot, ESurface::kPlain,
-                 at(0, 0, S::kRingCentre));
-  const double rod_length = S::kHeight - S::kRingCentre;
-  world.AddSolid(dCreateBox(nullptr, S::kRodSide, S::kRodSide, rod_length), MainBody(), ELayer::kRobot,
-                 ESurface::kPlain, at(0, 0, S::kRingCentre + rod_length / 2));
-  const double leg_length = S::kRingCentre - 2 * S::kLegRadius;
-  for (const double x : {S::kLegReach, -S::kLegReach})
-    for (const double y : {S::kLegReach, -S::kLegReach})
-      world.AddSolid(dCreateCapsule(nullptr, S::kLegRadius, leg_length), MainBody(), ELayer::kRobot, ESurface::kPlain,
-                     at(x, y, S::kLegRadius + leg_length / 2));
+  world.AddSolid(dCreateCylinder(nullptr, EyebotShape::kRingRadius, EyebotShape::kRingHeight), MainBody(),
+                 ELayer::kRobot, ESurface::kPlain, at(0, 0, EyebotShape::kRingCentre));
+  const double rod_length = EyebotShape::kHeight - EyebotShape::kRingCentre;
+  world.AddSolid(dCreateBox(nullptr, EyebotShape::kRodSide, EyebotShape::kRodSide, rod_length), MainBody(),
+                 ELayer::kRobot, ESurface::kPlain, at(0, 0, EyebotShape::kRingCentre + rod_length / 2));
+  const double leg_length = EyebotShape::kRingCentre - 2 * EyebotShape::kLegRadius;
+  for (const double x : {EyebotShape::kLegReach, -EyebotShape::kLegReach})
+    for (const double y : {EyebotShape::kLegReach, -EyebotShape::kLegReach})
+      world.AddSolid(dCreateCapsule(nullptr, EyebotShape::kLegRadius, leg_length), MainBody(), ELayer::kRobot,
+                     ESurface::kPlain, at(x, y, EyebotShape::kLegRadius + leg_length / 2));
 }
 
 void EyebotModel::Place(const Pose& pose)
@@ -84,8 +82,8 @@ void EyebotModel::UpdateAttachment()
     Place(CurrentPose());
   }
   if (attached || !attach_) return;
-  const double top = scene_.frame.ToSpace(CurrentPose()).Apply({0, 0, S::kHeight}).z();
-  if (top < ceiling_ - S::kCeilingReach) return;
+  const double top = scene_.frame.ToSpace(CurrentPose()).Apply({0, 0, EyebotShape::kHeight}).z();
+  if (top < ceiling_ - EyebotShape::kCeilingReach) return;
   LinkSpec spec;
   spec.kind = ELink::kFixed;
   spec.body_a = MainBody();
@@ -133,7 +131,7 @@ void EyebotModel::Fly(const Vector3& acceleration)
   const Vector3 wanted = (acceleration - gravity) * mass.mass;
   const Vector3 axis = attitude * Vector3::UnitZ();
   const double weight = mass.mass * std::sqrt(gravity.squaredNorm());
-  thrust_ = std::clamp(wanted.dot(axis), 0.0, S::kMaximumThrust * std::max(weight, mass.mass));
+  thrust_ = std::clamp(wanted.dot(axis), 0.0, EyebotShape::kMaximumThrust * std::max(weight, mass.mass));
   dBodyAddRelForce(body, 0, 0, thrust_);
 
   // Torques about the robot's own axes: tilt towards the force wanted, yaw towards the reference.

@@ -9,29 +9,27 @@ namespace swarmanoid::dynamics3d
 namespace
 {
 
-using S = FootbotShape;
-
 constexpr double kOpenAperture = kPi / 2;
 constexpr double kTurretGain = 40;   // 1/s: at few iterations a motor that is told to stand creeps under a load
 constexpr double kTurretLead = 0.1;  // rad: how far the target runs ahead of a turret that is held back
-constexpr GraspGeometry kGripper{0.02, S::kTurretTorque, false};
+constexpr GraspGeometry kGripper{0.02, FootbotShape::kTurretTorque, false};
 
 WheeledShape ShapeOf(const CSwarmanoidSpaceEntity& entity)
 {
   const double given = entity.GetConfiguration().mass_kg;
-  const double scale = given > 0 ? given / S::kMass : 1;
-  return {.size = {S::kRadius, S::kRadius, S::kHeight},
-          .clearance = S::kClearance,
-          .wheel_radius = S::kWheelRadius,
-          .half_track = S::kHalfTrack,
-          .caster_radius = S::kCasterRadius,
-          .caster_reach = S::kCasterReach,
-          .chassis_mass = scale * S::kChassisMass,
-          .wheel_mass = scale * S::kWheelMass,
-          .centre_of_mass = S::kCentreOfMass,
+  const double scale = given > 0 ? given / FootbotShape::kMass : 1;
+  return {.size = {FootbotShape::kRadius, FootbotShape::kRadius, FootbotShape::kHeight},
+          .clearance = FootbotShape::kClearance,
+          .wheel_radius = FootbotShape::kWheelRadius,
+          .half_track = FootbotShape::kHalfTrack,
+          .caster_radius = FootbotShape::kCasterRadius,
+          .caster_reach = FootbotShape::kCasterReach,
+          .chassis_mass = scale * FootbotShape::kChassisMass,
+          .wheel_mass = scale * FootbotShape::kWheelMass,
+          .centre_of_mass = FootbotShape::kCentreOfMass,
           .inertia_radius = 0.08,
           .inertia_height = 0.1,
-          .free_speed = S::kFreeSpeed};
+          .free_speed = FootbotShape::kFreeSpeed};
 }
 
 }  // namespace
@@ -55,7 +53,7 @@ void FootbotModel::Command(std::string_view channel, std::span<const double> val
     aperture_ = (1 - std::clamp(values[0], 0.0, 1.0)) * kOpenAperture;
   }
   else if (channel == "footbot_turret")
-    turret_command_ = std::clamp(values[0], -S::kMaximumTurretSpeed, S::kMaximumTurretSpeed);
+    turret_command_ = std::clamp(values[0], -FootbotShape::kMaximumTurretSpeed, FootbotShape::kMaximumTurretSpeed);
   else
     WheeledModel::Command(channel, values);
 }
@@ -79,9 +77,9 @@ void FootbotModel::UpdateGripper()
   if (gripper_.IsHolding()) return;
   const Pose chassis = PoseOf(Chassis());
   const SinCos turret = SinCosOf(turret_angle_);
-  const double height = S::kGripperHeight - S::kCentreOfMass;
+  const double height = FootbotShape::kGripperHeight - FootbotShape::kCentreOfMass;
   gripper_.TryToHold(Entity(), bodies_[0].number,
-                     chassis.Apply({turret.cos * S::kRadius, turret.sin * S::kRadius, height}),
+                     chassis.Apply({turret.cos * FootbotShape::kRadius, turret.sin * FootbotShape::kRadius, height}),
                      chassis.Apply({0, 0, height}), chassis.orientation * Vector3::UnitZ(), nullptr);
   turret_target_ = turret_angle_;
 }
@@ -94,7 +92,7 @@ void FootbotModel::BeforeStep(double seconds)
   turret_target_ =
       std::clamp(turret_target_ + turret_command_ * seconds, turret_angle_ - kTurretLead, turret_angle_ + kTurretLead);
   const double speed = turret_command_ + kTurretGain * (turret_target_ - turret_angle_);
-  link->SetMotorSpeed(std::clamp(speed, -S::kMaximumTurretSpeed, S::kMaximumTurretSpeed));
+  link->SetMotorSpeed(std::clamp(speed, -FootbotShape::kMaximumTurretSpeed, FootbotShape::kMaximumTurretSpeed));
 }
 
 void FootbotModel::AfterStep(double seconds)
@@ -117,9 +115,9 @@ void FootbotModel::Sense(std::string_view channel, std::span<double> values) con
     const SinCos turret = SinCosOf(turret_angle_);
     const Vector3 force = grip_force_ / Elapsed();
     const auto part = [](double value, double range) { return std::clamp(value / range, -1.0, 1.0); };
-    values[0] = part(turret.cos * force.x() + turret.sin * force.y(), S::kTractionRange);
-    values[1] = part(turret.cos * force.y() - turret.sin * force.x(), S::kTractionRange);
-    values[2] = part(grip_torque_ / Elapsed(), S::kTurretTorque);
+    values[0] = part(turret.cos * force.x() + turret.sin * force.y(), FootbotShape::kTractionRange);
+    values[1] = part(turret.cos * force.y() - turret.sin * force.x(), FootbotShape::kTractionRange);
+    values[2] = part(grip_torque_ / Elapsed(), FootbotShape::kTurretTorque);
   }
   else if (channel == "footbot_accelerometer")
   {

@@ -9,9 +9,7 @@ namespace swarmanoid::dynamics3d
 namespace
 {
 
-using S = HandbotShape;
-
-constexpr GraspGeometry kHandGrasp{0.03, S::kWristTorque, true};
+constexpr GraspGeometry kHandGrasp{0.03, HandbotShape::kWristTorque, true};
 constexpr double kServoGain = 40;    // 1/s
 constexpr double kServoLead = 0.1;   // rad: how far the target runs ahead of an arm that is held back
 constexpr double kServoSpeed = 3;    // rad/s
@@ -22,7 +20,11 @@ constexpr double kFanDamping = 0.2;  // N m s
 constexpr double kReported = 1e-4;   // rad: smaller changes of angles are not reported
 
 Pose At(double x, double y, double z) { return {Vector3(x, y, z), Quaternion::Identity()}; }
-Vector3 Shoulder(int arm) { return {S::kHeadForward, arm == 0 ? S::kShoulder : -S::kShoulder, S::kHeadHeight}; }
+Vector3 Shoulder(int arm)
+{
+  return {HandbotShape::kHeadForward, arm == 0 ? HandbotShape::kShoulder : -HandbotShape::kShoulder,
+          HandbotShape::kHeadHeight};
+}
 
 }  // namespace
 
@@ -31,32 +33,39 @@ HandbotModel::HandbotModel(Scene& scene, const CSwarmanoidSpaceEntity& entity)
 {
   OdeWorld& world = scene.world;
   const double given = entity.GetConfiguration().mass_kg;
-  const double scale = given > 0 ? given / S::kMass : 1;
+  const double scale = given > 0 ? given / HandbotShape::kMass : 1;
 
-  AddBody(BoxMass(scale * S::kTrunkMass, {S::kTrunkLength, S::kTrunkWidth, S::kHeight}), At(0, 0, S::kTrunkCentre));
-  AddBody(Geared(BoxMass(scale * S::kHeadMass, {0.06, 0.1, 0.06}), S::kHeadInertia),
-          At(S::kHeadForward, 0, S::kHeadHeight));
-  const double arm_middle = S::kHeadForward + S::kArmLength / 2;
-  for (const double side : {S::kShoulder, -S::kShoulder})
-    AddBody(Geared(BoxMass(scale * S::kArmMass, {S::kArmLength, 0.03, 0.03}), S::kArmInertia),
-            At(arm_middle, side, S::kHeadHeight));
+  AddBody(BoxMass(scale * HandbotShape::kTrunkMass,
+                  {HandbotShape::kTrunkLength, HandbotShape::kTrunkWidth, HandbotShape::kHeight}),
+          At(0, 0, HandbotShape::kTrunkCentre));
+  AddBody(Geared(BoxMass(scale * HandbotShape::kHeadMass, {0.06, 0.1, 0.06}), HandbotShape::kHeadInertia),
+          At(HandbotShape::kHeadForward, 0, HandbotShape::kHeadHeight));
+  const double arm_middle = HandbotShape::kHeadForward + HandbotShape::kArmLength / 2;
+  for (const double side : {HandbotShape::kShoulder, -HandbotShape::kShoulder})
+    AddBody(Geared(BoxMass(scale * HandbotShape::kArmMass, {HandbotShape::kArmLength, 0.03, 0.03}),
+                   HandbotShape::kArmInertia),
+            At(arm_middle, side, HandbotShape::kHeadHeight));
 
-  MakeServo(0, 0, 1, {S::kHeadForward, 0, S::kHeadHeight}, Vector3::UnitX(), 1, -kPi, kPi, scale * S::kHeadTorque);
-  MakeServo(1, 1, 2, Shoulder(0), Vector3::UnitZ(), 1, 0, S::kWidestArm, scale * S::kArmTorque);
-  MakeServo(2, 1, 3, Shoulder(1), Vector3::UnitZ(), -1, 0, S::kWidestArm, scale * S::kArmTorque);
+  MakeServo(0, 0, 1, {HandbotShape::kHeadForward, 0, HandbotShape::kHeadHeight}, Vector3::UnitX(), 1, -kPi, kPi,
+            scale * HandbotShape::kHeadTorque);
+  MakeServo(1, 1, 2, Shoulder(0), Vector3::UnitZ(), 1, 0, HandbotShape::kWidestArm, scale * HandbotShape::kArmTorque);
+  MakeServo(2, 1, 3, Shoulder(1), Vector3::UnitZ(), -1, 0, HandbotShape::kWidestArm, scale * HandbotShape::kArmTorque);
 
   world.BeginEntity(Entity());
   const int trunk = bodies_[0].number;
-  world.AddSolid(dCreateBox(nullptr, S::kBaseSide, S::kBaseSide, S::kBaseHeight), trunk, ELayer::kRobot,
-                 ESurface::kPlain, At(0, 0, S::kBaseHeight / 2 - S::kTrunkCentre));
-  const double trunk_height = S::kHeight - S::kBaseHeight;
-  world.AddSolid(dCreateBox(nullptr, S::kTrunkLength, S::kTrunkWidth, trunk_height), trunk, ELayer::kRobot,
-                 ESurface::kPlain, At(0, 0, S::kBaseHeight + trunk_height / 2 - S::kTrunkCentre));
+  world.AddSolid(dCreateBox(nullptr, HandbotShape::kBaseSide, HandbotShape::kBaseSide, HandbotShape::kBaseHeight),
+                 trunk, ELayer::kRobot, ESurface::kPlain,
+                 At(0, 0, HandbotShape::kBaseHeight / 2 - HandbotShape::kTrunkCentre));
+  const double trunk_height = HandbotShape::kHeight - HandbotShape::kBaseHeight;
+  world.AddSolid(dCreateBox(nullptr, HandbotShape::kTrunkLength, HandbotShape::kTrunkWidth, trunk_height), trunk,
+                 ELayer::kRobot, ESurface::kPlain,
+                 At(0, 0, HandbotShape::kBaseHeight + trunk_height / 2 - HandbotShape::kTrunkCentre));
   for (std::size_t arm = 2; arm <= 3; ++arm)
   {
     const Pose along_x{Vector3::Zero(), QuaternionFromEuler({0, kPi / 2, 0})};
-    world.AddSolid(dCreateCapsule(nullptr, S::kArmRadius, S::kArmLength - 2 * S::kArmRadius), bodies_[arm].number,
-                   ELayer::kRobot, ESurface::kPlain, along_x);
+    world.AddSolid(
+        dCreateCapsule(nullptr, HandbotShape::kArmRadius, HandbotShape::kArmLength - 2 * HandbotShape::kArmRadius),
+        bodies_[arm].number, ELayer::kRobot, ESurface::kPlain, along_x);
   }
 }
 
@@ -102,7 +111,7 @@ void HandbotModel::Command(std::string_view channel, std::span<const double> val
   else if (channel == "handbot_rope")
   {
     launch_ = values[0] > 0.5;
-    winch_ = std::clamp(values[1], -S::kWinchSpeed, S::kWinchSpeed);
+    winch_ = std::clamp(values[1], -HandbotShape::kWinchSpeed, HandbotShape::kWinchSpeed);
   }
 }
 
@@ -120,7 +129,7 @@ void HandbotModel::UpdateHands()
     if (!hand.close && hand.grasp.IsHolding()) hand.grasp.Release();
     if (!hand.close || hand.grasp.IsHolding()) continue;
     const Pose arm = PoseOf(BodyAt(static_cast<int>(k) + 2));
-    const Vector3 tip = arm.Apply({S::kArmLength / 2, 0, 0});
+    const Vector3 tip = arm.Apply({HandbotShape::kArmLength / 2, 0, 0});
     hand.grasp.TryToHold(Entity(), bodies_[k + 2].number, tip, tip, arm.orientation * Vector3::UnitX(),
                          &hands_[1 - k].grasp);
   }
@@ -135,9 +144,10 @@ void HandbotModel::UpdateRope()
     rope_ = 0;
   }
   if (attached || !launch_) return;
-  const Vector3 from = PoseOf(BodyAt(0)).Apply({S::kRopeForward, 0, S::kHeight - S::kTrunkCentre});
-  const double distance = scene_.world.DistanceToStatic(from, scene_.up, S::kLongestRope);
-  if (distance > S::kLongestRope) return;
+  const Vector3 from =
+      PoseOf(BodyAt(0)).Apply({HandbotShape::kRopeForward, 0, HandbotShape::kHeight - HandbotShape::kTrunkCentre});
+  const double distance = scene_.world.DistanceToStatic(from, scene_.up, HandbotShape::kLongestRope);
+  if (distance > HandbotShape::kLongestRope) return;
   const Vector3 hook = from + scene_.up * distance;
   LinkSpec spec;
   spec.kind = ELink::kRope;
@@ -157,7 +167,8 @@ void HandbotModel::RunFans()
   const dBodyID trunk = BodyAt(0);
   const double error = WrapAngle(heading_ - YawOf(scene_.frame.ToSpace(PoseOf(trunk)).orientation));
   const double spin = VectorOf(dBodyGetAngularVel(trunk)).dot(scene_.up);
-  const double torque = std::clamp(kFanGain * error - kFanDamping * spin, -S::kFanTorque, S::kFanTorque);
+  const double torque =
+      std::clamp(kFanGain * error - kFanDamping * spin, -HandbotShape::kFanTorque, HandbotShape::kFanTorque);
   const Vector3 turn = scene_.up * torque;
   dBodyAddTorque(trunk, turn.x(), turn.y(), turn.z());
 }
@@ -189,13 +200,13 @@ void HandbotModel::BeforeStep(double seconds)
   for (Servo& servo : servos_) DriveServo(servo, seconds);
   for (Hand& hand : hands_)
   {
-    const double next = std::clamp(hand.wrist + hand.wrist_rate * seconds, 0.0, S::kWidestWrist);
+    const double next = std::clamp(hand.wrist + hand.wrist_rate * seconds, 0.0, HandbotShape::kWidestWrist);
     if (Link* link = hand.grasp.link()) link->SetMotorSpeed((next - hand.wrist) / seconds);
   }
   if (Link* rope = scene_.links.Find(rope_))
   {
     const double length = std::max(rope->Length() + winch_ * seconds, rope->AnchorDistance() - kWinchLead);
-    rope->SetLength(std::clamp(length, S::kShortestRope, S::kLongestRope));
+    rope->SetLength(std::clamp(length, HandbotShape::kShortestRope, HandbotShape::kLongestRope));
     rope->TightenOrSlacken();
     if (rope->IsTaut()) RunFans();
   }
@@ -207,10 +218,11 @@ void HandbotModel::AfterStep(double seconds)
   {
     const Link* link = hand.grasp.link();
     hand.wrist += (link != nullptr ? link->HingeSpeed() : hand.wrist_rate) * seconds;
-    hand.wrist = std::clamp(hand.wrist, 0.0, S::kWidestWrist);
+    hand.wrist = std::clamp(hand.wrist, 0.0, HandbotShape::kWidestWrist);
     if (!hand.commanded) continue;
-    const double turn = (hand.close ? -1 : 1) * S::kHandSpeed * seconds;
-    if (!(hand.close && hand.grasp.IsHolding())) hand.aperture = std::clamp(hand.aperture + turn, 0.0, S::kWidestHand);
+    const double turn = (hand.close ? -1 : 1) * HandbotShape::kHandSpeed * seconds;
+    if (!(hand.close && hand.grasp.IsHolding()))
+      hand.aperture = std::clamp(hand.aperture + turn, 0.0, HandbotShape::kWidestHand);
   }
 }
 
