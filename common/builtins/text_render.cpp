@@ -14,15 +14,12 @@ PluginDescription TextRenderDescription()
       {"precision", ParameterType::kInteger, "", "3", "Number of decimals; trailing zeros are left out.", 0, 15},
       {"every", ParameterType::kInteger, "ticks", "1", "A table is written every so many ticks, and at the last one.",
        1},
-      {"format",
-       ParameterType::kChoice,
-       "",
-       "table",
-       "table: separated by tabs under a line that starts with #, an empty field after the first one; tsv: the same "
-       "without # and empty field; csv; json: one object a line.",
-       0,
-       0,
-       {"table", "tsv", "csv", "json"}},
+      {.name = "format",
+       .type = ParameterType::kChoice,
+       .default_value = "table",
+       .description = "table: separated by tabs under a line that starts with #, an empty field after the first one; "
+                      "tsv: the same without # and empty field; csv; json: one object a line.",
+       .choices = {"table", "tsv", "csv", "json"}},
       {"columns", ParameterType::kText, "", "",
        "Titles of the columns to write, separated by commas; without it all but Engine, Host and State: who moves and "
        "who controls the entity, and the state of its controller as last heard."},
