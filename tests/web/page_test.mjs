@@ -106,7 +106,7 @@ const read = (page, expression) => page.evaluate(expression);
 async function drawn(page) {
   await until(page, () => window.swarmanoid?.drawn > 0);
   await until(page, () => {
-    const place = () => JSON.stringify([swarmanoid.camera, document.querySelector("canvas").getBoundingClientRect()]);
+    const place = () => JSON.stringify([swarmanoid.camera, document.querySelector(".picture:not([hidden])").getBoundingClientRect()]);
     const before = place();
     return new Promise((done) => {
       const look = (frames) => requestAnimationFrame(() => (place() !== before ? done(false) : frames === 0 ? done(true) : look(frames - 1)));
@@ -196,7 +196,7 @@ const tests = {
     assert.match(saved.suggestedFilename(), /^prey_retrieval_\d+\.png$/);
     const png = readFileSync(await saved.path());
     assert.equal(png.toString("latin1", 1, 4), "PNG");
-    const canvas = await read(page, () => [document.querySelector("main canvas").width, document.querySelector("main canvas").height]);
+    const canvas = await read(page, () => [document.querySelector(".picture:not([hidden])").width, document.querySelector(".picture:not([hidden])").height]);
     assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], canvas);
     await until(page, () => swarmanoid.tick > 20);
     assert.deepEqual(page.complaints, []);
@@ -387,6 +387,162 @@ const tests = {
     assert.ok(wall.every((colour) => brightness(colour) < 190 && saturation(colour) < 12), `${wall}`);
   },
 
+  async "without a graphics card the page begins with the plan, and loads nothing of the other view"() {
+    oneRobot("planned", "5, 5, 0");
+    const { url } = await attach();
+    const page = await browser.newPage({ viewport: { width: 760, height: 420 } });
+    const session = await page.context().newCDPSession(page);
+    await session.send("Network.enable");
+    let bytes = 0;
+    session.on("Network.loadingFinished", ({ encodedDataLength }) => (bytes += encodedDataLength));
+    const files = [];
+    page.on("request", (request) => files.push(new URL(request.url()).pathname));
+    await page.goto(url);
+    await drawn(page);
+    assert.equal(await read(page, () => swarmanoid.view), "plan");
+    assert.ok(await page.isVisible(".plan-note"));
+    assert.deepEqual(files.filter((file) => /view_3d|meshes/.test(file)), []);
+    assert.ok(bytes < 60000, `${bytes} bytes`);
+    // Seen from above: dark tracks, the blue body, and the orange mark that tells the front, here to the right.
+    const { x, y } = await read(page, () => swarmanoid.project("fb"));
+    await read(page, () => swarmanoid.approach("fb"));
+    await drawn(page);
+    const near = await read(page, () => swarmanoid.project("fb"));
+    const side = 101;
+    const pixels = await pixelsAbout(page, near, 50);
+    const orange = pixels.flatMap(([r, g, b], i) => (r > 200 && g > 100 && g < 190 && b < 120 ? [[(i % side) - 50, Math.floor(i / side) - 50]] : []));
+    assert.ok(orange.length > 10, `${orange.length} orange pixels`);
+    const mean = [0, 1].map((k) => orange.reduce((sum, place) => sum + place[k], 0) / orange.length);
+    assert.ok(mean[0] > 5 && Math.abs(mean[1]) < 3, `the front is at ${mean}`);
+    assert.ok(pixels.some(([r, g, b]) => b > r + 60), "the blue of a footbot");
+    assert.ok(Math.abs(x - 380) < 380 && y > 0);
+    // And then all of it: less than a third of a megabyte.
+    await page.keyboard.press("v");
+    await until(page, () => swarmanoid.view === "3D");
+    await page.waitForLoadState("networkidle");
+    assert.ok(bytes > 100000 && bytes < 350000, `${bytes} bytes`);
+  },
+
+  async "plan and three dimensions show the same place, and keep what is selected and shown"() {
+    run("prey_retrieval", "--real-time", 1);
+    const { url } = await attach();
+    const page = await open(url, { quality: "plan" });
+    await drawn(page);
+    await read(page, () => swarmanoid.select("fb_2"));
+    await page.keyboard.press("i");
+    await page.keyboard.press("l");
+    await drawn(page);
+    await page.mouse.move(300, 200);
+    await page.mouse.wheel(0, -300);
+    await drawn(page);
+    const before = await read(page, () => swarmanoid.viewpoint);
+    await page.keyboard.press("v");
+    await until(page, () => swarmanoid.view === "3D");
+    const same = (a, b) => [...a.target.map((value, k) => value - b.target[k]), a.span - b.span].every((difference) => Math.abs(difference) < 1e-6);
+    const solid = await read(page, () => swarmanoid.viewpoint);
+    assert.ok(same(before, solid), JSON.stringify([before, solid]));
+    assert.equal(await read(page, () => swarmanoid.selected), "fb_2");
+    assert.equal(await page.getAttribute("header .toggle >> nth=0", "aria-pressed"), "true");
+    await until(page, () => swarmanoid.instances().flatMap(({ drawn: counts }) => counts).reduce((a, b) => a + b) > 0);
+    await page.click(".toggle:has-text('Plan')");
+    await until(page, () => swarmanoid.view === "plan");
+    assert.ok(same(before, await read(page, () => swarmanoid.viewpoint)));
+    assert.equal(await read(page, () => swarmanoid.selected), "fb_2");
+    await page.keyboard.press("v");
+    await until(page, () => swarmanoid.view === "3D");
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "the plan is moved, zoomed, picked and selected in by hand, and robots are moved in it"() {
+    run("diffusion_10", "--paused", "--ticks", 0);
+    const { url } = await attach("--allow-control");
+    const page = await open(url, { quality: "plan" });
+    await drawn(page);
+    const at = (id) => read(page, `swarmanoid.project("${id}")`);
+    // What is under the pointer stays there while the wheel turns.
+    const [from] = [await at("fb_3")];
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.wheel(0, -400);
+    await drawn(page);
+    const zoomed = await at("fb_3");
+    assert.ok(Math.hypot(zoomed.x - from.x, zoomed.y - from.y) < 1.5, JSON.stringify([from, zoomed]));
+    await page.mouse.down();
+    await page.mouse.move(from.x + 60, from.y + 30, { steps: 4 });
+    await page.mouse.up();
+    await drawn(page);
+    const dragged = await at("fb_3");
+    assert.ok(Math.hypot(dragged.x - from.x - 60, dragged.y - from.y - 30) < 2, JSON.stringify([from, dragged]));
+    assert.equal(await read(page, () => swarmanoid.selected), null);
+    await page.keyboard.press("ArrowRight");
+    await drawn(page);
+    assert.ok((await at("fb_3")).x < dragged.x - 20);
+
+    await page.keyboard.press("Home");
+    await drawn(page);
+    const robot = await at("fb_5");
+    await page.mouse.click(robot.x, robot.y);
+    assert.equal(await read(page, () => swarmanoid.selected), "fb_5");
+    await drawn(page);
+    // The ring about it is blue.
+    const ring = await pixelsAbout(page, await at("fb_5"), 30);
+    assert.ok(ring.filter(([r, g, b]) => b > 200 && r < 120 && g < 180).length > 20);
+
+    // All of them, by a box; then two are moved as one.
+    const box = await page.locator(".picture:not([hidden])").boundingBox();
+    await page.keyboard.down("Shift");
+    await page.mouse.move(box.x + 3, box.y + 3);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width - 3, box.y + box.height - 3, { steps: 4 });
+    await page.mouse.up();
+    assert.equal((await read(page, () => swarmanoid.chosen)).length, 10);
+    const places = () => read(page, () => [0, 1, 2, 3, 4, 5, 6, 7, 8, 9].map((i) => swarmanoid.place(`fb_${i}`)));
+    await drawn(page);
+    const [before, start] = [await places(), await at("fb_0")];
+    await page.mouse.move(start.x, start.y);
+    await page.mouse.down();
+    await page.mouse.move(start.x + 8, start.y, { steps: 3 });
+    await page.mouse.up();
+    await page.keyboard.up("Shift");
+    await until(page, (x) => Math.abs(swarmanoid.place("fb_0")[0] - x) > 1e-3, before[0][0]);
+    await until(page, (x) => Math.abs(swarmanoid.place("fb_9")[0] - x) > 1e-3, before[9][0]);
+    const moved = (await places()).map((place, i) => place[0] - before[i][0]);
+    assert.ok(moved.every((distance) => Math.abs(distance - moved[0]) < 1e-3), `${moved}`);
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "two fingers move and zoom the plan"() {
+    oneRobot("pinched", "5, 5, 0");
+    const { url } = await attach();
+    const page = await open(url, { quality: "plan", viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+    await drawn(page);
+    const session = await page.context().newCDPSession(page);
+    const touch = (type, ...points) => session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    const { span } = await read(page, () => swarmanoid.viewpoint);
+    await touch("touchStart", [150, 400], [250, 400]);
+    for (let i = 1; i <= 10; i++) await touch("touchMove", [150 - 5 * i, 400], [250 + 5 * i, 400]);
+    await touch("touchEnd");
+    const now = await read(page, () => swarmanoid.viewpoint);
+    assert.ok(Math.abs(span / now.span - 2) < 0.1, `${span / now.span} times as near`);
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "in the plan ten thousand robots stand out from the floor"() {
+    run("diffusion_10000", "--real-time", 1);
+    const { url } = await attach();
+    for (const colorScheme of ["light", "dark"]) {
+      const page = await open(url, { quality: "plan", colorScheme, viewport: { width: 1280, height: 800 } });
+      await drawn(page);
+      assert.deepEqual(await read(page, () => swarmanoid.instances()[0].drawn), [10000, 0]);
+      const { x, y } = await read(page, () => swarmanoid.projectPoint(50, 50, 0));
+      const seen = (await pixelsAbout(page, { x, y }, 60)).map(brightness).sort((a, b) => a - b);
+      const [darkest, lightest] = [seen[Math.floor(seen.length / 20)], seen[Math.floor((seen.length * 19) / 20)]];
+      // WCAG's contrast of graphical objects is 3:1.
+      const light = (value) => (value / 255) ** 2.2 + 0.05;
+      assert.ok(light(lightest) / light(darkest) > 3, `${colorScheme}: ${darkest} and ${lightest}`);
+      await page.close();
+    }
+  },
+
   async "it can be read by everybody, by day and night, and used by keyboard alone"() {
     run("prey_retrieval", "--real-time", 1);
     const { url } = await attach("--allow-control");
@@ -451,8 +607,11 @@ const tests = {
     const page = await open(url, { quality: "auto", viewport: { width: 1280, height: 800 } });
     await drawn(page);
     // The browser of this test draws in software.
-    assert.ok(["low", "least"].includes(await read(page, () => swarmanoid.quality)));
-    const size = () => [document.querySelector("main canvas").width, document.querySelector("main").clientWidth];
+    assert.equal(await read(page, () => swarmanoid.quality), "plan");
+    await page.selectOption(".quality", "3D");
+    await until(page, () => swarmanoid.view === "3D");
+    assert.match(await read(page, () => swarmanoid.quality), /^(high|medium|low|least)$/);
+    const size = () => [document.querySelector(".picture:not([hidden])").width, document.querySelector("main").clientWidth];
     for (const [quality, ratio] of [["high", 1], ["least", 0.5], ["medium", 1], ["low", 1]]) {
       await page.selectOption(".quality", quality);
       assert.equal(await read(page, () => swarmanoid.quality), quality);

@@ -8,31 +8,35 @@ import { LogPanel } from "./ui/log.js";
 import { Processes } from "./ui/processes.js";
 import { Toolbar } from "./ui/toolbar.js";
 import { h, setText } from "./ui/dom.js";
-import { qualities } from "./view/quality.js";
-import { View } from "./view/view.js";
+import { Picture } from "./view/picture.js";
+import { choices } from "./view/quality.js";
 import { World } from "./world.js";
 
 const HIDDEN_PERIOD_MS = 1000; // between frames while nobody sees the page
 const asked = new URLSearchParams(location.search).get("quality");
-const quality = Object.hasOwn(qualities, asked ?? "") ? asked : "auto";
+const quality = choices.includes(asked) ? asked : "auto";
 
 const state = { world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0 };
 
-const toolbar = new Toolbar({ command, toggle, help: () => help.toggle(), top: () => frameArena("top"), fit: () => frameArena(), quality: (name) => view.setQuality(name), list: () => togglePanel() });
+const toolbar = new Toolbar({ command, toggle, help: () => help.toggle(), top: () => frameArena("top"), fit: () => frameArena(), quality: (name) => picture.setQuality(name), plan: () => picture.switchView(), list: () => togglePanel() });
 const list = new EntityList({ select, approach });
 const inspector = new Inspector({ watch, follow, deselect: () => select(null) });
 const log = new LogPanel();
 const processes = new Processes();
 const help = new Help();
 const banner = h("div.banner", { role: "status" });
-const picture = h("main", {}, banner);
+const main = h("main", {}, banner);
 list.element.append(processes.element);
 const app = document.getElementById("app");
-app.append(toolbar.element, list.element, picture, inspector.element, log.element, help.element);
-const meshes = await (await fetch("meshes.json")).json();
-const view = new View(picture, quality, meshes, { select, approach, move, mayMove: () => state.control === "granted" });
-view.onQuality = () => toolbar.setQuality(view.wanted, view.qualityName);
-view.onQuality();
+app.append(toolbar.element, list.element, main, inspector.element, log.element, help.element);
+const picture = new Picture(main, quality, { select, selectAll, approach, move, mayMove: () => state.control === "granted", trouble });
+const planNote = h("button.plan-note", { title: "Show it in three dimensions  (V)", onclick: () => picture.switchView() }, "Plan view · 3D: V");
+main.append(planNote);
+picture.onQuality = () => {
+  toolbar.setQuality(picture.wanted, picture.qualityName);
+  planNote.hidden = picture.qualityName !== "plan";
+};
+picture.onQuality();
 
 let decoder = new FrameDecoder();
 const connection = new Connection({
@@ -53,7 +57,7 @@ const connection = new Connection({
     if (!frame || !state.world) return;
     state.frames++;
     state.frame = frame;
-    view.addFrame(frame, performance.now());
+    picture.addFrame(frame, performance.now());
     inspector.addFrame(frame);
     toolbar.setFrame(frame);
     banner.dataset.waiting = "";
@@ -69,22 +73,13 @@ const receive = {
   },
   world(message) {
     const selected = state.selected === null ? null : state.world.ids[state.selected];
-    const camera = state.world?.experiment === message.experiment;
-    const { stage } = view;
-    const place = camera && !stage.home ? [stage.camera.position.clone(), stage.controls.target.clone()] : null;
     state.world = new World(message);
     document.title = `${message.experiment} · Swarmanoid`;
     toolbar.setWorld(state.world);
     inspector.setWorld(state.world);
     list.setWorld(state.world);
-    view.setWorld(state.world);
-    if (place) {
-      stage.camera.position.copy(place[0]);
-      stage.controls.target.copy(place[1]);
-      stage.controls.update();
-      stage.home = null;
-    }
-    for (const name of Object.keys(view.shows)) toolbar.setToggle(name, view.shows[name]);
+    picture.setWorld(state.world);
+    for (const name of Object.keys(picture.shows)) toolbar.setToggle(name, picture.shows[name]);
     const again = selected === null ? -1 : state.world.find(selected);
     state.selected = null;
     select(again >= 0 ? again : null);
@@ -94,7 +89,7 @@ const receive = {
     processes.update(message);
     showState();
   },
-  colours: (message) => view.paint(message),
+  colours: (message) => picture.paint(message),
   watched: (message) => inspector.addDetails(message),
   log: (message) => log.add(message),
   reply: ({ text }) => log.add({ tick: state.frame?.tick ?? null, source: "server", level: "warning", text }),
@@ -119,23 +114,36 @@ function command(request) {
 }
 
 function select(entity) {
+  choose(entity, entity === null ? [] : [entity]);
+}
+
+// Several at once: the first of them is shown in the inspector.
+function selectAll(entities) {
+  choose(entities[0] ?? null, entities);
+}
+
+function choose(entity, chosen) {
   state.selected = entity;
-  view.select(entity);
-  list.select(entity);
+  picture.select(entity, chosen);
+  list.select(entity, chosen);
   inspector.select(entity);
-  inspector.setFollowed(view.followed);
+  inspector.setFollowed(picture.followed);
+}
+
+function trouble(text) {
+  log.add({ tick: state.frame?.tick ?? null, source: "page", level: "warning", text });
 }
 
 function approach(entity) {
   togglePanel(false);
   select(entity);
-  view.approach(entity);
+  picture.approach(entity);
 }
 
 function follow(entity) {
-  const wanted = view.followed === entity ? null : entity;
-  if (wanted !== null) view.approach(wanted);
-  view.follow(wanted);
+  const wanted = picture.followed === entity ? null : entity;
+  if (wanted !== null) picture.approach(wanted);
+  picture.follow(wanted);
   inspector.setFollowed(wanted);
 }
 
@@ -143,27 +151,26 @@ function watch(entities) {
   connection?.send({ do: "watch", entities });
 }
 
-function move(entity, point) {
-  const heading = (view.motion.yaw(state.world.slots[entity]) * 180) / Math.PI;
-  command({ do: "move", entity: state.world.ids[entity], position: [point.x, point.y, view.placeOf(entity)[2]], angles: [0, 0, heading] });
+// Each: {entity, place: [x, y, z], yaw}
+function move(changes) {
+  for (const { entity, place, yaw } of changes)
+    command({ do: "move", entity: state.world.ids[entity], position: [...place], angles: [0, 0, (yaw * 180) / Math.PI] });
 }
 
 function toggle(name) {
-  view.show(name, !view.shows[name]);
-  toolbar.setToggle(name, view.shows[name]);
+  picture.show(name, !picture.shows[name]);
+  toolbar.setToggle(name, picture.shows[name]);
 }
 
 function frameArena(how) {
   if (!state.world) return;
-  view.follow(null);
+  picture.frameArena(how);
   inspector.setFollowed(null);
-  view.stage.frameArena(state.world.arena, how);
 }
 
 // The picture as it is drawn, as a PNG.
 function savePicture() {
-  view.stage.draw();
-  view.stage.renderer.domElement.toBlob((blob) => {
+  picture.toCanvas().toBlob((blob) => {
     const link = h("a", { href: URL.createObjectURL(blob), download: `${state.world.experiment}_${state.frame?.tick ?? 0}.png` });
     link.click();
     URL.revokeObjectURL(link.href);
@@ -197,6 +204,9 @@ const keys = {
   l: () => toggle("trails"),
   b: () => toggle("beams"),
   s: () => toggle("shadows"),
+  v: () => picture.switchView(),
+  PageUp: () => picture.view?.zoom(1),
+  PageDown: () => picture.view?.zoom(-1),
   p: () => savePicture(),
   Home: () => frameArena(),
   End: () => frameArena("top"),
@@ -226,12 +236,17 @@ document.addEventListener("visibilitychange", sendVisibility);
 
 function drawNext(now) {
   requestAnimationFrame(drawNext);
-  if (view.draw(now) && state.drawn++ === 0) state.firstPicture = performance.now();
+  if (picture.draw(now) && state.drawn++ === 0) state.firstPicture = performance.now();
   inspector.draw();
 }
 requestAnimationFrame(drawNext);
-setInterval(() => view.motion && list.render(view.motion), 250);
+setInterval(() => picture.motion && list.render(picture.motion), 250);
 showState();
+
+function inPage({ x, y }) {
+  const box = picture.view.canvas.getBoundingClientRect();
+  return { x: box.left + x, y: box.top + y };
+}
 
 // For tests, and for the console of the curious.
 window.swarmanoid = {
@@ -267,29 +282,38 @@ window.swarmanoid = {
     return state.firstPicture ?? null;
   },
   get quality() {
-    return view.qualityName;
+    return picture.qualityName;
+  },
+  get view() {
+    return picture.view === null ? null : picture.isPlan ? "plan" : "3D";
   },
   get selected() {
     return state.selected === null ? null : state.world.ids[state.selected];
+  },
+  get chosen() {
+    return picture.chosen.map((entity) => state.world.ids[entity]);
   },
   get status() {
     return state.status;
   },
   get followed() {
-    return view.followed === null ? null : state.world.ids[view.followed];
+    return picture.followed === null ? null : state.world.ids[picture.followed];
   },
   get camera() {
-    return view.stage.camera.position.toArray();
+    return picture.view.eye;
+  },
+  get viewpoint() {
+    return picture.view.viewpoint;
   },
   get shown() {
     return list.shown.length;
   },
-  instances: () => view.swarm.herds.map(({ slots, layers }) => ({ robots: slots.length, drawn: layers.map((layer) => layer.count) })),
+  instances: () => picture.view.details,
   select: (id) => select(state.world.find(id)),
-  show: (name, on) => view.shows[name] !== on && toggle(name),
+  show: (name, on) => picture.shows[name] !== on && toggle(name),
   approach: (id) => approach(state.world.find(id)),
-  place: (id) => Array.from(view.placeOf(state.world.find(id)) ?? []),
-  project: (id) => view.project(state.world.find(id)),
-  projectPoint: (x, y, z) => view.projectPoint(x, y, z),
+  place: (id) => Array.from(picture.placeOf(state.world.find(id)) ?? []),
+  project: (id) => inPage(picture.seen(state.world.find(id))),
+  projectPoint: (x, y, z) => inPage(picture.view.project(x, y, z)),
   command: (request) => connection.send(request),
 };

@@ -2,12 +2,13 @@
 import { h } from "./dom.js";
 
 const KEYS = [
-  ["drag", "turn the view"],
+  ["drag", "turn the view; move the plan"],
   ["right drag, arrow keys", "move the view"],
-  ["wheel", "nearer, further"],
+  ["wheel, page up, page down", "nearer, further"],
   ["click", "select"],
   ["double click", "select and go there"],
-  ["shift + drag a robot", "move it (with control)"],
+  ["shift + drag a robot", "move it, and those selected with it (with control)"],
+  ["shift + drag the floor", "select by a box"],
   ["F", "follow the selected one"],
   ["K", "keep its card"],
   ["Esc", "select nothing"],
@@ -19,7 +20,8 @@ const KEYS = [
   ["I", "ids"],
   ["L", "trails"],
   ["B", "laser beams and grips"],
-  ["S", "shadows"],
+  ["S", "shadows (in three dimensions)"],
+  ["V", "plan view, three dimensions"],
   ["P", "save the picture (PNG)"],
   ["Home", "the whole arena"],
   ["End", "the arena from above"],
