@@ -25,6 +25,7 @@ const { chromium } = createRequire(join(PAGE_MODULES, "here.js"))("playwright-co
 const folder = mkdtempSync(join(tmpdir(), "swarmanoid_page_"));
 // Shared memory of its own: other runs on the machine come and go.
 process.env.SWARMANOID_SHARED_FOLDER = `/dev/shm/swarmanoid-page-${process.pid}`;
+process.env.XDG_STATE_HOME = join(folder, "state");
 
 // ---- processes ----
 
@@ -60,20 +61,9 @@ class Process {
 const experiment = (name) => join(SWARMANOID_CONFIGS, `${name}.xml`);
 const run = (name, ...more) => new Process("run", experiment(name), "--quiet", ...more);
 async function attach(...words) {
-  const [running] = processes;
-  // The run is found as soon as its server has announced itself.
-  for (let i = 0; ; i++) {
-    if (running.code !== undefined) throw new Error(`the run has ended: ${running.output}`);
-    const viewer = new Process("attach", "web", ...words);
-    try {
-      const [, url] = await viewer.says(/web_render: (http\S+)/);
-      return { viewer, url };
-    } catch (error) {
-      if (i === 50 || !/no experiment runs/.test(viewer.output)) throw error;
-      processes.pop();
-      await new Promise((done) => setTimeout(done, 200));
-    }
-  }
+  const viewer = new Process("attach", "web", ...words);
+  const [, url] = await viewer.says(/web_render: (http\S+)/);
+  return { viewer, url };
 }
 
 function freePort() {
@@ -307,6 +297,44 @@ const tests = {
     assert.equal(await read(page, () => swarmanoid.selected), "fb_4");
     assert.ok(await page.isHidden(".banner"));
     assert.deepEqual(page.complaints, []);
+  },
+
+  async "a page goes on with the next run of its experiment, at the same address with the same token"() {
+    const first = run("diffusion_10", "--real-time", 5, "--ticks", 60);
+    const { viewer, url } = await attach("--allow-control", "--linger", 0);
+    const page = await open(url, { noise: [/ERR_CONNECTION_REFUSED/], quality: "plan" });
+    await drawn(page);
+    await read(page, () => swarmanoid.select("fb_4"));
+    const place = await read(page, () => swarmanoid.viewpoint);
+    assert.equal(await first.ended, 0);
+    await viewer.ended;
+    await until(page, () => !swarmanoid.connected);
+    await until(page, () => /Start the experiment again/.test(document.querySelector(".banner").textContent));
+
+    // The viewer may come before the run.
+    const waiting = new Process("attach", "web", "diffusion_10", "--allow-control");
+    await waiting.says(/no experiment 'diffusion_10' runs on this machine yet; waiting 60 s/);
+    run("diffusion_10", "--paused", "--ticks", 0);
+    const [, again] = await waiting.says(/web_render: (http\S+)/);
+    assert.equal(again, url);
+    await until(page, () => swarmanoid.connected && swarmanoid.tick === 0);
+    await until(page, () => /started again/.test(document.querySelector(".banner").textContent));
+    assert.equal(await read(page, () => swarmanoid.control), "granted");
+    assert.equal(await read(page, () => swarmanoid.selected), "fb_4");
+    assert.deepEqual(await read(page, () => swarmanoid.viewpoint), place);
+    await page.keyboard.press("n");
+    await until(page, () => swarmanoid.tick === 1);
+    // Another page of the same run has an address and a token of its own.
+    const { url: other } = await attach("diffusion_10", "--allow-control");
+    assert.notEqual(new URL(other).port, new URL(url).port);
+    assert.notEqual(new URL(other).searchParams.get("token"), new URL(url).searchParams.get("token"));
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "what never starts is waited for only so long"() {
+    const viewer = new Process("attach", "web", "nothing", "--wait", 0.5);
+    assert.equal(await viewer.ended, 2);
+    assert.match(viewer.output, /waiting 0.5 s[^]*no experiment runs on this machine/);
   },
 
   async "opened before the first tick and after the end of the run"() {

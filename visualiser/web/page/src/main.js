@@ -13,10 +13,11 @@ import { choices } from "./view/quality.js";
 import { World } from "./world.js";
 
 const HIDDEN_PERIOD_MS = 1000; // between frames while nobody sees the page
+const NEWS_MS = 5000;
 const asked = new URLSearchParams(location.search).get("quality");
 const quality = choices.includes(asked) ? asked : "auto";
 
-const state = { world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0 };
+const state = { world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0, newsUntil: 0 };
 
 const toolbar = new Toolbar({ command, toggle, help: () => help.toggle(), top: () => frameArena("top"), fit: () => frameArena(), quality: (name) => picture.setQuality(name), plan: () => picture.switchView(), list: () => togglePanel() });
 const list = new EntityList({ select, approach });
@@ -55,6 +56,7 @@ const connection = new Connection({
   onFrame(buffer) {
     const frame = decoder.decode(buffer);
     if (!frame || !state.world) return;
+    if (state.frame && frame.tick < state.frame.tick) sayItBegan();
     state.frames++;
     state.frame = frame;
     picture.addFrame(frame, performance.now());
@@ -99,12 +101,22 @@ function showState() {
   toolbar.setStatus(state.status, state.connected);
   const ended = state.status?.phase === "finished";
   let text = "";
-  if (!state.connected) text = state.world ? "The connection is lost. Trying again; this is the last state." : "Waiting for the server.";
+  if (!state.connected && ended) text = "The run has ended; this is its last state. Start the experiment again, and this page goes on.";
+  else if (!state.connected) text = state.world ? "The connection is lost. Trying again; this is the last state." : "Waiting for the server.";
   else if (ended) text = `The run has ended${state.status.ended ? `: ${state.status.ended}` : ""}. This is its last state.`;
   else if (state.status?.phase === "waiting") text = "The run has not begun: it waits for its processes.";
+  else if (performance.now() < state.newsUntil) text = "The experiment was started again.";
   setText(banner, text);
   banner.hidden = text === "";
-  banner.dataset.kind = state.connected ? "calm" : "trouble";
+  banner.dataset.kind = state.connected || ended ? "calm" : "trouble";
+}
+
+// A tick before the last one: a new run of the same experiment at the same address.
+function sayItBegan() {
+  log.add({ tick: 0, source: "page", level: "info", text: "the experiment was started again" });
+  state.newsUntil = performance.now() + NEWS_MS;
+  setTimeout(showState, NEWS_MS + 10);
+  showState();
 }
 
 // ---- what the user does ----
