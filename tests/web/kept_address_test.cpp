@@ -33,15 +33,15 @@ TEST_F(KeptAddressTest, TheNextStartOfAnExperimentHasPortAndTokenOfTheLast)
 {
   const std::string token = MakeToken();
   {
-    KeptAddress first(folder_, "/home/a/foraging");
+    KeptAddress first(folder_, "one/foraging");
     EXPECT_EQ(first.Port(), 0);
     EXPECT_EQ(first.Token(), "");
     EXPECT_TRUE(first.Keep(40123, token));
   }
-  KeptAddress second(folder_, "/home/a/foraging");
+  KeptAddress second(folder_, "one/foraging");
   EXPECT_EQ(second.Port(), 40123);
   EXPECT_EQ(second.Token(), token);
-  EXPECT_EQ(KeptAddress(folder_, "/home/b/foraging").Port(), 0);
+  EXPECT_EQ(KeptAddress(folder_, "another/foraging").Port(), 0);
 }
 
 TEST_F(KeptAddressTest, OfTwoRunsAtTheSameTimeTheSecondKeepsNothing)

@@ -538,6 +538,86 @@ const tests = {
     assert.deepEqual(page.complaints, []);
   },
 
+  async "lengths are measured, and a robot is moved and turned by its handles, in both views"() {
+    oneRobot("handled", "5, 5, 0");
+    const { url } = await attach("--allow-control");
+    const page = await open(url, { quality: "plan" });
+    await drawn(page);
+    const point = (x, y) => read(page, `swarmanoid.projectPoint(${x}, ${y}, 0)`);
+    const drag = async (from, to) => {
+      await page.mouse.move(from.x, from.y);
+      await page.mouse.down();
+      await page.mouse.move((from.x + to.x) / 2, (from.y + to.y) / 2, { steps: 3 });
+      await page.mouse.move(to.x, to.y, { steps: 3 });
+      await page.mouse.up();
+    };
+    for (const view of ["plan", "3D"]) {
+      if (view === "3D") await page.keyboard.press("v");
+      await until(page, (name) => swarmanoid.view === name, view);
+      await drawn(page);
+      await page.keyboard.press("m");
+      await drag(await point(4, 4), await point(7, 8));
+      const { metres, degrees } = await read(page, () => swarmanoid.measured);
+      assert.ok(Math.abs(metres - 5) < 0.1 && Math.abs(degrees - 53.13) < 1, `${view}: ${metres} m, ${degrees} degrees`);
+      await page.keyboard.press("m");
+      assert.equal(await read(page, () => swarmanoid.measured), null);
+
+      await read(page, () => swarmanoid.approach("fb"));
+      await page.keyboard.press("h");
+      await drawn(page);
+      const [x, y] = await read(page, () => swarmanoid.place("fb"));
+      const { turn } = await read(page, () => swarmanoid.handles);
+      // Its arrow to +y.
+      await drag(turn, await point(x, y + 0.5));
+      await until(page, () => Math.abs(swarmanoid.heading("fb") - 90) < 3);
+      await until(page, ([a, b]) => Math.hypot(swarmanoid.place("fb")[0] - a, swarmanoid.place("fb")[1] - b) < 0.01, [x, y]);
+      const { move } = await read(page, () => swarmanoid.handles);
+      await drag(move, await point(x + 0.3, y));
+      await until(page, ([a, b]) => Math.hypot(swarmanoid.place("fb")[0] - a - 0.3, swarmanoid.place("fb")[1] - b) < 0.03, [x, y]);
+      // And back to where it looked, by the form: to the millimetre.
+      await page.click(".place summary");
+      for (const [name, value] of [["x", 5], ["y", 5], ["z", 0], ["heading", 0]]) await page.fill(`.place-form [name=${name}]`, String(value));
+      await page.click(".place-form button[type=submit]");
+      await until(page, () => Math.hypot(swarmanoid.place("fb")[0] - 5, swarmanoid.place("fb")[1] - 5) < 1e-5 && Math.abs(swarmanoid.heading("fb")) < 0.1);
+      await page.keyboard.press("Escape");
+      await page.keyboard.press("h");
+      await page.keyboard.press("Home");
+    }
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "robots are taken out of the arena and put in again"() {
+    run("prey_supply", "--paused", "--ticks", 0, "--no-visualisers");
+    const { url } = await attach("--allow-control");
+    const page = await open(url, { quality: "plan" });
+    await drawn(page);
+    await page.fill("input[type=search]", "late_0");
+    await page.click(".row:not([hidden])");
+    await page.click(".place summary");
+    await until(page, () => document.querySelector(".place-form [type=submit]").textContent === "Add");
+    for (const [name, value] of [["x", 2.5], ["y", 2.2], ["z", 0], ["heading", 45]]) await page.fill(`.place-form [name=${name}]`, String(value));
+    await page.keyboard.press("Enter");
+    await until(page, () => Math.hypot(swarmanoid.place("late_0")[0] - 2.5, swarmanoid.place("late_0")[1] - 2.2) < 1e-5);
+    assert.ok(Math.abs((await read(page, () => swarmanoid.heading("late_0"))) - 45) < 0.1);
+    await until(page, () => document.querySelector(".place-form [type=submit]").textContent === "Move");
+    await page.click(".place-form button:has-text('Remove')");
+    await until(page, () => swarmanoid.place("late_0").length === 0);
+    await page.click(".place-form [type=submit]");
+    await until(page, () => swarmanoid.place("late_0").length === 3);
+    await page.focus("[role=listbox]");
+    await page.keyboard.press("Delete");
+    await until(page, () => swarmanoid.place("late_0").length === 0);
+    assert.deepEqual(page.complaints, []);
+
+    // Who has no token has no form.
+    const other = await open(url.replace(/\?.*/, ""), { quality: "plan" });
+    await drawn(other);
+    await read(other, () => swarmanoid.select("late_0"));
+    assert.ok(await other.isHidden(".place"));
+    await other.click(".tools summary");
+    assert.ok(await other.isDisabled(".tools button:has-text('Handles')"));
+  },
+
   async "two fingers move and zoom the plan"() {
     oneRobot("pinched", "5, 5, 0");
     const { url } = await attach();

@@ -7,6 +7,7 @@ import { Inspector } from "./ui/inspector.js";
 import { LogPanel } from "./ui/log.js";
 import { Processes } from "./ui/processes.js";
 import { Toolbar } from "./ui/toolbar.js";
+import { Tools } from "./ui/tools.js";
 import { h, setText } from "./ui/dom.js";
 import { Picture } from "./view/picture.js";
 import { choices } from "./view/quality.js";
@@ -21,7 +22,7 @@ const state = { world: null, status: null, control: "read-only", selected: null,
 
 const toolbar = new Toolbar({ command, toggle, help: () => help.toggle(), top: () => frameArena("top"), fit: () => frameArena(), quality: (name) => picture.setQuality(name), plan: () => picture.switchView(), list: () => togglePanel() });
 const list = new EntityList({ select, approach });
-const inspector = new Inspector({ watch, follow, deselect: () => select(null) });
+const inspector = new Inspector({ watch, follow, deselect: () => select(null), put, remove: (entity) => remove([entity]), poseOf });
 const log = new LogPanel();
 const processes = new Processes();
 const help = new Help();
@@ -33,6 +34,13 @@ app.append(toolbar.element, list.element, main, inspector.element, log.element, 
 const picture = new Picture(main, quality, { select, selectAll, approach, move, mayMove: () => state.control === "granted", trouble });
 const planNote = h("button.plan-note", { title: "Show it in three dimensions  (V)", onclick: () => picture.switchView() }, "Plan view · 3D: V");
 main.append(planNote);
+const tools = new Tools([
+  [
+    { name: "measures", label: "Measure", key: "M", title: "Drag over the floor: a length and its direction", switches: true, act: () => switchTool("measures") },
+    { name: "handles", label: "Handles", key: "H", title: "The selected robot has handles that move and turn it", switches: true, control: true, act: () => switchTool("handles") },
+  ],
+]);
+main.append(tools.element);
 picture.onQuality = () => {
   toolbar.setQuality(picture.wanted, picture.qualityName);
   planNote.hidden = picture.qualityName !== "plan";
@@ -70,6 +78,8 @@ const receive = {
   welcome({ control }) {
     state.control = control;
     toolbar.setControl(control);
+    tools.setControl(control);
+    inspector.setControl(control);
     log.clear();
     sendVisibility();
   },
@@ -174,6 +184,30 @@ function toggle(name) {
   toolbar.setToggle(name, picture.shows[name]);
 }
 
+// The length that was measured goes with its tool.
+function switchTool(name) {
+  picture[name] = !picture[name];
+  if (name === "measures") picture.tape = null;
+  tools.set(name, picture[name]);
+  picture.invalidate();
+}
+
+// pose: {x, y, z, heading}, m and degrees
+function put(entity, verb, { x, y, z, heading }) {
+  command({ do: verb, entity: state.world.ids[entity], position: [x, y, z], angles: [0, 0, heading] });
+}
+
+// What the form of a card begins with; for one that is not in the arena, what is looked at.
+function poseOf(entity) {
+  const place = picture.placeOf(entity);
+  const [x, y, z] = place ?? [...picture.view.viewpoint.target.slice(0, 2), 0];
+  return { x, y, z, heading: place ? (picture.yawOf(entity) * 180) / Math.PI : 0, present: place !== null };
+}
+
+function remove(entities) {
+  for (const entity of entities) if (state.world.slots[entity] >= 0 && picture.placeOf(entity)) command({ do: "remove", entity: state.world.ids[entity] });
+}
+
 function frameArena(how) {
   if (!state.world) return;
   picture.frameArena(how);
@@ -217,6 +251,9 @@ const keys = {
   b: () => toggle("beams"),
   s: () => toggle("shadows"),
   v: () => picture.switchView(),
+  m: () => switchTool("measures"),
+  h: () => state.control === "granted" && switchTool("handles"),
+  Delete: () => remove(picture.chosen),
   PageUp: () => picture.view?.zoom(1),
   PageDown: () => picture.view?.zoom(-1),
   p: () => savePicture(),
@@ -325,6 +362,16 @@ window.swarmanoid = {
   show: (name, on) => picture.shows[name] !== on && toggle(name),
   approach: (id) => approach(state.world.find(id)),
   place: (id) => Array.from(picture.placeOf(state.world.find(id)) ?? []),
+  heading: (id) => (picture.yawOf(state.world.find(id)) * 180) / Math.PI,
+  get measured() {
+    if (!picture.tape) return null;
+    const [dx, dy] = [0, 1].map((k) => picture.tape.to[k] - picture.tape.from[k]);
+    return { metres: Math.hypot(dx, dy), degrees: (Math.atan2(dy, dx) * 180) / Math.PI };
+  },
+  get handles() {
+    const { handles } = picture.overlay;
+    return handles && { move: inPage(handles.move), turn: inPage(handles.turn) };
+  },
   project: (id) => inPage(picture.seen(state.world.find(id))),
   projectPoint: (x, y, z) => inPage(picture.view.project(x, y, z)),
   command: (request) => connection.send(request),

@@ -100,6 +100,49 @@ class Card {
     const pose = this.section("Pose");
     for (const [name, unit] of [["x", "m"], ["y", "m"], ["z", "m"], ["heading", "°"], ["speed", "m/s"]]) this.row(pose, name, unit, `pose.${name}`);
     if (world.slots[entity] < 0) this.showStill();
+    else this.addForm();
+  }
+
+  // Moves the entity, takes it out of the arena or puts it in, to the millimetre and by the keyboard.
+  addForm() {
+    const { actions } = this.panel;
+    const field = (name, label, step) => {
+      const input = h("input", { type: "number", step, "aria-label": label, name });
+      return h("label", {}, label, input);
+    };
+    this.form = h(
+      "form.place-form",
+      { onsubmit: (event) => this.submit(event) },
+      field("x", "x (m)", "any"),
+      field("y", "y (m)", "any"),
+      field("z", "z (m)", "any"),
+      field("heading", "heading (°)", "any"),
+      (this.put = h("button.small", { type: "submit" }, "Move")),
+      (this.remove = h("button.small", { type: "button", title: "Take it out of the arena  (Delete)", onclick: () => actions.remove(this.entity) }, "Remove")),
+    );
+    const details = h("details.place", { ontoggle: () => details.open && this.fillForm() }, h("summary", {}, "Move, add, remove"), this.form);
+    this.place = details;
+    this.place.hidden = !this.panel.mayControl;
+    this.element.append(details);
+  }
+
+  fillForm() {
+    const pose = this.panel.actions.poseOf(this.entity);
+    for (const name of ["x", "y", "z", "heading"]) this.form.elements[name].value = fixed(pose[name], name === "heading" ? 1 : 3);
+    this.showPresence(pose.present);
+  }
+
+  showPresence(present) {
+    if (!this.form || this.present === present) return;
+    this.present = present;
+    setText(this.put, present ? "Move" : "Add");
+    this.remove.hidden = !present;
+  }
+
+  submit(event) {
+    event.preventDefault();
+    const pose = Object.fromEntries(["x", "y", "z", "heading"].map((name) => [name, Number(this.form.elements[name].value)]));
+    this.panel.actions.put(this.entity, this.present ? "move" : "add", pose);
   }
 
   section(title) {
@@ -133,9 +176,11 @@ class Card {
     const [x, y, z] = frame.positions.subarray(3 * slot, 3 * slot + 3);
     if (frame.colours[4 * slot + 3] & Flag.absent) {
       this.last = null;
+      this.showPresence(false);
       for (const name of ["x", "y", "z", "heading", "speed"]) this.rows.get(`pose.${name}`).text("not in the arena");
       return;
     }
+    this.showPresence(true);
     const [qx, qy, qz, qw] = frame.quaternions.subarray(4 * slot, 4 * slot + 4).map(Number);
     const scale = 1 / 32767 ** 2;
     const heading = Math.atan2(2 * (qw * qz + qx * qy) * scale, 1 - 2 * (qy * qy + qz * qz) * scale) * DEGREES;
@@ -214,11 +259,12 @@ class Card {
 }
 
 export class Inspector {
-  // actions: watch(entities), follow(entity), deselect()
+  // actions: watch(entities), follow(entity), deselect(), put(entity, "move" or "add", pose), remove(entity), poseOf(entity)
   constructor(actions) {
     this.actions = actions;
     this.cards = []; // the pinned ones, then the selected one
     this.selected = null;
+    this.mayControl = false;
     this.element = h("aside.right", { "aria-label": "Inspector" });
     this.element.hidden = true;
   }
@@ -264,6 +310,11 @@ export class Inspector {
       this.actions.deselect();
     }
     this.refresh();
+  }
+
+  setControl(control) {
+    this.mayControl = control === "granted";
+    for (const card of this.cards) if (card.place) card.place.hidden = !this.mayControl;
   }
 
   setFollowed(entity) {

@@ -26,6 +26,9 @@ export class Picture {
     this.selected = null;
     this.chosen = []; // all that are selected, the one above among them
     this.followed = null;
+    this.measures = false; // whether a drag measures
+    this.handles = false; // whether the selected entity has handles
+    this.tape = this.box = null; // what a drag has measured, or is about to select
     this.ghosts = []; // where somebody drags entities to: {entity, place, yaw}
     this.views = {};
     this.view = null; // until one can draw
