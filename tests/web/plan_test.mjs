@@ -5,7 +5,7 @@ import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
-import { gridStep, palette } from "../../visualiser/web/page/src/view/look.js";
+import { floorGrid, gridStep, palette } from "../../visualiser/web/page/src/view/look.js";
 import { outline } from "../../visualiser/web/page/src/view/plan/bodies.js";
 import { DotSprites } from "../../visualiser/web/page/src/view/plan/dots.js";
 import { scaleLength } from "../../visualiser/web/page/src/view/overlay.js";
@@ -124,16 +124,18 @@ test("a trail keeps the last samples in their order", () => {
   assert.equal(record.sample(0)[0], 7);
 });
 
-test("no grid has more than 26 cells along a side, nor so few that it tells nothing", () => {
+test("no grid has more than 14 cells along a side, nor so few that it tells nothing", () => {
   for (let extent = 0.5; extent < 1000; extent *= 1.07) {
     const cells = extent / gridStep(extent);
-    assert.ok(cells <= 26 && (cells > 9 || extent < 1), `${extent} m: ${cells} cells`);
+    assert.ok(cells <= 14 && (cells > 5 || extent < 1), `${extent} m: ${cells} cells`);
   }
 });
 
-test("the palette is that of all renderers", { skip: !process.env.WRITE_MESHES }, () => {
+test("palette and grid are those of all renderers", { skip: !process.env.WRITE_MESHES }, () => {
   const folder = mkdtempSync(join(tmpdir(), "swarmanoid_palette_"));
   execFileSync(process.env.WRITE_MESHES, [join(folder, "meshes.json")]);
-  assert.deepEqual(palette, JSON.parse(readFileSync(join(folder, "meshes.json"), "utf8")).palette);
+  const meshes = JSON.parse(readFileSync(join(folder, "meshes.json"), "utf8"));
+  assert.deepEqual(palette, meshes.palette);
+  assert.deepEqual(floorGrid, meshes.floor_grid);
   rmSync(folder, { recursive: true });
 });

@@ -49,10 +49,13 @@ export function paint(colour) {
   return channels.reduce((sum, channel) => sum * 256 + Math.round(0.52 * channel + 0.26 * grey + 0.22 * 205), 0);
 }
 
-// Metres between the lines of the floor: at most 26 cells along the longer side of the arena.
+// The lines of the floor, as in all renderers (visualiser/scene/floor_grid.h); a test compares the two.
+export const floorGrid = { spacings: [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50, 100], most_cells: 14 };
+
+// Metres between them in an arena whose longer side is `extent`.
 export function gridStep(extent) {
-  for (const step of [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50]) if (extent / step <= 26) return step;
-  return 100;
+  const { spacings, most_cells: cells } = floorGrid;
+  return spacings.find((spacing) => extent <= cells * spacing) ?? spacings.at(-1);
 }
 
 const TALL_M = 0.25; // lower walls hide nothing …
