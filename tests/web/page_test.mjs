@@ -618,6 +618,141 @@ const tests = {
     assert.ok(await other.isDisabled(".tools button:has-text('Handles')"));
   },
 
+  async "values of one unit share a plot, which is saved as a table and as a picture"() {
+    run("diffusion_10", "--real-time", 2, "--ticks", 100000);
+    const { url } = await attach();
+    const page = await open(url, { quality: "plan", viewport: { width: 1000, height: 700 } });
+    await drawn(page);
+    await read(page, () => swarmanoid.select("fb_4"));
+    const plots = page.locator(".right .plot");
+    assert.equal(await plots.count(), 1); // speed
+    for (const name of ["x", "y", "heading"]) await page.click(`[aria-label="Plot ${name}"]`);
+    assert.equal(await plots.count(), 3); // m/s, m, degrees
+    await until(page, () => swarmanoid.tick > 30);
+    await page.click(".plot >> nth=1 >> text=All");
+    const [table] = await Promise.all([page.waitForEvent("download"), page.click(".plot >> nth=1 >> text=CSV")]);
+    assert.equal(table.suggestedFilename(), "diffusion_10_fb_4_x_y.csv");
+    const lines = readFileSync(await table.path(), "utf8").trim().split("\n");
+    assert.equal(lines[0], "time (s),x (m),y (m)");
+    assert.ok(lines.length > 5, `${lines.length} lines`);
+    const [x, y] = lines.at(-1).split(",").slice(1).map(Number);
+    assert.ok(x > -0.2 && x < 3.4 && y > -0.2 && y < 3.4 && !lines.at(-1).includes("NaN"));
+    const times = lines.slice(1).map((line) => Number(line.split(",")[0]));
+    times.forEach((time, i) => assert.ok(i === 0 || time > times[i - 1]));
+    const [image] = await Promise.all([page.waitForEvent("download"), page.click(".plot >> nth=1 >> text=PNG")]);
+    assert.equal(readFileSync(await image.path()).toString("latin1", 1, 4), "PNG");
+    await page.click(".plot >> nth=1 >> [aria-label=Close]");
+    assert.equal(await plots.count(), 2);
+    assert.equal(await page.locator(".plottable.plotted").count(), 2);
+
+    // The swarm's mean, over all and over those that are selected.
+    await page.keyboard.press("w");
+    await page.click(".swarm button:has-text('distance from the middle')");
+    await until(page, () => /mean and standard deviation of all 10 robots/.test(document.querySelector(".swarm").textContent));
+    await until(page, () => /^distance from the middle [\d.]+ m$/.test(document.querySelectorAll(".swarm .legend-names span")[2]?.textContent.trim() ?? ""));
+    const [swarm] = await Promise.all([page.waitForEvent("download"), page.click(".swarm .plot >> nth=1 >> text=CSV")]);
+    assert.match(readFileSync(await swarm.path(), "utf8"), /^time \(s\),distance from the middle \(m\),"distance from the middle, standard deviation \(m\)"\n/);
+    await page.keyboard.press("w");
+    assert.equal(await page.locator(".swarm").count(), 0);
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "robots are coloured by a value, and where they have been is shown, in both views"() {
+    run("diffusion_10", "--real-time", 4, "--ticks", 100000);
+    const { url } = await attach();
+    for (const quality of ["plan", "low"]) {
+      const page = await open(url, { quality });
+      await drawn(page);
+      await page.click(".tools summary");
+      await page.selectOption("[aria-label='Colours of robots']", "distance from the middle");
+      await until(page, () => swarmanoid.colouring.high > swarmanoid.colouring.low);
+      assert.match(await page.textContent(".legend"), /distance from the middle\s*[\d.]+ m/);
+      // The one that is furthest is yellow, and no LED shines in this experiment.
+      await page.click(".tools summary");
+      await page.keyboard.press("j");
+      await until(page, () => swarmanoid.heat?.drawn && swarmanoid.heat.seconds.reduce((a, b) => a + b) > 20);
+      const { columns, rows } = await read(page, () => swarmanoid.heat);
+      assert.equal(columns, rows);
+      // Where somebody has been, and nobody is now, the floor has a colour; elsewhere it is grey.
+      await until(page, () => {
+        const { columns: width, rows: height, seconds } = swarmanoid.heat;
+        const middle = (i) => [((i % width) + 0.5) / width, (Math.floor(i / width) + 0.5) / height].map((part) => part * 3.16228);
+        const away = (i) => Math.min(...[0, 1, 2, 3, 4, 5, 6, 7, 8, 9].map((n) => Math.hypot(...middle(i).map((value, k) => value - swarmanoid.place(`fb_${n}`)[k]))));
+        // Not under the panels at the edges.
+        const cells = [...seconds.keys()].filter((i) => middle(i).every((value) => Math.abs(value - 1.58114) < 0.9) && away(i) > 0.3);
+        const visited = cells.find((i) => seconds[i] > 0.3);
+        const never = cells.find((i) => [-width - 1, -width, 1 - width, -1, 0, 1, width - 1, width, width + 1].every((step) => !seconds[i + step]));
+        if (visited === undefined || never === undefined) return false;
+        window.spots = [visited, never].map((i) => swarmanoid.projectPoint(...middle(i), 0));
+        return true;
+      });
+      const [visited, never] = await read(page, () => window.spots);
+      const colours = (await Promise.all([visited, never].map((at) => pixelsAbout(page, at, 0)))).map(([pixel]) => saturation(pixel));
+      assert.ok(colours[0] > colours[1] + 10, `${quality}: ${colours}`);
+      await page.keyboard.press("j");
+      assert.equal(await read(page, () => swarmanoid.heat), null);
+      assert.deepEqual(page.complaints, []);
+      await page.close();
+    }
+  },
+
+  async "the robot with the highest value has the last colour of the ramp"() {
+    run("diffusion_10", "--paused", "--ticks", 0);
+    const { url } = await attach();
+    for (const quality of ["plan", "low"]) {
+      const page = await open(url, { quality });
+      await drawn(page);
+      await read(page, () => swarmanoid.colourBy("distance from the middle"));
+      const id = await read(page, () => {
+        const away = (n) => Math.hypot(...swarmanoid.place(`fb_${n}`).slice(0, 2).map((value) => value - 1.58114));
+        return `fb_${[0, 1, 2, 3, 4, 5, 6, 7, 8, 9].sort((a, b) => away(b) - away(a))[0]}`;
+      });
+      await page.evaluate((name) => swarmanoid.approach(name), id);
+      await drawn(page);
+      const pixels = await pixelsAbout(page, await page.evaluate((name) => swarmanoid.project(name), id), 60);
+      const yellow = pixels.filter(([r, g, b]) => r > 225 && g > 205 && b < 90);
+      assert.ok(yellow.length > 15, `${quality}: ${yellow.length} yellow pixels about ${id}`);
+      await page.close();
+    }
+  },
+
+  async "a link opens the same view and has no token, and the picture is filmed"() {
+    run("diffusion_10", "--real-time", 1);
+    const { url } = await attach("--allow-control");
+    const page = await open(url, { quality: "plan" });
+    await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+    await drawn(page);
+    await read(page, () => swarmanoid.approach("fb_7"));
+    await read(page, () => swarmanoid.show("ids", true));
+    await read(page, () => swarmanoid.colourBy("speed"));
+    await page.keyboard.press("y");
+    await until(page, () => swarmanoid.link !== null);
+    const link = await read(page, () => swarmanoid.link);
+    assert.ok(!link.includes("token") && link.startsWith(new URL(url).origin), link);
+    await until(page, async () => (await navigator.clipboard.readText()) === swarmanoid.link);
+
+    const other = await browser.newPage({ viewport: { width: 760, height: 420 } });
+    await other.goto(link);
+    await drawn(other);
+    await until(other, () => swarmanoid.selected === "fb_7");
+    const [a, b] = [await read(page, () => swarmanoid.viewpoint), await read(other, () => swarmanoid.viewpoint)];
+    assert.ok(a.target.every((value, k) => Math.abs(value - b.target[k]) < 1e-3) && Math.abs(a.span - b.span) < 1e-3, JSON.stringify([a, b]));
+    assert.equal(await other.getAttribute("header .toggle >> nth=0", "aria-pressed"), "true");
+    assert.equal((await read(other, () => swarmanoid.colouring)).name, "speed");
+    assert.equal(await read(other, () => swarmanoid.control), "token needed");
+    await other.close();
+
+    await page.keyboard.press("Shift+P");
+    const before = await read(page, () => swarmanoid.drawn);
+    await until(page, (count) => swarmanoid.drawn > count + 20, before);
+    const [film] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("Shift+P")]);
+    assert.match(film.suggestedFilename(), /^diffusion_10_\d+\.(webm|mp4)$/);
+    const bytes = readFileSync(await film.path());
+    assert.ok(bytes.length > 5000, `${bytes.length} bytes`);
+    if (film.suggestedFilename().endsWith("webm")) assert.equal(bytes.readUInt32BE(0), 0x1a45dfa3); // EBML
+    assert.deepEqual(page.complaints, []);
+  },
+
   async "two fingers move and zoom the plan"() {
     oneRobot("pinched", "5, 5, 0");
     const { url } = await attach();
@@ -675,7 +810,12 @@ const tests = {
       assert.equal(await page.locator(".plot").count(), plots + 1);
       await until(page, () => document.querySelector(".right").textContent.includes("Sensor"));
       await page.keyboard.press("g");
-      assert.deepEqual(await violations(), [], `${colorScheme}, with a card and the log`);
+      await page.keyboard.press("w");
+      await page.click(".tools summary");
+      await page.selectOption("[aria-label='Colours of robots']", "speed");
+      await until(page, () => !document.querySelector(".legend").hidden);
+      if (await page.isVisible(".place")) await page.click(".place summary");
+      assert.deepEqual(await violations(), [], `${colorScheme}, with a card, the log and the tools`);
       await page.keyboard.press("F1");
       assert.deepEqual(await violations(), [], `${colorScheme}, help`);
       await page.close();

@@ -8,21 +8,26 @@ import { LogPanel } from "./ui/log.js";
 import { Processes } from "./ui/processes.js";
 import { Toolbar } from "./ui/toolbar.js";
 import { Tools } from "./ui/tools.js";
-import { h, setText } from "./ui/dom.js";
+import { h, saveBlob, setText } from "./ui/dom.js";
 import { Picture } from "./view/picture.js";
 import { choices } from "./view/quality.js";
+import { robotValues } from "./view/robot_values.js";
+import { readLink, writeLink } from "./link.js";
+import { Film } from "./film.js";
+import { Legend } from "./ui/legend.js";
 import { World } from "./world.js";
 
 const HIDDEN_PERIOD_MS = 1000; // between frames while nobody sees the page
 const NEWS_MS = 5000;
 const asked = new URLSearchParams(location.search).get("quality");
-const quality = choices.includes(asked) ? asked : "auto";
+const linked = readLink(location.hash.slice(1));
+const quality = [asked, linked.quality].find((name) => choices.includes(name)) ?? "auto";
 
-const state = { world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0, newsUntil: 0 };
+const state = { world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0, newsUntil: 0, linkWaits: true };
 
 const toolbar = new Toolbar({ command, toggle, help: () => help.toggle(), top: () => frameArena("top"), fit: () => frameArena(), quality: (name) => picture.setQuality(name), plan: () => picture.switchView(), list: () => togglePanel() });
 const list = new EntityList({ select, approach });
-const inspector = new Inspector({ watch, follow, deselect: () => select(null), put, remove: (entity) => remove([entity]), poseOf });
+const inspector = new Inspector({ watch, follow, deselect: () => select(null), put, remove: (entity) => remove([entity]), poseOf, swarmChanged: (on) => tools.set("swarm", on) });
 const log = new LogPanel();
 const processes = new Processes();
 const help = new Help();
@@ -34,13 +39,28 @@ app.append(toolbar.element, list.element, main, inspector.element, log.element, 
 const picture = new Picture(main, quality, { select, selectAll, approach, move, mayMove: () => state.control === "granted", trouble });
 const planNote = h("button.plan-note", { title: "Show it in three dimensions  (V)", onclick: () => picture.switchView() }, "Plan view · 3D: V");
 main.append(planNote);
+const legend = new Legend();
+picture.onColouring = () => legend.show(picture.colouring, state.world);
+const film = new Film(picture, { fileName, changed: (on) => tools.set("film", on), trouble });
+const colourChoice = h(
+  "select",
+  { "aria-label": "Colours of robots", onchange: () => colourBy(colourChoice.value) },
+  ...["LEDs", ...Object.keys(robotValues)].map((name) => h("option", { value: name }, name)),
+);
 const tools = new Tools([
   [
     { name: "measures", label: "Measure", key: "M", title: "Drag over the floor: a length and its direction", switches: true, act: () => switchTool("measures") },
+    { name: "heat", label: "Heat map", key: "J", title: "Where robots have been since this was switched on", switches: true, act: () => toggleHeat() },
+    { name: "swarm", label: "Swarm plots", key: "W", title: "Mean and band of values over the robots", switches: true, act: () => inspector.toggleSwarm() },
+    { name: "link", label: "Link", key: "Y", title: "Copy a link that opens this view, without the token", act: () => shareLink() },
+    { name: "film", label: "Film", key: "shift + P", title: "Film the picture, until it is pressed again", switches: true, act: () => film.toggle() },
+  ],
+  [
     { name: "handles", label: "Handles", key: "H", title: "The selected robot has handles that move and turn it", switches: true, control: true, act: () => switchTool("handles") },
+    h("label", {}, "Colours: ", colourChoice),
   ],
 ]);
-main.append(tools.element);
+main.append(tools.element, legend.element);
 picture.onQuality = () => {
   toolbar.setQuality(picture.wanted, picture.qualityName);
   planNote.hidden = picture.qualityName !== "plan";
@@ -69,6 +89,9 @@ const connection = new Connection({
     state.frame = frame;
     picture.addFrame(frame, performance.now());
     inspector.addFrame(frame);
+    const { chosen } = picture;
+    const robots = chosen.length > 1 ? chosen.filter((entity) => state.world.isRobot(entity)) : state.world.robots;
+    inspector.swarm?.addFrame(frame, picture.meter, robots, robots === state.world.robots);
     toolbar.setFrame(frame);
     banner.dataset.waiting = "";
   },
@@ -148,6 +171,7 @@ function choose(entity, chosen) {
   state.selected = entity;
   picture.select(entity, chosen);
   list.select(entity, chosen);
+  inspector.swarm?.clear();
   inspector.select(entity);
   inspector.setFollowed(picture.followed);
 }
@@ -214,13 +238,49 @@ function frameArena(how) {
   inspector.setFollowed(null);
 }
 
+// Of a picture or film that begins now.
+function fileName() {
+  return `${state.world.experiment}_${state.frame?.tick ?? 0}`;
+}
+
 // The picture as it is drawn, as a PNG.
 function savePicture() {
-  picture.toCanvas().toBlob((blob) => {
-    const link = h("a", { href: URL.createObjectURL(blob), download: `${state.world.experiment}_${state.frame?.tick ?? 0}.png` });
-    link.click();
-    URL.revokeObjectURL(link.href);
-  });
+  picture.toCanvas().toBlob((blob) => saveBlob(blob, `${fileName()}.png`));
+}
+
+function colourBy(name) {
+  colourChoice.value = name;
+  picture.colourBy(name === "LEDs" ? null : name);
+  legend.show(picture.colouring, state.world);
+}
+
+function toggleHeat() {
+  picture.showHeat(!picture.heat);
+  tools.set("heat", Boolean(picture.heat));
+}
+
+// ---- links ----
+
+// What a link says, once the experiment is there.
+function openLink(wanted) {
+  if (wanted.view) picture.view.viewpoint = wanted.view;
+  if (wanted.select) select(state.world.find(wanted.select) >= 0 ? state.world.find(wanted.select) : null);
+  for (const name of wanted.shows ?? []) if (Object.hasOwn(picture.shows, name) && !picture.shows[name]) toggle(name);
+  if (wanted.colours && Object.hasOwn(robotValues, wanted.colours)) colourBy(wanted.colours);
+}
+
+async function shareLink() {
+  const { viewpoint } = picture.view;
+  const shows = Object.keys(picture.shows).filter((name) => picture.shows[name]);
+  const select = state.selected === null ? null : state.world.ids[state.selected];
+  const fragment = writeLink({ view: viewpoint, select, shows, colours: picture.colouring?.name ?? null, quality: picture.isPlan ? "plan" : null });
+  state.link = `${location.origin}${location.pathname}#${fragment}`;
+  try {
+    await navigator.clipboard.writeText(state.link);
+    log.add({ tick: state.frame?.tick ?? null, source: "page", level: "info", text: `copied: ${state.link}` });
+  } catch {
+    prompt("A link to this view", state.link); // the browser lets no page write to the clipboard
+  }
 }
 
 // On a narrow screen the list of entities covers the picture only while it is wanted.
@@ -253,6 +313,10 @@ const keys = {
   v: () => picture.switchView(),
   m: () => switchTool("measures"),
   h: () => state.control === "granted" && switchTool("handles"),
+  j: () => toggleHeat(),
+  w: () => inspector.toggleSwarm(),
+  y: () => shareLink(),
+  P: () => film.toggle(),
   Delete: () => remove(picture.chosen),
   PageUp: () => picture.view?.zoom(1),
   PageDown: () => picture.view?.zoom(-1),
@@ -285,7 +349,14 @@ document.addEventListener("visibilitychange", sendVisibility);
 
 function drawNext(now) {
   requestAnimationFrame(drawNext);
-  if (picture.draw(now) && state.drawn++ === 0) state.firstPicture = performance.now();
+  if (state.linkWaits && state.frame && picture.view?.world) {
+    state.linkWaits = false;
+    openLink(linked);
+  }
+  if (picture.draw(now)) {
+    if (state.drawn++ === 0) state.firstPicture = performance.now();
+    film.draw();
+  }
   inspector.draw();
 }
 requestAnimationFrame(drawNext);
@@ -363,6 +434,16 @@ window.swarmanoid = {
   approach: (id) => approach(state.world.find(id)),
   place: (id) => Array.from(picture.placeOf(state.world.find(id)) ?? []),
   heading: (id) => (picture.yawOf(state.world.find(id)) * 180) / Math.PI,
+  get colouring() {
+    return picture.colouring && { name: picture.colouring.name, low: picture.colouring.low, high: picture.colouring.high };
+  },
+  get heat() {
+    return picture.heat && { columns: picture.heat.columns, rows: picture.heat.rows, seconds: Array.from(picture.heat.seconds), drawn: Boolean(picture.heat.canvas) };
+  },
+  get link() {
+    return state.link ?? null;
+  },
+  colourBy,
   get measured() {
     if (!picture.tape) return null;
     const [dx, dy] = [0, 1].map((k) => picture.tape.to[k] - picture.tape.from[k]);

@@ -2,12 +2,14 @@
 // dimensions is loaded when it is wanted, so that a browser that draws in software never waits for it.
 import { h } from "../ui/dom.js";
 import { Motion } from "../world.js";
+import { HeatMap } from "./heat_map.js";
 import { extentOf } from "./look.js";
 import { Overlay } from "./overlay.js";
 import { PlanView } from "./plan/plan_view.js";
 import { listenToPointer } from "./pointer.js";
 import { findGraphics } from "./graphics.js";
 import { Governor, isPaced, qualities } from "./quality.js";
+import { Colouring, Meter } from "./robot_values.js";
 import { TrailRecord } from "./trail_record.js";
 
 const GRAPHICS_WAIT_MS = 100; // for the answer whether there is a graphics card, before the plan begins without it
@@ -26,6 +28,8 @@ export class Picture {
     this.selected = null;
     this.chosen = []; // all that are selected, the one above among them
     this.followed = null;
+    this.colouring = null; // what robots are coloured by instead of by their LEDs
+    this.heat = null; // where they have been, if that is shown
     this.measures = false; // whether a drag measures
     this.handles = false; // whether the selected entity has handles
     this.tape = this.box = null; // what a drag has measured, or is about to select
@@ -126,6 +130,7 @@ export class Picture {
     if (this.colours) view.paint(this.colours);
     if (this.motion.frame) view.addFrame(this.motion.frame);
     view.applyShows();
+    view.updateHeat();
     this.motion.settled = false;
   }
 
@@ -142,6 +147,9 @@ export class Picture {
     this.world = world;
     this.motion = new Motion(world.movable.length);
     this.trails = new TrailRecord(world);
+    this.meter = new Meter(world);
+    this.colouring &&= new Colouring(world, this.colouring.name);
+    this.heat &&= new HeatMap(world);
     this.trails.on = this.shows.trails;
     this.followed = null;
     this.ghosts = [];
@@ -159,9 +167,29 @@ export class Picture {
 
   addFrame(frame, now) {
     if (frame.count !== this.world.movable.length) return;
-    this.motion.add(frame, now);
+    this.meter.add(frame);
     this.trails.add(frame);
-    this.view?.addFrame(frame);
+    if (this.heat?.add(frame)) this.view?.updateHeat();
+    this.showFrame(frame, now);
+  }
+
+  showFrame(frame, now) {
+    const shown = this.colouring ? this.colouring.apply(frame, this.meter) : frame;
+    this.motion.add(shown, now);
+    this.view?.addFrame(shown);
+    this.onColouring?.();
+  }
+
+  // name: one of robot_values.js, or null for the colours of LEDs.
+  colourBy(name) {
+    this.colouring = name === null ? null : new Colouring(this.world, name);
+    if (this.meter.frame) this.showFrame(this.meter.frame, performance.now());
+    this.invalidate();
+  }
+
+  showHeat(on) {
+    this.heat = on ? new HeatMap(this.world) : null;
+    this.view?.updateHeat();
   }
 
   // null while it is not in the arena.

@@ -9,6 +9,7 @@ import { Swarm } from "./swarm.js";
 
 const SHADOWS_UP_TO = 2500; // robots
 const WHEEL_STEP = 1.2;
+const HEAT_M = 0.0015; // above the floor
 
 export class View3d {
   // picture: what all views show; meshes: the models that all renderers share; smoothEdges: stays as it is, all else
@@ -61,6 +62,27 @@ export class View3d {
 
   paint(colours) {
     this.arena.paint(colours);
+    this.stage.invalidate();
+  }
+
+  // The picture of the heat map is another; it lies on the floor.
+  updateHeat() {
+    const canvas = this.picture.heat?.canvas;
+    if (!canvas || this.heat?.canvas !== canvas) {
+      this.heat?.mesh.removeFromParent();
+      this.heat = null;
+    }
+    if (canvas && !this.heat) {
+      const [width, depth] = this.world.arena;
+      const map = new THREE.CanvasTexture(canvas);
+      map.colorSpace = THREE.SRGBColorSpace;
+      map.flipY = false; // its first row has the lowest y
+      const mesh = new THREE.Mesh(new THREE.PlaneGeometry(width, depth), new THREE.MeshBasicMaterial({ map, transparent: true, depthWrite: false, polygonOffset: true, polygonOffsetFactor: -1 }));
+      mesh.position.set(width / 2, depth / 2, HEAT_M);
+      this.stage.scene.add(mesh);
+      this.heat = { canvas, map, mesh };
+    }
+    if (this.heat) this.heat.map.needsUpdate = true;
     this.stage.invalidate();
   }
 

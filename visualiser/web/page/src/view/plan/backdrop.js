@@ -32,10 +32,10 @@ export class Backdrop {
     return this.colours.get(body.entity) ?? [body.colour, 1];
   }
 
-  // frame: the transformation of the plan (plan_view.js). True if it was drawn anew.
-  update(frame, theme) {
+  // frame: the transformation of the plan (camera.js); heat: a picture of the arena's size that lies on its floor, or null.
+  update(frame, theme, heat) {
     const key = `${frame.key} ${theme.floor}`;
-    if (!this.stale && key === this.key) return false;
+    if (!this.stale && key === this.key) return;
     this.stale = false;
     this.key = key;
     const { canvas, context } = this;
@@ -45,6 +45,12 @@ export class Backdrop {
     context.fillRect(0, 0, canvas.width, canvas.height);
     this.drawFloor(frame, theme);
     for (const body of this.flat) this.drawFlat(frame, body);
+    if (heat) {
+      const [width, depth] = this.world.arena;
+      context.setTransform(1, 0, 0, -1, frame.x(0), frame.y(0));
+      context.drawImage(heat, 0, 0, width * frame.scale, depth * frame.scale);
+      context.setTransform(1, 0, 0, 1, 0, 0);
+    }
     const still = (body) => ({ position: body.position, orientation: body.orientation });
     for (const body of this.solid) {
       // The shadow of a wall about the arena would hide what happens inside.
@@ -52,7 +58,6 @@ export class Backdrop {
       fillBody(context, frame, this.world.look(body.entity), body, still(body), ...this.colourOf(body), casts);
     }
     this.pixels = null;
-    return true;
   }
 
   // Of the whole picture, as 32-bit numbers.

@@ -62,6 +62,13 @@ export class PlanView {
   }
 
   applyShows() {
+    this.backdrop.stale = true;
+    this.invalidate();
+  }
+
+  // The picture of the heat map is another.
+  updateHeat() {
+    this.backdrop.stale = true;
     this.invalidate();
   }
 
@@ -80,11 +87,11 @@ export class PlanView {
     const { context, swarm, picture } = this;
     const { motion, shows } = picture;
     const frame = this.camera.frame;
-    const redrawn = this.backdrop.update(frame, this.theme);
-    this.drawGround(frame, motion, redrawn);
+    this.backdrop.update(frame, this.theme, picture.heat?.canvas ?? null);
+    this.drawGround(frame, motion);
     if (this.trails.update(frame, picture.trails)) context.drawImage(this.trails.canvas, 0, 0);
     swarm.drawThings(context, frame, motion, this.backdrop.colours);
-    swarm.drawSprites(context, frame, motion, picture.tint);
+    swarm.drawSprites(context, frame, motion);
     if (shows.beams && motion.frame) {
       this.drawGrips(frame, motion);
       this.drawBeams(frame, motion);
@@ -105,7 +112,7 @@ export class PlanView {
       this.words = new Uint32Array(this.pixels.data.buffer);
     }
     this.words.set(backdrop.read());
-    swarm.writeDots(this.words, frame, motion, this.dark, this.picture.tint);
+    swarm.writeDots(this.words, frame, motion, this.dark);
     context.putImageData(this.pixels, 0, 0);
   }
 

@@ -44,16 +44,15 @@ export class PlanSwarm {
     return this.diameter(herd, frame) < DOT_PIXELS * frame.ratio;
   }
 
-  // The colour of an entity: of its LEDs, or as the page wants it.
-  colourAt(motion, slot, tint, off) {
-    if (tint) return tint[slot];
+  // The colour of its LEDs; `off` if none is on.
+  colourAt(motion, slot, off) {
     const { colours } = motion;
     if (!(colours[4 * slot + 3] & Flag.lit)) return off;
     return (colours[4 * slot] << 16) | (colours[4 * slot + 1] << 8) | colours[4 * slot + 2];
   }
 
-  // Robots that are dots, into the memory of the picture. tint: colours by slot that replace those of LEDs, or null.
-  writeDots(pixels, frame, motion, dark, tint) {
+  // Robots that are dots, into the memory of the picture.
+  writeDots(pixels, frame, motion, dark) {
     this.drawn = { dots: 0, sprites: 0 };
     const off = dark ? OFF_BY_NIGHT : LED_OFF;
     const { positions: p, colours } = motion;
@@ -65,7 +64,7 @@ export class PlanSwarm {
         const x = frame.x(p[3 * slot]);
         const y = frame.y(p[3 * slot + 1]);
         if (x < -20 || y < -20 || x > frame.width + 20 || y > frame.height + 20) continue;
-        this.dots.draw(pixels, frame.width, frame.height, x, y, diameter, motion.yaw(slot), this.colourAt(motion, slot, tint, off), dark);
+        this.dots.draw(pixels, frame.width, frame.height, x, y, diameter, motion.yaw(slot), this.colourAt(motion, slot, off), dark);
         this.drawn.dots++;
       }
     }
@@ -83,16 +82,16 @@ export class PlanSwarm {
     }
   }
 
-  drawSprites(context, frame, motion, tint) {
+  drawSprites(context, frame, motion) {
     for (const herd of this.herds) {
       if (this.isDots(herd, frame)) continue;
       const seen = this.visible(herd, frame, motion);
       if (seen.length === 0) continue;
       this.drawn.sprites += seen.length;
       this.drawShadows(context, herd, seen, frame);
-      this.drawGlows(context, herd, seen, frame, motion, tint);
+      this.drawGlows(context, herd, seen, frame, motion);
       this.drawBodies(context, herd, seen, frame, motion);
-      this.drawLeds(context, herd, seen, frame, motion, tint);
+      this.drawLeds(context, herd, seen, frame, motion);
     }
   }
 
@@ -121,10 +120,10 @@ export class PlanSwarm {
     context.fill();
   }
 
-  drawGlows(context, herd, seen, frame, motion, tint) {
+  drawGlows(context, herd, seen, frame, motion) {
     const reach = GLOW_RADII * herd.radius * frame.scale;
     for (const { slot, x, y, z } of seen) {
-      const colour = this.colourAt(motion, slot, tint, null);
+      const colour = this.colourAt(motion, slot, null);
       if (colour === null || z > 0.5) continue;
       context.drawImage(this.glow(colour), x - reach, y - reach, 2 * reach, 2 * reach);
     }
@@ -163,17 +162,17 @@ export class PlanSwarm {
   }
 
   // Rings of one colour in one path for all of that colour; the others LED by LED.
-  drawLeds(context, herd, seen, frame, motion, tint) {
+  drawLeds(context, herd, seen, frame, motion) {
     const ring = ringOf(this.world, herd.sample);
     const radius = ring.radius * frame.scale;
     context.lineWidth = ring.width * frame.scale;
     const paths = new Map();
     const pathOf = (colour) => paths.get(colour) ?? paths.set(colour, new Path2D()).get(colour);
     for (const { slot, x, y } of seen) {
-      const leds = tint ? null : this.rings.get(slot);
+      const leds = this.rings.get(slot);
       if (leds) this.traceLeds(pathOf, ring, leds, x, y, motion.yaw(slot), radius);
       else {
-        const colour = this.colourAt(motion, slot, tint, null);
+        const colour = this.colourAt(motion, slot, null);
         if (colour === null) continue;
         const path = pathOf(colour);
         path.moveTo(x + radius, y);
