@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "common/bus/cluster_options.h"
 #include "common/configuration/wording.h"
@@ -23,11 +24,14 @@ namespace swarmanoid
 namespace
 {
 
+constexpr double kWaitOfPages_s = 60;
+
 struct AttachOptions
 {
   std::string kind;
   std::vector<std::string> words;       // the experiment's name and the renderer's parameters
   std::vector<std::string> parameters;  // those given as --name value, as "name=value"
+  std::optional<double> wait_s;
   WorkerSettings visualiser;
   BusOptions bus;
 };
@@ -56,7 +60,8 @@ void Attach(AttachOptions& options, const CLI::App& verb)
     throw UsageError(error.what());
   }
   const bool domain_given = verb.get_option("--domain")->count() > 0;
-  const RunChoice run = ChooseRun(name, domain_given ? std::optional(options.bus.domain) : std::nullopt);
+  const double wait_s = options.wait_s.value_or(options.kind.starts_with("web") ? kWaitOfPages_s : 0);
+  const RunChoice run = AwaitRun(name, domain_given ? std::optional(options.bus.domain) : std::nullopt, wait_s);
 
   options.visualiser.attach = options.kind;
   options.visualiser.experiment = run.experiment;
@@ -111,6 +116,9 @@ void AddAttachCommand(CLI::App& app, int&)
   for (const OptionSpec& option : VisualiserOptionTable(options->visualiser))
     if (const std::string& name = option.value.name; name == "output" || name == "hz" || name == "read-only")
       AddOptions(*verb, {option});
+  verb->add_option("--wait", options->wait_s,
+                   "Seconds for which an experiment that does not run yet is waited for (default: 60 for web, else 0)")
+      ->check(CLI::Range(0.0, 1e6));
   AddOptions(*verb, BusOptionTable(options->bus));
   AddOptionsOfKind(*verb, *options);
   verb->footer(

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <thread>
 #include <vector>
 
 #include "common/bus/run_directory.h"
@@ -21,7 +24,28 @@ std::string Described(const std::vector<LocalRun>& runs)
   return text;
 }
 
+bool Fits(const LocalRun& run, const std::string& name, std::optional<int> domain)
+{
+  return (name.empty() || run.experiment == name) && (!domain || run.domain == *domain);
+}
+
 }  // namespace
+
+RunChoice AwaitRun(const std::string& name, std::optional<int> domain, double wait_s)
+{
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(wait_s);
+  const bool elsewhere = domain && !name.empty();
+  for (bool told = false; !elsewhere && std::chrono::steady_clock::now() < deadline; told = true)
+  {
+    const std::vector<LocalRun> runs = FindLocalRuns();
+    if (std::any_of(runs.begin(), runs.end(), [&](const LocalRun& run) { return Fits(run, name, domain); })) break;
+    if (!told)
+      fmt::print(stderr, "no experiment{} runs on this machine yet; waiting {:g} s for it to start\n",
+                 name.empty() ? "" : " " + Quoted(name), wait_s);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  }
+  return ChooseRun(name, domain);
+}
 
 RunChoice ChooseRun(const std::string& name, std::optional<int> domain)
 {
@@ -31,7 +55,7 @@ RunChoice ChooseRun(const std::string& name, std::optional<int> domain)
   for (const LocalRun& run : all)
   {
     names.push_back(run.experiment);
-    if ((name.empty() || run.experiment == name) && (!domain || run.domain == *domain)) fitting.push_back(run);
+    if (Fits(run, name, domain)) fitting.push_back(run);
   }
   if (fitting.size() == 1) return {fitting[0].experiment, fitting[0].domain, static_cast<int>(fitting[0].server)};
   if (fitting.size() > 1)

@@ -25,6 +25,7 @@ const { chromium } = createRequire(join(PAGE_MODULES, "here.js"))("playwright-co
 const folder = mkdtempSync(join(tmpdir(), "swarmanoid_page_"));
 // Shared memory of its own: other runs on the machine come and go.
 process.env.SWARMANOID_SHARED_FOLDER = `/dev/shm/swarmanoid-page-${process.pid}`;
+process.env.XDG_STATE_HOME = join(folder, "state");
 
 // ---- processes ----
 
@@ -60,20 +61,9 @@ class Process {
 const experiment = (name) => join(SWARMANOID_CONFIGS, `${name}.xml`);
 const run = (name, ...more) => new Process("run", experiment(name), "--quiet", ...more);
 async function attach(...words) {
-  const [running] = processes;
-  // The run is found as soon as its server has announced itself.
-  for (let i = 0; ; i++) {
-    if (running.code !== undefined) throw new Error(`the run has ended: ${running.output}`);
-    const viewer = new Process("attach", "web", ...words);
-    try {
-      const [, url] = await viewer.says(/web_render: (http\S+)/);
-      return { viewer, url };
-    } catch (error) {
-      if (i === 50 || !/no experiment runs/.test(viewer.output)) throw error;
-      processes.pop();
-      await new Promise((done) => setTimeout(done, 200));
-    }
-  }
+  const viewer = new Process("attach", "web", ...words);
+  const [, url] = await viewer.says(/web_render: (http\S+)/);
+  return { viewer, url };
 }
 
 function freePort() {
@@ -106,7 +96,7 @@ const read = (page, expression) => page.evaluate(expression);
 async function drawn(page) {
   await until(page, () => window.swarmanoid?.drawn > 0);
   await until(page, () => {
-    const place = () => JSON.stringify([swarmanoid.camera, document.querySelector("canvas").getBoundingClientRect()]);
+    const place = () => JSON.stringify([swarmanoid.camera, document.querySelector(".picture:not([hidden])").getBoundingClientRect()]);
     const before = place();
     return new Promise((done) => {
       const look = (frames) => requestAnimationFrame(() => (place() !== before ? done(false) : frames === 0 ? done(true) : look(frames - 1)));
@@ -196,7 +186,7 @@ const tests = {
     assert.match(saved.suggestedFilename(), /^prey_retrieval_\d+\.png$/);
     const png = readFileSync(await saved.path());
     assert.equal(png.toString("latin1", 1, 4), "PNG");
-    const canvas = await read(page, () => [document.querySelector("main canvas").width, document.querySelector("main canvas").height]);
+    const canvas = await read(page, () => [document.querySelector(".picture:not([hidden])").width, document.querySelector(".picture:not([hidden])").height]);
     assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], canvas);
     await until(page, () => swarmanoid.tick > 20);
     assert.deepEqual(page.complaints, []);
@@ -309,6 +299,44 @@ const tests = {
     assert.deepEqual(page.complaints, []);
   },
 
+  async "a page goes on with the next run of its experiment, at the same address with the same token"() {
+    const first = run("diffusion_10", "--real-time", 5, "--ticks", 60);
+    const { viewer, url } = await attach("--allow-control", "--linger", 0);
+    const page = await open(url, { noise: [/ERR_CONNECTION_REFUSED/], quality: "plan" });
+    await drawn(page);
+    await read(page, () => swarmanoid.select("fb_4"));
+    const place = await read(page, () => swarmanoid.viewpoint);
+    assert.equal(await first.ended, 0);
+    await viewer.ended;
+    await until(page, () => !swarmanoid.connected);
+    await until(page, () => /Start the experiment again/.test(document.querySelector(".banner").textContent));
+
+    // The viewer may come before the run.
+    const waiting = new Process("attach", "web", "diffusion_10", "--allow-control");
+    await waiting.says(/no experiment 'diffusion_10' runs on this machine yet; waiting 60 s/);
+    run("diffusion_10", "--paused", "--ticks", 0);
+    const [, again] = await waiting.says(/web_render: (http\S+)/);
+    assert.equal(again, url);
+    await until(page, () => swarmanoid.connected && swarmanoid.tick === 0);
+    await until(page, () => /started again/.test(document.querySelector(".banner").textContent));
+    assert.equal(await read(page, () => swarmanoid.control), "granted");
+    assert.equal(await read(page, () => swarmanoid.selected), "fb_4");
+    assert.deepEqual(await read(page, () => swarmanoid.viewpoint), place);
+    await page.keyboard.press("n");
+    await until(page, () => swarmanoid.tick === 1);
+    // Another page of the same run has an address and a token of its own.
+    const { url: other } = await attach("diffusion_10", "--allow-control");
+    assert.notEqual(new URL(other).port, new URL(url).port);
+    assert.notEqual(new URL(other).searchParams.get("token"), new URL(url).searchParams.get("token"));
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "what never starts is waited for only so long"() {
+    const viewer = new Process("attach", "web", "nothing", "--wait", 0.5);
+    assert.equal(await viewer.ended, 2);
+    assert.match(viewer.output, /waiting 0.5 s[^]*no experiment runs on this machine/);
+  },
+
   async "opened before the first tick and after the end of the run"() {
     const running = run("diffusion_10", "--paused", "--ticks", 50);
     const { viewer, url } = await attach("allow_control=true");
@@ -387,6 +415,377 @@ const tests = {
     assert.ok(wall.every((colour) => brightness(colour) < 190 && saturation(colour) < 12), `${wall}`);
   },
 
+  async "without a graphics card the page begins with the plan, and loads nothing of the other view"() {
+    oneRobot("planned", "5, 5, 0");
+    const { url } = await attach();
+    const page = await browser.newPage({ viewport: { width: 760, height: 420 } });
+    const session = await page.context().newCDPSession(page);
+    await session.send("Network.enable");
+    let bytes = 0;
+    session.on("Network.loadingFinished", ({ encodedDataLength }) => (bytes += encodedDataLength));
+    const files = [];
+    page.on("request", (request) => files.push(new URL(request.url()).pathname));
+    await page.goto(url);
+    await drawn(page);
+    assert.equal(await read(page, () => swarmanoid.view), "plan");
+    assert.ok(await page.isVisible(".plan-note"));
+    assert.deepEqual(files.filter((file) => /view_3d|meshes/.test(file)), []);
+    assert.ok(bytes < 60000, `${bytes} bytes`);
+    // Seen from above: dark tracks, the blue body, and the orange mark that tells the front, here to the right.
+    const { x, y } = await read(page, () => swarmanoid.project("fb"));
+    await read(page, () => swarmanoid.approach("fb"));
+    await drawn(page);
+    const near = await read(page, () => swarmanoid.project("fb"));
+    const side = 101;
+    const pixels = await pixelsAbout(page, near, 50);
+    const orange = pixels.flatMap(([r, g, b], i) => (r > 200 && g > 100 && g < 190 && b < 120 ? [[(i % side) - 50, Math.floor(i / side) - 50]] : []));
+    assert.ok(orange.length > 10, `${orange.length} orange pixels`);
+    const mean = [0, 1].map((k) => orange.reduce((sum, place) => sum + place[k], 0) / orange.length);
+    assert.ok(mean[0] > 5 && Math.abs(mean[1]) < 3, `the front is at ${mean}`);
+    assert.ok(pixels.some(([r, g, b]) => b > r + 60), "the blue of a footbot");
+    assert.ok(Math.abs(x - 380) < 380 && y > 0);
+    // And then all of it: less than a third of a megabyte.
+    await page.keyboard.press("v");
+    await until(page, () => swarmanoid.view === "3D");
+    await page.waitForLoadState("networkidle");
+    assert.ok(bytes > 100000 && bytes < 350000, `${bytes} bytes`);
+  },
+
+  async "plan and three dimensions show the same place, and keep what is selected and shown"() {
+    run("prey_retrieval", "--real-time", 1);
+    const { url } = await attach();
+    const page = await open(url, { quality: "plan" });
+    await drawn(page);
+    await read(page, () => swarmanoid.select("fb_2"));
+    await page.keyboard.press("i");
+    await page.keyboard.press("l");
+    await drawn(page);
+    await page.mouse.move(300, 200);
+    await page.mouse.wheel(0, -300);
+    await drawn(page);
+    const before = await read(page, () => swarmanoid.viewpoint);
+    await page.keyboard.press("v");
+    await until(page, () => swarmanoid.view === "3D");
+    const same = (a, b) => [...a.target.map((value, k) => value - b.target[k]), a.span - b.span].every((difference) => Math.abs(difference) < 1e-6);
+    const solid = await read(page, () => swarmanoid.viewpoint);
+    assert.ok(same(before, solid), JSON.stringify([before, solid]));
+    assert.equal(await read(page, () => swarmanoid.selected), "fb_2");
+    assert.equal(await page.getAttribute("header .toggle >> nth=0", "aria-pressed"), "true");
+    await until(page, () => swarmanoid.instances().flatMap(({ drawn: counts }) => counts).reduce((a, b) => a + b) > 0);
+    await page.click(".toggle:has-text('Plan')");
+    await until(page, () => swarmanoid.view === "plan");
+    assert.ok(same(before, await read(page, () => swarmanoid.viewpoint)));
+    assert.equal(await read(page, () => swarmanoid.selected), "fb_2");
+    await page.keyboard.press("v");
+    await until(page, () => swarmanoid.view === "3D");
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "the plan is moved, zoomed, picked and selected in by hand, and robots are moved in it"() {
+    run("diffusion_10", "--paused", "--ticks", 0);
+    const { url } = await attach("--allow-control");
+    const page = await open(url, { quality: "plan" });
+    await drawn(page);
+    const at = (id) => read(page, `swarmanoid.project("${id}")`);
+    // What is under the pointer stays there while the wheel turns.
+    const [from] = [await at("fb_3")];
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.wheel(0, -400);
+    await drawn(page);
+    const zoomed = await at("fb_3");
+    assert.ok(Math.hypot(zoomed.x - from.x, zoomed.y - from.y) < 1.5, JSON.stringify([from, zoomed]));
+    await page.mouse.down();
+    await page.mouse.move(from.x + 60, from.y + 30, { steps: 4 });
+    await page.mouse.up();
+    await drawn(page);
+    const dragged = await at("fb_3");
+    assert.ok(Math.hypot(dragged.x - from.x - 60, dragged.y - from.y - 30) < 2, JSON.stringify([from, dragged]));
+    assert.equal(await read(page, () => swarmanoid.selected), null);
+    await page.keyboard.press("ArrowRight");
+    await drawn(page);
+    assert.ok((await at("fb_3")).x < dragged.x - 20);
+
+    await page.keyboard.press("Home");
+    await drawn(page);
+    const robot = await at("fb_5");
+    await page.mouse.click(robot.x, robot.y);
+    assert.equal(await read(page, () => swarmanoid.selected), "fb_5");
+    await drawn(page);
+    // The ring about it is blue.
+    const ring = await pixelsAbout(page, await at("fb_5"), 30);
+    assert.ok(ring.filter(([r, g, b]) => b > 200 && r < 120 && g < 180).length > 20);
+
+    // All of them, by a box; then two are moved as one.
+    const box = await page.locator(".picture:not([hidden])").boundingBox();
+    await page.keyboard.down("Shift");
+    await page.mouse.move(box.x + 3, box.y + 3);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width - 3, box.y + box.height - 3, { steps: 4 });
+    await page.mouse.up();
+    assert.equal((await read(page, () => swarmanoid.chosen)).length, 10);
+    const places = () => read(page, () => [0, 1, 2, 3, 4, 5, 6, 7, 8, 9].map((i) => swarmanoid.place(`fb_${i}`)));
+    await drawn(page);
+    const [before, start] = [await places(), await at("fb_0")];
+    await page.mouse.move(start.x, start.y);
+    await page.mouse.down();
+    await page.mouse.move(start.x + 8, start.y, { steps: 3 });
+    await page.mouse.up();
+    await page.keyboard.up("Shift");
+    await until(page, (x) => Math.abs(swarmanoid.place("fb_0")[0] - x) > 1e-3, before[0][0]);
+    await until(page, (x) => Math.abs(swarmanoid.place("fb_9")[0] - x) > 1e-3, before[9][0]);
+    const moved = (await places()).map((place, i) => place[0] - before[i][0]);
+    assert.ok(moved.every((distance) => Math.abs(distance - moved[0]) < 1e-3), `${moved}`);
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "lengths are measured, and a robot is moved and turned by its handles, in both views"() {
+    oneRobot("handled", "5, 5, 0");
+    const { url } = await attach("--allow-control");
+    const page = await open(url, { quality: "plan" });
+    await drawn(page);
+    const point = (x, y) => read(page, `swarmanoid.projectPoint(${x}, ${y}, 0)`);
+    const drag = async (from, to) => {
+      await page.mouse.move(from.x, from.y);
+      await page.mouse.down();
+      await page.mouse.move((from.x + to.x) / 2, (from.y + to.y) / 2, { steps: 3 });
+      await page.mouse.move(to.x, to.y, { steps: 3 });
+      await page.mouse.up();
+    };
+    for (const view of ["plan", "3D"]) {
+      if (view === "3D") await page.keyboard.press("v");
+      await until(page, (name) => swarmanoid.view === name, view);
+      await drawn(page);
+      await page.keyboard.press("m");
+      await drag(await point(4, 4), await point(7, 8));
+      const { metres, degrees } = await read(page, () => swarmanoid.measured);
+      assert.ok(Math.abs(metres - 5) < 0.1 && Math.abs(degrees - 53.13) < 1, `${view}: ${metres} m, ${degrees} degrees`);
+      await page.keyboard.press("m");
+      assert.equal(await read(page, () => swarmanoid.measured), null);
+
+      await read(page, () => swarmanoid.approach("fb"));
+      await page.keyboard.press("h");
+      await drawn(page);
+      const [x, y] = await read(page, () => swarmanoid.place("fb"));
+      const { turn } = await read(page, () => swarmanoid.handles);
+      // Its arrow to +y.
+      await drag(turn, await point(x, y + 0.5));
+      await until(page, () => Math.abs(swarmanoid.heading("fb") - 90) < 3);
+      await until(page, ([a, b]) => Math.hypot(swarmanoid.place("fb")[0] - a, swarmanoid.place("fb")[1] - b) < 0.01, [x, y]);
+      const { move } = await read(page, () => swarmanoid.handles);
+      await drag(move, await point(x + 0.3, y));
+      await until(page, ([a, b]) => Math.hypot(swarmanoid.place("fb")[0] - a - 0.3, swarmanoid.place("fb")[1] - b) < 0.03, [x, y]);
+      // And back to where it looked, by the form: to the millimetre.
+      await page.click(".place summary");
+      for (const [name, value] of [["x", 5], ["y", 5], ["z", 0], ["heading", 0]]) await page.fill(`.place-form [name=${name}]`, String(value));
+      await page.click(".place-form button[type=submit]");
+      await until(page, () => Math.hypot(swarmanoid.place("fb")[0] - 5, swarmanoid.place("fb")[1] - 5) < 1e-5 && Math.abs(swarmanoid.heading("fb")) < 0.1);
+      await page.keyboard.press("Escape");
+      await page.keyboard.press("h");
+      await page.keyboard.press("Home");
+    }
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "robots are taken out of the arena and put in again"() {
+    run("prey_supply", "--paused", "--ticks", 0, "--no-visualisers");
+    const { url } = await attach("--allow-control");
+    const page = await open(url, { quality: "plan" });
+    await drawn(page);
+    await page.fill("input[type=search]", "late_0");
+    await page.click(".row:not([hidden])");
+    await page.click(".place summary");
+    await until(page, () => document.querySelector(".place-form [type=submit]").textContent === "Add");
+    for (const [name, value] of [["x", 2.5], ["y", 2.2], ["z", 0], ["heading", 45]]) await page.fill(`.place-form [name=${name}]`, String(value));
+    await page.keyboard.press("Enter");
+    await until(page, () => Math.hypot(swarmanoid.place("late_0")[0] - 2.5, swarmanoid.place("late_0")[1] - 2.2) < 1e-5);
+    assert.ok(Math.abs((await read(page, () => swarmanoid.heading("late_0"))) - 45) < 0.1);
+    await until(page, () => document.querySelector(".place-form [type=submit]").textContent === "Move");
+    await page.click(".place-form button:has-text('Remove')");
+    await until(page, () => swarmanoid.place("late_0").length === 0);
+    await page.click(".place-form [type=submit]");
+    await until(page, () => swarmanoid.place("late_0").length === 3);
+    await page.focus("[role=listbox]");
+    await page.keyboard.press("Delete");
+    await until(page, () => swarmanoid.place("late_0").length === 0);
+    assert.deepEqual(page.complaints, []);
+
+    // Who has no token has no form.
+    const other = await open(url.replace(/\?.*/, ""), { quality: "plan" });
+    await drawn(other);
+    await read(other, () => swarmanoid.select("late_0"));
+    assert.ok(await other.isHidden(".place"));
+    await other.click(".tools summary");
+    assert.ok(await other.isDisabled(".tools button:has-text('Handles')"));
+  },
+
+  async "values of one unit share a plot, which is saved as a table and as a picture"() {
+    run("diffusion_10", "--real-time", 2, "--ticks", 100000);
+    const { url } = await attach();
+    const page = await open(url, { quality: "plan", viewport: { width: 1000, height: 700 } });
+    await drawn(page);
+    await read(page, () => swarmanoid.select("fb_4"));
+    const plots = page.locator(".right .plot");
+    assert.equal(await plots.count(), 1); // speed
+    for (const name of ["x", "y", "heading"]) await page.click(`[aria-label="Plot ${name}"]`);
+    assert.equal(await plots.count(), 3); // m/s, m, degrees
+    await until(page, () => swarmanoid.tick > 30);
+    await page.click(".plot >> nth=1 >> text=All");
+    const [table] = await Promise.all([page.waitForEvent("download"), page.click(".plot >> nth=1 >> text=CSV")]);
+    assert.equal(table.suggestedFilename(), "diffusion_10_fb_4_x_y.csv");
+    const lines = readFileSync(await table.path(), "utf8").trim().split("\n");
+    assert.equal(lines[0], "time (s),x (m),y (m)");
+    assert.ok(lines.length > 5, `${lines.length} lines`);
+    const [x, y] = lines.at(-1).split(",").slice(1).map(Number);
+    assert.ok(x > -0.2 && x < 3.4 && y > -0.2 && y < 3.4 && !lines.at(-1).includes("NaN"));
+    const times = lines.slice(1).map((line) => Number(line.split(",")[0]));
+    times.forEach((time, i) => assert.ok(i === 0 || time > times[i - 1]));
+    const [image] = await Promise.all([page.waitForEvent("download"), page.click(".plot >> nth=1 >> text=PNG")]);
+    assert.equal(readFileSync(await image.path()).toString("latin1", 1, 4), "PNG");
+    await page.click(".plot >> nth=1 >> [aria-label=Close]");
+    assert.equal(await plots.count(), 2);
+    assert.equal(await page.locator(".plottable.plotted").count(), 2);
+
+    // The swarm's mean, over all and over those that are selected.
+    await page.keyboard.press("w");
+    await page.click(".swarm button:has-text('distance from the middle')");
+    await until(page, () => /mean and standard deviation of all 10 robots/.test(document.querySelector(".swarm").textContent));
+    await until(page, () => /^distance from the middle [\d.]+ m$/.test(document.querySelectorAll(".swarm .legend-names span")[2]?.textContent.trim() ?? ""));
+    const [swarm] = await Promise.all([page.waitForEvent("download"), page.click(".swarm .plot >> nth=1 >> text=CSV")]);
+    assert.match(readFileSync(await swarm.path(), "utf8"), /^time \(s\),distance from the middle \(m\),"distance from the middle, standard deviation \(m\)"\n/);
+    await page.keyboard.press("w");
+    assert.equal(await page.locator(".swarm").count(), 0);
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "robots are coloured by a value, and where they have been is shown, in both views"() {
+    run("diffusion_10", "--real-time", 4, "--ticks", 100000);
+    const { url } = await attach();
+    for (const quality of ["plan", "low"]) {
+      const page = await open(url, { quality });
+      await drawn(page);
+      await page.click(".tools summary");
+      await page.selectOption("[aria-label='Colours of robots']", "distance from the middle");
+      await until(page, () => swarmanoid.colouring.high > swarmanoid.colouring.low);
+      assert.match(await page.textContent(".legend"), /distance from the middle\s*[\d.]+ m/);
+      // The one that is furthest is yellow, and no LED shines in this experiment.
+      await page.click(".tools summary");
+      await page.keyboard.press("j");
+      await until(page, () => swarmanoid.heat?.drawn && swarmanoid.heat.seconds.reduce((a, b) => a + b) > 20);
+      const { columns, rows } = await read(page, () => swarmanoid.heat);
+      assert.equal(columns, rows);
+      // Where somebody has been, and nobody is now, the floor has a colour; elsewhere it is grey.
+      await until(page, () => {
+        const { columns: width, rows: height, seconds } = swarmanoid.heat;
+        const middle = (i) => [((i % width) + 0.5) / width, (Math.floor(i / width) + 0.5) / height].map((part) => part * 3.16228);
+        const away = (i) => Math.min(...[0, 1, 2, 3, 4, 5, 6, 7, 8, 9].map((n) => Math.hypot(...middle(i).map((value, k) => value - swarmanoid.place(`fb_${n}`)[k]))));
+        // Not under the panels at the edges.
+        const cells = [...seconds.keys()].filter((i) => middle(i).every((value) => Math.abs(value - 1.58114) < 0.9) && away(i) > 0.3);
+        const visited = cells.find((i) => seconds[i] > 0.3);
+        const never = cells.find((i) => [-width - 1, -width, 1 - width, -1, 0, 1, width - 1, width, width + 1].every((step) => !seconds[i + step]));
+        if (visited === undefined || never === undefined) return false;
+        window.spots = [visited, never].map((i) => swarmanoid.projectPoint(...middle(i), 0));
+        return true;
+      });
+      const [visited, never] = await read(page, () => window.spots);
+      const colours = (await Promise.all([visited, never].map((at) => pixelsAbout(page, at, 0)))).map(([pixel]) => saturation(pixel));
+      assert.ok(colours[0] > colours[1] + 10, `${quality}: ${colours}`);
+      await page.keyboard.press("j");
+      assert.equal(await read(page, () => swarmanoid.heat), null);
+      assert.deepEqual(page.complaints, []);
+      await page.close();
+    }
+  },
+
+  async "the robot with the highest value has the last colour of the ramp"() {
+    run("diffusion_10", "--paused", "--ticks", 0);
+    const { url } = await attach();
+    for (const quality of ["plan", "low"]) {
+      const page = await open(url, { quality });
+      await drawn(page);
+      await read(page, () => swarmanoid.colourBy("distance from the middle"));
+      const id = await read(page, () => {
+        const away = (n) => Math.hypot(...swarmanoid.place(`fb_${n}`).slice(0, 2).map((value) => value - 1.58114));
+        return `fb_${[0, 1, 2, 3, 4, 5, 6, 7, 8, 9].sort((a, b) => away(b) - away(a))[0]}`;
+      });
+      await page.evaluate((name) => swarmanoid.approach(name), id);
+      await drawn(page);
+      const pixels = await pixelsAbout(page, await page.evaluate((name) => swarmanoid.project(name), id), 60);
+      const yellow = pixels.filter(([r, g, b]) => r > 225 && g > 205 && b < 90);
+      assert.ok(yellow.length > 15, `${quality}: ${yellow.length} yellow pixels about ${id}`);
+      await page.close();
+    }
+  },
+
+  async "a link opens the same view and has no token, and the picture is filmed"() {
+    run("diffusion_10", "--real-time", 1);
+    const { url } = await attach("--allow-control");
+    const page = await open(url, { quality: "plan" });
+    await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+    await drawn(page);
+    await read(page, () => swarmanoid.approach("fb_7"));
+    await read(page, () => swarmanoid.show("ids", true));
+    await read(page, () => swarmanoid.colourBy("speed"));
+    await page.keyboard.press("y");
+    await until(page, () => swarmanoid.link !== null);
+    const link = await read(page, () => swarmanoid.link);
+    assert.ok(!link.includes("token") && link.startsWith(new URL(url).origin), link);
+    await until(page, async () => (await navigator.clipboard.readText()) === swarmanoid.link);
+
+    const other = await browser.newPage({ viewport: { width: 760, height: 420 } });
+    await other.goto(link);
+    await drawn(other);
+    await until(other, () => swarmanoid.selected === "fb_7");
+    const [a, b] = [await read(page, () => swarmanoid.viewpoint), await read(other, () => swarmanoid.viewpoint)];
+    assert.ok(a.target.every((value, k) => Math.abs(value - b.target[k]) < 1e-3) && Math.abs(a.span - b.span) < 1e-3, JSON.stringify([a, b]));
+    assert.equal(await other.getAttribute("header .toggle >> nth=0", "aria-pressed"), "true");
+    assert.equal((await read(other, () => swarmanoid.colouring)).name, "speed");
+    assert.equal(await read(other, () => swarmanoid.control), "token needed");
+    await other.close();
+
+    await page.keyboard.press("Shift+P");
+    const before = await read(page, () => swarmanoid.drawn);
+    await until(page, (count) => swarmanoid.drawn > count + 20, before);
+    const [film] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("Shift+P")]);
+    assert.match(film.suggestedFilename(), /^diffusion_10_\d+\.(webm|mp4)$/);
+    const bytes = readFileSync(await film.path());
+    assert.ok(bytes.length > 5000, `${bytes.length} bytes`);
+    if (film.suggestedFilename().endsWith("webm")) assert.equal(bytes.readUInt32BE(0), 0x1a45dfa3); // EBML
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "two fingers move and zoom the plan"() {
+    oneRobot("pinched", "5, 5, 0");
+    const { url } = await attach();
+    const page = await open(url, { quality: "plan", viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+    await drawn(page);
+    const session = await page.context().newCDPSession(page);
+    const touch = (type, ...points) => session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    const { span } = await read(page, () => swarmanoid.viewpoint);
+    await touch("touchStart", [150, 400], [250, 400]);
+    for (let i = 1; i <= 10; i++) await touch("touchMove", [150 - 5 * i, 400], [250 + 5 * i, 400]);
+    await touch("touchEnd");
+    const now = await read(page, () => swarmanoid.viewpoint);
+    assert.ok(Math.abs(span / now.span - 2) < 0.1, `${span / now.span} times as near`);
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "in the plan ten thousand robots stand out from the floor"() {
+    run("diffusion_10000", "--real-time", 1);
+    const { url } = await attach();
+    for (const colorScheme of ["light", "dark"]) {
+      const page = await open(url, { quality: "plan", colorScheme, viewport: { width: 1280, height: 800 } });
+      await drawn(page);
+      assert.deepEqual(await read(page, () => swarmanoid.instances()[0].drawn), [10000, 0]);
+      const { x, y } = await read(page, () => swarmanoid.projectPoint(50, 50, 0));
+      const seen = (await pixelsAbout(page, { x, y }, 60)).map(brightness).sort((a, b) => a - b);
+      const [darkest, lightest] = [seen[Math.floor(seen.length / 20)], seen[Math.floor((seen.length * 19) / 20)]];
+      // WCAG's contrast of graphical objects is 3:1.
+      const light = (value) => (value / 255) ** 2.2 + 0.05;
+      assert.ok(light(lightest) / light(darkest) > 3, `${colorScheme}: ${darkest} and ${lightest}`);
+      await page.close();
+    }
+  },
+
   async "it can be read by everybody, by day and night, and used by keyboard alone"() {
     run("prey_retrieval", "--real-time", 1);
     const { url } = await attach("--allow-control");
@@ -411,7 +810,12 @@ const tests = {
       assert.equal(await page.locator(".plot").count(), plots + 1);
       await until(page, () => document.querySelector(".right").textContent.includes("Sensor"));
       await page.keyboard.press("g");
-      assert.deepEqual(await violations(), [], `${colorScheme}, with a card and the log`);
+      await page.keyboard.press("w");
+      await page.click(".tools summary");
+      await page.selectOption("[aria-label='Colours of robots']", "speed");
+      await until(page, () => !document.querySelector(".legend").hidden);
+      if (await page.isVisible(".place")) await page.click(".place summary");
+      assert.deepEqual(await violations(), [], `${colorScheme}, with a card, the log and the tools`);
       await page.keyboard.press("F1");
       assert.deepEqual(await violations(), [], `${colorScheme}, help`);
       await page.close();
@@ -451,8 +855,11 @@ const tests = {
     const page = await open(url, { quality: "auto", viewport: { width: 1280, height: 800 } });
     await drawn(page);
     // The browser of this test draws in software.
-    assert.ok(["low", "least"].includes(await read(page, () => swarmanoid.quality)));
-    const size = () => [document.querySelector("main canvas").width, document.querySelector("main").clientWidth];
+    assert.equal(await read(page, () => swarmanoid.quality), "plan");
+    await page.selectOption(".quality", "3D");
+    await until(page, () => swarmanoid.view === "3D");
+    assert.match(await read(page, () => swarmanoid.quality), /^(high|medium|low|least)$/);
+    const size = () => [document.querySelector(".picture:not([hidden])").width, document.querySelector("main").clientWidth];
     for (const [quality, ratio] of [["high", 1], ["least", 0.5], ["medium", 1], ["low", 1]]) {
       await page.selectOption(".quality", quality);
       assert.equal(await read(page, () => swarmanoid.quality), quality);

@@ -12,6 +12,7 @@
 #include "visualiser/gl/shaders.h"
 #include "visualiser/gl/targets.h"
 #include "visualiser/gl/view_volume.h"
+#include "visualiser/scene/floor_grid.h"
 
 namespace swarmanoid
 {
@@ -30,15 +31,6 @@ constexpr GLint kAtlasUnit = 2;
 constexpr float kCaptionMargin = 12;  // pixels
 
 Vector3f Linear(Colour colour) { return ChannelsOf(colour).cwiseAbs2(); }
-
-// Metres between the lines of the floor: about ten across an arena.
-float SpacingOf(const Vector3& arena)
-{
-  const double side = std::max(arena.x(), arena.y());
-  for (const double spacing : {0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0})
-    if (side <= 14 * spacing) return static_cast<float>(spacing);
-  return 100;
-}
 
 // Metres between contour lines: about eight up the highest terrain.
 float ContourOf(const Scene& scene)
@@ -263,7 +255,7 @@ void GlScene::State::DrawFloor(const Scene& scene, const ViewVolume& view, const
   floor.Set("u_height", 0.0F);
   floor.Set("u_colour", Linear(palette::kFloor));
   floor.Set("u_line_colour", Linear(palette::kFloorLine));
-  floor.Set("u_spacing", options.textures ? SpacingOf(scene.ArenaSize()) : 0.0F);
+  floor.Set("u_spacing", options.textures ? static_cast<float>(FloorSpacing(scene.ArenaSize())) : 0.0F);
   // What lies on the floor wins.
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1, 2);

@@ -22,7 +22,7 @@ public:
 
   // Lit, with the gloss and opacity of `material`, in its colour or in that of an entity.
   Ogre::MaterialPtr Lit(Material material, Colour tint);
-  // The floor: plain, or with a grid of a metre if textures are wanted.
+  // The floor: plain, or with a grid of one cell a unit if textures are wanted.
   Ogre::MaterialPtr Floor(bool textured);
   // Shining in the colours of the vertices.
   const char* Lights() const { return "swarmanoid/lights"; }

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "visualiser/scene/floor_grid.h"
 #include "visualiser/scene/picking.h"
 
 namespace swarmanoid
@@ -100,6 +101,7 @@ void OgreScene::MakeGround(const Scene& scene)
 {
   const auto width = static_cast<float>(scene.ArenaSize().x());
   const auto depth = static_cast<float>(scene.ArenaSize().y());
+  const auto cell = static_cast<float>(FloorSpacing(scene.ArenaSize()));
   const auto rectangle =
       [&](const char* name, const Ogre::MaterialPtr& material, float x0, float y0, float x1, float y1, float z)
   {
@@ -110,7 +112,7 @@ void OgreScene::MakeGround(const Scene& scene)
     {
       object->position(x, y, z);
       object->normal(0, 0, 1);
-      object->textureCoord(x, y);
+      object->textureCoord(x / cell, y / cell);
     }
     object->quad(0, 1, 2, 3);
     object->end();

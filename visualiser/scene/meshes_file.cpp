@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "visualiser/scene/floor_grid.h"
 #include "visualiser/scene/kind_model.h"
 #include "visualiser/scene/meshes.h"
 
@@ -95,6 +96,7 @@ std::string MeshesAsJson()
                      {"hole", palette::kHole},
                      {"selection", palette::kSelection},
                      {"label", palette::kLabel}};
+  file["floor_grid"] = {{"spacings", kFloorSpacings}, {"most_cells", kMostFloorCells}};
   return file.dump();
 }
 

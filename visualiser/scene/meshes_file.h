@@ -13,7 +13,8 @@ namespace swarmanoid
 //  "models": {name: {"radius", "levels": [{"positions": [x, y, z ...], "normals": [...], "materials": [one a vertex],
 //             "shades": [...], "indices": [...]}, 3 of them]}},
 //  "robots": {"footbot": [{"model": name, "matrix": [16 numbers, column after column]}], ...},
-//  "palette": {"sky", "floor", "floor_line", "outside", "wall", "hole", "selection", "label"}}
+//  "palette": {"sky", "floor", "floor_line", "outside", "wall", "hole", "selection", "label"},
+//  "floor_grid": {"spacings": [m …], "most_cells": along the longer side of an arena}}
 // Lengths in metres, z up, x forward.
 std::string MeshesAsJson();
 

@@ -60,15 +60,7 @@ void CWebRender::Init(const RenderSetup& setup)
   frame_writer_ = std::make_unique<FrameWriter>(*space_);
   logs_ = std::make_unique<LogFollower>(setup.output_folder);
 
-  WebServerSettings settings;
-  settings.address = parameters.Text("address");
-  settings.port = static_cast<std::uint16_t>(parameters.Integer("port"));
-  settings.max_clients = static_cast<std::size_t>(parameters.Integer("clients"));
-  settings.max_connections = settings.max_clients + 48;
-  settings.access.allow_control = allow_control_;
-  if (allow_control_) settings.access.token = MakeToken();
-  server_ =
-      std::make_unique<WebServer>(settings, PageFiles(InstalledPageFolder()), static_cast<WebServerEvents&>(*this));
+  Serve(parameters);
   server_->SetGreeting(Shared(WorldText(*space_, setup.assignment)));
   const Experiment& experiment = space_->GetExperiment();
   Log(space_->GetTick(), "run", "info",
@@ -76,6 +68,42 @@ void CWebRender::Init(const RenderSetup& setup)
                   experiment.engines.size(), experiment.engines.size() == 1 ? "" : "s", setup.assignment.hosts.size(),
                   setup.assignment.hosts.size() == 1 ? "" : "s", experiment.seed));
   Announce(setup);
+}
+
+// At the address of the last start of this experiment, if it is free and no other is asked for: pages that are open go
+// on.
+void CWebRender::Serve(const Parameters& parameters)
+{
+  const Experiment& experiment = space_->GetExperiment();
+  WebServerSettings settings;
+  settings.address = parameters.Text("address");
+  settings.port = static_cast<std::uint16_t>(parameters.Integer("port"));
+  settings.max_clients = static_cast<std::size_t>(parameters.Integer("clients"));
+  settings.max_connections = settings.max_clients + 48;
+  settings.access.allow_control = allow_control_;
+  kept_ = std::make_unique<KeptAddress>(StateFolder(), experiment.folder + "/" + experiment.name);
+  std::string token = kept_->Token();
+  if (allow_control_ && token.empty()) token = MakeToken();
+  if (allow_control_) settings.access.token = token;
+
+  const PageFiles files(InstalledPageFolder());
+  WebServerEvents& events = *this;
+  if (settings.port == 0 && kept_->Port() != 0)
+  {
+    settings.port = kept_->Port();
+    try
+    {
+      server_ = std::make_unique<WebServer>(settings, files, events);
+    }
+    catch (const std::runtime_error&)
+    {
+      settings.port = 0;  // somebody else has it now: a new one, and a new token, for that one may have heard the old
+      if (allow_control_) settings.access.token = token = MakeToken();
+    }
+  }
+  if (!server_) server_ = std::make_unique<WebServer>(settings, files, events);
+  if (!kept_->Keep(server_->Port(), token))
+    Log(space_->GetTick(), "web_render", "info", "the next start will have another address: " + kept_->Trouble());
 }
 
 void CWebRender::Announce(const RenderSetup& setup)

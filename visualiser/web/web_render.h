@@ -13,6 +13,7 @@
 
 #include "visualiser/render.h"
 #include "visualiser/web/frame.h"
+#include "visualiser/web/kept_address.h"
 #include "visualiser/web/log_follower.h"
 #include "visualiser/web/messages.h"
 #include "visualiser/web/web_server.h"
@@ -47,6 +48,7 @@ private:
   void Received(std::uint64_t client, Authority authority, std::string_view text) override;
   void Left(std::uint64_t client) override;
 
+  void Serve(const Parameters& parameters);
   void Announce(const RenderSetup& setup);
   void Work();
   void TakeRequests();
@@ -86,6 +88,7 @@ private:
   std::vector<Request> requests_;
   std::atomic<bool> has_requests_{false};
 
+  std::unique_ptr<KeptAddress> kept_;
   std::unique_ptr<WebServer> server_;  // last: its thread calls the above
 };
 

@@ -7,32 +7,65 @@ import { Inspector } from "./ui/inspector.js";
 import { LogPanel } from "./ui/log.js";
 import { Processes } from "./ui/processes.js";
 import { Toolbar } from "./ui/toolbar.js";
-import { h, setText } from "./ui/dom.js";
-import { qualities } from "./view/quality.js";
-import { View } from "./view/view.js";
+import { Tools } from "./ui/tools.js";
+import { h, saveBlob, setText } from "./ui/dom.js";
+import { Picture } from "./view/picture.js";
+import { choices } from "./view/quality.js";
+import { robotValues } from "./view/robot_values.js";
+import { readLink, writeLink } from "./link.js";
+import { Film } from "./film.js";
+import { Legend } from "./ui/legend.js";
 import { World } from "./world.js";
 
 const HIDDEN_PERIOD_MS = 1000; // between frames while nobody sees the page
+const NEWS_MS = 5000;
 const asked = new URLSearchParams(location.search).get("quality");
-const quality = Object.hasOwn(qualities, asked ?? "") ? asked : "auto";
+const linked = readLink(location.hash.slice(1));
+const quality = [asked, linked.quality].find((name) => choices.includes(name)) ?? "auto";
 
-const state = { world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0 };
+const state = { world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0, newsUntil: 0, linkWaits: true };
 
-const toolbar = new Toolbar({ command, toggle, help: () => help.toggle(), top: () => frameArena("top"), fit: () => frameArena(), quality: (name) => view.setQuality(name), list: () => togglePanel() });
+const toolbar = new Toolbar({ command, toggle, help: () => help.toggle(), top: () => frameArena("top"), fit: () => frameArena(), quality: (name) => picture.setQuality(name), plan: () => picture.switchView(), list: () => togglePanel() });
 const list = new EntityList({ select, approach });
-const inspector = new Inspector({ watch, follow, deselect: () => select(null) });
+const inspector = new Inspector({ watch, follow, deselect: () => select(null), put, remove: (entity) => remove([entity]), poseOf, swarmChanged: (on) => tools.set("swarm", on) });
 const log = new LogPanel();
 const processes = new Processes();
 const help = new Help();
 const banner = h("div.banner", { role: "status" });
-const picture = h("main", {}, banner);
+const main = h("main", {}, banner);
 list.element.append(processes.element);
 const app = document.getElementById("app");
-app.append(toolbar.element, list.element, picture, inspector.element, log.element, help.element);
-const meshes = await (await fetch("meshes.json")).json();
-const view = new View(picture, quality, meshes, { select, approach, move, mayMove: () => state.control === "granted" });
-view.onQuality = () => toolbar.setQuality(view.wanted, view.qualityName);
-view.onQuality();
+app.append(toolbar.element, list.element, main, inspector.element, log.element, help.element);
+const picture = new Picture(main, quality, { select, selectAll, approach, move, mayMove: () => state.control === "granted", trouble });
+const planNote = h("button.plan-note", { title: "Show it in three dimensions  (V)", onclick: () => picture.switchView() }, "Plan view · 3D: V");
+main.append(planNote);
+const legend = new Legend();
+picture.onColouring = () => legend.show(picture.colouring, state.world);
+const film = new Film(picture, { fileName, changed: (on) => tools.set("film", on), trouble });
+const colourChoice = h(
+  "select",
+  { "aria-label": "Colours of robots", onchange: () => colourBy(colourChoice.value) },
+  ...["LEDs", ...Object.keys(robotValues)].map((name) => h("option", { value: name }, name)),
+);
+const tools = new Tools([
+  [
+    { name: "measures", label: "Measure", key: "M", title: "Drag over the floor: a length and its direction", switches: true, act: () => switchTool("measures") },
+    { name: "heat", label: "Heat map", key: "J", title: "Where robots have been since this was switched on", switches: true, act: () => toggleHeat() },
+    { name: "swarm", label: "Swarm plots", key: "W", title: "Mean and band of values over the robots", switches: true, act: () => inspector.toggleSwarm() },
+    { name: "link", label: "Link", key: "Y", title: "Copy a link that opens this view, without the token", act: () => shareLink() },
+    { name: "film", label: "Film", key: "shift + P", title: "Film the picture, until it is pressed again", switches: true, act: () => film.toggle() },
+  ],
+  [
+    { name: "handles", label: "Handles", key: "H", title: "The selected robot has handles that move and turn it", switches: true, control: true, act: () => switchTool("handles") },
+    h("label", {}, "Colours: ", colourChoice),
+  ],
+]);
+main.append(tools.element, legend.element);
+picture.onQuality = () => {
+  toolbar.setQuality(picture.wanted, picture.qualityName);
+  planNote.hidden = picture.qualityName !== "plan";
+};
+picture.onQuality();
 
 let decoder = new FrameDecoder();
 const connection = new Connection({
@@ -51,10 +84,14 @@ const connection = new Connection({
   onFrame(buffer) {
     const frame = decoder.decode(buffer);
     if (!frame || !state.world) return;
+    if (state.frame && frame.tick < state.frame.tick) sayItBegan();
     state.frames++;
     state.frame = frame;
-    view.addFrame(frame, performance.now());
+    picture.addFrame(frame, performance.now());
     inspector.addFrame(frame);
+    const { chosen } = picture;
+    const robots = chosen.length > 1 ? chosen.filter((entity) => state.world.isRobot(entity)) : state.world.robots;
+    inspector.swarm?.addFrame(frame, picture.meter, robots, robots === state.world.robots);
     toolbar.setFrame(frame);
     banner.dataset.waiting = "";
   },
@@ -64,27 +101,20 @@ const receive = {
   welcome({ control }) {
     state.control = control;
     toolbar.setControl(control);
+    tools.setControl(control);
+    inspector.setControl(control);
     log.clear();
     sendVisibility();
   },
   world(message) {
     const selected = state.selected === null ? null : state.world.ids[state.selected];
-    const camera = state.world?.experiment === message.experiment;
-    const { stage } = view;
-    const place = camera && !stage.home ? [stage.camera.position.clone(), stage.controls.target.clone()] : null;
     state.world = new World(message);
     document.title = `${message.experiment} · Swarmanoid`;
     toolbar.setWorld(state.world);
     inspector.setWorld(state.world);
     list.setWorld(state.world);
-    view.setWorld(state.world);
-    if (place) {
-      stage.camera.position.copy(place[0]);
-      stage.controls.target.copy(place[1]);
-      stage.controls.update();
-      stage.home = null;
-    }
-    for (const name of Object.keys(view.shows)) toolbar.setToggle(name, view.shows[name]);
+    picture.setWorld(state.world);
+    for (const name of Object.keys(picture.shows)) toolbar.setToggle(name, picture.shows[name]);
     const again = selected === null ? -1 : state.world.find(selected);
     state.selected = null;
     select(again >= 0 ? again : null);
@@ -94,7 +124,7 @@ const receive = {
     processes.update(message);
     showState();
   },
-  colours: (message) => view.paint(message),
+  colours: (message) => picture.paint(message),
   watched: (message) => inspector.addDetails(message),
   log: (message) => log.add(message),
   reply: ({ text }) => log.add({ tick: state.frame?.tick ?? null, source: "server", level: "warning", text }),
@@ -104,12 +134,22 @@ function showState() {
   toolbar.setStatus(state.status, state.connected);
   const ended = state.status?.phase === "finished";
   let text = "";
-  if (!state.connected) text = state.world ? "The connection is lost. Trying again; this is the last state." : "Waiting for the server.";
+  if (!state.connected && ended) text = "The run has ended; this is its last state. Start the experiment again, and this page goes on.";
+  else if (!state.connected) text = state.world ? "The connection is lost. Trying again; this is the last state." : "Waiting for the server.";
   else if (ended) text = `The run has ended${state.status.ended ? `: ${state.status.ended}` : ""}. This is its last state.`;
   else if (state.status?.phase === "waiting") text = "The run has not begun: it waits for its processes.";
+  else if (performance.now() < state.newsUntil) text = "The experiment was started again.";
   setText(banner, text);
   banner.hidden = text === "";
-  banner.dataset.kind = state.connected ? "calm" : "trouble";
+  banner.dataset.kind = state.connected || ended ? "calm" : "trouble";
+}
+
+// A tick before the last one: a new run of the same experiment at the same address.
+function sayItBegan() {
+  log.add({ tick: 0, source: "page", level: "info", text: "the experiment was started again" });
+  state.newsUntil = performance.now() + NEWS_MS;
+  setTimeout(showState, NEWS_MS + 10);
+  showState();
 }
 
 // ---- what the user does ----
@@ -119,23 +159,37 @@ function command(request) {
 }
 
 function select(entity) {
+  choose(entity, entity === null ? [] : [entity]);
+}
+
+// Several at once: the first of them is shown in the inspector.
+function selectAll(entities) {
+  choose(entities[0] ?? null, entities);
+}
+
+function choose(entity, chosen) {
   state.selected = entity;
-  view.select(entity);
-  list.select(entity);
+  picture.select(entity, chosen);
+  list.select(entity, chosen);
+  inspector.swarm?.clear();
   inspector.select(entity);
-  inspector.setFollowed(view.followed);
+  inspector.setFollowed(picture.followed);
+}
+
+function trouble(text) {
+  log.add({ tick: state.frame?.tick ?? null, source: "page", level: "warning", text });
 }
 
 function approach(entity) {
   togglePanel(false);
   select(entity);
-  view.approach(entity);
+  picture.approach(entity);
 }
 
 function follow(entity) {
-  const wanted = view.followed === entity ? null : entity;
-  if (wanted !== null) view.approach(wanted);
-  view.follow(wanted);
+  const wanted = picture.followed === entity ? null : entity;
+  if (wanted !== null) picture.approach(wanted);
+  picture.follow(wanted);
   inspector.setFollowed(wanted);
 }
 
@@ -143,31 +197,90 @@ function watch(entities) {
   connection?.send({ do: "watch", entities });
 }
 
-function move(entity, point) {
-  const heading = (view.motion.yaw(state.world.slots[entity]) * 180) / Math.PI;
-  command({ do: "move", entity: state.world.ids[entity], position: [point.x, point.y, view.placeOf(entity)[2]], angles: [0, 0, heading] });
+// Each: {entity, place: [x, y, z], yaw}
+function move(changes) {
+  for (const { entity, place, yaw } of changes)
+    command({ do: "move", entity: state.world.ids[entity], position: [...place], angles: [0, 0, (yaw * 180) / Math.PI] });
 }
 
 function toggle(name) {
-  view.show(name, !view.shows[name]);
-  toolbar.setToggle(name, view.shows[name]);
+  picture.show(name, !picture.shows[name]);
+  toolbar.setToggle(name, picture.shows[name]);
+}
+
+// The length that was measured goes with its tool.
+function switchTool(name) {
+  picture[name] = !picture[name];
+  if (name === "measures") picture.tape = null;
+  tools.set(name, picture[name]);
+  picture.invalidate();
+}
+
+// pose: {x, y, z, heading}, m and degrees
+function put(entity, verb, { x, y, z, heading }) {
+  command({ do: verb, entity: state.world.ids[entity], position: [x, y, z], angles: [0, 0, heading] });
+}
+
+// What the form of a card begins with; for one that is not in the arena, what is looked at.
+function poseOf(entity) {
+  const place = picture.placeOf(entity);
+  const [x, y, z] = place ?? [...picture.view.viewpoint.target.slice(0, 2), 0];
+  return { x, y, z, heading: place ? (picture.yawOf(entity) * 180) / Math.PI : 0, present: place !== null };
+}
+
+function remove(entities) {
+  for (const entity of entities) if (state.world.slots[entity] >= 0 && picture.placeOf(entity)) command({ do: "remove", entity: state.world.ids[entity] });
 }
 
 function frameArena(how) {
   if (!state.world) return;
-  view.follow(null);
+  picture.frameArena(how);
   inspector.setFollowed(null);
-  view.stage.frameArena(state.world.arena, how);
+}
+
+// Of a picture or film that begins now.
+function fileName() {
+  return `${state.world.experiment}_${state.frame?.tick ?? 0}`;
 }
 
 // The picture as it is drawn, as a PNG.
 function savePicture() {
-  view.stage.draw();
-  view.stage.renderer.domElement.toBlob((blob) => {
-    const link = h("a", { href: URL.createObjectURL(blob), download: `${state.world.experiment}_${state.frame?.tick ?? 0}.png` });
-    link.click();
-    URL.revokeObjectURL(link.href);
-  });
+  picture.toCanvas().toBlob((blob) => saveBlob(blob, `${fileName()}.png`));
+}
+
+function colourBy(name) {
+  colourChoice.value = name;
+  picture.colourBy(name === "LEDs" ? null : name);
+  legend.show(picture.colouring, state.world);
+}
+
+function toggleHeat() {
+  picture.showHeat(!picture.heat);
+  tools.set("heat", Boolean(picture.heat));
+}
+
+// ---- links ----
+
+// What a link says, once the experiment is there.
+function openLink(wanted) {
+  if (wanted.view) picture.view.viewpoint = wanted.view;
+  if (wanted.select) select(state.world.find(wanted.select) >= 0 ? state.world.find(wanted.select) : null);
+  for (const name of wanted.shows ?? []) if (Object.hasOwn(picture.shows, name) && !picture.shows[name]) toggle(name);
+  if (wanted.colours && Object.hasOwn(robotValues, wanted.colours)) colourBy(wanted.colours);
+}
+
+async function shareLink() {
+  const { viewpoint } = picture.view;
+  const shows = Object.keys(picture.shows).filter((name) => picture.shows[name]);
+  const select = state.selected === null ? null : state.world.ids[state.selected];
+  const fragment = writeLink({ view: viewpoint, select, shows, colours: picture.colouring?.name ?? null, quality: picture.isPlan ? "plan" : null });
+  state.link = `${location.origin}${location.pathname}#${fragment}`;
+  try {
+    await navigator.clipboard.writeText(state.link);
+    log.add({ tick: state.frame?.tick ?? null, source: "page", level: "info", text: `copied: ${state.link}` });
+  } catch {
+    prompt("A link to this view", state.link); // the browser lets no page write to the clipboard
+  }
 }
 
 // On a narrow screen the list of entities covers the picture only while it is wanted.
@@ -197,6 +310,16 @@ const keys = {
   l: () => toggle("trails"),
   b: () => toggle("beams"),
   s: () => toggle("shadows"),
+  v: () => picture.switchView(),
+  m: () => switchTool("measures"),
+  h: () => state.control === "granted" && switchTool("handles"),
+  j: () => toggleHeat(),
+  w: () => inspector.toggleSwarm(),
+  y: () => shareLink(),
+  P: () => film.toggle(),
+  Delete: () => remove(picture.chosen),
+  PageUp: () => picture.view?.zoom(1),
+  PageDown: () => picture.view?.zoom(-1),
   p: () => savePicture(),
   Home: () => frameArena(),
   End: () => frameArena("top"),
@@ -226,12 +349,24 @@ document.addEventListener("visibilitychange", sendVisibility);
 
 function drawNext(now) {
   requestAnimationFrame(drawNext);
-  if (view.draw(now) && state.drawn++ === 0) state.firstPicture = performance.now();
+  if (state.linkWaits && state.frame && picture.view?.world) {
+    state.linkWaits = false;
+    openLink(linked);
+  }
+  if (picture.draw(now)) {
+    if (state.drawn++ === 0) state.firstPicture = performance.now();
+    film.draw();
+  }
   inspector.draw();
 }
 requestAnimationFrame(drawNext);
-setInterval(() => view.motion && list.render(view.motion), 250);
+setInterval(() => picture.motion && list.render(picture.motion), 250);
 showState();
+
+function inPage({ x, y }) {
+  const box = picture.view.canvas.getBoundingClientRect();
+  return { x: box.left + x, y: box.top + y };
+}
 
 // For tests, and for the console of the curious.
 window.swarmanoid = {
@@ -267,29 +402,58 @@ window.swarmanoid = {
     return state.firstPicture ?? null;
   },
   get quality() {
-    return view.qualityName;
+    return picture.qualityName;
+  },
+  get view() {
+    return picture.view === null ? null : picture.isPlan ? "plan" : "3D";
   },
   get selected() {
     return state.selected === null ? null : state.world.ids[state.selected];
+  },
+  get chosen() {
+    return picture.chosen.map((entity) => state.world.ids[entity]);
   },
   get status() {
     return state.status;
   },
   get followed() {
-    return view.followed === null ? null : state.world.ids[view.followed];
+    return picture.followed === null ? null : state.world.ids[picture.followed];
   },
   get camera() {
-    return view.stage.camera.position.toArray();
+    return picture.view.eye;
+  },
+  get viewpoint() {
+    return picture.view.viewpoint;
   },
   get shown() {
     return list.shown.length;
   },
-  instances: () => view.swarm.herds.map(({ slots, layers }) => ({ robots: slots.length, drawn: layers.map((layer) => layer.count) })),
+  instances: () => picture.view.details,
   select: (id) => select(state.world.find(id)),
-  show: (name, on) => view.shows[name] !== on && toggle(name),
+  show: (name, on) => picture.shows[name] !== on && toggle(name),
   approach: (id) => approach(state.world.find(id)),
-  place: (id) => Array.from(view.placeOf(state.world.find(id)) ?? []),
-  project: (id) => view.project(state.world.find(id)),
-  projectPoint: (x, y, z) => view.projectPoint(x, y, z),
+  place: (id) => Array.from(picture.placeOf(state.world.find(id)) ?? []),
+  heading: (id) => (picture.yawOf(state.world.find(id)) * 180) / Math.PI,
+  get colouring() {
+    return picture.colouring && { name: picture.colouring.name, low: picture.colouring.low, high: picture.colouring.high };
+  },
+  get heat() {
+    return picture.heat && { columns: picture.heat.columns, rows: picture.heat.rows, seconds: Array.from(picture.heat.seconds), drawn: Boolean(picture.heat.canvas) };
+  },
+  get link() {
+    return state.link ?? null;
+  },
+  colourBy,
+  get measured() {
+    if (!picture.tape) return null;
+    const [dx, dy] = [0, 1].map((k) => picture.tape.to[k] - picture.tape.from[k]);
+    return { metres: Math.hypot(dx, dy), degrees: (Math.atan2(dy, dx) * 180) / Math.PI };
+  },
+  get handles() {
+    const { handles } = picture.overlay;
+    return handles && { move: inPage(handles.move), turn: inPage(handles.turn) };
+  },
+  project: (id) => inPage(picture.seen(state.world.find(id))),
+  projectPoint: (x, y, z) => inPage(picture.view.project(x, y, z)),
   command: (request) => connection.send(request),
 };

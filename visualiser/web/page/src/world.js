@@ -118,8 +118,9 @@ export class Motion {
   }
 
   yaw(slot) {
-    const [x, y, z, w] = this.quaternions.subarray(4 * slot, 4 * slot + 4);
-    return Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
+    const q = this.quaternions;
+    const i = 4 * slot;
+    return Math.atan2(2 * (q[i + 3] * q[i + 2] + q[i] * q[i + 1]), 1 - 2 * (q[i + 1] ** 2 + q[i + 2] ** 2));
   }
 
   // "#rrggbb" of what shines or is painted, null if nothing does.

@@ -49,3 +49,10 @@ export function icon(name) {
   svg.append(path);
   return svg;
 }
+
+// Downloads it.
+export function saveBlob(blob, name) {
+  const link = h("a", { href: URL.createObjectURL(blob), download: name.replaceAll(/[^\w.-]+/g, "_") });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}

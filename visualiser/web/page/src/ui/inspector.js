@@ -3,6 +3,7 @@
 import { fixed, h, hex, setText } from "./dom.js";
 import { Flag } from "../protocol.js";
 import { Plot } from "./plot.js";
+import { SwarmCard } from "./swarm_card.js";
 
 const DEGREES = 180 / Math.PI;
 const COLOURS = new Set(["led", "beacon", "colour", "laser_colour"]);
@@ -100,6 +101,49 @@ class Card {
     const pose = this.section("Pose");
     for (const [name, unit] of [["x", "m"], ["y", "m"], ["z", "m"], ["heading", "°"], ["speed", "m/s"]]) this.row(pose, name, unit, `pose.${name}`);
     if (world.slots[entity] < 0) this.showStill();
+    else this.addForm();
+  }
+
+  // Moves the entity, takes it out of the arena or puts it in, to the millimetre and by the keyboard.
+  addForm() {
+    const { actions } = this.panel;
+    const field = (name, label, step) => {
+      const input = h("input", { type: "number", step, "aria-label": label, name });
+      return h("label", {}, label, input);
+    };
+    this.form = h(
+      "form.place-form",
+      { onsubmit: (event) => this.submit(event) },
+      field("x", "x (m)", "any"),
+      field("y", "y (m)", "any"),
+      field("z", "z (m)", "any"),
+      field("heading", "heading (°)", "any"),
+      (this.put = h("button.small", { type: "submit" }, "Move")),
+      (this.remove = h("button.small", { type: "button", title: "Take it out of the arena  (Delete)", onclick: () => actions.remove(this.entity) }, "Remove")),
+    );
+    const details = h("details.place", { ontoggle: () => details.open && this.fillForm() }, h("summary", {}, "Move, add, remove"), this.form);
+    this.place = details;
+    this.place.hidden = !this.panel.mayControl;
+    this.element.append(details);
+  }
+
+  fillForm() {
+    const pose = this.panel.actions.poseOf(this.entity);
+    for (const name of ["x", "y", "z", "heading"]) this.form.elements[name].value = fixed(pose[name], name === "heading" ? 1 : 3);
+    this.showPresence(pose.present);
+  }
+
+  showPresence(present) {
+    if (!this.form || this.present === present) return;
+    this.present = present;
+    setText(this.put, present ? "Move" : "Add");
+    this.remove.hidden = !present;
+  }
+
+  submit(event) {
+    event.preventDefault();
+    const pose = Object.fromEntries(["x", "y", "z", "heading"].map((name) => [name, Number(this.form.elements[name].value)]));
+    this.panel.actions.put(this.entity, this.present ? "move" : "add", pose);
   }
 
   section(title) {
@@ -133,9 +177,11 @@ class Card {
     const [x, y, z] = frame.positions.subarray(3 * slot, 3 * slot + 3);
     if (frame.colours[4 * slot + 3] & Flag.absent) {
       this.last = null;
+      this.showPresence(false);
       for (const name of ["x", "y", "z", "heading", "speed"]) this.rows.get(`pose.${name}`).text("not in the arena");
       return;
     }
+    this.showPresence(true);
     const [qx, qy, qz, qw] = frame.quaternions.subarray(4 * slot, 4 * slot + 4).map(Number);
     const scale = 1 / 32767 ** 2;
     const heading = Math.atan2(2 * (qw * qz + qx * qy) * scale, 1 - 2 * (qy * qy + qz * qz) * scale) * DEGREES;
@@ -147,7 +193,7 @@ class Card {
     const values = { x, y, z, heading, speed };
     for (const [name, value] of Object.entries(values)) {
       this.rows.get(`pose.${name}`).number(value, name === "heading" ? 1 : 3);
-      this.plots.get(`pose.${name}`)?.add(frame.time, value);
+      this.plots.get(`pose.${name}`)?.add(`pose.${name}`, frame.time, value);
     }
   }
 
@@ -183,7 +229,7 @@ class Card {
     if (unit === "colour") row.colours([value]);
     else if (unit === "yes/no") row.text(value ? "yes" : "no");
     else row.number(shown);
-    this.plots.get(key)?.add(time, shown);
+    this.plots.get(key)?.add(key, time, shown);
   }
 
   barsOf(section, key, { names, units, values }, time) {
@@ -192,7 +238,7 @@ class Card {
       this.bars.set(key, new Bars(this, section, key, names, units[0]));
     }
     this.bars.get(key).show(values);
-    values.forEach((value, i) => this.plots.get(`${key}.${names[i]}`)?.add(time, value));
+    names.forEach((name, i) => this.plots.get(`${key}.${name}`)?.add(`${key}.${name}`, time, values[i]));
   }
 
   heldText(values) {
@@ -200,25 +246,42 @@ class Card {
     return held.length ? held.join(", ") : "nothing";
   }
 
+  // Values of one unit share a plot.
   togglePlot(key, title, unit) {
-    if (this.plots.has(key)) {
-      this.plots.get(key).element.remove();
+    const open = this.plots.get(key);
+    if (open) {
+      open.close(key);
       this.plots.delete(key);
+      if (open.series.size === 0) open.element.remove();
     } else {
-      const plot = new Plot(title, unit, () => this.togglePlot(key));
+      const plot = [...this.plots.values()].find((each) => each.unit === unit) ?? this.newPlot(unit);
+      plot.open(key, title);
       this.plots.set(key, plot);
-      this.plotArea.append(plot.element);
     }
     this.rows.get(key).element.classList.toggle("plotted", this.plots.has(key));
+  }
+
+  newPlot(unit) {
+    const { world } = this.panel;
+    const plot = new Plot(
+      unit,
+      () => `${world.experiment} ${world.ids[this.entity]} ${[...plot.series.values()].map(({ name }) => name).join(" ")}`,
+      () => [...plot.series.keys()].forEach((key) => this.togglePlot(key)),
+    );
+    this.plotArea.append(plot.element);
+    return plot;
   }
 }
 
 export class Inspector {
-  // actions: watch(entities), follow(entity), deselect()
+  // actions: watch(entities), follow(entity), deselect(), put(entity, "move" or "add", pose), remove(entity), poseOf(entity),
+  // swarmChanged(on)
   constructor(actions) {
     this.actions = actions;
     this.cards = []; // the pinned ones, then the selected one
     this.selected = null;
+    this.swarm = null;
+    this.mayControl = false;
     this.element = h("aside.right", { "aria-label": "Inspector" });
     this.element.hidden = true;
   }
@@ -227,7 +290,8 @@ export class Inspector {
     this.world = world;
     this.cards = [];
     this.selected = null;
-    this.element.replaceChildren();
+    this.swarm?.clear();
+    this.element.replaceChildren(...(this.swarm ? [this.swarm.element] : []));
     this.refresh();
   }
 
@@ -242,8 +306,18 @@ export class Inspector {
       this.selected = new Card(this, entity);
       for (const name of this.world.slots[entity] >= 0 ? ["speed"] : []) this.selected.togglePlot(`pose.${name}`, name, "m/s");
       this.cards.push(this.selected);
-      this.element.prepend(this.selected.element);
+      if (this.swarm) this.swarm.element.after(this.selected.element);
+      else this.element.prepend(this.selected.element);
     }
+    this.refresh();
+  }
+
+  // The card of the swarm, above the others.
+  toggleSwarm(on = !this.swarm) {
+    this.swarm?.element.remove();
+    this.swarm = on ? new SwarmCard((text) => `${this.world.experiment} ${text}`, () => this.toggleSwarm(false)) : null;
+    if (on) this.element.prepend(this.swarm.element);
+    this.actions.swarmChanged(on);
     this.refresh();
   }
 
@@ -266,6 +340,11 @@ export class Inspector {
     this.refresh();
   }
 
+  setControl(control) {
+    this.mayControl = control === "granted";
+    for (const card of this.cards) if (card.place) card.place.hidden = !this.mayControl;
+  }
+
   setFollowed(entity) {
     for (const card of this.cards) card.follow.classList.toggle("on", card.entity === entity);
   }
@@ -275,7 +354,7 @@ export class Inspector {
   }
 
   refresh() {
-    this.element.hidden = this.cards.length === 0;
+    this.element.hidden = this.cards.length === 0 && !this.swarm;
     this.actions.watch(this.watched);
   }
 
@@ -288,6 +367,7 @@ export class Inspector {
   }
 
   draw() {
-    for (const card of this.cards) for (const plot of card.plots.values()) plot.draw();
+    this.swarm?.draw();
+    for (const card of this.cards) for (const plot of new Set(card.plots.values())) plot.draw();
   }
 }

@@ -37,12 +37,13 @@ export class EntityList {
     this.count = h("span.dim");
     this.rows = h("div.rows");
     this.spacer = h("div.spacer", {}, this.rows);
-    this.scroll = h("div.scroll", { tabindex: "0", role: "listbox", "aria-label": "Entities", onscroll: () => this.render() }, this.spacer);
+    this.scroll = h("div.scroll", { tabindex: "0", role: "listbox", "aria-multiselectable": "true", "aria-label": "Entities", onscroll: () => this.render() }, this.spacer);
     this.scroll.addEventListener("keydown", (event) => this.key(event));
     this.element = h("aside.left", { "aria-label": "Entities" }, h("div.head", {}, h("h2", {}, "Entities"), this.count), this.filter, this.scroll);
     this.shown = [];
     this.pool = [];
     this.selected = null;
+    this.chosen = new Set();
     new ResizeObserver(() => this.render()).observe(this.scroll);
   }
 
@@ -64,8 +65,10 @@ export class EntityList {
     this.render();
   }
 
-  select(entity) {
+  // chosen: all that are selected, `entity` among them
+  select(entity, chosen = entity === null ? [] : [entity]) {
     this.selected = entity;
+    this.chosen = new Set(chosen);
     const place = this.shown.indexOf(entity);
     if (place >= 0) {
       const [top, height] = [this.scroll.scrollTop, this.scroll.clientHeight];
@@ -98,7 +101,7 @@ export class EntityList {
       row.entity = entity;
       setText(row.id, this.world.ids[entity]);
       setText(row.kind, this.world.kinds[entity].replaceAll("_", " "));
-      row.element.setAttribute("aria-selected", String(entity === this.selected));
+      row.element.setAttribute("aria-selected", String(this.chosen.has(entity)));
       const slot = this.world.slots[entity];
       const body = this.world.bodyOf.get(entity);
       const still = body ? `#${body.colour.toString(16).padStart(6, "0")}` : null;

@@ -1,10 +1,11 @@
-// A value over simulated time on a canvas of its own: axes that fit, the last value beside it.
-import { h, setText } from "./dom.js";
+// Values of one unit over simulated time on a canvas: the last minute or the whole run, as a picture or a table, too.
+import { h, saveBlob, setText } from "./dom.js";
+import { Series, toCsv } from "./series.js";
 
 const WINDOW_S = 60;
-const MOST_POINTS = 4000;
+const LINES = ["--accent", "--warn", "--good", "--bad", "--plot-5", "--plot-6"];
 
-function niceStep(range, parts) {
+export function niceStep(range, parts) {
   const rough = range / parts;
   const power = 10 ** Math.floor(Math.log10(rough));
   return power * [1, 2, 5, 10].find((factor) => factor * power >= rough);
@@ -17,33 +18,106 @@ function numberText(value) {
 }
 
 export class Plot {
-  constructor(title, unit, onClose) {
-    this.times = [];
-    this.values = [];
-    this.value = h("span.number");
-    this.canvas = h("canvas");
+  // fileName: without ending
+  constructor(unit, fileName, onClose) {
+    this.unit = unit;
+    this.fileName = fileName;
+    this.series = new Map(); // by key
+    this.whole = false;
+    this.legend = h("span.legend-names");
+    this.canvas = h("canvas", { role: "img", "aria-label": "No values yet" });
+    this.range = h("button.small", { title: "The last minute, or the whole run as far as this page has seen it", "aria-pressed": "false", onclick: () => this.setWhole(!this.whole) }, "All");
     this.element = h(
       "div.plot",
       {},
-      h("div.plot-head", {}, h("span", {}, title), this.value, h("button.close", { title: "Close the plot", "aria-label": "Close", onclick: onClose }, "×")),
+      h(
+        "div.plot-head",
+        {},
+        this.legend,
+        this.range,
+        h("button.small", { title: "Save as a table", onclick: () => this.saveTable() }, "CSV"),
+        h("button.small", { title: "Save as a picture", onclick: () => this.savePicture() }, "PNG"),
+        h("button.close", { title: "Close the plot", "aria-label": "Close", onclick: onClose }, "×"),
+      ),
       this.canvas,
     );
-    this.unit = unit;
   }
 
-  add(time, value) {
-    const last = this.times.at(-1);
-    if (last !== undefined && time < last) this.times.length = this.values.length = 0;
-    if (time === last || !Number.isFinite(value)) return;
-    this.times.push(time);
-    this.values.push(value);
-    let drop = 0;
-    while (this.times[drop] < time - WINDOW_S || this.times.length - drop > MOST_POINTS) drop++;
-    if (drop > 64) {
-      this.times.splice(0, drop);
-      this.values.splice(0, drop);
-    }
+  open(key, name) {
+    this.series.set(key, new Series(name));
     this.stale = true;
+    this.writeLegend();
+  }
+  close(key) {
+    this.series.delete(key);
+    this.stale = true;
+    this.writeLegend();
+  }
+
+  add(key, time, value, spread) {
+    this.stale = this.series.get(key)?.add(time, value, spread) || this.stale;
+  }
+
+  setWhole(on) {
+    this.whole = on;
+    this.range.setAttribute("aria-pressed", String(on));
+    this.stale = true;
+  }
+
+  writeLegend() {
+    this.values = [...this.series.values()].map(() => h("span.number"));
+    this.legend.replaceChildren(
+      ...[...this.series.values()].map(({ name }, i) => {
+        const mark = h("i.mark");
+        mark.style.background = `var(${LINES[i % LINES.length]})`;
+        return h("span", {}, this.series.size > 1 ? mark : null, name, " ", this.values[i]);
+      }),
+    );
+  }
+
+  saveTable() {
+    saveBlob(new Blob([toCsv([...this.series.values()], this.unit)], { type: "text/csv" }), `${this.fileName()}.csv`);
+  }
+
+  // With a background and the names: the canvas alone has neither.
+  savePicture() {
+    const ratio = window.devicePixelRatio || 1;
+    const [width, height] = [this.canvas.width, this.canvas.height + 18 * ratio];
+    const copy = h("canvas", { width, height });
+    const context = copy.getContext("2d");
+    const style = getComputedStyle(this.canvas);
+    context.fillStyle = style.getPropertyValue("--page");
+    context.fillRect(0, 0, width, height);
+    context.font = `${11 * ratio}px system-ui, sans-serif`;
+    let x = 38 * ratio;
+    [...this.series.values()].forEach(({ name }, i) => {
+      const text = this.unit ? `${name} (${this.unit})` : name;
+      context.fillStyle = style.getPropertyValue(LINES[i % LINES.length]);
+      context.fillText(text, x, 13 * ratio);
+      x += context.measureText(text).width + 12 * ratio;
+    });
+    context.drawImage(this.canvas, 0, 18 * ratio);
+    copy.toBlob((blob) => saveBlob(blob, `${this.fileName()}.png`));
+  }
+
+  // What is shown: first and last time, lowest and highest value, on round numbers.
+  bounds() {
+    const all = [...this.series.values()].filter(({ times }) => times.length > 0);
+    if (all.length === 0) return null;
+    const end = Math.max(...all.map(({ times }) => times.at(-1)));
+    const begin = Math.min(...all.map(({ times }) => times[0]));
+    const start = this.whole ? begin : Math.max(begin, end - WINDOW_S);
+    let [low, high] = [Infinity, -Infinity];
+    for (const series of all)
+      for (let i = series.from(start); i < series.values.length; i++) {
+        const spread = series.spreads[i] ?? 0;
+        low = Math.min(low, series.values[i] - spread);
+        high = Math.max(high, series.values[i] + spread);
+      }
+    if (low > high) return null;
+    if (high - low < 1e-9) [low, high] = [low - Math.max(0.5, Math.abs(low) * 0.1), high + Math.max(0.5, Math.abs(high) * 0.1)];
+    const step = niceStep(high - low, 2.5);
+    return { start, end, low: Math.floor(low / step) * step, high: Math.ceil(high / step) * step, step };
   }
 
   draw() {
@@ -59,25 +133,22 @@ export class Plot {
     const context = canvas.getContext("2d");
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, width, height);
-    if (this.times.length === 0) return;
-
+    const bounds = this.bounds();
+    if (!bounds) return;
     const style = getComputedStyle(canvas);
-    const end = this.times.at(-1);
-    const start = Math.max(this.times[0], end - WINDOW_S);
-    const first = this.times.findIndex((time) => time >= start);
-    let low = Infinity;
-    let high = -Infinity;
-    for (let i = first; i < this.values.length; i++) {
-      low = Math.min(low, this.values[i]);
-      high = Math.max(high, this.values[i]);
-    }
-    if (high - low < 1e-9) [low, high] = [low - Math.max(0.5, Math.abs(low) * 0.1), high + Math.max(0.5, Math.abs(high) * 0.1)];
-    const step = niceStep(high - low, 2.5);
-    [low, high] = [Math.floor(low / step) * step, Math.ceil(high / step) * step];
-
     const box = { left: 38, right: width - 4, top: 5, bottom: height - 14 };
-    const x = (time) => box.left + ((time - start) / Math.max(end - start, 1e-9)) * (box.right - box.left);
-    const y = (value) => box.bottom - ((value - low) / (high - low)) * (box.bottom - box.top);
+    const x = (time) => box.left + ((time - bounds.start) / Math.max(bounds.end - bounds.start, 1e-9)) * (box.right - box.left);
+    const y = (value) => box.bottom - ((value - bounds.low) / (bounds.high - bounds.low)) * (box.bottom - box.top);
+    this.drawAxes(context, style, box, bounds, y, height);
+    [...this.series.values()].forEach((series, i) => {
+      const colour = style.getPropertyValue(LINES[i % LINES.length]);
+      drawSeries(context, series, series.from(bounds.start), x, y, colour);
+      if (series.values.length > 0) setText(this.values[i], `${numberText(series.values.at(-1))}${this.unit ? ` ${this.unit}` : ""}`);
+    });
+    canvas.setAttribute("aria-label", `${[...this.series.values()].map(({ name }) => name).join(", ")} from ${bounds.start.toFixed(1)} to ${bounds.end.toFixed(1)} seconds`);
+  }
+
+  drawAxes(context, style, box, { start, end, low, high, step }, y, height) {
     context.font = "10px system-ui, sans-serif";
     context.fillStyle = style.getPropertyValue("--dim");
     context.strokeStyle = style.getPropertyValue("--line");
@@ -95,13 +166,24 @@ export class Plot {
     context.fillText(`${end.toFixed(1)} s`, box.right, height - 2);
     context.textAlign = "left";
     context.fillText(`${start.toFixed(1)} s`, box.left, height - 2);
-
-    context.strokeStyle = style.getPropertyValue("--accent");
-    context.lineWidth = 1.5;
-    context.lineJoin = "round";
-    context.beginPath();
-    for (let i = first; i < this.values.length; i++) context.lineTo(x(this.times[i]), y(this.values[i]));
-    context.stroke();
-    setText(this.value, `${numberText(this.values.at(-1))} ${this.unit}`);
   }
+}
+
+// The line, and about a mean the band of one standard deviation.
+function drawSeries(context, { times, values, spreads }, first, x, y, colour) {
+  if (spreads.length > 0) {
+    context.beginPath();
+    for (let i = first; i < values.length; i++) context.lineTo(x(times[i]), y(values[i] + spreads[i]));
+    for (let i = values.length - 1; i >= first; i--) context.lineTo(x(times[i]), y(values[i] - spreads[i]));
+    context.globalAlpha = 0.2;
+    context.fillStyle = colour;
+    context.fill();
+    context.globalAlpha = 1;
+  }
+  context.strokeStyle = colour;
+  context.lineWidth = 1.5;
+  context.lineJoin = "round";
+  context.beginPath();
+  for (let i = first; i < values.length; i++) context.lineTo(x(times[i]), y(values[i]));
+  context.stroke();
 }

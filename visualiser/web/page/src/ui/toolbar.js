@@ -1,11 +1,11 @@
 // The bar at the top: the experiment, its clock and pace, the controls, what is shown.
-import { qualities } from "../view/quality.js";
+import { choices } from "../view/quality.js";
 import { clockText, h, icon, setText } from "./dom.js";
 
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 10, 50, 0];
 
 export class Toolbar {
-  // actions: command(request), toggle(name), help(), top(), fit(), quality(name), list()
+  // actions: command(request), toggle(name), help(), top(), fit(), quality(name), plan(), list()
   constructor(actions) {
     this.actions = actions;
     this.name = h("span.name", {}, "Swarmanoid");
@@ -40,7 +40,7 @@ export class Toolbar {
     this.quality = h(
       "select.quality",
       { "aria-label": "Quality of the picture", onchange: () => actions.quality(this.quality.value) },
-      ...["auto", ...Object.keys(qualities)].map((name) => h("option", { value: name }, name)),
+      ...choices.map((name) => h("option", { value: name }, name)),
     );
     this.element = h(
       "header",
@@ -57,7 +57,8 @@ export class Toolbar {
         toggle("beams", "Beams", "b"),
         toggle("shadows", "Shadows", "s"),
         this.quality,
-        h("button.toggle", { title: "From above  (End)", onclick: () => actions.top() }, "Top"),
+        (this.plan = h("button.toggle", { title: "Plan view: from above, quick without a graphics card  (V)", "aria-pressed": "false", onclick: () => actions.plan() }, "Plan")),
+        (this.top = h("button.toggle", { title: "From above  (End)", onclick: () => actions.top() }, "Top")),
         h("button.toggle", { title: "The whole arena  (Home)", onclick: () => actions.fit() }, "Fit"),
         h("button.toggle", { title: "Keys  (F1)", "aria-label": "Keys", onclick: () => actions.help() }, "?"),
       ),
@@ -75,6 +76,8 @@ export class Toolbar {
     const [auto] = this.quality.options;
     setText(auto, wanted === "auto" ? `auto: ${chosen}` : "auto");
     this.quality.title = "Quality of the picture; auto follows the speed of this machine";
+    this.plan.setAttribute("aria-pressed", String(chosen === "plan"));
+    this.top.hidden = this.toggles.shadows.hidden = chosen === "plan";
   }
 
   setToggle(name, on) {

@@ -1,15 +1,10 @@
 // The floor with its grid, and what stands on it: walls, blocks, patches, holes, lights, sounds and terrain. Of these only
 // lights, sounds and patches may come, go and move.
 import * as THREE from "three";
-import { paint } from "./models.js";
-import { BoundaryWall, isBoundaryWall } from "./walls.js";
+import { gridStep, isBoundaryWall, paint } from "./look.js";
+import { BoundaryWall } from "./walls.js";
 
 const FLAT_M = 0.0006; // between one layer on the floor and the next
-
-function gridStep(extent) {
-  for (const step of [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50]) if (extent / step <= 26) return step;
-  return 100;
-}
 
 // Without a texture: to fill a picture with one costs a processor more than all that stands on it.
 function gridLines(width, depth, step, colour) {

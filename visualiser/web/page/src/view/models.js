@@ -4,6 +4,7 @@
 // Of each level: `body` with colours at its vertices, `leds` whose attribute `led` is the number of each, and `clear` for
 // what is seen through.
 import * as THREE from "three";
+import { extents, paint } from "./look.js";
 
 export const MEAN_LED = 16; // stands for the mean colour of the ring
 export const BEACON = 17;
@@ -11,21 +12,6 @@ const BEACON_LIGHT = 16; // in meshes.json
 // A level is drawn if the robot is at least so many pixels wide.
 const PIXELS = [70, 14, 7];
 const DOT_PIXELS = 5;
-
-// For picking, labels and the choice of the level.
-const extents = {
-  footbot: { radius: 0.09, height: 0.147 },
-  eyebot: { radius: 0.25, height: 0.566 },
-  handbot: { radius: 0.2, height: 0.16 },
-};
-
-export function extentOf(world, entity) {
-  const look = world.look(entity);
-  if (look.role === "robot") return extents[world.kinds[entity]] ?? look;
-  const [x, y, z] = world.bodyOf.get(entity)?.size ?? [0.1, 0.1, 0.1];
-  if (look.form === "cylinder") return { radius: x, height: z };
-  return { radius: Math.hypot(x, y) / 2 || 0.1, height: z || 0.05 };
-}
 
 // Vertices without indices, as they come.
 class Builder {
@@ -134,11 +120,4 @@ export function makeModels(meshes, looks) {
       return [kind, levels({ ...meshes, models: { [kind]: look.model } }, [part], look, look.colour)];
     });
   return Object.fromEntries([...own, ...users]);
-}
-
-// A paint with the same hue, less loud, as all renderers use it for floors, walls, blocks and preys.
-export function paint(colour) {
-  const channels = [(colour >> 16) & 255, (colour >> 8) & 255, colour & 255];
-  const grey = 0.3 * channels[0] + 0.59 * channels[1] + 0.11 * channels[2];
-  return channels.reduce((sum, channel) => sum * 256 + Math.round(0.52 * channel + 0.26 * grey + 0.22 * 205), 0);
 }

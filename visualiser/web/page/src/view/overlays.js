@@ -1,11 +1,10 @@
-// What is drawn over the robots: laser beams, grips, the ring about the selected one, trails and names.
+// What the 3D view draws beside bodies: laser beams, grips and trails.
 import * as THREE from "three";
 import { Flag } from "../protocol.js";
-import { extentOf } from "./models.js";
+import { GRIP, TRAILS, extentOf, rgb } from "./look.js";
+import { jumped } from "./trail_record.js";
 
 const BEAMS = 256;
-// Of trails, in turn: neighbours can be told apart.
-const TRAILS = [0x3d8bfd, 0xe08a2e, 0x2fa58a, 0xb65fcf, 0xd9575a, 0x8a9a2f, 0x4fa3c7, 0xa0785a];
 
 // Beams with a spot where they end.
 export class Beams {
@@ -59,16 +58,15 @@ export class Grips {
     this.world = world;
     this.lines = new THREE.LineSegments(
       new THREE.BufferGeometry(),
-      new THREE.LineBasicMaterial({ color: 0xf08a3c, depthTest: false, transparent: true, opacity: 0.9 }),
+      new THREE.LineBasicMaterial({ color: GRIP, depthTest: false, transparent: true, opacity: 0.9 }),
     );
     this.lines.frustumCulled = false;
     this.lines.renderOrder = 4;
     this.hangers = world.robots.filter((entity) => world.kinds[entity] !== "footbot");
-    this.on = true;
     scene.add(this.lines);
   }
 
-  update(frame, motion) {
+  update(frame, motion, on) {
     const points = [];
     for (const entity of this.hangers) {
       const slot = this.world.slots[entity];
@@ -83,55 +81,27 @@ export class Grips {
         points.push(place[0], place[1], place[2] + extentOf(this.world, entity).height * 0.7);
       }
     }
-    this.lines.visible = this.on && points.length > 0;
-    if (points.length === 0) return;
+    this.lines.visible = on && points.length > 0;
+    if (!this.lines.visible) return;
     this.lines.geometry.dispose();
     this.lines.geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
   }
 }
 
-// The ring on the floor about the selected entity.
-export class SelectionRing {
-  constructor(scene) {
-    this.mesh = new THREE.Mesh(
-      new THREE.RingGeometry(1.25, 1.36, 64),
-      new THREE.MeshBasicMaterial({ color: 0x3d8bfd, transparent: true, opacity: 0.95, side: THREE.DoubleSide, depthWrite: false }),
-    );
-    this.heading = new THREE.Mesh(
-      new THREE.CircleGeometry(0.3, 3).translate(1.62, 0, 0),
-      this.mesh.material,
-    );
-    this.mesh.add(this.heading);
-    this.mesh.renderOrder = 2;
-    this.mesh.visible = false;
-    scene.add(this.mesh);
-  }
+// The trails: line segments in blocks, one block a sample, the oldest overwritten, fading with age.
+const RAISED_M = 0.006;
 
-  // place: [x, y, z], or null for none
-  update(place, yaw, radius) {
-    this.mesh.visible = place !== null;
-    if (!place) return;
-    this.mesh.position.set(place[0], place[1], place[2] + 0.004);
-    this.mesh.rotation.z = yaw;
-    this.mesh.scale.setScalar(radius);
-  }
-}
-
-// Where the robots have been: line segments in blocks, one block a sample, the oldest overwritten, fading with age.
 export class Trails {
-  constructor(scene, world) {
-    this.world = world;
-    const count = Math.max(1, world.robots.length);
-    this.samples = Math.max(12, Math.min(240, Math.floor(300000 / count)));
+  constructor(scene, record) {
+    this.record = record;
+    const count = Math.max(1, record.world.robots.length);
+    this.samples = record.capacity;
     this.block = 6 * count;
     this.positions = new THREE.BufferAttribute(new Float32Array(this.block * this.samples), 3).setUsage(THREE.DynamicDrawUsage);
     const born = new Float32Array(2 * count * this.samples);
     for (let i = 0; i < born.length; i++) born[i] = Math.floor(i / (2 * count));
     const tints = new Uint8Array(6 * count * this.samples);
-    for (let i = 0; i < 2 * count * this.samples; i++) {
-      const tint = TRAILS[Math.floor((i % (2 * count)) / 2) % TRAILS.length];
-      tints.set([tint >> 16, (tint >> 8) & 255, tint & 255], 3 * i);
-    }
+    for (let i = 0; i < 2 * count * this.samples; i++) tints.set(rgb(TRAILS[Math.floor((i % (2 * count)) / 2) % TRAILS.length]), 3 * i);
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("tint", new THREE.BufferAttribute(tints, 3, true));
     geometry.setAttribute("position", this.positions);
@@ -161,117 +131,42 @@ export class Trails {
     });
     this.lines = new THREE.LineSegments(geometry, this.material);
     this.lines.frustumCulled = false;
-    this.lines.visible = false;
+    this.drawn = 0; // samples
     scene.add(this.lines);
-    this.clear();
   }
 
-  clear() {
-    this.head = 0;
-    this.filled = 0;
-    this.last = null;
-    this.lastTime = -Infinity;
+  // Takes over what was recorded since the last call.
+  update() {
+    const { record } = this;
+    this.lines.visible = record.on;
+    if (!record.on) return;
+    if (this.beginning !== record.beginnings) {
+      this.beginning = record.beginnings;
+      this.positions.array.fill(0);
+      this.drawn = 0;
+    }
+    if (this.drawn === record.added) return;
+    for (let number = Math.max(this.drawn, record.first + 1, 1); number < record.added; number++) this.write(number);
+    this.drawn = record.added;
+    this.material.uniforms.head.value = (record.added - 1) % this.samples;
+    this.lines.geometry.setDrawRange(0, (Math.min(record.added, this.samples) * this.block) / 3);
   }
 
-  get visible() {
-    return this.lines.visible;
-  }
-  set visible(on) {
-    if (on && !this.lines.visible) this.clear();
-    this.lines.visible = on;
-  }
-
-  add(frame) {
-    if (!this.visible) return;
-    if (frame.time < this.lastTime) this.clear();
-    const period = Math.max(this.world.tickSeconds, this.world.robots.length > 2000 ? 0.5 : 0.2);
-    if (frame.time - this.lastTime < period - 1e-9) return;
-    this.lastTime = frame.time;
+  // The way from the sample before to this one.
+  write(number) {
     const { array } = this.positions;
-    const now = new Float32Array(3 * this.world.robots.length);
-    this.world.robots.forEach((entity, i) => {
-      const slot = 3 * this.world.slots[entity];
-      now[3 * i] = frame.positions[slot];
-      now[3 * i + 1] = frame.positions[slot + 1];
-      now[3 * i + 2] = frame.positions[slot + 2] + 0.006;
-    });
-    if (this.last) {
-      const start = this.head * this.block;
-      for (let i = 0; i < this.world.robots.length; i++) {
-        const jumped = Math.abs(now[3 * i] - this.last[3 * i]) + Math.abs(now[3 * i + 1] - this.last[3 * i + 1]) > 0.5;
-        for (let k = 0; k < 3; k++) {
-          array[start + 6 * i + k] = (jumped ? now : this.last)[3 * i + k];
-          array[start + 6 * i + 3 + k] = now[3 * i + k];
-        }
+    const start = (number % this.samples) * this.block;
+    const [from, to] = [this.record.sample(number - 1), this.record.sample(number)];
+    for (let i = 0; i < to.length / 3; i++) {
+      const begin = jumped(from, to, i) ? to : from;
+      for (let k = 0; k < 3; k++) {
+        const raised = k === 2 ? RAISED_M : 0;
+        array[start + 6 * i + k] = begin[3 * i + k] + raised;
+        array[start + 6 * i + 3 + k] = to[3 * i + k] + raised;
       }
-      // Ranges gather until the next picture uploads them.
-      this.positions.addUpdateRange(start, this.block);
-      this.positions.needsUpdate = true;
-      this.material.uniforms.head.value = this.head;
-      this.head = (this.head + 1) % this.samples;
-      this.filled = Math.min(this.filled + 1, this.samples);
-      this.lines.geometry.setDrawRange(0, (this.filled * this.block) / 3);
-    } else this.lines.geometry.setDrawRange(0, 0);
-    this.last = now;
-  }
-}
-
-// Names beside the nearest entities, on a canvas over the picture.
-export class Labels {
-  constructor(container, world) {
-    this.world = world;
-    this.canvas = document.createElement("canvas");
-    this.canvas.className = "labels";
-    container.append(this.canvas);
-    this.context = this.canvas.getContext("2d");
-    this.visible = false;
-  }
-
-  update(camera, motion, selected) {
-    const ratio = window.devicePixelRatio || 1;
-    const { clientWidth: width, clientHeight: height } = this.canvas;
-    if (this.canvas.width !== Math.round(width * ratio) || this.canvas.height !== Math.round(height * ratio)) {
-      this.canvas.width = Math.round(width * ratio);
-      this.canvas.height = Math.round(height * ratio);
     }
-    const { context } = this;
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    context.clearRect(0, 0, width, height);
-    if (!this.visible && selected === null) return;
-    const found = [];
-    const point = new THREE.Vector3();
-    const consider = (entity) => {
-      const slot = this.world.slots[entity];
-      if (slot < 0 || !motion.isPresent(slot)) return;
-      point.fromArray(motion.positions, 3 * slot);
-      const distance = point.distanceToSquared(camera.position);
-      point.z += extentOf(this.world, entity).height + 0.02;
-      point.project(camera);
-      if (Math.abs(point.x) > 1 || Math.abs(point.y) > 1 || point.z > 1) return;
-      found.push({ entity, distance, x: ((point.x + 1) / 2) * width, y: ((1 - point.y) / 2) * height });
-    };
-    if (this.visible) for (const entity of this.world.movable) consider(entity);
-    else consider(selected);
-    found.sort((a, b) => a.distance - b.distance);
-    context.font = "11px system-ui, sans-serif";
-    context.textAlign = "center";
-    context.textBaseline = "bottom";
-    const taken = [];
-    for (const { entity, x, y } of found.slice(0, 400)) {
-      if (taken.length >= 150) break;
-      const text = this.world.ids[entity];
-      const half = text.length * 3.4 + 4;
-      if (entity !== selected && taken.some((other) => Math.abs(other.y - y) < 14 && Math.abs(other.x - x) < half + other.half)) continue;
-      taken.push({ x, y, half });
-      context.lineWidth = 3;
-      context.strokeStyle = getComputedStyle(this.canvas).getPropertyValue("--label-edge");
-      context.fillStyle = entity === selected ? "#3d8bfd" : getComputedStyle(this.canvas).color;
-      context.strokeText(text, x, y);
-      context.fillText(text, x, y);
-    }
-  }
-
-  dispose() {
-    this.canvas.remove();
+    // Ranges gather until the next picture uploads them.
+    this.positions.addUpdateRange(start, this.block);
+    this.positions.needsUpdate = true;
   }
 }

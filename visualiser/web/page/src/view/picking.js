@@ -1,6 +1,6 @@
 // Which entity is under the pointer: the nearest whose bounding sphere the ray of sight meets.
 import * as THREE from "three";
-import { extentOf } from "./models.js";
+import { extentOf } from "./look.js";
 
 const raycaster = new THREE.Raycaster();
 

@@ -1,4 +1,5 @@
-// How much a picture may cost. The page begins with what the driver promises, and then holds the pace of its pictures.
+// How much a picture in three dimensions may cost: its quality holds the pace of the pictures. Without a graphics card the
+// page begins with the plan (picture.js).
 
 // Best first. ratio: pixels drawn for one of the page, at most. lit: with gloss. finest: the first level of detail of robots
 // that is drawn. coarser: how much wider than usual a robot must be for its level. plain: a floor of one colour, and no soft
@@ -11,21 +12,16 @@ export const qualities = {
 };
 const names = Object.keys(qualities);
 
+// What can be asked for: a plan or three dimensions, as this machine can; the plan; three dimensions at the pace of the
+// pictures; one quality.
+export const choices = ["auto", "plan", "3D", ...names];
+export const isPaced = (wanted) => wanted === "auto" || wanted === "3D";
+
 const SLOW_MS = 45; // 22 pictures a second
 const QUICK_MS = 18;
 const FALL_AFTER_MS = 1200;
 const RISE_AFTER_MS = 6000;
 const FIRST_REST_MS = 30000; // before a quality that was too slow is tried again; doubled each time
-
-// Whether pictures are drawn by the processor: remote desktops and virtual machines.
-export function drawsInSoftware() {
-  const gl = document.createElement("canvas").getContext("webgl2");
-  if (!gl) return true;
-  const info = gl.getExtension("WEBGL_debug_renderer_info");
-  const name = String(gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
-  gl.getExtension("WEBGL_lose_context")?.loseContext();
-  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
-}
 
 // Chooses a quality by the time between pictures that follow each other at once.
 export class Governor {

@@ -1,22 +1,19 @@
 // The renderer, the camera and the light. Draws when something has changed, and not otherwise.
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { themes } from "./look.js";
 
-// By day the palette of all renderers, by night one of the page's own.
-const themesOf = (palette) => ({
-  light: { background: palette.sky, sky: 0xffffff, ground: 0xb9c0c9, sun: 2.1, hemisphere: 1.5, floor: palette.floor, line: palette.floor_line, rim: 0x9aa5b1 },
-  dark: { background: 0x11161d, sky: 0xdfe9f5, ground: 0x2b323c, sun: 1.9, hemisphere: 1.35, floor: 0x3a444f, line: 0x4c5763, rim: 0x687482 },
-});
+const OBLIQUE = [0.1, -0.8, 0.8]; // from the target to the camera
 
 export class Stage {
   // smoothEdges stays as it is; all else follows the quality.
-  constructor(container, smoothEdges, quality, palette) {
-    this.themes = themesOf(palette);
+  constructor(container, smoothEdges, quality) {
     this.container = container;
     this.renderer = new THREE.WebGLRenderer({ antialias: smoothEdges, powerPreference: "high-performance" });
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
-    container.append(this.renderer.domElement);
+    this.renderer.domElement.className = "picture";
+    container.prepend(this.renderer.domElement);
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(45, 1, 0.02, 1000);
     this.camera.up.set(0, 0, 1);
@@ -53,7 +50,7 @@ export class Stage {
   }
 
   applyTheme(dark) {
-    this.theme = dark ? this.themes.dark : this.themes.light;
+    this.theme = dark ? themes.dark : themes.light;
     this.scene.background = new THREE.Color(this.theme.background);
     this.hemisphere.color.set(this.theme.sky);
     this.hemisphere.groundColor.set(this.theme.ground);
@@ -82,18 +79,25 @@ export class Stage {
     this.stale = true;
   }
 
+  // How near and far the camera may be.
+  setReach([width, depth]) {
+    this.extent = Math.max(width, depth, 1);
+    this.camera.near = Math.max(0.01, this.extent / 2000);
+    this.camera.far = this.extent * 20 + 50;
+    this.camera.updateProjectionMatrix();
+    this.controls.maxDistance = this.extent * 6 + 10;
+    this.controls.minDistance = 0.15;
+  }
+
   // The whole arena in view. how: "oblique" or "top".
   frameArena(arena, how = "oblique") {
     const [width, depth, height] = arena;
-    this.extent = Math.max(width, depth, 1);
+    this.setReach(arena);
     const { camera } = this;
-    const direction = how === "top" ? new THREE.Vector3(0, -0.001, 1) : new THREE.Vector3(0.1, -0.8, 0.8);
+    const direction = how === "top" ? new THREE.Vector3(0, -0.001, 1) : new THREE.Vector3(...OBLIQUE);
     direction.normalize();
     const corners = [0, width].flatMap((x) => [0, depth].flatMap((y) => [0, Math.min(height, 0.3)].map((z) => new THREE.Vector3(x, y, z))));
     const target = new THREE.Vector3(width / 2, depth / 2, 0);
-    camera.near = Math.max(0.01, this.extent / 2000);
-    camera.far = this.extent * 20 + 50;
-    camera.updateProjectionMatrix();
     let distance = this.extent * 2;
     // The corners' rectangle on the screen is centred and then fitted; some rounds, for the perspective changes it.
     for (let round = 0; round < 6; round++) {
@@ -111,8 +115,6 @@ export class Stage {
     }
     camera.position.copy(target).addScaledVector(direction, distance);
     this.controls.target.copy(target);
-    this.controls.maxDistance = this.extent * 6 + 10;
-    this.controls.minDistance = 0.15;
     this.controls.update();
     this.home = [arena, how]; // until the user moves the camera
     this.invalidate();
@@ -133,6 +135,25 @@ export class Stage {
     this.home = null;
     this.controls.target.add(delta);
     this.camera.position.add(delta);
+    this.invalidate();
+  }
+
+  // Metres that the picture shows from top to bottom at the point that is looked at, for each metre of distance.
+  get spanOfDistance() {
+    return 2 * Math.tan((this.camera.fov * Math.PI) / 360);
+  }
+
+  // What is looked at, how much of it, and from where: the same for every view.
+  get viewpoint() {
+    const away = this.camera.position.clone().sub(this.controls.target);
+    return { target: this.controls.target.toArray(), span: away.length() * this.spanOfDistance, direction: away.normalize().toArray() };
+  }
+  set viewpoint({ target, span, direction }) {
+    this.home = null;
+    this.controls.target.fromArray(target);
+    const from = new THREE.Vector3(...(direction ?? OBLIQUE)).normalize();
+    this.camera.position.copy(this.controls.target).addScaledVector(from, span / this.spanOfDistance);
+    this.controls.update();
     this.invalidate();
   }
 

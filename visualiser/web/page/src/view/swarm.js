@@ -1,7 +1,8 @@
 // All that moves, drawn by instancing: robots at five levels of detail, chosen by their size on the screen, preys and
 // blocks. One place of every instance array is one place of the frame.
 import * as THREE from "three";
-import { extentOf, makeModels, paint } from "./models.js";
+import { extentOf, paint } from "./look.js";
+import { makeModels } from "./models.js";
 import { LedTexture, ledMaterial } from "./leds.js";
 import { Flag } from "../protocol.js";
 

@@ -2,21 +2,9 @@
 // those between the eye and the arena down to a kerb, the others where they are taller than what happens inside.
 import * as THREE from "three";
 
-const TALL_M = 0.25; // lower ones hide nothing …
-const TALL_PART = 0.08; // … or in a small arena, lower than this part of its size
 const KERB_M = 0.04;
 const CUT_M = 0.35;
 const CUT_PART = 0.07; // of the arena's size, if that is more
-
-// Long, tall, and within half a thickness and a fiftieth of the arena's size of one of its sides.
-export function isBoundaryWall({ size: [x, y, z], position }, arena) {
-  const thickness = Math.min(x, y);
-  if (z < Math.min(TALL_M, TALL_PART * Math.max(arena[0], arena[1])) || Math.max(x, y) < 4 * thickness) return false;
-  return [0, 1].some((axis) => {
-    const toSide = Math.min(Math.abs(position[axis]), Math.abs(arena[axis] - position[axis]));
-    return toSide <= thickness / 2 + 0.02 * arena[axis];
-  });
-}
 
 export class BoundaryWall {
   // makeSolid(geometry, colour, more): a mesh, as the arena makes its solids.

@@ -1,0 +1,105 @@
+#include "visualiser/web/kept_address.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "visualiser/web/access.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+class KeptAddressTest : public testing::Test
+{
+protected:
+  KeptAddressTest()
+  {
+    std::string name = (std::filesystem::temp_directory_path() / "swarmanoid_kept_XXXXXX").string();
+    folder_ = std::filesystem::path(mkdtemp(name.data())) / "state";
+  }
+  ~KeptAddressTest() override { std::filesystem::remove_all(folder_.parent_path()); }
+
+  std::filesystem::path File() const { return std::filesystem::directory_iterator(folder_)->path(); }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(KeptAddressTest, TheNextStartOfAnExperimentHasPortAndTokenOfTheLast)
+{
+  const std::string token = MakeToken();
+  {
+    KeptAddress first(folder_, "one/foraging");
+    EXPECT_EQ(first.Port(), 0);
+    EXPECT_EQ(first.Token(), "");
+    EXPECT_TRUE(first.Keep(40123, token));
+  }
+  KeptAddress second(folder_, "one/foraging");
+  EXPECT_EQ(second.Port(), 40123);
+  EXPECT_EQ(second.Token(), token);
+  EXPECT_EQ(KeptAddress(folder_, "another/foraging").Port(), 0);
+}
+
+TEST_F(KeptAddressTest, OfTwoRunsAtTheSameTimeTheSecondKeepsNothing)
+{
+  KeptAddress first(folder_, "foraging");
+  EXPECT_TRUE(first.Keep(40123, ""));
+  KeptAddress second(folder_, "foraging");
+  EXPECT_EQ(second.Port(), 0);
+  EXPECT_FALSE(second.Keep(40124, ""));
+  EXPECT_NE(second.Trouble(), "");
+}
+
+TEST_F(KeptAddressTest, OnlyTheUserMayReadTheFile)
+{
+  {
+    KeptAddress kept(folder_, "foraging");
+    kept.Keep(40123, MakeToken());
+    struct stat status
+    {
+    };
+    ASSERT_EQ(stat(File().c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777U, 0600U);
+  }
+  // One that others could have read or written is not believed.
+  chmod(File().c_str(), 0644);
+  KeptAddress kept(folder_, "foraging");
+  EXPECT_EQ(kept.Port(), 0);
+  EXPECT_EQ(kept.Token(), "");
+  EXPECT_FALSE(kept.Keep(40124, MakeToken()));
+}
+
+TEST_F(KeptAddressTest, WhatIsNoAddressIsAsGoodAsNothing)
+{
+  {
+    KeptAddress(folder_, "foraging").Keep(40123, MakeToken());
+  }
+  const std::filesystem::path file = File();
+  for (const char* text :
+       {"", "\n", "x 0123", "70000", "40123 short\n", "40123 0123456789ABCDEF0123456789ABCDEF", "-1"})
+  {
+    std::ofstream(file, std::ios::trunc) << text;
+    EXPECT_EQ(KeptAddress(folder_, "foraging").Port(), 0) << text;
+    EXPECT_EQ(KeptAddress(folder_, "foraging").Token(), "") << text;
+  }
+}
+
+TEST_F(KeptAddressTest, LinksAreNotFollowed)
+{
+  {
+    KeptAddress(folder_, "foraging").Keep(40123, "");
+  }
+  const std::filesystem::path file = File();
+  std::filesystem::rename(file, folder_ / "elsewhere");
+  std::filesystem::create_symlink(folder_ / "elsewhere", file);
+  KeptAddress kept(folder_, "foraging");
+  EXPECT_EQ(kept.Port(), 0);
+  EXPECT_NE(kept.Trouble(), "");
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,27 @@
+// The tools over the picture, folded away until they are wanted: each is a button with its key, or a choice.
+import { h } from "./dom.js";
+
+export class Tools {
+  // groups: lists of {name, label, key, title, act, control} (control: only for who may steer) or elements
+  constructor(groups) {
+    this.buttons = {};
+    const part = (tool) => {
+      if (tool instanceof HTMLElement) return tool;
+      const keyText = tool.key ? `  (${tool.key})` : "";
+      const button = h("button.toggle", { title: `${tool.title}${keyText}`, "aria-pressed": tool.switches ? "false" : null, onclick: tool.act }, tool.label);
+      button.dataset.control = tool.control ? "1" : "";
+      this.buttons[tool.name] = button;
+      return button;
+    };
+    this.element = h("details.tools", {}, h("summary", {}, "Tools"), ...groups.map((tools) => h("div.tool-group", {}, ...tools.map(part))));
+    this.setControl("read-only");
+  }
+
+  set(name, on) {
+    this.buttons[name].setAttribute("aria-pressed", String(on));
+  }
+
+  setControl(control) {
+    for (const button of Object.values(this.buttons)) button.disabled = button.dataset.control !== "" && control !== "granted";
+  }
+}

@@ -1,0 +1,72 @@
+// How things look, in 3D and in plan: what both kinds of view share and neither library needs.
+
+// The palette of all renderers (visualiser/scene/material.h); a test compares the two.
+export const palette = {
+  sky: 0xe9eef4,
+  floor: 0xdcdfe2,
+  floor_line: 0xc3c8ce,
+  outside: 0xe4e8ec,
+  wall: 0xeae6de,
+  hole: 0x1c2026,
+  selection: 0xf2a33a,
+  label: 0x20262e,
+};
+
+// By day that palette, by night one of the page's own.
+export const themes = {
+  light: { background: palette.sky, sky: 0xffffff, ground: 0xb9c0c9, sun: 2.1, hemisphere: 1.5, floor: palette.floor, line: palette.floor_line, rim: 0x9aa5b1 },
+  dark: { background: 0x11161d, sky: 0xdfe9f5, ground: 0x2b323c, sun: 1.9, hemisphere: 1.35, floor: 0x3a444f, line: 0x4c5763, rim: 0x687482 },
+};
+
+export const SELECTION = 0x3d8bfd;
+export const GRIP = 0xf08a3c;
+export const LED_OFF = 0x59626c;
+// Of trails, in turn: neighbours can be told apart.
+export const TRAILS = [0x3d8bfd, 0xe08a2e, 0x2fa58a, 0xb65fcf, 0xd9575a, 0x8a9a2f, 0x4fa3c7, 0xa0785a];
+
+export const css = (colour) => `#${(colour & 0xffffff).toString(16).padStart(6, "0")}`;
+export const rgb = (colour) => [(colour >> 16) & 255, (colour >> 8) & 255, colour & 255];
+
+// For picking, labels and the choice of the level of detail.
+export const extents = {
+  footbot: { radius: 0.09, height: 0.147 },
+  eyebot: { radius: 0.25, height: 0.566 },
+  handbot: { radius: 0.2, height: 0.16 },
+};
+
+export function extentOf(world, entity) {
+  const look = world.look(entity);
+  if (look.role === "robot") return extents[world.kinds[entity]] ?? look;
+  const [x, y, z] = world.bodyOf.get(entity)?.size ?? [0.1, 0.1, 0.1];
+  if (look.form === "cylinder") return { radius: x, height: z };
+  return { radius: Math.hypot(x, y) / 2 || 0.1, height: z || 0.05 };
+}
+
+// A paint with the same hue, less loud, as all renderers use it for floors, walls, blocks and preys.
+export function paint(colour) {
+  const channels = rgb(colour);
+  const grey = 0.3 * channels[0] + 0.59 * channels[1] + 0.11 * channels[2];
+  return channels.reduce((sum, channel) => sum * 256 + Math.round(0.52 * channel + 0.26 * grey + 0.22 * 205), 0);
+}
+
+// The lines of the floor, as in all renderers (visualiser/scene/floor_grid.h); a test compares the two.
+export const floorGrid = { spacings: [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50, 100], most_cells: 14 };
+
+// Metres between them in an arena whose longer side is `extent`.
+export function gridStep(extent) {
+  const { spacings, most_cells: cells } = floorGrid;
+  return spacings.find((spacing) => extent <= cells * spacing) ?? spacings.at(-1);
+}
+
+const TALL_M = 0.25; // lower walls hide nothing …
+const TALL_PART = 0.08; // … or in a small arena, lower than this part of its size
+
+// Whether a body is a wall at the edge of the arena: long, tall, and within half a thickness and a fiftieth of the arena's size of one of its sides.
+export function isBoundaryWall({ size: [x, y, z], position }, arena) {
+  const thickness = Math.min(x, y);
+  if (z < Math.min(TALL_M, TALL_PART * Math.max(arena[0], arena[1])) || Math.max(x, y) < 4 * thickness) return false;
+  return [0, 1].some((axis) => {
+    const toSide = Math.min(Math.abs(position[axis]), Math.abs(arena[axis] - position[axis]));
+    return toSide <= thickness / 2 + 0.02 * arena[axis];
+  });
+}

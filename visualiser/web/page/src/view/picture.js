@@ -1,0 +1,287 @@
+// The picture of the experiment: what is shown, whichever view draws it. The plan is part of this page; the view in three
+// dimensions is loaded when it is wanted, so that a browser that draws in software never waits for it.
+import { h } from "../ui/dom.js";
+import { Motion } from "../world.js";
+import { HeatMap } from "./heat_map.js";
+import { extentOf } from "./look.js";
+import { Overlay } from "./overlay.js";
+import { PlanView } from "./plan/plan_view.js";
+import { listenToPointer } from "./pointer.js";
+import { findGraphics } from "./graphics.js";
+import { Governor, isPaced, qualities } from "./quality.js";
+import { Colouring, Meter } from "./robot_values.js";
+import { TrailRecord } from "./trail_record.js";
+
+const GRAPHICS_WAIT_MS = 100; // for the answer whether there is a graphics card, before the plan begins without it
+const GRAPHICS_KEY = "swarmanoid.graphics";
+
+export class Picture {
+  // actions: select(entity), selectAll(entities), approach(entity), move([{entity, place, yaw}]), mayMove(), trouble(text)
+  // wanted: one of quality.js
+  constructor(container, wanted, actions) {
+    this.container = container;
+    this.actions = actions;
+    this.wanted = wanted;
+    this.software = null; // whether WebGL is slow or missing; not known before it matters
+    this.governor = new Governor("high");
+    this.shows = { ids: false, trails: false, beams: true, shadows: false };
+    this.selected = null;
+    this.chosen = []; // all that are selected, the one above among them
+    this.followed = null;
+    this.colouring = null; // what robots are coloured by instead of by their LEDs
+    this.heat = null; // where they have been, if that is shown
+    this.measures = false; // whether a drag measures
+    this.handles = false; // whether the selected entity has handles
+    this.tape = this.box = null; // what a drag has measured, or is about to select
+    this.ghosts = []; // where somebody drags entities to: {entity, place, yaw}
+    this.views = {};
+    this.view = null; // until one can draw
+    this.overlay = new Overlay(container, this);
+    this.useWantedView();
+  }
+
+  // ---- which view ----
+
+  get wantsPlan() {
+    return this.wanted === "auto" ? this.software !== false : this.wanted === "plan";
+  }
+  get isPlan() {
+    return this.view !== null && this.view === this.views.plan;
+  }
+  get qualityName() {
+    if (this.isPlan || (this.view === null && this.wantsPlan)) return "plan";
+    return isPaced(this.wanted) ? this.governor.quality : this.wanted;
+  }
+  // Of the view in three dimensions.
+  get quality() {
+    return qualities[isPaced(this.wanted) || this.wanted === "plan" ? this.governor.quality : this.wanted];
+  }
+
+  // wanted: one of quality.js
+  setQuality(wanted) {
+    this.wanted = wanted;
+    this.useWantedView();
+  }
+
+  // From the plan to three dimensions, and back.
+  switchView() {
+    if (!this.isPlan) return this.setQuality("plan");
+    this.setQuality(this.software === false ? "auto" : "3D");
+  }
+
+  async useWantedView() {
+    const turn = (this.turn = (this.turn ?? 0) + 1);
+    if (this.wanted === "auto" && this.software === null) {
+      this.graphics ??= findGraphics().then((software) => {
+        this.software = software;
+        localStorage.setItem(GRAPHICS_KEY, software ? "software" : "card");
+        if (this.wanted === "auto" && !software) this.useWantedView();
+      });
+      // What was found the last time is most likely so again.
+      const wait = localStorage.getItem(GRAPHICS_KEY) === "software" ? 0 : GRAPHICS_WAIT_MS;
+      if (wait > 0) await Promise.race([this.graphics, new Promise((done) => setTimeout(done, wait))]);
+      if (turn !== this.turn) return;
+    }
+    const name = this.wantsPlan ? "plan" : "solid";
+    try {
+      this.views[name] ??= name === "plan" ? new PlanView(this.container, this) : await this.loadView3d();
+    } catch (error) {
+      if (turn !== this.turn) return;
+      this.actions.trouble(`There is no view in three dimensions: ${error.message}`);
+      return this.setQuality("plan");
+    }
+    if (turn !== this.turn) return;
+    if (this.views[name] !== this.view) this.activate(this.views[name]);
+    this.views.solid?.setQuality(this.quality);
+    this.onQuality?.();
+  }
+
+  async loadView3d() {
+    this.loading ??= Promise.all([import("./view_3d.js"), fetch("meshes.json").then((answer) => answer.json())]);
+    const [{ View3d }, meshes] = await this.loading.catch((error) => {
+      this.loading = null; // the next wish tries again
+      throw error;
+    });
+    if (this.views.solid) return this.views.solid;
+    const view = new View3d(this.container, this, meshes, this.wanted !== "low" && this.wanted !== "least" && this.software === false);
+    listenToPointer(view, this);
+    view.canvas.hidden = true;
+    return view;
+  }
+
+  activate(view) {
+    const before = this.view;
+    const [viewpoint, home] = before && this.world ? [before.viewpoint, before.home] : [null, "oblique"];
+    before?.show(false);
+    if (view === this.views.plan && !view.listens) {
+      listenToPointer(view, this);
+      view.listens = true;
+    }
+    this.view = view;
+    view.show(true);
+    if (!this.world) return;
+    this.prepare(view);
+    this.look(home, viewpoint);
+  }
+
+  // What the view has missed.
+  prepare(view) {
+    if (view.world !== this.world) view.setWorld(this.world);
+    if (this.colours) view.paint(this.colours);
+    if (this.motion.frame) view.addFrame(this.motion.frame);
+    view.applyShows();
+    view.updateHeat();
+    this.motion.settled = false;
+  }
+
+  look(home, viewpoint) {
+    if (home !== null) this.view.frameArena(home);
+    else this.view.viewpoint = viewpoint;
+  }
+
+  // ---- what is known ----
+
+  setWorld(world) {
+    const again = this.world?.experiment === world.experiment && this.view;
+    const [viewpoint, home] = again ? [this.view.viewpoint, this.view.home] : [null, "oblique"];
+    this.world = world;
+    this.motion = new Motion(world.movable.length);
+    this.trails = new TrailRecord(world);
+    this.meter = new Meter(world);
+    this.colouring &&= new Colouring(world, this.colouring.name);
+    this.heat &&= new HeatMap(world);
+    this.trails.on = this.shows.trails;
+    this.followed = null;
+    this.ghosts = [];
+    this.colours = null;
+    this.overlay.setWorld(world);
+    if (!this.view) return;
+    this.prepare(this.view);
+    this.look(home, viewpoint);
+  }
+
+  paint(colours) {
+    this.colours = colours;
+    this.view?.paint(colours);
+  }
+
+  addFrame(frame, now) {
+    if (frame.count !== this.world.movable.length) return;
+    this.meter.add(frame);
+    this.trails.add(frame);
+    if (this.heat?.add(frame)) this.view?.updateHeat();
+    this.showFrame(frame, now);
+  }
+
+  showFrame(frame, now) {
+    const shown = this.colouring ? this.colouring.apply(frame, this.meter) : frame;
+    this.motion.add(shown, now);
+    this.view?.addFrame(shown);
+    this.onColouring?.();
+  }
+
+  // name: one of robot_values.js, or null for the colours of LEDs.
+  colourBy(name) {
+    this.colouring = name === null ? null : new Colouring(this.world, name);
+    if (this.meter.frame) this.showFrame(this.meter.frame, performance.now());
+    this.invalidate();
+  }
+
+  showHeat(on) {
+    this.heat = on ? new HeatMap(this.world) : null;
+    this.view?.updateHeat();
+  }
+
+  // null while it is not in the arena.
+  placeOf(entity) {
+    const slot = this.world.slots[entity];
+    if (slot < 0) return this.world.bodyOf.get(entity).position;
+    return this.motion.frame && this.motion.isPresent(slot) ? this.motion.positions.subarray(3 * slot, 3 * slot + 3) : null;
+  }
+  yawOf(entity) {
+    const slot = this.world.slots[entity];
+    return slot < 0 ? 0 : this.motion.yaw(slot);
+  }
+
+  // ---- what is wanted ----
+
+  show(name, on) {
+    this.shows[name] = on;
+    if (name === "trails") {
+      if (on && !this.trails?.on) this.trails?.clear();
+      if (this.trails) this.trails.on = on;
+    }
+    if (this.motion) this.motion.settled = false;
+    if (this.view?.world) this.view.applyShows();
+    this.invalidate();
+  }
+
+  invalidate() {
+    this.view?.invalidate();
+  }
+
+  select(entity, chosen = entity === null ? [] : [entity]) {
+    this.selected = entity;
+    this.chosen = chosen;
+    if (this.followed !== null && this.followed !== entity) this.followed = null;
+    this.invalidate();
+  }
+
+  follow(entity) {
+    this.followed = entity;
+    const place = entity === null ? null : this.placeOf(entity);
+    this.lastFollowed = place && [...place];
+  }
+
+  approach(entity) {
+    const place = this.placeOf(entity);
+    if (!place || !this.view) return;
+    this.view.approach(entity, place);
+    if (this.followed === entity) this.follow(entity);
+  }
+
+  frameArena(how = "oblique") {
+    this.follow(null);
+    this.view?.frameArena(how);
+  }
+
+  // ---- drawing ----
+
+  // Called for every picture of the browser. True if there was something new.
+  draw(now) {
+    if (!this.world || !this.view) return false;
+    const moved = this.motion.sample(now);
+    if (moved && this.followed !== null) this.keepUp();
+    const drew = this.view.draw(moved);
+    if (drew) this.overlay.draw();
+    if (this.governor.observe(now, drew && !this.isPlan) && isPaced(this.wanted)) this.useWantedView();
+    return drew;
+  }
+
+  // One that leaves the arena is waited for where it was.
+  keepUp() {
+    const place = this.placeOf(this.followed);
+    if (place && this.lastFollowed) this.view.shift(...[0, 1, 2].map((k) => place[k] - this.lastFollowed[k]));
+    this.lastFollowed = place && [...place];
+  }
+
+  // CSS pixels of the canvas at which the middle of an entity is seen.
+  seen(entity) {
+    const place = this.placeOf(entity);
+    return place && this.view.project(place[0], place[1], place[2] + extentOf(this.world, entity).height / 2);
+  }
+
+  // The picture with what is written over it, as it is now.
+  toCanvas() {
+    this.invalidate();
+    this.view.draw(true);
+    const { canvas } = this.view;
+    const copy = h("canvas");
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    const context = copy.getContext("2d");
+    context.drawImage(canvas, 0, 0);
+    this.overlay.draw();
+    if (!this.overlay.canvas.hidden) context.drawImage(this.overlay.canvas, 0, 0, copy.width, copy.height);
+    return copy;
+  }
+}

@@ -1,0 +1,235 @@
+// The plan: the experiment from above, on a canvas without a graphics card. It begins without anything being loaded, and
+// draws ten thousand robots where the view in three dimensions draws ten.
+import { h } from "../../ui/dom.js";
+import { Flag } from "../../protocol.js";
+import { GRIP, css, extentOf, themes } from "../look.js";
+import { Backdrop } from "./backdrop.js";
+import { PlanCamera } from "./camera.js";
+import { PlanSwarm } from "./swarm.js";
+import { TrailLayer } from "./trail_layer.js";
+
+const MOST_RATIO = 2; // pixels drawn for one of the page
+const PICK_PIXELS = 6; // by which a click may miss
+const BEAM_SPOT_M = 0.055;
+
+export class PlanView {
+  // picture: what all views show
+  constructor(container, picture) {
+    this.container = container;
+    this.picture = picture;
+    this.canvas = h("canvas.picture.plan", { role: "img", "aria-label": "The experiment from above" });
+    container.prepend(this.canvas);
+    // In memory, not on a graphics card: dots are written there, and nothing has to be asked of a driver that may be slow.
+    this.context = this.canvas.getContext("2d", { alpha: false, willReadFrequently: true });
+    this.backdrop = new Backdrop();
+    this.trails = new TrailLayer();
+    this.camera = new PlanCamera(this.canvas, () => this.invalidate());
+    this.stale = true;
+    const dark = window.matchMedia("(prefers-color-scheme: dark)");
+    const applyTheme = () => {
+      this.dark = dark.matches;
+      this.theme = dark.matches ? themes.dark : themes.light;
+      this.invalidate();
+    };
+    dark.addEventListener("change", applyTheme);
+    applyTheme();
+    new ResizeObserver(() => this.resize()).observe(container);
+    this.resize();
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.container;
+    if (width === 0 || height === 0) return;
+    const ratio = Math.min(window.devicePixelRatio || 1, MOST_RATIO);
+    [this.canvas.width, this.canvas.height] = [Math.round(width * ratio), Math.round(height * ratio)];
+    [this.canvas.style.width, this.canvas.style.height] = [`${width}px`, `${height}px`];
+    this.camera.resize(width, height, ratio);
+    this.pixels = null;
+    this.invalidate();
+  }
+
+  setWorld(world) {
+    this.world = world;
+    this.backdrop.setWorld(world);
+    this.swarm = new PlanSwarm(world);
+    this.camera.setArena(world.arena);
+    this.invalidate();
+  }
+
+  paint(colours) {
+    this.backdrop.paint(colours);
+    this.invalidate();
+  }
+
+  applyShows() {
+    this.backdrop.stale = true;
+    this.invalidate();
+  }
+
+  // The picture of the heat map is another.
+  updateHeat() {
+    this.backdrop.stale = true;
+    this.invalidate();
+  }
+
+  addFrame(frame) {
+    this.swarm.addFrame(frame);
+  }
+
+  invalidate() {
+    this.stale = true;
+  }
+
+  // False if there is nothing new. moved: whether robots stand elsewhere than in the last picture.
+  draw(moved) {
+    if (!moved && !this.stale) return false;
+    this.stale = false;
+    const { context, swarm, picture } = this;
+    const { motion, shows } = picture;
+    const frame = this.camera.frame;
+    this.backdrop.update(frame, this.theme, picture.heat?.canvas ?? null);
+    this.drawGround(frame, motion);
+    if (this.trails.update(frame, picture.trails)) context.drawImage(this.trails.canvas, 0, 0);
+    swarm.drawThings(context, frame, motion, this.backdrop.colours);
+    swarm.drawSprites(context, frame, motion);
+    if (shows.beams && motion.frame) {
+      this.drawGrips(frame, motion);
+      this.drawBeams(frame, motion);
+    }
+    return true;
+  }
+
+  // What stands still, and the robots that are dots.
+  drawGround(frame, motion) {
+    const { context, swarm, backdrop } = this;
+    swarm.drawn = { dots: 0, sprites: 0 };
+    if (!motion.frame || !swarm.herds.some((herd) => swarm.isDots(herd, frame))) {
+      context.drawImage(backdrop.canvas, 0, 0);
+      return;
+    }
+    if (!this.pixels || this.pixels.width !== frame.width || this.pixels.height !== frame.height) {
+      this.pixels = context.createImageData(frame.width, frame.height);
+      this.words = new Uint32Array(this.pixels.data.buffer);
+    }
+    this.words.set(backdrop.read());
+    swarm.writeDots(this.words, frame, motion, this.dark);
+    context.putImageData(this.pixels, 0, 0);
+  }
+
+  drawGrips(frame, motion) {
+    const { context, world, picture } = this;
+    context.strokeStyle = css(GRIP);
+    context.lineWidth = 3 * frame.ratio;
+    context.lineCap = "round";
+    context.beginPath();
+    for (const { robot, held } of motion.frame.grips) {
+      const [from, to] = [robot, held].map((entity) => picture.placeOf(entity));
+      if (!from || !to) continue;
+      context.moveTo(frame.x(from[0]), frame.y(from[1]));
+      context.lineTo(frame.x(to[0]), frame.y(to[1]));
+    }
+    // From above a rope to the ceiling is a point: a ring about it.
+    for (const { slots, radius } of this.swarm.herds)
+      for (const slot of slots) {
+        if (!(motion.colours[4 * slot + 3] & Flag.attached) || !motion.isPresent(slot)) continue;
+        const [x, y] = [frame.x(motion.positions[3 * slot]), frame.y(motion.positions[3 * slot + 1])];
+        const reach = Math.max(0.25 * radius * frame.scale, 3 * frame.ratio);
+        context.moveTo(x + reach, y);
+        context.arc(x, y, reach, 0, 2 * Math.PI);
+      }
+    context.stroke();
+    context.lineCap = "butt";
+  }
+
+  drawBeams(frame, motion) {
+    const { context, world } = this;
+    for (const { entity, x, y, colour } of motion.frame.beams) {
+      const slot = world.slots[entity];
+      const [x0, y0, x1, y1] = [frame.x(motion.positions[3 * slot]), frame.y(motion.positions[3 * slot + 1]), frame.x(x), frame.y(y)];
+      context.strokeStyle = context.fillStyle = css(colour);
+      context.globalAlpha = 0.6;
+      context.lineWidth = Math.max(0.012 * frame.scale, 1.5 * frame.ratio);
+      context.beginPath();
+      context.moveTo(x0, y0);
+      context.lineTo(x1, y1);
+      context.stroke();
+      context.globalAlpha = 0.9;
+      context.beginPath();
+      context.arc(x1, y1, Math.max(BEAM_SPOT_M * frame.scale, 3 * frame.ratio), 0, 2 * Math.PI);
+      context.fill();
+    }
+    context.globalAlpha = 1;
+  }
+
+  // ---- what every view can do ----
+
+  show(on) {
+    this.canvas.hidden = !on;
+    this.camera.enabled = on;
+    if (on) this.resize();
+  }
+  holdCamera(on) {
+    this.camera.held = on;
+  }
+  get home() {
+    return this.camera.home;
+  }
+  frameArena(how) {
+    this.camera.frameArena(how);
+  }
+  get viewpoint() {
+    return this.camera.viewpoint;
+  }
+  set viewpoint(viewpoint) {
+    this.camera.viewpoint = viewpoint;
+  }
+  get eye() {
+    const { target, span } = this.camera.viewpoint;
+    return [target[0], target[1], span];
+  }
+  shift(dx, dy) {
+    this.camera.shift(dx, dy);
+  }
+  zoom(steps) {
+    this.camera.zoom(steps);
+  }
+  approach(entity, [x, y]) {
+    this.camera.look(x, y, Math.max(9 * extentOf(this.world, entity).radius, 1));
+  }
+
+  // CSS pixels of the canvas; depth: what is nearer to the eye has less.
+  project(x, y, z) {
+    const frame = this.camera.frame;
+    return { x: frame.x(x) / frame.ratio, y: frame.y(y) / frame.ratio, depth: -z };
+  }
+  pixelsPerMetre() {
+    return this.camera.frame.scale / this.camera.frame.ratio;
+  }
+  floorPoint({ x, y }, height) {
+    const frame = this.camera.frame;
+    return [frame.metresX(x * frame.ratio), frame.metresY(y * frame.ratio), height];
+  }
+
+  // The entity whose outline is nearest to a place: robots before others, the highest of several.
+  pick(at) {
+    const { world, picture } = this;
+    const [x, y] = this.floorPoint(at, 0);
+    const slack = PICK_PIXELS / this.pixelsPerMetre();
+    let best = null;
+    let nearest = Infinity;
+    for (const entity of world.movable) {
+      const slot = world.slots[entity];
+      if (!picture.motion.isPresent(slot)) continue;
+      const { radius } = extentOf(world, entity);
+      const away = Math.hypot(picture.motion.positions[3 * slot] - x, picture.motion.positions[3 * slot + 1] - y);
+      if (away > radius + slack) continue;
+      const score = Math.max(0, away - radius) / slack + (away / (radius + slack)) * 0.5 - 0.2 * picture.motion.positions[3 * slot + 2];
+      if (score < nearest) [best, nearest] = [entity, score];
+    }
+    return best;
+  }
+
+  get details() {
+    return [{ robots: this.world.robots.length, drawn: [this.swarm.drawn.dots, this.swarm.drawn.sprites] }];
+  }
+}

@@ -1,0 +1,154 @@
+// What the pointer does in any view: a click selects, a double click goes there, shift and drag moves a robot or selects
+// by a box; everything else is the camera's.
+const CLICK_PIXELS = 4;
+
+// Drags entities over the floor; the others that are selected come along.
+class Carry {
+  constructor(picture, view, entity, at) {
+    const [x, y, z] = picture.placeOf(entity);
+    this.picture = picture;
+    this.view = view;
+    this.entity = entity;
+    this.height = z;
+    this.start = view.floorPoint(at, z) ?? [x, y, z];
+    const others = picture.chosen.includes(entity) ? picture.chosen : [entity];
+    this.carried = others.flatMap((each) => {
+      const place = picture.world.slots[each] >= 0 && picture.placeOf(each);
+      return place ? [{ entity: each, place: [...place], yaw: picture.yawOf(each) }] : [];
+    });
+  }
+  move(at) {
+    const point = this.view.floorPoint(at, this.height);
+    if (!point) return;
+    const [dx, dy] = [point[0] - this.start[0], point[1] - this.start[1]];
+    this.picture.ghosts = this.carried.map(({ entity, place: [x, y, z], yaw }) => ({ entity, place: [x + dx, y + dy, z], yaw }));
+  }
+  end(clicked) {
+    const { ghosts, actions, chosen } = this.picture;
+    this.picture.ghosts = [];
+    if (!clicked && ghosts.length > 0) actions.move(ghosts);
+    // Only now: the panel that opens moves the picture.
+    if (!chosen.includes(this.entity)) actions.select(this.entity);
+  }
+}
+
+// Turns the selected entity by the end of its arrow.
+class Turn {
+  constructor(picture, view) {
+    this.picture = picture;
+    this.view = view;
+    this.entity = picture.selected;
+    this.place = [...picture.placeOf(this.entity)];
+  }
+  move(at) {
+    const point = this.view.floorPoint(at, this.place[2]);
+    if (!point) return;
+    const yaw = Math.atan2(point[1] - this.place[1], point[0] - this.place[0]);
+    this.picture.ghosts = [{ entity: this.entity, place: this.place, yaw }];
+  }
+  end(clicked) {
+    const { ghosts, actions } = this.picture;
+    this.picture.ghosts = [];
+    if (!clicked && ghosts.length > 0) actions.move(ghosts);
+  }
+}
+
+class Box {
+  constructor(picture, at) {
+    this.picture = picture;
+    this.from = at;
+  }
+  move(at) {
+    const { from } = this;
+    this.picture.box = { left: Math.min(from.x, at.x), top: Math.min(from.y, at.y), right: Math.max(from.x, at.x), bottom: Math.max(from.y, at.y) };
+  }
+  end(clicked) {
+    const { picture } = this;
+    const { box } = picture;
+    picture.box = null;
+    if (clicked || !box) return picture.actions.select(null);
+    picture.actions.selectAll(
+      picture.world.robots.filter((entity) => {
+        const at = picture.seen(entity);
+        return at && at.x >= box.left && at.x <= box.right && at.y >= box.top && at.y <= box.bottom;
+      }),
+    );
+  }
+}
+
+// A length along the floor.
+class Tape {
+  constructor(picture, view, at) {
+    this.picture = picture;
+    this.view = view;
+    this.from = view.floorPoint(at, 0);
+  }
+  move(at) {
+    const to = this.view.floorPoint(at, 0);
+    if (this.from && to) this.picture.tape = { from: this.from, to };
+  }
+  end(clicked) {
+    if (clicked) this.picture.tape = null;
+  }
+}
+
+function dragFor(picture, view, event, at) {
+  if (picture.measures) return new Tape(picture, view, at);
+  const mayMove = picture.actions.mayMove();
+  const handle = mayMove ? picture.overlay.handleAt(at) : null;
+  if (handle === "turn") return new Turn(picture, view);
+  if (handle === "move") return new Carry(picture, view, picture.selected, at);
+  if (!event.shiftKey) return null;
+  const entity = view.pick(at);
+  if (entity !== null && picture.placeOf(entity)) return mayMove ? new Carry(picture, view, entity, at) : null;
+  return new Box(picture, at);
+}
+
+export function listenToPointer(view, picture) {
+  const { canvas } = view;
+  let start = null;
+  let drag = null;
+  const placeOf = (event) => {
+    const box = canvas.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top };
+  };
+  const pick = (event) => (picture.world && picture.motion.frame ? view.pick(placeOf(event)) : null);
+  canvas.addEventListener(
+    "pointerdown",
+    (event) => {
+      if (!event.isPrimary) {
+        start = null; // two fingers are no click
+        return;
+      }
+      start = event.button === 0 ? placeOf(event) : null;
+      if (!start || !picture.world || !picture.motion.frame) return;
+      drag = dragFor(picture, view, event, start);
+      if (!drag) return;
+      view.holdCamera(true);
+      canvas.setPointerCapture(event.pointerId);
+    },
+    true,
+  );
+  canvas.addEventListener("pointermove", (event) => {
+    if (!drag || !event.isPrimary) return;
+    drag.move(placeOf(event));
+    picture.invalidate();
+  });
+  const end = (event, cancelled) => {
+    if (!event.isPrimary) return;
+    const at = placeOf(event);
+    const clicked = start !== null && Math.hypot(at.x - start.x, at.y - start.y) < CLICK_PIXELS;
+    if (drag) {
+      view.holdCamera(false);
+      drag.end(clicked || cancelled);
+      picture.invalidate();
+    } else if (clicked && !cancelled) picture.actions.select(pick(event));
+    start = drag = null;
+  };
+  canvas.addEventListener("pointerup", (event) => end(event, false));
+  canvas.addEventListener("pointercancel", (event) => end(event, true));
+  canvas.addEventListener("dblclick", (event) => {
+    const entity = pick(event);
+    if (entity !== null) picture.actions.approach(entity);
+  });
+}

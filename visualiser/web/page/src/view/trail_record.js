@@ -1,0 +1,47 @@
+// Where the robots have been: the last samples of all, in a ring, for whichever view draws them.
+
+export const JUMP_M = 0.5; // further than this between two samples somebody put it there
+
+export class TrailRecord {
+  constructor(world) {
+    this.world = world;
+    const count = Math.max(1, world.robots.length);
+    this.capacity = Math.max(12, Math.min(240, Math.floor(300000 / count)));
+    this.places = new Float32Array(this.capacity * 3 * count);
+    this.period = Math.max(world.tickSeconds, world.robots.length > 2000 ? 0.5 : 0.2);
+    this.on = false;
+    this.clear();
+  }
+
+  clear() {
+    this.added = 0; // samples since the beginning; the last `capacity` of them are kept
+    this.lastTime = -Infinity;
+    this.beginnings = (this.beginnings ?? 0) + 1; // a view whose own count is another starts anew
+  }
+
+  // Of all robots: x, y, z.
+  sample(number) {
+    const length = 3 * this.world.robots.length;
+    return this.places.subarray((number % this.capacity) * length, (number % this.capacity) * length + length);
+  }
+
+  get first() {
+    return Math.max(0, this.added - this.capacity);
+  }
+
+  add(frame) {
+    if (!this.on) return;
+    if (frame.time < this.lastTime) this.clear();
+    if (frame.time - this.lastTime < this.period - 1e-9) return;
+    this.lastTime = frame.time;
+    const now = this.sample(this.added);
+    const { robots, slots } = this.world;
+    for (let i = 0; i < robots.length; i++)
+      for (let k = 0; k < 3; k++) now[3 * i + k] = frame.positions[3 * slots[robots[i]] + k];
+    this.added++;
+  }
+}
+
+export function jumped(from, to, i) {
+  return Math.abs(to[3 * i] - from[3 * i]) + Math.abs(to[3 * i + 1] - from[3 * i + 1]) > JUMP_M;
+}

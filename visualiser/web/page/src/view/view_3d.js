@@ -1,0 +1,189 @@
+// The view in three dimensions: brings stage, arena, swarm and overlays together. Loaded only when it is wanted.
+import * as THREE from "three";
+import { Arena } from "./arena.js";
+import { extentOf } from "./look.js";
+import { Beams, Grips, Trails } from "./overlays.js";
+import { floorPoint, pick } from "./picking.js";
+import { Stage } from "./stage.js";
+import { Swarm } from "./swarm.js";
+
+const SHADOWS_UP_TO = 2500; // robots
+const WHEEL_STEP = 1.2;
+const HEAT_M = 0.0015; // above the floor
+
+export class View3d {
+  // picture: what all views show; meshes: the models that all renderers share; smoothEdges: stays as it is, all else
+  // follows the quality. Throws if the browser has no WebGL 2.
+  constructor(container, picture, meshes, smoothEdges) {
+    this.picture = picture;
+    this.meshes = meshes;
+    this.quality = picture.quality;
+    this.stage = new Stage(container, smoothEdges, this.quality);
+    this.canvas = this.stage.renderer.domElement;
+    this.stage.onTheme = () => this.rebuildArena();
+  }
+
+  setWorld(world) {
+    for (const overlay of [this.beams?.group, this.grips?.lines, this.trails?.lines]) overlay?.removeFromParent();
+    const { scene } = this.stage;
+    this.world = world;
+    this.beams = new Beams(scene, world);
+    this.grips = new Grips(scene, world);
+    this.trails = new Trails(scene, this.picture.trails);
+    this.rebuildArena();
+    this.rebuildSwarm();
+    this.stage.setReach(world.arena);
+  }
+
+  setQuality(quality) {
+    if (quality === this.quality) return;
+    this.quality = quality;
+    this.stage.setQuality(quality);
+    if (!this.world) return;
+    this.rebuildArena();
+    this.rebuildSwarm();
+  }
+
+  rebuildSwarm() {
+    const { motion } = this.picture;
+    this.swarm?.dispose();
+    this.swarm = new Swarm(this.stage.scene, this.world, this.quality, this.meshes);
+    if (motion.frame) this.swarm.updateColours(motion.frame);
+    this.picture.shows.shadows = this.quality.shadows && this.world.robots.length <= SHADOWS_UP_TO;
+    this.applyShows();
+  }
+
+  rebuildArena() {
+    if (!this.world) return;
+    this.arena?.dispose();
+    this.arena = new Arena(this.stage.scene, this.world, this.stage.theme, this.quality);
+    if (this.picture.colours) this.arena.paint(this.picture.colours);
+  }
+
+  paint(colours) {
+    this.arena.paint(colours);
+    this.stage.invalidate();
+  }
+
+  // The picture of the heat map is another; it lies on the floor.
+  updateHeat() {
+    const canvas = this.picture.heat?.canvas;
+    if (!canvas || this.heat?.canvas !== canvas) {
+      this.heat?.mesh.removeFromParent();
+      this.heat = null;
+    }
+    if (canvas && !this.heat) {
+      const [width, depth] = this.world.arena;
+      const map = new THREE.CanvasTexture(canvas);
+      map.colorSpace = THREE.SRGBColorSpace;
+      map.flipY = false; // its first row has the lowest y
+      const mesh = new THREE.Mesh(new THREE.PlaneGeometry(width, depth), new THREE.MeshBasicMaterial({ map, transparent: true, depthWrite: false, polygonOffset: true, polygonOffsetFactor: -1 }));
+      mesh.position.set(width / 2, depth / 2, HEAT_M);
+      this.stage.scene.add(mesh);
+      this.heat = { canvas, map, mesh };
+    }
+    if (this.heat) this.heat.map.needsUpdate = true;
+    this.stage.invalidate();
+  }
+
+  applyShows() {
+    const { shows } = this.picture;
+    this.beams.group.visible = shows.beams;
+    this.stage.castsShadows = this.swarm.castsShadows = shows.shadows && this.quality.shadows;
+    this.stage.invalidate();
+  }
+
+  addFrame(frame) {
+    this.swarm.updateColours(frame);
+  }
+
+  // False if there is nothing new. moved: whether robots stand elsewhere than in the last picture.
+  draw(moved) {
+    this.stage.controls.update();
+    if (!moved && !this.stage.stale) return false;
+    const { motion, shows } = this.picture;
+    this.stage.camera.updateMatrixWorld();
+    this.swarm.place(motion, this.stage.camera, this.stage.pixelsPerRadian);
+    this.arena.place(motion, this.stage.camera.position);
+    if (motion.frame) {
+      this.beams.update(motion.frame, motion);
+      this.grips.update(motion.frame, motion, shows.beams);
+    }
+    this.trails.update();
+    this.stage.draw();
+    return true;
+  }
+
+  invalidate() {
+    this.stage.invalidate();
+  }
+
+  show(on) {
+    this.canvas.hidden = !on;
+    this.stage.controls.enabled = on;
+    if (on) this.stage.resize();
+  }
+
+  holdCamera(on) {
+    this.stage.controls.enabled = !on;
+  }
+
+  get home() {
+    return this.stage.home?.[1] ?? null;
+  }
+  frameArena(how) {
+    this.stage.frameArena(this.world.arena, how);
+  }
+  get viewpoint() {
+    return this.stage.viewpoint;
+  }
+  set viewpoint(viewpoint) {
+    this.stage.viewpoint = viewpoint;
+  }
+  get eye() {
+    return this.stage.camera.position.toArray();
+  }
+  shift(dx, dy, dz) {
+    this.stage.shift(new THREE.Vector3(dx, dy, dz));
+  }
+  zoom(steps) {
+    const { viewpoint } = this;
+    this.viewpoint = { ...viewpoint, span: viewpoint.span * WHEEL_STEP ** -steps };
+  }
+
+  approach(entity, place) {
+    const { radius, height } = extentOf(this.world, entity);
+    this.stage.approach(new THREE.Vector3(place[0], place[1], place[2] + height / 2), Math.max(9 * radius, 1));
+  }
+
+  // CSS pixels of the canvas; depth: squared distance from the eye; null if it is not in front of it.
+  project(x, y, z) {
+    this.point ??= new THREE.Vector3();
+    const { camera, container } = this.stage;
+    const depth = this.point.set(x, y, z).distanceToSquared(camera.position);
+    this.point.project(camera);
+    if (this.point.z > 1) return null;
+    return { x: ((this.point.x + 1) / 2) * container.clientWidth, y: ((1 - this.point.y) / 2) * container.clientHeight, depth };
+  }
+
+  // CSS pixels that a metre takes at a place.
+  pixelsPerMetre(x, y, z) {
+    return this.stage.pixelsPerRadian / this.stage.camera.position.distanceTo(new THREE.Vector3(x, y, z));
+  }
+
+  ray({ x, y }) {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    return [(x / width) * 2 - 1, 1 - (y / height) * 2];
+  }
+  pick(at) {
+    return pick(this.world, this.picture.motion, this.stage.camera, ...this.ray(at));
+  }
+  // [x, y, z] on the plane of that height, null if the ray of sight does not meet it.
+  floorPoint(at, height) {
+    return floorPoint(this.stage.camera, ...this.ray(at), height)?.toArray() ?? null;
+  }
+
+  get details() {
+    return this.swarm.herds.map(({ slots, layers }) => ({ robots: slots.length, drawn: layers.map((layer) => layer.count) }));
+  }
+}
