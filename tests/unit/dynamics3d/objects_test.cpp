@@ -48,6 +48,26 @@ TEST(Dynamics3dObjects, WhatIsElasticKeepsItsHeight)
   for (const double top : Bounces(false, "1")) EXPECT_NEAR(top, 2, 0.01);
 }
 
+// Whatever it overlaps the ground by when it lands: with the height.
+TEST(Dynamics3dObjects, WhatHasNoRestitutionStaysWhereItFell)
+{
+  for (const double height : {0.4, 1.0, 2.0, 2.02, 2.05})
+  {
+    Dynamics3dTestWorld world;
+    world.experiment.clock_tick_ms = 10;
+    const auto cube = world.AddBlock({5, 5, 0.1 + height}, kCube, 1);
+    world.Start();
+    while (world.Position(cube).z() >= 0.1) world.Tick();
+    double highest = 0;
+    for (int tick = 0; tick < 100; ++tick)
+    {
+      world.Tick();
+      highest = std::max(highest, world.Position(cube).z());
+    }
+    EXPECT_LT(highest, 0.101) << height;
+  }
+}
+
 TEST(Dynamics3dObjects, APileOfTwentyCubesStandsForAMinute)
 {
   Dynamics3dTestWorld world;
