@@ -130,8 +130,13 @@ void OdeWorld::AddContact(const dContactGeom& geometry, const Solid& a, const So
     if (body_a != nullptr) slip += PointVelocity(body_a, point);
     if (body_b != nullptr) slip -= PointVelocity(body_b, point);
     along = slip - normal * normal.dot(slip);
-    if (along.squaredNorm() < kSlip * kSlip) along = settings_.gravity - normal * normal.dot(settings_.gravity);
-    if ((a.layer == ELayer::kObject || b.layer == ELayer::kObject) && geometry.depth > 0)
+    const bool of_object = a.layer == ELayer::kObject || b.layer == ELayer::kObject;
+    // An object that slides on the ground is not held across: friction is along the slip alone.
+    if (along.squaredNorm() < kSlip * kSlip)
+      along = settings_.gravity - normal * normal.dot(settings_.gravity);
+    else if (of_object && (IsGround(a) || IsGround(b)))
+      surface.mode |= dContactMu2;
+    if (of_object && geometry.depth > 0)
     {
       surface.mode |= dContactSoftERP;
       surface.soft_erp = std::clamp(kPartingSpeed * step_seconds_ / geometry.depth, kSmallestPart, kLargestPart);
