@@ -98,6 +98,7 @@ void SetContact(BodyModel& model, const CSwarmanoidSpaceEntity& entity, const Dy
 // 2/3 mu m g R; other outlines count as the disc with their radius of gyration.
 void SetGroundFriction(BodyModel& model, double coefficient, double gravity)
 {
+  model.lies = true;
   model.ground_force = coefficient * model.mass * gravity;
   model.ground_torque = 2.0 / 3.0 * model.ground_force * std::sqrt(2 * model.inertia / model.mass);
 }

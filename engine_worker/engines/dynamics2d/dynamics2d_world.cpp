@@ -21,6 +21,7 @@ constexpr float kDriveGain = 0.001F;
 constexpr double kLargestRemainder = 1e-4;  // decimetres
 constexpr double kHoldGain = 0.2;           // part of the error of a held turret that is corrected in a step
 constexpr double kHoldSpeed = 1.0;          // rad/s, at most
+constexpr double kSlip = 1e-3;              // m/s: slower than this a body on the ground is taken to stand
 constexpr double kOverload = 0.999;         // of the motor's torque: the turret slips
 
 b2Vec2 ToUnits(double x, double y)
@@ -199,6 +200,7 @@ void Dynamics2dWorld::Step(double seconds)
   for (Body& body : bodies_)
   {
     if (body.ground != nullptr) ApplyDrive(body, seconds);
+    if (body.ground != nullptr && body.model.lies) ShareFriction(body);
     if (body.gripper != nullptr) ApplyTurret(body, seconds);
   }
   positions_.clear();
@@ -264,6 +266,24 @@ void Dynamics2dWorld::ApplyDrive(Body& body, double seconds)
         {static_cast<float>(position.x + scale * u), static_cast<float>(position.y + scale * v)});
   }
   body.ground->SetAngularOffset(static_cast<float>(angle + turn / kDriveGain));
+}
+
+// Friction under a face opposes the slip at each of its points, so that sliding and turning share one limit: nearly an
+// ellipsoid (Howe and Cutkosky, "Practical force-motion models for sliding manipulation", 1996). What slides gives way
+// to the smallest push across, and to the smallest torque.
+void Dynamics2dWorld::ShareFriction(Body& body) const
+{
+  const BodyModel& model = body.model;
+  if (model.ground_force <= 0) return;
+  const b2Vec2 velocity = body.b2->GetLinearVelocity();
+  const double x = velocity.x / kUnitsPerMetre;
+  const double y = velocity.y / kUnitsPerMetre;
+  const double turn = body.b2->GetAngularVelocity() * model.ground_torque / model.ground_force;
+  const double slip = std::sqrt(x * x + y * y + turn * turn);
+  const double sliding = slip > kSlip ? std::sqrt(x * x + y * y) / slip : 1;
+  const double turning = slip > kSlip ? std::abs(turn) / slip : 1;
+  body.ground->SetMaxForce(static_cast<float>(sliding * model.ground_force * kForceUnits));
+  body.ground->SetMaxTorque(static_cast<float>(turning * model.ground_torque * kTorqueUnits));
 }
 
 void Dynamics2dWorld::ApplyTurret(Body& body, double seconds)

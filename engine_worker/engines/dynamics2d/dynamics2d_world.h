@@ -35,6 +35,7 @@ struct BodyModel
   double restitution = 0;        // of contacts: two bodies use the larger one
   double ground_force = 0;       // N: what wheels, propellers or friction exert against the ground at most
   double ground_torque = 0;      // N m
+  bool lies = false;             // on the ground, by friction alone: sliding takes from what resists turning
   bool has_gripper = false;      // a square at the front of a turret at the origin
   bool has_turret_motor = false;
   bool grippable = false;
@@ -171,6 +172,7 @@ private:
   void TurnGripper(Body& body);
   void CountTurns(Body& body);
   void ApplyDrive(Body& body, double seconds);
+  void ShareFriction(Body& body) const;
   void ApplyTurret(Body& body, double seconds);
   void KeepRemainder(Body& body, const b2Vec2& before, double seconds) const;
   static void SetPosition(Body& body, double x, double y, float angle);

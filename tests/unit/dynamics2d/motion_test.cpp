@@ -90,6 +90,32 @@ TEST(Dynamics2d, TheSubclockShortensTheSteps)
   }
 }
 
+// The round back of a robot against a prey: see the test of the same name in dynamics3d.
+TEST(Dynamics2d, APreyOffTheMiddleLeavesTheRobotThatPushesIt)
+{
+  for (const char* friction : {"0", "0.7"})
+  {
+    Dynamics2dTestWorld world;
+    world.Set("friction", friction);
+    const double offset = 0.01;
+    const double reach = 0.085036758 + 0.1;
+    const auto robot = world.AddFootbot(2, 5, kPi);
+    const auto prey = world.AddPrey(2.001 + std::sqrt(reach * reach - offset * offset), 5 + offset, 0.5, 0.1);
+    world.AddCommands("footbot_wheels", 2);
+    world.Start();
+    world.Drive(robot, -0.05, -0.05);
+    Vector3 arm = Vector3::UnitX();
+    for (int tick = 0; tick < 1000 && std::abs(arm.y()) < arm.x(); ++tick)
+    {
+      world.Tick();
+      arm = world.Position(prey) - world.Position(robot);
+    }
+    const double slower = friction[1] == 0 ? 1 : 1 + 4.0 / 9;  // a contact without friction lets the prey slip
+    const double way = reach * slower * std::log(std::tan(kPi / 8) / std::tan(std::asin(offset / reach) / 2));
+    EXPECT_NEAR(world.Position(robot).x() - 2, way, 0.02 * way) << friction;
+  }
+}
+
 // Angle = w^2 / (2 a), a = (2/3 mu m g R) / (m R^2 / 2).
 TEST(Dynamics2d, ASpinningPreyStopsByTheFrictionOfADisc)
 {
