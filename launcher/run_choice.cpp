@@ -1,10 +1,12 @@
 #include "launcher/run_choice.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
-#include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <iostream>
 #include <thread>
 #include <vector>
 
@@ -24,9 +26,30 @@ std::string Described(const std::vector<LocalRun>& runs)
   return text;
 }
 
-bool Fits(const LocalRun& run, const std::string& name, std::optional<int> domain)
+RunChoice ChoiceOf(const LocalRun& run) { return {run.experiment, run.domain, static_cast<int>(run.server)}; }
+
+// Who sits at a terminal says which of several is meant.
+const LocalRun& Ask(const std::vector<LocalRun>& runs)
 {
-  return (name.empty() || run.experiment == name) && (!domain || run.domain == *domain);
+  fmt::print(stderr, "several experiments run on this machine:\n");
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    fmt::print(stderr, "  {}  {} (domain {})\n", i + 1, runs[i].experiment, runs[i].domain);
+  fmt::print(stderr, "which one, 1 to {}? ", runs.size());
+  std::string line;
+  std::getline(std::cin, line);
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), number);
+  if (error != std::errc() || end != line.data() + line.size() || number < 1 || number > runs.size())
+    throw UsageError(fmt::format("{} is none of 1 to {}", Quoted(line), runs.size()));
+  return runs[number - 1];
+}
+
+std::vector<LocalRun> Fitting(const std::string& name, std::optional<int> domain)
+{
+  std::vector<LocalRun> runs = FindLocalRuns();
+  std::erase_if(runs, [&](const LocalRun& run)
+                { return (!name.empty() && run.experiment != name) || (domain && run.domain != *domain); });
+  return runs;
 }
 
 }  // namespace
@@ -37,27 +60,21 @@ RunChoice AwaitRun(const std::string& name, std::optional<int> domain, double wa
   const bool elsewhere = domain && !name.empty();
   for (bool told = false; !elsewhere && std::chrono::steady_clock::now() < deadline; told = true)
   {
-    const std::vector<LocalRun> runs = FindLocalRuns();
-    if (std::any_of(runs.begin(), runs.end(), [&](const LocalRun& run) { return Fits(run, name, domain); })) break;
+    if (!Fitting(name, domain).empty()) break;
     if (!told)
       fmt::print(stderr, "no experiment{} runs on this machine yet; waiting {:g} s for it to start\n",
                  name.empty() ? "" : " " + Quoted(name), wait_s);
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
-  return ChooseRun(name, domain);
+  const std::vector<LocalRun> fitting = Fitting(name, domain);
+  const bool terminal = isatty(STDIN_FILENO) != 0 && isatty(STDERR_FILENO) != 0;
+  return fitting.size() > 1 && terminal ? ChoiceOf(Ask(fitting)) : ChooseRun(name, domain);
 }
 
 RunChoice ChooseRun(const std::string& name, std::optional<int> domain)
 {
-  const std::vector<LocalRun> all = FindLocalRuns();
-  std::vector<LocalRun> fitting;
-  std::vector<std::string> names;
-  for (const LocalRun& run : all)
-  {
-    names.push_back(run.experiment);
-    if (Fits(run, name, domain)) fitting.push_back(run);
-  }
-  if (fitting.size() == 1) return {fitting[0].experiment, fitting[0].domain, static_cast<int>(fitting[0].server)};
+  const std::vector<LocalRun> fitting = Fitting(name, domain);
+  if (fitting.size() == 1) return ChoiceOf(fitting[0]);
   if (fitting.size() > 1)
     throw UsageError(
         fmt::format("several experiments run on this machine; name one, or its --domain:{}", Described(fitting)));
@@ -66,9 +83,12 @@ RunChoice ChooseRun(const std::string& name, std::optional<int> domain)
   if (domain && !name.empty()) return {name, *domain, std::nullopt};
   if (domain)
     throw UsageError("no experiment runs on this machine in that domain; name the experiment if it runs elsewhere");
+  const std::vector<LocalRun> all = FindLocalRuns();
   if (all.empty())
     throw UsageError(
         "no experiment runs on this machine as a cluster; for one on another machine give its name and --domain");
+  std::vector<std::string> names;
+  for (const LocalRun& run : all) names.push_back(run.experiment);
   throw UsageError(fmt::format("no experiment {} runs on this machine{}; these do:{}", Quoted(name),
                                DidYouMean(name, names), Described(all)));
 }

@@ -76,6 +76,20 @@ class Watching(LauncherTest):
         self.assertEqual(answer.process.returncode, 2)
         self.assertIn("diffusion_10 (domain ", answer.stderr)
         self.assertIn("sample_footbot (domain ", answer.stderr)
+        # At a terminal the number of one is asked for.
+        for answer, code in (("2", None), ("3", 2)):
+            ours, theirs = pty.openpty()
+            command = [SWARMANOID, "attach", "text", "--file", self.folder / "chosen", "--output", self.folder]
+            with subprocess.Popen(command, stdin=theirs, stderr=theirs, stdout=subprocess.DEVNULL, cwd=self.folder) as watcher:
+                os.write(ours, f"{answer}\n".encode())
+                if code is None:
+                    self.wait_until("a table", lambda: (self.folder / "chosen").is_file() and (self.folder / "chosen").stat().st_size > 0)
+                    watcher.terminate()
+                else:
+                    self.assertEqual(watcher.wait(GENEROUS_S), code)
+                    self.assertIn("'3' is none of 1 to 2", os.read(ours, 65536).decode())
+            os.close(ours)
+            os.close(theirs)
         self.control("sample_footbot", "stop")
         self.control("diffusion_10", "stop")
         self.assertEqual((first.wait(GENEROUS_S), second.wait(GENEROUS_S)), (0, 0))

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "visualiser/scene/floor_grid.h"
@@ -41,11 +42,19 @@ Json MeshOf(const Mesh& mesh)
     materials.push_back(static_cast<int>(vertex.material));
     shades.push_back(Rounded(vertex.shade, 3));
   }
+  // Neighbours have near numbers: their differences are half of what the numbers are, compressed.
+  Json steps = Json::array();
+  std::int64_t last = 0;
+  for (const std::int64_t index : mesh.indices)
+  {
+    steps.push_back(index - last);
+    last = index;
+  }
   return {{"positions", positions},
           {"normals", normals},
           {"materials", materials},
           {"shades", shades},
-          {"indices", mesh.indices}};
+          {"index_steps", steps}};
 }
 
 Json JsonOf(const Model& model)

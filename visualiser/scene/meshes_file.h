@@ -11,7 +11,8 @@ namespace swarmanoid
 // {"materials": [{"name", "colour" (number 0xRRGGBB), "gloss", "opacity", "tint" (bool), "light" (0..15 LED, 16 beacon,
 // -1)}],
 //  "models": {name: {"radius", "levels": [{"positions": [x, y, z ...], "normals": [...], "materials": [one a vertex],
-//             "shades": [...], "indices": [...]}, 3 of them]}},
+//             "shades": [...], "index_steps": [of each corner of a triangle, from the one before; the first from 0]},
+//             3 of them]}},
 //  "robots": {"footbot": [{"model": name, "matrix": [16 numbers, column after column]}], ...},
 //  "palette": {"sky", "floor", "floor_line", "outside", "wall", "hole", "selection", "label"},
 //  "floor_grid": {"spacings": [m …], "most_cells": along the longer side of an arena}}

@@ -45,10 +45,12 @@ function buildLevel(meshes, parts, level, tint) {
   const point = new THREE.Vector3();
   const normal = new THREE.Vector3();
   for (const { model, matrix } of parts) {
-    const { positions, normals, materials, shades, indices } = meshes.models[model].levels[level];
+    const { positions, normals, materials, shades, index_steps: steps } = meshes.models[model].levels[level];
     const place = new THREE.Matrix4().fromArray(matrix);
     const turn = new THREE.Matrix3().getNormalMatrix(place);
-    for (const i of indices) {
+    let i = 0;
+    for (const step of steps) {
+      i += step;
       const material = meshes.materials[materials[i]];
       point.fromArray(positions, 3 * i).applyMatrix4(place);
       normal.fromArray(normals, 3 * i).applyMatrix3(turn).normalize();
