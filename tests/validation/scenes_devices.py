@@ -1,0 +1,291 @@
+"""Sensors and actuators against geometry, their stated formulas, and the statistics of their noise."""
+import math
+
+from experiment import block, deviation, element, footbot, mean, prey, probe
+from report import Row, scene
+from scenes_kinematics2d import RADIUS, SOURCE, unwrapped
+
+GROUP = "Devices"
+ENGINE = "dummy_engine"
+A3 = "ARGoS3"
+GEOMETRY = "geometry"
+RED, GREEN = 0xff0000, 0x00ff00
+
+
+def ring(now):
+    return [now[str(i)] for i in range(24)]
+
+
+def angles(count=24):
+    return [math.radians(7.5 + 15 * i) for i in range(count)]
+
+
+def proximity_of(distance):
+    return 1 if distance < 0.009889556 else 0.0100527 / (distance + 0.000163144)
+
+
+@scene(GROUP)
+def proximity(lab):
+    who = probe("c", sensors={"footbot_proximity": {}})
+    places = [0.0, 0.005, 0.01, 0.02, 0.05, 0.08, 0.099]
+    arena = "".join(footbot(f"fb_{i}", 2.0, 1.0 + i, 30, "c") + block(f"w{i}", f"{2 + RADIUS + gap + 0.11!r},{1.0 + i},0.25", "0.2,0.9,0.5")
+                    for i, gap in enumerate(places))
+    result = lab.run(arena, who, ENGINE, 2)
+    worst, drawn = 0, []
+    for i, gap in enumerate(places):
+        for angle, reading in zip(angles(), ring(result.readings(f"fb_{i}", "footbot_proximity")[0])):
+            cosine = math.cos(angle + math.pi / 6)
+            distance = (RADIUS + gap + 0.01) / cosine - RADIUS if cosine > 0 else 1
+            side = (RADIUS + max(distance, 0)) * abs(math.sin(angle + math.pi / 6))
+            expected = proximity_of(distance) if distance <= 0.1 and side < 0.45 else 0
+            worst = max(worst, abs(reading - expected))
+            if reading > 0:
+                drawn.append((distance, reading))
+    yield Row("proximity beside a wall: largest error of 7 · 24 readings", "0.0100527 / (d + 0.000163144)", f"{A3} footbot_proximity_default_sensor.cpp@dfa7d4b0", 0, worst, 1e-9, "rounding")
+    grid = [0.001 * i for i in range(1, 100)]
+    yield {"name": "proximity", "caption": "Readings of footbot_proximity beside a wall", "x": "distance (m)", "y": "reading",
+           "series": [("readings", *zip(*sorted(drawn)))], "curves": [("ARGoS3's formula", grid, [proximity_of(d) for d in grid])]}
+    arena = footbot("a", 2.0, 2.0, 0, "c") + prey("p", 2.0 + RADIUS + 0.08 + 0.05, 2.0, radius=0.08, height=0.15)
+    readings = ring(lab.run(arena, who, ENGINE, 2).readings("a", "footbot_proximity")[0])
+    b = (RADIUS + 0.13) * math.cos(math.radians(7.5))
+    distance = b - math.sqrt(b * b - (RADIUS + 0.13) ** 2 + 0.08 ** 2) - RADIUS
+    yield Row("proximity before a cylinder, the ray at 7.5°", "ray and circle", GEOMETRY, proximity_of(distance), readings[0], 1e-9, "rounding")
+
+
+@scene(GROUP)
+def light(lab):
+    worst = {"generic_footbot_light": 0, "argos3_footbot_light": 0}
+    for implementation in worst:
+        who = probe("c", sensors={"footbot_light": {"implementation": implementation}})
+        for x, intensity in ((4.0, 0.3), (5.5, 1.0), (3.0, 0.1)):
+            arena = footbot("fb", 2.0, 2.0, 20, "c") + element("light_bulb", {"id": "l", "position": f"{x},3,0.5", "intensity": intensity})
+            readings = ring(lab.run(arena, who, ENGINE, 2).readings("fb", "footbot_light")[0])
+            height = 0.5 - (0.06 if implementation.startswith("generic") else 0)
+            distance = math.sqrt((x - 2) ** 2 + 1 + height ** 2)
+            towards = math.atan2(1, x - 2) - math.radians(20)
+            if implementation.startswith("generic"):
+                strength = (intensity / distance) ** 2
+            else:
+                strength = math.exp(-2 * distance / intensity) if distance <= 2.5 * intensity else 0
+            for angle, reading in zip(angles(), readings):
+                off = abs(math.remainder(angle - towards, math.tau))
+                worst[implementation] = max(worst[implementation], abs(reading - min(1, strength * max(0, 1 - off / (math.pi / 2)))))
+    yield Row("light: largest error of 3 · 24 readings", "(I / d)² max(0, 1 - |off| / 90°)", "inverse square law", 0, worst["generic_footbot_light"], 1e-9, "rounding")
+    yield Row("light as in ARGoS3: largest error of 3 · 24 readings", "exp(-2 d / I) max(0, 1 - |off| / 90°)", f"{A3} footbot_light_rotzonly_sensor.cpp@de40bf19", 0,
+              worst["argos3_footbot_light"], 1e-9, "rounding")
+
+
+@scene(GROUP)
+def ground(lab):
+    who = probe("c", sensors={"footbot_ground": {}, "footbot_motor_ground": {}})
+    patch = element("ground_patch", {"id": "g", "position": "2.5,2,0", "size": "1,1", "colour": "60, 120, 200"})
+    result = lab.run(footbot("fb", 2.0, 2.0, 10, "c") + patch, who, ENGINE, 2)
+    grey = (0.299 * 60 + 0.587 * 120 + 0.114 * 200) / 255
+    places = ((0.08, 0), (0.042, 0.065), (0, 0.08), (-0.042, 0.065), (-0.08, 0), (-0.042, -0.065), (0, -0.08), (0.042, -0.065))
+    turn = math.radians(10)
+    now = result.readings("fb", "footbot_ground")[0]
+    worst = max(abs(now[str(i)] - (grey if x * math.cos(turn) - y * math.sin(turn) > 0 else 1)) for i, (x, y) in enumerate(places))
+    yield Row("ground: brightness under 8 sensors at the edge of a patch, largest error", "0.299 R + 0.587 G + 0.114 B; places", f"ITU-R BT.601; {A3} footbot_entity.cpp@c6aa94d6", 0, worst, 1e-9, "rounding")
+
+
+def lit(name, x, y, colour, heading=0, z=0):
+    return footbot(name, x, y, heading, name, z), probe(name, [(0, 10, "footbot_beacon", colour)])
+
+
+@scene(GROUP)
+def cameras(lab):
+    watcher = probe("w", sensors={"footbot_omnidirectional_camera": {"aperture": 85}})
+    arena, who = footbot("w", 5.0, 5.0, 25, "w"), watcher
+    places = [(5 + 0.15 * (k + 2) * math.cos(1.0 * k), 5 + 0.15 * (k + 2) * math.sin(1.0 * k)) for k in range(6)]
+    for k, (x, y) in enumerate(places):
+        robot, controller = lit(f"b{k}", x, y, 0x100000 * (k + 1) + 0xff)
+        arena, who = arena + robot, who + controller
+    now = lab.run(arena, who, ENGINE, 5).readings("w", "footbot_omnidirectional_camera")[-1]
+    found = {int(now[f"blob {i}"+" colour"]): (now[f"blob {i} distance"], now[f"blob {i} angle"]) for i in range(sum("colour" in name for name in now))}
+    worst_distance = worst_angle = 0
+    for k, (x, y) in enumerate(places):
+        distance, angle = found.get(0x100000 * (k + 1) + 0xff, (math.inf, math.inf))
+        worst_distance = max(worst_distance, abs(distance - math.hypot(x - 5, y - 5)))
+        worst_angle = max(worst_angle, abs(math.remainder(angle - math.atan2(y - 5, x - 5) + math.radians(25), math.tau)))
+    yield Row("omnidirectional camera: distances of 6 beacons, largest error", "√(Δx² + Δy²)", GEOMETRY, 0, worst_distance, 1e-9, "rounding", "m")
+    yield Row("omnidirectional camera: bearings of 6 beacons, largest error", "atan2(Δy, Δx) - heading", GEOMETRY, 0, worst_angle, 1e-9, "rounding", "rad")
+
+
+@scene(GROUP)
+def led_visibility(lab):
+    gaps = [0.001 * i for i in range(550, 570)]
+    arena, who = "", probe("w", sensors={"footbot_omnidirectional_camera": {}})
+    who += probe("l", [(0, 10, "footbot_leds", RED)])
+    for i, gap in enumerate(gaps):
+        # All LEDs of one colour are one blob at their middle, above the axis.
+        arena += footbot(f"w{i}", 1.0, 1.0 + 2 * i, 0, "w") + footbot(f"l{i}", 1.0 + gap, 1.0 + 2 * i, 180, "l")
+    result = lab.run(arena, who, ENGINE, 5, size="10,50,2")
+    seen = [gap for i, gap in enumerate(gaps) if result.readings(f"w{i}", "footbot_omnidirectional_camera")[-1]]
+    yield Row("omnidirectional camera: furthest LEDs in view", "(0.2887 - 0.085) tan 70°", f"{A3} footbot_entity.cpp@c6aa94d6", 0.2037 * math.tan(math.radians(70)), max(seen, default=0), 0.001, "steps of 1 mm", "m")
+
+
+@scene(GROUP)
+def pixels(lab):
+    count, step = (40, 0.05) if lab.quick else (400, 0.005)
+    who = probe("w", sensors={"footbot_omnidirectional_camera": {"implementation": "pixel_noise_footbot_omnidirectional_camera", "aperture": 85}}) + probe("l", [(0, 10, "footbot_beacon", RED)])
+    arena = "".join(footbot(f"w{i}", 1.0 + 3 * (i % 20), 1.0 + 3 * (i // 20), 0, "w") + footbot(f"l{i}", 1.25 + 3 * (i % 20), 1.0 + 3 * (i // 20) + step * i / count * 2, 0, "l") for i in range(count))
+    result = lab.run(arena, who, ENGINE, 3, size="80,80,2")
+    worst = 0
+    for i in range(count):
+        now = result.readings(f"w{i}", "footbot_omnidirectional_camera")[-1]
+        y = step * i / count * 2
+        true = math.hypot(0.25, y)
+        # From the distance to the angle off the axis, whose 85 degrees are 240 pixels.
+        eye = 0.2887 - 0.174249733
+        radius = [math.atan2(d, eye) / math.radians(85) * 240 for d in (true, now["blob 0 distance"])]
+        directions = (math.atan2(y, 0.25), now["blob 0 angle"])
+        worst = max(worst, *(abs(radius[0] * f(directions[0]) - radius[1] * f(directions[1])) for f in (math.cos, math.sin)))
+    yield Row("camera with pixels: furthest off in an image without noise", "at most half a pixel", "rounding to whole pixels", 0.25, worst, 0.25 + 1e-6, "between 0 and 0.5", "pixels")
+
+
+@scene(GROUP)
+def range_and_bearing(lab):
+    sender = probe("s", [(0, 1000, "range_and_bearing", 7)])
+    hearer = probe("h", sensors={"range_and_bearing": {}})
+    arena = footbot("h", 5.0, 5.0, 40, "h") + footbot("s", 6.2, 4.1, 0, "s") + footbot("hidden", 5.0, 7.0, 0, "s") + footbot("between", 5.0, 6.0)
+    arena += footbot("far", 5.0, 1.999, 0, "s")
+    result = lab.run(arena, sender + hearer, ENGINE, 5)
+    now = result.readings("h", "range_and_bearing")[-1]
+    yield Row("range and bearing: range", "distance of antennas", GEOMETRY, 1.5, now["packet 0 range"], 1e-9, "rounding", "m")
+    yield Row("range and bearing: bearing", "atan2(Δy, Δx) - heading", GEOMETRY, math.atan2(-0.9, 1.2) - math.radians(40), now["packet 0 bearing"], 1e-9, "rounding", "rad")
+    yield Row("range and bearing: packets, one sender hidden, one at 3.001 m", "line of sight, 3 m", f"{A3} footbot_entity.cpp@c6aa94d6", 1, sum("range" in name for name in now), 0, "counts")
+    eye = element("eyebot", {"id": "h", "position": "5,5,2", "controller": "h"})
+    # Describe has no vertical bearing: it follows from range and the place.
+    now = lab.run(eye + footbot("s", 6.0, 5.0, 0, "s"), sender + hearer, "dynamics3d", 3, size="10,10,5").readings("h", "range_and_bearing")[-1]
+    yield Row("range and bearing: eyebot 2 m above a footbot, range", "√(Δx² + Δz²)", GEOMETRY, math.sqrt(5), now["packet 0 range"], 1e-3, "the footbot's wheels sink by 0.3 mm", "m")
+    ticks, p = (400, 0.3) if lab.quick else (5000, 0.3)
+    hearer = probe("h", sensors={"range_and_bearing": {"loss_probability": p, "range_noise_kind": "gaussian", "range_noise_deviation": 0.05}})
+    found = lab.run(footbot("h", 5.0, 5.0, 0, "h") + footbot("s", 6.0, 5.0, 0, "s"), sender + hearer, ENGINE, ticks, every=ticks).readings("h", "range_and_bearing")
+    ranges = [now["packet 0 range"] for now in found if "packet 0 range" in now]
+    asked = ticks - 1
+    yield Row("range and bearing: share of lost packets", "p", "Bernoulli trials", p, 1 - len(ranges) / asked, 4 * math.sqrt(p * (1 - p) / asked) + 1 / asked, "4 standard errors, one packet")
+    yield Row("range and bearing: deviation of the range", "σ", "normal noise", 0.05, deviation(ranges), 4 * 0.05 / math.sqrt(2 * len(ranges)), "4 standard errors", "m")
+
+
+@scene(GROUP)
+def microphone(lab):
+    who = probe("c", sensors={"microphone": {}})
+    arena = footbot("fb", 5.0, 5.0, 30, "c") + element("sound_source", {"id": "a", "position": "7,5,1.1", "intensity": 2}) + element("sound_source", {"id": "b", "position": "5,8,0.1", "intensity": 1})
+    now = lab.run(arena, who, ENGINE, 2).readings("fb", "microphone")[0]
+    loud = 2 / math.sqrt(5)
+    first = 0 if abs(now["sound 0 loudness"] - loud) < 0.1 else 1
+    yield Row("microphone: pressure of a source of intensity 2 at 2.24 m", "I / d", "spherical wave", loud, now[f"sound {first} loudness"], 1e-9, "rounding")
+    yield Row("microphone: bearing", "atan2(Δy, Δx) - heading", GEOMETRY, -math.radians(30), now[f"sound {first} bearing"], 1e-9, "rounding", "rad")
+    yield Row("microphone: loudness of both sources", "√(p₁² + p₂²)", "incoherent sources", math.hypot(loud, 1 / 3), now["loudness"], 1e-9, "rounding")
+
+
+@scene(GROUP)
+def motion_sensors(lab):
+    who = probe("c", [(0, 200, "footbot_wheels", 0.05, 0.1)], sensors={"gyroscope": {}, "battery": {}, "footbot_encoders": {}, "positioning": {}})
+    result = lab.run(footbot("fb", 5.0, 5.0, 0, "c"), who, ENGINE, 101)
+    rate = 0.05 / 0.14
+    yield Row("gyroscope: yaw rate on an arc", "(r - l) / b", SOURCE, rate, result.readings("fb", "gyroscope")[50]["yaw"], 1e-9, "rounding", "rad/s")
+    yield Row("battery: charge after 10 s on an arc", "1 - 10⁻⁴ t - 10⁻³ d - 10⁻³ α", f"{A3} battery_equipped_entity.cpp@c6aa94d6", 1 - 1e-3 - 0.75e-3 - rate * 10e-3,
+              result.readings("fb", "battery")[100]["charge"], 1e-6, "the way is a chord in each tick")
+    x = y = heading = 0
+    for now in result.readings("fb", "footbot_encoders")[1:101]:
+        left, right = now["left"] * 0.029112741, now["right"] * 0.029112741
+        turn = (right - left) / 0.14 * 0.1
+        step = (left + right) / 2 * 0.1 * (math.sin(turn / 2) / (turn / 2))
+        x, y, heading = x + step * math.cos(heading + turn / 2), y + step * math.sin(heading + turn / 2), heading + turn
+    pose = result.readings("fb", "positioning")[100]
+    yield Row("odometry of encoders against positioning, 10 s of an arc", "Σ of arcs", SOURCE, 0, math.hypot(pose["x"] - 5 - x, pose["y"] - 5 - y), 1e-9, "rounding", "m")
+
+
+@scene(GROUP)
+def noise(lab):
+    ticks = 2000 if lab.quick else 20000
+    gauss = math.exp(-2) / math.sqrt(2 * math.pi)  # φ(2)
+    inside = math.erf(2 / math.sqrt(2))
+    tail = (1 - inside) / 2
+    kinds = (("uniform", {"range": 0.1}, 0.1 / math.sqrt(3), "r / √3"),
+             ("gaussian", {"deviation": 0.05}, 0.05, "σ"),
+             ("gaussian", {"deviation": 0.05, "range": 0.1}, 0.05 * math.sqrt(1 - 2 * tail - 4 * gauss + 8 * tail), "σ √(1 - 2Q - 2bφ + 2b²Q), b = 2"),
+             ("truncated_gaussian", {"deviation": 0.05, "range": 0.1}, 0.05 * math.sqrt(1 - 4 * gauss / inside), "σ √(1 - 2bφ / (1 - 2Q)), b = 2"))
+    for kind, numbers, expected, form in kinds:
+        who = probe("c", sensors={"positioning": {"position_noise_kind": kind, **{f"position_noise_{name}": value for name, value in numbers.items()}}})
+        found = lab.run(footbot("fb", 5.0, 5.0, 0, "c"), who, ENGINE, ticks, every=ticks).readings("fb", "positioning")
+        errors = [now["x"] - 5 for now in found]
+        yield Row(f"positioning: deviation of {kind} noise{' within ± 2 σ' if len(numbers) == 2 else ''}", form, "moments of the distribution", expected, deviation(errors), 4 * expected / math.sqrt(2 * ticks), "4 standard errors of a normal sample", "m")
+        yield Row(f"positioning: mean of {kind} noise{' within ± 2 σ' if len(numbers) == 2 else ''}", "0", "moments of the distribution", 0, mean(errors), 4 * expected / math.sqrt(ticks), "4 standard errors", "m")
+
+
+@scene(GROUP)
+def radio(lab):
+    sender = probe("s", [(0, 100, "radio", 10)])
+    slow = probe("slow", [(0, 100, "radio", 10)], actuators={"radio": {"bandwidth": 50}})
+    hearer = probe("h", sensors={"radio": {}})
+    late = probe("late", sensors={"radio": {"latency": 0.5}})
+    arena = footbot("near", 1.0, 1.0, 0, "h") + footbot("s", 10.999, 1.0, 0, "s") + footbot("far", 21.001, 1.0, 0, "h")
+    result = lab.run(arena, sender + hearer, ENGINE, 100, size="40,40,2", every=100)
+    arrived = lambda result, robot: [sum(value if isinstance(value, (int, float)) else sum(value) for value in now.values()) for now in result.readings(robot, "radio")]
+    yield Row("radio: packets in 100 ticks at 9.999 m", "range 10 m, one tick later", "docs/devices.md", 99, sum(bytes_ > 0 for bytes_ in arrived(result, "near")), 0, "counts")
+    yield Row("radio: packets in 100 ticks at 10.002 m", "range 10 m", "docs/devices.md", 0, sum(bytes_ > 0 for bytes_ in arrived(result, "far")), 0, "counts")
+    result = lab.run(footbot("h", 1.0, 1.0, 0, "h") + footbot("s", 2.0, 1.0, 0, "slow"), slow + hearer, ENGINE, 101, every=100)
+    yield Row("radio: bytes in 10 s through 50 bytes/s", "30 + 50 t", "token bucket, docs/devices.md", 530, sum(arrived(result, "h")), 20, "whole packets of 10 bytes, and the first tick", "bytes")
+    result = lab.run(footbot("h", 1.0, 1.0, 0, "late") + footbot("s", 2.0, 1.0, 0, "s"), sender + late, ENGINE, 50, every=50)
+    yield Row("radio: first packet with a latency of 0.5 s", "one tick and the latency", "docs/devices.md", 6, next(i for i, n in enumerate(arrived(result, "h")) if n), 0, "ticks of 0.1 s", "ticks")
+    ticks, p = (100, 0.2) if lab.quick else (100, 0.2)
+    lossy = probe("lossy", sensors={"radio": {"loss_probability": p}})
+    arena = footbot("s", 5.0, 5.0, 0, "s") + "".join(footbot(f"h{i}", 3.0 + 0.4 * (i % 10), 1.0 + 0.4 * (i // 10), 0, "lossy") for i in range(50))
+    result = lab.run(arena, sender + lossy, ENGINE, ticks, every=ticks)
+    got = sum(sum(n > 0 for n in arrived(result, f"h{i}")) for i in range(50))
+    asked = 50 * (ticks - 1)
+    yield Row("radio: share of lost packets, 50 receivers", "p, independently", "Bernoulli trials", p, 1 - got / asked, 4 * math.sqrt(p * (1 - p) / asked), "4 standard errors")
+
+
+@scene(GROUP)
+def gripper(lab):
+    gaps = [0.001 * i for i in range(0, 40)]
+    who = probe("c", [(0, 10, "footbot_gripper", 1)], sensors={"footbot_gripper": {}})
+    for engine, reach in ((ENGINE, 0.02), ("dynamics2d", 0.01), ("dynamics3d", 0.02)):
+        front = 0.085 if engine == "dynamics3d" else 0.1
+        arena = "".join(footbot(f"fb_{i}", 1.0, 1.0 + i, 0, "c") + prey(f"p{i}", 1.0 + front + gap + 0.1 + 0.0005, 1.0 + i, radius=0.1, height=0.15) for i, gap in enumerate(gaps))
+        result = lab.run(arena, who, engine, 4, size="10,50,2")
+        held = [gap + 0.0005 for i, gap in enumerate(gaps) if result.readings(f"fb_{i}", "footbot_gripper")[-1]["grips"]]
+        yield Row(f"gripper: reach in {engine}", "docs/engines.md", "assumption of the engine", reach, max(held, default=0), 0.001, "steps of 1 mm", "m")
+
+
+@scene(GROUP)
+def scanner(lab):
+    who = probe("c", sensors={"footbot_distance_scanner": {"rotation_speed": 1}})
+    arena = footbot("fb", 5.0, 5.0, 0, "c") + block("n", "5,5.9,0.5", "4,0.2,1") + block("s", "5,4.1,0.5", "4,0.2,1") + block("e", "5.3,5,0.5", "0.2,4,1")
+    worst, count = 0, 0
+    for now in lab.run(arena, who, ENGINE, 60).readings("fb", "footbot_distance_scanner"):
+        for i in range(24):
+            if f"angle {i}" not in now:
+                continue
+            angle, distance = now[f"angle {i}"], now[f"distance {i}"]
+            hits = [side / f for side, f in ((0.2, math.cos(angle)), (0.8, math.sin(angle)), (0.8, -math.sin(angle))) if f > 1e-9]
+            if hits and distance not in (0, 0.26, 1.42):
+                worst, count = max(worst, abs(distance - (min(hits) - RADIUS))), count + 1
+    yield Row(f"distance scanner between three walls: largest error of {count} readings", "ray and plane", GEOMETRY, 0, worst, 1e-9, "rounding", "m")
+
+
+@scene(GROUP)
+def eyes(lab):
+    pilot = probe("e", [(0, 10, "eyebot_laser", 0.5, 0.3), (0, 10, "eyebot_propellers", 0, 0, 0, 0)], sensors={"eyebot_altitude": {}})
+    watcher = probe("w", sensors={"footbot_omnidirectional_camera": {"aperture": 85}})
+    arena = element("eyebot", {"id": "e", "position": "5,5,2", "controller": "e"}) + footbot("w", 6.0, 5.0, 0, "w")
+    result = lab.run(arena, pilot + watcher, "dynamics3d", 5, size="10,10,5")
+    x, y = 5 + 2 * math.tan(0.3) * math.cos(0.5), 5 + 2 * math.tan(0.3) * math.sin(0.5)
+    now = result.readings("w", "footbot_omnidirectional_camera")[-1]
+    yield Row("laser: distance of its spot from a footbot that sees it", "P = o + h tan(tilt) (cos pan, sin pan)", GEOMETRY, math.hypot(x - 6, y - 5), now["blob 0 distance"], 1e-3, "the eyebot hovers within 0.1 mm", "m")
+    yield Row("altitude of an eyebot", "h", GEOMETRY, 2, result.readings("e", "eyebot_altitude")[-1]["altitude"], 1e-3, "the eyebot hovers within 0.1 mm", "m")
+
+
+@scene(GROUP)
+def near(lab):
+    who = probe("c", sensors={"contact": {}, "tag_reader": {}})
+    arena = footbot("fb", 5.0, 5.0, 20, "c") + prey("p", 5 + (RADIUS + 0.0511) * math.cos(1), 5 + (RADIUS + 0.0511) * math.sin(1), radius=0.05, height=0.1)
+    arena += prey("q", 5.149, 5.0, radius=0.03, height=0.1) + prey("r", 4.849, 5.0, radius=0.03, height=0.1)
+    result = lab.run(arena, who, ENGINE, 1)
+    now = result.readings("fb", "contact")[0]
+    yield Row("contact: direction of a prey 1.1 mm away", "angle of the centre - heading", GEOMETRY, 1 - math.radians(20), now.get("contact 0", math.nan), 1e-9, "rounding", "rad")
+    tags = result.readings("fb", "tag_reader")[0]
+    yield Row("tag reader: tags in range, one at 0.149 m, one at 0.151 m, one at 0.136 m", "range 0.15 m", "docs/devices.md", 2, len(set(tags) - {"fb"}), 0, "counts")
