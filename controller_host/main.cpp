@@ -3,6 +3,7 @@
 #include <array>
 
 #include "common/builtins/builtins.h"
+#include "common/bus/recovery.h"
 #include "common/bus/replica.h"
 #include "common/bus/saved_states.h"
 #include "common/bus/tick_inputs.h"
@@ -30,18 +31,17 @@ public:
         commands_(session.GetBus(), session.Scope(replica.limits->CommandBytes(), 1)),
         inspection_(session, role_, host_, inputs_.Mutex())
   {
-    const auto& from = role_.Layout().frames_from;
-    for (auto& frames : frames_) frames.resize(from.size());
-    frames_here_.resize(from.size());
-    replica.Restore(HostName(host), role_);
-    // Nobody sends the frames of the first tick: there are none, or the engines saved them first of all.
-    for (std::size_t k = 0; k < from.size(); ++k)
-    {
-      inputs_.HaveFirst(k);
-      if (!replica.checkpoint) continue;
-      ByteReader state(replica.checkpoint->StateOf(EngineName(*replica.experiment, from[k])));
-      frames_[replica.FirstTick() % 2][k].values = state.GetArray<double>();
-    }
+    const std::size_t engines = role_.Layout().frames_from.size();
+    for (auto& frames : frames_) frames.resize(engines);
+    frames_here_.resize(engines);
+    if (session.TakesAPlace())
+      inputs_.StartAt(Recover(session, replica,
+                              {[this] { Restore(); }, [this](ByteReader& state) { role_.LoadState(state); },
+                               [this](const TickRecord& record) { Redo(record); },
+                               [this](const std::vector<SensorFrame>& frames) { TakeFrames(frames); }}));
+    else
+      Restore();
+    for (std::size_t k = 0; k < engines; ++k) inputs_.HaveFirst(k);
     inputs_.Open({[this](std::size_t k, std::uint64_t tick) { return &frames_[tick % 2][k]; }, [this] { Tick(); },
                   [this] { AnswerAgain(); }},
                  replica.limits->FrameBytes(), FrameWriters());
@@ -54,7 +54,7 @@ public:
     unsigned readers = 0;
     for (const EngineLayout& engine : replica_.assignment.engines) readers += engine.commands_from.empty() ? 0 : 1;
     for (const HostLayout& host : replica_.assignment.hosts)
-      if (ServerHears(host))
+      if (session_.World().recorded || ServerHears(host))
       {
         ++readers;
         break;
@@ -62,6 +62,7 @@ public:
     session_.WaitUntil(
         [&]
         {
+          if (inputs_.Over()) return true;
           return inputs_.ServerIsHere() && inputs_.MissingWriters() == 0 && commands_.Readers() >= readers &&
                  saved_.Matched();
         },
@@ -95,14 +96,51 @@ private:
     return writers;
   }
 
+  // To where the run begins. Nobody sends the frames of the first tick: there are none, or the engines saved them first
+  // of all.
+  void Restore()
+  {
+    replica_.Restore(session_.Name(), role_);
+    const auto& from = role_.Layout().frames_from;
+    for (std::size_t k = 0; k < from.size() && replica_.checkpoint; ++k)
+    {
+      ByteReader state(replica_.checkpoint->StateOf(EngineName(*replica_.experiment, from[k])));
+      frames_[replica_.FirstTick() % 2][k].values = state.GetArray<double>();
+    }
+  }
+
+  // The step of a tick once more.
+  void Redo(const TickRecord& record)
+  {
+    TakeFrames(record.frames);
+    Step(record.state.tick);
+    const ControlCommands& before = record.commands.at(host_);
+    if (!SameBits(answer_->values, before.values) || answer_->attributes.slots != before.attributes.slots ||
+        !SameBits(answer_->attributes.values, before.attributes.values))
+      RefuseRecovery(session_.Name(), record.state.tick, "other commands");
+    saved_.Ready(record.state.tick + 1, role_, record.save);
+  }
+
+  // Of all engines; none if the tick is the first one.
+  void TakeFrames(const std::vector<SensorFrame>& all)
+  {
+    const auto& from = role_.Layout().frames_from;
+    for (std::size_t k = 0; k < from.size() && !all.empty(); ++k)
+      for (auto& frames : frames_) frames[k] = all.at(from[k]);
+  }
+
+  void Step(std::uint64_t tick)
+  {
+    for (std::size_t k = 0; k < frames_here_.size(); ++k) frames_here_[k] = &frames_[tick % 2][k];
+    answer_ = &role_.Tick(tick == 0 ? std::span<const SensorFrame* const>()
+                                    : std::span<const SensorFrame* const>(frames_here_));
+  }
+
   void Tick()
   {
-    for (std::size_t k = 0; k < frames_here_.size(); ++k) frames_here_[k] = &frames_[inputs_.Tick() % 2][k];
-    const bool first = inputs_.Tick() == 0;
-    answer_ =
-        &role_.Tick(first ? std::span<const SensorFrame* const>() : std::span<const SensorFrame* const>(frames_here_));
+    Step(inputs_.Tick());
     inputs_.Next();
-    saved_.Ready(inputs_.Tick(), role_);
+    saved_.Ready(inputs_.Tick(), role_, inputs_.Saves());
     Answer(false);
     inspection_.Stepped();
   }
@@ -135,7 +173,7 @@ private:
 int Run(const WorkerSettings& settings, const BusOptions& bus)
 {
   const std::size_t host = settings.host;
-  WorkerSession session(bus, settings.experiment, HostName(host));
+  WorkerSession session(bus, settings.experiment, HostName(host), {}, settings.incarnation);
   return session.Work(
       [&]
       {

@@ -1,8 +1,12 @@
 // The program that runs one physics engine of an experiment: the engine worker's role at the bus.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
+
 #include "common/activity/activity.h"
 #include "common/builtins/builtins.h"
+#include "common/bus/recovery.h"
 #include "common/bus/replica.h"
 #include "common/bus/saved_states.h"
 #include "common/bus/tick_inputs.h"
@@ -29,10 +33,10 @@ public:
         commands_(role_.Layout().commands_from.size()),
         updates_(session.GetBus(), session.Scope(replica.limits->UpdateBytes(), 1))
   {
-    replica.Restore(EngineName(*replica.experiment, engine), role_);
     for (const ControlCommands& commands : commands_) commands_here_.push_back(&commands);
     if (role_.Layout().sensor_size > 0)
       frames_.emplace(session.GetBus(), session.Scope(replica.limits->FrameBytes(), 1));
+    Begin();
     inputs_.Open(
         {[this](std::size_t k, std::uint64_t) { return &commands_[k]; }, [this] { Tick(); }, [this] { Answer(true); }},
         replica.limits->CommandBytes(), HostCount());
@@ -44,9 +48,11 @@ public:
   {
     unsigned frame_readers = 0;
     for (const HostLayout& host : replica_.assignment.hosts) frame_readers += host.frames_from.empty() ? 0 : 1;
+    if (session_.World().recorded) ++frame_readers;
     session_.WaitUntil(
         [&]
         {
+          if (inputs_.Over()) return true;
           return inputs_.ServerIsHere() && inputs_.MissingWriters() == 0 && updates_.Readers() >= 1 &&
                  saved_.Matched() && (!frames_ || frames_->Readers() >= frame_readers);
         },
@@ -77,11 +83,62 @@ private:
 
   unsigned HostCount() const { return static_cast<unsigned>(replica_.assignment.hosts.size()); }
 
+  void Begin()
+  {
+    const auto begin = [this]
+    {
+      replica_.Restore(session_.Name(), role_);
+      has_frame_ = replica_.checkpoint.has_value();
+    };
+    if (!session_.TakesAPlace()) return begin();
+    const auto load = [this](ByteReader& state)
+    {
+      role_.LoadState(state);
+      has_frame_ = true;
+    };
+    inputs_.StartAt(Recover(session_, replica_, {begin, load, [this](const TickRecord& record) { Redo(record); }, {}}));
+  }
+
+  // The step of a tick once more.
+  void Redo(const TickRecord& record)
+  {
+    CheckAgainst(record);
+    for (std::size_t k = 0; k < commands_.size(); ++k)
+      commands_[k] = record.commands.at(role_.Layout().commands_from[k]);
+    role_.Tick(record.state.moved, commands_here_);
+    has_update_ = has_frame_ = true;
+    saved_.Ready(record.state.tick + 1, role_, record.save);
+  }
+
+  // What was computed for the tick against what the run went on with.
+  void CheckAgainst(const TickRecord& record)
+  {
+    if (!has_update_) return;
+    const std::uint64_t tick = record.state.tick;
+    if (frames_ && !SameBits(role_.Sensors().values, record.frames.at(engine_).values))
+      RefuseRecovery(session_.Name(), tick, "other sensor values");
+    const std::span<const std::uint32_t> movable = replica_.space->Movable();
+    const std::vector<std::uint32_t>& owned = role_.Layout().owned;
+    const std::vector<std::uint32_t>& moved = record.state.moved;
+    for (std::size_t k = 0; k < owned.size(); ++k)
+    {
+      if (std::binary_search(moved.begin(), moved.end(), owned[k])) continue;
+      const auto place =
+          static_cast<std::size_t>(std::lower_bound(movable.begin(), movable.end(), owned[k]) - movable.begin());
+      for (std::size_t c = 0; c < 7; ++c)
+        if (std::bit_cast<std::uint64_t>(role_.Update().poses[c * owned.size() + k]) !=
+            std::bit_cast<std::uint64_t>(record.state.poses[c * movable.size() + place]))
+          RefuseRecovery(session_.Name(), tick,
+                         "another pose of '" + replica_.space->GetEntity(owned[k]).GetId() + "'");
+    }
+  }
+
   void Tick()
   {
     role_.Tick(inputs_.State().moved, commands_here_);
     inputs_.Next();
-    saved_.Ready(inputs_.Tick(), role_);
+    has_update_ = has_frame_ = true;
+    saved_.Ready(inputs_.Tick(), role_, inputs_.Saves());
     Answer(false);
   }
 
@@ -89,8 +146,8 @@ private:
   {
     MessageHeader header = session_.Header(inputs_.Tick(), engine_);
     header.repeated = repeated;
-    updates_.Write(header, role_.Update());
-    if (frames_) frames_->Write(header, role_.Sensors());
+    if (has_update_) updates_.Write(header, role_.Update());
+    if (frames_ && has_frame_) frames_->Write(header, role_.Sensors());
   }
 
   WorkerSession& session_;
@@ -101,13 +158,16 @@ private:
   Inputs inputs_;  // its mutex guards the role and what follows
   std::vector<ControlCommands> commands_;
   std::vector<const ControlCommands*> commands_here_;
+  bool has_update_ = false;  // of the tick that comes next
+  bool has_frame_ = false;
   HotPublisher<EngineUpdate> updates_;
   std::optional<HotPublisher<SensorFrame>> frames_;
 };
 
 int Run(const WorkerSettings& settings, const BusOptions& bus)
 {
-  WorkerSession session(bus, settings.experiment, fmt::format("engine '{}'", settings.engine));
+  WorkerSession session(bus, settings.experiment, fmt::format("engine '{}'", settings.engine), {},
+                        settings.incarnation);
   return session.Work(
       [&]
       {

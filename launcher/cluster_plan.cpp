@@ -57,54 +57,84 @@ void RefuseUnknown(const Hosts& hosts, const std::string& role, const std::vecto
                                    Quoted(name), Listed(known), DidYouMean(name, known)));
 }
 
-class Planner
+// Makes the command lines of the processes of a run.
+struct CommandMaker
 {
-public:
-  Planner(const Experiment& experiment, const Hosts& hosts, const RunFolder& folder, int domain, const Limits& limits)
-      : experiment_(experiment), hosts_(hosts), folder_(folder), limits_(limits)
-  {
-    bus_.domain = domain;
-    // Deaths on this machine are seen from here, and a stopped process (a debugger's) is not dead.
-    if (hosts_.AllHere()) bus_.lease_s = 3600;
-  }
-
-  MemberPlan& Add(const std::string& name, const std::string& program, const std::string& role,
-                  const std::string& which, const std::vector<std::string>& arguments)
+  ProcessCommand Make(const std::string& name, const std::string& program, const std::string& host,
+                      const std::vector<std::string>& arguments) const
   {
     ProcessCommand command;
     command.name = name;
     command.arguments.push_back(fs::path(ProgramFolder()) / program);
     command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
-    const std::vector<std::string> bus = BusWords(bus_);
-    command.arguments.insert(command.arguments.end(), bus.begin(), bus.end());
-    command.arguments.insert(command.arguments.end(), hosts_.Options().begin(), hosts_.Options().end());
-    command.environment = EnvironmentOf(limits_);
+    const std::vector<std::string> bus_words = BusWords(bus);
+    command.arguments.insert(command.arguments.end(), bus_words.begin(), bus_words.end());
+    command.arguments.insert(command.arguments.end(), hosts.Options().begin(), hosts.Options().end());
+    command.environment = EnvironmentOf(limits);
+    ProcessCommand placed = hosts.Placed(command, host);
+    placed.cores = cores;
+    return placed;
+  }
+
+  Hosts hosts;
+  BusOptions bus;
+  Limits limits;
+  std::vector<int> cores;
+};
+
+class Planner
+{
+public:
+  Planner(const Experiment& experiment, const RunFolder& folder, CommandMaker maker)
+      : experiment_(experiment), folder_(folder), maker_(std::move(maker))
+  {
+  }
+
+  MemberPlan& Add(const std::string& name, const std::string& program, const std::string& role,
+                  const std::string& which, const std::vector<std::string>& arguments)
+  {
     MemberPlan plan;
-    plan.host = hosts_.HostOf(role, which);
-    plan.command = hosts_.Placed(command, plan.host);
+    plan.host = maker_.hosts.HostOf(role, which);
+    plan.command = maker_.Make(name, program, plan.host, arguments);
     plan.log_path = folder_.File(LogName(program, which));
     plans_.push_back(plan);
     return plans_.back();
   }
 
-  // The same for a process that finds its experiment by name.
+  // The same for a process that finds its experiment by name, and can be replaced.
   MemberPlan& AddWorker(const std::string& name, const std::string& program, const std::string& role,
                         const std::string& which, WorkerTable table, WorkerSettings settings)
   {
     settings.experiment = experiment_.name;
-    return Add(name, program, role, which, WorkerWords(table, settings));
+    MemberPlan& plan = Add(name, program, role, which, WorkerWords(table, settings));
+    plan.replacement = [maker = maker_, name, program, host = plan.host, table, settings](unsigned incarnation)
+    {
+      WorkerSettings next = settings;
+      next.incarnation = incarnation;
+      return maker.Make(name, program, host, WorkerWords(table, next));
+    };
+    return plan;
   }
 
   std::vector<MemberPlan> Take() { return std::move(plans_); }
 
 private:
   const Experiment& experiment_;
-  const Hosts& hosts_;
   const RunFolder& folder_;
-  BusOptions bus_;
-  Limits limits_;
+  CommandMaker maker_;
   std::vector<MemberPlan> plans_;
 };
+
+BusOptions BusOf(const RunSettings& options, const Hosts& hosts, int domain)
+{
+  // Deaths on this machine are seen from here, and a stopped process (a debugger's) is not dead.
+  constexpr double kForEver_s = 3600;
+  BusOptions bus;
+  bus.domain = domain;
+  if (hosts.AllHere()) bus.lease_s = kForEver_s;
+  if (options.lease_s > 0) bus.lease_s = options.lease_s;
+  return bus;
+}
 
 std::vector<std::string> ServerArguments(RunSettings settings, const Assignment& assignment, const RunFolder& folder)
 {
@@ -112,6 +142,7 @@ std::vector<std::string> ServerArguments(RunSettings settings, const Assignment&
   settings.output_folder = folder.Path();
   std::vector<std::string> words = ServerWords(settings);
   words.insert(words.end(), {"--status-fd", "1"});
+  if (settings.Replaces()) words.emplace_back("--await-replacements");
   return words;
 }
 
@@ -132,21 +163,16 @@ std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment
   if (options.visualisations) RefuseUnknown(hosts, "visualiser", visualisers);
 
   const std::vector<int> cores = CoresOf(options, experiment, domain);
-  Planner planner(experiment, hosts, folder, domain, LimitsOf(options));
+  Planner planner(experiment, folder, {hosts, BusOf(options, hosts, domain), LimitsOf(options), cores});
   MemberPlan& server =
       planner.Add("space server", "space_server", "space_server", "", ServerArguments(options, assignment, folder));
   server.output = MemberPlan::kStatus;
-  server.command.cores = cores;
   for (std::size_t e = 0; e < engines.size(); ++e)
-    planner
-        .AddWorker(EngineName(experiment, e), "engine_worker", "engine", engines[e], EngineOptionTable,
-                   {.engine = engines[e]})
-        .command.cores = cores;
+    planner.AddWorker(EngineName(experiment, e), "engine_worker", "engine", engines[e], EngineOptionTable,
+                      {.engine = engines[e]});
   for (std::size_t host = 0; host < controller_hosts.size(); ++host)
-    planner
-        .AddWorker(HostName(host), "controller_host", "controller_host", controller_hosts[host], HostOptionTable,
-                   {.host = static_cast<unsigned>(host)})
-        .command.cores = cores;
+    planner.AddWorker(HostName(host), "controller_host", "controller_host", controller_hosts[host], HostOptionTable,
+                      {.host = static_cast<unsigned>(host)});
   for (std::size_t v = 0; v < visualisers.size(); ++v)
   {
     MemberPlan& plan =
@@ -154,6 +180,7 @@ std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment
                           VisualiserOptionTable, {.render = visualisers[v], .output = folder.Path()});
     plan.output = MemberPlan::kScreen;
     plan.visualiser = true;
+    plan.command.cores.clear();
   }
   return planner.Take();
 }

@@ -105,7 +105,7 @@ int ServeHere(std::vector<std::string> words, int status, const std::atomic<bool
 // Watched, the space server's role is this thread's; the supervisor has one of its own, for which the signals are
 // blocked already.
 ClusterOutcome RunWatched(const std::vector<MemberPlan>& plans, Interrupts& interrupts, ProgressDisplay& display,
-                          const ActorNames& actor_of, const WatchFunction& watch,
+                          const ActorNames& actor_of, unsigned retries, const WatchFunction& watch,
                           const std::function<int(const RunResult&)>& conclude)
 {
   InProcessServer server;
@@ -113,7 +113,8 @@ ClusterOutcome RunWatched(const std::vector<MemberPlan>& plans, Interrupts& inte
   std::thread supervising(
       [&]
       {
-        outcome = Supervisor(server, interrupts, display, STDOUT_FILENO, actor_of).Run(plans);
+        outcome = Supervisor(server, interrupts, display, STDOUT_FILENO, actor_of, {}, Supervisor::Clock::now, retries)
+                      .Run(plans);
         if (server.IsStuck()) LeaveStuck(outcome, conclude);
         server.Cancel();
       });
@@ -150,17 +151,19 @@ RunResult RunCluster(const RunSettings& options, const Experiment& experiment, c
   ProgressDisplay display(ProgressDisplay::StyleFor(STDERR_FILENO, options.quiet), STDERR_FILENO);
   const ActorNames actor_of = [&experiment](Actor::Kind kind, std::uint32_t number)
   { return ActorOf(experiment, kind, number); };
+  const unsigned retries = options.Replaces() ? options.retries : 0;
   ClusterOutcome outcome;
   if (watch)
   {
     const ManifestAtDeath at_death(folder, manifest);
     ApplyLimitsHere(options);
-    outcome = RunWatched(plans, interrupts, display, actor_of, watch, conclude);
+    outcome = RunWatched(plans, interrupts, display, actor_of, retries, watch, conclude);
   }
   else
   {
     SystemSpawner spawner;
-    outcome = Supervisor(spawner, interrupts, display, STDOUT_FILENO, actor_of).Run(plans);
+    outcome = Supervisor(spawner, interrupts, display, STDOUT_FILENO, actor_of, {}, Supervisor::Clock::now, retries)
+                  .Run(plans);
   }
   RemoveDeadRuns();
   Complain(outcome);

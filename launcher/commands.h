@@ -14,6 +14,7 @@ namespace swarmanoid
 {
 
 void AddRunCommand(CLI::App& app, int& exit_code);
+void AddResumeCommand(CLI::App& app, int& exit_code);
 void AddAttachCommand(CLI::App& app, int& exit_code);
 void AddControlCommand(CLI::App& app, int& exit_code);
 void AddCheckCommand(CLI::App& app, int& exit_code);

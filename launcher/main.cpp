@@ -14,7 +14,7 @@
 namespace
 {
 
-const std::vector<std::string> kVerbs{"run", "attach", "control", "check", "list", "new"};
+const std::vector<std::string> kVerbs{"run", "resume", "attach", "control", "check", "list", "new"};
 
 // CLI11 would only say that the word was not expected.
 bool ComplainsAboutVerb(const std::vector<std::string>& words)
@@ -62,6 +62,7 @@ int main(int count, char** arguments)
         app.set_version_flag("--version", "swarmanoid " SWARMANOID_VERSION);
         app.require_subcommand(1);
         AddRunCommand(app, verb_code);
+        AddResumeCommand(app, verb_code);
         AddAttachCommand(app, verb_code);
         AddControlCommand(app, verb_code);
         AddCheckCommand(app, verb_code);

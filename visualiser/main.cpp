@@ -7,6 +7,7 @@
 
 #include "common/builtins/builtins.h"
 #include "common/bus/control_client.h"
+#include "common/bus/recovery.h"
 #include "common/bus/replica.h"
 #include "common/bus/tick_gate.h"
 #include "common/bus/worker_program.h"
@@ -26,6 +27,21 @@ namespace
 
 constexpr auto kIdlePeriod = std::chrono::milliseconds(15);
 
+// To the first tick that is to be drawn, which is returned. One that takes the place of another draws all that came
+// before, too, so that its files are those of a run that nobody disturbed; in a window or page, nobody looks back.
+std::uint64_t Begin(WorkerSession& session, Replica& replica, Visualiser& visualiser)
+{
+  if (!session.TakesAPlace())
+  {
+    replica.RestoreSpace();
+    return replica.FirstTick();
+  }
+  RecoverySteps steps;
+  steps.begin = [&] { replica.RestoreSpace(); };
+  if (!visualiser.IsInteractive()) steps.step = [&](const TickRecord&) { visualiser.Draw(); };
+  return Recover(session, replica, steps);
+}
+
 void RunSynchronous(WorkerSession& session, const std::string& id, const std::string& output)
 {
   Replica replica(session.World(), false);
@@ -35,8 +51,7 @@ void RunSynchronous(WorkerSession& session, const std::string& id, const std::st
   RequestControl control([&](const ControlRequestMessage& r) { client.Send(r.verb, r.entity, r.numbers); });
   RemoteMonitor monitor(session.GetBus(), session.World(), true);
   Visualiser visualiser(visualisations[number], *replica.space, replica.assignment, output, &control, &monitor);
-  replica.RestoreSpace();
-  SynchronousNode node(session, replica, number, visualiser, control, monitor);
+  SynchronousNode node(session, replica, number, visualiser, control, monitor, Begin(session, replica, visualiser));
   node.WaitForServer();
   session.ReportReady();
   try
@@ -93,7 +108,8 @@ int Run(const WorkerSettings& settings, const std::vector<std::string>& paramete
   }
   // What people do at a window is for the run's logs.
   OpenLog({.process = "visualiser", .stderr_level = LogLevel::kInfo});
-  WorkerSession session(bus, settings.experiment, fmt::format("visualiser '{}'", settings.render));
+  WorkerSession session(bus, settings.experiment, fmt::format("visualiser '{}'", settings.render), {},
+                        settings.incarnation);
   return session.Work([&] { RunSynchronous(session, settings.render, settings.output); });
 }
 

@@ -83,6 +83,7 @@ enum class EndReason : std::uint32_t
   kUnknown,      // it runs, or could not say
   kDone,         // its work is done
   kFailed,       // by itself: the cause says how
+  kDied,         // of what the code that ran did: it crashed, ended the process, or did not return
   kInvalid,      // it found the experiment wrong
   kOthers,       // since the run ended without it
   kInterrupted,  // by a signal from outside

@@ -84,7 +84,7 @@ void Report(std::string_view what, bool of_activity, int exit_code = kExitProces
   }
   LineWriter line;
   Compose(line, what, of_activity);
-  NoteEnd(EndReason::kFailed, OwnActivityPage().tick.load(std::memory_order_relaxed), line.Text(),
+  NoteEnd(EndReason::kDied, OwnActivityPage().tick.load(std::memory_order_relaxed), line.Text(),
           activity::Now().actor != nullptr);
   // What a progress line left on a terminal goes.
   if (isatty(STDERR_FILENO) != 0) WriteAll(STDERR_FILENO, "\r\033[K");
@@ -212,7 +212,7 @@ void NoteEnd(EndReason reason, std::uint64_t tick, std::string_view text, bool c
   EndReason before = EndReason::kUnknown;
   if (!noted.compare_exchange_strong(before, reason))
   {
-    const bool worse = before == EndReason::kDone && reason == EndReason::kFailed;
+    const bool worse = before == EndReason::kDone && (reason == EndReason::kFailed || reason == EndReason::kDied);
     if (!worse || !noted.compare_exchange_strong(before, reason)) return;
   }
   ActivityPage& page = OwnActivityPage();

@@ -95,6 +95,8 @@ public:
   {
     Put(value);
   }
+  // Sixteen bits on the wire.
+  void Short(const char*, const std::uint32_t& value) { Put(static_cast<std::uint16_t>(value)); }
   void Constant(const char*, std::uint32_t value) { Put(value); }
   template <class Enum>
   void Choice(const char*, const Enum& value, Enum, Enum)
@@ -183,6 +185,12 @@ public:
   {
     static_assert(std::is_same_v<T, std::uint32_t> || std::is_same_v<T, std::uint64_t>);
     Get(field, value);
+  }
+  void Short(const char* field, std::uint32_t& value)
+  {
+    std::uint16_t bits = 0;
+    Get(field, bits);
+    value = bits;
   }
   void Constant(const char* field, std::uint32_t wanted)
   {

@@ -25,6 +25,18 @@ OptionSpec Experiment(WorkerSettings& s)
           "diffusion_10"};
 }
 
+OptionSpec Incarnation(WorkerSettings& s)
+{
+  return {
+      {.name = "incarnation",
+       .type = kInteger,
+       .description = "From 1 on: takes the place of a process of the run that has died, of which there were as many",
+       .minimum = 0,
+       .maximum = 65535},
+      &s.incarnation,
+      "1"};
+}
+
 }  // namespace
 
 std::optional<std::pair<std::string, unsigned>> ParseServerAddress(const std::string& text)
@@ -93,7 +105,7 @@ std::vector<OptionSpec> EngineOptionTable(WorkerSettings& s)
   OptionSpec engine{
       {.name = "engine", .type = kText, .description = "The engine's id in the experiment file"}, &s.engine, "ground"};
   engine.required = true;
-  return {engine, Experiment(s)};
+  return {engine, Experiment(s), Incarnation(s)};
 }
 
 std::vector<OptionSpec> HostOptionTable(WorkerSettings& s)
@@ -105,7 +117,8 @@ std::vector<OptionSpec> HostOptionTable(WorkerSettings& s)
             .maximum = 999},
            &s.host,
            "1"},
-          Experiment(s)};
+          Experiment(s),
+          Incarnation(s)};
 }
 
 std::vector<OptionSpec> VisualiserOptionTable(WorkerSettings& s)
@@ -115,6 +128,7 @@ std::vector<OptionSpec> VisualiserOptionTable(WorkerSettings& s)
             .description = "Id of a visualisation of the experiment file; every tick waits for it"},
            &s.render,
            "positions"},
+          Incarnation(s),
           {{.name = "attach",
             .type = kText,
             .description = "Kind of renderer to attach to a running experiment, which it never slows"},

@@ -31,6 +31,7 @@ struct WorkerSettings
   double rate = 30;
   bool read_only = false;
   std::optional<int> server{};
+  unsigned incarnation = 0;
 };
 
 std::vector<OptionSpec> EngineOptionTable(WorkerSettings& settings);

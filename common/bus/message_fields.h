@@ -13,6 +13,7 @@ namespace swarmanoid
 inline constexpr std::uint32_t kFlagLast = 1;
 inline constexpr std::uint32_t kFlagTerminate = 1;
 inline constexpr std::uint32_t kFlagRepeated = 2;
+inline constexpr std::uint32_t kFlagSave = 4;
 
 // A message is sent on the topic of this name, as the type swarmanoid::wire::<name>.
 template <class Message>
@@ -36,7 +37,8 @@ void Fields(Archive& archive, MessageHeader& header)
 {
   archive.Integer("run", header.run);
   archive.Integer("tick", header.tick);
-  archive.Integer("source", header.source);
+  archive.Short("source", header.source);
+  archive.Short("incarnation", header.incarnation);
 }
 
 template <class Archive>
@@ -51,7 +53,7 @@ template <class Archive>
 void Fields(Archive& archive, MessageHeader& header, SpaceState& message)
 {
   archive.Array("poses", message.poses);
-  archive.Flags("flags", {{kFlagLast, &message.last}, {kFlagRepeated, &header.repeated}});
+  archive.Flags("flags", {{kFlagLast, &message.last}, {kFlagRepeated, &header.repeated}, {kFlagSave, &header.save}});
   Fields(archive, message.attributes);
   archive.Array("moved", message.moved);
   if constexpr (Archive::kReads) message.tick = header.tick;
@@ -105,6 +107,10 @@ inline constexpr const char* kTopicOf<StatusMessage> = "Status";
 template <>
 inline constexpr const char* kTopicOf<SavedStateMessage> = "SavedState";
 template <>
+inline constexpr const char* kTopicOf<RecoveryRequestMessage> = "RecoveryRequest";
+template <>
+inline constexpr const char* kTopicOf<RecoveryBlockMessage> = "RecoveryBlock";
+template <>
 inline constexpr const char* kTopicOf<ViewRequestMessage> = "ViewRequest";
 template <>
 inline constexpr const char* kTopicOf<RunStatusMessage> = "RunStatus";
@@ -130,6 +136,7 @@ void Fields(Archive& archive, WorldMessage& message)
   archive.Number("tick_seconds", message.tick_seconds);
   archive.Integer("checkpoint_every", message.checkpoint_every);
   archive.Array("checkpoint", message.checkpoint);
+  archive.Bool("recorded", message.recorded);
   archive.List("entities", message.entities,
                [](Archive& a, WorldEntity& entity)
                {
@@ -148,6 +155,7 @@ void Fields(Archive& archive, JoinMessage& message)
   archive.Integer("run", message.run);
   archive.Name("name", message.name);
   archive.Bool("ready", message.ready);
+  archive.Integer("incarnation", message.incarnation);
 }
 
 template <class Archive>
@@ -198,6 +206,25 @@ void Fields(Archive& archive, SavedStateMessage& message)
   archive.Integer("tick", message.tick);
   archive.Name("name", message.name);
   archive.Array("state", message.state);
+}
+
+template <class Archive>
+void Fields(Archive& archive, RecoveryRequestMessage& message)
+{
+  archive.Integer("run", message.run);
+  archive.Name("process", message.process);
+  archive.Name("name", message.name);
+  archive.Integer("number", message.number);
+}
+
+template <class Archive>
+void Fields(Archive& archive, RecoveryBlockMessage& message)
+{
+  archive.Integer("run", message.run);
+  archive.Name("process", message.process);
+  archive.Integer("number", message.number);
+  archive.Integer("count", message.count);
+  archive.Array("block", message.block);
 }
 
 template <class Archive>

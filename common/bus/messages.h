@@ -15,7 +15,7 @@ namespace swarmanoid
 {
 
 // Equal to PROTOCOL_VERSION of the IDL; a test says so.
-inline constexpr std::uint32_t kProtocolVersion = 5;
+inline constexpr std::uint32_t kProtocolVersion = 6;
 
 // What precedes every message of a tick.
 struct MessageHeader
@@ -24,6 +24,8 @@ struct MessageHeader
   std::uint64_t tick = 0;
   std::uint32_t source = 0;
   bool repeated = false;
+  std::uint32_t incarnation = 0;  // of the sender; one that was replaced is not heard any more
+  bool save = false;              // SpaceState: what remembers saves its state after the step to the next tick
 };
 
 // Visualiser of the experiment to server: the state of the header's tick is drawn.
@@ -56,6 +58,7 @@ struct WorldMessage
   double tick_seconds = 0;
   std::uint64_t checkpoint_every = 0;
   std::vector<char> checkpoint;
+  bool recorded = false;
   std::vector<WorldEntity> entities;
 };
 
@@ -66,6 +69,7 @@ struct JoinMessage
   std::uint64_t run = 0;
   std::string name;
   bool ready = false;
+  std::uint32_t incarnation = 0;
 };
 
 struct ViewMessage
@@ -97,6 +101,23 @@ struct SavedStateMessage
   std::uint64_t tick = 0;
   std::string name;
   std::vector<char> state;
+};
+
+struct RecoveryRequestMessage
+{
+  std::uint64_t run = 0;
+  std::string process;
+  std::string name;
+  std::uint32_t number = 0;
+};
+
+struct RecoveryBlockMessage
+{
+  std::uint64_t run = 0;
+  std::string process;
+  std::uint32_t number = 0;
+  std::uint32_t count = 0;
+  std::vector<char> block;
 };
 
 struct ViewRequestMessage

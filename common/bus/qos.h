@@ -33,6 +33,8 @@ inline constexpr TopicQos kTopics[] = {
     {"ControlReply", false, false, false, 16, 64},
     {"Status", false, false, false, 4, 64},
     {"SavedState", false, false, false, 64, 64},
+    {"RecoveryRequest", false, false, false, 16, 64},
+    {"RecoveryBlock", false, false, false, 4, 16},
     {"ViewRequest", false, true, true, 1, 1},
     {"RunStatus", false, true, false, 1, 1},
     {"RobotStatus", false, true, false, 1, 64},

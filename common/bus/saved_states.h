@@ -15,24 +15,23 @@ namespace swarmanoid
 class SavedStates
 {
 public:
-  // Tries once whether the role can be saved: what cannot be is said before the first tick. Throws what its SaveState
-  // throws.
+  // Tries once whether the role can be saved. If the run takes checkpoints, it must be, and this throws what its
+  // SaveState throws; if it only keeps a journal, whoever takes the place of this process starts where the run did.
   template <class Role>
-  SavedStates(WorkerSession& session, const std::string& name, const Role& role)
-      : session_(session), name_(name), every_(session.World().checkpoint_every)
+  SavedStates(WorkerSession& session, const std::string& name, const Role& role) : session_(session), name_(name)
   {
-    if (every_ == 0) return;
-    publisher_.emplace(session.GetBus(), session.World().experiment);
+    if (session.World().checkpoint_every == 0 && (!session.World().recorded || !CanSave(role))) return;
     TrySaving(role);
+    publisher_.emplace(session.GetBus(), session.World().experiment);
   }
 
   // Whether the server is there.
   bool Matched() const { return !publisher_ || publisher_->Readers() >= 1; }
-  // The role has stepped and is about to step at `tick`.
+  // The role has stepped and is about to step at `tick`. `wanted`: MessageHeader::save of the step.
   template <class Role>
-  void Ready(std::uint64_t tick, const Role& role)
+  void Ready(std::uint64_t tick, const Role& role, bool wanted)
   {
-    if (!publisher_ || tick % every_ != 0) return;
+    if (!publisher_ || !wanted) return;
     ByteWriter state;
     role.SaveState(state);
     publisher_->Write({session_.World().run, tick, name_, state.Bytes()});
@@ -44,9 +43,22 @@ public:
   }
 
 private:
+  template <class Role>
+  static bool CanSave(const Role& role)
+  {
+    try
+    {
+      TrySaving(role);
+      return true;
+    }
+    catch (const std::exception&)
+    {
+      return false;
+    }
+  }
+
   WorkerSession& session_;
   std::string name_;
-  std::uint64_t every_;
   std::optional<Publisher<SavedStateMessage>> publisher_;
 };
 

@@ -45,6 +45,7 @@ ServerSession::ServerSession(const BusOptions& options, WorldMessage world, std:
   leave_ = std::make_unique<Publisher<LeaveMessage>>(bus_, partition);
   replies_ = std::make_unique<Publisher<ControlReplyMessage>>(bus_, partition);
   worlds_ = std::make_unique<Publisher<WorldMessage>>(bus_, partition);
+  blocks_ = std::make_unique<Publisher<RecoveryBlockMessage>>(bus_, partition);
 }
 
 void ServerSession::Open()
@@ -67,6 +68,19 @@ void ServerSession::Open()
                                                             });
   requests_ = std::make_unique<Subscription<ControlRequestMessage>>(
       bus_, partition, [this](const ControlRequestMessage& request) { Asked(request); });
+  recoveries_ = std::make_unique<Subscription<RecoveryRequestMessage>>(
+      bus_, partition,
+      [this](const RecoveryRequestMessage& request)
+      {
+        if (request.run != world_.run) return;
+        {
+          const auto state = state_.Lock();
+          const auto member = state->members.find(request.name);
+          if (member == state->members.end() || member->second.process != request.process) return;
+          state->recoveries.push_back(request);
+        }
+        callbacks_.changed();
+      });
   worlds_->Write(world_);
 }
 
@@ -74,6 +88,7 @@ void ServerSession::Close()
 {
   bus_.OnBadMessage(nullptr);
   bus_.OnProcessGone(nullptr);
+  recoveries_.reset();
   requests_.reset();
   statuses_.reset();
   leaves_.reset();
@@ -90,6 +105,13 @@ HotScope ServerSession::Scope(std::size_t capacity, unsigned writers) const
 bool ServerSession::IsOf(const Member& member, const std::string& process)
 {
   return member.process.empty() || member.process == process;
+}
+
+bool ServerSession::MayJoinAs(const Member& member, const JoinMessage& join) const
+{
+  if (!awaits_ || member.left) return IsOf(member, join.process);
+  return join.incarnation > member.incarnation ||
+         (join.incarnation == member.incarnation && IsOf(member, join.process));
 }
 
 void ServerSession::Joined(const JoinMessage& join)
@@ -109,8 +131,14 @@ void ServerSession::Joined(const JoinMessage& join)
       state->attached[join.process] = join.name;
       return;
     }
-    taken = IsOf(member->second, join.process);
-    if (taken) std::tie(member->second.process, member->second.ready) = std::tie(join.process, join.ready);
+    taken = MayJoinAs(member->second, join);
+    if (taken)
+    {
+      Member& joined = member->second;
+      if (joined.process != join.process) joined.status = {};
+      std::tie(joined.process, joined.ready, joined.incarnation) = std::tie(join.process, join.ready, join.incarnation);
+      state->replaced |= join.ready && join.incarnation > 0;
+    }
   }
   if (taken) return callbacks_.changed();
   Refuse(join, fmt::format("{} runs already; process {} is one too many", join.name, join.process));
@@ -141,6 +169,15 @@ void ServerSession::MemberLeft(const LeaveMessage& leave)
 
 std::vector<std::string> ServerSession::TakeLeft() { return std::exchange(state_.Lock()->just_left, {}); }
 
+std::vector<std::string> ServerSession::TakeLost() { return std::exchange(state_.Lock()->lost, {}); }
+
+bool ServerSession::TakeReplaced() { return std::exchange(state_.Lock()->replaced, false); }
+
+std::vector<RecoveryRequestMessage> ServerSession::TakeRecoveryRequests()
+{
+  return std::exchange(state_.Lock()->recoveries, {});
+}
+
 void ServerSession::AnswerLeaves()
 {
   // Not in the thread that reads them: what it writes comes to this process too.
@@ -155,6 +192,11 @@ void ServerSession::Lost(const std::string& process, bool died)
     for (auto& [name, member] : state->members)
     {
       if (member.process != process) continue;
+      if (!member.left && !state->over && awaits_)
+      {
+        state->lost.push_back(name);
+        continue;
+      }
       if (!member.left && !state->over)
         state->Fail(fmt::format("{} {} (process {})", name, died ? "does not answer any more" : "has left", process));
       member.left = true;

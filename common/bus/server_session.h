@@ -32,6 +32,9 @@ public:
   // the domain already.
   ServerSession(const BusOptions& options, WorldMessage world, std::vector<std::string> expected, Callbacks callbacks);
   ~ServerSession();
+  // From now on a process that dies does not fail the run: another one with a higher incarnation takes its place.
+  // Before Open.
+  void AwaitReplacements() { awaits_ = true; }
   // Lets others find the run; the callbacks may be called from now on.
   void Open();
   // No callback is called any more.
@@ -53,6 +56,13 @@ public:
   std::optional<std::string> FirstLeft() const;
   // Those expected that have said since the last call that their work is done.
   std::vector<std::string> TakeLeft();
+  // Those expected that have been silent for the lease since the last call, if others may take their places.
+  std::vector<std::string> TakeLost();
+  // Whether one that takes the place of another has become ready since the last call.
+  bool TakeReplaced();
+  // What such processes ask for, and the answer.
+  std::vector<RecoveryRequestMessage> TakeRecoveryRequests();
+  void Answer(const RecoveryBlockMessage& block) { blocks_->Write(block); }
   // Lets those go who said that they leave. To be called again and again by the server's own thread.
   void AnswerLeaves();
   // True once every expected process has left.
@@ -69,6 +79,7 @@ private:
     std::string process;  // empty: not here yet
     bool ready = false;
     bool left = false;
+    std::uint32_t incarnation = 0;
     StatusMessage status;
   };
 
@@ -90,6 +101,9 @@ private:
     std::deque<Request> requests_seen;
     std::vector<std::string> just_left;
     std::vector<LeaveMessage> answers;
+    std::vector<std::string> lost;
+    bool replaced = false;
+    std::vector<RecoveryRequestMessage> recoveries;
     bool over = false;
 
     Request* FindRequest(const ControlRequestMessage& request);
@@ -98,6 +112,7 @@ private:
 
   // Whether the process is the member, or may become it.
   static bool IsOf(const Member& member, const std::string& process);
+  bool MayJoinAs(const Member& member, const JoinMessage& join) const;
   void Asked(const ControlRequestMessage& request);
   void Joined(const JoinMessage& join);
   void MemberLeft(const LeaveMessage& leave);
@@ -108,16 +123,19 @@ private:
   WorldMessage world_;
   std::vector<std::string> expected_;
   Callbacks callbacks_;
+  bool awaits_ = false;
   Guarded<State> state_;
   RunDirectory directory_;
   Bus bus_;
   std::unique_ptr<Publisher<LeaveMessage>> leave_;
   std::unique_ptr<Publisher<ControlReplyMessage>> replies_;
   std::unique_ptr<Publisher<WorldMessage>> worlds_;
+  std::unique_ptr<Publisher<RecoveryBlockMessage>> blocks_;
   std::unique_ptr<Subscription<JoinMessage>> joins_;
   std::unique_ptr<Subscription<StatusMessage>> statuses_;
   std::unique_ptr<Subscription<LeaveMessage>> leaves_;
   std::unique_ptr<Subscription<ControlRequestMessage>> requests_;
+  std::unique_ptr<Subscription<RecoveryRequestMessage>> recoveries_;
 };
 
 }  // namespace swarmanoid

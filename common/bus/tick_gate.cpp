@@ -11,6 +11,7 @@ TickGate::TickGate(std::vector<Part> parts, std::uint64_t first_tick)
     : parts_(std::move(parts)),
       here_(parts_.size(), 0),
       ahead_(parts_.size(), 0),
+      incarnations_(parts_.size(), 0),
       missing_(parts_.size()),
       tick_(first_tick)
 {
@@ -43,6 +44,23 @@ void TickGate::Next()
   std::fill(ahead_.begin(), ahead_.end(), char{0});
   missing_ = static_cast<std::size_t>(std::count(here_.begin(), here_.end(), char{0}));
   ++tick_;
+}
+
+void TickGate::Withdraw(const std::string& name)
+{
+  for (std::size_t part = 0; part < parts_.size(); ++part)
+  {
+    if (parts_[part].name != name || !here_[part]) continue;
+    here_[part] = 0;
+    ++missing_;
+  }
+}
+
+bool TickGate::IsReplaced(std::size_t part, std::uint32_t incarnation)
+{
+  if (incarnation < incarnations_[part]) return true;
+  incarnations_[part] = incarnation;
+  return false;
 }
 
 std::vector<std::string> TickGate::Missing() const

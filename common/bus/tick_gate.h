@@ -35,6 +35,12 @@ public:
   bool Complete() const { return missing_ == 0; }
   // To the next tick.
   void Next();
+  // The first tick is another one; nothing is here yet.
+  void StartAt(std::uint64_t tick) { tick_ = tick; }
+  // The messages of that name that are here have to come again, from whoever takes the place of their sender.
+  void Withdraw(const std::string& name);
+  // Whether a message is of a process that was replaced: one of its part with a higher incarnation was heard.
+  bool IsReplaced(std::size_t part, std::uint32_t incarnation);
 
   std::uint64_t Tick() const { return tick_; }
   bool Has(std::size_t part) const { return here_[part] != 0; }
@@ -44,6 +50,7 @@ private:
   std::vector<Part> parts_;
   std::vector<char> here_;
   std::vector<char> ahead_;  // of the tick after
+  std::vector<std::uint32_t> incarnations_;
   std::size_t missing_ = 0;
   std::uint64_t tick_ = 0;
 };

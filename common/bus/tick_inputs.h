@@ -35,7 +35,7 @@ public:
   {
     std::function<Message*(std::size_t other, std::uint64_t tick)> place;  // where a message is to be put
     std::function<void()> step;                                            // all of tick Tick() is here
-    std::function<void()> answer_again;  // the server has not got the answer to the tick before Tick()
+    std::function<void()> answer_again;  // somebody has not got the answer to the tick before Tick()
   };
 
   TickInputs(WorkerSession& session, Replica& replica, const std::vector<Other>& others)
@@ -47,6 +47,9 @@ public:
       session.Trust(other.part.name);
     }
   }
+
+  // The first step is at another tick. Before Open.
+  void StartAt(std::uint64_t tick) { gate_.StartAt(tick); }
 
   // Messages come from now on. `writers`: of all messages of this kind, no matter for whom they are; `capacity`: bytes
   // of the largest.
@@ -74,6 +77,8 @@ public:
     others_in_.reset();
   }
 
+  // The last state has come: others may have left already.
+  bool Over() const { return over_; }
   // Whether the states of the server can be read, and how many of the other writers have not been found yet.
   bool ServerIsHere() const { return states_in_->Writers() >= 1; }
   unsigned MissingWriters() const
@@ -102,6 +107,8 @@ public:
 
   std::mutex& Mutex() { return mutex_; }
   const SpaceState& State() const { return state_; }
+  // Whether it asks for what the process remembers after the step.
+  bool Saves() const { return saves_; }
   std::uint64_t Tick() const { return gate_.Tick(); }
   // The step of Tick() is done.
   void Next() { gate_.Next(); }
@@ -133,13 +140,19 @@ private:
   {
     const std::lock_guard lock(mutex_);
     if (&state == &repeated_ && header.tick + 1 < gate_.Tick()) return;
-    if (state.last) return session_.Finish(header.tick);
+    if (state.last)
+    {
+      over_ = true;
+      return session_.Finish(header.tick);
+    }
     if (&state == &state_)
     {
+      saves_ = header.save;
       space_.Apply(state_);
       if (gate_.Arrived(0, header.tick)) RunTick();
     }
-    else if (header.tick + 1 == gate_.Tick())
+    else if (header.tick + 1 == gate_.Tick() || header.tick == gate_.Tick())
+      // The server lacks the answer to the tick before, or somebody whom this process waits for lacks it.
       calls_.answer_again();
   }
 
@@ -150,6 +163,7 @@ private:
     const std::size_t other = OtherOf(header);
     if (other == sources_.size()) return nullptr;
     const std::lock_guard lock(mutex_);
+    if (gate_.IsReplaced(1 + other, header.incarnation)) return nullptr;
     return gate_.Offer(1 + other, header.tick) == TickGate::Verdict::kExpected ? calls_.place(other, header.tick)
                                                                                : nullptr;
   }
@@ -186,8 +200,10 @@ private:
   std::mutex mutex_;  // of the gate, the states and all that the calls touch
   TickGate gate_;
   SpaceState state_;
+  bool saves_ = false;
   SpaceState repeated_;
   std::atomic<std::uint64_t> stepping_ = 0;
+  std::atomic<bool> over_ = false;
   StallDetector stall_;  // main thread
   std::optional<HotSubscription<Message>> others_in_;
   std::optional<HotSubscription<SpaceState>> states_in_;

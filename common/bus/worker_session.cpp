@@ -46,8 +46,8 @@ bool IsAlive(pid_t process) { return kill(process, 0) == 0 || errno == EPERM; }
 }  // namespace
 
 WorkerSession::WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name,
-                             std::optional<int> server)
-    : name_(name), bus_(options, name), domain_(options.domain)
+                             std::optional<int> server, unsigned incarnation)
+    : name_(name), incarnation_(incarnation), bus_(options, name), domain_(options.domain)
 {
   bus_.OnProcessGone(
       [this](const std::string& process, const std::string&, bool)
@@ -107,7 +107,7 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
                                                            if (!leave.error.empty()) others_error_ = leave.error;
                                                            changed_.notify_all();
                                                          });
-  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, false});
+  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, false, incarnation_});
 }
 
 WorkerSession::~WorkerSession()
@@ -194,7 +194,10 @@ void WorkerSession::WaitUntil(const std::function<bool()>& met, const std::funct
   }
 }
 
-void WorkerSession::ReportReady() { join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, true}); }
+void WorkerSession::ReportReady()
+{
+  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, true, incarnation_});
+}
 
 void WorkerSession::Finish(std::uint64_t tick)
 {

@@ -25,16 +25,22 @@ public:
   // Waits for the space server of `experiment` (empty: of the first one that is heard), saying so. `name` as in
   // JoinMessage. Throws BusError if its protocol is another one, or when interrupted.
   // `server`: the process on this machine that is expected to be it; BusError if it ends before it is heard.
+  // `incarnation`: how many processes of that name the run has had before this one.
   WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name,
-                std::optional<int> server = std::nullopt);
+                std::optional<int> server = std::nullopt, unsigned incarnation = 0);
   ~WorkerSession();
   // For one who only looks on: to whoever started it, a run that failed elsewhere is a process that failed.
   void LookOn() { looks_on_ = true; }
 
+  const std::string& Name() const { return name_; }
+  bool TakesAPlace() const { return incarnation_ > 0; }
   const WorldMessage& World() const { return world_; }
   Bus& GetBus() { return bus_; }
   HotScope Scope(std::size_t capacity, unsigned writers) const;
-  MessageHeader Header(std::uint64_t tick, std::uint32_t source) const { return {world_.run, tick, source, false}; }
+  MessageHeader Header(std::uint64_t tick, std::uint32_t source) const
+  {
+    return {world_.run, tick, source, false, incarnation_};
+  }
 
   // Waits until `met` is true; after a while it says "waiting for <what>". Throws BusError if the run ends before.
   void WaitUntil(const std::function<bool()>& met, const std::function<std::string()>& what);
@@ -79,6 +85,7 @@ private:
   void Say(const std::string& text) const;
 
   std::string name_;
+  unsigned incarnation_;
   Bus bus_;
   int domain_;
   std::mutex mutex_;

@@ -42,6 +42,10 @@ struct SimulatorOptions
   std::string restore_file;  // the checkpoint to go on from; empty: start at tick 0
   // Take one that other builds of Swarmanoid or of the libraries saved. The bits of the run are then nobody's promise.
   bool any_build = false;
+  // As a cluster: a journal in the output folder, of all that the processes take in. "optional": if it cannot be
+  // written any more the run goes on, but nobody can be replaced then; otherwise it ends.
+  bool journal = true;
+  std::string journal_need = "needed";
   // In one process. Set from a signal handler: the run stops at the end of the tick.
   const std::atomic<bool>* stop = nullptr;
 };
@@ -56,6 +60,10 @@ struct RunSettings : ExperimentChoice, SimulatorOptions
   std::string placement = "auto";  // on processor cores: auto, one-core or spread
   std::string expected_hash;
   bool quiet = false;
+  bool recovery = true;  // processes that die are replaced
+  unsigned retries = 3;  // of one process, while the run does not go on
+  bool Replaces() const { return recovery && journal && retries > 0; }
+  double lease_s = 0;         // silence after which a process counts as dead; 0: the default
   double step_timeout_s = 0;  // that a step of a user's code may take; 0: the environment's limit, or none
   std::string memory_limit;   // of each process, as "2GiB"; empty: the environment's limit, or the default
 };

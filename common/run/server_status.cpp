@@ -61,6 +61,12 @@ struct Form<ServerLeft>
   static constexpr std::tuple fields{&ServerLeft::name};
 };
 template <>
+struct Form<ServerLost>
+{
+  static constexpr std::string_view word = "lost";
+  static constexpr std::tuple fields{&ServerLost::name};
+};
+template <>
 struct Form<ServerFinished>
 {
   static constexpr std::string_view word = "finished";

@@ -1,5 +1,5 @@
 // What the space server tells whoever started it, line by line, on the descriptor of --status-fd: state, tick, stalled,
-// warning, error, left, finished. Writer and reader of each kind come from one description (server_status.cpp).
+// warning, error, left, lost, finished. Writer and reader of each kind come from one description (server_status.cpp).
 #pragma once
 
 #include <cstdint>
@@ -70,6 +70,14 @@ struct ServerLeft
   friend bool operator==(const ServerLeft&, const ServerLeft&) = default;
 };
 
+// "lost NAME": a process has been silent for its lease; another one has to take its place
+struct ServerLost
+{
+  std::string name;
+
+  friend bool operator==(const ServerLost&, const ServerLost&) = default;
+};
+
 // "finished TICKS ENTITIES HASH WALL RTF"
 struct ServerFinished
 {
@@ -82,8 +90,8 @@ struct ServerFinished
   friend bool operator==(const ServerFinished&, const ServerFinished&) = default;
 };
 
-using ServerStatus =
-    std::variant<ServerState, ServerTick, ServerStall, ServerWarning, ServerError, ServerLeft, ServerFinished>;
+using ServerStatus = std::variant<ServerState, ServerTick, ServerStall, ServerWarning, ServerError, ServerLeft,
+                                  ServerLost, ServerFinished>;
 
 // The line, without its end. Line breaks and other control characters in texts become blanks.
 std::string ServerStatusLine(const ServerStatus& status);

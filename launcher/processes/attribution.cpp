@@ -37,6 +37,7 @@ Evidence EvidenceOf(const std::optional<ProcessEnd>& ended, const ActivityRecord
   switch (record.end)
   {
     case EndReason::kFailed:
+    case EndReason::kDied:
       return record.complete ? Evidence::kDeath : Evidence::kFailure;
     case EndReason::kInvalid:
     case EndReason::kInterrupted:
@@ -53,6 +54,26 @@ Evidence EvidenceOf(const std::optional<ProcessEnd>& ended, const ActivityRecord
   if (ended->exit_code != 0) return Evidence::kFailure;
   // A program of ours says that its work is done.
   return record.taken && record.end == EndReason::kUnknown ? Evidence::kDeath : Evidence::kEarlyEnd;
+}
+
+bool MayBeReplaced(const ProcessEnd& ended, const ActivityRecord& record, bool elsewhere)
+{
+  constexpr int kKilledThere = 128;  // and more: by a signal, or the connection has failed
+  switch (record.end)
+  {
+    case EndReason::kDied:
+      return true;
+    case EndReason::kUnknown:
+      return ended.signal != 0 || record.taken || (elsewhere && ended.exit_code >= kKilledThere);
+    default:
+      return false;
+  }
+}
+
+bool DiedAlike(const ActivityRecord& a, const ActivityRecord& b)
+{
+  return a.end == EndReason::kDied && b.end == EndReason::kDied && a.kind == b.kind && a.number == b.number &&
+         a.step == b.step && a.tick == b.tick;
 }
 
 std::string FailureText(const FailedProcess& failed, std::uint64_t server_tick, const ActorNames& actor_of,

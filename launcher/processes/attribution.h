@@ -41,6 +41,12 @@ enum class Evidence
 // `ended`: nothing while the process runs; it may have said already that it failed.
 Evidence EvidenceOf(const std::optional<ProcessEnd>& ended, const ActivityRecord& record);
 
+// Whether a process has died, rather than said what is wrong: another one in its place may get further. `elsewhere`: it
+// was started on another machine.
+bool MayBeReplaced(const ProcessEnd& ended, const ActivityRecord& record, bool elsewhere);
+// Whether both died of the same step of the same code: whoever comes next will, too.
+bool DiedAlike(const ActivityRecord& a, const ActivityRecord& b);
+
 // One line: who failed, how, and at which tick. `actor_of` names who ran in a process that was killed; `server_tick` is
 // that of the run, for processes that say none; `killed_for_memory` as KernelKillsForMemory tells.
 struct FailedProcess

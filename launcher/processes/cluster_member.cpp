@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <utility>
 
 namespace swarmanoid
 {
@@ -21,8 +22,11 @@ std::string_view ReadSome(FileDescriptor& descriptor, std::array<char, 4096>& bu
 
 }  // namespace
 
-ClusterMember::ClusterMember(const MemberPlan& plan, ProcessSpawner& spawner)
-    : plan_(plan), log_(plan.log_path), process_(spawner.Start(plan.command))
+ClusterMember::ClusterMember(const MemberPlan& plan, ProcessSpawner& spawner, unsigned incarnation)
+    : plan_(plan),
+      incarnation_(incarnation),
+      log_(plan.log_path, incarnation > 0),
+      process_(spawner.Start(incarnation > 0 ? plan.replacement(incarnation) : plan.command))
 {
 }
 
@@ -40,7 +44,9 @@ void ClusterMember::ReadOutput(const OnLine& on_line, std::size_t limit)
   }
   // A process that has ended may have left the descriptor to a child of its own: what is there now is all that counts.
   if (limit > 0 && end_) process_.output.Reset();
-  if (OutputClosed()) output_lines_.Finish(take);
+  if (!OutputClosed() || !end_ || std::exchange(output_taken_, true)) return;
+  // Of one that was killed the last line may be half of one.
+  if (end_->signal == 0) output_lines_.Finish(take);
 }
 
 void ClusterMember::ReadErrors()

@@ -29,13 +29,16 @@ struct MemberPlan
   };
   Output output = kLog;
   bool visualiser = false;
+  // What takes its place when it has died, the given number of times; empty if nothing can.
+  std::function<ProcessCommand(unsigned incarnation)> replacement;
 };
 
 class ClusterMember
 {
 public:
   // Starts the process. Throws std::runtime_error if that is impossible.
-  ClusterMember(const MemberPlan& plan, ProcessSpawner& spawner);
+  // `incarnation`: how many processes have died in its place before.
+  ClusterMember(const MemberPlan& plan, ProcessSpawner& spawner, unsigned incarnation = 0);
 
   // Reads what there is, without waiting, and calls on_line for each full line of its standard output unless that goes
   // to the log. At most `limit` bytes.
@@ -48,6 +51,7 @@ public:
   void AddToLog(std::string_view line) { log_.Add(line); }
 
   const MemberPlan& Plan() const { return plan_; }
+  unsigned Incarnation() const { return incarnation_; }
   const std::string& Name() const { return plan_.command.name; }
   const SpawnedProcess& Process() const { return process_; }
   ActivityRecord Record() const { return ReadActivity(process_.activity.get()); }
@@ -56,14 +60,18 @@ public:
   const std::optional<ProcessEnd>& End() const { return end_; }
   // Nothing more will be read from its standard output.
   bool OutputClosed() const { return !process_.output.IsOpen(); }
+  // And on_line has got the last line, too.
+  bool OutputTaken() const { return output_taken_; }
 
 private:
   MemberPlan plan_;
+  unsigned incarnation_;
   ProcessLog log_;
   SpawnedProcess process_;
   LineSplitter output_lines_;
   LineSplitter error_lines_;
   std::optional<ProcessEnd> end_;
+  bool output_taken_ = false;
 };
 
 }  // namespace swarmanoid

@@ -9,7 +9,8 @@
 namespace swarmanoid
 {
 
-ProcessLog::ProcessLog(std::string path) : path_(std::move(path)), file_(std::fopen(path_.c_str(), "we"))
+ProcessLog::ProcessLog(std::string path, bool goes_on)
+    : path_(std::move(path)), file_(std::fopen(path_.c_str(), goes_on ? "ae" : "we"))
 {
   if (!file_) throw std::runtime_error(fmt::format("cannot write the log '{}': {}", path_, std::strerror(errno)));
 }

@@ -15,7 +15,8 @@ class ProcessLog
 {
 public:
   // Throws std::runtime_error if the file cannot be made.
-  explicit ProcessLog(std::string path);
+  // `goes_on`: after what is in it.
+  explicit ProcessLog(std::string path, bool goes_on = false);
 
   void Add(std::string_view line);
   const std::string& Path() const { return path_; }

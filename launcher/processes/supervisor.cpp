@@ -37,13 +37,15 @@ bool TakesMore(int descriptor)
 }  // namespace
 
 Supervisor::Supervisor(ProcessSpawner& spawner, Interrupts& interrupts, ProgressDisplay& display, int screen,
-                       ActorNames actor_of, const SupervisorTimes& times, std::function<Clock::time_point()> now)
+                       ActorNames actor_of, const SupervisorTimes& times, std::function<Clock::time_point()> now,
+                       unsigned retries)
     : spawner_(spawner),
       interrupts_(interrupts),
       display_(display),
       screen_(screen),
       times_(times),
       now_(std::move(now)),
+      retries_(retries),
       actor_of_(std::move(actor_of)),
       kills_for_memory_(KernelKillsForMemory())
 {
@@ -111,7 +113,7 @@ void Supervisor::WaitForEvents()
 void Supervisor::ReadMember(ClusterMember& member)
 {
   member.ReadErrors();
-  if (member.OutputClosed()) return;
+  if (member.OutputTaken()) return;
   switch (member.Plan().output)
   {
     case MemberPlan::kLog:
@@ -119,7 +121,8 @@ void Supervisor::ReadMember(ClusterMember& member)
       break;
     case MemberPlan::kScreen:
       screen_full_ = !screen_gone_ && !TakesMore(screen_);
-      if (!screen_full_) member.ReadOutput([this](std::string_view line) { WriteScreen(line); }, kScreenBytes);
+      if (!screen_full_)
+        member.ReadOutput([this, &member](std::string_view line) { WriteScreen(member, line); }, kScreenBytes);
       break;
     case MemberPlan::kStatus:
       member.ReadOutput(
@@ -180,6 +183,10 @@ void Supervisor::TakeStatus(const ServerStatus& status)
   {
     left_.insert(left->name);
   }
+  else if (const auto* lost = std::get_if<ServerLost>(&status))
+  {
+    KillLost(lost->name);
+  }
   else if (const auto* finished = std::get_if<ServerFinished>(&status))
   {
     if (phase_ == Phase::kDying) return;  // one that has failed already has no result
@@ -202,7 +209,7 @@ void Supervisor::TakeWarning(ClusterMember& member, const ServerWarning& warning
 
 void Supervisor::CollectEnds()
 {
-  std::vector<const ClusterMember*> ended;
+  std::vector<ClusterMember*> ended;
   for (const auto& member : members_)
   {
     pollfd entry{member->Process().end.Get(), POLLIN, 0};
@@ -211,7 +218,8 @@ void Supervisor::CollectEnds()
     ReadMember(*member);
     ended.push_back(member.get());
   }
-  for (const ClusterMember* member : ended) TakeEnd(*member);
+  for (const ClusterMember* member : ended)
+    if (!Replace(*member)) TakeEnd(*member);
 }
 
 void Supervisor::TakeEnd(const ClusterMember& member)
@@ -256,6 +264,46 @@ void Supervisor::TakeEnd(const ClusterMember& member)
   if (outcome_.finished) return;
   ended_.push_back(&member);
   AttributeWithin(is_server ? times_.settle : times_.early_end);
+}
+
+bool Supervisor::Replace(const ClusterMember& member)
+{
+  const ActivityRecord record = member.Record();
+  const bool running = phase_ == Phase::kRunning && server_error_.empty() && members_.front()->Alive();
+  if (!running || !member.Plan().replacement || left_.contains(member.Name())) return false;
+  if (!MayBeReplaced(*member.End(), record, !member.Plan().host.empty())) return false;
+
+  Deaths& deaths = deaths_[member.Name()];
+  if (progress_.tick > deaths.tick) deaths = {};
+  if (deaths.count >= retries_ || DiedAlike(deaths.last, record)) return false;
+  // What the server says of its tick comes late.
+  deaths = {deaths.count + 1, std::max(progress_.tick, record.tick), record};
+
+  const FailedProcess died{member.Name(), member.Plan().host, member.End(), record};
+  display_.Note(fmt::format("{}; another process takes its place",
+                            FailureText(died, progress_.tick, actor_of_, KernelKillsForMemory() > kills_for_memory_)));
+  kills_for_memory_ = KernelKillsForMemory();
+  const auto place =
+      std::find_if(members_.begin(), members_.end(), [&](const auto& candidate) { return candidate.get() == &member; });
+  try
+  {
+    auto next = std::make_unique<ClusterMember>(member.Plan(), spawner_, member.Incarnation() + 1);
+    pids_.push_back(next->Process().pid);
+    *place = std::move(next);
+    return true;
+  }
+  catch (const std::exception& error)
+  {
+    display_.Note(error.what());
+    return false;
+  }
+}
+
+// It may be stopped, or cut off: nobody hears it any more, and it must not come back.
+void Supervisor::KillLost(const std::string& name)
+{
+  for (const auto& member : members_)
+    if (member->Name() == name && member->Alive()) spawner_.Signal(member->Process(), SIGKILL);
 }
 
 void Supervisor::AttributeWithin(std::chrono::milliseconds patience)
@@ -414,8 +462,13 @@ void Supervisor::ShowProgress()
   }
 }
 
-void Supervisor::WriteScreen(std::string_view line)
+// Whoever takes the place of another process begins with what that one has written already.
+void Supervisor::WriteScreen(const ClusterMember& member, std::string_view line)
 {
+  Screen& screen = screens_[member.Name()];
+  if (screen.incarnation != member.Incarnation()) screen = {member.Incarnation(), screen.shown, 0};
+  if (++screen.lines <= screen.shown) return;
+  screen.shown = screen.lines;
   if (screen_gone_) return;
   display_.Clear();
   std::string text(line);

@@ -1,9 +1,11 @@
-// Supervisor: starts the processes of a cluster, watches them until the last one has ended, and says how it went. When
-// one fails, all are stopped at once. Owns the processes; used by the launcher's main thread, which it blocks.
+// Supervisor: starts the processes of a cluster, watches them until the last one has ended, and says how it went. Who
+// dies is replaced by another process; when one fails, or dies again and again, all are stopped at once. Owns the
+// processes; used by the launcher's main thread, which it blocks.
 #pragma once
 
 #include <chrono>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -56,10 +58,11 @@ public:
   using Clock = std::chrono::steady_clock;
 
   // All references outlive the supervisor. `screen`: descriptor that gets what visualisers write to standard output.
-  // `actor_of`: of the experiment. `now`: by which all times are measured.
+  // `actor_of`: of the experiment. `now`: by which all times are measured. `retries`: how often a process is replaced
+  // while the run does not go on.
   Supervisor(ProcessSpawner& spawner, Interrupts& interrupts, ProgressDisplay& display, int screen,
              ActorNames actor_of = {}, const SupervisorTimes& times = {},
-             std::function<Clock::time_point()> now = Clock::now);
+             std::function<Clock::time_point()> now = Clock::now, unsigned retries = 0);
 
   // The first plan is the space server's.
   ClusterOutcome Run(const std::vector<MemberPlan>& plans);
@@ -83,6 +86,9 @@ private:
   void CollectEnds();
   void TakeEnd(const ClusterMember& member);
   void AttributeWithin(std::chrono::milliseconds patience);
+  // Starts another process in the place of one that died; false if that is no use.
+  bool Replace(const ClusterMember& member);
+  void KillLost(const std::string& name);
   // Ends the run by the fault of the process that failed first, if any of those that have ended, or said so, failed.
   void Attribute();
   void TakeInterrupts();
@@ -93,7 +99,7 @@ private:
   void KillAll();
   void SignalAll(int signal);
   void ShowProgress();
-  void WriteScreen(std::string_view line);
+  void WriteScreen(const ClusterMember& member, std::string_view line);
   bool AnyAlive() const;
 
   ProcessSpawner& spawner_;
@@ -103,7 +109,26 @@ private:
   SupervisorTimes times_;
   std::function<Clock::time_point()> now_;
 
+  // Of one name, while the run does not go on.
+  struct Deaths
+  {
+    unsigned count = 0;
+    std::uint64_t tick = 0;
+    ActivityRecord last;
+  };
+
+  // Of one name: lines that the process has written, and those that were shown.
+  struct Screen
+  {
+    unsigned incarnation = 0;
+    std::uint64_t shown = 0;
+    std::uint64_t lines = 0;
+  };
+
   std::vector<std::unique_ptr<ClusterMember>> members_;
+  std::map<std::string, Screen> screens_;
+  unsigned retries_;
+  std::map<std::string, Deaths> deaths_;
   std::vector<pid_t> pids_;
   Phase phase_ = Phase::kRunning;
   ClusterOutcome outcome_;

@@ -6,29 +6,69 @@
 namespace swarmanoid
 {
 
+namespace
+{
+
+using namespace std::chrono_literals;
+
+// Between two states in the journal: whoever takes the place of another process does at most about as much again.
+constexpr auto kSavePeriod = 500ms;
+constexpr std::size_t kWantedKept = 64;
+
+}  // namespace
+
 CheckpointWriter::CheckpointWriter(ServerSession& session, const Experiment& experiment, std::vector<std::string> parts,
-                                   std::uint64_t first_tick, const std::string& folder, std::function<void()> changed)
+                                   std::uint64_t first_tick, const std::string& folder, JournalWriter* journal,
+                                   std::function<void()> changed)
     : every_(session.World().checkpoint_every),
+      period_(experiment.canonical_period),
       run_(session.World().run),
+      first_tick_(first_tick),
       origin_(OriginOf(experiment)),
       parts_(std::move(parts)),
       folder_(folder),
+      journal_(journal),
       changed_(std::move(changed)),
-      sent_(first_tick)
+      saved_(Clock::now())
 {
-  if (every_ == 0) return;
+  if (every_ == 0 && journal_ == nullptr) return;
   states_in_ = std::make_unique<Subscription<SavedStateMessage>>(
       session.GetBus(), session.World().experiment, [this](const SavedStateMessage& message) { Arrived(message); });
 }
 
-void CheckpointWriter::Sending(const SpaceServer& server)
+bool CheckpointWriter::Sending(const SpaceServer& server)
+{
+  const std::uint64_t tick = server.Space().GetTick();
+  if (tick > first_tick_ && (IsOfFile(tick) || (journal_ != nullptr && IsWanted(tick)))) Save(server);
+  const std::uint64_t next = tick + 1;
+  const bool due = journal_ != nullptr && next % period_ == 0 && Clock::now() - saved_ >= kSavePeriod;
+  if (!due && !IsOfFile(next)) return false;
+  saved_ = Clock::now();
+  const std::lock_guard lock(mutex_);
+  wanted_.insert(next);
+  while (wanted_.size() > kWantedKept) wanted_.erase(wanted_.begin());
+  return true;
+}
+
+void CheckpointWriter::Save(const SpaceServer& server)
 {
   SpaceSnapshot snapshot;
   server.WriteSnapshot(snapshot);
+  const bool of_file = IsOfFile(snapshot.tick);
+  if (journal_ != nullptr) journal_->Add(snapshot);
   ByteWriter state;
-  server.SaveState(state);
+  try
+  {
+    server.SaveState(state);
+  }
+  catch (const std::exception&)
+  {
+    if (of_file) throw;
+    return;
+  }
+  if (journal_ != nullptr) journal_->Add(snapshot.tick, {kServerPart, state.Bytes()});
+  if (!of_file) return;
   const std::lock_guard lock(mutex_);
-  sent_ = snapshot.tick;
   Checkpoint& checkpoint = unfinished_[snapshot.tick];
   checkpoint.origin = origin_;
   checkpoint.snapshot = std::move(snapshot);
@@ -39,22 +79,27 @@ void CheckpointWriter::Sending(const SpaceServer& server)
 void CheckpointWriter::Arrived(const SavedStateMessage& message)
 {
   if (message.run != run_) return;
-  const std::lock_guard lock(mutex_);
-  if (!IsDue(message.tick)) throw BadMessage(fmt::format("tick: {} is none of a checkpoint that is due", message.tick));
+  if (!IsWanted(message.tick))
+    throw BadMessage(fmt::format("tick: {} is none at which states are saved", message.tick));
   if (std::find(parts_.begin(), parts_.end(), message.name) == parts_.end())
     throw BadMessage(fmt::format("name: no process '{}' has a part in checkpoints", message.name));
+  if (journal_ != nullptr) journal_->Add(message.tick, {message.name, message.state});
+  if (!IsOfFile(message.tick)) return;
+  const std::lock_guard lock(mutex_);
   Checkpoint& checkpoint = unfinished_[message.tick];
+  // Whoever takes the place of another process may say again what that one said.
   for (const SavedPart& part : checkpoint.parts)
-    if (part.name == message.name) throw BadMessage(fmt::format("name: the part of {} is here already", part.name));
+    if (part.name == message.name) return;
   checkpoint.parts.push_back({message.name, message.state});
   if (IsComplete(checkpoint)) changed_();
 }
 
-// One that the server waits for, or the next one: nobody is more than one checkpoint ahead of the server.
-bool CheckpointWriter::IsDue(std::uint64_t tick) const
+bool CheckpointWriter::IsOfFile(std::uint64_t tick) const { return every_ != 0 && tick % every_ == 0; }
+
+bool CheckpointWriter::IsWanted(std::uint64_t tick) const
 {
-  const std::uint64_t next = (sent_ / every_ + 1) * every_;
-  return tick == next || (tick <= sent_ && unfinished_.contains(tick));
+  const std::lock_guard lock(mutex_);
+  return wanted_.contains(tick);
 }
 
 bool CheckpointWriter::IsComplete(const Checkpoint& checkpoint) const
@@ -89,7 +134,7 @@ std::vector<std::uint64_t> CheckpointWriter::Incomplete() const
   std::vector<std::uint64_t> ticks;
   const std::lock_guard lock(mutex_);
   for (const auto& [tick, checkpoint] : unfinished_)
-    if (tick <= sent_) ticks.push_back(tick);
+    if (checkpoint.snapshot.tick == tick) ticks.push_back(tick);
   return ticks;
 }
 

@@ -11,21 +11,35 @@ namespace swarmanoid
 namespace
 {
 
-std::vector<std::uint32_t> HostsHeard(const Assignment& assignment)
+std::vector<std::uint32_t> HostsHeard(const Assignment& assignment, bool all)
 {
   std::vector<std::uint32_t> hosts;
   for (std::uint32_t h = 0; h < assignment.hosts.size(); ++h)
-    if (ServerHears(assignment.hosts[h])) hosts.push_back(h);
+    if (all || ServerHears(assignment.hosts[h])) hosts.push_back(h);
   return hosts;
 }
 
+std::vector<std::uint32_t> EnginesHeard(const Assignment& assignment, bool any)
+{
+  std::vector<std::uint32_t> engines;
+  for (std::uint32_t e = 0; any && e < assignment.engines.size(); ++e)
+    if (assignment.engines[e].sensor_size > 0) engines.push_back(e);
+  return engines;
+}
+
+std::size_t PlaceIn(const std::vector<std::uint32_t>& numbers, std::uint32_t number)
+{
+  return static_cast<std::size_t>(std::find(numbers.begin(), numbers.end(), number) - numbers.begin());
+}
+
 std::vector<TickGate::Part> Parts(const Experiment& experiment, const std::vector<std::uint32_t>& hosts,
-                                  std::size_t visualisers)
+                                  std::size_t visualisers, const std::vector<std::uint32_t>& sensing)
 {
   std::vector<TickGate::Part> parts;
   for (std::size_t e = 0; e < experiment.engines.size(); ++e) parts.push_back({EngineName(experiment, e)});
   for (const std::uint32_t host : hosts) parts.push_back({HostName(host)});
   for (std::size_t v = 0; v < visualisers; ++v) parts.push_back({VisualiserName(experiment.visualisations[v])});
+  for (const std::uint32_t engine : sensing) parts.push_back({EngineName(experiment, engine)});
   return parts;
 }
 
@@ -33,23 +47,26 @@ std::vector<TickGate::Part> Parts(const Experiment& experiment, const std::vecto
 
 Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
                    const std::string& hash_log, std::function<void(SpaceServer&)> watch, CheckpointWriter& checkpoints,
-                   std::function<void()> stopped)
+                   JournalWriter* journal, std::function<void()> stopped)
     : session_(session),
       server_(server),
       checkpoints_(checkpoints),
+      journal_(journal),
       limits_(server.Space(), assignment),
       first_tick_(server.Space().GetTick()),
-      checkpoint_every_(session.World().checkpoint_every),
       watch_(std::move(watch)),
       stopped_(std::move(stopped)),
       engines_(assignment.engines.size()),
-      hosts_(HostsHeard(assignment)),
+      hosts_(HostsHeard(assignment, journal != nullptr)),
       visualisers_(visualisations ? server.Space().GetExperiment().visualisations.size() : 0),
+      sensing_(EnginesHeard(assignment, journal != nullptr)),
       workers_(static_cast<unsigned>(engines_ + assignment.hosts.size() + visualisers_)),
-      gate_(Parts(server.Space().GetExperiment(), hosts_, visualisers_), first_tick_),
+      gate_(Parts(server.Space().GetExperiment(), hosts_, visualisers_, sensing_), first_tick_),
       updates_(engines_),
       commands_(hosts_.size()),
       drawn_(visualisers_),
+      frames_(journal == nullptr ? 0 : engines_),
+      next_frames_(frames_),
       hash_log_(hash_log),
       states_(session.GetBus(), session.Scope(limits_.StateBytes(), 1))
 {
@@ -72,21 +89,17 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
   if (!hosts_.empty())
     commands_in_.emplace(
         bus, session.Scope(limits_.CommandBytes(), static_cast<unsigned>(assignment.hosts.size())),
-        HotSubscription<ControlCommands>::Handler{
-            [this](const MessageHeader& header) -> ControlCommands*
-            {
-              limits_.CheckSource<ControlCommands>(header);
-              const auto host = std::find(hosts_.begin(), hosts_.end(), header.source);
-              if (host == hosts_.end()) return nullptr;
-              const auto k = static_cast<std::size_t>(host - hosts_.begin());
-              return PlaceOf(header, header.tick, engines_ + k, commands_[k]);
-            },
-            [this](const MessageHeader& header, ControlCommands&)
-            {
-              const auto host = std::find(hosts_.begin(), hosts_.end(), header.source);
-              Arrived(engines_ + static_cast<std::size_t>(host - hosts_.begin()), header.tick);
-            },
-            [this](const MessageHeader& header, const ControlCommands& commands) { limits_.Check(header, commands); }});
+        HotSubscription<ControlCommands>::Handler{[this](const MessageHeader& header) -> ControlCommands*
+                                                  {
+                                                    limits_.CheckSource<ControlCommands>(header);
+                                                    const std::size_t k = PlaceIn(hosts_, header.source);
+                                                    if (k == hosts_.size()) return nullptr;
+                                                    return PlaceOf(header, header.tick, engines_ + k, commands_[k]);
+                                                  },
+                                                  [this](const MessageHeader& header, ControlCommands&)
+                                                  { Arrived(engines_ + PlaceIn(hosts_, header.source), header.tick); },
+                                                  [this](const MessageHeader& header, const ControlCommands& commands)
+                                                  { limits_.Check(header, commands); }});
   if (visualisers_ > 0)
     drawn_in_.emplace(bus, session.Scope(TickLimits::DrawnBytes(), static_cast<unsigned>(visualisers_)),
                       HotSubscription<DrawnMessage>::Handler{
@@ -98,10 +111,26 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
                           },
                           [this](const MessageHeader& header, DrawnMessage&)
                           { Arrived(engines_ + hosts_.size() + header.source, header.tick); }});
+  const std::size_t first = engines_ + hosts_.size() + visualisers_;
+  if (!sensing_.empty())
+    frames_in_.emplace(
+        bus, session.Scope(limits_.FrameBytes(), static_cast<unsigned>(sensing_.size())),
+        HotSubscription<SensorFrame>::Handler{
+            [this, first](const MessageHeader& header) -> SensorFrame*
+            {
+              limits_.CheckSource<SensorFrame>(header);
+              const std::size_t k = PlaceIn(sensing_, header.source);
+              if (k == sensing_.size() || header.tick == 0) return nullptr;
+              return PlaceOf(header, header.tick - 1, first + k, next_frames_[header.source]);
+            },
+            [this, first](const MessageHeader& header, SensorFrame&)
+            { Arrived(first + PlaceIn(sensing_, header.source), header.tick - 1); },
+            [this](const MessageHeader& header, const SensorFrame& frame) { limits_.Check(header, frame); }});
 }
 
 Lockstep::~Lockstep()
 {
+  frames_in_.reset();
   drawn_in_.reset();
   commands_in_.reset();
   updates_in_.reset();
@@ -111,7 +140,8 @@ bool Lockstep::AllMatched() const
 {
   return states_.Readers() >= workers_ && (!updates_in_ || updates_in_->Writers() >= engines_) &&
          (!commands_in_ || commands_in_->Writers() >= hosts_.size()) &&
-         (!drawn_in_ || drawn_in_->Writers() >= visualisers_);
+         (!drawn_in_ || drawn_in_->Writers() >= visualisers_) &&
+         (!frames_in_ || frames_in_->Writers() >= sensing_.size());
 }
 
 template <class Message>
@@ -120,7 +150,8 @@ Message* Lockstep::PlaceOf(const MessageHeader& header, std::uint64_t tick, std:
 {
   if (header.run != session_.World().run) return nullptr;
   const std::lock_guard lock(mutex_);
-  return !held_ && gate_.Offer(*part, tick) == TickGate::Verdict::kExpected ? &place : nullptr;
+  if (held_ || gate_.IsReplaced(*part, header.incarnation)) return nullptr;
+  return gate_.Offer(*part, tick) == TickGate::Verdict::kExpected ? &place : nullptr;
 }
 
 void Lockstep::Arrived(std::size_t part, std::uint64_t tick)
@@ -157,7 +188,9 @@ void Lockstep::Complete()
   }
   for (const ControlCommands& commands : commands_) server_.Check(commands);
   for (const EngineUpdate& update : updates_) server_.Check(update);
+  if (journal_ != nullptr) journal_->AddTick(*sent_, saves_, Frames(), commands_);
   server_.Advance(updates_here_, commands_here_);
+  frames_.swap(next_frames_);
   gate_.Next();
   if (hold_ || watch_ || gate_.Tick() == until_)
   {
@@ -172,16 +205,31 @@ void Lockstep::Send(bool repeated)
 {
   const std::uint64_t tick = server_.Space().GetTick();
   // Whoever goes on from the checkpoint watches this tick again.
-  if (checkpoint_every_ != 0 && !repeated && tick > first_tick_ && tick % checkpoint_every_ == 0)
-    checkpoints_.Sending(server_);
+  if (!repeated) saves_ = checkpoints_.Sending(server_);
   if (watch_ && !repeated) RunCodeOf({Actor::kWatcher}, ActivityStep::kWatch, tick, [&] { watch_(server_); });
   const SpaceState& state = server_.State();
+  sent_ = &state;
   if (hash_log_.IsOpen() && !repeated) hash_log_.Write(state.tick, server_.Space().Hash());
   held_ = false;
-  states_.Write({session_.World().run, state.tick, 0, repeated}, state);
+  states_.Write({session_.World().run, state.tick, 0, repeated, 0, saves_}, state);
   if (!state.last) return;
   finished_ = true;
   stopped_();
+}
+
+// Nobody sends those of the first tick.
+std::span<const SensorFrame> Lockstep::Frames() const
+{
+  if (gate_.Tick() == first_tick_) return {};
+  return frames_;
+}
+
+std::pair<std::uint64_t, std::vector<SensorFrame>> Lockstep::Withdraw(const std::string& name)
+{
+  const std::lock_guard lock(mutex_);
+  gate_.Withdraw(name);
+  const std::span<const SensorFrame> frames = Frames();
+  return {gate_.Tick(), {frames.begin(), frames.end()}};
 }
 
 bool Lockstep::Held() const

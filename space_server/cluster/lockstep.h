@@ -12,6 +12,7 @@
 #include "common/bus/server_session.h"
 #include "common/bus/tick_gate.h"
 #include "common/bus/tick_limits.h"
+#include "common/journal/journal_writer.h"
 #include "common/run/hash_log.h"
 #include "space_server/cluster/checkpoint_writer.h"
 #include "space_server/space_server.h"
@@ -23,10 +24,11 @@ class Lockstep
 {
 public:
   // `watch`, if there is one: called in the main thread before the state of a tick goes out.
+  // `journal`, if there is one: gets all that the processes of a tick took in.
   // `stopped`: called in a thread of the bus when the main thread has to act: the tick is held, or the run failed.
   Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
            const std::string& hash_log, std::function<void(SpaceServer&)> watch, CheckpointWriter& checkpoints,
-           std::function<void()> stopped);
+           JournalWriter* journal, std::function<void()> stopped);
   ~Lockstep();
 
   // Whether all workers' topics have met those of the server.
@@ -52,6 +54,9 @@ public:
   void CloseHashLog();
   // Those whose answer to the current tick is missing.
   std::vector<std::string> Missing() const;
+  // Another process takes the place of `name`: the run does not go on to the next tick without its answer. Returns the
+  // tick, and the sensor frames that engines sent for it.
+  std::pair<std::uint64_t, std::vector<SensorFrame>> Withdraw(const std::string& name);
   // Calls `use` with the server between two steps.
   template <class Use>
   void WithServer(const Use& use)
@@ -63,6 +68,7 @@ public:
 private:
   void Send(bool repeated);
   void Complete();
+  std::span<const SensorFrame> Frames() const;
   template <class Message>
   Message* PlaceOf(const MessageHeader& header, std::uint64_t tick, std::optional<std::size_t> part, Message& place);
   void Arrived(std::size_t part, std::uint64_t tick);
@@ -71,14 +77,15 @@ private:
   mutable std::mutex mutex_;  // of what follows
   SpaceServer& server_;
   CheckpointWriter& checkpoints_;
+  JournalWriter* journal_;
   TickLimits limits_;
   std::uint64_t first_tick_;
-  std::uint64_t checkpoint_every_;
   std::function<void(SpaceServer&)> watch_;
   std::function<void()> stopped_;
   std::size_t engines_ = 0;
   std::vector<std::uint32_t> hosts_;  // that the server hears
   std::size_t visualisers_ = 0;
+  std::vector<std::uint32_t> sensing_;  // engines whose sensor frames the server hears
   unsigned workers_ = 0;
   TickGate gate_;
   std::vector<EngineUpdate> updates_;
@@ -86,6 +93,10 @@ private:
   std::vector<ControlCommands> commands_;
   std::vector<const ControlCommands*> commands_here_;
   std::vector<DrawnMessage> drawn_;
+  std::vector<SensorFrame> frames_;       // of all engines, for the tick
+  std::vector<SensorFrame> next_frames_;  // for the tick after it
+  const SpaceState* sent_ = nullptr;
+  bool saves_ = false;  // the state asks for saved states
   bool held_ = true;
   bool hold_ = false;
   std::uint64_t until_ = 0;
@@ -97,6 +108,7 @@ private:
   std::optional<HotSubscription<EngineUpdate>> updates_in_;
   std::optional<HotSubscription<ControlCommands>> commands_in_;
   std::optional<HotSubscription<DrawnMessage>> drawn_in_;
+  std::optional<HotSubscription<SensorFrame>> frames_in_;
 };
 
 }  // namespace swarmanoid

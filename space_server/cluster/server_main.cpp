@@ -32,7 +32,11 @@ OptionSpec StatusOption(int& descriptor)
 void AddServerOptions(CLI::App& app, ServerOptions& options)
 {
   AddOptions(app, ServerOptionTable(options));
-  AddOptions(app, {StatusOption(options.status_fd)});
+  AddOptions(app, {StatusOption(options.status_fd),
+                   {{.name = "await-replacements",
+                     .type = ParameterType::kBoolean,
+                     .description = "Wait when a process dies: another one is started in its place"},
+                    &options.awaits_replacements}});
   AddOptions(app, BusOptionTable(options.bus));
 }
 

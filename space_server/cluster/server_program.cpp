@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <random>
 
 #include "common/activity/exit_codes.h"
+#include "common/journal/journal_reader.h"
 #include "common/run/run_summary.h"
 #include "common/serialisation/trial.h"
 #include "space_server/cluster/process_liveness.h"
@@ -60,10 +62,13 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
                    { session_.Reply(request, done, tick, text); }),
       pace_(experiment.TickSeconds()),
       checkpoints_(session_, experiment, Expected({}), server_.Space().GetTick(),
-                   options.output_folder.empty() ? "." : options.output_folder, [this] { Wake(); }),
+                   options.output_folder.empty() ? "." : options.output_folder, (OpenJournal(), Journal()),
+                   [this] { Wake(); }),
       lockstep_(session_, server_, assignment_, options.visualisations, options.hash_log, options.watch, checkpoints_,
-                [this] { Wake(); })
+                Journal(), [this] { Wake(); }),
+      recoveries_(session_, lockstep_, Journal())
 {
+  if (options.awaits_replacements && journal_) session_.AwaitReplacements();
   if (status_.IsOpen())
     server_.SetWarningHandler([this](const std::string& text) { status_.Publish(ServerWarning{text}); });
 }
@@ -84,6 +89,7 @@ int ServerProgram::Run()
     NoteEnd(interrupted ? EndReason::kInterrupted : reason_, lockstep_.Tick(),
             complete ? error.what() : fmt::format("space server failed at tick {}: {}", lockstep_.Tick(), error.what()),
             complete);
+    if (journal_) journal_->Flush();
     session_.Leave(lockstep_.Tick(), error.what());
     // Within another program, that one says it.
     if (options_.abandon == nullptr) fmt::print(stderr, "space_server: {}\n", error.what());
@@ -110,12 +116,22 @@ WorldMessage ServerProgram::World()
   CheckCheckpointPeriod(options_.checkpoint_every, experiment_);
   world.checkpoint_every = options_.checkpoint_every;
   if (options_.checkpoint_every != 0) TrySaving(server_);
+  world.recorded = KeepsJournal();
   if (options_.restore_file.empty()) return world;
   const Checkpoint checkpoint =
       ReadCheckpoint(options_.restore_file, experiment_, {assignment_.hosts.size(), options_.any_build});
   checkpoint.LoadPart(kServerPart, [&](ByteReader& state) { server_.LoadState(checkpoint.snapshot, state); });
   world.checkpoint = EncodeCheckpoint(checkpoint);
   return world;
+}
+
+void ServerProgram::OpenJournal()
+{
+  if (!KeepsJournal()) return;
+  const std::string file = JournalFile(options_.output_folder);
+  std::filesystem::create_directories(std::filesystem::path(file).parent_path());
+  const JournalStart start{OriginOf(experiment_), assignment_.hosts.size(), server_.Space().GetTick()};
+  journal_.emplace(file, ContentOf(start), options_.abandon == nullptr);
 }
 
 std::span<const RenderConfiguration> ServerProgram::Visualisers() const
@@ -153,6 +169,7 @@ void ServerProgram::CheckFailures()
   // Whoever started the processes knows that one may end before it can.
   for (const std::string& name : session_.TakeLeft()) status_.Publish(ServerLeft{name});
   session_.AnswerLeaves();
+  HelpReplacements();
   // Asked first: who leaves in good order has the last state, and who does not has failed.
   const std::optional<std::string> left = session_.FirstLeft();
   if (const auto failure = lockstep_.Failure()) throw BusError(*failure);
@@ -171,6 +188,31 @@ void ServerProgram::CheckFailures()
   if (Clock::now() - *broken_since_ <= kBrokenTime) return;
   reason_ = EndReason::kOthers;
   throw BusError("a process died, or was stopped, while it held shared memory of the run");
+}
+
+void ServerProgram::HelpReplacements()
+{
+  for (const std::string& name : session_.TakeLost()) status_.Publish(ServerLost{name});
+  if (const auto trouble = journal_ ? journal_->TakeTrouble() : std::nullopt)
+  {
+    if (options_.journal_need != "optional")
+      throw BusError(*trouble + "; free some room, or let the run go on without it: --journal optional");
+    status_.Publish(ServerWarning{*trouble});
+    Say(*trouble);
+  }
+  try
+  {
+    recoveries_.Work();
+  }
+  catch (const BusError&)
+  {
+    reason_ = EndReason::kOthers;
+    throw;
+  }
+  if (!session_.TakeReplaced() || !started_) return;
+  lockstep_.Repeat();
+  repeated_ = Clock::now();
+  repeat_after_ = kFirstRepeat;
 }
 
 void ServerProgram::Say(const std::string& text) const

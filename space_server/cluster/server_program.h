@@ -20,6 +20,7 @@
 #include "common/run/run_settings.h"
 #include "space_server/cluster/checkpoint_writer.h"
 #include "space_server/cluster/lockstep.h"
+#include "space_server/cluster/recovery_service.h"
 #include "space_server/cluster/view_publisher.h"
 #include "space_server/pace_meter.h"
 #include "space_server/run_control.h"
@@ -31,6 +32,8 @@ namespace swarmanoid
 struct ServerOptions : RunSettings
 {
   int status_fd = -1;
+  // Whoever started the processes starts others in the places of those that die.
+  bool awaits_replacements = false;
   BusOptions bus;
   // Called before the state of each tick goes out, in the thread that runs the program; what it changes through the
   // server is part of the state.
@@ -64,7 +67,12 @@ private:
   bool IsInterrupted() const { return options_.stop != nullptr && *options_.stop; }
   void Wake();
   void Sleep(Clock::time_point until);
+  bool KeepsJournal() const { return options_.journal && !options_.output_folder.empty(); }
+  void OpenJournal();
+  JournalWriter* Journal() { return journal_ ? &*journal_ : nullptr; }
   void CheckFailures();
+  // Those who take the places of others get the journal; the state goes out again for them.
+  void HelpReplacements();
   void Say(const std::string& text) const;
   // Until all processes of the run are there.
   void Collect();
@@ -95,8 +103,10 @@ private:
   ViewPublisher views_;
   RunControl run_control_;
   PaceMeter pace_;
+  std::optional<JournalWriter> journal_;
   CheckpointWriter checkpoints_;
   Lockstep lockstep_;
+  RecoveryService recoveries_;
 
   Clock::time_point start_;
   Clock::time_point end_;

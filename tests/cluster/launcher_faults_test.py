@@ -12,7 +12,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from signals import send_and_wait  # noqa: E402
 
 PROGRAMS = ["space_server", "engine_worker", "controller_host", "visualiser"]
-LONG = ["--ticks", "0", "--hash-log", "hashes", "--output", "out"]
+LONG = ["--ticks", "0", "--hash-log", "hashes", "--output", "out", "--no-recovery"]
 NAMES = {"space_server": "space server", "engine_worker": "engine 'ground'", "controller_host": "controller host 0",
          "visualiser": "visualiser 'positions'"}
 

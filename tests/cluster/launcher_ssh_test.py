@@ -139,7 +139,7 @@ class Ssh(LauncherTest):
     def endless(self, *lines):
         """A run that goes on, with its engine at alpha and its controllers at beta unless said otherwise."""
         hashes = f"hashes{len(self.runs)}"
-        run = self.start_on(self.hosts(*(lines or ("engine = alpha", "controller_host = beta"))), "--real-time", "20", "--ticks", "0",
+        run = self.start_on(self.hosts(*(lines or ("engine = alpha", "controller_host = beta"))), "--no-recovery", "--real-time", "20", "--ticks", "0",
                             "--hash-log", self.folder / hashes)
         self.wait_for_tick(hashes, 3, run)
         return run

@@ -52,13 +52,24 @@ void TryOfTick(std::span<const char> payload)
   if (BytesOf(header_again, again) != bytes || bytes.size() > payload.size()) std::abort();
 }
 
-constexpr void (*kTries[])(std::span<const char>) = {
-    TryOfTick<SpaceState>,         TryOfTick<ControlCommands>, TryOfTick<EngineUpdate>,
-    TryOfTick<SensorFrame>,        TryOfTick<DrawnMessage>,    TryOther<WorldMessage>,
-    TryOther<JoinMessage>,         TryOther<ViewMessage>,      TryOther<ControlRequestMessage>,
-    TryOther<ControlReplyMessage>, TryOther<StatusMessage>,    TryOther<SavedStateMessage>,
-    TryOther<ViewRequestMessage>,  TryOther<RunStatusMessage>, TryOther<RobotStatusMessage>,
-    TryOther<LeaveMessage>};
+constexpr void (*kTries[])(std::span<const char>) = {TryOfTick<SpaceState>,
+                                                     TryOfTick<ControlCommands>,
+                                                     TryOfTick<EngineUpdate>,
+                                                     TryOfTick<SensorFrame>,
+                                                     TryOfTick<DrawnMessage>,
+                                                     TryOther<WorldMessage>,
+                                                     TryOther<JoinMessage>,
+                                                     TryOther<ViewMessage>,
+                                                     TryOther<ControlRequestMessage>,
+                                                     TryOther<ControlReplyMessage>,
+                                                     TryOther<StatusMessage>,
+                                                     TryOther<SavedStateMessage>,
+                                                     TryOther<ViewRequestMessage>,
+                                                     TryOther<RunStatusMessage>,
+                                                     TryOther<RobotStatusMessage>,
+                                                     TryOther<LeaveMessage>,
+                                                     TryOther<RecoveryRequestMessage>,
+                                                     TryOther<RecoveryBlockMessage>};
 
 fuzz::Input InputOf(std::uint8_t topic, const std::string& payload)
 {
@@ -106,6 +117,7 @@ std::vector<fuzz::Input> fuzz::FirstInputs()
                            0.1,
                            100,
                            {'a', 'b'},
+                           false,
                            {{"fb", "footbot", true, 0}}};
   return {InputOf(0, BytesOf(header, state)),
           InputOf(1, BytesOf(header, commands)),
@@ -122,7 +134,9 @@ std::vector<fuzz::Input> fuzz::FirstInputs()
           InputOf(12, BytesOf(ViewRequestMessage{"host:1", 5, 30, true, {1, 2}})),
           InputOf(13, BytesOf(status)),
           InputOf(14, BytesOf(robots)),
-          InputOf(15, BytesOf(LeaveMessage{5, 7, "engine 'ground'", "", "über"}))};
+          InputOf(15, BytesOf(LeaveMessage{5, 7, "engine 'ground'", "", "über"})),
+          InputOf(16, BytesOf(RecoveryRequestMessage{5, "host:1", "engine 'ground'", 2})),
+          InputOf(17, BytesOf(RecoveryBlockMessage{5, "host:1", 2, 7, {'a', 'b'}}))};
 }
 
 }  // namespace swarmanoid

@@ -102,7 +102,7 @@ class OwnSimulator(OutsideTest):
     def test_another_failure_meanwhile_stays_the_headline(self):
         """The function of the program does not return, and a process of its cluster dies."""
         output = self.folder / "run"
-        run = subprocess.Popen([BUILT / "simulation", self.experiment(ticks=TICKS), "--output", output, "--quiet"],
+        run = subprocess.Popen([BUILT / "simulation", self.experiment(ticks=TICKS), "--output", output, "--quiet", "--no-recovery"],
                                cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                env=self.environment({"OUTSIDE_FAULT": "watch loop 7", "OUTSIDE_FAULT_TIME": str(self.folder / "stuck")}))
         while not (self.folder / "stuck").exists():

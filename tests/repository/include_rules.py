@@ -19,6 +19,7 @@ COMMON = [
     ["common/messages"],
     ["common/space"],
     ["common/checkpoint"],
+    ["common/journal"],
     ["common/bus"],
 ]
 ROLES = ["space_server", "engine_worker", "controller_host", "visualiser"]

@@ -12,14 +12,14 @@ constexpr double kViewsWhilePaused = 30;  // a second
 }  // namespace
 
 SynchronousNode::SynchronousNode(WorkerSession& session, Replica& replica, std::size_t number, Visualiser& visualiser,
-                                 ExperimentControl& control, RemoteMonitor& monitor)
+                                 ExperimentControl& control, RemoteMonitor& monitor, std::uint64_t first_tick)
     : session_(session),
       replica_(replica),
       number_(static_cast<std::uint32_t>(number)),
       visualiser_(visualiser),
       control_(control),
       monitor_(monitor),
-      next_(replica.FirstTick()),
+      next_(first_tick),
       drawn_(session.GetBus(), session.Scope(TickLimits::DrawnBytes(), 1)),
       states_in_(session.GetBus(), session.Scope(replica.limits->StateBytes(), 1),
                  {[this](const MessageHeader& header) { return PlaceOfState(header); },

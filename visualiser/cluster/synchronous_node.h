@@ -17,7 +17,7 @@ class SynchronousNode
 {
 public:
   SynchronousNode(WorkerSession& session, Replica& replica, std::size_t number, Visualiser& visualiser,
-                  ExperimentControl& control, RemoteMonitor& monitor);
+                  ExperimentControl& control, RemoteMonitor& monitor, std::uint64_t first_tick);
 
   void WaitForServer();
   // Called in the main thread when a state has come, and now and then.

@@ -98,6 +98,7 @@ TEST(BadMessages, CutAnywhereAreRefused)
                                                  0.1,
                                                  0,
                                                  {'a', 'b'},
+                                                 false,
                                                  {{"fb", "footbot", true, 0}}});
   EXPECT_EQ(Refusal<WorldMessage>(world), "");
   for (std::size_t length = 0; length < world.size(); ++length)
@@ -167,7 +168,7 @@ TEST(BadMessages, SlotsThatDoNotAscendAreRefused)
 TEST(BadMessages, FlagsAndValuesThatMeanNothingAreRefused)
 {
   std::string bytes = SampleBytes();
-  Put(bytes, kFlags, 4U);
+  Put(bytes, kFlags, 8U);
   EXPECT_THAT(TickRefusal<SpaceState>(bytes), HasSubstr("flags"));
   std::string drawn = BytesOf(MessageHeader{}, DrawnMessage{true});
   Put(drawn, 4 + 20, 0x80000001U);
@@ -227,7 +228,7 @@ TEST(Messages, OfAnotherVersionTellItWhateverElseTheyHold)
   for (const std::uint32_t version : {kProtocolVersion - 1, kProtocolVersion + 1})
   {
     std::string bytes =
-        BytesOf(WorldMessage{version, 1, "experiment", "host", 2, "", "", "", 3, 1, false, 0, 0, {}, {}});
+        BytesOf(WorldMessage{version, 1, "experiment", "host", 2, "", "", "", 3, 1, false, 0, 0, {}, false, {}});
     bytes.resize(bytes.size() - 20);
     WorldMessage world;
     ReadPayload<WorldMessage>(bytes, world);

@@ -92,7 +92,8 @@ void ExpectSame(const MessageHeader& header, const Message& message, Wire& wire)
 {
   wire.run(header.run);
   wire.tick(header.tick);
-  wire.source(header.source);
+  wire.source(static_cast<std::uint16_t>(header.source));
+  wire.incarnation(static_cast<std::uint16_t>(header.incarnation));
   const std::string theirs = GeneratedBytes<Support>(wire);
   ASSERT_EQ(OurBytes(header, message), theirs);
   MessageHeader seen;
@@ -104,7 +105,8 @@ void ExpectSame(const MessageHeader& header, const Message& message, Wire& wire)
 
 MessageHeader RandomHeader(Random& random)
 {
-  return {random.Number(), random.Number(), random.Number32(), random.Flag()};
+  return {random.Number(), random.Number(),           random.Number32() % 65536,
+          random.Flag(),   random.Number32() % 65536, random.Flag()};
 }
 
 AttributeChanges RandomChanges(Random& random)
@@ -125,6 +127,7 @@ TEST(MessageConstants, AreThoseOfTheIdl)
   EXPECT_EQ(kFlagLast, wire::FLAG_LAST);
   EXPECT_EQ(kFlagTerminate, wire::FLAG_TERMINATE);
   EXPECT_EQ(kFlagRepeated, wire::FLAG_REPEATED);
+  EXPECT_EQ(kFlagSave, wire::FLAG_SAVE);
   EXPECT_EQ(static_cast<std::uint32_t>(RunStatus::Phase::kWaiting), wire::PHASE_WAITING);
   EXPECT_EQ(static_cast<std::uint32_t>(RunStatus::Phase::kRunning), wire::PHASE_RUNNING);
   EXPECT_EQ(static_cast<std::uint32_t>(RunStatus::Phase::kPaused), wire::PHASE_PAUSED);
@@ -144,7 +147,7 @@ TEST(MessageBytes, OfATickAreThoseOfTheIdl)
     state.moved = random.Ascending();
     wire::SpaceState wire_state;
     wire_state.poses(state.poses);
-    wire_state.flags(FlagsOf(state.last, header.repeated));
+    wire_state.flags(FlagsOf(state.last, header.repeated) | (header.save ? wire::FLAG_SAVE : 0U));
     wire_state.attribute_values(state.attributes.values);
     wire_state.attribute_slots(state.attributes.slots);
     wire_state.moved(state.moved);
@@ -203,6 +206,7 @@ TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
         random.Real(),
         random.Number(),
         random.Bytes(),
+        random.Flag(),
         std::vector<WorldEntity>(random.Length(), {random.Text(), random.Text(), random.Flag(), random.Number32()})};
     wire::World wire_world;
     wire_world.protocol(world.protocol);
@@ -219,6 +223,7 @@ TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
     wire_world.tick_seconds(world.tick_seconds);
     wire_world.checkpoint_every(world.checkpoint_every);
     wire_world.checkpoint().assign(world.checkpoint.begin(), world.checkpoint.end());
+    wire_world.recorded(world.recorded);
     for (const WorldEntity& entity : world.entities)
     {
       wire_world.entities().emplace_back();
@@ -229,13 +234,15 @@ TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
     }
     ExpectSame<wire::WorldPubSubType>(world, wire_world);
 
-    const JoinMessage join{random.Text(), kProtocolVersion, random.Number(), random.Text(), random.Flag()};
+    const JoinMessage join{random.Text(), kProtocolVersion, random.Number(),
+                           random.Text(), random.Flag(),    random.Number32()};
     wire::Join wire_join;
     wire_join.process(join.process);
     wire_join.protocol(join.protocol);
     wire_join.run(join.run);
     wire_join.name(join.name);
     wire_join.ready(join.ready);
+    wire_join.incarnation(join.incarnation);
     ExpectSame<wire::JoinPubSubType>(join, wire_join);
 
     const LeaveMessage leave{random.Number(), random.Number(), random.Text(), random.Text(), random.Text()};
@@ -262,6 +269,24 @@ TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
     wire_saved.name(saved.name);
     wire_saved.state().assign(saved.state.begin(), saved.state.end());
     ExpectSame<wire::SavedStatePubSubType>(saved, wire_saved);
+
+    const RecoveryRequestMessage request{random.Number(), random.Text(), random.Text(), random.Number32()};
+    wire::RecoveryRequest wire_request;
+    wire_request.run(request.run);
+    wire_request.process(request.process);
+    wire_request.name(request.name);
+    wire_request.number(request.number);
+    ExpectSame<wire::RecoveryRequestPubSubType>(request, wire_request);
+
+    const RecoveryBlockMessage block{random.Number(), random.Text(), random.Number32(), random.Number32(),
+                                     random.Bytes()};
+    wire::RecoveryBlock wire_block;
+    wire_block.run(block.run);
+    wire_block.process(block.process);
+    wire_block.number(block.number);
+    wire_block.count(block.count);
+    wire_block.block().assign(block.block.begin(), block.block.end());
+    ExpectSame<wire::RecoveryBlockPubSubType>(block, wire_block);
   }
 }
 

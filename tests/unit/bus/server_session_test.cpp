@@ -4,7 +4,7 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "tests/eventually.h"
 #include "tests/unit/bus/server_fixture.h"
@@ -75,6 +75,58 @@ TEST_F(ServerSessionTest, IsReadWhileProcessesComeAndTellWhatTheyDo)
   done = true;
   readers.clear();
   EXPECT_EQ(torn, 0);
+}
+
+// Another process takes the place of one that was lost; the old one is told to end when it comes back.
+TEST_F(ServerSessionTest, AReplacementIsTakenAndItsPredecessorRefused)
+{
+  ServerSession session(options_, world_, {"engine 'ground'"}, {[](const auto&) {}, [] {}, [](const auto&) {}});
+  session.AwaitReplacements();
+  session.Open();
+  Bus others(options_, "others");
+  Publisher<JoinMessage> join(others, "session");
+  Publisher<RecoveryRequestMessage> requests(others, "session");
+  std::mutex mutex;
+  std::vector<std::string> refused;
+  const Subscription<LeaveMessage> leaves(others, "session",
+                                          [&](const LeaveMessage& leave)
+                                          {
+                                            const std::lock_guard lock(mutex);
+                                            if (!leave.error.empty()) refused.push_back(leave.process);
+                                          });
+  const auto process = [&] { return session.Processes().front().process; };
+  join.Write({"old", kProtocolVersion, world_.run, "engine 'ground'", true, 0});
+  ASSERT_TRUE(Eventually([&] { return process() == "old"; }));
+  EXPECT_FALSE(session.TakeReplaced());
+
+  join.Write({"new", kProtocolVersion, world_.run, "engine 'ground'", false, 1});
+  ASSERT_TRUE(Eventually([&] { return process() == "new"; }));
+  EXPECT_THAT(session.Missing(), testing::ElementsAre("engine 'ground'"));
+  EXPECT_FALSE(session.TakeReplaced());
+  join.Write({"new", kProtocolVersion, world_.run, "engine 'ground'", true, 1});
+  ASSERT_TRUE(Eventually([&] { return session.TakeReplaced(); }));
+
+  const auto told = [&]
+  {
+    join.Write({"old", kProtocolVersion, world_.run, "engine 'ground'", true, 0});
+    const std::lock_guard lock(mutex);
+    return !refused.empty();
+  };
+  ASSERT_TRUE(Eventually(told));
+  EXPECT_EQ(refused.front(), "old");
+  EXPECT_EQ(process(), "new");
+
+  std::vector<RecoveryRequestMessage> asked;
+  const auto ask = [&]
+  {
+    requests.Write({world_.run, "old", "engine 'ground'", 3});
+    requests.Write({world_.run, "new", "engine 'ground'", 4});
+    for (RecoveryRequestMessage& request : session.TakeRecoveryRequests()) asked.push_back(request);
+    return !asked.empty();
+  };
+  ASSERT_TRUE(Eventually(ask));
+  for (const RecoveryRequestMessage& request : asked) EXPECT_EQ(request.process, "new");
+  EXPECT_FALSE(session.Failure());
 }
 
 // Users ask from threads of the bus, the server answers from its own: each request is passed on once, and all are

@@ -23,6 +23,24 @@ TEST(TickGate, CompletesWhenEveryPartIsHereInWhateverOrder)
   EXPECT_EQ(gate.Missing().size(), 3U);
 }
 
+TEST(TickGate, WaitsAgainForWhoeverIsReplacedAndHearsTheOldOneNoMore)
+{
+  TickGate gate({{"engine"}, {"host"}, {"engine"}});
+  gate.StartAt(7);
+  EXPECT_FALSE(gate.IsReplaced(0, 0));
+  gate.Arrived(0, 7);
+  gate.Arrived(2, 7);
+  gate.Withdraw("engine");
+  gate.Withdraw("engine");
+  EXPECT_FALSE(gate.Arrived(1, 7));
+  EXPECT_THAT(gate.Missing(), testing::ElementsAre("engine", "engine"));
+  EXPECT_FALSE(gate.IsReplaced(0, 1));
+  EXPECT_TRUE(gate.IsReplaced(0, 0)) << "it comes back";
+  EXPECT_FALSE(gate.IsReplaced(1, 0));
+  EXPECT_FALSE(gate.Arrived(0, 7));
+  EXPECT_TRUE(gate.Arrived(2, 7));
+}
+
 TEST(TickGate, KnowsRepetitions)
 {
   TickGate gate({{"a"}, {"b"}});

@@ -82,6 +82,14 @@ protected:
     Add("space_server", "echo $$ > " + Mark("server") + "; " + script, MemberPlan::kStatus);
   }
 
+  // What takes the place of the process that was added last; `script` may use $1, which is its incarnation.
+  void ReplaceBy(const std::string& script)
+  {
+    plans_.back().replacement = [script](unsigned incarnation) {
+      return ProcessCommand{"", {"/bin/sh", "-c", script, "sh", std::to_string(incarnation)}, {}, {}};
+    };
+  }
+
   // Scripts, and the test itself, tell one another how far they are by files.
   std::string Mark(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
   std::string Tell(const std::string& name) const { return "touch " + Mark(name) + "; "; }
@@ -128,7 +136,8 @@ protected:
   ClusterOutcome Run()
   {
     ProgressDisplay display(ProgressDisplay::Style::kQuiet, 2);
-    Supervisor supervisor(spawner_, interrupts_, display, screen_write_.Get(), {}, times_, [this] { return Now(); });
+    Supervisor supervisor(
+        spawner_, interrupts_, display, screen_write_.Get(), {}, times_, [this] { return Now(); }, retries_);
     const Clock::time_point start = Clock::now();
     ClusterOutcome outcome = supervisor.Run(plans_);
     EXPECT_LT(Clock::now() - start, kGenerous) << "it waited for a process that never ends";
@@ -156,6 +165,7 @@ protected:
   Interrupts interrupts_;  // first: threads of the tests must not get the signals
   std::filesystem::path folder_;
   SupervisorTimes times_;
+  unsigned retries_ = 0;
   int looks_ = 0;  // at the clock, since an hour passed
   SystemSpawner spawner_;
   std::vector<MemberPlan> plans_;
@@ -183,6 +193,62 @@ TEST_F(SupervisorTest, NamesTheKilledProcessItsTickAndItsLog)
   EXPECT_EQ(outcome.reason, "engine_worker ground was killed by signal 9 (Killed) at tick 7; its log is " +
                                 (folder_ / "engine_worker ground.log").string());
   EXPECT_EQ(outcome.log_lines, std::vector<std::string>{"about to die"});
+}
+
+TEST_F(SupervisorTest, AnotherProcessTakesThePlaceOfOneThatWasKilled)
+{
+  retries_ = 1;
+  AddServer("echo state running; echo tick 7 100 2.5; " + Tell("running") + Await("second") + kFinishing);
+  Add("engine_worker ground", Await("running") + "echo the first; kill -9 $$");
+  ReplaceBy("echo incarnation $1; " + Tell("second"));
+  const ClusterOutcome outcome = Run();
+  EXPECT_EQ(outcome.kind, ClusterOutcome::kFinished) << outcome.reason;
+  EXPECT_EQ(LogText("engine_worker ground"), "the first\nincarnation 1\n");
+}
+
+TEST_F(SupervisorTest, OneThatDiesAgainAndAgainWithoutATickBetweenEndsTheRun)
+{
+  retries_ = 3;
+  AddServer(Running());
+  Add("engine_worker ground", Await("running") + "sleep 0.1; kill -9 $$");
+  ReplaceBy("echo incarnation $1; kill -9 $$");
+  const ClusterOutcome outcome = Run();
+  EXPECT_EQ(outcome.kind, ClusterOutcome::kFailed);
+  EXPECT_TRUE(outcome.reason.starts_with("engine_worker ground was killed by signal 9 (Killed) at tick 7; its log is "))
+      << outcome.reason;
+  EXPECT_EQ(LogText("engine_worker ground"), "incarnation 1\nincarnation 2\nincarnation 3\n");
+}
+
+TEST_F(SupervisorTest, OneThatIsLostIsKilledAndReplaced)
+{
+  retries_ = 1;
+  AddServer("echo state running; " + Await("stopped") + "echo lost engine_worker ground; " + Await("second") +
+            kFinishing);
+  Add("engine_worker ground", Tell("stopped") + "kill -STOP $$; " + Tell("came back"));
+  ReplaceBy(Tell("second"));
+  EXPECT_EQ(Run().kind, ClusterOutcome::kFinished);
+  EXPECT_FALSE(IsTold("came back"));
+}
+
+TEST_F(SupervisorTest, OneThatSaysWhatIsWrongIsNotReplaced)
+{
+  retries_ = 3;
+  times_.settle = milliseconds(60);
+  AddServer(Running());
+  Add("engine_worker ground", Await("running") + "exit 4");
+  ReplaceBy(Tell("second"));
+  EXPECT_EQ(Run().kind, ClusterOutcome::kFailed);
+  EXPECT_FALSE(IsTold("second"));
+}
+
+TEST_F(SupervisorTest, WhatIsOnTheScreenAlreadyIsNotShownAgain)
+{
+  retries_ = 1;
+  AddServer("echo state running; " + Await("second") + kFinishing);
+  Add("visualiser", "echo one; echo two; printf half; sleep 0.2; kill -9 $$", MemberPlan::kScreen);
+  ReplaceBy("echo one; echo two; echo half and half; " + Tell("second"));
+  EXPECT_EQ(Run().kind, ClusterOutcome::kFinished);
+  EXPECT_EQ(ScreenText(), "one\ntwo\nhalf and half\n");
 }
 
 TEST_F(SupervisorTest, StopsProcessesThatIgnoreSigterm)

@@ -1,0 +1,34 @@
+// How a process takes the place of another one that has died: the server sends it, block by block, what the other one
+// took in since the newest tick at which its state was saved, and it does the same again, without a word to anybody.
+// Used by the programs of engines, hosts and visualisers before their first step.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "common/bus/replica.h"
+#include "common/bus/worker_session.h"
+#include "common/journal/tick_records.h"
+
+namespace swarmanoid
+{
+
+struct RecoverySteps
+{
+  std::function<void()> begin;                    // from where the run began, since no state was saved
+  std::function<void(ByteReader& state)> load;    // from a saved state
+  std::function<void(const TickRecord&)> step{};  // the space has the state of the record
+  std::function<void(const std::vector<SensorFrame>&)>
+      frames{};  // of the tick that comes next; none if it is the first
+};
+
+// Until the tick that the run waits at, which is returned. Throws BusError.
+std::uint64_t Recover(WorkerSession& session, Replica& replica, const RecoverySteps& steps);
+
+// Whether both are the same to the last bit.
+bool SameBits(const std::vector<double>& a, const std::vector<double>& b);
+// The process is not the one that it takes the place of: it computed something else.
+[[noreturn]] void RefuseRecovery(const std::string& name, std::uint64_t tick, const std::string& what);
+
+}  // namespace swarmanoid

@@ -1,0 +1,89 @@
+#include "common/journal/journal_format.h"
+
+#include <fmt/format.h>
+#include <zstd.h>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <cstring>
+#include <stdexcept>
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr std::size_t kChecksumAt = kJournalHeaderBytes - sizeof(std::uint64_t);
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 36U;  // 64 GiB
+constexpr int kLevel = 1;                                      // of zstd: more gains nothing on differences
+
+template <class Number>
+void PutAt(std::span<char> bytes, std::size_t at, Number number)
+{
+  std::memcpy(bytes.data() + at, &number, sizeof number);
+}
+
+template <class Number>
+Number NumberAt(std::span<const char> bytes, std::size_t at)
+{
+  Number number;
+  std::memcpy(&number, bytes.data() + at, sizeof number);
+  return number;
+}
+
+std::uint64_t ChecksumOf(std::span<const char> block)
+{
+  return XXH3_64bits_withSeed(block.data() + kJournalHeaderBytes, block.size() - kJournalHeaderBytes,
+                              XXH3_64bits(block.data(), kChecksumAt));
+}
+
+}  // namespace
+
+std::vector<char> EncodeJournalBlock(JournalBlockKind kind, std::uint64_t first_tick, std::uint32_t ticks,
+                                     std::span<const char> content)
+{
+  std::vector<char> block(kJournalHeaderBytes + ZSTD_compressBound(content.size()));
+  const std::size_t stored = ZSTD_compress(block.data() + kJournalHeaderBytes, block.size() - kJournalHeaderBytes,
+                                           content.data(), content.size(), kLevel);
+  if (ZSTD_isError(stored) != 0)
+    throw std::runtime_error(fmt::format("cannot compress {} bytes: {}", content.size(), ZSTD_getErrorName(stored)));
+  block.resize(kJournalHeaderBytes + stored);
+  std::memcpy(block.data(), kJournalMagic.data(), kJournalMagic.size());
+  block[kJournalMagic.size()] = kJournalVersion;
+  PutAt(block, 8, static_cast<std::uint32_t>(kind));
+  PutAt(block, 12, ticks);
+  PutAt(block, 16, first_tick);
+  PutAt(block, 24, std::uint64_t{content.size()});
+  PutAt(block, 32, std::uint64_t{stored});
+  PutAt(block, kChecksumAt, ChecksumOf(block));
+  return block;
+}
+
+std::optional<JournalBlockHeader> JournalBlockAt(std::span<const char> bytes, std::uint64_t left)
+{
+  if (bytes.size() < kJournalHeaderBytes || left < kJournalHeaderBytes) return std::nullopt;
+  if (std::string_view(bytes.data(), kJournalMagic.size()) != kJournalMagic) return std::nullopt;
+  if (bytes[kJournalMagic.size()] != kJournalVersion) return std::nullopt;
+  const JournalBlockHeader header{static_cast<JournalBlockKind>(NumberAt<std::uint32_t>(bytes, 8)),
+                                  NumberAt<std::uint32_t>(bytes, 12), NumberAt<std::uint64_t>(bytes, 16),
+                                  NumberAt<std::uint64_t>(bytes, 24), NumberAt<std::uint64_t>(bytes, 32)};
+  if (header.content_bytes > kMostBytes || header.stored_bytes > left - kJournalHeaderBytes) return std::nullopt;
+  return header;
+}
+
+std::vector<char> JournalContent(std::span<const char> block)
+{
+  const auto header = JournalBlockAt(block, block.size());
+  if (!header || block.size() != kJournalHeaderBytes + header->stored_bytes ||
+      NumberAt<std::uint64_t>(block, kChecksumAt) != ChecksumOf(block))
+    throw std::runtime_error("a block of the journal is damaged");
+  std::vector<char> content(header->content_bytes);
+  const std::size_t bytes =
+      ZSTD_decompress(content.data(), content.size(), block.data() + kJournalHeaderBytes, header->stored_bytes);
+  if (ZSTD_isError(bytes) != 0 || bytes != content.size())
+    throw std::runtime_error("a block of the journal does not hold what it says");
+  return content;
+}
+
+}  // namespace swarmanoid

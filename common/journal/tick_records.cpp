@@ -1,0 +1,261 @@
+#include "common/journal/tick_records.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr std::uint8_t kLast = 1;
+constexpr std::uint8_t kSave = 2;
+
+// Differences of the bits of doubles, small ones of either sign as small numbers.
+std::uint64_t Folded(std::uint64_t difference) { return (difference << 1U) ^ (0 - (difference >> 63U)); }
+std::uint64_t Unfolded(std::uint64_t folded) { return (folded >> 1U) ^ (0 - (folded & 1U)); }
+
+// What the two rows before let expect of a number: that it goes on as before, or if it is no pose, that it stays.
+double Expected(const double* column, std::size_t tick, std::size_t row, bool moves)
+{
+  if (tick == 0) return 0;
+  const double before = column[(tick - 1) * row];
+  if (!moves || tick == 1) return before;
+  return before + (before - column[(tick - 2) * row]);
+}
+
+void Put(ByteWriter& bytes, const AttributeChanges& changes)
+{
+  bytes.PutArray(changes.slots);
+  bytes.PutArray(changes.values);
+}
+
+void Get(ByteReader& bytes, AttributeChanges& changes)
+{
+  changes.slots = bytes.GetArray<std::uint32_t>();
+  changes.values = bytes.GetArray<double>();
+}
+
+}  // namespace
+
+bool TickRows::Add(const SpaceState& state, bool save, std::span<const SensorFrame> frames,
+                   std::span<const ControlCommands> commands)
+{
+  std::size_t others = 0;
+  for (const SensorFrame& frame : frames) others += frame.values.size();
+  for (const ControlCommands& command : commands) others += command.values.size();
+  if (ticks_ == 0)
+  {
+    first_tick_ = state.tick;
+    poses_ = state.poses.size();
+    others_ = others;
+  }
+  else if (poses_ != state.poses.size() || others_ != others || state.tick != first_tick_ + ticks_)
+    return false;
+  ++ticks_;
+  numbers_.insert(numbers_.end(), state.poses.begin(), state.poses.end());
+  rest_.Put(static_cast<std::uint8_t>((state.last ? kLast : 0) | (save ? kSave : 0)));
+  Put(rest_, state.attributes);
+  rest_.PutArray(state.moved);
+  rest_.Put(static_cast<std::uint32_t>(frames.size()));
+  for (const SensorFrame& frame : frames)
+  {
+    numbers_.insert(numbers_.end(), frame.values.begin(), frame.values.end());
+    rest_.Put(static_cast<std::uint64_t>(frame.values.size()));
+  }
+  rest_.Put(static_cast<std::uint32_t>(commands.size()));
+  for (const ControlCommands& command : commands)
+  {
+    numbers_.insert(numbers_.end(), command.values.begin(), command.values.end());
+    rest_.Put(static_cast<std::uint64_t>(command.values.size()));
+    Put(rest_, command.attributes);
+  }
+  return true;
+}
+
+void TickRows::Clear()
+{
+  ticks_ = 0;
+  numbers_.clear();
+  rest_.Clear();
+}
+
+std::vector<char> TickRows::Content() const
+{
+  const std::size_t row = poses_ + others_;
+  const std::span<const char> rest = rest_.Bytes();
+  const std::array<std::uint64_t, 4> head{first_tick_, ticks_, poses_, row * ticks_};
+  const std::uint64_t rest_bytes = rest.size();
+  std::vector<char> content(sizeof head + row * ticks_ * sizeof(double) + sizeof rest_bytes + rest.size());
+  std::memcpy(content.data(), head.data(), sizeof head);
+  char* const columns = content.data() + sizeof head;
+  // As many numbers of a row at a time as a line of the cache has.
+  constexpr std::size_t kTogether = 8;
+  for (std::size_t first = 0; first < row; first += kTogether)
+    for (std::size_t tick = 0; tick < ticks_; ++tick)
+      for (std::size_t k = first; k < std::min(first + kTogether, row); ++k)
+      {
+        const double* column = numbers_.data() + k;
+        const auto bits = std::bit_cast<std::uint64_t>(column[tick * row]);
+        const auto expected = std::bit_cast<std::uint64_t>(Expected(column, tick, row, k < poses_));
+        const std::uint64_t folded = Folded(bits - expected);
+        std::memcpy(columns + (k * ticks_ + tick) * sizeof folded, &folded, sizeof folded);
+      }
+  char* const end = columns + row * ticks_ * sizeof(double);
+  std::memcpy(end, &rest_bytes, sizeof rest_bytes);
+  if (!rest.empty()) std::memcpy(end + sizeof rest_bytes, rest.data(), rest.size());
+  return content;
+}
+
+TickRecordReader::TickRecordReader(std::span<const char> content) : rest_(bytes_)
+{
+  ByteReader reader(content);
+  const auto first_tick = reader.Get<std::uint64_t>();
+  left_ = reader.Get<std::uint64_t>();
+  const auto poses = reader.Get<std::uint64_t>();
+  const auto columns = reader.GetArray<std::uint64_t>();
+  if (left_ == 0 || columns.size() % left_ != 0 || poses > columns.size() / left_)
+    throw std::runtime_error("journal: the rows of a block are none");
+  row_ = columns.size() / left_;
+  numbers_.resize(columns.size());
+  for (std::size_t k = 0; k < row_; ++k)
+    for (std::size_t tick = 0; tick < left_; ++tick)
+    {
+      const double expected = Expected(numbers_.data() + k, tick, row_, k < poses);
+      numbers_[tick * row_ + k] =
+          std::bit_cast<double>(std::bit_cast<std::uint64_t>(expected) + Unfolded(columns[k * left_ + tick]));
+    }
+  poses_ = poses;
+  tick_ = first_tick;
+  bytes_ = reader.GetArray<char>();
+  rest_ = ByteReader(bytes_);
+}
+
+bool TickRecordReader::Next(TickRecord& record)
+{
+  if (left_ == 0) return false;
+  --left_;
+  const std::size_t end = at_ + row_;
+  const auto take = [&](std::vector<double>& values, std::uint64_t count)
+  {
+    if (count > end - at_) throw std::runtime_error("journal: a row is too short");
+    const auto from = numbers_.begin() + static_cast<std::ptrdiff_t>(at_);
+    values.assign(from, from + static_cast<std::ptrdiff_t>(count));
+    at_ += count;
+  };
+  record.state.tick = tick_++;
+  take(record.state.poses, poses_);
+  const auto flags = rest_.Get<std::uint8_t>();
+  record.state.last = (flags & kLast) != 0;
+  record.save = (flags & kSave) != 0;
+  Get(rest_, record.state.attributes);
+  record.state.moved = rest_.GetArray<std::uint32_t>();
+  record.frames.resize(rest_.Get<std::uint32_t>());
+  std::uint32_t number = 0;
+  for (SensorFrame& frame : record.frames)
+  {
+    frame.tick = record.state.tick;
+    frame.engine = number++;
+    take(frame.values, rest_.Get<std::uint64_t>());
+  }
+  record.commands.resize(rest_.Get<std::uint32_t>());
+  number = 0;
+  for (ControlCommands& commands : record.commands)
+  {
+    commands.tick = record.state.tick;
+    commands.host = number++;
+    take(commands.values, rest_.Get<std::uint64_t>());
+    Get(rest_, commands.attributes);
+  }
+  if (at_ != end) throw std::runtime_error("journal: a row is too long");
+  return true;
+}
+
+std::vector<char> ContentOf(const JournalStart& start)
+{
+  ByteWriter content;
+  content.Put(start.origin.experiment);
+  content.Put(static_cast<std::uint64_t>(start.origin.libraries.size()));
+  for (const LibraryBuild& library : start.origin.libraries)
+  {
+    content.PutText(library.name);
+    content.PutText(library.build);
+  }
+  content.Put(start.hosts);
+  content.Put(start.first_tick);
+  return content.Bytes();
+}
+
+JournalStart ReadStart(std::span<const char> content)
+{
+  ByteReader reader(content);
+  JournalStart start;
+  start.origin.experiment = reader.Get<std::uint64_t>();
+  for (auto left = reader.Get<std::uint64_t>(); left > 0; --left)
+  {
+    LibraryBuild& library = start.origin.libraries.emplace_back();
+    library.name = reader.GetText();
+    library.build = reader.GetText();
+  }
+  start.hosts = reader.Get<std::uint64_t>();
+  start.first_tick = reader.Get<std::uint64_t>();
+  return start;
+}
+
+std::vector<char> ContentOf(const SpaceSnapshot& snapshot)
+{
+  ByteWriter content;
+  content.Put(snapshot.tick);
+  content.PutArray(snapshot.poses);
+  content.PutArray(snapshot.attributes);
+  return content.Bytes();
+}
+
+SpaceSnapshot ReadSnapshot(std::span<const char> content)
+{
+  ByteReader reader(content);
+  SpaceSnapshot snapshot;
+  snapshot.tick = reader.Get<std::uint64_t>();
+  snapshot.poses = reader.GetArray<double>();
+  snapshot.attributes = reader.GetArray<double>();
+  return snapshot;
+}
+
+std::vector<char> ContentOf(const SavedPart& part)
+{
+  ByteWriter content;
+  content.PutText(part.name);
+  content.PutArray(part.state);
+  return content.Bytes();
+}
+
+SavedPart ReadPart(std::span<const char> content)
+{
+  ByteReader reader(content);
+  SavedPart part;
+  part.name = reader.GetText();
+  part.state = reader.GetArray<char>();
+  return part;
+}
+
+std::vector<char> ContentOf(std::span<const SensorFrame> frames)
+{
+  ByteWriter content;
+  content.Put(static_cast<std::uint64_t>(frames.size()));
+  for (const SensorFrame& frame : frames) content.PutArray(frame.values);
+  return content.Bytes();
+}
+
+std::vector<SensorFrame> ReadFrames(std::span<const char> content)
+{
+  ByteReader reader(content);
+  const auto count = reader.Get<std::uint64_t>();
+  std::vector<SensorFrame> frames;
+  for (std::uint64_t k = 0; k < count; ++k)
+    frames.push_back({0, static_cast<std::uint32_t>(k), reader.GetArray<double>()});
+  return frames;
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,108 @@
+// `swarmanoid resume`: goes on with a run that died, from its journal.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "common/activity/exit_codes.h"
+#include "common/journal/journal_reader.h"
+#include "common/messages/assignment.h"
+#include "launcher/commands.h"
+#include "launcher/load.h"
+#include "launcher/run_experiment.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+// What the journal says itself.
+constexpr std::array kOfTheRun{"EXPERIMENT", "seed", "set", "restore", "controller-hosts"};
+
+std::vector<OptionSpec> ResumeOptionTable(RunSettings& settings)
+{
+  std::vector<OptionSpec> options = RunOptionTable(settings);
+  std::erase_if(options, [](const OptionSpec& option)
+                { return std::find(kOfTheRun.begin(), kOfTheRun.end(), option.value.name) != kOfTheRun.end(); });
+  return options;
+}
+
+std::vector<std::string> PartsOf(const Experiment& experiment, std::size_t hosts)
+{
+  std::vector<std::string> parts{kServerPart};
+  for (std::size_t e = 0; e < experiment.engines.size(); ++e) parts.push_back(EngineName(experiment, e));
+  for (std::size_t h = 0; h < hosts; ++h) parts.push_back(HostName(h));
+  return parts;
+}
+
+// Of what it was to repeat, the run has noted only what it came to.
+void RequireEvents(const std::string& run_folder)
+{
+  std::ifstream file(run_folder + "/manifest.json");
+  const auto manifest = nlohmann::json::parse(file, nullptr, false);
+  if (manifest.is_discarded() || !manifest.contains("command")) return;
+  for (const auto& word : manifest["command"])
+    if (word.is_string() && word.get<std::string>().starts_with("--events"))
+      throw UsageError("resume: the run repeats the events of a file; name it again with --events");
+}
+
+int Resume(const std::string& run_folder, RunSettings options)
+{
+  options.file = run_folder + "/experiment.xml";
+  const auto experiment = LoadOrComplain(options.file, ChangesOf(options));
+  if (!experiment) return kExitInvalidFile;
+  if (options.output_folder.empty()) options.output_folder = run_folder + "/resumed";
+  if (options.events.empty())
+  {
+    RequireEvents(run_folder);
+    if (const std::string events = run_folder + "/events.csv"; fs::exists(events)) options.events = events;
+  }
+  try
+  {
+    const JournalReader journal(JournalFile(run_folder));
+    options.controller_hosts = static_cast<unsigned>(journal.Start().hosts);
+    const auto checkpoint = journal.NewestCheckpoint(PartsOf(*experiment, journal.Start().hosts));
+    if (!checkpoint && journal.Start().first_tick != 0)
+      throw std::runtime_error("nothing was saved since the run went on from a checkpoint; restore that one again");
+    if (checkpoint)
+    {
+      options.restore_file = run_folder + "/journal/" + CheckpointName(checkpoint->snapshot.tick);
+      WriteCheckpoint(options.restore_file, *checkpoint);
+    }
+    fmt::print(stderr, "going on from tick {}\n", checkpoint ? checkpoint->snapshot.tick : 0);
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw UsageError(fmt::format("resume: {}", error.what()));
+  }
+  return RunExperiment(options);
+}
+
+}  // namespace
+
+void AddResumeCommand(CLI::App& app, int& exit_code)
+{
+  auto options = std::make_shared<RunSettings>();
+  auto folder = std::make_shared<std::string>();
+  CLI::App* verb = app.add_subcommand("resume", "Go on with a run that died, from its journal");
+  verb->add_option("RUN", *folder, "The folder of the run")->required();
+  AddOptions(*verb, ResumeOptionTable(*options));
+  verb->footer(
+      "The run starts again at the newest tick at which all of its processes saved their states, or at its first, and "
+      "does again what users asked. Its end has the hash of a run that never died. Without --output, its files go into "
+      "RUN/resumed.\n"
+      "Example:\n"
+      "  swarmanoid resume runs/diffusion_10-20310517-093000");
+  verb->callback([options, folder, &exit_code]
+                 { exit_code = Resume(fs::absolute(*folder).lexically_normal().string(), *options); });
+}
+
+}  // namespace swarmanoid

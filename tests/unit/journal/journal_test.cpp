@@ -1,0 +1,261 @@
+// Journals: what is read is what was written, bit by bit, wherever the file was cut or damaged.
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <bit>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "common/journal/journal_reader.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+std::uint64_t Bits(double value) { return std::bit_cast<std::uint64_t>(value); }
+
+void ExpectSameBits(const std::vector<double>& a, const std::vector<double>& b)
+{
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(Bits(a[k]), Bits(b[k])) << k;
+}
+
+void ExpectSame(const TickRecord& a, const TickRecord& b)
+{
+  EXPECT_EQ(a.state.tick, b.state.tick);
+  EXPECT_EQ(a.state.last, b.state.last);
+  EXPECT_EQ(a.save, b.save);
+  EXPECT_EQ(a.state.moved, b.state.moved);
+  EXPECT_EQ(a.state.attributes.slots, b.state.attributes.slots);
+  ExpectSameBits(a.state.attributes.values, b.state.attributes.values);
+  ExpectSameBits(a.state.poses, b.state.poses);
+  ASSERT_EQ(a.frames.size(), b.frames.size());
+  for (std::size_t k = 0; k < a.frames.size(); ++k)
+  {
+    EXPECT_EQ(b.frames[k].engine, k);
+    ExpectSameBits(a.frames[k].values, b.frames[k].values);
+  }
+  ASSERT_EQ(a.commands.size(), b.commands.size());
+  for (std::size_t k = 0; k < a.commands.size(); ++k)
+  {
+    EXPECT_EQ(b.commands[k].host, k);
+    EXPECT_EQ(a.commands[k].attributes.slots, b.commands[k].attributes.slots);
+    ExpectSameBits(a.commands[k].attributes.values, b.commands[k].attributes.values);
+    ExpectSameBits(a.commands[k].values, b.commands[k].values);
+  }
+}
+
+// Two engines, one of which has sensors, and two hosts.
+std::vector<TickRecord> SomeTicks(std::size_t count, unsigned seed)
+{
+  constexpr double kOdd[] = {0.0, -0.0, 5e-324, -1e308, 1e308, 0.1};
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> real(-10, 10);
+  std::vector<TickRecord> records(count);
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    TickRecord& record = records[t];
+    record.state.tick = t;
+    record.save = random() % 3 == 0;
+    record.state.last = t + 1 == count;
+    for (int k = 0; k < 14; ++k)
+      record.state.poses.push_back(random() % 10 == 0 ? kOdd[random() % 6] : 0.01 * static_cast<double>(t) + k);
+    for (std::uint32_t slot = 0; slot < 9; ++slot)
+      if (random() % 3 == 0) record.state.attributes.Add(slot, real(random));
+    if (random() % 4 == 0) record.state.moved = {1, 7};
+    // Nobody sends the frames of the first tick.
+    if (t > 0) record.frames = {{t, 0, {}}, {t, 1, {real(random), 0.25, -0.0}}};
+    record.commands = {{t, 0, {real(random), 1}, {}}, {t, 1, {}, record.state.attributes}};
+  }
+  return records;
+}
+
+class JournalTest : public testing::Test
+{
+protected:
+  JournalTest() : folder_(fs::temp_directory_path() / fmt::format("swarmanoid_journal_{}", getpid()))
+  {
+    fs::create_directories(folder_);
+  }
+  ~JournalTest() override { fs::remove_all(folder_); }
+
+  std::string File(const std::string& name) const { return (folder_ / name).string(); }
+
+  static std::vector<char> Start() { return ContentOf(JournalStart{{7, {{"libx.so", "abc"}}}, 2, 0}); }
+
+  // Each tick in a block of its own, and states saved at tick 4; a part is lacking at tick 6.
+  std::vector<TickRecord> WriteSome(const std::string& name, std::size_t count)
+  {
+    const std::vector<TickRecord> records = SomeTicks(count, 3);
+    JournalWriter journal(File(name), Start());
+    for (const TickRecord& record : records)
+    {
+      if (record.state.tick == 4 || record.state.tick == 6)
+      {
+        SpaceSnapshot snapshot;
+        snapshot.tick = record.state.tick;
+        snapshot.poses = record.state.poses;
+        snapshot.attributes = {0, 1, 0.5 * static_cast<double>(record.state.tick)};
+        journal.Add(snapshot);
+        journal.Add(record.state.tick, {kServerPart, {'s'}});
+        if (record.state.tick == 4) journal.Add(record.state.tick, {"engine 'ground'", {'e', '4'}});
+      }
+      journal.AddTick(record.state, record.save, record.frames, record.commands);
+      journal.Flush();
+    }
+    return records;
+  }
+
+  std::vector<TickRecord> Read(const JournalReader& journal) const
+  {
+    std::vector<TickRecord> records;
+    journal.ForEachTick([&](const TickRecord& record) { records.push_back(record); });
+    return records;
+  }
+
+  const fs::path folder_;
+};
+
+TEST_F(JournalTest, TicksComeBackBitByBitHoweverManyAreInABlock)
+{
+  const std::vector<TickRecord> records = SomeTicks(1000, 1);
+  {
+    JournalWriter journal(File("j"), Start());
+    for (const TickRecord& record : records) journal.AddTick(record.state, record.save, record.frames, record.commands);
+  }
+  const JournalReader journal(File("j"));
+  EXPECT_EQ(journal.TornBytes(), 0U);
+  EXPECT_EQ(journal.Start().hosts, 2U);
+  EXPECT_EQ(journal.Start().origin.experiment, 7U);
+  ASSERT_EQ(journal.Start().origin.libraries.size(), 1U);
+  EXPECT_EQ(journal.Start().origin.libraries[0].build, "abc");
+  const std::vector<TickRecord> read = Read(journal);
+  ASSERT_EQ(read.size(), records.size());
+  for (std::size_t t = 0; t < read.size(); ++t) ExpectSame(records[t], read[t]);
+}
+
+TEST_F(JournalTest, SmoothMotionTakesATenthOfItsBytes)
+{
+  SpaceState state;
+  state.poses.resize(700);
+  {
+    JournalWriter journal(File("j"), Start());
+    for (; state.tick < 640; ++state.tick)
+    {
+      for (std::size_t k = 0; k < state.poses.size(); ++k)
+        state.poses[k] = 0.001 * static_cast<double>(state.tick * (k % 7)) + static_cast<double>(k);
+      journal.AddTick(state, false, {}, {});
+    }
+  }
+  EXPECT_LT(fs::file_size(File("j")), 640 * 700 * sizeof(double) / 10);
+}
+
+// A file that was cut anywhere has all blocks that were whole before the cut, and nothing else.
+TEST_F(JournalTest, CutAnywhereItLosesTheLastUnfinishedBlockAlone)
+{
+  const std::vector<TickRecord> records = WriteSome("whole", 12);
+  const JournalReader whole(File("whole"));
+  ASSERT_EQ(Read(whole).size(), records.size());
+  std::ifstream file(File("whole"), std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::uint64_t start = whole.Places().front().bytes;
+  for (std::size_t length = 0; length < bytes.size(); ++length)
+  {
+    std::ofstream(File("cut"), std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(length));
+    if (length < start)
+    {
+      EXPECT_THROW(JournalReader(File("cut")), std::runtime_error) << length;
+      continue;
+    }
+    const JournalReader cut(File("cut"));
+    std::size_t left = 0;
+    while (left < whole.Places().size() && whole.Places()[left].offset + whole.Places()[left].bytes <= length) ++left;
+    ASSERT_EQ(cut.Places().size(), left) << length;
+    const std::uint64_t end = cut.Places().back().offset + cut.Places().back().bytes;
+    EXPECT_EQ(cut.TornBytes(), length - end);
+    if (cut.TornBytes() != 0) continue;
+    const std::vector<TickRecord> read = Read(cut);
+    for (std::size_t t = 0; t < read.size(); ++t) ExpectSame(records[t], read[t]);
+  }
+}
+
+TEST_F(JournalTest, ADamagedBlockEndsIt)
+{
+  WriteSome("whole", 8);
+  const JournalReader whole(File("whole"));
+  const JournalPlace& hit = whole.Places()[5];
+  std::fstream file(File("whole"), std::ios::in | std::ios::out | std::ios::binary);
+  for (std::uint64_t at = hit.offset; at < hit.offset + hit.bytes; ++at)
+  {
+    file.seekg(static_cast<std::streamoff>(at));
+    const auto byte = static_cast<char>(file.get());
+    const auto put = [&](char value)
+    {
+      file.seekp(static_cast<std::streamoff>(at));
+      file.put(value).flush();
+    };
+    put(static_cast<char>(byte ^ (1 << at % 8)));
+    EXPECT_EQ(JournalReader(File("whole")).Places().size(), 5U) << at - hit.offset;
+    put(byte);
+  }
+  EXPECT_EQ(JournalReader(File("whole")).Places().size(), whole.Places().size());
+}
+
+TEST_F(JournalTest, TheNewestCheckpointIsTheNewestThatAllSaved)
+{
+  WriteSome("j", 12);
+  const JournalReader journal(File("j"));
+  const auto checkpoint = journal.NewestCheckpoint({kServerPart, "engine 'ground'"});
+  ASSERT_TRUE(checkpoint);
+  EXPECT_EQ(checkpoint->snapshot.tick, 4U);
+  EXPECT_EQ(checkpoint->snapshot.attributes, (std::vector<double>{0, 1, 2}));
+  ASSERT_EQ(checkpoint->parts.size(), 2U);
+  EXPECT_EQ(checkpoint->parts[1].state, (std::vector<char>{'e', '4'}));
+  EXPECT_EQ(journal.NewestCheckpoint({kServerPart})->snapshot.tick, 6U);
+  EXPECT_FALSE(journal.NewestCheckpoint({kServerPart, "controller host 0"}));
+}
+
+TEST_F(JournalTest, AFullDiskEndsItWithAWholeBlock)
+{
+  const std::vector<TickRecord> records = SomeTicks(200, 5);
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{3000, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  std::optional<std::string> trouble;
+  {
+    JournalWriter journal(File("j"), Start());
+    for (const TickRecord& record : records)
+    {
+      journal.AddTick(record.state, record.save, record.frames, record.commands);
+      journal.Flush();
+    }
+    EXPECT_FALSE(journal.Works());
+    trouble = journal.TakeTrouble();
+    EXPECT_FALSE(journal.TakeTrouble()) << "it is told once";
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  ASSERT_TRUE(trouble);
+  EXPECT_THAT(*trouble, HasSubstr("File too large"));
+  const JournalReader journal(File("j"));
+  EXPECT_EQ(journal.TornBytes(), 0U);
+  const std::vector<TickRecord> read = Read(journal);
+  ASSERT_GT(read.size(), 1U);
+  ASSERT_LT(read.size(), records.size());
+  for (std::size_t t = 0; t < read.size(); ++t) ExpectSame(records[t], read[t]);
+}
+
+}  // namespace
+}  // namespace swarmanoid
