@@ -12,7 +12,14 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
-set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR};$ORIGIN")
+set(CMAKE_INSTALL_RPATH "$ORIGIN")
+# A library whose code changed does not make all that use it be linked again: what they see of it is in its headers.
+set(CMAKE_LINK_DEPENDS_NO_SHARED ON)
+# Programs that only the others start, and plug-ins: not on the path of users, not among the libraries of the system.
+set(SWARMANOID_ROLES_FOLDER ${CMAKE_INSTALL_LIBEXECDIR}/swarmanoid)
+set(SWARMANOID_PLUGINS_FOLDER ${CMAKE_INSTALL_LIBDIR}/swarmanoid)
+# What is installed is of one of these components: runtime, dev, doc, and links, which packages leave out.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME runtime)
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
@@ -66,6 +73,12 @@ if(CMAKE_UNITY_BUILD)
   # They are included by another file, so that GCC takes their own types for those of a header.
   list(APPEND SWARMANOID_WARNINGS -Wno-subobject-linkage)
 endif()
+# What was linked against one minor version goes with no other.
+function(swarmanoid_install_library name)
+  set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  install(TARGETS ${name} EXPORT SwarmanoidTargets
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT dev)
+endfunction()
 
 # swarmanoid_library(NAME [STATIC] SOURCES... [PUBLIC libs...] [PRIVATE libs...]): one library of ours, warnings as errors.
 # Shared ones are installed and exported as Swarmanoid::NAME; static ones stay inside the build.
@@ -75,7 +88,7 @@ function(swarmanoid_library name)
     add_library(${name} STATIC ${ARG_SOURCES})
   else()
     add_library(${name} SHARED ${ARG_SOURCES})
-    install(TARGETS ${name} EXPORT SwarmanoidTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    swarmanoid_install_library(${name})
   endif()
   add_library(Swarmanoid::${name} ALIAS ${name})
   # No NAME_EXPORTS macro: it would keep libraries from sharing a precompiled header.
@@ -92,13 +105,25 @@ function(swarmanoid_library name)
   set_property(GLOBAL APPEND PROPERTY SWARMANOID_LIBRARIES ${name})
 endfunction()
 
-# swarmanoid_program(NAME SOURCES... LINK libs...): one program of ours, installed beside the others.
+# swarmanoid_program(NAME SOURCES... LINK libs... [ROLE]): one program of ours. A role's is started by `swarmanoid`; those who
+# start it by hand find it beside that, too, where packages do not forbid it.
 function(swarmanoid_program name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "ROLE" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_compile_options(${name} PRIVATE ${SWARMANOID_WARNINGS})
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
-  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  set(folder ${CMAKE_INSTALL_BINDIR})
+  if(ARG_ROLE)
+    set(folder ${SWARMANOID_ROLES_FOLDER})
+    file(RELATIVE_PATH place /${CMAKE_INSTALL_BINDIR} /${folder}/${name})
+    install(CODE "
+      set(bin \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR})
+      file(MAKE_DIRECTORY \${bin})
+      file(CREATE_LINK ${place} \${bin}/${name} SYMBOLIC)" COMPONENT links)
+  endif()
+  file(RELATIVE_PATH libraries /${folder} /${CMAKE_INSTALL_LIBDIR})
+  set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
+  install(TARGETS ${name} RUNTIME DESTINATION ${folder})
   set_property(GLOBAL APPEND PROPERTY SWARMANOID_PROGRAMS ${name})
 endfunction()

@@ -1,26 +1,35 @@
-# Installs the headers and the CMake package `Swarmanoid`, so that find_package(Swarmanoid) works in any other folder.
-# Libraries and programs install themselves (swarmanoid_library, swarmanoid_program). Included last.
+# Installs the headers, the CMake package `Swarmanoid` and the pkg-config files, so that controllers are built in any other
+# folder, and the pages. Libraries and programs install themselves (swarmanoid_library, swarmanoid_program). Included last.
 include(CMakePackageConfigHelpers)
 
 set(PACKAGE_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/Swarmanoid)
+set(HEADER_FOLDER ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid)
 
 # What only the programs of the cluster use stays out: DDS is no part of the interface.
 install(DIRECTORY common roles engine_worker controller_host visualiser space_server
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid
+  DESTINATION ${HEADER_FOLDER} COMPONENT dev
   FILES_MATCHING PATTERN "*.h" PATTERN "bus" EXCLUDE PATTERN "engines" EXCLUDE PATTERN "devices" EXCLUDE)
 # Of the devices, what those of users are made from.
 install(FILES controller_host/devices/device_streams.h controller_host/devices/noise.h controller_host/devices/value_devices.h
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid/controller_host/devices)
+  DESTINATION ${HEADER_FOLDER}/controller_host/devices COMPONENT dev)
 
-install(FILES launcher/simulation.h launcher/simulator.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid/launcher)
-install(DIRECTORY user/behavior_toolkit DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid/user FILES_MATCHING PATTERN "*.h")
+install(FILES launcher/simulation.h launcher/simulator.h DESTINATION ${HEADER_FOLDER}/launcher COMPONENT dev)
+install(DIRECTORY user/behavior_toolkit DESTINATION ${HEADER_FOLDER}/user COMPONENT dev FILES_MATCHING PATTERN "*.h")
 
-install(EXPORT SwarmanoidTargets NAMESPACE Swarmanoid:: DESTINATION ${PACKAGE_FOLDER})
+install(EXPORT SwarmanoidTargets NAMESPACE Swarmanoid:: DESTINATION ${PACKAGE_FOLDER} COMPONENT dev)
 configure_package_config_file(cmake/SwarmanoidConfig.cmake.in ${CMAKE_BINARY_DIR}/SwarmanoidConfig.cmake
   INSTALL_DESTINATION ${PACKAGE_FOLDER})
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/SwarmanoidConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/SwarmanoidConfig.cmake ${CMAKE_BINARY_DIR}/SwarmanoidConfigVersion.cmake
-  cmake/SwarmanoidUser.cmake cmake/config.h.in DESTINATION ${PACKAGE_FOLDER})
+  cmake/SwarmanoidUser.cmake cmake/config.h.in DESTINATION ${PACKAGE_FOLDER} COMPONENT dev)
+
+# The same for those who build without CMake: swarmanoid for controllers, swarmanoid-simulation for everything else.
+foreach(name swarmanoid swarmanoid-simulation)
+  string(REPLACE ";" " " PKG_CONFIG_OPTIONS "${SWARMANOID_EXACT}")
+  file(RELATIVE_PATH PKG_CONFIG_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+  configure_file(cmake/${name}.pc.in ${CMAKE_BINARY_DIR}/${name}.pc @ONLY)
+  install(FILES ${CMAKE_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
+endforeach()
 
 # User directories within the source tree build against the build folder, without installing.
 export(EXPORT SwarmanoidTargets NAMESPACE Swarmanoid:: FILE ${CMAKE_BINARY_DIR}/SwarmanoidTargets.cmake)
@@ -28,13 +37,29 @@ configure_file(cmake/SwarmanoidUser.cmake ${CMAKE_BINARY_DIR}/SwarmanoidUser.cma
 configure_file(cmake/config.h.in ${CMAKE_BINARY_DIR}/config.h.in COPYONLY)
 
 # What drivers of robots are made from; and the messages that the ros2 drivers speak.
-install(FILES real_robot/driver.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid/real_robot)
-install(DIRECTORY idl DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid)
+install(FILES real_robot/driver.h DESTINATION ${HEADER_FOLDER}/real_robot COMPONENT dev)
+install(DIRECTORY idl DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid COMPONENT dev)
 
-# Experiments, and what a user copies.
+# Experiments, their schema, and what a user copies.
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid)
+install(FILES docs/experiment.xsd DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid)
 foreach(folder controllers entities functions templates)
   install(DIRECTORY user/${folder} DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid/user
     USE_SOURCE_PERMISSIONS PATTERN ".clang-format" EXCLUDE)
 endforeach()
 install(DIRECTORY user/user_scripts DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid/user USE_SOURCE_PERMISSIONS)
+
+# Manual pages are written by the programs themselves, from their tables of options.
+foreach(program swarmanoid swarmanoid_robot)
+  install(CODE "
+    set(folder \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1\")
+    file(MAKE_DIRECTORY \"\${folder}\")
+    execute_process(COMMAND \"$<TARGET_FILE:${program}>\" --man-pages \"\${folder}\" COMMAND_ERROR_IS_FATAL ANY)")
+endforeach()
+install(FILES launcher/completion/swarmanoid.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME swarmanoid)
+install(FILES launcher/completion/_swarmanoid DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+install(FILES launcher/completion/swarmanoid.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/swarmanoid COMPONENT links)  # Debian packages have a file copyright instead
+install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/swarmanoid COMPONENT doc)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/swarmanoid COMPONENT doc)

@@ -14,6 +14,7 @@
 #include "common/configuration/wording.h"
 #include "common/plugins/catalogue.h"
 #include "launcher/commands.h"
+#include "launcher/completion.h"
 #include "launcher/installation.h"
 #include "launcher/original_command.h"
 #include "launcher/run_choice.h"
@@ -82,7 +83,8 @@ void Attach(AttachOptions& options, const CLI::App& verb)
 // The options of a visualiser are known before the words are read: its kind is the first word after `attach`.
 void AddOptionsOfKind(CLI::App& verb, AttachOptions& options)
 {
-  const std::vector<std::string> words = OriginalCommand();
+  std::vector<std::string> words = OriginalCommand();
+  if (words.size() > 1 && words[1] == kCompleteFlag) words.erase(words.begin() + 1);
   if (words.size() < 3 || words[1] != "attach") return;
   RegisterBuiltins();
   for (std::size_t i = 2; i < words.size(); ++i)

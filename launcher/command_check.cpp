@@ -1,13 +1,16 @@
 // `swarmanoid check`: is this experiment file right, and what is in it?
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "common/activity/exit_codes.h"
 #include "common/experiment/notes.h"
+#include "common/program/colour.h"
 #include "common/run/run_settings.h"
 #include "launcher/commands.h"
 #include "launcher/load.h"
@@ -23,12 +26,17 @@ std::string Counted(std::size_t count, std::string_view noun)
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-void PrintEntities(const Experiment& experiment)
+std::map<EntityKind, std::size_t> CountsOf(const Experiment& experiment)
 {
   std::map<EntityKind, std::size_t> counts;
   for (const EntityConfiguration& entity : experiment.entities) ++counts[entity.kind];
+  return counts;
+}
+
+void PrintEntities(const Experiment& experiment)
+{
   std::string kinds;
-  for (const auto& [kind, count] : counts)
+  for (const auto& [kind, count] : CountsOf(experiment))
     kinds += fmt::format("{}{} {}", kinds.empty() ? ": " : ", ", count, TagName(kind));
   fmt::print("  arena         {} x {} x {} m, {}{}\n", experiment.arena_size.x(), experiment.arena_size.y(),
              experiment.arena_size.z(),
@@ -49,13 +57,65 @@ void PrintControllers(const Experiment& experiment)
   }
 }
 
+nlohmann::ordered_json JsonOf(const std::vector<Diagnostic>& diagnostics)
+{
+  auto json = nlohmann::ordered_json::array();
+  for (const Diagnostic& each : diagnostics)
+    json.push_back({{"file", each.location.file ? *each.location.file : ""},
+                    {"line", each.location.line},
+                    {"column", each.location.column},
+                    {"message", each.message}});
+  return json;
+}
+
+// What is wrong with the file stands in `errors`; what else keeps it from starting is told on standard error.
+nlohmann::ordered_json JsonOf(const Experiment& experiment)
+{
+  nlohmann::ordered_json json{
+      {"experiment", experiment.name},
+      {"tick_ms", experiment.clock_tick_ms},
+      {"ticks", experiment.max_clock},
+      {"seed", experiment.seed},
+      {"arena_m", {experiment.arena_size.x(), experiment.arena_size.y(), experiment.arena_size.z()}}};
+  json["entities"] = nlohmann::ordered_json::object();
+  for (const auto& [kind, count] : CountsOf(experiment)) json["entities"][std::string(TagName(kind))] = count;
+  const auto add = [&json](const char* section, const auto& parts)
+  {
+    json[section] = nlohmann::ordered_json::array();
+    for (const auto& part : parts) json[section].push_back({{"id", part.id}, {"tag", part.tag}});
+  };
+  add("engines", experiment.engines);
+  add("controllers", experiment.controllers);
+  add("functions", experiment.functions);
+  add("visualisations", experiment.visualisations);
+  json["notes"] = JsonOf(NotesOn(experiment));
+  return json;
+}
+
+int CheckForPrograms(const RunSettings& options)
+{
+  RegisterBuiltins();
+  const LoadedExperiment loaded = LoadExperimentFile(options.file, ChangesOf(options));
+  nlohmann::ordered_json json{{"file", options.file}, {"valid", false}, {"errors", JsonOf(loaded.errors)}};
+  int exit_code = kExitInvalidFile;
+  if (loaded.experiment)
+  {
+    exit_code = TerrainsAreGood(*loaded.experiment) ? TrialStart(*loaded.experiment) : int{kExitInvalidFile};
+    json["valid"] = exit_code == kExitDone;
+    json.update(JsonOf(*loaded.experiment));
+  }
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  return exit_code;
+}
+
 int Check(const RunSettings& options)
 {
   const auto experiment = LoadOrComplain(options.file, ChangesOf(options));
   if (!experiment) return kExitInvalidFile;
   if (const int code = TrialStart(*experiment); code != kExitDone) return code;
 
-  fmt::print("{} is valid: experiment {}\n", options.file, experiment->name);
+  fmt::print("{} is {}: experiment {}\n", options.file, Coloured(STDOUT_FILENO, Colour::kGreen, "valid"),
+             experiment->name);
   fmt::print("  clock         {} ms a tick, {}, seed {}\n", experiment->clock_tick_ms,
              experiment->max_clock == 0 ? "without end" : Counted(experiment->max_clock, "tick"), experiment->seed);
   PrintEntities(*experiment);
@@ -76,7 +136,10 @@ void AddCheckCommand(CLI::App& app, int& exit_code)
 {
   auto options = std::make_shared<RunSettings>();
   CLI::App* verb = app.add_subcommand("check", "Look for mistakes in an experiment file without running it");
+  auto json = std::make_shared<bool>(false);
   AddOptions(*verb, ChoiceOptionTable(*options));
+  verb->add_flag("--json", *json,
+                 "For programs: what the experiment holds, or its mistakes with file, line and column");
   verb->footer(
       "Prints what the experiment holds, and notes on what has no effect, and exits with 0, or prints every mistake "
       "with its place and exits with 3.\n"
@@ -84,7 +147,7 @@ void AddCheckCommand(CLI::App& app, int& exit_code)
       "Examples:\n"
       "  swarmanoid check configs/diffusion_10.xml\n"
       "  swarmanoid check configs/diffusion_10.xml --set framework.maxclock=100");
-  verb->callback([options, &exit_code] { exit_code = Check(*options); });
+  verb->callback([options, json, &exit_code] { exit_code = *json ? CheckForPrograms(*options) : Check(*options); });
 }
 
 }  // namespace swarmanoid

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "common/activity/exit_codes.h"
@@ -28,7 +29,15 @@ struct ControlOptions
 {
   std::vector<std::string> words;
   BusOptions bus;
+  bool json = false;
 };
+
+void PrintJson(const std::string& experiment, const ControlReplyMessage& reply)
+{
+  const nlohmann::ordered_json json{
+      {"experiment", experiment}, {"ok", reply.ok}, {"tick", reply.tick}, {"text", reply.text}};
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
 
 // For those who got no answer.
 std::string WhatItDoes(const std::optional<RunStatus>& status)
@@ -59,11 +68,13 @@ int Control(ControlOptions& options, bool domain_given)
                WhatItDoes(client.LatestStatus()));
     return kExitProcessFailed;
   }
+  if (options.json) PrintJson(run.experiment, *reply);
   if (!reply->ok)
   {
     fmt::print(stderr, "swarmanoid: {}\n", reply->text);
     return kExitUsage;
   }
+  if (options.json) return kExitDone;
   fmt::print("{}: {}\n", run.experiment, reply->text.empty() ? fmt::format("tick {}", reply->tick) : reply->text);
   return kExitDone;
 }
@@ -80,6 +91,7 @@ void AddControlCommand(CLI::App& app, int& exit_code)
                    "[EXPERIMENT] pause | resume | step [N] | speed F | stop | move ENTITY X,Y,Z[,A,B,G] |\n"
                    "detach ENTITY X,Y,Z[,A,B,G] | add ENTITY X,Y,Z[,A,B,G] | remove ENTITY")
       ->required();
+  verb->add_flag("--json", options->json, "For programs: experiment, ok, tick and text of the answer");
   AddOptions(*verb, BusOptionTable(options->bus));
   verb->footer(
       "speed is a multiple of real time, 0 is as fast as possible. Positions are in metres, angles in degrees.\n"
@@ -90,6 +102,7 @@ void AddControlCommand(CLI::App& app, int& exit_code)
       "  swarmanoid control diffusion_10 step 5\n"
       "  swarmanoid control speed 2\n"
       "  swarmanoid control move fb_0 1.5,2,0\n"
+      "  swarmanoid control detach fb_0 1.5,2,0\n"
       "  swarmanoid control add prey 1.5,2,0\n"
       "  swarmanoid control remove prey_0\n"
       "  swarmanoid control diffusion_10 stop --domain 7 --interface eth0    one on another machine");

@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "common/activity/exit_codes.h"
 #include "common/bus/run_directory.h"
@@ -125,7 +126,13 @@ struct ListOptions
   std::vector<std::string> names;
   bool all = false;
   bool rows = false;
+  bool json = false;
 };
+
+void PrintJson(const nlohmann::ordered_json& json)
+{
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
 
 int ListPlugins(const ListOptions& options)
 {
@@ -134,18 +141,22 @@ int ListPlugins(const ListOptions& options)
   const std::vector<std::string> labels = LoadNamed(options.names);
   const auto wanted = [&](const PluginDescription& plugin)
   { return labels.empty() || std::ranges::find(labels, plugin.label) != labels.end(); };
+  auto json = nlohmann::ordered_json::array();
   for (const PluginKind kind : kKinds)
   {
-    if (labels.empty() && !options.rows) PrintPlugins(kind);
+    if (labels.empty() && !options.rows && !options.json) PrintPlugins(kind);
     for (const PluginDescription* plugin : PluginCatalogue::Instance().Of(kind))
     {
       if (!wanted(*plugin)) continue;
-      if (options.rows)
+      if (options.json)
+        json.push_back(PluginJson(kind, *plugin));
+      else if (options.rows)
         fmt::print("{}", PluginRows(kind, *plugin));
       else if (!labels.empty())
         fmt::print("{}", PluginDetails(kind, *plugin));
     }
   }
+  if (options.json) PrintJson(json);
   return kExitDone;
 }
 
@@ -158,17 +169,30 @@ int ListSchema(const ListOptions& options)
   return kExitDone;
 }
 
-int ListSettings(const std::string& file)
+int ListSettings(const std::string& file, bool as_json)
 {
   const auto experiment = LoadOrComplain(file, {});
   if (!experiment) return kExitInvalidFile;
+  if (as_json)
+  {
+    PrintJson(SettingsJson(*experiment));
+    return kExitDone;
+  }
   fmt::print("{}", SettingRows(*experiment));
   return kExitDone;
 }
 
-int ListExperiments()
+int ListExperiments(bool as_json)
 {
   const auto runs = FindLocalRuns();
+  if (as_json)
+  {
+    auto json = nlohmann::ordered_json::array();
+    for (const LocalRun& run : runs)
+      json.push_back({{"experiment", run.experiment}, {"domain", run.domain}, {"space_server", run.server}});
+    PrintJson(json);
+    return kExitDone;
+  }
   if (runs.empty()) fmt::print("no experiment runs on this machine\n");
   for (const LocalRun& run : runs)
     fmt::print("{:<32} domain {:<4} space server {}\n", run.experiment, run.domain, run.server);
@@ -199,6 +223,7 @@ void AddListCommand(CLI::App& app, int& exit_code)
                       "A plug-in, whose parameters are to be shown, or a library to load first");
   plugins->add_flag("--all", options->all, "With the controllers and functions that came along, and those built here");
   plugins->add_flag("--rows", options->rows, "For programs: a line for each parameter, fields separated by tabs");
+  plugins->add_flag("--json", options->json, "For programs: with their parameters");
   plugins->callback([options, &exit_code] { exit_code = ListPlugins(*options); });
 
   CLI::App* schema =
@@ -210,10 +235,12 @@ void AddListCommand(CLI::App& app, int& exit_code)
   CLI::App* settings =
       verb->add_subcommand("settings", "What --set may change in an experiment, as PATH=VALUE, and what it means");
   settings->add_option("EXPERIMENT", *file, "The experiment file")->required();
-  settings->callback([file, &exit_code] { exit_code = ListSettings(*file); });
+  settings->add_flag("--json", options->json, "For programs");
+  settings->callback([file, options, &exit_code] { exit_code = ListSettings(*file, options->json); });
 
   CLI::App* experiments = verb->add_subcommand("experiments", "Experiments that run on this machine as clusters");
-  experiments->callback([&exit_code] { exit_code = ListExperiments(); });
+  experiments->add_flag("--json", options->json, "For programs");
+  experiments->callback([options, &exit_code] { exit_code = ListExperiments(options->json); });
 }
 
 }  // namespace swarmanoid

@@ -1,14 +1,61 @@
 // `swarmanoid run`: as a cluster or in this process.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "common/activity/exit_codes.h"
 #include "launcher/commands.h"
+#include "launcher/load.h"
 #include "launcher/run_experiment.h"
+#include "launcher/run_folder.h"
+#include "launcher/showing.h"
 
 namespace swarmanoid
 {
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr const char* kRuns = "runs";
+
+// Somebody at a terminal who has no runs yet, and asked for nothing that scripts ask for.
+bool IsFirst(const RunSettings& options)
+{
+  std::error_code none;
+  return IsAtTerminal() && !options.quiet && options.output_folder.empty() && options.visualisations &&
+         options.expected_hash.empty() && options.hosts_file.empty() && options.engine_hosts.empty() &&
+         !fs::exists(kRuns, none);
+}
+
+std::uint64_t TicksOf(const fs::path& run) { return ReadManifest(run).value("ticks", std::uint64_t{0}); }
+
+// Of the only run there is. What goes wrong here is no failure of the run.
+void ShowFirst(const RunSettings& options)
+{
+  const auto experiment = LoadOrComplain(options.file, ChangesOf(options));
+  if (!experiment || HasPictures(*experiment)) return;
+  try
+  {
+    for (const fs::directory_entry& run : fs::directory_iterator(kRuns))
+      Show(*experiment, KindForSession(), fs::absolute(run.path()), TicksOf(fs::absolute(run.path())));
+  }
+  catch (const std::exception& error)
+  {
+    fmt::print(stderr, "It cannot be shown: {}\n", error.what());
+  }
+  fmt::print(stderr,
+             "Next: `swarmanoid demo --list` has more to see, `swarmanoid new user my_robots` makes a place for your "
+             "own controllers\n");
+}
+
+}  // namespace
+
 void AddRunCommand(CLI::App& app, int& exit_code)
 {
   auto options = std::make_shared<RunSettings>();
@@ -28,7 +75,13 @@ void AddRunCommand(CLI::App& app, int& exit_code)
       "  swarmanoid run configs/diffusion_10.xml --events runs/first/events.csv    with what users did in that run\n"
       "  swarmanoid run configs/diffusion_10.xml --output first --checkpoint-every 500\n"
       "  swarmanoid run first/experiment.xml --restore first/checkpoint-00000500");
-  verb->callback([options, &exit_code] { exit_code = RunExperiment(*options); });
+  verb->callback(
+      [options, &exit_code]
+      {
+        const bool is_first = IsFirst(*options);
+        exit_code = RunExperiment(*options);
+        if (is_first && (exit_code == kExitDone || exit_code == kExitExperimentFailed)) ShowFirst(*options);
+      });
 }
 
 }  // namespace swarmanoid

@@ -19,6 +19,8 @@ void AddAttachCommand(CLI::App& app, int& exit_code);
 void AddControlCommand(CLI::App& app, int& exit_code);
 void AddCheckCommand(CLI::App& app, int& exit_code);
 void AddListCommand(CLI::App& app, int& exit_code);
+void AddDemoCommand(CLI::App& app, int& exit_code);
+void AddDoctorCommand(CLI::App& app, int& exit_code);
 void AddNewCommand(CLI::App& app, int& exit_code);
 
 }  // namespace swarmanoid

@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -12,21 +13,30 @@ namespace
 
 namespace fs = std::filesystem;
 
-constexpr const char* kServer = "space_server";
-
 fs::path OwnFolder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
 
-// Beside this program, or, if that is a user's own, in the package that this library belongs to.
+fs::path SampleFolder() { return OwnFolder().parent_path() / "share" / "swarmanoid" / "configs"; }
+
+// Of an installation or a build folder; empty if it holds no programs.
+fs::path ProgramsUnder(const fs::path& prefix)
+{
+  std::error_code none;
+  for (const char* folder : {"libexec/swarmanoid", "bin"})
+    if (fs::exists(prefix / folder / "space_server", none)) return prefix / folder;
+  return {};
+}
+
+// Those of the package that this program belongs to, or, if it is a user's own, this library.
 fs::path FolderOfPrograms()
 {
   const fs::path own = OwnFolder();
-  std::error_code none;
-  if (fs::exists(own / kServer, none)) return own;
+  if (const fs::path found = ProgramsUnder(own.parent_path()); !found.empty()) return found;
   Dl_info library{};
   if (dladdr(reinterpret_cast<const void*>(&FolderOfPrograms), &library) == 0) return own;
+  std::error_code none;
   const fs::path file = fs::canonical(library.dli_fname, none);
   for (fs::path folder = file.parent_path(); folder != folder.parent_path(); folder = folder.parent_path())
-    if (fs::exists(folder / "bin" / kServer, none)) return folder / "bin";
+    if (const fs::path found = ProgramsUnder(folder); !found.empty()) return found;
   return own;
 }
 
@@ -37,6 +47,18 @@ std::string ProgramFolder()
   if (const char* folder = std::getenv("SWARMANOID_PROGRAM_DIR")) return fs::absolute(folder);
   return FolderOfPrograms();
 }
+
+std::vector<std::string> SampleNames()
+{
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(SampleFolder(), none))
+    if (entry.path().extension() == ".xml") names.push_back(entry.path().stem());
+  std::ranges::sort(names);
+  return names;
+}
+
+std::string SampleFile(const std::string& name) { return SampleFolder() / (name + ".xml"); }
 
 std::string UserFilesFolder() { return OwnFolder().parent_path() / "share" / "swarmanoid" / "user"; }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace swarmanoid
 {
@@ -10,5 +11,8 @@ namespace swarmanoid
 std::string ProgramFolder();
 // The folder of what users copy: templates and samples.
 std::string UserFilesFolder();
+// The experiments that come along: their names, in order, and the file of one.
+std::vector<std::string> SampleNames();
+std::string SampleFile(const std::string& name);
 
 }  // namespace swarmanoid

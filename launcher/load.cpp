@@ -15,7 +15,23 @@ namespace swarmanoid
 namespace
 {
 
-// Every process of a run reads the maps of terrains; what is wrong with them is said before any of them starts.
+// For a file that is not there: the one beside it that may be meant.
+std::string NearFile(const std::string& file)
+{
+  namespace fs = std::filesystem;
+  std::error_code none;
+  const fs::path path(file);
+  if (fs::exists(path, none)) return {};
+  std::vector<std::string> names;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+    if (entry.path().extension() == ".xml") names.push_back((path.parent_path() / entry.path().filename()).string());
+  std::sort(names.begin(), names.end());
+  return DidYouMean(file, names);
+}
+
+}  // namespace
+
 bool TerrainsAreGood(const Experiment& experiment)
 {
   bool good = true;
@@ -34,23 +50,6 @@ bool TerrainsAreGood(const Experiment& experiment)
   }
   return good;
 }
-
-// For a file that is not there: the one beside it that may be meant.
-std::string NearFile(const std::string& file)
-{
-  namespace fs = std::filesystem;
-  std::error_code none;
-  const fs::path path(file);
-  if (fs::exists(path, none)) return {};
-  std::vector<std::string> names;
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
-    if (entry.path().extension() == ".xml") names.push_back((path.parent_path() / entry.path().filename()).string());
-  std::sort(names.begin(), names.end());
-  return DidYouMean(file, names);
-}
-
-}  // namespace
 
 std::unique_ptr<Experiment> LoadOrComplain(const std::string& file, const LoadOptions& options)
 {

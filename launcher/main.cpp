@@ -5,16 +5,18 @@
 #include <algorithm>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/configuration/wording.h"
 #include "common/program/program.h"
 #include "launcher/commands.h"
+#include "launcher/completion.h"
 
 namespace
 {
 
-const std::vector<std::string> kVerbs{"run", "resume", "attach", "control", "check", "list", "new"};
+const std::vector<std::string> kVerbs{"run", "resume", "attach", "control", "check", "list", "new", "demo", "doctor"};
 
 // CLI11 would only say that the word was not expected.
 bool ComplainsAboutVerb(const std::vector<std::string>& words)
@@ -37,12 +39,37 @@ std::vector<std::string> WithHelp(std::vector<std::string> words)
   return words;
 }
 
+void AddCommands(CLI::App& app, int& exit_code)
+{
+  using namespace swarmanoid;
+  app.require_subcommand(1);
+  AddRunCommand(app, exit_code);
+  AddResumeCommand(app, exit_code);
+  AddAttachCommand(app, exit_code);
+  AddControlCommand(app, exit_code);
+  AddCheckCommand(app, exit_code);
+  AddListCommand(app, exit_code);
+  AddNewCommand(app, exit_code);
+  AddDemoCommand(app, exit_code);
+  AddDoctorCommand(app, exit_code);
+}
+
+int Complete(const std::vector<std::string>& words)
+{
+  int exit_code = 0;
+  CLI::App app("", "swarmanoid");
+  AddCommands(app, exit_code);
+  for (const std::string& line : swarmanoid::Completions(app, words)) fmt::print("{}\n", line);
+  return swarmanoid::kExitDone;
+}
+
 }  // namespace
 
 int main(int count, char** arguments)
 {
   using namespace swarmanoid;
 
+  if (count > 1 && std::string_view(arguments[1]) == kCompleteFlag) return Complete({arguments + 2, arguments + count});
   std::vector<std::string> words = WithHelp({arguments, arguments + count});
   if (ComplainsAboutVerb(words)) return kExitUsage;
   std::vector<char*> given;
@@ -56,19 +83,7 @@ int main(int count, char** arguments)
            "Start with:\n  swarmanoid run configs/diffusion_10.xml\n`swarmanoid COMMAND --help` explains a command "
            "with examples.",
        .catches_interrupts = false},
-      static_cast<int>(given.size()), given.data(),
-      [&](CLI::App& app)
-      {
-        app.set_version_flag("--version", "swarmanoid " SWARMANOID_VERSION);
-        app.require_subcommand(1);
-        AddRunCommand(app, verb_code);
-        AddResumeCommand(app, verb_code);
-        AddAttachCommand(app, verb_code);
-        AddControlCommand(app, verb_code);
-        AddCheckCommand(app, verb_code);
-        AddListCommand(app, verb_code);
-        AddNewCommand(app, verb_code);
-      },
+      static_cast<int>(given.size()), given.data(), [&](CLI::App& app) { AddCommands(app, verb_code); },
       [&] { return verb_code; });
   // The help was not asked for.
   return count == 1 && exit_code == kExitDone ? kExitUsage : exit_code;

@@ -6,6 +6,8 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <vector>
 
 #include "common/configuration/wording.h"
@@ -116,6 +118,44 @@ std::string PluginRows(PluginKind kind, const PluginDescription& plugin)
                         Field(parameter.description));
   }
   return rows;
+}
+
+nlohmann::ordered_json PluginJson(PluginKind kind, const PluginDescription& plugin)
+{
+  nlohmann::ordered_json json{{"kind", PluginKindName(kind)},
+                              {"label", plugin.label},
+                              {"implementation", plugin.implementation},
+                              {"brief", plugin.brief},
+                              {"robots", plugin.robots}};
+  json["parameters"] = nlohmann::ordered_json::array();
+  for (const ParameterSpec& parameter : plugin.parameters)
+  {
+    nlohmann::ordered_json each{{"name", parameter.name},
+                                {"type", TypeText(parameter)},
+                                {"unit", parameter.unit},
+                                {"description", parameter.description}};
+    if (parameter.default_value) each["default"] = *parameter.default_value;
+    if (std::isfinite(parameter.minimum)) each["minimum"] = parameter.minimum;
+    if (std::isfinite(parameter.maximum)) each["maximum"] = parameter.maximum;
+    if (!parameter.choices.empty()) each["choices"] = parameter.choices;
+    json["parameters"].push_back(each);
+  }
+  return json;
+}
+
+nlohmann::ordered_json SettingsJson(const Experiment& experiment)
+{
+  auto json = nlohmann::ordered_json::array();
+  std::istringstream rows(SettingRows(experiment));
+  for (std::string row; std::getline(rows, row);)
+  {
+    const std::size_t sign = row.find('='), allowed = row.find('\t'), meaning = row.rfind('\t');
+    json.push_back({{"path", row.substr(0, sign)},
+                    {"value", row.substr(sign + 1, allowed - sign - 1)},
+                    {"allowed", row.substr(allowed + 1, meaning - allowed - 1)},
+                    {"description", row.substr(meaning + 1)}});
+  }
+  return json;
 }
 
 std::string SettingRows(const Experiment& experiment)

@@ -1,6 +1,7 @@
 // What `swarmanoid list` says about plug-ins and their parameters, for people and for programs that complete words.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "common/experiment/experiment.h"
@@ -26,5 +27,9 @@ std::string PluginRows(PluginKind kind, const PluginDescription& plugin);
 // For programs. A line for each value that --set may change in an experiment: PATH=VALUE with the present value, what
 // is allowed, and what it means, separated by tabs. Without the arena.
 std::string SettingRows(const Experiment& experiment);
+
+// The same as objects.
+nlohmann::ordered_json PluginJson(PluginKind kind, const PluginDescription& plugin);
+nlohmann::ordered_json SettingsJson(const Experiment& experiment);
 
 }  // namespace swarmanoid

@@ -7,6 +7,7 @@
 
 #include "common/activity/exit_codes.h"
 #include "common/checkpoint/checkpoint.h"
+#include "common/checkpoint/library_builds.h"
 #include "common/math/reproducible_math.h"
 #include "common/program/usage_error.h"
 #include "launcher/cluster_run.h"
@@ -28,6 +29,8 @@ Manifest StartOfManifest(const RunSettings& options, const Experiment& experimen
   manifest.experiment_hash = TextHash(experiment.effective_xml);
   manifest.seed = experiment.seed;
   manifest.command = OriginalCommand();
+  for (const LibraryBuild& library : LibraryBuildsOf(experiment))
+    manifest.libraries.emplace_back(library.name, library.build);
   manifest.started = TimeStamp();
   return manifest;
 }

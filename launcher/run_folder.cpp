@@ -2,14 +2,19 @@
 
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <unistd.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "common/version/version.h"
 
 namespace swarmanoid
 {
@@ -25,6 +30,22 @@ std::string LocalTime(const char* format)
   localtime_r(&now, &local);
   char text[64];
   return {text, std::strftime(text, sizeof text, format, &local)};
+}
+
+std::string HostName()
+{
+  char name[256] = "";
+  gethostname(name, sizeof name - 1);
+  return name;
+}
+
+// As the kernel calls it; empty if it does not.
+std::string ProcessorName()
+{
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name")) return line.substr(std::min(line.find(": ") + 2, line.size()));
+  return {};
 }
 
 [[noreturn]] void Refuse(const std::string& path, const std::string& reason)
@@ -86,7 +107,12 @@ void RunFolder::Write(const std::string& name, const std::string& text) const
 std::string Manifest::Text() const
 {
   nlohmann::ordered_json json;
-  json["swarmanoid"] = SWARMANOID_VERSION;
+  json["swarmanoid"] = Version();
+  json["revision"] = GitRevision();
+  json["host"] = HostName();
+  json["processor"] = ProcessorName();
+  json["libraries"] = nlohmann::ordered_json::object();
+  for (const auto& [name, build] : libraries) json["libraries"][name] = build;
   json["experiment"] = experiment;
   json["file"] = file;
   json["experiment_hash"] = fmt::format("{:016x}", experiment_hash);
@@ -107,6 +133,12 @@ std::string Manifest::Text() const
   if (state_hash) json["state_hash"] = fmt::format("{:016x}", *state_hash);
   if (!failure.empty()) json["failure"] = failure;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+nlohmann::json ReadManifest(const std::string& folder)
+{
+  std::ifstream file(folder + "/manifest.json");
+  return nlohmann::json::parse(file);
 }
 
 std::string TimeStamp() { return LocalTime("%Y-%m-%dT%H:%M:%S%z"); }

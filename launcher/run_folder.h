@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -42,6 +43,7 @@ struct Manifest
   std::uint64_t experiment_hash = 0;  // XXH3-64 of experiment.xml
   std::uint64_t seed = 0;
   std::vector<std::string> command;
+  std::vector<std::pair<std::string, std::string>> libraries;  // name and build-id, of all that computes the state
   std::string started;
   std::optional<int> domain;                                   // clusters only
   std::vector<std::pair<std::string, std::string>> processes;  // name and log
@@ -57,6 +59,9 @@ struct Manifest
 
   std::string Text() const;
 };
+
+// Of the folder of a run that has ended. Throws std::exception.
+nlohmann::json ReadManifest(const std::string& folder);
 
 // Local time as 2031-05-17T09:30:00+0200.
 std::string TimeStamp();

@@ -16,6 +16,7 @@
 
 #include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
+#include "launcher/scratch_folder.h"
 #include "launcher/simulator.h"
 
 namespace swarmanoid
@@ -24,27 +25,6 @@ namespace
 {
 
 namespace fs = std::filesystem;
-
-class ScratchFolder
-{
-public:
-  ScratchFolder() : path_((fs::temp_directory_path() / "swarmanoid-check-XXXXXX").string())
-  {
-    if (mkdtemp(path_.data()) == nullptr)
-      throw std::runtime_error(fmt::format("cannot make the folder '{}': {}", path_, std::strerror(errno)));
-  }
-  ~ScratchFolder()
-  {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::string& Path() const { return path_; }
-
-private:
-  std::string path_;
-};
 
 // What came of it goes into the pipe: code of users may end the process with any exit code.
 int TryHere(const Experiment& experiment, const std::string& folder)

@@ -25,7 +25,7 @@ std::function<std::unique_ptr<CRender>()> RendererFromLibrary(const std::string&
 {
   return [name, packages]
   {
-    const std::string path = (OwnFolder() / ("libswarmanoid_" + name + ".so")).string();
+    const std::string path = (OwnFolder() / "swarmanoid" / ("libswarmanoid_" + name + ".so")).string();
     if (!std::filesystem::exists(path))
       throw ConfigurationError(name + " is not part of this build, there is no " + path + "; install the packages " +
                                packages + " and build again");

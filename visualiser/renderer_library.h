@@ -12,9 +12,9 @@
 namespace swarmanoid
 {
 
-// A factory that loads lib<swarmanoid_NAME>.so from the folder of our own libraries and makes its renderer.
-// `packages`: the Debian packages without which the build leaves it out. The factory throws ConfigurationError, naming
-// them, if the library is missing or cannot be loaded.
+// A factory that loads lib<swarmanoid_NAME>.so from the folder swarmanoid beside our own libraries and makes its
+// renderer. `packages`: the Debian packages without which the build leaves it out. The factory throws
+// ConfigurationError, naming them, if the library is missing or cannot be loaded.
 std::function<std::unique_ptr<CRender>()> RendererFromLibrary(const std::string& name, const std::string& packages);
 
 }  // namespace swarmanoid

@@ -10,6 +10,7 @@
 #include "common/configuration/regular_file.h"
 #include "common/plugins/elf_file.h"
 #include "common/plugins/library.h"
+#include "common/version/version.h"
 
 namespace swarmanoid
 {
@@ -41,7 +42,11 @@ std::string OwnBuild()
   const std::string folder = OwnLibraryFolder();
   std::string builds;
   for (const char* name : kOwnLibraries)
-    builds += BuildOfFile(fmt::format("{}/libswarmanoid_{}.so", folder, name)).substr(0, 16) + ".";
+  {
+    const std::string file =
+        fmt::format("{}/libswarmanoid_{}.so.{}.{}", folder, name, SWARMANOID_VERSION_MAJOR, SWARMANOID_VERSION_MINOR);
+    builds += BuildOfFile(file).substr(0, 16) + ".";
+  }
   return builds;
 }
 

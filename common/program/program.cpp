@@ -11,7 +11,9 @@
 #include "common/configuration/configuration_tree.h"
 #include "common/program/command_line_complaint.h"
 #include "common/program/interrupts.h"
+#include "common/program/man_page.h"
 #include "common/program/usage_error.h"
+#include "common/version/version.h"
 
 namespace swarmanoid
 {
@@ -54,6 +56,12 @@ int Report(const std::string& program)
   return Interrupted() ? kExitInterrupted : kExitProcessFailed;
 }
 
+std::string VersionText(const std::string& program)
+{
+  const std::string revision = GitRevision();
+  return fmt::format("{} {}{}", program, Version(), revision.empty() ? "" : " (" + revision + ")");
+}
+
 // An exception that left a thread, or a destructor: nothing can be tidied up any more.
 [[noreturn]] void Terminate()
 {
@@ -80,6 +88,12 @@ int RunProgram(const ProgramDescription& program, int count, char** arguments,
   {
     if (program.register_plugins != nullptr) program.register_plugins();
     declare(app);
+    app.set_version_flag("--version", VersionText(program.name), "Print version and commit, then end");
+    if (count == 3 && std::string_view(arguments[1]) == kManPagesFlag)
+    {
+      WriteManPages(app, arguments[2]);
+      return kExitDone;
+    }
     app.parse(count, arguments);
     if (program.catches_interrupts) CatchInterrupts();
     if (program.runs_code_of_users)

@@ -176,7 +176,7 @@ int main(int count, char**)
         found = self.command(self.folder / "build" / "linked").stdout.splitlines()
         self.assertGreaterEqual(len(found), 2)
         for path in found:
-            self.assertTrue(path.endswith("libswarmanoid_reproducible_math.so"), found)
+            self.assertIn("libswarmanoid_reproducible_math.so", path, found)
 
     def test_a_simulator_that_finds_libm_first_is_refused(self):
         """Box2D and ODE would take their functions from it."""

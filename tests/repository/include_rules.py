@@ -7,6 +7,7 @@ from tracked import report, tracked
 
 # From the bottom to the top; a folder may include itself and those in the lines before its own.
 COMMON = [
+    ["common/version"],
     ["common/math"],
     ["common/configuration"],
     ["common/plugins"],

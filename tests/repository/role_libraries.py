@@ -10,7 +10,7 @@ import sys
 from tracked import report
 
 # Libraries of ours (libswarmanoid_<name>.so) that every role may stand on, and those of one role.
-SHARED = {"builtins", "bus", "common", "control_interface", "experiment", "reproducible_math", "run", "space"}
+SHARED = {"builtins", "bus", "common", "control_interface", "experiment", "reproducible_math", "run", "space", "version"}
 OF_ROLE = {
     "space_server": {"space_server_node", "space_server_role"},
     "engine_worker": {"engines", "physics_engine"},

@@ -18,7 +18,7 @@ TOOLS = {"Xvfb": "xvfb", "xdotool": "xdotool", "import": "imagemagick", "identif
 
 def need(renderer):
     """Skips the file's tests if something is missing."""
-    library = pathlib.Path(os.environ["SWARMANOID_BUILD"]) / "lib" / f"libswarmanoid_{renderer}.so"
+    library = pathlib.Path(os.environ["SWARMANOID_BUILD"]) / "lib" / "swarmanoid" / f"libswarmanoid_{renderer}.so"
     if not library.exists():
         harness.skip(f"{renderer} is not part of this build")
     missing = [f"{tool} (package {package})" for tool, package in TOOLS.items() if shutil.which(tool) is None]

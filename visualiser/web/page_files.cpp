@@ -66,7 +66,7 @@ std::filesystem::path InstalledPageFolder()
 {
   Dl_info place{};
   dladdr(reinterpret_cast<const void*>(&InstalledPageFolder), &place);
-  return std::filesystem::path(place.dli_fname).parent_path() / "swarmanoid_web";
+  return std::filesystem::path(place.dli_fname).parent_path() / "web";
 }
 
 }  // namespace swarmanoid

@@ -1,0 +1,49 @@
+# Debian packages by CPack (`./build_framework package`): swarmanoid, swarmanoid-dev and swarmanoid-doc, a package for each
+# component. cmake/packages has what Debian wants beside what is installed. Included last.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME swarmanoid)
+set(CPACK_PACKAGE_CONTACT "The Swarmanoid developers <swarmanoid@localhost>" CACHE STRING "Maintainer of the packages")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_COMPONENTS_ALL runtime dev doc)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_SOURCE_DIR}/cmake/packages/finish.cmake)
+
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME swarmanoid)
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME swarmanoid-dev)
+set(CPACK_DEBIAN_DOC_PACKAGE_NAME swarmanoid-doc)
+
+# The libraries that the programs load are found by dpkg-shlibdeps. Pictures need a font and a driver of OpenGL; sets that have
+# neither still run.
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "fonts-dejavu-core, libegl1, libgl1-mesa-dri, openssh-client")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "swarmanoid-dev, swarmanoid-doc")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/cmake/packages/triggers)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY =)
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "simulator of robot swarms
+Runs experiments with footbots, handbots, eyebots and robots of one's own as
+a cluster of processes over DDS, or in one process, with the same result bit
+by bit. Physics engines, controllers, sensors, actuators and visualisations
+are plug-ins. Experiments are watched and steered from a terminal, a window
+or a browser.")
+
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "swarmanoid (= ${PROJECT_VERSION}), libeigen3-dev, libfmt-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "g++, cmake, ninja-build | make, pkg-config")
+set(CPACK_COMPONENT_DEV_DESCRIPTION "simulator of robot swarms - development files
+Headers, the CMake package Swarmanoid and the pkg-config files with which
+controllers, devices, physics engines, renderers, experiment functions and
+drivers of robots are built.")
+
+set(CPACK_DEBIAN_DOC_PACKAGE_SECTION doc)
+set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
+set(CPACK_COMPONENT_DOC_DESCRIPTION "simulator of robot swarms - documentation
+Tutorial, reference of experiment files and plug-ins, and the pages about
+engines, devices, determinism and clusters.")
+
+include(CPack)

@@ -1,0 +1,49 @@
+// A process of this program's own that does one thing and ends, such as a run of `swarmanoid` for `demo` and `doctor`:
+// it reads and prints nothing, and its complaints go to a file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace swarmanoid
+{
+
+class Child
+{
+public:
+  // The program's path first. Throws std::runtime_error if it cannot be started.
+  Child(std::vector<std::string> words, const std::string& errors);
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  bool Ended();
+  // The exit code; of a child that a signal ended, that of a process that failed.
+  int Wait();
+
+private:
+  pid_t pid_ = 0;
+  int status_ = 0;
+  bool ended_ = false;
+};
+
+// The path of this program.
+std::string OwnProgram();
+// Empty if there is none.
+std::string FirstLineOf(const std::string& file);
+
+// While an object lives, Ctrl-C is for the children alone.
+class InterruptsLeftToChild
+{
+public:
+  InterruptsLeftToChild();
+  ~InterruptsLeftToChild();
+  InterruptsLeftToChild(const InterruptsLeftToChild&) = delete;
+  InterruptsLeftToChild& operator=(const InterruptsLeftToChild&) = delete;
+
+private:
+  void (*before_)(int);
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,143 @@
+#include "launcher/showing.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <vector>
+
+#include "common/activity/exit_codes.h"
+#include "launcher/processes/child.h"
+#include "launcher/run_folder.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr double kRobotTicks = 3e5;  // that a film may take: some seconds in the slowest engine
+constexpr std::uint64_t kFewestTicks = 100;
+constexpr std::uint64_t kMostPictures = 100;
+constexpr double kPicturesPerSecond = 20;
+
+std::size_t Robots(const Experiment& experiment)
+{
+  return static_cast<std::size_t>(
+      std::ranges::count_if(experiment.entities, [](const auto& entity) { return IsRobot(entity.kind); }));
+}
+
+// Ticks until the experiment ends by itself; 0 if it does not within those of a film.
+std::uint64_t LengthOf(const Experiment& experiment, const fs::path& folder)
+{
+  const fs::path file = folder / "shown.xml", output = folder / "shown";
+  std::ofstream(file) << experiment.effective_xml;
+  const std::string most = std::to_string(TicksOfFilm(experiment, 0));
+  const int exit_code = Child({OwnProgram(), "run", file, "--single-process", "--quiet", "--no-visualisers", "--ticks",
+                               most, "--output", output},
+                              folder / "shown.log")
+                            .Wait();
+  const bool ended = exit_code == kExitDone || exit_code == kExitExperimentFailed;
+  const std::uint64_t ticks = ended ? ReadManifest(output).value("ticks", std::uint64_t{0}) : 0;
+  fs::remove_all(output);
+  return ticks;
+}
+
+}  // namespace
+
+ShowingKind KindForSession()
+{
+  for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY", "BROWSER"})
+    if (const char* value = std::getenv(name); value != nullptr && *value != '\0') return ShowingKind::kPage;
+  return ShowingKind::kFilm;
+}
+
+bool IsAtTerminal() { return isatty(STDOUT_FILENO) == 1 && isatty(STDERR_FILENO) == 1; }
+
+bool HasPictures(const Experiment& experiment)
+{
+  return std::ranges::any_of(experiment.visualisations,
+                             [](const RenderConfiguration& render) { return render.tag != "text_render"; });
+}
+
+std::string WithVisualisation(const std::string& effective_xml, const std::string& element)
+{
+  const std::string start = "<visualisations", end = "</visualisations>", last = "</ahss-config>";
+  const std::string section = "  <visualisations>\n    " + element + "\n  </visualisations>\n";
+  std::string text = effective_xml;
+  if (const std::size_t from = text.find(start); from != std::string::npos)
+  {
+    const std::size_t closed = text.find('>', from);
+    const std::size_t to = text[closed - 1] == '/' ? closed + 1 : text.find(end, from) + end.size();
+    text.erase(from, to - from);
+  }
+  return text.insert(text.rfind(last), section);
+}
+
+std::uint64_t TicksOfFilm(const Experiment& experiment, std::uint64_t ran)
+{
+  const double robots = static_cast<double>(std::max<std::size_t>(Robots(experiment), 1));
+  const std::uint64_t most = std::max(static_cast<std::uint64_t>(kRobotTicks / robots), kFewestTicks);
+  const std::uint64_t length = ran > 0 ? ran : experiment.max_clock;
+  return length > 0 ? std::min(length, most) : most;
+}
+
+int Show(const Experiment& experiment, ShowingKind kind, const std::string& folder, std::uint64_t ran)
+{
+  const fs::path file = fs::path(folder) / "shown.xml", output = fs::path(folder) / "shown";
+  const fs::path complaints = fs::path(folder) / "shown.log";
+  std::string element = R"(<web_render id="shown" allow_control="true"/>)";
+  std::vector<std::string> words{OwnProgram(), "run", file, "--single-process", "--quiet", "--output", output};
+  if (kind == ShowingKind::kPage)
+  {
+    words.insert(words.end(), {"--real-time", "1"});
+  }
+  else
+  {
+    fmt::print(stderr, "Drawing a picture and a film …\n");
+    const std::uint64_t ticks = TicksOfFilm(experiment, ran > 0 ? ran : LengthOf(experiment, folder));
+    const std::uint64_t every = (ticks + kMostPictures - 1) / kMostPictures;
+    const double speed = static_cast<double>(every) * experiment.TickSeconds() * kPicturesPerSecond;
+    // Shadows take half of the time.
+    element = fmt::format(
+        R"(<image_render id="film" size="640, 480" every="{}" speed="{}" video="film.mp4" use_shadows="false"/>)"
+        R"(<image_render id="picture" every="{}" file="picture.png"/>)",
+        every, speed, every * (kMostPictures / 10));
+    words.insert(words.end(), {"--ticks", std::to_string(ticks)});
+  }
+  std::ofstream(file) << WithVisualisation(experiment.effective_xml, element);
+
+  const InterruptsLeftToChild interrupts;
+  Child child(words, complaints);
+  if (kind == ShowingKind::kPage)
+  {
+    const fs::path url = output / "web_render.url";
+    while (!child.Ended() && FirstLineOf(url).empty()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    if (!child.Ended()) fmt::print(stderr, "Watch it: {}    (Ctrl-C ends it)\n", FirstLineOf(url));
+  }
+  const int exit_code = child.Wait();
+  std::error_code none;
+  for (const char* name : {"picture.png", "film.mp4"})
+    if (fs::exists(output / name, none))
+    {
+      fs::rename(output / name, fs::path(folder) / name);
+      fmt::print(stderr, "{} {}\n",
+                 name[0] == 'p' ? "Picture:" : "Film:   ", fs::proximate(fs::path(folder) / name).string());
+    }
+  const std::string complaint = FirstLineOf(complaints);
+  const bool good = exit_code == kExitDone || exit_code == kExitExperimentFailed || exit_code == kExitInterrupted;
+  if (!good) fmt::print(stderr, "It cannot be shown: {}\n", complaint.empty() ? "its process failed" : complaint);
+  fs::remove_all(output, none);
+  fs::remove(file, none);
+  fs::remove(complaints, none);
+  return good ? static_cast<int>(kExitDone) : exit_code;
+}
+
+}  // namespace swarmanoid

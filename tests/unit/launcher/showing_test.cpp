@@ -1,0 +1,76 @@
+// The experiment that is run once more to be shown.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "common/experiment/load_experiment.h"
+#include "launcher/showing.h"
+#include "roles/builtins.h"
+#include "test_folders.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr const char* kElement = R"(<text_render id="shown" file="shown.txt"/>)";
+
+std::vector<std::string> Samples()
+{
+  std::vector<std::string> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(SWARMANOID_SOURCE_FOLDER "/configs"))
+    if (entry.path().extension() == ".xml") files.push_back(entry.path());
+  return files;
+}
+
+std::unique_ptr<Experiment> Loaded(const std::string& text)
+{
+  LoadedExperiment loaded = LoadExperimentText(text, "shown.xml", SWARMANOID_SOURCE_FOLDER "/configs");
+  for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
+  return std::move(loaded.experiment);
+}
+
+TEST(Showing, TakesThePlaceOfTheVisualisationsOfEachSample)
+{
+  RegisterBuiltins();
+  ASSERT_GT(Samples().size(), 10U);
+  for (const std::string& file : Samples())
+  {
+    SCOPED_TRACE(file);
+    const auto experiment = LoadExperimentFile(file).experiment;
+    ASSERT_NE(experiment, nullptr);
+    const auto shown = Loaded(WithVisualisation(experiment->effective_xml, kElement));
+    ASSERT_NE(shown, nullptr);
+    ASSERT_EQ(shown->visualisations.size(), 1U);
+    EXPECT_EQ(shown->visualisations[0].id, "shown");
+    EXPECT_EQ(shown->entities.size(), experiment->entities.size());
+    EXPECT_EQ(shown->functions.size(), experiment->functions.size());
+    EXPECT_EQ(shown->seed, experiment->seed);
+  }
+}
+
+TEST(Showing, NeedsNoVisualisationsBefore)
+{
+  EXPECT_EQ(WithVisualisation("<ahss-config>\n</ahss-config>\n", "<a/>"),
+            "<ahss-config>\n  <visualisations>\n    <a/>\n  </visualisations>\n</ahss-config>\n");
+  EXPECT_EQ(WithVisualisation("<ahss-config>\n<visualisations/></ahss-config>\n", "<a/>"),
+            "<ahss-config>\n  <visualisations>\n    <a/>\n  </visualisations>\n</ahss-config>\n");
+}
+
+TEST(Showing, AFilmHasFewerTicksOfMoreRobots)
+{
+  RegisterBuiltins();
+  const auto few = LoadExperimentFile(SWARMANOID_SOURCE_FOLDER "/configs/prey_retrieval.xml").experiment;
+  const auto many = LoadExperimentFile(SWARMANOID_SOURCE_FOLDER "/configs/diffusion_10000.xml").experiment;
+  ASSERT_TRUE(few && many);
+  EXPECT_EQ(TicksOfFilm(*few, 2251), 2251U);
+  EXPECT_EQ(TicksOfFilm(*few, 0), few->max_clock);
+  EXPECT_EQ(TicksOfFilm(*many, 0), std::min<std::uint64_t>(many->max_clock, 100));
+}
+
+}  // namespace
+}  // namespace swarmanoid
