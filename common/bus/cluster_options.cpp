@@ -16,7 +16,7 @@ std::string ServerAddressMistake(const std::string& text)
   return ParseServerAddress(text) ? "" : "it must be an address and a port from 1 to 65535";
 }
 
-OptionSpec Experiment(WorkerSettings& s)
+OptionSpec ExperimentOption(WorkerSettings& s)
 {
   return {{.name = "experiment",
            .type = kText,
@@ -25,7 +25,7 @@ OptionSpec Experiment(WorkerSettings& s)
           "diffusion_10"};
 }
 
-OptionSpec Incarnation(WorkerSettings& s)
+OptionSpec IncarnationOption(WorkerSettings& s)
 {
   return {
       {.name = "incarnation",

@@ -15,8 +15,8 @@ namespace
 {
 
 constexpr std::size_t kChecksumAt = kJournalHeaderBytes - sizeof(std::uint64_t);
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 36U;  // 64 GiB
-constexpr int kLevel = 1;                                      // of zstd: more gains nothing on differences
+constexpr std::uint64_t kMostBlockBytes = std::uint64_t{1} << 36U;  // 64 GiB
+constexpr int kLevel = 1;                                           // of zstd: more gains nothing on differences
 
 template <class Number>
 void PutAt(std::span<char> bytes, std::size_t at, Number number)
@@ -32,7 +32,7 @@ Number NumberAt(std::span<const char> bytes, std::size_t at)
   return number;
 }
 
-std::uint64_t ChecksumOf(std::span<const char> block)
+std::uint64_t BlockChecksum(std::span<const char> block)
 {
   return XXH3_64bits_withSeed(block.data() + kJournalHeaderBytes, block.size() - kJournalHeaderBytes,
                               XXH3_64bits(block.data(), kChecksumAt));
@@ -56,7 +56,7 @@ std::vector<char> EncodeJournalBlock(JournalBlockKind kind, std::uint64_t first_
   PutAt(block, 16, first_tick);
   PutAt(block, 24, std::uint64_t{content.size()});
   PutAt(block, 32, std::uint64_t{stored});
-  PutAt(block, kChecksumAt, ChecksumOf(block));
+  PutAt(block, kChecksumAt, BlockChecksum(block));
   return block;
 }
 
@@ -68,7 +68,7 @@ std::optional<JournalBlockHeader> JournalBlockAt(std::span<const char> bytes, st
   const JournalBlockHeader header{static_cast<JournalBlockKind>(NumberAt<std::uint32_t>(bytes, 8)),
                                   NumberAt<std::uint32_t>(bytes, 12), NumberAt<std::uint64_t>(bytes, 16),
                                   NumberAt<std::uint64_t>(bytes, 24), NumberAt<std::uint64_t>(bytes, 32)};
-  if (header.content_bytes > kMostBytes || header.stored_bytes > left - kJournalHeaderBytes) return std::nullopt;
+  if (header.content_bytes > kMostBlockBytes || header.stored_bytes > left - kJournalHeaderBytes) return std::nullopt;
   return header;
 }
 
@@ -76,7 +76,7 @@ std::vector<char> JournalContent(std::span<const char> block)
 {
   const auto header = JournalBlockAt(block, block.size());
   if (!header || block.size() != kJournalHeaderBytes + header->stored_bytes ||
-      NumberAt<std::uint64_t>(block, kChecksumAt) != ChecksumOf(block))
+      NumberAt<std::uint64_t>(block, kChecksumAt) != BlockChecksum(block))
     throw std::runtime_error("a block of the journal is damaged");
   std::vector<char> content(header->content_bytes);
   const std::size_t bytes =

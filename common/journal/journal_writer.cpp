@@ -18,7 +18,7 @@ namespace
 using namespace std::chrono_literals;
 
 constexpr std::uint32_t kMostTicks = 64;          // of a block
-constexpr std::size_t kMostBytes = 8U << 20U;     // of a block, before it is compressed
+constexpr std::size_t kMostRawBytes = 8U << 20U;  // of a block, before it is compressed
 constexpr std::size_t kMostQueued = 256U << 20U;  // then the run waits for the disk
 constexpr auto kLatest = 100ms;                   // a tick stays unwritten
 
@@ -69,7 +69,7 @@ void JournalWriter::AddTick(const SpaceState& state, bool save, std::span<const 
     QueueRows();
     rows_.Add(state, save, frames, commands);
   }
-  if (rows_.Ticks() < kMostTicks && rows_.Bytes() < kMostBytes) return;
+  if (rows_.Ticks() < kMostTicks && rows_.Bytes() < kMostRawBytes) return;
   changed_.wait(lock, [this] { return queued_bytes_ < kMostQueued || !works_; });
   QueueRows();
 }
