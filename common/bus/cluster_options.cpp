@@ -105,7 +105,7 @@ std::vector<OptionSpec> EngineOptionTable(WorkerSettings& s)
   OptionSpec engine{
       {.name = "engine", .type = kText, .description = "The engine's id in the experiment file"}, &s.engine, "ground"};
   engine.required = true;
-  return {engine, Experiment(s), Incarnation(s)};
+  return {engine, ExperimentOption(s), IncarnationOption(s)};
 }
 
 std::vector<OptionSpec> HostOptionTable(WorkerSettings& s)
@@ -117,8 +117,8 @@ std::vector<OptionSpec> HostOptionTable(WorkerSettings& s)
             .maximum = 999},
            &s.host,
            "1"},
-          Experiment(s),
-          Incarnation(s)};
+          ExperimentOption(s),
+          IncarnationOption(s)};
 }
 
 std::vector<OptionSpec> VisualiserOptionTable(WorkerSettings& s)
@@ -128,13 +128,13 @@ std::vector<OptionSpec> VisualiserOptionTable(WorkerSettings& s)
             .description = "Id of a visualisation of the experiment file; every tick waits for it"},
            &s.render,
            "positions"},
-          Incarnation(s),
+          IncarnationOption(s),
           {{.name = "attach",
             .type = kText,
             .description = "Kind of renderer to attach to a running experiment, which it never slows"},
            &s.attach,
            "text"},
-          Experiment(s),
+          ExperimentOption(s),
           {{.name = "output", .type = kPath, .description = "Folder for relative output files"}, &s.output, "watched"},
           {{.name = "hz",
             .type = kNumber,

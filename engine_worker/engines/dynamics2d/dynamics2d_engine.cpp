@@ -21,8 +21,8 @@ namespace
 // A mirror that jumps farther than this in a tick was put elsewhere; it pushes nothing on its way.
 constexpr double kMirrorJump_m = 0.5;
 constexpr double kSameOutline_m = 1e-6;
-constexpr std::uint32_t kVersion = 4;    // of saved states
-constexpr std::size_t kMostCorners = 6;  // of the cut of a box
+constexpr std::uint32_t kDynamics2dVersion = 4;  // of saved states
+constexpr std::size_t kMostCorners = 6;          // of the cut of a box
 
 }  // namespace
 
@@ -261,7 +261,7 @@ void CDynamics2dEngine::SetVelocity(std::uint32_t entity, const PlaneVelocity& v
 
 void CDynamics2dEngine::SaveState(ByteWriter& state) const
 {
-  state.Put(kVersion);
+  state.Put(kDynamics2dVersion);
   // First: the world is built from them.
   for (const Mirror& mirror : mirrors_)
   {
@@ -292,7 +292,7 @@ void CDynamics2dEngine::SaveState(ByteWriter& state) const
 
 void CDynamics2dEngine::LoadState(ByteReader& state)
 {
-  if (state.Get<std::uint32_t>() != kVersion)
+  if (state.Get<std::uint32_t>() != kDynamics2dVersion)
     throw std::runtime_error("saved state of dynamics2d: it is of another version of the engine");
   for (const Mirror& mirror : mirrors_)
   {

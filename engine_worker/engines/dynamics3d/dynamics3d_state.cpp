@@ -8,7 +8,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kDynamics3dVersion = 4;
 
 }  // namespace
 
@@ -16,7 +16,7 @@ using namespace dynamics3d;
 
 void CDynamics3dEngine::SaveState(ByteWriter& state) const
 {
-  state.Put(kVersion);
+  state.Put(kDynamics3dVersion);
   links_->Save(state);
   state.Put(static_cast<std::uint64_t>(world_->BodyCount()));
   for (int number = 0; number < static_cast<int>(world_->BodyCount()); ++number)
@@ -38,7 +38,7 @@ void CDynamics3dEngine::SaveState(ByteWriter& state) const
 
 void CDynamics3dEngine::LoadState(ByteReader& state)
 {
-  if (state.Get<std::uint32_t>() != kVersion)
+  if (state.Get<std::uint32_t>() != kDynamics3dVersion)
     throw std::runtime_error("saved state: it is of another version of dynamics3d");
   // Links first: making their joints puts bodies where they were then.
   links_->Load(state);
