@@ -143,11 +143,11 @@ BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, con
     if (WidthOf(model.polygon) < kSmallest_m) TooSmall(entity);
     model.inertia = model.mass * UnitInertia(model.polygon);
   }
+  model.has_gripper = kind.mechanism == Mechanism::kTurretGripper;
   if (motion != EMotion::kDynamic) return model;
 
   // Grippers find no hold on a block here.
   model.grippable = kind.grippable && !is_free_box;
-  model.has_gripper = kind.mechanism == Mechanism::kTurretGripper;
   if (kind.wheels)
   {
     model.ground_force = std::min(parameters.wheel_friction * model.mass * parameters.gravity, parameters.drive_force);

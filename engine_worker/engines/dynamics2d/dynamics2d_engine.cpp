@@ -175,6 +175,8 @@ void CDynamics2dEngine::FollowMirrors()
     const std::vector<Vector2> outline = MirrorOutline(*mirror.entity, plane_);
     if (!outline.empty()) world_->SetOutline(mirror.body, outline, kSameOutline_m);
     world_->Place(mirror.body, now);
+    if (DescriptionOf(mirror.entity->GetKind()).mechanism == Mechanism::kTurretGripper)
+      world_->SetTurretAngle(mirror.body, mirror.entity->GetAttribute("turret_angle"));
     const double du = now.u - mirror.previous.u;
     const double dv = now.v - mirror.previous.v;
     PlaneVelocity velocity;

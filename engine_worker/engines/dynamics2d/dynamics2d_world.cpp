@@ -327,6 +327,14 @@ void Dynamics2dWorld::TurnGripper(Body& body)
   static_cast<b2PolygonShape*>(body.gripper->GetShape())->Set(points.data(), 4);
 }
 
+void Dynamics2dWorld::SetTurretAngle(int number, double radians)
+{
+  Body& body = bodies_[Index(number)];
+  if (body.turret_angle == radians) return;
+  body.turret_angle = radians;
+  TurnGripper(body);
+}
+
 double Dynamics2dWorld::TurretAngleOf(int number) const
 {
   const Body& body = bodies_[Index(number)];

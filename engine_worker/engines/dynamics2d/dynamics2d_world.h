@@ -104,6 +104,8 @@ public:
 
   // The velocity that a body strives for against the ground, within its ground_force and ground_torque.
   void SetDrive(int body, const Twist& drive) { bodies_[Index(body)].drive = drive; }
+  // Turns the gripper of a body that grips nothing to an angle against it, radians.
+  void SetTurretAngle(int body, double radians);
   void SetTurretSpeed(int body, double radians_per_second) { bodies_[Index(body)].turret_speed = radians_per_second; }
   double TurretAngleOf(int body) const;  // -pi..pi
 
