@@ -64,7 +64,8 @@ int Play(const DemoOptions& options)
   const auto experiment = LoadOrComplain(file, {});
   if (!experiment) return kExitInvalidFile;
   fmt::print(stderr, "{}: {}\n", options.name, FirstSentence(file));
-  const ShowingKind kind = options.page ? ShowingKind::kPage : options.film ? ShowingKind::kFilm : KindForSession();
+  ShowingKind kind = options.page ? ShowingKind::kPage : options.film ? ShowingKind::kFilm : KindForSession();
+  if (kind == ShowingKind::kPage && !options.page) kind = ShowingKind::kOpenedPage;
   try
   {
     const RunFolder folder(options.output, "demo_" + options.name);
@@ -77,7 +78,7 @@ int Play(const DemoOptions& options)
   {
     throw UsageError(error.what());
   }
-  fmt::print(stderr, "Next: swarmanoid run {}\n", fs::proximate(file).string());
+  fmt::print(stderr, "Next: swarmanoid run {}\n", ShortPath(file));
   return kExitDone;
 }
 
@@ -90,7 +91,7 @@ void AddDemoCommand(CLI::App& app, int& exit_code)
       "demo", "Play a sample: on a page in the browser, or without a display as a picture and a film");
   verb->add_option("NAME", options->name, "The sample")->capture_default_str();
   verb->add_flag("--list", options->list, "List the samples");
-  verb->add_flag("--page", options->page, "Play it in real time on a page, whatever display there is");
+  verb->add_flag("--page", options->page, "Play it in real time on a page, and only tell its address");
   verb->add_flag("--film", options->film, "Draw a picture and a film");
   verb->add_option("--output", options->output, "Folder of picture and film; otherwise runs/demo_<name>-<time>")
       ->type_name("FILE");

@@ -79,9 +79,9 @@ int main(int count, char** arguments)
   const int exit_code = RunProgram(
       {.name = "swarmanoid",
        .purpose = "Runs swarm-robotics experiments, and looks at those that run.",
-       .footer =
-           "Start with:\n  swarmanoid run configs/diffusion_10.xml\n`swarmanoid COMMAND --help` explains a command "
-           "with examples.",
+       .footer = "Start with:\n  swarmanoid demo\n  swarmanoid run configs/diffusion_10.xml\n`swarmanoid COMMAND "
+                 "--help` explains a command "
+                 "with examples.",
        .catches_interrupts = false},
       static_cast<int>(given.size()), given.data(), [&](CLI::App& app) { AddCommands(app, verb_code); },
       [&] { return verb_code; });

@@ -34,6 +34,18 @@ std::size_t Robots(const Experiment& experiment)
       std::ranges::count_if(experiment.entities, [](const auto& entity) { return IsRobot(entity.kind); }));
 }
 
+// As the desktop does; without one the address that was told has to do.
+void OpenInBrowser(const std::string& url)
+{
+  try
+  {
+    Child({"xdg-open", url}, "/dev/null").Wait();
+  }
+  catch (const std::runtime_error&)
+  {
+  }
+}
+
 // Ticks until the experiment ends by itself; 0 if it does not within those of a film.
 std::uint64_t LengthOf(const Experiment& experiment, const fs::path& folder)
 {
@@ -67,6 +79,12 @@ bool HasPictures(const Experiment& experiment)
                              [](const RenderConfiguration& render) { return render.tag != "text_render"; });
 }
 
+std::string ShortPath(const std::string& path)
+{
+  const std::string near = fs::proximate(path).string();
+  return near.starts_with("..") ? path : near;
+}
+
 std::string WithVisualisation(const std::string& effective_xml, const std::string& element)
 {
   const std::string start = "<visualisations", end = "</visualisations>", last = "</ahss-config>";
@@ -95,7 +113,7 @@ int Show(const Experiment& experiment, ShowingKind kind, const std::string& fold
   const fs::path complaints = fs::path(folder) / "shown.log";
   std::string element = R"(<web_render id="shown" allow_control="true"/>)";
   std::vector<std::string> words{OwnProgram(), "run", file, "--single-process", "--quiet", "--output", output};
-  if (kind == ShowingKind::kPage)
+  if (kind != ShowingKind::kFilm)
   {
     words.insert(words.end(), {"--real-time", "1"});
   }
@@ -116,11 +134,15 @@ int Show(const Experiment& experiment, ShowingKind kind, const std::string& fold
 
   const InterruptsLeftToChild interrupts;
   Child child(words, complaints);
-  if (kind == ShowingKind::kPage)
+  if (kind != ShowingKind::kFilm)
   {
     const fs::path url = output / "web_render.url";
     while (!child.Ended() && FirstLineOf(url).empty()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    if (!child.Ended()) fmt::print(stderr, "Watch it: {}    (Ctrl-C ends it)\n", FirstLineOf(url));
+    if (!child.Ended())
+    {
+      fmt::print(stderr, "Watch it: {}    (Ctrl-C ends it)\n", FirstLineOf(url));
+      if (kind == ShowingKind::kOpenedPage) OpenInBrowser(FirstLineOf(url));
+    }
   }
   const int exit_code = child.Wait();
   std::error_code none;
@@ -128,8 +150,7 @@ int Show(const Experiment& experiment, ShowingKind kind, const std::string& fold
     if (fs::exists(output / name, none))
     {
       fs::rename(output / name, fs::path(folder) / name);
-      fmt::print(stderr, "{} {}\n",
-                 name[0] == 'p' ? "Picture:" : "Film:   ", fs::proximate(fs::path(folder) / name).string());
+      fmt::print(stderr, "{} {}\n", name[0] == 'p' ? "Picture:" : "Film:   ", ShortPath(fs::path(folder) / name));
     }
   const std::string complaint = FirstLineOf(complaints);
   const bool good = exit_code == kExitDone || exit_code == kExitExperimentFailed || exit_code == kExitInterrupted;

@@ -12,7 +12,8 @@ namespace swarmanoid
 
 enum class ShowingKind
 {
-  kPage,
+  kPage,        // its address is told
+  kOpenedPage,  // and given to the browser
   kFilm
 };
 
@@ -22,6 +23,9 @@ ShowingKind KindForSession();
 bool IsAtTerminal();
 // Whether a visualisation of the experiment draws what it shows.
 bool HasPictures(const Experiment& experiment);
+
+// From the current folder, if the file is in it; otherwise the path as it is.
+std::string ShortPath(const std::string& path);
 
 // The text with the visualisation in the place of its own ones.
 std::string WithVisualisation(const std::string& effective_xml, const std::string& element);

@@ -1,14 +1,17 @@
 #include "common/program/program.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <string_view>
 
 #include "common/activity/failure_report.h"
 #include "common/activity/limits.h"
 #include "common/configuration/configuration_tree.h"
+#include "common/program/colour.h"
 #include "common/program/command_line_complaint.h"
 #include "common/program/interrupts.h"
 #include "common/program/man_page.h"
@@ -22,6 +25,11 @@ namespace
 
 std::string terminating_program;
 
+void Complain(const std::string& program, std::string_view what)
+{
+  fmt::print(stderr, "{}: {}\n", Coloured(STDERR_FILENO, Colour::kRed, program), what);
+}
+
 // What the exception being handled says, and the exit code that it means.
 int Report(const std::string& program)
 {
@@ -31,7 +39,7 @@ int Report(const std::string& program)
   }
   catch (const UsageError& error)
   {
-    fmt::print(stderr, "{}: {}\n", program, error.what());
+    Complain(program, error.what());
     return kExitUsage;
   }
   catch (const ConfigurationError& error)
@@ -41,17 +49,17 @@ int Report(const std::string& program)
     if (error.Location().file)
       fmt::print(stderr, "{}\n", error.what());
     else
-      fmt::print(stderr, "{}: {}\n", program, error.what());
+      Complain(program, error.what());
     return kExitInvalidFile;
   }
   catch (const std::exception& error)
   {
     NoteEnd(Interrupted() ? EndReason::kInterrupted : EndReason::kFailed, 0, error.what(), true);
-    fmt::print(stderr, "{}: {}\n", program, error.what());
+    Complain(program, error.what());
   }
   catch (...)
   {
-    fmt::print(stderr, "{}: something was thrown that is no std::exception\n", program);
+    Complain(program, "something was thrown that is no std::exception");
   }
   return Interrupted() ? kExitInterrupted : kExitProcessFailed;
 }

@@ -37,7 +37,7 @@ Child::Child(std::vector<std::string> words, const std::string& errors)
   posix_spawnattr_setsigmask(&attributes, &none);
   posix_spawnattr_setsigdefault(&attributes, &all);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  const int error = posix_spawn(&pid_, arguments[0], &files, &attributes, arguments.data(), environ);
+  const int error = posix_spawnp(&pid_, arguments[0], &files, &attributes, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&files);
   posix_spawnattr_destroy(&attributes);
   if (error != 0) throw std::runtime_error(fmt::format("cannot start '{}': {}", words[0], std::strerror(error)));

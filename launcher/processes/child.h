@@ -13,7 +13,7 @@ namespace swarmanoid
 class Child
 {
 public:
-  // The program's path first. Throws std::runtime_error if it cannot be started.
+  // The program first, by its path or as it is found on the PATH. Throws std::runtime_error if it cannot be started.
   Child(std::vector<std::string> words, const std::string& errors);
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;

@@ -98,6 +98,19 @@ class First(harness.LauncherTest):
         self.assert_nothing_left(run)
         self.assertEqual(list((self.folder / "runs").iterdir()), [])
 
+    @unittest.skipUnless(SERVES, "web_render is not part of this build")
+    def test_demo_opens_the_page_on_a_desktop(self):
+        browser = self.folder / "bin" / "xdg-open"
+        browser.parent.mkdir()
+        browser.write_text(f'#!/bin/sh\necho "$1" >{self.folder}/opened\n')
+        browser.chmod(0o755)
+        run = self.start("demo", "diffusion_10", environment={"DISPLAY": ":1", "PATH": f"{browser.parent}:{os.environ['PATH']}"})
+        said = run.read_until("Ctrl-C")
+        self.wait_until("the browser", lambda: (self.folder / "opened").exists() and (self.folder / "opened").read_text(), run)
+        self.assertIn((self.folder / "opened").read_text().strip(), said)
+        os.killpg(run.process.pid, signal.SIGINT)
+        self.assertEqual(run.wait(), 0)
+
     @unittest.skipUnless(DRAWS, "image_render is not part of this build")
     def test_the_first_run_on_a_terminal_is_shown(self):
         sample = harness.CONFIGS / "sample_footbot.xml"
@@ -126,6 +139,9 @@ class First(harness.LauncherTest):
         self.assertIn("\033[32mvalid\033[0m", on_terminal(self.folder, "check", sample)[0])
         self.assertNotIn("\033[", on_terminal(self.folder, "check", sample, NO_COLOR="1")[0])
         self.assertNotIn("\033[", self.command("check", sample).stdout)
+
+    def test_complaints_are_red_on_terminals(self):
+        self.assertIn("\033[31mswarmanoid\033[0m: there is no sample", on_terminal(self.folder, "demo", "nothing")[0])
 
     def completed_by_bash(self, *words):
         script = pathlib.Path(__file__).parents[2] / "launcher" / "completion" / "swarmanoid.bash"

@@ -13,7 +13,7 @@ SOURCE = pathlib.Path(os.environ["SWARMANOID_SOURCE"])
 PACKAGES = ("swarmanoid", "swarmanoid-dev", "swarmanoid-doc")
 ROLES = {"space_server", "engine_worker", "controller_host", "visualiser"}
 
-for tool in ("dpkg-deb", "dpkg-shlibdeps", "readelf", "pkg-config"):
+for tool in ("dpkg-deb", "dpkg-shlibdeps", "file", "readelf", "pkg-config"):
     if shutil.which(tool) is None:
         print(f"there is no {tool}")
         sys.exit(77)
