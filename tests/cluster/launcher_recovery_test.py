@@ -149,12 +149,16 @@ class Soak(RecoveryTest):
         experiment = CONFIGS / "diffusion_10.xml"
         expected = self.undisturbed(experiment, ticks, "--no-visualisers")
         run = self.start("run", experiment, "--ticks", ticks, "--hash-log", "cluster", "--output", "out", "--no-visualisers",
-                         "--retries", 20, "--lease", 2)
+                         "--retries", 1000, "--lease", 1)
         programs = WORKERS[:2]
         self.wait_for_tick("cluster", 10, run)
         said = ""
         for _ in range(KILLS):
-            time.sleep(seed.random() * 0.3)
+            # Mostly in the midst of ticks, else while others are still taking places.
+            if seed.random() < 0.8:
+                written = (self.folder / "cluster").stat().st_size
+                self.wait_until("the next tick", lambda: (self.folder / "cluster").stat().st_size > written, run)
+            time.sleep(seed.random() * 0.1)
             victims = seed.sample(programs, seed.choice([1, 1, 2]))
             stop = seed.random() < 0.2
             for program in victims:
