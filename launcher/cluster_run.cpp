@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <optional>
 #include <thread>
@@ -105,16 +106,17 @@ int ServeHere(std::vector<std::string> words, int status, const std::atomic<bool
 // Watched, the space server's role is this thread's; the supervisor has one of its own, for which the signals are
 // blocked already.
 ClusterOutcome RunWatched(const std::vector<MemberPlan>& plans, Interrupts& interrupts, ProgressDisplay& display,
-                          const ActorNames& actor_of, unsigned retries, const WatchFunction& watch,
-                          const std::function<int(const RunResult&)>& conclude)
+                          const ActorNames& actor_of, const SupervisorTimes& times, unsigned retries,
+                          const WatchFunction& watch, const std::function<int(const RunResult&)>& conclude)
 {
   InProcessServer server;
   ClusterOutcome outcome;
   std::thread supervising(
       [&]
       {
-        outcome = Supervisor(server, interrupts, display, STDOUT_FILENO, actor_of, {}, Supervisor::Clock::now, retries)
-                      .Run(plans);
+        outcome =
+            Supervisor(server, interrupts, display, STDOUT_FILENO, actor_of, times, Supervisor::Clock::now, retries)
+                .Run(plans);
         if (server.IsStuck()) LeaveStuck(outcome, conclude);
         server.Cancel();
       });
@@ -152,17 +154,19 @@ RunResult RunCluster(const RunSettings& options, const Experiment& experiment, c
   const ActorNames actor_of = [&experiment](Actor::Kind kind, std::uint32_t number)
   { return ActorOf(experiment, kind, number); };
   const unsigned retries = options.Replaces() ? options.retries : 0;
+  SupervisorTimes times;
+  if (retries > 0) times.stopped = std::chrono::milliseconds(static_cast<long>(1000 * options.lease_s));
   ClusterOutcome outcome;
   if (watch)
   {
     const ManifestAtDeath at_death(folder, manifest);
     ApplyLimitsHere(options);
-    outcome = RunWatched(plans, interrupts, display, actor_of, retries, watch, conclude);
+    outcome = RunWatched(plans, interrupts, display, actor_of, times, retries, watch, conclude);
   }
   else
   {
     SystemSpawner spawner;
-    outcome = Supervisor(spawner, interrupts, display, STDOUT_FILENO, actor_of, {}, Supervisor::Clock::now, retries)
+    outcome = Supervisor(spawner, interrupts, display, STDOUT_FILENO, actor_of, times, Supervisor::Clock::now, retries)
                   .Run(plans);
   }
   RemoveDeadRuns();

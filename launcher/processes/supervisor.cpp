@@ -19,14 +19,17 @@ namespace
 constexpr std::size_t kScreenBytes = 2048;  // a pipe that poll calls writable takes these without blocking
 constexpr std::size_t kOutputBytes = 65536;
 
-// True if the process waits for something by its own will, and does not work, nor was it stopped.
-bool IsAsleep(pid_t pid)
+// The letter of a process, as proc(5) has it.
+bool IsInState(pid_t pid, char state)
 {
   std::ifstream stat(fmt::format("/proc/{}/stat", pid));
   std::string line;
   std::getline(stat, line);
-  return line.find(") S ") != std::string::npos;
+  return line.find(fmt::format(") {} ", state)) != std::string::npos;
 }
+
+// True if the process waits for something by its own will, and does not work, nor was it stopped.
+bool IsAsleep(pid_t pid) { return IsInState(pid, 'S'); }
 
 bool TakesMore(int descriptor)
 {
@@ -61,6 +64,7 @@ ClusterOutcome Supervisor::Run(const std::vector<MemberPlan>& plans)
     CollectEnds();
     TakeInterrupts();
     CheckDeadlines();
+    KillStopped();
     ShowProgress();
   }
   if (attribute_at_ && phase_ != Phase::kDying) Attribute();
@@ -304,6 +308,21 @@ void Supervisor::KillLost(const std::string& name)
 {
   for (const auto& member : members_)
     if (member->Name() == name && member->Alive()) spawner_.Signal(member->Process(), SIGKILL);
+}
+
+// Who was stopped before others met it is missed by nobody's lease.
+void Supervisor::KillStopped()
+{
+  if (times_.stopped.count() == 0 || phase_ != Phase::kRunning) return;
+  const Clock::time_point now = now_();
+  for (const auto& member : members_)
+  {
+    const pid_t pid = member->Process().pid;
+    if (!member->Alive() || !member->Plan().replacement || !IsInState(pid, 'T'))
+      stopped_.erase(pid);
+    else if (now - stopped_.try_emplace(pid, now).first->second >= times_.stopped)
+      spawner_.Signal(member->Process(), SIGKILL);
+  }
 }
 
 void Supervisor::AttributeWithin(std::chrono::milliseconds patience)

@@ -50,6 +50,7 @@ struct SupervisorTimes
   std::chrono::milliseconds finish{3000};      // for processes to end after the last tick
   std::chrono::milliseconds finish_visualiser{60000};  // visualisers may have films to finish
   std::chrono::milliseconds forced_stop{5000};         // after SIGTERM or SIGHUP to the launcher
+  std::chrono::milliseconds stopped{0};  // that a worker may be stopped by a signal before it is replaced; 0: any
 };
 
 class Supervisor
@@ -89,6 +90,7 @@ private:
   // Starts another process in the place of one that died; false if that is no use.
   bool Replace(const ClusterMember& member);
   void KillLost(const std::string& name);
+  void KillStopped();
   // Ends the run by the fault of the process that failed first, if any of those that have ended, or said so, failed.
   void Attribute();
   void TakeInterrupts();
@@ -129,6 +131,7 @@ private:
   std::map<std::string, Screen> screens_;
   unsigned retries_;
   std::map<std::string, Deaths> deaths_;
+  std::map<pid_t, Clock::time_point> stopped_;  // since when
   std::vector<pid_t> pids_;
   Phase phase_ = Phase::kRunning;
   ClusterOutcome outcome_;

@@ -184,7 +184,9 @@ void ServerProgram::CheckFailures()
     throw BusError(fmt::format("{} has left before the last tick", *left));
   }
   if (!BusIsBroken()) return;
-  if (!broken_since_) broken_since_ = Clock::now();
+  // Another process may have taken the place of the dead one: then the run goes on.
+  if (!broken_since_ || lockstep_.Tick() != broken_tick_) broken_since_ = Clock::now();
+  broken_tick_ = lockstep_.Tick();
   if (Clock::now() - *broken_since_ <= kBrokenTime) return;
   reason_ = EndReason::kOthers;
   throw BusError("a process died, or was stopped, while it held shared memory of the run");

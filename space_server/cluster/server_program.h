@@ -121,6 +121,7 @@ private:
   bool told_end_ = false;
   bool failed_ = false;
   std::optional<Clock::time_point> broken_since_;
+  std::uint64_t broken_tick_ = 0;
   EndReason reason_ = EndReason::kFailed;  // why the run ends before its end
   SpaceSnapshot snapshot_;
 };

@@ -230,6 +230,17 @@ TEST_F(SupervisorTest, OneThatIsLostIsKilledAndReplaced)
   EXPECT_FALSE(IsTold("came back"));
 }
 
+TEST_F(SupervisorTest, OneThatIsStoppedBeforeAnybodyKnowsItIsKilledAndReplaced)
+{
+  retries_ = 1;
+  times_.stopped = milliseconds(60);
+  AddServer("echo state running; " + Await("second") + kFinishing);
+  Add("engine_worker ground", "kill -STOP $$; " + Tell("came back"));
+  ReplaceBy(Tell("second"));
+  EXPECT_EQ(Run().kind, ClusterOutcome::kFinished);
+  EXPECT_FALSE(IsTold("came back"));
+}
+
 TEST_F(SupervisorTest, OneThatSaysWhatIsWrongIsNotReplaced)
 {
   retries_ = 3;
