@@ -25,9 +25,10 @@ namespace swarmanoid
 namespace
 {
 
-using Clock = std::chrono::steady_clock;
-
-double SecondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double SecondsSince(std::chrono::steady_clock::time_point start)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 }  // namespace
 
@@ -120,7 +121,7 @@ struct CSimulator::Roles
   std::vector<const EngineUpdate*> updates;
 
   std::uint64_t first_tick = 0;
-  Clock::time_point start;
+  std::chrono::steady_clock::time_point start;
   Watch watch;
   bool watching = false;
   bool over = false;
@@ -146,7 +147,7 @@ CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& opt
   if (!options.restore_file.empty())
     roles_->Restore(ReadCheckpoint(options.restore_file, experiment, {1, options.any_build}));
   roles_->first_tick = roles_->space.GetTick();
-  roles_->start = Clock::now();
+  roles_->start = std::chrono::steady_clock::now();
   Show();
 }
 
