@@ -231,6 +231,8 @@ void WorkerSession::Notify()
 void WorkerSession::SetTick(std::uint64_t tick)
 {
   const std::lock_guard lock(mutex_);
+  // The run goes on: another process has taken the place of the one that died with its lock.
+  if (tick != tick_) broken_since_.reset();
   tick_ = tick;
 }
 

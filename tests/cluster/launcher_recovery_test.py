@@ -149,7 +149,7 @@ class Soak(RecoveryTest):
         experiment = CONFIGS / "diffusion_10.xml"
         expected = self.undisturbed(experiment, ticks, "--no-visualisers")
         run = self.start("run", experiment, "--ticks", ticks, "--hash-log", "cluster", "--output", "out", "--no-visualisers",
-                         "--retries", 1000, "--lease", 1)
+                         "--retries", 1000, "--lease", 10)
         self.wait_for_tick("cluster", 10, run)
         try:
             for _ in range(KILLS):
@@ -159,7 +159,7 @@ class Soak(RecoveryTest):
                     self.wait_until("the next tick", lambda: (self.folder / "cluster").stat().st_size > written, run)
                 time.sleep(seed.random() * 0.1)
                 victims = seed.sample(WORKERS[:2], seed.choice([1, 1, 2]))
-                stop = seed.random() < 0.2
+                stop = seed.random() < 0.1 and KILLS > 10  # each takes the lease
                 for program in victims:
                     os.kill(run.find(program), signal.SIGSTOP if stop else signal.SIGKILL)
                 for _ in victims:
