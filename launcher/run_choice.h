@@ -18,8 +18,8 @@ struct RunChoice
 // Throws UsageError, listing those that run, if there is none or more than one.
 RunChoice ChooseRun(const std::string& name, std::optional<int> domain);
 
-// The same, but for so many seconds it waits for one to start, and says so on the standard error; of several, who sits at a
-// terminal is asked for one.
+// The same, but for so many seconds it waits for one to start, and says so on the standard error; of several, who sits
+// at a terminal is asked for one.
 RunChoice AwaitRun(const std::string& name, std::optional<int> domain, double wait_s);
 
 }  // namespace swarmanoid
