@@ -57,7 +57,8 @@ class CommandLine(OutsideTest):
         # What the server takes is what the launcher takes, from one table.
         options = {name: set(re.findall(r"^ +(--[a-z-]+)", self.command(*name, "--help").stdout, re.MULTILINE))
                    for name in [("swarmanoid", "run"), ("space_server",)]}
-        own = {"--status-fd", "--await-replacements", "--domain", "--interface", "--peers", "--discovery-server", "--lease", "--datagram"}
+        own = {"--status-fd", "--await-replacements", "--domain", "--interface", "--peers", "--discovery-server", "--lease", "--datagram",
+               "--version"}
         self.assertLessEqual(options[("space_server",)] - own, options[("swarmanoid", "run")])
 
     def test_what_functions_print_is_no_word_of_the_server(self):

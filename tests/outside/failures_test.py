@@ -60,6 +60,8 @@ class Failures(OutsideTest):
         """The first line of a run that fails; `allowed`: seconds that the fault may go on."""
         time_of_failure = self.folder / "time_of_failure"
         output = pathlib.Path(tempfile.mkdtemp(prefix="run_", dir=self.folder))
+        # Others would take the place of a process that dies: cluster.launcher_recovery.
+        options = options if "--single-process" in options else (*options, "--no-recovery")
         done = subprocess.run([PREFIX / "bin" / "swarmanoid", "run", file or self.file, "--quiet", "--output", output, *options], cwd=self.folder,
                               capture_output=True, text=True, timeout=timeout,
                               env=self.environment({"OUTSIDE_FAULT": f"{who} {fault} {tick}", "OUTSIDE_FAULT_TIME": str(time_of_failure)}),
