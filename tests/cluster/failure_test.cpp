@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/bus/bus.h"
+#include "common/bus/control_client.h"
 #include "tests/cluster/cluster_fixture.h"
 
 namespace swarmanoid
@@ -66,11 +67,16 @@ TEST_F(ClusterTest, TheServerSaysWhomItWaitsForAndWorkersTooInAnyOrder)
 
 TEST_F(ClusterTest, AStoppedWorkerIsNamedAfterTwoSecondsAndTheRunGoesOnWhenItDoes)
 {
-  ChildProcess server = StartServer(WriteExperiment("stalled", 1, 300), {"--real-time", "20", "--lease", "30"});
+  // Paused, it holds no lock of the memory that it shares with the others when it is stopped.
+  ChildProcess server = StartServer(WriteExperiment("stalled", 1, 300), {"--paused", "--lease", "30"});
   ChildProcess engine = Start("engine_worker", {"--experiment", "stalled", "--engine", "e0", "--lease", "30"});
   ChildProcess host = Start("controller_host", {"--experiment", "stalled", "--lease", "30"});
-  ASSERT_TRUE(server.WaitForOutput("running")) << server.Output();
+  ASSERT_TRUE(server.WaitForOutput("paused at tick 0")) << server.Output();
   host.Signal(SIGSTOP);
+  BusOptions options;
+  options.domain = domain_.Id();
+  Bus bus(options, "test");
+  ControlClient(bus, "stalled").Send("resume", "", {});
   EXPECT_TRUE(server.WaitForOutput("waiting for controller host 0 since 2 s")) << server.Output();
   host.Signal(SIGCONT);
   EXPECT_EQ(server.Wait(), 0) << server.Output();
