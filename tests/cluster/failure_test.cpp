@@ -76,7 +76,9 @@ TEST_F(ClusterTest, AStoppedWorkerIsNamedAfterTwoSecondsAndTheRunGoesOnWhenItDoe
   BusOptions options;
   options.domain = domain_.Id();
   Bus bus(options, "test");
-  ControlClient(bus, "stalled").Send("resume", "", {});
+  ControlClient client(bus, "stalled");
+  const auto reply = client.Ask("resume", "", {}, kGenerous_s);
+  ASSERT_TRUE(reply && reply->ok) << server.Output();
   EXPECT_TRUE(server.WaitForOutput("waiting for controller host 0 since 2 s")) << server.Output();
   host.Signal(SIGCONT);
   EXPECT_EQ(server.Wait(), 0) << server.Output();
