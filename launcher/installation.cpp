@@ -13,7 +13,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-fs::path OwnFolder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
+fs::path OwnFolder() { return fs::path(OwnProgram()).parent_path(); }
 
 fs::path SampleFolder() { return OwnFolder().parent_path() / "share" / "swarmanoid" / "configs"; }
 
@@ -41,6 +41,8 @@ fs::path FolderOfPrograms()
 }
 
 }  // namespace
+
+std::string OwnProgram() { return fs::read_symlink("/proc/self/exe"); }
 
 std::string ProgramFolder()
 {

@@ -7,6 +7,8 @@
 namespace swarmanoid
 {
 
+// The path of this program.
+std::string OwnProgram();
 // The folder of the programs. SWARMANOID_PROGRAM_DIR in the environment names another one.
 std::string ProgramFolder();
 // The folder of what users copy: templates and samples.

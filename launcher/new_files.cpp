@@ -119,7 +119,7 @@ void MakeFile(const std::string& from, const fs::path& to, const TemplateValues&
 // How the user calls this program: by its name if that finds it.
 std::string ProgramName()
 {
-  const fs::path own = fs::read_symlink("/proc/self/exe");
+  const fs::path own = OwnProgram();
   const char* path = std::getenv("PATH");
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');)

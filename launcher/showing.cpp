@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/activity/exit_codes.h"
+#include "launcher/installation.h"
 #include "launcher/processes/child.h"
 #include "launcher/run_folder.h"
 

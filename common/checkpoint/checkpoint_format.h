@@ -21,26 +21,41 @@ inline constexpr char kCheckpointVersion = '2';
 inline constexpr std::size_t kCheckpointHeaderBytes = 16;
 inline constexpr std::size_t kCheckpointChecksumBytes = 8;
 
-// `checkpoint`: a Checkpoint, const for archives that only look.
-template <class Archive, class Checkpoint>
-void ForEachCheckpointField(Archive& archive, Checkpoint& checkpoint)
+// Of a CheckpointOrigin, a SpaceSnapshot, a SavedPart and a Checkpoint, const for archives that only look. A journal
+// has the first three in blocks of their own.
+template <class Archive, class Origin>
+void ForEachOriginField(Archive& archive, Origin& origin)
 {
-  archive.Number(checkpoint.origin.experiment);
-  archive.List(checkpoint.origin.libraries,
+  archive.Number(origin.experiment);
+  archive.List(origin.libraries,
                [&](auto& library)
                {
                  archive.Text(library.name);
                  archive.Text(library.build);
                });
-  archive.Number(checkpoint.snapshot.tick);
-  archive.Array(checkpoint.snapshot.poses);
-  archive.Array(checkpoint.snapshot.attributes);
-  archive.List(checkpoint.parts,
-               [&](auto& part)
-               {
-                 archive.Text(part.name);
-                 archive.Array(part.state);
-               });
+}
+
+template <class Archive, class Snapshot>
+void ForEachSnapshotField(Archive& archive, Snapshot& snapshot)
+{
+  archive.Number(snapshot.tick);
+  archive.Array(snapshot.poses);
+  archive.Array(snapshot.attributes);
+}
+
+template <class Archive, class Part>
+void ForEachPartField(Archive& archive, Part& part)
+{
+  archive.Text(part.name);
+  archive.Array(part.state);
+}
+
+template <class Archive, class Checkpoint>
+void ForEachCheckpointField(Archive& archive, Checkpoint& checkpoint)
+{
+  ForEachOriginField(archive, checkpoint.origin);
+  ForEachSnapshotField(archive, checkpoint.snapshot);
+  archive.List(checkpoint.parts, [&](auto& part) { ForEachPartField(archive, part); });
 }
 
 }  // namespace swarmanoid

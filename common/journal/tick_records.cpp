@@ -5,6 +5,9 @@
 #include <bit>
 #include <cstring>
 
+#include "common/checkpoint/checkpoint_format.h"
+#include "common/serialisation/fields.h"
+
 namespace swarmanoid
 {
 namespace
@@ -36,6 +39,33 @@ void Get(ByteReader& bytes, AttributeChanges& changes)
 {
   changes.slots = bytes.GetArray<std::uint32_t>();
   changes.values = bytes.GetArray<double>();
+}
+
+constexpr auto kStartFields = [](auto& archive, auto& start)
+{
+  ForEachOriginField(archive, start.origin);
+  archive.Number(start.hosts);
+  archive.Number(start.first_tick);
+};
+constexpr auto kSnapshotFields = [](auto& archive, auto& snapshot) { ForEachSnapshotField(archive, snapshot); };
+constexpr auto kPartFields = [](auto& archive, auto& part) { ForEachPartField(archive, part); };
+
+template <class T, class Fields>
+std::vector<char> Written(const T& value, const Fields& fields)
+{
+  ByteWriter content;
+  FieldWriter archive(content);
+  fields(archive, value);
+  return content.Bytes();
+}
+
+template <class T, class Fields>
+T Read(std::span<const char> content, const Fields& fields)
+{
+  FieldReader archive(content);
+  T value;
+  fields(archive, value);
+  return value;
 }
 
 }  // namespace
@@ -173,72 +203,14 @@ bool TickRecordReader::Next(TickRecord& record)
   return true;
 }
 
-std::vector<char> ContentOf(const JournalStart& start)
-{
-  ByteWriter content;
-  content.Put(start.origin.experiment);
-  content.Put(static_cast<std::uint64_t>(start.origin.libraries.size()));
-  for (const LibraryBuild& library : start.origin.libraries)
-  {
-    content.PutText(library.name);
-    content.PutText(library.build);
-  }
-  content.Put(start.hosts);
-  content.Put(start.first_tick);
-  return content.Bytes();
-}
+std::vector<char> ContentOf(const JournalStart& start) { return Written(start, kStartFields); }
+JournalStart ReadStart(std::span<const char> content) { return Read<JournalStart>(content, kStartFields); }
 
-JournalStart ReadStart(std::span<const char> content)
-{
-  ByteReader reader(content);
-  JournalStart start;
-  start.origin.experiment = reader.Get<std::uint64_t>();
-  for (auto left = reader.Get<std::uint64_t>(); left > 0; --left)
-  {
-    LibraryBuild& library = start.origin.libraries.emplace_back();
-    library.name = reader.GetText();
-    library.build = reader.GetText();
-  }
-  start.hosts = reader.Get<std::uint64_t>();
-  start.first_tick = reader.Get<std::uint64_t>();
-  return start;
-}
+std::vector<char> ContentOf(const SpaceSnapshot& snapshot) { return Written(snapshot, kSnapshotFields); }
+SpaceSnapshot ReadSnapshot(std::span<const char> content) { return Read<SpaceSnapshot>(content, kSnapshotFields); }
 
-std::vector<char> ContentOf(const SpaceSnapshot& snapshot)
-{
-  ByteWriter content;
-  content.Put(snapshot.tick);
-  content.PutArray(snapshot.poses);
-  content.PutArray(snapshot.attributes);
-  return content.Bytes();
-}
-
-SpaceSnapshot ReadSnapshot(std::span<const char> content)
-{
-  ByteReader reader(content);
-  SpaceSnapshot snapshot;
-  snapshot.tick = reader.Get<std::uint64_t>();
-  snapshot.poses = reader.GetArray<double>();
-  snapshot.attributes = reader.GetArray<double>();
-  return snapshot;
-}
-
-std::vector<char> ContentOf(const SavedPart& part)
-{
-  ByteWriter content;
-  content.PutText(part.name);
-  content.PutArray(part.state);
-  return content.Bytes();
-}
-
-SavedPart ReadPart(std::span<const char> content)
-{
-  ByteReader reader(content);
-  SavedPart part;
-  part.name = reader.GetText();
-  part.state = reader.GetArray<char>();
-  return part;
-}
+std::vector<char> ContentOf(const SavedPart& part) { return Written(part, kPartFields); }
+SavedPart ReadPart(std::span<const char> content) { return Read<SavedPart>(content, kPartFields); }
 
 std::vector<char> ContentOf(std::span<const SensorFrame> frames)
 {

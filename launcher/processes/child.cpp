@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
@@ -60,8 +59,6 @@ int Child::Wait()
   }
   return WIFEXITED(status_) ? WEXITSTATUS(status_) : static_cast<int>(kExitProcessFailed);
 }
-
-std::string OwnProgram() { return std::filesystem::read_symlink("/proc/self/exe"); }
 
 std::string FirstLineOf(const std::string& file)
 {

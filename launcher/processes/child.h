@@ -28,8 +28,6 @@ private:
   bool ended_ = false;
 };
 
-// The path of this program.
-std::string OwnProgram();
 // Empty if there is none.
 std::string FirstLineOf(const std::string& file);
 

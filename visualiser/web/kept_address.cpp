@@ -6,6 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -19,14 +22,6 @@ namespace
 {
 
 constexpr std::size_t kTokenDigits = 32;
-
-// FNV-1a (http://www.isthe.com/chongo/tech/comp/fnv/), 64 bits: the same name for the same experiment in every build.
-std::uint64_t Hash(std::string_view text)
-{
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211ULL;
-  return hash;
-}
 
 bool IsToken(std::string_view text)
 {
@@ -44,7 +39,8 @@ KeptAddress::KeptAddress(const std::filesystem::path& folder, std::string_view e
   }
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  const std::string path = (folder / fmt::format("{:016x}", Hash(experiment))).string();
+  const std::string path =
+      (folder / fmt::format("{:016x}", XXH3_64bits(experiment.data(), experiment.size()))).string();
   file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
   struct stat status
   {
