@@ -190,7 +190,8 @@ void Lockstep::Complete()
   for (const EngineUpdate& update : updates_) server_.Check(update);
   if (journal_ != nullptr) journal_->AddTick(*sent_, saves_, Frames(), commands_);
   server_.Advance(updates_here_, commands_here_);
-  frames_.swap(next_frames_);
+  // One by one: a reader may be looking for the place of its message.
+  std::ranges::swap_ranges(frames_, next_frames_);
   gate_.Next();
   if (hold_ || watch_ || gate_.Tick() == until_)
   {
