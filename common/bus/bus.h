@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -57,11 +58,14 @@ struct BusOptions
   // "address:port" of the space server that serves discovery, if the network has no multicast. Same in every
   // process.
   std::string discovery_server;
-  bool serves_discovery = false;    // this process is that server
-  double lease_s = 1;               // silence after which a process counts as dead
-  unsigned datagram_bytes = 65500;  // larger messages are cut; 1440 on networks that lose packets
+  bool serves_discovery = false;  // this process is that server
+  double lease_s = 1;             // silence after which a process counts as dead
+  // Largest datagram, larger messages are cut. Otherwise as large as possible on this machine, and one packet on a
+  // network: of a larger one that is cut into packets all are lost with one.
+  std::optional<int> datagram_bytes;
 
   bool Spread() const { return network_interface != "lo"; }
+  unsigned DatagramBytes() const { return static_cast<unsigned>(datagram_bytes.value_or(Spread() ? 1440 : 65500)); }
 };
 
 class Bus

@@ -18,6 +18,7 @@
 
 #include "common/bus/bus.h"
 #include "common/bus/messages.h"
+#include "common/bus/pose_columns.h"
 #include "common/bus/shown_text.h"
 
 namespace swarmanoid
@@ -103,9 +104,9 @@ public:
   {
     Put(static_cast<std::uint32_t>(value));
   }
-  void Flags(const char*, std::initializer_list<FlagBit> flags)
+  void Flags(const char*, std::initializer_list<FlagBit> flags, std::uint32_t others = 0)
   {
-    std::uint32_t bits = 0;
+    std::uint32_t bits = others;
     for (const FlagBit& flag : flags) bits |= *flag.value ? flag.bit : 0U;
     Put(bits);
   }
@@ -131,6 +132,18 @@ public:
     if (values.empty()) return;
     Align(sizeof(T));
     bytes_.Put(values.data(), values.size() * sizeof(T));
+  }
+  // Of the columns in `uniform` the first number.
+  void Columns(const std::vector<double>& poses, std::uint32_t uniform)
+  {
+    const std::size_t entities = poses.size() / kPoseColumns;
+    const auto single = static_cast<std::size_t>(std::popcount(uniform));
+    Put(static_cast<std::uint32_t>(poses.size() - single * (entities - 1)));
+    if (poses.empty()) return;
+    Align(sizeof(double));
+    if (uniform == 0) return bytes_.Put(poses.data(), poses.size() * sizeof(double));
+    for (std::size_t k = 0; k < kPoseColumns; ++k)
+      bytes_.Put(poses.data() + k * entities, (uniform >> k & 1U ? 1 : entities) * sizeof(double));
   }
   template <class T, class Visit>
   void List(const char*, std::vector<T>& list, const Visit& visit)
@@ -207,7 +220,8 @@ public:
       RefuseField(field, "there is no such value as " + std::to_string(number));
     value = static_cast<Enum>(number);
   }
-  void Flags(const char* field, std::initializer_list<FlagBit> flags)
+  // Those of `others` that are set.
+  std::uint32_t Flags(const char* field, std::initializer_list<FlagBit> flags, std::uint32_t others = 0)
   {
     std::uint32_t bits = 0;
     Get(field, bits);
@@ -216,7 +230,8 @@ public:
       *flag.value = (bits & flag.bit) != 0;
       bits &= ~flag.bit;
     }
-    if (bits != 0) RefuseField(field, "bits are set that mean nothing");
+    if ((bits & ~others) != 0) RefuseField(field, "bits are set that mean nothing");
+    return bits;
   }
   void Bool(const char* field, bool& value)
   {

@@ -92,7 +92,7 @@ std::vector<OptionSpec> BusOptionTable(BusOptions& options)
       {{.name = "datagram",
         .type = kInteger,
         .unit = "bytes",
-        .description = "Largest datagram; 1440 on networks that lose packets",
+        .description = "Largest datagram; otherwise 65500 on this machine, and 1440, one packet, on a network",
         .minimum = 1024,
         .maximum = 65500},
        &options.datagram_bytes,

@@ -14,6 +14,7 @@ inline constexpr std::uint32_t kFlagLast = 1;
 inline constexpr std::uint32_t kFlagTerminate = 1;
 inline constexpr std::uint32_t kFlagRepeated = 2;
 inline constexpr std::uint32_t kFlagSave = 4;
+inline constexpr std::uint32_t kFlagUniformX = 8;  // and the next six bits
 
 // A message is sent on the topic of this name, as the type swarmanoid::wire::<name>.
 template <class Message>
@@ -49,11 +50,30 @@ void Fields(Archive& archive, AttributeChanges& changes)
   if (!IsOrdered(changes)) RefuseField("attribute_slots", "they do not ascend, or are not as many as the values");
 }
 
+// Poses, and the flags behind them.
+template <class Archive>
+void PoseFields(Archive& archive, std::vector<double>& poses, std::initializer_list<FlagBit> flags)
+{
+  if constexpr (Archive::kReads)
+  {
+    archive.Array("poses", poses);
+    constexpr std::uint32_t kUniform = ((1U << kPoseColumns) - 1) * kFlagUniformX;
+    const std::uint32_t uniform = archive.Flags("flags", flags, kUniform) / kFlagUniformX;
+    if (!SpreadColumns(poses, uniform)) RefuseField("poses", "they are not as many as the flags say");
+  }
+  else
+  {
+    const std::uint32_t uniform = UniformColumns(poses);
+    archive.Columns(poses, uniform);
+    archive.Flags("flags", flags, uniform * kFlagUniformX);
+  }
+}
+
 template <class Archive>
 void Fields(Archive& archive, MessageHeader& header, SpaceState& message)
 {
-  archive.Array("poses", message.poses);
-  archive.Flags("flags", {{kFlagLast, &message.last}, {kFlagRepeated, &header.repeated}, {kFlagSave, &header.save}});
+  PoseFields(archive, message.poses,
+             {{kFlagLast, &message.last}, {kFlagRepeated, &header.repeated}, {kFlagSave, &header.save}});
   Fields(archive, message.attributes);
   archive.Array("moved", message.moved);
   if constexpr (Archive::kReads) message.tick = header.tick;
@@ -71,8 +91,7 @@ void Fields(Archive& archive, MessageHeader& header, ControlCommands& message)
 template <class Archive>
 void Fields(Archive& archive, MessageHeader& header, EngineUpdate& message)
 {
-  archive.Array("poses", message.poses);
-  archive.Flags("flags", {{kFlagRepeated, &header.repeated}});
+  PoseFields(archive, message.poses, {{kFlagRepeated, &header.repeated}});
   Fields(archive, message.attributes);
   if constexpr (Archive::kReads) message.tick = header.tick, message.engine = header.source;
 }
@@ -164,8 +183,7 @@ void Fields(Archive& archive, ViewMessage& message)
   archive.Integer("run", message.run);
   archive.Integer("tick", message.snapshot.tick);
   archive.Constant("source", 0);
-  archive.Array("poses", message.snapshot.poses);
-  archive.Flags("flags", {{kFlagLast, &message.snapshot.last}});
+  PoseFields(archive, message.snapshot.poses, {{kFlagLast, &message.snapshot.last}});
   archive.Array("attributes", message.snapshot.attributes);
   archive.Number("real_time_factor", message.snapshot.real_time_factor);
 }

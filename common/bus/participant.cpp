@@ -188,7 +188,7 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name) : own_name(n
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
   udp->sendBufferSize = kSocketBuffer;
   udp->receiveBufferSize = kSocketBuffer;
-  udp->maxMessageSize = options.datagram_bytes;
+  udp->maxMessageSize = options.DatagramBytes();
   udp->maxInitialPeersRange = kPeerProcesses;
   udp->interfaceWhiteList = InterfaceAddresses(options.network_interface);
   qos.transport().user_transports.push_back(udp);

@@ -1,6 +1,7 @@
 #include "common/bus/tick_limits.h"
 
 #include <fmt/format.h>
+#include <numeric>
 
 #include "common/bus/message_bytes.h"
 
@@ -8,8 +9,6 @@ namespace swarmanoid
 {
 namespace
 {
-
-constexpr std::size_t kPoseNumbers = 7;
 
 std::size_t Largest(const std::vector<std::size_t>& numbers)
 {
@@ -19,6 +18,13 @@ std::size_t Largest(const std::vector<std::size_t>& numbers)
 void FillSlots(AttributeChanges& changes, std::size_t slots)
 {
   for (std::size_t slot = 0; slot < slots; ++slot) changes.Add(static_cast<std::uint32_t>(slot), 0);
+}
+
+// All different: no column is shorter on the wire.
+void FillPoses(std::vector<double>& poses, std::size_t entities)
+{
+  poses.resize(kPoseColumns * entities);
+  std::iota(poses.begin(), poses.end(), 0.0);
 }
 
 void CheckLength(const char* field, std::size_t length, std::size_t wanted)
@@ -49,7 +55,7 @@ TickLimits::TickLimits(const CSwarmanoidSpace& space, const Assignment& assignme
 std::size_t TickLimits::StateBytes() const
 {
   SpaceState state;
-  state.poses.resize(kPoseNumbers * movable_);
+  FillPoses(state.poses, movable_);
   FillSlots(state.attributes, slots_);
   state.moved.resize(entities_);
   return PayloadSize(MessageHeader(), state);
@@ -66,7 +72,7 @@ std::size_t TickLimits::CommandBytes() const
 std::size_t TickLimits::UpdateBytes() const
 {
   EngineUpdate update;
-  update.poses.resize(kPoseNumbers * Largest(owned_));
+  FillPoses(update.poses, Largest(owned_));
   FillSlots(update.attributes, slots_);
   return PayloadSize(MessageHeader(), update);
 }
@@ -83,7 +89,7 @@ std::size_t TickLimits::DrawnBytes() { return PayloadSize(MessageHeader(), Drawn
 void TickLimits::Check(const MessageHeader& header, const SpaceState& state) const
 {
   if (header.source != 0) RefuseField("source", "the space server is number 0");
-  CheckLength("poses", state.poses.size(), kPoseNumbers * movable_);
+  CheckLength("poses", state.poses.size(), kPoseColumns * movable_);
   CheckSlots(state.attributes);
   for (std::size_t k = 0; k < state.moved.size(); ++k)
     if (state.moved[k] >= entities_ || (k > 0 && state.moved[k] <= state.moved[k - 1]))
@@ -98,7 +104,7 @@ void TickLimits::Check(const MessageHeader& header, const ControlCommands& comma
 
 void TickLimits::Check(const MessageHeader& header, const EngineUpdate& update) const
 {
-  CheckLength("poses", update.poses.size(), kPoseNumbers * OfSource(owned_, header));
+  CheckLength("poses", update.poses.size(), kPoseColumns * OfSource(owned_, header));
   CheckSlots(update.attributes);
 }
 
@@ -109,7 +115,7 @@ void TickLimits::Check(const MessageHeader& header, const SensorFrame& frame) co
 
 void TickLimits::Check(const SpaceSnapshot& snapshot) const
 {
-  CheckLength("poses", snapshot.poses.size(), kPoseNumbers * movable_);
+  CheckLength("poses", snapshot.poses.size(), kPoseColumns * movable_);
   CheckLength("attributes", snapshot.attributes.size(), slots_);
 }
 

@@ -44,8 +44,12 @@ int main(int argc, char** argv)
     if (dds_take(reader, &sample, &about, 1, 1) == 1 && about.valid_data)
     {
       const swarmanoid_wire_SpaceState* state = sample;
-      const uint32_t count = state->poses._length / 7;
-      printf("%llu %.4f %.4f\n", (unsigned long long)state->tick, state->poses._buffer[0], state->poses._buffer[count]);
+      uint32_t single = 0;  /* columns of one number */
+      for (uint32_t flag = swarmanoid_wire_FLAG_UNIFORM_X; flag <= swarmanoid_wire_FLAG_UNIFORM_QW; flag *= 2)
+        single += (state->flags & flag) != 0;
+      const uint32_t count = (state->poses._length - single) / (7 - single);
+      const uint32_t y = state->flags & swarmanoid_wire_FLAG_UNIFORM_X ? 1 : count;
+      printf("%llu %.4f %.4f\n", (unsigned long long)state->tick, state->poses._buffer[0], state->poses._buffer[y]);
       fflush(stdout);
       --wanted;
     }

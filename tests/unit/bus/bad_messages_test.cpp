@@ -168,8 +168,10 @@ TEST(BadMessages, SlotsThatDoNotAscendAreRefused)
 TEST(BadMessages, FlagsAndValuesThatMeanNothingAreRefused)
 {
   std::string bytes = SampleBytes();
-  Put(bytes, kFlags, 8U);
+  Put(bytes, kFlags, 2 * (kFlagUniformX << 6U));
   EXPECT_THAT(TickRefusal<SpaceState>(bytes), HasSubstr("flags"));
+  Put(bytes, kFlags, 2 * (kFlagUniformX << 6U) - kFlagUniformX);
+  EXPECT_THAT(TickRefusal<SpaceState>(bytes), HasSubstr("poses"));
   std::string drawn = BytesOf(MessageHeader{}, DrawnMessage{true});
   Put(drawn, 4 + 20, 0x80000001U);
   EXPECT_THAT(TickRefusal<DrawnMessage>(drawn), HasSubstr("flags"));

@@ -128,10 +128,59 @@ TEST(MessageConstants, AreThoseOfTheIdl)
   EXPECT_EQ(kFlagTerminate, wire::FLAG_TERMINATE);
   EXPECT_EQ(kFlagRepeated, wire::FLAG_REPEATED);
   EXPECT_EQ(kFlagSave, wire::FLAG_SAVE);
+  const std::uint32_t uniform[] = {wire::FLAG_UNIFORM_X,  wire::FLAG_UNIFORM_Y,  wire::FLAG_UNIFORM_Z,
+                                   wire::FLAG_UNIFORM_QX, wire::FLAG_UNIFORM_QY, wire::FLAG_UNIFORM_QZ,
+                                   wire::FLAG_UNIFORM_QW};
+  for (std::size_t k = 0; k < std::size(uniform); ++k) EXPECT_EQ(kFlagUniformX << k, uniform[k]);
   EXPECT_EQ(static_cast<std::uint32_t>(RunStatus::Phase::kWaiting), wire::PHASE_WAITING);
   EXPECT_EQ(static_cast<std::uint32_t>(RunStatus::Phase::kRunning), wire::PHASE_RUNNING);
   EXPECT_EQ(static_cast<std::uint32_t>(RunStatus::Phase::kPaused), wire::PHASE_PAUSED);
   EXPECT_EQ(static_cast<std::uint32_t>(RunStatus::Phase::kFinished), wire::PHASE_FINISHED);
+}
+
+// Every set of columns that are the same for all entities; with all seven one goes whole, and with one entity none is
+// shorter.
+TEST(MessageBytes, OfPosesHaveUniformColumnsAsOneNumber)
+{
+  Random random(4);
+  for (std::uint32_t uniform = 0; uniform < 128; ++uniform)
+    for (const std::size_t entities : {0U, 1U, 2U, 5U})
+    {
+      EngineUpdate update;
+      std::vector<double> sent;
+      const std::uint32_t shortened = entities < 2 ? 0 : uniform == 127 ? 63 : uniform;
+      for (std::uint32_t k = 0; k < 7; ++k)
+      {
+        const double same = k == 2 ? -0.0 : random.Real();
+        for (std::size_t e = 0; e < entities; ++e)
+        {
+          update.poses.push_back(uniform >> k & 1U ? same : same + 1 + static_cast<double>(e));
+          if (e == 0 || (shortened >> k & 1U) == 0) sent.push_back(update.poses.back());
+        }
+      }
+      const MessageHeader header = RandomHeader(random);
+      wire::EngineUpdate wire_update;
+      wire_update.poses(sent);
+      wire_update.flags(FlagsOf(false, header.repeated) | shortened * wire::FLAG_UNIFORM_X);
+      ExpectSame<wire::EngineUpdatePubSubType>(header, update, wire_update);
+    }
+}
+
+// Zero and minus zero are two values.
+TEST(MessageBytes, OfPosesTellTheSignOfZero)
+{
+  EXPECT_EQ(UniformColumns({0.0, -0.0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 2}), 0b0111110U);
+}
+
+TEST(MessageBytes, OfPosesMustFitTheFlags)
+{
+  std::vector<double> numbers(9, 1.0);
+  EXPECT_FALSE(SpreadColumns(numbers, 127));  // how many entities?
+  EXPECT_FALSE(SpreadColumns(numbers, 0b1111000));
+  EXPECT_TRUE(SpreadColumns(numbers, 0b0011111));
+  EXPECT_EQ(numbers.size(), 14U);
+  std::vector<double> few(3, 1.0);
+  EXPECT_FALSE(SpreadColumns(few, 0b0000111));
 }
 
 TEST(MessageBytes, OfATickAreThoseOfTheIdl)
