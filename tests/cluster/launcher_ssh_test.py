@@ -21,6 +21,8 @@ SSHD = shutil.which("sshd", path="/usr/sbin:/usr/local/sbin:" + os.environ["PATH
 SSH = shutil.which("ssh")
 BUILD = pathlib.Path(os.environ["SWARMANOID_BUILD"])
 TICKS = 40
+# Settings of the preset that the programs are built with.
+OF_SANITIZERS = " ".join(f'"{name}={os.environ[name]}"' for name in ("ASAN_OPTIONS", "TSAN_OPTIONS") if name in os.environ)
 
 
 def free_port():
@@ -49,7 +51,7 @@ class Machine:
                 f"Port {self.port}\nListenAddress 127.0.0.1\nHostKey {self.folder}/host_key\nPidFile none\n"
                 f"AuthorizedKeysFile {user_key}.pub\nPubkeyAuthentication yes\nPasswordAuthentication no\n"
                 "KbdInteractiveAuthentication no\nUsePAM no\nStrictModes no\nPermitRootLogin prohibit-password\n"
-                f"SetEnv SWARMANOID_SHARED_FOLDER={shared}\n")
+                f"SetEnv SWARMANOID_SHARED_FOLDER={shared} {OF_SANITIZERS}\n")
             with self.log.open("w") as log:
                 self.process = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", SSHD, "-D", "-e", "-f",
                                                  self.folder / "sshd_config"],
