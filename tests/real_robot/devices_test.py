@@ -73,7 +73,7 @@ class Devices(unittest.TestCase):
     def test_sensors_of_a_footbot(self):
         ring = ["footbot_proximity", "footbot_light"]
         others = ["footbot_encoders", "footbot_accelerometer", "footbot_turret_torque", "footbot_turret_encoder", "footbot_gripper",
-                  "footbot_ground", "footbot_omnidirectional_camera", "pie_camera", "gyroscope", "positioning"]
+                  "footbot_ground", "footbot_omnidirectional_camera", "pie_camera", "gyroscope", "positioning", "range_and_bearing"]
         readings, _ = self.run_robot("footbot", ring + others,
                                      drivers='<sensors><footbot_proximity driver="ros2_ranges"/></sensors>')
         # Ranges from the body: too near to be measured is contact, +infinity and what is beyond 0.1 m is nothing.
@@ -100,6 +100,12 @@ class Devices(unittest.TestCase):
         self.expect(readings, "footbot_ground", floor=0xff8000)
         self.expect(readings, "footbot_omnidirectional_camera", blob_0_colour=0xff0000, blob_0_distance=math.sqrt(2),
                     blob_0_angle=math.pi / 4, blob_1_colour=0x0000ff, blob_1_distance=2, blob_1_angle=-math.pi / 2)
+        # The stand-in says all again several times a step: each packet counts once for each time.
+        packets = readings["range_and_bearing"]
+        self.expect(readings, "range_and_bearing", packet_0_range=2.5, packet_0_bearing=math.atan2(2, 1.5), packet_1_range=5,
+                    packet_1_bearing=math.pi, **{f"packet_0_byte_{i}": i + 1 for i in range(10)}, packet_1_byte_0=255, packet_1_byte_9=128)
+        self.assertNotIn("packet 1 byte 1", packets)
+        self.assertNotIn("packet 0 byte 10", packets)
         # Twelve sectors of 30 degrees, counter-clockwise from the front.
         self.assertEqual({name for name in readings["pie_camera"]}, {"red 1", "blue 9"})
 
@@ -132,7 +138,7 @@ class Devices(unittest.TestCase):
 
     def test_actuators_of_a_footbot(self):
         _, told = self.run_robot("footbot", ["footbot_accelerometer"], ["footbot_wheels", "footbot_beacon", "footbot_gripper",
-                                                                          "footbot_turret", "footbot_leds"])
+                                                                          "footbot_turret", "footbot_leds", "range_and_bearing"])
         self.expect_numbers(told["cmd_vel"][0], 3 * WHEEL_RADIUS, 0, 0, 0, 0, 2 * WHEEL_RADIUS / WHEEL_DISTANCE)
         # Cut to 0.3 m/s a wheel.
         self.expect_numbers(told["cmd_vel"][1], 0, 0, 0, 0, 0, 0.6 / WHEEL_DISTANCE)
@@ -140,6 +146,7 @@ class Devices(unittest.TestCase):
         self.assertEqual(told["beacon"], ["1 0.502 0 1", "0 0 0 0"])
         self.assertEqual(told["gripper/command"], ["0.25", "1"])
         self.assertEqual(told["turret/velocity"], ["0.5", "-3.14159", "0"])
+        self.assertEqual(told["range_and_bearing/send"], ["byte 10 10: 0 1 2 3 4 5 6 7 8 255", "byte 0 0:"])
         self.assertEqual(told["leds"], ["led 12 rgb 3 010 101" + " 010" * 10, "led 12 rgb 3" + " 000" * 12])
 
     def test_a_preferential_direction_turns_against_the_turret(self):

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "ci_controller.h"
+#include "ci_range_and_bearing.h"
 #include "eyebot/ci_eyebot_attachment_actuator.h"
 #include "eyebot/ci_eyebot_laser_actuator.h"
 #include "eyebot/ci_eyebot_leds_actuator.h"
@@ -55,6 +56,8 @@ private:
     if (auto* gripper = Find<CCI_FootBotGripperActuator>("footbot_gripper")) gripper->SetGripper(early ? 0.25 : 1);
     if (auto* turret = Find<CCI_FootBotTurretActuator>("footbot_turret"))
       turret->SetTurretAngularVelocity(early ? 0.5 : -5);
+    if (auto* sender = Find<CCI_RangeAndBearingActuator>("range_and_bearing"))
+      early ? sender->SetMessage({0, 1, 2, 3, 4, 5, 6, 7, 8, 255}) : sender->StopSending();
     if (auto* leds = Find<CCI_FootBotLedsActuator>("footbot_leds"))
     {
       leds->SetAllColours(0x00ff00);

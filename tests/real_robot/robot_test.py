@@ -195,10 +195,10 @@ class RobotTest(unittest.TestCase):
 
     def test_a_device_without_driver_is_refused_with_those_that_have_one(self):
         text = EXPERIMENT.format(path="", library="footbot_diffusion")
-        experiment = self.write(text.replace("<sensors>", "<sensors>\n        <range_and_bearing/>"))
+        experiment = self.write(text.replace("<sensors>", "<sensors>\n        <radio/>"))
         code, _, errors = self.run_it(experiment)
         self.assertEqual(code, 3)
-        self.assertIn(f"{experiment}:9:9: there is no driver for the sensor <range_and_bearing> in ros2_drivers; sensors of a "
+        self.assertIn(f"{experiment}:9:9: there is no driver for the sensor <radio> in ros2_drivers; sensors of a "
                       "footbot with a driver: footbot_accelerometer, footbot_encoders, footbot_gripper,", errors)
 
     def test_a_missing_library_is_refused_with_the_places_searched(self):

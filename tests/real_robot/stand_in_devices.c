@@ -147,6 +147,28 @@ static void PublishBlobs(dds_entity_t writer)
   dds_write(writer, &cloud);
 }
 
+/* Two robots heard, one ahead on the left, one behind and above; the bytes stand before the places, and there are more
+ * of them than are read. */
+static void PublishPackets(dds_entity_t writer)
+{
+  struct Point
+  {
+    uint8_t data[12];
+    float x, y, z;
+  } points[2] = {{{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 77, 77}, 1.5F, 2, 0},
+                 {{255, 0, 0, 0, 0, 0, 0, 0, 0, 128, 77, 77}, -3, 0, 4}};
+  sensor_msgs_msg_dds__PointField_ fields[4] = {{"data", 0, 2, 12}, {"x", 12, 7, 1}, {"y", 16, 7, 1}, {"z", 20, 7, 1}};
+  sensor_msgs_msg_dds__PointCloud2_ cloud = {.header.frame_id = "base_link", .height = 1, .width = 2};
+  cloud.fields._buffer = fields;
+  cloud.fields._length = cloud.fields._maximum = COUNT(fields);
+  cloud.point_step = sizeof(struct Point);
+  cloud.row_step = sizeof(points);
+  cloud.data._buffer = (uint8_t*)points;
+  cloud.data._length = cloud.data._maximum = sizeof(points);
+  cloud.is_dense = true;
+  dds_write(writer, &cloud);
+}
+
 /* ---- what the actuators are told ---- */
 
 static void PrintTwist(char* text, const void* sample)
@@ -202,6 +224,15 @@ static void PrintLeds(char* text, const void* sample)
                                                  : '?');
 }
 
+static void PrintBytes(char* text, const void* sample)
+{
+  const std_msgs_msg_dds__UInt8MultiArray_* array = sample;
+  for (uint32_t d = 0; d < array->layout.dim._length && d < 2; ++d)
+    text += sprintf(text, "%.8s %u %u:", array->layout.dim._buffer[d].label, array->layout.dim._buffer[d].size,
+                    array->layout.dim._buffer[d].stride);
+  for (uint32_t i = 0; i < array->data._length && i < 48; ++i) text += sprintf(text, " %u", array->data._buffer[i]);
+}
+
 static struct Heard
 {
   const char* topic;
@@ -223,7 +254,8 @@ static struct Heard
              {"rope/attach", &std_msgs_msg_dds__Bool__desc, PrintSwitch, 0, ""},
              {"attach", &std_msgs_msg_dds__Bool__desc, PrintSwitch, 0, ""},
              {"joint_commands", &sensor_msgs_msg_dds__JointState__desc, PrintJoints, 0, ""},
-             {"leds", &std_msgs_msg_dds__Float32MultiArray__desc, PrintLeds, 0, ""}};
+             {"leds", &std_msgs_msg_dds__Float32MultiArray__desc, PrintLeds, 0, ""},
+             {"range_and_bearing/send", &std_msgs_msg_dds__UInt8MultiArray__desc, PrintBytes, 0, ""}};
 
 static void Listen(struct Heard* topic)
 {
@@ -245,7 +277,10 @@ static void Listen(struct Heard* topic)
 /* Participants other than this one that are there. */
 static int Others(dds_entity_t participants)
 {
-  enum { kMost = 8 };
+  enum
+  {
+    kMost = 8
+  };
   void* samples[kMost] = {NULL};
   dds_sample_info_t about[kMost];
   const uint32_t alive = DDS_ANY_SAMPLE_STATE | DDS_ANY_VIEW_STATE | DDS_ALIVE_INSTANCE_STATE;
@@ -282,6 +317,7 @@ int main(int argc, char** argv)
   const dds_entity_t ground = MakeWriter(participant, &std_msgs_msg_dds__Float32MultiArray__desc, "rt/ground");
   const dds_entity_t colour = MakeWriter(participant, &std_msgs_msg_dds__ColorRGBA__desc, "rt/floor_color");
   const dds_entity_t blobs = MakeWriter(participant, &sensor_msgs_msg_dds__PointCloud2__desc, "rt/blobs");
+  const dds_entity_t packets = MakeWriter(participant, &sensor_msgs_msg_dds__PointCloud2__desc, "rt/range_and_bearing");
   static const struct
   {
     const char* topic;
@@ -316,6 +352,7 @@ int main(int argc, char** argv)
     PublishAllJoints(joints);
     PublishFloor(ground, colour);
     PublishBlobs(blobs);
+    PublishPackets(packets);
     for (size_t k = 0; k < COUNT(kSwitches); ++k)
     {
       const std_msgs_msg_dds__Bool_ value = {kSwitches[k].value};

@@ -1,7 +1,5 @@
 // The cameras: colour blobs as a cloud of coloured points in the frame of the robot (x ahead, y left, z up, REP 103).
 #include <array>
-#include <bit>
-#include <cstring>
 #include <optional>
 #include <stdexcept>
 
@@ -10,22 +8,20 @@
 #include "common/control_interface/footbot/ci_footbot_omnidirectional_camera_sensor.h"
 #include "common/control_interface/handbot/ci_handbot_camera_sensor.h"
 #include "common/math/elementary.h"
-#include "real_robot/drivers/ros2/ros2_messages.h"
+#include "real_robot/drivers/ros2/point_cloud.h"
 
 namespace swarmanoid::ros2
 {
 namespace
 {
 
-using PointCloud2 = sensor_msgs::msg::dds_::PointCloud2_;
-
 struct ColouredPoint
 {
-  std::array<double, 3> place{};  // m
-  std::uint32_t colour = 0;       // 0xRRGGBB
+  Vector3 place;             // m
+  std::uint32_t colour = 0;  // 0xRRGGBB
 };
 
-// The points of a cloud with the fields x, y, z (float32) and rgb (float32 or uint32, 0x00RRGGBB).
+// The points of a cloud with places and rgb (float32 or uint32, 0x00RRGGBB).
 class PointReader
 {
 public:
@@ -35,25 +31,15 @@ public:
   bool Poll(std::vector<ColouredPoint>& points)
   {
     if (!subscriber_.TakeLatest()) return false;
-    const PointCloud2& cloud = subscriber_.Latest();
-    const std::array<std::size_t, 4> offsets{OffsetOf("x"), OffsetOf("y"), OffsetOf("z"), OffsetOf("rgb")};
-    const std::size_t row = std::size_t{cloud.width()} * cloud.point_step();
-    if (cloud.is_bigendian() != (std::endian::native == std::endian::big) || cloud.row_step() < row ||
-        cloud.data().size() < std::size_t{cloud.height()} * cloud.row_step())
-      throw DriverError(subscriber_.Name() + ": the data do not fit height, row_step, point_step and byte order");
+    const PointCloud cloud(subscriber_.Latest(), subscriber_.Name());
     points.clear();
-    for (std::size_t k = 0; k < std::size_t{cloud.height()} * cloud.width(); ++k)
+    if (cloud.Size() == 0) return true;
+    const PointPlaces places(cloud);
+    const std::size_t rgb = cloud.OffsetOf("rgb", {PointCloud::Type::kFloat32, PointCloud::Type::kUint32});
+    for (std::size_t k = 0; k < cloud.Size(); ++k)
     {
-      const std::uint8_t* bytes =
-          cloud.data().data() + k / cloud.width() * cloud.row_step() + k % cloud.width() * cloud.point_step();
-      ColouredPoint point;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        float value = 0;
-        std::memcpy(&value, bytes + offsets[axis], sizeof(value));
-        point.place[axis] = static_cast<double>(value);
-      }
-      std::memcpy(&point.colour, bytes + offsets[3], sizeof(point.colour));
+      ColouredPoint point{places.At(k)};
+      cloud.Copy(k, rgb, &point.colour);
       point.colour &= 0xffffff;
       points.push_back(point);
     }
@@ -62,21 +48,6 @@ public:
   DriverSource Source() const { return subscriber_.Source(); }
 
 private:
-  std::size_t OffsetOf(const std::string& name) const
-  {
-    constexpr std::uint8_t kUint32 = 6;
-    constexpr std::uint8_t kFloat32 = 7;
-    const PointCloud2& cloud = subscriber_.Latest();
-    for (const auto& field : cloud.fields())
-    {
-      if (field.name() != name) continue;
-      if (field.datatype() != kFloat32 && !(name == "rgb" && field.datatype() == kUint32)) break;
-      if (field.offset() + std::size_t{4} <= cloud.point_step()) return field.offset();
-    }
-    throw DriverError(subscriber_.Name() + ": the points need the field " + name + " as float32" +
-                      (name == "rgb" ? " or uint32" : ""));
-  }
-
   Subscriber<PointCloud2> subscriber_;
 };
 
@@ -96,12 +67,12 @@ public:
     blobs_.clear();
     for (const auto& [place, colour] : points_)
     {
-      const double flat = Length(place[0], place[1]);
-      CCI_ColourBlob blob{colour, flat, Atan2(place[1], place[0]), 0};
+      const double flat = Length(place.x(), place.y());
+      CCI_ColourBlob blob{colour, flat, Atan2(place.y(), place.x()), 0};
       if (AHEAD)
       {
-        blob.distance_m = Length(flat, place[2]);
-        blob.elevation_rad = Atan2(place[2], flat);
+        blob.distance_m = Length(flat, place.z());
+        blob.elevation_rad = Atan2(place.z(), flat);
       }
       blobs_.push_back(blob);
     }
@@ -160,11 +131,11 @@ public:
     {
       const std::size_t hue = PlaceOf(CCI_Colour::Nearest(colour));
       if (hue == kColours.size()) continue;
-      double angle = Atan2(place[1], place[0]);
+      double angle = Atan2(place.y(), place.x());
       if (angle < 0) angle += 2 * kPi;
       const auto sector = std::min(static_cast<unsigned>(angle * (sectors_ / (2 * kPi))), sectors_ - 1);
       Slice& slice = slices_[hue * sectors_ + sector];
-      slice.distance_m = std::min(slice.distance_m, Length(place[0], place[1]));
+      slice.distance_m = std::min(slice.distance_m, Length(place.x(), place.y()));
       ++slice.blobs;
     }
   }
