@@ -226,6 +226,8 @@ void Lockstep::Send(bool repeated)
   held_ = false;
   states_.Write({session_.World().run, state.tick, 0, repeated, 0, saves_}, state);
   if (!state.last) return;
+  // For those who look back: nobody steps there.
+  if (journal_ != nullptr && !finished_) journal_->AddTick(state, saves_, Frames(), {});
   finished_ = true;
   stopped_();
 }

@@ -5,7 +5,7 @@ import shutil
 import signal
 import time
 
-from harness import CONFIGS, LauncherTest, main
+from harness import CONFIGS, GENEROUS_S, LauncherTest, main
 
 WORKERS = ["engine_worker", "controller_host", "visualiser"]
 PROGRAMS = ["engine_worker", "controller_host", "space_server"]
@@ -18,13 +18,15 @@ AGAIN = "all processes start again where the journal ends"
 
 
 class RecoveryTest(LauncherTest):
-    def undisturbed(self, experiment, ticks, *options):
+    def undisturbed(self, experiment, ticks, *options, timeout=GENEROUS_S):
         run = self.run_it("run", experiment, "--ticks", ticks, "--single-process", "--quiet", "--hash-log", "one", "--output", "one_out",
-                          *options)
+                          *options, timeout=timeout)
         return self.assert_finished(run, ticks)
 
     def assert_same(self, run, ticks, expected, said="", code=0):
-        self.assertEqual(run.wait(), code, said + run.stderr)
+        if not hasattr(run, "stdout"):
+            run.wait()
+        self.assertEqual(run.process.returncode, code, said + run.stderr)
         self.assertEqual(self.assert_finished(run, ticks), expected)
         self.assertEqual((self.folder / "cluster").read_text(), (self.folder / "one").read_text())
         self.assert_nothing_left(run)
@@ -176,6 +178,33 @@ class AllAgain(RecoveryTest):
             self.assertEqual((self.folder / "out" / name).read_bytes(), (self.folder / "one_out" / name).read_bytes(), tick)
 
 
+class LookingBack(RecoveryTest):
+    def test_a_run_is_computed_again_shown_again_and_compared(self):
+        for name in ("plain", "moved"):
+            run = self.start("run", CONFIGS / "diffusion_10.xml", "--ticks", 300, "--paused", "--output", name)
+            self.wait_for_experiment("diffusion_10")
+            self.control("step", 120)
+            if name == "moved":
+                self.control("move", "fb_7", "1.5,1.3,0,0,0,91.25")
+            self.control("stop") if name == "plain" else self.run_it("control", "resume")
+            self.assertEqual(run.wait(), 0, run.stderr)
+        for name, states in (("plain", 121), ("moved", 301)):
+            again = self.run_it("replay", name, "--verify")
+            self.assertEqual((again.process.returncode, again.stdout), (0, f"equal: {states} states, computed again\n"), again.stderr)
+            shown = self.run_it("replay", name, "text", "file=again.txt", "precision=4")
+            self.assertEqual(shown.process.returncode, 0, shown.stderr)
+            self.assertEqual((self.folder / "again.txt").read_bytes(), (self.folder / name / "positions.txt").read_bytes())
+        same = self.run_it("diff", "moved", "moved")
+        self.assertEqual((same.process.returncode, same.stdout), (0, "equal: 301 states\n"))
+        other = self.run_it("diff", "plain", "moved")
+        self.assertEqual(other.process.returncode, 5)
+        self.assertRegex(other.stdout, r"^tick 120: x of 'fb_7' is \S+ and 1\.5; the commands of the tick before do not differ\n$")
+        (self.folder / "moved/events.csv").unlink()
+        wrong = self.run_it("replay", "moved", "--verify")
+        self.assertEqual(wrong.process.returncode, 5)
+        self.assertRegex(wrong.stdout, r"^tick 120: x of 'fb_7' is 1\.5 and \S+ \(in the journal, and computed again\)\n$")
+
+
 class GivingUp(RecoveryTest):
     def test_a_crash_that_comes_again_is_named(self):
         run = self.run_it("run", self.write_faulty("step_crashes", 7), "--output", "out")
@@ -251,7 +280,8 @@ class Soak(RecoveryTest):
             if seed.random() < 0.8:
                 self.wait_until("the next tick", lambda: self.newest() > before, run)
                 waits.append(time.monotonic() - since)
-        expected = self.undisturbed(EXPERIMENT, ticks, "--no-visualisers")
+        expected = self.undisturbed(EXPERIMENT, ticks, "--no-visualisers", timeout=GENEROUS_S + 20 * KILLS)
+        self.assertEqual(run.wait(GENEROUS_S + 20 * KILLS), 0, said + run.stderr)
         self.assert_same(run, ticks, expected, said)
         again = said.count(AGAIN)
         print(f"{KILLS} kills, {said.count(REPLACED)} replaced, {again} times all again, median to the next tick "
