@@ -107,7 +107,7 @@ public:
   {
     settings.experiment = experiment_.name;
     MemberPlan& plan = Add(name, program, role, which, WorkerWords(table, settings));
-    plan.replacement = [maker = maker_, name, program, host = plan.host, table, settings](unsigned incarnation)
+    plan.replacement = [maker = maker_, name, program, host = plan.host, table, settings](unsigned incarnation, double)
     {
       WorkerSettings next = settings;
       next.incarnation = incarnation;
@@ -167,6 +167,14 @@ std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment
   MemberPlan& server =
       planner.Add("space server", "space_server", "space_server", "", ServerArguments(options, assignment, folder));
   server.output = MemberPlan::kStatus;
+  // On another machine, the one before may live on unseen.
+  if (options.Replaces() && server.host.empty())
+    server.replacement = [command = server.command](unsigned, double taken_s)
+    {
+      ProcessCommand next = command;
+      next.arguments.insert(next.arguments.end(), {"--go-on", fmt::format("{}", taken_s)});
+      return next;
+    };
   for (std::size_t e = 0; e < engines.size(); ++e)
     planner.AddWorker(EngineName(experiment, e), "engine_worker", "engine", engines[e], EngineOptionTable,
                       {.engine = engines[e]});

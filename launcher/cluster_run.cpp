@@ -143,7 +143,7 @@ RunResult RunCluster(const RunSettings& options, const Experiment& experiment, c
   if (!options.domain) free_domain.emplace();
   manifest.domain = options.domain ? *options.domain : free_domain->Id();
   const Assignment assignment = MakeAssignment(experiment, options.controller_hosts);
-  const std::vector<MemberPlan> plans = PlanCluster(options, experiment, assignment, hosts, folder, *manifest.domain);
+  std::vector<MemberPlan> plans = PlanCluster(options, experiment, assignment, hosts, folder, *manifest.domain);
   for (const MemberPlan& plan : plans) manifest.processes.emplace_back(plan.command.name, plan.log_path);
   folder.Write("manifest.json", manifest.Text());
 
@@ -161,6 +161,7 @@ RunResult RunCluster(const RunSettings& options, const Experiment& experiment, c
   {
     const ManifestAtDeath at_death(folder, manifest);
     ApplyLimitsHere(options);
+    plans.front().replacement = nullptr;  // it is this process
     outcome = RunWatched(plans, interrupts, display, actor_of, times, retries, watch, conclude);
   }
   else

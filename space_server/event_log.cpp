@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -21,7 +22,7 @@ namespace
 {
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30U;
-constexpr const char* kHeader = "tick,request,entity,numbers,from";
+constexpr const char* kHeader = "tick,request,entity,numbers,from,number";
 
 // What can be known to be wrong before the run; the place itself is checked when it is moved there.
 std::string ErrorOf(const ControlRequestMessage& request, const Experiment& experiment)
@@ -40,21 +41,7 @@ std::string ErrorOf(const ControlRequestMessage& request, const Experiment& expe
   return {};
 }
 
-}  // namespace
-
-std::vector<RecordedEvent> ReadEvents(const std::string& path, const Experiment& experiment)
-{
-  try
-  {
-    return ParseEvents(ReadRegularFile(path, kMostBytes), path, experiment);
-  }
-  catch (const FileError& error)
-  {
-    throw ConfigurationError(fmt::format("cannot read the events '{}': {}", path, error.what()));
-  }
-}
-
-std::vector<RecordedEvent> ParseEvents(const std::string& text, const std::string& path, const Experiment& experiment)
+std::vector<RecordedEvent> ParseAll(const std::string& text, const std::string& path, const Experiment& experiment)
 {
   std::istringstream file(text);
   const auto name = std::make_shared<const std::string>(path);
@@ -85,11 +72,96 @@ std::vector<RecordedEvent> ParseEvents(const std::string& text, const std::strin
       throw ConfigurationError(event.location, fmt::format("{} are no numbers", Quoted(fields[3])));
     if (numbers) event.request.numbers = *numbers;
     if (fields.size() > 4) event.request.client = fields[4];
+    if (fields.size() > 5) std::from_chars(fields[5].data(), fields[5].data() + fields[5].size(), event.request.number);
     if (const std::string error = ErrorOf(event.request, experiment); !error.empty())
       throw ConfigurationError(event.location, error);
-    if (IsSpaceChange(event.request.verb) || event.request.verb == "stop") events.push_back(std::move(event));
+    events.push_back(std::move(event));
   }
   return events;
+}
+
+std::vector<RecordedEvent> WithoutPace(std::vector<RecordedEvent> events)
+{
+  std::erase_if(events, [](const RecordedEvent& event)
+                { return !IsSpaceChange(event.request.verb) && event.request.verb != "stop"; });
+  return events;
+}
+
+std::string WholeLines(const std::string& path)
+{
+  std::error_code none;
+  if (!std::filesystem::exists(path, none)) return {};
+  std::string text = ReadRegularFile(path, kMostBytes);
+  const std::size_t end = text.rfind('\n') + 1;
+  if (end == text.size()) return text;
+  std::filesystem::resize_file(path, end);
+  text.resize(end);
+  return text;
+}
+
+}  // namespace
+
+std::vector<RecordedEvent> ReadEvents(const std::string& path, const Experiment& experiment)
+{
+  try
+  {
+    return ParseEvents(ReadRegularFile(path, kMostBytes), path, experiment);
+  }
+  catch (const FileError& error)
+  {
+    throw ConfigurationError(fmt::format("cannot read the events '{}': {}", path, error.what()));
+  }
+}
+
+std::vector<RecordedEvent> ParseEvents(const std::string& text, const std::string& path, const Experiment& experiment)
+{
+  return WithoutPace(ParseAll(text, path, experiment));
+}
+
+EarlierRequests ReadEarlierRequests(const std::string& path, const Experiment& experiment,
+                                    std::optional<std::uint64_t> pause_at)
+{
+  EarlierRequests earlier;
+  earlier.pause_at = pause_at;
+  std::vector<RecordedEvent> events = ParseAll(WholeLines(path), path, experiment);
+  for (RecordedEvent& event : events)
+  {
+    const ControlRequestMessage& request = event.request;
+    const double number = request.numbers.empty() ? 1 : request.numbers[0];
+    event.logged = true;
+    earlier.answered.push_back(request);
+    if (request.verb == "speed") earlier.speed = number;
+    if (request.verb == "pause" || request.verb == "resume" || request.verb == "step") earlier.step.reset();
+    if (request.verb == "resume") earlier.pause_at.reset();
+    if (request.verb == "pause") earlier.pause_at = event.tick;
+    if (request.verb != "step") continue;
+    earlier.step = request;
+    earlier.pause_at = event.tick + static_cast<std::uint64_t>(number);
+  }
+  earlier.changes = WithoutPace(std::move(events));
+  return earlier;
+}
+
+void AddUndone(std::vector<RecordedEvent>& done, const std::vector<RecordedEvent>& repeated)
+{
+  std::size_t next = 0;
+  for (const RecordedEvent& event : repeated)
+  {
+    const auto same = std::find_if(done.begin() + static_cast<std::ptrdiff_t>(next), done.end(),
+                                   [&](const RecordedEvent& other)
+                                   {
+                                     return other.logged && other.tick == event.tick &&
+                                            other.request.verb == event.request.verb &&
+                                            other.request.entity == event.request.entity &&
+                                            other.request.numbers == event.request.numbers;
+                                   });
+    if (same == done.end())
+      done.push_back(event);
+    else
+      next = static_cast<std::size_t>(same - done.begin()) + 1;
+  }
+  std::stable_sort(done.begin(), done.end(),
+                   [](const RecordedEvent& a, const RecordedEvent& b) { return a.tick < b.tick; });
 }
 
 EventLog::~EventLog()
@@ -102,15 +174,16 @@ void EventLog::Write(std::uint64_t tick, const ControlRequestMessage& request)
   if (path_.empty()) return;
   if (file_ == nullptr)
   {
-    file_ = std::fopen(path_.c_str(), "we");
-    if (file_ != nullptr) fmt::print(file_, "{}\n", kHeader);
+    goes_on_ = goes_on_ && std::filesystem::exists(path_);
+    file_ = std::fopen(path_.c_str(), goes_on_ ? "ae" : "we");
+    if (file_ != nullptr && !goes_on_) fmt::print(file_, "{}\n", kHeader);
   }
   bool good = file_ != nullptr;
   if (good)
   {
     // The shortest numbers that read back as the same bits.
-    fmt::print(file_, "{},{},{},{},{}\n", tick, request.verb, request.entity, fmt::join(request.numbers, " "),
-               CsvField(request.client));
+    fmt::print(file_, "{},{},{},{},{},{}\n", tick, request.verb, request.entity, fmt::join(request.numbers, " "),
+               CsvField(request.client), request.number);
     good = std::fflush(file_) == 0;
   }
   if (!good) throw std::runtime_error(fmt::format("cannot write the events to '{}': {}", path_, std::strerror(errno)));

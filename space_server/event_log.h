@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct RecordedEvent
   std::uint64_t tick = 0;  // before whose state it is done
   ControlRequestMessage request;
   SourceLocation location;
+  bool logged = false;  // by this run already, before its space server died
 };
 
 // The events that change the outcome of a run (move, add, remove, stop), in the order of the file. Throws
@@ -27,11 +29,27 @@ std::vector<RecordedEvent> ReadEvents(const std::string& path, const Experiment&
 // The same from the text of the file.
 std::vector<RecordedEvent> ParseEvents(const std::string& text, const std::string& path, const Experiment& experiment);
 
+// What was asked of a run whose space server has died, for the next one.
+struct EarlierRequests
+{
+  std::vector<RecordedEvent> changes;           // as ReadEvents has them
+  std::vector<ControlRequestMessage> answered;  // and whether its asker had an answer coming
+  std::optional<ControlRequestMessage> step;    // one that is not done yet
+  std::optional<std::uint64_t> pause_at;        // the run is paused, or will be at this tick
+  std::optional<double> speed;
+};
+// From its log of events, which may be lacking; the half of a line at its end is cut off. `pause_at`: of its start.
+// Throws ConfigurationError.
+EarlierRequests ReadEarlierRequests(const std::string& path, const Experiment& experiment,
+                                    std::optional<std::uint64_t> pause_at);
+// Those of `repeated` that the run had not done yet, after those that it had.
+void AddUndone(std::vector<RecordedEvent>& done, const std::vector<RecordedEvent>& repeated);
+
 class EventLog
 {
 public:
-  // The file is made with the first event. Empty path: nothing is written.
-  explicit EventLog(std::string path) : path_(std::move(path)) {}
+  // The file is made with the first event, unless there is one that `goes_on`. Empty path: nothing is written.
+  explicit EventLog(std::string path, bool goes_on = false) : path_(std::move(path)), goes_on_(goes_on) {}
   ~EventLog();
   EventLog(const EventLog&) = delete;
   EventLog& operator=(const EventLog&) = delete;
@@ -41,6 +59,7 @@ public:
 
 private:
   std::string path_;
+  bool goes_on_;
   std::FILE* file_ = nullptr;
 };
 

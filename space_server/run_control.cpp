@@ -13,11 +13,15 @@ namespace swarmanoid
 RunControl::RunControl(const Experiment& experiment, RunControlSetup setup, Answer answer)
     : experiment_(experiment),
       answer_(std::move(answer)),
-      event_log_(std::move(setup.event_log)),
+      event_log_(std::move(setup.event_log), setup.goes_on),
       repeated_(std::move(setup.repeated)),
       paused_(setup.paused),
-      real_time_factor_(setup.real_time_factor)
+      real_time_factor_(setup.real_time_factor),
+      pause_at_(setup.pause_at),
+      step_(std::move(setup.step))
 {
+  for (const RecordedEvent& event : repeated_)
+    if (event.logged) asked_from_ = event.tick;
 }
 
 void RunControl::Ask(const ControlRequestMessage& request)
@@ -70,6 +74,7 @@ void RunControl::Work(SpaceServer& server)
   }
   Repeat(server);
   std::vector<ControlRequestMessage> requests;
+  if (tick >= asked_from_)
   {
     const std::lock_guard lock(mutex_);
     requests.swap(requests_);
@@ -92,11 +97,12 @@ void RunControl::Repeat(SpaceServer& server)
     if (event.request.verb == "stop")
     {
       Stop(event.request.client);
+      if (event.logged) stop_unlogged_.reset();
       continue;
     }
     try
     {
-      Change(event.request, server);
+      Change(event.request, server, event.logged);
     }
     catch (const std::invalid_argument& error)
     {
@@ -105,7 +111,7 @@ void RunControl::Repeat(SpaceServer& server)
   }
 }
 
-void RunControl::Change(const ControlRequestMessage& request, SpaceServer& server)
+void RunControl::Change(const ControlRequestMessage& request, SpaceServer& server, bool logged)
 {
   const std::uint64_t tick = server.Space().GetTick();
   const SpaceChange change = ReadSpaceChange(request, server.Space());
@@ -113,7 +119,7 @@ void RunControl::Change(const ControlRequestMessage& request, SpaceServer& serve
   // Of a reserve, the one that was taken: so a repetition does not depend on who waits.
   ControlRequestMessage done = request;
   done.entity = change.entity;
-  event_log_.Write(tick, done);
+  if (!logged) event_log_.Write(tick, done);
   answer_(request, true, tick, fmt::format("{} at tick {}", change.done, tick));
 }
 

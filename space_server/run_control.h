@@ -24,6 +24,10 @@ struct RunControlSetup
   double real_time_factor = 0;          // 0: as fast as possible
   std::string event_log;                // file for what users ask; empty: none
   std::vector<RecordedEvent> repeated;  // of an earlier run, to be done again
+  // Of a run that goes on after its space server has died. `repeated` has what that one did.
+  bool goes_on = false;
+  std::uint64_t pause_at = 0;                   // 0: does not
+  std::optional<ControlRequestMessage> step{};  // that ends there
 };
 
 class RunControl
@@ -69,7 +73,7 @@ private:
   void Repeat(SpaceServer& server);
   void Carry(const ControlRequestMessage& request, SpaceServer& server);
   // Moves, adds or removes an entity, and says so. Throws std::invalid_argument.
-  void Change(const ControlRequestMessage& request, SpaceServer& server);
+  void Change(const ControlRequestMessage& request, SpaceServer& server, bool logged = false);
   void DropStep(std::uint64_t tick, const char* why);
   void SetPace(std::uint64_t tick, Clock::time_point now);
 
@@ -78,6 +82,7 @@ private:
   EventLog event_log_;
   std::vector<RecordedEvent> repeated_;
   std::size_t next_repeated_ = 0;
+  std::uint64_t asked_from_ = 0;  // ticks before are done again: nobody comes in between
   mutable std::mutex mutex_;
   std::vector<ControlRequestMessage> requests_;
 

@@ -51,6 +51,9 @@ public:
   // The space as in the snapshot, which must fit it; what is sent next is complete only for those who have it too.
   void LoadState(const SpaceSnapshot& snapshot, ByteReader& state);
 
+  // After LoadState, for those who have the state of the tick before: these attributes have changed since.
+  void TellAgain(const AttributeChanges& changes) { changed_slots_ = changes.slots; }
+
   // For what comes from another process, before Advance; roles of this process have checked their results themselves.
   // Throw std::runtime_error that names the engine or the host which gave what cannot be part of the state, the entity,
   // the tick of the step and the value.

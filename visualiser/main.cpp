@@ -77,7 +77,14 @@ void RunAttached(WorkerSession& session, const WorkerSettings& settings, const R
                         settings.read_only ? nullptr : &control, &monitor);
   AttachedNode node(session, replica, visualiser, monitor, settings.rate);
   session.ReportReady();
-  const std::optional<BusError> over = session.Follow(kIdlePeriod, [&] { node.Work(); });
+  std::optional<BusError> over;
+  while ((over = session.Follow(kIdlePeriod, [&] { node.Work(); })))
+  {
+    monitor.ServerIsLost();
+    if (!session.FollowNext([&] { return visualiser.Idle(); })) break;
+    monitor.FollowRun(session.World().run);
+    node.FollowRun(session.World().run);
+  }
   monitor.RunIsOver(over ? over->what() : "");
   // A window stays for those who look at it.
   if (visualiser.IsInteractive() && !node.Terminated())

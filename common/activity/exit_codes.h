@@ -13,6 +13,7 @@ enum ExitCode
   kExitProcessFailed = 4,
   kExitHashDiffers = 5,
   kExitOthersFailed = 6,  // of a process of a cluster: the run failed elsewhere
+  kExitStuck = 7,         // likewise: one that died holds a lock of the run's shared memory
   kExitInterrupted = 130
 };
 

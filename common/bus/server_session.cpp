@@ -173,6 +173,11 @@ std::vector<std::string> ServerSession::TakeLost() { return std::exchange(state_
 
 bool ServerSession::TakeReplaced() { return std::exchange(state_.Lock()->replaced, false); }
 
+std::uint32_t ServerSession::Incarnation(const std::string& name) const
+{
+  return state_.Lock()->members.at(name).incarnation;
+}
+
 std::vector<RecoveryRequestMessage> ServerSession::TakeRecoveryRequests()
 {
   return std::exchange(state_.Lock()->recoveries, {});
@@ -291,6 +296,15 @@ void ServerSession::Asked(const ControlRequestMessage& request)
   }
   if (!known) return callbacks_.asked(request);
   if (known->reply) replies_->Write(*known->reply);
+}
+
+void ServerSession::Remember(const ControlRequestMessage& request, bool waits)
+{
+  Request seen{request.client, request.number, std::nullopt};
+  if (!waits) seen.reply = ControlReplyMessage{request.client, request.number, true, 0, request.verb + " was done"};
+  const auto state = state_.Lock();
+  state->requests_seen.push_back(std::move(seen));
+  if (state->requests_seen.size() > kRequestsKept) state->requests_seen.pop_front();
 }
 
 ServerSession::Request* ServerSession::State::FindRequest(const ControlRequestMessage& request)

@@ -60,6 +60,8 @@ public:
   std::vector<std::string> TakeLost();
   // Whether one that takes the place of another has become ready since the last call.
   bool TakeReplaced();
+  // Of the process that has the name now.
+  std::uint32_t Incarnation(const std::string& name) const;
   // What such processes ask for, and the answer.
   std::vector<RecoveryRequestMessage> TakeRecoveryRequests();
   void Answer(const RecoveryBlockMessage& block) { blocks_->Write(block); }
@@ -68,6 +70,9 @@ public:
   // True once every expected process has left.
   bool AllLeft() const;
 
+  // Before Open: a server of this run before this one has taken the request, and answered it unless `waits`. Whoever
+  // repeats it is not taken for somebody who asks anew.
+  void Remember(const ControlRequestMessage& request, bool waits);
   void Reply(const ControlRequestMessage& request, bool ok, std::uint64_t tick, const std::string& text);
   void LeaveDirectory() { directory_.Leave(); }
   // Tells all that the run is over, and why.

@@ -1,6 +1,7 @@
 #include "common/bus/tick_gate.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "common/bus/bus.h"
 
@@ -46,11 +47,13 @@ void TickGate::Next()
   ++tick_;
 }
 
-void TickGate::Withdraw(const std::string& name)
+void TickGate::Withdraw(const std::string& name, std::uint32_t incarnation)
 {
   for (std::size_t part = 0; part < parts_.size(); ++part)
   {
-    if (parts_[part].name != name || !here_[part]) continue;
+    if (parts_[part].name != name) continue;
+    incarnations_[part] = std::max(incarnations_[part], incarnation);
+    if (!here_[part]) continue;
     here_[part] = 0;
     ++missing_;
   }

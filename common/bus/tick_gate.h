@@ -37,8 +37,9 @@ public:
   void Next();
   // The first tick is another one; nothing is here yet.
   void StartAt(std::uint64_t tick) { tick_ = tick; }
-  // The messages of that name that are here have to come again, from whoever takes the place of their sender.
-  void Withdraw(const std::string& name);
+  // The messages of that name that are here have to come again, from whoever takes the place of their sender: those of
+  // lower incarnations that are still on their way are not heard.
+  void Withdraw(const std::string& name, std::uint32_t incarnation);
   // Whether a message is of a process that was replaced: one of its part with a higher incarnation was heard.
   bool IsReplaced(std::size_t part, std::uint32_t incarnation);
 

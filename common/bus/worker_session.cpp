@@ -24,6 +24,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kPatience = 1s;                             // before what is waited for is said
 constexpr auto kBrokenTime = 5s;                           // for the lease of a dead process to end
+constexpr auto kStuckTime = 2s;                            // likewise, if another process may take its place
+constexpr auto kPatienceForNext = 15s;                     // of those who look on, for another space server
 constexpr std::chrono::milliseconds kFirstRepeat = 100ms;  // of a Leave that is not answered
 constexpr std::chrono::milliseconds kLastRepeat = 1s;
 constexpr auto kInterruptedTime = 1s;  // for the answer to a Leave, if it was asked to end
@@ -62,7 +64,11 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
                                                          [this](const WorldMessage& world)
                                                          {
                                                            const std::lock_guard lock(mutex_);
-                                                           if (have_world_) return;
+                                                           if (have_world_)
+                                                           {
+                                                             if (looks_on_ && GoesOnWith(world)) next_world_ = world;
+                                                             return;
+                                                           }
                                                            world_ = world;
                                                            have_world_ = true;
                                                            server_process_ =
@@ -97,11 +103,11 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
   leaves_ = std::make_unique<Subscription<LeaveMessage>>(bus_, world_.experiment,
                                                          [this](const LeaveMessage& leave)
                                                          {
-                                                           if (leave.run != world_.run) return;
                                                            if (leave.name != "space server") return;
                                                            const bool own = leave.process == ProcessId();
                                                            if (!leave.process.empty() && !own) return;
                                                            const std::lock_guard lock(mutex_);
+                                                           if (leave.run != world_.run) return;
                                                            const bool answered = own && leave.error.empty();
                                                            (answered ? answered_ : server_left_) = true;
                                                            if (!leave.error.empty()) others_error_ = leave.error;
@@ -114,6 +120,51 @@ WorkerSession::~WorkerSession()
 {
   bus_.OnBadMessage(nullptr);
   bus_.OnProcessGone(nullptr);
+}
+
+void WorkerSession::LookOn()
+{
+  const std::lock_guard lock(mutex_);
+  looks_on_ = true;
+}
+
+bool WorkerSession::GoesOnWith(const WorldMessage& world) const
+{
+  return world.run != world_.run && world.experiment == world_.experiment && world.xml == world_.xml &&
+         world.protocol == world_.protocol && world.entities.size() == world_.entities.size();
+}
+
+bool WorkerSession::FollowNext(const std::function<bool()>& idle)
+{
+  {
+    const std::lock_guard lock(mutex_);
+    if (!server_lost_ || server_left_ || !world_.recorded) return false;
+    Say(fmt::format("the space server has gone (process {}); waiting {} s for another one in its place",
+                    server_process_, kPatienceForNext.count()));
+  }
+  const auto start = Clock::now();
+  while (true)
+  {
+    if (idle() || Interrupted()) return false;
+    std::unique_lock lock(mutex_);
+    if (next_world_) break;
+    if (Clock::now() - start > kPatienceForNext) return false;
+    changed_.wait_for(lock, 15ms);
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    world_ = std::move(*next_world_);
+    next_world_.reset();
+    server_process_ = fmt::format("{}:{}", world_.host, world_.pid);
+    server_lost_ = false;
+    server_seen_ = ServerIsOnThisMachine();
+    others_error_.reset();
+    reason_ = EndReason::kFailed;
+  }
+  directory_ = std::make_unique<RunDirectory>(world_.experiment, world_.run);
+  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, true, incarnation_});
+  Say("the run goes on with another space server");
+  return true;
 }
 
 void WorkerSession::Trust(const std::string& name)
@@ -157,14 +208,14 @@ void WorkerSession::CheckOthers()
   const EndReason before = std::exchange(reason_, EndReason::kOthers);
   if (others_error_) throw BusError(*others_error_);
   // The leases of a run on one machine are long: its launcher sees who dies, but those who are attached have none.
-  if (server_seen_ && !ServerIsOnThisMachine()) server_lost_ = true;
+  if (next_world_ || (server_seen_ && !ServerIsOnThisMachine())) server_lost_ = true;
   if (server_lost_) throw BusError(fmt::format("the space server has gone (process {})", server_process_));
   if (server_left_) throw BusError("the run has ended");
   if (BusIsBroken())
   {
     if (!broken_since_) broken_since_ = Clock::now();
-    if (Clock::now() - *broken_since_ > kBrokenTime)
-      throw BusError("a process died, or was stopped, while it held shared memory of the run");
+    stuck_ = Clock::now() - *broken_since_ > (world_.recorded ? kStuckTime : kBrokenTime);
+    if (stuck_) throw BusError("a process died, or was stopped, while it held shared memory of the run");
   }
   reason_ = before;
 }
@@ -253,7 +304,7 @@ void WorkerSession::GiveUp(const std::exception& error)
   Say(error.what());
   ReportFailure(error);
   directory_->Leave();
-  EndAtOnce(ExitCodeOf(reason_, looks_on_));
+  EndAtOnce(stuck_ && !looks_on_ ? kExitStuck : ExitCodeOf(reason_, looks_on_));
 }
 
 std::optional<BusError> WorkerSession::Follow(std::chrono::milliseconds period, const std::function<void()>& idle)
@@ -348,7 +399,7 @@ int WorkerSession::Work(const std::function<void()>& work)
     ReportFailure(error);
     if (reason_ == EndReason::kFailed) throw;
     Say(error.what());
-    return ExitCodeOf(reason_, looks_on_);
+    return stuck_ && !looks_on_ ? kExitStuck : ExitCodeOf(reason_, looks_on_);
   }
   NoteEnd(EndReason::kDone, tick_, "");
   LeaveRun("");

@@ -30,7 +30,7 @@ public:
                 std::optional<int> server = std::nullopt, unsigned incarnation = 0);
   ~WorkerSession();
   // For one who only looks on: to whoever started it, a run that failed elsewhere is a process that failed.
-  void LookOn() { looks_on_ = true; }
+  void LookOn();
 
   const std::string& Name() const { return name_; }
   bool TakesAPlace() const { return incarnation_ > 0; }
@@ -58,6 +58,10 @@ public:
   // As Wait, for a process that still has something to do after the run: returns nothing once Finish was called, or the
   // reason for which the run ended.
   std::optional<BusError> Follow(std::chrono::milliseconds period, const std::function<void()>& idle);
+  // For one who looks on, after Follow: if the server was lost and its run may go on with another one, says so and
+  // waits for that one, and joins it. False if none has come in time, or `idle`, which is called all the while, returns
+  // true.
+  bool FollowNext(const std::function<bool()>& idle);
   // Says that this process failed, or has nothing to do any more in a run that failed, and ends the program.
   [[noreturn]] void GiveUp(const std::exception& error);
   // Before messages come: `name` is a process of the run, which ends when it sends a bad message. The space server is
@@ -76,6 +80,7 @@ private:
   bool FailedBy(const BadMessageReport& report);
   void CheckOthers();
   bool ServerIsOnThisMachine() const;
+  bool GoesOnWith(const WorldMessage& world) const;
   void WaitUntilDone(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
   // Why this process ends, to whoever started it and to the server.
   void ReportFailure(const std::exception& error);
@@ -98,6 +103,7 @@ private:
   std::optional<std::string> own_error_;
   std::optional<std::string> others_error_;
   std::optional<std::chrono::steady_clock::time_point> broken_since_;
+  bool stuck_ = false;
   bool server_lost_ = false;
   bool server_seen_ = false;  // among the processes of this machine
   bool server_left_ = false;
@@ -106,6 +112,7 @@ private:
   std::set<std::string> trusted_;
   std::string last_status_;
   WorldMessage world_;
+  std::optional<WorldMessage> next_world_;  // of the server that goes on with the run
   bool have_world_ = false;
   std::unique_ptr<RunDirectory> directory_;
   std::unique_ptr<Subscription<WorldMessage>> worlds_;

@@ -23,7 +23,7 @@ namespace swarmanoid
 
 inline constexpr std::string_view kJournalMagic = "SWARMJB";
 // Another one for each change of the blocks, or of what they mean.
-inline constexpr char kJournalVersion = '1';
+inline constexpr char kJournalVersion = '2';
 inline constexpr std::size_t kJournalHeaderBytes = 48;
 
 enum class JournalBlockKind : std::uint32_t
@@ -33,6 +33,7 @@ enum class JournalBlockKind : std::uint32_t
   kSnapshot = 3,  // the space at a tick: SpaceSnapshot
   kPart = 4,      // what one process remembers before it steps at a tick: SavedPart
   kFrames = 5,    // the sensor frames of a tick that is not done yet; in recoveries alone
+  kGoOn = 6,      // the run goes on at first_tick: what stands before of that and later ticks is done again
 };
 
 struct JournalBlockHeader

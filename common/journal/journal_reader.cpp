@@ -21,7 +21,18 @@ std::vector<char> BlockAt(const RegularFile& file, std::uint64_t offset)
 
 }  // namespace
 
-JournalReader::JournalReader(const std::string& path) : file_(path)
+void DropFrom(std::vector<JournalPlace>& places, std::uint64_t tick)
+{
+  std::erase_if(places,
+                [&](const JournalPlace& place)
+                {
+                  if (place.kind == JournalBlockKind::kTicks) return place.first_tick + place.ticks > tick;
+                  const bool saved = place.kind == JournalBlockKind::kSnapshot || place.kind == JournalBlockKind::kPart;
+                  return saved && place.first_tick > tick;
+                });
+}
+
+JournalReader::JournalReader(const std::string& path) : path_(path), file_(path)
 {
   std::uint64_t offset = 0;
   while (offset < file_.Size())
@@ -40,6 +51,7 @@ JournalReader::JournalReader(const std::string& path) : file_(path)
     {
       break;
     }
+    if (place.kind == JournalBlockKind::kGoOn) DropFrom(places_, place.first_tick);
     places_.push_back(std::move(place));
     offset += block.size();
   }
@@ -64,25 +76,65 @@ void JournalReader::ForEachTick(const std::function<void(const TickRecord&)>& us
   }
 }
 
+const JournalPlace* JournalReader::PlaceOf(JournalBlockKind kind, std::uint64_t tick, const std::string& name) const
+{
+  const auto found = std::find_if(places_.begin(), places_.end(),
+                                  [&](const JournalPlace& place)
+                                  { return place.kind == kind && place.first_tick == tick && place.name == name; });
+  return found == places_.end() ? nullptr : &*found;
+}
+
+std::optional<std::uint64_t> JournalReader::TickToGoOn(const std::function<bool(std::uint64_t)>& usable) const
+{
+  std::uint64_t end = start_.first_tick;  // of the ticks of which none is lacking
+  for (const JournalPlace& place : places_)
+    if (place.kind == JournalBlockKind::kTicks && place.first_tick == end) end += place.ticks;
+  std::optional<std::uint64_t> newest;
+  for (const JournalPlace& place : places_)
+  {
+    const std::uint64_t tick = place.first_tick;
+    if (place.kind != JournalBlockKind::kSnapshot || tick >= end || (newest && tick < *newest)) continue;
+    if (PlaceOf(JournalBlockKind::kPart, tick, kServerPart) != nullptr && usable(tick)) newest = tick;
+  }
+  return newest;
+}
+
+std::optional<TickRecord> JournalReader::RecordOf(std::uint64_t tick) const
+{
+  for (const JournalPlace& place : places_)
+  {
+    if (place.kind != JournalBlockKind::kTicks || tick < place.first_tick || tick - place.first_tick >= place.ticks)
+      continue;
+    TickRecordReader records(Content(place));
+    TickRecord record;
+    while (records.Next(record))
+      if (record.state.tick == tick) return record;
+  }
+  return std::nullopt;
+}
+
+std::optional<Checkpoint> JournalReader::CheckpointAt(std::uint64_t tick, const std::vector<std::string>& parts) const
+{
+  const JournalPlace* snapshot = PlaceOf(JournalBlockKind::kSnapshot, tick, {});
+  if (snapshot == nullptr) return std::nullopt;
+  Checkpoint checkpoint;
+  for (const std::string& name : parts)
+  {
+    const JournalPlace* part = PlaceOf(JournalBlockKind::kPart, tick, name);
+    if (part == nullptr) return std::nullopt;
+    checkpoint.parts.push_back(ReadPart(Content(*part)));
+  }
+  checkpoint.origin = start_.origin;
+  checkpoint.snapshot = ReadSnapshot(Content(*snapshot));
+  return checkpoint;
+}
+
 std::optional<Checkpoint> JournalReader::NewestCheckpoint(const std::vector<std::string>& parts) const
 {
   for (auto snapshot = places_.rbegin(); snapshot != places_.rend(); ++snapshot)
   {
     if (snapshot->kind != JournalBlockKind::kSnapshot) continue;
-    Checkpoint checkpoint;
-    for (const std::string& name : parts)
-    {
-      const auto part = std::find_if(places_.begin(), places_.end(),
-                                     [&](const JournalPlace& place) {
-                                       return place.kind == JournalBlockKind::kPart && place.name == name &&
-                                              place.first_tick == snapshot->first_tick;
-                                     });
-      if (part != places_.end()) checkpoint.parts.push_back(ReadPart(Content(*part)));
-    }
-    if (checkpoint.parts.size() != parts.size()) continue;
-    checkpoint.origin = start_.origin;
-    checkpoint.snapshot = ReadSnapshot(Content(*snapshot));
-    return checkpoint;
+    if (auto checkpoint = CheckpointAt(snapshot->first_tick, parts)) return checkpoint;
   }
   return std::nullopt;
 }

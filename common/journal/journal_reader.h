@@ -23,17 +23,29 @@ public:
   explicit JournalReader(const std::string& path);
 
   const JournalStart& Start() const { return start_; }
-  // All whole blocks, in the order of the file.
+  const std::string& Path() const { return path_; }
+  // All whole blocks but those of ticks that were done again, in the order of the file.
   const std::vector<JournalPlace>& Places() const { return places_; }
+  // Of whole blocks.
+  std::uint64_t Bytes() const { return file_.Size() - torn_; }
   // Bytes after the last whole block: what was being written when the run died.
   std::uint64_t TornBytes() const { return torn_; }
   std::vector<char> Content(const JournalPlace& place) const;
   // Calls `use` with each tick. Some may be lacking at the end.
   void ForEachTick(const std::function<void(const TickRecord&)>& use) const;
-  // The newest tick at which all `parts` were saved, put together; nothing if there is none.
+  // The newest tick at which the space server was saved and before which none is lacking, nor itself; nothing if there
+  // is none. `usable`: false for ticks that will not do.
+  std::optional<std::uint64_t> TickToGoOn(const std::function<bool(std::uint64_t)>& usable) const;
+  std::optional<TickRecord> RecordOf(std::uint64_t tick) const;
+  // What all `parts` saved at the tick, or at the newest one that has them all, put together; nothing if one is
+  // lacking.
+  std::optional<Checkpoint> CheckpointAt(std::uint64_t tick, const std::vector<std::string>& parts) const;
   std::optional<Checkpoint> NewestCheckpoint(const std::vector<std::string>& parts) const;
 
 private:
+  const JournalPlace* PlaceOf(JournalBlockKind kind, std::uint64_t tick, const std::string& name) const;
+
+  std::string path_;
   RegularFile file_;
   JournalStart start_;
   std::vector<JournalPlace> places_;

@@ -5,10 +5,13 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
+
+#include "common/journal/journal_reader.h"
 
 namespace swarmanoid
 {
@@ -31,14 +34,53 @@ void UseCoresOfLauncher()
 
 }  // namespace
 
-JournalWriter::JournalWriter(const std::string& path, std::span<const char> start, bool beside_launcher)
-    : path_(path), file_(open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
+JournalWriter::JournalWriter(const std::string& path, int flags)
+    : path_(path), file_(open(path.c_str(), O_RDWR | O_CLOEXEC | flags, 0666))
 {
   if (file_ < 0) throw std::runtime_error(fmt::format("cannot make the journal '{}': {}", path, std::strerror(errno)));
+}
+
+JournalWriter::JournalWriter(const std::string& path, std::span<const char> start, bool beside_launcher)
+    : JournalWriter(path, O_CREAT | O_TRUNC)
+{
   Block first;
   first.place.kind = JournalBlockKind::kStart;
   first.content.assign(start.begin(), start.end());
   Write(first);
+  StartThread(beside_launcher);
+}
+
+JournalWriter::JournalWriter(const JournalReader& journal, std::uint64_t tick, bool beside_launcher)
+    : JournalWriter(journal.Path(), 0)
+{
+  size_ = journal.Bytes();
+  if (ftruncate(file_, static_cast<off_t>(size_)) != 0)
+    throw std::runtime_error(fmt::format("cannot go on with the journal '{}': {}", path_, std::strerror(errno)));
+  Block mark;
+  mark.place.kind = JournalBlockKind::kGoOn;
+  mark.place.first_tick = tick;
+  Block kept;  // of the ticks that share a block with later ones
+  kept.place.kind = JournalBlockKind::kTicks;
+  for (const JournalPlace& place : journal.Places())
+  {
+    if (place.kind != JournalBlockKind::kTicks || place.first_tick >= tick || place.first_tick + place.ticks <= tick)
+      continue;
+    TickRecordReader records(journal.Content(place));
+    TickRecord record;
+    while (records.Next(record) && record.state.tick < tick)
+      kept.rows.Add(record.state, record.save, record.frames, record.commands);
+  }
+  places_ = journal.Places();
+  DropFrom(places_, tick);
+  Write(mark);
+  kept.place.first_tick = kept.rows.FirstTick();
+  kept.place.ticks = kept.rows.Ticks();
+  if (!kept.rows.Empty()) Write(kept);
+  StartThread(beside_launcher);
+}
+
+void JournalWriter::StartThread(bool beside_launcher)
+{
   thread_ = std::thread(
       [this, beside_launcher]
       {
@@ -55,7 +97,7 @@ JournalWriter::~JournalWriter()
     over_ = true;
     changed_.notify_all();
   }
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
   close(file_);
 }
 

@@ -19,6 +19,8 @@
 namespace swarmanoid
 {
 
+class JournalReader;
+
 // A block in the file.
 struct JournalPlace
 {
@@ -30,12 +32,18 @@ struct JournalPlace
   std::uint64_t bytes = 0;
 };
 
+// Takes away what a run that goes on at the tick does again.
+void DropFrom(std::vector<JournalPlace>& places, std::uint64_t tick);
+
 class JournalWriter
 {
 public:
   // Makes the file, with its first block. `beside_launcher`: this process was started by a launcher, which may have
   // given it fewer cores than it has. Throws std::runtime_error with the path.
   JournalWriter(const std::string& path, std::span<const char> start, bool beside_launcher = false);
+  // Goes on at `tick` with the journal of a run that has died: keeps what stands there of the ticks before, and what
+  // was saved until then. Throws likewise.
+  JournalWriter(const JournalReader& journal, std::uint64_t tick, bool beside_launcher = false);
   // Writes all that was added.
   ~JournalWriter();
   JournalWriter(const JournalWriter&) = delete;
@@ -64,6 +72,8 @@ private:
     std::vector<char> content;  // of others
   };
 
+  JournalWriter(const std::string& path, int flags);
+  void StartThread(bool beside_launcher);
   void Queue(JournalBlockKind kind, std::uint64_t tick, const std::string& name, std::vector<char> content);
   void QueueRows();
   void Write();

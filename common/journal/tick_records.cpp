@@ -81,8 +81,10 @@ bool TickRows::Add(const SpaceState& state, bool save, std::span<const SensorFra
     first_tick_ = state.tick;
     poses_ = state.poses.size();
     others_ = others;
+    hosts_ = commands.size();
   }
-  else if (poses_ != state.poses.size() || others_ != others || state.tick != first_tick_ + ticks_)
+  else if (poses_ != state.poses.size() || others_ != others || hosts_ != commands.size() ||
+           state.tick != first_tick_ + ticks_)
     return false;
   ++ticks_;
   numbers_.insert(numbers_.end(), state.poses.begin(), state.poses.end());

@@ -20,7 +20,7 @@ struct TickRecord
   SpaceState state;                       // as it was sent
   bool save = false;                      // likewise: it asked for saved states
   std::vector<SensorFrame> frames;        // of the tick, of all engines in their order; empty at the first one
-  std::vector<ControlCommands> commands;  // of all hosts, in their order
+  std::vector<ControlCommands> commands;  // of all hosts, in their order; none at the last tick of a run
 };
 
 // Some ticks in a row. Filled by the thread of the ticks, which allocates nothing once the buffers have grown.
@@ -31,7 +31,7 @@ public:
   std::uint32_t Ticks() const { return ticks_; }
   std::uint64_t FirstTick() const { return first_tick_; }
   std::size_t Bytes() const { return numbers_.size() * sizeof(double) + rest_.Bytes().size(); }
-  // False, and nothing happens, if the rows of the record are not as long as those here.
+  // False, and nothing happens, if the rows of the record are not as long as those here, or of other hosts.
   bool Add(const SpaceState& state, bool save, std::span<const SensorFrame> frames,
            std::span<const ControlCommands> commands);
   void Clear();
@@ -43,6 +43,7 @@ private:
   std::uint32_t ticks_ = 0;
   std::size_t poses_ = 0;  // in a row
   std::size_t others_ = 0;
+  std::size_t hosts_ = 0;        // none at the last tick of a run
   std::vector<double> numbers_;  // row after row: poses, frames, commands
   ByteWriter rest_;
 };

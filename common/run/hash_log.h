@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 namespace swarmanoid
@@ -13,7 +14,8 @@ class HashLog
 {
 public:
   // Empty: nothing is written. Throws std::runtime_error if the file cannot be made.
-  explicit HashLog(const std::string& path);
+  // `goes_on_at`: the lines of ticks before it stay.
+  explicit HashLog(const std::string& path, std::optional<std::uint64_t> goes_on_at = std::nullopt);
   ~HashLog();
   HashLog(const HashLog&) = delete;
   HashLog& operator=(const HashLog&) = delete;
@@ -21,9 +23,12 @@ public:
   bool IsOpen() const { return file_ != nullptr; }
   // Throws std::runtime_error if the line is lost, as on a full disk; so does Close, for the last ones.
   void Write(std::uint64_t tick, std::uint64_t hash);
+  // What was written stays when the process is killed.
+  void Flush();
   void Close();
 
 private:
+  void CutAt(std::uint64_t tick) const;
   [[noreturn]] void Refuse(int cause) const;
 
   std::string path_;

@@ -34,6 +34,7 @@ ActivityRecord ReadActivity(const ActivityPage* page)
 
 Evidence EvidenceOf(const std::optional<ProcessEnd>& ended, const ActivityRecord& record)
 {
+  if (IsStuck(ended)) return Evidence::kDeath;
   switch (record.end)
   {
     case EndReason::kFailed:
@@ -55,6 +56,8 @@ Evidence EvidenceOf(const std::optional<ProcessEnd>& ended, const ActivityRecord
   // A program of ours says that its work is done.
   return record.taken && record.end == EndReason::kUnknown ? Evidence::kDeath : Evidence::kEarlyEnd;
 }
+
+bool IsStuck(const std::optional<ProcessEnd>& ended) { return ended && ended->exit_code == kExitStuck; }
 
 bool MayBeReplaced(const ProcessEnd& ended, const ActivityRecord& record, bool elsewhere)
 {

@@ -41,6 +41,10 @@ enum class Evidence
 // `ended`: nothing while the process runs; it may have said already that it failed.
 Evidence EvidenceOf(const std::optional<ProcessEnd>& ended, const ActivityRecord& record);
 
+// Whether a process has ended since one that died holds a lock of the shared memory that they had: then no other
+// process gets further in this memory.
+bool IsStuck(const std::optional<ProcessEnd>& ended);
+
 // Whether a process has died, rather than said what is wrong: another one in its place may get further. `elsewhere`: it
 // was started on another machine.
 bool MayBeReplaced(const ProcessEnd& ended, const ActivityRecord& record, bool elsewhere);

@@ -22,11 +22,11 @@ std::string_view ReadSome(FileDescriptor& descriptor, std::array<char, 4096>& bu
 
 }  // namespace
 
-ClusterMember::ClusterMember(const MemberPlan& plan, ProcessSpawner& spawner, unsigned incarnation)
+ClusterMember::ClusterMember(const MemberPlan& plan, ProcessSpawner& spawner, unsigned incarnation, double taken_s)
     : plan_(plan),
       incarnation_(incarnation),
       log_(plan.log_path, incarnation > 0),
-      process_(spawner.Start(incarnation > 0 ? plan.replacement(incarnation) : plan.command))
+      process_(spawner.Start(incarnation > 0 ? plan.replacement(incarnation, taken_s) : plan.command))
 {
 }
 

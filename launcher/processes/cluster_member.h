@@ -29,16 +29,17 @@ struct MemberPlan
   };
   Output output = kLog;
   bool visualiser = false;
-  // What takes its place when it has died, the given number of times; empty if nothing can.
-  std::function<ProcessCommand(unsigned incarnation)> replacement;
+  // What takes its place when it has died, the given number of times, in a run that has taken so many seconds; empty if
+  // nothing can.
+  std::function<ProcessCommand(unsigned incarnation, double taken_s)> replacement;
 };
 
 class ClusterMember
 {
 public:
   // Starts the process. Throws std::runtime_error if that is impossible.
-  // `incarnation`: how many processes have died in its place before.
-  ClusterMember(const MemberPlan& plan, ProcessSpawner& spawner, unsigned incarnation = 0);
+  // `incarnation`: how many processes have died in its place before; `taken_s`: by the run.
+  ClusterMember(const MemberPlan& plan, ProcessSpawner& spawner, unsigned incarnation = 0, double taken_s = 0);
 
   // Reads what there is, without waiting, and calls on_line for each full line of its standard output unless that goes
   // to the log. At most `limit` bytes.

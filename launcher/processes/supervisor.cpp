@@ -57,8 +57,9 @@ Supervisor::Supervisor(ProcessSpawner& spawner, Interrupts& interrupts, Progress
 ClusterOutcome Supervisor::Run(const std::vector<MemberPlan>& plans)
 {
   Start(plans);
-  while (AnyAlive())
+  while (AnyAlive() || MustStartAgain())
   {
+    if (phase_ == Phase::kRestarting && !AnyAlive()) StartAgain();
     WaitForEvents();
     for (const auto& member : members_) ReadMember(*member);
     CollectEnds();
@@ -67,9 +68,15 @@ ClusterOutcome Supervisor::Run(const std::vector<MemberPlan>& plans)
     KillStopped();
     ShowProgress();
   }
-  if (attribute_at_ && phase_ != Phase::kDying) Attribute();
   display_.Clear();
   return outcome_;
+}
+
+// All have ended.
+bool Supervisor::MustStartAgain()
+{
+  if (attribute_at_ && phase_ != Phase::kDying) Attribute();
+  return phase_ == Phase::kRestarting;
 }
 
 void Supervisor::Start(const std::vector<MemberPlan>& plans)
@@ -161,6 +168,7 @@ void Supervisor::TakeStatus(const ServerStatus& status)
         break;
       case ServerState::kRunning:
         progress_.phase = "running";
+        if (!began_) began_ = heard_;
         break;
       case ServerState::kPaused:
         progress_.phase = "paused";
@@ -193,7 +201,8 @@ void Supervisor::TakeStatus(const ServerStatus& status)
   }
   else if (const auto* finished = std::get_if<ServerFinished>(&status))
   {
-    if (phase_ == Phase::kDying) return;  // one that has failed already has no result
+    // One that has failed already has no result.
+    if (phase_ == Phase::kDying || phase_ == Phase::kRestarting) return;
     outcome_.finished = *finished;
     progress_.tick = finished->ticks;
     progress_.waiting_for.clear();
@@ -228,7 +237,7 @@ void Supervisor::CollectEnds()
 
 void Supervisor::TakeEnd(const ClusterMember& member)
 {
-  if (phase_ == Phase::kDying) return;
+  if (phase_ == Phase::kDying || phase_ == Phase::kRestarting) return;
   const ProcessEnd& end = *member.End();
   const bool is_server = &member == members_.front().get();
 
@@ -272,20 +281,13 @@ void Supervisor::TakeEnd(const ClusterMember& member)
 
 bool Supervisor::Replace(const ClusterMember& member)
 {
-  const ActivityRecord record = member.Record();
-  const bool running = phase_ == Phase::kRunning && server_error_.empty() && members_.front()->Alive();
-  if (!running || !member.Plan().replacement || left_.contains(member.Name())) return false;
-  if (!MayBeReplaced(*member.End(), record, !member.Plan().host.empty())) return false;
-
-  Deaths& deaths = deaths_[member.Name()];
-  if (progress_.tick > deaths.tick) deaths = {};
-  if (deaths.count >= retries_ || DiedAlike(deaths.last, record)) return false;
-  // What the server says of its tick comes late.
-  deaths = {deaths.count + 1, std::max(progress_.tick, record.tick), record};
-
-  const FailedProcess died{member.Name(), member.Plan().host, member.End(), record};
-  display_.Note(fmt::format("{}; another process takes its place",
-                            FailureText(died, progress_.tick, actor_of_, KernelKillsForMemory() > kills_for_memory_)));
+  const bool server_works = members_.front()->Alive() && &member != members_.front().get() && server_error_.empty();
+  if (phase_ != Phase::kRunning || !server_works || !member.Plan().replacement || left_.contains(member.Name()))
+    return false;
+  if (IsStuck(member.End()) || !MayBeReplaced(*member.End(), member.Record(), !member.Plan().host.empty()))
+    return false;
+  if (!CountDeath(member)) return false;
+  display_.Note(fmt::format("{}; another process takes its place", TextOf(member)));
   kills_for_memory_ = KernelKillsForMemory();
   const auto place =
       std::find_if(members_.begin(), members_.end(), [&](const auto& candidate) { return candidate.get() == &member; });
@@ -301,6 +303,67 @@ bool Supervisor::Replace(const ClusterMember& member)
     display_.Note(error.what());
     return false;
   }
+}
+
+bool Supervisor::CountDeath(const ClusterMember& member)
+{
+  const ActivityRecord record = member.Record();
+  Deaths& deaths = deaths_[member.Name()];
+  if (progress_.tick > deaths.tick) deaths = {};
+  if (deaths.count >= retries_ || DiedAlike(deaths.last, record)) return false;
+  // What the server says of its tick comes late; and after a restart, ticks that were done come again.
+  deaths = {deaths.count + 1, std::max({deaths.tick, progress_.tick, record.tick}), record};
+  return true;
+}
+
+bool Supervisor::Restart(const ClusterMember& first, Evidence evidence)
+{
+  const bool all_can = std::all_of(members_.begin(), members_.end(),
+                                   [](const auto& member) { return member->Plan().replacement != nullptr; });
+  if (phase_ != Phase::kRunning || !all_can) return false;
+  const bool died =
+      first.End() && (IsStuck(first.End()) || MayBeReplaced(*first.End(), first.Record(), !first.Plan().host.empty()));
+  if (!died && evidence != Evidence::kConsequence) return false;
+  if (!CountDeath(first)) return false;
+  display_.Note(fmt::format("{}; all processes start again where the journal ends", TextOf(first)));
+  kills_for_memory_ = KernelKillsForMemory();
+  phase_ = Phase::kRestarting;
+  progress_.phase = "starting again";
+  progress_.waiting_for.clear();
+  ended_.clear();
+  // Some may be stuck.
+  SignalAll(SIGKILL);
+  return true;
+}
+
+void Supervisor::StartAgain()
+{
+  left_.clear();
+  server_error_.clear();
+  attribute_at_.reset();
+  phase_ = Phase::kRunning;
+  try
+  {
+    const double taken_s = began_ ? std::chrono::duration<double>(now_() - *began_).count() : 0;
+    for (auto& member : members_)
+    {
+      member = std::make_unique<ClusterMember>(member->Plan(), spawner_, member->Incarnation() + 1, taken_s);
+      pids_.push_back(member->Process().pid);
+    }
+    heard_ = now_();
+  }
+  catch (const std::exception& error)
+  {
+    outcome_.kind = ClusterOutcome::kFailed;
+    outcome_.reason = error.what();
+    KillAll();
+  }
+}
+
+std::string Supervisor::TextOf(const ClusterMember& failed) const
+{
+  return FailureText({failed.Name(), failed.Plan().host, failed.End(), failed.Record()}, progress_.tick, actor_of_,
+                     KernelKillsForMemory() > kills_for_memory_);
 }
 
 // It may be stopped, or cut off: nobody hears it any more, and it must not come back.
@@ -356,10 +419,10 @@ void Supervisor::Attribute()
   }
   const Evidence evidence = std::get<0>(first_rank);
   if (first == nullptr || (evidence == Evidence::kEarlyEnd && outcome_.finished)) return;
+  if (Restart(*first, evidence)) return;
   if (evidence == Evidence::kConsequence && !server_error_.empty()) return Fail(*members_.front(), server_error_, true);
-  const FailedProcess failed{first->Name(), first->Plan().host, first->End(), first->Record()};
-  Fail(*first, FailureText(failed, progress_.tick, actor_of_, KernelKillsForMemory() > kills_for_memory_),
-       failed.record.complete && !failed.record.cause.empty());
+  const ActivityRecord record = first->Record();
+  Fail(*first, TextOf(*first), record.complete && !record.cause.empty());
 }
 
 void Supervisor::TakeInterrupts()
@@ -375,6 +438,7 @@ void Supervisor::TakeInterrupts()
     }
     if (phase_ != Phase::kDying)
     {
+      if (phase_ == Phase::kRestarting) display_.Note("interrupted while all processes start again");
       outcome_.kind = ClusterOutcome::kInterrupted;
       if (phase_ == Phase::kStopping) outcome_.finished.reset();
     }

@@ -1,6 +1,7 @@
 // Supervisor: starts the processes of a cluster, watches them until the last one has ended, and says how it went. Who
-// dies is replaced by another process; when one fails, or dies again and again, all are stopped at once. Owns the
-// processes; used by the launcher's main thread, which it blocks.
+// dies is replaced by another process, or if that is no use, as for the space server, all of them are; when one fails,
+// or dies again and again, all are stopped at once. Owns the processes; used by the launcher's main thread, which it
+// blocks.
 #pragma once
 
 #include <chrono>
@@ -74,9 +75,10 @@ private:
   enum class Phase
   {
     kRunning,
-    kStopping,   // asked for once: the space server ends at its tick
-    kFinishing,  // the last tick is done, processes end
-    kDying       // SIGTERM is sent, SIGKILL follows
+    kRestarting,  // all are killed, and start again where the journal ends
+    kStopping,    // asked for once: the space server ends at its tick
+    kFinishing,   // the last tick is done, processes end
+    kDying        // SIGTERM is sent, SIGKILL follows
   };
 
   void Start(const std::vector<MemberPlan>& plans);
@@ -89,6 +91,12 @@ private:
   void AttributeWithin(std::chrono::milliseconds patience);
   // Starts another process in the place of one that died; false if that is no use.
   bool Replace(const ClusterMember& member);
+  // Ends all, to start them again; false if that is no use.
+  bool Restart(const ClusterMember& first, Evidence evidence);
+  void StartAgain();
+  bool MustStartAgain();
+  // Another one that died while the run did not go on. False if it is one too many, or dies of the same again.
+  bool CountDeath(const ClusterMember& member);
   void KillLost(const std::string& name);
   void KillStopped();
   // Ends the run by the fault of the process that failed first, if any of those that have ended, or said so, failed.
@@ -100,6 +108,7 @@ private:
   void Die(Clock::time_point kill_at);
   void KillAll();
   void SignalAll(int signal);
+  std::string TextOf(const ClusterMember& failed) const;
   void ShowProgress();
   void WriteScreen(const ClusterMember& member, std::string_view line);
   bool AnyAlive() const;
@@ -141,6 +150,7 @@ private:
   std::string shown_phase_;
   bool screen_full_ = false;  // it takes no more for now: visualisers wait
   bool screen_gone_ = false;
+  std::optional<Clock::time_point> began_;   // its first tick
   Clock::time_point heard_{};                // when the server last said anything
   std::set<std::string> left_;               // said so to the server, and may end
   std::vector<const ClusterMember*> ended_;  // too early or badly, in the order in which that was noticed

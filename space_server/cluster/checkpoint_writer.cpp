@@ -18,8 +18,8 @@ constexpr std::size_t kWantedKept = 64;
 }  // namespace
 
 CheckpointWriter::CheckpointWriter(ServerSession& session, const Experiment& experiment, std::vector<std::string> parts,
-                                   std::uint64_t first_tick, const std::string& folder, JournalWriter* journal,
-                                   std::function<void()> changed)
+                                   std::uint64_t first_tick, std::set<std::uint64_t> saved, const std::string& folder,
+                                   JournalWriter* journal, std::function<void()> changed)
     : every_(session.World().checkpoint_every),
       period_(experiment.canonical_period),
       run_(session.World().run),
@@ -29,6 +29,7 @@ CheckpointWriter::CheckpointWriter(ServerSession& session, const Experiment& exp
       folder_(folder),
       journal_(journal),
       changed_(std::move(changed)),
+      wanted_(std::move(saved)),
       saved_(Clock::now())
 {
   if (every_ == 0 && journal_ == nullptr) return;

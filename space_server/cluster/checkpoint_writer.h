@@ -24,15 +24,17 @@ namespace swarmanoid
 class CheckpointWriter
 {
 public:
-  // `parts`: the processes that save one. `first_tick`: where the run starts. `changed`: a checkpoint is complete;
-  // called from any thread.
+  // `parts`: the processes that save one. `first_tick`: where the run starts or goes on. `saved`: ticks before of which
+  // processes may say again what they saved. `changed`: a checkpoint is complete; called from any thread.
   CheckpointWriter(ServerSession& session, const Experiment& experiment, std::vector<std::string> parts,
-                   std::uint64_t first_tick, const std::string& folder, JournalWriter* journal,
-                   std::function<void()> changed);
+                   std::uint64_t first_tick, std::set<std::uint64_t> saved, const std::string& folder,
+                   JournalWriter* journal, std::function<void()> changed);
 
   // The state of the server's tick goes out now. Whether it asks for the states of all after its step. Throws
   // std::runtime_error if the server cannot be saved.
   bool Sending(const SpaceServer& server);
+  // Whether all save their states before they step at the tick.
+  bool IsWanted(std::uint64_t tick) const;
   // Main thread: writes what is complete. Throws std::runtime_error.
   void Work();
   // Ticks of checkpoints that the server gave its part of, and others not.
@@ -45,7 +47,6 @@ private:
   void Arrived(const SavedStateMessage& message);
   // Whether the run takes a checkpoint at the tick.
   bool IsOfFile(std::uint64_t tick) const;
-  bool IsWanted(std::uint64_t tick) const;
   bool IsComplete(const Checkpoint& checkpoint) const;
 
   std::uint64_t every_;

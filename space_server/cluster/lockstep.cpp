@@ -27,6 +27,12 @@ std::vector<std::uint32_t> EnginesHeard(const Assignment& assignment, bool any)
   return engines;
 }
 
+std::vector<SensorFrame> FirstFrames(const Continuation* continuation)
+{
+  if (continuation == nullptr || !continuation->Record()) return {};
+  return continuation->Record()->frames;
+}
+
 std::size_t PlaceIn(const std::vector<std::uint32_t>& numbers, std::uint32_t number)
 {
   return static_cast<std::size_t>(std::find(numbers.begin(), numbers.end(), number) - numbers.begin());
@@ -47,7 +53,7 @@ std::vector<TickGate::Part> Parts(const Experiment& experiment, const std::vecto
 
 Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
                    const std::string& hash_log, std::function<void(SpaceServer&)> watch, CheckpointWriter& checkpoints,
-                   JournalWriter* journal, std::function<void()> stopped)
+                   JournalWriter* journal, const Continuation* continuation, std::function<void()> stopped)
     : session_(session),
       server_(server),
       checkpoints_(checkpoints),
@@ -65,9 +71,10 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
       updates_(engines_),
       commands_(hosts_.size()),
       drawn_(visualisers_),
+      first_frames_(FirstFrames(continuation)),
       frames_(journal == nullptr ? 0 : engines_),
       next_frames_(frames_),
-      hash_log_(hash_log),
+      hash_log_(hash_log, continuation != nullptr ? std::optional(first_tick_) : std::nullopt),
       states_(session.GetBus(), session.Scope(limits_.StateBytes(), 1))
 {
   for (const EngineUpdate& update : updates_) updates_here_.push_back(&update);
@@ -84,22 +91,22 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
               if (header.tick == 0) throw BadMessage("an update cannot lead to tick 0");
               return PlaceOf(header, header.tick - 1, header.source, updates_[header.source]);
             },
-            [this](const MessageHeader& header, EngineUpdate&) { Arrived(header.source, header.tick - 1); },
+            [this](const MessageHeader& header, EngineUpdate&) { Arrived(header, header.source, header.tick - 1); },
             [this](const MessageHeader& header, const EngineUpdate& update) { limits_.Check(header, update); }});
   if (!hosts_.empty())
     commands_in_.emplace(
         bus, session.Scope(limits_.CommandBytes(), static_cast<unsigned>(assignment.hosts.size())),
-        HotSubscription<ControlCommands>::Handler{[this](const MessageHeader& header) -> ControlCommands*
-                                                  {
-                                                    limits_.CheckSource<ControlCommands>(header);
-                                                    const std::size_t k = PlaceIn(hosts_, header.source);
-                                                    if (k == hosts_.size()) return nullptr;
-                                                    return PlaceOf(header, header.tick, engines_ + k, commands_[k]);
-                                                  },
-                                                  [this](const MessageHeader& header, ControlCommands&)
-                                                  { Arrived(engines_ + PlaceIn(hosts_, header.source), header.tick); },
-                                                  [this](const MessageHeader& header, const ControlCommands& commands)
-                                                  { limits_.Check(header, commands); }});
+        HotSubscription<ControlCommands>::Handler{
+            [this](const MessageHeader& header) -> ControlCommands*
+            {
+              limits_.CheckSource<ControlCommands>(header);
+              const std::size_t k = PlaceIn(hosts_, header.source);
+              if (k == hosts_.size()) return nullptr;
+              return PlaceOf(header, header.tick, engines_ + k, commands_[k]);
+            },
+            [this](const MessageHeader& header, ControlCommands&)
+            { Arrived(header, engines_ + PlaceIn(hosts_, header.source), header.tick); },
+            [this](const MessageHeader& header, const ControlCommands& commands) { limits_.Check(header, commands); }});
   if (visualisers_ > 0)
     drawn_in_.emplace(bus, session.Scope(TickLimits::DrawnBytes(), static_cast<unsigned>(visualisers_)),
                       HotSubscription<DrawnMessage>::Handler{
@@ -110,7 +117,7 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
                                            drawn_[header.source]);
                           },
                           [this](const MessageHeader& header, DrawnMessage&)
-                          { Arrived(engines_ + hosts_.size() + header.source, header.tick); }});
+                          { Arrived(header, engines_ + hosts_.size() + header.source, header.tick); }});
   const std::size_t first = engines_ + hosts_.size() + visualisers_;
   if (!sensing_.empty())
     frames_in_.emplace(
@@ -124,7 +131,7 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
               return PlaceOf(header, header.tick - 1, first + k, next_frames_[header.source]);
             },
             [this, first](const MessageHeader& header, SensorFrame&)
-            { Arrived(first + PlaceIn(sensing_, header.source), header.tick - 1); },
+            { Arrived(header, first + PlaceIn(sensing_, header.source), header.tick - 1); },
             [this](const MessageHeader& header, const SensorFrame& frame) { limits_.Check(header, frame); }});
 }
 
@@ -154,9 +161,10 @@ Message* Lockstep::PlaceOf(const MessageHeader& header, std::uint64_t tick, std:
   return gate_.Offer(*part, tick) == TickGate::Verdict::kExpected ? &place : nullptr;
 }
 
-void Lockstep::Arrived(std::size_t part, std::uint64_t tick)
+void Lockstep::Arrived(const MessageHeader& header, std::size_t part, std::uint64_t tick)
 {
   const std::lock_guard lock(mutex_);
+  if (gate_.IsReplaced(part, header.incarnation)) return;
   if (!gate_.Arrived(part, tick) || finished_ || failure_) return;
   try
   {
@@ -206,7 +214,12 @@ void Lockstep::Send(bool repeated)
 {
   const std::uint64_t tick = server_.Space().GetTick();
   // Whoever goes on from the checkpoint watches this tick again.
-  if (!repeated) saves_ = checkpoints_.Sending(server_);
+  if (!repeated)
+  {
+    // Whoever goes on from here finds the lines of the ticks before.
+    if (checkpoints_.IsWanted(tick)) hash_log_.Flush();
+    saves_ = checkpoints_.Sending(server_);
+  }
   if (watch_ && !repeated) RunCodeOf({Actor::kWatcher}, ActivityStep::kWatch, tick, [&] { watch_(server_); });
   const SpaceState& state = server_.State();
   sent_ = &state;
@@ -214,6 +227,8 @@ void Lockstep::Send(bool repeated)
   held_ = false;
   states_.Write({session_.World().run, state.tick, 0, repeated, 0, saves_}, state);
   if (!state.last) return;
+  // For those who look back: nobody steps there.
+  if (journal_ != nullptr && !finished_) journal_->AddTick(state, saves_, Frames(), {});
   finished_ = true;
   stopped_();
 }
@@ -221,14 +236,15 @@ void Lockstep::Send(bool repeated)
 // Nobody sends those of the first tick.
 std::span<const SensorFrame> Lockstep::Frames() const
 {
-  if (gate_.Tick() == first_tick_) return {};
+  if (gate_.Tick() == first_tick_) return first_frames_;
   return frames_;
 }
 
-std::pair<std::uint64_t, std::vector<SensorFrame>> Lockstep::Withdraw(const std::string& name)
+std::pair<std::uint64_t, std::vector<SensorFrame>> Lockstep::Withdraw(const std::string& name,
+                                                                      std::uint32_t incarnation)
 {
   const std::lock_guard lock(mutex_);
-  gate_.Withdraw(name);
+  gate_.Withdraw(name, incarnation);
   const std::span<const SensorFrame> frames = Frames();
   return {gate_.Tick(), {frames.begin(), frames.end()}};
 }

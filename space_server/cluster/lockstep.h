@@ -15,6 +15,7 @@
 #include "common/journal/journal_writer.h"
 #include "common/run/hash_log.h"
 #include "space_server/cluster/checkpoint_writer.h"
+#include "space_server/cluster/continuation.h"
 #include "space_server/space_server.h"
 
 namespace swarmanoid
@@ -25,10 +26,11 @@ class Lockstep
 public:
   // `watch`, if there is one: called in the main thread before the state of a tick goes out.
   // `journal`, if there is one: gets all that the processes of a tick took in.
+  // `continuation`, if there is one: the run goes on there.
   // `stopped`: called in a thread of the bus when the main thread has to act: the tick is held, or the run failed.
   Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
            const std::string& hash_log, std::function<void(SpaceServer&)> watch, CheckpointWriter& checkpoints,
-           JournalWriter* journal, std::function<void()> stopped);
+           JournalWriter* journal, const Continuation* continuation, std::function<void()> stopped);
   ~Lockstep();
 
   // Whether all workers' topics have met those of the server.
@@ -54,9 +56,9 @@ public:
   void CloseHashLog();
   // Those whose answer to the current tick is missing.
   std::vector<std::string> Missing() const;
-  // Another process takes the place of `name`: the run does not go on to the next tick without its answer. Returns the
-  // tick, and the sensor frames that engines sent for it.
-  std::pair<std::uint64_t, std::vector<SensorFrame>> Withdraw(const std::string& name);
+  // Another process, of that incarnation, takes the place of `name`: the run does not go on to the next tick without
+  // its answer. Returns the tick, and the sensor frames that engines sent for it.
+  std::pair<std::uint64_t, std::vector<SensorFrame>> Withdraw(const std::string& name, std::uint32_t incarnation);
   // Calls `use` with the server between two steps.
   template <class Use>
   void WithServer(const Use& use)
@@ -71,7 +73,7 @@ private:
   std::span<const SensorFrame> Frames() const;
   template <class Message>
   Message* PlaceOf(const MessageHeader& header, std::uint64_t tick, std::optional<std::size_t> part, Message& place);
-  void Arrived(std::size_t part, std::uint64_t tick);
+  void Arrived(const MessageHeader& header, std::size_t part, std::uint64_t tick);
 
   ServerSession& session_;
   mutable std::mutex mutex_;  // of what follows
@@ -93,8 +95,9 @@ private:
   std::vector<ControlCommands> commands_;
   std::vector<const ControlCommands*> commands_here_;
   std::vector<DrawnMessage> drawn_;
-  std::vector<SensorFrame> frames_;       // of all engines, for the tick
-  std::vector<SensorFrame> next_frames_;  // for the tick after it
+  std::vector<SensorFrame> first_frames_;  // of the first tick: none, unless the run goes on
+  std::vector<SensorFrame> frames_;        // of all engines, for the tick
+  std::vector<SensorFrame> next_frames_;   // for the tick after it
   const SpaceState* sent_ = nullptr;
   bool saves_ = false;  // the state asks for saved states
   bool held_ = true;

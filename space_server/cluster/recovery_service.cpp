@@ -47,7 +47,7 @@ RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
 {
   if (journal_ == nullptr || !journal_->Works())
     throw BusError(fmt::format("{} cannot be replaced: the journal of the run has ended", name));
-  const auto [tick, frames] = lockstep_.Withdraw(name);
+  const auto [tick, frames] = lockstep_.Withdraw(name, session_.Incarnation(name));
   journal_->Flush();
   const std::vector<JournalPlace> all = journal_->Places();
   Plan plan;

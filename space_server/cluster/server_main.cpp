@@ -15,6 +15,8 @@ namespace swarmanoid
 namespace
 {
 
+constexpr double kLongestRun_s = 1e9;
+
 OptionSpec StatusOption(int& descriptor)
 {
   constexpr double kLargestDescriptor = 1'048'575;
@@ -32,11 +34,21 @@ OptionSpec StatusOption(int& descriptor)
 void AddServerOptions(CLI::App& app, ServerOptions& options)
 {
   AddOptions(app, ServerOptionTable(options));
-  AddOptions(app, {StatusOption(options.status_fd),
-                   {{.name = "await-replacements",
-                     .type = ParameterType::kBoolean,
-                     .description = "Wait when a process dies: another one is started in its place"},
-                    &options.awaits_replacements}});
+  AddOptions(app,
+             {StatusOption(options.status_fd),
+              {{.name = "await-replacements",
+                .type = ParameterType::kBoolean,
+                .description = "Wait when a process dies: another one is started in its place"},
+               &options.awaits_replacements},
+              {{.name = "go-on",
+                .type = ParameterType::kNumber,
+                .unit = "s",
+                .description = "Go on with the run whose journal is in the folder of --output, and which has taken "
+                               "so long already; -1: start a run",
+                .minimum = -1,
+                .maximum = kLongestRun_s},
+               &options.goes_on_after_s,
+               "12.5"}});
   AddOptions(app, BusOptionTable(options.bus));
 }
 

@@ -24,6 +24,7 @@ constexpr auto kFirstRepeat = 100ms;
 constexpr auto kLastRepeat = 1s;
 constexpr auto kStallTime = 2s;
 constexpr auto kBrokenTime = 5s;  // for the lease of a dead process to end
+constexpr auto kStuckTime = 1s;   // for another process to take its place
 
 double Seconds(std::chrono::steady_clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
@@ -33,12 +34,22 @@ std::uint64_t NewRun()
   return (static_cast<std::uint64_t>(device()) << 32) | device();
 }
 
-RunControlSetup MakeRunControlSetup(const ServerOptions& options, const Experiment& experiment)
+RunControlSetup MakeRunControlSetup(const ServerOptions& options, const Experiment& experiment,
+                                    const std::optional<Continuation>& continuation)
 {
   RunControlSetup setup{options.paused, options.real_time_factor, {}, {}};
   if (!options.output_folder.empty()) setup.event_log = options.output_folder + "/events.csv";
   if (!options.events.empty()) setup.repeated = ReadEvents(options.events, experiment);
+  if (continuation) continuation->Prepare(setup);
   return setup;
+}
+
+// A step that the run has still to come to the end of.
+bool IsAwaited(const ControlRequestMessage& request, const Continuation& continuation)
+{
+  const EarlierRequests& requests = continuation.Requests();
+  return requests.step && requests.pause_at && *requests.pause_at > continuation.Tick() &&
+         requests.step->client == request.client && requests.step->number == request.number;
 }
 
 }  // namespace
@@ -48,6 +59,8 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
       experiment_(experiment),
       status_(status),
       assignment_(MakeAssignment(experiment, options.controller_hosts)),
+      continuation_(GoesOn() ? std::optional<Continuation>(std::in_place, options, experiment, assignment_.hosts.size())
+                             : std::nullopt),
       server_(experiment, assignment_, options.output_folder.empty() ? "." : options.output_folder),
       session_(options.bus, World(), Expected(Visualisers()),
                {[this](const ControlRequestMessage& request)
@@ -57,18 +70,21 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
                 },
                 [this] { Wake(); }, [this](const std::string& process) { views_.Lost(process); }}),
       views_(session_, [this] { Wake(); }),
-      run_control_(experiment, MakeRunControlSetup(options, experiment),
+      run_control_(experiment, MakeRunControlSetup(options, experiment, continuation_),
                    [this](const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
                    { session_.Reply(request, done, tick, text); }),
       pace_(experiment.TickSeconds()),
-      checkpoints_(session_, experiment, Expected({}), server_.Space().GetTick(),
+      checkpoints_(session_, experiment, Expected({}), server_.Space().GetTick(), SavedTicks(),
                    options.output_folder.empty() ? "." : options.output_folder, (OpenJournal(), Journal()),
                    [this] { Wake(); }),
       lockstep_(session_, server_, assignment_, options.visualisations, options.hash_log, options.watch, checkpoints_,
-                Journal(), [this] { Wake(); }),
+                Journal(), continuation_ ? &*continuation_ : nullptr, [this] { Wake(); }),
       recoveries_(session_, lockstep_, Journal())
 {
   if (options.awaits_replacements && journal_) session_.AwaitReplacements();
+  if (continuation_)
+    for (const ControlRequestMessage& request : continuation_->Requests().answered)
+      session_.Remember(request, IsAwaited(request, *continuation_));
   if (status_.IsOpen())
     server_.SetWarningHandler([this](const std::string& text) { status_.Publish(ServerWarning{text}); });
 }
@@ -90,13 +106,16 @@ int ServerProgram::Run()
             complete ? error.what() : fmt::format("space server failed at tick {}: {}", lockstep_.Tick(), error.what()),
             complete);
     if (journal_) journal_->Flush();
-    session_.Leave(lockstep_.Tick(), error.what());
+    // Who looks on waits for the server that takes the place of one that is stuck.
+    if (!stuck_ || !options_.awaits_replacements) session_.Leave(lockstep_.Tick(), error.what());
     // Within another program, that one says it.
     if (options_.abandon == nullptr) fmt::print(stderr, "space_server: {}\n", error.what());
     status_.Publish(ServerError{error.what()});
     session_.LeaveDirectory();
     failed_ = true;
-    return interrupted ? kExitInterrupted : reason_ == EndReason::kOthers ? kExitOthersFailed : kExitProcessFailed;
+    if (interrupted) return kExitInterrupted;
+    if (stuck_) return kExitStuck;
+    return reason_ == EndReason::kOthers ? kExitOthersFailed : kExitProcessFailed;
   }
   if (IsInterrupted())
   {
@@ -117,21 +136,40 @@ WorldMessage ServerProgram::World()
   world.checkpoint_every = options_.checkpoint_every;
   if (options_.checkpoint_every != 0) TrySaving(server_);
   world.recorded = KeepsJournal();
-  if (options_.restore_file.empty()) return world;
-  const Checkpoint checkpoint =
-      ReadCheckpoint(options_.restore_file, experiment_, {assignment_.hosts.size(), options_.any_build});
-  checkpoint.LoadPart(kServerPart, [&](ByteReader& state) { server_.LoadState(checkpoint.snapshot, state); });
-  world.checkpoint = EncodeCheckpoint(checkpoint);
+  if (!options_.restore_file.empty())
+  {
+    const Checkpoint checkpoint =
+        ReadCheckpoint(options_.restore_file, experiment_, {assignment_.hosts.size(), options_.any_build});
+    checkpoint.LoadPart(kServerPart, [&](ByteReader& state) { server_.LoadState(checkpoint.snapshot, state); });
+    world.checkpoint = EncodeCheckpoint(checkpoint);
+  }
+  if (continuation_) continuation_->Restore(server_);
   return world;
+}
+
+std::set<std::uint64_t> ServerProgram::SavedTicks() const
+{
+  std::set<std::uint64_t> ticks;
+  if (!continuation_ || continuation_->Journal() == nullptr) return ticks;
+  for (const JournalPlace& place : continuation_->Journal()->Places())
+    if (place.kind == JournalBlockKind::kSnapshot && place.first_tick <= continuation_->Tick())
+      ticks.insert(place.first_tick);
+  return ticks;
 }
 
 void ServerProgram::OpenJournal()
 {
   if (!KeepsJournal()) return;
   const std::string file = JournalFile(options_.output_folder);
+  const bool beside_launcher = options_.abandon == nullptr;
+  if (continuation_ && continuation_->Journal() != nullptr)
+  {
+    journal_.emplace(*continuation_->Journal(), continuation_->Tick(), beside_launcher);
+    return;
+  }
   std::filesystem::create_directories(std::filesystem::path(file).parent_path());
   const JournalStart start{OriginOf(experiment_), assignment_.hosts.size(), server_.Space().GetTick()};
-  journal_.emplace(file, ContentOf(start), options_.abandon == nullptr);
+  journal_.emplace(file, ContentOf(start), beside_launcher);
 }
 
 std::span<const RenderConfiguration> ServerProgram::Visualisers() const
@@ -187,8 +225,9 @@ void ServerProgram::CheckFailures()
   // Another process may have taken the place of the dead one: then the run goes on.
   if (!broken_since_ || lockstep_.Tick() != broken_tick_) broken_since_ = Clock::now();
   broken_tick_ = lockstep_.Tick();
-  if (Clock::now() - *broken_since_ <= kBrokenTime) return;
+  if (Clock::now() - *broken_since_ <= (options_.awaits_replacements ? kStuckTime : kBrokenTime)) return;
   reason_ = EndReason::kOthers;
+  stuck_ = true;
   throw BusError("a process died, or was stopped, while it held shared memory of the run");
 }
 
@@ -248,10 +287,13 @@ void ServerProgram::Collect()
 void ServerProgram::RunTicks()
 {
   start_ = since_ = repeated_ = Clock::now();
+  if (GoesOn())
+    start_ -= std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options_.goes_on_after_s));
   repeat_after_ = kFirstRepeat;
   started_ = true;
-  first_tick_ = lockstep_.Tick();
-  run_control_.Start(first_tick_, start_);
+  const std::uint64_t tick = lockstep_.Tick();
+  first_tick_ = continuation_ && continuation_->Journal() ? continuation_->Journal()->Start().first_tick : tick;
+  run_control_.Start(tick, since_);
   ReportState();
   while (!lockstep_.Finished())
   {

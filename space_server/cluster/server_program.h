@@ -19,6 +19,7 @@
 #include "common/bus/status_channel.h"
 #include "common/run/run_settings.h"
 #include "space_server/cluster/checkpoint_writer.h"
+#include "space_server/cluster/continuation.h"
 #include "space_server/cluster/lockstep.h"
 #include "space_server/cluster/recovery_service.h"
 #include "space_server/cluster/view_publisher.h"
@@ -34,6 +35,9 @@ struct ServerOptions : RunSettings
   int status_fd = -1;
   // Whoever started the processes starts others in the places of those that die.
   bool awaits_replacements = false;
+  // Seconds that the run has taken already whose journal is in the output folder, and which goes on; negative: it
+  // starts.
+  double goes_on_after_s = -1;
   BusOptions bus;
   // Called before the state of each tick goes out, in the thread that runs the program; what it changes through the
   // server is part of the state.
@@ -67,6 +71,8 @@ private:
   bool IsInterrupted() const { return options_.stop != nullptr && *options_.stop; }
   void Wake();
   void Sleep(Clock::time_point until);
+  bool GoesOn() const { return options_.goes_on_after_s >= 0; }
+  std::set<std::uint64_t> SavedTicks() const;
   bool KeepsJournal() const { return options_.journal && !options_.output_folder.empty(); }
   void OpenJournal();
   JournalWriter* Journal() { return journal_ ? &*journal_ : nullptr; }
@@ -98,6 +104,7 @@ private:
   std::condition_variable wake_;
   bool awake_ = false;
   Assignment assignment_;
+  std::optional<Continuation> continuation_;
   SpaceServer server_;
   ServerSession session_;
   ViewPublisher views_;
@@ -122,6 +129,7 @@ private:
   bool failed_ = false;
   std::optional<Clock::time_point> broken_since_;
   std::uint64_t broken_tick_ = 0;
+  bool stuck_ = false;
   EndReason reason_ = EndReason::kFailed;  // why the run ends before its end
   SpaceSnapshot snapshot_;
 };

@@ -49,7 +49,7 @@ class Attaching(LauncherTest):
         watchers[0].wait(GENEROUS_S)
 
     def test_one_that_is_attached_survives_the_servers_death_with_its_table(self):
-        run = self.start_paused()
+        run = self.start_paused("--no-journal")
         watcher = self.watch("table")
         self.wait_until("a table", lambda: self.has_table("table"))
         os.kill(run.find("space_server"), signal.SIGKILL)
@@ -57,6 +57,18 @@ class Attaching(LauncherTest):
         self.assertEqual(watcher.wait(GENEROUS_S), 4)
         self.assertIn("the space server", watcher.stderr)
         self.assertTrue(self.has_table("table"))
+
+    def test_one_that_is_attached_follows_the_run_to_its_next_server(self):
+        run = self.start_paused("--ticks", 500)
+        watcher = self.watch("table", "--columns", "clock,Entity id,X")
+        self.wait_until("a table", lambda: self.has_table("table"))
+        self.control("step", 150)
+        os.kill(run.find("space_server"), signal.SIGKILL)
+        said = watcher.read_until("waiting 15 s for another one in its place") + watcher.read_until("goes on with another space server")
+        self.control("resume")
+        self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
+        self.assertEqual(watcher.wait(GENEROUS_S), 0, said + watcher.stderr)
+        self.assertTrue((self.folder / "table").read_text().splitlines()[-1].startswith("500\t"))
 
     def test_rates_are_kept(self):
         run = self.start_paused("--ticks", 0, "--real-time", 5)

@@ -5,23 +5,28 @@ import shutil
 import signal
 import time
 
-from harness import CONFIGS, LauncherTest, main
+from harness import CONFIGS, GENEROUS_S, LauncherTest, main
 
 WORKERS = ["engine_worker", "controller_host", "visualiser"]
+PROGRAMS = ["engine_worker", "controller_host", "space_server"]
 # Kills with a random moment each; by hand as many as one likes.
-KILLS = int(os.environ.get("SWARMANOID_KILLS", "6"))
+KILLS = int(os.environ.get("SWARMANOID_KILLS", "8"))
 SEED = int(os.environ.get("SWARMANOID_KILLS_SEED", "1"))
+EXPERIMENT = CONFIGS / os.environ.get("SWARMANOID_KILLS_EXPERIMENT", "diffusion_10.xml")
 REPLACED = "another process takes its place"
+AGAIN = "all processes start again where the journal ends"
 
 
 class RecoveryTest(LauncherTest):
-    def undisturbed(self, experiment, ticks, *options):
+    def undisturbed(self, experiment, ticks, *options, timeout=GENEROUS_S):
         run = self.run_it("run", experiment, "--ticks", ticks, "--single-process", "--quiet", "--hash-log", "one", "--output", "one_out",
-                          *options)
+                          *options, timeout=timeout)
         return self.assert_finished(run, ticks)
 
     def assert_same(self, run, ticks, expected, said="", code=0):
-        self.assertEqual(run.wait(), code, said + run.stderr)
+        if not hasattr(run, "stdout"):
+            run.wait()
+        self.assertEqual(run.process.returncode, code, said + run.stderr)
         self.assertEqual(self.assert_finished(run, ticks), expected)
         self.assertEqual((self.folder / "cluster").read_text(), (self.folder / "one").read_text())
         self.assert_nothing_left(run)
@@ -29,6 +34,7 @@ class RecoveryTest(LauncherTest):
     def control(self, *words):
         answer = self.run_it("control", *words)
         self.assertEqual(answer.process.returncode, 0, answer.stderr)
+        return answer.stdout
 
     def alive(self, run, program, dead):
         """The process of the program that is not among those that died."""
@@ -97,6 +103,108 @@ class Once(RecoveryTest):
         self.assert_same(run, 400, expected, said)
 
 
+class AllAgain(RecoveryTest):
+    """The space server dies, alone or with others: all processes start again, and nobody can tell by what the run leaves."""
+
+    def disturbed(self, victims, name, *options, stop=False):
+        """A run that was paused at tick 250, when its processes died, and in which a user did something before and after."""
+        run = self.start("run", CONFIGS / "diffusion_10.xml", "--ticks", 400, "--paused", "--hash-log", "cluster", "--output", name, *options)
+        self.wait_for_experiment("diffusion_10")
+        self.control("step", 120)
+        self.control("move", "fb_0", "1.5,1.3,0,0,0,91.25")
+        self.control("step", 130)
+        self.control("move", "fb_1", "2.5,1.3,0,0,0,-3.5")
+        for pid in [run.find(program) for program in victims]:
+            os.kill(pid, signal.SIGSTOP if stop else signal.SIGKILL)
+        said = run.read_until(AGAIN)
+        self.wait_for_experiment("diffusion_10")
+        self.control("remove", "fb_2")
+        self.assertEqual(self.control("step", 50), "diffusion_10: paused at tick 300\n")
+        self.run_it("control", "resume")  # the run may end before its answer is heard
+        self.assertEqual(run.wait(), 0, said + run.stderr)
+        self.assertFalse((self.folder / "one_out").exists())
+        expected = self.undisturbed(CONFIGS / "diffusion_10.xml", 400, "--events", f"{name}/events.csv")
+        self.assert_same(run, 400, expected, said)
+        self.assertEqual((self.folder / name / "positions.txt").read_bytes(), (self.folder / "one_out/positions.txt").read_bytes())
+        events = [line.split(",")[:3] for line in (self.folder / name / "events.csv").read_text().splitlines()[1:]]
+        self.assertEqual(events, [["0", "step", ""], ["120", "move", "fb_0"], ["120", "step", ""], ["250", "move", "fb_1"],
+                                  ["250", "remove", "fb_2"], ["250", "step", ""], ["300", "resume", ""]])
+        shutil.rmtree(self.folder / "one_out")
+        return said
+
+    def test_the_server(self):
+        self.assertRegex(self.disturbed(["space_server"], "out"), r"space server was killed by signal 9 \(Killed\) at tick \d+; " + AGAIN)
+
+    def test_the_server_and_a_host(self):
+        self.disturbed(["space_server", "controller_host"], "out")
+
+    def test_all(self):
+        self.disturbed(["controller_host", "visualiser", "space_server", "engine_worker"], "out")
+
+    def test_the_server_is_stopped_for_longer_than_the_lease(self):
+        self.disturbed(["space_server"], "out", "--lease", 1, stop=True)
+
+    def test_a_step_that_is_awaited_ends_where_it_was_to_end(self):
+        run = self.start("run", CONFIGS / "diffusion_10.xml", "--ticks", 400, "--paused", "--real-time", 5, "--hash-log", "cluster", "--output", "out")
+        self.wait_for_experiment("diffusion_10")
+        step = self.start("control", "step", 100)
+        self.wait_until("the event", lambda: (self.folder / "out/events.csv").exists(), run)
+        time.sleep(0.7)
+        os.kill(run.find("space_server"), signal.SIGKILL)
+        said = run.read_until(AGAIN)
+        self.assertEqual(step.wait(), 0, step.stderr)
+        self.assertEqual(step.stdout, "diffusion_10: paused at tick 100\n")
+        self.control("speed", 0)
+        self.run_it("control", "resume")
+        self.assert_same(run, 400, self.undisturbed(CONFIGS / "diffusion_10.xml", 400), said)
+
+    def test_sensors_of_engines_and_functions_and_checkpoints(self):
+        experiment = CONFIGS / "prey_retrieval.xml"
+        ticks = 600
+        run = self.start("run", experiment, "--ticks", ticks, "--paused", "--hash-log", "cluster", "--output", "out", "--no-visualisers",
+                         "--checkpoint-every", 100)
+        self.wait_for_experiment("prey_retrieval")
+        said = ""
+        for _ in range(2):
+            self.control("step", 220)
+            os.kill(run.find("space_server"), signal.SIGKILL)
+            said += run.read_until(AGAIN)
+            self.wait_for_experiment("prey_retrieval")
+        self.control("resume")
+        expected = self.undisturbed(experiment, ticks, "--no-visualisers", "--checkpoint-every", 100)
+        self.assert_same(run, ticks, expected, said, code=1)
+        for tick in range(100, ticks, 100):
+            name = f"checkpoint-{tick:08}"
+            self.assertEqual((self.folder / "out" / name).read_bytes(), (self.folder / "one_out" / name).read_bytes(), tick)
+
+
+class LookingBack(RecoveryTest):
+    def test_a_run_is_computed_again_shown_again_and_compared(self):
+        for name in ("plain", "moved"):
+            run = self.start("run", CONFIGS / "diffusion_10.xml", "--ticks", 300, "--paused", "--output", name)
+            self.wait_for_experiment("diffusion_10")
+            self.control("step", 120)
+            if name == "moved":
+                self.control("move", "fb_7", "1.5,1.3,0,0,0,91.25")
+            self.control("stop") if name == "plain" else self.run_it("control", "resume")
+            self.assertEqual(run.wait(), 0, run.stderr)
+        for name, states in (("plain", 121), ("moved", 301)):
+            again = self.run_it("replay", name, "--verify")
+            self.assertEqual((again.process.returncode, again.stdout), (0, f"equal: {states} states, computed again\n"), again.stderr)
+            shown = self.run_it("replay", name, "text", "file=again.txt", "precision=4")
+            self.assertEqual(shown.process.returncode, 0, shown.stderr)
+            self.assertEqual((self.folder / "again.txt").read_bytes(), (self.folder / name / "positions.txt").read_bytes())
+        same = self.run_it("diff", "moved", "moved")
+        self.assertEqual((same.process.returncode, same.stdout), (0, "equal: 301 states\n"))
+        other = self.run_it("diff", "plain", "moved")
+        self.assertEqual(other.process.returncode, 5)
+        self.assertRegex(other.stdout, r"^tick 120: x of 'fb_7' is \S+ and 1\.5; the commands of the tick before do not differ\n$")
+        (self.folder / "moved/events.csv").unlink()
+        wrong = self.run_it("replay", "moved", "--verify")
+        self.assertEqual(wrong.process.returncode, 5)
+        self.assertRegex(wrong.stdout, r"^tick 120: x of 'fb_7' is 1\.5 and \S+ \(in the journal, and computed again\)\n$")
+
+
 class GivingUp(RecoveryTest):
     def test_a_crash_that_comes_again_is_named(self):
         run = self.run_it("run", self.write_faulty("step_crashes", 7), "--output", "out")
@@ -143,34 +251,41 @@ class Resumed(RecoveryTest):
 
 
 class Soak(RecoveryTest):
+    def newest(self):
+        """The last tick of the hash log, which is cut where a run goes on."""
+        lines = (self.folder / "cluster").read_bytes().rsplit(b"\n", 2)
+        return int(lines[-2].split()[0]) if len(lines) > 1 and lines[-2] else 0
+
     def test_kills_and_stops_at_random_moments(self):
         seed = random.Random(SEED)
-        ticks = 4000 + 3000 * KILLS
-        experiment = CONFIGS / "diffusion_10.xml"
-        expected = self.undisturbed(experiment, ticks, "--no-visualisers")
-        run = self.start("run", experiment, "--ticks", ticks, "--hash-log", "cluster", "--output", "out", "--no-visualisers",
+        ticks = int(os.environ.get("SWARMANOID_KILLS_TICKS", 4000 + 4000 * KILLS))
+        run = self.start("run", EXPERIMENT, "--ticks", ticks, "--hash-log", "cluster", "--output", "out", "--no-visualisers",
                          "--retries", 1000, "--lease", 10)
         self.wait_for_tick("cluster", 10, run)
-        try:
-            for _ in range(KILLS):
-                # Mostly in the midst of ticks, else while others are still taking places.
-                if seed.random() < 0.8:
-                    written = (self.folder / "cluster").stat().st_size
-                    self.wait_until("the next tick", lambda: (self.folder / "cluster").stat().st_size > written, run)
-                time.sleep(seed.random() * 0.1)
-                victims = seed.sample(WORKERS[:2], seed.choice([1, 1, 2]))
-                stop = seed.random() < 0.1 and KILLS > 10  # each takes the lease
-                for program in victims:
-                    os.kill(run.find(program), signal.SIGSTOP if stop else signal.SIGKILL)
-                for _ in victims:
-                    run.read_until(REPLACED)
-            self.assert_same(run, ticks, expected)
-        except AssertionError as ended:
-            # Who dies with a lock of shared memory takes the run along (docs/recovery.md): then it is resumed.
-            self.assertIn("while it held shared memory of the run", str(ended))
-            self.assertEqual(run.process.wait(60), 4)
-            again = self.run_it("resume", "out", "--no-visualisers", "--quiet")
-            self.assertEqual(self.assert_finished(again, ticks), expected)
+        said, waits = "", []
+        for _ in range(KILLS):
+            time.sleep(seed.random() * 0.3)
+            before = self.newest()
+            victims = seed.sample(PROGRAMS, seed.choice([1, 1, 2]))
+            stop = seed.random() < 0.1 and KILLS > 10  # each takes the lease
+            for program in victims:
+                os.kill(run.find(program), signal.SIGSTOP if stop else signal.SIGKILL)
+            since = time.monotonic()
+            line = ""
+            while REPLACED not in line and AGAIN not in line:
+                line = run.process.stderr.readline()
+                said += line
+                self.assertNotEqual(line, "", "the run ended: " + said)
+            # Mostly in the midst of ticks, else while others are still taking places.
+            if seed.random() < 0.8:
+                self.wait_until("the next tick", lambda: self.newest() > before, run)
+                waits.append(time.monotonic() - since)
+        expected = self.undisturbed(EXPERIMENT, ticks, "--no-visualisers", timeout=GENEROUS_S + 20 * KILLS)
+        self.assertEqual(run.wait(GENEROUS_S + 20 * KILLS), 0, said + run.stderr)
+        self.assert_same(run, ticks, expected, said)
+        again = said.count(AGAIN)
+        print(f"{KILLS} kills, {said.count(REPLACED)} replaced, {again} times all again, median to the next tick "
+              f"{sorted(waits)[len(waits) // 2]:.2f} s", flush=True)
 
 
 if __name__ == "__main__":

@@ -57,7 +57,7 @@ class CommandLine(OutsideTest):
         # What the server takes is what the launcher takes, from one table.
         options = {name: set(re.findall(r"^ +(--[a-z-]+)", self.command(*name, "--help").stdout, re.MULTILINE))
                    for name in [("swarmanoid", "run"), ("space_server",)]}
-        own = {"--status-fd", "--await-replacements", "--domain", "--interface", "--peers", "--discovery-server", "--lease", "--datagram",
+        own = {"--status-fd", "--await-replacements", "--go-on", "--domain", "--interface", "--peers", "--discovery-server", "--lease", "--datagram",
                "--version"}
         self.assertLessEqual(options[("space_server",)] - own, options[("swarmanoid", "run")])
 

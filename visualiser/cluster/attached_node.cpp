@@ -11,10 +11,11 @@ AttachedNode::AttachedNode(WorkerSession& session, Replica& replica, Visualiser&
       monitor_(monitor),
       // The server keeps the pace; a little earlier than asked is in time.
       period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(0.8 / rate))),
+      run_(session.World().run),
       views_in_(session.GetBus(), session.World().experiment,
                 [this](const ViewMessage& view)
                 {
-                  if (view.run != session_.World().run) return;
+                  if (view.run != run_) return;
                   replica_.limits->Check(view.snapshot);
                   const std::lock_guard lock(mutex_);
                   snapshot_ = view.snapshot;

@@ -2,6 +2,7 @@
 // draws; a thread of the bus brings the states.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <mutex>
 
@@ -21,6 +22,8 @@ public:
 
   // Called in the main thread when a state has come, and now and then.
   void Work();
+  // Another server goes on with the run, under this number.
+  void FollowRun(std::uint64_t run) { run_ = run; }
   // The user closed it; otherwise the run has ended.
   bool Terminated() const { return terminated_; }
 
@@ -32,6 +35,7 @@ private:
   Visualiser& visualiser_;
   RemoteMonitor& monitor_;
   Clock::duration period_;
+  std::atomic<std::uint64_t> run_;
   Clock::time_point drawn_{};
   bool terminated_ = false;
   std::mutex mutex_;

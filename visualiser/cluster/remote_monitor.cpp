@@ -125,6 +125,19 @@ void RemoteMonitor::RenewRequests()
   if (requests_.views > 0 || !requests_.robots.empty()) SendRequests();
 }
 
+void RemoteMonitor::ServerIsLost()
+{
+  const std::lock_guard lock(mutex_);
+  heard_status_.phase = RunStatus::Phase::kWaiting;
+  for (ProcessStatus& process : heard_status_.processes) process.late_s = 0;
+}
+
+void RemoteMonitor::FollowRun(std::uint64_t run)
+{
+  run_ = requests_.run = run;
+  if (requests_out_ != nullptr) SendRequests();
+}
+
 void RemoteMonitor::RunIsOver(const std::string& why)
 {
   const std::lock_guard lock(mutex_);

@@ -3,6 +3,7 @@
 // what they carry.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <map>
 #include <memory>
@@ -32,6 +33,9 @@ public:
   void RequestViews(double views);
   // To be called often: repeats the request in time.
   void RenewRequests();
+  // The server is lost, and another one may go on with the run; or it does, under this number.
+  void ServerIsLost();
+  void FollowRun(std::uint64_t run);
   // The server has gone. `why` is shown unless it said that the run is finished.
   void RunIsOver(const std::string& why);
 
@@ -42,7 +46,7 @@ private:
 
   Bus& bus_;
   std::string partition_;
-  std::uint64_t run_;
+  std::atomic<std::uint64_t> run_;
   std::size_t entities_;  // of the space
   ViewRequestMessage requests_;
   Clock::time_point requested_{};

@@ -30,12 +30,13 @@ TEST(TickGate, WaitsAgainForWhoeverIsReplacedAndHearsTheOldOneNoMore)
   EXPECT_FALSE(gate.IsReplaced(0, 0));
   gate.Arrived(0, 7);
   gate.Arrived(2, 7);
-  gate.Withdraw("engine");
-  gate.Withdraw("engine");
+  gate.Withdraw("engine", 1);
+  gate.Withdraw("engine", 1);
+  EXPECT_TRUE(gate.IsReplaced(2, 0)) << "it was still on its way";
   EXPECT_FALSE(gate.Arrived(1, 7));
   EXPECT_THAT(gate.Missing(), testing::ElementsAre("engine", "engine"));
-  EXPECT_FALSE(gate.IsReplaced(0, 1));
-  EXPECT_TRUE(gate.IsReplaced(0, 0)) << "it comes back";
+  EXPECT_FALSE(gate.IsReplaced(0, 2));
+  EXPECT_TRUE(gate.IsReplaced(0, 1)) << "it comes back";
   EXPECT_FALSE(gate.IsReplaced(1, 0));
   EXPECT_FALSE(gate.Arrived(0, 7));
   EXPECT_TRUE(gate.Arrived(2, 7));

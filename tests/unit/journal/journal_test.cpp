@@ -226,6 +226,56 @@ TEST_F(JournalTest, TheNewestCheckpointIsTheNewestThatAllSaved)
   EXPECT_FALSE(journal.NewestCheckpoint({kServerPart, "controller host 0"}));
 }
 
+TEST_F(JournalTest, ARunGoesOnAtTheNewestTickThatTheServerSavedAndOfWhichTheRecordIsThere)
+{
+  WriteSome("j", 12);
+  const JournalReader journal(File("j"));
+  const auto any = [](std::uint64_t) { return true; };
+  EXPECT_EQ(journal.TickToGoOn(any), 6U);
+  EXPECT_EQ(journal.TickToGoOn([](std::uint64_t tick) { return tick != 6; }), 4U);
+  EXPECT_EQ(journal.RecordOf(6)->state.tick, 6U);
+  EXPECT_FALSE(journal.RecordOf(12));
+  // A cut before the record of tick 6: who steps again there lacks its sensor frames.
+  const auto& places = journal.Places();
+  const auto sixth = std::find_if(places.begin(), places.end(),
+                                  [](const JournalPlace& place)
+                                  { return place.kind == JournalBlockKind::kTicks && place.first_tick == 6; });
+  fs::resize_file(File("j"), sixth->offset);
+  EXPECT_EQ(JournalReader(File("j")).TickToGoOn(any), 4U);
+}
+
+// Whatever the blocks are that the ticks stand in, however torn the end, and again.
+TEST_F(JournalTest, WhatIsDoneAgainTakesThePlaceOfWhatStoodThere)
+{
+  const std::vector<TickRecord> records = SomeTicks(1000, 1), others = SomeTicks(1000, 2);
+  const auto add = [](JournalWriter& journal, const TickRecord& record)
+  { journal.AddTick(record.state, record.save, record.frames, record.commands); };
+  {
+    JournalWriter journal(File("j"), Start());
+    for (std::size_t t = 0; t < 500; ++t) add(journal, records[t]);
+    journal.Add(400, {kServerPart, {'a'}});
+    journal.Add(401, {kServerPart, {'b'}});
+  }
+  std::ofstream(File("j"), std::ios::app) << kJournalMagic << "torn";
+  EXPECT_GT(JournalReader(File("j")).TornBytes(), 0U);
+  for (const std::uint64_t tick : {400U, 150U})
+  {
+    {
+      JournalWriter journal(JournalReader(File("j")), tick);
+      for (std::size_t t = tick; t < tick + 100; ++t) add(journal, others[t]);
+    }
+    const JournalReader journal(File("j"));
+    EXPECT_EQ(journal.TornBytes(), 0U);
+    const std::vector<TickRecord> read = Read(journal);
+    ASSERT_EQ(read.size(), tick + 100);
+    for (std::size_t t = 0; t < tick; ++t) ExpectSame(records[t], read[t]);
+    for (std::size_t t = tick; t < read.size(); ++t) ExpectSame(others[t], read[t]);
+    const auto parts = std::count_if(journal.Places().begin(), journal.Places().end(),
+                                     [](const JournalPlace& place) { return place.kind == JournalBlockKind::kPart; });
+    EXPECT_EQ(parts, tick == 400 ? 1 : 0);
+  }
+}
+
 TEST_F(JournalTest, AFullDiskEndsItWithAWholeBlock)
 {
   const std::vector<TickRecord> records = SomeTicks(200, 5);

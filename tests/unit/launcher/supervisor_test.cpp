@@ -85,7 +85,7 @@ protected:
   // What takes the place of the process that was added last; `script` may use $1, which is its incarnation.
   void ReplaceBy(const std::string& script)
   {
-    plans_.back().replacement = [script](unsigned incarnation) {
+    plans_.back().replacement = [script](unsigned incarnation, double) {
       return ProcessCommand{"", {"/bin/sh", "-c", script, "sh", std::to_string(incarnation)}, {}, {}};
     };
   }
@@ -217,6 +217,67 @@ TEST_F(SupervisorTest, OneThatDiesAgainAndAgainWithoutATickBetweenEndsTheRun)
   EXPECT_TRUE(outcome.reason.starts_with("engine_worker ground was killed by signal 9 (Killed) at tick 7; its log is "))
       << outcome.reason;
   EXPECT_EQ(LogText("engine_worker ground"), "incarnation 1\nincarnation 2\nincarnation 3\n");
+}
+
+TEST_F(SupervisorTest, AllStartAgainIfTheServerWasKilled)
+{
+  retries_ = 1;
+  AddServer("echo state running; echo tick 7 100 2.5; " + Await("running") + "kill -9 $$");
+  ReplaceBy("echo incarnation $1 >&2; " + std::string(kFinishing));
+  Add("engine_worker ground", "echo the first; " + Tell("running") + "exec sleep 600");
+  ReplaceBy("echo incarnation $1");
+  const ClusterOutcome outcome = Run();
+  EXPECT_EQ(outcome.kind, ClusterOutcome::kFinished) << outcome.reason;
+  EXPECT_EQ(outcome.finished->hash, 0xffU);
+  EXPECT_EQ(LogText("space_server"), "incarnation 1\n");
+  EXPECT_EQ(LogText("engine_worker ground"), "the first\nincarnation 1\n");
+}
+
+TEST_F(SupervisorTest, AllStartAgainIfOneIsStuckWithWhatADeadOneHeld)
+{
+  retries_ = 1;
+  AddServer("echo state running; echo error held by the dead; exit 7");
+  ReplaceBy(kFinishing);
+  Add("engine_worker ground", "exec sleep 600");
+  ReplaceBy("exit 0");
+  EXPECT_EQ(Run().kind, ClusterOutcome::kFinished);
+}
+
+TEST_F(SupervisorTest, AllStartAgainIfTheServerIsStopped)
+{
+  retries_ = 1;
+  times_.stopped = milliseconds(60);
+  AddServer("echo state running; kill -STOP $$; " + Tell("came back"));
+  ReplaceBy(kFinishing);
+  Add("engine_worker ground", "exec sleep 600");
+  ReplaceBy("exit 0");
+  EXPECT_EQ(Run().kind, ClusterOutcome::kFinished);
+  EXPECT_FALSE(IsTold("came back"));
+}
+
+// Ticks that were done already come again: they are no progress.
+TEST_F(SupervisorTest, AServerThatDiesAgainAndAgainEndsTheRun)
+{
+  retries_ = 2;
+  AddServer("echo state running; echo tick 7 100 2.5; sleep 0.1; kill -9 $$");
+  ReplaceBy(
+      "echo incarnation $1 >&2; echo state running; echo tick 3 100 2.5; echo tick 7 100 2.5; sleep 0.1; kill -9 $$");
+  const ClusterOutcome outcome = Run();
+  EXPECT_EQ(outcome.kind, ClusterOutcome::kFailed);
+  EXPECT_TRUE(outcome.reason.starts_with("space_server was killed by signal 9 (Killed) at tick 7; its log is "))
+      << outcome.reason;
+  EXPECT_EQ(LogText("space_server"), "incarnation 1\nincarnation 2\n");
+}
+
+TEST_F(SupervisorTest, ControlCWhileAllStartAgainEndsTheRun)
+{
+  retries_ = 1;
+  AddServer("echo state running; " + Tell("running") + "sleep 0.1; kill -9 $$");
+  ReplaceBy(Tell("again") + "exec sleep 600");
+  Add("engine_worker ground", "exec sleep 600");
+  ReplaceBy("exec sleep 600");
+  const std::jthread presses = PressAt({{"again", SIGINT}, {"again", SIGINT}});
+  EXPECT_EQ(Run().kind, ClusterOutcome::kInterrupted);
 }
 
 TEST_F(SupervisorTest, OneThatIsLostIsKilledAndReplaced)

@@ -1,0 +1,151 @@
+// `swarmanoid replay`: shows what the journal of a run has, or computes the run again and compares.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "common/activity/exit_codes.h"
+#include "common/messages/assignment.h"
+#include "common/program/interrupts.h"
+#include "launcher/commands.h"
+#include "launcher/load.h"
+#include "launcher/recorded_run.h"
+#include "launcher/scratch_folder.h"
+#include "launcher/watched_simulator.h"
+#include "visualiser/renderer_options.h"
+#include "visualiser/visualiser.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+struct ReplayOptions
+{
+  std::string run;
+  std::string kind;
+  std::vector<std::string> parameters;
+  std::string output = ".";
+  std::uint64_t from = 0;
+  double speed = 0;
+  bool verify = false;
+};
+
+// All roles in this process, with what users asked, beside the states of the journal.
+int Verify(RecordedRun& run)
+{
+  // With the users' libraries, unlike what only shows.
+  const auto experiment = LoadOrComplain(run.Folder() + "/experiment.xml", {});
+  if (!experiment) return kExitInvalidFile;
+  const ScratchFolder scratch;
+  SimulatorOptions options;
+  options.output_folder = scratch.Path();
+  options.visualisations = false;
+  const std::string events = run.Folder() + "/events.csv";
+  if (std::filesystem::exists(events)) options.events = events;
+  std::uint64_t ticks = 0;
+  bool over = false;
+  std::string difference;
+  const auto compare = [&](const CSimulator& simulator)
+  {
+    over = over || !run.Next();
+    if (over) return;
+    ++ticks;
+    const CSwarmanoidSpace& space = simulator.GetSpace();
+    if (space.Hash() != run.Space().Hash())
+      difference = fmt::format("tick {}: {}", space.GetTick(), FirstDifference(run.Space(), space));
+  };
+  CSimulator simulator = WatchedSimulator::Running(*experiment, options, compare);
+  while (!over && difference.empty() && !Interrupted() && simulator.Step()) continue;
+  if (!difference.empty())
+  {
+    fmt::print("{} (in the journal, and computed again)\n", difference);
+    return kExitHashDiffers;
+  }
+  if (Interrupted()) return kExitInterrupted;
+  fmt::print("equal: {} states, computed again\n", ticks);
+  return kExitDone;
+}
+
+int Show(RecordedRun& run, const ReplayOptions& options)
+{
+  const RenderConfiguration configuration = ConfigureRenderer(FindRenderer(options.kind), options.parameters);
+  const Assignment assignment = MakeAssignment(run.GetExperiment(), 1);
+  bool more = run.Next();
+  while (more && run.Space().GetTick() < options.from) more = run.Next();
+  if (!more) throw UsageError(fmt::format("--from: the journal ends before tick {}", options.from));
+  Visualiser visualiser(configuration, run.Space(), assignment, options.output, nullptr, nullptr);
+  const double speed = visualiser.IsInteractive() && options.speed == 0 ? 1 : options.speed;
+  bool closed = false;
+  auto due = Clock::now();
+  for (; more && !closed && !Interrupted(); more = run.Next())
+  {
+    closed = visualiser.Draw();
+    if (speed > 0)
+      due += std::chrono::duration_cast<Clock::duration>(
+          std::chrono::duration<double>(run.GetExperiment().TickSeconds() / speed));
+    while (!closed && Clock::now() < due && !Interrupted())
+    {
+      closed = visualiser.Idle();
+      std::this_thread::sleep_until(std::min(due, Clock::now() + 15ms));
+    }
+  }
+  while (visualiser.IsInteractive() && !closed && !Interrupted())
+  {
+    closed = visualiser.Idle();
+    std::this_thread::sleep_for(15ms);
+  }
+  visualiser.Finish();
+  return Interrupted() ? kExitInterrupted : kExitDone;
+}
+
+int Replay(const ReplayOptions& options)
+{
+  RegisterBuiltins();
+  CatchInterrupts();
+  if (options.verify != options.kind.empty())
+    throw UsageError("replay: name a kind of visualiser, as `swarmanoid replay RUN text`, or give --verify");
+  RecordedRun run(std::filesystem::absolute(options.run).lexically_normal().string());
+  try
+  {
+    return options.verify ? Verify(run) : Show(run, options);
+  }
+  catch (const ConfigurationError& error)
+  {
+    throw UsageError(error.what());
+  }
+}
+
+}  // namespace
+
+void AddReplayCommand(CLI::App& app, int& exit_code)
+{
+  auto options = std::make_shared<ReplayOptions>();
+  CLI::App* verb = app.add_subcommand("replay", "Show a run again from its journal, or compute it again and compare");
+  verb->add_option("RUN", options->run, "The folder of a run as a cluster")->required();
+  verb->add_option("KIND", options->kind, "text, image, opengl, ogre or web, as for `attach`");
+  verb->add_option("PARAMETERS", options->parameters, "name=value for the visualiser");
+  verb->add_flag("--verify", options->verify,
+                 "Compute all ticks again, in this process, and name the first entity that differs, and in what");
+  verb->add_option("--from", options->from, "The first tick that is shown");
+  verb->add_option("--speed", options->speed,
+                   "Multiple of real time; 0: as fast as possible, for windows and pages real time")
+      ->check(CLI::Range(0.0, 1e6));
+  verb->add_option("--output", options->output, "Folder for relative output files");
+  verb->footer(
+      "No controller and no engine runs, unless --verify is given; robots cannot be looked into.\n"
+      "Exit codes of --verify: 0 all states are equal, 5 they differ.\n"
+      "Examples:\n"
+      "  swarmanoid replay runs/diffusion_10-20310517-093000 --verify\n"
+      "  swarmanoid replay runs/diffusion_10-20310517-093000 web --speed 2\n"
+      "  swarmanoid replay runs/diffusion_10-20310517-093000 image video=film.mp4 --from 500");
+  verb->callback([options, &exit_code] { exit_code = Replay(*options); });
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,67 @@
+#include "space_server/cluster/continuation.h"
+
+#include <filesystem>
+#include <stdexcept>
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+bool IsBegun(const std::string& file)
+{
+  std::error_code none;
+  return fs::exists(file, none) && fs::file_size(file, none) > 0;
+}
+
+}  // namespace
+
+Continuation::Continuation(const RunSettings& settings, const Experiment& experiment, std::size_t hosts)
+{
+  const std::optional<std::uint64_t> paused = settings.paused ? std::optional<std::uint64_t>(0) : std::nullopt;
+  requests_ = ReadEarlierRequests(settings.output_folder + "/events.csv", experiment, paused);
+  const std::string file = JournalFile(settings.output_folder);
+  if (!IsBegun(file)) return;
+  journal_.emplace(file);
+  const JournalStart& start = journal_->Start();
+  if (start.hosts != hosts || start.origin.experiment != FingerprintOf(experiment))
+    throw std::runtime_error("the journal '" + file + "' is of another run");
+  tick_ = start.first_tick;
+  // A checkpoint that the run takes there is on the disk, or somebody's part of it may be lost.
+  const auto usable = [&](std::uint64_t tick)
+  {
+    const bool of_file = settings.checkpoint_every != 0 && tick % settings.checkpoint_every == 0;
+    return !of_file || fs::exists(settings.output_folder + "/" + CheckpointName(tick));
+  };
+  const auto newest = journal_->TickToGoOn(usable);
+  if (!newest) return;
+  tick_ = *newest;
+  record_ = journal_->RecordOf(tick_);
+  // They were done before the state was saved.
+  std::erase_if(requests_.changes, [this](const RecordedEvent& event) { return event.tick <= tick_; });
+}
+
+void Continuation::Restore(SpaceServer& server) const
+{
+  if (!record_) return;
+  const auto checkpoint = journal_->CheckpointAt(tick_, {kServerPart});
+  checkpoint->LoadPart(kServerPart, [&](ByteReader& state) { server.LoadState(checkpoint->snapshot, state); });
+  server.TellAgain(record_->state.attributes);
+}
+
+void Continuation::Prepare(RunControlSetup& setup) const
+{
+  setup.goes_on = true;
+  std::vector<RecordedEvent> all = requests_.changes;
+  AddUndone(all, setup.repeated);
+  setup.repeated = std::move(all);
+  if (requests_.speed) setup.real_time_factor = *requests_.speed;
+  setup.paused = requests_.pause_at && *requests_.pause_at <= tick_;
+  if (!requests_.pause_at || setup.paused) return;
+  setup.pause_at = *requests_.pause_at;
+  setup.step = requests_.step;
+}
+
+}  // namespace swarmanoid

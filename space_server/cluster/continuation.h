@@ -1,0 +1,45 @@
+// Continuation: where a space server takes a run up whose space server has died, from the folder of the run. The
+// journal says what the state was, the log of events what users asked. Made and used by the main thread of the
+// space_server program before its first tick.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "common/journal/journal_reader.h"
+#include "common/run/run_settings.h"
+#include "space_server/event_log.h"
+#include "space_server/run_control.h"
+#include "space_server/space_server.h"
+
+namespace swarmanoid
+{
+
+class Continuation
+{
+public:
+  // `hosts`: controller hosts of the run. Throws std::runtime_error if the journal is of something else.
+  Continuation(const RunSettings& settings, const Experiment& experiment, std::size_t hosts);
+
+  // The newest tick at which the server was saved and whose record is in the journal; otherwise the first one of the
+  // run.
+  std::uint64_t Tick() const { return tick_; }
+  // Brings the server there, which is where the run began.
+  void Restore(SpaceServer& server) const;
+  // Nothing can be read of it if the server died before it had begun.
+  const JournalReader* Journal() const { return journal_ ? &*journal_ : nullptr; }
+  // Of the tick; nothing if it is the first one.
+  const std::optional<TickRecord>& Record() const { return record_; }
+  const EarlierRequests& Requests() const { return requests_; }
+  // What is asked of the run from now on, after what was asked before.
+  void Prepare(RunControlSetup& setup) const;
+
+private:
+  std::optional<JournalReader> journal_;
+  std::uint64_t tick_ = 0;
+  std::optional<TickRecord> record_;
+  EarlierRequests requests_;
+};
+
+}  // namespace swarmanoid
