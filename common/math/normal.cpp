@@ -4,6 +4,7 @@
 #include <array>
 
 #include "common/math/elementary.h"
+#include "common/math/lanes.h"
 
 namespace swarmanoid
 {
@@ -30,10 +31,13 @@ constexpr std::array kTailDenominator{
     2.04426310338993978564e-15, 1.42151175831644588870e-7, 1.84631831751005468180e-5, 7.86869131145613259100e-4,
     1.48753612908506148525e-2,  1.36929880922735805310e-1, 5.99832206555887937690e-1, 1.0};
 
-inline double Quotient(const std::array<double, 8>& numerator, const std::array<double, 8>& denominator, double r)
+constexpr double kMiddle = 0.425;
+
+template <class Number>
+inline Number Quotient(const std::array<double, 8>& numerator, const std::array<double, 8>& denominator, Number r)
 {
-  double above = numerator[0];
-  double below = denominator[0];
+  Number above = numerator[0] - Number{};
+  Number below = denominator[0] - Number{};
   for (std::size_t i = 1; i < 8; ++i)
   {
     above = above * r + numerator[i];
@@ -46,13 +50,28 @@ inline double Quotient(const std::array<double, 8>& numerator, const std::array<
 
 double NormalQuantile(double mass)
 {
-  constexpr double kMiddle = 0.425;
   const double away = __builtin_fabs(mass);
   if (away <= kMiddle) return mass * Quotient(kMiddleNumerator, kMiddleDenominator, kMiddle * kMiddle - mass * mass);
   const double r = __builtin_sqrt(-Log(0.5 - away));
   const double x = r <= 5 ? Quotient(kFlankNumerator, kFlankDenominator, r - 1.6)
                           : Quotient(kTailNumerator, kTailDenominator, r - 5);
   return mass < 0 ? -x : x;
+}
+
+void NormalQuantiles(std::span<double> masses)
+{
+  std::size_t i = 0;
+  for (; i + kDoubleLanes <= masses.size(); i += kDoubleLanes)
+  {
+    const DoubleLanes mass = LoadLanes(&masses[i]);
+    const DoubleLanes x = mass * Quotient(kMiddleNumerator, kMiddleDenominator, kMiddle * kMiddle - mass * mass);
+    const unsigned outside = LaneMask((mass > kMiddle) | (mass < -kMiddle));
+    std::array<double, kDoubleLanes> quantiles;
+    StoreLanes(x, quantiles.data());
+    ForEachBit(outside, [&](unsigned lane) { quantiles[lane] = NormalQuantile(masses[i + lane]); });
+    std::copy(quantiles.begin(), quantiles.end(), &masses[i]);
+  }
+  for (; i < masses.size(); ++i) masses[i] = NormalQuantile(masses[i]);
 }
 
 double NormalMass(double x)

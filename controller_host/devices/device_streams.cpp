@@ -1,13 +1,164 @@
 #include "controller_host/devices/device_streams.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+
+#include "common/math/lanes.h"
+#include "common/math/normal.h"
+
 namespace swarmanoid
 {
+namespace
+{
+
+typedef std::uint64_t UnsignedLongLanes __attribute__((vector_size(kDoubleLanes * sizeof(double))));
+UnsignedLongLanes Everywhere(std::uint64_t value) { return UnsignedLongLanes{} + value; }
+
+// The lanes of two in turn: a[0], b[0], a[1], b[1] …
+void StorePairs(DoubleLanes a, DoubleLanes b, double* to)
+{
+#if defined(__AVX__)
+  StoreLanes(__builtin_shufflevector(a, b, 0, 4, 1, 5), to);
+  StoreLanes(__builtin_shufflevector(a, b, 2, 6, 3, 7), to + kDoubleLanes);
+#else
+  StoreLanes(__builtin_shufflevector(a, b, 0, 2), to);
+  StoreLanes(__builtin_shufflevector(a, b, 1, 3), to + kDoubleLanes);
+#endif
+}
+// Products of the lower halves.
+UnsignedLongLanes ProductOfLow(UnsignedLongLanes a, UnsignedLongLanes b)
+{
+#if defined(__AVX2__)
+  return reinterpret_cast<UnsignedLongLanes>(
+      _mm256_mul_epu32(reinterpret_cast<__m256i>(a), reinterpret_cast<__m256i>(b)));
+#elif defined(__SSE2__) && !defined(__AVX__)
+  return reinterpret_cast<UnsignedLongLanes>(_mm_mul_epu32(reinterpret_cast<__m128i>(a), reinterpret_cast<__m128i>(b)));
+#else
+  constexpr std::uint64_t kLow = 0xffffffff;
+  return (a & kLow) * (b & kLow);
+#endif
+}
+constexpr int kRounds = 10;
+constexpr std::uint32_t kMultipliers[2] = {0xD2511F53U, 0xCD9E8D57U};
+constexpr std::uint32_t kKeySteps[2] = {0x9E3779B9U, 0xBB67AE85U};
+
+// 32 bits in each lane; those above them may be anything.
+using Words = std::array<UnsignedLongLanes, 4>;
+
+// Philox4x32 of as many counters as there are lanes.
+Words PhiloxEach(Words counter, std::array<std::uint32_t, 2> key)
+{
+  for (int round = 0; round < kRounds; ++round)
+  {
+    const UnsignedLongLanes product0 = ProductOfLow(counter[0], Everywhere(std::uint64_t{kMultipliers[0]}));
+    const UnsignedLongLanes product1 = ProductOfLow(counter[2], Everywhere(std::uint64_t{kMultipliers[1]}));
+    counter = {(product1 >> 32) ^ counter[1] ^ Everywhere(std::uint64_t{key[0]}), product1,
+               (product0 >> 32) ^ counter[3] ^ Everywhere(std::uint64_t{key[1]}), product0};
+    key[0] += kKeySteps[0];
+    key[1] += kKeySteps[1];
+  }
+  return counter;
+}
+
+// As RandomStream::Centred makes them of two words: the 53 highest bits of both words, in two parts that doubles hold
+// exactly.
+DoubleLanes CentredOf(UnsignedLongLanes high, UnsignedLongLanes low)
+{
+  constexpr std::uint64_t kWord = 0xffffffff;
+  constexpr std::uint64_t kAsDouble = 0x4330000000000000;  // 2^52
+  const UnsignedLongLanes upper = (high & kWord) >> 11;
+  const UnsignedLongLanes lower = (high << 21 | (low & kWord) >> 11) & kWord;
+  const auto upper_part = reinterpret_cast<DoubleLanes>(upper | kAsDouble) - (0x1p52 + 0x1p20);
+  const auto lower_part = reinterpret_cast<DoubleLanes>(lower | kAsDouble) - 0x1p52;
+  return upper_part * 0x1p-21 + (lower_part * 0x1p-53 + 0x1p-54);
+}
+
+// first, first + 1 …
+UnsignedLongLanes Numbered(std::uint64_t first)
+{
+  std::array<std::uint64_t, kDoubleLanes> numbers;
+  for (std::uint64_t& number : numbers) number = first++;
+  return LoadAs<UnsignedLongLanes>(numbers.data());
+}
+
+// What RandomStream(key, tick, whom) is made of.
+struct StreamWords
+{
+  StreamWords(const StreamKey& stream, std::uint64_t tick)
+  {
+    static_assert(sizeof stream == 4 * sizeof(std::uint32_t));
+    const auto words = std::bit_cast<std::array<std::uint32_t, 4>>(stream);
+    key = {words[0], words[1]};
+    counter[1] = Everywhere(tick);
+    counter[2] = Everywhere(std::uint64_t{words[2]});
+    counter[3] = Everywhere(words[3] ^ (tick >> 32));
+  }
+
+  std::array<std::uint32_t, 2> key;
+  Words counter{};
+};
+
+// As NoiseModel::Sample makes them of such numbers, in place.
+void MakeSamples(const NoiseModel& noise, std::span<double> samples)
+{
+  if (noise.kind == NoiseModel::Kind::kTruncatedGaussian)
+    for (double& sample : samples) sample = 2 * noise.mass * sample;
+  if (noise.kind == NoiseModel::Kind::kUniform)
+    for (double& sample : samples) sample = noise.mean + 2 * noise.range * sample;
+  else
+  {
+    NormalQuantiles(samples);
+    const bool is_limited = noise.kind == NoiseModel::Kind::kTruncatedGaussian || noise.range > 0;
+    const double limit = is_limited ? noise.range : std::numeric_limits<double>::infinity();
+    for (double& sample : samples) sample = noise.mean + std::clamp(noise.deviation * sample, -limit, limit);
+  }
+}
+
+}  // namespace
 
 DeviceStreams::DeviceStreams(const DeviceSetup& setup, std::string_view quantity)
     : space_(&setup.space),
       robots_(setup.robots),
       what_(quantity.empty() ? setup.stream : MixedBits(setup.stream ^ StreamName(quantity)))
 {
+}
+
+void DeviceStreams::Sample(const NoiseModel& noise, std::size_t k, std::span<double> samples) const
+{
+  StreamWords stream(Key(k), space_->GetTick());
+  constexpr std::size_t kGroup = 2 * kDoubleLanes;  // a block gives two samples
+  for (std::size_t i = 0; i < samples.size(); i += kGroup)
+  {
+    stream.counter[0] = Numbered(i / 2);
+    const Words words = PhiloxEach(stream.counter, stream.key);
+    std::array<double, kGroup> drawn;
+    StorePairs(CentredOf(words[0], words[1]), CentredOf(words[2], words[3]), drawn.data());
+    std::copy_n(drawn.begin(), std::min(kGroup, samples.size() - i), &samples[i]);
+  }
+  MakeSamples(noise, samples);
+}
+
+void DeviceStreams::Sample(const NoiseModel& noise, std::size_t k, std::span<const std::uint64_t> whoms,
+                           std::span<double> samples) const
+{
+  const StreamWords stream(Key(k), space_->GetTick());
+  for (std::size_t i = 0; i < whoms.size(); i += kDoubleLanes)
+  {
+    const std::size_t count = std::min<std::size_t>(kDoubleLanes, whoms.size() - i);
+    std::array<std::uint64_t, kDoubleLanes> some{};
+    std::copy_n(&whoms[i], count, some.begin());
+    const auto whom = LoadAs<UnsignedLongLanes>(some.data());
+    Words counter = stream.counter;
+    counter[2] ^= whom;
+    counter[3] ^= whom >> 32;
+    const Words words = PhiloxEach(counter, stream.key);
+    std::array<double, kDoubleLanes> drawn;
+    StoreLanes(CentredOf(words[0], words[1]), drawn.data());
+    std::copy_n(drawn.begin(), count, &samples[i]);
+  }
+  MakeSamples(noise, samples);
 }
 
 void DeviceStreams::MakeKeys() const

@@ -3,6 +3,7 @@
 // depends on the others. Used by the batches, in their thread.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,11 @@ public:
   RandomStream Of(std::size_t k) const { return {Key(k), space_->GetTick()}; }
   // What robot k draws about `whom`: StreamName(id) of another entity, StreamPart(name, number) of a part.
   RandomStream Of(std::size_t k, std::uint64_t whom) const { return {Key(k), space_->GetTick(), whom}; }
+  // What noise.Sample gives call by call with Of(k): several at a time.
+  void Sample(const NoiseModel& noise, std::size_t k, std::span<double> samples) const;
+  // What it gives once with Of(k, whom) for each of them.
+  void Sample(const NoiseModel& noise, std::size_t k, std::span<const std::uint64_t> whoms,
+              std::span<double> samples) const;
   // What robot k draws once for the whole run about part `part` of the device.
   RandomStream Once(std::size_t k, std::uint64_t part) const { return {Key(k), 0, part}; }
 

@@ -7,6 +7,7 @@
 #include "common/control_interface/footbot/ci_footbot_base_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_motor_ground_sensor.h"
+#include "common/math/cells.h"
 #include "controller_host/devices/any_robot/kind_of_batch.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
@@ -100,7 +101,7 @@ public:
       if (!is_hole && role != EntityRole::kPatch) continue;
       // A rectangle (x, y, 0), or a disc (radius, 0, 0).
       const Vector3& size = entity.GetSize();
-      Patch patch{e, is_hole, size.y() == 0, is_hole ? 0 : entity.SlotOf("colour"), size.x() / 2, size.y() / 2, 0};
+      Patch patch{e, is_hole, size.y() == 0, is_hole ? 0 : entity.SlotOf("colour"), size.x() / 2, size.y() / 2, 0, {}};
       if (patch.is_disc) patch.half_x = size.x();
       patch.radius = __builtin_sqrt(patch.half_x * patch.half_x + patch.half_y * patch.half_y);
       patches_.push_back(patch);
@@ -113,6 +114,7 @@ public:
 
   void Update(const ChannelView&) override
   {
+    SortPatches();
     for (std::size_t k = 0; k < robots_.size(); ++k) Sense(k);
   }
 
@@ -125,6 +127,7 @@ private:
     std::uint32_t colour_slot;
     double half_x, half_y;  // m; discs: radius in half_x
     double radius;          // m, of the circle around it
+    Pose pose;              // when they were sorted
 
     bool Contains(double x, double y) const
     {
@@ -133,6 +136,44 @@ private:
     }
   };
 
+  // Lists each patch in the cells from which some robot may see it. They seldom move.
+  void SortPatches()
+  {
+    const auto stands = [this](const Patch& patch)
+    {
+      const Pose pose = space_->GetPose(patch.entity);
+      return pose.position == patch.pose.position && pose.orientation.coeffs() == patch.pose.orientation.coeffs();
+    };
+    if (is_sorted_ && std::ranges::all_of(patches_, stands)) return;
+    is_sorted_ = true;
+    Vector2 low = Vector2::Constant(1e9), high = -low;
+    for (Patch& patch : patches_)
+    {
+      patch.pose = space_->GetPose(patch.entity);
+      const Vector2 at(patch.pose.position.x(), patch.pose.position.y());
+      const Vector2 reach = Vector2::Constant(patch.radius + reach_);
+      low = low.cwiseMin(at - reach);
+      high = high.cwiseMax(at + reach);
+    }
+    if (patches_.empty()) low = high = Vector2::Zero();
+    constexpr double kSmallest = 0.1;  // m
+    constexpr double kMost = 16384;
+    const Vector2 size = high - low;
+    cells_ = {low.x(), low.y(), size.x(), size.y(), CellEdge<2>({size.x(), size.y()}, kSmallest, kMost)};
+    patches_in_ = {};
+    for (std::uint32_t p = 0; p < patches_.size(); ++p)
+    {
+      const Vector3& at = patches_[p].pose.position;
+      const double reach = patches_[p].radius + reach_;
+      cells_.ForEachRow(at.x() - reach, at.y() - reach, at.x() + reach, at.y() + reach,
+                        [&](std::uint32_t first, std::uint32_t last)
+                        {
+                          for (std::uint32_t cell = first; cell <= last; ++cell) patches_in_.Add(cell, p);
+                        });
+    }
+    patches_in_.Close(cells_.Count());
+  }
+
   void Sense(std::size_t k)
   {
     const Pose pose = space_->GetPose(robots_[k]);
@@ -140,9 +181,11 @@ private:
     std::fill_n(values, points_.size(), Brightness(floor_colour_));
     values[points_.size()] = floor_colour_;
     if (!world_->Terrain().IsEmpty() && !IsOnPlane(robots_[k])) SenseTerrain(robots_[k], pose, values);
-    for (const Patch& patch : patches_)
+    // In the order of the experiment file.
+    for (const std::uint32_t p : patches_in_.In(cells_.CellOf(pose.position.x(), pose.position.y())))
     {
-      const Pose place = space_->GetPose(patch.entity);
+      const Patch& patch = patches_[p];
+      const Pose& place = patch.pose;
       const double reach = patch.radius + reach_;
       const Vector3 offset = pose.position - place.position;
       if (offset.x() * offset.x() + offset.y() * offset.y() > reach * reach) continue;
@@ -159,9 +202,9 @@ private:
     }
     if (ground_noise_.IsActive())
     {
-      RandomStream random = streams_.Of(k);
-      for (std::size_t i = 0; i < points_.size(); ++i)
-        values[i] = std::clamp(values[i] + ground_noise_.Sample(random), 0.0, 1.0);
+      samples_.resize(points_.size());
+      streams_.Sample(ground_noise_, k, samples_);
+      for (std::size_t i = 0; i < points_.size(); ++i) values[i] = std::clamp(values[i] + samples_[i], 0.0, 1.0);
     }
     for (std::size_t i = 0; i < points_.size(); ++i) values[i] = Model::Reading(values[i]);
   }
@@ -197,8 +240,12 @@ private:
   std::uint32_t floor_colour_ = 0;
   NoiseModel ground_noise_;
   std::vector<Patch> patches_;
+  bool is_sorted_ = false;
+  PlaneCells<double> cells_;
+  CellLists patches_in_;         // by cell
   std::vector<Vector2> points_;  // m, in the frame of the robot
   double reach_ = 0;             // m: of the farthest of them
+  std::vector<double> samples_;  // of noise
   std::vector<Device> devices_;
 };
 

@@ -1,14 +1,17 @@
 // The 24 light sensors around footbots and eyebots. Each bulb in line of sight adds its brightness to the sensors that
 // face it, falling off linearly to nothing at 90 degrees. Generic.
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include "common/control_interface/eyebot/ci_eyebot_light_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_light_sensor.h"
 #include "common/math/elementary.h"
+#include "common/math/lanes.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/sensing/sensor_world.h"
+#include "controller_host/devices/sensing/shadow_map.h"
 #include "controller_host/devices/value_devices.h"
 
 namespace swarmanoid
@@ -16,13 +19,17 @@ namespace swarmanoid
 namespace
 {
 
-// How bright a bulb is by its intensity I and the square of its distance d in m, and from which height above the base
-// it is seen.
+// Half a step of a converter of 12 bits: a bulb that is less bright than this where a robot stands is not seen there.
+constexpr double kNegligible = 1e-4;
+
+// How bright a bulb is by its intensity I and the square of its distance d in m, up to which distance it is seen, and
+// from which height above the base.
 struct InverseSquare  // (I / d)^2
 {
   template <class Interface>
   static constexpr double kHeight = Interface::RING_HEIGHT_M;
   static double Brightness(double intensity, double square) { return intensity * intensity / std::max(square, 1e-12); }
+  static double Reach(double intensity) { return 100 * intensity; }
 };
 
 struct Argos3  // exp(-2 d / I), nothing beyond d / I = 2.5: footbot_light_rotzonly_sensor.cpp of ARGoS3
@@ -32,9 +39,19 @@ struct Argos3  // exp(-2 d / I), nothing beyond d / I = 2.5: footbot_light_rotzo
   static double Brightness(double intensity, double square)
   {
     const double scaled = __builtin_sqrt(square) / intensity;
-    return scaled > 2.5 ? 0 : Exp(-2 * scaled);
+    return scaled > kEnds ? 0 : Exp(-2 * scaled);
   }
+  static double Reach(double intensity) { return kEnds * intensity; }
+  static constexpr double kEnds = 2.5;
 };
+
+// As WrapAngle.
+inline DoubleLanes Wrapped(DoubleLanes angle)
+{
+  constexpr double kRounder = 0x1.8p52;  // adding it leaves no fraction
+  const DoubleLanes turns = (angle * (0.5 / kPi) + kRounder) - kRounder;
+  return angle - turns * (2 * kPi);
+}
 
 template <class Interface, class Model>
 class LightSensor : public SensorsOf<ValueSensor, ReadingsOf<Interface, Interface::NUM_SENSORS>>
@@ -49,6 +66,13 @@ public:
     for (std::uint32_t e = 0; e < setup.space.Size(); ++e)
       if (DescriptionOf(setup.space.GetEntity(e).GetKind()).role == EntityRole::kLight)
         bulbs_.push_back({e, setup.space.GetEntity(e).SlotOf("intensity")});
+    fixed_.resize(bulbs_.size());
+    shadows_ = std::make_unique<ShadowMap>(*world_);
+    place_of_entity_.assign(setup.space.Size(), -1);
+    for (std::size_t k = 0; k < this->robots_.size(); ++k)
+      place_of_entity_[this->robots_[k]] = static_cast<std::int32_t>(k);
+    points_.Reserve(this->robots_.size());
+    for (unsigned i = 0; i < kSensors; ++i) angles_[i] = Interface::AngleOf(i);
     this->MakeDevices();
   }
 
@@ -56,8 +80,8 @@ public:
   {
     world_->Refresh();
     std::fill(this->values_.begin(), this->values_.end(), 0.0);
-    for (std::size_t k = 0; k < this->robots_.size(); ++k)
-      for (const Bulb& bulb : bulbs_) AddBulb(this->robots_[k], bulb, this->ValuesOf(k));
+    CollectPoints();
+    for (std::size_t b = 0; b < bulbs_.size(); ++b) AddBulb(b);
     for (double& value : this->values_) value = std::min(value, 1.0);
     if (!this->noise_.IsActive()) return;
     this->AddNoise();
@@ -71,29 +95,88 @@ private:
     std::uint32_t intensity_slot;
   };
 
-  void AddBulb(std::uint32_t robot, const Bulb& bulb, double* readings) const
+  static constexpr unsigned kSensors = Interface::NUM_SENSORS;
+  static_assert(kSensors % kDoubleLanes == 0);
+
+  // Where the sensors of the robots are, in the order of the grid's cells: neighbours stay in the cache.
+  void CollectPoints()
+  {
+    points_.count = 0;
+    const PoseArrays& poses = this->space_->Poses();
+    for (const std::uint32_t robot : world_->Grid().Sorted())
+    {
+      if (place_of_entity_[robot] < 0) continue;
+      constexpr double kHeight = Model::template kHeight<Interface>;
+      const Vector3 point = IsUpright(poses, robot) ? Vector3(poses.x[robot], poses.y[robot], poses.z[robot] + kHeight)
+                                                    : this->space_->GetPose(robot).Apply({0, 0, kHeight});
+      points_.x[points_.count] = point.x();
+      points_.y[points_.count] = point.y();
+      points_.z[points_.count] = point.z();
+      points_.robot[points_.count++] = robot;
+    }
+  }
+
+  void AddBulb(std::size_t b)
   {
     const CSwarmanoidSpace& space = *this->space_;
-    const double intensity = space.Attributes()[bulb.intensity_slot];
-    if (intensity <= 0 || !space.IsPresent(bulb.entity)) return;
-    const Pose pose = space.GetPose(robot);
-    const Vector3 from = pose.Apply({0, 0, Model::template kHeight<Interface>});
-    const Vector3 to = space.GetPose(bulb.entity).position;
-    const auto hides = [&](std::uint32_t body) { return body != robot && world_->CanHideFrom(robot, body); };
-    if (world_->FirstHit(from, to, hides) <= 1) return;
+    const double intensity = space.Attributes()[bulbs_[b].intensity_slot];
+    if (intensity <= 0 || !space.IsPresent(bulbs_[b].entity)) return;
+    const Vector3 source = space.GetPose(bulbs_[b].entity).position;
+    fixed_[b].Place(*world_, source);
+    shadows_->Sort(source, Model::Reach(intensity));
+    seen_.clear();
+    shadows_->Look(points_, fixed_[b], seen_);
 
-    const Vector3 place = pose.orientation.conjugate() * (to - from);
-    const double brightness = Model::Brightness(intensity, place.squaredNorm());
-    const double angle = Atan2(place.y(), place.x());
-    for (unsigned i = 0; i < Interface::NUM_SENSORS; ++i)
+    const std::size_t whole = (seen_.size() + kLanes - 1) / kLanes * kLanes;
+    for (std::vector<double>* values : {&ahead_, &beside_, &brightness_, &bearing_}) values->resize(whole);
+    for (std::size_t i = 0; i < seen_.size(); ++i)
     {
-      const double off = __builtin_fabs(WrapAngle(Interface::AngleOf(i) - angle));
-      readings[i] += brightness * std::max(1 - off / (kPi / 2), 0.0);
+      const std::uint32_t p = seen_[i];
+      const Vector3 way = source - Vector3(points_.x[p], points_.y[p], points_.z[p]);
+      const Vector3 place = InFrameOf(points_.robot[p], way);
+      ahead_[i] = place.x();
+      beside_[i] = place.y();
+      brightness_[i] = Model::Brightness(intensity, place.squaredNorm());
+    }
+    Atan2Each(beside_, ahead_, bearing_);
+    for (std::size_t i = 0; i < seen_.size(); ++i)
+      if (brightness_[i] >= kNegligible)
+        Shine(this->ValuesOf(static_cast<std::size_t>(place_of_entity_[points_.robot[seen_[i]]])), bearing_[i],
+              brightness_[i]);
+  }
+
+  // Turned into the frame of a robot. Of an upright one, what is left of the product where x and y are 0.
+  Vector3 InFrameOf(std::uint32_t robot, const Vector3& way) const
+  {
+    const PoseArrays& poses = this->space_->Poses();
+    if (!IsUpright(poses, robot)) return this->space_->GetPose(robot).orientation.conjugate() * way;
+    const double z = -poses.qz[robot];
+    const double w = poses.qw[robot];
+    const double x2 = -z * way.y() + -z * way.y();
+    const double y2 = z * way.x() + z * way.x();
+    return {way.x() + w * x2 - z * y2, way.y() + w * y2 + z * x2, way.z()};
+  }
+
+  void Shine(double* readings, double bearing, double brightness) const
+  {
+    for (unsigned i = 0; i < kSensors; i += kDoubleLanes)
+    {
+      const DoubleLanes turn = Wrapped(LoadLanes(&angles_[i]) - bearing);
+      const DoubleLanes off = Maximum(turn, -turn);
+      const DoubleLanes share = Maximum(1 - off / (kPi / 2), DoubleLanes{});
+      StoreLanes(LoadLanes(&readings[i]) + brightness * share, &readings[i]);
     }
   }
 
   std::shared_ptr<SensorWorld> world_;
   std::vector<Bulb> bulbs_;
+  std::vector<FixedShadows> fixed_;  // by bulb
+  std::unique_ptr<ShadowMap> shadows_;
+  std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
+  SightedPoints points_;                       // of this tick
+  std::vector<std::uint32_t> seen_;            // of them, by the bulb in turn
+  std::vector<double> ahead_, beside_, bearing_, brightness_;
+  std::array<double, kSensors> angles_{};
 };
 
 }  // namespace

@@ -108,8 +108,9 @@ void ValueSensor::AddNoise()
   if (!noise_.IsActive()) return;
   for (std::size_t k = 0; k < robots_.size(); ++k)
   {
-    RandomStream random = streams_.Of(k);
-    for (std::size_t i = 0; i < width_; ++i) ValuesOf(k)[i] += noise_.Sample(random);
+    samples_.resize(width_);
+    streams_.Sample(noise_, k, samples_);
+    for (std::size_t i = 0; i < width_; ++i) ValuesOf(k)[i] += samples_[i];
   }
 }
 

@@ -79,6 +79,9 @@ protected:
   void AddNoise();
 
   NoiseModel noise_;
+
+private:
+  std::vector<double> samples_;
 };
 
 // What the engine says, with noise.

@@ -101,12 +101,11 @@ private:
       readings[i] = Measured(robots_[k], pose, beam, WrapAngle(beam.angle + head + part * step_));
     }
     if (!noise_.IsActive()) return;
-    RandomStream random = streams_.Of(k);
-    for (Reading& reading : readings)
-    {
-      const double noise = noise_.Sample(random);
-      if (reading.echo == Echo::kMeasured) reading.distance_m = std::max(reading.distance_m + noise, 0.0);
-    }
+    samples_.resize(readings.size());
+    streams_.Sample(noise_, k, samples_);
+    for (std::size_t i = 0; i < readings.size(); ++i)
+      if (readings[i].echo == Echo::kMeasured)
+        readings[i].distance_m = std::max(readings[i].distance_m + samples_[i], 0.0);
   }
 
   Reading Measured(std::uint32_t robot, const Pose& pose, const Beam& beam, double angle) const
@@ -131,6 +130,7 @@ private:
   DeviceStreams streams_;
   std::vector<Beam> beams_;
   double step_ = 0;  // rad in a tick
+  std::vector<double> samples_;
   std::vector<DistanceScanner> scanners_;
 };
 

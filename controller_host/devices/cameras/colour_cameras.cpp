@@ -96,18 +96,23 @@ protected:
       blobs[i - first] = BlobAt(this->model_.view, seen.Place(i), this->Sources().Source(seen.source[i]).colour,
                                 seen.angle[i], seen.distance[i]);
     if (!distance_noise_.IsActive() && !angle_noise_.IsActive() && !elevation_noise_.IsActive()) return;
-    for (std::size_t i = first; i < behind; ++i)
+    names_.clear();
+    for (std::size_t i = first; i < behind; ++i) names_.push_back(this->Sources().NameOf(seen.source[i]));
+    samples_.resize(names_.size());
+    const auto disturb = [&](const NoiseModel& noise, const DeviceStreams& streams, const auto& add)
     {
-      CCI_ColourBlob& blob = blobs[i - first];
-      const std::uint64_t name = this->Sources().NameOf(seen.source[i]);
-      if (distance_noise_.IsActive())
-        blob.distance_m = std::max(blob.distance_m + distance_noise_.Sample(distance_streams_.Of(k, name)), 0.0);
-      if (angle_noise_.IsActive())
-        blob.angle_rad = WrapAngle(blob.angle_rad + angle_noise_.Sample(angle_streams_.Of(k, name)));
-      if (elevation_noise_.IsActive())
-        blob.elevation_rad =
-            std::clamp(blob.elevation_rad + elevation_noise_.Sample(elevation_streams_.Of(k, name)), -kPi / 2, kPi / 2);
-    }
+      if (!noise.IsActive()) return;
+      streams.Sample(noise, k, names_, samples_);
+      for (std::size_t i = 0; i < samples_.size(); ++i) add(blobs[i], samples_[i]);
+    };
+    using Blob = CCI_ColourBlob;
+    disturb(distance_noise_, distance_streams_,
+            [](Blob& blob, double noise) { blob.distance_m = std::max(blob.distance_m + noise, 0.0); });
+    disturb(angle_noise_, angle_streams_,
+            [](Blob& blob, double noise) { blob.angle_rad = WrapAngle(blob.angle_rad + noise); });
+    disturb(elevation_noise_, elevation_streams_,
+            [](Blob& blob, double noise)
+            { blob.elevation_rad = std::clamp(blob.elevation_rad + noise, -kPi / 2, kPi / 2); });
   }
 
 private:
@@ -116,6 +121,8 @@ private:
 
   NoiseModel distance_noise_, angle_noise_, elevation_noise_;
   DeviceStreams distance_streams_, angle_streams_, elevation_streams_;
+  std::vector<std::uint64_t> names_;  // of the blobs of one robot
+  std::vector<double> samples_;
 };
 
 // The place of a blob in the image, in whole pixels with noise, turned back into readings; some blobs are missed.

@@ -1,6 +1,7 @@
 #include "controller_host/devices/footbot/footbot_proximity.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "common/builtins/devices.h"
@@ -95,8 +96,9 @@ void FootbotProximity::Sense(std::size_t k, std::uint32_t robot)
   dirty_[k] = touched_;
 
   if (!noise_.IsActive()) return;
-  RandomStream random = streams_.Of(k);
-  for (unsigned i = 0; i < kRays; ++i) readings[i] = std::clamp(readings[i] + noise_.Sample(random), 0.0, 1.0);
+  std::array<double, kRays> noise;
+  streams_.Sample(noise_, k, noise);
+  for (unsigned i = 0; i < kRays; ++i) readings[i] = std::clamp(readings[i] + noise[i], 0.0, 1.0);
   dirty_[k] = true;
 }
 

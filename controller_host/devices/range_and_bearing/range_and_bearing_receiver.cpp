@@ -271,24 +271,26 @@ private:
   {
     const HeardSenders::Lanes& from = heard_.At();
     const double largest = range_ * range_;
-    CCI_RangeAndBearingSensor::Packet* packet = receivers_[k].packets.data();
+    senders_.clear();
     for (std::size_t i = first; i < behind; ++i)
+      if (messages_[static_cast<std::size_t>(from.place[i])].is_sent && from.square[i] <= largest)
+        senders_.push_back(SenderOf(i));
+    samples_.resize(senders_.size());
+    CCI_RangeAndBearingSensor::Packet* const packets = receivers_[k].packets.data();
+    const auto disturb = [&](const NoiseModel& noise, const DeviceStreams& streams, const auto& add)
     {
-      if (!messages_[static_cast<std::size_t>(from.place[i])].is_sent || from.square[i] > largest) continue;
-      Disturb(*packet++, k, SenderOf(i));
-    }
-  }
-
-  void Disturb(CCI_RangeAndBearingSensor::Packet& packet, std::size_t k, std::uint64_t sender) const
-  {
-    const auto drawn = [=](const NoiseModel& noise, const DeviceStreams& streams)
-    { return noise.Sample(streams.Of(k, sender)); };
-    if (range_noise_.IsActive()) packet.range_m = std::max(packet.range_m + drawn(range_noise_, range_streams_), 0.0);
-    if (bearing_noise_.IsActive())
-      packet.bearing_rad = WrapAngle(packet.bearing_rad + drawn(bearing_noise_, bearing_streams_));
-    if (vertical_bearing_noise_.IsActive())
-      packet.vertical_bearing_rad = std::clamp(
-          packet.vertical_bearing_rad + drawn(vertical_bearing_noise_, vertical_bearing_streams_), -kPi / 2, kPi / 2);
+      if (!noise.IsActive()) return;
+      streams.Sample(noise, k, senders_, samples_);
+      for (std::size_t i = 0; i < samples_.size(); ++i) add(packets[i], samples_[i]);
+    };
+    using Packet = CCI_RangeAndBearingSensor::Packet;
+    disturb(range_noise_, range_streams_,
+            [](Packet& packet, double noise) { packet.range_m = std::max(packet.range_m + noise, 0.0); });
+    disturb(bearing_noise_, bearing_streams_,
+            [](Packet& packet, double noise) { packet.bearing_rad = WrapAngle(packet.bearing_rad + noise); });
+    disturb(vertical_bearing_noise_, vertical_bearing_streams_,
+            [](Packet& packet, double noise)
+            { packet.vertical_bearing_rad = std::clamp(packet.vertical_bearing_rad + noise, -kPi / 2, kPi / 2); });
   }
 
   std::shared_ptr<SensorWorld> world_;
@@ -306,6 +308,8 @@ private:
   Vector3 antenna_ = Vector3::Zero();
   HeardSenders heard_;
   std::vector<Reception> receptions_;
+  std::vector<std::uint64_t> senders_;  // of packets that are disturbed, by name
+  std::vector<double> samples_;
   std::vector<Receiver> receivers_;
 };
 

@@ -79,6 +79,8 @@ public:
   bool AllLevel() const { return all_level_; }
   // No movable body is a box.
   bool AllCylinders() const { return all_cylinders_; }
+  // All have one radius and stand at one height, if they are upright.
+  bool AreAlike() const { return are_alike_; }
 
   // Calls visit(entity) for every movable body whose circle in the xy plane comes within `reach` m of (x, y), in the
   // order of the cells, and for few others.

@@ -187,6 +187,54 @@ TEST(FootbotGround, HolesAreBlackAndTurnedPatchesAreTurned)
   EXPECT_EQ(readings[3], 0);
 }
 
+// Many patches of both forms, turned and one on another, some of which are moved on the way.
+TEST(FootbotGround, SeesManyPatchesAsBruteForceDoes)
+{
+  TestWorld world;
+  RandomStream random(3, 1, 1, 1);
+  const auto at = [&] { return random.Uniform(-1, 11); };
+  for (int n = 0; n < 200; ++n) world.AddFootbot(at(), at(), random.Uniform(-kPi, kPi));
+  for (int n = 0; n < 60; ++n)
+  {
+    const bool is_disc = n % 2 == 0;
+    const Vector3 size(random.Uniform(0.02, 2), is_disc ? 0 : random.Uniform(0.02, 2), 0);
+    const auto patch = world.Add(EntityKind::kGroundPatch, {at(), at(), 0}, random.Uniform(-3, 3), size, false, -1);
+    world.Configuration().entities[patch].colour = static_cast<std::uint32_t>(0x010101 * n);
+  }
+  TestSensor sensor(world, "footbot_ground", "generic_footbot_ground", world.RobotsOf(EntityKind::kFootbot));
+  CSwarmanoidSpace& space = world.Space();
+  int covered = 0;
+  for (int tick = 0; tick < 4; ++tick)
+  {
+    for (std::uint32_t e = tick % 2 == 0 ? 0 : 200; e < 260; e += 3)
+      space.SetPose(e, {{at(), at(), 0}, QuaternionFromYaw(at())});
+    sensor.Update();
+    for (std::uint32_t robot = 0; robot < 200; ++robot)
+    {
+      const auto readings = sensor.Of<CCI_FootBotGroundSensor>(robot).GetAllSensorReadings();
+      for (std::size_t i = 0; i < readings.size(); ++i)
+      {
+        const auto [x, y] = CCI_FootBotBaseGroundSensor::PLACES_M[i];
+        const Vector3 point = space.GetPose(robot).Apply({x, y, 0});
+        double expected = 1;  // white
+        for (std::uint32_t e = 200; e < 260; ++e)
+        {
+          const Vector3 local = space.GetPose(e).Inverse().Apply(point);
+          const Vector3& size = space.GetEntity(e).GetSize();
+          const bool covers = size.y() == 0
+                                  ? local.norm() <= size.x()
+                                  : std::abs(local.x()) <= size.x() / 2 && std::abs(local.y()) <= size.y() / 2;
+          if (!covers) continue;
+          ++covered;
+          expected = (e - 200) / 255.0;
+        }
+        ASSERT_NEAR(readings[i], expected, 1e-12) << "tick " << tick << " robot " << robot;
+      }
+    }
+  }
+  EXPECT_GT(covered, 1000);
+}
+
 TEST(EyebotAltitude, MeasuresDownToFloorOrBlock)
 {
   TestWorld world;

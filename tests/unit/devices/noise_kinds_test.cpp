@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/plugins/parameter_checks.h"
+#include "controller_host/devices/device_streams.h"
 #include "tests/unit/devices/test_world.h"
 
 namespace swarmanoid
@@ -123,6 +124,31 @@ TEST(NoiseKinds, TruncatedWithoutItsNumbersIsRefused)
   EXPECT_EQ(mistakes({kind, {"range_noise_deviation", "0"}, {"range_noise_range", "2"}}), "") << "one end of a series";
   EXPECT_NE(mistakes({kind, {"range_noise_deviation", "1"}}).find("give 'range_noise_range' too"), std::string::npos);
   EXPECT_NE(mistakes({kind, {"range_noise_range", "1"}}).find("give 'range_noise_deviation' too"), std::string::npos);
+}
+
+// Any number of them, for robots and for others that they are about.
+TEST(NoiseKinds, ManySamplesAreThoseOfOneByOne)
+{
+  TestWorld world;
+  for (int n = 0; n < 3; ++n) world.AddFootbot(n, n);
+  world.Space().SetTick(0x123456789);
+  DeviceSetup setup{Parameters(TreeOf({}), {}), world.Space(), {0, 1, 2}, SensorStream("x")};
+  const DeviceStreams streams(setup);
+  for (const NoiseModel& noise : {Made("uniform", 0.1, 0, 0.3), Made("gaussian", 0.1, 0.2, 0),
+                                  Made("gaussian", 0.1, 0.2, 0.3), Made("truncated_gaussian", 0.1, 0.2, 0.3)})
+    for (std::size_t count = 0; count < 40; ++count)
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        std::vector<double> samples(count);
+        streams.Sample(noise, k, samples);
+        RandomStream random = streams.Of(k);
+        for (const double sample : samples) ASSERT_EQ(sample, noise.Sample(random));
+
+        std::vector<std::uint64_t> whoms;
+        for (std::size_t i = 0; i < count; ++i) whoms.push_back(StreamPart(k, i));
+        streams.Sample(noise, k, whoms, samples);
+        for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(samples[i], noise.Sample(streams.Of(k, whoms[i])));
+      }
 }
 
 }  // namespace

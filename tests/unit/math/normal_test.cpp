@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace swarmanoid
 {
@@ -35,6 +36,16 @@ TEST(Normal, MassIsTheIntegralOfTheDensity)
   EXPECT_EQ(NormalMass(0), 0);
   EXPECT_EQ(NormalMass(40), 0.5);
   EXPECT_NEAR(NormalMass(1e-200) * std::sqrt(8 * std::atan(1)) / 1e-200, 1, 1e-14);
+}
+
+TEST(Normal, ManyQuantilesAreThoseOfOneByOne)
+{
+  std::vector<double> masses;
+  for (int i = -999; i < 1000; ++i) masses.push_back(i / 2000.0);
+  for (const double tail : {0x1p-54, 1e-12, 0.075, 0.0750000001}) masses.insert(masses.end(), {0.5 - tail, tail - 0.5});
+  std::vector<double> quantiles = masses;
+  NormalQuantiles(quantiles);
+  for (std::size_t i = 0; i < masses.size(); ++i) ASSERT_EQ(quantiles[i], NormalQuantile(masses[i]));
 }
 
 }  // namespace

@@ -1,0 +1,404 @@
+#include "controller_host/devices/sensing/shadow_map.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace swarmanoid
+{
+namespace
+{
+
+// m: more than single precision rounds at such a distance.
+float MarginAt(float distance) { return 2e-5F + 2e-6F * distance; }
+FloatLanes MarginAt(FloatLanes distance) { return 2e-5F + 2e-6F * distance; }
+
+constexpr float kThin = 1e-5F;  // m, far beyond the rounding of heights
+
+// The parts 0..1 of the way from a source to a point `rise` m above it that lie between two heights above the source.
+struct Part
+{
+  float first, last;
+};
+Part PartBetween(float low, float high, float rise)
+{
+  constexpr float kTiny = 1e-20F;  // a level way: the quotients become huge, not NaN
+  if (rise == 0) rise = kTiny;
+  const float a = low / rise;
+  const float b = high / rise;
+  return {std::max(std::min(a, b), 0.0F), std::min(std::max(a, b), 1.0F)};
+}
+
+// Cuts off what lies to the right of a vector, from a convex polygon around which the corners stand in order.
+void CutOffRight(const Vector2& border, std::vector<Vector2>& corners)
+{
+  std::vector<Vector2> kept;
+  const auto left = [&](const Vector2& at) { return border.x() * at.y() - border.y() * at.x(); };
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    const Vector2& from = corners[i];
+    const Vector2& to = corners[(i + 1) % corners.size()];
+    const double a = left(from);
+    const double b = left(to);
+    if (a >= 0) kept.push_back(from);
+    if ((a < 0) != (b < 0)) kept.push_back(from + (to - from) * (a / (a - b)));
+  }
+  corners = std::move(kept);
+}
+
+double DistanceToSide(const Vector2& from, const Vector2& to)
+{
+  const Vector2 side = to - from;
+  const double length = side.squaredNorm();
+  const double part = length > 0 ? std::clamp(-from.dot(side) / length, 0.0, 1.0) : 0;
+  return (from + part * side).norm();
+}
+
+// From the origin, to the nearest and to the farthest place of a polygon.
+std::array<double, 2> Distances(const std::vector<Vector2>& corners)
+{
+  double near = 1e300;
+  double far = 0;
+  double winding_left = 0, winding_right = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    const Vector2& from = corners[i];
+    const Vector2& to = corners[(i + 1) % corners.size()];
+    near = std::min(near, DistanceToSide(from, to));
+    far = std::max(far, from.norm());
+    const double turn = from.x() * to.y() - from.y() * to.x();
+    (turn < 0 ? winding_right : winding_left) += 1;
+  }
+  if (winding_right == 0 || winding_left == 0) near = 0;  // the origin is inside
+  return {near, far};
+}
+
+// How far a body reaches from its origin along the xy plane, and how low and how high, in any tilt.
+struct Reach
+{
+  double radius, low, high;
+};
+Reach ReachOfBody(const SensorWorld& world, std::uint32_t entity)
+{
+  const BodyShape& body = world.Body(entity);
+  if (IsUpright(world.Space().Poses(), entity) && !world.IsArticulated(entity))
+    return {body.radius, body.low, body.high};
+  const double all = world.IsArticulated(entity) ? body.radius : BoundingRadius(body) + body.centre.norm();
+  return {all, -all, all};
+}
+
+}  // namespace
+
+IntLanes Sectors::Of(FloatLanes turn) const
+{
+  const auto count = static_cast<float>(count_);
+  return Truncated(turn * (count / 4) + count) - count_;  // rounded down
+}
+
+FloatLanes Sectors::TurnOf(FloatLanes x, FloatLanes y)
+{
+  const FloatLanes sum = Magnitude(x) + Magnitude(y);
+  FloatLanes turn = y / Maximum(sum, Everywhere(1e-30F));
+  turn = x < 0 ? 2 - turn : turn;
+  return turn < 0 ? turn + 4 : turn;
+}
+
+Vector2 Sectors::Border(std::size_t sector) const
+{
+  const double turn = 4.0 * static_cast<double>(sector) / count_;
+  const double part = turn - std::floor(turn);
+  switch (static_cast<int>(turn) % 4)
+  {
+    case 0:
+      return {1 - part, part};
+    case 1:
+      return {-part, 1 - part};
+    case 2:
+      return {part - 1, -part};
+    default:
+      return {part, part - 1};
+  }
+}
+
+void SightedPoints::Reserve(std::size_t points)
+{
+  for (std::vector<double>* values : {&x, &y, &z}) values->resize(points + kLanes);
+  robot.resize(points + kLanes);
+}
+
+void FixedShadows::Place(const SensorWorld& world, const Vector3& source)
+{
+  if (source == source_) return;
+  source_ = source;
+  bodies_.assign(sectors_.Count(), {});
+  const CSwarmanoidSpace& space = world.Space();
+  for (std::uint32_t entity = 0; entity < space.Size(); ++entity)
+    if (!space.GetEntity(entity).IsMovable() && world.Body(entity).kind != Shape::Kind::kNone) Add(world, entity);
+  for (std::vector<Body>& bodies : bodies_) std::ranges::stable_sort(bodies, {}, &Body::near);
+}
+
+void FixedShadows::Add(const SensorWorld& world, std::uint32_t entity)
+{
+  const Pose pose = world.Space().GetPose(entity);
+  const BodyShape& shape = world.Body(entity);
+  const Reach reach = ReachOfBody(world, entity);
+  const bool is_box = shape.kind == Shape::Kind::kBox && IsUpright(world.Space().Poses(), entity);
+  const Vector2 centre = (pose.position - source_).head<2>();
+  std::vector<Vector2> outline;
+  for (int corner = 0; corner < 4; ++corner)
+  {
+    // Of others than upright boxes the square around them; a little wider than the rounding of directions.
+    const double wider = 1e-4 + 2e-6 * centre.norm();
+    const double x = (is_box ? shape.half_size.x() : reach.radius) + wider;
+    const double y = (is_box ? shape.half_size.y() : reach.radius) + wider;
+    const Vector3 place(corner == 0 || corner == 3 ? x : -x, corner < 2 ? y : -y, 0);
+    const Vector3 turned = is_box ? Vector3(pose.orientation * place) : place;
+    outline.push_back(centre + turned.head<2>());
+  }
+  const auto rise = static_cast<float>(pose.position.z() - source_.z());
+  for (std::size_t sector = 0; sector < sectors_.Count(); ++sector)
+  {
+    std::vector<Vector2> part = outline;
+    CutOffRight(sectors_.Border(sector), part);
+    CutOffRight(-sectors_.Border((sector + 1) % sectors_.Count()), part);
+    if (part.size() < 3) continue;
+    const auto [near, far] = Distances(part);
+    bodies_[sector].push_back({static_cast<float>(near), static_cast<float>(far),
+                               rise + static_cast<float>(reach.low) - kThin,
+                               rise + static_cast<float>(reach.high) + kThin, entity});
+  }
+}
+
+bool FixedShadows::Hide(const SensorWorld& world, std::uint32_t robot, const Vector3& point, std::size_t sector,
+                        float length) const
+{
+  const auto rise = static_cast<float>(point.z() - source_.z());
+  const float margin = MarginAt(length);
+  for (const Body& body : bodies_[sector])
+  {
+    if (body.near > length + margin) return false;
+    const Part part = PartBetween(body.low, body.high, rise);
+    if (part.first > part.last || body.near > part.last * length + margin || body.far < part.first * length - margin)
+      continue;
+    if (world.CanHideFrom(robot, body.entity) && world.HitOn(body.entity, point, source_)) return true;
+  }
+  return false;
+}
+
+ShadowMap::ShadowMap(const SensorWorld& world) : world_(world)
+{
+  std::size_t bodies = 0;
+  const CSwarmanoidSpace& space = world.Space();
+  std::vector<std::size_t> in_engine(space.GetExperiment().engines.size());
+  for (const std::uint32_t entity : space.Movable())
+  {
+    if (world.Body(entity).kind == Shape::Kind::kNone) continue;
+    ++bodies;
+    for (std::size_t e = 0; e < in_engine.size(); ++e)
+      in_engine[e] += std::ranges::binary_search(space.GetExperiment().engines[e].entities, entity) ? 1 : 0;
+  }
+  share_engines_ = std::ranges::all_of(in_engine, [&](std::size_t count) { return count == 0 || count == bodies; }) &&
+                   std::ranges::find(in_engine, bodies) != in_engine.end();
+}
+
+IntLanes ShadowMap::RingOf(FloatLanes distance) const
+{
+  const FloatLanes ring = distance * rings_per_m_;
+  return Truncated(Minimum(Maximum(ring, FloatLanes{}), Everywhere(static_cast<float>(kRings - 1))));
+}
+
+void ShadowMap::Sort(const Vector3& source, double reach)
+{
+  const NeighbourGrid& grid = world_.Grid();
+  const std::span<const std::uint32_t> bodies = grid.Sorted();
+  const std::size_t count = bodies.size();
+  source_ = source;
+  are_exact_ = share_engines_ && grid.AllUpright() && grid.AllCylinders() && grid.AreAlike();
+  for (std::vector<float>* values : {&body_x_, &body_y_, &body_radius_}) values->resize(count + kLanes);
+
+  FloatLanes farthest{};
+  for (std::size_t i = 0; i < count; i += kLanes)
+  {
+    const FloatLanes x = Differences(grid.OriginX() + i, source.x());
+    const FloatLanes y = Differences(grid.OriginY() + i, source.y());
+    StoreLanes(x, &body_x_[i]);
+    StoreLanes(y, &body_y_[i]);
+    farthest = Maximum(farthest, FirstLanes(count - i) ? x * x + y * y : FloatLanes{});
+  }
+  if (are_exact_ && count > 0)
+  {
+    const BodyShape& body = world_.Body(bodies[0]);
+    const double rise = grid.OriginZ()[0] - source.z();
+    low_ = static_cast<float>(rise + body.low);
+    high_ = static_cast<float>(rise + body.high);
+    largest_ = static_cast<float>(body.radius);
+    std::ranges::fill(body_radius_, largest_);
+  }
+  else
+  {
+    low_ = 1e30F;
+    high_ = -1e30F;
+    largest_ = 0;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const Reach body = ReachOfBody(world_, bodies[i]);
+      const double rise = grid.OriginZ()[i] - source.z();
+      low_ = std::min(low_, static_cast<float>(rise + body.low));
+      high_ = std::max(high_, static_cast<float>(rise + body.high));
+      body_radius_[i] = static_cast<float>(body.radius);
+      largest_ = std::max(largest_, body_radius_[i]);
+    }
+  }
+  reach_ = static_cast<float>(reach);
+  reach_ += MarginAt(reach_);
+
+  // Sectors of some eight bodies each.
+  constexpr std::size_t kBodies = 8, kFewest = 8, kMost = 4096;
+  sectors_ = Sectors(std::clamp(std::bit_ceil(count / kBodies + 1), kFewest, kMost));
+  rings_per_m_ = kRings / std::max(1e-3F, std::min(__builtin_sqrtf(Highest(farthest)), reach_));
+  cells_.clear();
+  members_.clear();
+  for (std::size_t group = 0; group < count; group += kLanes)
+  {
+    const FloatLanes x = LoadLanes(&body_x_[group]);
+    const FloatLanes y = LoadLanes(&body_y_[group]);
+    const FloatLanes square = x * x + y * y;
+    const FloatLanes distance = SquareRoot(square);
+    const FloatLanes radius = LoadLanes(&body_radius_[group]) * 1.0001F + 2 * MarginAt(distance);
+    // The tangents, to both sides; who is nearer than that stands in all directions.
+    const IntLanes is_around = distance <= radius * 1.01F;
+    const FloatLanes slope = radius / SquareRoot(is_around ? Everywhere(1.0F) : square - radius * radius);
+    constexpr float kAside = 8e-6F;
+    const IntLanes first = sectors_.Of(Sectors::TurnOf(x + slope * y, y - slope * x) - kAside);
+    IntLanes last = sectors_.Of(Sectors::TurnOf(x - slope * y, y + slope * x) + kAside);
+    last = last < first ? last + static_cast<int>(sectors_.Count()) : last;
+    last = is_around ? first + static_cast<int>(sectors_.Count() - 1) : last;
+    const IntLanes ring = RingOf(distance);
+    const unsigned counts = LaneMask((distance - radius <= reach_) & FirstLanes(count - group));
+    ForEachBit(counts,
+               [&](unsigned lane)
+               {
+                 for (int sector = first[lane]; sector <= last[lane]; ++sector)
+                 {
+                   cells_.push_back(static_cast<std::uint32_t>(sectors_.Wrapped(sector)) * kRings +
+                                    static_cast<std::uint32_t>(ring[lane]));
+                   members_.push_back(static_cast<std::uint32_t>(group + lane));
+                 }
+               });
+  }
+  sort_.SetCells(sectors_.Count() * kRings);
+  std::ranges::copy(cells_, sort_.Cells(cells_.size()).begin());
+  for (std::vector<float>* values : {&x_, &y_, &radius_}) values->resize(cells_.size() + kLanes);
+  entity_.resize(cells_.size() + kLanes);
+  sort_.Sort(
+      [&](std::size_t member, std::uint32_t place)
+      {
+        const std::uint32_t body = members_[member];
+        x_[place] = body_x_[body];
+        y_[place] = body_y_[body];
+        radius_[place] = body_radius_[body];
+        entity_[place] = static_cast<std::int32_t>(bodies[body]);
+      });
+}
+
+inline ShadowMap::Lines ShadowMap::LinesTo(const SightedPoints& points, std::size_t group, FloatLanes x, FloatLanes y,
+                                           FloatLanes length, IntLanes sector) const
+{
+  constexpr float kTiny = 1e-20F;  // a level line: the quotients become huge, not NaN
+  Lines lines;
+  const FloatLanes inverse = 1 / Maximum(length, Everywhere(kTiny));
+  lines.way_x = x * inverse;
+  lines.way_y = y * inverse;
+  const FloatLanes rise = Differences(&points.z[group], source_.z());
+  const FloatLanes slope = length / (rise == 0 ? Everywhere(kTiny) : rise);
+  // A little more than the part of the way at the heights of the bodies, and a little less.
+  const auto part = [&](float low, float high, FloatLanes& first, FloatLanes& last)
+  {
+    const FloatLanes a = low * slope;
+    const FloatLanes b = high * slope;
+    first = Maximum(Minimum(a, b), FloatLanes{});
+    last = Minimum(Maximum(a, b), length);
+  };
+  part(low_ - kThin, high_ + kThin, lines.first, lines.last);
+  part(low_ + kThin, high_ - kThin, lines.surely_first, lines.surely_last);
+  lines.margin = MarginAt(length);
+  const IntLanes start = sector * kRings;
+  const FloatLanes wide = largest_ + lines.margin;
+  lines.first_cell = start + RingOf(lines.first - wide);
+  lines.last_cell = lines.first <= lines.last ? start + RingOf(lines.last + wide) : lines.first_cell - 1;
+  return lines;
+}
+
+void ShadowMap::Look(const SightedPoints& points, const FixedShadows& fixed, std::vector<std::uint32_t>& seen) const
+{
+  for (std::size_t group = 0; group < points.count; group += kLanes)
+  {
+    const FloatLanes x = Differences(&points.x[group], source_.x());
+    const FloatLanes y = Differences(&points.y[group], source_.y());
+    const FloatLanes length = SquareRoot(x * x + y * y);
+    const FloatLanes turn = Sectors::TurnOf(x, y);
+    const IntLanes fixed_sector = fixed.Directions().Of(turn);
+    const Lines lines = LinesTo(points, group, x, y, length, sectors_.Of(turn) & sectors_.Last());
+    ForEachBit(LaneMask((length <= reach_) & FirstLanes(points.count - group)),
+               [&](unsigned lane)
+               {
+                 const std::size_t i = group + lane;
+                 const std::uint32_t robot = points.robot[i];
+                 const Vector3 point(points.x[i], points.y[i], points.z[i]);
+                 if (IsHidden(robot, point, lines, lane) ||
+                     fixed.Hide(world_, robot, point, fixed.Directions().Wrapped(fixed_sector[lane]), length[lane]))
+                   return;
+                 const auto hides = [&](std::uint32_t terrain) { return world_.CanHideFrom(robot, terrain); };
+                 if (!world_.Terrain().IsEmpty() && world_.Terrain().FirstHit(point, source_, hides) <= 1) return;
+                 seen.push_back(static_cast<std::uint32_t>(i));
+               });
+  }
+}
+
+inline bool ShadowMap::IsHidden(std::uint32_t robot, const Vector3& point, const Lines& lines, unsigned lane) const
+{
+  const std::uint32_t* const start = sort_.Starts();
+  const std::size_t begin = start[lines.first_cell[lane]];
+  const std::size_t end = start[lines.last_cell[lane] + 1];
+  const FloatLanes way_x = Everywhere(lines.way_x[lane]);
+  const FloatLanes way_y = Everywhere(lines.way_y[lane]);
+  const FloatLanes margin = Everywhere(lines.margin[lane]);
+  for (std::size_t i = begin; i < end; i += kLanes)
+  {
+    const FloatLanes x = LoadLanes(&x_[i]);
+    const FloatLanes y = LoadLanes(&y_[i]);
+    const FloatLanes radius = LoadLanes(&radius_[i]);
+    const FloatLanes along = x * way_x + y * way_y;
+    const auto square_beside = [&](float from, float to)
+    {
+      const FloatLanes nearest = Minimum(Maximum(along, Everywhere(from)), Everywhere(to));
+      const FloatLanes beside_x = nearest * way_x - x;
+      const FloatLanes beside_y = nearest * way_y - y;
+      return beside_x * beside_x + beside_y * beside_y;
+    };
+    const FloatLanes outer = radius + margin;
+    const unsigned others = LaneMask((LoadLanes(&entity_[i]) != static_cast<int>(robot)) & FirstLanes(end - i) &
+                                     (square_beside(lines.first[lane], lines.last[lane]) <= outer * outer));
+    if (others == 0) continue;
+    const float surely_first = lines.surely_first[lane];
+    const float surely_last = lines.surely_last[lane];
+    if (are_exact_ && surely_first < surely_last)
+    {
+      const FloatLanes inner = radius - margin;
+      const FloatLanes square = square_beside(surely_first, surely_last);
+      if ((LaneMask((square < inner * inner) & (inner > 0)) & others) != 0) return true;
+    }
+    bool is_hidden = false;
+    ForEachBit(others,
+               [&](unsigned other)
+               {
+                 const auto body = static_cast<std::uint32_t>(entity_[i + other]);
+                 is_hidden |= world_.CanHideFrom(robot, body) && world_.HitOn(body, point, source_).has_value();
+               });
+    if (is_hidden) return true;
+  }
+  return false;
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,59 @@
+// Robots of the benchmark's scenes. Footbots drive on and turn away from what is in front, or to where most of those
+// that their cameras see are; eyebots fly circles. All send and light what they have.
+#include "ci_colour_blob_sensor.h"
+#include "ci_controller.h"
+#include "ci_range_and_bearing.h"
+#include "common/math/elementary.h"
+#include "eyebot/ci_eyebot_propellers_actuator.h"
+#include "footbot/ci_footbot_leds_actuator.h"
+#include "footbot/ci_footbot_proximity_sensor.h"
+#include "footbot/ci_footbot_wheels_actuator.h"
+
+using namespace swarmanoid;
+
+class CBenchSwarm : public CCI_Controller
+{
+public:
+  int Init(const TConfigurationTree) override
+  {
+    const CCI_Robot& robot = *GetRobot();
+    if (robot.HasActuator("footbot_wheels")) wheels_ = &robot.Actuator<CCI_FootBotWheelsActuator>("footbot_wheels");
+    if (robot.HasActuator("eyebot_propellers"))
+      propellers_ = &robot.Actuator<CCI_EyeBotPropellersActuator>("eyebot_propellers");
+    if (robot.HasSensor("footbot_proximity"))
+      proximity_ = &robot.Sensor<CCI_FootBotProximitySensor>("footbot_proximity");
+    if (robot.HasSensor("footbot_omnidirectional_camera"))
+      camera_ = &robot.Sensor<CCI_ColourBlobSensor>("footbot_omnidirectional_camera");
+    if (robot.HasActuator("footbot_leds"))
+      robot.Actuator<CCI_FootBotLedsActuator>("footbot_leds").SetAllColours(CCI_Colour::RED);
+    if (robot.HasActuator("range_and_bearing"))
+      robot.Actuator<CCI_RangeAndBearingActuator>("range_and_bearing").SetMessage({1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+    return RETURN_OK;
+  }
+
+  void ControlStep() override
+  {
+    if (propellers_ != nullptr) propellers_->SetVelocity(0.1, 0, 0, 0.2);
+    if (wheels_ == nullptr) return;
+    double turn = 0;
+    if (proximity_ != nullptr)
+    {
+      const auto readings = proximity_->GetAllSensorReadings();
+      for (unsigned i = 0; i < 4; ++i) turn -= readings[i] - readings[23 - i];
+    }
+    if (camera_ != nullptr && turn == 0)
+      for (const CCI_ColourBlob& blob : camera_->GetAllBlobs()) turn += blob.angle_rad > 0 ? 0.1 : -0.1;
+    constexpr double kSpeed = 0.05;  // m/s
+    wheels_->SetFootBotWheelsLinearVelocity(turn > 0 ? 0 : kSpeed, turn < 0 ? 0 : kSpeed);
+  }
+  bool HasState() const override { return true; }
+
+private:
+  CCI_FootBotWheelsActuator* wheels_ = nullptr;
+  CCI_EyeBotPropellersActuator* propellers_ = nullptr;
+  CCI_FootBotProximitySensor* proximity_ = nullptr;
+  CCI_ColourBlobSensor* camera_ = nullptr;
+};
+
+REGISTER_CONTROLLER(CBenchSwarm,
+                    {.label = "bench_swarm", .brief = "robots of the benchmark's scenes", .parameters = {}})
