@@ -114,7 +114,16 @@ void CTextRender::Draw()
   Write();
 }
 
-void CTextRender::Idle() { std::fflush(file_); }
+void CTextRender::Idle()
+{
+  // Nothing is drawn any more when a run is paused: what the latest table says of it would stay.
+  if (told_phase_ && monitor_->Status().phase != *told_phase_)
+  {
+    AppendStatus();
+    Write();
+  }
+  std::fflush(file_);
+}
 
 void CTextRender::Finish()
 {
@@ -242,6 +251,7 @@ void CTextRender::WatchShownRobots()
 void CTextRender::AppendStatus()
 {
   const RunStatus& status = monitor_->Status();
+  told_phase_ = status.phase;
   if (format_ != Format::kJson)
   {
     buffer_ += "# " + StatusLine(status) + "\n";

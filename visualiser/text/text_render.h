@@ -69,6 +69,7 @@ private:
   const Assignment* assignment_ = nullptr;
   RunMonitor* monitor_ = nullptr;
   bool shows_status_ = false;
+  std::optional<RunStatus::Phase> told_phase_;  // by the latest line about the run
   std::vector<Column> columns_;
   std::vector<bool> shown_kinds_;  // by EntityKind
   Format format_ = Format::kTable;

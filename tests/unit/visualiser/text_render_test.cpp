@@ -118,6 +118,30 @@ TEST_F(TextRender, WritesJsonThatParsersRead)
   EXPECT_TRUE(odd["empty"].is_null());
 }
 
+// The table of the last tick was drawn before the run was known to be paused.
+TEST_F(TextRender, TellsThatARunIsPausedAfterItsLatestTable)
+{
+  const TConfigurationTree tree(ReadXml("<text_render file='table' status='true' columns='clock'/>", "text.xml"));
+  CTextRender render;
+  monitor_.status.phase = RunStatus::Phase::kRunning;
+  render.Init({.parameters = Parameters(tree, CTextRender::Description().parameters),
+               .space = world_.Space(),
+               .assignment = assignment_,
+               .output_folder = folder_.string(),
+               .monitor = &monitor_});
+  render.Idle();
+  render.Draw();
+  monitor_.status.tick = 1;
+  render.Idle();
+  monitor_.status.phase = RunStatus::Phase::kPaused;
+  render.Idle();
+  render.Idle();
+  render.Finish();
+  std::ifstream file(folder_ / "table");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}),
+            "#\tclock\n# tick 0, running, 0.0x real time, 0 ticks/s\n0\n# tick 1, paused\n");
+}
+
 TEST_F(TextRender, WritesTheStatusAsJson)
 {
   monitor_.status.phase = RunStatus::Phase::kRunning;
