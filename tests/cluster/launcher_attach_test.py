@@ -144,7 +144,7 @@ class Attaching(LauncherTest):
         self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
         final = self.assert_finished(run, 107)
         events = (self.folder / "first" / "events.csv").read_text()
-        self.assertRegex(events, r"\n47,move,fb_1,2.5 1.3 0,[^,]+:\d+\n47,move,fb_1,2.4 1.2 0,")
+        self.assertRegex(events, r"\n47,move,fb_1,2.5 1.3 0,[^,]+:\d+,\d+\n47,move,fb_1,2.4 1.2 0,")
         hashes = (self.folder / "hashes").read_text()
         for options in ([], ["--single-process"], ["--controller-hosts", 2]):
             again = self.run_it("run", EXPERIMENT, "--ticks", 200, "--quiet", "--no-visualisers", "--hash-log", "again", "--events",
