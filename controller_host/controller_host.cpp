@@ -1,6 +1,7 @@
 #include "controller_host/controller_host.h"
 
 #include <algorithm>
+#include <exception>
 #include <map>
 #include <sstream>
 
@@ -9,6 +10,8 @@
 #include "common/logging/log.h"
 #include "common/messages/attribute_changes.h"
 #include "common/space/state_checks.h"
+#include "common/threads/worker_pool.h"
+#include "controller_host/split_sensor.h"
 
 namespace swarmanoid
 {
@@ -39,15 +42,25 @@ ChannelSlice SliceOf(const std::vector<ChannelBlock>& blocks, const std::string&
   return slice;
 }
 
+// How many threads share a sensor of so many robots: none is woken for a few microseconds.
+std::size_t PartsOf(std::size_t robots, unsigned threads)
+{
+  constexpr std::size_t kLeast = 400;  // robots of a part
+  return std::clamp<std::size_t>(robots / kLeast, 1, threads);
+}
+
 }  // namespace
 
 struct ControllerHost::Batches
 {
+  static constexpr int kWhole = -1;
+
   struct Sensor
   {
     std::unique_ptr<SensorBatch> batch;
     ChannelSlice slice;
     Actor actor;
+    int part = kWhole;  // of a device that is split among threads: which of them runs it
   };
   struct Actuator
   {
@@ -57,14 +70,25 @@ struct ControllerHost::Batches
     const DeviceConfiguration* device = nullptr;
     std::vector<std::uint32_t> robots;
   };
+  struct Failure
+  {
+    std::exception_ptr what;
+    Actor actor;
+  };
+
   std::vector<Sensor> sensors;
   std::vector<Actuator> actuators;
   AttributeOrder order;
+  unsigned threads = 1;
+  std::vector<Failure> failures;     // by thread
+  std::unique_ptr<WorkerPool> pool;  // once some sensor is split
 };
 
-ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t host)
+ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t host,
+                               unsigned threads)
     : space_(space), layout_(assignment.hosts[host]), batches_(std::make_unique<Batches>())
 {
+  batches_->threads = threads;
   const Experiment& experiment = space.GetExperiment();
   commands_.host = static_cast<std::uint32_t>(host);
   commands_.values.resize(layout_.command_size);
@@ -141,8 +165,8 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
   for (const std::size_t k : robots) entities.push_back(robots_[k].entity);
 
   const auto setup_of = [&](const DeviceConfiguration& device, const PluginDescription& description,
-                            std::uint64_t stream) {
-    return DeviceSetup{Parameters(device.tree, description.parameters), space_, entities, stream};
+                            std::uint64_t stream, const std::vector<std::uint32_t>& of) {
+    return DeviceSetup{Parameters(device.tree, description.parameters), space_, of, stream};
   };
   const auto unknown = [&](const DeviceConfiguration& device)
   {
@@ -157,14 +181,25 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
     const DeviceConfiguration& device = configuration.sensors[d];
     const auto* entry = PluginRegistry<SensorBatch>::Instance().Find(device.type, device.implementation);
     if (entry == nullptr) throw unknown(device);
-    Batches::Sensor sensor{entry->create(), SliceOf(layout_.sensors, entry->description.channel, entities),
-                           SensorActor(experiment, number, d)};
-    RunCodeOf<ConfigurationError>(
-        sensor.actor, ActivityStep::kInit, 0,
-        [&] { sensor.batch->Init(setup_of(device, entry->description, SensorStream(device.type))); });
-    for (std::size_t n = 0; n < robots.size(); ++n)
-      robots_[robots[n]].interface->AddSensor(device.type, sensor.batch->Sensor(n));
-    batches_->sensors.push_back(std::move(sensor));
+    const bool may_split = dynamic_cast<SplitSensor*>(entry->create().get()) != nullptr;
+    const std::size_t parts = may_split ? PartsOf(entities.size(), batches_->threads) : 1;
+    for (std::size_t part = 0; part < parts; ++part)
+    {
+      const std::size_t first = entities.size() * part / parts;
+      const std::size_t behind = entities.size() * (part + 1) / parts;
+      const std::vector<std::uint32_t> some(entities.begin() + static_cast<std::ptrdiff_t>(first),
+                                            entities.begin() + static_cast<std::ptrdiff_t>(behind));
+      Batches::Sensor sensor{entry->create(), SliceOf(layout_.sensors, entry->description.channel, some),
+                             SensorActor(experiment, number, d), parts > 1 ? static_cast<int>(part) : Batches::kWhole};
+      RunCodeOf<ConfigurationError>(
+          sensor.actor, ActivityStep::kInit, 0,
+          [&] { sensor.batch->Init(setup_of(device, entry->description, SensorStream(device.type), some)); });
+      for (std::size_t n = first; n < behind; ++n)
+        robots_[robots[n]].interface->AddSensor(device.type, sensor.batch->Sensor(n - first));
+      batches_->sensors.push_back(std::move(sensor));
+    }
+    if (parts > 1 && (batches_->pool == nullptr || batches_->pool->Threads() < parts))
+      batches_->pool = std::make_unique<WorkerPool>(static_cast<unsigned>(parts));
   }
   for (std::size_t d = 0; d < configuration.actuators.size(); ++d)
   {
@@ -175,7 +210,7 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
                                ActuatorActor(experiment, number, d), &device, entities};
     RunCodeOf<ConfigurationError>(
         actuator.actor, ActivityStep::kInit, 0,
-        [&] { actuator.batch->Init(setup_of(device, entry->description, ActuatorStream(device.type))); });
+        [&] { actuator.batch->Init(setup_of(device, entry->description, ActuatorStream(device.type), entities)); });
     for (std::size_t n = 0; n < robots.size(); ++n)
       robots_[robots[n]].interface->AddActuator(device.type, actuator.batch->Actuator(n));
     batches_->actuators.push_back(std::move(actuator));
@@ -195,16 +230,53 @@ const ControlCommands& ControllerHost::Tick(std::span<const SensorFrame* const> 
       std::copy_n(frame.values.begin() + static_cast<std::ptrdiff_t>(copy.from), copy.count,
                   sensor_values_.begin() + static_cast<std::ptrdiff_t>(copy.to));
     }
-  for (Batches::Sensor& sensor : batches_->sensors)
-    RunCodeOf(sensor.actor, ActivityStep::kUpdate, tick,
-              [&] {
-                sensor.batch->Update({sensor_values_, sensor.slice.offsets, sensor.slice.width});
-              });
+  UpdateSensors(tick);
   RunControllers(tick);
 
   commands_.tick = tick;
   CommitActuators();
   return commands_;
+}
+
+void ControllerHost::UpdateSensors(std::uint64_t tick)
+{
+  for (Batches::Sensor& sensor : batches_->sensors)
+    RunCodeOf(sensor.actor, ActivityStep::kUpdate, tick,
+              [&]
+              {
+                if (sensor.part == Batches::kWhole)
+                  sensor.batch->Update({sensor_values_, sensor.slice.offsets, sensor.slice.width});
+                else
+                  dynamic_cast<SplitSensor&>(*sensor.batch).RefreshShared();
+              });
+  if (batches_->pool != nullptr) UpdateParts(tick);
+}
+
+void ControllerHost::UpdateParts(std::uint64_t tick)
+{
+  std::vector<Batches::Failure>& failures = batches_->failures;
+  failures.assign(batches_->pool->Threads(), {});
+  batches_->pool->Run(
+      [&](unsigned thread)
+      {
+        for (Batches::Sensor& sensor : batches_->sensors)
+        {
+          if (sensor.part != static_cast<int>(thread)) continue;
+          try
+          {
+            sensor.batch->Update({sensor_values_, sensor.slice.offsets, sensor.slice.width});
+          }
+          catch (...)
+          {
+            failures[thread] = {std::current_exception(), sensor.actor};
+            return;
+          }
+        }
+      });
+  // The first of the robots, whichever thread was first.
+  for (const Batches::Failure& failure : failures)
+    if (failure.what != nullptr)
+      RunCodeOf(failure.actor, ActivityStep::kUpdate, tick, [&] { std::rethrow_exception(failure.what); });
 }
 
 void ControllerHost::CommitActuators()

@@ -26,9 +26,9 @@ class ControllerHost
 {
 public:
   // `space` is the replica of this process; it and `assignment` outlive the host. Loads the controller libraries,
-  // creates devices and controllers and calls Init. Throws ActivityError, which names the robot or device whose code
-  // failed, or ConfigurationError.
-  ControllerHost(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t host);
+  // creates devices and controllers and calls Init. `threads` share the work of the sensors; their number changes no
+  // bit of the results. Throws ActivityError, which names the robot or device whose code failed, or ConfigurationError.
+  ControllerHost(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t host, unsigned threads = 1);
   ~ControllerHost();
 
   // Senses, runs the controllers and commits the actuators at the tick of the space. `frames`: one for each of
@@ -58,6 +58,8 @@ private:
     std::unique_ptr<CCI_Controller> controller;
   };
 
+  void UpdateSensors(std::uint64_t tick);
+  void UpdateParts(std::uint64_t tick);
   void RunControllers(std::uint64_t tick);
   void CommitActuators();
   void StopInactive();

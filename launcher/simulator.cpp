@@ -1,8 +1,12 @@
 #include "launcher/simulator.h"
 
 #include <fmt/format.h>
+#include <sched.h>
+#include <stdlib.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
 
 #include "common/activity/failure_report.h"
@@ -30,6 +34,17 @@ double SecondsSince(std::chrono::steady_clock::time_point start)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// Those that this process may use, less those that the machine was busy with in the last minute; at least one.
+unsigned FreeCores()
+{
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  if (sched_getaffinity(0, sizeof cores, &cores) != 0) return 1;
+  double busy = 0;
+  if (getloadavg(&busy, 1) != 1) return 1;
+  return static_cast<unsigned>(std::max(1.0, CPU_COUNT(&cores) - std::round(busy)));
+}
+
 }  // namespace
 
 struct CSimulator::Roles
@@ -43,9 +58,10 @@ struct CSimulator::Roles
         steering(of, server, MakeRunControlSetup(of, with), with.stop),
         hash_log(with.hash_log)
   {
+    const unsigned threads = options.threads == 0 ? FreeCores() : options.threads;
     for (std::size_t e = 0; e < experiment.engines.size(); ++e)
       engines.push_back(std::make_unique<EngineWorker>(space, assignment, e));
-    host = std::make_unique<ControllerHost>(space, assignment, 0);
+    host = std::make_unique<ControllerHost>(space, assignment, 0, threads);
     steering.SetHost(*host);
     if (options.visualisations)
       for (const RenderConfiguration& render : experiment.visualisations)

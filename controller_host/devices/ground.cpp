@@ -13,6 +13,7 @@
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 #include "controller_host/devices/value_devices.h"
+#include "controller_host/split_sensor.h"
 
 namespace swarmanoid
 {
@@ -82,7 +83,7 @@ double Brightness(std::uint32_t colour)
 }
 
 template <class Device, class Model = AsTheKindSays>
-class GroundSensor : public ValueSensor
+class GroundSensor : public ValueSensor, public SplitSensor
 {
 public:
   void Init(const DeviceSetup& setup) override
@@ -112,6 +113,7 @@ public:
 
   CCI_Sensor* Sensor(std::size_t k) override { return &devices_[k]; }
 
+  void RefreshShared() override { world_->Refresh(); }
   void Update(const ChannelView&) override
   {
     SortPatches();

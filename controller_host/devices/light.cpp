@@ -13,6 +13,7 @@
 #include "controller_host/devices/sensing/sensor_world.h"
 #include "controller_host/devices/sensing/shadow_map.h"
 #include "controller_host/devices/value_devices.h"
+#include "controller_host/split_sensor.h"
 
 namespace swarmanoid
 {
@@ -54,7 +55,7 @@ inline DoubleLanes Wrapped(DoubleLanes angle)
 }
 
 template <class Interface, class Model>
-class LightSensor : public SensorsOf<ValueSensor, ReadingsOf<Interface, Interface::NUM_SENSORS>>
+class LightSensor : public SensorsOf<ValueSensor, ReadingsOf<Interface, Interface::NUM_SENSORS>>, public SplitSensor
 {
 public:
   void Init(const DeviceSetup& setup) override
@@ -76,6 +77,7 @@ public:
     this->MakeDevices();
   }
 
+  void RefreshShared() override { world_->Refresh(); }
   void Update(const ChannelView&) override
   {
     world_->Refresh();

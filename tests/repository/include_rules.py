@@ -9,6 +9,7 @@ from tracked import report, tracked
 COMMON = [
     ["common/version"],
     ["common/math"],
+    ["common/threads"],
     ["common/configuration"],
     ["common/plugins"],
     ["common/logging", "common/serialisation", "common/activity"],

@@ -9,6 +9,7 @@
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/sensing/sensor_world.h"
+#include "controller_host/split_sensor.h"
 
 namespace swarmanoid
 {
@@ -62,7 +63,7 @@ struct DistanceScanner : public CCI_DistanceScannerSensor
 };
 
 template <class Head>
-class DistanceScannerSensor : public SensorBatch
+class DistanceScannerSensor : public SensorBatch, public SplitSensor
 {
 public:
   void Init(const DeviceSetup& setup) override
@@ -80,6 +81,7 @@ public:
   }
   CCI_Sensor* Sensor(std::size_t k) override { return &scanners_[k]; }
 
+  void RefreshShared() override { world_->Refresh(); }
   void Update(const ChannelView&) override
   {
     world_->Refresh();

@@ -11,6 +11,7 @@
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 #include "controller_host/devices/value_devices.h"
+#include "controller_host/split_sensor.h"
 
 namespace swarmanoid
 {
@@ -35,7 +36,7 @@ private:
   const ProximityRing& ring_;
 };
 
-class ProximitySensor : public ValueSensor
+class ProximitySensor : public ValueSensor, public SplitSensor
 {
 public:
   void Init(const DeviceSetup& setup) override
@@ -58,6 +59,7 @@ public:
 
   CCI_Sensor* Sensor(std::size_t k) override { return &sensors_[k]; }
 
+  void RefreshShared() override { world_->Refresh(); }
   void Update(const ChannelView&) override
   {
     world_->Refresh();

@@ -10,6 +10,7 @@
 #include "controller_host/devices/cameras/blob_sources.h"
 #include "controller_host/devices/noise.h"
 #include "controller_host/devices/sensing/sight_lines.h"
+#include "controller_host/split_sensor.h"
 
 namespace swarmanoid
 {
@@ -28,10 +29,11 @@ struct CameraModel
   double range = 0;               // m: along the floor (kDown), along the line of sight (kAhead)
 };
 
-class ColourCamera : public SensorBatch
+class ColourCamera : public SensorBatch, public SplitSensor
 {
 public:
   void Update(const ChannelView& channel) override;
+  void RefreshShared() override;
 
 protected:
   // Takes <aperture> and <range> from the parameters.

@@ -11,12 +11,13 @@
 #include "controller_host/devices/noise.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 #include "controller_host/devices/value_devices.h"
+#include "controller_host/split_sensor.h"
 
 namespace swarmanoid
 {
 
 // Distances, and all but the response curve. Derived classes turn distances into readings.
-class FootbotProximity : public SensorBatch
+class FootbotProximity : public SensorBatch, public SplitSensor
 {
 public:
   static constexpr unsigned kRays = CCI_FootBotProximitySensor::NUM_SENSORS;
@@ -26,6 +27,7 @@ public:
   void Init(const DeviceSetup& setup) override;
   CCI_Sensor* Sensor(std::size_t k) override { return &sensors_[k]; }
   void Update(const ChannelView& channel) override;
+  void RefreshShared() override { world_->Refresh(); }
 
 protected:
   // From distances in m (more than the range: nothing there) to readings, before noise and the cut to 0..1.

@@ -10,6 +10,7 @@
 #include "controller_host/devices/range_and_bearing/heard_senders.h"
 #include "controller_host/devices/range_and_bearing/range_and_bearing_message.h"
 #include "controller_host/devices/sensing/sight_lines.h"
+#include "controller_host/split_sensor.h"
 
 namespace swarmanoid
 {
@@ -33,7 +34,7 @@ public:
   std::size_t count = 0;
 };
 
-class ReceiverBatch : public SensorBatch
+class ReceiverBatch : public SensorBatch, public SplitSensor
 {
 public:
   void Init(const DeviceSetup& setup) override
@@ -64,6 +65,7 @@ public:
   }
   CCI_Sensor* Sensor(std::size_t k) override { return &receivers_[k]; }
 
+  void RefreshShared() override { world_->Refresh(); }
   void Update(const ChannelView&) override
   {
     world_->Refresh();

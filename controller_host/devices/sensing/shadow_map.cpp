@@ -30,17 +30,19 @@ Part PartBetween(float low, float high, float rise)
   return {std::max(std::min(a, b), 0.0F), std::min(std::max(a, b), 1.0F)};
 }
 
+// How far a place lies to the left of a vector, times the length of that.
+double LeftOf(const Vector2& border, const Vector2& at) { return border.x() * at.y() - border.y() * at.x(); }
+
 // Cuts off what lies to the right of a vector, from a convex polygon around which the corners stand in order.
 void CutOffRight(const Vector2& border, std::vector<Vector2>& corners)
 {
   std::vector<Vector2> kept;
-  const auto left = [&](const Vector2& at) { return border.x() * at.y() - border.y() * at.x(); };
   for (std::size_t i = 0; i < corners.size(); ++i)
   {
     const Vector2& from = corners[i];
     const Vector2& to = corners[(i + 1) % corners.size()];
-    const double a = left(from);
-    const double b = left(to);
+    const double a = LeftOf(border, from);
+    const double b = LeftOf(border, to);
     if (a >= 0) kept.push_back(from);
     if ((a < 0) != (b < 0)) kept.push_back(from + (to - from) * (a / (a - b)));
   }
@@ -157,11 +159,16 @@ void FixedShadows::Add(const SensorWorld& world, std::uint32_t entity)
     outline.push_back(centre + turned.head<2>());
   }
   const auto rise = static_cast<float>(pose.position.z() - source_.z());
+  double around = 0;
+  for (const Vector2& corner : outline) around = std::max(around, (corner - centre).norm());
   for (std::size_t sector = 0; sector < sectors_.Count(); ++sector)
   {
+    const Vector2 right = sectors_.Border(sector);
+    const Vector2 left = sectors_.Border((sector + 1) % sectors_.Count());
+    if (LeftOf(right, centre) < -around * right.norm() || LeftOf(left, centre) > around * left.norm()) continue;
     std::vector<Vector2> part = outline;
-    CutOffRight(sectors_.Border(sector), part);
-    CutOffRight(-sectors_.Border((sector + 1) % sectors_.Count()), part);
+    CutOffRight(right, part);
+    CutOffRight(-left, part);
     if (part.size() < 3) continue;
     const auto [near, far] = Distances(part);
     bodies_[sector].push_back({static_cast<float>(near), static_cast<float>(far),

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "common/threads/worker_pool.h"
 #include "engine_worker/engines/kinematics2d/narrow_phase.h"
-#include "engine_worker/engines/kinematics2d/worker_pool.h"
 
 namespace swarmanoid::kinematics2d
 {

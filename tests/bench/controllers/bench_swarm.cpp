@@ -14,9 +14,13 @@ using namespace swarmanoid;
 class CBenchSwarm : public CCI_Controller
 {
 public:
-  int Init(const TConfigurationTree) override
+  int Init(const TConfigurationTree tree) override
   {
     const CCI_Robot& robot = *GetRobot();
+    if (tree.GetBoolean("steer_by_all"))
+      for (const char* sensor : {"footbot_proximity", "footbot_light", "footbot_ground",
+                                 "footbot_omnidirectional_camera", "footbot_distance_scanner", "range_and_bearing"})
+        if (robot.HasSensor(sensor)) steered_by_.push_back(robot.GetSensor(sensor));
     if (robot.HasActuator("footbot_wheels")) wheels_ = &robot.Actuator<CCI_FootBotWheelsActuator>("footbot_wheels");
     if (robot.HasActuator("eyebot_propellers"))
       propellers_ = &robot.Actuator<CCI_EyeBotPropellersActuator>("eyebot_propellers");
@@ -45,15 +49,32 @@ public:
       for (const CCI_ColourBlob& blob : camera_->GetAllBlobs()) turn += blob.angle_rad > 0 ? 0.1 : -0.1;
     constexpr double kSpeed = 0.05;  // m/s
     wheels_->SetFootBotWheelsLinearVelocity(turn > 0 ? 0 : kSpeed, turn < 0 ? 0 : kSpeed);
+    if (!steered_by_.empty()) SteerByAll();
   }
   bool HasState() const override { return true; }
 
 private:
+  // So that every bit that any sensor reads changes the way of the robot.
+  void SteerByAll()
+  {
+    readings_.clear();
+    for (const CCI_Sensor* sensor : steered_by_) sensor->Describe(readings_);
+    double sum = 0;
+    for (std::size_t i = 0; i < readings_.size(); ++i) sum += static_cast<double>(i % 7 + 1) * readings_[i].value;
+    wheels_->SetFootBotWheelsLinearVelocity(0.05 + 0.02 * Sin(sum), 0.05 + 0.02 * Cos(sum));
+  }
+
+  std::vector<CCI_Sensor*> steered_by_;
+  std::vector<CCI_Reading> readings_;
   CCI_FootBotWheelsActuator* wheels_ = nullptr;
   CCI_EyeBotPropellersActuator* propellers_ = nullptr;
   CCI_FootBotProximitySensor* proximity_ = nullptr;
   CCI_ColourBlobSensor* camera_ = nullptr;
 };
 
-REGISTER_CONTROLLER(CBenchSwarm,
-                    {.label = "bench_swarm", .brief = "robots of the benchmark's scenes", .parameters = {}})
+REGISTER_CONTROLLER(CBenchSwarm, {.label = "bench_swarm",
+                                  .brief = "robots of the benchmark's scenes",
+                                  .parameters = {{.name = "steer_by_all",
+                                                  .type = ParameterType::kBoolean,
+                                                  .default_value = "false",
+                                                  .description = "Whether all that its sensors read steers it."}}})

@@ -1,5 +1,5 @@
-// Threads that do parts of one piece of work and wait for the next one. Owned by a kinematic world; its calls come from
-// one thread. Allocates nothing while it works.
+// Threads that do parts of one piece of work and wait for the next one. Owned by one role; its calls come from one
+// thread. Allocates nothing while it works.
 #pragma once
 
 #include <atomic>
@@ -7,15 +7,24 @@
 #include <thread>
 #include <vector>
 
-namespace swarmanoid::kinematics2d
+namespace swarmanoid
 {
 
 class WorkerPool
 {
 public:
   // `threads`: those that work together, the caller's among them.
-  explicit WorkerPool(unsigned threads);
-  ~WorkerPool();
+  explicit WorkerPool(unsigned threads)
+  {
+    for (unsigned k = 1; k < threads; ++k) workers_.emplace_back([this, k] { Work(k); });
+  }
+  ~WorkerPool()
+  {
+    call_ = nullptr;
+    piece_.fetch_add(1);
+    piece_.notify_all();
+    for (std::thread& worker : workers_) worker.join();
+  }
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
@@ -25,15 +34,28 @@ public:
   template <class Part>
   void Run(const Part& part)
   {
-    Run([](const void* context, unsigned k) { (*static_cast<const Part*>(context))(k); }, &part);
+    context_ = &part;
+    call_ = [](const void* context, unsigned k) { (*static_cast<const Part*>(context))(k); };
+    busy_.store(static_cast<unsigned>(workers_.size()));
+    piece_.fetch_add(1);
+    piece_.notify_all();
+    part(0U);
+    for (unsigned busy = busy_.load(); busy != 0; busy = busy_.load()) busy_.wait(busy);
   }
 
 private:
-  using Call = void (*)(const void*, unsigned);
-  void Run(Call call, const void* context);
-  void Work(unsigned k);
+  void Work(unsigned k)
+  {
+    for (unsigned done = 0;; ++done)
+    {
+      piece_.wait(done);
+      if (call_ == nullptr) return;
+      call_(context_, k);
+      if (busy_.fetch_sub(1) == 1) busy_.notify_one();
+    }
+  }
 
-  Call call_ = nullptr;  // nullptr ends the threads
+  void (*call_)(const void* context, unsigned k) = nullptr;  // nullptr ends the threads
   const void* context_ = nullptr;
   std::atomic<unsigned> piece_ = 0;
   std::atomic<unsigned> busy_ = 0;
@@ -62,4 +84,4 @@ void InParts(WorkerPool* pool, std::size_t count, std::size_t step, const Work& 
       });
 }
 
-}  // namespace swarmanoid::kinematics2d
+}  // namespace swarmanoid

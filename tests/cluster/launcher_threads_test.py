@@ -1,0 +1,40 @@
+"""Threads share the sensors of a run in one process: the same bits for any number of them. The scenes are those of the benchmark, with robots
+that all their readings steer. Needs bench_swarm."""
+import os
+import subprocess
+import sys
+import unittest
+
+from harness import CONFIGS, LauncherTest, main
+
+SCENES = CONFIGS.parent / "tests" / "bench" / "scenes"
+
+
+class Threads(LauncherTest):
+    def write(self, folder, word, *options):
+        libraries = os.path.join(os.environ["SWARMANOID_BUILD"], "tests", "bench", "controllers")
+        subprocess.run([sys.executable, SCENES, "--write", folder, "--controller", libraries, "--only", word, *options], check=True)
+        return sorted(folder.iterdir())
+
+    def hash_of(self, experiment, threads, *options):
+        run = self.run_it("run", experiment, "--single-process", "--quiet", "--ticks", 12, "--threads", threads, *options)
+        self.assertEqual(run.process.returncode, 0, run.stderr)
+        return run.stdout.split("hash ")[1].split(",")[0]
+
+    def test_their_number_changes_no_bit(self):
+        for word in ("foraging set, 4 bulbs", "light, 4 bulbs, 500 walls"):
+            for experiment in self.write(self.folder / word.replace(" ", "_"), word, "--steer-by-all"):
+                with self.subTest(experiment.name):
+                    one = self.hash_of(experiment, 1)
+                    for threads in (2, 3, 0):
+                        self.assertEqual(self.hash_of(experiment, threads), one, f"{threads} threads")
+
+    def test_readings_reach_the_hash(self):
+        word = "light, 4 bulbs, 500 walls"
+        [steered] = self.write(self.folder / "steered", word, "--steer-by-all")
+        [blind] = self.write(self.folder / "blind", word)
+        self.assertNotEqual(self.hash_of(steered, 1), self.hash_of(blind, 1))
+
+
+if __name__ == "__main__":
+    main()
