@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <ctime>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -21,11 +22,12 @@ namespace
 {
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30U;
-constexpr const char* kHeader = "tick,request,entity,numbers,from";
+constexpr const char* kHeader = "tick,request,entity,numbers,from,when";
 
 // What can be known to be wrong before the run; the place itself is checked when it is moved there.
 std::string ErrorOf(const ControlRequestMessage& request, const Experiment& experiment)
 {
+  if (request.verb == kRefused) return {};
   if (std::find(kControlVerbs.begin(), kControlVerbs.end(), request.verb) == kControlVerbs.end())
     return fmt::format("there is no request {}; known are {}", Quoted(request.verb), Listed(kControlVerbs));
   if (!IsSpaceChange(request.verb)) return {};
@@ -40,7 +42,22 @@ std::string ErrorOf(const ControlRequestMessage& request, const Experiment& expe
   return {};
 }
 
+std::string NowInUtc()
+{
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32] = {};
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
 }  // namespace
+
+std::string AskerOf(const ControlRequestMessage& request)
+{
+  return request.user.empty() ? request.client : request.user + "@" + request.client;
+}
 
 std::vector<RecordedEvent> ReadEvents(const std::string& path, const Experiment& experiment)
 {
@@ -109,8 +126,9 @@ void EventLog::Write(std::uint64_t tick, const ControlRequestMessage& request)
   if (good)
   {
     // The shortest numbers that read back as the same bits.
-    fmt::print(file_, "{},{},{},{},{}\n", tick, request.verb, request.entity, fmt::join(request.numbers, " "),
-               CsvField(request.client));
+    fmt::print(file_, "{},{},{},{},{},{}\n", tick, request.verb, request.entity, fmt::join(request.numbers, " "),
+               CsvField(AskerOf(request)),
+               request.user.empty() && request.verb != kRefused ? std::string() : NowInUtc());
     good = std::fflush(file_) == 0;
   }
   if (!good) throw std::runtime_error(fmt::format("cannot write the events to '{}': {}", path_, std::strerror(errno)));

@@ -18,6 +18,7 @@
 
 #include "common/bus/bus.h"
 #include "common/bus/messages.h"
+#include "common/bus/seal.h"
 #include "common/bus/shown_text.h"
 
 namespace swarmanoid
@@ -137,6 +138,12 @@ public:
   {
     Put(static_cast<std::uint32_t>(list.size()));
     for (T& item : list) visit(*this, item);
+  }
+  // Room for it; what it holds depends on all bytes before it.
+  void Seal()
+  {
+    Align(sizeof(std::uint64_t));
+    bytes_.Pad(kSealBytes);
   }
 
 private:
@@ -260,6 +267,12 @@ public:
     if (count > (bytes_.size() - at_) / kLeast) RefuseLength(field, count, kLeast, bytes_.size() - at_);
     list.resize(count);
     for (T& item : list) visit(*this, item);
+  }
+  void Seal()
+  {
+    Align("seal", sizeof(std::uint64_t));
+    if (kSealBytes > bytes_.size() - at_) RefuseField("seal", "the message ends before it");
+    at_ += kSealBytes;
   }
 
 private:

@@ -15,7 +15,7 @@ namespace swarmanoid
 {
 
 // Equal to PROTOCOL_VERSION of the IDL; a test says so.
-inline constexpr std::uint32_t kProtocolVersion = 6;
+inline constexpr std::uint32_t kProtocolVersion = 7;
 
 // What precedes every message of a tick.
 struct MessageHeader
@@ -42,6 +42,13 @@ struct WorldEntity
   std::uint32_t first_slot = 0;
 };
 
+// A library that the processes of the run may load.
+struct WorldLibrary
+{
+  std::string name;
+  std::string digest;  // SHA-256 of the file, 64 hexadecimal digits
+};
+
 struct WorldMessage
 {
   std::uint32_t protocol = kProtocolVersion;
@@ -60,6 +67,7 @@ struct WorldMessage
   std::vector<char> checkpoint;
   bool recorded = false;
   std::vector<WorldEntity> entities;
+  std::vector<WorldLibrary> libraries{};
 };
 
 struct JoinMessage
