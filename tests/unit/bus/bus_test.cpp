@@ -91,7 +91,8 @@ struct Child
     BusOptions options = Options();
     std::string peer;
     bool share = false;
-    words >> role >> options.domain >> options.network_interface >> peer >> options.discovery_server >> std::boolalpha >> share;
+    words >> role >> options.domain >> options.network_interface >> peer >> options.discovery_server >>
+        std::boolalpha >> share;
     if (peer != "-") options.peers = {peer};
     if (options.discovery_server == "-") options.discovery_server.clear();
     int code = 2;
