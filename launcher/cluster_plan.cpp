@@ -1,6 +1,7 @@
 #include "launcher/cluster_plan.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -71,6 +72,7 @@ struct CommandMaker
     command.arguments.insert(command.arguments.end(), bus_words.begin(), bus_words.end());
     command.arguments.insert(command.arguments.end(), hosts.Options().begin(), hosts.Options().end());
     command.environment = EnvironmentOf(limits);
+    command.input = key;
     ProcessCommand placed = hosts.Placed(command, host);
     placed.cores = cores;
     return placed;
@@ -80,6 +82,7 @@ struct CommandMaker
   BusOptions bus;
   Limits limits;
   std::vector<int> cores;
+  std::string key;  // what a process is told when it asks for it
 };
 
 class Planner
@@ -133,6 +136,8 @@ BusOptions BusOf(const RunSettings& options, const Hosts& hosts, int domain)
   bus.domain = domain;
   if (hosts.AllHere()) bus.lease_s = kForEver_s;
   if (options.lease_s > 0) bus.lease_s = options.lease_s;
+  bus.insecure = options.insecure;
+  if (!options.insecure) bus.key_fd = STDIN_FILENO;
   return bus;
 }
 
@@ -150,7 +155,7 @@ std::vector<std::string> ServerArguments(RunSettings settings, const Assignment&
 
 std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment& experiment,
                                     const Assignment& assignment, const Hosts& hosts, const RunFolder& folder,
-                                    int domain)
+                                    int domain, const std::optional<RunKey>& key)
 {
   std::vector<std::string> engines, controller_hosts, visualisers;
   for (const EngineConfiguration& engine : experiment.engines) engines.push_back(engine.id);
@@ -163,7 +168,9 @@ std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment
   if (options.visualisations) RefuseUnknown(hosts, "visualiser", visualisers);
 
   const std::vector<int> cores = CoresOf(options, experiment, domain);
-  Planner planner(experiment, folder, {hosts, BusOf(options, hosts, domain), LimitsOf(options), cores});
+  Planner planner(
+      experiment, folder,
+      {hosts, BusOf(options, hosts, domain), LimitsOf(options), cores, key ? TextOfKey(*key) + "\n" : std::string()});
   MemberPlan& server =
       planner.Add("space server", "space_server", "space_server", "", ServerArguments(options, assignment, folder));
   server.output = MemberPlan::kStatus;

@@ -1,8 +1,10 @@
 // Which processes an experiment is run by: their command lines, machines, cores and logs.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "common/bus/run_key.h"
 #include "common/experiment/experiment.h"
 #include "common/messages/assignment.h"
 #include "common/run/run_settings.h"
@@ -13,9 +15,10 @@
 namespace swarmanoid
 {
 
-// The space server's plan is the first. Throws UsageError if `hosts` places what the experiment does not have.
+// The space server's plan is the first. All get the key of the run; none: whoever is in the domain belongs to it.
+// Throws UsageError if `hosts` places what the experiment does not have.
 std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment& experiment,
                                     const Assignment& assignment, const Hosts& hosts, const RunFolder& folder,
-                                    int domain);
+                                    int domain, const std::optional<RunKey>& key);
 
 }  // namespace swarmanoid

@@ -11,12 +11,14 @@
 #include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
 #include "common/bus/domain.h"
+#include "common/bus/replica.h"
 #include "common/bus/run_directory.h"
 #include "common/experiment/actors.h"
 #include "common/messages/assignment.h"
 #include "common/program/program.h"
 #include "common/program/usage_error.h"
 #include "launcher/cluster_plan.h"
+#include "launcher/isolation.h"
 #include "launcher/manifest_at_death.h"
 #include "launcher/processes/in_process_server.h"
 #include "launcher/processes/supervisor.h"
@@ -71,7 +73,7 @@ RunResult ResultOf(const ClusterOutcome& outcome)
 
 // The space server's program, with a function of the user that looks at each tick.
 int ServeHere(std::vector<std::string> words, int status, const std::atomic<bool>& stop,
-              const std::atomic<bool>& abandon, const WatchFunction& watch)
+              const std::atomic<bool>& abandon, const std::optional<RunKey>& key, const WatchFunction& watch)
 {
   ServerOptions options;
   std::vector<char*> arguments;
@@ -82,6 +84,7 @@ int ServeHere(std::vector<std::string> words, int status, const std::atomic<bool
       [&]
       {
         options.status_fd = status;
+        options.bus.key = key;
         options.stop = &stop;
         options.abandon = &abandon;
         options.watch = [watch](SpaceServer& server)
@@ -91,6 +94,18 @@ int ServeHere(std::vector<std::string> words, int status, const std::atomic<bool
         };
         return Serve(options);
       });
+}
+
+void Isolate(const RunSettings& options, const Experiment& experiment, const Hosts& hosts, bool watched)
+{
+  if (!hosts.AllHere()) throw UsageError("--isolated: the run has processes on other machines");
+  if (watched) throw UsageError("--isolated: the space server is this process, which would lose its network");
+  for (const RenderConfiguration& render : experiment.visualisations)
+    if (options.visualisations && render.tag == "web_render")
+      throw UsageError(fmt::format(
+          "--isolated: no browser could reach the page of {}; give --no-visualisers, or leave --isolated out",
+          VisualiserName(render)));
+  IsolateNetwork();
 }
 
 // The thread of the run does not come back.
@@ -107,7 +122,8 @@ int ServeHere(std::vector<std::string> words, int status, const std::atomic<bool
 // blocked already.
 ClusterOutcome RunWatched(const std::vector<MemberPlan>& plans, Interrupts& interrupts, ProgressDisplay& display,
                           const ActorNames& actor_of, const SupervisorTimes& times, unsigned retries,
-                          const WatchFunction& watch, const std::function<int(const RunResult&)>& conclude)
+                          const std::optional<RunKey>& key, const WatchFunction& watch,
+                          const std::function<int(const RunResult&)>& conclude)
 {
   InProcessServer server;
   ClusterOutcome outcome;
@@ -121,7 +137,7 @@ ClusterOutcome RunWatched(const std::vector<MemberPlan>& plans, Interrupts& inte
         server.Cancel();
       });
   server.Run([&](const auto& words, int status, const auto& stop, const auto& abandon)
-             { return ServeHere(words, status, stop, abandon, watch); });
+             { return ServeHere(words, status, stop, abandon, key, watch); });
   supervising.join();
   return outcome;
 }
@@ -137,13 +153,15 @@ RunResult RunCluster(const RunSettings& options, const Experiment& experiment, c
   if (watch && !hosts.HostOf("space_server", "").empty())
     throw UsageError("--hosts: the space server is this process, which looks at each tick; leave space_server out");
   RemoveDeadRuns();
+  if (options.isolated) Isolate(options, experiment, hosts, watch != nullptr);
 
   // Kept until the end, so that no other run takes it.
   std::optional<FreeDomain> free_domain;
   if (!options.domain) free_domain.emplace();
   manifest.domain = options.domain ? *options.domain : free_domain->Id();
   const Assignment assignment = MakeAssignment(experiment, options.controller_hosts);
-  std::vector<MemberPlan> plans = PlanCluster(options, experiment, assignment, hosts, folder, *manifest.domain);
+  const std::optional<RunKey> key = options.insecure ? std::nullopt : std::optional(NewRunKey());
+  std::vector<MemberPlan> plans = PlanCluster(options, experiment, assignment, hosts, folder, *manifest.domain, key);
   for (const MemberPlan& plan : plans) manifest.processes.emplace_back(plan.command.name, plan.log_path);
   folder.Write("manifest.json", manifest.Text());
 
@@ -162,7 +180,7 @@ RunResult RunCluster(const RunSettings& options, const Experiment& experiment, c
     const ManifestAtDeath at_death(folder, manifest);
     ApplyLimitsHere(options);
     plans.front().replacement = nullptr;  // it is this process
-    outcome = RunWatched(plans, interrupts, display, actor_of, times, retries, watch, conclude);
+    outcome = RunWatched(plans, interrupts, display, actor_of, times, retries, key, watch, conclude);
   }
   else
   {

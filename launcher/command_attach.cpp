@@ -16,6 +16,7 @@
 #include "launcher/commands.h"
 #include "launcher/completion.h"
 #include "launcher/installation.h"
+#include "launcher/isolation.h"
 #include "launcher/original_command.h"
 #include "launcher/run_choice.h"
 #include "visualiser/renderer_options.h"
@@ -68,6 +69,13 @@ void Attach(AttachOptions& options, const CLI::App& verb)
   options.visualiser.experiment = run.experiment;
   options.visualiser.server = run.server;
   options.bus.domain = run.domain;
+  if (run.server && !options.bus.Spread() && IsInAnotherNetwork(*run.server))
+  {
+    if (options.kind.starts_with("web"))
+      throw UsageError(fmt::format("{} runs in a network of its own (--isolated), where no browser could reach a page",
+                                   Quoted(run.experiment)));
+    EnterNetworkOf(*run.server);
+  }
   std::vector<std::string> command{(std::filesystem::path(ProgramFolder()) / "visualiser").string()};
   for (const std::vector<std::string>& words :
        {WorkerWords(VisualiserOptionTable, options.visualiser), BusWords(options.bus), parameters})

@@ -16,6 +16,7 @@
 #include "common/configuration/wording.h"
 #include "launcher/commands.h"
 #include "launcher/control_request.h"
+#include "launcher/isolation.h"
 #include "launcher/run_choice.h"
 
 namespace swarmanoid
@@ -59,7 +60,16 @@ int Control(ControlOptions& options, bool domain_given)
   const ControlRequest request = ParseControlRequest(options.words);
   const RunChoice run = ChooseRun(request.experiment, domain_given ? std::optional(options.bus.domain) : std::nullopt);
   options.bus.domain = run.domain;
+  if (run.server && !options.bus.Spread()) EnterNetworkOf(*run.server);
   Bus bus(options.bus, "swarmanoid control");
+  if (!bus.MaySpeakTo(run.experiment))
+  {
+    fmt::print(stderr,
+               "swarmanoid: no run of experiment {} in domain {} on this machine is of user {}, and no key of it is "
+               "given; whoever started it can steer it, or give you its --key (docs/security.md)\n",
+               Quoted(run.experiment), run.domain, UserName());
+    return kExitProcessFailed;
+  }
   ControlClient client(bus, run.experiment);
   const auto reply = client.Ask(request.verb, request.entity, request.numbers, kPatience_s);
   if (!reply)

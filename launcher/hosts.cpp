@@ -140,6 +140,7 @@ ProcessCommand Hosts::Placed(const ProcessCommand& command, const std::string& h
 
   ProcessCommand placed;
   placed.name = command.name;
+  placed.input = command.input;
   for (std::string word : template_)
   {
     if (word == "{command}")

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <sstream>
@@ -22,11 +23,12 @@ namespace
 {
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30U;
-constexpr const char* kHeader = "tick,request,entity,numbers,from,number";
+constexpr const char* kHeader = "tick,request,entity,numbers,from,number,when";
 
 // What can be known to be wrong before the run; the place itself is checked when it is moved there.
 std::string ErrorOf(const ControlRequestMessage& request, const Experiment& experiment)
 {
+  if (request.verb == kRefused) return {};
   if (std::find(kControlVerbs.begin(), kControlVerbs.end(), request.verb) == kControlVerbs.end())
     return fmt::format("there is no request {}; known are {}", Quoted(request.verb), Listed(kControlVerbs));
   if (!IsSpaceChange(request.verb)) return {};
@@ -39,6 +41,24 @@ std::string ErrorOf(const ControlRequestMessage& request, const Experiment& expe
   if (request.verb != "remove" && request.numbers.size() != 3 && request.numbers.size() != 6)
     return fmt::format("{} needs 3 or 6 numbers: x y z, and alpha beta gamma", Quoted(request.verb));
   return {};
+}
+
+std::string NowInUtc()
+{
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32] = {};
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+// The other way round than AskerOf.
+void SetAsker(ControlRequestMessage& request, const std::string& asker)
+{
+  const std::size_t at = asker.find('@');
+  request.user = at == std::string::npos ? std::string() : asker.substr(0, at);
+  request.client = at == std::string::npos ? asker : asker.substr(at + 1);
 }
 
 std::vector<RecordedEvent> ParseAll(const std::string& text, const std::string& path, const Experiment& experiment)
@@ -71,7 +91,7 @@ std::vector<RecordedEvent> ParseAll(const std::string& text, const std::string& 
     if (!fields[3].empty() && !numbers)
       throw ConfigurationError(event.location, fmt::format("{} are no numbers", Quoted(fields[3])));
     if (numbers) event.request.numbers = *numbers;
-    if (fields.size() > 4) event.request.client = fields[4];
+    if (fields.size() > 4) SetAsker(event.request, fields[4]);
     if (fields.size() > 5) std::from_chars(fields[5].data(), fields[5].data() + fields[5].size(), event.request.number);
     if (const std::string error = ErrorOf(event.request, experiment); !error.empty())
       throw ConfigurationError(event.location, error);
@@ -101,6 +121,11 @@ std::string WholeLines(const std::string& path)
 
 }  // namespace
 
+std::string AskerOf(const ControlRequestMessage& request)
+{
+  return request.user.empty() ? request.client : request.user + "@" + request.client;
+}
+
 std::vector<RecordedEvent> ReadEvents(const std::string& path, const Experiment& experiment)
 {
   try
@@ -127,6 +152,7 @@ EarlierRequests ReadEarlierRequests(const std::string& path, const Experiment& e
   for (RecordedEvent& event : events)
   {
     const ControlRequestMessage& request = event.request;
+    if (request.verb == kRefused) continue;
     const double number = request.numbers.empty() ? 1 : request.numbers[0];
     event.logged = true;
     earlier.answered.push_back(request);
@@ -182,8 +208,9 @@ void EventLog::Write(std::uint64_t tick, const ControlRequestMessage& request)
   if (good)
   {
     // The shortest numbers that read back as the same bits.
-    fmt::print(file_, "{},{},{},{},{},{}\n", tick, request.verb, request.entity, fmt::join(request.numbers, " "),
-               CsvField(request.client), request.number);
+    fmt::print(file_, "{},{},{},{},{},{},{}\n", tick, request.verb, request.entity, fmt::join(request.numbers, " "),
+               CsvField(AskerOf(request)), request.number,
+               request.user.empty() && request.verb != kRefused ? std::string() : NowInUtc());
     good = std::fflush(file_) == 0;
   }
   if (!good) throw std::runtime_error(fmt::format("cannot write the events to '{}': {}", path_, std::strerror(errno)));

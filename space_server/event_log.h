@@ -23,6 +23,10 @@ struct RecordedEvent
   bool logged = false;  // by this run already, before its space server died
 };
 
+// What was refused, because it came from outside of the run, is written as this request, with its topic in the place of
+// the entity.
+inline constexpr const char* kRefused = "refused";
+
 // The events that change the outcome of a run (move, add, remove, stop), in the order of the file. Throws
 // ConfigurationError, with file and line, for what is no event of this experiment.
 std::vector<RecordedEvent> ReadEvents(const std::string& path, const Experiment& experiment);
@@ -44,6 +48,8 @@ EarlierRequests ReadEarlierRequests(const std::string& path, const Experiment& e
                                     std::optional<std::uint64_t> pause_at);
 // Those of `repeated` that the run had not done yet, after those that it had.
 void AddUndone(std::vector<RecordedEvent>& done, const std::vector<RecordedEvent>& repeated);
+// "user@host:pid" of who asked, as far as it is known.
+std::string AskerOf(const ControlRequestMessage& request);
 
 class EventLog
 {
@@ -54,7 +60,8 @@ public:
   EventLog(const EventLog&) = delete;
   EventLog& operator=(const EventLog&) = delete;
 
-  // Throws std::runtime_error if the file cannot be written.
+  // With who asked, and when if it came from outside of this process. Throws std::runtime_error if the file cannot be
+  // written.
   void Write(std::uint64_t tick, const ControlRequestMessage& request);
 
 private:

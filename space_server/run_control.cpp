@@ -30,6 +30,15 @@ void RunControl::Ask(const ControlRequestMessage& request)
   requests_.push_back(request);
 }
 
+void RunControl::Refused(const std::string& topic, const std::string& sender)
+{
+  ControlRequestMessage refused;
+  refused.verb = kRefused;
+  refused.entity = topic;
+  refused.client = sender;
+  Ask(refused);
+}
+
 void RunControl::Start(std::uint64_t tick, Clock::time_point now) { SetPace(tick, now); }
 
 void RunControl::SetPace(std::uint64_t tick, Clock::time_point now)
@@ -133,6 +142,7 @@ void RunControl::Carry(const ControlRequestMessage& request, SpaceServer& server
   };
   const double number = request.numbers.empty() ? std::nan("") : request.numbers[0];
 
+  if (request.verb == kRefused) return event_log_.Write(tick, request);
   if (request.verb == "pause")
   {
     DropStep(tick, "a pause was asked for");
@@ -171,7 +181,7 @@ void RunControl::Carry(const ControlRequestMessage& request, SpaceServer& server
   else if (request.verb == "stop")
   {
     stop_ = true;
-    why_stopped_ = request.client.empty() ? "stopped" : "stopped by " + request.client;
+    why_stopped_ = request.client.empty() ? "stopped" : "stopped by " + AskerOf(request);
     reply(true, fmt::format("stopped at tick {}", tick));
   }
   else if (IsSpaceChange(request.verb))
@@ -234,7 +244,10 @@ void RunControl::Ended(std::uint64_t tick)
   if (step_) answer_(*step_, true, tick, fmt::format("the run ended at tick {}", tick));
   const std::lock_guard lock(mutex_);
   for (const ControlRequestMessage& request : requests_)
-    answer_(request, false, tick, fmt::format("the run ended at tick {}", tick));
+    if (request.verb == kRefused)
+      event_log_.Write(tick, request);
+    else
+      answer_(request, false, tick, fmt::format("the run ended at tick {}", tick));
   requests_.clear();
 }
 

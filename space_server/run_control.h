@@ -49,6 +49,8 @@ public:
 
   // From any thread: a request has come.
   void Ask(const ControlRequestMessage& request);
+  // Likewise: a message on `topic` was refused, of `sender` and for the reason that are told. For the log of events.
+  void Refused(const std::string& topic, const std::string& sender);
 
   // The first tick may start.
   void Start(std::uint64_t tick, Clock::time_point now);

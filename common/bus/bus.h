@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/bus/messages.h"
+#include "common/bus/run_key.h"
 
 namespace swarmanoid
 {
@@ -39,6 +40,7 @@ struct BadMessageReport
   std::string name;        // likewise, "engine 'ground'"
   std::uint64_t tick = 0;  // of the message, if it has one
   std::string what;
+  std::string sender{};  // for people: by its own word, or an unknown process
 };
 
 // True once a process died while it held a lock in shared memory: threads of the bus wait for it and cannot be ended.
@@ -63,6 +65,12 @@ struct BusOptions
   // Largest datagram, larger messages are cut. Otherwise as large as possible on this machine, and one packet on a
   // network: of a larger one that is cut into packets all are lost with one.
   std::optional<int> datagram_bytes;
+  // The key of the run, where it comes from: itself, a descriptor or a file that holds it. Otherwise, for a space
+  // server, a new one; for others those of the runs of this user on this machine.
+  std::optional<RunKey> key{};
+  int key_fd = -1;
+  std::string key_file{};
+  bool insecure = false;  // no key: whoever is in the domain belongs to the run
 
   bool Spread() const { return network_interface != "lo"; }
   unsigned DatagramBytes() const { return static_cast<unsigned>(datagram_bytes.value_or(Spread() ? 1440 : 65500)); }
@@ -83,6 +91,11 @@ public:
   // Called with each bad message. True: its sender belongs to the run, which ends for that. Otherwise the message is
   // dropped and counted, and the first of a sender on a topic is told on standard error.
   void OnBadMessage(std::function<bool(const BadMessageReport&)> callback);
+  // Whether this process holds the key of the run of that experiment, or needs none.
+  bool MaySpeakTo(const std::string& experiment);
+  // Called once for each process and topic when a message was refused because it is not sealed by the key of the run,
+  // or repeats one; with what is wrong with it.
+  void OnRefused(std::function<void(const BadMessageReport&)> callback);
   // Bad messages that were dropped.
   std::uint64_t Dropped() const;
 
@@ -93,9 +106,14 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
+// The key that a process was given, if any. Not twice: what a descriptor gives is read. Throws BusError.
+std::optional<RunKey> GivenKey(const BusOptions& options);
+
 // "host:pid" of this process.
 std::string ProcessId();
 std::string MachineName();
+// Name of the user of this process, or the number where there is none.
+std::string UserName();
 
 // Where the messages of a tick travel.
 struct HotScope

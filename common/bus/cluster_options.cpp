@@ -10,6 +10,7 @@ namespace
 using enum ParameterType;
 
 constexpr double kLargestPid = 1 << 22;
+constexpr double kLargestDescriptor = 1'048'575;
 
 std::string ServerAddressMistake(const std::string& text)
 {
@@ -97,6 +98,23 @@ std::vector<OptionSpec> BusOptionTable(BusOptions& options)
         .maximum = 65500},
        &options.datagram_bytes,
        "1440"},
+      {{.name = "key",
+        .type = kPath,
+        .description = "File with the key of the run, the same on all machines (docs/security.md). Otherwise that of "
+                       "a run of this user on this machine"},
+       &options.key_file,
+       "run.key"},
+      {{.name = "key-fd",
+        .type = kInteger,
+        .description = "Descriptor from which the key of the run is read; -1: none",
+        .minimum = -1,
+        .maximum = kLargestDescriptor},
+       &options.key_fd,
+       "0"},
+      {{.name = "insecure",
+        .type = kBoolean,
+        .description = "Without a key: whoever is in the domain may take part, watch and steer"},
+       &options.insecure},
   };
 }
 

@@ -13,7 +13,7 @@
 namespace swarmanoid
 {
 
-// --domain, --interface, --peers, --discovery-server, --lease and --datagram.
+// --domain, --interface, --peers, --discovery-server, --lease, --datagram, --key, --key-fd and --insecure.
 std::vector<OptionSpec> BusOptionTable(BusOptions& options);
 // "10.77.0.1:21900" to address and port; nullopt for anything else.
 std::optional<std::pair<std::string, unsigned>> ParseServerAddress(const std::string& text);

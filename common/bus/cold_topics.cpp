@@ -13,6 +13,10 @@ dds::Topic* ColdTopic(Bus& bus)
   return bus.Internals().TopicOf(kTopicOf<Message>, [] { return dds::TypeSupport(new ColdType<Message>()); });
 }
 
+constexpr const char* kNoSeal =
+    "it is not sealed by the key of this run: its sender is of another user or another run, or was started without "
+    "the key (--key)";
+
 template <class Message>
 std::uint64_t TickOf(const Message& message)
 {
@@ -27,13 +31,18 @@ std::uint64_t TickOf(const Message& message)
 template <class Message>
 struct Publisher<Message>::Impl
 {
-  Impl(Bus& bus, const std::string& partition)
-      : writer(bus, ColdTopic<Message>(bus), partition, WriterQos(QosOf(kTopicOf<Message>)))
+  Impl(Bus& its_bus, const std::string& its_partition)
+      : bus(its_bus.Internals()),
+        partition(its_partition),
+        writer(its_bus, ColdTopic<Message>(its_bus), partition, WriterQos(QosOf(kTopicOf<Message>)))
   {
   }
 
+  Bus::Impl& bus;
+  const std::string partition;
   WriterEnd writer;
   std::mutex mutex;
+  std::uint64_t number = 0;  // of the last message
 };
 
 template <class Message>
@@ -58,6 +67,10 @@ void Publisher<Message>::Write(const Message& message)
     throw BadMessage(std::string("cannot send ") + kTopicOf<Message> + ": " + error.what());
   }
   const std::lock_guard lock(impl_->mutex);
+  const auto key = impl_->bus.insecure ? std::nullopt : impl_->bus.keys.Of(impl_->partition);
+  if (key)
+    call.seal = [&](std::span<char> payload)
+    { Seal(payload, *key, kTopicOf<Message>, IdOf(impl_->writer->guid()), ++impl_->number); };
   if (!impl_->writer->write(&call)) throw BusError(std::string("cannot send ") + kTopicOf<Message>);
 }
 
@@ -77,10 +90,13 @@ bool Publisher<Message>::WaitUntilRead(double seconds)
 template <class Message>
 struct Subscription<Message>::Impl : dds::DataReaderListener
 {
-  Impl(Bus& its_bus, const std::string& partition, std::function<void(const Message&)> callback)
-      : bus(its_bus),
+  using Writer = eprosima::fastrtps::rtps::GUID_t;
+
+  Impl(Bus& its_bus, const std::string& its_partition, std::function<void(const Message&)> callback)
+      : bus(its_bus.Internals()),
+        partition(its_partition),
         received(std::move(callback)),
-        reader(bus, ColdTopic<Message>(bus), partition, ReaderQos(QosOf(kTopicOf<Message>), 1), this)
+        reader(its_bus, ColdTopic<Message>(its_bus), partition, ReaderQos(QosOf(kTopicOf<Message>), 1), this)
   {
   }
 
@@ -88,28 +104,52 @@ struct Subscription<Message>::Impl : dds::DataReaderListener
   {
     const std::lock_guard lock(mutex);
     ColdCall<Message> call;
-    call.in = &message;
+    call.payload = &payload;
     dds::SampleInfo about;
     while (source->take_next_sample(&call, &about) == ReturnCode::RETCODE_OK)
+      if (about.valid_data) Take(about.sample_identity.writer_guid());
+  }
+
+  void Take(const Writer& writer)
+  {
+    // Nothing of a message is looked at before it is known whose it is.
+    std::optional<std::uint64_t> number;
+    if (!bus.insecure)
     {
-      if (!about.valid_data) continue;
-      try
-      {
-        if (call.error.empty()) received(message);
-      }
-      catch (const BadMessage& error)
-      {
-        call.error = error.what();
-      }
-      if (!call.error.empty())
-        bus.Internals().Report(kTopicOf<Message>, about.sample_identity.writer_guid(), TickOf(message), call.error);
+      number = bus.keys.Open(partition, payload, kTopicOf<Message>, IdOf(writer));
+      if (!number) return bus.Refuse(kTopicOf<Message>, writer, kNoSeal);
+      bus.Recognise(writer);
+    }
+    try
+    {
+      ReadPayload(std::span<const char>(payload), message);
+      if (number && !IsNew(writer, *number))
+        return bus.Refuse(kTopicOf<Message>, writer, "it is a repetition of a message that has come before");
+      received(message);
+    }
+    catch (const BadMessage& error)
+    {
+      bus.Report(kTopicOf<Message>, writer, TickOf(message), error.what());
     }
   }
 
-  Bus& bus;
+  // Those of one writer come in their order; of topics with instances, those of one instance.
+  bool IsNew(const Writer& writer, std::uint64_t number)
+  {
+    const std::string* const instance = KeyOf(message);
+    std::uint64_t& last = numbers[{IdOf(writer), instance == nullptr ? std::string() : *instance}];
+    if (number <= last) return false;
+    last = number;
+    return true;
+  }
+
+  Bus::Impl& bus;
+  const std::string partition;
   std::function<void(const Message&)> received;
   std::mutex mutex;
+  std::vector<char> payload;
   Message message;
+  std::map<std::pair<WriterId, std::string>, std::uint64_t> numbers;  // of the last message
   ReaderEnd reader;
 };
 

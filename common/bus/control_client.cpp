@@ -47,7 +47,7 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, c
   while (requests_.Readers() == 0 || replies_.Writers() == 0)
     if (answered_.wait_for(lock, 2ms), !is_patient()) return std::nullopt;
   reply_.reset();
-  const ControlRequestMessage request{ProcessId(), ++number_, verb, entity, numbers};
+  const ControlRequestMessage request{ProcessId(), ++number_, verb, entity, numbers, UserName()};
   // We may know the server before it knows us: then its answer finds nobody, and the same request is answered again.
   while (!reply_ && is_patient())
   {
@@ -84,7 +84,7 @@ std::optional<RunStatus> ControlClient::LatestStatus()
 void ControlClient::Send(const std::string& verb, const std::string& entity, const std::vector<double>& numbers)
 {
   const std::lock_guard lock(mutex_);
-  requests_.Write({ProcessId(), ++number_, verb, entity, numbers});
+  requests_.Write({ProcessId(), ++number_, verb, entity, numbers, UserName()});
 }
 
 }  // namespace swarmanoid

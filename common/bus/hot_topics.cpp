@@ -44,10 +44,19 @@ std::uint16_t MachineId()
   return static_cast<std::uint16_t>(hash ^ (hash >> 16));
 }
 
-void ShareData(dds::DataSharingQosPolicy& policy, const HotScope& scope)
+// Through shared memory, which only processes of this user can open. Unless others are wanted, the network is kept out:
+// a datagram in the name of a writer that shares memory would end its reader. An endpoint whose only address is of a
+// kind that the participant does not speak is found by others, and hears nobody.
+template <class Qos>
+void ShareData(Qos& qos, Bus& bus, const HotScope& scope)
 {
   if (scope.directory.empty()) return;
-  policy.on(scope.directory, {MachineId()});
+  qos.data_sharing().on(scope.directory, {MachineId()});
+  if (scope.spread || bus.Internals().insecure) return;
+  eprosima::fastrtps::rtps::Locator_t nowhere;
+  nowhere.kind = LOCATOR_KIND_SHM;
+  nowhere.port = 1;
+  qos.endpoint().unicast_locator_list.push_back(nowhere);
 }
 
 }  // namespace
@@ -56,16 +65,16 @@ template <class Message>
 struct HotPublisher<Message>::Impl
 {
   Impl(Bus& bus, const HotScope& scope)
-      : capacity(scope.capacity), writer(bus, HotTopic<Message>(bus, scope), scope.experiment, Qos(scope))
+      : capacity(scope.capacity), writer(bus, HotTopic<Message>(bus, scope), scope.experiment, Qos(bus, scope))
   {
   }
 
-  static dds::DataWriterQos Qos(const HotScope& scope)
+  static dds::DataWriterQos Qos(Bus& bus, const HotScope& scope)
   {
     dds::DataWriterQos qos = WriterQos(QosOf(kTopicOf<Message>));
     const auto samples = qos.resource_limits().max_samples + qos.resource_limits().extra_samples;
     if (!scope.directory.empty()) RequireSharedMemory(scope.capacity * static_cast<std::size_t>(samples));
-    ShareData(qos.data_sharing(), scope);
+    ShareData(qos, bus, scope);
     return qos;
   }
 
@@ -115,15 +124,15 @@ struct HotSubscription<Message>::Impl : dds::DataReaderListener
   Impl(Bus& its_bus, const HotScope& scope, Handler its_handler)
       : bus(its_bus),
         handler(std::move(its_handler)),
-        reader(bus, HotTopic<Message>(bus, scope), scope.experiment, Qos(scope), this)
+        reader(bus, HotTopic<Message>(bus, scope), scope.experiment, Qos(bus, scope), this)
   {
   }
 
-  static dds::DataReaderQos Qos(const HotScope& scope)
+  static dds::DataReaderQos Qos(Bus& bus, const HotScope& scope)
   {
     dds::DataReaderQos qos = ReaderQos(QosOf(kTopicOf<Message>), scope.writers);
     if (!scope.spread) qos.reliability().kind = dds::BEST_EFFORT_RELIABILITY_QOS;
-    ShareData(qos.data_sharing(), scope);
+    ShareData(qos, bus, scope);
     return qos;
   }
 

@@ -29,6 +29,7 @@ template <class Archive, class Message>
 void GoThrough(Archive& archive, const Message& message)
 {
   Fields(archive, const_cast<Message&>(message));
+  archive.Seal();
 }
 
 // Bytes of a payload. `parts`: a header and a message of a tick, or another message. Throws BadMessage if a name in
@@ -41,7 +42,7 @@ std::size_t PayloadSize(const Parts&... parts)
   return kEncapsulation + counter.Size();
 }
 
-// `out` has room for PayloadSize(parts) bytes.
+// `out` has room for PayloadSize(parts) bytes. What is not of a tick ends with room for its seal.
 template <class... Parts>
 void WritePayload(char* out, const Parts&... parts)
 {
@@ -50,7 +51,7 @@ void WritePayload(char* out, const Parts&... parts)
   GoThrough(writer, parts...);
 }
 
-// Throws BadMessage; what was read of the message until then must not be used.
+// Whatever its seal is. Throws BadMessage; what was read of the message until then must not be used.
 template <class Message>
 void ReadPayload(std::span<const char> payload, Message& message)
 {
@@ -58,6 +59,7 @@ void ReadPayload(std::span<const char> payload, Message& message)
   try
   {
     Fields(reader, message);
+    reader.Seal();
     reader.End();
   }
   catch (const BadMessage&)

@@ -164,6 +164,12 @@ void Fields(Archive& archive, WorldMessage& message)
                  a.Bool("entities.movable", entity.movable);
                  a.Integer("entities.first_slot", entity.first_slot);
                });
+  archive.List("libraries", message.libraries,
+               [](Archive& a, WorldLibrary& library)
+               {
+                 a.Exact("libraries.name", library.name);
+                 a.Name("libraries.digest", library.digest);
+               });
 }
 
 template <class Archive>
@@ -196,6 +202,7 @@ void Fields(Archive& archive, ControlRequestMessage& message)
   archive.Name("verb", message.verb);
   archive.Name("entity", message.entity);
   archive.List("numbers", message.numbers, [](Archive& a, double& number) { a.AnyNumber("numbers", number); });
+  archive.Name("user", message.user);
 }
 
 template <class Archive>

@@ -117,10 +117,12 @@ public:
 template <class Message>
 struct ColdCall
 {
-  const Message* out = nullptr;  // to write
-  std::size_t size = 0;          // of its payload
-  Message* in = nullptr;         // to read
-  std::string error;             // not empty: what is wrong with it
+  const Message* out = nullptr;                       // to write
+  std::size_t size = 0;                               // of its payload
+  std::function<void(std::span<char> payload)> seal;  // of what is written; none: it stays empty
+  Message* in = nullptr;                              // to read
+  std::vector<char>* payload = nullptr;               // to read only later
+  std::string error;                                  // not empty: what is wrong with it
 };
 
 template <class Message>
@@ -132,13 +134,21 @@ public:
   bool serialize(void* data, Payload* payload) override
   {
     const auto& call = *static_cast<const ColdCall<Message>*>(data);
-    return this->Write(*payload, call.size, *call.out);
+    if (!this->Write(*payload, call.size, *call.out)) return false;
+    if (call.seal) call.seal({reinterpret_cast<char*>(payload->data), payload->length});
+    return true;
   }
 
   bool deserialize(Payload* payload, void* data) override
   {
     auto& call = *static_cast<ColdCall<Message>*>(data);
     call.error.clear();
+    if (call.payload != nullptr)
+    {
+      const std::span<const char> bytes = this->BytesOf(*payload);
+      call.payload->assign(bytes.begin(), bytes.end());
+      return true;
+    }
     try
     {
       ReadPayload(this->BytesOf(*payload), *call.in);
@@ -160,7 +170,8 @@ public:
   bool getKey(void* data, eprosima::fastrtps::rtps::InstanceHandle_t* handle, bool) override
   {
     const auto& call = *static_cast<const ColdCall<Message>*>(data);
-    const std::string* key = KeyOf(call.out != nullptr ? *call.out : *call.in);
+    const Message* const message = call.out != nullptr ? call.out : call.in;
+    const std::string* key = message == nullptr ? nullptr : KeyOf(*message);
     if (key == nullptr) return false;
     const auto length = static_cast<std::uint32_t>(key->size() + 1);
     const std::array<char, 4> big_endian{static_cast<char>(length >> 24U), static_cast<char>(length >> 16U),

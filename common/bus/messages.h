@@ -42,6 +42,13 @@ struct WorldEntity
   std::uint32_t first_slot = 0;
 };
 
+// A library that the processes of the run may load.
+struct WorldLibrary
+{
+  std::string name;
+  std::string digest;  // SHA-256 of the file, 64 hexadecimal digits
+};
+
 struct WorldMessage
 {
   std::uint32_t protocol = kProtocolVersion;
@@ -60,6 +67,7 @@ struct WorldMessage
   std::vector<char> checkpoint;
   bool recorded = false;
   std::vector<WorldEntity> entities;
+  std::vector<WorldLibrary> libraries{};
 };
 
 struct JoinMessage

@@ -8,6 +8,7 @@
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <netdb.h>
+#include <pwd.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -35,6 +36,7 @@ namespace
 
 constexpr unsigned kSocketBuffer = 4U << 20;  // bytes; 10,000 robots lose datagrams with the system's default
 constexpr std::size_t kSendersTold = 100;     // of bad messages, by topic
+constexpr std::size_t kLongestUser = 100;     // bytes
 constexpr std::size_t kLongestSender = 200;   // bytes of a name in the log
 constexpr unsigned kPeerProcesses = 100;      // looked for on each machine named as a peer
 
@@ -169,9 +171,32 @@ std::string MachineName()
   return name;
 }
 
+std::string UserName()
+{
+  const passwd* const user = getpwuid(geteuid());
+  return user != nullptr ? Showable(user->pw_name, kLongestUser) : std::to_string(geteuid());
+}
+
 std::string ProcessId() { return fmt::format("{}:{}", MachineName(), getpid()); }
 
-Bus::Impl::Impl(const BusOptions& options, const std::string& name) : own_name(name)
+std::optional<RunKey> GivenKey(const BusOptions& options)
+{
+  if (options.insecure || options.key) return options.key;
+  if (options.key_fd >= 0) return KeyOfDescriptor(options.key_fd);
+  if (!options.key_file.empty()) return KeyOfFile(options.key_file);
+  return std::nullopt;
+}
+
+WriterId IdOf(const rtps::GUID_t& writer)
+{
+  WriterId id{};
+  std::copy(std::begin(writer.guidPrefix.value), std::end(writer.guidPrefix.value), id.begin());
+  std::copy(std::begin(writer.entityId.value), std::end(writer.entityId.value), id.begin() + 12);
+  return id;
+}
+
+Bus::Impl::Impl(const BusOptions& options, const std::string& name)
+    : insecure(options.insecure), keys(options.domain, GivenKey(options)), own_name(name)
 {
   if (options.domain < 0 || options.domain > 232)
     throw BusError(fmt::format("domain {}: it must be 0 to 232", options.domain));
@@ -244,6 +269,8 @@ void Bus::Impl::on_participant_discovery(dds::DomainParticipant*, rtps::Particip
     if (found == processes.end()) return;
     gone = found->second;
     processes.erase(found);
+    // Anybody can say that his process is one of the run, and go.
+    if (!insecure && recognised.erase(prefix) == 0) return;
     callback = on_gone;
   }
   if (callback)
@@ -253,28 +280,57 @@ void Bus::Impl::on_participant_discovery(dds::DomainParticipant*, rtps::Particip
 void Bus::Impl::Report(const std::string& topic, const rtps::GUID_t& writer, std::uint64_t tick,
                        const std::string& what)
 {
-  BadMessageReport report{topic, {}, {}, tick, what};
+  const BadMessageReport report = Describe(topic, writer, tick, what);
   std::function<bool(const BadMessageReport&)> callback;
   {
     const std::lock_guard lock(mutex);
-    const auto sender = processes.find(writer.guidPrefix);
-    if (sender != processes.end()) std::tie(report.process, report.name) = sender->second;
     callback = on_bad;
   }
-  if (callback && callback(report)) return;
+  if (!callback || !callback(report)) Drop(report);
+}
 
+void Bus::Impl::Refuse(const std::string& topic, const rtps::GUID_t& writer, const std::string& what)
+{
+  const BadMessageReport report = Describe(topic, writer, 0, what);
+  if (!Drop(report)) return;
+  std::function<void(const BadMessageReport&)> callback;
+  {
+    const std::lock_guard lock(mutex);
+    callback = on_refused;
+  }
+  if (callback) callback(report);
+}
+
+void Bus::Impl::Recognise(const rtps::GUID_t& writer)
+{
+  const std::lock_guard lock(mutex);
+  recognised.insert(writer.guidPrefix);
+}
+
+BadMessageReport Bus::Impl::Describe(const std::string& topic, const rtps::GUID_t& writer, std::uint64_t tick,
+                                     const std::string& what)
+{
+  BadMessageReport report{topic, {}, {}, tick, what};
+  const std::lock_guard lock(mutex);
+  const auto sender = processes.find(writer.guidPrefix);
+  if (sender != processes.end()) std::tie(report.process, report.name) = sender->second;
   std::ostringstream guid;
   guid << writer.guidPrefix;
-  const std::string sender = report.process.empty()
-                                 ? "an unknown process (" + guid.str() + ")"
-                                 : fmt::format("'{}' (process {})", Showable(report.name, kLongestSender),
-                                               Showable(report.process, kLongestSender));
+  report.sender = report.process.empty() ? "an unknown process (" + guid.str() + ")"
+                                         : fmt::format("'{}' (process {})", Showable(report.name, kLongestSender),
+                                                       Showable(report.process, kLongestSender));
+  return report;
+}
+
+bool Bus::Impl::Drop(const BadMessageReport& report)
+{
   const std::lock_guard lock(mutex);
   ++dropped;
-  if (dropped_of.size() >= kSendersTold && dropped_of.count({sender, topic}) == 0) return;
-  if (++dropped_of[{sender, topic}] == 1)
-    fmt::print(stderr, "{}: dropped a bad {} message of {}: {}; further ones are counted only\n", own_name, topic,
-               sender, what);
+  if (dropped_of.size() >= kSendersTold && dropped_of.count({report.sender, report.topic}) == 0) return false;
+  if (++dropped_of[{report.sender, report.topic}] != 1) return false;
+  fmt::print(stderr, "{}: dropped a bad {} message of {}: {}; further ones are counted only\n", own_name, report.topic,
+             report.sender, report.what);
+  return true;
 }
 
 dds::Topic* Bus::Impl::TopicOf(const std::string& name, const std::function<dds::TypeSupport()>& make_type)
@@ -303,6 +359,17 @@ void Bus::OnBadMessage(std::function<bool(const BadMessageReport&)> callback)
 {
   const std::lock_guard lock(impl_->mutex);
   impl_->on_bad = std::move(callback);
+}
+
+void Bus::OnRefused(std::function<void(const BadMessageReport&)> callback)
+{
+  const std::lock_guard lock(impl_->mutex);
+  impl_->on_refused = std::move(callback);
+}
+
+bool Bus::MaySpeakTo(const std::string& experiment)
+{
+  return impl_->insecure || impl_->keys.Of(experiment).has_value();
 }
 
 std::uint64_t Bus::Dropped() const

@@ -15,8 +15,10 @@
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
 #include <map>
+#include <set>
 
 #include "common/bus/bus.h"
+#include "common/bus/key_ring.h"
 #include "common/bus/qos.h"
 
 namespace swarmanoid
@@ -35,23 +37,39 @@ struct Bus::Impl : dds::DomainParticipantListener
   void on_participant_discovery(dds::DomainParticipant*,
                                 eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& discovery) override;
 
-  // A message that was dropped for what is wrong with it.
+  // A message that was dropped for what is wrong with it; it may end the run if its sender belongs to that.
   void Report(const std::string& topic, const eprosima::fastrtps::rtps::GUID_t& writer, std::uint64_t tick,
               const std::string& what);
+  // A message that was dropped because nobody knows whose it is.
+  void Refuse(const std::string& topic, const eprosima::fastrtps::rtps::GUID_t& writer, const std::string& what);
+  // A message with a good seal has come from that process.
+  void Recognise(const eprosima::fastrtps::rtps::GUID_t& writer);
 
   // The topic of that name; its type is registered by the first who asks.
   dds::Topic* TopicOf(const std::string& name, const std::function<dds::TypeSupport()>& make_type);
 
   dds::DomainParticipant* participant = nullptr;
+  const bool insecure;
+  KeyRing keys;
   std::mutex mutex;  // of the members below
   std::map<std::string, dds::Topic*> topics;
   std::map<eprosima::fastrtps::rtps::GuidPrefix_t, std::pair<std::string, std::string>> processes;  // "host:pid", name
   std::function<void(const std::string&, const std::string&, bool)> on_gone;
+  std::set<eprosima::fastrtps::rtps::GuidPrefix_t> recognised;
   std::function<bool(const BadMessageReport&)> on_bad;
+  std::function<void(const BadMessageReport&)> on_refused;
   std::string own_name;
   std::uint64_t dropped = 0;                                                // bad messages
   std::map<std::pair<std::string, std::string>, std::uint64_t> dropped_of;  // by sender and topic
+
+private:
+  BadMessageReport Describe(const std::string& topic, const eprosima::fastrtps::rtps::GUID_t& writer,
+                            std::uint64_t tick, const std::string& what);
+  // True for the first of that sender and topic.
+  bool Drop(const BadMessageReport& report);
 };
+
+WriterId IdOf(const eprosima::fastrtps::rtps::GUID_t& writer);
 
 // One writer or reader with the publisher or subscriber that has its partition.
 class WriterEnd

@@ -30,6 +30,7 @@ namespace
 constexpr const char* kSharedVariable = "SWARMANOID_SHARED_FOLDER";
 constexpr const char* kLockVariable = "XDG_RUNTIME_DIR";
 constexpr const char* kServerFile = "server";
+constexpr const char* kKeyFile = "key";
 constexpr const char* kMarkerPrefix = "process.";
 // In every folder that we make for a run: what lacks it is not ours to remove.
 constexpr const char* kRunFile = ".swarmanoid-run";
@@ -239,6 +240,9 @@ RunDirectory::RunDirectory(const std::string& experiment, std::uint64_t run)
   name_ = FileName(experiment, run);
   path_ = SharedFolder() + "/" + name_;
   const Descriptor folder = MakeOwnFolder(*shared, name_, path_, kSharedVariable);
+  // The state of the run lies in it, in files that the bus makes readable for all.
+  if (fchmod(*folder, 0700) != 0)
+    throw BusError(fmt::format("cannot keep other users out of '{}': {}", path_, std::strerror(errno)));
   if (!IsRun(*folder) && (!NamesIn(*folder).empty() || !WriteText(*folder, kRunFile, kRunText)))
     throw BusError(fmt::format("'{}' holds other files, or cannot be written; remove it", path_));
   SetSharedMemoryFolder(path_);
@@ -268,11 +272,13 @@ void RunDirectory::Leave()
   }
 }
 
-void RunDirectory::Announce(const std::string& experiment, int domain)
+void RunDirectory::Announce(const std::string& experiment, int domain, const std::optional<RunKey>& key)
 {
   const std::string part = std::string(kServerFile) + ".part";
   const Descriptor folder = OpenOwnFolder(AT_FDCWD, path_);
   server_ = true;
+  if (folder && key && !WriteText(*folder, kKeyFile, TextOfKey(*key) + "\n"))
+    throw BusError("cannot write '" + path_ + "/" + kKeyFile + "': " + std::strerror(errno));
   if (!folder || !WriteText(*folder, part, fmt::format("{} {}\n{}\n", domain, getpid(), experiment)) ||
       renameat(*folder, part.c_str(), *folder, kServerFile) != 0)
     throw BusError("cannot write '" + path_ + "/" + kServerFile + "': " + std::strerror(errno));
@@ -293,6 +299,7 @@ std::vector<LocalRun> FindLocalRuns()
     if (!(text >> run.domain >> run.server)) continue;
     text.ignore();
     std::getline(text, run.experiment);
+    run.key = KeyOfText(TextOf(*folder, kKeyFile));
     if (IsLocked(*folder, fmt::format("{}{}", kMarkerPrefix, run.server))) runs.push_back(run);
   }
   return runs;

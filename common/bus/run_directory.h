@@ -7,8 +7,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "common/bus/run_key.h"
 
 namespace swarmanoid
 {
@@ -32,8 +35,8 @@ public:
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;
 
-  // For the space server: lets FindLocalRuns find this run.
-  void Announce(const std::string& experiment, int domain);
+  // For the space server: lets FindLocalRuns find this run, and processes of this user its key.
+  void Announce(const std::string& experiment, int domain, const std::optional<RunKey>& key);
   const std::string& Path() const { return path_; }
 
 private:
@@ -51,6 +54,7 @@ struct LocalRun
   int domain = 0;
   long server = 0;  // process id
   std::string directory;
+  std::optional<RunKey> key{};  // none: whoever is in the domain belongs to it
 };
 
 std::vector<LocalRun> FindLocalRuns();

@@ -23,6 +23,19 @@ void RefuseSecondServer(const std::string& experiment, int domain)
                       experiment, domain, run.server));
 }
 
+std::optional<RunKey> KeyOfRun(const BusOptions& options)
+{
+  if (options.insecure) return std::nullopt;
+  const auto given = GivenKey(options);
+  return given ? given : NewRunKey();
+}
+
+BusOptions WithKey(BusOptions options, const std::optional<RunKey>& key)
+{
+  options.key = key;
+  return options;
+}
+
 }  // namespace
 
 ServerSession::ServerSession(const BusOptions& options, WorldMessage world, std::vector<std::string> expected,
@@ -30,12 +43,13 @@ ServerSession::ServerSession(const BusOptions& options, WorldMessage world, std:
     : world_(std::move(world)),
       expected_(std::move(expected)),
       callbacks_(std::move(callbacks)),
+      key_(KeyOfRun(options)),
       directory_((RemoveDeadRuns(), RefuseSecondServer(world_.experiment, options.domain), world_.experiment),
                  world_.run),
-      bus_(options, "space server")
+      bus_(WithKey(options, key_), "space server")
 {
   for (const std::string& name : expected_) state_.Lock()->members[name];
-  directory_.Announce(world_.experiment, options.domain);
+  directory_.Announce(world_.experiment, options.domain, key_);
   world_.host = MachineName();
   const std::string process = ProcessId();
   world_.pid = static_cast<std::uint32_t>(std::stoul(process.substr(process.rfind(':') + 1)));
@@ -87,6 +101,7 @@ void ServerSession::Open()
 void ServerSession::Close()
 {
   bus_.OnBadMessage(nullptr);
+  bus_.OnRefused(nullptr);
   bus_.OnProcessGone(nullptr);
   recoveries_.reset();
   requests_.reset();

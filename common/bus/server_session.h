@@ -129,6 +129,7 @@ private:
   std::vector<std::string> expected_;
   Callbacks callbacks_;
   bool awaits_ = false;
+  std::optional<RunKey> key_;
   Guarded<State> state_;
   RunDirectory directory_;
   Bus bus_;

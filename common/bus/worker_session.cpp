@@ -10,6 +10,7 @@
 
 #include "common/activity/exit_codes.h"
 #include "common/activity/memory_limit.h"
+#include "common/bus/library_check.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/program/interrupts.h"
 
@@ -95,6 +96,7 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
         "one release",
         world_.experiment, server_process_, world_.protocol, kProtocolVersion));
 
+  if (!options.insecure) AllowOnly(world_.libraries, !options.key_file.empty());
   server_seen_ = ServerIsOnThisMachine();
   directory_ = std::make_unique<RunDirectory>(world_.experiment, world_.run);
   join_ = std::make_unique<Publisher<JoinMessage>>(bus_, world_.experiment);

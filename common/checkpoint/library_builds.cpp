@@ -52,17 +52,17 @@ std::string OwnBuild()
 
 }  // namespace
 
-std::vector<LibraryBuild> LibraryBuildsOf(const Experiment& experiment)
+void ForEachLibrary(const Experiment& experiment,
+                    const std::function<void(const std::string& name, const std::string& file, bool computes)>& take)
 {
-  std::map<std::string, std::string> builds{{kSwarmanoidBuild, OwnBuild()}};
-  const auto add = [&](const std::string& library, const std::vector<std::string>& folders)
+  const auto add = [&](const std::string& library, const std::vector<std::string>& folders, bool computes = true)
   {
     if (library.empty()) return;
     const std::string file = FindPluginLibrary(library, folders);
-    builds[fs::path(file.empty() ? library : file).filename().string()] = BuildOfFile(file);
+    take(fs::path(file.empty() ? library : file).filename().string(), file, computes);
   };
-  const auto add_plugin = [&](const TConfigurationTree& tree)
-  { add(tree.Value("library").value_or(""), experiment.plugin_path); };
+  const auto add_plugin = [&](const TConfigurationTree& tree, bool computes = true)
+  { add(tree.Value("library").value_or(""), experiment.plugin_path, computes); };
   for (const EntityKindConfiguration& kind : experiment.entity_kinds) add(kind.library, experiment.plugin_path);
   for (const ControllerConfiguration& controller : experiment.controllers)
   {
@@ -72,7 +72,17 @@ std::vector<LibraryBuild> LibraryBuildsOf(const Experiment& experiment)
   }
   for (const EngineConfiguration& engine : experiment.engines) add_plugin(engine.tree);
   for (const FunctionsConfiguration& functions : experiment.functions) add_plugin(functions.tree);
+  for (const RenderConfiguration& render : experiment.visualisations) add_plugin(render.tree, false);
+}
 
+std::vector<LibraryBuild> LibraryBuildsOf(const Experiment& experiment)
+{
+  std::map<std::string, std::string> builds{{kSwarmanoidBuild, OwnBuild()}};
+  ForEachLibrary(experiment,
+                 [&](const std::string& name, const std::string& file, bool computes)
+                 {
+                   if (computes) builds[name] = BuildOfFile(file);
+                 });
   std::vector<LibraryBuild> all;
   for (const auto& [name, build] : builds) all.push_back({name, build});
   return all;

@@ -3,6 +3,7 @@
 // means nothing sure to another.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,11 @@ struct LibraryBuild
   std::string build;  // as BuildOfLibrary says; empty: the file is not on the machine that looked
 };
 inline constexpr const char* kSwarmanoidBuild = "Swarmanoid";
+
+// Calls `take` with each library that an experiment names and the file that would be loaded, empty if there is none;
+// `computes` is false for those of visualisations, on which no state depends.
+void ForEachLibrary(const Experiment& experiment,
+                    const std::function<void(const std::string& name, const std::string& file, bool computes)>& take);
 
 // In the order of their names, each once. They are looked for where they would be loaded from, and not loaded. Taken
 // when a run starts: a file may be built anew while the run goes on with the old one.

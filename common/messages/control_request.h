@@ -25,6 +25,7 @@ struct ControlRequestMessage
   std::string verb;
   std::string entity;
   std::vector<double> numbers;
+  std::string user{};  // name of the user whose process the client is
 };
 
 }  // namespace swarmanoid

@@ -64,10 +64,21 @@ std::map<std::string, PluginLibrary>& LoadedLibraries()
   return libraries;
 }
 
+std::function<std::string(const std::string&)>& LibraryCheck()
+{
+  static std::function<std::string(const std::string&)> check;
+  return check;
+}
+
 PluginLibrary Load(const std::string& path)
 {
   PluginLibrary library;
   library.path = path;
+  if (const std::string why = LibraryCheck() ? LibraryCheck()(path) : std::string(); !why.empty())
+  {
+    library.error = "the library " + path + " is not loaded: " + why;
+    return library;
+  }
   // Loading what is cut short would end the program by a signal.
   if (const std::string mistake = MistakeInLibrary(path); !mistake.empty())
   {
@@ -92,6 +103,8 @@ PluginLibrary Load(const std::string& path)
 }
 
 }  // namespace
+
+void SetLibraryCheck(std::function<std::string(const std::string& path)> check) { LibraryCheck() = std::move(check); }
 
 std::string FindPluginLibrary(const std::string& name, const std::vector<std::string>& folders)
 {

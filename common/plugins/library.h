@@ -2,6 +2,7 @@
 // stays loaded until the process ends. Called before roles start, from one thread.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,10 @@ struct PluginLibrary
 // Finds `name` as lib<name>.so, <name>.so or, if it ends in .so, as it stands, in each folder and its .libs, and
 // loads it. A name with a '/' is a path. Loading a library again yields what the first time yielded.
 const PluginLibrary& LoadPluginLibrary(const std::string& name, const std::vector<std::string>& folders);
+
+// Called with the path of each library before it is loaded from now on: why it must not be, or an empty text. What an
+// experiment names that somebody else sent is not code of this user.
+void SetLibraryCheck(std::function<std::string(const std::string& path)> check);
 
 // The file that LoadPluginLibrary would load, without links; empty if there is none.
 std::string FindPluginLibrary(const std::string& name, const std::vector<std::string>& folders);

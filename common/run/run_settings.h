@@ -60,6 +60,8 @@ struct RunSettings : ExperimentChoice, SimulatorOptions
   std::vector<std::string> engine_hosts;  // "ENGINE=HOST"
   std::string hosts_file;
   std::optional<int> domain;       // DDS domain; otherwise a free one
+  bool insecure = false;           // without a key of the run
+  bool isolated = false;           // in a network of its own on this machine
   std::string placement = "auto";  // on processor cores: auto, one-core or spread
   std::string expected_hash;
   bool quiet = false;

@@ -49,6 +49,12 @@ struct Form<ServerWarning>
   static constexpr std::tuple fields{&ServerWarning::text};
 };
 template <>
+struct Form<ServerAsked>
+{
+  static constexpr std::string_view word = "asked";
+  static constexpr std::tuple fields{&ServerAsked::text};
+};
+template <>
 struct Form<ServerError>
 {
   static constexpr std::string_view word = "error";

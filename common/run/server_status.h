@@ -1,5 +1,6 @@
 // What the space server tells whoever started it, line by line, on the descriptor of --status-fd: state, tick, stalled,
-// warning, error, left, lost, finished. Writer and reader of each kind come from one description (server_status.cpp).
+// warning, asked, error, left, lost, finished. Writer and reader of each kind come from one description
+// (server_status.cpp).
 #pragma once
 
 #include <cstdint>
@@ -54,6 +55,14 @@ struct ServerWarning
   friend bool operator==(const ServerWarning&, const ServerWarning&) = default;
 };
 
+// "asked TEXT": who had the run paused, resumed, stopped or told another speed, and when
+struct ServerAsked
+{
+  std::string text;
+
+  friend bool operator==(const ServerAsked&, const ServerAsked&) = default;
+};
+
 // "error TEXT"
 struct ServerError
 {
@@ -90,8 +99,8 @@ struct ServerFinished
   friend bool operator==(const ServerFinished&, const ServerFinished&) = default;
 };
 
-using ServerStatus = std::variant<ServerState, ServerTick, ServerStall, ServerWarning, ServerError, ServerLeft,
-                                  ServerLost, ServerFinished>;
+using ServerStatus = std::variant<ServerState, ServerTick, ServerStall, ServerWarning, ServerAsked, ServerError,
+                                  ServerLeft, ServerLost, ServerFinished>;
 
 // The line, without its end. Line breaks and other control characters in texts become blanks.
 std::string ServerStatusLine(const ServerStatus& status);

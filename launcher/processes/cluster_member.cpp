@@ -5,6 +5,8 @@
 #include <cerrno>
 #include <utility>
 
+#include "common/bus/run_key.h"
+
 namespace swarmanoid
 {
 namespace
@@ -30,10 +32,26 @@ ClusterMember::ClusterMember(const MemberPlan& plan, ProcessSpawner& spawner, un
 {
 }
 
+bool ClusterMember::Answers(std::string_view line)
+{
+  if (!process_.input.IsOpen() || line.find(kKeyPrompt) == std::string_view::npos) return false;
+  // Far less than a pipe takes at once.
+  const std::string& input = plan_.command.input;
+  [[maybe_unused]] const ssize_t written = write(process_.input.Get(), input.data(), input.size());
+  process_.input.Reset();
+  return true;
+}
+
 void ClusterMember::ReadOutput(const OnLine& on_line, std::size_t limit)
 {
-  const OnLine take =
-      plan_.output == MemberPlan::kLog ? OnLine([this](std::string_view line) { log_.Add(line); }) : on_line;
+  const OnLine take = [&](std::string_view line)
+  {
+    if (Answers(line)) return;
+    if (plan_.output == MemberPlan::kLog)
+      log_.Add(line);
+    else
+      on_line(line);
+  };
   std::array<char, 4096> buffer;
   while (limit > 0)
   {
@@ -56,7 +74,11 @@ void ClusterMember::ReadErrors()
   {
     const std::string_view bytes = ReadSome(process_.errors, buffer, buffer.size());
     if (bytes.empty()) break;
-    error_lines_.Add(bytes, [this](std::string_view line) { log_.Add(line); });
+    error_lines_.Add(bytes,
+                     [this](std::string_view line)
+                     {
+                       if (!Answers(line)) log_.Add(line);
+                     });
   }
 }
 

@@ -65,6 +65,9 @@ public:
   bool OutputTaken() const { return output_taken_; }
 
 private:
+  // Whether the line asked for what the process is to read, which it gets then.
+  bool Answers(std::string_view line);
+
   MemberPlan plan_;
   unsigned incarnation_;
   ProcessLog log_;

@@ -64,7 +64,7 @@ PageOfChild MakePage()
 }
 
 // The part between fork and exec: system calls only. Returns errno if one fails.
-int BecomeChild(pid_t launcher, const cpu_set_t* cores, int output, int errors, int page, char** arguments,
+int BecomeChild(pid_t launcher, const cpu_set_t* cores, int input, int output, int errors, int page, char** arguments,
                 char** environment)
 {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -75,7 +75,7 @@ int BecomeChild(pid_t launcher, const cpu_set_t* cores, int output, int errors, 
   sigprocmask(SIG_SETMASK, &none, nullptr);
   signal(SIGPIPE, SIG_DFL);
   if (cores != nullptr) sched_setaffinity(0, sizeof *cores, cores);
-  const int nothing = open("/dev/null", O_RDONLY);
+  const int nothing = input >= 0 ? input : open("/dev/null", O_RDONLY);
   if (nothing < 0 || dup2(nothing, 0) < 0 || dup2(output, 1) < 0 || dup2(errors, 2) < 0) return errno;
   if (nothing > 2) close(nothing);
   if (page >= 0) fcntl(page, F_SETFD, 0);
@@ -97,6 +97,12 @@ SpawnedProcess SystemSpawner::Start(const ProcessCommand& command)
   Pipe output = MakePipe();
   Pipe errors = MakePipe();
   Pipe failure = MakePipe();
+  Pipe input;
+  if (!command.input.empty())
+  {
+    input = MakePipe();
+    fcntl(input.read.Get(), F_SETFL, 0);
+  }
   fcntl(failure.read.Get(), F_SETFL, 0);
   std::vector<std::string> argument_texts = command.arguments;
   std::vector<char*> arguments = Pointers(argument_texts);
@@ -114,15 +120,20 @@ SpawnedProcess SystemSpawner::Start(const ProcessCommand& command)
   if (pid < 0) throw std::runtime_error(fmt::format("cannot start {}: {}", command.name, std::strerror(errno)));
   if (pid == 0)
   {
-    const int error = BecomeChild(launcher, command.cores.empty() ? nullptr : &cores, output.write.Get(),
-                                  errors.write.Get(), page.descriptor.Get(), arguments.data(), environment.data());
+    const int error =
+        BecomeChild(launcher, command.cores.empty() ? nullptr : &cores, input.read.Get(), output.write.Get(),
+                    errors.write.Get(), page.descriptor.Get(), arguments.data(), environment.data());
     [[maybe_unused]] const ssize_t written = write(failure.write.Get(), &error, sizeof error);
     _exit(127);
   }
   setpgid(pid, pid);
   failure.write.Reset();
-  SpawnedProcess process{pid, std::move(output.read), std::move(errors.read),
-                         FileDescriptor(static_cast<int>(syscall(SYS_pidfd_open, pid, 0))), std::move(page.page)};
+  SpawnedProcess process{pid,
+                         std::move(output.read),
+                         std::move(errors.read),
+                         FileDescriptor(static_cast<int>(syscall(SYS_pidfd_open, pid, 0))),
+                         std::move(page.page),
+                         std::move(input.write)};
 
   // The pipe closes without a word when exec succeeds.
   int error = 0;

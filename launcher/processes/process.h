@@ -22,6 +22,7 @@ struct ProcessCommand
   std::vector<std::string> arguments;                            // the program's path first
   std::vector<std::pair<std::string, std::string>> environment;  // added to ours
   std::vector<int> cores;                                        // that it may run on; empty: all
+  std::string input{};                                           // what it gets to read when it asks; empty: nothing
 };
 
 // How a process ended.
@@ -44,6 +45,7 @@ struct SpawnedProcess
   // What it says of itself, also when it is dead; null if this system has no memory for it. One that was started on
   // another machine says nothing.
   std::shared_ptr<const ActivityPage> activity;
+  FileDescriptor input{};  // its standard input, if there is something for it to read
 };
 
 class ProcessSpawner
@@ -58,7 +60,7 @@ public:
   virtual void Signal(const SpawnedProcess& process, int signal) = 0;
 };
 
-// Real processes: each leads a process group of its own, reads nothing, and is killed by the kernel when the launcher
+// Real processes: each leads a process group of its own and is killed by the kernel when the launcher
 // ends.
 class SystemSpawner : public ProcessSpawner
 {

@@ -187,6 +187,10 @@ void Supervisor::TakeStatus(const ServerStatus& status)
     progress_.waiting_for = stall->name;
     progress_.waited_s = stall->seconds;
   }
+  else if (const auto* asked = std::get_if<ServerAsked>(&status))
+  {
+    display_.Note(asked->text);
+  }
   else if (const auto* error = std::get_if<ServerError>(&status))
   {
     server_error_ = error->text;

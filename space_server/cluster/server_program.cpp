@@ -7,6 +7,7 @@
 #include <random>
 
 #include "common/activity/exit_codes.h"
+#include "common/checkpoint/library_builds.h"
 #include "common/journal/journal_reader.h"
 #include "common/run/run_summary.h"
 #include "common/serialisation/trial.h"
@@ -72,7 +73,7 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
       views_(session_, [this] { Wake(); }),
       run_control_(experiment, MakeRunControlSetup(options, experiment, continuation_),
                    [this](const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
-                   { session_.Reply(request, done, tick, text); }),
+                   { Reply(request, done, tick, text); }),
       pace_(experiment.TickSeconds()),
       checkpoints_(session_, experiment, Expected({}), server_.Space().GetTick(), SavedTicks(),
                    options.output_folder.empty() ? "." : options.output_folder, (OpenJournal(), Journal()),
@@ -87,6 +88,26 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
       session_.Remember(request, IsAwaited(request, *continuation_));
   if (status_.IsOpen())
     server_.SetWarningHandler([this](const std::string& text) { status_.Publish(ServerWarning{text}); });
+  session_.GetBus().OnRefused(
+      [this](const BadMessageReport& report)
+      {
+        status_.Publish(
+            ServerWarning{fmt::format("refused a {} message of {}: {}", report.topic, report.sender, report.what)});
+        run_control_.Refused(report.topic, report.sender);
+        Wake();
+      });
+}
+
+void ServerProgram::Reply(const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
+{
+  session_.Reply(request, done, tick, text);
+  // Robots that are moved by hand would fill the screen.
+  const bool told =
+      request.verb == "pause" || request.verb == "resume" || request.verb == "speed" || request.verb == "stop";
+  if (!done || !told) return;
+  const std::string line = fmt::format("{}: {}", AskerOf(request), text);
+  status_.Publish(ServerAsked{line});
+  Say(line);
 }
 
 int ServerProgram::Run()
@@ -136,6 +157,11 @@ WorldMessage ServerProgram::World()
   world.checkpoint_every = options_.checkpoint_every;
   if (options_.checkpoint_every != 0) TrySaving(server_);
   world.recorded = KeepsJournal();
+  ForEachLibrary(experiment_,
+                 [&](const std::string& name, const std::string& file, bool)
+                 {
+                   if (!file.empty()) world.libraries.push_back({name, DigestOfFile(file)});
+                 });
   if (!options_.restore_file.empty())
   {
     const Checkpoint checkpoint =
@@ -317,7 +343,10 @@ void ServerProgram::RunTicks()
     if (!lockstep_.Finished() && !lockstep_.Failure()) Sleep(std::min(next, views_.Next()));
   }
   end_ = Clock::now();
-  if (const auto who = lockstep_.Terminator()) run_control_.Stopped(lockstep_.Tick(), *who);
+  const auto who = lockstep_.Terminator();
+  if (!who) return;
+  run_control_.Stopped(lockstep_.Tick(), *who);
+  status_.Publish(ServerAsked{fmt::format("{}: stopped at tick {}", *who, lockstep_.Tick())});
 }
 
 void ServerProgram::ReportState()

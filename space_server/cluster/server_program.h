@@ -75,6 +75,7 @@ private:
   std::set<std::uint64_t> SavedTicks() const;
   bool KeepsJournal() const { return options_.journal && !options_.output_folder.empty(); }
   void OpenJournal();
+  void Reply(const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text);
   JournalWriter* Journal() { return journal_ ? &*journal_ : nullptr; }
   void CheckFailures();
   // Those who take the places of others get the journal; the state goes out again for them.

@@ -105,6 +105,7 @@ ChildProcess ClusterTest::Start(const std::string& program, const std::vector<st
   std::vector<std::string> command{SWARMANOID_BUILD_FOLDER "/bin/" + program};
   command.insert(command.end(), options.begin(), options.end());
   command.insert(command.end(), {"--domain", DomainText()});
+  command.insert(command.end(), options_.begin(), options_.end());
   return {command, fmt::format("{}/{}_{}.log", folder_, program, started_++)};
 }
 

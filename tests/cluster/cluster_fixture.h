@@ -44,6 +44,7 @@ protected:
   std::string folder_;
   std::string shared_folder_;
   FreeDomain domain_;
+  std::vector<std::string> options_;  // of every program
   int started_ = 0;
 };
 

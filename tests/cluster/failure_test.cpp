@@ -150,6 +150,8 @@ TEST_F(ClusterTest, AWorkerRefusesAServerOfAnotherProtocol)
 {
   BusOptions options;
   options.domain = domain_.Id();
+  options.insecure = true;
+  options_ = {"--insecure"};
   Bus bus(options, "space server");
   for (const std::uint32_t version : {kProtocolVersion - 1, kProtocolVersion + 1})
   {

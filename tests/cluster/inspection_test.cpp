@@ -133,7 +133,7 @@ TEST_F(InspectionTest, TheRunTellsItsPhasePaceAndProcesses)
   EXPECT_NEAR(status.Get()->status.ticks_per_second, 30, 10);
   Ask("stop");
   ASSERT_TRUE(Eventually([&] { return phase() == RunStatus::Phase::kFinished; }));
-  EXPECT_EQ(status.Get()->status.ended, "stopped by " + ProcessId());
+  EXPECT_EQ(status.Get()->status.ended, "stopped by " + UserName() + "@" + ProcessId());
   ExpectEnd();
 }
 

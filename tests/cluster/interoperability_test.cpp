@@ -14,6 +14,7 @@ namespace
 
 TEST_F(ClusterTest, CycloneSubscriberReadsThePosesThatWereDrawn)
 {
+  options_ = {"--insecure"};
   const std::string file = WriteExperiment(
       "open", 1, 150, "<text_render id='table'><file>table.txt</file><precision>4</precision></text_render>");
   ChildProcess subscriber({SWARMANOID_BUILD_FOLDER "/bin/tests/cyclone_subscriber", DomainText(), "open", "10"},

@@ -23,6 +23,7 @@ int main(int count, char** arguments)
     const std::string_view word = arguments[k];
     if (word == "--domain") options.domain = std::stoi(arguments[k + 1]);
     if (word == "--interface") options.network_interface = arguments[k + 1];
+    if (word == "--key-fd") options.key_fd = std::stoi(arguments[k + 1]);
     if (word == "--experiment") experiment = arguments[k + 1];
     if (word == "--engine") name = fmt::format("engine '{}'", arguments[k + 1]);
   }

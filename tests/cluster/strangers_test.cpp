@@ -1,5 +1,5 @@
-// A program that does not belong to the run writes to all of its topics: what is malformed, or is not what the
-// experiment makes of a message, changes nothing.
+// A program writes to all topics of a run that lets anybody in: what is malformed, or is not what the experiment makes
+// of a message, changes nothing. Runs as they are by default: attacks_test.cpp.
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -29,6 +29,8 @@ constexpr std::uint64_t kTicks = 40;
 class StrangersTest : public ClusterTest
 {
 protected:
+  StrangersTest() { options_ = {"--insecure"}; }
+
   // Payloads of no meaning, and others behind them.
   std::vector<std::string> Noise(std::uint64_t run, const std::vector<std::string>& others = {})
   {
@@ -112,6 +114,7 @@ TEST_F(StrangersTest, DoNotChangeARunByBadMessages)
   std::vector<ChildProcess> workers = StartWorkers("strangers", 1, 1);
   BusOptions options;
   options.domain = domain_.Id();
+  options.insecure = true;
   Bus bus(options, "test");
   ASSERT_TRUE(server.WaitForOutput("paused at tick 0")) << server.Output();
   const std::optional<WorldMessage> world = WorldOn(bus, "strangers");
@@ -187,6 +190,7 @@ TEST_F(StrangersTest, DoNotChangeARunThatIsWatchedByBadMessages)
   testing::internal::CaptureStderr();
   BusOptions options;
   options.domain = domain_.Id();
+  options.insecure = true;
   Bus bus(options, "test");
   const std::optional<WorldMessage> world = WorldOn(bus, "watched");
   ASSERT_TRUE(world.has_value());

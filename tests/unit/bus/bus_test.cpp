@@ -32,6 +32,14 @@ using test::Eventually;
 
 constexpr std::uint64_t kRounds = 200;
 
+// All processes of the tests hold one key.
+BusOptions Options()
+{
+  BusOptions options;
+  options.key.emplace().fill(7);
+  return options;
+}
+
 // Answers each state with an update whose poses are those of the state plus one, in a child process.
 int Echo(const BusOptions& options, bool share)
 {
@@ -64,7 +72,11 @@ int Victim(const BusOptions& options)
 {
   Bus bus(options, "engine 'ground'");
   Publisher<StatusMessage> out(bus, "x");
-  std::this_thread::sleep_for(600s);
+  for (int k = 0; k < 6000; ++k)
+  {
+    out.Write({});
+    std::this_thread::sleep_for(100ms);
+  }
   return 0;
 }
 
@@ -76,10 +88,11 @@ struct Child
     if (command == nullptr) return;
     std::istringstream words(command);
     std::string role;
-    BusOptions options;
+    BusOptions options = Options();
     std::string peer;
     bool share = false;
-    words >> role >> options.domain >> options.network_interface >> peer >> options.discovery_server >> share;
+    words >> role >> options.domain >> options.network_interface >> peer >> options.discovery_server >>
+        std::boolalpha >> share;
     if (peer != "-") options.peers = {peer};
     if (options.discovery_server == "-") options.discovery_server.clear();
     int code = 2;
@@ -157,24 +170,24 @@ void PingPong(BusOptions options, bool share)
   EXPECT_EQ(status, 0);
 }
 
-TEST(Bus, TalksOverLoopback) { PingPong({}, false); }
+TEST(Bus, TalksOverLoopback) { PingPong(Options(), false); }
 
 TEST(Bus, TalksBySharedMemoryAndLeavesNothing)
 {
-  PingPong({}, true);
+  PingPong(Options(), true);
   EXPECT_FALSE(std::filesystem::exists(SharedFolder() + "/echo_test-0000000000000005"));
 }
 
 TEST(Bus, TalksOverTheNetwork)
 {
-  BusOptions options;
+  BusOptions options = Options();
   options.network_interface = "all";
   PingPong(options, false);
 }
 
 TEST(Bus, FindsPeersWithoutMulticast)
 {
-  BusOptions options;
+  BusOptions options = Options();
   options.network_interface = "all";
   options.peers = {"127.0.0.1"};
   PingPong(options, false);
@@ -196,7 +209,7 @@ std::uint16_t FreeUdpPort()
 
 TEST(Bus, FindsOthersThroughADiscoveryServer)
 {
-  BusOptions options;
+  BusOptions options = Options();
   options.discovery_server = fmt::format("127.0.0.1:{}", FreeUdpPort());
   PingPong(options, false);
 }
@@ -204,7 +217,7 @@ TEST(Bus, FindsOthersThroughADiscoveryServer)
 TEST(Bus, DoesNotHearOtherPartitions)
 {
   const FreeDomain domain;
-  BusOptions options;
+  BusOptions options = Options();
   options.domain = domain.Id();
   Bus one(options, "one");
   Bus two(options, "two");
@@ -223,7 +236,7 @@ TEST(Bus, DoesNotHearOtherPartitions)
 TEST(Bus, KeepsTheWorldForThoseWhoComeLater)
 {
   const FreeDomain domain;
-  BusOptions options;
+  BusOptions options = Options();
   options.domain = domain.Id();
   Bus server(options, "server");
   Publisher<WorldMessage> worlds(server, "kept");
@@ -258,7 +271,7 @@ TEST(Bus, KeepsTheWorldForThoseWhoComeLater)
 TEST(Bus, NamesAProcessThatWasKilledWithinASecond)
 {
   const FreeDomain domain;
-  BusOptions options;
+  BusOptions options = Options();
   options.domain = domain.Id();
   const pid_t child = StartChild(fmt::format("victim {} lo - - 0", options.domain));
   Bus bus(options, "watcher");
@@ -272,8 +285,9 @@ TEST(Bus, NamesAProcessThatWasKilledWithinASecond)
         gone = fmt::format("{} {} {}", process, name, died);
         when = std::chrono::steady_clock::now();
       });
-  Subscription<StatusMessage> in(bus, "x", [](const StatusMessage&) {});
-  ASSERT_TRUE(Eventually([&] { return in.Writers() == 1; }));
+  std::atomic<bool> heard = false;
+  Subscription<StatusMessage> in(bus, "x", [&](const StatusMessage&) { heard = true; });
+  ASSERT_TRUE(Eventually([&] { return heard.load(); }));
   const auto killed = std::chrono::steady_clock::now();
   kill(child, SIGKILL);
   waitpid(child, nullptr, 0);
@@ -291,7 +305,7 @@ TEST(Bus, NamesAProcessThatWasKilledWithinASecond)
 
 TEST(Bus, RefusesInterfacesThatDoNotExistByName)
 {
-  BusOptions options;
+  BusOptions options = Options();
   options.network_interface = "nonesuch0";
   try
   {
@@ -306,7 +320,7 @@ TEST(Bus, RefusesInterfacesThatDoNotExistByName)
 
 TEST(Bus, RefusesDomainsThatWouldEndTheProgram)
 {
-  BusOptions options;
+  BusOptions options = Options();
   options.domain = 233;
   EXPECT_THROW(Bus(options, "x"), BusError);
 }

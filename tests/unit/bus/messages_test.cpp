@@ -256,7 +256,8 @@ TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
         random.Number(),
         random.Bytes(),
         random.Flag(),
-        std::vector<WorldEntity>(random.Length(), {random.Text(), random.Text(), random.Flag(), random.Number32()})};
+        std::vector<WorldEntity>(random.Length(), {random.Text(), random.Text(), random.Flag(), random.Number32()}),
+        std::vector<WorldLibrary>(random.Length(), {random.Text(), random.Text()})};
     wire::World wire_world;
     wire_world.protocol(world.protocol);
     wire_world.run(world.run);
@@ -280,6 +281,12 @@ TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
       wire_world.entities().back().kind(entity.kind);
       wire_world.entities().back().movable(entity.movable);
       wire_world.entities().back().first_slot(entity.first_slot);
+    }
+    for (const WorldLibrary& library : world.libraries)
+    {
+      wire_world.libraries().emplace_back();
+      wire_world.libraries().back().name(library.name);
+      wire_world.libraries().back().digest(library.digest);
     }
     ExpectSame<wire::WorldPubSubType>(world, wire_world);
 
@@ -344,13 +351,15 @@ TEST(MessageBytes, OfUsersRequestsAreThoseOfTheIdl)
   Random random(3);
   for (int round = 0; round < kRounds; ++round)
   {
-    const ControlRequestMessage request{random.Text(), random.Number32(), random.Text(), random.Text(), random.Reals()};
+    const ControlRequestMessage request{random.Text(), random.Number32(), random.Text(),
+                                        random.Text(), random.Reals(),    random.Text()};
     wire::ControlRequest wire_request;
     wire_request.client(request.client);
     wire_request.number(request.number);
     wire_request.verb(request.verb);
     wire_request.entity(request.entity);
     wire_request.numbers(request.numbers);
+    wire_request.user(request.user);
     ExpectSame<wire::ControlRequestPubSubType>(request, wire_request);
 
     const ControlReplyMessage reply{random.Text(), random.Number32(), random.Flag(), random.Number(), random.Text()};

@@ -43,7 +43,7 @@ TEST_F(RunDirectoryTest, IsFoundWhileItsServerLivesAndGoneAfterwards)
     RunDirectory directory("diffusion 10", 255);
     path = directory.Path();
     EXPECT_TRUE(FindLocalRuns().empty());
-    directory.Announce("diffusion 10", 7);
+    directory.Announce("diffusion 10", 7, std::nullopt);
     const auto runs = FindLocalRuns();
     ASSERT_EQ(runs.size(), 1U);
     EXPECT_EQ(runs[0].experiment, "diffusion 10");
@@ -63,7 +63,7 @@ TEST_F(RunDirectoryTest, WhatAKilledProcessLeftIsRemovedByTheNext)
   if (child == 0)
   {
     RunDirectory directory("killed", 1);
-    directory.Announce("killed", 3);
+    directory.Announce("killed", 3, std::nullopt);
     if (write(ready[1], "r", 1) != 1) _exit(1);
     pause();
     _exit(0);
@@ -89,7 +89,7 @@ TEST_F(RunDirectoryTest, WhatIsNotOursStaysWhereItIs)
   RemoveDeadRuns();
   {
     RunDirectory directory("ours", 1);
-    directory.Announce("ours", 7);
+    directory.Announce("ours", 7, std::nullopt);
     EXPECT_EQ(FindLocalRuns().size(), 1U);
   }
   RemoveDeadRuns();

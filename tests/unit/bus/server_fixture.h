@@ -23,6 +23,7 @@ protected:
   {
     setenv("SWARMANOID_SHARED_FOLDER", folder_.c_str(), 1);
     options_.domain = domain_.Id();
+    options_.key.emplace().fill(7);
     world_.run = 5;
     world_.experiment = experiment;
   }

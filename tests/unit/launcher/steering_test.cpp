@@ -115,7 +115,7 @@ TEST_F(SteeringTest, MovesAreWrittenDownAndRepeatedWithTheSameHashes)
   options_.hash_log = (folder_ / "first").string();
   const std::uint64_t moved = RunSingleProcess(*experiment_, options_).hash;
   EXPECT_NE(moved, undisturbed);
-  EXPECT_THAT(Read("events.csv"), StartsWith("tick,request,entity,numbers,from,number\n7,move,fb_3,"));
+  EXPECT_THAT(Read("events.csv"), StartsWith("tick,request,entity,numbers,from,number,when\n7,move,fb_3,"));
   EXPECT_THAT(Read("events.csv"), Not(HasSubstr("nobody")));
 
   CScriptedRender::on_draw = nullptr;
@@ -173,7 +173,7 @@ TEST_F(SteeringTest, TheEndByAVisualisationIsRepeatedToo)
   options_.event_log = (folder_ / "events.csv").string();
   const RunSummary ended = RunSingleProcess(*experiment_, options_);
   EXPECT_EQ(ended.ticks, 11U);
-  EXPECT_THAT(Read("events.csv"), HasSubstr("11,stop,,,visualiser 's',0\n"));
+  EXPECT_THAT(Read("events.csv"), HasSubstr("11,stop,,,visualiser 's',0,\n"));
 
   CScriptedRender::on_draw = nullptr;
   CScriptedRender::terminate = false;

@@ -1,0 +1,261 @@
+// What processes do that were not asked to take part in a run, on purpose: everything is refused and told, and the run
+// ends with the hash of one that nobody disturbed. The same is tried on a run that lets anybody in (--insecure), where
+// it succeeds: so the attacks are real ones.
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+
+#include <fmt/format.h>
+
+#include "common/bus/control_client.h"
+#include "common/bus/run_directory.h"
+#include "test_folders.h"
+#include "tests/cluster/cluster_fixture.h"
+#include "tests/unit/bus/stranger.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+using test::PayloadOf;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr std::uint64_t kTicks = 60;
+constexpr const char* kTraceLibrary = SWARMANOID_BUILD_FOLDER "/tests/cluster/controllers/libtrace_library.so";
+
+class AttacksTest : public ClusterTest
+{
+protected:
+  AttacksTest() : trace_(folder_ + "/loaded") { setenv("SWARMANOID_TEST_TRACE", trace_.c_str(), 1); }
+  ~AttacksTest() override { unsetenv("SWARMANOID_TEST_TRACE"); }
+
+  // What a stranger's space server would say of an experiment whose controller is in a library of his.
+  std::string ForgedWorld(const std::string& experiment, const std::string& library)
+  {
+    WorldMessage world;
+    world.run = 4711;
+    world.experiment = experiment;
+    world.host = "elsewhere";
+    world.pid = 1;
+    world.file = folder_ + "/forged.xml";
+    world.folder = folder_;
+    std::ifstream stream(WriteExperiment("forged", 1, 10));
+    world.xml.assign(std::istreambuf_iterator<char>(stream), {});
+    const std::string ours = "library=\"footbot_diffusion\"";
+    world.xml.replace(world.xml.find(ours), ours.size(), "library=\"" + library + "\"");
+    return PayloadOf(world);
+  }
+
+  bool IsLoaded() const { return fs::exists(trace_); }
+
+  // The world of the run on this bus, once it is heard.
+  static WorldMessage WorldOn(Bus& bus, const std::string& experiment)
+  {
+    std::mutex mutex;
+    std::optional<WorldMessage> world;
+    const Subscription<WorldMessage> worlds(bus, experiment,
+                                            [&](const WorldMessage& heard)
+                                            {
+                                              const std::lock_guard lock(mutex);
+                                              world = heard;
+                                            });
+    EXPECT_TRUE(Eventually(
+        [&]
+        {
+          const std::lock_guard lock(mutex);
+          return world.has_value();
+        }));
+    return world.value_or(WorldMessage());
+  }
+
+  BusOptions Options() const
+  {
+    BusOptions options;
+    options.domain = domain_.Id();
+    return options;
+  }
+
+  const std::string trace_;
+};
+
+TEST_F(AttacksTest, AForgedWorldLoadsALibraryIfAnybodyIsLetIn)
+{
+  options_ = {"--insecure"};
+  ChildProcess host = StartHost("lured", 0);
+  test::Stranger stranger(domain_.Id(), "lured");
+  ASSERT_TRUE(stranger.Send("World", {ForgedWorld("lured", kTraceLibrary)}));
+  EXPECT_TRUE(Eventually([&] { return IsLoaded(); })) << host.Output();
+}
+
+TEST_F(AttacksTest, AForgedWorldIsNotBelievedAndTheRightOneIs)
+{
+  ChildProcess host = StartHost("lured", 0);
+  test::Stranger stranger(domain_.Id(), "lured");
+  ASSERT_TRUE(stranger.Send("World", {ForgedWorld("lured", kTraceLibrary)}));
+  ASSERT_TRUE(host.WaitForOutput("dropped a bad World message of an unknown process")) << host.Output();
+  EXPECT_THAT(host.Output(), HasSubstr("it is not sealed by the key of this run"));
+  const std::string file = WriteExperiment("lured", 1, static_cast<int>(kTicks));
+  ChildProcess server = StartServer(file, {"--hash-log", folder_ + "/hashes.txt"});
+  ChildProcess engine = StartEngine("lured", 0);
+  EXPECT_EQ(server.Wait(), 0) << server.Output();
+  EXPECT_EQ(host.Wait(), 0) << host.Output();
+  EXPECT_EQ(Read("hashes.txt"), HashesOfSingleProcess(file));
+  EXPECT_FALSE(IsLoaded());
+}
+
+// A library that is not the one of the space server is not loaded, whoever put it where it is looked for.
+TEST_F(AttacksTest, ALibraryThatTheWorldDoesNotNameByItsDigestIsNotLoaded)
+{
+  const std::string library = folder_ + "/libfootbot_diffusion.so";
+  fs::copy_file(SWARMANOID_BUILD_FOLDER "/lib/swarmanoid/libfootbot_diffusion.so", library);
+  const std::string file = WriteExperiment("swapped", 1, 10);
+  std::string text = Read("swapped.xml");
+  text.replace(text.find("library=\"footbot_diffusion\""), 27, "library=\"" + library + "\"");
+  std::ofstream(file) << text;
+  ChildProcess server = StartServer(file);
+  ASSERT_TRUE(server.WaitForOutput("waiting for")) << server.Output();
+  fs::remove(library);
+  fs::copy_file(kTraceLibrary, library);
+  ChildProcess host = StartHost("swapped", 0);
+  EXPECT_EQ(host.Wait(), 3) << host.Output();
+  EXPECT_THAT(host.Output(), HasSubstr("it is another file than that of the space server"));
+  EXPECT_FALSE(IsLoaded());
+}
+
+TEST_F(AttacksTest, WellFormedMessagesOfStrangersChangeNothing)
+{
+  const std::string file = WriteExperiment("besieged", 1, static_cast<int>(kTicks));
+  const std::string output = folder_ + "/run";
+  ChildProcess server = StartServer(file, {"--paused", "--hash-log", folder_ + "/hashes.txt", "--output", output});
+  std::vector<ChildProcess> workers = StartWorkers("besieged", 1, 1);
+  ASSERT_TRUE(server.WaitForOutput("paused at tick 0")) << server.Output();
+  Bus bus(Options(), "test");
+  const std::uint64_t run = WorldOn(bus, "besieged").run;
+  const std::string engine_process = fmt::format("{}:{}", MachineName(), workers[0].Id());
+
+  test::Stranger stranger(domain_.Id(), "besieged");
+  const auto send = [&](const std::string& topic, const std::vector<std::string>& payloads)
+  { EXPECT_TRUE(stranger.Send(topic, payloads)) << topic; };
+  send("ControlRequest", {PayloadOf(ControlRequestMessage{"host:1", 1, "stop", "", {}, "root"}),
+                          PayloadOf(ControlRequestMessage{"host:1", 2, "move", "robots0_0", {1, 1, 0}, "root"})});
+  send("Join", {PayloadOf(JoinMessage{"host:1", kProtocolVersion, run, "engine 'e0'", true, 1}),
+                PayloadOf(JoinMessage{engine_process, kProtocolVersion + 1, run, "engine 'e0'", true, 0})});
+  send("Leave", {PayloadOf(LeaveMessage{run, 0, "engine 'e0'", engine_process, "forged"}),
+                 PayloadOf(LeaveMessage{run, 0, "space server", "", "forged"}),
+                 PayloadOf(LeaveMessage{run, 0, "space server", engine_process, "forged"})});
+  send("Status", {PayloadOf(StatusMessage{run, 0, "engine 'e0'", "forged"})});
+  send("RecoveryRequest", {PayloadOf(RecoveryRequestMessage{run, engine_process, "engine 'e0'", 0})});
+  send("SavedState", {PayloadOf(SavedStateMessage{run, 0, "engine 'e0'", {'x'}})});
+  send("ViewRequest", {PayloadOf(ViewRequestMessage{"host:1", run, 30, true, {5}})});
+  send("World", {ForgedWorld("besieged", kTraceLibrary)});
+
+  // A process by the name and number of the engine, and its end.
+  {
+    BusOptions other = Options();
+    other.key.emplace().fill(1);
+    Bus impostor(other, "engine 'e0'");
+    Publisher<LeaveMessage> leave(impostor, "besieged");
+    ASSERT_TRUE(Eventually([&] { return leave.Readers() >= 2; }));
+    leave.Write({run, 0, "engine 'e0'", engine_process, "forged"});
+    leave.WaitUntilRead(1);
+  }
+  // The messages of a tick do not come by the network at all.
+  SpaceState state;
+  state.poses.assign(7 * 12, 0.5);
+  EngineUpdate update;
+  update.poses.assign(7 * 12, 0.5);
+  test::Stranger second(domain_.Id(), "besieged");
+  EXPECT_TRUE(second.Send("SpaceState", {PayloadOf(MessageHeader{run, 0, 0, false}, state)}, 2));
+  EXPECT_TRUE(second.Send("EngineUpdate", {PayloadOf(MessageHeader{run, 1, 0, false}, update)}));
+
+  ControlClient client(bus, "besieged");
+  const auto reply = client.Ask("resume", "", {}, kGenerous_s);
+  ASSERT_TRUE(reply && reply->ok) << server.Output();
+  EXPECT_EQ(server.Wait(), 0) << server.Output();
+  for (ChildProcess& worker : workers) EXPECT_EQ(worker.Wait(), 0) << worker.Output();
+  EXPECT_EQ(Read("hashes.txt"), HashesOfSingleProcess(file));
+  EXPECT_FALSE(IsLoaded());
+  for (const char* topic : {"ControlRequest", "Join", "Leave", "Status", "RecoveryRequest", "SavedState"})
+    EXPECT_THAT(server.Output(), HasSubstr(fmt::format("dropped a bad {} message of an unknown process", topic)));
+  const std::string events = Read("run/events.csv");
+  EXPECT_THAT(events, AllOf(HasSubstr(",refused,"), HasSubstr(",refused,ControlRequest,,an unknown process"),
+                            HasSubstr(fmt::format("resume,,,{}@{}", UserName(), ProcessId()))));
+  EXPECT_THAT(events, Not(HasSubstr(",stop,")));
+}
+
+// The same requests are obeyed if anybody is let in.
+TEST_F(AttacksTest, AStrangerStopsARunThatLetsAnybodyIn)
+{
+  options_ = {"--insecure"};
+  ChildProcess server = StartServer(WriteExperiment("open", 1, 0), {"--paused"});
+  std::vector<ChildProcess> workers = StartWorkers("open", 1, 1);
+  ASSERT_TRUE(server.WaitForOutput("paused at tick 0")) << server.Output();
+  test::Stranger stranger(domain_.Id(), "open");
+  ASSERT_TRUE(stranger.Send("ControlRequest", {PayloadOf(ControlRequestMessage{"host:1", 1, "stop", "", {}, ""})}));
+  EXPECT_EQ(server.Wait(), 0) << server.Output();
+  EXPECT_THAT(server.Output(), HasSubstr("finished: 0 ticks"));
+}
+
+TEST_F(AttacksTest, OnlyTheUserOfARunCanOpenItsKeyAndItsMemory)
+{
+  ChildProcess server = StartServer(WriteExperiment("private", 1, 0), {"--paused"});
+  std::vector<ChildProcess> workers = StartWorkers("private", 1, 1);
+  ASSERT_TRUE(server.WaitForOutput("paused at tick 0")) << server.Output();
+  const std::vector<LocalRun> runs = FindLocalRuns();
+  ASSERT_EQ(runs.size(), 1U);
+  ASSERT_TRUE(runs[0].key.has_value());
+  EXPECT_EQ(fs::status(runs[0].directory).permissions(), fs::perms::owner_all);
+  EXPECT_EQ(fs::status(runs[0].directory + "/key").permissions(), fs::perms(0600));
+  for (const ChildProcess& process : workers)
+  {
+    std::ifstream words(fmt::format("/proc/{}/cmdline", process.Id()));
+    std::ifstream environment(fmt::format("/proc/{}/environ", process.Id()));
+    const std::string all{std::istreambuf_iterator<char>(words), {}};
+    const std::string more{std::istreambuf_iterator<char>(environment), {}};
+    EXPECT_THAT(all + more, Not(HasSubstr(TextOfKey(*runs[0].key))));
+  }
+  if (getuid() != 0) GTEST_SKIP() << "only root can be another user";
+  const std::vector<std::string> nobody{"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "cat"};
+  for (const char* name : {"key", "server"})
+  {
+    std::vector<std::string> words = nobody;
+    words.push_back(runs[0].directory + "/" + name);
+    ChildProcess cat(words, folder_ + "/cat.log");
+    EXPECT_NE(cat.Wait(), 0);
+    EXPECT_THAT(cat.Output(), HasSubstr("Permission denied"));
+  }
+}
+
+// Somebody without the key asks by the simulator's own means, and is told why not; so is the run.
+TEST_F(AttacksTest, WhoHasAnotherKeyIsToldAndTheRunGoesOn)
+{
+  const std::string file = WriteExperiment("keyed", 1, static_cast<int>(kTicks));
+  std::ofstream(folder_ + "/right") << std::string(64, '1') << "\n";
+  std::ofstream(folder_ + "/wrong") << std::string(64, '2') << "\n";
+  for (const char* name : {"/right", "/wrong"}) fs::permissions(folder_ + name, fs::perms(0600));
+  ChildProcess server =
+      StartServer(file, {"--hash-log", folder_ + "/hashes.txt", "--key", folder_ + "/right", "--output", folder_});
+  ChildProcess wrong = Start("engine_worker", {"--experiment", "keyed", "--engine", "e0", "--key", folder_ + "/wrong"});
+  ASSERT_TRUE(wrong.WaitForOutput("dropped a bad World message of 'space server'")) << wrong.Output();
+  EXPECT_TRUE(wrong.WaitForOutput("waiting for the space server of 'keyed'")) << wrong.Output();
+  ChildProcess engine =
+      Start("engine_worker", {"--experiment", "keyed", "--engine", "e0", "--key", folder_ + "/right"});
+  ChildProcess host = Start("controller_host", {"--experiment", "keyed", "--key", folder_ + "/right"});
+  EXPECT_EQ(server.Wait(), 0) << server.Output();
+  EXPECT_EQ(engine.Wait(), 0) << engine.Output();
+  EXPECT_EQ(host.Wait(), 0) << host.Output();
+  EXPECT_EQ(Read("hashes.txt"), HashesOfSingleProcess(file));
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,96 @@
+"""Who may steer a run: those of the same user, from wherever they ask; nobody else. And runs in a network of their own."""
+import os
+import pathlib
+import shutil
+import subprocess
+import unittest
+
+from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, children_of, main
+
+EXPERIMENT = CONFIGS / "diffusion_10.xml"
+NOBODY = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
+
+
+def can_isolate():
+    """Whether this system lets a process have a network of its own, whoever it is."""
+    return subprocess.run(["unshare", "-n" if os.geteuid() == 0 else "-Un", "true"], check=False, capture_output=True).returncode == 0
+
+
+class Security(LauncherTest):
+    def start_paused(self, *options):
+        run = self.start("run", EXPERIMENT, "--quiet", "--paused", "--hash-log", "hashes", "--no-visualisers", "--ticks", 50, "--real-time", 5,
+                         "--output", "out", *options)
+        self.wait_for_experiment("diffusion_10")
+        return run
+
+    def resume(self):
+        answer = self.run_it("control", "resume")
+        self.assertEqual(answer.process.returncode, 0, answer.stderr)
+
+    def plain(self):
+        return self.assert_finished(self.run_it("run", EXPERIMENT, "--ticks", 50, "--quiet", "--single-process", "--no-visualisers"), 50)
+
+    def test_the_key_is_told_to_processes_alone(self):
+        run = self.start_paused()
+        keys = list(self.shared.glob("*/key"))
+        self.assertEqual(len(keys), 1)
+        self.assertEqual(keys[0].stat().st_mode & 0o777, 0o600)
+        self.assertEqual(keys[0].parent.stat().st_mode & 0o777, 0o700)
+        key = keys[0].read_text().strip()
+        self.assertRegex(key, "^[0-9a-f]{64}$")
+        self.wait_until("all processes", lambda: len(children_of(run.process.pid)) == 3)
+        for pid in [run.process.pid, *children_of(run.process.pid)]:
+            for name in ("cmdline", "environ"):
+                self.assertNotIn(key, pathlib.Path(f"/proc/{pid}/{name}").read_bytes().decode(errors="replace"))
+        self.resume()
+        self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
+        self.assertEqual(self.assert_finished(run, 50), self.plain())
+        for file in (self.folder / "out").rglob("*"):
+            if file.is_file():
+                self.assertNotIn(key.encode(), file.read_bytes(), file)
+                self.assertNotIn(b"give the key", file.read_bytes(), file)
+
+    @unittest.skipUnless(os.geteuid() == 0, "only root can be another user")
+    def test_another_user_is_refused_and_told_why(self):
+        if subprocess.run([*NOBODY, "test", "-x", SWARMANOID], check=False).returncode != 0:
+            self.skipTest("other users cannot start the command that is tested")
+        run = self.start_paused()
+        domain = self.run_it("list", "experiments").stdout.split("domain")[1].split()[0]
+        answer = subprocess.run([*NOBODY, SWARMANOID, "control", "diffusion_10", "stop", "--domain", domain], check=False,
+                                capture_output=True, text=True, cwd="/", timeout=GENEROUS_S)
+        self.assertEqual(answer.returncode, 4, answer.stderr)
+        self.assertIn("no key of it is given", answer.stderr)
+        self.resume()
+        self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
+        self.assert_finished(run, 50)
+
+    @unittest.skipUnless(shutil.which("unshare") and can_isolate(), "needs network namespaces")
+    def test_an_isolated_run_is_found_by_its_user_and_hidden_from_others(self):
+        run = self.start_paused("--isolated")
+        server = run.find("space_server")
+        self.assertNotEqual(os.readlink(f"/proc/{server}/ns/net"), os.readlink("/proc/self/ns/net"))
+        # No port of its domain is open here.
+        domain = int(self.run_it("list", "experiments").stdout.split("domain")[1].split()[0])
+        port = f":{7400 + 250 * domain:04X} "
+        self.assertNotIn(port, pathlib.Path("/proc/self/net/udp").read_text())
+        self.assertIn(port, pathlib.Path(f"/proc/{server}/net/udp").read_text())
+        watcher = self.start("attach", "text", "--file", "table", "--output", self.folder)
+        self.wait_until("a table", lambda: self.has_table("table"), watcher)
+        page = self.run_it("attach", "web", "--wait", 0)
+        self.assertEqual(page.process.returncode, 2)
+        self.assertIn("no browser could reach a page", page.stderr)
+        self.resume()
+        self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
+        self.assertEqual(watcher.wait(GENEROUS_S), 0, watcher.stderr)
+        self.assertEqual(self.assert_finished(run, 50), self.plain())
+
+    def test_whoever_stops_a_run_is_named(self):
+        run = self.start_paused()
+        self.assertEqual(self.run_it("control", "stop").process.returncode, 0)
+        self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
+        self.assertRegex(run.stderr, r"(?m)^[^@\s]+@[^:\s]+:\d+: stopped at tick 0$")
+        self.assertRegex((self.folder / "out" / "events.csv").read_text(), r"(?m)^0,stop,,,[^@,]+@[^,]+:\d+,\d+,\d{4}-\d\d-\d\dT[\d:]{8}Z$")
+
+
+if __name__ == "__main__":
+    main()
