@@ -24,6 +24,8 @@ constexpr std::uint32_t kMostTicks = 64;          // of a block
 constexpr std::size_t kMostRawBytes = 8U << 20U;  // of a block, before it is compressed
 constexpr std::size_t kMostQueued = 256U << 20U;  // then the run waits for the disk
 constexpr auto kLatest = 100ms;                   // a tick stays unwritten
+constexpr auto kLatestOfFew = 500ms;              // likewise, where ticks are slow: a block of few takes much room
+constexpr std::uint32_t kFewTicks = 8;
 
 // The launcher lets the processes of a small run share one core; this thread need not, and goes where that one may.
 void UseCoresOfLauncher()
@@ -141,6 +143,7 @@ void JournalWriter::Queue(JournalBlockKind kind, std::uint64_t tick, const std::
 void JournalWriter::QueueRows()
 {
   if (rows_.Empty()) return;
+  queued_ = Clock::now();
   Block& block = queue_.emplace_back();
   block.place.kind = JournalBlockKind::kTicks;
   block.place.first_tick = rows_.FirstTick();
@@ -162,7 +165,8 @@ void JournalWriter::Write()
       if (over_) return;
       // Nobody wakes this thread at a tick, which would cost it more than the copy.
       changed_.wait_for(lock, kLatest, [this] { return wanted_ || over_; });
-      QueueRows();
+      const bool early = rows_.Ticks() < kFewTicks && Clock::now() - queued_ < kLatestOfFew;
+      if (!early || wanted_ || over_) QueueRows();
       wanted_ = false;
       if (queue_.empty()) changed_.notify_all();
       continue;

@@ -1,6 +1,6 @@
 // JournalWriter: writes the journal of a run. The thread of the ticks and the main thread of the space server add to
 // it; a thread of its own compresses and writes, so that a tick costs a copy. A kill loses what was added within the
-// last tenth of a second, at most.
+// last half of a second, at most.
 #pragma once
 
 #include <chrono>
@@ -65,6 +65,8 @@ public:
   const std::string& Path() const { return path_; }
 
 private:
+  using Clock = std::chrono::steady_clock;
+
   struct Block
   {
     JournalPlace place;
@@ -87,6 +89,7 @@ private:
   TickRows rows_;               // being filled
   std::vector<TickRows> free_;  // buffers to fill next
   std::deque<Block> queue_;
+  Clock::time_point queued_ = Clock::now();  // the newest tick that is
   std::size_t queued_bytes_ = 0;
   bool writing_ = false;
   bool wanted_ = false;  // rows_ too, however few
