@@ -85,6 +85,12 @@ void RunAttached(WorkerSession& session, const WorkerSettings& settings, const R
     monitor.FollowRun(session.World().run);
     node.FollowRun(session.World().run);
   }
+  if (over && session.RunHasEnded())
+  {
+    // The last state may have come with the word that it is the last.
+    node.Work();
+    over.reset();
+  }
   monitor.RunIsOver(over ? over->what() : "");
   // A window stays for those who look at it.
   if (visualiser.IsInteractive() && !node.Terminated())

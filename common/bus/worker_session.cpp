@@ -169,6 +169,12 @@ bool WorkerSession::FollowNext(const std::function<bool()>& idle)
   return true;
 }
 
+bool WorkerSession::RunHasEnded() const
+{
+  const std::lock_guard lock(mutex_);
+  return server_left_ && !others_error_;
+}
+
 void WorkerSession::Trust(const std::string& name)
 {
   const std::lock_guard lock(mutex_);
@@ -209,10 +215,11 @@ void WorkerSession::CheckOthers()
   // Whatever is thrown below, it is not this process that failed.
   const EndReason before = std::exchange(reason_, EndReason::kOthers);
   if (others_error_) throw BusError(*others_error_);
+  // It may have gone since.
+  if (server_left_) throw BusError("the run has ended");
   // The leases of a run on one machine are long: its launcher sees who dies, but those who are attached have none.
   if (next_world_ || (server_seen_ && !ServerIsOnThisMachine())) server_lost_ = true;
   if (server_lost_) throw BusError(fmt::format("the space server has gone (process {})", server_process_));
-  if (server_left_) throw BusError("the run has ended");
   if (BusIsBroken())
   {
     if (!broken_since_) broken_since_ = Clock::now();

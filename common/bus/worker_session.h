@@ -58,6 +58,8 @@ public:
   // As Wait, for a process that still has something to do after the run: returns nothing once Finish was called, or the
   // reason for which the run ended.
   std::optional<BusError> Follow(std::chrono::milliseconds period, const std::function<void()>& idle);
+  // Whether the server said that the run ended, and for no failure.
+  bool RunHasEnded() const;
   // For one who looks on, after Follow: if the server was lost and its run may go on with another one, says so and
   // waits for that one, and joins it. False if none has come in time, or `idle`, which is called all the while, returns
   // true.
@@ -93,7 +95,7 @@ private:
   unsigned incarnation_;
   Bus bus_;
   int domain_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool notified_ = false;
   bool done_ = false;

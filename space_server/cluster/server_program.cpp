@@ -23,6 +23,7 @@ using namespace std::chrono_literals;
 constexpr auto kPeriod = 50ms;  // of the main thread, when nothing happens
 constexpr auto kFirstRepeat = 100ms;
 constexpr auto kLastRepeat = 1s;
+constexpr double kLastViewTime_s = 2;  // those who look on may be stopped
 constexpr auto kStallTime = 2s;
 constexpr auto kBrokenTime = 5s;  // for the lease of a dead process to end
 constexpr auto kStuckTime = 1s;   // for another process to take its place
@@ -468,6 +469,8 @@ void ServerProgram::Close()
   CheckFailures();
   FinishCheckpoints();
   lockstep_.WithServer([](SpaceServer& server) { server.Destroy(); });
+  // After it nobody waits for the last state any more.
+  views_.WaitUntilRead(kLastViewTime_s);
   session_.Leave(result.ticks, "");
   result.wall_s = Seconds(end_ - start_);
   result.real_time_factor = RealTimeFactor(result.ticks - first_tick_, experiment_.TickSeconds(), result.wall_s);
