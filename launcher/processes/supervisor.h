@@ -48,7 +48,7 @@ struct SupervisorTimes
   std::chrono::milliseconds early_end{10000};  // between a process's good end and the server's word that it left
   std::chrono::milliseconds settle{200};       // between a failure and its attribution: a cause may be told late
   std::chrono::milliseconds others{3000};      // between the end of one that ended for another, and that one's
-  std::chrono::milliseconds finish{3000};      // for processes to end after the last tick
+  std::chrono::milliseconds finish{10000};     // for processes to end after the last tick
   std::chrono::milliseconds finish_visualiser{60000};  // visualisers may have films to finish
   std::chrono::milliseconds forced_stop{5000};         // after SIGTERM or SIGHUP to the launcher
   std::chrono::milliseconds stopped{0};  // that a worker may be stopped by a signal before it is replaced; 0: any

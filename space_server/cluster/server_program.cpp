@@ -23,7 +23,7 @@ using namespace std::chrono_literals;
 constexpr auto kPeriod = 50ms;  // of the main thread, when nothing happens
 constexpr auto kFirstRepeat = 100ms;
 constexpr auto kLastRepeat = 1s;
-constexpr double kLastViewTime_s = 2;  // those who look on may be stopped
+constexpr double kLastViewTime_s = 1;  // those who look on may be stopped
 constexpr auto kStallTime = 2s;
 constexpr auto kBrokenTime = 5s;  // for the lease of a dead process to end
 constexpr auto kStuckTime = 1s;   // for another process to take its place
