@@ -11,7 +11,7 @@
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/sensing/sensor_world.h"
-#include "controller_host/devices/sensing/shadow_map.h"
+#include "controller_host/devices/sensing/shadows.h"
 #include "controller_host/devices/value_devices.h"
 #include "controller_host/split_sensor.h"
 
@@ -68,7 +68,7 @@ public:
       if (DescriptionOf(setup.space.GetEntity(e).GetKind()).role == EntityRole::kLight)
         bulbs_.push_back({e, setup.space.GetEntity(e).SlotOf("intensity")});
     fixed_.resize(bulbs_.size());
-    shadows_ = std::make_unique<ShadowMap>(*world_);
+    shadows_ = std::make_unique<MovingShadows>(*world_);
     place_of_entity_.assign(setup.space.Size(), -1);
     for (std::size_t k = 0; k < this->robots_.size(); ++k)
       place_of_entity_[this->robots_[k]] = static_cast<std::int32_t>(k);
@@ -173,7 +173,7 @@ private:
   std::shared_ptr<SensorWorld> world_;
   std::vector<Bulb> bulbs_;
   std::vector<FixedShadows> fixed_;  // by bulb
-  std::unique_ptr<ShadowMap> shadows_;
+  std::unique_ptr<MovingShadows> shadows_;
   std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
   SightedPoints points_;                       // of this tick
   std::vector<std::uint32_t> seen_;            // of them, by the bulb in turn

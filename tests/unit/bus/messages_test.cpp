@@ -154,7 +154,7 @@ TEST(MessageBytes, OfPosesHaveUniformColumnsAsOneNumber)
         const double same = k == 2 ? -0.0 : random.Real();
         for (std::size_t e = 0; e < entities; ++e)
         {
-          update.poses.push_back(uniform >> k & 1U ? same : same + 1 + static_cast<double>(e));
+          update.poses.push_back(uniform >> k & 1U ? same : same + 1 + static_cast<double>(e * (4 - e)));
           if (e == 0 || (shortened >> k & 1U) == 0) sent.push_back(update.poses.back());
         }
       }

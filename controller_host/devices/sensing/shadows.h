@@ -68,10 +68,10 @@ private:
   std::vector<std::vector<Body>> bodies_;  // by sector, the nearest first
 };
 
-class ShadowMap
+class MovingShadows
 {
 public:
-  explicit ShadowMap(const SensorWorld& world);
+  explicit MovingShadows(const SensorWorld& world);
 
   // Sorts the movable bodies of this tick around a source, those that come within `reach` m of it in the xy plane.
   void Sort(const Vector3& source, double reach);

@@ -1,4 +1,4 @@
-#include "controller_host/devices/sensing/shadow_map.h"
+#include "controller_host/devices/sensing/shadows.h"
 
 #include <algorithm>
 #include <array>
@@ -193,7 +193,7 @@ bool FixedShadows::Hide(const SensorWorld& world, std::uint32_t robot, const Vec
   return false;
 }
 
-ShadowMap::ShadowMap(const SensorWorld& world) : world_(world)
+MovingShadows::MovingShadows(const SensorWorld& world) : world_(world)
 {
   std::size_t bodies = 0;
   const CSwarmanoidSpace& space = world.Space();
@@ -209,13 +209,13 @@ ShadowMap::ShadowMap(const SensorWorld& world) : world_(world)
                    std::ranges::find(in_engine, bodies) != in_engine.end();
 }
 
-IntLanes ShadowMap::RingOf(FloatLanes distance) const
+IntLanes MovingShadows::RingOf(FloatLanes distance) const
 {
   const FloatLanes ring = distance * rings_per_m_;
   return Truncated(Minimum(Maximum(ring, FloatLanes{}), Everywhere(static_cast<float>(kRings - 1))));
 }
 
-void ShadowMap::Sort(const Vector3& source, double reach)
+void MovingShadows::Sort(const Vector3& source, double reach)
 {
   const NeighbourGrid& grid = world_.Grid();
   const std::span<const std::uint32_t> bodies = grid.Sorted();
@@ -309,8 +309,8 @@ void ShadowMap::Sort(const Vector3& source, double reach)
       });
 }
 
-inline ShadowMap::Lines ShadowMap::LinesTo(const SightedPoints& points, std::size_t group, FloatLanes x, FloatLanes y,
-                                           FloatLanes length, IntLanes sector) const
+inline MovingShadows::Lines MovingShadows::LinesTo(const SightedPoints& points, std::size_t group, FloatLanes x,
+                                                   FloatLanes y, FloatLanes length, IntLanes sector) const
 {
   constexpr float kTiny = 1e-20F;  // a level line: the quotients become huge, not NaN
   Lines lines;
@@ -337,7 +337,7 @@ inline ShadowMap::Lines ShadowMap::LinesTo(const SightedPoints& points, std::siz
   return lines;
 }
 
-void ShadowMap::Look(const SightedPoints& points, const FixedShadows& fixed, std::vector<std::uint32_t>& seen) const
+void MovingShadows::Look(const SightedPoints& points, const FixedShadows& fixed, std::vector<std::uint32_t>& seen) const
 {
   for (std::size_t group = 0; group < points.count; group += kLanes)
   {
@@ -363,7 +363,7 @@ void ShadowMap::Look(const SightedPoints& points, const FixedShadows& fixed, std
   }
 }
 
-inline bool ShadowMap::IsHidden(std::uint32_t robot, const Vector3& point, const Lines& lines, unsigned lane) const
+inline bool MovingShadows::IsHidden(std::uint32_t robot, const Vector3& point, const Lines& lines, unsigned lane) const
 {
   const std::uint32_t* const start = sort_.Starts();
   const std::size_t begin = start[lines.first_cell[lane]];

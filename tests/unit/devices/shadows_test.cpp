@@ -1,4 +1,4 @@
-#include "controller_host/devices/sensing/shadow_map.h"
+#include "controller_host/devices/sensing/shadows.h"
 
 #include "common/control_interface/footbot/ci_footbot_light_sensor.h"
 #include "tests/unit/devices/test_world.h"
@@ -24,7 +24,7 @@ void AddWalls(TestWorld& world, RandomStream& random, double side, int count)
 }
 
 // Alike and mixed bodies, tilted ones, several engines, sources above, among and within them, near and far.
-TEST(ShadowMap, AgreesWithBruteForceInRandomWorlds)
+TEST(MovingShadows, AgreesWithBruteForceInRandomWorlds)
 {
   int hidden = 0, seen = 0;
   for (std::uint32_t trial = 0; trial < 60; ++trial)
@@ -67,7 +67,7 @@ TEST(ShadowMap, AgreesWithBruteForceInRandomWorlds)
       points.z[points.count] = point.z();
       points.robot[points.count++] = robot;
     }
-    ShadowMap shadows(sensor_world);
+    MovingShadows shadows(sensor_world);
     FixedShadows fixed;
     for (int n = 0; n < 6; ++n)
     {
