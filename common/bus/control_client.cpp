@@ -44,17 +44,30 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, c
   std::unique_lock lock(mutex_);
   got_on_ = Clock::now();
   const auto is_patient = [&] { return Clock::now() < got_on_ + patience; };
-  while (requests_.Readers() == 0 || replies_.Writers() == 0)
+  // The bus calls us while it holds locks that it takes for these questions, too: none of ours may be held meanwhile.
+  const auto without_lock = [&](const auto& call)
+  {
+    lock.unlock();
+    const auto answer = call();
+    lock.lock();
+    return answer;
+  };
+  while (without_lock([this] { return requests_.Readers() == 0 || replies_.Writers() == 0; }))
     if (answered_.wait_for(lock, 2ms), !is_patient()) return std::nullopt;
   reply_.reset();
   const ControlRequestMessage request{ProcessId(), ++number_, verb, entity, numbers, UserName()};
   // We may know the server before it knows us: then its answer finds nobody, and the same request is answered again.
   while (!reply_ && is_patient())
   {
-    requests_.Write(request);
+    const bool is_heard = without_lock(
+        [&]
+        {
+          requests_.Write(request);
+          return requests_.Readers() > 0;
+        });
     answered_.wait_for(lock, kRepeat, [this] { return reply_.has_value(); });
     // A run that ends upon the request may be gone before its answer finds us.
-    if (reply_ || requests_.Readers() > 0) continue;
+    if (reply_ || is_heard) continue;
     const bool finished = status_ && status_->phase == RunStatus::Phase::kFinished;
     if (verb != "stop" && !finished) continue;
     reply_ = ControlReplyMessage{.client = request.client, .number = request.number, .text = {}};
@@ -83,8 +96,12 @@ std::optional<RunStatus> ControlClient::LatestStatus()
 
 void ControlClient::Send(const std::string& verb, const std::string& entity, const std::vector<double>& numbers)
 {
-  const std::lock_guard lock(mutex_);
-  requests_.Write({ProcessId(), ++number_, verb, entity, numbers, UserName()});
+  std::uint32_t number = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    number = ++number_;
+  }
+  requests_.Write({ProcessId(), number, verb, entity, numbers, UserName()});
 }
 
 }  // namespace swarmanoid

@@ -58,7 +58,7 @@ class CommandLine(OutsideTest):
         options = {name: set(re.findall(r"^ +(--[a-z-]+)", self.command(*name, "--help").stdout, re.MULTILINE))
                    for name in [("swarmanoid", "run"), ("space_server",)]}
         own = {"--status-fd", "--await-replacements", "--go-on", "--domain", "--interface", "--peers", "--discovery-server", "--lease", "--datagram",
-               "--version"}
+               "--key", "--key-fd", "--version"}
         self.assertLessEqual(options[("space_server",)] - own, options[("swarmanoid", "run")])
 
     def test_what_functions_print_is_no_word_of_the_server(self):
