@@ -31,9 +31,9 @@ dds::DataWriterQos WriterQos(const TopicQos& topic)
   qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();
   // While somebody has not confirmed a message. Waiting for a lost one is what loss costs.
-  qos.reliable_writer_qos().times.heartbeatPeriod = Milliseconds(1);
+  qos.reliable_writer_qos().times.heartbeatPeriod = Milliseconds(topic.hot ? 1 : 5);
   // Otherwise one goes with every datagram of a message, and is answered with a list of those that are on their way.
-  qos.reliable_writer_qos().disable_heartbeat_piggyback = true;
+  qos.reliable_writer_qos().disable_heartbeat_piggyback = topic.hot;
   qos.reliable_writer_qos().times.nackResponseDelay = Milliseconds(0);
   qos.reliable_writer_qos().times.nackSupressionDuration = Milliseconds(0);
   return qos;
@@ -53,7 +53,7 @@ dds::DataReaderQos ReaderQos(const TopicQos& topic, unsigned writers)
   qos.resource_limits().extra_samples = kExtraSamples;
   qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();
-  qos.reliable_reader_qos().times.heartbeatResponseDelay = Milliseconds(0);
+  qos.reliable_reader_qos().times.heartbeatResponseDelay = Milliseconds(topic.hot ? 0 : 0.2);
   return qos;
 }
 

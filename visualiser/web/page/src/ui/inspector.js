@@ -121,7 +121,9 @@ class Card {
       (this.put = h("button.small", { type: "submit" }, "Move")),
       (this.remove = h("button.small", { type: "button", title: "Take it out of the arena  (Delete)", onclick: () => actions.remove(this.entity) }, "Remove")),
     );
-    const details = h("details.place", { ontoggle: () => details.open && this.fillForm() }, h("summary", {}, "Move, add, remove"), this.form);
+    // At once: the event `toggle` comes later, and would take the place of what is typed already.
+    const fill = () => details.open || this.fillForm();
+    const details = h("details.place", {}, h("summary", { onclick: fill }, "Move, add, remove"), this.form);
     this.place = details;
     this.place.hidden = !this.panel.mayControl;
     this.element.append(details);
