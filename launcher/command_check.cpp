@@ -100,7 +100,7 @@ int CheckForPrograms(const RunSettings& options)
   int exit_code = kExitInvalidFile;
   if (loaded.experiment)
   {
-    exit_code = TerrainsAreGood(*loaded.experiment) ? TrialStart(*loaded.experiment) : int{kExitInvalidFile};
+    exit_code = FilesAreGood(*loaded.experiment) ? TrialStart(*loaded.experiment) : int{kExitInvalidFile};
     json["valid"] = exit_code == kExitDone;
     json.update(JsonOf(*loaded.experiment));
   }

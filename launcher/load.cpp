@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "common/configuration/wording.h"
+#include "common/space/floor/floor_picture.h"
 #include "common/space/terrain/terrain.h"
 #include "roles/builtins.h"
 
@@ -32,15 +33,16 @@ std::string NearFile(const std::string& file)
 
 }  // namespace
 
-bool TerrainsAreGood(const Experiment& experiment)
+bool FilesAreGood(const Experiment& experiment)
 {
   bool good = true;
   for (const EntityConfiguration& entity : experiment.entities)
   {
-    if (DescriptionOf(entity.kind).role != EntityRole::kTerrain) continue;
+    const EntityRole role = DescriptionOf(entity.kind).role;
     try
     {
-      LoadTerrain(entity, experiment.folder);
+      if (role == EntityRole::kTerrain) LoadTerrain(entity, experiment.folder);
+      if (role == EntityRole::kPatch) LoadFloorPicture(entity, experiment.folder);
     }
     catch (const ConfigurationError& error)
     {
@@ -59,7 +61,7 @@ std::unique_ptr<Experiment> LoadOrComplain(const std::string& file, const LoadOp
   if (!loaded.experiment)
     fmt::print(stderr, "{}: {}\n", file,
                loaded.errors.size() == 1 ? "1 error" : fmt::format("{} errors", loaded.errors.size()));
-  if (loaded.experiment && !TerrainsAreGood(*loaded.experiment)) return nullptr;
+  if (loaded.experiment && !FilesAreGood(*loaded.experiment)) return nullptr;
   return std::move(loaded.experiment);
 }
 

@@ -13,8 +13,8 @@ namespace swarmanoid
 
 // nullptr if the file is wrong: then all its errors are on standard error.
 std::unique_ptr<Experiment> LoadOrComplain(const std::string& file, const LoadOptions& options);
-// Every process of a run reads the maps of terrains; what is wrong with them is told on standard error before any of
-// them starts.
-bool TerrainsAreGood(const Experiment& experiment);
+// Every process of a run reads the maps of terrains and the pictures of the floor; what is wrong with them is told on
+// standard error before any of them starts.
+bool FilesAreGood(const Experiment& experiment);
 
 }  // namespace swarmanoid

@@ -211,7 +211,9 @@ void AddParameters(Row& row)
     case EntityRole::kHole:
       add(AreaSizeParameter());
       add(AreaRadiusParameter());
-      if (row.role == EntityRole::kPatch) add(ColourParameter(colour));
+      if (row.role != EntityRole::kPatch) break;
+      add(ColourParameter(colour));
+      add(PictureParameter());
       break;
     case EntityRole::kTerrain:
       break;

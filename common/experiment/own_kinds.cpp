@@ -208,7 +208,7 @@ EntityKindDescription GroundPatch()
   row.role = EntityRole::kPatch;
   row.mobility = Mobility::kNever;
   row.seen_by_cameras = true;
-  row.parameters = {AreaSizeParameter(), AreaRadiusParameter(), ColourParameter("green")};
+  row.parameters = {AreaSizeParameter(), AreaRadiusParameter(), ColourParameter("green"), PictureParameter()};
   row.attributes = {kSurface};
   return row;
 }
@@ -315,6 +315,13 @@ ParameterSpec AreaSizeParameter()
 ParameterSpec AreaRadiusParameter()
 {
   return Size(Optional(kNumber, "radius", "m", "", "The radius of a disc around the position, instead of a size."));
+}
+
+ParameterSpec PictureParameter()
+{
+  return Optional(kText, "picture", "", "",
+                  "A PNG that is painted on its rectangle, seen through its colour (white if none is given). "
+                  "Relative to the experiment file.");
 }
 
 std::vector<EntityKindDescription> OwnKinds()

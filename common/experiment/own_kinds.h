@@ -24,5 +24,6 @@ ParameterSpec RadiusParameter();
 ParameterSpec HeightParameter();
 ParameterSpec AreaSizeParameter();
 ParameterSpec AreaRadiusParameter();
+ParameterSpec PictureParameter();
 
 }  // namespace swarmanoid

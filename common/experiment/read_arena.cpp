@@ -56,6 +56,15 @@ Vector3 AreaSize(const ElementReader& reader, Reading& reading)
   return rectangle ? reader.Vector("size") : Vector3(reader.Number("radius"), 0, 0);
 }
 
+void CheckFile(const ElementReader& reader, std::string_view parameter, Reading& reading)
+{
+  if (!reading.options.check_files || !reader.IsGood(parameter)) return;
+  const fs::path path = fs::path(reading.experiment.folder) / reader.Text(parameter);
+  if (const std::string mistake = FileMistake(path); !mistake.empty())
+    reading.diagnostics.Add(reader.Place(parameter),
+                            fmt::format("{}: {}", Quoted(path.lexically_normal().string()), mistake));
+}
+
 // The one map that a terrain holds.
 void CheckTerrain(const TConfigurationTree& tree, const ElementSpec& spec, Reading& reading)
 {
@@ -65,12 +74,7 @@ void CheckTerrain(const TConfigurationTree& tree, const ElementSpec& spec, Readi
     const ElementSpec* element = spec.FindChild(child.Name());
     if (element == nullptr) continue;  // reported already, or a value
     ++maps;
-    const ElementReader reader(child, *element, reading.diagnostics);
-    if (!reading.options.check_files || !reader.IsGood("file")) continue;
-    const fs::path path = fs::path(reading.experiment.folder) / reader.Text("file");
-    if (const std::string mistake = FileMistake(path); !mistake.empty())
-      reading.diagnostics.Add(reader.Place("file"),
-                              fmt::format("{}: {}", Quoted(path.lexically_normal().string()), mistake));
+    CheckFile(ElementReader(child, *element, reading.diagnostics), "file", reading);
   }
   if (maps != 1)
     reading.diagnostics.Add(tree.Location(),
@@ -116,6 +120,13 @@ EntityConfiguration ReadEntityBody(const ElementReader& reader, const ElementSpe
   if (has("mass")) entity.mass_kg = reader.Number("mass");
   if (entity.mass_kg == 0) entity.mass_kg = kind.mass_kg;
   entity.colour = has("colour") ? reader.Colour("colour") : kind.colour;
+  if (has("picture") && !reader.Text("picture").empty())
+  {
+    CheckFile(reader, "picture", reading);
+    if (is_area && entity.size.y() == 0)
+      reading.diagnostics.Add(reader.Place("picture"), "a picture lies on a rectangle: give 'size', not 'radius'");
+    if (!reader.IsGiven("colour")) entity.colour = 0xffffff;
+  }
   if (has("intensity")) entity.intensity = reader.Number("intensity");
   return entity;
 }

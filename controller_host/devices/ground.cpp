@@ -1,6 +1,7 @@
 // The ground sensors of the footbot (all of its eight as greys, those of its base, those of its motors), and of any
 // robot whose kind has them: brightness of the floor under some points, and its colour under the middle. Patches lie on
-// one another in the order of the experiment file; holes, of the floor or of terrain, are black. Generic.
+// one another in the order of the experiment file, some with a picture; holes, of the floor or of terrain, are black.
+// Generic.
 #include <algorithm>
 
 #include "common/control_interface/ci_ground_sensor.h"
@@ -8,6 +9,7 @@
 #include "common/control_interface/footbot/ci_footbot_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_motor_ground_sensor.h"
 #include "common/math/cells.h"
+#include "common/space/floor/floor_picture.h"
 #include "controller_host/devices/any_robot/kind_of_batch.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
@@ -102,7 +104,9 @@ public:
       if (!is_hole && role != EntityRole::kPatch) continue;
       // A rectangle (x, y, 0), or a disc (radius, 0, 0).
       const Vector3& size = entity.GetSize();
-      Patch patch{e, is_hole, size.y() == 0, is_hole ? 0 : entity.SlotOf("colour"), size.x() / 2, size.y() / 2, 0, {}};
+      Patch patch{e, is_hole, size.y() == 0, is_hole ? 0 : entity.SlotOf("colour"), size.x() / 2, size.y() / 2,
+                  0, {},      nullptr};
+      if (!is_hole) patch.picture = LoadFloorPicture(entity.GetConfiguration(), setup.space.GetExperiment().folder);
       if (patch.is_disc) patch.half_x = size.x();
       patch.radius = __builtin_sqrt(patch.half_x * patch.half_x + patch.half_y * patch.half_y);
       patches_.push_back(patch);
@@ -130,11 +134,18 @@ private:
     double half_x, half_y;  // m; discs: radius in half_x
     double radius;          // m, of the circle around it
     Pose pose;              // when they were sorted
+    std::shared_ptr<const FloorPicture> picture;
 
     bool Contains(double x, double y) const
     {
       if (is_disc) return x * x + y * y <= half_x * half_x;
       return __builtin_fabs(x) <= half_x && __builtin_fabs(y) <= half_y;
+    }
+    // At a point of it.
+    std::uint32_t Colour(std::uint32_t tint, double x, double y) const
+    {
+      if (picture == nullptr) return tint;
+      return Tinted(picture->ColourAt((x + half_x) / (2 * half_x), (y + half_y) / (2 * half_y)), tint);
     }
   };
 
@@ -192,15 +203,16 @@ private:
       const Vector3 offset = pose.position - place.position;
       if (offset.x() * offset.x() + offset.y() * offset.y() > reach * reach) continue;
       if (__builtin_fabs(offset.z()) > kNearFloor) continue;
-      const std::uint32_t colour =
+      const std::uint32_t tint =
           patch.is_hole ? 0 : static_cast<std::uint32_t>(space_->Attributes()[patch.colour_slot]);
       const Pose relative = place.Inverse().Compose(pose);
       for (std::size_t i = 0; i < points_.size(); ++i)
       {
         const Vector3 point = relative.Apply({points_[i].x(), points_[i].y(), 0});
-        if (patch.Contains(point.x(), point.y())) values[i] = Brightness(colour);
+        if (patch.Contains(point.x(), point.y())) values[i] = Brightness(patch.Colour(tint, point.x(), point.y()));
       }
-      if (patch.Contains(relative.position.x(), relative.position.y())) values[points_.size()] = colour;
+      const auto [x, y] = std::pair(relative.position.x(), relative.position.y());
+      if (patch.Contains(x, y)) values[points_.size()] = patch.Colour(tint, x, y);
     }
     if (ground_noise_.IsActive())
     {

@@ -199,6 +199,22 @@ TEST_F(WebServerTest, ClientsAboveTheLimitAreRefusedUntilOneLeaves)
   EXPECT_EQ(Connect().Open(), 101u);
 }
 
+// Somebody opens connections without end and asks nothing; others still get the page.
+TEST_F(WebServerTest, ConnectionsThatAskNothingMakeRoomForOthers)
+{
+  Start();
+  std::vector<std::unique_ptr<WebClient>> idle;
+  for (int k = 0; k < 300; ++k)
+  {
+    idle.push_back(std::make_unique<WebClient>(server_->Port()));
+    if (k % 50 != 49) continue;
+    WebClient asking(server_->Port());
+    EXPECT_EQ(asking.Get("/").result_int(), 200U) << k;
+    WebClient looking(server_->Port());
+    EXPECT_EQ(looking.Open(), 101U) << k;
+  }
+}
+
 TEST_F(WebServerTest, MessagesAreHeardAndTooLongOnesEndTheConnection)
 {
   Start();

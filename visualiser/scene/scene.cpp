@@ -4,6 +4,7 @@
 
 #include "common/space/attributes.h"
 #include "visualiser/scene/kind_model.h"
+#include "visualiser/scene/painted_floor.h"
 #include "visualiser/scene/picking.h"
 #include "visualiser/scene/trail.h"
 
@@ -22,6 +23,7 @@ constexpr Colour kPlainColour = 0xc0c0c0;  // of a block that has none of its ow
 constexpr double kLargeBody = 1;           // m: beyond it bodies are tested one by one
 constexpr float kLayer = 0.0003F;          // m between one area of the floor and the next
 constexpr std::uint32_t kLayers = 40;
+constexpr int kMostPaintedPixels = 512;  // along an edge of a picture on the floor
 
 Isometry3f PlaceOf(const Pose& pose)
 {
@@ -146,6 +148,20 @@ void Scene::AddArea(std::uint32_t entity)
 {
   const EntityConfiguration& configuration = space_.GetEntity(entity).GetConfiguration();
   const Vector3f size = configuration.size.cast<float>();
+  if (const auto picture = LoadFloorPicture(configuration, space_.GetExperiment().folder))
+  {
+    const PaintedFloor floor = Simplified(*picture, kMostPaintedPixels);
+    paints_[entity] = floor.palette;
+    for (Model& model : FloorModels(floor, "floor_" + configuration.id))
+    {
+      models_.push_back(std::move(model));
+      SceneItem& item = AddItem(entity, ModelId::kRectangle);
+      item.model = static_cast<std::uint16_t>(models_.size() - 1);
+      item.role = SceneItem::Role::kPatch;
+      item.scale = {size.x(), size.y(), 1};
+    }
+    return;
+  }
   const bool disc = size.y() == 0;
   SceneItem& item = AddItem(entity, disc ? ModelId::kDisc : ModelId::kRectangle);
   item.role = SceneItem::Role::kPatch;
@@ -221,6 +237,11 @@ void Scene::UpdateLights()
       light(0, slots.colour);
       if (!on) lights_[static_cast<std::size_t>(body.lights)] = 0;
     }
+    else if (const auto paint = paints_.find(body.entity); paint != paints_.end())
+    {
+      const auto tint = static_cast<Colour>(Attribute(body, slots.colour));
+      for (std::size_t i = 0; i < body.items; ++i) items_[body.first_item + i].tint = Tinted(paint->second[i], tint);
+    }
     else if (slots.colour >= 0)
     {
       SceneItem& item = items_[body.first_item];
@@ -250,8 +271,11 @@ void Scene::UpdateBodies()
         PlaceHandbot(body);
         break;
       case Mechanism::kNone:
-        Place(body.first_item, PlaceOf(space_.GetPose(body.entity)));
-        items_[body.first_item].position.z() += body.lift;
+        for (std::uint32_t i = 0; i < body.items; ++i)
+        {
+          Place(body.first_item + i, PlaceOf(space_.GetPose(body.entity)));
+          items_[body.first_item + i].position.z() += body.lift;
+        }
     }
   }
 }

@@ -81,7 +81,7 @@ struct SceneOptions
 class Scene
 {
 public:
-  // Reads the terrains of the experiment; throws ConfigurationError for those. The space outlives the scene.
+  // Reads the terrains and the pictures of the floor; throws ConfigurationError for those. The space outlives the scene.
   explicit Scene(const CSwarmanoidSpace& space);
   ~Scene();
 
@@ -175,6 +175,7 @@ private:
   std::vector<std::uint32_t> large_;  // bodies too large for the search about a line
   double search_radius_ = 0;          // of the largest of the others
   std::uint32_t areas_ = 0;           // patches and holes
+  std::map<std::uint32_t, std::vector<Colour>> paints_;  // of patches with a picture: of their items
   // Made when first needed.
   std::unique_ptr<SpaceQuery> query_;
   std::unique_ptr<CollisionModels> collision_models_;

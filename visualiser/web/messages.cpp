@@ -13,6 +13,7 @@
 #include "common/space/attributes.h"
 #include "common/space/terrain/terrain.h"
 #include "visualiser/scene/meshes_file.h"
+#include "visualiser/scene/painted_floor.h"
 #include "visualiser/status_line.h"
 
 namespace swarmanoid
@@ -24,6 +25,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr unsigned kMostSteps = 1000000;
 constexpr int kTerrainSamples = 128;  // along each side
+constexpr int kPicturePixels = 256;   // of a picture on the floor, along each side
 
 std::string Text(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
@@ -50,6 +52,22 @@ Json TerrainSurface(const EntityConfiguration& configuration, const std::string&
   return {{"low", Vector(low)}, {"high", Vector(high)}, {"columns", columns}, {"rows", rows}, {"heights", heights}};
 }
 
+// Rows from the top, as numbers of pixels in a row and their number in the palette.
+Json Picture(const FloorPicture& picture)
+{
+  const PaintedFloor floor = Simplified(picture, kPicturePixels);
+  Json runs = Json::array();
+  for (std::size_t first = 0; first < floor.pixels.size();)
+  {
+    std::size_t end = first;
+    while (end < floor.pixels.size() && floor.pixels[end] == floor.pixels[first]) ++end;
+    runs.push_back(end - first);
+    runs.push_back(floor.pixels[first]);
+    first = end;
+  }
+  return {{"columns", floor.columns}, {"rows", floor.rows}, {"palette", floor.palette}, {"runs", runs}};
+}
+
 Json Body(const CSwarmanoidSpaceEntity& entity, const std::string& folder)
 {
   const EntityConfiguration& configuration = entity.GetConfiguration();
@@ -59,8 +77,10 @@ Json Body(const CSwarmanoidSpaceEntity& entity, const std::string& folder)
             {"position", Vector(pose.position)},
             {"orientation", {pose.orientation.x(), pose.orientation.y(), pose.orientation.z(), pose.orientation.w()}},
             {"colour", configuration.colour}};
-  if (DescriptionOf(entity.GetKind()).role == EntityRole::kTerrain)
-    body["terrain"] = TerrainSurface(configuration, folder);
+  const EntityRole role = DescriptionOf(entity.GetKind()).role;
+  if (role == EntityRole::kTerrain) body["terrain"] = TerrainSurface(configuration, folder);
+  if (role == EntityRole::kPatch)
+    if (const auto picture = LoadFloorPicture(configuration, folder)) body["picture"] = Picture(*picture);
   return body;
 }
 

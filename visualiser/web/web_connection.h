@@ -12,14 +12,25 @@ namespace swarmanoid
 
 class WebServer::Impl::Connection : public std::enable_shared_from_this<Connection>
 {
-  static constexpr auto kRequestTime = std::chrono::seconds(15);
+  static constexpr auto kRequestTime = std::chrono::seconds(15);  // also between two requests
   static constexpr std::size_t kRequestBytes = 8192;
 
 public:
   Connection(Impl& server, tcp::socket socket) : server_(server), stream_(std::move(socket)) {}
   ~Connection()
   {
-    if (!handed_over_) --server_.connections_;
+    StopWaiting();
+    if (!handed_over_ && !dropped_) --server_.connections_;
+  }
+
+  // While it waits for a request.
+  void Drop()
+  {
+    StopWaiting();
+    dropped_ = true;
+    --server_.connections_;
+    ErrorCode ignored;
+    stream_.socket().close(ignored);
   }
 
   void Read()
@@ -28,9 +39,12 @@ public:
     parser_->header_limit(kRequestBytes);
     parser_->body_limit(0);
     stream_.expires_after(kRequestTime);
+    place_ = server_.waiting_.insert(server_.waiting_.end(), this);
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](ErrorCode error, std::size_t)
                      {
+                       self->StopWaiting();
+                       if (self->dropped_) return;
                        if (error == http::error::header_limit)
                          return self->Refuse(http::status::request_header_fields_too_large, "the request is too long");
                        if (error == http::error::body_limit)
@@ -40,6 +54,12 @@ public:
   }
 
 private:
+  void StopWaiting()
+  {
+    if (place_) server_.waiting_.erase(*place_);
+    place_.reset();
+  }
+
   void Answer()
   {
     const auto& request = parser_->get();
@@ -137,7 +157,9 @@ private:
   http::response<http::buffer_body> response_;
   std::optional<http::response_serializer<http::buffer_body>> serializer_;
   std::shared_ptr<const std::string> bytes_;
+  std::optional<std::list<Connection*>::iterator> place_;  // among those that wait
   bool handed_over_ = false;
+  bool dropped_ = false;
 };
 
 }  // namespace swarmanoid

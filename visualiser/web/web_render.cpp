@@ -115,6 +115,15 @@ void CWebRender::Announce(const RenderSetup& setup)
   if (!file.empty()) WriteUrl((folder / file).string(), url);
   fmt::print("web_render: {}\n", url);
   std::fflush(stdout);
+  const std::string address = setup.parameters.Text("address");
+  if (address.starts_with("127.") || address == "::1") return;
+  const char* const warning =
+      allow_control_
+          ? "whoever reaches this address can look on, and whoever overhears it can steer: it is not encrypted; "
+            "an ssh tunnel to address=127.0.0.1 is"
+          : "whoever reaches this address can look on: it is not encrypted";
+  fmt::print(stderr, "web_render: warning: {}\n", warning);
+  Log(space_->GetTick(), "web_render", "warning", warning);
 }
 
 void CWebRender::Draw() { Work(); }

@@ -95,6 +95,8 @@ void WebServer::Impl::Accept()
               });
           return;
         }
+        // Who holds connections without asking anything makes room for others.
+        if (connections_ >= settings_.max_connections && !waiting_.empty()) waiting_.front()->Drop();
         if (connections_ < settings_.max_connections)
         {
           ++connections_;

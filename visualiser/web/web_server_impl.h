@@ -9,6 +9,7 @@
 #include <boost/beast/core.hpp>
 #include <deque>
 #include <functional>
+#include <list>
 #include <map>
 #include <memory>
 #include <string>
@@ -49,6 +50,7 @@ public:
   PageFiles files_;
   WebServerEvents& events_;
   std::size_t connections_ = 0;
+  std::list<Connection*> waiting_;  // for a request, the longest first
   asio::io_context context_{1};
   tcp::acceptor acceptor_{context_};
   asio::steady_timer pause_{context_};  // before the next accept, after a failed one

@@ -84,7 +84,7 @@ class HeightTerrain : public Terrain
 {
 public:
   // The picture spans size_x by size_y metres, its upper left pixel at x = 0 and the largest y; black is 0, white
-  // `height` metres, grey in proportion (grey_picture.h). Throws std::runtime_error, naming the file, if it cannot
+  // `height` metres, grey in proportion (png_picture.h). Throws std::runtime_error, naming the file, if it cannot
   // be read or is smaller than 2 by 2 pixels.
   HeightTerrain(const std::string& path, double size_x, double size_y, double height);
   // From heights in metres, columns * rows of them, along x first, the first row at y = 0.

@@ -47,7 +47,11 @@ void BlobSources::AddEntity(std::uint32_t index)
   if (kind.leds)
     bearers_.push_back({index, &kind, slot("led"), slot("beacon"), slot("turret_angle"), kNoSlot, 0});
   else if (kind.seen_by_cameras && kind.form == BodyForm::kNone)
-    still_.push_back(index);
+  {
+    // A picture is no blob of one colour.
+    if (kind.role != EntityRole::kPatch || entity.GetConfiguration().tree.GetText("picture", "").empty())
+      still_.push_back(index);
+  }
   else if (kind.seen_by_cameras)
     bearers_.push_back({index, nullptr, kNoSlot, kNoSlot, kNoSlot, slot("colour"),
                         kind.origin == BodyOrigin::kBase ? entity.GetSize().z() / 2 : 0});

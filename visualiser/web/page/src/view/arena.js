@@ -1,6 +1,7 @@
 // The floor with its grid, and what stands on it: walls, blocks, patches, holes, lights, sounds and terrain. Of these only
 // lights, sounds and patches may come, go and move.
 import * as THREE from "three";
+import { floorPicture } from "./floor_picture.js";
 import { gridStep, isBoundaryWall, paint } from "./look.js";
 import { BoundaryWall } from "./walls.js";
 
@@ -114,7 +115,7 @@ export class Arena {
       case "cylinder":
         return this.solid(new THREE.CylinderGeometry(x, x, z, 32).rotateX(Math.PI / 2).translate(0, 0, z / 2), paint(body.colour));
       case "patch":
-        return this.makePatch(x, y, body.colour, layer * FLAT_M);
+        return this.makePatch(x, y, body, layer * FLAT_M);
       case "hole":
         return this.makeHole(x, y);
       case "light":
@@ -142,10 +143,11 @@ export class Arena {
     return y === 0 ? new THREE.CircleGeometry(x, 64) : new THREE.PlaneGeometry(x, y);
   }
 
-  makePatch(x, y, colour, height) {
+  makePatch(x, y, body, height) {
+    const look = body.picture ? { color: body.colour, map: pictureTexture(body.picture) } : { color: paint(body.colour) };
     const mesh = new THREE.Mesh(
       this.flatShape(x, y),
-      new this.Material({ color: paint(colour), ...this.finish, polygonOffset: true, polygonOffsetFactor: -1 }),
+      new this.Material({ ...look, ...this.finish, polygonOffset: true, polygonOffsetFactor: -1 }),
     );
     mesh.receiveShadow = true;
     mesh.position.z = height;
@@ -226,7 +228,8 @@ export class Arena {
       if (!object?.material) return;
       const { role } = this.world.look(entity);
       const shines = role === "light" || role === "sound";
-      if (role !== "terrain") object.material.color.set(shines ? colours[i] : paint(colours[i]));
+      const shownAsIs = shines || object.material.map;
+      if (role !== "terrain") object.material.color.set(shownAsIs ? colours[i] : paint(colours[i]));
       if (role !== "light") return;
       const [glow] = object.children;
       glow.material.color.set(colours[i]);
@@ -243,6 +246,14 @@ export class Arena {
       object.material?.dispose();
     });
   }
+}
+
+function pictureTexture(picture) {
+  const texture = new THREE.CanvasTexture(floorPicture(picture));
+  texture.colorSpace = THREE.SRGBColorSpace;
+  texture.magFilter = THREE.NearestFilter;
+  texture.anisotropy = 8;
+  return texture;
 }
 
 function glowTexture() {

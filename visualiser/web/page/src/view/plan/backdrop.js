@@ -1,6 +1,7 @@
 // What stands still, seen from above: floor, grid, patches, holes, terrain, walls, lights. Drawn anew only if the view
 // moves or a colour changes.
 import { css, gridStep, isBoundaryWall, paint, palette } from "../look.js";
+import { floorPicture } from "../floor_picture.js";
 import { fillBody, terrainPicture } from "./bodies.js";
 
 export class Backdrop {
@@ -15,6 +16,7 @@ export class Backdrop {
     this.world = world;
     this.stale = true;
     this.terrains = new Map();
+    this.pictures = new Map(); // entity to { tint, canvas }
     this.colours = new Map(); // entity to [colour, intensity]
     const still = world.bodies.filter((body) => world.slots[body.entity] < 0);
     const flat = (body) => ["patch", "hole", "terrain"].includes(world.look(body.entity).role);
@@ -91,12 +93,28 @@ export class Backdrop {
     if (role === "terrain") return this.drawTerrain(frame, body);
     const [x, y] = body.size;
     context.setTransform(...frame.standing(body));
+    if (body.picture) {
+      context.imageSmoothingEnabled = false;
+      context.scale(1, -1); // its first row is the highest y
+      context.drawImage(this.pictureOf(body), -x / 2, -y / 2, x, y);
+      context.setTransform(1, 0, 0, 1, 0, 0);
+      return;
+    }
     context.beginPath();
     if (y === 0) context.arc(0, 0, x, 0, 2 * Math.PI);
     else context.rect(-x / 2, -y / 2, x, y);
     context.fillStyle = css(role === "hole" ? palette.hole : paint(this.colourOf(body)[0]));
     context.fill();
     context.setTransform(1, 0, 0, 1, 0, 0);
+  }
+
+  pictureOf(body) {
+    const [tint] = this.colourOf(body);
+    const made = this.pictures.get(body.entity);
+    if (made?.tint === tint) return made.canvas;
+    const canvas = floorPicture(body.picture, tint);
+    this.pictures.set(body.entity, { tint, canvas });
+    return canvas;
   }
 
   drawTerrain(frame, body) {

@@ -1,6 +1,8 @@
-// The pixels of a PNG as numbers, for height maps. Used by HeightTerrain, in any process.
+// The pixels of a PNG: greys for height maps (HeightTerrain), colours for pictures on the floor (FloorPicture). In any
+// process.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,9 +16,18 @@ struct GreyPicture
   int rows = 0;
 };
 
+struct ColourPicture
+{
+  std::vector<std::uint32_t> pixels;  // 0xRRGGBB, rows from the top
+  int columns = 0;
+  int rows = 0;
+};
+
 // The samples as they stand in the file, of 1 to 16 bits: a grey of half the range is 0.5, whatever gamma the file
 // claims. Colours count as 0.299 R + 0.587 G + 0.114 B, transparency does not. Throws std::runtime_error naming a file
 // that cannot be read.
 GreyPicture ReadGreyPicture(const std::string& path);
+// Likewise; of samples with 16 bits the upper 8.
+ColourPicture ReadColourPicture(const std::string& path);
 
 }  // namespace swarmanoid
