@@ -217,10 +217,11 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
   }
 }
 
-const ControlCommands& ControllerHost::Tick(std::span<const SensorFrame* const> frames)
+void ControllerHost::Sense(std::span<const SensorFrame* const> frames)
 {
   const std::uint64_t tick = space_.GetTick();
-
+  if (sensed_tick_ == tick) return;
+  sensed_tick_ = tick;
   // What the engines sensed.
   if (!frames.empty())
     for (const ValueCopy& copy : layout_.sensor_copies)
@@ -231,6 +232,12 @@ const ControlCommands& ControllerHost::Tick(std::span<const SensorFrame* const> 
                   sensor_values_.begin() + static_cast<std::ptrdiff_t>(copy.to));
     }
   UpdateSensors(tick);
+}
+
+const ControlCommands& ControllerHost::Tick(std::span<const SensorFrame* const> frames)
+{
+  const std::uint64_t tick = space_.GetTick();
+  Sense(frames);
   RunControllers(tick);
 
   commands_.tick = tick;
@@ -433,6 +440,7 @@ void ControllerHost::SaveState(ByteWriter& state) const
 
 void ControllerHost::LoadState(ByteReader& state)
 {
+  sensed_tick_.reset();
   for (Robot& robot : robots_)
   {
     std::istringstream text(state.GetText());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,8 +32,10 @@ public:
   ControllerHost(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t host, unsigned threads = 1);
   ~ControllerHost();
 
-  // Senses, runs the controllers and commits the actuators at the tick of the space. `frames`: one for each of
-  // layout.frames_from, in that order; empty at tick 0. The result is valid until the next call.
+  // Brings the sensors to the tick of the space. `frames`: one for each of layout.frames_from, in that order; empty at
+  // tick 0. Tick does so first, unless it was done for this tick.
+  void Sense(std::span<const SensorFrame* const> frames);
+  // Senses, runs the controllers and commits the actuators. The result is valid until the next call.
   const ControlCommands& Tick(std::span<const SensorFrame* const> frames);
   // What controllers and devices remember. Saving throws ActivityError if a controller cannot be saved (HasState
   // is false).
@@ -76,6 +79,7 @@ private:
   std::unique_ptr<Batches> batches_;
   std::vector<double> sensor_values_;
   ControlCommands commands_;
+  std::optional<std::uint64_t> sensed_tick_;
   bool destroyed_ = false;
 };
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "common/configuration/wording.h"
-#include "common/space/floor/floor_picture.h"
+#include "common/space/terrain/floor_picture.h"
 #include "common/space/terrain/terrain.h"
 #include "roles/builtins.h"
 

@@ -108,6 +108,12 @@ struct CSimulator::Roles
     checkpoint.LoadPart(HostName(0), [&](ByteReader& state) { host->LoadState(state); });
   }
 
+  // What the engines sensed, for the host.
+  std::span<const SensorFrame* const> Frames() const
+  {
+    return space.GetTick() == 0 ? std::span<const SensorFrame* const>() : std::span<const SensorFrame* const>(frames);
+  }
+
   static SimulatorOptions WithFolder(SimulatorOptions options)
   {
     if (options.output_folder.empty()) options.output_folder = ".";
@@ -169,15 +175,20 @@ CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& opt
 
 CSimulator::~CSimulator() = default;
 
+void CSimulator::Sense()
+{
+  RefuseWithin("Sense");
+  if (!roles_->finished) roles_->host->Sense(roles_->Frames());
+}
+
 bool CSimulator::Step()
 {
-  using Frames = std::span<const SensorFrame* const>;
   using Commands = std::span<const ControlCommands* const>;
 
   RefuseWithin("Step");
   Roles& r = *roles_;
   if (r.over || r.finished) return false;
-  const ControlCommands* commands = &r.host->Tick(r.space.GetTick() == 0 ? Frames() : Frames(r.frames));
+  const ControlCommands* commands = &r.host->Tick(r.Frames());
   for (std::size_t e = 0; e < r.engines.size(); ++e)
     r.engines[e]->Tick(r.server.Moved(),
                        r.assignment.engines[e].commands_from.empty() ? Commands() : Commands(&commands, 1));

@@ -30,7 +30,7 @@ class CSimulator
 public:
   // The experiment at tick 0, or where its checkpoint is; it must outlive the simulator. Throws ConfigurationError,
   // ActivityError (common/activity/failure_report.h), which names whose code failed, or another std::runtime_error with
-  // a text for the user; so do Step and Finish. Code that crashes or calls exit ends the program with such a line and
+  // a text for the user; so do Sense, Step and Finish. Code that crashes or calls exit ends the program with such a line and
   // exit code 4. The function that RunSimulation calls at each tick gets one too, only to look at: there Step and
   // Finish throw std::logic_error.
   explicit CSimulator(const Experiment& experiment, const SimulatorOptions& options = {});
@@ -38,6 +38,9 @@ public:
   CSimulator(const CSimulator&) = delete;
   CSimulator& operator=(const CSimulator&) = delete;
 
+  // What the robots' sensors read at the current tick, for who looks at them before their controllers do; else Step
+  // begins with it. What the editor changes between the two is sensed one tick later.
+  void Sense();
   // Controllers, physics, visualisations: to the next tick. False, and nothing happens, if the experiment is over.
   bool Step();
   // Ends controllers, experiment functions and visualisations; later calls give the same summary.

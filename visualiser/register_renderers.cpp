@@ -26,6 +26,7 @@ void RegisterBuiltinRenderers()
     BindLibrary("opengl_render", "libepoxy-dev libstb-dev libglfw3-dev libimgui-dev");
     BindLibrary("ogre_render", "libogre-1.12-dev libimgui-dev libx11-dev");
     BindLibrary("web_render", "nodejs npm libboost-dev");
+    BindLibrary("ros2_render", "fastddsgen");
     PluginRegistry<CRender>::Instance().RequireCode();
     return true;
   }();

@@ -56,7 +56,7 @@ void DescribeBuiltinRenderers()
   {
     for (const PluginDescription& renderer :
          {TextRenderDescription(), ImageRenderDescription(), OpenGlRenderDescription(), OgreRenderDescription(),
-          WebRenderDescription()})
+          WebRenderDescription(), Ros2RenderDescription()})
       PluginCatalogue::Instance().Add(PluginKind::kRenderer, renderer);
     return true;
   }();

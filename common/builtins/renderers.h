@@ -14,6 +14,7 @@ PluginDescription ImageRenderDescription();
 PluginDescription OpenGlRenderDescription();
 PluginDescription OgreRenderDescription();
 PluginDescription WebRenderDescription();
+PluginDescription Ros2RenderDescription();
 
 // What all renderers of pictures share. camera_view_XYZ_n, camera_view_HPR_n.
 std::vector<ParameterSpec> ViewpointParameters();

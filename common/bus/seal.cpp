@@ -14,6 +14,9 @@ namespace
 
 constexpr std::size_t kCodeBytes = 16;
 
+// Threads of Fast DDS seal until the process has ended: libcrypto must not take itself down in an exit handler before.
+[[maybe_unused]] const int kStaysUp = OPENSSL_init_crypto(OPENSSL_INIT_NO_ATEXIT, nullptr);
+
 using Code = std::array<unsigned char, EVP_MAX_MD_SIZE>;
 
 // HMAC-SHA256 (RFC 2104) under a key of the topic and writer alone, which is made by HMAC from that of the run. Only

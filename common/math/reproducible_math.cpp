@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 #include <math.h>
 
+#include <atomic>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -28,20 +29,39 @@ void RequireModes()
         "this thread counts numbers below 2.2e-308 as 0, as no other program does; link this one without -ffast-math");
 }
 
+// Where this library takes sin from, and where the program does.
+std::string OwnFile()
+{
+  double (*const own)(double) = &::sin;
+  return FileOf(reinterpret_cast<const void*>(own));
+}
+std::string FileOfProgram()
+{
+  const void* const found = dlsym(RTLD_DEFAULT, "sin");
+  return found == nullptr ? std::string() : FileOf(found);
+}
+
 void RequireFunctions()
 {
-  // What this library was linked against, and what others find who were linked against libm.
-  double (*const own)(double) = &::sin;
-  const void* const found = dlsym(RTLD_DEFAULT, "sin");
-  const std::string ours = FileOf(reinterpret_cast<const void*>(own));
-  if (found == nullptr || FileOf(found) == ours) return;
-  throw std::runtime_error("this program takes sin and the other functions of libm from " + FileOf(found) +
+  const std::string own = OwnFile(), program = FileOfProgram();
+  const bool is_ours = own.find("libswarmanoid_reproducible_math") != std::string::npos;
+  if (is_ours && (program.empty() || program == own || HasOwnScope())) return;
+  throw std::runtime_error("this program takes sin and the other functions of libm from " + (is_ours ? program : own) +
                            ", whose results depend on the processor; link it by CMake with Swarmanoid::simulation, put "
                            "-lswarmanoid_reproducible_math before other libraries, or start it with LD_PRELOAD=" +
-                           ours);
+                           own);
+}
+
+std::atomic<bool>& OwnScope()
+{
+  static std::atomic<bool> own_scope = false;
+  return own_scope;
 }
 
 }  // namespace
+
+void SetOwnScope() { OwnScope() = true; }
+bool HasOwnScope() { return OwnScope(); }
 
 void RequireReproducibleMath()
 {

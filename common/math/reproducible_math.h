@@ -13,6 +13,11 @@ namespace swarmanoid
 // otherwise than to nearest or counts tiny numbers as 0.
 void RequireReproducibleMath();
 
+// Says that our libraries were loaded with RTLD_DEEPBIND by a program that has libm before them (Python): they find
+// their functions among themselves first, and so must the libraries of plug-ins that are loaded from then on.
+void SetOwnScope();
+bool HasOwnScope();
+
 // Restores the floating-point modes of this thread when it ends. Libraries that were linked with -ffast-math set, when
 // they are loaded, that tiny numbers count as 0, for all that the thread computes from then on.
 class FloatingPointGuard

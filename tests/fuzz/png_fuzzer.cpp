@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/space/floor/png_picture.h"
+#include "common/space/terrain/png_picture.h"
 #include "tests/fuzz/fuzz_driver.h"
 
 namespace swarmanoid

@@ -50,9 +50,13 @@ def allowed():
     rules["common/experiment"] = experiment + ["common/space/terrain"]
     rules["roles"] = without_bus + ROLES + ["roles"]
     rules["launcher"] = below + ROLES + ["roles", "launcher"]
+    # The module wraps the runner for one process, as a program of a user does.
+    rules["python"] = without_bus + ["controller_host", "space_server", "launcher", "python"]
     rules["real_robot"] = INTERFACE + ["common/logging", "common/program", "real_robot"]
     # A folder of drivers sees what drivers are made from, and no other drivers.
     rules["real_robot/drivers/ros2"] = rules["real_robot"] + ["real_robot/drivers/ros2"]
+    # It speaks to ROS 2 as the drivers do.
+    rules["visualiser/ros2"] = rules["visualiser"] + ["visualiser/ros2"] + rules["real_robot/drivers/ros2"]
     rules["user"] = INTERFACE + ["user"]
     # Experiment functions run at the space server and see all of it.
     rules["user/functions"] = rules["space_server"] + ["user/functions"]

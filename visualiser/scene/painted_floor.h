@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/space/floor/floor_picture.h"
+#include "common/space/terrain/floor_picture.h"
 #include "visualiser/scene/mesh.h"
 
 namespace swarmanoid

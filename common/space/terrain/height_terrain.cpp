@@ -2,7 +2,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "common/space/floor/png_picture.h"
+#include "common/space/terrain/png_picture.h"
 #include "common/space/terrain/rectangles.h"
 #include "common/space/terrain/terrain.h"
 

@@ -61,7 +61,7 @@ public:
   Participant()
   {
     dds::DomainParticipantQos qos;
-    qos.name("swarmanoid_robot");
+    qos.name("swarmanoid");
     // UDP alone: all vendors speak it, and no shared memory is left behind when a robot loses power.
     qos.transport().use_builtin_transports = false;
     auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
@@ -141,12 +141,13 @@ struct Writer::Ends
 };
 
 // Reliable, the latest message alone: what all listeners of ROS 2 take, whether they ask for reliability or not.
-Writer::Writer(const std::string& topic, const MessageType& type) : ends_(std::make_unique<Ends>())
+Writer::Writer(const std::string& topic, const MessageType& type, bool latched) : ends_(std::make_unique<Ends>())
 {
   dds::Topic* made = ends_->participant->TopicOf(topic, type);
   dds::DataWriterQos qos;
   qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
   qos.reliability().max_blocking_time = kWriteTime;
+  if (latched) qos.durability().kind = dds::TRANSIENT_LOCAL_DURABILITY_QOS;
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = 1;
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;

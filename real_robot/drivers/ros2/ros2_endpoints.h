@@ -1,5 +1,6 @@
 // Publishers and subscribers with the topic and type names of ROS 2, over DDS. The only code of the robot that knows
-// DDS; the drivers of this folder use it, from the thread of the controller.
+// DDS; the drivers of this folder use it, from the thread of the controller, and the visualiser that shows a simulation
+// to ROS 2 (visualiser/ros2).
 //
 // A topic of ROS 2 is "rt/<name>" on DDS, and a type "<package>::msg::dds_::<Name>_". The DDS domain is that of the
 // environment variable ROS_DOMAIN_ID, else 0; with ROS_LOCALHOST_ONLY=1 nothing leaves this machine.
@@ -29,7 +30,8 @@ std::string TopicName(const std::string& name_space, const std::string& name);
 class Writer
 {
 public:
-  Writer(const std::string& topic, const MessageType& type);
+  // Latched: who comes later still gets the last message.
+  Writer(const std::string& topic, const MessageType& type, bool latched = false);
   ~Writer();
   void Write(void* message);
   // Waits until all who listen reliably have it, half a second at most.

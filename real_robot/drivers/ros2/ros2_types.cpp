@@ -1,9 +1,12 @@
-// The messages that the drivers speak, with what Fast DDS needs to send them (generated from idl/ros2).
+// The messages that the drivers and simulations speak, with what Fast DDS needs to send them (generated from idl/ros2).
 #include "geometry_msgsPubSubTypes.h"
 #include "nav_msgsPubSubTypes.h"
 #include "real_robot/drivers/ros2/ros2_endpoints.h"
+#include "rosgraph_msgsPubSubTypes.h"
 #include "sensor_msgsPubSubTypes.h"
 #include "std_msgsPubSubTypes.h"
+#include "tf2_msgsPubSubTypes.h"
+#include "visualization_msgsPubSubTypes.h"
 
 // One line for each message: package and name.
 #define ROS2_MESSAGE(PACKAGE, NAME)                                                                              \
@@ -32,5 +35,8 @@ ROS2_MESSAGE(sensor_msgs, Imu)
 ROS2_MESSAGE(sensor_msgs, JointState)
 ROS2_MESSAGE(sensor_msgs, PointCloud2)
 ROS2_MESSAGE(nav_msgs, Odometry)
+ROS2_MESSAGE(rosgraph_msgs, Clock)
+ROS2_MESSAGE(tf2_msgs, TFMessage)
+ROS2_MESSAGE(visualization_msgs, MarkerArray)
 
 }  // namespace swarmanoid::ros2

@@ -7,7 +7,7 @@
 #include "common/control_interface/footbot/ci_footbot_base_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_ground_sensor.h"
 #include "common/math/random.h"
-#include "common/space/floor/floor_picture.h"
+#include "common/space/terrain/floor_picture.h"
 #include "tests/unit/devices/test_world.h"
 
 namespace swarmanoid

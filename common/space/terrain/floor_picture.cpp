@@ -1,4 +1,4 @@
-#include "common/space/floor/floor_picture.h"
+#include "common/space/terrain/floor_picture.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "common/space/floor/png_picture.h"
+#include "common/space/terrain/png_picture.h"
 
 #include <png.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "common/experiment/experiment.h"
-#include "common/space/floor/png_picture.h"
+#include "common/space/terrain/png_picture.h"
 
 namespace swarmanoid
 {

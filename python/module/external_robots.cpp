@@ -1,0 +1,108 @@
+#include "python/module/external_robots.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace swarmanoid::python
+{
+namespace
+{
+
+ExternalRobots*& Current()
+{
+  static thread_local ExternalRobots* current = nullptr;
+  return current;
+}
+
+// The array of a device of a group, with room for one robot more.
+DeviceArray& WithRow(std::map<std::string, DeviceArray>& arrays, const std::string& type,
+                     const std::vector<std::string>& columns)
+{
+  DeviceArray& array = arrays[type];
+  if (array.columns.empty()) array.columns = columns;
+  if (array.columns.size() != columns.size())
+    throw std::invalid_argument("the robots of one <external_controller> have devices of different sizes: '" + type +
+                                "' has " + std::to_string(array.columns.size()) + " values for some and " +
+                                std::to_string(columns.size()) + " for others; give each kind a controller of its own");
+  array.values.resize(array.values.size() + columns.size(), 0);
+  return array;
+}
+
+}  // namespace
+
+ExternalRobots::Open::Open(ExternalRobots& robots) { Current() = &robots; }
+ExternalRobots::Open::~Open() { Current() = nullptr; }
+
+ExternalRobots::ExternalRobots(const Experiment& experiment)
+{
+  for (const EntityConfiguration& entity : experiment.entities) controller_of_[entity.id] = entity.controller;
+}
+
+ExternalGroup& ExternalRobots::GroupOf(const std::string& robot) { return groups_[controller_of_.at(robot)]; }
+
+std::vector<std::string> ExternalGroup::Ids() const
+{
+  std::vector<std::string> ids;
+  for (const ExternalController* robot : robots_) ids.push_back(robot->GetRobot()->GetId());
+  return ids;
+}
+
+std::vector<double> ExternalGroup::Rows(std::size_t robot, const std::string& type) const
+{
+  std::vector<double> rows;
+  robots_.at(robot)->rows_.at(type).read(rows);
+  return rows;
+}
+
+void ExternalGroup::Read()
+{
+  for (ExternalController* robot : robots_)
+    for (const ExternalController::Sensor& sensor : robot->sensors_)
+      sensor.device.read(sensor.array->values.data() + robot->place_ * sensor.array->columns.size());
+}
+
+ExternalController::ExternalController()
+    : robots_(Current() != nullptr
+                  ? *Current()
+                  : throw std::runtime_error("an <external_controller> is steered by a program in Python: run the "
+                                             "experiment from one (swarmanoid.Simulation)"))
+{
+}
+
+int ExternalController::Init(const TConfigurationTree)
+{
+  const CCI_Robot& robot = *GetRobot();
+  group_ = &robots_.GroupOf(robot.GetId());
+  place_ = group_->robots_.size();
+  group_->robots_.push_back(this);
+  for (const auto& [type, sensor] : SensorsOf(robot))
+  {
+    if (SensorColumns columns = ColumnsOf(*sensor); !columns.names.empty())
+      sensors_.push_back({columns, &WithRow(group_->sensors_, type, columns.names)});
+    if (SensorRows rows = RowsOf(*sensor); !rows.names.empty())
+    {
+      group_->row_sensors_[type] = rows.names;
+      rows_[type] = std::move(rows);
+    }
+  }
+  for (const auto& [type, actuator] : ActuatorsOf(robot))
+    if (ActuatorColumns columns = ColumnsOf(*actuator); !columns.names.empty())
+      actuators_.push_back({type, columns, &WithRow(group_->actuators_, type, columns.names)});
+  return RETURN_OK;
+}
+
+void ExternalController::ControlStep()
+{
+  for (const Actuator& actuator : actuators_)
+  {
+    const std::size_t width = actuator.array->columns.size();
+    const double* const values = actuator.array->values.data() + place_ * width;
+    for (std::size_t i = 0; i < width; ++i)
+      if (!std::isfinite(values[i]))
+        throw std::invalid_argument("column " + std::to_string(i) + " ('" + actuator.array->columns[i] +
+                                    "') of the actuator '" + actuator.type + "' is not a finite number");
+    actuator.device.write(values);
+  }
+}
+
+}  // namespace swarmanoid::python

@@ -1,0 +1,111 @@
+// The controller <external_controller>: robots whose sensors are read and whose actuators are set from outside, as
+// arrays over all robots of one entry of <controllers>. Used by the Python module, in one process.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "common/control_interface/ci_controller.h"
+#include "common/experiment/experiment.h"
+#include "python/module/device_values.h"
+
+namespace swarmanoid::python
+{
+
+class ExternalController;
+
+// A device of all robots of a group: `width` numbers a robot, row by row.
+struct DeviceArray
+{
+  std::vector<std::string> columns;
+  std::vector<double> values;
+};
+
+// The robots of one <external_controller>, in the order of the space.
+class ExternalGroup
+{
+public:
+  std::size_t Size() const { return robots_.size(); }
+  const std::vector<ExternalController*>& Robots() const { return robots_; }
+  std::vector<std::string> Ids() const;
+
+  // By type of device; those that have columns. They stay where they are.
+  std::map<std::string, DeviceArray>& Sensors() { return sensors_; }
+  std::map<std::string, DeviceArray>& Actuators() { return actuators_; }
+  // Types of sensors whose readings differ in number, with the names of their columns.
+  const std::map<std::string, std::vector<std::string>>& RowSensors() const { return row_sensors_; }
+  // The rows of one robot, row by row. Throws std::out_of_range for a type that is no such sensor.
+  std::vector<double> Rows(std::size_t robot, const std::string& type) const;
+
+  // Copies what the sensors read into the arrays.
+  void Read();
+
+private:
+  friend class ExternalController;
+
+  std::vector<ExternalController*> robots_;
+  std::map<std::string, DeviceArray> sensors_, actuators_;
+  std::map<std::string, std::vector<std::string>> row_sensors_;
+};
+
+// The groups of one simulation, by the id of their controller. While one is Open, controllers that are made join it.
+class ExternalRobots
+{
+public:
+  explicit ExternalRobots(const Experiment& experiment);
+
+  std::map<std::string, ExternalGroup>& Groups() { return groups_; }
+  // Of a robot, by its id.
+  ExternalGroup& GroupOf(const std::string& robot);
+  void Read()
+  {
+    for (auto& [id, group] : groups_) group.Read();
+  }
+
+  class Open
+  {
+  public:
+    explicit Open(ExternalRobots& robots);
+    ~Open();
+    Open(const Open&) = delete;
+    Open& operator=(const Open&) = delete;
+  };
+
+private:
+  std::unordered_map<std::string, std::string> controller_of_;  // by id of the robot
+  std::map<std::string, ExternalGroup> groups_;
+};
+
+class ExternalController : public CCI_Controller
+{
+public:
+  ExternalController();
+  int Init(const TConfigurationTree t_tree) override;
+  void ControlStep() override;
+
+private:
+  friend class ExternalGroup;
+  struct Sensor
+  {
+    SensorColumns device;
+    DeviceArray* array;
+  };
+  struct Actuator
+  {
+    std::string type;
+    ActuatorColumns device;
+    DeviceArray* array;
+  };
+
+  ExternalRobots& robots_;
+  ExternalGroup* group_ = nullptr;
+  std::size_t place_ = 0;  // in the group
+  std::vector<Sensor> sensors_;
+  std::vector<Actuator> actuators_;
+  std::map<std::string, SensorRows> rows_;
+};
+
+}  // namespace swarmanoid::python

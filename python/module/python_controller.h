@@ -1,0 +1,42 @@
+// Controllers written in Python, one object of a user's class for each robot. For prototypes, in one process.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <map>
+#include <string>
+
+#include "common/control_interface/ci_controller.h"
+#include "python/module/device_values.h"
+
+namespace swarmanoid::python
+{
+
+// What a controller in Python sees of its robot: swarmanoid.Robot.
+class PythonRobot
+{
+public:
+  explicit PythonRobot(CCI_Robot& robot);
+
+  const CCI_Robot& Robot() const { return robot_; }
+  // One number a column (1-D), or one row a reading (2-D). Throws KeyError with the types that there are.
+  pybind11::object Read(const std::string& type) const;
+  void Set(const std::string& type, const std::vector<double>& values);
+  std::vector<std::string> ColumnsOfSensor(const std::string& type) const;
+  std::vector<std::string> ColumnsOfActuator(const std::string& type) const;
+  double Uniform(double low, double high) { return robot_.GetRandom().Uniform(low, high); }
+
+private:
+  CCI_Robot& robot_;
+  std::map<std::string, SensorColumns> columns_;
+  std::map<std::string, SensorRows> rows_;
+  std::map<std::string, ActuatorColumns> actuators_;
+};
+
+// Makes `type`, a class of Python with control_step(robot), a controller of experiment files: <label …>.
+void RegisterPythonController(const std::string& label, pybind11::object type);
+
+// A tree of a configuration: a dict of texts and of dicts, of lists where names are repeated.
+pybind11::object ToPython(const TConfigurationTree& tree);
+
+}  // namespace swarmanoid::python

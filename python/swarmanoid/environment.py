@@ -1,0 +1,92 @@
+"""Learning: a swarm as a vectorised environment, with the calls of Gymnasium's vector environments."""
+
+import numpy as np
+
+from .simulation import Simulation
+
+
+class Environment:
+    """All robots of an <external_controller>, each an agent; one row an agent in all arrays.
+
+    file, settings, threads: as for Simulation. sensors: types whose columns are the observation, in this order; None: all.
+    actuators: types whose columns are the action, likewise. reward: called with the simulation and the robots after each
+    step, returns (agents,). done: likewise, returns bool for the whole swarm. max_ticks: after which an episode is cut; 0:
+    that of the file. frame_skip: ticks a step.
+
+    `step` returns (observations, rewards, terminations, truncations, infos); after an end, `reset` starts the next
+    episode, with the next seed if none is given. Ranges of actions are those of the devices, which cut what is beyond.
+    """
+
+    def __init__(self, file, settings=None, *, controller=None, sensors=None, actuators=None, reward=None, done=None,
+                 max_ticks=0, frame_skip=1, threads=1):
+        if frame_skip < 1:
+            raise ValueError("frame_skip is the number of ticks in a step: at least 1")
+        self.file, self.settings, self.threads = file, dict(settings or {}), threads
+        self.controller, self.sensor_types, self.actuator_types = controller, sensors, actuators
+        self.reward, self.done = reward, done
+        self.max_ticks, self.frame_skip = max_ticks, frame_skip
+        self.simulation = None
+        self._seed = int(self.settings.get("framework.seed", 1)) - 1
+        self._start(self._seed + 1)
+
+    def _start(self, seed):
+        self._seed = seed
+        self.simulation = Simulation(self.file, {**self.settings, "framework.seed": seed}, threads=self.threads)
+        groups = self.simulation.robots
+        if self.controller is None:
+            if len(groups) != 1:
+                raise ValueError(f"the experiment has {len(groups)} external controllers ({', '.join(groups) or 'none'}); "
+                                 "name the one whose robots learn: controller=\"…\"")
+            self.controller = next(iter(groups))
+        if self.controller not in groups:
+            raise ValueError(f"no external controller '{self.controller}'; there are: {', '.join(groups)}")
+        self.robots = groups[self.controller]
+        sensors, actuators = self.robots.sensors, self.robots.actuators
+        for types, known, what in ((self.sensor_types, sensors, "sensor"), (self.actuator_types, actuators, "actuator")):
+            for name in types or ():
+                if name not in known:
+                    raise ValueError(f"the robots have no {what} '{name}' with columns; they have: {', '.join(known)}")
+        self._sensors = [sensors[name] for name in self.sensor_types or sensors]
+        self._actuators = [actuators[name] for name in self.actuator_types or actuators]
+        self.num_envs = len(self.robots)
+        self.observation_shape = (self.num_envs, sum(part.shape[1] for part in self._sensors))
+        self.action_shape = (self.num_envs, sum(part.shape[1] for part in self._actuators))
+        self._last = self.max_ticks or self.simulation.max_ticks
+        self._observations = np.empty(self.observation_shape)
+
+    def _observe(self):
+        self.simulation.sense()
+        first = 0
+        for part in self._sensors:
+            self._observations[:, first : first + part.shape[1]] = part
+            first += part.shape[1]
+        return self._observations.copy()
+
+    def reset(self, *, seed=None, options=None):
+        """Starts an episode; returns (observations, infos)."""
+        if self.simulation.tick > 0 or (seed is not None and seed != self._seed):
+            self.simulation.finish()
+            self._start(self._seed + 1 if seed is None else int(seed))
+        return self._observe(), {"seed": self._seed}
+
+    def step(self, actions):
+        """actions: (agents, columns) of the actuators, in their units."""
+        actions = np.asarray(actions, dtype=float)
+        if actions.shape != self.action_shape:
+            raise ValueError(f"actions of the shape {actions.shape}; the agents take {self.action_shape}")
+        first = 0
+        for part in self._actuators:
+            part[:] = actions[:, first : first + part.shape[1]]
+            first += part.shape[1]
+        goes_on = self.simulation.step(self.frame_skip)
+        observations = self._observe()
+        rewards = np.zeros(self.num_envs)
+        if self.reward is not None:
+            rewards[:] = self.reward(self.simulation, self.robots)
+        ended = bool(self.done(self.simulation, self.robots)) if self.done is not None else False
+        cut = not ended and (not goes_on or (self._last > 0 and self.simulation.tick >= self._last))
+        return observations, rewards, np.full(self.num_envs, ended), np.full(self.num_envs, cut), {}
+
+    def close(self):
+        if self.simulation is not None:
+            self.simulation.finish()

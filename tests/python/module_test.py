@@ -1,0 +1,318 @@
+"""The module against the command `swarmanoid run`, closed forms, and what it refuses."""
+import gc
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+import numpy as np
+
+import scene
+import swarmanoid
+
+CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
+AXLE_M, RADIUS_M = 0.14, 0.029112741
+BODY_M = 0.085036758
+
+
+def hash_of_run(file, *options):
+    run = subprocess.run([os.environ["SWARMANOID"], "run", file, "--single-process", "--no-visualisers", "--quiet", *options],
+                         capture_output=True, text=True, timeout=200)
+    return re.search(r"hash ([0-9a-f]{16})", run.stdout).group(1)
+
+
+class InAFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="swarmanoid_python_")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(folder.name)
+
+
+class Equality(InAFolder):
+    def test_same_bits_as_the_command(self):
+        # Each engine: the libraries of ODE and Box2D, too, must not take libm's functions.
+        for name, ticks in (("diffusion_10", 300), ("diffusion_100_dynamics2d", 50), ("diffusion_100_dynamics3d", 20)):
+            with self.subTest(name):
+                file = CONFIGS / f"{name}.xml"
+                with swarmanoid.Simulation(file, {"framework.seed": 5, "framework.maxclock": ticks}) as simulation:
+                    while simulation.step():
+                        pass
+                    summary = simulation.finish()
+                self.assertEqual(summary.ticks, ticks)
+                self.assertEqual(summary.hash, hash_of_run(file, "--seed", "5", "--ticks", str(ticks)))
+                self.assertEqual(simulation.finish(), summary)
+
+    def test_simulations_side_by_side_do_not_disturb_each_other(self):
+        file = CONFIGS / "diffusion_10.xml"
+        alone = []
+        for seed in (1, 2):
+            simulation = swarmanoid.Simulation(file, {"framework.seed": seed, "framework.maxclock": 100})
+            alone.append(simulation.run().hash)
+        both = [swarmanoid.Simulation(file, {"framework.seed": seed, "framework.maxclock": 100}) for seed in (1, 2)]
+        while all([simulation.step(7) for simulation in both]):
+            pass
+        self.assertEqual([simulation.finish().hash for simulation in both], alone)
+
+    def test_threads_of_python_have_a_simulation_each(self):
+        file, hashes = CONFIGS / "diffusion_10.xml", {}
+
+        def run(seed):
+            hashes[seed] = swarmanoid.Simulation(file, {"framework.seed": seed, "framework.maxclock": 200}).run().hash
+
+        threads = [threading.Thread(target=run, args=(seed,)) for seed in (1, 2)]
+        [thread.start() for thread in threads]
+        [thread.join() for thread in threads]
+        for seed in (1, 2):
+            again = swarmanoid.Simulation(file, {"framework.seed": seed, "framework.maxclock": 200}).run().hash
+            self.assertEqual(hashes[seed], again)
+
+
+class Arrays(InAFolder):
+    def test_views_follow_the_simulation_without_copies(self):
+        simulation = swarmanoid.Simulation(scene.write(self.folder))
+        x = simulation.x
+        self.assertTrue(np.shares_memory(x, simulation.x))
+        self.assertFalse(x.flags.writeable)
+        robots = simulation.robots["driver"]
+        self.assertEqual(robots.ids, ["a", "b"])
+        wheels = robots.actuators["footbot_wheels"]
+        wheels[:] = 5
+        before = x[simulation.index("a")]
+        simulation.step(10)
+        self.assertAlmostEqual(x[simulation.index("a")] - before, 10 * 0.1 * 5 * RADIUS_M, 12)
+        del simulation, robots
+        gc.collect()
+        self.assertTrue(np.isfinite(x).all())  # the view keeps what it shows
+
+    def test_entities_by_kind_and_attribute(self):
+        simulation = swarmanoid.Simulation(scene.write(self.folder))
+        self.assertEqual([simulation.ids[index] for index in simulation.of_kind("footbot")], ["a", "b"])
+        np.testing.assert_allclose(simulation.positions("footbot"), [[2, 1, 0], [1, 3, 0]])
+        np.testing.assert_allclose(simulation.headings("footbot"), [0, np.pi / 2], atol=1e-12)
+        leds = simulation.robots["driver"].actuators["footbot_leds"]
+        leds[1, 3] = 0x00FF00
+        simulation.step()
+        self.assertEqual(simulation.attribute("led", "b")[0, 3], 0x00FF00)
+        self.assertEqual(simulation.attribute("led", "footbot").shape, (2, 12))
+        self.assertEqual(simulation.attribute("led", "a").sum(), 0)
+        with self.assertRaisesRegex(KeyError, "'wall' has no attribute 'led'; it has: colour"):
+            simulation.attribute("led", "wall")
+        self.assertTrue(simulation.present().all())
+
+    def test_a_turn_is_that_of_a_differential_drive(self):
+        simulation = swarmanoid.Simulation(scene.write(self.folder))
+        simulation.robots["driver"].actuators["footbot_wheels"][0] = [-1, 1]
+        simulation.step(20)
+        self.assertAlmostEqual(simulation.headings()[simulation.index("a")], 20 * 0.1 * 2 * RADIUS_M / AXLE_M, 9)
+
+    def test_sensors_are_those_of_the_present_tick(self):
+        simulation = swarmanoid.Simulation(scene.write(self.folder))
+        gap = 0.04  # between the robot's surface and the wall at x = 2.95
+        simulation.move("a", (2.95 - BODY_M - gap, 1, 0))
+        simulation.sense()
+        robots = simulation.robots["driver"]
+        readings = robots.sensors["footbot_proximity"]
+        self.assertEqual(readings.shape, (2, 24))
+        angle = np.pi / 24  # of the first ray
+        distance = (gap + BODY_M * (1 - np.cos(angle))) / np.cos(angle)
+        self.assertAlmostEqual(readings[0, 0], 0.0100527 / (distance + 0.000163144), 9)  # docs/devices.md
+        self.assertAlmostEqual(readings[0, 23], readings[0, 0], 12)
+        self.assertEqual(readings[1].sum(), 0)
+        # A step after it senses nothing twice: the same bits as without.
+        hashes = []
+        for look in (False, True):
+            other = swarmanoid.Simulation(scene.write(self.folder))
+            for _ in range(20):
+                if look:
+                    other.sense()
+                other.robots["driver"].actuators["footbot_wheels"][:] = [3, 4]
+                other.step()
+            hashes.append(other.hash())
+        self.assertEqual(*hashes)
+
+    def test_readings_that_differ_in_number_are_rows(self):
+        simulation = swarmanoid.Simulation(scene.write(self.folder))
+        robots = simulation.robots["driver"]
+        robots.actuators["footbot_leds"][1] = 0xFF0000
+        simulation.move("b", (2.3, 1, 0))
+        simulation.step()
+        simulation.sense()
+        blobs = robots.rows("footbot_omnidirectional_camera")
+        self.assertEqual(robots.columns["footbot_omnidirectional_camera"][:2], ["colour", "distance [m]"])
+        self.assertEqual([len(rows) for rows in blobs], [1, 0])
+        np.testing.assert_allclose(blobs[0][0], [0xFF0000, 0.3, 0, 0], atol=1e-9)
+        with self.assertRaisesRegex(KeyError, "there are: footbot_omnidirectional_camera"):
+            robots.rows("footbot_proximity")
+
+
+class Mistakes(InAFolder):
+    def test_mistakes_of_files_have_their_places(self):
+        with self.assertRaisesRegex(swarmanoid.ConfigurationError, "nowhere.xml"):
+            swarmanoid.Simulation("nowhere.xml")
+        path = scene.write(self.folder)
+        path.write_text(path.read_text().replace("maxclock", "maxclok"))
+        with self.assertRaisesRegex(swarmanoid.ConfigurationError, r"external_controller.xml:2:\d+: .*maxclok.*did you mean 'maxclock'"):
+            swarmanoid.Simulation(path)
+        with self.assertRaisesRegex(swarmanoid.ConfigurationError, "framework.sed"):
+            swarmanoid.Simulation(CONFIGS / "diffusion_10.xml", {"framework.sed": 3})
+
+    def test_what_cannot_be_done_is_refused(self):
+        simulation = swarmanoid.Simulation(scene.write(self.folder))
+        with self.assertRaisesRegex(ValueError, "nobody"):
+            simulation.move("nobody", (1, 1, 0))
+        with self.assertRaisesRegex(KeyError, "no entity 'nobody'"):
+            simulation.index("nobody")
+        with self.assertRaises(ValueError):
+            simulation.move("a", (float("nan"), 1, 0))
+        simulation.robots["driver"].actuators["footbot_wheels"][1, 0] = np.nan
+        with self.assertRaisesRegex(swarmanoid.ActivityError, r"robot 'b'.*column 0 \('left \[rad/s\]'\) of the actuator 'footbot_wheels' is not a finite number"):
+            simulation.step()
+
+    def test_the_command_says_who_runs_external_controllers(self):
+        run = subprocess.run([os.environ["SWARMANOID"], "check", scene.write(self.folder)], capture_output=True, text=True)
+        self.assertEqual(run.returncode, 3)
+        self.assertIn("external_controller", run.stderr)
+
+
+@swarmanoid.controller("python_driver")
+class Driver:
+    """Turns while something is near in front, else goes straight on."""
+
+    def init(self, robot, parameters):
+        self.speed = float(parameters["speed"])
+        self.steps = 0
+
+    def control_step(self, robot):
+        self.steps += 1
+        near = robot.read("footbot_proximity")[[0, 1, 22, 23]].max()
+        robot.set("footbot_wheels", [self.speed, -self.speed] if near > 0.1 else [self.speed, self.speed])
+
+    def get_state(self):
+        return self.steps
+
+    def set_state(self, state):
+        self.steps = state
+
+    def status(self):
+        return f"{self.steps} steps"
+
+
+class Controllers(InAFolder):
+    def test_a_controller_in_python_does_what_the_same_rule_does_from_outside(self):
+        inside = swarmanoid.Simulation(scene.write(self.folder, "python_driver", parameters="<speed>6</speed>"))
+        outside = swarmanoid.Simulation(scene.write(self.folder))
+        robots = outside.robots["driver"]
+        turned = False
+        for _ in range(99):
+            outside.sense()
+            near = robots.sensors["footbot_proximity"][:, [0, 1, 22, 23]].max(axis=1) > 0.1
+            turned = turned or near.any()
+            robots.actuators["footbot_wheels"][:, 0] = 6
+            robots.actuators["footbot_wheels"][:, 1] = np.where(near, -6, 6)
+            inside.step()
+            outside.step()
+        self.assertTrue(turned)
+        np.testing.assert_array_equal(inside.x, outside.x)
+        np.testing.assert_array_equal(inside.qz, outside.qz)
+        self.assertEqual(inside.hash(), outside.hash())
+
+    def test_checkpoints_hold_the_state_of_python(self):
+        file = scene.write(self.folder, "python_driver", parameters="<speed>6</speed>")
+        period = {"framework.canonical_period": 50}
+        whole = swarmanoid.Simulation(file, period, checkpoint_every=50).run()
+        rest = swarmanoid.Simulation(file, period, restore="checkpoint-00000050")
+        self.assertEqual(rest.tick, 50)
+        self.assertEqual(rest.run().hash, whole.hash)
+
+    def test_exceptions_name_the_robot(self):
+        @swarmanoid.controller("python_failing")
+        class Failing:
+            def control_step(self, robot):
+                if robot.tick == 3 and robot.id == "b":
+                    raise RuntimeError("out of ideas")
+
+        simulation = swarmanoid.Simulation(scene.write(self.folder, "python_failing"))
+        with self.assertRaisesRegex(swarmanoid.ActivityError, "(?s)robot 'b'.*tick 3.*out of ideas"):
+            simulation.step(10)
+
+    def test_classes_without_the_method_and_devices_without_the_name_are_refused(self):
+        with self.assertRaisesRegex(TypeError, r"no method control_step"):
+            swarmanoid.controller("python_nothing")(object)
+
+        @swarmanoid.controller("python_misspelt")
+        class Misspelt:
+            def control_step(self, robot):
+                robot.read("footbot_proximty")
+
+        with self.assertRaisesRegex(swarmanoid.ActivityError, "(?s)no sensor 'footbot_proximty'; it has: .*footbot_proximity"):
+            swarmanoid.Simulation(scene.write(self.folder, "python_misspelt")).step()
+
+
+class Learning(InAFolder):
+    def environment(self, **more):
+        return swarmanoid.Environment(scene.write(self.folder, ticks=50), sensors=["footbot_proximity"],
+                                      actuators=["footbot_wheels"], reward=lambda simulation, robots: simulation.x[simulation.of_kind("footbot")],
+                                      **more)
+
+    def test_shapes_and_ends(self):
+        environment = self.environment(frame_skip=10)
+        observations, info = environment.reset(seed=4)
+        self.assertEqual(info["seed"], 4)
+        self.assertEqual(observations.shape, (2, 24))
+        self.assertEqual(environment.action_shape, (2, 2))
+        actions = np.full((2, 2), 4.0)
+        for step in range(5):
+            observations, rewards, terminated, truncated, _ = environment.step(actions)
+            self.assertEqual(list(truncated), [step == 4] * 2)
+            self.assertFalse(terminated.any())
+        self.assertAlmostEqual(rewards[0], 2 + 50 * 0.1 * 4 * RADIUS_M, 9)
+        with self.assertRaisesRegex(ValueError, r"the agents take \(2, 2\)"):
+            environment.step(np.zeros(3))
+        _, info = environment.reset()
+        self.assertEqual(info["seed"], 5)
+        self.assertEqual(environment.simulation.tick, 0)
+
+    def test_the_swarm_may_be_done(self):
+        environment = self.environment(done=lambda simulation, robots: simulation.tick >= 3)
+        environment.reset()
+        ends = [environment.step(np.zeros((2, 2)))[2].any() for _ in range(3)]
+        self.assertEqual(ends, [False, False, True])
+
+    def test_episodes_of_one_seed_are_equal(self):
+        def episode():
+            environment = self.environment()
+            observations, _ = environment.reset(seed=9)
+            seen = [observations]
+            for step in range(50):
+                seen.append(environment.step(np.full((2, 2), 10.0 + step))[0])
+            return np.array(seen)
+
+        first = episode()
+        self.assertGreater(first.max(), 0)  # the wall was seen
+        np.testing.assert_array_equal(first, episode())
+
+    def test_what_is_not_there_is_named(self):
+        with self.assertRaisesRegex(ValueError, "no sensor 'footbot_light' with columns; they have: footbot_proximity"):
+            swarmanoid.Environment(scene.write(self.folder), sensors=["footbot_light"])
+        with self.assertRaisesRegex(ValueError, "has 0 external controllers"):
+            swarmanoid.Environment(CONFIGS / "diffusion_10.xml")
+
+
+class Runs(InAFolder):
+    def test_the_folder_of_a_run(self):
+        subprocess.run([os.environ["SWARMANOID"], "run", CONFIGS / "diffusion_10.xml", "--single-process", "--ticks", "20",
+                        "--output", "first", "--quiet"], check=True, capture_output=True)
+        run = swarmanoid.Run("first")
+        self.assertEqual(run.manifest["ticks"], 20)
+        with self.assertRaises(FileNotFoundError):
+            swarmanoid.Run("second")
+
+
+if __name__ == "__main__":
+    unittest.main()

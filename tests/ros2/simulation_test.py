@@ -1,0 +1,113 @@
+"""ros2_render: names, types and stamps as another vendor's DDS hears them; poses as text_render writes them; velocities of a
+differential drive."""
+import collections
+import csv
+import math
+import os
+import pathlib
+import random
+import subprocess
+import tempfile
+import threading
+import unittest
+
+CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
+TICK_S = 0.1
+
+
+class Listener:
+    """Hears all in a domain of its own until it is stopped."""
+
+    def __init__(self, domain, robot):
+        self.process = subprocess.Popen([os.environ["ROS2_LISTENER"], str(domain), robot], stdin=subprocess.PIPE,
+                                        stdout=subprocess.PIPE, text=True)
+        assert self.process.stdout.readline() == "ready\n"
+        self.lines = collections.defaultdict(list)
+        self.thread = threading.Thread(target=self._hear)
+        self.thread.start()
+
+    def _hear(self):
+        for line in self.process.stdout:
+            kind, *words = line.split()
+            self.lines[kind].append(words)
+
+    def stop(self):
+        self.process.stdin.close()
+        self.process.wait(timeout=30)
+        self.thread.join()
+        self.process.stdout.close()
+        return self.lines
+
+
+class Simulation(unittest.TestCase):
+    def run_with(self, *options):
+        folder = tempfile.TemporaryDirectory(prefix="swarmanoid_ros2_")
+        self.addCleanup(folder.cleanup)
+        out = pathlib.Path(folder.name) / "run"
+        file = pathlib.Path(folder.name) / "experiment.xml"
+        text = (CONFIGS / "diffusion_10.xml").read_text()
+        text = text.replace("<visualisations>", "<visualisations>\n    <ros2_render id=\"ros\"/>")
+        text = text.replace("<file>positions.txt</file>", "<file>positions.txt</file><format>csv</format>").replace(
+            "<precision>4</precision>", "<precision>15</precision>")
+        file.write_text(text)
+        domain = random.randrange(100, 230)
+        environment = {**os.environ, "ROS_DOMAIN_ID": str(domain), "ROS_LOCALHOST_ONLY": "1",
+                       "SWARMANOID_PLUGIN_PATH": str(pathlib.Path(os.environ["SWARMANOID"]).parent.parent / "lib/swarmanoid")}
+        listener = Listener(domain, "fb_0")
+        try:
+            run = subprocess.run([os.environ["SWARMANOID"], "run", file, "--output", out, "--ticks", "60", "--real-time", "2",
+                                  "--quiet", *options], capture_output=True, text=True, env=environment, timeout=120)
+        finally:
+            heard = listener.stop()
+        self.assertEqual(run.returncode, 0, run.stderr)
+        table = {}
+        with (out / "positions.txt").open(newline="") as rows:
+            for row in csv.DictReader(rows):
+                table[int(row["clock"]), row["Entity id"]] = tuple(float(row[name]) for name in ("X", "Y", "Z", "Gamma"))
+        return heard, table
+
+    def check(self, heard, table):
+        # Discovery takes a while: the first messages are missed, none of the rest is out of order.
+        ticks = [round((int(sec) + int(nanosec) * 1e-9) / TICK_S) for sec, nanosec in heard["clock"]]
+        self.assertGreater(len(ticks), 20)
+        self.assertEqual(ticks, sorted(set(ticks)))
+        self.assertEqual(ticks[-1], 60)
+        self.assertTrue(all(int(nanosec) % 100_000_000 == 0 for _, nanosec in heard["clock"]))
+
+        for sec, nanosec, frame, child, *numbers in heard["tf"]:
+            tick = round((int(sec) + int(nanosec) * 1e-9) / TICK_S)
+            x, y, z, qx, qy, qz, qw = map(float, numbers)
+            self.assertEqual(frame, "world")
+            expected = table[tick, child]
+            for number, other in zip((x, y, z), expected):
+                self.assertAlmostEqual(number, other, 12)
+            self.assertAlmostEqual(math.remainder(2 * math.atan2(qz, qw) - math.radians(expected[3]), 2 * math.pi), 0, 9)
+        self.assertEqual({words[3] for words in heard["tf"]}, {f"fb_{k}" for k in range(10)})
+
+        # Forward at 0.05 m/s where it goes straight; never sideways.
+        velocities = [tuple(map(float, words[6:9])) for words in heard["odom"]]
+        self.assertTrue({words[3] for words in heard["odom"]} == {"fb_0"})
+        straight = [forward for forward, left, turn in velocities[1:] if abs(turn) < 1e-9]
+        self.assertTrue(straight)
+        for forward in straight:
+            self.assertAlmostEqual(forward, 0.05, 6)
+        for forward, left, turn in velocities[1:]:
+            self.assertAlmostEqual(left, 0, 6)
+
+        markers = {(words[0], int(words[1])): words for words in heard["marker"]}
+        kinds = collections.Counter(name for name, _ in markers)
+        self.assertEqual(kinds, {"floor": 1, "block": 4, "footbot": 10})
+        robot = next(words for words in markers.values() if words[4] == "fb_0")
+        self.assertEqual(robot[2:4], ["3", "0"])  # a cylinder, added
+        self.assertEqual([float(word) for word in robot[5:8]], [0, 0, 0.0734499])  # about the middle of its height
+        self.assertEqual(float(robot[8]), 0.170074)
+
+    def test_in_one_process(self):
+        self.check(*self.run_with("--single-process"))
+
+    def test_as_a_cluster(self):
+        self.check(*self.run_with())
+
+
+if __name__ == "__main__":
+    unittest.main()
