@@ -30,9 +30,9 @@ class CSimulator
 public:
   // The experiment at tick 0, or where its checkpoint is; it must outlive the simulator. Throws ConfigurationError,
   // ActivityError (common/activity/failure_report.h), which names whose code failed, or another std::runtime_error with
-  // a text for the user; so do Sense, Step and Finish. Code that crashes or calls exit ends the program with such a line and
-  // exit code 4. The function that RunSimulation calls at each tick gets one too, only to look at: there Step and
-  // Finish throw std::logic_error.
+  // a text for the user; so do Sense, Step and Finish. Code that crashes or calls exit ends the program with such a
+  // line and exit code 4. The function that RunSimulation calls at each tick gets one too, only to look at: there Step
+  // and Finish throw std::logic_error.
   explicit CSimulator(const Experiment& experiment, const SimulatorOptions& options = {});
   ~CSimulator();
   CSimulator(const CSimulator&) = delete;

@@ -125,7 +125,7 @@ class Arrays(InAFolder):
         self.assertAlmostEqual(readings[0, 23], readings[0, 0], 12)
         self.assertEqual(readings[1].sum(), 0)
         # A step after it senses nothing twice: the same bits as without.
-        hashes = []
+        hashes, beams = [], []
         for look in (False, True):
             other = swarmanoid.Simulation(scene.write(self.folder))
             for _ in range(20):
@@ -134,7 +134,10 @@ class Arrays(InAFolder):
                 other.robots["driver"].actuators["footbot_wheels"][:] = [3, 4]
                 other.step()
             hashes.append(other.hash())
+            other.sense()
+            beams.append(other.robots["driver"].rows("footbot_distance_scanner")[0])  # of a head that turns
         self.assertEqual(*hashes)
+        np.testing.assert_array_equal(*beams)
 
     def test_readings_that_differ_in_number_are_rows(self):
         simulation = swarmanoid.Simulation(scene.write(self.folder))
@@ -147,7 +150,7 @@ class Arrays(InAFolder):
         self.assertEqual(robots.columns["footbot_omnidirectional_camera"][:2], ["colour", "distance [m]"])
         self.assertEqual([len(rows) for rows in blobs], [1, 0])
         np.testing.assert_allclose(blobs[0][0], [0xFF0000, 0.3, 0, 0], atol=1e-9)
-        with self.assertRaisesRegex(KeyError, "there are: footbot_omnidirectional_camera"):
+        with self.assertRaisesRegex(KeyError, "there are: footbot_distance_scanner footbot_omnidirectional_camera"):
             robots.rows("footbot_proximity")
 
 

@@ -12,6 +12,7 @@ TEMPLATE = """<ahss-config>
       <sensors>
         <footbot_proximity><implementation>generic_footbot_proximity</implementation></footbot_proximity>
         <footbot_omnidirectional_camera><implementation>generic_footbot_omnidirectional_camera</implementation></footbot_omnidirectional_camera>
+        <footbot_distance_scanner implementation="generic_footbot_distance_scanner" rotation_speed="0.7"/>
       </sensors>
       <parameters>{parameters}</parameters>
     </{tag}>

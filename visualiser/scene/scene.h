@@ -81,7 +81,8 @@ struct SceneOptions
 class Scene
 {
 public:
-  // Reads the terrains and the pictures of the floor; throws ConfigurationError for those. The space outlives the scene.
+  // Reads the terrains and the pictures of the floor; throws ConfigurationError for those. The space outlives the
+  // scene.
   explicit Scene(const CSwarmanoidSpace& space);
   ~Scene();
 
@@ -172,9 +173,9 @@ private:
   std::vector<SceneGlow> glows_;
   std::vector<SceneLabel> labels_;
   std::vector<std::pair<std::uint32_t, std::shared_ptr<const Terrain>>> terrains_;
-  std::vector<std::uint32_t> large_;  // bodies too large for the search about a line
-  double search_radius_ = 0;          // of the largest of the others
-  std::uint32_t areas_ = 0;           // patches and holes
+  std::vector<std::uint32_t> large_;                     // bodies too large for the search about a line
+  double search_radius_ = 0;                             // of the largest of the others
+  std::uint32_t areas_ = 0;                              // patches and holes
   std::map<std::uint32_t, std::vector<Colour>> paints_;  // of patches with a picture: of their items
   // Made when first needed.
   std::unique_ptr<SpaceQuery> query_;
