@@ -323,6 +323,11 @@ export class Inspector {
     this.refresh();
   }
 
+  // What is selected next gets a card of its own.
+  keepSelected() {
+    if (this.selected && !this.selected.pin.classList.contains("on")) this.togglePin();
+  }
+
   togglePin(card = this.selected) {
     if (!card) return;
     card.pin.classList.toggle("on");
