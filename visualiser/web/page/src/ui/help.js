@@ -6,6 +6,7 @@ const KEYS = [
   ["right drag", "move the view"],
   ["arrow keys", "turn the view; move the plan"],
   ["wheel, page up, page down", "nearer, further"],
+  ["two fingers", "nearer, further; move the view"],
   ["click", "select"],
   ["Ctrl + click", "select, and keep the card of the one before"],
   ["double click", "select and go there"],
