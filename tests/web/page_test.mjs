@@ -876,6 +876,62 @@ const tests = {
     assert.deepEqual(page.complaints, []);
   },
 
+  async "a page begins at the first viewpoint that it is given"() {
+    oneRobot("begins", "5, 5, 0");
+    const { url } = await attach("camera_view_XYZ_3=5,3,2", "camera_view_HPR_3=90,-45,0", "camera_view_XYZ_7=1,1,1");
+    const page = await open(url);
+    await drawn(page);
+    await until(page, () => Math.abs(swarmanoid.standing.pitch + 45) < 1e-3);
+    const { position, heading } = await read(page, () => swarmanoid.standing);
+    assert.ok(Math.abs(heading - 90) < 1e-3 && Math.hypot(position[0] - 5, position[1] - 3, position[2] - 2) < 1e-3, `${position}, ${heading}`);
+    assert.deepEqual(await read(page, () => Object.keys(swarmanoid.viewpoints)), ["3", "7"]);
+  },
+
+  async "arrow keys, Ctrl and click and the wheel of a drag do what they do in the windows"() {
+    run("diffusion_10", "--paused", "--ticks", 0);
+    const { url } = await attach("--allow-control");
+    const page = await open(url);
+    await drawn(page);
+    const direction = () => read(page, () => {
+      const [x, y, z] = swarmanoid.viewpoint.direction;
+      return { azimuth: (Math.atan2(y, x) * 180) / Math.PI, height: (Math.asin(z) * 180) / Math.PI };
+    });
+    const before = await direction();
+    await page.keyboard.press("ArrowLeft");
+    await page.keyboard.press("ArrowLeft");
+    await page.keyboard.press("ArrowUp");
+    const after = await direction();
+    assert.ok(Math.abs(after.azimuth - before.azimuth - 10) < 0.01 && Math.abs(after.height - before.height - 5) < 0.01, JSON.stringify([before, after]));
+
+    await page.keyboard.press("v");
+    await until(page, () => swarmanoid.view === "plan");
+    await page.keyboard.press("Home");
+    await drawn(page);
+    for (const [id, modifiers] of [["fb_2", []], ["fb_6", ["Control"]]]) {
+      const { x, y } = await read(page, `swarmanoid.project("${id}")`);
+      for (const key of modifiers) await page.keyboard.down(key);
+      await page.mouse.click(x, y);
+      for (const key of modifiers) await page.keyboard.up(key);
+      await drawn(page);
+    }
+    assert.deepEqual((await page.locator(".card h2").allTextContents()).sort(), ["fb_2", "fb_6"]);
+
+    const heading = await read(page, () => swarmanoid.heading("fb_6"));
+    const { x, y } = await read(page, () => swarmanoid.project("fb_6"));
+    await page.keyboard.down("Shift");
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    const { span } = await read(page, () => swarmanoid.viewpoint);
+    for (let i = 0; i < 2; i++) await page.mouse.wheel(0, -100);
+    await until(page, () => document.querySelector("main .labels:not([hidden])"));
+    await page.waitForTimeout(200);
+    await page.mouse.up();
+    await page.keyboard.up("Shift");
+    await until(page, (angle) => Math.abs(Math.abs(swarmanoid.heading("fb_6") - angle) % 360 - 15) < 0.5 || Math.abs(Math.abs(swarmanoid.heading("fb_6") - angle) - 345) < 0.5, heading);
+    assert.equal((await read(page, () => swarmanoid.viewpoint)).span, span);
+    assert.deepEqual(page.complaints, []);
+  },
+
   async "the camera rides on a robot and looks about"() {
     oneRobot("boarded", "5, 5, 0");
     const { url } = await attach("--allow-control");
