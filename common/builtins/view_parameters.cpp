@@ -14,16 +14,17 @@ std::vector<ParameterSpec> ViewpointParameters()
 
 std::vector<ParameterSpec> QualityParameters()
 {
-  return {{"use_textures", ParameterType::kBoolean, "", "true", "Whether floor and walls have a texture."},
-          {"use_shadows", ParameterType::kBoolean, "", "true", "Whether bodies throw shadows; the dearest switch."},
-          {"antialiasing", ParameterType::kInteger, "", "4",
-           "Samples a pixel that smooth edges; 0 draws fastest, with jagged edges.", 0, 16},
-          {"show_ids", ParameterType::kBoolean, "", "false", "Whether robots and preys have their ids as labels."},
-          {"show_trails", ParameterType::kBoolean, "", "false", "Whether robots and preys leave a trail."},
-          {"show_rays", ParameterType::kBoolean, "", "false",
-           "Whether the rays of the footbots' proximity sensors are drawn, red where they meet something."},
-          {"show_collision_models", ParameterType::kBoolean, "", "false",
-           "Whether the bodies that the engines collide are drawn over the robots."}};
+  return {
+      {"use_textures", ParameterType::kBoolean, "", "true", "Whether floor and walls have a texture."},
+      {"use_shadows", ParameterType::kBoolean, "", "true", "Whether bodies throw shadows; the most expensive switch."},
+      {"antialiasing", ParameterType::kInteger, "", "4",
+       "Samples a pixel that smooth edges; 0 draws fastest, with jagged edges.", 0, 16},
+      {"show_ids", ParameterType::kBoolean, "", "false", "Whether robots and preys have their ids as labels."},
+      {"show_trails", ParameterType::kBoolean, "", "false", "Whether robots and preys leave a trail."},
+      {"show_rays", ParameterType::kBoolean, "", "false",
+       "Whether the rays of the footbots' proximity sensors are drawn, red where they meet something."},
+      {"show_collision_models", ParameterType::kBoolean, "", "false",
+       "Whether the bodies that the engines collide are drawn over the robots."}};
 }
 
 }  // namespace swarmanoid

@@ -1,4 +1,5 @@
 #include "common/builtins/renderers.h"
+#include "common/configuration/parameter_table.h"
 
 namespace swarmanoid
 {
@@ -8,24 +9,25 @@ PluginDescription WebRenderDescription()
   PluginDescription description;
   description.label = "web_render";
   description.brief = "a page for the browser: live 3D view, list, inspector, plots; prints its address";
-  description.parameters = {
-      {"port", ParameterType::kInteger, "", "0", "TCP port of the page; 0 takes a free one.", 0, 65535},
-      {"address", ParameterType::kText, "", "127.0.0.1",
-       "IP address to listen on. The default serves this machine only; 0.0.0.0 serves every network that it is in."},
-      {"rate", ParameterType::kNumber, "Hz", "30", "States per second that a page gets at most.", 0.1, 60},
-      {"bandwidth", ParameterType::kNumber, "MB/s", "1",
-       "States that each page gets at most. Thousands of robots come less often then; the page draws what is between.",
-       0.01, 1000},
-      {"allow_control", ParameterType::kBoolean, "", "false",
-       "Lets whoever has the printed address, with its token, pause, step, change the speed and move entities."},
-      {"clients", ParameterType::kInteger, "", "16", "Pages that may look at the same time.", 1, 256},
-      {"linger", ParameterType::kNumber, "s", "-1",
-       "Time for which the last state is served after the run; -1: until interrupted where attached, not at all where "
-       "the visualisation is part of the experiment.",
-       -1},
-      {"url_file", ParameterType::kText, "", "",
-       "File that gets the address, taken from the run's folder; without it web_render.url where the visualisation is "
-       "part of the experiment, none where attached."}};
+  description.parameters = Joined(
+      {{"port", ParameterType::kInteger, "", "0", "TCP port of the page; 0 takes a free one.", 0, 65535},
+       {"address", ParameterType::kText, "", "127.0.0.1",
+        "IP address to listen on. The default serves this machine only; 0.0.0.0 serves every network that it is in."},
+       {"rate", ParameterType::kNumber, "Hz", "30", "States per second that a page gets at most.", 0.1, 60},
+       {"bandwidth", ParameterType::kNumber, "MB/s", "1",
+        "States that each page gets at most. Thousands of robots come less often then; the page draws what is between.",
+        0.01, 1000},
+       {"allow_control", ParameterType::kBoolean, "", "false",
+        "Lets whoever has the printed address, with its token, pause, step, change the speed and move entities."},
+       {"clients", ParameterType::kInteger, "", "16", "Pages that may look at the same time.", 1, 256},
+       {"linger", ParameterType::kNumber, "s", "-1",
+        "Time for which the last state is served after the run; -1: until interrupted where attached, not at all where "
+        "the visualisation is part of the experiment.",
+        -1},
+       {"url_file", ParameterType::kText, "", "",
+        "File that gets the address, taken from the run's folder; without it web_render.url where the visualisation is "
+        "part of the experiment, none where attached."}},
+      ViewpointParameters());
   return description;
 }
 

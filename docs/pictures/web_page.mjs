@@ -13,7 +13,7 @@ const browser = await chromium.launch({
 });
 const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
 page.setDefaultTimeout(120000);
-await page.goto(url);
+await page.goto(`${url}#quality=high`); // in three dimensions, though this browser has no graphics card
 await page.waitForFunction(() => window.swarmanoid?.drawn > 0);
 await page.evaluate((id) => {
   swarmanoid.show("trails", true);

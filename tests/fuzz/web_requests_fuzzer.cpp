@@ -24,6 +24,11 @@ bool IsPose(const Pose& pose)
 struct Check
 {
   void operator()(const WatchRequest& request) const { Promise(request.entities.size() <= kMostWatched); }
+  void operator()(const MarksRequest& request) const
+  {
+    for (const auto* entities : {&request.rays, &request.bodies, &request.links})
+      Promise(entities->size() <= kMostMarked);
+  }
   void operator()(const FrameRateRequest& request) const { Promise(request.period_ms <= 60000); }
   void operator()(const StepRequest& request) const { Promise(request.ticks >= 1); }
   void operator()(const SpeedRequest& request) const { Promise(std::isfinite(request.factor) && request.factor >= 0); }
@@ -43,6 +48,8 @@ std::vector<fuzz::Input> fuzz::FirstInputs()
 {
   return {InputOf(R"({"do":"watch","entities":[0,3,4294967295]})"),
           InputOf(R"({"do":"frame_period","ms":40})"),
+          InputOf(R"({"do":"marks","rays":[0,7],"bodies":[],"links":[3]})"),
+          InputOf(R"({"do":"prove","proof":"5bdcc146bf60754e"})"),
           InputOf(R"({"do":"pause"})"),
           InputOf(R"({"do":"resume"})"),
           InputOf(R"({"do":"step","ticks":10})"),

@@ -31,24 +31,45 @@ TEST(WebAccess, OnlyPagesOfTheServerItselfHaveItsOrigin)
   EXPECT_FALSE(IsOwnOrigin("null", "localhost:8080"));
 }
 
-TEST(WebAccess, ValuesOfAQueryAreFoundByTheirWholeName)
+// Test case 2 of RFC 4231.
+TEST(WebAccess, AProofIsTheHmacOfTheChallengeUnderTheToken)
 {
-  EXPECT_EQ(PathOf("/stream?token=abc"), "/stream");
-  EXPECT_EQ(QueryValue("/stream?a=1&token=abc&b=2", "token"), "abc");
-  EXPECT_EQ(QueryValue("/stream?mytoken=abc", "token"), "");
-  EXPECT_EQ(QueryValue("/stream?token", "token"), "");
-  EXPECT_EQ(QueryValue("/stream", "token"), "");
+  EXPECT_EQ(ProofOf("Jefe", "what do ya want for nothing?"),
+            "5bdcc146bf60754e6a042426089575c75a003f089d2739839dec58b964ec3843");
 }
 
-TEST(WebAccess, OnlyTheWholeTokenGivesControl)
+TEST(WebAccess, OnlyWhoHasTheWholeTokenProvesIt)
 {
-  const AccessRules rules{true, "0123456789abcdef"};
-  EXPECT_EQ(AuthorityOf(rules, "0123456789abcdef"), Authority::kControl);
-  EXPECT_EQ(AuthorityOf(rules, "0123456789abcdee"), Authority::kWrongToken);
-  EXPECT_EQ(AuthorityOf(rules, "0123456789abcde"), Authority::kWrongToken);
-  EXPECT_EQ(AuthorityOf(rules, ""), Authority::kReadOnly);
-  EXPECT_EQ(AuthorityOf({true, ""}, ""), Authority::kReadOnly);
-  EXPECT_EQ(AuthorityOf({false, "0123456789abcdef"}, "0123456789abcdef"), Authority::kReadOnly);
+  Visitors visitors({true, "0123456789abcdef"});
+  const std::string challenge = visitors.Join(1);
+  EXPECT_FALSE(visitors.MayControl(1));
+  for (const char* token : {"0123456789abcdee", "0123456789abcde", ""})
+    EXPECT_EQ(visitors.Prove(1, ProofOf(token, challenge)), Authority::kWrongToken) << token;
+  // The token itself proves nothing, nor does the beginning of a proof.
+  const std::string proof = ProofOf("0123456789abcdef", challenge);
+  for (const std::string& wrong : {std::string("0123456789abcdef"), std::string(), proof.substr(0, 63)})
+    EXPECT_EQ(visitors.Prove(1, wrong), Authority::kWrongToken) << wrong;
+  EXPECT_FALSE(visitors.MayControl(1));
+  EXPECT_EQ(visitors.Prove(1, proof), Authority::kControl);
+  EXPECT_TRUE(visitors.MayControl(1));
+
+  // What one client answered is no answer for another, nor for itself when it comes again.
+  EXPECT_NE(visitors.Join(2), challenge);
+  EXPECT_EQ(visitors.Prove(2, proof), Authority::kWrongToken);
+  EXPECT_FALSE(visitors.MayControl(2));
+  visitors.Leave(1);
+  EXPECT_FALSE(visitors.MayControl(1));
+  visitors.Join(1);
+  EXPECT_EQ(visitors.Prove(1, proof), Authority::kWrongToken);
+}
+
+TEST(WebAccess, NoProofHelpsIfNobodyMayControl)
+{
+  Visitors watched({false, "0123456789abcdef"}), without({true, ""});
+  EXPECT_EQ(watched.Prove(1, ProofOf("0123456789abcdef", watched.Join(1))), Authority::kReadOnly);
+  EXPECT_EQ(without.Prove(1, ProofOf("", without.Join(1))), Authority::kReadOnly);
+  EXPECT_FALSE(watched.MayControl(1));
+  EXPECT_FALSE(without.MayControl(1));
 }
 
 TEST(WebAccess, TokensAreLongAndNeverTheSame)

@@ -36,6 +36,12 @@ TEST(WebMessages, RequestsAreRead)
   EXPECT_EQ(add.entity, "prey");
   EXPECT_EQ(add.pose.position, Vector3(3, 2, 0));
   EXPECT_EQ(std::get<RemoveEntityRequest>(ParseRequest(R"({"do": "remove", "entity": "prey_0"})")).entity, "prey_0");
+  EXPECT_EQ(std::get<ProveRequest>(ParseRequest(R"({"do": "prove", "proof": "ab"})")).proof, "ab");
+  const auto marks =
+      std::get<MarksRequest>(ParseRequest(R"({"do": "marks", "rays": [1], "bodies": [], "links": [2, 3]})"));
+  EXPECT_THAT(marks.rays, ElementsAre(1));
+  EXPECT_THAT(marks.bodies, ElementsAre());
+  EXPECT_THAT(marks.links, ElementsAre(2, 3));
 }
 
 TEST(WebMessages, EverythingElseIsRefusedWithAReason)
@@ -68,6 +74,8 @@ TEST(WebMessages, EverythingElseIsRefusedWithAReason)
   EXPECT_THAT(refusal(R"({"do": "remove"})"), HasSubstr("'remove' needs the id"));
   EXPECT_THAT(refusal(R"({"do": "move", "entity": "fb_0", "position": [1, 2, 1e99], "angles": [0, 0, 0]})"),
               HasSubstr("bounds"));
+  EXPECT_THAT(refusal(R"({"do": "prove", "proof": 1})"), HasSubstr("'proof'"));
+  EXPECT_THAT(refusal(R"({"do": "marks", "rays": [1]})"), HasSubstr("'bodies'"));
   // Deeper than any stack would like.
   EXPECT_THAT(refusal(std::string(60000, '[')), HasSubstr("JSON"));
 }
@@ -76,6 +84,8 @@ TEST(WebMessages, OnlyWhatChangesTheRunIsACommand)
 {
   EXPECT_FALSE(IsCommand(WatchRequest{}));
   EXPECT_FALSE(IsCommand(FrameRateRequest{}));
+  EXPECT_FALSE(IsCommand(ProveRequest{}));
+  EXPECT_FALSE(IsCommand(MarksRequest{}));
   for (const PageRequest& request : std::vector<PageRequest>{PauseRequest{}, ResumeRequest{}, StepRequest{},
                                                              SpeedRequest{}, MoveEntityRequest{}, StopRequest{}})
     EXPECT_TRUE(IsCommand(request));
@@ -97,6 +107,30 @@ TEST(WebMessages, TheWorldNamesEntitiesOwnersAndBodies)
   ASSERT_EQ(json["bodies"].size(), 2u);
   EXPECT_EQ(json["bodies"][0]["entity"], 2);
   EXPECT_EQ(json["bodies"][0]["size"], nlohmann::json({0.1, 0.1, 0.2}));
+}
+
+TEST(WebMessages, AChallengeIsGivenOnlyIfThereIsSomethingToProve)
+{
+  const auto needed = nlohmann::json::parse(WelcomeText(true, "0123"));
+  EXPECT_EQ(needed["control"], "token needed");
+  EXPECT_EQ(needed["challenge"], "0123");
+  const auto watched = nlohmann::json::parse(WelcomeText(false, "0123"));
+  EXPECT_EQ(watched["control"], "read-only");
+  EXPECT_FALSE(watched.contains("challenge"));
+}
+
+TEST(WebMessages, TheWorldHasViewpointsAndTheRaysOfEachKind)
+{
+  const FourEntities world;
+  Viewpoints viewpoints;
+  viewpoints.Store(2, {.position = {1, 2, 3}, .heading = 90, .pitch = -20, .roll = 5});
+  const auto json = nlohmann::json::parse(WorldText(world.space, world.assignment, viewpoints, true));
+  EXPECT_EQ(json["viewpoints"],
+            nlohmann::json::parse(
+                R"([{"number": 2, "position": [1.0, 2.0, 3.0], "heading": 90.0, "pitch": -20.0, "roll": 5.0}])"));
+  EXPECT_EQ(json["begins_at_viewpoint"], true);
+  EXPECT_EQ(json["looks"]["footbot"]["proximity"]["sensors"].size(), 24u);
+  EXPECT_FALSE(json["looks"]["eyebot"].contains("proximity"));
 }
 
 TEST(WebMessages, ColoursOfWhatStandsStillFollowTheSpace)

@@ -87,7 +87,9 @@ async function open(url, { noise = [], quality = "low", ...more } = {}) {
     if (["error", "warning"].includes(message.type()) && !noise.some((pattern) => pattern.test(message.text())))
       page.complaints.push(message.text());
   });
-  await page.goto(url + (url.includes("?") ? "&" : "?") + `quality=${quality}`);
+  const address = new URL(url);
+  address.searchParams.set("quality", quality);
+  await page.goto(address.href);
   return page;
 }
 const until = (page, expression, argument) => page.waitForFunction(expression, argument, { polling: 50, timeout: TIMEOUT_MS });
@@ -223,10 +225,10 @@ const tests = {
   async "with the token the run is paused, stepped, resumed, and robots are moved"() {
     run("diffusion_10", "--real-time", 2, "--ticks", 100000);
     const { url } = await attach("--allow-control");
-    assert.match(url, /\?token=[0-9a-f]{32}$/);
+    assert.match(url, /#token=[0-9a-f]{32}$/);
     const page = await open(url);
     await drawn(page);
-    assert.equal(await read(page, () => swarmanoid.control), "granted");
+    await until(page, () => swarmanoid.control === "granted");
     await until(page, () => swarmanoid.phase === "running");
     await page.click("header .controls button >> nth=0");
     await until(page, () => swarmanoid.phase === "paused");
@@ -264,7 +266,7 @@ const tests = {
   async "without the token nothing is steered, though everything is seen"() {
     run("diffusion_10", "--real-time", 2, "--ticks", 100000);
     const { url } = await attach("allow_control=true");
-    const page = await open(url.replace(/\?.*/, ""));
+    const page = await open(url.replace(/#.*/, ""));
     await drawn(page);
     assert.equal(await read(page, () => swarmanoid.control), "token needed");
     assert.ok(await page.isDisabled("header .controls button >> nth=0"));
@@ -275,7 +277,7 @@ const tests = {
 
     const wrong = await open(url.replace(/token=.{8}/, "token=00000000"));
     await drawn(wrong);
-    assert.equal(await read(wrong, () => swarmanoid.control), "wrong token");
+    await until(wrong, () => swarmanoid.control === "wrong token");
     await read(wrong, () => swarmanoid.command({ do: "stop" }));
     await until(wrong, () => document.querySelector("footer").textContent.includes("only the address with the token"));
     assert.deepEqual([...page.complaints, ...wrong.complaints], []);
@@ -320,7 +322,7 @@ const tests = {
     assert.equal(again, url);
     await until(page, () => swarmanoid.connected && swarmanoid.tick === 0);
     await until(page, () => /started again/.test(document.querySelector(".banner").textContent));
-    assert.equal(await read(page, () => swarmanoid.control), "granted");
+    await until(page, () => swarmanoid.control === "granted");
     assert.equal(await read(page, () => swarmanoid.selected), "fb_4");
     assert.deepEqual(await read(page, () => swarmanoid.viewpoint), place);
     await page.keyboard.press("n");
@@ -328,7 +330,7 @@ const tests = {
     // Another page of the same run has an address and a token of its own.
     const { url: other } = await attach("diffusion_10", "--allow-control");
     assert.notEqual(new URL(other).port, new URL(url).port);
-    assert.notEqual(new URL(other).searchParams.get("token"), new URL(url).searchParams.get("token"));
+    assert.notEqual(new URL(other).hash, new URL(url).hash);
     assert.deepEqual(page.complaints, []);
   },
 
@@ -614,7 +616,7 @@ const tests = {
     assert.deepEqual(page.complaints, []);
 
     // Who has no token has no form.
-    const other = await open(url.replace(/\?.*/, ""), { quality: "plan" });
+    const other = await open(url.replace(/#.*/, ""), { quality: "plan" });
     await drawn(other);
     await read(other, () => swarmanoid.select("late_0"));
     assert.ok(await other.isHidden(".place"));
@@ -757,6 +759,214 @@ const tests = {
     assert.deepEqual(page.complaints, []);
   },
 
+  async "the token is never sent, and leaves the address bar, but not the tab"() {
+    run("diffusion_10", "--paused", "--ticks", 0);
+    const { url } = await attach("--allow-control");
+    const token = new URL(url).hash.slice("#token=".length);
+    const page = await browser.newPage();
+    page.setDefaultTimeout(TIMEOUT_MS);
+    const sent = [];
+    page.on("request", (request) => sent.push(request.url(), JSON.stringify(request.headers())));
+    page.on("websocket", (socket) => {
+      sent.push(socket.url());
+      socket.on("framesent", ({ payload }) => sent.push(String(payload)));
+    });
+    await page.goto(url);
+    await until(page, () => swarmanoid.control === "granted");
+    assert.equal(page.url(), url.replace(/#.*/, ""));
+    await page.reload();
+    await until(page, () => swarmanoid.control === "granted");
+    await page.keyboard.press("n");
+    await until(page, () => swarmanoid.tick === 1);
+    assert.ok(sent.some((text) => text.includes('"prove"')));
+    assert.deepEqual(sent.filter((text) => text.includes(token)), []);
+    // The answer of one connection is none for another.
+    const proof = JSON.parse(sent.find((text) => text.includes('"prove"'))).proof;
+    const thief = await open(url.replace(/#.*/, ""), { quality: "plan" });
+    await drawn(thief);
+    await thief.evaluate((text) => swarmanoid.command({ do: "prove", proof: text }), proof);
+    await until(thief, () => swarmanoid.control === "wrong token");
+    // By hand.
+    thief.once("dialog", (dialog) => dialog.accept(url));
+    await thief.click(".lock");
+    await until(thief, () => swarmanoid.control === "granted");
+  },
+
+  async "rays end at what they meet, and bodies are those that the engines collide, in both views"() {
+    // Two footbots face to face, 0.1 m apart, and a third away from everything.
+    const text = readFileSync(experiment("diffusion_10"), "utf8")
+      .replace(/<distribute[^]*<\/distribute>/, ["1.5, 1.5", "1.7, 1.5", "0.8, 0.8"].map((at, i) => `<footbot id="fb_${i}"><position>${at}, 0</position><orientation>0, 0, 0</orientation><controller>diffusion</controller></footbot>`).join(""))
+      .replace(/<visualisations>[^]*<\/visualisations>/, "");
+    writeFileSync(join(folder, "rays.xml"), text);
+    new Process("run", "rays.xml", "--quiet", "--paused", "--ticks", 0);
+    const { url } = await attach();
+    for (const quality of ["plan", "low"]) {
+      const page = await open(url, { quality });
+      await drawn(page);
+      assert.deepEqual(await read(page, () => swarmanoid.marks), {});
+      await page.keyboard.press("r");
+      await page.keyboard.press("c");
+      await until(page, () => swarmanoid.marks["rays that are free"] > 0 && swarmanoid.marks.bodies > 0);
+      const { "rays that are free": free, "rays that meet something": hit, bodies } = await read(page, () => swarmanoid.marks);
+      assert.equal(free + hit, 3 * 24);
+      assert.ok(hit >= 4 && hit <= 16 && hit % 2 === 0, `${hit} rays meet something`);
+      // A box has 12 edges, a cylinder two rims of 24 pieces and four lines between them: four walls, three footbots at least.
+      assert.ok(bodies >= 4 * 12 + 3 * 52, `${bodies} lines`);
+      // Red between the two, and none about the third.
+      await read(page, () => swarmanoid.approach("fb_0"));
+      await drawn(page);
+      const between = await read(page, () => swarmanoid.projectPoint(1.6, 1.5, 0.06));
+      const red = ([r, g, b]) => r > 150 && g < 120 && b < 120;
+      assert.ok((await pixelsAbout(page, between, 12)).filter(red).length > 8, quality);
+      await page.keyboard.press("r");
+      await page.keyboard.press("c");
+      assert.deepEqual(await read(page, () => swarmanoid.marks), {});
+      await page.close();
+    }
+  },
+
+  async "viewpoints of the file are gone to, kept and flown through"() {
+    const element = '<opengl_render id="w"><camera_view_XYZ_0>1, -1, 1.2</camera_view_XYZ_0><camera_view_HPR_0>80, -25, 0</camera_view_HPR_0><camera_view_XYZ_4>2.5, 1, 0.4</camera_view_XYZ_4><camera_view_HPR_4>-155, 0, 10</camera_view_HPR_4></opengl_render>';
+    const text = readFileSync(experiment("diffusion_10"), "utf8").replace(/<visualisations>[^]*<\/visualisations>/, `<visualisations>${element}</visualisations>`);
+    writeFileSync(join(folder, "views.xml"), text);
+    new Process("run", "views.xml", "--quiet", "--paused", "--ticks", 0, "--no-visualisers");
+    const { url } = await attach();
+    const page = await open(url);
+    await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+    await drawn(page);
+    const near = (a, b) => ["heading", "pitch"].every((name) => Math.abs(a[name] - b[name]) < 1e-3) && a.position.every((value, k) => Math.abs(value - b.position[k]) < 1e-4);
+    const first = { position: [1, -1, 1.2], heading: 80, pitch: -25 };
+    await page.keyboard.press("Control+0");
+    assert.ok(near(await read(page, () => swarmanoid.standing), first), JSON.stringify(await read(page, () => swarmanoid.standing)));
+    // It looks where the camera of a window would: at the floor 1.2 / tan 25 degrees ahead.
+    const ahead = 1.2 / Math.tan((25 * Math.PI) / 180);
+    const [x, y] = [1 + ahead * Math.cos((80 * Math.PI) / 180), -1 + ahead * Math.sin((80 * Math.PI) / 180)];
+    const seen = await page.evaluate(([a, b]) => swarmanoid.projectPoint(a, b, 0), [x, y]);
+    const box = await page.locator(".picture:not([hidden])").boundingBox();
+    assert.ok(Math.hypot(seen.x - box.x - box.width / 2, seen.y - box.y - box.height / 2) < 1, JSON.stringify([seen, box]));
+    // Level and leaning, as the hands never have it.
+    await page.keyboard.press("Control+4");
+    const level = await read(page, () => swarmanoid.standing);
+    assert.ok(near(level, { position: [2.5, 1, 0.4], heading: -155, pitch: 0 }), JSON.stringify(level));
+    const up = await read(page, () => [swarmanoid.projectPoint(0.6, 0.1, 0.2), swarmanoid.projectPoint(0.6, 0.1, 0.6)]);
+    assert.ok(Math.abs((up[1].x - up[0].x) / (up[1].y - up[0].y) - Math.tan((10 * Math.PI) / 180)) < 0.02, JSON.stringify(up));
+
+    await page.keyboard.press("Control+Shift+Digit2");
+    const xml = "<camera_view_XYZ_2>2.5, 1, 0.4</camera_view_XYZ_2>\n<camera_view_HPR_2>-155, 0, 0</camera_view_HPR_2>";
+    await until(page, async (wanted) => (await navigator.clipboard.readText()) === wanted, xml);
+    await page.click(".tools summary");
+    assert.deepEqual(await page.locator("[aria-label=Viewpoint] option").allTextContents(), ["…", "0", "2", "4"]);
+    await page.selectOption("[aria-label=Viewpoint]", "0");
+    assert.ok(near(await read(page, () => swarmanoid.standing), first));
+    await page.click(".tools summary");
+    // In the plan: what is looked at is in the middle.
+    await page.keyboard.press("v");
+    await until(page, () => swarmanoid.view === "plan");
+    await page.keyboard.press("Control+0");
+    const { target } = await read(page, () => swarmanoid.viewpoint);
+    assert.ok(Math.hypot(target[0] - x, target[1] - y) < 1e-3, `${target}`);
+    await page.keyboard.press("v");
+    await until(page, () => swarmanoid.view === "3D");
+
+    await page.keyboard.press("u");
+    await until(page, () => swarmanoid.flying);
+    await until(page, () => !swarmanoid.flying);
+    const end = await read(page, () => swarmanoid.standing);
+    assert.ok(Math.hypot(...end.position.map((value, k) => value - [2.5, 1, 0.4][k])) < 0.3, JSON.stringify(end));
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "a page begins at the first viewpoint that it is given"() {
+    oneRobot("begins", "5, 5, 0");
+    const { url } = await attach("camera_view_XYZ_3=5,3,2", "camera_view_HPR_3=90,-45,0", "camera_view_XYZ_7=1,1,1");
+    const page = await open(url);
+    await drawn(page);
+    await until(page, () => Math.abs(swarmanoid.standing.pitch + 45) < 1e-3);
+    const { position, heading } = await read(page, () => swarmanoid.standing);
+    assert.ok(Math.abs(heading - 90) < 1e-3 && Math.hypot(position[0] - 5, position[1] - 3, position[2] - 2) < 1e-3, `${position}, ${heading}`);
+    assert.deepEqual(await read(page, () => Object.keys(swarmanoid.viewpoints)), ["3", "7"]);
+  },
+
+  async "arrow keys, Ctrl and click and the wheel of a drag do what they do in the windows"() {
+    run("diffusion_10", "--paused", "--ticks", 0);
+    const { url } = await attach("--allow-control");
+    const page = await open(url);
+    await drawn(page);
+    const direction = () => read(page, () => {
+      const [x, y, z] = swarmanoid.viewpoint.direction;
+      return { azimuth: (Math.atan2(y, x) * 180) / Math.PI, height: (Math.asin(z) * 180) / Math.PI };
+    });
+    const before = await direction();
+    await page.keyboard.press("ArrowLeft");
+    await page.keyboard.press("ArrowLeft");
+    await page.keyboard.press("ArrowUp");
+    const after = await direction();
+    assert.ok(Math.abs(after.azimuth - before.azimuth - 10) < 0.01 && Math.abs(after.height - before.height - 5) < 0.01, JSON.stringify([before, after]));
+
+    await page.keyboard.press("v");
+    await until(page, () => swarmanoid.view === "plan");
+    await page.keyboard.press("Home");
+    await drawn(page);
+    for (const [id, modifiers] of [["fb_2", []], ["fb_6", ["Control"]]]) {
+      const { x, y } = await read(page, `swarmanoid.project("${id}")`);
+      for (const key of modifiers) await page.keyboard.down(key);
+      await page.mouse.click(x, y);
+      for (const key of modifiers) await page.keyboard.up(key);
+      await drawn(page);
+    }
+    assert.deepEqual((await page.locator(".card h2").allTextContents()).sort(), ["fb_2", "fb_6"]);
+
+    const heading = await read(page, () => swarmanoid.heading("fb_6"));
+    const { x, y } = await read(page, () => swarmanoid.project("fb_6"));
+    await page.keyboard.down("Shift");
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    const { span } = await read(page, () => swarmanoid.viewpoint);
+    for (let i = 0; i < 2; i++) await page.mouse.wheel(0, -100);
+    await until(page, () => document.querySelector("main .labels:not([hidden])"));
+    await page.waitForTimeout(200);
+    await page.mouse.up();
+    await page.keyboard.up("Shift");
+    await until(page, (angle) => Math.abs(Math.abs(swarmanoid.heading("fb_6") - angle) % 360 - 15) < 0.5 || Math.abs(Math.abs(swarmanoid.heading("fb_6") - angle) - 345) < 0.5, heading);
+    assert.equal((await read(page, () => swarmanoid.viewpoint)).span, span);
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "the camera rides on a robot and looks about"() {
+    oneRobot("boarded", "5, 5, 0");
+    const { url } = await attach("--allow-control");
+    const page = await open(url, { quality: "plan" });
+    await drawn(page);
+    await page.keyboard.press("o");
+    assert.equal(await read(page, () => swarmanoid.aboard), null);
+    await until(page, () => document.querySelector("footer").textContent.includes("select a robot first"));
+    await read(page, () => swarmanoid.select("fb"));
+    await page.keyboard.press("o");
+    await until(page, () => swarmanoid.view === "3D" && swarmanoid.aboard === "fb");
+    const away = (yaw) => Math.abs((((yaw + 180) % 360) + 360) % 360 - 180);
+    for (const [x, y, angle] of [[3, 4, 35], [6, 2, -120]]) {
+      await page.evaluate(([a, b, c]) => swarmanoid.command({ do: "move", entity: "fb", position: [a, b, 0], angles: [0, 0, c] }), [x, y, angle]);
+      await until(page, ([a, b]) => Math.hypot(swarmanoid.camera[0] - a, swarmanoid.camera[1] - b) < 1e-3, [x, y]);
+      await drawn(page);
+      const { position, heading } = await read(page, () => swarmanoid.standing);
+      assert.ok(away(heading - angle) < 0.5, `${heading} degrees`);
+      assert.ok(position[2] > 0.14 && position[2] < 0.2, `${position}`);
+    }
+    const before = await read(page, () => swarmanoid.standing);
+    const box = await page.locator(".picture:not([hidden])").boundingBox();
+    await page.mouse.move(box.x + 200, box.y + 100);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 300, box.y + 100, { steps: 4 });
+    await page.mouse.up();
+    await drawn(page);
+    const after = await read(page, () => swarmanoid.standing);
+    assert.ok(away(after.heading - before.heading - 28.6) < 1 && Math.abs(after.pitch - before.pitch) < 1, JSON.stringify([before, after]));
+    await page.keyboard.press("Escape");
+    assert.equal(await read(page, () => swarmanoid.aboard), null);
+    assert.equal(await read(page, () => swarmanoid.selected), "fb");
+    assert.deepEqual(page.complaints, []);
+  },
+
   async "two fingers move and zoom the plan"() {
     oneRobot("pinched", "5, 5, 0");
     const { url } = await attach();
@@ -833,7 +1043,7 @@ const tests = {
     await drawn(page);
     // Nothing is wider than the screen, and a finger hits each button.
     assert.ok((await read(page, () => document.documentElement.scrollWidth)) <= 390);
-    for (const box of await read(page, () => [...document.querySelectorAll("header button")].map((button) => button.getBoundingClientRect().toJSON())))
+    for (const box of await read(page, () => [...document.querySelectorAll("header button:not([hidden])")].map((button) => button.getBoundingClientRect().toJSON())))
       assert.ok(box.width >= 36 && box.height >= 32 && box.right <= 390, JSON.stringify(box));
     const { height } = await page.locator("main").boundingBox();
     assert.ok(height > 0.7 * 844, `the picture has ${height} pixels`);

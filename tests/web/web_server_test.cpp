@@ -27,18 +27,17 @@ protected:
   {
     files_.Add("/index.html", "text/html; charset=utf-8", "<p>page</p>");
     files_.Add("/main.js", "text/javascript; charset=utf-8", "let x;");
-    settings_.access = {true, "secret"};
     settings_.max_clients = 3;
     settings_.max_message_bytes = 1000;
   }
   void Start() { server_ = std::make_unique<WebServer>(settings_, files_, *this); }
   WebClient Connect() { return WebClient(server_->Port()); }
 
-  std::string Welcome(std::uint64_t, Authority authority) override
+  std::string Welcome(std::uint64_t client) override
   {
-    return R"({"type": "welcome", "authority": )" + std::to_string(static_cast<int>(authority)) + "}";
+    return R"({"type": "welcome", "client": )" + std::to_string(client) + "}";
   }
-  void Received(std::uint64_t client, Authority, std::string_view text) override
+  void Received(std::uint64_t client, std::string_view text) override
   {
     server_->Send(client, Shared(R"({"type": "echo", "text": ")" + std::string(text) + "\"}"));
   }
@@ -118,21 +117,6 @@ TEST_F(WebServerTest, PagesOfOtherSitesMayNotLook)
   // The name of another site that points here (DNS rebinding).
   EXPECT_EQ(Connect().Open("/stream", "http://evil.example", "evil.example"), 403u);
   EXPECT_EQ(Connect().Open("/other"), 404u);
-}
-
-TEST_F(WebServerTest, TheTokenOfTheAddressDecidesWhatAClientMay)
-{
-  Start();
-  const auto authority = [&](const std::string& target)
-  {
-    WebClient client = Connect();
-    EXPECT_EQ(client.Open(target), 101u);
-    return static_cast<Authority>(client.ReadUntil("welcome")["authority"].get<int>());
-  };
-  EXPECT_EQ(authority("/stream"), Authority::kReadOnly);
-  EXPECT_EQ(authority("/stream?token=secret"), Authority::kControl);
-  EXPECT_EQ(authority("/stream?token=secre"), Authority::kWrongToken);
-  EXPECT_THAT(server_->Url(), testing::EndsWith("/?token=secret"));
 }
 
 TEST_F(WebServerTest, WhoComesLateGetsGreetingHistoryAndLatestState)

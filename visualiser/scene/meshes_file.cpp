@@ -104,7 +104,10 @@ std::string MeshesAsJson()
                      {"wall", palette::kWall},
                      {"hole", palette::kHole},
                      {"selection", palette::kSelection},
-                     {"label", palette::kLabel}};
+                     {"label", palette::kLabel},
+                     {"collision", palette::kCollision},
+                     {"ray_free", palette::kRayFree},
+                     {"ray_hit", palette::kRayHit}};
   file["floor_grid"] = {{"spacings", kFloorSpacings}, {"most_cells", kMostFloorCells}};
   return file.dump();
 }

@@ -204,7 +204,7 @@ void Scene::Update(const SceneOptions& options)
       glows_.push_back(
           {entity.GetPosition().cast<float>(), 0.35F, lights_[static_cast<std::size_t>(body.lights)], false});
     const bool selected = options.selected == body.entity;
-    if (kind.proximity && (options.rays || selected)) AddRays(body.entity, *kind.proximity);
+    if (kind.proximity && (options.rays || selected)) AddRays(body.entity);
     if (options.collision_models) AddCollisionModel(body.entity);
     if (selected) AddOutline(body.entity, palette::kSelection, 2.5F);
     if ((options.ids && entity.IsMovable()) || selected)

@@ -14,6 +14,7 @@
 #include "common/space/query.h"
 #include "common/space/space.h"
 #include "visualiser/scene/meshes.h"
+#include "visualiser/scene/proximity_rays.h"
 
 namespace swarmanoid
 {
@@ -148,7 +149,7 @@ private:
   void AddBeam(const Body& eyebot);
   void AddRope(const Body& handbot);
   void AddGrips(const Body& robot);
-  void AddRays(std::uint32_t robot, const ProximityRing& ring);
+  void AddRays(std::uint32_t robot);
   // Over all else: the plain body, and what the engine collides.
   void AddOutline(std::uint32_t entity, Colour colour, float width);
   void AddCollisionModel(std::uint32_t entity);
@@ -181,6 +182,7 @@ private:
   std::unique_ptr<SpaceQuery> query_;
   std::unique_ptr<CollisionModels> collision_models_;
   std::vector<CollisionBody> collision_bodies_;
+  std::vector<ProximityRay> rays_;
   std::unique_ptr<Trail[]> trails_;  // of the movable entities, once shown
   std::uint64_t revision_ = 0;
   std::uint64_t attribute_revision_ = 0;

@@ -14,15 +14,6 @@ namespace
 
 constexpr double kLongestBeam = 30;  // m, as for the cameras that see the spot
 
-bool HasProximity(const Experiment& experiment, const EntityConfiguration& robot)
-{
-  const ControllerConfiguration* controller = experiment.FindController(robot.controller);
-  if (controller == nullptr) return false;
-  for (const DeviceConfiguration& sensor : controller->sensors)
-    if (sensor.type == "footbot_proximity" || sensor.type == "proximity") return true;
-  return false;
-}
-
 Colour TrailColour(EntityKind kind)
 {
   switch (DescriptionOf(kind).mechanism)
@@ -119,21 +110,12 @@ void Scene::AddGrips(const Body& robot)
   }
 }
 
-void Scene::AddRays(std::uint32_t robot, const ProximityRing& ring)
+void Scene::AddRays(std::uint32_t robot)
 {
-  if (!HasProximity(space_.GetExperiment(), space_.GetEntity(robot).GetConfiguration())) return;
   if (query_ == nullptr) query_ = std::make_unique<SpaceQuery>(space_);
-  const Pose pose = space_.GetPose(robot);
-  for (const ProximityRing::Sensor& sensor : ring.sensors)
-  {
-    const Vector3 direction(std::cos(sensor.direction), std::sin(sensor.direction), 0);
-    const Vector3 start(sensor.place.x(), sensor.place.y(), ring.height_m);
-    const Vector3 from = pose.Apply(start);
-    const Vector3 to = pose.Apply(start + ring.range_m * direction);
-    const auto first = query_->FindFirstHit(from, to, robot, {&robot, 1});
-    const double hit = first ? first->fraction : 1;
+  FindProximityRays(space_, *query_, robot, rays_);
+  for (const auto& [from, to, hit] : rays_)
     AddLine(from, from + hit * (to - from), hit < 1 ? palette::kRayHit : palette::kRayFree, 1.5F, hit < 1 ? 1 : 0.7F);
-  }
 }
 
 void Scene::AddOutline(std::uint32_t entity, Colour colour, float width)

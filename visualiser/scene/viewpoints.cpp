@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "common/plugins/catalogue.h"
+
 namespace swarmanoid
 {
 namespace
@@ -83,6 +85,22 @@ Viewpoints::Viewpoints(const Parameters& parameters)
       throw ConfigurationError(tree.ValueLocation(turn), turn + " says where viewpoint " + std::to_string(number) +
                                                              " looks, but not where it stands; add " + place);
   }
+}
+
+Viewpoints Viewpoints::Of(const Experiment& experiment)
+{
+  for (const RenderConfiguration& visualisation : experiment.visualisations)
+  {
+    const PluginDescription* description = PluginCatalogue::Instance().Find(PluginKind::kRenderer, visualisation.tag);
+    if (description == nullptr) continue;
+    const std::vector<ParameterSpec>& specs = description->parameters;
+    const bool has_viewpoints = std::any_of(specs.begin(), specs.end(),
+                                            [](const ParameterSpec& spec) { return spec.name == "camera_view_XYZ_n"; });
+    if (!has_viewpoints) continue;
+    const Viewpoints viewpoints(Parameters(visualisation.tree, specs));
+    if (viewpoints.First()) return viewpoints;
+  }
+  return {};
 }
 
 std::optional<Camera> Viewpoints::First() const

@@ -24,6 +24,9 @@ public:
 
   const std::optional<Camera>& At(int number) const { return views_[static_cast<std::size_t>(number)]; }
   void Store(int number, const Camera& camera) { views_[static_cast<std::size_t>(number)] = camera; }
+  // Of the first visualisation of an experiment that gives some: what a page offers that was given none itself.
+  static Viewpoints Of(const Experiment& experiment);
+
   // The one with the smallest number, if there is any.
   std::optional<Camera> First() const;
 

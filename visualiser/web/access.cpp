@@ -1,6 +1,9 @@
 #include "visualiser/web/access.h"
 
 #include <arpa/inet.h>
+#include <openssl/crypto.h>
+#include <openssl/evp.h>
+#include <openssl/hmac.h>
 #include <sys/random.h>
 #include <unistd.h>
 
@@ -9,6 +12,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <span>
 #include <stdexcept>
 
 namespace swarmanoid
@@ -33,6 +37,18 @@ std::string MachinesName()
   std::array<char, 256> name{};
   if (gethostname(name.data(), name.size() - 1) != 0) return {};
   return Lower(name.data());
+}
+
+std::string HexadecimalOf(std::span<const unsigned char> bytes)
+{
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (const unsigned char byte : bytes)
+  {
+    text += kDigits[byte >> 4U];
+    text += kDigits[byte & 15U];
+  }
+  return text;
 }
 
 }  // namespace
@@ -66,44 +82,41 @@ bool IsOwnOrigin(std::string_view origin, std::string_view host)
 
 std::string_view PathOf(std::string_view target) { return target.substr(0, target.find('?')); }
 
-std::string_view QueryValue(std::string_view target, std::string_view name)
-{
-  std::size_t start = target.find('?');
-  while (start != std::string_view::npos)
-  {
-    const std::size_t end = target.find('&', ++start);
-    const std::string_view pair =
-        target.substr(start, end == std::string_view::npos ? std::string_view::npos : end - start);
-    const std::size_t equals = pair.find('=');
-    if (equals != std::string_view::npos && pair.substr(0, equals) == name) return pair.substr(equals + 1);
-    start = end;
-  }
-  return {};
-}
-
-Authority AuthorityOf(const AccessRules& rules, std::string_view token)
-{
-  if (!rules.allow_control || token.empty()) return Authority::kReadOnly;
-  if (rules.token.empty() || token.size() != rules.token.size()) return Authority::kWrongToken;
-  unsigned difference = 0;
-  for (std::size_t i = 0; i < token.size(); ++i)
-    difference |= static_cast<unsigned char>(token[i]) ^ static_cast<unsigned char>(rules.token[i]);
-  return difference == 0 ? Authority::kControl : Authority::kWrongToken;
-}
-
 std::string MakeToken()
 {
   std::array<unsigned char, 16> bits{};
   if (getrandom(bits.data(), bits.size(), 0) != static_cast<ssize_t>(bits.size()))
     throw std::runtime_error(std::string("web_render: no random numbers for the token: ") + std::strerror(errno));
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string token;
-  for (const unsigned char byte : bits)
-  {
-    token += kDigits[byte >> 4U];
-    token += kDigits[byte & 15U];
-  }
-  return token;
+  return HexadecimalOf(bits);
+}
+
+std::string ProofOf(std::string_view token, std::string_view challenge)
+{
+  std::array<unsigned char, EVP_MAX_MD_SIZE> code{};
+  unsigned length = 0;
+  HMAC(EVP_sha256(), token.data(), static_cast<int>(token.size()),
+       reinterpret_cast<const unsigned char*>(challenge.data()), challenge.size(), code.data(), &length);
+  return HexadecimalOf({code.data(), length});
+}
+
+std::string Visitors::Join(std::uint64_t client)
+{
+  return (visitors_[client] = {MakeToken(), Authority::kReadOnly}).challenge;
+}
+
+Authority Visitors::Prove(std::uint64_t client, std::string_view proof)
+{
+  Visitor& visitor = visitors_.at(client);
+  if (!rules_.allow_control || rules_.token.empty()) return Authority::kReadOnly;
+  const std::string wanted = ProofOf(rules_.token, visitor.challenge);
+  const bool proved = proof.size() == wanted.size() && CRYPTO_memcmp(proof.data(), wanted.data(), wanted.size()) == 0;
+  return visitor.authority = proved ? Authority::kControl : Authority::kWrongToken;
+}
+
+bool Visitors::MayControl(std::uint64_t client) const
+{
+  const auto found = visitors_.find(client);
+  return found != visitors_.end() && found->second.authority == Authority::kControl;
 }
 
 }  // namespace swarmanoid

@@ -3,9 +3,12 @@
 //
 // A page of any web site can open a connection to this machine, so an open port is no secret: the Host header must not
 // be a name that somebody's DNS could point here, a page must come from this very server (Origin), and commands need a
-// token that only the printed address has.
+// token that only the printed address has. The token itself is never sent: each client gets a challenge of its own and
+// answers with what only a holder of the token can make of it.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -20,13 +23,12 @@ bool IsKnownHost(std::string_view host);
 // empty one is allowed.
 bool IsOwnOrigin(std::string_view origin, std::string_view host);
 
-// The part of a request's target before '?', and the value of one of its parameters; empty if there is none.
+// The part of a request's target before '?'.
 std::string_view PathOf(std::string_view target);
-std::string_view QueryValue(std::string_view target, std::string_view name);
 
 enum class Authority
 {
-  kReadOnly,    // no token was given, or none would help
+  kReadOnly,    // nothing was proved yet, or no token would help
   kWrongToken,  // may look, not steer
   kControl
 };
@@ -37,10 +39,35 @@ struct AccessRules
   std::string token;
 };
 
-// Takes the same time for every token of the right length.
-Authority AuthorityOf(const AccessRules& rules, std::string_view token);
-
 // 128 random bits of the operating system, as hexadecimal digits.
 std::string MakeToken();
+
+// What a holder of the token answers to a challenge: HMAC-SHA256 (RFC 2104) of the challenge under the token, both as
+// the text that they are, in 64 hexadecimal digits.
+std::string ProofOf(std::string_view token, std::string_view challenge);
+
+// The clients of a server, and which of them have proved that they hold the token.
+class Visitors
+{
+public:
+  explicit Visitors(AccessRules rules) : rules_(std::move(rules)) {}
+
+  // A client has come: the challenge for it, which no other client gets.
+  std::string Join(std::uint64_t client);
+  // Its answer; takes the same time for every proof of the right length.
+  Authority Prove(std::uint64_t client, std::string_view proof);
+  bool MayControl(std::uint64_t client) const;
+  void Leave(std::uint64_t client) { visitors_.erase(client); }
+
+private:
+  struct Visitor
+  {
+    std::string challenge;
+    Authority authority = Authority::kReadOnly;
+  };
+
+  AccessRules rules_;
+  std::map<std::uint64_t, Visitor> visitors_;
+};
 
 }  // namespace swarmanoid

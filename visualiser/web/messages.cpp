@@ -108,6 +108,12 @@ Json Look(EntityKind kind)
                      : is_box                    ? "box"
                                                  : "cylinder"},
             {"based", row.origin == BodyOrigin::kBase}};
+  if (row.proximity)
+  {
+    Json sensors = Json::array();
+    for (const auto& [place, direction] : row.proximity->sensors) sensors.push_back({place.x(), place.y(), direction});
+    look["proximity"] = {{"height", row.proximity->height_m}, {"range", row.proximity->range_m}, {"sensors", sensors}};
+  }
   if (IsBuiltIn(kind) || row.role != EntityRole::kRobot) return look;
   look["radius"] = is_box ? row.size.head<2>().norm() / 2 : row.size.x();
   look["height"] = row.size.z();
@@ -146,6 +152,19 @@ Json Attributes(const CSwarmanoidSpaceEntity& entity)
   return attributes;
 }
 
+Json ViewpointList(const Viewpoints& viewpoints)
+{
+  Json list = Json::array();
+  for (int number = 0; number < Viewpoints::kCount; ++number)
+    if (const std::optional<Camera>& camera = viewpoints.At(number))
+      list.push_back({{"number", number},
+                      {"position", Vector(camera->position)},
+                      {"heading", camera->heading},
+                      {"pitch", camera->pitch},
+                      {"roll", camera->roll}});
+  return list;
+}
+
 // ---- requests ----
 
 [[noreturn]] void Refuse(const std::string& text) { throw std::invalid_argument(text); }
@@ -174,19 +193,26 @@ std::array<double, 3> TripleIn(const Json& json, const char* name)
   return values;
 }
 
-PageRequest WatchIn(const Json& json)
+std::vector<std::uint32_t> EntitiesIn(const Json& json, const char* name, std::size_t most)
 {
-  const auto found = json.find("entities");
-  if (found == json.end() || !found->is_array() || found->size() > kMostWatched)
-    Refuse(fmt::format("'watch' needs at most {} entities", kMostWatched));
-  WatchRequest request;
+  const auto found = json.find(name);
+  if (found == json.end() || !found->is_array() || found->size() > most)
+    Refuse(fmt::format("the request needs a list '{}' of at most {} entities", name, most));
+  std::vector<std::uint32_t> entities;
   for (const Json& entity : *found)
   {
     if (!entity.is_number_unsigned() || entity.get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max())
-      Refuse("entities are watched by their number");
-    request.entities.push_back(entity.get<std::uint32_t>());
+      Refuse(fmt::format("'{}' names entities by their number", name));
+    entities.push_back(entity.get<std::uint32_t>());
   }
-  return request;
+  return entities;
+}
+
+ProveRequest ProofIn(const Json& json)
+{
+  const auto proof = json.find("proof");
+  if (proof == json.end() || !proof->is_string()) Refuse("'prove' needs a text 'proof'");
+  return {proof->get<std::string>()};
 }
 
 std::string EntityIn(const Json& json, const std::string& verb)
@@ -206,16 +232,23 @@ Pose PoseIn(const Json& json)
 
 }  // namespace
 
-std::string WelcomeText(Authority authority, bool control_possible)
+std::string WelcomeText(bool control_possible, const std::string& challenge)
+{
+  Json welcome{{"type", "welcome"}, {"protocol", 2}, {"control", control_possible ? "token needed" : "read-only"}};
+  if (control_possible) welcome["challenge"] = challenge;
+  return Text(welcome);
+}
+
+std::string AuthorityText(Authority authority)
 {
   const char* control = authority == Authority::kControl      ? "granted"
                         : authority == Authority::kWrongToken ? "wrong token"
-                        : control_possible                    ? "token needed"
                                                               : "read-only";
-  return Text({{"type", "welcome"}, {"protocol", 1}, {"control", control}});
+  return Text({{"type", "authority"}, {"control", control}});
 }
 
-std::string WorldText(const CSwarmanoidSpace& space, const Assignment& assignment)
+std::string WorldText(const CSwarmanoidSpace& space, const Assignment& assignment, const Viewpoints& viewpoints,
+                      bool begins_there)
 {
   const Experiment& experiment = space.GetExperiment();
   Json kinds = Json::array();
@@ -260,6 +293,8 @@ std::string WorldText(const CSwarmanoidSpace& space, const Assignment& assignmen
                {"hosts", assignment.hosts.size()},
                {"controllers", controllers},
                {"attributes", AttributeTable()},
+               {"viewpoints", ViewpointList(viewpoints)},
+               {"begins_at_viewpoint", begins_there},
                {"entities",
                 {{"id", id},
                  {"kind", kind},
@@ -342,7 +377,11 @@ PageRequest ParseRequest(std::string_view text)
   const auto verb = json.find("do");
   if (verb == json.end() || !verb->is_string()) Refuse("a request needs a text 'do'");
   const std::string name = verb->get<std::string>();
-  if (name == "watch") return WatchIn(json);
+  if (name == "watch") return WatchRequest{EntitiesIn(json, "entities", kMostWatched)};
+  if (name == "prove") return ProofIn(json);
+  if (name == "marks")
+    return MarksRequest{EntitiesIn(json, "rays", kMostMarked), EntitiesIn(json, "bodies", kMostMarked),
+                        EntitiesIn(json, "links", kMostMarked)};
   if (name == "frame_period") return FrameRateRequest{static_cast<unsigned>(NumberIn(json, "ms", 0, 60000))};
   if (name == "pause") return PauseRequest{};
   if (name == "resume") return ResumeRequest{};
@@ -357,7 +396,8 @@ PageRequest ParseRequest(std::string_view text)
 
 bool IsCommand(const PageRequest& request)
 {
-  return !std::holds_alternative<WatchRequest>(request) && !std::holds_alternative<FrameRateRequest>(request);
+  return !std::holds_alternative<WatchRequest>(request) && !std::holds_alternative<FrameRateRequest>(request) &&
+         !std::holds_alternative<ProveRequest>(request) && !std::holds_alternative<MarksRequest>(request);
 }
 
 }  // namespace swarmanoid

@@ -10,15 +10,20 @@
 #include <vector>
 
 #include "visualiser/render.h"
+#include "visualiser/scene/viewpoints.h"
 #include "visualiser/web/access.h"
 
 namespace swarmanoid
 {
 
-// "welcome": what the client may do.
-std::string WelcomeText(Authority authority, bool control_possible);
-// "world": all that stays: the table of entities, the bodies that are no robots, engines, hosts, controllers.
-std::string WorldText(const CSwarmanoidSpace& space, const Assignment& assignment);
+// "welcome": whether clients may control the run at all, and the challenge that one who has the token answers then.
+std::string WelcomeText(bool control_possible, const std::string& challenge);
+// "authority": what the client may do, after its answer.
+std::string AuthorityText(Authority authority);
+// "world": all that stays: the table of entities, the bodies that are no robots, engines, hosts, controllers,
+// viewpoints; whether pages begin at the first of these.
+std::string WorldText(const CSwarmanoidSpace& space, const Assignment& assignment, const Viewpoints& viewpoints = {},
+                      bool begins_there = false);
 // "colours": colours and intensities of lights, patches and all that cannot move, which a frame does not hold.
 std::string ColoursText(const CSwarmanoidSpace& space);
 // "log": a line for the page's log. level: "info", "warning".
@@ -34,6 +39,16 @@ std::string RefusalText(const std::string& text);
 struct WatchRequest
 {
   std::vector<std::uint32_t> entities;  // whose details it wants
+};
+// Its answer to the challenge.
+struct ProveRequest
+{
+  std::string proof;
+};
+// The entities of which it shows more than their bodies (MarksWriter).
+struct MarksRequest
+{
+  std::vector<std::uint32_t> rays, bodies, links;
 };
 struct FrameRateRequest
 {
@@ -70,10 +85,12 @@ struct RemoveEntityRequest
 struct StopRequest
 {
 };
-using PageRequest = std::variant<WatchRequest, FrameRateRequest, PauseRequest, ResumeRequest, StepRequest, SpeedRequest,
-                                 MoveEntityRequest, AddEntityRequest, RemoveEntityRequest, StopRequest>;
+using PageRequest =
+    std::variant<WatchRequest, FrameRateRequest, ProveRequest, MarksRequest, PauseRequest, ResumeRequest, StepRequest,
+                 SpeedRequest, MoveEntityRequest, AddEntityRequest, RemoveEntityRequest, StopRequest>;
 
-inline constexpr std::size_t kMostWatched = 16;  // entities, of one page
+inline constexpr std::size_t kMostWatched = 16;   // entities, of one page
+inline constexpr std::size_t kMostMarked = 1000;  // likewise, of each kind of mark
 
 // Throws std::invalid_argument, with a text for the user, for anything else than a request.
 PageRequest ParseRequest(std::string_view text);

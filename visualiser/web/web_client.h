@@ -22,10 +22,7 @@ class WebServer::Impl::Client : public std::enable_shared_from_this<Client>
   static constexpr int kSocketBytes = 1 << 20;
 
 public:
-  Client(Impl& server, beast::tcp_stream stream, Authority authority)
-      : server_(server), stream_(std::move(stream)), authority_(authority)
-  {
-  }
+  Client(Impl& server, beast::tcp_stream stream) : server_(server), stream_(std::move(stream)) {}
 
   void Run(http::request<http::empty_body> request)
   {
@@ -76,7 +73,6 @@ public:
 
   void SetFramePeriod(std::chrono::milliseconds period) { frame_period_ = period; }
   bool IsHungry() const { return open_ && !writing_ && !slots_[Index(Slot::kKey)] && !slots_[Index(Slot::kChange)]; }
-  Authority GetAuthority() const { return authority_; }
 
   // When everything is sent.
   void Close()
@@ -90,17 +86,17 @@ public:
 private:
   void Read()
   {
-    stream_.async_read(buffer_,
-                       [self = shared_from_this()](ErrorCode error, std::size_t)
-                       {
-                         if (error) return self->Gone();
-                         const auto data = self->buffer_.cdata();
-                         if (self->stream_.got_text())
-                           self->server_.events_.Received(self->id, self->authority_,
-                                                          {static_cast<const char*>(data.data()), data.size()});
-                         self->buffer_.consume(self->buffer_.size());
-                         self->Read();
-                       });
+    stream_.async_read(
+        buffer_,
+        [self = shared_from_this()](ErrorCode error, std::size_t)
+        {
+          if (error) return self->Gone();
+          const auto data = self->buffer_.cdata();
+          if (self->stream_.got_text())
+            self->server_.events_.Received(self->id, {static_cast<const char*>(data.data()), data.size()});
+          self->buffer_.consume(self->buffer_.size());
+          self->Read();
+        });
   }
 
   void Write()
@@ -165,7 +161,6 @@ private:
 
   Impl& server_;
   websocket::stream<beast::tcp_stream> stream_;
-  Authority authority_;
   http::request<http::empty_body> request_;
   beast::flat_buffer buffer_;
   std::deque<Bytes> queue_;

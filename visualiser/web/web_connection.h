@@ -5,6 +5,7 @@
 #include <boost/beast/http.hpp>
 #include <optional>
 
+#include "visualiser/web/access.h"
 #include "visualiser/web/web_client.h"
 
 namespace swarmanoid
@@ -93,9 +94,8 @@ private:
       return Refuse(http::status::forbidden, "a page of another site may not look");
     if (server_.clients_.size() >= server_.settings_.max_clients)
       return Refuse(http::status::service_unavailable, "as many pages look as may");
-    const Authority authority = AuthorityOf(server_.settings_.access, QueryValue(target, "token"));
     handed_over_ = true;
-    std::make_shared<Client>(server_, std::move(stream_), authority)->Run(parser_->release());
+    std::make_shared<Client>(server_, std::move(stream_))->Run(parser_->release());
   }
 
   void Refuse(http::status status, std::string_view why)

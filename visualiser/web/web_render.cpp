@@ -22,6 +22,9 @@ using namespace std::chrono_literals;
 constexpr auto kStatusPeriod = 250ms;
 constexpr auto kWatchedPeriod = 100ms;
 constexpr auto kFollowPeriod = 250ms;
+constexpr auto kMarksPeriod = 100ms;
+constexpr int kMarksShare = 20;              // marks take at most this part of the time …
+constexpr double kMarksBandwidthShare = 4;   // … and of what a page may get
 constexpr std::size_t kMostRequests = 1024;  // waiting for the next tick
 constexpr std::size_t kNotesKept = 100;      // by RunMonitor
 constexpr double kLate_s = 1;
@@ -61,8 +64,11 @@ void CWebRender::Init(const RenderSetup& setup)
   logs_ = std::make_unique<LogFollower>(setup.output_folder);
 
   Serve(parameters);
-  server_->SetGreeting(Shared(WorldText(*space_, setup.assignment)));
   const Experiment& experiment = space_->GetExperiment();
+  const Viewpoints given(parameters);
+  const bool begins_there = given.First().has_value();
+  server_->SetGreeting(
+      Shared(WorldText(*space_, setup.assignment, begins_there ? given : Viewpoints::Of(experiment), begins_there)));
   Log(space_->GetTick(), "run", "info",
       fmt::format("{}: {} entities, {} engine{}, {} controller host{}, seed {}", experiment.name, space_->Size(),
                   experiment.engines.size(), experiment.engines.size() == 1 ? "" : "s", setup.assignment.hosts.size(),
@@ -80,35 +86,42 @@ void CWebRender::Serve(const Parameters& parameters)
   settings.port = static_cast<std::uint16_t>(parameters.Integer("port"));
   settings.max_clients = static_cast<std::size_t>(parameters.Integer("clients"));
   settings.max_connections = settings.max_clients + 48;
-  settings.access.allow_control = allow_control_;
   kept_ = std::make_unique<KeptAddress>(StateFolder(), experiment.folder + "/" + experiment.name);
   std::string token = kept_->Token();
-  if (allow_control_ && token.empty()) token = MakeToken();
-  if (allow_control_) settings.access.token = token;
+  // A token is of one port: whoever has the one before could pass challenges on from there.
+  const bool moves = settings.port != 0 && settings.port != kept_->Port();
+  if (allow_control_ && (token.empty() || moves)) token = MakeToken();
 
   const PageFiles files(InstalledPageFolder());
   WebServerEvents& events = *this;
+  const auto start = [&]
+  {
+    if (allow_control_) token_ = token;
+    visitors_ = std::make_unique<Visitors>(AccessRules{allow_control_, token_});
+    server_ = std::make_unique<WebServer>(settings, files, events);
+  };
   if (settings.port == 0 && kept_->Port() != 0)
   {
     settings.port = kept_->Port();
     try
     {
-      server_ = std::make_unique<WebServer>(settings, files, events);
+      start();
     }
     catch (const std::runtime_error&)
     {
       settings.port = 0;  // somebody else has it now: a new one, and a new token, for that one may have heard the old
-      if (allow_control_) settings.access.token = token = MakeToken();
+      if (allow_control_) token = MakeToken();
     }
   }
-  if (!server_) server_ = std::make_unique<WebServer>(settings, files, events);
+  if (!server_) start();
   if (!kept_->Keep(server_->Port(), token))
     Log(space_->GetTick(), "web_render", "info", "the next start will have another address: " + kept_->Trouble());
 }
 
 void CWebRender::Announce(const RenderSetup& setup)
 {
-  const std::string url = server_->Url();
+  // Behind a '#': browsers keep that part of an address for themselves.
+  const std::string url = server_->Url() + (token_.empty() ? "" : "#token=" + token_);
   const std::filesystem::path folder = setup.output_folder;
   std::string file = setup.parameters.Text("url_file");
   if (file.empty() && std::filesystem::exists(folder / "manifest.json")) file = "web_render.url";
@@ -169,6 +182,7 @@ void CWebRender::Work()
     watched_due_ = now + kWatchedPeriod;
     SendWatched();
   }
+  if (now >= marks_due_) SendMarks();
   if (now >= status_due_)
   {
     status_due_ = now + kStatusPeriod;
@@ -207,6 +221,29 @@ void CWebRender::SendWatched()
   for (const auto& [client, entities] : watched_)
     if (!entities.empty())
       server_->SendState(client, WebServer::Slot::kWatched, Shared(WatchedText(*space_, entities, monitor_)));
+}
+
+// Many robots take their time: then they come less often.
+void CWebRender::SendMarks()
+{
+  const Clock::time_point start = Clock::now();
+  marks_due_ = start + kMarksPeriod;
+  if (marked_.empty() || (marked_revision_ == space_->Revision() && marked_attributes_ == space_->AttributeRevision()))
+    return;
+  marked_revision_ = space_->Revision();
+  marked_attributes_ = space_->AttributeRevision();
+  if (!marks_writer_) marks_writer_ = std::make_unique<MarksWriter>(*space_);
+  std::size_t bytes = 0;
+  for (const auto& [client, request] : marked_)
+  {
+    const WebServer::Bytes text = Shared(marks_writer_->Text(request));
+    bytes = std::max(bytes, text->size());
+    server_->SendState(client, WebServer::Slot::kMarks, text);
+  }
+  const Clock::time_point end = Clock::now();
+  const std::chrono::duration<double> transfer(kMarksBandwidthShare * static_cast<double>(bytes) / bytes_per_second_);
+  marks_due_ = std::max(
+      {marks_due_, end + kMarksShare * (end - start), start + std::chrono::duration_cast<Clock::duration>(transfer)});
 }
 
 // What is worth a line of the log: what processes print, the end, who is late, what users did.
@@ -255,14 +292,16 @@ void CWebRender::SendNotes()
 
 // ---- what pages ask for ----
 
-std::string CWebRender::Welcome(std::uint64_t, Authority authority) { return WelcomeText(authority, allow_control_); }
+std::string CWebRender::Welcome(std::uint64_t client) { return WelcomeText(allow_control_, visitors_->Join(client)); }
 
-void CWebRender::Received(std::uint64_t client, Authority authority, std::string_view text)
+void CWebRender::Received(std::uint64_t client, std::string_view text)
 {
   try
   {
     PageRequest request = ParseRequest(text);
-    if (IsCommand(request) && authority != Authority::kControl)
+    if (const auto* answer = std::get_if<ProveRequest>(&request))
+      return server_->Send(client, Shared(AuthorityText(visitors_->Prove(client, answer->proof))));
+    if (IsCommand(request) && !visitors_->MayControl(client))
       throw std::invalid_argument(allow_control_ ? "only the address with the token may control the run"
                                                  : "this page may only look: start it with --allow-control");
     if (const auto* rate = std::get_if<FrameRateRequest>(&request)) server_->SetFramePeriod(client, rate->period_ms);
@@ -279,6 +318,7 @@ void CWebRender::Received(std::uint64_t client, Authority authority, std::string
 
 void CWebRender::Left(std::uint64_t client)
 {
+  visitors_->Leave(client);
   const std::lock_guard lock(mutex_);
   requests_.push_back({client, std::nullopt});
   has_requests_ = true;
@@ -298,6 +338,7 @@ void CWebRender::TakeRequests()
     else
     {
       watched_.erase(request.client);
+      marked_.erase(request.client);
       WatchRobots();
     }
 }
@@ -322,6 +363,15 @@ void CWebRender::Carry(std::uint64_t client, const PageRequest& request)
       if (entity < space_->Size()) entities.push_back(entity);
     WatchRobots();
     watched_due_ = {};
+    return;
+  }
+  if (const auto* marks = std::get_if<MarksRequest>(&request))
+  {
+    if (marks->rays.empty() && marks->bodies.empty() && marks->links.empty())
+      marked_.erase(client);
+    else
+      marked_[client] = *marks;
+    marked_revision_ = ~0ULL;
     return;
   }
   if (!IsCommand(request)) return;

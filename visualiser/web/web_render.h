@@ -12,9 +12,11 @@
 #include <vector>
 
 #include "visualiser/render.h"
+#include "visualiser/web/access.h"
 #include "visualiser/web/frame.h"
 #include "visualiser/web/kept_address.h"
 #include "visualiser/web/log_follower.h"
+#include "visualiser/web/marks.h"
 #include "visualiser/web/messages.h"
 #include "visualiser/web/web_server.h"
 
@@ -44,8 +46,8 @@ private:
   };
 
   // In the server's thread.
-  std::string Welcome(std::uint64_t client, Authority authority) override;
-  void Received(std::uint64_t client, Authority authority, std::string_view text) override;
+  std::string Welcome(std::uint64_t client) override;
+  void Received(std::uint64_t client, std::string_view text) override;
   void Left(std::uint64_t client) override;
 
   void Serve(const Parameters& parameters);
@@ -57,6 +59,7 @@ private:
   void SendFrame();
   void SendStatus();
   void SendWatched();
+  void SendMarks();
   void SendNotes();
   void FollowStatus();
   void WatchRobots();
@@ -74,7 +77,7 @@ private:
   std::unique_ptr<FrameWriter> frame_writer_;
   std::unique_ptr<LogFollower> logs_;
 
-  Clock::time_point frame_due_, status_due_, watched_due_, followed_due_;
+  Clock::time_point frame_due_, status_due_, watched_due_, marks_due_, followed_due_;
   std::uint64_t shown_revision_ = 0, shown_attributes_ = 0, shown_tick_ = ~0ULL;
   std::uint64_t colours_revision_ = 0;
   std::string colours_;
@@ -83,11 +86,17 @@ private:
   std::string last_note_;
   std::map<std::string, std::string> troubles_;  // by process: what was last said of its lateness
 
+  std::map<std::uint64_t, MarksRequest> marked_;  // by client
+  std::unique_ptr<MarksWriter> marks_writer_;     // once a page has asked for marks
+  std::uint64_t marked_revision_ = 0, marked_attributes_ = 0;
+
   std::map<std::uint64_t, std::vector<std::uint32_t>> watched_;  // by client
   std::mutex mutex_;                                             // of requests_
   std::vector<Request> requests_;
   std::atomic<bool> has_requests_{false};
 
+  std::string token_;                   // empty: nobody may control the run
+  std::unique_ptr<Visitors> visitors_;  // of the server's thread alone
   std::unique_ptr<KeptAddress> kept_;
   std::unique_ptr<WebServer> server_;  // last: its thread calls the above
 };

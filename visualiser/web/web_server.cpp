@@ -49,7 +49,6 @@ WebServer::Impl::Impl(const WebServerSettings& settings, PageFiles files, WebSer
   }
   url_ = "http://" + (shown.is_v6() ? "[" + shown.to_string() + "]" : shown.to_string()) + ":" + std::to_string(port_) +
          "/";
-  if (settings_.access.allow_control) url_ += "?token=" + settings_.access.token;
 
   Accept();
   thread_ = std::thread(
@@ -110,7 +109,7 @@ void WebServer::Impl::Join(const std::shared_ptr<Client>& client)
 {
   client->id = ++last_client_;
   clients_.emplace(client->id, client);
-  client->Queue(std::make_shared<const std::string>(events_.Welcome(client->id, client->GetAuthority())));
+  client->Queue(std::make_shared<const std::string>(events_.Welcome(client->id)));
   if (greeting_) client->Queue(greeting_);
   for (const Bytes& text : history_) client->Queue(text);
   for (std::size_t slot = 0; slot < kSlots; ++slot)

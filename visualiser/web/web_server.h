@@ -12,7 +12,6 @@
 #include <string>
 #include <string_view>
 
-#include "visualiser/web/access.h"
 #include "visualiser/web/page_files.h"
 
 namespace swarmanoid
@@ -25,7 +24,6 @@ struct WebServerSettings
   std::size_t max_clients = 16;
   std::size_t max_connections = 64;       // clients, and requests for files
   std::size_t max_message_bytes = 65536;  // of a client; longer ones end its connection
-  AccessRules access;
 };
 
 // What the server tells, in its own thread.
@@ -34,8 +32,8 @@ class WebServerEvents
 public:
   virtual ~WebServerEvents() = default;
   // The first message for a new client.
-  virtual std::string Welcome(std::uint64_t client, Authority authority) = 0;
-  virtual void Received(std::uint64_t client, Authority authority, std::string_view text) = 0;
+  virtual std::string Welcome(std::uint64_t client) = 0;
+  virtual void Received(std::uint64_t client, std::string_view text) = 0;
   virtual void Left(std::uint64_t client) = 0;
 };
 
@@ -51,6 +49,7 @@ public:
     kStatus,
     kColours,
     kWatched,
+    kMarks,
     kCount
   };
 
@@ -62,7 +61,7 @@ public:
   WebServer& operator=(const WebServer&) = delete;
 
   std::uint16_t Port() const;
-  // "http://127.0.0.1:8080/", with the token if there is one.
+  // "http://127.0.0.1:8080/"
   std::string Url() const;
   std::size_t Clients() const;
   // Clients that have taken their last state: without any, a new one would be made for nobody.

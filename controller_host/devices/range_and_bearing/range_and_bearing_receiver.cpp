@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "common/builtins/antenna.h"
 #include "common/math/elementary.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
@@ -17,7 +18,6 @@ namespace swarmanoid
 namespace
 {
 
-constexpr double kAntennaHeight = 0.1;  // m above the base (ARGoS3, foot-bot)
 constexpr std::uint32_t kNoSlot = 0xffffffff;
 
 class Receiver : public CCI_RangeAndBearingSensor
@@ -107,8 +107,8 @@ private:
   Vector3 AntennaOf(std::uint32_t robot) const
   {
     const PoseArrays& poses = world_->Space().Poses();
-    if (IsUpright(poses, robot)) return {poses.x[robot], poses.y[robot], poses.z[robot] + kAntennaHeight};
-    return world_->Space().GetPose(robot).Apply({0, 0, kAntennaHeight});
+    if (IsUpright(poses, robot)) return {poses.x[robot], poses.y[robot], poses.z[robot] + kAntennaHeight_m};
+    return world_->Space().GetPose(robot).Apply({0, 0, kAntennaHeight_m});
   }
 
   void Receive(std::size_t k)

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/builtins/builtins.h"
 #include "common/configuration/xml_reader.h"
 #include "visualiser/scene/view_parameters.h"
 #include "visualiser/scene/viewpoints.h"
@@ -155,6 +156,24 @@ TEST(Viewpoints, AreReadAsInTheSampleAndWrittenAgain)
   EXPECT_DOUBLE_EQ(views.At(2)->heading, 0);
   EXPECT_DOUBLE_EQ(views.First()->heading, 39);
   EXPECT_EQ(ViewpointXml(0, *views.At(0)), xml);
+}
+
+TEST(Viewpoints, OfAnExperimentAreThoseOfItsFirstVisualisationThatHasSome)
+{
+  DescribeBuiltinRenderers();
+  Experiment experiment;
+  const auto add = [&](const char* tag, const std::string& inner) {
+    experiment.visualisations.push_back({tag, tag, Tree(inner), {}});
+  };
+  EXPECT_FALSE(Viewpoints::Of(experiment).First().has_value());
+  add("text_render", "<camera_view_XYZ_0>9, 9, 9</camera_view_XYZ_0>");  // it knows no such thing
+  add("image_render", "");
+  add("opengl_render", "<camera_view_XYZ_3>1, 2, 3</camera_view_XYZ_3>");
+  add("ogre_render", "<camera_view_XYZ_0>7, 7, 7</camera_view_XYZ_0>");
+  const Viewpoints views = Viewpoints::Of(experiment);
+  EXPECT_FALSE(views.At(0).has_value());
+  ASSERT_TRUE(views.At(3).has_value());
+  EXPECT_EQ(views.At(3)->position, Vector3(1, 2, 3));
 }
 
 TEST(Viewpoints, CameraIsANumberOrAPlaceOrTop)

@@ -12,10 +12,7 @@ export class Connection {
   }
 
   connect() {
-    const token = new URLSearchParams(location.search).get("token");
-    const scheme = location.protocol === "https:" ? "wss" : "ws";
-    const address = `${scheme}://${location.host}/stream${token ? `?token=${encodeURIComponent(token)}` : ""}`;
-    this.socket = new WebSocket(address);
+    this.socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/stream`);
     this.socket.binaryType = "arraybuffer";
     this.socket.onopen = () => {
       this.delay = FIRST_DELAY_MS;

@@ -14,18 +14,22 @@ import { choices } from "./view/quality.js";
 import { robotValues } from "./view/robot_values.js";
 import { readLink, writeLink } from "./link.js";
 import { Film } from "./film.js";
+import { keepToken, proofOf, takeToken } from "./token.js";
+import { Flight, cameraOf, viewOf, viewpointXml } from "./view/viewpoints.js";
 import { Legend } from "./ui/legend.js";
 import { World } from "./world.js";
 
 const HIDDEN_PERIOD_MS = 1000; // between frames while nobody sees the page
 const NEWS_MS = 5000;
+const VIEWPOINTS = 10;
 const asked = new URLSearchParams(location.search).get("quality");
+let token = takeToken();
 const linked = readLink(location.hash.slice(1));
 const quality = [asked, linked.quality].find((name) => choices.includes(name)) ?? "auto";
 
-const state = { world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0, newsUntil: 0, linkWaits: true };
+const state = { world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0, newsUntil: 0, linkWaits: true, challenge: null, viewpoints: [] };
 
-const toolbar = new Toolbar({ command, toggle, help: () => help.toggle(), top: () => frameArena("top"), fit: () => frameArena(), quality: (name) => picture.setQuality(name), plan: () => picture.switchView(), list: () => togglePanel() });
+const toolbar = new Toolbar({ command, toggle, help: () => help.toggle(), top: () => frameArena("top"), fit: () => frameArena(), quality: (name) => picture.setQuality(name), plan: () => picture.switchView(), list: () => togglePanel(), unlock });
 const list = new EntityList({ select, approach });
 const inspector = new Inspector({ watch, follow, deselect: () => select(null), put, remove: (entity) => remove([entity]), poseOf, swarmChanged: (on) => tools.set("swarm", on) });
 const log = new LogPanel();
@@ -36,7 +40,7 @@ const main = h("main", {}, banner);
 list.element.append(processes.element);
 const app = document.getElementById("app");
 app.append(toolbar.element, list.element, main, inspector.element, log.element, help.element);
-const picture = new Picture(main, quality, { select, selectAll, approach, move, mayMove: () => state.control === "granted", trouble });
+const picture = new Picture(main, quality, { select, selectAll, approach, move, mayMove: () => state.control === "granted", trouble, send: (request) => connection.send(request) });
 const planNote = h("button.plan-note", { title: "Show it in three dimensions  (V)", onclick: () => picture.switchView() }, "Plan view · 3D: V");
 main.append(planNote);
 const legend = new Legend();
@@ -47,17 +51,27 @@ const colourChoice = h(
   { "aria-label": "Colours of robots", onchange: () => colourBy(colourChoice.value) },
   ...["LEDs", ...Object.keys(robotValues)].map((name) => h("option", { value: name }, name)),
 );
+const viewpointChoice = h("select", { "aria-label": "Viewpoint", onchange: () => viewpointChoice.value !== "" && recallViewpoint(Number(viewpointChoice.value)) });
 const tools = new Tools([
   [
     { name: "measures", label: "Measure", key: "M", title: "Drag over the floor: a length and its direction", switches: true, act: () => switchTool("measures") },
+    { name: "rays", label: "Rays", key: "R", title: "Rays of the proximity sensors", switches: true, act: () => toggle("rays") },
+    { name: "bodies", label: "Collision", key: "C", title: "Bodies as the engines collide them", switches: true, act: () => toggle("bodies") },
+    { name: "links", label: "Range and bearing", key: "X", title: "Who hears whom; half a line comes from one who is not answered", switches: true, act: () => toggle("links") },
     { name: "heat", label: "Heat map", key: "J", title: "Where robots have been since this was switched on", switches: true, act: () => toggleHeat() },
     { name: "swarm", label: "Swarm plots", key: "W", title: "Mean and band of values over the robots", switches: true, act: () => inspector.toggleSwarm() },
     { name: "link", label: "Link", key: "Y", title: "Copy a link that opens this view, without the token", act: () => shareLink() },
+    { name: "aboard", label: "On board", key: "O", title: "Look from the selected robot", switches: true, act: () => board() },
     { name: "film", label: "Film", key: "shift + P", title: "Film the picture, until it is pressed again", switches: true, act: () => film.toggle() },
   ],
   [
     { name: "handles", label: "Handles", key: "H", title: "The selected robot has handles that move and turn it", switches: true, control: true, act: () => switchTool("handles") },
     h("label", {}, "Colours: ", colourChoice),
+  ],
+  [
+    h("label", {}, "Viewpoint: ", viewpointChoice),
+    { name: "store", label: "Keep view", key: "Ctrl + shift + 0 … 9", title: "Keep this view as the next viewpoint, and copy its XML", act: () => storeViewpoint(freeViewpoint()) },
+    { name: "fly", label: "Fly", key: "U", title: "Fly through the viewpoints", act: () => fly() },
   ],
 ]);
 main.append(tools.element, legend.element);
@@ -66,11 +80,13 @@ picture.onQuality = () => {
   planNote.hidden = picture.qualityName !== "plan";
 };
 picture.onQuality();
+picture.onBoard = () => tools.set("aboard", picture.aboard !== null);
 
 let decoder = new FrameDecoder();
 const connection = new Connection({
   onOpen() {
     decoder = new FrameDecoder();
+    picture.marks.forget();
     state.connected = true;
     showState();
   },
@@ -98,23 +114,25 @@ const connection = new Connection({
 });
 
 const receive = {
-  welcome({ control }) {
-    state.control = control;
-    toolbar.setControl(control);
-    tools.setControl(control);
-    inspector.setControl(control);
+  welcome({ control, challenge }) {
+    state.challenge = challenge ?? null;
     log.clear();
+    setControl(control);
+    prove();
     sendVisibility();
   },
+  authority: ({ control }) => setControl(control),
   world(message) {
     const selected = state.selected === null ? null : state.world.ids[state.selected];
+    const isNew = state.world?.experiment !== message.experiment;
     state.world = new World(message);
+    if (isNew) setViewpoints(state.world.viewpoints);
     document.title = `${message.experiment} · Swarmanoid`;
     toolbar.setWorld(state.world);
     inspector.setWorld(state.world);
     list.setWorld(state.world);
     picture.setWorld(state.world);
-    for (const name of Object.keys(picture.shows)) toolbar.setToggle(name, picture.shows[name]);
+    for (const name of Object.keys(picture.shows)) showToggle(name);
     const again = selected === null ? -1 : state.world.find(selected);
     state.selected = null;
     select(again >= 0 ? again : null);
@@ -126,6 +144,7 @@ const receive = {
   },
   colours: (message) => picture.paint(message),
   watched: (message) => inspector.addDetails(message),
+  marks: (message) => picture.marks.receive(message),
   log: (message) => log.add(message),
   reply: ({ text }) => log.add({ tick: state.frame?.tick ?? null, source: "server", level: "warning", text }),
 };
@@ -152,13 +171,38 @@ function sayItBegan() {
   showState();
 }
 
+// ---- who may steer ----
+
+function setControl(control) {
+  state.control = control;
+  toolbar.setControl(control);
+  tools.setControl(control);
+  inspector.setControl(control);
+}
+
+// That this page has the token, without telling it.
+function prove() {
+  if (token && state.challenge) connection.send({ do: "prove", proof: proofOf(token, state.challenge) });
+}
+
+function unlock() {
+  if (!state.challenge) return;
+  const found = /[0-9a-f]{32}/.exec(prompt("The token, or the address that was printed with it") ?? "");
+  if (!found) return;
+  [token] = found;
+  keepToken(token);
+  prove();
+}
+
 // ---- what the user does ----
 
 function command(request) {
   if (state.control === "granted") connection.send(request);
 }
 
-function select(entity) {
+// further: the card of the one before stays.
+function select(entity, further = false) {
+  if (further && entity !== null) inspector.keepSelected();
   choose(entity, entity === null ? [] : [entity]);
 }
 
@@ -205,7 +249,13 @@ function move(changes) {
 
 function toggle(name) {
   picture.show(name, !picture.shows[name]);
+  showToggle(name);
+}
+
+// Its button is in the bar or among the tools.
+function showToggle(name) {
   toolbar.setToggle(name, picture.shows[name]);
+  tools.set(name, picture.shows[name]);
 }
 
 // The length that was measured goes with its tool.
@@ -259,6 +309,56 @@ function toggleHeat() {
   tools.set("heat", Boolean(picture.heat));
 }
 
+// ---- viewpoints ----
+
+// list: {number, position, heading, pitch, roll} of each
+function setViewpoints(list) {
+  state.viewpoints = [];
+  for (const { number, ...camera } of list) state.viewpoints[number] = camera;
+  showViewpoints();
+}
+
+function showViewpoints() {
+  const numbers = Object.keys(state.viewpoints);
+  viewpointChoice.replaceChildren(h("option", { value: "" }, numbers.length > 0 ? "…" : "none"), ...numbers.map((number) => h("option", { value: number }, number)));
+}
+
+function recallViewpoint(number) {
+  const camera = state.viewpoints[number];
+  if (!camera) return tell(`there is no viewpoint ${number}; Ctrl + shift + ${number} keeps this view as one`);
+  picture.stand(camera);
+  inspector.setFollowed(null);
+}
+
+async function storeViewpoint(number) {
+  const camera = cameraOf(picture.view.viewpoint);
+  state.viewpoints[number] = camera;
+  showViewpoints();
+  const xml = viewpointXml(number, camera);
+  tell(`viewpoint ${number}: ${xml.replace("\n", " ")}`);
+  await navigator.clipboard?.writeText(xml).catch(() => {}); // the browser may let no page write there; the log has it
+}
+
+const freeViewpoint = () => [...Array(VIEWPOINTS).keys()].find((number) => !state.viewpoints[number]) ?? VIEWPOINTS - 1;
+
+function fly() {
+  const stops = Object.values(state.viewpoints);
+  if (stops.length < 2) return tell("a flight needs two viewpoints; Keep view keeps this one");
+  const [width, depth] = state.world.arena;
+  picture.fly(new Flight(stops.map((camera) => viewOf(camera, Math.max(width, depth))), performance.now()));
+}
+
+function board() {
+  if (picture.aboard !== null) return picture.board(null);
+  if (state.selected === null || !state.world.isRobot(state.selected) || !picture.placeOf(state.selected)) return tell("select a robot first: the camera looks from it");
+  picture.board(state.selected);
+  inspector.setFollowed(null);
+}
+
+function tell(text) {
+  log.add({ tick: state.frame?.tick ?? null, source: "page", level: "info", text });
+}
+
 // ---- links ----
 
 // What a link says, once the experiment is there.
@@ -310,6 +410,12 @@ const keys = {
   l: () => toggle("trails"),
   b: () => toggle("beams"),
   s: () => toggle("shadows"),
+  t: () => toggle("textures"),
+  r: () => toggle("rays"),
+  c: () => toggle("bodies"),
+  x: () => toggle("links"),
+  o: () => board(),
+  u: () => fly(),
   v: () => picture.switchView(),
   m: () => switchTool("measures"),
   h: () => state.control === "granted" && switchTool("handles"),
@@ -318,6 +424,10 @@ const keys = {
   y: () => shareLink(),
   P: () => film.toggle(),
   Delete: () => remove(picture.chosen),
+  ArrowLeft: () => picture.step(-1, 0),
+  ArrowRight: () => picture.step(1, 0),
+  ArrowUp: () => picture.step(0, 1),
+  ArrowDown: () => picture.step(0, -1),
   PageUp: () => picture.view?.zoom(1),
   PageDown: () => picture.view?.zoom(-1),
   p: () => savePicture(),
@@ -328,9 +438,14 @@ const keys = {
   g: () => log.toggle(),
   "?": () => help.toggle(),
   "/": () => list.filter.focus(),
-  Escape: () => (help.element.hidden ? select(null) : help.toggle(false)),
+  Escape: () => (!help.element.hidden ? help.toggle(false) : picture.aboard !== null || picture.flight ? picture.leaveRobot() : select(null)),
 };
 window.addEventListener("keydown", (event) => {
+  const digit = /^Digit(\d)$/.exec(event.code);
+  if (digit && event.ctrlKey && !event.altKey && state.world) {
+    event.preventDefault();
+    return (event.shiftKey ? storeViewpoint : recallViewpoint)(Number(digit[1]));
+  }
   if (event.ctrlKey || event.altKey || event.metaKey) return;
   if (event.key === "Escape") document.activeElement?.blur();
   else if (["INPUT", "SELECT"].includes(event.target.tagName)) return;
@@ -351,6 +466,7 @@ function drawNext(now) {
   requestAnimationFrame(drawNext);
   if (state.linkWaits && state.frame && picture.view?.world) {
     state.linkWaits = false;
+    if (state.world.beginsAtViewpoint && !linked.view) picture.stand(Object.values(state.viewpoints)[0]);
     openLink(linked);
   }
   if (picture.draw(now)) {
@@ -360,6 +476,16 @@ function drawNext(now) {
   inspector.draw();
 }
 requestAnimationFrame(drawNext);
+
+// Another address in the bar of the same page: a token, or a link.
+window.addEventListener("hashchange", () => {
+  const given = takeToken();
+  if (given !== token) {
+    token = given;
+    prove();
+  }
+  if (state.world && picture.view?.world) openLink(readLink(location.hash.slice(1)));
+});
 setInterval(() => picture.motion && list.render(picture.motion), 250);
 showState();
 
@@ -406,6 +532,22 @@ window.swarmanoid = {
   },
   get view() {
     return picture.view === null ? null : picture.isPlan ? "plan" : "3D";
+  },
+  get aboard() {
+    return picture.aboard === null ? null : state.world.ids[picture.aboard];
+  },
+  get standing() {
+    return cameraOf(picture.view.viewpoint);
+  },
+  get flying() {
+    return picture.flight !== null;
+  },
+  get viewpoints() {
+    return state.viewpoints;
+  },
+  // What is drawn beside bodies: how many lines of each kind.
+  get marks() {
+    return Object.fromEntries(picture.marks.lines({ link: 0 }).map(({ name, points }) => [name, points.length / 6]));
   },
   get selected() {
     return state.selected === null ? null : state.world.ids[state.selected];

@@ -15,6 +15,8 @@ export class World {
     this.controllers = message.controllers;
     this.attributes = message.attributes;
     this.bodies = message.bodies;
+    this.viewpoints = message.viewpoints;
+    this.beginsAtViewpoint = message.begins_at_viewpoint;
     this.ids = message.entities.id;
     this.kinds = message.entities.kind.map((kind) => message.kinds[kind]);
     this.looks = message.looks; // by kind: what it is, and how it is drawn

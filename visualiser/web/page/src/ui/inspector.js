@@ -8,7 +8,7 @@ import { SwarmCard } from "./swarm_card.js";
 const DEGREES = 180 / Math.PI;
 const COLOURS = new Set(["led", "beacon", "colour", "laser_colour"]);
 const MANY = 8; // values of a device that are bars instead of rows
-const HIDDEN_ATTRIBUTES = new Set(["message"]);
+const HIDDEN_ATTRIBUTES = new Set(["message", "radio", "report", "instruction"]); // bytes that devices show as what they are
 
 // A row of a table: a name and a value that can be plotted.
 class Row {
@@ -321,6 +321,11 @@ export class Inspector {
     if (on) this.element.prepend(this.swarm.element);
     this.actions.swarmChanged(on);
     this.refresh();
+  }
+
+  // What is selected next gets a card of its own.
+  keepSelected() {
+    if (this.selected && !this.selected.pin.classList.contains("on")) this.togglePin();
   }
 
   togglePin(card = this.selected) {

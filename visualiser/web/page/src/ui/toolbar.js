@@ -5,7 +5,7 @@ import { clockText, h, icon, setText } from "./dom.js";
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 10, 50, 0];
 
 export class Toolbar {
-  // actions: command(request), toggle(name), help(), top(), fit(), quality(name), plan(), list()
+  // actions: command(request), toggle(name), help(), top(), fit(), quality(name), plan(), list(), unlock()
   constructor(actions) {
     this.actions = actions;
     this.name = h("span.name", {}, "Swarmanoid");
@@ -29,7 +29,7 @@ export class Toolbar {
       },
       icon("stop"),
     );
-    this.lock = h("span.lock", {}, "read-only");
+    this.lock = h("button.lock", { onclick: () => actions.unlock() }, "read-only");
     this.toggles = {};
     const toggle = (name, label, key) => {
       const button = h("button.toggle", { title: `${label}  (${key.toUpperCase()})`, "aria-pressed": "false", onclick: () => actions.toggle(name) }, label);
@@ -81,7 +81,7 @@ export class Toolbar {
   }
 
   setToggle(name, on) {
-    this.toggles[name].setAttribute("aria-pressed", String(on));
+    this.toggles[name]?.setAttribute("aria-pressed", String(on));
   }
 
   // control: "granted", "token needed", "wrong token" or "read-only"
@@ -92,8 +92,8 @@ export class Toolbar {
     setText(this.lock, control === "read-only" || control === "granted" ? "read-only" : control);
     this.lock.title = {
       "read-only": "This page may only look. Start it with --allow-control to steer the run.",
-      "token needed": "Only the address with the token, as it was printed, may steer the run.",
-      "wrong token": "The token of this address is not that of this server: take the address that was printed last.",
+      "token needed": "Only the address with the token, as it was printed, may steer the run. Click to give it.",
+      "wrong token": "That is not the token of this server. Click to give the one of the address that was printed last.",
       granted: "",
     }[control];
   }

@@ -18,7 +18,7 @@ export class Tools {
   }
 
   set(name, on) {
-    this.buttons[name].setAttribute("aria-pressed", String(on));
+    this.buttons[name]?.setAttribute("aria-pressed", String(on));
   }
 
   setControl(control) {

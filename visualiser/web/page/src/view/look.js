@@ -10,12 +10,15 @@ export const palette = {
   hole: 0x1c2026,
   selection: 0xf2a33a,
   label: 0x20262e,
+  collision: 0x1f8f5f,
+  ray_free: 0x6fa8dc,
+  ray_hit: 0xd9483b,
 };
 
 // By day that palette, by night one of the page's own.
 export const themes = {
-  light: { background: palette.sky, sky: 0xffffff, ground: 0xb9c0c9, sun: 2.1, hemisphere: 1.5, floor: palette.floor, line: palette.floor_line, rim: 0x9aa5b1 },
-  dark: { background: 0x11161d, sky: 0xdfe9f5, ground: 0x2b323c, sun: 1.9, hemisphere: 1.35, floor: 0x3a444f, line: 0x4c5763, rim: 0x687482 },
+  light: { background: palette.sky, sky: 0xffffff, ground: 0xb9c0c9, sun: 2.1, hemisphere: 1.5, floor: palette.floor, line: palette.floor_line, rim: 0x9aa5b1, link: 0x6a48b8 },
+  dark: { background: 0x11161d, sky: 0xdfe9f5, ground: 0x2b323c, sun: 1.9, hemisphere: 1.35, floor: 0x3a444f, line: 0x4c5763, rim: 0x687482, link: 0xb59cff },
 };
 
 export const SELECTION = 0x3d8bfd;

@@ -88,6 +88,36 @@ export class Grips {
   }
 }
 
+// Lines of other makers: see marks.js. Those about bodies are seen through them.
+export class MarkLines {
+  constructor(scene) {
+    this.group = new THREE.Group();
+    this.lines = new Map(); // by name
+    scene.add(this.group);
+  }
+
+  update(list) {
+    for (const line of this.lines.values()) line.visible = false;
+    for (const { name, colour, points } of list) {
+      if (points.length === 0) continue;
+      if (!this.lines.has(name)) this.lines.set(name, this.make());
+      const line = this.lines.get(name);
+      line.visible = true;
+      line.material.color.set(colour);
+      line.geometry.dispose();
+      line.geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
+    }
+  }
+
+  make() {
+    const line = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ depthTest: false, transparent: true }));
+    line.frustumCulled = false;
+    line.renderOrder = 4;
+    this.group.add(line);
+    return line;
+  }
+}
+
 // The trails: line segments in blocks, one block a sample, the oldest overwritten, fading with age.
 const RAISED_M = 0.006;
 

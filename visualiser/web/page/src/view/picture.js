@@ -6,6 +6,7 @@ import { HeatMap } from "./heat_map.js";
 import { extentOf } from "./look.js";
 import { Overlay } from "./overlay.js";
 import { PlanView } from "./plan/plan_view.js";
+import { Marks } from "./marks.js";
 import { listenToPointer } from "./pointer.js";
 import { findGraphics } from "./graphics.js";
 import { Governor, isPaced, qualities } from "./quality.js";
@@ -14,9 +15,15 @@ import { TrailRecord } from "./trail_record.js";
 
 const GRAPHICS_WAIT_MS = 100; // for the answer whether there is a graphics card, before the plan begins without it
 const GRAPHICS_KEY = "swarmanoid.graphics";
+const STEEPEST_GAZE = 1.5; // radians
+const DOWN_FROM_ABOVE = -0.6; // the gaze of one that flies begins so …
+const DOWN = -0.05; // … and of others so
+const HIGH_M = 0.5;
+const ARROW_GAZE = 0.09; // by which an arrow key turns it
 
 export class Picture {
-  // actions: select(entity), selectAll(entities), approach(entity), move([{entity, place, yaw}]), mayMove(), trouble(text)
+  // actions: select(entity, further), selectAll(entities), approach(entity), move([{entity, place, yaw}]), mayMove(),
+  // trouble(text), send(request)
   // wanted: one of quality.js
   constructor(container, wanted, actions) {
     this.container = container;
@@ -24,10 +31,14 @@ export class Picture {
     this.wanted = wanted;
     this.software = null; // whether WebGL is slow or missing; not known before it matters
     this.governor = new Governor("high");
-    this.shows = { ids: false, trails: false, beams: true, shadows: false };
+    this.shows = { ids: false, trails: false, beams: true, shadows: false, textures: true, rays: false, bodies: false, links: false };
+    this.marks = new Marks(this, (request) => actions.send(request));
     this.selected = null;
     this.chosen = []; // all that are selected, the one above among them
     this.followed = null;
+    this.aboard = null; // the robot that carries the camera, in three dimensions
+    this.gaze = { yaw: 0, pitch: 0 }; // how its camera is turned, radians
+    this.flight = null; // from viewpoint to viewpoint
     this.colouring = null; // what robots are coloured by instead of by their LEDs
     this.heat = null; // where they have been, if that is shown
     this.measures = false; // whether a drag measures
@@ -88,6 +99,7 @@ export class Picture {
     } catch (error) {
       if (turn !== this.turn) return;
       this.actions.trouble(`There is no view in three dimensions: ${error.message}`);
+      this.leaveRobot();
       return this.setQuality("plan");
     }
     if (turn !== this.turn) return;
@@ -111,6 +123,7 @@ export class Picture {
 
   activate(view) {
     const before = this.view;
+    if (this.aboard !== null && view === this.views.plan) this.board(null);
     const [viewpoint, home] = before && this.world ? [before.viewpoint, before.home] : [null, "oblique"];
     before?.show(false);
     if (view === this.views.plan && !view.listens) {
@@ -122,6 +135,7 @@ export class Picture {
     if (!this.world) return;
     this.prepare(view);
     this.look(home, viewpoint);
+    if (this.aboard !== null) view.board(true);
   }
 
   // What the view has missed.
@@ -152,9 +166,12 @@ export class Picture {
     this.heat &&= new HeatMap(world);
     this.trails.on = this.shows.trails;
     this.followed = null;
+    if (this.aboard !== null) this.board(null);
+    this.flight = null;
     this.ghosts = [];
     this.colours = null;
     this.overlay.setWorld(world);
+    this.marks.setWorld(world);
     if (!this.view) return;
     this.prepare(this.view);
     this.look(home, viewpoint);
@@ -236,11 +253,60 @@ export class Picture {
   approach(entity) {
     const place = this.placeOf(entity);
     if (!place || !this.view) return;
+    this.leaveRobot();
     this.view.approach(entity, place);
     if (this.followed === entity) this.follow(entity);
   }
 
+  // Looks from a robot, in three dimensions; null: from outside again.
+  board(entity) {
+    this.aboard = entity;
+    this.flight = null;
+    if (entity === null) this.views.solid?.board(false);
+    else {
+      this.follow(null);
+      this.gaze = { yaw: 0, pitch: this.placeOf(entity)[2] > HIGH_M ? DOWN_FROM_ABOVE : DOWN };
+      if (this.isPlan) this.switchView();
+      else this.view.board(true);
+    }
+    this.onBoard?.();
+    this.invalidate();
+  }
+
+  leaveRobot() {
+    this.flight = null;
+    if (this.aboard !== null) this.board(null);
+  }
+
+  // By radians to the left and up.
+  turnGaze(left, up) {
+    this.gaze.yaw += left;
+    this.gaze.pitch = Math.max(-STEEPEST_GAZE, Math.min(STEEPEST_GAZE, this.gaze.pitch + up));
+    this.invalidate();
+  }
+
+  // By arrow keys: steps to the right and up.
+  step(right, up) {
+    this.flight = null;
+    if (this.aboard !== null) this.turnGaze(-ARROW_GAZE * right, ARROW_GAZE * up);
+    else this.view?.step(right, up);
+  }
+
+  // camera: of viewpoints.js
+  stand(camera) {
+    this.leaveRobot();
+    this.follow(null);
+    this.view.stand(camera);
+  }
+
+  fly(flight) {
+    this.leaveRobot();
+    this.follow(null);
+    this.flight = flight;
+  }
+
   frameArena(how = "oblique") {
+    this.leaveRobot();
     this.follow(null);
     this.view?.frameArena(how);
   }
@@ -252,6 +318,11 @@ export class Picture {
     if (!this.world || !this.view) return false;
     const moved = this.motion.sample(now);
     if (moved && this.followed !== null) this.keepUp();
+    if (this.flight) {
+      this.view.viewpoint = this.flight.at(now);
+      if (this.flight.isOver(now)) this.flight = null;
+    }
+    this.marks.ask(now);
     const drew = this.view.draw(moved);
     if (drew) this.overlay.draw();
     if (this.governor.observe(now, drew && !this.isPlan) && isPaced(this.wanted)) this.useWantedView();

@@ -1,6 +1,8 @@
 // What the pointer does in any view: a click selects, a double click goes there, shift and drag moves a robot or selects
 // by a box; everything else is the camera's.
 const CLICK_PIXELS = 4;
+const TURN_A_PIXEL = 0.005; // of the gaze from a robot, radians
+const TURN_A_STEP = Math.PI / 24; // of who is carried, for 100 pixels of the wheel
 
 // Drags entities over the floor; the others that are selected come along.
 class Carry {
@@ -10,6 +12,8 @@ class Carry {
     this.view = view;
     this.entity = entity;
     this.height = z;
+    this.at = at;
+    this.turned = false;
     this.start = view.floorPoint(at, z) ?? [x, y, z];
     const others = picture.chosen.includes(entity) ? picture.chosen : [entity];
     this.carried = others.flatMap((each) => {
@@ -18,15 +22,22 @@ class Carry {
     });
   }
   move(at) {
+    this.at = at;
     const point = this.view.floorPoint(at, this.height);
     if (!point) return;
     const [dx, dy] = [point[0] - this.start[0], point[1] - this.start[1]];
     this.picture.ghosts = this.carried.map(({ entity, place: [x, y, z], yaw }) => ({ entity, place: [x + dx, y + dy, z], yaw }));
   }
+  // By the wheel: each about itself.
+  turn(angle) {
+    for (const each of this.carried) each.yaw += angle;
+    this.turned = true;
+    this.move(this.at);
+  }
   end(clicked) {
     const { ghosts, actions, chosen } = this.picture;
     this.picture.ghosts = [];
-    if (!clicked && ghosts.length > 0) actions.move(ghosts);
+    if ((!clicked || this.turned) && ghosts.length > 0) actions.move(ghosts);
     // Only now: the panel that opens moves the picture.
     if (!chosen.includes(this.entity)) actions.select(this.entity);
   }
@@ -51,6 +62,20 @@ class Turn {
     this.picture.ghosts = [];
     if (!clicked && ghosts.length > 0) actions.move(ghosts);
   }
+}
+
+// Looks about from the robot that carries the camera.
+class Gaze {
+  constructor(picture, at) {
+    this.picture = picture;
+    this.last = at;
+    this.isCamera = true; // a click still selects
+  }
+  move(at) {
+    this.picture.turnGaze((at.x - this.last.x) * TURN_A_PIXEL, (at.y - this.last.y) * TURN_A_PIXEL);
+    this.last = at;
+  }
+  end() {}
 }
 
 class Box {
@@ -98,6 +123,7 @@ function dragFor(picture, view, event, at) {
   const handle = mayMove ? picture.overlay.handleAt(at) : null;
   if (handle === "turn") return new Turn(picture, view);
   if (handle === "move") return new Carry(picture, view, picture.selected, at);
+  if (picture.aboard !== null && !event.shiftKey) return new Gaze(picture, at);
   if (!event.shiftKey) return null;
   const entity = view.pick(at);
   if (entity !== null && picture.placeOf(entity)) return mayMove ? new Carry(picture, view, entity, at) : null;
@@ -120,6 +146,7 @@ export function listenToPointer(view, picture) {
         start = null; // two fingers are no click
         return;
       }
+      picture.flight = null;
       start = event.button === 0 ? placeOf(event) : null;
       if (!start || !picture.world || !picture.motion.frame) return;
       drag = dragFor(picture, view, event, start);
@@ -134,6 +161,17 @@ export function listenToPointer(view, picture) {
     drag.move(placeOf(event));
     picture.invalidate();
   });
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      if (!drag?.turn) return;
+      event.preventDefault();
+      event.stopImmediatePropagation();
+      drag.turn((-Math.sign(event.deltaY) * TURN_A_STEP * Math.min(Math.abs(event.deltaY), 100)) / 100);
+      picture.invalidate();
+    },
+    { capture: true, passive: false },
+  );
   const end = (event, cancelled) => {
     if (!event.isPrimary) return;
     const at = placeOf(event);
@@ -142,7 +180,8 @@ export function listenToPointer(view, picture) {
       view.holdCamera(false);
       drag.end(clicked || cancelled);
       picture.invalidate();
-    } else if (clicked && !cancelled) picture.actions.select(pick(event));
+    }
+    if (clicked && !cancelled && (!drag || drag.isCamera)) picture.actions.select(pick(event), event.ctrlKey);
     start = drag = null;
   };
   canvas.addEventListener("pointerup", (event) => end(event, false));

@@ -2,8 +2,16 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { themes } from "./look.js";
+import { FIELD_OF_VIEW, viewOf } from "./viewpoints.js";
 
 const OBLIQUE = [0.1, -0.8, 0.8]; // from the target to the camera
+const STEEPEST = Math.PI / 2 - 0.01; // of the arrow keys, and …
+const FLATTEST = 0.02;
+const radians = Math.PI / 180;
+// From the axes of a camera (x right, y up, looking along -z) to those of a robot (x ahead, z up).
+const AHEAD = new THREE.Quaternion().setFromRotationMatrix(
+  new THREE.Matrix4().makeBasis(new THREE.Vector3(0, -1, 0), new THREE.Vector3(0, 0, 1), new THREE.Vector3(-1, 0, 0)),
+);
 
 export class Stage {
   // smoothEdges stays as it is; all else follows the quality.
@@ -15,7 +23,8 @@ export class Stage {
     this.renderer.domElement.className = "picture";
     container.prepend(this.renderer.domElement);
     this.scene = new THREE.Scene();
-    this.camera = new THREE.PerspectiveCamera(45, 1, 0.02, 1000);
+    this.camera = new THREE.PerspectiveCamera(FIELD_OF_VIEW, 1, 0.02, 1000);
+    this.held = false; // whether the camera stands as it was put, and not as the controls have it
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.enableDamping = true;
@@ -23,9 +32,10 @@ export class Stage {
     this.controls.maxPolarAngle = Math.PI * 0.495;
     this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", () => this.invalidate());
-    this.controls.addEventListener("start", () => (this.home = null));
-    this.controls.listenToKeyEvents(window);
-    this.controls.keyPanSpeed = 20;
+    this.controls.addEventListener("start", () => {
+      this.home = null;
+      this.held = false;
+    });
 
     this.hemisphere = new THREE.HemisphereLight();
     this.hemisphere.position.set(0, 0, 1);
@@ -115,14 +125,56 @@ export class Stage {
     }
     camera.position.copy(target).addScaledVector(direction, distance);
     this.controls.target.copy(target);
+    this.held = false;
     this.controls.update();
     this.home = [arena, how]; // until the user moves the camera
     this.invalidate();
   }
 
+  // The camera exactly so, until a hand moves it. Such places may be below the floor or lean, as the controls' may not.
+  // camera: of viewpoints.js
+  stand(camera) {
+    const { position, heading, pitch, roll } = camera;
+    const turn = new THREE.Quaternion().setFromEuler(new THREE.Euler(roll * radians, -pitch * radians, heading * radians, "ZYX"));
+    this.put(new THREE.Vector3(...position), turn);
+  }
+
+  // turn: of the axes of a robot
+  put(position, turn) {
+    this.home = null;
+    this.held = true;
+    this.camera.position.copy(position);
+    this.camera.quaternion.copy(turn).multiply(AHEAD);
+    this.camera.updateMatrixWorld();
+    const ahead = new THREE.Vector3(0, 0, -1).applyQuaternion(this.camera.quaternion);
+    const pitch = Math.asin(Math.max(-1, Math.min(1, ahead.z))) / radians;
+    const heading = Math.atan2(ahead.y, ahead.x) / radians;
+    this.controls.target.fromArray(viewOf({ position: position.toArray(), heading, pitch }, this.extent).target);
+    this.invalidate();
+  }
+
+  // From where the camera stands as it was put to where the controls would have it.
+  release() {
+    if (!this.held) return;
+    this.held = false;
+    this.controls.update();
+    this.invalidate();
+  }
+
+  // Turns the camera about its target as the arrow keys of the windows do, radians.
+  orbit(right, up) {
+    this.release();
+    const { viewpoint } = this;
+    const [x, y, z] = viewpoint.direction;
+    const azimuth = Math.atan2(y, x) - right;
+    const height = Math.max(FLATTEST, Math.min(STEEPEST, Math.asin(z) + up));
+    this.viewpoint = { ...viewpoint, direction: [Math.cos(height) * Math.cos(azimuth), Math.cos(height) * Math.sin(azimuth), Math.sin(height)] };
+  }
+
   // Moves camera and target to look at a point from near by.
   approach(point, distance) {
     this.home = null;
+    this.held = false;
     const direction = this.camera.position.clone().sub(this.controls.target).normalize();
     if (direction.z < 0.35) direction.setZ(0.35).normalize();
     this.controls.target.copy(point);
@@ -150,6 +202,7 @@ export class Stage {
   }
   set viewpoint({ target, span, direction }) {
     this.home = null;
+    this.held = false;
     this.controls.target.fromArray(target);
     const from = new THREE.Vector3(...(direction ?? OBLIQUE)).normalize();
     this.camera.position.copy(this.controls.target).addScaledVector(from, span / this.spanOfDistance);

@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { Arena } from "./arena.js";
 import { extentOf } from "./look.js";
-import { Beams, Grips, Trails } from "./overlays.js";
+import { Beams, Grips, MarkLines, Trails } from "./overlays.js";
 import { floorPoint, pick } from "./picking.js";
 import { Stage } from "./stage.js";
 import { Swarm } from "./swarm.js";
@@ -10,6 +10,9 @@ import { Swarm } from "./swarm.js";
 const SHADOWS_UP_TO = 2500; // robots
 const WHEEL_STEP = 1.2;
 const HEAT_M = 0.0015; // above the floor
+const ARROW = (5 * Math.PI) / 180; // by which an arrow key turns the view
+const ABOVE_M = 0.02; // the eye of a robot, above its body …
+const FLYING_M = 0.5; // … or below that of one which is so high
 
 export class View3d {
   // picture: what all views show; meshes: the models that all renderers share; smoothEdges: stays as it is, all else
@@ -24,12 +27,13 @@ export class View3d {
   }
 
   setWorld(world) {
-    for (const overlay of [this.beams?.group, this.grips?.lines, this.trails?.lines]) overlay?.removeFromParent();
+    for (const overlay of [this.beams?.group, this.grips?.lines, this.trails?.lines, this.marks?.group]) overlay?.removeFromParent();
     const { scene } = this.stage;
     this.world = world;
     this.beams = new Beams(scene, world);
     this.grips = new Grips(scene, world);
     this.trails = new Trails(scene, this.picture.trails);
+    this.marks = new MarkLines(scene);
     this.rebuildArena();
     this.rebuildSwarm();
     this.stage.setReach(world.arena);
@@ -56,7 +60,9 @@ export class View3d {
   rebuildArena() {
     if (!this.world) return;
     this.arena?.dispose();
-    this.arena = new Arena(this.stage.scene, this.world, this.stage.theme, this.quality);
+    const textured = this.picture.shows.textures && !this.quality.plain;
+    this.arena = new Arena(this.stage.scene, this.world, this.stage.theme, { ...this.quality, plain: !textured });
+    this.textured = this.picture.shows.textures;
     if (this.picture.colours) this.arena.paint(this.picture.colours);
   }
 
@@ -88,6 +94,7 @@ export class View3d {
 
   applyShows() {
     const { shows } = this.picture;
+    if (this.textured !== shows.textures) this.rebuildArena();
     this.beams.group.visible = shows.beams;
     this.stage.castsShadows = this.swarm.castsShadows = shows.shadows && this.quality.shadows;
     this.stage.invalidate();
@@ -99,7 +106,8 @@ export class View3d {
 
   // False if there is nothing new. moved: whether robots stand elsewhere than in the last picture.
   draw(moved) {
-    this.stage.controls.update();
+    if (this.picture.aboard !== null) this.lookFromRobot();
+    if (!this.stage.held) this.stage.controls.update();
     if (!moved && !this.stage.stale) return false;
     const { motion, shows } = this.picture;
     this.stage.camera.updateMatrixWorld();
@@ -110,8 +118,32 @@ export class View3d {
       this.grips.update(motion.frame, motion, shows.beams);
     }
     this.trails.update();
+    this.marks.update(this.picture.marks.lines(this.stage.theme));
     this.stage.draw();
     return true;
+  }
+
+  // The camera on the robot that is boarded, turned as it is, and by the hand that looks about. Of one that is not in the
+  // arena the last place stays.
+  lookFromRobot() {
+    const { aboard, gaze, motion } = this.picture;
+    const place = this.picture.placeOf(aboard);
+    if (!place) return;
+    const turn = new THREE.Quaternion().fromArray(motion.quaternions, 4 * this.world.slots[aboard]);
+    const height = place[2] > FLYING_M ? -ABOVE_M : extentOf(this.world, aboard).height + ABOVE_M;
+    const eye = new THREE.Vector3(0, 0, height).applyQuaternion(turn).add(new THREE.Vector3(...place));
+    turn.multiply(new THREE.Quaternion().setFromEuler(new THREE.Euler(0, -gaze.pitch, gaze.yaw, "ZYX")));
+    const { camera } = this.stage;
+    const [before, was] = [camera.position.clone(), camera.quaternion.clone()];
+    const stale = this.stage.stale;
+    this.stage.put(eye, turn);
+    this.stage.stale = stale || before.distanceToSquared(eye) > 0 || was.angleTo(camera.quaternion) > 0;
+  }
+
+  // Whether a robot carries the camera.
+  board(on) {
+    this.stage.controls.enabled = !on;
+    if (!on) this.stage.release();
   }
 
   invalidate() {
@@ -125,7 +157,15 @@ export class View3d {
   }
 
   holdCamera(on) {
-    this.stage.controls.enabled = !on;
+    this.stage.controls.enabled = !on && this.picture.aboard === null;
+  }
+  // camera: of viewpoints.js
+  stand(camera) {
+    this.stage.stand(camera);
+  }
+  // By arrow keys.
+  step(right, up) {
+    this.stage.orbit(right * ARROW, up * ARROW);
   }
 
   get home() {

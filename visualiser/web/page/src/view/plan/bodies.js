@@ -1,5 +1,6 @@
 // Bodies that are no robots, seen from above: boxes as the outline of their corners, with a shadow that tells their height.
 import { css, paint } from "../look.js";
+import { rotate } from "../turning.js";
 
 const SHADOW_LEAST_M = 0.02;
 const SHADOW_MOST_M = 0.6; // taller bodies throw no longer ones
@@ -11,11 +12,6 @@ const TERRAIN_HIGH = [0xc6, 0xbb, 0xa2];
 export function shadowOf(frame, height) {
   const reach = Math.min(height, SHADOW_MOST_M) * frame.scale;
   return [SUN[0] * reach, -SUN[1] * reach];
-}
-
-function rotate([x, y, z], [qx, qy, qz, qw]) {
-  const [tx, ty, tz] = [2 * (qy * z - qz * y), 2 * (qz * x - qx * z), 2 * (qx * y - qy * x)];
-  return [x + qw * tx + qy * tz - qz * ty, y + qw * ty + qz * tx - qx * tz, z + qw * tz + qx * ty - qy * tx];
 }
 
 // The outline of points, by Andrew's monotone chain.

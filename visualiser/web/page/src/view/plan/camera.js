@@ -1,4 +1,4 @@
-// Where the plan looks, and the hands that move it: drag, wheel, two fingers, arrow keys.
+// Where the plan looks, and the hands that move it: drag, wheel, two fingers.
 
 const WHEEL_STEP = 1.2; // for 100 pixels of the wheel
 const KEY_PIXELS = 60;
@@ -102,6 +102,12 @@ export class PlanCamera {
     this.look(this.centre[0] + dx, this.centre[1] + dy, this.span);
   }
 
+  // By arrow keys: steps to the right and up.
+  step(right, up) {
+    const metres = (KEY_PIXELS * this.ratio) / this.scale;
+    this.shift(right * metres, up * metres);
+  }
+
   // Keeps what lies at a place of the canvas (CSS pixels) where it is.
   zoom(steps, at = { x: this.width / 2, y: this.pixels / 2 }) {
     const before = [this.frame.metresX(at.x * this.ratio), this.frame.metresY(at.y * this.ratio)];
@@ -153,11 +159,5 @@ export class PlanCamera {
       },
       { passive: false },
     );
-    window.addEventListener("keydown", (event) => {
-      const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-      if (!step || !this.enabled || event.defaultPrevented || ["INPUT", "SELECT"].includes(event.target.tagName)) return;
-      const metres = (KEY_PIXELS * this.ratio) / this.scale;
-      this.shift(step[0] * metres, step[1] * metres);
-    });
   }
 }

@@ -7,6 +7,7 @@ import { Backdrop } from "./backdrop.js";
 import { PlanCamera } from "./camera.js";
 import { PlanSwarm } from "./swarm.js";
 import { TrailLayer } from "./trail_layer.js";
+import { viewOf } from "../viewpoints.js";
 
 const MOST_RATIO = 2; // pixels drawn for one of the page
 const PICK_PIXELS = 6; // by which a click may miss
@@ -96,6 +97,7 @@ export class PlanView {
       this.drawGrips(frame, motion);
       this.drawBeams(frame, motion);
     }
+    for (const lines of picture.marks.lines(this.theme)) this.drawLines(frame, lines);
     return true;
   }
 
@@ -161,6 +163,18 @@ export class PlanView {
     context.globalAlpha = 1;
   }
 
+  drawLines(frame, { colour, points }) {
+    const { context } = this;
+    context.strokeStyle = css(colour);
+    context.lineWidth = 1.25 * frame.ratio;
+    context.beginPath();
+    for (let i = 0; i < points.length; i += 6) {
+      context.moveTo(frame.x(points[i]), frame.y(points[i + 1]));
+      context.lineTo(frame.x(points[i + 3]), frame.y(points[i + 4]));
+    }
+    context.stroke();
+  }
+
   // ---- what every view can do ----
 
   show(on) {
@@ -187,8 +201,15 @@ export class PlanView {
     const { target, span } = this.camera.viewpoint;
     return [target[0], target[1], span];
   }
+  // camera: of viewpoints.js; the plan shows the place that it looks at
+  stand(camera) {
+    this.viewpoint = viewOf(camera, Math.max(...this.world.arena.slice(0, 2)));
+  }
   shift(dx, dy) {
     this.camera.shift(dx, dy);
+  }
+  step(right, up) {
+    this.camera.step(right, up);
   }
   zoom(steps) {
     this.camera.zoom(steps);

@@ -1,0 +1,167 @@
+#include "visualiser/web/marks.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <set>
+
+#include "common/builtins/builtins.h"
+#include "common/configuration/xml_reader.h"
+#include "common/math/elementary.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using Pairs = std::set<std::pair<int, int>>;
+
+// Footbots in one engine that have rays and hear each other from 2 m; then blocks that are in it, too.
+class MarksTest : public testing::Test
+{
+protected:
+  MarksTest()
+  {
+    DescribeBuiltins();
+    experiment_.arena_size = {10, 10, 2};
+    EngineConfiguration& engine = experiment_.engines.emplace_back();
+    engine.tag = "dummy_engine";
+    engine.id = "ground";
+    ControllerConfiguration& controller = experiment_.controllers.emplace_back();
+    controller.id = "c";
+    const TConfigurationTree tree(ReadXml("<range_and_bearing><range>2</range></range_and_bearing>", "test.xml"));
+    controller.sensors = {{"footbot_proximity", "generic_footbot_proximity", {}},
+                          {"range_and_bearing", "generic_range_and_bearing", tree}};
+  }
+  void Add(EntityKind kind, const Vector3& position, const Vector3& size, double yaw = 0)
+  {
+    EntityConfiguration& entity = experiment_.entities.emplace_back();
+    entity.kind = kind;
+    entity.id = "e" + std::to_string(experiment_.entities.size() - 1);
+    entity.pose = {position, QuaternionFromYaw(yaw)};
+    entity.size = size;
+    entity.movable = true;
+    if (IsRobot(kind)) entity.controller = "c";
+    experiment_.engines[0].entities.push_back(static_cast<std::uint32_t>(experiment_.entities.size() - 1));
+  }
+  void AddFootbot(double x, double y, double yaw = 0)
+  {
+    Add(EntityKind::kFootbot, {x, y, 0}, DescriptionOf(EntityKind::kFootbot).size, yaw);
+  }
+  CSwarmanoidSpace& Space()
+  {
+    if (!space_) space_ = std::make_unique<CSwarmanoidSpace>(experiment_);
+    return *space_;
+  }
+  void Send(std::uint32_t robot) { Space().SetAttribute(Space().GetEntity(robot).SlotOf("message"), 1); }
+  nlohmann::json Marks(const MarksRequest& request)
+  {
+    return nlohmann::json::parse(MarksWriter(Space()).Text(request));
+  }
+  static Pairs PairsOf(const nlohmann::json& list)
+  {
+    Pairs pairs;
+    for (std::size_t i = 0; i + 1 < list.size(); i += 2) pairs.emplace(list[i], list[i + 1]);
+    return pairs;
+  }
+
+  Experiment experiment_;
+  std::unique_ptr<CSwarmanoidSpace> space_;
+};
+
+TEST_F(MarksTest, RaysEndWhereTheyMeetACylinder)
+{
+  constexpr double kRadius = 0.1, kAway = 0.22;
+  AddFootbot(3, 4, 0.3);
+  const Vector3 prey(3 + kAway * std::cos(0.3), 4 + kAway * std::sin(0.3), 0);
+  Add(EntityKind::kCylindricPrey, prey, {kRadius, kRadius, 0.2});
+  const auto rays = Marks({.rays = {0, 1}, .bodies = {}, .links = {}})["rays"];
+  ASSERT_EQ(rays["entities"], nlohmann::json({0}));
+  const ProximityRing& ring = *DescriptionOf(EntityKind::kFootbot).proximity;
+  int hits = 0;
+  for (std::size_t i = 0; i < ring.sensors.size(); ++i)
+  {
+    // In the frame of the robot, by the formula of a line and a circle.
+    const auto& [place, direction] = ring.sensors[i];
+    const Vector2 way(std::cos(direction), std::sin(direction));
+    const Vector2 to = Vector2(kAway, 0) - place;
+    const double along = to.dot(way), aside = to.squaredNorm() - along * along;
+    const double distance = aside < kRadius * kRadius ? along - std::sqrt(kRadius * kRadius - aside) : 1e9;
+    const bool meets = distance > 0 && distance < ring.range_m;
+    hits += meets;
+    EXPECT_NEAR(rays["hits"][0][i].get<double>(), meets ? distance / ring.range_m : 1, 1e-4) << i;
+  }
+  EXPECT_GT(hits, 1);
+}
+
+TEST_F(MarksTest, LinksAreThoseInRangeAndInSightOfWhoSends)
+{
+  AddFootbot(1, 1);
+  AddFootbot(2.9, 1);  // in range of the first
+  AddFootbot(1, 3.1);  // out of range of all
+  AddFootbot(2, 2);    // behind a block for the second alone
+  AddFootbot(1, 1.5);  // in sight of the first
+  Add(EntityKind::kBlock, {2.45, 1.5, 0.2}, {0.3, 0.3, 0.4});
+  Send(0);
+  Send(3);
+  Send(4);
+  const auto links = Marks({.rays = {}, .bodies = {}, .links = {0, 1, 2, 3, 4, 5}})["links"];
+  EXPECT_EQ(PairsOf(links["both"]), (Pairs{{0, 3}, {0, 4}, {3, 4}}));
+  EXPECT_EQ(PairsOf(links["one"]), (Pairs{{0, 1}, {3, 2}, {4, 1}, {4, 2}}));
+}
+
+TEST_F(MarksTest, LinksAreTheSameWhoeverIsAskedFirst)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(0.5, 6);
+  for (int i = 0; i < 40; ++i) AddFootbot(place(random), place(random));
+  for (std::uint32_t i = 0; i < 40; i += 3) Send(i);
+  std::vector<std::uint32_t> all(40);
+  for (std::uint32_t i = 0; i < 40; ++i) all[i] = i;
+  const auto whole = Marks({.rays = {}, .bodies = {}, .links = all})["links"];
+  Pairs sum_both, sum_one;
+  for (std::uint32_t i = 0; i < 40; ++i)
+  {
+    const auto links = Marks({.rays = {}, .bodies = {}, .links = {i}})["links"];
+    for (auto [a, b] : PairsOf(links["both"])) sum_both.emplace(std::min(a, b), std::max(a, b));
+    sum_one.merge(PairsOf(links["one"]));
+  }
+  EXPECT_EQ(PairsOf(whole["both"]), sum_both);
+  EXPECT_EQ(PairsOf(whole["one"]), sum_one);
+  EXPECT_GT(sum_one.size(), 20u);
+}
+
+TEST_F(MarksTest, BodiesAreThoseThatEnginesCollideAndEachModelIsToldOnce)
+{
+  AddFootbot(1, 1);
+  AddFootbot(2, 1);
+  Add(EntityKind::kBlock, {3, 1, 0.1}, {0.4, 0.6, 0.2});
+  const auto shapes = Marks({.rays = {}, .bodies = {0, 1, 2, 77}, .links = {}})["shapes"];
+  EXPECT_EQ(shapes["entities"], nlohmann::json({0, 1, 2}));
+  EXPECT_EQ(shapes["models"], nlohmann::json({0, 0, 1}));
+  const auto& block = shapes["bodies"][1];
+  ASSERT_EQ(block.size(), 1u);
+  EXPECT_EQ(block[0], nlohmann::json({0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.2, 0.3, 0.1}));
+}
+
+TEST_F(MarksTest, WhoIsNotInTheArenaHasNone)
+{
+  AddFootbot(1, 1);
+  AddFootbot(1.5, 1);
+  Send(0);
+  Send(1);
+  Space().SetAttribute(Space().PresenceSlot(1), 0);
+  const auto marks = Marks({.rays = {0, 1}, .bodies = {0, 1}, .links = {0, 1}});
+  EXPECT_EQ(marks["rays"]["entities"], nlohmann::json({0}));
+  EXPECT_EQ(marks["shapes"]["entities"], nlohmann::json({0}));
+  EXPECT_TRUE(marks["links"]["both"].empty());
+  EXPECT_TRUE(marks["links"]["one"].empty());
+}
+
+}  // namespace
+}  // namespace swarmanoid

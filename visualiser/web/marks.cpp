@@ -1,0 +1,132 @@
+#include "visualiser/web/marks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "common/builtins/antenna.h"
+#include "common/plugins/catalogue.h"
+#include "common/space/attributes.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+double Rounded(double value) { return std::round(value * 1e4) / 1e4; }
+
+// From which a robot hears others; 0 if its controller has no such sensor, or one that says nothing of a range.
+double RangeOf(const Experiment& experiment, const EntityConfiguration& robot)
+{
+  const ControllerConfiguration* controller = experiment.FindController(robot.controller);
+  if (controller == nullptr) return 0;
+  for (const DeviceConfiguration& sensor : controller->sensors)
+  {
+    if (sensor.type != "range_and_bearing") continue;
+    const PluginDescription* description =
+        PluginCatalogue::Instance().Find(PluginKind::kSensor, sensor.type, sensor.implementation);
+    const bool has_range =
+        description != nullptr && std::any_of(description->parameters.begin(), description->parameters.end(),
+                                              [](const ParameterSpec& spec) { return spec.name == "range"; });
+    if (has_range) return Parameters(sensor.tree, description->parameters).Number("range");
+  }
+  return 0;
+}
+
+}  // namespace
+
+MarksWriter::MarksWriter(const CSwarmanoidSpace& space)
+    : space_(space), query_(space), models_(space), antennas_(space.Size())
+{
+  for (std::size_t e = 0; e < space.Size(); ++e)
+  {
+    const CSwarmanoidSpaceEntity& entity = space.GetEntity(e);
+    if (!IsRobot(entity.GetKind()) || AttributeOffset(entity.GetKind(), "message") < 0) continue;
+    const double range = RangeOf(space.GetExperiment(), entity.GetConfiguration());
+    antennas_[e] = {entity.SlotOf("message"), range};
+    longest_range_ = std::max(longest_range_, range);
+  }
+}
+
+Vector3 MarksWriter::PlaceOf(std::uint32_t robot) const
+{
+  return space_.GetPose(robot).Apply({0, 0, kAntennaHeight_m});
+}
+
+std::string MarksWriter::Text(const MarksRequest& wanted)
+{
+  Json rays{{"entities", Json::array()}, {"hits", Json::array()}};
+  for (const std::uint32_t robot : wanted.rays)
+  {
+    if (!IsPresent(robot)) continue;
+    FindProximityRays(space_, query_, robot, rays_);
+    if (rays_.empty()) continue;
+    Json hits = Json::array();
+    for (const ProximityRay& ray : rays_) hits.push_back(Rounded(ray.hit));
+    rays["entities"].push_back(robot);
+    rays["hits"].push_back(std::move(hits));
+  }
+
+  // Robots of one kind have the same bodies, as a rule.
+  Json shapes{{"entities", Json::array()}, {"models", Json::array()}, {"bodies", Json::array()}};
+  std::map<std::string, int> known;
+  for (const std::uint32_t entity : wanted.bodies)
+  {
+    if (!IsPresent(entity)) continue;
+    models_.BodiesOf(entity, bodies_);
+    if (bodies_.empty()) continue;
+    Json model = Json::array();
+    for (const auto& [is_cylinder, pose, half] : bodies_)
+    {
+      const Vector3& p = pose.position;
+      const Quaternion& q = pose.orientation;
+      Json body = Json::array({is_cylinder ? 1 : 0});
+      for (const double value : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w(), half.x(), half.y(), half.z()})
+        body.push_back(Rounded(value));
+      model.push_back(std::move(body));
+    }
+    const auto [place, is_new] = known.emplace(model.dump(), static_cast<int>(known.size()));
+    if (is_new) shapes["bodies"].push_back(std::move(model));
+    shapes["entities"].push_back(entity);
+    shapes["models"].push_back(place->second);
+  }
+
+  // As the receivers of range and bearing hear: those that send, within range of the antenna and in sight. Each pair
+  // once: from one to the other, or both ways.
+  Json both = Json::array(), one = Json::array();
+  std::vector<char> asked(space_.Size());
+  for (const std::uint32_t robot : wanted.links)
+    if (IsPresent(robot) && antennas_[robot]) asked[robot] = 1;
+  const auto sends = [&](const Antenna& antenna) { return space_.Attributes()[antenna.message] != 0; };
+  for (std::uint32_t robot = 0; longest_range_ > 0 && robot < asked.size(); ++robot)
+  {
+    if (!asked[robot]) continue;
+    const Vector3 from = PlaceOf(robot);
+    const Antenna& own = *antennas_[robot];
+    const std::vector<std::uint32_t> near =
+        query_.FindWithin(space_.GetPose(robot).position, longest_range_ + 2 * kAntennaHeight_m);
+    for (const std::uint32_t other : near)
+    {
+      if (other == robot || !antennas_[other] || (asked[other] && other < robot)) continue;
+      const Vector3 to = PlaceOf(other);
+      const double distance = (to - from).norm();
+      const bool hears = sends(*antennas_[other]) && distance <= own.range;
+      const bool is_heard = sends(own) && distance <= antennas_[other]->range;
+      if ((!hears && !is_heard) || query_.IsOccluded(from, to, robot, other)) continue;
+      Json& list = hears && is_heard ? both : one;
+      list.push_back(is_heard ? robot : other);
+      list.push_back(is_heard ? other : robot);
+    }
+  }
+  return Json{{"type", "marks"},
+              {"tick", space_.GetTick()},
+              {"rays", std::move(rays)},
+              {"shapes", std::move(shapes)},
+              {"links", {{"both", std::move(both)}, {"one", std::move(one)}}}}
+      .dump();
+}
+
+}  // namespace swarmanoid
