@@ -73,6 +73,19 @@ class Once(RecoveryTest):
         self.control("resume")
         self.assert_same(run, ticks, expected, said, code=1)  # the prey is not in the nest yet
 
+    def test_hosts_that_the_server_does_not_hear(self):
+        # The engine may have had the last commands of the one that died.
+        experiment = CONFIGS / "diffusion_10.xml"
+        expected = self.undisturbed(experiment, 2000)
+        run = self.start("run", experiment, "--ticks", 2000, "--controller-hosts", 2, "--real-time", 50, "--hash-log", "cluster", "--output", "out",
+                         "--no-visualisers")
+        said = ""
+        for tick in (50, 450, 900, 1350):
+            self.wait_for_tick("cluster", tick, run)
+            os.kill(run.find("controller_host"), signal.SIGKILL)
+            said += run.read_until(REPLACED)
+        self.assert_same(run, 2000, expected, said)
+
     def killed_once(self, fault, tick):
         """A run whose controller, which cannot be saved, is killed the first time that it gets there."""
         mark = self.folder / "killed"
