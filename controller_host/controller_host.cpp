@@ -297,6 +297,10 @@ void ControllerHost::CommitActuators()
                 actuator.batch->Commit({commands_.values, actuator.slice.offsets, actuator.slice.width},
                                        commands_.attributes);
               });
+    // Nobody would hear them: commands of channels go to the engines alone.
+    if (actuator.slice.width > 0 && commands_.attributes.slots.size() > first)
+      throw ControllerError("actuator '" + actuator.device->type + "' (" + actuator.device->implementation +
+                            "): it has a channel, so it must not change attributes");
     CheckAttributesOf(*actuator.device, actuator.robots, first);
   }
   batches_->order.Apply(commands_.attributes);

@@ -38,10 +38,17 @@ public:
       inputs_.StartAt(Recover(session, replica,
                               {[this] { Restore(); }, [this](ByteReader& state) { role_.LoadState(state); },
                                [this](const TickRecord& record) { Redo(record); },
-                               [this](const std::vector<SensorFrame>& frames) { TakeFrames(frames); }}));
+                               [this](const std::vector<SensorFrame>& frames)
+                               {
+                                 TakeFrames(frames);
+                                 has_frames_ = true;
+                               }}));
     else
+    {
       Restore();
-    for (std::size_t k = 0; k < engines; ++k) inputs_.HaveFirst(k);
+      has_frames_ = true;
+    }
+    for (std::size_t k = 0; k < engines && has_frames_; ++k) inputs_.HaveFirst(k);
     inputs_.Open({[this](std::size_t k, std::uint64_t tick) { return &frames_[tick % 2][k]; }, [this] { Tick(); },
                   [this] { AnswerAgain(); }},
                  replica.limits->FrameBytes(), FrameWriters());
@@ -54,7 +61,7 @@ public:
     unsigned readers = 0;
     for (const EngineLayout& engine : replica_.assignment.engines) readers += engine.commands_from.empty() ? 0 : 1;
     for (const HostLayout& host : replica_.assignment.hosts)
-      if (session_.World().recorded || ServerHears(host))
+      if (ServerHears(host))
       {
         ++readers;
         break;
@@ -114,11 +121,13 @@ private:
   {
     TakeFrames(record.frames);
     Step(record.state.tick);
+    saved_.Ready(record.state.tick + 1, role_, record.save);
+    // The present tick, whose commands may not have gone out.
+    if (record.commands.empty()) return;
     const ControlCommands& before = record.commands.at(host_);
     if (!SameBits(answer_->values, before.values) || answer_->attributes.slots != before.attributes.slots ||
         !SameBits(answer_->attributes.values, before.attributes.values))
       RefuseRecovery(session_.Name(), record.state.tick, "other commands");
-    saved_.Ready(record.state.tick + 1, role_, record.save);
   }
 
   // Of all engines; none if the tick is the first one.
@@ -165,6 +174,7 @@ private:
   Inputs inputs_;                                   // its mutex guards the role and what follows
   std::array<std::vector<SensorFrame>, 2> frames_;  // of even and odd ticks
   std::vector<const SensorFrame*> frames_here_;
+  bool has_frames_ = false;  // of the first tick that it waits for
   const ControlCommands* answer_ = nullptr;
   HotPublisher<ControlCommands> commands_;
   RobotInspection inspection_;

@@ -34,6 +34,7 @@ public:
         updates_(session.GetBus(), session.Scope(replica.limits->UpdateBytes(), 1))
   {
     for (const ControlCommands& commands : commands_) commands_here_.push_back(&commands);
+    if (session.World().recorded) update_.recorded.resize(role_.Layout().command_size + role_.Layout().sensor_size);
     if (role_.Layout().sensor_size > 0)
       frames_.emplace(session.GetBus(), session.Scope(replica.limits->FrameBytes(), 1));
     Begin();
@@ -48,7 +49,6 @@ public:
   {
     unsigned frame_readers = 0;
     for (const HostLayout& host : replica_.assignment.hosts) frame_readers += host.frames_from.empty() ? 0 : 1;
-    if (session_.World().recorded) ++frame_readers;
     session_.WaitUntil(
         [&]
         {
@@ -106,7 +106,7 @@ private:
     for (std::size_t k = 0; k < commands_.size(); ++k)
       commands_[k] = record.commands.at(role_.Layout().commands_from[k]);
     role_.Tick(record.state.moved, commands_here_);
-    has_update_ = has_frame_ = true;
+    TakeUpdate();
     saved_.Ready(record.state.tick + 1, role_, record.save);
   }
 
@@ -136,17 +136,34 @@ private:
   void Tick()
   {
     role_.Tick(inputs_.State().moved, commands_here_);
+    TakeUpdate();
     inputs_.Next();
-    has_update_ = has_frame_ = true;
     saved_.Ready(inputs_.Tick(), role_, inputs_.Saves());
     Answer(false);
+  }
+
+  void TakeUpdate()
+  {
+    static_cast<EngineUpdate&>(update_) = role_.Update();
+    has_update_ = has_frame_ = true;
+    if (update_.recorded.empty()) return;
+    const EngineLayout& layout = role_.Layout();
+    for (const ValueCopy& copy : layout.command_copies)
+    {
+      const auto source = std::find(layout.commands_from.begin(), layout.commands_from.end(), copy.source);
+      const ControlCommands& commands = commands_[static_cast<std::size_t>(source - layout.commands_from.begin())];
+      std::copy_n(commands.values.begin() + static_cast<std::ptrdiff_t>(copy.from), copy.count,
+                  update_.recorded.begin() + static_cast<std::ptrdiff_t>(copy.to));
+    }
+    std::ranges::copy(role_.Sensors().values,
+                      update_.recorded.begin() + static_cast<std::ptrdiff_t>(layout.command_size));
   }
 
   void Answer(bool repeated)
   {
     MessageHeader header = session_.Header(inputs_.Tick(), engine_);
     header.repeated = repeated;
-    if (has_update_) updates_.Write(header, role_.Update());
+    if (has_update_) updates_.Write(header, update_);
     if (frames_ && has_frame_) frames_->Write(header, role_.Sensors());
   }
 
@@ -158,9 +175,10 @@ private:
   Inputs inputs_;  // its mutex guards the role and what follows
   std::vector<ControlCommands> commands_;
   std::vector<const ControlCommands*> commands_here_;
+  UpdateMessage update_;
   bool has_update_ = false;  // of the tick that comes next
   bool has_frame_ = false;
-  HotPublisher<EngineUpdate> updates_;
+  HotPublisher<UpdateMessage> updates_;
   std::optional<HotPublisher<SensorFrame>> frames_;
 };
 

@@ -16,8 +16,8 @@
 namespace
 {
 
-const std::vector<std::string> kVerbs{"run",   "resume", "replay", "diff", "attach", "control",
-                                      "check", "list",   "new",    "demo", "doctor"};
+const std::vector<std::string> kVerbs{"run",     "resume", "replay", "diff", "export", "attach",
+                                      "control", "check",  "list",   "new",  "demo",   "doctor"};
 
 // CLI11 would only say that the word was not expected.
 bool ComplainsAboutVerb(const std::vector<std::string>& words)
@@ -48,6 +48,7 @@ void AddCommands(CLI::App& app, int& exit_code)
   AddResumeCommand(app, exit_code);
   AddReplayCommand(app, exit_code);
   AddDiffCommand(app, exit_code);
+  AddExportCommand(app, exit_code);
   AddAttachCommand(app, exit_code);
   AddControlCommand(app, exit_code);
   AddCheckCommand(app, exit_code);

@@ -1,5 +1,5 @@
 // A run that is over, tick after tick as its journal has it; and where two runs of one experiment part. Used by
-// `replay` and `diff`.
+// `replay`, `diff` and `export`.
 #pragma once
 
 #include <memory>

@@ -174,12 +174,12 @@ unsigned HotSubscription<Message>::Writers() const
 
 template class HotPublisher<SpaceState>;
 template class HotPublisher<ControlCommands>;
-template class HotPublisher<EngineUpdate>;
+template class HotPublisher<UpdateMessage>;
 template class HotPublisher<SensorFrame>;
 template class HotPublisher<DrawnMessage>;
 template class HotSubscription<SpaceState>;
 template class HotSubscription<ControlCommands>;
-template class HotSubscription<EngineUpdate>;
+template class HotSubscription<UpdateMessage>;
 template class HotSubscription<SensorFrame>;
 template class HotSubscription<DrawnMessage>;
 

@@ -27,7 +27,7 @@ inline constexpr const char* kTopicOf<SpaceState> = "SpaceState";
 template <>
 inline constexpr const char* kTopicOf<ControlCommands> = "ControlCommands";
 template <>
-inline constexpr const char* kTopicOf<EngineUpdate> = "EngineUpdate";
+inline constexpr const char* kTopicOf<UpdateMessage> = "EngineUpdate";
 template <>
 inline constexpr const char* kTopicOf<SensorFrame> = "SensorFrame";
 template <>
@@ -89,10 +89,11 @@ void Fields(Archive& archive, MessageHeader& header, ControlCommands& message)
 }
 
 template <class Archive>
-void Fields(Archive& archive, MessageHeader& header, EngineUpdate& message)
+void Fields(Archive& archive, MessageHeader& header, UpdateMessage& message)
 {
   PoseFields(archive, message.poses, {{kFlagRepeated, &header.repeated}});
   Fields(archive, message.attributes);
+  archive.Array("recorded", message.recorded);
   if constexpr (Archive::kReads) message.tick = header.tick, message.engine = header.source;
 }
 

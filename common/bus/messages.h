@@ -15,7 +15,7 @@ namespace swarmanoid
 {
 
 // Equal to PROTOCOL_VERSION of the IDL; a test says so.
-inline constexpr std::uint32_t kProtocolVersion = 7;
+inline constexpr std::uint32_t kProtocolVersion = 8;
 
 // What precedes every message of a tick.
 struct MessageHeader
@@ -26,6 +26,14 @@ struct MessageHeader
   bool repeated = false;
   std::uint32_t incarnation = 0;  // of the sender; one that was replaced is not heard any more
   bool save = false;              // SpaceState: what remembers saves its state after the step to the next tick
+};
+
+// Engine worker to server.
+struct UpdateMessage : EngineUpdate
+{
+  // For the journal, if the run keeps one: the commands that the step took, laid out as EngineLayout::commands says,
+  // and behind them the values of the SensorFrame of the same tick.
+  std::vector<double> recorded;
 };
 
 // Visualiser of the experiment to server: the state of the header's tick is drawn.

@@ -16,14 +16,16 @@ namespace swarmanoid
 
 struct RecoverySteps
 {
-  std::function<void()> begin;                    // from where the run began, since no state was saved
-  std::function<void(ByteReader& state)> load;    // from a saved state
-  std::function<void(const TickRecord&)> step{};  // the space has the state of the record
+  std::function<void()> begin;                  // from where the run began, since no state was saved
+  std::function<void(ByteReader& state)> load;  // from a saved state
+  // The space has the state of the record. The last one of a host may be of the tick that the run waits at, and has no
+  // commands.
+  std::function<void(const TickRecord&)> step{};
   std::function<void(const std::vector<SensorFrame>&)>
       frames{};  // of the tick that comes next; none if it is the first
 };
 
-// Until the tick that the run waits at, which is returned. Throws BusError.
+// Until the tick that the process waits for, which is returned. Throws BusError.
 std::uint64_t Recover(WorkerSession& session, Replica& replica, const RecoverySteps& steps);
 
 // Whether both are the same to the last bit.

@@ -22,7 +22,7 @@ Replica::Replica(const WorldMessage& world, bool load_controllers)
   experiment = std::move(loaded.experiment);
   assignment = MakeAssignment(*experiment, world.hosts);
   space = std::make_unique<CSwarmanoidSpace>(*experiment);
-  limits = std::make_unique<const TickLimits>(*space, assignment);
+  limits = std::make_unique<const TickLimits>(*space, assignment, world.recorded);
 
   // A worker on another machine may have other plug-ins, and so another world, under the same names.
   const WorldMessage own = DescribeWorld(*space, world.run, world.file, world.hosts);

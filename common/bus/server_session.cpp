@@ -152,7 +152,7 @@ void ServerSession::Joined(const JoinMessage& join)
       Member& joined = member->second;
       if (joined.process != join.process) joined.status = {};
       std::tie(joined.process, joined.ready, joined.incarnation) = std::tie(join.process, join.ready, join.incarnation);
-      state->replaced |= join.ready && join.incarnation > 0;
+      if (join.ready && join.incarnation > 0) state->replaced.emplace_back(join.name, join.incarnation);
     }
   }
   if (taken) return callbacks_.changed();
@@ -186,7 +186,10 @@ std::vector<std::string> ServerSession::TakeLeft() { return std::exchange(state_
 
 std::vector<std::string> ServerSession::TakeLost() { return std::exchange(state_.Lock()->lost, {}); }
 
-bool ServerSession::TakeReplaced() { return std::exchange(state_.Lock()->replaced, false); }
+std::vector<std::pair<std::string, std::uint32_t>> ServerSession::TakeReplaced()
+{
+  return std::exchange(state_.Lock()->replaced, {});
+}
 
 std::uint32_t ServerSession::Incarnation(const std::string& name) const
 {

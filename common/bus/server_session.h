@@ -58,8 +58,8 @@ public:
   std::vector<std::string> TakeLeft();
   // Those expected that have been silent for the lease since the last call, if others may take their places.
   std::vector<std::string> TakeLost();
-  // Whether one that takes the place of another has become ready since the last call.
-  bool TakeReplaced();
+  // Those that take the places of others, with their incarnations, and have become ready since the last call.
+  std::vector<std::pair<std::string, std::uint32_t>> TakeReplaced();
   // Of the process that has the name now.
   std::uint32_t Incarnation(const std::string& name) const;
   // What such processes ask for, and the answer.
@@ -107,7 +107,7 @@ private:
     std::vector<std::string> just_left;
     std::vector<LeaveMessage> answers;
     std::vector<std::string> lost;
-    bool replaced = false;
+    std::vector<std::pair<std::string, std::uint32_t>> replaced;
     std::vector<RecoveryRequestMessage> recoveries;
     bool over = false;
 

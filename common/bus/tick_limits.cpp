@@ -41,7 +41,7 @@ std::size_t OfSource(const std::vector<std::size_t>& numbers, const MessageHeade
 
 }  // namespace
 
-TickLimits::TickLimits(const CSwarmanoidSpace& space, const Assignment& assignment)
+TickLimits::TickLimits(const CSwarmanoidSpace& space, const Assignment& assignment, bool recorded)
     : entities_(space.Size()), movable_(space.Movable().size()), slots_(space.Attributes().size())
 {
   for (const HostLayout& host : assignment.hosts) command_values_.push_back(host.command_size);
@@ -49,6 +49,7 @@ TickLimits::TickLimits(const CSwarmanoidSpace& space, const Assignment& assignme
   {
     owned_.push_back(engine.owned.size());
     sensor_values_.push_back(engine.sensor_size);
+    recorded_.push_back(recorded ? engine.command_size + engine.sensor_size : 0);
   }
 }
 
@@ -71,9 +72,10 @@ std::size_t TickLimits::CommandBytes() const
 
 std::size_t TickLimits::UpdateBytes() const
 {
-  EngineUpdate update;
+  UpdateMessage update;
   FillPoses(update.poses, Largest(owned_));
   FillSlots(update.attributes, slots_);
+  update.recorded.resize(Largest(recorded_));
   return PayloadSize(MessageHeader(), update);
 }
 
@@ -102,10 +104,11 @@ void TickLimits::Check(const MessageHeader& header, const ControlCommands& comma
   CheckSlots(commands.attributes);
 }
 
-void TickLimits::Check(const MessageHeader& header, const EngineUpdate& update) const
+void TickLimits::Check(const MessageHeader& header, const UpdateMessage& update) const
 {
   CheckLength("poses", update.poses.size(), kPoseColumns * OfSource(owned_, header));
   CheckSlots(update.attributes);
+  CheckLength("recorded", update.recorded.size(), recorded_[header.source]);
 }
 
 void TickLimits::Check(const MessageHeader& header, const SensorFrame& frame) const

@@ -16,7 +16,8 @@ namespace swarmanoid
 class TickLimits
 {
 public:
-  TickLimits(const CSwarmanoidSpace& space, const Assignment& assignment);
+  // `recorded`: WorldMessage::recorded.
+  TickLimits(const CSwarmanoidSpace& space, const Assignment& assignment, bool recorded);
 
   // Bytes of the largest message of a kind, no matter of whom.
   std::size_t StateBytes() const;
@@ -28,7 +29,7 @@ public:
   // Throw BadMessage, with the name of the field.
   void Check(const MessageHeader& header, const SpaceState& state) const;
   void Check(const MessageHeader& header, const ControlCommands& commands) const;
-  void Check(const MessageHeader& header, const EngineUpdate& update) const;
+  void Check(const MessageHeader& header, const UpdateMessage& update) const;
   void Check(const MessageHeader& header, const SensorFrame& frame) const;
   void Check(const SpaceSnapshot& snapshot) const;
   // The same for who sends a message of that kind, before it is read.
@@ -45,6 +46,7 @@ private:
   std::size_t slots_;
   std::vector<std::size_t> command_values_;  // of each host
   std::vector<std::size_t> owned_;           // of each engine
+  std::vector<std::size_t> recorded_;        // of each engine: numbers in UpdateMessage::recorded
   std::vector<std::size_t> sensor_values_;   // of each engine
 };
 

@@ -120,24 +120,33 @@ std::vector<char> TickRows::Content() const
   const std::span<const char> rest = rest_.Bytes();
   const std::array<std::uint64_t, 4> head{first_tick_, ticks_, poses_, row * ticks_};
   const std::uint64_t rest_bytes = rest.size();
-  std::vector<char> content(sizeof head + row * ticks_ * sizeof(double) + sizeof rest_bytes + rest.size());
-  std::memcpy(content.data(), head.data(), sizeof head);
-  char* const columns = content.data() + sizeof head;
+  std::vector<char> content;
+  // Filled from front to back: to clear it first costs as much.
+  content.reserve(sizeof head + row * ticks_ * sizeof(double) + sizeof rest_bytes + rest.size());
+  const auto append = [&](const auto* values, std::size_t count)
+  {
+    const char* bytes = reinterpret_cast<const char*>(values);
+    content.insert(content.end(), bytes, bytes + count * sizeof *values);
+  };
+  append(head.data(), head.size());
   // As many numbers of a row at a time as a line of the cache has.
   constexpr std::size_t kTogether = 8;
+  std::vector<std::uint64_t> columns(kTogether * ticks_);
   for (std::size_t first = 0; first < row; first += kTogether)
+  {
+    const std::size_t count = std::min(kTogether, row - first);
     for (std::size_t tick = 0; tick < ticks_; ++tick)
-      for (std::size_t k = first; k < std::min(first + kTogether, row); ++k)
+      for (std::size_t k = 0; k < count; ++k)
       {
-        const double* column = numbers_.data() + k;
+        const double* column = numbers_.data() + first + k;
         const auto bits = std::bit_cast<std::uint64_t>(column[tick * row]);
-        const auto expected = std::bit_cast<std::uint64_t>(Expected(column, tick, row, k < poses_));
-        const std::uint64_t folded = Folded(bits - expected);
-        std::memcpy(columns + (k * ticks_ + tick) * sizeof folded, &folded, sizeof folded);
+        const auto expected = std::bit_cast<std::uint64_t>(Expected(column, tick, row, first + k < poses_));
+        columns[k * ticks_ + tick] = Folded(bits - expected);
       }
-  char* const end = columns + row * ticks_ * sizeof(double);
-  std::memcpy(end, &rest_bytes, sizeof rest_bytes);
-  if (!rest.empty()) std::memcpy(end + sizeof rest_bytes, rest.data(), rest.size());
+    append(columns.data(), count * ticks_);
+  }
+  append(&rest_bytes, 1);
+  append(rest.data(), rest.size());
   return content;
 }
 

@@ -11,20 +11,12 @@ namespace swarmanoid
 namespace
 {
 
-std::vector<std::uint32_t> HostsHeard(const Assignment& assignment, bool all)
+std::vector<std::uint32_t> HostsHeard(const Assignment& assignment)
 {
   std::vector<std::uint32_t> hosts;
   for (std::uint32_t h = 0; h < assignment.hosts.size(); ++h)
-    if (all || ServerHears(assignment.hosts[h])) hosts.push_back(h);
+    if (ServerHears(assignment.hosts[h])) hosts.push_back(h);
   return hosts;
-}
-
-std::vector<std::uint32_t> EnginesHeard(const Assignment& assignment, bool any)
-{
-  std::vector<std::uint32_t> engines;
-  for (std::uint32_t e = 0; any && e < assignment.engines.size(); ++e)
-    if (assignment.engines[e].sensor_size > 0) engines.push_back(e);
-  return engines;
 }
 
 std::vector<SensorFrame> FirstFrames(const Continuation* continuation)
@@ -39,13 +31,12 @@ std::size_t PlaceIn(const std::vector<std::uint32_t>& numbers, std::uint32_t num
 }
 
 std::vector<TickGate::Part> Parts(const Experiment& experiment, const std::vector<std::uint32_t>& hosts,
-                                  std::size_t visualisers, const std::vector<std::uint32_t>& sensing)
+                                  std::size_t visualisers)
 {
   std::vector<TickGate::Part> parts;
   for (std::size_t e = 0; e < experiment.engines.size(); ++e) parts.push_back({EngineName(experiment, e)});
   for (const std::uint32_t host : hosts) parts.push_back({HostName(host)});
   for (std::size_t v = 0; v < visualisers; ++v) parts.push_back({VisualiserName(experiment.visualisations[v])});
-  for (const std::uint32_t engine : sensing) parts.push_back({EngineName(experiment, engine)});
   return parts;
 }
 
@@ -58,41 +49,42 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
       server_(server),
       checkpoints_(checkpoints),
       journal_(journal),
-      limits_(server.Space(), assignment),
+      assignment_(assignment),
+      limits_(server.Space(), assignment, journal != nullptr),
       first_tick_(server.Space().GetTick()),
       watch_(std::move(watch)),
       stopped_(std::move(stopped)),
       engines_(assignment.engines.size()),
-      hosts_(HostsHeard(assignment, journal != nullptr)),
+      hosts_(HostsHeard(assignment)),
       visualisers_(visualisations ? server.Space().GetExperiment().visualisations.size() : 0),
-      sensing_(EnginesHeard(assignment, journal != nullptr)),
       workers_(static_cast<unsigned>(engines_ + assignment.hosts.size() + visualisers_)),
-      gate_(Parts(server.Space().GetExperiment(), hosts_, visualisers_, sensing_), first_tick_),
+      gate_(Parts(server.Space().GetExperiment(), hosts_, visualisers_), first_tick_),
       updates_(engines_),
-      commands_(hosts_.size()),
+      commands_(assignment.hosts.size()),
       drawn_(visualisers_),
       first_frames_(FirstFrames(continuation)),
       frames_(journal == nullptr ? 0 : engines_),
-      next_frames_(frames_),
       hash_log_(hash_log, continuation != nullptr ? std::optional(first_tick_) : std::nullopt),
       states_(session.GetBus(), session.Scope(limits_.StateBytes(), 1))
 {
-  for (const EngineUpdate& update : updates_) updates_here_.push_back(&update);
-  for (const ControlCommands& commands : commands_) commands_here_.push_back(&commands);
+  for (const UpdateMessage& update : updates_) updates_here_.push_back(&update);
+  for (const std::uint32_t host : hosts_) commands_here_.push_back(&commands_[host]);
+  for (std::size_t h = 0; h < commands_.size(); ++h) commands_[h].values.resize(assignment.hosts[h].command_size);
+  for (std::size_t e = 0; e < frames_.size(); ++e) frames_[e].values.resize(assignment.engines[e].sensor_size);
 
   Bus& bus = session.GetBus();
   if (engines_ > 0)
     updates_in_.emplace(
         bus, session.Scope(limits_.UpdateBytes(), static_cast<unsigned>(engines_)),
-        HotSubscription<EngineUpdate>::Handler{
-            [this](const MessageHeader& header) -> EngineUpdate*
+        HotSubscription<UpdateMessage>::Handler{
+            [this](const MessageHeader& header) -> UpdateMessage*
             {
               TickLimits::CheckSource(header, engines_);
               if (header.tick == 0) throw BadMessage("an update cannot lead to tick 0");
               return PlaceOf(header, header.tick - 1, header.source, updates_[header.source]);
             },
-            [this](const MessageHeader& header, EngineUpdate&) { Arrived(header, header.source, header.tick - 1); },
-            [this](const MessageHeader& header, const EngineUpdate& update) { limits_.Check(header, update); }});
+            [this](const MessageHeader& header, UpdateMessage&) { Arrived(header, header.source, header.tick - 1); },
+            [this](const MessageHeader& header, const UpdateMessage& update) { limits_.Check(header, update); }});
   if (!hosts_.empty())
     commands_in_.emplace(
         bus, session.Scope(limits_.CommandBytes(), static_cast<unsigned>(assignment.hosts.size())),
@@ -102,7 +94,7 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
               limits_.CheckSource<ControlCommands>(header);
               const std::size_t k = PlaceIn(hosts_, header.source);
               if (k == hosts_.size()) return nullptr;
-              return PlaceOf(header, header.tick, engines_ + k, commands_[k]);
+              return PlaceOf(header, header.tick, engines_ + k, commands_[header.source]);
             },
             [this](const MessageHeader& header, ControlCommands&)
             { Arrived(header, engines_ + PlaceIn(hosts_, header.source), header.tick); },
@@ -118,26 +110,10 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
                           },
                           [this](const MessageHeader& header, DrawnMessage&)
                           { Arrived(header, engines_ + hosts_.size() + header.source, header.tick); }});
-  const std::size_t first = engines_ + hosts_.size() + visualisers_;
-  if (!sensing_.empty())
-    frames_in_.emplace(
-        bus, session.Scope(limits_.FrameBytes(), static_cast<unsigned>(sensing_.size())),
-        HotSubscription<SensorFrame>::Handler{
-            [this, first](const MessageHeader& header) -> SensorFrame*
-            {
-              limits_.CheckSource<SensorFrame>(header);
-              const std::size_t k = PlaceIn(sensing_, header.source);
-              if (k == sensing_.size() || header.tick == 0) return nullptr;
-              return PlaceOf(header, header.tick - 1, first + k, next_frames_[header.source]);
-            },
-            [this, first](const MessageHeader& header, SensorFrame&)
-            { Arrived(header, first + PlaceIn(sensing_, header.source), header.tick - 1); },
-            [this](const MessageHeader& header, const SensorFrame& frame) { limits_.Check(header, frame); }});
 }
 
 Lockstep::~Lockstep()
 {
-  frames_in_.reset();
   drawn_in_.reset();
   commands_in_.reset();
   updates_in_.reset();
@@ -147,8 +123,7 @@ bool Lockstep::AllMatched() const
 {
   return states_.Readers() >= workers_ && (!updates_in_ || updates_in_->Writers() >= engines_) &&
          (!commands_in_ || commands_in_->Writers() >= hosts_.size()) &&
-         (!drawn_in_ || drawn_in_->Writers() >= visualisers_) &&
-         (!frames_in_ || frames_in_->Writers() >= sensing_.size());
+         (!drawn_in_ || drawn_in_->Writers() >= visualisers_);
 }
 
 template <class Message>
@@ -165,7 +140,12 @@ void Lockstep::Arrived(const MessageHeader& header, std::size_t part, std::uint6
 {
   const std::lock_guard lock(mutex_);
   if (gate_.IsReplaced(part, header.incarnation)) return;
-  if (!gate_.Arrived(part, tick) || finished_ || failure_) return;
+  if (gate_.Arrived(part, tick)) GoOn();
+}
+
+void Lockstep::GoOn()
+{
+  if (!away_.empty() || finished_ || failure_) return;
   try
   {
     Complete();
@@ -194,12 +174,10 @@ void Lockstep::Complete()
     Send(true);
     return;
   }
-  for (const ControlCommands& commands : commands_) server_.Check(commands);
-  for (const EngineUpdate& update : updates_) server_.Check(update);
-  if (journal_ != nullptr) journal_->AddTick(*sent_, saves_, Frames(), commands_);
+  for (const ControlCommands* commands : commands_here_) server_.Check(*commands);
+  for (const UpdateMessage& update : updates_) server_.Check(update);
+  if (journal_ != nullptr) Record();
   server_.Advance(updates_here_, commands_here_);
-  // One by one: a reader may be looking for the place of its message.
-  std::ranges::swap_ranges(frames_, next_frames_);
   gate_.Next();
   if (hold_ || watch_ || gate_.Tick() == until_)
   {
@@ -233,6 +211,21 @@ void Lockstep::Send(bool repeated)
   stopped_();
 }
 
+void Lockstep::Record()
+{
+  for (std::size_t e = 0; e < engines_; ++e)
+    for (const ValueCopy& copy : assignment_.engines[e].command_copies)
+    {
+      if (ServerHears(assignment_.hosts[copy.source])) continue;
+      std::copy_n(updates_[e].recorded.begin() + static_cast<std::ptrdiff_t>(copy.to), copy.count,
+                  commands_[copy.source].values.begin() + static_cast<std::ptrdiff_t>(copy.from));
+    }
+  journal_->AddTick(*sent_, saves_, Frames(), commands_);
+  for (std::size_t e = 0; e < engines_; ++e)
+    std::copy(updates_[e].recorded.begin() + static_cast<std::ptrdiff_t>(assignment_.engines[e].command_size),
+              updates_[e].recorded.end(), frames_[e].values.begin());
+}
+
 // Nobody sends those of the first tick.
 std::span<const SensorFrame> Lockstep::Frames() const
 {
@@ -240,13 +233,38 @@ std::span<const SensorFrame> Lockstep::Frames() const
   return frames_;
 }
 
-std::pair<std::uint64_t, std::vector<SensorFrame>> Lockstep::Withdraw(const std::string& name,
-                                                                      std::uint32_t incarnation)
+Lockstep::Present Lockstep::Withdraw(const std::string& name, std::uint32_t incarnation)
 {
   const std::lock_guard lock(mutex_);
   gate_.Withdraw(name, incarnation);
+  Present present;
+  if (IsUnheard(name))
+  {
+    away_[name] = incarnation;
+    present.is_done = !held_ && !finished_;
+  }
+  if (present.is_done) present.record.state = *sent_;
+  present.record.state.tick = gate_.Tick();
+  present.record.save = saves_;
   const std::span<const SensorFrame> frames = Frames();
-  return {gate_.Tick(), {frames.begin(), frames.end()}};
+  present.record.frames.assign(frames.begin(), frames.end());
+  return present;
+}
+
+void Lockstep::Return(const std::string& name, std::uint32_t incarnation)
+{
+  const std::lock_guard lock(mutex_);
+  const auto found = away_.find(name);
+  if (found == away_.end() || found->second > incarnation) return;
+  away_.erase(found);
+  if (gate_.Complete() && !held_) GoOn();
+}
+
+bool Lockstep::IsUnheard(const std::string& name) const
+{
+  for (std::size_t h = 0; h < assignment_.hosts.size(); ++h)
+    if (name == HostName(h)) return !ServerHears(assignment_.hosts[h]);
+  return false;
 }
 
 bool Lockstep::Held() const
@@ -311,7 +329,10 @@ void Lockstep::CloseHashLog()
 std::vector<std::string> Lockstep::Missing() const
 {
   const std::lock_guard lock(mutex_);
-  return held_ ? std::vector<std::string>() : gate_.Missing();
+  if (held_) return {};
+  std::vector<std::string> names = gate_.Missing();
+  for (const auto& [name, incarnation] : away_) names.push_back(name);
+  return names;
 }
 
 }  // namespace swarmanoid

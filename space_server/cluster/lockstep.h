@@ -3,6 +3,7 @@
 // where the main thread asks for it (pause, pace, commands). Used by the space_server program alone.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -56,9 +57,15 @@ public:
   void CloseHashLog();
   // Those whose answer to the current tick is missing.
   std::vector<std::string> Missing() const;
-  // Another process, of that incarnation, takes the place of `name`: the run does not go on to the next tick without
-  // its answer. Returns the tick, and the sensor frames that engines sent for it.
-  std::pair<std::uint64_t, std::vector<SensorFrame>> Withdraw(const std::string& name, std::uint32_t incarnation);
+  struct Present
+  {
+    TickRecord record;     // of the tick that the run waits at, as far as it is known: no commands
+    bool is_done = false;  // it has gone out to a process that the server does not hear, and may have been answered
+  };
+  // Another process, of that incarnation, takes the place of `name`. The run does not go on to the next tick without
+  // its answer or, if the server does not hear it, before Return.
+  Present Withdraw(const std::string& name, std::uint32_t incarnation);
+  void Return(const std::string& name, std::uint32_t incarnation);
   // Calls `use` with the server between two steps.
   template <class Use>
   void WithServer(const Use& use)
@@ -71,15 +78,21 @@ private:
   void Send(bool repeated);
   void Complete();
   std::span<const SensorFrame> Frames() const;
+  // Writes the tick into the journal: what the server did not hear itself, the engines reported.
+  void Record();
   template <class Message>
   Message* PlaceOf(const MessageHeader& header, std::uint64_t tick, std::optional<std::size_t> part, Message& place);
   void Arrived(const MessageHeader& header, std::size_t part, std::uint64_t tick);
+  bool IsUnheard(const std::string& name) const;
+  // If all is here.
+  void GoOn();
 
   ServerSession& session_;
   mutable std::mutex mutex_;  // of what follows
   SpaceServer& server_;
   CheckpointWriter& checkpoints_;
   JournalWriter* journal_;
+  const Assignment& assignment_;
   TickLimits limits_;
   std::uint64_t first_tick_;
   std::function<void(SpaceServer&)> watch_;
@@ -87,17 +100,16 @@ private:
   std::size_t engines_ = 0;
   std::vector<std::uint32_t> hosts_;  // that the server hears
   std::size_t visualisers_ = 0;
-  std::vector<std::uint32_t> sensing_;  // engines whose sensor frames the server hears
   unsigned workers_ = 0;
   TickGate gate_;
-  std::vector<EngineUpdate> updates_;
+  std::map<std::string, std::uint32_t> away_;  // unheard, with the incarnations of those that take their places
+  std::vector<UpdateMessage> updates_;
   std::vector<const EngineUpdate*> updates_here_;
-  std::vector<ControlCommands> commands_;
+  std::vector<ControlCommands> commands_;  // of all hosts
   std::vector<const ControlCommands*> commands_here_;
   std::vector<DrawnMessage> drawn_;
   std::vector<SensorFrame> first_frames_;  // of the first tick: none, unless the run goes on
   std::vector<SensorFrame> frames_;        // of all engines, for the tick
-  std::vector<SensorFrame> next_frames_;   // for the tick after it
   const SpaceState* sent_ = nullptr;
   bool saves_ = false;  // the state asks for saved states
   bool held_ = true;
@@ -108,10 +120,9 @@ private:
   std::optional<std::string> failure_;
   HashLog hash_log_;
   HotPublisher<SpaceState> states_;
-  std::optional<HotSubscription<EngineUpdate>> updates_in_;
+  std::optional<HotSubscription<UpdateMessage>> updates_in_;
   std::optional<HotSubscription<ControlCommands>> commands_in_;
   std::optional<HotSubscription<DrawnMessage>> drawn_in_;
-  std::optional<HotSubscription<SensorFrame>> frames_in_;
 };
 
 }  // namespace swarmanoid

@@ -38,7 +38,7 @@ void RecoveryService::Work()
     const std::vector<JournalPlace>& places = plan->second.places;
     RecoveryBlockMessage answer{
         request.run, request.process, request.number, static_cast<std::uint32_t>(places.size() + 1), {}};
-    answer.block = request.number < places.size() ? journal_->Read(places[request.number]) : plan->second.frames;
+    answer.block = request.number < places.size() ? journal_->Read(places[request.number]) : plan->second.last;
     session_.Answer(answer);
   }
 }
@@ -47,7 +47,8 @@ RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
 {
   if (journal_ == nullptr || !journal_->Works())
     throw BusError(fmt::format("{} cannot be replaced: the journal of the run has ended", name));
-  const auto [tick, frames] = lockstep_.Withdraw(name, session_.Incarnation(name));
+  const auto [record, is_done] = lockstep_.Withdraw(name, session_.Incarnation(name));
+  const std::uint64_t tick = record.state.tick;
   journal_->Flush();
   const std::vector<JournalPlace> all = journal_->Places();
   Plan plan;
@@ -60,7 +61,15 @@ RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
   for (const JournalPlace& place : all)
     if (place.kind == JournalBlockKind::kTicks && place.first_tick + place.ticks > first && place.first_tick < tick)
       plan.places.push_back(place);
-  plan.frames = EncodeJournalBlock(JournalBlockKind::kFrames, tick, 0, ContentOf(frames));
+  if (is_done)
+  {
+    // The engines may have all that they need of it: then the run goes on as soon as the new process is there.
+    TickRows rows;
+    rows.Add(record.state, record.save, record.frames, {});
+    plan.last = EncodeJournalBlock(JournalBlockKind::kTicks, tick, 1, rows.Content());
+  }
+  else
+    plan.last = EncodeJournalBlock(JournalBlockKind::kFrames, tick, 0, ContentOf(record.frames));
   return plan;
 }
 

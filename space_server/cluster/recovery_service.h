@@ -25,11 +25,11 @@ public:
   void Work();
 
 private:
-  // What one process is sent: blocks of the journal, then one with the sensor frames of the tick that the run waits at.
+  // What one process is sent: blocks of the journal, then one of the tick that the run waits at.
   struct Plan
   {
     std::vector<JournalPlace> places;
-    std::vector<char> frames;
+    std::vector<char> last;
   };
   Plan MakePlan(const std::string& name);
 

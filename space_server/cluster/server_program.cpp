@@ -277,7 +277,9 @@ void ServerProgram::HelpReplacements()
     reason_ = EndReason::kOthers;
     throw;
   }
-  if (!session_.TakeReplaced() || !started_) return;
+  const auto replaced = session_.TakeReplaced();
+  for (const auto& [name, incarnation] : replaced) lockstep_.Return(name, incarnation);
+  if (replaced.empty() || !started_) return;
   lockstep_.Repeat();
   repeated_ = Clock::now();
   repeat_after_ = kFirstRepeat;

@@ -172,7 +172,7 @@ TEST_F(AttacksTest, WellFormedMessagesOfStrangersChangeNothing)
   // The messages of a tick do not come by the network at all.
   SpaceState state;
   state.poses.assign(7 * 12, 0.5);
-  EngineUpdate update;
+  UpdateMessage update;
   update.poses.assign(7 * 12, 0.5);
   test::Stranger second(domain_.Id(), "besieged");
   EXPECT_TRUE(second.Send("SpaceState", {PayloadOf(MessageHeader{run, 0, 0, false}, state)}, 2));

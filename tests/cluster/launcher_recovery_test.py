@@ -1,5 +1,6 @@
 """Processes of a run die, and others take their places: every tick has the hash of a run in one process that nobody disturbed."""
 import contextlib
+import csv
 import os
 import random
 import shutil
@@ -72,6 +73,19 @@ class Once(RecoveryTest):
         said = run.read_until(REPLACED) + run.read_until(REPLACED)
         self.control("resume")
         self.assert_same(run, ticks, expected, said, code=1)  # the prey is not in the nest yet
+
+    def test_hosts_that_the_server_does_not_hear(self):
+        # The engine may have had the last commands of the one that died.
+        experiment = CONFIGS / "diffusion_10.xml"
+        expected = self.undisturbed(experiment, 2000)
+        run = self.start("run", experiment, "--ticks", 2000, "--controller-hosts", 2, "--real-time", 50, "--hash-log", "cluster", "--output", "out",
+                         "--no-visualisers")
+        said = ""
+        for tick in (50, 450, 900, 1350):
+            self.wait_for_tick("cluster", tick, run)
+            os.kill(run.find("controller_host"), signal.SIGKILL)
+            said += run.read_until(REPLACED)
+        self.assert_same(run, 2000, expected, said)
 
     def killed_once(self, fault, tick):
         """A run whose controller, which cannot be saved, is killed the first time that it gets there."""
@@ -206,6 +220,49 @@ class LookingBack(RecoveryTest):
         wrong = self.run_it("replay", "moved", "--verify")
         self.assertEqual(wrong.process.returncode, 5)
         self.assertRegex(wrong.stdout, r"^tick 120: x of 'fb_7' is 1\.5 and \S+ \(in the journal, and computed again\)\n$")
+
+
+class Exported(RecoveryTest):
+    def table(self, *options):
+        done = self.run_it("export", "out", "--csv", "-", *options)
+        self.assertEqual((done.process.returncode, done.stderr), (0, ""))
+        return list(csv.DictReader(done.stdout.splitlines()))
+
+    def test_what_a_visualiser_wrote_in_the_run(self):
+        run = self.run_it("run", CONFIGS / "diffusion_10.xml", "--ticks", 60, "--quiet", "--output", "out", "--set", "visualisations.positions.format=csv",
+                          "--set", "visualisations.positions.precision=6")
+        self.assertEqual(run.process.returncode, 0, run.stderr)
+        with (self.folder / "out/positions.txt").open(newline="") as file:
+            shown = {(row["clock"], row["Entity id"]): row for row in csv.DictReader(file)}
+        exported = self.table()
+        self.assertEqual([(row["tick"], row["entity"]) for row in exported], list(shown))
+        for row in exported:
+            for column, title in (("x", "X"), ("y", "Y"), ("gamma", "Gamma")):
+                self.assertAlmostEqual(float(row[column]), float(shown[row["tick"], row["entity"]][title]), delta=0.51e-6)
+            self.assertAlmostEqual(float(row["time_s"]), 0.1 * int(row["tick"]))
+
+    def test_columns_entities_and_ticks(self):
+        run = self.run_it("run", CONFIGS / "prey_retrieval.xml", "--ticks", 40, "--quiet", "--output", "out", "--no-visualisers")
+        self.assertIn(run.process.returncode, (0, 1), run.stderr)
+        rows = self.table("--columns", "led[3],qw,laser", "--every", 10, "--from", 15, "--until", 30)
+        self.assertEqual(list(rows[0]), ["tick", "time_s", "entity", "kind", "led[3]", "qw", "laser[0]"])
+        self.assertEqual({row["tick"] for row in rows}, {"20", "30"})
+        self.assertEqual({row["kind"] for row in rows if row["laser[0]"] != ""}, {"eyebot"})
+        some = self.table("--entities", "fb_?", "--until", 0)
+        self.assertTrue(some)
+        self.assertTrue(all(row["entity"].startswith("fb_") and row["tick"] == "0" for row in some))
+
+    def test_what_cannot_be_meant(self):
+        run = self.run_it("run", CONFIGS / "diffusion_10.xml", "--ticks", 5, "--quiet", "--output", "out")
+        self.assertEqual(run.process.returncode, 0, run.stderr)
+        (self.folder / "there.csv").write_text("mine")
+        for options, says in ((["--csv", "there.csv"], "'there.csv' is there already"), ([], "--csv table.csv"),
+                              (["--csv", "-", "--columns", "lde"], "did you mean 'led'?"), (["--csv", "-", "--entities", "x*"], "no entity"),
+                              (["--csv", "-", "--from", "6"], "--from")):
+            done = self.run_it("export", "out", *options)
+            self.assertEqual((done.process.returncode, done.stdout.count("\n") < 2), (2, True), done.stdout)
+            self.assertIn(says, done.stderr)
+        self.assertEqual((self.folder / "there.csv").read_text(), "mine")
 
 
 class GivingUp(RecoveryTest):

@@ -151,9 +151,9 @@ TEST_F(StrangersTest, DoNotChangeARunByBadMessages)
   client.Send("resume", "", {});
   const MessageHeader next{run, 1, 0, false};
   const MessageHeader nobody{run, 1, 77, false};
-  EngineUpdate update;
+  UpdateMessage update;
   update.poses = {1};
-  EngineUpdate slot;
+  UpdateMessage slot;
   slot.poses.assign(7 * 12, 0.5);
   slot.attributes.Add(0x7ffffff0U, 1e308);
   EXPECT_TRUE(SendUntilTold(

@@ -54,7 +54,7 @@ void TryOfTick(std::span<const char> payload)
 
 constexpr void (*kTries[])(std::span<const char>) = {TryOfTick<SpaceState>,
                                                      TryOfTick<ControlCommands>,
-                                                     TryOfTick<EngineUpdate>,
+                                                     TryOfTick<UpdateMessage>,
                                                      TryOfTick<SensorFrame>,
                                                      TryOfTick<DrawnMessage>,
                                                      TryOther<WorldMessage>,
@@ -93,9 +93,10 @@ std::vector<fuzz::Input> fuzz::FirstInputs()
   ControlCommands commands;
   commands.values = {0.1, -0.1};
   commands.attributes = changes;
-  EngineUpdate update;
+  UpdateMessage update;
   update.poses = state.poses;
   update.attributes = changes;
+  update.recorded = {0.1, -0.1, 0.25};
   SensorFrame frame;
   frame.values = {0.25};
   ViewMessage view{5, {7, true, 1.5, state.poses, {1, 2, 3}}};

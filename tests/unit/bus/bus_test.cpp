@@ -47,10 +47,10 @@ int Echo(const BusOptions& options, bool share)
   std::optional<RunDirectory> directory;
   if (share) directory.emplace("echo_test", 5);
   const HotScope scope{"echo_test", share ? directory->Path() : "", options.Spread(), 100000, 1};
-  HotPublisher<EngineUpdate> updates(bus, scope);
+  HotPublisher<UpdateMessage> updates(bus, scope);
   std::atomic<bool> last = false;
   SpaceState state;
-  EngineUpdate update;
+  UpdateMessage update;
   HotSubscription<SpaceState> states(bus, scope,
                                      {[&](const MessageHeader&) { return &state; },
                                       [&](const MessageHeader& header, SpaceState& message)
@@ -138,17 +138,17 @@ void PingPong(BusOptions options, bool share)
     const HotScope scope{"echo_test", share ? directory->Path() : "", options.Spread(), 100000, 1};
     HotPublisher<SpaceState> states(bus, scope);
     std::atomic<std::uint64_t> answered = 0;
-    EngineUpdate update;
-    HotSubscription<EngineUpdate> updates(bus, scope,
-                                          {[&](const MessageHeader&) { return &update; },
-                                           [&](const MessageHeader& header, EngineUpdate& message)
-                                           {
-                                             EXPECT_EQ(header.source, 3U);
-                                             EXPECT_EQ(message.engine, 3U);
-                                             ASSERT_EQ(message.poses.size(), 700U);
-                                             EXPECT_EQ(message.poses[699], static_cast<double>(header.tick));
-                                             answered = header.tick;
-                                           }});
+    UpdateMessage update;
+    HotSubscription<UpdateMessage> updates(bus, scope,
+                                           {[&](const MessageHeader&) { return &update; },
+                                            [&](const MessageHeader& header, UpdateMessage& message)
+                                            {
+                                              EXPECT_EQ(header.source, 3U);
+                                              EXPECT_EQ(message.engine, 3U);
+                                              ASSERT_EQ(message.poses.size(), 700U);
+                                              EXPECT_EQ(message.poses[699], static_cast<double>(header.tick));
+                                              answered = header.tick;
+                                            }});
     ASSERT_TRUE(Eventually([&] { return states.Readers() == 1 && updates.Writers() == 1; }));
     SpaceState state;
     for (std::uint64_t tick = 0; tick < kRounds; ++tick)

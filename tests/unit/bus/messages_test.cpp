@@ -146,7 +146,7 @@ TEST(MessageBytes, OfPosesHaveUniformColumnsAsOneNumber)
   for (std::uint32_t uniform = 0; uniform < 128; ++uniform)
     for (const std::size_t entities : {0U, 1U, 2U, 5U})
     {
-      EngineUpdate update;
+      UpdateMessage update;
       std::vector<double> sent;
       const std::uint32_t shortened = entities < 2 ? 0 : uniform == 127 ? 63 : uniform;
       for (std::uint32_t k = 0; k < 7; ++k)
@@ -212,14 +212,16 @@ TEST(MessageBytes, OfATickAreThoseOfTheIdl)
     wire_commands.attribute_slots(commands.attributes.slots);
     ExpectSame<wire::ControlCommandsPubSubType>(header, commands, wire_commands);
 
-    EngineUpdate update;
+    UpdateMessage update;
     update.poses = random.Reals();
     update.attributes = RandomChanges(random);
+    update.recorded = random.Reals();
     wire::EngineUpdate wire_update;
     wire_update.poses(update.poses);
     wire_update.flags(FlagsOf(false, header.repeated));
     wire_update.attribute_values(update.attributes.values);
     wire_update.attribute_slots(update.attributes.slots);
+    wire_update.recorded(update.recorded);
     ExpectSame<wire::EngineUpdatePubSubType>(header, update, wire_update);
 
     SensorFrame frame;

@@ -97,14 +97,14 @@ TEST_F(ServerSessionTest, AReplacementIsTakenAndItsPredecessorRefused)
   const auto process = [&] { return session.Processes().front().process; };
   join.Write({"old", kProtocolVersion, world_.run, "engine 'ground'", true, 0});
   ASSERT_TRUE(Eventually([&] { return process() == "old"; }));
-  EXPECT_FALSE(session.TakeReplaced());
+  EXPECT_TRUE(session.TakeReplaced().empty());
 
   join.Write({"new", kProtocolVersion, world_.run, "engine 'ground'", false, 1});
   ASSERT_TRUE(Eventually([&] { return process() == "new"; }));
   EXPECT_THAT(session.Missing(), testing::ElementsAre("engine 'ground'"));
-  EXPECT_FALSE(session.TakeReplaced());
+  EXPECT_TRUE(session.TakeReplaced().empty());
   join.Write({"new", kProtocolVersion, world_.run, "engine 'ground'", true, 1});
-  ASSERT_TRUE(Eventually([&] { return session.TakeReplaced(); }));
+  ASSERT_TRUE(Eventually([&] { return !session.TakeReplaced().empty(); }));
 
   const auto told = [&]
   {

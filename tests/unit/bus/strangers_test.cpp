@@ -61,15 +61,15 @@ TEST_F(Strangers, AMemberOfTheRunEndsItByName)
 
   // As if the engine sent an array that is too short.
   HotScope scope = session.Scope(1000, 1);
-  EngineUpdate place;
-  const HotSubscription<EngineUpdate> updates(
+  UpdateMessage place;
+  const HotSubscription<UpdateMessage> updates(
       session.GetBus(), scope,
       {[&](const MessageHeader&) { return &place; },
-       [](const MessageHeader&, EngineUpdate&) { FAIL() << "a bad message was received"; },
-       [](const MessageHeader&, const EngineUpdate&) { throw BadMessage("poses: it has 3 numbers, not 70"); }});
-  HotPublisher<EngineUpdate> publisher(engine, scope);
+       [](const MessageHeader&, UpdateMessage&) { FAIL() << "a bad message was received"; },
+       [](const MessageHeader&, const UpdateMessage&) { throw BadMessage("poses: it has 3 numbers, not 70"); }});
+  HotPublisher<UpdateMessage> publisher(engine, scope);
   ASSERT_TRUE(Eventually([&] { return publisher.Readers() == 1 && updates.Writers() == 1; }));
-  const EngineUpdate update;
+  const UpdateMessage update;
   EXPECT_TRUE(Eventually(
       [&]
       {

@@ -57,7 +57,7 @@ protected:
 
   const Experiment experiment_ = ThreeRobots();
   const CSwarmanoidSpace space_{experiment_};
-  const TickLimits limits_{space_, MakeAssignment(experiment_, 1)};
+  const TickLimits limits_{space_, MakeAssignment(experiment_, 1), false};
 };
 
 TEST_F(LimitsOfATick, PosesAreAsManyAsTheirEngineOwns)
@@ -65,11 +65,11 @@ TEST_F(LimitsOfATick, PosesAreAsManyAsTheirEngineOwns)
   for (const std::uint32_t engine : {0U, 1U})
     for (const std::size_t robots : {0U, 1U, 2U, 3U})
     {
-      EngineUpdate update;
+      UpdateMessage update;
       update.poses.resize(7 * robots);
       EXPECT_EQ(Refusal(update, engine).empty(), robots == 2 - engine) << engine << " " << robots;
     }
-  EXPECT_THAT(Refusal(EngineUpdate(), 2), HasSubstr("source: there is no number 2"));
+  EXPECT_THAT(Refusal(UpdateMessage(), 2), HasSubstr("source: there is no number 2"));
   SpaceState state = State();
   EXPECT_EQ(Refusal(state), "");
   EXPECT_THAT(Refusal(state, 1), HasSubstr("source: the space server is number 0"));
@@ -81,7 +81,7 @@ TEST_F(LimitsOfATick, SlotsEndWithTheLastOne)
 {
   SpaceState state = State();
   ControlCommands commands;
-  EngineUpdate update;
+  UpdateMessage update;
   update.poses.resize(7 * 2);
   for (AttributeChanges* changes : {&state.attributes, &commands.attributes, &update.attributes})
     changes->Add(Slots() - 1, 0);
@@ -94,6 +94,33 @@ TEST_F(LimitsOfATick, SlotsEndWithTheLastOne)
   EXPECT_THAT(Refusal(state), refused);
   EXPECT_THAT(Refusal(commands), refused);
   EXPECT_THAT(Refusal(update), refused);
+}
+
+// Nobody commands these robots.
+TEST_F(LimitsOfATick, WhatEnginesRecordHasTheLengthOfTheRun)
+{
+  UpdateMessage update;
+  update.poses.resize(7 * 2);
+  EXPECT_EQ(Refusal(update), "");
+  update.recorded = {0.5};
+  EXPECT_THAT(Refusal(update), HasSubstr("recorded: it has 1 numbers, not 0"));
+
+  Assignment assignment = MakeAssignment(experiment_, 1);
+  assignment.engines[0].command_size = 4;
+  assignment.engines[0].sensor_size = 1;
+  for (const bool recorded : {true, false})
+  {
+    const TickLimits limits(space_, assignment, recorded);
+    for (const std::size_t numbers : {0U, 4U, 5U, 6U})
+    {
+      update.recorded.resize(numbers);
+      const bool right = numbers == (recorded ? 5U : 0U);
+      if (right)
+        EXPECT_NO_THROW(limits.Check(MessageHeader{1, 1, 0, false}, update)) << numbers;
+      else
+        EXPECT_THROW(limits.Check(MessageHeader{1, 1, 0, false}, update), BadMessage) << numbers;
+    }
+  }
 }
 
 TEST_F(LimitsOfATick, EntitiesThatMovedExistAndAscend)
