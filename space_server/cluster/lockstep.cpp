@@ -1,6 +1,7 @@
 #include "space_server/cluster/lockstep.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/activity/failure_report.h"
 #include "common/bus/replica.h"
@@ -196,18 +197,36 @@ void Lockstep::Complete()
   }
   for (const ControlCommands& commands : commands_) server_.Check(commands);
   for (const EngineUpdate& update : updates_) server_.Check(update);
-  if (journal_ != nullptr) journal_->AddTick(*sent_, saves_, Frames(), commands_);
-  server_.Advance(updates_here_, commands_here_);
+  bool kept = journal_ == nullptr;
+  const auto keep = [&, &state = *sent_, saves = saves_, frames = Frames()]
+  {
+    if (!std::exchange(kept, true)) journal_->AddTick(state, saves, frames, commands_);
+  };
+  const bool holds = hold_ || watch_ || gate_.Tick() + 1 == until_;
+  bool goes_on = false;
+  try
+  {
+    server_.Advance(updates_here_, commands_here_);
+    gate_.Next();
+    goes_on = !holds && !server_.IsLast();
+    if (goes_on) Send(false);
+    // While the others work on the next tick; their answers wait for the end of this one.
+    keep();
+  }
+  catch (...)
+  {
+    keep();
+    throw;
+  }
   // One by one: a reader may be looking for the place of its message.
   std::ranges::swap_ranges(frames_, next_frames_);
-  gate_.Next();
-  if (hold_ || watch_ || gate_.Tick() == until_)
+  if (holds)
   {
     held_ = true;
     stopped_();
-    return;
   }
-  Send(false);
+  else if (!goes_on)
+    Send(false);
 }
 
 void Lockstep::Send(bool repeated)
