@@ -5,11 +5,13 @@
 #include <map>
 #include <sstream>
 
+#include "common/activity/shared_activity.h"
 #include "common/control_interface/init_controller.h"
 #include "common/experiment/actors.h"
 #include "common/logging/log.h"
 #include "common/messages/attribute_changes.h"
 #include "common/space/state_checks.h"
+#include "common/threads/thread_choice.h"
 #include "common/threads/worker_pool.h"
 #include "controller_host/split_sensor.h"
 
@@ -42,7 +44,7 @@ ChannelSlice SliceOf(const std::vector<ChannelBlock>& blocks, const std::string&
   return slice;
 }
 
-// How many threads share a sensor of so many robots: none is woken for a few microseconds.
+// In how many parts a sensor of so many robots is split: each costs a little by itself.
 std::size_t PartsOf(std::size_t robots, unsigned threads)
 {
   constexpr std::size_t kLeast = 400;  // robots of a part
@@ -80,14 +82,19 @@ struct ControllerHost::Batches
   std::vector<Actuator> actuators;
   AttributeOrder order;
   unsigned threads = 1;
-  std::vector<Failure> failures;     // by thread
-  std::unique_ptr<WorkerPool> pool;  // once some sensor is split
+  std::unique_ptr<WorkerPool> pool;  // if some sensor is split, or some controllers may step in parallel
+  bool split = false;                // some sensor is
+  std::vector<Failure> failures;     // of sensors, by thread
+  SharedWork sensing;
+  std::vector<std::exception_ptr> stopped;  // what stopped the controllers of a thread
+  SharedWork stepping;
 };
 
 ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t host,
                                unsigned threads)
     : space_(space), layout_(assignment.hosts[host]), batches_(std::make_unique<Batches>())
 {
+  threads = std::min(threads, SharedActivity::kMostThreads);
   batches_->threads = threads;
   const Experiment& experiment = space.GetExperiment();
   commands_.host = static_cast<std::uint32_t>(host);
@@ -145,6 +152,10 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
       throw ControllerError(ActivityText(robot.actor, ActivityStep::kInit, 0) + " failed: it returned " +
                             std::to_string(result));
   }
+
+  for (std::uint32_t k = 0; k < robots_.size(); ++k)
+    (robots_[k].controller->StepsInParallel() ? parallel_ : in_turn_).push_back(k);
+  if (threads > 1 && (batches_->split || parallel_.size() > 1)) batches_->pool = std::make_unique<WorkerPool>(threads);
 }
 
 ControllerHost::~ControllerHost()
@@ -198,8 +209,7 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
         robots_[robots[n]].interface->AddSensor(device.type, sensor.batch->Sensor(n - first));
       batches_->sensors.push_back(std::move(sensor));
     }
-    if (parts > 1 && (batches_->pool == nullptr || batches_->pool->Threads() < parts))
-      batches_->pool = std::make_unique<WorkerPool>(static_cast<unsigned>(parts));
+    batches_->split |= parts > 1;
   }
   for (std::size_t d = 0; d < configuration.actuators.size(); ++d)
   {
@@ -256,30 +266,36 @@ void ControllerHost::UpdateSensors(std::uint64_t tick)
                 else
                   dynamic_cast<SplitSensor&>(*sensor.batch).RefreshShared();
               });
-  if (batches_->pool != nullptr) UpdateParts(tick);
+  if (batches_->split) UpdateParts(tick);
 }
 
 void ControllerHost::UpdateParts(std::uint64_t tick)
 {
   std::vector<Batches::Failure>& failures = batches_->failures;
-  failures.assign(batches_->pool->Threads(), {});
-  batches_->pool->Run(
-      [&](unsigned thread)
+  WorkerPool& pool = *batches_->pool;
+  failures.assign(pool.Threads(), {});
+  const auto update = [&](unsigned part)
+  {
+    for (Batches::Sensor& sensor : batches_->sensors)
+    {
+      if (sensor.part != static_cast<int>(part)) continue;
+      try
       {
-        for (Batches::Sensor& sensor : batches_->sensors)
-        {
-          if (sensor.part != static_cast<int>(thread)) continue;
-          try
-          {
-            sensor.batch->Update({sensor_values_, sensor.slice.offsets, sensor.slice.width});
-          }
-          catch (...)
-          {
-            failures[thread] = {std::current_exception(), sensor.actor};
-            return;
-          }
-        }
-      });
+        sensor.batch->Update({sensor_values_, sensor.slice.offsets, sensor.slice.width});
+      }
+      catch (...)
+      {
+        failures[part] = {std::current_exception(), sensor.actor};
+        return;
+      }
+    }
+  };
+  batches_->sensing.Do(
+      [&]
+      {
+        for (unsigned part = 0; part < pool.Threads(); ++part) update(part);
+      },
+      [&] { pool.Run(update); });
   // The first of the robots, whichever thread was first.
   for (const Batches::Failure& failure : failures)
     if (failure.what != nullptr)
@@ -359,15 +375,57 @@ void ControllerHost::FailCommand(std::uint32_t robot, const DeviceConfiguration&
                         std::to_string(commands_.tick) + "; commands must be finite numbers");
 }
 
+// Those that may step in parallel come first, however many threads there are.
 void ControllerHost::RunControllers(std::uint64_t tick)
 {
-  if (robots_.empty()) return;
-  const Actor* running = &robots_.front().actor;
-  Activity activity(*running, ActivityStep::kControlStep, tick);
+  if (batches_->pool != nullptr && parallel_.size() > 1)
+    batches_->stepping.Do([&] { StepInTurn(parallel_, tick); }, [&] { StepInParallel(tick); });
+  else
+    StepInTurn(parallel_, tick);
+  StepInTurn(in_turn_, tick);
+}
+
+void ControllerHost::StepInTurn(std::span<const std::uint32_t> robots, std::uint64_t tick)
+{
+  if (robots.empty()) return;
+  Activity activity(robots_[robots.front()].actor, ActivityStep::kControlStep, tick);
+  ControlSteps(robots, tick, activity);
+}
+
+void ControllerHost::StepInParallel(std::uint64_t tick)
+{
+  const SharedActivity activity(ActivityStep::kControlStep, tick);
+  const std::size_t threads = batches_->pool->Threads();
+  batches_->stopped.assign(threads, nullptr);
+  batches_->pool->Run(
+      [&](unsigned k)
+      {
+        const std::size_t begin = parallel_.size() * k / threads;
+        const std::size_t end = parallel_.size() * (k + 1) / threads;
+        SharedActivity::Thread of_thread(k);
+        try
+        {
+          ControlSteps(std::span(parallel_).subspan(begin, end - begin), tick, of_thread);
+        }
+        catch (...)
+        {
+          batches_->stopped[k] = std::current_exception();
+        }
+      });
+  // The first of the robots, whichever thread was first.
+  for (const std::exception_ptr& stopped : batches_->stopped)
+    if (stopped != nullptr) std::rethrow_exception(stopped);
+}
+
+template <class ActivityOfThread>
+void ControllerHost::ControlSteps(std::span<const std::uint32_t> robots, std::uint64_t tick, ActivityOfThread& activity)
+{
+  const Actor* running = nullptr;
   try
   {
-    for (Robot& robot : robots_)
+    for (const std::uint32_t k : robots)
     {
+      Robot& robot = robots_[k];
       if (!space_.IsPresent(robot.entity)) continue;
       robot.interface->BeginStep(tick, space_.GetTickSeconds(), {robot.random, tick});
       running = &robot.actor;

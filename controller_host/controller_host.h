@@ -27,8 +27,9 @@ class ControllerHost
 {
 public:
   // `space` is the replica of this process; it and `assignment` outlive the host. Loads the controller libraries,
-  // creates devices and controllers and calls Init. `threads` share the work of the sensors; their number changes no
-  // bit of the results. Throws ActivityError, which names the robot or device whose code failed, or ConfigurationError.
+  // creates devices and controllers and calls Init. `threads` share the work of the sensors, and of the controllers
+  // that say that they may (StepsInParallel); their number changes no bit of the results. Throws ActivityError, which
+  // names the robot or device whose code failed, or ConfigurationError.
   ControllerHost(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t host, unsigned threads = 1);
   ~ControllerHost();
 
@@ -64,6 +65,11 @@ private:
   void UpdateSensors(std::uint64_t tick);
   void UpdateParts(std::uint64_t tick);
   void RunControllers(std::uint64_t tick);
+  // The steps of some robots in their order. `activity` hears whose it is.
+  template <class ActivityOfThread>
+  void ControlSteps(std::span<const std::uint32_t> robots, std::uint64_t tick, ActivityOfThread& activity);
+  void StepInTurn(std::span<const std::uint32_t> robots, std::uint64_t tick);
+  void StepInParallel(std::uint64_t tick);
   void CommitActuators();
   void StopInactive();
   // What no controller may command: throws ControllerError with robot, device, tick and value.
@@ -76,6 +82,9 @@ private:
   const CSwarmanoidSpace& space_;
   const HostLayout& layout_;
   std::vector<Robot> robots_;
+  // Numbers in robots_: those whose controllers may step at the same time, and the others.
+  std::vector<std::uint32_t> parallel_;
+  std::vector<std::uint32_t> in_turn_;
   std::unique_ptr<Batches> batches_;
   std::vector<double> sensor_values_;
   ControlCommands commands_;

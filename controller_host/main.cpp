@@ -21,11 +21,11 @@ namespace
 class HostNode
 {
 public:
-  HostNode(WorkerSession& session, Replica& replica, std::size_t host)
+  HostNode(WorkerSession& session, Replica& replica, std::size_t host, unsigned threads)
       : session_(session),
         replica_(replica),
         host_(static_cast<std::uint32_t>(host)),
-        role_(*replica.space, replica.assignment, host),
+        role_(*replica.space, replica.assignment, host, threads),
         saved_(session, HostName(host), role_),
         inputs_(session, replica, Engines(*replica.experiment, role_.Layout())),
         commands_(session.GetBus(), session.Scope(replica.limits->CommandBytes(), 1)),
@@ -192,7 +192,7 @@ int Run(const WorkerSettings& settings, const BusOptions& bus)
         if (host >= hosts)
           throw ConfigurationError(fmt::format("experiment '{}' has {} controller host{}, numbered from 0",
                                                replica.experiment->name, hosts, hosts == 1 ? "" : "s"));
-        HostNode node(session, replica, host);
+        HostNode node(session, replica, host, settings.threads);
         node.WaitForOthers();
         session.ReportReady();
         session.Wait(std::chrono::milliseconds(500), [&] { return node.Stall(); });

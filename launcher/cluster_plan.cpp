@@ -187,7 +187,7 @@ std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment
                       {.engine = engines[e]});
   for (std::size_t host = 0; host < controller_hosts.size(); ++host)
     planner.AddWorker(HostName(host), "controller_host", "controller_host", controller_hosts[host], HostOptionTable,
-                      {.host = static_cast<unsigned>(host)});
+                      {.host = static_cast<unsigned>(host), .threads = std::max(options.threads, 1U)});
   for (std::size_t v = 0; v < visualisers.size(); ++v)
   {
     MemberPlan& plan =

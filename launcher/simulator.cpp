@@ -42,7 +42,7 @@ unsigned FreeCores()
   if (sched_getaffinity(0, sizeof cores, &cores) != 0) return 1;
   double busy = 0;
   if (getloadavg(&busy, 1) != 1) return 1;
-  return static_cast<unsigned>(std::max(1.0, CPU_COUNT(&cores) - std::round(busy)));
+  return static_cast<unsigned>(std::clamp(CPU_COUNT(&cores) - std::round(busy), 1.0, 64.0));
 }
 
 }  // namespace

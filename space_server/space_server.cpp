@@ -44,16 +44,17 @@ SpaceServer::~SpaceServer() = default;
 
 const SpaceState& SpaceServer::State()
 {
-  state_.tick = space_.GetTick();
-  state_.last = IsLast();
-  space_.WritePoses(state_.poses);
+  SpaceState& state = states_[space_.GetTick() % 2];
+  state.tick = space_.GetTick();
+  state.last = IsLast();
+  space_.WritePoses(state.poses);
   std::sort(changed_slots_.begin(), changed_slots_.end());
   changed_slots_.erase(std::unique(changed_slots_.begin(), changed_slots_.end()), changed_slots_.end());
-  state_.attributes.Clear();
-  for (const std::uint32_t slot : changed_slots_) state_.attributes.Add(slot, space_.Attributes()[slot]);
+  state.attributes.Clear();
+  for (const std::uint32_t slot : changed_slots_) state.attributes.Add(slot, space_.Attributes()[slot]);
   const auto moved = Moved();
-  state_.moved.assign(moved.begin(), moved.end());
-  return state_;
+  state.moved.assign(moved.begin(), moved.end());
+  return state;
 }
 
 std::span<const std::uint32_t> SpaceServer::Moved()

@@ -2,6 +2,7 @@
 // state, after it has checked it: nothing else writes to the space.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <span>
@@ -40,7 +41,8 @@ public:
   const CSwarmanoidSpace& Space() const { return space_; }
   // For those who change the experiment from outside physics.
   SpaceEditor& Editor() { return editor_; }
-  // The state at the current tick as what changed; what the cluster publishes.
+  // The state at the current tick as what changed; what the cluster publishes. It stays until that of the tick after
+  // the next one is asked for.
   const SpaceState& State();
   // The entities that were put elsewhere at the current tick, ascending.
   std::span<const std::uint32_t> Moved();
@@ -106,7 +108,7 @@ private:
   const Experiment& experiment_;
   const Assignment& assignment_;
   CSwarmanoidSpace space_;
-  SpaceState state_;
+  std::array<SpaceState, 2> states_;  // of even and odd ticks
   std::vector<std::uint32_t> changed_slots_;
   std::vector<std::uint32_t> moved_;
   std::vector<bool> told_;  // of each entity: whether it is told already that it was held

@@ -10,6 +10,7 @@
 #include <new>
 
 #include "common/activity/current_activity.h"
+#include "common/activity/shared_activity.h"
 #include "common/activity/signal_stack.h"
 
 namespace swarmanoid
@@ -26,6 +27,22 @@ std::atomic<ActivityStep> current_step = ActivityStep::kNone;
 std::atomic<std::uint64_t> current_tick = 0;
 // Set up before a handler can ask for it, and never in a handler.
 __attribute__((tls_model("initial-exec"))) thread_local int depth = 0;
+
+// Whose code each thread of a shared step runs, on a line of the cache of its own.
+struct alignas(64) ActorOfThread
+{
+  std::atomic<const Actor*> actor = nullptr;
+};
+std::array<ActorOfThread, SharedActivity::kMostThreads> sharing;
+__attribute__((tls_model("initial-exec"))) thread_local const std::atomic<const Actor*>* own_place = nullptr;
+
+const Actor* SharingActor()
+{
+  if (own_place != nullptr) return own_place->load(std::memory_order_relaxed);
+  for (const ActorOfThread& thread : sharing)
+    if (const Actor* actor = thread.actor.load(std::memory_order_relaxed)) return actor;
+  return nullptr;
+}
 
 // Of a launcher, and of no one else's making: a descriptor of that number may be anything.
 ActivityPage* PageOfLauncher()
@@ -104,12 +121,38 @@ Activity::~Activity()
 
 void Activity::Next(const Actor& actor) { Publish(&actor); }
 
+SharedActivity::SharedActivity(ActivityStep step, std::uint64_t tick)
+    : outer_actor_(current_actor.load(std::memory_order_relaxed)),
+      outer_step_(current_step.load(std::memory_order_relaxed)),
+      outer_tick_(current_tick.load(std::memory_order_relaxed))
+{
+  Publish(nullptr, step, tick);
+  OwnActivityPage().tick.store(tick, std::memory_order_relaxed);
+}
+
+SharedActivity::~SharedActivity() { Publish(outer_actor_, outer_step_, outer_tick_); }
+
+SharedActivity::Thread::Thread(unsigned number) : place_(&sharing[number].actor)
+{
+  EnsureSignalStack();
+  own_place = place_;
+  ++depth;
+}
+
+SharedActivity::Thread::~Thread()
+{
+  --depth;
+  own_place = nullptr;
+  place_->store(nullptr, std::memory_order_relaxed);
+}
+
 namespace activity
 {
 
 Current Now()
 {
-  return {current_actor.load(std::memory_order_relaxed), current_step.load(std::memory_order_relaxed),
+  const Actor* actor = current_actor.load(std::memory_order_relaxed);
+  return {actor != nullptr ? actor : SharingActor(), current_step.load(std::memory_order_relaxed),
           current_tick.load(std::memory_order_relaxed)};
 }
 

@@ -135,6 +135,13 @@ std::vector<OptionSpec> HostOptionTable(WorkerSettings& s)
             .maximum = 999},
            &s.host,
            "1"},
+          {{.name = "threads",
+            .type = kInteger,
+            .description = "Threads that share the sensors, and the controllers that may step in parallel",
+            .minimum = 1,
+            .maximum = 64},
+           &s.threads,
+           "2"},
           ExperimentOption(s),
           IncarnationOption(s)};
 }

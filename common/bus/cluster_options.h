@@ -32,6 +32,7 @@ struct WorkerSettings
   bool read_only = false;
   std::optional<int> server{};
   unsigned incarnation = 0;
+  unsigned threads = 1;  // of a controller host
 };
 
 std::vector<OptionSpec> EngineOptionTable(WorkerSettings& settings);

@@ -2,7 +2,7 @@
 //
 // A controller library holds one or more such classes, each registered by REGISTER_CONTROLLER with the tag that names
 // it in <controllers> and the table of its <parameters>. The runtime makes one object for each robot, calls Init once,
-// ControlStep every tick, Destroy at the end, all from one thread.
+// ControlStep every tick, Destroy at the end, all from one thread unless StepsInParallel says otherwise.
 #pragma once
 
 #include <iosfwd>
@@ -46,6 +46,11 @@ public:
   // Controllers that declare no parameters: what Init did not ask for is taken for misspelt and refused. True for one
   // that keeps the tree and asks later, or asks for some parameters only now and then.
   virtual bool ReadsParametersLater() const { return false; }
+
+  // True: ControlStep of several robots may run at the same time in threads of one process (`--threads`). It reads and
+  // writes nothing then that another robot's step writes: no static variables and no files of several robots. What
+  // the Common Interface gives belongs to the robot. False: one robot after the other.
+  virtual bool StepsInParallel() const { return false; }
 
   CCI_Robot* GetRobot() const { return robot_; }
   // For the runtime, before Init.

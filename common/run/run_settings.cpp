@@ -186,7 +186,11 @@ std::vector<RunOption> Table(RunSettings& s)
         &s.memory_limit, "2GiB", "SIZE", SizeMistake},
        For::kLauncher},
       {{Flag("single-process", "Run everything in this process, without DDS"), &s.single_process}, For::kLauncher},
-      {{Whole("threads", "Threads that share the sensors of a run in one process; 0: as many as cores are free", 0, 64),
+      {{Whole("threads",
+              "Threads of a controller host, which share its sensors and the controllers that may step in parallel; 0: "
+              "one in "
+              "a cluster, in one process as many as cores are free",
+              0, 64),
         &s.threads, "2"},
        For::kLauncher},
       {{Whole("controller-hosts", "Processes that share the robots' controllers", 1, 1000), &s.controller_hosts, "2"},

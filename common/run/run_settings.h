@@ -46,8 +46,9 @@ struct SimulatorOptions
   // written any more the run goes on, but nobody can be replaced then; otherwise it ends.
   bool journal = true;
   std::string journal_need = "needed";
-  // In one process: threads that share the work of sensors; 0: as many as cores are free. Their number changes no bit
-  // of the results.
+  // Threads that share the sensors, and the controllers that may step in parallel, of one process, or of each
+  // controller host. 0: in one process as many as cores are free, in a host one. Their number changes no bit of the
+  // results.
   unsigned threads = 0;
   // In one process. Set from a signal handler: the run stops at the end of the tick.
   const std::atomic<bool>* stop = nullptr;

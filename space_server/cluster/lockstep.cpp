@@ -1,6 +1,7 @@
 #include "space_server/cluster/lockstep.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/activity/failure_report.h"
 #include "common/bus/replica.h"
@@ -176,16 +177,34 @@ void Lockstep::Complete()
   }
   for (const ControlCommands* commands : commands_here_) server_.Check(*commands);
   for (const UpdateMessage& update : updates_) server_.Check(update);
-  if (journal_ != nullptr) Record();
-  server_.Advance(updates_here_, commands_here_);
-  gate_.Next();
-  if (hold_ || watch_ || gate_.Tick() == until_)
+  bool kept = journal_ == nullptr;
+  const auto keep = [&, &state = *sent_, saves = saves_, frames = Frames()]
+  {
+    if (!std::exchange(kept, true)) Record(state, saves, frames);
+  };
+  const bool holds = hold_ || watch_ || gate_.Tick() + 1 == until_;
+  bool goes_on = false;
+  try
+  {
+    server_.Advance(updates_here_, commands_here_);
+    gate_.Next();
+    goes_on = !holds && !server_.IsLast();
+    if (goes_on) Send(false);
+    // While the others work on the next tick; their answers wait for the end of this one.
+    keep();
+  }
+  catch (...)
+  {
+    keep();
+    throw;
+  }
+  if (holds)
   {
     held_ = true;
     stopped_();
-    return;
   }
-  Send(false);
+  else if (!goes_on)
+    Send(false);
 }
 
 void Lockstep::Send(bool repeated)
@@ -211,7 +230,7 @@ void Lockstep::Send(bool repeated)
   stopped_();
 }
 
-void Lockstep::Record()
+void Lockstep::Record(const SpaceState& state, bool saves, std::span<const SensorFrame> frames)
 {
   for (std::size_t e = 0; e < engines_; ++e)
     for (const ValueCopy& copy : assignment_.engines[e].command_copies)
@@ -220,7 +239,7 @@ void Lockstep::Record()
       std::copy_n(updates_[e].recorded.begin() + static_cast<std::ptrdiff_t>(copy.to), copy.count,
                   commands_[copy.source].values.begin() + static_cast<std::ptrdiff_t>(copy.from));
     }
-  journal_->AddTick(*sent_, saves_, Frames(), commands_);
+  journal_->AddTick(state, saves, frames, commands_);
   for (std::size_t e = 0; e < engines_; ++e)
     std::copy(updates_[e].recorded.begin() + static_cast<std::ptrdiff_t>(assignment_.engines[e].command_size),
               updates_[e].recorded.end(), frames_[e].values.begin());

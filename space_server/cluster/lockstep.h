@@ -78,8 +78,9 @@ private:
   void Send(bool repeated);
   void Complete();
   std::span<const SensorFrame> Frames() const;
-  // Writes the tick into the journal: what the server did not hear itself, the engines reported.
-  void Record();
+  // Writes a tick into the journal: what the server did not hear itself, the engines reported. Then frames_ are those
+  // of the next tick.
+  void Record(const SpaceState& state, bool saves, std::span<const SensorFrame> frames);
   template <class Message>
   Message* PlaceOf(const MessageHeader& header, std::uint64_t tick, std::optional<std::size_t> part, Message& place);
   void Arrived(const MessageHeader& header, std::size_t part, std::uint64_t tick);

@@ -1,4 +1,4 @@
-"""Threads share the sensors of a run in one process: the same bits for any number of them. The scenes are those of the benchmark, with robots
+"""Threads share the sensors and the controllers of a run: the same bits for any number of them, in one process and in the hosts of a cluster. The scenes are those of the benchmark, with robots
 that all their readings steer. Needs bench_swarm."""
 import os
 import subprocess
@@ -16,8 +16,8 @@ class Threads(LauncherTest):
         subprocess.run([sys.executable, SCENES, "--write", folder, "--controller", libraries, "--only", word, *options], check=True)
         return sorted(folder.iterdir())
 
-    def hash_of(self, experiment, threads, *options):
-        run = self.run_it("run", experiment, "--single-process", "--quiet", "--ticks", 12, "--threads", threads, *options)
+    def hash_of(self, experiment, threads, *options, way="--single-process"):
+        run = self.run_it("run", experiment, way, "--quiet", "--ticks", 12, "--threads", threads, *options)
         self.assertEqual(run.process.returncode, 0, run.stderr)
         return run.stdout.split("hash ")[1].split(",")[0]
 
@@ -28,6 +28,12 @@ class Threads(LauncherTest):
                     one = self.hash_of(experiment, 1)
                     for threads in (2, 3, 0):
                         self.assertEqual(self.hash_of(experiment, threads), one, f"{threads} threads")
+
+    def test_hosts_of_a_cluster_have_threads(self):
+        [experiment] = self.write(self.folder / "cluster", "light, 4 bulbs, 500 walls", "--steer-by-all")
+        one = self.hash_of(experiment, 1)
+        for hosts in (1, 2):
+            self.assertEqual(self.hash_of(experiment, 3, "--controller-hosts", hosts, way="--no-journal"), one)
 
     def test_readings_reach_the_hash(self):
         word = "light, 4 bulbs, 500 walls"

@@ -29,6 +29,7 @@ class CommandLine(OutsideTest):
         self.refused("engine_worker", "--engine", "ground", "--discovery-server", "127.0.0.1:11811junk",
                      says=["--discovery-server is '127.0.0.1:11811junk'", "a port from 1 to 65535"])
         self.refused("controller_host", "--host", "-1", says="--host is -1")
+        self.refused("controller_host", "--threads", "0", says=["--threads is 0", "from 1 to 64"])
         self.refused("visualiser", "--attach", "text", "--hz", "nan", says="--hz is 'nan'")
         self.refused("swarmanoid_robot", file, "--wait", "nan", says="--wait is 'nan'")
 

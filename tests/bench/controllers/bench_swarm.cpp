@@ -1,5 +1,7 @@
 // Robots of the benchmark's scenes. Footbots drive on and turn away from what is in front, or to where most of those
 // that their cameras see are; eyebots fly circles. All send and light what they have.
+#include <cmath>
+
 #include "ci_colour_blob_sensor.h"
 #include "ci_controller.h"
 #include "ci_range_and_bearing.h"
@@ -17,6 +19,7 @@ public:
   int Init(const TConfigurationTree tree) override
   {
     const CCI_Robot& robot = *GetRobot();
+    rounds_ = static_cast<int>(tree.GetInteger("rounds"));
     if (tree.GetBoolean("steer_by_all"))
       for (const char* sensor : {"footbot_proximity", "footbot_light", "footbot_ground",
                                  "footbot_omnidirectional_camera", "footbot_distance_scanner", "range_and_bearing"})
@@ -37,6 +40,7 @@ public:
 
   void ControlStep() override
   {
+    for (int k = 0; k < rounds_; ++k) thought_ = std::sqrt(thought_ + k);
     if (propellers_ != nullptr) propellers_->SetVelocity(0.1, 0, 0, 0.2);
     if (wheels_ == nullptr) return;
     double turn = 0;
@@ -52,6 +56,7 @@ public:
     if (!steered_by_.empty()) SteerByAll();
   }
   bool HasState() const override { return true; }
+  bool StepsInParallel() const override { return true; }
 
 private:
   // So that every bit that any sensor reads changes the way of the robot.
@@ -64,6 +69,8 @@ private:
     wheels_->SetFootBotWheelsLinearVelocity(0.05 + 0.02 * Sin(sum), 0.05 + 0.02 * Cos(sum));
   }
 
+  int rounds_ = 0;
+  volatile double thought_ = 0;  // of no use
   std::vector<CCI_Sensor*> steered_by_;
   std::vector<CCI_Reading> readings_;
   CCI_FootBotWheelsActuator* wheels_ = nullptr;
@@ -77,4 +84,10 @@ REGISTER_CONTROLLER(CBenchSwarm, {.label = "bench_swarm",
                                   .parameters = {{.name = "steer_by_all",
                                                   .type = ParameterType::kBoolean,
                                                   .default_value = "false",
-                                                  .description = "Whether all that its sensors read steers it."}}})
+                                                  .description = "Whether all that its sensors read steers it."},
+                                                 {.name = "rounds",
+                                                  .type = ParameterType::kInteger,
+                                                  .default_value = "0",
+                                                  .description = "Square roots that each step computes: its work.",
+                                                  .minimum = 0,
+                                                  .maximum = 1e9}}})

@@ -14,6 +14,7 @@ public:
   void ControlStep() override;
   // Nothing is remembered between steps, so a run can be restored as it is.
   bool HasState() const override { return true; }
+  bool StepsInParallel() const override { return true; }
 
 private:
   CCI_WheelsActuator* wheels_ = nullptr;

@@ -1,0 +1,62 @@
+// Whether a piece of work that comes again at each tick is done by one thread or by several: by whichever took less
+// time lately. Work of a few microseconds wakes nobody, and where other programs need the cores one thread goes on
+// alone. For work whose results are the same either way. One thread at a time.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+
+namespace swarmanoid
+{
+
+class ThreadChoice
+{
+public:
+  using Duration = std::chrono::nanoseconds;
+  static constexpr Duration kWorthWaking{20'000};  // work that takes less is never shared
+  static constexpr unsigned kTrials = 4;           // of each way; the shortest counts
+  static constexpr unsigned kPeriod = 512;         // pieces until both ways are tried again
+
+  // Whether several threads do the next piece.
+  bool Shares() const { return shares_; }
+
+  // How long the piece took that was done so.
+  void Took(Duration time)
+  {
+    ++pieces_;
+    if (pieces_ <= kTrials)
+      alone_ = std::min(alone_, time);
+    else if (pieces_ <= 2 * kTrials)
+      shared_ = std::min(shared_, time);
+    if (pieces_ == kTrials) shares_ = alone_ >= kWorthWaking;
+    if (pieces_ == 2 * kTrials) shares_ = shares_ && shared_ < alone_;
+    if (pieces_ == kPeriod) *this = ThreadChoice();
+  }
+
+private:
+  bool shares_ = false;
+  unsigned pieces_ = 0;  // of the period
+  Duration alone_ = Duration::max();
+  Duration shared_ = Duration::max();
+};
+
+// Does a piece of work by one of two functions that do the same.
+class SharedWork
+{
+public:
+  template <class Alone, class Shared>
+  void Do(const Alone& alone, const Shared& shared)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    if (choice_.Shares())
+      shared();
+    else
+      alone();
+    choice_.Took(std::chrono::steady_clock::now() - start);
+  }
+
+private:
+  ThreadChoice choice_;
+};
+
+}  // namespace swarmanoid

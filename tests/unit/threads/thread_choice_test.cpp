@@ -1,0 +1,64 @@
+// Work is shared where that took less time, and never if it is over in a few microseconds.
+#include "common/threads/thread_choice.h"
+
+#include <gtest/gtest.h>
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+
+// How many of `pieces` are shared, if a piece takes one thread `alone` and several `shared`.
+unsigned Shared(ThreadChoice& choice, unsigned pieces, ThreadChoice::Duration alone, ThreadChoice::Duration shared)
+{
+  unsigned count = 0;
+  for (unsigned k = 0; k < pieces; ++k)
+  {
+    count += choice.Shares() ? 1 : 0;
+    choice.Took(choice.Shares() ? shared : alone);
+  }
+  return count;
+}
+
+TEST(ThreadChoice, FewMicrosecondsWakeNobody)
+{
+  ThreadChoice choice;
+  EXPECT_EQ(Shared(choice, 5 * ThreadChoice::kPeriod, 19us, 1us), 0U);
+}
+
+TEST(ThreadChoice, SharesWhatIsQuickerSo)
+{
+  ThreadChoice choice;
+  EXPECT_EQ(Shared(choice, ThreadChoice::kPeriod, 100us, 60us), ThreadChoice::kPeriod - ThreadChoice::kTrials);
+}
+
+TEST(ThreadChoice, TriesWhatIsSlowerAFewTimesAPeriod)
+{
+  ThreadChoice choice;
+  EXPECT_EQ(Shared(choice, ThreadChoice::kPeriod, 100us, 160us), ThreadChoice::kTrials);
+}
+
+TEST(ThreadChoice, FollowsWhenTheCoresAreTakenAndFreeAgain)
+{
+  ThreadChoice choice;
+  EXPECT_EQ(Shared(choice, ThreadChoice::kPeriod, 100us, 60us), ThreadChoice::kPeriod - ThreadChoice::kTrials);
+  EXPECT_EQ(Shared(choice, ThreadChoice::kPeriod, 100us, 4ms), ThreadChoice::kTrials);
+  EXPECT_EQ(Shared(choice, ThreadChoice::kPeriod, 100us, 60us), ThreadChoice::kPeriod - ThreadChoice::kTrials);
+}
+
+// Somebody else's work delays a piece now and then.
+TEST(ThreadChoice, OneSlowPieceDoesNotDecide)
+{
+  ThreadChoice choice;
+  for (unsigned k = 0; k < ThreadChoice::kPeriod; ++k)
+  {
+    const bool disturbed = k == ThreadChoice::kTrials + 1;
+    choice.Took(disturbed ? 10ms : choice.Shares() ? 60us : 100us);
+    EXPECT_EQ(choice.Shares(), k + 1 >= ThreadChoice::kTrials && k + 1 < ThreadChoice::kPeriod) << k;
+  }
+}
+
+}  // namespace
+}  // namespace swarmanoid
