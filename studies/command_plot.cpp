@@ -26,6 +26,7 @@ struct PlotOptions
 {
   std::string study;
   std::vector<std::string> metrics;
+  std::vector<std::string> comparisons;
   std::string reference;
   std::string format = "svg";
   std::string output;
@@ -43,6 +44,12 @@ std::vector<OptionSpec> PlotOptionTable(PlotOptions& o)
         .description = "A column of the table, again for each other one; otherwise all"},
        &o.metrics,
        "dispersion"},
+      {{.name = "compare",
+        .type = kText,
+        .description = "Compare two values of a factor in pairs of runs, by Wilcoxon's test; again for each other one"},
+       &o.comparisons,
+       "controller=walk,search",
+       "FACTOR=A,B"},
       {{.name = "reference",
         .type = kPath,
         .description = "A JSON file with curves of others, which are drawn beside those of the study"},
@@ -77,13 +84,20 @@ int Run(const std::vector<std::string>& words)
 
 int Plot(const PlotOptions& options)
 {
-  if (Run({"python3", "-c", "import importlib.util as u, sys; sys.exit(u.find_spec('matplotlib') is None)"}) != 0)
+  // The first one on the path need not be Debian's.
+  std::string python;
+  for (const char* candidate : {"python3", "/usr/bin/python3"})
+    if (python.empty() &&
+        Run({candidate, "-c", "import importlib.util as u, sys; sys.exit(u.find_spec('matplotlib') is None)"}) == 0)
+      python = candidate;
+  if (python.empty())
     throw UsageError(
         "plot: pictures are drawn by matplotlib, which is not here; as root: apt-get install python3-matplotlib");
   const std::string script =
       (std::filesystem::path(UserFilesFolder()).parent_path() / "studies" / "plot_study.py").string();
-  std::vector<std::string> words{"python3", "-B", script, options.study, "--format", options.format};
+  std::vector<std::string> words{python, "-B", script, options.study, "--format", options.format};
   for (const std::string& metric : options.metrics) words.insert(words.end(), {"--metric", metric});
+  for (const std::string& request : options.comparisons) words.insert(words.end(), {"--compare", request});
   if (!options.reference.empty()) words.insert(words.end(), {"--reference", options.reference});
   if (!options.output.empty()) words.insert(words.end(), {"--output", options.output});
   return Run(words);

@@ -10,8 +10,11 @@
 #include <optional>
 
 #include "common/configuration/wording.h"
+#include "common/control_interface/ci_publish.h"
 #include "common/math/elementary.h"
 #include "common/space/attributes.h"
+#include "common/space/packet_attribute.h"
+#include "common/space/publish.h"
 #include "studies/metric.h"
 
 namespace swarmanoid
@@ -473,6 +476,51 @@ private:
   int element_;
 };
 
+class PublishedByFunctions : public Metric
+{
+public:
+  explicit PublishedByFunctions(std::string name) : name_(std::move(name)) {}
+
+  void Look(CSimulator& simulator) override
+  {
+    if (!numbers_) numbers_.emplace(simulator.GetSpace());
+  }
+  void Measure(CSimulator&, std::vector<double>& values) override
+  {
+    const auto found = numbers_->Values().find(name_);
+    if (found != numbers_->Values().end()) values.push_back(found->second);
+  }
+
+private:
+  std::string name_;
+  std::optional<PublishedNumbers> numbers_;
+};
+
+class PublishedByControllers : public Metric
+{
+public:
+  PublishedByControllers(Entities entities, const std::string& name) : entities_(std::move(entities)), name_(name) {}
+
+  void Measure(CSimulator& simulator, std::vector<double>& values) override
+  {
+    const CSwarmanoidSpace& space = simulator.GetSpace();
+    for (const std::uint32_t index : entities_)
+    {
+      if (!space.IsPresent(index)) continue;
+      const CSwarmanoidSpaceEntity& entity = space.GetEntity(index);
+      double slots[kPacketSlots - 1];
+      for (std::size_t i = 0; i < kPacketSlots - 1; ++i)
+        slots[i] = entity.GetAttribute("report", static_cast<int>(i) + 1);
+      const AttributePacket packet = UnpackedPacket(slots);
+      values.push_back(PublishedNumberIn(packet.Bytes(), name_).value_or(kNoValue));
+    }
+  }
+
+private:
+  Entities entities_;
+  std::string name_;
+};
+
 void RequireAttribute(const MetricChoice& choice, const Entities& entities, const Experiment& experiment)
 {
   const std::string name = *choice.tree.Value("name");
@@ -495,6 +543,21 @@ void RequireAttribute(const MetricChoice& choice, const Entities& entities, cons
       throw ConfigurationError(choice.tree.ValueLocation("element"),
                                fmt::format("the attribute {} of {} has the elements 0 to {}", Quoted(name),
                                            TagName(entity.kind), found->count - 1));
+  }
+}
+
+void RequireReports(const MetricChoice& choice, const Entities& entities, const Experiment& experiment)
+{
+  for (const std::uint32_t index : entities)
+  {
+    const EntityConfiguration& entity = experiment.entities[index];
+    const ControllerConfiguration* controller = experiment.FindController(entity.controller);
+    const auto lists = [](const DeviceConfiguration& device) { return device.type == "report"; };
+    if (controller == nullptr || std::none_of(controller->actuators.begin(), controller->actuators.end(), lists))
+      throw ConfigurationError(
+          choice.location, fmt::format("the controller {} of '{}' publishes nothing: Publish needs the actuator "
+                                       "<report><implementation>generic_report</implementation></report> in its list",
+                                       Quoted(entity.controller), entity.id));
   }
 }
 
@@ -548,6 +611,15 @@ std::unique_ptr<Metric> MakeMetric(const MetricChoice& choice, const Experiment&
 {
   const std::string& kind = choice.kind;
   const TConfigurationTree& tree = choice.tree;
+  if (kind == "published" && tree.Value("by").value_or("functions") == "functions")
+  {
+    if (!choice.of.empty())
+      throw ConfigurationError(tree.ValueLocation("of"),
+                               "what functions publish is one value, not of entities; leave 'of' out");
+    if (experiment.functions.empty())
+      throw ConfigurationError(choice.location, "the experiment has no <experiment_functions> that could publish it");
+    return std::make_unique<PublishedByFunctions>(*tree.Value("name"));
+  }
   Entities entities = EntitiesOf(choice, experiment);
   if (kind == "distance") return std::make_unique<DistanceMetric>(std::move(entities));
   if (kind == "displacement") return std::make_unique<DisplacementMetric>(std::move(entities));
@@ -565,6 +637,11 @@ std::unique_ptr<Metric> MakeMetric(const MetricChoice& choice, const Experiment&
   {
     const double radius = RadiusOf(choice, entities, experiment);
     return std::make_unique<DispersionMetric>(std::move(entities), radius);
+  }
+  if (kind == "published")
+  {
+    RequireReports(choice, entities, experiment);
+    return std::make_unique<PublishedByControllers>(std::move(entities), *tree.Value("name"));
   }
   RequireAttribute(choice, entities, experiment);
   return std::make_unique<AttributeMetric>(std::move(entities), *tree.Value("name"),

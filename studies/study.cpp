@@ -287,7 +287,7 @@ private:
       const ElementReader metric(child, *kind, diagnostics_);
       MetricChoice choice{child.Name(), ReadId(metric, "metric"), Words(metric.Text("of")), {},
                           child,        child.Location()};
-      if (IsOfEachEntity(choice.kind))
+      if (IsOfEachEntity(choice.kind) && !(choice.kind == "published" && metric.Text("by") == "functions"))
       {
         choice.aggregates = Words(metric.Text("aggregate"));
         CheckAggregates(choice.aggregates, metric);

@@ -134,6 +134,15 @@ ElementSpec MetricsElement()
                               "The attribute, as list plugins and the reference name it: battery, radio …"),
                      InRange(Optional(kInteger, "element", "", "0", "Which number of it."), 0, 1000)},
                     true)),
+      Repeated(
+          "published",
+          "What controllers or experiment functions publish: Publish(*GetRobot(), {{\"name\", value}}) with a value "
+          "for "
+          "each "
+          "robot, or Publish(space.GetSpace(), \"name\", value) with one.",
+          With({Required(kText, "name", "", "The name in Publish."),
+                OneOf(Optional(kChoice, "by", "", "functions", "Who publishes it."), {"functions", "controllers"})},
+               true)),
       Repeated("polarisation",
                "The length of the mean of all headings: 1 if all look the same way, near 0 if they look anywhere.",
                With({}, false)),

@@ -352,7 +352,7 @@ def summary(study):
 PAGE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>{name}</title><style>
 body {{ font: 15px/1.5 system-ui, sans-serif; max-width: 70rem; margin: 2rem auto; padding: 0 1rem; color: #202020; background: #fff }}
-figure {{ display: inline-block; margin: 0 1rem 1.5rem 0; vertical-align: top; max-width: 34rem }}
+figure {{ display: inline-block; margin: 0 1rem 1.5rem 0; vertical-align: top; max-width: 32rem }}
 figure svg {{ max-width: 100%; height: auto }}
 figcaption {{ color: #505050; font-size: 0.9em }}
 table {{ border-collapse: collapse; font-size: 0.9em }}

@@ -8,8 +8,11 @@
 #include <map>
 
 #include "common/control_interface/ci_controller.h"
+#include "common/control_interface/ci_publish.h"
 #include "common/control_interface/ci_wheels_actuator.h"
+#include "common/space/publish.h"
 #include "roles/builtins.h"
+#include "space_server/experiment_functions.h"
 #include "studies/metric.h"
 
 namespace swarmanoid
@@ -21,7 +24,7 @@ using testing::DoubleEq;
 using testing::DoubleNear;
 using testing::HasSubstr;
 
-// Drives with both wheels at a speed.
+// Drives with both wheels at a speed, and publishes the tick and its double.
 class CStudyDriver : public CCI_Controller
 {
 public:
@@ -30,7 +33,12 @@ public:
     speed_ = tree.GetNumber("speed", 0);
     return RETURN_OK;
   }
-  void ControlStep() override { GetRobot()->Actuator<CCI_WheelsActuator>("wheels").SetLinearVelocity(speed_, speed_); }
+  void ControlStep() override
+  {
+    GetRobot()->Actuator<CCI_WheelsActuator>("wheels").SetLinearVelocity(speed_, speed_);
+    const auto tick = GetRobot()->GetTick();
+    Publish(*GetRobot(), {{"tick", tick}, {"double", 2.0 * static_cast<double>(tick)}});
+  }
   bool HasState() const override { return true; }
 
 private:
@@ -38,9 +46,22 @@ private:
 };
 REGISTER_CONTROLLER(CStudyDriver, "study_driver")
 
+class CStudyFunctions : public CExperimentFunctions
+{
+public:
+  void Init(const TConfigurationTree, SpaceEditor&) override {}
+  void PostStep(SpaceEditor& space) override
+  {
+    if (space.GetSpace().GetTick() == 3) Publish(space.GetSpace(), "third", 3.5);
+  }
+};
+REGISTER_EXPERIMENT_FUNCTIONS(CStudyFunctions, {.label = "study_functions", .brief = "publishes a number at tick 3"})
+
+constexpr const char* kReport = "<report implementation='generic_report'/>";
 constexpr const char* kWheels = "<wheels implementation='generic_wheels'/>";
 
-std::unique_ptr<Experiment> Scene(const std::string& entities, int ticks, const std::string& actuators = kWheels)
+std::unique_ptr<Experiment> Scene(const std::string& entities, int ticks,
+                                  const std::string& actuators = std::string(kWheels) + kReport)
 {
   RegisterBuiltins();
   const std::string text =
@@ -50,7 +71,7 @@ std::unique_ptr<Experiment> Scene(const std::string& entities, int ticks, const 
       "<study_driver id='stay'><actuators>" +
       actuators + "</actuators></study_driver></controllers><arena size='10,10,2' optimization='2D'>" + entities +
       "</arena><engines><dummy_engine id='e'/></engines><arena_physics><engine id='e'><all/></engine></arena_physics>"
-      "</ahss-config>";
+      "<experiment_functions><study_functions id='f'/></experiment_functions></ahss-config>";
   LoadedExperiment loaded = LoadExperimentText(text, "scene.xml", ".");
   for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
   return std::move(loaded.experiment);
@@ -210,6 +231,27 @@ TEST(StudyMetrics, AContactCountsOnceAsLongAsItLasts)
   EXPECT_EQ(row.at("all.sum"), 3);
 }
 
+TEST(StudyMetrics, WhatIsPublishedJoinsTheTable)
+{
+  const auto study = Metrics(
+      "<published id='third' name='third'/><published id='when' name='tick' by='controllers' aggregate='max'/>"
+      "<published id='twice' name='double' by='controllers'/><published id='none' name='nothing' by='controllers' "
+      "aggregate='count'/>"
+      "<attribute id='reports' name='report' of='a'/>",
+      2);
+  const auto experiment = Scene(Footbot("a", 2, 2, 0) + Footbot("b", 5, 5, 0), 5);
+  const RunSamples samples = Measured(*study, *experiment);
+  ASSERT_EQ(samples.ticks, (std::vector<std::uint64_t>{0, 2, 4, 5}));
+  EXPECT_TRUE(std::isnan(samples.values[0])) << "not yet";
+  EXPECT_TRUE(std::isnan(samples.values[1]));
+  const auto row = LastRow(*study, samples);
+  EXPECT_EQ(row.at("third"), 3.5);
+  EXPECT_EQ(row.at("when.max"), 4) << "of the last control step";
+  EXPECT_EQ(row.at("twice.mean"), 8);
+  EXPECT_EQ(row.at("none.count"), 0);
+  EXPECT_EQ(row.at("reports.mean"), 5) << "one report a step, whatever it holds";
+}
+
 TEST(StudyMetrics, WhoeverCannotKnowTheLastTickHasTheSameRows)
 {
   const auto study = Metrics("<distance id='d'/><coverage id='c' cell='0.1'/><trajectories id='t'/>", 4);
@@ -245,10 +287,51 @@ TEST(StudyMetrics, WhatDoesNotFitTheExperimentIsToldWithItsPlace)
   EXPECT_THAT(ComplaintAbout("<attribute id='d' name='led' element='12'/>", *experiment),
               HasSubstr("the elements 0 to 11"));
   EXPECT_THAT(ComplaintAbout("<in_region id='d' entity='bx'/>", *experiment), HasSubstr("did you mean 'box'?"));
+  EXPECT_THAT(ComplaintAbout("<published id='d' name='x' by='controllers'/>", *experiment), HasSubstr("<report>"));
   EXPECT_THAT(ComplaintAbout("<dispersion id='d' of='*'/>", *experiment), HasSubstr("'box' is no cylinder"));
   EXPECT_THAT(ComplaintAbout("<coverage id='d' cell='0.0001'/>", *experiment), HasSubstr("at most 1e+07"));
   EXPECT_THAT(ComplaintAbout("<trajectories id='a'/><trajectories id='b'/>", *experiment),
               HasSubstr("second <trajectories>"));
+}
+
+TEST(Publishing, TakesThreeNamesAStep)
+{
+  class Report : public CCI_ReportActuator
+  {
+  public:
+    void ReportBytes(std::span<const std::uint8_t> given) override { bytes.assign(given.begin(), given.end()); }
+    std::vector<std::uint8_t> bytes;
+  } report;
+  CCI_Robot robot("r", "footbot");
+  Publish(robot, {{"a", 1}});
+  EXPECT_TRUE(report.bytes.empty());
+  robot.AddActuator("report", &report);
+  Publish(robot, {{"a", -7}, {"b", 2.5F}, {"c", true}});
+  EXPECT_EQ(PublishedNumberIn(report.bytes, "a"), -7);
+  EXPECT_EQ(PublishedNumberIn(report.bytes, "b"), 2.5);
+  EXPECT_EQ(PublishedNumberIn(report.bytes, "c"), 1);
+  EXPECT_EQ(PublishedNumberIn(report.bytes, "d"), std::nullopt);
+  EXPECT_THROW(Publish(robot, {{"a", 1}, {"b", 2}, {"c", 3}, {"d", 4}}), std::length_error);
+  // Names of which the report could not tell which is meant.
+  std::string same;
+  for (int i = 0; same.empty(); ++i)
+    if (ShortName("n" + std::to_string(i)) == ShortName("a")) same = "n" + std::to_string(i);
+  EXPECT_THROW(Publish(robot, {{"a", 1}, {same, 1}}), std::invalid_argument);
+}
+
+TEST(Publishing, CountsOnlyIfSomebodyMeasuresThatRun)
+{
+  const auto experiment = Scene(Footbot("a", 2, 2, 0), 1);
+  CSimulator one(*experiment, {}), other(*experiment, {});
+  Publish(one.GetSpace(), "x", 1);
+  const PublishedNumbers numbers(one.GetSpace());
+  EXPECT_TRUE(numbers.Values().empty());
+  Publish(other.GetSpace(), "x", 2);
+  EXPECT_TRUE(numbers.Values().empty());
+  Publish(one.GetSpace(), "x", 3);
+  Publish(one.GetSpace(), "x", 4);
+  EXPECT_EQ(numbers.Values().at("x"), 4);
+  EXPECT_THROW(Publish(one.GetSpace(), "x", NAN), std::invalid_argument);
 }
 
 }  // namespace
