@@ -333,6 +333,31 @@ void StudyStore::Add(const RunOutcome& outcome)
       .Run();
 }
 
+void StudyStore::AddRun(const RunName& name)
+{
+  std::string factors;
+  for (const std::string& factor : factors_) factors += ", " + NameInSql(factor);
+  const auto row = Prepare(fmt::format(
+      "INSERT INTO runs SELECT point, ?, 'waiting', 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL{} FROM "
+      "runs WHERE point = ? LIMIT 1",
+      factors));
+  row->BindWhole(name.seed).BindWhole(name.point).Run();
+}
+
+std::vector<double> StudyStore::LastValues(std::uint32_t point, const std::string& column)
+{
+  std::vector<double> values;
+  const auto rows = Prepare(fmt::format(
+      "SELECT s.{} FROM samples s JOIN runs r ON r.point = s.point AND r.seed = s.seed WHERE r.state = 'done' AND "
+      "s.point = ? AND s.tick = (SELECT MAX(tick) FROM samples l WHERE l.point = s.point AND l.seed = s.seed) "
+      "ORDER BY s.seed",
+      NameInSql(column)));
+  rows->BindWhole(point);
+  while (rows->Step())
+    if (!rows->IsNull(0)) values.push_back(rows->Number(0));
+  return values;
+}
+
 void StudyStore::Commit()
 {
   if (in_transaction_) Execute("COMMIT");

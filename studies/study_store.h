@@ -48,6 +48,12 @@ public:
   // In the order of points and seeds.
   std::vector<RunState> Runs();
   void Add(const RunOutcome& outcome);
+  // Another run of a point that has some.
+  void AddRun(const RunName& name);
+  // Of all runs of a point that are done, at their last tick, by seed; without those that have none.
+  std::vector<double> LastValues(std::uint32_t point, const std::string& column);
+  // Of the metrics.
+  const std::vector<std::string>& Columns() const { return columns_; }
   // What was added stays from now on.
   void Commit();
   // table.csv: one row for each run that has a result and tick that was measured. Equal studies give equal bytes.

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <deque>
@@ -13,12 +14,14 @@
 #include <optional>
 
 #include "common/activity/exit_codes.h"
+#include "common/configuration/wording.h"
 #include "common/math/reproducible_math.h"
 #include "common/program/interrupts.h"
 #include "common/program/usage_error.h"
 #include "roles/builtins.h"
 #include "studies/recorder.h"
 #include "studies/run_pool.h"
+#include "studies/statistics.h"
 #include "studies/study_store.h"
 #include "studies/sweep_progress.h"
 
@@ -32,6 +35,9 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kMostTried = 1000;
 constexpr std::size_t kMostTold = 20;
+// Of a point whose interval is too wide. Decisions are made when all its runs have ended, so that they do not depend on
+// who was first.
+constexpr unsigned kMoreSeeds = 5;
 
 // A mistake of a value is told at the factor that gives it.
 std::string MistakeText(const Study& study, const Design& design, std::size_t point, const Diagnostic& error)
@@ -79,6 +85,7 @@ public:
       names.emplace_back("seed");
       only_.emplace(options.only, names);
     }
+    ReadLimit();
   }
 
   int Run()
@@ -89,7 +96,8 @@ public:
     const unsigned jobs = options_.jobs != 0 ? options_.jobs : study_.cluster ? 1 : cores;
     const auto start = std::chrono::steady_clock::now();
     {
-      RunPool pool(study_, store_.Folder(), static_cast<unsigned>(std::clamp<std::size_t>(queue_.size(), 1, jobs)));
+      RunPool pool(study_, store_.Folder(),
+                   column_.empty() ? static_cast<unsigned>(std::clamp<std::size_t>(queue_.size(), 1, jobs)) : jobs);
       SweepProgress progress(design_, all_, done_, jobs, options_.quiet);
       for (const auto& [point, wall_s] : known_times_) progress.AddTime(point, wall_s);
       try
@@ -125,6 +133,48 @@ private:
     const std::size_t factors = study_.FactorIds().size();
     return only_->Holds([&](std::size_t k) -> ExpressionValue
                         { return k < factors ? design_.Value(name.point, k) : static_cast<double>(name.seed); });
+  }
+
+  void ReadLimit()
+  {
+    if (options_.until_ci.empty()) return;
+    const std::size_t sign = options_.until_ci.rfind('=');
+    const std::string share = sign == std::string::npos ? "" : options_.until_ci.substr(sign + 1);
+    const auto percent = share.ends_with('%') ? ParseNumber(share.substr(0, share.size() - 1)) : std::nullopt;
+    if (!percent || *percent <= 0)
+      throw UsageError("--until-ci: write COLUMN=PERCENT%, for example --until-ci dispersion=5%");
+    column_ = options_.until_ci.substr(0, sign);
+    share_ = *percent / 100;
+    const std::vector<std::string>& columns = store_.Columns();
+    if (std::find(columns.begin(), columns.end(), column_) == columns.end())
+      throw UsageError(fmt::format("--until-ci: the study has no column {}; it has: {}{}", Quoted(column_),
+                                   Listed(columns), DidYouMean(column_, columns)));
+  }
+
+  // More runs for the points whose interval is wider than asked; false if there are none.
+  bool Extend(SweepProgress& progress)
+  {
+    if (column_.empty() || Interrupted()) return false;
+    store_.Commit();
+    std::map<std::uint32_t, std::vector<std::uint64_t>> seeds;
+    for (const auto& [name, attempts] : attempts_) seeds[name.point].push_back(name.seed);
+    for (const auto& [point, of_point] : seeds)
+    {
+      const std::vector<double> values = store_.LastValues(point, column_);
+      const MeanInterval interval = MeanIntervalOf(values);
+      if (values.empty() || interval.half <= share_ * std::abs(interval.mean)) continue;
+      const std::uint64_t last = *std::max_element(of_point.begin(), of_point.end());
+      for (unsigned more = 1; more <= kMoreSeeds && of_point.size() + more <= options_.most_seeds; ++more)
+      {
+        const RunName name{point, last + more};
+        store_.AddRun(name);
+        attempts_[name] = 0;
+        Enqueue(name);
+        ++all_;
+        progress.AddRuns(1);
+      }
+    }
+    return !queue_.empty();
   }
 
   // All points with the first seed, then with the second: what is there early says something of all.
@@ -165,7 +215,7 @@ private:
   void Loop(RunPool& pool, SweepProgress& progress)
   {
     auto committed = std::chrono::steady_clock::now();
-    while (!pool.IsIdle() || (!queue_.empty() && !Interrupted()))
+    while (!pool.IsIdle() || (!queue_.empty() && !Interrupted()) || Extend(progress))
     {
       while (!Interrupted() && !queue_.empty() && pool.HasRoom())
       {
@@ -208,6 +258,8 @@ private:
   const Design& design_;
   StudyStore& store_;
   std::optional<Expression> only_;
+  std::string column_;  // of --until-ci
+  double share_ = 0;
   std::deque<RunName> queue_;
   std::map<std::uint32_t, std::size_t> waiting_;  // in the queue, of each point
   std::map<RunName, unsigned> attempts_;

@@ -19,7 +19,11 @@ struct SweepOptions
   bool quiet = false;
   unsigned jobs = 0;     // runs at a time; 0: as many as cores, or one cluster
   unsigned retries = 0;  // of a run that fails
-  std::string only;      // a condition over factors and "seed": other runs wait
+  // "COLUMN=5%": points get more seeds until the confidence interval of the column's mean is that narrow; and how many
+  // at most.
+  std::string until_ci;
+  unsigned most_seeds = 1000;
+  std::string only;  // a condition over factors and "seed": other runs wait
 };
 
 // Returns the exit code. Throws UsageError.

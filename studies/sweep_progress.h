@@ -23,6 +23,7 @@ public:
   // One that has been run, in this process or before.
   void AddTime(std::uint32_t point, double wall_s);
   void Done() { ++done_; }
+  void AddRuns(std::size_t count) { all_ += count; }
   // Something to be read even if the user wants quiet.
   void Say(const std::string& line);
   // `waiting`: for each point, how many of its runs have not begun.

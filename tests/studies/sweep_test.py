@@ -6,6 +6,7 @@ import re
 import shutil
 import signal
 import sqlite3
+import statistics
 import subprocess
 import tempfile
 import time
@@ -86,6 +87,27 @@ class Sweep(unittest.TestCase):
         self.sweep(self.study(inside, 'seeds="1-2" cluster="true" controller_hosts="2"', "other"), "--output", "b")
         self.assertEqual((self.folder / "a/table.csv").read_bytes(), (self.folder / "b/table.csv").read_bytes())
         self.assertEqual(self.query("a", "SELECT * FROM ways"), self.query("b", "SELECT * FROM ways"))
+
+    def test_seeds_are_added_until_the_mean_is_known(self):
+        inside = ('<factor id="robots" path="arena.distribute.quantity" values="2 10"/>'
+                  '<metrics><polarisation id="order"/><coverage id="seen" cell="0.5"/></metrics>')
+        study = self.study(inside, 'seeds="1-3"')
+        self.sweep(study, "--output", "one", "--until-ci", "seen=8%", "--jobs", "1")
+        self.sweep(study, "--output", "two", "--until-ci", "seen=8%", "--jobs", "3")
+        self.assertEqual((self.folder / "one/table.csv").read_bytes(), (self.folder / "two/table.csv").read_bytes())
+        seen = {}
+        for row in self.table("one"):
+            if row["tick"] == "60":
+                seen.setdefault(row["point"], []).append(float(row["seen"]))
+        for values in seen.values():
+            # Three, and then five at a time. Two standard errors are near the interval of so many.
+            self.assertEqual(len(values) % 5, 3)
+            self.assertLess(1.95 * statistics.stdev(values) / len(values) ** 0.5, 0.08 * statistics.mean(values))
+        self.assertGreater(max(map(len, seen.values())), 3)
+        self.sweep(study, "--output", "few", "--until-ci", "order=0.1%", "--most-seeds", "9")
+        self.assertEqual(len({row["seed"] for row in self.table("few")}), 9)
+        self.assertIn("did you mean 'order'?", self.sweep(study, "--output", "bad", "--until-ci", "ordre=5%", code=2).stderr)
+        self.assertIn("write COLUMN=PERCENT%", self.sweep(study, "--output", "worse", "--until-ci", "order=5", code=2).stderr)
 
     def test_killed_at_any_point_it_goes_on(self):
         study = self.study('<factor id="robots" path="arena.distribute.quantity" from="2" to="11" step="1"/>'
