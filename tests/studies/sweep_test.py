@@ -88,6 +88,22 @@ class Sweep(unittest.TestCase):
         self.assertEqual((self.folder / "a/table.csv").read_bytes(), (self.folder / "b/table.csv").read_bytes())
         self.assertEqual(self.query("a", "SELECT * FROM ways"), self.query("b", "SELECT * FROM ways"))
 
+    def test_what_functions_publish_is_what_they_write(self):
+        inside = '<metrics every="20"><published id="to_nest" name="to_nest"/></metrics>'
+        tables = {}
+        for name, attributes in (("one", ""), ("cluster", 'cluster="true"')):
+            self.sweep(self.study(inside, attributes, name, CONFIGS / "prey_retrieval.xml"), "--output", f"out_{name}")
+            tables[name] = (self.folder / f"out_{name}/table.csv").read_bytes()
+        self.assertEqual(tables["one"], tables["cluster"])
+        # The functions' own file stays in the folder of the run.
+        with open(self.folder / "out_one/runs/0-1/retrieval.csv", newline="") as file:
+            written = {row["tick"]: min(float(value) for name, value in row.items() if name != "tick") for row in csv.DictReader(file)}
+        rows = self.table("out_one")
+        self.assertEqual([row["tick"] for row in rows], ["0", "20", "40", "60"])
+        self.assertEqual(rows[0]["to_nest"], "", "nothing is published before the first tick")
+        for row in rows[1:]:
+            self.assertAlmostEqual(float(row["to_nest"]), written[row["tick"]], delta=5.1e-5)
+
     def test_seeds_are_added_until_the_mean_is_known(self):
         inside = ('<factor id="robots" path="arena.distribute.quantity" values="2 10"/>'
                   '<metrics><polarisation id="order"/><coverage id="seen" cell="0.5"/></metrics>')
