@@ -12,12 +12,13 @@
 #include "common/program/program.h"
 #include "launcher/commands.h"
 #include "launcher/completion.h"
+#include "studies/commands.h"
 
 namespace
 {
 
-const std::vector<std::string> kVerbs{"run",     "resume", "replay", "diff", "export", "attach",
-                                      "control", "check",  "list",   "new",  "demo",   "doctor"};
+const std::vector<std::string> kVerbs{"run",   "resume", "replay", "diff", "export", "attach", "control",
+                                      "check", "list",   "new",    "demo", "doctor", "sweep",  "plot"};
 
 // CLI11 would only say that the word was not expected.
 bool ComplainsAboutVerb(const std::vector<std::string>& words)
@@ -56,6 +57,8 @@ void AddCommands(CLI::App& app, int& exit_code)
   AddNewCommand(app, exit_code);
   AddDemoCommand(app, exit_code);
   AddDoctorCommand(app, exit_code);
+  AddSweepCommand(app, exit_code);
+  AddPlotCommand(app, exit_code);
 }
 
 int Complete(const std::vector<std::string>& words)

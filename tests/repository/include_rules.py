@@ -52,6 +52,8 @@ def allowed():
     rules["launcher"] = below + ROLES + ["roles", "launcher"]
     # The module wraps the runner for one process, as a program of a user does.
     rules["python"] = without_bus + ["controller_host", "space_server", "launcher", "python"]
+    # A layer on what programs of users have: no role.
+    rules["studies"] = below + ["launcher", "roles", "studies"]
     rules["real_robot"] = INTERFACE + ["common/logging", "common/program", "real_robot"]
     # A folder of drivers sees what drivers are made from, and no other drivers.
     rules["real_robot/drivers/ros2"] = rules["real_robot"] + ["real_robot/drivers/ros2"]
@@ -91,6 +93,8 @@ def main():
         may_include = rules[folder]
         if folder in ROLES and (os.path.basename(path) == "main.cpp" or "/cluster/" in path):
             may_include = may_include + ["common/bus"]  # the program around the role
+        if path == "launcher/main.cpp":
+            may_include = may_include + ["studies"]  # whose verbs it has, too
         for number, quoted, included in includes(path):
             if DDS_HEADER.search(included) and folder not in DDS_FOLDERS:
                 mistakes.append(f"{path}:{number}: only {' and '.join(DDS_FOLDERS)} may include DDS headers, not {folder} "

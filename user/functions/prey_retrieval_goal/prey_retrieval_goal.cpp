@@ -1,6 +1,7 @@
 // The goal of the prey retrieval experiment: it is done when the prey that the guide chose stands in the nest, and
 // failed if that takes too long, or another prey is brought. Nobody tells which one it chose: it is the one below
-// the guide when a footbot grips for the first time. Writes the distance of each prey to the nest as CSV.
+// the guide when a footbot grips for the first time. Writes the distance of each prey to the nest as CSV, and publishes
+// the least of them for studies: "to_nest".
 //
 //   <prey_retrieval_goal id="goal" library="prey_retrieval_goal">
 //     <preys>prey_yellow, prey_magenta</preys>
@@ -12,10 +13,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <istream>
+#include <limits>
 #include <memory>
 #include <ostream>
 #include <stdexcept>
 
+#include "common/space/publish.h"
 #include "space_server/experiment_functions.h"
 
 namespace
@@ -81,6 +84,9 @@ public:
   void PostStep(SpaceEditor& space) override
   {
     if (guide_ != nullptr && chosen_ == nullptr && AFootbotGrips(space.GetSpace())) chosen_ = Nearest(*guide_);
+    double nearest_m = std::numeric_limits<double>::max();
+    for (const auto* prey : preys_) nearest_m = std::min(nearest_m, Distance(*prey));
+    Publish(space.GetSpace(), "to_nest", nearest_m);
     if (file_ == nullptr) return;
     std::fprintf(file_.get(), "%llu", static_cast<unsigned long long>(space.GetSpace().GetTick()));
     for (const auto* prey : preys_) std::fprintf(file_.get(), ",%.4f", Distance(*prey));

@@ -1,0 +1,62 @@
+// Numbers of experiment functions for the table of a study (docs/studies.md): <published name="preys"> takes the last
+// one of the name. They are no part of the state. Whoever measures a run (a PublishedNumbers) gets them in the process
+// of the space server; if nobody does, publishing costs a look at an empty list. One thread.
+//
+//   Publish(space.GetSpace(), "preys", delivered_);
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/space/space.h"
+
+namespace swarmanoid
+{
+
+// What is published about a space as long as this is there. The space outlives it.
+class PublishedNumbers
+{
+public:
+  explicit PublishedNumbers(const CSwarmanoidSpace& space) : space_(&space) { All().push_back(this); }
+  ~PublishedNumbers() { std::erase(All(), this); }
+  PublishedNumbers(const PublishedNumbers&) = delete;
+  PublishedNumbers& operator=(const PublishedNumbers&) = delete;
+
+  // The last one of each name.
+  const std::map<std::string, double, std::less<>>& Values() const { return values_; }
+
+private:
+  friend void Publish(const CSwarmanoidSpace& space, std::string_view name, double value);
+
+  static std::vector<PublishedNumbers*>& All()
+  {
+    static std::vector<PublishedNumbers*> all;
+    return all;
+  }
+
+  const CSwarmanoidSpace* space_;
+  std::map<std::string, double, std::less<>> values_;
+};
+
+// Throws std::invalid_argument for a number that is not finite, whether or not somebody measures.
+inline void Publish(const CSwarmanoidSpace& space, std::string_view name, double value)
+{
+  if (!std::isfinite(value))
+    throw std::invalid_argument("'" + std::string(name) + "' is published as no finite number");
+  for (PublishedNumbers* numbers : PublishedNumbers::All())
+  {
+    if (numbers->space_ != &space) continue;
+    if (const auto known = numbers->values_.find(name); known != numbers->values_.end())
+      known->second = value;
+    else
+      numbers->values_.emplace(name, value);
+  }
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,121 @@
+// `swarmanoid plot`: pictures of a study, drawn by a script with matplotlib.
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "common/activity/exit_codes.h"
+#include "common/program/options.h"
+#include "common/program/usage_error.h"
+#include "launcher/installation.h"
+#include "studies/commands.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using enum ParameterType;
+
+struct PlotOptions
+{
+  std::string study;
+  std::vector<std::string> metrics;
+  std::vector<std::string> comparisons;
+  std::string reference;
+  std::string format = "svg";
+  std::string output;
+};
+
+std::vector<OptionSpec> PlotOptionTable(PlotOptions& o)
+{
+  OptionSpec study{
+      {.name = "STUDY", .type = kPath, .description = "The folder of a study"}, &o.study, "results/aggregation"};
+  study.required = true;
+  return {
+      study,
+      {{.name = "metric",
+        .type = kText,
+        .description = "A column of the table, again for each other one; otherwise all"},
+       &o.metrics,
+       "dispersion"},
+      {{.name = "compare",
+        .type = kText,
+        .description = "Compare two values of a factor in pairs of runs, by Wilcoxon's test; again for each other one"},
+       &o.comparisons,
+       "controller=walk,search",
+       "FACTOR=A,B"},
+      {{.name = "reference",
+        .type = kPath,
+        .description = "A JSON file with curves of others, which are drawn beside those of the study"},
+       &o.reference,
+       "configs/studies/aggregation_reference.json"},
+      {{.name = "format", .type = kChoice, .description = "Of the picture files", .choices = {"svg", "png"}},
+       &o.format,
+       "png"},
+      {{.name = "output",
+        .type = kPath,
+        .description = "Folder of the pictures; otherwise pictures/ in that of the study"},
+       &o.output,
+       "figures"},
+  };
+}
+
+int Run(const std::vector<std::string>& words)
+{
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  const pid_t process = fork();
+  if (process == 0)
+  {
+    execvp(arguments[0], arguments.data());
+    _exit(127);
+  }
+  int status = 0;
+  while (process > 0 && waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
+  return process > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : kExitProcessFailed;
+}
+
+int Plot(const PlotOptions& options)
+{
+  // The first one on the path need not be Debian's.
+  std::string python;
+  for (const char* candidate : {"python3", "/usr/bin/python3"})
+    if (python.empty() &&
+        Run({candidate, "-c", "import importlib.util as u, sys; sys.exit(u.find_spec('matplotlib') is None)"}) == 0)
+      python = candidate;
+  if (python.empty())
+    throw UsageError(
+        "plot: pictures are drawn by matplotlib, which is not here; as root: apt-get install python3-matplotlib");
+  const std::string script =
+      (std::filesystem::path(UserFilesFolder()).parent_path() / "studies" / "plot_study.py").string();
+  std::vector<std::string> words{python, "-B", script, options.study, "--format", options.format};
+  for (const std::string& metric : options.metrics) words.insert(words.end(), {"--metric", metric});
+  for (const std::string& request : options.comparisons) words.insert(words.end(), {"--compare", request});
+  if (!options.reference.empty()) words.insert(words.end(), {"--reference", options.reference});
+  if (!options.output.empty()) words.insert(words.end(), {"--output", options.output});
+  return Run(words);
+}
+
+}  // namespace
+
+void AddPlotCommand(CLI::App& app, int& exit_code)
+{
+  auto options = std::make_shared<PlotOptions>();
+  CLI::App* verb = app.add_subcommand("plot", "Draw pictures of a study, and a report with all of them");
+  AddOptions(*verb, PlotOptionTable(*options));
+  verb->footer(
+      "It needs python3-matplotlib. A study that goes on can be drawn, too.\n"
+      "Examples:\n"
+      "  swarmanoid plot results/aggregation\n"
+      "  swarmanoid plot results/aggregation --metric dispersion --format png --output figures");
+  verb->callback([options, &exit_code] { exit_code = Plot(*options); });
+}
+
+}  // namespace swarmanoid

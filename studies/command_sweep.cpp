@@ -1,0 +1,93 @@
+// `swarmanoid sweep`: all runs of a study.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "common/program/options.h"
+#include "studies/commands.h"
+#include "studies/sweep.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using enum ParameterType;
+
+std::vector<OptionSpec> SweepOptionTable(SweepOptions& o)
+{
+  OptionSpec study{
+      {.name = "STUDY", .type = kPath, .description = "The study file; with --resume the folder of a study"},
+      &o.study,
+      "configs/studies/aggregation.xml"};
+  study.required = true;
+  return {
+      study,
+      {{.name = "output",
+        .type = kPath,
+        .description = "Folder of the study, new or empty; otherwise runs/<study>-<time>"},
+       &o.output,
+       "results/aggregation"},
+      {{.name = "resume",
+        .type = kBoolean,
+        .description = "Go on with a study that was interrupted: STUDY is its folder"},
+       &o.resume},
+      {{.name = "dry-run", .type = kBoolean, .description = "List the runs, and run none"}, &o.dry_run},
+      {{.name = "only",
+        .type = kText,
+        .description = "Run only what fulfils a condition over the factors and seed; the others wait for --resume"},
+       &o.only,
+       "'robots <= 20 and seed < 5'",
+       "CONDITION"},
+      {{.name = "until-ci",
+        .type = kText,
+        .description =
+            "Give each point more seeds until the confidence interval of 95 % of a column's mean at the end of the "
+            "runs is within so many percent of it"},
+       &o.until_ci,
+       "dispersion=5%",
+       "COLUMN=PERCENT"},
+      {{.name = "most-seeds",
+        .type = kInteger,
+        .description = "Of a point, for --until-ci",
+        .minimum = 2,
+        .maximum = 1'000'000},
+       &o.most_seeds,
+       "100"},
+      {{.name = "jobs",
+        .type = kInteger,
+        .description = "Runs at a time; 0: as many as cores, or one cluster",
+        .minimum = 0,
+        .maximum = 10'000},
+       &o.jobs,
+       "2"},
+      {{.name = "retries",
+        .type = kInteger,
+        .description = "How often a run that fails is run again",
+        .minimum = 0,
+        .maximum = 1000},
+       &o.retries,
+       "1"},
+      {{.name = "quiet", .type = kBoolean, .description = "No progress"}, &o.quiet},
+  };
+}
+
+}  // namespace
+
+void AddSweepCommand(CLI::App& app, int& exit_code)
+{
+  auto options = std::make_shared<SweepOptions>();
+  CLI::App* verb = app.add_subcommand("sweep", "Run a study: an experiment with many parameters and seeds");
+  AddOptions(*verb, SweepOptionTable(*options));
+  verb->footer(
+      "The last line on standard output is\n"
+      "  finished: <runs> runs, <failed> failed, <wall> s, table <folder>/table.csv\n"
+      "Ctrl-C once ends the study after the runs that go on, twice kills them; --resume goes on.\n"
+      "Exit codes: 0 done, 2 usage, 3 the study or its experiment is invalid, 4 some runs failed, 130 interrupted.\n"
+      "Examples:\n"
+      "  swarmanoid sweep configs/studies/aggregation.xml --dry-run\n"
+      "  swarmanoid sweep configs/studies/aggregation.xml --output results/aggregation\n"
+      "  swarmanoid sweep results/aggregation --resume --retries 1");
+  verb->callback([options, &exit_code] { exit_code = Sweep(*options); });
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,441 @@
+#!/usr/bin/env python3
+"""Pictures and a report of a study, from its study.sqlite: what `swarmanoid plot` runs. Needs python3-matplotlib."""
+import argparse
+import html
+import io
+import itertools
+import json
+import math
+import pathlib
+import sqlite3
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+# Okabe and Ito (2008), https://jfly.uni-koeln.de/color/: told apart with all kinds of colour blindness. Each has a mark of its own, too.
+COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
+MARKS = ["o", "s", "^", "D", "v", "P", "X"]
+HEAT = "cividis"
+MOST_LINES = len(COLOURS)
+SIZE = (6.4, 4.2)
+
+plt.rcParams.update({"axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False, "axes.spines.right": False, "figure.constrained_layout.use": True,
+                     "svg.hashsalt": "swarmanoid", "font.size": 10})
+
+
+class StudyError(Exception):
+    """What a user did wrong, with the cure."""
+
+
+class Study:
+    """The tables of one study."""
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        path = self.folder / "study.sqlite"
+        if not path.is_file():
+            raise StudyError(f"'{folder}' is no folder of a study: it has no study.sqlite")
+        self.database = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
+        self.facts = dict(self.database.execute("SELECT name, value FROM study"))
+        self.factors = [(row[1], row[2] == "REAL") for row in list(self.database.execute("PRAGMA table_info(runs)"))[12:]]
+        self.metrics = [row[1] for row in list(self.database.execute("PRAGMA table_info(samples)"))[4:]]
+        self.states = dict(self.database.execute("SELECT state, COUNT(*) FROM runs GROUP BY state"))
+        self.levels = {name: [row[0] for row in self.database.execute(f'SELECT "{name}" FROM runs GROUP BY "{name}" ORDER BY MIN(point)')]
+                       for name, _ in self.factors}
+        # The last row of each run.
+        self.last = self.rows("SELECT r.* FROM results r JOIN (SELECT point, seed, MAX(tick) AS tick FROM results GROUP BY point, seed) l "
+                              "ON r.point = l.point AND r.seed = l.seed AND r.tick = l.tick ORDER BY r.point, r.seed")
+        self.has_time = self.database.execute("SELECT COUNT(DISTINCT tick) FROM samples").fetchone()[0] > 2
+
+    def rows(self, query, values=()):
+        cursor = self.database.execute(query, values)
+        names = [column[0] for column in cursor.description]
+        return [dict(zip(names, row)) for row in cursor]
+
+    def varied(self):
+        """Factors with more than one value, numbers first."""
+        found = [(name, numeric) for name, numeric in self.factors if len(self.levels[name]) > 1]
+        return sorted(found, key=lambda factor: not factor[1])
+
+
+def shown(value):
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def t_quantile(freedom):
+    """Of 97.5 %: Student's t, by Hill's expansion (Communications of the ACM 13 (1970), algorithm 396), within 0.1 % from 3 on."""
+    if freedom in (1, 2):
+        return {1: 12.706, 2: 4.303}[freedom]
+    p, n = 0.05, freedom
+    a = 1 / (n - 0.5)
+    b = 48 / (a * a)
+    c = ((20700 * a / b - 98) * a - 16) * a + 96.36
+    d = ((94.5 / (b + c) - 3) / b + 1) * np.sqrt(a * np.pi / 2) * n
+    y = (d * p) ** (2 / n)
+    if y > 0.05 + a:
+        x = -1.959964
+        y = x * x
+        if n < 5:
+            c += 0.3 * (n - 4.5) * (x + 0.6)
+        c = (((0.05 * d * x - 5) * x - 7) * x - 2) * x + b + c
+        y = (((((0.4 * y + 6.3) * y + 36) * y + 94.5) / c - y - 3) / b + 1) * x
+        y = np.expm1(a * y * y)
+    else:
+        y = ((1 / (((n + 6) / (n * y) - 0.089 * d - 0.822) * (n + 2) * 3) + 0.5 / (n + 4)) * y - 1) * (n + 1) / (n + 2) + 1 / y
+    return float(np.sqrt(n * y))
+
+
+def mean_and_band(values):
+    """The mean, and half the width of its confidence interval of 95 %; 0 for one value."""
+    values = np.asarray(values, dtype=float)
+    if len(values) < 2:
+        return float(values.mean()), 0.0
+    return float(values.mean()), t_quantile(len(values) - 1) * float(values.std(ddof=1)) / np.sqrt(len(values))
+
+
+def grouped(rows, keys, value):
+    """{(values of the keys): [numbers]}, without rows that have none."""
+    groups = {}
+    for row in rows:
+        if row[value] is not None:
+            groups.setdefault(tuple(row[key] for key in keys), []).append(row[value])
+    return groups
+
+
+def line(axes, number, xs, values, label):
+    """A mean with its band. values: a list of numbers for each x."""
+    means, halves = np.array([mean_and_band(v) for v in values]).T
+    colour = COLOURS[number % len(COLOURS)]
+    axes.plot(xs, means, color=colour, marker=MARKS[number % len(MARKS)], markersize=4, markevery=max(1, len(xs) // 12), label=label)
+    axes.fill_between(xs, means - halves, means + halves, color=colour, alpha=0.2, linewidth=0)
+
+
+def legend(axes, title=None):
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(frameon=False, title=title, fontsize=9)
+
+
+def over_factor(study, metric, factor, by=None):
+    """Means over a numeric factor, a line for each value of another one."""
+    figure, axes = plt.subplots(figsize=SIZE)
+    groups = grouped(study.last, [factor] + ([by] if by else []), metric)
+    for number, level in enumerate(study.levels[by] if by else [None]):
+        xs = [x for x in sorted(study.levels[factor]) if ((x, level) if by else (x,)) in groups]
+        if xs:
+            line(axes, number, xs, [groups[(x, level) if by else (x,)] for x in xs], f"{shown(level)}" if by else None)
+    axes.set_xlabel(factor)
+    axes.set_ylabel(metric)
+    legend(axes, by)
+    return figure, f"{metric} at the end of the runs over {factor}" + (f", by {by}" if by else "") + ": means, and confidence intervals of 95 %."
+
+
+def over_time(study, metric, by):
+    """Means over time, a line for each value of a factor."""
+    figure, axes = plt.subplots(figsize=SIZE)
+    levels = study.levels[by] if by else [None]
+    if len(levels) > MOST_LINES:
+        levels = [levels[i] for i in np.unique(np.linspace(0, len(levels) - 1, MOST_LINES).round().astype(int))]
+    for number, level in enumerate(levels):
+        where = f'WHERE "{by}" = ?' if by else ""
+        rows = study.rows(f'SELECT time_s, "{metric}" AS value FROM results {where}', (level,) if by else ())
+        groups = grouped(rows, ["time_s"], "value")
+        if groups:
+            xs = sorted(x for x, in groups)
+            line(axes, number, xs, [groups[(x,)] for x in xs], shown(level) if by else None)
+    axes.set_xlabel("time (s)")
+    axes.set_ylabel(metric)
+    legend(axes, by)
+    return figure, f"{metric} over time" + (f", by {by}" if by else "") + ": means of all runs, and confidence intervals of 95 %."
+
+
+def boxes(study, metric, factor):
+    figure, axes = plt.subplots(figsize=SIZE)
+    groups = grouped(study.last, [factor], metric)
+    levels = [level for level in study.levels[factor] if (level,) in groups]
+    axes.boxplot([groups[(level,)] for level in levels], labels=[shown(level) for level in levels], patch_artist=True, widths=0.6,
+                 boxprops={"facecolor": "#56b4e9", "alpha": 0.6}, medianprops={"color": "black", "linewidth": 1.5}, flierprops={"markersize": 3})
+    if len(levels) > 8:
+        axes.tick_params(axis="x", rotation=45)
+    axes.set_xlabel(factor)
+    axes.set_ylabel(metric)
+    return figure, f"{metric} at the end of the runs, by {factor}: median, quartiles, whiskers to 1.5 times their distance, and what is beyond."
+
+
+def heat(study, metric, x, y):
+    figure, axes = plt.subplots(figsize=SIZE)
+    groups = grouped(study.last, [x, y], metric)
+    xs, ys = sorted(study.levels[x]), sorted(study.levels[y])
+    means = np.array([[np.mean(groups[(a, b)]) if (a, b) in groups else np.nan for a in xs] for b in ys])
+    picture = axes.imshow(means, origin="lower", aspect="auto", cmap=HEAT, interpolation="nearest")
+    axes.set_xticks(range(len(xs)), [shown(a) for a in xs], rotation=45 if len(xs) > 8 else 0)
+    axes.set_yticks(range(len(ys)), [shown(b) for b in ys])
+    axes.grid(False)
+    axes.set_xlabel(x)
+    axes.set_ylabel(y)
+    figure.colorbar(picture, label=metric)
+    if means.size <= 60:
+        middle = (np.nanmin(means) + np.nanmax(means)) / 2
+        for (row, column), value in np.ndenumerate(means):
+            if not np.isnan(value):
+                axes.text(column, row, f"{value:.3g}", ha="center", va="center", fontsize=8, color="white" if value < middle else "black")
+    return figure, f"{metric} at the end of the runs over {x} and {y}: means of all seeds."
+
+
+def ways(study, point, seed):
+    row = study.database.execute("SELECT entities, samples, places FROM ways WHERE point = ? AND seed = ?", (point, seed)).fetchone()
+    names = row[0].split(" ")
+    places = np.frombuffer(row[2], dtype="<f4").reshape(row[1], len(names), 2)
+    figure, axes = plt.subplots(figsize=(4.8, 4.8))
+    for entity in range(len(names)):
+        colour = COLOURS[entity % len(COLOURS)]
+        axes.plot(places[:, entity, 0], places[:, entity, 1], color=colour, linewidth=0.8, alpha=0.7)
+        there = np.flatnonzero(~np.isnan(places[:, entity, 0]))
+        if len(there):
+            axes.plot(*places[there[-1], entity], marker="o", markersize=4, color=colour)
+    axes.set_aspect("equal")
+    axes.set_xlabel("x (m)")
+    axes.set_ylabel("y (m)")
+    return figure, f"Ways of {len(names)} entities in run {point}-{seed} ({values_of(study, point)}); a dot is where each ended."
+
+
+def visits(study, metric, point):
+    rows = study.database.execute("SELECT columns, rows, cell_m, visits FROM grids WHERE metric = ? AND point = ?", (metric, point)).fetchall()
+    columns, lines, cell, _ = rows[0]
+    total = sum(np.frombuffer(row[3], dtype="<u4").reshape(lines, columns).astype(float) for row in rows) / len(rows)
+    figure, axes = plt.subplots(figsize=(5.4, 4.6))
+    picture = axes.imshow(np.where(total > 0, total, np.nan), origin="lower", cmap=HEAT, extent=(0, columns * cell, 0, lines * cell), interpolation="nearest")
+    axes.grid(False)
+    axes.set_facecolor("#e0e0e0")
+    axes.set_xlabel("x (m)")
+    axes.set_ylabel("y (m)")
+    figure.colorbar(picture, label="ticks of entities in a cell, mean of the seeds")
+    return figure, f"{metric}: where entities were ({values_of(study, point)}); cells in grey were never visited."
+
+
+def values_of(study, point):
+    row = study.rows("SELECT * FROM runs WHERE point = ? LIMIT 1", (point,))[0]
+    return ", ".join(f"{name} = {shown(row[name])}" for name, _ in study.factors) or "the only point"
+
+
+def ends(study, table):
+    points = [row[0] for row in study.database.execute(f"SELECT DISTINCT point FROM {table} ORDER BY point")]
+    return points if len(points) <= 2 else [points[0], points[-1]]
+
+
+def with_reference(study, metric, figure, references):
+    """Draws a curve of somebody else beside ours: a CSV file with the columns of the picture's axes."""
+    for number, reference in enumerate(r for r in references if r["metric"] == metric):
+        for ours in figure.axes[0].lines:
+            if ours.get_label().startswith("_"):
+                ours.set_label("this study")
+        figure.axes[0].plot(reference["x"], reference["y"], linestyle="--", color="black", marker=["x", "+"][number % 2], label=reference["name"])
+        legend(figure.axes[0])
+
+
+def pictures(study, metrics):
+    """(name, figure, what it shows), one after the other."""
+    varied = study.varied()
+    numeric = [name for name, is_numeric in varied if is_numeric]
+    others = [name for name, _ in varied if name not in numeric]
+    for metric in metrics:
+        if numeric:
+            by = next((name for name in others + numeric[1:] if len(study.levels[name]) <= MOST_LINES), None)
+            yield f"{metric}_over_{numeric[0]}", *over_factor(study, metric, numeric[0], by)
+        for name, _ in varied[:2] if varied else []:
+            if len(study.levels[name]) <= 40:
+                yield f"{metric}_boxes_{name}", *boxes(study, metric, name)
+        for x, y in itertools.islice(itertools.combinations(numeric, 2), 3):
+            yield f"{metric}_over_{x}_and_{y}", *heat(study, metric, x, y)
+        if study.has_time:
+            yield f"{metric}_over_time", *over_time(study, metric, varied[0][0] if varied else None)
+    for point in ends(study, "ways"):
+        seed = study.database.execute("SELECT MIN(seed) FROM ways WHERE point = ?", (point,)).fetchone()[0]
+        yield f"ways_{point}-{seed}", *ways(study, point, seed)
+    for metric, in study.database.execute("SELECT DISTINCT metric FROM grids ORDER BY metric").fetchall():
+        for point in ends(study, "grids"):
+            yield f"{metric}_visits_{point}", *visits(study, metric, point)
+
+
+def signed_ranks(differences):
+    """Ranks of the sizes of the differences that are not 0, with equal ones in the middle of theirs; and their signs."""
+    kept = np.array([d for d in differences if d != 0])
+    order = np.argsort(np.abs(kept), kind="stable")
+    sizes = np.abs(kept)[order]
+    ranks = np.empty(len(kept))
+    start = 0
+    for end in range(1, len(kept) + 1):
+        if end == len(kept) or sizes[end] != sizes[start]:
+            ranks[order[start:end]] = (start + 1 + end) / 2
+            start = end
+    return ranks, np.sign(kept)
+
+
+def wilcoxon(differences):
+    """Wilcoxon's signed-rank test (Biometrics Bulletin 1 (1945), 80-83) of paired differences: p of both sides, and the rank-biserial
+    correlation of the pairs (Kerby, Comprehensive Psychology 3 (2014)): 1 if all differences are above 0, -1 if all are below. Exact for up
+    to 50 pairs without equal sizes, otherwise normal with the correction for these."""
+    ranks, signs = signed_ranks(differences)
+    n = len(ranks)
+    if n == 0:
+        return 1.0, 0.0
+    above, below = float(ranks[signs > 0].sum()), float(ranks[signs < 0].sum())
+    effect = (above - below) / (above + below)
+    least = min(above, below)
+    if n <= 50 and len(set(ranks)) == n:
+        # How many of the 2**n choices of signs have each sum of ranks.
+        counts = [1] + [0] * (n * (n + 1) // 2)
+        for rank in range(1, n + 1):
+            for total in range(len(counts) - 1, rank - 1, -1):
+                counts[total] += counts[total - rank]
+        return min(1.0, 2 * sum(counts[: int(least) + 1]) / 2**n), effect
+    sizes = np.unique(ranks, return_counts=True)[1]
+    variance = n * (n + 1) * (2 * n + 1) / 24 - (sizes**3 - sizes).sum() / 48
+    z = max(0.0, abs(above - n * (n + 1) / 4) - 0.5) / math.sqrt(variance)
+    return math.erfc(z / math.sqrt(2)), effect
+
+
+def level_named(study, factor, text):
+    for level in study.levels[factor]:
+        if shown(level) == text:
+            return level
+    raise StudyError(f"--compare: '{factor}' has no value '{text}'; it has: {', '.join(map(shown, study.levels[factor]))}")
+
+
+def compared(study, request, metrics):
+    """Rows (metric, pairs, mean difference, half its confidence interval, p, effect) of FACTOR=A,B: B less A, in pairs that have the same
+    seed and the same values of all other factors."""
+    factor, _, values = request.partition("=")
+    if factor not in study.levels or values.count(",") != 1:
+        raise StudyError(f"--compare: write FACTOR=A,B, with one of the factors {', '.join(study.levels) or '(there are none)'}")
+    first, second = (level_named(study, factor, value.strip()) for value in values.split(","))
+    others = [name for name in study.levels if name != factor] + ["seed"]
+    found = []
+    for metric in metrics:
+        of = {level: {tuple(row[name] for name in others): row[metric] for row in study.last if row[factor] == level and row[metric] is not None}
+              for level in (first, second)}
+        differences = [of[second][key] - of[first][key] for key in of[first] if key in of[second]]
+        if differences:
+            found.append((metric, len(differences), *mean_and_band(differences), *wilcoxon(differences)))
+    return found
+
+
+def comparison(request, rows):
+    lines = "".join(f"<tr><td>{html.escape(metric)}</td><td>{pairs}</td><td>{mean:.4g} ± {half:.2g}</td><td>{p:.3g}</td><td>{effect:+.2f}</td></tr>"
+                    for metric, pairs, mean, half, p, effect in rows)
+    return (f"<h2>{html.escape(request)}, in pairs</h2><p>The second less the first, of runs with the same seed and otherwise the same values: mean with its "
+            "confidence interval of 95 %, Wilcoxon's signed-rank test, rank-biserial correlation.</p><table><thead><tr><th>metric</th><th>pairs</th>"
+            f"<th>difference</th><th>p</th><th>effect</th></tr></thead><tbody>{lines}</tbody></table>")
+
+
+def summary(study):
+    """The table of the report: for each point the mean and deviation of each metric at the end."""
+    names = [name for name, _ in study.factors]
+    head = "".join(f"<th>{html.escape(text)}</th>" for text in [*names, "runs", *study.metrics])
+    lines = []
+    for point, rows in itertools.groupby(study.last, key=lambda row: row["point"]):
+        rows = list(rows)
+        cells = [shown(rows[0][name]) for name in names] + [str(len(rows))]
+        for metric in study.metrics:
+            values = [row[metric] for row in rows if row[metric] is not None]
+            cells.append(f"{np.mean(values):.4g} ± {np.std(values, ddof=1):.2g}" if len(values) > 1 else f"{values[0]:.4g}" if values else "")
+        lines.append("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in cells) + "</tr>")
+        if len(lines) == 500:
+            lines.append(f'<tr><td colspan="{len(cells)}">The others stand in table.csv.</td></tr>')
+            break
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(lines)}</tbody></table>"
+
+
+PAGE = """<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><title>{name}</title><style>
+body {{ font: 15px/1.5 system-ui, sans-serif; max-width: 70rem; margin: 2rem auto; padding: 0 1rem; color: #202020; background: #fff }}
+figure {{ display: inline-block; margin: 0 1rem 1.5rem 0; vertical-align: top; max-width: 32rem }}
+figure svg {{ max-width: 100%; height: auto }}
+figcaption {{ color: #505050; font-size: 0.9em }}
+table {{ border-collapse: collapse; font-size: 0.9em }}
+th, td {{ padding: 0.15rem 0.7rem; text-align: right; border-bottom: 1px solid #d8d8d8 }}
+.wide {{ overflow-x: auto }}
+pre {{ background: #f4f4f4; padding: 0.8rem; overflow-x: auto }}
+</style></head><body>
+<h1>{name}</h1>
+<p>{runs}. Swarmanoid {version}{revision}.</p>
+{figures}
+{comparisons}
+<h2>At the end of the runs</h2>
+<p>Mean and standard deviation over the seeds.</p>
+<div class="wide">{table}</div>
+<h2>The study</h2>
+<pre>{study}</pre>
+</body></html>
+"""
+
+
+def inline(figure):
+    text = io.StringIO()
+    figure.savefig(text, format="svg", metadata={"Date": None})
+    svg = text.getvalue()
+    return svg[svg.index("<svg"):]
+
+
+def read_references(path, metrics):
+    """[{metric, name, x, y}] of a JSON file beside the study."""
+    with open(path, encoding="utf-8") as file:
+        found = json.load(file)
+    for reference in found:
+        missing = {"metric", "name", "x", "y"} - set(reference)
+        if missing or len(reference["x"]) != len(reference["y"]):
+            raise StudyError(f"{path}: each curve has 'metric', 'name', and 'x' and 'y' of the same length")
+        if reference["metric"] not in metrics:
+            raise StudyError(f"{path}: the study has no metric '{reference['metric']}'; it has: {', '.join(metrics)}")
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="swarmanoid plot", description=__doc__)
+    parser.add_argument("folder")
+    parser.add_argument("--metric", action="append", default=[])
+    parser.add_argument("--reference", default="")
+    parser.add_argument("--compare", action="append", default=[])
+    parser.add_argument("--format", choices=["svg", "png"], default="svg")
+    parser.add_argument("--output", default="")
+    options = parser.parse_args()
+    study = Study(options.folder)
+    for metric in options.metric:
+        if metric not in study.metrics:
+            raise StudyError(f"--metric: the study has no column '{metric}'; it has: {', '.join(study.metrics) or 'none'}")
+    if not study.last:
+        raise StudyError(f"no run of '{options.folder}' has a result yet")
+    references = read_references(options.reference, study.metrics) if options.reference else []
+    comparisons = ""
+    for request in options.compare:
+        rows = compared(study, request, options.metric or study.metrics)
+        comparisons += comparison(request, rows)
+        for metric, pairs, mean, half, p, effect in rows:
+            print(f"{metric}: {request}: difference {mean:.4g} ± {half:.2g} in {pairs} pairs, p = {p:.3g} (Wilcoxon), effect {effect:+.2f}")
+    output = pathlib.Path(options.output) if options.output else study.folder / "pictures"
+    output.mkdir(parents=True, exist_ok=True)
+    figures = []
+    for name, figure, caption in pictures(study, options.metric or study.metrics):
+        metric = next((m for m in study.metrics if name.startswith(m + "_over_") and "_and_" not in name and not name.endswith("_over_time")), None)
+        with_reference(study, metric, figure, references)
+        figure.savefig(output / f"{name}.{options.format}", dpi=150, metadata={"Date": None} if options.format == "svg" else None)
+        figures.append(f"<figure>{inline(figure)}<figcaption>{html.escape(caption)}</figcaption></figure>")
+        plt.close(figure)
+    revision = study.facts.get("revision", "")
+    runs = ", ".join(f"{count} runs {state}" for state, count in sorted(study.states.items()))
+    report = output / "report.html"
+    report.write_text(PAGE.format(name=html.escape(study.facts["name"]), runs=runs, version=study.facts["version"],
+                                  revision=f" ({revision})" if revision else "", figures="\n".join(figures), comparisons=comparisons, table=summary(study),
+                                  study=html.escape(study.facts["study"])), encoding="utf-8")
+    print(f"{len(figures)} pictures in {output}, report {report}")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except (StudyError, sqlite3.Error, OSError, json.JSONDecodeError) as error:
+        print(f"swarmanoid plot: {error}", file=sys.stderr)
+        sys.exit(2)

@@ -1,0 +1,180 @@
+#include "studies/recorder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "studies/metric.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+bool HasColumns(const MetricChoice& choice) { return choice.kind != "trajectories"; }
+
+// Of sorted values, between 0 and 1.
+double Quantile(const std::vector<double>& sorted, double share)
+{
+  const double place = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(std::floor(place));
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+double SumOf(const std::vector<double>& values)
+{
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum;
+}
+
+}  // namespace
+
+double Aggregate(const std::string& name, std::vector<double>& values)
+{
+  const auto count = static_cast<double>(values.size());
+  if (name == "count") return count;
+  if (values.empty()) return kNone;
+  // Sums run in the order of the values, so that they do not depend on that of the entities.
+  std::sort(values.begin(), values.end());
+  if (name == "sum") return SumOf(values);
+  if (name == "min") return values.front();
+  if (name == "max") return values.back();
+  if (name == "median") return Quantile(values, 0.5);
+  if (name.starts_with("q")) return Quantile(values, std::stod(name.substr(1)) / 100);
+  const double mean = SumOf(values) / count;
+  if (name == "mean") return mean;
+  if (values.size() < 2) return kNone;
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return std::sqrt(squares / (count - 1));
+}
+
+void RunSamples::Write(ByteWriter& bytes) const
+{
+  bytes.Put(tick_s);
+  bytes.PutArray(ticks);
+  bytes.PutArray(values);
+  bytes.Put(static_cast<std::uint64_t>(grids.size()));
+  for (const Grid& grid : grids)
+  {
+    bytes.PutText(grid.metric);
+    bytes.Put(grid.columns);
+    bytes.Put(grid.rows);
+    bytes.Put(grid.cell_m);
+    bytes.PutArray(grid.visits);
+  }
+  bytes.Put(static_cast<std::uint64_t>(followed.size()));
+  for (const std::string& id : followed) bytes.PutText(id);
+  bytes.PutArray(ways);
+}
+
+RunSamples RunSamples::Read(ByteReader& bytes)
+{
+  RunSamples samples;
+  samples.tick_s = bytes.Get<double>();
+  samples.ticks = bytes.GetArray<std::uint64_t>();
+  samples.values = bytes.GetArray<double>();
+  for (auto count = bytes.Get<std::uint64_t>(); count > 0; --count)
+  {
+    Grid& grid = samples.grids.emplace_back();
+    grid.metric = bytes.GetText();
+    grid.columns = bytes.Get<std::uint32_t>();
+    grid.rows = bytes.Get<std::uint32_t>();
+    grid.cell_m = bytes.Get<double>();
+    grid.visits = bytes.GetArray<std::uint32_t>();
+  }
+  for (auto count = bytes.Get<std::uint64_t>(); count > 0; --count) samples.followed.push_back(bytes.GetText());
+  samples.ways = bytes.GetArray<float>();
+  return samples;
+}
+
+std::vector<std::string> MetricColumns(const Study& study)
+{
+  std::vector<std::string> columns;
+  for (const MetricChoice& choice : study.metrics)
+  {
+    if (!HasColumns(choice)) continue;
+    if (choice.aggregates.empty()) columns.push_back(choice.id);
+    for (const std::string& aggregate : choice.aggregates) columns.push_back(choice.id + "." + aggregate);
+  }
+  return columns;
+}
+
+Recorder::Recorder(const Study& study, const Experiment& experiment)
+    : study_(study), columns_(MetricColumns(study).size())
+{
+  for (const MetricChoice& choice : study.metrics)
+  {
+    if (HasColumns(choice))
+      metrics_.push_back(MakeMetric(choice, experiment));
+    else if (followed_.empty())
+      followed_ = EntitiesOf(choice, experiment);
+    else
+      throw ConfigurationError(choice.location, "there is a second <trajectories>; one may follow all entities");
+  }
+  samples_.tick_s = experiment.TickSeconds();
+  for (const std::uint32_t index : followed_) samples_.followed.push_back(experiment.entities[index].id);
+}
+
+Recorder::~Recorder() = default;
+
+void Recorder::Look(CSimulator& simulator)
+{
+  if (std::exchange(is_tentative_, false))
+  {
+    samples_.ticks.pop_back();
+    samples_.values.resize(samples_.values.size() - columns_);
+    samples_.ways.resize(samples_.ways.size() - 2 * followed_.size());
+  }
+  for (const auto& metric : metrics_) metric->Look(simulator);
+  const std::uint64_t tick = simulator.GetSpace().GetTick();
+  if (study_.sample_every != 0 && tick % study_.sample_every == 0) AddRow(simulator);
+}
+
+void Recorder::LookLast(CSimulator& simulator)
+{
+  if (!samples_.ticks.empty() && samples_.ticks.back() == simulator.GetSpace().GetTick()) return;
+  AddRow(simulator);
+  is_tentative_ = true;
+}
+
+void Recorder::AddRow(CSimulator& simulator)
+{
+  const CSwarmanoidSpace& space = simulator.GetSpace();
+  samples_.ticks.push_back(space.GetTick());
+  std::vector<double> values;
+  std::size_t metric = 0;
+  for (const MetricChoice& choice : study_.metrics)
+  {
+    if (!HasColumns(choice)) continue;
+    values.clear();
+    metrics_[metric++]->Measure(simulator, values);
+    if (choice.aggregates.empty())
+    {
+      samples_.values.push_back(values.empty() ? kNone : values[0]);
+      continue;
+    }
+    std::erase_if(values, [](double value) { return std::isnan(value); });
+    for (const std::string& aggregate : choice.aggregates) samples_.values.push_back(Aggregate(aggregate, values));
+  }
+  for (const std::uint32_t index : followed_)
+  {
+    const bool present = space.IsPresent(index);
+    samples_.ways.push_back(static_cast<float>(present ? space.Poses().x[index] : kNone));
+    samples_.ways.push_back(static_cast<float>(present ? space.Poses().y[index] : kNone));
+  }
+}
+
+RunSamples Recorder::Take()
+{
+  for (const auto& metric : metrics_) metric->AddGrid(samples_);
+  is_tentative_ = false;
+  return std::move(samples_);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,246 @@
+#include "studies/run_pool.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+#include "common/activity/exit_codes.h"
+#include "common/activity/failure_report.h"
+#include "common/activity/memory_limit.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr double kShortRun_s = 0.5;
+
+// What is free now, or could be.
+std::uint64_t AvailableMemory()
+{
+  std::ifstream file("/proc/meminfo");
+  for (std::string name; file >> name; file.ignore(200, '\n'))
+    if (std::uint64_t kib = 0; name == "MemAvailable:" && file >> kib)
+      return std::min(kib * 1024, DefaultMemoryLimit());
+  return DefaultMemoryLimit();
+}
+
+bool SendFrame(int socket, const ByteWriter& content)
+{
+  ByteWriter frame;
+  frame.PutArray(content.Bytes());
+  return WriteAll(socket, {frame.Bytes().data(), frame.Bytes().size()});
+}
+
+// False at the end of what comes.
+bool ReadWhole(int socket, char* into, std::size_t count)
+{
+  while (count > 0)
+  {
+    const ssize_t got = read(socket, into, count);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    into += got;
+    count -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+[[noreturn]] void Work(const Study& study, const std::string& folder, int socket)
+{
+  std::uint64_t size = 0;
+  while (ReadWhole(socket, reinterpret_cast<char*>(&size), sizeof size))
+  {
+    std::vector<char> bytes(size);
+    if (!ReadWhole(socket, bytes.data(), size)) break;
+    ByteReader reader(bytes);
+    ByteWriter answer;
+    RunInCopy(study, folder, RunOrder::Read(reader)).Write(answer);
+    if (!SendFrame(socket, answer)) break;
+  }
+  LeaveAtOnce(0);
+}
+
+void Pin(int core)
+{
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  CPU_SET(static_cast<unsigned>(core), &set);
+  sched_setaffinity(0, sizeof set, &set);  // if it is forbidden, the kernel chooses
+}
+
+}  // namespace
+
+std::vector<int> UsableCores()
+{
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  std::vector<int> cores;
+  if (sched_getaffinity(0, sizeof set, &set) == 0)
+    for (int core = 0; core < CPU_SETSIZE; ++core)
+      if (CPU_ISSET(static_cast<unsigned>(core), &set)) cores.push_back(core);
+  if (cores.empty()) cores.push_back(0);
+  return cores;
+}
+
+RunPool::RunPool(const Study& study, std::string folder, unsigned jobs)
+    : study_(study), folder_(std::move(folder)), memory_bytes_(AvailableMemory()), workers_(jobs)
+{
+  for (Worker& worker : workers_) Start(worker);
+}
+
+RunPool::~RunPool()
+{
+  for (const Worker& worker : workers_) kill(worker.process, SIGKILL);
+  for (const Worker& worker : workers_)
+  {
+    while (waitpid(worker.process, nullptr, 0) < 0 && errno == EINTR) continue;
+    close(worker.socket);
+  }
+}
+
+void RunPool::Start(Worker& worker)
+{
+  int ends[2];
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+    throw std::runtime_error(fmt::format("cannot start the processes of the study: {}", std::strerror(errno)));
+  const pid_t parent = getpid();
+  const std::vector<int> cores = UsableCores();
+  const std::size_t number = static_cast<std::size_t>(&worker - workers_.data());
+  worker.process = fork();
+  if (worker.process < 0)
+    throw std::runtime_error(fmt::format("cannot start the processes of the study: {}", std::strerror(errno)));
+  if (worker.process == 0)
+  {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) LeaveAtOnce(0);
+    setpgid(0, 0);  // Ctrl-C at a terminal is for who supervises
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
+    for (const Worker& other : workers_)
+      if (other.socket >= 0) close(other.socket);
+    close(ends[0]);
+    if (!study_.cluster) Pin(cores[number % cores.size()]);
+    Work(study_, folder_, ends[1]);
+  }
+  close(ends[1]);
+  worker.socket = ends[0];
+}
+
+std::size_t RunPool::FreeWorker() const
+{
+  const std::uint64_t fitting =
+      peak_bytes_ == 0 ? workers_.size() : std::max<std::uint64_t>(1, memory_bytes_ / peak_bytes_);
+  std::size_t best = workers_.size();
+  for (std::size_t w = 0; w < std::min<std::size_t>(workers_.size(), fitting); ++w)
+    if (workers_[w].orders.size() < orders_of_worker_ &&
+        (best == workers_.size() || workers_[w].orders.size() < workers_[best].orders.size()))
+      best = w;
+  return best;
+}
+
+void RunPool::Give(RunOrder order)
+{
+  Worker& worker = workers_[FreeWorker()];
+  Send(worker, order);
+  worker.orders.push_back(std::move(order));
+}
+
+// One that has died is noticed when its answer is waited for.
+void RunPool::Send(Worker& worker, const RunOrder& order)
+{
+  ByteWriter bytes;
+  order.Write(bytes);
+  SendFrame(worker.socket, bytes);
+}
+
+bool RunPool::IsIdle() const
+{
+  return std::all_of(workers_.begin(), workers_.end(), [](const Worker& worker) { return worker.orders.empty(); });
+}
+
+std::vector<RunName> RunPool::Running() const
+{
+  std::vector<RunName> names;
+  for (const Worker& worker : workers_)
+    if (!worker.orders.empty()) names.push_back(worker.orders.front().name);
+  return names;
+}
+
+std::vector<RunOutcome> RunPool::Wait(std::chrono::milliseconds longest)
+{
+  std::vector<pollfd> sockets;
+  for (const Worker& worker : workers_) sockets.push_back({worker.socket, POLLIN, 0});
+  std::vector<RunOutcome> outcomes;
+  if (poll(sockets.data(), sockets.size(), static_cast<int>(longest.count())) <= 0) return outcomes;
+  for (std::size_t w = 0; w < workers_.size(); ++w)
+  {
+    if (sockets[w].revents == 0) continue;
+    Worker& worker = workers_[w];
+    const bool alive = Receive(worker);
+    TakeOutcomes(worker, outcomes);
+    if (!alive) Bury(worker, outcomes);
+  }
+  return outcomes;
+}
+
+bool RunPool::Receive(Worker& worker)
+{
+  constexpr std::size_t kChunk = 1U << 20U;
+  const std::size_t before = worker.received.size();
+  worker.received.resize(before + kChunk);
+  const ssize_t got = read(worker.socket, worker.received.data() + before, kChunk);
+  worker.received.resize(before + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  return got > 0 || (got < 0 && errno == EINTR);
+}
+
+void RunPool::TakeOutcomes(Worker& worker, std::vector<RunOutcome>& outcomes)
+{
+  std::uint64_t size = 0;
+  while (worker.received.size() >= sizeof size)
+  {
+    std::memcpy(&size, worker.received.data(), sizeof size);
+    if (worker.received.size() - sizeof size < size) return;
+    ByteReader reader({worker.received.data() + sizeof size, size});
+    outcomes.push_back(RunOutcome::Read(reader));
+    peak_bytes_ = std::max(peak_bytes_, outcomes.back().peak_bytes);
+    orders_of_worker_ = outcomes.back().wall_s < kShortRun_s ? 2 : 1;
+    const auto end = worker.received.begin() + static_cast<std::ptrdiff_t>(sizeof size + size);
+    worker.received.erase(worker.received.begin(), end);
+    worker.orders.pop_front();
+  }
+}
+
+// The process died while it read an experiment, or was killed. Another one takes its place.
+void RunPool::Bury(Worker& worker, std::vector<RunOutcome>& outcomes)
+{
+  int status = 0;
+  while (waitpid(worker.process, &status, 0) < 0 && errno == EINTR) continue;
+  close(worker.socket);
+  worker.socket = -1;
+  worker.received.clear();
+  if (!worker.orders.empty())
+  {
+    RunOutcome& outcome = outcomes.emplace_back();
+    outcome.name = worker.orders.front().name;
+    outcome.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : static_cast<int>(kExitProcessFailed);
+    outcome.failure = WIFSIGNALED(status) ? fmt::format("its process was killed by signal {} ({})", WTERMSIG(status),
+                                                        strsignal(WTERMSIG(status)))
+                                          : "its process ended while it read the experiment";
+    worker.orders.pop_front();
+  }
+  Start(worker);
+  for (const RunOrder& order : worker.orders) Send(worker, order);
+}
+
+}  // namespace swarmanoid

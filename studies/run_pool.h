@@ -1,0 +1,64 @@
+// The processes of this machine that run a study: one a core, each with one run at a time. They are copies of this
+// process, made when it has loaded the plug-ins, and end with it, also if it is killed. One thread.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "studies/run_order.h"
+
+namespace swarmanoid
+{
+
+class RunPool
+{
+public:
+  // `jobs`: processes. Both texts and the study outlive it.
+  RunPool(const Study& study, std::string folder, unsigned jobs);
+  ~RunPool();
+  RunPool(const RunPool&) = delete;
+  RunPool& operator=(const RunPool&) = delete;
+
+  // Whether some process takes another run. Those that would need more memory than there is, as their largest
+  // predecessor did, wait until others have ended.
+  bool HasRoom() const { return FreeWorker() != workers_.size(); }
+  void Give(RunOrder order);
+  bool IsIdle() const;
+  // Waits for some, but not for longer.
+  std::vector<RunOutcome> Wait(std::chrono::milliseconds longest);
+  // Of the runs that go on now.
+  std::vector<RunName> Running() const;
+
+private:
+  struct Worker
+  {
+    pid_t process = -1;
+    int socket = -1;
+    std::deque<RunOrder> orders;  // the first one runs
+    std::vector<char> received;
+  };
+
+  std::size_t FreeWorker() const;
+  void Start(Worker& worker);
+  void Send(Worker& worker, const RunOrder& order);
+  bool Receive(Worker& worker);
+  void TakeOutcomes(Worker& worker, std::vector<RunOutcome>& outcomes);
+  void Bury(Worker& worker, std::vector<RunOutcome>& outcomes);
+
+  const Study& study_;
+  std::string folder_;
+  std::uint64_t memory_bytes_ = 0;  // for all of them
+  std::uint64_t peak_bytes_ = 0;    // of the largest run so far
+  // Behind a short run another one waits, so that no process waits for this one; a long one is not waited for long.
+  std::size_t orders_of_worker_ = 1;
+  std::vector<Worker> workers_;
+};
+
+// Cores that this process may use.
+std::vector<int> UsableCores();
+
+}  // namespace swarmanoid

@@ -1,0 +1,417 @@
+#include "studies/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "common/configuration/wording.h"
+#include "common/configuration/xml_reader.h"
+#include "common/experiment/diagnostics.h"
+#include "common/experiment/element_reader.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostLevels = 1'000'000;
+
+std::vector<std::string> SplitAt(std::string_view text, std::string_view separators)
+{
+  std::vector<std::string> parts;
+  std::size_t at = 0;
+  while (at <= text.size())
+  {
+    const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
+    const std::string_view part = TrimBlanks(text.substr(at, end - at));
+    if (!part.empty()) parts.emplace_back(part);
+    at = end + 1;
+  }
+  return parts;
+}
+
+std::vector<std::string> Words(std::string_view text) { return SplitAt(text, ", \t\r\n"); }
+
+std::vector<std::string> ValuesIn(std::string_view text)
+{
+  return text.find(';') != std::string_view::npos ? SplitAt(text, ";") : Words(text);
+}
+
+bool IsName(const std::string& id)
+{
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  return !id.empty() && id.size() <= 64 && letter(id[0]) &&
+         std::all_of(id.begin(), id.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+
+class StudyReader
+{
+public:
+  StudyReader(Study& study, Diagnostics& diagnostics) : study_(study), diagnostics_(diagnostics) {}
+
+  void Read(const TConfigurationTree& root)
+  {
+    const ElementReader reader(root, StudySchema(), diagnostics_);
+    study_.experiment = Resolved(reader.Text("experiment"));
+    study_.ticks = static_cast<std::uint64_t>(reader.Integer("ticks"));
+    study_.cluster = reader.Boolean("cluster");
+    study_.controller_hosts = static_cast<unsigned>(reader.Integer("controller_hosts"));
+    study_.visualisations = reader.Boolean("visualisations");
+    ReadSeeds(reader);
+    // Names that are used in tables for something else.
+    for (const char* taken : {"point", "seed", "tick", "time_s", "ticks", "exit", "hash"}) ids_[taken] = {};
+    for (const TConfigurationTree& child : root.Children())
+    {
+      if (child.Name() == "set") study_.settings.push_back(ReadSet(child, StudySchema().Child("set")));
+      if (child.Name() == "factor" || child.Name() == "variants")
+      {
+        Dimension dimension;
+        ReadFactor(child, dimension);
+        if (!dimension.factors.empty()) study_.dimensions.push_back(std::move(dimension));
+      }
+      if (child.Name() == "zip") ReadZip(child);
+      if (child.Name() == "require") ReadCondition(child);
+    }
+    ReadMetrics(root.Child("metrics"));
+    CheckConditions();
+    CheckSize(root.Location());
+  }
+
+private:
+  std::string Resolved(const std::string& path) const
+  {
+    return path.empty() ? path : (fs::path(study_.folder) / path).lexically_normal().string();
+  }
+
+  void ReadSeeds(const ElementReader& reader)
+  {
+    const auto fail = [&](const std::string& what)
+    {
+      diagnostics_.Add(reader.Place("seeds"),
+                       fmt::format("'seeds' of <study> {}; write numbers and ranges, such as 1-30 or 1-10, 99", what));
+    };
+    for (const std::string& part : Words(reader.Text("seeds")))
+    {
+      const std::size_t dash = part.find('-', 1);
+      const auto first = ParseInteger(part.substr(0, dash));
+      const auto last = dash == std::string::npos ? first : ParseInteger(part.substr(dash + 1));
+      if (!first || !last || *first < 0 || *last < 0) return fail("holds " + Quoted(part));
+      if (*last < *first) return fail(fmt::format("holds {}, a range that ends before it begins", Quoted(part)));
+      if (static_cast<std::size_t>(*last - *first) >= kMostRuns || study_.seeds.size() > kMostRuns)
+        return diagnostics_.Add(
+            reader.Place("seeds"),
+            fmt::format("'seeds' of <study> are more than {}, the most runs of a study", kMostRuns));
+      for (long long seed = *first; seed <= *last; ++seed) study_.seeds.push_back(static_cast<std::uint64_t>(seed));
+    }
+    if (study_.seeds.empty()) return fail("are none");
+    auto sorted = study_.seeds;
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    if (twice != sorted.end()) fail(fmt::format("hold {} a second time", *twice));
+  }
+
+  std::pair<std::string, std::string> ReadSet(const TConfigurationTree& tree, const ElementSpec& spec)
+  {
+    const ElementReader reader(tree, spec, diagnostics_);
+    return {reader.Text("path"), reader.Text("value")};
+  }
+
+  // Of factors and metrics: no name may be used twice.
+  std::string ReadId(const ElementReader& reader, const char* what)
+  {
+    const std::string id = reader.Text("id");
+    if (!reader.IsGood("id")) return id;
+    if (!IsName(id))
+      diagnostics_.Add(
+          reader.Place("id"),
+          fmt::format("the id {} of a {} must be letters, digits and '_', and begin with no digit", Quoted(id), what));
+    const auto [found, is_new] = ids_.try_emplace(id, reader.Place("id"));
+    if (!is_new)
+      diagnostics_.Add(
+          reader.Place("id"),
+          found->second.line == 0
+              ? fmt::format("the id {} is the name of a column of every table; choose another one", Quoted(id))
+              : fmt::format("the id {} is given a second time; the first is in line {}", Quoted(id),
+                            found->second.line));
+    return id;
+  }
+
+  void ReadFactor(const TConfigurationTree& tree, Dimension& into)
+  {
+    Factor factor;
+    factor.location = tree.Location();
+    if (tree.Name() == "variants")
+    {
+      const ElementReader reader(tree, StudySchema().Child("variants"), diagnostics_);
+      factor.id = ReadId(reader, "factor");
+      for (const TConfigurationTree& variant : tree.Children())
+        if (variant.Name() == "variant") ReadVariant(variant, factor);
+    }
+    else
+    {
+      const ElementReader reader(tree, StudySchema().Child("factor"), diagnostics_);
+      factor.id = ReadId(reader, "factor");
+      const std::vector<std::string> paths = Words(reader.Text("path"));
+      for (std::string& value : ReadValues(tree, reader))
+      {
+        FactorLevel level;
+        for (const std::string& path : paths) level.settings.emplace_back(path, value);
+        level.value = std::move(value);
+        factor.levels.push_back(std::move(level));
+      }
+    }
+    factor.is_numeric = std::all_of(factor.levels.begin(), factor.levels.end(),
+                                    [](const FactorLevel& level) { return ParseNumber(level.value).has_value(); });
+    if (factor.levels.empty())
+      diagnostics_.Add(tree.Location(), fmt::format("<{}> {} has no values, so that there would be no runs",
+                                                    tree.Name(), Quoted(factor.id)));
+    else
+      into.factors.push_back(std::move(factor));
+  }
+
+  void ReadVariant(const TConfigurationTree& tree, Factor& factor)
+  {
+    const ElementSpec& spec = StudySchema().Child("variants").Child("variant");
+    const ElementReader reader(tree, spec, diagnostics_);
+    FactorLevel level;
+    level.value = reader.Text("id");
+    level.experiment = Resolved(reader.Text("experiment"));
+    for (const TConfigurationTree& child : tree.Children())
+      if (child.Name() == "set") level.settings.push_back(ReadSet(child, spec.Child("set")));
+    const auto same = [&](const FactorLevel& other) { return other.value == level.value; };
+    if (std::any_of(factor.levels.begin(), factor.levels.end(), same))
+      diagnostics_.Add(reader.Place("id"), fmt::format("there is a second variant {}", Quoted(level.value)));
+    factor.levels.push_back(std::move(level));
+  }
+
+  std::vector<std::string> ReadValues(const TConfigurationTree& tree, const ElementReader& reader)
+  {
+    if (reader.IsGiven("values") == reader.IsGiven("from"))
+    {
+      diagnostics_.Add(tree.Location(),
+                       "<factor> takes either 'values', or a range: 'from', 'to', and 'step' or 'count'");
+      return {"0"};
+    }
+    if (reader.IsGiven("values"))
+    {
+      for (const char* other : {"to", "step", "count"})
+        if (reader.IsGiven(other))
+          diagnostics_.Add(reader.Place(other),
+                           fmt::format("'{}' is of a range, and the values are given; keep one", other));
+      return ValuesIn(reader.Text("values"));
+    }
+    return ReadRange(tree, reader);
+  }
+
+  std::vector<std::string> ReadRange(const TConfigurationTree& tree, const ElementReader& reader)
+  {
+    const double from = reader.Number("from");
+    const double to = reader.Number("to");
+    const bool logarithmic = reader.Text("scale") == "logarithmic";
+    if (!reader.IsGiven("to") || reader.IsGiven("step") == reader.IsGiven("count"))
+    {
+      diagnostics_.Add(tree.Location(), "a range of <factor> has 'from', 'to', and either 'step' or 'count'");
+      return {"0"};
+    }
+    if (logarithmic && (reader.IsGiven("step") || from <= 0 || to <= 0))
+    {
+      diagnostics_.Add(reader.Place("scale"), "a logarithmic range has a count, and begins and ends above 0");
+      return {"0"};
+    }
+    std::size_t count = static_cast<std::size_t>(reader.Integer("count"));
+    const double step = reader.Number("step");
+    if (reader.IsGiven("step"))
+    {
+      const double steps = step > 0 ? (to - from) / step : -1;
+      if (steps < 0 || steps >= static_cast<double>(kMostLevels))
+      {
+        diagnostics_.Add(
+            reader.Place("step"),
+            fmt::format("'step' {} does not lead from {} to {} in less than {} values", step, from, to, kMostLevels));
+        return {"0"};
+      }
+      // One of 0.1 from 0 to 0.3 has 0.3, whatever the last bits are.
+      count = static_cast<std::size_t>(std::floor(steps * (1 + 1e-12) + 1e-9)) + 1;
+    }
+    std::vector<std::string> values;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const double share = count > 1 ? static_cast<double>(i) / static_cast<double>(count - 1) : 0;
+      const double value = reader.IsGiven("step") ? from + static_cast<double>(i) * step
+                           : logarithmic          ? from * std::pow(to / from, share)
+                                                  : from + share * (to - from);
+      // Twelve digits: 0.1 + 0.2 is 0.3 in tables.
+      values.push_back(fmt::format("{:.12g}", value));
+    }
+    return values;
+  }
+
+  void ReadZip(const TConfigurationTree& tree)
+  {
+    const ElementReader reader(tree, StudySchema().Child("zip"), diagnostics_);
+    Dimension dimension;
+    for (const TConfigurationTree& child : tree.Children())
+      if (child.Name() == "factor" || child.Name() == "variants") ReadFactor(child, dimension);
+    if (dimension.factors.empty())
+      return diagnostics_.Add(tree.Location(), "<zip> holds no factor, so that there would be no runs");
+    for (const Factor& factor : dimension.factors)
+      if (factor.levels.size() != dimension.Size())
+        diagnostics_.Add(
+            factor.location,
+            fmt::format("the factors of <zip> have equally many values, but {} has {} and {} has {}",
+                        Quoted(dimension.factors[0].id), dimension.Size(), Quoted(factor.id), factor.levels.size()));
+    study_.dimensions.push_back(std::move(dimension));
+  }
+
+  void ReadCondition(const TConfigurationTree& tree)
+  {
+    const ElementReader reader(tree, StudySchema().Child("require"), diagnostics_);
+    if (reader.IsGood("condition")) study_.conditions.push_back({reader.Text("condition"), reader.Place("condition")});
+  }
+
+  void ReadMetrics(const TConfigurationTree& tree)
+  {
+    const ElementSpec& spec = StudySchema().Child("metrics");
+    const ElementReader reader(tree, spec, diagnostics_);
+    if (!tree.Exists()) return;
+    study_.sample_every = static_cast<std::uint64_t>(reader.Integer("every"));
+    for (const TConfigurationTree& child : tree.Children())
+    {
+      const ElementSpec* kind = spec.FindChild(child.Name());
+      if (kind == nullptr) continue;
+      const ElementReader metric(child, *kind, diagnostics_);
+      MetricChoice choice{child.Name(), ReadId(metric, "metric"), Words(metric.Text("of")), {},
+                          child,        child.Location()};
+      if (IsOfEachEntity(choice.kind) && !(choice.kind == "published" && metric.Text("by") == "functions"))
+      {
+        choice.aggregates = Words(metric.Text("aggregate"));
+        CheckAggregates(choice.aggregates, metric);
+      }
+      if (choice.kind == "in_region" || choice.kind == "time_to_region") CheckRegion(metric, child.Location());
+      study_.metrics.push_back(std::move(choice));
+    }
+  }
+
+  void CheckAggregates(const std::vector<std::string>& aggregates, const ElementReader& metric)
+  {
+    static const std::vector<std::string> kKnown{"mean", "deviation", "min", "max", "sum", "median", "count", "q25"};
+    if (aggregates.empty())
+      diagnostics_.Add(metric.Place("aggregate"), "'aggregate' names nothing; known: " + Listed(kKnown));
+    for (const std::string& name : aggregates)
+    {
+      const auto quantile = name.starts_with("q") ? ParseInteger(name.substr(1)) : std::nullopt;
+      if (quantile && *quantile >= 0 && *quantile <= 100) continue;
+      if (std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end()) continue;
+      diagnostics_.Add(metric.Place("aggregate"),
+                       fmt::format("there is no aggregate {}; known: {} and other quantiles from q0 to q100{}",
+                                   Quoted(name), Listed(kKnown), DidYouMean(name, kKnown)));
+    }
+  }
+
+  void CheckRegion(const ElementReader& metric, const SourceLocation& place)
+  {
+    const bool disc = metric.IsGiven("centre") && metric.IsGiven("radius");
+    const bool rectangle = metric.IsGiven("min") && metric.IsGiven("max");
+    if (metric.IsGiven("entity") + disc + rectangle != 1)
+      diagnostics_.Add(place, "a region is one of these: 'entity'; 'centre' and 'radius'; 'min' and 'max'");
+  }
+
+  void CheckConditions()
+  {
+    const std::vector<std::string> ids = study_.FactorIds();
+    for (const StudyCondition& condition : study_.conditions)
+    {
+      try
+      {
+        const Expression checked(condition.text, ids);
+      }
+      catch (const ExpressionError& error)
+      {
+        diagnostics_.Add(condition.location, error.what());
+      }
+    }
+  }
+
+  // Before anything of that size is made.
+  void CheckSize(const SourceLocation& place)
+  {
+    double points = 1;
+    for (const Dimension& dimension : study_.dimensions) points *= static_cast<double>(dimension.Size());
+    const double most = static_cast<double>(kMostRuns) * (study_.conditions.empty() ? 1 : 10);
+    const double runs = points * static_cast<double>(study_.conditions.empty() ? study_.seeds.size() : 1);
+    if (runs > most)
+      diagnostics_.Add(place, fmt::format("the study has {:g} {}; it may have {:g}: take fewer values or seeds", runs,
+                                          study_.conditions.empty() ? "runs" : "points before its conditions", most));
+  }
+
+  Study& study_;
+  Diagnostics& diagnostics_;
+  std::map<std::string, SourceLocation> ids_;
+};
+
+LoadedStudy RefusedStudy(const ConfigurationError& error)
+{
+  LoadedStudy loaded;
+  loaded.errors.push_back({error.Location(), error.Message()});
+  return loaded;
+}
+
+}  // namespace
+
+std::vector<const Factor*> Study::Factors() const
+{
+  std::vector<const Factor*> factors;
+  for (const Dimension& dimension : dimensions)
+    for (const Factor& factor : dimension.factors) factors.push_back(&factor);
+  return factors;
+}
+
+std::vector<std::string> Study::FactorIds() const
+{
+  std::vector<std::string> ids;
+  for (const Factor* factor : Factors()) ids.push_back(factor->id);
+  return ids;
+}
+
+LoadedStudy LoadStudyText(const std::string& text, const std::string& file_name, const std::string& folder)
+{
+  Diagnostics diagnostics;
+  auto study = std::make_unique<Study>();
+  study->name = fs::path(file_name).stem().string();
+  study->folder = folder;
+  study->text = text;
+  try
+  {
+    const TConfigurationTree root(ReadXml(text, file_name));
+    if (root.Name() != StudySchema().Name())
+      throw ConfigurationError(root.Location(), fmt::format("the root element is <{}>; that of a study is <{}>",
+                                                            root.Name(), StudySchema().Name()));
+    StudyReader(*study, diagnostics).Read(root);
+  }
+  catch (const ConfigurationError& error)
+  {
+    return RefusedStudy(error);
+  }
+  if (!diagnostics.Empty()) return {nullptr, diagnostics.Take()};
+  return {std::move(study), {}};
+}
+
+LoadedStudy LoadStudyFile(const std::string& path)
+{
+  try
+  {
+    return LoadStudyText(ReadTextFile(path), path,
+                         fs::absolute(fs::path(path)).parent_path().lexically_normal().string());
+  }
+  catch (const ConfigurationError& error)
+  {
+    return RefusedStudy(error);
+  }
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,82 @@
+// The folder of a study on disk: study.sqlite, which has every run with its state, parameters and results, and
+// table.csv, which is made from it. What was committed stays, however the process ends. One process at a time works on
+// a folder. docs/studies.md describes the tables.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "studies/design.h"
+#include "studies/run_order.h"
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace swarmanoid
+{
+
+// what() names the file and the cause.
+class StudyStoreError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+class StudyStore
+{
+public:
+  // A new folder, or an empty one. Throws StudyStoreError.
+  static std::unique_ptr<StudyStore> Create(const std::string& folder, const Study& study, const Design& design);
+  // One that is there. Throws StudyStoreError if it is no study, or somebody else works on it.
+  static std::unique_ptr<StudyStore> Open(const std::string& folder);
+  ~StudyStore();
+
+  const std::string& Folder() const { return folder_; }
+  // "study" (the text of its file), "folder" (relative paths start there), "name", "experiments" (their hash).
+  std::string Fact(const std::string& name);
+
+  struct RunState
+  {
+    RunName name;
+    bool is_done = false;
+    bool has_failed = false;
+    unsigned attempts = 0;
+    double wall_s = 0;  // of a run that is done
+  };
+  // In the order of points and seeds.
+  std::vector<RunState> Runs();
+  void Add(const RunOutcome& outcome);
+  // Another run of a point that has some.
+  void AddRun(const RunName& name);
+  // Of all runs of a point that are done, at their last tick, by seed; without those that have none.
+  std::vector<double> LastValues(std::uint32_t point, const std::string& column);
+  // Of the metrics.
+  const std::vector<std::string>& Columns() const { return columns_; }
+  // What was added stays from now on.
+  void Commit();
+  // table.csv: one row for each run that has a result and tick that was measured. Equal studies give equal bytes.
+  void WriteTable();
+
+private:
+  struct Statement;
+  explicit StudyStore(std::string folder);
+  void Connect(bool create);
+  void Lock();
+  void Execute(const std::string& commands);
+  std::unique_ptr<Statement> Prepare(const std::string& command);
+  void MakeTables(const Study& study, const Design& design);
+  void ReadColumns();
+  [[noreturn]] void Fail(const std::string& what);
+
+  std::string folder_;
+  int lock_ = -1;
+  sqlite3* database_ = nullptr;
+  bool in_transaction_ = false;
+  std::vector<std::string> factors_;
+  std::vector<std::string> columns_;  // of metrics
+  std::unique_ptr<Statement> update_run_, add_sample_;
+};
+
+}  // namespace swarmanoid

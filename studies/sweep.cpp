@@ -1,0 +1,387 @@
+#include "studies/sweep.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "common/activity/exit_codes.h"
+#include "common/configuration/wording.h"
+#include "common/math/reproducible_math.h"
+#include "common/program/interrupts.h"
+#include "common/program/usage_error.h"
+#include "roles/builtins.h"
+#include "studies/recorder.h"
+#include "studies/run_pool.h"
+#include "studies/statistics.h"
+#include "studies/study_store.h"
+#include "studies/sweep_progress.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr std::size_t kMostTried = 1000;
+constexpr std::size_t kMostTold = 20;
+// Of a point whose interval is too wide. Decisions are made when all its runs have ended, so that they do not depend on
+// who was first.
+constexpr unsigned kMoreSeeds = 5;
+
+// A mistake of a value is told at the factor that gives it.
+std::string MistakeText(const Study& study, const Design& design, std::size_t point, const Diagnostic& error)
+{
+  const std::vector<const Factor*> factors = study.Factors();
+  const std::vector<const FactorLevel*> levels = design.Levels(point);
+  for (std::size_t f = 0; f < factors.size(); ++f)
+    for (const auto& [path, value] : levels[f]->settings)
+      if (error.location.file && *error.location.file == "--set " + path)
+        return fmt::format("{}: the value {} of '{}', at {}: {}", factors[f]->location.Text(), levels[f]->value,
+                           factors[f]->id, path, error.message);
+  const std::string values = design.Text(point);
+  return error.Text() + (values.empty() ? "" : " (with " + values + ")");
+}
+
+[[nodiscard]] bool Complain(const std::vector<Diagnostic>& errors)
+{
+  for (const Diagnostic& error : errors) fmt::print(stderr, "{}\n", error.Text());
+  return !errors.empty();
+}
+
+std::string NewFolder(const std::string& study)
+{
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char time[64];
+  std::strftime(time, sizeof time, "%Y%m%d-%H%M%S", &local);
+  const std::string stem = fmt::format("runs/{}-{}", study, time);
+  std::string folder = stem;
+  std::error_code none;
+  for (int number = 2; fs::exists(folder, none); ++number) folder = fmt::format("{}-{}", stem, number);
+  return folder;
+}
+
+class Sweeper
+{
+public:
+  Sweeper(const SweepOptions& options, const Study& study, const Design& design, StudyStore& store)
+      : options_(options), study_(study), design_(design), store_(store)
+  {
+    if (!options.only.empty())
+    {
+      std::vector<std::string> names = study.FactorIds();
+      names.emplace_back("seed");
+      only_.emplace(options.only, names);
+    }
+    ReadLimit();
+  }
+
+  int Run()
+  {
+    Plan();
+    CatchInterrupts(SecondInterrupt::kKills);
+    const unsigned cores = static_cast<unsigned>(UsableCores().size());
+    const unsigned jobs = options_.jobs != 0 ? options_.jobs : study_.cluster ? 1 : cores;
+    const auto start = std::chrono::steady_clock::now();
+    {
+      RunPool pool(study_, store_.Folder(),
+                   column_.empty() ? static_cast<unsigned>(std::clamp<std::size_t>(queue_.size(), 1, jobs)) : jobs);
+      SweepProgress progress(design_, all_, done_, jobs, options_.quiet);
+      for (const auto& [point, wall_s] : known_times_) progress.AddTime(point, wall_s);
+      try
+      {
+        Loop(pool, progress);
+        store_.Commit();
+        store_.WriteTable();
+      }
+      catch (const StudyStoreError& error)
+      {
+        progress.Say(
+            fmt::format("{}; what was stored before stays: mend the cause, then go on: swarmanoid sweep {} --resume",
+                        error.what(), store_.Folder()));
+        return kExitProcessFailed;
+      }
+    }
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (!queue_.empty())
+    {
+      fmt::print(stderr, "{} of {} runs are done; to go on: swarmanoid sweep {} --resume\n", done_, all_,
+                 store_.Folder());
+      return kExitInterrupted;
+    }
+    fmt::print("finished: {} runs, {} failed, {:.3f} s, table {}/table.csv\n", done_ + failed_, failed_, seconds,
+               store_.Folder());
+    return failed_ == 0 ? kExitDone : kExitProcessFailed;
+  }
+
+private:
+  bool IsChosen(const RunName& name) const
+  {
+    if (!only_) return true;
+    const std::size_t factors = study_.FactorIds().size();
+    return only_->Holds([&](std::size_t k) -> ExpressionValue
+                        { return k < factors ? design_.Value(name.point, k) : static_cast<double>(name.seed); });
+  }
+
+  void ReadLimit()
+  {
+    if (options_.until_ci.empty()) return;
+    const std::size_t sign = options_.until_ci.rfind('=');
+    const std::string share = sign == std::string::npos ? "" : options_.until_ci.substr(sign + 1);
+    const auto percent = share.ends_with('%') ? ParseNumber(share.substr(0, share.size() - 1)) : std::nullopt;
+    if (!percent || *percent <= 0)
+      throw UsageError("--until-ci: write COLUMN=PERCENT%, for example --until-ci dispersion=5%");
+    column_ = options_.until_ci.substr(0, sign);
+    share_ = *percent / 100;
+    const std::vector<std::string>& columns = store_.Columns();
+    if (std::find(columns.begin(), columns.end(), column_) == columns.end())
+      throw UsageError(fmt::format("--until-ci: the study has no column {}; it has: {}{}", Quoted(column_),
+                                   Listed(columns), DidYouMean(column_, columns)));
+  }
+
+  // More runs for the points whose interval is wider than asked; false if there are none.
+  bool Extend(SweepProgress& progress)
+  {
+    if (column_.empty() || Interrupted()) return false;
+    store_.Commit();
+    std::map<std::uint32_t, std::vector<std::uint64_t>> seeds;
+    for (const auto& [name, attempts] : attempts_) seeds[name.point].push_back(name.seed);
+    for (const auto& [point, of_point] : seeds)
+    {
+      const std::vector<double> values = store_.LastValues(point, column_);
+      const MeanInterval interval = MeanIntervalOf(values);
+      if (values.empty() || interval.half <= share_ * std::abs(interval.mean)) continue;
+      const std::uint64_t last = *std::max_element(of_point.begin(), of_point.end());
+      for (unsigned more = 1; more <= kMoreSeeds && of_point.size() + more <= options_.most_seeds; ++more)
+      {
+        const RunName name{point, last + more};
+        store_.AddRun(name);
+        attempts_[name] = 0;
+        Enqueue(name);
+        ++all_;
+        progress.AddRuns(1);
+      }
+    }
+    return !queue_.empty();
+  }
+
+  // All points with the first seed, then with the second: what is there early says something of all.
+  void Plan()
+  {
+    std::vector<StudyStore::RunState> runs = store_.Runs();
+    std::map<std::uint64_t, std::size_t> order;
+    for (std::size_t i = 0; i < study_.seeds.size(); ++i) order[study_.seeds[i]] = i;
+    std::stable_sort(runs.begin(), runs.end(),
+                     [&](const auto& a, const auto& b) { return order[a.name.seed] < order[b.name.seed]; });
+    for (const StudyStore::RunState& run : runs)
+    {
+      if (!IsChosen(run.name)) continue;
+      ++all_;
+      attempts_[run.name] = run.attempts;
+      if (run.is_done)
+      {
+        ++done_;
+        known_times_.emplace_back(run.name.point, run.wall_s);
+      }
+      else if (run.has_failed && run.attempts > options_.retries)
+      {
+        ++failed_;
+      }
+      else
+      {
+        Enqueue(run.name);
+      }
+    }
+  }
+
+  void Enqueue(const RunName& name)
+  {
+    queue_.push_back(name);
+    ++waiting_[name.point];
+  }
+
+  void Loop(RunPool& pool, SweepProgress& progress)
+  {
+    auto committed = std::chrono::steady_clock::now();
+    while (!pool.IsIdle() || (!queue_.empty() && !Interrupted()) || Extend(progress))
+    {
+      while (!Interrupted() && !queue_.empty() && pool.HasRoom())
+      {
+        const RunName name = queue_.front();
+        queue_.pop_front();
+        if (--waiting_[name.point] == 0) waiting_.erase(name.point);
+        pool.Give({name, design_.ExperimentOf(name.point), design_.SettingsOf(name.point)});
+      }
+      for (const RunOutcome& outcome : pool.Wait(100ms)) Take(outcome, progress);
+      const auto now = std::chrono::steady_clock::now();
+      progress.Show(pool.Running(), waiting_, now);
+      if (now - committed < 500ms) continue;
+      committed = now;
+      store_.Commit();
+    }
+  }
+
+  void Take(const RunOutcome& outcome, SweepProgress& progress)
+  {
+    store_.Add(outcome);
+    if (outcome.IsDone())
+    {
+      ++done_;
+      progress.Done();
+      progress.AddTime(outcome.name.point, outcome.wall_s);
+      return;
+    }
+    const std::string values = design_.Text(outcome.name.point);
+    progress.Say(fmt::format("run {}{} failed with exit code {}: {}; what it left is in {}/runs/{}",
+                             outcome.name.Text(), values.empty() ? "" : " (" + values + ")", outcome.exit_code,
+                             outcome.failure, store_.Folder(), outcome.name.Text()));
+    if (++attempts_[outcome.name] <= options_.retries)
+      Enqueue(outcome.name);
+    else
+      ++failed_;
+  }
+
+  const SweepOptions& options_;
+  const Study& study_;
+  const Design& design_;
+  StudyStore& store_;
+  std::optional<Expression> only_;
+  std::string column_;  // of --until-ci
+  double share_ = 0;
+  std::deque<RunName> queue_;
+  std::map<std::uint32_t, std::size_t> waiting_;  // in the queue, of each point
+  std::map<RunName, unsigned> attempts_;
+  std::vector<std::pair<std::uint32_t, double>> known_times_;
+  std::size_t all_ = 0, done_ = 0, failed_ = 0;
+};
+
+void ListRuns(const SweepOptions& options, const Study& study, const Design& design)
+{
+  std::optional<Expression> only;
+  std::vector<std::string> names = study.FactorIds();
+  const std::size_t factors = names.size();
+  names.emplace_back("seed");
+  if (!options.only.empty()) only.emplace(options.only, names);
+  std::size_t runs = 0;
+  for (std::size_t point = 0; point < design.Points(); ++point)
+    for (const std::uint64_t seed : study.seeds)
+    {
+      const auto value_of = [&](std::size_t k) -> ExpressionValue
+      { return k < factors ? design.Value(point, k) : static_cast<double>(seed); };
+      if (only && !only->Holds(value_of)) continue;
+      ++runs;
+      const std::string values = design.Text(point);
+      fmt::print("{}{}{} seed={}\n", RunName{static_cast<std::uint32_t>(point), seed}.Text(), values.empty() ? "" : " ",
+                 values, seed);
+    }
+  fmt::print(stderr, "{} runs: {} points, {} seeds\n", runs, design.Points(), study.seeds.size());
+}
+
+// The study, from its file or from the folder that goes on.
+LoadedStudy LoadFor(const SweepOptions& options, StudyStore* store)
+{
+  if (store == nullptr) return LoadStudyFile(options.study);
+  return LoadStudyText(store->Fact("study"), store->Fact("name") + ".xml", store->Fact("folder"));
+}
+
+void RefuseOtherExperiments(const Design& design, StudyStore& store)
+{
+  if (store.Fact("experiments") == design.ExperimentsHash()) return;
+  throw UsageError(fmt::format(
+      "an experiment of the study has changed since '{}' was begun, so that its runs would not go together; begin "
+      "anew in another folder",
+      store.Folder()));
+}
+
+int SweepChecked(const SweepOptions& options)
+{
+  std::unique_ptr<StudyStore> store;
+  if (options.resume) store = StudyStore::Open(options.study);
+  const LoadedStudy loaded = LoadFor(options, store.get());
+  if (Complain(loaded.errors)) return kExitInvalidFile;
+  const Study& study = *loaded.study;
+  const Design design(study);
+  RequireReproducibleMath();
+  RegisterBuiltins();
+  const std::vector<std::string> mistakes = MistakesInRuns(study, design);
+  for (const std::string& mistake : mistakes) fmt::print(stderr, "{}\n", mistake);
+  if (!mistakes.empty()) return kExitInvalidFile;
+  if (options.dry_run)
+  {
+    ListRuns(options, study, design);
+    return kExitDone;
+  }
+  if (store)
+    RefuseOtherExperiments(design, *store);
+  else
+    store = StudyStore::Create(options.output.empty() ? NewFolder(study.name) : options.output, study, design);
+  if (!options.quiet)
+    fmt::print(stderr, "study {}: {} points, {} seeds, in {}\n", study.name, design.Points(), study.seeds.size(),
+               store->Folder());
+  return Sweeper(options, study, design, *store).Run();
+}
+
+}  // namespace
+
+std::vector<std::string> MistakesInRuns(const Study& study, const Design& design)
+{
+  std::vector<std::string> mistakes;
+  const auto add = [&](std::string text)
+  {
+    if (std::find(mistakes.begin(), mistakes.end(), text) == mistakes.end()) mistakes.push_back(std::move(text));
+  };
+  for (const std::size_t point : design.PointsOfAllLevels(kMostTried))
+  {
+    LoadOptions changes;
+    changes.settings = design.SettingsOf(point);
+    changes.settings.emplace_back("framework.seed", std::to_string(study.seeds.front()));
+    const LoadedExperiment loaded = LoadExperimentFile(design.ExperimentOf(point), changes);
+    for (const Diagnostic& error : loaded.errors) add(MistakeText(study, design, point, error));
+    try
+    {
+      if (loaded.experiment)
+      {
+        const Recorder tried(study, *loaded.experiment);
+        if (loaded.experiment->max_clock == 0 && loaded.experiment->functions.empty())
+          add(fmt::format("{}: its runs would never end; give <study> 'ticks', or the experiment a maxclock",
+                          design.ExperimentOf(point)));
+      }
+    }
+    catch (const ConfigurationError& error)
+    {
+      add(error.what());
+    }
+    if (mistakes.size() >= kMostTold) break;
+  }
+  return mistakes;
+}
+
+int Sweep(const SweepOptions& options)
+{
+  try
+  {
+    return SweepChecked(options);
+  }
+  catch (const ExpressionError& error)
+  {
+    throw UsageError(fmt::format("--only: {}", error.what()));
+  }
+  catch (const StudyStoreError& error)
+  {
+    throw UsageError(error.what());
+  }
+}
+
+}  // namespace swarmanoid

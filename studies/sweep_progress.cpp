@@ -1,0 +1,96 @@
+#include "studies/sweep_progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kWidth = 150;
+
+}  // namespace
+
+std::string RoughTime(double seconds)
+{
+  if (seconds < 90) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 90 * 60) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+SweepProgress::SweepProgress(const Design& design, std::size_t all, std::size_t done, unsigned jobs, bool quiet)
+    : design_(design),
+      all_(all),
+      done_(done),
+      jobs_(jobs),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      next_(Clock::now())
+{
+}
+
+SweepProgress::~SweepProgress() { Clear(); }
+
+void SweepProgress::AddTime(std::uint32_t point, double wall_s)
+{
+  for (Times* times : {&of_point_[point], &of_all_})
+  {
+    times->sum_s += wall_s;
+    times->count += 1;
+  }
+}
+
+void SweepProgress::Clear()
+{
+  if (is_shown_) fmt::print(stderr, "\r\033[K");
+  is_shown_ = false;
+}
+
+void SweepProgress::Say(const std::string& line)
+{
+  Clear();
+  fmt::print(stderr, "{}\n", line);
+}
+
+// Points differ: where one has been run, its mean counts, else that of all.
+double SweepProgress::SecondsLeft(const std::map<std::uint32_t, std::size_t>& waiting, std::size_t running) const
+{
+  const double mean_s = of_all_.sum_s / of_all_.count;
+  double seconds = static_cast<double>(running) * mean_s / 2;
+  for (const auto& [point, count] : waiting)
+  {
+    const auto known = of_point_.find(point);
+    seconds +=
+        static_cast<double>(count) * (known == of_point_.end() ? mean_s : known->second.sum_s / known->second.count);
+  }
+  return seconds / jobs_;
+}
+
+void SweepProgress::Show(const std::vector<RunName>& running, const std::map<std::uint32_t, std::size_t>& waiting,
+                         Clock::time_point now)
+{
+  if (quiet_ || now < next_) return;
+  next_ = now + (terminal_ ? Clock::duration(200ms) : Clock::duration(10s));
+  std::string line = fmt::format("{} of {} runs ({} %)", done_, all_, 100 * done_ / std::max<std::size_t>(all_, 1));
+  if (of_all_.count > 0) line += ", about " + RoughTime(SecondsLeft(waiting, running.size())) + " left";
+  for (std::size_t i = 0; i < running.size() && line.size() < kWidth; ++i)
+  {
+    const std::string values = design_.Text(running[i].point);
+    line += fmt::format("{} {}{}", i == 0 ? "; running" : ",", running[i].Text(),
+                        values.empty() ? "" : " (" + values + ")");
+  }
+  if (line.size() > kWidth) line = line.substr(0, kWidth) + " …";
+  if (!terminal_) return fmt::print(stderr, "{}\n", line);
+  Clear();
+  fmt::print(stderr, "{}", line);
+  std::fflush(stderr);
+  is_shown_ = true;
+}
+
+}  // namespace swarmanoid

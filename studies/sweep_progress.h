@@ -1,0 +1,55 @@
+// How far a study is, on standard error: one line that changes on a terminal, otherwise a line now and then.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "studies/design.h"
+
+namespace swarmanoid
+{
+
+class SweepProgress
+{
+public:
+  using Clock = std::chrono::steady_clock;
+
+  // `all`: runs that the study has, `done` of which have been run before.
+  SweepProgress(const Design& design, std::size_t all, std::size_t done, unsigned jobs, bool quiet);
+  ~SweepProgress();
+
+  // One that has been run, in this process or before.
+  void AddTime(std::uint32_t point, double wall_s);
+  void Done() { ++done_; }
+  void AddRuns(std::size_t count) { all_ += count; }
+  // Something to be read even if the user wants quiet.
+  void Say(const std::string& line);
+  // `waiting`: for each point, how many of its runs have not begun.
+  void Show(const std::vector<RunName>& running, const std::map<std::uint32_t, std::size_t>& waiting,
+            Clock::time_point now);
+
+private:
+  double SecondsLeft(const std::map<std::uint32_t, std::size_t>& waiting, std::size_t running) const;
+  void Clear();
+
+  struct Times
+  {
+    double sum_s = 0;
+    double count = 0;
+  };
+  const Design& design_;
+  std::size_t all_, done_;
+  unsigned jobs_;
+  bool quiet_, terminal_;
+  bool is_shown_ = false;
+  std::map<std::uint32_t, Times> of_point_;
+  Times of_all_;
+  Clock::time_point next_;
+};
+
+// "12 s", "3 min", "2.5 h"
+std::string RoughTime(double seconds);
+
+}  // namespace swarmanoid

@@ -1,0 +1,97 @@
+"""Pictures and reports of studies, and the statistics in them against tables and closed forms."""
+import importlib.util
+import math
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as xml
+
+SWARMANOID = os.environ["SWARMANOID"]
+CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
+SCRIPT = CONFIGS.parent / "studies" / "plot" / "plot_study.py"
+
+if importlib.util.find_spec("matplotlib") is None:
+    # The first Python on the path need not be Debian's, which has it.
+    if sys.executable != "/usr/bin/python3" and os.path.exists("/usr/bin/python3"):
+        os.execv("/usr/bin/python3", ["/usr/bin/python3", *sys.argv])
+    sys.exit(77)
+specification = importlib.util.spec_from_file_location("plot_study", SCRIPT)
+plot_study = importlib.util.module_from_spec(specification)
+specification.loader.exec_module(plot_study)
+
+
+class Statistics(unittest.TestCase):
+    def test_signed_ranks_of_few_pairs_are_counted(self):
+        # All above 0: one choice of signs of 2**n, on both sides.
+        for n in range(1, 12):
+            self.assertAlmostEqual(plot_study.wilcoxon([0.5 + k for k in range(n)])[0], min(1, 2 / 2**n))
+        # The ranks 1 and 3 are below 0. Of all sets of ranks, seven have a sum of up to 4: none, 1, 2, 3, 1 + 2, 4, 1 + 3.
+        differences = [10, 9, 8, 7, 6, 5, 4, -3, 2, -1]
+        self.assertAlmostEqual(plot_study.wilcoxon(differences)[0], 2 * 7 / 1024)
+        self.assertAlmostEqual(plot_study.wilcoxon(differences)[1], (51 - 4) / 55)
+        self.assertEqual(plot_study.wilcoxon([0, 0]), (1.0, 0.0))
+        self.assertAlmostEqual(plot_study.wilcoxon([-1, -2, -3])[1], -1)
+
+    def test_many_pairs_are_near_the_normal_limit(self):
+        # 51 pairs whose signs alternate are no evidence; 51 with one sign are.
+        self.assertGreater(plot_study.wilcoxon([(k + 1) * (-1) ** k for k in range(51)])[0], 0.5)
+        self.assertLess(plot_study.wilcoxon([k + 1 for k in range(51)])[0], 1e-9)
+
+    def test_bands_are_those_of_student(self):
+        # Student's t of 97.5 %: the closed forms of 1 and 2, tables for others.
+        for freedom, quantile in ((1, math.tan(0.475 * math.pi)), (2, 0.95 * math.sqrt(2 / (1 - 0.95**2))), (4, 2.776), (9, 2.262), (29, 2.045)):
+            self.assertAlmostEqual(plot_study.t_quantile(freedom), quantile, delta=0.001)
+        mean, half = plot_study.mean_and_band([1.0, 3.0])
+        self.assertAlmostEqual(mean, 2)
+        self.assertAlmostEqual(half, plot_study.t_quantile(1))
+        self.assertEqual(plot_study.mean_and_band([5.0]), (5.0, 0.0))
+
+
+class Plot(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="swarmanoid_plot_"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def command(self, *words, code=0):
+        done = subprocess.run([SWARMANOID, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=200)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def test_a_study_becomes_pictures_and_a_report(self):
+        (self.folder / "study.xml").write_text(f"""<study experiment="{CONFIGS}/diffusion_10.xml" ticks="40" seeds="1-6">
+          <factor id="robots" path="arena.distribute.quantity" values="3 6"/>
+          <factor id="speed" path="controllers.diffusion.parameters.velocity" values="0.05 0.1"/>
+          <metrics every="10"><distance id="way"/><coverage id="seen" cell="0.5"/><trajectories id="ways"/></metrics></study>""")
+        self.command("sweep", "study.xml", "--output", "out", "--quiet")
+        done = self.command("plot", "out", "--compare", "speed=0.05,0.1")
+        # Twice as fast, twice as far: in all 12 pairs.
+        self.assertRegex(done.stdout, r"way.mean: speed=0.05,0.1: difference 0\.[12]\d* ± \S+ in 12 pairs, p = 0.000488 \(Wilcoxon\), effect \+1.00")
+        pictures = sorted(path.name for path in (self.folder / "out/pictures").glob("*.svg"))
+        for name in ("way.mean_over_robots.svg", "way.mean_boxes_speed.svg", "way.mean_over_robots_and_speed.svg", "way.mean_over_time.svg", "ways_0-1.svg", "seen_visits_3.svg"):
+            self.assertIn(name, pictures)
+        for name in pictures:
+            xml.parse(self.folder / "out/pictures" / name)
+        report = (self.folder / "out/pictures/report.html").read_text()
+        self.assertEqual(report.count("<figure>"), len(pictures))
+        for outside in ('src="', '<link', "@import", "<script"):
+            self.assertNotIn(outside, report)
+        self.command("plot", "out", "--compare", "speed=0.05,0.1", "--output", "again")
+        self.assertEqual(report, (self.folder / "again/report.html").read_text())
+
+    def test_what_is_wrong_is_told(self):
+        (self.folder / "study.xml").write_text(f"""<study experiment="{CONFIGS}/diffusion_10.xml" ticks="5">
+          <metrics><distance id="way"/></metrics></study>""")
+        self.command("sweep", "study.xml", "--output", "out", "--quiet")
+        self.assertIn("no column 'wy'; it has: way.mean", self.command("plot", "out", "--metric", "wy", code=2).stderr)
+        self.assertIn("is no folder of a study", self.command("plot", self.folder, code=2).stderr)
+        self.assertIn("write FACTOR=A,B", self.command("plot", "out", "--compare", "speed", code=2).stderr)
+        (self.folder / "curves.json").write_text('[{"metric": "way.mean", "name": "theirs", "x": [1], "y": []}]')
+        self.assertIn("of the same length", self.command("plot", "out", "--reference", "curves.json", code=2).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,218 @@
+"""Whole studies: the same table whenever it is made, hashes as by `run`, nothing lost when something dies."""
+import csv
+import os
+import pathlib
+import re
+import shutil
+import signal
+import sqlite3
+import statistics
+import subprocess
+import tempfile
+import time
+import unittest
+
+SWARMANOID = os.environ["SWARMANOID"]
+CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
+FINISHED = re.compile(r"^finished: (\d+) runs, (\d+) failed, [0-9.]+ s, table (\S+)$", re.MULTILINE)
+
+
+class Sweep(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="swarmanoid_sweep_"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def study(self, inside, attributes="", name="study", experiment=CONFIGS / "diffusion_10.xml"):
+        path = self.folder / f"{name}.xml"
+        path.write_text(f'<study experiment="{experiment}" ticks="60" {attributes}>\n{inside}\n</study>\n')
+        return path
+
+    def command(self, *words, code=0):
+        done = subprocess.run([SWARMANOID, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=200,
+                              env={**os.environ, "SWARMANOID_SHARED_FOLDER": str(self.folder)})
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def sweep(self, *words, code=0):
+        return self.command("sweep", *words, "--quiet", code=code)
+
+    def table(self, name):
+        with open(self.folder / name / "table.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def query(self, name, query):
+        database = sqlite3.connect(self.folder / name / "study.sqlite")
+        try:
+            return database.execute(query).fetchall()
+        finally:
+            database.close()
+
+    TWO = ('<factor id="robots" path="arena.distribute.quantity" values="4 8"/>'
+           '<factor id="speed" path="controllers.diffusion.parameters.velocity" values="0.05 0.1"/>'
+           '<metrics every="20"><distance id="way" aggregate="mean max"/><polarisation id="order"/><coverage id="seen" cell="0.5"/></metrics>')
+
+    def test_the_table_is_the_same_whenever_it_is_made(self):
+        study = self.study(self.TWO, 'seeds="1-3"')
+        done = self.sweep(study, "--output", "one", "--jobs", "1")
+        self.assertEqual(FINISHED.search(done.stdout).groups(), ("12", "0", "one/table.csv"))
+        self.sweep(study, "--output", "three", "--jobs", "3")
+        # In another order, with an end in between.
+        self.sweep(study, "--output", "parts", "--only", "robots == 8 and seed > 1")
+        self.assertEqual(len({row["point"] + "-" + row["seed"] for row in self.table("parts")}), 4)
+        self.sweep("parts", "--resume")
+        bytes_of = {name: (self.folder / name / "table.csv").read_bytes() for name in ("one", "three", "parts")}
+        self.assertEqual(bytes_of["one"], bytes_of["three"])
+        self.assertEqual(bytes_of["one"], bytes_of["parts"])
+        rows = self.table("one")
+        self.assertEqual([row["tick"] for row in rows[:4]], ["0", "20", "40", "60"])
+        self.assertEqual({(row["robots"], row["speed"]) for row in rows}, {("4", "0.05"), ("4", "0.1"), ("8", "0.05"), ("8", "0.1")})
+        for row in rows:
+            # Nobody is much faster than its wheels: others may push.
+            self.assertLessEqual(float(row["way.max"]), 1.2 * float(row["speed"]) * float(row["time_s"]) + 1e-9)
+            self.assertGreaterEqual(float(row["seen"]), 1 / 49)
+        # What a run leaves is an empty folder, which goes.
+        self.assertEqual(list((self.folder / "one" / "runs").iterdir()), [])
+
+    def test_hashes_are_those_of_run(self):
+        self.sweep(self.study(self.TWO, 'seeds="5"'), "--output", "out")
+        for row in self.table("out"):
+            if row["tick"] == "60":
+                self.command("run", CONFIGS / "diffusion_10.xml", "--single-process", "--quiet", "--seed", "5", "--ticks", "60", "--output",
+                             f"run{row['point']}", "--set", f"arena.distribute.quantity={row['robots']}", "--set",
+                             f"controllers.diffusion.parameters.velocity={row['speed']}", "--expect-hash", row["hash"])
+
+    def test_clusters_have_the_same_table(self):
+        inside = '<metrics every="25"><distance id="way"/><largest_cluster id="c" range="0.5"/><trajectories id="ways"/></metrics>'
+        self.sweep(self.study(inside, 'seeds="1-2"', "one"), "--output", "a")
+        self.sweep(self.study(inside, 'seeds="1-2" cluster="true" controller_hosts="2"', "other"), "--output", "b")
+        self.assertEqual((self.folder / "a/table.csv").read_bytes(), (self.folder / "b/table.csv").read_bytes())
+        self.assertEqual(self.query("a", "SELECT * FROM ways"), self.query("b", "SELECT * FROM ways"))
+
+    def test_what_functions_publish_is_what_they_write(self):
+        inside = '<metrics every="20"><published id="to_nest" name="to_nest"/></metrics>'
+        tables = {}
+        for name, attributes in (("one", ""), ("cluster", 'cluster="true"')):
+            self.sweep(self.study(inside, attributes, name, CONFIGS / "prey_retrieval.xml"), "--output", f"out_{name}")
+            tables[name] = (self.folder / f"out_{name}/table.csv").read_bytes()
+        self.assertEqual(tables["one"], tables["cluster"])
+        # The functions' own file stays in the folder of the run.
+        with open(self.folder / "out_one/runs/0-1/retrieval.csv", newline="") as file:
+            written = {row["tick"]: min(float(value) for name, value in row.items() if name != "tick") for row in csv.DictReader(file)}
+        rows = self.table("out_one")
+        self.assertEqual([row["tick"] for row in rows], ["0", "20", "40", "60"])
+        self.assertEqual(rows[0]["to_nest"], "", "nothing is published before the first tick")
+        for row in rows[1:]:
+            self.assertAlmostEqual(float(row["to_nest"]), written[row["tick"]], delta=5.1e-5)
+
+    def test_seeds_are_added_until_the_mean_is_known(self):
+        inside = ('<factor id="robots" path="arena.distribute.quantity" values="2 10"/>'
+                  '<metrics><polarisation id="order"/><coverage id="seen" cell="0.5"/></metrics>')
+        study = self.study(inside, 'seeds="1-3"')
+        self.sweep(study, "--output", "one", "--until-ci", "seen=8%", "--jobs", "1")
+        self.sweep(study, "--output", "two", "--until-ci", "seen=8%", "--jobs", "3")
+        self.assertEqual((self.folder / "one/table.csv").read_bytes(), (self.folder / "two/table.csv").read_bytes())
+        seen = {}
+        for row in self.table("one"):
+            if row["tick"] == "60":
+                seen.setdefault(row["point"], []).append(float(row["seen"]))
+        for values in seen.values():
+            # Three, and then five at a time. Two standard errors are near the interval of so many.
+            self.assertEqual(len(values) % 5, 3)
+            self.assertLess(1.95 * statistics.stdev(values) / len(values) ** 0.5, 0.08 * statistics.mean(values))
+        self.assertGreater(max(map(len, seen.values())), 3)
+        self.sweep(study, "--output", "few", "--until-ci", "order=0.1%", "--most-seeds", "9")
+        self.assertEqual(len({row["seed"] for row in self.table("few")}), 9)
+        self.assertIn("did you mean 'order'?", self.sweep(study, "--output", "bad", "--until-ci", "ordre=5%", code=2).stderr)
+        self.assertIn("write COLUMN=PERCENT%", self.sweep(study, "--output", "worse", "--until-ci", "order=5", code=2).stderr)
+
+    def test_killed_at_any_point_it_goes_on(self):
+        study = self.study('<factor id="robots" path="arena.distribute.quantity" from="2" to="11" step="1"/>'
+                           '<metrics><distance id="way"/></metrics>', 'seeds="1-20"')
+        self.sweep(study, "--output", "whole")
+        process = subprocess.Popen([SWARMANOID, "sweep", study, "--output", "out", "--quiet"], cwd=self.folder, stdout=subprocess.DEVNULL)
+        for kill in range(5):
+            deadline = time.monotonic() + 100
+            while not (self.folder / "out/study.sqlite").exists() and time.monotonic() < deadline:
+                time.sleep(0.005)
+            time.sleep(0.01 * 3 ** kill)
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            if kill == 0 and self.state_of("out") is None:
+                # Killed before its first transaction: it was never begun, and is told so.
+                self.sweep("out", "--resume", code=2)
+                shutil.rmtree(self.folder / "out")
+                process = subprocess.Popen([SWARMANOID, "sweep", study, "--output", "out", "--quiet"], cwd=self.folder, stdout=subprocess.DEVNULL)
+                continue
+            process = subprocess.Popen([SWARMANOID, "sweep", "out", "--resume", "--quiet"], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL)
+        process.wait(200)
+        self.sweep("out", "--resume")
+        self.assertEqual((self.folder / "whole/table.csv").read_bytes(), (self.folder / "out/table.csv").read_bytes())
+
+    def state_of(self, name):
+        try:
+            return self.query(name, "SELECT COUNT(*) FROM runs")[0][0] or None
+        except sqlite3.Error:
+            return None
+
+    def test_ctrl_c_ends_after_the_runs_that_go_on(self):
+        study = self.study("", 'seeds="1-3000"')
+        process = subprocess.Popen([SWARMANOID, "sweep", study, "--output", "out", "--quiet"], cwd=self.folder, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        while not (self.folder / "out/runs").exists() and process.poll() is None:
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=100)
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertRegex(errors, r"\d+ of 3000 runs are done; to go on: swarmanoid sweep out --resume")
+
+    def test_one_bad_run_costs_no_other(self):
+        if not pathlib.Path(os.environ["TEST_CONTROLLERS"], "libfaulty_controller.so").exists():
+            self.skipTest("the faulty controller is not built")
+        text = (CONFIGS / "diffusion_10.xml").read_text()
+        text = text.replace("footbot_diffusion", "faulty_controller").replace("<velocity>0.05</velocity>", "<fault>none</fault><tick>5</tick>")
+        text = re.sub(r"<alpha>.*?</delta>", "", text, flags=re.DOTALL)
+        text = text.replace("<maxclock>", f"<controller_path>{os.environ['TEST_CONTROLLERS']}</controller_path><maxclock>")
+        (self.folder / "faulty.xml").write_text(text)
+        study = self.study('<factor id="fault" path="controllers.diffusion.parameters.fault" values="none step_crashes step_throws step_exits"/>', 'seeds="1-2"',
+                           experiment=self.folder / "faulty.xml")
+        done = self.sweep(study, "--output", "out", code=4)
+        self.assertEqual(FINISHED.search(done.stdout).groups()[:2], ("8", "6"))
+        self.assertIn("ControlStep at tick 5 aborted", done.stderr)
+        states = self.query("out", "SELECT fault, state, exit, attempts, failure FROM runs ORDER BY point, seed")
+        self.assertEqual([row[1] for row in states], ["done"] * 2 + ["failed"] * 6)
+        self.assertEqual({row[2] for row in states if row[1] == "failed"}, {4})
+        self.assertIn("called exit", states[-1][4])
+        self.assertTrue((self.folder / "out/runs/1-1/log.txt").read_text())
+        self.sweep("out", "--resume", "--retries", "2", code=4)
+        self.assertEqual({row[0] for row in self.query("out", "SELECT attempts FROM runs WHERE state = 'failed'")}, {3})
+
+    def test_what_is_wrong_is_told_before_anything_starts(self):
+        for inside, says in (
+                ('<factor id="v" path="controllers.diffusion.parameters.velocty" values="1"/>', ["study.xml:2:1: the value 1 of 'v'", "did you mean 'velocity'?"]),
+                ('<factor id="v" path="arena.distribute.quantity" values="5 -1"/>', ["study.xml:2:1: the value -1 of 'v'"]),
+                ('<set path="controlers.x" value="1"/>', ["controlers", "did you mean 'controllers'?"]),
+                ('<metrics><distance id="d" of="footbot*"/></metrics>', ["study.xml:2:", "no entity of the experiment fits 'footbot*'"])):
+            done = self.sweep(self.study(inside), "--output", "out", code=3)
+            for text in says:
+                self.assertIn(text, done.stderr)
+        self.assertFalse((self.folder / "out").exists())
+        self.assertIn("there is no file", self.sweep(self.folder / "nothing.xml", code=3).stderr.replace("no such file", "no file"))
+        study = self.study("", 'seeds="1-2"')
+        self.assertIn("there is no 'sed'", self.sweep(study, "--only", "sed > 1", "--dry-run", code=2).stderr)
+        self.assertEqual(self.sweep(study, "--only", "seed > 1", "--dry-run").stdout, "0-2 seed=2\n")
+        self.sweep(study, "--output", "out")
+        self.assertIn("is no empty folder", self.sweep(study, "--output", "out", code=2).stderr)
+        self.assertIn("is no folder of a study", self.sweep(self.folder, "--resume", code=2).stderr)
+
+    def test_a_changed_experiment_is_another_study(self):
+        shutil.copy(CONFIGS / "diffusion_10.xml", self.folder / "mine.xml")
+        study = self.study("", 'seeds="1-2"', experiment=self.folder / "mine.xml")
+        self.sweep(study, "--output", "out", "--only", "seed == 1")
+        with open(self.folder / "mine.xml", "a") as file:
+            file.write("<!-- another one -->\n")
+        self.assertIn("has changed since 'out' was begun", self.sweep("out", "--resume", code=2).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

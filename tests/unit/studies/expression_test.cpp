@@ -1,0 +1,72 @@
+// Conditions over the factors of a study.
+#include "studies/expression.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace swarmanoid
+{
+namespace
+{
+
+const std::vector<std::string> kNames{"robots", "speed", "rule"};
+
+bool Holds(const std::string& text)
+{
+  return Expression(text, kNames)
+      .Holds(
+          [](std::size_t name) -> ExpressionValue
+          {
+            if (name == 2) return std::string("still");
+            return name == 0 ? 10.0 : 0.5;
+          });
+}
+
+std::string ComplaintAbout(const std::string& text)
+{
+  try
+  {
+    Holds(text);
+  }
+  catch (const ExpressionError& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(StudyExpression, BindsAsInArithmetic)
+{
+  EXPECT_TRUE(Holds("robots * speed + 1 == 6"));
+  EXPECT_TRUE(Holds("robots - 2 - 3 == 5")) << "from the left";
+  EXPECT_TRUE(Holds("2 + 3 * 4 == 14"));
+  EXPECT_TRUE(Holds("(2 + 3) * 4 == 20"));
+  EXPECT_TRUE(Holds("-robots < -9.5 and 7 % 4 == 3"));
+  EXPECT_TRUE(Holds("1e-3 * 1000 == 1 and robots/4 == 2.5"));
+}
+
+TEST(StudyExpression, CombinesConditions)
+{
+  EXPECT_TRUE(Holds("robots > 50 or speed == 0.5"));
+  EXPECT_FALSE(Holds("robots > 50 and speed == 0.5"));
+  EXPECT_TRUE(Holds("robots > 50 and speed == 0 or robots == 10")) << "and binds tighter than or";
+  EXPECT_TRUE(Holds("not robots == 11"));
+  EXPECT_FALSE(Holds("not (robots == 10 and rule == 'still')"));
+  EXPECT_TRUE(Holds("rule != 'moving'"));
+}
+
+TEST(StudyExpression, SaysWhatIsWrong)
+{
+  EXPECT_THAT(ComplaintAbout("robot > 1"), testing::HasSubstr("there is no 'robot'"));
+  EXPECT_THAT(ComplaintAbout("robot > 1"), testing::HasSubstr("did you mean 'robots'?"));
+  EXPECT_THAT(ComplaintAbout("robots >"), testing::HasSubstr("is missing, at character 9"));
+  EXPECT_THAT(ComplaintAbout("(robots > 1"), testing::HasSubstr("a ( has no )"));
+  EXPECT_THAT(ComplaintAbout("robots 5"), testing::HasSubstr("'5' is not expected here"));
+  EXPECT_THAT(ComplaintAbout("rule > 5"), testing::HasSubstr("'still' is a text; '>' takes numbers"));
+  EXPECT_THAT(ComplaintAbout("rule == 'still"), testing::HasSubstr("no second '"));
+  EXPECT_THAT(ComplaintAbout(""), testing::HasSubstr("is missing"));
+  EXPECT_THAT(ComplaintAbout(std::string(5000, '(')), testing::HasSubstr("too many parentheses"));
+}
+
+}  // namespace
+}  // namespace swarmanoid

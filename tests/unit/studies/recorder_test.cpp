@@ -1,0 +1,338 @@
+// Metrics of studies, against what is known of the scene: a robot that drives, rings of robots, cells that are counted.
+#include "studies/recorder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "common/control_interface/ci_controller.h"
+#include "common/control_interface/ci_publish.h"
+#include "common/control_interface/ci_wheels_actuator.h"
+#include "common/space/publish.h"
+#include "roles/builtins.h"
+#include "space_server/experiment_functions.h"
+#include "studies/metric.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using testing::DoubleEq;
+using testing::DoubleNear;
+using testing::HasSubstr;
+
+// Drives with both wheels at a speed, and publishes the tick and its double.
+class CStudyDriver : public CCI_Controller
+{
+public:
+  int Init(const TConfigurationTree tree) override
+  {
+    speed_ = tree.GetNumber("speed", 0);
+    return RETURN_OK;
+  }
+  void ControlStep() override
+  {
+    GetRobot()->Actuator<CCI_WheelsActuator>("wheels").SetLinearVelocity(speed_, speed_);
+    const auto tick = GetRobot()->GetTick();
+    Publish(*GetRobot(), {{"tick", tick}, {"double", 2.0 * static_cast<double>(tick)}});
+  }
+  bool HasState() const override { return true; }
+
+private:
+  double speed_ = 0;
+};
+REGISTER_CONTROLLER(CStudyDriver, "study_driver")
+
+class CStudyFunctions : public CExperimentFunctions
+{
+public:
+  void Init(const TConfigurationTree, SpaceEditor&) override {}
+  void PostStep(SpaceEditor& space) override
+  {
+    if (space.GetSpace().GetTick() == 3) Publish(space.GetSpace(), "third", 3.5);
+  }
+};
+REGISTER_EXPERIMENT_FUNCTIONS(CStudyFunctions, {.label = "study_functions", .brief = "publishes a number at tick 3"})
+
+constexpr const char* kReport = "<report implementation='generic_report'/>";
+constexpr const char* kWheels = "<wheels implementation='generic_wheels'/>";
+
+std::unique_ptr<Experiment> Scene(const std::string& entities, int ticks,
+                                  const std::string& actuators = std::string(kWheels) + kReport)
+{
+  RegisterBuiltins();
+  const std::string text =
+      "<ahss-config><framework><clocktick>100</clocktick><maxclock>" + std::to_string(ticks) +
+      "</maxclock></framework><controllers><study_driver id='go'><actuators>" + actuators +
+      "</actuators><parameters><speed>0.1</speed></parameters></study_driver>"
+      "<study_driver id='stay'><actuators>" +
+      actuators + "</actuators></study_driver></controllers><arena size='10,10,2' optimization='2D'>" + entities +
+      "</arena><engines><dummy_engine id='e'/></engines><arena_physics><engine id='e'><all/></engine></arena_physics>"
+      "<experiment_functions><study_functions id='f'/></experiment_functions></ahss-config>";
+  LoadedExperiment loaded = LoadExperimentText(text, "scene.xml", ".");
+  for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
+  return std::move(loaded.experiment);
+}
+
+std::unique_ptr<Study> Metrics(const std::string& metrics, int every)
+{
+  LoadedStudy loaded = LoadStudyText(
+      "<study experiment='e.xml'><metrics every='" + std::to_string(every) + "'>" + metrics + "</metrics></study>",
+      "s.xml", ".");
+  for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
+  return std::move(loaded.study);
+}
+
+RunSamples Measured(const Study& study, const Experiment& experiment, bool as_cluster = false)
+{
+  Recorder recorder(study, experiment);
+  CSimulator simulator(experiment, {});
+  do {
+    recorder.Look(simulator);
+    if (as_cluster) recorder.LookLast(simulator);
+  } while (simulator.Step());
+  if (!as_cluster) recorder.LookLast(simulator);
+  simulator.Finish();
+  return recorder.Take();
+}
+
+std::map<std::string, double> LastRow(const Study& study, const RunSamples& samples)
+{
+  const std::vector<std::string> columns = MetricColumns(study);
+  std::map<std::string, double> row;
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    row[columns[c]] = samples.values[samples.values.size() - columns.size() + c];
+  return row;
+}
+
+std::map<std::string, double> AtEnd(const std::string& metrics, const Experiment& experiment)
+{
+  const auto study = Metrics(metrics, 0);
+  return LastRow(*study, Measured(*study, experiment));
+}
+
+std::string Footbot(const std::string& id, double x, double y, double degrees, const std::string& controller = "stay")
+{
+  return fmt::format("<footbot id='{}' position='{},{},0' orientation='0,0,{}' controller='{}'/>", id, x, y, degrees,
+                     controller);
+}
+
+std::string ComplaintAbout(const std::string& metrics, const Experiment& experiment)
+{
+  try
+  {
+    const auto study = Metrics(metrics, 0);
+    const Recorder recorder(*study, experiment);
+  }
+  catch (const ConfigurationError& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(StudyMetrics, AWayIsSpeedTimesTime)
+{
+  const auto experiment = Scene(Footbot("a", 2, 5, 0, "go") + Footbot("b", 2, 7, 0), 100);
+  const auto row = AtEnd(
+      "<distance id='way' aggregate='min max sum mean deviation count'/><displacement id='from' of='a'/>"
+      "<nearest_neighbour id='near'/><distance id='own' of='b'/>",
+      *experiment);
+  EXPECT_NEAR(row.at("way.max"), 1, 1e-9) << "0.1 m/s for 10 s";
+  EXPECT_EQ(row.at("way.min"), 0);
+  EXPECT_EQ(row.at("own.mean"), 0);
+  EXPECT_NEAR(row.at("way.mean"), 0.5, 1e-9);
+  EXPECT_NEAR(row.at("way.deviation"), std::sqrt(0.5), 1e-9) << "of a sample of two";
+  EXPECT_EQ(row.at("way.count"), 2);
+  EXPECT_NEAR(row.at("from.mean"), 1, 1e-9);
+  EXPECT_NEAR(row.at("near.mean"), std::sqrt(5.0), 1e-9);
+}
+
+TEST(StudyMetrics, OrderOfHeadings)
+{
+  const std::string metric = "<polarisation id='p'/>";
+  EXPECT_THAT(AtEnd(metric, *Scene(Footbot("a", 2, 2, 30) + Footbot("b", 5, 5, 30), 1)).at("p"), DoubleNear(1, 1e-12));
+  EXPECT_THAT(AtEnd(metric, *Scene(Footbot("a", 2, 2, 0) + Footbot("b", 5, 5, 180), 1)).at("p"), DoubleNear(0, 1e-12));
+  EXPECT_THAT(AtEnd(metric, *Scene(Footbot("a", 2, 2, 0) + Footbot("b", 5, 5, 90), 1)).at("p"),
+              DoubleNear(std::sqrt(0.5), 1e-12));
+}
+
+TEST(StudyMetrics, DispersionAndClustersOfKnownPlaces)
+{
+  // A square of side 1 m about (3, 3), and one robot far away.
+  const std::string square =
+      Footbot("a", 2.5, 2.5, 0) + Footbot("b", 3.5, 2.5, 0) + Footbot("c", 3.5, 3.5, 0) + Footbot("d", 2.5, 3.5, 0);
+  const auto row = AtEnd(
+      "<dispersion id='u' of='a b c d'/><largest_cluster id='c' range='1.01'/><largest_cluster id='s' range='0.9'/>",
+      *Scene(square + Footbot("far", 8, 8, 0), 1));
+  const double radius = 0.085036758;
+  EXPECT_THAT(row.at("u"), DoubleNear(4 * 0.5 / (4 * radius * radius), 1e-9));
+  EXPECT_THAT(row.at("c"), DoubleEq(0.8));
+  EXPECT_THAT(row.at("s"), DoubleEq(0.2));
+}
+
+TEST(StudyMetrics, RegionsKnowWhoIsInAndWhenTheyCame)
+{
+  const std::string entities =
+      Footbot("a", 2, 5, 0, "go") + Footbot("b", 8, 8, 0) +
+      "<ground_patch id='nest' position='3,5,0' radius='0.5'/><ground_patch id='field' position='8,8,0' size='1,2'/>";
+  const auto experiment = Scene(entities, 100);
+  const auto row = AtEnd(
+      "<in_region id='nest_count' entity='nest'/><in_region id='field_count' entity='field'/>"
+      "<in_region id='corner' min='7,7' max='9,9'/><time_to_region id='disc' centre='3,5' radius='0.5' aggregate='min "
+      "count'/>"
+      "<time_to_region id='never' centre='1,1' radius='0.1' aggregate='mean count'/>",
+      *experiment);
+  EXPECT_EQ(row.at("nest_count"), 1);
+  EXPECT_EQ(row.at("field_count"), 1);
+  EXPECT_EQ(row.at("corner"), 1);
+  EXPECT_NEAR(row.at("disc.min"), 5, 0.11) << "half a metre at 0.1 m/s, in ticks of 0.1 s";
+  EXPECT_EQ(row.at("disc.count"), 1);
+  EXPECT_TRUE(std::isnan(row.at("never.mean")));
+  EXPECT_EQ(row.at("never.count"), 0);
+}
+
+TEST(StudyMetrics, CoverageCountsCells)
+{
+  const auto study = Metrics("<coverage id='seen' cell='0.5'/><trajectories id='ways' of='a'/>", 50);
+  const RunSamples samples = Measured(*study, *Scene(Footbot("a", 2.015, 5.2, 0, "go"), 100));
+  // 2.015 to 3.015 m: three cells of 400.
+  ASSERT_EQ(samples.ticks, (std::vector<std::uint64_t>{0, 50, 100}));
+  EXPECT_THAT(samples.values, testing::ElementsAre(DoubleEq(1.0 / 400), DoubleEq(2.0 / 400), DoubleEq(3.0 / 400)));
+  ASSERT_EQ(samples.grids.size(), 1U);
+  EXPECT_EQ(samples.grids[0].columns, 20U);
+  std::uint32_t visits = 0;
+  for (const std::uint32_t count : samples.grids[0].visits) visits += count;
+  EXPECT_EQ(visits, 101U) << "one for each state";
+  EXPECT_EQ(samples.grids[0].visits[10 * 20 + 6], 2U);
+  EXPECT_THAT(samples.ways, testing::ElementsAre(testing::FloatNear(2.015F, 1e-5F), testing::FloatNear(5.2F, 1e-5F),
+                                                 testing::FloatNear(2.515F, 1e-5F), testing::FloatNear(5.2F, 1e-5F),
+                                                 testing::FloatNear(3.015F, 1e-5F), testing::FloatNear(5.2F, 1e-5F)));
+}
+
+TEST(StudyMetrics, AContactCountsOnceAsLongAsItLasts)
+{
+  // One drives against a wall and stays there, 25 mm away, as the kinematic engine lets it; two touch from the start;
+  // one is alone.
+  const std::string entities = Footbot("driver", 5, 5, 0, "go") +
+                               "<block id='wall' position='5.5,5,0.25' size='0.1,2,0.5'/>" + Footbot("left", 2, 2, 0) +
+                               Footbot("right", 2.1705, 2, 0) + Footbot("alone", 8, 8, 0);
+  const auto row = AtEnd(
+      "<collisions id='all' gap='0.03' aggregate='sum max'/><collisions id='d' of='driver' gap='0.03'/><collisions "
+      "id='l' "
+      "of='left'/><collisions id='o' of='alone'/>",
+      *Scene(entities, 200));
+  EXPECT_EQ(row.at("d.mean"), 1);
+  EXPECT_EQ(row.at("l.mean"), 1);
+  EXPECT_EQ(row.at("o.mean"), 0);
+  EXPECT_EQ(row.at("all.sum"), 3);
+}
+
+TEST(StudyMetrics, WhatIsPublishedJoinsTheTable)
+{
+  const auto study = Metrics(
+      "<published id='third' name='third'/><published id='when' name='tick' by='controllers' aggregate='max'/>"
+      "<published id='twice' name='double' by='controllers'/><published id='none' name='nothing' by='controllers' "
+      "aggregate='count'/>"
+      "<attribute id='reports' name='report' of='a'/>",
+      2);
+  const auto experiment = Scene(Footbot("a", 2, 2, 0) + Footbot("b", 5, 5, 0), 5);
+  const RunSamples samples = Measured(*study, *experiment);
+  ASSERT_EQ(samples.ticks, (std::vector<std::uint64_t>{0, 2, 4, 5}));
+  EXPECT_TRUE(std::isnan(samples.values[0])) << "not yet";
+  EXPECT_TRUE(std::isnan(samples.values[1]));
+  const auto row = LastRow(*study, samples);
+  EXPECT_EQ(row.at("third"), 3.5);
+  EXPECT_EQ(row.at("when.max"), 4) << "of the last control step";
+  EXPECT_EQ(row.at("twice.mean"), 8);
+  EXPECT_EQ(row.at("none.count"), 0);
+  EXPECT_EQ(row.at("reports.mean"), 5) << "one report a step, whatever it holds";
+}
+
+TEST(StudyMetrics, WhoeverCannotKnowTheLastTickHasTheSameRows)
+{
+  const auto study = Metrics("<distance id='d'/><coverage id='c' cell='0.1'/><trajectories id='t'/>", 4);
+  const auto experiment = Scene(Footbot("a", 2, 2, 0, "go"), 10);
+  const RunSamples one = Measured(*study, *experiment, false);
+  const RunSamples other = Measured(*study, *experiment, true);
+  EXPECT_EQ(one.ticks, (std::vector<std::uint64_t>{0, 4, 8, 10}));
+  EXPECT_EQ(one.ticks, other.ticks);
+  EXPECT_EQ(one.values, other.values);
+  EXPECT_EQ(one.ways, other.ways);
+  EXPECT_EQ(one.grids[0].visits, other.grids[0].visits);
+}
+
+TEST(StudyMetrics, AQuantileLiesBetweenItsNeighbours)
+{
+  std::vector<double> values{4, 1, 3, 2};
+  EXPECT_EQ(Aggregate("median", values), 2.5);
+  EXPECT_EQ(Aggregate("q25", values), 1.75);
+  EXPECT_EQ(Aggregate("q0", values), 1);
+  EXPECT_EQ(Aggregate("q100", values), 4);
+  std::vector<double> none;
+  EXPECT_EQ(Aggregate("count", none), 0);
+  EXPECT_TRUE(std::isnan(Aggregate("mean", none)));
+}
+
+TEST(StudyMetrics, WhatDoesNotFitTheExperimentIsToldWithItsPlace)
+{
+  const auto experiment =
+      Scene(Footbot("fb_1", 2, 2, 0) + "<block id='box' position='5,5,0.25' size='0.1,2,0.5'/>", 1, kWheels);
+  EXPECT_THAT(ComplaintAbout("<distance id='d' of='fb_2'/>", *experiment),
+              HasSubstr("s.xml:1:63: no entity of the experiment fits 'fb_2'; did you mean 'fb_1'?"));
+  EXPECT_THAT(ComplaintAbout("<attribute id='d' name='leds'/>", *experiment), HasSubstr("did you mean 'led'?"));
+  EXPECT_THAT(ComplaintAbout("<attribute id='d' name='led' element='12'/>", *experiment),
+              HasSubstr("the elements 0 to 11"));
+  EXPECT_THAT(ComplaintAbout("<in_region id='d' entity='bx'/>", *experiment), HasSubstr("did you mean 'box'?"));
+  EXPECT_THAT(ComplaintAbout("<published id='d' name='x' by='controllers'/>", *experiment), HasSubstr("<report>"));
+  EXPECT_THAT(ComplaintAbout("<dispersion id='d' of='*'/>", *experiment), HasSubstr("'box' is no cylinder"));
+  EXPECT_THAT(ComplaintAbout("<coverage id='d' cell='0.0001'/>", *experiment), HasSubstr("at most 1e+07"));
+  EXPECT_THAT(ComplaintAbout("<trajectories id='a'/><trajectories id='b'/>", *experiment),
+              HasSubstr("second <trajectories>"));
+}
+
+TEST(Publishing, TakesThreeNamesAStep)
+{
+  class Report : public CCI_ReportActuator
+  {
+  public:
+    void ReportBytes(std::span<const std::uint8_t> given) override { bytes.assign(given.begin(), given.end()); }
+    std::vector<std::uint8_t> bytes;
+  } report;
+  CCI_Robot robot("r", "footbot");
+  Publish(robot, {{"a", 1}});
+  EXPECT_TRUE(report.bytes.empty());
+  robot.AddActuator("report", &report);
+  Publish(robot, {{"a", -7}, {"b", 2.5F}, {"c", true}});
+  EXPECT_EQ(PublishedNumberIn(report.bytes, "a"), -7);
+  EXPECT_EQ(PublishedNumberIn(report.bytes, "b"), 2.5);
+  EXPECT_EQ(PublishedNumberIn(report.bytes, "c"), 1);
+  EXPECT_EQ(PublishedNumberIn(report.bytes, "d"), std::nullopt);
+  EXPECT_THROW(Publish(robot, {{"a", 1}, {"b", 2}, {"c", 3}, {"d", 4}}), std::length_error);
+  // Names of which the report could not tell which is meant.
+  std::string same;
+  for (int i = 0; same.empty(); ++i)
+    if (ShortName("n" + std::to_string(i)) == ShortName("a")) same = "n" + std::to_string(i);
+  EXPECT_THROW(Publish(robot, {{"a", 1}, {same, 1}}), std::invalid_argument);
+}
+
+TEST(Publishing, CountsOnlyIfSomebodyMeasuresThatRun)
+{
+  const auto experiment = Scene(Footbot("a", 2, 2, 0), 1);
+  CSimulator one(*experiment, {}), other(*experiment, {});
+  Publish(one.GetSpace(), "x", 1);
+  const PublishedNumbers numbers(one.GetSpace());
+  EXPECT_TRUE(numbers.Values().empty());
+  Publish(other.GetSpace(), "x", 2);
+  EXPECT_TRUE(numbers.Values().empty());
+  Publish(one.GetSpace(), "x", 3);
+  Publish(one.GetSpace(), "x", 4);
+  EXPECT_EQ(numbers.Values().at("x"), 4);
+  EXPECT_THROW(Publish(one.GetSpace(), "x", NAN), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace swarmanoid

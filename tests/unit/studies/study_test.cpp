@@ -1,0 +1,170 @@
+// Study files: what they say, what is refused, and which runs they make.
+#include "studies/study.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "studies/design.h"
+#include "test_folders.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::unique_ptr<Study> Read(const std::string& inside, const std::string& attributes = "")
+{
+  LoadedStudy loaded =
+      LoadStudyText("<study experiment='e.xml' " + attributes + ">\n" + inside + "</study>", "s.xml", "/x");
+  for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
+  return std::move(loaded.study);
+}
+
+std::string Complaints(const std::string& inside, const std::string& attributes = "")
+{
+  const LoadedStudy loaded =
+      LoadStudyText("<study experiment='e.xml' " + attributes + ">\n" + inside + "</study>", "s.xml", "/x");
+  std::string all;
+  for (const Diagnostic& error : loaded.errors) all += error.Text() + "\n";
+  if (!loaded.study) return all;
+  try
+  {
+    const Design design(*loaded.study);
+  }
+  catch (const ConfigurationError& error)
+  {
+    all += error.what();
+  }
+  return all;
+}
+
+std::vector<std::string> Points(const Study& study)
+{
+  const Design design(study);
+  std::vector<std::string> texts;
+  for (std::size_t p = 0; p < design.Points(); ++p) texts.push_back(design.Text(p));
+  return texts;
+}
+
+std::vector<std::string> ValuesOf(const std::string& attributes)
+{
+  const auto study = Read("<factor id='f' path='a.b' " + attributes + "/>");
+  std::vector<std::string> values;
+  for (const FactorLevel& level : study->dimensions.at(0).factors.at(0).levels) values.push_back(level.value);
+  return values;
+}
+
+TEST(StudyFile, HasAllCombinationsTheLastFactorFastest)
+{
+  const auto study = Read(
+      "<factor id='robots' path='arena.distribute.quantity' values='5, 10'/>"
+      "<factor id='speed' path='a.b  c.d' values='0.1 0.2'/>",
+      "seeds='1-3, 9' ticks='50'");
+  EXPECT_THAT(Points(*study),
+              ElementsAre("robots=5 speed=0.1", "robots=5 speed=0.2", "robots=10 speed=0.1", "robots=10 speed=0.2"));
+  EXPECT_THAT(study->seeds, ElementsAre(1, 2, 3, 9));
+  const Design design(*study);
+  EXPECT_EQ(design.SettingsOf(2),
+            (StudySettings{
+                {"arena.distribute.quantity", "10"}, {"a.b", "0.1"}, {"c.d", "0.1"}, {"framework.maxclock", "50"}}));
+}
+
+TEST(StudyFile, ZipsAndVariantsVaryTogether)
+{
+  const auto study = Read(
+      "<set path='p' value='1'/><zip><factor id='n' path='q' values='1 2'/><variants id='engine'>"
+      "<variant id='flat'/><variant id='full' experiment='sub/d.xml'><set path='r' value='x "
+      "y'/></variant></variants></zip>");
+  EXPECT_THAT(Points(*study), ElementsAre("n=1 engine=flat", "n=2 engine=full"));
+  const Design design(*study);
+  EXPECT_EQ(design.ExperimentOf(0), "/x/e.xml");
+  EXPECT_EQ(design.ExperimentOf(1), "/x/sub/d.xml");
+  EXPECT_EQ(design.SettingsOf(1), (StudySettings{{"p", "1"}, {"q", "2"}, {"r", "x y"}}));
+}
+
+TEST(StudyFile, RangesMeetTheirEnds)
+{
+  EXPECT_THAT(ValuesOf("from='0' to='0.3' step='0.1'"), ElementsAre("0", "0.1", "0.2", "0.3"));
+  EXPECT_THAT(ValuesOf("from='0' to='0.35' step='0.1'"), ElementsAre("0", "0.1", "0.2", "0.3"));
+  EXPECT_THAT(ValuesOf("from='1' to='2' count='5'"), ElementsAre("1", "1.25", "1.5", "1.75", "2"));
+  EXPECT_THAT(ValuesOf("from='1' to='1000' count='4' scale='logarithmic'"), ElementsAre("1", "10", "100", "1000"));
+  EXPECT_THAT(ValuesOf("values='1,2,0; 3,4,0'"), ElementsAre("1,2,0", "3,4,0"));
+}
+
+TEST(StudyFile, ConditionsLeaveOutPoints)
+{
+  const auto study = Read(
+      "<factor id='a' path='p' values='1 2 3'/><factor id='b' path='q' values='1 2 3'/>"
+      "<require condition='a * b &lt; 4'/><require condition='a != b'/>");
+  EXPECT_THAT(Points(*study), ElementsAre("a=1 b=2", "a=1 b=3", "a=2 b=1", "a=3 b=1"));
+  // Each level of each factor is tried once, with whatever fulfils the conditions.
+  const Design design(*study);
+  EXPECT_THAT(design.PointsOfAllLevels(100), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(design.PointsOfAllLevels(2), ElementsAre(0, 3));
+}
+
+TEST(StudyFile, WhatIsWrongIsToldWithPlaceAndCure)
+{
+  const std::map<std::string, std::string> told{
+      {"<factr id='a' path='p' values='1'/>", "s.xml:2:1: <study> has no element <factr>"},
+      {"<factor id='a' path='p' valeus='1'/>", "did you mean 'values'?"},
+      {"<factor id='a' path='p' values=''/>", "s.xml:2:1: <factor> 'a' has no values, so that there would be no runs"},
+      {"<factor id='a' path='p' values='1' to='2'/>", "'to' is of a range"},
+      {"<factor id='a' path='p'/>", "takes either 'values', or a range"},
+      {"<factor id='a' path='p' from='1' to='2'/>", "either 'step' or 'count'"},
+      {"<factor id='a' path='p' from='1' to='2' step='-1'/>", "'step'"},
+      {"<factor id='a' path='p' from='2' to='1' step='0.5'/>", "'step' 0.5 does not lead from 2 to 1"},
+      {"<factor id='a' path='p' from='0' to='1' count='3' scale='logarithmic'/>", "above 0"},
+      {"<factor id='seed' path='p' values='1'/>", "the name of a column"},
+      {"<factor id='a-b' path='p' values='1'/>", "letters, digits and '_'"},
+      {"<factor id='a' path='p' values='1'/>\n<factor id='a' path='q' values='1'/>",
+       "s.xml:3:9: the id 'a' is given a second time; the first is in line 2"},
+      {"<zip></zip>", "<zip> holds no factor"},
+      {"<zip><factor id='a' path='p' values='1 2'/><factor id='b' path='q' values='1'/></zip>",
+       "'a' has 2 and 'b' has 1"},
+      {"<variants id='v'/>", "'v' has no values"},
+      {"<factor id='a' path='p' values='1'/><require condition='b &gt; 1'/>", "there is no 'b'"},
+      {"<factor id='a' path='p' values='1'/><require condition='a &gt; 1'/>",
+       "none of 1 combinations fulfils the conditions"},
+      {"<metrics><distance id='d' aggregate='meen'/></metrics>", "did you mean 'mean'?"},
+      {"<metrics><distence id='d'/></metrics>", "did you mean 'distance'?"},
+      {"<metrics><in_region id='d' radius='1'/></metrics>", "a region is one of these"},
+      {"<metrics><coverage id='d'/></metrics>", "lacks 'cell'"},
+  };
+  for (const auto& [inside, text] : told) EXPECT_THAT(Complaints(inside), HasSubstr(text)) << inside;
+  EXPECT_THAT(Complaints("", "seeds='5-2'"), HasSubstr("ends before it begins"));
+  EXPECT_THAT(Complaints("", "seeds='1-3, 2'"), HasSubstr("2 a second time"));
+  EXPECT_THAT(Complaints("", "seeds='one'"), HasSubstr("'one'"));
+}
+
+TEST(StudyFile, MoreThanAMillionRunsAreRefused)
+{
+  const std::string thousand = "<factor id='a' path='p' from='1' to='1000' step='1'/>";
+  EXPECT_EQ(Complaints(thousand, "seeds='1-1000'"), "");
+  EXPECT_THAT(Complaints(thousand, "seeds='1-1001'"), HasSubstr("it may have 1e+06"));
+  EXPECT_THAT(Complaints("", "seeds='1-2000000'"), HasSubstr("the most runs of a study"));
+  const std::string four = thousand + "<factor id='b' path='q' from='1' to='1000' step='1'/>";
+  EXPECT_THAT(Complaints(four + "<require condition='a &gt; 0'/>", "seeds='1-2'"), HasSubstr("more than 1000000 runs"));
+  EXPECT_EQ(Complaints(four + "<require condition='a == b'/>", "seeds='1-1000'"), "");
+}
+
+TEST(StudyReference, IsThatOfTheTables)
+{
+  const std::filesystem::path page = std::filesystem::path(SWARMANOID_SOURCE_FOLDER) / "docs/study_reference.md";
+  if (std::getenv("SWARMANOID_WRITE_REFERENCE") != nullptr) std::ofstream(page) << StudyReference();
+  std::ifstream file(page);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(text, StudyReference())
+      << "write it anew: SWARMANOID_WRITE_REFERENCE=1 unit_studies --gtest_filter='StudyReference.*'";
+}
+
+}  // namespace
+}  // namespace swarmanoid

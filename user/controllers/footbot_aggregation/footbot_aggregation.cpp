@@ -1,0 +1,57 @@
+#include "footbot_aggregation.h"
+
+#include <algorithm>
+
+#include "common/math/elementary.h"
+
+using namespace swarmanoid;
+
+int CFootBotAggregation::Init(const TConfigurationTree t_tree)
+{
+  wheels_ = &GetRobot()->Actuator<CCI_FootBotWheelsActuator>("footbot_wheels");
+  beacon_ = &GetRobot()->Actuator<CCI_FootBotBeaconActuator>("footbot_beacon");
+  camera_ = &GetRobot()->Sensor<CCI_FootBotOmnidirectionalCameraSensor>("footbot_omnidirectional_camera");
+  radius_m_ = t_tree.GetNumber("radius");
+  free_m_s_ = t_tree.GetVector2("free");
+  seen_m_s_ = t_tree.GetVector2("seen");
+  return RETURN_OK;
+}
+
+void CFootBotAggregation::ControlStep()
+{
+  beacon_->SetColour(CCI_Colour::RED);
+  const Vector2& speeds = SeesRobot() ? seen_m_s_ : free_m_s_;
+  wheels_->SetFootBotWheelsLinearVelocity(speeds.x(), speeds.y());
+}
+
+// Whether the line straight ahead meets a body: its beacon is in the middle.
+bool CFootBotAggregation::SeesRobot() const
+{
+  const auto blobs = camera_->GetAllBlobs();
+  return std::any_of(blobs.begin(), blobs.end(),
+                     [&](const CCI_ColourBlob& blob)
+                     {
+                       const SinCos direction = SinCosOf(blob.angle_rad);
+                       return direction.cos > 0 && std::abs(direction.sin) * blob.distance_m <= radius_m_;
+                     });
+}
+
+REGISTER_CONTROLLER(CFootBotAggregation,
+                    {.label = "footbot_aggregation",
+                     .brief = "one of two pairs of wheel speeds, by whether another robot's beacon is straight ahead",
+                     .parameters = {
+                         {.name = "free",
+                          .type = swarmanoid::ParameterType::kVector2,
+                          .unit = "m/s",
+                          .default_value = "-0.0983, -0.1508",
+                          .description = "Left and right wheel if nobody stands ahead: the robot drives on a circle."},
+                         {.name = "seen",
+                          .type = swarmanoid::ParameterType::kVector2,
+                          .unit = "m/s",
+                          .default_value = "0.1757, -0.1757",
+                          .description = "Left and right wheel if somebody does: it turns on the spot."},
+                         {.name = "radius",
+                          .unit = "m",
+                          .default_value = "0.085036758",
+                          .description = "Of the bodies that are seen.",
+                          .minimum = 0}}})
