@@ -48,8 +48,11 @@ def allowed():
     experiment = rules["common/experiment"]
     rules["common/space/terrain"] = experiment + ["common/space/terrain"]
     rules["common/experiment"] = experiment + ["common/space/terrain"]
+    # The API of ARGoS3 over ours; its files are read by the launcher.
+    rules["argos3"] = rules["space_server"] + ["argos3"]
+    rules["argos3/files"] = below[: below.index("common/experiment") + 1] + ["argos3/files"]
     rules["roles"] = without_bus + ROLES + ["roles"]
-    rules["launcher"] = below + ROLES + ["roles", "launcher"]
+    rules["launcher"] = below + ROLES + ["roles", "argos3/files", "launcher"]
     rules["real_robot"] = INTERFACE + ["common/logging", "common/program", "real_robot"]
     # A folder of drivers sees what drivers are made from, and no other drivers.
     rules["real_robot/drivers/ros2"] = rules["real_robot"] + ["real_robot/drivers/ros2"]
