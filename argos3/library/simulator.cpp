@@ -148,7 +148,9 @@ void CLoopFunctions::MoveEntity(CPositionalEntity& entity, const CVector3& posit
 
 void CLoopFunctions::AddEntity(CEntity& entity)
 {
-  const std::unique_ptr<CEntity> added(&entity);
+  // Whoever made it may go on to hold it.
+  static std::vector<std::unique_ptr<CEntity>> given;
+  given.emplace_back(&entity);
   const auto& ours = Declared(entity.GetId());
   auto* body = dynamic_cast<CBodyEntity*>(&entity);
   if (body == nullptr) THROW_ARGOSEXCEPTION("'" << entity.GetId() << "' has no body");

@@ -81,6 +81,15 @@ class Experiments(unittest.TestCase):
         result = self.swarmanoid("run", "collect.xml", "--output", "cluster", code=4)
         self.assertIn("--single-process", result.stdout + result.stderr)
 
+    def test_robots_leave_and_come_back(self):
+        file = self.changed("collect.argos", ('label="collector"', 'label="keeper"'))
+        self.swarmanoid("run", file, "--output", "run")
+        rows = [line.split("\t") for line in (self.folder / "kept.tsv").read_text().splitlines()]
+        self.assertEqual([(int(row[0]), int(row[1])) for row in rows],
+                         [(clock, 1 if 3 < clock < 7 else 2) for clock in range(1, 11)])
+        self.assertAlmostEqual(float(rows[0][2]), -0.5)
+        self.assertAlmostEqual(float(rows[6][2]), 1.2)
+
     def test_what_has_no_counterpart_is_named_with_its_place(self):
         file = self.changed("wander.argos", ("<footbot_proximity ", "<footbot_proximty "),
                             ("<cylinder id=\"pillar\"", "<prototype id=\"pillar\""),

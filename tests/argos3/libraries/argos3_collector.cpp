@@ -94,5 +94,33 @@ private:
   int moved_ = 0;
 };
 
+// Takes a robot out and puts it back elsewhere.
+class CKeeper : public CLoopFunctions
+{
+public:
+  void Init(TConfigurationNode&) override { file_.open("kept.tsv"); }
+  void PreStep() override
+  {
+    const UInt32 clock = GetSpace().GetSimulationClock();
+    CSpace::TMapPerType& robots = GetSpace().GetEntitiesByType("foot-bot");
+    file_ << clock << '\t' << robots.size();
+    if (robots.count("fb5") != 0)
+      file_ << '\t' << any_cast<CFootBotEntity*>(robots["fb5"])->GetEmbodiedEntity().GetOriginAnchor().Position.GetY();
+    file_ << '\n';
+    if (clock == 3) RemoveEntity("fb5");
+    if (clock == 6)
+    {
+      auto* robot = new CFootBotEntity("fb5", "r", CVector3(-0.5, 1.2, 0));
+      AddEntity(*robot);
+      if (robot->GetId() != "fb5") THROW_ARGOSEXCEPTION("the robot that was added is gone");
+    }
+    if (clock == 10) GetSimulator().Terminate();
+  }
+
+private:
+  std::ofstream file_;
+};
+
+REGISTER_LOOP_FUNCTIONS(CKeeper, "keeper")
 REGISTER_CONTROLLER(CRunner, "runner")
 REGISTER_LOOP_FUNCTIONS(CCollector, "collector")

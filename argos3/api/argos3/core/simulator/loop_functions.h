@@ -37,8 +37,8 @@ public:
                           bool check_only = false, bool ignore_collisions = false);
   // A light.
   virtual void MoveEntity(CPositionalEntity& entity, const CVector3& position, const CQuaternion& orientation);
-  // Puts an entity that the experiment file declares, and that was removed, back into the arena. The object is
-  // deleted. Throws CARGoSException for an id that the file does not declare.
+  // Puts an entity that the experiment file declares, and that was removed, back into the arena. The object
+  // becomes the simulator's. Throws CARGoSException for an id that the file does not declare.
   virtual void AddEntity(CEntity& entity);
   virtual void RemoveEntity(const std::string& id);
   virtual void RemoveEntity(CEntity& entity);
