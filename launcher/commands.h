@@ -21,6 +21,7 @@ void AddExportCommand(CLI::App& app, int& exit_code);
 void AddAttachCommand(CLI::App& app, int& exit_code);
 void AddControlCommand(CLI::App& app, int& exit_code);
 void AddCheckCommand(CLI::App& app, int& exit_code);
+void AddConvertCommand(CLI::App& app, int& exit_code);
 void AddListCommand(CLI::App& app, int& exit_code);
 void AddDemoCommand(CLI::App& app, int& exit_code);
 void AddDoctorCommand(CLI::App& app, int& exit_code);

@@ -17,8 +17,8 @@
 namespace
 {
 
-const std::vector<std::string> kVerbs{"run",   "resume", "replay", "diff", "export", "attach", "control",
-                                      "check", "list",   "new",    "demo", "doctor", "sweep",  "plot"};
+const std::vector<std::string> kVerbs{"run",     "resume", "replay", "diff", "export", "attach", "control", "check",
+                                      "convert", "list",   "new",    "demo", "doctor", "sweep",  "plot"};
 
 // CLI11 would only say that the word was not expected.
 bool ComplainsAboutVerb(const std::vector<std::string>& words)
@@ -53,6 +53,7 @@ void AddCommands(CLI::App& app, int& exit_code)
   AddAttachCommand(app, exit_code);
   AddControlCommand(app, exit_code);
   AddCheckCommand(app, exit_code);
+  AddConvertCommand(app, exit_code);
   AddListCommand(app, exit_code);
   AddNewCommand(app, exit_code);
   AddDemoCommand(app, exit_code);

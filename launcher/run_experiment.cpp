@@ -126,14 +126,32 @@ void RefuseContradictions(const RunSettings& options)
   if (options.domain) throw UsageError("--domain: a single process uses no DDS" + why);
 }
 
+bool IsOfArgos3(const RunSettings& asked) { return std::filesystem::path(asked.file).extension() == ".argos"; }
+
+// Loop functions of ARGoS3 may reach into controllers, which takes one process.
+bool WantsOneProcess(const RunSettings& asked, const Experiment& experiment)
+{
+  return IsOfArgos3(asked) && !experiment.functions.empty() && !asked.single_process && asked.controller_hosts == 1 &&
+         asked.hosts_file.empty() && asked.engine_hosts.empty() && !asked.domain;
+}
+
 }  // namespace
 
-int RunExperiment(const RunSettings& options, const WatchFunction& watch)
+int RunExperiment(const RunSettings& asked, const WatchFunction& watch)
 {
   RequireReproducibleMath();
-  RefuseContradictions(options);
-  const auto experiment = LoadOrComplain(options.file, ChangesOf(options));
+  RefuseContradictions(asked);
+  const auto experiment = LoadOrComplain(asked.file, ChangesOf(asked));
   if (!experiment) return kExitInvalidFile;
+  RunSettings options = asked;
+  if (WantsOneProcess(asked, *experiment))
+  {
+    options.single_process = true;
+    fmt::print(stderr,
+               "{}: note: it has loop functions, so it runs in one process; `swarmanoid convert` makes an experiment "
+               "that runs as a cluster if they reach into no controller\n",
+               asked.file);
+  }
   RefuseBadCheckpoints(options, *experiment);
   if (!options.events.empty() && !EventsAreGood(options.events, *experiment)) return kExitInvalidFile;
 
@@ -142,6 +160,8 @@ int RunExperiment(const RunSettings& options, const WatchFunction& watch)
     const RunFolder folder(options.output_folder, experiment->name);
     Manifest manifest = StartOfManifest(options, *experiment);
     folder.Write("experiment.xml", experiment->effective_xml);
+    // The space server reads our files alone.
+    if (IsOfArgos3(asked)) options.file = folder.File("experiment.xml");
     folder.Write("manifest.json", manifest.Text());
     const auto conclude = [&](const RunResult& result) { return Conclude(options, result, folder, manifest); };
     if (!options.single_process) return conclude(RunCluster(options, *experiment, folder, manifest, watch, conclude));

@@ -67,6 +67,9 @@ void ForEachLibrary(const Experiment& experiment,
   for (const ControllerConfiguration& controller : experiment.controllers)
   {
     add(controller.library, experiment.controller_path);
+    // What it loads in its turn stands in an element of its parameters.
+    for (const TConfigurationTree& part : controller.parameters.Children())
+      add(part.Value("library").value_or(""), experiment.controller_path);
     for (const DeviceConfiguration& device : controller.actuators) add_plugin(device.tree);
     for (const DeviceConfiguration& device : controller.sensors) add_plugin(device.tree);
   }

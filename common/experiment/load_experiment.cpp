@@ -8,6 +8,7 @@
 #include "common/configuration/xml_reader.h"
 #include "common/configuration/xml_writer.h"
 #include "common/experiment/element_reader.h"
+#include "common/experiment/foreign_experiments.h"
 #include "common/experiment/places.h"
 #include "common/experiment/sections.h"
 #include "common/experiment/settings.h"
@@ -88,7 +89,13 @@ LoadedExperiment LoadExperimentText(const std::string& text, const std::string& 
   Diagnostics diagnostics;
   try
   {
-    const Node file_root = ReadXmlWithPlaces(text, file_name);
+    Node file_root = ReadXmlWithPlaces(text, file_name);
+    if (const ExperimentConverter* convert = FindExperimentConverter(file_root->name))
+    {
+      std::vector<Diagnostic> mistakes;
+      file_root = (*convert)(*file_root, folder, mistakes);
+      if (!mistakes.empty()) return Refused(std::move(mistakes));
+    }
     if (file_root->name != ExperimentSchema().Name())
     {
       return Refused(

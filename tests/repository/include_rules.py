@@ -48,8 +48,11 @@ def allowed():
     experiment = rules["common/experiment"]
     rules["common/space/terrain"] = experiment + ["common/space/terrain"]
     rules["common/experiment"] = experiment + ["common/space/terrain"]
+    # The API of ARGoS3 over ours; its files are read by the launcher.
+    rules["argos3"] = rules["space_server"] + ["argos3"]
+    rules["argos3/files"] = below[: below.index("common/experiment") + 1] + ["argos3/files"]
     rules["roles"] = without_bus + ROLES + ["roles"]
-    rules["launcher"] = below + ROLES + ["roles", "launcher"]
+    rules["launcher"] = below + ROLES + ["roles", "argos3/files", "launcher"]
     # The module wraps the runner for one process, as a program of a user does.
     rules["python"] = without_bus + ["controller_host", "space_server", "launcher", "python"]
     # A layer on what programs of users have: no role.

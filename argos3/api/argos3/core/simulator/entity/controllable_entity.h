@@ -1,0 +1,21 @@
+// The part of a robot that has its controller.
+#pragma once
+
+#include <argos3/core/control_interface/ci_controller.h>
+#include <argos3/core/simulator/entity/entity.h>
+
+namespace argos
+{
+
+class CControllableEntity : public CEntity
+{
+public:
+  using CEntity::CEntity;
+  // In a run of one process, from the first step on: Init of loop functions too. Throws CARGoSException otherwise, and
+  // for a robot without a controller.
+  CCI_Controller& GetController();
+  const CCI_Controller& GetController() const { return const_cast<CControllableEntity*>(this)->GetController(); }
+  std::string GetTypeDescription() const override { return "controller"; }
+};
+
+}  // namespace argos

@@ -1,0 +1,29 @@
+// What has a place.
+#pragma once
+
+#include <argos3/core/simulator/entity/entity.h>
+
+namespace argos
+{
+
+class CPositionalEntity : public CEntity
+{
+public:
+  using CEntity::CEntity;
+  CPositionalEntity(CEntity* parent, const std::string& id, const CVector3& position, const CQuaternion& orientation)
+      : CEntity(parent, id), m_cPosition(position), m_cOrientation(orientation)
+  {
+  }
+  const CVector3& GetPosition() const { return m_cPosition; }
+  const CQuaternion& GetOrientation() const { return m_cOrientation; }
+  // Of the view alone: CLoopFunctions::MoveEntity moves an entity.
+  void SetPosition(const CVector3& position) { m_cPosition = position; }
+  void SetOrientation(const CQuaternion& orientation) { m_cOrientation = orientation; }
+  std::string GetTypeDescription() const override { return "position"; }
+
+protected:
+  CVector3 m_cPosition;
+  CQuaternion m_cOrientation;
+};
+
+}  // namespace argos

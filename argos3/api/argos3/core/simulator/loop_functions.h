@@ -1,0 +1,55 @@
+// CLoopFunctions: code around the steps of an experiment. Runs at the space server.
+#pragma once
+
+#include <argos3/core/simulator/simulator.h>
+#include <argos3/core/simulator/space/space.h>
+#include <argos3/core/utility/configuration/base_configurable_resource.h>
+#include <argos3/core/utility/datatypes/color.h>
+#include <argos3/core/utility/math/quaternion.h>
+#include <argos3/core/utility/math/vector2.h>
+#include <argos3/core/utility/math/vector3.h>
+#include <argos3/core/utility/plugins/factory.h>
+
+namespace argos
+{
+
+class CLoopFunctions : public CBaseConfigurableResource
+{
+public:
+  // <loop_functions>. Controllers are there, and their Init was called.
+  void Init(TConfigurationNode&) override {}
+  void Reset() override {}
+  void Destroy() override {}
+  // After the physics of a tick and before the controllers.
+  virtual void PreStep() {}
+  // After the controllers; entities stand where the controllers saw them.
+  virtual void PostStep() {}
+  virtual void PreExperiment() {}
+  virtual void PostExperiment() {}
+  virtual bool IsExperimentFinished() { return false; }
+  virtual CColor GetFloorColor(const CVector2&) { return CColor::WHITE; }
+
+  CSimulator& GetSimulator() { return CSimulator::GetInstance(); }
+  CSpace& GetSpace() { return CSimulator::GetInstance().GetSpace(); }
+
+  // False if it would touch another body there; then nothing moves. Throws CARGoSException for what cannot move.
+  virtual bool MoveEntity(CEmbodiedEntity& entity, const CVector3& position, const CQuaternion& orientation,
+                          bool check_only = false, bool ignore_collisions = false);
+  // A light.
+  virtual void MoveEntity(CPositionalEntity& entity, const CVector3& position, const CQuaternion& orientation);
+  // Puts an entity that the experiment file declares, and that was removed, back into the arena. The object
+  // becomes the simulator's. Throws CARGoSException for an id that the file does not declare.
+  virtual void AddEntity(CEntity& entity);
+  virtual void RemoveEntity(const std::string& id);
+  virtual void RemoveEntity(CEntity& entity);
+};
+
+}  // namespace argos
+
+#define REGISTER_LOOP_FUNCTIONS(CLASS, LABEL)                                                           \
+  namespace                                                                                             \
+  {                                                                                                     \
+  const argos::SLoopFunctionsRegistration argos3_registration_of_##CLASS(LABEL,                         \
+                                                                         []() -> argos::CLoopFunctions* \
+                                                                         { return new CLASS; });        \
+  }

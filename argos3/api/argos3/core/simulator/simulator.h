@@ -1,0 +1,42 @@
+// CSimulator: the experiment of this process.
+#pragma once
+
+#include <argos3/core/simulator/space/space.h>
+#include <argos3/core/utility/math/rng.h>
+
+namespace argos
+{
+
+class CLoopFunctions;
+
+class CSimulator
+{
+public:
+  static CSimulator& GetInstance();
+
+  CSpace& GetSpace() { return space_; }
+  // Throws CARGoSException if this process runs none.
+  CLoopFunctions& GetLoopFunctions();
+  UInt32 GetRandomSeed() const { return seed_; }
+  // Ticks; 0: no end.
+  UInt32 GetMaxSimulationClock() const { return max_clock_; }
+  // The experiment ends after this step.
+  void Terminate() { terminated_ = true; }
+  bool IsTerminated() const { return terminated_; }
+
+  // For the bridge.
+  void Start(UInt32 seed, UInt32 max_clock)
+  {
+    seed_ = seed;
+    max_clock_ = max_clock;
+    terminated_ = false;
+  }
+
+private:
+  CSpace space_;
+  UInt32 seed_ = 0;
+  UInt32 max_clock_ = 0;
+  bool terminated_ = false;
+};
+
+}  // namespace argos

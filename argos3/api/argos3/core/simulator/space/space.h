@@ -1,0 +1,67 @@
+// CSpace: the entities, as loop functions see them.
+#pragma once
+
+#include <argos3/core/simulator/entity/composable_entity.h>
+#include <argos3/core/simulator/entity/floor_entity.h>
+#include <argos3/core/utility/datatypes/any.h>
+
+namespace argos
+{
+
+class CSpace
+{
+public:
+  using TMapPerType = std::map<std::string, CAny, std::less<std::string>>;
+  using TMapPerTypePerId = std::map<std::string, TMapPerType, std::less<std::string>>;
+
+  UInt32 GetNumberEntities() const { return static_cast<UInt32>(entities_.size()); }
+  CEntity::TVector& GetEntityVector() { return entities_; }
+  CEntity::TVector& GetRootEntityVector() { return entities_; }
+  CEntity::TMap& GetEntityMapPerId() { return by_id_; }
+  TMapPerTypePerId& GetEntityMapPerTypePerId() { return by_type_; }
+  // Throw CARGoSException for an unknown id, a type of which there is none, and an arena without a floor.
+  CEntity& GetEntity(const std::string& id);
+  TMapPerType& GetEntitiesByType(const std::string& type);
+  CFloorEntity& GetFloorEntity();
+  // `pattern`: a regular expression.
+  void GetEntitiesMatching(CEntity::TVector& found, const std::string& pattern);
+
+  // Ticks: 1 in the first step.
+  UInt32 GetSimulationClock() const { return clock_; }
+  const CVector3& GetArenaSize() const { return size_; }
+  const CVector3& GetArenaCenter() const { return center_; }
+
+  // For the bridge that fills it.
+  void SetSimulationClock(UInt32 clock) { clock_ = clock; }
+  void SetArena(const CVector3& size, const CVector3& center)
+  {
+    size_ = size;
+    center_ = center;
+  }
+  void SetFloor(CFloorEntity* floor) { floor_ = floor; }
+  void Clear();
+  template <class Entity>
+  void Insert(Entity& entity)
+  {
+    entities_.push_back(&entity);
+    by_id_[entity.GetId()] = &entity;
+    by_type_[entity.GetTypeDescription()][entity.GetId()] = CAny(&entity);
+  }
+  // Of one of the entities, listed by its type alone.
+  template <class Component>
+  void InsertComponent(const std::string& owner, Component& component)
+  {
+    by_type_[component.GetTypeDescription()][owner + "." + component.GetId()] = CAny(&component);
+  }
+
+private:
+  UInt32 clock_ = 0;
+  CVector3 size_;
+  CVector3 center_;
+  CEntity::TVector entities_;
+  CEntity::TMap by_id_;
+  TMapPerTypePerId by_type_;
+  CFloorEntity* floor_ = nullptr;
+};
+
+}  // namespace argos

@@ -1,0 +1,218 @@
+// Elements of an experiment file as ARGoS3's controllers and loop functions see them: those of its library ticpp.
+#pragma once
+
+#include <argos3/core/utility/datatypes/datatypes.h>
+
+#include <exception>
+#include <memory>
+#include <type_traits>
+
+namespace ticpp
+{
+
+class Exception : public std::exception
+{
+public:
+  explicit Exception(std::string message) : text_(std::move(message)) {}
+  const char* what() const noexcept override { return text_.c_str(); }
+
+private:
+  std::string text_;
+};
+
+// Throws Exception if the text is not of the type.
+template <class T>
+void ReadText(const std::string& text, T& value)
+{
+  if constexpr (std::is_same_v<T, std::string>)
+  {
+    value = text;
+  }
+  else
+  {
+    std::istringstream stream(text);
+    stream >> value;
+    if (stream.fail()) throw Exception("'" + text + "' is not of the type that is asked for");
+  }
+}
+
+class Attribute
+{
+public:
+  Attribute() = default;
+  Attribute(std::string name, std::string value) : name_(std::move(name)), value_(std::move(value)) {}
+  const std::string& Name() const { return name_; }
+  const std::string& Value() const { return value_; }
+  template <class T>
+  void GetValue(T* value) const
+  {
+    ReadText(value_, *value);
+  }
+  void SetValue(std::string value) { value_ = std::move(value); }
+
+private:
+  std::string name_;
+  std::string value_;
+};
+
+class Element
+{
+public:
+  Element() = default;
+  explicit Element(std::string name) : name_(std::move(name)) {}
+  Element(const Element& other) { *this = other; }
+  Element& operator=(const Element& other);
+
+  const std::string& Value() const { return name_; }
+  void SetValue(const std::string& name) { name_ = name; }
+  // "file:line:column", or empty for one that code made.
+  const std::string& Place() const { return place_; }
+  void SetPlace(std::string place) { place_ = std::move(place); }
+
+  bool HasAttribute(const std::string& name) const { return Find(name) != nullptr; }
+  // Empty if there is none.
+  std::string GetAttribute(const std::string& name) const;
+  // Leaves the value as it is if there is none and that is no mistake. Throws Exception with the place.
+  template <class T>
+  void GetAttribute(const std::string& name, T* value, bool required = true) const
+  {
+    if (const Attribute* attribute = Find(name)) return Read(*attribute, *value);
+    if (required) throw Exception(Where() + "<" + name_ + "> has no attribute '" + name + "'");
+  }
+  template <class T, class Default>
+  void GetAttributeOrDefault(const std::string& name, T* value, const Default& fallback) const
+  {
+    if (const Attribute* attribute = Find(name)) return Read(*attribute, *value);
+    *value = fallback;
+  }
+  template <class T>
+  void SetAttribute(const std::string& name, const T& value)
+  {
+    std::ostringstream text;
+    text << std::boolalpha << value;
+    Set(name, text.str());
+  }
+
+  std::string GetText() const { return text_; }
+  template <class T>
+  void GetText(T* value) const
+  {
+    if (text_.empty()) throw Exception(Where() + "<" + name_ + "> has no text");
+    ReadText(text_, *value);
+  }
+  template <class T, class Default>
+  void GetTextOrDefault(T* value, const Default& fallback) const
+  {
+    if (text_.empty())
+      *value = fallback;
+    else
+      ReadText(text_, *value);
+  }
+  void SetText(const std::string& text) { text_ = text; }
+
+  // The first or next one of that name, of any if it is empty. nullptr if there is none and that is no mistake,
+  // otherwise throw Exception.
+  Element* FirstChildElement(const std::string& name = "", bool required = true);
+  Element* NextSiblingElement(const std::string& name = "", bool required = true);
+  Element& InsertEndChild(const Element& child);
+  bool NoChildren() const { return children_.empty(); }
+
+  const std::vector<Attribute>& Attributes() const { return attributes_; }
+
+  friend std::ostream& operator<<(std::ostream& stream, const Element& element);
+
+private:
+  const Attribute* Find(const std::string& name) const;
+  void Set(const std::string& name, const std::string& value);
+  std::string Where() const { return place_.empty() ? std::string() : place_ + ": "; }
+  template <class T>
+  void Read(const Attribute& attribute, T& value) const
+  {
+    try
+    {
+      ReadText(attribute.Value(), value);
+    }
+    catch (const std::exception& mistake)
+    {
+      throw Exception(Where() + "'" + attribute.Name() + "' of <" + name_ + ">: " + mistake.what());
+    }
+  }
+
+  std::string name_;
+  std::string text_;
+  std::string place_;
+  std::vector<Attribute> attributes_;
+  std::vector<std::unique_ptr<Element>> children_;
+  Element* parent_ = nullptr;
+  std::size_t number_ = 0;  // among the children of the parent
+};
+
+// for (it = it.begin(&node); it != it.end(); ++it), over all or those of one name.
+template <class T>
+class Iterator
+{
+public:
+  Iterator() = default;
+  explicit Iterator(std::string name) : name_(std::move(name)) {}
+
+  Iterator begin(T* parent) const
+  {
+    Iterator first(name_);
+    first.current_ = parent->FirstChildElement(name_, false);
+    return first;
+  }
+  Iterator begin(const T* parent) const { return begin(const_cast<T*>(parent)); }
+  Iterator end() const { return Iterator(name_); }
+  T* Get() const { return current_; }
+  T& operator*() const { return *current_; }
+  T* operator->() const { return current_; }
+  Iterator& operator++()
+  {
+    current_ = current_->NextSiblingElement(name_, false);
+    return *this;
+  }
+  Iterator operator++(int)
+  {
+    Iterator before = *this;
+    ++*this;
+    return before;
+  }
+  bool operator==(const Iterator& other) const { return current_ == other.current_; }
+  bool operator!=(const Iterator& other) const { return current_ != other.current_; }
+  bool operator==(const T* element) const { return current_ == element; }
+  bool operator!=(const T* element) const { return current_ != element; }
+
+private:
+  std::string name_;
+  T* current_ = nullptr;
+};
+
+// Over the attributes of an element.
+template <>
+class Iterator<Attribute>
+{
+public:
+  Iterator begin(const Element* element) const
+  {
+    Iterator first;
+    first.current_ = element->Attributes().data();
+    first.end_ = first.current_ + element->Attributes().size();
+    return first.current_ == first.end_ ? Iterator() : first;
+  }
+  Iterator end() const { return {}; }
+  const Attribute& operator*() const { return *current_; }
+  const Attribute* operator->() const { return current_; }
+  Iterator& operator++()
+  {
+    if (++current_ == end_) *this = Iterator();
+    return *this;
+  }
+  bool operator==(const Iterator& other) const { return current_ == other.current_; }
+  bool operator!=(const Iterator& other) const { return current_ != other.current_; }
+
+private:
+  const Attribute* current_ = nullptr;
+  const Attribute* end_ = nullptr;
+};
+
+}  // namespace ticpp

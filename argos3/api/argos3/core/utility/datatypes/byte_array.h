@@ -1,0 +1,99 @@
+// CByteArray: bytes, as numbers in network order and texts are packed into messages.
+#pragma once
+
+#include <argos3/core/utility/configuration/argos_exception.h>
+#include <argos3/core/utility/datatypes/datatypes.h>
+
+#include <type_traits>
+
+namespace argos
+{
+
+class CByteArray
+{
+public:
+  CByteArray() = default;
+  explicit CByteArray(size_t size, UInt8 value = 0) : bytes_(size, value) {}
+  CByteArray(const UInt8* buffer, size_t size) : bytes_(buffer, buffer + size) {}
+
+  size_t Size() const { return bytes_.size(); }
+  bool Empty() const { return bytes_.empty(); }
+  void Clear() { bytes_.clear(); }
+  void Resize(size_t size, UInt8 value = 0) { bytes_.resize(size, value); }
+  void Zero() { std::fill(bytes_.begin(), bytes_.end(), UInt8{0}); }
+  // nullptr if it is empty.
+  const UInt8* ToCArray() const { return Empty() ? nullptr : bytes_.data(); }
+  UInt8* ToCArray() { return Empty() ? nullptr : bytes_.data(); }
+  // Throw CARGoSException beyond the end.
+  UInt8& operator[](size_t index) { return bytes_[Checked(index)]; }
+  UInt8 operator[](size_t index) const { return bytes_[Checked(index)]; }
+  bool operator==(const CByteArray& other) const { return bytes_ == other.bytes_; }
+
+  CByteArray& AddBuffer(const UInt8* buffer, size_t size)
+  {
+    bytes_.insert(bytes_.end(), buffer, buffer + size);
+    return *this;
+  }
+  // Takes that many bytes from the front. Throws CARGoSException if there are fewer.
+  CByteArray& FetchBuffer(UInt8* buffer, size_t size)
+  {
+    if (size > Size()) THROW_ARGOSEXCEPTION("a byte array of " << Size() << " bytes is asked for " << size);
+    std::copy_n(bytes_.begin(), size, buffer);
+    bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(size));
+    return *this;
+  }
+  // The first `size` bytes leave.
+  CByteArray& PopFront(size_t size)
+  {
+    bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(std::min(size, Size())));
+    return *this;
+  }
+
+  // Whole numbers and floating-point numbers by their bits, the highest byte first.
+  template <class T, std::enable_if_t<std::is_arithmetic_v<T>, int> = 0>
+  CByteArray& operator<<(T value)
+  {
+    UInt8 raw[sizeof(T)];
+    std::memcpy(raw, &value, sizeof value);
+    if constexpr (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) std::reverse(raw, raw + sizeof(T));
+    return AddBuffer(raw, sizeof(T));
+  }
+  template <class T, std::enable_if_t<std::is_arithmetic_v<T>, int> = 0>
+  CByteArray& operator>>(T& value)
+  {
+    UInt8 raw[sizeof(T)];
+    FetchBuffer(raw, sizeof(T));
+    if constexpr (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) std::reverse(raw, raw + sizeof(T));
+    std::memcpy(&value, raw, sizeof value);
+    return *this;
+  }
+  // Texts end with a zero.
+  CByteArray& operator<<(const std::string& text)
+  {
+    return AddBuffer(reinterpret_cast<const UInt8*>(text.c_str()), text.size() + 1);
+  }
+  CByteArray& operator>>(std::string& text)
+  {
+    const auto end = std::find(bytes_.begin(), bytes_.end(), UInt8{0});
+    if (end == bytes_.end()) THROW_ARGOSEXCEPTION("a byte array has no text");
+    text.assign(bytes_.begin(), end);
+    return PopFront(text.size() + 1);
+  }
+
+  friend std::ostream& operator<<(std::ostream& stream, const CByteArray& array)
+  {
+    for (size_t i = 0; i < array.Size(); ++i) stream << (i == 0 ? "" : " ") << int{array.bytes_[i]};
+    return stream;
+  }
+
+private:
+  size_t Checked(size_t index) const
+  {
+    if (index >= Size()) THROW_ARGOSEXCEPTION("byte " << index << " of a byte array of " << Size());
+    return index;
+  }
+
+  std::vector<UInt8> bytes_;
+};
+
+}  // namespace argos

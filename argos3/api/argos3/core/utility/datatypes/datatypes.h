@@ -1,0 +1,42 @@
+// The names of numbers in ARGoS3. It includes what controllers of others take for granted.
+#pragma once
+
+#include <argos3/core/config.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <list>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using SInt8 = signed char;
+using UInt8 = unsigned char;
+using SInt16 = signed short;
+using UInt16 = unsigned short;
+using SInt32 = signed int;
+using UInt32 = unsigned int;
+using SInt64 = signed long long;
+using UInt64 = unsigned long long;
+using Real = double;
+
+namespace argos
+{
+using ::Real;
+using ::SInt16;
+using ::SInt32;
+using ::SInt64;
+using ::SInt8;
+using ::UInt16;
+using ::UInt32;
+using ::UInt64;
+using ::UInt8;
+}  // namespace argos

@@ -1,0 +1,41 @@
+// LOG and LOGERR: lines for people. What robots say goes to the log of their process with robot and tick, what loop
+// functions say to standard error. A line is written when it ends.
+#pragma once
+
+#include <argos3/core/utility/datatypes/datatypes.h>
+
+namespace argos
+{
+
+class CARGoSLog
+{
+public:
+  explicit CARGoSLog(const char* prefix) : prefix_(prefix) {}
+
+  template <class T>
+  CARGoSLog& operator<<(const T& value)
+  {
+    std::ostringstream text;
+    text << std::boolalpha << value;
+    Append(text.str());
+    return *this;
+  }
+  // std::endl and its like.
+  CARGoSLog& operator<<(std::ostream& (*manipulator)(std::ostream&));
+  void Flush() {}
+  void DisableColoredOutput() {}
+
+private:
+  void Append(const std::string& text);
+
+  const char* prefix_;
+};
+
+extern CARGoSLog LOG;
+extern CARGoSLog LOGERR;
+
+// For RLOG and RLOGERR, in a controller.
+#define RLOG argos::LOG << "[" << GetId() << "] "
+#define RLOGERR argos::LOGERR << "[" << GetId() << "] "
+
+}  // namespace argos

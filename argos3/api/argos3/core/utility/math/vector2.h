@@ -1,0 +1,84 @@
+// CVector2. In files: "x,y".
+#pragma once
+
+#include <argos3/core/utility/math/angles.h>
+
+namespace argos
+{
+
+class CVector2
+{
+public:
+  static const CVector2 X;
+  static const CVector2 Y;
+  static const CVector2 ZERO;
+
+  constexpr CVector2() = default;
+  constexpr CVector2(Real x, Real y) : x_(x), y_(y) {}
+  CVector2(Real length, const CRadians& angle) : x_(length * Cos(angle)), y_(length * Sin(angle)) {}
+
+  Real GetX() const { return x_; }
+  Real GetY() const { return y_; }
+  void SetX(Real x) { x_ = x; }
+  void SetY(Real y) { y_ = y; }
+  void Set(Real x, Real y)
+  {
+    x_ = x;
+    y_ = y;
+  }
+  void FromPolarCoordinates(Real length, const CRadians& angle) { *this = CVector2(length, angle); }
+
+  Real SquareLength() const { return x_ * x_ + y_ * y_; }
+  Real Length() const { return std::sqrt(SquareLength()); }
+  CRadians Angle() const { return ATan2(y_, x_); }
+  CVector2& Normalize() { return *this /= Length(); }
+  CVector2& Rotate(const CRadians& angle)
+  {
+    const Real sine = Sin(angle);
+    const Real cosine = Cos(angle);
+    return *this = CVector2(x_ * cosine - y_ * sine, x_ * sine + y_ * cosine);
+  }
+  CVector2& Perpendicularize() { return *this = CVector2(-y_, x_); }
+  CVector2& Absolute() { return *this = CVector2(Abs(x_), Abs(y_)); }
+  CVector2& Scale(Real x, Real y) { return *this = CVector2(x_ * x, y_ * y); }
+  Real DotProduct(const CVector2& other) const { return x_ * other.x_ + y_ * other.y_; }
+  Real CrossProduct(const CVector2& other) const { return x_ * other.y_ - y_ * other.x_; }
+
+  CVector2& operator+=(const CVector2& other) { return *this = CVector2(x_ + other.x_, y_ + other.y_); }
+  CVector2& operator-=(const CVector2& other) { return *this = CVector2(x_ - other.x_, y_ - other.y_); }
+  CVector2& operator*=(Real factor) { return *this = CVector2(x_ * factor, y_ * factor); }
+  CVector2& operator/=(Real divisor) { return *this = CVector2(x_ / divisor, y_ / divisor); }
+  friend CVector2 operator+(CVector2 a, const CVector2& b) { return a += b; }
+  friend CVector2 operator-(CVector2 a, const CVector2& b) { return a -= b; }
+  friend CVector2 operator*(CVector2 a, Real factor) { return a *= factor; }
+  friend CVector2 operator*(Real factor, CVector2 a) { return a *= factor; }
+  friend CVector2 operator/(CVector2 a, Real divisor) { return a /= divisor; }
+  CVector2 operator-() const { return {-x_, -y_}; }
+  bool operator==(const CVector2& other) const { return x_ == other.x_ && y_ == other.y_; }
+  bool operator!=(const CVector2& other) const { return !(*this == other); }
+
+  friend std::ostream& operator<<(std::ostream& stream, const CVector2& vector)
+  {
+    return stream << vector.x_ << "," << vector.y_;
+  }
+  friend std::istream& operator>>(std::istream& stream, CVector2& vector)
+  {
+    Real values[2]{};
+    ParseValues<Real>(stream, 2, values, ',');
+    vector.Set(values[0], values[1]);
+    return stream;
+  }
+
+private:
+  Real x_ = 0;
+  Real y_ = 0;
+};
+
+inline const CVector2 CVector2::X{1, 0};
+inline const CVector2 CVector2::Y{0, 1};
+inline const CVector2 CVector2::ZERO{};
+
+inline Real SquareDistance(const CVector2& a, const CVector2& b) { return (a - b).SquareLength(); }
+inline Real Distance(const CVector2& a, const CVector2& b) { return (a - b).Length(); }
+
+}  // namespace argos

@@ -1,0 +1,55 @@
+// Texts: conversions, splitting, replacing.
+#pragma once
+
+#include <argos3/core/utility/configuration/argos_exception.h>
+#include <argos3/core/utility/datatypes/datatypes.h>
+
+namespace argos
+{
+
+template <class T>
+std::string ToString(const T& value)
+{
+  std::ostringstream text;
+  text << std::boolalpha << value;
+  return text.str();
+}
+template <class T>
+T FromString(const std::string& text)
+{
+  T value{};
+  std::istringstream stream(text);
+  stream >> std::boolalpha >> value;
+  return value;
+}
+
+// `count` values with `delimiter` between them. Throws CARGoSException if there are fewer.
+template <class T>
+void ParseValues(std::istream& input, UInt32 count, T* values, char delimiter = '\n')
+{
+  std::string field;
+  for (UInt32 i = 0; i < count; ++i)
+  {
+    if (!std::getline(input, field, delimiter)) THROW_ARGOSEXCEPTION("expected " << count << " values, found " << i);
+    std::istringstream stream(field);
+    if (!(stream >> values[i])) THROW_ARGOSEXCEPTION("'" << field << "' is not a value");
+  }
+  input.clear();
+}
+template <class T>
+void ParseValues(const std::string& text, UInt32 count, T* values, char delimiter = '\n')
+{
+  std::istringstream stream(text);
+  ParseValues(stream, count, values, delimiter);
+}
+
+void Tokenize(const std::string& text, std::vector<std::string>& tokens, const std::string& delimiters = " ");
+std::string StringToUpperCase(const std::string& text);
+std::string StringToLowerCase(const std::string& text);
+void Replace(std::string& text, const std::string& original, const std::string& substitute);
+// `pattern`: an extended regular expression.
+bool MatchPattern(const std::string& text, const std::string& pattern);
+// $NAME becomes the value of that environment variable; one that is not set stays as it is.
+std::string& ExpandEnvVariables(std::string& text);
+
+}  // namespace argos

@@ -1,0 +1,25 @@
+// Where a robot is, in the arena.
+#pragma once
+
+#include <argos3/core/control_interface/ci_sensor.h>
+#include <argos3/core/utility/math/quaternion.h>
+#include <argos3/core/utility/math/vector3.h>
+
+namespace argos
+{
+
+class CCI_PositioningSensor : public CCI_Sensor
+{
+public:
+  struct SReading
+  {
+    CVector3 Position;  // m
+    CQuaternion Orientation;
+  };
+  const SReading& GetReading() const { return m_sReading; }
+
+protected:
+  SReading m_sReading;
+};
+
+}  // namespace argos

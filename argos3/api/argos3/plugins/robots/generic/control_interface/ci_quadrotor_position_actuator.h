@@ -1,0 +1,21 @@
+// Flies to a place.
+#pragma once
+
+#include <argos3/core/control_interface/ci_actuator.h>
+#include <argos3/core/utility/math/angles.h>
+#include <argos3/core/utility/math/vector3.h>
+
+namespace argos
+{
+
+class CCI_QuadRotorPositionActuator : public CCI_Actuator
+{
+public:
+  // m, in the arena, or ahead, to the left and above of where the robot is.
+  virtual void SetAbsolutePosition(const CVector3& position) = 0;
+  virtual void SetRelativePosition(const CVector3& position) = 0;
+  virtual void SetAbsoluteYaw(const CRadians& yaw) = 0;
+  virtual void SetRelativeYaw(const CRadians& yaw) = 0;
+};
+
+}  // namespace argos

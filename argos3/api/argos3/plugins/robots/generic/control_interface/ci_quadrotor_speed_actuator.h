@@ -1,0 +1,20 @@
+// Flies at a velocity.
+#pragma once
+
+#include <argos3/core/control_interface/ci_actuator.h>
+#include <argos3/core/utility/math/angles.h>
+#include <argos3/core/utility/math/vector3.h>
+
+namespace argos
+{
+
+class CCI_QuadRotorSpeedActuator : public CCI_Actuator
+{
+public:
+  // m/s: ahead, to the left, up.
+  virtual void SetLinearVelocity(const CVector3& velocity) = 0;
+  // rad/s, counter-clockwise.
+  virtual void SetRotationalSpeed(const CRadians& speed) = 0;
+};
+
+}  // namespace argos

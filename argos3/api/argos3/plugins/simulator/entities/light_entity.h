@@ -1,0 +1,28 @@
+// A light, as loop functions see it.
+#pragma once
+
+#include <argos3/core/simulator/entity/positional_entity.h>
+#include <argos3/core/utility/datatypes/color.h>
+
+namespace argos
+{
+
+class CLightEntity : public CPositionalEntity
+{
+public:
+  CLightEntity(const std::string& id, const CVector3& position, const CColor& colour, Real intensity)
+      : CPositionalEntity(nullptr, id, position, CQuaternion()), colour_(colour), intensity_(intensity)
+  {
+  }
+  const CColor& GetColor() const { return colour_; }
+  Real GetIntensity() const { return intensity_; }
+  // Throws CARGoSException for a number that is not finite or below 0.
+  void SetIntensity(Real intensity);
+  std::string GetTypeDescription() const override { return "light"; }
+
+private:
+  CColor colour_;
+  Real intensity_;
+};
+
+}  // namespace argos

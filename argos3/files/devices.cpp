@@ -1,0 +1,230 @@
+#include "argos3/files/devices.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "common/configuration/wording.h"
+
+namespace swarmanoid::argos3
+{
+namespace
+{
+
+ConfigurationNode& AddDevice(Devices& devices, const std::string& type, const std::string& implementation,
+                             const SourceLocation& location)
+{
+  Made& device = devices[type];
+  if (device == nullptr)
+  {
+    device = MakeNode(type, location);
+    SetValue(*device, "implementation", implementation, location);
+  }
+  return *device;
+}
+
+// The attributes of one device of ARGoS3: what was not asked for at the end has no effect, and is told.
+class Attributes
+{
+public:
+  Attributes(const ConfigurationNode& node, const DeviceContext& context) : node_(node), context_(context)
+  {
+    used_ = {"implementation", "medium", "show_rays", "id", "calibrated"};
+  }
+  ~Attributes()
+  {
+    for (const ConfigurationNode::Attribute& attribute : node_.attributes)
+      if (!used_.contains(attribute.name))
+        context_.note(attribute.location, Quoted(attribute.name) + " of <" + node_.name + "> has no effect here");
+  }
+  Attributes(const Attributes&) = delete;
+  Attributes& operator=(const Attributes&) = delete;
+
+  // nullopt if it is not given, or no number, which is told.
+  std::optional<double> Number(const std::string& name)
+  {
+    used_.insert(name);
+    const ConfigurationNode::Attribute* attribute = FindAttributeOf(node_, name);
+    if (attribute == nullptr) return std::nullopt;
+    const std::optional<double> number = ParseNumber(attribute->value);
+    if (!number) context_.mistake(attribute->location, Quoted(name) + " is '" + attribute->value + "', no number");
+    return number;
+  }
+  // "min:max".
+  std::optional<std::pair<double, double>> Range(const std::string& name)
+  {
+    used_.insert(name);
+    const ConfigurationNode::Attribute* attribute = FindAttributeOf(node_, name);
+    if (attribute == nullptr) return std::nullopt;
+    const std::size_t colon = attribute->value.find(':');
+    const auto low = ParseNumber(std::string_view(attribute->value).substr(0, colon));
+    const auto high =
+        colon == std::string::npos ? std::nullopt : ParseNumber(std::string_view(attribute->value).substr(colon + 1));
+    if (low && high && *low <= *high) return std::pair{*low, *high};
+    context_.mistake(attribute->location, Quoted(name) + " is '" + attribute->value + "'; write min:max");
+    return std::nullopt;
+  }
+  // Noise that nothing here is like.
+  void Refuse(const std::string& name, const std::string& cure)
+  {
+    used_.insert(name);
+    const ConfigurationNode::Attribute* attribute = FindAttributeOf(node_, name);
+    if (attribute == nullptr) return;
+    const std::optional<double> number = ParseNumber(attribute->value);
+    if (attribute->value == "0:0" || (number && *number == 0)) return;
+    context_.mistake(attribute->location, Quoted(name) + " of <" + node_.name + "> has no counterpart; " + cure);
+  }
+  // A parameter of ours of the same meaning and unit.
+  void Copy(const std::string& name, const std::string& ours, ConfigurationNode& device)
+  {
+    if (const auto number = Number(name)) SetValue(device, ours, TextOf(*number), node_.location);
+  }
+  // Uniform noise of plus and minus a level.
+  void CopyLevel(ConfigurationNode& device)
+  {
+    const auto level = Number("noise_level");
+    if (level && *level > 0) CopyUniform(device, "", -*level, *level);
+  }
+  void CopyUniform(ConfigurationNode& device, const std::string& prefix, double low, double high)
+  {
+    if (low == 0 && high == 0) return;
+    SetValue(device, prefix + "noise_kind", "uniform", node_.location);
+    SetValue(device, prefix + "noise_mean", TextOf((low + high) / 2), node_.location);
+    SetValue(device, prefix + "noise_range", TextOf((high - low) / 2), node_.location);
+  }
+
+private:
+  const ConfigurationNode& node_;
+  const DeviceContext& context_;
+  std::set<std::string> used_;
+};
+
+void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
+{
+  for (const char* name : {"bias_avg", "bias_stddev", "factor_avg", "factor_stddev"})
+    for (const char* side : {"_left", "_right"})
+    {
+      const std::string both(name);
+      const auto number = attributes.Number(both);
+      const auto own = attributes.Number(both + side);
+      if (own || number) SetValue(device, both + side, TextOf(own ? *own : *number), device.location);
+    }
+}
+
+constexpr std::array<const char*, 10> kSensors{"differential_steering",
+                                               "footbot_proximity",
+                                               "footbot_light",
+                                               "eyebot_light",
+                                               "footbot_motor_ground",
+                                               "footbot_base_ground",
+                                               "positioning",
+                                               "battery",
+                                               "colored_blob_omnidirectional_camera",
+                                               "footbot_turret_encoder"};
+constexpr std::array<const char*, 7> kActuators{
+    "differential_steering", "leds",           "footbot_gripper", "footbot_turret", "range_and_bearing",
+    "quadrotor_position",    "quadrotor_speed"};
+
+template <class Names>
+void RefuseUnknown(const ConfigurationNode& node, const char* what, const Names& names, const DeviceContext& context)
+{
+  std::vector<std::string> known(names.begin(), names.end());
+  if (std::string_view(what) == "sensor") known.emplace_back("range_and_bearing");
+  context.mistake(node.location, std::string("the ARGoS3 ") + what + " <" + node.name +
+                                     "> has no counterpart; those that have: " + Listed(known) +
+                                     DidYouMean(node.name, known));
+}
+
+}  // namespace
+
+void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, DeviceLists& ours)
+{
+  const SourceLocation& at = node.location;
+  const std::string& tag = node.name;
+  Attributes attributes(node, context);
+  if (tag == "differential_steering")
+  {
+    AddDevice(ours.sensors, "footbot_encoders", "engine_footbot_encoders", at);
+    attributes.Refuse("vel_noise_range", "leave it out, or give the wheels noise");
+    attributes.Refuse("dist_noise_range", "leave it out, or give the wheels noise");
+  }
+  else if (tag == "footbot_proximity")
+    attributes.CopyLevel(AddDevice(ours.sensors, tag, "generic_footbot_proximity", at));
+  else if (tag == "footbot_light" || tag == "eyebot_light")
+    attributes.CopyLevel(AddDevice(ours.sensors, tag, "argos3_" + tag, at));
+  else if ((tag == "footbot_motor_ground" || tag == "footbot_base_ground") && context.floor_is_painted)
+  {
+    AddDevice(ours.sensors, "positioning", "generic_positioning", at);
+    attributes.Number("noise_level");
+  }
+  else if (tag == "footbot_motor_ground" || tag == "footbot_base_ground")
+    attributes.CopyLevel(AddDevice(ours.sensors, tag, "generic_" + tag, at));
+  else if (tag == "positioning")
+  {
+    ConfigurationNode& device = AddDevice(ours.sensors, tag, "generic_positioning", at);
+    if (const auto range = attributes.Range("pos_noise_range"))
+      attributes.CopyUniform(device, "position_", range->first, range->second);
+    if (const auto range = attributes.Range("angle_noise_range"))
+      attributes.CopyUniform(device, "heading_", range->first * kRadians, range->second * kRadians);
+    attributes.Refuse("axis_noise_range", "leave it out");
+  }
+  else if (tag == "battery")
+    AddDevice(ours.sensors, tag, "generic_battery", at);
+  else if (tag == "colored_blob_omnidirectional_camera")
+  {
+    ConfigurationNode& device =
+        AddDevice(ours.sensors, "footbot_omnidirectional_camera", "generic_footbot_omnidirectional_camera", at);
+    SetValue(device, "aperture", TextOf(context.bearers.camera_aperture), at);
+    attributes.Refuse("noise_std_dev", "leave it out, or convert the file and give the camera distance_noise_…");
+  }
+  else if (tag == "footbot_turret_encoder")
+    AddDevice(ours.sensors, tag, "generic_footbot_turret_encoder", at);
+  else if (tag == "range_and_bearing")
+  {
+    ConfigurationNode& device = AddDevice(ours.sensors, tag, "generic_range_and_bearing", at);
+    SetValue(device, "range", TextOf(context.bearers.radio_range), at);
+    attributes.Copy("packet_drop_prob", "loss_probability", device);
+    attributes.Refuse("noise_std_dev", "leave it out, or convert the file and give the sensor range_noise_…");
+  }
+  else
+    RefuseUnknown(node, "sensor", kSensors, context);
+}
+
+void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context, DeviceLists& ours)
+{
+  const SourceLocation& at = node.location;
+  const std::string& tag = node.name;
+  Attributes attributes(node, context);
+  if (tag == "differential_steering")
+    ConvertWheels(attributes, AddDevice(ours.actuators, "footbot_wheels", "argos3_footbot_wheels", at));
+  else if (tag == "leds" && context.bearers.kinds.contains("eyebot"))
+    AddDevice(ours.actuators, "eyebot_leds", "generic_eyebot_leds", at);
+  else if (tag == "leds")
+  {
+    AddDevice(ours.actuators, "footbot_leds", "generic_footbot_leds", at);
+    AddDevice(ours.actuators, "footbot_beacon", "generic_footbot_beacon", at);
+  }
+  else if (tag == "footbot_gripper")
+    AddDevice(ours.actuators, tag, "dummy_footbot_gripper", at);
+  else if (tag == "footbot_turret")
+  {
+    AddDevice(ours.actuators, tag, "dummy_footbot_turret", at);
+    AddDevice(ours.sensors, "footbot_turret_encoder", "generic_footbot_turret_encoder", at);
+  }
+  else if (tag == "range_and_bearing")
+    AddSender(at, ours);
+  else if (tag == "quadrotor_position" || tag == "quadrotor_speed")
+  {
+    AddDevice(ours.actuators, "eyebot_propellers", "position_eyebot_propellers", at);
+    AddDevice(ours.sensors, "positioning", "generic_positioning", at);
+  }
+  else
+    RefuseUnknown(node, "actuator", kActuators, context);
+}
+
+void AddSender(const SourceLocation& location, DeviceLists& ours)
+{
+  AddDevice(ours.actuators, "range_and_bearing", "generic_range_and_bearing", location);
+}
+
+}  // namespace swarmanoid::argos3

@@ -1,0 +1,48 @@
+// Which devices of ours stand for one of ARGoS3.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+
+#include "argos3/files/nodes.h"
+
+namespace swarmanoid::argos3
+{
+
+// What the robots of a controller are.
+struct Bearers
+{
+  std::set<std::string> kinds;  // "footbot", "eyebot"
+  double camera_aperture = 70;  // degrees
+  double radio_range = 3;       // m
+  long long radio_bytes = 10;
+};
+
+// Ours, by type, each once.
+using Devices = std::map<std::string, Made>;
+
+struct DeviceLists
+{
+  Devices sensors;
+  Devices actuators;
+};
+
+// Where a mistake or a note goes.
+using Report = std::function<void(const SourceLocation&, const std::string&)>;
+
+struct DeviceContext
+{
+  const Bearers& bearers;
+  bool floor_is_painted = false;  // by loop functions
+  Report mistake;
+  Report note;
+};
+
+void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, DeviceLists& ours);
+void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context, DeviceLists& ours);
+// A sender, for robots that only others hear.
+void AddSender(const SourceLocation& location, DeviceLists& ours);
+
+}  // namespace swarmanoid::argos3

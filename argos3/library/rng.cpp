@@ -1,0 +1,123 @@
+#include <argos3/core/utility/math/rng.h>
+
+#include "argos3/library/running.h"
+#include "common/math/random.h"
+
+namespace argos
+{
+namespace
+{
+
+std::map<std::string, CRandom::CCategory>& Categories()
+{
+  // The seed of "argos" adds nothing: the experiment's is in what the robots draw.
+  static std::map<std::string, CRandom::CCategory> categories = []
+  {
+    std::map<std::string, CRandom::CCategory> first;
+    first.emplace("argos", CRandom::CCategory("argos", 0));
+    return first;
+  }();
+  return categories;
+}
+
+}  // namespace
+
+struct CRandom::CRNG::Stream
+{
+  explicit Stream(UInt64 seed) : random(seed, swarmanoid::StreamName("generator"), swarmanoid::StreamName("ARGoS3"), 0)
+  {
+  }
+  swarmanoid::RandomStream random;
+};
+
+CRandom::CRNG::CRNG(UInt32 seed, const std::string& /*type*/) : CRNG(UInt64{seed}, 0) {}
+CRandom::CRNG::CRNG(UInt64 seed, int) : seed_(seed), stream_(std::make_unique<Stream>(seed)) {}
+CRandom::CRNG::CRNG(const CRNG& other) : CRNG(other.seed_, 0) {}
+CRandom::CRNG::~CRNG() = default;
+
+void CRandom::CRNG::Reset() { stream_ = std::make_unique<Stream>(seed_); }
+
+bool CRandom::CRNG::Bernoulli(Real probability) { return stream_->random.Uniform() < probability; }
+
+Real CRandom::CRNG::Uniform(const CRange<Real>& range)
+{
+  return stream_->random.Uniform(range.GetMin(), range.GetMax());
+}
+
+CRadians CRandom::CRNG::Uniform(const CRange<CRadians>& range)
+{
+  return CRadians(stream_->random.Uniform(range.GetMin().GetValue(), range.GetMax().GetValue()));
+}
+
+UInt32 CRandom::CRNG::Uniform(const CRange<UInt32>& range)
+{
+  const UInt32 span = range.GetMax() - range.GetMin();
+  return span == 0 ? range.GetMin() : range.GetMin() + stream_->random.Below(span);
+}
+
+SInt32 CRandom::CRNG::Uniform(const CRange<SInt32>& range)
+{
+  const auto low = static_cast<UInt32>(range.GetMin());
+  const UInt32 span = static_cast<UInt32>(range.GetMax()) - low;
+  return static_cast<SInt32>(span == 0 ? low : low + stream_->random.Below(span));
+}
+
+// By inversion.
+Real CRandom::CRNG::Exponential(Real mean) { return -mean * std::log(1 - stream_->random.Uniform()); }
+Real CRandom::CRNG::Gaussian(Real deviation, Real mean) { return stream_->random.Gaussian(mean, deviation); }
+Real CRandom::CRNG::Rayleigh(Real sigma) { return sigma * std::sqrt(-2 * std::log(1 - stream_->random.Uniform())); }
+Real CRandom::CRNG::Lognormal(Real sigma, Real mu) { return std::exp(Gaussian(sigma, mu)); }
+
+void CRandom::CCategory::SetSeed(UInt32 seed)
+{
+  seed_ = seed;
+  ReseedRNGs();
+}
+
+CRandom::CRNG* CRandom::CCategory::CreateRNG(const std::string& /*type*/)
+{
+  const UInt64 seed = swarmanoid::argos3::Speaker::RandomBits() ^ swarmanoid::MixedBits(seed_);
+  generators_.push_back(std::unique_ptr<CRNG>(new CRNG(seed, 0)));
+  return generators_.back().get();
+}
+
+void CRandom::CCategory::ResetRNGs()
+{
+  for (const auto& generator : generators_) generator->Reset();
+}
+
+void CRandom::CCategory::ReseedRNGs()
+{
+  for (std::size_t i = 0; i < generators_.size(); ++i)
+    generators_[i]->SetSeed(static_cast<UInt32>(swarmanoid::MixedBits(seed_ + (UInt64{i} << 32U))));
+}
+
+bool CRandom::CreateCategory(const std::string& category, UInt32 seed)
+{
+  return Categories().emplace(category, CCategory(category, seed)).second;
+}
+
+CRandom::CCategory& CRandom::GetCategory(const std::string& category)
+{
+  const auto found = Categories().find(category);
+  if (found == Categories().end()) THROW_ARGOSEXCEPTION("there is no category '" << category << "' of generators");
+  return found->second;
+}
+
+bool CRandom::ExistsCategory(const std::string& category) { return Categories().count(category) != 0; }
+
+void CRandom::RemoveCategory(const std::string& category)
+{
+  GetCategory(category);
+  Categories().erase(category);
+}
+
+CRandom::CRNG* CRandom::CreateRNG(const std::string& category, const std::string& type)
+{
+  return GetCategory(category).CreateRNG(type);
+}
+
+UInt32 CRandom::GetSeedOf(const std::string& category) { return GetCategory(category).GetSeed(); }
+void CRandom::SetSeedOf(const std::string& category, UInt32 seed) { GetCategory(category).SetSeed(seed); }
+
+}  // namespace argos

@@ -1,0 +1,137 @@
+#include "argos3/library/running.h"
+
+#include <argos3/core/utility/string_utilities.h>
+
+#include <algorithm>
+#include <iostream>
+
+namespace swarmanoid::argos3
+{
+namespace
+{
+
+thread_local CCI_Robot* speaking_robot = nullptr;
+thread_local SpaceEditor* speaking_functions = nullptr;
+
+bool IsNumber(std::string_view text)
+{
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+// The text behind the prefix, if it is a number.
+std::optional<long long> NumberBehind(const std::string& id, const std::string& prefix)
+{
+  if (!id.starts_with(prefix) || !IsNumber(std::string_view(id).substr(prefix.size()))) return std::nullopt;
+  return ParseInteger(id.substr(prefix.size()));
+}
+
+}  // namespace
+
+std::map<std::string, argos::CCI_Controller* (*)()>& ControllersByLabel()
+{
+  static std::map<std::string, argos::CCI_Controller* (*)()> controllers;
+  return controllers;
+}
+
+std::map<std::string, argos::CLoopFunctions* (*)()>& LoopFunctionsByLabel()
+{
+  static std::map<std::string, argos::CLoopFunctions* (*)()> functions;
+  return functions;
+}
+
+Translation Translation::From(const TConfigurationTree& tree)
+{
+  Translation translation;
+  translation.origin = tree.GetVector3("origin");
+  std::istringstream entries(tree.GetText("distributed", ""));
+  for (std::string entry; entries >> entry;)
+  {
+    const std::size_t colon = entry.rfind(':');
+    translation.distributed.emplace_back(entry.substr(0, colon), ParseInteger(entry.substr(colon + 1)).value_or(0));
+  }
+  return translation;
+}
+
+std::string Translation::Argos3Id(const std::string& id) const
+{
+  for (const auto& [prefix, first] : distributed)
+    if (const auto number = NumberBehind(id, prefix + "_")) return prefix + std::to_string(*number + first);
+  return id;
+}
+
+std::string Translation::OurId(const std::string& id) const
+{
+  for (const auto& [prefix, first] : distributed)
+    if (const auto number = NumberBehind(id, prefix)) return prefix + "_" + std::to_string(*number - first);
+  return id;
+}
+
+void CopyElement(const ConfigurationNode& from, argos::TConfigurationNode& to)
+{
+  to.SetValue(from.name);
+  to.SetText(from.text);
+  to.SetPlace(from.location.Text());
+  for (const ConfigurationNode::Attribute& attribute : from.attributes)
+    to.SetAttribute(attribute.name, attribute.value);
+  for (const auto& child : from.children) CopyElement(*child, to.InsertEndChild(argos::TConfigurationNode()));
+}
+
+Running& TheRunning()
+{
+  static Running running;
+  return running;
+}
+
+Speaker::Speaker(CCI_Robot& robot) : robot_before_(speaking_robot), editor_before_(speaking_functions)
+{
+  speaking_robot = &robot;
+  speaking_functions = nullptr;
+}
+
+Speaker::Speaker(SpaceEditor& editor) : robot_before_(speaking_robot), editor_before_(speaking_functions)
+{
+  speaking_robot = nullptr;
+  speaking_functions = &editor;
+}
+
+Speaker::~Speaker()
+{
+  speaking_robot = robot_before_;
+  speaking_functions = editor_before_;
+}
+
+std::uint64_t Speaker::RandomBits()
+{
+  if (speaking_robot == nullptr && speaking_functions == nullptr)
+    throw argos::CARGoSException(
+        "a random generator is created before Init; create it in Init, where the robot is known whose numbers it "
+        "draws");
+  RandomStream& random = speaking_robot != nullptr ? speaking_robot->GetRandom() : speaking_functions->GetRandom();
+  const std::uint64_t high = random.Bits();
+  return high << 32U | random.Bits();
+}
+
+void Speaker::Say(const std::string& line)
+{
+  if (speaking_robot != nullptr)
+    speaking_robot->Log(line);
+  else
+    std::cerr << line << '\n';
+}
+
+}  // namespace swarmanoid::argos3
+
+namespace argos
+{
+
+SControllerRegistration::SControllerRegistration(const char* label, CCI_Controller* (*create)())
+{
+  swarmanoid::argos3::ControllersByLabel().emplace(label, create);
+}
+
+SLoopFunctionsRegistration::SLoopFunctionsRegistration(const char* label, CLoopFunctions* (*create)())
+{
+  swarmanoid::argos3::LoopFunctionsByLabel().emplace(label, create);
+}
+
+}  // namespace argos

@@ -1,0 +1,86 @@
+// What of an ARGoS3 experiment runs in this process, and who is running now: between the API, whose headers know
+// nothing of the simulator, and the plug-in that drives it. One experiment a process, one thread.
+#pragma once
+
+#include <argos3/core/simulator/loop_functions.h>
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/configuration/configuration_tree.h"
+#include "common/control_interface/ci_robot.h"
+#include "common/math/pose.h"
+#include "space_server/experiment_functions.h"
+
+namespace swarmanoid::argos3
+{
+
+// What ARGoS3's classes are made by: the labels of the libraries that were loaded.
+std::map<std::string, argos::CCI_Controller* (*)()>& ControllersByLabel();
+std::map<std::string, argos::CLoopFunctions* (*)()>& LoopFunctionsByLabel();
+
+// The arena and the ids of an ARGoS3 experiment beside ours.
+struct Translation
+{
+  // Where ARGoS3's origin is in our space, m.
+  Vector3 origin = Vector3::Zero();
+  // Entities of <distribute>: "fb0" there is "fb_0" here. The prefix, and the number of the first one.
+  std::vector<std::pair<std::string, long long>> distributed;
+
+  // From the attributes origin and distributed ("fb:0 eb:10") that the converted file has.
+  static Translation From(const TConfigurationTree& tree);
+  std::string Argos3Id(const std::string& id) const;
+  std::string OurId(const std::string& id) const;
+  argos::CVector3 Argos3Position(const Vector3& position) const
+  {
+    return {position.x() - origin.x(), position.y() - origin.y(), position.z() - origin.z()};
+  }
+  Vector3 OurPosition(const argos::CVector3& position) const
+  {
+    return Vector3(position.GetX(), position.GetY(), position.GetZ()) + origin;
+  }
+};
+
+inline argos::CQuaternion Argos3Orientation(const Quaternion& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+inline Quaternion OurOrientation(const argos::CQuaternion& q)
+{
+  return Quaternion(q.GetW(), q.GetX(), q.GetY(), q.GetZ()).normalized();
+}
+
+// The element as ARGoS3's controllers see it, with its places.
+void CopyElement(const ConfigurationNode& from, argos::TConfigurationNode& to);
+
+struct Running
+{
+  // Of the robots whose controller host is this process, by ARGoS3's id.
+  std::map<std::string, argos::CCI_Controller*> controllers;
+  argos::CLoopFunctions* functions = nullptr;
+  // While functions run: what carries out their changes.
+  SpaceEditor* editor = nullptr;
+  Translation translation;
+};
+Running& TheRunning();
+
+// For as long as it lives, LOG and new random generators are those of a robot, or of the loop functions.
+class Speaker
+{
+public:
+  explicit Speaker(CCI_Robot& robot);
+  explicit Speaker(SpaceEditor& editor);
+  ~Speaker();
+  Speaker(const Speaker&) = delete;
+  Speaker& operator=(const Speaker&) = delete;
+
+  // 64 random bits of who speaks; throws CARGoSException if nobody does.
+  static std::uint64_t RandomBits();
+  static void Say(const std::string& line);
+
+private:
+  CCI_Robot* robot_before_;
+  SpaceEditor* editor_before_;
+};
+
+}  // namespace swarmanoid::argos3

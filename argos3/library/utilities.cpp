@@ -1,0 +1,263 @@
+// Texts, colours, elements of files and the log of the API.
+#include <argos3/core/utility/configuration/argos_configuration.h>
+#include <argos3/core/utility/datatypes/color.h>
+#include <argos3/core/utility/logging/argos_log.h>
+#include <argos3/core/utility/string_utilities.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_leds_actuator.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <regex>
+
+#include "argos3/library/running.h"
+
+namespace argos
+{
+namespace
+{
+
+template <class Change>
+std::string WithEach(std::string text, Change change)
+{
+  for (char& c : text) c = static_cast<char>(change(static_cast<unsigned char>(c)));
+  return text;
+}
+
+struct NamedColour
+{
+  const char* name;
+  CColor colour;
+};
+constexpr std::size_t kColours = 20;
+const std::array<NamedColour, kColours>& NamedColours()
+{
+  static const std::array<NamedColour, kColours> colours{
+      {{"black", CColor::BLACK},   {"white", CColor::WHITE},   {"red", CColor::RED},
+       {"green", CColor::GREEN},   {"blue", CColor::BLUE},     {"magenta", CColor::MAGENTA},
+       {"cyan", CColor::CYAN},     {"yellow", CColor::YELLOW}, {"orange", CColor::ORANGE},
+       {"brown", CColor::BROWN},   {"purple", CColor::PURPLE}, {"gray10", CColor::GRAY10},
+       {"gray20", CColor::GRAY20}, {"gray30", CColor::GRAY30}, {"gray40", CColor::GRAY40},
+       {"gray50", CColor::GRAY50}, {"gray60", CColor::GRAY60}, {"gray70", CColor::GRAY70},
+       {"gray80", CColor::GRAY80}, {"gray90", CColor::GRAY90}}};
+  return colours;
+}
+
+std::string& PendingLine()
+{
+  thread_local std::string line;
+  return line;
+}
+
+}  // namespace
+
+void Tokenize(const std::string& text, std::vector<std::string>& tokens, const std::string& delimiters)
+{
+  for (std::size_t start = text.find_first_not_of(delimiters); start != std::string::npos;)
+  {
+    const std::size_t end = text.find_first_of(delimiters, start);
+    tokens.push_back(text.substr(start, end - start));
+    start = text.find_first_not_of(delimiters, end);
+  }
+}
+
+std::string StringToUpperCase(const std::string& text)
+{
+  return WithEach(text, [](int c) { return std::toupper(c); });
+}
+std::string StringToLowerCase(const std::string& text)
+{
+  return WithEach(text, [](int c) { return std::tolower(c); });
+}
+
+void Replace(std::string& text, const std::string& original, const std::string& substitute)
+{
+  if (original.empty()) return;
+  for (std::size_t at = text.find(original); at != std::string::npos; at = text.find(original, at + substitute.size()))
+    text.replace(at, original.size(), substitute);
+}
+
+bool MatchPattern(const std::string& text, const std::string& pattern)
+{
+  return std::regex_search(text, std::regex(pattern, std::regex::extended));
+}
+
+std::string& ExpandEnvVariables(std::string& text)
+{
+  std::string expanded;
+  for (std::size_t i = 0; i < text.size();)
+  {
+    std::size_t end = i + 1;
+    while (text[i] == '$' && end < text.size() &&
+           (std::isalnum(static_cast<unsigned char>(text[end])) || text[end] == '_'))
+      ++end;
+    const std::string name = text.substr(i + 1, end - i - 1);
+    const char* value = text[i] == '$' ? std::getenv(name.c_str()) : nullptr;
+    expanded += value != nullptr ? std::string(value) : text.substr(i, end - i);
+    i = end;
+  }
+  return text = expanded;
+}
+
+void CColor::Set(const std::string& name)
+{
+  for (const NamedColour& named : NamedColours())
+    if (name == named.name)
+    {
+      *this = named.colour;
+      return;
+    }
+  THROW_ARGOSEXCEPTION("there is no colour '" << name << "'");
+}
+
+std::istream& operator>>(std::istream& stream, CColor& colour)
+{
+  std::string text;
+  std::getline(stream, text);
+  if (text.find(',') == std::string::npos)
+  {
+    colour.Set(text);
+    return stream;
+  }
+  const auto numbers = static_cast<UInt32>(1 + std::count(text.begin(), text.end(), ','));
+  int values[4]{0, 0, 0, 255};
+  ParseValues<int>(text, numbers < 4 ? 3 : 4, values, ',');
+  for (const int value : values)
+    if (value < 0 || value > 255) THROW_ARGOSEXCEPTION("'" << text << "' is no colour: each number is 0 to 255");
+  colour = CColor(static_cast<UInt8>(values[0]), static_cast<UInt8>(values[1]), static_cast<UInt8>(values[2]),
+                  static_cast<UInt8>(values[3]));
+  stream.clear(stream.rdstate() & ~std::ios::failbit);
+  return stream;
+}
+
+CARGoSLog LOG("");
+CARGoSLog LOGERR("error: ");
+
+CARGoSLog& CARGoSLog::operator<<(std::ostream& (*manipulator)(std::ostream&))
+{
+  std::ostringstream text;
+  text << manipulator;
+  Append(text.str());
+  return *this;
+}
+
+void CARGoSLog::Append(const std::string& text)
+{
+  std::string& line = PendingLine();
+  for (const char c : text)
+  {
+    if (c != '\n')
+    {
+      line += c;
+      continue;
+    }
+    swarmanoid::argos3::Speaker::Say(prefix_ + line);
+    line.clear();
+  }
+}
+
+void CCI_LEDsActuator::SetSingleColor(UInt32 led, const CColor& colour)
+{
+  if (led >= m_tSettings.size())
+    THROW_ARGOSEXCEPTION("LED " << led << " of " << m_tSettings.size() << "; the first one is 0");
+  m_tSettings[led] = colour;
+}
+
+void CCI_LEDsActuator::SetAllColors(const CColor& colour) { std::fill(m_tSettings.begin(), m_tSettings.end(), colour); }
+
+void CCI_LEDsActuator::SetAllColors(const TSettings& colours)
+{
+  if (colours.size() != m_tSettings.size())
+    THROW_ARGOSEXCEPTION(colours.size() << " colours for " << m_tSettings.size() << " LEDs");
+  m_tSettings = colours;
+}
+
+void CCI_LEDsActuator::SetSingleIntensity(UInt32 led, UInt8 intensity)
+{
+  if (led >= m_tSettings.size())
+    THROW_ARGOSEXCEPTION("LED " << led << " of " << m_tSettings.size() << "; the first one is 0");
+  m_tSettings[led].SetAlpha(intensity);
+}
+
+void CCI_LEDsActuator::SetAllIntensities(UInt8 intensity)
+{
+  for (CColor& colour : m_tSettings) colour.SetAlpha(intensity);
+}
+
+}  // namespace argos
+
+namespace ticpp
+{
+
+Element& Element::operator=(const Element& other)
+{
+  if (this == &other) return *this;
+  name_ = other.name_;
+  text_ = other.text_;
+  place_ = other.place_;
+  attributes_ = other.attributes_;
+  std::vector<std::unique_ptr<Element>> copies;
+  for (const auto& child : other.children_) copies.push_back(std::make_unique<Element>(*child));
+  children_ = std::move(copies);
+  for (std::size_t i = 0; i < children_.size(); ++i)
+  {
+    children_[i]->parent_ = this;
+    children_[i]->number_ = i;
+  }
+  return *this;
+}
+
+std::string Element::GetAttribute(const std::string& name) const
+{
+  const Attribute* attribute = Find(name);
+  return attribute != nullptr ? attribute->Value() : std::string();
+}
+
+const Attribute* Element::Find(const std::string& name) const
+{
+  const auto found = std::find_if(attributes_.begin(), attributes_.end(),
+                                  [&](const Attribute& attribute) { return attribute.Name() == name; });
+  return found == attributes_.end() ? nullptr : &*found;
+}
+
+void Element::Set(const std::string& name, const std::string& value)
+{
+  if (const Attribute* attribute = Find(name))
+    const_cast<Attribute*>(attribute)->SetValue(value);
+  else
+    attributes_.emplace_back(name, value);
+}
+
+Element* Element::FirstChildElement(const std::string& name, bool required)
+{
+  for (const auto& child : children_)
+    if (name.empty() || child->name_ == name) return child.get();
+  if (required) throw Exception(Where() + "<" + name_ + "> has no <" + name + ">");
+  return nullptr;
+}
+
+Element* Element::NextSiblingElement(const std::string& name, bool required)
+{
+  for (std::size_t i = number_ + 1; parent_ != nullptr && i < parent_->children_.size(); ++i)
+    if (name.empty() || parent_->children_[i]->name_ == name) return parent_->children_[i].get();
+  if (required) throw Exception(Where() + "no <" + name + "> follows <" + name_ + ">");
+  return nullptr;
+}
+
+Element& Element::InsertEndChild(const Element& child)
+{
+  children_.push_back(std::make_unique<Element>(child));
+  children_.back()->parent_ = this;
+  children_.back()->number_ = children_.size() - 1;
+  return *children_.back();
+}
+
+std::ostream& operator<<(std::ostream& stream, const Element& element)
+{
+  stream << "<" << element.name_;
+  for (const Attribute& attribute : element.attributes_)
+    stream << " " << attribute.Name() << "=\"" << attribute.Value() << "\"";
+  return stream << ">";
+}
+
+}  // namespace ticpp

@@ -1,0 +1,123 @@
+// <argos3_controller>: a controller written for ARGoS3, as one of ours. The converted file names its library and label:
+//
+//   <argos3_controller id="fdc" library="argos3">
+//     <actuators>…</actuators> <sensors>…</sensors>
+//     <parameters>
+//       <argos3 library="build/libdiffusion.so" label="diffusion" sensors="footbot_proximity" actuators="…" origin="2,
+//       2, 0"/> <params velocity="5"/>
+//     </parameters>
+//   </argos3_controller>
+#include <sstream>
+
+#include "argos3/library/running.h"
+#include "argos3/plugin/devices.h"
+#include "argos3/plugin/labels.h"
+
+// Both sides have a macro of that name.
+#undef REGISTER_CONTROLLER
+#include "common/control_interface/ci_controller.h"
+
+namespace swarmanoid::argos3
+{
+namespace
+{
+
+std::vector<std::string> WordsOf(const std::string& text)
+{
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+class Argos3Controller : public CCI_Controller
+{
+public:
+  ~Argos3Controller() override { TheRunning().controllers.erase(id_); }
+
+  int Init(const TConfigurationTree t_tree) override
+  {
+    const TConfigurationTree options = t_tree.Child("argos3");
+    if (!options.Exists())
+      throw ConfigurationError(t_tree.Location(), "<parameters> holds no <argos3>; `swarmanoid convert` writes it");
+    const auto create = FindLabel(options, "library", "controller", ControllersByLabel);
+    translation_ = Translation::From(options);
+    TheRunning().translation = translation_;
+    id_ = translation_.Argos3Id(GetRobot()->GetId());
+    const Speaker speaker(*GetRobot());
+    controller_.reset(create());
+    controller_->SetId(id_);
+    MakeDevices(options);
+    if (!TheRunning().controllers.emplace(id_, controller_.get()).second)
+      throw std::runtime_error("a process runs one ARGoS3 experiment at a time; another one has a robot '" + id_ + "'");
+
+    const TConfigurationTree params = t_tree.Child("params");
+    if (params.Exists()) CopyElement(*params.Node(), params_);
+    Calling(params.Exists() ? params.Location() : t_tree.Location(), [&] { controller_->Init(params_); });
+    Commit();
+    return RETURN_OK;
+  }
+
+  void ControlStep() override
+  {
+    // ARGoS3 moves robots before it asks their controllers for the first time.
+    if (GetRobot()->GetTick() == 0) return;
+    const Speaker speaker(*GetRobot());
+    for (const auto& sensor : sensors_) sensor->Update();
+    controller_->ControlStep();
+    Commit();
+  }
+
+  void Destroy() override
+  {
+    const Speaker speaker(*GetRobot());
+    controller_->Destroy();
+  }
+
+  // Their <params> are theirs.
+  bool ReadsParametersLater() const override { return true; }
+
+private:
+  void MakeDevices(const TConfigurationTree& options)
+  {
+    const DeviceSetup setup{*GetRobot(), translation_, options};
+    for (const std::string& tag : WordsOf(options.GetText("sensors", "")))
+    {
+      sensors_.push_back(MakeSensor(tag, setup));
+      if (sensors_.back() == nullptr) throw Unknown(options, "sensor", tag);
+      controller_->AddSensor(tag, &sensors_.back()->Sensor());
+    }
+    for (const std::string& tag : WordsOf(options.GetText("actuators", "")))
+    {
+      actuators_.push_back(MakeActuator(tag, setup));
+      if (actuators_.back() == nullptr) throw Unknown(options, "actuator", tag);
+      // One that is listed for the sake of others only, such as a sender of zeros, does its work all the same.
+      controller_->AddActuator(tag, &actuators_.back()->Actuator());
+    }
+  }
+
+  static ConfigurationError Unknown(const TConfigurationTree& options, const char* what, const std::string& tag)
+  {
+    return {options.Location(), std::string("the ") + what + " '" + tag + "' of ARGoS3 has no counterpart"};
+  }
+
+  void Commit()
+  {
+    for (const auto& actuator : actuators_) actuator->Commit();
+  }
+
+  Translation translation_;
+  std::string id_;
+  std::vector<std::unique_ptr<SensorBridge>> sensors_;
+  std::vector<std::unique_ptr<ActuatorBridge>> actuators_;
+  argos::TConfigurationNode params_;
+  std::unique_ptr<argos::CCI_Controller> controller_;
+};
+
+const ControllerRegistration registration([]() -> std::unique_ptr<CCI_Controller>
+                                          { return std::make_unique<Argos3Controller>(); },
+                                          "Argos3Controller", "argos3_controller",
+                                          "runs a controller that was written for ARGoS3");
+
+}  // namespace
+}  // namespace swarmanoid::argos3

@@ -1,0 +1,258 @@
+// <argos3_loop_functions>: loop functions written for ARGoS3, as experiment functions. In a tick, ARGoS3 moves
+// bodies, calls PreStep, the controllers and PostStep. Ours moves bodies last. So the first tick of a run, in which no
+// controller runs yet, is what ARGoS3 does before its first PreStep, and entities stand in PostStep where they stood in
+// PreStep.
+#include <argos3/plugins/robots/eye-bot/simulator/eyebot_entity.h>
+#include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
+#include <argos3/plugins/simulator/entities/box_entity.h>
+#include <argos3/plugins/simulator/entities/cylinder_entity.h>
+#include <argos3/plugins/simulator/entities/light_entity.h>
+
+#include <optional>
+
+#include "argos3/library/running.h"
+#include "argos3/plugin/labels.h"
+
+namespace swarmanoid::argos3
+{
+namespace
+{
+
+class Argos3LoopFunctions : public CExperimentFunctions
+{
+public:
+  static PluginDescription Description()
+  {
+    return {.label = "argos3_loop_functions",
+            .brief = "runs loop functions that were written for ARGoS3",
+            .parameters = {
+                {.name = "file", .type = ParameterType::kText, .description = "The library that holds them: a path."},
+                {.name = "label",
+                 .type = ParameterType::kText,
+                 .description = "The label under which the library registered them."},
+                {.name = "origin",
+                 .type = ParameterType::kVector3,
+                 .unit = "m",
+                 .description = "Where the origin of the ARGoS3 arena is."},
+                {.name = "distributed",
+                 .type = ParameterType::kText,
+                 .default_value = "",
+                 .description = "Prefixes of the ids of distributed entities, each with the number of the first one."},
+                {.name = "floor",
+                 .type = ParameterType::kText,
+                 .default_value = "",
+                 .description = "The id of the floor; empty for none."},
+                {.name = "loop_functions",
+                 .type = ParameterType::kTree,
+                 .default_value = "",
+                 .description = "The element of the ARGoS3 file, as it stands there."}}};
+  }
+
+  ~Argos3LoopFunctions() override
+  {
+    if (TheRunning().functions == functions_.get()) TheRunning().functions = nullptr;
+    argos::CSimulator::GetInstance().GetSpace().Clear();
+    argos::CSimulator::GetInstance().GetSpace().SetFloor(nullptr);
+  }
+
+  void Init(const TConfigurationTree t_tree, SpaceEditor& editor) override
+  {
+    create_ = FindLabel(t_tree, "file", "loop functions", LoopFunctionsByLabel);
+    const TConfigurationTree element = t_tree.Child("loop_functions");
+    place_ = element.Exists() ? element.Location() : t_tree.Location();
+    if (element.Exists()) CopyElement(*element.Node(), element_);
+    translation_ = Translation::From(t_tree);
+    TheRunning().translation = translation_;
+    const std::string floor = t_tree.GetText("floor");
+    if (!floor.empty()) floor_.emplace(nullptr, floor);
+
+    const CSwarmanoidSpace& space = editor.GetSpace();
+    const Experiment& experiment = space.GetExperiment();
+    argos::CSimulator& simulator = argos::CSimulator::GetInstance();
+    simulator.GetSpace().SetSimulationClock(0);
+    simulator.Start(static_cast<UInt32>(experiment.seed), static_cast<UInt32>(experiment.max_clock));
+    const Vector3& size = experiment.arena_size;
+    simulator.GetSpace().SetArena({size.x(), size.y(), size.z()}, translation_.Argos3Position(size / 2));
+    for (std::size_t i = 0; i < space.Size(); ++i) MakeView(space.GetEntity(i));
+    if (TheRunning().functions != nullptr) throw std::runtime_error("a process runs one ARGoS3 experiment at a time");
+    const Speaker speaker(editor);
+    const Changing changing(editor);
+    Fill(space);
+    functions_.reset(create_());
+    TheRunning().functions = functions_.get();
+  }
+
+  void PreStep(SpaceEditor& editor) override
+  {
+    // Of the first tick: no controller was asked yet. Init comes behind it, when they are there.
+    if (editor.GetSpace().GetTick() == 0) return;
+    argos::CSimulator::GetInstance().GetSpace().SetSimulationClock(static_cast<UInt32>(editor.GetSpace().GetTick()));
+    Step(editor, [&] { functions_->PreStep(); });
+  }
+
+  void PostStep(SpaceEditor& editor) override
+  {
+    if (editor.GetSpace().GetTick() == 1)
+    {
+      Step(editor,
+           [&]
+           {
+             Calling(place_, [&] { functions_->Init(element_); });
+             functions_->PreExperiment();
+           });
+      return;
+    }
+    const Speaker speaker(editor);
+    const Changing changing(editor);
+    functions_->PostStep();
+  }
+
+  Outcome IsFinished(const SpaceEditor& asked) override
+  {
+    const CSwarmanoidSpace& space = asked.GetSpace();
+    if (space.GetTick() < 2) return Outcome::kRunning;
+    const bool over = functions_->IsExperimentFinished() || argos::CSimulator::GetInstance().IsTerminated();
+    const std::uint64_t last = space.GetExperiment().max_clock;
+    if (over || (last != 0 && space.GetTick() >= last)) functions_->PostExperiment();
+    return over ? Outcome::kDone : Outcome::kRunning;
+  }
+
+  void Destroy(SpaceEditor& editor) override
+  {
+    const Speaker speaker(editor);
+    const Changing changing(editor);
+    if (editor.GetSpace().GetTick() >= 1) functions_->Destroy();
+  }
+
+private:
+  // For as long as it lives, changes of loop functions go to the space.
+  class Changing
+  {
+  public:
+    explicit Changing(SpaceEditor& editor) { TheRunning().editor = &editor; }
+    ~Changing() { TheRunning().editor = nullptr; }
+    Changing(const Changing&) = delete;
+    Changing& operator=(const Changing&) = delete;
+  };
+
+  struct View
+  {
+    std::uint32_t index = 0;
+    bool is_box = false;
+    std::unique_ptr<argos::CEntity> entity;
+    argos::CEmbodiedEntity* body = nullptr;
+  };
+
+  template <class Call>
+  void Step(SpaceEditor& editor, Call call)
+  {
+    const Speaker speaker(editor);
+    const Changing changing(editor);
+    Follow(editor.GetSpace());
+    call();
+  }
+
+  void MakeView(const CSwarmanoidSpaceEntity& entity)
+  {
+    const std::string id = translation_.Argos3Id(entity.GetId());
+    const std::string_view tag = TagName(entity.GetKind());
+    const EntityConfiguration& configuration = entity.GetConfiguration();
+    const Vector3& size = entity.GetSize();
+    const argos::CVector3 at = translation_.Argos3Position(entity.GetPosition());
+    const argos::CQuaternion turned = Argos3Orientation(entity.GetOrientation());
+    View view{entity.GetIndex(), tag == "block", nullptr, nullptr};
+    if (tag == "footbot")
+      view.entity = std::make_unique<argos::CFootBotEntity>(id);
+    else if (tag == "eyebot")
+      view.entity = std::make_unique<argos::CEyeBotEntity>(id);
+    else if (tag == "block")
+      view.entity = std::make_unique<argos::CBoxEntity>(
+          id, at, turned, entity.IsMovable(), argos::CVector3(size.x(), size.y(), size.z()), configuration.mass_kg);
+    else if (tag == "cylindric_prey")
+      view.entity = std::make_unique<argos::CCylinderEntity>(id, at, turned, entity.IsMovable(), size.x(), size.z(),
+                                                             configuration.mass_kg);
+    else if (tag == "light_bulb")
+      view.entity = std::make_unique<argos::CLightEntity>(id, at, argos::CColor(0xff000000U | configuration.colour),
+                                                          configuration.intensity);
+    else
+      return;
+    if (auto* body = dynamic_cast<argos::CBodyEntity*>(view.entity.get())) view.body = &body->GetEmbodiedEntity();
+    views_.push_back(std::move(view));
+  }
+
+  // Who is in the arena.
+  void Fill(const CSwarmanoidSpace& space)
+  {
+    argos::CSpace& theirs = argos::CSimulator::GetInstance().GetSpace();
+    theirs.Clear();
+    absent_.assign(space.Absent().begin(), space.Absent().end());
+    if (floor_)
+    {
+      theirs.Insert(*floor_);
+      theirs.SetFloor(&*floor_);
+    }
+    for (const View& view : views_)
+    {
+      if (!space.IsPresent(view.index)) continue;
+      Place(space, view);
+      argos::CEntity* entity = view.entity.get();
+      if (auto* footbot = dynamic_cast<argos::CFootBotEntity*>(entity))
+        InsertRobot(theirs, *footbot);
+      else if (auto* eyebot = dynamic_cast<argos::CEyeBotEntity*>(entity))
+        InsertRobot(theirs, *eyebot);
+      else if (auto* box = dynamic_cast<argos::CBoxEntity*>(entity))
+        InsertBody(theirs, *box);
+      else if (auto* cylinder = dynamic_cast<argos::CCylinderEntity*>(entity))
+        InsertBody(theirs, *cylinder);
+      else if (auto* light = dynamic_cast<argos::CLightEntity*>(entity))
+        theirs.Insert(*light);
+    }
+  }
+
+  template <class Robot>
+  static void InsertRobot(argos::CSpace& theirs, Robot& robot)
+  {
+    InsertBody(theirs, robot);
+    theirs.InsertComponent(robot.GetId(), robot.GetControllableEntity());
+  }
+  template <class Body>
+  static void InsertBody(argos::CSpace& theirs, Body& body)
+  {
+    theirs.Insert(body);
+    theirs.InsertComponent(body.GetId(), body.GetEmbodiedEntity());
+  }
+
+  void Follow(const CSwarmanoidSpace& space)
+  {
+    if (!std::equal(absent_.begin(), absent_.end(), space.Absent().begin(), space.Absent().end())) Fill(space);
+    for (const View& view : views_)
+      if (view.body != nullptr && view.body->IsMovable() && space.IsPresent(view.index)) Place(space, view);
+  }
+
+  void Place(const CSwarmanoidSpace& space, const View& view) const
+  {
+    if (view.body == nullptr) return;
+    Pose pose = space.GetPose(view.index);
+    // Of boxes we tell the middle, ARGoS3 the middle of the base.
+    if (view.is_box) pose.position -= pose.orientation * Vector3(0, 0, space.GetEntity(view.index).GetSize().z() / 2);
+    argos::SAnchor& anchor = view.body->GetOriginAnchor();
+    anchor.Position = translation_.Argos3Position(pose.position);
+    anchor.Orientation = Argos3Orientation(pose.orientation);
+  }
+
+  argos::CLoopFunctions* (*create_)() = nullptr;
+  SourceLocation place_;
+  Translation translation_;
+  argos::TConfigurationNode element_;
+  std::vector<View> views_;
+  std::vector<std::uint32_t> absent_;
+  std::optional<argos::CFloorEntity> floor_;
+  std::unique_ptr<argos::CLoopFunctions> functions_;
+};
+
+const ExperimentFunctionsRegistration registration_of_functions(Argos3LoopFunctions::Description(),
+                                                                []() -> std::unique_ptr<CExperimentFunctions>
+                                                                { return std::make_unique<Argos3LoopFunctions>(); });
+
+}  // namespace
+}  // namespace swarmanoid::argos3

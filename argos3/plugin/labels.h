@@ -1,0 +1,47 @@
+// Finding what a library of ARGoS3 registered, and calling it.
+#pragma once
+
+#include <argos3/core/utility/configuration/argos_exception.h>
+
+#include <string>
+#include <vector>
+
+#include "common/configuration/configuration_tree.h"
+#include "common/configuration/wording.h"
+#include "common/plugins/library.h"
+
+namespace swarmanoid::argos3
+{
+
+// Loads the library that `file` of an element names and gives what it registered under the label that it names. Throws
+// ConfigurationError.
+template <class Registry>
+auto FindLabel(const TConfigurationTree& element, const std::string& file, const std::string& what, Registry registry)
+{
+  const PluginLibrary& library = LoadPluginLibrary(element.GetText(file), {});
+  if (!library.error.empty()) throw ConfigurationError(element.ValueLocation(file), library.error);
+  const std::string label = element.GetText("label");
+  const auto& known = registry();
+  if (const auto found = known.find(label); found != known.end()) return found->second;
+  std::vector<std::string> labels;
+  for (const auto& [name, create] : known) labels.push_back(name);
+  throw ConfigurationError(element.ValueLocation("label"), "the library " + library.path + " registers no " + what +
+                                                               " " + Quoted(label) + "; registered: " + Listed(labels) +
+                                                               DidYouMean(label, labels));
+}
+
+// What they throw in Init is a mistake of the file.
+template <class Call>
+void Calling(const SourceLocation& place, Call call)
+{
+  try
+  {
+    call();
+  }
+  catch (const argos::CARGoSException& mistake)
+  {
+    throw ConfigurationError(place, mistake.what());
+  }
+}
+
+}  // namespace swarmanoid::argos3

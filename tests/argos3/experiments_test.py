@@ -1,0 +1,127 @@
+"""Experiments in ARGoS3's XML, with controllers and loop functions written for it."""
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+
+
+class Experiments(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def swarmanoid(self, *words, code=0):
+        result = subprocess.run([os.environ["SWARMANOID"], *map(str, words)], cwd=self.folder, text=True,
+                                capture_output=True)
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        return result
+
+    def hash_of(self, *words):
+        return re.search(r"hash ([0-9a-f]{16})", self.swarmanoid("run", *words).stdout).group(1)
+
+    def changed(self, name, *changes):
+        text = (HERE / name).read_text()
+        for before, after in changes:
+            self.assertEqual(text.count(before), 1, before)
+            text = text.replace(before, after)
+        file = self.folder / name
+        file.write_text(text)
+        return file
+
+    def test_a_cluster_gives_the_hash_of_one_process(self):
+        one = self.hash_of(HERE / "wander.argos", "--single-process", "--output", "one")
+        cluster = self.hash_of(HERE / "wander.argos", "--controller-hosts", 2, "--output", "cluster")
+        self.assertEqual(one, cluster)
+        other = self.hash_of(HERE / "wander.argos", "--single-process", "--seed", 8, "--output", "other")
+        self.assertNotEqual(one, other)
+
+    def test_the_converted_file_gives_the_same_hash(self):
+        self.swarmanoid("convert", HERE / "wander.argos", "--output", "wander.xml")
+        self.assertEqual(self.hash_of("wander.xml", "--single-process", "--output", "converted"),
+                         self.hash_of(HERE / "wander.argos", "--single-process", "--output", "direct"))
+
+    def test_the_order_of_a_step(self):
+        """Ten centimetres a second: a controller moves nothing before its first step, PreStep comes before the
+        controllers and PostStep behind them, and both see the places that the controllers saw."""
+        result = self.swarmanoid("run", HERE / "collect.argos", "--output", "run")
+        self.assertIn("one process", result.stderr)
+        lines = (self.folder / "collected.tsv").read_text().splitlines()
+        self.assertIn("# crate 1.5,1.5,0 0.2,0.4,0.6", lines)
+        self.assertEqual(lines[-1], "# moved 4")
+        rows = [line.split("\t") for line in lines if not line.startswith("#")]
+        self.assertEqual({row[2] for row in rows}, {"fb5", "fb6"})
+        first = [row for row in rows if row[2] == "fb5"]
+        self.assertEqual([row[:2] for row in first[:3]], [["0", "init"], ["1", "pre"], ["1", "post"]])
+        for row in first[1:]:
+            steps = int(row[0]) - (row[1] == "pre")
+            self.assertEqual(int(row[3]), steps, row)
+        # The controller at clock n saw what PostStep of n sees, whoever was moved in PreStep too.
+        self.assertTrue(all(row[7] == "1" for row in first if row[1] == "post"))
+        at = {int(row[0]): float(row[5]) for row in first if row[1] == "pre"}
+        self.assertAlmostEqual(at[1], -0.5, places=9)
+        # Motors need some ticks to get up to speed; then 1 cm a tick.
+        self.assertAlmostEqual(at[30] - at[20], 0.1, places=3)
+        # All four sensors are beyond x = -0.2 once the robot is 6.3 cm farther, none before it is as near.
+        for row in first:
+            if row[1] != "post":
+                continue
+            x = float(row[6])
+            if x > -0.2 + 0.064:
+                self.assertEqual(row[4], "4", row)
+            if x < -0.2 - 0.064:
+                self.assertEqual(row[4], "0", row)
+
+    def test_controllers_are_out_of_reach_in_a_cluster(self):
+        self.swarmanoid("convert", HERE / "collect.argos", "--output", "collect.xml")
+        result = self.swarmanoid("run", "collect.xml", "--output", "cluster", code=4)
+        self.assertIn("--single-process", result.stdout + result.stderr)
+
+    def test_robots_leave_and_come_back(self):
+        file = self.changed("collect.argos", ('label="collector"', 'label="keeper"'))
+        self.swarmanoid("run", file, "--output", "run")
+        rows = [line.split("\t") for line in (self.folder / "kept.tsv").read_text().splitlines()]
+        self.assertEqual([(int(row[0]), int(row[1])) for row in rows],
+                         [(clock, 1 if 3 < clock < 7 else 2) for clock in range(1, 11)])
+        self.assertAlmostEqual(float(rows[0][2]), -0.5)
+        self.assertAlmostEqual(float(rows[6][2]), 1.2)
+
+    def test_what_has_no_counterpart_is_named_with_its_place(self):
+        file = self.changed("wander.argos", ("<footbot_proximity ", "<footbot_proximty "),
+                            ("<cylinder id=\"pillar\"", "<prototype id=\"pillar\""),
+                            ("</cylinder>", "</prototype>"), ("packet_drop_prob", "noise_std_dev"))
+        text = file.read_text()
+        result = self.swarmanoid("check", file, code=3)
+        for word, message in (("<footbot_proximty", "did you mean 'footbot_proximity'?"),
+                              ("<prototype", "<prototype> has no counterpart"),
+                              ("noise_std_dev", "'noise_std_dev' of <range_and_bearing> has no counterpart")):
+            offset = text.index(word)
+            line = text.count("\n", 0, offset) + 1
+            column = offset - text.rfind("\n", 0, offset) + (word[0] == "<")
+            self.assertRegex(result.stderr, rf"wander\.argos:{line}:({column}|{column - 1}): [^\n]*{re.escape(message)}")
+
+    def test_a_library_that_is_not_there(self):
+        file = self.changed("wander.argos", ("libargos3_wanderer.so", "build/libnone.so"))
+        result = self.swarmanoid("check", file, code=3)
+        self.assertRegex(result.stderr, r"wander\.argos:8:\d+: the library 'build/libnone.so' is not found")
+        self.assertIn("ARGOS_PLUGIN_PATH", result.stderr)
+
+    def test_mistakes_of_parameters_name_their_place(self):
+        result = self.swarmanoid("check", self.changed("wander.argos", ('velocity="5"', 'speed="5"')), code=3)
+        self.assertRegex(result.stderr, r"wander\.argos:18:\d+: [^\n]*<params> has no attribute 'velocity'")
+        result = self.swarmanoid("check", self.changed("wander.argos", ('velocity="5"', 'velocity="fast"')), code=3)
+        self.assertIn("'fast' is not of the type", result.stderr)
+
+    def test_labels_are_those_of_the_library(self):
+        file = self.changed("wander.argos", ("<wanderer id", "<wonderer id"), ("</wanderer>", "</wonderer>"))
+        result = self.swarmanoid("check", file, code=3)
+        self.assertIn("registers no controller 'wonderer'", result.stderr)
+        self.assertIn("did you mean 'wanderer'?", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

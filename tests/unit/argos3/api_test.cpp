@@ -1,0 +1,229 @@
+// The API of ARGoS3: its mathematics beside Eigen's, its texts and elements, its random numbers.
+#include <argos3/core/utility/configuration/argos_configuration.h>
+#include <argos3/core/utility/datatypes/byte_array.h>
+#include <argos3/core/utility/datatypes/color.h>
+#include <argos3/core/utility/math/quaternion.h>
+#include <argos3/core/utility/math/rng.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "argos3/library/running.h"
+
+namespace
+{
+
+using namespace argos;
+using Eigen::AngleAxisd;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+constexpr double kTolerance = 1e-12;
+
+TEST(Argos3Api, QuaternionsTurnVectorsAsEigens)
+{
+  CRandom::CRNG random(1);
+  const CRange<Real> component(-2, 2);
+  for (int i = 0; i < 200; ++i)
+  {
+    const CRadians angle(random.Uniform(component));
+    CVector3 axis(random.Uniform(component), random.Uniform(component), random.Uniform(component));
+    axis.Normalize();
+    CVector3 turned(random.Uniform(component), random.Uniform(component), random.Uniform(component));
+    const Vector3d expected = AngleAxisd(angle.GetValue(), Vector3d(axis.GetX(), axis.GetY(), axis.GetZ())) *
+                              Vector3d(turned.GetX(), turned.GetY(), turned.GetZ());
+    turned.Rotate(CQuaternion(angle, axis));
+    EXPECT_NEAR(turned.GetX(), expected.x(), kTolerance);
+    EXPECT_NEAR(turned.GetY(), expected.y(), kTolerance);
+    EXPECT_NEAR(turned.GetZ(), expected.z(), kTolerance);
+  }
+}
+
+TEST(Argos3Api, EulerAnglesAreXThenYThenZOfTheTurnedFrame)
+{
+  CRandom::CRNG random(2);
+  const CRange<Real> half(-1.4, 1.4);
+  for (int i = 0; i < 200; ++i)
+  {
+    const CRadians z(random.Uniform(half)), y(random.Uniform(half)), x(random.Uniform(half));
+    CQuaternion turned;
+    turned.FromEulerAngles(z, y, x);
+    const Quaterniond expected = AngleAxisd(x.GetValue(), Vector3d::UnitX()) *
+                                 AngleAxisd(y.GetValue(), Vector3d::UnitY()) *
+                                 AngleAxisd(z.GetValue(), Vector3d::UnitZ());
+    EXPECT_NEAR(turned.GetW(), expected.w(), kTolerance);
+    EXPECT_NEAR(turned.GetX(), expected.x(), kTolerance);
+    EXPECT_NEAR(turned.GetY(), expected.y(), kTolerance);
+    EXPECT_NEAR(turned.GetZ(), expected.z(), kTolerance);
+    CRadians z_again, y_again, x_again;
+    turned.ToEulerAngles(z_again, y_again, x_again);
+    EXPECT_NEAR(z_again.GetValue(), z.GetValue(), 1e-9);
+    EXPECT_NEAR(y_again.GetValue(), y.GetValue(), 1e-9);
+    EXPECT_NEAR(x_again.GetValue(), x.GetValue(), 1e-9);
+  }
+}
+
+TEST(Argos3Api, TheRotationBetweenTwoVectorsTakesOneToTheOther)
+{
+  CRandom::CRNG random(3);
+  const CRange<Real> component(-2, 2);
+  for (int i = 0; i < 100; ++i)
+  {
+    const CVector3 from(random.Uniform(component), random.Uniform(component), random.Uniform(component));
+    const CVector3 to = i == 0 ? -from : CVector3(random.Uniform(component), random.Uniform(component), 1);
+    CVector3 turned = from;
+    turned.Rotate(CQuaternion(from, to)).Normalize();
+    EXPECT_LT(Distance(turned, CVector3(to).Normalize()), 1e-9);
+  }
+}
+
+TEST(Argos3Api, AnglesWrapIntoTheirRanges)
+{
+  for (double degrees = -1000; degrees <= 1000; degrees += 7)
+  {
+    CRadians signed_angle = ToRadians(CDegrees(degrees));
+    signed_angle.SignedNormalize();
+    EXPECT_LE(std::abs(signed_angle.GetValue()), std::numbers::pi + 1e-9);
+    EXPECT_NEAR(std::sin(signed_angle.GetValue()), std::sin(degrees * std::numbers::pi / 180), 1e-9);
+    CDegrees unsigned_angle(degrees);
+    unsigned_angle.UnsignedNormalize();
+    EXPECT_GE(unsigned_angle.GetValue(), 0);
+    EXPECT_LE(unsigned_angle.GetValue(), 360);
+  }
+  EXPECT_NEAR(NormalizedDifference(CRadians(3), CRadians(-3)).GetValue(), 6 - 2 * std::numbers::pi, kTolerance);
+  CRadians endless(1e300);
+  EXPECT_EQ(endless.SignedNormalize().GetValue(), 1e300) << "a number that no turn changes ends the wrapping";
+}
+
+TEST(Argos3Api, RandomNumbersHaveTheirMomentsAndRepeat)
+{
+  CRandom::CRNG random(5);
+  constexpr int kDraws = 20000;
+  double sum = 0, squares = 0, waits = 0, lengths = 0;
+  int counts[3] = {};
+  for (int i = 0; i < kDraws; ++i)
+  {
+    const double normal = random.Gaussian(2, 1);
+    sum += normal;
+    squares += (normal - 1) * (normal - 1);
+    waits += random.Exponential(3);
+    lengths += random.Rayleigh(2);
+    ++counts[random.Uniform(CRange<SInt32>(-1, 2)) + 1];
+  }
+  // Four standard errors.
+  EXPECT_NEAR(sum / kDraws, 1, 4 * 2 / std::sqrt(kDraws));
+  EXPECT_NEAR(squares / kDraws, 4, 4 * 4 * std::sqrt(2.0 / kDraws));
+  EXPECT_NEAR(waits / kDraws, 3, 4 * 3 / std::sqrt(kDraws));
+  EXPECT_NEAR(lengths / kDraws, 2 * std::sqrt(std::numbers::pi / 2), 4 * 1.31 / std::sqrt(kDraws));
+  for (const int count : counts) EXPECT_NEAR(count, kDraws / 3.0, 4 * std::sqrt(kDraws * 2 / 9.0));
+
+  const Real next = random.Uniform(CRange<Real>(0, 1));
+  random.Reset();
+  CRandom::CRNG twin(5);
+  EXPECT_EQ(random.Gaussian(2, 1), twin.Gaussian(2, 1));
+  EXPECT_NE(random.Uniform(CRange<Real>(0, 1)), next);
+  EXPECT_THROW(CRandom::CreateRNG("argos"), CARGoSException) << "nobody speaks whose numbers they would be";
+  EXPECT_THROW(CRandom::CreateRNG("mine"), CARGoSException);
+}
+
+TEST(Argos3Api, ByteArraysUnpackWhatWasPackedInNetworkOrder)
+{
+  CByteArray bytes;
+  bytes << UInt32{0x01020304} << -2.5 << std::string("robot") << SInt8{-7};
+  EXPECT_EQ(bytes.Size(), 4U + 8U + 6U + 1U);
+  EXPECT_EQ(bytes[0], 1);
+  EXPECT_EQ(bytes[3], 4);
+  UInt32 whole = 0;
+  double number = 0;
+  std::string text;
+  SInt8 small = 0;
+  bytes >> whole >> number >> text >> small;
+  EXPECT_EQ(whole, 0x01020304U);
+  EXPECT_EQ(number, -2.5);
+  EXPECT_EQ(text, "robot");
+  EXPECT_EQ(small, -7);
+  EXPECT_TRUE(bytes.Empty());
+  EXPECT_THROW(bytes >> small, CARGoSException);
+  EXPECT_THROW(CByteArray(3)[3], CARGoSException);
+}
+
+TEST(Argos3Api, ElementsGiveTypedAttributesAndNameTheirPlace)
+{
+  TConfigurationNode params("params");
+  params.SetPlace("file.argos:3:5");
+  params.SetAttribute("range", "-5:5");
+  params.SetAttribute("place", "1.5,-2,3");
+  params.SetAttribute("flag", "true");
+  params.SetAttribute("byte", "65");
+  params.SetAttribute("colour", "gray50");
+  params.SetAttribute("word", "three");
+  CRange<CDegrees> range(CDegrees(0), CDegrees(1));
+  GetNodeAttribute(params, "range", range);
+  EXPECT_EQ(range.GetMin(), CDegrees(-5));
+  CVector3 place;
+  GetNodeAttribute(params, "place", place);
+  EXPECT_EQ(place, CVector3(1.5, -2, 3));
+  bool flag = false;
+  GetNodeAttribute(params, "flag", flag);
+  EXPECT_TRUE(flag);
+  UInt8 byte = 0;
+  GetNodeAttribute(params, "byte", byte);
+  EXPECT_EQ(byte, 65);
+  CColor colour;
+  GetNodeAttribute(params, "colour", colour);
+  EXPECT_EQ(colour, CColor::GRAY50);
+  Real number = 0;
+  GetNodeAttributeOrDefault(params, "none", number, 4.5);
+  EXPECT_EQ(number, 4.5);
+  try
+  {
+    GetNodeAttribute(params, "word", number);
+    ADD_FAILURE() << "a word was read as a number";
+  }
+  catch (const CARGoSException& mistake)
+  {
+    EXPECT_EQ(std::string(mistake.what()),
+              "file.argos:3:5: 'word' of <params>: 'three' is not of the type that is asked for");
+  }
+
+  for (const char* name : {"a", "b", "a"}) params.InsertEndChild(TConfigurationNode(name));
+  int all = 0, some = 0;
+  TConfigurationNodeIterator it;
+  for (it = it.begin(&params); it != it.end(); ++it) ++all;
+  TConfigurationNodeIterator named("a");
+  for (named = named.begin(&params); named != named.end(); ++named) ++some;
+  EXPECT_EQ(all, 3);
+  EXPECT_EQ(some, 2);
+  EXPECT_TRUE(NodeExists(params, "b"));
+  EXPECT_THROW(GetNode(params, "c"), CARGoSException);
+}
+
+TEST(Argos3Api, TextsAreCutReplacedAndExpanded)
+{
+  std::vector<std::string> words;
+  Tokenize(" one  two,three", words, " ,");
+  EXPECT_EQ(words, (std::vector<std::string>{"one", "two", "three"}));
+  std::string text = "a_b_c";
+  Replace(text, "_", "__");
+  EXPECT_EQ(text, "a__b__c");
+  EXPECT_TRUE(MatchPattern("fb12", "^fb[0-9]+$"));
+  EXPECT_FALSE(MatchPattern("eb12", "^fb[0-9]+$"));
+  setenv("ARGOS3_TEST_FOLDER", "/tmp/x", 1);
+  text = "$ARGOS3_TEST_FOLDER/lib$NOBODY_SET_THIS.so";
+  EXPECT_EQ(ExpandEnvVariables(text), "/tmp/x/lib$NOBODY_SET_THIS.so");
+}
+
+TEST(Argos3Api, IdsOfDistributedEntitiesTranslateBothWays)
+{
+  swarmanoid::argos3::Translation translation;
+  translation.distributed = {{"fb", 10}, {"f", 0}};
+  EXPECT_EQ(translation.Argos3Id("fb_3"), "fb13");
+  EXPECT_EQ(translation.OurId("fb13"), "fb_3");
+  EXPECT_EQ(translation.OurId("f0"), "f_0");
+  EXPECT_EQ(translation.Argos3Id("fb_one"), "fb_one");
+  EXPECT_EQ(translation.OurId("wall_1"), "wall_1");
+}
+
+}  // namespace
