@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr std::array kOwnLibraries{
     "reproducible_math", "common", "builtins",       "control_interface", "behavior_toolkit",
     "experiment",        "space",  "physics_engine", "engines",           "controller_host_role",
-    "space_server_role"};
+    "space_server_role", "argos3"};
 
 std::string BuildOfFile(const std::string& path)
 {

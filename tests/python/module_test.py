@@ -165,6 +165,19 @@ class Mistakes(InAFolder):
         with self.assertRaisesRegex(swarmanoid.ConfigurationError, "framework.sed"):
             swarmanoid.Simulation(CONFIGS / "diffusion_10.xml", {"framework.sed": 3})
 
+    def test_pictures_of_the_floor_must_be_there(self):
+        path = scene.write(self.folder)
+        patch = '<ground_patch id="floor" size="1, 1" picture="none.png"><position>1, 1, 0</position></ground_patch></arena>'
+        path.write_text(path.read_text().replace("</arena>", patch))
+        with self.assertRaisesRegex(swarmanoid.ConfigurationError, r"external_controller.xml:\d+:\d+: '.*none.png': .*no such file"):
+            swarmanoid.Simulation(path)
+        (self.folder / "none.png").write_text("no picture")
+        path.write_text(path.read_text().replace("external_controller", "footbot_diffusion").replace(
+            'id="driver"', 'id="driver" library="footbot_diffusion"', 1))
+        check = subprocess.run([os.environ["SWARMANOID"], "check", path], capture_output=True, text=True)
+        self.assertEqual(check.returncode, 3)
+        self.assertRegex(check.stderr, r"external_controller.xml:\d+:\d+: patch 'floor': cannot read the PNG '.*none.png'")
+
     def test_what_cannot_be_done_is_refused(self):
         simulation = swarmanoid.Simulation(scene.write(self.folder))
         with self.assertRaisesRegex(ValueError, "nobody"):

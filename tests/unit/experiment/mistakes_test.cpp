@@ -127,13 +127,9 @@ const Mistake kMistakes[] = {
     {"UnknownParameter", "orientation=\"0,0,90\"", "orientaton=\"0,0,90\"",
      "test.xml:19:42: <footbot> has no attribute 'orientaton'; allowed: id, position, orientation, controller; did you "
      "mean 'orientation'?\n"},
-    {"PictureThatIsNotThere", "<light_bulb id=\"lamp\" position=\"1, 1, 2\"/>",
-     "<ground_patch id=\"lamp\" position=\"1, 1, 0\" size=\"1,1\" picture=\"none.png\"/>",
-     "test.xml:21:64: 'none.png': no such file\n"},
     {"PictureOnADisc", "<light_bulb id=\"lamp\" position=\"1, 1, 2\"/>",
      "<ground_patch id=\"lamp\" position=\"1, 1, 0\" radius=\"1\" picture=\"none.png\"/>",
-     "test.xml:21:64: 'none.png': no such file\ntest.xml:21:64: a picture lies on a rectangle: give 'size', not "
-     "'radius'\n"},
+     "test.xml:21:59: a picture lies on a rectangle: give 'size', not 'radius'\n"},
     {"TerrainWithoutMap", "<light_bulb id=\"lamp\" position=\"1, 1, 2\"/>", "<terrain id=\"lamp\"/>",
      "test.xml:21:5: <terrain> must hold one map, <octomap file=\"…\"/> or <heightmap file=\"…\" size=\"…\" "
      "height=\"…\"/>; it holds 0\n"},
