@@ -134,10 +134,34 @@ private:
     const std::string source = NeededText(*floor, "source");
     if (source == "loop_functions")
       floor_id_ = NeededText(*floor, "id");
-    else
+    else if (source != "image")
       Mistake(floor->location,
-              "a floor of source " + Quoted(source) +
-                  " has no counterpart; take loop_functions, or convert the file and add <ground_patch>");
+              "a floor of source " + Quoted(source) + " has no counterpart; take an image, or loop_functions");
+  }
+
+  // Found as libraries are: from the working folder, or from that of the file.
+  std::string PictureOf(const ConfigurationNode& floor)
+  {
+    const std::string path = NeededText(floor, "path");
+    const fs::path here = fs::current_path() / path;
+    std::error_code none;
+    return fs::is_regular_file(here, none) ? here.lexically_normal().string() : path;
+  }
+
+  // Over all of their arena.
+  void ConvertFloor(const ConfigurationNode& theirs, ConfigurationNode& parent)
+  {
+    if (Text(theirs, "source").value_or("") != "image") return;
+    const SourceLocation& at = theirs.location;
+    const Vector3 size = NeededVector(*arena_, "size");
+    Vector3 middle = Vector(*arena_, "center") + origin_;
+    middle.z() = 0;
+    const Made made = AddNode(parent, "ground_patch", at);
+    SetValue(*made, "id", NeededText(theirs, "id"), at);
+    SetValue(*made, "picture", PictureOf(theirs), at);
+    SetValue(*made, "size", fmt::format("{:.17g}, {:.17g}", size.x(), size.y()), at);
+    SetValue(*made, "position", TextOf(middle), at);
+    NoteOthers(theirs, {"id", "source", "path"});
   }
 
   // Ours starts at 0, 0, 0 and holds all that the file places; its floor is where theirs is, at height 0.
@@ -194,7 +218,9 @@ private:
     for (const auto& child : arena_->children)
       if (child->name == "distribute")
         ConvertDistribute(*child, *made);
-      else if (child->name != "floor")
+      else if (child->name == "floor")
+        ConvertFloor(*child, *made);
+      else
         ConvertEntity(*child, *made, true);
     SetValue(*made, "optimization", kinds_.contains("eyebot") ? "3D" : "2D", at);
   }

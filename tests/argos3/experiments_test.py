@@ -1,9 +1,12 @@
 """Experiments in ARGoS3's XML, with controllers and loop functions written for it."""
 import os
 import re
+import struct
 import subprocess
 import tempfile
 import unittest
+import xml.etree.ElementTree
+import zlib
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -44,6 +47,24 @@ class Experiments(unittest.TestCase):
         self.swarmanoid("convert", HERE / "wander.argos", "--output", "wander.xml")
         self.assertEqual(self.hash_of("wander.xml", "--single-process", "--output", "converted"),
                          self.hash_of(HERE / "wander.argos", "--single-process", "--output", "direct"))
+
+    def test_a_floor_of_an_image_covers_the_arena(self):
+        def chunk(kind, content):
+            return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+
+        arena = '<arena size="4,4,1" center="0,0,0.5">'
+        file = self.changed("wander.argos", (arena, arena + '<floor id="floor" source="image" path="floor.png"/>'))
+        missing = self.swarmanoid("check", file, code=3)
+        self.assertRegex(missing.stderr, r"wander.argos:\d+:\d+: .*floor.png")
+        (self.folder / "floor.png").write_bytes(
+            b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 0, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(b"\0\x40")) + chunk(b"IEND", b""))
+        self.swarmanoid("convert", file, "--output", "wander.xml")
+        patch = xml.etree.ElementTree.parse(self.folder / "wander.xml").find("arena/ground_patch")
+        self.assertEqual(Path(patch.get("picture")).name, "floor.png")
+        self.assertEqual([float(part) for part in patch.get("size").split(",")], [4, 4])
+        self.assertEqual([float(part) for part in patch.get("position").split(",")], [2, 2, 0])
+        self.swarmanoid("run", file, "--single-process", "--output", "run")
 
     def test_the_order_of_a_step(self):
         """Ten centimetres a second: a controller moves nothing before its first step, PreStep comes before the
