@@ -3,6 +3,7 @@
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/log/Log.hpp>
 
 #include <arpa/inet.h>
 #include <ifaddrs.h>
@@ -25,6 +26,7 @@
 #include "common/activity/failure_report.h"
 #include "common/bus/cluster_options.h"
 #include "common/bus/shown_text.h"
+#include "common/logging/log.h"
 
 namespace swarmanoid
 {
@@ -38,7 +40,24 @@ constexpr unsigned kSocketBuffer = 4U << 20;  // bytes; 10,000 robots lose datag
 constexpr std::size_t kSendersTold = 100;     // of bad messages, by topic
 constexpr std::size_t kLongestUser = 100;     // bytes
 constexpr std::size_t kLongestSender = 200;   // bytes of a name in the log
-constexpr unsigned kPeerProcesses = 100;      // looked for on each machine named as a peer
+
+// What Fast DDS says: by itself it writes to standard output, which is for the results of a run.
+class DdsLog : public dds::LogConsumer
+{
+public:
+  void Consume(const dds::Log::Entry& entry) override
+  {
+    LogInfo("Fast DDS, {}: {}", entry.context.category, entry.message);
+  }
+};
+
+bool KeepLog()
+{
+  dds::Log::ClearConsumers();
+  dds::Log::RegisterConsumer(std::make_unique<DdsLog>());
+  return true;
+}
+constexpr unsigned kPeerProcesses = 100;  // looked for on each machine named as a peer
 
 eprosima::fastrtps::Duration_t Seconds(double seconds)
 {
@@ -233,6 +252,7 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name)
     for (const std::string& peer : options.peers) builtin.initialPeersList.push_back(LocatorOf(peer, 0));
   }
 
+  [[maybe_unused]] static const bool logs = KeepLog();
   participant = dds::DomainParticipantFactory::get_instance()->create_participant(
       static_cast<std::uint32_t>(options.domain), qos, this, dds::StatusMask::none());
   if (participant == nullptr)

@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 
 #include "common/bus/bus.h"
+#include "common/configuration/configuration_tree.h"
 #include "common/configuration/wording.h"
 
 namespace swarmanoid

@@ -17,9 +17,12 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <fastdds/dds/log/Log.hpp>
+#include <fstream>
 
 #include "common/bus/domain.h"
 #include "common/bus/run_directory.h"
+#include "common/logging/log.h"
 #include "tests/eventually.h"
 
 namespace swarmanoid
@@ -330,6 +333,26 @@ TEST(FreeDomain, GivesEveryCallerAnotherOne)
   const FreeDomain a;
   const FreeDomain b;
   EXPECT_NE(a.Id(), b.Id());
+}
+
+// Standard output is for the results of a run.
+TEST(Bus, WhatFastDdsSaysGoesToTheLog)
+{
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("bus_log_" + std::to_string(getpid()));
+  std::filesystem::create_directory(folder);
+  OpenLog({.process = "bus_test", .folder = folder.string()});
+  const BusOptions options = Options();
+  Bus bus(options, "x");
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  EPROSIMA_LOG_ERROR(TEST, "no room for a segment");
+  eprosima::fastdds::dds::Log::Flush();
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  std::ostringstream text;
+  text << std::ifstream(folder / "bus_test.log").rdbuf();
+  EXPECT_THAT(text.str(), testing::HasSubstr("info: Fast DDS, TEST: no room for a segment"));
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace
