@@ -29,8 +29,7 @@ std::function<std::unique_ptr<CRender>()> RendererFromLibrary(const std::string&
     if (!std::filesystem::exists(path))
       throw ConfigurationError(name + " is not part of this build, there is no " + path + "; install the packages " +
                                packages + " and build again");
-    const FloatingPointGuard guard;
-    void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | (HasOwnScope() ? RTLD_DEEPBIND : 0));
+    void* library = OpenLibrary(path);
     if (library == nullptr) throw ConfigurationError(name + " cannot be loaded: " + dlerror());
     const auto create = reinterpret_cast<CRender* (*)()>(dlsym(library, "CreateSwarmanoidRenderer"));
     if (create == nullptr) throw ConfigurationError(path + " holds no renderer");

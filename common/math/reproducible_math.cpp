@@ -29,6 +29,12 @@ void RequireModes()
         "this thread counts numbers below 2.2e-308 as 0, as no other program does; link this one without -ffast-math");
 }
 
+std::atomic<bool>& OwnScope()
+{
+  static std::atomic<bool> own_scope = false;
+  return own_scope;
+}
+
 // Where this library takes sin from, and where the program does.
 std::string OwnFile()
 {
@@ -45,28 +51,27 @@ void RequireFunctions()
 {
   const std::string own = OwnFile(), program = FileOfProgram();
   const bool is_ours = own.find("libswarmanoid_reproducible_math") != std::string::npos;
-  if (is_ours && (program.empty() || program == own || HasOwnScope())) return;
+  if (is_ours && (program.empty() || program == own || OwnScope())) return;
   throw std::runtime_error("this program takes sin and the other functions of libm from " + (is_ours ? program : own) +
                            ", whose results depend on the processor; link it by CMake with Swarmanoid::simulation, put "
                            "-lswarmanoid_reproducible_math before other libraries, or start it with LD_PRELOAD=" +
                            own);
 }
 
-std::atomic<bool>& OwnScope()
-{
-  static std::atomic<bool> own_scope = false;
-  return own_scope;
-}
-
 }  // namespace
 
 void SetOwnScope() { OwnScope() = true; }
-bool HasOwnScope() { return OwnScope(); }
 
 void RequireReproducibleMath()
 {
   RequireFunctions();
   RequireModes();
+}
+
+void* OpenLibrary(const std::string& path)
+{
+  const FloatingPointGuard guard;
+  return dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | (OwnScope() ? RTLD_DEEPBIND : 0));
 }
 
 }  // namespace swarmanoid

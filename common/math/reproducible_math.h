@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cfenv>
+#include <string>
 
 namespace swarmanoid
 {
@@ -14,9 +15,8 @@ namespace swarmanoid
 void RequireReproducibleMath();
 
 // Says that our libraries were loaded with RTLD_DEEPBIND by a program that has libm before them (Python): they find
-// their functions among themselves first, and so must the libraries of plug-ins that are loaded from then on.
+// their functions among themselves first, and so do those that OpenLibrary loads from then on.
 void SetOwnScope();
-bool HasOwnScope();
 
 // Restores the floating-point modes of this thread when it ends. Libraries that were linked with -ffast-math set, when
 // they are loaded, that tiny numbers count as 0, for all that the thread computes from then on.
@@ -31,5 +31,9 @@ public:
 private:
   std::fenv_t modes_;
 };
+
+// dlopen for the library of a plug-in: its code takes its functions from where ours does, and its loading leaves the
+// floating-point modes of this thread as they are. nullptr: dlerror() says why not.
+void* OpenLibrary(const std::string& path);
 
 }  // namespace swarmanoid

@@ -87,8 +87,7 @@ PluginLibrary Load(const std::string& path)
   }
   PluginCatalogue& catalogue = PluginCatalogue::Instance();
   catalogue.BeginLibrary();
-  const FloatingPointGuard guard;
-  void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | (HasOwnScope() ? RTLD_DEEPBIND : 0));
+  void* handle = OpenLibrary(path);
   const char* reason = handle == nullptr ? dlerror() : nullptr;
   library.registrations = catalogue.EndLibrary();
   if (handle == nullptr)
