@@ -14,6 +14,7 @@ enum ExitCode
   kExitHashDiffers = 5,
   kExitOthersFailed = 6,  // of a process of a cluster: the run failed elsewhere
   kExitStuck = 7,         // likewise: one that died holds a lock of the run's shared memory
+  kExitCutOff = 8,        // likewise: the space server has gone, as far as it can see
   kExitInterrupted = 130
 };
 

@@ -61,7 +61,7 @@ struct BusOptions
   // process.
   std::string discovery_server;
   bool serves_discovery = false;  // this process is that server
-  double lease_s = 1;             // silence after which a process counts as dead
+  double lease_s = 5;             // silence after which a process counts as dead
   // Largest datagram, larger messages are cut. Otherwise as large as possible on this machine, and one packet on a
   // network: of a larger one that is cut into packets all are lost with one.
   std::optional<int> datagram_bytes;

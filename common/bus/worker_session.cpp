@@ -31,19 +31,6 @@ constexpr std::chrono::milliseconds kFirstRepeat = 100ms;  // of a Leave that is
 constexpr std::chrono::milliseconds kLastRepeat = 1s;
 constexpr auto kInterruptedTime = 1s;  // for the answer to a Leave, if it was asked to end
 
-int ExitCodeOf(EndReason reason, bool looks_on)
-{
-  switch (reason)
-  {
-    case EndReason::kInterrupted:
-      return kExitInterrupted;
-    case EndReason::kOthers:
-      return looks_on ? kExitProcessFailed : kExitOthersFailed;
-    default:
-      return kExitProcessFailed;
-  }
-}
-
 bool IsAlive(pid_t process) { return kill(process, 0) == 0 || errno == EPERM; }
 
 }  // namespace
@@ -219,7 +206,8 @@ void WorkerSession::CheckOthers()
   if (server_left_) throw BusError("the run has ended");
   // The leases of a run on one machine are long: its launcher sees who dies, but those who are attached have none.
   if (next_world_ || (server_seen_ && !ServerIsOnThisMachine())) server_lost_ = true;
-  if (server_lost_) throw BusError(fmt::format("the space server has gone (process {})", server_process_));
+  cut_off_ = server_lost_;
+  if (cut_off_) throw BusError(fmt::format("the space server has gone (process {})", server_process_));
   if (BusIsBroken())
   {
     if (!broken_since_) broken_since_ = Clock::now();
@@ -313,7 +301,7 @@ void WorkerSession::GiveUp(const std::exception& error)
   Say(error.what());
   ReportFailure(error);
   directory_->Leave();
-  EndAtOnce(stuck_ && !looks_on_ ? kExitStuck : ExitCodeOf(reason_, looks_on_));
+  EndAtOnce(ExitCode());
 }
 
 std::optional<BusError> WorkerSession::Follow(std::chrono::milliseconds period, const std::function<void()>& idle)
@@ -397,6 +385,14 @@ void WorkerSession::LeaveRun(const std::string& error)
   }
 }
 
+int WorkerSession::ExitCode() const
+{
+  if (reason_ == EndReason::kInterrupted) return kExitInterrupted;
+  if (reason_ != EndReason::kOthers || looks_on_) return kExitProcessFailed;
+  if (stuck_) return kExitStuck;
+  return cut_off_ ? kExitCutOff : kExitOthersFailed;
+}
+
 int WorkerSession::Work(const std::function<void()>& work)
 {
   try
@@ -408,7 +404,7 @@ int WorkerSession::Work(const std::function<void()>& work)
     ReportFailure(error);
     if (reason_ == EndReason::kFailed) throw;
     Say(error.what());
-    return stuck_ && !looks_on_ ? kExitStuck : ExitCodeOf(reason_, looks_on_);
+    return ExitCode();
   }
   NoteEnd(EndReason::kDone, tick_, "");
   LeaveRun("");

@@ -66,6 +66,7 @@ public:
   bool FollowNext(const std::function<bool()>& idle);
   // Says that this process failed, or has nothing to do any more in a run that failed, and ends the program.
   [[noreturn]] void GiveUp(const std::exception& error);
+  int ExitCode() const;
   // Before messages come: `name` is a process of the run, which ends when it sends a bad message. The space server is
   // one from the start.
   void Trust(const std::string& name);
@@ -106,6 +107,7 @@ private:
   std::optional<std::string> others_error_;
   std::optional<std::chrono::steady_clock::time_point> broken_since_;
   bool stuck_ = false;
+  bool cut_off_ = false;  // it ended since the space server had gone
   bool server_lost_ = false;
   bool server_seen_ = false;  // among the processes of this machine
   bool server_left_ = false;

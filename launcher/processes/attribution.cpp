@@ -51,7 +51,7 @@ Evidence EvidenceOf(const std::optional<ProcessEnd>& ended, const ActivityRecord
   }
   if (!ended) return Evidence::kNone;
   if (ended->signal != 0) return Evidence::kDeath;
-  if (ended->exit_code == kExitOthersFailed) return Evidence::kConsequence;
+  if (ended->exit_code == kExitOthersFailed || ended->exit_code == kExitCutOff) return Evidence::kConsequence;
   if (ended->exit_code != 0) return Evidence::kFailure;
   // A program of ours says that its work is done.
   return record.taken && record.end == EndReason::kUnknown ? Evidence::kDeath : Evidence::kEarlyEnd;
@@ -62,15 +62,24 @@ bool IsStuck(const std::optional<ProcessEnd>& ended) { return ended && ended->ex
 bool MayBeReplaced(const ProcessEnd& ended, const ActivityRecord& record, bool elsewhere)
 {
   constexpr int kKilledThere = 128;  // and more: by a signal, or the connection has failed
+  if (ended.exit_code == kExitCutOff) return true;
   switch (record.end)
   {
     case EndReason::kDied:
       return true;
+    case EndReason::kDone:
+      return ended.signal != 0;
     case EndReason::kUnknown:
-      return ended.signal != 0 || record.taken || (elsewhere && ended.exit_code >= kKilledThere);
+      return ended.signal != 0 || record.taken ||
+             (elsewhere && ended.exit_code >= kKilledThere && ended.exit_code != kExitInterrupted);
     default:
       return false;
   }
+}
+
+bool WasKilled(const ProcessEnd& ended, bool elsewhere)
+{
+  return ended.signal == SIGKILL || (elsewhere && (ended.exit_code == 128 + SIGKILL || ended.exit_code == kSshFailed));
 }
 
 bool DiedAlike(const ActivityRecord& a, const ActivityRecord& b)
@@ -88,6 +97,7 @@ std::string FailureText(const FailedProcess& failed, std::uint64_t server_tick, 
 
   std::string what = "has not ended";
   if (failed.end) what = failed.end->Clean() ? "ended before the last tick" : failed.end->Text();
+  if (failed.end && failed.end->exit_code == kExitCutOff) what = "was cut off from the space server";
   if (failed.end && failed.end->signal == SIGKILL && killed_for_memory)
     what += " by the kernel, since memory was short (--memory-limit sets a limit that tells who takes too much)";
   if (failed.end && failed.end->exit_code == kSshFailed && !failed.host.empty())

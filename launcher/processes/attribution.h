@@ -48,6 +48,8 @@ bool IsStuck(const std::optional<ProcessEnd>& ended);
 // Whether a process has died, rather than said what is wrong: another one in its place may get further. `elsewhere`: it
 // was started on another machine.
 bool MayBeReplaced(const ProcessEnd& ended, const ActivityRecord& record, bool elsewhere);
+// Whether somebody else ended it, or the connection to it: not by what it did.
+bool WasKilled(const ProcessEnd& ended, bool elsewhere);
 // Whether both died of the same step of the same code: whoever comes next will, too.
 bool DiedAlike(const ActivityRecord& a, const ActivityRecord& b);
 

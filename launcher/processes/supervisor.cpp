@@ -251,12 +251,15 @@ void Supervisor::TakeEnd(const ClusterMember& member)
     return;
   }
 
+  if (IsDone(member)) return;
   // After Ctrl-C all end as interrupted ones do, and some may complain that the space server has gone. The server may
-  // not have got as far as catching the signal that asks it to stop.
+  // not have got as far as catching the signal that asks it to stop. But it waits for each worker that died before it
+  // left.
   const bool stopped_early = is_server && phase_ == Phase::kStopping && end.signal == SIGINT;
   const bool stopping =
       phase_ == Phase::kStopping || (phase_ == Phase::kFinishing && outcome_.kind == ClusterOutcome::kInterrupted);
-  if (stopping && (end.signal == 0 || stopped_early))
+  const bool missed = !is_server && MayBeReplaced(end, member.Record(), !member.Plan().host.empty());
+  if (stopping && !missed && (end.signal == 0 || stopped_early))
   {
     if (is_server && !outcome_.finished) Die(now_() + times_.terminate);
     return;
@@ -283,11 +286,18 @@ void Supervisor::TakeEnd(const ClusterMember& member)
   AttributeWithin(is_server ? times_.settle : times_.early_end);
 }
 
+// It has left in good order, or the one before it had when it was replaced: what happens to it now changes nothing.
+bool Supervisor::IsDone(const ClusterMember& member) const
+{
+  return left_.contains(member.Name()) &&
+         (member.Incarnation() > 0 || WasKilled(*member.End(), !member.Plan().host.empty()));
+}
+
 bool Supervisor::Replace(const ClusterMember& member)
 {
   const bool server_works = members_.front()->Alive() && &member != members_.front().get() && server_error_.empty();
-  if (phase_ != Phase::kRunning || !server_works || !member.Plan().replacement || left_.contains(member.Name()))
-    return false;
+  const bool goes_on = phase_ == Phase::kRunning || phase_ == Phase::kStopping;
+  if (!goes_on || !server_works || !member.Plan().replacement || left_.contains(member.Name())) return false;
   if (IsStuck(member.End()) || !MayBeReplaced(*member.End(), member.Record(), !member.Plan().host.empty()))
     return false;
   if (!CountDeath(member)) return false;
@@ -324,7 +334,10 @@ bool Supervisor::Restart(const ClusterMember& first, Evidence evidence)
 {
   const bool all_can = std::all_of(members_.begin(), members_.end(),
                                    [](const auto& member) { return member->Plan().replacement != nullptr; });
-  if (phase_ != Phase::kRunning || !all_can) return false;
+  // A server that has told its result may still have to say by its exit code what the experiment thinks of it.
+  const bool goes_on =
+      phase_ == Phase::kRunning || (outcome_.kind == ClusterOutcome::kFinished && &first == members_.front().get());
+  if (!goes_on || !all_can) return false;
   const bool died =
       first.End() && (IsStuck(first.End()) || MayBeReplaced(*first.End(), first.Record(), !first.Plan().host.empty()));
   if (!died && evidence != Evidence::kConsequence) return false;
@@ -332,6 +345,9 @@ bool Supervisor::Restart(const ClusterMember& first, Evidence evidence)
   display_.Note(fmt::format("{}; all processes start again where the journal ends", TextOf(first)));
   kills_for_memory_ = KernelKillsForMemory();
   phase_ = Phase::kRestarting;
+  outcome_.kind = ClusterOutcome::kInterrupted;
+  outcome_.finished.reset();
+  deadline_.reset();
   progress_.phase = "starting again";
   progress_.waiting_for.clear();
   ended_.clear();
@@ -412,6 +428,7 @@ void Supervisor::Attribute()
     if (noticed == ended_.end() && member->End()) continue;
     Evidence evidence = EvidenceOf(member->End(), record);
     if (evidence == Evidence::kEarlyEnd && left_.contains(member->Name())) continue;
+    if (member->End() && IsDone(*member)) continue;
     // For processes of other machines: the server often knows who began.
     const bool accused = evidence == Evidence::kFailure && server_error_.starts_with(member->Name());
     if (accused) evidence = Evidence::kDeath;

@@ -89,6 +89,7 @@ private:
   void CollectEnds();
   void TakeEnd(const ClusterMember& member);
   void AttributeWithin(std::chrono::milliseconds patience);
+  bool IsDone(const ClusterMember& member) const;
   // Starts another process in the place of one that died; false if that is no use.
   bool Replace(const ClusterMember& member);
   // Ends all, to start them again; false if that is no use.

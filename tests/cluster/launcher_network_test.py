@@ -3,12 +3,14 @@
 Needs root and /dev/net/tun; skipped otherwise."""
 import os
 import sys
+import time
 import unittest
 
 import two_machines
 from harness import CONFIGS, LauncherTest
 
 TICKS = 60
+REPLACED = "another process takes its place"
 FRAME_BYTES = 1514  # the largest of a link whose packets have 1,500
 
 
@@ -18,7 +20,7 @@ class Network(LauncherTest):
         self.machines = two_machines.TwoMachines(os.environ["SWARMANOID_BUILD"])
         self.addCleanup(self.machines.remove)
 
-    def run_over(self, loss, options="", experiment="diffusion_10.xml", ticks=TICKS):
+    def run_over(self, loss, options="--lease 60", experiment="diffusion_10.xml", ticks=TICKS):
         """Frames carried, and those lost."""
         hosts = self.folder / "hosts.txt"
         hosts.write_text(self.machines.hosts(options))
@@ -49,7 +51,33 @@ class Network(LauncherTest):
 
     def test_without_multicast_by_peers(self):
         self.machines.forget_multicast()
-        self.run_over(0, "--peers 10.78.0.1 10.78.0.2")
+        self.run_over(0, "--lease 60 --peers 10.78.0.1 10.78.0.2")
+
+    def cut(self, lease):
+        """A run whose link carries nothing for ten seconds in its midst."""
+        hosts = self.folder / "hosts.txt"
+        hosts.write_text(self.machines.hosts(f"--lease {lease}"))
+        experiment = CONFIGS / "diffusion_10.xml"
+        one = self.run_it("run", experiment, "--ticks", 400, "--no-visualisers", "--single-process", "--hash-log", "one")
+        self.machines.connect(0, 1)
+        run = self.start("run", experiment, "--ticks", 400, "--no-visualisers", "--hosts", hosts, "--real-time", 5, "--hash-log", "cluster")
+        self.wait_for_tick("cluster", 100, run)
+        self.machines.disconnect()
+        time.sleep(10)
+        self.machines.connect(0, 1)
+        run.wait(timeout=90)
+        self.machines.disconnect()
+        self.assertEqual(run.process.returncode, 0, run.stderr)
+        self.assertEqual(self.assert_finished(run, 400), self.assert_finished(one, 400))
+        self.assertEqual((self.folder / "cluster").read_text(), (self.folder / "one").read_text())
+        self.assert_nothing_left(run)
+        return run.stderr
+
+    def test_a_link_that_is_cut_for_less_than_the_lease(self):
+        self.assertNotIn(REPLACED, self.cut(60))
+
+    def test_a_link_that_is_cut_for_longer_than_the_lease(self):
+        self.assertIn(REPLACED, self.cut(3))
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ import shutil
 import signal
 import time
 
-from harness import CONFIGS, GENEROUS_S, LauncherTest, main
+from harness import CONFIGS, GENEROUS_S, LauncherTest, children_of, main
 
 WORKERS = ["engine_worker", "controller_host", "visualiser"]
 PROGRAMS = ["engine_worker", "controller_host", "space_server"]
@@ -78,13 +78,18 @@ class Once(RecoveryTest):
         # The engine may have had the last commands of the one that died.
         experiment = CONFIGS / "diffusion_10.xml"
         expected = self.undisturbed(experiment, 2000)
-        run = self.start("run", experiment, "--ticks", 2000, "--controller-hosts", 2, "--real-time", 50, "--hash-log", "cluster", "--output", "out",
-                         "--no-visualisers")
+        run = self.start("run", experiment, "--ticks", 2000, "--controller-hosts", 2, "--real-time", 50, "--paused", "--hash-log", "cluster",
+                         "--output", "out", "--no-visualisers")
+        self.wait_for_experiment("diffusion_10")
         said = ""
-        for tick in (50, 450, 900, 1350):
-            self.wait_for_tick("cluster", tick, run)
+        for first in range(0, 1800, 450):
+            # However slow the machine is, the run does not end before its victim does.
+            stepping = self.start("control", "step", 450)
+            self.wait_for_tick("cluster", first + 10, run)
             os.kill(run.find("controller_host"), signal.SIGKILL)
             said += run.read_until(REPLACED)
+            self.assertEqual(stepping.wait(), 0, stepping.stderr)
+        self.control("resume")
         self.assert_same(run, 2000, expected, said)
 
     def killed_once(self, fault, tick):
@@ -105,6 +110,28 @@ class Once(RecoveryTest):
 
     def test_one_that_dies_after_the_last_tick_when_others_have_left(self):
         self.assertIn("Destroy at tick 299; " + REPLACED, self.killed_once("destroy_killed_once", 0))
+
+    def interrupted(self, fault):
+        """The end of a run that is interrupted, and whose controller dies on its way out."""
+        experiment = self.write_faulty(fault)
+        experiment.write_text(experiment.read_text().replace("</tick>", f"</tick><mark>{self.folder / 'killed'}</mark>"))
+        run = self.start("run", experiment, "--ticks", 0, "--hash-log", "hashes", "--output", "out")
+        self.wait_for_tick("hashes", 50, run)
+        os.kill(run.process.pid, signal.SIGINT)
+        run.wait()
+        self.assert_nothing_left(run)
+        return run
+
+    def test_one_that_dies_while_the_run_stops(self):
+        run = self.interrupted("destroy_killed_once")
+        self.assertEqual(run.process.returncode, 130, run.stderr)
+        self.assertIn(REPLACED, run.stderr)
+
+    def test_one_that_dies_again_and_again_while_the_run_stops(self):
+        run = self.interrupted("destroy_crashes")
+        self.assertEqual(run.process.returncode, 4, run.stderr)
+        self.assertEqual(run.stderr.count(REPLACED), 1)
+        self.assertRegex(run.stderr, r"controller 'c': Destroy at tick \d+ aborted; the log of controller host 0")
 
     def test_one_that_is_stopped_for_longer_than_the_lease(self):
         experiment = CONFIGS / "diffusion_10.xml"
@@ -313,7 +340,8 @@ class Resumed(RecoveryTest):
 class Soak(RecoveryTest):
     def newest(self):
         """The last tick of the hash log, which is cut where a run goes on."""
-        lines = (self.folder / "cluster").read_bytes().rsplit(b"\n", 2)
+        log = self.folder / "cluster"
+        lines = log.read_bytes().rsplit(b"\n", 2) if log.exists() else []
         return int(lines[-2].split()[0]) if len(lines) > 1 and lines[-2] else 0
 
     def test_kills_and_stops_at_random_moments(self):
@@ -346,6 +374,25 @@ class Soak(RecoveryTest):
         again = said.count(AGAIN)
         print(f"{KILLS} kills, {said.count(REPLACED)} replaced, {again} times all again, median to the next tick "
               f"{sorted(waits)[len(waits) // 2]:.2f} s", flush=True)
+
+    def test_kills_while_the_run_ends(self):
+        seed = random.Random(SEED)
+        ticks = 1500
+        expected = self.undisturbed(EXPERIMENT, ticks, "--no-visualisers")
+        killed = 0
+        for _ in range(KILLS):
+            run = self.start("run", EXPERIMENT, "--ticks", ticks, "--hash-log", "cluster", "--output", "out", "--no-visualisers")
+            run.find(PROGRAMS[-1])
+            processes = children_of(run.process.pid)
+            self.wait_until("the last ticks", lambda: run.process.poll() is not None or self.newest() > 0.95 * ticks)
+            time.sleep(seed.random() * 0.1)
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(seed.choice(processes), signal.SIGKILL)
+                killed += 1
+            self.assert_same(run, ticks, expected)
+            shutil.rmtree(self.folder / "out")
+            os.unlink(self.folder / "cluster")
+        self.assertGreater(killed, 0)
 
 
 if __name__ == "__main__":

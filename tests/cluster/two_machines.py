@@ -49,8 +49,9 @@ class TwoMachines:
             ip("-n", name, "route", "del", "224.0.0.0/4", "dev", "link0")
             ip("-n", name, "link", "set", "link0", "multicast", "off")
 
-    def hosts(self, options=""):
-        """A file for --hosts: space server and controller hosts on the first machine, engines on the second."""
+    def hosts(self, options="--lease 60"):
+        """A file for --hosts: space server and controller hosts on the first machine, engines on the second. Nobody is given up, however
+        long this machine is busy with something else."""
         return ("command = ip netns exec {host} {command}\n"
                 f"options = --interface link0 {options}\n"
                 f"space_server = {self.names[0]}\ncontroller_host = {self.names[0]}\nengine = {self.names[1]}\n")

@@ -33,6 +33,7 @@ public:
   void Destroy() override
   {
     if (fault_ == "destroy_killed_once") DieOnce();
+    if (fault_ == "destroy_crashes") std::abort();
   }
 
 private:

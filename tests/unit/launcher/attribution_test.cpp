@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
+#include "common/activity/exit_codes.h"
+
 namespace swarmanoid
 {
 namespace
@@ -33,7 +35,32 @@ TEST(Attribution, AFailureThatIsToldCountsBeforeTheProcessEnds)
 TEST(Attribution, OneThatEndsForAnotherIsAConsequence)
 {
   EXPECT_EQ(EvidenceOf(Exited(4), Record(EndReason::kOthers)), Evidence::kConsequence);
+  EXPECT_EQ(EvidenceOf(Exited(kExitCutOff), Record(EndReason::kUnknown)), Evidence::kConsequence);
   EXPECT_EQ(EvidenceOf(Exited(6), ActivityRecord()), Evidence::kConsequence);
+}
+
+TEST(Attribution, OneThatDiedIsReplacedAndOneThatSaysWhatIsWrongIsNot)
+{
+  EXPECT_TRUE(MayBeReplaced(Killed(SIGKILL), Record(EndReason::kUnknown), false));
+  EXPECT_TRUE(MayBeReplaced(Killed(SIGKILL), Record(EndReason::kDone), false)) << "nobody may have heard that";
+  EXPECT_FALSE(MayBeReplaced(Exited(0), Record(EndReason::kDone), false));
+  EXPECT_TRUE(MayBeReplaced(Exited(4), Record(EndReason::kDied), false));
+  EXPECT_FALSE(MayBeReplaced(Exited(4), Record(EndReason::kFailed), false));
+  EXPECT_FALSE(MayBeReplaced(Exited(6), Record(EndReason::kOthers), false));
+  EXPECT_TRUE(MayBeReplaced(Exited(kExitCutOff), Record(EndReason::kOthers), false));
+  // Of a process of another machine there is its exit code.
+  EXPECT_TRUE(MayBeReplaced(Exited(kExitCutOff), ActivityRecord(), true));
+  EXPECT_TRUE(MayBeReplaced(Exited(255), ActivityRecord(), true));
+  EXPECT_FALSE(MayBeReplaced(Exited(kExitInterrupted), ActivityRecord(), true));
+  EXPECT_FALSE(MayBeReplaced(Exited(255), ActivityRecord(), false));
+}
+
+TEST(Attribution, OnlyWhatSomebodyElseDidIsKilling)
+{
+  EXPECT_TRUE(WasKilled(Killed(SIGKILL), false));
+  EXPECT_FALSE(WasKilled(Killed(SIGSEGV), false));
+  EXPECT_TRUE(WasKilled(Exited(128 + SIGKILL), true));
+  EXPECT_FALSE(WasKilled(Exited(128 + SIGKILL), false));
 }
 
 TEST(Attribution, AnEndByZeroIsGoodOnlyIfTheWorkIsSaidToBeDone)

@@ -233,6 +233,18 @@ TEST_F(SupervisorTest, AllStartAgainIfTheServerWasKilled)
   EXPECT_EQ(LogText("engine_worker ground"), "the first\nincarnation 1\n");
 }
 
+TEST_F(SupervisorTest, AllStartAgainIfTheServerWasKilledOnItsWayOut)
+{
+  retries_ = 1;
+  AddServer(std::string(kFinishing) + "; kill -9 $$");
+  ReplaceBy(std::string(kFinishing) + "; exit 1");
+  Add("engine_worker ground", "exit 0");
+  ReplaceBy("exit 0");
+  const ClusterOutcome outcome = Run();
+  EXPECT_EQ(outcome.kind, ClusterOutcome::kUnsuccessful) << outcome.reason;
+  EXPECT_TRUE(outcome.finished);
+}
+
 TEST_F(SupervisorTest, AllStartAgainIfOneIsStuckWithWhatADeadOneHeld)
 {
   retries_ = 1;
@@ -484,6 +496,54 @@ TEST_F(SupervisorTest, OneInterruptStopsAtATickAndKeepsTheResult)
   EXPECT_EQ(outcome.kind, ClusterOutcome::kInterrupted);
   ASSERT_TRUE(outcome.finished);
   EXPECT_EQ(outcome.finished->ticks, 8U);
+}
+
+// The server waits for all to leave.
+TEST_F(SupervisorTest, OneThatDiesWhileTheRunStopsIsReplaced)
+{
+  retries_ = 1;
+  AddServer("trap '" + Tell("asked") + "' INT; echo state running; " + Tell("running") + Await("second") +
+            "echo finished 8 2 00000000000000aa 0.3 1.5");
+  Add("controller_host 0", Await("asked") + "kill -ABRT $$");
+  ReplaceBy(Tell("second"));
+  const std::jthread press = PressAt({{"running", SIGINT}});
+  const ClusterOutcome outcome = Run();
+  EXPECT_EQ(outcome.kind, ClusterOutcome::kInterrupted) << outcome.reason;
+  ASSERT_TRUE(outcome.finished);
+}
+
+TEST_F(SupervisorTest, OneThatDiesWhileTheRunStopsAndIsNotReplacedIsNamed)
+{
+  AddServer("trap '" + Tell("asked") + "' INT; echo state running; " + Tell("running") +
+            "while true; do sleep 0.05; done");
+  Add("controller_host 0", Await("asked") + "kill -ABRT $$");
+  const std::jthread press = PressAt({{"running", SIGINT}});
+  const ClusterOutcome outcome = Run();
+  EXPECT_EQ(outcome.kind, ClusterOutcome::kFailed);
+  EXPECT_TRUE(outcome.reason.starts_with("controller_host 0 was killed by signal 6")) << outcome.reason;
+}
+
+TEST_F(SupervisorTest, OneThatIsKilledOnceItHasLeftChangesNothing)
+{
+  retries_ = 1;
+  AddServer("echo state running; echo left engine_worker ground; " + Tell("left") + Await("killed") + kFinishing);
+  Add("engine_worker ground", Await("left") + "sleep 0.1; " + Tell("killed") + "kill -9 $$");
+  ReplaceBy(Tell("replaced"));
+  const ClusterOutcome outcome = Run();
+  EXPECT_EQ(outcome.kind, ClusterOutcome::kFinished) << outcome.reason;
+  EXPECT_FALSE(IsTold("replaced"));
+}
+
+// The word that it has left was on its way: the other one finds no place any more.
+TEST_F(SupervisorTest, OneThatIsReplacedAfterItHasLeftChangesNothing)
+{
+  retries_ = 1;
+  AddServer("echo state running; " + Await("replaced") + "echo left engine_worker ground; " + Tell("left") +
+            Await("refused") + kFinishing);
+  Add("engine_worker ground", "kill -9 $$");
+  ReplaceBy(Tell("replaced") + Await("left") + "sleep 0.1; " + Tell("refused") + "exit 4");
+  const ClusterOutcome outcome = Run();
+  EXPECT_EQ(outcome.kind, ClusterOutcome::kFinished) << outcome.reason;
 }
 
 TEST_F(SupervisorTest, TwoInterruptsKill)
