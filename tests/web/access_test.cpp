@@ -28,6 +28,8 @@ TEST(WebAccess, OnlyPagesOfTheServerItselfHaveItsOrigin)
   EXPECT_FALSE(IsOwnOrigin("http://localhost:8081", "localhost:8080"));
   EXPECT_FALSE(IsOwnOrigin("http://evil.example", "localhost:8080"));
   EXPECT_FALSE(IsOwnOrigin("https://localhost:8080", "localhost:8080"));
+  EXPECT_TRUE(IsOwnOrigin("https://localhost:8080", "localhost:8080", true));
+  EXPECT_FALSE(IsOwnOrigin("http://localhost:8080", "localhost:8080", true));
   EXPECT_FALSE(IsOwnOrigin("null", "localhost:8080"));
 }
 

@@ -199,6 +199,53 @@ TEST_F(WebServerTest, ConnectionsThatAskNothingMakeRoomForOthers)
   }
 }
 
+// Of two machines one takes all that it may; the other one still gets in.
+TEST_F(WebServerTest, OneAddressLeavesConnectionsForOthers)
+{
+  settings_.max_clients = 20;
+  settings_.max_connections = 12;
+  settings_.max_connections_of_address = 8;
+  Start();
+  std::vector<std::unique_ptr<WebClient>> looking;
+  for (int k = 0; k < 8; ++k)
+  {
+    looking.push_back(std::make_unique<WebClient>(server_->Port()));
+    EXPECT_EQ(looking.back()->Open(), 101U);
+  }
+  boost::asio::io_context context;
+  const auto comes_from = [&](const char* address)
+  {
+    using Tcp = boost::asio::ip::tcp;
+    Tcp::socket socket(context, Tcp::endpoint(boost::asio::ip::make_address(address), 0));
+    socket.connect({boost::asio::ip::make_address("127.0.0.1"), server_->Port()});
+    const std::string request = "GET / HTTP/1.1\r\nHost: localhost\r\n\r\n";
+    boost::beast::error_code error;
+    boost::asio::write(socket, boost::asio::buffer(request), error);
+    boost::beast::flat_buffer buffer;
+    boost::beast::http::response<boost::beast::http::string_body> response;
+    boost::beast::http::read(socket, buffer, response, error);
+    return !error && response.result_int() == 200;
+  };
+  EXPECT_FALSE(comes_from("127.0.0.1"));
+  EXPECT_TRUE(comes_from("127.0.0.2"));
+  looking.pop_back();
+  EXPECT_TRUE(Eventually([&] { return comes_from("127.0.0.1"); }));
+}
+
+// As many as a second's share at once, and then at a pace.
+TEST_F(WebServerTest, WhoSendsWithoutEndIsReadAtAPace)
+{
+  settings_.max_messages_per_second = 50;
+  Start();
+  WebClient client = Connect();
+  ASSERT_EQ(client.Open(), 101U);
+  client.ReadUntil("welcome");
+  const auto start = std::chrono::steady_clock::now();
+  for (int k = 0; k < 100; ++k) client.Send(std::to_string(k));
+  for (int k = 0; k < 100; ++k) EXPECT_EQ(client.ReadUntil("echo")["text"], std::to_string(k));
+  EXPECT_GE(std::chrono::steady_clock::now() - start, 900ms);
+}
+
 TEST_F(WebServerTest, MessagesAreHeardAndTooLongOnesEndTheConnection)
 {
   Start();

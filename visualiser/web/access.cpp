@@ -73,11 +73,11 @@ bool IsKnownHost(std::string_view host)
   return name == "localhost" || name == MachinesName() || inet_pton(AF_INET, name.c_str(), address.data()) == 1;
 }
 
-bool IsOwnOrigin(std::string_view origin, std::string_view host)
+bool IsOwnOrigin(std::string_view origin, std::string_view host, bool tls)
 {
   if (origin.empty()) return true;
-  constexpr std::string_view kScheme = "http://";
-  return origin.starts_with(kScheme) && Lower(origin.substr(kScheme.size())) == Lower(host);
+  const std::string_view scheme = tls ? "https://" : "http://";
+  return origin.starts_with(scheme) && Lower(origin.substr(scheme.size())) == Lower(host);
 }
 
 std::string_view PathOf(std::string_view target) { return target.substr(0, target.find('?')); }

@@ -20,8 +20,8 @@ namespace swarmanoid
 bool IsKnownHost(std::string_view host);
 
 // Whether an Origin header is that of a page from the server that the Host header names. Programs send no Origin: an
-// empty one is allowed.
-bool IsOwnOrigin(std::string_view origin, std::string_view host);
+// empty one is allowed. `tls`: whether the server is reached by https.
+bool IsOwnOrigin(std::string_view origin, std::string_view host, bool tls = false);
 
 // The part of a request's target before '?'.
 std::string_view PathOf(std::string_view target);

@@ -1,8 +1,11 @@
 // One page that looks at a WebServer: what waits for it, and how it is sent. In the server's thread.
 #pragma once
 
+#include <boost/asio/ssl/stream.hpp>
 #include <boost/beast/http.hpp>
+#include <boost/beast/ssl.hpp>
 #include <boost/beast/websocket.hpp>
+#include <boost/beast/websocket/ssl.hpp>
 #include <chrono>
 #include <utility>
 
@@ -14,7 +17,11 @@ namespace swarmanoid
 namespace http = beast::http;
 namespace websocket = beast::websocket;
 
-class WebServer::Impl::Client : public std::enable_shared_from_this<Client>
+using TlsStream = beast::ssl_stream<beast::tcp_stream>;
+
+// Stream: beast::tcp_stream or TlsStream.
+template <class Stream>
+class WebServer::Impl::ClientOver final : public Client, public std::enable_shared_from_this<ClientOver<Stream>>
 {
   using Clock = std::chrono::steady_clock;
   static constexpr std::size_t kQueueLength = 512;
@@ -22,7 +29,10 @@ class WebServer::Impl::Client : public std::enable_shared_from_this<Client>
   static constexpr int kSocketBytes = 1 << 20;
 
 public:
-  Client(Impl& server, beast::tcp_stream stream) : server_(server), stream_(std::move(stream)) {}
+  ClientOver(Impl& server, Stream stream, asio::ip::address address)
+      : server_(server), stream_(std::move(stream)), address_(std::move(address)), pace_(server.context_)
+  {
+  }
 
   void Run(http::request<http::empty_body> request)
   {
@@ -41,7 +51,7 @@ public:
     stream_.write_buffer_bytes(65536);
     stream_.read_message_max(server_.settings_.max_message_bytes);
     stream_.async_accept(request_,
-                         [self = shared_from_this()](ErrorCode error)
+                         [self = this->shared_from_this()](ErrorCode error)
                          {
                            if (error) return self->Gone();
                            self->open_ = true;
@@ -51,7 +61,7 @@ public:
                          });
   }
 
-  void Put(Slot slot, Bytes bytes)
+  void Put(Slot slot, Bytes bytes) override
   {
     if (slot == Slot::kKey) slots_[Index(Slot::kChange)] = nullptr;
     if (slot == Slot::kChange && frame_period_.count() > 0)
@@ -64,38 +74,53 @@ public:
     Write();
   }
 
-  void Queue(Bytes text)
+  void Queue(Bytes text) override
   {
     if (queue_.size() >= kQueueLength) queue_.pop_front();
     queue_.push_back(std::move(text));
     Write();
   }
 
-  void SetFramePeriod(std::chrono::milliseconds period) { frame_period_ = period; }
-  bool IsHungry() const { return open_ && !writing_ && !slots_[Index(Slot::kKey)] && !slots_[Index(Slot::kChange)]; }
+  void SetFramePeriod(std::chrono::milliseconds period) override { frame_period_ = period; }
+  bool IsHungry() const override
+  {
+    return open_ && !writing_ && !slots_[Index(Slot::kKey)] && !slots_[Index(Slot::kChange)];
+  }
 
-  // When everything is sent.
-  void Close()
+  void Close() override
   {
     closing_ = true;
     Write();
   }
-
-  std::uint64_t id = 0;
 
 private:
   void Read()
   {
     stream_.async_read(
         buffer_,
-        [self = shared_from_this()](ErrorCode error, std::size_t)
+        [self = this->shared_from_this()](ErrorCode error, std::size_t)
         {
           if (error) return self->Gone();
           const auto data = self->buffer_.cdata();
           if (self->stream_.got_text())
             self->server_.events_.Received(self->id, {static_cast<const char*>(data.data()), data.size()});
           self->buffer_.consume(self->buffer_.size());
-          self->Read();
+          self->ReadOn();
+        });
+  }
+
+  // Who sends without end is read at a pace: what is unread stays with the sender.
+  void ReadOn()
+  {
+    const auto share = std::chrono::nanoseconds(std::chrono::seconds(1)) / server_.settings_.max_messages_per_second;
+    const auto now = Clock::now();
+    read_until_ = std::max(read_until_, now) + share;
+    if (read_until_ <= now + std::chrono::seconds(1)) return Read();
+    pace_.expires_at(read_until_ - std::chrono::seconds(1));
+    pace_.async_wait(
+        [self = this->shared_from_this()](ErrorCode)
+        {
+          if (!self->gone_) self->Read();
         });
   }
 
@@ -113,7 +138,7 @@ private:
     stream_.binary(binary);
     const auto place = asio::buffer(*bytes);
     stream_.async_write(place,
-                        [self = shared_from_this(), bytes](ErrorCode error, std::size_t)
+                        [self = this->shared_from_this(), bytes](ErrorCode error, std::size_t)
                         {
                           self->writing_ = false;
                           if (error) return self->Gone();
@@ -145,7 +170,8 @@ private:
   void SendClose()
   {
     open_ = false;
-    stream_.async_close(websocket::close_code::going_away, [self = shared_from_this()](ErrorCode) { self->Gone(); });
+    stream_.async_close(websocket::close_code::going_away,
+                        [self = this->shared_from_this()](ErrorCode) { self->Gone(); });
   }
 
   void Gone()
@@ -153,14 +179,17 @@ private:
     open_ = false;
     if (gone_) return;
     gone_ = true;
-    --server_.connections_;
+    server_.Gone(address_);
     ErrorCode ignored;
     beast::get_lowest_layer(stream_).socket().close(ignored);
     if (id != 0) server_.Leave(id);
   }
 
   Impl& server_;
-  websocket::stream<beast::tcp_stream> stream_;
+  websocket::stream<Stream> stream_;
+  asio::ip::address address_;
+  asio::steady_timer pace_;  // before the next message is read
+  Clock::time_point read_until_;
   http::request<http::empty_body> request_;
   beast::flat_buffer buffer_;
   std::deque<Bytes> queue_;

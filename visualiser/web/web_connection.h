@@ -11,27 +11,64 @@
 namespace swarmanoid
 {
 
-class WebServer::Impl::Connection : public std::enable_shared_from_this<Connection>
+// Stream: beast::tcp_stream or TlsStream. With TLS, who speaks plain HTTP is sent to the other address.
+template <class Stream>
+class WebServer::Impl::ConnectionOver final : public Connection,
+                                              public std::enable_shared_from_this<ConnectionOver<Stream>>
 {
+  static constexpr bool kTls = std::is_same_v<Stream, TlsStream>;
   static constexpr auto kRequestTime = std::chrono::seconds(15);  // also between two requests
   static constexpr std::size_t kRequestBytes = 8192;
 
 public:
-  Connection(Impl& server, tcp::socket socket) : server_(server), stream_(std::move(socket)) {}
-  ~Connection()
+  ConnectionOver(Impl& server, Stream stream, const asio::ip::address& from)
+      : server_(server), stream_(std::move(stream))
+  {
+    address = from;
+  }
+  ~ConnectionOver() override
   {
     StopWaiting();
-    if (!handed_over_ && !dropped_) --server_.connections_;
+    if (!handed_over_ && !dropped_) server_.Gone(address);
   }
 
-  // While it waits for a request.
-  void Drop()
+  void Drop() override
   {
     StopWaiting();
     dropped_ = true;
-    --server_.connections_;
+    server_.Gone(address);
     ErrorCode ignored;
-    stream_.socket().close(ignored);
+    beast::get_lowest_layer(stream_).socket().close(ignored);
+  }
+
+  void Start()
+  {
+    if constexpr (kTls)
+    {
+      Wait();
+      beast::async_detect_ssl(stream_.next_layer(), buffer_,
+                              [self = this->shared_from_this()](ErrorCode error, bool tls)
+                              {
+                                if (self->dropped_ || error) return;
+                                if (tls) return self->ShakeHands();
+                                self->StopWaiting();
+                                self->handed_over_ = true;
+                                std::make_shared<ConnectionOver<beast::tcp_stream>>(
+                                    self->server_, std::move(self->stream_.next_layer()), self->address)
+                                    ->Redirect(std::move(self->buffer_));
+                              });
+    }
+    else
+    {
+      Read();
+    }
+  }
+
+  // What has been read of the first request is in the buffer.
+  void Redirect(beast::flat_buffer buffer)
+  {
+    buffer_ = std::move(buffer);
+    Read();
   }
 
   void Read()
@@ -39,10 +76,9 @@ public:
     parser_.emplace();
     parser_->header_limit(kRequestBytes);
     parser_->body_limit(0);
-    stream_.expires_after(kRequestTime);
-    place_ = server_.waiting_.insert(server_.waiting_.end(), this);
+    Wait();
     http::async_read(stream_, buffer_, *parser_,
-                     [self = shared_from_this()](ErrorCode error, std::size_t)
+                     [self = this->shared_from_this()](ErrorCode error, std::size_t)
                      {
                        self->StopWaiting();
                        if (self->dropped_) return;
@@ -55,10 +91,30 @@ public:
   }
 
 private:
+  void Wait()
+  {
+    beast::get_lowest_layer(stream_).expires_after(kRequestTime);
+    place_ = server_.waiting_.insert(server_.waiting_.end(), this);
+  }
+
   void StopWaiting()
   {
     if (place_) server_.waiting_.erase(*place_);
     place_.reset();
+  }
+
+  // Still waiting: who does not end it makes room like others.
+  void ShakeHands()
+  {
+    if constexpr (kTls)
+      stream_.async_handshake(asio::ssl::stream_base::server, buffer_.data(),
+                              [self = this->shared_from_this()](ErrorCode error, std::size_t used)
+                              {
+                                self->StopWaiting();
+                                if (self->dropped_ || error) return;
+                                self->buffer_.consume(used);
+                                self->Read();
+                              });
   }
 
   void Answer()
@@ -67,6 +123,11 @@ private:
     const std::string_view host = Field(http::field::host);
     if (!IsKnownHost(host)) return Refuse(http::status::forbidden, "this server is not known by that name");
     const std::string_view target(request.target().data(), request.target().size());
+    if (!kTls && server_.tls_)
+    {
+      location_ = "https://" + std::string(host) + std::string(target.starts_with('/') ? target : "/");
+      return Refuse(http::status::permanent_redirect, "this server speaks TLS: " + location_);
+    }
     if (websocket::is_upgrade(request)) return Upgrade(target);
     if (request.method() != http::verb::get && request.method() != http::verb::head)
       return Refuse(http::status::method_not_allowed, "only GET and HEAD are answered");
@@ -90,12 +151,12 @@ private:
   void Upgrade(std::string_view target)
   {
     if (PathOf(target) != "/stream") return Refuse(http::status::not_found, "the stream is at /stream");
-    if (!IsOwnOrigin(Field(http::field::origin), Field(http::field::host)))
+    if (!IsOwnOrigin(Field(http::field::origin), Field(http::field::host), kTls))
       return Refuse(http::status::forbidden, "a page of another site may not look");
     if (server_.clients_.size() >= server_.settings_.max_clients)
       return Refuse(http::status::service_unavailable, "as many pages look as may");
     handed_over_ = true;
-    std::make_shared<Client>(server_, std::move(stream_))->Run(parser_->release());
+    std::make_shared<ClientOver<Stream>>(server_, std::move(stream_), address)->Run(parser_->release());
   }
 
   void Refuse(http::status status, std::string_view why)
@@ -121,8 +182,12 @@ private:
     response_.set("X-Content-Type-Options", "nosniff");
     response_.set("X-Frame-Options", "DENY");
     response_.set("Referrer-Policy", "no-referrer");
+    response_.set("Cross-Origin-Opener-Policy", "same-origin");
+    response_.set("Cross-Origin-Resource-Policy", "same-origin");
+    if (!location_.empty()) response_.set(http::field::location, location_);
     response_.set("Content-Security-Policy",
-                  "default-src 'self'; img-src 'self' data: blob:; connect-src 'self' ws://" +
+                  std::string("default-src 'self'; img-src 'self' data: blob:; connect-src 'self' ") +
+                      (kTls ? "wss://" : "ws://") +
                       std::string(IsKnownHost(Field(http::field::host)) ? Field(http::field::host) : "localhost") +
                       "; frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
     if (bytes_) response_.content_length(bytes_->size());
@@ -136,12 +201,25 @@ private:
     response_.body().more = false;
     serializer_.emplace(response_);
     http::async_write(stream_, *serializer_,
-                      [self = shared_from_this(), keep](ErrorCode error, std::size_t)
+                      [self = this->shared_from_this(), keep](ErrorCode error, std::size_t)
                       {
                         if (!error && keep) return self->Read();
-                        ErrorCode ignored;
-                        self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+                        if (!error) self->SayGoodbye();
                       });
+  }
+
+  void SayGoodbye()
+  {
+    if constexpr (kTls)
+    {
+      beast::get_lowest_layer(stream_).expires_after(kRequestTime);
+      stream_.async_shutdown([self = this->shared_from_this()](ErrorCode) {});
+    }
+    else
+    {
+      ErrorCode ignored;
+      stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+    }
   }
 
   std::string_view Field(http::field field) const
@@ -151,13 +229,14 @@ private:
   }
 
   Impl& server_;
-  beast::tcp_stream stream_;
+  Stream stream_;
   beast::flat_buffer buffer_{kRequestBytes * 2};
   std::optional<http::request_parser<http::empty_body>> parser_;
   http::response<http::buffer_body> response_;
   std::optional<http::response_serializer<http::buffer_body>> serializer_;
   std::shared_ptr<const std::string> bytes_;
   std::optional<std::list<Connection*>::iterator> place_;  // among those that wait
+  std::string location_;                                   // where this request is answered
   bool handed_over_ = false;
   bool dropped_ = false;
 };

@@ -45,6 +45,23 @@ void WriteUrl(const std::string& path, const std::string& url)
   close(file);
 }
 
+bool IsOfThisMachine(const std::string& address) { return address.starts_with("127.") || address == "::1"; }
+
+// Nothing if the page is not reached by TLS.
+std::optional<Certificate> CertificateFor(const Parameters& parameters)
+{
+  const std::string address = parameters.Text("address");
+  const std::string wish = parameters.Text("tls");
+  const std::string given = parameters.Text("certificate");
+  if (wish == "off" && !given.empty()) throw std::runtime_error("web_render: a certificate is of no use with tls=off");
+  if (wish == "off" || (wish == "auto" && given.empty() && IsOfThisMachine(address))) return std::nullopt;
+  if (!given.empty()) return GivenCertificate(given);
+  const bool everywhere = address == "0.0.0.0" || address == "::";
+  std::vector<std::string> names = everywhere ? NamesOfThisMachine() : std::vector<std::string>{"localhost", address};
+  const std::filesystem::path folder = StateFolder();
+  return OwnCertificate(folder.empty() ? folder : folder / "certificate.pem", names);
+}
+
 }  // namespace
 
 CWebRender::~CWebRender() = default;
@@ -86,6 +103,9 @@ void CWebRender::Serve(const Parameters& parameters)
   settings.port = static_cast<std::uint16_t>(parameters.Integer("port"));
   settings.max_clients = static_cast<std::size_t>(parameters.Integer("clients"));
   settings.max_connections = settings.max_clients + 48;
+  settings.max_connections_of_address = settings.max_clients + 24;
+  settings.certificate = CertificateFor(parameters);
+  if (settings.certificate) fingerprint_ = settings.certificate->fingerprint;
   kept_ = std::make_unique<KeptAddress>(StateFolder(), experiment.folder + "/" + experiment.name);
   std::string token = kept_->Token();
   // A token is of one port: whoever has the one before could pass challenges on from there.
@@ -128,12 +148,18 @@ void CWebRender::Announce(const RenderSetup& setup)
   if (!file.empty()) WriteUrl((folder / file).string(), url);
   fmt::print("web_render: {}\n", url);
   std::fflush(stdout);
-  const std::string address = setup.parameters.Text("address");
-  if (address.starts_with("127.") || address == "::1") return;
+  if (!fingerprint_.empty())
+  {
+    // On standard error: standard output has the address alone.
+    fmt::print(stderr, "web_render: certificate SHA-256 {}\n", fingerprint_);
+    Log(space_->GetTick(), "web_render", "info", "certificate SHA-256 " + fingerprint_);
+    return;
+  }
+  if (IsOfThisMachine(setup.parameters.Text("address"))) return;
   const char* const warning =
       allow_control_
           ? "whoever reaches this address can look on, and whoever overhears it can steer: it is not encrypted; "
-            "an ssh tunnel to address=127.0.0.1 is"
+            "tls=on is, or an ssh tunnel to address=127.0.0.1"
           : "whoever reaches this address can look on: it is not encrypted";
   fmt::print(stderr, "web_render: warning: {}\n", warning);
   Log(space_->GetTick(), "web_render", "warning", warning);

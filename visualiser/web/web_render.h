@@ -95,6 +95,7 @@ private:
   std::vector<Request> requests_;
   std::atomic<bool> has_requests_{false};
 
+  std::string fingerprint_;             // of the certificate; empty: the page is reached without TLS
   std::string token_;                   // empty: nobody may control the run
   std::unique_ptr<Visitors> visitors_;  // of the server's thread alone
   std::unique_ptr<KeptAddress> kept_;

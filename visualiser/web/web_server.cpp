@@ -16,6 +16,16 @@ namespace
 constexpr auto kFarewellTime = std::chrono::milliseconds(400);
 constexpr std::size_t kHistoryLength = 256;
 
+asio::ssl::context ContextOf(const Certificate& certificate)
+{
+  asio::ssl::context context(asio::ssl::context::tls_server);
+  SSL_CTX_set_min_proto_version(context.native_handle(), TLS1_2_VERSION);
+  SSL_CTX_set_options(context.native_handle(), SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_COMPRESSION);
+  context.use_certificate_chain(asio::buffer(certificate.chain));
+  context.use_private_key(asio::buffer(certificate.key), asio::ssl::context::pem);
+  return context;
+}
+
 }  // namespace
 
 WebServer::Impl::Impl(const WebServerSettings& settings, PageFiles files, WebServerEvents& events)
@@ -27,6 +37,7 @@ WebServer::Impl::Impl(const WebServerSettings& settings, PageFiles files, WebSer
                              std::to_string(settings_.port) + ": " + why);
   };
   ErrorCode error;
+  if (settings_.certificate) tls_.emplace(ContextOf(*settings_.certificate));
   const asio::ip::address address = asio::ip::make_address(settings_.address, error);
   if (error) fail("that is no IP address");
   acceptor_.open(tcp::endpoint(address, settings_.port).protocol(), error);
@@ -47,8 +58,8 @@ WebServer::Impl::Impl(const WebServerSettings& settings, PageFiles files, WebSer
     else
       shown = asio::ip::address_v6::loopback();
   }
-  url_ = "http://" + (shown.is_v6() ? "[" + shown.to_string() + "]" : shown.to_string()) + ":" + std::to_string(port_) +
-         "/";
+  url_ = (tls_ ? "https://" : "http://") + (shown.is_v6() ? "[" + shown.to_string() + "]" : shown.to_string()) + ":" +
+         std::to_string(port_) + "/";
 
   Accept();
   thread_ = std::thread(
@@ -94,15 +105,43 @@ void WebServer::Impl::Accept()
               });
           return;
         }
-        // Who holds connections without asking anything makes room for others.
-        if (connections_ >= settings_.max_connections && !waiting_.empty()) waiting_.front()->Drop();
-        if (connections_ < settings_.max_connections)
-        {
-          ++connections_;
-          std::make_shared<Connection>(*this, std::move(socket))->Read();
-        }
+        Welcome(std::move(socket));
         Accept();
       });
+}
+
+// Who holds connections without asking anything makes room for others, and one address leaves some for others.
+void WebServer::Impl::Welcome(tcp::socket socket)
+{
+  ErrorCode error;
+  const asio::ip::address address = socket.remote_endpoint(error).address();
+  if (error) return;
+  const auto found = connections_of_.find(address);
+  const std::size_t of_address = found == connections_of_.end() ? 0 : found->second;
+  if (of_address >= settings_.max_connections_of_address && !DropWaiting(address)) return;
+  if (connections_ >= settings_.max_connections && !DropWaiting(std::nullopt)) return;
+  ++connections_;
+  ++connections_of_[address];
+  beast::tcp_stream stream(std::move(socket));
+  if (tls_)
+    std::make_shared<ConnectionOver<TlsStream>>(*this, TlsStream(std::move(stream), *tls_), address)->Start();
+  else
+    std::make_shared<ConnectionOver<beast::tcp_stream>>(*this, std::move(stream), address)->Start();
+}
+
+bool WebServer::Impl::DropWaiting(const std::optional<asio::ip::address>& address)
+{
+  const auto found = std::find_if(waiting_.begin(), waiting_.end(),
+                                  [&](const Connection* each) { return !address || each->address == *address; });
+  if (found == waiting_.end()) return false;
+  (*found)->Drop();
+  return true;
+}
+
+void WebServer::Impl::Gone(const asio::ip::address& address)
+{
+  --connections_;
+  if (--connections_of_.at(address) == 0) connections_of_.erase(address);
 }
 
 void WebServer::Impl::Join(const std::shared_ptr<Client>& client)

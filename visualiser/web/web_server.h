@@ -9,9 +9,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "visualiser/web/certificate.h"
 #include "visualiser/web/page_files.h"
 
 namespace swarmanoid
@@ -22,8 +24,12 @@ struct WebServerSettings
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;  // 0: a free one
   std::size_t max_clients = 16;
-  std::size_t max_connections = 64;       // clients, and requests for files
+  std::size_t max_connections = 64;  // clients, and requests for files
+  std::size_t max_connections_of_address = 40;
   std::size_t max_message_bytes = 65536;  // of a client; longer ones end its connection
+  // Of each client; after a burst of that many, the others wait unread.
+  std::size_t max_messages_per_second = 200;
+  std::optional<Certificate> certificate;  // with one, by TLS only
 };
 
 // What the server tells, in its own thread.
@@ -61,7 +67,7 @@ public:
   WebServer& operator=(const WebServer&) = delete;
 
   std::uint16_t Port() const;
-  // "http://127.0.0.1:8080/"
+  // "http://127.0.0.1:8080/", or with a certificate "https://…"
   std::string Url() const;
   std::size_t Clients() const;
   // Clients that have taken their last state: without any, a new one would be made for nobody.

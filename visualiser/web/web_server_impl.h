@@ -5,6 +5,7 @@
 #include <atomic>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/ssl/context.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <deque>
@@ -12,6 +13,7 @@
 #include <list>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -32,14 +34,44 @@ constexpr std::size_t Index(WebServer::Slot slot) { return static_cast<std::size
 class WebServer::Impl
 {
 public:
-  class Client;
-  class Connection;
+  // One page that looks.
+  class Client
+  {
+  public:
+    virtual ~Client() = default;
+    virtual void Put(Slot slot, Bytes bytes) = 0;
+    virtual void Queue(Bytes text) = 0;
+    virtual void SetFramePeriod(std::chrono::milliseconds period) = 0;
+    virtual bool IsHungry() const = 0;
+    // When everything is sent.
+    virtual void Close() = 0;
+
+    std::uint64_t id = 0;
+  };
+  // One connection that has not become a client.
+  class Connection
+  {
+  public:
+    virtual ~Connection() = default;
+    // While it waits for a request.
+    virtual void Drop() = 0;
+
+    asio::ip::address address;
+  };
+  template <class Stream>
+  class ClientOver;
+  template <class Stream>
+  class ConnectionOver;
 
   Impl(const WebServerSettings& settings, PageFiles files, WebServerEvents& events);
   ~Impl();
 
   void Post(std::function<void()> work) { asio::post(context_, std::move(work)); }
   void Accept();
+  void Welcome(tcp::socket socket);
+  // The longest that has waited, of an address or of any; false if nobody waits.
+  bool DropWaiting(const std::optional<asio::ip::address>& address);
+  void Gone(const asio::ip::address& address);
   void Join(const std::shared_ptr<Client>& client);
   void Leave(std::uint64_t client);
   void Count();
@@ -50,8 +82,10 @@ public:
   PageFiles files_;
   WebServerEvents& events_;
   std::size_t connections_ = 0;
+  std::map<asio::ip::address, std::size_t> connections_of_;
   std::list<Connection*> waiting_;  // for a request, the longest first
   asio::io_context context_{1};
+  std::optional<asio::ssl::context> tls_;
   tcp::acceptor acceptor_{context_};
   asio::steady_timer pause_{context_};  // before the next accept, after a failed one
   std::uint16_t port_ = 0;
