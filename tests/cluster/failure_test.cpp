@@ -27,8 +27,8 @@ TEST_F(ClusterTest, AKilledWorkerEndsTheRunWithinTheLeaseAndIsNamed)
   const auto killed = std::chrono::steady_clock::now();
   workers[1].Signal(SIGKILL);
   EXPECT_EQ(server.Wait(), 6);
-  // A lease is a second; the rest is for a busy machine.
-  EXPECT_LT(std::chrono::steady_clock::now() - killed, 10s);
+  // A lease is 5 s; the rest is for a busy machine.
+  EXPECT_LT(std::chrono::steady_clock::now() - killed, 40s);
   EXPECT_THAT(server.Output(), HasSubstr(fmt::format("engine 'e1' does not answer any more (process {}:{}",
                                                      MachineName(), workers[1].Id())));
   EXPECT_EQ(workers[0].Wait(), 6);
@@ -47,7 +47,7 @@ TEST_F(ClusterTest, WorkersEndWhenTheServerIsKilled)
   }
   for (ChildProcess& worker : workers)
   {
-    EXPECT_EQ(worker.Wait(), 6);
+    EXPECT_EQ(worker.Wait(), 8);
     EXPECT_THAT(worker.Output(), HasSubstr("the space server has gone"));
   }
   ExpectNothingLeft();

@@ -302,8 +302,8 @@ TEST(Bus, NamesAProcessThatWasKilledWithinASecond)
       }));
   const std::lock_guard lock(mutex);
   EXPECT_EQ(gone, fmt::format("{}:{} engine 'ground' true", MachineName(), child));
-  // Its lease is a second; the rest is for a busy machine.
-  EXPECT_LT(when - killed, 10s);
+  // Its lease is 5 s; the rest is for a busy machine.
+  EXPECT_LT(when - killed, 40s);
 }
 
 TEST(Bus, RefusesInterfacesThatDoNotExistByName)
