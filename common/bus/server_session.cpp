@@ -44,8 +44,7 @@ ServerSession::ServerSession(const BusOptions& options, WorldMessage world, std:
       expected_(std::move(expected)),
       callbacks_(std::move(callbacks)),
       key_(KeyOfRun(options)),
-      directory_((RemoveDeadRuns(), RefuseSecondServer(world_.experiment, options.domain), world_.experiment),
-                 world_.run),
+      directory_((RefuseSecondServer(world_.experiment, options.domain), world_.experiment), world_.run),
       bus_(WithKey(options, key_), "space server")
 {
   for (const std::string& name : expected_) state_.Lock()->members[name];
