@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "common/activity/print_error.h"
+
 namespace swarmanoid
 {
 
@@ -160,7 +162,7 @@ void ServerSession::Joined(const JoinMessage& join)
 
 void ServerSession::Refuse(const JoinMessage& join, const std::string& reason)
 {
-  fmt::print(stderr, "space server: refused: {}\n", reason);
+  PrintError("space server: refused: {}\n", reason);
   leave_->Write({join.run, 0, "space server", join.process, reason});
 }
 
