@@ -10,6 +10,7 @@
 
 #include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
+#include "common/activity/print_error.h"
 #include "common/bus/domain.h"
 #include "common/bus/replica.h"
 #include "common/bus/run_directory.h"
@@ -33,8 +34,8 @@ namespace
 void Complain(const ClusterOutcome& outcome)
 {
   if (outcome.reason.empty()) return;
-  fmt::print(stderr, "{}\n", outcome.reason);
-  for (const std::string& line : outcome.log_lines) fmt::print(stderr, "  | {}\n", line);
+  PrintError("{}\n", outcome.reason);
+  for (const std::string& line : outcome.log_lines) PrintError("  | {}\n", line);
 }
 
 RunResult ResultOf(const ClusterOutcome& outcome)
@@ -114,7 +115,7 @@ void Isolate(const RunSettings& options, const Experiment& experiment, const Hos
   RemoveDeadRuns();
   Complain(outcome);
   if (const std::string activity = CurrentActivity(); !activity.empty())
-    fmt::print(stderr, "{} does not return: this process ends without it\n", activity);
+    PrintError("{} does not return: this process ends without it\n", activity);
   LeaveAtOnce(conclude(ResultOf(outcome)));
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "common/activity/exit_codes.h"
+#include "common/activity/print_error.h"
 #include "common/checkpoint/checkpoint.h"
 #include "common/checkpoint/library_builds.h"
 #include "common/math/reproducible_math.h"
@@ -41,10 +42,10 @@ void ReadCheckpointOf(const RunSettings& options, const Experiment& experiment)
       ReadCheckpoint(options.restore_file, experiment, {options.controller_hosts, options.any_build});
   const std::string difference = DifferenceOfBuilds(checkpoint.origin.libraries, LibraryBuildsOf(experiment));
   if (!difference.empty())
-    fmt::print(stderr,
-               "swarmanoid: warning: the checkpoint was taken with another build of {}: what it saved may mean "
-               "something else to this one, and the run need not have the bits of one that was never interrupted\n",
-               difference);
+    PrintError(
+        "swarmanoid: warning: the checkpoint was taken with another build of {}: what it saved may mean "
+        "something else to this one, and the run need not have the bits of one that was never interrupted\n",
+        difference);
 }
 
 // Before the folder of the run is made and processes are started.
@@ -71,8 +72,7 @@ int Conclude(const RunSettings& options, const RunResult& result, const RunFolde
   if (result.summary && !options.expected_hash.empty() && exit_code == kExitDone &&
       result.summary->hash != std::stoull(options.expected_hash, nullptr, 16))
   {
-    fmt::print(stderr, "the hash differs: expected {:0>16}, got {:016x}\n", options.expected_hash,
-               result.summary->hash);
+    PrintError("the hash differs: expected {:0>16}, got {:016x}\n", options.expected_hash, result.summary->hash);
     exit_code = kExitHashDiffers;
   }
 
@@ -92,7 +92,7 @@ int Conclude(const RunSettings& options, const RunResult& result, const RunFolde
   }
   catch (const RunFolderError& error)
   {
-    fmt::print(stderr, "swarmanoid: {}\n", error.what());
+    PrintError("swarmanoid: {}\n", error.what());
     if (exit_code == kExitDone) exit_code = kExitProcessFailed;
   }
   if (result.summary) fmt::print("{}\n", FinishedLine(*result.summary));
@@ -109,7 +109,7 @@ bool EventsAreGood(const std::string& file, const Experiment& experiment)
   }
   catch (const ConfigurationError& error)
   {
-    fmt::print(stderr, "{}\n", error.what());
+    PrintError("{}\n", error.what());
     return false;
   }
 }
@@ -147,10 +147,10 @@ int RunExperiment(const RunSettings& asked, const WatchFunction& watch)
   if (WantsOneProcess(asked, *experiment))
   {
     options.single_process = true;
-    fmt::print(stderr,
-               "{}: note: it has loop functions, so it runs in one process; `swarmanoid convert` makes an experiment "
-               "that runs as a cluster if they reach into no controller\n",
-               asked.file);
+    PrintError(
+        "{}: note: it has loop functions, so it runs in one process; `swarmanoid convert` makes an experiment "
+        "that runs as a cluster if they reach into no controller\n",
+        asked.file);
   }
   RefuseBadCheckpoints(options, *experiment);
   if (!options.events.empty() && !EventsAreGood(options.events, *experiment)) return kExitInvalidFile;

@@ -8,6 +8,7 @@
 #include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
 #include "common/activity/limits.h"
+#include "common/activity/print_error.h"
 #include "common/logging/log.h"
 #include "common/program/interrupts.h"
 #include "common/program/usage_error.h"
@@ -21,7 +22,7 @@ void ApplyLimitsHere(const RunSettings& options)
   std::function<void(const std::string&, double)> stalled;
   if (!options.quiet)
     stalled = [](const std::string& activity, double seconds)
-    { fmt::print(stderr, "waiting since {} for {}\n", DurationText(seconds), activity); };
+    { PrintError("waiting since {} for {}\n", DurationText(seconds), activity); };
   ApplyLimits(LimitsOf(options), stalled);
 }
 
@@ -78,7 +79,7 @@ RunResult RunHere(const RunSettings& options, const Experiment& experiment, cons
     result.failure = error.what();
   }
   display.Clear();
-  if (!result.failure.empty()) fmt::print(stderr, "{}\n", result.failure);
+  if (!result.failure.empty()) PrintError("{}\n", result.failure);
   return result;
 }
 

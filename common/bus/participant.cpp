@@ -23,7 +23,9 @@
 
 #include <fmt/format.h>
 
+#include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
+#include "common/activity/print_error.h"
 #include "common/bus/cluster_options.h"
 #include "common/bus/shown_text.h"
 #include "common/logging/log.h"
@@ -128,7 +130,7 @@ std::vector<std::string> InterfaceAddresses(const std::string& wanted)
 std::atomic<bool> broken = false;
 
 // A thread of the bus that waits for a lock of a dead process gets an exception that nobody catches. It is put to
-// sleep; the lease of the dead process tells the main thread who it was.
+// sleep; the lease of the dead process tells the main thread who it was. The main thread itself would sleep for ever.
 void SleepInsteadOfTerminate()
 {
   if (!std::current_exception()) DieOf("called std::terminate");
@@ -136,6 +138,7 @@ void SleepInsteadOfTerminate()
   if (text.find("Interprocess") != std::string::npos)
   {
     MarkBroken();
+    if (gettid() == getpid()) EndAtOnce(kExitStuck);
     while (true) pause();
   }
   DieOf("ended by an exception that nobody caught: " + text);
@@ -265,8 +268,7 @@ Bus::Impl::~Impl()
 {
   participant->set_listener(nullptr);
   for (const auto& [of, count] : dropped_of)
-    if (count > 1)
-      fmt::print(stderr, "{}: dropped {} bad {} messages of {} in all\n", own_name, count, of.second, of.first);
+    if (count > 1) PrintError("{}: dropped {} bad {} messages of {} in all\n", own_name, count, of.second, of.first);
   for (const auto& [name, topic] : topics) participant->delete_topic(topic);
   dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
 }
@@ -348,7 +350,7 @@ bool Bus::Impl::Drop(const BadMessageReport& report)
   ++dropped;
   if (dropped_of.size() >= kSendersTold && dropped_of.count({report.sender, report.topic}) == 0) return false;
   if (++dropped_of[{report.sender, report.topic}] != 1) return false;
-  fmt::print(stderr, "{}: dropped a bad {} message of {}: {}; further ones are counted only\n", own_name, report.topic,
+  PrintError("{}: dropped a bad {} message of {}: {}; further ones are counted only\n", own_name, report.topic,
              report.sender, report.what);
   return true;
 }

@@ -201,6 +201,16 @@ void RemoveSharedFolderIfEmpty()
   if (OpenSharedFolder()) rmdir(SharedFolder().c_str());
 }
 
+// With a FolderLock.
+void RemoveDeadRunsOf(int shared)
+{
+  for (const std::string& name : NamesIn(shared))
+  {
+    const Descriptor folder = OpenOwnFolder(shared, name);
+    if (folder && IsRun(*folder) && !HasLiveProcess(*folder)) RemoveRun(shared, name);
+  }
+}
+
 std::string FileName(const std::string& experiment, std::uint64_t run)
 {
   std::string name;
@@ -237,6 +247,8 @@ RunDirectory::RunDirectory(const std::string& experiment, std::uint64_t run)
 {
   const FolderLock lock;
   const Descriptor shared = MakeOwnFolder(AT_FDCWD, SharedFolder(), SharedFolder(), kSharedVariable);
+  // On a machine that others start workers on, nobody else would.
+  RemoveDeadRunsOf(*shared);
   name_ = FileName(experiment, run);
   path_ = SharedFolder() + "/" + name_;
   const Descriptor folder = MakeOwnFolder(*shared, name_, path_, kSharedVariable);
@@ -311,11 +323,7 @@ void RemoveDeadRuns()
   const FolderLock lock;
   const Descriptor shared = OpenSharedFolder();
   if (!shared) return;
-  for (const std::string& name : NamesIn(*shared))
-  {
-    const Descriptor folder = OpenOwnFolder(*shared, name);
-    if (folder && IsRun(*folder) && !HasLiveProcess(*folder)) RemoveRun(*shared, name);
-  }
+  RemoveDeadRunsOf(*shared);
   RemoveSharedFolderIfEmpty();
 }
 

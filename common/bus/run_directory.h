@@ -27,7 +27,7 @@ std::string LockFolder();
 class RunDirectory
 {
 public:
-  // Joins the run, creating its folder if needed. Throws BusError.
+  // Joins the run, creating its folder if needed, and removes what dead runs left. Throws BusError.
   RunDirectory(const std::string& experiment, std::uint64_t run);
   // Leaves the run; the server, or else the last process of it on this machine, removes the folder.
   ~RunDirectory() { Leave(); }

@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "common/activity/print_error.h"
+
 namespace swarmanoid
 {
 
@@ -44,8 +46,7 @@ ServerSession::ServerSession(const BusOptions& options, WorldMessage world, std:
       expected_(std::move(expected)),
       callbacks_(std::move(callbacks)),
       key_(KeyOfRun(options)),
-      directory_((RemoveDeadRuns(), RefuseSecondServer(world_.experiment, options.domain), world_.experiment),
-                 world_.run),
+      directory_((RefuseSecondServer(world_.experiment, options.domain), world_.experiment), world_.run),
       bus_(WithKey(options, key_), "space server")
 {
   for (const std::string& name : expected_) state_.Lock()->members[name];
@@ -161,7 +162,7 @@ void ServerSession::Joined(const JoinMessage& join)
 
 void ServerSession::Refuse(const JoinMessage& join, const std::string& reason)
 {
-  fmt::print(stderr, "space server: refused: {}\n", reason);
+  PrintError("space server: refused: {}\n", reason);
   leave_->Write({join.run, 0, "space server", join.process, reason});
 }
 

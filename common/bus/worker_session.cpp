@@ -10,6 +10,7 @@
 
 #include "common/activity/exit_codes.h"
 #include "common/activity/memory_limit.h"
+#include "common/activity/print_error.h"
 #include "common/bus/library_check.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/program/interrupts.h"
@@ -222,7 +223,7 @@ bool WorkerSession::ServerIsOnThisMachine() const
   return world_.host == MachineName() && IsAlive(static_cast<pid_t>(world_.pid));
 }
 
-void WorkerSession::Say(const std::string& text) const { fmt::print(stderr, "{}: {}\n", name_, text); }
+void WorkerSession::Say(const std::string& text) const { PrintError("{}: {}\n", name_, text); }
 
 void WorkerSession::WaitUntil(const std::function<bool()>& met, const std::function<std::string()>& what)
 {

@@ -10,6 +10,7 @@
 
 #include "common/activity/failure_report.h"
 #include "common/activity/limits.h"
+#include "common/activity/print_error.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/program/colour.h"
 #include "common/program/command_line_complaint.h"
@@ -27,7 +28,7 @@ std::string terminating_program;
 
 void Complain(const std::string& program, std::string_view what)
 {
-  fmt::print(stderr, "{}: {}\n", Coloured(STDERR_FILENO, Colour::kRed, program), what);
+  PrintError("{}: {}\n", Coloured(STDERR_FILENO, Colour::kRed, program), what);
 }
 
 // What the exception being handled says, and the exit code that it means.
@@ -47,7 +48,7 @@ int Report(const std::string& program)
     NoteEnd(EndReason::kInvalid, 0, error.what(), true);
     // If there is a file, its place comes first, as editors expect it.
     if (error.Location().file)
-      fmt::print(stderr, "{}\n", error.what());
+      PrintError("{}\n", error.what());
     else
       Complain(program, error.what());
     return kExitInvalidFile;
@@ -77,7 +78,7 @@ std::string VersionText(const std::string& program)
   if (std::current_exception())
     code = Report(terminating_program);
   else
-    fmt::print(stderr, "{}: std::terminate was called\n", terminating_program);
+    PrintError("{}: std::terminate was called\n", terminating_program);
   LeaveAtOnce(code == kExitInterrupted ? code : kExitProcessFailed);
 }
 

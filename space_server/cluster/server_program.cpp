@@ -7,6 +7,7 @@
 #include <random>
 
 #include "common/activity/exit_codes.h"
+#include "common/activity/print_error.h"
 #include "common/checkpoint/library_builds.h"
 #include "common/journal/journal_reader.h"
 #include "common/run/run_summary.h"
@@ -131,7 +132,7 @@ int ServerProgram::Run()
     // Who looks on waits for the server that takes the place of one that is stuck.
     if (!stuck_ || !options_.awaits_replacements) session_.Leave(lockstep_.Tick(), error.what());
     // Within another program, that one says it.
-    if (options_.abandon == nullptr) fmt::print(stderr, "space_server: {}\n", error.what());
+    if (options_.abandon == nullptr) PrintError("space_server: {}\n", error.what());
     status_.Publish(ServerError{error.what()});
     session_.LeaveDirectory();
     failed_ = true;
@@ -287,7 +288,7 @@ void ServerProgram::HelpReplacements()
 
 void ServerProgram::Say(const std::string& text) const
 {
-  if (!status_.IsOpen()) fmt::print(stderr, "space server: {}\n", text);
+  if (!status_.IsOpen()) PrintError("space server: {}\n", text);
 }
 
 void ServerProgram::Collect()

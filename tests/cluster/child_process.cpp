@@ -5,12 +5,18 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
+
+#include "tests/eventually.h"
 
 namespace swarmanoid
 {
@@ -64,6 +70,21 @@ int ChildProcess::Wait(double seconds)
 }
 
 void ChildProcess::Signal(int signal) const { kill(id_, signal); }
+
+bool ChildProcess::StopAsleep() const
+{
+  const auto sleeps = [](const std::filesystem::directory_entry& thread)
+  {
+    std::string state;
+    std::getline(std::ifstream(thread.path() / "stat"), state);
+    return state.find(") S ") != std::string::npos;
+  };
+  const auto all_sleep = [&]
+  { return std::ranges::all_of(std::filesystem::directory_iterator(fmt::format("/proc/{}/task", id_)), sleeps); };
+  if (!test::Eventually(all_sleep)) return false;
+  Signal(SIGSTOP);
+  return true;
+}
 
 std::string ChildProcess::Output() const
 {

@@ -24,6 +24,8 @@ public:
   // The exit code; -1 if the process still runs after that time, 128 + signal if a signal ended it.
   int Wait(double seconds = kGenerous_s);
   void Signal(int signal) const;
+  // Stops it, by SIGSTOP, while all its threads sleep: of a paused run it then holds no lock. False if they never do.
+  bool StopAsleep() const;
   bool Running() { return Wait(0) < 0; }
   pid_t Id() const { return id_; }
   // What it wrote so far, standard output and error together.

@@ -72,7 +72,7 @@ TEST_F(ClusterTest, AStoppedWorkerIsNamedAfterTwoSecondsAndTheRunGoesOnWhenItDoe
   ChildProcess engine = Start("engine_worker", {"--experiment", "stalled", "--engine", "e0", "--lease", "30"});
   ChildProcess host = Start("controller_host", {"--experiment", "stalled", "--lease", "30"});
   ASSERT_TRUE(server.WaitForOutput("paused at tick 0")) << server.Output();
-  host.Signal(SIGSTOP);
+  ASSERT_TRUE(host.StopAsleep());
   BusOptions options;
   options.domain = domain_.Id();
   Bus bus(options, "test");

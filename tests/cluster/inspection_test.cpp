@@ -60,13 +60,12 @@ protected:
     file_ = WriteExperiment("inspected", 1, ticks);
     std::vector<std::string> all = options;
     all.insert(all.end(), {"--hash-log", folder_ + "/hashes.txt", "--controller-hosts", std::to_string(hosts)});
+    // Processes that are stopped, or get no core, are to be late, not dead.
+    options_ = {"--lease", "60"};
     server_.emplace(StartServer(file_, all));
-    workers_.push_back(StartEngine("inspected", 0));
-    // Stopped processes are to be late, not dead.
-    for (int host = 0; host < hosts; ++host)
-      workers_.push_back(
-          Start("controller_host", {"--host", std::to_string(host), "--experiment", "inspected", "--lease", "60"}));
+    workers_ = StartWorkers("inspected", 1, hosts);
     BusOptions bus;
+    bus.lease_s = 60;
     bus.domain = domain_.Id();
     bus_.emplace(bus, "test");
     client_.emplace(*bus_, "inspected");
@@ -76,7 +75,7 @@ protected:
 
   ControlReplyMessage Ask(const std::string& verb, const std::vector<double>& numbers = {})
   {
-    const auto reply = client_->Ask(verb, "", numbers, 20);
+    const auto reply = client_->Ask(verb, "", numbers, kGenerous_s);
     EXPECT_TRUE(reply.has_value()) << verb << "\n" << server_->Output();
     return reply.value_or(ControlReplyMessage{});
   }
@@ -139,12 +138,14 @@ TEST_F(InspectionTest, TheRunTellsItsPhasePaceAndProcesses)
 
 TEST_F(InspectionTest, AProcessThatIsLateIsNamed)
 {
-  // Slowly, so that the host is stopped while it waits for its tick and not within the memory that all share.
-  Begin(0, 2, {"--lease", "60", "--real-time", "5"});
+  // Paused, it holds no lock of the memory that it shares with the others when it is stopped.
+  Begin(0, 2, {"--paused", "--real-time", "5"});
   Latest<RunStatusMessage> status(*bus_, "inspected");
-  ASSERT_TRUE(Eventually([&] { return status.Get() && status.Get()->status.tick > 20; }));
+  ASSERT_EQ(Ask("step", {20}).tick, 20U);
   ChildProcess& host = workers_.back();
-  host.Signal(SIGSTOP);
+  ASSERT_TRUE(host.StopAsleep());
+  Ask("resume");
+  ASSERT_TRUE(Eventually([&] { return status.Get().has_value(); }));
   const auto late = [&]
   {
     std::vector<std::string> names;

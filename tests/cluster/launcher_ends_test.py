@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from harness import AT_ONCE_S, CONFIGS, GENEROUS_S, LauncherTest, main
+from harness import AT_ONCE_S, CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, main
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 
@@ -127,6 +127,17 @@ class Interrupts(LauncherTest):
         run.process.stdout = None
         self.assertEqual(run.wait(GENEROUS_S), 130, run.stderr)
         self.assert_nothing_left(run)
+
+    def test_errors_that_nobody_reads_are_kept_in_the_manifest(self):
+        # A terminal that is gone, or a log on a full disk: each write fails.
+        experiment = self.write_faulty("step_throws", 5)
+        for output, options in (("cluster", ["--quiet"]), ("one", ["--single-process"])):
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([SWARMANOID, "run", experiment, "--output", output, *options], cwd=self.folder,
+                                      stdout=subprocess.DEVNULL, stderr=full, check=False)
+            manifest = json.loads((self.folder / output / "manifest.json").read_text())
+            self.assertEqual((done.returncode, manifest["exit_code"]), (4, 4), options)
+            self.assertIn("cannot go on", manifest["failure"])
 
 
 class Folders(LauncherTest):

@@ -25,10 +25,20 @@ TICKS = 40
 OF_SANITIZERS = " ".join(f'"{name}={os.environ[name]}"' for name in ("ASAN_OPTIONS", "TSAN_OPTIONS") if name in os.environ)
 
 
+PROGRAMS = ("space_server", "engine_worker", "controller_host", "visualiser")
+
+
 def free_port():
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         return probe.getsockname()[1]
+
+
+def environment_of(pid):
+    try:
+        return pathlib.Path(f"/proc/{pid}/environ").read_bytes().split(b"\0")
+    except OSError:
+        return []
 
 
 def make_key(file):
@@ -146,10 +156,17 @@ class Ssh(LauncherTest):
         self.wait_for_tick(hashes, 3, run)
         return run
 
+    def programs_left(self):
+        """Of the runs of this test, on any machine. The sshd of a connection that broke goes before the program that it started."""
+        ours = f"SWARMANOID_SHARED_FOLDER={self.shared}".encode()
+        return [pid for pid in map(int, filter(str.isdigit, os.listdir("/proc")))
+                if os.path.basename((words_of(pid) or [""])[0]) in PROGRAMS and ours in environment_of(pid)]
+
     def assert_machines_empty(self):
         """No program that was started by ssh runs any more; what was told to end needs a moment."""
         for machine in self.machines.values():
             self.wait_until(f"{machine.name} to be empty", lambda: not machine.descendants())
+        self.wait_until("the programs to end", lambda: not self.programs_left())
 
     def assert_failed(self, run, *texts):
         self.assertEqual(run.process.returncode, 4, run.stderr)
@@ -196,6 +213,28 @@ class Ssh(LauncherTest):
         run = self.endless()
         os.kill(self.alpha.find("engine_worker"), signal.SIGKILL)
         run.wait()
+        self.assert_failed(run, "^engine 'ground' ", "on alpha")
+
+    def test_who_ends_after_the_launcher_leaves_nothing(self):
+        # The program of beta stands still from before its connection is gone until the launcher is.
+        programs = self.folder / "slow"
+        programs.mkdir()
+        (programs / "engine_worker").symlink_to(BUILD / "bin" / "engine_worker")
+        slow = programs / "controller_host"
+        held = self.folder / "held"
+        held.touch()
+        slow.write_text(f"#!/bin/sh\nexec 3<&0\ntrap 'while [ -e {held} ]; do sleep 0.05; done; kill -CONT $host' HUP\n"
+                        f"{BUILD}/bin/controller_host \"$@\" <&3 &\nhost=$!\nwait $host\nwait $host\n")
+        slow.chmod(0o755)
+        run = self.endless("engine = alpha", "controller_host = beta", f"program_folder = {programs}")
+        host = self.beta.find("controller_host")
+        os.kill(host, signal.SIGSTOP)
+        os.kill(self.alpha.find("engine_worker"), signal.SIGKILL)
+        run.wait()
+        self.wait_until("the connection to be gone", lambda: not self.beta.descendants())
+        self.assertIn(host, self.programs_left())
+        self.assertNotEqual(self.memory() - self.memory_before, set())
+        held.unlink()
         self.assert_failed(run, "^engine 'ground' ", "on alpha")
 
     def test_a_broken_connection_is_named(self):

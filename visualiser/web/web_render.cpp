@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "common/activity/print_error.h"
 #include "visualiser/renderer_library.h"
 
 namespace swarmanoid
@@ -161,7 +162,7 @@ void CWebRender::Announce(const RenderSetup& setup)
           ? "whoever reaches this address can look on, and whoever overhears it can steer: it is not encrypted; "
             "tls=on is, or an ssh tunnel to address=127.0.0.1"
           : "whoever reaches this address can look on: it is not encrypted";
-  fmt::print(stderr, "web_render: warning: {}\n", warning);
+  PrintError("web_render: warning: {}\n", warning);
   Log(space_->GetTick(), "web_render", "warning", warning);
 }
 

@@ -1,5 +1,7 @@
 // How a worker leaves the run: it stays until the server has answered its Leave, however long that takes, and the
 // server never reports a process that has left as dead.
+#include <fcntl.h>
+
 #include <fastrtps/attributes/LibrarySettingsAttributes.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
@@ -150,6 +152,46 @@ TEST_F(Leaving, IsReadBeforeTheProcessIsMissed)
       }));
   EXPECT_EQ(session.Failure().value_or("none"), "none");
   EXPECT_EQ(session.FirstLeft(), "engine 'ground'");
+}
+
+// On another machine, after the connection by ssh has broken. An exception would take endpoints down that may wait for
+// a dead process for ever.
+TEST_F(Leaving, GivesUpInOrderIfNobodyReadsItsErrors)
+{
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto give_up = [this]
+  {
+    Bus server(options_, "space server");
+    Publisher<WorldMessage> worlds(server, "leaving");
+    worlds.Write(world_);
+    WorkerSession session(options_, "leaving", "engine 'ground'");
+    const std::jthread answering(
+        [&](const std::stop_token& stop)
+        {
+          Publisher<LeaveMessage> answers(server, "leaving");
+          while (!stop.stop_requested())
+          {
+            answers.Write({world_.run, 0, "space server", ProcessId(), ""});
+            std::this_thread::sleep_for(10ms);
+          }
+        });
+    dup2(open("/dev/full", O_WRONLY), STDERR_FILENO);
+    session.Fail(3, "out of paper");
+    session.Work([&] { session.Wait(10ms, [] { return std::nullopt; }); });
+  };
+  EXPECT_EXIT(give_up(), testing::ExitedWithCode(kExitProcessFailed), "");
+}
+
+// It waits for a lock of a dead process, and nobody else is there who could tell of it.
+TEST_F(Leaving, EndsIfTheMainThreadIsStuck)
+{
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto stuck = [this]() noexcept
+  {
+    const Bus bus(options_, "engine 'ground'");
+    std::rethrow_exception(std::make_exception_ptr(std::runtime_error("Interprocess lock")));
+  };
+  EXPECT_EXIT(stuck(), testing::ExitedWithCode(kExitStuck), "");
 }
 
 TEST_F(Leaving, WithoutAWordIsAFailure)

@@ -33,6 +33,33 @@ protected:
     unsetenv("SWARMANOID_SHARED_FOLDER");
   }
 
+  // The folder of a run whose only process, its server, was killed.
+  std::string KilledRun() const
+  {
+    int ready[2];
+    EXPECT_EQ(pipe(ready), 0);
+    const pid_t child = fork();
+    if (child == 0)
+    {
+      RunDirectory directory("killed", 1);
+      directory.Announce("killed", 3, std::nullopt);
+      if (write(ready[1], "r", 1) != 1) _exit(1);
+      pause();
+      _exit(0);
+    }
+    char byte = 0;
+    EXPECT_EQ(read(ready[0], &byte, 1), 1);
+    EXPECT_EQ(FindLocalRuns().size(), 1U);
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    EXPECT_TRUE(FindLocalRuns().empty());
+    close(ready[0]);
+    close(ready[1]);
+    const std::string left = folder_ + "/killed-0000000000000001";
+    EXPECT_TRUE(fs::exists(left));
+    return left;
+  }
+
   std::string folder_;
 };
 
@@ -55,28 +82,30 @@ TEST_F(RunDirectoryTest, IsFoundWhileItsServerLivesAndGoneAfterwards)
   EXPECT_FALSE(fs::exists(path));
 }
 
-TEST_F(RunDirectoryTest, WhatAKilledProcessLeftIsRemovedByTheNext)
+TEST_F(RunDirectoryTest, WhatAKilledProcessLeftIsRemovedWhenAsked)
 {
-  int ready[2];
-  ASSERT_EQ(pipe(ready), 0);
-  const pid_t child = fork();
-  if (child == 0)
-  {
-    RunDirectory directory("killed", 1);
-    directory.Announce("killed", 3, std::nullopt);
-    if (write(ready[1], "r", 1) != 1) _exit(1);
-    pause();
-    _exit(0);
-  }
-  char byte = 0;
-  ASSERT_EQ(read(ready[0], &byte, 1), 1);
-  EXPECT_EQ(FindLocalRuns().size(), 1U);
-  kill(child, SIGKILL);
-  waitpid(child, nullptr, 0);
-  EXPECT_TRUE(FindLocalRuns().empty());
-  EXPECT_TRUE(fs::exists(folder_ + "/killed-0000000000000001"));
+  const std::string left = KilledRun();
   RemoveDeadRuns();
-  EXPECT_FALSE(fs::exists(folder_ + "/killed-0000000000000001"));
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_FALSE(fs::exists(folder_));
+}
+
+// On a machine where only workers run, by ssh, no launcher and no server ever looks.
+TEST_F(RunDirectoryTest, WhatAKilledProcessLeftIsRemovedByTheNextOfAnyRun)
+{
+  const std::string left = KilledRun();
+  const RunDirectory worker("another", 2);
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(fs::exists(worker.Path()));
+}
+
+TEST_F(RunDirectoryTest, WhoJoinsLeavesLiveRunsAlone)
+{
+  RunDirectory server("first", 1);
+  server.Announce("first", 3, std::nullopt);
+  const RunDirectory worker("another", 2);
+  EXPECT_EQ(FindLocalRuns().size(), 1U);
+  EXPECT_TRUE(fs::exists(server.Path() + "/server"));
 }
 
 TEST_F(RunDirectoryTest, WhatIsNotOursStaysWhereItIs)

@@ -1,7 +1,9 @@
 // The frame around every program: which exit code an end has. Launcher and scripts tell ends apart by it.
 #include "common/program/program.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 
@@ -34,6 +36,21 @@ TEST(Program, ItsExitCodeTellsHowItEnded)
   EXPECT_EQ(CodeOf([]() -> int { throw ConfigurationError({}, "no such engine"); }), 3);
   EXPECT_EQ(CodeOf([]() -> int { throw std::runtime_error("out of paper"); }), 4);
   EXPECT_EQ(CodeOf([]() -> int { throw 5; }), 4);
+}
+
+// As after a connection by ssh has broken: nothing that is written arrives.
+TEST(Program, EndsInOrderIfNobodyReadsItsErrors)
+{
+  const int errors = dup(STDERR_FILENO);
+  const int full = open("/dev/full", O_WRONLY);
+  ASSERT_GE(full, 0);
+  dup2(full, STDERR_FILENO);
+  int code = -1;
+  EXPECT_NO_THROW(code = CodeOf([]() -> int { throw std::runtime_error("out of paper"); }));
+  dup2(errors, STDERR_FILENO);
+  close(errors);
+  close(full);
+  EXPECT_EQ(code, 4);
 }
 
 }  // namespace

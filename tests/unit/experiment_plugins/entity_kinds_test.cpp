@@ -1,4 +1,6 @@
-// The table of entity kinds: what a row must say, what follows from it, and what is refused.
+// The table of entity kinds: what a row must say, what follows from it, and what is refused. Rows stay for the rest of
+// a process: these tests have a program of their own, as those in unit/experiment name all kinds and engines that there
+// are.
 #include "common/experiment/entity_kind.h"
 
 #include <gmock/gmock.h>

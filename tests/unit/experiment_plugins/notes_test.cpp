@@ -1,4 +1,5 @@
-// What `swarmanoid check` tells beside mistakes, and start poses off a plane.
+// What `swarmanoid check` tells beside mistakes, and start poses off a plane; with engines of its own, which stay
+// registered.
 #include "common/experiment/notes.h"
 
 #include <gmock/gmock.h>
