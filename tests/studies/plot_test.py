@@ -19,6 +19,7 @@ if importlib.util.find_spec("matplotlib") is None:
     if sys.executable != "/usr/bin/python3" and os.path.exists("/usr/bin/python3"):
         os.execv("/usr/bin/python3", ["/usr/bin/python3", *sys.argv])
     sys.exit(77)
+sys.path.insert(0, str(SCRIPT.parent))
 specification = importlib.util.spec_from_file_location("plot_study", SCRIPT)
 plot_study = importlib.util.module_from_spec(specification)
 specification.loader.exec_module(plot_study)
