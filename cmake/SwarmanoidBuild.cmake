@@ -88,6 +88,8 @@ function(swarmanoid_library name)
     add_library(${name} STATIC ${ARG_SOURCES})
   else()
     add_library(${name} SHARED ${ARG_SOURCES})
+    # Names are looked up when it is loaded: each run of a study is a copy of a process, and would look up its own.
+    target_link_options(${name} PRIVATE LINKER:-z,now)
     swarmanoid_install_library(${name})
   endif()
   add_library(Swarmanoid::${name} ALIAS ${name})

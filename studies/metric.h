@@ -1,4 +1,4 @@
-// One metric of a study while a run is measured. The kinds are in metrics.cpp; Recorder owns and calls them.
+// One metric of a study while a run is measured. The kinds are in metrics_*.cpp; Recorder owns and calls them.
 #pragma once
 
 #include <cstdint>

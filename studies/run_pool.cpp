@@ -18,6 +18,8 @@
 #include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
 #include "common/activity/memory_limit.h"
+#include "common/activity/signal_stack.h"
+#include "common/checkpoint/library_builds.h"
 
 namespace swarmanoid
 {
@@ -59,6 +61,9 @@ bool ReadWhole(int socket, char* into, std::size_t count)
 
 [[noreturn]] void Work(const Study& study, const std::string& folder, int socket)
 {
+  // What each run would find out anew, it has from here.
+  EnsureSignalStack();
+  OwnBuild();
   std::uint64_t size = 0;
   while (ReadWhole(socket, reinterpret_cast<char*>(&size), sizeof size))
   {
@@ -196,7 +201,7 @@ std::vector<RunOutcome> RunPool::Wait(std::chrono::milliseconds longest)
 
 bool RunPool::Receive(Worker& worker)
 {
-  constexpr std::size_t kChunk = 1U << 20U;
+  constexpr std::size_t kChunk = 1U << 16U;  // cleared each time
   const std::size_t before = worker.received.size();
   worker.received.resize(before + kChunk);
   const ssize_t got = read(worker.socket, worker.received.data() + before, kChunk);

@@ -11,6 +11,7 @@
 #include "common/configuration/xml_reader.h"
 #include "common/experiment/diagnostics.h"
 #include "common/experiment/element_reader.h"
+#include "studies/recorder.h"
 
 namespace swarmanoid
 {
@@ -65,6 +66,8 @@ public:
     ReadSeeds(reader);
     // Names that are used in tables for something else.
     for (const char* taken : {"point", "seed", "tick", "time_s", "ticks", "exit", "hash"}) ids_[taken] = {};
+    Dimension searched;
+    is_search_ = root.Child("search").Exists();
     for (const TConfigurationTree& child : root.Children())
     {
       if (child.Name() == "set") study_.settings.push_back(ReadSet(child, StudySchema().Child("set")));
@@ -72,12 +75,18 @@ public:
       {
         Dimension dimension;
         ReadFactor(child, dimension);
-        if (!dimension.factors.empty()) study_.dimensions.push_back(std::move(dimension));
+        if (dimension.factors.empty()) continue;
+        if (dimension.factors[0].range)
+          searched.factors.push_back(std::move(dimension.factors[0]));
+        else
+          study_.dimensions.push_back(std::move(dimension));
       }
       if (child.Name() == "zip") ReadZip(child);
       if (child.Name() == "require") ReadCondition(child);
     }
+    if (!searched.factors.empty()) study_.dimensions.push_back(std::move(searched));
     ReadMetrics(root.Child("metrics"));
+    if (is_search_) ReadSearch(root.Child("search"));
     CheckConditions();
     CheckSize(root.Location());
   }
@@ -157,7 +166,10 @@ private:
       const ElementReader reader(tree, StudySchema().Child("factor"), diagnostics_);
       factor.id = ReadId(reader, "factor");
       const std::vector<std::string> paths = Words(reader.Text("path"));
-      for (std::string& value : ReadValues(tree, reader))
+      if (is_search_ && reader.IsGiven("from")) factor.range = ReadSearchRange(tree, reader);
+      if (!factor.range && reader.IsGiven("start"))
+        diagnostics_.Add(reader.Place("start"), "'start' is of a range that a <search> goes through");
+      for (std::string& value : factor.range ? EndsOf(*factor.range) : ReadValues(tree, reader))
       {
         FactorLevel level;
         for (const std::string& path : paths) level.settings.emplace_back(path, value);
@@ -235,8 +247,7 @@ private:
             fmt::format("'step' {} does not lead from {} to {} in less than {} values", step, from, to, kMostLevels));
         return {"0"};
       }
-      // One of 0.1 from 0 to 0.3 has 0.3, whatever the last bits are.
-      count = static_cast<std::size_t>(std::floor(steps * (1 + 1e-12) + 1e-9)) + 1;
+      count = static_cast<std::size_t>(StepsBetween(from, to, step)) + 1;
     }
     std::vector<std::string> values;
     for (std::size_t i = 0; i < count; ++i)
@@ -251,12 +262,88 @@ private:
     return values;
   }
 
+  SearchRange ReadSearchRange(const TConfigurationTree& tree, const ElementReader& reader)
+  {
+    SearchRange range{reader.Number("from"), reader.Number("to"), reader.Number("step"),
+                      reader.Text("scale") == "logarithmic", std::nullopt};
+    const auto fail = [&](const char* name, const std::string& message)
+    {
+      diagnostics_.Add(reader.IsGiven(name) ? reader.Place(name) : tree.Location(), message);
+      range = {0, 1, 0, false, std::nullopt};
+    };
+    if (reader.IsGiven("values") || reader.IsGiven("count"))
+      fail(reader.IsGiven("values") ? "values" : "count",
+           "a range of a <search> has 'from', 'to', and perhaps 'step'; it has no count and no values");
+    else if (!(range.from < range.to))
+      fail("to", fmt::format("the range from {} to {} of a <search> is empty", range.from, range.to));
+    else if (range.logarithmic && range.from <= 0)
+      fail("from", "a logarithmic range begins above 0");
+    else if (reader.IsGiven("step") && !(range.step > 0 && StepsBetween(range.from, range.to, range.step) >= 1))
+      fail("step", fmt::format("'step' {} does not lead from {} to another value", range.step, range.from));
+    else if (reader.IsGiven("start"))
+    {
+      range.start = reader.Number("start");
+      if (*range.start < range.from || *range.start > range.to)
+        fail("start", fmt::format("'start' {} is not in the range from {} to {}", *range.start, range.from, range.to));
+    }
+    return range;
+  }
+
+  static std::vector<std::string> EndsOf(const SearchRange& range)
+  {
+    const double last =
+        range.step > 0 ? range.from + StepsBetween(range.from, range.to, range.step) * range.step : range.to;
+    return {fmt::format("{:.12g}", range.from), fmt::format("{:.12g}", last)};
+  }
+
+  void ReadSearch(const TConfigurationTree& tree)
+  {
+    ElementReader reader(tree, StudySchema().Child("search"), diagnostics_);
+    SearchChoice search;
+    search.location = tree.Location();
+    search.column = reader.Text("metric");
+    search.maximise = reader.Text("goal") == "max";
+    search.aggregate = reader.Text("aggregate");
+    search.runs = static_cast<std::uint64_t>(reader.Integer("runs"));
+    search.algorithm = reader.Text("algorithm");
+    search.population = static_cast<std::uint64_t>(reader.Integer("population"));
+    search.tolerance = reader.Number("tolerance");
+    search.patience = static_cast<std::uint64_t>(reader.Integer("patience"));
+    search.random_seed = static_cast<std::uint64_t>(reader.Integer("random_seed"));
+    search.fresh_seeds = static_cast<std::uint64_t>(reader.Integer("fresh_seeds"));
+    CheckAggregates({search.aggregate}, reader);
+    const std::vector<std::string> columns = MetricColumns(study_);
+    if (reader.IsGood("metric") && std::find(columns.begin(), columns.end(), search.column) == columns.end())
+      reader.Fail("metric", fmt::format("the <metrics> make no column {}; they make: {}{}", Quoted(search.column),
+                                        Listed(columns), DidYouMean(search.column, columns)));
+    if (search.runs < study_.seeds.size())
+      reader.Fail("runs", fmt::format("{} runs are less than one point takes, which has {} seeds", search.runs,
+                                      study_.seeds.size()));
+    std::size_t searched = 0;
+    for (const Factor* factor : study_.Factors())
+    {
+      if (factor->range)
+        ++searched;
+      else if (factor->levels.size() > 1)
+        diagnostics_.Add(factor->location,
+                         fmt::format("a search goes through ranges of numbers, and {} has {} values: give it 'from' "
+                                     "and 'to', or one value",
+                                     Quoted(factor->id), factor->levels.size()));
+    }
+    if (searched == 0)
+      diagnostics_.Add(tree.Location(), "<search> has no <factor> with 'from' and 'to' whose best value it could find");
+    study_.search = std::move(search);
+  }
+
   void ReadZip(const TConfigurationTree& tree)
   {
     const ElementReader reader(tree, StudySchema().Child("zip"), diagnostics_);
     Dimension dimension;
     for (const TConfigurationTree& child : tree.Children())
       if (child.Name() == "factor" || child.Name() == "variants") ReadFactor(child, dimension);
+    for (const Factor& factor : dimension.factors)
+      if (factor.range)
+        diagnostics_.Add(factor.location, "a search has no <zip>: several paths of one <factor> get the same value");
     if (dimension.factors.empty())
       return diagnostics_.Add(tree.Location(), "<zip> holds no factor, so that there would be no runs");
     for (const Factor& factor : dimension.factors)
@@ -352,6 +439,7 @@ private:
   Study& study_;
   Diagnostics& diagnostics_;
   std::map<std::string, SourceLocation> ids_;
+  bool is_search_ = false;
 };
 
 LoadedStudy RefusedStudy(const ConfigurationError& error)
@@ -362,6 +450,12 @@ LoadedStudy RefusedStudy(const ConfigurationError& error)
 }
 
 }  // namespace
+
+double StepsBetween(double from, double to, double step)
+{
+  const double steps = (to - from) / step;
+  return std::floor(steps * (1 + 1e-12) + 1e-9);
+}
 
 std::vector<const Factor*> Study::Factors() const
 {

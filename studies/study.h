@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,11 +27,22 @@ struct FactorLevel
   StudySettings settings;
 };
 
+// What a search may give to a factor: numbers between two ends.
+struct SearchRange
+{
+  double from = 0;
+  double to = 0;
+  double step = 0;  // only from, from + step, from + 2 step …; 0: any number
+  bool logarithmic = false;
+  std::optional<double> start;
+};
+
 struct Factor
 {
   std::string id;
-  std::vector<FactorLevel> levels;
-  bool is_numeric = false;  // all values are numbers
+  std::vector<FactorLevel> levels;   // of one that is searched: its ends
+  std::optional<SearchRange> range;  // of one that is searched
+  bool is_numeric = false;           // all values are numbers
   SourceLocation location;
 };
 
@@ -58,6 +70,22 @@ struct MetricChoice
   SourceLocation location;
 };
 
+// <search>: which of the searched factors' values are the best.
+struct SearchChoice
+{
+  std::string column;  // of the table, at the end of the runs
+  bool maximise = true;
+  std::string aggregate;  // of a point's seeds: "mean", "q25" …
+  std::uint64_t runs = 0;
+  std::string algorithm;
+  std::uint64_t population = 0;  // 0: that of the algorithm
+  double tolerance = 0;          // of a local algorithm, as a share of the ranges
+  std::uint64_t patience = 0;    // points without a better one; 0: does not end it
+  std::uint64_t random_seed = 1;
+  std::uint64_t fresh_seeds = 0;
+  SourceLocation location;
+};
+
 struct Study
 {
   std::string name;    // that of the file, without folder and extension
@@ -74,6 +102,7 @@ struct Study
   std::vector<StudyCondition> conditions;
   std::uint64_t sample_every = 0;  // ticks; 0: at the last tick alone
   std::vector<MetricChoice> metrics;
+  std::optional<SearchChoice> search;
 
   // Of all factors, in the order of the file; so are the values of a point.
   std::vector<std::string> FactorIds() const;
@@ -90,6 +119,9 @@ struct LoadedStudy
 LoadedStudy LoadStudyFile(const std::string& path);
 // `folder`: relative paths start there.
 LoadedStudy LoadStudyText(const std::string& text, const std::string& file_name, const std::string& folder);
+
+// How many steps lead from one end of a range to the other. One of 0.1 from 0 to 0.3 has 3, whatever the last bits are.
+double StepsBetween(double from, double to, double step);
 
 // The most runs of a study.
 inline constexpr std::size_t kMostRuns = 1'000'000;

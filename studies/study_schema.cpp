@@ -2,6 +2,7 @@
 
 #include "common/experiment/reference.h"
 #include "common/experiment/schema_parts.h"
+#include "studies/optimiser.h"
 #include "studies/study.h"
 
 namespace swarmanoid
@@ -49,9 +50,10 @@ ElementSpec FactorElement()
               -1e300, 1e300),
           InRange(Optional(kNumber, "step", "", "", "From one value of a range to the next; or give count."), 0, 1e300),
           InRange(Optional(kInteger, "count", "", "", "How many values a range has."), 1, 1e6),
-          OneOf(
-              Optional(kChoice, "scale", "", "linear", "Of a range with a count: equal differences, or equal ratios."),
-              {"linear", "logarithmic"}),
+          OneOf(Optional(kChoice, "scale", "", "linear",
+                         "Of a range with a count, or one of a search: equal differences, or equal ratios."),
+                {"linear", "logarithmic"}),
+          InRange(Optional(kNumber, "start", "", "", "Where a search begins; otherwise in the middle."), -1e300, 1e300),
       });
 }
 
@@ -119,6 +121,19 @@ ElementSpec MetricsElement()
   element.children = {
       Repeated("distance", "How far each entity has come so far, along its way, in metres.", With({}, true)),
       Repeated("displacement", "How far each entity is from where it was first seen, in metres.", With({}, true)),
+      Repeated(
+          "energy",
+          "What each robot with wheels has spent so far, in joules: what it takes while it stands, and the work of "
+          "its drive against a resistance and to make it faster. Braking gives nothing back.",
+          With({InRange(Optional(kNumber, "idle", "W", "0", "Taken all the time: computer, sensors, radio."), 0, 1e6),
+                InRange(Optional(kNumber, "resistance", "N", "0",
+                                 "Against the rolling of both wheels together; so many joules a metre."),
+                        0, 1e6),
+                InRange(Optional(kNumber, "mass", "kg", "0", "That is made faster."), 0, 1e6),
+                InRange(Optional(kNumber, "efficiency", "", "1",
+                                 "How much of what the drive takes becomes work: motors, gears."),
+                        0.001, 1)},
+               true)),
       Repeated("nearest_neighbour", "The distance from each entity to the nearest other one of them, in metres.",
                With({}, true)),
       Repeated("time_to_region",
@@ -159,6 +174,37 @@ ElementSpec MetricsElement()
                With({Size(Required(kNumber, "cell", "m", "The side of a cell."))}, false)),
       Repeated("in_region", "How many entities are in a region.", With(RegionParameters(), false)),
       Repeated("trajectories", "No column: the ways of all entities, for pictures.", With({}, false)),
+  };
+  return element;
+}
+
+ElementSpec SearchElement()
+{
+  ElementSpec element;
+  element.tags = {"search"};
+  element.description =
+      "Instead of all combinations of values, those are run that lead to the best one. Factors with from and to are "
+      "searched; a step makes whole numbers, or others that far apart, of their values.";
+  element.parameters = {
+      Required(kText, "metric", "", "What is to be the best: a column of the table, at the end of the runs."),
+      OneOf(Optional(kChoice, "goal", "", "max", "Whether much of it is good, or little."), {"max", "min"}),
+      Optional(kText, "aggregate", "", "mean", "What of the seeds of a point counts: mean, median, q25, min …"),
+      InRange(Required(kInteger, "runs", "", "The most runs of the search: its points, each with all seeds."), 1,
+              static_cast<double>(kMostRuns)),
+      OneOf(Optional(kChoice, "algorithm", "", "crs",
+                     "Global: crs, isres, direct. Local: sbplx, nelder_mead, bobyqa, cobyla."),
+            SearchAlgorithms()),
+      InRange(Optional(kInteger, "population", "", "0", "Of crs and isres; 0: their own."), 0, 1e5),
+      InRange(Optional(kNumber, "tolerance", "", "0.001",
+                       "A local search ends if it moves less than this share of the ranges."),
+              0, 1),
+      InRange(Optional(kInteger, "patience", "points", "0",
+                       "The search ends if so many points in a row are no better; 0: it does not."),
+              0, 1e6),
+      InRange(Optional(kInteger, "random_seed", "", "1", "Of the algorithm's own chance."), 0, 4294967295.0),
+      InRange(Optional(kInteger, "fresh_seeds", "", "30",
+                       "The best point is run with so many seeds more, which did not choose it."),
+              0, 1e5),
   };
   return element;
 }
@@ -216,7 +262,8 @@ const ElementSpec& StudySchema()
                  {Required(kText, "condition", "",
                            "Over the ids of factors: numbers, 'texts', and, or, not, comparisons, + - * / %, "
                            "parentheses. In XML, < is written &lt;.")}),
-        MetricsElement()};
+        MetricsElement(),
+        SearchElement()};
     return root;
   }();
   return schema;

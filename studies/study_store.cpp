@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 
 #include "common/configuration/configuration_tree.h"
 #include "common/program/csv.h"
@@ -217,14 +218,18 @@ void StudyStore::MakeTables(const Study& study, const Design& design)
       ", r.exit, r.hash FROM runs r JOIN samples s ON r.point = s.point AND r.seed = s.seed WHERE r.state = 'done'");
 
   const auto fact = Prepare("INSERT INTO study VALUES (?, ?)");
-  for (const auto& [name, value] :
-       std::vector<std::pair<std::string, std::string>>{{"format", std::to_string(kStoreFormat)},
-                                                        {"name", study.name},
-                                                        {"study", study.text},
-                                                        {"folder", study.folder},
-                                                        {"experiments", design.ExperimentsHash()},
-                                                        {"version", Version()},
-                                                        {"revision", GitRevision()}})
+  for (const auto& [name, value] : std::vector<std::pair<std::string, std::string>>{
+           {"format", std::to_string(kStoreFormat)},
+           {"name", study.name},
+           {"study", study.text},
+           {"folder", study.folder},
+           {"experiments", design.ExperimentsHash()},
+           {"version", Version()},
+           {"revision", GitRevision()},
+           {"search", study.search ? study.search->column : ""},
+           {"goal", study.search && !study.search->maximise ? "min" : "max"},
+           {"aggregate", study.search ? study.search->aggregate : ""},
+           {"seeds", fmt::format("{}", fmt::join(study.seeds, " "))}})
     fact->Bind(name).Bind(value).Run();
 
   std::string places;
@@ -232,7 +237,8 @@ void StudyStore::MakeTables(const Study& study, const Design& design)
   for (std::size_t f = 0; f < all.size(); ++f) places += ", ?";
   const auto run = Prepare(
       "INSERT INTO runs VALUES (?, ?, 'waiting', 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL" + places + ")");
-  for (std::size_t point = 0; point < design.Points(); ++point)
+  // A search adds its points itself.
+  for (std::size_t point = 0; point < (study.search ? 0 : design.Points()); ++point)
   {
     const std::vector<const FactorLevel*> levels = design.Levels(point);
     for (const std::uint64_t seed : study.seeds)
@@ -342,6 +348,63 @@ void StudyStore::AddRun(const RunName& name)
       "runs WHERE point = ? LIMIT 1",
       factors));
   row->BindWhole(name.seed).BindWhole(name.point).Run();
+}
+
+void StudyStore::AddPoint(std::uint32_t point, const std::vector<ExpressionValue>& values,
+                          const std::vector<std::uint64_t>& seeds)
+{
+  if (!in_transaction_) Execute("BEGIN");
+  in_transaction_ = true;
+  std::string places;
+  for (std::size_t f = 0; f < values.size(); ++f) places += ", ?";
+  const auto run = Prepare(
+      "INSERT INTO runs VALUES (?, ?, 'waiting', 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL" + places + ")");
+  for (const std::uint64_t seed : seeds)
+  {
+    run->BindWhole(point).BindWhole(seed);
+    for (const ExpressionValue& value : values)
+    {
+      if (const double* number = std::get_if<double>(&value))
+        run->Bind(*number);
+      else
+        run->Bind(std::get<std::string>(value));
+    }
+    run->Run();
+  }
+}
+
+std::vector<std::pair<std::uint32_t, std::vector<ExpressionValue>>> StudyStore::PointValues()
+{
+  std::string factors;
+  for (const std::string& factor : factors_) factors += ", " + NameInSql(factor);
+  std::vector<std::pair<std::uint32_t, std::vector<ExpressionValue>>> points;
+  const auto rows = Prepare(fmt::format("SELECT DISTINCT point{} FROM runs ORDER BY point", factors));
+  while (rows->Step())
+  {
+    auto& [point, values] = points.emplace_back();
+    point = static_cast<std::uint32_t>(rows->Whole(0));
+    for (int f = 1; f <= static_cast<int>(factors_.size()); ++f)
+    {
+      if (sqlite3_column_type(rows->statement, f) == SQLITE_FLOAT)
+        values.emplace_back(rows->Number(f));
+      else
+        values.emplace_back(rows->Text(f));
+    }
+  }
+  return points;
+}
+
+std::map<RunName, double> StudyStore::LastValues(const std::string& column)
+{
+  std::map<RunName, double> values;
+  const auto rows = Prepare(fmt::format(
+      "SELECT s.point, s.seed, s.{}, MAX(s.tick) FROM samples s JOIN runs r ON r.point = s.point AND r.seed = s.seed "
+      "WHERE r.state = 'done' GROUP BY s.point, s.seed",
+      NameInSql(column)));
+  while (rows->Step())
+    values[{static_cast<std::uint32_t>(rows->Whole(0)), rows->Whole(1)}] =
+        rows->IsNull(2) ? std::numeric_limits<double>::quiet_NaN() : rows->Number(2);
+  return values;
 }
 
 std::vector<double> StudyStore::LastValues(std::uint32_t point, const std::string& column)

@@ -3,9 +3,11 @@
 // a folder. docs/studies.md describes the tables.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "studies/design.h"
@@ -50,6 +52,13 @@ public:
   void Add(const RunOutcome& outcome);
   // Another run of a point that has some.
   void AddRun(const RunName& name);
+  // A point of a search, with its runs. `values`: one for each factor.
+  void AddPoint(std::uint32_t point, const std::vector<ExpressionValue>& values,
+                const std::vector<std::uint64_t>& seeds);
+  // Of all points that have runs, by number: their factors' values.
+  std::vector<std::pair<std::uint32_t, std::vector<ExpressionValue>>> PointValues();
+  // Of all runs that are done, at their last tick; NaN for none.
+  std::map<RunName, double> LastValues(const std::string& column);
   // Of all runs of a point that are done, at their last tick, by seed; without those that have none.
   std::vector<double> LastValues(std::uint32_t point, const std::string& column);
   // Of the metrics.

@@ -21,6 +21,7 @@
 #include "roles/builtins.h"
 #include "studies/recorder.h"
 #include "studies/run_pool.h"
+#include "studies/search.h"
 #include "studies/statistics.h"
 #include "studies/study_store.h"
 #include "studies/sweep_progress.h"
@@ -318,6 +319,14 @@ int SweepChecked(const SweepOptions& options)
   const std::vector<std::string> mistakes = MistakesInRuns(study, design);
   for (const std::string& mistake : mistakes) fmt::print(stderr, "{}\n", mistake);
   if (!mistakes.empty()) return kExitInvalidFile;
+  if (study.search && !(options.only.empty() && options.until_ci.empty()))
+    throw UsageError("a study with a <search> chooses its runs itself; leave --only and --until-ci out");
+  if (study.search) CheckSearch(study);
+  if (options.dry_run && study.search)
+  {
+    DescribeSearch(study);
+    return kExitDone;
+  }
   if (options.dry_run)
   {
     ListRuns(options, study, design);
@@ -327,6 +336,7 @@ int SweepChecked(const SweepOptions& options)
     RefuseOtherExperiments(design, *store);
   else
     store = StudyStore::Create(options.output.empty() ? NewFolder(study.name) : options.output, study, design);
+  if (study.search) return RunSearch({options.jobs, options.retries, options.quiet}, study, design, *store);
   if (!options.quiet)
     fmt::print(stderr, "study {}: {} points, {} seeds, in {}\n", study.name, design.Points(), study.seeds.size(),
                store->Folder());

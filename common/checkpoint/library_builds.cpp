@@ -37,7 +37,7 @@ std::string BuildOfFile(const std::string& path)
   }
 }
 
-std::string OwnBuild()
+std::string ReadOwnBuild()
 {
   const std::string folder = OwnLibraryFolder();
   std::string builds;
@@ -51,6 +51,13 @@ std::string OwnBuild()
 }
 
 }  // namespace
+
+const std::string& OwnBuild()
+{
+  // What this process has loaded stays as it is.
+  static const std::string build = ReadOwnBuild();
+  return build;
+}
 
 void ForEachLibrary(const Experiment& experiment,
                     const std::function<void(const std::string& name, const std::string& file, bool computes)>& take)

@@ -24,6 +24,9 @@ inline constexpr const char* kSwarmanoidBuild = "Swarmanoid";
 void ForEachLibrary(const Experiment& experiment,
                     const std::function<void(const std::string& name, const std::string& file, bool computes)>& take);
 
+// Of Swarmanoid's own libraries, as this process first found them.
+const std::string& OwnBuild();
+
 // In the order of their names, each once. They are looked for where they would be loaded from, and not loaded. Taken
 // when a run starts: a file may be built anew while the run goes on with the old one.
 std::vector<LibraryBuild> LibraryBuildsOf(const Experiment& experiment);

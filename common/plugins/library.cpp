@@ -53,8 +53,10 @@ std::vector<std::string> Candidates(const std::string& name, const std::vector<s
 std::string RealFile(const std::string& path)
 {
   std::error_code error;
+  // Most are not there: one question, instead of one for each folder on the way.
+  if (!fs::is_regular_file(path, error)) return {};
   const fs::path real = fs::canonical(path, error);
-  return error || !fs::is_regular_file(real, error) ? std::string() : real.string();
+  return error ? std::string() : real.string();
 }
 
 // The loaded libraries by their real paths; those that could not be loaded too, so that each error is found once.
@@ -169,11 +171,15 @@ std::vector<std::string> SplitSearchPath(const std::string& list, const std::str
 
 std::string OwnLibraryFolder()
 {
-  Dl_info place{};
-  if (dladdr(reinterpret_cast<const void*>(&StandardPluginFolders), &place) == 0 || place.dli_fname == nullptr)
-    return {};
-  std::error_code error;
-  return fs::weakly_canonical(place.dli_fname, error).parent_path().string();
+  static const std::string folder = []
+  {
+    Dl_info place{};
+    if (dladdr(reinterpret_cast<const void*>(&StandardPluginFolders), &place) == 0 || place.dli_fname == nullptr)
+      return std::string();
+    std::error_code error;
+    return fs::weakly_canonical(place.dli_fname, error).parent_path().string();
+  }();
+  return folder;
 }
 
 std::vector<std::string> StandardPluginFolders()

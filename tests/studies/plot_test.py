@@ -19,9 +19,11 @@ if importlib.util.find_spec("matplotlib") is None:
     if sys.executable != "/usr/bin/python3" and os.path.exists("/usr/bin/python3"):
         os.execv("/usr/bin/python3", ["/usr/bin/python3", *sys.argv])
     sys.exit(77)
+sys.path.insert(0, str(SCRIPT.parent))
 specification = importlib.util.spec_from_file_location("plot_study", SCRIPT)
 plot_study = importlib.util.module_from_spec(specification)
 specification.loader.exec_module(plot_study)
+plot_search, study_style = sys.modules["plot_search"], sys.modules["study_style"]
 
 
 class Statistics(unittest.TestCase):
@@ -44,10 +46,10 @@ class Statistics(unittest.TestCase):
     def test_bands_are_those_of_student(self):
         # Student's t of 97.5 %: the closed forms of 1 and 2, tables for others.
         for freedom, quantile in ((1, math.tan(0.475 * math.pi)), (2, 0.95 * math.sqrt(2 / (1 - 0.95**2))), (4, 2.776), (9, 2.262), (29, 2.045)):
-            self.assertAlmostEqual(plot_study.t_quantile(freedom), quantile, delta=0.001)
+            self.assertAlmostEqual(study_style.t_quantile(freedom), quantile, delta=0.001)
         mean, half = plot_study.mean_and_band([1.0, 3.0])
         self.assertAlmostEqual(mean, 2)
-        self.assertAlmostEqual(half, plot_study.t_quantile(1))
+        self.assertAlmostEqual(half, study_style.t_quantile(1))
         self.assertEqual(plot_study.mean_and_band([5.0]), (5.0, 0.0))
 
 
@@ -81,6 +83,26 @@ class Plot(unittest.TestCase):
             self.assertNotIn(outside, report)
         self.command("plot", "out", "--compare", "speed=0.05,0.1", "--output", "again")
         self.assertEqual(report, (self.folder / "again/report.html").read_text())
+
+    def test_a_search_becomes_its_course(self):
+        (self.folder / "study.xml").write_text(f"""<study experiment="{CONFIGS}/diffusion_10.xml" ticks="30" seeds="1-2">
+          <factor id="speed" path="controllers.diffusion.parameters.velocity" from="0.01" to="0.2"/>
+          <factor id="robots" path="arena.distribute.quantity" from="1" to="5" step="1"/>
+          <metrics><distance id="way" aggregate="sum"/><coverage id="seen" cell="0.5"/></metrics>
+          <search metric="way.sum" goal="min" aggregate="max" runs="24" algorithm="sbplx" fresh_seeds="3"/></study>""")
+        told = self.command("sweep", "study.xml", "--output", "out", "--quiet").stdout
+        found = plot_search.Search(plot_study.Study(self.folder / "out"))
+        self.assertEqual(f"best: point {found.best}, ", told[told.index("best:"):][:len(f"best: point {found.best}, ")])
+        self.assertEqual(len(found.points), 12)
+        self.assertEqual(list(found.best_so_far), sorted(found.best_so_far, reverse=True))
+        self.assertAlmostEqual(found.best_so_far[-1], float(told.split("(max of 2 seeds): ")[1].split()[0]), delta=1e-5)
+        self.assertEqual(len(found.fresh), 3)
+        self.command("plot", "out")
+        pictures = sorted(path.name for path in (self.folder / "out/pictures").glob("*.svg"))
+        self.assertEqual([name for name in pictures if "visits" not in name],
+                         ["way.sum_search.svg", "way.sum_tried_robots.svg", "way.sum_tried_speed.svg", "way.sum_tried_speed_and_robots.svg"])
+        for name in pictures:
+            xml.parse(self.folder / "out/pictures" / name)
 
     def test_what_is_wrong_is_told(self):
         (self.folder / "study.xml").write_text(f"""<study experiment="{CONFIGS}/diffusion_10.xml" ticks="5">

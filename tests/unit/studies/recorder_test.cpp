@@ -31,18 +31,23 @@ public:
   int Init(const TConfigurationTree tree) override
   {
     speed_ = tree.GetNumber("speed", 0);
+    turn_ = tree.GetNumber("turn", 0);
+    until_ = tree.GetInteger("until", 1000);
     return RETURN_OK;
   }
   void ControlStep() override
   {
-    GetRobot()->Actuator<CCI_WheelsActuator>("wheels").SetLinearVelocity(speed_, speed_);
     const auto tick = GetRobot()->GetTick();
+    const double share = static_cast<long long>(tick) < until_ ? 1 : 0;
+    GetRobot()->Actuator<CCI_WheelsActuator>("wheels").SetLinearVelocity(share * (speed_ - turn_),
+                                                                         share * (speed_ + turn_));
     Publish(*GetRobot(), {{"tick", tick}, {"double", 2.0 * static_cast<double>(tick)}});
   }
   bool HasState() const override { return true; }
 
 private:
-  double speed_ = 0;
+  double speed_ = 0, turn_ = 0;
+  long long until_ = 0;
 };
 REGISTER_CONTROLLER(CStudyDriver, "study_driver")
 
@@ -69,7 +74,15 @@ std::unique_ptr<Experiment> Scene(const std::string& entities, int ticks,
       "</maxclock></framework><controllers><study_driver id='go'><actuators>" + actuators +
       "</actuators><parameters><speed>0.1</speed></parameters></study_driver>"
       "<study_driver id='stay'><actuators>" +
-      actuators + "</actuators></study_driver></controllers><arena size='10,10,2' optimization='2D'>" + entities +
+      actuators + "</actuators></study_driver><study_driver id='curve'><actuators>" + actuators +
+      "</actuators><parameters><speed>0.1</speed><turn>0.04</turn></parameters></study_driver>"
+      "<study_driver id='spin'><actuators>" +
+      actuators +
+      "</actuators><parameters><turn>0.05</turn></parameters></study_driver><study_driver id='brake'><actuators>" +
+      actuators +
+      "</actuators><parameters><speed>0.1</speed><until>20</until></parameters></study_driver></controllers><arena "
+      "size='10,10,2' optimization='2D'>" +
+      entities +
       "</arena><engines><dummy_engine id='e'/></engines><arena_physics><engine id='e'><all/></engine></arena_physics>"
       "<experiment_functions><study_functions id='f'/></experiment_functions></ahss-config>";
   LoadedExperiment loaded = LoadExperimentText(text, "scene.xml", ".");
@@ -332,6 +345,35 @@ TEST(Publishing, CountsOnlyIfSomebodyMeasuresThatRun)
   Publish(one.GetSpace(), "x", 4);
   EXPECT_EQ(numbers.Values().at("x"), 4);
   EXPECT_THROW(Publish(one.GetSpace(), "x", NAN), std::invalid_argument);
+}
+
+// Idle 2 W; 3 N against the wheels; 1.5 kg; half of what the drive takes becomes work. Five seconds.
+constexpr const char* kEnergy = "<energy id='e' idle='2' resistance='3' mass='1.5' efficiency='0.5' aggregate='sum'/>";
+constexpr double kIdle_j = 2 * 5, kStart_j = 1.5 / 2 * 0.1 * 0.1 / 0.5;
+
+TEST(StudyMetrics, EnergyOfADriveIsIdleResistanceAndSpeed)
+{
+  const auto scene = Scene(Footbot("go", 2, 5, 30, "go"), 50);
+  EXPECT_NEAR(AtEnd(kEnergy, *scene)["e.sum"], kIdle_j + 3 * 0.1 * 5 / 0.5 + kStart_j, 1e-9);
+  const auto still = Scene(Footbot("stay", 2, 5, 30), 50);
+  EXPECT_NEAR(AtEnd(kEnergy, *still)["e.sum"], kIdle_j, 1e-9);
+}
+
+TEST(StudyMetrics, EnergyOfATurnIsWhatTheWheelsRoll)
+{
+  const auto scene = Scene(Footbot("spin", 5, 5, 0, "spin"), 50);
+  EXPECT_NEAR(AtEnd(kEnergy, *scene)["e.sum"], kIdle_j + 3 * 0.05 * 5 / 0.5, 1e-9);
+  // Wheels at 0.06 and 0.14 m/s. What moves is the chord of each tick's arc: (sin(x) / x) of 0.1 m/s, x half its angle.
+  const auto curve = Scene(Footbot("curve", 5, 5, 0, "curve"), 50);
+  const double half_angle = 0.08 / 0.14 * 0.1 / 2;
+  const double speed = 0.1 * std::sin(half_angle) / half_angle;
+  EXPECT_NEAR(AtEnd(kEnergy, *curve)["e.sum"], kIdle_j + (3 * speed * 5 + 1.5 / 2 * speed * speed) / 0.5, 1e-6);
+}
+
+TEST(StudyMetrics, EnergyIsNotGivenBack)
+{
+  const auto scene = Scene(Footbot("brake", 2, 5, 0, "brake"), 50);
+  EXPECT_NEAR(AtEnd(kEnergy, *scene)["e.sum"], kIdle_j + 3 * 0.1 * 2 / 0.5 + kStart_j, 1e-9);
 }
 
 }  // namespace
