@@ -19,6 +19,8 @@ namespace
 // What a machine has been given lasts about so long, in seconds, but is no more than so many runs of a core.
 constexpr double kOrdersAhead_s = 0.5;
 constexpr double kMostAhead = 50;
+// Until it has loaded all experiments, a machine is silent.
+constexpr std::chrono::seconds kPatienceAtStart(600);
 
 bool IsThisMachine(const std::string& name) { return name == "here" || name == "localhost"; }
 
@@ -156,10 +158,12 @@ void HostPool::Attend(Machine& machine, std::vector<RunOutcome>& outcomes)
   if (!machine.connection) return;
   const auto now = HostConnection::Clock::now();
   if (!is_there) return Lose(machine, connection.End());
-  if (now - connection.Heard() > lease_)
+  const std::chrono::seconds silence = machine.slots == 0 ? std::max(lease_, kPatienceAtStart) : lease_;
+  if (now - connection.Heard() > silence)
   {
     connection.End();
-    return Lose(machine, fmt::format("nothing was heard of it for {} s (`lease` of the file)", lease_.count()));
+    return Lose(machine, fmt::format("nothing was heard of it for {} s{}", silence.count(),
+                                     silence == lease_ ? " (`lease` of the file)" : ""));
   }
   if (now - connection.Said() > lease_ / 4) connection.Send(StudyMessage::kStillHere);
 }
@@ -211,7 +215,8 @@ void HostPool::TakeOutcome(Machine& machine, ByteReader& bytes, std::vector<RunO
 void HostPool::Lose(Machine& machine, const std::string& reason)
 {
   machine.lost_by = reason;
-  machine.connection.reset();
+  machine.connection->Close();
+  leaving_.push_back(std::move(machine.connection));
   notes_.push_back(fmt::format("{} is left out: {}{}", machine.name, reason,
                                machine.orders.empty() ? ""
                                : Interrupted()        ? "; its runs are given up"

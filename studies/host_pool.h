@@ -50,7 +50,8 @@ private:
   std::string folder_;
   std::chrono::seconds lease_;
   std::vector<Machine> machines_;
-  std::deque<RunOrder> waiting_;    // for a machine
+  std::vector<std::unique_ptr<HostConnection>> leaving_;  // of lost machines, which are waited for at the end
+  std::deque<RunOrder> waiting_;                          // for a machine
   std::size_t orders_of_slot_ = 1;  // more if runs are short, so that no machine waits for the network
   std::vector<std::string> notes_;
 };

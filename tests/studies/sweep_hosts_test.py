@@ -1,5 +1,6 @@
 """Studies on two machines by ssh: two sshd on this machine. The table has to be that of one machine whatever happens to the others, and
 nothing may be left there."""
+import contextlib
 import os
 import pathlib
 import re
@@ -120,6 +121,26 @@ class SweepHosts(unittest.TestCase):
         study = self.study("1-30", ticks=600)
         self.sweep(study, "--output", "out", "--hosts", self.hosts("runs = alpha beta"))
         self.assertEqual({host for host, in self.query("out", "SELECT DISTINCT host FROM runs")}, {"alpha", "beta"})
+
+    def test_the_progress_tells_what_runs_where(self):
+        study = self.study("1-30", ticks=3000)
+        ours, theirs = os.openpty()
+        self.addCleanup(os.close, ours)
+        process = subprocess.Popen([SWARMANOID, "sweep", study, "--output", "out", "--hosts", self.hosts("runs = alpha beta")], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=theirs, env=self.environment)
+        os.close(theirs)
+        text = b""
+        with contextlib.suppress(OSError):  # the end of a terminal
+            while more := os.read(ours, 4096):
+                text += more
+        self.assertEqual(process.wait(), 0)
+        for machine in ("alpha", "beta"):
+            self.assertRegex(text.decode(), rf"of 30 runs \(\d+ %\).*[;,] (running )?0-\d+ on {machine}")
+
+    def test_a_cluster_each(self):
+        study = self.study("1-3", attributes='cluster="true" controller_hosts="2"')
+        self.sweep(study, "--output", "out", "--hosts", self.hosts("runs = alpha beta"))
+        self.assert_same("out", self.here(self.study("1-3")))
 
     def test_what_runs_write_comes_back(self):
         study = self.study("1-2", experiment=CONFIGS / "prey_retrieval.xml", inside='<metrics><published id="to_nest" name="to_nest"/></metrics>')

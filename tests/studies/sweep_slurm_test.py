@@ -79,7 +79,7 @@ PartitionName=short Nodes={host} Default=YES MaxTime=60 State=UP
         self.start("munged", "-F", f"--key-file={key}", f"--socket={folder}/munge.socket", f"--log-file={folder}/munged.log",
                    f"--pid-file={folder}/munged.pid", f"--seed-file={folder}/munged.seed")
         self.wait("munge", lambda: (folder / "munge.socket").exists())
-        self.start("slurmctld", "-D", "-c")
+        self.start("slurmctld", "-D")
         self.start("slurmd", "-D")
         self.wait("the node", lambda: "idle" in self.ask("sinfo", "--noheader", "--format=%T"))
 
@@ -276,6 +276,19 @@ class SweepSlurm(unittest.TestCase):
         self.assertIn(len(told), range(1, 5), errors)
         self.assert_same("out", table)
         self.assertEqual(sorted(row for row, in self.query("out", "SELECT attempts FROM runs")), [1] * (6 - len(told)) + [2] * len(told))
+
+    def test_a_silent_slurm_is_waited_for(self):
+        study = self.study("1-20", ticks=6000)
+        process = self.start(study, "--output", "out", "--slurm", "", "--runs-per-task", "5", "--jobs", "1")
+        self.wait_for_runs("out", 1, process)
+        self.slurm.processes["slurmctld"].terminate()
+        self.slurm.processes["slurmctld"].wait(60)
+        self.wait_until("runs that need no controller", lambda: self.done_in("out") >= 5)
+        time.sleep(3)  # it is asked each two seconds
+        self.slurm.start("slurmctld", "-D")
+        _, errors = self.end_of(process)
+        self.assertEqual(len(re.findall(r"^Slurm cannot be asked about job \d+: .*; asked again until it answers$", errors, re.MULTILINE)), 1, errors)
+        self.assert_same("out", self.here(study))
 
     def test_several_cores_of_a_task(self):
         study = self.study("1-8", ticks=600)
