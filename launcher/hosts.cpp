@@ -18,8 +18,9 @@ namespace
 
 constexpr std::uint64_t kMostBytes = 1U << 20U;
 const std::vector<std::string> kRoles{"space_server", "engine", "controller_host", "visualiser"};
-const std::vector<std::string> kKeys{"command", "program_folder",  "options",   "space_server",
-                                     "engine",  "controller_host", "visualiser"};
+const std::vector<std::string> kKeys{"command", "program_folder",  "options",    "space_server",
+                                     "engine",  "controller_host", "visualiser", "runs",
+                                     "cores",   "lease",           "swarmanoid"};
 
 std::vector<std::string> Words(const std::string& text)
 {
@@ -35,6 +36,14 @@ bool Holds(const std::vector<std::string>& words, const std::string& word)
 }
 
 bool IsHere(const std::string& host) { return host.empty() || host == "localhost" || host == "here"; }
+
+unsigned PositiveInteger(const std::string& text, unsigned most, const std::string& what, const std::string& unit)
+{
+  const auto number = ParseInteger(text);
+  if (!number || *number < 1 || *number > most)
+    throw UsageError(fmt::format("{} is {}; write a whole number of {} from 1 to {}", what, Quoted(text), unit, most));
+  return static_cast<unsigned>(*number);
+}
 
 void ReplaceAll(std::string& text, const std::string& what, const std::string& by)
 {
@@ -95,13 +104,59 @@ void Hosts::TakeLine(const std::string& line, const std::string& place)
     hosts_[{key[0], key.size() == 2 ? key[1] : ""}] = value;
     return;
   }
+  if (key[0] == "cores") return TakeCores(key, value, place);
   if (key.size() == 2) throw UsageError(fmt::format("{}: {} takes no second word", place, key[0]));
+  if (key[0] == "runs") TakeRunHosts(Words(value), place);
+  if (key[0] == "lease") lease_s_ = PositiveInteger(value, 86'400, place + ": lease", "seconds");
+  if (key[0] == "swarmanoid") swarmanoid_ = value;
   if (key[0] == "program_folder") program_folder_ = value;
   if (key[0] == "options") options_ = Words(value);
   if (key[0] != "command") return;
   template_ = Words(value);
   if (!Holds(template_, "{host}") || (!Holds(template_, "{command}") && !Holds(template_, "{shell_command}")))
     throw UsageError(place + ": command must hold {host}, and {command} or {shell_command}");
+}
+
+void Hosts::TakeCores(const std::vector<std::string>& key, const std::string& value, const std::string& place)
+{
+  if (key.size() != 2) throw UsageError(place + ": write cores HOST = NUMBER, for example `cores alpha = 8`");
+  cores_[key[1]] = {PositiveInteger(value, 10'000, place + ": cores " + key[1], "runs at a time"), place};
+}
+
+void Hosts::TakeRunHosts(const std::vector<std::string>& hosts, const std::string& place)
+{
+  for (const std::string& host : hosts)
+  {
+    if (std::find(run_hosts_.begin(), run_hosts_.end(), host) != run_hosts_.end())
+      throw UsageError(fmt::format("{}: runs names {} a second time", place, Quoted(host)));
+    run_hosts_.push_back(host);
+  }
+}
+
+std::vector<RunHost> Hosts::RunHosts() const
+{
+  for (const auto& [host, cores] : cores_)
+    if (std::find(run_hosts_.begin(), run_hosts_.end(), host) == run_hosts_.end())
+      throw UsageError(fmt::format("{}: `runs` does not name {}; it has {}{}", cores.second, Quoted(host),
+                                   Listed(run_hosts_), DidYouMean(host, run_hosts_)));
+  std::vector<RunHost> hosts;
+  for (const std::string& host : run_hosts_)
+  {
+    const auto cores = cores_.find(host);
+    hosts.push_back({host, cores == cores_.end() ? 0 : cores->second.first});
+  }
+  return hosts;
+}
+
+std::vector<std::string> Hosts::WorkerCommand(const std::string& host, std::vector<std::string> words) const
+{
+  if (IsHere(host)) return words;
+  if (!swarmanoid_.empty()) words[0] = swarmanoid_;
+  std::vector<std::string> placed = Reached(words, host);
+  // Bytes do not pass a terminal as they are.
+  for (std::string& word : placed)
+    if (word == "-t" || word == "-tt") word = "-T";
+  return placed;
 }
 
 void Hosts::AddEngine(const std::string& setting)
@@ -135,22 +190,29 @@ ProcessCommand Hosts::Placed(const ProcessCommand& command, const std::string& h
   if (!program_folder_.empty())
     program = std::filesystem::path(program_folder_) / std::filesystem::path(program).filename();
 
-  std::string shell_command;
-  for (const std::string& word : words) shell_command += (shell_command.empty() ? "" : " ") + ShellQuoted(word);
-
   ProcessCommand placed;
   placed.name = command.name;
   placed.input = command.input;
+  placed.arguments = Reached(words, host);
+  return placed;
+}
+
+std::vector<std::string> Hosts::Reached(const std::vector<std::string>& words, const std::string& host) const
+{
+  std::string shell_command;
+  for (const std::string& word : words) shell_command += (shell_command.empty() ? "" : " ") + ShellQuoted(word);
+
+  std::vector<std::string> placed;
   for (std::string word : template_)
   {
     if (word == "{command}")
     {
-      placed.arguments.insert(placed.arguments.end(), words.begin(), words.end());
+      placed.insert(placed.end(), words.begin(), words.end());
       continue;
     }
     ReplaceAll(word, "{host}", host);
     ReplaceAll(word, "{shell_command}", shell_command);
-    placed.arguments.push_back(word);
+    placed.push_back(word);
   }
   return placed;
 }

@@ -13,6 +13,7 @@
 #include "launcher/commands.h"
 #include "launcher/completion.h"
 #include "studies/commands.h"
+#include "studies/study_worker.h"
 
 namespace
 {
@@ -78,6 +79,8 @@ int main(int count, char** arguments)
   using namespace swarmanoid;
 
   if (count > 1 && std::string_view(arguments[1]) == kCompleteFlag) return Complete({arguments + 2, arguments + count});
+  if (count > 1 && std::string_view(arguments[1]) == kStudyWorkerFlag)
+    return RunStudyWorker({arguments + 2, arguments + count});
   std::vector<std::string> words = WithHelp({arguments, arguments + count});
   if (ComplainsAboutVerb(words)) return kExitUsage;
   std::vector<char*> given;

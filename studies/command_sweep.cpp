@@ -53,9 +53,27 @@ std::vector<OptionSpec> SweepOptionTable(SweepOptions& o)
         .maximum = 1'000'000},
        &o.most_seeds,
        "100"},
+      {{.name = "hosts",
+        .type = kPath,
+        .description = "Run on other machines, by ssh: the line `runs` of the file names them"},
+       &o.hosts,
+       "hosts.txt"},
+      {{.name = "slurm",
+        .type = kText,
+        .description = "Run as job arrays of Slurm, with these options of sbatch; '' for none"},
+       &o.slurm,
+       "'--partition=short --time=10'",
+       "OPTIONS"},
+      {{.name = "runs-per-task",
+        .type = kInteger,
+        .description = "Of a task of --slurm; 0: so many that there are 200 tasks at most",
+        .minimum = 0,
+        .maximum = 1'000'000},
+       &o.runs_per_task,
+       "20"},
       {{.name = "jobs",
         .type = kInteger,
-        .description = "Runs at a time; 0: as many as cores, or one cluster",
+        .description = "Runs at a time, or tasks of --slurm; 0: as many as cores, one cluster, or as Slurm starts",
         .minimum = 0,
         .maximum = 10'000},
        &o.jobs,
@@ -81,12 +99,16 @@ void AddSweepCommand(CLI::App& app, int& exit_code)
   verb->footer(
       "The last line on standard output is\n"
       "  finished: <runs> runs, <failed> failed, <wall> s, table <folder>/table.csv\n"
-      "Ctrl-C once ends the study after the runs that go on, twice kills them; --resume goes on.\n"
+      "Ctrl-C once ends the study after the runs that go on (jobs of Slurm are cancelled), twice kills them; --resume\n"
+      "goes on.\n"
       "Exit codes: 0 done, 2 usage, 3 the study or its experiment is invalid, 4 some runs failed, 130 interrupted.\n"
       "Examples:\n"
       "  swarmanoid sweep configs/studies/aggregation.xml --dry-run\n"
       "  swarmanoid sweep configs/studies/aggregation.xml --output results/aggregation\n"
-      "  swarmanoid sweep results/aggregation --resume --retries 1");
+      "  swarmanoid sweep results/aggregation --resume --retries 1\n"
+      "  echo 'runs = alpha beta here' >hosts.txt\n"
+      "  swarmanoid sweep configs/studies/aggregation.xml --hosts hosts.txt\n"
+      "  swarmanoid sweep configs/studies/aggregation.xml --slurm '--partition=short --time=10' --runs-per-task 20");
   verb->callback([options, &exit_code] { exit_code = Sweep(*options); });
 }
 

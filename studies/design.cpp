@@ -122,14 +122,19 @@ std::vector<std::size_t> Design::PointsOfAllLevels(std::size_t most) const
   return some;
 }
 
-std::string Design::ExperimentsHash() const
+std::vector<std::string> Design::ExperimentFiles() const
 {
   std::set<std::string> files{study_.experiment};
   for (const Factor* factor : factors_)
     for (const FactorLevel& level : factor->levels)
       if (!level.experiment.empty()) files.insert(level.experiment);
+  return {files.begin(), files.end()};
+}
+
+std::string Design::ExperimentsHash() const
+{
   std::string texts;
-  for (const std::string& file : files) texts += ReadTextFile(file);
+  for (const std::string& file : ExperimentFiles()) texts += ReadTextFile(file);
   return fmt::format("{:016x}", XXH3_64bits(texts.data(), texts.size()));
 }
 

@@ -39,6 +39,8 @@ public:
   ExpressionValue Value(std::size_t point, std::size_t factor) const;
   // For each level of each factor the first point that has it; at most so many, spread evenly.
   std::vector<std::size_t> PointsOfAllLevels(std::size_t most) const;
+  // Each once, in alphabetical order.
+  std::vector<std::string> ExperimentFiles() const;
   // Of the texts of all experiment files, as 16 hexadecimal digits. Throws ConfigurationError if one cannot be read.
   std::string ExperimentsHash() const;
 

@@ -248,6 +248,7 @@ void RunOutcome::Write(ByteWriter& bytes) const
   bytes.Put(wall_s);
   bytes.Put(peak_bytes);
   samples.Write(bytes);
+  bytes.PutText(host);
 }
 
 RunOutcome RunOutcome::Read(ByteReader& bytes)
@@ -262,6 +263,7 @@ RunOutcome RunOutcome::Read(ByteReader& bytes)
   outcome.wall_s = bytes.Get<double>();
   outcome.peak_bytes = bytes.Get<std::uint64_t>();
   outcome.samples = RunSamples::Read(bytes);
+  outcome.host = bytes.GetText();
   return outcome;
 }
 

@@ -31,6 +31,7 @@ struct RunOutcome
   double wall_s = 0;  // with reading the experiment
   std::uint64_t peak_bytes = 0;
   RunSamples samples;
+  std::string host;  // that ran it; empty: this machine
 
   // Whether it has a result: it ended by itself, with success or by the experiment's own measure without.
   bool IsDone() const { return exit_code == 0 || exit_code == 1; }

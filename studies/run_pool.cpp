@@ -174,18 +174,19 @@ bool RunPool::IsIdle() const
   return std::all_of(workers_.begin(), workers_.end(), [](const Worker& worker) { return worker.orders.empty(); });
 }
 
-std::vector<RunName> RunPool::Running() const
+std::vector<RunningRun> RunPool::Running() const
 {
-  std::vector<RunName> names;
+  std::vector<RunningRun> runs;
   for (const Worker& worker : workers_)
-    if (!worker.orders.empty()) names.push_back(worker.orders.front().name);
-  return names;
+    if (!worker.orders.empty()) runs.push_back({worker.orders.front().name, ""});
+  return runs;
 }
 
-std::vector<RunOutcome> RunPool::Wait(std::chrono::milliseconds longest)
+std::vector<RunOutcome> RunPool::Wait(std::chrono::milliseconds longest, int input)
 {
   std::vector<pollfd> sockets;
   for (const Worker& worker : workers_) sockets.push_back({worker.socket, POLLIN, 0});
+  sockets.push_back({input, POLLIN, 0});
   std::vector<RunOutcome> outcomes;
   if (poll(sockets.data(), sockets.size(), static_cast<int>(longest.count())) <= 0) return outcomes;
   for (std::size_t w = 0; w < workers_.size(); ++w)

@@ -9,29 +9,28 @@
 #include <string>
 #include <vector>
 
-#include "studies/run_order.h"
+#include "studies/run_place.h"
 
 namespace swarmanoid
 {
 
-class RunPool
+class RunPool final : public RunPlace
 {
 public:
   // `jobs`: processes. Both texts and the study outlive it.
   RunPool(const Study& study, std::string folder, unsigned jobs);
-  ~RunPool();
-  RunPool(const RunPool&) = delete;
-  RunPool& operator=(const RunPool&) = delete;
+  ~RunPool() override;
 
   // Whether some process takes another run. Those that would need more memory than there is, as their largest
   // predecessor did, wait until others have ended.
-  bool HasRoom() const { return FreeWorker() != workers_.size(); }
-  void Give(RunOrder order);
-  bool IsIdle() const;
-  // Waits for some, but not for longer.
-  std::vector<RunOutcome> Wait(std::chrono::milliseconds longest);
-  // Of the runs that go on now.
-  std::vector<RunName> Running() const;
+  bool HasRoom() const override { return FreeWorker() != workers_.size(); }
+  void Give(RunOrder order) override;
+  bool IsIdle() const override;
+  std::vector<RunOutcome> Wait(std::chrono::milliseconds longest) override { return Wait(longest, -1); }
+  // The same, but no longer than until there is something to read from `input`.
+  std::vector<RunOutcome> Wait(std::chrono::milliseconds longest, int input);
+  std::vector<RunningRun> Running() const override;
+  unsigned Slots() const override { return static_cast<unsigned>(workers_.size()); }
 
 private:
   struct Worker

@@ -15,6 +15,7 @@
 #include "common/configuration/configuration_tree.h"
 #include "common/program/csv.h"
 #include "common/version/version.h"
+#include "studies/study_setup.h"
 
 namespace swarmanoid
 {
@@ -28,13 +29,6 @@ constexpr const char* kDatabase = "study.sqlite";
 constexpr int kStoreFormat = 1;
 
 std::string NameInSql(const std::string& name) { return "\"" + name + "\""; }
-
-std::string ThisHost()
-{
-  char name[256] = "";
-  gethostname(name, sizeof name - 1);
-  return name;
-}
 
 }  // namespace
 
@@ -300,15 +294,23 @@ std::vector<StudyStore::RunState> StudyStore::Runs()
   return runs;
 }
 
+bool StudyStore::IsDone(const RunName& name)
+{
+  const auto row = Prepare("SELECT 1 FROM runs WHERE point = ? AND seed = ? AND state = 'done'");
+  return row->BindWhole(name.point).BindWhole(name.seed).Step();
+}
+
 void StudyStore::Add(const RunOutcome& outcome)
 {
   if (!in_transaction_) Execute("BEGIN");
   in_transaction_ = true;
   const bool done = outcome.IsDone();
-  static const std::string host = ThisHost();
   update_run_->Bind(std::string(done ? "done" : "failed")).BindWhole(static_cast<std::uint64_t>(outcome.exit_code));
   update_run_->Bind(done ? fmt::format("{:016x}", outcome.hash) : "").BindWhole(outcome.ticks).Bind(outcome.failure);
-  update_run_->Bind(outcome.wall_s).BindWhole(outcome.peak_bytes).Bind(host).Bind(std::string(GitRevision()));
+  update_run_->Bind(outcome.wall_s)
+      .BindWhole(outcome.peak_bytes)
+      .Bind(outcome.host.empty() ? NameOfThisHost() : outcome.host)
+      .Bind(std::string(GitRevision()));
   update_run_->BindWhole(outcome.name.point).BindWhole(outcome.name.seed).Run();
   if (!done) return;
   const RunSamples& samples = outcome.samples;

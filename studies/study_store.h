@@ -49,6 +49,7 @@ public:
   };
   // In the order of points and seeds.
   std::vector<RunState> Runs();
+  bool IsDone(const RunName& name);
   void Add(const RunOutcome& outcome);
   // Another run of a point that has some.
   void AddRun(const RunName& name);

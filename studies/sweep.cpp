@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <ctime>
 #include <deque>
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "common/activity/exit_codes.h"
 #include "common/configuration/wording.h"
@@ -19,10 +21,13 @@
 #include "common/program/interrupts.h"
 #include "common/program/usage_error.h"
 #include "roles/builtins.h"
+#include "studies/host_pool.h"
 #include "studies/recorder.h"
 #include "studies/run_pool.h"
 #include "studies/search.h"
+#include "studies/slurm_pool.h"
 #include "studies/statistics.h"
+#include "studies/study_setup.h"
 #include "studies/study_store.h"
 #include "studies/sweep_progress.h"
 
@@ -74,6 +79,16 @@ std::string NewFolder(const std::string& study)
   return folder;
 }
 
+// Throws UsageError.
+Hosts HostsOf(const SweepOptions& options)
+{
+  Hosts hosts = Hosts::FromFile(options.hosts);
+  if (hosts.RunHosts().empty())
+    throw UsageError(fmt::format("--hosts: '{}' names no machine for runs; write a line such as `runs = alpha beta`",
+                                 options.hosts));
+  return hosts;
+}
+
 class Sweeper
 {
 public:
@@ -93,33 +108,40 @@ public:
   {
     Plan();
     CatchInterrupts(SecondInterrupt::kKills);
-    const unsigned cores = static_cast<unsigned>(UsableCores().size());
-    const unsigned jobs = options_.jobs != 0 ? options_.jobs : study_.cluster ? 1 : cores;
     const auto start = std::chrono::steady_clock::now();
     {
-      RunPool pool(study_, store_.Folder(),
-                   column_.empty() ? static_cast<unsigned>(std::clamp<std::size_t>(queue_.size(), 1, jobs)) : jobs);
-      SweepProgress progress(design_, all_, done_, jobs, options_.quiet);
+      const std::unique_ptr<RunPlace> place = MakePlace();
+      SweepProgress progress(design_, all_, done_, options_.quiet);
       for (const auto& [point, wall_s] : known_times_) progress.AddTime(point, wall_s);
+      const auto stop = [&](const std::string& reason)
+      {
+        progress.Say(fmt::format("{}; what was stored before stays: mend the cause, then go on: {}", reason, GoOn()));
+        return kExitProcessFailed;
+      };
       try
       {
-        Loop(pool, progress);
-        store_.Commit();
+        std::string no_place;
+        try
+        {
+          Loop(*place, progress);
+        }
+        catch (const RunPlaceError& error)
+        {
+          no_place = error.what();
+        }
+        Commit(*place);
         store_.WriteTable();
+        if (!no_place.empty()) return stop(no_place);
       }
       catch (const StudyStoreError& error)
       {
-        progress.Say(
-            fmt::format("{}; what was stored before stays: mend the cause, then go on: swarmanoid sweep {} --resume",
-                        error.what(), store_.Folder()));
-        return kExitProcessFailed;
+        return stop(error.what());
       }
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (!queue_.empty())
+    if (done_ + failed_ < all_)
     {
-      fmt::print(stderr, "{} of {} runs are done; to go on: swarmanoid sweep {} --resume\n", done_, all_,
-                 store_.Folder());
+      fmt::print(stderr, "{} of {} runs are done; to go on: {}\n", done_, all_, GoOn());
       return kExitInterrupted;
     }
     fmt::print("finished: {} runs, {} failed, {:.3f} s, table {}/table.csv\n", done_ + failed_, failed_, seconds,
@@ -128,6 +150,40 @@ public:
   }
 
 private:
+  std::unique_ptr<RunPlace> MakePlace() const
+  {
+    if (!options_.hosts.empty())
+      return std::make_unique<HostPool>(HostsOf(options_), SetupOf(study_, design_), store_.Folder());
+    if (!options_.slurm.empty())
+    {
+      // Its jobs go on without this process.
+      for (const int signal : {SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
+      return std::make_unique<SlurmPool>(
+          SlurmChoice{SlurmOptions(options_.slurm.front()), options_.jobs, options_.runs_per_task},
+          SetupOf(study_, design_), store_.Folder());
+    }
+    const unsigned cores = static_cast<unsigned>(UsableCores().size());
+    const unsigned jobs = options_.jobs != 0 ? options_.jobs : study_.cluster ? 1 : cores;
+    return std::make_unique<RunPool>(
+        study_, store_.Folder(),
+        column_.empty() ? static_cast<unsigned>(std::clamp<std::size_t>(queue_.size(), 1, jobs)) : jobs);
+  }
+
+  // The command that goes on.
+  std::string GoOn() const
+  {
+    std::string where;
+    if (!options_.hosts.empty()) where = " --hosts " + ShellQuoted(options_.hosts);
+    if (!options_.slurm.empty()) where = " --slurm " + ShellQuoted(options_.slurm.front());
+    return fmt::format("swarmanoid sweep {} --resume{}", ShellQuoted(store_.Folder()), where);
+  }
+
+  void Commit(RunPlace& place)
+  {
+    store_.Commit();
+    place.Committed();
+  }
+
   bool IsChosen(const RunName& name) const
   {
     if (!only_) return true;
@@ -213,7 +269,7 @@ private:
     ++waiting_[name.point];
   }
 
-  void Loop(RunPool& pool, SweepProgress& progress)
+  void Loop(RunPlace& pool, SweepProgress& progress)
   {
     auto committed = std::chrono::steady_clock::now();
     while (!pool.IsIdle() || (!queue_.empty() && !Interrupted()) || Extend(progress))
@@ -223,19 +279,27 @@ private:
         const RunName name = queue_.front();
         queue_.pop_front();
         if (--waiting_[name.point] == 0) waiting_.erase(name.point);
+        open_.insert(name);
         pool.Give({name, design_.ExperimentOf(name.point), design_.SettingsOf(name.point)});
       }
       for (const RunOutcome& outcome : pool.Wait(100ms)) Take(outcome, progress);
+      for (const std::string& note : pool.TakeNotes()) progress.Say(note);
       const auto now = std::chrono::steady_clock::now();
-      progress.Show(pool.Running(), waiting_, now);
+      progress.Show(pool, waiting_, now);
       if (now - committed < 500ms) continue;
       committed = now;
-      store_.Commit();
+      Commit(pool);
     }
   }
 
   void Take(const RunOutcome& outcome, SweepProgress& progress)
   {
+    // A result that was found, of a run that was not asked for now or has another one.
+    if (open_.erase(outcome.name) == 0)
+    {
+      if (outcome.IsDone() && !store_.IsDone(outcome.name)) store_.Add(outcome);
+      return;
+    }
     store_.Add(outcome);
     if (outcome.IsDone())
     {
@@ -263,6 +327,7 @@ private:
   double share_ = 0;
   std::deque<RunName> queue_;
   std::map<std::uint32_t, std::size_t> waiting_;  // in the queue, of each point
+  std::set<RunName> open_;                        // given to the place, without an outcome
   std::map<RunName, unsigned> attempts_;
   std::vector<std::pair<std::uint32_t, double>> known_times_;
   std::size_t all_ = 0, done_ = 0, failed_ = 0;
@@ -306,8 +371,23 @@ void RefuseOtherExperiments(const Design& design, StudyStore& store)
       store.Folder()));
 }
 
+void RefuseWrongTogether(const SweepOptions& options)
+{
+  if (!options.hosts.empty() && !options.slurm.empty())
+    throw UsageError(
+        "--hosts and --slurm: runs are either on machines that you name or on those that Slurm gives; keep one");
+  if (options.runs_per_task != 0 && options.slurm.empty())
+    throw UsageError("--runs-per-task: only Slurm has tasks; give --slurm, too, or leave it out");
+  if (!options.hosts.empty()) HostsOf(options);
+  if (!options.slurm.empty()) SlurmOptions(options.slurm.front());
+  if (!options.hosts.empty() && options.jobs != 0)
+    throw UsageError(
+        "--jobs and --hosts: each machine has runs of its own; write `cores HOST = N` into the file of --hosts");
+}
+
 int SweepChecked(const SweepOptions& options)
 {
+  RefuseWrongTogether(options);
   std::unique_ptr<StudyStore> store;
   if (options.resume) store = StudyStore::Open(options.study);
   const LoadedStudy loaded = LoadFor(options, store.get());
@@ -321,6 +401,8 @@ int SweepChecked(const SweepOptions& options)
   if (!mistakes.empty()) return kExitInvalidFile;
   if (study.search && !(options.only.empty() && options.until_ci.empty()))
     throw UsageError("a study with a <search> chooses its runs itself; leave --only and --until-ci out");
+  if (study.search && !(options.hosts.empty() && options.slurm.empty()))
+    throw UsageError("a study with a <search> runs on this machine; leave --hosts and --slurm out");
   if (study.search) CheckSearch(study);
   if (options.dry_run && study.search)
   {
@@ -333,7 +415,10 @@ int SweepChecked(const SweepOptions& options)
     return kExitDone;
   }
   if (store)
+  {
     RefuseOtherExperiments(design, *store);
+    if (options.slurm.empty()) SettleSlurm(*store);
+  }
   else
     store = StudyStore::Create(options.output.empty() ? NewFolder(study.name) : options.output, study, design);
   if (study.search) return RunSearch({options.jobs, options.retries, options.quiet}, study, design, *store);

@@ -24,14 +24,8 @@ std::string RoughTime(double seconds)
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-SweepProgress::SweepProgress(const Design& design, std::size_t all, std::size_t done, unsigned jobs, bool quiet)
-    : design_(design),
-      all_(all),
-      done_(done),
-      jobs_(jobs),
-      quiet_(quiet),
-      terminal_(isatty(STDERR_FILENO) != 0),
-      next_(Clock::now())
+SweepProgress::SweepProgress(const Design& design, std::size_t all, std::size_t done, bool quiet)
+    : design_(design), all_(all), done_(done), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), next_(Clock::now())
 {
 }
 
@@ -59,7 +53,8 @@ void SweepProgress::Say(const std::string& line)
 }
 
 // Points differ: where one has been run, its mean counts, else that of all.
-double SweepProgress::SecondsLeft(const std::map<std::uint32_t, std::size_t>& waiting, std::size_t running) const
+double SweepProgress::SecondsLeft(const std::map<std::uint32_t, std::size_t>& waiting, std::size_t running,
+                                  unsigned slots) const
 {
   const double mean_s = of_all_.sum_s / of_all_.count;
   double seconds = static_cast<double>(running) * mean_s / 2;
@@ -69,20 +64,22 @@ double SweepProgress::SecondsLeft(const std::map<std::uint32_t, std::size_t>& wa
     seconds +=
         static_cast<double>(count) * (known == of_point_.end() ? mean_s : known->second.sum_s / known->second.count);
   }
-  return seconds / jobs_;
+  return seconds / std::max(slots, 1U);
 }
 
-void SweepProgress::Show(const std::vector<RunName>& running, const std::map<std::uint32_t, std::size_t>& waiting,
+void SweepProgress::Show(const RunPlace& place, const std::map<std::uint32_t, std::size_t>& waiting,
                          Clock::time_point now)
 {
   if (quiet_ || now < next_) return;
   next_ = now + (terminal_ ? Clock::duration(200ms) : Clock::duration(10s));
   std::string line = fmt::format("{} of {} runs ({} %)", done_, all_, 100 * done_ / std::max<std::size_t>(all_, 1));
-  if (of_all_.count > 0) line += ", about " + RoughTime(SecondsLeft(waiting, running.size())) + " left";
+  const std::vector<RunningRun> running = place.Running();
+  if (of_all_.count > 0) line += ", about " + RoughTime(SecondsLeft(waiting, running.size(), place.Slots())) + " left";
   for (std::size_t i = 0; i < running.size() && line.size() < kWidth; ++i)
   {
-    const std::string values = design_.Text(running[i].point);
-    line += fmt::format("{} {}{}", i == 0 ? "; running" : ",", running[i].Text(),
+    const std::string values = design_.Text(running[i].name.point);
+    line += fmt::format("{} {}{}{}", i == 0 ? "; running" : ",", running[i].name.Text(),
+                        running[i].where.empty() ? "" : " on " + running[i].where,
                         values.empty() ? "" : " (" + values + ")");
   }
   if (line.size() > kWidth) line = line.substr(0, kWidth) + " …";

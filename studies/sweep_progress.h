@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/design.h"
+#include "studies/run_place.h"
 
 namespace swarmanoid
 {
@@ -17,7 +17,7 @@ public:
   using Clock = std::chrono::steady_clock;
 
   // `all`: runs that the study has, `done` of which have been run before.
-  SweepProgress(const Design& design, std::size_t all, std::size_t done, unsigned jobs, bool quiet);
+  SweepProgress(const Design& design, std::size_t all, std::size_t done, bool quiet);
   ~SweepProgress();
 
   // One that has been run, in this process or before.
@@ -27,11 +27,10 @@ public:
   // Something to be read even if the user wants quiet.
   void Say(const std::string& line);
   // `waiting`: for each point, how many of its runs have not begun.
-  void Show(const std::vector<RunName>& running, const std::map<std::uint32_t, std::size_t>& waiting,
-            Clock::time_point now);
+  void Show(const RunPlace& place, const std::map<std::uint32_t, std::size_t>& waiting, Clock::time_point now);
 
 private:
-  double SecondsLeft(const std::map<std::uint32_t, std::size_t>& waiting, std::size_t running) const;
+  double SecondsLeft(const std::map<std::uint32_t, std::size_t>& waiting, std::size_t running, unsigned slots) const;
   void Clear();
 
   struct Times
@@ -41,7 +40,6 @@ private:
   };
   const Design& design_;
   std::size_t all_, done_;
-  unsigned jobs_;
   bool quiet_, terminal_;
   bool is_shown_ = false;
   std::map<std::uint32_t, Times> of_point_;

@@ -1,37 +1,15 @@
-"""Clusters on two machines by ssh, with real servers of it: two sshd on this machine, of the present user, with keys, ports and folders of
-their own. What happens there has to be told here, and nothing may be left there."""
-import contextlib
-import getpass
-import grp
+"""Clusters on two machines by ssh, with real servers of it: two sshd on this machine. What happens there has to be told here, and nothing
+may be left there."""
 import os
 import pathlib
-import re
-import shlex
-import shutil
 import signal
-import socket
-import subprocess
-import sys
-import time
-import unittest
 
-from harness import CONFIGS, GENEROUS_S, LauncherTest, children_of, end, main, skip, stat_of, words_of
+from harness import CONFIGS, LauncherTest, children_of, main, words_of
+from ssh_machines import Machines, require_servers
 
-SSHD = shutil.which("sshd", path="/usr/sbin:/usr/local/sbin:" + os.environ["PATH"])
-SSH = shutil.which("ssh")
 BUILD = pathlib.Path(os.environ["SWARMANOID_BUILD"])
 TICKS = 40
-# Settings of the preset that the programs are built with.
-OF_SANITIZERS = " ".join(f'"{name}={os.environ[name]}"' for name in ("ASAN_OPTIONS", "TSAN_OPTIONS") if name in os.environ)
-
-
 PROGRAMS = ("space_server", "engine_worker", "controller_host", "visualiser")
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
 
 
 def environment_of(pid):
@@ -41,97 +19,12 @@ def environment_of(pid):
         return []
 
 
-def make_key(file):
-    subprocess.run(["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", file], check=True, stdin=subprocess.DEVNULL)
-
-
-class Machine:
-    """A sshd with its keys."""
-
-    def __init__(self, name, folder, user_key, shared):
-        self.name = name
-        self.folder = folder / name
-        self.folder.mkdir()
-        make_key(self.folder / "host_key")
-        self.log = self.folder / "sshd.log"
-        # Another may take the port between the look and the start.
-        for _ in range(20):
-            self.port = free_port()
-            (self.folder / "sshd_config").write_text(
-                f"Port {self.port}\nListenAddress 127.0.0.1\nHostKey {self.folder}/host_key\nPidFile none\n"
-                f"AuthorizedKeysFile {user_key}.pub\nPubkeyAuthentication yes\nPasswordAuthentication no\n"
-                "KbdInteractiveAuthentication no\nUsePAM no\nStrictModes no\nPermitRootLogin prohibit-password\n"
-                f"SetEnv SWARMANOID_SHARED_FOLDER={shared} {OF_SANITIZERS}\n")
-            with self.log.open("w") as log:
-                self.process = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", SSHD, "-D", "-e", "-f",
-                                                 self.folder / "sshd_config"],
-                                                stdin=subprocess.DEVNULL, stderr=log, start_new_session=True)
-            deadline = time.monotonic() + GENEROUS_S
-            while self.process.poll() is None and "Server listening" not in self.log.read_text():
-                assert time.monotonic() < deadline, self.log.read_text()
-                time.sleep(0.01)
-            if self.process.poll() is None:
-                return
-        raise AssertionError("no sshd: " + self.log.read_text())
-
-    def known_host(self):
-        kind, key = (self.folder / "host_key.pub").read_text().split()[:2]
-        return f"[127.0.0.1]:{self.port} {kind} {key}\n"
-
-    def descendants(self):
-        found, fresh = [], [self.process.pid]
-        while fresh:
-            children = [child for pid in fresh for child in children_of(pid)]
-            found += children
-            fresh = children
-        return found
-
-    def find(self, program):
-        """The process of a program that was started on this machine, or None."""
-        for pid in self.descendants():
-            words = words_of(pid)
-            if words and os.path.basename(words[0]) == program:
-                return pid
-        return None
-
-    def session_of(self, pid):
-        """The sshd that serves the connection of a process."""
-        while True:
-            parent = stat_of(pid)[0]
-            if words_of(parent) and words_of(parent)[0].startswith("sshd:"):
-                return parent
-            pid = parent
-
-
 class Ssh(LauncherTest):
     def setUp(self):
         super().setUp()
-        key = self.folder / "user_key"
-        make_key(key)
-        self.machines = {}
-        for name in ("alpha", "beta"):
-            self.machines[name] = Machine(name, self.folder, key, self.shared)
-            self.addCleanup(self.stop, self.machines[name])
-        self.alpha, self.beta = self.machines["alpha"], self.machines["beta"]
-        (self.folder / "known_hosts").write_text("".join(m.known_host() for m in self.machines.values()))
-        config = self.folder / "ssh_config"
-        config.write_text("".join(f"Host {m.name}\n  HostName 127.0.0.1\n  Port {m.port}\n" for m in self.machines.values()) +
-                          "Host lost\n  HostName 127.0.0.1\n" f"  Port {free_port()}\n"
-                          f"Host *\n  User {getpass.getuser()}\n  IdentityFile {key}\n  IdentitiesOnly yes\n"
-                          f"  UserKnownHostsFile {self.folder}/known_hosts\n  GlobalKnownHostsFile none\n"
-                          "  StrictHostKeyChecking yes\n")
-        # The command is the built-in one; only the configuration of ssh is ours.
-        programs = self.folder / "bin"
-        programs.mkdir()
-        (programs / "ssh").write_text(f'#!/bin/sh\nexec {SSH} -F {shlex.quote(str(config))} "$@"\n')
-        (programs / "ssh").chmod(0o755)
-        self.environment = {"PATH": f"{programs}:{os.environ['PATH']}"}
-
-    def stop(self, machine):
-        for pid in machine.descendants():
-            with contextlib.suppress(ProcessLookupError):
-                os.kill(pid, signal.SIGKILL)
-        end(machine.process)
+        self.ssh = Machines(self.folder, self.shared)
+        self.addCleanup(self.ssh.stop)
+        self.alpha, self.beta = self.ssh.alpha, self.ssh.beta
 
     def hosts(self, *lines):
         # By its address, so that everything goes over the network as it does between machines. A busy machine is not dead.
@@ -141,7 +34,7 @@ class Ssh(LauncherTest):
 
     def start_on(self, hosts, *options):
         return self.start("run", CONFIGS / "diffusion_10.xml", "--no-visualisers", "--output", f"out{len(self.runs)}", "--hosts", hosts,
-                          *options, environment=self.environment)
+                          *options, environment=self.ssh.environment)
 
     def run_on(self, hosts, *options):
         run = self.start_on(hosts, *options)
@@ -164,7 +57,7 @@ class Ssh(LauncherTest):
 
     def assert_machines_empty(self):
         """No program that was started by ssh runs any more; what was told to end needs a moment."""
-        for machine in self.machines.values():
+        for machine in self.ssh.all:
             self.wait_until(f"{machine.name} to be empty", lambda: not machine.descendants())
         self.wait_until("the programs to end", lambda: not self.programs_left())
 
@@ -257,7 +150,7 @@ class Ssh(LauncherTest):
         self.assert_failed(run, "^engine 'ground' ", "on lost", "Connection refused")
 
     def test_a_machine_with_another_key_is_refused(self):
-        known = self.folder / "known_hosts"
+        known = self.ssh.known_hosts
         lines = known.read_text().splitlines()
         swapped = [line.split(" ", 1)[0] + " " + other.split(" ", 1)[1] for line, other in zip(lines, reversed(lines))]
         known.write_text("\n".join(swapped) + "\n")
@@ -276,21 +169,6 @@ class Ssh(LauncherTest):
         self.assert_failed(run, "^engine 'ground' ", "on alpha", r"protocol version (\d+), the space server version (?!\1)\d+")
 
 
-def terminals_are_of_tty():
-    """Whether new terminals belong to the group tty: only root can give them to it."""
-    ours, theirs = os.openpty()
-    group = os.fstat(theirs).st_gid
-    os.close(ours)
-    os.close(theirs)
-    return group == grp.getgrnam("tty").gr_gid
-
-
 if __name__ == "__main__":
-    if SSH is None or SSHD is None:
-        skip("ssh and its server are missing (package openssh-server)")
-    if os.geteuid() == 0:
-        # What the package's service makes when it starts.
-        os.makedirs("/run/sshd", mode=0o755, exist_ok=True)
-    elif not terminals_are_of_tty():
-        skip("a sshd that is not root's cannot hand over terminals: /dev/pts is not mounted with gid=5,mode=620")
+    require_servers(terminals=True)
     main()

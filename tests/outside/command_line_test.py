@@ -32,6 +32,8 @@ class CommandLine(OutsideTest):
         self.refused("controller_host", "--threads", "0", says=["--threads is 0", "from 1 to 64"])
         self.refused("visualiser", "--attach", "text", "--hz", "nan", says="--hz is 'nan'")
         self.refused("swarmanoid_robot", file, "--wait", "nan", says="--wait is 'nan'")
+        self.refused("swarmanoid", "sweep", file, "--runs-per-task", "1.5", says=["--runs-per-task is '1.5'", "a whole number"])
+        self.refused("swarmanoid", "sweep", file, "--hosts", self.folder / "nothing.txt", says="--hosts: cannot read '")
 
     def test_near_names(self):
         self.refused("swarmanoid", "rnu", says="did you mean 'run'?")

@@ -57,6 +57,25 @@ TEST(Hosts, StartsBySshWithOneQuotedWord)
                           "env COLOUR=red /opt/bin/engine_worker --engine 'the ground'"));
 }
 
+TEST(Hosts, NamesTheMachinesOfAStudy)
+{
+  const Hosts hosts("hosts.txt",
+                    "runs = alpha here\nruns = beta\ncores alpha = 8\nlease = 5\nswarmanoid = /opt/swarmanoid\n");
+  const std::vector<RunHost> machines = hosts.RunHosts();
+  ASSERT_EQ(machines.size(), 3U);
+  EXPECT_EQ(machines[0].name, "alpha");
+  EXPECT_EQ(machines[0].cores, 8U);
+  EXPECT_EQ(machines[2].name, "beta");
+  EXPECT_EQ(machines[2].cores, 0U);
+  EXPECT_EQ(hosts.LeaseSeconds(), 5U);
+  // Bytes do not pass a terminal as they are.
+  EXPECT_THAT(hosts.WorkerCommand("alpha", {"/bin/swarmanoid", "--work"}),
+              ElementsAre("ssh", "-T", "-o", "BatchMode=yes", "alpha", "/opt/swarmanoid --work"));
+  EXPECT_THAT(hosts.WorkerCommand("here", {"/bin/swarmanoid", "--work"}), ElementsAre("/bin/swarmanoid", "--work"));
+  EXPECT_THAT(Hosts("hosts.txt", "command = ip netns exec {host} {command}").WorkerCommand("a", {"/bin/x", "--work"}),
+              ElementsAre("ip", "netns", "exec", "a", "/bin/x", "--work"));
+}
+
 TEST(Hosts, StartsByATemplateWithTheWordsOfTheCommand)
 {
   const Hosts hosts("hosts.txt", "command = ip netns exec {host} {command}\nprogram_folder = /usr/bin\nengine = left");

@@ -1,0 +1,59 @@
+// Other machines that run a study, each reached by a process of its own (ssh). The orders of one that is lost go to the
+// others. One thread.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "launcher/hosts.h"
+#include "studies/host_connection.h"
+#include "studies/run_place.h"
+
+namespace swarmanoid
+{
+
+class HostPool final : public RunPlace
+{
+public:
+  // `setup`: as SetupOf says. `folder`: that of the study, for what runs leave. Throws UsageError if the hosts have no
+  // machine for runs.
+  HostPool(const Hosts& hosts, const std::vector<char>& setup, std::string folder);
+  ~HostPool() override;
+
+  bool HasRoom() const override;
+  void Give(RunOrder order) override;
+  bool IsIdle() const override;
+  std::vector<RunOutcome> Wait(std::chrono::milliseconds longest) override;
+  std::vector<RunningRun> Running() const override;
+  unsigned Slots() const override;
+  std::vector<std::string> TakeNotes() override { return std::exchange(notes_, {}); }
+
+private:
+  struct Machine
+  {
+    std::string name;
+    std::unique_ptr<HostConnection> connection;  // none: it is lost
+    unsigned slots = 0;                          // 0 until it is ready
+    std::deque<RunOrder> orders;
+    std::string lost_by;
+  };
+
+  std::size_t RoomOf(const Machine& machine) const;
+  void Distribute();
+  void Take(Machine& machine, const std::vector<char>& message, std::vector<RunOutcome>& outcomes);
+  void TakeOutcome(Machine& machine, ByteReader& bytes, std::vector<RunOutcome>& outcomes);
+  void Attend(Machine& machine, std::vector<RunOutcome>& outcomes);
+  void Lose(Machine& machine, const std::string& reason);
+
+  std::string folder_;
+  std::chrono::seconds lease_;
+  std::vector<Machine> machines_;
+  std::vector<std::unique_ptr<HostConnection>> leaving_;  // of lost machines, which are waited for at the end
+  std::deque<RunOrder> waiting_;                          // for a machine
+  std::size_t orders_of_slot_ = 1;  // more if runs are short, so that no machine waits for the network
+  std::vector<std::string> notes_;
+};
+
+}  // namespace swarmanoid

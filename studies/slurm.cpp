@@ -1,0 +1,174 @@
+#include "studies/slurm.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <sstream>
+
+#include "common/activity/failure_report.h"
+#include "common/configuration/configuration_tree.h"
+#include "common/configuration/wording.h"
+#include "common/program/usage_error.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+// Of the study itself: option, short form.
+constexpr std::array<std::pair<const char*, const char*>, 8> kOwnOptions{{{"--array", "-a"},
+                                                                          {"--output", "-o"},
+                                                                          {"--error", "-e"},
+                                                                          {"--job-name", "-J"},
+                                                                          {"--chdir", "-D"},
+                                                                          {"--parsable", "--parsable"},
+                                                                          {"--wrap", "--wrap"},
+                                                                          {"--wait", "-W"}}};
+
+std::string ReadAllOf(int file)
+{
+  std::string text;
+  char bytes[4096];
+  for (;;)
+  {
+    const ssize_t got = read(file, bytes, sizeof bytes);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return text;
+    text.append(bytes, static_cast<std::size_t>(got));
+  }
+}
+
+// What a command wrote, on standard output and standard error. Throws SlurmError if it failed.
+std::string OutputOf(const std::vector<std::string>& words)
+{
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw SlurmError(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
+  const pid_t process = fork();
+  if (process == 0)
+  {
+    setpgid(0, 0);  // Ctrl-C is for the study, which cancels
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_DFL);
+    dup2(ends[1], STDOUT_FILENO);
+    dup2(ends[1], STDERR_FILENO);
+    execvp(arguments[0], arguments.data());
+    fmt::print(stderr, "there is no command {} here ({}): install Slurm's client (Debian's slurm-client)", words[0],
+               std::strerror(errno));
+    std::fflush(stderr);
+    LeaveAtOnce(127);
+  }
+  close(ends[1]);
+  const std::string text = ReadAllOf(ends[0]);
+  close(ends[0]);
+  int status = 0;
+  if (process < 0) throw SlurmError(fmt::format("cannot start {}: {}", words[0], std::strerror(errno)));
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return text;
+  throw SlurmError(text.empty() ? fmt::format("{} failed without a word", words[0]) : std::string(TrimBlanks(text)));
+}
+
+}  // namespace
+
+bool SlurmTask::HasEnded() const
+{
+  static constexpr std::array kEnds{"COMPLETED", "CANCELLED", "FAILED",   "TIMEOUT",       "NODE_FAIL",
+                                    "PREEMPTED", "BOOT_FAIL", "DEADLINE", "OUT_OF_MEMORY", "REVOKED"};
+  return std::any_of(kEnds.begin(), kEnds.end(), [&](const char* end) { return state == end; });
+}
+
+std::string SubmitArray(const std::string& script, const std::string& log, std::size_t tasks, unsigned at_a_time,
+                        const std::vector<std::string>& options)
+{
+  std::vector<std::string> words{
+      "sbatch",
+      "--parsable",
+      "--job-name=swarmanoid",
+      "--open-mode=append",
+      "--output=" + log,
+      fmt::format("--array=0-{}{}", tasks - 1, at_a_time == 0 ? "" : fmt::format("%{}", at_a_time))};
+  words.insert(words.end(), options.begin(), options.end());
+  words.push_back(script);
+  // Warnings may stand before it; behind it, the name of the cluster.
+  std::string job;
+  std::istringstream lines(OutputOf(words));
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty() && line.find_first_not_of("0123456789") >= std::min(line.find(';'), line.size()))
+      job = line.substr(0, line.find(';'));
+  if (job.empty()) throw SlurmError(fmt::format("sbatch named no job: {}", Quoted(lines.str())));
+  return job;
+}
+
+std::map<std::size_t, SlurmTask> TasksOf(const std::string& job)
+{
+  std::map<std::size_t, SlurmTask> tasks;
+  std::string text;
+  try
+  {
+    text = OutputOf({"squeue", "--noheader", "--array", "--states=all", "--jobs=" + job, "--format=%i|%T|%N|%r"});
+  }
+  catch (const SlurmError& error)
+  {
+    if (std::string_view(error.what()).find("Invalid job id") != std::string_view::npos) return tasks;
+    throw;
+  }
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+  {
+    std::array<std::string, 4> fields;
+    std::istringstream parts(line);
+    for (std::string& field : fields) std::getline(parts, field, '|');
+    const std::size_t mark = fields[0].find('_');
+    const auto number = mark == std::string::npos ? std::nullopt : ParseInteger(fields[0].substr(mark + 1));
+    if (number) tasks[static_cast<std::size_t>(*number)] = {fields[1], fields[2], fields[3]};
+  }
+  return tasks;
+}
+
+void CancelJob(const std::string& job) { OutputOf({"scancel", job}); }
+
+std::vector<std::string> SlurmOptions(const std::string& text)
+{
+  std::vector<std::string> words;
+  char quote = 0;
+  bool in_word = false;
+  for (const char c : text)
+  {
+    if (quote != 0 ? c == quote : c == '\'' || c == '"')
+    {
+      quote = quote != 0 ? '\0' : c;
+      if (!in_word) words.emplace_back();
+      in_word = true;
+    }
+    else if (quote == 0 && (c == ' ' || c == '\t' || c == '\n'))
+    {
+      in_word = false;
+    }
+    else
+    {
+      if (!in_word) words.emplace_back();
+      in_word = true;
+      words.back() += c;
+    }
+  }
+  if (quote != 0) throw UsageError(fmt::format("--slurm: a quote is not closed in {}", Quoted(text)));
+  for (const std::string& word : words)
+    for (const auto& [name, letter] : kOwnOptions)
+      if (word == name || word.starts_with(std::string(name) + "=") ||
+          (letter[1] != '-' && word.starts_with(letter) && !word.starts_with("--")))
+        throw UsageError(
+            fmt::format("--slurm: {} is given by the study itself; leave it out{}", Quoted(word),
+                        std::string_view(name) == "--array" ? " (--jobs N is the number of tasks at a time)" : ""));
+  return words;
+}
+
+}  // namespace swarmanoid

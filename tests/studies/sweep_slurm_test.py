@@ -1,0 +1,337 @@
+"""Studies by Slurm: a real slurmctld, slurmd and munged on this machine, with a configuration, a key, ports and folders of their own."""
+import getpass
+import os
+import pathlib
+import re
+import shutil
+import signal
+import socket
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(TESTS / "cluster"))
+
+from harness import CONFIGS, GENEROUS_S, SWARMANOID, end, skip, words_of  # noqa: E402
+
+FINISHED = re.compile(r"^finished: (\d+) runs, (\d+) failed, [0-9.]+ s, table (\S+)$", re.MULTILINE)
+DAEMONS = {name: shutil.which(name, path="/usr/sbin:" + os.environ["PATH"]) for name in ("munged", "slurmctld", "slurmd")}
+
+
+def free_ports(count):
+    probes = [socket.socket() for _ in range(count)]
+    for probe in probes:
+        probe.bind(("127.0.0.1", 0))
+    ports = [probe.getsockname()[1] for probe in probes]
+    for probe in probes:
+        probe.close()
+    return ports
+
+
+class Slurm:
+    """One node of four processors, without a database of accounts."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        for name in ("state", "spool"):
+            (folder / name).mkdir()
+        key = folder / "munge.key"
+        key.write_bytes(os.urandom(1024))
+        key.chmod(0o600)
+        control, node = free_ports(2)
+        host = socket.gethostname().split(".")[0]
+        user = getpass.getuser()
+        (folder / "slurm.conf").write_text(f"""ClusterName=test
+SlurmctldHost={host}(127.0.0.1)
+SlurmUser={user}
+SlurmdUser={user}
+AuthType=auth/munge
+AuthInfo=socket={folder}/munge.socket
+CredType=cred/munge
+SlurmctldPort={control}
+SlurmdPort={node}
+StateSaveLocation={folder}/state
+SlurmdSpoolDir={folder}/spool
+SlurmctldPidFile={folder}/slurmctld.pid
+SlurmdPidFile={folder}/slurmd.pid
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+JobAcctGatherType=jobacct_gather/none
+AccountingStorageType=accounting_storage/none
+SwitchType=switch/none
+MpiDefault=none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU
+SchedulerParameters=sched_interval=1,sched_min_interval=0,batch_sched_delay=0
+SlurmdParameters=config_overrides
+ReturnToService=2
+KillWait=2
+MinJobAge=300
+NodeName={host} NodeAddr=127.0.0.1 CPUs=4
+PartitionName=short Nodes={host} Default=YES MaxTime=60 State=UP
+""")
+        self.environment = {"SLURM_CONF": str(folder / "slurm.conf")}
+        self.processes = {}
+        self.start("munged", "-F", f"--key-file={key}", f"--socket={folder}/munge.socket", f"--log-file={folder}/munged.log",
+                   f"--pid-file={folder}/munged.pid", f"--seed-file={folder}/munged.seed")
+        self.wait("munge", lambda: (folder / "munge.socket").exists())
+        self.start("slurmctld", "-D")
+        self.start("slurmd", "-D")
+        self.wait("the node", lambda: "idle" in self.ask("sinfo", "--noheader", "--format=%T"))
+
+    def start(self, name, *options):
+        with (self.folder / f"{name}.out").open("w") as log:
+            self.processes[name] = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", DAEMONS[name], *options], stdin=subprocess.DEVNULL, stdout=log,
+                                                    stderr=subprocess.STDOUT, start_new_session=True, env={**os.environ, **self.environment})
+
+    def wait(self, what, condition):
+        deadline = time.monotonic() + GENEROUS_S
+        while not condition():
+            for name, process in self.processes.items():
+                if process.poll() is not None:
+                    raise AssertionError(f"{name}: " + (self.folder / f"{name}.out").read_text())
+            assert time.monotonic() < deadline, f"in vain for {what}"
+            time.sleep(0.1)
+
+    def ask(self, *words):
+        return subprocess.run(words, capture_output=True, text=True, env={**os.environ, **self.environment}).stdout
+
+    def live(self):
+        return self.ask("squeue", "--noheader", "--array", "--format=%i").split()
+
+    def workers(self):
+        """Processes of Slurm's that run a study."""
+        return [int(pid) for pid in os.listdir("/proc") if pid.isdigit() and "--study-worker" in words_of(pid) and
+                str(self.folder.parent) in " ".join(words_of(pid))]
+
+    def stop(self):
+        self.ask("scancel", "--user", getpass.getuser(), "--signal=KILL")
+        for name in ("slurmd", "slurmctld", "munged"):
+            if name in self.processes:
+                end(self.processes[name])
+        # slurmd's steps are not its children.
+        for pid in os.listdir("/proc"):
+            if pid.isdigit() and words_of(pid)[:1] and words_of(pid)[0].startswith("slurmstepd") and self.is_mine(pid):
+                os.kill(int(pid), signal.SIGKILL)
+
+    def is_mine(self, pid):
+        try:
+            return str(self.folder).encode() in pathlib.Path(f"/proc/{pid}/environ").read_bytes()
+        except OSError:
+            return False
+
+
+class SweepSlurm(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.top = pathlib.Path(tempfile.mkdtemp(prefix="swarmanoid_slurm_"))
+        cls.addClassCleanup(shutil.rmtree, cls.top, ignore_errors=True)
+        # Others reach the socket of munge.
+        cls.top.chmod(0o755)
+        (cls.top / "slurm").mkdir()
+        cls.slurm = Slurm(cls.top / "slurm")
+        cls.addClassCleanup(cls.slurm.stop)
+
+    def setUp(self):
+        self.folder = self.top / self.id().rsplit(".", 1)[1]
+        self.folder.mkdir()
+        self.environment = {**os.environ, **self.slurm.environment}
+
+    def tearDown(self):
+        for job in self.slurm.live():
+            self.slurm.ask("scancel", job)
+        self.wait_until("an empty queue", lambda: not self.slurm.live())
+
+    def study(self, seeds, ticks=60, inside='<metrics every="20"><distance id="way"/></metrics>'):
+        path = self.folder / "study.xml"
+        path.write_text(f'<study experiment="{CONFIGS}/diffusion_10.xml" ticks="{ticks}" seeds="{seeds}">\n{inside}\n</study>\n')
+        return path
+
+    def start(self, *words):
+        process = subprocess.Popen([SWARMANOID, "sweep", *map(str, words), "--quiet"], cwd=self.folder, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True, env=self.environment)
+        self.addCleanup(lambda: (process.kill(), process.communicate()))
+        return process
+
+    def end_of(self, process, code=0):
+        out, errors = process.communicate(timeout=250)
+        self.assertEqual(process.returncode, code, out + errors)
+        return out, errors
+
+    def sweep(self, *words, code=0):
+        return self.end_of(self.start(*words), code)
+
+    def here(self, study):
+        self.sweep(study, "--output", "here")
+        return (self.folder / "here/table.csv").read_bytes()
+
+    def query(self, name, query):
+        database = sqlite3.connect(self.folder / name / "study.sqlite", timeout=60)
+        try:
+            return database.execute(query).fetchall()
+        except sqlite3.OperationalError:  # it is being made
+            return []
+        finally:
+            database.close()
+
+    def wait_until(self, what, condition):
+        deadline = time.monotonic() + GENEROUS_S
+        while not condition():
+            self.assertLess(time.monotonic(), deadline, "in vain for " + what)
+            time.sleep(0.05)
+
+    def done_in(self, name):
+        if not (self.folder / name / "study.sqlite").exists():
+            return 0
+        rows = self.query(name, "SELECT COUNT(*) FROM runs WHERE state = 'done'")
+        return rows[0][0] if rows else 0
+
+    def wait_for_runs(self, name, at_least, process):
+        self.wait_until("runs", lambda: process.poll() is not None or self.done_in(name) >= at_least)
+        self.assertIsNone(process.poll(), "it ended early")
+
+    def assert_same(self, name, table):
+        self.assertEqual((self.folder / name / "table.csv").read_bytes(), table)
+        self.assertFalse((self.folder / name / "slurm").exists(), "nothing of the jobs stays")
+
+    def test_the_table_is_that_of_this_machine(self):
+        study = self.study("1-12", inside='<factor id="robots" path="arena.distribute.quantity" values="4 8"/>'
+                           '<metrics every="20"><distance id="way"/><trajectories id="ways"/></metrics>')
+        table = self.here(study)
+        out, errors = self.sweep(study, "--output", "out", "--slurm", "--partition=short --time=10 --comment='two words'", "--runs-per-task", "5")
+        self.assertEqual(FINISHED.search(out).groups(), ("24", "0", "out/table.csv"))
+        job, runs, tasks = re.search(r"^job (\d+) of Slurm: (\d+) runs in (\d+) tasks$", errors, re.MULTILINE).groups()
+        self.assertEqual((runs, tasks), ("24", "5"))
+        self.assert_same("out", table)
+        self.assertEqual(self.query("out", "SELECT * FROM ways ORDER BY point, seed"), self.query("here", "SELECT * FROM ways ORDER BY point, seed"))
+        shown = self.slurm.ask("scontrol", "show", "job", job)
+        self.assertIn("Comment=two words", shown)
+        self.assertIn("TimeLimit=00:10:00", shown)
+
+    def test_jobs_go_on_without_the_command(self):
+        study = self.study("1-24", ticks=3000)
+        table = self.here(study)
+        for number, end_by in enumerate((signal.SIGKILL, signal.SIGHUP, signal.SIGTERM)):
+            name = f"out{number}"
+            process = self.start(study, "--output", name, "--slurm", "", "--runs-per-task", "3")
+            self.wait_for_runs(name, 1, process)
+            process.send_signal(end_by)
+            process.communicate()
+            self.assertTrue(self.slurm.live(), "it was too quick")
+            if number == 0:
+                _, errors = self.sweep(name, "--resume", code=2)
+                self.assertRegex(errors, r"the study's jobs \d+ of Slurm go on: go on with --slurm, too, or end them by: scancel \d+")
+            if number < 2:
+                self.sweep(name, "--resume", "--slurm", "")
+            else:
+                self.wait_until("the end of the jobs", lambda: not self.slurm.live())
+                self.sweep(name, "--resume")
+            self.assert_same(name, table)
+            self.assertEqual(self.query(name, "SELECT DISTINCT attempts FROM runs"), [(1,)], "each was run once")
+
+    def test_ctrl_c_cancels(self):
+        study = self.study("1-60", ticks=3000)
+        process = self.start(study, "--output", "out", "--slurm", "--comment=mine", "--runs-per-task", "2")
+        self.wait_for_runs("out", 2, process)
+        process.send_signal(signal.SIGINT)
+        _, errors = self.end_of(process, 130)
+        self.assertRegex(errors, r"(?m)^job \d+ of Slurm is cancelled$")
+        told = re.search(r"^(\d+) of 60 runs are done; to go on: swarmanoid sweep out --resume --slurm --comment=mine$", errors, re.MULTILINE)
+        self.assertTrue(told, errors)
+        self.assertEqual(self.done_in("out"), int(told[1]))
+        self.assertEqual(self.slurm.live(), [])
+        self.assertEqual(self.slurm.workers(), [])
+        self.sweep("out", "--resume", "--slurm", "", "--jobs", "2")
+        self.assertEqual((self.folder / "out/table.csv").read_bytes(), self.here(study))
+
+    def test_a_cancelled_task_is_told_and_run_again_as_asked(self):
+        study = self.study("1-12", ticks=6000)
+        table = self.here(study)
+        for name, retries in (("out", 0), ("again", 1)):
+            process = self.start(study, "--output", name, "--slurm", "", "--runs-per-task", "3", "--jobs", "1", "--retries", retries)
+            self.wait_for_runs(name, 1, process)
+            task = next(task for task in self.slurm.live() if task.endswith("_3"))
+            self.slurm.ask("scancel", task)
+            out, errors = self.end_of(process, 0 if retries else 4)
+            told = re.findall(rf"^run 0-(\d+) failed with exit code 4: Slurm's task {task} ended before it had a result \(CANCELLED", errors, re.MULTILINE)
+            self.assertEqual(sorted(map(int, told)), [10, 11, 12], errors)
+            self.assertEqual(FINISHED.search(out)[2], "0" if retries else "3")
+            if not retries:
+                self.sweep("out", "--resume", "--slurm", "", "--retries", "1")
+            self.assert_same(name, table)
+
+    def test_a_task_that_dies_keeps_what_it_had(self):
+        study = self.study("1-6", ticks=6000)
+        table = self.here(study)
+        process = self.start(study, "--output", "out", "--slurm", "", "--runs-per-task", "6", "--retries", "1")
+        self.wait_for_runs("out", 2, process)
+        for pid in self.slurm.workers():
+            os.kill(pid, signal.SIGKILL)
+        _, errors = self.end_of(process)
+        told = re.findall(r"^run 0-\d+ failed with exit code 4: Slurm's task \d+_0 ended before it had a result \(FAILED on \S+\)", errors, re.MULTILINE)
+        self.assertIn(len(told), range(1, 5), errors)
+        self.assert_same("out", table)
+        self.assertEqual(sorted(row for row, in self.query("out", "SELECT attempts FROM runs")), [1] * (6 - len(told)) + [2] * len(told))
+
+    def test_a_silent_slurm_is_waited_for(self):
+        study = self.study("1-20", ticks=6000)
+        process = self.start(study, "--output", "out", "--slurm", "", "--runs-per-task", "5", "--jobs", "1")
+        self.wait_for_runs("out", 1, process)
+        self.slurm.processes["slurmctld"].terminate()
+        self.slurm.processes["slurmctld"].wait(60)
+        self.wait_until("runs that need no controller", lambda: self.done_in("out") >= 5)
+        time.sleep(3)  # it is asked each two seconds
+        self.slurm.start("slurmctld", "-D")
+        _, errors = self.end_of(process)
+        self.assertEqual(len(re.findall(r"^Slurm cannot be asked about job \d+: .*; asked again until it answers$", errors, re.MULTILINE)), 1, errors)
+        self.assert_same("out", self.here(study))
+
+    def test_several_cores_of_a_task(self):
+        study = self.study("1-8", ticks=600)
+        self.sweep(study, "--output", "out", "--slurm", "--cpus-per-task=2", "--runs-per-task", "8")
+        self.assert_same("out", self.here(study))
+
+    def test_what_cannot_be_is_told(self):
+        study = self.study("1-2")
+        (self.folder / "hosts.txt").write_text("runs = alpha\n")
+        for options, says in ((["--slurm", "", "--hosts", "hosts.txt"], "--hosts and --slurm: runs are either"),
+                              (["--runs-per-task", "2"], "--runs-per-task: only Slurm has tasks"),
+                              (["--slurm", "--array=1-3"], "--slurm: '--array=1-3' is given by the study itself; leave it out (--jobs N is the number of tasks"),
+                              (["--slurm", "-o x"], "--slurm: '-o' is given by the study itself"),
+                              (["--slurm", "--comment='two"], "--slurm: a quote is not closed")):
+            _, errors = self.sweep(study, "--output", "none", *options, code=2)
+            self.assertIn(says, errors)
+            self.assertFalse((self.folder / "none").exists())
+        _, errors = self.sweep(study, "--output", "out", "--slurm", "--partition=nowhere", code=4)
+        self.assertRegex(errors, r"--slurm: sbatch: error: [^;]*invalid partition[^;]*; what was stored before stays: mend the cause, then go on: "
+                         r"swarmanoid sweep out --resume --slurm --partition=nowhere")
+        self.assertFalse((self.folder / "out/slurm").exists())
+        self.environment["PATH"] = "/nowhere"
+        _, errors = self.sweep("out", "--resume", "--slurm", "", code=4)
+        self.assertIn("there is no command sbatch here", errors)
+
+    def test_a_full_disk_keeps_what_was_stored(self):
+        small = self.folder / "small"
+        small.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=600k", "none", small], stderr=subprocess.DEVNULL).returncode != 0:
+            self.skipTest("no file system of limited size can be mounted here")
+        self.addCleanup(subprocess.run, ["umount", "-l", small])
+        study = self.study("1-40", inside='<metrics every="1"><distance id="way"/><trajectories id="ways"/></metrics>', ticks=600)
+        _, errors = self.sweep(study, "--output", "small/out", "--slurm", "", "--runs-per-task", "20", code=4)
+        self.assertRegex(errors, r"No space left on device|database or disk is full")
+        subprocess.run(["mount", "-o", "remount,size=100m", small], check=True)
+        self.wait_until("an empty queue", lambda: not self.slurm.live())
+        out, _ = self.sweep("small/out", "--resume", "--slurm", "", "--retries", "3")
+        self.assertEqual(FINISHED.search(out).groups()[:2], ("40", "0"))
+        self.assertEqual((self.folder / "small/out/table.csv").read_bytes(), self.here(study))
+
+
+if __name__ == "__main__":
+    missing = [name for name, path in DAEMONS.items() if path is None]
+    if missing or shutil.which("sbatch") is None:
+        skip(f"there is no {', '.join(missing) or 'sbatch'} (packages slurmctld, slurmd, slurm-client and munge)")
+    unittest.main()
