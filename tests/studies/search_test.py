@@ -31,7 +31,8 @@ class Search(unittest.TestCase):
         return path
 
     def command(self, *words, code=0):
-        done = subprocess.run([SWARMANOID, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=250)
+        done = subprocess.run([SWARMANOID, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=250,
+                              env={**os.environ, "SWARMANOID_SHARED_FOLDER": str(self.folder)})
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done
 
@@ -117,6 +118,14 @@ class Search(unittest.TestCase):
                          "--output", goal, "--quiet")
             speeds = {float(row["speed"]) for row in self.rows(goal)}
             self.assertEqual(max(speeds, key=lambda speed: sign * speed), 0.1 if goal == "max" else 0.01)
+
+    def test_clusters_search_the_same(self):
+        study = self.study('metric="seen" runs="9" algorithm="sbplx" fresh_seeds="1"', ticks=10)
+        other = self.folder / "cluster.xml"
+        other.write_text(study.read_text().replace("<study ", '<study cluster="true" '))
+        self.command("sweep", study, "--output", "one", "--quiet")
+        self.command("sweep", other, "--output", "cluster", "--quiet")
+        self.assertEqual((self.folder / "one/table.csv").read_bytes(), (self.folder / "cluster/table.csv").read_bytes())
 
     def test_conditions_hold_and_patience_ends(self):
         inside = FACTORS + '<require condition="robots * speed &lt; 0.5"/>'
