@@ -226,7 +226,8 @@ class SweepSlurm(unittest.TestCase):
                 _, errors = self.sweep(name, "--resume", code=2)
                 self.assertRegex(errors, r"the study's jobs \d+ of Slurm go on: go on with --slurm, too, or end them by: scancel \d+")
             if number < 2:
-                self.sweep(name, "--resume", "--slurm", "")
+                _, errors = self.sweep(name, "--resume", "--slurm", "")
+                self.assertNotIn("tasks", errors, "nothing is submitted a second time")
             else:
                 self.wait_until("the end of the jobs", lambda: not self.slurm.live())
                 self.sweep(name, "--resume")
