@@ -1,6 +1,9 @@
 #include "controller_host/controller_host.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <ctime>
 #include <exception>
 #include <map>
 #include <sstream>
@@ -10,6 +13,7 @@
 #include "common/experiment/actors.h"
 #include "common/logging/log.h"
 #include "common/messages/attribute_changes.h"
+#include "common/space/attributes.h"
 #include "common/space/state_checks.h"
 #include "common/threads/thread_choice.h"
 #include "common/threads/worker_pool.h"
@@ -42,6 +46,20 @@ ChannelSlice SliceOf(const std::vector<ChannelBlock>& blocks, const std::string&
     slice.offsets[k] = block->offset + static_cast<std::size_t>(place - block->entities.begin()) * slice.width;
   }
   return slice;
+}
+
+// A controller that fails more often, never with more ticks between, is not started again.
+constexpr std::uint32_t kMostRestarts = 3;
+constexpr std::uint64_t kRestartMemory = 100;
+
+// What shows, or is heard, of a robot. Others, such as angles, stay.
+constexpr std::string_view kSilenced[] = {"led", "beacon", "laser", "message", "radio", "report"};
+
+double ThreadMilliseconds()
+{
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
 }
 
 // In how many parts a sensor of so many robots is split: each costs a little by itself.
@@ -110,7 +128,8 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
     robots_of[static_cast<std::size_t>(configuration - experiment.controllers.data())].push_back(k);
     robots_.push_back({layout_.robots[k], RobotActor(experiment, layout_.robots[k]),
                        StreamKey(experiment.seed, StreamName(entity.GetId()), kControlStepStream),
-                       std::make_unique<CCI_Robot>(entity.GetId(), std::string(TagName(entity.GetKind()))), nullptr});
+                       std::make_unique<CCI_Robot>(entity.GetId(), std::string(TagName(entity.GetKind()))), nullptr,
+                       configuration->IsGuarded() ? std::make_unique<Guard>(Guard{configuration}) : nullptr});
   }
 
   for (const Robot& robot : robots_)
@@ -154,7 +173,11 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
   }
 
   for (std::uint32_t k = 0; k < robots_.size(); ++k)
-    (robots_[k].controller->StepsInParallel() ? parallel_ : in_turn_).push_back(k);
+    if (robots_[k].guard != nullptr)
+      guarded_.push_back(k);
+    else
+      (robots_[k].controller->StepsInParallel() ? parallel_ : in_turn_).push_back(k);
+  SaveLastStates(0);
   if (threads > 1 && (batches_->split || parallel_.size() > 1)) batches_->pool = std::make_unique<WorkerPool>(threads);
 }
 
@@ -319,6 +342,7 @@ void ControllerHost::CommitActuators()
                             "): it has a channel, so it must not change attributes");
     CheckAttributesOf(*actuator.device, actuator.robots, first);
   }
+  if (!silence_.robots.empty()) SilenceStopped();
   batches_->order.Apply(commands_.attributes);
   StopInactive();
   CheckCommands();
@@ -375,7 +399,7 @@ void ControllerHost::FailCommand(std::uint32_t robot, const DeviceConfiguration&
                         std::to_string(commands_.tick) + "; commands must be finite numbers");
 }
 
-// Those that may step in parallel come first, however many threads there are.
+// Those that may step in parallel come first, however many threads there are, and those with a guard last.
 void ControllerHost::RunControllers(std::uint64_t tick)
 {
   if (batches_->pool != nullptr && parallel_.size() > 1)
@@ -383,6 +407,7 @@ void ControllerHost::RunControllers(std::uint64_t tick)
   else
     StepInTurn(parallel_, tick);
   StepInTurn(in_turn_, tick);
+  if (!guarded_.empty()) StepGuarded(tick);
 }
 
 void ControllerHost::StepInTurn(std::span<const std::uint32_t> robots, std::uint64_t tick)
@@ -417,6 +442,11 @@ void ControllerHost::StepInParallel(std::uint64_t tick)
     if (stopped != nullptr) std::rethrow_exception(stopped);
 }
 
+void ControllerHost::BeginStep(const Robot& robot, std::uint64_t tick) const
+{
+  robot.interface->BeginStep(tick, space_.GetTickSeconds(), {robot.random, tick});
+}
+
 template <class ActivityOfThread>
 void ControllerHost::ControlSteps(std::span<const std::uint32_t> robots, std::uint64_t tick, ActivityOfThread& activity)
 {
@@ -427,7 +457,7 @@ void ControllerHost::ControlSteps(std::span<const std::uint32_t> robots, std::ui
     {
       Robot& robot = robots_[k];
       if (!space_.IsPresent(robot.entity)) continue;
-      robot.interface->BeginStep(tick, space_.GetTickSeconds(), {robot.random, tick});
+      BeginStep(robot, tick);
       running = &robot.actor;
       activity.Next(*running);
       robot.controller->ControlStep();
@@ -439,14 +469,192 @@ void ControllerHost::ControlSteps(std::span<const std::uint32_t> robots, std::ui
   }
 }
 
-bool ControllerHost::Describe(std::uint32_t entity, RobotStatus& status) const
+void ControllerHost::StepGuarded(std::uint64_t tick)
 {
-  const auto place = std::lower_bound(layout_.robots.begin(), layout_.robots.end(), entity);
-  if (place == layout_.robots.end() || *place != entity) return false;
-  const Robot& robot = robots_[static_cast<std::size_t>(place - layout_.robots.begin())];
-  const ControllerConfiguration& configuration =
-      *space_.GetExperiment().FindController(space_.GetEntity(entity).GetConfiguration().controller);
-  status = {entity, commands_.tick, configuration.id, {}, {}, {}, {}};
+  commands_.faults.Clear();
+  Activity activity(robots_[guarded_.front()].actor, ActivityStep::kControlStep, tick);
+  for (const std::uint32_t k : guarded_)
+  {
+    Robot& robot = robots_[k];
+    if (!space_.IsPresent(robot.entity) || robot.guard->stopped) continue;
+    BeginStep(robot, tick);
+    activity.Next(robot.actor);
+    TryStep(robot, tick);
+  }
+  SaveLastStates(tick + 1);
+}
+
+void ControllerHost::TryStep(Robot& robot, std::uint64_t tick)
+{
+  const ControllerConfiguration& configuration = *robot.guard->configuration;
+  const std::optional<FaultKind> known = Known(tick, robot.entity);
+  if (known == FaultKind::kDied) return TakeFault(robot, FaultKind::kDied, tick, "died");
+  SetCureOfStep(configuration.MayFail() ? cure_of_death_ : "");
+  bool in_time = true;
+  std::optional<std::string> thrown;
+  try
+  {
+    in_time = StepInTime(robot, tick);
+  }
+  catch (...)
+  {
+    if (!configuration.MayFail()) RethrowFor(robot.actor, ActivityStep::kControlStep, tick);
+    thrown = CurrentExceptionText();
+  }
+  SetCureOfStep("");
+  if (thrown) return TakeFault(robot, FaultKind::kThrew, tick, "failed: " + *thrown);
+  if (in_time && known != FaultKind::kTooSlow) return;
+  TakeFault(robot, FaultKind::kTooSlow, tick,
+            fmt::format("took more processor time than its {:g} ms (time_budget_ms)", configuration.time_budget_ms));
+}
+
+bool ControllerHost::StepInTime(Robot& robot, std::uint64_t tick)
+{
+  const double budget_ms = robot.guard->configuration->time_budget_ms;
+  const bool measures = budget_ms > 0 && tick >= known_.until && tick != known_tick_;
+  const double before = measures ? ThreadMilliseconds() : 0;
+  robot.controller->ControlStep();
+  return !measures || ThreadMilliseconds() - before <= budget_ms;
+}
+
+void ControllerHost::Know(KnownFaults known)
+{
+  known_ = std::move(known);
+  std::sort(known_.faults.begin(), known_.faults.end());
+}
+
+void ControllerHost::KnowTick(std::uint64_t tick, const ControllerFaults& faults)
+{
+  known_tick_ = tick;
+  faults_of_tick_ = faults;
+}
+
+std::optional<FaultKind> ControllerHost::Known(std::uint64_t tick, std::uint32_t robot) const
+{
+  if (known_tick_ == tick)
+  {
+    const auto& robots = faults_of_tick_.robots;
+    const auto place = std::lower_bound(robots.begin(), robots.end(), robot);
+    if (place == robots.end() || *place != robot) return std::nullopt;
+    return faults_of_tick_.kinds[static_cast<std::size_t>(place - robots.begin())];
+  }
+  const auto place =
+      std::lower_bound(known_.faults.begin(), known_.faults.end(), std::pair(tick, robot),
+                       [](const KnownFault& fault, const auto& of) { return std::pair(fault.tick, fault.robot) < of; });
+  if (place == known_.faults.end() || place->tick != tick || place->robot != robot) return std::nullopt;
+  return place->kind;
+}
+
+void ControllerHost::TakeFault(Robot& robot, FaultKind kind, std::uint64_t tick, const std::string& text)
+{
+  Guard& guard = *robot.guard;
+  const std::string what = ActivityText(robot.actor, ActivityStep::kControlStep, tick) + " " + text;
+  if (!guard.configuration->MayFail()) throw ControllerError(what);
+  commands_.faults.robots.push_back(robot.entity);
+  commands_.faults.kinds.push_back(kind);
+  if (tick - guard.failed_at > kRestartMemory) guard.restarts = 0;
+  guard.kind = kind;
+  guard.failed_at = tick;
+  if (guard.configuration->on_failure != OnFailure::kRestart || guard.restarts >= kMostRestarts)
+  {
+    LogWarning("{}; the robot is stopped", what);
+    return Stop(robot);
+  }
+  LogWarning("{}; the controller starts again", what);
+  ++guard.restarts;
+  try
+  {
+    Restart(robot, tick);
+  }
+  catch (const ActivityError& error)
+  {
+    LogWarning("{}; the robot is stopped", error.what());
+    Stop(robot);
+  }
+}
+
+void ControllerHost::Restart(Robot& robot, std::uint64_t tick)
+{
+  const Guard& guard = *robot.guard;
+  const auto* entry = PluginRegistry<CCI_Controller>::Instance().Find(guard.configuration->tag);
+  robot.interface->BeginStep(tick, space_.GetTickSeconds(),
+                             {space_.GetExperiment().seed, StreamName(robot.interface->GetId()), kInitStream, tick});
+  RunCodeOf(robot.actor, ActivityStep::kInit, tick,
+            [&]
+            {
+              robot.controller = entry->create();
+              robot.controller->SetRobot(robot.interface.get());
+              const int result = InitController(*robot.controller, entry->description, guard.configuration->id,
+                                                guard.configuration->parameters);
+              if (result != CCI_Controller::RETURN_OK) throw std::runtime_error(fmt::format("it returned {}", result));
+            });
+  if (!robot.controller->HasState() || guard.state.empty()) return;
+  std::istringstream text(guard.state);
+  RunCodeOf(robot.actor, ActivityStep::kLoadState, tick, [&] { robot.controller->LoadState(text); });
+}
+
+void ControllerHost::SaveLastStates(std::uint64_t tick)
+{
+  if (tick % space_.GetExperiment().canonical_period != 0) return;
+  for (const std::uint32_t k : guarded_)
+  {
+    const Robot& robot = robots_[k];
+    Guard& guard = *robot.guard;
+    if (guard.configuration->on_failure != OnFailure::kRestart || guard.stopped || !robot.controller->HasState())
+      continue;
+    std::ostringstream text;
+    RunCodeOf(robot.actor, ActivityStep::kSaveState, tick, [&] { robot.controller->SaveState(text); });
+    guard.state = text.str();
+  }
+}
+
+void ControllerHost::Stop(const Robot& robot)
+{
+  robot.guard->stopped = true;
+  silence_.robots.insert(std::lower_bound(silence_.robots.begin(), silence_.robots.end(), robot.entity), robot.entity);
+  const CSwarmanoidSpaceEntity& entity = space_.GetEntity(robot.entity);
+  for (const AttributeSpec& spec : AttributesOf(entity.GetKind()))
+    if (std::find(std::begin(kSilenced), std::end(kSilenced), spec.name) != std::end(kSilenced))
+      for (int element = 0; element < spec.count; ++element)
+        silence_.slots.push_back(entity.SlotOf(spec.name, element));
+  for (const ChannelBlock& block : layout_.commands)
+  {
+    const auto place = std::lower_bound(block.entities.begin(), block.entities.end(), robot.entity);
+    if (place == block.entities.end() || *place != robot.entity) continue;
+    const auto width = static_cast<std::size_t>(block.width);
+    const std::size_t first = block.offset + static_cast<std::size_t>(place - block.entities.begin()) * width;
+    silence_.commands.emplace_back(first, first + width);
+  }
+}
+
+void ControllerHost::SilenceStopped()
+{
+  AttributeChanges& changes = commands_.attributes;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < changes.slots.size(); ++k)
+  {
+    const std::uint32_t entity = EntityOfSlot(space_, changes.slots[k]);
+    if (std::binary_search(silence_.robots.begin(), silence_.robots.end(), entity)) continue;
+    changes.slots[kept] = changes.slots[k];
+    changes.values[kept++] = changes.values[k];
+  }
+  changes.slots.resize(kept);
+  changes.values.resize(kept);
+  for (const std::uint32_t slot : silence_.slots)
+    if (space_.Attributes()[slot] != 0) changes.Add(slot, 0);
+  for (const auto& [first, behind] : silence_.commands)
+    std::fill(commands_.values.begin() + static_cast<std::ptrdiff_t>(first),
+              commands_.values.begin() + static_cast<std::ptrdiff_t>(behind), 0.0);
+}
+
+void ControllerHost::DescribeController(const Robot& robot, RobotStatus& status) const
+{
+  if (robot.IsStopped())
+  {
+    status.state = "stopped";
+    status.text = fmt::format("its controller {} at tick {}", FaultText(robot.guard->kind), robot.guard->failed_at);
+    return;
+  }
   try
   {
     RunCodeOf(robot.actor, ActivityStep::kStatusText, commands_.tick,
@@ -460,6 +668,17 @@ bool ControllerHost::Describe(std::uint32_t entity, RobotStatus& status) const
   {
     status.text = std::string("its status is unknown: ") + error.what();
   }
+}
+
+bool ControllerHost::Describe(std::uint32_t entity, RobotStatus& status) const
+{
+  const auto place = std::lower_bound(layout_.robots.begin(), layout_.robots.end(), entity);
+  if (place == layout_.robots.end() || *place != entity) return false;
+  const Robot& robot = robots_[static_cast<std::size_t>(place - layout_.robots.begin())];
+  const ControllerConfiguration& configuration =
+      *space_.GetExperiment().FindController(space_.GetEntity(entity).GetConfiguration().controller);
+  status = {entity, commands_.tick, configuration.id, {}, {}, {}, {}};
+  DescribeController(robot, status);
   for (const DeviceConfiguration& device : configuration.sensors)
   {
     status.sensors.push_back({device.type, {}});
@@ -488,6 +707,14 @@ void ControllerHost::SaveState(ByteWriter& state) const
 {
   for (const Robot& robot : robots_)
   {
+    if (const Guard* guard = robot.guard.get())
+    {
+      state.Put(guard->stopped);
+      state.Put(guard->kind);
+      state.Put(guard->failed_at);
+      state.Put(guard->restarts);
+      if (guard->stopped) continue;
+    }
     if (!robot.controller->HasState())
       throw ControllerError("robot '" + robot.interface->GetId() +
                             "': its controller cannot be saved; it must override HasState, " +
@@ -503,9 +730,24 @@ void ControllerHost::SaveState(ByteWriter& state) const
 void ControllerHost::LoadState(ByteReader& state)
 {
   sensed_tick_.reset();
+  silence_ = {};
   for (Robot& robot : robots_)
   {
-    std::istringstream text(state.GetText());
+    if (Guard* guard = robot.guard.get())
+    {
+      guard->stopped = state.Get<bool>();
+      guard->kind = state.Get<FaultKind>();
+      guard->failed_at = state.Get<std::uint64_t>();
+      guard->restarts = state.Get<std::uint32_t>();
+      if (guard->stopped)
+      {
+        Stop(robot);
+        continue;
+      }
+    }
+    const std::string saved = state.GetText();
+    if (robot.guard != nullptr) robot.guard->state = saved;
+    std::istringstream text(saved);
     RunCodeOf(robot.actor, ActivityStep::kLoadState, space_.GetTick(), [&] { robot.controller->LoadState(text); });
   }
   for (Batches::Sensor& sensor : batches_->sensors) sensor.batch->LoadState(state);
@@ -518,7 +760,7 @@ void ControllerHost::Destroy()
   destroyed_ = true;
   for (Robot& robot : robots_)
   {
-    if (robot.controller == nullptr) continue;
+    if (robot.controller == nullptr || robot.IsStopped()) continue;
     // Of the last control step: whether the last state still reaches a host depends on how it is started.
     const std::uint64_t tick = commands_.tick;
     robot.interface->BeginStep(
@@ -526,6 +768,24 @@ void ControllerHost::Destroy()
         {space_.GetExperiment().seed, StreamName(robot.interface->GetId()), kDestroyStream, tick});
     RunCodeOf(robot.actor, ActivityStep::kDestroy, tick, [&] { robot.controller->Destroy(); });
   }
+}
+
+std::unique_ptr<StepTimeout> WatchTimeBudgets(const Experiment& experiment, const HostLayout& layout)
+{
+  constexpr double kLeast_s = 10;
+  constexpr double kBudgets = 100;
+  double limit_s = 0;
+  for (const std::uint32_t robot : layout.robots)
+  {
+    const double budget_ms = experiment.FindController(experiment.entities[robot].controller)->time_budget_ms;
+    if (budget_ms > 0) limit_s = std::max({limit_s, kLeast_s, kBudgets * budget_ms / 1000});
+  }
+  if (limit_s == 0) return nullptr;
+  return std::make_unique<StepTimeout>(
+      StepTimeout::Settings{std::chrono::milliseconds(static_cast<std::int64_t>(limit_s * 1000)),
+                            {},
+                            "time_budget_ms",
+                            ActivityStep::kControlStep});
 }
 
 }  // namespace swarmanoid

@@ -5,9 +5,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/activity/failure_report.h"
+#include "common/activity/step_timeout.h"
 #include "common/control_interface/ci_controller.h"
 #include "common/messages/assignment.h"
 #include "common/messages/robot_status.h"
@@ -38,6 +40,13 @@ public:
   void Sense(std::span<const SensorFrame* const> frames);
   // Senses, runs the controllers and commits the actuators. The result is valid until the next call.
   const ControlCommands& Tick(std::span<const SensorFrame* const> frames);
+  // What is known of ticks to come: the same controllers fail in them, those that died are not called, and before
+  // `until` no time is measured.
+  void Know(KnownFaults known);
+  // The tick to come was done before, with these faults and no others.
+  void KnowTick(std::uint64_t tick, const ControllerFaults& faults);
+  // If a controller kills this process whose on_failure says otherwise: what its user can do. A literal.
+  void SetCureOfDeath(const char* cure) { cure_of_death_ = cure; }
   // What controllers and devices remember. Saving throws ActivityError if a controller cannot be saved (HasState
   // is false).
   void SaveState(ByteWriter& state) const;
@@ -53,6 +62,16 @@ public:
 
 private:
   struct Batches;
+  // Of a robot whose controller may fail, or has a time budget.
+  struct Guard
+  {
+    const ControllerConfiguration* configuration = nullptr;
+    bool stopped = false;
+    FaultKind kind = FaultKind::kThrew;  // of the last fault
+    std::uint64_t failed_at = 0;
+    std::uint32_t restarts = 0;  // of late
+    std::string state{};         // that it last had at a canonical tick, if it is started again from it
+  };
   struct Robot
   {
     std::uint32_t entity = 0;
@@ -60,16 +79,39 @@ private:
     StreamKey random;  // of its control steps
     std::unique_ptr<CCI_Robot> interface;
     std::unique_ptr<CCI_Controller> controller;
+    std::unique_ptr<Guard> guard;  // none: what it throws ends the run, and it may take its time
+
+    bool IsStopped() const { return guard != nullptr && guard->stopped; }
+  };
+  // What is commanded for robots that are stopped.
+  struct Silence
+  {
+    std::vector<std::uint32_t> robots;                          // entities, ascending
+    std::vector<std::uint32_t> slots;                           // of what shows of them: 0
+    std::vector<std::pair<std::size_t, std::size_t>> commands;  // first and behind the last in ControlCommands::values
   };
 
   void UpdateSensors(std::uint64_t tick);
   void UpdateParts(std::uint64_t tick);
   void RunControllers(std::uint64_t tick);
+  void BeginStep(const Robot& robot, std::uint64_t tick) const;
   // The steps of some robots in their order. `activity` hears whose it is.
   template <class ActivityOfThread>
   void ControlSteps(std::span<const std::uint32_t> robots, std::uint64_t tick, ActivityOfThread& activity);
   void StepInTurn(std::span<const std::uint32_t> robots, std::uint64_t tick);
   void StepInParallel(std::uint64_t tick);
+  void StepGuarded(std::uint64_t tick);
+  void TryStep(Robot& robot, std::uint64_t tick);
+  // False if it took more than its time budget.
+  bool StepInTime(Robot& robot, std::uint64_t tick);
+  std::optional<FaultKind> Known(std::uint64_t tick, std::uint32_t robot) const;
+  void TakeFault(Robot& robot, FaultKind kind, std::uint64_t tick, const std::string& text);
+  // Throws ActivityError if the controller cannot begin again.
+  void Restart(Robot& robot, std::uint64_t tick);
+  void Stop(const Robot& robot);
+  void SilenceStopped();
+  void SaveLastStates(std::uint64_t tick);
+  void DescribeController(const Robot& robot, RobotStatus& status) const;
   void CommitActuators();
   void StopInactive();
   // What no controller may command: throws ControllerError with robot, device, tick and value.
@@ -82,14 +124,24 @@ private:
   const CSwarmanoidSpace& space_;
   const HostLayout& layout_;
   std::vector<Robot> robots_;
-  // Numbers in robots_: those whose controllers may step at the same time, and the others.
+  // Numbers in robots_: those whose controllers may step at the same time, those with a guard, and the others.
   std::vector<std::uint32_t> parallel_;
   std::vector<std::uint32_t> in_turn_;
+  std::vector<std::uint32_t> guarded_;
+  Silence silence_;
+  KnownFaults known_;  // its faults by tick and robot
+  std::optional<std::uint64_t> known_tick_;
+  ControllerFaults faults_of_tick_;
+  const char* cure_of_death_ = "";
   std::unique_ptr<Batches> batches_;
   std::vector<double> sensor_values_;
   ControlCommands commands_;
   std::optional<std::uint64_t> sensed_tick_;
   bool destroyed_ = false;
 };
+
+// Ends the process if a controller with a time budget does not come back: what has not ended cannot be measured. Null
+// if no controller of the host has one.
+std::unique_ptr<StepTimeout> WatchTimeBudgets(const Experiment& experiment, const HostLayout& layout);
 
 }  // namespace swarmanoid

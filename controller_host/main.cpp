@@ -21,7 +21,9 @@ namespace
 class HostNode
 {
 public:
-  HostNode(WorkerSession& session, Replica& replica, std::size_t host, unsigned threads)
+  // `faults`: --fault.
+  HostNode(WorkerSession& session, Replica& replica, std::size_t host, unsigned threads,
+           const std::vector<std::string>& faults)
       : session_(session),
         replica_(replica),
         host_(static_cast<std::uint32_t>(host)),
@@ -34,6 +36,13 @@ public:
     const std::size_t engines = role_.Layout().frames_from.size();
     for (auto& frames : frames_) frames.resize(engines);
     frames_here_.resize(engines);
+    KnownFaults known = session.World().known;
+    for (const std::string& text : faults)
+    {
+      const auto fault = ParseFault(text);
+      known.faults.push_back({fault->first, fault->second, FaultKind::kDied});
+    }
+    role_.Know(std::move(known));
     if (session.TakesAPlace())
       inputs_.StartAt(Recover(session, replica,
                               {[this] { Restore(); }, [this](ByteReader& state) { role_.LoadState(state); },
@@ -120,12 +129,14 @@ private:
   void Redo(const TickRecord& record)
   {
     TakeFrames(record.frames);
+    if (!record.commands.empty()) role_.KnowTick(record.state.tick, record.commands.at(host_).faults);
     Step(record.state.tick);
     saved_.Ready(record.state.tick + 1, role_, record.save);
     // The present tick, whose commands may not have gone out.
     if (record.commands.empty()) return;
     const ControlCommands& before = record.commands.at(host_);
-    if (!SameBits(answer_->values, before.values) || answer_->attributes.slots != before.attributes.slots ||
+    if (!SameBits(answer_->values, before.values) || answer_->faults != before.faults ||
+        answer_->attributes.slots != before.attributes.slots ||
         !SameBits(answer_->attributes.values, before.attributes.values))
       RefuseRecovery(session_.Name(), record.state.tick, "other commands");
   }
@@ -192,7 +203,8 @@ int Run(const WorkerSettings& settings, const BusOptions& bus)
         if (host >= hosts)
           throw ConfigurationError(fmt::format("experiment '{}' has {} controller host{}, numbered from 0",
                                                replica.experiment->name, hosts, hosts == 1 ? "" : "s"));
-        HostNode node(session, replica, host, settings.threads);
+        const auto watch = WatchTimeBudgets(*replica.experiment, replica.assignment.hosts[host]);
+        HostNode node(session, replica, host, settings.threads, settings.faults);
         node.WaitForOthers();
         session.ReportReady();
         session.Wait(std::chrono::milliseconds(500), [&] { return node.Stall(); });

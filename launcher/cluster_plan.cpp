@@ -85,6 +85,18 @@ struct CommandMaker
   std::string key;  // what a process is told when it asks for it
 };
 
+// Which robots' controllers may fail, while the run goes on.
+std::function<bool(std::uint32_t)> MayFailOf(const Experiment& experiment)
+{
+  std::vector<bool> may_fail;
+  for (const EntityConfiguration& entity : experiment.entities)
+  {
+    const ControllerConfiguration* controller = experiment.FindController(entity.controller);
+    may_fail.push_back(controller != nullptr && controller->MayFail());
+  }
+  return [may_fail = std::move(may_fail)](std::uint32_t robot) { return robot < may_fail.size() && may_fail[robot]; };
+}
+
 class Planner
 {
 public:
@@ -110,10 +122,12 @@ public:
   {
     settings.experiment = experiment_.name;
     MemberPlan& plan = Add(name, program, role, which, WorkerWords(table, settings));
-    plan.replacement = [maker = maker_, name, program, host = plan.host, table, settings](unsigned incarnation, double)
+    plan.replacement = [maker = maker_, name, program, host = plan.host, table, settings](
+                           unsigned incarnation, double, const std::vector<ControllerDeath>& deaths)
     {
       WorkerSettings next = settings;
       next.incarnation = incarnation;
+      for (const ControllerDeath& death : deaths) next.faults.push_back(fmt::format("{}:{}", death.tick, death.robot));
       return maker.Make(name, program, host, WorkerWords(table, next));
     };
     return plan;
@@ -176,7 +190,7 @@ std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment
   server.output = MemberPlan::kStatus;
   // On another machine, the one before may live on unseen.
   if (options.Replaces() && server.host.empty())
-    server.replacement = [command = server.command](unsigned, double taken_s)
+    server.replacement = [command = server.command](unsigned, double taken_s, const std::vector<ControllerDeath>&)
     {
       ProcessCommand next = command;
       next.arguments.insert(next.arguments.end(), {"--go-on", fmt::format("{}", taken_s)});
@@ -186,8 +200,10 @@ std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment
     planner.AddWorker(EngineName(experiment, e), "engine_worker", "engine", engines[e], EngineOptionTable,
                       {.engine = engines[e]});
   for (std::size_t host = 0; host < controller_hosts.size(); ++host)
-    planner.AddWorker(HostName(host), "controller_host", "controller_host", controller_hosts[host], HostOptionTable,
-                      {.host = static_cast<unsigned>(host), .threads = std::max(options.threads, 1U)});
+    planner
+        .AddWorker(HostName(host), "controller_host", "controller_host", controller_hosts[host], HostOptionTable,
+                   {.host = static_cast<unsigned>(host), .threads = std::max(options.threads, 1U)})
+        .may_fail = MayFailOf(experiment);
   for (std::size_t v = 0; v < visualisers.size(); ++v)
   {
     MemberPlan& plan =

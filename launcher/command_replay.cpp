@@ -49,6 +49,7 @@ int Verify(RecordedRun& run)
   options.visualisations = false;
   const std::string events = run.Folder() + "/events.csv";
   if (std::filesystem::exists(events)) options.events = events;
+  options.faults_of = run.Folder();
   std::uint64_t ticks = 0;
   bool over = false;
   std::string difference;

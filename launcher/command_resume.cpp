@@ -65,6 +65,7 @@ int Resume(const std::string& run_folder, RunSettings options)
     RequireEvents(run_folder);
     if (const std::string events = run_folder + "/events.csv"; fs::exists(events)) options.events = events;
   }
+  if (options.faults_of.empty()) options.faults_of = run_folder;
   try
   {
     const JournalReader journal(JournalFile(run_folder));

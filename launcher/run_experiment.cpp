@@ -9,6 +9,7 @@
 #include "common/activity/print_error.h"
 #include "common/checkpoint/checkpoint.h"
 #include "common/checkpoint/library_builds.h"
+#include "common/journal/journal_reader.h"
 #include "common/math/reproducible_math.h"
 #include "common/program/usage_error.h"
 #include "launcher/cluster_run.h"
@@ -114,6 +115,21 @@ bool EventsAreGood(const std::string& file, const Experiment& experiment)
   }
 }
 
+// Likewise.
+void RefuseBadFaults(const RunSettings& options, const Experiment& experiment)
+{
+  if (options.faults_of.empty()) return;
+  try
+  {
+    FaultsOfRun(options.faults_of, experiment, 0);
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw UsageError(fmt::format("--faults-of '{}': {}; name the folder of a run as a cluster that kept its journal",
+                                 options.faults_of, error.what()));
+  }
+}
+
 void RefuseContradictions(const RunSettings& options)
 {
   if (options.any_build && options.restore_file.empty())
@@ -153,6 +169,7 @@ int RunExperiment(const RunSettings& asked, const WatchFunction& watch)
         asked.file);
   }
   RefuseBadCheckpoints(options, *experiment);
+  RefuseBadFaults(options, *experiment);
   if (!options.events.empty() && !EventsAreGood(options.events, *experiment)) return kExitInvalidFile;
 
   try

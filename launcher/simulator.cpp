@@ -12,6 +12,7 @@
 #include "common/activity/failure_report.h"
 #include "common/checkpoint/checkpoint.h"
 #include "common/experiment/load_experiment.h"
+#include "common/journal/journal_reader.h"
 #include "common/math/reproducible_math.h"
 #include "common/messages/assignment.h"
 #include "common/program/usage_error.h"
@@ -63,6 +64,10 @@ struct CSimulator::Roles
       engines.push_back(std::make_unique<EngineWorker>(space, assignment, e));
     host = std::make_unique<ControllerHost>(space, assignment, 0, threads);
     steering.SetHost(*host);
+    host->SetCureOfDeath(
+        "; in one process on_failure can help with exceptions alone: run it as a cluster, without --single-process");
+    if (!options.faults_of.empty()) host->Know(FaultsOfRun(options.faults_of, of, 0));
+    time_budgets = WatchTimeBudgets(of, assignment.hosts[0]);
     if (options.visualisations)
       for (const RenderConfiguration& render : experiment.visualisations)
         visualisers.push_back(std::make_unique<Visualiser>(render, space, assignment, options.output_folder,
@@ -136,6 +141,7 @@ struct CSimulator::Roles
   Steering steering;
   std::vector<std::unique_ptr<EngineWorker>> engines;
   std::unique_ptr<ControllerHost> host;
+  std::unique_ptr<StepTimeout> time_budgets;
   std::vector<std::unique_ptr<Visualiser>> visualisers;
   HashLog hash_log;
   // The messages of a tick; the roles reuse their buffers, so these pointers stay.

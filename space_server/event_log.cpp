@@ -28,7 +28,7 @@ constexpr const char* kHeader = "tick,request,entity,numbers,from,number,when";
 // What can be known to be wrong before the run; the place itself is checked when it is moved there.
 std::string ErrorOf(const ControlRequestMessage& request, const Experiment& experiment)
 {
-  if (request.verb == kRefused) return {};
+  if (request.verb == kRefused || request.verb == kFailedController) return {};
   if (std::find(kControlVerbs.begin(), kControlVerbs.end(), request.verb) == kControlVerbs.end())
     return fmt::format("there is no request {}; known are {}", Quoted(request.verb), Listed(kControlVerbs));
   if (!IsSpaceChange(request.verb)) return {};
@@ -119,6 +119,15 @@ std::string WholeLines(const std::string& path)
   return text;
 }
 
+void AddFault(std::vector<KnownFault>& faults, const RecordedEvent& event, const Experiment& experiment)
+{
+  const auto entity = std::find_if(experiment.entities.begin(), experiment.entities.end(),
+                                   [&](const EntityConfiguration& e) { return e.id == event.request.entity; });
+  for (const FaultKind kind : {FaultKind::kThrew, FaultKind::kDied, FaultKind::kTooSlow})
+    if (entity != experiment.entities.end() && AskerOf(event.request).ends_with(FaultText(kind)))
+      faults.push_back({event.tick, static_cast<std::uint32_t>(entity - experiment.entities.begin()), kind});
+}
+
 }  // namespace
 
 std::string AskerOf(const ControlRequestMessage& request)
@@ -152,7 +161,8 @@ EarlierRequests ReadEarlierRequests(const std::string& path, const Experiment& e
   for (RecordedEvent& event : events)
   {
     const ControlRequestMessage& request = event.request;
-    if (request.verb == kRefused) continue;
+    if (request.verb == kFailedController) AddFault(earlier.failed, event, experiment);
+    if (request.verb == kRefused || request.verb == kFailedController) continue;
     const double number = request.numbers.empty() ? 1 : request.numbers[0];
     event.logged = true;
     earlier.answered.push_back(request);

@@ -11,6 +11,7 @@
 
 #include "common/experiment/experiment.h"
 #include "common/messages/control_request.h"
+#include "common/messages/messages.h"
 
 namespace swarmanoid
 {
@@ -26,6 +27,9 @@ struct RecordedEvent
 // What was refused, because it came from outside of the run, is written as this request, with its topic in the place of
 // the entity.
 inline constexpr const char* kRefused = "refused";
+// A controller that failed while the run goes on, with its robot as the entity, and what it did in the place of who
+// asked.
+inline constexpr const char* kFailedController = "failed";
 
 // The events that change the outcome of a run (move, add, remove, stop), in the order of the file. Throws
 // ConfigurationError, with file and line, for what is no event of this experiment.
@@ -37,6 +41,7 @@ std::vector<RecordedEvent> ParseEvents(const std::string& text, const std::strin
 struct EarlierRequests
 {
   std::vector<RecordedEvent> changes;           // as ReadEvents has them
+  std::vector<KnownFault> failed;               // of controllers
   std::vector<ControlRequestMessage> answered;  // and whether its asker had an answer coming
   std::optional<ControlRequestMessage> step;    // one that is not done yet
   std::optional<std::uint64_t> pause_at;        // the run is paused, or will be at this tick

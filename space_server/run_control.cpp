@@ -15,6 +15,7 @@ RunControl::RunControl(const Experiment& experiment, RunControlSetup setup, Answ
       answer_(std::move(answer)),
       event_log_(std::move(setup.event_log), setup.goes_on),
       repeated_(std::move(setup.repeated)),
+      logged_faults_(std::move(setup.failed)),
       paused_(setup.paused),
       real_time_factor_(setup.real_time_factor),
       pause_at_(setup.pause_at),
@@ -39,6 +40,33 @@ void RunControl::Refused(const std::string& topic, const std::string& sender)
   Ask(refused);
 }
 
+void RunControl::Failed(const std::vector<KnownFault>& faults)
+{
+  const std::lock_guard lock(mutex_);
+  faults_.insert(faults_.end(), faults.begin(), faults.end());
+}
+
+void RunControl::WriteFaults()
+{
+  std::vector<KnownFault> faults;
+  {
+    const std::lock_guard lock(mutex_);
+    faults.swap(faults_);
+  }
+  for (const KnownFault& fault : faults)
+  {
+    // Of a tick that is done again.
+    if (std::find(logged_faults_.begin(), logged_faults_.end(), fault) != logged_faults_.end()) continue;
+    const EntityConfiguration& entity = experiment_.entities[fault.robot];
+    ControlRequestMessage event;
+    event.verb = kFailedController;
+    event.entity = entity.id;
+    event.client = fmt::format("controller '{}' {}", entity.controller, FaultText(fault.kind));
+    event_log_.Write(fault.tick, event);
+    answer_(event, false, fault.tick, fmt::format("'{}': its {} at tick {}", entity.id, event.client, fault.tick));
+  }
+}
+
 void RunControl::Start(std::uint64_t tick, Clock::time_point now) { SetPace(tick, now); }
 
 void RunControl::SetPace(std::uint64_t tick, Clock::time_point now)
@@ -52,7 +80,7 @@ bool RunControl::WantsHold() const
 {
   if (stop_ || paused_) return true;
   const std::lock_guard lock(mutex_);
-  return !requests_.empty();
+  return !requests_.empty() || !faults_.empty();
 }
 
 void RunControl::Stop(const std::string& who)
@@ -65,6 +93,7 @@ void RunControl::Stop(const std::string& who)
 
 void RunControl::Stopped(std::uint64_t tick, const std::string& who)
 {
+  WriteFaults();
   ControlRequestMessage request;
   request.verb = "stop";
   request.client = who;
@@ -73,6 +102,7 @@ void RunControl::Stopped(std::uint64_t tick, const std::string& who)
 
 void RunControl::Work(SpaceServer& server)
 {
+  WriteFaults();
   const std::uint64_t tick = server.Space().GetTick();
   if (pause_at_ != 0 && tick >= pause_at_)
   {
@@ -241,6 +271,7 @@ RunControl::Decision RunControl::Decide(std::uint64_t tick, Clock::time_point no
 
 void RunControl::Ended(std::uint64_t tick)
 {
+  WriteFaults();
   if (step_) answer_(*step_, true, tick, fmt::format("the run ended at tick {}", tick));
   const std::lock_guard lock(mutex_);
   for (const ControlRequestMessage& request : requests_)

@@ -28,6 +28,7 @@ struct RunControlSetup
   bool goes_on = false;
   std::uint64_t pause_at = 0;                   // 0: does not
   std::optional<ControlRequestMessage> step{};  // that ends there
+  std::vector<KnownFault> failed{};             // of controllers, in the log of events already
 };
 
 class RunControl
@@ -51,6 +52,9 @@ public:
   void Ask(const ControlRequestMessage& request);
   // Likewise: a message on `topic` was refused, of `sender` and for the reason that are told. For the log of events.
   void Refused(const std::string& topic, const std::string& sender);
+
+  // Likewise: controllers failed, and the run goes on.
+  void Failed(const std::vector<KnownFault>& faults);
 
   // The first tick may start.
   void Start(std::uint64_t tick, Clock::time_point now);
@@ -76,6 +80,7 @@ private:
   void Carry(const ControlRequestMessage& request, SpaceServer& server);
   // Moves, adds or removes an entity, and says so. Throws std::invalid_argument.
   void Change(const ControlRequestMessage& request, SpaceServer& server, bool logged = false);
+  void WriteFaults();
   void DropStep(std::uint64_t tick, const char* why);
   void SetPace(std::uint64_t tick, Clock::time_point now);
 
@@ -87,7 +92,9 @@ private:
   std::uint64_t asked_from_ = 0;  // ticks before are done again: nobody comes in between
   mutable std::mutex mutex_;
   std::vector<ControlRequestMessage> requests_;
+  std::vector<KnownFault> faults_;  // that are not told yet
 
+  std::vector<KnownFault> logged_faults_;
   bool paused_;
   bool stop_ = false;
   std::optional<std::string> stop_unlogged_;  // who asked

@@ -111,6 +111,7 @@ void SpaceServer::Advance(std::span<const EngineUpdate* const> updates,
   changed_slots_.clear();
   moved_.clear();
   for (const ControlCommands* command : commands) Merge(command->attributes);
+  TellFaults(commands);
   for (const EngineUpdate* update : updates) Merge(*update);
   space_.SetTick(space_.GetTick() + 1);
 
@@ -119,6 +120,18 @@ void SpaceServer::Advance(std::span<const EngineUpdate* const> updates,
   if (!IsLast())
     CallFunctions(ActivityStep::kPreStep, [this](const Functions& functions) { functions.object->PreStep(editor_); });
   editor_.BeginStep({program_random_, space_.GetTick()});
+}
+
+// In the order of the entities, whichever their hosts.
+void SpaceServer::TellFaults(std::span<const ControlCommands* const> commands) const
+{
+  std::vector<KnownFault> faults;
+  for (const ControlCommands* command : commands)
+    for (std::size_t k = 0; k < command->faults.robots.size(); ++k)
+      faults.push_back({space_.GetTick(), command->faults.robots[k], command->faults.kinds[k]});
+  if (faults.empty() || !fault_) return;
+  std::sort(faults.begin(), faults.end());
+  fault_(faults);
 }
 
 void SpaceServer::SetAttribute(std::uint32_t slot, double value)

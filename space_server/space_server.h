@@ -38,6 +38,10 @@ public:
   // Who hears that the run goes on, but not as asked; otherwise the log. Called within Advance.
   void SetWarningHandler(std::function<void(const std::string&)> warn) { warn_ = std::move(warn); }
 
+  // Likewise: who hears of controllers that failed while the run goes on.
+  using FaultHandler = std::function<void(const std::vector<KnownFault>& of_a_tick)>;
+  void SetFaultHandler(FaultHandler handler) { fault_ = std::move(handler); }
+
   const CSwarmanoidSpace& Space() const { return space_; }
   // For those who change the experiment from outside physics.
   SpaceEditor& Editor() { return editor_; }
@@ -84,6 +88,7 @@ public:
   bool IsLast() const { return last_ || (experiment_.max_clock != 0 && space_.GetTick() >= experiment_.max_clock); }
 
 private:
+  void TellFaults(std::span<const ControlCommands* const> commands) const;
   struct Functions
   {
     const FunctionsConfiguration* configuration;
@@ -119,6 +124,7 @@ private:
   StreamKey program_random_;  // of those who change the experiment between two steps
   std::vector<Functions> functions_;
   std::function<void(const std::string&)> warn_;
+  FaultHandler fault_;
 };
 
 }  // namespace swarmanoid

@@ -40,6 +40,7 @@ constexpr bool kReportCrashes = true;
 char process_name[128] = "swarmanoid";
 std::atomic<pid_t> dying = 0;  // the thread that reports the death of the process
 std::atomic<LastCall> last_call = nullptr;
+std::atomic<const char*> cure_of_step = "";
 
 std::uint64_t Nanoseconds()
 {
@@ -56,6 +57,7 @@ void Compose(LineWriter& line, std::string_view what, bool of_activity)
   {
     activity::Write(line, *now.actor, now.step, now.tick);
     line.Add(" ").Add(what);
+    line.Add(cure_of_step.load(std::memory_order_relaxed));
     return;
   }
   line.Add(process_name).Add(" ").Add(what);
@@ -253,6 +255,8 @@ void DieInterrupted()
   syscall(SYS_exit_group, kExitInterrupted);
   __builtin_unreachable();
 }
+
+void SetCureOfStep(const char* cure) { cure_of_step.store(cure, std::memory_order_relaxed); }
 
 void SetLastCall(LastCall call) { last_call = call; }
 

@@ -58,6 +58,10 @@ void SetLastCall(LastCall call);
 // already goes on, and so does the end of a thread.
 [[noreturn]] void RethrowFor(const Actor& actor, ActivityStep step, std::uint64_t tick);
 
+// If the step that runs kills this process: how the run could have gone on, to be added to the report. A literal;
+// empty: it could not.
+void SetCureOfStep(const char* cure);
+
 // Calls somebody's code. What it throws becomes an ActivityError; an exception of type `Through` passes.
 template <class Through = ActivityError, class Call>
 void RunCodeOf(const Actor& actor, ActivityStep step, std::uint64_t tick, Call&& call)

@@ -68,7 +68,9 @@ void StepTimeout::Run()
     // The time in which this process itself was stopped does not count.
     since += std::max<Clock::duration>(time - looked - 4 * period, 0ms);
     looked = time;
-    if (now.actor == nullptr || now.step == ActivityStep::kFinish || !Same(now, last))
+    const bool limited =
+        settings_.of == ActivityStep::kNone ? now.step != ActivityStep::kFinish : now.step == settings_.of;
+    if (now.actor == nullptr || !limited || !Same(now, last))
     {
       last = now;
       since = time;
@@ -76,8 +78,8 @@ void StepTimeout::Run()
       continue;
     }
     if (limit > 0ms && time - since >= limit)
-      DieOfStep(
-          fmt::format("did not return within {} s (--step-timeout)", std::chrono::duration<double>(limit).count()));
+      DieOfStep(fmt::format("did not return within {} s ({})", std::chrono::duration<double>(limit).count(),
+                            settings_.cause));
     if (time - since < next_word) continue;
     if (settings_.stalled) settings_.stalled(CurrentActivity(), std::chrono::duration<double>(time - since).count());
     next_word *= 2;

@@ -9,6 +9,8 @@
 #include <string>
 #include <thread>
 
+#include "common/activity/activity.h"
+
 namespace swarmanoid
 {
 
@@ -21,6 +23,8 @@ public:
     std::chrono::milliseconds limit{0};
     // Called when a step has taken a while, and now and then while it goes on: "<activity>", seconds.
     std::function<void(const std::string& activity, double seconds)> stalled;
+    std::string cause = "--step-timeout";   // what set the limit
+    ActivityStep of = ActivityStep::kNone;  // of such steps alone; kNone: of all
   };
 
   explicit StepTimeout(Settings settings);

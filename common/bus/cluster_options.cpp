@@ -1,5 +1,7 @@
 #include "common/bus/cluster_options.h"
 
+#include <limits>
+
 #include "common/configuration/configuration_tree.h"
 
 namespace swarmanoid
@@ -16,6 +18,8 @@ std::string ServerAddressMistake(const std::string& text)
 {
   return ParseServerAddress(text) ? "" : "it must be an address and a port from 1 to 65535";
 }
+
+std::string FaultMistake(const std::string& text) { return ParseFault(text) ? "" : "it must be TICK:ROBOT"; }
 
 OptionSpec ExperimentOption(WorkerSettings& s)
 {
@@ -49,6 +53,16 @@ std::optional<std::pair<std::string, unsigned>> ParseServerAddress(const std::st
   const auto port = ParseInteger(digits);
   if (!port || *port < 1 || *port > 65535) return std::nullopt;
   return std::pair(text.substr(0, colon), static_cast<unsigned>(*port));
+}
+
+std::optional<std::pair<std::uint64_t, std::uint32_t>> ParseFault(const std::string& text)
+{
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const auto tick = ParseInteger(text.substr(0, colon));
+  const auto robot = colon < text.size() ? ParseInteger(text.substr(colon + 1)) : std::nullopt;
+  if (!tick || !robot || *tick < 0 || *robot < 0 || *robot > std::numeric_limits<std::uint32_t>::max())
+    return std::nullopt;
+  return std::pair(static_cast<std::uint64_t>(*tick), static_cast<std::uint32_t>(*robot));
 }
 
 std::vector<OptionSpec> BusOptionTable(BusOptions& options)
@@ -143,7 +157,15 @@ std::vector<OptionSpec> HostOptionTable(WorkerSettings& s)
            &s.threads,
            "2"},
           ExperimentOption(s),
-          IncarnationOption(s)};
+          IncarnationOption(s),
+          {{.name = "fault",
+            .type = kText,
+            .description = "A controller that killed this host before, by tick and number of its robot among the "
+                           "entities: there it has failed, and is not called"},
+           &s.faults,
+           "170:3",
+           "TICK:ROBOT",
+           FaultMistake}};
 }
 
 std::vector<OptionSpec> VisualiserOptionTable(WorkerSettings& s)

@@ -33,7 +33,12 @@ struct WorkerSettings
   std::optional<int> server{};
   unsigned incarnation = 0;
   unsigned threads = 1;  // of a controller host
+  // Controllers that killed the hosts before, "TICK:ROBOT" with the number of the entity.
+  std::vector<std::string> faults{};
 };
+
+// WorkerSettings::faults: tick and entity; nullopt for anything else.
+std::optional<std::pair<std::uint64_t, std::uint32_t>> ParseFault(const std::string& text);
 
 std::vector<OptionSpec> EngineOptionTable(WorkerSettings& settings);
 std::vector<OptionSpec> HostOptionTable(WorkerSettings& settings);

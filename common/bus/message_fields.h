@@ -85,6 +85,8 @@ void Fields(Archive& archive, MessageHeader& header, ControlCommands& message)
   archive.Array("values", message.values);
   archive.Flags("flags", {{kFlagRepeated, &header.repeated}});
   Fields(archive, message.attributes);
+  archive.Array("fault_robots", message.faults.robots);
+  archive.Array("fault_kinds", message.faults.kinds);
   if constexpr (Archive::kReads) message.tick = header.tick, message.host = header.source;
 }
 
@@ -170,6 +172,14 @@ void Fields(Archive& archive, WorldMessage& message)
                {
                  a.Exact("libraries.name", library.name);
                  a.Name("libraries.digest", library.digest);
+               });
+  archive.Integer("known_until", message.known.until);
+  archive.List("faults", message.known.faults,
+               [](Archive& a, KnownFault& fault)
+               {
+                 a.Integer("faults.tick", fault.tick);
+                 a.Integer("faults.robot", fault.robot);
+                 a.Choice("faults.kind", fault.kind, FaultKind::kThrew, FaultKind::kTooSlow);
                });
 }
 

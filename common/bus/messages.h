@@ -15,7 +15,7 @@ namespace swarmanoid
 {
 
 // Equal to PROTOCOL_VERSION of the IDL; a test says so.
-inline constexpr std::uint32_t kProtocolVersion = 8;
+inline constexpr std::uint32_t kProtocolVersion = 9;
 
 // What precedes every message of a tick.
 struct MessageHeader
@@ -76,6 +76,7 @@ struct WorldMessage
   bool recorded = false;
   std::vector<WorldEntity> entities;
   std::vector<WorldLibrary> libraries{};
+  KnownFaults known{};
 };
 
 struct JoinMessage

@@ -44,6 +44,12 @@ std::size_t OfSource(const std::vector<std::size_t>& numbers, const MessageHeade
 TickLimits::TickLimits(const CSwarmanoidSpace& space, const Assignment& assignment, bool recorded)
     : entities_(space.Size()), movable_(space.Movable().size()), slots_(space.Attributes().size())
 {
+  const Experiment& experiment = space.GetExperiment();
+  for (const EntityConfiguration& entity : experiment.entities)
+  {
+    const ControllerConfiguration* controller = experiment.FindController(entity.controller);
+    may_fail_.push_back(controller != nullptr && controller->MayFail());
+  }
   for (const HostLayout& host : assignment.hosts) command_values_.push_back(host.command_size);
   for (const EngineLayout& engine : assignment.engines)
   {
@@ -67,6 +73,8 @@ std::size_t TickLimits::CommandBytes() const
   ControlCommands commands;
   commands.values.resize(Largest(command_values_));
   FillSlots(commands.attributes, slots_);
+  commands.faults.robots.resize(static_cast<std::size_t>(std::count(may_fail_.begin(), may_fail_.end(), true)));
+  commands.faults.kinds.resize(commands.faults.robots.size());
   return PayloadSize(MessageHeader(), commands);
 }
 
@@ -102,6 +110,7 @@ void TickLimits::Check(const MessageHeader& header, const ControlCommands& comma
 {
   CheckLength("values", commands.values.size(), OfSource(command_values_, header));
   CheckSlots(commands.attributes);
+  CheckFaults(commands.faults);
 }
 
 void TickLimits::Check(const MessageHeader& header, const UpdateMessage& update) const
@@ -137,6 +146,19 @@ template <>
 void TickLimits::CheckSource<SensorFrame>(const MessageHeader& header) const
 {
   CheckSource(header, sensor_values_.size());
+}
+
+void TickLimits::CheckFaults(const ControllerFaults& faults) const
+{
+  CheckLength("fault_kinds", faults.kinds.size(), faults.robots.size());
+  for (std::size_t k = 0; k < faults.robots.size(); ++k)
+  {
+    const std::uint32_t robot = faults.robots[k];
+    if (robot >= entities_ || !may_fail_[robot] || (k > 0 && robot <= faults.robots[k - 1]))
+      RefuseField("fault_robots", fmt::format("entity {} does not ascend, or may not fail", robot));
+    if (faults.kinds[k] < FaultKind::kThrew || faults.kinds[k] > FaultKind::kTooSlow)
+      RefuseField("fault_kinds", fmt::format("there is no kind {}", static_cast<std::uint32_t>(faults.kinds[k])));
+  }
 }
 
 // They ascend: the last one is the largest.

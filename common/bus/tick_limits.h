@@ -40,10 +40,12 @@ public:
 
 private:
   void CheckSlots(const AttributeChanges& changes) const;
+  void CheckFaults(const ControllerFaults& faults) const;
 
   std::size_t entities_;
   std::size_t movable_;
   std::size_t slots_;
+  std::vector<bool> may_fail_;               // of each entity
   std::vector<std::size_t> command_values_;  // of each host
   std::vector<std::size_t> owned_;           // of each engine
   std::vector<std::size_t> recorded_;        // of each engine: numbers in UpdateMessage::recorded

@@ -30,6 +30,12 @@ const ControllerConfiguration* Experiment::FindController(const std::string& id)
   return FindById(controllers, id);
 }
 
+bool Experiment::HasGuards() const
+{
+  return std::any_of(controllers.begin(), controllers.end(),
+                     [](const ControllerConfiguration& controller) { return controller.IsGuarded(); });
+}
+
 const EngineConfiguration* Experiment::FindEngine(const std::string& id) const { return FindById(engines, id); }
 
 }  // namespace swarmanoid

@@ -27,6 +27,14 @@ struct EntityKindConfiguration
   std::string library;
 };
 
+// What comes of a robot whose controller throws, crashes, or takes longer than it may.
+enum class OnFailure : std::uint8_t
+{
+  kAbort,      // the run ends with an error that names it
+  kStopRobot,  // the robot stands still and is dark from then on
+  kRestart     // the controller is made anew, with the state that it had last at a canonical tick
+};
+
 // One entry of <controllers>.
 struct ControllerConfiguration
 {
@@ -37,7 +45,13 @@ struct ControllerConfiguration
   std::vector<DeviceConfiguration> sensors;
   // <parameters>, given to CCI_Controller::Init: with all defaults if the controller declared them.
   TConfigurationTree parameters;
+  OnFailure on_failure = OnFailure::kAbort;
+  double time_budget_ms = 0;  // of processor time, for one control step; 0: any
   SourceLocation location;
+
+  // Whether the run goes on if it fails.
+  bool MayFail() const { return on_failure != OnFailure::kAbort; }
+  bool IsGuarded() const { return MayFail() || time_budget_ms > 0; }
 };
 
 // One entity of the arena; those of a <distribute> are expanded.
@@ -128,6 +142,8 @@ struct Experiment
   double TickSeconds() const { return clock_tick_ms * 1e-3; }
   const ControllerConfiguration* FindController(const std::string& id) const;
   const EngineConfiguration* FindEngine(const std::string& id) const;
+  // Whether some controller IsGuarded.
+  bool HasGuards() const;
 };
 
 // The limit if the file gives none: ten times the longest side of the arena, and at least 100 m.

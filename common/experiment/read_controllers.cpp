@@ -102,6 +102,17 @@ ControllerConfiguration ReadController(const TConfigurationTree& tree, Reading& 
   controller.id = reader.Text("id");
   controller.library = reader.Text("library");
   controller.parameters = tree.Child("parameters");
+  const std::string on_failure = reader.Text("on_failure");
+  if (on_failure == "stop_robot") controller.on_failure = OnFailure::kStopRobot;
+  if (on_failure == "restart") controller.on_failure = OnFailure::kRestart;
+  controller.time_budget_ms = reader.Number("time_budget_ms");
+  if (controller.time_budget_ms > 0 && controller.on_failure == OnFailure::kRestart)
+    reading.diagnostics.Add(
+        reader.Place("time_budget_ms"),
+        fmt::format(
+            "the controller '{}' has a time_budget_ms and on_failure=\"restart\": one that is too slow would be "
+            "so again; take on_failure=\"stop_robot\" or \"abort\"",
+            controller.id));
   controller.location = tree.Location();
   if (reader.IsGiven("id")) CheckId(controller.id, reader.Place("id"), reading.diagnostics);
   controller.actuators = ReadDevices(tree.Child("actuators"), spec.Child("actuators"), reading);

@@ -109,6 +109,16 @@ ElementSpec Controllers()
               "The library that holds it: x stands for libx.so or x.so in one of the folders of controller_path, or "
               "in .libs "
               "within it. Empty: the program itself holds it."),
+          OneOf(Optional(kChoice, "on_failure", "", "abort",
+                         "What comes of a robot whose controller throws or, in a cluster, crashes or does not return; "
+                         "abort: the run ends; stop_robot: the robot stands still and is dark from then on; restart: "
+                         "its controller is made anew, with the state that it last had at a multiple of "
+                         "canonical_period."),
+                {"abort", "stop_robot", "restart"}),
+          InRange(Optional(kNumber, "time_budget_ms", "ms", "0",
+                           "Processor time that one control step may take, otherwise the controller has failed; 0: "
+                           "any. Not with on_failure restart."),
+                  0, 1e6),
           Optional(kTree, "parameters", "", "",
                    "The parameters of the controller, given to its Init: those that it declared, or free content for "
                    "one that "

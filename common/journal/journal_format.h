@@ -23,7 +23,7 @@ namespace swarmanoid
 
 inline constexpr std::string_view kJournalMagic = "SWARMJB";
 // Another one for each change of the blocks, or of what they mean.
-inline constexpr char kJournalVersion = '2';
+inline constexpr char kJournalVersion = '3';
 inline constexpr std::size_t kJournalHeaderBytes = 48;
 
 enum class JournalBlockKind : std::uint32_t

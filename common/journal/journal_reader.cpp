@@ -76,6 +76,21 @@ void JournalReader::ForEachTick(const std::function<void(const TickRecord&)>& us
   }
 }
 
+KnownFaults JournalReader::FaultsFrom(std::uint64_t tick) const
+{
+  KnownFaults known;
+  ForEachTick(
+      [&](const TickRecord& record)
+      {
+        if (record.state.tick < tick || record.commands.empty()) return;
+        known.until = record.state.tick + 1;
+        for (const ControlCommands& commands : record.commands)
+          for (std::size_t k = 0; k < commands.faults.robots.size(); ++k)
+            known.faults.push_back({record.state.tick, commands.faults.robots[k], commands.faults.kinds[k]});
+      });
+  return known;
+}
+
 const JournalPlace* JournalReader::PlaceOf(JournalBlockKind kind, std::uint64_t tick, const std::string& name) const
 {
   const auto found = std::find_if(places_.begin(), places_.end(),
@@ -140,5 +155,14 @@ std::optional<Checkpoint> JournalReader::NewestCheckpoint(const std::vector<std:
 }
 
 std::string JournalFile(const std::string& run_folder) { return run_folder + "/journal/0"; }
+
+KnownFaults FaultsOfRun(const std::string& run_folder, const Experiment& experiment, std::uint64_t tick)
+{
+  if (!experiment.HasGuards()) return {};
+  const JournalReader journal(JournalFile(run_folder));
+  if (journal.Start().origin.experiment != FingerprintOf(experiment))
+    throw std::runtime_error(fmt::format("'{}' is of another experiment, or of other settings of it", journal.Path()));
+  return journal.FaultsFrom(tick);
+}
 
 }  // namespace swarmanoid

@@ -37,6 +37,8 @@ public:
   // is none. `usable`: false for ticks that will not do.
   std::optional<std::uint64_t> TickToGoOn(const std::function<bool(std::uint64_t)>& usable) const;
   std::optional<TickRecord> RecordOf(std::uint64_t tick) const;
+  // Of controllers, in the ticks from that one on.
+  KnownFaults FaultsFrom(std::uint64_t tick) const;
   // What all `parts` saved at the tick, or at the newest one that has them all, put together; nothing if one is
   // lacking.
   std::optional<Checkpoint> CheckpointAt(std::uint64_t tick, const std::vector<std::string>& parts) const;
@@ -54,5 +56,9 @@ private:
 
 // Where the space server writes it, in the folder of the run.
 std::string JournalFile(const std::string& run_folder);
+
+// FaultsFrom of the journal of a run of the same experiment; none if no controller has a guard. Throws
+// std::runtime_error, with the path.
+KnownFaults FaultsOfRun(const std::string& run_folder, const Experiment& experiment, std::uint64_t tick);
 
 }  // namespace swarmanoid

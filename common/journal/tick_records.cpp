@@ -103,6 +103,8 @@ bool TickRows::Add(const SpaceState& state, bool save, std::span<const SensorFra
     numbers_.insert(numbers_.end(), command.values.begin(), command.values.end());
     rest_.Put(static_cast<std::uint64_t>(command.values.size()));
     Put(rest_, command.attributes);
+    rest_.PutArray(command.faults.robots);
+    rest_.PutArray(command.faults.kinds);
   }
   return true;
 }
@@ -209,6 +211,8 @@ bool TickRecordReader::Next(TickRecord& record)
     commands.host = number++;
     take(commands.values, rest_.Get<std::uint64_t>());
     Get(rest_, commands.attributes);
+    commands.faults.robots = rest_.GetArray<std::uint32_t>();
+    commands.faults.kinds = rest_.GetArray<FaultKind>();
   }
   if (at_ != end) throw std::runtime_error("journal: a row is too long");
   return true;

@@ -16,11 +16,13 @@ struct ControllerChannels
   std::map<std::string, int> commands;
   std::map<std::string, int> sensors;
   bool has_generic_actuators = false;
+  bool may_fail = false;
 };
 
 ControllerChannels ChannelsOf(const ControllerConfiguration& controller)
 {
   ControllerChannels channels;
+  channels.may_fail = controller.MayFail();
   const PluginCatalogue& catalogue = PluginCatalogue::Instance();
   for (const DeviceConfiguration& device : controller.actuators)
   {
@@ -164,6 +166,7 @@ Assignment MakeAssignment(const Experiment& experiment, unsigned hosts)
       assignment.host[robot] = static_cast<int>(h);
       layout.reports_to_server |= channels_of[robot]->has_generic_actuators || channels_of[robot]->commands.empty() ||
                                   assignment.owner[robot] < 0;
+      layout.reports_to_server |= channels_of[robot]->may_fail;
     }
     layout.commands = MakeBlocks(layout.robots, channels_of, &ControllerChannels::commands, layout.command_size);
     layout.sensors = MakeBlocks(layout.robots, channels_of, &ControllerChannels::sensors, layout.sensor_size);

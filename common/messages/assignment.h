@@ -37,7 +37,8 @@ struct HostLayout
   std::size_t sensor_size = 0;
   std::vector<ValueCopy> sensor_copies;    // from the engines' frames
   std::vector<std::uint32_t> frames_from;  // engines whose frames the host waits for
-  bool reports_to_server = false;  // the server waits for its commands: generic actuators, or robots in no engine
+  bool reports_to_server =
+      false;  // the server waits for its commands: generic actuators, robots in no engine, or that may fail
 };
 
 struct EngineLayout

@@ -2,6 +2,7 @@
 // process passes them by reference. Buffers are reused: steady running allocates nothing.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -47,6 +48,52 @@ struct SpaceSnapshot
   std::vector<double> attributes;  // all slots
 };
 
+// How a controller failed whose run goes on (OnFailure).
+enum class FaultKind : std::uint32_t
+{
+  kThrew = 1,
+  kDied,    // and its process with it; another one took its place
+  kTooSlow  // it exceeded its time budget
+};
+inline const char* FaultText(FaultKind kind)
+{
+  return kind == FaultKind::kThrew  ? "threw an exception"
+         : kind == FaultKind::kDied ? "died"
+                                    : "took more processor time than it may";
+}
+// Those of a tick.
+struct ControllerFaults
+{
+  std::vector<std::uint32_t> robots;  // entities, ascending
+  std::vector<FaultKind> kinds;
+
+  void Clear()
+  {
+    robots.clear();
+    kinds.clear();
+  }
+  bool operator==(const ControllerFaults&) const = default;
+};
+// What is known of ticks that were done before: the same controllers fail in them, and no time is measured.
+struct KnownFault
+{
+  std::uint64_t tick = 0;
+  std::uint32_t robot = 0;
+  FaultKind kind = FaultKind::kThrew;
+  auto operator<=>(const KnownFault&) const = default;
+};
+struct KnownFaults
+{
+  std::uint64_t until = 0;  // all ticks before were done
+  std::vector<KnownFault> faults;
+
+  void Add(const KnownFaults& others)
+  {
+    until = std::max(until, others.until);
+    faults.insert(faults.end(), others.faults.begin(), others.faults.end());
+  }
+};
+
 // Controller host to engines and server: what the robots of the host do in the tick that starts at `tick`.
 struct ControlCommands
 {
@@ -54,6 +101,7 @@ struct ControlCommands
   std::uint32_t host = 0;
   std::vector<double> values;   // of the specific actuators, laid out as HostLayout::commands says
   AttributeChanges attributes;  // set by generic actuators
+  ControllerFaults faults{};
 };
 
 // Engine worker to server: the outcome of the step that leads to `tick`.

@@ -132,6 +132,11 @@ std::vector<RunOption> Table(RunSettings& s)
       {{Path("events", "events.csv of an earlier run: its moves and its end by a user are repeated"), &s.events,
         "runs/first/events.csv", "", FileMistake},
        For::kServer},
+      {{Path("faults-of",
+             "Folder of an earlier run: its controllers fail again where they did, and no time is measured till its "
+             "end"),
+        &s.faults_of, "runs/first"},
+       For::kServer},
       {{Flag("no-visualisers", "Leave out the <visualisations> of the file"), &s.visualisations}, For::kServer},
       {{Path("hash-log", "File that gets the hash of the state at every tick"), &s.hash_log, "hashes.txt"},
        For::kServer},

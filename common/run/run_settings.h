@@ -35,6 +35,9 @@ struct SimulatorOptions
   bool paused = false;
   std::string event_log;  // file for what users ask; empty: none
   std::string events;     // such a file of an earlier run, whose moves and stops are repeated
+  // The folder of an earlier run: its controllers fail again where they did, and no time is measured in the ticks that
+  // it did.
+  std::string faults_of;
   bool visualisations = true;
   // A checkpoint is written to the output folder every so many ticks: a multiple of the experiment's canonical_period.
   // 0: none.

@@ -70,6 +70,8 @@ bool MayBeReplaced(const ProcessEnd& ended, const ActivityRecord& record, bool e
     case EndReason::kDone:
       return ended.signal != 0;
     case EndReason::kUnknown:
+      // The programs' own words: the next one would say the same.
+      if (ended.exit_code == kExitUsage || ended.exit_code == kExitInvalidFile) return false;
       return ended.signal != 0 || record.taken ||
              (elsewhere && ended.exit_code >= kKilledThere && ended.exit_code != kExitInterrupted);
     default:

@@ -24,12 +24,25 @@ std::string_view ReadSome(FileDescriptor& descriptor, std::array<char, 4096>& bu
 
 }  // namespace
 
-ClusterMember::ClusterMember(const MemberPlan& plan, ProcessSpawner& spawner, unsigned incarnation, double taken_s)
+ClusterMember::ClusterMember(const MemberPlan& plan, ProcessSpawner& spawner, unsigned incarnation, double taken_s,
+                             std::vector<ControllerDeath> deaths)
     : plan_(plan),
       incarnation_(incarnation),
+      deaths_(std::move(deaths)),
       log_(plan.log_path, incarnation > 0),
-      process_(spawner.Start(incarnation > 0 ? plan.replacement(incarnation, taken_s) : plan.command))
+      process_(spawner.Start(incarnation > 0 ? plan.replacement(incarnation, taken_s, deaths_) : plan.command))
 {
+}
+
+std::optional<ControllerDeath> ClusterMember::NewDeath() const
+{
+  const ActivityRecord record = Record();
+  if (record.end != EndReason::kDied || record.kind != Actor::kRobot || record.step != ActivityStep::kControlStep ||
+      !plan_.may_fail || !plan_.may_fail(record.number))
+    return std::nullopt;
+  const ControllerDeath death{record.tick, record.number};
+  if (std::find(deaths_.begin(), deaths_.end(), death) != deaths_.end()) return std::nullopt;
+  return death;
 }
 
 bool ClusterMember::Answers(std::string_view line)

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "launcher/processes/attribution.h"
 #include "launcher/processes/line_splitter.h"
@@ -13,6 +14,14 @@
 
 namespace swarmanoid
 {
+
+// A controller that took its process with it.
+struct ControllerDeath
+{
+  std::uint64_t tick = 0;
+  std::uint32_t robot = 0;
+  bool operator==(const ControllerDeath&) const = default;
+};
 
 // What is to be started.
 struct MemberPlan
@@ -30,8 +39,11 @@ struct MemberPlan
   Output output = kLog;
   bool visualiser = false;
   // What takes its place when it has died, the given number of times, in a run that has taken so many seconds; empty if
-  // nothing can.
-  std::function<ProcessCommand(unsigned incarnation, double taken_s)> replacement;
+  // nothing can. `deaths`: of controllers in it.
+  std::function<ProcessCommand(unsigned incarnation, double taken_s, const std::vector<ControllerDeath>& deaths)>
+      replacement;
+  // Whether the run goes on without the controller of a robot. Empty: without none.
+  std::function<bool(std::uint32_t robot)> may_fail{};
 };
 
 class ClusterMember
@@ -39,7 +51,8 @@ class ClusterMember
 public:
   // Starts the process. Throws std::runtime_error if that is impossible.
   // `incarnation`: how many processes have died in its place before; `taken_s`: by the run.
-  ClusterMember(const MemberPlan& plan, ProcessSpawner& spawner, unsigned incarnation = 0, double taken_s = 0);
+  ClusterMember(const MemberPlan& plan, ProcessSpawner& spawner, unsigned incarnation = 0, double taken_s = 0,
+                std::vector<ControllerDeath> deaths = {});
 
   // Reads what there is, without waiting, and calls on_line for each full line of its standard output unless that goes
   // to the log. At most `limit` bytes.
@@ -53,6 +66,10 @@ public:
 
   const MemberPlan& Plan() const { return plan_; }
   unsigned Incarnation() const { return incarnation_; }
+  // Of controllers in those that had this place before.
+  const std::vector<ControllerDeath>& Deaths() const { return deaths_; }
+  // If a controller died in it whose run goes on, which has not died there before.
+  std::optional<ControllerDeath> NewDeath() const;
   const std::string& Name() const { return plan_.command.name; }
   const SpawnedProcess& Process() const { return process_; }
   ActivityRecord Record() const { return ReadActivity(process_.activity.get()); }
@@ -70,6 +87,7 @@ private:
 
   MemberPlan plan_;
   unsigned incarnation_;
+  std::vector<ControllerDeath> deaths_;
   ProcessLog log_;
   SpawnedProcess process_;
   LineSplitter output_lines_;

@@ -300,14 +300,20 @@ bool Supervisor::Replace(const ClusterMember& member)
   if (!goes_on || !server_works || !member.Plan().replacement || left_.contains(member.Name())) return false;
   if (IsStuck(member.End()) || !MayBeReplaced(*member.End(), member.Record(), !member.Plan().host.empty()))
     return false;
-  if (!CountDeath(member)) return false;
+  std::vector<ControllerDeath> deaths = member.Deaths();
+  const auto death = retries_ > 0 ? member.NewDeath() : std::nullopt;
+  if (death)
+    deaths.push_back(*death);
+  else if (!CountDeath(member))
+    return false;
   display_.Note(fmt::format("{}; another process takes its place", TextOf(member)));
   kills_for_memory_ = KernelKillsForMemory();
   const auto place =
       std::find_if(members_.begin(), members_.end(), [&](const auto& candidate) { return candidate.get() == &member; });
   try
   {
-    auto next = std::make_unique<ClusterMember>(member.Plan(), spawner_, member.Incarnation() + 1);
+    auto next =
+        std::make_unique<ClusterMember>(member.Plan(), spawner_, member.Incarnation() + 1, 0, std::move(deaths));
     pids_.push_back(next->Process().pid);
     *place = std::move(next);
     return true;
@@ -367,7 +373,10 @@ void Supervisor::StartAgain()
     const double taken_s = began_ ? std::chrono::duration<double>(now_() - *began_).count() : 0;
     for (auto& member : members_)
     {
-      member = std::make_unique<ClusterMember>(member->Plan(), spawner_, member->Incarnation() + 1, taken_s);
+      std::vector<ControllerDeath> deaths = member->Deaths();
+      if (const auto death = member->NewDeath()) deaths.push_back(*death);
+      member = std::make_unique<ClusterMember>(member->Plan(), spawner_, member->Incarnation() + 1, taken_s,
+                                               std::move(deaths));
       pids_.push_back(member->Process().pid);
     }
     heard_ = now_();
@@ -382,8 +391,12 @@ void Supervisor::StartAgain()
 
 std::string Supervisor::TextOf(const ClusterMember& failed) const
 {
-  return FailureText({failed.Name(), failed.Plan().host, failed.End(), failed.Record()}, progress_.tick, actor_of_,
-                     KernelKillsForMemory() > kills_for_memory_);
+  const std::string text = FailureText({failed.Name(), failed.Plan().host, failed.End(), failed.Record()},
+                                       progress_.tick, actor_of_, KernelKillsForMemory() > kills_for_memory_);
+  return retries_ == 0 && failed.NewDeath() ? text +
+                                                  "; for its on_failure, processes that die must be replaced: leave "
+                                                  "out --no-recovery, --no-journal and --retries 0"
+                                            : text;
 }
 
 // It may be stopped, or cut off: nobody hears it any more, and it must not come back.

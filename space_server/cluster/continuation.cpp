@@ -51,9 +51,19 @@ void Continuation::Restore(SpaceServer& server) const
   server.TellAgain(record_->state.attributes);
 }
 
+KnownFaults Continuation::Faults() const
+{
+  KnownFaults known = journal_ ? journal_->FaultsFrom(tick_) : KnownFaults();
+  // The journal may end earlier.
+  for (const KnownFault& fault : requests_.failed)
+    if (fault.tick >= tick_) known.faults.push_back(fault);
+  return known;
+}
+
 void Continuation::Prepare(RunControlSetup& setup) const
 {
   setup.goes_on = true;
+  setup.failed = requests_.failed;
   std::vector<RecordedEvent> all = requests_.changes;
   AddUndone(all, setup.repeated);
   setup.repeated = std::move(all);

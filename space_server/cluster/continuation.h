@@ -32,6 +32,8 @@ public:
   // Of the tick; nothing if it is the first one.
   const std::optional<TickRecord>& Record() const { return record_; }
   const EarlierRequests& Requests() const { return requests_; }
+  // Of controllers, in ticks that are done again. Some may stand there twice.
+  KnownFaults Faults() const;
   // What is asked of the run from now on, after what was asked before.
   void Prepare(RunControlSetup& setup) const;
 

@@ -75,6 +75,7 @@ int Serve(const ServerOptions& options)
     if (!loaded.experiment)
     {
       for (const Diagnostic& error : loaded.errors) fmt::print(stderr, "{}\n", error.Text());
+      NoteEnd(EndReason::kInvalid, 0, loaded.errors.front().Text(), true);
       status.Publish(ServerError{fmt::format("the experiment file has {} mistake{}", loaded.errors.size(),
                                              loaded.errors.size() == 1 ? "" : "s")});
       return kExitInvalidFile;

@@ -88,6 +88,12 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
   if (continuation_)
     for (const ControlRequestMessage& request : continuation_->Requests().answered)
       session_.Remember(request, IsAwaited(request, *continuation_));
+  server_.SetFaultHandler(
+      [this](const std::vector<KnownFault>& faults)
+      {
+        run_control_.Failed(faults);
+        Wake();
+      });
   if (status_.IsOpen())
     server_.SetWarningHandler([this](const std::string& text) { status_.Publish(ServerWarning{text}); });
   session_.GetBus().OnRefused(
@@ -103,6 +109,11 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
 void ServerProgram::Reply(const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
 {
   session_.Reply(request, done, tick, text);
+  if (request.verb == kFailedController)
+  {
+    status_.Publish(ServerWarning{text});
+    Say(text);
+  }
   // Robots that are moved by hand would fill the screen.
   const bool told =
       request.verb == "pause" || request.verb == "resume" || request.verb == "speed" || request.verb == "stop";
@@ -172,6 +183,10 @@ WorldMessage ServerProgram::World()
     world.checkpoint = EncodeCheckpoint(checkpoint);
   }
   if (continuation_) continuation_->Restore(server_);
+  if (!experiment_.HasGuards()) return world;
+  if (!options_.faults_of.empty())
+    world.known = FaultsOfRun(options_.faults_of, experiment_, server_.Space().GetTick());
+  if (continuation_) world.known.Add(continuation_->Faults());
   return world;
 }
 

@@ -93,6 +93,7 @@ std::vector<fuzz::Input> fuzz::FirstInputs()
   ControlCommands commands;
   commands.values = {0.1, -0.1};
   commands.attributes = changes;
+  commands.faults = {{4, 9}, {FaultKind::kThrew, FaultKind::kDied}};
   UpdateMessage update;
   update.poses = state.poses;
   update.attributes = changes;
@@ -119,7 +120,9 @@ std::vector<fuzz::Input> fuzz::FirstInputs()
                            100,
                            {'a', 'b'},
                            false,
-                           {{"fb", "footbot", true, 0}}};
+                           {{"fb", "footbot", true, 0}},
+                           {},
+                           {12, {{7, 0, FaultKind::kTooSlow}}}};
   return {InputOf(0, BytesOf(header, state)),
           InputOf(1, BytesOf(header, commands)),
           InputOf(2, BytesOf(header, update)),

@@ -49,7 +49,7 @@ std::span<const RunNote> RemoteMonitor::Notes()
           const std::lock_guard lock(mutex_);
           // An answer comes again if its asker did not hear it.
           const auto same = [&](const RunNote& note)
-          { return note.from == reply.client && note.number == reply.number; };
+          { return note.from == reply.client && note.number == reply.number && note.text == reply.text; };
           if (std::ranges::any_of(heard_notes_, same)) return;
           heard_notes_.push_back({reply.tick, reply.ok, reply.text, reply.client, reply.number});
           if (heard_notes_.size() > kNotesKept) heard_notes_.erase(heard_notes_.begin());

@@ -99,7 +99,9 @@ TEST(BadMessages, CutAnywhereAreRefused)
                                                  0,
                                                  {'a', 'b'},
                                                  false,
-                                                 {{"fb", "footbot", true, 0}}});
+                                                 {{"fb", "footbot", true, 0}},
+                                                 {},
+                                                 {12, {{7, 0, FaultKind::kTooSlow}}}});
   EXPECT_EQ(Refusal<WorldMessage>(world), "");
   for (std::size_t length = 0; length < world.size(); ++length)
     EXPECT_NE(Refusal<WorldMessage>(world.substr(0, length)), "") << length;

@@ -205,11 +205,17 @@ TEST(MessageBytes, OfATickAreThoseOfTheIdl)
     ControlCommands commands;
     commands.values = random.Reals();
     commands.attributes = RandomChanges(random);
+    commands.faults.robots = random.Ascending();
+    for (std::size_t k = 0; k < commands.faults.robots.size(); ++k)
+      commands.faults.kinds.push_back(static_cast<FaultKind>(1 + k % 3));
     wire::ControlCommands wire_commands;
     wire_commands.values(commands.values);
     wire_commands.flags(FlagsOf(false, header.repeated));
     wire_commands.attribute_values(commands.attributes.values);
     wire_commands.attribute_slots(commands.attributes.slots);
+    wire_commands.fault_robots(commands.faults.robots);
+    for (const FaultKind kind : commands.faults.kinds)
+      wire_commands.fault_kinds().push_back(static_cast<std::uint32_t>(kind));
     ExpectSame<wire::ControlCommandsPubSubType>(header, commands, wire_commands);
 
     UpdateMessage update;
@@ -259,7 +265,9 @@ TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
         random.Bytes(),
         random.Flag(),
         std::vector<WorldEntity>(random.Length(), {random.Text(), random.Text(), random.Flag(), random.Number32()}),
-        std::vector<WorldLibrary>(random.Length(), {random.Text(), random.Text()})};
+        std::vector<WorldLibrary>(random.Length(), {random.Text(), random.Text()}),
+        {random.Number(),
+         std::vector<KnownFault>(random.Length(), {random.Number(), random.Number32(), FaultKind::kTooSlow})}};
     wire::World wire_world;
     wire_world.protocol(world.protocol);
     wire_world.run(world.run);
@@ -289,6 +297,14 @@ TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
       wire_world.libraries().emplace_back();
       wire_world.libraries().back().name(library.name);
       wire_world.libraries().back().digest(library.digest);
+    }
+    wire_world.known_until(world.known.until);
+    for (const KnownFault& fault : world.known.faults)
+    {
+      wire_world.faults().emplace_back();
+      wire_world.faults().back().tick(fault.tick);
+      wire_world.faults().back().robot(fault.robot);
+      wire_world.faults().back().kind(static_cast<std::uint32_t>(fault.kind));
     }
     ExpectSame<wire::WorldPubSubType>(world, wire_world);
 

@@ -138,5 +138,48 @@ TEST_F(LimitsOfATick, EntitiesThatMovedExistAndAscend)
   }
 }
 
+TEST(LimitsOfFaults, TheyAreOfControllersThatMayFailAndAscend)
+{
+  Experiment experiment = ThreeRobots();
+  for (const auto& [id, on_failure] : {std::pair("steady", OnFailure::kAbort), {"frail", OnFailure::kRestart}})
+  {
+    ControllerConfiguration& controller = experiment.controllers.emplace_back();
+    controller.id = id;
+    controller.on_failure = on_failure;
+  }
+  experiment.entities[0].controller = experiment.entities[2].controller = "frail";
+  experiment.entities[1].controller = "steady";
+  const CSwarmanoidSpace space(experiment);
+  const TickLimits limits(space, MakeAssignment(experiment, 1), false);
+  const auto refusal = [&](const ControllerFaults& faults)
+  {
+    ControlCommands commands;
+    commands.faults = faults;
+    try
+    {
+      limits.Check({1, 1, 0, false}, commands);
+    }
+    catch (const BadMessage& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const FaultKind died = FaultKind::kDied;
+  for (const ControllerFaults& good :
+       {ControllerFaults{}, {{0}, {died}}, {{2}, {FaultKind::kThrew}}, {{0, 2}, {died, FaultKind::kTooSlow}}})
+    EXPECT_EQ(refusal(good), "");
+  for (const ControllerFaults& bad :
+       {ControllerFaults{{1}, {died}}, {{3}, {died}}, {{2, 0}, {died, died}}, {{0, 0}, {died, died}}})
+    EXPECT_THAT(refusal(bad), HasSubstr("fault_robots: "));
+  for (const ControllerFaults& bad :
+       {ControllerFaults{{0}, {}}, {{}, {died}}, {{0}, {FaultKind(0)}}, {{0}, {FaultKind(4)}}})
+    EXPECT_THAT(refusal(bad), HasSubstr("fault_kinds: "));
+  const Experiment without = ThreeRobots();
+  const CSwarmanoidSpace others(without);
+  const std::size_t bytes_of_two = 2 * (sizeof(std::uint32_t) + sizeof(FaultKind));
+  EXPECT_EQ(limits.CommandBytes(), TickLimits(others, MakeAssignment(without, 1), false).CommandBytes() + bytes_of_two);
+}
+
 }  // namespace
 }  // namespace swarmanoid

@@ -116,6 +116,15 @@ const Mistake kMistakes[] = {
      "test.xml:20:53: y of 'size' of <block> is 0 m; it must be from 1e-06 to 1000000 m\n"},
     {"MissingPosition", "<position>9, 9, 0</position>", "",
      "test.xml:18:5: <footbot> lacks 'position': three numbers \"x, y, z\" in m, from -1000000 to 1000000 m\n"},
+    {"BudgetOfOneThatIsStartedAgain", "<footbot_sample_controller id=\"fc\">",
+     "<footbot_sample_controller id=\"fc\" on_failure=\"restart\" time_budget_ms=\"5\">",
+     "test.xml:7:61: the controller 'fc' has a time_budget_ms and on_failure=\"restart\": one that is too slow would "
+     "be so "
+     "again; take on_failure=\"stop_robot\" or \"abort\"\n"},
+    {"BadPolicy", "<footbot_sample_controller id=\"fc\">", "<footbot_sample_controller id=\"fc\" on_failure=\"stop\">",
+     "test.xml:7:40: 'on_failure' of <footbot_sample_controller> is 'stop'; it must be one of abort, stop_robot, "
+     "restart; "
+     "did you mean 'stop_robot'?\n"},
     {"OutsideTheArena", "<position>9, 9, 0</position>", "<position>9, 12, 0</position>",
      "test.xml:18:22: 'fb' is outside the arena: y is 12 m; it must be from 0 to 10 m\n"},
     {"UnknownEntity", "<light_bulb id=\"lamp\"", "<lightbulb id=\"lamp\"",

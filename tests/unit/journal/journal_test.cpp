@@ -53,6 +53,7 @@ void ExpectSame(const TickRecord& a, const TickRecord& b)
     EXPECT_EQ(a.commands[k].attributes.slots, b.commands[k].attributes.slots);
     ExpectSameBits(a.commands[k].attributes.values, b.commands[k].attributes.values);
     ExpectSameBits(a.commands[k].values, b.commands[k].values);
+    EXPECT_EQ(a.commands[k].faults, b.commands[k].faults);
   }
 }
 
@@ -76,7 +77,8 @@ std::vector<TickRecord> SomeTicks(std::size_t count, unsigned seed)
     if (random() % 4 == 0) record.state.moved = {1, 7};
     // Nobody sends the frames of the first tick.
     if (t > 0) record.frames = {{t, 0, {}}, {t, 1, {real(random), 0.25, -0.0}}};
-    record.commands = {{t, 0, {real(random), 1}, {}}, {t, 1, {}, record.state.attributes}};
+    record.commands = {{t, 0, {real(random), 1}, {}, {}}, {t, 1, {}, record.state.attributes, {}}};
+    if (random() % 5 == 0) record.commands[1].faults = {{3, 8}, {FaultKind::kTooSlow, FaultKind::kDied}};
   }
   return records;
 }
@@ -273,6 +275,30 @@ TEST_F(JournalTest, WhatIsDoneAgainTakesThePlaceOfWhatStoodThere)
     const auto parts = std::count_if(journal.Places().begin(), journal.Places().end(),
                                      [](const JournalPlace& place) { return place.kind == JournalBlockKind::kPart; });
     EXPECT_EQ(parts, tick == 400 ? 1 : 0);
+  }
+}
+
+TEST_F(JournalTest, FaultsOfControllersAreFoundFromATickOn)
+{
+  const std::vector<TickRecord> records = SomeTicks(300, 4);
+  {
+    JournalWriter journal(File("j"), Start());
+    for (const TickRecord& record : records) journal.AddTick(record.state, record.save, record.frames, record.commands);
+  }
+  const JournalReader journal(File("j"));
+  for (const std::uint64_t from : {0U, 100U, 299U, 300U})
+  {
+    std::vector<KnownFault> expected;
+    for (std::uint64_t tick = from; tick < records.size(); ++tick)
+    {
+      const ControllerFaults& faults = records[tick].commands[1].faults;
+      for (std::size_t k = 0; k < faults.robots.size(); ++k)
+        expected.push_back({tick, faults.robots[k], faults.kinds[k]});
+    }
+    const KnownFaults found = journal.FaultsFrom(from);
+    EXPECT_EQ(found.faults, expected);
+    EXPECT_EQ(found.until, from == 300 ? 0 : 300);
+    EXPECT_TRUE(!expected.empty() || from > 100);
   }
 }
 

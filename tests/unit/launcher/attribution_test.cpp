@@ -70,6 +70,23 @@ TEST(Attribution, AnEndByZeroIsGoodOnlyIfTheWorkIsSaidToBeDone)
   EXPECT_EQ(EvidenceOf(Exited(0), ActivityRecord()), Evidence::kEarlyEnd) << "a process of another machine";
 }
 
+TEST(Attribution, WhoeverSaidWhatIsWrongIsNotStartedAgain)
+{
+  for (const ProcessEnd& died : {Killed(SIGKILL), Killed(SIGSEGV), Exited(0), Exited(1), Exited(137)})
+  {
+    EXPECT_TRUE(MayBeReplaced(died, Record(EndReason::kUnknown), false)) << died.Text();
+    EXPECT_TRUE(MayBeReplaced(died, Record(EndReason::kDied, true), false)) << died.Text();
+  }
+  EXPECT_TRUE(MayBeReplaced(Exited(137), ActivityRecord(), true));
+  EXPECT_FALSE(MayBeReplaced(Exited(137), ActivityRecord(), false)) << "it was not one of our programs";
+  for (const EndReason reason : {EndReason::kDone, EndReason::kFailed, EndReason::kInvalid, EndReason::kOthers})
+    EXPECT_FALSE(MayBeReplaced(Exited(4), Record(reason), false));
+  // A usage error and an invalid file, even if the page does not say so.
+  for (const int code : {2, 3})
+    for (const bool elsewhere : {false, true})
+      EXPECT_FALSE(MayBeReplaced(Exited(code), Record(EndReason::kUnknown), elsewhere)) << code;
+}
+
 TEST(Attribution, AKilledProcessIsToldByWhomItRan)
 {
   ActivityRecord record = Record(EndReason::kUnknown);

@@ -85,7 +85,7 @@ protected:
   // What takes the place of the process that was added last; `script` may use $1, which is its incarnation.
   void ReplaceBy(const std::string& script)
   {
-    plans_.back().replacement = [script](unsigned incarnation, double) {
+    plans_.back().replacement = [script](unsigned incarnation, double, const std::vector<ControllerDeath>&) {
       return ProcessCommand{"", {"/bin/sh", "-c", script, "sh", std::to_string(incarnation)}, {}, {}};
     };
   }
