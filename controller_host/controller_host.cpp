@@ -442,11 +442,6 @@ void ControllerHost::StepInParallel(std::uint64_t tick)
     if (stopped != nullptr) std::rethrow_exception(stopped);
 }
 
-void ControllerHost::BeginStep(const Robot& robot, std::uint64_t tick) const
-{
-  robot.interface->BeginStep(tick, space_.GetTickSeconds(), {robot.random, tick});
-}
-
 template <class ActivityOfThread>
 void ControllerHost::ControlSteps(std::span<const std::uint32_t> robots, std::uint64_t tick, ActivityOfThread& activity)
 {
@@ -457,7 +452,7 @@ void ControllerHost::ControlSteps(std::span<const std::uint32_t> robots, std::ui
     {
       Robot& robot = robots_[k];
       if (!space_.IsPresent(robot.entity)) continue;
-      BeginStep(robot, tick);
+      robot.interface->BeginStep(tick, space_.GetTickSeconds(), {robot.random, tick});
       running = &robot.actor;
       activity.Next(*running);
       robot.controller->ControlStep();
@@ -475,11 +470,11 @@ void ControllerHost::StepGuarded(std::uint64_t tick)
   Activity activity(robots_[guarded_.front()].actor, ActivityStep::kControlStep, tick);
   for (const std::uint32_t k : guarded_)
   {
-    Robot& robot = robots_[k];
-    if (!space_.IsPresent(robot.entity) || robot.guard->stopped) continue;
-    BeginStep(robot, tick);
-    activity.Next(robot.actor);
-    TryStep(robot, tick);
+    Robot& guarded = robots_[k];
+    if (!space_.IsPresent(guarded.entity) || guarded.guard->stopped) continue;
+    guarded.interface->BeginStep(tick, space_.GetTickSeconds(), {guarded.random, tick});
+    activity.Next(guarded.actor);
+    TryStep(guarded, tick);
   }
   SaveLastStates(tick + 1);
 }

@@ -94,7 +94,6 @@ private:
   void UpdateSensors(std::uint64_t tick);
   void UpdateParts(std::uint64_t tick);
   void RunControllers(std::uint64_t tick);
-  void BeginStep(const Robot& robot, std::uint64_t tick) const;
   // The steps of some robots in their order. `activity` hears whose it is.
   template <class ActivityOfThread>
   void ControlSteps(std::span<const std::uint32_t> robots, std::uint64_t tick, ActivityOfThread& activity);
