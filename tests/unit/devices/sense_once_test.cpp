@@ -1,0 +1,77 @@
+// Whoever looks at the sensors of a tick before its step takes nothing from the controllers.
+#include <gtest/gtest.h>
+
+#include "common/control_interface/ci_controller.h"
+#include "common/control_interface/ci_radio.h"
+#include "controller_host/controller_host.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+// Sends a packet in each step, and counts those that it hears.
+class Talker : public CCI_Controller
+{
+public:
+  static inline std::size_t heard = 0;
+
+  int Init(const TConfigurationTree) override { return RETURN_OK; }
+  void ControlStep() override
+  {
+    heard += GetRobot()->Sensor<CCI_RadioSensor>("radio").GetAllPackets().size();
+    GetRobot()->Actuator<CCI_RadioActuator>("radio").Send(std::array<std::uint8_t, 1>{7});
+  }
+};
+
+REGISTER_CONTROLLER(Talker, "sense_once_test")
+
+// How many packets two robots hear in ten ticks.
+std::size_t Heard(bool look)
+{
+  RegisterBuiltinDevices();
+  Experiment experiment;
+  experiment.arena_size = {10, 10, 2};
+  ControllerConfiguration& controller = experiment.controllers.emplace_back();
+  controller.tag = "sense_once_test";
+  controller.id = "c";
+  for (auto* devices : {&controller.actuators, &controller.sensors})
+  {
+    DeviceConfiguration& device = devices->emplace_back();
+    device.type = "radio";
+    device.implementation = "generic_radio";
+  }
+  experiment.engines.resize(1);
+  for (const std::uint32_t k : {0U, 1U})
+  {
+    EntityConfiguration& entity = experiment.entities.emplace_back();
+    entity.kind = EntityKind::kFootbot;
+    entity.id = k == 0 ? "a" : "b";
+    entity.controller = "c";
+    entity.movable = true;
+    entity.pose.position = {2.0 + k, 5, 0};
+    experiment.engines[0].entities.push_back(k);
+  }
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  CSwarmanoidSpace space(experiment);
+  ControllerHost host(space, assignment, 0);
+  Talker::heard = 0;
+  for (std::uint64_t tick = 0; tick < 10; ++tick)
+  {
+    space.SetTick(tick);
+    if (look) host.Sense({});
+    const ControlCommands& commands = host.Tick({});
+    for (std::size_t k = 0; k < commands.attributes.slots.size(); ++k)
+      space.SetAttribute(commands.attributes.slots[k], commands.attributes.values[k]);
+  }
+  return Talker::heard;
+}
+
+TEST(SenseOnce, PacketsOfATickAreHeardInItsStep)
+{
+  EXPECT_EQ(Heard(false), 2 * 9U);
+  EXPECT_EQ(Heard(true), 2 * 9U);
+}
+
+}  // namespace
+}  // namespace swarmanoid
