@@ -106,6 +106,7 @@ void AddSweepCommand(CLI::App& app, int& exit_code)
       "  swarmanoid sweep configs/studies/aggregation.xml --dry-run\n"
       "  swarmanoid sweep configs/studies/aggregation.xml --output results/aggregation\n"
       "  swarmanoid sweep results/aggregation --resume --retries 1\n"
+      "  swarmanoid sweep configs/studies/coverage_search.xml --output results/coverage\n"
       "  echo 'runs = alpha beta here' >hosts.txt\n"
       "  swarmanoid sweep configs/studies/aggregation.xml --hosts hosts.txt\n"
       "  swarmanoid sweep configs/studies/aggregation.xml --slurm '--partition=short --time=10' --runs-per-task 20");
