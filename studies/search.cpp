@@ -279,7 +279,8 @@ private:
   {
     if (options_.quiet || now < next_) return;
     next_ = now + (terminal_ ? SearchClock::duration(200ms) : SearchClock::duration(10s));
-    std::string line = fmt::format("point {} of at most {}, {} runs", values_.size(), MostPoints(), results_.size());
+    std::string line = fmt::format("point {} of at most {}, {} run{}", values_.size(), MostPoints(), results_.size(),
+                                   results_.size() == 1 ? "" : "s");
     if (const auto best = Best())
       line += fmt::format("; best {} {:.6g} ({})", search_.column, *ValueOf(*best), space_.Text(values_[*best]));
     Clear();

@@ -48,7 +48,7 @@ def course(search):
         axes.axhspan(mean - half, mean + half, color=colour, alpha=0.2, linewidth=0)
     axes.set_xlabel("point, in the order of the search")
     axes.set_ylabel(f"{search.metric} ({search.aggregate} of the seeds)")
-    axes.legend(frameon=False, fontsize=9)
+    axes.legend(fontsize=9)
     return figure, (f"The course of the search for the {'most' if search.goal == 'max' else 'least'} {search.metric}: each point, and the best one so far. The best "
                     "value of a search is flattered, since chance helped to choose it; the band is the confidence interval of 95 % of its mean with fresh seeds.")
 
@@ -63,7 +63,7 @@ def tried(search, factor):
     axes.set_xlabel(factor)
     axes.set_ylabel(search.metric)
     figure.colorbar(picture, label="order of the search")
-    axes.legend(frameon=False)
+    axes.legend()
     return figure, f"{search.metric} over what the search tried of {factor}; later points are lighter."
 
 
@@ -75,7 +75,7 @@ def tried_pair(search, x, y):
     axes.set_xlabel(x)
     axes.set_ylabel(y)
     figure.colorbar(picture, label=search.metric)
-    axes.legend(frameon=False)
+    axes.legend()
     return figure, f"{search.metric} of all that the search tried of {x} and {y}."
 
 
