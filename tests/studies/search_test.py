@@ -1,7 +1,4 @@
 """Searches: the same best point for any number of processes and after any death, and words that repeat it."""
-import csv
-import os
-import pathlib
 import re
 import shlex
 import shutil
@@ -9,48 +6,26 @@ import signal
 import sqlite3
 import statistics
 import subprocess
-import tempfile
 import time
 import unittest
 
-SWARMANOID = os.environ["SWARMANOID"]
-CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
+from study_case import CONFIGS, SWARMANOID, StudyCase
+
 FACTORS = ('<factor id="speed" path="controllers.diffusion.parameters.velocity" from="0.02" to="0.2" scale="logarithmic"/>'
            '<factor id="robots" path="arena.distribute.quantity" from="1" to="6" step="1"/>'
            '<metrics><coverage id="seen" cell="0.5"/><distance id="way"/></metrics>')
 
 
-class Search(unittest.TestCase):
-    def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="swarmanoid_search_"))
-        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
-
+class Search(StudyCase):
     def study(self, search, inside=FACTORS, ticks=60, name="study"):
         path = self.folder / f"{name}.xml"
         path.write_text(f'<study experiment="{CONFIGS / "diffusion_10.xml"}" ticks="{ticks}" seeds="1-3">\n{inside}\n<search {search}/>\n</study>\n')
         return path
 
-    def command(self, *words, code=0):
-        done = subprocess.run([SWARMANOID, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=250,
-                              env={**os.environ, "SWARMANOID_SHARED_FOLDER": str(self.folder)})
-        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        return done
-
-    def rows(self, name):
-        with open(self.folder / name / "table.csv", newline="") as file:
-            return list(csv.DictReader(file))
-
-    def query(self, name, query):
-        database = sqlite3.connect(self.folder / name / "study.sqlite")
-        try:
-            return database.execute(query).fetchall()
-        finally:
-            database.close()
-
     def best_of(self, name, output):
         """The best point of the table, by hand, and what the search said of it."""
         values = {}
-        for row in self.rows(name):
+        for row in self.table(name):
             if int(row["seed"]) <= 3:
                 values.setdefault(int(row["point"]), []).append(float(row["seen"]))
         means = {point: statistics.fmean(of) for point, of in values.items()}
@@ -70,9 +45,9 @@ class Search(unittest.TestCase):
             whole = (self.folder / f"{algorithm}_one/table.csv").read_bytes()
             self.assertEqual(whole, (self.folder / f"{algorithm}_three/table.csv").read_bytes())
             best = self.best_of(f"{algorithm}_one", one.stdout)
-            fresh = [row["seed"] for row in self.rows(f"{algorithm}_one") if int(row["seed"]) > 3]
+            fresh = [row["seed"] for row in self.table(f"{algorithm}_one") if int(row["seed"]) > 3]
             self.assertEqual(fresh, ["4", "5", "6", "7"])
-            self.assertEqual({int(row["point"]) for row in self.rows(f"{algorithm}_one") if int(row["seed"]) > 3}, {best})
+            self.assertEqual({int(row["point"]) for row in self.table(f"{algorithm}_one") if int(row["seed"]) > 3}, {best})
             # Killed again and again, with all its processes: they end with it.
             started = subprocess.Popen([SWARMANOID, "sweep", str(study), "--output", "killed", "--quiet"], cwd=self.folder,
                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -96,7 +71,7 @@ class Search(unittest.TestCase):
             self.assertEqual(without_time[0], without_time[1])
             self.assertEqual(without_time[0], without_time[2])
             # Nothing was run twice, and one that is done is told again without a run.
-            self.assertEqual(self.query("killed", "SELECT MAX(attempts), COUNT(*) FROM runs"), [(1, len(self.rows("killed")))])
+            self.assertEqual(self.query("killed", "SELECT MAX(attempts), COUNT(*) FROM runs"), [(1, len(self.table("killed")))])
             again = self.command("sweep", "killed", "--resume", "--quiet")
             self.assertEqual(re.sub(r"^finished.*", "", again.stdout, flags=re.MULTILINE), without_time[0])
             shutil.rmtree(self.folder / "killed")
@@ -105,7 +80,7 @@ class Search(unittest.TestCase):
         done = self.command("sweep", self.study('metric="seen" runs="30" algorithm="sbplx" fresh_seeds="0"'), "--output", "out", "--quiet")
         best = self.best_of("out", done.stdout)
         words = shlex.split(re.search(r"^swarmanoid (run .*)$", done.stdout, re.MULTILINE).group(1))
-        for row in self.rows("out"):
+        for row in self.table("out"):
             if int(row["point"]) == best:
                 self.command(*words, "--quiet", "--seed", row["seed"], "--output", "run" + row["seed"], "--expect-hash", row["hash"])
 
@@ -116,7 +91,7 @@ class Search(unittest.TestCase):
         for goal, sign in (("max", 1), ("min", -1)):
             self.command("sweep", self.study(f'metric="way.mean" goal="{goal}" runs="90" algorithm="bobyqa" fresh_seeds="0"', inside, ticks=20),
                          "--output", goal, "--quiet")
-            speeds = {float(row["speed"]) for row in self.rows(goal)}
+            speeds = {float(row["speed"]) for row in self.table(goal)}
             self.assertEqual(max(speeds, key=lambda speed: sign * speed), 0.1 if goal == "max" else 0.01)
 
     def test_clusters_search_the_same(self):
@@ -131,16 +106,16 @@ class Search(unittest.TestCase):
         inside = FACTORS + '<require condition="robots * speed &lt; 0.5"/>'
         done = self.command("sweep", self.study('metric="seen" runs="3000" algorithm="crs" population="6" patience="5" fresh_seeds="0"', inside),
                             "--output", "out", "--quiet")
-        for row in self.rows("out"):
+        for row in self.table("out"):
             self.assertLess(float(row["robots"]) * float(row["speed"]), 0.5)
         best = self.best_of("out", done.stdout)
         self.assertIn("5 points in a row were no better", done.stdout)
-        self.assertEqual(max(int(row["point"]) for row in self.rows("out")), best + 5)
+        self.assertEqual(max(int(row["point"]) for row in self.table("out")), best + 5)
 
     def test_whole_numbers_come_to_an_end(self):
         inside = ('<factor id="robots" path="arena.distribute.quantity" from="1" to="3" step="1"/><metrics><coverage id="seen" cell="0.5"/></metrics>')
         self.command("sweep", self.study('metric="seen" runs="3000" algorithm="crs" fresh_seeds="0"', inside, ticks=5), "--output", "out", "--quiet")
-        self.assertEqual(sorted({row["robots"] for row in self.rows("out")}), ["1", "2", "3"])
+        self.assertEqual(sorted({row["robots"] for row in self.table("out")}), ["1", "2", "3"])
 
     def test_mistakes_and_failures(self):
         study = self.study('metric="seen" runs="30"', FACTORS.replace('to="0.2"', 'to="1e9"').replace("velocity", "velocty"))

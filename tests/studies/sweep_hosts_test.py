@@ -118,7 +118,7 @@ class SweepHosts(unittest.TestCase):
         self.assertLessEqual({host for host, in self.query("out", "SELECT DISTINCT host FROM runs")}, {"alpha", "beta", os.uname().nodename})
 
     def test_each_machine_of_the_file_runs_some(self):
-        study = self.study("1-30", ticks=600)
+        study = self.study("1-30", ticks=4000)
         self.sweep(study, "--output", "out", "--hosts", self.hosts("runs = alpha beta"))
         self.assertEqual({host for host, in self.query("out", "SELECT DISTINCT host FROM runs")}, {"alpha", "beta"})
 

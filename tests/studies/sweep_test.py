@@ -8,44 +8,22 @@ import signal
 import sqlite3
 import statistics
 import subprocess
-import tempfile
 import time
 import unittest
 
-SWARMANOID = os.environ["SWARMANOID"]
-CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
+from study_case import CONFIGS, SWARMANOID, StudyCase
+
 FINISHED = re.compile(r"^finished: (\d+) runs, (\d+) failed, [0-9.]+ s, table (\S+)$", re.MULTILINE)
 
 
-class Sweep(unittest.TestCase):
-    def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="swarmanoid_sweep_"))
-        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
-
+class Sweep(StudyCase):
     def study(self, inside, attributes="", name="study", experiment=CONFIGS / "diffusion_10.xml"):
         path = self.folder / f"{name}.xml"
         path.write_text(f'<study experiment="{experiment}" ticks="60" {attributes}>\n{inside}\n</study>\n')
         return path
 
-    def command(self, *words, code=0):
-        done = subprocess.run([SWARMANOID, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=200,
-                              env={**os.environ, "SWARMANOID_SHARED_FOLDER": str(self.folder)})
-        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        return done
-
     def sweep(self, *words, code=0):
         return self.command("sweep", *words, "--quiet", code=code)
-
-    def table(self, name):
-        with open(self.folder / name / "table.csv", newline="") as file:
-            return list(csv.DictReader(file))
-
-    def query(self, name, query):
-        database = sqlite3.connect(self.folder / name / "study.sqlite")
-        try:
-            return database.execute(query).fetchall()
-        finally:
-            database.close()
 
     TWO = ('<factor id="robots" path="arena.distribute.quantity" values="4 8"/>'
            '<factor id="speed" path="controllers.diffusion.parameters.velocity" values="0.05 0.1"/>'
