@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "common/activity/shared_activity.h"
+#include "common/checkpoint/host_state.h"
 #include "common/control_interface/init_controller.h"
 #include "common/experiment/actors.h"
 #include "common/logging/log.h"
@@ -80,7 +81,9 @@ struct ControllerHost::Batches
     std::unique_ptr<SensorBatch> batch;
     ChannelSlice slice;
     Actor actor;
-    int part = kWhole;  // of a device that is split among threads: which of them runs it
+    int part = kWhole;                                 // of a device that is split among threads: which of them runs it
+    std::pair<std::uint32_t, std::uint32_t> number{};  // of the controller, and of its sensor
+    std::vector<std::size_t> robots{};                 // places in robots_
   };
   struct Actuator
   {
@@ -89,6 +92,7 @@ struct ControllerHost::Batches
     Actor actor;
     const DeviceConfiguration* device = nullptr;
     std::vector<std::uint32_t> robots;
+    std::vector<std::size_t> places{};  // in robots_
   };
   struct Failure
   {
@@ -110,7 +114,10 @@ struct ControllerHost::Batches
 
 ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t host,
                                unsigned threads)
-    : space_(space), layout_(assignment.hosts[host]), batches_(std::make_unique<Batches>())
+    : space_(space),
+      layout_(assignment.hosts[host]),
+      batches_(std::make_unique<Batches>()),
+      ahead_(space.GetExperiment().ahead)
 {
   threads = std::min(threads, SharedActivity::kMostThreads);
   batches_->threads = threads;
@@ -223,8 +230,13 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
       const std::size_t behind = entities.size() * (part + 1) / parts;
       const std::vector<std::uint32_t> some(entities.begin() + static_cast<std::ptrdiff_t>(first),
                                             entities.begin() + static_cast<std::ptrdiff_t>(behind));
-      Batches::Sensor sensor{entry->create(), SliceOf(layout_.sensors, entry->description.channel, some),
-                             SensorActor(experiment, number, d), parts > 1 ? static_cast<int>(part) : Batches::kWhole};
+      Batches::Sensor sensor{
+          entry->create(),
+          SliceOf(layout_.sensors, entry->description.channel, some),
+          SensorActor(experiment, number, d),
+          parts > 1 ? static_cast<int>(part) : Batches::kWhole,
+          {static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(d)},
+          {robots.begin() + static_cast<std::ptrdiff_t>(first), robots.begin() + static_cast<std::ptrdiff_t>(behind)}};
       RunCodeOf<ConfigurationError>(
           sensor.actor, ActivityStep::kInit, 0,
           [&] { sensor.batch->Init(setup_of(device, entry->description, SensorStream(device.type), some)); });
@@ -239,8 +251,12 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
     const DeviceConfiguration& device = configuration.actuators[d];
     const auto* entry = PluginRegistry<ActuatorBatch>::Instance().Find(device.type, device.implementation);
     if (entry == nullptr) throw unknown(device);
-    Batches::Actuator actuator{entry->create(), SliceOf(layout_.commands, entry->description.channel, entities),
-                               ActuatorActor(experiment, number, d), &device, entities};
+    Batches::Actuator actuator{entry->create(),
+                               SliceOf(layout_.commands, entry->description.channel, entities),
+                               ActuatorActor(experiment, number, d),
+                               &device,
+                               entities,
+                               robots};
     RunCodeOf<ConfigurationError>(
         actuator.actor, ActivityStep::kInit, 0,
         [&] { actuator.batch->Init(setup_of(device, entry->description, ActuatorStream(device.type), entities)); });
@@ -270,12 +286,25 @@ void ControllerHost::Sense(std::span<const SensorFrame* const> frames)
 const ControlCommands& ControllerHost::Tick(std::span<const SensorFrame* const> frames)
 {
   const std::uint64_t tick = space_.GetTick();
+  Due();
   Sense(frames);
   RunControllers(tick);
 
-  commands_.tick = tick;
+  stepped_tick_ = tick;
+  commands_.tick = tick + ahead_;
   CommitActuators();
-  return commands_;
+  return Commands();
+}
+
+const ControlCommands* ControllerHost::Due()
+{
+  if (ahead_ == 0) return nullptr;
+  const std::uint64_t tick = space_.GetTick();
+  if (due_tick_ == tick) return &due_;
+  due_tick_ = tick;
+  due_ = commands_;
+  due_.tick = tick;
+  return &due_;
 }
 
 void ControllerHost::UpdateSensors(std::uint64_t tick)
@@ -331,7 +360,7 @@ void ControllerHost::CommitActuators()
   for (Batches::Actuator& actuator : batches_->actuators)
   {
     const std::size_t first = commands_.attributes.slots.size();
-    RunCodeOf(actuator.actor, ActivityStep::kUpdate, commands_.tick,
+    RunCodeOf(actuator.actor, ActivityStep::kUpdate, stepped_tick_,
               [&] {
                 actuator.batch->Commit({commands_.values, actuator.slice.offsets, actuator.slice.width},
                                        commands_.attributes);
@@ -344,7 +373,6 @@ void ControllerHost::CommitActuators()
   }
   if (!silence_.robots.empty()) SilenceStopped();
   batches_->order.Apply(commands_.attributes);
-  StopInactive();
   CheckCommands();
 }
 
@@ -366,7 +394,7 @@ void ControllerHost::CheckAttributesOf(const DeviceConfiguration& device, std::s
       if (!AllFinite({&changes.values[k], 1}) && std::binary_search(robots.begin(), robots.end(), entity))
         FailCommand(entity, device, changes.values[k]);
       throw ControllerError("actuator '" + device.type + "' (" + device.implementation + ") at tick " +
-                            std::to_string(commands_.tick) + ": " + error.what());
+                            std::to_string(stepped_tick_) + ": " + error.what());
     }
   }
 }
@@ -388,7 +416,7 @@ void ControllerHost::CheckCommands()
         if (!AllFinite({&value, 1})) FailCommand(actuator.robots[k], *actuator.device, found);
         value = found;
       }
-  throw ControllerError("the commands at tick " + std::to_string(commands_.tick) + " are not finite");
+  throw ControllerError("the commands at tick " + std::to_string(stepped_tick_) + " are not finite");
 }
 
 void ControllerHost::FailCommand(std::uint32_t robot, const DeviceConfiguration& device, double value) const
@@ -396,7 +424,7 @@ void ControllerHost::FailCommand(std::uint32_t robot, const DeviceConfiguration&
   const CSwarmanoidSpaceEntity& entity = space_.GetEntity(robot);
   throw ControllerError("robot '" + entity.GetId() + "': its controller '" + entity.GetConfiguration().controller +
                         "' commanded " + std::to_string(value) + " to the actuator '" + device.type + "' at tick " +
-                        std::to_string(commands_.tick) + "; commands must be finite numbers");
+                        std::to_string(stepped_tick_) + "; commands must be finite numbers");
 }
 
 // Those that may step in parallel come first, however many threads there are, and those with a guard last.
@@ -603,6 +631,19 @@ void ControllerHost::SaveLastStates(std::uint64_t tick)
   }
 }
 
+template <class Do>
+void ControllerHost::ForEachCommand(std::uint32_t entity, Do use) const
+{
+  for (const ChannelBlock& block : layout_.commands)
+  {
+    const auto place = std::lower_bound(block.entities.begin(), block.entities.end(), entity);
+    if (place == block.entities.end() || *place != entity) continue;
+    const auto width = static_cast<std::size_t>(block.width);
+    const std::size_t first = block.offset + static_cast<std::size_t>(place - block.entities.begin()) * width;
+    use(first, first + width);
+  }
+}
+
 void ControllerHost::Stop(const Robot& robot)
 {
   robot.guard->stopped = true;
@@ -612,14 +653,8 @@ void ControllerHost::Stop(const Robot& robot)
     if (std::find(std::begin(kSilenced), std::end(kSilenced), spec.name) != std::end(kSilenced))
       for (int element = 0; element < spec.count; ++element)
         silence_.slots.push_back(entity.SlotOf(spec.name, element));
-  for (const ChannelBlock& block : layout_.commands)
-  {
-    const auto place = std::lower_bound(block.entities.begin(), block.entities.end(), robot.entity);
-    if (place == block.entities.end() || *place != robot.entity) continue;
-    const auto width = static_cast<std::size_t>(block.width);
-    const std::size_t first = block.offset + static_cast<std::size_t>(place - block.entities.begin()) * width;
-    silence_.commands.emplace_back(first, first + width);
-  }
+  ForEachCommand(robot.entity,
+                 [&](std::size_t first, std::size_t behind) { silence_.commands.emplace_back(first, behind); });
 }
 
 void ControllerHost::SilenceStopped()
@@ -652,7 +687,7 @@ void ControllerHost::DescribeController(const Robot& robot, RobotStatus& status)
   }
   try
   {
-    RunCodeOf(robot.actor, ActivityStep::kStatusText, commands_.tick,
+    RunCodeOf(robot.actor, ActivityStep::kStatusText, stepped_tick_,
               [&]
               {
                 status.text = robot.controller->StatusText();
@@ -672,7 +707,7 @@ bool ControllerHost::Describe(std::uint32_t entity, RobotStatus& status) const
   const Robot& robot = robots_[static_cast<std::size_t>(place - layout_.robots.begin())];
   const ControllerConfiguration& configuration =
       *space_.GetExperiment().FindController(space_.GetEntity(entity).GetConfiguration().controller);
-  status = {entity, commands_.tick, configuration.id, {}, {}, {}, {}};
+  status = {entity, stepped_tick_, configuration.id, {}, {}, {}, {}};
   DescribeController(robot, status);
   for (const DeviceConfiguration& device : configuration.sensors)
   {
@@ -687,27 +722,70 @@ bool ControllerHost::Describe(std::uint32_t entity, RobotStatus& status) const
   return true;
 }
 
-// Robots that are not in the arena do nothing, whatever they were told last.
-void ControllerHost::StopInactive()
+// What is set of others than the robots is of the first one.
+std::vector<AttributeChanges> ControllerHost::ChangesByRobot() const
 {
-  if (space_.Absent().empty()) return;
-  for (const ChannelBlock& block : layout_.commands)
-    for (std::size_t k = 0; k < block.entities.size(); ++k)
-      if (!space_.IsPresent(block.entities[k]))
-        std::fill_n(commands_.values.begin() + static_cast<std::ptrdiff_t>(block.offset + k * block.width), block.width,
-                    0.0);
+  std::vector<AttributeChanges> by_robot(robots_.size());
+  const AttributeChanges& changes = commands_.attributes;
+  for (std::size_t k = 0; k < changes.slots.size(); ++k)
+  {
+    const std::uint32_t entity = EntityOfSlot(space_, changes.slots[k]);
+    const auto place = std::ranges::lower_bound(layout_.robots, entity);
+    const bool ours = place != layout_.robots.end() && *place == entity;
+    by_robot[ours ? static_cast<std::size_t>(place - layout_.robots.begin()) : 0].Add(changes.slots[k],
+                                                                                      changes.values[k]);
+  }
+  return by_robot;
+}
+
+// Of a robot, so that another host can go on with it.
+void ControllerHost::SaveCommands(std::uint32_t entity, const AttributeChanges& changes, ByteWriter& bytes) const
+{
+  ForEachCommand(entity,
+                 [&](std::size_t first, std::size_t behind)
+                 {
+                   for (std::size_t k = first; k < behind; ++k) bytes.Put(commands_.values[k]);
+                 });
+  bytes.PutArray(changes.slots);
+  bytes.PutArray(changes.values);
+  const auto& failed = commands_.faults.robots;
+  const auto fault = std::ranges::lower_bound(failed, entity);
+  const bool has_failed = fault != failed.end() && *fault == entity;
+  bytes.Put(has_failed);
+  if (has_failed) bytes.Put(commands_.faults.kinds[static_cast<std::size_t>(fault - failed.begin())]);
+}
+
+void ControllerHost::LoadCommands(std::uint32_t entity, ByteReader& bytes)
+{
+  ForEachCommand(entity,
+                 [&](std::size_t first, std::size_t behind)
+                 {
+                   for (std::size_t k = first; k < behind; ++k) commands_.values[k] = bytes.Get<double>();
+                 });
+  const auto slots = bytes.GetArray<std::uint32_t>();
+  const auto values = bytes.GetArray<double>();
+  if (slots.size() != values.size()) throw StateError("there are other attributes than values of them");
+  for (std::size_t k = 0; k < slots.size(); ++k) commands_.attributes.Add(slots[k], values[k]);
+  if (!bytes.Get<bool>()) return;
+  commands_.faults.robots.push_back(entity);
+  commands_.faults.kinds.push_back(bytes.Get<FaultKind>());
 }
 
 void ControllerHost::SaveState(ByteWriter& state) const
 {
-  for (const Robot& robot : robots_)
+  std::vector<ByteWriter> of_robot(robots_.size());
+  const std::vector<AttributeChanges> changes = ahead_ > 0 ? ChangesByRobot() : std::vector<AttributeChanges>();
+  for (std::size_t k = 0; k < robots_.size(); ++k)
   {
+    const Robot& robot = robots_[k];
+    ByteWriter& bytes = of_robot[k];
+    if (ahead_ > 0) SaveCommands(robot.entity, changes[k], bytes);
     if (const Guard* guard = robot.guard.get())
     {
-      state.Put(guard->stopped);
-      state.Put(guard->kind);
-      state.Put(guard->failed_at);
-      state.Put(guard->restarts);
+      bytes.Put(guard->stopped);
+      bytes.Put(guard->kind);
+      bytes.Put(guard->failed_at);
+      bytes.Put(guard->restarts);
       if (guard->stopped) continue;
     }
     if (!robot.controller->HasState())
@@ -716,37 +794,73 @@ void ControllerHost::SaveState(ByteWriter& state) const
                             "SaveState and LoadState");
     std::ostringstream text;
     RunCodeOf(robot.actor, ActivityStep::kSaveState, space_.GetTick(), [&] { robot.controller->SaveState(text); });
-    state.PutText(text.str());
+    bytes.PutText(text.str());
   }
-  for (const Batches::Sensor& sensor : batches_->sensors) sensor.batch->SaveState(state);
-  for (const Batches::Actuator& actuator : batches_->actuators) actuator.batch->SaveState(state);
+  HostState all;
+  for (const Batches::Sensor& sensor : batches_->sensors)
+  {
+    ByteWriter common;
+    sensor.batch->SaveCommon(common);
+    if (!common.Bytes().empty()) all.sensors[sensor.number].assign(common.Bytes().begin(), common.Bytes().end());
+    for (std::size_t n = 0; n < sensor.robots.size(); ++n) sensor.batch->SaveState(n, of_robot[sensor.robots[n]]);
+  }
+  for (const Batches::Actuator& actuator : batches_->actuators)
+    for (std::size_t n = 0; n < actuator.robots.size(); ++n) actuator.batch->SaveState(n, of_robot[actuator.places[n]]);
+  for (std::size_t k = 0; k < robots_.size(); ++k)
+    all.robots[robots_[k].entity].assign(of_robot[k].Bytes().begin(), of_robot[k].Bytes().end());
+  Write(all, state);
 }
 
 void ControllerHost::LoadState(ByteReader& state)
 {
   sensed_tick_.reset();
+  due_tick_.reset();
   silence_ = {};
-  for (Robot& robot : robots_)
+  commands_.attributes.Clear();
+  commands_.faults.Clear();
+  const HostState all = ReadHostState(state);
+  std::vector<ByteReader> of_robot;
+  for (const Robot& robot : robots_)
   {
+    const auto found = all.robots.find(robot.entity);
+    if (found == all.robots.end() || all.robots.size() != robots_.size())
+      throw std::runtime_error("saved state: a controller host has other robots");
+    of_robot.emplace_back(std::span<const char>(found->second));
+  }
+  for (std::size_t k = 0; k < robots_.size(); ++k)
+  {
+    Robot& robot = robots_[k];
+    ByteReader& bytes = of_robot[k];
+    if (ahead_ > 0) LoadCommands(robot.entity, bytes);
     if (Guard* guard = robot.guard.get())
     {
-      guard->stopped = state.Get<bool>();
-      guard->kind = state.Get<FaultKind>();
-      guard->failed_at = state.Get<std::uint64_t>();
-      guard->restarts = state.Get<std::uint32_t>();
+      guard->stopped = bytes.Get<bool>();
+      guard->kind = bytes.Get<FaultKind>();
+      guard->failed_at = bytes.Get<std::uint64_t>();
+      guard->restarts = bytes.Get<std::uint32_t>();
       if (guard->stopped)
       {
         Stop(robot);
         continue;
       }
     }
-    const std::string saved = state.GetText();
+    const std::string saved = bytes.GetText();
     if (robot.guard != nullptr) robot.guard->state = saved;
     std::istringstream text(saved);
     RunCodeOf(robot.actor, ActivityStep::kLoadState, space_.GetTick(), [&] { robot.controller->LoadState(text); });
   }
-  for (Batches::Sensor& sensor : batches_->sensors) sensor.batch->LoadState(state);
-  for (Batches::Actuator& actuator : batches_->actuators) actuator.batch->LoadState(state);
+  for (Batches::Sensor& sensor : batches_->sensors)
+  {
+    const auto common = all.sensors.find(sensor.number);
+    ByteReader bytes(common == all.sensors.end() ? std::span<const char>() : std::span<const char>(common->second));
+    sensor.batch->LoadCommon(bytes);
+    for (std::size_t n = 0; n < sensor.robots.size(); ++n) sensor.batch->LoadState(n, of_robot[sensor.robots[n]]);
+  }
+  for (Batches::Actuator& actuator : batches_->actuators)
+    for (std::size_t n = 0; n < actuator.robots.size(); ++n) actuator.batch->LoadState(n, of_robot[actuator.places[n]]);
+  batches_->order.Apply(commands_.attributes);
+  for (const ByteReader& bytes : of_robot)
+    if (!bytes.AtEnd()) throw std::runtime_error("saved state: what a robot saved is longer than what it loads");
 }
 
 void ControllerHost::Destroy()
@@ -757,7 +871,7 @@ void ControllerHost::Destroy()
   {
     if (robot.controller == nullptr || robot.IsStopped()) continue;
     // Of the last control step: whether the last state still reaches a host depends on how it is started.
-    const std::uint64_t tick = commands_.tick;
+    const std::uint64_t tick = stepped_tick_;
     robot.interface->BeginStep(
         tick, space_.GetTickSeconds(),
         {space_.GetExperiment().seed, StreamName(robot.interface->GetId()), kDestroyStream, tick});

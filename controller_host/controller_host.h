@@ -38,8 +38,15 @@ public:
   // Brings the sensors to the tick of the space. `frames`: one for each of layout.frames_from, in that order; empty at
   // tick 0. Tick does so first, unless it was done for this tick.
   void Sense(std::span<const SensorFrame* const> frames);
-  // Senses, runs the controllers and commits the actuators. The result is valid until the next call.
+  // Senses, runs the controllers and commits the actuators. The result, the commands that act at this tick, is valid
+  // until the next call.
   const ControlCommands& Tick(std::span<const SensorFrame* const> frames);
+  // Where the commands that act at a tick are found after Tick.
+  const ControlCommands& Commands() const { return ahead_ == 0 ? commands_ : due_; }
+  // Of the last control steps, which act framework.ahead ticks after these.
+  const ControlCommands& NewestCommands() const { return commands_; }
+  // Where commands act a tick late: those of the tick of the space, before its Tick. Null otherwise.
+  const ControlCommands* Due();
   // What is known of ticks to come: the same controllers fail in them, those that died are not called, and before
   // `until` no time is measured.
   void Know(KnownFaults known);
@@ -107,12 +114,17 @@ private:
   void TakeFault(Robot& robot, FaultKind kind, std::uint64_t tick, const std::string& text);
   // Throws ActivityError if the controller cannot begin again.
   void Restart(Robot& robot, std::uint64_t tick);
+  // Calls use(first, behind) with each place of the robot in ControlCommands::values.
+  template <class Do>
+  void ForEachCommand(std::uint32_t entity, Do use) const;
+  std::vector<AttributeChanges> ChangesByRobot() const;
+  void SaveCommands(std::uint32_t entity, const AttributeChanges& changes, ByteWriter& bytes) const;
+  void LoadCommands(std::uint32_t entity, ByteReader& bytes);
   void Stop(const Robot& robot);
   void SilenceStopped();
   void SaveLastStates(std::uint64_t tick);
   void DescribeController(const Robot& robot, RobotStatus& status) const;
   void CommitActuators();
-  void StopInactive();
   // What no controller may command: throws ControllerError with robot, device, tick and value.
   void CheckCommands();
   void CheckAttributesOf(const DeviceConfiguration& device, std::span<const std::uint32_t> robots,
@@ -134,7 +146,11 @@ private:
   const char* cure_of_death_ = "";
   std::unique_ptr<Batches> batches_;
   std::vector<double> sensor_values_;
-  ControlCommands commands_;
+  const std::uint32_t ahead_;  // framework.ahead
+  std::uint64_t stepped_tick_ = 0;
+  ControlCommands commands_;  // of the control steps of that tick
+  ControlCommands due_;       // that act in it, where these are of the steps before
+  std::optional<std::uint64_t> due_tick_;
   std::optional<std::uint64_t> sensed_tick_;
   bool destroyed_ = false;
 };

@@ -51,9 +51,12 @@ public:
   // Computes the readings of all robots from the space at its tick. `channel`: what the engines sent (specific
   // sensors).
   virtual void Update(const ChannelView& channel) = 0;
-  // What the device remembers between ticks, if anything.
-  virtual void SaveState(ByteWriter&) const {}
-  virtual void LoadState(ByteReader&) {}
+  // What the device of robot k remembers between ticks, if anything.
+  virtual void SaveState(std::size_t, ByteWriter&) const {}
+  virtual void LoadState(std::size_t, ByteReader&) {}
+  // Likewise what follows from the space alone: the same for all robots, whichever hosts they are of.
+  virtual void SaveCommon(ByteWriter&) const {}
+  virtual void LoadCommon(ByteReader&) {}
 };
 
 class ActuatorBatch
@@ -64,8 +67,9 @@ public:
   virtual CCI_Actuator* Actuator(std::size_t k) = 0;
   // Turns what the controllers set into channel values (specific) or attribute changes (generic; slots ascending).
   virtual void Commit(const ChannelView& channel, AttributeChanges& changes) = 0;
-  virtual void SaveState(ByteWriter&) const {}
-  virtual void LoadState(ByteReader&) {}
+  // What the device of robot k remembers between ticks, if anything.
+  virtual void SaveState(std::size_t, ByteWriter&) const {}
+  virtual void LoadState(std::size_t, ByteReader&) {}
 };
 
 template <>

@@ -9,6 +9,7 @@
 #include "common/bus/tick_inputs.h"
 #include "common/bus/worker_program.h"
 #include "common/bus/worker_session.h"
+#include "common/logging/log.h"
 #include "controller_host/cluster/robot_inspection.h"
 #include "controller_host/controller_host.h"
 
@@ -29,7 +30,7 @@ public:
         host_(static_cast<std::uint32_t>(host)),
         role_(*replica.space, replica.assignment, host, threads),
         saved_(session, HostName(host), role_),
-        inputs_(session, replica, Engines(*replica.experiment, role_.Layout())),
+        inputs_(session, replica, Engines(*replica.experiment, role_.Layout()), replica.experiment->ahead > 0),
         commands_(session.GetBus(), session.Scope(replica.limits->CommandBytes(), 1)),
         inspection_(session, role_, host_, inputs_.Mutex())
   {
@@ -46,7 +47,7 @@ public:
     if (session.TakesAPlace())
       inputs_.StartAt(Recover(session, replica,
                               {[this] { Restore(); }, [this](ByteReader& state) { role_.LoadState(state); },
-                               [this](const TickRecord& record) { Redo(record); },
+                               [this](const TickRecord& record, const TickRecord* next) { Redo(record, next); },
                                [this](const std::vector<SensorFrame>& frames)
                                {
                                  TakeFrames(frames);
@@ -125,19 +126,21 @@ private:
     }
   }
 
-  // The step of a tick once more.
-  void Redo(const TickRecord& record)
+  // The step of a tick once more. Its commands, with how its controllers failed, may be those of the next record.
+  void Redo(const TickRecord& record, const TickRecord* next)
   {
     TakeFrames(record.frames);
-    if (!record.commands.empty()) role_.KnowTick(record.state.tick, record.commands.at(host_).faults);
+    const TickRecord* acting = replica_.experiment->ahead == 0 ? &record : next;
+    if (acting != nullptr && !acting->commands.empty())
+      role_.KnowTick(record.state.tick, acting->commands.at(host_).faults);
     Step(record.state.tick);
     saved_.Ready(record.state.tick + 1, role_, record.save);
     // The present tick, whose commands may not have gone out.
     if (record.commands.empty()) return;
     const ControlCommands& before = record.commands.at(host_);
-    if (!SameBits(answer_->values, before.values) || answer_->faults != before.faults ||
-        answer_->attributes.slots != before.attributes.slots ||
-        !SameBits(answer_->attributes.values, before.attributes.values))
+    const ControlCommands& now = role_.Commands();
+    if (!SameBits(now.values, before.values) || now.faults != before.faults ||
+        now.attributes.slots != before.attributes.slots || !SameBits(now.attributes.values, before.attributes.values))
       RefuseRecovery(session_.Name(), record.state.tick, "other commands");
   }
 
@@ -152,29 +155,34 @@ private:
   void Step(std::uint64_t tick)
   {
     for (std::size_t k = 0; k < frames_here_.size(); ++k) frames_here_[k] = &frames_[tick % 2][k];
-    answer_ = &role_.Tick(tick == 0 ? std::span<const SensorFrame* const>()
-                                    : std::span<const SensorFrame* const>(frames_here_));
+    role_.Tick(tick == 0 ? std::span<const SensorFrame* const>() : std::span<const SensorFrame* const>(frames_here_));
+    has_stepped_ = true;
   }
 
   void Tick()
   {
+    // Nobody has sent those of the first tick, or the one whose place this is died before it did.
+    if (const ControlCommands* due = has_sent_ ? nullptr : role_.Due()) Send(*due, false);
     Step(inputs_.Tick());
     inputs_.Next();
     saved_.Ready(inputs_.Tick(), role_, inputs_.Saves());
-    Answer(false);
+    Send(role_.NewestCommands(), false);
+    has_sent_ = true;
     inspection_.Stepped();
   }
 
   void AnswerAgain()
   {
-    if (answer_ != nullptr) Answer(true);
+    if (!has_stepped_) return;
+    Send(role_.Commands(), true);
+    if (replica_.experiment->ahead > 0) Send(role_.NewestCommands(), true);
   }
 
-  void Answer(bool repeated)
+  void Send(const ControlCommands& commands, bool repeated)
   {
-    MessageHeader header = session_.Header(answer_->tick, host_);
+    MessageHeader header = session_.Header(commands.tick, host_);
     header.repeated = repeated;
-    commands_.Write(header, *answer_);
+    commands_.Write(header, commands);
   }
 
   WorkerSession& session_;
@@ -186,15 +194,18 @@ private:
   std::array<std::vector<SensorFrame>, 2> frames_;  // of even and odd ticks
   std::vector<const SensorFrame*> frames_here_;
   bool has_frames_ = false;  // of the first tick that it waits for
-  const ControlCommands* answer_ = nullptr;
+  bool has_stepped_ = false;
+  bool has_sent_ = false;
   HotPublisher<ControlCommands> commands_;
   RobotInspection inspection_;
 };
 
 int Run(const WorkerSettings& settings, const BusOptions& bus)
 {
+  // What controllers log.
+  OpenLog({.process = "controller_host", .stderr_level = LogLevel::kInfo});
   const std::size_t host = settings.host;
-  WorkerSession session(bus, settings.experiment, HostName(host), {}, settings.incarnation);
+  WorkerSession session(bus, settings.experiment, HostName(host), {}, settings.incarnation, settings.machine);
   return session.Work(
       [&]
       {

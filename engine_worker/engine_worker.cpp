@@ -72,8 +72,12 @@ void EngineWorker::Tick(std::span<const std::uint32_t> moved, std::span<const Co
         CheckResults();
         order_.Apply(update_.attributes);
       });
-  if (frame_.tick % space_.GetExperiment().canonical_period == 0)
-    RunCodeOf(actor_, ActivityStep::kUpdate, tick, [&] { engine_->Canonicalise(); });
+  if (frame_.tick % space_.GetExperiment().canonical_period == 0) Canonicalise();
+}
+
+void EngineWorker::Canonicalise()
+{
+  RunCodeOf(actor_, ActivityStep::kUpdate, space_.GetTick(), [&] { engine_->Canonicalise(); });
 }
 
 template <class Check>
@@ -102,6 +106,18 @@ void EngineWorker::ReadCommands(std::span<const ControlCommands* const> commands
                 command_values_.begin() + static_cast<std::ptrdiff_t>(copy.to));
   }
   CheckChannels(space_, layout_.commands, command_values_, "commands");
+  StopInactive();
+}
+
+// Robots that are not in the arena do nothing, whatever they were told last.
+void EngineWorker::StopInactive()
+{
+  if (space_.Absent().empty()) return;
+  for (const ChannelBlock& block : layout_.commands)
+    for (std::size_t k = 0; k < block.entities.size(); ++k)
+      if (!space_.IsPresent(block.entities[k]))
+        std::fill_n(command_values_.begin() + static_cast<std::ptrdiff_t>(block.offset + k * block.width), block.width,
+                    0.0);
 }
 
 // Entities that are not in the arena stay where they wait, whatever the engine makes of them.

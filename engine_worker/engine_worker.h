@@ -37,6 +37,9 @@ public:
   const EngineUpdate& Update() const { return update_; }
   const SensorFrame& Sensors() const { return frame_; }
 
+  // Between two ticks, for who saves the state at a tick at which engines are not canonicalised.
+  void Canonicalise();
+
   // The engine's state with its last sensor values, as of a tick at which engines are canonicalised.
   void SaveState(ByteWriter& state) const;
   void LoadState(ByteReader& state);
@@ -49,6 +52,7 @@ private:
   template <class Check>
   void Checked(const Check& check) const;
   void ReadCommands(std::span<const ControlCommands* const> commands);
+  void StopInactive();
   void KeepInactive();
   void CheckResults() const;
 

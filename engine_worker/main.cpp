@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "common/activity/activity.h"
@@ -29,18 +30,18 @@ public:
         engine_(static_cast<std::uint32_t>(engine)),
         role_(*replica.space, replica.assignment, engine),
         saved_(session, EngineName(*replica.experiment, engine), role_),
-        inputs_(session, replica, Hosts(role_.Layout())),
-        commands_(role_.Layout().commands_from.size()),
+        inputs_(session, replica, Hosts(*replica.experiment, role_.Layout())),
+        commands_here_(role_.Layout().commands_from.size()),
         updates_(session.GetBus(), session.Scope(replica.limits->UpdateBytes(), 1))
   {
-    for (const ControlCommands& commands : commands_) commands_here_.push_back(&commands);
+    for (auto& commands : commands_) commands.resize(commands_here_.size());
     if (session.World().recorded) update_.recorded.resize(role_.Layout().command_size + role_.Layout().sensor_size);
     if (role_.Layout().sensor_size > 0)
       frames_.emplace(session.GetBus(), session.Scope(replica.limits->FrameBytes(), 1));
     Begin();
-    inputs_.Open(
-        {[this](std::size_t k, std::uint64_t) { return &commands_[k]; }, [this] { Tick(); }, [this] { Answer(true); }},
-        replica.limits->CommandBytes(), HostCount());
+    inputs_.Open({[this](std::size_t k, std::uint64_t tick) { return &commands_[tick % 2][k]; }, [this] { Tick(); },
+                  [this] { Answer(true); }},
+                 replica.limits->CommandBytes(), HostCount());
   }
   ~EngineNode() { inputs_.Close(); }
 
@@ -74,10 +75,12 @@ public:
 private:
   using Inputs = TickInputs<ControlCommands>;
 
-  static std::vector<Inputs::Other> Hosts(const EngineLayout& layout)
+  // Commands that act a tick later come a tick early.
+  static std::vector<Inputs::Other> Hosts(const Experiment& experiment, const EngineLayout& layout)
   {
     std::vector<Inputs::Other> hosts;
-    for (const std::uint32_t host : layout.commands_from) hosts.push_back({host, {HostName(host)}});
+    for (const std::uint32_t host : layout.commands_from)
+      hosts.push_back({host, {HostName(host), experiment.ahead > 0}});
     return hosts;
   }
 
@@ -96,18 +99,19 @@ private:
       role_.LoadState(state);
       has_frame_ = true;
     };
-    inputs_.StartAt(Recover(session_, replica_, {begin, load, [this](const TickRecord& record) { Redo(record); }, {}}));
+    inputs_.StartAt(Recover(session_, replica_,
+                            {begin, load, [this](const TickRecord& record, const TickRecord*) { Redo(record); }, {}}));
   }
 
   // The step of a tick once more.
   void Redo(const TickRecord& record)
   {
     CheckAgainst(record);
-    for (std::size_t k = 0; k < commands_.size(); ++k)
-      commands_[k] = record.commands.at(role_.Layout().commands_from[k]);
-    role_.Tick(record.state.moved, commands_here_);
-    TakeUpdate();
-    saved_.Ready(record.state.tick + 1, role_, record.save);
+    const std::uint64_t tick = record.state.tick;
+    for (std::size_t k = 0; k < commands_here_.size(); ++k)
+      commands_[tick % 2][k] = record.commands.at(role_.Layout().commands_from[k]);
+    Step(tick, record.state.moved);
+    saved_.Ready(tick + 1, role_, record.save);
   }
 
   // What was computed for the tick against what the run went on with.
@@ -133,10 +137,16 @@ private:
     }
   }
 
+  void Step(std::uint64_t tick, std::span<const std::uint32_t> moved)
+  {
+    for (std::size_t k = 0; k < commands_here_.size(); ++k) commands_here_[k] = &commands_[tick % 2][k];
+    role_.Tick(moved, commands_here_);
+    TakeUpdate();
+  }
+
   void Tick()
   {
-    role_.Tick(inputs_.State().moved, commands_here_);
-    TakeUpdate();
+    Step(inputs_.Tick(), inputs_.State().moved);
     inputs_.Next();
     saved_.Ready(inputs_.Tick(), role_, inputs_.Saves());
     Answer(false);
@@ -151,7 +161,8 @@ private:
     for (const ValueCopy& copy : layout.command_copies)
     {
       const auto source = std::find(layout.commands_from.begin(), layout.commands_from.end(), copy.source);
-      const ControlCommands& commands = commands_[static_cast<std::size_t>(source - layout.commands_from.begin())];
+      const ControlCommands& commands =
+          *commands_here_[static_cast<std::size_t>(source - layout.commands_from.begin())];
       std::copy_n(commands.values.begin() + static_cast<std::ptrdiff_t>(copy.from), copy.count,
                   update_.recorded.begin() + static_cast<std::ptrdiff_t>(copy.to));
     }
@@ -172,9 +183,9 @@ private:
   std::uint32_t engine_;
   EngineWorker role_;
   SavedStates saved_;
-  Inputs inputs_;  // its mutex guards the role and what follows
-  std::vector<ControlCommands> commands_;
-  std::vector<const ControlCommands*> commands_here_;
+  Inputs inputs_;                                         // its mutex guards the role and what follows
+  std::array<std::vector<ControlCommands>, 2> commands_;  // of even and odd ticks
+  std::vector<const ControlCommands*> commands_here_;     // of the tick
   UpdateMessage update_;
   bool has_update_ = false;  // of the tick that comes next
   bool has_frame_ = false;
@@ -184,8 +195,8 @@ private:
 
 int Run(const WorkerSettings& settings, const BusOptions& bus)
 {
-  WorkerSession session(bus, settings.experiment, fmt::format("engine '{}'", settings.engine), {},
-                        settings.incarnation);
+  WorkerSession session(bus, settings.experiment, fmt::format("engine '{}'", settings.engine), {}, settings.incarnation,
+                        settings.machine);
   return session.Work(
       [&]
       {

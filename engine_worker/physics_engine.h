@@ -90,6 +90,8 @@ public:
   virtual void LoadState(ByteReader& state) = 0;
   // Drops everything that the saved state does not hold (caches, contact order). Called at the same ticks in every run.
   virtual void Canonicalise() = 0;
+  // True if Canonicalise has nothing to drop at any tick: then SaveState is exact after each Update.
+  virtual bool IsAlwaysCanonical() const { return false; }
 
   // Numbers about the last update for diagnosis: contacts, pairs. One short line, may be empty.
   virtual std::string StatusText() const { return {}; }

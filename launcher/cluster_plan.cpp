@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <map>
+#include <memory>
 
 #include "common/bus/cluster_options.h"
 #include "common/bus/replica.h"
 #include "common/configuration/wording.h"
 #include "launcher/commands.h"
 #include "launcher/installation.h"
+#include "space_server/worker_places.h"
 
 namespace swarmanoid
 {
@@ -85,6 +88,14 @@ struct CommandMaker
   std::string key;  // what a process is told when it asks for it
 };
 
+// As users call it.
+std::string PlaceName(const std::string& host) { return host.empty() ? kHere : host; }
+
+void AddPlace(std::vector<std::string>& words, const std::string& worker, const std::string& host)
+{
+  words.insert(words.end(), {"--place", worker + "=" + PlaceName(host)});
+}
+
 // Which robots' controllers may fail, while the run goes on.
 std::function<bool(std::uint32_t)> MayFailOf(const Experiment& experiment)
 {
@@ -121,25 +132,35 @@ public:
                         const std::string& which, WorkerTable table, WorkerSettings settings)
   {
     settings.experiment = experiment_.name;
+    settings.machine = PlaceName(maker_.hosts.HostOf(role, which));
     MemberPlan& plan = Add(name, program, role, which, WorkerWords(table, settings));
-    plan.replacement = [maker = maker_, name, program, host = plan.host, table, settings](
+    const auto where = std::make_shared<std::string>(plan.host);
+    (*places_)[name] = where;
+    plan.place = [where](const std::string& host) { *where = host; };
+    plan.replacement = [maker = maker_, name, program, where, table, settings](
                            unsigned incarnation, double, const std::vector<ControllerDeath>& deaths)
     {
       WorkerSettings next = settings;
       next.incarnation = incarnation;
+      next.machine = PlaceName(*where);
       for (const ControllerDeath& death : deaths) next.faults.push_back(fmt::format("{}:{}", death.tick, death.robot));
-      return maker.Make(name, program, host, WorkerWords(table, next));
+      return maker.Make(name, program, *where, WorkerWords(table, next));
     };
     return plan;
   }
 
   std::vector<MemberPlan> Take() { return std::move(plans_); }
 
+  // Where each worker is, or is to be next: shared by those who start them.
+  using Places = std::map<std::string, std::shared_ptr<std::string>>;
+  std::shared_ptr<const Places> WorkersPlaces() const { return places_; }
+
 private:
   const Experiment& experiment_;
   const RunFolder& folder_;
   CommandMaker maker_;
   std::vector<MemberPlan> plans_;
+  std::shared_ptr<Places> places_ = std::make_shared<Places>();
 };
 
 BusOptions BusOf(const RunSettings& options, const Hosts& hosts, int domain)
@@ -155,44 +176,79 @@ BusOptions BusOf(const RunSettings& options, const Hosts& hosts, int domain)
   return bus;
 }
 
-std::vector<std::string> ServerArguments(RunSettings settings, const Assignment& assignment, const RunFolder& folder)
+std::vector<std::string> ServerArguments(RunSettings settings, const Experiment& experiment,
+                                         const Assignment& assignment, const Hosts& hosts, const RunFolder& folder)
 {
   settings.controller_hosts = static_cast<unsigned>(assignment.hosts.size());
   settings.output_folder = folder.Path();
   std::vector<std::string> words = ServerWords(settings);
   words.insert(words.end(), {"--status-fd", "1"});
-  if (settings.Replaces()) words.emplace_back("--await-replacements");
+  if (!settings.Replaces()) return words;
+  words.emplace_back("--await-replacements");
+  // What users may ask to be moved, and where to.
+  words.insert(words.end(), {"--machine", kHere});
+  for (const std::string& machine : hosts.Machines()) words.insert(words.end(), {"--machine", machine});
+  AddPlace(words, "space server", hosts.HostOf("space_server", ""));
+  for (std::size_t e = 0; e < experiment.engines.size(); ++e)
+    AddPlace(words, EngineName(experiment, e), hosts.HostOf("engine", experiment.engines[e].id));
+  for (std::size_t h = 0; h < assignment.hosts.size(); ++h)
+    AddPlace(words, HostName(h), hosts.HostOf("controller_host", std::to_string(h)));
+  if (!settings.visualisations) return words;
+  for (const RenderConfiguration& render : experiment.visualisations)
+    AddPlace(words, VisualiserName(render), hosts.HostOf("visualiser", render.id));
   return words;
 }
 
 }  // namespace
 
+namespace
+{
+
+// The ids of those that each have a process.
+struct WorkerIds
+{
+  WorkerIds(const RunSettings& options, const Experiment& experiment, const Assignment& assignment)
+  {
+    for (const EngineConfiguration& engine : experiment.engines) engines.push_back(engine.id);
+    for (std::size_t host = 0; host < assignment.hosts.size(); ++host) controller_hosts.push_back(std::to_string(host));
+    if (options.visualisations)
+      for (const RenderConfiguration& render : experiment.visualisations) visualisers.push_back(render.id);
+  }
+
+  std::vector<std::string> engines, controller_hosts, visualisers;
+};
+
+}  // namespace
+
+void RequirePlaces(const RunSettings& options, const Experiment& experiment, const Assignment& assignment,
+                   const Hosts& hosts)
+{
+  const WorkerIds ids(options, experiment, assignment);
+  RefuseUnknown(hosts, "space_server", {});
+  RefuseUnknown(hosts, "engine", ids.engines);
+  RefuseUnknown(hosts, "controller_host", ids.controller_hosts);
+  if (options.visualisations) RefuseUnknown(hosts, "visualiser", ids.visualisers);
+}
+
 std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment& experiment,
                                     const Assignment& assignment, const Hosts& hosts, const RunFolder& folder,
                                     int domain, const std::optional<RunKey>& key)
 {
-  std::vector<std::string> engines, controller_hosts, visualisers;
-  for (const EngineConfiguration& engine : experiment.engines) engines.push_back(engine.id);
-  for (std::size_t host = 0; host < assignment.hosts.size(); ++host) controller_hosts.push_back(std::to_string(host));
-  if (options.visualisations)
-    for (const RenderConfiguration& render : experiment.visualisations) visualisers.push_back(render.id);
-  RefuseUnknown(hosts, "space_server", {});
-  RefuseUnknown(hosts, "engine", engines);
-  RefuseUnknown(hosts, "controller_host", controller_hosts);
-  if (options.visualisations) RefuseUnknown(hosts, "visualiser", visualisers);
-
+  const auto& [engines, controller_hosts, visualisers] = WorkerIds(options, experiment, assignment);
   const std::vector<int> cores = CoresOf(options, experiment, domain);
   Planner planner(
       experiment, folder,
       {hosts, BusOf(options, hosts, domain), LimitsOf(options), cores, key ? TextOfKey(*key) + "\n" : std::string()});
-  MemberPlan& server =
-      planner.Add("space server", "space_server", "space_server", "", ServerArguments(options, assignment, folder));
+  MemberPlan& server = planner.Add("space server", "space_server", "space_server", "",
+                                   ServerArguments(options, experiment, assignment, hosts, folder));
   server.output = MemberPlan::kStatus;
   // On another machine, the one before may live on unseen.
   if (options.Replaces() && server.host.empty())
-    server.replacement = [command = server.command](unsigned, double taken_s, const std::vector<ControllerDeath>&)
+    server.replacement = [command = server.command, places = planner.WorkersPlaces()](
+                             unsigned, double taken_s, const std::vector<ControllerDeath>&)
     {
       ProcessCommand next = command;
+      for (const auto& [worker, host] : *places) AddPlace(next.arguments, worker, *host);
       next.arguments.insert(next.arguments.end(), {"--go-on", fmt::format("{}", taken_s)});
       return next;
     };

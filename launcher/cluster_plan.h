@@ -16,9 +16,12 @@ namespace swarmanoid
 {
 
 // The space server's plan is the first. All get the key of the run; none: whoever is in the domain belongs to it.
-// Throws UsageError if `hosts` places what the experiment does not have.
 std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment& experiment,
                                     const Assignment& assignment, const Hosts& hosts, const RunFolder& folder,
                                     int domain, const std::optional<RunKey>& key);
+
+// Throws UsageError if `hosts` places what the run does not have.
+void RequirePlaces(const RunSettings& options, const Experiment& experiment, const Assignment& assignment,
+                   const Hosts& hosts);
 
 }  // namespace swarmanoid

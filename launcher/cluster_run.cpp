@@ -3,9 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <csignal>
+#include <fstream>
 #include <optional>
+#include <string_view>
 #include <thread>
 
 #include "common/activity/exit_codes.h"
@@ -15,6 +20,7 @@
 #include "common/bus/replica.h"
 #include "common/bus/run_directory.h"
 #include "common/experiment/actors.h"
+#include "common/journal/journal_reader.h"
 #include "common/messages/assignment.h"
 #include "common/program/program.h"
 #include "common/program/usage_error.h"
@@ -30,6 +36,8 @@ namespace swarmanoid
 {
 namespace
 {
+
+constexpr unsigned kHostsByMeasurement = 0;  // --controller-hosts auto
 
 void Complain(const ClusterOutcome& outcome)
 {
@@ -68,6 +76,8 @@ RunResult ResultOf(const ClusterOutcome& outcome)
   result.summary->wall_s = outcome.finished->wall_s;
   result.summary->real_time_factor = outcome.finished->real_time_factor;
   result.summary->failed = outcome.kind == ClusterOutcome::kUnsuccessful;
+  if (outcome.reset && outcome.kind == ClusterOutcome::kFinished)
+    result.summary->reset = ResetRequest{outcome.reset->seed, outcome.reset->paused, outcome.reset->real_time_factor};
   result.summary->interrupted = outcome.kind == ClusterOutcome::kInterrupted;
   return result;
 }
@@ -97,15 +107,54 @@ int ServeHere(std::vector<std::string> words, int status, const std::atomic<bool
       });
 }
 
+// Controller hosts, of a run that goes on as many as it had at last.
+unsigned HostsOf(const RunSettings& options, const RunFolder& folder, const Attendance& attendance)
+{
+  const std::string journal = JournalFile(folder.Path());
+  return attendance.go_on.incarnation > 0 && IsBegun(journal) ? static_cast<unsigned>(JournalReader(journal).Hosts())
+                                                              : options.controller_hosts;
+}
+
+// Of --controller-hosts auto. `cores`: that the processes are bound to; empty: all.
+unsigned MostHosts(const Experiment& experiment, const std::vector<int>& cores)
+{
+  double load = 0;  // of the last minute, in processes
+  std::ifstream("/proc/loadavg") >> load;
+  const auto all = static_cast<double>(cores.empty() ? AvailableCores().size() : cores.size());
+  const auto robots = std::count_if(experiment.entities.begin(), experiment.entities.end(),
+                                    [](const EntityConfiguration& entity) { return !entity.controller.empty(); });
+  return static_cast<unsigned>(std::clamp(std::min(all - std::round(load), static_cast<double>(robots)), 1.0, 1000.0));
+}
+
+void RequireMeasurable(const RunSettings& options, const Hosts& hosts, bool watched)
+{
+  const char* const why = watched || !hosts.HostOf("space_server", "").empty()
+                              ? "its space server cannot: it is this process, or on another machine"
+                          : !options.Replaces() ? "nobody starts again with --no-recovery, --no-journal or --retries 0"
+                                                : nullptr;
+  if (why == nullptr) return;
+  throw UsageError(fmt::format(
+      "--controller-hosts auto: to try another number, all processes start again, and {}; give a number", why));
+}
+
 void Isolate(const RunSettings& options, const Experiment& experiment, const Hosts& hosts, bool watched)
 {
   if (!hosts.AllHere()) throw UsageError("--isolated: the run has processes on other machines");
   if (watched) throw UsageError("--isolated: the space server is this process, which would lose its network");
+  // What is of no use without others in the network.
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kReached{
+      {{"web_render", "no browser could reach the page of"},
+       {"foxglove_render", "nobody could open a connection to"},
+       {"ros2_render", "no node of ROS 2 could hear"}}};
   for (const RenderConfiguration& render : experiment.visualisations)
-    if (options.visualisations && render.tag == "web_render")
+    for (const auto& [tag, why] : kReached)
+      if (options.visualisations && render.tag == tag)
+        throw UsageError(fmt::format("--isolated: {} {}; give --no-visualisers, or leave --isolated out", why,
+                                     VisualiserName(render)));
+  for (const ControllerConfiguration& controller : experiment.controllers)
+    if (controller.tag == "ros2_controller")
       throw UsageError(fmt::format(
-          "--isolated: no browser could reach the page of {}; give --no-visualisers, or leave --isolated out",
-          VisualiserName(render)));
+          "--isolated: no node of ROS 2 could reach the robots of the controller '{}'; leave it out", controller.id));
   IsolateNetwork();
 }
 
@@ -146,13 +195,14 @@ ClusterOutcome RunWatched(const std::vector<MemberPlan>& plans, Interrupts& inte
 }  // namespace
 
 RunResult RunCluster(const RunSettings& options, const Experiment& experiment, const RunFolder& folder,
-                     Manifest& manifest, const WatchFunction& watch,
-                     const std::function<int(const RunResult&)>& conclude)
+                     Manifest& manifest, const Attendance& attendance, const std::optional<RunKey>& key,
+                     const WatchFunction& watch, const std::function<int(const RunResult&)>& conclude)
 {
   Hosts hosts = options.hosts_file.empty() ? Hosts() : Hosts::FromFile(options.hosts_file);
   for (const std::string& setting : options.engine_hosts) hosts.AddEngine(setting);
   if (watch && !hosts.HostOf("space_server", "").empty())
     throw UsageError("--hosts: the space server is this process, which looks at each tick; leave space_server out");
+  if (options.controller_hosts == kHostsByMeasurement) RequireMeasurable(options, hosts, watch != nullptr);
   RemoveDeadRuns();
   if (options.isolated) Isolate(options, experiment, hosts, watch != nullptr);
 
@@ -160,16 +210,22 @@ RunResult RunCluster(const RunSettings& options, const Experiment& experiment, c
   std::optional<FreeDomain> free_domain;
   if (!options.domain) free_domain.emplace();
   manifest.domain = options.domain ? *options.domain : free_domain->Id();
-  const Assignment assignment = MakeAssignment(experiment, options.controller_hosts);
-  const std::optional<RunKey> key = options.insecure ? std::nullopt : std::optional(NewRunKey());
-  std::vector<MemberPlan> plans = PlanCluster(options, experiment, assignment, hosts, folder, *manifest.domain, key);
+  const Assignment assignment = MakeAssignment(experiment, HostsOf(options, folder, attendance));
+  RequirePlaces(options, experiment, assignment, hosts);
+  const auto plan_with = [&](const Assignment& of)
+  { return PlanCluster(options, experiment, of, hosts, folder, *manifest.domain, key); };
+  std::vector<MemberPlan> plans = plan_with(assignment);
   for (const MemberPlan& plan : plans) manifest.processes.emplace_back(plan.command.name, plan.log_path);
   folder.Write("manifest.json", manifest.Text());
 
   // Until the process ends: the last line may find no reader either.
   std::signal(SIGPIPE, SIG_IGN);
-  Interrupts interrupts;
+  Interrupts interrupts(attendance.console);
   ProgressDisplay display(ProgressDisplay::StyleFor(STDERR_FILENO, options.quiet), STDERR_FILENO);
+  if (attendance.console != nullptr)
+    attendance.console->SetOnChange(
+        [&](std::optional<bool> quiet)
+        { display.SetStyle(ProgressDisplay::StyleFor(STDERR_FILENO, quiet.value_or(options.quiet))); });
   const ActorNames actor_of = [&experiment](Actor::Kind kind, std::uint32_t number)
   { return ActorOf(experiment, kind, number); };
   const unsigned retries = options.Replaces() ? options.retries : 0;
@@ -186,9 +242,29 @@ RunResult RunCluster(const RunSettings& options, const Experiment& experiment, c
   else
   {
     SystemSpawner spawner;
-    outcome = Supervisor(spawner, interrupts, display, STDOUT_FILENO, actor_of, times, Supervisor::Clock::now, retries)
-                  .Run(plans);
+    Supervisor supervisor(spawner, interrupts, display, STDOUT_FILENO, actor_of, times, Supervisor::Clock::now,
+                          retries);
+    supervisor.SetPlanAgain(
+        [&](unsigned controller_hosts)
+        {
+          std::vector<MemberPlan> others = plan_with(MakeAssignment(experiment, controller_hosts));
+          for (const MemberPlan& plan : others)
+            if (const std::pair process(plan.command.name, plan.log_path);
+                std::ranges::find(manifest.processes, process) == manifest.processes.end())
+              manifest.processes.push_back(process);
+          return others;
+        });
+    if (options.controller_hosts == kHostsByMeasurement && attendance.go_on.incarnation == 0)
+    {
+      const HostChoice choice(MostHosts(experiment, plans.front().command.cores));
+      if (choice.IsOver())
+        display.Note(choice.Text());
+      else
+        supervisor.SetHostChoice(choice);
+    }
+    outcome = supervisor.Run(plans, attendance.go_on);
   }
+  if (attendance.console != nullptr) attendance.console->SetOnChange({});
   RemoveDeadRuns();
   Complain(outcome);
   return ResultOf(outcome);

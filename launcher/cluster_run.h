@@ -1,6 +1,8 @@
 // A run as a cluster of processes, supervised from here.
 #pragma once
 
+#include "common/bus/run_key.h"
+#include "launcher/attended_run.h"
 #include "launcher/single_run.h"
 #include "launcher/watched_simulator.h"
 
@@ -9,9 +11,10 @@ namespace swarmanoid
 
 // With a `watch`, the space server is this process, and calls it in this thread at each tick. One that never returns is
 // left: then `conclude` gets the result, in another thread, and the process ends with the exit code that it returns.
-// Adds the domain and the processes to the manifest, and writes it. Throws UsageError.
+// `key`: of the run; none if it is insecure. Adds the domain and the processes to the manifest, and writes it. Throws
+// UsageError.
 RunResult RunCluster(const RunSettings& options, const Experiment& experiment, const RunFolder& folder,
-                     Manifest& manifest, const WatchFunction& watch,
-                     const std::function<int(const RunResult&)>& conclude);
+                     Manifest& manifest, const Attendance& attendance, const std::optional<RunKey>& key,
+                     const WatchFunction& watch, const std::function<int(const RunResult&)>& conclude);
 
 }  // namespace swarmanoid

@@ -11,13 +11,12 @@
 #include <optional>
 
 #include "common/bus/cluster_options.h"
+#include "common/bus/share.h"
 #include "common/configuration/wording.h"
-#include "common/plugins/catalogue.h"
 #include "launcher/commands.h"
-#include "launcher/completion.h"
 #include "launcher/installation.h"
 #include "launcher/isolation.h"
-#include "launcher/original_command.h"
+#include "launcher/renderer_words.h"
 #include "launcher/run_choice.h"
 #include "visualiser/renderer_options.h"
 
@@ -63,17 +62,26 @@ void Attach(AttachOptions& options, const CLI::App& verb)
   }
   const bool domain_given = verb.get_option("--domain")->count() > 0;
   const double wait_s = options.wait_s.value_or(options.kind.starts_with("web") ? kWaitOfPages_s : 0);
-  const RunChoice run = AwaitRun(name, domain_given ? std::optional(options.bus.domain) : std::nullopt, wait_s);
+  // The visualiser reads the ticket itself: no word of it stands in a command line.
+  const auto ticket = TicketOfEnvironment();
+  const RunChoice run = ticket
+                            ? RunOf(*ticket, name)
+                            : AwaitRun(name, domain_given ? std::optional(options.bus.domain) : std::nullopt, wait_s);
 
+  CheckInsecure(run, options.bus);
   options.visualiser.attach = options.kind;
   options.visualiser.experiment = run.experiment;
   options.visualiser.server = run.server;
   options.bus.domain = run.domain;
   if (run.server && !options.bus.Spread() && IsInAnotherNetwork(*run.server))
   {
-    if (options.kind.starts_with("web"))
-      throw UsageError(fmt::format("{} runs in a network of its own (--isolated), where no browser could reach a page",
-                                   Quoted(run.experiment)));
+    const char* const why = options.kind.starts_with("web")        ? "no browser could reach a page"
+                            : options.kind.starts_with("foxglove") ? "nobody could open a connection"
+                            : options.kind.starts_with("ros2")     ? "no node of ROS 2 could hear it"
+                                                                   : nullptr;
+    if (why != nullptr)
+      throw UsageError(
+          fmt::format("{} runs in a network of its own (--isolated), where {}", Quoted(run.experiment), why));
     EnterNetworkOf(*run.server);
   }
   std::vector<std::string> command{(std::filesystem::path(ProgramFolder()) / "visualiser").string()};
@@ -88,38 +96,17 @@ void Attach(AttachOptions& options, const CLI::App& verb)
   throw std::runtime_error(fmt::format("cannot start '{}': {}", command[0], std::strerror(errno)));
 }
 
-// The options of a visualiser are known before the words are read: its kind is the first word after `attach`.
-void AddOptionsOfKind(CLI::App& verb, AttachOptions& options)
-{
-  std::vector<std::string> words = OriginalCommand();
-  if (words.size() > 1 && words[1] == kCompleteFlag) words.erase(words.begin() + 1);
-  if (words.size() < 3 || words[1] != "attach") return;
-  RegisterBuiltins();
-  for (std::size_t i = 2; i < words.size(); ++i)
-    for (const std::string& label : PluginCatalogue::Instance().Labels(PluginKind::kRenderer))
-      if (label == words[i] || label == words[i] + "_render")
-        return AddRendererOptions(verb, FindRenderer(label), options.parameters);
-  if (words[2].starts_with("-")) return;
-  try
-  {
-    AddRendererOptions(verb, FindRenderer(words[2]), options.parameters);
-  }
-  catch (const ConfigurationError&)
-  {
-    // Attach says what is wrong with it.
-  }
-}
-
 }  // namespace
 
 void AddAttachCommand(CLI::App& app, int&)
 {
   auto options = std::make_shared<AttachOptions>();
   CLI::App* verb = app.add_subcommand("attach", "Look at a running experiment; it is not slowed");
-  verb->add_option(
-          "KIND", options->kind,
-          "text, image, opengl, ogre or web, as far as they are part of this build, or a library with a renderer "
-          "of your own: its path, or its name where SWARMANOID_PLUGIN_PATH holds its folder")
+  verb->add_option("KIND", options->kind,
+                   "text, image, figure, opengl, ogre, web, ros2 or foxglove, as far as they are part of this build, "
+                   "or a library "
+                   "with a renderer "
+                   "of your own: its path, or its name where SWARMANOID_PLUGIN_PATH holds its folder")
       ->required();
   verb->add_option("WORDS", options->words,
                    "Name of the experiment (may be left out where one runs), and name=value for the visualiser");
@@ -130,7 +117,7 @@ void AddAttachCommand(CLI::App& app, int&)
                    "Seconds for which an experiment that does not run yet is waited for (default: 60 for web, else 0)")
       ->check(CLI::Range(0.0, 1e6));
   AddOptions(*verb, BusOptionTable(options->bus));
-  AddOptionsOfKind(*verb, *options);
+  AddOptionsOfKind(*verb, 0, options->parameters);
   verb->footer(
       "`swarmanoid attach KIND --help` lists the options of that kind too. An attached visualiser never slows the "
       "run.\n"

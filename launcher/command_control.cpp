@@ -1,5 +1,6 @@
-// `swarmanoid control`: asks the space server of a running experiment to pause, go on, step, change speed, stop, or to
-// move, detach, add or remove an entity.
+// `swarmanoid control`: asks the space server of a running experiment to pause, go on, step, change speed, stop, begin
+// again, or to
+// move, detach, add or remove an entity, or to have processes change places.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -7,13 +8,17 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "common/activity/exit_codes.h"
 #include "common/bus/cluster_options.h"
 #include "common/bus/control_client.h"
+#include "common/bus/share.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/wording.h"
+#include "common/messages/control_request.h"
+#include "common/run/run_settings.h"
 #include "launcher/commands.h"
 #include "launcher/control_request.h"
 #include "launcher/isolation.h"
@@ -25,12 +30,15 @@ namespace
 {
 
 constexpr double kPatience_s = 5;
+// Who takes the place of a worker does all ticks again, if that one could not be saved.
+constexpr double kPatienceWithMoves_s = 600;
 
 struct ControlOptions
 {
   std::vector<std::string> words;
   BusOptions bus;
   bool json = false;
+  std::optional<std::uint64_t> seed;
 };
 
 void PrintJson(const std::string& experiment, const ControlReplyMessage& reply)
@@ -40,9 +48,13 @@ void PrintJson(const std::string& experiment, const ControlReplyMessage& reply)
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-// For those who got no answer.
-std::string WhatItDoes(const std::optional<RunStatus>& status)
+// For those who got no answer. `dropped`: messages that were not understood.
+std::string WhatItDoes(const std::optional<RunStatus>& status, std::uint64_t dropped, bool insecure)
 {
+  if (!status && dropped > 0)
+    return insecure ? ", and what it says is not understood without a key; give its --key instead of --insecure"
+                    : ", and what it says is not sealed by the key that is used here; give the --key of this run, or "
+                      "--insecure if it was started so";
   if (!status) return ", and nothing is heard of it; see the log of its space server";
   std::string text = fmt::format("; it is at tick {}", status->tick);
   const char* before = " and waits for ";
@@ -57,8 +69,13 @@ std::string WhatItDoes(const std::optional<RunStatus>& status)
 
 int Control(ControlOptions& options, bool domain_given)
 {
-  const ControlRequest request = ParseControlRequest(options.words);
-  const RunChoice run = ChooseRun(request.experiment, domain_given ? std::optional(options.bus.domain) : std::nullopt);
+  const ControlRequest request = ParseControlRequest(options.words, options.seed);
+  const auto ticket = TicketOfEnvironment();
+  if (ticket) UseTicket(*ticket, options.bus);
+  const RunChoice run =
+      ticket ? RunOf(*ticket, request.experiment)
+             : ChooseRun(request.experiment, domain_given ? std::optional(options.bus.domain) : std::nullopt);
+  CheckInsecure(run, options.bus);
   options.bus.domain = run.domain;
   if (run.server && !options.bus.Spread()) EnterNetworkOf(*run.server);
   Bus bus(options.bus, "swarmanoid control");
@@ -71,11 +88,14 @@ int Control(ControlOptions& options, bool domain_given)
     return kExitProcessFailed;
   }
   ControlClient client(bus, run.experiment);
-  const auto reply = client.Ask(request.verb, request.entity, request.numbers, kPatience_s);
+  const auto reply = client.Ask(request.verb, request.entity, request.numbers,
+                                IsWorkerMove(request.verb) ? kPatienceWithMoves_s : kPatience_s);
   if (!reply)
   {
-    fmt::print(stderr, "swarmanoid: experiment {} in domain {} does not answer{}\n", Quoted(run.experiment), run.domain,
-               WhatItDoes(client.LatestStatus()));
+    fmt::print(
+        stderr, "swarmanoid: experiment {} in domain {} does not answer{}{}\n", Quoted(run.experiment), run.domain,
+        WhatItDoes(client.LatestStatus(), bus.Dropped(), options.bus.insecure),
+        ticket ? fmt::format("; the run of {} may have ended, or be on another network", ticket->share.Name()) : "");
     return kExitProcessFailed;
   }
   if (options.json) PrintJson(run.experiment, *reply);
@@ -94,27 +114,45 @@ int Control(ControlOptions& options, bool domain_given)
 void AddControlCommand(CLI::App& app, int& exit_code)
 {
   auto options = std::make_shared<ControlOptions>();
-  CLI::App* verb = app.add_subcommand("control",
-                                      "Pause, resume, step, speed up, slow down or stop a running experiment, and\n"
-                                      "move, detach, add or remove entities of it");
+  CLI::App* verb =
+      app.add_subcommand("control",
+                         "Pause, resume, step, speed up, slow down, stop or reset a running experiment, and\n"
+                         "move, detach, add or remove entities of it; have its processes change places");
   verb->add_option("WORDS", options->words,
-                   "[EXPERIMENT] pause | resume | step [N] | speed F | stop | move ENTITY X,Y,Z[,A,B,G] |\n"
-                   "detach ENTITY X,Y,Z[,A,B,G] | add ENTITY X,Y,Z[,A,B,G] | remove ENTITY")
+                   "[EXPERIMENT] pause | resume | step [N] | speed F | stop | reset | move ENTITY X,Y,Z[,A,B,G] |\n"
+                   "detach ENTITY X,Y,Z[,A,B,G] | add ENTITY X,Y,Z[,A,B,G] | remove ENTITY |\n"
+                   "move-host N [MACHINE] | move-engine ID [MACHINE] | drain MACHINE | hosts +N|-N [MACHINE]")
       ->required();
   verb->add_flag("--json", options->json, "For programs: experiment, ok, tick and text of the answer");
+  AddOptions(*verb, {{{.name = "seed",
+                       .type = ParameterType::kInteger,
+                       .description = "With reset: the seed of the run that begins; otherwise that of this one",
+                       .minimum = 0,
+                       .maximum = kLargestSeed},
+                      &options->seed,
+                      "7"}});
   AddOptions(*verb, BusOptionTable(options->bus));
   verb->footer(
       "speed is a multiple of real time, 0 is as fast as possible. Positions are in metres, angles in degrees.\n"
+      "reset ends the run, and begins it again at tick 0 in a folder of its own.\n"
       "move takes along all that hold the entity or are held with it, detach moves it alone and ends these holds.\n"
       "add takes an entity that was removed, or the id of a <reserve>.\n"
+      "move-host and move-engine have another process take the place of a controller host or engine, on a machine of\n"
+      "the file of --hosts or on \"here\", that of the launcher; drain has all workers of a machine leave it; hosts "
+      "has\n"
+      "the robots shared out among more controller hosts, or fewer.\n"
       "Examples:\n"
       "  swarmanoid control pause\n"
       "  swarmanoid control diffusion_10 step 5\n"
       "  swarmanoid control speed 2\n"
+      "  swarmanoid control reset --seed 7\n"
       "  swarmanoid control move fb_0 1.5,2,0\n"
       "  swarmanoid control detach fb_0 1.5,2,0\n"
       "  swarmanoid control add prey 1.5,2,0\n"
       "  swarmanoid control remove prey_0\n"
+      "  swarmanoid control move-host 1 beta\n"
+      "  swarmanoid control drain alpha\n"
+      "  swarmanoid control hosts +1\n"
       "  swarmanoid control diffusion_10 stop --domain 7 --interface eth0    one on another machine");
   verb->callback([options, verb, &exit_code]
                  { exit_code = Control(*options, verb->get_option("--domain")->count() > 0); });

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
 
 #include "common/activity/exit_codes.h"
@@ -34,15 +35,20 @@ int Diff(const std::string& first, const std::string& second)
   RecordedRun a(first), b(second);
   if (a.Space().Size() != b.Space().Size() || a.Space().Attributes().size() != b.Space().Attributes().size())
     throw UsageError("the runs are of experiments with other entities");
+  // A branch begins later, and so does what a budget has left of a journal.
+  const std::uint64_t from = std::max(a.FirstTick(), b.FirstTick());
+  bool more_a = a.Seek(from), more_b = b.Seek(from);
+  if (!more_a || !more_b)
+    throw UsageError(fmt::format("the journals have no tick in common: '{}' ends at tick {}, '{}' begins at {}",
+                                 more_a ? second : first, more_a ? b.LastTick() : a.LastTick(), more_a ? first : second,
+                                 from));
   TickRecord before_a, before_b;
   std::uint64_t ticks = 0;
-  while (true)
+  for (; more_a || more_b; more_a = a.Next(), more_b = b.Next())
   {
-    const bool more_a = a.Next(), more_b = b.Next();
-    if (!more_a && !more_b) break;
     if (more_a != more_b)
     {
-      fmt::print("equal to the end of {}, at tick {}\n", more_a ? second : first, ticks - 1);
+      fmt::print("equal to the end of {}, at tick {}\n", more_a ? second : first, from + ticks - 1);
       return kExitHashDiffers;
     }
     if (const std::string difference = FirstDifference(a.Space(), b.Space()); !difference.empty())
@@ -54,7 +60,7 @@ int Diff(const std::string& first, const std::string& second)
     before_b = b.Record();
     ++ticks;
   }
-  fmt::print("equal: {} states\n", ticks);
+  fmt::print("equal: {} states{}\n", ticks, from == 0 ? "" : fmt::format(", from tick {} on", from));
   return kExitDone;
 }
 

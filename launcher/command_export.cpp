@@ -1,17 +1,16 @@
-// `swarmanoid export`: what the journal of a run has, as a table for other tools.
+// `swarmanoid export`: what the journal of a run has, for other tools.
 #include <fmt/format.h>
 #include <fnmatch.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -22,6 +21,8 @@
 #include "common/program/interrupts.h"
 #include "common/space/attributes.h"
 #include "launcher/commands.h"
+#include "launcher/export_file.h"
+#include "launcher/mcap_export.h"
 #include "launcher/recorded_run.h"
 
 namespace swarmanoid
@@ -29,11 +30,14 @@ namespace swarmanoid
 namespace
 {
 
+const std::vector<std::string> kPoseColumns{"x", "y", "z", "alpha", "beta", "gamma"};
+
 struct ExportOptions
 {
   std::string run;
-  std::string file;
-  std::vector<std::string> columns;
+  std::string csv;
+  std::string mcap;
+  std::vector<std::string> columns;  // none: kPoseColumns
   std::string entities = "*";
   std::uint64_t every = 1;
   std::uint64_t from = 0;
@@ -131,45 +135,6 @@ std::vector<ExportColumn> ColumnsOf(const CSwarmanoidSpace& space, const std::ve
   return columns;
 }
 
-// A file that is not there yet, or standard output.
-class ExportTable
-{
-public:
-  explicit ExportTable(const std::string& path)
-      : path_(path), file_(path == "-" ? stdout : std::fopen(path.c_str(), "wxe"))
-  {
-    if (file_ != nullptr) return;
-    if (errno == EEXIST) throw UsageError(fmt::format("--csv: the file '{}' is there already; name another one", path));
-    throw UsageError(fmt::format("--csv: cannot write '{}': {}", path, std::strerror(errno)));
-  }
-  ~ExportTable()
-  {
-    if (file_ != nullptr && file_ != stdout) std::fclose(file_);
-  }
-  ExportTable(const ExportTable&) = delete;
-  ExportTable& operator=(const ExportTable&) = delete;
-
-  void Write(const std::string& text)
-  {
-    if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) Fail();
-  }
-  void Close()
-  {
-    const bool good = file_ == stdout ? std::fflush(file_) == 0 : std::fclose(file_) == 0;
-    file_ = nullptr;
-    if (!good) Fail();
-  }
-
-private:
-  [[noreturn]] void Fail() const
-  {
-    throw std::runtime_error(fmt::format("cannot write '{}': {}", path_, std::strerror(errno)));
-  }
-
-  std::string path_;
-  std::FILE* file_;
-};
-
 // The shortest text that reads back as the same bits.
 void AppendExact(double value, std::string& line)
 {
@@ -178,55 +143,112 @@ void AppendExact(double value, std::string& line)
   line.append(text, end);
 }
 
+bool IsWanted(const ExportOptions& options, std::uint64_t tick)
+{
+  return tick >= options.from && tick % options.every == 0 && (!options.until || tick <= *options.until);
+}
+
+// Calls `use` at each state that is wanted.
+void ForEachState(const ExportOptions& options, RecordedRun& run, const std::function<void()>& use)
+{
+  std::uint64_t states = 0;
+  while (!Interrupted() && run.Next())
+  {
+    const std::uint64_t tick = run.Space().GetTick();
+    if (options.until && tick > *options.until) break;
+    if (!IsWanted(options, tick)) continue;
+    ++states;
+    use();
+  }
+  if (states == 0 && !Interrupted())
+    throw UsageError("no tick of the journal is among those that were asked for: see --from, --until, --every");
+}
+
+void ExportCsv(const ExportOptions& options, RecordedRun& run, const std::vector<std::size_t>& entities)
+{
+  const CSwarmanoidSpace& space = run.Space();
+  const std::vector<ExportColumn> columns = ColumnsOf(space, options.columns.empty() ? kPoseColumns : options.columns);
+  ExportFile table("--csv", options.csv);
+  std::string text = "tick,time_s,entity,kind";
+  for (const ExportColumn& column : columns) text += "," + column.name;
+  text += "\n";
+  table.Write(text);
+  ForEachState(options, run,
+               [&]
+               {
+                 const std::uint64_t tick = space.GetTick();
+                 text.clear();
+                 for (const std::size_t k : entities)
+                 {
+                   if (!space.IsPresent(static_cast<std::uint32_t>(k))) continue;
+                   const CSwarmanoidSpaceEntity& entity = space.GetEntity(k);
+                   text += fmt::format("{},", tick);
+                   AppendExact(static_cast<double>(tick) * space.GetTickSeconds(), text);
+                   text += fmt::format(",{},{}", CsvField(entity.GetId()), TagName(entity.GetKind()));
+                   for (const ExportColumn& column : columns)
+                   {
+                     text += ',';
+                     if (const auto value = column.value(entity)) AppendExact(*value, text);
+                   }
+                   text += '\n';
+                 }
+                 table.Write(text);
+               });
+  table.Close();
+}
+
+void ExportMcap(const ExportOptions& options, RecordedRun& run, std::vector<std::size_t> entities)
+{
+  ExportFile file("--mcap", options.mcap);
+  McapExport mcap(file, run.Space(), std::move(entities));
+  std::ifstream events(run.Folder() + "/events.csv");
+  std::string line;
+  std::getline(events, line);  // the names of its columns
+  std::uint64_t event_tick = 0;
+  const auto next_event = [&]
+  {
+    while (std::getline(events, line))
+    {
+      const std::vector<std::string> fields = CsvFields(line);
+      if (fields.size() < 4 || !(std::istringstream(fields[0]) >> event_tick)) continue;
+      if (event_tick >= options.from && (!options.until || event_tick <= *options.until)) return true;
+    }
+    return false;
+  };
+  bool has_event = next_event();
+  ForEachState(options, run,
+               [&]
+               {
+                 for (; has_event && event_tick < run.Space().GetTick(); has_event = next_event())
+                   mcap.WriteEvent(line);
+                 mcap.WriteTick();
+               });
+  for (; has_event; has_event = next_event()) mcap.WriteEvent(line);
+  mcap.Finish();
+  file.Close();
+}
+
 int Export(const ExportOptions& options)
 {
   RegisterBuiltins();
   CatchInterrupts();
-  if (options.file.empty())
-    throw UsageError("export: name a format and its file, as --csv table.csv; - is standard output");
+  if (options.csv.empty() == options.mcap.empty())
+    throw UsageError(
+        "export: name one format and its file, as --csv table.csv or --mcap run.mcap; - is standard output");
+  if (!options.mcap.empty() && !options.columns.empty())
+    throw UsageError("--columns: is of tables, --csv; --mcap has poses and all attributes");
   RecordedRun run(std::filesystem::absolute(options.run).lexically_normal().string());
   const CSwarmanoidSpace& space = run.Space();
-  const std::vector<ExportColumn> columns = ColumnsOf(space, options.columns);
   std::vector<std::size_t> entities;
   for (std::size_t k = 0; k < space.Size(); ++k)
     if (fnmatch(options.entities.c_str(), space.GetEntity(k).GetId().c_str(), FNM_NOESCAPE) == 0) entities.push_back(k);
   if (entities.empty())
     throw UsageError(fmt::format("--entities: no entity of the run matches {}", Quoted(options.entities)));
-
-  ExportTable table(options.file);
-  std::string text = "tick,time_s,entity,kind";
-  for (const ExportColumn& column : columns) text += "," + column.name;
-  text += "\n";
-  std::uint64_t states = 0;
-  while (!Interrupted() && run.Next())
-  {
-    const std::uint64_t tick = space.GetTick();
-    if (options.until && tick > *options.until) break;
-    if (tick < options.from || tick % options.every != 0) continue;
-    ++states;
-    for (const std::size_t k : entities)
-    {
-      if (!space.IsPresent(static_cast<std::uint32_t>(k))) continue;
-      const CSwarmanoidSpaceEntity& entity = space.GetEntity(k);
-      text += fmt::format("{},", tick);
-      AppendExact(static_cast<double>(tick) * space.GetTickSeconds(), text);
-      text += fmt::format(",{},{}", CsvField(entity.GetId()), TagName(entity.GetKind()));
-      for (const ExportColumn& column : columns)
-      {
-        text += ',';
-        if (const auto value = column.value(entity)) AppendExact(*value, text);
-      }
-      text += '\n';
-    }
-    table.Write(text);
-    text.clear();
-  }
-  table.Write(text);
-  table.Close();
-  if (Interrupted()) return kExitInterrupted;
-  if (states == 0)
-    throw UsageError("no tick of the journal is among those that were asked for: see --from, --until, --every");
-  return kExitDone;
+  if (options.mcap.empty())
+    ExportCsv(options, run, entities);
+  else
+    ExportMcap(options, run, std::move(entities));
+  return Interrupted() ? kExitInterrupted : kExitDone;
 }
 
 }  // namespace
@@ -234,13 +256,14 @@ int Export(const ExportOptions& options)
 void AddExportCommand(CLI::App& app, int& exit_code)
 {
   auto options = std::make_shared<ExportOptions>();
-  options->columns = {"x", "y", "z", "alpha", "beta", "gamma"};
-  CLI::App* verb = app.add_subcommand("export", "Write what the journal of a run has as a table for other tools");
+  CLI::App* verb = app.add_subcommand("export", "Write what the journal of a run has for other tools");
   verb->add_option("RUN", options->run, "The folder of a run as a cluster")->required();
-  verb->add_option("--csv", options->file, "Comma-separated values, into a new file; - is standard output");
+  verb->add_option("--csv", options->csv, "A table of comma-separated values, into a new file; - is standard output");
+  verb->add_option("--mcap", options->mcap, "Messages for Foxglove and rosbag2, into a new file; - is standard output");
   verb->add_option(
           "--columns", options->columns,
-          "x, y, z (m), alpha, beta, gamma (degrees), qx, qy, qz, qw, attributes as led, or elements as led[3]")
+          "Of the table: x, y, z (m), alpha, beta, gamma (degrees), qx, qy, qz, qw, attributes as led, or elements as "
+          "led[3]; otherwise the first six")
       ->delimiter(',');
   verb->add_option("--entities", options->entities,
                    "Only entities whose ids match: * stands for any characters, ? for one");
@@ -248,12 +271,14 @@ void AddExportCommand(CLI::App& app, int& exit_code)
   verb->add_option("--from", options->from, "The first tick");
   verb->add_option("--until", options->until, "The last tick");
   verb->footer(
-      "A line for each tick and entity that is in the arena. Numbers are exact: they read back as the same bits.\n"
+      "A table has a line for each tick and entity that is in the arena, MCAP a message for each tick and topic: /tf,\n"
+      "/scene, /attributes, /events. Numbers are exact: they read back as the same bits.\n"
       "Examples:\n"
       "  swarmanoid export runs/diffusion_10-20310517-093000 --csv poses.csv\n"
       "  swarmanoid export runs/diffusion_10-20310517-093000 --csv leds.csv --columns x,y,led --entities 'fb_*' "
       "--every 10\n"
-      "  swarmanoid export runs/diffusion_10-20310517-093000 --csv - --from 100 --until 100");
+      "  swarmanoid export runs/diffusion_10-20310517-093000 --csv - --from 100 --until 100\n"
+      "  swarmanoid export runs/diffusion_10-20310517-093000 --mcap run.mcap");
   verb->callback([options, &exit_code] { exit_code = Export(*options); });
 }
 

@@ -13,6 +13,7 @@
 #include "launcher/commands.h"
 #include "launcher/load.h"
 #include "launcher/recorded_run.h"
+#include "launcher/renderer_words.h"
 #include "launcher/scratch_folder.h"
 #include "launcher/watched_simulator.h"
 #include "visualiser/renderer_options.h"
@@ -30,9 +31,10 @@ struct ReplayOptions
 {
   std::string run;
   std::string kind;
-  std::vector<std::string> parameters;
+  std::vector<std::string> words;       // name=value
+  std::vector<std::string> parameters;  // the same of options
   std::string output = ".";
-  std::uint64_t from = 0;
+  std::optional<std::uint64_t> from;
   double speed = 0;
   bool verify = false;
 };
@@ -50,6 +52,18 @@ int Verify(RecordedRun& run)
   const std::string events = run.Folder() + "/events.csv";
   if (std::filesystem::exists(events)) options.events = events;
   options.faults_of = run.Folder();
+  if (const std::uint64_t first = run.FirstTick(); first != 0)
+  {
+    const JournalReader& journal = run.Journal();
+    const auto checkpoint = journal.WholeCheckpointAt(first, *experiment, 1);
+    if (!checkpoint)
+      throw UsageError(
+          fmt::format("--verify: the journal begins at tick {}, and nobody can go on from there: not all "
+                      "processes saved their states",
+                      first));
+    options.restore_file = scratch.Path() + "/" + CheckpointName(first);
+    WriteCheckpoint(options.restore_file, *checkpoint);
+  }
   std::uint64_t ticks = 0;
   bool over = false;
   std::string difference;
@@ -74,14 +88,48 @@ int Verify(RecordedRun& run)
   return kExitDone;
 }
 
+// How the replay goes. The journal has nothing of what is inside robots.
+class ReplayMonitor : public RunMonitor
+{
+public:
+  explicit ReplayMonitor(const RecordedRun& run, double speed) : run_(run)
+  {
+    status_.phase = RunStatus::Phase::kRunning;
+    status_.speed_wanted = speed;
+  }
+
+  const RunStatus& Status() override
+  {
+    status_.tick = run_.Space().GetTick();
+    return status_;
+  }
+  std::span<const RunNote> Notes() override { return {}; }
+  void Watch(std::span<const std::uint32_t>) override {}
+  const RobotStatus* Robot(std::uint32_t) override { return nullptr; }
+  std::string RunFolder() override { return run_.Folder(); }
+  void Ended() { status_.phase = RunStatus::Phase::kFinished; }
+
+private:
+  const RecordedRun& run_;
+  RunStatus status_;
+};
+
 int Show(RecordedRun& run, const ReplayOptions& options)
 {
-  const RenderConfiguration configuration = ConfigureRenderer(FindRenderer(options.kind), options.parameters);
+  std::vector<std::string> parameters = options.words;
+  parameters.insert(parameters.end(), options.parameters.begin(), options.parameters.end());
+  const RenderConfiguration configuration = ConfigureRenderer(FindRenderer(options.kind), parameters);
   const Assignment assignment = MakeAssignment(run.GetExperiment(), 1);
-  bool more = run.Next();
-  while (more && run.Space().GetTick() < options.from) more = run.Next();
-  if (!more) throw UsageError(fmt::format("--from: the journal ends before tick {}", options.from));
-  Visualiser visualiser(configuration, run.Space(), assignment, options.output, nullptr, nullptr);
+  const std::uint64_t from = std::max(options.from.value_or(0), run.FirstTick());
+  if (options.from && *options.from < from)
+    throw UsageError(fmt::format("--from: the journal begins at tick {}{}", from,
+                                 run.Journal().Start().first_tick == from
+                                     ? ", where the run did"
+                                     : "; what was before is more than its --journal-budget"));
+  bool more = run.Seek(from);
+  if (!more) throw UsageError(fmt::format("--from: the journal ends before tick {}", from));
+  ReplayMonitor monitor(run, options.speed);
+  Visualiser visualiser(configuration, run.Space(), assignment, options.output, nullptr, &monitor);
   const double speed = visualiser.IsInteractive() && options.speed == 0 ? 1 : options.speed;
   bool closed = false;
   auto due = Clock::now();
@@ -97,6 +145,7 @@ int Show(RecordedRun& run, const ReplayOptions& options)
       std::this_thread::sleep_until(std::min(due, Clock::now() + 15ms));
     }
   }
+  monitor.Ended();
   while (visualiser.IsInteractive() && !closed && !Interrupted())
   {
     closed = visualiser.Idle();
@@ -130,8 +179,8 @@ void AddReplayCommand(CLI::App& app, int& exit_code)
   auto options = std::make_shared<ReplayOptions>();
   CLI::App* verb = app.add_subcommand("replay", "Show a run again from its journal, or compute it again and compare");
   verb->add_option("RUN", options->run, "The folder of a run as a cluster")->required();
-  verb->add_option("KIND", options->kind, "text, image, opengl, ogre or web, as for `attach`");
-  verb->add_option("PARAMETERS", options->parameters, "name=value for the visualiser");
+  verb->add_option("KIND", options->kind, "text, image, figure, opengl, ogre, web, ros2 or foxglove, as for `attach`");
+  verb->add_option("PARAMETERS", options->words, "name=value for the visualiser");
   verb->add_flag("--verify", options->verify,
                  "Compute all ticks again, in this process, and name the first entity that differs, and in what");
   verb->add_option("--from", options->from, "The first tick that is shown");
@@ -139,13 +188,16 @@ void AddReplayCommand(CLI::App& app, int& exit_code)
                    "Multiple of real time; 0: as fast as possible, for windows and pages real time")
       ->check(CLI::Range(0.0, 1e6));
   verb->add_option("--output", options->output, "Folder for relative output files");
+  AddOptionsOfKind(*verb, 1, options->parameters);
   verb->footer(
-      "No controller and no engine runs, unless --verify is given; robots cannot be looked into.\n"
+      "`swarmanoid replay RUN KIND --help` lists the options of that kind too. No controller and no engine runs, "
+      "unless --verify is given: for the inside of robots see `swarmanoid inspect`.\n"
       "Exit codes of --verify: 0 all states are equal, 5 they differ.\n"
       "Examples:\n"
       "  swarmanoid replay runs/diffusion_10-20310517-093000 --verify\n"
       "  swarmanoid replay runs/diffusion_10-20310517-093000 web --speed 2\n"
-      "  swarmanoid replay runs/diffusion_10-20310517-093000 image video=film.mp4 --from 500");
+      "  swarmanoid replay runs/diffusion_10-20310517-093000 image --video film.mp4 --from 500\n"
+      "  swarmanoid replay runs/diffusion_10-20310517-093000 figure --file figure.pdf --show-trails");
   verb->callback([options, &exit_code] { exit_code = Replay(*options); });
 }
 

@@ -12,9 +12,9 @@
 
 #include "common/activity/exit_codes.h"
 #include "common/journal/journal_reader.h"
-#include "common/messages/assignment.h"
 #include "launcher/commands.h"
 #include "launcher/load.h"
+#include "launcher/recorded_run.h"
 #include "launcher/run_experiment.h"
 
 namespace swarmanoid
@@ -25,7 +25,7 @@ namespace
 namespace fs = std::filesystem;
 
 // What the journal says itself.
-constexpr std::array kOfTheRun{"EXPERIMENT", "seed", "set", "restore", "controller-hosts"};
+constexpr std::array kOfTheRun{"EXPERIMENT", "seed", "ahead", "set", "restore", "branch", "controller-hosts"};
 
 std::vector<OptionSpec> ResumeOptionTable(RunSettings& settings)
 {
@@ -33,14 +33,6 @@ std::vector<OptionSpec> ResumeOptionTable(RunSettings& settings)
   std::erase_if(options, [](const OptionSpec& option)
                 { return std::find(kOfTheRun.begin(), kOfTheRun.end(), option.value.name) != kOfTheRun.end(); });
   return options;
-}
-
-std::vector<std::string> PartsOf(const Experiment& experiment, std::size_t hosts)
-{
-  std::vector<std::string> parts{kServerPart};
-  for (std::size_t e = 0; e < experiment.engines.size(); ++e) parts.push_back(EngineName(experiment, e));
-  for (std::size_t h = 0; h < hosts; ++h) parts.push_back(HostName(h));
-  return parts;
 }
 
 // Of what it was to repeat, the run has noted only what it came to.
@@ -54,6 +46,20 @@ void RequireEvents(const std::string& run_folder)
       throw UsageError("resume: the run repeats the events of a file; name it again with --events");
 }
 
+// The requests of its users, without the signal that ended it: the run is to go on after that.
+std::string EventsOf(const std::string& run_folder)
+{
+  const std::string path = run_folder + "/events.csv";
+  std::ifstream file(path);
+  std::string kept, last;
+  for (std::string line; std::getline(file, line); last = line + "\n") kept += last;
+  if (last.find(",stop,,,interrupt,") == std::string::npos) return path;
+  std::string without = run_folder + "/journal/events.csv";
+  std::ofstream copy(without);
+  if (!(copy << kept << std::flush)) throw UsageError(fmt::format("resume: cannot write '{}'", without));
+  return without;
+}
+
 int Resume(const std::string& run_folder, RunSettings options)
 {
   options.file = run_folder + "/experiment.xml";
@@ -63,16 +69,17 @@ int Resume(const std::string& run_folder, RunSettings options)
   if (options.events.empty())
   {
     RequireEvents(run_folder);
-    if (const std::string events = run_folder + "/events.csv"; fs::exists(events)) options.events = events;
+    if (fs::exists(run_folder + "/events.csv")) options.events = EventsOf(run_folder);
   }
   if (options.faults_of.empty()) options.faults_of = run_folder;
   try
   {
     const JournalReader journal(JournalFile(run_folder));
-    options.controller_hosts = static_cast<unsigned>(journal.Start().hosts);
-    const auto checkpoint = journal.NewestCheckpoint(PartsOf(*experiment, journal.Start().hosts));
-    if (!checkpoint && journal.Start().first_tick != 0)
-      throw std::runtime_error("nothing was saved since the run went on from a checkpoint; restore that one again");
+    options.controller_hosts = static_cast<unsigned>(journal.Hosts());
+    const auto checkpoint = journal.WholeCheckpointUntil(UINT64_MAX, *experiment, journal.Hosts());
+    if (!checkpoint && journal.FirstTick() != 0)
+      throw std::runtime_error(
+          fmt::format("the journal begins at tick {}, and has no state that all processes saved", journal.FirstTick()));
     if (checkpoint)
     {
       options.restore_file = run_folder + "/journal/" + CheckpointName(checkpoint->snapshot.tick);

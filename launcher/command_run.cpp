@@ -28,9 +28,9 @@ constexpr const char* kRuns = "runs";
 bool IsFirst(const RunSettings& options)
 {
   std::error_code none;
-  return IsAtTerminal() && !options.quiet && options.output_folder.empty() && options.visualisations &&
-         options.expected_hash.empty() && options.hosts_file.empty() && options.engine_hosts.empty() &&
-         !fs::exists(kRuns, none);
+  return IsAtTerminal() && !options.quiet && options.branch.empty() && options.output_folder.empty() &&
+         options.visualisations && options.expected_hash.empty() && options.hosts_file.empty() &&
+         options.engine_hosts.empty() && !fs::exists(kRuns, none);
 }
 
 std::uint64_t TicksOf(const fs::path& run) { return ReadManifest(run).value("ticks", std::uint64_t{0}); }
@@ -60,7 +60,9 @@ void AddRunCommand(CLI::App& app, int& exit_code)
 {
   auto options = std::make_shared<RunSettings>();
   CLI::App* verb = app.add_subcommand("run", "Run an experiment");
-  AddOptions(*verb, RunOptionTable(*options));
+  std::vector<OptionSpec> table = RunOptionTable(*options);
+  for (OptionSpec& option : table) option.required = false;  // --branch has an experiment, too
+  AddOptions(*verb, table);
   verb->footer(
       std::string(
           "The last line on standard output is\n"
@@ -74,7 +76,10 @@ void AddRunCommand(CLI::App& app, int& exit_code)
       "  swarmanoid run configs/diffusion_10.xml --real-time 1 --set framework.clocktick=50\n"
       "  swarmanoid run configs/diffusion_10.xml --events runs/first/events.csv    with what users did in that run\n"
       "  swarmanoid run configs/diffusion_10.xml --output first --checkpoint-every 500\n"
-      "  swarmanoid run first/experiment.xml --restore first/checkpoint-00000500");
+      "  swarmanoid run first/experiment.xml --restore first/checkpoint-00000500\n"
+      "  swarmanoid run --branch runs/first@500 --set controllers.diffusion.parameters.velocity=0.1    from its tick "
+      "500 on\n"
+      "  swarmanoid run configs/diffusion_1000.xml --ticks 0 --journal-budget 2GiB");
   verb->callback(
       [options, &exit_code]
       {

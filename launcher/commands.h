@@ -14,12 +14,15 @@ namespace swarmanoid
 {
 
 void AddRunCommand(CLI::App& app, int& exit_code);
+void AddAdoptCommand(CLI::App& app, int& exit_code);
 void AddResumeCommand(CLI::App& app, int& exit_code);
 void AddReplayCommand(CLI::App& app, int& exit_code);
 void AddDiffCommand(CLI::App& app, int& exit_code);
+void AddInspectCommand(CLI::App& app, int& exit_code);
 void AddExportCommand(CLI::App& app, int& exit_code);
 void AddAttachCommand(CLI::App& app, int& exit_code);
 void AddControlCommand(CLI::App& app, int& exit_code);
+void AddShareCommand(CLI::App& app, int& exit_code);
 void AddCheckCommand(CLI::App& app, int& exit_code);
 void AddConvertCommand(CLI::App& app, int& exit_code);
 void AddListCommand(CLI::App& app, int& exit_code);

@@ -126,6 +126,10 @@ private:
     {
       OfferRuns();
     }
+    else if (path_ == "share")
+    {
+      if (given_.empty()) OfferRuns();
+    }
     else if (path_ == "control")
     {
       if (given_.empty()) OfferRuns();

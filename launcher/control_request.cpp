@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/wording.h"
@@ -65,6 +66,30 @@ void TakePlace(ControlRequest& request, const std::vector<std::string>& rest)
   request.numbers = *values;
 }
 
+void TakeWorker(ControlRequest& request, const std::vector<std::string>& rest)
+{
+  const char* form = request.verb == "drain"       ? "drain MACHINE"
+                     : request.verb == "move-host" ? "move-host N or move-host N MACHINE"
+                                                   : "move-engine ID or move-engine ID MACHINE";
+  if (rest.empty() || rest.size() > (request.verb == "drain" ? 1U : 2U))
+    throw UsageError(fmt::format("write {}", form));
+  if (request.verb == "move-host" && !ParseInteger(rest[0]))
+    throw UsageError(fmt::format("{} is no number of a controller host; write {}", Quoted(rest[0]), form));
+  request.entity = rest.size() == 2 ? rest[0] + " to " + rest[1] : rest[0];
+}
+
+void TakeHosts(ControlRequest& request, const std::vector<std::string>& rest)
+{
+  const std::string form = "hosts +N or hosts -N, or either with a MACHINE";
+  if (rest.empty() || rest.size() > 2) throw UsageError("write " + form);
+  const auto number = ParseInteger(rest[0][0] == '+' ? rest[0].substr(1) : rest[0]);
+  if (!number || *number == 0 || (rest[0][0] != '+' && rest[0][0] != '-') || std::abs(*number) > 1000)
+    throw UsageError(
+        fmt::format("{} says not how many controller hosts more or fewer; write {}", Quoted(rest[0]), form));
+  request.numbers = {static_cast<double>(*number)};
+  if (rest.size() == 2) request.entity = rest[1];
+}
+
 void TakeEntity(ControlRequest& request, const std::vector<std::string>& rest)
 {
   if (rest.size() != 1) throw UsageError(fmt::format("write {} ENTITY", request.verb));
@@ -73,7 +98,7 @@ void TakeEntity(ControlRequest& request, const std::vector<std::string>& rest)
 
 }  // namespace
 
-ControlRequest ParseControlRequest(std::vector<std::string> words)
+ControlRequest ParseControlRequest(std::vector<std::string> words, std::optional<std::uint64_t> seed)
 {
   ControlRequest request;
   // An experiment may be called like a verb: then a verb follows it.
@@ -95,6 +120,9 @@ ControlRequest ParseControlRequest(std::vector<std::string> words)
   }
 
   request.verb = words[0];
+  if (seed && request.verb != "reset")
+    throw UsageError(fmt::format("--seed: {} takes none; write reset --seed N", request.verb));
+  if (seed) request.entity = std::to_string(*seed);
   const std::vector<std::string> rest(words.begin() + 1, words.end());
   if (request.verb == "step")
     TakeStep(request, rest);
@@ -104,6 +132,13 @@ ControlRequest ParseControlRequest(std::vector<std::string> words)
     TakePlace(request, rest);
   else if (request.verb == "remove")
     TakeEntity(request, rest);
+  else if (request.verb == "hosts")
+    TakeHosts(request, rest);
+  else if (IsWorkerMove(request.verb))
+    TakeWorker(request, rest);
+  else if (request.verb == "reset" && !rest.empty())
+    throw UsageError(
+        fmt::format("reset takes nothing after it, but {} is there; write reset or reset --seed N", Quoted(rest[0])));
   else if (!rest.empty())
     throw UsageError(fmt::format("{} takes nothing after it, but {} is there", request.verb, Quoted(rest[0])));
   return request;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 #include "common/configuration/configuration_tree.h"
@@ -20,7 +21,7 @@ constexpr std::uint64_t kMostBytes = 1U << 20U;
 const std::vector<std::string> kRoles{"space_server", "engine", "controller_host", "visualiser"};
 const std::vector<std::string> kKeys{"command", "program_folder",  "options",    "space_server",
                                      "engine",  "controller_host", "visualiser", "runs",
-                                     "cores",   "lease",           "swarmanoid"};
+                                     "cores",   "lease",           "swarmanoid", "machines"};
 
 std::vector<std::string> Words(const std::string& text)
 {
@@ -107,6 +108,7 @@ void Hosts::TakeLine(const std::string& line, const std::string& place)
   if (key[0] == "cores") return TakeCores(key, value, place);
   if (key.size() == 2) throw UsageError(fmt::format("{}: {} takes no second word", place, key[0]));
   if (key[0] == "runs") TakeRunHosts(Words(value), place);
+  if (key[0] == "machines") machines_ = Words(value);
   if (key[0] == "lease") lease_s_ = PositiveInteger(value, 86'400, place + ": lease", "seconds");
   if (key[0] == "swarmanoid") swarmanoid_ = value;
   if (key[0] == "program_folder") program_folder_ = value;
@@ -177,7 +179,16 @@ std::string Hosts::HostOf(const std::string& role, const std::string& which) con
 
 bool Hosts::AllHere() const
 {
-  return std::all_of(hosts_.begin(), hosts_.end(), [](const auto& entry) { return IsHere(entry.second); });
+  return std::all_of(machines_.begin(), machines_.end(), IsHere) &&
+         std::all_of(hosts_.begin(), hosts_.end(), [](const auto& entry) { return IsHere(entry.second); });
+}
+
+std::vector<std::string> Hosts::Machines() const
+{
+  std::set<std::string> machines(machines_.begin(), machines_.end());
+  for (const auto& [key, host] : hosts_) machines.insert(host);
+  std::erase_if(machines, IsHere);
+  return {machines.begin(), machines.end()};
 }
 
 ProcessCommand Hosts::Placed(const ProcessCommand& command, const std::string& host) const

@@ -32,7 +32,10 @@ public:
 
   // The machine of a process, by role ("engine") and which one of them ("ground"); empty: this one.
   std::string HostOf(const std::string& role, const std::string& which) const;
+  // Whether neither a process nor a machine that one may be moved to is anywhere else.
   bool AllHere() const;
+  // All machines other than this one that are named for processes, each once, in alphabetical order.
+  std::vector<std::string> Machines() const;
   // The command as it is started here so that it runs on that machine.
   ProcessCommand Placed(const ProcessCommand& command, const std::string& host) const;
   // Options that every process gets.
@@ -61,6 +64,7 @@ private:
   std::string program_folder_;
   std::vector<std::string> options_;
   std::vector<std::string> run_hosts_;
+  std::vector<std::string> machines_;                              // where no process needs to be at first
   std::map<std::string, std::pair<unsigned, std::string>> cores_;  // and the place in the file
   unsigned lease_s_ = 60;
   std::string swarmanoid_;

@@ -18,8 +18,9 @@
 namespace
 {
 
-const std::vector<std::string> kVerbs{"run",     "resume", "replay", "diff", "export", "attach", "control", "check",
-                                      "convert", "list",   "new",    "demo", "doctor", "sweep",  "plot"};
+const std::vector<std::string> kVerbs{"run",    "resume", "adopt",   "replay", "diff",  "inspect",
+                                      "export", "attach", "control", "share",  "check", "convert",
+                                      "list",   "new",    "demo",    "doctor", "sweep", "plot"};
 
 // CLI11 would only say that the word was not expected.
 bool ComplainsAboutVerb(const std::vector<std::string>& words)
@@ -48,11 +49,14 @@ void AddCommands(CLI::App& app, int& exit_code)
   app.require_subcommand(1);
   AddRunCommand(app, exit_code);
   AddResumeCommand(app, exit_code);
+  AddAdoptCommand(app, exit_code);
   AddReplayCommand(app, exit_code);
   AddDiffCommand(app, exit_code);
+  AddInspectCommand(app, exit_code);
   AddExportCommand(app, exit_code);
   AddAttachCommand(app, exit_code);
   AddControlCommand(app, exit_code);
+  AddShareCommand(app, exit_code);
   AddCheckCommand(app, exit_code);
   AddConvertCommand(app, exit_code);
   AddListCommand(app, exit_code);

@@ -5,6 +5,7 @@
 #include <bit>
 #include <filesystem>
 
+#include "common/messages/assignment.h"
 #include "common/program/usage_error.h"
 #include "common/space/attributes.h"
 #include "common/space/state_checks.h"
@@ -61,32 +62,16 @@ std::string TextOfSlot(const CSwarmanoidSpace& space, std::uint32_t slot)
 }  // namespace
 
 RecordedRun::RecordedRun(const std::string& folder)
-    : folder_(folder), experiment_(ExperimentOf(folder)), journal_(JournalOf(folder)), space_(*experiment_)
+    : folder_(folder), experiment_(ExperimentOf(folder)), journal_(JournalOf(folder))
 {
-  const JournalStart& start = journal_->Start();
-  if (start.origin.experiment != FingerprintOf(*experiment_))
+  if (journal_->Start().origin.experiment != FingerprintOf(*experiment_))
     throw UsageError(fmt::format("the journal of '{}' is of another experiment", folder));
-  // What no message of a tick tells is as at the start of the experiment.
-  if (start.first_tick != 0)
-    throw UsageError(
-        fmt::format("the run '{}' went on from a checkpoint at tick {}: its journal lacks the state there; take a run "
-                    "that began at "
-                    "tick 0",
-                    folder, start.first_tick));
+  if (EndTickOf(journal_->Start(), journal_->Places()) == FirstTick())
+    throw UsageError(fmt::format("the journal of '{}' has no tick yet", folder));
+  states_.emplace(*experiment_, *journal_, journal_->Start());
 }
 
-bool RecordedRun::Next()
-{
-  while (!records_ || !records_->Next(record_))
-  {
-    const auto& places = journal_->Places();
-    while (place_ < places.size() && places[place_].kind != JournalBlockKind::kTicks) ++place_;
-    if (place_ == places.size()) return false;
-    records_.emplace(journal_->Content(places[place_++]));
-  }
-  space_.Apply(record_.state);
-  return true;
-}
+std::uint64_t RecordedRun::LastTick() const { return EndTickOf(journal_->Start(), journal_->Places()) - 1; }
 
 std::string FirstDifference(const CSwarmanoidSpace& a, const CSwarmanoidSpace& b)
 {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "common/journal/journal_reader.h"
-#include "common/space/space.h"
+#include "common/journal/recorded_states.h"
 
 namespace swarmanoid
 {
@@ -15,25 +15,25 @@ namespace swarmanoid
 class RecordedRun
 {
 public:
-  // `folder`: of the run. Throws UsageError if it has no journal, or one that does not say where the run began.
+  // `folder`: of the run. Throws UsageError if it has no journal.
   explicit RecordedRun(const std::string& folder);
 
   const std::string& Folder() const { return folder_; }
   const Experiment& GetExperiment() const { return *experiment_; }
-  // To the next tick, at first to the first one; false after the last one.
-  bool Next();
-  // At the tick, as those processes saw it that stepped there.
-  const CSwarmanoidSpace& Space() const { return space_; }
-  const TickRecord& Record() const { return record_; }
+  const JournalReader& Journal() const { return *journal_; }
+  // As those of RecordedStates.
+  bool Next() { return states_->Next(); }
+  bool Seek(std::uint64_t tick) { return states_->Seek(tick); }
+  const CSwarmanoidSpace& Space() const { return states_->Space(); }
+  const TickRecord& Record() const { return states_->Record(); }
+  std::uint64_t FirstTick() const { return journal_->FirstTick(); }
+  std::uint64_t LastTick() const;
 
 private:
   std::string folder_;
   std::unique_ptr<Experiment> experiment_;
   std::unique_ptr<JournalReader> journal_;
-  CSwarmanoidSpace space_;
-  std::size_t place_ = 0;
-  std::optional<TickRecordReader> records_;
-  TickRecord record_;
+  std::optional<RecordedStates> states_;
 };
 
 // The first entity, and what of it, that has other bits in `b`, with both values, as "x of 'fb_3' is 1.25 and 1.5";

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/bus/run_directory.h"
+#include "common/bus/share.h"
 #include "common/configuration/wording.h"
 #include "launcher/commands.h"
 
@@ -26,7 +27,10 @@ std::string Described(const std::vector<LocalRun>& runs)
   return text;
 }
 
-RunChoice ChoiceOf(const LocalRun& run) { return {run.experiment, run.domain, static_cast<int>(run.server)}; }
+RunChoice ChoiceOf(const LocalRun& run)
+{
+  return {run.experiment, run.domain, static_cast<int>(run.server), !run.key.has_value()};
+}
 
 // Who sits at a terminal says which of several is meant.
 const LocalRun& Ask(const std::vector<LocalRun>& runs)
@@ -53,6 +57,26 @@ std::vector<LocalRun> Fitting(const std::string& name, std::optional<int> domain
 }
 
 }  // namespace
+
+RunChoice RunOf(const ShareTicket& ticket, const std::string& name)
+{
+  if (name.empty() || name == ticket.experiment) return {ticket.experiment, ticket.domain, std::nullopt};
+  throw UsageError(fmt::format("the share in {} is of experiment {}, not of {}; `unset {}` for runs of your own",
+                               kShareVariable, Quoted(ticket.experiment), Quoted(name), kShareVariable));
+}
+
+void CheckInsecure(const RunChoice& run, const BusOptions& options)
+{
+  if (!run.server || options.insecure == run.lets_anybody_in) return;
+  throw UsageError(
+      run.lets_anybody_in
+          ? fmt::format("the run of {} lets anybody in, as it was started with --insecure, and understands "
+                        "only those who are, too; give --insecure here",
+                        Quoted(run.experiment))
+          : fmt::format("the run of {} has a key, and understands only those who use it; leave out "
+                        "--insecure: the key is found on this machine",
+                        Quoted(run.experiment)));
+}
 
 RunChoice AwaitRun(const std::string& name, std::optional<int> domain, double wait_s)
 {

@@ -7,19 +7,30 @@
 namespace swarmanoid
 {
 
+struct BusOptions;
+struct ShareTicket;
+
 struct RunChoice
 {
   std::string experiment;
   int domain = 0;
-  std::optional<int> server;  // process id of its space server, if that is on this machine
+  std::optional<int> server;     // process id of its space server, if that is on this machine
+  bool lets_anybody_in = false;  // likewise: it was started with --insecure
 };
 
 // The one on this machine, or the one of that name. With a domain, experiments of other machines can be meant too.
 // Throws UsageError, listing those that run, if there is none or more than one.
 RunChoice ChooseRun(const std::string& name, std::optional<int> domain);
 
-// The same, but for so many seconds it waits for one to start, and says so on the standard error; of several, who sits
-// at a terminal is asked for one.
+// The one of a share; `name` is empty or its name, or UsageError.
+RunChoice RunOf(const ShareTicket& ticket, const std::string& name);
+
+// Throws UsageError if the run is on this machine and has a key, while no key is to be used, or the other way round:
+// the two would not understand each other.
+void CheckInsecure(const RunChoice& run, const BusOptions& options);
+
+// The same as ChooseRun, but for so many seconds it waits for one to start, and says so on the standard error; of
+// several, who sits at a terminal is asked for one.
 RunChoice AwaitRun(const std::string& name, std::optional<int> domain, double wait_s);
 
 }  // namespace swarmanoid

@@ -2,16 +2,23 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "common/activity/exit_codes.h"
 #include "common/activity/print_error.h"
+#include "common/bus/domain.h"
 #include "common/checkpoint/checkpoint.h"
 #include "common/checkpoint/library_builds.h"
 #include "common/journal/journal_reader.h"
 #include "common/math/reproducible_math.h"
 #include "common/program/usage_error.h"
+#include "launcher/branch.h"
 #include "launcher/cluster_run.h"
 #include "launcher/load.h"
 #include "launcher/manifest_at_death.h"
@@ -44,7 +51,7 @@ void ReadCheckpointOf(const RunSettings& options, const Experiment& experiment)
   const std::string difference = DifferenceOfBuilds(checkpoint.origin.libraries, LibraryBuildsOf(experiment));
   if (!difference.empty())
     PrintError(
-        "swarmanoid: warning: the checkpoint was taken with another build of {}: what it saved may mean "
+        "swarmanoid: warning: the checkpoint was taken with {}: what it saved may mean "
         "something else to this one, and the run need not have the bits of one that was never interrupted\n",
         difference);
 }
@@ -67,10 +74,75 @@ void RefuseBadCheckpoints(const RunSettings& options, const Experiment& experime
   }
 }
 
+// A run: what was asked, and where it is.
+struct Begun
+{
+  RunSettings options;
+  std::unique_ptr<const Experiment> experiment;
+  RunFolder folder;
+  Manifest manifest;
+};
+
+std::string FolderOfReset(const RunFolder& first, unsigned number)
+{
+  return first.File(fmt::format("reset-{}", number));
+}
+
+// The experiment of the first run at tick 0, as `swarmanoid run` with that seed begins it.
+Begun BeginAgain(const Begun& first, const ResetOrigin& from, std::uint64_t seed, RunFolder folder)
+{
+  RunSettings options = first.options;
+  options.file = first.folder.File("experiment.xml");
+  options.settings.clear();
+  options.ticks.reset();
+  options.seed = seed;
+  options.paused = from.paused;
+  options.real_time_factor = from.real_time_factor;
+  options.restore_file.clear();
+  options.any_build = false;
+  options.branch.clear();
+  options.faults_of.clear();
+  auto experiment = LoadOrComplain(options.file, ChangesOf(options));
+  if (!experiment) throw RunFolderError(fmt::format("the run cannot begin again: see '{}'", options.file));
+  Manifest manifest = StartOfManifest(options, *experiment);
+  manifest.domain = first.manifest.domain;
+  manifest.reset_of = from;
+  return {std::move(options), std::move(experiment), std::move(folder), std::move(manifest)};
+}
+
+// After `run`, the last one that came of `first`, has ended.
+Begun NextOf(const Begun& first, const Begun& run, const RunSummary& ended, unsigned number)
+{
+  const ResetRequest& asked = *ended.reset;
+  const ResetOrigin from{run.folder.Path(), ended.ticks, asked.paused, asked.real_time_factor};
+  RunFolder folder(FolderOfReset(first.folder, number), first.experiment->name);
+  if (!first.options.quiet)
+    PrintError("reset at tick {}: it begins again with seed {}, in {}\n", ended.ticks, asked.seed, folder.Path());
+  Begun next = BeginAgain(first, from, asked.seed, std::move(folder));
+  next.folder.Write("experiment.xml", next.experiment->effective_xml);
+  next.folder.Write("manifest.json", next.manifest.Text());
+  return next;
+}
+
+// The newest run that came of `first` by resets, if there is one: a process before this one began it. `number`: how
+// many there are.
+std::optional<Begun> NewestOf(const Begun& first, unsigned& number)
+{
+  namespace fs = std::filesystem;
+  while (fs::exists(FolderOfReset(first.folder, number + 1) + "/manifest.json")) ++number;
+  if (number == 0) return std::nullopt;
+  const std::string folder = FolderOfReset(first.folder, number);
+  const nlohmann::json manifest = ReadManifest(folder);
+  const nlohmann::json& from = manifest.at("reset_of");
+  return BeginAgain(first, {from.at("run"), from.at("tick"), from.at("paused"), from.at("real_time_factor")},
+                    manifest.at("seed"), RunFolder::There(folder));
+}
+
 int Conclude(const RunSettings& options, const RunResult& result, const RunFolder& folder, Manifest& manifest)
 {
   int exit_code = result.exit_code;
-  if (result.summary && !options.expected_hash.empty() && exit_code == kExitDone &&
+  const bool ended = result.summary && !result.summary->reset;
+  if (ended && !options.expected_hash.empty() && exit_code == kExitDone &&
       result.summary->hash != std::stoull(options.expected_hash, nullptr, 16))
   {
     PrintError("the hash differs: expected {:0>16}, got {:016x}\n", options.expected_hash, result.summary->hash);
@@ -96,7 +168,7 @@ int Conclude(const RunSettings& options, const RunResult& result, const RunFolde
     PrintError("swarmanoid: {}\n", error.what());
     if (exit_code == kExitDone) exit_code = kExitProcessFailed;
   }
-  if (result.summary) fmt::print("{}\n", FinishedLine(*result.summary));
+  if (ended) fmt::print("{}\n", FinishedLine(*result.summary));
   return exit_code;
 }
 
@@ -134,12 +206,75 @@ void RefuseContradictions(const RunSettings& options)
 {
   if (options.any_build && options.restore_file.empty())
     throw UsageError("--any-build is about a checkpoint; name it with --restore");
+  if (options.file.empty() && options.branch.empty())
+    throw UsageError("name an experiment file, or a run to branch off with --branch RUN@TICK");
+  if (!options.journal_budget.empty() && (options.single_process || !options.journal))
+    throw UsageError("--journal-budget: the run keeps no journal; leave out --single-process and --no-journal");
   if (!options.single_process) return;
   const std::string why = "; leave out --single-process to run a cluster";
   if (options.controller_hosts != 1) throw UsageError("--controller-hosts: a single process has one" + why);
   if (!options.hosts_file.empty() || !options.engine_hosts.empty())
     throw UsageError("--hosts and --engine-host: a single process runs on this machine" + why);
   if (options.domain) throw UsageError("--domain: a single process uses no DDS" + why);
+}
+
+// Runs, and runs again as often as users reset it. `run` gets a run and returns how it ended. Returns the exit code of
+// the last one.
+int RunUntilEnd(Begun& first, std::optional<Begun> next, unsigned resets, const std::function<RunResult(Begun&)>& run)
+{
+  while (true)
+  {
+    Begun& begun = next ? *next : first;
+    const RunResult result = run(begun);
+    const int exit_code = Conclude(begun.options, result, begun.folder, begun.manifest);
+    if (!result.summary || !result.summary->reset) return exit_code;
+    next = NextOf(first, begun, *result.summary, ++resets);
+  }
+}
+
+// The launcher may die, and so may the process that supervises the run: domain and key are those of both.
+int RunAsCluster(Begun& first, const WatchFunction& watch)
+{
+  RunSettings& options = first.options;
+  const std::optional<RunKey> key = options.insecure ? std::nullopt : std::optional(NewRunKey());
+  const auto run = [&](const Attendance& attendance)
+  {
+    Attendance begins = attendance;
+    unsigned resets = 0;
+    std::optional<Begun> newest = attendance.go_on.incarnation > 0 ? NewestOf(first, resets) : std::nullopt;
+    const auto run_one = [&](Begun& begun)
+    {
+      const auto conclude = [&](const RunResult& result)
+      { return Conclude(begun.options, result, begun.folder, begun.manifest); };
+      RunResult result =
+          RunCluster(begun.options, *begun.experiment, begun.folder, begun.manifest, begins, key, watch, conclude);
+      begins.go_on = {0, 0};
+      return result;
+    };
+    return RunUntilEnd(first, std::move(newest), resets, run_one);
+  };
+  if (watch || options.orphan_timeout_s == 0) return run({});
+  std::optional<FreeDomain> free_domain;
+  if (!options.domain) options.domain = free_domain.emplace().Id();
+  const auto timeout = std::chrono::milliseconds(static_cast<std::int64_t>(1000 * options.orphan_timeout_s));
+  return RunAttended({first.experiment->name, first.folder.Path(), *options.domain, timeout},
+                     options.Replaces() ? options.retries : 0, run);
+}
+
+// Where the run comes from goes into its folder and onto the console.
+void Begin(const Branch& branch, const Experiment& experiment, const RunFolder& folder, RunSettings& options,
+           Manifest& manifest)
+{
+  branch.Install(options, experiment, folder.Path());
+  manifest.branch_of = {branch.Of().run, branch.Of().tick, branch.Hash(), branch.FirstTick(), {}};
+  for (const BranchChange& change : branch.Changes())
+    manifest.branch_of->changes.push_back(change.path + ": " + change.value);
+  if (options.quiet) return;
+  PrintError("branch of {} at tick {}, hash {:016x}{}\n", branch.Of().run, branch.Of().tick, branch.Hash(),
+             branch.FirstTick() == branch.Of().tick
+                 ? ""
+                 : fmt::format("; it begins at tick {}, the newest before it whose state can be saved whole",
+                               branch.FirstTick()));
 }
 
 bool IsOfArgos3(const RunSettings& asked) { return std::filesystem::path(asked.file).extension() == ".argos"; }
@@ -153,11 +288,12 @@ bool WantsOneProcess(const RunSettings& asked, const Experiment& experiment)
 
 }  // namespace
 
-int RunExperiment(const RunSettings& asked, const WatchFunction& watch)
+int RunExperiment(const RunSettings& given, const WatchFunction& watch)
 {
   RequireReproducibleMath();
-  RefuseContradictions(asked);
-  const auto experiment = LoadOrComplain(asked.file, ChangesOf(asked));
+  RefuseContradictions(given);
+  const RunSettings asked = given.branch.empty() ? given : SettingsOfBranch(given);
+  auto experiment = LoadOrComplain(asked.file, ChangesOf(asked));
   if (!experiment) return kExitInvalidFile;
   RunSettings options = asked;
   if (WantsOneProcess(asked, *experiment))
@@ -172,22 +308,27 @@ int RunExperiment(const RunSettings& asked, const WatchFunction& watch)
   RefuseBadFaults(options, *experiment);
   if (!options.events.empty() && !EventsAreGood(options.events, *experiment)) return kExitInvalidFile;
 
+  std::optional<Branch> branch;
+  if (!options.branch.empty()) branch.emplace(options, *experiment);
+  if (branch && branch->ExitCode() != kExitDone) return branch->ExitCode();
+
   try
   {
     const RunFolder folder(options.output_folder, experiment->name);
     Manifest manifest = StartOfManifest(options, *experiment);
+    if (branch) Begin(*branch, *experiment, folder, options, manifest);
     folder.Write("experiment.xml", experiment->effective_xml);
     // The space server reads our files alone.
     if (IsOfArgos3(asked)) options.file = folder.File("experiment.xml");
     folder.Write("manifest.json", manifest.Text());
-    const auto conclude = [&](const RunResult& result) { return Conclude(options, result, folder, manifest); };
-    if (!options.single_process) return conclude(RunCluster(options, *experiment, folder, manifest, watch, conclude));
-    const auto run_here = [&]
+    Begun first{std::move(options), std::move(experiment), folder, std::move(manifest)};
+    if (!first.options.single_process) return RunAsCluster(first, watch);
+    const auto run_here = [&](Begun& begun)
     {
-      const ManifestAtDeath at_death(folder, manifest);
-      return RunHere(options, *experiment, folder, watch);
+      const ManifestAtDeath at_death(begun.folder, begun.manifest);
+      return RunHere(begun.options, *begun.experiment, begun.folder, watch);
     };
-    return conclude(run_here());
+    return RunUntilEnd(first, std::nullopt, 0, run_here);
   }
   catch (const RunFolderError& error)
   {

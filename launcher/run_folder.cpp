@@ -119,6 +119,17 @@ std::string Manifest::Text() const
   json["seed"] = seed;
   json["command"] = command;
   json["started"] = started;
+  if (branch_of)
+    json["branch_of"] = {{"run", branch_of->run},
+                         {"tick", branch_of->tick},
+                         {"state_hash", fmt::format("{:016x}", branch_of->hash)},
+                         {"first_tick", branch_of->first_tick},
+                         {"changes", branch_of->changes}};
+  if (reset_of)
+    json["reset_of"] = {{"run", reset_of->run},
+                        {"tick", reset_of->tick},
+                        {"paused", reset_of->paused},
+                        {"real_time_factor", reset_of->real_time_factor}};
   if (domain) json["domain"] = *domain;
   json["processes"] = nlohmann::ordered_json::array();
   for (const auto& [name, log] : processes) json["processes"].push_back({{"name", name}, {"log", log}});

@@ -26,13 +26,37 @@ public:
   // name and the time under runs/. Throws RunFolderError with the cure.
   RunFolder(const std::string& asked, const std::string& experiment);
 
+  // One that has been made.
+  static RunFolder There(const std::string& path) { return RunFolder(path); }
+
   const std::string& Path() const { return path_; }  // absolute
   std::string File(const std::string& name) const { return path_ + "/" + name; }
   // Writes a whole file, or throws RunFolderError and leaves the one that was there.
   void Write(const std::string& name, const std::string& text) const;
 
 private:
+  explicit RunFolder(std::string path) : path_(std::move(path)) {}
+
   std::string path_;
+};
+
+// The run that another one branched off.
+struct BranchOrigin
+{
+  std::string run;  // its folder
+  std::uint64_t tick = 0;
+  std::uint64_t hash = 0;        // of its state there
+  std::uint64_t first_tick = 0;  // of the branch
+  std::vector<std::string> changes;
+};
+
+// The run that was reset, and so began again as this one.
+struct ResetOrigin
+{
+  std::string run;  // its folder
+  std::uint64_t tick = 0;
+  bool paused = false;
+  double real_time_factor = 0;
 };
 
 // manifest.json: what was run, how, and what came of it. docs/command.md describes the fields.
@@ -45,6 +69,8 @@ struct Manifest
   std::vector<std::string> command;
   std::vector<std::pair<std::string, std::string>> libraries;  // name and build-id, of all that computes the state
   std::string started;
+  std::optional<BranchOrigin> branch_of;
+  std::optional<ResetOrigin> reset_of;
   std::optional<int> domain;                                   // clusters only
   std::vector<std::pair<std::string, std::string>> processes;  // name and log
 

@@ -50,10 +50,10 @@ unsigned FreeCores()
 
 struct CSimulator::Roles
 {
-  Roles(const Experiment& of, const SimulatorOptions& with)
+  Roles(const Experiment& of, const SimulatorOptions& with, unsigned host_count)
       : experiment(of),
         options(WithFolder(with)),
-        assignment(MakeAssignment(of, 1)),
+        assignment(MakeAssignment(of, host_count)),
         server(of, assignment, options.output_folder),
         space(server.Space()),
         steering(of, server, MakeRunControlSetup(of, with), with.stop),
@@ -62,11 +62,14 @@ struct CSimulator::Roles
     const unsigned threads = options.threads == 0 ? FreeCores() : options.threads;
     for (std::size_t e = 0; e < experiment.engines.size(); ++e)
       engines.push_back(std::make_unique<EngineWorker>(space, assignment, e));
-    host = std::make_unique<ControllerHost>(space, assignment, 0, threads);
-    steering.SetHost(*host);
-    host->SetCureOfDeath(
-        "; in one process on_failure can help with exceptions alone: run it as a cluster, without --single-process");
-    if (!options.faults_of.empty()) host->Know(FaultsOfRun(options.faults_of, of, 0));
+    for (std::size_t h = 0; h < assignment.hosts.size(); ++h)
+    {
+      hosts.push_back(std::make_unique<ControllerHost>(space, assignment, h, threads));
+      hosts[h]->SetCureOfDeath(
+          "; in one process on_failure can help with exceptions alone: run it as a cluster, without --single-process");
+      if (!options.faults_of.empty()) hosts[h]->Know(FaultsOfRun(options.faults_of, of, 0));
+    }
+    steering.SetHost(*hosts[0]);
     time_budgets = WatchTimeBudgets(of, assignment.hosts[0]);
     if (options.visualisations)
       for (const RenderConfiguration& render : experiment.visualisations)
@@ -77,7 +80,13 @@ struct CSimulator::Roles
       throw UsageError(
           "the run would stay paused: none of its visualisations is a window or a page that can resume it; leave out "
           "--paused, or run a cluster, which `swarmanoid control resume` reaches");
-    for (const std::uint32_t engine : assignment.hosts[0].frames_from) frames.push_back(&engines[engine]->Sensors());
+    for (const HostLayout& layout : assignment.hosts)
+      for (auto& host_frames = frames.emplace_back(); const std::uint32_t engine : layout.frames_from)
+        host_frames.push_back(&engines[engine]->Sensors());
+    for (const EngineLayout& layout : assignment.engines)
+      for (auto& engine_commands = commands_of_engines.emplace_back(); const std::uint32_t host : layout.commands_from)
+        engine_commands.push_back(&hosts[host]->Commands());
+    for (const auto& host : hosts) commands.push_back(&host->Commands());
     for (const auto& engine : engines) updates.push_back(&engine->Update());
   }
 
@@ -94,7 +103,7 @@ struct CSimulator::Roles
     };
     add(kServerPart, server);
     for (std::size_t e = 0; e < engines.size(); ++e) add(EngineName(experiment, e), *engines[e]);
-    add(HostName(0), *host);
+    for (std::size_t h = 0; h < hosts.size(); ++h) add(HostName(h), *hosts[h]);
     return checkpoint;
   }
 
@@ -102,7 +111,7 @@ struct CSimulator::Roles
   {
     TrySaving(server);
     for (const auto& engine : engines) TrySaving(*engine);
-    TrySaving(*host);
+    for (const auto& host : hosts) TrySaving(*host);
   }
 
   void Restore(const Checkpoint& checkpoint)
@@ -110,13 +119,15 @@ struct CSimulator::Roles
     checkpoint.LoadPart(kServerPart, [&](ByteReader& state) { server.LoadState(checkpoint.snapshot, state); });
     for (std::size_t e = 0; e < engines.size(); ++e)
       checkpoint.LoadPart(EngineName(experiment, e), [&](ByteReader& state) { engines[e]->LoadState(state); });
-    checkpoint.LoadPart(HostName(0), [&](ByteReader& state) { host->LoadState(state); });
+    for (std::size_t h = 0; h < hosts.size(); ++h)
+      checkpoint.LoadPart(HostName(h), [&](ByteReader& state) { hosts[h]->LoadState(state); });
   }
 
-  // What the engines sensed, for the host.
-  std::span<const SensorFrame* const> Frames() const
+  // What the engines sensed, for a host.
+  std::span<const SensorFrame* const> Frames(std::size_t host) const
   {
-    return space.GetTick() == 0 ? std::span<const SensorFrame* const>() : std::span<const SensorFrame* const>(frames);
+    return space.GetTick() == 0 ? std::span<const SensorFrame* const>()
+                                : std::span<const SensorFrame* const>(frames[host]);
   }
 
   static SimulatorOptions WithFolder(SimulatorOptions options)
@@ -128,6 +139,7 @@ struct CSimulator::Roles
   static RunControlSetup MakeRunControlSetup(const Experiment& experiment, const SimulatorOptions& options)
   {
     RunControlSetup setup{options.paused, options.real_time_factor, options.event_log, {}};
+    setup.may_reset = options.may_reset;
     if (!options.events.empty()) setup.repeated = ReadEvents(options.events, experiment);
     return setup;
   }
@@ -140,12 +152,14 @@ struct CSimulator::Roles
   const CSwarmanoidSpace& space;
   Steering steering;
   std::vector<std::unique_ptr<EngineWorker>> engines;
-  std::unique_ptr<ControllerHost> host;
+  std::vector<std::unique_ptr<ControllerHost>> hosts;
   std::unique_ptr<StepTimeout> time_budgets;
   std::vector<std::unique_ptr<Visualiser>> visualisers;
   HashLog hash_log;
   // The messages of a tick; the roles reuse their buffers, so these pointers stay.
-  std::vector<const SensorFrame*> frames;
+  std::vector<std::vector<const SensorFrame*>> frames;  // of each host
+  std::vector<const ControlCommands*> commands;
+  std::vector<std::vector<const ControlCommands*>> commands_of_engines;
   std::vector<const EngineUpdate*> updates;
 
   std::uint64_t first_tick = 0;
@@ -164,16 +178,16 @@ CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& opt
 
 CSimulator::CSimulator(SpaceServer& server) : server_(&server) {}
 
-CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& options, Watch watch)
+CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& options, Watch watch, unsigned hosts)
     : roles_((RequireReproducibleMath(), ReportDeaths(program_invocation_short_name),
-              std::make_unique<Roles>(experiment, options)))
+              std::make_unique<Roles>(experiment, options, hosts)))
 {
   server_ = &roles_->server;
   roles_->watch = std::move(watch);
   CheckCheckpointPeriod(options.checkpoint_every, experiment);
   if (options.checkpoint_every != 0) roles_->TrySavingAll();
   if (!options.restore_file.empty())
-    roles_->Restore(ReadCheckpoint(options.restore_file, experiment, {1, options.any_build}));
+    roles_->Restore(ReadCheckpoint(options.restore_file, experiment, {hosts, options.any_build}));
   roles_->first_tick = roles_->space.GetTick();
   roles_->start = std::chrono::steady_clock::now();
   Show();
@@ -184,21 +198,18 @@ CSimulator::~CSimulator() = default;
 void CSimulator::Sense()
 {
   RefuseWithin("Sense");
-  if (!roles_->finished) roles_->host->Sense(roles_->Frames());
+  if (roles_->finished) return;
+  for (std::size_t h = 0; h < roles_->hosts.size(); ++h) roles_->hosts[h]->Sense(roles_->Frames(h));
 }
 
 bool CSimulator::Step()
 {
-  using Commands = std::span<const ControlCommands* const>;
-
   RefuseWithin("Step");
   Roles& r = *roles_;
   if (r.over || r.finished) return false;
-  const ControlCommands* commands = &r.host->Tick(r.Frames());
-  for (std::size_t e = 0; e < r.engines.size(); ++e)
-    r.engines[e]->Tick(r.server.Moved(),
-                       r.assignment.engines[e].commands_from.empty() ? Commands() : Commands(&commands, 1));
-  r.server.Advance(r.updates, Commands(&commands, 1));
+  for (std::size_t h = 0; h < r.hosts.size(); ++h) r.hosts[h]->Tick(r.Frames(h));
+  for (std::size_t e = 0; e < r.engines.size(); ++e) r.engines[e]->Tick(r.server.Moved(), r.commands_of_engines[e]);
+  r.server.Advance(r.updates, r.commands);
   Show();
   return true;
 }
@@ -227,6 +238,21 @@ void CSimulator::Show()
   r.summary.interrupted = r.steering.Interrupted();
 }
 
+Checkpoint CSimulator::TakeCheckpoint(bool canonicalise)
+{
+  if (canonicalise)
+    for (const auto& engine : roles_->engines) engine->Canonicalise();
+  return roles_->TakeCheckpoint();
+}
+
+bool CSimulator::IsCanonical() const
+{
+  const Roles& r = *roles_;
+  return r.space.GetTick() % r.experiment.canonical_period == 0 ||
+         std::all_of(r.engines.begin(), r.engines.end(),
+                     [](const auto& engine) { return engine->Engine().IsAlwaysCanonical(); });
+}
+
 void CSimulator::RefuseWithin(const char* function) const
 {
   if (!roles_ || roles_->watching)
@@ -242,6 +268,7 @@ const RunSummary& CSimulator::Finish()
   if (r.finished) return r.summary;
   r.finished = true;
   r.steering.Ended();
+  r.summary.reset = r.steering.Reset();
   r.summary.entities = r.space.Size();
   r.summary.ticks = r.space.GetTick();
   r.summary.wall_s = SecondsSince(r.start);
@@ -250,7 +277,7 @@ const RunSummary& CSimulator::Finish()
   r.hash_log.Close();
   r.summary.hash = r.space.Hash();
   for (const auto& visualiser : r.visualisers) visualiser->Finish();
-  r.host->Destroy();
+  for (const auto& host : r.hosts) host->Destroy();
   r.server.Destroy();
   r.summary.failed = r.server.HasFailed();
   return r.summary;

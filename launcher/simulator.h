@@ -24,6 +24,7 @@ namespace swarmanoid
 
 class SpaceEditor;
 class SpaceServer;
+struct Checkpoint;
 
 class CSimulator
 {
@@ -59,10 +60,14 @@ private:
   friend struct WatchedSimulator;
   using Watch = std::function<void(CSimulator&)>;
   // `watch` is called at each tick, before anybody else is shown its state.
-  CSimulator(const Experiment& experiment, const SimulatorOptions& options, Watch watch);
+  CSimulator(const Experiment& experiment, const SimulatorOptions& options, Watch watch, unsigned hosts = 1);
   // Of a run that others step: to look at it.
   explicit CSimulator(SpaceServer& server);
   void Show();
+  // What all roles remember. `canonicalise`: engines are brought to what they save, as at each canonical_period.
+  Checkpoint TakeCheckpoint(bool canonicalise);
+  // Whether what engines save is all that they remember now.
+  bool IsCanonical() const;
   void RefuseWithin(const char* function) const;
 
   SpaceServer* server_ = nullptr;

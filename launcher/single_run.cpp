@@ -44,6 +44,7 @@ RunResult RunHere(const RunSettings& options, const Experiment& experiment, cons
   run.event_log = folder.File("events.csv");
   run.stop = &InterruptFlag();
   run.watch = watch;
+  run.may_reset = !watch;
   run.progress = [&](std::uint64_t tick)
   {
     const Clock::time_point now = Clock::now();

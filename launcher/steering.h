@@ -34,6 +34,7 @@ public:
   // A visualiser asked for the end after the tick was shown.
   void Stopped(const std::string& visualiser);
   void Ended();
+  const std::optional<ResetRequest>& Reset() const { return run_control_.Reset(); }
   bool Interrupted() const { return stop_ != nullptr && *stop_; }
 
   const RunStatus& Status() override;

@@ -2,6 +2,7 @@
 // process and as a cluster.
 #pragma once
 
+#include "common/checkpoint/checkpoint.h"
 #include "launcher/simulator.h"
 
 namespace swarmanoid
@@ -16,6 +17,16 @@ struct WatchedSimulator
   {
     return {experiment, options, std::move(watch)};
   }
+  // One with as many controller hosts as the cluster whose checkpoints it reads and takes.
+  static CSimulator Computing(const Experiment& experiment, const SimulatorOptions& options, unsigned hosts)
+  {
+    return {experiment, options, {}, hosts};
+  }
+  static Checkpoint CheckpointOf(CSimulator& simulator, bool canonicalise)
+  {
+    return simulator.TakeCheckpoint(canonicalise);
+  }
+  static bool IsCanonical(const CSimulator& simulator) { return simulator.IsCanonical(); }
   // One to look at the space server of a cluster.
   static CSimulator Of(SpaceServer& server) { return CSimulator(server); }
 };

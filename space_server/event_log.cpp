@@ -28,7 +28,7 @@ constexpr const char* kHeader = "tick,request,entity,numbers,from,number,when";
 // What can be known to be wrong before the run; the place itself is checked when it is moved there.
 std::string ErrorOf(const ControlRequestMessage& request, const Experiment& experiment)
 {
-  if (request.verb == kRefused || request.verb == kFailedController) return {};
+  if (IsOnlyNoted(request) || request.verb == kFailedController) return {};
   if (std::find(kControlVerbs.begin(), kControlVerbs.end(), request.verb) == kControlVerbs.end())
     return fmt::format("there is no request {}; known are {}", Quoted(request.verb), Listed(kControlVerbs));
   if (!IsSpaceChange(request.verb)) return {};
@@ -102,8 +102,12 @@ std::vector<RecordedEvent> ParseAll(const std::string& text, const std::string& 
 
 std::vector<RecordedEvent> WithoutPace(std::vector<RecordedEvent> events)
 {
-  std::erase_if(events, [](const RecordedEvent& event)
-                { return !IsSpaceChange(event.request.verb) && event.request.verb != "stop"; });
+  std::erase_if(events,
+                [](const RecordedEvent& event)
+                {
+                  const std::string& verb = event.request.verb;
+                  return !IsSpaceChange(verb) && verb != "stop" && verb != "reset";
+                });
   return events;
 }
 
@@ -129,6 +133,11 @@ void AddFault(std::vector<KnownFault>& faults, const RecordedEvent& event, const
 }
 
 }  // namespace
+
+bool IsOnlyNoted(const ControlRequestMessage& request)
+{
+  return request.verb == kRefused || std::ranges::find(kShareVerbs, request.verb) != kShareVerbs.end();
+}
 
 std::string AskerOf(const ControlRequestMessage& request)
 {
@@ -161,8 +170,13 @@ EarlierRequests ReadEarlierRequests(const std::string& path, const Experiment& e
   for (RecordedEvent& event : events)
   {
     const ControlRequestMessage& request = event.request;
+    earlier.until = event.tick;
     if (request.verb == kFailedController) AddFault(earlier.failed, event, experiment);
-    if (request.verb == kRefused || request.verb == kFailedController) continue;
+    if (request.verb == "share" && request.numbers.size() == 2)
+      earlier.shares.push_back({request.entity, request.numbers[0], static_cast<std::int64_t>(request.numbers[1])});
+    if (request.verb == "revoke")
+      std::erase_if(earlier.shares, [&](const SharedWith& share) { return share.id == request.entity; });
+    if (IsOnlyNoted(request) || request.verb == kFailedController) continue;
     const double number = request.numbers.empty() ? 1 : request.numbers[0];
     event.logged = true;
     earlier.answered.push_back(request);
@@ -218,8 +232,8 @@ void EventLog::Write(std::uint64_t tick, const ControlRequestMessage& request)
   if (good)
   {
     // The shortest numbers that read back as the same bits.
-    fmt::print(file_, "{},{},{},{},{},{},{}\n", tick, request.verb, request.entity, fmt::join(request.numbers, " "),
-               CsvField(AskerOf(request)), request.number,
+    fmt::print(file_, "{},{},{},{},{},{},{}\n", tick, request.verb, CsvField(request.entity),
+               fmt::join(request.numbers, " "), CsvField(AskerOf(request)), request.number,
                request.user.empty() && request.verb != kRefused ? std::string() : NowInUtc());
     good = std::fflush(file_) == 0;
   }

@@ -37,6 +37,14 @@ std::vector<RecordedEvent> ReadEvents(const std::string& path, const Experiment&
 // The same from the text of the file.
 std::vector<RecordedEvent> ParseEvents(const std::string& text, const std::string& path, const Experiment& experiment);
 
+// A share of the run, as its request has it.
+struct SharedWith
+{
+  std::string id;
+  double role = 0;
+  std::int64_t ends = 0;
+};
+
 // What was asked of a run whose space server has died, for the next one.
 struct EarlierRequests
 {
@@ -46,6 +54,8 @@ struct EarlierRequests
   std::optional<ControlRequestMessage> step;    // one that is not done yet
   std::optional<std::uint64_t> pause_at;        // the run is paused, or will be at this tick
   std::optional<double> speed;
+  std::vector<SharedWith> shares;  // that were not revoked
+  std::uint64_t until = 0;         // the tick of the newest
 };
 // From its log of events, which may be lacking; the half of a line at its end is cut off. `pause_at`: of its start.
 // Throws ConfigurationError.
@@ -53,6 +63,8 @@ EarlierRequests ReadEarlierRequests(const std::string& path, const Experiment& e
                                     std::optional<std::uint64_t> pause_at);
 // Those of `repeated` that the run had not done yet, after those that it had.
 void AddUndone(std::vector<RecordedEvent>& done, const std::vector<RecordedEvent>& repeated);
+// Whether it is in the log for people, and nothing to be carried out.
+bool IsOnlyNoted(const ControlRequestMessage& request);
 // "user@host:pid" of who asked, as far as it is known.
 std::string AskerOf(const ControlRequestMessage& request);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/configuration/configuration_tree.h"
 #include "space_server/space_changes.h"
 
 namespace swarmanoid
@@ -15,14 +16,17 @@ RunControl::RunControl(const Experiment& experiment, RunControlSetup setup, Answ
       answer_(std::move(answer)),
       event_log_(std::move(setup.event_log), setup.goes_on),
       repeated_(std::move(setup.repeated)),
+      asked_from_(setup.asked_from),
       logged_faults_(std::move(setup.failed)),
       paused_(setup.paused),
+      may_reset_(setup.may_reset),
       real_time_factor_(setup.real_time_factor),
       pause_at_(setup.pause_at),
-      step_(std::move(setup.step))
+      step_(std::move(setup.step)),
+      places_(std::move(setup.places)),
+      move_(std::move(setup.move)),
+      share_out_(std::move(setup.share_out))
 {
-  for (const RecordedEvent& event : repeated_)
-    if (event.logged) asked_from_ = event.tick;
 }
 
 void RunControl::Ask(const ControlRequestMessage& request)
@@ -39,6 +43,8 @@ void RunControl::Refused(const std::string& topic, const std::string& sender)
   refused.client = sender;
   Ask(refused);
 }
+
+void RunControl::Note(const ControlRequestMessage& request) { Ask(request); }
 
 void RunControl::Failed(const std::vector<KnownFault>& faults)
 {
@@ -78,7 +84,7 @@ void RunControl::SetPace(std::uint64_t tick, Clock::time_point now)
 
 bool RunControl::WantsHold() const
 {
-  if (stop_ || paused_) return true;
+  if (stop_ || paused_ || !moving_.empty()) return true;
   const std::lock_guard lock(mutex_);
   return !requests_.empty() || !faults_.empty();
 }
@@ -139,6 +145,15 @@ void RunControl::Repeat(SpaceServer& server)
       if (event.logged) stop_unlogged_.reset();
       continue;
     }
+    if (event.request.verb == "reset")
+    {
+      // Another run was reset there: this one has come as far as that one did.
+      if (!event.logged)
+        Stop(event.request.client);
+      else
+        BeginAgain(event.request, tick, true);
+      continue;
+    }
     try
     {
       Change(event.request, server, event.logged);
@@ -172,7 +187,7 @@ void RunControl::Carry(const ControlRequestMessage& request, SpaceServer& server
   };
   const double number = request.numbers.empty() ? std::nan("") : request.numbers[0];
 
-  if (request.verb == kRefused) return event_log_.Write(tick, request);
+  if (IsOnlyNoted(request)) return event_log_.Write(tick, request);
   if (request.verb == "pause")
   {
     DropStep(tick, "a pause was asked for");
@@ -214,6 +229,31 @@ void RunControl::Carry(const ControlRequestMessage& request, SpaceServer& server
     why_stopped_ = request.client.empty() ? "stopped" : "stopped by " + AskerOf(request);
     reply(true, fmt::format("stopped at tick {}", tick));
   }
+  else if (request.verb == "reset")
+  {
+    try
+    {
+      BeginAgain(request, tick);
+    }
+    catch (const std::invalid_argument& error)
+    {
+      reply(false, error.what());
+    }
+  }
+  else if (IsWorkerMove(request.verb))
+  {
+    try
+    {
+      if (request.verb == "hosts")
+        ShareOut(request, tick);
+      else
+        MoveWorkers(request, tick);
+    }
+    catch (const std::invalid_argument& error)
+    {
+      reply(false, error.what());
+    }
+  }
   else if (IsSpaceChange(request.verb))
   {
     try
@@ -227,6 +267,70 @@ void RunControl::Carry(const ControlRequestMessage& request, SpaceServer& server
   }
   else
     reply(false, fmt::format("unknown request '{}'; known: {}", request.verb, fmt::join(kControlVerbs, ", ")));
+}
+
+void RunControl::BeginAgain(const ControlRequestMessage& request, std::uint64_t tick, bool logged)
+{
+  if (!may_reset_)
+    throw std::invalid_argument(
+        "reset: nobody would start this run again; `swarmanoid run` does, for runs without a program of the user's own "
+        "around them");
+  const std::optional<long long> seed =
+      request.entity.empty() ? static_cast<long long>(experiment_.seed) : ParseInteger(request.entity);
+  if (!seed || *seed < 0)
+    throw std::invalid_argument(
+        fmt::format("reset: {} is no seed; a seed is a whole number from 0 on", request.entity));
+  stop_ = true;
+  why_stopped_ = fmt::format("reset by {}", AskerOf(request));
+  reset_ = ResetRequest{static_cast<std::uint64_t>(*seed), paused_ || pause_at_ != 0, real_time_factor_};
+  ControlRequestMessage done = request;
+  done.entity = std::to_string(*seed);
+  if (!logged) event_log_.Write(tick, done);
+  answer_(request, true, tick, fmt::format("reset at tick {}: it begins again with seed {}", tick, *seed));
+}
+
+void RunControl::MoveWorkers(const ControlRequestMessage& request, std::uint64_t tick)
+{
+  if (!moving_.empty())
+    throw std::invalid_argument(
+        fmt::format("{} is on the way already; ask again when it has arrived", *moving_.begin()));
+  const std::vector<WorkerPlaces::Move> moves = places_.Read(request);
+  event_log_.Write(tick, request);
+  if (moves.empty()) return answer_(request, true, tick, "no worker is at " + request.entity);
+  move_request_ = request;
+  moved_.clear();
+  for (const WorkerPlaces::Move& move : moves) moving_.insert(move.worker);
+  for (const WorkerPlaces::Move& move : moves) move_(move);
+}
+
+void RunControl::ShareOut(const ControlRequestMessage& request, std::uint64_t tick)
+{
+  if (!moving_.empty())
+    throw std::invalid_argument(
+        fmt::format("{} is on the way already; ask again when it has arrived", *moving_.begin()));
+  constexpr std::ptrdiff_t kMostHosts = 1000;
+  const auto robots = std::count_if(experiment_.entities.begin(), experiment_.entities.end(),
+                                    [](const EntityConfiguration& entity) { return !entity.controller.empty(); });
+  const std::vector<std::string> machines =
+      places_.ReadHosts(request, static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(robots, 1, kMostHosts)));
+  if (!share_out_)
+    throw std::invalid_argument(
+        "hosts: all processes start again for it, and the space server cannot: it is in the process of a user");
+  event_log_.Write(tick, request);
+  move_request_ = request;
+  moving_.insert("every process");
+  share_out_(machines);
+}
+
+void RunControl::Arrived(const WorkerPlaces::Move& worker, const std::string& process, std::uint64_t tick)
+{
+  places_.Put(worker);
+  if (moving_.erase(worker.worker) == 0) return;
+  moved_ += fmt::format("{}{} is process {} now", moved_.empty() ? "" : ", ", worker.worker, process);
+  if (!moving_.empty()) return;
+  answer_(*move_request_, true, tick, fmt::format("{}, at tick {}", moved_, tick));
+  move_request_.reset();
+  pace_changed_ = true;
 }
 
 void RunControl::DropStep(std::uint64_t tick, const char* why)
@@ -243,7 +347,7 @@ RunControl::Decision RunControl::Decide(std::uint64_t tick, Clock::time_point no
     decision.go = true;
     return decision;
   }
-  if (paused_) return decision;
+  if (paused_ || !moving_.empty()) return decision;
   if (pace_changed_) SetPace(tick, now);
   if (real_time_factor_ > 0)
   {
@@ -273,6 +377,7 @@ void RunControl::Ended(std::uint64_t tick)
 {
   WriteFaults();
   if (step_) answer_(*step_, true, tick, fmt::format("the run ended at tick {}", tick));
+  if (move_request_) answer_(*move_request_, false, tick, fmt::format("the run ended at tick {}", tick));
   const std::lock_guard lock(mutex_);
   for (const ControlRequestMessage& request : requests_)
     if (request.verb == kRefused)

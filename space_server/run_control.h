@@ -1,19 +1,22 @@
 // RunControl: what users ask of a running experiment, and when the next tick may start: pause, resume, step, speed,
-// stop, move, add, remove. What changed the experiment from outside is written down and can be done again in another
-// run. Requests come from any thread; all else is called by the thread that paces the run, in a cluster the main thread
-// of the space_server program.
+// stop, reset, move, add, remove. What changed the experiment from outside is written down and can be done again in
+// another run. Requests come from any thread; all else is called by the thread that paces the run, in a cluster the
+// main thread of the space_server program.
 #pragma once
 
 #include <chrono>
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "common/messages/control_request.h"
+#include "common/run/run_summary.h"
 #include "space_server/event_log.h"
 #include "space_server/space_server.h"
+#include "space_server/worker_places.h"
 
 namespace swarmanoid
 {
@@ -26,9 +29,16 @@ struct RunControlSetup
   std::vector<RecordedEvent> repeated;  // of an earlier run, to be done again
   // Of a run that goes on after its space server has died. `repeated` has what that one did.
   bool goes_on = false;
+  std::uint64_t asked_from = 0;                 // ticks before are done again: nobody comes in between
   std::uint64_t pause_at = 0;                   // 0: does not
   std::optional<ControlRequestMessage> step{};  // that ends there
   std::vector<KnownFault> failed{};             // of controllers, in the log of events already
+  WorkerPlaces places{};
+  bool may_reset = false;  // whoever started the run begins it again if a user asks
+  // Has another process take the place of a worker.
+  std::function<void(const WorkerPlaces::Move&)> move{};
+  // Has all processes start again, with controller hosts on these machines. Empty: nobody can.
+  std::function<void(const std::vector<std::string>& machines)> share_out{};
 };
 
 class RunControl
@@ -53,8 +63,14 @@ public:
   // Likewise: a message on `topic` was refused, of `sender` and for the reason that are told. For the log of events.
   void Refused(const std::string& topic, const std::string& sender);
 
+  // Likewise: what was asked and done elsewhere. For the log of events.
+  void Note(const ControlRequestMessage& request);
+
   // Likewise: controllers failed, and the run goes on.
   void Failed(const std::vector<KnownFault>& faults);
+
+  // A process has taken the place of a worker, on that machine: elsewhere than asked if none could start there.
+  void Arrived(const WorkerPlaces::Move& worker, const std::string& process, std::uint64_t tick);
 
   // The first tick may start.
   void Start(std::uint64_t tick, Clock::time_point now);
@@ -72,6 +88,8 @@ public:
   double Speed() const { return real_time_factor_; }
   // "stopped by <who>", empty unless somebody asked for the end.
   const std::string& WhyStopped() const { return why_stopped_; }
+  // Set if it ends because a user wants it to begin again.
+  const std::optional<ResetRequest>& Reset() const { return reset_; }
   // Answers those who still wait for a step.
   void Ended(std::uint64_t tick);
 
@@ -80,6 +98,12 @@ private:
   void Carry(const ControlRequestMessage& request, SpaceServer& server);
   // Moves, adds or removes an entity, and says so. Throws std::invalid_argument.
   void Change(const ControlRequestMessage& request, SpaceServer& server, bool logged = false);
+  // Ends the run, which is to begin again.
+  void BeginAgain(const ControlRequestMessage& request, std::uint64_t tick, bool logged = false);
+  // Has workers take other places; the run holds until they have.
+  void MoveWorkers(const ControlRequestMessage& request, std::uint64_t tick);
+  // Has the robots shared out among other controller hosts: this process and all others end for it.
+  void ShareOut(const ControlRequestMessage& request, std::uint64_t tick);
   void WriteFaults();
   void DropStep(std::uint64_t tick, const char* why);
   void SetPace(std::uint64_t tick, Clock::time_point now);
@@ -89,7 +113,7 @@ private:
   EventLog event_log_;
   std::vector<RecordedEvent> repeated_;
   std::size_t next_repeated_ = 0;
-  std::uint64_t asked_from_ = 0;  // ticks before are done again: nobody comes in between
+  std::uint64_t asked_from_;
   mutable std::mutex mutex_;
   std::vector<ControlRequestMessage> requests_;
   std::vector<KnownFault> faults_;  // that are not told yet
@@ -99,9 +123,17 @@ private:
   bool stop_ = false;
   std::optional<std::string> stop_unlogged_;  // who asked
   std::string why_stopped_;
+  bool may_reset_;
+  std::optional<ResetRequest> reset_;
   double real_time_factor_;
   std::uint64_t pause_at_ = 0;  // tick at which a step ends; 0: none
   std::optional<ControlRequestMessage> step_;
+  WorkerPlaces places_;
+  std::function<void(const WorkerPlaces::Move&)> move_;
+  std::function<void(const std::vector<std::string>&)> share_out_;
+  std::optional<ControlRequestMessage> move_request_;
+  std::set<std::string> moving_;  // workers
+  std::string moved_;             // who has arrived, for the asker
   bool pace_changed_ = false;
   std::uint64_t pace_tick_ = 0;
   Clock::time_point pace_start_;

@@ -125,10 +125,12 @@ void SpaceServer::Advance(std::span<const EngineUpdate* const> updates,
 // In the order of the entities, whichever their hosts.
 void SpaceServer::TellFaults(std::span<const ControlCommands* const> commands) const
 {
+  // Of the control steps that made the commands.
+  const std::uint64_t tick = space_.GetTick() - std::min<std::uint64_t>(space_.GetTick(), experiment_.ahead);
   std::vector<KnownFault> faults;
   for (const ControlCommands* command : commands)
     for (std::size_t k = 0; k < command->faults.robots.size(); ++k)
-      faults.push_back({space_.GetTick(), command->faults.robots[k], command->faults.kinds[k]});
+      faults.push_back({tick, command->faults.robots[k], command->faults.kinds[k]});
   if (faults.empty() || !fault_) return;
   std::sort(faults.begin(), faults.end());
   fault_(faults);

@@ -15,22 +15,36 @@ namespace
 
 using Entities = std::vector<std::uint32_t>;
 
-std::vector<Vector3> PlacesOf(const CSwarmanoidSpace& space, const Entities& entities)
-{
-  std::vector<Vector3> places;
-  for (const std::uint32_t index : entities)
-    if (space.IsPresent(index)) places.push_back(space.GetPose(index).position);
-  return places;
-}
-
-class NearestNeighbourMetric : public Metric
+// Of where the entities are that are present.
+class PlacesMetric : public Metric
 {
 public:
-  explicit NearestNeighbourMetric(Entities entities) : entities_(std::move(entities)) {}
+  explicit PlacesMetric(Entities entities) : entities_(std::move(entities)) {}
 
-  void Measure(CSimulator& simulator, std::vector<double>& values) override
+  void Measure(CSimulator& simulator, std::vector<double>& values) final
   {
-    const std::vector<Vector3> places = PlacesOf(simulator.GetSpace(), entities_);
+    const CSwarmanoidSpace& space = simulator.GetSpace();
+    places_.clear();
+    for (const std::uint32_t index : entities_)
+      if (space.IsPresent(index)) places_.push_back(space.GetPose(index).position);
+    if (!places_.empty()) Measure(places_, values);
+  }
+
+private:
+  virtual void Measure(const std::vector<Vector3>& places, std::vector<double>& values) = 0;
+
+  Entities entities_;
+  std::vector<Vector3> places_;
+};
+
+class NearestNeighbourMetric final : public PlacesMetric
+{
+public:
+  using PlacesMetric::PlacesMetric;
+
+private:
+  void Measure(const std::vector<Vector3>& places, std::vector<double>& values) override
+  {
     if (places.size() < 2) return;
     for (std::size_t i = 0; i < places.size(); ++i)
     {
@@ -40,9 +54,6 @@ public:
       values.push_back(std::sqrt(nearest));
     }
   }
-
-private:
-  Entities entities_;
 };
 
 // The order parameter of Vicsek et al. (1995), equation 3, over headings in the plane.
@@ -71,15 +82,14 @@ private:
   Entities entities_;
 };
 
-class DispersionMetric : public Metric
+class DispersionMetric final : public PlacesMetric
 {
 public:
-  DispersionMetric(Entities entities, double radius_m) : entities_(std::move(entities)), radius_m_(radius_m) {}
+  DispersionMetric(Entities entities, double radius_m) : PlacesMetric(std::move(entities)), radius_m_(radius_m) {}
 
-  void Measure(CSimulator& simulator, std::vector<double>& values) override
+private:
+  void Measure(const std::vector<Vector3>& places, std::vector<double>& values) override
   {
-    const std::vector<Vector3> places = PlacesOf(simulator.GetSpace(), entities_);
-    if (places.empty()) return;
     Vector3 centroid = Vector3::Zero();
     for (const Vector3& place : places) centroid += place;
     centroid /= static_cast<double>(places.size());
@@ -88,20 +98,17 @@ public:
     values.push_back(squares / (4 * radius_m_ * radius_m_));
   }
 
-private:
-  Entities entities_;
   double radius_m_;
 };
 
-class LargestClusterMetric : public Metric
+class LargestClusterMetric final : public PlacesMetric
 {
 public:
-  LargestClusterMetric(Entities entities, double range_m) : entities_(std::move(entities)), range_m_(range_m) {}
+  LargestClusterMetric(Entities entities, double range_m) : PlacesMetric(std::move(entities)), range_m_(range_m) {}
 
-  void Measure(CSimulator& simulator, std::vector<double>& values) override
+private:
+  void Measure(const std::vector<Vector3>& places, std::vector<double>& values) override
   {
-    const std::vector<Vector3> places = PlacesOf(simulator.GetSpace(), entities_);
-    if (places.empty()) return;
     std::vector<std::size_t> waiting(places.size()), group;
     std::iota(waiting.begin(), waiting.end(), std::size_t{0});
     std::size_t largest = 0;
@@ -122,8 +129,6 @@ public:
     values.push_back(static_cast<double>(largest) / static_cast<double>(places.size()));
   }
 
-private:
-  Entities entities_;
   double range_m_;
 };
 

@@ -101,10 +101,8 @@ void CompareBuilds(const BuildsByName& wanted, const BuildsByName& own, const st
           fmt::format("its Swarmanoid is another build (revision '{}' there, '{}' here), whose results "
                       "may differ; install the same on both",
                       GitRevision(), revision));
-    throw StudyRefused(
-        fmt::format("its library '{}' is another build ({} there, {} here), whose results may differ; "
-                    "copy the file",
-                    name, there.substr(0, 16), build.substr(0, 16)));
+    throw StudyRefused(fmt::format("{} is another one there ({}) than here ({}), and results may differ; copy the file",
+                                   NameInText({name, build}), there.substr(0, 16), build.substr(0, 16)));
   }
 }
 

@@ -25,10 +25,25 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* kDatabase = "study.sqlite";
+// Until its tables are made.
+constexpr const char* kUnfinished = "study.sqlite.new";
+constexpr const char* kLock = "lock";
 // Of the tables of a database.
 constexpr int kStoreFormat = 1;
 
 std::string NameInSql(const std::string& name) { return "\"" + name + "\""; }
+
+// Whether a study may begin there: also where one was ended before it had begun.
+bool IsEmpty(const fs::path& folder)
+{
+  std::error_code error;
+  for (fs::directory_iterator each(folder, error), end; !error && each != end; each.increment(error))
+  {
+    const std::string name = each->path().filename().string();
+    if (name != kLock && !name.starts_with(kUnfinished)) return false;
+  }
+  return !error;
+}
 
 }  // namespace
 
@@ -112,7 +127,7 @@ void StudyStore::Fail(const std::string& what)
 // Of the process, so that it goes with it.
 void StudyStore::Lock()
 {
-  const std::string path = folder_ + "/lock";
+  const std::string path = folder_ + "/" + kLock;
   lock_ = open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
   if (lock_ < 0) throw StudyStoreError(fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
   struct flock whole
@@ -124,13 +139,16 @@ void StudyStore::Lock()
     throw StudyStoreError(fmt::format("another process works on the study '{}'; wait until it has ended", folder_));
 }
 
-void StudyStore::Connect(bool create)
+void StudyStore::Connect(const char* file)
 {
-  Lock();
-  const std::string path = folder_ + "/" + kDatabase;
-  if (sqlite3_open_v2(path.c_str(), &database_, SQLITE_OPEN_READWRITE | (create ? SQLITE_OPEN_CREATE : 0), nullptr) !=
-      SQLITE_OK)
+  const std::string path = folder_ + "/" + file;
+  if (sqlite3_open_v2(path.c_str(), &database_, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr) != SQLITE_OK)
     Fail("");
+}
+
+void StudyStore::Connect()
+{
+  Connect(kDatabase);
   sqlite3_busy_timeout(database_, 10'000);  // of somebody who looks at it
   // A killed process loses nothing that was committed.
   Execute("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL");
@@ -151,14 +169,15 @@ std::unique_ptr<StudyStore> StudyStore::Create(const std::string& folder, const 
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw StudyStoreError(fmt::format("cannot make the folder '{}': {}", folder, error.message()));
-  if (!fs::is_directory(folder, error) || !fs::is_empty(folder, error))
+  if (!IsEmpty(folder))
     throw StudyStoreError(
         fmt::format("'{0}' is no empty folder; name another one by --output, or go on with the study there: swarmanoid "
                     "sweep {0} --resume",
                     folder));
   std::unique_ptr<StudyStore> store(new StudyStore(folder));
-  store->Connect(true);
-  store->MakeTables(study, design);
+  store->Lock();
+  store->MakeDatabase(study, design);
+  store->Connect();
   store->ReadColumns();
   return store;
 }
@@ -169,12 +188,25 @@ std::unique_ptr<StudyStore> StudyStore::Open(const std::string& folder)
   if (!fs::exists(folder + "/" + kDatabase, none))
     throw StudyStoreError(fmt::format("'{}' is no folder of a study: it has no {}", folder, kDatabase));
   std::unique_ptr<StudyStore> store(new StudyStore(folder));
-  store->Connect(false);
+  store->Lock();
+  store->Connect();
   if (store->Fact("format") != std::to_string(kStoreFormat))
-    throw StudyStoreError(
-        fmt::format("'{}/{}' is of another version of Swarmanoid, or was never complete", folder, kDatabase));
+    throw StudyStoreError(fmt::format("'{}/{}' is of another version of Swarmanoid", folder, kDatabase));
   store->ReadColumns();
   return store;
+}
+
+// Under its name only when it is complete: whoever finds it can read it.
+void StudyStore::MakeDatabase(const Study& study, const Design& design)
+{
+  const std::string path = folder_ + "/" + kUnfinished;
+  for (const char* part : {"", "-journal"}) std::remove((path + part).c_str());
+  Connect(kUnfinished);
+  MakeTables(study, design);
+  sqlite3_close(database_);
+  database_ = nullptr;
+  if (std::rename(path.c_str(), (folder_ + "/" + kDatabase).c_str()) != 0)
+    throw StudyStoreError(fmt::format("cannot rename '{}': {}", path, std::strerror(errno)));
 }
 
 void StudyStore::MakeTables(const Study& study, const Design& design)

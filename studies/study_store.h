@@ -72,10 +72,12 @@ public:
 private:
   struct Statement;
   explicit StudyStore(std::string folder);
-  void Connect(bool create);
+  void Connect();
+  void Connect(const char* file);
   void Lock();
   void Execute(const std::string& commands);
   std::unique_ptr<Statement> Prepare(const std::string& command);
+  void MakeDatabase(const Study& study, const Design& design);
   void MakeTables(const Study& study, const Design& design);
   void ReadColumns();
   [[noreturn]] void Fail(const std::string& what);

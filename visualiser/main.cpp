@@ -9,6 +9,7 @@
 #include "common/bus/control_client.h"
 #include "common/bus/recovery.h"
 #include "common/bus/replica.h"
+#include "common/bus/share.h"
 #include "common/bus/tick_gate.h"
 #include "common/bus/worker_program.h"
 #include "common/bus/worker_session.h"
@@ -38,7 +39,7 @@ std::uint64_t Begin(WorkerSession& session, Replica& replica, Visualiser& visual
   }
   RecoverySteps steps;
   steps.begin = [&] { replica.RestoreSpace(); };
-  if (!visualiser.IsInteractive()) steps.step = [&](const TickRecord&) { visualiser.Draw(); };
+  if (!visualiser.IsInteractive()) steps.step = [&](const TickRecord&, const TickRecord*) { visualiser.Draw(); };
   return Recover(session, replica, steps);
 }
 
@@ -47,7 +48,7 @@ void RunSynchronous(WorkerSession& session, const std::string& id, const std::st
   Replica replica(session.World(), false);
   const std::vector<RenderConfiguration>& visualisations = replica.experiment->visualisations;
   const std::size_t number = NumberOf(*replica.experiment, visualisations, "visualisation", id);
-  ControlClient client(session.GetBus(), session.World().experiment);
+  ControlClient client(session.GetBus(), session.World().experiment, session.World().run);
   RequestControl control([&](const ControlRequestMessage& r) { client.Send(r.verb, r.entity, r.numbers); });
   RemoteMonitor monitor(session.GetBus(), session.World(), true);
   Visualiser visualiser(visualisations[number], *replica.space, replica.assignment, output, &control, &monitor);
@@ -67,10 +68,12 @@ void RunSynchronous(WorkerSession& session, const std::string& id, const std::st
   }
 }
 
-void RunAttached(WorkerSession& session, const WorkerSettings& settings, const RenderConfiguration& configuration)
+// Until the run ends or the user has seen enough. True if the run began again with another seed instead: what is shown
+// then may stand elsewhere from the start.
+bool Show(WorkerSession& session, const WorkerSettings& settings, const RenderConfiguration& configuration)
 {
   Replica replica(session.World(), false);
-  ControlClient client(session.GetBus(), session.World().experiment);
+  ControlClient client(session.GetBus(), session.World().experiment, session.World().run);
   RequestControl control([&](const ControlRequestMessage& r) { client.Send(r.verb, r.entity, r.numbers); });
   RemoteMonitor monitor(session.GetBus(), session.World(), false);
   Visualiser visualiser(configuration, *replica.space, replica.assignment, settings.output,
@@ -81,9 +84,16 @@ void RunAttached(WorkerSession& session, const WorkerSettings& settings, const R
   while ((over = session.Follow(kIdlePeriod, [&] { node.Work(); })))
   {
     monitor.ServerIsLost();
+    const std::uint64_t seed = session.World().seed;
     if (!session.FollowNext([&] { return visualiser.Idle(); })) break;
+    if (session.World().seed != seed)
+    {
+      visualiser.Finish();
+      return true;
+    }
     monitor.FollowRun(session.World().run);
     node.FollowRun(session.World().run);
+    client.FollowRun(session.World().run);
   }
   if (over && session.RunHasEnded())
   {
@@ -97,6 +107,14 @@ void RunAttached(WorkerSession& session, const WorkerSettings& settings, const R
     while (!visualiser.Idle() && !Interrupted()) std::this_thread::sleep_for(kIdlePeriod);
   visualiser.Finish();
   if (over && !visualiser.IsInteractive()) throw BusError(*over);
+  return false;
+}
+
+void RunAttached(WorkerSession& session, const WorkerSettings& settings, const RenderConfiguration& configuration)
+{
+  while (Show(session, settings, configuration))
+  {
+  }
 }
 
 // The kind after --attach, so that the renderer's own options are known when the words are read.
@@ -107,13 +125,24 @@ std::string AttachedKind(int argc, char** argv)
   return {};
 }
 
-int Run(const WorkerSettings& settings, const std::vector<std::string>& parameters, const BusOptions& bus)
+// For holders of shares: they look on at that run, and some of them only that.
+void UseShare(WorkerSettings& settings, BusOptions& bus)
+{
+  const auto ticket = TicketOfEnvironment();
+  if (!ticket) return;
+  UseTicket(*ticket, bus);
+  settings.experiment = ticket->experiment;
+  settings.read_only |= ticket->share.role != ShareRole::kOperator;
+}
+
+int Run(WorkerSettings settings, const std::vector<std::string>& parameters, BusOptions bus)
 {
   if (settings.render.empty() == settings.attach.empty())
     throw UsageError("give either --render ID or --attach KIND; for example --attach text");
   if (!settings.attach.empty())
   {
     const RenderConfiguration configuration = ConfigureRenderer(FindRenderer(settings.attach), parameters);
+    UseShare(settings, bus);
     WorkerSession session(bus, settings.experiment,
                           fmt::format("attached {} visualiser {}", configuration.id, ProcessId()), settings.server);
     session.LookOn();
@@ -122,7 +151,7 @@ int Run(const WorkerSettings& settings, const std::vector<std::string>& paramete
   // What people do at a window is for the run's logs.
   OpenLog({.process = "visualiser", .stderr_level = LogLevel::kInfo});
   WorkerSession session(bus, settings.experiment, fmt::format("visualiser '{}'", settings.render), {},
-                        settings.incarnation);
+                        settings.incarnation, settings.machine);
   return session.Work([&] { RunSynchronous(session, settings.render, settings.output); });
 }
 

@@ -30,7 +30,8 @@ public:
   // Puts an entity that is not in the arena into it: the one of that id, or the next one of the <reserve> of that id.
   virtual void AddEntity(const std::string& id, const Pose& pose) = 0;
   virtual void RemoveEntity(const std::string& id) = 0;
-  virtual void Stop() = 0;  // the run ends at its tick
+  virtual void Stop() = 0;   // the run ends at its tick
+  virtual void Reset() = 0;  // and begins again at tick 0, with the same seed
 };
 
 // What a renderer can know of the run beyond its space. For the thread of Draw and Idle; nothing here waits, and what a
@@ -48,6 +49,8 @@ public:
   virtual void Watch(std::span<const std::uint32_t> robots) = 0;
   // The latest of a watched robot; nullptr while nothing has come.
   virtual const RobotStatus* Robot(std::uint32_t robot) = 0;
+  // The folder of the run, if it is on this machine and the run keeps a journal there; otherwise empty.
+  virtual std::string RunFolder() { return {}; }
 };
 
 struct RenderSetup

@@ -24,6 +24,7 @@ public:
   void AddEntity(const std::string& id, const Pose& pose) override { AskWithPose("add", id, pose); }
   void RemoveEntity(const std::string& id) override { Ask("remove", id); }
   void Stop() override { Ask("stop"); }
+  void Reset() override { Ask("reset"); }
 
 private:
   void AskWithPose(const std::string& verb, const std::string& entity, const Pose& pose);

@@ -437,7 +437,6 @@ private:
   void ConvertController(const ConfigurationNode& theirs, ConfigurationNode& parent, bool somebody_hears)
   {
     const SourceLocation& at = theirs.location;
-    if (theirs.name == "lua_controller") return Mistake(at, "controllers in Lua are not run here; take one in C++");
     const Made made = AddNode(parent, "argos3_controller", at);
     const std::string id = NeededText(theirs, "id");
     SetValue(*made, "id", id, at);
@@ -461,8 +460,15 @@ private:
     }
     const Made parameters = AddNode(*made, "parameters", at);
     const Made options = AddNode(*parameters, "argos3", at);
-    SetValue(*options, "label", theirs.name, at);
-    SetLibrary(theirs, "library", *options);
+    if (theirs.name == "lua_controller")
+    {
+      SetScript(theirs, *options);
+    }
+    else
+    {
+      SetValue(*options, "label", theirs.name, at);
+      SetLibrary(theirs, "library", *options);
+    }
     SetValue(*options, "sensors", sensors, at);
     SetValue(*options, "actuators", actuators, at);
     if (!floor_id_.empty()) SetValue(*options, "floor", "loop_functions", at);
@@ -501,6 +507,21 @@ private:
     return tags;
   }
 
+  void SetScript(const ConfigurationNode& theirs, ConfigurationNode& options)
+  {
+    const ConfigurationNode* params = FindChild(theirs, "params");
+    const auto* script = params == nullptr ? nullptr : FindAttributeOf(*params, "script");
+    if (script == nullptr) return Mistake(theirs.location, "a <lua_controller> needs <params script=\"FILE.lua\"/>");
+    std::string searched;
+    const auto file = Found({fs::current_path(), folder_, fs::path(folder_).parent_path()}, {script->value}, searched);
+    if (!file)
+      return Mistake(script->location, "the script " + Quoted(script->value) +
+                                           " is not found; start in the folder from which the path leads to it; " +
+                                           "searched:" + searched);
+    SetValue(options, "script", *file, script->location);
+    SetValue(options, "script_name", script->value, script->location);
+  }
+
   void SetLibrary(const ConfigurationNode& theirs, const char* ours, ConfigurationNode& options)
   {
     const std::string library = NeededText(theirs, "library");
@@ -512,18 +533,27 @@ private:
     folders.emplace_back(folder_);
     folders.push_back(fs::path(folder_).parent_path());
     std::string searched;
-    for (const fs::path& folder : folders)
-      for (const std::string& name : {library, library + ".so", "lib" + library + ".so"})
-      {
-        const fs::path file = (folder / name).lexically_normal();
-        std::error_code none;
-        if (fs::is_regular_file(file, none)) return SetValue(options, ours, file.string(), at);
-        searched += "\n    " + file.string();
-      }
+    if (const auto file = Found(folders, {library, library + ".so", "lib" + library + ".so"}, searched))
+      return SetValue(options, ours, *file, at);
     Mistake(at,
             "the library " + Quoted(library) +
                 " is not found; build it, name its folder in ARGOS_PLUGIN_PATH, or start in the folder from which " +
                 "the path leads to it; searched:" + searched);
+  }
+
+  // The first file of one of the names in one of the folders; otherwise where it is not, a line each.
+  static std::optional<std::string> Found(const std::vector<fs::path>& folders, const std::vector<std::string>& names,
+                                          std::string& searched)
+  {
+    for (const fs::path& folder : folders)
+      for (const std::string& name : names)
+      {
+        const fs::path file = (folder / name).lexically_normal();
+        std::error_code none;
+        if (fs::is_regular_file(file, none)) return file.string();
+        searched += "\n    " + file.string();
+      }
+    return std::nullopt;
   }
 
   void ConvertEngines(ConfigurationNode& ours)

@@ -12,6 +12,7 @@
 #include "argos3/library/running.h"
 #include "argos3/plugin/devices.h"
 #include "argos3/plugin/labels.h"
+#include "argos3/plugin/lua_controller.h"
 
 // Both sides have a macro of that name.
 #undef REGISTER_CONTROLLER
@@ -40,12 +41,11 @@ public:
     const TConfigurationTree options = t_tree.Child("argos3");
     if (!options.Exists())
       throw ConfigurationError(t_tree.Location(), "<parameters> holds no <argos3>; `swarmanoid convert` writes it");
-    const auto create = FindLabel(options, "library", "controller", ControllersByLabel);
     translation_ = Translation::From(options);
     TheRunning().translation = translation_;
     id_ = translation_.Argos3Id(GetRobot()->GetId());
     const Speaker speaker(*GetRobot());
-    controller_.reset(create());
+    controller_ = MakeController(options);
     controller_->SetId(id_);
     MakeDevices(options);
     if (!TheRunning().controllers.emplace(id_, controller_.get()).second)
@@ -78,6 +78,16 @@ public:
   bool ReadsParametersLater() const override { return true; }
 
 private:
+  std::unique_ptr<argos::CCI_Controller> MakeController(const TConfigurationTree& options) const
+  {
+    if (std::string script = options.GetText("script", ""); !script.empty())
+    {
+      return MakeLuaController(
+          {options.GetText("script_name"), std::move(script), [robot = GetRobot()] { return robot->GetTime(); }});
+    }
+    return std::unique_ptr<argos::CCI_Controller>(FindLabel(options, "library", "controller", ControllersByLabel)());
+  }
+
   void MakeDevices(const TConfigurationTree& options)
   {
     const DeviceSetup setup{*GetRobot(), translation_, options};

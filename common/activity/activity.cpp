@@ -38,9 +38,9 @@ __attribute__((tls_model("initial-exec"))) thread_local const std::atomic<const 
 
 const Actor* SharingActor()
 {
-  if (own_place != nullptr) return own_place->load(std::memory_order_relaxed);
+  if (own_place != nullptr) return own_place->load(std::memory_order_acquire);
   for (const ActorOfThread& thread : sharing)
-    if (const Actor* actor = thread.actor.load(std::memory_order_relaxed)) return actor;
+    if (const Actor* actor = thread.actor.load(std::memory_order_acquire)) return actor;
   return nullptr;
 }
 
@@ -72,7 +72,8 @@ ActivityPage* PageOfLauncher()
 
 void Publish(const Actor* actor)
 {
-  current_actor.store(actor, std::memory_order_relaxed);
+  // Whoever reads it reads what it points to.
+  current_actor.store(actor, std::memory_order_release);
   ActivityPage& page = OwnActivityPage();
   page.number.store(actor == nullptr ? 0 : actor->number, std::memory_order_relaxed);
 }
@@ -151,7 +152,7 @@ namespace activity
 
 Current Now()
 {
-  const Actor* actor = current_actor.load(std::memory_order_relaxed);
+  const Actor* actor = current_actor.load(std::memory_order_acquire);
   return {actor != nullptr ? actor : SharingActor(), current_step.load(std::memory_order_relaxed),
           current_tick.load(std::memory_order_relaxed)};
 }

@@ -29,7 +29,7 @@ public:
     Thread& operator=(const Thread&) = delete;
 
     // This thread runs the code of `actor` from now on.
-    void Next(const Actor& actor) { place_->store(&actor, std::memory_order_relaxed); }
+    void Next(const Actor& actor) { place_->store(&actor, std::memory_order_release); }
 
   private:
     std::atomic<const Actor*>* place_;

@@ -38,6 +38,26 @@ void DescribeAnyRobotDevices()
                     .brief = "the LEDs of any robot that has them",
                     .parameters = ColourNoiseParameters(),
                     .robots = TagsOfKinds([](const Kind& kind) { return kind.leds.has_value(); })});
+  DescribeActuator(
+      {.label = "directional_leds",
+       .implementation = "generic_directional_leds",
+       .brief = "the LEDs of any robot that has them, each seen from within a cone only",
+       .parameters = Joined({{.name = "observable_angle",
+                              .unit = "deg",
+                              .default_value = "60",
+                              .description = "Between the axis of an LED and the border of the cone from within which "
+                                             "it is seen.",
+                              .minimum = 0,
+                              .maximum = 180},
+                             {.name = "elevation",
+                              .unit = "deg",
+                              .default_value = "0",
+                              .description = "Of the axes above the plane of the ring, unless the robot's kind says "
+                                             "where its LEDs look. They look outwards.",
+                              .minimum = -90,
+                              .maximum = 90}},
+                            ColourNoiseParameters()),
+       .robots = TagsOfKinds([](const Kind& kind) { return kind.leds.has_value(); })});
   DescribeSensor(
       {.label = "proximity",
        .implementation = "generic_proximity",

@@ -55,8 +55,8 @@ void DescribeBuiltinRenderers()
   static const bool described = []
   {
     for (const PluginDescription& renderer :
-         {TextRenderDescription(), ImageRenderDescription(), OpenGlRenderDescription(), OgreRenderDescription(),
-          WebRenderDescription(), Ros2RenderDescription()})
+         {TextRenderDescription(), ImageRenderDescription(), FigureRenderDescription(), OpenGlRenderDescription(),
+          OgreRenderDescription(), WebRenderDescription(), Ros2RenderDescription(), FoxgloveRenderDescription()})
       PluginCatalogue::Instance().Add(PluginKind::kRenderer, renderer);
     return true;
   }();

@@ -68,6 +68,9 @@ void DescribeCameras()
   DescribeCamera("footbot_omnidirectional_camera", "footbot", "omnidirectional camera", ViewParameters("70", "3"),
                  Elevation::kNone);
   DescribeCamera("eyebot_camera", "eyebot", "camera that looks down", ViewParameters("30", "3"), Elevation::kNone);
+  // Aperture and range: the perspective camera of ARGoS3.
+  DescribeCamera("eyebot_pan_tilt_camera", "eyebot", "camera that turns with the laser", ViewParameters("30", "2"),
+                 Elevation::kReported);
   DescribeCamera("handbot_camera", "handbot", "camera that looks ahead", ViewParameters("30", "2"),
                  Elevation::kReported);
   DescribeSensor({.label = "pie_camera",

@@ -67,17 +67,22 @@ void Dynamics3dBodies(const EntityConfiguration& entity, std::span<const double>
   bodies.push_back({false, At(0, 0, S::kBaseHeight / 2), {S::kBaseSide / 2, S::kBaseSide / 2, S::kBaseHeight / 2}});
   const double trunk = S::kHeight - S::kBaseHeight;
   bodies.push_back({false, At(0, 0, S::kBaseHeight + trunk / 2), {S::kTrunkLength / 2, S::kTrunkWidth / 2, trunk / 2}});
-  const Pose head{Vector3(S::kHeadForward, 0, S::kHeadHeight),
-                  QuaternionFromEuler({AttributeOf(entity, attributes, "head_angle"), 0, 0})};
   for (std::size_t arm = 0; arm < 2; ++arm)
   {
-    const double side = arm == 0 ? 1 : -1;
-    const double opened = side * AttributeOf(entity, attributes, "arm", arm);
-    const Pose shoulder = head.Compose({Vector3(0, side * S::kShoulder, 0), QuaternionFromYaw(opened)});
+    const Pose shoulder = HandbotShoulder(arm, AttributeOf(entity, attributes, "head_angle"),
+                                          AttributeOf(entity, attributes, "arm", arm));
     // Along the arm.
     const Pose middle{Vector3(S::kArmLength / 2, 0, 0), QuaternionFromEuler({0, kPi / 2, 0})};
     bodies.push_back({true, shoulder.Compose(middle), {S::kArmRadius, S::kArmRadius, S::kArmLength / 2}});
   }
+}
+
+Pose HandbotShoulder(std::size_t arm, double head_angle, double aperture)
+{
+  using S = HandbotParts;
+  const Pose head{Vector3(S::kHeadForward, 0, S::kHeadHeight), QuaternionFromEuler({head_angle, 0, 0})};
+  const double side = arm == 0 ? 1 : -1;
+  return head.Compose({Vector3(0, side * S::kShoulder, 0), QuaternionFromYaw(side * aperture)});
 }
 
 }  // namespace swarmanoid

@@ -18,4 +18,7 @@ void Dynamics2dBodies(const EntityConfiguration& entity, std::span<const double>
 void Dynamics3dBodies(const EntityConfiguration& entity, std::span<const double> attributes,
                       std::vector<CollisionBody>& bodies);
 
+// The shoulder of an arm (0 left, 1 right) of a handbot, in its frame; x points along the arm. Radians.
+Pose HandbotShoulder(std::size_t arm, double head_angle, double aperture);
+
 }  // namespace swarmanoid

@@ -35,6 +35,16 @@ void DescribeHandbotDevices()
                   .brief = "angles of head, arms, wrists and hands, what the hands hold, the rope",
                   .parameters = NoiseParameters("each angle", "rad"),
                   .robots = {"handbot"}});
+  DescribeSensor({.label = "handbot_proximity",
+                  .implementation = "generic_handbot_proximity",
+                  .brief = "12 proximity sensors in each hand; 1 touching, falling evenly to 0 at the range",
+                  .parameters = Joined({{.name = "range",
+                                         .unit = "m",
+                                         .default_value = "0.05",
+                                         .description = "Distance from the sensor beyond which nothing is seen.",
+                                         .minimum = 0.001}},
+                                       NoiseParameters("each reading", "")),
+                  .robots = {"handbot"}});
   DescribeActuator({.label = "handbot_rope",
                     .implementation = "dummy_handbot_rope",
                     .brief = "shoots the rope to the ceiling and climbs by its winch",

@@ -11,10 +11,12 @@ namespace swarmanoid
 
 PluginDescription TextRenderDescription();
 PluginDescription ImageRenderDescription();
+PluginDescription FigureRenderDescription();
 PluginDescription OpenGlRenderDescription();
 PluginDescription OgreRenderDescription();
 PluginDescription WebRenderDescription();
 PluginDescription Ros2RenderDescription();
+PluginDescription FoxgloveRenderDescription();
 
 // What all renderers of pictures share. camera_view_XYZ_n, camera_view_HPR_n.
 std::vector<ParameterSpec> ViewpointParameters();

@@ -25,6 +25,8 @@ struct HandbotParts
   static constexpr double kHeadHeight = 0.10;
   static constexpr double kShoulder = 0.05;    // left and right of the head's axis
   static constexpr double kArmLength = 0.196;  // upper arm 0.138 and claw 0.058
+  static constexpr double kClawLength = 0.058;
+  static constexpr double kClawWidth = 0.038;
   static constexpr double kArmRadius = 0.012;
 };
 

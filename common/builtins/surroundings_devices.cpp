@@ -5,6 +5,7 @@
 
 #include "common/builtins/devices.h"
 #include "common/plugins/noise_parameters.h"
+#include "common/plugins/parameter_checks.h"
 
 namespace swarmanoid
 {
@@ -101,6 +102,64 @@ void DescribeDistanceScanners()
                   .robots = {"eyebot"}});
 }
 
+ParameterSpec Count(const char* name, const char* value, const char* description, double most)
+{
+  return {.name = name,
+          .type = ParameterType::kInteger,
+          .default_value = value,
+          .description = description,
+          .minimum = 1,
+          .maximum = most};
+}
+
+ParameterSpec Angle(const char* name, const char* value, const char* description, double least, double most)
+{
+  return {.name = name,
+          .unit = "deg",
+          .default_value = value,
+          .description = description,
+          .minimum = least,
+          .maximum = most};
+}
+
+std::vector<ConfigurationError> MistakesInDepths(const Parameters& parameters)
+{
+  if (parameters.Number("nearest") < parameters.Number("range")) return {};
+  return {ConfigurationError(parameters.Tree().ValueLocation(parameters.IsGiven("nearest") ? "nearest" : "range"),
+                             "'nearest' of <" + parameters.Tree().Name() + "> is " + parameters.Text("nearest") +
+                                 " m and 'range' " + parameters.Text("range") + " m; nearest must be less")};
+}
+
+void DescribeDepthCamera()
+{
+  const PluginDescription camera{
+      .label = "depth_camera",
+      .implementation = "generic_depth_camera",
+      .brief = "a small image of depths and colours, by a ray through the middle of each pixel",
+      .parameters = Joined(
+          Joined(
+              {Count("width", "32", "Pixels of a row.", 256),
+               Count("height", "24", "Rows.", 256),
+               Angle("field_of_view", "60", "Between the left and the right border of the image.", 1, 150),
+               Length("range", "5", "Greatest depth that is measured.", 0.001),
+               Length("nearest", "0", "Least depth; what is nearer is not seen, and hides nothing."),
+               {.name = "position",
+                .type = ParameterType::kVector3,
+                .unit = "m",
+                .default_value = "0, 0, 0.1",
+                .description = "Of the camera, in the frame of the robot, which it does not see itself."},
+               Angle("pan", "0", "Of its axis to the left of the robot's front.", -180, 180),
+               Angle("tilt", "0", "Of its axis above the plane of the robot's base; -90 looks straight down.", -90, 90),
+               {.name = "floor_colour",
+                .type = ParameterType::kColour,
+                .default_value = "#ffffff",
+                .description = "Colour of the floor outside all patches."}},
+              NoiseParameters("each depth", "m", "depth_")),
+          NoiseParameters("red, green and blue of each pixel", "1/255", "colour_"))};
+  ParameterChecks::Instance().Add(PluginKind::kSensor, camera, MistakesInDepths);
+  DescribeSensor(camera);
+}
+
 void DescribeRadio()
 {
   DescribeActuator({.label = "radio",
@@ -137,6 +196,7 @@ void DescribeSurroundingsDevices()
   DescribeMotionSensors();
   DescribeMicrophones();
   DescribeDistanceScanners();
+  DescribeDepthCamera();
   DescribeRadio();
   DescribeActuator({.label = "report",
                     .implementation = "generic_report",

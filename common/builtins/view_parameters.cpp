@@ -22,7 +22,9 @@ std::vector<ParameterSpec> QualityParameters()
       {"show_ids", ParameterType::kBoolean, "", "false", "Whether robots and preys have their ids as labels."},
       {"show_trails", ParameterType::kBoolean, "", "false", "Whether robots and preys leave a trail."},
       {"show_rays", ParameterType::kBoolean, "", "false",
-       "Whether the rays of the footbots' proximity sensors are drawn, red where they meet something."},
+       "Whether the rays of proximity sensors are drawn, red where they meet something, and the cones of directional "
+       "LEDs "
+       "that are lit."},
       {"show_collision_models", ParameterType::kBoolean, "", "false",
        "Whether the bodies that the engines collide are drawn over the robots."}};
 }

@@ -33,6 +33,13 @@ public:
   using BusError::BusError;
 };
 
+// A message that is not for this run, though a member once sent it. It is refused, and nobody fails for it.
+class ForeignMessage : public BadMessage
+{
+public:
+  using BadMessage::BadMessage;
+};
+
 struct BadMessageReport
 {
   std::string topic;
@@ -49,6 +56,14 @@ bool BusIsBroken();
 [[noreturn]] void EndAtOnce(int code);
 
 inline constexpr int kDefaultDomain = 77;
+
+// A way beside the topics of the members of a run, with a key of its own, between the space server and those who look
+// at a run, or steer it, without being members (share.h).
+struct ShareChannel
+{
+  std::string id;
+  std::optional<RunKey> key{};  // none: what is sent is not sealed, and nothing is received
+};
 
 struct BusOptions
 {
@@ -71,6 +86,8 @@ struct BusOptions
   int key_fd = -1;
   std::string key_file{};
   bool insecure = false;  // no key: whoever is in the domain belongs to the run
+  // All messages of this process that are not of a tick go this way.
+  std::optional<ShareChannel> share{};
 
   bool Spread() const { return network_interface != "lo"; }
   unsigned DatagramBytes() const { return static_cast<unsigned>(datagram_bytes.value_or(Spread() ? 1440 : 65500)); }
@@ -85,7 +102,8 @@ public:
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  // Called when another process of the domain has gone (without a word if `died`), with "host:pid" and its name.
+  // Called when another process of the run has gone (without a word if `died`), with "host:pid" and its name. Anybody
+  // can say in the name of a process that it goes: it is believed if that process is silent from then on.
   void OnProcessGone(std::function<void(const std::string& process, const std::string& name, bool died)> callback);
 
   // Called with each bad message. True: its sender belongs to the run, which ends for that. Otherwise the message is
@@ -108,6 +126,10 @@ private:
 
 // The key that a process was given, if any. Not twice: what a descriptor gives is read. Throws BusError.
 std::optional<RunKey> GivenKey(const BusOptions& options);
+
+// The IPv4 address under which processes of other machines reach this one; "127.0.0.1" if the bus uses no network.
+// Throws BusError.
+std::string ReachableAddress(const BusOptions& options);
 
 // "host:pid" of this process.
 std::string ProcessId();
@@ -168,15 +190,16 @@ private:
 };
 
 // All other messages. `partition`: the experiment's name; for subscriptions a pattern such as "*" is allowed. What is
-// called with a message may throw BadMessage.
+// called with a message may throw BadMessage. `share`: the channel that is used instead of that of the bus.
 template <class Message>
 class Publisher
 {
 public:
-  Publisher(Bus& bus, const std::string& partition);
+  Publisher(Bus& bus, const std::string& partition, const std::optional<ShareChannel>& share = std::nullopt);
   ~Publisher();
 
-  // Throws BadMessage if a name in the message cannot be sent, BusError if the bus does not take it.
+  // Throws BadMessage if a name in the message cannot be sent, BusError if the bus does not take it, or if this process
+  // has no key of the run.
   void Write(const Message& message);
   unsigned Readers() const;
   // False if not all readers confirmed in time.
@@ -191,7 +214,8 @@ template <class Message>
 class Subscription
 {
 public:
-  Subscription(Bus& bus, const std::string& partition, std::function<void(const Message&)> received);
+  Subscription(Bus& bus, const std::string& partition, std::function<void(const Message&)> received,
+               const std::optional<ShareChannel>& share = std::nullopt);
   ~Subscription();
 
   unsigned Writers() const;

@@ -152,12 +152,6 @@ public:
     Put(static_cast<std::uint32_t>(list.size()));
     for (T& item : list) visit(*this, item);
   }
-  // Room for it; what it holds depends on all bytes before it.
-  void Seal()
-  {
-    Align(sizeof(std::uint64_t));
-    bytes_.Pad(kSealBytes);
-  }
 
 private:
   void Align(std::size_t size) { bytes_.Pad((size - bytes_.at % size) % size); }
@@ -282,12 +276,6 @@ public:
     if (count > (bytes_.size() - at_) / kLeast) RefuseLength(field, count, kLeast, bytes_.size() - at_);
     list.resize(count);
     for (T& item : list) visit(*this, item);
-  }
-  void Seal()
-  {
-    Align("seal", sizeof(std::uint64_t));
-    if (kSealBytes > bytes_.size() - at_) RefuseField("seal", "the message ends before it");
-    at_ += kSealBytes;
   }
 
 private:

@@ -42,6 +42,15 @@ OptionSpec IncarnationOption(WorkerSettings& s)
       "1"};
 }
 
+OptionSpec MachineOption(WorkerSettings& s)
+{
+  return {{.name = "machine",
+           .type = kText,
+           .description = "What whoever starts this process calls the machine that it is on"},
+          &s.machine,
+          "beta"};
+}
+
 }  // namespace
 
 std::optional<std::pair<std::string, unsigned>> ParseServerAddress(const std::string& text)
@@ -137,7 +146,7 @@ std::vector<OptionSpec> EngineOptionTable(WorkerSettings& s)
   OptionSpec engine{
       {.name = "engine", .type = kText, .description = "The engine's id in the experiment file"}, &s.engine, "ground"};
   engine.required = true;
-  return {engine, ExperimentOption(s), IncarnationOption(s)};
+  return {engine, ExperimentOption(s), IncarnationOption(s), MachineOption(s)};
 }
 
 std::vector<OptionSpec> HostOptionTable(WorkerSettings& s)
@@ -158,6 +167,7 @@ std::vector<OptionSpec> HostOptionTable(WorkerSettings& s)
            "2"},
           ExperimentOption(s),
           IncarnationOption(s),
+          MachineOption(s),
           {{.name = "fault",
             .type = kText,
             .description = "A controller that killed this host before, by tick and number of its robot among the "
@@ -176,6 +186,7 @@ std::vector<OptionSpec> VisualiserOptionTable(WorkerSettings& s)
            &s.render,
            "positions"},
           IncarnationOption(s),
+          MachineOption(s),
           {{.name = "attach",
             .type = kText,
             .description = "Kind of renderer to attach to a running experiment, which it never slows"},

@@ -32,6 +32,7 @@ struct WorkerSettings
   bool read_only = false;
   std::optional<int> server{};
   unsigned incarnation = 0;
+  std::string machine{};
   unsigned threads = 1;  // of a controller host
   // Controllers that killed the hosts before, "TICK:ROBOT" with the number of the entity.
   std::vector<std::string> faults{};

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "common/bus/message_type.h"
 #include "common/bus/participant.h"
 
@@ -7,15 +9,18 @@ namespace swarmanoid
 namespace
 {
 
+// Those of a share have a name of their own, so that readers of the run do not hear what they cannot open.
 template <class Message>
-dds::Topic* ColdTopic(Bus& bus)
+std::string TopicName(const std::optional<ShareChannel>& share)
 {
-  return bus.Internals().TopicOf(kTopicOf<Message>, [] { return dds::TypeSupport(new ColdType<Message>()); });
+  return share ? std::string(kTopicOf<Message>) + "/" + share->id : kTopicOf<Message>;
 }
 
-constexpr const char* kNoSeal =
-    "it is not sealed by the key of this run: its sender is of another user or another run, or was started without "
-    "the key (--key)";
+template <class Message>
+dds::Topic* ColdTopic(Bus& bus, const std::string& name)
+{
+  return bus.Internals().TopicOf(name, [] { return dds::TypeSupport(new ColdType<Message>()); });
+}
 
 template <class Message>
 std::uint64_t TickOf(const Message& message)
@@ -31,22 +36,38 @@ std::uint64_t TickOf(const Message& message)
 template <class Message>
 struct Publisher<Message>::Impl
 {
-  Impl(Bus& its_bus, const std::string& its_partition)
+  Impl(Bus& its_bus, const std::string& its_partition, const std::optional<ShareChannel>& its_share)
       : bus(its_bus.Internals()),
         partition(its_partition),
-        writer(its_bus, ColdTopic<Message>(its_bus), partition, WriterQos(QosOf(kTopicOf<Message>)))
+        share(its_share ? its_share : bus.share),
+        topic(TopicName<Message>(share)),
+        writer(its_bus, ColdTopic<Message>(its_bus, topic), partition, WriterQos(QosOf(kTopicOf<Message>)))
   {
+  }
+
+  // For the present key of the run; nullptr if anybody is let in.
+  Sealer* SealerNow()
+  {
+    if (bus.insecure || (share && !share->key)) return nullptr;
+    const auto key = share ? share->key : bus.keys.Of(partition);
+    if (!key)
+      throw BusError(fmt::format("cannot send {}: this process has no key of the run of '{}'", topic, partition));
+    if (!sealer || sealer->Key() != *key) sealer.emplace(*key, topic);
+    return &*sealer;
   }
 
   Bus::Impl& bus;
   const std::string partition;
+  const std::optional<ShareChannel> share;
+  const std::string topic;
   WriterEnd writer;
   std::mutex mutex;
-  std::uint64_t number = 0;  // of the last message
+  std::optional<Sealer> sealer;
 };
 
 template <class Message>
-Publisher<Message>::Publisher(Bus& bus, const std::string& partition) : impl_(std::make_unique<Impl>(bus, partition))
+Publisher<Message>::Publisher(Bus& bus, const std::string& partition, const std::optional<ShareChannel>& share)
+    : impl_(std::make_unique<Impl>(bus, partition, share))
 {
 }
 
@@ -67,10 +88,8 @@ void Publisher<Message>::Write(const Message& message)
     throw BadMessage(std::string("cannot send ") + kTopicOf<Message> + ": " + error.what());
   }
   const std::lock_guard lock(impl_->mutex);
-  const auto key = impl_->bus.insecure ? std::nullopt : impl_->bus.keys.Of(impl_->partition);
-  if (key)
-    call.seal = [&](std::span<char> payload)
-    { Seal(payload, *key, kTopicOf<Message>, IdOf(impl_->writer->guid()), ++impl_->number); };
+  call.sealer = impl_->SealerNow();
+  call.writer = IdOf(impl_->writer->guid());
   if (!impl_->writer->write(&call)) throw BusError(std::string("cannot send ") + kTopicOf<Message>);
 }
 
@@ -92,11 +111,20 @@ struct Subscription<Message>::Impl : dds::DataReaderListener
 {
   using Writer = eprosima::fastrtps::rtps::GUID_t;
 
-  Impl(Bus& its_bus, const std::string& its_partition, std::function<void(const Message&)> callback)
+  Impl(Bus& its_bus, const std::string& its_partition, std::function<void(const Message&)> callback,
+       const std::optional<ShareChannel>& its_share)
       : bus(its_bus.Internals()),
         partition(its_partition),
+        share(its_share ? its_share : bus.share),
+        topic(TopicName<Message>(share)),
         received(std::move(callback)),
-        reader(its_bus, ColdTopic<Message>(its_bus), partition, ReaderQos(QosOf(kTopicOf<Message>), 1), this)
+        opener(topic),
+        reader(its_bus,
+               [this, &its_bus]
+               {
+                 return std::make_unique<ReaderEnd>(its_bus, ColdTopic<Message>(its_bus, topic), partition,
+                                                    ReaderQos(QosOf(kTopicOf<Message>), 1), this);
+               })
   {
   }
 
@@ -112,51 +140,79 @@ struct Subscription<Message>::Impl : dds::DataReaderListener
 
   void Take(const Writer& writer)
   {
-    // Nothing of a message is looked at before it is known whose it is.
-    std::optional<std::uint64_t> number;
-    if (!bus.insecure)
-    {
-      number = bus.keys.Open(partition, payload, kTopicOf<Message>, IdOf(writer));
-      if (!number) return bus.Refuse(kTopicOf<Message>, writer, kNoSeal);
-      bus.Recognise(writer);
-    }
+    std::optional<Opener::Opened> opened;
+    std::span<const char> bytes = payload;
     try
     {
-      ReadPayload(std::span<const char>(payload), message);
-      if (number && !IsNew(writer, *number))
-        return bus.Refuse(kTopicOf<Message>, writer, "it is a repetition of a message that has come before");
+      // Nothing of a message is looked at before it is known whose it is.
+      if (!bus.insecure)
+      {
+        opened = Open();
+        if (!opened)
+        {
+          reader.Renew();
+          return bus.Refuse(topic, writer, kNoSeal);
+        }
+        if (opened->writer != IdOf(writer)) return bus.Refuse(topic, writer, kOtherWriter);
+        bus.Recognise(writer);
+        bytes = opened->payload;
+      }
+      ReadPayload(bytes, message);
+      if (opened)
+      {
+        const std::string* const instance = KeyOf(message);
+        const std::string of = instance == nullptr ? std::string() : *instance;
+        if (!opener.IsNew(*opened, of))
+        {
+          if (!reader.WasRenewed()) bus.Refuse(topic, writer, kRepetition);
+          return;
+        }
+        opener.Note(*opened, of);
+      }
       received(message);
+    }
+    catch (const ForeignMessage& error)
+    {
+      bus.Refuse(topic, writer, error.what());
     }
     catch (const BadMessage& error)
     {
-      bus.Report(kTopicOf<Message>, writer, TickOf(message), error.what());
+      bus.Report(topic, writer, TickOf(message), error.what());
     }
   }
 
-  // Those of one writer come in their order; of topics with instances, those of one instance.
-  bool IsNew(const Writer& writer, std::uint64_t number)
+  std::optional<Opener::Opened> Open()
   {
-    const std::string* const instance = KeyOf(message);
-    std::uint64_t& last = numbers[{IdOf(writer), instance == nullptr ? std::string() : *instance}];
-    if (number <= last) return false;
-    last = number;
-    return true;
+    if (opener.Knows(payload)) return opener.Open(payload, room);
+    if (share) return share->key ? opener.OpenBy(*share->key, payload, room) : std::nullopt;
+    std::optional<Opener::Opened> opened;
+    bus.keys.Try(partition,
+                 [&](const RunKey& key)
+                 {
+                   opened = opener.OpenBy(key, payload, room);
+                   return opened.has_value();
+                 });
+    return opened;
   }
 
   Bus::Impl& bus;
   const std::string partition;
+  const std::optional<ShareChannel> share;
+  const std::string topic;
   std::function<void(const Message&)> received;
   std::mutex mutex;
   std::vector<char> payload;
+  std::vector<char> room;  // for what it holds
   Message message;
-  std::map<std::pair<WriterId, std::string>, std::uint64_t> numbers;  // of the last message
-  ReaderEnd reader;
+  Opener opener;
+  RenewedReader reader;
 };
 
 template <class Message>
 Subscription<Message>::Subscription(Bus& bus, const std::string& partition,
-                                    std::function<void(const Message&)> received)
-    : impl_(std::make_unique<Impl>(bus, partition, std::move(received)))
+                                    std::function<void(const Message&)> received,
+                                    const std::optional<ShareChannel>& share)
+    : impl_(std::make_unique<Impl>(bus, partition, std::move(received), share))
 {
 }
 

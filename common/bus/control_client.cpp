@@ -4,6 +4,8 @@
 #include <random>
 #include <string>
 
+#include "common/bus/participant.h"
+
 namespace swarmanoid
 {
 
@@ -13,14 +15,18 @@ namespace
 {
 
 constexpr auto kRepeat = 250ms;
+constexpr auto kStatusTime = 1s;
 constexpr double kLate_s = 0.5;
+// For a space server that was heard and has gone: on a busy machine another one takes its time to go on with the run.
+constexpr auto kRestartTime = 15s;
 
 }  // namespace
 
 // Process ids come again: requests of another process of our number must not be taken for repetitions of ours.
-ControlClient::ControlClient(Bus& bus, const std::string& experiment)
+ControlClient::ControlClient(Bus& bus, const std::string& experiment, std::uint64_t run)
     : bus_(bus),
       experiment_(experiment),
+      run_(run),
       number_(std::random_device()()),
       requests_(bus, experiment),
       replies_(bus, experiment,
@@ -39,11 +45,14 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, c
 {
   if (statuses_ == nullptr)
     statuses_ = std::make_unique<Subscription<RunStatusMessage>>(
-        bus_, experiment_, [this](const RunStatusMessage& message) { Heard(message.status); });
+        bus_, experiment_, [this](const RunStatusMessage& message) { Heard(message); });
   const auto patience = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_s));
   std::unique_lock lock(mutex_);
   got_on_ = Clock::now();
-  const auto is_patient = [&] { return Clock::now() < got_on_ + patience; };
+  const auto start = Clock::now();
+  bool is_gone = false;  // who was asked
+  const auto is_patient = [&]
+  { return Clock::now() < got_on_ + (is_gone ? std::max<Clock::duration>(patience, kRestartTime) : patience); };
   // The bus calls us while it holds locks that it takes for these questions, too: none of ours may be held meanwhile.
   const auto without_lock = [&](const auto& call)
   {
@@ -54,8 +63,12 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, c
   };
   while (without_lock([this] { return requests_.Readers() == 0 || replies_.Writers() == 0; }))
     if (answered_.wait_for(lock, 2ms), !is_patient()) return std::nullopt;
+  // A share that has ended tells nothing of the run any more, and refuses whatever is asked.
+  const bool by_share = bus_.Internals().share.has_value();
+  while (run_ == 0 && !(by_share && Clock::now() - start > kStatusTime))
+    if (answered_.wait_for(lock, 2ms), !is_patient()) return std::nullopt;
   reply_.reset();
-  const ControlRequestMessage request{ProcessId(), ++number_, verb, entity, numbers, UserName()};
+  const ControlRequestMessage request{ProcessId(), ++number_, verb, entity, numbers, UserName(), run_};
   // We may know the server before it knows us: then its answer finds nobody, and the same request is answered again.
   while (!reply_ && is_patient())
   {
@@ -66,26 +79,39 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, c
           return requests_.Readers() > 0;
         });
     answered_.wait_for(lock, kRepeat, [this] { return reply_.has_value(); });
+    is_gone = !is_heard && status_ && status_->phase != RunStatus::Phase::kFinished;
     // A run that ends upon the request may be gone before its answer finds us.
     if (reply_ || is_heard) continue;
     const bool finished = status_ && status_->phase == RunStatus::Phase::kFinished;
-    if (verb != "stop" && !finished) continue;
+    const bool ends_it = verb == "stop" || verb == "reset";
+    if (!ends_it && !finished) continue;
     reply_ = ControlReplyMessage{.client = request.client, .number = request.number, .text = {}};
-    reply_->ok = verb == "stop" || verb == "resume" || verb == "step";
+    reply_->ok = ends_it || verb == "resume" || verb == "step";
     reply_->tick = finished ? status_->tick : 0;
-    reply_->text = verb == "stop" ? "stopped" : "the run ended at tick " + std::to_string(reply_->tick);
+    reply_->text = verb == "reset"  ? "reset"
+                   : verb == "stop" ? "stopped"
+                                    : "the run ended at tick " + std::to_string(reply_->tick);
   }
   return reply_;
 }
 
 // A run that is slow because it is told to be has nobody who is late.
-void ControlClient::Heard(const RunStatus& status)
+void ControlClient::Heard(const RunStatusMessage& message)
 {
   const std::lock_guard lock(mutex_);
+  const RunStatus& status = message.status;
+  run_ = message.run;
+  answered_.notify_all();
   const bool waits =
       std::ranges::any_of(status.processes, [](const ProcessStatus& process) { return process.late_s > kLate_s; });
   if (!waits || !status_ || status.tick != status_->tick) got_on_ = Clock::now();
   status_ = status;
+}
+
+void ControlClient::FollowRun(std::uint64_t run)
+{
+  const std::lock_guard lock(mutex_);
+  run_ = run;
 }
 
 std::optional<RunStatus> ControlClient::LatestStatus()
@@ -97,11 +123,13 @@ std::optional<RunStatus> ControlClient::LatestStatus()
 void ControlClient::Send(const std::string& verb, const std::string& entity, const std::vector<double>& numbers)
 {
   std::uint32_t number = 0;
+  std::uint64_t run = 0;
   {
     const std::lock_guard lock(mutex_);
     number = ++number_;
+    run = run_;
   }
-  requests_.Write({ProcessId(), number, verb, entity, numbers, UserName()});
+  requests_.Write({ProcessId(), number, verb, entity, numbers, UserName(), run});
 }
 
 }  // namespace swarmanoid

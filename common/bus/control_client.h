@@ -18,13 +18,16 @@ namespace swarmanoid
 class ControlClient
 {
 public:
-  ControlClient(Bus& bus, const std::string& experiment);
+  // `run`: WorldMessage::run, where it is known; otherwise Ask learns it.
+  ControlClient(Bus& bus, const std::string& experiment, std::uint64_t run = 0);
 
   // Sends a request (ControlRequest in idl/swarmanoid.idl) and waits for the answer, as long as the run gets on: the
-  // answer to a step comes at its end. nullopt if the run told nothing for `timeout_s`, or stood still that long and
-  // waits for one of its processes.
+  // answer to a step comes at its end. nullopt if the run told nothing for `timeout_s` (15 s once its space
+  // server has gone, and another one may come), or stood still that long and waits for one of its processes.
   std::optional<ControlReplyMessage> Ask(const std::string& verb, const std::string& entity,
                                          const std::vector<double>& numbers, double timeout_s);
+  // Another space server goes on with the run, under that number.
+  void FollowRun(std::uint64_t run);
   // How the run went when it was heard last; nullopt if no Ask has heard of it.
   std::optional<RunStatus> LatestStatus();
   // Sends without waiting for an answer.
@@ -33,10 +36,11 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
-  void Heard(const RunStatus& status);
+  void Heard(const RunStatusMessage& message);
 
   Bus& bus_;
   std::string experiment_;
+  std::uint64_t run_;
   std::mutex mutex_;
   std::condition_variable answered_;
   std::optional<RunStatus> status_;

@@ -100,6 +100,47 @@ ReaderEnd::~ReaderEnd()
   participant_->delete_subscriber(subscriber_);
 }
 
+RenewedReader::RenewedReader(Bus& bus, std::function<std::unique_ptr<ReaderEnd>()> make)
+    : later_(bus.Internals().later),
+      name_("reader " + std::to_string(reinterpret_cast<std::uintptr_t>(this))),
+      make_(std::move(make))
+{
+  // Its listener may ask for a new one before it is here.
+  std::shared_ptr<ReaderEnd> first = make_();
+  const std::lock_guard lock(mutex_);
+  reader_ = std::move(first);
+}
+
+RenewedReader::~RenewedReader() { later_.Cancel(name_); }
+
+void RenewedReader::Renew()
+{
+  later_.Schedule(name_, std::chrono::seconds(1),
+                  [this]
+                  {
+                    renewed_ = true;
+                    std::shared_ptr<ReaderEnd> old;
+                    {
+                      const std::lock_guard lock(mutex_);
+                      old = std::move(reader_);
+                    }
+                    old.reset();
+                    std::shared_ptr<ReaderEnd> fresh = make_();
+                    const std::lock_guard lock(mutex_);
+                    reader_ = std::move(fresh);
+                  });
+}
+
+unsigned RenewedReader::Matched() const
+{
+  std::shared_ptr<ReaderEnd> reader;
+  {
+    const std::lock_guard lock(mutex_);
+    reader = reader_;
+  }
+  return reader == nullptr ? 0 : reader->Matched();
+}
+
 unsigned ReaderEnd::Matched() const
 {
   dds::SubscriptionMatchedStatus status;

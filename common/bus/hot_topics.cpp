@@ -18,8 +18,17 @@ constexpr std::size_t kOtherFiles = 128 * 1024;  // of the bus itself: who reads
 template <class Message>
 dds::Topic* HotTopic(Bus& bus, const HotScope& scope)
 {
-  return bus.Internals().TopicOf(kTopicOf<Message>,
-                                 [&] { return dds::TypeSupport(new HotType<Message>(scope.capacity)); });
+  return bus.Internals().TopicOf(
+      kTopicOf<Message>, [&] { return dds::TypeSupport(new HotType<Message>(scope.capacity + kMostSealBytes)); });
+}
+
+// What leaves the machine is sealed, unless the run lets anybody in. Throws BusError.
+std::optional<RunKey> KeyOfTicks(Bus& bus, const HotScope& scope)
+{
+  if (!scope.spread || bus.Internals().insecure) return std::nullopt;
+  const auto key = bus.Internals().keys.Of(scope.experiment);
+  if (!key) throw BusError(fmt::format("this process has no key of the run of '{}'", scope.experiment));
+  return key;
 }
 
 // Whoever writes to memory that is not there is killed.
@@ -44,15 +53,20 @@ std::uint16_t MachineId()
   return static_cast<std::uint16_t>(hash ^ (hash >> 16));
 }
 
-// Through shared memory, which only processes of this user can open. Unless others are wanted, the network is kept out:
-// a datagram in the name of a writer that shares memory would end its reader. An endpoint whose only address is of a
-// kind that the participant does not speak is found by others, and hears nobody.
+bool SharesMemory(Bus& bus, const HotScope& scope)
+{
+  return !scope.directory.empty() && (!scope.spread || bus.Internals().insecure);
+}
+
+// Through shared memory, which only processes of this user can open. A datagram in the name of a writer that shares
+// memory would end its reader, so memory and network are not used together, unless anybody is let in: an endpoint whose
+// only address is of a kind that the participant does not speak is found by others, and hears nobody.
 template <class Qos>
 void ShareData(Qos& qos, Bus& bus, const HotScope& scope)
 {
-  if (scope.directory.empty()) return;
+  if (!SharesMemory(bus, scope)) return;
   qos.data_sharing().on(scope.directory, {MachineId()});
-  if (scope.spread || bus.Internals().insecure) return;
+  if (bus.Internals().insecure) return;
   eprosima::fastrtps::rtps::Locator_t nowhere;
   nowhere.kind = LOCATOR_KIND_SHM;
   nowhere.port = 1;
@@ -67,19 +81,22 @@ struct HotPublisher<Message>::Impl
   Impl(Bus& bus, const HotScope& scope)
       : capacity(scope.capacity), writer(bus, HotTopic<Message>(bus, scope), scope.experiment, Qos(bus, scope))
   {
+    if (const auto key = KeyOfTicks(bus, scope)) sealer.emplace(*key, kTopicOf<Message>);
   }
 
   static dds::DataWriterQos Qos(Bus& bus, const HotScope& scope)
   {
     dds::DataWriterQos qos = WriterQos(QosOf(kTopicOf<Message>));
     const auto samples = qos.resource_limits().max_samples + qos.resource_limits().extra_samples;
-    if (!scope.directory.empty()) RequireSharedMemory(scope.capacity * static_cast<std::size_t>(samples));
+    if (SharesMemory(bus, scope))
+      RequireSharedMemory((scope.capacity + kMostSealBytes) * static_cast<std::size_t>(samples));
     ShareData(qos, bus, scope);
     return qos;
   }
 
   std::size_t capacity;
   WriterEnd writer;
+  std::optional<Sealer> sealer;
 };
 
 template <class Message>
@@ -93,7 +110,8 @@ HotPublisher<Message>::~HotPublisher() = default;
 template <class Message>
 void HotPublisher<Message>::Write(const MessageHeader& header, const Message& message)
 {
-  HotWrite<Message> call{&header, &message, PayloadSize(header, message)};
+  HotWrite<Message> call{&header, &message, PayloadSize(header, message), impl_->sealer ? &*impl_->sealer : nullptr,
+                         IdOf(impl_->writer->guid())};
   if (call.size > impl_->capacity)
     throw BusError(fmt::format("cannot send {} of tick {}: it has {} bytes, and {} at most by the experiment",
                                kTopicOf<Message>, header.tick, call.size, impl_->capacity));
@@ -124,7 +142,13 @@ struct HotSubscription<Message>::Impl : dds::DataReaderListener
   Impl(Bus& its_bus, const HotScope& scope, Handler its_handler)
       : bus(its_bus),
         handler(std::move(its_handler)),
-        reader(bus, HotTopic<Message>(bus, scope), scope.experiment, Qos(bus, scope), this)
+        opener{KeyOfTicks(bus, scope), Opener(kTopicOf<Message>), std::vector<char>(scope.capacity + kMostSealBytes)},
+        reader(bus,
+               [this, &its_bus, scope]
+               {
+                 return std::make_unique<ReaderEnd>(its_bus, HotTopic<Message>(its_bus, scope), scope.experiment,
+                                                    Qos(its_bus, scope), this);
+               })
   {
   }
 
@@ -139,13 +163,27 @@ struct HotSubscription<Message>::Impl : dds::DataReaderListener
   void on_data_available(dds::DataReader* source) override
   {
     const std::lock_guard lock(mutex);
-    HotRead<Message> call{&handler, {}, nullptr, {}};
+    HotRead<Message> call{&handler, {}, nullptr, {}, &opener};
     dds::SampleInfo about;
     while (source->take_next_sample(&call, &about) == ReturnCode::RETCODE_OK)
     {
       if (!about.valid_data) continue;
-      if (!call.error.empty())
-        bus.Internals().Report(kTopicOf<Message>, about.sample_identity.writer_guid(), call.header.tick, call.error);
+      const auto& writer = about.sample_identity.writer_guid();
+      if (call.opened && call.refused == nullptr)
+      {
+        if (call.opened->writer != IdOf(writer))
+          call.refused = kOtherWriter;
+        else
+        {
+          opener.opener.Note(*call.opened);
+          known.insert(call.opened->writer);
+        }
+      }
+      if (call.refused == kNoSeal && known.count(IdOf(writer)) > 0) reader.Renew();
+      if (call.refused != nullptr)
+        bus.Internals().Refuse(kTopicOf<Message>, writer, call.refused);
+      else if (!call.error.empty())
+        bus.Internals().Report(kTopicOf<Message>, writer, call.header.tick, call.error);
       else if (call.message != nullptr)
         handler.received(call.header, *call.message);
     }
@@ -153,8 +191,10 @@ struct HotSubscription<Message>::Impl : dds::DataReaderListener
 
   Bus& bus;
   Handler handler;
-  std::mutex mutex;  // data sharing and network readers call from threads of their own
-  ReaderEnd reader;
+  HotOpener opener;
+  std::mutex mutex;          // data sharing and network readers call from threads of their own
+  std::set<WriterId> known;  // who have sealed a message
+  RenewedReader reader;
 };
 
 template <class Message>

@@ -15,35 +15,51 @@ std::optional<RunKey> KeyRing::Of(const std::string& experiment)
 {
   if (given_) return given_;
   const std::lock_guard lock(mutex_);
-  if (const auto found = known_.find(experiment); found != known_.end()) return found->second;
+  if (const auto found = known_.find(experiment); found != known_.end()) return own_ = found->second;
   for (const LocalRun& run : FindLocalRuns())
-    if (run.domain == domain_ && run.experiment == experiment && run.key) return known_[experiment] = *run.key;
+    if (run.domain == domain_ && run.experiment == experiment && run.key) return own_ = known_[experiment] = *run.key;
   return std::nullopt;
 }
 
-std::optional<std::uint64_t> KeyRing::Open(const std::string& partition, std::span<const char> payload,
-                                           std::string_view topic, const WriterId& writer)
+std::optional<RunKey> KeyRing::Own() const
 {
-  if (given_) return NumberUnderSeal(payload, *given_, topic, writer);
+  if (given_) return given_;
+  const std::lock_guard lock(mutex_);
+  return own_;
+}
+
+std::vector<RunKey> KeyRing::Known() const
+{
+  if (given_) return {*given_};
+  const std::lock_guard lock(mutex_);
+  std::vector<RunKey> keys;
+  for (const auto& [experiment, key] : known_) keys.push_back(key);
+  return keys;
+}
+
+bool KeyRing::Try(const std::string& partition, const std::function<bool(const RunKey&)>& opens)
+{
+  if (given_) return opens(*given_);
   const std::lock_guard lock(mutex_);
   const auto found = partition == "*" ? known_.begin() : known_.find(partition);
   if (found != known_.end())
   {
-    if (const auto number = NumberUnderSeal(payload, found->second, topic, writer)) return number;
+    if (opens(found->second)) return true;
     // Whoever sends what no key opens does not make us look all the time. Another run may have begun.
     const Clock::time_point now = Clock::now();
-    if (now - looked_ < kBetweenLooks) return std::nullopt;
+    if (now - looked_ < kBetweenLooks) return false;
     looked_ = now;
   }
   for (const LocalRun& run : FindLocalRuns())
   {
     if (run.domain != domain_ || !run.key || (partition != "*" && partition != run.experiment)) continue;
-    const auto number = NumberUnderSeal(payload, *run.key, topic, writer);
-    if (!number) continue;
+    if (!opens(*run.key)) continue;
     known_[run.experiment] = *run.key;
-    return number;
+    // From the first message of a run that it hears a process can be known to others.
+    if (!own_) own_ = run.key;
+    return true;
   }
-  return std::nullopt;
+  return false;
 }
 
 }  // namespace swarmanoid

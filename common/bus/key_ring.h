@@ -3,13 +3,14 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <string>
+#include <vector>
 
-#include "common/bus/seal.h"
+#include "common/bus/run_key.h"
 
 namespace swarmanoid
 {
@@ -22,16 +23,21 @@ public:
 
   // By which messages to the run of that experiment are sealed.
   std::optional<RunKey> Of(const std::string& experiment);
-  // The number of a sealed message that came in `partition`, an experiment or "*"; nullopt if no key opens it.
-  std::optional<std::uint64_t> Open(const std::string& partition, std::span<const char> payload, std::string_view topic,
-                                    const WriterId& writer);
+  // By which datagrams are signed: the one by which a message was sealed last or, before, the first that came; if none
+  // did, none.
+  std::optional<RunKey> Own() const;
+  // All that messages came by, and that they are sealed by.
+  std::vector<RunKey> Known() const;
+  // Whether one of the keys `opens` a message that came in `partition`, an experiment or "*".
+  bool Try(const std::string& partition, const std::function<bool(const RunKey&)>& opens);
 
 private:
   using Clock = std::chrono::steady_clock;
 
   const int domain_;
   const std::optional<RunKey> given_;
-  std::mutex mutex_;                     // of what follows
+  mutable std::mutex mutex_;             // of what follows
+  std::optional<RunKey> own_;            // if none was given
   std::map<std::string, RunKey> known_;  // by experiment
   Clock::time_point looked_;             // among the runs, while a key was known
 };

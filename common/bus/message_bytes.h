@@ -29,11 +29,10 @@ template <class Archive, class Message>
 void GoThrough(Archive& archive, const Message& message)
 {
   Fields(archive, const_cast<Message&>(message));
-  archive.Seal();
 }
 
-// Bytes of a payload. `parts`: a header and a message of a tick, or another message. Throws BadMessage if a name in
-// it cannot be sent.
+// Bytes of a payload that is not sealed. `parts`: a header and a message of a tick, or another message. Throws
+// BadMessage if a name in it cannot be sent.
 template <class... Parts>
 std::size_t PayloadSize(const Parts&... parts)
 {
@@ -42,7 +41,7 @@ std::size_t PayloadSize(const Parts&... parts)
   return kEncapsulation + counter.Size();
 }
 
-// `out` has room for PayloadSize(parts) bytes. What is not of a tick ends with room for its seal.
+// `out` has room for PayloadSize(parts) bytes.
 template <class... Parts>
 void WritePayload(char* out, const Parts&... parts)
 {
@@ -51,7 +50,16 @@ void WritePayload(char* out, const Parts&... parts)
   GoThrough(writer, parts...);
 }
 
-// Whatever its seal is. Throws BadMessage; what was read of the message until then must not be used.
+// Likewise, with room for SealedBytes: what a Sealer can seal.
+template <class... Parts>
+void WriteUnsealed(char* out, const Parts&... parts)
+{
+  std::memcpy(out, kEncodingXcdr1, kEncapsulation);
+  CdrWriter writer{ByteMemory{out + kSealedFieldsAt}};
+  GoThrough(writer, parts...);
+}
+
+// Throws BadMessage; what was read of the message until then must not be used.
 template <class Message>
 void ReadPayload(std::span<const char> payload, Message& message)
 {
@@ -59,7 +67,6 @@ void ReadPayload(std::span<const char> payload, Message& message)
   try
   {
     Fields(reader, message);
-    reader.Seal();
     reader.End();
   }
   catch (const BadMessage&)

@@ -192,6 +192,7 @@ void Fields(Archive& archive, JoinMessage& message)
   archive.Name("name", message.name);
   archive.Bool("ready", message.ready);
   archive.Integer("incarnation", message.incarnation);
+  archive.Name("machine", message.machine);
 }
 
 template <class Archive>
@@ -214,6 +215,7 @@ void Fields(Archive& archive, ControlRequestMessage& message)
   archive.Name("entity", message.entity);
   archive.List("numbers", message.numbers, [](Archive& a, double& number) { a.AnyNumber("numbers", number); });
   archive.Name("user", message.user);
+  archive.Integer("run", message.run);
 }
 
 template <class Archive>

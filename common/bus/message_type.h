@@ -37,13 +37,24 @@ protected:
   {
     return {reinterpret_cast<const char*>(payload.data), payload.length};
   }
+  // `size`: of the payload before it is sealed. Without a sealer it stays in the clear.
   template <class... Parts>
-  static bool Write(Payload& payload, std::size_t size, const Parts&... parts)
+  static bool Write(Payload& payload, std::size_t size, Sealer* sealer, const WriterId& writer, const Parts&... parts)
   {
+    const std::size_t padding = sealer == nullptr ? 0 : PaddingOf(size);
+    if (sealer != nullptr) size = SealedBytes(size);
     if (size > payload.max_size) return false;
     payload.encapsulation = CDR_LE;
-    WritePayload(reinterpret_cast<char*>(payload.data), parts...);
     payload.length = static_cast<std::uint32_t>(size);
+    char* const bytes = reinterpret_cast<char*>(payload.data);
+    if (sealer == nullptr)
+    {
+      WritePayload(bytes, parts...);
+      return true;
+    }
+    WriteUnsealed(bytes, parts...);
+    std::memset(bytes + size - kCodeBytes - padding, 0, padding);
+    sealer->Seal({bytes, size}, writer);
     return true;
   }
 };
@@ -55,7 +66,18 @@ struct HotWrite
 {
   const MessageHeader* header;
   const Message* message;
-  std::size_t size;  // of the payload
+  std::size_t size;          // of the payload before it is sealed
+  Sealer* sealer = nullptr;  // nullptr: it stays in the clear
+  WriterId writer{};
+};
+
+// Opens the sealed messages of a reader of a tick's messages.
+struct HotOpener
+{
+  // The key of the run, and the opener of the topic. No key: messages come in the clear.
+  std::optional<RunKey> key;
+  Opener opener;
+  std::vector<char> room;
 };
 
 // What a reader hands to the type support: where the message goes is decided when its header is known.
@@ -66,7 +88,16 @@ struct HotRead
   MessageHeader header;
   Message* message = nullptr;  // nullptr: dropped
   std::string error;           // not empty: what is wrong with it
+  HotOpener* opener = nullptr;
+  std::optional<Opener::Opened> opened{};  // if it was sealed
+  const char* refused = nullptr;           // why nobody knows whose it is
 };
+
+inline constexpr const char* kNoSeal =
+    "it is not sealed by the key of this run: its sender is of another user, another run or another release, or was "
+    "started without the key (--key)";
+inline constexpr const char* kRepetition = "it is a repetition of a message that has come before";
+inline constexpr const char* kOtherWriter = "it is a message of another writer of this run";
 
 // Bounded by a capacity chosen at run time, which data sharing asks for.
 template <class Message>
@@ -78,7 +109,7 @@ public:
   bool serialize(void* data, Payload* payload) override
   {
     const auto& call = *static_cast<const HotWrite<Message>*>(data);
-    return this->Write(*payload, call.size, *call.header, *call.message);
+    return this->Write(*payload, call.size, call.sealer, call.writer, *call.header, *call.message);
   }
 
   bool deserialize(Payload* payload, void* data) override
@@ -86,13 +117,21 @@ public:
     auto& call = *static_cast<HotRead<Message>*>(data);
     call.message = nullptr;
     call.error.clear();
+    call.refused = nullptr;
+    call.opened.reset();
+    std::span<const char> bytes = this->BytesOf(*payload);
+    if (call.opener != nullptr && call.opener->key)
+    {
+      if (!Unseal(bytes, call)) return true;
+      bytes = call.opened->payload;
+    }
     try
     {
       const auto check = [&](const MessageHeader& header, const Message& message)
       {
         if (call.handler->check) call.handler->check(header, message);
       };
-      call.message = ReadTickPayload<Message>(this->BytesOf(*payload), call.header, call.handler->choose, check);
+      call.message = ReadTickPayload<Message>(bytes, call.header, call.handler->choose, check);
     }
     catch (const std::exception& error)
     {
@@ -103,13 +142,34 @@ public:
 
   std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override
   {
-    const std::size_t size = static_cast<const HotWrite<Message>*>(data)->size;
+    const auto& call = *static_cast<const HotWrite<Message>*>(data);
+    const std::size_t size = call.sealer == nullptr ? call.size : SealedBytes(call.size);
     return [size] { return static_cast<std::uint32_t>(size); };
   }
 
   void* createData() override { return new HotRead<Message>(); }
   void deleteData(void* data) override { delete static_cast<HotRead<Message>*>(data); }
   bool is_bounded() const override { return true; }
+
+private:
+  static bool Unseal(std::span<const char> bytes, HotRead<Message>& call)
+  {
+    HotOpener& by = *call.opener;
+    try
+    {
+      call.opened = by.opener.Knows(bytes) ? by.opener.Open(bytes, by.room) : by.opener.OpenBy(*by.key, bytes, by.room);
+    }
+    catch (const std::exception& error)
+    {
+      call.error = error.what();
+      return false;
+    }
+    if (!call.opened)
+      call.refused = kNoSeal;
+    else if (!by.opener.IsNew(*call.opened))
+      call.refused = kRepetition;
+    return call.refused == nullptr;
+  }
 };
 
 // ---- All others ----
@@ -117,12 +177,13 @@ public:
 template <class Message>
 struct ColdCall
 {
-  const Message* out = nullptr;                       // to write
-  std::size_t size = 0;                               // of its payload
-  std::function<void(std::span<char> payload)> seal;  // of what is written; none: it stays empty
-  Message* in = nullptr;                              // to read
-  std::vector<char>* payload = nullptr;               // to read only later
-  std::string error;                                  // not empty: what is wrong with it
+  const Message* out = nullptr;          // to write
+  std::size_t size = 0;                  // of its payload before it is sealed
+  Sealer* sealer = nullptr;              // of what is written; none: it stays in the clear
+  WriterId writer{};                     // likewise
+  Message* in = nullptr;                 // to read
+  std::vector<char>* payload = nullptr;  // to read only later
+  std::string error;                     // not empty: what is wrong with it
 };
 
 template <class Message>
@@ -134,9 +195,7 @@ public:
   bool serialize(void* data, Payload* payload) override
   {
     const auto& call = *static_cast<const ColdCall<Message>*>(data);
-    if (!this->Write(*payload, call.size, *call.out)) return false;
-    if (call.seal) call.seal({reinterpret_cast<char*>(payload->data), payload->length});
-    return true;
+    return this->Write(*payload, call.size, call.sealer, call.writer, *call.out);
   }
 
   bool deserialize(Payload* payload, void* data) override
@@ -162,7 +221,8 @@ public:
 
   std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override
   {
-    const std::size_t size = static_cast<const ColdCall<Message>*>(data)->size;
+    const auto& call = *static_cast<const ColdCall<Message>*>(data);
+    const std::size_t size = call.sealer == nullptr ? call.size : SealedBytes(call.size);
     return [size] { return static_cast<std::uint32_t>(size); };
   }
 

@@ -15,7 +15,7 @@ namespace swarmanoid
 {
 
 // Equal to PROTOCOL_VERSION of the IDL; a test says so.
-inline constexpr std::uint32_t kProtocolVersion = 9;
+inline constexpr std::uint32_t kProtocolVersion = 11;
 
 // What precedes every message of a tick.
 struct MessageHeader
@@ -87,6 +87,7 @@ struct JoinMessage
   std::string name;
   bool ready = false;
   std::uint32_t incarnation = 0;
+  std::string machine{};
 };
 
 struct ViewMessage

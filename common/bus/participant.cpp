@@ -39,6 +39,7 @@ namespace
 {
 
 constexpr unsigned kSocketBuffer = 4U << 20;  // bytes; 10,000 robots lose datagrams with the system's default
+constexpr double kLongestPeriod_s = 0.5;      // between two announcements of a process
 constexpr std::size_t kSendersTold = 100;     // of bad messages, by topic
 constexpr std::size_t kLongestUser = 100;     // bytes
 constexpr std::size_t kLongestSender = 200;   // bytes of a name in the log
@@ -217,8 +218,34 @@ WriterId IdOf(const rtps::GUID_t& writer)
   return id;
 }
 
+std::string ReachableAddress(const BusOptions& options)
+{
+  const std::vector<std::string> addresses = InterfaceAddresses(options.network_interface);
+  if (!addresses.empty()) return addresses.front();
+  ifaddrs* list = nullptr;
+  if (getifaddrs(&list) != 0) throw BusError("cannot list the network interfaces");
+  std::string found = "127.0.0.1";
+  for (const ifaddrs* entry = list; entry != nullptr; entry = entry->ifa_next)
+  {
+    if (entry->ifa_addr == nullptr || entry->ifa_addr->sa_family != AF_INET) continue;
+    if ((entry->ifa_flags & IFF_LOOPBACK) != 0 || (entry->ifa_flags & IFF_RUNNING) == 0) continue;
+    char text[INET_ADDRSTRLEN] = {};
+    inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(entry->ifa_addr)->sin_addr, text, sizeof(text));
+    found = text;
+    break;
+  }
+  freeifaddrs(list);
+  return found;
+}
+
 Bus::Impl::Impl(const BusOptions& options, const std::string& name)
-    : insecure(options.insecure), keys(options.domain, GivenKey(options)), own_name(name)
+    : insecure(options.insecure),
+      share(options.share),
+      key_ring(std::make_shared<KeyRing>(options.domain, GivenKey(options))),
+      own_name(name),
+      // Who lives is heard again before, unless several announcements are lost.
+      silence_of_leavers_(std::min(options.lease_s, 4 * kLongestPeriod_s)),
+      silence_of_dead_(std::min(options.lease_s / 2, 2 * kLongestPeriod_s))
 {
   if (options.domain < 0 || options.domain > 232)
     throw BusError(fmt::format("domain {}: it must be 0 to 232", options.domain));
@@ -238,13 +265,18 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name)
   udp->maxMessageSize = options.DatagramBytes();
   udp->maxInitialPeersRange = kPeerProcesses;
   udp->interfaceWhiteList = InterfaceAddresses(options.network_interface);
-  qos.transport().user_transports.push_back(udp);
+  datagrams->forged = [this](const GuidPrefix& member, const std::string& sender) { RefuseDatagram(member, sender); };
+  if (insecure)
+    qos.transport().user_transports.push_back(udp);
+  else
+    qos.transport().user_transports.push_back(
+        std::make_shared<SignedTransportDescriptor>(udp, std::make_shared<DatagramSignatures>(key_ring), datagrams));
 
   rtps::BuiltinAttributes& builtin = qos.wire_protocol().builtin;
   builtin.discovery_config.initial_announcements.count = 20;
   builtin.discovery_config.initial_announcements.period = Seconds(0.05);
   builtin.discovery_config.leaseDuration = Seconds(options.lease_s);
-  builtin.discovery_config.leaseDuration_announcementperiod = Seconds(std::min(options.lease_s / 4, 0.5));
+  builtin.discovery_config.leaseDuration_announcementperiod = Seconds(std::min(options.lease_s / 4, kLongestPeriod_s));
   if (!options.discovery_server.empty())
     UseDiscoveryServer(options, builtin, qos.wire_protocol().prefix);
   else if (!options.peers.empty())
@@ -267,6 +299,11 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name)
 Bus::Impl::~Impl()
 {
   participant->set_listener(nullptr);
+  later.Stop();
+  {
+    const std::lock_guard lock(datagrams->mutex);
+    datagrams->forged = nullptr;
+  }
   for (const auto& [of, count] : dropped_of)
     if (count > 1) PrintError("{}: dropped {} bad {} messages of {} in all\n", own_name, count, of.second, of.first);
   for (const auto& [name, topic] : topics) participant->delete_topic(topic);
@@ -276,27 +313,54 @@ Bus::Impl::~Impl()
 void Bus::Impl::on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& discovery)
 {
   const auto& prefix = discovery.info.m_guid.guidPrefix;
+  std::ostringstream who;
+  who << prefix;
+  if (discovery.status == rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT ||
+      discovery.status == rtps::ParticipantDiscoveryInfo::CHANGED_QOS_PARTICIPANT)
+  {
+    later.Forget(who.str());
+    const std::lock_guard lock(mutex);
+    const auto& process = discovery.info.m_userData;
+    processes[prefix] = {{process.begin(), process.end()}, discovery.info.m_participantName.to_string()};
+    return;
+  }
+  const bool died = discovery.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT;
   std::pair<std::string, std::string> gone;
-  std::function<void(const std::string&, const std::string&, bool)> callback;
   {
     const std::lock_guard lock(mutex);
-    if (discovery.status == rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT ||
-        discovery.status == rtps::ParticipantDiscoveryInfo::CHANGED_QOS_PARTICIPANT)
-    {
-      const auto& process = discovery.info.m_userData;
-      processes[prefix] = {{process.begin(), process.end()}, discovery.info.m_participantName.to_string()};
-      return;
-    }
     const auto found = processes.find(prefix);
     if (found == processes.end()) return;
     gone = found->second;
-    processes.erase(found);
     // Anybody can say that his process is one of the run, and go.
-    if (!insecure && recognised.erase(prefix) == 0) return;
+    if (!insecure && recognised.count(prefix) == 0)
+    {
+      processes.erase(found);
+      return;
+    }
+    if (insecure) processes.erase(found);
+  }
+  if (insecure) return Gone(gone, died);
+  // Likewise that it is to be missed after a shorter silence than it wants.
+  later.Schedule(who.str(), died ? silence_of_dead_ : silence_of_leavers_,
+                 [this, prefix, gone, died]
+                 {
+                   {
+                     const std::lock_guard lock(mutex);
+                     processes.erase(prefix);
+                     recognised.erase(prefix);
+                   }
+                   Gone(gone, died);
+                 });
+}
+
+void Bus::Impl::Gone(const std::pair<std::string, std::string>& process, bool died)
+{
+  std::function<void(const std::string&, const std::string&, bool)> callback;
+  {
+    const std::lock_guard lock(mutex);
     callback = on_gone;
   }
-  if (callback)
-    callback(gone.first, gone.second, discovery.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT);
+  if (callback) callback(process.first, process.second, died);
 }
 
 void Bus::Impl::Report(const std::string& topic, const rtps::GUID_t& writer, std::uint64_t tick,
@@ -321,6 +385,13 @@ void Bus::Impl::Refuse(const std::string& topic, const rtps::GUID_t& writer, con
     callback = on_refused;
   }
   if (callback) callback(report);
+}
+
+void Bus::Impl::RefuseDatagram(const GuidPrefix& member, const std::string& sender)
+{
+  rtps::GUID_t guid;
+  std::copy(member.begin(), member.end(), std::begin(guid.guidPrefix.value));
+  Refuse("RTPS", guid, "somebody without the key of this run spoke in its name, or about it; it came from " + sender);
 }
 
 void Bus::Impl::Recognise(const rtps::GUID_t& writer)

@@ -14,12 +14,17 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
+#include <atomic>
 #include <map>
+#include <memory>
 #include <set>
 
 #include "common/bus/bus.h"
+#include "common/bus/delayed_calls.h"
 #include "common/bus/key_ring.h"
 #include "common/bus/qos.h"
+#include "common/bus/seal.h"
+#include "common/bus/signed_transport.h"
 
 namespace swarmanoid
 {
@@ -42,6 +47,8 @@ struct Bus::Impl : dds::DomainParticipantListener
               const std::string& what);
   // A message that was dropped because nobody knows whose it is.
   void Refuse(const std::string& topic, const eprosima::fastrtps::rtps::GUID_t& writer, const std::string& what);
+  // A datagram that was dropped because somebody without the key spoke in the name of that process, or about it.
+  void RefuseDatagram(const GuidPrefix& member, const std::string& sender);
   // A message with a good seal has come from that process.
   void Recognise(const eprosima::fastrtps::rtps::GUID_t& writer);
 
@@ -49,8 +56,13 @@ struct Bus::Impl : dds::DomainParticipantListener
   dds::Topic* TopicOf(const std::string& name, const std::function<dds::TypeSupport()>& make_type);
 
   dds::DomainParticipant* participant = nullptr;
+  DelayedCalls later;
   const bool insecure;
-  KeyRing keys;
+  const std::optional<ShareChannel> share;
+  const std::shared_ptr<KeyRing> key_ring;
+  KeyRing& keys = *key_ring;
+  const std::shared_ptr<SignedTransportDescriptor::Listener> datagrams =
+      std::make_shared<SignedTransportDescriptor::Listener>();
   std::mutex mutex;  // of the members below
   std::map<std::string, dds::Topic*> topics;
   std::map<eprosima::fastrtps::rtps::GuidPrefix_t, std::pair<std::string, std::string>> processes;  // "host:pid", name
@@ -63,10 +75,16 @@ struct Bus::Impl : dds::DomainParticipantListener
   std::map<std::pair<std::string, std::string>, std::uint64_t> dropped_of;  // by sender and topic
 
 private:
+  void Gone(const std::pair<std::string, std::string>& process, bool died);
   BadMessageReport Describe(const std::string& topic, const eprosima::fastrtps::rtps::GUID_t& writer,
                             std::uint64_t tick, const std::string& what);
   // True for the first of that sender and topic.
   bool Drop(const BadMessageReport& report);
+
+  // Silence after which a process that said that it leaves has left, as anybody can say in its name; and after which
+  // one that was missed is dead, as anybody can say that it is to be missed soon.
+  const std::chrono::duration<double> silence_of_leavers_;
+  const std::chrono::duration<double> silence_of_dead_;
 };
 
 WriterId IdOf(const eprosima::fastrtps::rtps::GUID_t& writer);
@@ -104,6 +122,32 @@ private:
   dds::DomainParticipant* participant_;
   dds::Subscriber* subscriber_;
   dds::DataReader* reader_;
+};
+
+// Somebody spoke in the name of a writer: DDS counts his message as that of the writer, and drops the right one, which
+// has the same number. A new reader begins anew, and hears what is kept for those who come later. Of a subscription.
+class RenewedReader
+{
+public:
+  // `make` gives a reader for the listener of the subscription.
+  RenewedReader(Bus& bus, std::function<std::unique_ptr<ReaderEnd>()> make);
+  ~RenewedReader();
+  RenewedReader(const RenewedReader&) = delete;
+  RenewedReader& operator=(const RenewedReader&) = delete;
+
+  // From its listener, too: a new one takes its place soon, and not before the last one is a second old.
+  void Renew();
+  // Whether that has happened: messages may come again.
+  bool WasRenewed() const { return renewed_; }
+  unsigned Matched() const;
+
+private:
+  DelayedCalls& later_;
+  const std::string name_;
+  std::function<std::unique_ptr<ReaderEnd>()> make_;
+  std::atomic<bool> renewed_ = false;
+  mutable std::mutex mutex_;
+  std::shared_ptr<ReaderEnd> reader_;  // held while somebody asks it
 };
 
 dds::DataWriterQos WriterQos(const TopicQos& topic);

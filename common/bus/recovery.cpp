@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstring>
 #include <utility>
 
@@ -92,7 +93,17 @@ std::uint64_t Recover(WorkerSession& session, Replica& replica, const RecoverySt
   {
     if (!std::exchange(begun, true)) steps.begin();
   };
-  TickRecord record;
+  std::array<TickRecord, 2> records;  // one is held until the next one is here
+  TickRecord* held = nullptr;
+  const auto step = [&](const TickRecord* next)
+  {
+    if (held == nullptr) return;
+    replica.space->Apply(held->state);
+    session.SetTick(tick);
+    if (steps.step) steps.step(*held, next);
+    held = nullptr;
+    ++tick;
+  };
   for (std::vector<char> block = blocks.Next(); !block.empty(); block = blocks.Next())
   {
     const auto header = JournalBlockAt(block, block.size());
@@ -115,26 +126,28 @@ std::uint64_t Recover(WorkerSession& session, Replica& replica, const RecoverySt
     else if (header->kind == JournalBlockKind::kTicks)
     {
       begin();
-      TickRecordReader records(content);
-      while (records.Next(record))
+      TickRecordReader reader(content);
+      for (TickRecord* record = &records[held == &records[0] ? 1 : 0]; reader.Next(*record);)
       {
-        if (record.state.tick < tick) continue;
-        if (record.state.tick > tick) throw BusError(fmt::format("the journal lacks tick {}", tick));
-        replica.space->Apply(record.state);
-        session.SetTick(tick);
-        if (steps.step) steps.step(record);
-        ++tick;
+        const std::uint64_t wanted = held == nullptr ? tick : tick + 1;
+        if (record->state.tick < wanted) continue;
+        if (record->state.tick > wanted) throw BusError(fmt::format("the journal lacks tick {}", wanted));
+        step(record);
+        held = record;
+        record = &records[held == &records[0] ? 1 : 0];
       }
       if (Interrupted()) throw BusError("interrupted by a signal");
     }
     else if (header->kind == JournalBlockKind::kFrames)
     {
       begin();
+      step(nullptr);
       if (tick != header->first_tick)
         throw BusError(fmt::format("the journal ends at tick {}, the run is at {}", tick, header->first_tick));
       if (steps.frames) steps.frames(ReadFrames(content));
     }
   }
+  step(nullptr);
   return tick;
 }
 

@@ -19,8 +19,8 @@ struct RecoverySteps
   std::function<void()> begin;                  // from where the run began, since no state was saved
   std::function<void(ByteReader& state)> load;  // from a saved state
   // The space has the state of the record. The last one of a host may be of the tick that the run waits at, and has no
-  // commands.
-  std::function<void(const TickRecord&)> step{};
+  // commands. `next`: the record after it, or null.
+  std::function<void(const TickRecord& record, const TickRecord* next)> step{};
   std::function<void(const std::vector<SensorFrame>&)>
       frames{};  // of the tick that comes next; none if it is the first
 };

@@ -29,6 +29,7 @@ namespace
 
 constexpr const char* kSharedVariable = "SWARMANOID_SHARED_FOLDER";
 constexpr const char* kLockVariable = "XDG_RUNTIME_DIR";
+constexpr const char* kFolderFile = "folder";  // of the run, on the disk
 constexpr const char* kServerFile = "server";
 constexpr const char* kKeyFile = "key";
 constexpr const char* kMarkerPrefix = "process.";
@@ -294,6 +295,24 @@ void RunDirectory::Announce(const std::string& experiment, int domain, const std
   if (!folder || !WriteText(*folder, part, fmt::format("{} {}\n{}\n", domain, getpid(), experiment)) ||
       renameat(*folder, part.c_str(), *folder, kServerFile) != 0)
     throw BusError("cannot write '" + path_ + "/" + kServerFile + "': " + std::strerror(errno));
+}
+
+void RunDirectory::AnnounceFolder(const std::string& of_run)
+{
+  const Descriptor folder = OpenOwnFolder(AT_FDCWD, path_);
+  if (!folder || !WriteText(*folder, kFolderFile, of_run + "\n"))
+    throw BusError("cannot write '" + path_ + "/" + kFolderFile + "': " + std::strerror(errno));
+}
+
+std::string FolderOfRun(const std::string& experiment, std::uint64_t run)
+{
+  const Descriptor shared = OpenSharedFolder();
+  const Descriptor folder = shared ? OpenOwnFolder(*shared, FileName(experiment, run)) : Descriptor(-1);
+  if (!folder || !IsRun(*folder)) return {};
+  std::istringstream text(TextOf(*folder, kFolderFile));
+  std::string path;
+  std::getline(text, path);
+  return path;
 }
 
 std::vector<LocalRun> FindLocalRuns()

@@ -37,6 +37,8 @@ public:
 
   // For the space server: lets FindLocalRuns find this run, and processes of this user its key.
   void Announce(const std::string& experiment, int domain, const std::optional<RunKey>& key);
+  // Where the run keeps its journal, for FolderOfRun. Throws BusError.
+  void AnnounceFolder(const std::string& folder);
   const std::string& Path() const { return path_; }
 
 private:
@@ -58,6 +60,8 @@ struct LocalRun
 };
 
 std::vector<LocalRun> FindLocalRuns();
+// As its space server announced it; empty if it runs elsewhere, belongs to another user, keeps no journal or is over.
+std::string FolderOfRun(const std::string& experiment, std::uint64_t run);
 // Removes the folders of runs of which no process is alive, and nothing else.
 void RemoveDeadRuns();
 

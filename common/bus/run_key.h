@@ -5,6 +5,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace swarmanoid
@@ -24,6 +25,9 @@ std::optional<RunKey> KeyOfText(const std::string& text);
 RunKey KeyOfFile(const std::string& path);
 RunKey KeyOfDescriptor(int descriptor);
 inline constexpr const char* kKeyPrompt = "swarmanoid: give the key of the run";
+
+// A key that follows from another one (HKDF-SHA256, RFC 5869), and does not tell that one. Throws BusError.
+RunKey DerivedKey(const RunKey& key, std::span<const char> salt, const std::string& purpose);
 
 // SHA-256 of a file, as 64 hexadecimal digits; empty if it cannot be read.
 std::string DigestOfFile(const std::string& path);

@@ -99,6 +99,8 @@ void ServerSession::Open()
   worlds_->Write(world_);
 }
 
+void ServerSession::SayWorldAgain() { worlds_->Write(world_); }
+
 void ServerSession::Close()
 {
   bus_.OnBadMessage(nullptr);
@@ -151,8 +153,14 @@ void ServerSession::Joined(const JoinMessage& join)
     if (taken)
     {
       Member& joined = member->second;
+      // It is said again until the run begins.
+      if (std::tie(joined.process, joined.ready, joined.incarnation) ==
+          std::tie(join.process, join.ready, join.incarnation))
+        return;
       if (joined.process != join.process) joined.status = {};
+      if (joined.process != join.process) joined.released = false;
       std::tie(joined.process, joined.ready, joined.incarnation) = std::tie(join.process, join.ready, join.incarnation);
+      joined.machine = join.machine;
       if (join.ready && join.incarnation > 0) state->replaced.emplace_back(join.name, join.incarnation);
     }
   }
@@ -173,7 +181,8 @@ void ServerSession::MemberLeft(const LeaveMessage& leave)
   {
     const auto state = state_.Lock();
     const auto member = state->members.find(leave.name);
-    const bool of_run = member != state->members.end() && IsOf(member->second, leave.process);
+    const bool of_run = member != state->members.end() && IsOf(member->second, leave.process) &&
+                        !(member->second.released && !in_order);
     if (of_run && in_order && !member->second.left) state->just_left.push_back(leave.name);
     if (of_run) member->second.left = true;
     if (of_run && !in_order && !state->over)
@@ -191,6 +200,12 @@ std::vector<std::pair<std::string, std::uint32_t>> ServerSession::TakeReplaced()
 {
   return std::exchange(state_.Lock()->replaced, {});
 }
+
+void ServerSession::Release(const std::string& name) { state_.Lock()->members.at(name).released = true; }
+
+std::string ServerSession::ProcessOf(const std::string& name) const { return state_.Lock()->members.at(name).process; }
+
+std::string ServerSession::MachineOf(const std::string& name) const { return state_.Lock()->members.at(name).machine; }
 
 std::uint32_t ServerSession::Incarnation(const std::string& name) const
 {
@@ -215,7 +230,7 @@ void ServerSession::Lost(const std::string& process, bool died)
     state->attached.erase(process);
     for (auto& [name, member] : state->members)
     {
-      if (member.process != process) continue;
+      if (member.process != process || member.released) continue;
       if (!member.left && !state->over && awaits_)
       {
         state->lost.push_back(name);
@@ -299,8 +314,16 @@ bool ServerSession::AllLeft() const
   return true;
 }
 
-// Askers repeat what is not answered in time: it is done once, and answered each time.
 void ServerSession::Asked(const ControlRequestMessage& request)
+{
+  // What the server before this one has taken is only answered again.
+  const bool is_known = state_.Lock()->FindRequest(request) != nullptr;
+  if (key_ && request.run != world_.run && !is_known) throw ForeignMessage("it was asked of another run");
+  Ask(request);
+}
+
+// Askers repeat what is not answered in time.
+void ServerSession::Ask(const ControlRequestMessage& request)
 {
   std::optional<Request> known;
   {
@@ -314,13 +337,19 @@ void ServerSession::Asked(const ControlRequestMessage& request)
     }
   }
   if (!known) return callbacks_.asked(request);
-  if (known->reply) replies_->Write(*known->reply);
+  if (known->reply) WriteReply(*known->reply);
 }
 
-void ServerSession::Remember(const ControlRequestMessage& request, bool waits)
+void ServerSession::WriteReply(const ControlReplyMessage& reply)
+{
+  replies_->Write(reply);
+  if (callbacks_.replied) callbacks_.replied(reply);
+}
+
+void ServerSession::Remember(const ControlRequestMessage& request, bool waits, const std::string& text)
 {
   Request seen{request.client, request.number, std::nullopt};
-  if (!waits) seen.reply = ControlReplyMessage{request.client, request.number, true, 0, request.verb + " was done"};
+  if (!waits) seen.reply = ControlReplyMessage{request.client, request.number, true, 0, text};
   const auto state = state_.Lock();
   state->requests_seen.push_back(std::move(seen));
   if (state->requests_seen.size() > kRequestsKept) state->requests_seen.pop_front();
@@ -340,7 +369,13 @@ void ServerSession::Reply(const ControlRequestMessage& request, bool ok, std::ui
     const auto state = state_.Lock();
     if (Request* known = state->FindRequest(request)) known->reply = reply;
   }
-  replies_->Write(reply);
+  WriteReply(reply);
+}
+
+void ServerSession::LeaveToNext()
+{
+  state_.Lock()->over = true;
+  replies_->WaitUntilRead(kLeaveTime_s);
 }
 
 void ServerSession::Leave(std::uint64_t tick, const std::string& error)

@@ -26,6 +26,7 @@ public:
     std::function<void(const ControlRequestMessage&)> asked;
     std::function<void()> changed;                         // somebody joined, failed, left, or is waiting
     std::function<void(const std::string& process)> gone;  // a process has left the bus
+    std::function<void(const ControlReplyMessage&)> replied{};
   };
 
   // `expected`: names of the processes that the run waits for. Throws BusError if an experiment of that name runs in
@@ -37,11 +38,15 @@ public:
   void AwaitReplacements() { awaits_ = true; }
   // Lets others find the run; the callbacks may be called from now on.
   void Open();
+  // For those who have not heard of it.
+  void SayWorldAgain();
   // No callback is called any more.
   void Close();
 
   Bus& GetBus() { return bus_; }
   const WorldMessage& World() const { return world_; }
+  // Of the run; none if anybody is let in.
+  const std::optional<RunKey>& Key() const { return key_; }
   HotScope Scope(std::size_t capacity, unsigned writers) const;
 
   // Those that are not ready yet, in the order of `expected`.
@@ -60,6 +65,12 @@ public:
   std::vector<std::string> TakeLost();
   // Those that take the places of others, with their incarnations, and have become ready since the last call.
   std::vector<std::pair<std::string, std::uint32_t>> TakeReplaced();
+  // Another process is about to take the place of the one that has the name: nobody cares any more how this one ends.
+  void Release(const std::string& name);
+  // "host:pid" of the one that has the name now.
+  std::string ProcessOf(const std::string& name) const;
+  // As whoever started it calls it; empty if nobody said.
+  std::string MachineOf(const std::string& name) const;
   // Of the process that has the name now.
   std::uint32_t Incarnation(const std::string& name) const;
   // What such processes ask for, and the answer.
@@ -71,10 +82,16 @@ public:
   bool AllLeft() const;
 
   // Before Open: a server of this run before this one has taken the request, and answered it unless `waits`. Whoever
-  // repeats it is not taken for somebody who asks anew.
-  void Remember(const ControlRequestMessage& request, bool waits);
+  // repeats it is not taken for somebody who asks anew, and is told the text.
+  void Remember(const ControlRequestMessage& request, bool waits, const std::string& text);
+  // As if it had come over the bus: done once, and answered each time.
+  void Ask(const ControlRequestMessage& request);
   void Reply(const ControlRequestMessage& request, bool ok, std::uint64_t tick, const std::string& text);
   void LeaveDirectory() { directory_.Leave(); }
+  // Where the run keeps its journal, for processes of this machine.
+  void AnnounceFolder(const std::string& folder) { directory_.AnnounceFolder(folder); }
+  // The run is over, and begins again with another server: those who look on wait for that one.
+  void LeaveToNext();
   // Tells all that the run is over, and why.
   void Leave(std::uint64_t tick, const std::string& error);
 
@@ -84,7 +101,9 @@ private:
     std::string process;  // empty: not here yet
     bool ready = false;
     bool left = false;
+    bool released = false;  // whoever comes takes its place
     std::uint32_t incarnation = 0;
+    std::string machine{};  // as in JoinMessage
     StatusMessage status;
   };
 
@@ -119,6 +138,7 @@ private:
   static bool IsOf(const Member& member, const std::string& process);
   bool MayJoinAs(const Member& member, const JoinMessage& join) const;
   void Asked(const ControlRequestMessage& request);
+  void WriteReply(const ControlReplyMessage& reply);
   void Joined(const JoinMessage& join);
   void MemberLeft(const LeaveMessage& leave);
   void Lost(const std::string& process, bool died);

@@ -53,6 +53,7 @@ void TickGate::Withdraw(const std::string& name, std::uint32_t incarnation)
   {
     if (parts_[part].name != name) continue;
     incarnations_[part] = std::max(incarnations_[part], incarnation);
+    ahead_[part] = 0;
     if (!here_[part]) continue;
     here_[part] = 0;
     ++missing_;

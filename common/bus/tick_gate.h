@@ -45,6 +45,7 @@ public:
 
   std::uint64_t Tick() const { return tick_; }
   bool Has(std::size_t part) const { return here_[part] != 0; }
+  bool MayLead(std::size_t part) const { return parts_[part].may_lead; }
   std::vector<std::string> Missing() const;
 
 private:

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <functional>
 #include <mutex>
@@ -38,8 +39,13 @@ public:
     std::function<void()> answer_again;  // somebody has not got the answer to the tick before Tick()
   };
 
-  TickInputs(WorkerSession& session, Replica& replica, const std::vector<Other>& others)
-      : session_(session), space_(*replica.space), limits_(*replica.limits), gate_(Parts(others), replica.FirstTick())
+  // `late`: what the worker says of a tick is for the one after; so the server does not wait for its step, and may be a
+  // tick ahead.
+  TickInputs(WorkerSession& session, Replica& replica, const std::vector<Other>& others, bool late = false)
+      : session_(session),
+        space_(*replica.space),
+        limits_(*replica.limits),
+        gate_(Parts(others, late), replica.FirstTick())
   {
     for (const Other& other : others)
     {
@@ -106,17 +112,18 @@ public:
   }
 
   std::mutex& Mutex() { return mutex_; }
-  const SpaceState& State() const { return state_; }
-  // Whether it asks for what the process remembers after the step.
-  bool Saves() const { return saves_; }
+  // Of Tick().
+  const SpaceState& State() const { return states_[gate_.Tick() % 2]; }
+  // Whether the state of the step asks for what the process remembers after it.
+  bool Saves() const { return saves_[stepping_ % 2]; }
   std::uint64_t Tick() const { return gate_.Tick(); }
   // The step of Tick() is done.
   void Next() { gate_.Next(); }
 
 private:
-  static std::vector<TickGate::Part> Parts(const std::vector<Other>& others)
+  static std::vector<TickGate::Part> Parts(const std::vector<Other>& others, bool late)
   {
-    std::vector<TickGate::Part> parts{{"space server"}};
+    std::vector<TickGate::Part> parts{{"space server", late}};
     for (const Other& other : others) parts.push_back(other.part);
     return parts;
   }
@@ -133,23 +140,24 @@ private:
     const std::lock_guard lock(mutex_);
     const auto verdict = gate_.Offer(0, header.tick);
     // A repeated state is read too: it may say that the run ends here.
-    return verdict == TickGate::Verdict::kExpected ? &state_ : &repeated_;
+    return verdict == TickGate::Verdict::kExpected ? &states_[header.tick % 2] : &repeated_;
   }
 
   void StateArrived(const MessageHeader& header, SpaceState& state)
   {
     const std::lock_guard lock(mutex_);
-    if (&state == &repeated_ && header.tick + 1 < gate_.Tick()) return;
-    if (state.last)
+    if (&state != &repeated_)
     {
-      over_ = true;
-      return session_.Finish(header.tick);
+      saves_[header.tick % 2] = header.save;
+      gate_.Arrived(0, header.tick);
+      if (header.tick == gate_.Tick() && Enter() && gate_.Complete()) RunTick();
     }
-    if (&state == &state_)
+    else if (state.last)
     {
-      saves_ = header.save;
-      space_.Apply(state_);
-      if (gate_.Arrived(0, header.tick)) RunTick();
+      if (header.tick > gate_.Tick())
+        states_[header.tick % 2].last = true;  // after the step that is still lacking
+      else if (header.tick + 1 >= gate_.Tick())
+        Finish(header.tick);
     }
     else if (header.tick + 1 == gate_.Tick() || header.tick == gate_.Tick())
       // The server lacks the answer to the tick before, or somebody whom this process waits for lacks it.
@@ -171,15 +179,36 @@ private:
   void Arrived(const MessageHeader& header)
   {
     const std::lock_guard lock(mutex_);
-    if (gate_.Arrived(1 + OtherOf(header), header.tick)) RunTick();
+    // Once it is over, the main thread may be at the end of the role.
+    if (gate_.Arrived(1 + OtherOf(header), header.tick) && !over_) RunTick();
+  }
+
+  // The state of the tick is here. False if it is the last one.
+  bool Enter()
+  {
+    const SpaceState& state = State();
+    if (state.last)
+      Finish(state.tick);
+    else
+      space_.Apply(state);
+    return !state.last;
+  }
+
+  void Finish(std::uint64_t tick)
+  {
+    over_ = true;
+    session_.Finish(tick);
   }
 
   void RunTick()
   {
-    stepping_ = gate_.Tick();
     try
     {
-      calls_.step();
+      do {
+        stepping_ = gate_.Tick();
+        calls_.step();
+        // The next state may have come while other messages were lacking.
+      } while (gate_.Has(0) && Enter() && gate_.Complete());
     }
     catch (const ActivityError& error)
     {
@@ -199,8 +228,8 @@ private:
   Calls calls_;
   std::mutex mutex_;  // of the gate, the states and all that the calls touch
   TickGate gate_;
-  SpaceState state_;
-  bool saves_ = false;
+  std::array<SpaceState, 2> states_;  // of even and odd ticks
+  std::array<bool, 2> saves_{};
   SpaceState repeated_;
   std::atomic<std::uint64_t> stepping_ = 0;
   std::atomic<bool> over_ = false;

@@ -13,6 +13,7 @@
 #include "common/activity/print_error.h"
 #include "common/bus/library_check.h"
 #include "common/configuration/configuration_tree.h"
+#include "common/experiment/places.h"
 #include "common/program/interrupts.h"
 
 namespace swarmanoid
@@ -24,6 +25,7 @@ namespace
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
+constexpr auto kAgain = 1s;                                // what others may not have heard is said again
 constexpr auto kPatience = 1s;                             // before what is waited for is said
 constexpr auto kBrokenTime = 5s;                           // for the lease of a dead process to end
 constexpr auto kStuckTime = 2s;                            // likewise, if another process may take its place
@@ -32,13 +34,24 @@ constexpr std::chrono::milliseconds kFirstRepeat = 100ms;  // of a Leave that is
 constexpr std::chrono::milliseconds kLastRepeat = 1s;
 constexpr auto kInterruptedTime = 1s;  // for the answer to a Leave, if it was asked to end
 
+// The text of an experiment, whatever its seed and in whichever files its elements stand.
+std::string WithoutSeed(std::string_view xml)
+{
+  std::string text(WithoutPlaces(xml));
+  constexpr std::string_view kEnd = "</seed>";
+  const std::size_t end = text.find(kEnd);
+  if (end >= text.find("</framework>")) return text;
+  const std::size_t begin = text.rfind('\n', end);
+  return text.erase(begin, end + kEnd.size() - begin);
+}
+
 bool IsAlive(pid_t process) { return kill(process, 0) == 0 || errno == EPERM; }
 
 }  // namespace
 
 WorkerSession::WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name,
-                             std::optional<int> server, unsigned incarnation)
-    : name_(name), incarnation_(incarnation), bus_(options, name), domain_(options.domain)
+                             std::optional<int> server, unsigned incarnation, const std::string& machine)
+    : name_(name), incarnation_(incarnation), machine_(machine), bus_(options, name), domain_(options.domain)
 {
   bus_.OnProcessGone(
       [this](const std::string& process, const std::string&, bool)
@@ -64,6 +77,8 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
                                                                fmt::format("{}:{}", world.host, world.pid);
                                                            changed_.notify_all();
                                                          });
+  // A share that has ended tells no world, but why it has.
+  if (options.share) HearLeaves(experiment);
   WaitUntil(
       [&]
       {
@@ -84,26 +99,34 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
         "one release",
         world_.experiment, server_process_, world_.protocol, kProtocolVersion));
 
-  if (!options.insecure) AllowOnly(world_.libraries, !options.key_file.empty());
+  if (!options.insecure) AllowOnly(world_.libraries, !options.key_file.empty() || options.share);
   server_seen_ = ServerIsOnThisMachine();
   directory_ = std::make_unique<RunDirectory>(world_.experiment, world_.run);
   join_ = std::make_unique<Publisher<JoinMessage>>(bus_, world_.experiment);
   status_ = std::make_unique<Publisher<StatusMessage>>(bus_, world_.experiment);
   leave_ = std::make_unique<Publisher<LeaveMessage>>(bus_, world_.experiment);
-  leaves_ = std::make_unique<Subscription<LeaveMessage>>(bus_, world_.experiment,
+  if (leaves_ == nullptr) HearLeaves(world_.experiment);
+  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, false, incarnation_, machine_});
+}
+
+void WorkerSession::HearLeaves(const std::string& experiment)
+{
+  leaves_ = std::make_unique<Subscription<LeaveMessage>>(bus_, experiment,
                                                          [this](const LeaveMessage& leave)
                                                          {
                                                            if (leave.name != "space server") return;
                                                            const bool own = leave.process == ProcessId();
                                                            if (!leave.process.empty() && !own) return;
                                                            const std::lock_guard lock(mutex_);
-                                                           if (leave.run != world_.run) return;
+                                                           const bool of_run = leave.run == world_.run;
+                                                           const bool ends_share =
+                                                               !have_world_ && !own && !leave.error.empty();
+                                                           if (have_world_ ? !of_run : !ends_share) return;
                                                            const bool answered = own && leave.error.empty();
                                                            (answered ? answered_ : server_left_) = true;
                                                            if (!leave.error.empty()) others_error_ = leave.error;
                                                            changed_.notify_all();
                                                          });
-  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, false, incarnation_});
 }
 
 WorkerSession::~WorkerSession()
@@ -120,8 +143,8 @@ void WorkerSession::LookOn()
 
 bool WorkerSession::GoesOnWith(const WorldMessage& world) const
 {
-  return world.run != world_.run && world.experiment == world_.experiment && world.xml == world_.xml &&
-         world.protocol == world_.protocol && world.entities.size() == world_.entities.size();
+  return world.run != world_.run && world.experiment == world_.experiment && world.protocol == world_.protocol &&
+         world.entities.size() == world_.entities.size() && WithoutSeed(world.xml) == WithoutSeed(world_.xml);
 }
 
 bool WorkerSession::FollowNext(const std::function<bool()>& idle)
@@ -152,7 +175,7 @@ bool WorkerSession::FollowNext(const std::function<bool()>& idle)
     reason_ = EndReason::kFailed;
   }
   directory_ = std::make_unique<RunDirectory>(world_.experiment, world_.run);
-  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, true, incarnation_});
+  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, true, incarnation_, machine_});
   Say("the run goes on with another space server");
   return true;
 }
@@ -245,7 +268,14 @@ void WorkerSession::WaitUntil(const std::function<bool()>& met, const std::funct
 
 void WorkerSession::ReportReady()
 {
-  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, true, incarnation_});
+  said_ready_ = Clock::now();
+  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, true, incarnation_, machine_});
+}
+
+bool WorkerSession::HasBegun() const
+{
+  const std::lock_guard lock(mutex_);
+  return first_tick_ && tick_ != *first_tick_;
 }
 
 void WorkerSession::Finish(std::uint64_t tick)
@@ -283,6 +313,7 @@ void WorkerSession::SetTick(std::uint64_t tick)
   // The run goes on: another process has taken the place of the one that died with its lock.
   if (tick != tick_) broken_since_.reset();
   tick_ = tick;
+  if (!first_tick_) first_tick_ = tick;
 }
 
 void WorkerSession::Wait(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle)
@@ -343,6 +374,8 @@ void WorkerSession::WaitUntilDone(std::chrono::milliseconds period,
       if (done_) return;
     }
     CheckOthers();
+    // Fast DDS may lose what was said while the reader was met, although the reader has acknowledged it.
+    if (!HasBegun() && Clock::now() - said_ready_ > kAgain) ReportReady();
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, period,
                       [this]

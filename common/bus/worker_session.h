@@ -25,9 +25,9 @@ public:
   // Waits for the space server of `experiment` (empty: of the first one that is heard), saying so. `name` as in
   // JoinMessage. Throws BusError if its protocol is another one, or when interrupted.
   // `server`: the process on this machine that is expected to be it; BusError if it ends before it is heard.
-  // `incarnation`: how many processes of that name the run has had before this one.
+  // `incarnation`: how many processes of that name the run has had before this one. `machine`: as in JoinMessage.
   WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name,
-                std::optional<int> server = std::nullopt, unsigned incarnation = 0);
+                std::optional<int> server = std::nullopt, unsigned incarnation = 0, const std::string& machine = {});
   ~WorkerSession();
   // For one who only looks on: to whoever started it, a run that failed elsewhere is a process that failed.
   void LookOn();
@@ -84,6 +84,8 @@ private:
   void CheckOthers();
   bool ServerIsOnThisMachine() const;
   bool GoesOnWith(const WorldMessage& world) const;
+  void HearLeaves(const std::string& experiment);
+  bool HasBegun() const;
   void WaitUntilDone(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
   // Why this process ends, to whoever started it and to the server.
   void ReportFailure(const std::exception& error);
@@ -94,6 +96,7 @@ private:
 
   std::string name_;
   unsigned incarnation_;
+  std::string machine_;
   Bus bus_;
   int domain_;
   mutable std::mutex mutex_;
@@ -101,6 +104,8 @@ private:
   bool notified_ = false;
   bool done_ = false;
   std::uint64_t tick_ = 0;
+  std::optional<std::uint64_t> first_tick_;  // that this process was at when it began to wait
+  std::chrono::steady_clock::time_point said_ready_;
   bool looks_on_ = false;
   EndReason reason_ = EndReason::kFailed;  // why this process ends before its work is done
   std::optional<std::string> own_error_;

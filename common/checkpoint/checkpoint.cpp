@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "common/checkpoint/checkpoint_format.h"
+#include "common/checkpoint/host_state.h"
 #include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
 #include "common/serialisation/fields.h"
@@ -156,15 +157,12 @@ Checkpoint ReadCheckpoint(const std::string& path, const Experiment& experiment,
     {
       const std::string difference = DifferenceOfBuilds(checkpoint.origin.libraries, LibraryBuildsOf(experiment));
       if (!difference.empty())
-        throw std::runtime_error("it was taken with another build of " + difference +
-                                 "; go on with that build, start anew with this one, or let --any-build take it, which "
+        throw std::runtime_error("it was taken with " + difference +
+                                 "; go on with that one, start anew with this one, or let --any-build take it, which "
                                  "promises no equal bits");
     }
-    const std::size_t parts = checkpoint.parts.size();
-    const std::size_t others = 1 + experiment.engines.size();
-    if (parts != others + options.hosts)
-      throw std::runtime_error("it was taken with --controller-hosts " +
-                               std::to_string(parts > others ? parts - others : 0) + "; restore it with as many");
+    if (checkpoint.parts.size() != 1 + experiment.engines.size() + options.hosts)
+      checkpoint.parts = SharedOut(std::move(checkpoint.parts), experiment, options.hosts);
     return checkpoint;
   }
   catch (const std::exception& error)

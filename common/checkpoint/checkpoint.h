@@ -71,11 +71,11 @@ void WriteCheckpoint(const std::string& path, const Checkpoint& checkpoint);
 
 struct RestoreOptions
 {
-  std::size_t hosts = 1;   // controller hosts of the run that goes on
+  std::size_t hosts = 1;   // controller hosts of the run that goes on: its robots are shared out among them
   bool any_build = false;  // take what other builds of the libraries saved
 };
 // Throws std::runtime_error, with the path and the cure, if the file cannot be read, is damaged, is of another
-// experiment or of other builds of its libraries, or was taken with another number of controller hosts.
+// experiment or of other builds of its libraries.
 Checkpoint ReadCheckpoint(const std::string& path, const Experiment& experiment, const RestoreOptions& options);
 
 // "checkpoint-00000500"

@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
 
 #include "common/configuration/regular_file.h"
+#include "common/experiment/urdf_kind.h"
 #include "common/plugins/elf_file.h"
 #include "common/plugins/library.h"
 #include "common/version/version.h"
@@ -35,6 +39,48 @@ std::string BuildOfFile(const std::string& path)
   {
     return {};
   }
+}
+
+// Of a file that is read as it is.
+std::string HashOfFile(const std::string& path)
+{
+  constexpr std::size_t kChunk = std::size_t{1} << 20U;
+  try
+  {
+    const RegularFile file(path);
+    XXH3_state_t state;
+    XXH3_128bits_reset(&state);
+    for (std::uint64_t at = 0; at < file.Size(); at += kChunk)
+    {
+      const std::vector<char> bytes = file.Read(at, kChunk);
+      XXH3_128bits_update(&state, bytes.data(), bytes.size());
+    }
+    const XXH128_hash_t hash = XXH3_128bits_digest(&state);
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  }
+  catch (const FileError&)
+  {
+    return {};
+  }
+}
+
+// Calls `take` with the files that entities and controllers read, as the experiment names them.
+template <class Take>
+void ForEachDataFile(const Experiment& experiment, Take take)
+{
+  for (const EntityKindConfiguration& kind : experiment.entity_kinds)
+    if (const UrdfKind* urdf = FindUrdfKind(kind.tag); kind.library.empty() && urdf != nullptr)
+      take(fs::path(urdf->file).lexically_relative(experiment.folder).string());
+  for (const EntityConfiguration& entity : experiment.entities)
+  {
+    const EntityRole role = DescriptionOf(entity.kind).role;
+    if (role == EntityRole::kPatch) take(entity.tree.GetText("picture", ""));
+    if (role != EntityRole::kTerrain) continue;
+    for (const char* source : {"octomap", "heightmap"})
+      if (const TConfigurationTree map = entity.tree.Child(source); map.Exists()) take(map.GetText("file", ""));
+  }
+  for (const ControllerConfiguration& controller : experiment.controllers)
+    for (const TConfigurationTree& part : controller.parameters.Children()) take(part.Value("script").value_or(""));
 }
 
 std::string ReadOwnBuild()
@@ -93,9 +139,20 @@ std::vector<LibraryBuild> LibraryBuildsOf(const Experiment& experiment)
                  {
                    if (computes) builds[name] = BuildOfFile(file);
                  });
+  ForEachDataFile(experiment,
+                  [&](const std::string& name)
+                  {
+                    if (!name.empty()) builds[name] = HashOfFile(fs::path(experiment.folder) / name);
+                  });
   std::vector<LibraryBuild> all;
   for (const auto& [name, build] : builds) all.push_back({name, build});
   return all;
+}
+
+std::string NameInText(const LibraryBuild& build)
+{
+  if (build.name == kSwarmanoidBuild) return build.name;
+  return fmt::format("the {} '{}'", build.name.find(".so") == std::string::npos ? "file" : "library", build.name);
 }
 
 std::string DifferenceOfBuilds(const std::vector<LibraryBuild>& saved, const std::vector<LibraryBuild>& here)
@@ -105,7 +162,8 @@ std::string DifferenceOfBuilds(const std::vector<LibraryBuild>& saved, const std
     const auto now =
         std::find_if(here.begin(), here.end(), [&](const LibraryBuild& one) { return one.name == then.name; });
     if (now == here.end() || then.build.empty() || now->build.empty() || now->build == then.build) continue;
-    return then.name == kSwarmanoidBuild ? "Swarmanoid" : "the library '" + then.name + "'";
+    const std::string name = NameInText(then);
+    return (name.starts_with("the file") ? "another content of " : "another build of ") + name;
   }
   return {};
 }

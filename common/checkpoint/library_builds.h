@@ -1,6 +1,7 @@
-// The builds of what computes the state of a run: Swarmanoid itself and the libraries of kinds of entities,
-// controllers, devices, engines and experiment functions. Checkpoints keep them, since the state that one build saved
-// means nothing sure to another.
+// What computes the state of a run beside its experiment file: the builds of Swarmanoid itself and of the libraries of
+// kinds of entities, controllers, devices, engines and experiment functions, and the content of the files that they
+// read: terrains, pictures of the floor, scripts. Checkpoints keep it, since the state that one build saved means
+// nothing sure to another.
 #pragma once
 
 #include <functional>
@@ -14,8 +15,10 @@ namespace swarmanoid
 
 struct LibraryBuild
 {
-  std::string name;   // the name of the file without folder, or kSwarmanoidBuild
-  std::string build;  // as BuildOfLibrary says; empty: the file is not on the machine that looked
+  // The name of a library without folder, kSwarmanoidBuild, or a file as the experiment names it.
+  std::string name;
+  // As BuildOfLibrary says, or the hash of a file; empty: it is not on the machine that looked.
+  std::string build;
 };
 inline constexpr const char* kSwarmanoidBuild = "Swarmanoid";
 
@@ -31,8 +34,11 @@ const std::string& OwnBuild();
 // when a run starts: a file may be built anew while the run goes on with the old one.
 std::vector<LibraryBuild> LibraryBuildsOf(const Experiment& experiment);
 
-// Whose build differs: "Swarmanoid", "the library 'libx.so'"; empty if none does. Libraries that are unknown on
-// either side differ in nothing.
+// What it is in messages: "Swarmanoid", "the library 'libx.so'", "the file 'hills.png'".
+std::string NameInText(const LibraryBuild& build);
+
+// What differs: "another build of the library 'libx.so'", "another content of the file 'hills.png'"; empty if nothing
+// does. What is unknown on either side differs in nothing.
 std::string DifferenceOfBuilds(const std::vector<LibraryBuild>& saved, const std::vector<LibraryBuild>& here);
 
 }  // namespace swarmanoid

@@ -9,6 +9,14 @@ namespace swarmanoid
 namespace
 {
 
+template <class Device>
+std::vector<std::string> TypesOf(const std::map<std::string, Device*>& devices)
+{
+  std::vector<std::string> types;
+  for (const auto& [type, device] : devices) types.push_back(type);
+  return types;
+}
+
 // The device, or an error that says what to do: list it, ask for the other kind, or spell it as listed.
 template <class Device, class Other>
 Device* Find(const std::map<std::string, Device*>& devices, const std::map<std::string, Other*>& others,
@@ -16,8 +24,7 @@ Device* Find(const std::map<std::string, Device*>& devices, const std::map<std::
 {
   const auto found = devices.find(type);
   if (found != devices.end()) return found->second;
-  std::vector<std::string> listed;
-  for (const auto& [name, device] : devices) listed.push_back(name);
+  const std::vector<std::string> listed = TypesOf(devices);
   const std::string cure = others.contains(type)
                                ? "It lists the " + other + " of that name"
                                : "Add <" + type + "> to <" + what + "s> of the controller in the experiment file";
@@ -41,5 +48,9 @@ CCI_Sensor* CCI_Robot::GetSensor(const std::string& type) const
 {
   return Find(sensors_, actuators_, type, id_, "sensor", "actuator");
 }
+
+std::vector<std::string> CCI_Robot::ActuatorTypes() const { return TypesOf(actuators_); }
+
+std::vector<std::string> CCI_Robot::SensorTypes() const { return TypesOf(sensors_); }
 
 }  // namespace swarmanoid

@@ -42,6 +42,9 @@ public:
   CCI_Sensor* GetSensor(const std::string& type) const;
   bool HasActuator(const std::string& type) const { return actuators_.contains(type); }
   bool HasSensor(const std::string& type) const { return sensors_.contains(type); }
+  // The labels of all that the configuration lists, in ascending order.
+  std::vector<std::string> ActuatorTypes() const;
+  std::vector<std::string> SensorTypes() const;
 
   // The same, checked: throws CCI_DeviceError if the device is of another interface.
   template <class Interface>

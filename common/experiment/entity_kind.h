@@ -112,6 +112,8 @@ struct LedLayout
   std::vector<Vector2> places;  // m, in the frame of the robot, x forward
   double height_m = 0;
   bool on_turret = false;  // turns by the attribute "turret_angle"
+  // Where each LED looks as one of directional_leds, of any length; empty: outwards from the middle.
+  std::vector<Vector3> directions{};
 };
 // `count` places on a circle, counter-clockwise from `first_angle` (radians, 0 is the front).
 std::vector<Vector2> PlacesOnCircle(int count, double radius_m, double first_angle);
@@ -217,7 +219,7 @@ bool HasBody(EntityKind kind);
 // A body that keeps its height and lean on planes, such as a block: they cut it.
 bool IsFreeBox(EntityKind kind);
 // Whether some part of a robot takes a type of device that is made for all robots with that part: "wheels", "led_ring",
-// "proximity", "ground"; or its row names the type.
+// "directional_leds", "proximity", "ground"; or its row names the type.
 bool Carries(EntityKind kind, std::string_view device_type);
 // Whether one may be added to the arena and removed while the experiment runs.
 bool CanWait(EntityKind kind);

@@ -94,6 +94,15 @@ std::string MistakeInParts(const Row& row)
                    !std::all_of(row.leds->places.begin(), row.leds->places.end(), IsPlace)))
     return fmt::format("{} LEDs; there may be 1 to {}, at finite places, and on no turret", row.leds->places.size(),
                        kMostLeds);
+  if (row.leds && !row.leds->directions.empty())
+  {
+    const auto is_direction = [](const Vector3& direction)
+    { return direction.allFinite() && direction.norm() > 1e-6 && direction.norm() <= kMostMetres; };
+    if (row.leds->directions.size() != row.leds->places.size() ||
+        !std::all_of(row.leds->directions.begin(), row.leds->directions.end(), is_direction))
+      return fmt::format("{} directions of {} LEDs; there must be one for each, finite and not 0, or none",
+                         row.leds->directions.size(), row.leds->places.size());
+  }
   if (row.beacon_height_m && !row.leds) return "a beacon is for robots with LEDs";
   if (row.leds)
   {
@@ -321,7 +330,7 @@ bool Carries(EntityKind kind, std::string_view device_type)
 {
   const EntityKindDescription& row = DescriptionOf(kind);
   if (device_type == "wheels") return row.wheels.has_value();
-  if (device_type == "led_ring") return row.leds.has_value();
+  if (device_type == "led_ring" || device_type == "directional_leds") return row.leds.has_value();
   if (device_type == "proximity") return row.proximity.has_value();
   if (device_type == "ground") return !row.ground_points.empty();
   if (device_type == "range_and_bearing") return std::ranges::any_of(row.attributes, IsMessage);

@@ -125,6 +125,7 @@ struct Experiment
   std::uint64_t max_clock = 0;  // ticks; 0: until stopped
   std::uint64_t seed = 1;
   std::uint32_t canonical_period = 100;  // ticks between two canonicalisations of every engine
+  std::uint32_t ahead = 0;               // ticks from a control step to the one in which its commands act
   std::vector<std::string> controller_path;
   std::vector<std::string> plugin_path;
   Vector3 arena_size = Vector3::Zero();

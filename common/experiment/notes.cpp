@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "common/experiment/urdf_kind.h"
 #include "common/plugins/catalogue.h"
 
 namespace swarmanoid
@@ -46,6 +47,9 @@ std::vector<Diagnostic> NotesOn(const Experiment& experiment)
   {
     if (places.insert(place.Text()).second) notes.push_back({place, std::move(text)});
   };
+  for (const EntityKindConfiguration& kind : experiment.entity_kinds)
+    if (const UrdfKind* urdf = FindUrdfKind(kind.tag))
+      for (const Diagnostic& found : urdf->notes) note(found.location, found.message);
   for (std::uint32_t i = 0; i < experiment.entities.size(); ++i)
   {
     const EntityConfiguration& entity = experiment.entities[i];

@@ -29,6 +29,20 @@ constexpr AttributeSpec kInstruction{"instruction", 8, 0, "instructions of exper
 constexpr AttributeSpec kBeacon{"beacon", 1, 0, "colour of the beacon", AttributeValue::kColour};
 constexpr AttributeSpec kSurface{"colour", 1, 0xc0c0c0, "colour of the surface", AttributeValue::kColour};
 
+// Evenly around the robot, the first one half a spacing to the left of the front.
+ProximityRing RingOfSensors(int count, double radius_m, double height_m, double range_m)
+{
+  ProximityRing ring;
+  ring.height_m = height_m;
+  ring.range_m = range_m;
+  for (int i = 0; i < count; ++i)
+  {
+    const double angle = (2 * i + 1) * (kPi / count);
+    ring.sensors.push_back({radius_m * Vector2(Cos(angle), Sin(angle)), angle});
+  }
+  return ring;
+}
+
 EntityKindDescription Footbot()
 {
   // Radius, height, wheels, rings: ARGoS3, foot-bot.
@@ -57,14 +71,7 @@ EntityKindDescription Footbot()
   row.wheels = WheelDrive{0.14, 0.029112741, 0.3};
   row.leds = LedLayout{PlacesOnCircle(12, kRadius + 0.005, kPi / 12), 0.085, true};
   row.beacon_height_m = 0.174;
-  ProximityRing& ring = row.proximity.emplace();
-  ring.height_m = 0.06;
-  ring.range_m = 0.1;
-  for (int i = 0; i < kProximitySensors; ++i)
-  {
-    const double angle = (2 * i + 1) * (kPi / kProximitySensors);
-    ring.sensors.push_back({kRadius * Vector2(Cos(angle), Sin(angle)), angle});
-  }
+  row.proximity = RingOfSensors(kProximitySensors, kRadius, 0.06, 0.1);
   for (const auto& [x, y] : CCI_FootBotBaseGroundSensor::PLACES_M) row.ground_points.emplace_back(x, y);
   row.label_height_m = 0.33;
   row.mechanism = Mechanism::kTurretGripper;
@@ -123,6 +130,7 @@ EntityKindDescription Eyebot()
                     kReport,
                     kInstruction};
   row.leds = LedLayout{PlacesOnCircle(16, 0.255, kPi / 16), 0.1535, false};
+  row.proximity = RingOfSensors(24, 0.255, 0.1635, 3);
   row.mechanism = Mechanism::kPropellers;
   return row;
 }

@@ -170,6 +170,8 @@ std::string WritePlaces(const ConfigurationNode& root)
   return std::string(kStart) + files + "|" + places + std::string(kEnd) + "\n";
 }
 
+std::string_view WithoutPlaces(std::string_view text) { return text.substr(0, text.rfind(kStart)); }
+
 std::shared_ptr<const ConfigurationNode> ReadXmlWithPlaces(const std::string& text, const std::string& file_name)
 {
   const std::size_t start = text.rfind(kStart);

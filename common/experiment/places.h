@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "common/configuration/configuration_tree.h"
 
@@ -13,6 +14,9 @@ namespace swarmanoid
 
 // The processing instruction for a tree, to be put behind its text (WriteXml).
 std::string WritePlaces(const ConfigurationNode& root);
+
+// The text before them.
+std::string_view WithoutPlaces(std::string_view text);
 
 // The tree of a text, as ReadXml reads it, with the places that stand at the end of the text if there are any and
 // they fit. Throws as ReadXml.

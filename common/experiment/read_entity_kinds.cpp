@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "common/configuration/wording.h"
 #include "common/experiment/element_reader.h"
 #include "common/experiment/sections.h"
+#include "common/experiment/urdf_kind.h"
 #include "common/plugins/library.h"
 
 namespace swarmanoid
@@ -26,6 +28,21 @@ void LoadKind(const TConfigurationTree& tree, const std::string& name, Reading& 
                                       tree.Name(), Listed(tags), DidYouMean(tree.Name(), tags)));
 }
 
+// The kind of a URDF file, whose mistakes are reported with their places in it.
+void LoadUrdf(const TConfigurationTree& tree, const std::string& file, Reading& reading)
+{
+  const std::string path = (std::filesystem::path(reading.experiment.folder) / file).lexically_normal().string();
+  try
+  {
+    for (const Diagnostic& mistake : RegisterUrdfKind(tree.Name(), path))
+      reading.diagnostics.Add(mistake.location, mistake.message);
+  }
+  catch (const ConfigurationError& error)
+  {
+    reading.diagnostics.Add(tree.ValueLocation("urdf"), fmt::format("{}: {}", path, error.Message()));
+  }
+}
+
 }  // namespace
 
 void ReadEntityKinds(const TConfigurationTree& tree, Reading& reading)
@@ -41,8 +58,18 @@ void ReadEntityKinds(const TConfigurationTree& tree, Reading& reading)
     const auto same = [&](const EntityKindConfiguration& other) { return other.tag == child.Name(); };
     if (std::any_of(kinds.begin(), kinds.end(), same))
       reading.diagnostics.Add(child.Location(), fmt::format("<{}> is listed twice", child.Name()));
-    if (library.empty()) continue;
-    LoadKind(child, library, reading);
+    const std::string urdf = reader.Text("urdf");
+    if (library.empty() == urdf.empty())
+    {
+      reading.diagnostics.Add(child.Location(), fmt::format("<{0}> needs one of library and urdf: the library that "
+                                                            "registers it, or its URDF file",
+                                                            child.Name()));
+      continue;
+    }
+    if (urdf.empty())
+      LoadKind(child, library, reading);
+    else
+      LoadUrdf(child, urdf, reading);
     kinds.push_back({child.Name(), library});
   }
 }

@@ -88,6 +88,7 @@ void ReadFramework(const TConfigurationTree& tree, Reading& reading)
   experiment.max_clock = static_cast<std::uint64_t>(reader.Integer("maxclock"));
   experiment.seed = static_cast<std::uint64_t>(reader.Integer("seed"));
   experiment.canonical_period = static_cast<std::uint32_t>(reader.Integer("canonical_period"));
+  experiment.ahead = static_cast<std::uint32_t>(reader.Integer("ahead"));
 
   const std::string name = reader.Text("name");
   if (!name.empty() && CheckId(name, reader.Place("name"), reading.diagnostics)) experiment.name = name;

@@ -37,6 +37,11 @@ ElementSpec Framework()
                        "Ticks between two moments at which every engine drops what a saved state does not hold; "
                        "checkpoints are possible at these. It is part of the result."),
               1, 1e9),
+      InRange(Optional(kInteger, "ahead", "ticks", "0",
+                       "Ticks from a control step to the one in which its commands act. 0: the same one. With 1 robots "
+                       "act on what they saw a tick before, and in a cluster controllers and engines work at the same "
+                       "time. It is part of the result."),
+              0, 1),
       Optional(kText, "name", "", "", "The name of the experiment; empty: the name of the file without its extension."),
       Optional(kText, "folder", "", "",
                "The folder at which relative paths start; empty: the folder of the experiment file."),
@@ -49,12 +54,14 @@ ElementSpec EntityKinds()
   using enum ParameterType;
   ElementSpec element;
   element.tags = {"entity_kinds"};
-  element.description = "Kinds of robots and objects that libraries of users add to those of the simulator.";
+  element.description =
+      "Kinds of robots and objects that libraries of users, or URDF files, add to those of the simulator.";
   element.plugins = PluginKind::kEntityKind;
   ElementSpec kind;
   kind.description = "One kind: its tag is that of its entities in <arena>.";
   kind.parameters = {
-      Required(kText, "library", "", "The library that registers it, looked for in plugin_path."),
+      Optional(kText, "library", "", "", "The library that registers it, looked for in plugin_path."),
+      Optional(kText, "urdf", "", "", "The URDF file of a robot on two wheels, in place of a library."),
   };
   element.plugin_element = {kind};
   return element;

@@ -1,5 +1,6 @@
-// The blocks of a journal: what stands in its file, and what a process that takes the place of another one is sent. A
-// file is one block after another, each whole by itself:
+// The blocks of a journal: what stands in its files, and what a process that takes the place of another one is sent. A
+// journal is one file, or several, its segments, of which the oldest may have been deleted. Each is one block after
+// another, each whole by itself:
 //
 //   "SWARMJB" and the version of the format (one character)
 //   kind (u32), ticks in it (u32), first tick (u64)
@@ -7,7 +8,8 @@
 //   XXH3, 64 bits, of all of the block but these eight bytes (u64)
 //   the content, compressed by zstd
 //
-// Numbers are little-endian. The first block of a file is of kind kStart.
+// Numbers are little-endian. The first block of each segment is of kind kStart; its first tick is that of the segment.
+// All commands and states of hosts in a segment are of as many controller hosts as that block says.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +25,7 @@ namespace swarmanoid
 
 inline constexpr std::string_view kJournalMagic = "SWARMJB";
 // Another one for each change of the blocks, or of what they mean.
-inline constexpr char kJournalVersion = '3';
+inline constexpr char kJournalVersion = '5';
 inline constexpr std::size_t kJournalHeaderBytes = 48;
 
 enum class JournalBlockKind : std::uint32_t

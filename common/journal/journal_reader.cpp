@@ -3,12 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <set>
 #include <stdexcept>
+
+#include "common/checkpoint/host_state.h"
 
 namespace swarmanoid
 {
 namespace
 {
+
+// In the course of it, the number of controller hosts may change.
+bool IsOfOneRun(const JournalStart& start, JournalStart other)
+{
+  other.hosts = start.hosts;
+  return ContentOf(start) == ContentOf(other);
+}
 
 // The block at that place of the file, if it is whole.
 std::vector<char> BlockAt(const RegularFile& file, std::uint64_t offset)
@@ -32,20 +43,61 @@ void DropFrom(std::vector<JournalPlace>& places, std::uint64_t tick)
                 });
 }
 
-JournalReader::JournalReader(const std::string& path) : path_(path), file_(path)
+std::uint64_t FirstTickOf(const JournalStart& start, const std::vector<JournalPlace>& places)
 {
+  if (places.empty() || places.front().segment == 0) return start.first_tick;
+  const auto ticks = std::find_if(places.begin(), places.end(),
+                                  [](const JournalPlace& place) { return place.kind == JournalBlockKind::kTicks; });
+  // A segment of other controller hosts may begin with an older state than its ticks.
+  for (const JournalPlace& place : places)
+    if (place.kind == JournalBlockKind::kSnapshot && (ticks == places.end() || place.first_tick >= ticks->first_tick))
+      return place.first_tick;
+  return places.front().first_tick;
+}
+
+std::uint64_t EndTickOf(const JournalStart& start, const std::vector<JournalPlace>& places)
+{
+  for (auto place = places.rbegin(); place != places.rend(); ++place)
+    if (place->kind == JournalBlockKind::kTicks) return place->first_tick + place->ticks;
+  return FirstTickOf(start, places);
+}
+
+JournalReader::JournalReader(const std::string& path) : path_(path)
+{
+  std::vector<std::uint32_t> segments = SegmentsOf(path);
+  if (segments.empty()) segments.push_back(0);
+  for (const std::uint32_t segment : segments)
+    if (!ReadSegment(segment)) break;
+  if (places_.empty())
+    throw std::runtime_error(fmt::format("'{}' is no journal, or one of another version of Swarmanoid",
+                                         SegmentFile(path, segments.front())));
+}
+
+bool JournalReader::ReadSegment(std::uint32_t segment)
+{
+  files_.emplace_back(segment, std::make_unique<RegularFile>(SegmentFile(path_, segment)));
+  const RegularFile& file = *files_.back().second;
   std::uint64_t offset = 0;
-  while (offset < file_.Size())
+  std::uint64_t hosts = 0;
+  while (offset < file.Size())
   {
-    const std::vector<char> block = BlockAt(file_, offset);
+    const std::vector<char> block = BlockAt(file, offset);
     const auto header = JournalBlockAt(block, block.size());
-    if (!header) break;
-    JournalPlace place{header->kind, header->first_tick, header->ticks, {}, offset, block.size()};
+    if (!header || (offset == 0) != (header->kind == JournalBlockKind::kStart)) break;
+    JournalPlace place{header->kind, header->first_tick, header->ticks, {}, offset, block.size(), segment};
     try
     {
       const std::vector<char> content = JournalContent(block);
       if (place.kind == JournalBlockKind::kPart) place.name = ReadPart(content).name;
-      if (offset == 0) start_ = ReadStart(content);
+      if (offset == 0)
+      {
+        const JournalStart start = ReadStart(content);
+        if (places_.empty()) start_ = start;
+        // Another run may have left its own here.
+        if (!IsOfOneRun(start, start_)) break;
+        hosts = start.hosts;
+      }
+      place.hosts = hosts;
     }
     catch (const std::runtime_error&)
     {
@@ -55,14 +107,19 @@ JournalReader::JournalReader(const std::string& path) : path_(path), file_(path)
     places_.push_back(std::move(place));
     offset += block.size();
   }
-  torn_ = file_.Size() - offset;
-  if (places_.empty() || places_.front().kind != JournalBlockKind::kStart)
-    throw std::runtime_error(fmt::format("'{}' is no journal, or one of another version of Swarmanoid", path));
+  torn_ = file.Size() - offset;
+  bytes_ += offset;
+  if (offset == 0) return false;
+  newest_ = segment;
+  newest_bytes_ = offset;
+  return torn_ == 0;
 }
 
 std::vector<char> JournalReader::Content(const JournalPlace& place) const
 {
-  return JournalContent(file_.Read(place.offset, place.bytes));
+  for (const auto& [segment, file] : files_)
+    if (segment == place.segment) return JournalContent(file->Read(place.offset, place.bytes));
+  throw std::runtime_error(fmt::format("the journal '{}' has no segment {}", path_, place.segment));
 }
 
 void JournalReader::ForEachTick(const std::function<void(const TickRecord&)>& use) const
@@ -76,39 +133,46 @@ void JournalReader::ForEachTick(const std::function<void(const TickRecord&)>& us
   }
 }
 
-KnownFaults JournalReader::FaultsFrom(std::uint64_t tick) const
+KnownFaults JournalReader::FaultsFrom(std::uint64_t tick, std::uint32_t ahead) const
 {
   KnownFaults known;
   ForEachTick(
       [&](const TickRecord& record)
       {
-        if (record.state.tick < tick || record.commands.empty()) return;
-        known.until = record.state.tick + 1;
+        if (record.state.tick < tick + ahead || record.commands.empty()) return;
+        const std::uint64_t step = record.state.tick - ahead;
+        known.until = step + 1;
         for (const ControlCommands& commands : record.commands)
           for (std::size_t k = 0; k < commands.faults.robots.size(); ++k)
-            known.faults.push_back({record.state.tick, commands.faults.robots[k], commands.faults.kinds[k]});
+            known.faults.push_back({step, commands.faults.robots[k], commands.faults.kinds[k]});
       });
   return known;
 }
 
-const JournalPlace* JournalReader::PlaceOf(JournalBlockKind kind, std::uint64_t tick, const std::string& name) const
+const JournalPlace* JournalReader::PlaceOf(JournalBlockKind kind, std::uint64_t tick, const std::string& name,
+                                           std::optional<std::uint64_t> hosts) const
 {
-  const auto found = std::find_if(places_.begin(), places_.end(),
-                                  [&](const JournalPlace& place)
-                                  { return place.kind == kind && place.first_tick == tick && place.name == name; });
-  return found == places_.end() ? nullptr : &*found;
+  const auto found = std::find_if(places_.rbegin(), places_.rend(),
+                                  [&](const JournalPlace& place) {
+                                    return place.kind == kind && place.first_tick == tick && place.name == name &&
+                                           (!hosts || place.hosts == *hosts);
+                                  });
+  return found == places_.rend() ? nullptr : &*found;
 }
 
 std::optional<std::uint64_t> JournalReader::TickToGoOn(const std::function<bool(std::uint64_t)>& usable) const
 {
-  std::uint64_t end = start_.first_tick;  // of the ticks of which none is lacking
+  std::uint64_t end = FirstTick();  // of the ticks of which none is lacking
   for (const JournalPlace& place : places_)
-    if (place.kind == JournalBlockKind::kTicks && place.first_tick == end) end += place.ticks;
+    if (place.kind == JournalBlockKind::kTicks && place.first_tick <= end)
+      end = std::max(end, place.first_tick + place.ticks);
   std::optional<std::uint64_t> newest;
   for (const JournalPlace& place : places_)
   {
     const std::uint64_t tick = place.first_tick;
     if (place.kind != JournalBlockKind::kSnapshot || tick >= end || (newest && tick < *newest)) continue;
+    // There the run begins as it began: from its checkpoint.
+    if (tick == start_.first_tick) continue;
     if (PlaceOf(JournalBlockKind::kPart, tick, kServerPart) != nullptr && usable(tick)) newest = tick;
   }
   return newest;
@@ -128,14 +192,15 @@ std::optional<TickRecord> JournalReader::RecordOf(std::uint64_t tick) const
   return std::nullopt;
 }
 
-std::optional<Checkpoint> JournalReader::CheckpointAt(std::uint64_t tick, const std::vector<std::string>& parts) const
+std::optional<Checkpoint> JournalReader::CheckpointAt(std::uint64_t tick, const std::vector<std::string>& parts,
+                                                      std::optional<std::uint64_t> hosts) const
 {
   const JournalPlace* snapshot = PlaceOf(JournalBlockKind::kSnapshot, tick, {});
   if (snapshot == nullptr) return std::nullopt;
   Checkpoint checkpoint;
   for (const std::string& name : parts)
   {
-    const JournalPlace* part = PlaceOf(JournalBlockKind::kPart, tick, name);
+    const JournalPlace* part = PlaceOf(JournalBlockKind::kPart, tick, name, hosts);
     if (part == nullptr) return std::nullopt;
     checkpoint.parts.push_back(ReadPart(Content(*part)));
   }
@@ -154,6 +219,41 @@ std::optional<Checkpoint> JournalReader::NewestCheckpoint(const std::vector<std:
   return std::nullopt;
 }
 
+std::optional<Checkpoint> JournalReader::WholeCheckpointAt(std::uint64_t tick, const Experiment& experiment,
+                                                           std::size_t hosts) const
+{
+  // At a tick at which robots were shared out anew, both may have been saved.
+  std::set<std::uint64_t> numbers;
+  for (const JournalPlace& place : places_)
+    if (place.kind == JournalBlockKind::kPart && place.first_tick == tick) numbers.insert(place.hosts);
+  for (const std::uint64_t number : numbers)
+  {
+    auto checkpoint = CheckpointAt(tick, PartsOf(experiment, number), number);
+    if (!checkpoint) continue;
+    if (number != hosts) checkpoint->parts = SharedOut(std::move(checkpoint->parts), experiment, hosts);
+    return checkpoint;
+  }
+  return std::nullopt;
+}
+
+std::optional<Checkpoint> JournalReader::WholeCheckpointUntil(std::uint64_t tick, const Experiment& experiment,
+                                                              std::size_t hosts) const
+{
+  std::set<std::uint64_t, std::greater<>> ticks;
+  for (const JournalPlace& place : places_)
+    if (place.kind == JournalBlockKind::kSnapshot && place.first_tick <= tick) ticks.insert(place.first_tick);
+  for (const std::uint64_t saved : ticks)
+    if (auto checkpoint = WholeCheckpointAt(saved, experiment, hosts)) return checkpoint;
+  return std::nullopt;
+}
+
+bool IsBegun(const std::string& path)
+{
+  const std::vector<std::uint32_t> segments = SegmentsOf(path);
+  std::error_code none;
+  return !segments.empty() && std::filesystem::file_size(SegmentFile(path, segments.front()), none) > 0;
+}
+
 std::string JournalFile(const std::string& run_folder) { return run_folder + "/journal/0"; }
 
 KnownFaults FaultsOfRun(const std::string& run_folder, const Experiment& experiment, std::uint64_t tick)
@@ -162,7 +262,7 @@ KnownFaults FaultsOfRun(const std::string& run_folder, const Experiment& experim
   const JournalReader journal(JournalFile(run_folder));
   if (journal.Start().origin.experiment != FingerprintOf(experiment))
     throw std::runtime_error(fmt::format("'{}' is of another experiment, or of other settings of it", journal.Path()));
-  return journal.FaultsFrom(tick);
+  return journal.FaultsFrom(tick, experiment.ahead);
 }
 
 }  // namespace swarmanoid

@@ -1,14 +1,16 @@
-// JournalReader: the journal of a run that has ended, however it did. Blocks are found one after the other; the first
-// one that is cut short or damaged ends it.
+// JournalReader: the journal of a run that has ended, however it did. Blocks are found one after the other, in all
+// segments that are there; the first one that is cut short or damaged ends it.
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/checkpoint/checkpoint.h"
 #include "common/configuration/regular_file.h"
+#include "common/journal/journal_blocks.h"
 #include "common/journal/journal_format.h"
 #include "common/journal/journal_writer.h"
 #include "common/journal/tick_records.h"
@@ -16,43 +18,66 @@
 namespace swarmanoid
 {
 
-class JournalReader
+class JournalReader : public JournalBlocks
 {
 public:
   // Throws std::runtime_error, with the path, if it cannot be read or is no journal of this version.
   explicit JournalReader(const std::string& path);
 
   const JournalStart& Start() const { return start_; }
+  // Controller hosts at the end; at first there may have been others.
+  std::uint64_t Hosts() const { return places_.back().hosts; }
   const std::string& Path() const { return path_; }
   // All whole blocks but those of ticks that were done again, in the order of the file.
-  const std::vector<JournalPlace>& Places() const { return places_; }
-  // Of whole blocks.
-  std::uint64_t Bytes() const { return file_.Size() - torn_; }
+  const std::vector<JournalPlace>& Places() const override { return places_; }
+  // Of whole blocks, in all segments and in the newest one.
+  std::uint64_t Bytes() const { return bytes_; }
+  std::uint64_t NewestSegmentBytes() const { return newest_bytes_; }
+  std::uint32_t NewestSegment() const { return newest_; }
   // Bytes after the last whole block: what was being written when the run died.
   std::uint64_t TornBytes() const { return torn_; }
-  std::vector<char> Content(const JournalPlace& place) const;
+  std::vector<char> Content(const JournalPlace& place) const override;
+  // The first tick of which there is all: that of the run, or of the oldest segment that is left.
+  std::uint64_t FirstTick() const { return FirstTickOf(start_, places_); }
   // Calls `use` with each tick. Some may be lacking at the end.
   void ForEachTick(const std::function<void(const TickRecord&)>& use) const;
   // The newest tick at which the space server was saved and before which none is lacking, nor itself; nothing if there
   // is none. `usable`: false for ticks that will not do.
   std::optional<std::uint64_t> TickToGoOn(const std::function<bool(std::uint64_t)>& usable) const;
   std::optional<TickRecord> RecordOf(std::uint64_t tick) const;
-  // Of controllers, in the ticks from that one on.
-  KnownFaults FaultsFrom(std::uint64_t tick) const;
+  // Of controllers, in the steps from that tick on. `ahead`: ticks until commands, which tell of them, act.
+  KnownFaults FaultsFrom(std::uint64_t tick, std::uint32_t ahead) const;
   // What all `parts` saved at the tick, or at the newest one that has them all, put together; nothing if one is
-  // lacking.
-  std::optional<Checkpoint> CheckpointAt(std::uint64_t tick, const std::vector<std::string>& parts) const;
+  // lacking. `hosts`: saved by as many.
+  std::optional<Checkpoint> CheckpointAt(std::uint64_t tick, const std::vector<std::string>& parts,
+                                         std::optional<std::uint64_t> hosts = std::nullopt) const;
   std::optional<Checkpoint> NewestCheckpoint(const std::vector<std::string>& parts) const;
+  // What all processes saved at the tick, or at the newest one until then at which all did, for so many controller
+  // hosts, whichever number the run had.
+  std::optional<Checkpoint> WholeCheckpointAt(std::uint64_t tick, const Experiment& experiment,
+                                              std::size_t hosts) const;
+  std::optional<Checkpoint> WholeCheckpointUntil(std::uint64_t tick, const Experiment& experiment,
+                                                 std::size_t hosts) const;
 
 private:
-  const JournalPlace* PlaceOf(JournalBlockKind kind, std::uint64_t tick, const std::string& name) const;
+  const JournalPlace* PlaceOf(JournalBlockKind kind, std::uint64_t tick, const std::string& name,
+                              std::optional<std::uint64_t> hosts = std::nullopt) const;
 
   std::string path_;
-  RegularFile file_;
+  // The blocks of one segment; false if another one cannot follow.
+  bool ReadSegment(std::uint32_t segment);
+
+  std::vector<std::pair<std::uint32_t, std::unique_ptr<RegularFile>>> files_;
   JournalStart start_;
   std::vector<JournalPlace> places_;
+  std::uint64_t bytes_ = 0;
+  std::uint64_t newest_bytes_ = 0;
+  std::uint32_t newest_ = 0;
   std::uint64_t torn_ = 0;
 };
+
+// Whether there is anything of it.
+bool IsBegun(const std::string& path);
 
 // Where the space server writes it, in the folder of the run.
 std::string JournalFile(const std::string& run_folder);

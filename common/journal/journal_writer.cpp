@@ -7,10 +7,14 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
+#include <filesystem>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
+#include "common/configuration/regular_file.h"
 #include "common/journal/journal_reader.h"
 
 namespace swarmanoid
@@ -26,6 +30,8 @@ constexpr std::size_t kMostQueued = 256U << 20U;  // then the run waits for the 
 constexpr auto kLatest = 100ms;                   // a tick stays unwritten
 constexpr auto kLatestOfFew = 500ms;              // likewise, where ticks are slow: a block of few takes much room
 constexpr std::uint32_t kFewTicks = 8;
+constexpr std::uint64_t kSegments = 8;  // that a budget is for
+constexpr int kSavedBeforeTelling = 3;  // states, until a part that is lacking will not come
 
 // The launcher lets the processes of a small run share one core; this thread need not, and goes where that one may.
 void UseCoresOfLauncher()
@@ -36,26 +42,90 @@ void UseCoresOfLauncher()
 
 }  // namespace
 
-JournalWriter::JournalWriter(const std::string& path, int flags)
-    : path_(path), file_(open(path.c_str(), O_RDWR | O_CLOEXEC | flags, 0666))
+std::optional<std::uint64_t> StateAfter(const std::vector<JournalPlace>& places, std::uint32_t segment,
+                                        const std::vector<std::string>& parts)
 {
-  if (file_ < 0) throw std::runtime_error(fmt::format("cannot make the journal '{}': {}", path, std::strerror(errno)));
+  for (auto snapshot = places.rbegin(); snapshot != places.rend() && snapshot->segment > segment; ++snapshot)
+  {
+    if (snapshot->kind != JournalBlockKind::kSnapshot) continue;
+    const auto is_there = [&](const std::string& name)
+    {
+      return std::any_of(places.begin(), places.end(),
+                         [&](const JournalPlace& place)
+                         {
+                           return place.kind == JournalBlockKind::kPart && place.segment > segment &&
+                                  place.first_tick == snapshot->first_tick && place.name == name;
+                         });
+    };
+    if (std::all_of(parts.begin(), parts.end(), is_there)) return snapshot->first_tick;
+  }
+  return std::nullopt;
 }
 
-JournalWriter::JournalWriter(const std::string& path, std::span<const char> start, bool beside_launcher)
-    : JournalWriter(path, O_CREAT | O_TRUNC)
+std::string SegmentFile(const std::string& path, std::uint32_t segment)
 {
+  if (segment == 0) return path;
+  return (std::filesystem::path(path).parent_path() / std::to_string(segment)).string();
+}
+
+std::vector<std::uint32_t> SegmentsOf(const std::string& path)
+{
+  namespace fs = std::filesystem;
+  std::set<std::uint32_t> numbers;
+  std::error_code none;
+  if (fs::exists(path, none)) numbers.insert(0);
+  const fs::path parent = fs::path(path).parent_path();
+  for (const fs::directory_entry& entry : fs::directory_iterator(parent.empty() ? "." : parent, none))
+  {
+    const std::string name = entry.path().filename().string();
+    std::uint32_t number = 0;
+    const auto read = std::from_chars(name.data(), name.data() + name.size(), number);
+    if (read.ec == std::errc() && number > 0 && name == std::to_string(number)) numbers.insert(number);
+  }
+  std::vector<std::uint32_t> newest;
+  for (auto number = numbers.rbegin(); number != numbers.rend(); ++number)
+    if (newest.empty() || newest.back() == *number + 1) newest.push_back(*number);
+  std::reverse(newest.begin(), newest.end());
+  return newest;
+}
+
+JournalWriter::JournalWriter(const std::string& path, std::uint32_t segment, int flags, JournalBudget budget)
+    : path_(path),
+      budget_(std::move(budget)),
+      file_(open(SegmentFile(path, segment).c_str(), O_RDWR | O_CLOEXEC | flags, 0666)),
+      segment_(segment)
+{
+  if (file_ < 0)
+    throw std::runtime_error(
+        fmt::format("cannot make the journal '{}': {}", SegmentFile(path, segment), std::strerror(errno)));
+}
+
+JournalWriter::JournalWriter(const std::string& path, std::span<const char> start, bool beside_launcher,
+                             JournalBudget budget)
+    : JournalWriter(path, 0, O_CREAT | O_TRUNC, std::move(budget))
+{
+  start_.assign(start.begin(), start.end());
+  hosts_ = Start().hosts;
   Block first;
   first.place.kind = JournalBlockKind::kStart;
-  first.content.assign(start.begin(), start.end());
+  first.content = start_;
   Write(first);
   StartThread(beside_launcher);
 }
 
-JournalWriter::JournalWriter(const JournalReader& journal, std::uint64_t tick, bool beside_launcher)
-    : JournalWriter(journal.Path(), 0)
+JournalWriter::JournalWriter(const JournalReader& journal, std::uint64_t tick, bool beside_launcher,
+                             JournalBudget budget)
+    : JournalWriter(journal.Path(), journal.NewestSegment(), 0, std::move(budget))
 {
-  size_ = journal.Bytes();
+  JournalStart start = journal.Start();
+  start.hosts = hosts_ = journal.Hosts();
+  start_ = ContentOf(start);
+  size_ = journal.NewestSegmentBytes();
+  all_bytes_ = journal.Bytes();
+  segment_from_ = all_bytes_ - size_;
+  // One whose first block was being written when the run died, or that follows a damaged one.
+  for (const std::uint32_t later : SegmentsOf(path_))
+    if (later > segment_) std::filesystem::remove(SegmentFile(path_, later));
   if (ftruncate(file_, static_cast<off_t>(size_)) != 0)
     throw std::runtime_error(fmt::format("cannot go on with the journal '{}': {}", path_, std::strerror(errno)));
   Block mark;
@@ -120,24 +190,58 @@ void JournalWriter::AddTick(const SpaceState& state, bool save, std::span<const 
 
 void JournalWriter::Add(const SpaceSnapshot& snapshot)
 {
-  Queue(JournalBlockKind::kSnapshot, snapshot.tick, {}, ContentOf(snapshot));
+  std::vector<char> content = ContentOf(snapshot);
+  const std::lock_guard lock(mutex_);
+  Queue(JournalBlockKind::kSnapshot, snapshot.tick, {}, std::move(content));
 }
 
 void JournalWriter::Add(std::uint64_t tick, const SavedPart& part)
 {
-  Queue(JournalBlockKind::kPart, tick, part.name, ContentOf(part));
+  std::vector<char> content = ContentOf(part);
+  const std::lock_guard lock(mutex_);
+  Queue(JournalBlockKind::kPart, tick, part.name, std::move(content));
 }
 
 void JournalWriter::Queue(JournalBlockKind kind, std::uint64_t tick, const std::string& name, std::vector<char> content)
 {
-  const std::lock_guard lock(mutex_);
   if (!works_) return;
+  // All of a saved state goes into one segment; parts may come before the space.
+  const bool opens_segment =
+      budget_.bytes != 0 && tick > saved_ && all_bytes_ - segment_from_ >= budget_.bytes / kSegments;
+  saved_ = std::max(saved_, tick);
+  if (opens_segment)
+  {
+    QueueRows();
+    segment_from_ = all_bytes_;
+  }
   queued_bytes_ += content.size();
   Block& block = queue_.emplace_back();
   block.place.kind = kind;
   block.place.first_tick = tick;
   block.place.name = name;
   block.content = std::move(content);
+  if (opens_segment) block.start = start_;
+}
+
+void JournalWriter::BeginHosts(std::uint64_t hosts, std::uint64_t tick)
+{
+  const std::lock_guard lock(mutex_);
+  if (!works_) return;
+  QueueRows();
+  segment_from_ = all_bytes_;
+  JournalStart start = ReadStart(start_);
+  start.hosts = hosts;
+  start_ = ContentOf(start);
+  Block& block = queue_.emplace_back();
+  block.place.kind = JournalBlockKind::kGoOn;
+  block.place.first_tick = tick;
+  block.start = start_;
+}
+
+JournalStart JournalWriter::Start() const
+{
+  const std::lock_guard lock(mutex_);
+  return ReadStart(start_);
 }
 
 void JournalWriter::QueueRows()
@@ -186,8 +290,75 @@ void JournalWriter::Write()
 
 void JournalWriter::Write(const Block& block)
 {
+  if (!block.start.empty()) OpenNextSegment(block);
+  WriteBlock(block);
+  if (budget_.bytes != 0 && block.place.kind == JournalBlockKind::kPart) DropOldSegments();
+}
+
+// What stands in the one before is whole; if the next one cannot be made, the journal ends there.
+void JournalWriter::OpenNextSegment(const Block& opening)
+{
+  if (!Works()) return;
+  const int next = open(SegmentFile(path_, segment_ + 1).c_str(), O_RDWR | O_CLOEXEC | O_CREAT | O_TRUNC, 0666);
+  if (next < 0)
+  {
+    const std::string error = std::strerror(errno);
+    const std::lock_guard lock(mutex_);
+    works_ = false;
+    trouble_ = fmt::format("the journal '{}' cannot be made: {}", SegmentFile(path_, segment_ + 1), error);
+    return;
+  }
+  close(file_);
+  file_ = next;
+  ++segment_;
+  size_ = 0;
+  Block first;
+  first.place.kind = JournalBlockKind::kStart;
+  first.place.first_tick = opening.place.first_tick;
+  first.content = opening.start;
+  hosts_ = ReadStart(opening.start).hosts;
+  WriteBlock(first);
+}
+
+std::string JournalWriter::LackingPart() const
+{
+  for (const std::string& name : budget_.parts)
+    if (std::none_of(places_.begin(), places_.end(),
+                     [&](const JournalPlace& place)
+                     { return place.kind == JournalBlockKind::kPart && place.name == name; }))
+      return name;
+  return {};
+}
+
+// Whole segments before the newest tick at which all processes were saved: everybody goes on from there.
+void JournalWriter::DropOldSegments()
+{
+  const std::lock_guard lock(mutex_);
+  while (all_bytes_ > budget_.bytes && !places_.empty())
+  {
+    const std::uint32_t oldest = places_.front().segment;
+    const auto state = StateAfter(places_, oldest, budget_.parts);
+    const auto is_needed = [&](const JournalPlace& place)
+    {
+      return place.segment == oldest && place.kind == JournalBlockKind::kTicks &&
+             place.first_tick + place.ticks > *state;
+    };
+    if (!state || std::any_of(places_.begin(), places_.end(), is_needed)) return;
+    std::error_code none;
+    const std::uint64_t bytes = std::filesystem::file_size(SegmentFile(path_, oldest), none);
+    if (none || !std::filesystem::remove(SegmentFile(path_, oldest), none)) return;
+    all_bytes_ -= bytes;
+    segment_from_ -= bytes;
+    std::erase_if(places_, [oldest](const JournalPlace& place) { return place.segment == oldest; });
+  }
+}
+
+void JournalWriter::WriteBlock(const Block& block)
+{
   if (!Works()) return;
   JournalPlace place = block.place;
+  place.segment = segment_;
+  place.hosts = hosts_;
   const bool ticks = place.kind == JournalBlockKind::kTicks;
   const std::vector<char> bytes =
       EncodeJournalBlock(place.kind, place.first_tick, place.ticks, ticks ? block.rows.Content() : block.content);
@@ -197,6 +368,7 @@ void JournalWriter::Write(const Block& block)
   {
     size_ += bytes.size();
     const std::lock_guard lock(mutex_);
+    all_bytes_ += bytes.size();
     places_.push_back(std::move(place));
     return;
   }
@@ -205,7 +377,8 @@ void JournalWriter::Write(const Block& block)
   static_cast<void>(!ftruncate(file_, static_cast<off_t>(size_)));
   const std::lock_guard lock(mutex_);
   works_ = false;
-  trouble_ = fmt::format("the journal '{}' ends at {} bytes: {}", path_, size_, std::strerror(error));
+  trouble_ =
+      fmt::format("the journal '{}' ends at {} bytes: {}", SegmentFile(path_, segment_), size_, std::strerror(error));
 }
 
 bool JournalWriter::Append(std::span<const char> bytes)
@@ -237,6 +410,29 @@ std::optional<std::string> JournalWriter::TakeTrouble()
   return std::exchange(trouble_, std::nullopt);
 }
 
+std::optional<std::string> JournalWriter::TakeExcess()
+{
+  const std::lock_guard lock(mutex_);
+  if (budget_.bytes == 0 || excess_told_ || all_bytes_ <= 2 * budget_.bytes) return std::nullopt;
+  const auto states =
+      std::count_if(places_.begin(), places_.end(),
+                    [](const JournalPlace& place) { return place.kind == JournalBlockKind::kSnapshot; });
+  if (states < kSavedBeforeTelling) return std::nullopt;
+  const std::string lacking = LackingPart();
+  if (lacking.empty()) return std::nullopt;
+  excess_told_ = true;
+  return fmt::format(
+      "the journal '{}' has {} bytes, more than its budget, and keeps all: without its start nobody could replace {}, "
+      "which saves no state (controllers and experiment functions need HasState, SaveState and LoadState)",
+      path_, all_bytes_, lacking);
+}
+
+std::uint64_t JournalWriter::Bytes() const
+{
+  const std::lock_guard lock(mutex_);
+  return all_bytes_;
+}
+
 bool JournalWriter::Works() const
 {
   const std::lock_guard lock(mutex_);
@@ -251,15 +447,10 @@ std::vector<JournalPlace> JournalWriter::Places() const
 
 std::vector<char> JournalWriter::Read(const JournalPlace& place) const
 {
-  std::vector<char> bytes(place.bytes);
-  for (std::size_t at = 0; at < bytes.size();)
-  {
-    const ssize_t count = pread(file_, bytes.data() + at, bytes.size() - at, static_cast<off_t>(place.offset + at));
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0)
-      throw std::runtime_error(fmt::format("cannot read the journal '{}' at {}", path_, place.offset + at));
-    at += static_cast<std::size_t>(count);
-  }
+  const std::string path = SegmentFile(path_, place.segment);
+  std::vector<char> bytes = RegularFile(path).Read(place.offset, place.bytes);
+  if (bytes.size() != place.bytes)
+    throw std::runtime_error(fmt::format("cannot read the journal '{}' at {}", path, place.offset + bytes.size()));
   return bytes;
 }
 

@@ -1,6 +1,6 @@
 // JournalWriter: writes the journal of a run. The thread of the ticks and the main thread of the space server add to
 // it; a thread of its own compresses and writes, so that a tick costs a copy. A kill loses what was added within the
-// last half of a second, at most.
+// last half of a second, at most. With a budget it is written in segments, and the oldest are deleted.
 #pragma once
 
 #include <chrono>
@@ -21,7 +21,7 @@ namespace swarmanoid
 
 class JournalReader;
 
-// A block in the file.
+// A block in a file.
 struct JournalPlace
 {
   JournalBlockKind kind{};
@@ -30,7 +30,25 @@ struct JournalPlace
   std::string name;  // of a part
   std::uint64_t offset = 0;
   std::uint64_t bytes = 0;
+  std::uint32_t segment = 0;
+  std::uint64_t hosts = 0;  // controller hosts of the run then
 };
+
+// How much of a journal is kept.
+struct JournalBudget
+{
+  std::uint64_t bytes = 0;         // 0: everything
+  std::vector<std::string> parts;  // of the processes without whose state nobody goes on
+};
+
+// The newest tick of which segments after that one have the state of the space and all of the parts.
+std::optional<std::uint64_t> StateAfter(const std::vector<JournalPlace>& places, std::uint32_t segment,
+                                        const std::vector<std::string>& parts);
+
+// The file of a segment. `path`: of the first one; the others lie beside it, named by their numbers.
+std::string SegmentFile(const std::string& path, std::uint32_t segment);
+// Of those that are there, without a gap, the oldest first.
+std::vector<std::uint32_t> SegmentsOf(const std::string& path);
 
 // Takes away what a run that goes on at the tick does again.
 void DropFrom(std::vector<JournalPlace>& places, std::uint64_t tick);
@@ -40,10 +58,12 @@ class JournalWriter
 public:
   // Makes the file, with its first block. `beside_launcher`: this process was started by a launcher, which may have
   // given it fewer cores than it has. Throws std::runtime_error with the path.
-  JournalWriter(const std::string& path, std::span<const char> start, bool beside_launcher = false);
+  JournalWriter(const std::string& path, std::span<const char> start, bool beside_launcher = false,
+                JournalBudget budget = {});
   // Goes on at `tick` with the journal of a run that has died: keeps what stands there of the ticks before, and what
   // was saved until then. Throws likewise.
-  JournalWriter(const JournalReader& journal, std::uint64_t tick, bool beside_launcher = false);
+  JournalWriter(const JournalReader& journal, std::uint64_t tick, bool beside_launcher = false,
+                JournalBudget budget = {});
   // Writes all that was added.
   ~JournalWriter();
   JournalWriter(const JournalWriter&) = delete;
@@ -53,37 +73,54 @@ public:
                std::span<const ControlCommands> commands);
   void Add(const SpaceSnapshot& snapshot);
   void Add(std::uint64_t tick, const SavedPart& part);
+  // The robots are shared out among other controller hosts at the tick: what is added from now on is of so many.
+  void BeginHosts(std::uint64_t hosts, std::uint64_t tick);
 
   // Until all that was added is written.
   void Flush();
   // Why nothing is written any more, once: the disk is full. What was written is whole.
   std::optional<std::string> TakeTrouble();
+  // Why the journal is longer than its budget, once: nobody could go on without what is oldest.
+  std::optional<std::string> TakeExcess();
   bool Works() const;
-  // All blocks in the file.
+  // Bytes of all segments.
+  std::uint64_t Bytes() const;
+  // All blocks that are kept.
   std::vector<JournalPlace> Places() const;
   std::vector<char> Read(const JournalPlace& place) const;
   const std::string& Path() const { return path_; }
+  JournalStart Start() const;
 
 private:
   using Clock = std::chrono::steady_clock;
 
   struct Block
   {
-    JournalPlace place;
-    TickRows rows;              // of kTicks
-    std::vector<char> content;  // of others
+    JournalPlace place{};
+    TickRows rows{};              // of kTicks
+    std::vector<char> content{};  // of others
+    std::vector<char> start{};    // of the next segment, if it is the first one of that
   };
 
-  JournalWriter(const std::string& path, int flags);
+  JournalWriter(const std::string& path, std::uint32_t segment, int flags, JournalBudget budget);
   void StartThread(bool beside_launcher);
   void Queue(JournalBlockKind kind, std::uint64_t tick, const std::string& name, std::vector<char> content);
   void QueueRows();
   void Write();
   void Write(const Block& block);
+  void WriteBlock(const Block& block);
+  void OpenNextSegment(const Block& opening);
+  void DropOldSegments();
+  // The first of the parts that is in no saved state, while the budget is exceeded.
+  std::string LackingPart() const;
   bool Append(std::span<const char> bytes);
 
   std::string path_;
-  int file_ = -1;
+  JournalBudget budget_;
+  std::vector<char> start_;  // the content of the first block of the segment that is added to
+  int file_ = -1;            // the newest segment
+  std::uint32_t segment_ = 0;
+  std::uint64_t hosts_ = 0;   // in the newest segment; the writer's thread
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
   TickRows rows_;               // being filled
@@ -96,8 +133,12 @@ private:
   bool over_ = false;
   bool works_ = true;
   std::optional<std::string> trouble_;
+  bool excess_told_ = false;
   std::vector<JournalPlace> places_;
-  std::uint64_t size_ = 0;  // of whole blocks; the writer's thread
+  std::uint64_t saved_ = 0;         // the newest tick of which some state was added
+  std::uint64_t all_bytes_ = 0;     // of whole blocks in all segments
+  std::uint64_t segment_from_ = 0;  // all_bytes_ when the newest segment was begun, or is to be
+  std::uint64_t size_ = 0;          // of whole blocks of the newest segment; the writer's thread
   std::thread thread_;
 };
 

@@ -152,7 +152,8 @@ std::vector<char> TickRows::Content() const
   return content;
 }
 
-TickRecordReader::TickRecordReader(std::span<const char> content) : rest_(bytes_)
+TickRecordReader::TickRecordReader(std::span<const char> content, bool with_numbers)
+    : with_numbers_(with_numbers), rest_(bytes_)
 {
   ByteReader reader(content);
   const auto first_tick = reader.Get<std::uint64_t>();
@@ -162,8 +163,8 @@ TickRecordReader::TickRecordReader(std::span<const char> content) : rest_(bytes_
   if (left_ == 0 || columns.size() % left_ != 0 || poses > columns.size() / left_)
     throw std::runtime_error("journal: the rows of a block are none");
   row_ = columns.size() / left_;
-  numbers_.resize(columns.size());
-  for (std::size_t k = 0; k < row_; ++k)
+  if (with_numbers_) numbers_.resize(columns.size());
+  for (std::size_t k = 0; with_numbers_ && k < row_; ++k)
     for (std::size_t tick = 0; tick < left_; ++tick)
     {
       const double expected = Expected(numbers_.data() + k, tick, row_, k < poses);
@@ -184,8 +185,8 @@ bool TickRecordReader::Next(TickRecord& record)
   const auto take = [&](std::vector<double>& values, std::uint64_t count)
   {
     if (count > end - at_) throw std::runtime_error("journal: a row is too short");
-    const auto from = numbers_.begin() + static_cast<std::ptrdiff_t>(at_);
-    values.assign(from, from + static_cast<std::ptrdiff_t>(count));
+    const auto from = numbers_.begin() + static_cast<std::ptrdiff_t>(with_numbers_ ? at_ : 0);
+    values.assign(from, from + static_cast<std::ptrdiff_t>(with_numbers_ ? count : 0));
     at_ += count;
   };
   record.state.tick = tick_++;

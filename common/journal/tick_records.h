@@ -52,13 +52,15 @@ private:
 class TickRecordReader
 {
 public:
+  // `with_numbers`: else records lack poses, frames and commands, for who wants to know quickly what else there was.
   // Throws std::runtime_error, as Next does, if the content is none.
-  explicit TickRecordReader(std::span<const char> content);
+  explicit TickRecordReader(std::span<const char> content, bool with_numbers = true);
   // False after the last one.
   bool Next(TickRecord& record);
 
 private:
   std::vector<double> numbers_;  // row after row
+  bool with_numbers_;
   std::size_t row_ = 0;
   std::size_t at_ = 0;
   std::size_t poses_ = 0;

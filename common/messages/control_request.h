@@ -9,13 +9,25 @@
 namespace swarmanoid
 {
 
-inline const std::vector<std::string> kControlVerbs{"pause", "resume", "step", "speed", "stop",
-                                                    "move",  "detach", "add",  "remove"};
+inline const std::vector<std::string> kControlVerbs{"pause",     "resume",      "step",   "speed", "stop",
+                                                    "reset",     "move",        "detach", "add",   "remove",
+                                                    "move-host", "move-engine", "drain",  "hosts"};
+
+// What members alone ask for: shares of the run (common/bus/share.h).
+inline const std::vector<std::string> kShareVerbs{"share", "shares", "revoke"};
 
 // Whether a verb asks for another place of an entity, or for its presence; the name of the entity follows it.
 inline bool IsSpaceChange(const std::string& verb)
 {
   return verb == "move" || verb == "detach" || verb == "add" || verb == "remove";
+}
+
+// Whether a verb asks for another place of workers. In the place of the entity: the number or id of the worker, and
+// " to " with a machine unless it stays on its own; for drain a machine. For hosts likewise, or nothing; its number
+// says how many controller hosts more there are to be, or fewer.
+inline bool IsWorkerMove(const std::string& verb)
+{
+  return verb == "move-host" || verb == "move-engine" || verb == "drain" || verb == "hosts";
 }
 
 struct ControlRequestMessage
@@ -25,7 +37,8 @@ struct ControlRequestMessage
   std::string verb;
   std::string entity;
   std::vector<double> numbers;
-  std::string user{};  // name of the user whose process the client is
+  std::string user{};     // name of the user whose process the client is
+  std::uint64_t run = 0;  // that is meant: what was asked of another one is not repeated in this one
 };
 
 }  // namespace swarmanoid

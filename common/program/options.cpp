@@ -61,9 +61,18 @@ void Store(const OptionTarget& target, const std::string& text)
              target);
 }
 
+// A number may also be given by a word: the first of its choices stands for 0.
+bool IsWordForZero(const OptionSpec& option, const std::string& text)
+{
+  const std::vector<std::string>& words = option.value.choices;
+  return option.value.type == ParameterType::kInteger && !words.empty() && text == words.front();
+}
+
 std::string TypeText(const OptionSpec& option)
 {
   if (!option.form.empty()) return option.form;
+  if (option.value.type == ParameterType::kInteger && !option.value.choices.empty())
+    return "N|" + option.value.choices.front();
   if (!option.value.choices.empty()) return fmt::format("{}", fmt::join(option.value.choices, "|"));
   if (option.value.type == ParameterType::kPath) return "FILE";
   if (!option.value.unit.empty()) return option.value.unit;
@@ -103,7 +112,7 @@ void AddValue(CLI::App& app, const OptionSpec& option)
     {
       const std::string mistake = MistakeIn(option, text);
       if (!mistake.empty()) throw UsageError(mistake);
-      Store(option.target, text);
+      Store(option.target, IsWordForZero(option, text) ? "0" : text);
     }
     return true;
   };
@@ -136,7 +145,10 @@ void AddOptions(CLI::App& app, const std::vector<OptionSpec>& options)
 
 std::string MistakeIn(const OptionSpec& option, const std::string& text)
 {
-  std::string mistake = MistakeIn(option.value, text, NameOf(option));
+  if (IsWordForZero(option, text)) return {};
+  ParameterSpec value = option.value;
+  if (value.type == ParameterType::kInteger) value.choices.clear();
+  std::string mistake = MistakeIn(value, text, NameOf(option));
   if (mistake.empty() && option.mistake)
     if (const std::string wrong = option.mistake(text); !wrong.empty())
       mistake = fmt::format("{} is {}; {}", NameOf(option), Quoted(text), wrong);
@@ -164,7 +176,8 @@ std::vector<std::string> WordsOf(const std::vector<OptionSpec>& options, const s
     for (const std::string& text : texts)
     {
       if (!IsPositional(option)) words.push_back(NameOf(option));
-      words.push_back(text);
+      const bool by_word = text == "0" && option.value.type == ParameterType::kInteger && !option.value.choices.empty();
+      words.push_back(by_word ? option.value.choices.front() : text);
     }
   }
   return words;

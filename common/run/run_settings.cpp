@@ -19,9 +19,9 @@ using enum ParameterType;
 
 // As for the elements of the experiment file.
 constexpr double kMostTicks = 1e15;
-constexpr double kLargestSeed = 9e18;
 constexpr double kFastest = 1e6;
 constexpr double kLongestStep_s = 1e6;
+constexpr double kLongestOrphan_s = 1e6;
 
 // Who takes a setting; each is for those before it too.
 enum class For
@@ -49,6 +49,13 @@ ParameterSpec Path(const std::string& name, const std::string& description)
 ParameterSpec Flag(const std::string& name, const std::string& description)
 {
   return {.name = name, .type = kBoolean, .description = description};
+}
+
+// Takes a word as well, which stands for 0.
+ParameterSpec ByWord(const std::string& word, ParameterSpec number)
+{
+  number.choices = {word};
+  return number;
 }
 
 ParameterSpec Whole(const std::string& name, const std::string& description, double minimum, double maximum)
@@ -99,6 +106,14 @@ std::string SizeMistake(const std::string& text)
   return SizeOf(text) ? "" : "write a number of bytes, or one with KiB, MiB, GiB or TiB";
 }
 
+std::string BranchMistake(const std::string& text)
+{
+  const std::size_t sign = text.rfind('@');
+  const bool good = sign != std::string::npos && sign > 0 && sign + 1 < text.size() && text.size() - sign <= 17 &&
+                    text.find_first_not_of("0123456789", sign + 1) == std::string::npos;
+  return good ? "" : "write the folder of a run and one of its ticks, RUN@TICK";
+}
+
 std::vector<RunOption> Table(RunSettings& s)
 {
   OptionSpec file{Path("EXPERIMENT", "The experiment file"), &s.file, "configs/diffusion_10.xml"};
@@ -109,6 +124,12 @@ std::vector<RunOption> Table(RunSettings& s)
        For::kChoice},
       {{Whole("ticks", "Ticks to run, instead of the file's maxclock; 0: until stopped", 0, kMostTicks), &s.ticks,
         "1000"},
+       For::kChoice},
+      {{Whole("ahead",
+              "Ticks from a control step to the one in which its commands act, instead of the file's; 1 lets "
+              "controllers and engines of a cluster work at the same time",
+              0, 1),
+        &s.ahead, "1"},
        For::kChoice},
       {{Text("set", "Change the experiment: another value for an element or attribute of the file"), &s.settings,
         "arena.fb.position=1,2,0", "PATH=VALUE", SettingMistake},
@@ -151,6 +172,11 @@ std::vector<RunOption> Table(RunSettings& s)
       {{Path("restore", "Go on from a checkpoint of the same experiment and seed"), &s.restore_file,
         "first/checkpoint-00000500", "", FileMistake},
        For::kServer},
+      {{Text("branch",
+             "Begin as an earlier run was at that tick, with the changes of --set, --seed and --ticks; without "
+             "EXPERIMENT the run's own"),
+        &s.branch, "runs/first@500", "RUN@TICK", BranchMistake},
+       For::kLauncher},
       {{Flag("any-build",
              "Restore what another build of Swarmanoid or of a library saved, without the promise of equal bits"),
         &s.any_build},
@@ -164,6 +190,11 @@ std::vector<RunOption> Table(RunSettings& s)
         &s.journal_need,
         "optional"},
        For::kServer},
+      {{Text("journal-budget",
+             "Keep the newest of the journal: its oldest part is deleted once it is longer, and all processes saved "
+             "their states since"),
+        &s.journal_budget, "2GiB", "SIZE", SizeMistake},
+       For::kServer},
       {{Flag("no-recovery", "End the run when one of its processes dies"), &s.recovery}, For::kLauncher},
       {{Whole("retries", "How often a process that dies is replaced without a tick between; 0: never", 0, 1000),
         &s.retries, "10"},
@@ -176,6 +207,16 @@ std::vector<RunOption> Table(RunSettings& s)
          .maximum = 3600},
         &s.lease_s,
         "5"},
+       For::kLauncher},
+      {{{.name = "orphan-timeout",
+         .type = kNumber,
+         .unit = "s",
+         .description = "Time that a cluster goes on after its launcher was killed or its terminal was lost, until "
+                        "somebody adopts it (swarmanoid adopt); 0: it ends with its launcher",
+         .minimum = 0,
+         .maximum = kLongestOrphan_s},
+        &s.orphan_timeout_s,
+        "3600"},
        For::kLauncher},
       {{Flag("quiet", "Show no progress"), &s.quiet}, For::kLauncher},
       {{{.name = "step-timeout",
@@ -198,7 +239,11 @@ std::vector<RunOption> Table(RunSettings& s)
               0, 64),
         &s.threads, "2"},
        For::kLauncher},
-      {{Whole("controller-hosts", "Processes that share the robots' controllers", 1, 1000), &s.controller_hosts, "2"},
+      {{ByWord("auto", Whole("controller-hosts",
+                             "Processes that share the robots' controllers; auto: the first seconds are measured, and "
+                             "there are as many as pay",
+                             1, 1000)),
+        &s.controller_hosts, "2"},
        For::kServer},
       {{Text("engine-host", "Run an engine on another machine"), &s.engine_hosts, "ground=alpha", "ENGINE=HOST",
         EngineHostMistake},
@@ -249,6 +294,8 @@ std::vector<std::string> ServerWords(const RunSettings& settings)
   return WordsOf(options, ServerOptionTable(untouched));
 }
 
+std::uint64_t SimulatorOptions::JournalBudgetBytes() const { return SizeOf(journal_budget).value_or(0); }
+
 Limits LimitsOf(const RunSettings& settings)
 {
   Limits limits = LimitsOfEnvironment();
@@ -271,6 +318,7 @@ LoadOptions ChangesOf(const ExperimentChoice& choice)
   for (const std::string& setting : choice.settings) changes.settings.push_back(SplitSetting(setting));
   if (choice.seed) changes.settings.emplace_back("framework.seed", std::to_string(*choice.seed));
   if (choice.ticks) changes.settings.emplace_back("framework.maxclock", std::to_string(*choice.ticks));
+  if (choice.ahead) changes.settings.emplace_back("framework.ahead", std::to_string(*choice.ahead));
   return changes;
 }
 

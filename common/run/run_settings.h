@@ -15,6 +15,9 @@
 namespace swarmanoid
 {
 
+// As for the element of the experiment file.
+inline constexpr double kLargestSeed = 9e18;
+
 // Which experiment, and what is changed in it.
 struct ExperimentChoice
 {
@@ -22,6 +25,7 @@ struct ExperimentChoice
   std::vector<std::string> settings;  // "PATH=VALUE"
   std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> ticks;
+  std::optional<std::uint64_t> ahead;
 };
 
 // How the ticks of an experiment are run, in whichever process.
@@ -33,6 +37,8 @@ struct SimulatorOptions
   double real_time_factor = 0;  // 0: as fast as possible
   // Until a user resumes it. In one process that takes a visualisation: without one, CSimulator throws UsageError.
   bool paused = false;
+  // Whether users may ask that the run begins again (RunSummary::reset): whoever started it does that then.
+  bool may_reset = false;
   std::string event_log;  // file for what users ask; empty: none
   std::string events;     // such a file of an earlier run, whose moves and stops are repeated
   // The folder of an earlier run: its controllers fail again where they did, and no time is measured in the ticks that
@@ -49,6 +55,8 @@ struct SimulatorOptions
   // written any more the run goes on, but nobody can be replaced then; otherwise it ends.
   bool journal = true;
   std::string journal_need = "needed";
+  std::string journal_budget;  // what is kept of it, as "2GiB": the newest; empty: everything
+  std::uint64_t JournalBudgetBytes() const;
   // Threads that share the sensors, and the controllers that may step in parallel, of one process, or of each
   // controller host. 0: in one process as many as cores are free, in a host one. Their number changes no bit of the
   // results.
@@ -59,6 +67,7 @@ struct SimulatorOptions
 
 struct RunSettings : ExperimentChoice, SimulatorOptions
 {
+  std::string branch;  // "RUN@TICK": the state to begin with is that of an earlier run
   bool single_process = false;
   unsigned controller_hosts = 1;
   std::vector<std::string> engine_hosts;  // "ENGINE=HOST"
@@ -72,7 +81,9 @@ struct RunSettings : ExperimentChoice, SimulatorOptions
   bool recovery = true;  // processes that die are replaced
   unsigned retries = 3;  // of one process, while the run does not go on
   bool Replaces() const { return recovery && journal && retries > 0; }
-  double lease_s = 0;         // silence after which a process counts as dead; 0: the default
+  double lease_s = 0;  // silence after which a process counts as dead; 0: the default
+  // That a cluster goes on after its launcher has died; 0: it ends with it.
+  double orphan_timeout_s = 300;
   double step_timeout_s = 0;  // that a step of a user's code may take; 0: the environment's limit, or none
   std::string memory_limit;   // of each process, as "2GiB"; empty: the environment's limit, or the default
 };

@@ -3,10 +3,19 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace swarmanoid
 {
+
+// A user wants the run to begin again at tick 0, at the pace that it has.
+struct ResetRequest
+{
+  std::uint64_t seed = 0;
+  bool paused = false;
+  double real_time_factor = 0;
+};
 
 struct RunSummary
 {
@@ -16,7 +25,8 @@ struct RunSummary
   double wall_s = 0;       // from the first tick on
   double real_time_factor = 0;
   bool interrupted = false;
-  bool failed = false;  // the experiment functions said so
+  bool failed = false;                  // the experiment functions said so
+  std::optional<ResetRequest> reset{};  // why it ended
 };
 
 // Of `ticks` simulated ones since the start; 0 if no time has passed.

@@ -20,6 +20,13 @@ struct Hash
   std::uint64_t Line::*member;
 };
 
+// A text without blanks.
+template <class Line>
+struct Word
+{
+  std::string Line::*member;
+};
+
 // Each kind of line: its word, and its fields in their order. At most one is a text, which may hold blanks.
 template <class Line>
 struct Form;
@@ -73,6 +80,24 @@ struct Form<ServerLost>
   static constexpr std::tuple fields{&ServerLost::name};
 };
 template <>
+struct Form<ServerMove>
+{
+  static constexpr std::string_view word = "move";
+  static constexpr std::tuple fields{Word<ServerMove>{&ServerMove::machine}, &ServerMove::name};
+};
+template <>
+struct Form<ServerReset>
+{
+  static constexpr std::string_view word = "reset";
+  static constexpr std::tuple fields{&ServerReset::seed, &ServerReset::paused, &ServerReset::real_time_factor};
+};
+template <>
+struct Form<ServerHosts>
+{
+  static constexpr std::string_view word = "hosts";
+  static constexpr std::tuple fields{&ServerHosts::machines};
+};
+template <>
 struct Form<ServerFinished>
 {
   static constexpr std::string_view word = "finished";
@@ -85,6 +110,7 @@ constexpr std::array<std::string_view, 4> kPhases{"loading", "waiting", "running
 
 std::string Written(std::uint64_t value) { return fmt::format("{}", value); }
 std::string Written(double value) { return fmt::format("{}", value); }
+std::string Written(bool value) { return value ? "1" : "0"; }
 std::string Written(ServerState::Phase phase) { return std::string(kPhases[phase]); }
 std::string Written(const std::string& text)
 {
@@ -105,6 +131,12 @@ std::string WrittenField(const Line& line, Hash<Line> hash)
   return fmt::format("{:016x}", line.*hash.member);
 }
 
+template <class Line>
+std::string WrittenField(const Line& line, Word<Line> word)
+{
+  return Written(line.*word.member);
+}
+
 template <class Number, class... Base>
 bool ReadNumber(std::string_view word, Number& value, Base... base)
 {
@@ -116,6 +148,11 @@ bool ReadWord(std::string_view word, std::uint64_t& value) { return ReadNumber(w
 bool ReadWord(std::string_view word, double& value)
 {
   return ReadNumber(word, value) && std::isfinite(value) && value >= 0;
+}
+bool ReadWord(std::string_view word, bool& value)
+{
+  value = word == "1";
+  return value || word == "0";
 }
 bool ReadWord(std::string_view word, ServerState::Phase& phase)
 {
@@ -136,6 +173,13 @@ template <class Line>
 bool ReadField(std::string_view word, Line& line, Hash<Line> hash)
 {
   return word.size() <= 16 && ReadNumber(word, line.*hash.member, 16);
+}
+
+template <class Line>
+bool ReadField(std::string_view word, Line& line, Word<Line> field)
+{
+  line.*field.member = Written(std::string(word));
+  return !word.empty();
 }
 
 // The word at one end of the text, taken from it.
@@ -187,6 +231,8 @@ bool ReadFields(std::string_view text, Line& line)
 }
 
 bool MakesSense(const ServerState& line) { return line.phase == ServerState::kWaiting || line.waiting_for.empty(); }
+bool MakesSense(const ServerMove& line) { return !line.name.empty(); }
+bool MakesSense(const ServerHosts& line) { return !line.machines.empty(); }
 template <class Line>
 bool MakesSense(const Line&)
 {

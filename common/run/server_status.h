@@ -1,6 +1,6 @@
 // What the space server tells whoever started it, line by line, on the descriptor of --status-fd: state, tick, stalled,
-// warning, asked, error, left, lost, finished. Writer and reader of each kind come from one description
-// (server_status.cpp).
+// warning, asked, error, left, lost, move, hosts, reset, finished. Writer and reader of each kind come from one
+// description (server_status.cpp).
 #pragma once
 
 #include <cstdint>
@@ -87,6 +87,36 @@ struct ServerLost
   friend bool operator==(const ServerLost&, const ServerLost&) = default;
 };
 
+// "move MACHINE NAME": a user asks that another process takes the place of this one, on that machine ("here": that of
+// the launcher)
+struct ServerMove
+{
+  std::string machine;  // without blanks
+  std::string name;
+
+  friend bool operator==(const ServerMove&, const ServerMove&) = default;
+};
+
+// "reset SEED 0|1 RTF", before "finished": the run ends, and is to begin again with that seed, paused or not, at that
+// pace
+struct ServerReset
+{
+  std::uint64_t seed = 0;
+  bool paused = false;
+  double real_time_factor = 0;
+
+  friend bool operator==(const ServerReset&, const ServerReset&) = default;
+};
+
+// "hosts MACHINES": a user asks that the robots' controllers are shared out among as many controller hosts as are
+// named, on these machines, in the order of the hosts
+struct ServerHosts
+{
+  std::string machines;  // with blanks between them
+
+  friend bool operator==(const ServerHosts&, const ServerHosts&) = default;
+};
+
 // "finished TICKS ENTITIES HASH WALL RTF"
 struct ServerFinished
 {
@@ -100,7 +130,7 @@ struct ServerFinished
 };
 
 using ServerStatus = std::variant<ServerState, ServerTick, ServerStall, ServerWarning, ServerAsked, ServerError,
-                                  ServerLeft, ServerLost, ServerFinished>;
+                                  ServerLeft, ServerLost, ServerMove, ServerHosts, ServerReset, ServerFinished>;
 
 // The line, without its end. Line breaks and other control characters in texts become blanks.
 std::string ServerStatusLine(const ServerStatus& status);

@@ -21,6 +21,7 @@ void RegisterPieCamera();
 void RegisterMotionSensors();
 void RegisterMicrophones();
 void RegisterDistanceScanners();
+void RegisterDepthCameras();
 void RegisterContact();
 void RegisterTagReader();
 void RegisterFunctionsChannel();
@@ -33,6 +34,7 @@ void RegisterEyebotAttachment();
 void RegisterEyebotAltitude();
 void RegisterEyebotLaser();
 void RegisterHandbotJoints();
+void RegisterHandbotProximity();
 void RegisterHandbotRope();
 
 }  // namespace swarmanoid

@@ -9,10 +9,10 @@
 #include "common/control_interface/footbot/ci_footbot_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_motor_ground_sensor.h"
 #include "common/math/cells.h"
-#include "common/space/terrain/floor_picture.h"
 #include "controller_host/devices/any_robot/kind_of_batch.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
+#include "controller_host/devices/sensing/floor_patches.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 #include "controller_host/devices/value_devices.h"
 #include "controller_host/split_sensor.h"
@@ -95,22 +95,7 @@ public:
     ground_noise_ = NoiseFrom(setup.parameters);
     floor_colour_ = setup.parameters.Colour("floor_colour");
     world_ = SensorWorld::Of(setup.space);
-    patches_.clear();
-    for (std::uint32_t e = 0; e < setup.space.Size(); ++e)
-    {
-      const CSwarmanoidSpaceEntity& entity = setup.space.GetEntity(e);
-      const EntityRole role = DescriptionOf(entity.GetKind()).role;
-      const bool is_hole = role == EntityRole::kHole;
-      if (!is_hole && role != EntityRole::kPatch) continue;
-      // A rectangle (x, y, 0), or a disc (radius, 0, 0).
-      const Vector3& size = entity.GetSize();
-      Patch patch{e, is_hole, size.y() == 0, is_hole ? 0 : entity.SlotOf("colour"), size.x() / 2, size.y() / 2,
-                  0, {},      nullptr};
-      if (!is_hole) patch.picture = LoadFloorPicture(entity.GetConfiguration(), setup.space.GetExperiment().folder);
-      if (patch.is_disc) patch.half_x = size.x();
-      patch.radius = __builtin_sqrt(patch.half_x * patch.half_x + patch.half_y * patch.half_y);
-      patches_.push_back(patch);
-    }
+    patches_ = FloorPatchesOf(setup.space);
     for (const Vector2& point : points_) reach_ = std::max(reach_, point.norm() + kMargin);
     for (std::size_t k = 0; k < robots_.size(); ++k) devices_.emplace_back(ValuesOf(k), points_.size());
   }
@@ -125,34 +110,10 @@ public:
   }
 
 private:
-  struct Patch
-  {
-    std::uint32_t entity;
-    bool is_hole;
-    bool is_disc;
-    std::uint32_t colour_slot;
-    double half_x, half_y;  // m; discs: radius in half_x
-    double radius;          // m, of the circle around it
-    Pose pose;              // when they were sorted
-    std::shared_ptr<const FloorPicture> picture;
-
-    bool Contains(double x, double y) const
-    {
-      if (is_disc) return x * x + y * y <= half_x * half_x;
-      return __builtin_fabs(x) <= half_x && __builtin_fabs(y) <= half_y;
-    }
-    // At a point of it.
-    std::uint32_t Colour(std::uint32_t tint, double x, double y) const
-    {
-      if (picture == nullptr) return tint;
-      return Tinted(picture->ColourAt((x + half_x) / (2 * half_x), (y + half_y) / (2 * half_y)), tint);
-    }
-  };
-
   // Lists each patch in the cells from which some robot may see it. They seldom move.
   void SortPatches()
   {
-    const auto stands = [this](const Patch& patch)
+    const auto stands = [this](const FloorPatch& patch)
     {
       const Pose pose = space_->GetPose(patch.entity);
       return pose.position == patch.pose.position && pose.orientation.coeffs() == patch.pose.orientation.coeffs();
@@ -160,7 +121,7 @@ private:
     if (is_sorted_ && std::ranges::all_of(patches_, stands)) return;
     is_sorted_ = true;
     Vector2 low = Vector2::Constant(1e9), high = -low;
-    for (Patch& patch : patches_)
+    for (FloorPatch& patch : patches_)
     {
       patch.pose = space_->GetPose(patch.entity);
       const Vector2 at(patch.pose.position.x(), patch.pose.position.y());
@@ -197,7 +158,7 @@ private:
     // In the order of the experiment file.
     for (const std::uint32_t p : patches_in_.In(cells_.CellOf(pose.position.x(), pose.position.y())))
     {
-      const Patch& patch = patches_[p];
+      const FloorPatch& patch = patches_[p];
       const Pose& place = patch.pose;
       const double reach = patch.radius + reach_;
       const Vector3 offset = pose.position - place.position;
@@ -253,7 +214,7 @@ private:
   std::shared_ptr<SensorWorld> world_;
   std::uint32_t floor_colour_ = 0;
   NoiseModel ground_noise_;
-  std::vector<Patch> patches_;
+  std::vector<FloorPatch> patches_;
   bool is_sorted_ = false;
   PlaneCells<double> cells_;
   CellLists patches_in_;         // by cell

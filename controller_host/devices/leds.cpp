@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/control_interface/ci_directional_leds_actuator.h"
 #include "common/control_interface/ci_led_ring_actuator.h"
 #include "common/control_interface/eyebot/ci_eyebot_leds_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_beacon_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_leds_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_beacon_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_leds_actuator.h"
+#include "common/math/elementary.h"
 #include "controller_host/devices/any_robot/kind_of_batch.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
@@ -55,6 +57,38 @@ class AnyRing : public RingOf<CCI_LedRingActuator>
 public:
   using RingOf::RingOf;
   unsigned GetNumLeds() const override { return leds_; }
+};
+
+class DirectionalRing : public RingOf<CCI_DirectionalLedsActuator>
+{
+public:
+  DirectionalRing(double* colours, unsigned leds, double observable_angle)
+      : RingOf(colours, leds), observable_angle_(observable_angle)
+  {
+  }
+  unsigned GetNumLeds() const override { return leds_; }
+  double GetObservableAngle() const override { return observable_angle_; }
+
+private:
+  double observable_angle_;
+};
+
+// Who sees them is a matter of the cameras: LedConesOf.
+class DirectionalRingActuator : public AttributeActuator
+{
+public:
+  void Init(const DeviceSetup& setup) override
+  {
+    const auto leds = static_cast<unsigned>(KindOfBatch(setup).leds->places.size());
+    Bind(setup, {"led"});
+    colour_noise_ = NoiseFrom(setup.parameters);
+    const double angle = DegreesToRadians(setup.parameters.Number("observable_angle"));
+    for (std::size_t k = 0; k < Robots(); ++k) rings_.emplace_back(ValuesOf(k), leds, angle);
+  }
+  CCI_Actuator* Actuator(std::size_t k) override { return &rings_[k]; }
+
+private:
+  std::vector<DirectionalRing> rings_;
 };
 
 class AnyRingActuator : public AttributeActuator
@@ -112,6 +146,7 @@ void RegisterLeds()
   BindActuator<LightActuator<Beacon<CCI_HandBotBeaconActuator>>>("handbot_beacon", "generic_handbot_beacon");
   BindActuator<LightActuator<Ring<CCI_HandBotLedsActuator>>>("handbot_leds", "generic_handbot_leds");
   BindActuator<AnyRingActuator>("led_ring", "generic_led_ring");
+  BindActuator<DirectionalRingActuator>("directional_leds", "generic_directional_leds");
 }
 
 }  // namespace swarmanoid

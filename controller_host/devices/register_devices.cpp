@@ -27,6 +27,7 @@ void RegisterBuiltinDevices()
     RegisterMotionSensors();
     RegisterMicrophones();
     RegisterDistanceScanners();
+    RegisterDepthCameras();
     RegisterContact();
     RegisterTagReader();
     RegisterFunctionsChannel();
@@ -39,6 +40,7 @@ void RegisterBuiltinDevices()
     RegisterEyebotAltitude();
     RegisterEyebotLaser();
     RegisterHandbotJoints();
+    RegisterHandbotProximity();
     RegisterHandbotRope();
     PluginRegistry<SensorBatch>::Instance().RequireCode();
     PluginRegistry<ActuatorBatch>::Instance().RequireCode();

@@ -36,11 +36,14 @@ void DeviceValues::Reset(const DeviceSetup& setup, std::size_t width)
   values_.assign(robots_.size() * width, 0);
 }
 
-void ValueActuator::LoadState(ByteReader& state)
+void ValueActuator::SaveState(std::size_t k, ByteWriter& state) const
 {
-  const auto values = state.GetArray<double>();
-  if (values.size() != values_.size()) throw std::runtime_error("saved state: a device has other robots");
-  std::copy(values.begin(), values.end(), values_.begin());  // in place: the devices point into it
+  for (std::size_t i = 0; i < width_; ++i) state.Put(values_[k * width_ + i]);
+}
+
+void ValueActuator::LoadState(std::size_t k, ByteReader& state)
+{
+  for (std::size_t i = 0; i < width_; ++i) ValuesOf(k)[i] = state.Get<double>();
 }
 
 void ChannelActuator::Commit(const ChannelView& channel, AttributeChanges&)

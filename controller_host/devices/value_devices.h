@@ -31,8 +31,8 @@ protected:
 class ValueActuator : public ActuatorBatch, protected DeviceValues
 {
 public:
-  void SaveState(ByteWriter& state) const override { state.PutArray(values_); }
-  void LoadState(ByteReader& state) override;
+  void SaveState(std::size_t k, ByteWriter& state) const override;
+  void LoadState(std::size_t k, ByteReader& state) override;
 
 protected:
   std::size_t Robots() const { return robots_.size(); }

@@ -42,6 +42,8 @@ struct MemberPlan
   // nothing can. `deaths`: of controllers in it.
   std::function<ProcessCommand(unsigned incarnation, double taken_s, const std::vector<ControllerDeath>& deaths)>
       replacement;
+  // Has what takes its place start on another machine ("" for this one).
+  std::function<void(const std::string& host)> place{};
   // Whether the run goes on without the controller of a robot. Empty: without none.
   std::function<bool(std::uint32_t robot)> may_fail{};
 };

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -18,6 +21,7 @@ namespace
 
 constexpr std::size_t kScreenBytes = 2048;  // a pipe that poll calls writable takes these without blocking
 constexpr std::size_t kOutputBytes = 65536;
+constexpr const char* kLocalMachine = "here";  // in status lines
 
 // The letter of a process, as proc(5) has it.
 bool IsInState(pid_t pid, char state)
@@ -54,9 +58,9 @@ Supervisor::Supervisor(ProcessSpawner& spawner, Interrupts& interrupts, Progress
 {
 }
 
-ClusterOutcome Supervisor::Run(const std::vector<MemberPlan>& plans)
+ClusterOutcome Supervisor::Run(const std::vector<MemberPlan>& plans, const GoOn& go_on)
 {
-  Start(plans);
+  Start(plans, go_on);
   while (AnyAlive() || MustStartAgain())
   {
     if (phase_ == Phase::kRestarting && !AnyAlive()) StartAgain();
@@ -79,16 +83,22 @@ bool Supervisor::MustStartAgain()
   return phase_ == Phase::kRestarting;
 }
 
-void Supervisor::Start(const std::vector<MemberPlan>& plans)
+void Supervisor::Start(const std::vector<MemberPlan>& plans, const GoOn& go_on)
 {
   outcome_.kind = ClusterOutcome::kInterrupted;
-  progress_.phase = "starting";
+  progress_.phase = go_on.incarnation > 0 ? "starting again" : "starting";
   heard_ = now_();
+  if (go_on.incarnation > 0)
+    began_ = heard_ - std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(go_on.taken_s));
   try
   {
     for (const MemberPlan& plan : plans)
     {
-      members_.push_back(std::make_unique<ClusterMember>(plan, spawner_));
+      if (go_on.incarnation > 0 && !plan.replacement)
+        throw std::runtime_error(
+            fmt::format("{} cannot be started again{}", plan.command.name,
+                        plan.host.empty() ? "" : ": it may live on at " + plan.host + ", where nobody sees it"));
+      members_.push_back(std::make_unique<ClusterMember>(plan, spawner_, go_on.incarnation, go_on.taken_s));
       pids_.push_back(members_.back()->Process().pid);
     }
   }
@@ -172,6 +182,7 @@ void Supervisor::TakeStatus(const ServerStatus& status)
         break;
       case ServerState::kPaused:
         progress_.phase = "paused";
+        if (choice_) choice_->Disturbed();
         break;
     }
   }
@@ -181,6 +192,7 @@ void Supervisor::TakeStatus(const ServerStatus& status)
     progress_.tick = tick->tick;
     progress_.max = tick->max;
     progress_.real_time_factor = tick->real_time_factor;
+    ChooseHosts();
   }
   else if (const auto* stall = std::get_if<ServerStall>(&status))
   {
@@ -202,6 +214,20 @@ void Supervisor::TakeStatus(const ServerStatus& status)
   else if (const auto* lost = std::get_if<ServerLost>(&status))
   {
     KillLost(lost->name);
+  }
+  else if (const auto* move = std::get_if<ServerMove>(&status))
+  {
+    Move(*move);
+  }
+  else if (const auto* reset = std::get_if<ServerReset>(&status))
+  {
+    outcome_.reset = *reset;
+  }
+  else if (const auto* hosts = std::get_if<ServerHosts>(&status))
+  {
+    choice_.reset();
+    std::istringstream words(hosts->machines);
+    ShareOut({std::istream_iterator<std::string>(words), {}});
   }
   else if (const auto* finished = std::get_if<ServerFinished>(&status))
   {
@@ -298,22 +324,35 @@ bool Supervisor::Replace(const ClusterMember& member)
   const bool server_works = members_.front()->Alive() && &member != members_.front().get() && server_error_.empty();
   const bool goes_on = phase_ == Phase::kRunning || phase_ == Phase::kStopping;
   if (!goes_on || !server_works || !member.Plan().replacement || left_.contains(member.Name())) return false;
-  if (IsStuck(member.End()) || !MayBeReplaced(*member.End(), member.Record(), !member.Plan().host.empty()))
+  const auto move = moves_.extract(member.Name());
+  const bool strayed = move.empty() && IsOnItsWay(member);
+  if (IsStuck(member.End()) ||
+      (move.empty() && !strayed && !MayBeReplaced(*member.End(), member.Record(), !member.Plan().host.empty())))
     return false;
+  MemberPlan plan = member.Plan();
   std::vector<ControllerDeath> deaths = member.Deaths();
   const auto death = retries_ > 0 ? member.NewDeath() : std::nullopt;
   if (death)
     deaths.push_back(*death);
-  else if (!CountDeath(member))
+  else if (move.empty() && !CountDeath(member))
     return false;
-  display_.Note(fmt::format("{}; another process takes its place", TextOf(member)));
+  if (!move.empty())
+  {
+    came_from_[member.Name()] = {plan.host, progress_.tick};
+    plan.host = move.mapped();
+    display_.Note(fmt::format("{} moves to {}", member.Name(),
+                              plan.host.empty() ? "another process of this machine" : plan.host));
+  }
+  else
+    display_.Note(fmt::format("{}; another process takes its place", TextOf(member)));
+  if (strayed) plan.host = came_from_.extract(member.Name()).mapped().first;
+  if (plan.place) plan.place(plan.host);
   kills_for_memory_ = KernelKillsForMemory();
   const auto place =
       std::find_if(members_.begin(), members_.end(), [&](const auto& candidate) { return candidate.get() == &member; });
   try
   {
-    auto next =
-        std::make_unique<ClusterMember>(member.Plan(), spawner_, member.Incarnation() + 1, 0, std::move(deaths));
+    auto next = std::make_unique<ClusterMember>(plan, spawner_, member.Incarnation() + 1, 0, std::move(deaths));
     pids_.push_back(next->Process().pid);
     *place = std::move(next);
     return true;
@@ -349,17 +388,24 @@ bool Supervisor::Restart(const ClusterMember& first, Evidence evidence)
   if (!died && evidence != Evidence::kConsequence) return false;
   if (!CountDeath(first)) return false;
   display_.Note(fmt::format("{}; all processes start again where the journal ends", TextOf(first)));
+  KillToStartAgain();
+  return true;
+}
+
+void Supervisor::KillToStartAgain()
+{
+  if (choice_) choice_->Disturbed();
   kills_for_memory_ = KernelKillsForMemory();
   phase_ = Phase::kRestarting;
   outcome_.kind = ClusterOutcome::kInterrupted;
   outcome_.finished.reset();
+  outcome_.reset.reset();
   deadline_.reset();
   progress_.phase = "starting again";
   progress_.waiting_for.clear();
   ended_.clear();
   // Some may be stuck.
   SignalAll(SIGKILL);
-  return true;
 }
 
 void Supervisor::StartAgain()
@@ -371,13 +417,24 @@ void Supervisor::StartAgain()
   try
   {
     const double taken_s = began_ ? std::chrono::duration<double>(now_() - *began_).count() : 0;
-    for (auto& member : members_)
+    // Robots, and so their deaths, may be of another host than before.
+    std::vector<ControllerDeath> deaths;
+    unsigned incarnation = 0;
+    std::vector<MemberPlan> plans;
+    for (const auto& member : members_)
     {
-      std::vector<ControllerDeath> deaths = member->Deaths();
+      deaths.insert(deaths.end(), member->Deaths().begin(), member->Deaths().end());
       if (const auto death = member->NewDeath()) deaths.push_back(*death);
-      member = std::make_unique<ClusterMember>(member->Plan(), spawner_, member->Incarnation() + 1, taken_s,
-                                               std::move(deaths));
-      pids_.push_back(member->Process().pid);
+      incarnation = std::max(incarnation, member->Incarnation() + 1);
+      plans.push_back(member->Plan());
+    }
+    if (!next_plans_.empty()) plans = std::exchange(next_plans_, {});
+    members_.clear();
+    for (const MemberPlan& plan : plans)
+    {
+      members_.push_back(std::make_unique<ClusterMember>(plan, spawner_, incarnation, taken_s,
+                                                         plan.may_fail ? deaths : std::vector<ControllerDeath>()));
+      pids_.push_back(members_.back()->Process().pid);
     }
     heard_ = now_();
   }
@@ -404,6 +461,60 @@ void Supervisor::KillLost(const std::string& name)
 {
   for (const auto& member : members_)
     if (member->Name() == name && member->Alive()) spawner_.Signal(member->Process(), SIGKILL);
+}
+
+void Supervisor::Move(const ServerMove& move)
+{
+  for (const auto& member : members_)
+  {
+    if (member->Name() != move.name || !member->Alive() || !member->Plan().place) continue;
+    moves_[move.name] = move.machine == kLocalMachine ? "" : move.machine;
+    spawner_.Signal(member->Process(), SIGKILL);
+  }
+}
+
+void Supervisor::ChooseHosts()
+{
+  if (!choice_ || phase_ != Phase::kRunning) return;
+  if (progress_.phase != "running") return choice_->Disturbed();
+  const auto hosts = choice_->Take(progress_.tick, now_());
+  if (choice_->IsOver())
+  {
+    display_.Note(choice_->Text());
+    choice_.reset();
+  }
+  if (!hosts) return;
+  std::vector<std::string> machines;
+  for (const auto& member : members_)
+    if (member->Plan().may_fail) machines.push_back(member->Plan().host.empty() ? kLocalMachine : member->Plan().host);
+  machines.resize(*hosts, kLocalMachine);
+  ShareOut(machines);
+}
+
+void Supervisor::ShareOut(const std::vector<std::string>& machines)
+{
+  if (phase_ != Phase::kRunning || !plan_again_) return;
+  next_plans_ = plan_again_(static_cast<unsigned>(machines.size()));
+  std::size_t host = 0;
+  for (MemberPlan& plan : next_plans_)
+  {
+    if (!plan.place) continue;
+    const auto before = std::find_if(members_.begin(), members_.end(),
+                                     [&](const auto& member) { return member->Name() == plan.command.name; });
+    if (before != members_.end()) plan.host = (*before)->Plan().host;
+    if (plan.may_fail) plan.host = machines[host] == kLocalMachine ? "" : machines[host];
+    host += plan.may_fail ? 1 : 0;
+    plan.place(plan.host);
+  }
+  display_.Note(fmt::format("{} controller host{} from now on; all processes start again where the journal ends",
+                            machines.size(), machines.size() == 1 ? "" : "s"));
+  KillToStartAgain();
+}
+
+bool Supervisor::IsOnItsWay(const ClusterMember& member) const
+{
+  const auto from = came_from_.find(member.Name());
+  return from != came_from_.end() && from->second.second == progress_.tick;
 }
 
 // Who was stopped before others met it is missed by nobody's lease.
@@ -463,6 +574,12 @@ void Supervisor::TakeInterrupts()
 {
   while (const auto signal = interrupts_.Take())
   {
+    // Nobody is there any more, and whatever was begun may come to its end.
+    if (*signal == SIGHUP && phase_ != Phase::kRunning)
+    {
+      if (phase_ == Phase::kStopping && !deadline_) deadline_ = now_() + times_.forced_stop;
+      continue;
+    }
     if (phase_ == Phase::kRunning && outcome_.kind == ClusterOutcome::kInterrupted)
     {
       StopAtTick(*signal == SIGINT ? "stopping at the end of this tick; Ctrl-C again kills at once"
@@ -595,7 +712,7 @@ void Supervisor::WriteScreen(const ClusterMember& member, std::string_view line)
   {
     const ssize_t written = write(screen_, rest.data(), rest.size());
     if (written > 0) rest.remove_prefix(static_cast<std::size_t>(written));
-    if (written >= 0 || errno == EINTR) continue;
+    if (written >= 0 || errno == EINTR || interrupts_.ConsoleHasGone()) continue;
     screen_gone_ = true;
     if (phase_ == Phase::kRunning)
       StopAtTick("nobody reads standard output any more: stopping at the end of this tick");

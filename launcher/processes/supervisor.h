@@ -16,6 +16,7 @@
 #include "common/run/server_status.h"
 #include "launcher/processes/attribution.h"
 #include "launcher/processes/cluster_member.h"
+#include "launcher/processes/host_choice.h"
 #include "launcher/processes/interrupts.h"
 #include "launcher/processes/process.h"
 #include "launcher/processes/progress_display.h"
@@ -35,6 +36,7 @@ struct ClusterOutcome
   };
   Kind kind = kFailed;
   std::optional<ServerFinished> finished;  // if the space server came to its end
+  std::optional<ServerReset> reset;        // it is to begin again
   std::string reason;                      // of a failure: one line that names who failed, the tick and the log
   std::vector<std::string> log_lines;      // the last ones of that process
 };
@@ -66,8 +68,19 @@ public:
              ActorNames actor_of = {}, const SupervisorTimes& times = {},
              std::function<Clock::time_point()> now = Clock::now, unsigned retries = 0);
 
+  // For a run whose processes have all died with the one that supervised them: they take the places of those before.
+  struct GoOn
+  {
+    unsigned incarnation = 0;  // 0: the run begins
+    double taken_s = 0;        // by the run so far
+  };
+  // The processes of the run with another number of controller hosts, for users who ask for it.
+  using PlanAgain = std::function<std::vector<MemberPlan>(unsigned controller_hosts)>;
+  void SetPlanAgain(PlanAgain plan_again) { plan_again_ = std::move(plan_again); }
+  // Finds out how many there are to be.
+  void SetHostChoice(const HostChoice& choice) { choice_ = choice; }
   // The first plan is the space server's.
-  ClusterOutcome Run(const std::vector<MemberPlan>& plans);
+  ClusterOutcome Run(const std::vector<MemberPlan>& plans, const GoOn& go_on = {0, 0});
   // Of all processes that were started; for what they leave behind.
   const std::vector<pid_t>& Pids() const { return pids_; }
 
@@ -81,7 +94,7 @@ private:
     kDying        // SIGTERM is sent, SIGKILL follows
   };
 
-  void Start(const std::vector<MemberPlan>& plans);
+  void Start(const std::vector<MemberPlan>& plans, const GoOn& go_on);
   void WaitForEvents();
   void ReadMember(ClusterMember& member);
   void TakeStatus(const ServerStatus& status);
@@ -94,11 +107,19 @@ private:
   bool Replace(const ClusterMember& member);
   // Ends all, to start them again; false if that is no use.
   bool Restart(const ClusterMember& first, Evidence evidence);
+  void KillToStartAgain();
   void StartAgain();
   bool MustStartAgain();
   // Another one that died while the run did not go on. False if it is one too many, or dies of the same again.
   bool CountDeath(const ClusterMember& member);
   void KillLost(const std::string& name);
+  // Kills a worker, so that another process takes its place where a user wants it.
+  void Move(const ServerMove& move);
+  // Ends all, to start them again with other controller hosts.
+  void ShareOut(const std::vector<std::string>& machines);
+  void ChooseHosts();
+  // Whether the member died on its way to another place, which the run waits for.
+  bool IsOnItsWay(const ClusterMember& member) const;
   void KillStopped();
   // Ends the run by the fault of the process that failed first, if any of those that have ended, or said so, failed.
   void Attribute();
@@ -141,8 +162,14 @@ private:
   std::map<std::string, Screen> screens_;
   unsigned retries_;
   std::map<std::string, Deaths> deaths_;
+  std::map<std::string, std::string> moves_;  // of workers that were killed for it, to which machine
+  // Of workers that were moved while the run was at the tick: where they came from.
+  std::map<std::string, std::pair<std::string, std::uint64_t>> came_from_;
   std::map<pid_t, Clock::time_point> stopped_;  // since when
   std::vector<pid_t> pids_;
+  PlanAgain plan_again_;
+  std::optional<HostChoice> choice_;    // until it has decided
+  std::vector<MemberPlan> next_plans_;  // if others than now are to start again
   Phase phase_ = Phase::kRunning;
   ClusterOutcome outcome_;
   RunProgress progress_;

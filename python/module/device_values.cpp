@@ -5,6 +5,7 @@
 #include "common/control_interface/ci_battery_sensor.h"
 #include "common/control_interface/ci_colour_blob_sensor.h"
 #include "common/control_interface/ci_contact_sensor.h"
+#include "common/control_interface/ci_depth_camera_sensor.h"
 #include "common/control_interface/ci_distance_scanner_sensor.h"
 #include "common/control_interface/ci_ground_sensor.h"
 #include "common/control_interface/ci_gyroscope_sensor.h"
@@ -38,6 +39,7 @@
 #include "common/control_interface/handbot/ci_handbot_hands_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_head_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_joints_sensor.h"
+#include "common/control_interface/handbot/ci_handbot_proximity_sensor.h"
 #include "common/control_interface/handbot/ci_handbot_rope_actuator.h"
 #include "common/plugins/catalogue.h"
 
@@ -110,8 +112,25 @@ SensorColumns ColumnsOf(CCI_Sensor& sensor)
       AddReadings<CCI_FootBotEncodersSensor>(sensor, columns) ||
       AddReadings<CCI_FootBotAccelerometerSensor>(sensor, columns) ||
       AddReadings<CCI_FootBotTurretTorqueSensor>(sensor, columns) ||
-      AddReadings<CCI_HandBotJointsSensor>(sensor, columns))
+      AddReadings<CCI_HandBotJointsSensor>(sensor, columns) || AddReadings<CCI_HandBotProximitySensor>(sensor, columns))
     return columns;
+  if (const auto* camera = dynamic_cast<CCI_DepthCameraSensor*>(&sensor))
+  {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < camera->GetAllPixels().size(); ++i)
+    {
+      names.push_back("depth " + std::to_string(i) + " [m]");
+      names.push_back("colour " + std::to_string(i));
+    }
+    return {names, [camera](double* to)
+            {
+              for (const CCI_DepthCameraSensor::Pixel& pixel : camera->GetAllPixels())
+              {
+                *to++ = pixel.depth_m;
+                *to++ = pixel.colour;
+              }
+            }};
+  }
   if (const auto* contact = dynamic_cast<CCI_ContactSensor*>(&sensor))
     // Whether anything touches; where is told by rows.
     return {{"touched"}, [contact](double* to) { *to = contact->GetAllContacts().empty() ? 0 : 1; }};

@@ -27,8 +27,8 @@ finally:
 
 from ._module import ActivityError, ConfigurationError, Robot, Robots  # noqa: E402
 from .environment import Environment  # noqa: E402
-from .runs import Run  # noqa: E402
+from .runs import Run, Study  # noqa: E402
 from .simulation import Simulation, Summary, controller  # noqa: E402
 
 __version__ = _module.__version__
-__all__ = ["ActivityError", "ConfigurationError", "Environment", "Robot", "Robots", "Run", "Simulation", "Summary", "controller"]
+__all__ = ["ActivityError", "ConfigurationError", "Environment", "Robot", "Robots", "Run", "Simulation", "Study", "Summary", "controller"]

@@ -10,15 +10,9 @@ namespace
 
 namespace fs = std::filesystem;
 
-bool IsBegun(const std::string& file)
-{
-  std::error_code none;
-  return fs::exists(file, none) && fs::file_size(file, none) > 0;
-}
-
 }  // namespace
 
-Continuation::Continuation(const RunSettings& settings, const Experiment& experiment, std::size_t hosts)
+Continuation::Continuation(const RunSettings& settings, const Experiment& experiment) : ahead_(experiment.ahead)
 {
   const std::optional<std::uint64_t> paused = settings.paused ? std::optional<std::uint64_t>(0) : std::nullopt;
   requests_ = ReadEarlierRequests(settings.output_folder + "/events.csv", experiment, paused);
@@ -26,7 +20,7 @@ Continuation::Continuation(const RunSettings& settings, const Experiment& experi
   if (!IsBegun(file)) return;
   journal_.emplace(file);
   const JournalStart& start = journal_->Start();
-  if (start.hosts != hosts || start.origin.experiment != FingerprintOf(experiment))
+  if (start.origin.experiment != FingerprintOf(experiment))
     throw std::runtime_error("the journal '" + file + "' is of another run");
   tick_ = start.first_tick;
   // A checkpoint that the run takes there is on the disk, or somebody's part of it may be lost.
@@ -36,6 +30,8 @@ Continuation::Continuation(const RunSettings& settings, const Experiment& experi
     return !of_file || fs::exists(settings.output_folder + "/" + CheckpointName(tick));
   };
   const auto newest = journal_->TickToGoOn(usable);
+  if (!newest && journal_->FirstTick() != start.first_tick)
+    throw std::runtime_error("the journal '" + file + "' has no whole state of the space server any more");
   if (!newest) return;
   tick_ = *newest;
   record_ = journal_->RecordOf(tick_);
@@ -51,9 +47,19 @@ void Continuation::Restore(SpaceServer& server) const
   server.TellAgain(record_->state.attributes);
 }
 
+void Continuation::ShareOut(JournalWriter& journal, const Experiment& experiment, std::size_t hosts) const
+{
+  if (journal.Start().hosts == hosts) return;
+  journal.BeginHosts(hosts, tick_);
+  const auto checkpoint = journal_->WholeCheckpointUntil(tick_, experiment, hosts);
+  if (!checkpoint) return;
+  journal.Add(checkpoint->snapshot);
+  for (const SavedPart& part : checkpoint->parts) journal.Add(checkpoint->snapshot.tick, part);
+}
+
 KnownFaults Continuation::Faults() const
 {
-  KnownFaults known = journal_ ? journal_->FaultsFrom(tick_) : KnownFaults();
+  KnownFaults known = journal_ ? journal_->FaultsFrom(tick_, ahead_) : KnownFaults();
   // The journal may end earlier.
   for (const KnownFault& fault : requests_.failed)
     if (fault.tick >= tick_) known.faults.push_back(fault);
@@ -64,6 +70,7 @@ void Continuation::Prepare(RunControlSetup& setup) const
 {
   setup.goes_on = true;
   setup.failed = requests_.failed;
+  setup.asked_from = requests_.until;
   std::vector<RecordedEvent> all = requests_.changes;
   AddUndone(all, setup.repeated);
   setup.repeated = std::move(all);

@@ -19,8 +19,8 @@ namespace swarmanoid
 class Continuation
 {
 public:
-  // `hosts`: controller hosts of the run. Throws std::runtime_error if the journal is of something else.
-  Continuation(const RunSettings& settings, const Experiment& experiment, std::size_t hosts);
+  // Throws std::runtime_error if the journal is of something else.
+  Continuation(const RunSettings& settings, const Experiment& experiment);
 
   // The newest tick at which the server was saved and whose record is in the journal; otherwise the first one of the
   // run.
@@ -29,6 +29,9 @@ public:
   void Restore(SpaceServer& server) const;
   // Nothing can be read of it if the server died before it had begun.
   const JournalReader* Journal() const { return journal_ ? &*journal_ : nullptr; }
+  // If the run had another number of controller hosts: has the journal say so, with the newest state that all processes
+  // saved, shared out among these.
+  void ShareOut(JournalWriter& journal, const Experiment& experiment, std::size_t hosts) const;
   // Of the tick; nothing if it is the first one.
   const std::optional<TickRecord>& Record() const { return record_; }
   const EarlierRequests& Requests() const { return requests_; }
@@ -38,6 +41,7 @@ public:
   void Prepare(RunControlSetup& setup) const;
 
 private:
+  std::uint32_t ahead_;  // framework.ahead
   std::optional<JournalReader> journal_;
   std::uint64_t tick_ = 0;
   std::optional<TickRecord> record_;

@@ -36,7 +36,8 @@ std::vector<TickGate::Part> Parts(const Experiment& experiment, const std::vecto
 {
   std::vector<TickGate::Part> parts;
   for (std::size_t e = 0; e < experiment.engines.size(); ++e) parts.push_back({EngineName(experiment, e)});
-  for (const std::uint32_t host : hosts) parts.push_back({HostName(host)});
+  // Commands that act a tick later come a tick early.
+  for (const std::uint32_t host : hosts) parts.push_back({HostName(host), experiment.ahead > 0});
   for (std::size_t v = 0; v < visualisers; ++v) parts.push_back({VisualiserName(experiment.visualisations[v])});
   return parts;
 }
@@ -61,7 +62,7 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
       workers_(static_cast<unsigned>(engines_ + assignment.hosts.size() + visualisers_)),
       gate_(Parts(server.Space().GetExperiment(), hosts_, visualisers_), first_tick_),
       updates_(engines_),
-      commands_(assignment.hosts.size()),
+      commands_here_(hosts_.size()),
       drawn_(visualisers_),
       first_frames_(FirstFrames(continuation)),
       frames_(journal == nullptr ? 0 : engines_),
@@ -69,8 +70,8 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
       states_(session.GetBus(), session.Scope(limits_.StateBytes(), 1))
 {
   for (const UpdateMessage& update : updates_) updates_here_.push_back(&update);
-  for (const std::uint32_t host : hosts_) commands_here_.push_back(&commands_[host]);
-  for (std::size_t h = 0; h < commands_.size(); ++h) commands_[h].values.resize(assignment.hosts[h].command_size);
+  for (auto& commands : commands_)
+    for (const HostLayout& host : assignment.hosts) commands.emplace_back().values.resize(host.command_size);
   for (std::size_t e = 0; e < frames_.size(); ++e) frames_[e].values.resize(assignment.engines[e].sensor_size);
 
   Bus& bus = session.GetBus();
@@ -95,7 +96,7 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
               limits_.CheckSource<ControlCommands>(header);
               const std::size_t k = PlaceIn(hosts_, header.source);
               if (k == hosts_.size()) return nullptr;
-              return PlaceOf(header, header.tick, engines_ + k, commands_[header.source]);
+              return PlaceOf(header, header.tick, engines_ + k, commands_[header.tick % 2][header.source]);
             },
             [this](const MessageHeader& header, ControlCommands&)
             { Arrived(header, engines_ + PlaceIn(hosts_, header.source), header.tick); },
@@ -133,7 +134,7 @@ Message* Lockstep::PlaceOf(const MessageHeader& header, std::uint64_t tick, std:
 {
   if (header.run != session_.World().run) return nullptr;
   const std::lock_guard lock(mutex_);
-  if (held_ || gate_.IsReplaced(*part, header.incarnation)) return nullptr;
+  if ((held_ && !gate_.MayLead(*part)) || gate_.IsReplaced(*part, header.incarnation)) return nullptr;
   return gate_.Offer(*part, tick) == TickGate::Verdict::kExpected ? &place : nullptr;
 }
 
@@ -141,7 +142,7 @@ void Lockstep::Arrived(const MessageHeader& header, std::size_t part, std::uint6
 {
   const std::lock_guard lock(mutex_);
   if (gate_.IsReplaced(part, header.incarnation)) return;
-  if (gate_.Arrived(part, tick)) GoOn();
+  if (gate_.Arrived(part, tick) && !held_) GoOn();
 }
 
 void Lockstep::GoOn()
@@ -175,6 +176,7 @@ void Lockstep::Complete()
     Send(true);
     return;
   }
+  for (std::size_t k = 0; k < hosts_.size(); ++k) commands_here_[k] = &commands_[gate_.Tick() % 2][hosts_[k]];
   for (const ControlCommands* commands : commands_here_) server_.Check(*commands);
   for (const UpdateMessage& update : updates_) server_.Check(update);
   bool kept = journal_ == nullptr;
@@ -232,14 +234,15 @@ void Lockstep::Send(bool repeated)
 
 void Lockstep::Record(const SpaceState& state, bool saves, std::span<const SensorFrame> frames)
 {
+  std::vector<ControlCommands>& commands = commands_[state.tick % 2];
   for (std::size_t e = 0; e < engines_; ++e)
     for (const ValueCopy& copy : assignment_.engines[e].command_copies)
     {
       if (ServerHears(assignment_.hosts[copy.source])) continue;
       std::copy_n(updates_[e].recorded.begin() + static_cast<std::ptrdiff_t>(copy.to), copy.count,
-                  commands_[copy.source].values.begin() + static_cast<std::ptrdiff_t>(copy.from));
+                  commands[copy.source].values.begin() + static_cast<std::ptrdiff_t>(copy.from));
     }
-  journal_->AddTick(state, saves, frames, commands_);
+  journal_->AddTick(state, saves, frames, commands);
   for (std::size_t e = 0; e < engines_; ++e)
     std::copy(updates_[e].recorded.begin() + static_cast<std::ptrdiff_t>(assignment_.engines[e].command_size),
               updates_[e].recorded.end(), frames_[e].values.begin());

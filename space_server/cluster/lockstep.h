@@ -3,6 +3,7 @@
 // where the main thread asks for it (pause, pace, commands). Used by the space_server program alone.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -106,7 +107,7 @@ private:
   std::map<std::string, std::uint32_t> away_;  // unheard, with the incarnations of those that take their places
   std::vector<UpdateMessage> updates_;
   std::vector<const EngineUpdate*> updates_here_;
-  std::vector<ControlCommands> commands_;  // of all hosts
+  std::array<std::vector<ControlCommands>, 2> commands_;  // of all hosts, at even and odd ticks
   std::vector<const ControlCommands*> commands_here_;
   std::vector<DrawnMessage> drawn_;
   std::vector<SensorFrame> first_frames_;  // of the first tick: none, unless the run goes on

@@ -4,19 +4,27 @@
 
 #include <algorithm>
 #include <optional>
+#include <ranges>
+#include <stdexcept>
+
+#include "common/journal/journal_blocks.h"
+#include "common/journal/shared_commands.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-// The newest state of the process that was saved together with the space.
+// The newest state of the process that was saved together with the space. `hosts`: by so many controller hosts.
 std::optional<std::pair<JournalPlace, JournalPlace>> NewestState(const std::vector<JournalPlace>& places,
-                                                                 const std::string& name)
+                                                                 const std::string& name, std::uint64_t after,
+                                                                 std::optional<std::uint64_t> hosts)
 {
   for (auto part = places.rbegin(); part != places.rend(); ++part)
   {
-    if (part->kind != JournalBlockKind::kPart || part->name != name) continue;
+    // In the first one it is by itself.
+    if (part->kind != JournalBlockKind::kPart || part->name != name || part->first_tick == after) continue;
+    if (hosts && part->hosts != *hosts) continue;
     const auto snapshot =
         std::find_if(places.begin(), places.end(),
                      [&](const JournalPlace& place)
@@ -38,9 +46,16 @@ void RecoveryService::Work()
     const std::vector<JournalPlace>& places = plan->second.places;
     RecoveryBlockMessage answer{
         request.run, request.process, request.number, static_cast<std::uint32_t>(places.size() + 1), {}};
-    answer.block = request.number < places.size() ? journal_->Read(places[request.number]) : plan->second.last;
+    answer.block = request.number < places.size() ? BlockAt(places[request.number]) : plan->second.last;
     session_.Answer(answer);
   }
+}
+
+std::vector<char> RecoveryService::BlockAt(const JournalPlace& place) const
+{
+  std::vector<char> block = journal_->Read(place);
+  if (place.kind != JournalBlockKind::kTicks || place.hosts == assignment_.hosts.size()) return block;
+  return SharedCommands(space_, place.hosts, assignment_).Of(block);
 }
 
 RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
@@ -52,12 +67,22 @@ RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
   journal_->Flush();
   const std::vector<JournalPlace> all = journal_->Places();
   Plan plan;
-  std::uint64_t first = 0;
-  if (const auto state = NewestState(all, name))
+  const JournalStart start = journal_->Start();
+  std::uint64_t first = start.first_tick;
+  const bool is_host = std::ranges::any_of(std::views::iota(std::size_t{0}, assignment_.hosts.size()),
+                                           [&](std::size_t h) { return name == HostName(h); });
+  const auto hosts = is_host ? std::optional<std::uint64_t>(assignment_.hosts.size()) : std::nullopt;
+  if (const auto state = NewestState(all, name, first, hosts))
   {
     plan.places = {state->first, state->second};
     first = state->second.first_tick;
   }
+  else if (const std::uint64_t kept = FirstTickOf(start, all); kept > first)
+    // No BusError: a start of all processes would be of no use either.
+    throw std::runtime_error(
+        fmt::format("{} cannot be replaced: it saves no state, so it would do all ticks again, and of those before {} "
+                    "nothing is left (--journal-budget); `swarmanoid resume` goes on from a saved state",
+                    name, kept));
   for (const JournalPlace& place : all)
     if (place.kind == JournalBlockKind::kTicks && place.first_tick + place.ticks > first && place.first_tick < tick)
       plan.places.push_back(place);

@@ -16,8 +16,9 @@ namespace swarmanoid
 class RecoveryService
 {
 public:
-  RecoveryService(ServerSession& session, Lockstep& lockstep, JournalWriter* journal)
-      : session_(session), lockstep_(lockstep), journal_(journal)
+  RecoveryService(ServerSession& session, Lockstep& lockstep, const CSwarmanoidSpace& space,
+                  const Assignment& assignment, JournalWriter* journal)
+      : session_(session), lockstep_(lockstep), space_(space), assignment_(assignment), journal_(journal)
   {
   }
 
@@ -32,9 +33,13 @@ private:
     std::vector<char> last;
   };
   Plan MakePlan(const std::string& name);
+  // As the present controller hosts understand it.
+  std::vector<char> BlockAt(const JournalPlace& place) const;
 
   ServerSession& session_;
   Lockstep& lockstep_;
+  const CSwarmanoidSpace& space_;
+  const Assignment& assignment_;
   JournalWriter* journal_;
   std::map<std::string, Plan> plans_;  // by process
 };

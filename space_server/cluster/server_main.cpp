@@ -9,6 +9,7 @@
 #include "common/activity/failure_report.h"
 #include "common/bus/cluster_options.h"
 #include "common/experiment/load_experiment.h"
+#include "common/program/usage_error.h"
 
 namespace swarmanoid
 {
@@ -34,26 +35,40 @@ OptionSpec StatusOption(int& descriptor)
 void AddServerOptions(CLI::App& app, ServerOptions& options)
 {
   AddOptions(app, ServerOptionTable(options));
-  AddOptions(app,
-             {StatusOption(options.status_fd),
-              {{.name = "await-replacements",
-                .type = ParameterType::kBoolean,
-                .description = "Wait when a process dies: another one is started in its place"},
-               &options.awaits_replacements},
-              {{.name = "go-on",
-                .type = ParameterType::kNumber,
-                .unit = "s",
-                .description = "Go on with the run whose journal is in the folder of --output, and which has taken "
-                               "so long already; -1: start a run",
-                .minimum = -1,
-                .maximum = kLongestRun_s},
-               &options.goes_on_after_s,
-               "12.5"}});
+  AddOptions(
+      app,
+      {StatusOption(options.status_fd),
+       {{.name = "await-replacements",
+         .type = ParameterType::kBoolean,
+         .description = "Wait when a process dies: another one is started in its place"},
+        &options.awaits_replacements},
+       {{.name = "go-on",
+         .type = ParameterType::kNumber,
+         .unit = "s",
+         .description = "Go on with the run whose journal is in the folder of --output, and which has taken "
+                        "so long already; -1: start a run",
+         .minimum = -1,
+         .maximum = kLongestRun_s},
+        &options.goes_on_after_s,
+        "12.5"},
+       {{.name = "machine",
+         .type = ParameterType::kText,
+         .description = "A machine that workers may be moved to by whoever started them"},
+        &options.machines,
+        "alpha",
+        "MACHINE"},
+       {{.name = "place", .type = ParameterType::kText, .description = "The machine that a process of the run is on"},
+        &options.worker_places,
+        "engine 'ground'=alpha",
+        "WORKER=MACHINE"}});
   AddOptions(app, BusOptionTable(options.bus));
 }
 
 int Serve(const ServerOptions& options)
 {
+  if (options.controller_hosts == 0)
+    throw UsageError(
+        "--controller-hosts auto: who starts the processes can find out, as `swarmanoid run`; give a number");
   // All that the program refers to, which may have to outlive a run that failed.
   struct Server
   {
@@ -83,9 +98,12 @@ int Serve(const ServerOptions& options)
     if (!options.output_folder.empty())
     {
       std::filesystem::create_directories(options.output_folder);
-      std::ofstream file(options.output_folder + "/experiment.xml");
-      if (!(file << loaded.experiment->effective_xml << std::flush))
-        throw BusError(fmt::format("cannot write '{}/experiment.xml'", options.output_folder));
+      // Somebody may read it: who started this server has written it, too.
+      const std::string file = options.output_folder + "/experiment.xml";
+      const std::string draft = file + ".new";
+      if (!(std::ofstream(draft) << loaded.experiment->effective_xml << std::flush))
+        throw BusError(fmt::format("cannot write '{}'", draft));
+      std::filesystem::rename(draft, file);
     }
     server->options.bus.serves_discovery = true;
     server->options.places = std::move(loaded.places);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <random>
@@ -25,6 +26,7 @@ constexpr auto kPeriod = 50ms;  // of the main thread, when nothing happens
 constexpr auto kFirstRepeat = 100ms;
 constexpr auto kLastRepeat = 1s;
 constexpr double kLastViewTime_s = 1;  // those who look on may be stopped
+constexpr auto kWorldAgain = 3s;       // to those who have not heard of the run
 constexpr auto kStallTime = 2s;
 constexpr auto kBrokenTime = 5s;  // for the lease of a dead process to end
 constexpr auto kStuckTime = 1s;   // for another process to take its place
@@ -47,6 +49,15 @@ RunControlSetup MakeRunControlSetup(const ServerOptions& options, const Experime
   return setup;
 }
 
+std::string DoneText(const ControlRequestMessage& request, const Assignment& assignment)
+{
+  const std::size_t hosts = assignment.hosts.size();
+  if (request.verb == "hosts")
+    return fmt::format("{} now", hosts == 1 ? "one controller host has all robots"
+                                            : fmt::format("{} controller hosts share the robots", hosts));
+  return request.verb + " was done";
+}
+
 // A step that the run has still to come to the end of.
 bool IsAwaited(const ControlRequestMessage& request, const Continuation& continuation)
 {
@@ -62,18 +73,27 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
       experiment_(experiment),
       status_(status),
       assignment_(MakeAssignment(experiment, options.controller_hosts)),
-      continuation_(GoesOn() ? std::optional<Continuation>(std::in_place, options, experiment, assignment_.hosts.size())
-                             : std::nullopt),
+      continuation_(GoesOn() ? std::optional<Continuation>(std::in_place, options, experiment) : std::nullopt),
       server_(experiment, assignment_, options.output_folder.empty() ? "." : options.output_folder),
       session_(options.bus, World(), Expected(Visualisers()),
                {[this](const ControlRequestMessage& request)
                 {
+                  if (std::ranges::find(kShareVerbs, request.verb) != kShareVerbs.end()) return shares_.Ask(request);
                   run_control_.Ask(request);
                   Wake();
                 },
-                [this] { Wake(); }, [this](const std::string& process) { views_.Lost(process); }}),
-      views_(session_, [this] { Wake(); }),
-      run_control_(experiment, MakeRunControlSetup(options, experiment, continuation_),
+                [this] { Wake(); }, [this](const std::string& process) { views_.Lost(process); },
+                [this](const ControlReplyMessage& reply) { shares_.Replied(reply); }}),
+      shares_(session_, options.bus,
+              {[this](const ViewRequestMessage& request) { views_.Requested(request); },
+               [this](const ControlRequestMessage& request)
+               {
+                 run_control_.Note(request);
+                 Wake();
+               },
+               [this] { Wake(); }}),
+      views_(session_, shares_, [this] { Wake(); }),
+      run_control_(experiment, Setup(),
                    [this](const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
                    { Reply(request, done, tick, text); }),
       pace_(experiment.TickSeconds()),
@@ -82,12 +102,13 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
                    [this] { Wake(); }),
       lockstep_(session_, server_, assignment_, options.visualisations, options.hash_log, options.watch, checkpoints_,
                 Journal(), continuation_ ? &*continuation_ : nullptr, [this] { Wake(); }),
-      recoveries_(session_, lockstep_, Journal())
+      recoveries_(session_, lockstep_, server_.Space(), assignment_, Journal())
 {
   if (options.awaits_replacements && journal_) session_.AwaitReplacements();
   if (continuation_)
     for (const ControlRequestMessage& request : continuation_->Requests().answered)
-      session_.Remember(request, IsAwaited(request, *continuation_));
+      session_.Remember(request, IsAwaited(request, *continuation_), DoneText(request, assignment_));
+  if (continuation_) shares_.Restore(continuation_->Requests().shares);
   server_.SetFaultHandler(
       [this](const std::vector<KnownFault>& faults)
       {
@@ -106,6 +127,26 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
       });
 }
 
+RunControlSetup ServerProgram::Setup()
+{
+  RunControlSetup setup = MakeRunControlSetup(options_, experiment_, continuation_);
+  setup.may_reset = status_.IsOpen() && options_.abandon == nullptr;
+  if (!options_.awaits_replacements) return setup;
+  setup.places = WorkerPlaces(options_.machines, options_.worker_places);
+  setup.move = [this](const WorkerPlaces::Move& move)
+  {
+    session_.Release(move.worker);
+    status_.Publish(ServerMove{move.machine, move.worker});
+  };
+  if (options_.abandon == nullptr)
+    setup.share_out = [this](const std::vector<std::string>& machines)
+    {
+      journal_->Flush();
+      status_.Publish(ServerHosts{fmt::format("{}", fmt::join(machines, " "))});
+    };
+  return setup;
+}
+
 void ServerProgram::Reply(const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
 {
   session_.Reply(request, done, tick, text);
@@ -115,8 +156,8 @@ void ServerProgram::Reply(const ControlRequestMessage& request, bool done, std::
     Say(text);
   }
   // Robots that are moved by hand would fill the screen.
-  const bool told =
-      request.verb == "pause" || request.verb == "resume" || request.verb == "speed" || request.verb == "stop";
+  const bool told = request.verb == "pause" || request.verb == "resume" || request.verb == "speed" ||
+                    request.verb == "stop" || request.verb == "reset" || IsWorkerMove(request.verb);
   if (!done || !told) return;
   const std::string line = fmt::format("{}: {}", AskerOf(request), text);
   status_.Publish(ServerAsked{line});
@@ -128,6 +169,7 @@ int ServerProgram::Run()
   try
   {
     session_.Open();
+    if (KeepsJournal()) session_.AnnounceFolder(std::filesystem::absolute(options_.output_folder).lexically_normal());
     Collect();
     RunTicks();
     Close();
@@ -141,7 +183,11 @@ int ServerProgram::Run()
             complete);
     if (journal_) journal_->Flush();
     // Who looks on waits for the server that takes the place of one that is stuck.
-    if (!stuck_ || !options_.awaits_replacements) session_.Leave(lockstep_.Tick(), error.what());
+    if (!stuck_ || !options_.awaits_replacements)
+    {
+      shares_.Leave(lockstep_.Tick(), error.what(), kLastViewTime_s);
+      session_.Leave(lockstep_.Tick(), error.what());
+    }
     // Within another program, that one says it.
     if (options_.abandon == nullptr) PrintError("space_server: {}\n", error.what());
     status_.Publish(ServerError{error.what()});
@@ -181,6 +227,7 @@ WorldMessage ServerProgram::World()
         ReadCheckpoint(options_.restore_file, experiment_, {assignment_.hosts.size(), options_.any_build});
     checkpoint.LoadPart(kServerPart, [&](ByteReader& state) { server_.LoadState(checkpoint.snapshot, state); });
     world.checkpoint = EncodeCheckpoint(checkpoint);
+    if (KeepsJournal() && !GoesOn()) restored_ = checkpoint;
   }
   if (continuation_) continuation_->Restore(server_);
   if (!experiment_.HasGuards()) return world;
@@ -205,14 +252,22 @@ void ServerProgram::OpenJournal()
   if (!KeepsJournal()) return;
   const std::string file = JournalFile(options_.output_folder);
   const bool beside_launcher = options_.abandon == nullptr;
+  JournalBudget budget{options_.JournalBudgetBytes(), Expected({})};
+  budget.parts.push_back(kServerPart);
   if (continuation_ && continuation_->Journal() != nullptr)
   {
-    journal_.emplace(*continuation_->Journal(), continuation_->Tick(), beside_launcher);
+    journal_.emplace(*continuation_->Journal(), continuation_->Tick(), beside_launcher, std::move(budget));
+    continuation_->ShareOut(*journal_, experiment_, assignment_.hosts.size());
     return;
   }
   std::filesystem::create_directories(std::filesystem::path(file).parent_path());
   const JournalStart start{OriginOf(experiment_), assignment_.hosts.size(), server_.Space().GetTick()};
-  journal_.emplace(file, ContentOf(start), beside_launcher);
+  journal_.emplace(file, ContentOf(start), beside_launcher, std::move(budget));
+  if (!restored_) return;
+  // For those who look back, and resume: what no message of a tick tells.
+  journal_->Add(restored_->snapshot);
+  for (const SavedPart& part : restored_->parts) journal_->Add(restored_->snapshot.tick, part);
+  restored_.reset();
 }
 
 std::span<const RenderConfiguration> ServerProgram::Visualisers() const
@@ -284,6 +339,11 @@ void ServerProgram::HelpReplacements()
     status_.Publish(ServerWarning{*trouble});
     Say(*trouble);
   }
+  if (const auto excess = journal_ ? journal_->TakeExcess() : std::nullopt)
+  {
+    status_.Publish(ServerWarning{*excess});
+    Say(*excess);
+  }
   try
   {
     recoveries_.Work();
@@ -294,7 +354,11 @@ void ServerProgram::HelpReplacements()
     throw;
   }
   const auto replaced = session_.TakeReplaced();
-  for (const auto& [name, incarnation] : replaced) lockstep_.Return(name, incarnation);
+  for (const auto& [name, incarnation] : replaced)
+  {
+    lockstep_.Return(name, incarnation);
+    run_control_.Arrived({name, session_.MachineOf(name)}, session_.ProcessOf(name), lockstep_.Tick());
+  }
   if (replaced.empty() || !started_) return;
   lockstep_.Repeat();
   repeated_ = Clock::now();
@@ -309,6 +373,7 @@ void ServerProgram::Say(const std::string& text) const
 void ServerProgram::Collect()
 {
   const auto start = Clock::now();
+  auto again = start + kWorldAgain;
   std::string said;
   while (true)
   {
@@ -317,6 +382,11 @@ void ServerProgram::Collect()
     PublishViews();
     const std::vector<std::string> missing = session_.Missing();
     if (missing.empty() && lockstep_.AllMatched()) return;
+    if (Clock::now() >= again)
+    {
+      session_.SayWorldAgain();
+      again = Clock::now() + kWorldAgain;
+    }
     const std::string text = Joined(missing);
     if (text != said && !text.empty() && (Clock::now() - start > 300ms || !said.empty()))
     {
@@ -427,9 +497,10 @@ RunStatus::Phase ServerProgram::Phase() const
 
 void ServerProgram::PublishViews()
 {
+  shares_.Work(lockstep_.Tick());
   const auto now = Clock::now();
   const bool over = lockstep_.Finished();
-  if (std::exchange(told_end_, over)) return;
+  if (std::exchange(told_end_, over) || (over && BeginsAgain())) return;
   if (started_ && (over || views_.ViewIsDue(lockstep_.Tick(), now)))
   {
     lockstep_.WithServer([this](SpaceServer& server) { server.WriteSnapshot(snapshot_); });
@@ -489,10 +560,16 @@ void ServerProgram::Close()
   lockstep_.WithServer([](SpaceServer& server) { server.Destroy(); });
   // After it nobody waits for the last state any more.
   views_.WaitUntilRead(kLastViewTime_s);
-  session_.Leave(result.ticks, "");
+  shares_.Leave(result.ticks, "", kLastViewTime_s);
+  if (BeginsAgain())
+    session_.LeaveToNext();
+  else
+    session_.Leave(result.ticks, "");
   result.wall_s = Seconds(end_ - start_);
   result.real_time_factor = RealTimeFactor(result.ticks - first_tick_, experiment_.TickSeconds(), result.wall_s);
   status_.Publish(ServerTick{result.ticks, experiment_.max_clock, result.real_time_factor});
+  if (const auto& reset = run_control_.Reset())
+    status_.Publish(ServerReset{reset->seed, reset->paused, reset->real_time_factor});
   status_.Publish(ServerFinished{result.ticks, result.entities, result.hash, result.wall_s, result.real_time_factor});
   if (!status_.IsOpen()) fmt::print("{}\n", FinishedLine(result));
 }

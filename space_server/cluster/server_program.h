@@ -39,6 +39,9 @@ struct ServerOptions : RunSettings
   // starts.
   double goes_on_after_s = -1;
   BusOptions bus;
+  // Of workers, if whoever started them can move them: "WORKER=MACHINE", and all machines.
+  std::vector<std::string> worker_places;
+  std::vector<std::string> machines;
   // Called before the state of each tick goes out, in the thread that runs the program; what it changes through the
   // server is part of the state.
   std::function<void(SpaceServer&)> watch;
@@ -52,7 +55,11 @@ class ServerProgram
 public:
   // All are used as long as the program runs. Throws ConfigurationError and BusError.
   ServerProgram(const ServerOptions& options, const Experiment& experiment, StatusChannel& status);
-  ~ServerProgram() { session_.Close(); }
+  ~ServerProgram()
+  {
+    shares_.Stop();
+    session_.Close();
+  }
   ServerProgram(const ServerProgram&) = delete;
   ServerProgram& operator=(const ServerProgram&) = delete;
 
@@ -75,6 +82,7 @@ private:
   std::set<std::uint64_t> SavedTicks() const;
   bool KeepsJournal() const { return options_.journal && !options_.output_folder.empty(); }
   void OpenJournal();
+  RunControlSetup Setup();
   void Reply(const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text);
   JournalWriter* Journal() { return journal_ ? &*journal_ : nullptr; }
   void CheckFailures();
@@ -90,6 +98,8 @@ private:
   // Whom the run waits for: those whose answer is missing, or those whom they in turn wait for.
   std::string LateNames(std::uint64_t tick) const;
   RunStatus::Phase Phase() const;
+  // Those who look on wait for the server with which the run begins again, and hear of no end.
+  bool BeginsAgain() const { return run_control_.Reset().has_value() && KeepsJournal(); }
   // Attached visualisers see the whole state now and then, and how the run goes.
   void PublishViews();
   RunStatus Status(RunStatus::Phase phase, Clock::time_point now);
@@ -106,8 +116,10 @@ private:
   bool awake_ = false;
   Assignment assignment_;
   std::optional<Continuation> continuation_;
+  std::optional<Checkpoint> restored_;  // until the journal has it
   SpaceServer server_;
   ServerSession session_;
+  Shares shares_;
   ViewPublisher views_;
   RunControl run_control_;
   PaceMeter pace_;

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "common/bus/server_session.h"
+#include "space_server/cluster/shares.h"
 #include "space_server/space_server.h"
 
 namespace swarmanoid
@@ -21,8 +22,8 @@ class ViewPublisher
 public:
   using Clock = std::chrono::steady_clock;
 
-  // `woken`: called in a thread of the bus when somebody asks for something else.
-  ViewPublisher(ServerSession& session, std::function<void()> woken);
+  // `woken`: called in a thread of the bus when somebody asks for something else. Holders of shares get the same.
+  ViewPublisher(ServerSession& session, Shares& shares, std::function<void()> woken);
   ~ViewPublisher();
 
   // Views. A view is due when somebody has come, or it is time and there is something new at `tick`.
@@ -40,6 +41,8 @@ public:
 
   // When one of them may be due.
   Clock::time_point Next() const;
+  // In any thread: somebody wants views.
+  void Requested(const ViewRequestMessage& request);
   // A process is lost or has left.
   void Lost(const std::string& process);
 
@@ -50,10 +53,10 @@ private:
     Clock::time_point heard;
   };
 
-  void Requested(const ViewRequestMessage& request);
   Clock::duration ViewPeriod(Clock::time_point now) const;
 
   ServerSession& session_;
+  Shares& shares_;
   std::function<void()> woken_;
   mutable std::mutex mutex_;
   std::map<std::string, Request> requests_;  // by client

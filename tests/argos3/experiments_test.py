@@ -1,6 +1,7 @@
 """Experiments in ARGoS3's XML, with controllers and loop functions written for it."""
 import os
 import re
+import shutil
 import struct
 import subprocess
 import tempfile
@@ -142,6 +143,89 @@ class Experiments(unittest.TestCase):
         result = self.swarmanoid("check", file, code=3)
         self.assertIn("registers no controller 'wonderer'", result.stderr)
         self.assertIn("did you mean 'wanderer'?", result.stderr)
+
+    def in_lua(self, script, devices=None):
+        """wander.argos, whose robots are controlled by a script."""
+        text = (HERE / "wander.argos").read_text()
+        head, rest = text.split('<wanderer id="w" library="libargos3_wanderer.so">')
+        own, tail = rest.split("</wanderer>")
+        own = re.sub(r"<params.*</params>", f'<params script="{script}"/>', own, flags=re.DOTALL)
+        file = self.folder / "lua.argos"
+        file.write_text(f'{head}<lua_controller id="w">{devices + own[own.index("<params"):] if devices else own}</lua_controller>{tail}')
+        return file
+
+    def test_a_script_does_what_the_same_rule_in_cpp_does(self):
+        shutil.copytree(HERE / "scripts", self.folder / "scripts")
+        file = self.in_lua("scripts/wanderer.lua")
+        expected = self.hash_of(HERE / "wander.argos", "--single-process", "--output", "cpp")
+        self.assertEqual(self.hash_of(file, "--single-process", "--output", "one"), expected)
+        self.assertEqual(self.hash_of(file, "--controller-hosts", 3, "--output", "cluster"), expected)
+        self.swarmanoid("convert", file, "--output", "lua.xml")
+        self.assertEqual(self.hash_of("lua.xml", "--single-process", "--output", "converted"), expected)
+
+    def test_what_lua_leaves_open_is_the_same_in_every_process(self):
+        shutil.copy(HERE / "scripts/order.lua", self.folder)
+        file = self.in_lua("order.lua")
+        hashes = {self.hash_of(file, "--single-process", "--output", f"one{i}") for i in range(3)}
+        hashes.add(self.hash_of(file, "--controller-hosts", 2, "--output", "cluster"))
+        self.assertEqual(len(hashes), 1, hashes)
+        self.assertNotIn(self.hash_of(file, "--single-process", "--seed", 8, "--output", "other"), hashes)
+        # Robots with seeds of their own.
+        said = "".join(log.read_text() for log in (self.folder / "cluster").glob("controller_host-*.log"))
+        sums = set(re.findall(r"sum\t(\d+)", said))
+        self.assertEqual(len(sums), 12)
+
+    def test_the_devices_of_a_script(self):
+        shutil.copy(HERE / "scripts/devices.lua", self.folder)
+        devices = """<actuators><differential_steering implementation="default"/><leds implementation="default" medium="leds"/>
+            <range_and_bearing implementation="default"/><footbot_turret implementation="default"/><footbot_gripper implementation="default"/></actuators>
+            <sensors><differential_steering implementation="default"/><footbot_proximity implementation="default"/><footbot_light implementation="rot_z_only"/>
+            <footbot_motor_ground implementation="rot_z_only"/><footbot_base_ground implementation="rot_z_only"/><positioning implementation="default"/>
+            <battery implementation="default"/><footbot_turret_encoder implementation="default"/>
+            <range_and_bearing implementation="medium" medium="rab"/><colored_blob_omnidirectional_camera implementation="rot_z_only" medium="leds"/></sensors>"""
+        file = self.in_lua("devices.lua", devices)
+        # Two robots on a line, 0.5 m apart, and a wall behind the other one; both look along it.
+        text = re.sub(r"<distribute>.*</distribute>", "", file.read_text(), flags=re.DOTALL)
+        robots = "".join(f'<foot-bot id="{name}"><body position="{x},-1,0" orientation="0,0,0"/><controller config="w"/></foot-bot>' for name, x in (("a", -1), ("b", -0.5)))
+        file.write_text(text.replace("</arena>", robots + "</arena>"))
+        self.swarmanoid("run", file, "--output", "run")
+        said = "".join(log.read_text() for log in (self.folder / "run").glob("controller_host*.log"))
+        of = {name: re.search(rf": a {name} (.*)", said).group(1) for name in
+              ("wheels", "proximity", "light", "motor_ground", "base_ground", "positioning", "battery", "turret", "range_and_bearing", "colored_blob_omnidirectional_camera")}
+        self.assertRegex(of["wheels"], r"^\{axis_length=14 distance_left=1 distance_right=1 velocity_left=10 velocity_right=10\}$")
+        self.assertEqual(len(re.findall(r"\{angle=\S+ value=0\}", of["proximity"])), 24)
+        self.assertIn("24={angle=-0.1309 value=0}", of["proximity"])
+        self.assertEqual(len(re.findall("angle=", of["light"])), 24)
+        self.assertRegex(of["motor_ground"], r"^\{1=\{offset=\{x=6.3 y=1.16\} value=[01.]+\} 2=")
+        self.assertEqual(len(re.findall("offset=", of["base_ground"])), 8)
+        x, y = map(float, re.search(r"position=\{x=(\S+) y=(\S+) z=\S+\}", of["positioning"]).groups())
+        self.assertAlmostEqual(y, -1, places=3)
+        self.assertTrue(-1 < x < -0.89, x)
+        self.assertRegex(of["positioning"], r"orientation=\{angle=0 axis=\{x=0 y=0 z=1\} w=1 x=0 y=0 z=0\}")
+        self.assertRegex(of["battery"], r"^\{available_charge=\S+ time_left=\S+\}$")
+        # The motor of the turret needs some ticks.
+        self.assertRegex(of["turret"], r"rotation=0.5\}")
+        # 300 is 44 in a byte. The other one is ahead.
+        self.assertRegex(of["range_and_bearing"], r"^\{1=\{data=\{1=1 2=2 3=3 4=4 5=5 6=6 7=7 8=8 9=9 10=44\} horizontal_bearing=0 range=50 vertical_bearing=0\}\}$")
+        self.assertRegex(of["colored_blob_omnidirectional_camera"], r"^\{1=\{angle=\S+ color=\{blue=0 green=255 red=0\} distance=\S+\}\}$")
+        self.assertRegex(said, r": b range_and_bearing .*horizontal_bearing=-?3.14159 range=50 ")
+        self.assertRegex(said, r": a ends after 200 steps true")
+
+    def test_mistakes_in_a_script_are_named_with_file_and_line(self):
+        file = self.in_lua("mine.lua")
+        self.assertRegex(self.swarmanoid("check", file, code=3).stderr, r"lua\.argos:\d+:\d+: the script 'mine.lua' is not found; .*searched:\n\s+\S+/mine.lua")
+        script = self.folder / "mine.lua"
+        for text, says in (("function step()\n  x = = 1\nend\n", r"mine\.lua:2: unexpected symbol near '='"),
+                           ("function init() end\n", r"mine\.lua: the script has no function step\(\)"),
+                           ("function step() end\nfunction init()\n  robot.wheels.set_velocity(1)\nend\n", r"mine\.lua:3: 1 values are given, and 2 are needed"),
+                           ("function step() end\nrobot.leds.set_all_colors('redd')\n", r"mine\.lua:2: .*redd"),
+                           ("function step() end\nrobot.camera.enable()\n", r"mine\.lua:2: attempt to index a nil value \(field 'camera'\)")):
+            script.write_text(text)
+            self.assertRegex(self.swarmanoid("check", file, code=3).stderr, says)
+        script.write_text("function step()\n  if robot.random.uniform() < 2 then\n    robot.range_and_bearing.set_data(11, 0)\n  end\nend\n")
+        for words in (["--single-process"], []):
+            result = self.swarmanoid("run", file, *words, "--output", "run" + str(len(words)), code=4)
+            self.assertRegex(result.stderr, r"robot 'fb_0', controller 'w': ControlStep at tick 1 failed: mine\.lua:3: there is no byte 11; they are 1 to 10")
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -298,6 +299,34 @@ TEST_F(FootbotDiagram, TheSignalOfAnotherOneIsAvoidedFromEveryStateBeforeTheGrip
   EXPECT_EQ(See({near_laser_, prey_, signal_}), Retriever::AVOID_GRIPPING_FOOTBOT);
 }
 
+// A wall that holds the prey lets it not turn to the spot: it drives back, once it has tried for several times what a
+// turn takes, and tries again.
+TEST_F(FootbotDiagram, APreyThatAWallHoldsIsPulledBack)
+{
+  See({near_laser_, prey_});
+  See({near_laser_, prey_});
+  gripper_sensor_.gripping = true;
+  ASSERT_EQ(See({near_laser_, prey_}), Retriever::GO_TO_NEST);
+  CCI_ColourBlob aside = near_laser_;
+  aside.angle_rad = 1.5;
+  const auto drives_back = [&] { return wheels_.left < 0 && wheels_.left == wheels_.right; };
+  See({aside}, 39);
+  EXPECT_FALSE(drives_back());
+  See({aside}, 3);
+  EXPECT_TRUE(drives_back());
+  See({aside}, 20);
+  EXPECT_FALSE(drives_back()) << "it tries to turn again";
+  // A spot ahead, and one that is reached, at whatever angle, hold nobody back.
+  CCI_ColourBlob below = aside;
+  below.distance_m = 0.01;
+  for (const CCI_ColourBlob& spot : {near_laser_, below})
+    for (int tick = 0; tick < 100; ++tick)
+    {
+      See({spot});
+      ASSERT_FALSE(drives_back()) << tick;
+    }
+}
+
 class EyebotDiagram : public testing::Test
 {
 protected:
@@ -395,6 +424,61 @@ TEST_F(EyebotDiagram, APreyThatIsLostIsSearchedAgain)
   See(BothPreys(1));
   EXPECT_EQ(See(BothPreys(0.05)), Guide::WAIT_FOR_FOOTBOT_GRIPPING);
   EXPECT_EQ(See({}), Guide::SEARCH_FOR_PREY);
+}
+
+// Another footbot that signals nearer by holds the other prey: it is not led instead.
+TEST_F(EyebotDiagram, TheFootbotWithItsPreyIsLed)
+{
+  const bool yellow = See({Blob(CCI_Colour::YELLOW, 0.01)}) != Guide::SEARCH_FOR_PREY;
+  const std::uint32_t own = yellow ? CCI_Colour::YELLOW : CCI_Colour::MAGENTA;
+  const std::uint32_t other = yellow ? CCI_Colour::MAGENTA : CCI_Colour::YELLOW;
+  const std::vector<CCI_ColourBlob> another{Blob(other, 0.3), Blob(CCI_Colour::BLUE, 0.1)};
+  const auto with_own = [&](double prey, double signal)
+  {
+    std::vector<CCI_ColourBlob> blobs = another;
+    blobs.push_back(Blob(own, prey));
+    if (signal > 0) blobs.push_back(Blob(CCI_Colour::BLUE, signal));
+    return blobs;
+  };
+  EXPECT_EQ(See(with_own(0.6, 0), 3), Guide::GO_TO_PREY);
+  EXPECT_EQ(See(with_own(0.05, 0.25)), Guide::WAIT_FOR_FOOTBOT_GRIPPING);
+  EXPECT_EQ(See(with_own(0.05, 0.25)), Guide::SEARCH_FOR_NEST);
+  See(with_own(0.2, 0.4));
+  EXPECT_TRUE(Flies()) << "its footbot is near";
+  See(with_own(1, 0.8));
+  EXPECT_FALSE(Flies()) << "it waits for its footbot";
+  See(another);
+  EXPECT_TRUE(Flies()) << "without its prey in view the signal counts";
+}
+
+// It flies about for 200 s; then back along the way that it has flown since it saw the nest.
+TEST_F(EyebotDiagram, ANestThatIsNotFoundIsGoneBackTo)
+{
+  // 2 m ahead and 1 m to the left.
+  CCI_ColourBlob nest = Blob(CCI_Colour::GREEN, std::sqrt(5.0));
+  nest.angle_rad = std::atan2(1.0, 2.0);
+  See({nest});
+  double x = 2, y = 1, yaw = 0;  // of the nest from where it was, and of the eyebot
+  const auto fly = [&](const std::vector<CCI_ColourBlob>& blobs)
+  {
+    const std::array<double, 4> velocity = propellers_.velocity;
+    x -= 0.1 * (velocity[0] * std::cos(yaw) - velocity[1] * std::sin(yaw));
+    y -= 0.1 * (velocity[0] * std::sin(yaw) + velocity[1] * std::cos(yaw));
+    yaw += 0.1 * velocity[3];
+    See(blobs);
+  };
+  const std::vector<CCI_ColourBlob> leading{Blob(CCI_Colour::BLUE, 0.1)};
+  while (behavior_.GetStateID() != Guide::SEARCH_FOR_NEST)
+    fly({Blob(CCI_Colour::YELLOW, 0.01), Blob(CCI_Colour::MAGENTA, 0.01), Blob(CCI_Colour::BLUE, 0.1)});
+  for (int tick = 0; tick < 2002; ++tick) fly(leading);
+  const double before = std::hypot(x, y);
+  ASSERT_GT(before, 1) << "or the way back proves nothing";
+  const int straight = static_cast<int>((before - 0.35) / 0.012);
+  for (int tick = 0; tick < straight; ++tick) fly(leading);
+  EXPECT_LT(std::hypot(x, y), 0.45);
+  // It was there, and saw nothing: it flies about again.
+  for (int tick = 0; tick < 600; ++tick) fly(leading);
+  EXPECT_GT(std::hypot(x, y), 0.5);
 }
 
 }  // namespace

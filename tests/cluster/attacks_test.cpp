@@ -1,6 +1,8 @@
 // What processes do that were not asked to take part in a run, on purpose: everything is refused and told, and the run
 // ends with the hash of one that nobody disturbed. The same is tried on a run that lets anybody in (--insecure), where
 // it succeeds: so the attacks are real ones.
+#include <arpa/inet.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,6 +17,7 @@
 
 #include "common/bus/control_client.h"
 #include "common/bus/run_directory.h"
+#include "common/bus/share.h"
 #include "test_folders.h"
 #include "tests/cluster/cluster_fixture.h"
 #include "tests/unit/bus/stranger.h"
@@ -83,6 +86,16 @@ protected:
     BusOptions options;
     options.domain = domain_.Id();
     return options;
+  }
+
+  // A stranger's program, by another DDS; it writes to all topics if none is named, and stays.
+  ChildProcess StartCyclone(const std::string& experiment, const ChildProcess& engine,
+                            const std::vector<std::string>& topics)
+  {
+    std::vector<std::string> words{SWARMANOID_BUILD_FOLDER "/bin/tests/cyclone_stranger", DomainText(), experiment,
+                                   "12", fmt::format("{}:{}", MachineName(), engine.Id())};
+    words.insert(words.end(), topics.begin(), topics.end());
+    return ChildProcess(words, folder_ + "/cyclone.log");
   }
 
   const std::string trace_;
@@ -193,6 +206,117 @@ TEST_F(AttacksTest, WellFormedMessagesOfStrangersChangeNothing)
   EXPECT_THAT(events, Not(HasSubstr(",stop,")));
 }
 
+// Holders of shares, with programs of their own: a watcher asks for what he may not, an operator for what members alone
+// may; both say on their share, and on the topics of the members, what members or the server would say.
+TEST_F(AttacksTest, HoldersOfSharesDoNoMoreThanTheyMay)
+{
+  const std::string file = WriteExperiment("shared", 1, static_cast<int>(kTicks));
+  ChildProcess server =
+      StartServer(file, {"--paused", "--hash-log", folder_ + "/hashes.txt", "--output", folder_ + "/run"});
+  std::vector<ChildProcess> workers = StartWorkers("shared", 1, 1);
+  ASSERT_TRUE(server.WaitForOutput("paused at tick 0")) << server.Output();
+  Bus bus(Options(), "test");
+  const WorldMessage world = WorldOn(bus, "shared");
+  ControlClient member(bus, "shared");
+  const RunKey key = *FindLocalRuns().at(0).key;
+  const std::string engine_process = fmt::format("{}:{}", MachineName(), workers[0].Id());
+  const Share watcher{"00000001", ShareRole::kWatcher, 0};
+  const Share steerer{"00000002", ShareRole::kOperator, 0};
+  for (const Share& share : {watcher, steerer})
+  {
+    const auto made = member.Ask("share", share.id, {static_cast<double>(share.role), 0}, kGenerous_s);
+    ASSERT_TRUE(made && made->ok) << server.Output();
+    const ShareChannel channel = ChannelOf(key, share);
+
+    BusOptions of_share = Options();
+    of_share.key = channel.key;
+    of_share.share = channel;
+    Bus side(of_share, "engine 'e0'");
+    ControlClient client(side, "shared", world.run);
+    for (const char* verb : share.role == ShareRole::kOperator
+                                ? std::vector<const char*>{"share", "revoke", "shares"}
+                                : std::vector<const char*>{"stop", "resume", "move", "share", "revoke"})
+    {
+      const auto reply = client.Ask(verb, watcher.id, {1, 1, 0}, kGenerous_s);
+      ASSERT_TRUE(reply.has_value()) << verb;
+      EXPECT_FALSE(reply->ok) << verb;
+    }
+    Publisher<LeaveMessage> leave(side, "shared");
+    ASSERT_TRUE(Eventually([&] { return leave.Readers() > 0; }));
+    leave.Write({world.run, 0, "engine 'e0'", engine_process, "forged"});
+    leave.Write({world.run, 0, "space server", "", "forged"});
+    leave.WaitUntilRead(1);
+
+    // On the topics of the members, by the key that he has.
+    of_share.share.reset();
+    Bus impostor(of_share, "engine 'e0'");
+    Publisher<LeaveMessage> members_leave(impostor, "shared");
+    Publisher<ControlRequestMessage> requests(impostor, "shared");
+    ASSERT_TRUE(Eventually([&] { return members_leave.Readers() >= 2 && requests.Readers() >= 1; }));
+    members_leave.Write({world.run, 0, "engine 'e0'", engine_process, "forged"});
+    members_leave.Write({world.run, 0, "space server", "", "forged"});
+    requests.Write({"host:1", 1, "stop", "", {}, "root", world.run});
+    members_leave.WaitUntilRead(1);
+    requests.WaitUntilRead(1);
+  }
+  const auto reply = member.Ask("resume", "", {}, kGenerous_s);
+  ASSERT_TRUE(reply && reply->ok) << server.Output();
+  EXPECT_EQ(server.Wait(), 0) << server.Output();
+  for (ChildProcess& worker : workers) EXPECT_EQ(worker.Wait(), 0) << worker.Output();
+  EXPECT_EQ(Read("hashes.txt"), HashesOfSingleProcess(file));
+  const std::string events = Read("run/events.csv");
+  EXPECT_THAT(events, AllOf(HasSubstr("by watcher share 00000001"), HasSubstr("by operator share 00000002"),
+                            Not(HasSubstr(",stop,")), Not(HasSubstr(",revoke,"))));
+  EXPECT_THAT(server.Output(), HasSubstr("dropped a bad Leave message of 'engine 'e0''"));
+}
+
+// Fast DDS counts them one by one while nobody else is heard.
+TEST_F(AttacksTest, WhoSaysThatWhatHeSaidIsLostIsNotWaitedFor)
+{
+  ChildProcess server = StartServer(WriteExperiment("counting", 1, 0), {"--paused"});
+  std::vector<ChildProcess> workers = StartWorkers("counting", 1, 1);
+  ASSERT_TRUE(server.WaitForOutput("paused at tick 0")) << server.Output();
+  test::Stranger stranger(domain_.Id(), "counting");
+  ASSERT_TRUE(stranger.Met("ControlRequest", 1));
+  const WriterId writer = stranger.Writer("ControlRequest");
+  // From its writer to any reader: all messages from 1 to 2⁴⁸ are lost.
+  std::string gap("RTPS\2\3\1\17", 8);
+  gap.append(writer.data(), 12).append("\x08\1\x20\0\0\0\0\0", 8).append(writer.data() + 12, 4);
+  gap.append("\0\0\0\0\1\0\0\0\0\0\1\0\0\0\0\0\0\0\0\0", 20).append(4, '\0');
+  const int socket = ::socket(AF_INET, SOCK_DGRAM, 0);
+  for (int participant = 0; participant < 20; ++participant)
+  {
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(static_cast<std::uint16_t>(7411 + 250 * domain_.Id() + 2 * participant));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    sendto(socket, gap.data(), gap.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof to);
+  }
+  close(socket);
+  ASSERT_TRUE(stranger.Send("ControlRequest", {PayloadOf(ControlRequestMessage{"host:1", 1, "stop", "", {}, "root"})}));
+  Bus bus(Options(), "test");
+  ControlClient client(bus, "counting");
+  const auto reply = client.Ask("stop", "", {}, kGenerous_s);
+  ASSERT_TRUE(reply && reply->ok) << server.Output();
+  EXPECT_EQ(server.Wait(), 0) << server.Output();
+}
+
+// What was asked of one run is not done in another one of the same key.
+TEST_F(AttacksTest, ARequestToAnotherRunOfTheKeyIsRefused)
+{
+  std::ofstream(folder_ + "/key") << std::string(64, '1') << "\n";
+  fs::permissions(folder_ + "/key", fs::perms(0600));
+  ChildProcess server = StartServer(WriteExperiment("again", 1, 0), {"--paused", "--key", folder_ + "/key"});
+  BusOptions options = Options();
+  options.key = KeyOfFile(folder_ + "/key");
+  Bus bus(options, "test");
+  const WorldMessage world = WorldOn(bus, "again");
+  Publisher<ControlRequestMessage> requests(bus, "again");
+  ASSERT_TRUE(Eventually([&] { return requests.Readers() == 1; }));
+  requests.Write({"host:1", 1, "stop", "", {}, "root", world.run + 1});
+  EXPECT_TRUE(server.WaitForOutput("it was asked of another run")) << server.Output();
+}
+
 // The same requests are obeyed if anybody is let in.
 TEST_F(AttacksTest, AStrangerStopsARunThatLetsAnybodyIn)
 {
@@ -204,6 +328,75 @@ TEST_F(AttacksTest, AStrangerStopsARunThatLetsAnybodyIn)
   ASSERT_TRUE(stranger.Send("ControlRequest", {PayloadOf(ControlRequestMessage{"host:1", 1, "stop", "", {}, ""})}));
   EXPECT_EQ(server.Wait(), 0) << server.Output();
   EXPECT_THAT(server.Output(), HasSubstr("finished: 0 ticks"));
+}
+
+// The same by a program of another DDS: what its messages do to a run that lets anybody in.
+TEST_F(AttacksTest, AProgramOfAnotherDdsIsObeyedIfAnybodyIsLetIn)
+{
+  options_ = {"--insecure", "--lease", "600"};  // the engine may sleep
+  const std::string file = WriteExperiment("open", 1, static_cast<int>(kTicks));
+  BusOptions options = Options();
+  options.insecure = true;
+  // What becomes of a paused run to whose topic the stranger writes: `meanwhile`.
+  const auto run = [&](const std::string& topic, const auto& meanwhile)
+  {
+    ChildProcess server = StartServer(file, {"--paused", "--hash-log", folder_ + "/hashes.txt"});
+    std::vector<ChildProcess> workers = StartWorkers("open", 1, 1);
+    ASSERT_TRUE(server.WaitForOutput("paused at tick 0")) << server.Output();
+    ChildProcess stranger = StartCyclone("open", workers[0], {topic});
+    ASSERT_TRUE(stranger.WaitForOutput("done, run known")) << stranger.Output();
+    meanwhile(server, workers[0]);
+  };
+  run("ControlRequest",
+      [](ChildProcess& server, const ChildProcess&)
+      {
+        EXPECT_EQ(server.Wait(), 0) << server.Output();
+        EXPECT_THAT(server.Output(), HasSubstr("finished: 0 ticks"));
+      });
+  run("Leave",
+      [](ChildProcess& server, const ChildProcess&)
+      {
+        EXPECT_NE(server.Wait(), 0);
+        EXPECT_THAT(server.Output(), HasSubstr("engine 'e0' failed at tick 0: forged"));
+      });
+  run("EngineUpdate",
+      [&](const ChildProcess& server, const ChildProcess& engine)
+      {
+        // Who sleeps has not answered tick 0.
+        ASSERT_TRUE(engine.StopAsleep());
+        Bus bus(options, "test");
+        ControlClient client(bus, "open");
+        EXPECT_TRUE(client.Ask("resume", "", {}, kGenerous_s).has_value());
+        EXPECT_TRUE(server.WaitForOutput("tick 1: waiting for engine 'e0'")) << server.Output();
+      });
+}
+
+TEST_F(AttacksTest, AProgramOfAnotherDdsIsRefused)
+{
+  const std::string file = WriteExperiment("closed", 1, static_cast<int>(kTicks));
+  ChildProcess server =
+      StartServer(file, {"--paused", "--hash-log", folder_ + "/hashes.txt", "--output", folder_ + "/run"});
+  std::vector<ChildProcess> workers = StartWorkers("closed", 1, 1);
+  ASSERT_TRUE(server.WaitForOutput("paused at tick 0")) << server.Output();
+  ChildProcess stranger = StartCyclone("closed", workers[0], {});
+  ASSERT_TRUE(stranger.WaitForOutput("done, run unknown")) << stranger.Output();
+  for (const char* topic :
+       {"ControlRequest", "Join", "Leave", "Status", "RecoveryRequest", "SavedState", "ViewRequest"})
+  {
+    EXPECT_THAT(stranger.Output(), HasSubstr(fmt::format("{} written", topic)));
+    EXPECT_TRUE(server.WaitForOutput(fmt::format("dropped a bad {} message of an unknown process", topic)))
+        << server.Output();
+  }
+  Bus bus(Options(), "test");
+  ControlClient client(bus, "closed");
+  const auto reply = client.Ask("resume", "", {}, kGenerous_s);
+  ASSERT_TRUE(reply && reply->ok) << server.Output();
+  EXPECT_EQ(server.Wait(), 0) << server.Output();
+  for (ChildProcess& worker : workers) EXPECT_EQ(worker.Wait(), 0) << worker.Output();
+  stranger.Signal(SIGKILL);
+  stranger.Wait();
+  EXPECT_EQ(Read("hashes.txt"), HashesOfSingleProcess(file));
+  EXPECT_THAT(Read("run/events.csv"), HasSubstr(",refused,ControlRequest,,an unknown process"));
 }
 
 TEST_F(AttacksTest, OnlyTheUserOfARunCanOpenItsKeyAndItsMemory)

@@ -42,9 +42,23 @@ def words_of(pid):
         return []
 
 
+def supervisor_of(pid):
+    """The process that supervises the run of a launcher, which is one more process of the same command; or None."""
+    return next((child for child in children_of(pid) if words_of(pid) and words_of(child) == words_of(pid)), None)
+
+
+def processes_of(pid):
+    """Those of the cluster of a launcher, or of the process that supervises it."""
+    return children_of(supervisor_of(pid) or pid)
+
+
 def end(process):
-    """Kills a process, if it still runs, with all that it started in its session."""
+    """Kills a process, if it still runs, with all that it started in its session, and the run that it supervises."""
     if process.poll() is None:
+        supervisor = supervisor_of(process.pid)
+        if supervisor is not None:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(supervisor, signal.SIGKILL)
         with contextlib.suppress(ProcessLookupError, PermissionError):
             if os.getpgid(process.pid) == process.pid:
                 os.killpg(process.pid, signal.SIGKILL)
@@ -65,7 +79,7 @@ class Run:
         """The process id of a program of the run, as soon as it is there."""
         deadline = time.monotonic() + timeout
         while time.monotonic() < deadline:
-            for pid in children_of(self.process.pid):
+            for pid in processes_of(self.process.pid):
                 words = words_of(pid)
                 if words and os.path.basename(words[0]) == program:
                     self.pids[program] = pid
@@ -109,11 +123,11 @@ class LauncherTest(unittest.TestCase):
         shutil.rmtree(self.shared, ignore_errors=True)
 
     def memory(self):
-        """What the runs of this test hold in shared memory, and what any run of this user has outside its folder."""
+        """What the runs of this test hold in shared memory, and what Fast DDS has of this user outside folders of runs."""
         outside = set()
         for path in pathlib.Path("/dev/shm").iterdir():
             with contextlib.suppress(FileNotFoundError):
-                if not path.name.startswith("swarmanoid") and path.lstat().st_uid == os.geteuid():
+                if path.name.startswith(("fast", "sem.fast")) and path.lstat().st_uid == os.geteuid():
                     outside.add(str(path))
         return outside | {str(path) for path in self.shared.rglob("*")}
 
@@ -126,6 +140,12 @@ class LauncherTest(unittest.TestCase):
         run = self.start(*arguments, environment=environment)
         run.wait(timeout)
         return run
+
+    def control(self, *words):
+        """What a request that is obeyed says."""
+        answer = self.run_it("control", *words)
+        self.assertEqual(answer.process.returncode, 0, answer.stderr)
+        return answer.stdout
 
     def wait_until(self, what, condition, run=None, timeout=GENEROUS_S):
         deadline = time.monotonic() + timeout

@@ -9,6 +9,9 @@
 #include <thread>
 
 #include "common/bus/control_client.h"
+#include "common/experiment/load_experiment.h"
+#include "launcher/past_robots.h"
+#include "roles/builtins.h"
 #include "tests/cluster/cluster_fixture.h"
 
 namespace swarmanoid
@@ -213,6 +216,70 @@ TEST_F(InspectionTest, WatchedRobotsOfAllHostsTellTheirInside)
   ExpectEnd();
 }
 
+// The bits of all numbers, and all texts.
+std::string InsideOf(const RobotStatus& robot)
+{
+  std::string text =
+      fmt::format("{} {} {} {} {}\n", robot.entity, robot.tick, robot.controller, robot.state, robot.text);
+  for (const auto* devices : {&robot.sensors, &robot.actuators})
+    for (const DeviceStatus& device : *devices)
+    {
+      text += device.type;
+      for (const CCI_Reading& reading : device.readings)
+        text += fmt::format(" {}={:a} {}", reading.name, reading.value, reading.unit);
+      text += "\n";
+    }
+  return text;
+}
+
+TEST_F(InspectionTest, ThePastOfRobotsIsWhatWasToldOfThemThen)
+{
+  Begin(0, 2, {"--paused", "--output", folder_ + "/run"});
+  constexpr std::uint64_t kTicks = 150;
+  std::mutex mutex;
+  std::map<std::pair<std::uint64_t, std::uint32_t>, std::string> told;  // by tick and robot
+  ViewRequestMessage request = Request({"robots0_2", "robots0_11"});
+  request.every_tick = true;
+  {
+    Subscription<RobotStatusMessage> statuses(*bus_, "inspected",
+                                              [&](const RobotStatusMessage& heard)
+                                              {
+                                                const std::lock_guard lock(mutex);
+                                                for (const RobotStatus& robot : heard.robots)
+                                                  told[{robot.tick, robot.entity}] = InsideOf(robot);
+                                              });
+    Publisher<ViewRequestMessage> requests(*bus_, "inspected");
+    for (std::uint64_t tick = 1; tick <= kTicks; ++tick)
+    {
+      ASSERT_EQ(Ask("step").tick, tick);
+      ASSERT_TRUE(Eventually(
+          [&]
+          {
+            const std::lock_guard lock(mutex);
+            if (told.contains({tick - 1, request.robots[0]}) && told.contains({tick - 1, request.robots[1]}))
+              return true;
+            requests.Write(request);
+            return false;
+          }));
+    }
+  }
+  Ask("stop");
+  ExpectEnd();
+
+  RegisterBuiltins();
+  const auto experiment = LoadExperimentFile(file_).experiment;
+  ASSERT_TRUE(experiment);
+  for (const std::uint64_t tick : {0, 1, 99, 100, 101, 149})
+  {
+    const PastRobots past(*experiment, folder_ + "/run", tick, request.robots);
+    ASSERT_EQ(past.Robots().size(), 2U);
+    for (const RobotStatus& robot : past.Robots())
+      EXPECT_EQ(InsideOf(robot), (told[{tick, robot.entity}])) << "tick " << tick;
+  }
+  EXPECT_NE((told[{149, request.robots[0]}]), (told[{100, request.robots[0]}]));
+  EXPECT_THROW(PastRobots(*experiment, folder_ + "/run", kTicks + 1, request.robots), std::runtime_error);
+}
+
 TEST_F(InspectionTest, WatchingIsForgottenWithoutRepetitionAndLeavesTheHashesAlone)
 {
   Begin(0, 1, {"--paused"});
@@ -256,9 +323,21 @@ TEST_F(InspectionTest, ViewsComeAtThePaceThatIsWishedFor)
   slow.views = 2;
   request.Write(slow);
   Latest<ViewMessage> views(*bus_, "inspected");
-  ASSERT_TRUE(Eventually([&] { return views.Count() > 0; }));
+  // Until the server has heard the wish, they come more often.
+  int seen = 0;
+  auto start = std::chrono::steady_clock::now();
+  ASSERT_TRUE(Eventually(
+      [&]
+      {
+        request.Write(slow);
+        const auto now = std::chrono::steady_clock::now();
+        if (views.Count() == seen) return seen > 0 && now - start >= 400ms;
+        seen = views.Count();
+        start = now;
+        return false;
+      }));
   const int before = views.Count();
-  const auto start = std::chrono::steady_clock::now();
+  start = std::chrono::steady_clock::now();
   EXPECT_TRUE(Eventually(
       [&]
       {

@@ -22,11 +22,6 @@ class Attaching(LauncherTest):
         self.wait_for_experiment("diffusion_10")
         return run
 
-    def control(self, *words):
-        answer = self.run_it("control", *words)
-        self.assertEqual(answer.process.returncode, 0, answer.stderr)
-        return answer.stdout
-
     def watch(self, table, *options):
         return self.start("attach", "text", "--file", table, "--output", self.folder, *options)
 

@@ -1,5 +1,6 @@
 """Runs that go on from a checkpoint end as if nothing had happened, in one process and as a cluster, whichever took it."""
 import re
+import shutil
 import unittest
 
 from harness import CONFIGS, LauncherTest, main
@@ -44,6 +45,20 @@ class Checkpoints(LauncherTest):
     def test_three_engines_with_contacts(self):
         self.check("three_engines", at=200, ticks=300)
 
+    def test_other_content_of_a_file_is_refused(self):
+        shutil.copy(CONFIGS / "rough_terrain.xml", self.folder)
+        shutil.copytree(CONFIGS / "terrain", self.folder / "terrain")
+        experiment = self.folder / "rough_terrain.xml"
+        self.go(experiment, "first", "--single-process", "--checkpoint-every", 100)
+        checkpoint = self.folder / "first/checkpoint-00000100"
+        self.go(experiment, "same", "--single-process", "--restore", checkpoint)
+        hills = self.folder / "terrain/hills.png"
+        hills.write_bytes(hills.read_bytes() + b"\0")
+        for way in (["--single-process"], []):
+            run = self.run_it("run", experiment, "--quiet", "--ticks", 200, "--output", f"other{len(way)}", "--restore", checkpoint, *way)
+            self.assertEqual(run.process.returncode, 2, run.stderr)
+            self.assertIn("it was taken with another content of the file 'terrain/hills.png'; go on with that one", run.stderr)
+
     def test_three_engines_with_mirrors(self):
         self.check("mirrors")
 
@@ -71,9 +86,8 @@ class Checkpoints(LauncherTest):
         whole = self.go(experiment, "whole", "--controller-hosts", 2, "--checkpoint-every", 100)
         file = self.folder / "whole" / "checkpoint-00000100"
         self.assertEqual(self.go(experiment, "again", "--controller-hosts", 2, "--restore", file), whole)
-        wrong = self.run_it("run", experiment, "--quiet", "--ticks", 200, "--restore", file)
-        self.assertEqual(wrong.process.returncode, 2)
-        self.assertIn("taken with --controller-hosts 2", wrong.stderr)
+        for number, options in enumerate(([], ["--single-process"], ["--controller-hosts", 3])):
+            self.assertEqual(self.go(experiment, f"others{number}", *options, "--restore", file), whole)
 
     def test_a_restored_run_may_be_longer(self):
         experiment = CONFIGS / "diffusion_10.xml"

@@ -77,8 +77,8 @@ class Kills(LauncherTest):
                     self.assertEqual(run.stdout, "")
                 self.assert_nothing_left(run)
 
-    def test_a_killed_launcher_takes_all_with_it(self):
-        run = self.start("run", CONFIGS / "diffusion_10.xml", *LONG)
+    def test_a_killed_launcher_takes_all_with_it_if_it_is_to(self):
+        run = self.start("run", CONFIGS / "diffusion_10.xml", *LONG, "--orphan-timeout", 0)
         pids = [run.find(program) for program in PROGRAMS]
         self.wait_for_tick("hashes", 100, run)
         run.process.kill()

@@ -51,6 +51,16 @@ class First(harness.LauncherTest):
             said = subprocess.run([BUILD / "bin" / program, "--version"], capture_output=True, text=True, check=True).stdout
             self.assertRegex(said, rf"^{program} \d+\.\d+\.\d+( \([0-9a-f]+(-dirty)?\))?\n$")
 
+    def test_what_controllers_log_stands_in_the_log_of_their_host(self):
+        said = {}
+        for name, words in (("one", ["--single-process"]), ("cluster", ["--controller-hosts", "2"])):
+            done = self.command("run", harness.CONFIGS / "sound_seekers.xml", *words, "--output", name)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            logs = "".join(log.read_text() for log in (self.folder / name).glob("*.log"))
+            said[name] = sorted(re.findall(r"info: (robot '\w+' at tick \d+: reads the tag speaker)$", logs, re.MULTILINE))
+        self.assertTrue(said["one"])
+        self.assertEqual(said["one"], said["cluster"])
+
     def test_doctor_finds_what_is_well(self):
         findings, exit_code = self.json_of("doctor")
         verdicts = {finding["subject"]: finding["verdict"] for finding in findings}
@@ -153,7 +163,7 @@ class First(harness.LauncherTest):
     def test_bash_completes_commands_options_files_and_values(self):
         self.assertEqual(self.completed_by_bash("atta"), ["attach"])
         self.assertEqual(self.completed_by_bash("run", "diffusion_10.xml", "--single-"), ["--single-process"])
-        self.assertEqual(self.completed_by_bash("run", "pi"), ["pile.xml"])
+        self.assertEqual(self.completed_by_bash("run", "pil"), ["pile.xml"])
         self.assertEqual(self.completed_by_bash("run", "terr"), ["terrain/"])
         self.assertEqual(self.completed_by_bash("run", "pile.xml", "--set", "framework.max"), ["framework.maxclock="])
         self.assertEqual(self.completed_by_bash("demo", "prey_r"), ["prey_retrieval"])

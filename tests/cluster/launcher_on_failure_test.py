@@ -20,6 +20,8 @@ def failed(*faults):
 
 
 class OnFailureTest(LauncherTest):
+    AHEAD = 0
+
     def write(self, fault, tick, policy, budget="", period=100, robots=2):
         """Robots that drive with their LEDs on, and whose controllers fail."""
         path = self.write_faulty(fault, tick, name=f"{fault}_{policy or 'none'}")
@@ -31,7 +33,7 @@ class OnFailureTest(LauncherTest):
         for old, new in (('<faulty_controller id="c"', f'<faulty_controller id="c" {policy}{budget}'),
                          ("<actuators/>", f"<actuators>{devices}</actuators>"),
                          ("</tick>", f"</tick><drives>1</drives><mark>{self.folder / 'mark'}</mark>"),
-                         ("<maxclock>300</maxclock>", f"<maxclock>{TICKS}</maxclock><canonical_period>{period}</canonical_period>"),
+                         ("<maxclock>300</maxclock>", f"<maxclock>{TICKS}</maxclock><canonical_period>{period}</canonical_period><ahead>{self.AHEAD}</ahead>"),
                          ("2,2,1", "12,12,1"),
                          ("</arena>", f"{others}</arena>"),
                          ('<entity id="robot_one"/>', "".join(f'<entity id="{name}"/>' for name in ROBOTS[:robots]))):
@@ -67,6 +69,10 @@ class OnFailureTest(LauncherTest):
     def assert_verified(self, folder):
         again = self.run_it("replay", folder, "--verify")
         self.assertEqual((again.process.returncode, again.stdout), (0, f"equal: {TICKS + 1} states, computed again\n"), again.stderr)
+        for tick in (0, 7, 9, TICKS - 1):
+            inside = self.run_it("inspect", f"{folder}@{tick}", "robot_one")
+            self.assertEqual(inside.process.returncode, 0, inside.stderr)
+            self.assertIn(f"robot_one at tick {tick},", inside.stdout)
 
     def assert_ended(self, experiment, text, *options):
         run = self.run_it("run", experiment, *options)
@@ -98,7 +104,7 @@ class Throws(OnFailureTest):
         places = [line.split()[3:] for line in (self.folder / "one_out/places.txt").read_text().splitlines() if "robot_one" in line]
         self.assertEqual(len(places), TICKS + 1)
         for tick in range(TICKS):
-            self.assertEqual(places[tick] == places[tick + 1], tick >= 7, tick)
+            self.assertEqual(places[tick] == places[tick + 1], tick >= 7 + self.AHEAD or tick < self.AHEAD, tick)
 
     def test_restart(self):
         _, events = self.everywhere("all", self.write("life_throws", 30, "restart"))
@@ -219,8 +225,8 @@ class OnceDecided(OnFailureTest):
     def slow_once(self):
         return self.write("step_spins_once", 40, "stop_robot", TakesTooLong.BUDGET, period=10)
 
-    def paused_after_the_fault(self):
-        run = self.start("run", self.slow_once(), "--paused", "--hash-log", "cluster", "--output", "out")
+    def paused_after_the_fault(self, *options):
+        run = self.start("run", self.slow_once(), "--paused", "--hash-log", "cluster", "--output", "out", *options)
         self.wait_for_experiment("step_spins_once_stop_robot")
         self.run_it("control", "step", 70)
         self.assertEqual([line for line in self.events("out").splitlines() if "failed" in line], failed((40, "robot_one", SLOW)).splitlines()[1:])
@@ -262,7 +268,7 @@ class OnceDecided(OnFailureTest):
                     os.rename(self.folder / name, self.folder / f"{name}_{program}")
 
     def test_by_a_run_that_is_resumed(self):
-        run = self.paused_after_the_fault()
+        run = self.paused_after_the_fault("--orphan-timeout", 0)
         pids = [run.find(program) for program in ("space_server", "engine_worker", "controller_host")]
         run.process.kill()
         for pid in pids:
@@ -272,6 +278,19 @@ class OnceDecided(OnFailureTest):
         resumed = self.run_it("resume", "out")
         self.assertEqual(resumed.process.returncode, 0, resumed.stderr)
         self.assertEqual(self.assert_finished(resumed, TICKS), self.repeated())
+
+
+# The same where commands act a tick later: who failed in a step is told with its commands.
+class ThrowsAhead(Throws):
+    AHEAD = 1
+
+
+class DiesAhead(Dies):
+    AHEAD = 1
+
+
+class OnceDecidedAhead(OnceDecided):
+    AHEAD = 1
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ import shutil
 import signal
 import time
 
-from harness import CONFIGS, GENEROUS_S, LauncherTest, children_of, main
+from harness import CONFIGS, GENEROUS_S, LauncherTest, main, processes_of
 
 WORKERS = ["engine_worker", "controller_host", "visualiser"]
 PROGRAMS = ["engine_worker", "controller_host", "space_server"]
@@ -32,11 +32,6 @@ class RecoveryTest(LauncherTest):
         self.assertEqual(self.assert_finished(run, ticks), expected)
         self.assertEqual((self.folder / "cluster").read_text(), (self.folder / "one").read_text())
         self.assert_nothing_left(run)
-
-    def control(self, *words):
-        answer = self.run_it("control", *words)
-        self.assertEqual(answer.process.returncode, 0, answer.stderr)
-        return answer.stdout
 
     def alive(self, run, program, dead):
         """The process of the program that is not among those that died."""
@@ -73,6 +68,22 @@ class Once(RecoveryTest):
         said = run.read_until(REPLACED) + run.read_until(REPLACED)
         self.control("resume")
         self.assert_same(run, ticks, expected, said, code=1)  # the prey is not in the nest yet
+
+    def test_each_where_commands_act_a_tick_later(self):
+        experiment = CONFIGS / "prey_retrieval.xml"
+        late = (experiment, "--ahead", 1, "--no-visualisers")
+        expected = self.undisturbed(*late[:1], 600, *late[1:])
+        run = self.start("run", *late, "--ticks", 600, "--controller-hosts", 2, "--paused", "--hash-log", "cluster", "--output", "out")
+        self.wait_for_experiment("prey_retrieval")
+        said = ""
+        for program in PROGRAMS:
+            self.control("step", 130)
+            os.kill(run.find(program), signal.SIGKILL)
+            said += run.read_until(AGAIN if program == "space_server" else REPLACED)
+            self.wait_for_experiment("prey_retrieval")
+        self.control("hosts", "+1")  # which hands over what has not acted yet, robot by robot
+        self.control("resume")
+        self.assert_same(run, 600, expected, said, code=1)  # the prey is not in the nest yet
 
     def test_hosts_that_the_server_does_not_hear(self):
         # The engine may have had the last commands of the one that died.
@@ -235,7 +246,7 @@ class LookingBack(RecoveryTest):
         for name, states in (("plain", 121), ("moved", 301)):
             again = self.run_it("replay", name, "--verify")
             self.assertEqual((again.process.returncode, again.stdout), (0, f"equal: {states} states, computed again\n"), again.stderr)
-            shown = self.run_it("replay", name, "text", "file=again.txt", "precision=4")
+            shown = self.run_it("replay", name, "text", "--file", "again.txt", "--precision", 4)
             self.assertEqual(shown.process.returncode, 0, shown.stderr)
             self.assertEqual((self.folder / "again.txt").read_bytes(), (self.folder / name / "positions.txt").read_bytes())
         same = self.run_it("diff", "moved", "moved")
@@ -320,7 +331,7 @@ class Resumed(RecoveryTest):
             with self.subTest(moment):
                 out = f"out{moment}"
                 run = self.start("run", experiment, "--ticks", 2000, "--paused", "--hash-log", "cluster", "--output", out, "--quiet",
-                                 "--checkpoint-every", 400)
+                                 "--checkpoint-every", 400, "--orphan-timeout", 0)
                 self.wait_for_experiment("diffusion_10")
                 self.control("step", 10)
                 self.control("move", "fb_0", "1.5,1.3,0,0,0,91.25")
@@ -383,7 +394,7 @@ class Soak(RecoveryTest):
         for _ in range(KILLS):
             run = self.start("run", EXPERIMENT, "--ticks", ticks, "--hash-log", "cluster", "--output", "out", "--no-visualisers")
             run.find(PROGRAMS[-1])
-            processes = children_of(run.process.pid)
+            processes = processes_of(run.process.pid)
             self.wait_until("the last ticks", lambda: run.process.poll() is not None or self.newest() > 0.95 * ticks)
             time.sleep(seed.random() * 0.1)
             with contextlib.suppress(ProcessLookupError):

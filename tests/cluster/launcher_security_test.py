@@ -5,7 +5,7 @@ import shutil
 import subprocess
 import unittest
 
-from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, children_of, main
+from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, processes_of, main, supervisor_of
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 NOBODY = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
@@ -38,8 +38,8 @@ class Security(LauncherTest):
         self.assertEqual(keys[0].parent.stat().st_mode & 0o777, 0o700)
         key = keys[0].read_text().strip()
         self.assertRegex(key, "^[0-9a-f]{64}$")
-        self.wait_until("all processes", lambda: len(children_of(run.process.pid)) == 3)
-        for pid in [run.process.pid, *children_of(run.process.pid)]:
+        self.wait_until("all processes", lambda: len(processes_of(run.process.pid)) == 3)
+        for pid in [run.process.pid, supervisor_of(run.process.pid), *processes_of(run.process.pid)]:
             for name in ("cmdline", "environ"):
                 self.assertNotIn(key, pathlib.Path(f"/proc/{pid}/{name}").read_bytes().decode(errors="replace"))
         self.resume()
@@ -49,6 +49,28 @@ class Security(LauncherTest):
             if file.is_file():
                 self.assertNotIn(key.encode(), file.read_bytes(), file)
                 self.assertNotIn(b"give the key", file.read_bytes(), file)
+
+    def test_who_uses_no_key_or_one_too_many_is_told_at_once(self):
+        for of_run, of_others, said in ([], ["--insecure"], "leave out --insecure"), (["--insecure"], [], "give --insecure here"):
+            run = self.start_paused(*of_run)
+            for command in ["control", "resume"], ["attach", "text"]:
+                answer = self.run_it(*command, *of_others)
+                self.assertEqual(answer.process.returncode, 2, answer.stderr)
+                self.assertIn(said, answer.stderr)
+            # As one of another machine would ask.
+            domain = self.run_it("list", "experiments").stdout.split("domain")[1].split()[0]
+            key = self.folder / "key"
+            key.write_text("1" * 64 + "\n")
+            key.chmod(0o600)
+            answer = self.run_it("control", "diffusion_10", "resume", "--domain", domain, *(of_others or ["--key", key]),
+                                 environment={"SWARMANOID_SHARED_FOLDER": f"{self.shared}-elsewhere"})
+            self.assertEqual(answer.process.returncode, 4, answer.stderr)
+            self.assertIn("does not answer", answer.stderr)
+            self.assertIn("--key", answer.stderr)
+            answer = self.run_it("control", "stop", *of_run)
+            self.assertEqual(answer.process.returncode, 0, answer.stderr)
+            self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
+            shutil.rmtree(self.folder / "out")
 
     @unittest.skipUnless(os.geteuid() == 0, "only root can be another user")
     def test_another_user_is_refused_and_told_why(self):

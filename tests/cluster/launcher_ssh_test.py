@@ -4,11 +4,12 @@ import os
 import pathlib
 import signal
 
-from harness import CONFIGS, LauncherTest, children_of, main, words_of
+from harness import CONFIGS, LauncherTest, main, processes_of, supervisor_of, words_of
 from ssh_machines import Machines, require_servers
 
 BUILD = pathlib.Path(os.environ["SWARMANOID_BUILD"])
 TICKS = 40
+MOVED_TICKS = 400
 PROGRAMS = ("space_server", "engine_worker", "controller_host", "visualiser")
 
 
@@ -41,11 +42,11 @@ class Ssh(LauncherTest):
         run.wait()
         return run
 
-    def endless(self, *lines):
+    def endless(self, *lines, options=()):
         """A run that goes on, with its engine at alpha and its controllers at beta unless said otherwise."""
         hashes = f"hashes{len(self.runs)}"
         run = self.start_on(self.hosts(*(lines or ("engine = alpha", "controller_host = beta"))), "--no-recovery", "--real-time", "20", "--ticks", "0",
-                            "--hash-log", self.folder / hashes)
+                            "--hash-log", self.folder / hashes, *options)
         self.wait_for_tick(hashes, 3, run)
         return run
 
@@ -78,6 +79,57 @@ class Ssh(LauncherTest):
             self.assertEqual(self.assert_finished(run, TICKS), wanted, lines)
             self.assert_machines_empty()
 
+    def paused(self, *lines):
+        """A run that waits at its tick 100."""
+        run = self.start_on(self.hosts(*lines), "--paused", "--ticks", MOVED_TICKS)
+        self.wait_for_experiment("diffusion_10")
+        self.control("step", "100")
+        return run
+
+    def control(self, *words):
+        answer = self.run_it("control", *words, "--interface", "127.0.0.1")
+        self.assertEqual(answer.process.returncode, 0, answer.stderr)
+
+    def assert_undisturbed(self, run):
+        one = self.run_it("run", CONFIGS / "diffusion_10.xml", "--ticks", MOVED_TICKS, "--no-visualisers", "--single-process", "--quiet")
+        self.run_it("control", "resume", "--interface", "127.0.0.1")
+        self.assertEqual(run.wait(), 0, run.stderr)
+        self.assertEqual(self.assert_finished(run, MOVED_TICKS), self.assert_finished(one, MOVED_TICKS))
+        self.assert_machines_empty()
+
+    def test_workers_move_between_machines(self):
+        run = self.paused("engine = alpha", "controller_host = beta")
+        self.control("move-host", "0", "alpha")
+        self.assertIsNotNone(self.alpha.find("controller_host"))
+        self.wait_until("beta to be left", lambda: self.beta.find("controller_host") is None)
+        self.control("move-engine", "ground", "here")
+        self.wait_until("the engine to leave alpha", lambda: self.alpha.find("engine_worker") is None)
+        self.assertIsNotNone(run.find("engine_worker"))
+        self.control("step", "50")
+        self.control("drain", "alpha")
+        # The engine is here already.
+        self.assertIsNotNone(self.beta.find("controller_host"))
+        self.wait_until("alpha to be left", lambda: not self.alpha.descendants())
+        self.assert_undisturbed(run)
+
+    def test_a_worker_that_cannot_be_there_goes_back(self):
+        run = self.paused("engine = alpha", "machines = lost")
+        self.control("move-engine", "ground", "lost")
+        self.assertIsNotNone(self.alpha.find("engine_worker"))
+        said = run.read_until("engine 'ground' on lost")
+        self.assertIn("engine 'ground' moves to lost", said)
+        self.assert_undisturbed(run)
+
+    def test_the_launcher_may_die(self):
+        run = self.paused("engine = alpha", "controller_host = beta")
+        supervisor = supervisor_of(run.process.pid)
+        run.process.kill()
+        run.wait()
+        os.kill(self.beta.find("controller_host"), signal.SIGKILL)
+        adopter = self.start("adopt", environment=self.ssh.environment)
+        self.assert_undisturbed(adopter)
+        self.wait_until("its end", lambda: not words_of(supervisor))
+
     def test_an_interrupt_ends_the_run_at_its_tick(self):
         run = self.endless()
         run.process.send_signal(signal.SIGINT)
@@ -95,7 +147,7 @@ class Ssh(LauncherTest):
 
     def test_a_second_interrupt_and_a_termination_leave_nothing_there(self):
         for signals in ([signal.SIGTERM], [signal.SIGINT, signal.SIGINT], [signal.SIGKILL]):
-            run = self.endless()
+            run = self.endless(options=("--orphan-timeout", "0"))
             for number in signals:
                 run.process.send_signal(number)
             run.wait()
@@ -140,7 +192,7 @@ class Ssh(LauncherTest):
 
     def test_a_killed_ssh_is_named(self):
         run = self.endless()
-        ssh = next(pid for pid in children_of(run.process.pid) if "alpha" in words_of(pid))
+        ssh = next(pid for pid in processes_of(run.process.pid) if "alpha" in words_of(pid))
         os.kill(ssh, signal.SIGKILL)
         run.wait()
         self.assert_failed(run, "^engine 'ground' on alpha was killed by signal 9")

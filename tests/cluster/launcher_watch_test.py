@@ -17,11 +17,6 @@ class Watching(LauncherTest):
         self.wait_for_experiment("diffusion_10")
         return run
 
-    def control(self, *words):
-        answer = self.run_it("control", *words)
-        self.assertEqual(answer.process.returncode, 0, answer.stderr)
-        return answer.stdout
-
     def test_pause_step_resume_and_stop(self):
         run = self.start_paused("--ticks", 0)
         self.assertIn("at tick 3", self.control("step", 3))

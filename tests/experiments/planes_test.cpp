@@ -8,28 +8,6 @@ namespace
 
 constexpr double kRadius = 0.085036758;
 
-TEST(Pile, NobodyEndsUpInsideAnotherOne)
-{
-  RunningExperiment run("pile.xml");
-  run.Run(400);
-  const std::vector<Vector3> positions = run.PositionsOf("fb_");
-  int in_the_pile = 0;
-  for (std::size_t a = 0; a < positions.size(); ++a)
-  {
-    int neighbours = 0;
-    for (std::size_t b = 0; b < positions.size(); ++b)
-    {
-      if (a == b) continue;
-      const double distance = (positions[a] - positions[b]).norm();
-      ASSERT_GT(distance, 2 * kRadius * 0.99) << a << " and " << b;
-      neighbours += distance < 2.6 * kRadius;
-    }
-    in_the_pile += neighbours >= 3;
-    EXPECT_LT(positions[a].maxCoeff(), 9.95 - 0.99 * kRadius) << "within the walls";
-  }
-  EXPECT_GT(in_the_pile, 60) << "robots with three others around them";
-}
-
 TEST(ThreePlanes, EverybodyDiffusesOnTheOwnPlaneAndWithinItsWalls)
 {
   RunningExperiment run("three_planes.xml");

@@ -21,10 +21,16 @@ class CommandLine(OutsideTest):
             self.refused(*program, file, "--real-time", "nan", says=["--real-time is 'nan'", "from 0 to", "for example"])
             self.refused(*program, file, "--real-time", "inf", says="--real-time is 'inf'")
             self.refused(*program, file, "--ticks", "-1", says=["--ticks is -1", "from 0 to"])
+            self.refused(*program, file, "--ahead", "2", says=["--ahead is 2", "from 0 to 1"])
             self.refused(*program, file, "--seed", "1.5", says=["--seed is '1.5'", "a whole number"])
             self.refused(*program, file, "--controller-hosts", "0", says="from 1 to 1000")
             self.refused(*program, file, "--set", "framework.seed", says="PATH=VALUE")
             self.refused(*program, file, "--restore", "/dev/zero", says="a device")
+            self.refused(*program, file, "--journal-budget", "plenty", says=["--journal-budget is 'plenty'", "a number of bytes"])
+        self.refused("space_server", file, "--controller-hosts", "auto", says=["--controller-hosts auto", "give a number"])
+        self.refused("swarmanoid", "run", file, "--controller-hosts", "many", says=["--controller-hosts is 'many'", "a whole number"])
+        self.refused("swarmanoid", "run", "--branch", "runs/first", says=["--branch is 'runs/first'", "RUN@TICK", "for example"])
+        self.refused("swarmanoid", "run", says="name an experiment file, or a run to branch off with --branch RUN@TICK")
         self.assertFalse((self.folder / "runs").exists())
         self.refused("engine_worker", "--engine", "ground", "--discovery-server", "127.0.0.1:11811junk",
                      says=["--discovery-server is '127.0.0.1:11811junk'", "a port from 1 to 65535"])
@@ -32,8 +38,20 @@ class CommandLine(OutsideTest):
         self.refused("controller_host", "--threads", "0", says=["--threads is 0", "from 1 to 64"])
         self.refused("visualiser", "--attach", "text", "--hz", "nan", says="--hz is 'nan'")
         self.refused("swarmanoid_robot", file, "--wait", "nan", says="--wait is 'nan'")
+        self.refused("swarmanoid", "run", file, "--orphan-timeout", "-1", says=["--orphan-timeout is -1", "from 0 to"])
+        self.refused("swarmanoid", "adopt", self.folder / "nothing", says="is no folder of a run")
+        self.refused("swarmanoid", "control", "move-hsot", "1", says="did you mean 'move-host'?")
+        self.refused("swarmanoid", "control", "reset", "7", says="write reset or reset --seed N")
+        self.refused("swarmanoid", "control", "pause", "--seed", "7", says="--seed: pause takes none")
+        self.refused("swarmanoid", "control", "reset", "--seed", "-1", says="--seed is -1")
         self.refused("swarmanoid", "sweep", file, "--runs-per-task", "1.5", says=["--runs-per-task is '1.5'", "a whole number"])
         self.refused("swarmanoid", "sweep", file, "--hosts", self.folder / "nothing.txt", says="--hosts: cannot read '")
+
+    def test_shares(self):
+        self.refused("swarmanoid", "share", says="give one of --watch, --operate, --open, --list and --revoke ID")
+        self.refused("swarmanoid", "share", "--watch", "--for", "2 hours", says="such as 90s, 30m, 2h or 7d")
+        self.refused("swarmanoid", "share", "--watch", "--for", "nans", says="--for nans")
+        self.refused("swarmanoid", "share", "--watch", "nothing", says="no experiment runs on this machine")
 
     def test_near_names(self):
         self.refused("swarmanoid", "rnu", says="did you mean 'run'?")
@@ -60,7 +78,7 @@ class CommandLine(OutsideTest):
         # What the server takes is what the launcher takes, from one table.
         options = {name: set(re.findall(r"^ +(--[a-z-]+)", self.command(*name, "--help").stdout, re.MULTILINE))
                    for name in [("swarmanoid", "run"), ("space_server",)]}
-        own = {"--status-fd", "--await-replacements", "--go-on", "--domain", "--interface", "--peers", "--discovery-server", "--lease", "--datagram",
+        own = {"--status-fd", "--await-replacements", "--go-on", "--machine", "--place", "--domain", "--interface", "--peers", "--discovery-server", "--lease", "--datagram",
                "--key", "--key-fd", "--version"}
         self.assertLessEqual(options[("space_server",)] - own, options[("swarmanoid", "run")])
 

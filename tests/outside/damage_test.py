@@ -138,7 +138,7 @@ class Damage(OutsideTest):
         for way, options in WAYS.items():
             done = self.run_experiment(file, "--restore", checkpoint, *options)
             self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn("taken with another build of the library 'liboutside_needy.so'; go on with that build", done.stderr)
+            self.assertIn("taken with another build of the library 'liboutside_needy.so'; go on with that one", done.stderr)
             self.assertIn("or let --any-build take it", done.stderr)
             done = self.run_experiment(file, "--restore", checkpoint, "--any-build", *options)
             self.assertEqual(self.hash_of(done), whole, "nothing but the note differs")

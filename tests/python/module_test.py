@@ -1,5 +1,7 @@
 """The module against the command `swarmanoid run`, closed forms, and what it refuses."""
+import csv
 import gc
+import io
 import os
 import pathlib
 import re
@@ -8,6 +10,7 @@ import sys
 import tempfile
 import threading
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -321,6 +324,19 @@ class Learning(InAFolder):
 
 
 class Runs(InAFolder):
+    """With pandas, or what stands for it."""
+
+    def test_hashes_are_texts_and_numbers_keep_their_bits(self):
+        text = "entity,hash,x,none\n7,1234567890123456,0.1234567890123456789,\n8,12e4567890123456,1e-310,\n"
+        for hide in (False, True):
+            hidden = {"pandas": None} if hide else {}
+            with unittest.mock.patch.dict(sys.modules, hidden):
+                table = swarmanoid.runs._table(io.StringIO(text))
+            self.assertEqual(list(table["entity"]), ["7", "8"])
+            self.assertEqual(list(table["hash"]), ["1234567890123456", "12e4567890123456"])
+            self.assertEqual(list(table["x"]), [0.1234567890123456789, 1e-310])
+            self.assertTrue(np.isnan(np.asarray(table["none"], dtype=float)).all())
+
     def test_the_folder_of_a_run(self):
         subprocess.run([os.environ["SWARMANOID"], "run", CONFIGS / "diffusion_10.xml", "--single-process", "--ticks", "20",
                         "--output", "first", "--quiet"], check=True, capture_output=True)
@@ -328,6 +344,58 @@ class Runs(InAFolder):
         self.assertEqual(run.manifest["ticks"], 20)
         with self.assertRaises(FileNotFoundError):
             swarmanoid.Run("second")
+        with self.assertRaisesRegex(ValueError, "journal"):
+            run.journal()
+
+    def test_a_journal_has_the_state_of_each_tick(self):
+        settings = ["--seed", "5", "--ticks", "30", "--output", "cluster", "--quiet"]
+        subprocess.run([os.environ["SWARMANOID"], "run", CONFIGS / "diffusion_10.xml", *settings], check=True, capture_output=True)
+        journal = swarmanoid.Run("cluster").journal(["x", "y", "qz", "led[3]"], entities="fb_*", every=10)
+        self.assertEqual(list(journal), ["tick", "time_s", "entity", "kind", "x", "y", "qz", "led[3]"])
+        self.assertEqual(len(journal["tick"]), 40)
+        with swarmanoid.Simulation(CONFIGS / "diffusion_10.xml", {"framework.seed": 5}) as simulation:
+            while True:
+                of_tick = np.asarray(journal["tick"]) == simulation.tick
+                rows = [simulation.index(id) for id in np.asarray(journal["entity"])[of_tick]]
+                for name in ("x", "y", "qz"):
+                    np.testing.assert_array_equal(np.asarray(journal[name])[of_tick], getattr(simulation, name)[rows])
+                if simulation.tick == 30:
+                    break
+                simulation.step(10)
+        last = swarmanoid.Run("cluster").journal(first=30, last=30)
+        self.assertEqual(set(last["tick"]), {30})
+        self.assertEqual(set(last["kind"]), {"footbot", "block"})
+        with self.assertRaisesRegex(ValueError, "there is no column 'leds'.*did you mean 'led'"):
+            swarmanoid.Run("cluster").journal(["leds"])
+        self.assertIsNone(swarmanoid.Run("cluster").events())
+
+    def test_the_folder_of_a_study(self):
+        pathlib.Path("study.xml").write_text(f"""<study experiment="{CONFIGS / 'diffusion_10.xml'}" ticks="40" seeds="1-3">
+            <factor id="robots" path="arena.distribute.quantity" values="4 8"/>
+            <metrics every="20"><distance id="way"/><coverage id="seen" cell="0.5"/><trajectories id="ways"/></metrics></study>""")
+        subprocess.run([os.environ["SWARMANOID"], "sweep", "study.xml", "--output", "out", "--quiet"], check=True, capture_output=True)
+        study = swarmanoid.Study("out")
+        table = study.table()
+        with open("out/table.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(list(table), list(rows[0]))
+        for name in ("robots", "seed", "tick", "way.mean", "seen"):
+            np.testing.assert_array_equal(np.asarray(table[name], dtype=float), [float(row[name]) for row in rows])
+        self.assertEqual([str(each) for each in table["hash"]], [row["hash"] for row in rows])
+        runs = study.runs()
+        self.assertEqual([str(each) for each in runs["state"]], ["done"] * 6)
+        ids, ways = study.ways(1, 3)
+        self.assertEqual((len(ids), ways.shape), (8, (3, 8, 2)))
+        with swarmanoid.Simulation(CONFIGS / "diffusion_10.xml", {"arena.distribute.quantity": 8, "framework.seed": 3}) as simulation:
+            simulation.step(40)
+            np.testing.assert_array_equal(ways[-1], simulation.positions("footbot")[:, :2].astype(np.float32))
+        visits, cell_m = study.visits("seen", 1, 3)
+        self.assertEqual(cell_m, 0.5)
+        self.assertAlmostEqual((visits > 0).mean(), float(rows[-1]["seen"]))
+        with self.assertRaises(KeyError):
+            study.ways(7, 1)
+        with self.assertRaisesRegex(FileNotFoundError, "is no folder of a study"):
+            swarmanoid.Study("nothing")
 
 
 if __name__ == "__main__":

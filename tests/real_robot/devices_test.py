@@ -127,10 +127,15 @@ class Devices(unittest.TestCase):
         self.expect(readings, "footbot_encoders", left=1.5, right=-2.5)
 
     def test_sensors_of_an_eyebot_and_a_handbot(self):
-        readings, _ = self.run_robot("eyebot", ["eyebot_altitude", "eyebot_camera"])
+        readings, _ = self.run_robot("eyebot", ["eyebot_altitude", "eyebot_camera", "eyebot_pan_tilt_camera"])
         self.expect(readings, "eyebot_altitude", altitude=1.75)
         self.expect(readings, "eyebot_camera", blob_1_distance=2, blob_1_angle=-math.pi / 2)
-        readings, _ = self.run_robot("handbot", ["handbot_joints", "handbot_camera"])
+        self.expect(readings, "eyebot_pan_tilt_camera", blob_1_distance=math.sqrt(5), blob_1_elevation=math.atan2(1, 2))
+        readings, _ = self.run_robot("handbot", ["handbot_joints", "handbot_camera", "handbot_proximity"])
+        # As above: -infinity is contact, and from 0.05 m on nothing is seen.
+        for i in range(24):
+            reading = 1 if i == 21 else max(0, 1 - (0.021 + 0.005 * i) / 0.05)
+            self.assertAlmostEqual(readings["handbot_proximity"][f"{'left' if i < 12 else 'right'} {i % 12}"][0], reading, places=5, msg=str(i))
         self.expect(readings, "handbot_joints", head=0.1, left_arm=0.2, right_arm=0.3, left_wrist=0.4, right_wrist=0.5, left_hand=0.6,
                     right_hand=0.7, left_hand_holds=1, right_hand_holds=0, rope_attached=1, rope_length=0.8)
         # It looks ahead: distances are along the line of sight.

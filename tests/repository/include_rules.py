@@ -60,6 +60,8 @@ def allowed():
     rules["real_robot"] = INTERFACE + ["common/logging", "common/program", "real_robot"]
     # A folder of drivers sees what drivers are made from, and no other drivers.
     rules["real_robot/drivers/ros2"] = rules["real_robot"] + ["real_robot/drivers/ros2"]
+    # A controller of simulated robots, which sees what controllers see and speaks to ROS 2 as the drivers do.
+    rules["real_robot/ros2_controller"] = rules["real_robot/drivers/ros2"] + ["real_robot/ros2_controller"]
     # It speaks to ROS 2 as the drivers do.
     rules["visualiser/ros2"] = rules["visualiser"] + ["visualiser/ros2"] + rules["real_robot/drivers/ros2"]
     rules["user"] = INTERFACE + ["user"]

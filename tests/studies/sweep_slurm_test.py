@@ -6,7 +6,6 @@ import re
 import shutil
 import signal
 import socket
-import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -16,7 +15,8 @@ import unittest
 TESTS = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(TESTS / "cluster"))
 
-from harness import CONFIGS, GENEROUS_S, SWARMANOID, end, skip, words_of  # noqa: E402
+from harness import GENEROUS_S, end, skip, words_of  # noqa: E402
+from study_case import StartedStudyCase  # noqa: E402
 
 FINISHED = re.compile(r"^finished: (\d+) runs, (\d+) failed, [0-9.]+ s, table (\S+)$", re.MULTILINE)
 DAEMONS = {name: shutil.which(name, path="/usr/sbin:" + os.environ["PATH"]) for name in ("munged", "slurmctld", "slurmd")}
@@ -125,7 +125,7 @@ PartitionName=short Nodes={host} Default=YES MaxTime=60 State=UP
             return False
 
 
-class SweepSlurm(unittest.TestCase):
+class SweepSlurm(StartedStudyCase):
     @classmethod
     def setUpClass(cls):
         cls.top = pathlib.Path(tempfile.mkdtemp(prefix="swarmanoid_slurm_"))
@@ -145,54 +145,6 @@ class SweepSlurm(unittest.TestCase):
         for job in self.slurm.live():
             self.slurm.ask("scancel", job)
         self.wait_until("an empty queue", lambda: not self.slurm.live())
-
-    def study(self, seeds, ticks=60, inside='<metrics every="20"><distance id="way"/></metrics>'):
-        path = self.folder / "study.xml"
-        path.write_text(f'<study experiment="{CONFIGS}/diffusion_10.xml" ticks="{ticks}" seeds="{seeds}">\n{inside}\n</study>\n')
-        return path
-
-    def start(self, *words):
-        process = subprocess.Popen([SWARMANOID, "sweep", *map(str, words), "--quiet"], cwd=self.folder, stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE, text=True, env=self.environment)
-        self.addCleanup(lambda: (process.kill(), process.communicate()))
-        return process
-
-    def end_of(self, process, code=0):
-        out, errors = process.communicate(timeout=250)
-        self.assertEqual(process.returncode, code, out + errors)
-        return out, errors
-
-    def sweep(self, *words, code=0):
-        return self.end_of(self.start(*words), code)
-
-    def here(self, study):
-        self.sweep(study, "--output", "here")
-        return (self.folder / "here/table.csv").read_bytes()
-
-    def query(self, name, query):
-        database = sqlite3.connect(self.folder / name / "study.sqlite", timeout=60)
-        try:
-            return database.execute(query).fetchall()
-        except sqlite3.OperationalError:  # it is being made
-            return []
-        finally:
-            database.close()
-
-    def wait_until(self, what, condition):
-        deadline = time.monotonic() + GENEROUS_S
-        while not condition():
-            self.assertLess(time.monotonic(), deadline, "in vain for " + what)
-            time.sleep(0.05)
-
-    def done_in(self, name):
-        if not (self.folder / name / "study.sqlite").exists():
-            return 0
-        rows = self.query(name, "SELECT COUNT(*) FROM runs WHERE state = 'done'")
-        return rows[0][0] if rows else 0
-
-    def wait_for_runs(self, name, at_least, process):
-        self.wait_until("runs", lambda: process.poll() is not None or self.done_in(name) >= at_least)
-        self.assertIsNone(process.poll(), "it ended early")
 
     def assert_same(self, name, table):
         self.assertEqual((self.folder / name / "table.csv").read_bytes(), table)
@@ -269,7 +221,8 @@ class SweepSlurm(unittest.TestCase):
         study = self.study("1-6", ticks=30000)
         table = self.here(study)
         process = self.start(study, "--output", "out", "--slurm", "", "--runs-per-task", "6", "--retries", "1")
-        self.wait_for_runs("out", 2, process)
+        # Before the command asks for them. What is being written has an ending.
+        self.wait_until("results", lambda: len([path for path in self.folder.glob("out/slurm/*/results/*") if not path.suffix]) >= 2)
         for pid in self.slurm.workers():
             os.kill(pid, signal.SIGKILL)
         _, errors = self.end_of(process)
@@ -285,10 +238,11 @@ class SweepSlurm(unittest.TestCase):
         self.slurm.processes["slurmctld"].terminate()
         self.slurm.processes["slurmctld"].wait(60)
         self.wait_until("runs that need no controller", lambda: self.done_in("out") >= 5)
-        time.sleep(15)  # it is asked each two seconds, and who asks waits a while for an answer
+        # Who asks waits long for an answer before that is told.
+        self.wait_until("the word of it", lambda: "cannot be asked" in process.said.read_text())
         self.slurm.start("slurmctld", "-D")
         _, errors = self.end_of(process)
-        self.assertLessEqual(len(re.findall(r"^Slurm cannot be asked about job \d+: .*; asked again until it answers$", errors, re.MULTILINE)), 1, errors)
+        self.assertEqual(len(re.findall(r"^Slurm cannot be asked about job \d+: .*; asked again until it answers$", errors, re.MULTILINE)), 1, errors)
         self.assert_same("out", self.here(study))
 
     def test_several_cores_of_a_task(self):

@@ -5,7 +5,6 @@ import pathlib
 import re
 import shutil
 import signal
-import sqlite3
 import statistics
 import subprocess
 import time
@@ -109,31 +108,30 @@ class Sweep(StudyCase):
         study = self.study('<factor id="robots" path="arena.distribute.quantity" from="2" to="11" step="1"/>'
                            '<metrics><distance id="way"/></metrics>', 'seeds="1-20"')
         self.sweep(study, "--output", "whole")
-        process = subprocess.Popen([SWARMANOID, "sweep", study, "--output", "out", "--quiet"], cwd=self.folder, stdout=subprocess.DEVNULL)
-        for kill in range(5):
+        begin, go_on = ([SWARMANOID, "sweep", study, "--output", "out", "--quiet"], [SWARMANOID, "sweep", "out", "--resume", "--quiet"])
+        for kill in range(7):
+            # One that was killed before its database was complete has not begun.
+            has_begun = (self.folder / "out/study.sqlite").exists()
+            process = subprocess.Popen(go_on if has_begun else begin, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             deadline = time.monotonic() + 100
-            while not (self.folder / "out/study.sqlite").exists() and time.monotonic() < deadline:
-                time.sleep(0.005)
-            time.sleep(0.01 * 3 ** kill)
+            while not (self.folder / "out/lock").exists() and time.monotonic() < deadline:
+                time.sleep(0.001)
+            time.sleep(0.002 * 3 ** kill)
             process.send_signal(signal.SIGKILL)
             process.wait()
-            if self.state_of("out") is None:
-                # Killed before its first transaction: it was never begun, and is told so.
-                self.sweep("out", "--resume", code=2)
-                shutil.rmtree(self.folder / "out")
-                process = subprocess.Popen([SWARMANOID, "sweep", study, "--output", "out", "--quiet"], cwd=self.folder, stdout=subprocess.DEVNULL)
-                continue
-            process = subprocess.Popen([SWARMANOID, "sweep", "out", "--resume", "--quiet"], cwd=self.folder, stdout=subprocess.DEVNULL,
-                                       stderr=subprocess.DEVNULL)
-        process.wait(200)
+            if (self.folder / "out/study.sqlite").exists():
+                self.assertEqual(self.query("out", "SELECT COUNT(*) FROM runs"), [(200,)])
         self.sweep("out", "--resume")
         self.assertEqual((self.folder / "whole/table.csv").read_bytes(), (self.folder / "out/table.csv").read_bytes())
 
-    def state_of(self, name):
-        try:
-            return self.query(name, "SELECT COUNT(*) FROM runs")[0][0] or None
-        except sqlite3.Error:
-            return None
+    def test_one_that_was_killed_before_it_began_begins_anew(self):
+        study = self.study("", 'seeds="1-2"')
+        (self.folder / "out").mkdir()
+        for name in ("lock", "study.sqlite.new", "study.sqlite.new-journal"):
+            (self.folder / "out" / name).write_text("torn")
+        self.assertIn("is no folder of a study", self.sweep("out", "--resume", code=2).stderr)
+        self.sweep(study, "--output", "out")
+        self.assertEqual(sorted(path.name for path in (self.folder / "out").iterdir() if path.name.startswith("study")), ["study.sqlite"])
 
     def test_ctrl_c_ends_after_the_runs_that_go_on(self):
         study = self.study("", 'seeds="1-3000"')

@@ -10,7 +10,7 @@ import subprocess
 
 IMPLEMENTATIONS = {
     "footbot_wheels": "dummy_footbot_wheels", "footbot_gripper": "dummy_footbot_gripper", "footbot_turret": "dummy_footbot_turret",
-    "eyebot_propellers": "dummy_eyebot_propellers", "handbot_rope": "dummy_handbot_rope", "footbot_encoders": "engine_footbot_encoders",
+    "eyebot_propellers": "dummy_eyebot_propellers", "handbot_rope": "dummy_handbot_rope", "handbot_head": "dummy_handbot_head", "handbot_arms": "dummy_handbot_arms", "footbot_encoders": "engine_footbot_encoders",
     "footbot_accelerometer": "engine_footbot_accelerometer", "footbot_turret_torque": "engine_footbot_turret_torque"}
 
 

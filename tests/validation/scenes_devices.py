@@ -289,3 +289,114 @@ def near(lab):
     yield Row("contact: direction of a prey 1.1 mm away", "angle of the centre - heading", GEOMETRY, 1 - math.radians(20), now.get("contact 0", math.nan), 1e-9, "rounding", "rad")
     tags = result.readings("fb", "tag_reader")[0]
     yield Row("tag reader: tags in range, one at 0.149 m, one at 0.151 m, one at 0.136 m", "range 0.15 m", "docs/devices.md", 2, len(set(tags) - {"fb"}), 0, "counts")
+
+
+@scene(GROUP)
+def directional_leds(lab):
+    # A robot on each degree of a circle around one whose LED 0, 15° left of its front, is lit.
+    limit, distance = 40, 1.0
+    lamp = probe("l", [(0, 10, "directional_leds", RED, 0)], actuators={"directional_leds": {"observable_angle": limit}})
+    watcher = probe("w", sensors={"footbot_omnidirectional_camera": {"aperture": 85}})
+    turns = range(0, 90, 2 if lab.quick else 1)
+    arena = "".join(footbot(f"l{a}", 2.0, 2.0 + 4 * i, -15.0 + a, "l") + footbot(f"w{a}", 2.0 + distance, 2.0 + 4 * i, 0, "w") for i, a in enumerate(turns))
+    result = lab.run(arena, lamp + watcher, ENGINE, 3, size=f"6,{4 * len(turns) + 4},2")
+    wrong = 0
+    for a in turns:
+        turn = math.radians(a)
+        led = [(RADIUS + 0.005) * math.cos(turn), (RADIUS + 0.005) * math.sin(turn), 0.085]
+        way = [distance - led[0], -led[1], 0.2887 - led[2]]
+        off = math.acos((way[0] * math.cos(turn) + way[1] * math.sin(turn)) / math.hypot(*way))
+        wrong += bool(result.readings(f"w{a}", "footbot_omnidirectional_camera")[-1]) != (off <= math.radians(limit))
+    yield Row("directional LEDs: directions from which one is wrongly seen or not", "angle to the axis ≤ observable angle", f"{A3} camera_sensor_directional_led_detector_algorithm", 0, wrong, 0, "counts")
+
+
+@scene(GROUP)
+def depth_camera(lab):
+    # The middle of an image of odd size looks along the axis.
+    worst = 0
+    for tilt, pan in ((0, 0), (-20, 0), (-35, 10), (0, 25)):
+        who = probe("c", sensors={"depth_camera": {"width": 15, "height": 11, "tilt": tilt, "pan": pan, "position": "0.1,0,0.4"}})
+        result = lab.run(footbot("fb", 5.0, 5.0, 0, "c") + block("w", "7.1,5,1", "0.2,9,2"), who, ENGINE, 1)
+        ahead = math.cos(math.radians(tilt)) * math.cos(math.radians(pan))
+        wall, floor = 1.9 / ahead, 0.4 / math.sin(math.radians(-tilt)) if tilt < 0 else math.inf
+        worst = max(worst, abs(result.readings("fb", "depth_camera")[0]["depth in the middle"] - min(wall, floor)))
+    yield Row("depth camera: depth of a wall or the floor along the axis, largest error of 4", "ray and plane", GEOMETRY, 0, worst, 1e-9, "rounding", "m")
+    who = probe("c", sensors={"depth_camera": {"width": 101, "height": 1, "position": "0.1,0,0.2"}})
+    result = lab.run(footbot("fb", 5.0, 5.0, 0, "c") + prey("p", 7.0, 5.0, radius=0.3, height=0.5), who, ENGINE, 1)
+    yield Row("depth camera: nearest of a cylinder", "d - r", GEOMETRY, 1.6, result.readings("fb", "depth_camera")[0]["nearest"], 1e-9, "rounding", "m")
+    who = probe("c", sensors={"depth_camera": {"width": 1, "height": 1, "position": "0.1,0,0.2", "depth_noise_kind": "gaussian", "depth_noise_deviation": 0.02}})
+    ticks = 2000 if lab.quick else 20000
+    depths = [now["depth in the middle"] for now in lab.run(footbot("fb", 5.0, 5.0, 0, "c") + block("w", "7.1,5,1", "0.2,9,2"), who, ENGINE, ticks, every=ticks).readings("fb", "depth_camera")]
+    yield Row("depth camera: deviation of the depth", "σ", "normal noise", 0.02, deviation(depths), 4 * 0.02 / math.sqrt(2 * ticks), "4 standard errors", "m")
+
+
+@scene(GROUP)
+def hands(lab):
+    # A plate across the claws of both hands, at rest: the six sensors that look ahead are on the palms.
+    plate = 0.012
+    shoulder = 0.06
+    palm = shoulder + 0.138
+    who = probe("c", sensors={"handbot_proximity": {"range": 0.1}})
+    result = lab.run(element("handbot", {"id": "h", "position": "5,5,0", "controller": "c"}) + block("w", f"{5 + palm + 0.058 + plate + 0.05!r},5,0.5", "0.1,2,1"), who, ENGINE, 1)
+    now = result.readings("h", "handbot_proximity")[0]
+    expected = 1 - (0.058 + plate) / 0.1
+    worst = max(abs(now[f"{side} {i}"] - expected) for side in ("left", "right") for i in range(3, 9))
+    yield Row("handbot proximity: a wall before the palms, largest error of 12 readings", "1 - d / range", GEOMETRY, 0, worst, 1e-9, "rounding")
+
+
+@scene(GROUP)
+def more_eyes(lab):
+    eyebot = lambda who, heading=0: element("eyebot", {"id": "e", "position": "5,5,2", "orientation": f"0,0,{heading}", "controller": who})
+    hover = (0, 10, "eyebot_propellers", 0, 0, 0, 0)
+    pilot = probe("e", [hover, (0, 10, "eyebot_laser", 0.5, 0.4)], sensors={"eyebot_pan_tilt_camera": {"range": 3}})
+    robot, lamp = lit("b", 5.9, 5.5, GREEN)
+    result = lab.run(eyebot("e", 10) + robot, pilot + lamp, "dynamics3d", 5, size="10,10,5")
+    now = result.readings("e", "eyebot_pan_tilt_camera")[-1]
+    blob = next(i for i in range(9) if int(now[f"blob {i} colour"]) == GREEN)
+    way = (0.9, 0.5, 0.174249733 - 2)
+    bearing = math.atan2(way[1], way[0]) - math.radians(10)
+    height = "the eyebot hovers within 0.1 mm, the footbot sinks by 0.3 mm"
+    yield Row("camera that turns: distance of a beacon", "√(Δx² + Δy² + Δz²)", GEOMETRY, math.hypot(*way), now[f"blob {blob} distance"], 1e-3, height, "m")
+    yield Row("camera that turns: bearing", "atan2(Δy, Δx) - heading", GEOMETRY, bearing, now[f"blob {blob} angle"], 1e-3, height, "rad")
+    yield Row("camera that turns: elevation", "atan2(Δz, √(Δx² + Δy²))", GEOMETRY, math.atan2(way[2], math.hypot(way[0], way[1])), now[f"blob {blob} elevation"], 1e-3, height, "rad")
+
+    who = probe("c", [hover], sensors={"proximity": {}, "eyebot_distance_scanner": {}})
+    result = lab.run(eyebot("c") + block("w", "7.05,5,2", "0.1,9,3"), who, "dynamics3d", 2, size="10,10,5", arena_walls="false")
+    now = result.readings("e", "proximity")[0]
+    worst = 0
+    for i, angle in enumerate(angles()):
+        distance = (2 - 0.255 * math.cos(angle)) / math.cos(angle) if math.cos(angle) > 1e-9 else math.inf
+        beside = abs(math.sin(angle)) * (0.255 + distance) if distance < 9 else math.inf
+        worst = max(worst, abs(now[str(i)] - (1 - distance / 3 if distance < 3 and beside < 4.5 else 0)))
+    yield Row("proximity of an eyebot beside a wall: largest error of 24 readings", "1 - d / 3 m", GEOMETRY, 0, worst, 1e-3, "the eyebot hovers within 0.1 mm")
+    now = result.readings("e", "eyebot_distance_scanner")[0]
+    worst = 0
+    for i in range(32):
+        angle, distance = now[f"angle {i}"], now[f"distance {i}"]
+        hit = 2 / math.cos(angle) if math.cos(angle) > 1e-9 else math.inf
+        worst = max(worst, abs(distance - (hit if abs(hit * math.sin(angle)) < 4.5 else 15)))
+    yield Row("eyebot distance scanner beside a wall: largest error of 32 readings", "ray and plane, 15 m", GEOMETRY, 0, worst, 1e-3, "the eyebot hovers within 0.1 mm", "m")
+
+
+@scene(GROUP)
+def turret(lab):
+    who = probe("c", [(0, 20, "footbot_turret", 0.7)], sensors={"footbot_turret_encoder": {}, "footbot_gripper": {}})
+    now = lab.run(footbot("fb", 5.0, 5.0, 0, "c"), who, ENGINE, 21).readings("fb", "footbot_turret_encoder")
+    yield Row("turret encoder: angle after 2 s at 0.7 rad/s", "ω t", GEOMETRY, 1.4, now[20]["angle"], 1e-9, "rounding", "rad")
+
+
+@scene(GROUP)
+def floor(lab):
+    who = probe("c", sensors={"footbot_base_ground": {}, "footbot_motor_ground": {}})
+    patch = element("ground_patch", {"id": "g", "position": "2.5,2,0", "size": "1,1", "colour": "60, 120, 200"})
+    result = lab.run(footbot("fb", 2.0, 2.0, 10, "c") + patch, who, ENGINE, 2)
+    turn, grey = math.radians(10), (0.299 * 60 + 0.587 * 120 + 0.114 * 200) / 255
+    base = ((0.08, 0), (0.042, 0.065), (0, 0.08), (-0.042, 0.065), (-0.08, 0), (-0.042, -0.065), (0, -0.08), (0.042, -0.065))
+    motor = ((0.063, 0.0116), (-0.063, 0.0116), (-0.063, -0.0116), (0.063, -0.0116))
+    ahead = lambda place: place[0] * math.cos(turn) - place[1] * math.sin(turn) > 0
+    now = result.readings("fb", "footbot_base_ground")[0]
+    yield Row("base ground: wrong ones of 8 at the edge of a grey patch", "1 from a brightness of 0.5 on, else 0", f"{A3} footbot_base_ground_rotzonly_sensor.cpp@27e16d78", 0,
+              sum(now[str(i)] != (float(grey >= 0.5) if ahead(place) else 1) for i, place in enumerate(base)), 0, "counts")
+    now = result.readings("fb", "footbot_motor_ground")[0]
+    yield Row("motor ground: brightness under 4 sensors at the edge of a patch, largest error", "0.299 R + 0.587 G + 0.114 B; places", f"ITU-R BT.601; {A3} footbot_entity.cpp@c6aa94d6", 0,
+              max(abs(now[str(i)] - (grey if ahead(place) else 1)) for i, place in enumerate(motor)), 1e-9, "rounding")

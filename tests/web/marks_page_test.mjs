@@ -28,7 +28,7 @@ function pictureOf(places, shows) {
     placeOf: (entity) => places[entity],
     motion: { quaternions: Float32Array.from(places.flatMap(() => [0, 0, sin, cos])), frame: {} },
     invalidate() {},
-    view: { world, canvas: { clientWidth: 100, clientHeight: 100 }, project: (x, y) => ({ x, y, depth: 0 }) },
+    view: { world, canvas: { clientWidth: 100, clientHeight: 100 }, project: (x, y) => ({ x, y, depth: 0 }), pixelsPerMetre: () => 10 },
   };
   const sent = [];
   const marks = new Marks(picture, (request) => sent.push(request));
@@ -53,6 +53,22 @@ test("a link is whole if both hear each other, and else half a line from the one
   const { marks } = pictureOf([[0, 0, 0], [2, 0, 0], [0, 4, 0]], { links: true });
   marks.receive({ ...nothing, links: { both: [0, 1], one: [2, 0] } });
   near(marks.lines({}).at(-1).points, [0, 0, 0.1, 2, 0, 0.1, 0, 4, 0.1, 0, 2, 0.1]);
+});
+
+test("links that would fill the picture are faint", () => {
+  const side = 12; // robots, half a metre from each other
+  const { marks } = pictureOf(Array.from({ length: side * side }, (_, i) => [(i % side) / 2, Math.floor(i / side) / 2, 0]), { links: true });
+  const opacity = (both) => {
+    marks.receive({ ...nothing, links: { both, one: [] } });
+    return marks.lines({}).at(-1).opacity;
+  };
+  assert.equal(opacity([]), 1);
+  assert.equal(opacity([0, 1, 1, 2]), 1);
+  const all = Array.from({ length: side * (side - 1) }, (_, i) => [i, i + side]).flat(); // 66 m, at 10 pixels a metre, on 100 x 100
+  assert.equal(opacity(all), 1);
+  const ten = opacity(Array.from({ length: 10 }, () => all).flat());
+  assert.ok(Math.abs(ten - 0.15 / 0.66) < 1e-6, `${ten}`);
+  assert.ok(opacity(Array.from({ length: 200 }, () => all).flat()) >= 0.06);
 });
 
 test("a body is drawn where it is in its entity", () => {

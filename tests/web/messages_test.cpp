@@ -21,6 +21,7 @@ using testing::HasSubstr;
 TEST(WebMessages, RequestsAreRead)
 {
   EXPECT_TRUE(std::holds_alternative<PauseRequest>(ParseRequest(R"({"do": "pause"})")));
+  EXPECT_TRUE(std::holds_alternative<ResetRunRequest>(ParseRequest(R"({"do": "reset"})")));
   EXPECT_TRUE(std::holds_alternative<StopRequest>(ParseRequest(R"({"do": "stop"})")));
   EXPECT_EQ(std::get<StepRequest>(ParseRequest(R"({"do": "step", "ticks": 5})")).ticks, 5u);
   EXPECT_EQ(std::get<SpeedRequest>(ParseRequest(R"({"do": "speed", "factor": 0})")).factor, 0);
@@ -86,8 +87,9 @@ TEST(WebMessages, OnlyWhatChangesTheRunIsACommand)
   EXPECT_FALSE(IsCommand(FrameRateRequest{}));
   EXPECT_FALSE(IsCommand(ProveRequest{}));
   EXPECT_FALSE(IsCommand(MarksRequest{}));
-  for (const PageRequest& request : std::vector<PageRequest>{PauseRequest{}, ResumeRequest{}, StepRequest{},
-                                                             SpeedRequest{}, MoveEntityRequest{}, StopRequest{}})
+  for (const PageRequest& request :
+       std::vector<PageRequest>{PauseRequest{}, ResumeRequest{}, StepRequest{}, SpeedRequest{}, MoveEntityRequest{},
+                                StopRequest{}, ResetRunRequest{}})
     EXPECT_TRUE(IsCommand(request));
 }
 
@@ -130,7 +132,8 @@ TEST(WebMessages, TheWorldHasViewpointsAndTheRaysOfEachKind)
                 R"([{"number": 2, "position": [1.0, 2.0, 3.0], "heading": 90.0, "pitch": -20.0, "roll": 5.0}])"));
   EXPECT_EQ(json["begins_at_viewpoint"], true);
   EXPECT_EQ(json["looks"]["footbot"]["proximity"]["sensors"].size(), 24u);
-  EXPECT_FALSE(json["looks"]["eyebot"].contains("proximity"));
+  EXPECT_EQ(json["looks"]["eyebot"]["proximity"]["sensors"].size(), 24u);
+  EXPECT_FALSE(json["looks"].at("cylindric_prey").contains("proximity"));
 }
 
 TEST(WebMessages, ColoursOfWhatStandsStillFollowTheSpace)
@@ -151,6 +154,41 @@ TEST(WebMessages, WatchedEntitiesShowTheirAttributes)
   EXPECT_EQ(json["entities"][0]["entity"], 0);
   EXPECT_EQ(json["entities"][0]["attributes"]["gripper_aperture"], nlohmann::json({0.5}));
   EXPECT_EQ(json["entities"][0]["attributes"]["led"].size(), 12u);
+}
+
+TEST(WebMessages, TheTimelineHasTheFirstEventsAndTellsHowManyThereWere)
+{
+  const std::vector<TimelineEvent> events(1500, {7, "move", "fb_1", "anna@lab:3"});
+  const auto json = nlohmann::json::parse(TimelineText("/runs/a", 100, 200, events));
+  EXPECT_EQ(json["run"], "/runs/a");
+  EXPECT_EQ(json["first"], 100);
+  EXPECT_EQ(json["last"], 199);
+  EXPECT_EQ(json["events"].size(), 1000u);
+  EXPECT_EQ(json["all_events"], 1500);
+  EXPECT_EQ(json["events"][0],
+            nlohmann::json::parse(R"({"tick": 7, "what": "move", "entity": "fb_1", "from": "anna@lab:3"})"));
+}
+
+TEST(WebMessages, ThePastHasAttributesAndColoursOfItsTick)
+{
+  FourEntities world;
+  world.space.GetEntity(3).SetAttribute("colour", 0x123456);
+  const std::vector<std::uint32_t> wanted{0};
+  const auto json = nlohmann::json::parse(PastText(world.space, wanted));
+  EXPECT_EQ(json["type"], "past");
+  EXPECT_EQ(json["tick"], world.space.GetTick());
+  EXPECT_EQ(json["entities"][0]["attributes"]["led"].size(), 12u);
+  EXPECT_EQ(json["colours"]["colours"], nlohmann::json({0x123456}));
+}
+
+TEST(WebMessages, WhoeverLooksMayLookBack)
+{
+  const PageRequest request = ParseRequest(R"({"do": "look_back", "tick": 500, "entities": [3]})");
+  EXPECT_FALSE(IsCommand(request));
+  EXPECT_EQ(std::get<LookBackRequest>(request).tick, 500u);
+  EXPECT_EQ(std::get<LookBackRequest>(request).entities, std::vector<std::uint32_t>{3});
+  EXPECT_THROW(ParseRequest(R"({"do": "look_back", "tick": -1})"), std::invalid_argument);
+  EXPECT_THROW(ParseRequest(R"({"do": "look_back", "entities": []})"), std::invalid_argument);
 }
 
 // JSON has no word for numbers that are not finite.

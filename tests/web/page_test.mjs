@@ -314,6 +314,12 @@ const tests = {
     await until(page, () => !swarmanoid.connected);
     await until(page, () => /Start the experiment again/.test(document.querySelector(".banner").textContent));
 
+    // The word in the banner lasts some seconds: all that it says is kept.
+    await read(page, () => {
+      window.banners = [];
+      const banner = document.querySelector(".banner");
+      new MutationObserver(() => banners.push(banner.textContent)).observe(banner, { childList: true, characterData: true, subtree: true });
+    });
     // The viewer may come before the run.
     const waiting = new Process("attach", "web", "diffusion_10", "--allow-control");
     await waiting.says(/no experiment 'diffusion_10' runs on this machine yet; waiting 60 s/);
@@ -321,7 +327,7 @@ const tests = {
     const [, again] = await waiting.says(/web_render: (http\S+)/);
     assert.equal(again, url);
     await until(page, () => swarmanoid.connected && swarmanoid.tick === 0);
-    await until(page, () => /started again/.test(document.querySelector(".banner").textContent));
+    await until(page, () => banners.some((text) => /started again/.test(text)));
     await until(page, () => swarmanoid.control === "granted");
     assert.equal(await read(page, () => swarmanoid.selected), "fb_4");
     assert.deepEqual(await read(page, () => swarmanoid.viewpoint), place);
@@ -385,6 +391,33 @@ const tests = {
       assert.equal(await running.ended, 0);
       await until(page, () => !swarmanoid.connected && swarmanoid.tick === 200);
       assert.deepEqual(page.complaints, []);
+      await page.close();
+    }
+  },
+
+  async "a reset begins the run again at tick 0, and the page goes on with it"() {
+    const text = readFileSync(experiment("diffusion_10"), "utf8").replace(/<visualisations>[^]*<\/visualisations>/, "");
+    const visualisation = '<visualisations><web_render id="page"><allow_control>true</allow_control></web_render></visualisations>';
+    writeFileSync(join(folder, "reset.xml"), text.replace("</ahss-config>", `${visualisation}</ahss-config>`));
+    for (const more of [["--single-process"], []]) {
+      const output = `reset_${more.length}`;
+      const running = new Process("run", "reset.xml", "--quiet", "--paused", "--ticks", 200, "--output", output, ...more);
+      const [, url] = await running.says(/web_render: (http\S+)/);
+      const page = await open(url, { noise: [/ERR_CONNECTION_REFUSED/], quality: "plan" });
+      await drawn(page);
+      await until(page, () => swarmanoid.control === "granted");
+      await read(page, () => swarmanoid.command({ do: "step", ticks: 7 }));
+      await until(page, () => swarmanoid.tick === 7);
+      page.once("dialog", (dialog) => dialog.accept());
+      await page.locator("[aria-label='Begin again at tick 0']").click();
+      const [, again] = await running.says(/web_render: http[^]*web_render: (http\S+)/);
+      assert.equal(again, url);
+      await until(page, () => swarmanoid.connected && swarmanoid.tick === 0 && swarmanoid.phase === "paused");
+      await until(page, () => swarmanoid.control === "granted");
+      assert.match(readFileSync(join(folder, output, "events.csv"), "utf8"), /^7,reset,1,/m);
+      await read(page, () => swarmanoid.command({ do: "resume" }));
+      assert.equal(await running.ended, 0);
+      assert.equal(JSON.parse(readFileSync(join(folder, output, "reset-1/manifest.json"), "utf8")).ticks, 200);
       await page.close();
     }
   },
@@ -1104,6 +1137,131 @@ const tests = {
     await until(page, () => swarmanoid.instances()[0].drawn[0] > 0);
     await until(page, () => swarmanoid.tick > 2);
     assert.deepEqual(page.complaints, []);
+  },
+
+  async "the timeline looks back at any tick while the run goes on, with the poses of that time"() {
+    run("diffusion_10", "--real-time", 5, "--ticks", 0, "--no-visualisers", "--output", "goes_on");
+    const { url } = await attach();
+    const page = await open(url);
+    await drawn(page);
+    await until(page, () => swarmanoid.timeline?.last > 120);
+    await read(page, () => swarmanoid.select("fb_3"));
+    const [first, second] = [[30, 101], [100, 7]];
+    for (const [from, tick] of [first, second]) {
+      await page.evaluate((t) => swarmanoid.lookBack(t), from);
+      await page.evaluate((t) => swarmanoid.lookBack(t), tick);
+      await until(page, (t) => swarmanoid.past.shown === t && swarmanoid.tick === t, tick);
+      await until(page, (t) => document.querySelector(".timeline output").textContent.includes(`tick ${t}`), tick);
+      const table = new Process("export", "goes_on", "--csv", "-", "--columns", "x,y", "--entities", "fb_3", "--from", tick, "--until", tick);
+      assert.equal(await table.ended, 0, table.output);
+      const there = table.output.trim().split("\n")[1].split(",").slice(4).map(Number);
+      const near = ([x, y]) => Math.hypot(swarmanoid.place("fb_3")[0] - x, swarmanoid.place("fb_3")[1] - y) < 1e-5;
+      await until(page, near, there);
+      const row = (name) => Number([...document.querySelectorAll(".right th")].find((th) => th.textContent === name).nextSibling.textContent.split(" ")[0]);
+      assert.ok(Math.abs((await page.evaluate(`(${row})("x")`)) - there[0]) < 1e-3);
+    }
+    assert.match(await page.textContent(".right .state"), /is not in the journal/);
+
+    // The present goes on meanwhile, and is not shown.
+    const frames = await read(page, () => swarmanoid.frames);
+    await until(page, (before) => swarmanoid.frames > before + 3, frames);
+    assert.equal(await tickOf(page), 7);
+    await page.keyboard.press(".");
+    await until(page, () => swarmanoid.tick === 8);
+    await page.keyboard.press(",");
+    await until(page, () => swarmanoid.tick === 7);
+    await page.focus(".track");
+    await page.keyboard.press("ArrowRight");
+    await until(page, () => swarmanoid.tick === 8);
+    await page.evaluate(() => document.activeElement.blur());
+    await page.keyboard.press("z");
+    await until(page, () => swarmanoid.tick > 12 && swarmanoid.past.playing);
+    await page.keyboard.press("z");
+    await until(page, () => !swarmanoid.past.playing);
+    assert.ok((await tickOf(page)) < 120);
+    await page.keyboard.press("q");
+    await until(page, () => swarmanoid.past === null && swarmanoid.tick > 120);
+    await until(page, () => document.querySelector(".timeline output").textContent.startsWith("live"));
+    await until(page, () => document.querySelector(".right .state").hidden || !document.querySelector(".right .state").textContent.includes("journal"));
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "the timeline has events as marks, and a branch from the tick that is looked at"() {
+    writeFileSync(join(folder, "asked.csv"), "tick,request,entity,numbers,from\n20,move,fb_1,1 1 0,anna@lab\n40,remove,fb_2,,\n");
+    const first = run("diffusion_10", "--real-time", 10, "--ticks", 150, "--no-visualisers", "--output", "with events", "--events", "asked.csv");
+    const { viewer, url } = await attach();
+    const page = await open(url, { permissions: ["clipboard-read", "clipboard-write"] });
+    await drawn(page);
+    await until(page, () => swarmanoid.timeline?.events.length === 2);
+    assert.deepEqual(await read(page, () => swarmanoid.timeline.events), [[20, "move"], [40, "remove"]]);
+    await first.ended;
+    await until(page, () => swarmanoid.phase === "finished" && swarmanoid.timeline.last === 150);
+    await page.click(".event-mark[data-what=move]");
+    await until(page, () => swarmanoid.tick === 20 && Math.hypot(swarmanoid.place("fb_1")[0] - 1, swarmanoid.place("fb_1")[1] - 1) < 1e-5);
+    assert.match(await page.getAttribute(".event-mark[data-what=move]", "title"), /tick 20: fb_1 moved \(.*anna@lab.*\)/);
+    await page.evaluate(() => document.activeElement.blur());
+    await page.keyboard.press(">");
+    await until(page, () => swarmanoid.tick === 40 && swarmanoid.place("fb_2").length === 0);
+    await page.keyboard.press("<");
+    await until(page, () => swarmanoid.tick === 20 && swarmanoid.place("fb_2").length === 3);
+    await page.keyboard.press("B");
+    await until(page, () => swarmanoid.branch !== null);
+    const command = await read(page, () => swarmanoid.branch);
+    assert.equal(command, `swarmanoid run --branch '${join(folder, "with events")}'@20`);
+    assert.equal(await read(page, () => navigator.clipboard.readText()), command);
+    await read(page, () => swarmanoid.select("fb_1"));
+    await page.keyboard.press("I");
+    await until(page, () => swarmanoid.inspect !== null);
+    assert.equal(await read(page, () => swarmanoid.inspect), `swarmanoid inspect '${join(folder, "with events")}'@20 fb_1`);
+    assert.equal(await read(page, () => navigator.clipboard.readText()), await read(page, () => swarmanoid.inspect));
+    const branch = new Process("run", "--branch", `${join(folder, "with events")}@20`, "--events", "with events/events.csv", "--quiet", "--output", "branch");
+    assert.equal(await branch.ended, 0, branch.output);
+    const hash = (text) => /hash ([0-9a-f]{16})/.exec(text)[1];
+    assert.equal(hash(branch.output), hash(first.output));
+    await viewer.end();
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "a replay has the timeline, and a run without a journal has none"() {
+    const done = run("diffusion_10", "--ticks", 200, "--no-visualisers", "--output", "done");
+    assert.equal(await done.ended, 0, done.output);
+    const replay = new Process("replay", "done", "web", "--from", "190");
+    const [, url] = await replay.says(/web_render: (http\S+)/);
+    const page = await open(url);
+    await drawn(page);
+    await until(page, () => swarmanoid.timeline?.last === 200);
+    await read(page, () => swarmanoid.lookBack(33));
+    await until(page, () => swarmanoid.tick === 33);
+    await replay.end();
+
+    run("diffusion_10", "--real-time", 5, "--ticks", 0, "--no-visualisers", "--no-journal", "--output", "without");
+    const { url: other } = await attach();
+    const bare = await open(other);
+    await drawn(bare);
+    await until(bare, () => swarmanoid.tick > 20);
+    assert.equal(await read(bare, () => swarmanoid.timeline), null);
+    await bare.keyboard.press(",");
+    assert.equal(await read(bare, () => swarmanoid.past), null);
+    assert.deepEqual(bare.complaints, []);
+  },
+
+  async "the timeline fits on a phone, and can be read in light and dark"() {
+    run("diffusion_10", "--real-time", 5, "--ticks", 0, "--no-visualisers", "--output", "phone");
+    const { url } = await attach();
+    for (const colorScheme of ["light", "dark"]) {
+      const page = await open(url, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, colorScheme, bypassCSP: true });
+      await drawn(page);
+      await until(page, () => swarmanoid.timeline?.last > 30);
+      await read(page, () => swarmanoid.lookBack(10));
+      await until(page, () => swarmanoid.tick === 10);
+      assert.ok((await read(page, () => document.documentElement.scrollWidth)) <= 390);
+      for (const box of await read(page, () => [...document.querySelectorAll(".timeline > button, .track")].map((each) => each.getBoundingClientRect().toJSON())))
+        assert.ok(box.width >= 36 && box.height >= 28 && box.left >= 0 && box.right <= 390, JSON.stringify(box));
+      await page.addScriptTag({ path: join(PAGE_MODULES, "axe-core/axe.min.js") });
+      const { violations } = await page.evaluate(() => axe.run(document.querySelector(".timeline"), { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"] }));
+      assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html)}`), [], colorScheme);
+      assert.deepEqual(page.complaints, []);
+    }
   },
 };
 

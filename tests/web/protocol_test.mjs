@@ -1,10 +1,11 @@
 // What the page reads from the binary states, written here by the letter of docs/web_render.md.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { FrameDecoder } from "../../visualiser/web/page/src/protocol.js";
+import { FrameDecoder, isPast } from "../../visualiser/web/page/src/protocol.js";
 
 const KEY = 0x314d5753;
 const CHANGE = 0x324d5753;
+const PAST = 0x334d5753;
 
 // parts: [type, value] in order, as DataView names the types.
 function bytesOf(parts) {
@@ -43,6 +44,17 @@ test("a key is the whole state", () => {
   assert.equal(frame.count, 2);
   assert.deepEqual([...frame.positions], [1, 2, 0, 3, 4, 1.5]);
   assert.deepEqual([...frame.colours], [1, 2, 3, 0, 4, 5, 6, 64]);
+});
+
+test("a state of the past is whole, and no change refers to it", () => {
+  const decoder = new FrameDecoder();
+  decoder.decode(bytesOf(key({ tick: 7 })));
+  const old = bytesOf([["Uint32", PAST], ...key({ tick: 2, key: 9 }).slice(1)]);
+  assert.ok(isPast(old));
+  assert.ok(!isPast(bytesOf(key())));
+  assert.equal(decoder.decode(old).tick, 2);
+  assert.equal(decoder.decode(bytesOf(change({ tick: 8, key: 9 }))), null);
+  assert.equal(decoder.decode(bytesOf(change({ tick: 8 }))).tick, 8);
 });
 
 test("a change refers to its key, however many there were before it", () => {

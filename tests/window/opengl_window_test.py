@@ -174,6 +174,39 @@ class Window(LauncherTest):
         table.wait()
         self.close(run, window)
 
+    def test_the_timeline_shows_the_past_and_comes_back(self):
+        """A robot that was moved stands where it was, before the event, and where it is, in the present."""
+        run, window = self.start_window("--real-time", 1)
+        self.wait_until("some ticks", lambda: self.tick() > 5, run)
+        self.run_it("control", "window_test", "move", "fb_b", "1", "3", "0")
+        self.wait_for_log("moved 'fb_b'", run)
+        moved = int(re.search(r"moved 'fb_b' at tick (\d+)", self.log())[1])
+        # Until the journal on the disk, which has a block twice a second, has the event.
+        self.wait_until("the journal", lambda: self.tick() > moved + 20, run)
+        self.display.key("less")
+        self.wait_for_log("looking back", run)
+        self.display.key("comma", "comma")
+        self.wait_until("the tick before", lambda: self.picture_of(moved - 2), run)
+        self.display.key("q")
+        self.wait_for_log("the present again", run)
+        self.wait_until("the present", lambda: self.picture_of(moved + 20, 100000), run)
+        self.assertEqual([self.has_robot(self.picture_of(moved - 2), x, y) for x, y in ((3, 1), (1, 3))], [True, False])
+        self.assertEqual([self.has_robot(self.picture_of(moved + 20, 100000), x, y) for x, y in ((3, 1), (1, 3))], [False, True])
+        self.close(run, window)
+
+    def picture_of(self, first, last=None):
+        """A picture written by the key P at these ticks; asks for one as long as there is none."""
+        for path in re.findall(r"written: (.*\.png)", self.log()):
+            if first <= int(re.search(r"(\d+)\.png", path)[1]) <= (last or first):
+                return path
+        self.display.key("p")
+        return None
+
+    def has_robot(self, picture, x, y):
+        centre_x, centre_y = on_screen(x, y)
+        area = f"30x30+{int(centre_x) - 15}+{int(centre_y) - 15}"
+        return int(self.display.tool("convert", picture, "-crop", area, "+repage", "-format", "%k", "info:")) > 60
+
     def test_each_tick_is_a_frame(self):
         for way in ((), ("--single-process",)):
             name = "frames" + str(len(way))

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "common/bus/run_directory.h"
+
 namespace swarmanoid
 {
 namespace
@@ -58,6 +60,8 @@ std::span<const RunNote> RemoteMonitor::Notes()
   notes_ = heard_notes_;
   return notes_;
 }
+
+std::string RemoteMonitor::RunFolder() { return FolderOfRun(partition_, run_); }
 
 void RemoteMonitor::Watch(std::span<const std::uint32_t> robots)
 {

@@ -26,6 +26,7 @@ public:
   std::span<const RunNote> Notes() override;
   void Watch(std::span<const std::uint32_t> robots) override;
   const RobotStatus* Robot(std::uint32_t robot) override;
+  std::string RunFolder() override;
 
   // What was heard, without asking for it: kUnknown unless the renderer shows how the run goes.
   RunStatus::Phase KnownPhase();

@@ -23,7 +23,7 @@ std::string UnitOf(std::string_view attribute)
   return "rad";
 }
 
-ValueGroup PoseGroup(const CSwarmanoidSpace& space, std::uint32_t entity, const EntityMotion& motion)
+ValueGroup PoseGroup(const CSwarmanoidSpace& space, std::uint32_t entity, const std::optional<EntityMotion>& motion)
 {
   const Pose pose = space.GetPose(entity);
   const EulerAngles angles = EulerFromQuaternion(pose.orientation);
@@ -34,18 +34,18 @@ ValueGroup PoseGroup(const CSwarmanoidSpace& space, std::uint32_t entity, const 
                   {"alpha", "degrees", RadiansToDegrees(angles.alpha)},
                   {"beta", "degrees", RadiansToDegrees(angles.beta)},
                   {"gamma", "degrees", RadiansToDegrees(angles.gamma)}};
-  if (space.GetEntity(entity).IsMovable())
+  if (motion && space.GetEntity(entity).IsMovable())
   {
-    group.values.push_back({"speed", "m/s", motion.speed});
-    group.values.push_back({"turn", "degrees/s", motion.turn});
+    group.values.push_back({"speed", "m/s", motion->speed});
+    group.values.push_back({"turn", "degrees/s", motion->turn});
   }
   return group;
 }
 
 }  // namespace
 
-std::vector<ValueGroup> ValuesOf(const CSwarmanoidSpace& space, std::uint32_t entity, const EntityMotion& motion,
-                                 const RobotStatus* status)
+std::vector<ValueGroup> ValuesOf(const CSwarmanoidSpace& space, std::uint32_t entity,
+                                 const std::optional<EntityMotion>& motion, const RobotStatus* status)
 {
   std::vector<ValueGroup> groups{PoseGroup(space, entity, motion)};
   const CSwarmanoidSpaceEntity& body = space.GetEntity(entity);

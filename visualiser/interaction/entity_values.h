@@ -41,9 +41,9 @@ struct EntityMotion
   double turn = 0;   // degrees/s, of the heading
 };
 
-// status: of a robot that is watched, otherwise nullptr.
-std::vector<ValueGroup> ValuesOf(const CSwarmanoidSpace& space, std::uint32_t entity, const EntityMotion& motion,
-                                 const RobotStatus* status);
+// motion: nothing if it is not known. status: of a robot that is watched, otherwise nullptr.
+std::vector<ValueGroup> ValuesOf(const CSwarmanoidSpace& space, std::uint32_t entity,
+                                 const std::optional<EntityMotion>& motion, const RobotStatus* status);
 
 // One of these numbers.
 struct ValueName

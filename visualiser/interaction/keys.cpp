@@ -19,9 +19,25 @@ constexpr std::array kBindings{
     KeyBinding{Action::kSlower, {'-'}, "Run", "-", "slower"},
     KeyBinding{Action::kClose, {'Q', true}, "Run", "Ctrl-Q", "close the window"},
 
+    KeyBinding{Action::kTickBack, {','}, "Look back", ", .", "one tick earlier, later"},
+    KeyBinding{Action::kTickForward, {'.'}, "Look back", "", ""},
+    KeyBinding{Action::kEventBack, {',', false, true}, "Look back", "< >", "the event before, after"},
+    KeyBinding{Action::kEventBack, {'<'}, "Look back", "", ""},
+    KeyBinding{Action::kEventBack, {'<', false, true}, "Look back", "", ""},
+    KeyBinding{Action::kEventForward, {'.', false, true}, "Look back", "", ""},
+    KeyBinding{Action::kEventForward, {'>'}, "Look back", "", ""},
+    KeyBinding{Action::kEventForward, {'>', false, true}, "Look back", "", ""},
+    KeyBinding{Action::kPlayPast, {'Z'}, "Look back", "Z", "play from there in real time; stop"},
+    KeyBinding{Action::kPresent, {'Q'}, "Look back", "Q", "back to the present"},
+    KeyBinding{
+        Action::kBranch, {'B', false, true}, "Look back", "Shift-B", "copy the command that starts a new run there"},
+
+    KeyBinding{
+        Action::kInspectPast, {'I', false, true}, "Look back", "Shift-I", "copy the command that tells what it sensed"},
+
     KeyBinding{Action::kIds, {'I'}, "Show", "I", "ids"},
     KeyBinding{Action::kTrails, {'L'}, "Show", "L", "trails"},
-    KeyBinding{Action::kRays, {'R'}, "Show", "R", "rays of the proximity sensors"},
+    KeyBinding{Action::kRays, {'R'}, "Show", "R", "rays of the proximity sensors, cones of lit directional LEDs"},
     KeyBinding{Action::kBeams, {'B'}, "Show", "B", "laser beams"},
     KeyBinding{Action::kCollisionModels, {'C'}, "Show", "C", "collision models"},
     KeyBinding{Action::kTextures, {'T'}, "Show", "T", "textures"},
@@ -32,6 +48,7 @@ constexpr std::array kBindings{
     KeyBinding{Action::kRunPanel, {kFunction + 2}, "Panels", "F2", "run"},
     KeyBinding{Action::kEntityPanel, {kFunction + 3}, "Panels", "F3", "entities"},
     KeyBinding{Action::kPlotPanel, {kFunction + 4}, "Panels", "F4", "plots"},
+    KeyBinding{Action::kTimelinePanel, {kFunction + 5}, "Panels", "F5", "timeline"},
     KeyBinding{Action::kAllPanels, {kTab}, "Panels", "Tab", "all panels away, and back"},
 
     KeyBinding{Action::kMouse, {}, "Camera", "Drag", "turn about the middle of the picture"},
@@ -75,7 +92,8 @@ std::optional<KeyCommand> CommandOf(const KeyPress& press)
 
 bool MayRepeat(int key)
 {
-  return (key >= keys::kLeft && key <= keys::kPageDown) || key == '=' || key == '-' || key == 'N';
+  return (key >= keys::kLeft && key <= keys::kPageDown) || key == '=' || key == '-' || key == 'N' || key == ',' ||
+         key == '.';
 }
 
 }  // namespace swarmanoid

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 
@@ -19,8 +20,21 @@ constexpr auto kMessageTime = std::chrono::seconds(6);
 constexpr std::size_t kMostMessages = 5;
 constexpr double kOrbitStep = 5;  // degrees of an arrow key
 constexpr double kZoomStep = 0.85;
+constexpr auto kFollowPeriod = std::chrono::milliseconds(500);
+constexpr std::uint64_t kGapOfTrails = 20;  // ticks
 // 0, as fast as possible, comes after the last.
 constexpr std::array kSpeeds{0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0};
+
+// A word of a POSIX shell.
+std::string ShellWord(const std::string& text)
+{
+  const auto is_plain = [](unsigned char c)
+  { return std::isalnum(c) != 0 || std::string_view("_./@+-").find(static_cast<char>(c)) != std::string_view::npos; };
+  if (std::all_of(text.begin(), text.end(), is_plain)) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
 
 std::string NoteName(const RunNote& note) { return fmt::format("{} {}", note.tick, note.text); }
 
@@ -29,6 +43,7 @@ std::string NoteName(const RunNote& note) { return fmt::format("{} {}", note.tic
 Viewer::Viewer(const RenderSetup& setup, int width, int height)
     : setup_(setup),
       scene_(setup.space),
+      past_(setup.space.GetExperiment()),
       viewpoints_(setup.parameters),
       filter_(setup.space, setup.assignment),
       width_(width),
@@ -42,6 +57,7 @@ Viewer::Viewer(const RenderSetup& setup, int width, int height)
   shown.scene.rays = parameters.Boolean("show_rays");
   shown.scene.collision_models = parameters.Boolean("show_collision_models");
   no_status_.phase = RunStatus::Phase::kUnknown;
+  may_look_back_ = !parameters.Boolean("write_frames");
   if (viewpoints_.First())
     camera = *viewpoints_.First();
   else
@@ -90,6 +106,10 @@ void Viewer::Do(const KeyCommand& command)
       shown.plots = !shown.plots;
       if (shown.plots && plots_.empty()) Say("choose what to plot with the dots before the values of an inspector");
       break;
+    case Action::kTimelinePanel:
+      shown.timeline = !shown.timeline;
+      if (shown.timeline) MayLookBack();
+      break;
     case Action::kAllPanels:
       shown.panels = !shown.panels;
       break;
@@ -105,6 +125,27 @@ void Viewer::Do(const KeyCommand& command)
       break;
     case Action::kSlower:
       ChangeSpeed(-1);
+      break;
+    case Action::kTickBack:
+    case Action::kTickForward:
+      LookBackBy(command.action == Action::kTickBack ? -1 : 1);
+      break;
+    case Action::kEventBack:
+    case Action::kEventForward:
+      LookBackAtEvent(command.action == Action::kEventForward);
+      break;
+    case Action::kPlayPast:
+      if (MayLookBack()) past_.TogglePlay(Clock::now());
+      break;
+    case Action::kPresent:
+      past_.GoLive();
+      followed_place_.reset();
+      break;
+    case Action::kBranch:
+      CopyBranchCommand();
+      break;
+    case Action::kInspectPast:
+      CopyInspectCommand();
       break;
     case Action::kTextures:
       Toggle(shown.textures, "textures");
@@ -194,6 +235,7 @@ void Viewer::StoreViewpoint(int number)
 {
   viewpoints_.Store(number, camera);
   stored_xml_ = ViewpointXml(number, camera);
+  copy_ = stored_xml_;
   fmt::print("{}\n", stored_xml_);
   std::fflush(stdout);
   Say(fmt::format("viewpoint {} stored; its XML is printed and in the clipboard", number));
@@ -233,9 +275,88 @@ void Viewer::SetSpeed(double real_time_factor)
   setup_.control->SetSpeed(real_time_factor);
 }
 
-void Viewer::MoveEntity(std::uint32_t entity, const Pose& pose)
+void Viewer::Reset()
 {
   if (!CanControl()) return Say("this visualisation may only watch", true);
+  setup_.control->Reset();
+}
+
+bool Viewer::MayLookBack()
+{
+  if (past_.IsThere()) return true;
+  Say(may_look_back_ ? "there is nothing to look back at: the run keeps no journal here"
+                     : "a window that writes frames shows the present alone",
+      true);
+  return false;
+}
+
+void Viewer::LookBackAt(std::uint64_t tick)
+{
+  if (!MayLookBack()) return;
+  if (!past_.IsOn()) followed_place_.reset();
+  move_.reset();
+  past_.Look(tick);
+}
+
+void Viewer::LookBackBy(int ticks)
+{
+  const std::uint64_t from = past_.Wanted().value_or(past_.Last());
+  LookBackAt(ticks < 0 && from == 0 ? 0 : from + static_cast<std::uint64_t>(ticks));
+}
+
+void Viewer::LookBackAtEvent(bool forward)
+{
+  if (!MayLookBack()) return;
+  if (const auto tick = past_.Neighbour(forward))
+    LookBackAt(*tick);
+  else
+    Say(forward ? "there is no event after this" : "there is no event before this");
+}
+
+void Viewer::CopyBranchCommand()
+{
+  if (!MayLookBack()) return;
+  const std::uint64_t tick = past_.Wanted().value_or(past_.Last());
+  copy_ = fmt::format("swarmanoid run --branch {}", ShellWord(fmt::format("{}@{}", past_.RunFolder(), tick)));
+  Say(fmt::format("a new run from tick {}: {}", tick, copy_));
+}
+
+// What the journal does not have: the inside of the selected robot.
+void Viewer::CopyInspectCommand()
+{
+  const auto& selected = shown.scene.selected;
+  if (!past_.IsOn() || !selected || Present().GetEntity(*selected).GetConfiguration().controller.empty())
+    return Say("look back and select a robot with a controller first");
+  const std::string& id = Present().GetEntity(*selected).GetId();
+  copy_ = fmt::format("swarmanoid inspect {} {}", ShellWord(fmt::format("{}@{}", past_.RunFolder(), *past_.Wanted())),
+                      ShellWord(id));
+  Say(fmt::format("what '{}' sensed at tick {}: {}", id, *past_.Wanted(), copy_));
+}
+
+bool Viewer::FollowPast()
+{
+  const Clock::time_point now = Clock::now();
+  if (may_look_back_ && now - followed_ >= kFollowPeriod)
+  {
+    followed_ = now;
+    past_.Follow(RunFolderOf(setup_.output_folder, setup_.monitor));
+  }
+  const bool changed = past_.Advance(now);
+  if (const auto refusal = past_.TakeRefusal()) Say(*refusal, true);
+  if (past_.IsOn() != was_past_) Say(past_.IsOn() ? "looking back: Q goes to the present" : "the present again");
+  was_past_ = past_.IsOn();
+  if (changed && past_.Space() != nullptr) FollowSelected();
+  return changed;
+}
+
+void Viewer::SayWhyNotMoved()
+{
+  Say(CanControl() ? "this is the past: Q goes back to the present" : "this visualisation may only watch", true);
+}
+
+void Viewer::MoveEntity(std::uint32_t entity, const Pose& pose)
+{
+  if (!CanMove()) return SayWhyNotMoved();
   setup_.control->MoveEntity(Space().GetEntity(entity).GetId(), pose);
 }
 
@@ -307,7 +428,13 @@ void Viewer::SetPlotted(const ValueName& value, const std::string& unit, bool pl
   shown.plots = true;
 }
 
-EntityMotion Viewer::Motion(std::uint32_t entity) const
+std::optional<EntityMotion> Viewer::Motion(std::uint32_t entity) const
+{
+  if (past_.Space() != nullptr) return std::nullopt;
+  return MotionNow(entity);
+}
+
+EntityMotion Viewer::MotionNow(std::uint32_t entity) const
 {
   const auto found = tracks_.find(entity);
   return found == tracks_.end() ? EntityMotion{} : found->second.motion;
@@ -316,13 +443,14 @@ EntityMotion Viewer::Motion(std::uint32_t entity) const
 const RunStatus& Viewer::Status()
 {
   if (setup_.monitor != nullptr) return setup_.monitor->Status();
-  no_status_.tick = Space().GetTick();
+  no_status_.tick = Present().GetTick();
   return no_status_;
 }
 
 const RobotStatus* Viewer::Robot(std::uint32_t entity)
 {
-  return setup_.monitor == nullptr ? nullptr : setup_.monitor->Robot(entity);
+  // What goes on inside robots is not in the journal.
+  return setup_.monitor == nullptr || past_.Space() != nullptr ? nullptr : setup_.monitor->Robot(entity);
 }
 
 std::vector<std::uint32_t> Viewer::Watched() const
@@ -336,10 +464,10 @@ std::vector<std::uint32_t> Viewer::Watched() const
 
 void Viewer::StateCame()
 {
-  const double time = Space().GetTime();
+  const double time = Present().GetTime();
   for (const std::uint32_t entity : Watched())
   {
-    const Pose pose = Space().GetPose(entity);
+    const Pose pose = Present().GetPose(entity);
     Track& track = tracks_.try_emplace(entity, Track{time, pose, {}}).first->second;
     if (const double passed = time - track.time; passed > 0)
     {
@@ -352,10 +480,16 @@ void Viewer::StateCame()
   for (Plot& plot : plots_)
   {
     const std::uint32_t entity = plot.value.entity;
-    const auto value = FindValue(ValuesOf(Space(), entity, Motion(entity), Robot(entity)), plot.value);
+    const RobotStatus* robot = setup_.monitor == nullptr ? nullptr : setup_.monitor->Robot(entity);
+    const auto value = FindValue(ValuesOf(Present(), entity, MotionNow(entity), robot), plot.value);
     if (value && std::isfinite(value->value)) plot.history.Add(time, value->value);
   }
 
+  if (past_.Space() == nullptr) FollowSelected();
+}
+
+void Viewer::FollowSelected()
+{
   if (!follows || !shown.scene.selected) return;
   // One that leaves the arena is waited for where it was.
   if (!Space().IsPresent(*shown.scene.selected)) return followed_place_.reset();
@@ -375,8 +509,18 @@ const Scene& Viewer::Refresh()
         tracks_, [&](const auto& track) { return !std::binary_search(watched_.begin(), watched_.end(), track.first); });
     if (setup_.monitor != nullptr) setup_.monitor->Watch(watched_);
   }
-  scene_.Update(shown.scene);
-  return scene_;
+  if (past_.Space() == nullptr)
+  {
+    scene_.Update(shown.scene);
+    return scene_;
+  }
+  if (past_scene_ == nullptr) past_scene_ = std::make_unique<Scene>(*past_.Space());
+  // Between ticks far apart nobody knows the way.
+  const std::uint64_t tick = Space().GetTick();
+  if (tick < past_tick_ || tick > past_tick_ + kGapOfTrails) past_scene_->ForgetTrails();
+  past_tick_ = tick;
+  past_scene_->Update(shown.scene);
+  return *past_scene_;
 }
 
 // What came of the requests of all who look at this run.

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "visualiser/interaction/entity_filter.h"
 #include "visualiser/interaction/entity_values.h"
 #include "visualiser/interaction/keys.h"
+#include "visualiser/interaction/past.h"
 #include "visualiser/interaction/value_history.h"
 #include "visualiser/render.h"
 #include "visualiser/scene/scene.h"
@@ -51,6 +53,7 @@ public:
     bool run = true;
     bool entities = true;
     bool plots = true;
+    bool timeline = true;
     SceneOptions scene;
   };
 
@@ -85,6 +88,8 @@ public:
 
   // The space is at a new tick, or entities have been moved.
   void StateCame();
+  // Looks for what the journal has of the past. True if there is something else to show.
+  bool FollowPast();
   // Brings the scene, and what is watched, to what is to be shown now.
   const Scene& Refresh();
 
@@ -98,17 +103,26 @@ public:
   // Asks the run to put an entity somewhere.
   void MoveEntity(std::uint32_t entity, const Pose& pose);
   void SetSpeed(double real_time_factor);
+  void Reset();
   void Say(const std::string& text, bool refused = false);
 
-  const CSwarmanoidSpace& Space() const { return setup_.space; }
+  // What is shown: at a tick of the past, or the present.
+  const CSwarmanoidSpace& Space() const { return past_.IsOn() && past_.Space() ? *past_.Space() : setup_.space; }
+  const CSwarmanoidSpace& Present() const { return setup_.space; }
+  const Past& GetPast() const { return past_; }
+  // At the nearest tick that the journal has; says why if there is none.
+  void LookBackAt(std::uint64_t tick);
   const Experiment& GetExperiment() const { return setup_.space.GetExperiment(); }
   const RunStatus& Status();
   const RobotStatus* Robot(std::uint32_t entity);
   // Whether the run can be asked for anything here.
   bool CanControl() const { return setup_.control != nullptr; }
+  // Whether entities can be moved: nobody changes the past.
+  bool CanMove() const { return CanControl() && !past_.IsOn(); }
   std::string Owner(std::uint32_t entity) const { return OwnerName(GetExperiment(), setup_.assignment, entity); }
   std::string Host(std::uint32_t entity) const { return HostNameOf(setup_.assignment, entity); }
-  EntityMotion Motion(std::uint32_t entity) const;
+  // Nothing of the past.
+  std::optional<EntityMotion> Motion(std::uint32_t entity) const;
   const std::vector<std::uint32_t>& Inspected() const { return inspected_; }
   std::vector<Plot>& Plots() { return plots_; }
   EntityFilter& Filter() { return filter_; }
@@ -118,6 +132,8 @@ public:
   const Viewpoints& GetViewpoints() const { return viewpoints_; }
   // What was stored last, as XML; empty if nothing was.
   const std::string& StoredXml() const { return stored_xml_; }
+  // What is for the clipboard, and was not taken yet.
+  std::string TakeCopy() { return std::exchange(copy_, {}); }
 
   bool WantsToClose() const { return close_; }
   // True once after the key for it.
@@ -148,6 +164,14 @@ private:
   void StartMove(std::uint32_t entity);
   void ChangeSpeed(int steps);
   void TogglePause();
+  bool MayLookBack();
+  void LookBackBy(int ticks);
+  void LookBackAtEvent(bool forward);
+  void CopyBranchCommand();
+  void CopyInspectCommand();
+  void SayWhyNotMoved();
+  void FollowSelected();
+  EntityMotion MotionNow(std::uint32_t entity) const;
   void Toggle(bool& option, const std::string& what);
   void Click(double x, double y, bool ctrl);
   // Where turning and zooming is about.
@@ -159,6 +183,13 @@ private:
 
   RenderSetup setup_;
   Scene scene_;
+  Past past_;
+  std::unique_ptr<Scene> past_scene_;  // once somebody looked back
+  std::uint64_t past_tick_ = 0;        // that it showed last
+  bool may_look_back_ = true;
+  bool was_past_ = false;
+  Clock::time_point followed_{};  // when the journal was
+  std::string copy_;
   Viewpoints viewpoints_;
   EntityFilter filter_;
   int width_, height_;

@@ -57,7 +57,7 @@ void Viewer::StartMove(std::uint32_t entity)
 {
   drag_ = Drag::kNone;
   const CSwarmanoidSpaceEntity& body = Space().GetEntity(entity);
-  if (!CanControl()) return Say("this visualisation may only watch", true);
+  if (!CanMove()) return SayWhyNotMoved();
   if (!body.IsMovable()) return Say(fmt::format("'{}' stands fast: it cannot be moved", body.GetId()), true);
   drag_ = Drag::kEntity;
   move_ = Move{entity, body.GetPose()};

@@ -54,14 +54,15 @@ void WindowRender::Init(const RenderSetup& setup)
 
 void WindowRender::NoteEvents()
 {
-  if (TakeEvents()) schedule_->Activity(Now());
+  const bool acted = TakeEvents();
+  if (viewer_->FollowPast() || acted) schedule_->Activity(Now());
 }
 
 void WindowRender::Draw()
 {
   NoteEvents();
   viewer_->StateCame();
-  if (schedule_->AtTick(viewer_->Space().GetTick(), Now())) DrawFrame(true);
+  if (schedule_->AtTick(viewer_->Present().GetTick(), Now())) DrawFrame(true);
 }
 
 void WindowRender::Idle()

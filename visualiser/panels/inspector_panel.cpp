@@ -68,6 +68,11 @@ void Panels::ShowInspector(std::size_t number)
     }
     else if (!body.GetConfiguration().controller.empty())
       ImGui::TextDisabled("controller %s", body.GetConfiguration().controller.c_str());
+    if (viewer_.GetPast().IsOn())
+      ImGui::TextDisabled("at tick %llu%s", static_cast<unsigned long long>(viewer_.Space().GetTick()),
+                          body.GetConfiguration().controller.empty()
+                              ? ""
+                              : "; its inside is not in the journal: Shift-I copies the command that computes it");
     ImGui::PopTextWrapPos();
 
     for (const ValueGroup& group : ValuesOf(viewer_.Space(), entity, viewer_.Motion(entity), robot))
@@ -115,7 +120,7 @@ void Panels::ShowPose(std::uint32_t entity, const ValueGroup& group)
 {
   if (edits_.count(entity) != 0) return ShowPoseEdit(entity);
   for (const EntityValue& value : group.values) ShowValue(entity, group, value);
-  if (!viewer_.CanControl() || !viewer_.Space().GetEntity(entity).IsMovable()) return;
+  if (!viewer_.CanMove() || !viewer_.Space().GetEntity(entity).IsMovable()) return;
   ImGui::PushID(static_cast<int>(entity));
   if (ImGui::Button("move ..."))
   {

@@ -27,11 +27,7 @@ void Panels::Show(float width, float height)
   place_ = width != width_ || height != height_ ? ImGuiCond_Always : ImGuiCond_Appearing;
   width_ = width;
   height_ = height;
-  if (viewer_.StoredXml() != copied_)
-  {
-    copied_ = viewer_.StoredXml();
-    ImGui::SetClipboardText(copied_.c_str());
-  }
+  if (const std::string copy = viewer_.TakeCopy(); !copy.empty()) ImGui::SetClipboardText(copy.c_str());
   ShowMove();
   ShowMessages();
   if (!viewer_.shown.panels) return;
@@ -41,6 +37,7 @@ void Panels::Show(float width, float height)
   // Closing one changes the list.
   for (std::size_t i = 0; i < viewer_.Inspected().size(); ++i) ShowInspector(i);
   if (viewer_.shown.plots && !viewer_.Plots().empty()) ShowPlots();
+  if (TimelineHeight() > 0) ShowTimeline();
   if (viewer_.shown.help) ShowHelp();
 }
 
@@ -81,7 +78,7 @@ void Panels::ShowHelp()
   {
     // Two columns of sections.
     constexpr std::array kColumns{std::array<std::string_view, 3>{"Run", "Entities", "Panels"},
-                                  std::array<std::string_view, 3>{"Camera", "Show", ""}};
+                                  std::array<std::string_view, 3>{"Camera", "Show", "Look back"}};
     for (const auto& sections : kColumns)
     {
       if (&sections != &kColumns.front()) ImGui::SameLine(0, Scaled(28));

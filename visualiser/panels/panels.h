@@ -52,6 +52,10 @@ private:
   void ShowBars(std::uint32_t entity, const ValueGroup& group);
   void ShowValue(std::uint32_t entity, const ValueGroup& group, const EntityValue& value);
   void ShowPlots();
+  void ShowTimeline();
+  void ShowTrack(const Past& past);
+  // With the gap below it; 0 if it is not shown.
+  float TimelineHeight() const;
   void ShowHelp();
   void ShowMessages();
   void ShowMove();
@@ -67,12 +71,12 @@ private:
   Viewer& viewer_;
   float scale_;
   float width_ = 0, height_ = 0;
-  float run_bottom_ = 0;    // of the run panel, where the list of entities starts
-  std::size_t charts_ = 0;  // that the panel of plots was made for
+  float run_bottom_ = 0;      // of the run panel, where the list of entities starts
+  std::size_t charts_ = 0;    // that the panel of plots was made for
+  float above_timeline_ = 0;  // where the panel of plots ends
   ImGuiCond place_ = ImGuiCond_Always;
   std::array<char, 128> filter_{};
   std::map<std::uint32_t, PoseEdit> edits_;
-  std::string copied_;
 };
 
 }  // namespace swarmanoid

@@ -22,7 +22,12 @@ void Panels::ShowPlots()
   // As high as its charts, until the person makes it otherwise.
   if (units.size() != charts_) place_ = ImGuiCond_Always;
   charts_ = units.size();
-  PlaceNext(left, height_ - height - Scaled(theme::kGap), std::max(width, Scaled(240)), height);
+  if (const float below = TimelineHeight(); below != above_timeline_)
+  {
+    above_timeline_ = below;
+    place_ = ImGuiCond_Always;
+  }
+  PlaceNext(left, height_ - height - Scaled(theme::kGap) - above_timeline_, std::max(width, Scaled(240)), height);
   if (ImGui::Begin("Plots", &viewer_.shown.plots, ImGuiWindowFlags_NoSavedSettings))
   {
     std::vector<ValueName> closed;

@@ -79,7 +79,7 @@ void Panels::ShowPace(const RunStatus& status)
   draw.AddCircleFilled(ImVec2(corner.x + line * 0.35F, corner.y + line * 0.55F), line * 0.28F, look.colour);
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + line);
   const std::uint64_t most = viewer_.GetExperiment().max_clock;
-  const std::uint64_t tick = viewer_.Space().GetTick();
+  const std::uint64_t tick = viewer_.Present().GetTick();
   Coloured(look.colour, look.text);
   if (!status.ended.empty())
   {
@@ -87,9 +87,9 @@ void Panels::ShowPace(const RunStatus& status)
     ImGui::TextDisabled("%s", status.ended.c_str());
   }
   if (most > 0)
-    Text(fmt::format("tick {} of {}    {:.1f} s", tick, most, viewer_.Space().GetTime()));
+    Text(fmt::format("tick {} of {}    {:.1f} s", tick, most, viewer_.Present().GetTime()));
   else
-    Text(fmt::format("tick {}    {:.1f} s", tick, viewer_.Space().GetTime()));
+    Text(fmt::format("tick {}    {:.1f} s", tick, viewer_.Present().GetTime()));
   if (status.phase == RunStatus::Phase::kRunning)
     Text(fmt::format("{:.{}f} x real time    {:.0f} ticks/s", status.real_time_factor,
                      status.real_time_factor < 10 ? 2 : 0, status.ticks_per_second));
@@ -107,6 +107,9 @@ void Panels::ShowPace(const RunStatus& status)
   if (ImGui::Button("Step")) viewer_.Do({Action::kStep});
   ImGui::SameLine();
   if (ImGui::Button("10")) viewer_.Do({Action::kStepTen});
+  ImGui::SameLine();
+  if (ImGui::Button("Reset")) viewer_.Reset();
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("ends the run, and begins it again at tick 0");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
   const std::string wanted = status.speed_wanted == 0 ? "max" : fmt::format("{:g} x", status.speed_wanted);

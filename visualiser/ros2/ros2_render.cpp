@@ -11,7 +11,7 @@
 #include "common/experiment/entity_kind.h"
 #include "common/space/shape.h"
 #include "nav_msgs.h"
-#include "real_robot/drivers/ros2/ros2_endpoints.h"
+#include "real_robot/drivers/ros2/ros2_messages.h"
 #include "rosgraph_msgs.h"
 #include "tf2_msgs.h"
 #include "visualiser/render.h"
@@ -35,15 +35,6 @@ constexpr auto kMarkerPeriod = std::chrono::seconds(1);
 constexpr int kCube = 1, kSphere = 2, kCylinder = 3;
 constexpr int kAdd = 0, kDelete = 2;
 constexpr double kThin = 0.002;  // m: of what is painted on the floor
-
-Time TimeOf(double seconds)
-{
-  const auto nanoseconds = std::llround(seconds * 1e9);
-  Time time;
-  time.sec(static_cast<std::int32_t>(nanoseconds / 1'000'000'000));
-  time.nanosec(static_cast<std::uint32_t>(nanoseconds % 1'000'000'000));
-  return time;
-}
 
 template <class Vector>
 void SetVector(Vector& to, const Vector3& from)
@@ -73,12 +64,13 @@ public:
     clock_.emplace("rt/clock", ros2::TypeOf<Clock>());
     transforms_.emplace("rt/tf", ros2::TypeOf<TFMessage>());
     if (setup.parameters.Boolean("markers"))
-      markers_.emplace(ros2::TopicName(name_space_, "arena"), ros2::TypeOf<MarkerArray>(), true);
+      markers_.emplace(ros2::TopicName(name_space_, "arena"), ros2::TypeOf<MarkerArray>(),
+                       ros2::Writer::Keeps::kLatched);
     for (const std::uint32_t e : space_->Movable())
     {
       Moving& moving = moving_.emplace_back();
       moving.entity = e;
-      if (setup.parameters.Boolean("odometry") && IsRobot(space_->GetEntity(e).GetKind()))
+      if (setup.parameters.Boolean("odometry") && HasOdometryHere(e))
         moving.odometry = std::make_unique<ros2::Writer>(OdometryTopic(e), ros2::TypeOf<Odometry>());
     }
     message_.transforms().reserve(moving_.size());
@@ -86,14 +78,14 @@ public:
 
   void Draw() override
   {
-    const Time now = TimeOf(space_->GetTime());
+    const Time now = ros2::TimeOf(space_->GetTime());
     Clock clock;
     clock.clock(now);
     clock_->Write(&clock);
     if (space_->GetTick() % every_ == 0) PublishPoses(now);
     PublishMarkers(now);
   }
-  void Idle() override { PublishMarkers(TimeOf(space_->GetTime())); }
+  void Idle() override { PublishMarkers(ros2::TimeOf(space_->GetTime())); }
 
   void Finish() override
   {
@@ -110,14 +102,20 @@ private:
     Pose pose;
   };
 
+  // Robots that a node controls publish what their wheels tell, on the same topic.
+  bool HasOdometryHere(std::uint32_t entity) const
+  {
+    const CSwarmanoidSpaceEntity& robot = space_->GetEntity(entity);
+    if (!IsRobot(robot.GetKind())) return false;
+    const ControllerConfiguration* controller =
+        space_->GetExperiment().FindController(robot.GetConfiguration().controller);
+    return controller == nullptr || controller->tag != "ros2_controller";
+  }
+
   // Ids have '.', '-' and ':', which the names of topics have not.
   std::string OdometryTopic(std::uint32_t robot)
   {
-    std::string name = space_->GetEntity(robot).GetId();
-    for (char& c : name)
-      if (c == '.' || c == '-' || c == ':') c = '_';
-    if (!name.empty() && name[0] >= '0' && name[0] <= '9') name.insert(name.begin(), '_');
-    std::string topic = ros2::TopicName(name_space_, name + "/odom");
+    std::string topic = ros2::TopicName(name_space_, ros2::TopicWord(space_->GetEntity(robot).GetId()) + "/odom");
     if (!topics_.insert(topic).second)
       throw std::runtime_error(
           fmt::format("ros2_render: the topic {} would be that of two robots; '{}' needs another id, because . - and : "

@@ -129,6 +129,11 @@ void Scene::AddEntity(std::uint32_t entity)
       break;
   }
   body.items = static_cast<std::uint32_t>(items_.size()) - body.first_item;
+  if (std::optional<LedCones> cones = LedConesOf(space_.GetExperiment(), configuration))
+  {
+    body.cones = static_cast<std::int32_t>(led_cones_.size());
+    led_cones_.push_back(std::move(*cones));
+  }
   bodies_.push_back(body);
 }
 
@@ -205,6 +210,7 @@ void Scene::Update(const SceneOptions& options)
           {entity.GetPosition().cast<float>(), 0.35F, lights_[static_cast<std::size_t>(body.lights)], false});
     const bool selected = options.selected == body.entity;
     if (kind.proximity && (options.rays || selected)) AddRays(body.entity);
+    if (body.cones >= 0 && (options.rays || selected)) AddLedCones(body);
     if (options.collision_models) AddCollisionModel(body.entity);
     if (selected) AddOutline(body.entity, palette::kSelection, 2.5F);
     if ((options.ids && entity.IsMovable()) || selected)

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "common/builtins/led_cones.h"
 #include "common/space/collision_models.h"
 #include "common/space/query.h"
 #include "common/space/space.h"
@@ -73,7 +74,7 @@ struct SceneOptions
   bool ids = false;
   std::span<const std::string> names;  // what labels say, by entity; empty: the ids
   bool trails = false;
-  bool rays = false;
+  bool rays = false;  // of proximity sensors, and the cones of directional LEDs that are lit
   bool collision_models = false;
   bool beams = true;
   std::optional<std::uint32_t> selected;  // an entity: marked, with its id, and its rays if `rays` is off
@@ -91,6 +92,8 @@ public:
   void Update(const SceneOptions& options);
   // For states that are not drawn: notes where everything is, so that trails miss nothing. Much cheaper than Update.
   void Track();
+  // Trails begin anew: the state is not one that came after the last.
+  void ForgetTrails();
 
   const CSwarmanoidSpace& Space() const { return space_; }
   // The standard models, then those of users' kinds and terrains.
@@ -120,6 +123,7 @@ private:
     float lift;  // m above its place: of patches, so that the one that counts lies on top of those it overlaps
     EntityKind kind;
     Mechanism mechanism;
+    std::int32_t cones = -1;  // of its LEDs, in led_cones_; -1: they are seen from all sides
   };
   struct Trail;
   // Where the attributes of a kind are that are shown, -1: none.
@@ -150,6 +154,7 @@ private:
   void AddRope(const Body& handbot);
   void AddGrips(const Body& robot);
   void AddRays(std::uint32_t robot);
+  void AddLedCones(const Body& robot);
   // Over all else: the plain body, and what the engine collides.
   void AddOutline(std::uint32_t entity, Colour colour, float width);
   void AddCollisionModel(std::uint32_t entity);
@@ -183,6 +188,7 @@ private:
   std::unique_ptr<CollisionModels> collision_models_;
   std::vector<CollisionBody> collision_bodies_;
   std::vector<ProximityRay> rays_;
+  std::vector<LedCones> led_cones_;  // of robots with directional LEDs
   std::unique_ptr<Trail[]> trails_;  // of the movable entities, once shown
   std::uint64_t revision_ = 0;
   std::uint64_t attribute_revision_ = 0;

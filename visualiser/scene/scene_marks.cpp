@@ -118,6 +118,39 @@ void Scene::AddRays(std::uint32_t robot)
     AddLine(from, from + hit * (to - from), hit < 1 ? palette::kRayHit : palette::kRayFree, 1.5F, hit < 1 ? 1 : 0.7F);
 }
 
+// Of the LEDs that are lit: lines from the LED along the border, and the circle in which they end.
+void Scene::AddLedCones(const Body& robot)
+{
+  constexpr double kLength = 0.12;  // m
+  constexpr int kSides = 16;
+  const LedCones& cones = led_cones_[static_cast<std::size_t>(robot.cones)];
+  const Slots& slots = SlotsOf(robot);
+  const LedLayout& ring = *DescriptionOf(robot.kind).leds;
+  const Pose pose = space_.GetPose(robot.entity);
+  const Quaternion turret = QuaternionFromYaw(ring.on_turret ? Attribute(robot, slots.turret) : 0);
+  const SinCos border = SinCosOf(cones.observable_angle);
+  for (std::size_t led = 0; led < ring.places.size(); ++led)
+  {
+    const auto colour = static_cast<Colour>(Attribute(robot, slots.led + static_cast<int>(led)));
+    if (colour == 0) continue;
+    const Vector3 place = turret * Vector3(ring.places[led].x(), ring.places[led].y(), ring.height_m);
+    const Vector3 axis = turret * cones.axes[led];
+    const Vector3 across = axis.unitOrthogonal();
+    const Vector3 other = axis.cross(across);
+    const auto at = [&](int side)
+    {
+      const SinCos around = SinCosOf(side * (2 * kPi / kSides));
+      const Vector3 aside = around.cos * across + around.sin * other;
+      return pose.Apply(place + kLength * (border.cos * axis + border.sin * aside));
+    };
+    for (int side = 0; side < kSides; ++side)
+    {
+      AddLine(at(side), at(side + 1), colour, 1.5F, 0.9F);
+      if (side % 4 == 0) AddLine(pose.Apply(place), at(side), colour, 1, 0.7F);
+    }
+  }
+}
+
 void Scene::AddOutline(std::uint32_t entity, Colour colour, float width)
 {
   const Shape shape = ShapeOf(space_.GetEntity(entity).GetConfiguration());
@@ -182,6 +215,8 @@ void Scene::Track()
     trails_[m].Add(place);
   }
 }
+
+void Scene::ForgetTrails() { trails_.reset(); }
 
 void Scene::AddTrails()
 {

@@ -14,6 +14,7 @@ namespace swarmanoid
 {
 
 inline constexpr std::uint32_t kKeyMagic = 0x314d5753;     // "SWM1": all of the state
+inline constexpr std::uint32_t kPastMagic = 0x334d5753;    // "SWM3": all of a state of the past, for who looks back
 inline constexpr std::uint32_t kChangeMagic = 0x324d5753;  // "SWM2": what has changed since a key frame
 
 struct FrameHeader

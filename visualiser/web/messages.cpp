@@ -24,8 +24,10 @@ namespace
 using Json = nlohmann::ordered_json;
 
 constexpr unsigned kMostSteps = 1000000;
-constexpr int kTerrainSamples = 128;  // along each side
-constexpr int kPicturePixels = 256;   // of a picture on the floor, along each side
+constexpr double kLastTick = 1e15;
+constexpr std::size_t kMostEvents = 1000;  // marks of a timeline
+constexpr int kTerrainSamples = 128;       // along each side
+constexpr int kPicturePixels = 256;        // of a picture on the floor, along each side
 
 std::string Text(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
@@ -368,6 +370,28 @@ std::string WatchedText(const CSwarmanoidSpace& space, std::span<const std::uint
   return Text({{"type", "watched"}, {"tick", space.GetTick()}, {"time_s", space.GetTime()}, {"entities", list}});
 }
 
+std::string TimelineText(const std::string& run_folder, std::uint64_t first, std::uint64_t end,
+                         std::span<const TimelineEvent> events)
+{
+  Json list = Json::array();
+  for (const TimelineEvent& event : events.first(std::min(events.size(), kMostEvents)))
+    list.push_back({{"tick", event.tick}, {"what", event.what}, {"entity", event.entity}, {"from", event.from}});
+  return Text({{"type", "timeline"},
+               {"run", run_folder},
+               {"first", first},
+               {"last", end > first ? end - 1 : first},
+               {"events", list},
+               {"all_events", events.size()}});
+}
+
+std::string PastText(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities)
+{
+  Json past = Json::parse(WatchedText(space, entities, nullptr));
+  past["type"] = "past";
+  past["colours"] = Json::parse(ColoursText(space));
+  return Text(past);
+}
+
 std::string RefusalText(const std::string& text) { return Text({{"type", "reply"}, {"ok", false}, {"text", text}}); }
 
 PageRequest ParseRequest(std::string_view text)
@@ -378,6 +402,9 @@ PageRequest ParseRequest(std::string_view text)
   if (verb == json.end() || !verb->is_string()) Refuse("a request needs a text 'do'");
   const std::string name = verb->get<std::string>();
   if (name == "watch") return WatchRequest{EntitiesIn(json, "entities", kMostWatched)};
+  if (name == "look_back")
+    return LookBackRequest{static_cast<std::uint64_t>(NumberIn(json, "tick", 0, kLastTick)),
+                           EntitiesIn(json, "entities", kMostWatched)};
   if (name == "prove") return ProofIn(json);
   if (name == "marks")
     return MarksRequest{EntitiesIn(json, "rays", kMostMarked), EntitiesIn(json, "bodies", kMostMarked),
@@ -391,13 +418,15 @@ PageRequest ParseRequest(std::string_view text)
   if (name == "add") return AddEntityRequest{EntityIn(json, name), PoseIn(json)};
   if (name == "remove") return RemoveEntityRequest{EntityIn(json, name)};
   if (name == "stop") return StopRequest{};
+  if (name == "reset") return ResetRunRequest{};
   Refuse(fmt::format("there is no request '{}'", name.substr(0, 40)));
 }
 
 bool IsCommand(const PageRequest& request)
 {
-  return !std::holds_alternative<WatchRequest>(request) && !std::holds_alternative<FrameRateRequest>(request) &&
-         !std::holds_alternative<ProveRequest>(request) && !std::holds_alternative<MarksRequest>(request);
+  return !std::holds_alternative<WatchRequest>(request) && !std::holds_alternative<LookBackRequest>(request) &&
+         !std::holds_alternative<FrameRateRequest>(request) && !std::holds_alternative<ProveRequest>(request) &&
+         !std::holds_alternative<MarksRequest>(request);
 }
 
 }  // namespace swarmanoid

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "visualiser/look_back.h"
 #include "visualiser/render.h"
 #include "visualiser/scene/viewpoints.h"
 #include "visualiser/web/access.h"
@@ -32,6 +33,12 @@ std::string LogText(std::uint64_t tick, const std::string& source, const std::st
 std::string StatusText(const CSwarmanoidSpace& space, const RunStatus& status, std::size_t clients);
 // "watched": attributes of entities, and the inside of those that are robots.
 std::string WatchedText(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities, RunMonitor* monitor);
+// "timeline": the ticks that can be looked at, up to the one before `end`, and what happened. Of many events those that
+// are left are told by how many there were.
+std::string TimelineText(const std::string& run_folder, std::uint64_t first, std::uint64_t end,
+                         std::span<const TimelineEvent> events);
+// "past": of the tick that is looked back at: attributes of entities, and colours as "colours" has them.
+std::string PastText(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities);
 // "reply": what became of a request that was refused.
 std::string RefusalText(const std::string& text);
 
@@ -85,9 +92,12 @@ struct RemoveEntityRequest
 struct StopRequest
 {
 };
-using PageRequest =
-    std::variant<WatchRequest, FrameRateRequest, ProveRequest, MarksRequest, PauseRequest, ResumeRequest, StepRequest,
-                 SpeedRequest, MoveEntityRequest, AddEntityRequest, RemoveEntityRequest, StopRequest>;
+struct ResetRunRequest
+{
+};
+using PageRequest = std::variant<WatchRequest, LookBackRequest, FrameRateRequest, ProveRequest, MarksRequest,
+                                 PauseRequest, ResumeRequest, StepRequest, SpeedRequest, MoveEntityRequest,
+                                 AddEntityRequest, RemoveEntityRequest, StopRequest, ResetRunRequest>;
 
 inline constexpr std::size_t kMostWatched = 16;   // entities, of one page
 inline constexpr std::size_t kMostMarked = 1000;  // likewise, of each kind of mark

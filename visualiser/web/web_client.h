@@ -1,14 +1,12 @@
 // One page that looks at a WebServer: what waits for it, and how it is sent. In the server's thread.
 #pragma once
 
-#include <boost/asio/ssl/stream.hpp>
 #include <boost/beast/http.hpp>
-#include <boost/beast/ssl.hpp>
 #include <boost/beast/websocket.hpp>
-#include <boost/beast/websocket/ssl.hpp>
 #include <chrono>
 #include <utility>
 
+#include "visualiser/web/page_stream.h"
 #include "visualiser/web/web_server_impl.h"
 
 namespace swarmanoid
@@ -17,11 +15,7 @@ namespace swarmanoid
 namespace http = beast::http;
 namespace websocket = beast::websocket;
 
-using TlsStream = beast::ssl_stream<beast::tcp_stream>;
-
-// Stream: beast::tcp_stream or TlsStream.
-template <class Stream>
-class WebServer::Impl::ClientOver final : public Client, public std::enable_shared_from_this<ClientOver<Stream>>
+class WebServer::Impl::Client final : public std::enable_shared_from_this<Client>
 {
   using Clock = std::chrono::steady_clock;
   static constexpr std::size_t kQueueLength = 512;
@@ -29,7 +23,7 @@ class WebServer::Impl::ClientOver final : public Client, public std::enable_shar
   static constexpr int kSocketBytes = 1 << 20;
 
 public:
-  ClientOver(Impl& server, Stream stream, asio::ip::address address)
+  Client(Impl& server, PageStream stream, asio::ip::address address)
       : server_(server), stream_(std::move(stream)), address_(std::move(address)), pace_(server.context_)
   {
   }
@@ -51,7 +45,7 @@ public:
     stream_.write_buffer_bytes(65536);
     stream_.read_message_max(server_.settings_.max_message_bytes);
     stream_.async_accept(request_,
-                         [self = this->shared_from_this()](ErrorCode error)
+                         [self = shared_from_this()](ErrorCode error)
                          {
                            if (error) return self->Gone();
                            self->open_ = true;
@@ -61,7 +55,7 @@ public:
                          });
   }
 
-  void Put(Slot slot, Bytes bytes) override
+  void Put(Slot slot, Bytes bytes)
   {
     if (slot == Slot::kKey) slots_[Index(Slot::kChange)] = nullptr;
     if (slot == Slot::kChange && frame_period_.count() > 0)
@@ -74,31 +68,31 @@ public:
     Write();
   }
 
-  void Queue(Bytes text) override
+  void Queue(Bytes text)
   {
     if (queue_.size() >= kQueueLength) queue_.pop_front();
     queue_.push_back(std::move(text));
     Write();
   }
 
-  void SetFramePeriod(std::chrono::milliseconds period) override { frame_period_ = period; }
-  bool IsHungry() const override
-  {
-    return open_ && !writing_ && !slots_[Index(Slot::kKey)] && !slots_[Index(Slot::kChange)];
-  }
+  void SetFramePeriod(std::chrono::milliseconds period) { frame_period_ = period; }
+  bool IsHungry() const { return open_ && !writing_ && !slots_[Index(Slot::kKey)] && !slots_[Index(Slot::kChange)]; }
 
-  void Close() override
+  // When everything is sent.
+  void Close()
   {
     closing_ = true;
     Write();
   }
+
+  std::uint64_t id = 0;
 
 private:
   void Read()
   {
     stream_.async_read(
         buffer_,
-        [self = this->shared_from_this()](ErrorCode error, std::size_t)
+        [self = shared_from_this()](ErrorCode error, std::size_t)
         {
           if (error) return self->Gone();
           const auto data = self->buffer_.cdata();
@@ -118,7 +112,7 @@ private:
     if (read_until_ <= now + std::chrono::seconds(1)) return Read();
     pace_.expires_at(read_until_ - std::chrono::seconds(1));
     pace_.async_wait(
-        [self = this->shared_from_this()](ErrorCode)
+        [self = shared_from_this()](ErrorCode)
         {
           if (!self->gone_) self->Read();
         });
@@ -138,7 +132,7 @@ private:
     stream_.binary(binary);
     const auto place = asio::buffer(*bytes);
     stream_.async_write(place,
-                        [self = this->shared_from_this(), bytes](ErrorCode error, std::size_t)
+                        [self = shared_from_this(), bytes](ErrorCode error, std::size_t)
                         {
                           self->writing_ = false;
                           if (error) return self->Gone();
@@ -161,7 +155,7 @@ private:
       const std::size_t slot = slots_[Index(Slot::kKey)] ? Index(Slot::kKey) : (next_slot_ + i) % kSlots;
       if (!slots_[slot]) continue;
       next_slot_ = (slot + 1) % kSlots;
-      binary = slot == Index(Slot::kKey) || slot == Index(Slot::kChange);
+      binary = slot == Index(Slot::kKey) || slot == Index(Slot::kChange) || slot == Index(Slot::kPast);
       return std::exchange(slots_[slot], nullptr);
     }
     return nullptr;
@@ -170,8 +164,7 @@ private:
   void SendClose()
   {
     open_ = false;
-    stream_.async_close(websocket::close_code::going_away,
-                        [self = this->shared_from_this()](ErrorCode) { self->Gone(); });
+    stream_.async_close(websocket::close_code::going_away, [self = shared_from_this()](ErrorCode) { self->Gone(); });
   }
 
   void Gone()
@@ -186,7 +179,7 @@ private:
   }
 
   Impl& server_;
-  websocket::stream<Stream> stream_;
+  websocket::stream<PageStream> stream_;
   asio::ip::address address_;
   asio::steady_timer pace_;  // before the next message is read
   Clock::time_point read_until_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <boost/beast/core/detect_ssl.hpp>
 #include <boost/beast/http.hpp>
 #include <optional>
 
@@ -11,28 +12,25 @@
 namespace swarmanoid
 {
 
-// Stream: beast::tcp_stream or TlsStream. With TLS, who speaks plain HTTP is sent to the other address.
-template <class Stream>
-class WebServer::Impl::ConnectionOver final : public Connection,
-                                              public std::enable_shared_from_this<ConnectionOver<Stream>>
+// With TLS, who speaks plain HTTP is sent to the other address.
+class WebServer::Impl::Connection final : public std::enable_shared_from_this<Connection>
 {
-  static constexpr bool kTls = std::is_same_v<Stream, TlsStream>;
   static constexpr auto kRequestTime = std::chrono::seconds(15);  // also between two requests
   static constexpr std::size_t kRequestBytes = 8192;
 
 public:
-  ConnectionOver(Impl& server, Stream stream, const asio::ip::address& from)
-      : server_(server), stream_(std::move(stream))
+  Connection(Impl& server, PageStream stream, const asio::ip::address& from)
+      : address(from), server_(server), stream_(std::move(stream))
   {
-    address = from;
   }
-  ~ConnectionOver() override
+  ~Connection()
   {
     StopWaiting();
     if (!handed_over_ && !dropped_) server_.Gone(address);
   }
 
-  void Drop() override
+  // While it waits for a request.
+  void Drop()
   {
     StopWaiting();
     dropped_ = true;
@@ -43,25 +41,19 @@ public:
 
   void Start()
   {
-    if constexpr (kTls)
-    {
-      Wait();
-      beast::async_detect_ssl(stream_.next_layer(), buffer_,
-                              [self = this->shared_from_this()](ErrorCode error, bool tls)
-                              {
-                                if (self->dropped_ || error) return;
-                                if (tls) return self->ShakeHands();
-                                self->StopWaiting();
-                                self->handed_over_ = true;
-                                std::make_shared<ConnectionOver<beast::tcp_stream>>(
-                                    self->server_, std::move(self->stream_.next_layer()), self->address)
-                                    ->Redirect(std::move(self->buffer_));
-                              });
-    }
-    else
-    {
-      Read();
-    }
+    if (!stream_.HasTls()) return Read();
+    Wait();
+    beast::async_detect_ssl(stream_.next_layer(), buffer_,
+                            [self = shared_from_this()](ErrorCode error, bool tls)
+                            {
+                              if (self->dropped_ || error) return;
+                              if (tls) return self->ShakeHands();
+                              self->StopWaiting();
+                              self->handed_over_ = true;
+                              std::make_shared<Connection>(
+                                  self->server_, PageStream(std::move(self->stream_.next_layer())), self->address)
+                                  ->Redirect(std::move(self->buffer_));
+                            });
   }
 
   // What has been read of the first request is in the buffer.
@@ -78,7 +70,7 @@ public:
     parser_->body_limit(0);
     Wait();
     http::async_read(stream_, buffer_, *parser_,
-                     [self = this->shared_from_this()](ErrorCode error, std::size_t)
+                     [self = shared_from_this()](ErrorCode error, std::size_t)
                      {
                        self->StopWaiting();
                        if (self->dropped_) return;
@@ -89,6 +81,8 @@ public:
                        if (!error) self->Answer();
                      });
   }
+
+  asio::ip::address address;
 
 private:
   void Wait()
@@ -106,15 +100,14 @@ private:
   // Still waiting: who does not end it makes room like others.
   void ShakeHands()
   {
-    if constexpr (kTls)
-      stream_.async_handshake(asio::ssl::stream_base::server, buffer_.data(),
-                              [self = this->shared_from_this()](ErrorCode error, std::size_t used)
-                              {
-                                self->StopWaiting();
-                                if (self->dropped_ || error) return;
-                                self->buffer_.consume(used);
-                                self->Read();
-                              });
+    stream_.ShakeHands(buffer_.data(),
+                       [self = shared_from_this()](ErrorCode error, std::size_t used)
+                       {
+                         self->StopWaiting();
+                         if (self->dropped_ || error) return;
+                         self->buffer_.consume(used);
+                         self->Read();
+                       });
   }
 
   void Answer()
@@ -123,7 +116,7 @@ private:
     const std::string_view host = Field(http::field::host);
     if (!IsKnownHost(host)) return Refuse(http::status::forbidden, "this server is not known by that name");
     const std::string_view target(request.target().data(), request.target().size());
-    if (!kTls && server_.tls_)
+    if (!stream_.HasTls() && server_.tls_)
     {
       location_ = "https://" + std::string(host) + std::string(target.starts_with('/') ? target : "/");
       return Refuse(http::status::permanent_redirect, "this server speaks TLS: " + location_);
@@ -151,12 +144,12 @@ private:
   void Upgrade(std::string_view target)
   {
     if (PathOf(target) != "/stream") return Refuse(http::status::not_found, "the stream is at /stream");
-    if (!IsOwnOrigin(Field(http::field::origin), Field(http::field::host), kTls))
+    if (!IsOwnOrigin(Field(http::field::origin), Field(http::field::host), stream_.HasTls()))
       return Refuse(http::status::forbidden, "a page of another site may not look");
     if (server_.clients_.size() >= server_.settings_.max_clients)
       return Refuse(http::status::service_unavailable, "as many pages look as may");
     handed_over_ = true;
-    std::make_shared<ClientOver<Stream>>(server_, std::move(stream_), address)->Run(parser_->release());
+    std::make_shared<Client>(server_, std::move(stream_), address)->Run(parser_->release());
   }
 
   void Refuse(http::status status, std::string_view why)
@@ -187,7 +180,7 @@ private:
     if (!location_.empty()) response_.set(http::field::location, location_);
     response_.set("Content-Security-Policy",
                   std::string("default-src 'self'; img-src 'self' data: blob:; connect-src 'self' ") +
-                      (kTls ? "wss://" : "ws://") +
+                      (stream_.HasTls() ? "wss://" : "ws://") +
                       std::string(IsKnownHost(Field(http::field::host)) ? Field(http::field::host) : "localhost") +
                       "; frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
     if (bytes_) response_.content_length(bytes_->size());
@@ -201,7 +194,7 @@ private:
     response_.body().more = false;
     serializer_.emplace(response_);
     http::async_write(stream_, *serializer_,
-                      [self = this->shared_from_this(), keep](ErrorCode error, std::size_t)
+                      [self = shared_from_this(), keep](ErrorCode error, std::size_t)
                       {
                         if (!error && keep) return self->Read();
                         if (!error) self->SayGoodbye();
@@ -210,16 +203,8 @@ private:
 
   void SayGoodbye()
   {
-    if constexpr (kTls)
-    {
-      beast::get_lowest_layer(stream_).expires_after(kRequestTime);
-      stream_.async_shutdown([self = this->shared_from_this()](ErrorCode) {});
-    }
-    else
-    {
-      ErrorCode ignored;
-      stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
-    }
+    beast::get_lowest_layer(stream_).expires_after(kRequestTime);
+    stream_.SayGoodbye([self = shared_from_this()](ErrorCode) {});
   }
 
   std::string_view Field(http::field field) const
@@ -229,7 +214,7 @@ private:
   }
 
   Impl& server_;
-  Stream stream_;
+  PageStream stream_;
   beast::flat_buffer buffer_{kRequestBytes * 2};
   std::optional<http::request_parser<http::empty_body>> parser_;
   http::response<http::buffer_body> response_;

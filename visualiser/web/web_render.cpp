@@ -80,6 +80,7 @@ void CWebRender::Init(const RenderSetup& setup)
   bytes_per_second_ = 1e6 * parameters.Number("bandwidth");
   frame_writer_ = std::make_unique<FrameWriter>(*space_);
   logs_ = std::make_unique<LogFollower>(setup.output_folder);
+  output_folder_ = setup.output_folder;
 
   Serve(parameters);
   const Experiment& experiment = space_->GetExperiment();
@@ -192,6 +193,7 @@ void CWebRender::Work()
   {
     followed_due_ = now + kFollowPeriod;
     FollowStatus();
+    FollowJournal();
   }
   if (server_->Clients() == 0) return;
   const bool changed = shown_tick_ != space_->GetTick() || shown_revision_ != space_->Revision() ||
@@ -300,6 +302,39 @@ void CWebRender::FollowStatus()
   SendNotes();
 }
 
+// The run may keep a journal that this process can read; its next start has another one.
+void CWebRender::FollowJournal()
+{
+  const std::string folder = RunFolderOf(output_folder_, monitor_);
+  if (!folder.empty() && (!look_back_ || look_back_->RunFolder() != folder))
+  {
+    look_back_.reset();
+    past_frames_.reset();
+    look_back_ = std::make_unique<LookBack>(
+        space_->GetExperiment(), folder,
+        LookBackAnswers{[this, folder](const JournalTimeline& timeline)
+                        {
+                          server_->Publish(WebServer::Slot::kTimeline,
+                                           Shared(TimelineText(folder, timeline.first, timeline.end, timeline.events)));
+                        },
+                        [this](std::uint64_t client, const LookBackRequest& request, const CSwarmanoidSpace& space)
+                        { SendPast(client, request, space); },
+                        [this](std::uint64_t client, const std::string& text)
+                        { server_->Send(client, Shared(RefusalText(text))); }});
+  }
+  if (look_back_ && server_->Clients() > 0) look_back_->Refresh();
+}
+
+// In the thread of LookBack.
+void CWebRender::SendPast(std::uint64_t client, const LookBackRequest& request, const CSwarmanoidSpace& space)
+{
+  if (!past_frames_) past_frames_ = std::make_unique<FrameWriter>(space);
+  std::string state = past_frames_->WriteKey();
+  std::memcpy(state.data(), &kPastMagic, sizeof kPastMagic);
+  server_->SendState(client, WebServer::Slot::kPastDetails, Shared(PastText(space, request.entities)));
+  server_->SendState(client, WebServer::Slot::kPast, Shared(std::move(state)));
+}
+
 // The monitor keeps the last hundred notes: those after the last one that was shown are new.
 void CWebRender::SendNotes()
 {
@@ -366,6 +401,7 @@ void CWebRender::TakeRequests()
     {
       watched_.erase(request.client);
       marked_.erase(request.client);
+      if (look_back_) look_back_->Forget(request.client);
       WatchRobots();
     }
 }
@@ -401,6 +437,14 @@ void CWebRender::Carry(std::uint64_t client, const PageRequest& request)
     marked_revision_ = ~0ULL;
     return;
   }
+  if (const auto* past = std::get_if<LookBackRequest>(&request))
+  {
+    if (look_back_)
+      look_back_->Ask(client, *past);
+    else
+      server_->Send(client, Shared(RefusalText("there is nothing to look back at: the run keeps no journal here")));
+    return;
+  }
   if (!IsCommand(request)) return;
   if (control_ == nullptr)
   {
@@ -421,6 +465,7 @@ void CWebRender::Obey(const PageRequest& request)
   if (const auto* add = std::get_if<AddEntityRequest>(&request)) control_->AddEntity(add->entity, add->pose);
   if (const auto* remove = std::get_if<RemoveEntityRequest>(&request)) control_->RemoveEntity(remove->entity);
   if (std::holds_alternative<StopRequest>(request)) control_->Stop();
+  if (std::holds_alternative<ResetRunRequest>(request)) control_->Reset();
 }
 
 void CWebRender::Log(std::uint64_t tick, const std::string& source, const std::string& level, const std::string& text)

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "visualiser/look_back.h"
 #include "visualiser/render.h"
 #include "visualiser/web/access.h"
 #include "visualiser/web/frame.h"
@@ -62,6 +63,8 @@ private:
   void SendMarks();
   void SendNotes();
   void FollowStatus();
+  void FollowJournal();
+  void SendPast(std::uint64_t client, const LookBackRequest& request, const CSwarmanoidSpace& space);
   void WatchRobots();
   void Log(std::uint64_t tick, const std::string& source, const std::string& level, const std::string& text);
 
@@ -99,7 +102,10 @@ private:
   std::string token_;                   // empty: nobody may control the run
   std::unique_ptr<Visitors> visitors_;  // of the server's thread alone
   std::unique_ptr<KeptAddress> kept_;
-  std::unique_ptr<WebServer> server_;  // last: its thread calls the above
+  std::unique_ptr<WebServer> server_;         // its thread calls the above
+  std::unique_ptr<FrameWriter> past_frames_;  // of the thread of look_back_
+  std::unique_ptr<LookBack> look_back_;       // last: its thread calls the server
+  std::string output_folder_;
 };
 
 }  // namespace swarmanoid

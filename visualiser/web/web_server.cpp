@@ -123,10 +123,9 @@ void WebServer::Impl::Welcome(tcp::socket socket)
   ++connections_;
   ++connections_of_[address];
   beast::tcp_stream stream(std::move(socket));
-  if (tls_)
-    std::make_shared<ConnectionOver<TlsStream>>(*this, TlsStream(std::move(stream), *tls_), address)->Start();
-  else
-    std::make_shared<ConnectionOver<beast::tcp_stream>>(*this, std::move(stream), address)->Start();
+  std::make_shared<Connection>(*this, tls_ ? PageStream(std::move(stream), *tls_) : PageStream(std::move(stream)),
+                               address)
+      ->Start();
 }
 
 bool WebServer::Impl::DropWaiting(const std::optional<asio::ip::address>& address)

@@ -52,6 +52,9 @@ public:
   {
     kKey,     // binary: the whole state, before the changes that refer to it
     kChange,  // binary: what has changed since; replaced by the next key
+    kPast,    // binary: the whole state of a tick that is looked back at
+    kPastDetails,
+    kTimeline,
     kStatus,
     kColours,
     kWatched,

@@ -34,34 +34,8 @@ constexpr std::size_t Index(WebServer::Slot slot) { return static_cast<std::size
 class WebServer::Impl
 {
 public:
-  // One page that looks.
-  class Client
-  {
-  public:
-    virtual ~Client() = default;
-    virtual void Put(Slot slot, Bytes bytes) = 0;
-    virtual void Queue(Bytes text) = 0;
-    virtual void SetFramePeriod(std::chrono::milliseconds period) = 0;
-    virtual bool IsHungry() const = 0;
-    // When everything is sent.
-    virtual void Close() = 0;
-
-    std::uint64_t id = 0;
-  };
-  // One connection that has not become a client.
-  class Connection
-  {
-  public:
-    virtual ~Connection() = default;
-    // While it waits for a request.
-    virtual void Drop() = 0;
-
-    asio::ip::address address;
-  };
-  template <class Stream>
-  class ClientOver;
-  template <class Stream>
-  class ConnectionOver;
+  class Client;      // one page that looks
+  class Connection;  // one that has not become a client
 
   Impl(const WebServerSettings& settings, PageFiles files, WebServerEvents& events);
   ~Impl();

@@ -89,12 +89,8 @@ public:
     AttributeSensor::Update(channel);
     for (std::size_t k = 0; k < robots_.size(); ++k) devices_[k].Update(seen_[k]);
   }
-  void SaveState(ByteWriter& state) const override { state.PutArray(seen_); }
-  void LoadState(ByteReader& state) override
-  {
-    seen_ = state.GetArray<double>();
-    if (seen_.size() != robots_.size()) throw std::runtime_error("saved state: a device has other robots");
-  }
+  void SaveState(std::size_t k, ByteWriter& state) const override { state.Put(seen_[k]); }
+  void LoadState(std::size_t k, ByteReader& state) override { seen_[k] = state.Get<double>(); }
 
 private:
   std::vector<double> seen_;  // by robot: how many instructions it has had

@@ -82,13 +82,8 @@ public:
     last = {now.position.x(), now.position.y(), now.position.z(), q.w(), q.x(), q.y(), q.z(), is_present ? 1.0 : 0.0};
     return motion;
   }
-  void SaveState(ByteWriter& state) const { state.PutArray(poses_); }
-  void LoadState(ByteReader& state)
-  {
-    const auto poses = state.GetArray<Last>();
-    if (poses.size() != poses_.size()) throw std::runtime_error("saved state: a device has other robots");
-    poses_ = poses;
-  }
+  void SaveState(std::size_t k, ByteWriter& state) const { state.Put(poses_[k]); }
+  void LoadState(std::size_t k, ByteReader& state) { poses_[k] = state.Get<Last>(); }
 
 private:
   struct Last
@@ -129,8 +124,8 @@ public:
     }
     AddNoise();
   }
-  void SaveState(ByteWriter& state) const override { last_.SaveState(state); }
-  void LoadState(ByteReader& state) override { last_.LoadState(state); }
+  void SaveState(std::size_t k, ByteWriter& state) const override { last_.SaveState(k, state); }
+  void LoadState(std::size_t k, ByteReader& state) override { last_.LoadState(k, state); }
 
 private:
   LastPoses last_;
@@ -178,16 +173,15 @@ public:
           used > 0 ? charges_[k] / used * space_->GetTickSeconds() : std::numeric_limits<double>::infinity();
     }
   }
-  void SaveState(ByteWriter& state) const override
+  void SaveState(std::size_t k, ByteWriter& state) const override
   {
-    last_.SaveState(state);
-    state.PutArray(charges_);
+    last_.SaveState(k, state);
+    state.Put(charges_[k]);
   }
-  void LoadState(ByteReader& state) override
+  void LoadState(std::size_t k, ByteReader& state) override
   {
-    last_.LoadState(state);
-    charges_ = state.GetArray<double>();
-    if (charges_.size() != robots_.size()) throw std::runtime_error("saved state: a device has other robots");
+    last_.LoadState(k, state);
+    charges_[k] = state.Get<double>();
   }
 
 private:

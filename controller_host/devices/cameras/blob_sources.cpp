@@ -45,7 +45,8 @@ void BlobSources::AddEntity(std::uint32_t index)
   const auto slot = [&](std::string_view name)
   { return AttributeOffset(entity.GetKind(), name) < 0 ? kNoSlot : entity.SlotOf(name); };
   if (kind.leds)
-    bearers_.push_back({index, &kind, slot("led"), slot("beacon"), slot("turret_angle"), kNoSlot, 0});
+    bearers_.push_back({index, &kind, slot("led"), slot("beacon"), slot("turret_angle"), kNoSlot, 0,
+                        LedConesOf(world_.Space().GetExperiment(), entity.GetConfiguration())});
   else if (kind.seen_by_cameras && kind.form == BodyForm::kNone)
   {
     // A picture is no blob of one colour.
@@ -54,7 +55,7 @@ void BlobSources::AddEntity(std::uint32_t index)
   }
   else if (kind.seen_by_cameras)
     bearers_.push_back({index, nullptr, kNoSlot, kNoSlot, kNoSlot, slot("colour"),
-                        kind.origin == BodyOrigin::kBase ? entity.GetSize().z() / 2 : 0});
+                        kind.origin == BodyOrigin::kBase ? entity.GetSize().z() / 2 : 0, std::nullopt});
   if (kind.mechanism == Mechanism::kPropellers) lasers_.push_back({index, slot("laser")});
 }
 
@@ -83,6 +84,7 @@ void BlobSources::Refresh()
 
   const std::span<const double> attributes = space.Attributes();
   sources_.clear();
+  cones_.clear();
   lit_by_.clear();
   start_.clear();
   for (const std::uint32_t entity : world_.Grid().Sorted())
@@ -103,6 +105,7 @@ void BlobSources::Refresh()
   for (const Laser& laser : lasers_)
     if (attributes[laser.slot] != 0) AddLaserSpot(laser);
 
+  if (!cones_.empty()) cones_.resize(sources_.size());
   hue_.resize(sources_.size());
   lowest_ = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < sources_.size(); ++i)
@@ -175,6 +178,8 @@ void BlobSources::AddLeds(const Bearer& bearer)
     AddPoint(bearer.entity, {0, 0, *bearer.ring->beacon_height_m}, ColourIn(attributes, bearer.beacon_slot),
              BlobSource::kBeacon);
 
+  if (bearer.cones) return AddDirectionalLeds(bearer);
+
   const auto differs = [&](double value) { return value != leds[0]; };
   if (std::none_of(leds + 1, leds + count, differs))
     return AddPoint(bearer.entity, {0, 0, ring.height_m}, static_cast<std::uint32_t>(leds[0]), BlobSource::kFirstLed);
@@ -197,6 +202,27 @@ void BlobSources::AddLeds(const Bearer& bearer)
              {turret.cos * middle.x() - turret.sin * middle.y(), turret.sin * middle.x() + turret.cos * middle.y(),
               ring.height_m},
              static_cast<std::uint32_t>(leds[i]), static_cast<std::uint32_t>(BlobSource::kFirstLed + i));
+  }
+}
+
+void BlobSources::AddDirectionalLeds(const Bearer& bearer)
+{
+  const LedLayout& ring = *bearer.ring->leds;
+  const std::span<const double> attributes = world_.Space().Attributes();
+  const double* leds = &attributes[bearer.led_slot];
+  SinCos turret{0, 1};
+  if (ring.on_turret) turret = SinCosOf(attributes[bearer.turret_slot]);
+  const auto turned = [&](double x, double y, double z)
+  { return Vector3(turret.cos * x - turret.sin * y, turret.sin * x + turret.cos * y, z); };
+  const Quaternion orientation = world_.Space().GetPose(bearer.entity).orientation;
+  for (std::size_t i = 0; i < ring.places.size(); ++i)
+  {
+    if (leds[i] == 0) continue;
+    const Vector3& axis = bearer.cones->axes[i];
+    AddPoint(bearer.entity, turned(ring.places[i].x(), ring.places[i].y(), ring.height_m),
+             static_cast<std::uint32_t>(leds[i]), static_cast<std::uint32_t>(BlobSource::kFirstLed + i));
+    cones_.resize(sources_.size());
+    cones_.back() = {orientation * turned(axis.x(), axis.y(), axis.z()), bearer.cones->cosine};
   }
 }
 

@@ -1,5 +1,6 @@
 // Everything coloured that cameras see as blobs: lit LEDs and beacons, laser spots, preys, light bulbs, ground patches.
-// LEDs of one colour on one robot are one blob at their middle, as connected pixels of one colour are in an image.
+// LEDs of one colour on one robot are one blob at their middle, as connected pixels of one colour are in an image;
+// directional LEDs are a blob each, since not all of them are seen.
 // Shared by the cameras of a process; brought to the space's state when poses or attributes changed.
 #pragma once
 
@@ -7,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "common/builtins/led_cones.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 
 namespace swarmanoid
@@ -59,6 +61,15 @@ public:
   std::uint64_t NameOf(std::size_t number) const;
   // Of each source the nearest of the eight colours with the bits red (4), green (2) and blue (1); 0 is black.
   const std::uint8_t* Hues() const { return hue_.data(); }
+  // Whether some source is seen from within a cone only; if not, nobody need ask IsSeenFrom.
+  bool HasCones() const { return !cones_.empty(); }
+  // Whether an eye is within the cone of a source, if it has one.
+  bool IsSeenFrom(const Vector3& eye, std::size_t number) const
+  {
+    const Cone& cone = cones_[number];
+    const Vector3 offset = eye - sources_[number].position;
+    return cone.cosine < -1 || offset.dot(cone.axis) >= cone.cosine * __builtin_sqrt(offset.squaredNorm());
+  }
   // No source is lower than this, m in the space.
   double LowestHeight() const { return lowest_; }
 
@@ -70,6 +81,12 @@ private:
     const EntityKindDescription* ring;  // whose LEDs it has; nullptr: it has one colour of its own
     std::uint32_t led_slot, beacon_slot, turret_slot, colour_slot;
     double middle;  // m: height of the middle of the body
+    std::optional<LedCones> cones{};
+  };
+  struct Cone
+  {
+    Vector3 axis = Vector3::UnitX();  // in the space
+    double cosine = -2;               // less than -1: seen from all sides
   };
   struct Laser
   {
@@ -80,6 +97,7 @@ private:
   void AddEntity(std::uint32_t entity);
   void AddBearer(const Bearer& bearer);
   void AddLeds(const Bearer& bearer);
+  void AddDirectionalLeds(const Bearer& bearer);
   void AddPoint(std::uint32_t entity, const Vector3& local, std::uint32_t colour, std::uint32_t part);
   void AddLaserSpot(const Laser& laser);
 
@@ -89,6 +107,7 @@ private:
   std::vector<std::int32_t> bearer_of_;  // by entity, -1: none
   std::vector<Laser> lasers_;
   std::vector<std::uint32_t> still_;   // lights and patches
+  std::vector<Cone> cones_;            // of each source; empty if all are seen from all sides
   std::vector<BlobSource> sources_;    // by place in the grid; then those on no movable body, laser spots at last
   std::vector<std::uint32_t> lit_by_;  // of each laser spot the eyebot
   std::vector<std::uint32_t> start_;   // by place in the grid, and of the others

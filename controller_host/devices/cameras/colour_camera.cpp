@@ -77,6 +77,7 @@ void ColourCamera::Look(std::size_t k)
   const std::uint32_t robot = robots_[k];
   const View view = ViewOf(robot);
   const bool is_down = model_.view == CameraModel::View::kDown;
+  if (model_.view == CameraModel::View::kTurned) axis_ = AxisOf(k);
 
   // A tilted camera sees farther to one side, down to the floor at most.
   double reach = model_.range;
@@ -88,11 +89,13 @@ void ColourCamera::Look(std::size_t k)
     reach += std::max(view.eye.z(), 0.0) * __builtin_sqrt(1 - cosine * cosine) / std::max(cosine, 0.1);
   }
 
+  const std::size_t first = seen_.count;
   lines_->LookFrom(robot, view.eye, reach + BlobSources::kStandOut);
   if (view.is_upright && is_down)
     LookDown(view);
   else
     LookAnywhere(view);
+  if (sources_->HasCones()) KeepWithinCones(first, view.eye);
   viewed_.push_back({k, seen_.count});
   constexpr std::size_t kManyAtATime = 128;
   if (seen_.count >= kManyAtATime) ExtractAll();
@@ -126,6 +129,13 @@ inline bool ColourCamera::IsInView(const Vector3& place) const
 {
   if (model_.view == CameraModel::View::kDown)
     return IsBelow(place.x(), place.y(), place.z(), tangent_, model_.range * model_.range);
+  if (model_.view == CameraModel::View::kTurned)
+  {
+    const double along = place.dot(axis_);
+    const double border = along * tangent_;
+    const double square = place.squaredNorm();
+    return along > 0 && square - along * along <= border * border && square <= model_.range * model_.range;
+  }
   const double border = place.x() * tangent_;
   const double beside = place.y() * place.y() + place.z() * place.z();
   return place.x() > 0 && beside <= border * border && place.squaredNorm() <= model_.range * model_.range;
@@ -237,6 +247,19 @@ void ColourCamera::KeepSeen(std::size_t first)
       selection.Store(values + first + i, values + kept);
     selection.Store(LoadLanes(source + first + i), source + kept);
     kept += selection.Count();
+  }
+  seen_.count = kept;
+}
+
+// LEDs that look elsewhere are left out.
+void ColourCamera::KeepWithinCones(std::size_t first, const Vector3& eye)
+{
+  std::size_t kept = first;
+  for (std::size_t i = first; i < seen_.count; ++i)
+  {
+    for (double* const values : {seen_.x.data(), seen_.y.data(), seen_.z.data()}) values[kept] = values[i];
+    seen_.source[kept] = seen_.source[i];
+    kept += static_cast<std::size_t>(sources_->IsSeenFrom(eye, seen_.source[i]));
   }
   seen_.count = kept;
 }

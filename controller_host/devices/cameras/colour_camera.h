@@ -21,12 +21,13 @@ struct CameraModel
   enum class View
   {
     kDown,  // also by a mirror above: all around, below the eye
-    kAhead
+    kAhead,
+    kTurned  // where AxisOf says
   };
   View view = View::kDown;
   Vector3 eye = Vector3::Zero();  // m
   double aperture = 0;            // rad, from the axis to the border of the view
-  double range = 0;               // m: along the floor (kDown), along the line of sight (kAhead)
+  double range = 0;               // m: along the floor (kDown), along the line of sight (otherwise)
 };
 
 class ColourCamera : public SensorBatch, public SplitSensor
@@ -55,6 +56,8 @@ protected:
   virtual void Measure(const Seen&) {}
   // Called once for each robot: it sees those from `first` to before `behind`.
   virtual void Extract(std::size_t k, const Seen& seen, std::size_t first, std::size_t behind) = 0;
+  // Where the camera of robot k looks, in its frame: of kTurned.
+  virtual Vector3 AxisOf(std::size_t) const { return Vector3::UnitX(); }
   const BlobSources& Sources() const { return *sources_; }
 
   CameraModel model_;
@@ -82,6 +85,7 @@ private:
   void Add(std::size_t source, const View& view);
   void KeepSeen(std::size_t first);
   void KeepFreeInView(std::size_t first);
+  void KeepWithinCones(std::size_t first, const Vector3& eye);
   bool IsInView(const Vector3& place) const;
 
   std::shared_ptr<SensorWorld> world_;
@@ -89,6 +93,7 @@ private:
   std::unique_ptr<SightLines> lines_;
   std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
   double tangent_ = 0;                         // of the aperture
+  Vector3 axis_;                               // of the robot that looks, if it is turned
   Seen seen_;
   std::vector<Viewed> viewed_;
   std::vector<std::int32_t> found_;  // numbers of sources

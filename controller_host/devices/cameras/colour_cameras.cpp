@@ -1,8 +1,10 @@
-// The cameras of the three robots: the footbot's omnidirectional one, the eyebot's that looks down, the handbot's that
-// looks ahead; each ideal (with noise on distance and angle) and with noise in pixels.
+// The cameras of the three robots: the footbot's omnidirectional one, the eyebot's that looks down and the one that
+// turns with its laser, the handbot's that looks ahead; each ideal (with noise on distance and angle) and with noise in
+// pixels.
 #include <algorithm>
 
 #include "common/control_interface/eyebot/ci_eyebot_camera_sensor.h"
+#include "common/control_interface/eyebot/ci_eyebot_pan_tilt_camera_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_omnidirectional_camera_sensor.h"
 #include "common/control_interface/handbot/ci_handbot_camera_sensor.h"
 #include "common/math/elementary.h"
@@ -27,6 +29,12 @@ struct EyebotCamera
   using Interface = CCI_EyeBotCameraSensor;
   static constexpr const char* kLabel = "eyebot_camera";
   static CameraModel Model() { return {CameraModel::View::kDown, {0, 0, 0}, 0, 0}; }
+};
+struct EyebotPanTiltCamera
+{
+  using Interface = CCI_EyeBotPanTiltCameraSensor;
+  static constexpr const char* kLabel = "eyebot_pan_tilt_camera";
+  static CameraModel Model() { return {CameraModel::View::kTurned, {0, 0, 0}, 0, 0}; }
 };
 struct HandbotCamera
 {
@@ -67,8 +75,36 @@ protected:
   {
     InitCamera(setup, Traits::Model());
     cameras_.resize(setup.robots.size());
+    if (model_.view != CameraModel::View::kTurned) return;
+    for (const std::uint32_t robot : setup.robots)
+      directions_.push_back(
+          {setup.space.GetEntity(robot).SlotOf("laser_pan"), setup.space.GetEntity(robot).SlotOf("laser_tilt")});
+  }
+  // The unit it shares with the laser: tilt from straight down, and the direction of the tilt.
+  Vector3 AxisOf(std::size_t k) const override
+  {
+    const SinCos pan = SinCosOf(space_->Attributes()[directions_[k].pan]);
+    const SinCos tilt = SinCosOf(space_->Attributes()[directions_[k].tilt]);
+    return {tilt.sin * pan.cos, tilt.sin * pan.sin, -tilt.cos};
+  }
+  // The axes of the image of robot k, in its frame: x along the line of sight, y level and to the left.
+  Eigen::Matrix3d ImageOf(std::size_t k) const
+  {
+    const SinCos pan = SinCosOf(space_->Attributes()[directions_[k].pan]);
+    Eigen::Matrix3d axes;
+    axes.col(0) = AxisOf(k);
+    axes.col(1) = Vector3(-pan.sin, pan.cos, 0);
+    axes.col(2) = axes.col(0).cross(axes.col(1));
+    return axes;
   }
   std::vector<Camera<typename Traits::Interface>> cameras_;
+
+private:
+  struct Slots
+  {
+    std::uint32_t pan, tilt;
+  };
+  std::vector<Slots> directions_;  // of each robot, if they turn
 };
 
 // Exact places, with noise on the readings.
@@ -117,7 +153,7 @@ protected:
 
 private:
   // Cameras that look down report no elevation.
-  inline static const bool kHasElevation = Traits::Model().view == CameraModel::View::kAhead;
+  inline static const bool kHasElevation = Traits::Model().view != CameraModel::View::kDown;
 
   NoiseModel distance_noise_, angle_noise_, elevation_noise_;
   DeviceStreams distance_streams_, angle_streams_, elevation_streams_;
@@ -152,8 +188,7 @@ protected:
       const std::uint64_t name = IsRandom() ? this->Sources().NameOf(seen.source[i]) : 0;
       if (miss_ > 0 && miss_streams_.Of(k, name).Uniform() < miss_) continue;
       RandomStream random = streams_.Of(k, name);
-      const bool is_down = this->model_.view == CameraModel::View::kDown;
-      const Vector3 place = is_down ? Down(seen.Place(i), random) : Ahead(seen.Place(i), random);
+      const Vector3 place = Pixels(k, seen.Place(i), random);
       blobs.push_back(BlobAt(this->model_.view, place, this->Sources().Source(seen.source[i]).colour,
                              Atan2(place.y(), place.x()),
                              __builtin_sqrt(place.x() * place.x() + place.y() * place.y())));
@@ -169,6 +204,20 @@ private:
     return (coordinate + noise_.Sample(random) + kRounder) - kRounder;
   }
 
+  Vector3 Pixels(std::size_t k, const Vector3& place, RandomStream& random) const
+  {
+    switch (this->model_.view)
+    {
+      case CameraModel::View::kDown:
+        return Down(place, random);
+      case CameraModel::View::kAhead:
+        break;
+      case CameraModel::View::kTurned:
+        const Eigen::Matrix3d axes = this->ImageOf(k);
+        return axes * Ahead(axes.transpose() * place, random);
+    }
+    return Ahead(place, random);
+  }
   Vector3 Down(const Vector3& place, RandomStream& random) const
   {
     const double along_floor = __builtin_sqrt(place.x() * place.x() + place.y() * place.y());
@@ -213,6 +262,7 @@ void RegisterColourCameras()
 {
   BindCameras<FootbotCamera>();
   BindCameras<EyebotCamera>();
+  BindCameras<EyebotPanTiltCamera>();
   BindCameras<HandbotCamera>();
 }
 

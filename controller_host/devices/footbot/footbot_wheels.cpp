@@ -57,14 +57,11 @@ void DummyFootbotWheels::AddNoise(const ChannelView& channel) const
   }
 }
 
-void DummyFootbotWheels::SaveState(ByteWriter& state) const
-{
-  for (const SimulatedFootbotWheels& wheels : wheels_) state.Put(wheels.wanted);
-}
+void DummyFootbotWheels::SaveState(std::size_t k, ByteWriter& state) const { state.Put(wheels_[k].wanted); }
 
-void DummyFootbotWheels::LoadState(ByteReader& state)
+void DummyFootbotWheels::LoadState(std::size_t k, ByteReader& state)
 {
-  for (SimulatedFootbotWheels& wheels : wheels_) wheels.wanted = state.Get<std::array<double, 2>>();
+  wheels_[k].wanted = state.Get<std::array<double, 2>>();
 }
 
 void NoisyFootbotWheels::Init(const DeviceSetup& setup)
@@ -145,18 +142,16 @@ void PidFootbotWheels::Commit(const ChannelView& channel, AttributeChanges&)
   AddNoise(channel);
 }
 
-void PidFootbotWheels::SaveState(ByteWriter& state) const
+void PidFootbotWheels::SaveState(std::size_t k, ByteWriter& state) const
 {
-  DummyFootbotWheels::SaveState(state);
-  state.PutArray(velocity_);
+  DummyFootbotWheels::SaveState(k, state);
+  state.Put(velocity_[k]);
 }
 
-void PidFootbotWheels::LoadState(ByteReader& state)
+void PidFootbotWheels::LoadState(std::size_t k, ByteReader& state)
 {
-  DummyFootbotWheels::LoadState(state);
-  const auto velocity = state.GetArray<std::array<double, 2>>();
-  if (velocity.size() != velocity_.size()) throw std::runtime_error("saved state: a device has other robots");
-  velocity_ = velocity;
+  DummyFootbotWheels::LoadState(k, state);
+  velocity_[k] = state.Get<std::array<double, 2>>();
 }
 
 void RegisterFootbotWheels()

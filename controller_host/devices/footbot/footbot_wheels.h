@@ -35,8 +35,8 @@ public:
   void Init(const DeviceSetup& setup) override;
   CCI_Actuator* Actuator(std::size_t k) override { return &wheels_[k]; }
   void Commit(const ChannelView& channel, AttributeChanges& changes) override;
-  void SaveState(ByteWriter& state) const override;
-  void LoadState(ByteReader& state) override;
+  void SaveState(std::size_t k, ByteWriter& state) const override;
+  void LoadState(std::size_t k, ByteReader& state) override;
 
 protected:
   double Clamped(double velocity) const;
@@ -84,8 +84,8 @@ class PidFootbotWheels : public DummyFootbotWheels
 public:
   void Init(const DeviceSetup& setup) override;
   void Commit(const ChannelView& channel, AttributeChanges& changes) override;
-  void SaveState(ByteWriter& state) const override;
-  void LoadState(ByteReader& state) override;
+  void SaveState(std::size_t k, ByteWriter& state) const override;
+  void LoadState(std::size_t k, ByteReader& state) override;
 
 private:
   double gain_ = 1;          // share of the difference made up in one tick

@@ -60,21 +60,15 @@ public:
     AttributeActuator::Commit(channel, changes);
   }
 
-  void SaveState(ByteWriter& state) const override
+  void SaveState(std::size_t k, ByteWriter& state) const override
   {
-    for (const Direction& direction : directions_)
-    {
-      state.Put(direction.angle_);
-      state.Put(direction.colour_);
-    }
+    state.Put(directions_[k].angle_);
+    state.Put(directions_[k].colour_);
   }
-  void LoadState(ByteReader& state) override
+  void LoadState(std::size_t k, ByteReader& state) override
   {
-    for (Direction& direction : directions_)
-    {
-      direction.angle_ = state.Get<double>();
-      direction.colour_ = state.Get<std::uint32_t>();
-    }
+    directions_[k].angle_ = state.Get<double>();
+    directions_[k].colour_ = state.Get<std::uint32_t>();
   }
 
 private:

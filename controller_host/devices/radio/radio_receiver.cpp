@@ -46,6 +46,7 @@ public:
         senders_.push_back({e, entity.SlotOf("radio"), StreamName(entity.GetId())});
     sent_.assign(senders_.size(), 0);
     receivers_.resize(robots_.size());
+    flying_.resize(robots_.size());
   }
   CCI_Sensor* Sensor(std::size_t k) override { return &receivers_[k]; }
 
@@ -62,17 +63,14 @@ public:
     Deliver();
   }
 
-  void SaveState(ByteWriter& state) const override
-  {
-    state.PutArray(sent_);
-    state.PutArray(flying_);
-  }
-  void LoadState(ByteReader& state) override
+  void SaveCommon(ByteWriter& state) const override { state.PutArray(sent_); }
+  void LoadCommon(ByteReader& state) override
   {
     sent_ = state.GetArray<double>();
-    flying_ = state.GetArray<Flying>();
     if (sent_.size() != senders_.size()) throw std::runtime_error("saved state: a radio hears other robots");
   }
+  void SaveState(std::size_t k, ByteWriter& state) const override { state.PutArray(flying_[k]); }
+  void LoadState(std::size_t k, ByteReader& state) override { flying_[k] = state.GetArray<Flying>(); }
 
 private:
   struct Sender
@@ -84,7 +82,8 @@ private:
   struct Flying
   {
     std::uint64_t due;  // tick
-    std::uint32_t k, sender;
+    std::uint32_t sender;
+    std::uint32_t unused = 0;  // no bytes of a saved state are left to chance
     double signal;
     AttributePacket packet;
   };
@@ -102,26 +101,30 @@ private:
       const double square = (space_->GetPose(entity).position - place).squaredNorm();
       double signal = -10 / kLog10 * Log(std::max(square, kNearest * kNearest));
       if (noise_.IsActive()) signal += noise_.Sample(noise_streams_.Of(k, sender.name));
-      flying_.push_back({space_->GetTick() + latency_, static_cast<std::uint32_t>(k), sender.entity, signal, packet});
+      flying_[k].push_back({space_->GetTick() + latency_, sender.entity, 0, signal, packet});
     }
   }
 
   void Deliver()
   {
-    std::size_t left = 0;
-    for (const Flying& flying : flying_)
+    for (std::size_t k = 0; k < robots_.size(); ++k)
     {
-      if (flying.due > space_->GetTick())
+      std::size_t left = 0;
+      for (const Flying& flying : flying_[k])
       {
-        flying_[left++] = flying;
-        continue;
+        if (flying.due > space_->GetTick())
+        {
+          flying_[k][left++] = flying;
+          continue;
+        }
+        if (!space_->IsPresent(robots_[k])) continue;
+        CCI_RadioSensor::Packet packet{
+            space_->GetEntity(flying.sender).GetId(), flying.signal, flying.packet.length, {}};
+        std::copy_n(flying.packet.bytes.begin(), packet.bytes.size(), packet.bytes.begin());
+        receivers_[k].packets.push_back(packet);
       }
-      if (!space_->IsPresent(robots_[flying.k])) continue;
-      CCI_RadioSensor::Packet packet{space_->GetEntity(flying.sender).GetId(), flying.signal, flying.packet.length, {}};
-      std::copy_n(flying.packet.bytes.begin(), packet.bytes.size(), packet.bytes.begin());
-      receivers_[flying.k].packets.push_back(packet);
+      flying_[k].resize(left);
     }
-    flying_.resize(left);
   }
 
   static constexpr double kLog10 = 2.302585092994046;
@@ -136,8 +139,8 @@ private:
   DeviceStreams noise_streams_, loss_streams_;
   std::vector<std::int32_t> place_of_entity_;
   std::vector<Sender> senders_;
-  std::vector<double> sent_;  // by sender: how many packets it had sent
-  std::vector<Flying> flying_;
+  std::vector<double> sent_;                 // by sender: how many packets it had sent
+  std::vector<std::vector<Flying>> flying_;  // by robot
   std::vector<RobotReceiver> receivers_;
 };
 

@@ -59,15 +59,15 @@ public:
       if (space_->IsPresent(robots_[k])) Transmit(k);
     AttributeActuator::Commit(channel, changes);
   }
-  void SaveState(ByteWriter& state) const override
+  void SaveState(std::size_t k, ByteWriter& state) const override
   {
-    AttributeActuator::SaveState(state);
-    for (const Radio& radio : devices_) state.Put(radio.queue);
+    AttributeActuator::SaveState(k, state);
+    state.Put(devices_[k].queue);
   }
-  void LoadState(ByteReader& state) override
+  void LoadState(std::size_t k, ByteReader& state) override
   {
-    AttributeActuator::LoadState(state);
-    for (Radio& radio : devices_) radio.queue = state.Get<Radio::Queue>();
+    AttributeActuator::LoadState(k, state);
+    devices_[k].queue = state.Get<Radio::Queue>();
   }
 
 private:

@@ -20,6 +20,11 @@ public:
 
   bool IsEmpty() const { return terrains_.empty(); }
 
+  template <class Visit>
+  void ForEach(Visit&& visit) const
+  {
+    for (const Placed& placed : terrains_) visit(placed.entity);
+  }
   // The part 0..1 of the way from one point to another at which it meets the first terrain for which accept(entity)
   // holds; more than 1 if it meets none.
   template <class Accept>

@@ -46,6 +46,14 @@ public:
   // accept(entity) holds; more than 1 if it meets none.
   template <class Accept>
   double FirstHit(const Vector3& from, const Vector3& to, Accept&& accept) const;
+  // Likewise, with the entity that is met; of several that are met at once the first of the file.
+  struct Met
+  {
+    double part = 2;
+    std::uint32_t entity = 0;
+  };
+  template <class Accept>
+  Met FirstMet(const Vector3& from, const Vector3& to, Accept&& accept) const;
   // Whether `body` can hide things from `observer`: they share an engine, or the body stands in the space without being
   // part of any engine's world.
   bool CanHideFrom(std::uint32_t observer, std::uint32_t body) const
@@ -93,6 +101,30 @@ double SensorWorld::FirstHit(const Vector3& from, const Vector3& to, Accept&& ac
   grid_.ForEachAlong(from, to, test);
   fixed_.ForEachAlong(from, to, test);
   return terrain_.IsEmpty() ? first : std::min(first, terrain_.FirstHit(from, to, accept));
+}
+
+template <class Accept>
+SensorWorld::Met SensorWorld::FirstMet(const Vector3& from, const Vector3& to, Accept&& accept) const
+{
+  Met first;
+  const auto take = [&](double part, std::uint32_t entity)
+  {
+    if (part < first.part || (part == first.part && entity < first.entity)) first = {part, entity};
+  };
+  const auto test = [&](std::uint32_t body)
+  {
+    if (!accept(body)) return;
+    if (const auto hit = HitOn(body, from, to)) take(*hit, body);
+  };
+  grid_.ForEachAlong(from, to, test);
+  fixed_.ForEachAlong(from, to, test);
+  terrain_.ForEach(
+      [&](std::uint32_t terrain)
+      {
+        if (accept(terrain))
+          take(terrain_.FirstHit(from, to, [&](std::uint32_t entity) { return entity == terrain; }), terrain);
+      });
+  return first;
 }
 
 }  // namespace swarmanoid

@@ -26,6 +26,7 @@ public:
   void LoadState(ByteReader& state) override;
   // Nothing is hidden: contacts are made anew in each step, in an order that only the entities decide.
   void Canonicalise() override {}
+  bool IsAlwaysCanonical() const override { return true; }
   std::string StatusText() const override;
 
   // The entity's model, for tests; nullptr for entities without a body.

@@ -30,6 +30,7 @@ public:
   void LoadState(ByteReader& state) override;
   // The engine has nothing hidden: each step starts from the saved state alone.
   void Canonicalise() override {}
+  bool IsAlwaysCanonical() const override { return true; }
   std::string StatusText() const override;
 
   const kinematics2d::KinematicWorld& World() const { return world_; }

@@ -5,6 +5,7 @@
 
 #include "common/control_interface/ci_pie_camera_sensor.h"
 #include "common/control_interface/eyebot/ci_eyebot_camera_sensor.h"
+#include "common/control_interface/eyebot/ci_eyebot_pan_tilt_camera_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_omnidirectional_camera_sensor.h"
 #include "common/control_interface/handbot/ci_handbot_camera_sensor.h"
 #include "common/math/elementary.h"
@@ -87,6 +88,7 @@ private:
 
 using FootbotCamera = Camera<CCI_FootBotOmnidirectionalCameraSensor, false>;
 using EyebotCamera = Camera<CCI_EyeBotCameraSensor, false>;
+using PanTiltCamera = Camera<CCI_EyeBotPanTiltCameraSensor, true>;
 using HandbotCamera = Camera<CCI_HandBotCameraSensor, true>;
 
 PluginDescription DescribeCamera(const std::string& type, const std::string& robot,
@@ -99,6 +101,7 @@ PluginDescription DescribeCamera(const std::string& type, const std::string& rob
 
 REGISTER_SENSOR_DRIVER(FootbotCamera, DescribeCamera("footbot_omnidirectional_camera", "footbot"))
 REGISTER_SENSOR_DRIVER(EyebotCamera, DescribeCamera("eyebot_camera", "eyebot"))
+REGISTER_SENSOR_DRIVER(PanTiltCamera, DescribeCamera("eyebot_pan_tilt_camera", "eyebot"))
 REGISTER_SENSOR_DRIVER(HandbotCamera, DescribeCamera("handbot_camera", "handbot"))
 
 constexpr std::array<std::uint32_t, 7> kColours{CCI_Colour::RED,    CCI_Colour::GREEN, CCI_Colour::BLUE,

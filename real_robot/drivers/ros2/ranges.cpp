@@ -1,12 +1,15 @@
-// What measures distances: the proximity sensors of a footbot from a laser scan or from 24 range sensors, and the
-// altitude of an eyebot.
+// What measures distances: the proximity sensors of a footbot from a laser scan or from 24 range sensors, those of a
+// handbot from range sensors, and the altitude of an eyebot.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "common/control_interface/eyebot/ci_eyebot_altitude_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
+#include "common/control_interface/handbot/ci_handbot_proximity_sensor.h"
 #include "common/math/elementary.h"
+#include "real_robot/drivers/ros2/footbot_infrared.h"
 #include "real_robot/drivers/ros2/topic_driver.h"
 
 namespace swarmanoid::ros2
@@ -19,14 +22,6 @@ using Range = sensor_msgs::msg::dds_::Range_;
 
 constexpr unsigned kSensors = CCI_FootBotProximitySensor::NUM_SENSORS;
 constexpr double kNothing = std::numeric_limits<double>::infinity();
-
-// The reading of the infrared sensors of a footbot at a distance from the body (ARGoS3, foot-bot), as in the simulator.
-double ReadingAt(double distance, double range)
-{
-  constexpr double kContactDistance = 0.009889556;
-  if (distance > range) return 0;
-  return distance < kContactDistance ? 1 : 0.0100527 / (distance + 0.000163144);
-}
 
 // A measured range as a distance, by REP 117: -infinity is too near to be measured, all else out of range is nothing.
 double Measured(float range, float least, float most)
@@ -62,7 +57,7 @@ private:
       const double distance = Measured(scan.ranges()[ray], scan.range_min(), scan.range_max());
       sensor = std::min(sensor, distance);
     }
-    for (unsigned i = 0; i < kSensors; ++i) readings_[i] = ReadingAt(std::max(nearest[i] - radius_, 0.0), range_);
+    for (unsigned i = 0; i < kSensors; ++i) readings_[i] = InfraredReading(std::max(nearest[i] - radius_, 0.0), range_);
   }
 
   double radius_ = 0;
@@ -70,9 +65,9 @@ private:
   std::array<double, kSensors> readings_{};
 };
 
-ParameterSpec RangeParameter()
+ParameterSpec RangeParameter(const char* range_m = "0.1")
 {
-  return NumberParameter("range", "m", "0.1", "Distance from the body beyond which nothing is seen.");
+  return NumberParameter("range", "m", range_m, "Distance from the sensor beyond which nothing is seen.");
 }
 
 REGISTER_SENSOR_DRIVER(
@@ -88,7 +83,7 @@ class RangeProximity : public RingSensor<CCI_FootBotProximitySensor, Range>
   void Configure(const Parameters& parameters) override { range_ = parameters.Number("range"); }
   double ReadingOf(const Range& range) const override
   {
-    return ReadingAt(Measured(range.range(), range.min_range(), range.max_range()), range_);
+    return InfraredReading(Measured(range.range(), range.min_range(), range.max_range()), range_);
   }
 
   double range_ = 0;
@@ -99,6 +94,23 @@ REGISTER_SENSOR_DRIVER(
                                    "sensor_msgs/msg/Range on proximity_0 to proximity_23", {"footbot"},
                                    {TopicParameter("topic", "proximity", "Topics of the 24 sensors, before _0 to _23."),
                                     RangeParameter()}))
+
+class HandProximity : public RingSensor<CCI_HandBotProximitySensor, Range>
+{
+  void Configure(const Parameters& parameters) override { range_ = parameters.Number("range"); }
+  double ReadingOf(const Range& range) const override
+  {
+    return std::max(1 - Measured(range.range(), range.min_range(), range.max_range()) / range_, 0.0);
+  }
+
+  double range_ = 0;
+};
+
+REGISTER_SENSOR_DRIVER(
+    HandProximity,
+    DescribeDriver("handbot_proximity", "ros2", "sensor_msgs/msg/Range on proximity_0 to proximity_23", {"handbot"},
+                   {TopicParameter("topic", "proximity", "Topics of the 24 sensors, before _0 to _23."),
+                    RangeParameter("0.05")}))
 
 class Altitude : public TopicSensor<CCI_EyeBotAltitudeSensor, Range>
 {

@@ -28,6 +28,8 @@ namespace dds = eprosima::fastdds::dds;
 using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
 
 const eprosima::fastrtps::Duration_t kFlushTime{0, 500'000'000};
+const eprosima::fastrtps::Duration_t kHeartbeat{0, 20'000'000};
+constexpr int kRecentMessages = 64;
 const eprosima::fastrtps::Duration_t kWriteTime{0, 20'000'000};  // a step must not wait for a slow listener
 
 std::uint32_t Domain()
@@ -127,6 +129,14 @@ std::string TopicName(const std::string& name_space, const std::string& name)
                   full));
 }
 
+std::string TopicWord(std::string id)
+{
+  for (char& c : id)
+    if (c == '.' || c == '-' || c == ':') c = '_';
+  if (!id.empty() && id[0] >= '0' && id[0] <= '9') id.insert(id.begin(), '_');
+  return id;
+}
+
 double Now()
 {
   timespec time{};
@@ -140,16 +150,17 @@ struct Writer::Ends
   dds::DataWriter* writer = nullptr;
 };
 
-// Reliable, the latest message alone: what all listeners of ROS 2 take, whether they ask for reliability or not.
-Writer::Writer(const std::string& topic, const MessageType& type, bool latched) : ends_(std::make_unique<Ends>())
+// Reliable: what all listeners of ROS 2 take, whether they ask for reliability or not.
+Writer::Writer(const std::string& topic, const MessageType& type, Keeps keeps) : ends_(std::make_unique<Ends>())
 {
   dds::Topic* made = ends_->participant->TopicOf(topic, type);
   dds::DataWriterQos qos;
   qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
   qos.reliability().max_blocking_time = kWriteTime;
-  if (latched) qos.durability().kind = dds::TRANSIENT_LOCAL_DURABILITY_QOS;
+  if (keeps == Keeps::kRecent) qos.reliable_writer_qos().times.heartbeatPeriod = kHeartbeat;
+  if (keeps == Keeps::kLatched) qos.durability().kind = dds::TRANSIENT_LOCAL_DURABILITY_QOS;
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
-  qos.history().depth = 1;
+  qos.history().depth = keeps == Keeps::kRecent ? kRecentMessages : 1;
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
   qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();
@@ -167,6 +178,13 @@ void Writer::Write(void* message)
 
 void Writer::Flush() { ends_->writer->wait_for_acknowledgments(kFlushTime); }
 
+unsigned Writer::Listeners() const
+{
+  dds::PublicationMatchedStatus status;
+  ends_->writer->get_publication_matched_status(status);
+  return static_cast<unsigned>(status.current_count);
+}
+
 struct Reader::Ends
 {
   std::shared_ptr<Participant> participant = Participant::Of();
@@ -175,11 +193,11 @@ struct Reader::Ends
 
 // Best effort: hears reliable and best-effort publishers alike; what was lost is replaced by the next message anyway. A
 // few are kept: several programs may publish one topic, each a part of the robot's joints.
-Reader::Reader(const std::string& topic, const MessageType& type) : ends_(std::make_unique<Ends>())
+Reader::Reader(const std::string& topic, const MessageType& type, bool reliable) : ends_(std::make_unique<Ends>())
 {
   dds::Topic* made = ends_->participant->TopicOf(topic, type);
   dds::DataReaderQos qos;
-  qos.reliability().kind = dds::BEST_EFFORT_RELIABILITY_QOS;
+  qos.reliability().kind = reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = 10;
   qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
@@ -196,6 +214,19 @@ bool Reader::Take(void* message)
   while (ends_->reader->take_next_sample(message, &about) == ReturnCode::RETCODE_OK)
     if (about.valid_data) return true;
   return false;
+}
+
+void Reader::Wait(double seconds)
+{
+  const auto whole = static_cast<std::int32_t>(seconds);
+  ends_->reader->wait_for_unread_message({whole, static_cast<std::uint32_t>((seconds - whole) * 1e9)});
+}
+
+unsigned Reader::Publishers() const
+{
+  dds::SubscriptionMatchedStatus status;
+  ends_->reader->get_subscription_matched_status(status);
+  return static_cast<unsigned>(status.current_count);
 }
 
 }  // namespace swarmanoid::ros2

@@ -1,6 +1,6 @@
 // Publishers and subscribers with the topic and type names of ROS 2, over DDS. The only code of the robot that knows
-// DDS; the drivers of this folder use it, from the thread of the controller, and the visualiser that shows a simulation
-// to ROS 2 (visualiser/ros2).
+// DDS; the drivers of this folder use it, from the thread of the controller, the visualiser that shows a simulation to
+// ROS 2 (visualiser/ros2), and the controller that hands a simulated robot to a node (real_robot/ros2_controller).
 //
 // A topic of ROS 2 is "rt/<name>" on DDS, and a type "<package>::msg::dds_::<Name>_". The DDS domain is that of the
 // environment variable ROS_DOMAIN_ID, else 0; with ROS_LOCALHOST_ONLY=1 nothing leaves this machine.
@@ -27,15 +27,25 @@ MessageType TypeOf();
 // for what ROS 2 does not allow.
 std::string TopicName(const std::string& name_space, const std::string& name);
 
+// The id of a robot as a word of topics: '.', '-' and ':' are '_', and a digit at its start has one before it.
+std::string TopicWord(std::string id);
+
 class Writer
 {
 public:
-  // Latched: who comes later still gets the last message.
-  Writer(const std::string& topic, const MessageType& type, bool latched = false);
+  enum class Keeps
+  {
+    kLatest,   // the next value replaces one that has not arrived
+    kLatched,  // likewise; who comes later still gets the last message
+    kRecent    // some tens, so that those who listen reliably miss none, and know soon which are there
+  };
+  Writer(const std::string& topic, const MessageType& type, Keeps keeps = Keeps::kLatest);
   ~Writer();
   void Write(void* message);
   // Waits until all who listen reliably have it, half a second at most.
   void Flush();
+  // Who listens at present, as far as they are known.
+  unsigned Listeners() const;
 
 private:
   struct Ends;
@@ -45,10 +55,15 @@ private:
 class Reader
 {
 public:
-  Reader(const std::string& topic, const MessageType& type);
+  // Reliable: nothing is lost, and publishers that are best effort are not heard.
+  Reader(const std::string& topic, const MessageType& type, bool reliable = false);
   ~Reader();
   // The next message, oldest first; false if there is none.
   bool Take(void* message);
+  // Until there is a message to take, so many seconds at most.
+  void Wait(double seconds);
+  // Who is heard at present, as far as they are known.
+  unsigned Publishers() const;
 
 private:
   struct Ends;
@@ -59,12 +74,13 @@ template <class Message>
 class Publisher
 {
 public:
-  Publisher(const DriverSetup& setup, const std::string& topic)
-      : topic_(TopicName(setup.name_space, topic)), type_(TypeOf<Message>()), writer_(topic_, type_)
+  Publisher(const DriverSetup& setup, const std::string& topic, Writer::Keeps keeps = Writer::Keeps::kLatest)
+      : topic_(TopicName(setup.name_space, topic)), type_(TypeOf<Message>()), writer_(topic_, type_, keeps)
   {
   }
   void Publish(Message& message) { writer_.Write(&message); }
   void Flush() { writer_.Flush(); }
+  unsigned Listeners() const { return writer_.Listeners(); }
   std::string Name() const { return "topic " + topic_ + " (" + type_.name + ")"; }
 
 private:
@@ -80,8 +96,11 @@ template <class Message>
 class Subscriber
 {
 public:
-  Subscriber(const DriverSetup& setup, const std::string& topic)
-      : topic_(TopicName(setup.name_space, topic)), type_(TypeOf<Message>()), reader_(topic_, type_), latest_at_(Now())
+  Subscriber(const DriverSetup& setup, const std::string& topic, bool reliable = false)
+      : topic_(TopicName(setup.name_space, topic)),
+        type_(TypeOf<Message>()),
+        reader_(topic_, type_, reliable),
+        latest_at_(Now())
   {
   }
   // Takes over the next message, if there is one. Several may have come since the last call.
@@ -99,6 +118,8 @@ public:
     while (TakeNext()) taken = true;
     return taken;
   }
+  void Wait(double seconds) { reader_.Wait(seconds); }
+  unsigned Publishers() const { return reader_.Publishers(); }
   const Message& Latest() const { return message_; }
   std::string Name() const { return "topic " + topic_ + " (" + type_.name + ")"; }
   DriverSource Source() const { return {Name(), heard_, Now() - latest_at_}; }

@@ -1,6 +1,7 @@
 #include "real_robot/drivers/ros2/ros2_messages.h"
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 
 namespace swarmanoid::ros2
@@ -33,6 +34,15 @@ std::uint32_t ToColour(const ColorRGBA& message)
   const auto channel = [](float value)
   { return static_cast<std::uint32_t>(std::clamp(value, 0.0F, 1.0F) * 255.0F + 0.5F); };
   return channel(message.r()) << 16 | channel(message.g()) << 8 | channel(message.b());
+}
+
+builtin_interfaces::msg::dds_::Time_ TimeOf(double seconds)
+{
+  const auto nanoseconds = std::llround(seconds * 1e9);
+  builtin_interfaces::msg::dds_::Time_ time;
+  time.sec(static_cast<std::int32_t>(nanoseconds / 1'000'000'000));
+  time.nanosec(static_cast<std::uint32_t>(nanoseconds % 1'000'000'000));
+  return time;
 }
 
 std_msgs::msg::dds_::Header_ HeaderOfNow(const std::string& frame)

@@ -1,4 +1,4 @@
-// What the drivers of this folder share: parameters, colours, joints.
+// What all who speak to ROS 2 share: parameters, colours, time stamps, joints.
 #pragma once
 
 #include <array>
@@ -29,6 +29,9 @@ ParameterSpec NumberParameter(const std::string& name, const std::string& unit, 
 // 0xRRGGBB to channels of 0 to 1; alpha is 0 for black, else 1. And back.
 ColorRGBA ToMessage(std::uint32_t colour);
 std::uint32_t ToColour(const ColorRGBA& message);
+
+// Seconds of simulated time as a time stamp.
+builtin_interfaces::msg::dds_::Time_ TimeOf(double seconds);
 
 // The time of day, as ROS 2 stamps messages.
 std_msgs::msg::dds_::Header_ HeaderOfNow(const std::string& frame);

@@ -308,8 +308,8 @@ TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
     }
     ExpectSame<wire::WorldPubSubType>(world, wire_world);
 
-    const JoinMessage join{random.Text(), kProtocolVersion, random.Number(),
-                           random.Text(), random.Flag(),    random.Number32()};
+    const JoinMessage join{random.Text(), kProtocolVersion,  random.Number(), random.Text(),
+                           random.Flag(), random.Number32(), random.Text()};
     wire::Join wire_join;
     wire_join.process(join.process);
     wire_join.protocol(join.protocol);
@@ -317,6 +317,7 @@ TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
     wire_join.name(join.name);
     wire_join.ready(join.ready);
     wire_join.incarnation(join.incarnation);
+    wire_join.machine(join.machine);
     ExpectSame<wire::JoinPubSubType>(join, wire_join);
 
     const LeaveMessage leave{random.Number(), random.Number(), random.Text(), random.Text(), random.Text()};
@@ -369,8 +370,8 @@ TEST(MessageBytes, OfUsersRequestsAreThoseOfTheIdl)
   Random random(3);
   for (int round = 0; round < kRounds; ++round)
   {
-    const ControlRequestMessage request{random.Text(), random.Number32(), random.Text(),
-                                        random.Text(), random.Reals(),    random.Text()};
+    const ControlRequestMessage request{random.Text(),  random.Number32(), random.Text(),  random.Text(),
+                                        random.Reals(), random.Text(),     random.Number()};
     wire::ControlRequest wire_request;
     wire_request.client(request.client);
     wire_request.number(request.number);
@@ -378,6 +379,7 @@ TEST(MessageBytes, OfUsersRequestsAreThoseOfTheIdl)
     wire_request.entity(request.entity);
     wire_request.numbers(request.numbers);
     wire_request.user(request.user);
+    wire_request.run(request.run);
     ExpectSame<wire::ControlRequestPubSubType>(request, wire_request);
 
     const ControlReplyMessage reply{random.Text(), random.Number32(), random.Flag(), random.Number(), random.Text()};

@@ -2,6 +2,7 @@
 #include "common/bus/seal.h"
 
 #include <fcntl.h>
+#include <openssl/core_names.h>
 #include <openssl/evp.h>
 #include <openssl/params.h>
 #include <unistd.h>
@@ -12,10 +13,10 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "common/bus/message_type.h"
-#include "common/bus/participant.h"
 #include "tests/eventually.h"
+#include "tests/unit/bus/listener.h"
 #include "tests/unit/bus/server_fixture.h"
+#include "tests/unit/bus/stranger.h"
 
 namespace swarmanoid
 {
@@ -34,31 +35,95 @@ RunKey KeyOfByte(unsigned char byte)
   return key;
 }
 
-std::string Sealed(const std::string& text, std::uint64_t number)
+// A payload with that text in the place of its fields.
+std::string Sealed(Sealer& sealer, const std::string& text, const WriterId& writer = kWriter)
 {
-  std::string payload = text + std::string(kSealBytes, '\0');
-  Seal(payload, KeyOfByte(7), "Leave", kWriter, number);
+  std::string payload = std::string("\0\1\0\0", 4) + std::string(kSealedFieldsAt - 4, '\0') + text;
+  payload += std::string(kCodeBytes, '\0');
+  sealer.Seal(payload, writer);
   return payload;
 }
 
-TEST(Seals, OpenForTheKeyTheTopicAndTheWriterAlone)
+std::optional<std::string> TextIn(Opener& opener, const RunKey& key, const std::string& payload)
 {
-  const std::string payload = Sealed("the message", 5);
-  EXPECT_EQ(NumberUnderSeal(payload, KeyOfByte(7), "Leave", kWriter), 5U);
-  EXPECT_FALSE(NumberUnderSeal(payload, KeyOfByte(8), "Leave", kWriter).has_value());
-  EXPECT_FALSE(NumberUnderSeal(payload, KeyOfByte(7), "Join", kWriter).has_value());
-  EXPECT_FALSE(NumberUnderSeal(payload, KeyOfByte(7), "Leave", WriterId{1, 2, 4}).has_value());
+  std::vector<char> room;
+  const auto opened = opener.Knows(payload) ? opener.Open(payload, room) : opener.OpenBy(key, payload, room);
+  if (!opened) return std::nullopt;
+  return std::string(opened->payload.begin() + 4, opened->payload.end());
+}
+
+TEST(Seals, OpenForTheKeyAndTheTopicAlone)
+{
+  Sealer sealer(KeyOfByte(7), "Leave");
+  const std::string payload = Sealed(sealer, "the message");
+  EXPECT_EQ(payload.find("the message"), std::string::npos);
+  Opener right("Leave");
+  EXPECT_EQ(TextIn(right, KeyOfByte(7), payload), "the message");
+  Opener wrong_key("Leave");
+  EXPECT_FALSE(TextIn(wrong_key, KeyOfByte(8), payload).has_value());
+  Opener wrong_topic("Join");
+  EXPECT_FALSE(TextIn(wrong_topic, KeyOfByte(7), payload).has_value());
+  // By somebody who has opened a message of this writer, and by somebody who has not.
   for (std::size_t k = 0; k < payload.size(); ++k)
   {
     std::string changed = payload;
     changed[k] = static_cast<char>(changed[k] ^ 1);
-    EXPECT_FALSE(NumberUnderSeal(changed, KeyOfByte(7), "Leave", kWriter).has_value()) << k;
-    EXPECT_FALSE(NumberUnderSeal(payload.substr(0, k), KeyOfByte(7), "Leave", kWriter).has_value()) << k;
+    Opener fresh("Leave");
+    for (Opener* const opener : {&right, &fresh})
+    {
+      EXPECT_FALSE(TextIn(*opener, KeyOfByte(7), changed).has_value()) << k;
+      EXPECT_FALSE(TextIn(*opener, KeyOfByte(7), payload.substr(0, k)).has_value()) << k;
+    }
   }
 }
 
-// Whoever writes a member of the run in another language goes by docs/wire.md: the code by another way through
-// libcrypto.
+TEST(Seals, TellTheWriterAndWhetherAMessageIsNew)
+{
+  Sealer sealer(KeyOfByte(7), "Leave");
+  const std::string first = Sealed(sealer, "first");
+  const std::string second = Sealed(sealer, "second", WriterId{4, 5});
+  Opener opener("Leave");
+  std::vector<char> room;
+  const auto opened = opener.OpenBy(KeyOfByte(7), first, room);
+  ASSERT_TRUE(opened.has_value());
+  EXPECT_EQ(opened->writer, kWriter);
+  EXPECT_TRUE(opener.IsNew(*opened));
+  opener.Note(*opened);
+  EXPECT_FALSE(opener.IsNew(*opened));
+  EXPECT_TRUE(opener.IsNew(*opened, "another instance"));
+  const auto next = opener.Open(second, room);
+  ASSERT_TRUE(next.has_value());
+  EXPECT_EQ(next->writer, (WriterId{4, 5}));
+  EXPECT_TRUE(opener.IsNew(*next));
+  opener.Note(*next);
+  EXPECT_FALSE(opener.IsNew(*opener.Open(first, room)));
+}
+
+// Two messages under one key and nonce would tell each other: processes that take the place of another one, with its
+// identity, begin with number 1 again.
+TEST(Seals, OfEqualMessagesOfTwoProcessesHaveNothingInCommon)
+{
+  Sealer one(KeyOfByte(7), "Leave");
+  Sealer other(KeyOfByte(7), "Leave");
+  const std::string text(1000, 'x');
+  const std::string first = Sealed(one, text);
+  const std::string again = Sealed(one, text);
+  const std::string second = Sealed(other, text);
+  EXPECT_NE(first.substr(4, kSaltBytes), second.substr(4, kSaltBytes));
+  EXPECT_EQ(first.substr(4, kSaltBytes), again.substr(4, kSaltBytes));
+  const auto equal_bytes = [&](const std::string& a, const std::string& b)
+  {
+    std::size_t equal = 0;
+    for (std::size_t k = kSealedFieldsAt; k < a.size(); ++k) equal += a[k] == b[k] ? 1 : 0;
+    return equal;
+  };
+  // By chance one in 256.
+  EXPECT_LT(equal_bytes(first, second), 30U);
+  EXPECT_LT(equal_bytes(first, again), 30U);
+}
+
+// Whoever writes a member of the run in another language goes by docs/wire.md: HKDF by its two steps of HMAC, and
+// AES-256-GCM with the nonce put together by hand.
 TEST(Seals, AreWhatTheWireSaysTheyAre)
 {
   const auto hmac = [](const std::string& key, const std::string& text)
@@ -74,11 +139,28 @@ TEST(Seals, AreWhatTheWireSaysTheyAre)
     EXPECT_EQ(length, code.size());
     return code;
   };
-  const std::string payload = Sealed("the message", 5);
-  const std::string of_writer =
-      hmac(std::string(32, '\7'), "Leave" + std::string(1, '\0') + std::string(kWriter.data(), kWriter.size()));
-  const std::string code = hmac(of_writer, "the message" + std::string("\5\0\0\0\0\0\0\0", 8));
-  EXPECT_EQ(payload.substr(payload.size() - 16), code.substr(0, 16));
+  Sealer sealer(KeyOfByte(7), "Leave");
+  const std::string payload = Sealed(sealer, "the message");
+  const std::string salt = payload.substr(4, 12);
+  const std::string number = payload.substr(16, 8);
+  EXPECT_EQ(number, std::string("\1\0\0\0\0\0\0\0", 8));
+  const std::string key = hmac(hmac(salt, std::string(32, '\7')), "swarmanoid message Leave\1");
+  const std::string nonce = std::string(4, '\0') + number;
+  const std::string head = payload.substr(0, 24);
+  const std::string secret = payload.substr(24, payload.size() - 24 - 16);
+  std::string code = payload.substr(payload.size() - 16);
+  std::string plain(secret.size(), '\0');
+  const auto bytes = [](const std::string& text) { return reinterpret_cast<const unsigned char*>(text.data()); };
+  const Cipher cipher(EVP_CIPHER_CTX_new());
+  int count = 0;
+  EXPECT_EQ(EVP_DecryptInit_ex(cipher.get(), EVP_aes_256_gcm(), nullptr, bytes(key), bytes(nonce)), 1);
+  EXPECT_EQ(EVP_DecryptUpdate(cipher.get(), nullptr, &count, bytes(head), static_cast<int>(head.size())), 1);
+  EXPECT_EQ(EVP_DecryptUpdate(cipher.get(), reinterpret_cast<unsigned char*>(plain.data()), &count, bytes(secret),
+                              static_cast<int>(secret.size())),
+            1);
+  EXPECT_EQ(EVP_CIPHER_CTX_ctrl(cipher.get(), EVP_CTRL_AEAD_SET_TAG, 16, code.data()), 1);
+  EXPECT_EQ(EVP_DecryptFinal_ex(cipher.get(), reinterpret_cast<unsigned char*>(plain.data()), &count), 1);
+  EXPECT_EQ(plain, std::string(kWriter.data(), kWriter.size()) + "the message");
 }
 
 TEST(RunKeys, AreReadFromTextsAndFilesOfOneUser)
@@ -121,8 +203,8 @@ protected:
   SealedBus() : ServerFixture("sealed") {}
 };
 
-// A writer that says the same sealed message again, as whoever overheard it could.
-TEST_F(SealedBus, AMessageIsHeardOnce)
+// A writer that says sealed messages as they are, as whoever overheard them could.
+TEST_F(SealedBus, AMessageIsHeardOnceAndOfItsWriterAlone)
 {
   Bus bus(options_, "reader");
   Bus other(options_, "writer");
@@ -136,32 +218,53 @@ TEST_F(SealedBus, AMessageIsHeardOnce)
         refused.push_back(report.topic + ": " + report.what);
       });
   const Subscription<StatusMessage> in(bus, "sealed", [&](const StatusMessage&) { ++heard; });
-  dds::Topic* topic =
-      other.Internals().TopicOf("Status", [] { return dds::TypeSupport(new ColdType<StatusMessage>()); });
-  WriterEnd writer(other, topic, "sealed", WriterQos(QosOf("Status")));
-  ASSERT_TRUE(Eventually([&] { return writer.Matched() == 1 && in.Writers() == 1; }));
+  test::Stranger stranger(options_.domain, "sealed");
+  ASSERT_TRUE(stranger.Met("Status", 1));
   const StatusMessage status{1, 2, "engine 'ground'", "text"};
-  const auto write = [&](const RunKey& key, std::uint64_t number)
+  const std::string plain = test::PayloadOf(status);
+  Sealer sealer(*options_.key, "Status");
+  const auto sealed = [&](Sealer& by, const WriterId& writer)
   {
-    ColdCall<StatusMessage> call;
-    call.out = &status;
-    call.size = PayloadSize(status);
-    call.seal = [&](std::span<char> payload) { Seal(payload, key, "Status", IdOf(writer->guid()), number); };
-    EXPECT_TRUE(writer->write(&call));
+    std::string payload = plain.substr(0, 4) + std::string(kSealedFieldsAt - 4, '\0') + plain.substr(4);
+    payload += std::string(PaddingOf(plain.size()) + kCodeBytes, '\0');
+    by.Seal(payload, writer);
+    return payload;
   };
-  write(*options_.key, 5);
+  const WriterId writer = stranger.Writer("Status");
+  const std::string first = sealed(sealer, writer);
+  const std::string second = sealed(sealer, writer);
+  ASSERT_TRUE(stranger.Send("Status", {second}));
   ASSERT_TRUE(Eventually([&] { return heard == 1; }));
-  write(*options_.key, 5);
-  write(*options_.key, 4);
+  ASSERT_TRUE(stranger.Send("Status", {second, first}));
   ASSERT_TRUE(Eventually([&] { return bus.Dropped() == 2; }));
-  write(KeyOfByte(8), 6);
-  ASSERT_TRUE(Eventually([&] { return bus.Dropped() == 3; }));
-  write(*options_.key, 6);
+  Sealer of_others(KeyOfByte(8), "Status");
+  ASSERT_TRUE(stranger.Send("Status", {sealed(of_others, writer), plain, sealed(sealer, WriterId{1})}));
+  ASSERT_TRUE(Eventually([&] { return bus.Dropped() == 5; }));
+  ASSERT_TRUE(stranger.Send("Status", {sealed(sealer, writer)}));
   ASSERT_TRUE(Eventually([&] { return heard == 2; }));
-  EXPECT_EQ(bus.Dropped(), 3U);
+  EXPECT_EQ(bus.Dropped(), 5U);
   const std::lock_guard lock(mutex);
   // Of one sender on one topic the first is told.
   EXPECT_THAT(refused, testing::ElementsAre("Status: it is a repetition of a message that has come before"));
+}
+
+// What is read off the wire tells nothing.
+TEST_F(SealedBus, NobodyWithoutTheKeyReadsAMessage)
+{
+  Bus bus(options_, "writer");
+  BusOptions of_others = options_;
+  of_others.key = KeyOfByte(8);
+  Bus stranger(of_others, "stranger");
+  std::atomic<int> heard = 0;
+  const Subscription<StatusMessage> in(stranger, "sealed", [&](const StatusMessage&) { ++heard; });
+  Publisher<StatusMessage> out(bus, "sealed");
+  test::Listener listener(options_.domain, "sealed", "Status");
+  ASSERT_TRUE(Eventually([&] { return out.Readers() == 2; }));
+  out.Write({1, 2, "engine 'ground'", "a secret text"});
+  ASSERT_TRUE(Eventually([&] { return stranger.Dropped() == 1 && !listener.Heard().empty(); }));
+  EXPECT_EQ(heard, 0);
+  EXPECT_THAT(listener.Heard(), testing::Not(HasSubstr("secret")));
+  EXPECT_THAT(listener.Heard(), testing::Not(HasSubstr("ground")));
 }
 
 // Another process says that it is one of the run's, and goes.

@@ -160,6 +160,7 @@ TEST_F(ServerSessionTest, EachRequestIsPassedOnceAndAnsweredEachTime)
   const auto ask = [&](std::uint32_t number)
   {
     ControlRequestMessage request;
+    request.run = world_.run;
     request.client = "user";
     request.number = number;
     request.verb = "pause";

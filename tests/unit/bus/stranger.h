@@ -52,13 +52,7 @@ public:
   {
     dds::DataWriter* const writer = WriterOf(topic_name);
     if (writer == nullptr) return false;
-    const auto met = [&]
-    {
-      dds::PublicationMatchedStatus status;
-      writer->get_publication_matched_status(status);
-      return status.current_count >= readers;
-    };
-    if (!Eventually(met)) return false;
+    if (!Met(topic_name, readers)) return false;
     for (std::string payload : payloads) writer->write(&payload);
     const bool got = writer->wait_for_acknowledgments({static_cast<std::int32_t>(kGenerous.count()), 0}) ==
                      eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
@@ -67,12 +61,36 @@ public:
     return got;
   }
 
+  // Once `readers` know its writer on that topic.
+  bool Met(const std::string& topic_name, int readers)
+  {
+    dds::DataWriter* const writer = WriterOf(topic_name);
+    return writer != nullptr && Eventually(
+                                    [&]
+                                    {
+                                      dds::PublicationMatchedStatus status;
+                                      writer->get_publication_matched_status(status);
+                                      return status.current_count >= readers;
+                                    });
+  }
+
+  // The GUID of that writer.
+  WriterId Writer(const std::string& topic_name)
+  {
+    const auto& guid = WriterOf(topic_name)->guid();
+    WriterId id{};
+    std::copy(std::begin(guid.guidPrefix.value), std::end(guid.guidPrefix.value), id.begin());
+    std::copy(std::begin(guid.entityId.value), std::end(guid.entityId.value), id.begin() + 12);
+    return id;
+  }
+
 private:
   // It stays as long as the stranger: what a reader has acknowledged, but not looked at, goes with its writer.
   dds::DataWriter* WriterOf(const std::string& topic_name)
   {
     if (dds::DataWriter* const known = publisher_->lookup_datawriter(topic_name)) return known;
-    dds::TypeSupport type(new RawType("swarmanoid::wire::" + topic_name));
+    // Of shares: "View/1a2b3c4d".
+    dds::TypeSupport type(new RawType("swarmanoid::wire::" + topic_name.substr(0, topic_name.find('/'))));
     type.register_type(participant_);
     dds::Topic* topic = participant_->create_topic(topic_name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
     dds::DataWriterQos qos;

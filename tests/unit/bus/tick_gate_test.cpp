@@ -101,5 +101,20 @@ TEST(TickGate, AnIndependentSenderMayBeOneTickAhead)
   EXPECT_TRUE(gate.Arrived(0, 1));
 }
 
+TEST(TickGate, WhatCameATickEarlyHasToComeAgainFromWhoeverReplacesItsSender)
+{
+  TickGate gate({{"engine"}, {"host", true}});
+  EXPECT_TRUE(gate.MayLead(1) && !gate.MayLead(0));
+  gate.Arrived(1, 0);
+  gate.Arrived(1, 1);
+  gate.Withdraw("host", 1);
+  EXPECT_EQ(gate.Offer(1, 0), Verdict::kExpected);
+  EXPECT_EQ(gate.Offer(1, 1), Verdict::kExpected);
+  gate.Arrived(1, 0);
+  EXPECT_TRUE(gate.Arrived(0, 0));
+  gate.Next();
+  EXPECT_THAT(gate.Missing(), testing::ElementsAre("engine", "host"));
+}
+
 }  // namespace
 }  // namespace swarmanoid

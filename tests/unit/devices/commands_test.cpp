@@ -124,19 +124,6 @@ std::string NoNumber(const std::string& device)
          "' at tick 5; commands must be finite numbers";
 }
 
-TEST(Commands, WhoIsNotInTheArenaCommandsNothing)
-{
-  const Experiment experiment = TwoRobots(EntityKind::kFootbot, {{"footbot_wheels", "dummy_footbot_wheels"}});
-  const Assignment assignment = MakeAssignment(experiment, 1);
-  CSwarmanoidSpace space(experiment);
-  ControllerHost host(space, assignment, 0);
-  Commander::command = [](CCI_Robot& robot)
-  { robot.Actuator<CCI_FootBotWheelsActuator>("footbot_wheels").SetFootBotWheelsAngularVelocity(1, 2); };
-  EXPECT_THAT(host.Tick({}).values, testing::ElementsAre(1, 2, 1, 2));
-  space.SetAttribute(space.PresenceSlot(1), 0);
-  EXPECT_THAT(host.Tick({}).values, testing::ElementsAre(1, 2, 0, 0));
-}
-
 TEST(Commands, WhatIsNoNumberIsToldWithRobotDeviceAndTick)
 {
   const auto footbot = [](const char* type, const char* implementation, const auto& command) {

@@ -87,5 +87,15 @@ TEST(DeviceParameters, ThePolynomialIsNotUsedBeyondItsFit)
             "test.xml:2:74: <coefficients> '1, two' is not a list of numbers; write \"c0, c1, c2\"\n");
 }
 
+TEST(DeviceParameters, ADepthCameraSeesSomething)
+{
+  const auto camera = [](const std::string& parameters)
+  { return MistakesOf("depth_camera", "generic_depth_camera", parameters); };
+  EXPECT_EQ(camera("nearest=\"0.5\" range=\"0.6\""), "");
+  EXPECT_EQ(camera("nearest=\"5\""),
+            "test.xml:2:53: 'nearest' of <depth_camera> is 5 m and 'range' 5 m; nearest must "
+            "be less\n");
+}
+
 }  // namespace
 }  // namespace swarmanoid

@@ -104,10 +104,10 @@ TEST(FootbotWheels, SpeedControllerApproachesExponentiallyAndKeepsItsState)
   EXPECT_NEAR(wheels.values[1], -4 * (1 - std::exp(-1.0)), 1e-12);
 
   ByteWriter saved;
-  wheels.batch->SaveState(saved);
+  wheels.batch->SaveState(0, saved);
   TestActuator restored(world, "footbot_wheels", "pid_footbot_wheels", {0}, parameters);
   ByteReader reader(saved.Bytes());
-  restored.batch->LoadState(reader);
+  restored.batch->LoadState(0, reader);
   wheels.Commit();
   restored.Commit();
   EXPECT_EQ(wheels.values, restored.values);

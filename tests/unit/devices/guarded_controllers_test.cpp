@@ -10,6 +10,7 @@
 #include "common/control_interface/ci_wheels_actuator.h"
 #include "common/space/attributes.h"
 #include "controller_host/controller_host.h"
+#include "two_footbots.h"
 
 namespace swarmanoid
 {
@@ -65,31 +66,10 @@ void Spin(double ms)
 
 Experiment TwoRobots(OnFailure on_failure, double time_budget_ms)
 {
-  RegisterBuiltinDevices();
-  Experiment experiment;
-  experiment.arena_size = {10, 10, 2};
+  Experiment experiment = TwoFootbots("guarded_controllers_test");
   experiment.canonical_period = 10;
-  ControllerConfiguration& controller = experiment.controllers.emplace_back();
-  controller.tag = "guarded_controllers_test";
-  controller.id = "c";
-  controller.on_failure = on_failure;
-  controller.time_budget_ms = time_budget_ms;
-  for (const std::string type : {"wheels", "led_ring"})
-  {
-    DeviceConfiguration& device = controller.actuators.emplace_back();
-    device.type = type;
-    device.implementation = "generic_" + type;
-  }
-  experiment.engines.resize(1);
-  for (const std::uint32_t k : {0U, 1U})
-  {
-    EntityConfiguration& entity = experiment.entities.emplace_back();
-    entity.kind = EntityKind::kFootbot;
-    entity.id = k == 0 ? "a" : "b";
-    entity.controller = "c";
-    entity.movable = true;
-    experiment.engines[0].entities.push_back(k);
-  }
+  experiment.controllers[0].on_failure = on_failure;
+  experiment.controllers[0].time_budget_ms = time_budget_ms;
   return experiment;
 }
 

@@ -123,9 +123,9 @@ TEST(MotionSensors, GoOnFromASavedState)
       readings(first);
     }
     ByteWriter saved;
-    first.batch->SaveState(saved);
+    first.batch->SaveState(0, saved);
     ByteReader reader(saved.Bytes());
-    second.batch->LoadState(reader);
+    second.batch->LoadState(0, reader);
     world.Space().SetPose(0, {{5.9, 5.2, 0}, QuaternionFromYaw(-1)});
     EXPECT_EQ(readings(second), readings(first)) << type;
     EXPECT_TRUE(reader.AtEnd());

@@ -3,6 +3,7 @@
 #include "common/control_interface/ci_battery_sensor.h"
 #include "common/control_interface/ci_colour_blob_sensor.h"
 #include "common/control_interface/ci_contact_sensor.h"
+#include "common/control_interface/ci_depth_camera_sensor.h"
 #include "common/control_interface/ci_distance_scanner_sensor.h"
 #include "common/control_interface/ci_functions_channel.h"
 #include "common/control_interface/ci_ground_sensor.h"
@@ -44,6 +45,7 @@
 #include "common/control_interface/handbot/ci_handbot_head_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_joints_sensor.h"
 #include "common/control_interface/handbot/ci_handbot_leds_actuator.h"
+#include "common/control_interface/handbot/ci_handbot_proximity_sensor.h"
 #include "common/control_interface/handbot/ci_handbot_rope_actuator.h"
 #include "tests/unit/devices/test_world.h"
 
@@ -82,6 +84,7 @@ public:
     AddPrey(4.8727, 4.9537, 0.05, 0.1);  // touches the first footbot
     AddBlock({7, 5.5, 2.1}, {0.2, 1, 0.4});
     Add(EntityKind::kSoundSource, {6, 6, 0.3}, 0, {0, 0, 0}, false, -1);
+    AddBlock({4.83, 5.12, 0.1}, {0.06, 0.01, 0.02});  // beside the claws of the handbot's left hand
     for (std::uint32_t e = 0; e < Configuration().entities.size(); ++e)
       Configuration().entities[e].id = e < others ? "other" + std::to_string(e) : "e" + std::to_string(e - others);
     for (const std::uint32_t robot : {kFootbot, 1U, kHandbot, kEyebot})
@@ -120,6 +123,7 @@ std::vector<double> ReadingsOf(const CCI_Sensor& sensor)
   if (const auto* s = As<CCI_FootBotEncodersSensor>(sensor)) return Copied(s->GetAllSensorReadings());
   if (const auto* s = As<CCI_FootBotAccelerometerSensor>(sensor)) return Copied(s->GetAllSensorReadings());
   if (const auto* s = As<CCI_HandBotJointsSensor>(sensor)) return Copied(s->GetAllSensorReadings());
+  if (const auto* s = As<CCI_HandBotProximitySensor>(sensor)) return Copied(s->GetAllSensorReadings());
   if (const auto* s = As<CCI_FootBotGripperSensor>(sensor)) return {s->GetAperture()};
   if (const auto* s = As<CCI_FootBotTurretEncoderSensor>(sensor)) return {s->GetTurretAngle()};
   if (const auto* s = As<CCI_EyeBotAltitudeSensor>(sensor)) return {s->GetAltitude()};
@@ -142,6 +146,15 @@ std::vector<double> ReadingsOf(const CCI_Sensor& sensor)
   if (const auto* s = As<CCI_DistanceScannerSensor>(sensor))
   {
     for (const auto& reading : s->GetAllReadings()) all.push_back(reading.distance_m);
+    return all;
+  }
+  if (const auto* s = As<CCI_DepthCameraSensor>(sensor))
+  {
+    for (const auto& pixel : s->GetAllPixels())
+    {
+      all.push_back(std::min(pixel.depth_m, 99.0));
+      all.push_back(pixel.colour);
+    }
     return all;
   }
   if (const auto* s = As<CCI_TagReaderSensor>(sensor))

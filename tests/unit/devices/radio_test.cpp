@@ -153,11 +153,20 @@ TEST(Radio, GoesOnFromASavedState)
       });
   for (int tick = 1; tick < 7; ++tick) heard(whole);
   ByteWriter saved;
-  whole.Senders().batch->SaveState(saved);
-  whole.Receivers().batch->SaveState(saved);
+  whole.Receivers().batch->SaveCommon(saved);
+  for (std::size_t robot = 0; robot < whole.Space().Size(); ++robot)
+  {
+    whole.Senders().batch->SaveState(robot, saved);
+    whole.Receivers().batch->SaveState(robot, saved);
+  }
   ByteReader reader(saved.Bytes());
-  restored.Senders().batch->LoadState(reader);
-  restored.Receivers().batch->LoadState(reader);
+  restored.Receivers().batch->LoadCommon(reader);
+  for (std::size_t robot = 0; robot < whole.Space().Size(); ++robot)
+  {
+    restored.Senders().batch->LoadState(robot, reader);
+    restored.Receivers().batch->LoadState(robot, reader);
+  }
+  EXPECT_TRUE(reader.AtEnd());
   restored.Space().SetTick(whole.Space().GetTick());
   for (std::uint32_t slot = 0; slot < whole.Space().Attributes().size(); ++slot)
     restored.Space().SetAttribute(slot, whole.Space().Attributes()[slot]);

@@ -312,10 +312,10 @@ TEST(ValueDevices, WhatControllersSetSurvivesSaveAndRestore)
   TestActuator before(world, "footbot_leds", "generic_footbot_leds", {0});
   before.Of<CCI_FootBotLedsActuator>(0).SetColour(5, CCI_Colour::CYAN);
   ByteWriter saved;
-  before.batch->SaveState(saved);
+  before.batch->SaveState(0, saved);
   TestActuator after(world, "footbot_leds", "generic_footbot_leds", {0});
   ByteReader reader(saved.Bytes());
-  after.batch->LoadState(reader);
+  after.batch->LoadState(0, reader);
   before.Commit();
   after.Commit();
   EXPECT_EQ(before.changes.slots, after.changes.slots);

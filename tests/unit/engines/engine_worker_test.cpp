@@ -1,6 +1,7 @@
 // What an engine hands over is checked by its worker, and a mistake names the engine.
 #include "engine_worker/engine_worker.h"
 #include "common/space/attributes.h"
+#include "controller_host/device.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,6 +24,7 @@ class StillEngine : public CPhysicsEngine
 public:
   static inline std::function<void(EngineUpdate& update, std::span<double> sensors)> fault;
   static inline std::vector<std::uint32_t> moved;
+  static inline std::vector<double> commanded;
 
   static PluginDescription Description()
   {
@@ -36,8 +38,9 @@ public:
     layout_ = &setup.layout;
   }
   void AddEntity(const CSwarmanoidSpaceEntity&, EBinding) override {}
-  void Update(const EngineCommands&, EngineUpdate& update, std::span<double> sensors) override
+  void Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors) override
   {
+    commanded.assign(commands.values.begin(), commands.values.end());
     const std::size_t count = layout_->owned.size();
     for (std::size_t k = 0; k < count; ++k)
     {
@@ -142,6 +145,30 @@ TEST_F(Worker, AnEntityThatIsNotInTheArenaStaysWhereItWaits)
                   poses[7] = 1e300;
                 }),
             "");
+}
+
+TEST_F(Worker, WhoIsNotInTheArenaDoesNothing)
+{
+  RegisterBuiltinDevices();
+  Experiment experiment = ThreeFootbots(BeyondLimit::kHold);
+  ControllerConfiguration& controller = experiment.controllers.emplace_back();
+  controller.id = "driver";
+  DeviceConfiguration& wheels = controller.actuators.emplace_back();
+  wheels.type = "footbot_wheels";
+  wheels.implementation = "dummy_footbot_wheels";
+  for (EntityConfiguration& entity : experiment.entities) entity.controller = "driver";
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  CSwarmanoidSpace space(experiment);
+  EngineWorker worker(space, assignment, 0);
+  StillEngine::fault = {};
+  const ControlCommands commands{0, 0, {1, 2, 3, 4, 5, 6}, {}};
+  const ControlCommands* const here[] = {&commands};
+  worker.Tick({}, here);
+  EXPECT_THAT(StillEngine::commanded, ElementsAre(1, 2, 0, 0, 5, 6));
+  space.SetAttribute(space.PresenceSlot(1), 1);
+  space.SetAttribute(space.PresenceSlot(2), 0);
+  worker.Tick({}, here);
+  EXPECT_THAT(StillEngine::commanded, ElementsAre(1, 2, 3, 4, 0, 0));
 }
 
 TEST_F(Worker, BeyondTheLimitThePolicyDecides)

@@ -88,7 +88,7 @@ TEST(EntityKinds, OfARobotWithAllDefaultsHaveAControllerAndNothingElse)
   EXPECT_THAT(ParametersOf(*kind), ElementsAre("controller"));
   EXPECT_THAT(AttributesOf(*kind), ElementsAre());
   EXPECT_EQ(TableName(*kind), "plain_robot");
-  for (const char* device : {"wheels", "led_ring", "proximity", "ground", "footbot_wheels"})
+  for (const char* device : {"wheels", "led_ring", "directional_leds", "proximity", "ground", "footbot_wheels"})
     EXPECT_FALSE(Carries(*kind, device)) << device;
 }
 
@@ -104,7 +104,7 @@ TEST(EntityKinds, CarryTheDevicesOfTheirPartsAndThoseThatTheyName)
   row.attributes = {{"mood", 2, 1, "how it feels"}};
   RegisterEntityKind(row);
   const EntityKind kind = *KindOfTag("equipped_robot");
-  for (const char* device : {"wheels", "led_ring", "proximity", "ground", "compass"})
+  for (const char* device : {"wheels", "led_ring", "directional_leds", "proximity", "ground", "compass"})
     EXPECT_TRUE(Carries(kind, device)) << device;
   EXPECT_THAT(AttributesOf(kind), ElementsAre("led", "beacon", "mood"));
   EXPECT_EQ(DescriptionOf(kind).attributes[0].count, 3);
@@ -165,6 +165,13 @@ TEST(EntityKinds, ThatContradictThemselvesAreRefusedByName)
                     row.leds = LedLayout{PlacesOnCircle(4, 0.07, 0), 0, false};
                   }),
               HasSubstr("stands out of the body by more than 0.01 m"));
+  for (const std::vector<Vector3>& directions :
+       {std::vector<Vector3>{{1, 0, 0}}, std::vector<Vector3>{{1, 0, 0}, {0, 0, 0}}})
+    EXPECT_THAT(changed(
+                    [&](Row& row) {
+                      row.leds = LedLayout{PlacesOnCircle(2, 0.05, 0), 0, false, directions};
+                    }),
+                HasSubstr("directions of 2 LEDs; there must be one for each, finite and not 0"));
   EXPECT_THAT(changed([](Row& row) { row.beacon_height_m = 0.1; }), HasSubstr("a beacon is for robots with LEDs"));
   EXPECT_THAT(changed([](Row& row) { row.proximity.emplace(); }), HasSubstr("0 proximity sensors"));
   EXPECT_THAT(changed([](Row& row) { row.mesh = {{.paint = MeshPart::Paint::kLed}}; }), HasSubstr("there are 0"));

@@ -295,10 +295,16 @@ TEST_F(JournalTest, FaultsOfControllersAreFoundFromATickOn)
       for (std::size_t k = 0; k < faults.robots.size(); ++k)
         expected.push_back({tick, faults.robots[k], faults.kinds[k]});
     }
-    const KnownFaults found = journal.FaultsFrom(from);
+    const KnownFaults found = journal.FaultsFrom(from, 0);
     EXPECT_EQ(found.faults, expected);
     EXPECT_EQ(found.until, from == 300 ? 0 : 300);
     EXPECT_TRUE(!expected.empty() || from > 100);
+    // Where commands act a tick later, they are of the steps before.
+    const KnownFaults late = journal.FaultsFrom(from, 1);
+    for (KnownFault& fault : expected) --fault.tick;
+    std::erase_if(expected, [&](const KnownFault& fault) { return fault.tick + 1 == from; });
+    EXPECT_EQ(late.faults, expected);
+    EXPECT_EQ(late.until, from >= 299 ? 0 : 299);
   }
 }
 

@@ -96,6 +96,14 @@ TEST(Hosts, TakesEnginesFromOptions)
   EXPECT_THROW(hosts.AddEngine("=beta"), UsageError);
 }
 
+TEST(Hosts, KnowsAllMachinesThatWorkersMayGoTo)
+{
+  const Hosts hosts("hosts.txt", "engine ground = beta\ncontroller_host = here\nmachines = gamma alpha localhost\n");
+  EXPECT_THAT(hosts.Machines(), ElementsAre("alpha", "beta", "gamma"));
+  EXPECT_FALSE(Hosts("hosts.txt", "machines = alpha").AllHere());
+  EXPECT_TRUE(Hosts("hosts.txt", "machines = here").AllHere());
+}
+
 TEST(Hosts, ErrorsNamePlaceAndCure)
 {
   EXPECT_THAT(ErrorOf("\nengin ground = alpha"),

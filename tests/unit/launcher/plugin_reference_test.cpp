@@ -24,6 +24,7 @@ void LoadAllPlugins()
 {
   DescribeBuiltins();
   namespace fs = std::filesystem;
+  EXPECT_EQ(LoadPluginLibrary("ros2_controller", {SWARMANOID_BUILD_FOLDER "/lib/swarmanoid"}).error, "");
   for (const char* folder : {"controllers", "entities", "functions"})
     for (const auto& entry : fs::directory_iterator(fs::path(SWARMANOID_SOURCE_FOLDER) / "user" / folder))
     {

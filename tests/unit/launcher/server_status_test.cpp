@@ -25,6 +25,17 @@ TEST(ServerStatus, ReadsEachKindOfLine)
   EXPECT_EQ(stall.name, "controller_host 0");
   EXPECT_EQ(stall.seconds, 2.5);
   EXPECT_EQ(std::get<ServerError>(*ParseServerStatus("error all is lost")).text, "all is lost");
+  const ServerMove move{"alpha", "engine 'a to b'"};
+  EXPECT_EQ(std::get<ServerMove>(*ParseServerStatus(ServerStatusLine(move))), move);
+  EXPECT_FALSE(ParseServerStatus("move alpha"));
+  const ServerHosts hosts{"here beta here"};
+  EXPECT_EQ(std::get<ServerHosts>(*ParseServerStatus(ServerStatusLine(hosts))), hosts);
+  EXPECT_FALSE(ParseServerStatus("hosts"));
+  EXPECT_FALSE(ParseServerStatus("move"));
+  const ServerReset reset{9007199254740993, true, 0.5};
+  EXPECT_EQ(std::get<ServerReset>(*ParseServerStatus(ServerStatusLine(reset))), reset);
+  EXPECT_FALSE(ParseServerStatus("reset 7 yes 0.5"));
+  EXPECT_FALSE(ParseServerStatus("reset 7 1"));
   const auto finished = std::get<ServerFinished>(*ParseServerStatus("finished 500 10 0123456789abcdef 1.25 40"));
   EXPECT_EQ(finished.ticks, 500U);
   EXPECT_EQ(finished.entities, 10U);

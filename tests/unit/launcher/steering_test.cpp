@@ -99,6 +99,39 @@ protected:
   SingleProcessOptions options_;
 };
 
+TEST_F(SteeringTest, AResetEndsTheRunAndSaysHowItIsToBeginAgain)
+{
+  CScriptedRender::on_draw = [](const RenderSetup& setup)
+  {
+    if (setup.space.GetTick() != 6) return;
+    setup.control->SetSpeed(1000);
+    setup.control->Reset();
+  };
+  options_.may_reset = true;
+  options_.event_log = (folder_ / "events.csv").string();
+  const RunSummary summary = RunSingleProcess(*experiment_, options_);
+  EXPECT_EQ(summary.ticks, 7U);
+  ASSERT_TRUE(summary.reset);
+  EXPECT_EQ(summary.reset->seed, experiment_->seed);
+  EXPECT_FALSE(summary.reset->paused);
+  EXPECT_EQ(summary.reset->real_time_factor, 1000);
+  EXPECT_THAT(Read("events.csv"), HasSubstr("7,reset,1,"));
+}
+
+TEST_F(SteeringTest, AResetIsRefusedWhereNobodyWouldBeginAgain)
+{
+  std::string refused;
+  CScriptedRender::on_draw = [&](const RenderSetup& setup)
+  {
+    if (setup.space.GetTick() == 6) setup.control->Reset();
+    for (const RunNote& note : setup.monitor->Notes()) refused = note.text;
+  };
+  const RunSummary summary = RunSingleProcess(*experiment_, options_);
+  EXPECT_EQ(summary.ticks, 40U);
+  EXPECT_FALSE(summary.reset);
+  EXPECT_THAT(refused, HasSubstr("nobody would start this run again"));
+}
+
 TEST_F(SteeringTest, MovesAreWrittenDownAndRepeatedWithTheSameHashes)
 {
   const std::uint64_t undisturbed = RunSingleProcess(*experiment_, options_).hash;

@@ -523,6 +523,46 @@ TEST_F(SupervisorTest, OneThatDiesWhileTheRunStopsAndIsNotReplacedIsNamed)
   EXPECT_TRUE(outcome.reason.starts_with("controller_host 0 was killed by signal 6")) << outcome.reason;
 }
 
+TEST_F(SupervisorTest, StartsAllAgainToTryMoreControllerHosts)
+{
+  AddServer("i=0; echo state running; while true; do i=$((i+10)); echo tick $i 0 2.5; sleep 0.02; done");
+  ReplaceBy(Await("second host of incarnation 1") + kFinishing);
+  std::string second_at;
+  const auto add_host = [&](std::size_t host, const std::string& again)
+  {
+    Add("controller host " + std::to_string(host), "exec sleep 600");
+    ReplaceBy(again);
+    plans_.back().may_fail = [](std::uint32_t) { return false; };
+    plans_.back().place = [](const std::string&) {};
+  };
+  add_host(0, "exit 0");
+  plans_.back().host = "beta";
+  ProgressDisplay display(ProgressDisplay::Style::kQuiet, 2);
+  Supervisor supervisor(
+      spawner_, interrupts_, display, screen_write_.Get(), {}, times_, [this] { return Now(); }, 3);
+  std::vector<unsigned> tried;
+  supervisor.SetPlanAgain(
+      [&](unsigned hosts)
+      {
+        tried.push_back(hosts);
+        const std::vector<MemberPlan> first = plans_;
+        add_host(1, "");
+        plans_.back().place = [&](const std::string& host) { second_at = host.empty() ? "here" : host; };
+        plans_.back().replacement = [this](unsigned incarnation, double, const std::vector<ControllerDeath>&)
+        {
+          const std::string mark = "second host of incarnation " + std::to_string(incarnation) + "";
+          return ProcessCommand{"", {"/bin/sh", "-c", Tell(mark)}, {}, {}};
+        };
+        return std::exchange(plans_, first);
+      });
+  supervisor.SetHostChoice(HostChoice(2));
+  const ClusterOutcome outcome = supervisor.Run(plans_);
+  EXPECT_EQ(outcome.kind, ClusterOutcome::kFinished) << outcome.reason;
+  EXPECT_EQ(tried, std::vector<unsigned>{2});
+  EXPECT_EQ(second_at, "here");
+  for (const pid_t pid : supervisor.Pids()) EXPECT_TRUE(GroupIsGone(pid));
+}
+
 TEST_F(SupervisorTest, OneThatIsKilledOnceItHasLeftChangesNothing)
 {
   retries_ = 1;

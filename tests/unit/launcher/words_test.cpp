@@ -57,8 +57,34 @@ TEST(ControlRequest, ReadsNumbers)
   EXPECT_THAT(remove.numbers, ElementsAre());
 }
 
+TEST(ControlRequest, ReadsMovesOfWorkers)
+{
+  EXPECT_EQ(ParseControlRequest({"move-host", "1"}).entity, "1");
+  EXPECT_EQ(ParseControlRequest({"world", "move-host", "1", "beta"}).entity, "1 to beta");
+  EXPECT_EQ(ParseControlRequest({"move-engine", "ground", "beta"}).verb, "move-engine");
+  EXPECT_EQ(ParseControlRequest({"drain", "alpha"}).entity, "alpha");
+  EXPECT_THAT(ParseControlRequest({"hosts", "+2"}).numbers, ElementsAre(2));
+  EXPECT_THAT(ParseControlRequest({"world", "hosts", "-1", "beta"}).numbers, ElementsAre(-1));
+  EXPECT_EQ(ParseControlRequest({"world", "hosts", "-1", "beta"}).entity, "beta");
+}
+
+TEST(ControlRequest, ReadsTheSeedOfAReset)
+{
+  EXPECT_EQ(ParseControlRequest({"reset"}).entity, "");
+  EXPECT_EQ(ParseControlRequest({"world", "reset"}, 0).entity, "0");
+  EXPECT_EQ(ParseControlRequest({"reset"}, 9007199254740993).entity, "9007199254740993");
+  EXPECT_THROW(ParseControlRequest({"pause"}, 7), UsageError);
+}
+
 TEST(ControlRequest, ErrorsSayTheRightForm)
 {
+  EXPECT_THAT(ErrorOf({"reset", "7"}), HasSubstr("reset --seed N"));
+  EXPECT_THAT(ErrorOf({"move-host"}), HasSubstr("write move-host N"));
+  EXPECT_THAT(ErrorOf({"move-host", "ground"}), HasSubstr("is no number of a controller host"));
+  EXPECT_THAT(ErrorOf({"drain", "alpha", "beta"}), HasSubstr("write drain MACHINE"));
+  EXPECT_THAT(ErrorOf({"hosts"}), HasSubstr("write hosts +N or hosts -N"));
+  EXPECT_THAT(ErrorOf({"hosts", "2"}), HasSubstr("write hosts +N or hosts -N"));
+  EXPECT_THAT(ErrorOf({"hosts", "+0"}), HasSubstr("write hosts +N or hosts -N"));
   EXPECT_THAT(ErrorOf({"paus"}), HasSubstr("did you mean 'pause'?"));
   EXPECT_THAT(ErrorOf({"spede", "2"}), HasSubstr("there is no 'spede'"));
   EXPECT_THAT(ErrorOf({"spede", "2"}), HasSubstr("did you mean 'speed'?"));

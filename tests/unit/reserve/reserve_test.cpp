@@ -296,15 +296,17 @@ TEST_F(Reserve, FixedBlocksAndWallsCannotWait)
     std::string text = Text(Engine("dummy_engine"));
     text.insert(text.find("    <wall id"), "<reserve quantity=\"1\">" + element + "</reserve>");
     std::ofstream(file) << text;
+    std::string said = "none";
     try
     {
       ReadExperiment(file);
     }
     catch (const ConfigurationError& error)
     {
-      return std::string(error.what());
+      said = error.what();
     }
-    return std::string("none");
+    std::filesystem::remove(file);
+    return said;
   };
   EXPECT_THAT(mistake("<block id=\"stone\"><size>1, 1, 1</size></block>"),
               HasSubstr("the block 'stone' cannot come and go while it cannot move; give it movable=\"true\""));

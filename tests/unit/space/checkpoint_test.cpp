@@ -9,9 +9,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 
 #include "common/checkpoint/checkpoint_format.h"
+#include "common/checkpoint/host_state.h"
+#include "common/messages/assignment.h"
 #include "common/plugins/elf_file.h"
 #include "common/plugins/library.h"
 
@@ -144,7 +147,7 @@ TEST_F(CheckpointFile, OfAnotherBuildIsRefusedUnlessAskedFor)
   Checkpoint checkpoint = SmallCheckpoint();
   checkpoint.origin.libraries.front().build = "another";
   WriteCheckpoint(path_, checkpoint);
-  EXPECT_THAT(Refusal(), HasSubstr("it was taken with another build of Swarmanoid; go on with that build, start anew "
+  EXPECT_THAT(Refusal(), HasSubstr("it was taken with another build of Swarmanoid; go on with that one, start anew "
                                    "with this one, or let --any-build take it"));
   EXPECT_EQ(Refusal({1, true}), "");
 }
@@ -161,15 +164,76 @@ TEST_F(CheckpointFile, IsRestoredIntoALongerRunAndIntoNoOtherOne)
               testing::ThrowsMessage<std::runtime_error>(HasSubstr("it is of another experiment")));
 }
 
-TEST_F(CheckpointFile, OfMoreOrFewerControllerHostsIsRefused)
+// Of a robot each.
+Experiment ExperimentOf(std::size_t robots)
 {
-  WriteCheckpoint(path_, SmallCheckpoint());
-  EXPECT_THAT(Refusal({2, false}), HasSubstr("it was taken with --controller-hosts 1; restore it with as many"));
+  Experiment experiment = SmallExperiment();
+  experiment.controllers.resize(1);
+  experiment.controllers[0].id = "c";
+  for (std::size_t k = 0; k < robots; ++k)
+  {
+    EntityConfiguration& robot = experiment.entities.emplace_back();
+    robot.id = "fb_" + std::to_string(k);
+    robot.kind = EntityKind::kFootbot;
+    robot.controller = "c";
+  }
+  return experiment;
+}
+
+SavedPart HostPart(std::size_t host, const HostState& state)
+{
+  ByteWriter bytes;
+  Write(state, bytes);
+  return {HostName(host), bytes.Bytes()};
+}
+
+HostState StateOf(const Checkpoint& checkpoint, std::size_t host)
+{
+  HostState state;
+  checkpoint.LoadPart(HostName(host), [&](ByteReader& bytes) { state = ReadHostState(bytes); });
+  return state;
+}
+
+TEST_F(CheckpointFile, OfMoreOrFewerControllerHostsIsSharedOut)
+{
+  const Experiment experiment = ExperimentOf(5);
   Checkpoint checkpoint = SmallCheckpoint();
-  checkpoint.parts.push_back({"controller host 1", {'d'}});
+  checkpoint.origin = OriginOf(experiment);
+  checkpoint.parts[2] = HostPart(0, {{{{0, 2}, "radio"}}, {{0, "a"}, {1, "b"}}});
+  checkpoint.parts.push_back(HostPart(1, {{{{0, 2}, "radio"}}, {{2, "c"}, {3, "d"}, {4, "e"}}}));
   WriteCheckpoint(path_, checkpoint);
-  EXPECT_THAT(Refusal(), HasSubstr("it was taken with --controller-hosts 2; restore it with as many"));
-  EXPECT_EQ(Refusal({2, false}), "");
+  EXPECT_EQ(ReadCheckpoint(path_, experiment, {2, false}).parts[3].state, checkpoint.parts[3].state);
+
+  const Checkpoint one = ReadCheckpoint(path_, experiment, {1, false});
+  EXPECT_EQ(one.parts.size(), 3U);
+  EXPECT_EQ(StateOf(one, 0).robots.size(), 5U);
+  EXPECT_EQ(StateOf(one, 0).robots.at(3), "d");
+
+  const Checkpoint three = ReadCheckpoint(path_, experiment, {3, false});
+  EXPECT_EQ(three.parts.size(), 5U);
+  std::map<std::uint32_t, std::string> all;
+  for (std::size_t host = 0; host < 3; ++host)
+  {
+    const HostState state = StateOf(three, host);
+    EXPECT_EQ(state.sensors.at({0, 2}), "radio");
+    EXPECT_FALSE(state.robots.empty());
+    all.insert(state.robots.begin(), state.robots.end());
+  }
+  EXPECT_EQ(all, (std::map<std::uint32_t, std::string>{{0, "a"}, {1, "b"}, {2, "c"}, {3, "d"}, {4, "e"}}));
+}
+
+TEST_F(CheckpointFile, IsRefusedByOtherControllerHostsIfARobotIsLacking)
+{
+  const Experiment experiment = ExperimentOf(2);
+  Checkpoint checkpoint = SmallCheckpoint();
+  checkpoint.origin = OriginOf(experiment);
+  checkpoint.parts[2] = HostPart(0, {{}, {{0, "a"}}});
+  WriteCheckpoint(path_, checkpoint);
+  EXPECT_THAT(
+      [&] {
+        ReadCheckpoint(path_, experiment, {2, false});
+      },
+      testing::ThrowsMessage<std::runtime_error>(HasSubstr("the state of robot 'fb_1' is missing")));
 }
 
 TEST_F(CheckpointFile, PipesDevicesAndFoldersAreRefusedAtOnce)
@@ -190,7 +254,10 @@ TEST(LibraryBuilds, KnowSwarmanoidItselfAndNameWhatDiffers)
   ASSERT_EQ(here.size(), 1U);
   EXPECT_EQ(here[0].name, kSwarmanoidBuild);
   EXPECT_EQ(DifferenceOfBuilds({{"libwave.so", "1"}}, {{"libwave.so", "1"}}), "");
-  EXPECT_EQ(DifferenceOfBuilds({{"libwave.so", "1"}}, {{"libwave.so", "2"}}), "the library 'libwave.so'");
+  EXPECT_EQ(DifferenceOfBuilds({{"libwave.so", "1"}}, {{"libwave.so", "2"}}),
+            "another build of the library 'libwave.so'");
+  EXPECT_EQ(DifferenceOfBuilds({{"terrain/hills.png", "1"}}, {{"terrain/hills.png", "2"}}),
+            "another content of the file 'terrain/hills.png'");
   EXPECT_EQ(DifferenceOfBuilds({{"libwave.so", ""}}, {{"libwave.so", "2"}}), "") << "it was elsewhere";
 }
 

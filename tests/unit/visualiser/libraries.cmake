@@ -1,11 +1,17 @@
 find_package(nlohmann_json REQUIRED)
 target_link_libraries(unit_visualiser PRIVATE scene interaction nlohmann_json::nlohmann_json)
-# Where the GL renderer is not part of the build, its tests are not either.
-if(TARGET offscreen)
-  target_link_libraries(unit_visualiser PRIVATE offscreen)
-  add_dependencies(unit_visualiser image_render)
-else()
+
+# What is drawn by `library` and `renderer`; where these are not part of the build, the tests in files that match `pattern` are
+# not either.
+function(swarmanoid_renderer_tests library renderer pattern)
+  if(TARGET ${library})
+    target_link_libraries(unit_visualiser PRIVATE ${library})
+    add_dependencies(unit_visualiser ${renderer})
+    return()
+  endif()
   get_target_property(SOURCES unit_visualiser SOURCES)
-  list(FILTER SOURCES EXCLUDE REGEX "(gl_scene|image_render)_test.cpp$")
+  list(FILTER SOURCES EXCLUDE REGEX "${pattern}")
   set_target_properties(unit_visualiser PROPERTIES SOURCES "${SOURCES}")
-endif()
+endfunction()
+swarmanoid_renderer_tests(offscreen image_render "(gl_scene|image_render)_test.cpp$")
+swarmanoid_renderer_tests(figure figure_render "figure_render_test.cpp$")

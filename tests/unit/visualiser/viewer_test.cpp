@@ -24,6 +24,7 @@ public:
   void Pause() override { asked.push_back("pause"); }
   void Resume() override { asked.push_back("resume"); }
   void Step(unsigned ticks) override { asked.push_back("step " + std::to_string(ticks)); }
+  void Reset() override { asked.emplace_back("reset"); }
   void SetSpeed(double factor) override { asked.push_back(fmt::format("speed {:g}", factor)); }
   void MoveEntity(const std::string& id, const Pose& pose) override
   {

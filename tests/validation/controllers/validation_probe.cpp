@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "ci_controller.h"
+#include "ci_directional_leds_actuator.h"
 #include "ci_radio.h"
 #include "ci_range_and_bearing.h"
 #include "eyebot/ci_eyebot_laser_actuator.h"
@@ -14,8 +15,11 @@
 #include "footbot/ci_footbot_beacon_actuator.h"
 #include "footbot/ci_footbot_gripper_actuator.h"
 #include "footbot/ci_footbot_leds_actuator.h"
+#include "footbot/ci_footbot_preferential_direction_actuator.h"
 #include "footbot/ci_footbot_turret_actuator.h"
 #include "footbot/ci_footbot_wheels_actuator.h"
+#include "handbot/ci_handbot_arms_actuator.h"
+#include "handbot/ci_handbot_head_actuator.h"
 #include "handbot/ci_handbot_rope_actuator.h"
 
 using namespace swarmanoid;
@@ -90,6 +94,17 @@ private:
       robot.Actuator<CCI_FootBotTurretActuator>("footbot_turret").SetTurretAngularVelocity(values[0]);
     else if (command.device == "footbot_leds")
       robot.Actuator<CCI_FootBotLedsActuator>("footbot_leds").SetAllColours(colour);
+    else if (command.device == "directional_leds")
+      robot.Actuator<CCI_DirectionalLedsActuator>("directional_leds")
+          .SetColour(static_cast<unsigned>(values[1]), colour);
+    else if (command.device == "footbot_preferential_direction")
+      robot.Actuator<CCI_FootBotPreferentialDirectionActuator>("footbot_preferential_direction")
+          .SetDirection(values[1], colour);
+    else if (command.device == "handbot_head")
+      robot.Actuator<CCI_HandBotHeadActuator>("handbot_head").SetHeadAngularVelocity(values[0]);
+    else if (command.device == "handbot_arms")
+      robot.Actuator<CCI_HandBotArmsActuator>("handbot_arms")
+          .SetAllActuatorOutputs({values[0], values[1], values[2], values[3]});
     else if (command.device == "footbot_beacon")
       robot.Actuator<CCI_FootBotBeaconActuator>("footbot_beacon").SetColour(colour);
     else if (command.device == "eyebot_propellers")

@@ -1,11 +1,14 @@
 #include "eyebot_guide.h"
 
+#include <algorithm>
 #include <istream>
 #include <ostream>
 
 #include "bt_numbers.h"
+#include "common/math/elementary.h"
 #include "prey_retrieval_colours.h"
 
+using namespace swarmanoid;
 using namespace prey_retrieval;
 
 namespace
@@ -18,6 +21,9 @@ constexpr double kBesidePrey = 0.2;     // rad of tilt: the spot falls beside th
 constexpr double kFootbotNear = 0.5;    // m: a footbot farther off is waited for
 constexpr double kFootbotClose = 0.25;  // m
 constexpr double kWaitFor = 5;          // s: then it is fetched, for something hides the spot from it
+constexpr double kSearchFor = 200;      // s of search: then it goes back to where the nest was
+constexpr double kHeldWithin = 0.35;    // m from the footbot that holds a prey
+constexpr double kAtPlace = 0.3;        // m: there
 constexpr double kPatience = 60;        // s without the footbot before the prey is looked for again
 
 }  // namespace
@@ -27,8 +33,7 @@ CBTEyebotGuide::CBTEyebotGuide()
       search_(kSearchSpeed),
       slow_search_(kLeadingSpeed, 10),
       go_to_prey_(0, kSearchSpeed, kAtPrey),
-      go_to_nest_(kNest, kLeadingSpeed, 0.02),
-      go_to_footbot_(kGripping, kLeadingSpeed)
+      go_to_nest_(kNest, kLeadingSpeed, 0.02)
 {
   State<std::string>* search = initializeState(this, SEARCH_FOR_PREY, "[SEARCH FOR PREY]");
   State<std::string>* go = initializeState(this, GO_TO_PREY, "[GO TO PREY]");
@@ -45,14 +50,20 @@ CBTEyebotGuide::CBTEyebotGuide()
 
 void CBTEyebotGuide::Step(CCI_EyeBotState& cRobotState)
 {
+  Fly(cRobotState);
+  flown_ = cRobotState.GetVelocity();
+}
+
+void CBTEyebotGuide::Fly(CCI_EyeBotState& cRobotState)
+{
   if (prey_colour_ == 0)
   {
     prey_colour_ = kPreys[cRobotState.GetRandom().Below(2)];
     go_to_prey_.SetColour(prey_colour_);
   }
-  since_footbot_s_ =
-      cRobotState.GetNearestColourBlob(kGripping) != nullptr ? 0 : since_footbot_s_ + cRobotState.GetTickSeconds();
-  input(Transition(cRobotState));
+  since_footbot_s_ = Carrier(cRobotState) != nullptr ? 0 : since_footbot_s_ + cRobotState.GetTickSeconds();
+  RememberNest(cRobotState);
+  if (input(Transition(cRobotState))) searched_s_ = 0;
 
   if (GetStateID() == SEARCH_FOR_PREY)
     cRobotState.SwitchLaserOff();
@@ -90,9 +101,31 @@ std::string CBTEyebotGuide::Transition(const CCI_EyeBotState& cRobotState) const
   }
 }
 
+const CCI_ColourBlob* CBTEyebotGuide::Carrier(const CCI_EyeBotState& cRobotState) const
+{
+  const auto place = [](const CCI_ColourBlob& blob)
+  {
+    const SinCos direction = SinCosOf(blob.angle_rad);
+    return Vector2(blob.distance_m * direction.cos, blob.distance_m * direction.sin);
+  };
+  // Another footbot may have gripped the other prey.
+  const CCI_ColourBlob* prey = cRobotState.GetNearestColourBlob(prey_colour_);
+  if (prey == nullptr) return cRobotState.GetNearestColourBlob(kGripping);
+  const CCI_ColourBlob* carrier = nullptr;
+  double nearest = kHeldWithin * kHeldWithin;
+  for (const CCI_ColourBlob& blob : cRobotState.GetColourBlobs())
+  {
+    const double square = (place(blob) - place(*prey)).squaredNorm();
+    if (CCI_Colour::Nearest(blob.colour) != kGripping || square > nearest) continue;
+    nearest = square;
+    carrier = &blob;
+  }
+  return carrier;
+}
+
 void CBTEyebotGuide::SearchForNest(CCI_EyeBotState& cRobotState)
 {
-  const CCI_ColourBlob* footbot = cRobotState.GetNearestColourBlob(kGripping);
+  const CCI_ColourBlob* footbot = Carrier(cRobotState);
   if (footbot == nullptr) return;  // it comes
   if (footbot->distance_m <= (fetching_ ? kFootbotClose : kFootbotNear))
   {
@@ -103,11 +136,45 @@ void CBTEyebotGuide::SearchForNest(CCI_EyeBotState& cRobotState)
   {
     waited_s_ += cRobotState.GetTickSeconds();
     fetching_ = waited_s_ > kWaitFor;
-    if (fetching_) go_to_footbot_.Step(cRobotState);
+    if (!fetching_) return;
+    const SinCos direction = SinCosOf(footbot->angle_rad);
+    const double speed = std::min(kLeadingSpeed, footbot->distance_m);
+    return cRobotState.SetVelocity(speed * direction.cos, speed * direction.sin, 0, 0);
+  }
+  searched_s_ += cRobotState.GetTickSeconds();
+  if (searched_s_ > kSearchFor && knows_nest_)
+    GoBack(cRobotState);
+  else
+    slow_search_.Step(cRobotState);
+  go_to_nest_.Step(cRobotState);
+}
+
+// Walls that stop it make the memory wrong: it believes to have flown farther.
+void CBTEyebotGuide::RememberNest(const CCI_EyeBotState& cRobotState)
+{
+  if (const CCI_ColourBlob* nest = cRobotState.GetNearestColourBlob(kNest))
+  {
+    const SinCos direction = SinCosOf(nest->angle_rad);
+    knows_nest_ = true;
+    nest_x_ = nest->distance_m * direction.cos;
+    nest_y_ = nest->distance_m * direction.sin;
     return;
   }
-  slow_search_.Step(cRobotState);
-  go_to_nest_.Step(cRobotState);
+  if (!knows_nest_) return;
+  const auto& [forward, left, up, yaw_rate] = flown_;
+  const double tick = cRobotState.GetTickSeconds();
+  const SinCos turn = SinCosOf(-yaw_rate * tick);
+  const double x = nest_x_ - forward * tick;
+  const double y = nest_y_ - left * tick;
+  nest_x_ = turn.cos * x - turn.sin * y;
+  nest_y_ = turn.sin * x + turn.cos * y;
+  if (nest_x_ * nest_x_ + nest_y_ * nest_y_ < kAtPlace * kAtPlace) knows_nest_ = false;
+}
+
+void CBTEyebotGuide::GoBack(CCI_EyeBotState& cRobotState)
+{
+  const SinCos direction = SinCosOf(Atan2(nest_y_, nest_x_));
+  cRobotState.SetVelocity(kLeadingSpeed * direction.cos, kLeadingSpeed * direction.sin, 0, 0);
 }
 
 void CBTEyebotGuide::SaveState(std::ostream& state) const
@@ -115,7 +182,11 @@ void CBTEyebotGuide::SaveState(std::ostream& state) const
   state << GetStateID() << ' ' << prey_colour_ << ' ';
   BTSaveNumber(state, since_footbot_s_);
   BTSaveNumber(state, waited_s_);
-  state << fetching_ << ' ';
+  BTSaveNumber(state, searched_s_);
+  BTSaveNumber(state, nest_x_);
+  BTSaveNumber(state, nest_y_);
+  for (const double speed : flown_) BTSaveNumber(state, speed);
+  state << fetching_ << ' ' << knows_nest_ << ' ';
   search_.SaveState(state);
   slow_search_.SaveState(state);
 }
@@ -128,7 +199,11 @@ void CBTEyebotGuide::LoadState(std::istream& state)
   go_to_prey_.SetColour(prey_colour_);
   since_footbot_s_ = BTLoadNumber(state);
   waited_s_ = BTLoadNumber(state);
-  state >> fetching_;
+  searched_s_ = BTLoadNumber(state);
+  nest_x_ = BTLoadNumber(state);
+  nest_y_ = BTLoadNumber(state);
+  for (double& speed : flown_) speed = BTLoadNumber(state);
+  state >> fetching_ >> knows_nest_;
   search_.LoadState(state);
   slow_search_.LoadState(state);
 }

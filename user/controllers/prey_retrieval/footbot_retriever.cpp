@@ -1,5 +1,6 @@
 #include "footbot_retriever.h"
 
+#include <cmath>
 #include <istream>
 #include <ostream>
 
@@ -21,6 +22,9 @@ constexpr double kCarryingSpeed = 0.15;  // m/s
 constexpr double kAtLaser = 0.45;        // m from the spot at which the prey beside it is looked for
 constexpr double kRepulsion = 3;         // weight of obstacles against the way to the laser
 constexpr double kGripPatience = 25;     // s of attempts before the laser is looked for again
+constexpr double kAside = 0.4;           // rad: a spot farther aside asks for a turn
+constexpr double kHeldBack = 4;          // s of turning, several times what a turn takes: a wall holds the prey
+constexpr double kBackFor = 1.5;         // s
 constexpr double kGiveWay = 0.02;        // probability in each tick
 constexpr double kAvoidFor = 6;          // s after a carrying footbot was last seen
 
@@ -69,7 +73,7 @@ void CBTFootbotRetriever::Step(CCI_FootBotState& cRobotState)
   in_state_s_ += tick;
   // One's own LEDs are not in view.
   since_signal_s_ = cRobotState.GetNearestColourBlob(kGripping) != nullptr ? 0 : since_signal_s_ + tick;
-  if (input(Transition(cRobotState))) in_state_s_ = 0;
+  if (input(Transition(cRobotState))) in_state_s_ = held_back_s_ = backing_s_ = 0;
 
   cRobotState.SetAllLedColours(GetStateID() == GO_TO_NEST ? kGripping : CCI_Colour::BLACK);
   switch (GetStateID())
@@ -149,6 +153,19 @@ void CBTFootbotRetriever::GoToNest(CCI_FootBotState& cRobotState)
 {
   cRobotState.SetGripper(1);
   follow_laser_.Step(cRobotState);
+  // A prey that stands against a wall cannot swing past it: it is pulled off first.
+  const double tick = cRobotState.GetTickSeconds();
+  const CCI_ColourBlob* laser = cRobotState.GetNearestColourBlob(kLaser);
+  const bool aside = laser != nullptr && !follow_laser_.HasArrived() && std::abs(laser->angle_rad) > kAside;
+  held_back_s_ = aside ? held_back_s_ + tick : 0;
+  if (held_back_s_ > kHeldBack)
+  {
+    held_back_s_ = 0;
+    backing_s_ = kBackFor;
+  }
+  if (backing_s_ <= 0) return;
+  backing_s_ -= tick;
+  cRobotState.SetFootBotWheelsLinearVelocity(-kCarryingSpeed, -kCarryingSpeed);
 }
 
 void CBTFootbotRetriever::AvoidGrippingFootbot(CCI_FootBotState& cRobotState)
@@ -166,6 +183,8 @@ void CBTFootbotRetriever::SaveState(std::ostream& state) const
 {
   state << GetStateID() << ' ';
   BTSaveNumber(state, in_state_s_);
+  BTSaveNumber(state, held_back_s_);
+  BTSaveNumber(state, backing_s_);
   BTSaveNumber(state, since_signal_s_);
   wander_.SaveState(state);
 }
@@ -176,6 +195,8 @@ void CBTFootbotRetriever::LoadState(std::istream& state)
   state >> id;
   RestoreState(id);
   in_state_s_ = BTLoadNumber(state);
+  held_back_s_ = BTLoadNumber(state);
+  backing_s_ = BTLoadNumber(state);
   since_signal_s_ = BTLoadNumber(state);
   wander_.LoadState(state);
 }

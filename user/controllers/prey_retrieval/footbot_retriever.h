@@ -43,5 +43,7 @@ private:
   CBTFootbotGrip grip_;
   CBTFootbotFollowLaser follow_laser_;
   double in_state_s_ = 0;        // since the last transition
+  double held_back_s_ = 0;       // that it has tried in vain to turn to the laser with its prey
+  double backing_s_ = 0;         // for which it still drives back
   double since_signal_s_ = 1e9;  // since another one with blue LEDs was seen
 };

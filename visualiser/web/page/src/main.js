@@ -1,11 +1,13 @@
 // The page of web_render: connects to the server, keeps the state, and passes it to the picture and the panels.
 import { Connection } from "./connection.js";
-import { FrameDecoder } from "./protocol.js";
+import { Past } from "./past.js";
+import { FrameDecoder, isPast } from "./protocol.js";
 import { EntityList } from "./ui/list.js";
 import { Help } from "./ui/help.js";
 import { Inspector } from "./ui/inspector.js";
 import { LogPanel } from "./ui/log.js";
 import { Processes } from "./ui/processes.js";
+import { Timeline } from "./ui/timeline.js";
 import { Toolbar } from "./ui/toolbar.js";
 import { Tools } from "./ui/tools.js";
 import { h, saveBlob, setText } from "./ui/dom.js";
@@ -21,13 +23,14 @@ import { World } from "./world.js";
 
 const HIDDEN_PERIOD_MS = 1000; // between frames while nobody sees the page
 const NEWS_MS = 5000;
+const PACE_OF_PAST = 1; // times real time
 const VIEWPOINTS = 10;
 const asked = new URLSearchParams(location.search).get("quality");
 let token = takeToken();
 const linked = readLink(location.hash.slice(1));
 const quality = [asked, linked.quality].find((name) => choices.includes(name)) ?? "auto";
 
-const state = { world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0, newsUntil: 0, linkWaits: true, challenge: null, viewpoints: [] };
+const state = { world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0, newsUntil: 0, linkWaits: true, challenge: null, viewpoints: [], watched: [], run: null, live: null };
 
 const toolbar = new Toolbar({ command, toggle, help: () => help.toggle(), top: () => frameArena("top"), fit: () => frameArena(), quality: (name) => picture.setQuality(name), plan: () => picture.switchView(), list: () => togglePanel(), unlock });
 const list = new EntityList({ select, approach });
@@ -39,8 +42,10 @@ const banner = h("div.banner", { role: "status" });
 const main = h("main", {}, banner);
 list.element.append(processes.element);
 const app = document.getElementById("app");
-app.append(toolbar.element, list.element, main, inspector.element, log.element, help.element);
-const picture = new Picture(main, quality, { select, selectAll, approach, move, mayMove: () => state.control === "granted", trouble, send: (request) => connection.send(request) });
+const timeline = new Timeline({ look: (tick) => lookBack(tick), play: () => playPast(), live: () => goLive(), branch: () => branchHere() });
+const past = new Past({ ask: (tick) => connection.send({ do: "look_back", tick, entities: state.watched }), ended: () => showPresent() });
+app.append(toolbar.element, list.element, main, timeline.element, inspector.element, log.element, help.element);
+const picture = new Picture(main, quality, { select, selectAll, approach, move, mayMove: () => state.control === "granted" && !past.isOn, trouble, send: (request) => connection.send(request) });
 const planNote = h("button.plan-note", { title: "Show it in three dimensions  (V)", onclick: () => picture.switchView() }, "Plan view · 3D: V");
 main.append(planNote);
 const legend = new Legend();
@@ -100,8 +105,11 @@ const connection = new Connection({
   onFrame(buffer) {
     const frame = decoder.decode(buffer);
     if (!frame || !state.world) return;
-    if (state.frame && frame.tick < state.frame.tick) sayItBegan();
+    if (isPast(buffer)) return showPast(frame);
+    if (state.live && frame.tick < state.live.tick) sayItBegan();
     state.frames++;
+    state.live = frame;
+    if (past.isOn) return;
     state.frame = frame;
     picture.addFrame(frame, performance.now());
     inspector.addFrame(frame);
@@ -138,15 +146,31 @@ const receive = {
     select(again >= 0 ? again : null);
   },
   status(message) {
+    if (state.status?.phase === "finished" && message.phase !== "finished") sayItBegan();
     state.status = message;
     processes.update(message);
     showState();
   },
-  colours: (message) => picture.paint(message),
-  watched: (message) => inspector.addDetails(message),
+  colours(message) {
+    state.colours = message;
+    if (!past.isOn) picture.paint(message);
+  },
+  watched: (message) => past.isOn || inspector.addDetails(message),
+  timeline(message) {
+    state.run = message.run;
+    timeline.set(message, state.world?.tickSeconds);
+  },
+  past(message) {
+    if (!past.isOn) return;
+    picture.paint(message.colours);
+    inspector.addDetails(message);
+  },
   marks: (message) => picture.marks.receive(message),
   log: (message) => log.add(message),
-  reply: ({ text }) => log.add({ tick: state.frame?.tick ?? null, source: "server", level: "warning", text }),
+  reply({ text }) {
+    log.add({ tick: state.frame?.tick ?? null, source: "server", level: "warning", text });
+    if (past.isOn) past.answered(performance.now());
+  },
 };
 
 function showState() {
@@ -154,21 +178,118 @@ function showState() {
   const ended = state.status?.phase === "finished";
   let text = "";
   if (!state.connected && ended) text = "The run has ended; this is its last state. Start the experiment again, and this page goes on.";
+  else if (state.connected && past.isOn) text = "Looking back. Live, or Q, goes to the present.";
   else if (!state.connected) text = state.world ? "The connection is lost. Trying again; this is the last state." : "Waiting for the server.";
   else if (ended) text = `The run has ended${state.status.ended ? `: ${state.status.ended}` : ""}. This is its last state.`;
   else if (state.status?.phase === "waiting") text = "The run has not begun: it waits for its processes.";
-  else if (performance.now() < state.newsUntil) text = "The experiment was started again.";
+  else if (newsLasts()) text = "The experiment was started again.";
   setText(banner, text);
   banner.hidden = text === "";
   banner.dataset.kind = state.connected || ended ? "calm" : "trouble";
 }
 
-// A tick before the last one: a new run of the same experiment at the same address.
+// A tick before the last one, or going on after the end: a new run of the same experiment at the same address.
 function sayItBegan() {
   log.add({ tick: 0, source: "page", level: "info", text: "the experiment was started again" });
-  state.newsUntil = performance.now() + NEWS_MS;
-  setTimeout(showState, NEWS_MS + 10);
+  state.status = null;
+  state.live = null;
+  state.newsUntil = Infinity;
   showState();
+}
+
+// The time of the news begins when nothing more urgent stands in its place.
+function newsLasts() {
+  if (state.newsUntil === Infinity) {
+    state.newsUntil = performance.now() + NEWS_MS;
+    setTimeout(showState, NEWS_MS + 10);
+  }
+  return performance.now() < state.newsUntil;
+}
+
+// ---- the past ----
+
+function lookBack(tick, playing = false) {
+  if (!state.world || timeline.element.hidden) return;
+  const begins = !past.isOn;
+  const within = Math.max(timeline.first, Math.min(timeline.last, tick));
+  past[playing ? "want" : "look"](within, performance.now());
+  timeline.showPlaying(past.playing !== null);
+  timeline.show(within);
+  if (!begins) return;
+  inspector.lookBack(true);
+  showState();
+}
+
+// A state of the past has come.
+function showPast(frame) {
+  past.answered(performance.now());
+  if (!past.isOn) return;
+  state.frame = frame;
+  picture.showFrame(frame, performance.now());
+  inspector.addFrame(frame);
+  toolbar.setFrame(frame);
+  timeline.show(past.playing ? frame.tick : past.wanted);
+}
+
+function playPast() {
+  if (!past.isOn) return lookBack(timeline.first);
+  past.play(past.playing === null, performance.now());
+  timeline.showPlaying(past.playing !== null);
+}
+
+function goLive() {
+  if (!past.isOn) return;
+  past.live();
+  showPresent();
+}
+
+function showPresent() {
+  timeline.showPlaying(false);
+  timeline.show(null);
+  inspector.lookBack(false);
+  if (state.colours) picture.paint(state.colours);
+  if (state.live) {
+    state.frame = state.live;
+    picture.showFrame(state.live, performance.now());
+    toolbar.setFrame(state.live);
+  }
+  showState();
+}
+
+function branchHere() {
+  const tick = past.wanted ?? state.frame?.tick ?? timeline.last;
+  const found = runAt(tick);
+  if (found === null) return;
+  state.branch = `swarmanoid run --branch ${found}`;
+  copyCommand(`a new run from tick ${tick}`, state.branch);
+}
+
+// What the journal does not have: the inside of the selected robot.
+function inspectHere() {
+  const found = past.isOn ? runAt(past.wanted) : null;
+  const robot = state.selected;
+  if (found === null || robot === null || state.world.controllerOf[robot] < 0) return tell("look back and select a robot with a controller first");
+  state.inspect = `swarmanoid inspect ${found} ${shellWord(state.world.ids[robot])}`;
+  copyCommand(`what ${state.world.ids[robot]} sensed at tick ${past.wanted}`, state.inspect);
+}
+
+const shellWord = (text) => (/^[\w./@+-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
+const runAt = (tick) => (timeline.element.hidden || state.run === null ? null : `${shellWord(state.run)}@${tick}`);
+
+async function copyCommand(what, text) {
+  tell(`${what}: ${text}`);
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    prompt(what, text); // the browser lets no page write to the clipboard
+  }
+}
+
+const stepPast = (ticks) => lookBack((past.wanted ?? timeline.last) + ticks);
+
+function jumpToEvent(forward) {
+  const tick = timeline.neighbour(past.wanted ?? timeline.last + 1, forward);
+  if (tick !== null) lookBack(tick);
 }
 
 // ---- who may steer ----
@@ -238,7 +359,9 @@ function follow(entity) {
 }
 
 function watch(entities) {
+  state.watched = entities;
   connection?.send({ do: "watch", entities });
+  if (past.isOn) past.want(past.wanted, performance.now());
 }
 
 // Each: {entity, place: [x, y, z], yaw}
@@ -423,6 +546,14 @@ const keys = {
   w: () => inspector.toggleSwarm(),
   y: () => shareLink(),
   P: () => film.toggle(),
+  ",": () => stepPast(-1),
+  ".": () => stepPast(1),
+  "<": () => jumpToEvent(false),
+  ">": () => jumpToEvent(true),
+  z: () => playPast(),
+  q: () => goLive(),
+  B: () => branchHere(),
+  I: () => inspectHere(),
   Delete: () => remove(picture.chosen),
   ArrowLeft: () => picture.step(-1, 0),
   ArrowRight: () => picture.step(1, 0),
@@ -469,6 +600,7 @@ function drawNext(now) {
     if (state.world.beginsAtViewpoint && !linked.view) picture.stand(Object.values(state.viewpoints)[0]);
     openLink(linked);
   }
+  past.advance(now, timeline.last, PACE_OF_PAST / (state.world?.tickSeconds ?? 1));
   if (picture.draw(now)) {
     if (state.drawn++ === 0) state.firstPicture = performance.now();
     film.draw();
@@ -496,6 +628,20 @@ function inPage({ x, y }) {
 
 // For tests, and for the console of the curious.
 window.swarmanoid = {
+  get past() {
+    return past.isOn ? { tick: past.wanted, shown: state.frame?.tick, playing: past.playing !== null } : null;
+  },
+  get timeline() {
+    return timeline.element.hidden ? null : { first: timeline.first, last: timeline.last, events: timeline.events.map(({ tick, what }) => [tick, what]) };
+  },
+  get branch() {
+    return state.branch ?? null;
+  },
+  get inspect() {
+    return state.inspect ?? null;
+  },
+  lookBack,
+  goLive,
   get connected() {
     return state.connected;
   },

@@ -1,9 +1,12 @@
 // The binary states of the server (docs/web_render.md), read in place: little-endian, structure of arrays.
 
 const KEY_MAGIC = 0x314d5753; // all of the state
+const PAST_MAGIC = 0x334d5753; // all of a state that was asked for
 const CHANGE_MAGIC = 0x324d5753; // what has changed since a key
 const HEADER_BYTES = 40;
 const STEP_M = 1e-4;
+
+export const isPast = (buffer) => buffer.byteLength >= HEADER_BYTES && new DataView(buffer).getUint32(0, true) === PAST_MAGIC;
 
 export const Flag = { lit: 1, unevenRing: 2, gripping: 4, laserOn: 8, beaconLit: 16, attached: 32, absent: 64 };
 export const RING_LEDS = 16;
@@ -14,10 +17,11 @@ export class FrameDecoder {
   decode(buffer) {
     const view = new DataView(buffer);
     const magic = buffer.byteLength < HEADER_BYTES ? 0 : view.getUint32(0, true);
-    if (magic !== KEY_MAGIC && magic !== CHANGE_MAGIC) throw new Error("this is no frame");
+    if (![KEY_MAGIC, CHANGE_MAGIC, PAST_MAGIC].includes(magic)) throw new Error("this is no frame");
     const u32 = (place) => view.getUint32(place, true);
     const frame = { count: u32(4), tick: Number(view.getBigUint64(8, true)), time: view.getFloat64(16, true), key: u32(36) };
     const lists = { beams: u32(24), grips: u32(28), rings: u32(32) };
+    if (magic === PAST_MAGIC) return this.readKey(buffer, view, frame, lists);
     if (magic === KEY_MAGIC) return (this.key = this.readKey(buffer, view, frame, lists));
     return frame.key === this.key?.key && frame.count === this.key.count ? this.readChange(buffer, view, frame, lists) : null;
   }

@@ -66,6 +66,8 @@ class Bars {
   }
 }
 
+const NOT_RECORDED = "What its sensors and controller held then is not in the journal; shift + I copies the command that computes it.";
+
 class Card {
   constructor(panel, entity) {
     const { world } = panel;
@@ -195,13 +197,16 @@ class Card {
     const values = { x, y, z, heading, speed };
     for (const [name, value] of Object.entries(values)) {
       this.rows.get(`pose.${name}`).number(value, name === "heading" ? 1 : 3);
-      this.plots.get(`pose.${name}`)?.add(`pose.${name}`, frame.time, value);
+      if (!this.panel.past) this.plots.get(`pose.${name}`)?.add(`pose.${name}`, frame.time, value);
     }
   }
 
   addDetails(time, details) {
     if (details.state || details.text) {
       setText(this.state, details.state && details.text && details.text !== details.state ? `${details.state} — ${details.text}` : details.state || details.text);
+      this.state.hidden = false;
+    } else if (this.panel.past && this.panel.world.isRobot(this.entity)) {
+      setText(this.state, NOT_RECORDED);
       this.state.hidden = false;
     } else this.state.hidden = true;
     for (const [name, values] of Object.entries(details.attributes)) {
@@ -225,13 +230,18 @@ class Card {
       }
   }
 
+  lookBack(on) {
+    this.last = null;
+    for (const [title, { element }] of this.sections) if (/^(Sensor|Actuator): /.test(title)) element.hidden = on;
+  }
+
   value(section, name, unit, key, time, value) {
     const shown = unit === "rad" && value !== null ? value * DEGREES : value; // null: infinite, or not a number
     const row = this.row(section, name, unit === "colour" || unit === "yes/no" ? null : unit === "rad" ? "°" : unit, key);
     if (unit === "colour") row.colours([value]);
     else if (unit === "yes/no") row.text(value ? "yes" : "no");
     else row.number(shown);
-    this.plots.get(key)?.add(key, time, shown);
+    if (!this.panel.past) this.plots.get(key)?.add(key, time, shown);
   }
 
   barsOf(section, key, { names, units, values }, time) {
@@ -284,6 +294,7 @@ export class Inspector {
     this.selected = null;
     this.swarm = null;
     this.mayControl = false;
+    this.past = false;
     this.element = h("aside.right", { "aria-label": "Inspector" });
     this.element.hidden = true;
   }
@@ -371,6 +382,12 @@ export class Inspector {
 
   addDetails({ time_s: time, entities }) {
     for (const details of entities) for (const card of this.cards) if (card.entity === details.entity) card.addDetails(time, details);
+  }
+
+  // on: what is shown from now on is of the past. Nothing of it goes into the plots, whose time goes on.
+  lookBack(on) {
+    this.past = on;
+    for (const card of this.cards) card.lookBack(on);
   }
 
   draw() {

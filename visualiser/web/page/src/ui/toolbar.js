@@ -29,6 +29,15 @@ export class Toolbar {
       },
       icon("stop"),
     );
+    this.reset = h(
+      "button.icon",
+      {
+        title: "Begin again at tick 0",
+        "aria-label": "Begin again at tick 0",
+        onclick: () => confirm("Begin the run again at tick 0, with the same seed?") && actions.command({ do: "reset" }),
+      },
+      icon("reset"),
+    );
     this.lock = h("button.lock", { onclick: () => actions.unlock() }, "read-only");
     this.toggles = {};
     const toggle = (name, label, key) => {
@@ -47,7 +56,7 @@ export class Toolbar {
       {},
       h("div.group.title", {}, this.list, h("img.logo", { src: "favicon.svg", alt: "" }), this.name, this.phase),
       h("div.group", {}, this.clock, this.tick, this.pace),
-      h("div.group.controls", {}, this.pause, this.step, this.speed, this.stop, this.lock),
+      h("div.group.controls", {}, this.pause, this.step, this.speed, this.stop, this.reset, this.lock),
       h("div.space"),
       h(
         "div.group",
@@ -87,7 +96,7 @@ export class Toolbar {
   // control: "granted", "token needed", "wrong token" or "read-only"
   setControl(control) {
     const granted = control === "granted";
-    for (const element of [this.pause, this.step, this.speed, this.stop]) element.disabled = !granted;
+    for (const element of [this.pause, this.step, this.speed, this.stop, this.reset]) element.disabled = !granted;
     this.lock.hidden = granted;
     setText(this.lock, control === "read-only" || control === "granted" ? "read-only" : control);
     this.lock.title = {

@@ -8,6 +8,9 @@ const ASK_MS = 300;
 const MARGIN_PX = 40; // about the picture
 const ANTENNA_M = 0.1; // above the base
 const RIM = 24; // pieces of a circle
+const MOST_INK = 0.15; // of the picture
+const FAINTEST = 0.06;
+const SAMPLE = 200; // lines whose length in the picture is looked at
 
 export class Marks {
   // send(request)
@@ -83,7 +86,7 @@ export class Marks {
     return (point) => rotate(point, quaternion, at).map((value, k) => value + place[k]);
   }
 
-  // [{name, colour, points}]: six numbers of `points` are a line.
+  // [{name, colour, points, opacity}]: six numbers of `points` are a line.
   lines(theme) {
     const { told, picture } = this;
     if (!told || !this.shown) return [];
@@ -96,8 +99,24 @@ export class Marks {
       { name: "rays that are free", colour: palette.ray_free, points: free },
       { name: "rays that meet something", colour: palette.ray_hit, points: hit },
       { name: "bodies", colour: palette.collision, points: bodies },
-      { name: "links", colour: theme.link, points: links },
+      { name: "links", colour: theme.link, points: links, opacity: this.opacityOf(links) },
     ];
+  }
+
+  // Lines that would fill the picture say nothing: the more of it they cover, the fainter they are.
+  opacityOf(points) {
+    const { view } = this.picture;
+    const count = points.length / 6;
+    const step = Math.max(1, Math.floor(count / SAMPLE));
+    let [length, sampled] = [0, 0];
+    for (let i = 0; i < count; i += step, sampled++) {
+      const [ax, ay, az, bx, by, bz] = points.slice(6 * i, 6 * i + 6);
+      length += Math.hypot(bx - ax, by - ay, bz - az) * view.pixelsPerMetre(ax, ay, az);
+    }
+    if (length === 0) return 1;
+    const { clientWidth, clientHeight } = view.canvas;
+    const ink = ((length / sampled) * count) / (clientWidth * clientHeight);
+    return Math.min(1, Math.max(FAINTEST, MOST_INK / ink));
   }
 
   addRays(entity, hits, free, hit) {

@@ -98,12 +98,13 @@ export class MarkLines {
 
   update(list) {
     for (const line of this.lines.values()) line.visible = false;
-    for (const { name, colour, points } of list) {
+    for (const { name, colour, points, opacity = 1 } of list) {
       if (points.length === 0) continue;
       if (!this.lines.has(name)) this.lines.set(name, this.make());
       const line = this.lines.get(name);
       line.visible = true;
       line.material.color.set(colour);
+      line.material.opacity = opacity;
       line.geometry.dispose();
       line.geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
     }

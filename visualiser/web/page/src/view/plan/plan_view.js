@@ -163,8 +163,9 @@ export class PlanView {
     context.globalAlpha = 1;
   }
 
-  drawLines(frame, { colour, points }) {
+  drawLines(frame, { colour, points, opacity = 1 }) {
     const { context } = this;
+    context.globalAlpha = opacity;
     context.strokeStyle = css(colour);
     context.lineWidth = 1.25 * frame.ratio;
     context.beginPath();
@@ -173,6 +174,7 @@ export class PlanView {
       context.lineTo(frame.x(points[i + 3]), frame.y(points[i + 4]));
     }
     context.stroke();
+    context.globalAlpha = 1;
   }
 
   // ---- what every view can do ----

@@ -1,0 +1,464 @@
+#include "argos3/plugin/lua_devices.h"
+
+#include <argos3/plugins/robots/eye-bot/control_interface/ci_eyebot_light_sensor.h>
+#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_base_ground_sensor.h>
+#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_gripper_actuator.h>
+#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_light_sensor.h>
+#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_motor_ground_sensor.h>
+#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_proximity_sensor.h>
+#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_turret_actuator.h>
+#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_turret_encoder_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_battery_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_colored_blob_omnidirectional_camera_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_actuator.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_leds_actuator.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_positioning_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_quadrotor_position_actuator.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_quadrotor_speed_actuator.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_range_and_bearing_actuator.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_range_and_bearing_sensor.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "argos3/plugin/lua_stack.h"
+
+namespace swarmanoid::argos3
+{
+namespace
+{
+
+// robot.wheels, cm/s
+
+int SetVelocity(lua_State* lua)
+{
+  CheckCount(lua, 2);
+  Subject<argos::CCI_DifferentialSteeringActuator>(lua).SetLinearVelocity(luaL_checknumber(lua, 1),
+                                                                          luaL_checknumber(lua, 2));
+  return 0;
+}
+
+void AddWheels(lua_State* lua, argos::CCI_DifferentialSteeringActuator& wheels)
+{
+  Enter(lua, "wheels");
+  SetFunction<SetVelocity>(lua, "set_velocity", &wheels);
+  Leave(lua);
+}
+
+void ReadWheels(lua_State* lua, argos::CCI_DifferentialSteeringSensor& encoders)
+{
+  const auto& reading = encoders.GetReading();
+  Enter(lua, "wheels");
+  Set(lua, "velocity_left", reading.VelocityLeftWheel);
+  Set(lua, "velocity_right", reading.VelocityRightWheel);
+  Set(lua, "distance_left", reading.CoveredDistanceLeftWheel);
+  Set(lua, "distance_right", reading.CoveredDistanceRightWheel);
+  Set(lua, "axis_length", reading.WheelAxisLength);
+  Leave(lua);
+}
+
+// robot.leds: colours by name, or by red, green and blue of 0 to 255
+
+argos::CColor ColourAt(lua_State* lua, int index)
+{
+  argos::CColor colour;
+  if (lua_gettop(lua) == index)
+  {
+    colour.Set(luaL_checkstring(lua, index));
+    return colour;
+  }
+  CheckCount(lua, index + 2);
+  const auto channel = [&](int at)
+  {
+    const double value = luaL_checknumber(lua, at);
+    if (!(value >= 0 && value <= 255)) luaL_argerror(lua, at, "a colour is 0 to 255");
+    return static_cast<UInt8>(value);
+  };
+  const UInt8 red = channel(index);
+  const UInt8 green = channel(index + 1);
+  colour.Set(red, green, channel(index + 2));
+  return colour;
+}
+
+int SetAllColors(lua_State* lua)
+{
+  Subject<argos::CCI_LEDsActuator>(lua).SetAllColors(ColourAt(lua, 1));
+  return 0;
+}
+
+int SetSingleColor(lua_State* lua)
+{
+  auto& leds = Subject<argos::CCI_LEDsActuator>(lua);
+  const lua_Integer led = luaL_checkinteger(lua, 1);
+  const auto count = static_cast<lua_Integer>(leds.GetNumLEDs());
+  if (led < 1 || led > count) return luaL_error(lua, "there is no LED %I; they are 1 to %I", led, count);
+  leds.SetSingleColor(static_cast<UInt32>(led - 1), ColourAt(lua, 2));
+  return 0;
+}
+
+void AddLeds(lua_State* lua, argos::CCI_LEDsActuator& leds)
+{
+  Enter(lua, "leds");
+  SetFunction<SetAllColors>(lua, "set_all_colors", &leds);
+  SetFunction<SetSingleColor>(lua, "set_single_color", &leds);
+  Leave(lua);
+}
+
+// robot.range_and_bearing: bytes; cm, rad
+
+// What does not fit into a byte loses its higher bits, as there.
+UInt8 ByteAt(lua_State* lua, int index)
+{
+  const double value = luaL_checknumber(lua, index);
+  return std::abs(value) < 0x1p62 ? static_cast<UInt8>(static_cast<std::int64_t>(value)) : 0;
+}
+
+int SetData(lua_State* lua)
+{
+  auto& sender = Subject<argos::CCI_RangeAndBearingActuator>(lua);
+  const auto size = static_cast<lua_Integer>(sender.GetSize());
+  if (lua_gettop(lua) == 1)
+  {
+    luaL_checktype(lua, 1, LUA_TTABLE);
+    if (static_cast<lua_Integer>(lua_rawlen(lua, 1)) != size)
+      return luaL_error(lua, "%I bytes are given, and a message has %I", static_cast<lua_Integer>(lua_rawlen(lua, 1)),
+                        size);
+    for (lua_Integer i = 1; i <= size; ++i)
+    {
+      lua_rawgeti(lua, 1, i);
+      sender.SetData(static_cast<size_t>(i - 1), ByteAt(lua, -1));
+      lua_pop(lua, 1);
+    }
+    return 0;
+  }
+  CheckCount(lua, 2);
+  const lua_Integer index = luaL_checkinteger(lua, 1);
+  if (index < 1 || index > size) return luaL_error(lua, "there is no byte %I; they are 1 to %I", index, size);
+  sender.SetData(static_cast<size_t>(index - 1), ByteAt(lua, 2));
+  return 0;
+}
+
+int ClearData(lua_State* lua)
+{
+  Subject<argos::CCI_RangeAndBearingActuator>(lua).ClearData();
+  return 0;
+}
+
+void AddSender(lua_State* lua, argos::CCI_RangeAndBearingActuator& sender)
+{
+  Enter(lua, "range_and_bearing");
+  SetFunction<SetData>(lua, "set_data", &sender);
+  SetFunction<ClearData>(lua, "clear_data", &sender);
+  Leave(lua);
+}
+
+void ReadPackets(lua_State* lua, argos::CCI_RangeAndBearingSensor& receiver)
+{
+  Enter(lua, "range_and_bearing");
+  lua_Integer count = 0;
+  for (const auto& packet : receiver.GetReadings())
+  {
+    EnterNew(lua, ++count, 4);
+    Set(lua, "range", packet.Range);
+    Set(lua, "horizontal_bearing", packet.HorizontalBearing.GetValue());
+    Set(lua, "vertical_bearing", packet.VerticalBearing.GetValue());
+    EnterNew(lua, "data", static_cast<int>(packet.Data.Size()), 0);
+    for (size_t i = 0; i < packet.Data.Size(); ++i)
+    {
+      lua_pushinteger(lua, packet.Data[i]);
+      lua_rawseti(lua, -2, static_cast<lua_Integer>(i + 1));
+    }
+    Leave(lua);
+    Leave(lua);
+  }
+  Shorten(lua, count);
+  Leave(lua);
+}
+
+// robot.colored_blob_omnidirectional_camera: cm, rad
+
+int EnableCamera(lua_State* lua)
+{
+  Subject<argos::CCI_ColoredBlobOmnidirectionalCameraSensor>(lua).Enable();
+  return 0;
+}
+
+int DisableCamera(lua_State* lua)
+{
+  Subject<argos::CCI_ColoredBlobOmnidirectionalCameraSensor>(lua).Disable();
+  return 0;
+}
+
+constexpr const char* kCamera = "colored_blob_omnidirectional_camera";
+
+void AddCamera(lua_State* lua, argos::CCI_ColoredBlobOmnidirectionalCameraSensor& camera)
+{
+  Enter(lua, kCamera);
+  SetFunction<EnableCamera>(lua, "enable", &camera);
+  SetFunction<DisableCamera>(lua, "disable", &camera);
+  Leave(lua);
+}
+
+void ReadBlobs(lua_State* lua, argos::CCI_ColoredBlobOmnidirectionalCameraSensor& camera)
+{
+  Enter(lua, kCamera);
+  lua_Integer count = 0;
+  for (const auto* blob : camera.GetReadings().BlobList)
+  {
+    EnterNew(lua, ++count, 3);
+    Set(lua, "distance", blob->Distance);
+    Set(lua, "angle", blob->Angle.GetValue());
+    EnterNew(lua, "color", 0, 3);
+    Set(lua, "red", blob->Color.GetRed());
+    Set(lua, "green", blob->Color.GetGreen());
+    Set(lua, "blue", blob->Color.GetBlue());
+    Leave(lua);
+    Leave(lua);
+  }
+  Shorten(lua, count);
+  Leave(lua);
+}
+
+// Sensors of which a robot has several: value, and where each is
+
+template <class Sensor, class SetPlace>
+void ReadEach(lua_State* lua, Sensor& sensor, const char* name, SetPlace set_place)
+{
+  Enter(lua, name);
+  lua_Integer number = 0;
+  for (const auto& reading : sensor.GetReadings())
+  {
+    Enter(lua, ++number);
+    Set(lua, "value", reading.Value);
+    set_place(reading);
+    Leave(lua);
+  }
+  Leave(lua);
+}
+
+// rad
+template <class Sensor>
+void ReadRing(lua_State* lua, Sensor& sensor, const char* name)
+{
+  ReadEach(lua, sensor, name, [lua](const auto& reading) { Set(lua, "angle", reading.Angle.GetValue()); });
+}
+
+// cm
+template <class Sensor>
+void ReadGround(lua_State* lua, Sensor& sensor, const char* name)
+{
+  ReadEach(lua, sensor, name,
+           [lua](const auto& reading)
+           {
+             Enter(lua, "offset");
+             Set(lua, "x", reading.Offset.GetX());
+             Set(lua, "y", reading.Offset.GetY());
+             Leave(lua);
+           });
+}
+
+// robot.turret: rad, rad/s
+
+int SetRotation(lua_State* lua)
+{
+  CheckCount(lua, 1);
+  Subject<argos::CCI_FootBotTurretActuator>(lua).SetRotation(argos::CRadians(luaL_checknumber(lua, 1)));
+  return 0;
+}
+
+int SetRotationSpeed(lua_State* lua)
+{
+  CheckCount(lua, 1);
+  const double speed = luaL_checknumber(lua, 1);
+  if (!(std::abs(speed) <= 1e6)) return luaL_argerror(lua, 1, "that is no speed of a turret");
+  Subject<argos::CCI_FootBotTurretActuator>(lua).SetRotationSpeed(static_cast<SInt32>(speed));
+  return 0;
+}
+
+template <argos::CCI_FootBotTurretActuator::ETurretModes mode>
+int SetTurretMode(lua_State* lua)
+{
+  Subject<argos::CCI_FootBotTurretActuator>(lua).SetMode(mode);
+  return 0;
+}
+
+void AddTurret(lua_State* lua, argos::CCI_FootBotTurretActuator& turret)
+{
+  using Actuator = argos::CCI_FootBotTurretActuator;
+  Enter(lua, "turret");
+  SetFunction<SetRotation>(lua, "set_rotation", &turret);
+  SetFunction<SetRotationSpeed>(lua, "set_rotation_speed", &turret);
+  SetFunction<SetTurretMode<Actuator::MODE_POSITION_CONTROL>>(lua, "set_position_control_mode", &turret);
+  SetFunction<SetTurretMode<Actuator::MODE_SPEED_CONTROL>>(lua, "set_speed_control_mode", &turret);
+  SetFunction<SetTurretMode<Actuator::MODE_PASSIVE>>(lua, "set_passive_mode", &turret);
+  Leave(lua);
+}
+
+// robot.gripper
+
+template <void (argos::CCI_FootBotGripperActuator::*Act)()>
+int MoveGripper(lua_State* lua)
+{
+  CheckCount(lua, 0);
+  (Subject<argos::CCI_FootBotGripperActuator>(lua).*Act)();
+  return 0;
+}
+
+void AddGripper(lua_State* lua, argos::CCI_FootBotGripperActuator& gripper)
+{
+  using Actuator = argos::CCI_FootBotGripperActuator;
+  Enter(lua, "gripper");
+  SetFunction<MoveGripper<&Actuator::LockPositive>>(lua, "lock_positive", &gripper);
+  SetFunction<MoveGripper<&Actuator::LockNegative>>(lua, "lock_negative", &gripper);
+  SetFunction<MoveGripper<&Actuator::Unlock>>(lua, "unlock", &gripper);
+  Leave(lua);
+}
+
+// robot.quadrotor: m, degrees; m/s, rad/s
+
+template <void (argos::CCI_QuadRotorPositionActuator::*Go)(const argos::CVector3&)>
+int FlyTo(lua_State* lua)
+{
+  CheckCount(lua, 3);
+  (Subject<argos::CCI_QuadRotorPositionActuator>(lua).*
+   Go)(argos::CVector3(luaL_checknumber(lua, 1), luaL_checknumber(lua, 2), luaL_checknumber(lua, 3)));
+  return 0;
+}
+
+template <void (argos::CCI_QuadRotorPositionActuator::*Turn)(const argos::CRadians&)>
+int TurnTo(lua_State* lua)
+{
+  CheckCount(lua, 1);
+  (Subject<argos::CCI_QuadRotorPositionActuator>(lua).*
+   Turn)(argos::CRadians(luaL_checknumber(lua, 1) * std::numbers::pi / 180));
+  return 0;
+}
+
+void AddPosition(lua_State* lua, argos::CCI_QuadRotorPositionActuator& quadrotor)
+{
+  using Actuator = argos::CCI_QuadRotorPositionActuator;
+  Enter(lua, "quadrotor");
+  SetFunction<FlyTo<&Actuator::SetAbsolutePosition>>(lua, "set_absolute_position", &quadrotor);
+  SetFunction<FlyTo<&Actuator::SetRelativePosition>>(lua, "set_relative_position", &quadrotor);
+  SetFunction<TurnTo<&Actuator::SetAbsoluteYaw>>(lua, "set_absolute_yaw", &quadrotor);
+  SetFunction<TurnTo<&Actuator::SetRelativeYaw>>(lua, "set_relative_yaw", &quadrotor);
+  Leave(lua);
+}
+
+int SetLinearVelocity(lua_State* lua)
+{
+  // Older scripts give two numbers.
+  if (lua_gettop(lua) != 2) CheckCount(lua, 3);
+  Subject<argos::CCI_QuadRotorSpeedActuator>(lua).SetLinearVelocity(
+      argos::CVector3(luaL_checknumber(lua, 1), luaL_checknumber(lua, 2), luaL_optnumber(lua, 3, 0)));
+  return 0;
+}
+
+int SetRotationalSpeed(lua_State* lua)
+{
+  CheckCount(lua, 1);
+  Subject<argos::CCI_QuadRotorSpeedActuator>(lua).SetRotationalSpeed(argos::CRadians(luaL_checknumber(lua, 1)));
+  return 0;
+}
+
+void AddSpeed(lua_State* lua, argos::CCI_QuadRotorSpeedActuator& quadrotor)
+{
+  Enter(lua, "quadrotor");
+  SetFunction<SetLinearVelocity>(lua, "set_linear_velocity", &quadrotor);
+  SetFunction<SetRotationalSpeed>(lua, "set_rotational_speed", &quadrotor);
+  Leave(lua);
+}
+
+// robot.positioning: m; the quaternion, and the same as an angle about an axis
+
+void ReadPosition(lua_State* lua, argos::CCI_PositioningSensor& sensor)
+{
+  const auto& reading = sensor.GetReading();
+  const auto& q = reading.Orientation;
+  const auto set_vector = [lua](const char* name, const argos::CVector3& vector)
+  {
+    Enter(lua, name);
+    Set(lua, "x", vector.GetX());
+    Set(lua, "y", vector.GetY());
+    Set(lua, "z", vector.GetZ());
+    Leave(lua);
+  };
+  argos::CRadians angle;
+  argos::CVector3 axis;
+  q.ToAngleAxis(angle, axis);
+  Enter(lua, "positioning");
+  set_vector("position", reading.Position);
+  Enter(lua, "orientation");
+  Set(lua, "w", q.GetW());
+  Set(lua, "x", q.GetX());
+  Set(lua, "y", q.GetY());
+  Set(lua, "z", q.GetZ());
+  Set(lua, "angle", angle.GetValue());
+  set_vector("axis", axis);
+  Leave(lua);
+  Leave(lua);
+}
+
+void ReadBattery(lua_State* lua, argos::CCI_BatterySensor& sensor)
+{
+  Enter(lua, "battery");
+  Set(lua, "available_charge", sensor.GetReading().AvailableCharge);
+  Set(lua, "time_left", sensor.GetReading().TimeLeft);
+  Leave(lua);
+}
+
+template <class Device, class Base>
+Device& As(Base& device)
+{
+  return dynamic_cast<Device&>(device);
+}
+
+[[noreturn]] void Unknown(const char* what, const std::string& tag)
+{
+  THROW_ARGOSEXCEPTION("the " << what << " '" << tag << "' has no functions in Lua here");
+}
+
+}  // namespace
+
+void AddFunctions(lua_State* lua, const std::string& tag, argos::CCI_Actuator& actuator)
+{
+  if (tag == "differential_steering") return AddWheels(lua, As<argos::CCI_DifferentialSteeringActuator>(actuator));
+  if (tag == "leds") return AddLeds(lua, As<argos::CCI_LEDsActuator>(actuator));
+  if (tag == "range_and_bearing") return AddSender(lua, As<argos::CCI_RangeAndBearingActuator>(actuator));
+  if (tag == "footbot_turret") return AddTurret(lua, As<argos::CCI_FootBotTurretActuator>(actuator));
+  if (tag == "footbot_gripper") return AddGripper(lua, As<argos::CCI_FootBotGripperActuator>(actuator));
+  if (tag == "quadrotor_position") return AddPosition(lua, As<argos::CCI_QuadRotorPositionActuator>(actuator));
+  if (tag == "quadrotor_speed") return AddSpeed(lua, As<argos::CCI_QuadRotorSpeedActuator>(actuator));
+  Unknown("actuator", tag);
+}
+
+void AddFunctions(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sensor)
+{
+  if (tag == kCamera) AddCamera(lua, As<argos::CCI_ColoredBlobOmnidirectionalCameraSensor>(sensor));
+}
+
+void AddReadings(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sensor)
+{
+  if (tag == "differential_steering") return ReadWheels(lua, As<argos::CCI_DifferentialSteeringSensor>(sensor));
+  if (tag == "footbot_proximity") return ReadRing(lua, As<argos::CCI_FootBotProximitySensor>(sensor), "proximity");
+  if (tag == "footbot_light") return ReadRing(lua, As<argos::CCI_FootBotLightSensor>(sensor), "light");
+  if (tag == "eyebot_light") return ReadRing(lua, As<argos::CCI_EyeBotLightSensor>(sensor), "light");
+  if (tag == "footbot_motor_ground")
+    return ReadGround(lua, As<argos::CCI_FootBotMotorGroundSensor>(sensor), "motor_ground");
+  if (tag == "footbot_base_ground")
+    return ReadGround(lua, As<argos::CCI_FootBotBaseGroundSensor>(sensor), "base_ground");
+  if (tag == "range_and_bearing") return ReadPackets(lua, As<argos::CCI_RangeAndBearingSensor>(sensor));
+  if (tag == kCamera) return ReadBlobs(lua, As<argos::CCI_ColoredBlobOmnidirectionalCameraSensor>(sensor));
+  if (tag == "positioning") return ReadPosition(lua, As<argos::CCI_PositioningSensor>(sensor));
+  if (tag == "battery") return ReadBattery(lua, As<argos::CCI_BatterySensor>(sensor));
+  if (tag == "footbot_turret_encoder")
+  {
+    Enter(lua, "turret");
+    Set(lua, "rotation", As<argos::CCI_FootBotTurretEncoderSensor>(sensor).GetRotation().GetValue());
+    return Leave(lua);
+  }
+  Unknown("sensor", tag);
+}
+
+}  // namespace swarmanoid::argos3

@@ -1,0 +1,111 @@
+#include "common/bus/signed_transport.h"
+
+#include <fastdds/rtps/network/SenderResource.h>
+#include <fastdds/rtps/transport/TransportReceiverInterface.h>
+#include <fastrtps/utils/IPLocator.h>
+
+#include <exception>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "common/activity/print_error.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace transport = eprosima::fastdds::rtps;
+namespace rtps = eprosima::fastrtps::rtps;
+
+constexpr auto kSignatureBytes = static_cast<std::uint32_t>(DatagramSignatures::kBytes);
+
+std::string TextOf(const rtps::Locator_t& locator)
+{
+  return fmt::format("{} port {}", rtps::IPLocator::toIPv4string(locator), locator.port);
+}
+
+class SignedTransport : public transport::ChainingTransport
+{
+public:
+  explicit SignedTransport(const SignedTransportDescriptor& descriptor)
+      : ChainingTransport(descriptor), descriptor_(descriptor)
+  {
+  }
+
+  transport::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
+
+  // What comes has its signature.
+  bool OpenInputChannel(const rtps::Locator_t& locator, transport::TransportReceiverInterface* receiver,
+                        std::uint32_t max_message_size) override
+  {
+    return ChainingTransport::OpenInputChannel(locator, receiver, max_message_size + kSignatureBytes);
+  }
+
+  bool send(rtps::SenderResource* below, const rtps::octet* bytes, std::uint32_t size, rtps::LocatorsIterator* first,
+            rtps::LocatorsIterator* last, const std::chrono::steady_clock::time_point& timeout) override
+  {
+    std::vector<char> room;
+    std::span<const char> datagram;
+    if (!Try([&] { datagram = descriptor_.signatures->Sign({reinterpret_cast<const char*>(bytes), size}, room); }))
+      return false;
+    return below->send(reinterpret_cast<const rtps::octet*>(datagram.data()),
+                       static_cast<std::uint32_t>(datagram.size()), first, last, timeout);
+  }
+
+  void receive(transport::TransportReceiverInterface* next, const rtps::octet* bytes, std::uint32_t size,
+               const rtps::Locator_t& local, const rtps::Locator_t& remote) override
+  {
+    DatagramSignatures::Checked checked;
+    if (!Try([&] { checked = descriptor_.signatures->Check({reinterpret_cast<const char*>(bytes), size}); })) return;
+    if (checked.forged) return Tell(*checked.forged, TextOf(remote));
+    if (checked.datagram.empty()) return;
+    next->OnDataReceived(reinterpret_cast<const rtps::octet*>(checked.datagram.data()),
+                         static_cast<std::uint32_t>(checked.datagram.size()), local, remote);
+  }
+
+private:
+  void Tell(const GuidPrefix& member, const std::string& sender) const
+  {
+    const std::lock_guard lock(descriptor_.listener->mutex);
+    if (descriptor_.listener->forged) descriptor_.listener->forged(member, sender);
+  }
+
+  // Nothing is ever thrown into DDS.
+  static bool Try(const std::function<void()>& call)
+  {
+    try
+    {
+      call();
+      return true;
+    }
+    catch (const std::exception& error)
+    {
+      PrintError("dropped a datagram: {}\n", error.what());
+      return false;
+    }
+  }
+
+  SignedTransportDescriptor descriptor_;
+};
+
+}  // namespace
+
+SignedTransportDescriptor::SignedTransportDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> udp,
+                                                     std::shared_ptr<DatagramSignatures> its_signatures,
+                                                     std::shared_ptr<Listener> its_listener)
+    : ChainingTransportDescriptor(std::move(udp)),
+      signatures(std::move(its_signatures)),
+      listener(std::move(its_listener))
+{
+  maxMessageSize -= kSignatureBytes;
+}
+
+transport::TransportInterface* SignedTransportDescriptor::create_transport() const
+{
+  return new SignedTransport(*this);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,91 @@
+#include "common/checkpoint/host_state.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "common/messages/assignment.h"
+
+namespace swarmanoid
+{
+
+void Write(const HostState& state, ByteWriter& bytes)
+{
+  bytes.Put(static_cast<std::uint64_t>(state.sensors.size()));
+  for (const auto& [sensor, text] : state.sensors)
+  {
+    bytes.Put(sensor.first);
+    bytes.Put(sensor.second);
+    bytes.PutText(text);
+  }
+  bytes.Put(static_cast<std::uint64_t>(state.robots.size()));
+  for (const auto& [robot, text] : state.robots)
+  {
+    bytes.Put(robot);
+    bytes.PutText(text);
+  }
+}
+
+HostState ReadHostState(ByteReader& bytes)
+{
+  HostState state;
+  for (auto left = bytes.Get<std::uint64_t>(); left > 0; --left)
+  {
+    const auto controller = bytes.Get<std::uint32_t>();
+    const auto sensor = bytes.Get<std::uint32_t>();
+    state.sensors[{controller, sensor}] = bytes.GetText();
+  }
+  for (auto left = bytes.Get<std::uint64_t>(); left > 0; --left)
+  {
+    const auto robot = bytes.Get<std::uint32_t>();
+    state.robots[robot] = bytes.GetText();
+  }
+  return state;
+}
+
+std::vector<std::string> PartsOf(const Experiment& experiment, std::size_t hosts)
+{
+  std::vector<std::string> parts{kServerPart};
+  for (std::size_t e = 0; e < experiment.engines.size(); ++e) parts.push_back(EngineName(experiment, e));
+  for (std::size_t h = 0; h < hosts; ++h) parts.push_back(HostName(h));
+  return parts;
+}
+
+std::vector<SavedPart> SharedOut(std::vector<SavedPart> parts, const Experiment& experiment, std::size_t hosts)
+{
+  HostState all;
+  for (std::size_t h = 0;; ++h)
+  {
+    const auto part =
+        std::find_if(parts.begin(), parts.end(), [&](const SavedPart& other) { return other.name == HostName(h); });
+    if (part == parts.end()) break;
+    ByteReader bytes(part->state);
+    HostState state = ReadHostState(bytes);
+    all.sensors.merge(state.sensors);
+    all.robots.merge(state.robots);
+    parts.erase(part);
+  }
+  const Assignment assignment = MakeAssignment(experiment, static_cast<unsigned>(hosts));
+  for (std::size_t h = 0; h < assignment.hosts.size(); ++h)
+  {
+    HostState state;
+    state.sensors = all.sensors;
+    for (const std::uint32_t robot : assignment.hosts[h].robots)
+    {
+      const auto found = all.robots.find(robot);
+      if (found == all.robots.end())
+        throw std::runtime_error(
+            fmt::format("the state of robot '{}' is missing, so it cannot be given to {}; restore it with as many "
+                        "--controller-hosts as the run had",
+                        experiment.entities[robot].id, HostName(h)));
+      state.robots.insert(all.robots.extract(found));
+    }
+    ByteWriter bytes;
+    Write(state, bytes);
+    parts.push_back({HostName(h), bytes.Bytes()});
+  }
+  return parts;
+}
+
+}  // namespace swarmanoid

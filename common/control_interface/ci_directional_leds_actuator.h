@@ -1,0 +1,19 @@
+// The LEDs of any robot that has some, each of them seen only from within a cone about its axis, as cameras see LEDs
+// behind a lens.
+#pragma once
+
+#include "common/control_interface/ci_led_ring_actuator.h"
+
+namespace swarmanoid
+{
+
+class CCI_DirectionalLedsActuator : public CCI_LedRingActuator
+{
+public:
+  // Between the axis of each cone and its border, rad, 0 to pi.
+  virtual double GetObservableAngle() const = 0;
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_DirectionalLedsActuator;

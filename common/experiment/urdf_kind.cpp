@@ -1,0 +1,337 @@
+#include "common/experiment/urdf_kind.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "common/configuration/wording.h"
+#include "common/configuration/xml_reader.h"
+#include "common/experiment/urdf_links.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr double kSamePlace = 1e-3;  // m
+constexpr double kSpeed = 0.3;       // m/s, of wheels without a limit: WheelDrive's
+
+using Form = UrdfShape::Form;
+
+// The two wheels that drive, left and right.
+struct Wheels
+{
+  const UrdfJoint* left = nullptr;
+  const UrdfJoint* right = nullptr;
+  double radius = 0;
+};
+
+// Lower and upper corner of what a shape fills.
+struct Extent
+{
+  Vector3 low = Vector3::Constant(1e9);
+  Vector3 high = Vector3::Constant(-1e9);
+
+  void Add(const UrdfShape& shape, const Pose& frame)
+  {
+    const Pose pose = frame.Compose(shape.pose);
+    const Eigen::Matrix3d axes = pose.orientation.toRotationMatrix();
+    Vector3 half = Vector3::Zero();
+    if (shape.form == Form::kBox) half = axes.cwiseAbs() * (shape.size / 2);
+    if (shape.form == Form::kSphere) half = Vector3::Constant(shape.size.x());
+    if (shape.form == Form::kCylinder)
+      for (int i = 0; i < 3; ++i)
+        half[i] = std::abs(axes(i, 2)) * shape.size.z() / 2 +
+                  shape.size.x() * std::sqrt(std::max(0.0, 1 - axes(i, 2) * axes(i, 2)));
+    low = low.cwiseMin(pose.position - half);
+    high = high.cwiseMax(pose.position + half);
+  }
+};
+
+class Builder
+{
+public:
+  Builder(UrdfKind& result, const UrdfLinks& links) : result_(result), links_(links) {}
+
+  void Build()
+  {
+    if (!FindWheels()) return;
+    const UrdfLink& left = links_.LinkOf(wheels_.left->child);
+    const UrdfLink& right = links_.LinkOf(wheels_.right->child);
+    // The middle of the axle, on the ground.
+    middle_ = (left.pose.position + right.pose.position) / 2;
+    middle_.z() -= wheels_.radius;
+    SetDrive();
+    SetBody();
+    SetMass();
+    SetMesh();
+  }
+
+private:
+  void Error(const SourceLocation& place, std::string text) { result_.errors.push_back({place, std::move(text)}); }
+  void Note(const SourceLocation& place, std::string text) { result_.notes.push_back({place, std::move(text)}); }
+
+  // A pose of the root link in the frame of the kind.
+  Pose InKind(const Pose& pose) const { return {pose.position - middle_, pose.orientation}; }
+
+  static const UrdfShape* WheelShape(const UrdfLink& link)
+  {
+    for (const auto* shapes : {&link.collision, &link.visual})
+      for (const UrdfShape& shape : *shapes)
+        if (shape.form == Form::kCylinder || shape.form == Form::kSphere) return &shape;
+    return nullptr;
+  }
+
+  // Continuous joints about the axis to the left, whose links roll.
+  bool FindWheels()
+  {
+    std::vector<const UrdfJoint*> rolling;
+    for (const UrdfJoint& joint : links_.joints)
+    {
+      if (joint.type != "continuous") continue;
+      const UrdfLink& link = links_.LinkOf(joint.child);
+      const Vector3 axis = link.pose.orientation * joint.axis;
+      if (std::abs(axis.y()) < 1 - kSamePlace)
+      {
+        Note(joint.location, fmt::format("the joint '{}' turns about another axis than y: it is no driven wheel and "
+                                         "stands still",
+                                         joint.name));
+        continue;
+      }
+      if (WheelShape(link) == nullptr)
+        Error(joint.location, fmt::format("the wheel '{}' of the joint '{}' needs a cylinder or a sphere in its "
+                                          "<collision> or <visual>, which states its radius",
+                                          joint.child, joint.name));
+      else
+        rolling.push_back(&joint);
+    }
+    if (!result_.errors.empty()) return false;
+    if (rolling.size() != 2)
+    {
+      std::vector<std::string> names;
+      for (const UrdfJoint* joint : rolling) names.push_back(joint->name);
+      Error(links_.location, fmt::format("a robot has two driven wheels, which are continuous joints about y; this one "
+                                         "has {}{}. Joints of casters are of type fixed",
+                                         rolling.size(), names.empty() ? "" : ": " + Listed(names)));
+      return false;
+    }
+    wheels_ = {rolling[0], rolling[1], 0};
+    if (links_.LinkOf(wheels_.left->child).pose.position.y() < links_.LinkOf(wheels_.right->child).pose.position.y())
+      std::swap(wheels_.left, wheels_.right);
+    return CheckWheels();
+  }
+
+  bool CheckWheels()
+  {
+    const Pose& left = links_.LinkOf(wheels_.left->child).pose;
+    const Pose& right = links_.LinkOf(wheels_.right->child).pose;
+    const double radius = WheelShape(links_.LinkOf(wheels_.left->child))->size.x();
+    wheels_.radius = WheelShape(links_.LinkOf(wheels_.right->child))->size.x();
+    if (std::abs(radius - wheels_.radius) > kSamePlace)
+      Error(wheels_.right->location,
+            fmt::format("the wheels have radii of {:g} and {:g} m; they must be equal", radius, wheels_.radius));
+    if (std::abs(left.position.x() - right.position.x()) > kSamePlace ||
+        std::abs(left.position.z() - right.position.z()) > kSamePlace ||
+        left.position.y() - right.position.y() < kSamePlace)
+      Error(wheels_.right->location, fmt::format("the wheels '{}' and '{}' must face each other, left and right on one "
+                                                 "axle",
+                                                 wheels_.left->name, wheels_.right->name));
+    return result_.errors.empty();
+  }
+
+  void SetDrive()
+  {
+    const double axle =
+        links_.LinkOf(wheels_.left->child).pose.position.y() - links_.LinkOf(wheels_.right->child).pose.position.y();
+    WheelDrive drive{axle, wheels_.radius, kSpeed};
+    const auto& left = wheels_.left->velocity;
+    const auto& right = wheels_.right->velocity;
+    if (left || right)
+      drive.max_speed_m_s = std::min(left.value_or(1e9), right.value_or(1e9)) * wheels_.radius;
+    else
+      Note(wheels_.left->location,
+           fmt::format("its wheels have no <limit velocity=\"…\"/> (rad/s); the fastest speed is {:g} m/s", kSpeed));
+    result_.kind.wheels = drive;
+  }
+
+  // An upright cylinder about the axle's middle stays one; all else is in a box about it.
+  void SetBody()
+  {
+    Extent all;
+    const UrdfShape* round = nullptr;
+    Vector3 centre = Vector3::Zero();
+    std::size_t shapes = 0;
+    for (const UrdfLink& link : links_.links)
+    {
+      const bool is_wheel = link.name == wheels_.left->child || link.name == wheels_.right->child;
+      for (const UrdfShape& shape : link.collision)
+      {
+        all.Add(shape, InKind(link.pose));
+        if (is_wheel) continue;
+        ++shapes;
+        const Pose pose = InKind(link.pose).Compose(shape.pose);
+        if (shape.form != Form::kCylinder || std::abs((pose.orientation * Vector3::UnitZ()).z()) < 1 - 1e-6 ||
+            (round != nullptr && round->size.x() >= shape.size.x()))
+          continue;
+        round = &shape;
+        centre = pose.position;
+      }
+    }
+    if (shapes == 0)
+      return Error(links_.location,
+                   "it needs a <collision> with a box, a cylinder or a sphere besides those of its wheels");
+    EntityKindDescription& kind = result_.kind;
+    const double x = std::max(std::abs(all.low.x()), std::abs(all.high.x()));
+    const double y = std::max(std::abs(all.low.y()), std::abs(all.high.y()));
+    const bool is_round =
+        round != nullptr && centre.head<2>().norm() < kSamePlace && std::max(x, y) < round->size.x() + kSamePlace;
+    kind.form = is_round ? BodyForm::kCylinder : BodyForm::kBox;
+    kind.size =
+        is_round ? Vector3(round->size.x(), round->size.x(), all.high.z()) : Vector3(2 * x, 2 * y, all.high.z());
+    const Vector3 filled = all.high - all.low;
+    if (!is_round && (filled.x() < 2 * x - kSamePlace || filled.y() < 2 * y - kSamePlace))
+      Note(links_.location,
+           fmt::format("its shapes are not about the middle of the axle; the body is the box of {:g} x "
+                       "{:g} m about it that holds them",
+                       2 * x, 2 * y));
+    else if (!is_round && shapes > 1)
+      Note(links_.location, fmt::format("its {} shapes collide as the box of {:g} x {:g} x {:g} m that holds them",
+                                        shapes, kind.size.x(), kind.size.y(), kind.size.z()));
+    if (all.low.z() < -kSamePlace)
+      Note(links_.location,
+           fmt::format("something reaches {:g} m below its wheels; the body ends at the ground", -all.low.z()));
+  }
+
+  void SetMass()
+  {
+    for (const UrdfLink& link : links_.links) result_.kind.mass_kg += link.mass;
+    if (result_.kind.mass_kg == 0) Note(links_.location, "no link has a mass; engines take that of their own for it");
+  }
+
+  // The colours that visualisers paint parts with: that of the root link is the kind's, others go by their brightness.
+  MeshPart::Paint PaintOf(const UrdfShape& shape, bool is_wheel) const
+  {
+    using Paint = MeshPart::Paint;
+    if (is_wheel) return Paint::kRubber;
+    if (!shape.colour || *shape.colour == result_.kind.colour) return Paint::kBody;
+    const auto channel = [&](unsigned shift) { return static_cast<double>(*shape.colour >> shift & 0xff) / 255; };
+    const double brightness = 0.3 * channel(16) + 0.6 * channel(8) + 0.1 * channel(0);
+    return brightness < 0.3 ? Paint::kDark : brightness < 0.7 ? Paint::kMetal : Paint::kShell;
+  }
+
+  void SetMesh()
+  {
+    for (const UrdfShape& shape : links_.links[links_.root].visual)
+      if (shape.colour)
+      {
+        result_.kind.colour = *shape.colour;
+        break;
+      }
+    for (const UrdfLink& link : links_.links)
+      for (const UrdfShape& shape : link.visual)
+        AddPart(shape, InKind(link.pose).Compose(shape.pose),
+                link.name == wheels_.left->child || link.name == wheels_.right->child);
+  }
+
+  void AddPart(const UrdfShape& shape, const Pose& pose, bool is_wheel)
+  {
+    MeshPart part;
+    part.paint = PaintOf(shape, is_wheel);
+    part.from = part.to = pose.position;
+    switch (shape.form)
+    {
+      case Form::kSphere:
+        part.form = MeshPart::Form::kBall;
+        part.radius = shape.size.x();
+        break;
+      case Form::kCylinder:
+        part.form = MeshPart::Form::kRod;
+        part.radius = shape.size.x();
+        part.from -= pose.orientation * Vector3(0, 0, shape.size.z() / 2);
+        part.to += pose.orientation * Vector3(0, 0, shape.size.z() / 2);
+        break;
+      case Form::kBox:
+      {
+        const Eigen::Matrix3d axes = pose.orientation.toRotationMatrix();
+        const Vector3 half = axes.cwiseAbs() * (shape.size / 2);
+        part.from -= half;
+        part.to += half;
+        if ((axes.cwiseAbs().rowwise().maxCoeff().array() < 1 - 1e-6).any())
+          Note(shape.location, "a box that is turned is drawn as the upright one that holds it");
+        break;
+      }
+    }
+    result_.kind.mesh.push_back(part);
+  }
+
+  UrdfKind& result_;
+  const UrdfLinks& links_;
+  Wheels wheels_;
+  Vector3 middle_ = Vector3::Zero();
+};
+
+std::map<std::string, UrdfKind>& Registered()
+{
+  static std::map<std::string, UrdfKind> kinds;
+  return kinds;
+}
+
+}  // namespace
+
+UrdfKind KindFromUrdf(const std::string& tag, const std::string& text, const std::string& file)
+{
+  UrdfKind result{file, text, {}, {}, {}};
+  result.kind.tag = tag;
+  result.kind.description = "A robot of a URDF file. The position is the middle of its axle, on the ground.";
+  try
+  {
+    const UrdfLinks links = ReadUrdfLinks(TConfigurationTree(ReadXml(text, file)), result.errors, result.notes);
+    if (result.errors.empty()) Builder(result, links).Build();
+  }
+  catch (const ConfigurationError& error)
+  {
+    result.errors.push_back({error.Location(), error.Message()});
+  }
+  return result;
+}
+
+std::vector<Diagnostic> RegisterUrdfKind(const std::string& tag, const std::string& file)
+{
+  UrdfKind read = KindFromUrdf(tag, ReadTextFile(file), file);
+  if (!read.errors.empty()) return read.errors;
+  const SourceLocation place{std::make_shared<const std::string>(file), 0, 0};
+  if (const auto known = Registered().find(tag); known != Registered().end())
+  {
+    if (known->second.text == read.text)
+    {
+      known->second.file = file;
+      return {};
+    }
+    return {
+        {place, fmt::format("this process has read <{}> from another text before, {}; a kind stays what it is while a "
+                            "process runs",
+                            tag, known->second.file)}};
+  }
+  try
+  {
+    RegisterEntityKind(read.kind);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    return {{place, error.what()}};
+  }
+  Registered().emplace(tag, std::move(read));
+  return {};
+}
+
+const UrdfKind* FindUrdfKind(const std::string& tag)
+{
+  const auto found = Registered().find(tag);
+  return found == Registered().end() ? nullptr : &found->second;
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,34 @@
+// A kind of robot from a URDF file (http://wiki.ros.org/urdf/XML, the format's reference): body, mass, two driven
+// wheels and mesh become a row of the table of entity kinds. Used by the reader of experiments in every process.
+//
+//   <entity_kinds><rover urdf="rover.urdf"/></entity_kinds>
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/configuration/configuration_tree.h"
+#include "common/experiment/entity_kind.h"
+#include "common/experiment/load_experiment.h"
+
+namespace swarmanoid
+{
+
+struct UrdfKind
+{
+  std::string file;
+  std::string text;
+  EntityKindDescription kind;
+  std::vector<Diagnostic> errors;  // why there is no kind
+  std::vector<Diagnostic> notes;   // what the file says without effect, or what is taken for what it does not say
+};
+
+// What a row makes of the text of a file; registers nothing.
+UrdfKind KindFromUrdf(const std::string& tag, const std::string& text, const std::string& file);
+
+// Reads a file and adds its kind to the table, once a process: a tag is of one text. The mistakes are reported.
+std::vector<Diagnostic> RegisterUrdfKind(const std::string& tag, const std::string& file);
+// One that is registered; nullptr for kinds of libraries.
+const UrdfKind* FindUrdfKind(const std::string& tag);
+
+}  // namespace swarmanoid

@@ -1,0 +1,269 @@
+#include "common/experiment/urdf_links.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "common/configuration/wording.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using Form = UrdfShape::Form;
+
+constexpr double kMostMetres = 100;
+
+class Reader
+{
+public:
+  Reader(std::vector<Diagnostic>& errors, std::vector<Diagnostic>& notes) : errors_(errors), notes_(notes) {}
+
+  UrdfLinks Read(const TConfigurationTree& robot)
+  {
+    result_.location = robot.Location();
+    if (robot.Name() != "robot")
+      Error(robot, fmt::format("a URDF file begins with <robot>, not with <{}>", robot.Name()));
+    for (const TConfigurationTree& child : robot.Children())
+      if (child.Name() == "material") ReadMaterial(child);
+    for (const TConfigurationTree& child : robot.Children())
+    {
+      if (child.Name().starts_with("xacro:"))
+        Error(child, fmt::format("<{}> is of xacro; make a URDF file of it: xacro FILE > robot.urdf", child.Name()));
+      else if (child.Name() == "link")
+        ReadLink(child);
+      else if (child.Name() == "joint")
+        ReadJoint(child);
+      else if (child.Name() != "material")
+        NoEffect(child);
+    }
+    if (errors_.empty()) Place();
+    return std::move(result_);
+  }
+
+private:
+  void Error(const TConfigurationTree& at, std::string text) { errors_.push_back({at.Location(), std::move(text)}); }
+  void NoEffect(const TConfigurationTree& at)
+  {
+    notes_.push_back({at.Location(), fmt::format("<{}> has no effect here", at.Name())});
+  }
+
+  // So many finite numbers of an attribute; `fallback` if it is not there.
+  std::vector<double> Numbers(const TConfigurationTree& of, const char* name, std::vector<double> fallback)
+  {
+    if (!of.Exists() || !of.HasAttribute(name)) return fallback;
+    const auto numbers = ParseNumbers(of.Attribute(name));
+    if (numbers && numbers->size() == fallback.size() &&
+        std::ranges::all_of(*numbers, [](double number) { return std::isfinite(number) && std::abs(number) < 1e9; }))
+      return *numbers;
+    Error(of, fmt::format("'{}' of <{}> is '{}'; it must be {} number{}", name, of.Name(), of.Attribute(name),
+                          fallback.size(), fallback.size() == 1 ? "" : "s"));
+    return fallback;
+  }
+  Vector3 Vector(const TConfigurationTree& of, const char* name, const Vector3& fallback)
+  {
+    const auto numbers = Numbers(of, name, {fallback.x(), fallback.y(), fallback.z()});
+    return {numbers[0], numbers[1], numbers[2]};
+  }
+  Pose Origin(const TConfigurationTree& of)
+  {
+    const TConfigurationTree origin = of.Child("origin");
+    const Vector3 turned = Vector(origin, "rpy", Vector3::Zero());
+    return {Vector(origin, "xyz", Vector3::Zero()), QuaternionFromEuler({turned.x(), turned.y(), turned.z()})};
+  }
+  double Length(const TConfigurationTree& of, const char* name)
+  {
+    const double length = Numbers(of, name, {0})[0];
+    if (!(length > 0 && length <= kMostMetres))
+      Error(of, fmt::format("<{}> needs '{}' of more than 0 and at most {} m", of.Name(), name, kMostMetres));
+    return length;
+  }
+
+  static std::uint32_t Packed(const std::vector<double>& rgba)
+  {
+    const auto channel = [&](std::size_t k)
+    { return static_cast<std::uint32_t>(std::clamp(rgba[k], 0.0, 1.0) * 255 + 0.5); };
+    return channel(0) << 16 | channel(1) << 8 | channel(2);
+  }
+
+  void ReadMaterial(const TConfigurationTree& material)
+  {
+    if (const TConfigurationTree colour = material.Child("color"); colour.Exists())
+      materials_[material.Attribute("name")] = Packed(Numbers(colour, "rgba", {0, 0, 0, 1}));
+    else if (const TConfigurationTree texture = material.Child("texture"); texture.Exists())
+      NoEffect(texture);
+  }
+
+  // False for what is no box, cylinder or sphere.
+  bool ReadGeometry(const TConfigurationTree& geometry, UrdfShape& shape)
+  {
+    if (const TConfigurationTree box = geometry.Child("box"); box.Exists())
+    {
+      shape.size = Vector(box, "size", Vector3::Zero());
+      if (!(shape.size.minCoeff() > 0 && shape.size.maxCoeff() <= kMostMetres))
+        Error(box, fmt::format("<box> needs a 'size' of three lengths of more than 0 and at most {} m", kMostMetres));
+      return true;
+    }
+    if (const TConfigurationTree cylinder = geometry.Child("cylinder"); cylinder.Exists())
+    {
+      const double radius = Length(cylinder, "radius");
+      shape.form = Form::kCylinder;
+      shape.size = {radius, radius, Length(cylinder, "length")};
+      return true;
+    }
+    if (const TConfigurationTree sphere = geometry.Child("sphere"); sphere.Exists())
+    {
+      shape.form = Form::kSphere;
+      shape.size = Vector3::Constant(Length(sphere, "radius"));
+      return true;
+    }
+    return false;
+  }
+
+  void ReadShape(const TConfigurationTree& element, std::vector<UrdfShape>& shapes)
+  {
+    UrdfShape shape;
+    shape.location = element.Location();
+    shape.pose = Origin(element);
+    const TConfigurationTree geometry = element.Child("geometry");
+    if (!geometry.Exists()) return Error(element, fmt::format("<{}> has no <geometry>", element.Name()));
+    if (!ReadGeometry(geometry, shape))
+    {
+      const std::vector<TConfigurationTree> children = geometry.Children();
+      const TConfigurationTree& what = children.empty() ? geometry : children.front();
+      const std::string text = fmt::format("<{}> cannot be read; boxes, cylinders and spheres can", what.Name());
+      if (element.Name() == "collision") return Error(what, text);
+      notes_.push_back({what.Location(), text + "; it is not drawn"});
+      return;
+    }
+    if (const TConfigurationTree material = element.Child("material"); material.Exists())
+    {
+      ReadMaterial(material);
+      if (const auto found = materials_.find(material.Attribute("name")); found != materials_.end())
+        shape.colour = found->second;
+    }
+    shapes.push_back(shape);
+  }
+
+  void ReadLink(const TConfigurationTree& element)
+  {
+    UrdfLink link;
+    link.name = element.Attribute("name");
+    link.location = element.Location();
+    if (link.name.empty()) Error(element, "a link needs a name");
+    if (!names_.insert({link.name, result_.links.size()}).second)
+      Error(element, fmt::format("the link '{}' is there twice", link.name));
+    for (const TConfigurationTree& child : element.Children())
+    {
+      if (child.Name() == "visual")
+        ReadShape(child, link.visual);
+      else if (child.Name() == "collision")
+        ReadShape(child, link.collision);
+      else if (child.Name() == "inertial")
+      {
+        const TConfigurationTree mass = child.Child("mass");
+        link.mass = Numbers(mass, "value", {0})[0];
+        if (link.mass < 0) Error(mass, fmt::format("a mass is {:g} kg; it must be at least 0", link.mass));
+      }
+      else
+        NoEffect(child);
+    }
+    result_.links.push_back(std::move(link));
+  }
+
+  void ReadJoint(const TConfigurationTree& element)
+  {
+    UrdfJoint joint;
+    joint.name = element.Attribute("name");
+    joint.type = element.Attribute("type");
+    joint.location = element.Location();
+    joint.parent = element.Child("parent").Exists() ? element.Child("parent").Attribute("link") : "";
+    joint.child = element.Child("child").Exists() ? element.Child("child").Attribute("link") : "";
+    joint.origin = Origin(element);
+    joint.axis = Vector(element.Child("axis"), "xyz", Vector3::UnitX());
+    const std::vector<std::string> types{"fixed", "continuous", "revolute", "prismatic", "floating", "planar"};
+    if (std::ranges::find(types, joint.type) == types.end())
+      Error(element, fmt::format("the joint '{}' is of type '{}'; the types are {}{}", joint.name, joint.type,
+                                 Listed(types), DidYouMean(joint.type, types)));
+    else if (joint.type != "fixed" && joint.type != "continuous")
+      notes_.push_back(
+          {joint.location, fmt::format("the joint '{}' ({}) stands still at zero", joint.name, joint.type)});
+    if (joint.axis.norm() < 1e-6)
+      Error(element, fmt::format("the joint '{}' has an axis of length 0", joint.name));
+    else
+      joint.axis.normalize();
+    if (const TConfigurationTree limit = element.Child("limit"); limit.Exists() && limit.HasAttribute("velocity"))
+    {
+      joint.velocity = Numbers(limit, "velocity", {0})[0];
+      if (!(*joint.velocity > 0)) Error(limit, "the velocity of a joint's limit must be more than 0 rad/s");
+    }
+    result_.joints.push_back(std::move(joint));
+  }
+
+  // The poses of all links, from the one that is no joint's child.
+  void Place()
+  {
+    std::map<std::string, const UrdfJoint*> above;
+    for (const UrdfJoint& joint : result_.joints)
+    {
+      for (const std::string* link : {&joint.parent, &joint.child})
+        if (!names_.contains(*link))
+          errors_.push_back({joint.location,
+                             fmt::format("the joint '{}' names the link '{}', which is not there", joint.name, *link)});
+      if (!above.insert({joint.child, &joint}).second)
+        errors_.push_back({joint.location, fmt::format("the link '{}' hangs on two joints", joint.child)});
+    }
+    std::vector<std::string> roots;
+    for (std::size_t k = 0; k < result_.links.size(); ++k)
+      if (!above.contains(result_.links[k].name))
+      {
+        roots.push_back(result_.links[k].name);
+        result_.root = k;
+      }
+    if (roots.size() != 1)
+      errors_.push_back({result_.location, roots.empty()
+                                               ? "its links hang on each other in a ring, or there are none"
+                                               : "it has several links that hang on no joint: " + Listed(roots)});
+    if (!errors_.empty()) return;
+    for (UrdfLink& link : result_.links)
+    {
+      Pose pose;
+      std::size_t steps = 0;
+      for (auto joint = above.find(link.name); joint != above.end(); joint = above.find(joint->second->parent))
+      {
+        pose = joint->second->origin.Compose(pose);
+        if (++steps <= result_.joints.size()) continue;
+        errors_.push_back({link.location, fmt::format("the link '{}' hangs on itself", link.name)});
+        return;
+      }
+      link.pose = {pose.position, pose.orientation.normalized()};
+    }
+  }
+
+  std::vector<Diagnostic>& errors_;
+  std::vector<Diagnostic>& notes_;
+  std::map<std::string, std::uint32_t> materials_;
+  std::map<std::string, std::size_t> names_;
+  UrdfLinks result_;
+};
+
+}  // namespace
+
+const UrdfLink& UrdfLinks::LinkOf(const std::string& name) const
+{
+  const auto found = std::ranges::find(links, name, &UrdfLink::name);
+  if (found == links.end()) throw std::out_of_range("there is no link '" + name + "'");
+  return *found;
+}
+
+UrdfLinks ReadUrdfLinks(const TConfigurationTree& robot, std::vector<Diagnostic>& errors,
+                        std::vector<Diagnostic>& notes)
+{
+  return Reader(errors, notes).Read(robot);
+}
+
+}  // namespace swarmanoid

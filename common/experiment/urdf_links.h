@@ -1,0 +1,66 @@
+// The links and joints of a URDF file as the frame of its root link sees them, all joints at zero. For urdf_kind.cpp.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/configuration/configuration_tree.h"
+#include "common/experiment/load_experiment.h"
+
+namespace swarmanoid
+{
+
+struct UrdfShape
+{
+  enum class Form : std::uint8_t
+  {
+    kBox,       // size: lengths along x, y, z
+    kCylinder,  // about z; size: radius, radius, length
+    kSphere     // size: radius, three times
+  };
+  Form form = Form::kBox;
+  Vector3 size = Vector3::Zero();  // m
+  Pose pose{};                     // in the frame of the link
+  std::optional<std::uint32_t> colour{};
+  SourceLocation location{};
+};
+
+struct UrdfLink
+{
+  std::string name{};
+  double mass = 0;  // kg
+  std::vector<UrdfShape> visual{};
+  std::vector<UrdfShape> collision{};
+  Pose pose{};  // in the frame of the root link
+  SourceLocation location{};
+};
+
+struct UrdfJoint
+{
+  std::string name{};
+  std::string type{};
+  std::string parent{};
+  std::string child{};
+  Pose origin{};                     // of the child in the frame of the parent
+  Vector3 axis = Vector3::UnitX();   // in the frame of the child
+  std::optional<double> velocity{};  // rad/s: its limit
+  SourceLocation location{};
+};
+
+struct UrdfLinks
+{
+  std::vector<UrdfLink> links{};
+  std::vector<UrdfJoint> joints{};
+  std::size_t root = 0;
+  SourceLocation location{};  // of <robot>
+
+  const UrdfLink& LinkOf(const std::string& name) const;
+};
+
+// Mistakes go into `errors`, what has no effect here into `notes`.
+UrdfLinks ReadUrdfLinks(const TConfigurationTree& robot, std::vector<Diagnostic>& errors,
+                        std::vector<Diagnostic>& notes);
+
+}  // namespace swarmanoid

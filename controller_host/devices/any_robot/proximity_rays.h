@@ -1,0 +1,44 @@
+// Proximity sensors as rays from a robot against the outlines of the bodies in range, and terrain: 1 where something
+// touches the sensor, falling evenly to 0 at the range. The base of those that take their places from a kind or a
+// joint. Generic.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "controller_host/devices/sensing/sensor_world.h"
+#include "controller_host/devices/value_devices.h"
+#include "controller_host/split_sensor.h"
+
+namespace swarmanoid
+{
+
+struct ProximitySensorRay
+{
+  Vector3 from, direction;  // in the frame of the robot
+};
+
+class ProximityRays : public ValueSensor, public SplitSensor
+{
+public:
+  void RefreshShared() override;
+  void Update(const ChannelView& channel) override;
+
+protected:
+  // Takes the noise from the parameters. `reach`: how far from the origin of its robot a ray can end, m.
+  void InitRays(const DeviceSetup& setup, std::size_t count, double range_m, double reach_m);
+  // As many as were told, of robot k at the current tick; valid until the next call.
+  virtual std::span<const ProximitySensorRay> RaysOf(std::size_t k) = 0;
+
+private:
+  void Sense(std::size_t k);
+
+  std::shared_ptr<SensorWorld> world_;
+  std::unique_ptr<FixedBodies> fixed_;
+  double range_m_ = 0;
+  double reach_m_ = 0;
+  std::vector<std::uint32_t> near_;  // of the robot being sensed
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,42 @@
+// The patches of the floor and the holes in it, as sensors see them: those that look straight down, and cameras. They
+// lie on one another in the order of the experiment file.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/space/space.h"
+#include "common/space/terrain/floor_picture.h"
+
+namespace swarmanoid
+{
+
+struct FloorPatch
+{
+  std::uint32_t entity;
+  bool is_hole;
+  bool is_disc;
+  std::uint32_t colour_slot;
+  double half_x, half_y;  // m; discs: radius in half_x
+  double radius;          // m, of the circle around it
+  Pose pose;              // set by who uses it
+  std::shared_ptr<const FloorPicture> picture;
+
+  // Of a point in its frame.
+  bool Contains(double x, double y) const
+  {
+    if (is_disc) return x * x + y * y <= half_x * half_x;
+    return __builtin_fabs(x) <= half_x && __builtin_fabs(y) <= half_y;
+  }
+  // At a point of it.
+  std::uint32_t Colour(std::uint32_t tint, double x, double y) const
+  {
+    if (picture == nullptr) return tint;
+    return Tinted(picture->ColourAt((x + half_x) / (2 * half_x), (y + half_y) / (2 * half_y)), tint);
+  }
+};
+
+// All of them, in the order of the file. Reads the pictures; throws ConfigurationError.
+std::vector<FloorPatch> FloorPatchesOf(const CSwarmanoidSpace& space);
+
+}  // namespace swarmanoid

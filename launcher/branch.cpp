@@ -1,0 +1,256 @@
+#include "launcher/branch.h"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "common/activity/exit_codes.h"
+#include "common/activity/failure_report.h"
+#include "common/activity/print_error.h"
+#include "common/checkpoint/library_builds.h"
+#include "common/program/csv.h"
+#include "common/program/usage_error.h"
+#include "launcher/load.h"
+#include "launcher/recorded_run.h"
+#include "launcher/single_run.h"
+#include "launcher/watched_simulator.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr const char* kStateFile = "state";
+constexpr const char* kEventsFile = "branch_events.csv";
+
+[[noreturn]] void RefuseBranch(const std::string& text) { throw UsageError("--branch: " + text); }
+
+void RequireTick(const RecordedRun& run, const BranchRequest& request)
+{
+  const std::uint64_t last = run.LastTick();
+  if (request.tick < run.FirstTick() || request.tick > last)
+    RefuseBranch(fmt::format("the journal of '{}' has ticks {} to {}, and not {}", request.run, run.FirstTick(), last,
+                             request.tick));
+  const auto record = run.Journal().RecordOf(request.tick);
+  if (!record) RefuseBranch(fmt::format("the journal of '{}' lacks tick {}", request.run, request.tick));
+  if (record->state.last)
+    RefuseBranch(fmt::format("'{}' ended at tick {}; the last one to branch off is {}", request.run, last, last - 1));
+}
+
+void RequireBuilds(const JournalStart& start, const Experiment& experiment, bool any_build)
+{
+  const std::string difference = DifferenceOfBuilds(start.origin.libraries, LibraryBuildsOf(experiment));
+  if (difference.empty() || any_build) return;
+  RefuseBranch("the run was made by " + difference +
+               "; branch with that build, run it again with this one, or let --any-build take it");
+}
+
+// What the child found, for the process that runs the branch.
+struct ComputedState
+{
+  std::uint64_t hash = 0;
+  std::optional<Checkpoint> checkpoint;  // none: only the first tick will do
+};
+
+// The state of the tick, or, if it cannot be saved as it is and may not be changed, the newest before that can.
+ComputedState ComputeState(RecordedRun& run, const Experiment& experiment, const SimulatorOptions& options,
+                           unsigned hosts, std::uint64_t tick, bool exactly)
+{
+  CSimulator simulator = WatchedSimulator::Computing(experiment, options, hosts);
+  ComputedState found;
+  std::string trouble;
+  const auto save = [&](bool canonicalise)
+  {
+    try
+    {
+      found.checkpoint = WatchedSimulator::CheckpointOf(simulator, canonicalise);
+    }
+    catch (const std::exception& error)
+    {
+      trouble = error.what();
+    }
+  };
+  const std::uint64_t canonical = tick - tick % experiment.canonical_period;
+  const auto now = [&] { return simulator.GetSpace().GetTick(); };
+  const std::uint64_t first = now();
+  for (bool more = true; more && now() < tick; more = simulator.Step())
+    if (!exactly && (now() == canonical || now() == first)) save(false);
+  if (now() != tick || !run.Seek(tick)) throw std::runtime_error(fmt::format("it ended at tick {}", now()));
+  if (const std::string difference = FirstDifference(run.Space(), simulator.GetSpace()); !difference.empty())
+    throw std::runtime_error(
+        fmt::format("computed again, tick {} differs from the journal: {} (in the journal, and computed); what the run "
+                    "uses is not deterministic, or changed since; `swarmanoid replay {} --verify` names the first tick",
+                    tick, difference, run.Folder()));
+  found.hash = simulator.GetSpace().Hash();
+  const bool canonical_now = WatchedSimulator::IsCanonical(simulator);
+  if (canonical_now || exactly) save(!canonical_now);
+  if (!found.checkpoint && exactly) throw std::runtime_error(trouble);
+  return found;
+}
+
+}  // namespace
+
+std::optional<BranchRequest> ReadRunAtTick(const std::string& text)
+{
+  constexpr std::size_t kMostDigits = 18;
+  const std::size_t sign = text.rfind('@');
+  if (sign == std::string::npos || sign == 0 || sign + 1 == text.size() || text.size() - sign - 1 > kMostDigits ||
+      text.find_first_not_of("0123456789", sign + 1) != std::string::npos)
+    return std::nullopt;
+  const std::string folder = fs::absolute(text.substr(0, sign)).lexically_normal().string();
+  return BranchRequest{folder, std::stoull(text.substr(sign + 1))};
+}
+
+BranchRequest ReadBranchRequest(const std::string& text)
+{
+  const auto request = ReadRunAtTick(text);
+  if (!request) RefuseBranch(fmt::format("'{}' is no run and tick; for example --branch runs/first@500", text));
+  return *request;
+}
+
+RunSettings SettingsOfBranch(const RunSettings& asked)
+{
+  if (!asked.restore_file.empty()) RefuseBranch("a run begins with one state; leave out --restore");
+  if (!asked.faults_of.empty()) RefuseBranch("controllers fail as in the run that it is of; leave out --faults-of");
+  RunSettings settings = asked;
+  const BranchRequest request = ReadBranchRequest(asked.branch);
+  if (settings.file.empty()) settings.file = request.run + "/experiment.xml";
+  const RecordedRun run(request.run);
+  if (!settings.single_process && settings.controller_hosts == 1)
+    settings.controller_hosts = static_cast<unsigned>(run.Journal().Hosts());
+  return settings;
+}
+
+Branch::Branch(const RunSettings& settings, const Experiment& experiment) : request_(ReadBranchRequest(settings.branch))
+{
+  const auto before = LoadOrComplain(request_.run + "/experiment.xml", {});
+  if (!before) RefuseBranch(fmt::format("the experiment of '{}' cannot be read", request_.run));
+  changes_ = ChangesBetween(*before, experiment);
+  matters_ = std::any_of(changes_.begin(), changes_.end(), [](const BranchChange& change) { return change.matters; });
+  same_fingerprint_ = FingerprintOf(*before) == FingerprintOf(experiment);
+  {
+    const RecordedRun run(request_.run);
+    RequireTick(run, request_);
+    RequireBuilds(run.Journal().Start(), *before, settings.any_build);
+  }
+  std::fflush(nullptr);
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error(std::string("cannot start a process: ") + std::strerror(errno));
+  if (child == 0)
+  {
+    dup2(STDERR_FILENO, STDOUT_FILENO);
+    int code = kExitProcessFailed;
+    try
+    {
+      Compute(settings, *before);
+      // Its controllers and engines may find that the state is not theirs.
+      if (matters_ && fs::exists(scratch_.Path() + "/" + kStateFile))
+      {
+        Checkpoint state = ReadCheckpoint(scratch_.Path() + "/" + kStateFile, *before,
+                                          {settings.controller_hosts, settings.any_build});
+        state.origin = OriginOf(experiment);
+        SimulatorOptions options;
+        options.output_folder = scratch_.Path();
+        options.visualisations = false;
+        options.restore_file = scratch_.Path() + "/changed";
+        WriteCheckpoint(options.restore_file, state);
+        WatchedSimulator::Computing(experiment, options, settings.controller_hosts);
+      }
+      code = kExitDone;
+    }
+    catch (const std::exception& error)
+    {
+      PrintError("swarmanoid: --branch: {}\n", error.what());
+    }
+    std::fflush(nullptr);
+    LeaveAtOnce(code);
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(kExitProcessFailed);
+  if (exit_code_ != kExitDone) return;
+  std::ifstream(scratch_.Path() + "/found") >> hash_ >> first_tick_;
+}
+
+// In the child.
+void Branch::Compute(const RunSettings& settings, const Experiment& experiment)
+{
+  ApplyLimitsHere(settings);
+  RecordedRun run(request_.run);
+  const JournalReader& journal = run.Journal();
+  SimulatorOptions options;
+  options.output_folder = scratch_.Path() + "/again";
+  fs::create_directory(options.output_folder);
+  options.visualisations = false;
+  options.threads = settings.threads;
+  options.any_build = settings.any_build;
+  options.faults_of = request_.run;
+  std::uint64_t from = 0;
+  if (auto nearest = journal.WholeCheckpointUntil(request_.tick, experiment, settings.controller_hosts))
+  {
+    from = nearest->snapshot.tick;
+    options.restore_file = scratch_.Path() + "/nearest";
+    WriteCheckpoint(options.restore_file, *nearest);
+  }
+  else if (journal.FirstTick() != 0)
+    throw std::runtime_error(
+        fmt::format("the journal begins at tick {}, and has no state that all processes saved until tick {}",
+                    journal.FirstTick(), request_.tick));
+  options.events = scratch_.Path() + "/events.csv";
+  std::ofstream(options.events) << EventsBetween(from, request_.tick, request_.run + "/events.csv");
+  const ComputedState found =
+      ComputeState(run, experiment, options, settings.controller_hosts, request_.tick, matters_);
+  if (found.checkpoint) WriteCheckpoint(scratch_.Path() + "/" + kStateFile, *found.checkpoint);
+  std::ofstream(scratch_.Path() + "/found")
+      << found.hash << ' ' << (found.checkpoint ? found.checkpoint->snapshot.tick : 0) << '\n';
+}
+
+// Those of the first tick of a run come before its state.
+std::string Branch::EventsBetween(std::uint64_t after, std::uint64_t last, const std::string& file) const
+{
+  std::ifstream lines(file);
+  std::string text;
+  for (std::string line; std::getline(lines, line);)
+  {
+    const std::vector<std::string> fields = CsvFields(line);
+    std::uint64_t tick = 0;
+    if (fields.empty() || !(std::istringstream(fields[0]) >> tick)) continue;
+    if ((tick > after || after == 0) && tick <= last) text += line + "\n";
+  }
+  return text;
+}
+
+void Branch::Install(RunSettings& settings, const Experiment& experiment, const std::string& folder) const
+{
+  std::string events = first_tick_ < request_.tick
+                           ? EventsBetween(first_tick_, request_.tick, request_.run + "/events.csv")
+                           : std::string();
+  if (!settings.events.empty()) events += EventsBetween(request_.tick, UINT64_MAX, settings.events);
+  settings.events = folder + "/" + kEventsFile;
+  std::ofstream(settings.events) << events;
+  // What was too slow then is not measured again; with changes nobody knows what would be.
+  if (same_fingerprint_) settings.faults_of = request_.run;
+  const std::string state = scratch_.Path() + "/" + kStateFile;
+  if (!fs::exists(state)) return;
+  Checkpoint checkpoint = DecodeCheckpoint(
+      [&]
+      {
+        std::ifstream file(state, std::ios::binary);
+        return std::vector<char>(std::istreambuf_iterator<char>(file), {});
+      }());
+  checkpoint.origin = OriginOf(experiment);
+  settings.restore_file = folder + "/" + CheckpointName(first_tick_);
+  WriteCheckpoint(settings.restore_file, checkpoint);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,65 @@
+// Branches: runs that begin as an earlier run was at one of its ticks. Used by `swarmanoid run --branch`, before the
+// folder of the new run is made.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/experiment/experiment.h"
+#include "common/run/run_settings.h"
+#include "launcher/branch_changes.h"
+#include "launcher/scratch_folder.h"
+
+namespace swarmanoid
+{
+
+struct BranchRequest
+{
+  std::string run;  // its folder
+  std::uint64_t tick = 0;
+};
+// From "RUN@TICK"; nothing if it is none.
+std::optional<BranchRequest> ReadRunAtTick(const std::string& text);
+// Likewise. Throws UsageError.
+BranchRequest ReadBranchRequest(const std::string& text);
+
+// The settings of a run that branches off, with what it takes from the other one: the experiment, if none is named, and
+// the number of controller hosts. Throws UsageError.
+RunSettings SettingsOfBranch(const RunSettings& asked);
+
+class Branch
+{
+public:
+  // Computes the state, from the nearest that was saved, with what went in then, and compares it with the journal's;
+  // in a process of its own, since it is the code of users that computes. `experiment`: of the branch. Throws
+  // UsageError if there is no such tick, or the state does not fit the experiment.
+  Branch(const RunSettings& settings, const Experiment& experiment);
+
+  // Not kExitDone: that process failed, and has said why.
+  int ExitCode() const { return exit_code_; }
+  const BranchRequest& Of() const { return request_; }
+  std::uint64_t Hash() const { return hash_; }  // of the state at the tick
+  // Where the new run begins: at the tick, or before it if what engines remember there cannot be saved.
+  std::uint64_t FirstTick() const { return first_tick_; }
+  const std::vector<BranchChange>& Changes() const { return changes_; }
+
+  // What the run begins with, written into its folder, and the settings that make it begin so.
+  void Install(RunSettings& settings, const Experiment& experiment, const std::string& folder) const;
+
+private:
+  void Compute(const RunSettings& settings, const Experiment& experiment);
+  std::string EventsBetween(std::uint64_t after, std::uint64_t last, const std::string& file) const;
+
+  BranchRequest request_;
+  std::vector<BranchChange> changes_;
+  bool matters_ = false;  // some change does
+  bool same_fingerprint_ = false;
+  ScratchFolder scratch_;
+  int exit_code_ = 0;
+  std::uint64_t hash_ = 0;
+  std::uint64_t first_tick_ = 0;
+};
+
+}  // namespace swarmanoid

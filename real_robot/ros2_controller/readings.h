@@ -1,0 +1,53 @@
+// The readings of a simulated robot as the messages that a real one publishes: the other end of the drivers
+// (real_robot/drivers/ros2). Made and used by ros2_controller, in the thread of the controllers.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/control_interface/ci_robot.h"
+#include "nav_msgs.h"
+#include "real_robot/drivers/ros2/ros2_messages.h"
+#include "real_robot/ros2_controller/wheel_odometry.h"
+
+namespace swarmanoid::ros2
+{
+
+using Header = std_msgs::msg::dds_::Header_;
+using Odometry = nav_msgs::msg::dds_::Odometry_;
+
+// A topic of readings. Whoever waits for each of them misses none.
+template <class Message>
+class ReadingTopic : public Publisher<Message>
+{
+public:
+  ReadingTopic(const DriverSetup& setup, const std::string& topic)
+      : Publisher<Message>(setup, topic, Writer::Keeps::kRecent)
+  {
+  }
+};
+
+class ReadingPublisher
+{
+public:
+  virtual ~ReadingPublisher() = default;
+  // What the sensor reads in this control step.
+  virtual void Publish(const Header& header) = 0;
+  virtual unsigned Listeners() const = 0;
+};
+
+struct ReadingSetup
+{
+  const CCI_Robot* robot = nullptr;
+  DriverSetup driver;
+  double range_m = 0;                     // of the proximity sensors
+  const WheelOdometry* wheels = nullptr;  // of robots with encoders
+};
+
+// The types of sensors that have topics, in ascending order. `positioning` has none of its own: it is part of `odom`.
+std::vector<std::string> PublishedSensors();
+// For all sensors of a robot that have topics. Throws DriverError.
+std::vector<std::unique_ptr<ReadingPublisher>> MakeReadings(const ReadingSetup& setup);
+
+}  // namespace swarmanoid::ros2

@@ -1,0 +1,434 @@
+// ros2_controller: a simulated robot in the hands of a node of ROS 2. It publishes what the robot senses on the topics
+// of a real one and drives as the node commands. Runs where controllers run; all calls come from one thread.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iomanip>
+#include <optional>
+#include <sstream>
+#include <thread>
+
+#include "common/configuration/wording.h"
+#include "common/control_interface/ci_controller.h"
+#include "common/control_interface/ci_positioning_sensor.h"
+#include "common/control_interface/ci_wheels_actuator.h"
+#include "common/control_interface/eyebot/ci_eyebot_propellers_actuator.h"
+#include "common/control_interface/footbot/ci_footbot_encoders_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_wheels_actuator.h"
+#include "common/math/elementary.h"
+#include "real_robot/ros2_controller/readings.h"
+
+namespace swarmanoid::ros2
+{
+namespace
+{
+
+using TwistStamped = geometry_msgs::msg::dds_::TwistStamped_;
+
+constexpr double kSettle_s = 0.2;  // from when two ends know each other until both surely do
+constexpr double kSayAgain_s = 1;  // until the node has answered once
+constexpr double kLookAgain_s = 0.02;
+
+bool IsFinite(const Twist& twist)
+{
+  for (const auto& part : {twist.linear(), twist.angular()})
+    if (!std::isfinite(part.x()) || !std::isfinite(part.y()) || !std::isfinite(part.z())) return false;
+  return true;
+}
+
+// What moves the robot: two wheels, or propellers.
+class Drive
+{
+public:
+  explicit Drive(const CCI_Robot& robot)
+  {
+    const std::vector<std::string> known{"eyebot_propellers", "footbot_wheels", "wheels"};
+    for (const std::string& type : robot.ActuatorTypes())
+      if (std::ranges::find(known, type) == known.end())
+        throw DriverError(fmt::format("ros2_controller has no topic for the actuator <{}>; it has cmd_vel for {}", type,
+                                      Listed(known)));
+    if (robot.HasActuator("footbot_wheels"))
+      footbot_ = &robot.Actuator<CCI_FootBotWheelsActuator>("footbot_wheels");
+    else if (robot.HasActuator("wheels"))
+      wheels_ = &robot.Actuator<CCI_WheelsActuator>("wheels");
+    else if (robot.HasActuator("eyebot_propellers"))
+      propellers_ = &robot.Actuator<CCI_EyeBotPropellersActuator>("eyebot_propellers");
+    else
+      throw DriverError(fmt::format("ros2_controller needs one of the actuators {}", Listed(known)));
+  }
+
+  bool HasWheels() const { return propellers_ == nullptr; }
+  double Radius() const { return wheels_ != nullptr ? wheels_->GetWheelRadius() : Footbot::WHEEL_RADIUS_M; }
+  double Distance() const
+  {
+    return wheels_ != nullptr ? wheels_->GetInterwheelDistance() : Footbot::INTERWHEEL_DISTANCE_M;
+  }
+  // rad/s of a wheel for a command; `side`: -1 left, 1 right.
+  double WheelSpeed(const Twist& twist, double side) const
+  {
+    return (twist.linear().x() + side * twist.angular().z() * Distance() / 2) / Radius();
+  }
+
+  void Command(const Twist& twist)
+  {
+    const double left = HasWheels() ? WheelSpeed(twist, -1) : 0;
+    const double right = HasWheels() ? WheelSpeed(twist, 1) : 0;
+    if (footbot_ != nullptr) footbot_->SetFootBotWheelsAngularVelocity(left, right);
+    if (wheels_ != nullptr) wheels_->SetAngularVelocity(left, right);
+    if (propellers_ != nullptr)
+      propellers_->SetVelocity(twist.linear().x(), twist.linear().y(), twist.linear().z(), twist.angular().z());
+  }
+
+private:
+  using Footbot = CCI_FootBotWheelsActuator;
+
+  CCI_FootBotWheelsActuator* footbot_ = nullptr;
+  CCI_WheelsActuator* wheels_ = nullptr;
+  CCI_EyeBotPropellersActuator* propellers_ = nullptr;
+};
+
+// The commands of the node, with time stamps or without.
+class Commands
+{
+public:
+  Commands(const DriverSetup& setup, bool stamped, bool reliable)
+  {
+    if (stamped)
+      stamped_.emplace(setup, "cmd_vel", reliable);
+    else
+      plain_.emplace(setup, "cmd_vel", reliable);
+  }
+
+  // The next one, oldest first, that is of this time if they have one.
+  std::optional<Twist> Take(const std::optional<builtin_interfaces::msg::dds_::Time_>& of)
+  {
+    if (plain_) return plain_->TakeNext() ? std::optional(Checked(plain_->Latest())) : std::nullopt;
+    while (stamped_->TakeNext())
+      if (!of || stamped_->Latest().header().stamp() == *of) return Checked(stamped_->Latest().twist());
+    return std::nullopt;
+  }
+  void Wait(double seconds) { plain_ ? plain_->Wait(seconds) : stamped_->Wait(seconds); }
+  unsigned Publishers() const { return plain_ ? plain_->Publishers() : stamped_->Publishers(); }
+  std::string Name() const { return plain_ ? plain_->Name() : stamped_->Name(); }
+
+private:
+  Twist Checked(const Twist& twist) const
+  {
+    if (IsFinite(twist)) return twist;
+    throw DriverError(Name() + ": a command is not a finite number");
+  }
+
+  std::optional<Subscriber<Twist>> plain_;
+  std::optional<Subscriber<TwistStamped>> stamped_;
+};
+
+class CRos2Controller : public CCI_Controller
+{
+public:
+  CRos2Controller() { All().push_back(this); }
+  ~CRos2Controller() override { std::erase(All(), this); }
+
+  int Init(const TConfigurationTree t_tree) override
+  {
+    try
+    {
+      Prepare(t_tree);
+    }
+    catch (const DriverError& error)
+    {
+      throw ConfigurationError(t_tree.Location(), error.what());
+    }
+    return RETURN_OK;
+  }
+
+  void ControlStep() override
+  {
+    if (!ends_) OpenAll();
+    if (odometry_) AdvanceOdometry();
+    const auto now = TimeOf(GetRobot()->GetTime());
+    if (lock_step_)
+      AwaitCommand(now);
+    else
+    {
+      Publish(now);
+      while (const auto command = ends_->commands.Take(std::nullopt)) command_ = *command;
+    }
+    drive_->Command(command_);
+  }
+
+  void Destroy() override { ends_.reset(); }
+
+  bool HasState() const override { return true; }
+  void SaveState(std::ostream& state) const override
+  {
+    state << std::setprecision(17) << command_.linear().x() << ' ' << command_.linear().y() << ' '
+          << command_.linear().z() << ' ' << command_.angular().z();
+    if (odometry_) odometry_->Save(state);
+  }
+  void LoadState(std::istream& state) override
+  {
+    double x = 0, y = 0, z = 0, turn = 0;
+    state >> x >> y >> z >> turn;
+    command_.linear().x(x);
+    command_.linear().y(y);
+    command_.linear().z(z);
+    command_.angular().z(turn);
+    if (odometry_) odometry_->Load(state);
+  }
+
+  std::string StatusText() const override
+  {
+    return fmt::format("{}{:.3g} m/s ahead, {:.3g} rad/s", timed_out_ ? "no answer; " : "", command_.linear().x(),
+                       command_.angular().z());
+  }
+
+private:
+  struct Ends
+  {
+    Ends(const ReadingSetup& setup, bool stamped, bool reliable)
+        : readings(MakeReadings(setup)), commands(setup.driver, stamped, reliable)
+    {
+    }
+    std::vector<std::unique_ptr<ReadingPublisher>> readings;
+    std::optional<ReadingTopic<Odometry>> odometry;
+    Commands commands;
+  };
+
+  // Of this process: their ends of DDS find those of the nodes at the same time.
+  static std::vector<CRos2Controller*>& All()
+  {
+    static std::vector<CRos2Controller*> all;
+    return all;
+  }
+  static void OpenAll()
+  {
+    for (CRos2Controller* each : All())
+      if (!each->ends_) each->Open();
+  }
+
+  // Throws DriverError for what the file should say otherwise.
+  void Prepare(const TConfigurationTree& parameters)
+  {
+    parameters_ = parameters;
+    const CCI_Robot& robot = *GetRobot();
+    drive_.emplace(robot);
+    const std::vector<std::string> published = PublishedSensors();
+    for (const std::string& type : robot.SensorTypes())
+      if (std::ranges::find(published, type) == published.end())
+        throw DriverError(fmt::format("ros2_controller has no topic for the sensor <{}>; those that have: {}", type,
+                                      Listed(published)));
+    if (robot.HasSensor("positioning")) positioning_ = &robot.Sensor<CCI_PositioningSensor>("positioning");
+    if (robot.HasSensor("footbot_encoders")) encoders_ = &robot.Sensor<CCI_FootBotEncodersSensor>("footbot_encoders");
+    if (drive_->HasWheels()) odometry_.emplace(drive_->Radius(), drive_->Distance());
+    name_space_ = parameters.GetText("namespace");
+    name_space_ += (name_space_.empty() ? "" : "/") + TopicWord(robot.GetId());
+    TopicName(name_space_, "cmd_vel");  // refuses what is no name
+    for (const CRos2Controller* other : All())
+      if (other != this && other->name_space_ == name_space_)
+        throw DriverError(fmt::format("the topics {}/… would be those of two robots, '{}' and '{}'", name_space_,
+                                      other->GetRobot()->GetId(), robot.GetId()));
+    lock_step_ = parameters.GetText("mode") == "lock_step";
+    on_timeout_ = parameters.GetText("on_timeout");
+  }
+
+  void Open()
+  {
+    const DriverSetup setup{Parameters({}, {}), GetRobot()->GetId(), GetRobot()->GetKind(), name_space_,
+                            GetRobot()->GetTickSeconds()};
+    ends_.emplace(ReadingSetup{GetRobot(), setup, parameters_.GetNumber("range"), odometry_ ? &*odometry_ : nullptr},
+                  parameters_.GetBoolean("stamped"), lock_step_);
+    if (odometry_ || positioning_ != nullptr) ends_->odometry.emplace(setup, "odom");
+  }
+
+  void AdvanceOdometry()
+  {
+    const double seconds = GetRobot()->GetTickSeconds();
+    if (GetRobot()->GetTick() == 0) return;
+    if (encoders_ != nullptr)
+      odometry_->Advance(encoders_->GetLeftVelocity(), encoders_->GetRightVelocity(), seconds);
+    else
+      odometry_->Advance(drive_->WheelSpeed(command_, -1), drive_->WheelSpeed(command_, 1), seconds);
+  }
+
+  void Publish(const builtin_interfaces::msg::dds_::Time_& now)
+  {
+    Header header;
+    header.stamp(now);
+    header.frame_id(GetRobot()->GetId());
+    for (const auto& reading : ends_->readings) reading->Publish(header);
+    if (ends_->odometry) PublishOdometry(header);
+  }
+
+  // The pose of the positioning sensor in the frame "world", else that of the wheels in a frame of their own.
+  void PublishOdometry(Header header)
+  {
+    Odometry message;
+    message.child_frame_id(header.frame_id());
+    header.frame_id(positioning_ != nullptr ? "world" : header.frame_id() + "/odom");
+    message.header(header);
+    Vector3 place = Vector3::Zero();
+    Quaternion turned = Quaternion::Identity();
+    if (positioning_ != nullptr)
+    {
+      place = positioning_->GetPosition();
+      turned = positioning_->GetOrientation();
+    }
+    else
+    {
+      place = {odometry_->X(), odometry_->Y(), 0};
+      const SinCos half = SinCosOf(odometry_->Heading() / 2);
+      turned = Quaternion(half.cos, 0, 0, half.sin);
+    }
+    auto& pose = message.pose().pose();
+    pose.position().x(place.x());
+    pose.position().y(place.y());
+    pose.position().z(place.z());
+    pose.orientation().x(turned.x());
+    pose.orientation().y(turned.y());
+    pose.orientation().z(turned.z());
+    pose.orientation().w(turned.w());
+    if (odometry_)
+    {
+      message.twist().twist().linear().x(odometry_->Forward());
+      message.twist().twist().angular().z(odometry_->Turn());
+    }
+    ends_->odometry->Publish(message);
+  }
+
+  unsigned Listeners() const
+  {
+    unsigned listeners = ends_->odometry ? ends_->odometry->Listeners() : 0;
+    for (const auto& reading : ends_->readings) listeners += reading->Listeners();
+    return listeners;
+  }
+
+  // Until the node hears and is heard.
+  void AwaitNode()
+  {
+    const double wait_s = parameters_.GetNumber("wait");
+    const double begun = Now();
+    while (ends_->commands.Publishers() == 0 || Listeners() == 0)
+    {
+      if (Now() - begun > wait_s)
+        throw DriverError(fmt::format(
+            "{} after {:g} s: start the node before the run, with the same ROS_DOMAIN_ID, or give <wait> more",
+            ends_->commands.Publishers() == 0
+                ? "nobody publishes " + ends_->commands.Name() + " with reliable quality of service"
+                : "nobody hears the readings on topics rt/" + name_space_ + "/…",
+            wait_s));
+      std::this_thread::sleep_for(std::chrono::duration<double>(kLookAgain_s));
+    }
+    std::this_thread::sleep_for(std::chrono::duration<double>(std::max(kSettle_s - (Now() - begun), 0.0)));
+    node_is_here_ = true;
+  }
+
+  void AwaitCommand(const builtin_interfaces::msg::dds_::Time_& now)
+  {
+    if (!node_is_here_) AwaitNode();
+    // What came too late for a tick before answers none.
+    while (ends_->commands.Take(std::nullopt))
+    {
+    }
+    Publish(now);
+    const double timeout_s = parameters_.GetNumber("timeout");
+    const double asked = Now();
+    double said = asked;
+    for (double waited = 0; waited < timeout_s; waited = Now() - asked)
+    {
+      if (const auto command = ends_->commands.Take(now))
+      {
+        if (timed_out_) GetRobot()->Log(ends_->commands.Name() + ": the node answers again");
+        timed_out_ = false;
+        has_answered_ = true;
+        command_ = *command;
+        return;
+      }
+      // Somebody who has found this end, and whom this end has not found, misses what is said first.
+      if (!has_answered_ && Now() - said > kSayAgain_s)
+      {
+        Publish(now);
+        said = Now();
+      }
+      ends_->commands.Wait(std::min(timeout_s - waited, kSayAgain_s));
+    }
+    TimeOut(timeout_s);
+  }
+
+  void TimeOut(double timeout_s)
+  {
+    const std::string what = fmt::format("{}: no command within {:g} s for the readings of {:g} s",
+                                         ends_->commands.Name(), timeout_s, GetRobot()->GetTime());
+    if (on_timeout_ == "abort")
+      throw DriverError(what + "; see what the node does, give <timeout> more, or set <on_timeout> to hold or stop");
+    const bool stops = on_timeout_ == "stop";
+    if (!timed_out_) GetRobot()->Log(what + (stops ? "; the robot stands" : "; the command before it holds"));
+    timed_out_ = true;
+    if (stops) command_ = Twist();
+  }
+
+  TConfigurationTree parameters_;
+  std::string name_space_;
+  bool lock_step_ = true;
+  std::string on_timeout_;
+  std::optional<Drive> drive_;
+  std::optional<WheelOdometry> odometry_;
+  const CCI_PositioningSensor* positioning_ = nullptr;
+  const CCI_FootBotEncodersSensor* encoders_ = nullptr;
+  std::optional<Ends> ends_;
+  Twist command_;
+  bool node_is_here_ = false;
+  bool has_answered_ = false;
+  bool timed_out_ = false;
+};
+
+}  // namespace
+}  // namespace swarmanoid::ros2
+
+using swarmanoid::ros2::CRos2Controller;
+
+REGISTER_CONTROLLER(
+    CRos2Controller,
+    {.label = "ros2_controller",
+     .brief = "a node of ROS 2 controls the robot: its readings go out on the topics of a real one, cmd_vel comes in",
+     .parameters = {
+         {.name = "mode",
+          .type = ParameterType::kChoice,
+          .default_value = "lock_step",
+          .description = "lock_step: each control step waits for the command that answers its readings. free_running: "
+                         "the newest command counts; such a run cannot be repeated.",
+          .choices = {"lock_step", "free_running"}},
+         {.name = "on_timeout",
+          .type = ParameterType::kChoice,
+          .default_value = "abort",
+          .description = "What follows if no command comes in time, in lock_step. hold: the command before it. stop: "
+                         "the robot stands. abort: the run ends.",
+          .choices = {"hold", "stop", "abort"}},
+         {.name = "timeout",
+          .unit = "s",
+          .default_value = "5",
+          .description = "Time that the node may take for a command, in lock_step.",
+          .minimum = 0.001,
+          .maximum = 3600},
+         {.name = "wait",
+          .unit = "s",
+          .default_value = "10",
+          .description = "Time that the first step waits for the node to appear, in lock_step.",
+          .minimum = 0,
+          .maximum = 3600},
+         {.name = "stamped",
+          .type = ParameterType::kBoolean,
+          .default_value = "false",
+          .description = "Commands are geometry_msgs/msg/TwistStamped; in lock_step the one with the time stamp of "
+                         "the readings answers them."},
+         {.name = "range",
+          .unit = "m",
+          .default_value = "0.1",
+          .description = "Distance that the proximity sensors see, as their messages state it.",
+          .minimum = 0.001,
+          .maximum = 100},
+         {.name = "namespace",
+          .type = ParameterType::kText,
+          .default_value = "",
+          .description = "Put in front of the topics, before the id of the robot."}}})

@@ -1,0 +1,390 @@
+#include "space_server/cluster/shares.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "common/activity/print_error.h"
+#include "common/configuration/wording.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kMostShares = 16;   // at once
+constexpr std::size_t kMostEnded = 64;    // that are remembered
+constexpr std::size_t kMostWaiting = 64;  // messages of holders; a flood is not heard whole
+constexpr auto kRenewWatched = 1s;
+constexpr auto kWatchedTime = 3s;  // after which a request that is not repeated is void
+
+// Of the client of a request, so that no holder of a share speaks for somebody else.
+std::string ClientBy(const std::string& client, const Share& share)
+{
+  return fmt::format("{} by {}", client, share.Name());
+}
+
+std::string EndText(const Share& share) { return share.ends == 0 ? std::string("with the run") : UtcText(share.ends); }
+
+}  // namespace
+
+Shares::Shares(ServerSession& session, const BusOptions& options, Callbacks callbacks)
+    : session_(session), options_(options), callbacks_(std::move(callbacks))
+{
+}
+
+void Shares::Stop()
+{
+  {
+    const std::lock_guard lock(mutex_);
+    stopped_ = true;
+  }
+  robots_in_.reset();
+  sides_.clear();
+  open_ = 0;
+}
+
+void Shares::Restore(const std::vector<SharedWith>& shares)
+{
+  for (const SharedWith& share : shares)
+  {
+    sides_.push_back(std::make_unique<Side>(
+        Side{.share = {share.id, ShareRoleOf(share.role).value_or(ShareRole::kWatcher), share.ends},
+             .by = "an earlier space server of this run"}));
+    ++open_;
+  }
+}
+
+void Shares::Ask(const ControlRequestMessage& request)
+{
+  {
+    const std::lock_guard lock(mutex_);
+    inbox_.of_members.push_back(request);
+    of_members_.emplace_back(request.client, request.number);
+    if (of_members_.size() > kMostWaiting) of_members_.pop_front();
+  }
+  callbacks_.woken();
+}
+
+void Shares::Replied(const ControlReplyMessage& reply)
+{
+  if (open_ == 0) return;
+  {
+    const std::lock_guard lock(mutex_);
+    // What members are told of shares is for members.
+    if (std::ranges::find(of_members_, std::pair(reply.client, reply.number)) != of_members_.end()) return;
+    inbox_.replies.push_back(reply);
+  }
+  callbacks_.woken();
+}
+
+template <class Message>
+void Shares::Keep(std::deque<Heard<Message>>& queue, const std::string& share, const Message& message)
+{
+  {
+    const std::lock_guard lock(mutex_);
+    if (stopped_ || queue.size() >= kMostWaiting) return;
+    queue.push_back({share, message});
+  }
+  callbacks_.woken();
+}
+
+Shares::Side* Shares::Find(const std::string& id)
+{
+  const auto found = std::ranges::find_if(sides_, [&](const auto& side) { return side->share.id == id; });
+  return found == sides_.end() ? nullptr : found->get();
+}
+
+void Shares::Open(Side& side)
+{
+  side.is_new = false;
+  side.channel = ChannelOf(*session_.Key(), side.share);
+  Bus& bus = session_.GetBus();
+  WorldMessage world = session_.World();
+  // Who looks on begins with a view.
+  world.checkpoint.clear();
+  const std::string partition = world.experiment;
+  const auto& channel = side.channel;
+  side.leave = std::make_unique<Publisher<LeaveMessage>>(bus, partition, channel);
+  side.views = std::make_unique<Publisher<ViewMessage>>(bus, partition, channel);
+  side.statuses = std::make_unique<Publisher<RunStatusMessage>>(bus, partition, channel);
+  side.worlds = std::make_unique<Publisher<WorldMessage>>(bus, partition, channel);
+  const Share& share = side.share;
+  if (share.role == ShareRole::kOpenView)
+  {
+    side.worlds->Write(world);
+    return;
+  }
+  side.replies = std::make_unique<Publisher<ControlReplyMessage>>(bus, partition, channel);
+  side.robots = std::make_unique<Publisher<RobotStatusMessage>>(bus, partition, channel);
+  side.requests = std::make_unique<Subscription<ControlRequestMessage>>(
+      bus, partition, [this, id = share.id](const ControlRequestMessage& r) { Keep(inbox_.requests, id, r); }, channel);
+  side.leaves = std::make_unique<Subscription<LeaveMessage>>(
+      bus, partition, [this, id = share.id](const LeaveMessage& l) { Keep(inbox_.leaves, id, l); }, channel);
+  side.view_requests = std::make_unique<Subscription<ViewRequestMessage>>(
+      bus, partition, [this, share](const ViewRequestMessage& request) { ViewRequested(share, request); }, channel);
+  side.worlds->Write(world);
+}
+
+// What goes wrong with a share is no matter of the run.
+void Shares::TryToOpen(Side& side, std::uint64_t tick)
+{
+  try
+  {
+    Open(side);
+  }
+  catch (const BusError& error)
+  {
+    End(side, tick, fmt::format("{} could not be opened: {}", side.share.Name(), error.what()));
+  }
+}
+
+// From now on nothing is sealed by its key but refusals.
+void Shares::End(Side& side, std::uint64_t tick, const std::string& why)
+{
+  side.ended = why;
+  --open_;
+  side.view_requests.reset();
+  side.views.reset();
+  side.statuses.reset();
+  side.robots.reset();
+  side.worlds.reset();
+  if (side.leave != nullptr) side.leave->Write({session_.World().run, tick, "space server", "", why});
+  PrintError("space server: {}\n", why);
+}
+
+void Shares::Work(std::uint64_t tick)
+{
+  const auto now = Clock::now();
+  Inbox inbox;
+  {
+    const std::lock_guard lock(mutex_);
+    std::swap(inbox, inbox_);
+  }
+  for (const ControlRequestMessage& request : inbox.of_members) Carry(request, tick);
+  for (const auto& side : sides_)
+  {
+    if (side->ended.empty() && side->share.HasEnded())
+      End(*side, tick, fmt::format("{} has ended", side->share.Name()));
+    else if (side->is_new && side->ended.empty())
+      TryToOpen(*side, tick);
+  }
+  for (const auto& [id, request] : inbox.requests)
+    if (Side* const side = Find(id)) Carry(*side, request, tick);
+  for (const auto& [id, leave] : inbox.leaves)
+    if (Side* const side = Find(id); side != nullptr && leave.run == session_.World().run && side->leave != nullptr)
+      side->leave->Write(side->ended.empty() ? LeaveMessage{leave.run, leave.tick, "space server", leave.process, ""}
+                                             : LeaveMessage{leave.run, tick, "space server", "", side->ended});
+  for (const auto& side : sides_)
+  {
+    if (!side->ended.empty() || side->is_new || side->replies == nullptr) continue;
+    for (ControlReplyMessage reply : inbox.replies)
+    {
+      const std::string own = ClientBy("", side->share);
+      if (reply.client.ends_with(own)) reply.client.resize(reply.client.size() - own.size());
+      side->replies->Write(reply);
+    }
+    for (const auto& [host, robots] : inbox.robots) side->robots->Write(robots);
+  }
+  RenewRobots(now);
+}
+
+void Shares::Carry(const ControlRequestMessage& request, std::uint64_t tick)
+{
+  try
+  {
+    const std::string text = request.verb == "share"    ? Make(request)
+                             : request.verb == "revoke" ? Revoke(request, tick)
+                                                        : List();
+    session_.Reply(request, true, tick, text);
+    if (request.verb != "shares") callbacks_.noted(request);
+  }
+  catch (const std::exception& error)
+  {
+    session_.Reply(request, false, tick, error.what());
+  }
+}
+
+// Answers by what the ticket needs beside the key, which whoever asks can make by himself.
+std::string Shares::Make(const ControlRequestMessage& request)
+{
+  if (!session_.Key()) throw std::invalid_argument("the run lets anybody in (--insecure): there is nothing to share");
+  if (open_ >= kMostShares)
+    throw std::invalid_argument(fmt::format("{} shares of this run are open; revoke one of them first", kMostShares));
+  if (request.numbers.size() != 2) throw std::invalid_argument("share: it needs a role and an end");
+  const auto role = ShareRoleOf(request.numbers[0]);
+  if (!role) throw std::invalid_argument(fmt::format("{} is no role of a share", request.numbers[0]));
+  const Share share{request.entity, *role, static_cast<std::int64_t>(request.numbers[1])};
+  if (!IsShareId(share.id)) throw std::invalid_argument(fmt::format("{} is no id of a share", Quoted(share.id)));
+  if (Find(share.id) != nullptr) throw std::invalid_argument(fmt::format("there is a share {} already", share.id));
+  if (share.HasEnded()) throw std::invalid_argument("the share would have ended already");
+  const std::string address =
+      options_.discovery_server.empty() ? ReachableAddress(options_) : options_.discovery_server;
+  const auto is_ended = [](const auto& side) { return !side->ended.empty(); };
+  if (*role == ShareRole::kOpenView)
+    for (const auto& side : sides_)
+      if (side->share.role == *role && !is_ended(side))
+        throw std::invalid_argument(fmt::format("the run has an open view already: {}", side->share.id));
+  while (static_cast<std::size_t>(std::ranges::count_if(sides_, is_ended)) > kMostEnded)
+    sides_.erase(std::ranges::find_if(sides_, is_ended));
+  sides_.push_back(std::make_unique<Side>(Side{.share = share, .by = AskerOf(request)}));
+  ++open_;
+  return fmt::format("{} for those who reach {}", share.Name(), address);
+}
+
+std::string Shares::List() const
+{
+  std::string text;
+  for (const auto& side : sides_)
+  {
+    const Share& share = side->share;
+    const std::string state = !side->ended.empty() ? side->ended
+                                                   : fmt::format("ends {}, {} looking", EndText(share),
+                                                                 side->views == nullptr ? 0 : side->views->Readers());
+    text += fmt::format("{}{}  {:9}  {}; made by {}", text.empty() ? "" : "; ", share.id, RoleName(share.role), state,
+                        side->by);
+  }
+  return text;
+}
+
+std::string Shares::Revoke(const ControlRequestMessage& request, std::uint64_t tick)
+{
+  Side* const side = Find(request.entity);
+  if (side == nullptr)
+  {
+    std::vector<std::string> known;
+    for (const auto& other : sides_) known.push_back(other->share.id);
+    throw std::invalid_argument(fmt::format("there is no share {}{}; `swarmanoid share --list` tells those of the run",
+                                            Quoted(request.entity), DidYouMean(request.entity, known)));
+  }
+  if (!side->ended.empty()) throw std::invalid_argument(side->ended);
+  End(*side, tick, fmt::format("{} was revoked by {}", side->share.Name(), AskerOf(request)));
+  return side->ended;
+}
+
+void Shares::Carry(Side& side, ControlRequestMessage request, std::uint64_t tick)
+{
+  if (!side.ended.empty()) return Refuse(side, request, tick, side.ended);
+  if (request.run != session_.World().run) return Refuse(side, request, tick, "it was asked of another run");
+  if (side.share.role != ShareRole::kOperator)
+    return Refuse(side, request, tick, fmt::format("{} may only look", side.share.Name()));
+  // Shares end with the run, which a reset ends.
+  if (request.verb == "reset" || std::ranges::find(kControlVerbs, request.verb) == kControlVerbs.end())
+    return Refuse(
+        side, request, tick,
+        fmt::format("{} may not ask for {}; members of the run may", side.share.Name(), Quoted(request.verb)));
+  request.client = ClientBy(request.client, side.share);
+  session_.Ask(request);
+}
+
+void Shares::Refuse(Side& side, const ControlRequestMessage& request, std::uint64_t tick, const std::string& why)
+{
+  if (side.replies == nullptr) return;
+  side.replies->Write({request.client, request.number, false, tick, why});
+  if (std::exchange(side.told, true)) return;
+  ControlRequestMessage refused;
+  refused.verb = kRefused;
+  refused.entity = "ControlRequest";
+  refused.client = fmt::format("{}@{}", request.user, ClientBy(request.client, side.share));
+  PrintError("space server: refused '{}' of {}: {}; further ones are not told\n", request.verb, refused.client, why);
+  callbacks_.noted(refused);
+}
+
+void Shares::ViewRequested(const Share& share, const ViewRequestMessage& request)
+{
+  if (request.run != session_.World().run) return;
+  ViewRequestMessage of_share = request;
+  of_share.client = ClientBy(request.client, share);
+  of_share.every_tick = false;
+  of_share.robots.clear();
+  bool changed = false;
+  {
+    const std::lock_guard lock(mutex_);
+    if (stopped_) return;
+    if (watched_.size() >= kMostWaiting && watched_.count(of_share.client) == 0) return;
+    Watched& watched = watched_[of_share.client];
+    changed = watched.robots != request.robots;
+    watched_changed_ |= changed;
+    watched = {request.robots, Clock::now()};
+  }
+  callbacks_.view_requested(of_share);
+  if (changed) callbacks_.woken();
+}
+
+// Controller hosts hear members alone: the server asks for what holders of shares want to see of robots.
+void Shares::RenewRobots(Clock::time_point now)
+{
+  std::vector<std::uint32_t> robots;
+  {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(watched_, [&](const auto& client) { return now - client.second.heard > kWatchedTime; });
+    if (!std::exchange(watched_changed_, false) && now - robots_requested_ < kRenewWatched) return;
+    for (const auto& [client, watched] : watched_)
+      robots.insert(robots.end(), watched.robots.begin(), watched.robots.end());
+  }
+  robots_requested_ = now;
+  std::ranges::sort(robots);
+  robots.erase(std::unique(robots.begin(), robots.end()), robots.end());
+  if (robots.empty() && robots_wanted_ == nullptr) return;
+  const std::string& partition = session_.World().experiment;
+  if (robots_wanted_ == nullptr)
+  {
+    robots_wanted_ = std::make_unique<Publisher<ViewRequestMessage>>(session_.GetBus(), partition);
+    robots_in_ = std::make_unique<Subscription<RobotStatusMessage>>(session_.GetBus(), partition,
+                                                                    [this](const RobotStatusMessage& message)
+                                                                    {
+                                                                      if (message.run != session_.World().run) return;
+                                                                      {
+                                                                        const std::lock_guard lock(mutex_);
+                                                                        inbox_.robots[message.source] = message;
+                                                                      }
+                                                                      callbacks_.woken();
+                                                                    });
+  }
+  robots_wanted_->Write({ProcessId() + " for shares", session_.World().run, 0, false, std::move(robots)});
+}
+
+unsigned Shares::ViewReaders() const
+{
+  unsigned readers = 0;
+  for (const auto& side : sides_) readers += side->views == nullptr ? 0 : side->views->Readers();
+  return readers;
+}
+
+unsigned Shares::StatusReaders() const
+{
+  unsigned readers = 0;
+  for (const auto& side : sides_) readers += side->statuses == nullptr ? 0 : side->statuses->Readers();
+  return readers;
+}
+
+void Shares::Write(const ViewMessage& view)
+{
+  for (const auto& side : sides_)
+    if (side->views != nullptr) side->views->Write(view);
+}
+
+void Shares::Write(const RunStatusMessage& status)
+{
+  for (const auto& side : sides_)
+    if (side->statuses != nullptr) side->statuses->Write(status);
+}
+
+void Shares::Leave(std::uint64_t tick, const std::string& error, double patience_s)
+{
+  const auto end = Clock::now() + std::chrono::duration<double>(patience_s);
+  for (const auto& side : sides_)
+    if (side->leave != nullptr && side->ended.empty())
+      side->leave->Write({session_.World().run, tick, "space server", "", error});
+  const auto left = [&] { return std::max(0.0, std::chrono::duration<double>(end - Clock::now()).count()); };
+  for (const auto& side : sides_)
+  {
+    if (side->views != nullptr) side->views->WaitUntilRead(left());
+    if (side->leave != nullptr) side->leave->WaitUntilRead(left());
+  }
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,134 @@
+// Shares: what the space server does for those who look at the run, or steer it, without being members (share.h). Each
+// share has topics and a key of its own; only here do they meet those of the run, so that what a holder says is checked
+// before anybody believes it. Members make and revoke shares by requests. Requests and replies come in threads of the
+// bus; all else is called by the main thread of the space_server program.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/bus/server_session.h"
+#include "common/bus/share.h"
+#include "space_server/event_log.h"
+
+namespace swarmanoid
+{
+
+class Shares
+{
+public:
+  using Clock = std::chrono::steady_clock;
+
+  // Called in any thread.
+  struct Callbacks
+  {
+    std::function<void(const ViewRequestMessage&)> view_requested;
+    std::function<void(const ControlRequestMessage&)> noted;  // for the log of events
+    std::function<void()> woken;                              // Work has something to do
+  };
+
+  Shares(ServerSession& session, const BusOptions& options, Callbacks callbacks);
+  ~Shares() { Stop(); }
+  // Nothing is called any more.
+  void Stop();
+
+  // Those of a server of this run before this one. Before Open.
+  void Restore(const std::vector<SharedWith>& shares);
+  // From any thread: a member asks to make, list or revoke shares (kShareVerbs).
+  void Ask(const ControlRequestMessage& request);
+  // Likewise: all who look on see what came of a request.
+  void Replied(const ControlReplyMessage& reply);
+
+  // Opens, answers and ends what is due.
+  void Work(std::uint64_t tick);
+  unsigned ViewReaders() const;
+  unsigned StatusReaders() const;
+  void Write(const ViewMessage& view);
+  void Write(const RunStatusMessage& status);
+  // The run is over.
+  void Leave(std::uint64_t tick, const std::string& error, double patience_s);
+
+private:
+  // One share. When it has ended only its requests are heard, to be refused.
+  struct Side
+  {
+    Share share;
+    std::string by;       // who made it
+    std::string ended{};  // why, if it has
+    bool told = false;    // that something was refused
+    bool is_new = true;
+    std::optional<ShareChannel> channel{};
+    std::unique_ptr<Publisher<WorldMessage>> worlds{};
+    std::unique_ptr<Publisher<ViewMessage>> views{};
+    std::unique_ptr<Publisher<RunStatusMessage>> statuses{};
+    std::unique_ptr<Publisher<RobotStatusMessage>> robots{};
+    std::unique_ptr<Publisher<ControlReplyMessage>> replies{};
+    std::unique_ptr<Publisher<LeaveMessage>> leave{};
+    std::unique_ptr<Subscription<ControlRequestMessage>> requests{};
+    std::unique_ptr<Subscription<ViewRequestMessage>> view_requests{};
+    std::unique_ptr<Subscription<LeaveMessage>> leaves{};
+  };
+  template <class Message>
+  struct Heard
+  {
+    std::string share;
+    Message message;
+  };
+  struct Watched
+  {
+    std::vector<std::uint32_t> robots;
+    Clock::time_point heard;
+  };
+  // What threads of the bus have left for the main thread.
+  struct Inbox
+  {
+    std::deque<ControlRequestMessage> of_members;
+    std::deque<Heard<ControlRequestMessage>> requests;
+    std::deque<Heard<LeaveMessage>> leaves;
+    std::deque<ControlReplyMessage> replies;
+    std::map<std::uint32_t, RobotStatusMessage> robots;  // by host
+  };
+
+  void Open(Side& side);
+  void TryToOpen(Side& side, std::uint64_t tick);
+  void End(Side& side, std::uint64_t tick, const std::string& why);
+  void Carry(const ControlRequestMessage& request, std::uint64_t tick);
+  std::string Make(const ControlRequestMessage& request);
+  std::string List() const;
+  std::string Revoke(const ControlRequestMessage& request, std::uint64_t tick);
+  void Carry(Side& side, ControlRequestMessage request, std::uint64_t tick);
+  void Refuse(Side& side, const ControlRequestMessage& request, std::uint64_t tick, const std::string& why);
+  void ViewRequested(const Share& share, const ViewRequestMessage& request);
+  void RenewRobots(Clock::time_point now);
+  Side* Find(const std::string& id);
+  template <class Message>
+  void Keep(std::deque<Heard<Message>>& queue, const std::string& share, const Message& message);
+
+  ServerSession& session_;
+  const BusOptions& options_;
+  Callbacks callbacks_;
+  std::vector<std::unique_ptr<Side>> sides_;
+  std::atomic<unsigned> open_ = 0;  // sides
+
+  std::mutex mutex_;  // of what follows
+  Inbox inbox_;
+  std::deque<std::pair<std::string, std::uint32_t>> of_members_;  // requests about shares, by client and number
+  std::map<std::string, Watched> watched_;                        // robots by client
+  bool watched_changed_ = false;
+  bool stopped_ = false;
+
+  // Whose inside holders of shares want to see; nothing is made before.
+  std::unique_ptr<Publisher<ViewRequestMessage>> robots_wanted_;
+  std::unique_ptr<Subscription<RobotStatusMessage>> robots_in_;
+  Clock::time_point robots_requested_;
+};
+
+}  // namespace swarmanoid

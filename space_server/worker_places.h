@@ -1,0 +1,48 @@
+// Where the workers of a run are, and where they may go: for users who ask for other places of them. Used by
+// RunControl.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/messages/control_request.h"
+
+namespace swarmanoid
+{
+
+// The machine that the launcher is on.
+inline constexpr const char* kHere = "here";
+
+class WorkerPlaces
+{
+public:
+  // Of a run whose processes nobody can move.
+  WorkerPlaces() = default;
+  // `machines`: all that workers may be on; `places`: "WORKER=MACHINE", of all workers; of two with one name the last
+  // one counts. Throws std::invalid_argument for what is none.
+  WorkerPlaces(std::vector<std::string> machines, const std::vector<std::string>& places);
+
+  struct Move
+  {
+    std::string worker;
+    std::string machine;
+  };
+  // What move-host, move-engine or drain asks for; nothing if nobody is there. Throws std::invalid_argument with the
+  // cure.
+  std::vector<Move> Read(const ControlRequestMessage& request) const;
+  // Where controller hosts are to be, in their order, after what hosts asks for: at most so many. Throws likewise.
+  std::vector<std::string> ReadHosts(const ControlRequestMessage& request, std::size_t most) const;
+  // Nothing of a worker that nobody moves.
+  void Put(const Move& move);
+
+private:
+  std::vector<Move> Drain(const std::string& machine) const;
+  void RequireMoves(const std::string& verb) const;
+  void RequireMachine(const std::string& machine) const;
+
+  std::vector<std::string> machines_;
+  std::map<std::string, std::string> places_;  // of workers
+};
+
+}  // namespace swarmanoid

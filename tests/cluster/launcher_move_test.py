@@ -1,0 +1,212 @@
+"""Users have workers change places in mid-run: every tick has the hash of a run in one process that nobody disturbed."""
+import csv
+import os
+import signal
+
+from harness import CONFIGS, LauncherTest, main, processes_of, supervisor_of, words_of
+
+EXPERIMENT = CONFIGS / "diffusion_10.xml"
+TICKS = 2000
+
+
+class Moves(LauncherTest):
+    def begin(self, *options, experiment=EXPERIMENT):
+        run = self.start("run", experiment, "--ticks", TICKS, "--paused", "--hash-log", "cluster", "--output", "out",
+                         "--controller-hosts", 2, *options)
+        self.wait_for_experiment(experiment.stem)
+        return run
+
+    def refused(self, *words, says):
+        answer = self.run_it("control", *words)
+        self.assertEqual(answer.process.returncode, 2, answer.stdout + answer.stderr)
+        for text in says:
+            self.assertIn(text, answer.stderr)
+
+    def pid_of(self, run, program, *words):
+        self.wait_until(program, lambda: any(os.path.basename((words_of(pid) or [""])[0]) == program for pid in processes_of(run.process.pid)), run)
+        return next(pid for pid in processes_of(run.process.pid)
+                    if os.path.basename((words_of(pid) or [""])[0]) == program and " ".join(words) in " ".join(words_of(pid)))
+
+    def assert_undisturbed(self, run, said="", experiment=EXPERIMENT):
+        one = self.run_it("run", experiment, "--ticks", TICKS, "--single-process", "--quiet", "--hash-log", "one", "--output", "one_out")
+        self.assertEqual(run.wait(), 0, said + run.stderr)
+        self.assertEqual(self.assert_finished(run, TICKS), self.assert_finished(one, TICKS))
+        self.assertEqual((self.folder / "cluster").read_text(), (self.folder / "one").read_text())
+        self.assertEqual((self.folder / "out/positions.txt").read_bytes(), (self.folder / "one_out/positions.txt").read_bytes())
+        self.assert_nothing_left(run)
+
+    def moves(self):
+        with (self.folder / "out/events.csv").open() as file:
+            return [(row["request"], row["entity"], row["from"]) for row in csv.DictReader(file) if row["request"].startswith("move")]
+
+    def test_to_other_processes_while_the_run_is_paused(self):
+        run = self.begin()
+        self.control("step", 777)
+        for words, program, of_it in ((["move-host", "1"], "controller_host", ["--host", "1"]), (["move-engine", "ground"], "engine_worker", []),
+                                      (["move-host", "1", "here"], "controller_host", ["--host", "1"])):
+            before = self.pid_of(run, program, *of_it)
+            answer = self.control(*words)
+            after = self.pid_of(run, program, *of_it)
+            self.assertNotEqual(before, after)
+            self.assertRegex(answer, rf"is process \S+:{after} now, at tick 777")
+        said = run.read_until("engine 'ground' moves to another process of this machine")
+        self.control("step", 100)
+        self.run_it("control", "resume")
+        self.assert_undisturbed(run, said)
+        self.assertEqual([move[:2] for move in self.moves()], [("move-host", "1"), ("move-engine", "ground"), ("move-host", "1 to here")])
+        for _, _, asker in self.moves():
+            self.assertRegex(asker, r"^\S+@\S+:\d+$")
+
+    def test_while_it_runs(self):
+        run = self.begin("--real-time", 100)
+        self.control("resume")
+        for words in (["move-host", "0"], ["move-engine", "ground"], ["move-host", "1"]):
+            self.assertIn("at tick", self.control(*words))
+        self.control("speed", 0)
+        self.assert_undisturbed(run)
+        # Nobody held a lock: the run had been held before they were killed.
+        self.assertNotIn("start again", run.stderr)
+
+    def test_who_dies_later_is_replaced_as_ever(self):
+        run = self.begin()
+        self.control("step", 300)
+        self.control("move-host", "1")
+        os.kill(self.pid_of(run, "controller_host", "--host", "1"), signal.SIGKILL)
+        said = run.read_until("controller host 1 was killed by signal 9 (Killed)")
+        self.control("step", 300)
+        os.kill(self.pid_of(run, "space_server"), signal.SIGKILL)
+        said += run.read_until("all processes start again where the journal ends")
+        self.wait_for_experiment("diffusion_10")
+        self.control("move-engine", "ground")
+        self.run_it("control", "resume")
+        self.assert_undisturbed(run, said)
+
+    def test_what_cannot_be(self):
+        run = self.begin()
+        self.refused("move-host", "7", says=["the run has no controller host 7; it has controller host 0, controller host 1, engine 'ground'"])
+        self.refused("move-host", "x", says=["'x' is no number of a controller host; write move-host N or move-host N MACHINE"])
+        self.refused("move-host", says=["write move-host N"])
+        self.refused("move-engine", "grund", says=["the run has no engine 'grund'"])
+        self.refused("move-host", "0", "beta", says=["the run has no machine 'beta'; it has here", "machines = alpha beta"])
+        self.refused("drain", "beta", says=["the run has no machine 'beta'"])
+        self.refused("drain", "here", says=["the space server is at 'here', and cannot be moved"])
+        self.refused("hosts", "+9", says=["the run has 2 controller hosts, and can have 10"])
+        self.refused("hosts", "-2", says=["the run has 2 controller hosts, and one must remain"])
+        self.refused("hosts", "-1", "beta", says=["the run has no machine 'beta'"])
+        self.refused("hosts", "3", says=["'3' says not how many controller hosts more or fewer; write hosts +N or hosts -N"])
+        self.refused("hosts", says=["write hosts +N"])
+        self.refused("move-hots", "0", says=["did you mean 'move-host'?"])
+        self.control("stop")
+        self.assertEqual(run.wait(), 0, run.stderr)
+
+    def test_drain_knows_who_never_arrived(self):
+        """A worker whose new place nobody can reach goes back, and is not taken for being there."""
+        reach = self.folder / "reach.sh"
+        reach.write_text('#!/bin/sh\n[ "$1" = nowhere ] && exit 255\nshift\nexec sh -c "$*"\n')
+        reach.chmod(0o755)
+        hosts = self.folder / "hosts.txt"
+        hosts.write_text(f"command = {reach} {{host}} {{shell_command}}\nmachines = nowhere\noptions = --interface lo\n")
+        run = self.begin("--hosts", hosts)
+        self.control("step", 300)
+        self.control("move-host", "1", "nowhere")
+        self.assertIn("no worker is at nowhere", self.control("drain", "nowhere"))
+        run.read_until("controller host 1 moves to nowhere")
+        self.run_it("control", "resume")
+        self.assert_undisturbed(run)
+
+    def hosts_of(self, run):
+        return sorted(words[words.index("--host") + 1] if "--host" in words else "0" for words in map(words_of, processes_of(run.process.pid))
+                      if words and os.path.basename(words[0]) == "controller_host")
+
+    def test_more_controller_hosts_and_fewer(self):
+        run = self.begin()
+        self.control("step", 777)
+        for words, hosts in ((["+1"], "012"), (["+2"], "01234"), (["-3"], "01"), (["-1", "here"], "0"), (["+1", "here"], "01")):
+            answer = self.control("hosts", *words)
+            self.assertIn("one controller host has all robots now" if len(hosts) == 1 else f"{len(hosts)} controller hosts share the robots now", answer)
+            self.wait_until("so many hosts", lambda: self.hosts_of(run) == list(hosts), run)
+            self.control("step", 100)
+            self.control("move-host", len(hosts) - 1)
+        self.run_it("control", "resume")
+        self.assert_undisturbed(run)
+        with (self.folder / "out/events.csv").open() as file:
+            asked = [(row["tick"], row["numbers"], row["entity"]) for row in csv.DictReader(file) if row["request"] == "hosts"]
+        self.assertEqual(asked, [("777", "1", ""), ("877", "2", ""), ("977", "-3", ""), ("1077", "-1", "here"), ("1177", "1", "here")])
+        # Looking back, and going on, from a journal of several numbers of hosts.
+        self.assertIn(f"equal: {TICKS + 1} states", self.run_it("replay", "out", "--verify").stdout)
+        for options in ([], ["--controller-hosts", 4], ["--single-process"]):
+            branch = self.run_it("run", "--branch", "out@950", "--ticks", TICKS, *options, "--no-visualisers", "--output", f"branch{len(options)}{options[:1]}")
+            self.assertEqual(self.assert_finished(branch, TICKS), self.assert_finished(run, TICKS))
+
+    def test_hosts_of_controllers_that_cannot_be_saved(self):
+        """They do all ticks again, whose commands other hosts gave, and find the same."""
+        robots = "".join(f'<footbot id="fb_{k}"><position>{k % 3}.5,{k // 3}.5,0</position><orientation>0,0,{40 * k}</orientation>'
+                         '<controller>c</controller></footbot>' for k in range(6))
+        experiment = self.folder / "stateless.xml"
+        experiment.write_text(f"""<ahss-config>
+  <framework><clocktick>100</clocktick><maxclock>{TICKS}</maxclock></framework>
+  <controllers><sample_footbot_controller id="c" library="sample_footbot_controller">
+    <actuators><footbot_wheels><implementation>noisy_footbot_wheels</implementation></footbot_wheels></actuators><sensors/><parameters/>
+  </sample_footbot_controller></controllers>
+  <arena size="3,2,1" optimization="2D">{robots}</arena>
+  <engines><kinematics2d id="ground"/></engines>
+  <arena_physics><engine id="ground"><all/></engine></arena_physics>
+  <visualisations><text_render id="positions" file="positions.txt" every="10"/></visualisations>
+</ahss-config>""")
+        run = self.begin(experiment=experiment)
+        for words in (["+1"], ["-2"], ["+3"]):
+            self.control("step", 333)
+            self.control("hosts", *words)
+        self.control("move-host", "3")
+        self.run_it("control", "resume")
+        self.assert_undisturbed(run, experiment=experiment)
+
+    def test_more_controller_hosts_while_it_runs(self):
+        run = self.begin("--real-time", 100)
+        self.control("resume")
+        for words in (["+1"], ["-2"], ["+3"]):
+            self.assertIn("now", self.control("hosts", *words))
+        os.kill(self.pid_of(run, "controller_host", "--host", "3"), signal.SIGKILL)
+        run.read_until("controller host 3 was killed by signal 9 (Killed)")
+        self.control("speed", 0)
+        self.assert_undisturbed(run)
+
+    def test_hosts_are_as_many_after_everything_died(self):
+        run = self.begin()
+        self.control("step", 777)
+        self.control("hosts", "+1")
+        self.control("step", 300)
+        # Who goes on with a journal has as many as it ends with: the next supervising process, and `resume`.
+        dead = supervisor_of(run.process.pid)
+        os.kill(dead, signal.SIGKILL)
+        self.wait_until("three hosts again", lambda: supervisor_of(run.process.pid) not in (None, dead) and self.hosts_of(run) == list("012"), run)
+        self.wait_for_experiment("diffusion_10")
+        self.control("step", 100)
+        for pid in (run.process.pid, supervisor_of(run.process.pid)):
+            os.kill(pid, signal.SIGKILL)
+        run.process.wait()
+        resumed = self.run_it("resume", "out")
+        one = self.run_it("run", EXPERIMENT, "--ticks", TICKS, "--single-process", "--quiet", "--output", "one_out")
+        self.assertEqual(self.assert_finished(resumed, TICKS), self.assert_finished(one, TICKS))
+        self.assertTrue((self.folder / "out/resumed/controller_host-2.log").exists())
+
+    def test_as_many_hosts_as_pay(self):
+        """Whatever was chosen, the result is the same; how it chooses is tested with times that are given."""
+        run = self.start("run", EXPERIMENT, "--ticks", TICKS, "--real-time", 50, "--hash-log", "cluster", "--output", "out",
+                         "--controller-hosts", "auto", "--placement", "spread")
+        self.assert_undisturbed(run, run.read_until("controller hosts: "))
+        for options in (["--no-recovery"], ["--no-journal"], ["--single-process"]):
+            refused = self.run_it("run", EXPERIMENT, "--controller-hosts", "auto", *options)
+            self.assertEqual(refused.process.returncode, 2)
+            self.assertIn("--controller-hosts", refused.stderr)
+        self.assertIn("from 1 to 1000", self.run_it("run", EXPERIMENT, "--controller-hosts", "0").stderr)
+
+    def test_not_if_nobody_is_replaced(self):
+        run = self.begin("--no-recovery")
+        self.refused("move-host", "0", says=["no process of this run can be moved"])
+        self.control("stop")
+        self.assertEqual(run.wait(), 0, run.stderr)
+
+
+if __name__ == "__main__":
+    main()

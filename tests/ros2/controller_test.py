@@ -1,0 +1,286 @@
+"""ros2_controller: a node of another vendor's DDS in the loop. Lock-step gives the same bits again, in one process and as a
+cluster; what the node hears is stamped with simulated time; who does not answer in time is dealt with as the file says."""
+import math
+import os
+import pathlib
+import random
+import re
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+
+CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
+SWARMANOID = os.environ["SWARMANOID"]
+TICKS = 40
+IMPLEMENTATIONS = {"footbot_encoders": "engine_footbot_encoders"}
+
+
+class Node:
+    """Answers the robots in a domain until it is stopped."""
+
+    def __init__(self, domain, robots, stamped, repeats, silent, others):
+        self.process = subprocess.Popen(
+            [os.environ["ROS2_NODE"], str(domain), "stamped" if stamped else "plain", str(repeats), str(silent[0]), str(silent[1]),
+             str(int(others)), *robots], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        assert self.process.stdout.readline() == "ready\n"
+        self.lines = []
+        self.thread = threading.Thread(target=self._hear)
+        self.thread.start()
+
+    def _hear(self):
+        for line in self.process.stdout:
+            # Until the first answer the same is said again, in case that nobody heard it.
+            if line.split() not in self.lines[-8:]:
+                self.lines.append(line.split())
+
+    def stop(self):
+        self.process.stdin.close()
+        self.process.wait(timeout=30)
+        self.thread.join()
+        self.process.stdout.close()
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.domain = random.randrange(100, 230)
+        folder = tempfile.TemporaryDirectory(prefix="swarmanoid_ros2_")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.environment = {
+            **os.environ, "ROS_DOMAIN_ID": str(self.domain), "ROS_LOCALHOST_ONLY": "1",
+            "SWARMANOID_PLUGIN_PATH": str(pathlib.Path(SWARMANOID).parent.parent / "lib/swarmanoid")}
+        self.runs = 0
+
+    def experiment(self, robots=2, sensors=("footbot_proximity", "footbot_encoders"), actuators=(), **parameters):
+        text = (CONFIGS / "diffusion_10.xml").read_text().replace("<clocktick>", "<canonical_period>20</canonical_period><clocktick>")
+        text = text.replace('<footbot_diffusion id="diffusion" library="footbot_diffusion">',
+                            '<ros2_controller id="diffusion" library="ros2_controller">')
+        text = text.replace("</footbot_diffusion>", "</ros2_controller>").replace('quantity="10"', f'quantity="{robots}"')
+        text = re.sub(r"<sensors>.*</sensors>", "<sensors>" + "".join(
+            f"<{name}><implementation>{IMPLEMENTATIONS.get(name, 'generic_' + name)}</implementation></{name}>" for name in sensors) + "</sensors>", text, flags=re.S)
+        text = text.replace("</actuators>", "".join(
+            f"<{name}><implementation>generic_{name}</implementation></{name}>" for name in actuators) + "</actuators>")
+        text = re.sub(r"<parameters>.*</parameters>", "<parameters>" + "".join(
+            f"<{name}>{value}</{name}>" for name, value in parameters.items()) + "</parameters>", text, flags=re.S)
+        file = self.folder / "experiment.xml"
+        file.write_text(text)
+        return file
+
+    def run_it(self, file, *options, ticks=TICKS):
+        self.runs += 1
+        self.out = self.folder / f"run_{self.runs}"
+        return subprocess.run([SWARMANOID, "run", file, "--output", self.out, "--ticks", str(ticks), "--quiet", *options],
+                              capture_output=True, text=True, env=self.environment, timeout=120)
+
+    def with_node(self, file, *options, robots=("fb_0", "fb_1"), stamped=False, repeats=1, silent=(0, 0), others=False, **more):
+        node = Node(self.domain, robots, stamped, repeats, silent, others)
+        try:
+            run = self.run_it(file, *options, **more)
+        finally:
+            node.stop()
+        return run, node.lines
+
+    def hash_of(self, run):
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return re.search(r"hash ([0-9a-f]{16})", run.stdout + run.stderr).group(1)
+
+    def logs(self):
+        return "".join(file.read_text() for file in self.out.rglob("*.log"))
+
+
+class LockStep(Case):
+    def test_same_bits_in_one_process_and_as_a_cluster(self):
+        file = self.experiment()
+        alone, heard = self.with_node(file, "--single-process")
+        again, _ = self.with_node(file, "--single-process")
+        cluster, heard_there = self.with_node(file, "--controller-hosts", "2")
+        self.assertEqual(self.hash_of(alone), self.hash_of(again))
+        self.assertEqual(self.hash_of(alone), self.hash_of(cluster))
+        # It drives as the node says: not the run of robots that stand.
+        standing, _ = self.with_node(self.experiment(on_timeout="stop", timeout=0.05), "--single-process", silent=(0, 1000))
+        self.assertNotEqual(self.hash_of(alone), self.hash_of(standing))
+        for lines in (heard, heard_there):
+            for robot in ("fb_0", "fb_1"):
+                ticks = [round((int(sec) + int(nanosec) * 1e-9) * 10) for kind, name, sec, nanosec, *_ in lines
+                         if kind == "scan" and name == robot]
+                self.assertEqual(ticks, list(range(TICKS)))
+
+    def test_wheel_odometry(self):
+        run, heard = self.with_node(self.experiment(), "--single-process")
+        self.hash_of(run)
+        rows = [[float(word) for word in words[2:]] for words in heard if words[:2] == ["odom", "fb_0"]]
+        self.assertEqual(len(rows), TICKS)
+        x = y = heading = 0
+        for k, (sec, nanosec, at_x, at_y, forward, turn) in enumerate(rows):
+            before = (k - 1) * 0.1
+            if k > 0:  # what was commanded a tick before, if nothing was near
+                self.assertAlmostEqual(forward, 0.05 + 0.03 * math.sin(before), 6)
+                self.assertAlmostEqual(turn, 0.5 * math.cos(2 * before), 6)
+            half = turn * 0.05
+            chord = forward * 0.1 * (math.sin(half) / half if half else 1)
+            x += chord * math.cos(heading + half)
+            y += chord * math.sin(heading + half)
+            heading += 2 * half
+            self.assertAlmostEqual(at_x, x, 6)
+            self.assertAlmostEqual(at_y, y, 6)
+
+    def test_ros2_render_leaves_odometry_to_it(self):
+        file = self.experiment()
+        file.write_text(file.read_text().replace("<visualisations>", '<visualisations><ros2_render id="ros"/>'))
+        run, heard = self.with_node(file, "--single-process")
+        self.hash_of(run)
+        self.assertEqual(sum(words[:2] == ["odom", "fb_0"] for words in heard), TICKS)
+
+    def test_odometry_of_what_was_commanded(self):
+        run, heard = self.with_node(self.experiment(sensors=("footbot_proximity",)), "--single-process")
+        self.hash_of(run)
+        rows = [[float(word) for word in words[2:]] for words in heard if words[:2] == ["odom", "fb_0"]]
+        self.assertAlmostEqual(rows[2][4], 0.05 + 0.03 * math.sin(0.1), 6)
+
+    def test_late_repetitions_answer_nothing_else(self):
+        # The second one of a tick is there when the next tick begins, at the latest when stamps tell them apart.
+        file = self.experiment(stamped="true")
+        once, _ = self.with_node(file, "--single-process", stamped=True)
+        often, _ = self.with_node(file, "--single-process", stamped=True, repeats=3, others=True)
+        plain, _ = self.with_node(self.experiment(), "--single-process")
+        self.assertEqual(self.hash_of(once), self.hash_of(often))
+        self.assertEqual(self.hash_of(once), self.hash_of(plain))
+
+    def test_hold_and_stop(self):
+        hashes = set()
+        for policy, kept in (("hold", True), ("stop", False)):
+            file = self.experiment(robots=1, sensors=("footbot_proximity",), on_timeout=policy, timeout=0.05)
+            run, heard = self.with_node(file, "--single-process", robots=("fb_0",), silent=(1.05, 2.05))
+            hashes.add(self.hash_of(run))
+            rows = [[float(word) for word in words[2:]] for words in heard if words[0] == "odom"]
+            self.assertAlmostEqual(rows[15][4], 0.05 + 0.03 * math.sin(1.0) if kept else 0, 6)
+            self.assertAlmostEqual(rows[25][4], 0.05 + 0.03 * math.sin(2.4), 6)
+            self.assertIn("no command within 0.05 s for the readings of 1.1 s", self.logs())
+            self.assertIn("the node answers again", self.logs())
+        self.assertEqual(len(hashes), 2)
+
+    def test_abort_names_robot_topic_and_tick(self):
+        file = self.experiment(robots=1, timeout=0.05)
+        for options in (["--single-process"], []):
+            run, _ = self.with_node(file, *options, robots=("fb_0",), silent=(1.05, 1000))
+            self.assertEqual(run.returncode, 4, run.stderr)
+            self.assertIn("robot 'fb_0', controller 'diffusion': ControlStep at tick 11 failed: topic rt/fb_0/cmd_vel "
+                          "(geometry_msgs/msg/Twist): no command within 0.05 s for the readings of 1.1 s; ", run.stderr)
+
+    def test_nobody_there(self):
+        run = self.run_it(self.experiment(robots=1, wait=0.2), "--single-process")
+        self.assertEqual(run.returncode, 4)
+        self.assertIn("nobody publishes topic rt/fb_0/cmd_vel (geometry_msgs/msg/Twist) with reliable quality of service after "
+                      "0.2 s: start the node before the run", run.stderr)
+
+    def test_a_host_that_dies_asks_the_node_again(self):
+        file = self.experiment()
+        alone, _ = self.with_node(file, "--single-process", ticks=300)
+        node = Node(self.domain, ("fb_0", "fb_1"), False, 1, (0, 0), False)
+        out = self.folder / "killed"
+        log = self.folder / "killed.log"
+        try:
+            with log.open("w") as sink:
+                process = subprocess.Popen([SWARMANOID, "run", file, "--output", out, "--ticks", "300"], stdout=sink, stderr=sink,
+                                           env=self.environment)
+                while len(node.lines) < 300 and process.poll() is None:
+                    time.sleep(0.01)
+                hosts = subprocess.run(["ps", "--ppid", str(process.pid), "-o", "pid="], capture_output=True, text=True).stdout.split()
+                workers = [line.split() for parent in hosts for line in subprocess.run(
+                    ["ps", "--ppid", parent, "-o", "pid=,args="], capture_output=True, text=True).stdout.splitlines()]
+                host = next(words[0] for words in workers if "controller_host" in words[1])
+                os.kill(int(host), 9)
+                self.assertEqual(process.wait(timeout=100), 0, log.read_text())
+        finally:
+            node.stop()
+        self.assertIn("another process takes its place", log.read_text())
+        self.assertIn(self.hash_of(alone), log.read_text())
+
+    def test_verified_with_the_node(self):
+        file = self.experiment()
+        run, _ = self.with_node(file)
+        self.hash_of(run)
+        recorded = self.out
+        node = Node(self.domain, ("fb_0", "fb_1"), False, 1, (0, 0), False)
+        try:
+            verified = subprocess.run([SWARMANOID, "replay", recorded, "--verify"], capture_output=True, text=True,
+                                      env=self.environment, timeout=120)
+        finally:
+            node.stop()
+        self.assertEqual(verified.returncode, 0, verified.stdout + verified.stderr)
+
+    def test_restored_run(self):
+        # Odometry and, by hold, the command before it are part of the state.
+        file = self.experiment(on_timeout="hold", timeout=0.05)
+        whole, heard = self.with_node(file, "--single-process", "--checkpoint-every", "20", silent=(1.75, 2.35))
+        restored, heard_there = self.with_node(file, "--single-process", "--restore", self.out / "checkpoint-00000020",
+                                               silent=(1.75, 2.35))
+        self.assertEqual(self.hash_of(whole), self.hash_of(restored))
+        odometry = [words for words in heard if words[0] == "odom" and float(words[2]) + float(words[3]) * 1e-9 > 1.99]
+        self.assertGreaterEqual(len(odometry), 40)
+        self.assertEqual(sorted(odometry), sorted(words for words in heard_there if words[0] == "odom"))
+
+
+class FreeRunning(Case):
+    def test_newest_command(self):
+        file = self.experiment(mode="free_running")
+        run, heard = self.with_node(file, "--single-process", "--real-time", "2")
+        self.hash_of(run)
+        rows = [[float(word) for word in words[2:]] for words in heard if words[:2] == ["odom", "fb_0"]]
+        self.assertGreater(max(row[4] for row in rows), 0.04)
+
+    def test_goes_on_without_a_node(self):
+        run = self.run_it(self.experiment(mode="free_running"), "--single-process")
+        self.hash_of(run)
+
+
+class RealRobotProgram(Case):
+    def test_it_drives_a_simulated_robot(self):
+        # The controller and the drivers of a real robot at one end, the simulated robot at the other.
+        file = self.experiment(robots=1, sensors=("footbot_proximity",), mode="free_running")
+        file.write_text(file.read_text().replace("<precision>4</precision>", "<precision>6</precision>"))
+        robot = subprocess.Popen([os.environ["SWARMANOID_ROBOT"], CONFIGS / "diffusion_10.xml", "--controller", "diffusion", "--robot",
+                                  "fb_0", "--namespace", "fb_0"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                 env=self.environment)
+        try:
+            run = self.run_it(file, "--single-process", "--real-time", "2", ticks=80)
+        finally:
+            robot.send_signal(2)
+            text = robot.communicate(timeout=30)[0]
+        self.hash_of(run)
+        self.assertIn("0.0 s without sensors", text)
+        places = {int(line.split()[0]): [float(word) for word in line.split()[3:5]]
+                  for line in (self.out / "positions.txt").read_text().splitlines() if "fb_0" in line}
+        # 0.05 m/s ahead, or it turns at a wall: it has not stood still.
+        self.assertGreater(math.dist(places[0], places[80]), 0.05)
+
+
+class Refused(Case):
+    def test_isolated_runs(self):
+        run = self.run_it(self.experiment(), "--isolated")
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertIn("--isolated: no node of ROS 2 could reach the robots of the controller 'diffusion'", run.stderr)
+        for tag, text in (("ros2_render", "no node of ROS 2 could hear"), ("foxglove_render", "nobody could open a connection to")):
+            file = self.experiment()
+            file.write_text((CONFIGS / "diffusion_10.xml").read_text().replace("<visualisations>", f'<visualisations><{tag} id="shown"/>'))
+            run = self.run_it(file, "--isolated")
+            self.assertEqual(run.returncode, 2, run.stderr)
+            self.assertIn(f"--isolated: {text} ", run.stderr)
+
+    def test_what_has_no_topic(self):
+        for parameters, text in (
+                ({"sensors": ("footbot_proximity", "battery")},
+                 "ros2_controller has no topic for the sensor <battery>; those that have: eyebot_altitude, "),
+                ({"actuators": ("footbot_leds",)},
+                 "ros2_controller has no topic for the actuator <footbot_leds>; it has cmd_vel for eyebot_propellers, "),
+                ({"namespace": "a//b"}, "'/a//b/fb_0/cmd_vel' cannot be the name of a ROS 2 topic"),
+                ({"on_timeout": "wait"}, "'on_timeout' of the controller <ros2_controller> is 'wait'; it must be one of hold, stop, abort")):
+            run = self.run_it(self.experiment(robots=1, **parameters), "--single-process")
+            self.assertEqual(run.returncode, 3, run.stderr)
+            self.assertIn(text, run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,197 @@
+// Datagrams of RTPS that are signed, and what is heard of those that are not.
+#include "common/bus/datagram_signatures.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr char kLost = 0x08;
+constexpr char kInfoSource = 0x0c;
+constexpr char kInfoDestination = 0x0e;
+constexpr char kDataOf = 0x15;
+constexpr char kDataFragmentOf = 0x16;
+constexpr char kStatisticsOf = static_cast<char>(0x80);
+
+const std::string kMember = "the member 1";
+const std::string kStranger = "the stranger";
+
+RunKey KeyOf(unsigned char byte)
+{
+  RunKey key;
+  key.fill(byte);
+  return key;
+}
+
+std::string Header(const std::string& prefix) { return std::string("RTPS\2\3\1\17", 8) + prefix; }
+
+std::string Submessage(char kind, const std::string& body)
+{
+  return std::string{kind, 1, static_cast<char>(body.size()), 0} + body;
+}
+
+// Of a writer, with its inline qualities.
+std::string Data(char kind, const std::string& writer, const std::string& qualities)
+{
+  return Submessage(kind,
+                    std::string("\0\0\20\0", 4) + std::string(4, '\0') + writer + std::string(8, '\0') + qualities);
+}
+
+const std::string kStatisticsAtEnd = Submessage(kStatisticsOf, std::string(56, '\0'));
+const std::string kAnnouncer("\0\1\0\xc2", 4);
+const std::string kTellsWriters("\0\0\3\xc2", 4);
+const std::string kOfUser("\0\0\1\3", 4);
+
+struct Datagrams : testing::Test
+{
+  static std::shared_ptr<KeyRing> Ring(std::optional<RunKey> key) { return std::make_shared<KeyRing>(0, key); }
+
+  DatagramSignatures member{Ring(KeyOf(1))};
+  DatagramSignatures reader{Ring(KeyOf(1)), {}};
+  DatagramSignatures other{Ring(KeyOf(2))};
+
+  static std::string Signed(DatagramSignatures& by, const std::string& datagram)
+  {
+    std::vector<char> room;
+    const auto bytes = by.Sign(datagram, room);
+    return {bytes.begin(), bytes.end()};
+  }
+  static std::string Heard(DatagramSignatures& by, const std::string& datagram)
+  {
+    const auto checked = by.Check(datagram);
+    EXPECT_EQ(checked.forged.has_value(), checked.datagram.empty());
+    return {checked.datagram.begin(), checked.datagram.end()};
+  }
+  // Who reads knows the member from then on.
+  void Meet() { ASSERT_FALSE(Heard(reader, Signed(member, Header(kMember) + Submessage(kLost, "12345678"))).empty()); }
+};
+
+TEST_F(Datagrams, ComeAsTheyWereBeforeTheyWereSigned)
+{
+  const std::string text = Header(kMember) + Submessage(kLost, "12345678");
+  const std::string bytes = Signed(member, text);
+  EXPECT_EQ(bytes.size(), text.size() + DatagramSignatures::kBytes);
+  EXPECT_EQ(Heard(reader, bytes), text);
+  EXPECT_NE(Signed(member, text), bytes);
+}
+
+TEST_F(Datagrams, KeepTheStatisticsOfFastDdsAtTheirEndOnTheWire)
+{
+  const std::string text = Header(kMember) + Submessage(kLost, "12345678");
+  std::string bytes = Signed(member, text + kStatisticsAtEnd);
+  EXPECT_TRUE(bytes.ends_with(kStatisticsAtEnd));
+  bytes.back() = 7;  // which it fills in afterwards
+  EXPECT_EQ(Heard(reader, bytes), text);
+}
+
+TEST_F(Datagrams, OfAMemberAreNotHeardWithoutASignature)
+{
+  const std::string text = Header(kMember) + Submessage(kLost, "12345678");
+  EXPECT_EQ(Heard(reader, text), text);
+  Meet();
+  EXPECT_EQ(Heard(reader, text), "");
+  EXPECT_EQ(Heard(reader, Signed(other, text)), "");
+  const std::string bytes = Signed(member, text);
+  for (std::size_t at = 0; at < bytes.size(); ++at)
+  {
+    std::string changed = bytes;
+    changed[at] = static_cast<char>(changed[at] ^ 1);
+    const std::string heard = Heard(reader, changed);
+    EXPECT_NE(heard, text) << at;
+    // Under another name it is the datagram of a stranger.
+    const bool has_its_name = at < 8 || at >= 20;
+    EXPECT_TRUE(!has_its_name || heard.empty()) << at;
+  }
+}
+
+TEST_F(Datagrams, OfOthersAreHeard)
+{
+  Meet();
+  for (const std::string& body :
+       {Submessage(kLost, "12345678"), Submessage(kInfoDestination, kMember) + Submessage(kLost, "12345678"),
+        Data(kDataOf, kAnnouncer, std::string("\x0f\x80\x18\0", 4) + kMember + std::string(12, '\0')),
+        Data(kDataFragmentOf, kOfUser, "text")})
+  {
+    const std::string text = Header(kStranger) + body;
+    EXPECT_EQ(Heard(reader, text), text);
+    EXPECT_EQ(Heard(reader, Signed(other, text)), text);
+  }
+}
+
+TEST_F(Datagrams, OfOthersSayNothingForOrAboutAMember)
+{
+  Meet();
+  const std::string own = Submessage(kLost, "12345678");
+  for (const std::string& body :
+       {Submessage(kInfoSource, std::string(8, '\0') + kMember), Data(kDataOf, kAnnouncer, "pG\20\0" + kMember),
+        Data(kDataOf, kTellsWriters, std::string("\x0f\x80\x18\0", 4) + kMember),
+        // Cut in two, who knows what it says.
+        Data(kDataFragmentOf, kTellsWriters, "text")})
+    for (const std::string& before : {std::string(), own, Submessage(0x09, ""), Submessage(kInfoDestination, kMember)})
+      EXPECT_EQ(Heard(reader, Header(kStranger) + before + body + own), "");
+}
+
+// They end a process that reads them by an assertion of Fast DDS.
+TEST_F(Datagrams, OfOthersEndBeforeStatisticsThatNobodyExpects)
+{
+  const std::string text = Header(kStranger) + Submessage(kLost, "12345678");
+  for (const std::string& more : {kStatisticsAtEnd + Submessage(kLost, "12345678"), Submessage(kStatisticsOf, "1234")})
+    EXPECT_EQ(Heard(reader, text + more), text);
+}
+
+// They would be counted one by one.
+TEST_F(Datagrams, OfOthersEndBeforeTheLossOfCountlessMessages)
+{
+  const std::string text = Header(kStranger) + Submessage(kLost, "12345678");
+  const auto lost = [](const std::string& first, const std::string& end)
+  { return Submessage(kLost, std::string(8, '\0') + first + end + std::string(4, '\0')); };
+  const std::string zero(4, '\0');
+  const std::string some = lost(zero + std::string("\1\0\0\0", 4), zero + std::string("\0\1\0\0", 4));
+  EXPECT_EQ(Heard(reader, text + some), text + some);
+  EXPECT_EQ(Heard(reader, text + some + lost(zero + std::string("\1\0\0\0", 4), zero + std::string("\0\0\1\0", 4))),
+            text + some);
+  EXPECT_EQ(Heard(reader, text + lost(zero + std::string("\1\0\0\0", 4), std::string("\1\0\0\0", 4) + zero)), text);
+  EXPECT_EQ(Heard(reader, text + lost(std::string(4, '\xff') + zero, zero + zero)), text);
+  std::string big_endian = lost(zero + std::string("\0\0\0\1", 4), std::string("\0\0\0\1", 4) + zero);
+  big_endian[1] = 0;
+  std::swap(big_endian[2], big_endian[3]);
+  EXPECT_EQ(Heard(reader, text + big_endian), text);
+}
+
+// What a process sent before it signed may come late: nobody forged it.
+TEST_F(Datagrams, FromBeforeTheFirstSignatureAreNotTold)
+{
+  DatagramSignatures settling(Ring(KeyOf(1)));
+  const std::string text = Header(kMember) + Submessage(kLost, "12345678");
+  ASSERT_FALSE(settling.Check(Signed(member, text)).datagram.empty());
+  const auto late = settling.Check(text);
+  EXPECT_TRUE(late.datagram.empty());
+  EXPECT_FALSE(late.forged.has_value());
+}
+
+TEST_F(Datagrams, OfWhoHasNoKeyAreNotSigned)
+{
+  DatagramSignatures outsider(Ring(std::nullopt));
+  const std::string text = Header(kStranger) + Submessage(kLost, "12345678");
+  EXPECT_EQ(Signed(outsider, text), text);
+  EXPECT_EQ(Heard(outsider, Signed(member, Header(kMember))), Header(kMember));
+}
+
+TEST_F(Datagrams, OfNoMeaningHarmNobody)
+{
+  Meet();
+  std::string text = Header(kStranger);
+  for (int k = 0; k < 300; ++k)
+  {
+    text += static_cast<char>(k * 37);
+    for (std::size_t size = 1; size < 24; ++size) Heard(reader, text.substr(text.size() - std::min(text.size(), size)));
+    Heard(reader, text);
+  }
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,170 @@
+// Kinds of robots from URDF files: body, mass, wheels, mesh, and what is said of all that cannot be read.
+#include "common/experiment/urdf_kind.h"
+
+#include <gmock/gmock.h>
+
+#include "common/configuration/xml_reader.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::string Wheel(const std::string& name, const std::string& y, const std::string& more = "",
+                  const std::string& radius = "0.05", const std::string& x = "0.1")
+{
+  return "<link name='" + name + "'><collision><origin rpy='1.5707963267948966 0 0'/><geometry><cylinder radius='" +
+         radius + "' length='0.02'/></geometry></collision></link>\n<joint name='" + name +
+         "_joint' type='continuous'><parent link='base'/><child link='" + name + "'/><origin xyz='" + x + " " + y +
+         " 0'/><axis xyz='0 1 0'/>" + more + "</joint>\n";
+}
+
+const std::string kWheels = Wheel("left", "0.15") + Wheel("right", "-0.15");
+
+UrdfKind Read(const std::string& inside)
+{
+  return KindFromUrdf("cart", "<robot name='r'>\n" + inside + "</robot>", "r.urdf");
+}
+
+UrdfKind WithBase(const std::string& base, const std::string& wheels = kWheels, const std::string& more = "")
+{
+  return Read("<link name='base'>" + base + "</link>\n" + wheels + more);
+}
+
+std::string Box(const std::string& size, const std::string& origin = "", const char* element = "collision")
+{
+  return std::string("<") + element + ">" + origin + "<geometry><box size='" + size + "'/></geometry></" + element +
+         ">";
+}
+
+std::vector<std::string> TextsOf(const std::vector<Diagnostic>& all)
+{
+  std::vector<std::string> texts;
+  for (const Diagnostic& one : all) texts.push_back(one.location.Text() + ": " + one.message);
+  return texts;
+}
+
+TEST(UrdfKind, HasItsOriginInTheMiddleOfTheAxleOnTheGround)
+{
+  // The axle is 0.1 m ahead of the root link and at its height: with 0.05 m of radius the ground is 0.05 m below it.
+  const UrdfKind read =
+      WithBase("<inertial><mass value='2.5'/></inertial>" + Box("0.2 0.4 0.1", "<origin xyz='0.1 0 0.05'/>") +
+                   Box("0.1 0.1 0.1", "<origin xyz='0.3 0 0'/>", "visual"),
+               Wheel("left", "0.15", "<limit velocity='8'/>") + Wheel("right", "-0.15", "<limit velocity='6'/>"));
+  EXPECT_THAT(TextsOf(read.errors), IsEmpty());
+  EXPECT_THAT(TextsOf(read.notes), IsEmpty());
+  const EntityKindDescription& kind = read.kind;
+  EXPECT_EQ(kind.tag, "cart");
+  ASSERT_TRUE(kind.wheels.has_value());
+  EXPECT_DOUBLE_EQ(kind.wheels->axle_m, 0.3);
+  EXPECT_DOUBLE_EQ(kind.wheels->radius_m, 0.05);
+  EXPECT_DOUBLE_EQ(kind.wheels->max_speed_m_s, 6 * 0.05);
+  EXPECT_DOUBLE_EQ(kind.mass_kg, 2.5);
+  EXPECT_EQ(kind.form, BodyForm::kBox);
+  EXPECT_TRUE(kind.size.isApprox(Vector3(0.2, 0.4, 0.15), 1e-9)) << kind.size.transpose();
+  ASSERT_EQ(kind.mesh.size(), 1U);
+  EXPECT_TRUE(kind.mesh[0].from.isApprox(Vector3(0.15, -0.05, 0), 1e-9)) << kind.mesh[0].from.transpose();
+  EXPECT_TRUE(kind.mesh[0].to.isApprox(Vector3(0.25, 0.05, 0.1), 1e-9)) << kind.mesh[0].to.transpose();
+}
+
+TEST(UrdfKind, OfAnUprightCylinderAboutTheAxleIsRound)
+{
+  const std::string body =
+      "<collision><origin xyz='0.1 0 0.02'/><geometry><cylinder radius='0.2' length='0.1'/></geometry></collision>";
+  EXPECT_EQ(WithBase(body).kind.form, BodyForm::kCylinder);
+  EXPECT_TRUE(WithBase(body).kind.size.isApprox(Vector3(0.2, 0.2, 0.12), 1e-9));
+  // Wheels that stand out of it collide, too.
+  const UrdfKind wide = WithBase(body, Wheel("left", "0.25") + Wheel("right", "-0.25"));
+  EXPECT_EQ(wide.kind.form, BodyForm::kBox);
+  EXPECT_TRUE(wide.kind.size.isApprox(Vector3(0.4, 0.52, 0.12), 1e-9)) << wide.kind.size.transpose();
+}
+
+TEST(UrdfKind, HoldsAllShapesInABoxAboutTheAxleAndSaysSo)
+{
+  const UrdfKind read = WithBase(Box("0.4 0.2 0.1", "<origin xyz='0 0 0.05'/>"));
+  // From 0.3 m behind the axle to 0.1 m ahead of it.
+  EXPECT_TRUE(read.kind.size.isApprox(Vector3(0.6, 0.32, 0.15), 1e-9)) << read.kind.size.transpose();
+  EXPECT_THAT(
+      TextsOf(read.notes),
+      Contains(HasSubstr("r.urdf:1:1: its shapes are not about the middle of the axle; the body is the box of 0.6 x "
+                         "0.32 m about it")));
+}
+
+TEST(UrdfKind, FollowsJointsAndTurns)
+{
+  // A post that hangs on a frame that is turned by a right angle: its way along x is to the left.
+  const UrdfKind read = WithBase(
+      Box("0.2 0.4 0.1", "<origin xyz='0.1 0 0.05'/>"), kWheels,
+      "<link name='frame'/><joint name='f' type='fixed'><parent link='base'/><child link='frame'/><origin xyz='0.1 0 "
+      "0.2' "
+      "rpy='0 0 1.5707963267948966'/></joint><link name='post'><visual><geometry><cylinder radius='0.01' length='0.1'/>"
+      "</geometry></visual></link><joint name='p' type='fixed'><parent link='frame'/><child link='post'/><origin "
+      "xyz='0.05 "
+      "0 0'/></joint>");
+  EXPECT_THAT(TextsOf(read.errors), IsEmpty());
+  ASSERT_EQ(read.kind.mesh.size(), 1U);
+  EXPECT_EQ(read.kind.mesh[0].form, MeshPart::Form::kRod);
+  EXPECT_TRUE(read.kind.mesh[0].from.isApprox(Vector3(0, 0.05, 0.2), 1e-9)) << read.kind.mesh[0].from.transpose();
+  EXPECT_TRUE(read.kind.mesh[0].to.isApprox(Vector3(0, 0.05, 0.3), 1e-9)) << read.kind.mesh[0].to.transpose();
+}
+
+TEST(UrdfKind, NotesWhatHasNoEffect)
+{
+  const std::string body = Box("0.2 0.4 0.1", "<origin xyz='0.1 0 0.05'/>");
+  const std::string limited = Wheel("left", "0.15", "<limit velocity='8'/>") + Wheel("right", "-0.15");
+  const std::string mass = "<inertial><mass value='1'/></inertial>";
+  const auto notes = [&](const std::string& in_base, const std::string& more)
+  { return TextsOf(WithBase(mass + body + in_base, limited, more).notes); };
+  EXPECT_THAT(notes("", "<gazebo/>"), ElementsAre("r.urdf:7:1: <gazebo> has no effect here"));
+  EXPECT_THAT(notes("<visual><geometry><mesh filename='a.stl'/></geometry></visual>", ""),
+              ElementsAre(HasSubstr("<mesh> cannot be read; boxes, cylinders and spheres can; it is not drawn")));
+  EXPECT_THAT(
+      notes("", "<link name='arm'/><joint name='a' type='revolute'><parent link='base'/><child link='arm'/></joint>"),
+      ElementsAre(HasSubstr("the joint 'a' (revolute) stands still at zero")));
+  EXPECT_THAT(notes(Box("0.1 0.1 0.1", "<origin rpy='0 0 0.5'/>", "visual"), ""),
+              ElementsAre(HasSubstr("a box that is turned is drawn as the upright one")));
+  EXPECT_THAT(TextsOf(WithBase(body).notes),
+              ElementsAre(HasSubstr("no <limit velocity="), HasSubstr("no link has a mass")));
+}
+
+TEST(UrdfKind, RefusesWithThePlaceInTheFile)
+{
+  const std::string body = Box("0.2 0.4 0.1", "<origin xyz='0.1 0 0.05'/>");
+  const auto refusal = [](const UrdfKind& read)
+  {
+    const std::vector<std::string> texts = TextsOf(read.errors);
+    return texts.empty() ? std::string("none") : texts.front();
+  };
+  EXPECT_THAT(
+      refusal(WithBase(body, Wheel("left", "0.15"))),
+      HasSubstr("r.urdf:1:1: a robot has two driven wheels, which are continuous joints about y; this one has 1: "));
+  EXPECT_THAT(refusal(WithBase(body, kWheels + Wheel("third", "0"))), HasSubstr("this one has 3: "));
+  EXPECT_THAT(refusal(WithBase(body, Wheel("left", "0.15") + Wheel("right", "-0.15", "", "0.04"))),
+              HasSubstr("the wheels have radii of 0.05 and 0.04 m; they must be equal"));
+  EXPECT_THAT(refusal(WithBase(body, Wheel("left", "0.15") + Wheel("right", "-0.15", "", "0.05", "0.2"))),
+              HasSubstr("must face each other"));
+  EXPECT_THAT(refusal(WithBase("")), HasSubstr("it needs a <collision>"));
+  EXPECT_THAT(refusal(WithBase("<collision><geometry><mesh filename='a.stl'/></geometry></collision>")),
+              HasSubstr("r.urdf:2:40: <mesh> cannot be read"));
+  EXPECT_THAT(refusal(WithBase(Box("0.2 0.4"))), HasSubstr("'size' of <box> is '0.2 0.4'; it must be 3 numbers"));
+  EXPECT_THAT(refusal(WithBase(Box("0.2 -0.4 1"))), HasSubstr("needs a 'size' of three lengths of more than 0"));
+  EXPECT_THAT(refusal(WithBase(body, kWheels, "<link name='base'/>")), HasSubstr("the link 'base' is there twice"));
+  EXPECT_THAT(refusal(WithBase(body, kWheels, "<link name='loose'/>")),
+              HasSubstr("several links that hang on no joint"));
+  EXPECT_THAT(refusal(WithBase(body, kWheels, "<joint name='j' type='hinge'/>")),
+              HasSubstr("is of type 'hinge'; the types are "));
+  EXPECT_THAT(
+      refusal(WithBase(body, kWheels, "<joint name='j' type='fixed'><parent link='base'/><child link='top'/></joint>")),
+      HasSubstr("the joint 'j' names the link 'top', which is not there"));
+  EXPECT_THAT(refusal(WithBase(body, kWheels, "<xacro:include/>")), HasSubstr("is of xacro; make a URDF file of it"));
+  EXPECT_THAT(refusal(KindFromUrdf("cart", "<sdf/>", "r.urdf")), HasSubstr("begins with <robot>, not with <sdf>"));
+  EXPECT_THAT(refusal(KindFromUrdf("cart", "<robot>", "r.urdf")), HasSubstr("r.urdf:1:"));
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,246 @@
+// Journals with a budget: the newest is kept, whole and readable, and nothing is dropped that somebody needs.
+#include <unistd.h>
+
+#include <filesystem>
+#include <random>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "common/journal/journal_follower.h"
+#include "common/journal/journal_reader.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr std::uint64_t kBudget = 64U << 10U;
+constexpr std::uint64_t kPeriod = 50;  // ticks between two saved states
+const std::vector<std::string> kParts{kServerPart, "engine 'ground'"};
+
+// Numbers that nobody can compress; the same for a tick in each run.
+SpaceState NoisyState(std::uint64_t tick)
+{
+  std::mt19937_64 random(tick);
+  std::uniform_real_distribution<double> real(-10, 10);
+  SpaceState state;
+  state.tick = tick;
+  for (int k = 0; k < 14; ++k) state.poses.push_back(real(random));
+  return state;
+}
+
+class JournalSegmentsTest : public testing::Test
+{
+protected:
+  JournalSegmentsTest() : folder_(fs::temp_directory_path() / fmt::format("swarmanoid_segments_{}", getpid()))
+  {
+    fs::create_directories(folder_);
+  }
+  ~JournalSegmentsTest() override { fs::remove_all(folder_); }
+
+  std::string Path() const { return (folder_ / "0").string(); }
+  static std::vector<char> StartOfRun() { return ContentOf(JournalStart{{7, {}}, 1, 0}); }
+
+  static void AddSomeTicks(JournalWriter& journal, std::uint64_t from, std::uint64_t until,
+                           const std::vector<std::string>& saved = kParts)
+  {
+    for (std::uint64_t tick = from; tick < until; ++tick)
+    {
+      const SpaceState state = NoisyState(tick);
+      if (tick > 0 && tick % kPeriod == 0)
+      {
+        SpaceSnapshot snapshot;
+        snapshot.tick = tick;
+        snapshot.poses = state.poses;
+        journal.Add(snapshot);
+        for (const std::string& part : saved) journal.Add(tick, {part, {'s'}});
+      }
+      journal.AddTick(state, false, {}, {});
+      if (tick % kPeriod == kPeriod - 1) journal.Flush();
+    }
+  }
+
+  // All ticks from the first to the last one, with the bits that were written.
+  static void ExpectWhole(const JournalReader& journal, std::uint64_t end)
+  {
+    std::uint64_t next = journal.FirstTick();
+    journal.ForEachTick(
+        [&](const TickRecord& record)
+        {
+          if (record.state.tick < journal.FirstTick()) return;
+          EXPECT_EQ(record.state.tick, next++);
+          EXPECT_EQ(record.state.poses, NoisyState(record.state.tick).poses);
+        });
+    EXPECT_EQ(next, end);
+  }
+
+  const fs::path folder_;
+};
+
+TEST_F(JournalSegmentsTest, ABudgetKeepsTheNewestAndASavedStateBeforeIt)
+{
+  JournalWriter journal(Path(), StartOfRun(), false, {kBudget, kParts});
+  std::uint64_t all = 0;
+  for (std::uint64_t tick = 0; tick < 6000; tick += 10 * kPeriod)
+  {
+    AddSomeTicks(journal, tick, tick + 10 * kPeriod);
+    // The segment that is written, and one that may still be needed, come on top.
+    EXPECT_LT(journal.Bytes(), kBudget + kBudget / 2);
+    const JournalReader read(Path());
+    EXPECT_EQ(read.Bytes(), journal.Bytes());
+    ExpectWhole(read, tick + 10 * kPeriod);
+    const auto checkpoint = read.NewestCheckpoint(kParts);
+    ASSERT_TRUE(checkpoint);
+    EXPECT_GE(checkpoint->snapshot.tick, read.FirstTick());
+    EXPECT_EQ(read.TickToGoOn([](std::uint64_t) { return true; }), tick + 9 * kPeriod);
+    all = read.FirstTick();
+  }
+  EXPECT_GT(all, 4000U) << "the oldest is deleted";
+  EXPECT_FALSE(fs::exists(Path()));
+  EXPECT_FALSE(journal.TakeExcess());
+}
+
+// Who goes on with other controller hosts begins a segment, with a state that is older than the tick where it goes on.
+TEST_F(JournalSegmentsTest, OtherControllerHostsBeginASegment)
+{
+  {
+    JournalWriter journal(Path(), StartOfRun(), false, {kBudget, kParts});
+    AddSomeTicks(journal, 0, 130);
+  }
+  const JournalReader before(Path());
+  EXPECT_EQ(before.Hosts(), 1U);
+  JournalWriter journal(before, 120, false, {kBudget, kParts});
+  journal.BeginHosts(3, 120);
+  SpaceSnapshot snapshot;
+  snapshot.tick = 100;
+  journal.Add(snapshot);
+  for (const std::string& part : kParts) journal.Add(100, {part, {'t'}});
+  AddSomeTicks(journal, 120, 150);
+  journal.Flush();
+  const JournalReader after(Path());
+  EXPECT_EQ(after.Hosts(), 3U);
+  EXPECT_EQ(after.Start().hosts, 1U);
+  EXPECT_EQ(journal.Start().hosts, 3U);
+  ExpectWhole(after, 150);
+  EXPECT_EQ(after.CheckpointAt(100, kParts, 1)->StateOf(kServerPart)[0], 's');
+  EXPECT_EQ(after.CheckpointAt(100, kParts, 3)->StateOf(kServerPart)[0], 't');
+  for (const JournalPlace& place : after.Places())
+  {
+    if (place.kind != JournalBlockKind::kTicks) continue;
+    EXPECT_EQ(place.hosts, place.first_tick < 120 ? 1U : 3U);
+  }
+  AddSomeTicks(journal, 150, 6000);
+  journal.Flush();
+  const JournalReader much_later(Path());
+  EXPECT_GT(much_later.FirstTick(), 120U);
+  ExpectWhole(much_later, 6000);
+  EXPECT_EQ(FirstTickOf(after.Start(),
+                        [&]
+                        {
+                          std::vector<JournalPlace> rest = after.Places();
+                          std::erase_if(rest, [](const JournalPlace& place) { return place.hosts == 1; });
+                          rest.push_back({JournalBlockKind::kSnapshot, 150, 0, {}, 0, 0, 2, 3});
+                          return rest;
+                        }()),
+            150U);
+}
+
+TEST_F(JournalSegmentsTest, WithoutABudgetEverythingIsInOneFile)
+{
+  {
+    JournalWriter journal(Path(), StartOfRun());
+    AddSomeTicks(journal, 0, 2000);
+  }
+  EXPECT_EQ(SegmentsOf(Path()), std::vector<std::uint32_t>{0});
+  ExpectWhole(JournalReader(Path()), 2000);
+}
+
+TEST_F(JournalSegmentsTest, AllIsKeptIfAProcessSavesNoState)
+{
+  JournalWriter journal(Path(), StartOfRun(), false, {kBudget, kParts});
+  AddSomeTicks(journal, 0, 3000, {kServerPart});
+  ExpectWhole(JournalReader(Path()), 3000);
+  EXPECT_EQ(JournalReader(Path()).FirstTick(), 0U);
+  const auto excess = journal.TakeExcess();
+  ASSERT_TRUE(excess);
+  EXPECT_THAT(*excess, HasSubstr("nobody could replace engine 'ground'"));
+  EXPECT_FALSE(journal.TakeExcess()) << "it is told once";
+}
+
+TEST_F(JournalSegmentsTest, CutAnywhereInItsNewestSegmentItGoesOn)
+{
+  {
+    JournalWriter journal(Path(), StartOfRun(), false, {kBudget, kParts});
+    AddSomeTicks(journal, 0, 2000);
+  }
+  const std::uint32_t newest = SegmentsOf(Path()).back();
+  const fs::path whole = folder_ / "whole";
+  fs::rename(SegmentFile(Path(), newest), whole);
+  for (std::uint64_t length = 0; length < fs::file_size(whole); length += 37)
+  {
+    fs::copy_file(whole, SegmentFile(Path(), newest));
+    fs::resize_file(SegmentFile(Path(), newest), length);
+    const std::uint64_t end = EndTickOf(JournalReader(Path()).Start(), JournalReader(Path()).Places());
+    ExpectWhole(JournalReader(Path()), end);
+    if (length % 5 == 0)
+    {
+      const fs::path kept = folder_ / "kept";
+      fs::copy(folder_, kept);
+      const auto tick = JournalReader((kept / "0").string()).TickToGoOn([](std::uint64_t) { return true; });
+      ASSERT_TRUE(tick);
+      {
+        const JournalReader before((kept / "0").string());
+        JournalWriter journal(before, *tick, false, {kBudget, kParts});
+        AddSomeTicks(journal, *tick, *tick + 1000);
+      }
+      ExpectWhole(JournalReader((kept / "0").string()), *tick + 1000);
+      fs::remove_all(kept);
+    }
+    fs::remove(SegmentFile(Path(), newest));
+  }
+}
+
+TEST_F(JournalSegmentsTest, WhoeverFollowsItSeesWhatAReaderSees)
+{
+  JournalFollower follower(Path());
+  EXPECT_NO_THROW(follower.Refresh()) << "nothing is there yet";
+  EXPECT_FALSE(follower.IsBegun());
+  const auto expect_same = [&]
+  {
+    follower.Refresh();
+    const JournalReader reader(Path());
+    EXPECT_EQ(follower.FirstTick(), reader.FirstTick());
+    ASSERT_EQ(follower.Places().size(), reader.Places().size());
+    for (std::size_t k = 0; k < reader.Places().size(); ++k)
+    {
+      const JournalPlace& place = follower.Places()[k];
+      EXPECT_EQ(place.kind, reader.Places()[k].kind);
+      EXPECT_EQ(place.first_tick, reader.Places()[k].first_tick);
+      EXPECT_EQ(follower.Content(place), reader.Content(reader.Places()[k]));
+    }
+  };
+  std::uint64_t tick = 0;
+  {
+    JournalWriter journal(Path(), StartOfRun(), false, {kBudget, kParts});
+    for (; tick < 3000; tick += 4 * kPeriod)
+    {
+      AddSomeTicks(journal, tick, tick + 4 * kPeriod);
+      expect_same();
+    }
+  }
+  {
+    const JournalReader before(Path());
+    const auto back = before.TickToGoOn([](std::uint64_t) { return true; });
+    JournalWriter journal(before, *back, false, {kBudget, kParts});
+    AddSomeTicks(journal, *back, *back + 20 * kPeriod);
+    journal.Flush();
+    expect_same();
+  }
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,128 @@
+// Looking back: whichever tick of a journal is asked for next, the space is as it was there, bit by bit.
+#include <unistd.h>
+
+#include <filesystem>
+#include <random>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "common/journal/journal_follower.h"
+#include "common/journal/journal_reader.h"
+#include "common/journal/recorded_states.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+Experiment TwoRobots()
+{
+  Experiment experiment;
+  experiment.name = "two";
+  experiment.arena_size = {4, 4, 2};
+  for (const char* id : {"fb_0", "fb_1"})
+  {
+    EntityConfiguration robot;
+    robot.kind = EntityKind::kFootbot;
+    robot.id = id;
+    robot.size = {0.085, 0.085, 0.147};
+    robot.movable = true;
+    experiment.entities.push_back(robot);
+  }
+  return experiment;
+}
+
+class RecordedStatesTest : public testing::Test
+{
+protected:
+  RecordedStatesTest() : folder_(fs::temp_directory_path() / fmt::format("swarmanoid_states_{}", getpid()))
+  {
+    fs::create_directories(folder_);
+  }
+  ~RecordedStatesTest() override { fs::remove_all(folder_); }
+
+  std::string Path() const { return (folder_ / "0").string(); }
+  static JournalStart Start() { return {{7, {}}, 1, 0}; }
+
+  // Robots jump about, and an LED changes now and then. Remembers the hash of each tick.
+  void Run(JournalWriter& journal, std::uint64_t ticks)
+  {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> real(0, 4);
+    const std::uint32_t led = space_.GetEntity(0).SlotOf("led", 0);
+    SpaceSnapshot snapshot;
+    for (SpaceState state; state.tick < ticks; ++state.tick)
+    {
+      state.poses.assign(14, 0.0);
+      for (std::size_t k = 0; k < 4; ++k) state.poses[k] = real(random);
+      state.poses[12] = state.poses[13] = 1;
+      state.attributes.Clear();
+      if (random() % 20 == 0)
+        state.attributes.Add(led + static_cast<std::uint32_t>(random() % 12), static_cast<double>(random() % 0xffffff));
+      space_.Apply(state);
+      hashes_.push_back(space_.Hash());
+      if (state.tick > 0 && state.tick % 100 == 0)
+      {
+        snapshot.tick = state.tick;
+        space_.WritePoses(snapshot.poses);
+        snapshot.attributes.assign(space_.Attributes().begin(), space_.Attributes().end());
+        journal.Add(snapshot);
+        journal.Add(state.tick, {kServerPart, {'s'}});
+      }
+      journal.AddTick(state, false, {}, {});
+      if (random() % 30 == 0) journal.Flush();
+    }
+    journal.Flush();
+  }
+
+  void ExpectSameEverywhere(RecordedStates& states, std::uint64_t first, std::uint64_t end)
+  {
+    std::mt19937 random(9);
+    for (int k = 0; k < 300; ++k)
+    {
+      const std::uint64_t tick = first + random() % (end - first);
+      ASSERT_TRUE(states.Seek(tick)) << tick;
+      EXPECT_EQ(states.Space().GetTick(), tick);
+      EXPECT_EQ(states.Space().Hash(), hashes_[tick]) << tick;
+      EXPECT_EQ(states.Record().state.tick, tick);
+      if (tick + 1 == end) continue;
+      ASSERT_TRUE(states.Next());
+      EXPECT_EQ(states.Space().Hash(), hashes_[tick + 1]) << "after " << tick;
+    }
+    EXPECT_FALSE(states.Seek(end));
+    EXPECT_FALSE(states.Seek(first - 1)) << "of the first one, some tick that never was";
+  }
+
+  const fs::path folder_;
+  const Experiment experiment_ = TwoRobots();
+  CSwarmanoidSpace space_{experiment_};
+  std::vector<std::uint64_t> hashes_;
+};
+
+TEST_F(RecordedStatesTest, AnyTickAfterAnyOther)
+{
+  JournalWriter journal(Path(), ContentOf(Start()));
+  Run(journal, 1000);
+  const JournalReader reader(Path());
+  RecordedStates states(experiment_, reader, reader.Start());
+  ASSERT_TRUE(states.Next());
+  EXPECT_EQ(states.Space().Hash(), hashes_[0]);
+  ExpectSameEverywhere(states, 0, 1000);
+}
+
+TEST_F(RecordedStatesTest, WhatABudgetHasLeft)
+{
+  JournalWriter journal(Path(), ContentOf(Start()), false, {16U << 10U, {kServerPart}});
+  JournalFollower follower(Path());
+  Run(journal, 3000);
+  follower.Refresh();
+  ASSERT_GT(follower.FirstTick(), 0U);
+  RecordedStates states(experiment_, follower, follower.Start());
+  ExpectSameEverywhere(states, follower.FirstTick(), 3000);
+}
+
+}  // namespace
+}  // namespace swarmanoid

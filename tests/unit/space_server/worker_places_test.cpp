@@ -1,0 +1,128 @@
+// Where workers may go, and what is told to those who ask for what cannot be.
+#include "space_server/worker_places.h"
+
+#include <gmock/gmock.h>
+
+#include <stdexcept>
+
+namespace swarmanoid
+{
+namespace
+{
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+const WorkerPlaces& Places()
+{
+  static const WorkerPlaces places({"here", "alpha", "beta"},
+                                   {"space server=here", "engine 'ground'=alpha", "engine 'a to b'=alpha",
+                                    "controller host 0=alpha", "controller host 1=beta", "visualiser 'x=y'=here"});
+  return places;
+}
+
+ControlRequestMessage Request(const std::string& verb, const std::string& entity)
+{
+  ControlRequestMessage request;
+  request.verb = verb;
+  request.entity = entity;
+  return request;
+}
+
+std::string MovesOf(const WorkerPlaces& places, const std::string& verb, const std::string& entity)
+{
+  std::string text;
+  try
+  {
+    for (const auto& [worker, machine] : places.Read(Request(verb, entity))) text += worker + " > " + machine + "; ";
+  }
+  catch (const std::invalid_argument& error)
+  {
+    return error.what();
+  }
+  return text;
+}
+
+std::string MovesOf(const std::string& verb, const std::string& entity) { return MovesOf(Places(), verb, entity); }
+
+TEST(WorkerPlaces, FindTheWorkerAndItsMachine)
+{
+  EXPECT_EQ(MovesOf("move-host", "1"), "controller host 1 > beta; ");
+  EXPECT_EQ(MovesOf("move-host", "1 to alpha"), "controller host 1 > alpha; ");
+  EXPECT_EQ(MovesOf("move-engine", "ground to here"), "engine 'ground' > here; ");
+  EXPECT_EQ(MovesOf("move-engine", "a to b"), "engine 'a to b' > alpha; ");
+  EXPECT_EQ(MovesOf("move-engine", "a to b to beta"), "engine 'a to b' > beta; ");
+}
+
+TEST(WorkerPlaces, RefuseWhatIsNotThere)
+{
+  EXPECT_THAT(MovesOf("move-host", "2"), AllOf(HasSubstr("no controller host 2"), HasSubstr("controller host 1")));
+  EXPECT_THAT(MovesOf("move-host", "1 to gamma"), AllOf(HasSubstr("no machine 'gamma'"), HasSubstr("machines = ")));
+  EXPECT_THAT(MovesOf("drain", "bet"), HasSubstr("did you mean 'beta'?"));
+  EXPECT_THAT(MovesOf("drain", "here"), HasSubstr("the space server is at 'here'"));
+  EXPECT_THAT(MovesOf(WorkerPlaces(), "move-host", "0"), HasSubstr("no process of this run can be moved"));
+  EXPECT_THROW(WorkerPlaces({}, {"engine"}), std::invalid_argument);
+}
+
+// Two workers are at beta or here each; those of alpha go where the fewest are.
+TEST(WorkerPlaces, DrainGivesToThoseWhoHaveTheFewest)
+{
+  EXPECT_EQ(MovesOf("drain", "alpha"), "controller host 0 > beta; engine 'a to b' > beta; engine 'ground' > here; ");
+  EXPECT_EQ(MovesOf("drain", "beta"), "controller host 1 > here; ");
+  WorkerPlaces places = Places();
+  places.Put({"controller host 1", "here"});
+  EXPECT_EQ(MovesOf(places, "drain", "beta"), "");
+  // Of nobody who moves, and of one who does not say where it is.
+  places.Put({"controller host 7", "beta"});
+  places.Put({"controller host 0", ""});
+  EXPECT_EQ(MovesOf(places, "drain", "beta"), "");
+}
+
+std::string HostsOf(double more, const std::string& machine = "", std::size_t most = 5)
+{
+  ControlRequestMessage request = Request("hosts", machine);
+  request.numbers = {more};
+  std::string text;
+  try
+  {
+    for (const std::string& host : Places().ReadHosts(request, most)) text += host + " ";
+  }
+  catch (const std::invalid_argument& error)
+  {
+    return error.what();
+  }
+  return text;
+}
+
+// At first one at alpha, then one at beta.
+TEST(WorkerPlaces, HostsComeAndGoAtTheEnd)
+{
+  EXPECT_EQ(HostsOf(1), "alpha beta here ");
+  EXPECT_EQ(HostsOf(3, "beta"), "alpha beta beta beta beta ");
+  EXPECT_EQ(HostsOf(-1), "alpha ");
+  EXPECT_EQ(HostsOf(-1, "alpha"), "beta ");
+  EXPECT_THAT(HostsOf(-2), HasSubstr("the run has 2 controller hosts, and one must remain"));
+  EXPECT_THAT(HostsOf(-1, "here"), HasSubstr("so many controller hosts are not at 'here'; they are at alpha, beta"));
+  EXPECT_THAT(HostsOf(4), HasSubstr("the run has 2 controller hosts, and can have 5"));
+  EXPECT_THAT(HostsOf(1, "gamma"), HasSubstr("no machine 'gamma'"));
+  EXPECT_THAT(HostsOf(0.5), HasSubstr("write +N or -N"));
+}
+
+TEST(WorkerPlaces, HostsNeedASpaceServerThatCanStartAgain)
+{
+  ControlRequestMessage request = Request("hosts", "");
+  request.numbers = {1};
+  const WorkerPlaces places({"here", "beta"}, {"space server=beta", "controller host 0=here"});
+  EXPECT_THAT([&] { places.ReadHosts(request, 9); },
+              testing::ThrowsMessage<std::invalid_argument>(HasSubstr("it is on another machine than the launcher")));
+  EXPECT_THROW(WorkerPlaces().ReadHosts(request, 9), std::invalid_argument);
+}
+
+TEST(WorkerPlaces, DrainNeedsAnotherMachine)
+{
+  const WorkerPlaces alone({"alpha"}, {"controller host 0=alpha"});
+  EXPECT_THAT(MovesOf(alone, "drain", "alpha"), HasSubstr("nowhere to go"));
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,221 @@
+// figure_render as an experiment file asks for it: what stands where on the page, measured in its pixels and its text.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "common/configuration/xml_reader.h"
+#include "tests/unit/visualiser/small_world.h"
+#include "visualiser/figure/plan_page.h"
+#include "visualiser/figure/plan_scene.h"
+#include "visualiser/scene/picture.h"
+#include "visualiser/visualiser.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr double kMargin = 1.5;  // mm, of the page
+constexpr double kDots = 10;     // a mm, at 254 dpi
+constexpr std::uint32_t kFirstRobots = 0x0072b2;
+
+class FigureRender : public ::testing::Test
+{
+protected:
+  FigureRender() : world_({4, 2, 1})
+  {
+    RegisterBuiltinRenderers();
+    folder_ = fs::temp_directory_path() / ("figure_render_test_" + std::to_string(getpid()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    world_.Add(EntityKind::kFootbot, "fb", {3, 1.5, 0}, 90);
+  }
+  ~FigureRender() override { fs::remove_all(folder_); }
+
+  std::unique_ptr<Visualiser> Make(const std::string& attributes)
+  {
+    RenderConfiguration configuration;
+    configuration.tag = "figure_render";
+    configuration.id = "plan";
+    configuration.tree = TConfigurationTree(ReadXml("<figure_render " + attributes + "/>", "plan.xml"));
+    return std::make_unique<Visualiser>(configuration, world_.Space(), assignment_, folder_.string(), nullptr, nullptr);
+  }
+  // The robot goes from x = 3 by 1 cm a tick. Returns the tick after which the renderer wanted the end, or -1.
+  int Run(const std::string& attributes, int ticks)
+  {
+    const auto visualiser = Make(attributes);
+    int ended = -1;
+    for (int tick = 0; tick <= ticks && ended < 0; ++tick)
+    {
+      world_.Space().SetTick(static_cast<std::uint64_t>(tick));
+      world_.Space().SetPose(0, {{3 - 0.01 * tick, 1.5, 0}, QuaternionFromYaw(DegreesToRadians(90))});
+      if (visualiser->Draw()) ended = tick;
+    }
+    visualiser->Finish();
+    return ended;
+  }
+  // 103 mm wide without margins 100: 25 mm a metre; 10 pixels a mm.
+  Picture Page(const std::string& attributes, int ticks = 0)
+  {
+    Run("file=\"plan.png\" width=\"103\" dpi=\"254\" show_legend=\"false\" show_scale=\"false\" " + attributes, ticks);
+    return ReadPng(Path("plan.png"));
+  }
+  static std::uint32_t ColourAt(const Picture& picture, double x_mm, double y_mm)
+  {
+    const auto* const pixel =
+        picture.At(static_cast<int>(std::lround(kDots * x_mm)), static_cast<int>(std::lround(kDots * y_mm)));
+    return static_cast<std::uint32_t>(pixel[0] << 16 | pixel[1] << 8 | pixel[2]);
+  }
+  // Of a plan of the whole arena without captions.
+  static std::uint32_t ColourIn(const Picture& picture, double x_m, double y_m)
+  {
+    return ColourAt(picture, kMargin + 25 * x_m, kMargin + 25 * (2 - y_m));
+  }
+  std::string Path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string Read(const std::string& name) const
+  {
+    std::ostringstream text;
+    text << std::ifstream(Path(name), std::ios::binary).rdbuf();
+    return text.str();
+  }
+  std::string ErrorOf(const std::string& attributes)
+  {
+    try
+    {
+      Make(attributes);
+    }
+    catch (const std::runtime_error& error)
+    {
+      return error.what();
+    }
+    return "";
+  }
+
+  SmallWorld world_;
+  Assignment assignment_;
+  fs::path folder_;
+};
+
+TEST_F(FigureRender, EntitiesStandWhereTheyAreAndLookWhereTheyLook)
+{
+  world_.AddBody(EntityKind::kWall, "wall", {1, 1, 0.25}, {0.2, 1, 0.5}, 0xff0000);
+  const Picture picture = Page("");
+  EXPECT_EQ(picture.width, 1030);
+  EXPECT_EQ(picture.height, 530);
+  const double radius = DescriptionOf(EntityKind::kFootbot).size.x();
+  EXPECT_EQ(ColourIn(picture, 3.04, 1.5), kFirstRobots);
+  EXPECT_EQ(ColourIn(picture, 3, 1.5 - 0.6 * radius), kFirstRobots);
+  EXPECT_EQ(ColourIn(picture, 3, 1.5 + 0.6 * radius), 0xffffffu);  // its front, at +y
+  EXPECT_EQ(ColourIn(picture, 3 + 1.3 * radius, 1.5), 0xffffffu);
+  EXPECT_EQ(ColourIn(picture, 3, 0.5), 0xffffffu);
+  const std::uint32_t wall = ColourIn(picture, 1, 1);
+  EXPECT_GT(wall >> 16, 2 * (wall & 0xff));
+  for (const double y : {0.53, 1.47}) EXPECT_EQ(ColourIn(picture, 1, y), wall) << y;
+  for (const double x : {0.86, 1.14}) EXPECT_EQ(ColourIn(picture, x, 1), 0xffffffu) << x;
+}
+
+TEST_F(FigureRender, ARegionFillsThePage)
+{
+  const Picture picture = Page("region=\"2, 1, 4, 2\"");
+  EXPECT_EQ(picture.height, 530);  // 50 mm a metre
+  EXPECT_EQ(ColourAt(picture, kMargin + 50 * 1.04, kMargin + 50 * 0.5), kFirstRobots);
+}
+
+TEST_F(FigureRender, AnInsetShowsItsPartLargerInItsCorner)
+{
+  const Picture picture = Page("inset=\"2.8, 1.3, 3.2, 1.7\" inset_corner=\"bottom_left\"");
+  // Two fifths of the plan's 50 mm are 20 mm, so 50 mm a metre; the middle of the inset is the robot.
+  EXPECT_EQ(ColourAt(picture, kMargin + 10 + 50 * 0.06, kMargin + 40), kFirstRobots);
+  EXPECT_EQ(ColourAt(picture, kMargin + 10 + 50 * 0.1, kMargin + 40), 0xffffffu);
+  EXPECT_EQ(ColourIn(picture, 3.04, 1.5), kFirstRobots);
+}
+
+TEST_F(FigureRender, LedsThatShineAndWhatIsHeldAreDrawn)
+{
+  world_.AddBody(EntityKind::kCylindricPrey, "prey", {3, 1.0, 0}, {0.1, 0.1, 0.1}, 0x00ff00);
+  world_.Space();
+  world_.Set("fb", "led", 0xff0000, 0);
+  world_.Set("fb", "gripped", 2);
+  const Picture picture = Page("");
+  const Vector2 led = DescriptionOf(EntityKind::kFootbot).leds->places[0];
+  EXPECT_EQ(ColourIn(picture, 3 - led.y(), 1.5 + led.x()), 0xff0000u);
+  EXPECT_EQ(ColourIn(picture, 3, 1.25), 0xe69f00u);
+}
+
+TEST_F(FigureRender, TicksArePanelsWithTheirTimes)
+{
+  EXPECT_EQ(Run("file=\"sheet.pdf\" ticks=\"0, 50,100\" stop=\"true\"", 200), 100);
+  EXPECT_EQ(Read("sheet.pdf").substr(0, 5), "%PDF-");
+  // Three panels beside each other: (103 - 2 * 1.5 - 2 * 3) / 3 mm for 4 m each.
+  const Picture picture = Page("ticks=\"0, 50, 100\"", 100);
+  const double scale = 94.0 / 3 / 4, top = kMargin + 1.5 * 7 * 25.4 / 72;
+  for (int panel = 0; panel < 3; ++panel)
+  {
+    const double left = kMargin + panel * (94.0 / 3 + 3);
+    EXPECT_EQ(ColourAt(picture, left + scale * (3 - 0.5 * panel + 0.045), top + scale * 0.5), kFirstRobots) << panel;
+  }
+}
+
+TEST_F(FigureRender, ARunThatEndsEarlierGivesWhatThereIs)
+{
+  testing::internal::CaptureStderr();
+  Run("file=\"sheet.svg\" ticks=\"0, 500\"", 20);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              HasSubstr("sheet.svg has 1 of 2 ticks: the run ended at tick 20, before tick 500"));
+  EXPECT_THAT(Read("sheet.svg"), HasSubstr("</svg>"));
+}
+
+TEST_F(FigureRender, TrailsHaveAllOfTheWay)
+{
+  const Picture without = Page("", 100);
+  const Picture with = Page("show_trails=\"true\"", 100);
+  EXPECT_EQ(ColourIn(without, 2.7, 1.5), 0xffffffu);
+  EXPECT_NE(ColourIn(with, 2.7, 1.5), 0xffffffu);
+  EXPECT_NE(ColourIn(with, 2.98, 1.5), 0xffffffu);
+}
+
+TEST_F(FigureRender, LegendsNameWhatIsInTheArena)
+{
+  world_.Add(EntityKind::kFootbot, "fb_2", {1, 1, 0});
+  world_.AddBody(EntityKind::kCylindricPrey, "prey", {2, 1.0, 0}, {0.1, 0.1, 0.1}, 0x00ff00);
+  const PlanScene scene(world_.Space(), {});
+  std::vector<std::string> texts;
+  for (const PlanLegendEntry& entry : scene.Legend()) texts.push_back(entry.text);
+  EXPECT_THAT(texts, testing::ElementsAre("2 footbots", "1 cylindric prey"));
+}
+
+TEST_F(FigureRender, BarsOfScalesAreRoundAndAtMostAThird)
+{
+  for (const auto& [panel, bar] :
+       {std::pair(4.0, 1.0), {6.0, 2.0}, {15.0, 5.0}, {2.9, 0.5}, {0.3, 0.1}, {1000.0, 200.0}})
+    EXPECT_DOUBLE_EQ(ScaleBarLength(panel), bar) << panel;
+}
+
+TEST_F(FigureRender, MistakesAreTold)
+{
+  EXPECT_THAT(ErrorOf("file=\"plan.jpg\""), HasSubstr("it must end with .svg, .pdf or .png"));
+  EXPECT_THAT(ErrorOf("ticks=\"10, 5\""), HasSubstr("at most 100 ticks that ascend"));
+  EXPECT_THAT(ErrorOf("ticks=\"10,\""), HasSubstr("numbers with commas between them"));
+  EXPECT_THAT(ErrorOf("ticks=\"soon\""), HasSubstr("numbers with commas between them"));
+  EXPECT_THAT(ErrorOf("region=\"1, 1, 0, 2\""), HasSubstr("with x0 < x1 and y0 < y1"));
+  EXPECT_THAT(ErrorOf("inset=\"1, 1, nan, 2\""), HasSubstr("x0, y0, x1, y1 in metres"));
+  fs::create_directories(Path("taken.svg"));
+  try
+  {
+    Run("file=\"taken.svg\"", 0);
+    ADD_FAILURE() << "a folder was written over";
+  }
+  catch (const std::runtime_error& error)
+  {
+    EXPECT_THAT(error.what(), HasSubstr("taken.svg"));
+  }
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,105 @@
+"""The devices that the others do not need: further cameras, light from the air, microphones, joints, shown directions."""
+import math
+
+from experiment import block, element, footbot, probe
+from report import Row, scene
+from scenes_devices import ENGINE, GEOMETRY, GREEN, GROUP, RED, angles, lit, ring
+from scenes_kinematics2d import RADIUS
+
+BEACON = 0.174  # m above the floor
+HOVER = (0, 10, "eyebot_propellers", 0, 0, 0, 0)
+HOVERS = "the eyebot hovers within 0.1 mm, the footbot sinks by 0.3 mm"
+
+
+def eyebot(who, heading=0):
+    return element("eyebot", {"id": "e", "position": "5,5,2", "orientation": f"0,0,{heading}", "controller": who})
+
+
+@scene(GROUP)
+def pie_camera(lab):
+    heading, colours = 25, {"red": RED, "green": GREEN}
+    arena, who = footbot("w", 5.0, 5.0, heading, "w"), probe("w", sensors={"pie_camera": {"aperture": 85}})
+    expected = {}
+    for k in range(12):
+        colour = ("red", "green")[k % 2]
+        distance, angle = 0.35 + 0.05 * k, 0.2 + 2.4 * k
+        robot, controller = lit(f"b{k}", 5 + distance * math.cos(angle), 5 + distance * math.sin(angle), colours[colour])
+        arena, who = arena + robot, who + controller
+        sector = int(math.degrees(angle - math.radians(heading)) % 360 // 30)
+        name = f"{colour} {sector}"
+        expected[name] = min(expected.get(name, math.inf), distance)
+    now = lab.run(arena, who, ENGINE, 3).readings("w", "pie_camera")[-1]
+    worst = max((abs(now.get(name, math.inf) - distance) for name, distance in expected.items()), default=math.inf)
+    yield Row("pie camera: distances of the nearest of 12 beacons in its sector and colour, largest error", "√(Δx² + Δy²)", GEOMETRY, 0, worst, 1e-9, "rounding", "m")
+    yield Row("pie camera: sectors and colours that see something", "of 30° from the front on", "docs/devices.md", len(expected), len(now), 0, "counts")
+
+
+@scene(GROUP)
+def cameras_of_others(lab):
+    robot, lamp = lit("b", 5.6, 5.4, GREEN)
+    outside, other = lit("o", 6.2, 5.0, RED)
+    result = lab.run(eyebot("e", 10) + robot + outside, probe("e", [HOVER], sensors={"eyebot_camera": {}}) + lamp + other, "dynamics3d", 5, size="10,10,5")
+    now = result.readings("e", "eyebot_camera")[-1]
+    yield Row("eyebot camera: distance of a beacon along the floor", "√(Δx² + Δy²)", GEOMETRY, math.hypot(0.6, 0.4), now["blob 0 distance"], 1e-3, HOVERS, "m")
+    yield Row("eyebot camera: bearing", "atan2(Δy, Δx) - heading", GEOMETRY, math.atan2(0.4, 0.6) - math.radians(10), now["blob 0 angle"], 1e-3, HOVERS, "rad")
+    yield Row("eyebot camera: beacons in view, one 33° off its axis", "aperture 30°", "ARGoS 2", 1, sum("colour" in name for name in now), 0, "counts")
+    robot, lamp = lit("b", 6.0, 5.2, GREEN)
+    handbot = element("handbot", {"id": "h", "position": "5,5,0", "controller": "h"})
+    now = lab.run(handbot + robot, probe("h", sensors={"handbot_camera": {}}) + lamp, ENGINE, 3).readings("h", "handbot_camera")[-1]
+    way = (6.0 - 5.09, 0.2, BEACON - 0.1)
+    yield Row("handbot camera: distance of a beacon", "√(Δx² + Δy² + Δz²)", GEOMETRY, math.hypot(*way), now["blob 0 distance"], 1e-9, "rounding", "m")
+    yield Row("handbot camera: bearing", "atan2(Δy, Δx)", GEOMETRY, math.atan2(way[1], way[0]), now["blob 0 angle"], 1e-9, "rounding", "rad")
+    yield Row("handbot camera: elevation", "atan2(Δz, √(Δx² + Δy²))", GEOMETRY, math.atan2(way[2], math.hypot(*way[:2])), now["blob 0 elevation"], 1e-9, "rounding", "rad")
+
+
+@scene(GROUP)
+def eyebot_light(lab):
+    turn = math.radians(20)
+    bulb = element("light_bulb", {"id": "l", "position": "6,5.5,2.5", "intensity": 0.8})
+    now = lab.run(eyebot("c", 20) + bulb, probe("c", [HOVER], sensors={"eyebot_light": {"implementation": "argos3_eyebot_light"}}), "dynamics3d", 2, size="10,10,5").readings("e", "eyebot_light")[0]
+    strength = math.exp(-2 * math.sqrt(1 + 0.25 + 0.25) / 0.8)
+    off = [abs(math.remainder(angle + turn - math.atan2(0.5, 1), math.tau)) for angle in angles()]
+    worst = max(abs(reading - strength * max(0, 1 - a / (math.pi / 2))) for reading, a in zip(ring(now), off))
+    yield Row("light of an eyebot as in ARGoS3: largest error of 24 readings", "exp(-2 d / I) max(0, 1 - |off| / 90°)", "ARGoS3 eyebot_light_rotzonly_sensor.cpp@de40bf19", 0, worst, 1e-4, "the eyebot hovers within 0.1 mm")
+
+
+@scene(GROUP)
+def other_microphones(lab):
+    arena = footbot("fb", 5.0, 5.0, 30, "c") + block("w", "6,5,0.5", "0.1,1,1")
+    arena += element("sound_source", {"id": "a", "position": "7,5,0.1", "intensity": 2}) + element("sound_source", {"id": "b", "position": "5,8,0.1", "intensity": 1})
+    heard = {}
+    for kind in ("shadowed_microphone", "capsule_microphone"):
+        heard[kind] = lab.run(arena, probe("c", sensors={"microphone": {"implementation": kind}}), ENGINE, 2).readings("fb", "microphone")[0]
+    shadowed = heard["shadowed_microphone"]
+    louder = sorted((shadowed[f"sound {i} loudness"] for i in range(2)), reverse=True)
+    yield Row("microphone with shadows: pressure of the source in the open at 3 m", "I / d", "spherical wave", 1 / 3, louder[0], 1e-9, "rounding")
+    yield Row("microphone with shadows: pressure of the source behind a wall at 2 m", "0.25 I / d", "docs/devices.md", 0.25, louder[1], 1e-9, "rounding")
+    yield Row("microphone of one capsule: loudness of both, the wall does not matter", "√(p₁² + p₂²)", "incoherent sources", math.hypot(1, 1 / 3), heard["capsule_microphone"]["loudness"], 1e-9, "rounding")
+    yield Row("microphone of one capsule: directions", "none", "docs/devices.md", 0, sum("bearing" in name for name in heard["capsule_microphone"]), 0, "counts")
+
+
+@scene(GROUP)
+def joints(lab):
+    speeds = (0.3, 0.5, 0.7, 0.9)
+    who = probe("c", [(0, 9, "handbot_head", 0.2), (0, 9, "handbot_arms", *speeds)], sensors={"handbot_joints": {}})
+    handbot = element("handbot", {"id": "h", "position": "5,5,0", "controller": "c"})
+    now = lab.run(handbot, who, ENGINE, 12).readings("h", "handbot_joints")[10]
+    errors = [now["head"] - 0.2] + [now[name] - speed for name, speed in zip(("left arm", "right arm", "left wrist", "right wrist"), speeds)]
+    yield Row("handbot joints: angles of head, arms and wrists after 1 s, largest error of 5", "ω t", GEOMETRY, 0, max(map(abs, errors)), 1e-9, "rounding", "rad")
+    who = probe("c", [(0, 100, "handbot_arms", 3, 3, 3, 3)], sensors={"handbot_joints": {}})
+    now = lab.run(handbot, who, ENGINE, 30).readings("h", "handbot_joints")[-1]
+    limits = (math.pi / 3, math.pi / 3, math.pi / 2, math.pi / 2)
+    worst = max(abs(now[name] - limit) for name, limit in zip(("left arm", "right arm", "left wrist", "right wrist"), limits))
+    yield Row("handbot joints: arms and wrists at their stops, largest error of 4", "60° and 90°", "ARGoS 2", 0, worst, 5e-6, "the engines stop at 1.0472 and 1.5708", "rad")
+
+
+@scene(GROUP)
+def shown_direction(lab):
+    # The LEDs at 45° and 75° are within half of 60° of it: they are one blob, half way between them.
+    watcher = probe("w", sensors={"footbot_omnidirectional_camera": {"aperture": 85}})
+    shower = probe("s", [(0, 10, "footbot_preferential_direction", RED, math.radians(60))], actuators={"footbot_preferential_direction": {"implementation": "led_ring_preferential_direction"}})
+    now = lab.run(footbot("w", 5.0, 5.0, 0, "w") + footbot("s", 6.0, 5.5, 90, "s"), watcher + shower, ENGINE, 3).readings("w", "footbot_omnidirectional_camera")[-1]
+    shown, out = math.radians(60 + 90), (RADIUS + 0.005) * math.cos(math.radians(15))
+    place = (1 + out * math.cos(shown), 0.5 + out * math.sin(shown))
+    yield Row("preferential direction: distance of the blob of its two LEDs", "middle of the LEDs within 30° of it", GEOMETRY, math.hypot(*place), now["blob 0 distance"], 1e-9, "rounding", "m")
+    yield Row("preferential direction: bearing of that blob", "atan2(Δy, Δx)", GEOMETRY, math.atan2(place[1], place[0]), now["blob 0 angle"], 1e-9, "rounding", "rad")

@@ -1,0 +1,52 @@
+// PlanPage: one or several plans on a page, with legend and scale, as a file: .svg and .pdf have lines and areas, which
+// are sharp at any size, .png has pixels. By Cairo. One thread.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "visualiser/figure/plan_picture.h"
+
+namespace swarmanoid
+{
+
+enum class PlanCorner : std::uint8_t
+{
+  kTopLeft,
+  kTopRight,
+  kBottomLeft,
+  kBottomRight
+};
+
+struct PlanPageOptions
+{
+  double width_mm = 120;
+  double font_pt = 7;
+  double dpi = 300;   // of .png
+  int columns = 1;    // panels beside each other
+  PlanRegion region;  // of the arena that is shown
+  PlanRegion arena;
+  std::optional<PlanRegion> inset{};  // shown larger in a corner of each panel
+  PlanCorner inset_corner = PlanCorner::kTopRight;
+  bool legend = true;
+  bool scale_bar = true;
+  bool axes = false;
+};
+
+struct PlanPanel
+{
+  std::string caption;
+  PlanPicture picture;
+};
+
+// The file's ending decides; throws std::invalid_argument for another one than .svg, .pdf and .png.
+void CheckPlanFile(const std::string& path);
+// Throws std::runtime_error, naming the file, if it cannot be written.
+void WritePlan(const std::string& path, const std::vector<PlanPanel>& panels,
+               const std::vector<PlanLegendEntry>& legend, const PlanPageOptions& options);
+
+// How many metres the bar of a scale has: 1, 2 or 5 times a power of ten, at most a third of the panel's.
+double ScaleBarLength(double panel_m);
+
+}  // namespace swarmanoid

@@ -1,0 +1,63 @@
+// What a plan of the arena is made of: areas, lines and words, in metres of the arena, in the order in which they are
+// drawn. Made by PlanScene at the ticks that are wanted, put onto a page by PlanPage.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/math/pose.h"
+
+namespace swarmanoid
+{
+
+// A rectangle of the arena, in metres.
+struct PlanRegion
+{
+  Vector2 low = Vector2::Zero();
+  Vector2 high = Vector2::Zero();
+
+  Vector2 Size() const { return high - low; }
+};
+
+struct PlanColour
+{
+  std::uint32_t rgb = 0;
+  double opacity = 1;
+};
+
+struct PlanShape
+{
+  enum class Form : std::uint8_t
+  {
+    kDisc,     // about points[0]
+    kPolygon,  // closed
+    kLine,     // open
+    kImage,    // upright in the frame of the corners: upper left, upper right, lower left
+    kText      // beside points[0]
+  };
+
+  Form form = Form::kPolygon;
+  std::vector<Vector2> points;  // m
+  double radius = 0;            // m: of a disc; of a text how far from its point it starts
+  double least_radius_mm = 0;   // of a disc: as large at least, on the page
+  std::optional<PlanColour> fill{};
+  std::optional<PlanColour> edge{};
+  double edge_mm = 0.15;
+  bool dashed = false;
+  double detail_m = 0;  // drawn only if this is a millimetre on the page; 0: always
+  std::string text{};
+  int columns = 0;                      // of an image
+  std::vector<std::uint32_t> pixels{};  // of an image: 0xAARRGGBB, rows from the top
+};
+
+using PlanPicture = std::vector<PlanShape>;
+
+// What the legend tells: a sample in a square from (-1, -1) to (1, 1), and what it is.
+struct PlanLegendEntry
+{
+  PlanPicture sample;
+  std::string text;
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,47 @@
+// PlanScene: the space as a plan, seen from above. Knows entities and colours, but no page. One thread.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "common/space/space.h"
+#include "visualiser/figure/plan_picture.h"
+
+namespace swarmanoid
+{
+
+struct PlanOptions
+{
+  bool ids = false;
+  bool trails = false;
+};
+
+class PlanScene
+{
+public:
+  // Reads terrains and pictures of the floor; throws ConfigurationError for those. The space outlives the scene.
+  PlanScene(const CSwarmanoidSpace& space, const PlanOptions& options);
+
+  // Notes where everything is, for trails. Each tick.
+  void Track();
+  PlanPicture Draw() const;
+  // Of what is in the arena now.
+  std::vector<PlanLegendEntry> Legend() const;
+
+private:
+  void AddFlat(std::uint32_t entity, PlanPicture& picture) const;
+  void AddBody(std::uint32_t entity, PlanPicture& picture) const;
+  void AddRobot(std::uint32_t entity, PlanPicture& picture) const;
+  void AddLights(std::uint32_t entity, PlanPicture& picture) const;
+  void AddTrails(PlanPicture& picture) const;
+  void AddHolds(PlanPicture& picture) const;
+  std::uint32_t ColourOf(std::uint32_t entity) const;
+
+  const CSwarmanoidSpace& space_;
+  const PlanOptions options_;
+  std::map<std::uint32_t, PlanShape> images_;  // terrains and painted patches: in the frame of their entity
+  std::vector<std::vector<Vector2>> trails_;   // of the movable entities
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,137 @@
+#include "visualiser/interaction/past.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr std::uint64_t kWindow = 0;  // the only client
+
+}  // namespace
+
+LookBackAnswers Past::Answers()
+{
+  return {[this](const JournalTimeline& timeline)
+          {
+            const std::lock_guard lock(mutex_);
+            arrived_.timeline = timeline;
+          },
+          [this](std::uint64_t, const LookBackRequest&, const CSwarmanoidSpace& space)
+          {
+            SpaceSnapshot state;
+            state.tick = space.GetTick();
+            space.WritePoses(state.poses);
+            state.attributes.assign(space.Attributes().begin(), space.Attributes().end());
+            const std::lock_guard lock(mutex_);
+            arrived_.state = std::move(state);
+          },
+          [this](std::uint64_t, const std::string& text)
+          {
+            const std::lock_guard lock(mutex_);
+            arrived_.refusal = text;
+          }};
+}
+
+void Past::Follow(const std::string& run_folder)
+{
+  if (run_folder != run_folder_)
+  {
+    look_back_.reset();
+    GoLive();
+    arrived_ = {};
+    asked_.reset();
+    timeline_ = {};
+    run_folder_ = run_folder;
+    if (!run_folder.empty()) look_back_ = std::make_unique<LookBack>(experiment_, run_folder, Answers());
+  }
+  else if (look_back_)
+    look_back_->Refresh();
+}
+
+bool Past::Advance(Clock::time_point now)
+{
+  Arrived arrived;
+  {
+    const std::lock_guard lock(mutex_);
+    std::swap(arrived, arrived_);
+  }
+  bool changed = arrived.timeline.has_value();
+  if (arrived.timeline) timeline_ = std::move(*arrived.timeline);
+  if (arrived.state || arrived.refusal)
+  {
+    const bool late = asked_ != wanted_;
+    asked_.reset();
+    changed = true;
+    if (arrived.state && IsOn())
+    {
+      if (!space_) space_ = std::make_unique<CSwarmanoidSpace>(experiment_);
+      space_->Apply(*arrived.state);
+      has_state_ = true;
+    }
+    if (arrived.refusal && !late)
+    {
+      refusal_ = std::move(arrived.refusal);
+      GoLive();
+    }
+    else if (late && IsOn())
+      Want(*wanted_);
+  }
+  if (!playing_ || asked_) return changed;
+  const std::chrono::duration<double> passed = now - playing_->since;
+  const std::uint64_t tick = playing_->tick + static_cast<std::uint64_t>(passed.count() / experiment_.TickSeconds());
+  if (tick > Last())
+  {
+    GoLive();
+    return true;
+  }
+  if (tick != wanted_) Want(tick);
+  return changed;
+}
+
+void Past::Want(std::uint64_t tick)
+{
+  wanted_ = tick;
+  if (asked_) return;
+  asked_ = tick;
+  look_back_->Ask(kWindow, {tick, {}});
+}
+
+void Past::Look(std::uint64_t tick)
+{
+  if (!IsThere()) return;
+  playing_.reset();
+  Want(std::clamp(tick, First(), Last()));
+}
+
+void Past::TogglePlay(Clock::time_point now)
+{
+  if (!IsThere()) return;
+  if (std::exchange(playing_, std::nullopt)) return;
+  if (!IsOn()) Want(First());
+  playing_ = Playing{*wanted_, now};
+}
+
+void Past::GoLive()
+{
+  wanted_.reset();
+  playing_.reset();
+  has_state_ = false;
+}
+
+std::optional<std::uint64_t> Past::Neighbour(bool forward) const
+{
+  // The present is after all events.
+  const std::uint64_t from = wanted_.value_or(Last() + 1);
+  std::optional<std::uint64_t> nearest;
+  for (const TimelineEvent& event : timeline_.events)
+  {
+    if (event.tick < First() || event.tick > Last() || (forward ? event.tick <= from : event.tick >= from)) continue;
+    if (!nearest || (forward ? event.tick < *nearest : event.tick > *nearest)) nearest = event.tick;
+  }
+  return nearest;
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,162 @@
+#include "visualiser/look_back.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "common/configuration/regular_file.h"
+#include "common/journal/journal_reader.h"
+#include "common/program/csv.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr std::uint64_t kMostEventBytes = std::uint64_t{16} << 20U;
+
+// The whole lines of a run's log of events.
+std::vector<TimelineEvent> EventsOf(const std::string& text)
+{
+  std::vector<TimelineEvent> events;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line) && !lines.eof();)
+  {
+    const std::vector<std::string> fields = CsvFields(line);
+    TimelineEvent event;
+    if (fields.size() < 3) continue;
+    const auto read = std::from_chars(fields[0].data(), fields[0].data() + fields[0].size(), event.tick);
+    if (read.ec != std::errc()) continue;
+    event.what = fields[1];
+    event.entity = fields[2];
+    if (fields.size() > 4) event.from = fields[4];
+    events.push_back(std::move(event));
+  }
+  return events;
+}
+
+}  // namespace
+
+LookBack::LookBack(const Experiment& experiment, std::string run_folder, LookBackAnswers answers)
+    : experiment_(experiment),
+      run_folder_(std::move(run_folder)),
+      answers_(std::move(answers)),
+      journal_(JournalFile(run_folder_)),
+      thread_([this] { Work(); })
+{
+}
+
+LookBack::~LookBack()
+{
+  {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
+    changed_.notify_all();
+  }
+  thread_.join();
+}
+
+void LookBack::Ask(std::uint64_t client, const LookBackRequest& request)
+{
+  const std::lock_guard lock(mutex_);
+  wanted_[client] = request;
+  changed_.notify_all();
+}
+
+void LookBack::Forget(std::uint64_t client)
+{
+  const std::lock_guard lock(mutex_);
+  wanted_.erase(client);
+}
+
+void LookBack::Refresh()
+{
+  const std::lock_guard lock(mutex_);
+  refresh_ = true;
+  changed_.notify_all();
+}
+
+void LookBack::Work()
+{
+  std::unique_lock lock(mutex_);
+  while (true)
+  {
+    changed_.wait(lock, [this] { return over_ || refresh_ || !wanted_.empty(); });
+    if (over_) return;
+    const bool refresh = std::exchange(refresh_, false);
+    const std::map<std::uint64_t, LookBackRequest> wanted = std::exchange(wanted_, {});
+    lock.unlock();
+    try
+    {
+      // Segments that were read may have been deleted since.
+      if (refresh || !wanted.empty()) Follow();
+    }
+    catch (const std::exception&)
+    {
+      // It may be half written, or gone: the next time tells.
+    }
+    for (const auto& [client, request] : wanted) Answer(client, request);
+    lock.lock();
+  }
+}
+
+bool LookBack::IsOpen()
+{
+  if (states_ || refused_) return !refused_;
+  journal_.Refresh();
+  if (!journal_.IsBegun()) return false;
+  refused_ = journal_.Start().origin.experiment != FingerprintOf(experiment_);
+  if (refused_) return false;
+  states_ = std::make_unique<RecordedStates>(experiment_, journal_, journal_.Start());
+  return true;
+}
+
+void LookBack::Follow()
+{
+  if (!IsOpen()) return;
+  journal_.Refresh();
+  JournalTimeline now{journal_.FirstTick(), journal_.EndTick(), timeline_.events};
+  const std::string file = run_folder_ + "/events.csv";
+  std::error_code none;
+  const std::uint64_t bytes = std::filesystem::file_size(file, none);
+  if (!none && bytes != events_bytes_)
+  {
+    events_bytes_ = bytes;
+    now.events = EventsOf(ReadRegularFile(file, kMostEventBytes));
+  }
+  if (now == timeline_) return;
+  timeline_ = std::move(now);
+  answers_.timeline(timeline_);
+}
+
+void LookBack::Answer(std::uint64_t client, LookBackRequest request)
+{
+  try
+  {
+    if (!IsOpen()) throw std::runtime_error("the run keeps no journal here");
+    if (!states_->Seek(request.tick))
+      throw std::runtime_error(fmt::format("the journal has ticks {} to {}, and not {}", journal_.FirstTick(),
+                                           journal_.EndTick() - 1, request.tick));
+    const CSwarmanoidSpace& space = states_->Space();
+    std::erase_if(request.entities, [&](std::uint32_t entity) { return entity >= space.Size(); });
+    answers_.past(client, request, space);
+  }
+  catch (const std::exception& error)
+  {
+    answers_.refused(client, fmt::format("nothing can be shown of tick {}: {}", request.tick, error.what()));
+  }
+}
+
+std::string RunFolderOf(const std::string& output_folder, RunMonitor* monitor)
+{
+  const bool of_run =
+      !output_folder.empty() && std::filesystem::exists(std::filesystem::path(output_folder) / "manifest.json");
+  if (of_run) return std::filesystem::absolute(output_folder).lexically_normal().string();
+  return monitor == nullptr ? std::string() : monitor->RunFolder();
+}
+
+}  // namespace swarmanoid

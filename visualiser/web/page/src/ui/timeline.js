@@ -1,0 +1,89 @@
+// The timeline below the picture: which tick is shown, the events of the run as marks, and the way back to the present.
+import { clockText, h, icon, setText } from "./dom.js";
+
+const NAMES = { move: "moved", add: "added", remove: "removed", detach: "detached", failed: "its controller failed", pause: "paused", resume: "resumed", speed: "another speed", step: "stepped", stop: "stopped", reset: "reset", refused: "refused" };
+
+export class Timeline {
+  // actions: look(tick), play(), live(), branch()
+  constructor(actions) {
+    this.actions = actions;
+    this.first = this.last = 0;
+    this.events = [];
+    this.past = null; // the tick that is looked at; null: the present
+    this.play = h("button.icon", { onclick: () => actions.play() }, icon("resume"));
+    this.track = h("input.track", {
+      type: "range",
+      step: 1,
+      "aria-label": "Tick that is shown",
+      oninput: () => actions.look(Number(this.track.value)),
+    });
+    this.marks = h("div.event-marks", { role: "group", "aria-label": "Events" });
+    this.text = h("output.number", {});
+    this.live = h("button.toggle", { title: "Back to the present  (Q)", onclick: () => actions.live() }, "Live");
+    this.branch = h("button.toggle", { title: "Copy the command that starts a new run from this tick  (Shift + B)", onclick: () => actions.branch() }, "Branch here");
+    this.element = h("section.timeline", { "aria-label": "Timeline" }, this.play, h("div.rail", {}, this.track, this.marks), this.text, this.branch, this.live);
+    this.element.hidden = true;
+    this.showPlaying(false);
+  }
+
+  // message: of the server; tickSeconds: of simulated time
+  set({ first, last, events, all_events: all }, tickSeconds) {
+    Object.assign(this, { first, last, tickSeconds });
+    this.element.hidden = last <= first;
+    this.track.min = first;
+    this.track.max = last;
+    if (this.past === null) this.track.value = last;
+    const marks = JSON.stringify([events, all]);
+    if (marks !== this.shownMarks) this.setEvents(events, all);
+    this.shownMarks = marks;
+    this.placeMarks();
+    this.showText();
+  }
+
+  setEvents(events, all) {
+    this.events = events;
+    const more = all > events.length ? ` (the first ${events.length} of ${all} events)` : "";
+    this.buttons = events.map((event) => {
+      const what = [`tick ${event.tick}:`, event.entity, NAMES[event.what] ?? event.what, event.from && `(${event.from})`].filter(Boolean).join(" ") + more;
+      return h("button.event-mark", { title: what, "aria-label": what, "data-what": event.what, onclick: () => this.actions.look(event.tick) });
+    });
+    this.marks.replaceChildren(...this.buttons);
+  }
+
+  placeMarks() {
+    const span = Math.max(1, this.last - this.first);
+    this.events.forEach((event, k) => {
+      this.buttons[k].hidden = event.tick < this.first;
+      this.buttons[k].style.left = `${(100 * (event.tick - this.first)) / span}%`;
+    });
+  }
+
+  // The tick of the past that is shown; null: the present.
+  show(past) {
+    this.past = past;
+    this.track.value = past ?? this.last;
+    this.element.dataset.past = String(past !== null);
+    this.showText();
+  }
+
+  showPlaying(on) {
+    const label = on ? "Stop playing  (Z)" : "Play from here  (Z)";
+    this.play.replaceChildren(icon(on ? "pause" : "resume"));
+    this.play.title = label;
+    this.play.setAttribute("aria-label", label.split("  ")[0]);
+  }
+
+  showText() {
+    const tick = this.past ?? this.last;
+    const time = clockText(tick * (this.tickSeconds ?? 0));
+    setText(this.text, this.past === null ? `live · ${time}` : `${time} · tick ${tick}`);
+    this.track.setAttribute("aria-valuetext", `tick ${tick}, ${time}${this.past === null ? ", live" : ""}`);
+    this.live.setAttribute("aria-pressed", String(this.past === null));
+  }
+
+  // The event after or before a tick.
+  neighbour(tick, forward) {
+    const ticks = this.events.map((event) => event.tick).filter((t) => t >= this.first && (forward ? t > tick : t < tick));
+    return ticks.length === 0 ? null : forward ? Math.min(...ticks) : Math.max(...ticks);
+  }
+}
