@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <map>
 #include <mutex>
@@ -130,9 +131,14 @@ TEST_F(InspectionTest, TheRunTellsItsPhasePaceAndProcesses)
     EXPECT_THAT(process.process, testing::ContainsRegex(":[0-9]+$"));
 
   Ask("resume");
-  ASSERT_TRUE(Eventually([&] { return phase() == RunStatus::Phase::kRunning && status.Get()->status.tick > 60; }));
-  EXPECT_NEAR(status.Get()->status.real_time_factor, 3, 1);
-  EXPECT_NEAR(status.Get()->status.ticks_per_second, 30, 10);
+  // Measured: a machine that stands still in between tells another pace for a while.
+  const auto is_told = [&]
+  {
+    const RunStatus running = status.Get()->status;
+    return running.phase == RunStatus::Phase::kRunning && running.tick > 60 &&
+           std::abs(running.real_time_factor - 3) < 1 && std::abs(running.ticks_per_second - 30) < 10;
+  };
+  ASSERT_TRUE(Eventually(is_told));
   Ask("stop");
   ASSERT_TRUE(Eventually([&] { return phase() == RunStatus::Phase::kFinished; }));
   EXPECT_EQ(status.Get()->status.ended, "stopped by " + UserName() + "@" + ProcessId());

@@ -58,7 +58,7 @@ class Moves(LauncherTest):
             self.assertRegex(asker, r"^\S+@\S+:\d+$")
 
     def test_while_it_runs(self):
-        run = self.begin("--real-time", 100)
+        run = self.begin("--real-time", 20)
         self.control("resume")
         for words in (["move-host", "0"], ["move-engine", "ground"], ["move-host", "1"]):
             self.assertIn("at tick", self.control(*words))
@@ -162,7 +162,7 @@ class Moves(LauncherTest):
         self.assert_undisturbed(run, experiment=experiment)
 
     def test_more_controller_hosts_while_it_runs(self):
-        run = self.begin("--real-time", 100)
+        run = self.begin("--real-time", 20)
         self.control("resume")
         for words in (["+1"], ["-2"], ["+3"]):
             self.assertIn("now", self.control("hosts", *words))
