@@ -382,7 +382,8 @@ void ServerSession::Leave(std::uint64_t tick, const std::string& error)
 {
   state_.Lock()->over = true;
   leave_->Write({world_.run, tick, "space server", "", error});
-  leave_->WaitUntilRead(kLeaveTime_s);
+  // Nobody is answered after it.
+  if (leave_->WaitUntilRead(kLeaveTime_s)) replies_->WaitUntilRead(kLeaveTime_s);
 }
 
 }  // namespace swarmanoid

@@ -111,6 +111,12 @@ void ViewPublisher::SendStatus(const RunStatus& status, Clock::time_point now)
   said_ = now;
 }
 
+// Somebody who is stopped reads neither, and is waited for once.
+void ViewPublisher::WaitUntilRead(double seconds)
+{
+  if (views_.WaitUntilRead(seconds)) statuses_.WaitUntilRead(seconds);
+}
+
 ViewPublisher::Clock::time_point ViewPublisher::Next() const
 {
   Clock::time_point next = Clock::time_point::max();

@@ -36,8 +36,8 @@ public:
   bool StatusIsDue(RunStatus::Phase phase, Clock::time_point now);
   void SendStatus(const RunStatus& status, Clock::time_point now);
 
-  // The latest view was read by all who look on, or that time is over.
-  void WaitUntilRead(double seconds) { views_.WaitUntilRead(seconds); }
+  // The latest view and status were read by all who look on, or that time is over.
+  void WaitUntilRead(double seconds);
 
   // When one of them may be due.
   Clock::time_point Next() const;

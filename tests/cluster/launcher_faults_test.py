@@ -12,7 +12,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from signals import send_and_wait  # noqa: E402
 
 PROGRAMS = ["space_server", "engine_worker", "controller_host", "visualiser"]
-LONG = ["--ticks", "0", "--hash-log", "hashes", "--output", "out", "--no-recovery"]
+LONG = ["--ticks", "0", "--hash-log", "hashes", "--output", "out", "--no-recovery", "--lease", "60"]
 NAMES = {"space_server": "space server", "engine_worker": "engine 'ground'", "controller_host": "controller host 0",
          "visualiser": "visualiser 'positions'"}
 
@@ -164,7 +164,7 @@ class Controllers(LauncherTest):
             self.assertRegex(run.stderr, r"^robot 'robot_one', controller 'c': ControlStep at tick 17 called exit\(0\)")
 
     def test_one_that_never_returns_is_waited_for_and_can_be_killed(self):
-        run = self.start("run", self.write_faulty("step_hangs", 17), "--paused")
+        run = self.start("run", self.write_faulty("step_hangs", 17), "--paused", "--lease", 60)
         # Who steps it is told whom it waits for.
         self.wait_for_experiment("faulty")
         step = self.run_it("control", "step", 30)

@@ -27,9 +27,9 @@ class WireAttacks(LauncherTest):
         self.machines = two_machines.TwoMachines(os.environ["SWARMANOID_BUILD"])
         self.addCleanup(self.machines.remove)
 
-    def attack(self, seconds, *attacks, interface="link0"):
-        attacker = subprocess.Popen(["ip", "netns", "exec", self.machines.names[0], sys.executable, ATTACKER, interface, str(seconds), *attacks],
-                                    stdout=subprocess.PIPE, text=True, env={**os.environ, "SECRETS": SECRETS})
+    def attack(self, *attacks, interface="link0"):
+        attacker = subprocess.Popen(["ip", "netns", "exec", self.machines.names[0], sys.executable, ATTACKER, interface, str(GENEROUS_S), *attacks],
+                                    stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env={**os.environ, "SECRETS": SECRETS})
         self.addCleanup(self.end_attack, attacker)
         self.assertEqual(attacker.stdout.readline(), "listening\n")
         return attacker
@@ -38,9 +38,11 @@ class WireAttacks(LauncherTest):
     def end_attack(attacker):
         attacker.kill()
         attacker.wait()
+        attacker.stdin.close()
         attacker.stdout.close()
 
     def report(self, attacker):
+        """What he has done until now, which is his end."""
         text, _ = attacker.communicate(timeout=GENEROUS_S)
         return json.loads(text)
 
@@ -53,7 +55,7 @@ class WireAttacks(LauncherTest):
                           "--output", "out")
 
     def run_under(self, *attacks):
-        attacker = self.attack(10, *attacks)
+        attacker = self.attack(*attacks)
         run = self.start_over_network()
         self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
         report = self.report(attacker)
@@ -73,7 +75,7 @@ class WireAttacks(LauncherTest):
         self.run_under()
 
     def test_without_a_key_he_reads_all(self):
-        attacker = self.attack(10)
+        attacker = self.attack()
         run = self.start_over_network("--insecure")
         self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
         self.assertEqual(self.report(attacker)["read"], sorted(SECRETS.split(",")))
@@ -164,7 +166,7 @@ class WireAttacks(LauncherTest):
     def test_a_run_of_one_machine_goes_on(self):
         """Over its loopback interface; what travels through memory is out of reach."""
         attacks = "repeat", "noise", "change", "part", "gap", "ahead", "read", "dispose", "break"
-        attacker = self.attack(10, *attacks, interface="lo")
+        attacker = self.attack(*attacks, interface="lo")
         run = subprocess.run(["ip", "netns", "exec", self.machines.names[0], SWARMANOID, "run", EXPERIMENT, "--ticks", str(TICKS), "--no-visualisers",
                               "--real-time", "2", "--hash-log", "cluster", "--output", "out", "--lease", "60"], check=False, cwd=self.folder,
                              capture_output=True, text=True, timeout=GENEROUS_S)

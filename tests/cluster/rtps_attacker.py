@@ -1,6 +1,6 @@
 """Somebody on the network of a run, without its key: rtps_attacker.py INTERFACE SECONDS ATTACK...
 
-Overhears all datagrams of an interface, and answers each a few times, as often and as long as the limits below allow, in the name of whoever
+Until its standard input ends, SECONDS at most, it overhears all datagrams of an interface, and answers each a few times, as often and as long as the limits below allow, in the name of whoever
 sent it:
   repeat    the same bytes again
   change    other bytes in its message, under numbers of messages that are still to come
@@ -16,6 +16,7 @@ import collections
 import json
 import os
 import random
+import select
 import socket
 import struct
 import sys
@@ -193,7 +194,7 @@ class Attacker:
 
     def work(self, seconds):
         end = time.monotonic() + seconds
-        while time.monotonic() < end:
+        while time.monotonic() < end and not select.select([sys.stdin], [], [], 0)[0]:
             try:
                 heard = datagram_of(self.ear.recv(65536))
             except TimeoutError:
