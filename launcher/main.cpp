@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,8 +13,10 @@
 #include "common/program/program.h"
 #include "launcher/commands.h"
 #include "launcher/completion.h"
+#include "launcher/installation.h"
 #include "studies/commands.h"
 #include "studies/study_worker.h"
+#include "visualiser/past_inside.h"
 
 namespace
 {
@@ -90,6 +93,8 @@ int main(int count, char** arguments)
   std::vector<char*> given;
   for (std::string& word : words) given.push_back(word.data());
 
+  // Of renderers in this process and in those that it starts.
+  setenv(kCommandVariable, OwnProgram().c_str(), 1);
   int verb_code = kExitDone;
   const int exit_code = RunProgram(
       {.name = "swarmanoid",

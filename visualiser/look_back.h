@@ -25,6 +25,8 @@ struct LookBackRequest
 {
   std::uint64_t tick = 0;
   std::vector<std::uint32_t> entities;  // whose details are wanted
+
+  bool operator==(const LookBackRequest&) const = default;
 };
 
 // An event of a run's log of events, as a mark on the timeline.

@@ -36,7 +36,8 @@ class Process {
     this.output = "";
     this.child.stdout.on("data", (text) => (this.output += text));
     this.child.stderr.on("data", (text) => (this.output += text));
-    this.ended = new Promise((done) => this.child.on("exit", (code) => done((this.code = code ?? -1))));
+    // With all of its output, which the event `exit` may come before.
+    this.ended = new Promise((done) => this.child.on("close", (code) => done((this.code = code ?? -1))));
     processes.push(this);
   }
 
@@ -1160,7 +1161,14 @@ const tests = {
       const row = (name) => Number([...document.querySelectorAll(".right th")].find((th) => th.textContent === name).nextSibling.textContent.split(" ")[0]);
       assert.ok(Math.abs((await page.evaluate(`(${row})("x")`)) - there[0]) < 1e-3);
     }
-    assert.match(await page.textContent(".right .state"), /is not in the journal/);
+    // Computed once the tick stands: what the command says.
+    const command = new Process("inspect", "goes_on@7", "fb_3", "--json");
+    assert.equal(await command.ended, 0, command.output);
+    const { sensors } = JSON.parse(command.output.slice(command.output.indexOf("{"))).robots[0];
+    const proximity = sensors.find(({ type }) => type === "footbot_proximity").readings.map(({ value }) => value);
+    const bars = () => [...document.querySelectorAll(".right details:not([hidden]) .bars > *")].map((bar) => bar.title);
+    await until(page, (count) => document.querySelectorAll(".right details:not([hidden]) .bars > *").length === count, proximity.length);
+    (await page.evaluate(`(${bars})()`)).forEach((title, i) => assert.ok(Math.abs(Number(title.split(": ")[1].split(" ")[0]) - proximity[i]) < 1e-3, title));
 
     // The present goes on meanwhile, and is not shown.
     const frames = await read(page, () => swarmanoid.frames);

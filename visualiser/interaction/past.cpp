@@ -40,12 +40,20 @@ void Past::Follow(const std::string& run_folder)
   if (run_folder != run_folder_)
   {
     look_back_.reset();
+    inside_.reset();
     GoLive();
     arrived_ = {};
     asked_.reset();
     timeline_ = {};
     run_folder_ = run_folder;
-    if (!run_folder.empty()) look_back_ = std::make_unique<LookBack>(experiment_, run_folder, Answers());
+    if (run_folder.empty()) return;
+    look_back_ = std::make_unique<LookBack>(experiment_, run_folder, Answers());
+    inside_ = std::make_unique<PastInside>(experiment_, run_folder,
+                                           [this](std::uint64_t, const PastInsideAnswer& answer)
+                                           {
+                                             const std::lock_guard lock(mutex_);
+                                             arrived_.inside = answer;
+                                           });
   }
   else if (look_back_)
     look_back_->Refresh();
@@ -60,6 +68,11 @@ bool Past::Advance(Clock::time_point now)
   }
   bool changed = arrived.timeline.has_value();
   if (arrived.timeline) timeline_ = std::move(*arrived.timeline);
+  if (arrived.inside)
+  {
+    changed = true;
+    of_inside_ = std::move(*arrived.inside);
+  }
   if (arrived.state || arrived.refusal)
   {
     const bool late = asked_ != wanted_;
@@ -99,6 +112,23 @@ void Past::Want(std::uint64_t tick)
   look_back_->Ask(kWindow, {tick, {}});
 }
 
+void Past::Inspect(std::span<const std::uint32_t> robots)
+{
+  if (!inside_ || !IsOn()) return;
+  LookBackRequest request{*wanted_, {robots.begin(), robots.end()}};
+  if (inspected_ == request) return;
+  of_inside_ = {};
+  inside_->Ask(kWindow, request);
+  inspected_ = std::move(request);
+}
+
+const RobotStatus* Past::Inside(std::uint32_t robot) const
+{
+  if (!IsOn() || of_inside_.tick != *wanted_) return nullptr;
+  const auto found = std::ranges::find(of_inside_.robots, robot, &RobotStatus::entity);
+  return found == of_inside_.robots.end() ? nullptr : &*found;
+}
+
 void Past::Look(std::uint64_t tick)
 {
   if (!IsThere()) return;
@@ -119,6 +149,10 @@ void Past::GoLive()
   wanted_.reset();
   playing_.reset();
   has_state_ = false;
+  if (!inspected_) return;
+  inspected_.reset();
+  of_inside_ = {};
+  if (inside_) inside_->Forget(kWindow);
 }
 
 std::optional<std::uint64_t> Past::Neighbour(bool forward) const

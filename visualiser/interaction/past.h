@@ -12,6 +12,7 @@
 #include <string>
 
 #include "visualiser/look_back.h"
+#include "visualiser/past_inside.h"
 
 namespace swarmanoid
 {
@@ -49,6 +50,14 @@ public:
   // From the tick that is looked at, or from the first one, in real time; or no more.
   void TogglePlay(Clock::time_point now);
   void GoLive();
+  // The inside of these robots at the tick that is looked at is wanted from now on; it comes a while after the tick has
+  // stood. Nothing happens in the present.
+  void Inspect(std::span<const std::uint32_t> robots);
+  // nullptr if it has not come.
+  const RobotStatus* Inside(std::uint32_t robot) const;
+  // Whether it will come; or why it does not.
+  bool IsInsideComputed() const { return IsOn() && inside_ && inside_->IsPossible(); }
+  const std::string& InsideError() const { return of_inside_.error; }
   // The tick of the event before or after the one that is looked at.
   std::optional<std::uint64_t> Neighbour(bool forward) const;
   // Why a tick cannot be shown; once.
@@ -66,6 +75,7 @@ private:
     std::optional<JournalTimeline> timeline;
     std::optional<SpaceSnapshot> state;
     std::optional<std::string> refusal;
+    std::optional<PastInsideAnswer> inside;
   };
 
   void Want(std::uint64_t tick);
@@ -80,10 +90,14 @@ private:
   std::optional<std::string> refusal_;
   std::unique_ptr<CSwarmanoidSpace> space_;
   bool has_state_ = false;  // since the present was left
+  std::optional<LookBackRequest> inspected_;  // what `inside_` was asked last
+  PastInsideAnswer of_inside_;
 
   std::mutex mutex_;
   Arrived arrived_;
-  std::unique_ptr<LookBack> look_back_;  // last: its thread uses the above
+  // Last: their threads use the above.
+  std::unique_ptr<LookBack> look_back_;
+  std::unique_ptr<PastInside> inside_;
 };
 
 }  // namespace swarmanoid

@@ -342,6 +342,7 @@ bool Viewer::FollowPast()
     past_.Follow(RunFolderOf(setup_.output_folder, setup_.monitor));
   }
   const bool changed = past_.Advance(now);
+  past_.Inspect(inspected_);
   if (const auto refusal = past_.TakeRefusal()) Say(*refusal, true);
   if (past_.IsOn() != was_past_) Say(past_.IsOn() ? "looking back: Q goes to the present" : "the present again");
   was_past_ = past_.IsOn();
@@ -449,8 +450,8 @@ const RunStatus& Viewer::Status()
 
 const RobotStatus* Viewer::Robot(std::uint32_t entity)
 {
-  // What goes on inside robots is not in the journal.
-  return setup_.monitor == nullptr || past_.Space() != nullptr ? nullptr : setup_.monitor->Robot(entity);
+  if (past_.Space() != nullptr) return past_.Inside(entity);
+  return setup_.monitor == nullptr ? nullptr : setup_.monitor->Robot(entity);
 }
 
 std::vector<std::uint32_t> Viewer::Watched() const

@@ -68,11 +68,16 @@ void Panels::ShowInspector(std::size_t number)
     }
     else if (!body.GetConfiguration().controller.empty())
       ImGui::TextDisabled("controller %s", body.GetConfiguration().controller.c_str());
-    if (viewer_.GetPast().IsOn())
-      ImGui::TextDisabled("at tick %llu%s", static_cast<unsigned long long>(viewer_.Space().GetTick()),
-                          body.GetConfiguration().controller.empty()
-                              ? ""
-                              : "; its inside is not in the journal: Shift-I copies the command that computes it");
+    if (const Past& past = viewer_.GetPast(); past.IsOn())
+    {
+      const char* inside = "";
+      if (!body.GetConfiguration().controller.empty() && robot == nullptr && past.InsideError().empty())
+        inside = past.IsInsideComputed()
+                     ? "; what it sensed is computed when the tick stands"
+                     : "; its inside is not in the journal: Shift-I copies the command that computes it";
+      ImGui::TextDisabled("at tick %llu%s", static_cast<unsigned long long>(viewer_.Space().GetTick()), inside);
+      if (robot == nullptr && !past.InsideError().empty()) ImGui::TextUnformatted(past.InsideError().c_str());
+    }
     ImGui::PopTextWrapPos();
 
     for (const ValueGroup& group : ValuesOf(viewer_.Space(), entity, viewer_.Motion(entity), robot))

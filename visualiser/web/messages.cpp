@@ -142,6 +142,16 @@ Json Devices(const std::vector<DeviceStatus>& devices)
   return list;
 }
 
+Json Inside(const RobotStatus& robot)
+{
+  return {{"tick", robot.tick},
+          {"controller", robot.controller},
+          {"text", robot.text},
+          {"state", robot.state},
+          {"sensors", Devices(robot.sensors)},
+          {"actuators", Devices(robot.actuators)}};
+}
+
 Json Attributes(const CSwarmanoidSpaceEntity& entity)
 {
   Json attributes = Json::object();
@@ -355,16 +365,7 @@ std::string WatchedText(const CSwarmanoidSpace& space, std::span<const std::uint
   {
     const CSwarmanoidSpaceEntity& entity = space.GetEntity(e);
     Json item{{"entity", e}, {"attributes", Attributes(entity)}};
-    const RobotStatus* robot = monitor == nullptr ? nullptr : monitor->Robot(e);
-    if (robot != nullptr)
-    {
-      item["tick"] = robot->tick;
-      item["controller"] = robot->controller;
-      item["text"] = robot->text;
-      item["state"] = robot->state;
-      item["sensors"] = Devices(robot->sensors);
-      item["actuators"] = Devices(robot->actuators);
-    }
+    if (const RobotStatus* robot = monitor == nullptr ? nullptr : monitor->Robot(e)) item.update(Inside(*robot));
     list.push_back(item);
   }
   return Text({{"type", "watched"}, {"tick", space.GetTick()}, {"time_s", space.GetTime()}, {"entities", list}});
@@ -390,6 +391,19 @@ std::string PastText(const CSwarmanoidSpace& space, std::span<const std::uint32_
   past["type"] = "past";
   past["colours"] = Json::parse(ColoursText(space));
   return Text(past);
+}
+
+std::string PastInsideText(const PastInsideAnswer& answer)
+{
+  Json list = Json::array();
+  for (const RobotStatus& robot : answer.robots)
+  {
+    Json item = Inside(robot);
+    item["entity"] = robot.entity;
+    item["attributes"] = Json::object();
+    list.push_back(item);
+  }
+  return Text({{"type", "past_inside"}, {"tick", answer.tick}, {"entities", list}, {"error", answer.error}});
 }
 
 std::string RefusalText(const std::string& text) { return Text({{"type", "reply"}, {"ok", false}, {"text", text}}); }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "visualiser/look_back.h"
+#include "visualiser/past_inside.h"
 #include "visualiser/render.h"
 #include "visualiser/scene/viewpoints.h"
 #include "visualiser/web/access.h"
@@ -39,6 +40,8 @@ std::string TimelineText(const std::string& run_folder, std::uint64_t first, std
                          std::span<const TimelineEvent> events);
 // "past": of the tick that is looked back at: attributes of entities, and colours as "colours" has them.
 std::string PastText(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities);
+// "past_inside": the inside of robots at a tick of the past, or in "error" why it cannot be computed.
+std::string PastInsideText(const PastInsideAnswer& answer);
 // "reply": what became of a request that was refused.
 std::string RefusalText(const std::string& text);
 

@@ -308,6 +308,7 @@ void CWebRender::FollowJournal()
   const std::string folder = RunFolderOf(output_folder_, monitor_);
   if (!folder.empty() && (!look_back_ || look_back_->RunFolder() != folder))
   {
+    past_inside_.reset();
     look_back_.reset();
     past_frames_.reset();
     look_back_ = std::make_unique<LookBack>(
@@ -321,6 +322,10 @@ void CWebRender::FollowJournal()
                         { SendPast(client, request, space); },
                         [this](std::uint64_t client, const std::string& text)
                         { server_->Send(client, Shared(RefusalText(text))); }});
+    past_inside_ = std::make_unique<PastInside>(
+        space_->GetExperiment(), folder,
+        [this](std::uint64_t client, const PastInsideAnswer& answer)
+        { server_->SendState(client, WebServer::Slot::kPastInside, Shared(PastInsideText(answer))); });
   }
   if (look_back_ && server_->Clients() > 0) look_back_->Refresh();
 }
@@ -402,6 +407,7 @@ void CWebRender::TakeRequests()
       watched_.erase(request.client);
       marked_.erase(request.client);
       if (look_back_) look_back_->Forget(request.client);
+      if (past_inside_) past_inside_->Forget(request.client);
       WatchRobots();
     }
 }
@@ -440,7 +446,10 @@ void CWebRender::Carry(std::uint64_t client, const PageRequest& request)
   if (const auto* past = std::get_if<LookBackRequest>(&request))
   {
     if (look_back_)
+    {
       look_back_->Ask(client, *past);
+      past_inside_->Ask(client, *past);
+    }
     else
       server_->Send(client, Shared(RefusalText("there is nothing to look back at: the run keeps no journal here")));
     return;

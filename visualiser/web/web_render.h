@@ -104,7 +104,8 @@ private:
   std::unique_ptr<KeptAddress> kept_;
   std::unique_ptr<WebServer> server_;         // its thread calls the above
   std::unique_ptr<FrameWriter> past_frames_;  // of the thread of look_back_
-  std::unique_ptr<LookBack> look_back_;       // last: its thread calls the server
+  std::unique_ptr<LookBack> look_back_;       // these two last: their threads call the server
+  std::unique_ptr<PastInside> past_inside_;
   std::string output_folder_;
 };
 

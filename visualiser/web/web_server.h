@@ -54,6 +54,7 @@ public:
     kChange,  // binary: what has changed since; replaced by the next key
     kPast,    // binary: the whole state of a tick that is looked back at
     kPastDetails,
+    kPastInside,
     kTimeline,
     kStatus,
     kColours,

@@ -165,6 +165,7 @@ const receive = {
     picture.paint(message.colours);
     inspector.addDetails(message);
   },
+  past_inside: (message) => past.isOn && past.wanted === message.tick && inspector.addInside(message),
   marks: (message) => picture.marks.receive(message),
   log: (message) => log.add(message),
   reply({ text }) {

@@ -66,7 +66,7 @@ class Bars {
   }
 }
 
-const NOT_RECORDED = "What its sensors and controller held then is not in the journal; shift + I copies the command that computes it.";
+const NOT_RECORDED = "What its sensors and controller held then is not in the journal; it is computed when the tick stands, or by the command that shift + I copies.";
 
 class Card {
   constructor(panel, entity) {
@@ -205,10 +205,11 @@ class Card {
     if (details.state || details.text) {
       setText(this.state, details.state && details.text && details.text !== details.state ? `${details.state} — ${details.text}` : details.state || details.text);
       this.state.hidden = false;
-    } else if (this.panel.past && this.panel.world.isRobot(this.entity)) {
+    } else if (this.panel.past && !details.sensors && this.panel.world.isRobot(this.entity)) {
       setText(this.state, NOT_RECORDED);
       this.state.hidden = false;
     } else this.state.hidden = true;
+    if (this.panel.past) this.hideInside(!details.sensors);
     for (const [name, values] of Object.entries(details.attributes)) {
       if (HIDDEN_ATTRIBUTES.has(name)) continue;
       const section = this.section("Attributes");
@@ -232,7 +233,16 @@ class Card {
 
   lookBack(on) {
     this.last = null;
+    this.hideInside(on);
+  }
+
+  hideInside(on) {
     for (const [title, { element }] of this.sections) if (/^(Sensor|Actuator): /.test(title)) element.hidden = on;
+  }
+
+  tell(text) {
+    setText(this.state, text);
+    this.state.hidden = false;
   }
 
   value(section, name, unit, key, time, value) {
@@ -382,6 +392,12 @@ export class Inspector {
 
   addDetails({ time_s: time, entities }) {
     for (const details of entities) for (const card of this.cards) if (card.entity === details.entity) card.addDetails(time, details);
+  }
+
+  // What was computed of robots at the tick that is looked at, or why it cannot be.
+  addInside({ entities, error }) {
+    if (error) for (const card of this.cards) if (this.world.isRobot(card.entity)) card.tell(error);
+    this.addDetails({ time_s: null, entities });
   }
 
   // on: what is shown from now on is of the past. Nothing of it goes into the plots, whose time goes on.

@@ -1,0 +1,155 @@
+// The inside of robots at ticks of the past: asked of a program that stands for `swarmanoid`.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+
+#include "tests/eventually.h"
+#include "tests/unit/visualiser/small_world.h"
+#include "visualiser/past_inside.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+using test::Eventually;
+using testing::HasSubstr;
+
+class PastInsideTest : public testing::Test
+{
+protected:
+  PastInsideTest() : folder_(fs::temp_directory_path() / fmt::format("swarmanoid inside_{}", getpid())), world_({4, 4, 2})
+  {
+    for (const char* id : {"fb_0", "fb_1"}) world_.Add(EntityKind::kFootbot, id, {1, 1, 0}).controller = "driver";
+    world_.Add(EntityKind::kFootbot, "parked", {2, 1, 0});
+    fs::create_directories(folder_);
+    setenv(kCommandVariable, (folder_ / "program").c_str(), 1);
+  }
+  ~PastInsideTest() override
+  {
+    unsetenv(kCommandVariable);
+    fs::remove_all(folder_);
+  }
+
+  // The program is told "inspect RUN@TICK --json -- ID..."; what it was told is in the file `asked`.
+  void Write(const std::string& commands) const
+  {
+    const fs::path program = folder_ / "program";
+    std::ofstream(program) << "#!/bin/sh\necho \"$*\" >> '" << (folder_ / "asked").string() << "'\n" << commands << "\n";
+    fs::permissions(program, fs::perms::owner_all);
+  }
+  std::string Asked() const
+  {
+    std::ifstream file(folder_ / "asked");
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  std::unique_ptr<PastInside> Make(const std::string& run_folder)
+  {
+    return std::make_unique<PastInside>(world_.GetExperiment(), run_folder,
+                                        [this](std::uint64_t client, const PastInsideAnswer& answer)
+                                        {
+                                          const std::lock_guard lock(mutex_);
+                                          answers_.emplace_back(client, answer);
+                                        });
+  }
+  std::size_t Count()
+  {
+    const std::lock_guard lock(mutex_);
+    return answers_.size();
+  }
+
+  const fs::path folder_;
+  SmallWorld world_;
+  std::mutex mutex_;
+  std::vector<std::pair<std::uint64_t, PastInsideAnswer>> answers_;
+};
+
+constexpr const char* kRobot =
+    R"({"id": "fb_1", "controller": "driver", "state": "TURN", "text": "turns",)"
+    R"( "sensors": [{"type": "battery", "readings": [{"name": "left", "unit": "s", "value": null}]}],)"
+    R"( "actuators": [{"type": "wheels", "readings": [{"name": "0", "unit": "m/s", "value": 0.25}]}]})";
+
+TEST_F(PastInsideTest, RobotsWithControllersAreAskedForAtTheirTick)
+{
+  Write(fmt::format("echo '{{\"robots\": [{}]}}'", kRobot));
+  const auto inside = Make(folder_.string());
+  ASSERT_TRUE(inside->IsPossible());
+  inside->Ask(7, {42, {1, 2, 99}});
+  ASSERT_TRUE(Eventually([&] { return Count() == 1; }));
+  EXPECT_EQ(Asked(), fmt::format("inspect {}@42 --json -- fb_1\n", folder_.string()));
+  EXPECT_EQ(answers_[0].first, 7u);
+  const PastInsideAnswer& answer = answers_[0].second;
+  EXPECT_EQ(answer.error, "");
+  EXPECT_EQ(answer.tick, 42u);
+  ASSERT_EQ(answer.robots.size(), 1u);
+  const RobotStatus& robot = answer.robots[0];
+  EXPECT_EQ(robot.entity, 1u);
+  EXPECT_EQ(robot.tick, 42u);
+  EXPECT_EQ(robot.controller + robot.state + robot.text, "driverTURNturns");
+  EXPECT_TRUE(std::isnan(robot.sensors.at(0).readings.at(0).value)) << "JSON has no infinity";
+  EXPECT_EQ(robot.actuators.at(0).type, "wheels");
+  EXPECT_EQ(robot.actuators.at(0).readings.at(0).value, 0.25);
+  EXPECT_EQ(robot.actuators.at(0).readings.at(0).unit, "m/s");
+}
+
+// The first is computed for ever; nobody waits for it once another tick is looked at.
+TEST_F(PastInsideTest, OnlyTheNewestTickIsAnswered)
+{
+  Write(fmt::format("case \"$2\" in *@5) exec sleep 1000;; esac\necho '{{\"robots\": [{}]}}'", kRobot));
+  const auto inside = Make(folder_.string());
+  inside->Ask(1, {5, {1}});
+  ASSERT_TRUE(Eventually([&] { return Asked().find("@5 ") != std::string::npos; }));
+  for (std::uint64_t tick = 6; tick <= 60; ++tick) inside->Ask(1, {tick, {1}});
+  ASSERT_TRUE(Eventually([&] { return Count() == 1; }));
+  EXPECT_EQ(answers_[0].second.tick, 60u);
+  // Who has left, and robots without controllers, are not computed for.
+  inside->Ask(2, {5, {1}});
+  inside->Forget(2);
+  inside->Ask(3, {5, {2}});
+  inside->Ask(4, {61, {0}});
+  ASSERT_TRUE(Eventually([&] { return Count() == 2; }));
+  EXPECT_EQ(answers_[1].first, 4u);
+}
+
+TEST_F(PastInsideTest, ItsEndIsTheEndOfWhatItComputes)
+{
+  Write("exec sleep 1000");
+  auto inside = Make(folder_.string());
+  inside->Ask(1, {5, {0}});
+  ASSERT_TRUE(Eventually([&] { return !Asked().empty(); }));
+  inside.reset();
+  EXPECT_EQ(Count(), 0u);
+}
+
+TEST_F(PastInsideTest, WhyNothingCanBeComputedIsTold)
+{
+  Write("case \"$2\" in *@1) echo 'robot says hello' >&2; echo 'inspect: made by another build' >&2; exit 4;; esac\n"
+        "echo '{\"robots\": [{\"id\": \"nobody\"}]}'");
+  const auto inside = Make(folder_.string());
+  inside->Ask(1, {1, {0}});
+  ASSERT_TRUE(Eventually([&] { return Count() == 1; }));
+  EXPECT_EQ(answers_[0].second.error, "inspect: made by another build");
+  inside->Ask(1, {2, {0}});
+  ASSERT_TRUE(Eventually([&] { return Count() == 2; }));
+  EXPECT_THAT(answers_[1].second.error, HasSubstr("cannot be read"));
+  EXPECT_TRUE(answers_[1].second.robots.empty());
+}
+
+TEST_F(PastInsideTest, NothingIsComputedOfRunsOfOthers)
+{
+  Write("echo '{\"robots\": []}'");
+  EXPECT_FALSE(Make("/nowhere")->IsPossible());
+  if (geteuid() != 0) EXPECT_FALSE(Make("/")->IsPossible());
+  unsetenv(kCommandVariable);
+  EXPECT_FALSE(Make(folder_.string())->IsPossible());
+}
+
+}  // namespace
+}  // namespace swarmanoid
