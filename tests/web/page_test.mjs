@@ -12,7 +12,7 @@ import { join } from "node:path";
 
 const { SWARMANOID, SWARMANOID_CONFIGS, PAGE_MODULES } = process.env;
 const CHROMIUM = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((path) => existsSync(path));
-const TIMEOUT_MS = 30000;
+const TIMEOUT_MS = 100000; // which only what hangs reaches
 
 function skip(why) {
   console.log(`skipped: ${why}`);
