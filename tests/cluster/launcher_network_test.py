@@ -65,7 +65,7 @@ class Network(LauncherTest):
         self.machines.disconnect()
         time.sleep(10)
         self.machines.connect(0, 1)
-        run.wait(timeout=90)
+        run.wait()
         self.machines.disconnect()
         self.assertEqual(run.process.returncode, 0, run.stderr)
         self.assertEqual(self.assert_finished(run, 400), self.assert_finished(one, 400))

@@ -99,7 +99,7 @@ class CommandLine(OutsideTest):
         self.assertIn("waiting for the space server of 'nobody'", watcher.stderr.readline())
         gone.send_signal(signal.SIGKILL)
         gone.wait()
-        _, errors = watcher.communicate(timeout=30)
+        _, errors = watcher.communicate(timeout=100)
         self.assertEqual(watcher.returncode, 4)
         self.assertIn("experiment 'nobody' has ended", errors)
 

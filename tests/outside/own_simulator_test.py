@@ -94,7 +94,7 @@ class OwnSimulator(OutsideTest):
                     while "Ctrl-C again" not in said:
                         said += run.stderr.readline()
                 run.send_signal(signal.SIGINT)
-                said = run.communicate(timeout=30)[1]
+                said = run.communicate(timeout=100)[1]
                 self.assertIn(f"{WATCH} ", said)
                 self.assertEqual(run.returncode, 130, said)
                 self.assertEqual(json.loads((output / "manifest.json").read_text())["exit_code"], 130)
@@ -113,7 +113,7 @@ class OwnSimulator(OutsideTest):
                    if "engine_worker" in pathlib.Path(f"/proc/{pid}/cmdline").read_text()]
         self.assertEqual(len(workers), 1)
         os.kill(workers[0], signal.SIGKILL)
-        said = run.communicate(timeout=30)[1].splitlines()
+        said = run.communicate(timeout=100)[1].splitlines()
         self.assertRegex(said[0], r"^engine 'ground' was killed by signal 9 \(Killed\)")
         self.assertIn(f"{WATCH} does not return: this process ends without it", said)
         self.assertEqual(run.returncode, 4)

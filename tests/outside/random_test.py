@@ -111,7 +111,7 @@ class Random(OutsideTest):
             self.until(lambda: (self.folder / "late.txt").exists() and (self.folder / "late.txt").read_text(), run)
             control("resume")
             out, errors = run.communicate(timeout=60)
-            self.assertEqual([one.wait(timeout=30) for one in attached], [0, 0, 0])
+            self.assertEqual([one.wait(timeout=100) for one in attached], [0, 0, 0])
         finally:
             for process in [run, *attached]:
                 if process.poll() is None:

@@ -106,12 +106,12 @@ class RobotTest(unittest.TestCase):
 
     def run_it(self, *arguments):
         process = self.start(*arguments)
-        output, errors = process.communicate(timeout=60)
+        output, errors = process.communicate(timeout=100)
         return process.returncode, output, errors
 
     def interrupt(self, process):
         process.send_signal(signal.SIGINT)
-        output, errors = process.communicate(timeout=60)
+        output, errors = process.communicate(timeout=100)
         return process.returncode, output, errors
 
     def test_keeps_off_the_walls_and_stops_when_interrupted(self):
@@ -140,14 +140,14 @@ class RobotTest(unittest.TestCase):
         before = library.read_bytes()
         experiment = self.write(EXPERIMENT.format(path=self.folder, library="only_one_of_its_kind"))
         simulated = subprocess.run([BUILD / "bin" / "swarmanoid", "run", experiment, "--single-process", "--output", "run"],
-                                   cwd=self.folder, capture_output=True, text=True, timeout=60)
+                                   cwd=self.folder, capture_output=True, text=True, timeout=100)
         self.assertEqual(simulated.returncode, 0, simulated.stderr)
         self.assertIn("finished: 40 ticks", simulated.stdout)
         stand_in = self.stand_in()
         process = self.start(experiment, "--steps", 200)
         stand_in.until(lambda r: r["forward"] > 0.09, "drove")
         self.assertIn(str(library), pathlib.Path(f"/proc/{process.pid}/maps").read_text())
-        output, errors = process.communicate(timeout=60)
+        output, errors = process.communicate(timeout=100)
         self.assertIn("finished: 200 steps", output, errors)
         self.assertEqual(library.read_bytes(), before)
 

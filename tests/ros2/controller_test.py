@@ -39,7 +39,7 @@ class Node:
 
     def stop(self):
         self.process.stdin.close()
-        self.process.wait(timeout=30)
+        self.process.wait(timeout=100)
         self.thread.join()
         self.process.stdout.close()
 
@@ -257,7 +257,7 @@ class RealRobotProgram(Case):
             run = self.run_it(file, "--single-process", "--real-time", "2", ticks=80)
         finally:
             robot.send_signal(2)
-            text = robot.communicate(timeout=30)[0]
+            text = robot.communicate(timeout=100)[0]
         self.hash_of(run)
         self.assertRegex(text, r"finished: [1-9]\d* steps")
         places = {int(line.split()[0]): [float(word) for word in line.split()[3:5]]

@@ -33,7 +33,7 @@ class Listener:
 
     def stop(self):
         self.process.stdin.close()
-        self.process.wait(timeout=30)
+        self.process.wait(timeout=100)
         self.thread.join()
         self.process.stdout.close()
         return self.lines

@@ -43,16 +43,16 @@ class Display:
 
     def close(self):
         self.server.send_signal(signal.SIGTERM)
-        self.server.wait(10)
+        self.server.wait(60)
 
     def tool(self, *words, check=True):
         done = subprocess.run([str(w) for w in words], env={**os.environ, **self.environment}, capture_output=True, text=True,
-                              timeout=30)
+                              timeout=100)
         if check and done.returncode != 0:
             raise AssertionError(f"{words}: {done.stderr}")
         return done.stdout.strip()
 
-    def window(self, title, timeout=20, run=None):
+    def window(self, title, timeout=100, run=None):
         """The window with this title, as soon as it is there; keys go to it from then on."""
         deadline = time.monotonic() + timeout
         while time.monotonic() < deadline:

@@ -86,7 +86,7 @@ class Window(LauncherTest):
 
     def close(self, run, window):
         self.display.ask_to_close(window)
-        self.assertEqual(run.wait(20), 0, run.stderr)
+        self.assertEqual(run.wait(), 0, run.stderr)
         self.assert_finished(run)
         self.assert_nothing_left(run)
 
@@ -217,7 +217,7 @@ class Window(LauncherTest):
             extra = f"<write_frames>true</write_frames><frame_directory>{name}</frame_directory><frame_filename>f</frame_filename>"
             run = self.start("run", self.experiment(self.window_element(extra)), "--output", name, "--quiet", "--ticks", 6, *way,
                              environment=self.display.environment)
-            self.assertEqual(run.wait(60), 0, run.stderr)
+            self.assertEqual(run.wait(), 0, run.stderr)
             self.assert_finished(run, 6)
             frames = sorted(path.name for path in (self.folder / name / name).iterdir())
             self.assertEqual(frames, [f"f_{tick:06}.png" for tick in range(7)])
@@ -248,10 +248,10 @@ class Window(LauncherTest):
         self.display.key("space")
         self.wait_until("the pause", self.stands_still, run)
         self.display.key("ctrl+q")
-        self.assertEqual(watcher.wait(20), 0, watcher.stderr)
+        self.assertEqual(watcher.wait(), 0, watcher.stderr)
         self.assertIsNone(run.process.poll())
         self.assertEqual(self.run_it("control", "window_test", "stop").process.returncode, 0)
-        self.assertEqual(run.wait(20), 0, run.stderr)
+        self.assertEqual(run.wait(), 0, run.stderr)
 
     def test_the_listing_of_the_documentation_runs(self):
         listing = """<visualisations>
@@ -290,7 +290,7 @@ class Window(LauncherTest):
         environment = {"DISPLAY": ""}
         for way in ((), ("--single-process",)):
             run = self.start("run", self.experiment(self.window_element()), "--quiet", "--ticks", 3, *way, environment=environment)
-            self.assertEqual(run.wait(30), 4, run.stderr)
+            self.assertEqual(run.wait(), 4, run.stderr)
             self.assertIn(f"{self.KIND}_render cannot open a window", run.stderr)
             self.assertIn("image_render draws without one", run.stderr)
 
