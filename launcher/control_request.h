@@ -23,7 +23,8 @@ struct ControlRequest
 // `seed`: of --seed. Throws UsageError with the right form.
 ControlRequest ParseControlRequest(std::vector<std::string> words, std::optional<std::uint64_t> seed = std::nullopt);
 
-// For those who got no answer: what the run does, after "does not answer". `dropped`: messages that were not understood.
+// For those who got no answer: what the run does, after "does not answer". `dropped`: messages that were not
+// understood.
 std::string WhyNoAnswer(const std::optional<RunStatus>& status, std::uint64_t dropped, bool insecure);
 
 }  // namespace swarmanoid

@@ -177,14 +177,15 @@ void DefineAttachedRun(py::module_& module)
       .def_property_readonly("states", &AttachedRun::States)
       .def("state", &StateOf)
       .def("wait", &AttachedRun::Wait, "taken"_a, "stale"_a, "tick"_a, "timeout_s"_a)
-      .def("control",
-           [](AttachedRun& self, const std::vector<std::string>& words, std::optional<std::uint64_t> seed)
-           {
-             const ControlReplyMessage reply = self.Control(words, seed);
-             if (!reply.ok) throw py::value_error(reply.text);
-             return py::make_tuple(reply.tick, reply.text);
-           },
-           "words"_a, "seed"_a)
+      .def(
+          "control",
+          [](AttachedRun& self, const std::vector<std::string>& words, std::optional<std::uint64_t> seed)
+          {
+            const ControlReplyMessage reply = self.Control(words, seed);
+            if (!reply.ok) throw py::value_error(reply.text);
+            return py::make_tuple(reply.tick, reply.text);
+          },
+          "words"_a, "seed"_a)
       .def("status", &StatusOf)
       .def("robot", &RobotOf, "entity"_a, "timeout_s"_a)
       .def_property_readonly("is_over", &AttachedRun::IsOver)

@@ -70,7 +70,8 @@ public:
   // How many states have come; 0: none yet.
   std::uint64_t States();
   // Calls `read` with the space at the newest state, and how many have come. False if none has.
-  using Reader = std::function<void(const CSwarmanoidSpace& space, const SpaceSnapshot& snapshot, std::uint64_t number)>;
+  using Reader =
+      std::function<void(const CSwarmanoidSpace& space, const SpaceSnapshot& snapshot, std::uint64_t number)>;
   bool WithState(const Reader& read);
   // Until a state has come that is not among the first `taken` ones, nor among the first `stale` ones unless no tick
   // follows it, and is of `tick` or later; or the run is over, which returns false. Throws TimeOver; negative: as long

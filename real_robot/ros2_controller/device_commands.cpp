@@ -178,14 +178,9 @@ using TopicMaker = void (*)(const TopicSetup& setup, const std::string& type, To
 const std::map<std::string, TopicMaker>& TopicMakers()
 {
   static const std::map<std::string, TopicMaker> makers{
-      {"eyebot_attachment", Magnet},
-      {"eyebot_laser", Laser},
-      {"eyebot_leds", Leds<CCI_EyeBotLedsActuator>},
-      {"footbot_beacon", Beacon},
-      {"footbot_gripper", Gripper},
-      {"footbot_leds", Leds<CCI_FootBotLedsActuator>},
-      {"footbot_turret", Turret},
-      {"range_and_bearing", Sender},
+      {"eyebot_attachment", Magnet}, {"eyebot_laser", Laser},       {"eyebot_leds", Leds<CCI_EyeBotLedsActuator>},
+      {"footbot_beacon", Beacon},    {"footbot_gripper", Gripper},  {"footbot_leds", Leds<CCI_FootBotLedsActuator>},
+      {"footbot_turret", Turret},    {"range_and_bearing", Sender},
   };
   return makers;
 }

@@ -51,8 +51,8 @@ public:
     std::ranges::sort(all);
     for (const std::string& type : robot.ActuatorTypes())
       if (std::ranges::find(all, type) == all.end())
-        throw DriverError(fmt::format("ros2_controller has no topic for the actuator <{}>; those that have: {}", type,
-                                      Listed(all)));
+        throw DriverError(
+            fmt::format("ros2_controller has no topic for the actuator <{}>; those that have: {}", type, Listed(all)));
     if (robot.HasActuator("footbot_wheels"))
       footbot_ = &robot.Actuator<CCI_FootBotWheelsActuator>("footbot_wheels");
     else if (robot.HasActuator("wheels"))
@@ -453,8 +453,8 @@ private:
 
   void TimeOut(double timeout_s, const std::string& topic)
   {
-    const std::string what = fmt::format("{}: no command within {:g} s for the readings of {:g} s", topic, timeout_s,
-                                         GetRobot()->GetTime());
+    const std::string what =
+        fmt::format("{}: no command within {:g} s for the readings of {:g} s", topic, timeout_s, GetRobot()->GetTime());
     if (on_timeout_ == "abort")
       throw DriverError(what + "; see what the node does, give <timeout> more, or set <on_timeout> to hold or stop");
     const bool stops = on_timeout_ == "stop";

@@ -23,7 +23,7 @@
 #include "stand_in_endpoints.h"
 #include "std_msgs.h"
 
-#define MOST_ROBOTS 16
+#define MOST_ROBOTS 128
 
 typedef geometry_msgs_msg_dds__Twist_ Twist;
 typedef geometry_msgs_msg_dds__TwistStamped_ TwistStamped;

@@ -1,5 +1,6 @@
-// ros2_render: a simulation as ROS 2 sees a swarm. /clock, /tf, /tf_static, <robot>/odom and markers, with the names and types of
-// ROS 2 over DDS (real_robot/drivers/ros2/ros2_endpoints.h), for RViz, rosbag2 and nodes of users. It only shows.
+// ros2_render: a simulation as ROS 2 sees a swarm. /clock, /tf, /tf_static, <robot>/odom and markers, with the names
+// and types of ROS 2 over DDS (real_robot/drivers/ros2/ros2_endpoints.h), for RViz, rosbag2 and nodes of users. It only
+// shows.
 #include <fmt/format.h>
 
 #include <chrono>
