@@ -49,12 +49,12 @@ engines, devices, determinism and clusters.")
 # The module is of one minor version of Python, as its file name says.
 if(TARGET python_module)
   list(APPEND CPACK_COMPONENTS_ALL python)
-  math(EXPR next "${Python_VERSION_MINOR} + 1")
+  math(EXPR next "${SWARMANOID_PYTHON_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-swarmanoid)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   string(CONCAT CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "swarmanoid (= ${PROJECT_VERSION}), "
-    "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}~), python3 (<< ${Python_VERSION_MAJOR}.${next}), python3-numpy")
+    "python3 (>= ${SWARMANOID_PYTHON_MAJOR}.${SWARMANOID_PYTHON_MINOR}~), python3 (<< ${SWARMANOID_PYTHON_MAJOR}.${next}), python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "jupyter-notebook, python3-matplotlib")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
