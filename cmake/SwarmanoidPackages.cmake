@@ -1,5 +1,5 @@
-# Debian packages by CPack (`./build_framework package`): swarmanoid, swarmanoid-dev and swarmanoid-doc, a package for each
-# component. cmake/packages has what Debian wants beside what is installed. Included last.
+# Debian packages by CPack (`./build_framework package`): swarmanoid, swarmanoid-dev, swarmanoid-doc and, where the module of
+# Python is built, python3-swarmanoid: a package for each component. cmake/packages has what Debian wants beside what is installed. Included last.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME swarmanoid)
 set(CPACK_PACKAGE_CONTACT "The Swarmanoid developers <swarmanoid@localhost>" CACHE STRING "Maintainer of the packages")
@@ -45,5 +45,24 @@ set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
 set(CPACK_COMPONENT_DOC_DESCRIPTION "simulator of robot swarms - documentation
 Tutorial, reference of experiment files and plug-ins, and the pages about
 engines, devices, determinism and clusters.")
+
+# The module is of one minor version of Python, as its file name says.
+if(TARGET python_module)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  math(EXPR next "${SWARMANOID_PYTHON_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-swarmanoid)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  string(CONCAT CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "swarmanoid (= ${PROJECT_VERSION}), "
+    "python3 (>= ${SWARMANOID_PYTHON_MAJOR}.${SWARMANOID_PYTHON_MINOR}~), python3 (<< ${SWARMANOID_PYTHON_MAJOR}.${next}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "jupyter-notebook, python3-matplotlib")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+    ${CMAKE_SOURCE_DIR}/cmake/packages/python/postinst ${CMAKE_SOURCE_DIR}/cmake/packages/python/prerm)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "simulator of robot swarms - module for Python 3
+Runs experiments step by step with NumPy arrays, controllers in Python,
+environments for learning, looks at runs as a cluster and steers them, and
+reads what runs and studies have left.")
+endif()
 
 include(CPack)

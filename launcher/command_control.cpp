@@ -9,7 +9,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <utility>
 
 #include "common/activity/exit_codes.h"
 #include "common/bus/cluster_options.h"
@@ -48,25 +47,6 @@ void PrintJson(const std::string& experiment, const ControlReplyMessage& reply)
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-// For those who got no answer. `dropped`: messages that were not understood.
-std::string WhatItDoes(const std::optional<RunStatus>& status, std::uint64_t dropped, bool insecure)
-{
-  if (!status && dropped > 0)
-    return insecure ? ", and what it says is not understood without a key; give its --key instead of --insecure"
-                    : ", and what it says is not sealed by the key that is used here; give the --key of this run, or "
-                      "--insecure if it was started so";
-  if (!status) return ", and nothing is heard of it; see the log of its space server";
-  std::string text = fmt::format("; it is at tick {}", status->tick);
-  const char* before = " and waits for ";
-  for (const ProcessStatus& process : status->processes)
-  {
-    if (process.late_s <= 0) continue;
-    text += fmt::format("{}{} since {:.0f} s{}", std::exchange(before, ", "), process.name, process.late_s,
-                        process.doing.empty() ? "" : " (" + process.doing + ")");
-  }
-  return text;
-}
-
 int Control(ControlOptions& options, bool domain_given)
 {
   const ControlRequest request = ParseControlRequest(options.words, options.seed);
@@ -94,7 +74,7 @@ int Control(ControlOptions& options, bool domain_given)
   {
     fmt::print(
         stderr, "swarmanoid: experiment {} in domain {} does not answer{}{}\n", Quoted(run.experiment), run.domain,
-        WhatItDoes(client.LatestStatus(), bus.Dropped(), options.bus.insecure),
+        WhyNoAnswer(client.LatestStatus(), bus.Dropped(), options.bus.insecure),
         ticket ? fmt::format("; the run of {} may have ended, or be on another network", ticket->share.Name()) : "");
     return kExitProcessFailed;
   }

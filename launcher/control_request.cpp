@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/wording.h"
@@ -142,6 +143,24 @@ ControlRequest ParseControlRequest(std::vector<std::string> words, std::optional
   else if (!rest.empty())
     throw UsageError(fmt::format("{} takes nothing after it, but {} is there", request.verb, Quoted(rest[0])));
   return request;
+}
+
+std::string WhyNoAnswer(const std::optional<RunStatus>& status, std::uint64_t dropped, bool insecure)
+{
+  if (!status && dropped > 0)
+    return insecure ? ", and what it says is not understood without a key; give its --key instead of --insecure"
+                    : ", and what it says is not sealed by the key that is used here; give the --key of this run, or "
+                      "--insecure if it was started so";
+  if (!status) return ", and nothing is heard of it; see the log of its space server";
+  std::string text = fmt::format("; it is at tick {}", status->tick);
+  const char* before = " and waits for ";
+  for (const ProcessStatus& process : status->processes)
+  {
+    if (process.late_s <= 0) continue;
+    text += fmt::format("{}{} since {:.0f} s{}", std::exchange(before, ", "), process.name, process.late_s,
+                        process.doing.empty() ? "" : " (" + process.doing + ")");
+  }
+  return text;
 }
 
 }  // namespace swarmanoid

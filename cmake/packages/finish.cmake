@@ -2,6 +2,7 @@
 set(names_runtime swarmanoid)
 set(names_dev swarmanoid-dev)
 set(names_doc swarmanoid-doc)
+set(names_python python3-swarmanoid)
 
 # One date for all that is written here, that of the sources.
 if(DEFINED ENV{SOURCE_DATE_EPOCH})
@@ -16,7 +17,7 @@ endif()
 execute_process(COMMAND date --utc --rfc-email --date=@${epoch} OUTPUT_VARIABLE date OUTPUT_STRIP_TRAILING_WHITESPACE
   COMMAND_ERROR_IS_FATAL ANY)
 
-foreach(component runtime dev doc)
+foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   set(root ${CPACK_TEMPORARY_DIRECTORY}/${component})
   set(folder ${root}/usr/share/doc/${names_${component}})
   file(MAKE_DIRECTORY ${folder})

@@ -41,7 +41,8 @@ ControlClient::ControlClient(Bus& bus, const std::string& experiment, std::uint6
 }
 
 std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, const std::string& entity,
-                                                      const std::vector<double>& numbers, double timeout_s)
+                                                      const std::vector<double>& numbers, double timeout_s,
+                                                      const std::function<bool()>& given_up)
 {
   if (statuses_ == nullptr)
     statuses_ = std::make_unique<Subscription<RunStatusMessage>>(
@@ -51,8 +52,6 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, c
   got_on_ = Clock::now();
   const auto start = Clock::now();
   bool is_gone = false;  // who was asked
-  const auto is_patient = [&]
-  { return Clock::now() < got_on_ + (is_gone ? std::max<Clock::duration>(patience, kRestartTime) : patience); };
   // The bus calls us while it holds locks that it takes for these questions, too: none of ours may be held meanwhile.
   const auto without_lock = [&](const auto& call)
   {
@@ -60,6 +59,11 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, c
     const auto answer = call();
     lock.lock();
     return answer;
+  };
+  const auto is_patient = [&]
+  {
+    if (given_up && without_lock(given_up)) return false;
+    return Clock::now() < got_on_ + (is_gone ? std::max<Clock::duration>(patience, kRestartTime) : patience);
   };
   while (without_lock([this] { return requests_.Readers() == 0 || replies_.Writers() == 0; }))
     if (answered_.wait_for(lock, 2ms), !is_patient()) return std::nullopt;

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -23,9 +24,11 @@ public:
 
   // Sends a request (ControlRequest in idl/swarmanoid.idl) and waits for the answer, as long as the run gets on: the
   // answer to a step comes at its end. nullopt if the run told nothing for `timeout_s` (15 s once its space
-  // server has gone, and another one may come), or stood still that long and waits for one of its processes.
+  // server has gone, and another one may come), or stood still that long and waits for one of its processes, or
+  // `given_up` returns true, which is called several times a second.
   std::optional<ControlReplyMessage> Ask(const std::string& verb, const std::string& entity,
-                                         const std::vector<double>& numbers, double timeout_s);
+                                         const std::vector<double>& numbers, double timeout_s,
+                                         const std::function<bool()>& given_up = nullptr);
   // Another space server goes on with the run, under that number.
   void FollowRun(std::uint64_t run);
   // How the run went when it was heard last; nullopt if no Ask has heard of it.

@@ -50,8 +50,14 @@ bool IsAlive(pid_t process) { return kill(process, 0) == 0 || errno == EPERM; }
 }  // namespace
 
 WorkerSession::WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name,
-                             std::optional<int> server, unsigned incarnation, const std::string& machine)
-    : name_(name), incarnation_(incarnation), machine_(machine), bus_(options, name), domain_(options.domain)
+                             std::optional<int> server, unsigned incarnation, const std::string& machine,
+                             const std::atomic<bool>* stop)
+    : name_(name),
+      incarnation_(incarnation),
+      machine_(machine),
+      stop_(stop != nullptr ? *stop : InterruptFlag()),
+      bus_(options, name),
+      domain_(options.domain)
 {
   bus_.OnProcessGone(
       [this](const std::string& process, const std::string&, bool)
@@ -99,7 +105,7 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
         "one release",
         world_.experiment, server_process_, world_.protocol, kProtocolVersion));
 
-  if (!options.insecure) AllowOnly(world_.libraries, !options.key_file.empty() || options.share);
+  if (!options.insecure && stop == nullptr) AllowOnly(world_.libraries, !options.key_file.empty() || options.share);
   server_seen_ = ServerIsOnThisMachine();
   directory_ = std::make_unique<RunDirectory>(world_.experiment, world_.run);
   join_ = std::make_unique<Publisher<JoinMessage>>(bus_, world_.experiment);
@@ -158,7 +164,7 @@ bool WorkerSession::FollowNext(const std::function<bool()>& idle)
   const auto start = Clock::now();
   while (true)
   {
-    if (idle() || Interrupted()) return false;
+    if (idle() || IsStopped()) return false;
     std::unique_lock lock(mutex_);
     if (next_world_) break;
     if (Clock::now() - start > kPatienceForNext) return false;
@@ -218,7 +224,7 @@ HotScope WorkerSession::Scope(std::size_t capacity, unsigned writers) const
 void WorkerSession::CheckOthers()
 {
   const std::lock_guard lock(mutex_);
-  if (Interrupted())
+  if (IsStopped())
   {
     reason_ = EndReason::kInterrupted;
     throw BusError("interrupted by a signal");
@@ -411,7 +417,7 @@ void WorkerSession::LeaveRun(const std::string& error)
   {
     lock.unlock();
     if (server_seen_ && !ServerIsOnThisMachine()) return;
-    if (BusIsBroken() || (Interrupted() && Clock::now() - start > kInterruptedTime)) return;
+    if (BusIsBroken() || (IsStopped() && Clock::now() - start > kInterruptedTime)) return;
     leave_->Write(leave);
     lock.lock();
     changed_.wait_for(lock, repeat_after, over);

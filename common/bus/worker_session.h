@@ -3,6 +3,7 @@
 // visualiser; the step itself runs in a thread of the bus.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <functional>
@@ -26,8 +27,11 @@ public:
   // JoinMessage. Throws BusError if its protocol is another one, or when interrupted.
   // `server`: the process on this machine that is expected to be it; BusError if it ends before it is heard.
   // `incarnation`: how many processes of that name the run has had before this one. `machine`: as in JoinMessage.
+  // `stop`: for a session within a program of somebody else, which sets it where others are interrupted by a signal,
+  // and says itself by AllowOnly which libraries may be loaded while it loads some.
   WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name,
-                std::optional<int> server = std::nullopt, unsigned incarnation = 0, const std::string& machine = {});
+                std::optional<int> server = std::nullopt, unsigned incarnation = 0, const std::string& machine = {},
+                const std::atomic<bool>* stop = nullptr);
   ~WorkerSession();
   // For one who only looks on: to whoever started it, a run that failed elsewhere is a process that failed.
   void LookOn();
@@ -79,6 +83,7 @@ public:
   void SetTick(std::uint64_t tick);
 
 private:
+  bool IsStopped() const { return stop_; }
   bool IsOfTheRun(const BadMessageReport& report) const;
   bool FailedBy(const BadMessageReport& report);
   void CheckOthers();
@@ -97,6 +102,7 @@ private:
   std::string name_;
   unsigned incarnation_;
   std::string machine_;
+  const std::atomic<bool>& stop_;
   Bus bus_;
   int domain_;
   mutable std::mutex mutex_;

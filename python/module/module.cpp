@@ -9,10 +9,11 @@
 #include "common/configuration/configuration_tree.h"
 #include "common/math/elementary.h"
 #include "common/math/reproducible_math.h"
-#include "common/space/attributes.h"
 #include "common/version/version.h"
+#include "python/module/attached_run.h"
 #include "python/module/python_controller.h"
 #include "python/module/simulation.h"
+#include "python/module/space_rows.h"
 #include "space_server/experiment_functions.h"
 
 namespace py = pybind11;
@@ -151,22 +152,8 @@ void DefineSimulation(py::module_& module)
                                return py::make_tuple(size.x(), size.y(), size.z());
                              })
       .def("hash", [](const Simulation& self) { return HashText(self.Space().Hash()); })
-      .def_property_readonly("ids",
-                             [](const Simulation& self)
-                             {
-                               std::vector<std::string> ids;
-                               for (std::size_t e = 0; e < self.Space().Size(); ++e)
-                                 ids.push_back(self.Space().GetEntity(e).GetId());
-                               return ids;
-                             })
-      .def_property_readonly("kinds",
-                             [](const Simulation& self)
-                             {
-                               std::vector<std::string> kinds;
-                               for (std::size_t e = 0; e < self.Space().Size(); ++e)
-                                 kinds.emplace_back(TagName(self.Space().GetEntity(e).GetKind()));
-                               return kinds;
-                             })
+      .def_property_readonly("ids", [](const Simulation& self) { return IdsOf(self.Space()); })
+      .def_property_readonly("kinds", [](const Simulation& self) { return KindsOf(self.Space()); })
       .def_property_readonly("x", &PoseView<&PoseArrays::x>)
       .def_property_readonly("y", &PoseView<&PoseArrays::y>)
       .def_property_readonly("z", &PoseView<&PoseArrays::z>)
@@ -180,21 +167,8 @@ void DefineSimulation(py::module_& module)
                                const std::span<const double> values = self->Space().Attributes();
                                return View(self, values.data(), {static_cast<py::ssize_t>(values.size())}, false);
                              })
-      .def("slot",
-           [](const Simulation& self, std::size_t index, const std::string& name)
-           {
-             if (index >= self.Space().Size()) throw py::index_error("no such entity");
-             const CSwarmanoidSpaceEntity& entity = self.Space().GetEntity(index);
-             const AttributeSpec* spec = FindAttribute(entity.GetKind(), name);
-             if (spec == nullptr)
-             {
-               std::string known;
-               for (const AttributeSpec& other : AttributesOf(entity.GetKind()))
-                 known += fmt::format(" {}", other.name);
-               throw py::key_error(fmt::format("'{}' has no attribute '{}'; it has:{}", entity.GetId(), name, known));
-             }
-             return py::make_tuple(entity.SlotOf(name), spec->count);
-           })
+      .def("slot", [](const Simulation& self, std::size_t index, const std::string& name)
+           { return SlotOf(self.Space(), index, name); })
       .def("presence_slot", [](const Simulation& self, std::size_t index) { return self.Space().PresenceSlot(index); })
       .def("move", [](Simulation& self, const std::string& id, const std::array<double, 3>& position,
                       const std::array<double, 3>& orientation)
@@ -245,6 +219,7 @@ PYBIND11_MODULE(_module, module)
   py::register_exception<ConfigurationError>(module, "ConfigurationError", PyExc_ValueError);
   py::register_exception<ActivityError>(module, "ActivityError", PyExc_RuntimeError);
   DefineSimulation(module);
+  DefineAttachedRun(module);
   DefineController(module);
 }
 

@@ -25,10 +25,21 @@ try:
 finally:
     _sys.setdlopenflags(_flags)
 
-from ._module import ActivityError, ConfigurationError, Robot, Robots  # noqa: E402
+from ._module import ActivityError, ConfigurationError, Robot, Robots, RunError  # noqa: E402
+from .attached import AttachedRun, State, attach  # noqa: E402
 from .environment import Environment  # noqa: E402
 from .runs import Run, Study  # noqa: E402
 from .simulation import Simulation, Summary, controller  # noqa: E402
 
 __version__ = _module.__version__
-__all__ = ["ActivityError", "ConfigurationError", "Environment", "Robot", "Robots", "Run", "Simulation", "Study", "Summary", "controller"]
+__all__ = ["ActivityError", "AttachedRun", "ConfigurationError", "Environment", "Robot", "Robots", "Run", "RunError", "Simulation",
+           "State", "Study", "Summary", "attach", "controller", "ParallelEnvironment"]
+
+
+def __getattr__(name):
+    # Loads PettingZoo and Gymnasium where they are installed, which takes its time.
+    if name == "ParallelEnvironment":
+        from .parallel import ParallelEnvironment
+
+        return ParallelEnvironment
+    raise AttributeError(f"module 'swarmanoid' has no attribute '{name}'")

@@ -10,7 +10,7 @@ class Environment:
 
     file, settings, threads: as for Simulation. sensors: types whose columns are the observation, in this order; None: all.
     actuators: types whose columns are the action, likewise. reward: called with the simulation and the robots after each
-    step, returns (agents,). done: likewise, returns bool for the whole swarm. max_ticks: after which an episode is cut; 0:
+    step, returns (agents,). done: likewise, returns bool, for the whole swarm or (agents,). max_ticks: after which an episode is cut; 0:
     that of the file. frame_skip: ticks a step.
 
     `step` returns (observations, rewards, terminations, truncations, infos); after an end, `reset` starts the next
@@ -83,9 +83,11 @@ class Environment:
         rewards = np.zeros(self.num_envs)
         if self.reward is not None:
             rewards[:] = self.reward(self.simulation, self.robots)
-        ended = bool(self.done(self.simulation, self.robots)) if self.done is not None else False
-        cut = not ended and (not goes_on or (self._last > 0 and self.simulation.tick >= self._last))
-        return observations, rewards, np.full(self.num_envs, ended), np.full(self.num_envs, cut), {}
+        ended = np.zeros(self.num_envs, dtype=bool)
+        if self.done is not None:
+            ended[:] = self.done(self.simulation, self.robots)
+        cut = not goes_on or (self._last > 0 and self.simulation.tick >= self._last)
+        return observations, rewards, ended, ~ended & cut, {}
 
     def close(self):
         if self.simulation is not None:

@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 
 from . import _module
+from .entities import Entities
 
 
 @dataclasses.dataclass(frozen=True)
@@ -27,6 +28,11 @@ def _text(value):
     return repr(float(value)) if isinstance(value, (float, np.floating)) else str(value)
 
 
+def place_words(position, orientation):
+    """A place as `swarmanoid control` reads it: the same bits."""
+    return ",".join(repr(float(number)) for number in (*position, *orientation))
+
+
 def controller(label):
     """Decorates a class whose objects control robots: <label id="..."> in <controllers> of an experiment file.
 
@@ -42,7 +48,7 @@ def controller(label):
     return register
 
 
-class Simulation:
+class Simulation(Entities):
     """An experiment at a tick, 0 at first.
 
     file: of the experiment. settings: changes of it as for `--set`, such as {"framework.seed": 3}.
@@ -59,9 +65,7 @@ class Simulation:
         pairs = [(str(path), _text(value)) for path, value in dict(settings or {}).items()]
         self._simulation = _module.Simulation(str(file), pairs, str(output), visualisations, threads, checkpoint_every,
                                               str(restore), str(hash_log), real_time)
-        self.ids = tuple(self._simulation.ids)
-        self.kinds = tuple(self._simulation.kinds)
-        self._index = {name: index for index, name in enumerate(self.ids)}
+        super().__init__(self._simulation)
         self._summary = None
 
     def __enter__(self):
@@ -147,52 +151,10 @@ class Simulation:
     def qw(self):
         return self._simulation.qw
 
-    def positions(self, kind=None):
-        """m, (entities, 3), of all or of a kind ("footbot"); a copy."""
-        chosen = slice(None) if kind is None else self.of_kind(kind)
-        return np.stack([self.x[chosen], self.y[chosen], self.z[chosen]], axis=-1)
-
-    def headings(self, kind=None):
-        """Of the x axis of each entity about z, rad, -pi..pi; a copy."""
-        chosen = slice(None) if kind is None else self.of_kind(kind)
-        x, y, z, w = (values[chosen] for values in (self.qx, self.qy, self.qz, self.qw))
-        return np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
-
-    def index(self, entity):
-        """Of the entity with an id, in all arrays."""
-        try:
-            return self._index[entity]
-        except KeyError:
-            raise KeyError(f"no entity '{entity}'") from None
-
-    def of_kind(self, kind):
-        """Indices of the entities of a kind, ascending."""
-        return np.array([index for index, other in enumerate(self.kinds) if other == kind], dtype=int)
-
     @property
     def attributes(self):
         """All numbers of all entities beside their poses: a view. `attribute` finds those that one looks for."""
         return self._simulation.attributes
-
-    def attribute(self, name, entities=None):
-        """An attribute ("led", "gripped", "colour"), (n, elements), of entities by id, or of all of a kind; a copy.
-
-        entities: an id, a list of ids, or a kind. Raises KeyError for an entity without it, with the names it has.
-        """
-        if isinstance(entities, str):
-            entities = [entities] if entities in self._index else self.of_kind(entities)
-        elif entities is None:
-            entities = range(len(self.ids))
-        rows = []
-        for entity in entities:
-            first, count = self._simulation.slot(self.index(entity) if isinstance(entity, str) else int(entity), name)
-            rows.append(np.arange(first, first + count))
-        return self.attributes[np.array(rows, dtype=int)]
-
-    def present(self):
-        """Which entities are in the arena, (entities,) of bool; a copy."""
-        first = self._simulation.presence_slot(0)
-        return self.attributes[first : first + len(self.ids)] != 0
 
     # ---- changes between two steps: part of the experiment ----
 

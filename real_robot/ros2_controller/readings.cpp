@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "common/control_interface/ci_ground_sensor.h"
 #include "common/control_interface/ci_gyroscope_sensor.h"
@@ -14,6 +15,7 @@
 #include "common/control_interface/eyebot/ci_eyebot_camera_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_accelerometer_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_encoders_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_gripper_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_light_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_omnidirectional_camera_sensor.h"
@@ -301,7 +303,7 @@ private:
                      CCI_RangeAndBearingActuator::NUM_BYTES};
 };
 
-// Wheels and turret.
+// Wheels, turret and gripper.
 class Joints : public ReadingPublisher
 {
 public:
@@ -311,6 +313,9 @@ public:
     if (robot.HasSensor("footbot_encoders")) wheels_ = &robot.Sensor<CCI_FootBotEncodersSensor>("footbot_encoders");
     if (robot.HasSensor("footbot_turret_encoder"))
       turret_ = &robot.Sensor<CCI_FootBotTurretEncoderSensor>("footbot_turret_encoder");
+    if (!robot.HasSensor("footbot_gripper")) return;
+    gripper_ = &robot.Sensor<CCI_FootBotGripperSensor>("footbot_gripper");
+    holding_.emplace(setup.driver, "gripper/holding");
   }
   void Publish(const Header& header) override
   {
@@ -329,6 +334,13 @@ public:
       add("right_wheel", rolled_->RightAngle(), wheels_->GetRightVelocity());
     }
     if (turret_ != nullptr) add("turret", turret_->GetTurretAngle(), kUnknown);
+    if (gripper_ != nullptr)
+    {
+      add("gripper", gripper_->GetAperture(), kUnknown);
+      Bool holding;
+      holding.data(gripper_->IsGripping());
+      holding_->Publish(holding);
+    }
     publisher_.Publish(message);
   }
   unsigned Listeners() const override { return publisher_.Listeners(); }
@@ -336,6 +348,8 @@ public:
 private:
   const CCI_FootBotEncodersSensor* wheels_ = nullptr;
   const CCI_FootBotTurretEncoderSensor* turret_ = nullptr;
+  const CCI_FootBotGripperSensor* gripper_ = nullptr;
+  std::optional<ReadingTopic<Bool>> holding_;
   const WheelOdometry* rolled_;
   ReadingTopic<JointState> publisher_;
 };
@@ -420,6 +434,7 @@ const std::map<std::string, Source>& Sources()
         [](const ReadingSetup& setup) { return Make<Blobs<CCI_EyeBotCameraSensor>>(setup, "eyebot_camera"); }}},
       {"footbot_accelerometer", {"imu", Make<Inertia>}},
       {"footbot_encoders", {"joints", Make<Joints>}},
+      {"footbot_gripper", {"joints", Make<Joints>}},
       {"footbot_ground",
        {"ground",
         [](const ReadingSetup& setup) { return Make<Ground<CCI_FootBotGroundSensor>>(setup, "footbot_ground"); }}},

@@ -18,6 +18,7 @@
 #include "common/control_interface/footbot/ci_footbot_encoders_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_wheels_actuator.h"
 #include "common/math/elementary.h"
+#include "real_robot/ros2_controller/device_commands.h"
 #include "real_robot/ros2_controller/readings.h"
 
 namespace swarmanoid::ros2
@@ -45,10 +46,13 @@ public:
   explicit Drive(const CCI_Robot& robot)
   {
     const std::vector<std::string> known{"eyebot_propellers", "footbot_wheels", "wheels"};
+    std::vector<std::string> all = CommandedActuators();
+    all.insert(all.end(), known.begin(), known.end());
+    std::ranges::sort(all);
     for (const std::string& type : robot.ActuatorTypes())
-      if (std::ranges::find(known, type) == known.end())
-        throw DriverError(fmt::format("ros2_controller has no topic for the actuator <{}>; it has cmd_vel for {}", type,
-                                      Listed(known)));
+      if (std::ranges::find(all, type) == all.end())
+        throw DriverError(
+            fmt::format("ros2_controller has no topic for the actuator <{}>; those that have: {}", type, Listed(all)));
     if (robot.HasActuator("footbot_wheels"))
       footbot_ = &robot.Actuator<CCI_FootBotWheelsActuator>("footbot_wheels");
     else if (robot.HasActuator("wheels"))
@@ -124,14 +128,36 @@ private:
   std::optional<Subscriber<TwistStamped>> stamped_;
 };
 
+class CRos2Controller;
+
+// The robots of one host: it makes all their controllers before it calls Init of the first. They publish their readings
+// together, and so wait for their nodes at the same time. Those that are made anew later are by themselves.
+struct Group
+{
+  std::vector<CRos2Controller*> members;
+  bool is_complete = false;
+};
+
 class CRos2Controller : public CCI_Controller
 {
 public:
-  CRos2Controller() { All().push_back(this); }
-  ~CRos2Controller() override { std::erase(All(), this); }
+  CRos2Controller()
+  {
+    static thread_local std::weak_ptr<Group> latest;
+    group_ = latest.lock();
+    if (group_ == nullptr || group_->is_complete) latest = group_ = std::make_shared<Group>();
+    group_->members.push_back(this);
+    All().push_back(this);
+  }
+  ~CRos2Controller() override
+  {
+    std::erase(group_->members, this);
+    std::erase(All(), this);
+  }
 
   int Init(const TConfigurationTree t_tree) override
   {
+    group_->is_complete = true;
     try
     {
       Prepare(t_tree);
@@ -145,16 +171,27 @@ public:
 
   void ControlStep() override
   {
+    const std::uint64_t tick = GetRobot()->GetTick();
     if (!ends_) OpenAll();
-    if (odometry_) AdvanceOdometry();
-    const auto now = TimeOf(GetRobot()->GetTime());
     if (lock_step_)
-      AwaitCommand(now);
+    {
+      if (asked_tick_ != tick || stepped_tick_ == tick) AskAll(tick);
+      if (asked_tick_ != tick) RefuseWithoutNode();
+      AwaitCommands();
+    }
     else
     {
-      Publish(now);
-      while (const auto command = ends_->commands.Take(std::nullopt)) command_ = *command;
+      if (odometry_) AdvanceOdometry(tick);
+      Publish(TimeOf(GetRobot()->GetTime()));
+      while (const auto command = ends_->drive.Take(std::nullopt)) command_ = *command;
+      for (const auto& topic : ends_->devices)
+      {
+        bool came = false;
+        while (topic->Take()) came = true;
+        if (came) topic->Apply();
+      }
     }
+    stepped_tick_ = tick;
     drive_->Command(command_);
   }
 
@@ -188,23 +225,35 @@ private:
   struct Ends
   {
     Ends(const ReadingSetup& setup, bool stamped, bool reliable)
-        : readings(MakeReadings(setup)), commands(setup.driver, stamped, reliable)
+        : readings(MakeReadings(setup)),
+          drive(setup.driver, stamped, reliable),
+          devices(MakeCommandTopics(*setup.robot, setup.driver, reliable))
     {
     }
     std::vector<std::unique_ptr<ReadingPublisher>> readings;
     std::optional<ReadingTopic<Odometry>> odometry;
-    Commands commands;
+    Commands drive;
+    std::vector<std::unique_ptr<CommandTopic>> devices;
+
+    // The first topic of commands without a publisher; empty: all have one.
+    std::string Unheard() const
+    {
+      if (drive.Publishers() == 0) return drive.Name();
+      for (const auto& topic : devices)
+        if (topic->Publishers() == 0) return topic->Name();
+      return {};
+    }
   };
 
-  // Of this process: their ends of DDS find those of the nodes at the same time.
+  // Of this process.
   static std::vector<CRos2Controller*>& All()
   {
     static std::vector<CRos2Controller*> all;
     return all;
   }
-  static void OpenAll()
+  void OpenAll() const
   {
-    for (CRos2Controller* each : All())
+    for (CRos2Controller* each : group_->members)
       if (!each->ends_) each->Open();
   }
 
@@ -242,10 +291,10 @@ private:
     if (odometry_ || positioning_ != nullptr) ends_->odometry.emplace(setup, "odom");
   }
 
-  void AdvanceOdometry()
+  void AdvanceOdometry(std::uint64_t tick)
   {
     const double seconds = GetRobot()->GetTickSeconds();
-    if (GetRobot()->GetTick() == 0) return;
+    if (tick == 0) return;
     if (encoders_ != nullptr)
       odometry_->Advance(encoders_->GetLeftVelocity(), encoders_->GetRightVelocity(), seconds);
     else
@@ -304,62 +353,108 @@ private:
     return listeners;
   }
 
-  // Until the node hears and is heard.
-  void AwaitNode()
+  bool IsHeard() const { return ends_->Unheard().empty() && Listeners() > 0; }
+
+  // Whether its step is to come: a robot that was stopped has none any more.
+  bool TakesPartIn(std::uint64_t tick) const
   {
-    const double wait_s = parameters_.GetNumber("wait");
-    const double begun = Now();
-    while (ends_->commands.Publishers() == 0 || Listeners() == 0)
-    {
-      if (Now() - begun > wait_s)
-        throw DriverError(fmt::format(
-            "{} after {:g} s: start the node before the run, with the same ROS_DOMAIN_ID, or give <wait> more",
-            ends_->commands.Publishers() == 0
-                ? "nobody publishes " + ends_->commands.Name() + " with reliable quality of service"
-                : "nobody hears the readings on topics rt/" + name_space_ + "/…",
-            wait_s));
-      std::this_thread::sleep_for(std::chrono::duration<double>(kLookAgain_s));
-    }
-    std::this_thread::sleep_for(std::chrono::duration<double>(std::max(kSettle_s - (Now() - begun), 0.0)));
-    node_is_here_ = true;
+    return !asked_tick_ || (*asked_tick_ + 1 == tick && stepped_tick_ == asked_tick_);
   }
 
-  void AwaitCommand(const builtin_interfaces::msg::dds_::Time_& now)
+  // Publishes the readings of the tick of all robots of the group that take part in it, once their nodes are there. The
+  // sensors of all are of this tick already.
+  void AskAll(std::uint64_t tick)
   {
-    if (!node_is_here_) AwaitNode();
+    std::vector<CRos2Controller*> asked;
+    for (CRos2Controller* each : group_->members)
+      if (each == this || (each->lock_step_ && each->TakesPartIn(tick))) asked.push_back(each);
+    AwaitNodes(asked);
+    const auto now = TimeOf(GetRobot()->GetTime());
+    for (CRos2Controller* each : asked)
+      if (each->node_is_here_) each->Ask(tick, now);
+  }
+
+  // Until the nodes of these robots hear and are heard; or the time of this one is over, which says so in its own step.
+  void AwaitNodes(const std::vector<CRos2Controller*>& robots)
+  {
+    const double begun = Now();
+    const auto is_new = [](const CRos2Controller* each) { return !each->node_is_here_; };
+    if (std::ranges::none_of(robots, is_new)) return;
+    const double wait_s = parameters_.GetNumber("wait");
+    const auto is_missing = [&](const CRos2Controller* each) { return is_new(each) && !each->IsHeard(); };
+    while (std::ranges::any_of(robots, is_missing) && Now() - begun < wait_s)
+      std::this_thread::sleep_for(std::chrono::duration<double>(kLookAgain_s));
+    std::this_thread::sleep_for(std::chrono::duration<double>(std::max(kSettle_s - (Now() - begun), 0.0)));
+    for (CRos2Controller* each : robots) each->node_is_here_ |= each->IsHeard();
+  }
+
+  [[noreturn]] void RefuseWithoutNode() const
+  {
+    const std::string unheard = ends_->Unheard();
+    throw DriverError(
+        fmt::format("{} after {:g} s: start the node before the run, with the same ROS_DOMAIN_ID, or give <wait> more",
+                    unheard.empty() ? "nobody hears the readings on topics rt/" + name_space_ + "/…"
+                                    : "nobody publishes " + unheard + " with reliable quality of service",
+                    parameters_.GetNumber("wait")));
+  }
+
+  void Ask(std::uint64_t tick, const builtin_interfaces::msg::dds_::Time_& now)
+  {
     // What came too late for a tick before answers none.
-    while (ends_->commands.Take(std::nullopt))
+    while (ends_->drive.Take(std::nullopt))
     {
     }
-    Publish(now);
-    const double timeout_s = parameters_.GetNumber("timeout");
-    const double asked = Now();
-    double said = asked;
-    for (double waited = 0; waited < timeout_s; waited = Now() - asked)
-    {
-      if (const auto command = ends_->commands.Take(now))
+    for (const auto& topic : ends_->devices)
+      while (topic->Take())
       {
-        if (timed_out_) GetRobot()->Log(ends_->commands.Name() + ": the node answers again");
-        timed_out_ = false;
-        has_answered_ = true;
-        command_ = *command;
-        return;
       }
+    if (odometry_) AdvanceOdometry(tick);
+    Publish(now);
+    asked_tick_ = tick;
+    asked_at_ = Now();
+  }
+
+  // One of each topic.
+  void AwaitCommands()
+  {
+    const auto now = TimeOf(GetRobot()->GetTime());
+    const double timeout_s = parameters_.GetNumber("timeout");
+    double said = asked_at_;
+    std::optional<Twist> drive;
+    std::vector<CommandTopic*> silent;
+    for (const auto& topic : ends_->devices) silent.push_back(topic.get());
+    const auto take = [&]
+    {
+      if (!drive) drive = ends_->drive.Take(now);
+      std::erase_if(silent, [](CommandTopic* topic) { return topic->Take(); });
+      return drive && silent.empty();
+    };
+    bool complete = take();
+    for (double waited = Now() - asked_at_; !complete && waited < timeout_s; waited = Now() - asked_at_)
+    {
       // Somebody who has found this end, and whom this end has not found, misses what is said first.
       if (!has_answered_ && Now() - said > kSayAgain_s)
       {
         Publish(now);
         said = Now();
       }
-      ends_->commands.Wait(std::min(timeout_s - waited, kSayAgain_s));
+      const double longest = std::min(timeout_s - waited, kSayAgain_s);
+      drive ? silent.front()->Wait(longest) : ends_->drive.Wait(longest);
+      complete = take();
     }
-    TimeOut(timeout_s);
+    if (drive) command_ = *drive;
+    for (const auto& topic : ends_->devices)
+      if (std::ranges::find(silent, topic.get()) == silent.end()) topic->Apply();
+    if (!complete) return TimeOut(timeout_s, drive ? silent.front()->Name() : ends_->drive.Name());
+    if (timed_out_) GetRobot()->Log(ends_->drive.Name() + ": the node answers again");
+    timed_out_ = false;
+    has_answered_ = true;
   }
 
-  void TimeOut(double timeout_s)
+  void TimeOut(double timeout_s, const std::string& topic)
   {
-    const std::string what = fmt::format("{}: no command within {:g} s for the readings of {:g} s",
-                                         ends_->commands.Name(), timeout_s, GetRobot()->GetTime());
+    const std::string what =
+        fmt::format("{}: no command within {:g} s for the readings of {:g} s", topic, timeout_s, GetRobot()->GetTime());
     if (on_timeout_ == "abort")
       throw DriverError(what + "; see what the node does, give <timeout> more, or set <on_timeout> to hold or stop");
     const bool stops = on_timeout_ == "stop";
@@ -368,6 +463,7 @@ private:
     if (stops) command_ = Twist();
   }
 
+  std::shared_ptr<Group> group_;
   TConfigurationTree parameters_;
   std::string name_space_;
   bool lock_step_ = true;
@@ -378,6 +474,9 @@ private:
   const CCI_FootBotEncodersSensor* encoders_ = nullptr;
   std::optional<Ends> ends_;
   Twist command_;
+  std::optional<std::uint64_t> asked_tick_;    // whose readings were published last
+  std::optional<std::uint64_t> stepped_tick_;  // of the last ControlStep
+  double asked_at_ = 0;
   bool node_is_here_ = false;
   bool has_answered_ = false;
   bool timed_out_ = false;

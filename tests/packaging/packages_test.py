@@ -10,7 +10,8 @@ import unittest
 
 BUILD = pathlib.Path(os.environ["SWARMANOID_BUILD"])
 SOURCE = pathlib.Path(os.environ["SWARMANOID_SOURCE"])
-PACKAGES = ("swarmanoid", "swarmanoid-dev", "swarmanoid-doc")
+HAS_PYTHON = os.environ["PYTHON_MODULE"] == "1"
+PACKAGES = ("swarmanoid", "swarmanoid-dev", "swarmanoid-doc") + (("python3-swarmanoid",) if HAS_PYTHON else ())
 ROLES = {"space_server", "engine_worker", "controller_host", "visualiser"}
 
 for tool in ("dpkg-deb", "dpkg-shlibdeps", "file", "readelf", "pkg-config"):
@@ -83,7 +84,7 @@ class Packages(unittest.TestCase):
                           (self.folder / "control" / "swarmanoid" / "shlibs").read_text())
 
     def test_nothing_remembers_where_it_was_built(self):
-        for name in self.files["swarmanoid"]:
+        for name in set().union(*self.files.values()):
             path = self.root / name
             if path.is_symlink() or not is_elf(path):
                 continue
@@ -96,6 +97,21 @@ class Packages(unittest.TestCase):
         for library in ("libfastrtps", "libode", "libbox2d", "liboctomap"):
             self.assertIn(library, depends)
         self.assertIn(f"swarmanoid (= {self.control('swarmanoid', 'Version')})", self.control("swarmanoid-dev", "Depends"))
+
+    @unittest.skipUnless(HAS_PYTHON, "the module of Python was not built")
+    def test_python_finds_the_module_and_its_types(self):
+        folder = "usr/lib/python3/dist-packages/swarmanoid/"
+        files = {name.removeprefix(folder) for name in self.files["python3-swarmanoid"] if name.startswith(folder)}
+        self.assertEqual({name for name in files if not name.startswith("_module.cpython-")},
+                         {path.name for path in (SOURCE / "python" / "swarmanoid").iterdir() if path.is_file()})
+        self.assertLessEqual({"_module.pyi", "py.typed"}, files)
+        self.assertEqual({name.split("/")[1] for name in self.files["python3-swarmanoid"]}, {"lib", "share"})
+        depends = self.control("python3-swarmanoid", "Depends")
+        self.assertIn(f"swarmanoid (= {self.control('swarmanoid', 'Version')})", depends)
+        for other in ("python3 (<< 3.", "python3-numpy", "libc6"):
+            self.assertIn(other, depends)
+        for script in ("postinst", "prerm"):
+            self.assertTrue(os.access(self.folder / "control" / "python3-swarmanoid" / script, os.X_OK))
 
     def test_there_is_a_manual_page_for_each_command(self):
         said = output_of(BUILD / "bin" / "swarmanoid", "--help")

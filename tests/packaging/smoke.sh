@@ -37,4 +37,16 @@ ${CXX:-c++} -shared -fPIC -O2 -Imine mine/controllers/first_steps/*.cpp -o mine/
 by_pkg_config=$(swarmanoid run mine/experiments/first_steps.xml --ticks 50 --quiet --output by_pkg_config | grep -oE 'hash [0-9a-f]{16}')
 [ "$by_cmake" = "$by_pkg_config" ]
 
+module=$prefix/lib/python3/dist-packages
+if [ -d "$module/swarmanoid" ]; then
+  echo "== the module of Python: the same bits, and the folder of a run"
+  [ "$prefix" = /usr ] || export PYTHONPATH=$module PYTHONDONTWRITEBYTECODE=1
+  by_python=$(/usr/bin/python3 -c "
+import swarmanoid
+assert swarmanoid.__file__.startswith('$module/'), swarmanoid.__file__
+assert len(swarmanoid.Run('by_cmake').journal(['x'])) > 0
+print('hash', swarmanoid.Simulation('mine/experiments/first_steps.xml', {'framework.maxclock': 50}).run().hash)")
+  [ "$by_cmake" = "$by_python" ]
+fi
+
 echo "== the packages are good"

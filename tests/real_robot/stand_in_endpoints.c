@@ -39,13 +39,25 @@ dds_entity_t MakeWriter(dds_entity_t participant, const dds_topic_descriptor_t* 
   return writer;
 }
 
-dds_entity_t MakeReader(dds_entity_t participant, const dds_topic_descriptor_t* type, const char* name)
+static dds_entity_t ReaderWith(dds_qos_t* qos, dds_entity_t participant, const dds_topic_descriptor_t* type,
+                               const char* name)
 {
-  dds_qos_t* qos = Qos(DDS_RELIABILITY_RELIABLE);
   const dds_entity_t reader =
       dds_create_reader(participant, dds_create_topic(participant, type, name, NULL, NULL), qos, NULL);
   dds_delete_qos(qos);
   return reader;
+}
+
+dds_entity_t MakeReader(dds_entity_t participant, const dds_topic_descriptor_t* type, const char* name)
+{
+  return ReaderWith(Qos(DDS_RELIABILITY_RELIABLE), participant, type, name);
+}
+
+dds_entity_t MakeLateReader(dds_entity_t participant, const dds_topic_descriptor_t* type, const char* name)
+{
+  dds_qos_t* qos = Qos(DDS_RELIABILITY_RELIABLE);
+  dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+  return ReaderWith(qos, participant, type, name);
 }
 
 void* Next(dds_entity_t reader)

@@ -22,10 +22,11 @@ IMPLEMENTATIONS = {"footbot_encoders": "engine_footbot_encoders"}
 class Node:
     """Answers the robots in a domain until it is stopped."""
 
-    def __init__(self, domain, robots, stamped, repeats, silent, others):
+    def __init__(self, domain, robots, stamped, repeats, silent, others, **environment):
         self.process = subprocess.Popen(
             [os.environ["ROS2_NODE"], str(domain), "stamped" if stamped else "plain", str(repeats), str(silent[0]), str(silent[1]),
-             str(int(others)), *robots], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+             str(int(others)), *robots], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+            env={**os.environ, **environment})
         assert self.process.stdout.readline() == "ready\n"
         self.lines = []
         self.thread = threading.Thread(target=self._hear)
@@ -78,8 +79,8 @@ class Case(unittest.TestCase):
         return subprocess.run([SWARMANOID, "run", file, "--output", self.out, "--ticks", str(ticks), "--quiet", *options],
                               capture_output=True, text=True, env=self.environment, timeout=120)
 
-    def with_node(self, file, *options, robots=("fb_0", "fb_1"), stamped=False, repeats=1, silent=(0, 0), others=False, **more):
-        node = Node(self.domain, robots, stamped, repeats, silent, others)
+    def with_node(self, file, *options, robots=("fb_0", "fb_1"), stamped=False, repeats=1, silent=(0, 0), others=False, node=None, **more):
+        node = Node(self.domain, robots, stamped, repeats, silent, others, **(node or {}))
         try:
             run = self.run_it(file, *options, **more)
         finally:
@@ -178,6 +179,39 @@ class LockStep(Case):
         self.assertEqual(run.returncode, 4)
         self.assertIn("nobody publishes topic rt/fb_0/cmd_vel (geometry_msgs/msg/Twist) with reliable quality of service after "
                       "0.2 s: start the node before the run", run.stderr)
+
+    def test_robots_of_a_host_wait_together(self):
+        # Of a node that answers nobody before it has the readings of all, and of one that answers each: the same.
+        robots = tuple(f"fb_{k}" for k in range(6))
+        file = self.experiment(robots=6)
+        each, _ = self.with_node(file, "--single-process", robots=robots)
+        together, heard = self.with_node(file, "--single-process", robots=robots, node={"NODE_TOGETHER": "1"})
+        self.assertEqual(self.hash_of(each), self.hash_of(together))
+        for robot in robots:
+            self.assertEqual(sum(words[:2] == ["scan", robot] for words in heard), TICKS)
+
+    def test_leds_and_beacons(self):
+        file = self.experiment(actuators=("footbot_leds", "footbot_beacon"))
+        alone, _ = self.with_node(file, "--single-process", node={"NODE_LEDS": "1"})
+        cluster, _ = self.with_node(file, node={"NODE_LEDS": "1"})
+        self.assertEqual(self.hash_of(alone), self.hash_of(cluster))
+        table = self.folder / "leds.csv"
+        subprocess.run([SWARMANOID, "export", self.out, "--csv", table, "--columns", "led[0],led[11],beacon", "--entities", "fb_1"],
+                       check=True, capture_output=True, env=self.environment)
+        rows = [[float(word) for word in (row[0], *row[-3:])] for row in
+                (line.split(",") for line in table.read_text().splitlines()[1:])]
+        self.assertEqual(len(rows), TICKS + 1)
+        for tick, first, last, beacon in rows[1:]:
+            red = int((tick - 1) % 10 / 10 * 255 + 0.5) << 16
+            self.assertEqual((first, last, beacon), (red, 0x003300, red))
+
+    def test_who_says_nothing_of_the_leds(self):
+        # Each topic of commands is part of the answer.
+        file = self.experiment(robots=1, actuators=("footbot_leds",), wait=1)
+        run, _ = self.with_node(file, "--single-process", robots=("fb_0",))
+        self.assertEqual(run.returncode, 4, run.stderr)
+        self.assertIn("nobody publishes topic rt/fb_0/leds (std_msgs/msg/Float32MultiArray) with reliable quality of service "
+                      "after 1 s", run.stderr)
 
     def test_a_host_that_dies_asks_the_node_again(self):
         file = self.experiment()
@@ -282,8 +316,8 @@ class Refused(Case):
         for parameters, text in (
                 ({"sensors": ("footbot_proximity", "battery")},
                  "ros2_controller has no topic for the sensor <battery>; those that have: eyebot_altitude, "),
-                ({"actuators": ("footbot_leds",)},
-                 "ros2_controller has no topic for the actuator <footbot_leds>; it has cmd_vel for eyebot_propellers, "),
+                ({"actuators": ("report",)},
+                 "ros2_controller has no topic for the actuator <report>; those that have: eyebot_attachment, "),
                 ({"namespace": "a//b"}, "'/a//b/fb_0/cmd_vel' cannot be the name of a ROS 2 topic"),
                 ({"on_timeout": "wait"}, "'on_timeout' of the controller <ros2_controller> is 'wait'; it must be one of hold, stop, abort")):
             run = self.run_it(self.experiment(robots=1, **parameters), "--single-process")

@@ -2,6 +2,7 @@
    its input ends, a line for each message:
      clock SEC NANOSEC
      tf SEC NANOSEC FRAME CHILD X Y Z QX QY QZ QW
+     static SEC NANOSEC FRAME CHILD X Y Z QX QY QZ QW     asked for once time has come to 2 s
      odom SEC NANOSEC FRAME CHILD X Y VX VY WZ
      marker NS ID TYPE ACTION FRAME X Y Z SX SY SZ R G B
    and first "ready". */
@@ -24,6 +25,24 @@ static dds_entity_t Reader(dds_entity_t participant, const dds_topic_descriptor_
   return reader;
 }
 
+static void PrintTransforms(dds_entity_t reader, const char* kind)
+{
+  void* sample;
+  while ((sample = Next(reader)) != NULL)
+  {
+    const tf2_msgs_msg_dds__TFMessage_* message = sample;
+    for (uint32_t i = 0; i < message->transforms._length; ++i)
+    {
+      const geometry_msgs_msg_dds__TransformStamped_* one = &message->transforms._buffer[i];
+      printf("%s %d %u %s %s %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", kind, one->header.stamp.sec,
+             one->header.stamp.nanosec, one->header.frame_id, one->child_frame_id, one->transform.translation.x,
+             one->transform.translation.y, one->transform.translation.z, one->transform.rotation.x,
+             one->transform.rotation.y, one->transform.rotation.z, one->transform.rotation.w);
+    }
+    dds_return_loan(reader, &sample, 1);
+  }
+}
+
 int main(int count, char** arguments)
 {
   if (count != 3) return 2;
@@ -35,6 +54,7 @@ int main(int count, char** arguments)
   const dds_entity_t tf = Reader(participant, &tf2_msgs_msg_dds__TFMessage__desc, "rt/tf");
   const dds_entity_t odom = Reader(participant, &nav_msgs_msg_dds__Odometry__desc, odometry);
   const dds_entity_t arena = Reader(participant, &visualization_msgs_msg_dds__MarkerArray__desc, "rt/arena");
+  dds_entity_t statics = 0;
   puts("ready");
   fflush(stdout);
   for (;;)
@@ -46,21 +66,12 @@ int main(int count, char** arguments)
     {
       const rosgraph_msgs_msg_dds__Clock_* message = sample;
       printf("clock %d %u\n", message->clock.sec, message->clock.nanosec);
+      if (statics == 0 && message->clock.sec >= 2)
+        statics = MakeLateReader(participant, &tf2_msgs_msg_dds__TFMessage__desc, "rt/tf_static");
       dds_return_loan(clock, &sample, 1);
     }
-    while ((sample = Next(tf)) != NULL)
-    {
-      const tf2_msgs_msg_dds__TFMessage_* message = sample;
-      for (uint32_t i = 0; i < message->transforms._length; ++i)
-      {
-        const geometry_msgs_msg_dds__TransformStamped_* one = &message->transforms._buffer[i];
-        printf("tf %d %u %s %s %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", one->header.stamp.sec,
-               one->header.stamp.nanosec, one->header.frame_id, one->child_frame_id, one->transform.translation.x,
-               one->transform.translation.y, one->transform.translation.z, one->transform.rotation.x,
-               one->transform.rotation.y, one->transform.rotation.z, one->transform.rotation.w);
-      }
-      dds_return_loan(tf, &sample, 1);
-    }
+    PrintTransforms(tf, "tf");
+    if (statics > 0) PrintTransforms(statics, "static");
     while ((sample = Next(odom)) != NULL)
     {
       const nav_msgs_msg_dds__Odometry_* message = sample;

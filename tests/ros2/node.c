@@ -5,7 +5,9 @@
      scan ROBOT SEC NANOSEC NEAR
    for each scan, NEAR the number of rays that see something, and a line
      odom ROBOT SEC NANOSEC X Y FORWARD TURN
-   for each odometry. With LATEST a stamped command is preceded by one of another time, that must not count. */
+   for each odometry. With LATEST a stamped command is preceded by one of another time, that must not count.
+   Environment: NODE_TOGETHER=1 answers nobody before it has the readings of all robots. NODE_LEDS=1 commands LEDs and
+   beacon, too: all LEDs but the first are dark green, that and the beacon red by a tenth more each tick. */
 #include <dds/dds.h>
 #include <math.h>
 #include <poll.h>
@@ -19,8 +21,9 @@
 #include "nav_msgs.h"
 #include "sensor_msgs.h"
 #include "stand_in_endpoints.h"
+#include "std_msgs.h"
 
-#define MOST_ROBOTS 16
+#define MOST_ROBOTS 128
 
 typedef geometry_msgs_msg_dds__Twist_ Twist;
 typedef geometry_msgs_msg_dds__TwistStamped_ TwistStamped;
@@ -51,7 +54,7 @@ static unsigned Near(const Scan* scan)
 struct Robot
 {
   const char* name;
-  dds_entity_t scans, odometries, commands;
+  dds_entity_t scans, odometries, commands, leds, beacon;
   std_msgs_msg_dds__Header_ scan, odometry; /* of what came last, until it is answered */
   bool has_scan, has_odometry;
   Twist answer;
@@ -63,6 +66,31 @@ static Twist Answer(const Scan* scan)
   Twist twist = {{0.05 + 0.03 * sin(time), 0, 0}, {0, 0, 0.5 * cos(2 * time)}};
   if (Near(scan) > 0) twist = (Twist){{0, 0, 0}, {0, 0, 1}};
   return twist;
+}
+
+static bool IsSet(const char* variable)
+{
+  const char* text = getenv(variable);
+  return text != NULL && strcmp(text, "1") == 0;
+}
+
+static void SendLeds(const struct Robot* robot)
+{
+  const float red = (float)(robot->scan.stamp.nanosec / 100000000) / 10;
+  float channels[36];
+  for (int led = 0; led < 12; ++led)
+  {
+    channels[3 * led] = led == 0 ? red : 0;
+    channels[3 * led + 1] = led == 0 ? 0 : 0.2F;
+    channels[3 * led + 2] = 0;
+  }
+  std_msgs_msg_dds__Float32MultiArray_ leds;
+  memset(&leds, 0, sizeof leds);
+  leds.data._buffer = channels;
+  leds.data._length = leds.data._maximum = 36;
+  dds_write(robot->leds, &leds);
+  const std_msgs_msg_dds__ColorRGBA_ beacon = {red, 0, 0, red > 0 ? 1 : 0};
+  dds_write(robot->beacon, &beacon);
 }
 
 static bool IsComplete(const struct Robot* robot)
@@ -99,6 +127,7 @@ int main(int count, char** arguments)
   const int repeats = atoi(arguments[3]);
   const double silent_from = atof(arguments[4]), silent_until = atof(arguments[5]);
   const bool with_others = atoi(arguments[6]) != 0;
+  const bool together = IsSet("NODE_TOGETHER"), with_leds = IsSet("NODE_LEDS");
   const int robots = count - 7;
   struct Robot all[MOST_ROBOTS];
   memset(all, 0, sizeof all);
@@ -115,6 +144,11 @@ int main(int count, char** arguments)
     robot->commands = Writer(
         participant, stamped ? &geometry_msgs_msg_dds__TwistStamped__desc : &geometry_msgs_msg_dds__Twist__desc, topic);
     if (robot->scans < 0 || robot->odometries < 0) return 2;
+    if (!with_leds) continue;
+    snprintf(topic, sizeof topic, "rt/%s/leds", robot->name);
+    robot->leds = Writer(participant, &std_msgs_msg_dds__Float32MultiArray__desc, topic);
+    snprintf(topic, sizeof topic, "rt/%s/beacon", robot->name);
+    robot->beacon = Writer(participant, &std_msgs_msg_dds__ColorRGBA__desc, topic);
   }
   puts("ready");
   fflush(stdout);
@@ -147,11 +181,19 @@ int main(int count, char** arguments)
         robot->has_odometry = true;
         dds_return_loan(robot->odometries, &sample, 1);
       }
-      if (!IsComplete(robot)) continue;
+    }
+    int complete = 0;
+    for (const struct Robot* robot = all; robot < all + robots; ++robot) complete += IsComplete(robot);
+    for (struct Robot* robot = all; robot < all + robots; ++robot)
+    {
+      if (!IsComplete(robot) || (together && complete < robots)) continue;
       robot->has_scan = robot->has_odometry = false;
       const double time = robot->scan.stamp.sec + robot->scan.stamp.nanosec * 1e-9;
       for (int repeat = 0; repeat < repeats && !(time >= silent_from && time < silent_until); ++repeat)
+      {
         Send(robot, stamped, with_others);
+        if (with_leds) SendLeds(robot);
+      }
     }
     if (ended) break;
     if (idle) usleep(100);

@@ -13,6 +13,8 @@ import unittest
 
 CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
 TICK_S = 0.1
+WALLS = {"wall_west": (0, 1.58114, 0.25), "wall_east": (3.16228, 1.58114, 0.25),
+         "wall_south": (1.58114, 0, 0.25), "wall_north": (1.58114, 3.16228, 0.25)}  # of diffusion_10.xml
 
 
 class Listener:
@@ -83,6 +85,16 @@ class Simulation(unittest.TestCase):
                 self.assertAlmostEqual(number, other, 12)
             self.assertAlmostEqual(math.remainder(2 * math.atan2(qz, qw) - math.radians(expected[3]), 2 * math.pi), 0, 9)
         self.assertEqual({words[3] for words in heard["tf"]}, {f"fb_{k}" for k in range(10)})
+
+        # Who comes late hears where the walls stand, stamped with the start of the run, and in none of the other transforms.
+        walls = {words[3]: words for words in heard["static"]}
+        self.assertEqual(set(walls), set(WALLS))
+        for name, (sec, nanosec, frame, _, *numbers) in walls.items():
+            self.assertEqual((sec, nanosec, frame), ("0", "0", "world"))
+            x, y, z, qx, qy, qz, qw = map(float, numbers)
+            for number, other in zip((x, y, z), WALLS[name]):
+                self.assertAlmostEqual(number, other, 12)
+            self.assertAlmostEqual(qx * qx + qy * qy + qz * qz + qw * qw, 1, 9)
 
         # Forward at 0.05 m/s where it goes straight; never sideways.
         velocities = [tuple(map(float, words[6:9])) for words in heard["odom"]]

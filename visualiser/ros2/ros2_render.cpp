@@ -1,5 +1,6 @@
-// ros2_render: a simulation as ROS 2 sees a swarm. /clock, /tf, <robot>/odom and markers, with the names and types of
-// ROS 2 over DDS (real_robot/drivers/ros2/ros2_endpoints.h), for RViz, rosbag2 and nodes of users. It only shows.
+// ros2_render: a simulation as ROS 2 sees a swarm. /clock, /tf, /tf_static, <robot>/odom and markers, with the names
+// and types of ROS 2 over DDS (real_robot/drivers/ros2/ros2_endpoints.h), for RViz, rosbag2 and nodes of users. It only
+// shows.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -63,6 +64,7 @@ public:
     name_space_ = setup.parameters.Text("namespace");
     clock_.emplace("rt/clock", ros2::TypeOf<Clock>());
     transforms_.emplace("rt/tf", ros2::TypeOf<TFMessage>());
+    statics_.emplace("rt/tf_static", ros2::TypeOf<TFMessage>(), ros2::Writer::Keeps::kLatched);
     if (setup.parameters.Boolean("markers"))
       markers_.emplace(ros2::TopicName(name_space_, "arena"), ros2::TypeOf<MarkerArray>(),
                        ros2::Writer::Keeps::kLatched);
@@ -82,6 +84,8 @@ public:
     Clock clock;
     clock.clock(now);
     clock_->Write(&clock);
+    if (!statics_told_) PublishStatics(now);
+    statics_told_ = true;
     if (space_->GetTick() % every_ == 0) PublishPoses(now);
     PublishMarkers(now);
   }
@@ -89,7 +93,7 @@ public:
 
   void Finish() override
   {
-    for (std::optional<ros2::Writer>* writer : {&clock_, &transforms_, &markers_})
+    for (std::optional<ros2::Writer>* writer : {&clock_, &transforms_, &statics_, &markers_})
       if (*writer) (*writer)->Flush();
   }
 
@@ -124,6 +128,25 @@ private:
     return topic;
   }
 
+  void AddTransform(TFMessage& message, std::uint32_t entity, const Pose& pose, const Time& now) const
+  {
+    auto& transform = message.transforms().emplace_back();
+    transform.header().stamp(now);
+    transform.header().frame_id(frame_);
+    transform.child_frame_id(space_->GetEntity(entity).GetId());
+    SetVector(transform.transform().translation(), pose.position);
+    SetQuaternion(transform.transform().rotation(), pose.orientation);
+  }
+
+  // Of what never moves, once: DDS keeps it for those who come later.
+  void PublishStatics(const Time& now)
+  {
+    TFMessage message;
+    for (std::uint32_t e = 0; e < space_->Size(); ++e)
+      if (!space_->GetEntity(e).IsMovable()) AddTransform(message, e, space_->GetPose(e), now);
+    statics_->Write(&message);
+  }
+
   void PublishPoses(const Time& now)
   {
     message_.transforms().clear();
@@ -135,12 +158,7 @@ private:
         continue;
       }
       const Pose pose = space_->GetPose(moving.entity);
-      auto& transform = message_.transforms().emplace_back();
-      transform.header().stamp(now);
-      transform.header().frame_id(frame_);
-      transform.child_frame_id(space_->GetEntity(moving.entity).GetId());
-      SetVector(transform.transform().translation(), pose.position);
-      SetQuaternion(transform.transform().rotation(), pose.orientation);
+      AddTransform(message_, moving.entity, pose, now);
       if (moving.odometry) PublishOdometry(moving, pose, now);
       moving.tick = space_->GetTick();
       moving.pose = pose;
@@ -258,7 +276,8 @@ private:
   const CSwarmanoidSpace* space_ = nullptr;
   std::uint64_t every_ = 1;
   std::string frame_, name_space_;
-  std::optional<ros2::Writer> clock_, transforms_, markers_;
+  std::optional<ros2::Writer> clock_, transforms_, statics_, markers_;
+  bool statics_told_ = false;
   std::vector<Moving> moving_;
   std::set<std::string> topics_;
   TFMessage message_;

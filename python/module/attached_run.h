@@ -1,0 +1,141 @@
+// swarmanoid.attach: this Python process as a member of a running experiment. It looks on as an attached visualiser
+// does, so that the run never waits for it, and asks what `swarmanoid control` asks. A thread of its own follows the
+// run; messages come in threads of the bus, and all public functions are called by threads of Python that hold the
+// interpreter's lock, which they give away while they wait.
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/bus/control_client.h"
+#include "common/bus/replica.h"
+#include "common/bus/worker_session.h"
+#include "launcher/run_choice.h"
+#include "visualiser/cluster/remote_monitor.h"
+
+namespace swarmanoid::python
+{
+
+// The run has failed, is over, or cannot be reached.
+class RunError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+// Nothing came in time: TimeoutError of Python.
+class TimeOver : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+struct AttachedRunOptions
+{
+  std::string experiment;     // empty: the only one of this machine
+  std::optional<int> domain;  // of a run of another machine
+  BusOptions bus;
+  double views = 30;      // states a second at most
+  double wait_s = 0;      // for a run to begin
+  double timeout_s = 10;  // for it to be heard
+};
+
+class AttachedRun
+{
+public:
+  // Throws UsageError if there is no such run or no key for it, TimeOver if it is not heard in time, RunError if it
+  // ended meanwhile, ConfigurationError if its experiment cannot be read here.
+  explicit AttachedRun(const AttachedRunOptions& options);
+  ~AttachedRun() { Close(); }
+
+  const RunChoice& Choice() const { return choice_; }
+  // Of the latest server. The space has the entities; its state is that of the latest call of WithState.
+  WorldMessage World();
+  const CSwarmanoidSpace& Space() const { return *replica_->space; }
+
+  // How many states have come; 0: none yet.
+  std::uint64_t States();
+  // Calls `read` with the space at the newest state, and how many have come. False if none has.
+  using Reader =
+      std::function<void(const CSwarmanoidSpace& space, const SpaceSnapshot& snapshot, std::uint64_t number)>;
+  bool WithState(const Reader& read);
+  // Until a state has come that is not among the first `taken` ones, nor among the first `stale` ones unless no tick
+  // follows it, and is of `tick` or later; or the run is over, which returns false. Throws TimeOver; negative: as long
+  // as it takes.
+  bool Wait(std::uint64_t taken, std::uint64_t stale, std::uint64_t tick, double timeout_s);
+
+  // The words of `swarmanoid control`. Throws UsageError for words that are none, RunError if nobody answers.
+  ControlReplyMessage Control(const std::vector<std::string>& words, std::optional<std::uint64_t> seed);
+  RunStatus Status();
+  // The inside of a robot, which is told from the first call on. Throws TimeOver.
+  RobotStatus Robot(std::uint32_t entity, double timeout_s);
+
+  // Whether there is nothing to come any more, and why if it is a failure.
+  bool IsOver();
+  std::string Failure();
+  // Leaves the run, which goes on. Idempotent.
+  void Close();
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  void FindRun(AttachedRunOptions& options);
+  // The life of the thread.
+  void Run(const AttachedRunOptions& options);
+  void Follow(WorkerSession& session, double views);
+  void Work(WorkerSession& session, RemoteMonitor& monitor);
+  void Heard(const ViewMessage& view);
+  void MakeReplica(const WorldMessage& world);
+  // Waits for `met`, which is called with mutex_ held, while Python goes on; Ctrl-C ends it. False if the time is over.
+  template <class Condition>
+  bool Await(double timeout_s, const Condition& met);
+  void ThrowFailure() const;
+
+  RunChoice choice_;
+  bool insecure_ = false;
+  bool own_folders_only_ = false;
+  std::atomic<bool> stop_ = false;  // without waiting for anybody
+  bool closed_ = false;
+
+  std::mutex asking_;  // held by who uses client_
+  ControlClient* client_ = nullptr;
+  Bus* bus_ = nullptr;
+
+  std::mutex mutex_;  // of all below
+  std::condition_variable changed_;
+  bool ready_ = false;
+  bool leaving_ = false;
+  bool over_ = false;
+  bool ended_ = false;  // the run has, and no failure
+  std::string failure_;
+  std::exception_ptr error_;  // that kept it from looking on
+  WorldMessage world_;
+  std::unique_ptr<Replica> replica_;
+  SpaceSnapshot snapshot_;
+  std::uint64_t states_ = 0;
+  std::uint64_t applied_ = 0;
+  RunStatus status_;
+  std::set<std::uint32_t> watched_;
+  std::map<std::uint32_t, RobotStatus> robots_;
+
+  std::thread thread_;
+};
+
+// swarmanoid._module.AttachedRun and its exception.
+void DefineAttachedRun(pybind11::module_& module);
+
+}  // namespace swarmanoid::python

@@ -1,0 +1,35 @@
+// What a node commands beside how the robot drives: LEDs, beacon, gripper, turret, laser, magnet, bytes to send; on the
+// topics and with the messages that the drivers of real robots publish (real_robot/drivers/ros2). Made and used by
+// ros2_controller, in the thread of the controllers.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/control_interface/ci_robot.h"
+#include "real_robot/drivers/ros2/ros2_messages.h"
+
+namespace swarmanoid::ros2
+{
+
+class CommandTopic
+{
+public:
+  virtual ~CommandTopic() = default;
+  // Takes over the next command, oldest first; false if there is none.
+  virtual bool Take() = 0;
+  // Tells the actuator the command that was taken last. Throws DriverError, with the topic, if it is none.
+  virtual void Apply() = 0;
+  virtual void Wait(double seconds) = 0;
+  virtual unsigned Publishers() const = 0;
+  virtual std::string Name() const = 0;
+};
+
+// The types of actuators that have topics, in ascending order.
+std::vector<std::string> CommandedActuators();
+// For all actuators of a robot that have topics. `reliable`: no command is lost.
+std::vector<std::unique_ptr<CommandTopic>> MakeCommandTopics(const CCI_Robot& robot, const DriverSetup& setup,
+                                                             bool reliable);
+
+}  // namespace swarmanoid::ros2
