@@ -59,6 +59,7 @@ public:
     kColours,
     kWatched,
     kMarks,
+    kDocument,  // of the editor
     kCount
   };
 
@@ -76,7 +77,7 @@ public:
   // Clients that have taken their last state: without any, a new one would be made for nobody.
   std::size_t Hungry() const;
 
-  // The message that follows the welcome.
+  // The message that follows the welcome; those who are welcomed already get it now.
   void SetGreeting(Bytes text);
   // The state for all clients, and for those who come later.
   void Publish(Slot slot, Bytes bytes);
