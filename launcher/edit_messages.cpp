@@ -22,8 +22,6 @@ constexpr std::size_t kMostMistakes = 100;   // told of one text
 constexpr std::size_t kMostPlacings = 1000;  // of one request
 constexpr double kMostMetres = 1e6;
 
-[[noreturn]] void Refuse(const std::string& text) { throw std::invalid_argument(text); }
-
 std::string Text(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 // ---- requests ----
@@ -31,15 +29,15 @@ std::string Text(const Json& json) { return json.dump(-1, ' ', false, Json::erro
 std::string TextIn(const Json& json, const char* name)
 {
   const auto found = json.find(name);
-  if (found == json.end() || !found->is_string()) Refuse(fmt::format("the request needs a text '{}'", name));
+  if (found == json.end() || !found->is_string()) RefuseEdit(fmt::format("the request needs a text '{}'", name));
   return found->get<std::string>();
 }
 
 double NumberIn(const Json& json, double most)
 {
-  if (!json.is_number()) Refuse("the request needs a number");
+  if (!json.is_number()) RefuseEdit("the request needs a number");
   const double number = json.get<double>();
-  if (!(std::abs(number) <= most)) Refuse(fmt::format("{} is out of all bounds", number));
+  if (!(std::abs(number) <= most)) RefuseEdit(fmt::format("{} is out of all bounds", number));
   return number;
 }
 
@@ -48,7 +46,7 @@ std::optional<Eigen::Matrix<double, kCount, 1>> PlaceIn(const Json& json, const 
 {
   const auto found = json.find(name);
   if (found == json.end() || found->is_null()) return std::nullopt;
-  if (!found->is_array() || found->size() != kCount) Refuse(fmt::format("'{}' must be {} numbers", name, kCount));
+  if (!found->is_array() || found->size() != kCount) RefuseEdit(fmt::format("'{}' must be {} numbers", name, kCount));
   Eigen::Matrix<double, kCount, 1> place;
   for (int i = 0; i < kCount; ++i) place[i] = NumberIn((*found)[static_cast<std::size_t>(i)], kMostMetres);
   return place;
@@ -58,7 +56,7 @@ const Json& ListIn(const Json& json, const char* name)
 {
   const auto found = json.find(name);
   if (found == json.end() || !found->is_array() || found->size() > kMostPlacings)
-    Refuse(fmt::format("the request needs a list '{}' of at most {}", name, kMostPlacings));
+    RefuseEdit(fmt::format("the request needs a list '{}' of at most {}", name, kMostPlacings));
   return *found;
 }
 
@@ -69,7 +67,7 @@ std::vector<Placing> PlacingsIn(const Json& json)
   std::vector<Placing> placings;
   for (const Json& each : ListIn(json, "places"))
   {
-    if (!each.is_object()) Refuse("each of 'places' is an object");
+    if (!each.is_object()) RefuseEdit("each of 'places' is an object");
     Placing placing{PathIn(each), PlaceIn<3>(each, "position"), std::nullopt};
     if (each.contains("heading")) placing.heading = NumberIn(each["heading"], 1e5);
     placings.push_back(std::move(placing));
@@ -134,7 +132,7 @@ void AddMembers(const ConfigurationNode& node, const ParameterSpec& spec, const 
 
 Json ParametersOf(const EditedExperiment& experiment, const ConfigurationNode& node, const ElementForm& form)
 {
-  const TConfigurationTree tree(std::shared_ptr<const ConfigurationNode>({}, &node));
+  const TConfigurationTree tree = TreeOf(node);
   Json list = Json::array();
   for (const ParameterSpec& spec : form.parameters)
   {
@@ -204,7 +202,7 @@ Json MistakeList(const EditedExperiment& experiment)
 EditRequest ParseEditRequest(std::string_view text)
 {
   const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) Refuse("a request is a JSON object");
+  if (!json.is_object()) RefuseEdit("a request is a JSON object");
   EditRequest request;
   request.verb = TextIn(json, "do");
   request.text = text;
@@ -212,7 +210,7 @@ EditRequest ParseEditRequest(std::string_view text)
   if (request.verb == "edit")
   {
     const auto revision = json.find("revision");
-    if (revision == json.end() || !revision->is_number_unsigned()) Refuse("an edit needs the number 'revision'");
+    if (revision == json.end() || !revision->is_number_unsigned()) RefuseEdit("an edit needs the number 'revision'");
     request.revision = revision->get<std::uint64_t>();
   }
   if (request.verb == "save") request.anyway = json.value("anyway", Json(false)) == Json(true);
@@ -238,7 +236,7 @@ ElementPath CarryOut(const EditRequest& request, EditedExperiment& experiment)
   {
     std::vector<ElementPath> paths;
     for (const Json& path : ListIn(json, "paths"))
-      paths.push_back(path.is_string() ? ParsePath(path) : (Refuse("a path is a text"), ElementPath()));
+      paths.push_back(path.is_string() ? ParsePath(path) : (RefuseEdit("a path is a text"), ElementPath()));
     experiment.Remove(paths);
   }
   else if (change == "rewrite")
@@ -246,7 +244,7 @@ ElementPath CarryOut(const EditRequest& request, EditedExperiment& experiment)
   else if (change == "write out")
     experiment.WriteOut(PathIn(json));
   else
-    Refuse(fmt::format("there is no change '{}'", change.substr(0, 40)));
+    RefuseEdit(fmt::format("there is no change '{}'", change.substr(0, 40)));
   return {};
 }
 

@@ -23,8 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr auto kDiskPeriod = 1s;
 
-[[noreturn]] void Refuse(const std::string& text) { throw std::invalid_argument(text); }
-
 std::string FolderOf(const std::string& file) { return fs::absolute(file).parent_path().lexically_normal().string(); }
 
 }  // namespace
@@ -47,11 +45,11 @@ std::string EditSession::Carry(std::string_view text)
   const std::uint64_t before = experiment_.History().Revision();
   if (verb == "document") return {};
   if (verb == "form") return FormText(experiment_, request.path);
-  if (verb == "undo" && !experiment_.Undo()) Refuse("there is nothing to undo");
-  if (verb == "redo" && !experiment_.Redo()) Refuse("there is nothing to do again");
+  if (verb == "undo" && !experiment_.Undo()) RefuseEdit("there is nothing to undo");
+  if (verb == "redo" && !experiment_.Redo()) RefuseEdit("there is nothing to do again");
   if (verb == "edit")
   {
-    if (request.revision != before) Refuse("the experiment has changed meanwhile: look again");
+    if (request.revision != before) RefuseEdit("the experiment has changed meanwhile: look again");
     added_ = CarryOut(request, experiment_);
     added_in_ = added_.empty() ? 0 : experiment_.History().Revision();
   }
@@ -69,7 +67,7 @@ void EditSession::Save(bool anyway)
   if (changed_on_disk_ && !anyway)
   {
     Tell();
-    Refuse(fmt::format("not saved: somebody else has changed {}; read it again, or save over it", file_.Path()));
+    RefuseEdit(fmt::format("not saved: somebody else has changed {}; read it again, or save over it", file_.Path()));
   }
   try
   {
@@ -77,7 +75,7 @@ void EditSession::Save(bool anyway)
   }
   catch (const std::runtime_error& error)
   {
-    Refuse(error.what());
+    RefuseEdit(error.what());
   }
   changed_on_disk_ = false;
 }
@@ -90,7 +88,7 @@ void EditSession::Reload()
   }
   catch (const ConfigurationError& error)
   {
-    Refuse(error.what());
+    RefuseEdit(error.what());
   }
   changed_on_disk_ = false;
   experiment_.Replace(file_.Text());
@@ -124,7 +122,7 @@ void EditSession::Idle()
 void EditSession::StartCheck()
 {
   if (!experiment_.Mistakes().empty() || experiment_.GetExperiment() == nullptr)
-    Refuse("mend the mistakes that are listed first");
+    RefuseEdit("mend the mistakes that are listed first");
   check_.reset();
   const fs::path file = fs::path(scratch_.Path()) / "edited.xml";
   std::ofstream(file) << experiment_.GetExperiment()->effective_xml << experiment_.Places();

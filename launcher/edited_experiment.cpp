@@ -22,18 +22,16 @@ namespace
 
 constexpr double kLeastTurn = 0.05;  // degrees
 
-[[noreturn]] void Refuse(const std::string& text) { throw std::invalid_argument(text); }
-
 std::string NameOfElement(const ConfigurationNode& node)
 {
-  const auto id = TConfigurationTree(std::shared_ptr<const ConfigurationNode>({}, &node)).Value("id");
+  const auto id = TreeOf(node).Value("id");
   return id && !id->empty() ? *id : "<" + node.name + ">";
 }
 
 // The vector that a value of an element holds, or another one.
 Vector3 VectorIn(const ConfigurationNode& node, const char* name, const Vector3& otherwise)
 {
-  const auto text = TConfigurationTree(std::shared_ptr<const ConfigurationNode>({}, &node)).Value(name);
+  const auto text = TreeOf(node).Value(name);
   const auto numbers = text ? ParseNumbers(*text) : std::nullopt;
   return numbers && numbers->size() == 3 ? Vector3((*numbers)[0], (*numbers)[1], (*numbers)[2]) : otherwise;
 }
@@ -50,6 +48,14 @@ void Sort(TextEdits& edits)
 
 }  // namespace
 
+void RefuseEdit(const std::string& text) { throw std::invalid_argument(text); }
+
+TConfigurationTree TreeOf(const ConfigurationNode& node)
+{
+  const std::shared_ptr<const ConfigurationNode> nobody;
+  return TConfigurationTree({nobody, &node});
+}
+
 std::string PathText(const ElementPath& path) { return fmt::format("{}", fmt::join(path, "/")); }
 
 ElementPath ParsePath(const std::string& text)
@@ -61,7 +67,7 @@ ElementPath ParsePath(const std::string& text)
   {
     std::size_t child = 0;
     const auto [next, error] = std::from_chars(at, end, child);
-    if (error != std::errc() || (next < end && *next != '/')) Refuse(Quoted(text) + " is no path of an element");
+    if (error != std::errc() || (next < end && *next != '/')) RefuseEdit(Quoted(text) + " is no path of an element");
     path.push_back(child);
     at = next < end ? next + 1 : next;
   }
@@ -117,7 +123,7 @@ void EditedExperiment::Take(Reading reading)
 const XmlElement& EditedExperiment::At(const ElementPath& path) const
 {
   const XmlElement* element = ElementAt(outline_, path);
-  if (element == nullptr) Refuse("that element is not there any more");
+  if (element == nullptr) RefuseEdit("that element is not there any more");
   return *element;
 }
 
@@ -187,11 +193,11 @@ void EditedExperiment::Change(const TextEdits& edits, const std::string& name)
   }
   catch (const std::logic_error&)
   {
-    Refuse("these changes do not fit together");
+    RefuseEdit("these changes do not fit together");
   }
   catch (const ConfigurationError& error)
   {
-    Refuse(std::string("nothing is changed: ") + error.what());
+    RefuseEdit(std::string("nothing is changed: ") + error.what());
   }
   text_.Apply(edits, name);
   Take(std::move(reading));
@@ -204,9 +210,9 @@ void EditedExperiment::SetValue(const ElementPath& path, const std::string& name
   const XmlElement& element = At(path);
   const ElementForm form = FormAt(path);
   if (form.known && std::ranges::none_of(form.parameters, [&](const auto& spec) { return Matches(spec, name); }))
-    Refuse(fmt::format("{} has no parameter {}", NameOf(path), Quoted(name)));
+    RefuseEdit(fmt::format("{} has no parameter {}", NameOf(path), Quoted(name)));
   if (const XmlElement* child = element.FindChild(name); child != nullptr && !child->children.empty())
-    Refuse(fmt::format("<{}> holds elements, not a value", name));
+    RefuseEdit(fmt::format("<{}> holds elements, not a value", name));
   Change(value ? swarmanoid::SetValue(Text(), element, name, *value) : DropValue(Text(), element, name),
          (value ? "set " : "drop ") + of);
 }
@@ -217,9 +223,9 @@ void EditedExperiment::Place(const std::vector<Placing>& placings)
   for (const auto& [path, position, heading] : placings)
   {
     if (IsDistributed(path))
-      Refuse(fmt::format("{} is placed by the <{}> in line {}; change that, or write its entities out one by one",
-                         NameOf(path), At({path.begin(), path.end() - 1}).name, NodeAt(path).location.line));
-    if (!KindOfTag(At(path).name)) Refuse(NameOf(path) + " has no place");
+      RefuseEdit(fmt::format("{} is placed by the <{}> in line {}; change that, or write its entities out one by one",
+                             NameOf(path), At({path.begin(), path.end() - 1}).name, NodeAt(path).location.line));
+    if (!KindOfTag(At(path).name)) RefuseEdit(NameOf(path) + " has no place");
     const ConfigurationNode& node = NodeAt(path);
     if (position)
       Append(edits, swarmanoid::SetValue(Text(), At(path), "position",
@@ -244,7 +250,7 @@ ElementPath EditedExperiment::Add(const ElementPath& parent, const std::string& 
   const ElementForm form = FormAt(parent);
   const auto child = std::ranges::find(form.children, tag, &ElementForm::Child::tag);
   if (child == form.children.end() || !child->may_be_added)
-    Refuse(fmt::format("{} takes no{} <{}>", NameOf(parent), child == form.children.end() ? "" : " further", tag));
+    RefuseEdit(fmt::format("{} takes no{} <{}>", NameOf(parent), child == form.children.end() ? "" : " further", tag));
   const XmlElement& above = At(parent);
   NewElement element{tag, ValuesForNew(*child, *this, parent, at), false};
   // As those beside it are written.
@@ -263,10 +269,10 @@ void EditedExperiment::Remove(const std::vector<ElementPath>& paths)
   TextEdits edits;
   for (const ElementPath& path : paths)
   {
-    if (path.empty() || FormAt(path).required) Refuse(NameOf(path) + " cannot be removed");
+    if (path.empty() || FormAt(path).required) RefuseEdit(NameOf(path) + " cannot be removed");
     if (IsDistributed(path))
-      Refuse(fmt::format("{} is one of many; remove the <{}> in line {}, or write its entities out one by one",
-                         NameOf(path), At({path.begin(), path.end() - 1}).name, NodeAt(path).location.line));
+      RefuseEdit(fmt::format("{} is one of many; remove the <{}> in line {}, or write its entities out one by one",
+                             NameOf(path), At({path.begin(), path.end() - 1}).name, NodeAt(path).location.line));
     Append(edits, RemoveElement(Text(), At(path)));
   }
   if (paths.empty()) return;
@@ -284,11 +290,11 @@ void EditedExperiment::Rewrite(const ElementPath& path, const std::string& xml)
     const XmlElement element = OutlineOf(wanted, "the new text");
     if (element.whole.begin != 0 || element.whole.end != wanted.size() ||
         (path.empty() && element.name != outline_.name))
-      Refuse(fmt::format("the new text must be one element{}", path.empty() ? ", <" + outline_.name + ">" : ""));
+      RefuseEdit(fmt::format("the new text must be one element{}", path.empty() ? ", <" + outline_.name + ">" : ""));
   }
   catch (const ConfigurationError& error)
   {
-    Refuse(error.what());
+    RefuseEdit(error.what());
   }
   Change({{At(path).whole, wanted}}, "rewrite " + NameOf(path));
 }
@@ -297,8 +303,8 @@ void EditedExperiment::WriteOut(const ElementPath& path)
 {
   const XmlElement& distribution = At(path);
   if (distribution.name != "distribute" || !loaded_.errors.empty())
-    Refuse(loaded_.errors.empty() ? "only the entities of a <distribute> can be written out"
-                                  : "the experiment has mistakes: the places are not known");
+    RefuseEdit(loaded_.errors.empty() ? "only the entities of a <distribute> can be written out"
+                                      : "the experiment has mistakes: the places are not known");
   Change({{distribution.whole, EntitiesOneByOne(*this, path)}}, "write out " + NameOf(path));
 }
 

@@ -15,6 +15,12 @@
 namespace swarmanoid
 {
 
+// What a page asks for cannot be done: throws std::invalid_argument with a text for the user.
+[[noreturn]] void RefuseEdit(const std::string& text);
+
+// A handle of an element that outlives it.
+TConfigurationTree TreeOf(const ConfigurationNode& node);
+
 using ElementPath = std::vector<std::size_t>;  // child numbers, from the root on
 
 // "0/3" and back; throws std::invalid_argument.

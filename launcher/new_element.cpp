@@ -17,8 +17,6 @@ namespace
 
 using Node = ConfigurationNode;
 
-TConfigurationTree TreeOf(const Node& node) { return TConfigurationTree(std::shared_ptr<const Node>({}, &node)); }
-
 // The last element of that tag beside the new one, which it is made like; nullptr if there is none.
 const Node* LastLike(const Node& parent, const std::string& tag)
 {

@@ -10,10 +10,10 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::string_view kXmlBlanks = " \t\r\n";
 constexpr std::string_view kIndent = "  ";
 
-bool IsBlank(std::string_view text) { return text.find_first_not_of(kBlanks) == std::string_view::npos; }
+bool HasOnlyBlanks(std::string_view text) { return text.find_first_not_of(kXmlBlanks) == std::string_view::npos; }
 
 // Within quotes of either kind.
 std::string InAttribute(std::string_view value)
@@ -29,13 +29,13 @@ std::string IndentBefore(std::string_view text, std::size_t place)
   const std::size_t line = text.substr(0, place).rfind('\n');
   const std::size_t begin = line == std::string_view::npos ? 0 : line + 1;
   const std::string_view before = text.substr(begin, place - begin);
-  return IsBlank(before) ? std::string(before) : std::string();
+  return HasOnlyBlanks(before) ? std::string(before) : std::string();
 }
 
 bool BeginsLine(std::string_view text, std::size_t place)
 {
   const std::size_t line = text.substr(0, place).rfind('\n');
-  return line != std::string_view::npos && IsBlank(text.substr(line + 1, place - line - 1));
+  return line != std::string_view::npos && HasOnlyBlanks(text.substr(line + 1, place - line - 1));
 }
 
 std::string LineEndOf(std::string_view text)
@@ -55,11 +55,11 @@ std::vector<TextSpan> RunsOf(std::string_view text, const XmlElement& element)
     begin = note.end;
   }
   runs.push_back({begin, element.content.end});
-  std::erase_if(runs, [&](const TextSpan& run) { return IsBlank(run.Of(text)); });
+  std::erase_if(runs, [&](const TextSpan& run) { return HasOnlyBlanks(run.Of(text)); });
   for (TextSpan& run : runs)
   {
     const std::string_view words = run.Of(text);
-    run = {run.begin + words.find_first_not_of(kBlanks), run.begin + words.find_last_not_of(kBlanks) + 1};
+    run = {run.begin + words.find_first_not_of(kXmlBlanks), run.begin + words.find_last_not_of(kXmlBlanks) + 1};
   }
   return runs;
 }
@@ -67,7 +67,7 @@ std::vector<TextSpan> RunsOf(std::string_view text, const XmlElement& element)
 // The "/>" of <name/>.
 TextSpan SlashOf(const XmlElement& element) { return {element.whole.end - 2, element.whole.end}; }
 
-bool IsValue(const XmlElement& element) { return element.attributes.empty() && element.children.empty(); }
+bool HoldsAValue(const XmlElement& element) { return element.attributes.empty() && element.children.empty(); }
 
 TextEdits SetText(std::string_view text, const XmlElement& element, const std::string& value)
 {
@@ -108,7 +108,7 @@ std::string WithEdits(std::string_view text, const TextEdits& edits)
   return made;
 }
 
-bool HasValuesAsElements(const XmlElement& element) { return std::ranges::any_of(element.children, IsValue); }
+bool HasValuesAsElements(const XmlElement& element) { return std::ranges::any_of(element.children, HoldsAValue); }
 
 TextEdits SetValue(std::string_view text, const XmlElement& element, const std::string& name, const std::string& value)
 {
@@ -123,7 +123,7 @@ TextEdits DropValue(std::string_view text, const XmlElement& element, std::strin
 {
   if (const XmlElement::Attribute* attribute = element.FindAttribute(name))
   {
-    const std::size_t before = text.substr(0, attribute->whole.begin).find_last_not_of(kBlanks) + 1;
+    const std::size_t before = text.substr(0, attribute->whole.begin).find_last_not_of(kXmlBlanks) + 1;
     return {{{before, attribute->whole.end}, ""}};
   }
   const XmlElement* child = element.FindChild(name);
@@ -163,7 +163,7 @@ TextEdits AppendChild(std::string_view text, const XmlElement& parent, const std
   {
     return {{SlashOf(parent), ">" + line + last_line + "</" + parent.name + ">"}};
   }
-  if (parent.children.empty() && IsBlank(parent.content.Of(text))) return {{parent.content, line + last_line}};
+  if (parent.children.empty() && HasOnlyBlanks(parent.content.Of(text))) return {{parent.content, line + last_line}};
   // Behind the last child or comment; what stands there stays.
   std::size_t end = parent.content.begin;
   if (!parent.children.empty()) end = parent.children.back().whole.end;

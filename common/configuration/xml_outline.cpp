@@ -16,8 +16,6 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-
 // The text has passed ReadXml: there is nothing left to refuse.
 class OutlineReader
 {

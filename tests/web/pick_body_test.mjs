@@ -37,7 +37,7 @@ test("the first body of a slanted ray, as steps along it find it", () => {
   let seed = 1;
   const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
   let met = 0;
-  for (let round = 0; round < 300; round++) {
+  for (let round = 0; round < 120; round++) {
     const bodies = Array.from({ length: 4 }, () => ({ look: 0, size: [0.2 + random(), 0.2 + random(), 0.2 + 0.1 * random()], position: [3 * random(), 3 * random(), 0.15], orientation: level(6 * random()) }));
     const origin = [3 * random(), -2, 2];
     const direction = [random() - 0.5, 1, -0.3 - random()];
@@ -48,7 +48,7 @@ test("the first body of a slanted ray, as steps along it find it", () => {
       return [x, y, dz].every((value, k) => Math.abs(value) <= (share * size[k]) / 2);
     });
     const first = (share) => {
-      for (let t = 0; t < 6; t += 0.002) {
+      for (let t = 0; t < 6; t += 0.004) {
         const body = inside(origin.map((value, k) => value + t * direction[k]), share);
         if (body >= 0) return body;
       }
@@ -60,5 +60,5 @@ test("the first body of a slanted ray, as steps along it find it", () => {
     assert.equal(pickBody(worldOf(bodies), origin, direction), larger);
     if (larger !== null) met++;
   }
-  assert.ok(met > 50, String(met));
+  assert.ok(met > 15, String(met));
 });

@@ -16,9 +16,9 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::size_t kMostRequests = 1024;  // waiting to be carried out
+constexpr std::size_t kMostEditRequests = 1024;  // waiting to be carried out
 
-WebServer::Bytes Shared(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
+WebServer::Bytes SharedText(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
 
 // What is about the file, and not about the picture.
 bool IsForEditor(std::string_view text)
@@ -45,14 +45,14 @@ public:
   void Show(const CSwarmanoidSpace& space, const Assignment& assignment) override
   {
     WebServer& server = host_->Server();
-    server.SetGreeting(Shared(WorldText(space, assignment, Viewpoints::Of(space.GetExperiment()), false)));
-    server.Publish(WebServer::Slot::kKey, Shared(FrameWriter(space).WriteKey()));
-    server.Publish(WebServer::Slot::kColours, Shared(ColoursText(space)));
+    server.SetGreeting(SharedText(WorldText(space, assignment, Viewpoints::Of(space.GetExperiment()), false)));
+    server.Publish(WebServer::Slot::kKey, SharedText(FrameWriter(space).WriteKey()));
+    server.Publish(WebServer::Slot::kColours, SharedText(ColoursText(space)));
   }
 
   void Tell(const std::string& document) override
   {
-    document_ = Shared(document);
+    document_ = SharedText(document);
     for (const std::uint64_t client : editors_)
       host_->Server().SendState(client, WebServer::Slot::kDocument, document_);
   }
@@ -81,11 +81,11 @@ private:
     try
     {
       const std::string reply = requests_->Carry(request);
-      if (!reply.empty()) host_->Server().Send(client, Shared(reply));
+      if (!reply.empty()) host_->Server().Send(client, SharedText(reply));
     }
     catch (const std::invalid_argument& error)
     {
-      host_->Server().Send(client, Shared(RefusalText(error.what())));
+      host_->Server().Send(client, SharedText(RefusalText(error.what())));
     }
   }
 
@@ -108,13 +108,13 @@ private:
       }
       const PageRequest request = ParseRequest(text);
       if (const auto* answer = std::get_if<ProveRequest>(&request))
-        host_->Server().Send(client, Shared(AuthorityText(host_->GetVisitors().Prove(client, answer->proof))));
+        host_->Server().Send(client, SharedText(AuthorityText(host_->GetVisitors().Prove(client, answer->proof))));
       else if (IsCommand(request))
         throw std::invalid_argument("this page edits an experiment: there is no run");
     }
     catch (const std::invalid_argument& error)
     {
-      host_->Server().Send(client, Shared(RefusalText(error.what())));
+      host_->Server().Send(client, SharedText(RefusalText(error.what())));
     }
   }
 
@@ -128,7 +128,7 @@ private:
   void Keep(std::uint64_t client, std::string request)
   {
     const std::lock_guard lock(mutex_);
-    if (waiting_.size() >= kMostRequests) throw std::invalid_argument("too many requests at once");
+    if (waiting_.size() >= kMostEditRequests) throw std::invalid_argument("too many requests at once");
     waiting_.emplace_back(client, std::move(request));
   }
 

@@ -44,6 +44,7 @@ export class Editor {
   // The token was proved: only now the server answers.
   begin() {
     this.isBusy = false;
+    this.document = null; // another server may count from the start
     this.page.send({ do: "document" });
     this.open(this.path);
   }
