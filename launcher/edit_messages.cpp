@@ -20,6 +20,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostMistakes = 100;   // told of one text
 constexpr std::size_t kMostPlacings = 1000;  // of one request
+constexpr std::size_t kMostXml = 32768;      // bytes of an element that is edited as text: it must fit into a message
 constexpr double kMostMetres = 1e6;
 
 std::string Text(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
@@ -302,6 +303,7 @@ std::string FormText(const EditedExperiment& experiment, const ElementPath& path
   for (const ElementForm::Child& child : form.children)
     if (child.may_be_added) addable.push_back({{"tag", child.tag}, {"description", child.description}});
   const XmlElement& element = experiment.At(path);
+  const std::string xml(element.whole.Of(experiment.Text()));
   const bool is_distributed = experiment.IsDistributed(path);
   return Text({{"type", "form"},
                {"revision", experiment.History().Revision()},
@@ -317,7 +319,7 @@ std::string FormText(const EditedExperiment& experiment, const ElementPath& path
                {"parameters", ParametersOf(experiment, node, form)},
                {"parts", PartsOf(experiment, node, form, path)},
                {"addable", addable},
-               {"xml", std::string(element.whole.Of(experiment.Text()))}});
+               {"xml", xml.size() <= kMostXml ? Json(xml) : Json(nullptr)}});
 }
 
 }  // namespace swarmanoid

@@ -95,11 +95,11 @@ async function settled(page) {
   });
 }
 
-async function select(page, id) {
-  await until(page, (wanted) => document.querySelector(".row:not([hidden]) .id") && swarmanoid.editor && wanted, id);
+// By the list; name: of its element.
+async function select(page, id, name = id) {
   await page.fill("input[type=search]", `id:${id}`);
   await page.click(`.left .row:not([hidden]):has(.id:text-is("${id}"))`);
-  await until(page, (wanted) => swarmanoid.editor.form?.name === wanted && swarmanoid.selected === wanted, id);
+  await until(page, (wanted) => swarmanoid.editor.form?.name === wanted && swarmanoid.selected !== null, name);
   await page.fill("input[type=search]", "");
 }
 
@@ -224,8 +224,8 @@ const tests = {
   async "a distribution is edited as one, and written out robot by robot"() {
     const editor = await edit("diffusion_10");
     const { page } = editor;
-    await select(page, "fb_3").catch(() => {});
-    await until(page, () => swarmanoid.editor.form.distributed);
+    await select(page, "fb_3", "fb");
+    assert.equal(await read(page, () => swarmanoid.editor.form.distributed), true);
     assert.equal(await read(page, () => swarmanoid.chosen.length), 10);
     const place = await read(page, () => swarmanoid.place("fb_3"));
     await page.click(".edit-form p button");

@@ -137,6 +137,7 @@ const receive = {
   form: (message) => editor?.receiveForm(message),
   world(message) {
     const selected = state.selected === null ? null : state.world.ids[state.selected];
+    const chosen = picture.chosen.map((entity) => state.world.ids[entity]);
     const isNew = state.world?.experiment !== message.experiment;
     state.world = new World(message);
     if (isNew) setViewpoints(state.world.viewpoints);
@@ -148,7 +149,7 @@ const receive = {
     for (const name of Object.keys(picture.shows)) showToggle(name);
     const again = selected === null ? -1 : state.world.find(selected);
     state.selected = null;
-    if (editor) showChosen(again >= 0 ? [again] : []);
+    if (editor) showChosen(chosen.map((id) => state.world.find(id)).filter((entity) => entity >= 0));
     else select(again >= 0 ? again : null);
   },
   status(message) {
@@ -329,6 +330,8 @@ function unlock() {
 function startEditor() {
   state.status = { phase: "editing", real_time_factor: 0, speed_wanted: 1, processes: [] };
   loadingEditor ??= import("./edit/editor.js").then(({ Editor }) => {
+    for (const name of ["rays", "bodies", "links", "heat", "swarm", "aboard", "film"]) tools.buttons[name].hidden = true;
+    for (const name of ["trails", "beams"]) toolbar.toggles[name].hidden = true;
     editor = new Editor({ app, main, picture, left: list.element, send: (request) => connection.send(request), choose: showChosen });
     if (state.control === "granted") editor.begin();
   });
@@ -354,7 +357,8 @@ function selectAll(entities) {
 function choose(entity, chosen) {
   if (editor) {
     showChosen(chosen);
-    if (chosen.length < 2) editor.select(entity);
+    editor.many = chosen.length > 1;
+    if (!editor.many) editor.select(entity);
     return;
   }
   showChosen(chosen);

@@ -3,6 +3,8 @@
 import { h, setText } from "../ui/dom.js";
 import { ElementForm } from "./element_form.js";
 
+const LONGEST_REQUEST = 60000; // bytes; the server ends a connection with longer ones
+
 export class Editor {
   // page: app, main, picture, left, send(request), choose(entities), tell(text), trouble(text)
   constructor(page) {
@@ -10,7 +12,8 @@ export class Editor {
     this.document = null;
     this.path = ""; // of the element whose form is shown
     this.kind = null; // what the next click on the floor places
-    this.waiting = []; // edits, until the one before is answered
+    this.many = false; // whether several elements are selected, of which none has its form shown
+    this.waiting = []; // requests, until the one before is answered
     this.isBusy = false;
     this.form = new ElementForm({ edit: (change) => this.edit(change), open: (path) => this.open(path) });
     this.addBar();
@@ -24,10 +27,10 @@ export class Editor {
 
   addBar() {
     const button = (label, title, act) => h("button.toggle", { title, onclick: act }, label);
-    this.undo = button("Undo", "", () => this.page.send({ do: "undo" }));
-    this.redo = button("Redo", "", () => this.page.send({ do: "redo" }));
-    this.save = button("Save", "Write the file  (Ctrl + S)", () => this.page.send({ do: "save" }));
-    this.check = button("Check", "Make everything as a run does at its start, and throw it away", () => this.page.send({ do: "check" }));
+    this.undo = button("Undo", "", () => this.ask({ do: "undo" }));
+    this.redo = button("Redo", "", () => this.ask({ do: "redo" }));
+    this.save = button("Save", "Write the file  (Ctrl + S)", () => this.ask({ do: "save" }));
+    this.check = button("Check", "Make everything as a run does at its start, and throw it away", () => this.ask({ do: "check" }));
     this.file = h("span.file.dim");
     this.bar = h("div.group.edit-bar", {}, this.undo, this.redo, this.save, this.check, this.file);
     this.page.app.querySelector("header .space").before(this.bar);
@@ -46,21 +49,21 @@ export class Editor {
     this.isBusy = false;
     this.document = null; // another server may count from the start
     this.page.send({ do: "document" });
-    this.open(this.path);
+    this.show(this.path);
   }
 
   receive(document) {
     const isNew = this.document?.revision !== document.revision;
     this.document = document;
     this.isBusy = false;
-    if (document.added !== null && isNew) this.path = document.added;
+    if (document.added !== null && isNew) {
+      this.path = document.added;
+      this.many = false;
+    }
     this.showBar();
     this.showKinds();
     this.showMistakes();
-    if (isNew) {
-      this.open(this.path);
-      this.chooseShown();
-    }
+    if (isNew) this.show(this.path);
     this.sendNext();
   }
 
@@ -118,8 +121,8 @@ export class Editor {
               "div.mistake",
               { role: "alert" },
               h("span", {}, "Somebody else has changed the file."),
-              h("button.small", { title: "Undo brings your text back", onclick: () => this.page.send({ do: "reload" }) }, "Read it again"),
-              h("button.small", { onclick: () => this.page.send({ do: "save", anyway: true }) }, "Save over it"),
+              h("button.small", { title: "Undo brings your text back", onclick: () => this.ask({ do: "reload" }) }, "Read it again"),
+              h("button.small", { onclick: () => this.ask({ do: "save", anyway: true }) }, "Save over it"),
             ),
           ]
         : []),
@@ -134,19 +137,30 @@ export class Editor {
 
   // ---- what the user does ----
 
-  // Edits go one after the other: each is of the text that the one before has made.
   edit(change) {
-    this.waiting.push(change);
+    this.ask({ do: "edit", ...change });
+  }
+
+  // One after the other: an edit is of the text that the request before has made.
+  ask(request) {
+    if (new TextEncoder().encode(JSON.stringify(request)).length > LONGEST_REQUEST) return this.form.say("This text is too long to be edited here.");
+    this.waiting.push(request);
     this.sendNext();
   }
 
   sendNext() {
     if (this.isBusy || this.waiting.length === 0 || !this.document) return;
     this.isBusy = true;
-    this.page.send({ do: "edit", revision: this.document.revision, ...this.waiting.shift() });
+    const request = this.waiting.shift();
+    this.page.send(request.do === "edit" ? { ...request, revision: this.document.revision } : request);
   }
 
   open(path) {
+    this.many = false;
+    this.show(path);
+  }
+
+  show(path) {
     this.path = path;
     this.page.send({ do: "form", path });
     this.chooseShown();
@@ -154,7 +168,7 @@ export class Editor {
 
   // The entities of the element whose form is shown are selected in the picture.
   chooseShown() {
-    if (!this.document) return;
+    if (!this.document || this.many) return;
     const number = this.document.paths.indexOf(this.path);
     const entities = number < 0 ? [] : this.document.path_of.flatMap((each, entity) => (each === number ? [entity] : []));
     this.page.choose(entities);
@@ -205,10 +219,10 @@ export class Editor {
     else if (!(event.ctrlKey || event.metaKey) || event.altKey) return false;
     else if (key === "s") {
       document.activeElement?.blur(); // what is typed is part of it
-      this.page.send({ do: "save" });
+      this.ask({ do: "save" });
     } else if (typing) return false; // a field undoes what was typed itself
-    else if (key === "z") this.page.send({ do: event.shiftKey ? "redo" : "undo" });
-    else if (key === "y") this.page.send({ do: "redo" });
+    else if (key === "z") this.ask({ do: event.shiftKey ? "redo" : "undo" });
+    else if (key === "y") this.ask({ do: "redo" });
     else return false;
     event.preventDefault();
     return true;

@@ -119,6 +119,7 @@ export class ElementForm {
   }
 
   source({ xml, path }, open) {
+    if (xml === null) return h("p.dim", {}, "Its text is too long to be edited here.");
     const text = h("textarea", { rows: Math.min(24, xml.split("\n").length + 1), spellcheck: "false", "aria-label": "Text of the element", name: "xml" });
     text.value = xml;
     return h("details.xml", { open: open || false }, h("summary", {}, "XML"), text, h("button.small", { onclick: () => this.actions.edit({ change: "rewrite", path, xml: text.value }) }, "Take this text"));
