@@ -24,6 +24,7 @@ void AddAttachCommand(CLI::App& app, int& exit_code);
 void AddControlCommand(CLI::App& app, int& exit_code);
 void AddShareCommand(CLI::App& app, int& exit_code);
 void AddCheckCommand(CLI::App& app, int& exit_code);
+void AddEditCommand(CLI::App& app, int& exit_code);
 void AddConvertCommand(CLI::App& app, int& exit_code);
 void AddListCommand(CLI::App& app, int& exit_code);
 void AddDemoCommand(CLI::App& app, int& exit_code);

@@ -146,7 +146,8 @@ private:
     {
       for (const std::string& name : SampleNames()) Offer(name);
     }
-    else if (given_.empty() && (path_ == "run" || path_ == "check" || path_ == "list settings" || path_ == "sweep"))
+    else if (given_.empty() &&
+             (path_ == "run" || path_ == "check" || path_ == "edit" || path_ == "list settings" || path_ == "sweep"))
     {
       offered_.emplace_back(kExperimentFiles);
     }

@@ -21,9 +21,9 @@
 namespace
 {
 
-const std::vector<std::string> kVerbs{"run",    "resume", "adopt",   "replay", "diff",  "inspect",
-                                      "export", "attach", "control", "share",  "check", "convert",
-                                      "list",   "new",    "demo",    "doctor", "sweep", "plot"};
+const std::vector<std::string> kVerbs{"run",    "resume",  "adopt",  "replay", "diff", "inspect", "export",
+                                      "attach", "control", "share",  "check",  "edit", "convert", "list",
+                                      "new",    "demo",    "doctor", "sweep",  "plot"};
 
 // CLI11 would only say that the word was not expected.
 bool ComplainsAboutVerb(const std::vector<std::string>& words)
@@ -61,6 +61,7 @@ void AddCommands(CLI::App& app, int& exit_code)
   AddControlCommand(app, exit_code);
   AddShareCommand(app, exit_code);
   AddCheckCommand(app, exit_code);
+  AddEditCommand(app, exit_code);
   AddConvertCommand(app, exit_code);
   AddListCommand(app, exit_code);
   AddNewCommand(app, exit_code);

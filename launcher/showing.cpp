@@ -35,18 +35,6 @@ std::size_t Robots(const Experiment& experiment)
       std::ranges::count_if(experiment.entities, [](const auto& entity) { return IsRobot(entity.kind); }));
 }
 
-// As the desktop does; without one the address that was told has to do.
-void OpenInBrowser(const std::string& url)
-{
-  try
-  {
-    Child({"xdg-open", url}, "/dev/null").Wait();
-  }
-  catch (const std::runtime_error&)
-  {
-  }
-}
-
 // Ticks until the experiment ends by itself; 0 if it does not within those of a film.
 std::uint64_t LengthOf(const Experiment& experiment, const fs::path& folder)
 {
@@ -73,6 +61,17 @@ ShowingKind KindForSession()
 }
 
 bool IsAtTerminal() { return isatty(STDOUT_FILENO) == 1 && isatty(STDERR_FILENO) == 1; }
+
+void OpenInBrowser(const std::string& url)
+{
+  try
+  {
+    Child({"xdg-open", url}, "/dev/null").Wait();
+  }
+  catch (const std::runtime_error&)
+  {
+  }
+}
 
 bool HasPictures(const Experiment& experiment)
 {

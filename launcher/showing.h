@@ -21,6 +21,8 @@ enum class ShowingKind
 ShowingKind KindForSession();
 // Whether somebody reads what is written to standard output and error.
 bool IsAtTerminal();
+// As the desktop does; without one the address that was told has to do.
+void OpenInBrowser(const std::string& url);
 // Whether a visualisation of the experiment draws what it shows.
 bool HasPictures(const Experiment& experiment);
 

@@ -26,7 +26,7 @@ void RegisterBuiltinRenderers()
     BindLibrary("figure_render", "libcairo2-dev");
     BindLibrary("opengl_render", "libepoxy-dev libstb-dev libglfw3-dev libimgui-dev");
     BindLibrary("ogre_render", "libogre-1.12-dev libimgui-dev libx11-dev");
-    BindLibrary("web_render", "nodejs npm libboost-dev");
+    BindLibrary("web_render", kWebPackages);
     BindLibrary("ros2_render", "fastddsgen");
     BindLibrary("foxglove_render", "libboost-dev");
     PluginRegistry<CRender>::Instance().RequireCode();

@@ -21,19 +21,25 @@ std::filesystem::path OwnFolder()
 
 }  // namespace
 
+void* FunctionOfRendererLibrary(const std::string& name, const std::string& packages, const char* function)
+{
+  const std::string path = (OwnFolder() / "swarmanoid" / ("libswarmanoid_" + name + ".so")).string();
+  if (!std::filesystem::exists(path))
+    throw ConfigurationError(name + " is not part of this build, there is no " + path + "; install the packages " +
+                             packages + " and build again");
+  void* library = OpenLibrary(path);
+  if (library == nullptr) throw ConfigurationError(name + " cannot be loaded: " + dlerror());
+  void* const found = dlsym(library, function);
+  if (found == nullptr) throw ConfigurationError(path + " holds no " + function);
+  return found;
+}
+
 std::function<std::unique_ptr<CRender>()> RendererFromLibrary(const std::string& name, const std::string& packages)
 {
   return [name, packages]
   {
-    const std::string path = (OwnFolder() / "swarmanoid" / ("libswarmanoid_" + name + ".so")).string();
-    if (!std::filesystem::exists(path))
-      throw ConfigurationError(name + " is not part of this build, there is no " + path + "; install the packages " +
-                               packages + " and build again");
-    void* library = OpenLibrary(path);
-    if (library == nullptr) throw ConfigurationError(name + " cannot be loaded: " + dlerror());
-    const auto create = reinterpret_cast<CRender* (*)()>(dlsym(library, "CreateSwarmanoidRenderer"));
-    if (create == nullptr) throw ConfigurationError(path + " holds no renderer");
-    return std::unique_ptr<CRender>(create());
+    void* const create = FunctionOfRendererLibrary(name, packages, "CreateSwarmanoidRenderer");
+    return std::unique_ptr<CRender>(reinterpret_cast<CRender* (*)()>(create)());
   };
 }
 

@@ -12,10 +12,14 @@
 namespace swarmanoid
 {
 
+inline constexpr const char* kWebPackages = "nodejs npm libboost-dev";
+
 // A factory that loads lib<swarmanoid_NAME>.so from the folder swarmanoid beside our own libraries and makes its
 // renderer. `packages`: the Debian packages without which the build leaves it out. The factory throws
 // ConfigurationError, naming them, if the library is missing or cannot be loaded.
 std::function<std::unique_ptr<CRender>()> RendererFromLibrary(const std::string& name, const std::string& packages);
+// The address of a function of such a library, which is loaded; throws likewise.
+void* FunctionOfRendererLibrary(const std::string& name, const std::string& packages, const char* function);
 
 }  // namespace swarmanoid
 

@@ -1,5 +1,5 @@
 // What to tell the user about XML text that the parser refuses: the parser says where it stopped, not what is meant.
-// Used by ReadXml alone.
+// Used by ReadXml and OutlineOf alone.
 #pragma once
 
 #include <expat.h>
@@ -12,6 +12,8 @@
 
 namespace swarmanoid
 {
+
+inline constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 struct XmlMistake
 {

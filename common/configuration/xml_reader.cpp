@@ -19,8 +19,6 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-
 // Line and column (from 1, in characters) of byte offsets. Quick if they ascend.
 class PlaceCounter
 {

@@ -5,14 +5,6 @@ namespace swarmanoid
 namespace
 {
 
-// A parser turns line ends and tabs within attributes into blanks unless they are written as references.
-std::string EscapedAttribute(std::string_view text)
-{
-  std::string xml;
-  for (const char c : EscapedXml(text)) xml += c == '\n' ? "&#10;" : c == '\t' ? "&#9;" : std::string(1, c);
-  return xml;
-}
-
 void AppendNode(std::string& xml, const ConfigurationNode& node, int depth)
 {
   const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
@@ -35,6 +27,13 @@ void AppendNode(std::string& xml, const ConfigurationNode& node, int depth)
 }
 
 }  // namespace
+
+std::string EscapedAttribute(std::string_view text)
+{
+  std::string xml;
+  for (const char c : EscapedXml(text)) xml += c == '\n' ? "&#10;" : c == '\t' ? "&#9;" : std::string(1, c);
+  return xml;
+}
 
 std::string WriteXml(const ConfigurationNode& root)
 {

@@ -21,7 +21,7 @@ constexpr std::size_t kMostKinds = 256;
 constexpr std::size_t kMostLeds = 16;
 constexpr std::size_t kMostProximitySensors = 64;
 constexpr int kMostSlots = 1000;
-constexpr double kMostMetres = 100;
+constexpr double kMostMetresOfRow = 100;
 constexpr double kStandOut = 0.01;  // m
 
 using Row = EntityKindDescription;
@@ -52,9 +52,9 @@ bool IsTaken(const std::string& tag)
          tag == "optimization" || tag == "limit" || tag == "beyond_limit";
 }
 
-bool IsLength(double metres) { return metres > 0 && metres <= kMostMetres; }
+bool IsLength(double metres) { return metres > 0 && metres <= kMostMetresOfRow; }
 
-bool IsPlace(const Vector2& place) { return place.allFinite() && place.norm() <= kMostMetres; }
+bool IsPlace(const Vector2& place) { return place.allFinite() && place.norm() <= kMostMetresOfRow; }
 
 std::string MistakeInBody(const Row& row)
 {
@@ -70,7 +70,7 @@ std::string MistakeInBody(const Row& row)
   const bool sized = IsLength(row.size.x()) && IsLength(row.size.y()) && IsLength(row.size.z());
   if (!row.size.isZero() && !sized)
     return fmt::format("size is {}, {}, {}; each must be more than 0 and at most {} m, or all of them 0", row.size.x(),
-                       row.size.y(), row.size.z(), kMostMetres);
+                       row.size.y(), row.size.z(), kMostMetresOfRow);
   if (row.form == BodyForm::kCylinder && row.size.x() != row.size.y())
     return fmt::format("the size of a cylinder is radius, radius, height; it is {}, {}, {}", row.size.x(), row.size.y(),
                        row.size.z());
@@ -89,7 +89,7 @@ std::string MistakeInParts(const Row& row)
       !(IsLength(row.wheels->axle_m) && IsLength(row.wheels->radius_m) && IsLength(row.wheels->max_speed_m_s)))
     return fmt::format(
         "wheels with an axle of {} m, a radius of {} m and {} m/s: each must be more than 0 and at most {}",
-        row.wheels->axle_m, row.wheels->radius_m, row.wheels->max_speed_m_s, kMostMetres);
+        row.wheels->axle_m, row.wheels->radius_m, row.wheels->max_speed_m_s, kMostMetresOfRow);
   if (row.leds && (row.leds->places.empty() || row.leds->places.size() > kMostLeds || row.leds->on_turret ||
                    !std::all_of(row.leds->places.begin(), row.leds->places.end(), IsPlace)))
     return fmt::format("{} LEDs; there may be 1 to {}, at finite places, and on no turret", row.leds->places.size(),
@@ -97,7 +97,7 @@ std::string MistakeInParts(const Row& row)
   if (row.leds && !row.leds->directions.empty())
   {
     const auto is_direction = [](const Vector3& direction)
-    { return direction.allFinite() && direction.norm() > 1e-6 && direction.norm() <= kMostMetres; };
+    { return direction.allFinite() && direction.norm() > 1e-6 && direction.norm() <= kMostMetresOfRow; };
     if (row.leds->directions.size() != row.leds->places.size() ||
         !std::all_of(row.leds->directions.begin(), row.leds->directions.end(), is_direction))
       return fmt::format("{} directions of {} LEDs; there must be one for each, finite and not 0, or none",
@@ -128,7 +128,7 @@ std::string MistakeInParts(const Row& row)
       return fmt::format(
           "{} proximity sensors with a range of {} m; there may be 1 to {}, at finite places, with a "
           "range of more than 0 and at most {} m",
-          ring.sensors.size(), ring.range_m, kMostProximitySensors, kMostMetres);
+          ring.sensors.size(), ring.range_m, kMostProximitySensors, kMostMetresOfRow);
   }
   if (!std::all_of(row.ground_points.begin(), row.ground_points.end(), IsPlace))
     return "a ground sensor is at no finite place";
@@ -137,7 +137,7 @@ std::string MistakeInParts(const Row& row)
     const std::size_t leds = row.leds ? row.leds->places.size() : 0;
     if (part.paint == MeshPart::Paint::kLed && (part.led < 0 || static_cast<std::size_t>(part.led) >= leds))
       return fmt::format("a part of the mesh has the colour of LED {}, and there are {}", part.led, leds);
-    if (!part.from.allFinite() || !part.to.allFinite() || !(part.radius >= 0 && part.radius <= kMostMetres))
+    if (!part.from.allFinite() || !part.to.allFinite() || !(part.radius >= 0 && part.radius <= kMostMetresOfRow))
       return "a part of the mesh is at no finite place";
   }
   return {};

@@ -108,7 +108,12 @@ LoadedExperiment LoadExperimentText(const std::string& text, const std::string& 
     experiment->folder = folder;
     Reading reading{*experiment, diagnostics, options};
     ReadSections(TConfigurationTree(root), reading);
-    if (!diagnostics.Empty()) return Refused(diagnostics.Take());
+    if (!diagnostics.Empty())
+    {
+      LoadedExperiment wrong = Refused(diagnostics.Take());
+      if (options.even_if_wrong) wrong.experiment = std::move(experiment);
+      return wrong;
+    }
 
     // Whoever reads the text elsewhere finds the same name and folder.
     const Node named =

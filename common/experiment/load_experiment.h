@@ -25,9 +25,12 @@ struct LoadOptions
   // Whether what runs the experiment is on this machine: the libraries of the controllers are loaded and must register
   // the tags, and the maps of terrains must be there.
   bool check_files = true;
+  // For editors: what can be made of a file with mistakes, beside them. Values that are wrong have their defaults; only
+  // to be looked at.
+  bool even_if_wrong = false;
 };
 
-// Either an experiment or errors.
+// Either an experiment or errors; both with even_if_wrong, unless nothing can be made of the file.
 struct LoadedExperiment
 {
   std::unique_ptr<Experiment> experiment;

@@ -244,10 +244,11 @@ Pose PoseIn(const Json& json)
 
 }  // namespace
 
-std::string WelcomeText(bool control_possible, const std::string& challenge)
+std::string WelcomeText(bool control_possible, const std::string& challenge, bool edits)
 {
   Json welcome{{"type", "welcome"}, {"protocol", 2}, {"control", control_possible ? "token needed" : "read-only"}};
   if (control_possible) welcome["challenge"] = challenge;
+  if (edits) welcome["edits"] = true;
   return Text(welcome);
 }
 

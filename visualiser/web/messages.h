@@ -19,7 +19,8 @@ namespace swarmanoid
 {
 
 // "welcome": whether clients may control the run at all, and the challenge that one who has the token answers then.
-std::string WelcomeText(bool control_possible, const std::string& challenge);
+// `edits`: there is no run, but an experiment file that is edited.
+std::string WelcomeText(bool control_possible, const std::string& challenge, bool edits = false);
 // "authority": what the client may do, after its answer.
 std::string AuthorityText(Authority authority);
 // "world": all that stays: the table of entities, the bodies that are no robots, engines, hosts, controllers,

@@ -46,23 +46,6 @@ void WriteUrl(const std::string& path, const std::string& url)
   close(file);
 }
 
-bool IsOfThisMachine(const std::string& address) { return address.starts_with("127.") || address == "::1"; }
-
-// Nothing if the page is not reached by TLS.
-std::optional<Certificate> CertificateFor(const Parameters& parameters)
-{
-  const std::string address = parameters.Text("address");
-  const std::string wish = parameters.Text("tls");
-  const std::string given = parameters.Text("certificate");
-  if (wish == "off" && !given.empty()) throw std::runtime_error("web_render: a certificate is of no use with tls=off");
-  if (wish == "off" || (wish == "auto" && given.empty() && IsOfThisMachine(address))) return std::nullopt;
-  if (!given.empty()) return GivenCertificate(given);
-  const bool everywhere = address == "0.0.0.0" || address == "::";
-  std::vector<std::string> names = everywhere ? NamesOfThisMachine() : std::vector<std::string>{"localhost", address};
-  const std::filesystem::path folder = StateFolder();
-  return OwnCertificate(folder.empty() ? folder : folder / "certificate.pem", names);
-}
-
 }  // namespace
 
 CWebRender::~CWebRender() = default;
@@ -82,11 +65,14 @@ void CWebRender::Init(const RenderSetup& setup)
   logs_ = std::make_unique<LogFollower>(setup.output_folder);
   output_folder_ = setup.output_folder;
 
-  Serve(parameters);
   const Experiment& experiment = space_->GetExperiment();
+  host_ = std::make_unique<PageHost>(parameters, experiment.folder + "/" + experiment.name);
+  host_->Open(*this);
+  if (!host_->Trouble().empty())
+    Log(space_->GetTick(), "web_render", "info", "the next start will have another address: " + host_->Trouble());
   const Viewpoints given(parameters);
   const bool begins_there = given.First().has_value();
-  server_->SetGreeting(
+  host_->Server().SetGreeting(
       Shared(WorldText(*space_, setup.assignment, begins_there ? given : Viewpoints::Of(experiment), begins_there)));
   Log(space_->GetTick(), "run", "info",
       fmt::format("{}: {} entities, {} engine{}, {} controller host{}, seed {}", experiment.name, space_->Size(),
@@ -95,74 +81,23 @@ void CWebRender::Init(const RenderSetup& setup)
   Announce(setup);
 }
 
-// At the address of the last start of this experiment, if it is free and no other is asked for: pages that are open go
-// on.
-void CWebRender::Serve(const Parameters& parameters)
-{
-  const Experiment& experiment = space_->GetExperiment();
-  WebServerSettings settings;
-  settings.address = parameters.Text("address");
-  settings.port = static_cast<std::uint16_t>(parameters.Integer("port"));
-  settings.max_clients = static_cast<std::size_t>(parameters.Integer("clients"));
-  settings.max_connections = settings.max_clients + 48;
-  settings.max_connections_of_address = settings.max_clients + 24;
-  settings.certificate = CertificateFor(parameters);
-  if (settings.certificate) fingerprint_ = settings.certificate->fingerprint;
-  kept_ = std::make_unique<KeptAddress>(StateFolder(), experiment.folder + "/" + experiment.name);
-  std::string token = kept_->Token();
-  // A token is of one port: whoever has the one before could pass challenges on from there.
-  const bool moves = settings.port != 0 && settings.port != kept_->Port();
-  if (allow_control_ && (token.empty() || moves)) token = MakeToken();
-
-  const PageFiles files(InstalledPageFolder());
-  WebServerEvents& events = *this;
-  const auto start = [&]
-  {
-    if (allow_control_) token_ = token;
-    visitors_ = std::make_unique<Visitors>(AccessRules{allow_control_, token_});
-    server_ = std::make_unique<WebServer>(settings, files, events);
-  };
-  if (settings.port == 0 && kept_->Port() != 0)
-  {
-    settings.port = kept_->Port();
-    try
-    {
-      start();
-    }
-    catch (const std::runtime_error&)
-    {
-      settings.port = 0;  // somebody else has it now: a new one, and a new token, for that one may have heard the old
-      if (allow_control_) token = MakeToken();
-    }
-  }
-  if (!server_) start();
-  if (!kept_->Keep(server_->Port(), token))
-    Log(space_->GetTick(), "web_render", "info", "the next start will have another address: " + kept_->Trouble());
-}
-
 void CWebRender::Announce(const RenderSetup& setup)
 {
-  // Behind a '#': browsers keep that part of an address for themselves.
-  const std::string url = server_->Url() + (token_.empty() ? "" : "#token=" + token_);
+  const std::string url = host_->Url();
   const std::filesystem::path folder = setup.output_folder;
   std::string file = setup.parameters.Text("url_file");
   if (file.empty() && std::filesystem::exists(folder / "manifest.json")) file = "web_render.url";
   if (!file.empty()) WriteUrl((folder / file).string(), url);
   fmt::print("web_render: {}\n", url);
   std::fflush(stdout);
-  if (!fingerprint_.empty())
+  if (!host_->Fingerprint().empty())
   {
     // On standard error: standard output has the address alone.
-    fmt::print(stderr, "web_render: certificate SHA-256 {}\n", fingerprint_);
-    Log(space_->GetTick(), "web_render", "info", "certificate SHA-256 " + fingerprint_);
-    return;
+    fmt::print(stderr, "web_render: certificate SHA-256 {}\n", host_->Fingerprint());
+    Log(space_->GetTick(), "web_render", "info", "certificate SHA-256 " + host_->Fingerprint());
   }
-  if (IsOfThisMachine(setup.parameters.Text("address"))) return;
-  const char* const warning =
-      allow_control_
-          ? "whoever reaches this address can look on, and whoever overhears it can steer: it is not encrypted; "
-            "tls=on is, or an ssh tunnel to address=127.0.0.1"
-          : "whoever reaches this address can look on: it is not encrypted";
+  const std::string warning = host_->Warning();
+  if (warning.empty()) return;
   PrintError("web_render: warning: {}\n", warning);
   Log(space_->GetTick(), "web_render", "warning", warning);
 }
@@ -195,10 +130,10 @@ void CWebRender::Work()
     FollowStatus();
     FollowJournal();
   }
-  if (server_->Clients() == 0) return;
+  if (host_->Server().Clients() == 0) return;
   const bool changed = shown_tick_ != space_->GetTick() || shown_revision_ != space_->Revision() ||
                        shown_attributes_ != space_->AttributeRevision();
-  if (changed && now >= frame_due_ && server_->Hungry() > 0)
+  if (changed && now >= frame_due_ && host_->Server().Hungry() > 0)
   {
     SendFrame();
     // In step with the clock, so that the rate is met on average; no catching up after a break.
@@ -229,27 +164,27 @@ void CWebRender::SendFrame()
   changes_ = key ? 0 : changes_ + 1;
   const WebServer::Bytes bytes = Shared(key ? frame_writer_->WriteKey() : std::move(change));
   sent_bytes_ = bytes->size();
-  server_->Publish(key ? WebServer::Slot::kKey : WebServer::Slot::kChange, bytes);
+  host_->Server().Publish(key ? WebServer::Slot::kKey : WebServer::Slot::kChange, bytes);
 }
 
 void CWebRender::SendStatus()
 {
-  server_->Publish(
+  host_->Server().Publish(
       WebServer::Slot::kStatus,
-      Shared(StatusText(*space_, monitor_ == nullptr ? RunStatus() : monitor_->Status(), server_->Clients())));
+      Shared(StatusText(*space_, monitor_ == nullptr ? RunStatus() : monitor_->Status(), host_->Server().Clients())));
   if (colours_revision_ == space_->AttributeRevision()) return;
   colours_revision_ = space_->AttributeRevision();
   std::string colours = ColoursText(*space_);
   if (colours == colours_) return;
   colours_ = std::move(colours);
-  server_->Publish(WebServer::Slot::kColours, Shared(colours_));
+  host_->Server().Publish(WebServer::Slot::kColours, Shared(colours_));
 }
 
 void CWebRender::SendWatched()
 {
   for (const auto& [client, entities] : watched_)
     if (!entities.empty())
-      server_->SendState(client, WebServer::Slot::kWatched, Shared(WatchedText(*space_, entities, monitor_)));
+      host_->Server().SendState(client, WebServer::Slot::kWatched, Shared(WatchedText(*space_, entities, monitor_)));
 }
 
 // Many robots take their time: then they come less often.
@@ -267,7 +202,7 @@ void CWebRender::SendMarks()
   {
     const WebServer::Bytes text = Shared(marks_writer_->Text(request));
     bytes = std::max(bytes, text->size());
-    server_->SendState(client, WebServer::Slot::kMarks, text);
+    host_->Server().SendState(client, WebServer::Slot::kMarks, text);
   }
   const Clock::time_point end = Clock::now();
   const std::chrono::duration<double> transfer(kMarksBandwidthShare * static_cast<double>(bytes) / bytes_per_second_);
@@ -315,19 +250,20 @@ void CWebRender::FollowJournal()
         space_->GetExperiment(), folder,
         LookBackAnswers{[this, folder](const JournalTimeline& timeline)
                         {
-                          server_->Publish(WebServer::Slot::kTimeline,
-                                           Shared(TimelineText(folder, timeline.first, timeline.end, timeline.events)));
+                          host_->Server().Publish(
+                              WebServer::Slot::kTimeline,
+                              Shared(TimelineText(folder, timeline.first, timeline.end, timeline.events)));
                         },
                         [this](std::uint64_t client, const LookBackRequest& request, const CSwarmanoidSpace& space)
                         { SendPast(client, request, space); },
                         [this](std::uint64_t client, const std::string& text)
-                        { server_->Send(client, Shared(RefusalText(text))); }});
+                        { host_->Server().Send(client, Shared(RefusalText(text))); }});
     past_inside_ = std::make_unique<PastInside>(
         space_->GetExperiment(), folder,
         [this](std::uint64_t client, const PastInsideAnswer& answer)
-        { server_->SendState(client, WebServer::Slot::kPastInside, Shared(PastInsideText(answer))); });
+        { host_->Server().SendState(client, WebServer::Slot::kPastInside, Shared(PastInsideText(answer))); });
   }
-  if (look_back_ && server_->Clients() > 0) look_back_->Refresh();
+  if (look_back_ && host_->Server().Clients() > 0) look_back_->Refresh();
 }
 
 // In the thread of LookBack.
@@ -336,8 +272,8 @@ void CWebRender::SendPast(std::uint64_t client, const LookBackRequest& request, 
   if (!past_frames_) past_frames_ = std::make_unique<FrameWriter>(space);
   std::string state = past_frames_->WriteKey();
   std::memcpy(state.data(), &kPastMagic, sizeof kPastMagic);
-  server_->SendState(client, WebServer::Slot::kPastDetails, Shared(PastText(space, request.entities)));
-  server_->SendState(client, WebServer::Slot::kPast, Shared(std::move(state)));
+  host_->Server().SendState(client, WebServer::Slot::kPastDetails, Shared(PastText(space, request.entities)));
+  host_->Server().SendState(client, WebServer::Slot::kPast, Shared(std::move(state)));
 }
 
 // The monitor keeps the last hundred notes: those after the last one that was shown are new.
@@ -359,7 +295,10 @@ void CWebRender::SendNotes()
 
 // ---- what pages ask for ----
 
-std::string CWebRender::Welcome(std::uint64_t client) { return WelcomeText(allow_control_, visitors_->Join(client)); }
+std::string CWebRender::Welcome(std::uint64_t client)
+{
+  return WelcomeText(allow_control_, host_->GetVisitors().Join(client));
+}
 
 void CWebRender::Received(std::uint64_t client, std::string_view text)
 {
@@ -367,11 +306,12 @@ void CWebRender::Received(std::uint64_t client, std::string_view text)
   {
     PageRequest request = ParseRequest(text);
     if (const auto* answer = std::get_if<ProveRequest>(&request))
-      return server_->Send(client, Shared(AuthorityText(visitors_->Prove(client, answer->proof))));
-    if (IsCommand(request) && !visitors_->MayControl(client))
+      return host_->Server().Send(client, Shared(AuthorityText(host_->GetVisitors().Prove(client, answer->proof))));
+    if (IsCommand(request) && !host_->GetVisitors().MayControl(client))
       throw std::invalid_argument(allow_control_ ? "only the address with the token may control the run"
                                                  : "this page may only look: start it with --allow-control");
-    if (const auto* rate = std::get_if<FrameRateRequest>(&request)) server_->SetFramePeriod(client, rate->period_ms);
+    if (const auto* rate = std::get_if<FrameRateRequest>(&request))
+      host_->Server().SetFramePeriod(client, rate->period_ms);
     const std::lock_guard lock(mutex_);
     if (requests_.size() >= kMostRequests) throw std::invalid_argument("too many requests at once");
     requests_.push_back({client, std::move(request)});
@@ -379,13 +319,13 @@ void CWebRender::Received(std::uint64_t client, std::string_view text)
   }
   catch (const std::invalid_argument& error)
   {
-    server_->Send(client, Shared(RefusalText(error.what())));
+    host_->Server().Send(client, Shared(RefusalText(error.what())));
   }
 }
 
 void CWebRender::Left(std::uint64_t client)
 {
-  visitors_->Leave(client);
+  host_->GetVisitors().Leave(client);
   const std::lock_guard lock(mutex_);
   requests_.push_back({client, std::nullopt});
   has_requests_ = true;
@@ -451,13 +391,14 @@ void CWebRender::Carry(std::uint64_t client, const PageRequest& request)
       past_inside_->Ask(client, *past);
     }
     else
-      server_->Send(client, Shared(RefusalText("there is nothing to look back at: the run keeps no journal here")));
+      host_->Server().Send(client,
+                           Shared(RefusalText("there is nothing to look back at: the run keeps no journal here")));
     return;
   }
   if (!IsCommand(request)) return;
   if (control_ == nullptr)
   {
-    server_->Send(client, Shared(RefusalText("this run cannot be controlled")));
+    host_->Server().Send(client, Shared(RefusalText("this run cannot be controlled")));
     return;
   }
   Obey(request);
@@ -479,7 +420,7 @@ void CWebRender::Obey(const PageRequest& request)
 
 void CWebRender::Log(std::uint64_t tick, const std::string& source, const std::string& level, const std::string& text)
 {
-  server_->SendAll(Shared(LogText(tick, source, level, text)));
+  host_->Server().SendAll(Shared(LogText(tick, source, level, text)));
 }
 
 }  // namespace swarmanoid

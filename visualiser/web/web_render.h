@@ -13,13 +13,11 @@
 
 #include "visualiser/look_back.h"
 #include "visualiser/render.h"
-#include "visualiser/web/access.h"
 #include "visualiser/web/frame.h"
-#include "visualiser/web/kept_address.h"
 #include "visualiser/web/log_follower.h"
 #include "visualiser/web/marks.h"
 #include "visualiser/web/messages.h"
-#include "visualiser/web/web_server.h"
+#include "visualiser/web/page_host.h"
 
 namespace swarmanoid
 {
@@ -51,7 +49,6 @@ private:
   void Received(std::uint64_t client, std::string_view text) override;
   void Left(std::uint64_t client) override;
 
-  void Serve(const Parameters& parameters);
   void Announce(const RenderSetup& setup);
   void Work();
   void TakeRequests();
@@ -98,11 +95,7 @@ private:
   std::vector<Request> requests_;
   std::atomic<bool> has_requests_{false};
 
-  std::string fingerprint_;             // of the certificate; empty: the page is reached without TLS
-  std::string token_;                   // empty: nobody may control the run
-  std::unique_ptr<Visitors> visitors_;  // of the server's thread alone
-  std::unique_ptr<KeptAddress> kept_;
-  std::unique_ptr<WebServer> server_;         // its thread calls the above
+  std::unique_ptr<PageHost> host_;            // its server's thread calls the above
   std::unique_ptr<FrameWriter> past_frames_;  // of the thread of look_back_
   std::unique_ptr<LookBack> look_back_;       // these two last: their threads call the server
   std::unique_ptr<PastInside> past_inside_;

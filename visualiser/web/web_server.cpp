@@ -198,7 +198,13 @@ std::size_t WebServer::Hungry() const { return impl_->hungry_; }
 
 void WebServer::SetGreeting(Bytes text)
 {
-  impl_->Post([impl = impl_.get(), text = std::move(text)] { impl->greeting_ = text; });
+  impl_->Post(
+      [impl = impl_.get(), text = std::move(text)]
+      {
+        impl->greeting_ = text;
+        const auto clients = impl->clients_;
+        for (const auto& [id, client] : clients) client->Queue(text);
+      });
 }
 
 void WebServer::Publish(Slot slot, Bytes bytes)

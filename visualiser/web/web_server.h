@@ -60,6 +60,7 @@ public:
     kColours,
     kWatched,
     kMarks,
+    kDocument,  // of the editor
     kCount
   };
 
@@ -77,7 +78,7 @@ public:
   // Clients that have taken their last state: without any, a new one would be made for nobody.
   std::size_t Hungry() const;
 
-  // The message that follows the welcome.
+  // The message that follows the welcome; those who are welcomed already get it now.
   void SetGreeting(Bytes text);
   // The state for all clients, and for those who come later.
   void Publish(Slot slot, Bytes bytes);

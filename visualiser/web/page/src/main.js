@@ -45,7 +45,7 @@ const app = document.getElementById("app");
 const timeline = new Timeline({ look: (tick) => lookBack(tick), play: () => playPast(), live: () => goLive(), branch: () => branchHere() });
 const past = new Past({ ask: (tick) => connection.send({ do: "look_back", tick, entities: state.watched }), ended: () => showPresent() });
 app.append(toolbar.element, list.element, main, timeline.element, inspector.element, log.element, help.element);
-const picture = new Picture(main, quality, { select, selectAll, approach, move, mayMove: () => state.control === "granted" && !past.isOn, trouble, send: (request) => connection.send(request) });
+const picture = new Picture(main, quality, { select, selectAll, approach, move, place: (point) => Boolean(editor?.place(point)), mayMove: () => state.control === "granted" && !past.isOn, trouble, send: (request) => connection.send(request) });
 const planNote = h("button.plan-note", { title: "Show it in three dimensions  (V)", onclick: () => picture.switchView() }, "Plan view · 3D: V");
 main.append(planNote);
 const legend = new Legend();
@@ -88,6 +88,8 @@ picture.onQuality();
 picture.onBoard = () => tools.set("aboard", picture.aboard !== null);
 
 let decoder = new FrameDecoder();
+let editor = null; // if the server edits a file
+let loadingEditor = null;
 const connection = new Connection({
   onOpen() {
     decoder = new FrameDecoder();
@@ -122,16 +124,20 @@ const connection = new Connection({
 });
 
 const receive = {
-  welcome({ control, challenge }) {
+  welcome({ control, challenge, edits }) {
     state.challenge = challenge ?? null;
     log.clear();
+    if (edits) startEditor();
     setControl(control);
     prove();
     sendVisibility();
   },
   authority: ({ control }) => setControl(control),
+  document: (message) => editor?.receive(message),
+  form: (message) => editor?.receiveForm(message),
   world(message) {
     const selected = state.selected === null ? null : state.world.ids[state.selected];
+    const chosen = picture.chosen.map((entity) => state.world.ids[entity]);
     const isNew = state.world?.experiment !== message.experiment;
     state.world = new World(message);
     if (isNew) setViewpoints(state.world.viewpoints);
@@ -143,7 +149,8 @@ const receive = {
     for (const name of Object.keys(picture.shows)) showToggle(name);
     const again = selected === null ? -1 : state.world.find(selected);
     state.selected = null;
-    select(again >= 0 ? again : null);
+    if (editor) showChosen(chosen.map((id) => state.world.find(id)).filter((entity) => entity >= 0));
+    else select(again >= 0 ? again : null);
   },
   status(message) {
     if (state.status?.phase === "finished" && message.phase !== "finished") sayItBegan();
@@ -169,7 +176,8 @@ const receive = {
   marks: (message) => picture.marks.receive(message),
   log: (message) => log.add(message),
   reply({ text }) {
-    log.add({ tick: state.frame?.tick ?? null, source: "server", level: "warning", text });
+    log.add({ tick: editor ? null : state.frame?.tick ?? null, source: "server", level: "warning", text });
+    editor?.refused(text);
     if (past.isOn) past.answered(performance.now());
   },
 };
@@ -297,6 +305,7 @@ function jumpToEvent(forward) {
 
 function setControl(control) {
   state.control = control;
+  if (control === "granted") editor?.begin();
   toolbar.setControl(control);
   tools.setControl(control);
   inspector.setControl(control);
@@ -316,10 +325,23 @@ function unlock() {
   prove();
 }
 
+// ---- the editor ----
+
+// There is a file instead of a run.
+function startEditor() {
+  state.status = { phase: "editing", real_time_factor: 0, speed_wanted: 1, processes: [] };
+  loadingEditor ??= import("./edit/editor.js").then(({ Editor }) => {
+    for (const name of ["rays", "bodies", "links", "heat", "swarm", "aboard", "film"]) tools.buttons[name].hidden = true;
+    for (const name of ["trails", "beams"]) toolbar.toggles[name].hidden = true;
+    editor = new Editor({ app, main, picture, left: list.element, send: (request) => connection.send(request), choose: showChosen });
+    if (state.control === "granted") editor.begin();
+  });
+}
+
 // ---- what the user does ----
 
 function command(request) {
-  if (state.control === "granted") connection.send(request);
+  if (state.control === "granted" && !editor) connection.send(request);
 }
 
 // further: the card of the one before stays.
@@ -334,12 +356,23 @@ function selectAll(entities) {
 }
 
 function choose(entity, chosen) {
-  state.selected = entity;
-  picture.select(entity, chosen);
-  list.select(entity, chosen);
+  if (editor) {
+    showChosen(chosen);
+    editor.many = chosen.length > 1;
+    if (!editor.many) editor.select(entity);
+    return;
+  }
+  showChosen(chosen);
   inspector.swarm?.clear();
   inspector.select(entity);
   inspector.setFollowed(picture.followed);
+}
+
+function showChosen(chosen) {
+  const entity = chosen[0] ?? null;
+  state.selected = entity;
+  picture.select(entity, chosen);
+  list.select(entity, chosen);
 }
 
 function trouble(text) {
@@ -367,6 +400,7 @@ function watch(entities) {
 
 // Each: {entity, place: [x, y, z], yaw}
 function move(changes) {
+  if (editor) return editor.move(changes);
   for (const { entity, place, yaw } of changes)
     command({ do: "move", entity: state.world.ids[entity], position: [...place], angles: [0, 0, (yaw * 180) / Math.PI] });
 }
@@ -403,6 +437,7 @@ function poseOf(entity) {
 }
 
 function remove(entities) {
+  if (editor) return editor.remove();
   for (const entity of entities) if (state.world.slots[entity] >= 0 && picture.placeOf(entity)) command({ do: "remove", entity: state.world.ids[entity] });
 }
 
@@ -573,6 +608,7 @@ const keys = {
   Escape: () => (!help.element.hidden ? help.toggle(false) : picture.aboard !== null || picture.flight ? picture.leaveRobot() : select(null)),
 };
 window.addEventListener("keydown", (event) => {
+  if (editor?.key(event)) return;
   const digit = /^Digit(\d)$/.exec(event.code);
   if (digit && event.ctrlKey && !event.altKey && state.world) {
     event.preventDefault();
@@ -580,7 +616,7 @@ window.addEventListener("keydown", (event) => {
   }
   if (event.ctrlKey || event.altKey || event.metaKey) return;
   if (event.key === "Escape") document.activeElement?.blur();
-  else if (["INPUT", "SELECT"].includes(event.target.tagName)) return;
+  else if (["INPUT", "SELECT", "TEXTAREA"].includes(event.target.tagName)) return;
   const act = keys[event.key] ?? keys[event.key.toLowerCase()];
   if (!act || !state.world) return;
   event.preventDefault();
@@ -643,6 +679,9 @@ window.swarmanoid = {
   },
   lookBack,
   goLive,
+  get editor() {
+    return editor && { ...editor.document, shown: editor.path, form: editor.form.form, said: editor.form.said.textContent, busy: editor.isBusy || editor.waiting.length > 0 };
+  },
   get connected() {
     return state.connected;
   },

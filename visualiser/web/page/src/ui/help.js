@@ -38,6 +38,7 @@ const KEYS = [
   ["Q", "back to the present"],
   ["shift + B", "copy the command that starts a new run from this tick"],
   ["shift + I", "copy the command that tells what the selected robot sensed at that tick"],
+  ["Ctrl + Z, Ctrl + Y, Ctrl + S", "undo, do again, save (in the editor)"],
   ["J", "heat map: where robots have been"],
   ["W", "plots of the whole swarm"],
   ["Y", "copy a link to this view"],

@@ -88,7 +88,7 @@ export class Overlay {
     context.lineWidth = main ? 2.5 : 1.5;
     context.strokeStyle = css(SELECTION);
     context.stroke();
-    if (main && this.world.slots[entity] >= 0) this.drawArrow(place, this.picture.yawOf(entity), radius);
+    if (main && this.picture.canMove(entity)) this.drawArrow(place, this.picture.yawOf(entity), radius);
   }
 
   // Where it looks: a wedge outside of its ring.
@@ -120,7 +120,7 @@ export class Overlay {
   // CSS pixels of the two handles of the selected entity; null if there are none.
   get handles() {
     const { picture } = this;
-    if (!picture.handles || picture.selected === null || this.world.slots[picture.selected] < 0 || !picture.actions.mayMove()) return null;
+    if (!picture.handles || picture.selected === null || !picture.canMove(picture.selected) || !picture.actions.mayMove()) return null;
     const place = picture.placeOf(picture.selected);
     if (!place) return null;
     const yaw = picture.yawOf(picture.selected);

@@ -35,3 +35,8 @@ export function floorPoint(camera, x, y, height) {
   raycaster.setFromCamera(new THREE.Vector2(x, y), camera);
   return raycaster.ray.intersectPlane(new THREE.Plane(new THREE.Vector3(0, 0, 1), -height), new THREE.Vector3());
 }
+
+export function sight(camera, x, y) {
+  raycaster.setFromCamera(new THREE.Vector2(x, y), camera);
+  return { origin: raycaster.ray.origin.toArray(), direction: raycaster.ray.direction.toArray() };
+}

@@ -34,6 +34,7 @@ export class Picture {
     this.shows = { ids: false, trails: false, beams: true, shadows: false, textures: true, rays: false, bodies: false, links: false };
     this.marks = new Marks(this, (request) => actions.send(request));
     this.selected = null;
+    this.edits = false; // whether what cannot move may be chosen and placed, too
     this.chosen = []; // all that are selected, the one above among them
     this.followed = null;
     this.aboard = null; // the robot that carries the camera, in three dimensions
@@ -217,7 +218,13 @@ export class Picture {
   }
   yawOf(entity) {
     const slot = this.world.slots[entity];
-    return slot < 0 ? 0 : this.motion.yaw(slot);
+    if (slot >= 0) return this.motion.yaw(slot);
+    const [x, y, z, w] = this.world.bodyOf.get(entity).orientation;
+    return Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
+  }
+  // Whether a hand may move it.
+  canMove(entity) {
+    return this.edits || this.world.slots[entity] >= 0;
   }
 
   // ---- what is wanted ----

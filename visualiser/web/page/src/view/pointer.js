@@ -1,5 +1,7 @@
 // What the pointer does in any view: a click selects, a double click goes there, shift and drag moves a robot or selects
 // by a box; everything else is the camera's.
+import { pickBody } from "./pick_body.js";
+
 const CLICK_PIXELS = 4;
 const TURN_A_PIXEL = 0.005; // of the gaze from a robot, radians
 const TURN_A_STEP = Math.PI / 24; // of who is carried, for 100 pixels of the wheel
@@ -17,7 +19,7 @@ class Carry {
     this.start = view.floorPoint(at, z) ?? [x, y, z];
     const others = picture.chosen.includes(entity) ? picture.chosen : [entity];
     this.carried = others.flatMap((each) => {
-      const place = picture.world.slots[each] >= 0 && picture.placeOf(each);
+      const place = picture.canMove(each) && picture.placeOf(each);
       return place ? [{ entity: each, place: [...place], yaw: picture.yawOf(each) }] : [];
     });
   }
@@ -117,6 +119,14 @@ class Tape {
   }
 }
 
+// In the editor walls, patches and lights can be chosen, too, where no robot or prey is.
+function pickAt(picture, view, at) {
+  const entity = view.pick(at);
+  if (entity !== null || !picture.edits) return entity;
+  const { origin, direction } = view.sight(at);
+  return pickBody(picture.world, origin, direction);
+}
+
 function dragFor(picture, view, event, at) {
   if (picture.measures) return new Tape(picture, view, at);
   const mayMove = picture.actions.mayMove();
@@ -125,7 +135,7 @@ function dragFor(picture, view, event, at) {
   if (handle === "move") return new Carry(picture, view, picture.selected, at);
   if (picture.aboard !== null && !event.shiftKey) return new Gaze(picture, at);
   if (!event.shiftKey) return null;
-  const entity = view.pick(at);
+  const entity = pickAt(picture, view, at);
   if (entity !== null && picture.placeOf(entity)) return mayMove ? new Carry(picture, view, entity, at) : null;
   return new Box(picture, at);
 }
@@ -138,7 +148,7 @@ export function listenToPointer(view, picture) {
     const box = canvas.getBoundingClientRect();
     return { x: event.clientX - box.left, y: event.clientY - box.top };
   };
-  const pick = (event) => (picture.world && picture.motion.frame ? view.pick(placeOf(event)) : null);
+  const pick = (event) => (picture.world && picture.motion.frame ? pickAt(picture, view, placeOf(event)) : null);
   canvas.addEventListener(
     "pointerdown",
     (event) => {
@@ -181,7 +191,8 @@ export function listenToPointer(view, picture) {
       drag.end(clicked || cancelled);
       picture.invalidate();
     }
-    if (clicked && !cancelled && (!drag || drag.isCamera)) picture.actions.select(pick(event), event.ctrlKey);
+    const placed = clicked && !cancelled && !drag && picture.world && picture.actions.place(view.floorPoint(at, 0));
+    if (clicked && !cancelled && !placed && (!drag || drag.isCamera)) picture.actions.select(pick(event), event.ctrlKey);
     start = drag = null;
   };
   canvas.addEventListener("pointerup", (event) => end(event, false));

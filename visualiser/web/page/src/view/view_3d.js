@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { Arena } from "./arena.js";
 import { extentOf } from "./look.js";
 import { Beams, Grips, MarkLines, Trails } from "./overlays.js";
-import { floorPoint, pick } from "./picking.js";
+import { floorPoint, pick, sight } from "./picking.js";
 import { Stage } from "./stage.js";
 import { Swarm } from "./swarm.js";
 
@@ -217,6 +217,10 @@ export class View3d {
   }
   pick(at) {
     return pick(this.world, this.picture.motion, this.stage.camera, ...this.ray(at));
+  }
+  // The ray of sight.
+  sight(at) {
+    return sight(this.stage.camera, ...this.ray(at));
   }
   // [x, y, z] on the plane of that height, null if the ray of sight does not meet it.
   floorPoint(at, height) {

@@ -233,6 +233,12 @@ export class PlanView {
     return [frame.metresX(x * frame.ratio), frame.metresY(y * frame.ratio), height];
   }
 
+  // The ray of sight.
+  sight(at) {
+    const [x, y] = this.floorPoint(at, 0);
+    return { origin: [x, y, 1e4], direction: [0, 0, -1] };
+  }
+
   // The entity whose outline is nearest to a place: robots before others, the highest of several.
   pick(at) {
     const { world, picture } = this;

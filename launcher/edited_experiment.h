@@ -1,0 +1,102 @@
+// The text of an experiment that is edited, and what is known of it: its elements, mistakes and start state. Each
+// change is one step of its history. Used by `swarmanoid edit`.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/configuration/xml_edit.h"
+#include "common/experiment/element_form.h"
+#include "common/experiment/load_experiment.h"
+
+namespace swarmanoid
+{
+
+// What a page asks for cannot be done: throws std::invalid_argument with a text for the user.
+[[noreturn]] void RefuseEdit(const std::string& text);
+
+// A handle of an element that outlives it.
+TConfigurationTree TreeOf(const ConfigurationNode& node);
+
+using ElementPath = std::vector<std::size_t>;  // child numbers, from the root on
+
+// "0/3" and back; throws std::invalid_argument.
+std::string PathText(const ElementPath& path);
+ElementPath ParsePath(const std::string& text);
+
+// Where an entity is put.
+struct Placing
+{
+  ElementPath path;
+  std::optional<Vector3> position;  // m
+  std::optional<double> heading;    // degrees; the other angles stay
+};
+
+class EditedExperiment
+{
+public:
+  // `folder`: where relative paths start. Throws ConfigurationError if the text is no XML, or of another simulator.
+  EditedExperiment(const std::string& text, std::string file_name, std::string folder);
+
+  const std::string& Text() const { return text_.Text(); }
+  const EditedText& History() const { return text_; }
+  const std::vector<Diagnostic>& Mistakes() const { return loaded_.errors; }
+  // As far as it can be read; nullptr if nothing can be made of it.
+  const Experiment* GetExperiment() const { return loaded_.experiment.get(); }
+  const std::string& Places() const { return loaded_.places; }
+
+  const XmlElement& Root() const { return outline_; }
+  // These throw std::invalid_argument for a path that leads nowhere.
+  const XmlElement& At(const ElementPath& path) const;
+  const ConfigurationNode& NodeAt(const ElementPath& path) const;
+  ElementForm FormAt(const ElementPath& path) const;
+  // "fb_1", or "<arena>" of an element without an id.
+  std::string NameOf(const ElementPath& path) const;
+  // The element that a line and column are in.
+  ElementPath PathAt(const SourceLocation& place) const;
+  // Of each entity of the experiment: its element. Those of one <distribute> or <reserve> share the one within it.
+  const std::vector<ElementPath>& EntityPaths() const { return entity_paths_; }
+  // Whether its entities have their places from the element above it.
+  bool IsDistributed(const ElementPath& path) const;
+
+  // The changes. Each throws std::invalid_argument with a text for the user, and then changes nothing.
+  void SetValue(const ElementPath& path, const std::string& name, const std::optional<std::string>& value);
+  void Place(const std::vector<Placing>& placings);
+  // Gives the path of the new element. `at`: where an entity is put on the floor (m).
+  ElementPath Add(const ElementPath& parent, const std::string& tag, const std::optional<Vector2>& at);
+  void Remove(const std::vector<ElementPath>& paths);
+  // The whole element anew.
+  void Rewrite(const ElementPath& path, const std::string& xml);
+  // The entities of a <distribute> one by one, in its place.
+  void WriteOut(const ElementPath& path);
+  // Another text, from the file.
+  void Replace(const std::string& text);
+  bool Undo();
+  bool Redo();
+
+private:
+  // What becomes of a text; throws if it cannot be read.
+  struct Reading
+  {
+    std::shared_ptr<const ConfigurationNode> tree;
+    XmlElement outline;
+    LoadedExperiment loaded;
+  };
+  Reading Read(const std::string& text) const;
+  void Take(Reading reading);
+  void Change(const TextEdits& edits, const std::string& name);
+  std::size_t OffsetOf(const SourceLocation& place) const;
+
+  std::string file_name_, folder_;
+  EditedText text_;
+  std::shared_ptr<const ConfigurationNode> tree_;
+  XmlElement outline_;
+  LoadedExperiment loaded_;
+  std::vector<std::size_t> lines_;  // where each begins
+  std::vector<ElementPath> entity_paths_;
+};
+
+}  // namespace swarmanoid

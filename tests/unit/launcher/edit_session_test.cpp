@@ -1,0 +1,212 @@
+// The session of an editor, with a page that only listens: requests, what is told after each, and the file on disk.
+#include "launcher/edit_session.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "roles/builtins.h"
+#include "test_folders.h"
+#include "tests/eventually.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using Json = nlohmann::json;
+using test::Eventually;
+using testing::HasSubstr;
+
+class ListeningPage : public EditorPage
+{
+public:
+  void Open(const Parameters&, const std::string&, EditorRequests&) override {}
+  std::string Url() const override { return {}; }
+  std::string Fingerprint() const override { return {}; }
+  std::string Warning() const override { return {}; }
+  void Show(const CSwarmanoidSpace& space, const Assignment&) override
+  {
+    ++shown;
+    places.clear();
+    for (std::size_t e = 0; e < space.Size(); ++e) places[space.GetEntity(e).GetId()] = space.GetPose(e).position;
+  }
+  void Tell(const std::string& text) override { document = Json::parse(text); }
+  void Idle() override {}
+
+  int shown = 0;
+  std::map<std::string, Vector3> places;
+  Json document;
+};
+
+class EditSessionTest : public testing::Test
+{
+protected:
+  EditSessionTest()
+  {
+    RegisterBuiltins();
+    std::ifstream sample(SWARMANOID_SOURCE_FOLDER "/configs/sample_footbot.xml");
+    text_.assign(std::istreambuf_iterator<char>(sample), {});
+    file_ = (std::filesystem::path(folder_.Path()) / "f.xml").string();
+    Write(text_);
+    session_ = std::make_unique<EditSession>(file_, page_);
+    session_->Begin();
+  }
+
+  void Write(const std::string& text) { std::ofstream(file_, std::ios::binary) << text; }
+  std::string OnDisk() const
+  {
+    std::ifstream stream(file_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  Json Ask(const Json& request)
+  {
+    const std::string reply = session_->Carry(request.dump());
+    return reply.empty() ? Json() : Json::parse(reply);
+  }
+  std::string RefusalOf(const std::string& request)
+  {
+    try
+    {
+      session_->Carry(request);
+      return "";
+    }
+    catch (const std::invalid_argument& error)
+    {
+      return error.what();
+    }
+  }
+  Json Edit(Json change)
+  {
+    change["do"] = "edit";
+    change["revision"] = page_.document["revision"];
+    return Ask(change);
+  }
+  std::string PathOf(const std::string& id)
+  {
+    for (const Json& path : page_.document["paths"])
+      if (Ask({{"do", "form"}, {"path", path}})["name"] == id) return path;
+    return "none";
+  }
+
+  ScratchFolder folder_;
+  std::string text_, file_;
+  ListeningPage page_;
+  std::unique_ptr<EditSession> session_;
+};
+
+TEST_F(EditSessionTest, TellsAndShowsEachChange)
+{
+  ASSERT_TRUE(page_.document["saved"]);
+  ASSERT_TRUE(page_.document["mistakes"].empty()) << page_.document["mistakes"];
+  ASSERT_FALSE(page_.places.empty());
+  const std::string id = page_.places.begin()->first;
+  const std::string path = PathOf(id);
+  const int shown = page_.shown;
+  Edit({{"change", "place"}, {"places", {{{"path", path}, {"position", {0.5, 0.75, 0}}, {"heading", 45}}}}});
+  EXPECT_EQ(page_.shown, shown + 1);
+  EXPECT_EQ(page_.places[id].head<2>(), Vector2(0.5, 0.75));
+  EXPECT_FALSE(page_.document["saved"]);
+  EXPECT_EQ(page_.document["undo"], "place " + id);
+  EXPECT_EQ(OnDisk(), text_);
+
+  // A change of a text that is not there any more.
+  EXPECT_THAT(RefusalOf(R"({"do": "edit", "revision": 1, "change": "remove", "paths": ["2/0"]})"),
+              HasSubstr("changed meanwhile"));
+  Ask({{"do", "undo"}});
+  EXPECT_TRUE(page_.document["saved"]);
+  EXPECT_EQ(page_.document["redo"], "place " + id);
+  EXPECT_EQ(RefusalOf(R"({"do": "undo"})"), "there is nothing to undo");
+
+  const Json arena = page_.document["arena"];
+  Edit({{"change", "add"}, {"path", arena}, {"tag", "footbot"}, {"at", {0.25, 0.5}}});
+  const Json form = Ask({{"do", "form"}, {"path", page_.document["added"]}});
+  EXPECT_EQ(form["tag"], "footbot");
+  EXPECT_TRUE(form["removable"]);
+  EXPECT_EQ(form["revision"], page_.document["revision"]);
+}
+
+TEST_F(EditSessionTest, FormsComeFromTheTables)
+{
+  const Json form = Ask({{"do", "form"}, {"path", page_.document["arena"]}});
+  const auto found =
+      std::ranges::find_if(form["parameters"], [](const Json& each) { return each["name"] == "optimization"; });
+  ASSERT_NE(found, form["parameters"].end());
+  EXPECT_EQ((*found)["type"], "choice");
+  EXPECT_EQ((*found)["choices"], (Json{"2D", "3D", "octree"}));
+  // All kinds can be placed.
+  EXPECT_EQ(page_.document["kinds"].size(), EntityKindCount() + 2);  // <distribute> and <reserve>, too
+  EXPECT_THAT(RefusalOf(R"({"do": "form", "path": "9/9"})"), HasSubstr("not there"));
+}
+
+TEST_F(EditSessionTest, SavesOverOthersOnlyIfAsked)
+{
+  const std::string path = PathOf(page_.places.begin()->first);
+  Edit({{"change", "set"}, {"path", path}, {"name", "position"}, {"value", "0.5, 0.5, 0"}});
+  Write("<!-- of others -->" + text_);
+  EXPECT_THAT(RefusalOf(R"({"do": "save"})"), HasSubstr("somebody else has changed"));
+  EXPECT_TRUE(page_.document["changed_on_disk"]);
+  EXPECT_EQ(OnDisk(), "<!-- of others -->" + text_);
+  Ask({{"do", "save"}, {"anyway", true}});
+  EXPECT_TRUE(page_.document["saved"]);
+  EXPECT_FALSE(page_.document["changed_on_disk"]);
+  EXPECT_THAT(OnDisk(), HasSubstr("0.5, 0.5, 0"));
+  EXPECT_THAT(OnDisk(), testing::Not(HasSubstr("of others")));
+}
+
+TEST_F(EditSessionTest, ReadsWhatOthersWriteIfNothingIsChangedHere)
+{
+  Write("<!-- of others -->" + text_);
+  EXPECT_TRUE(Eventually(
+      [&]
+      {
+        session_->Idle();
+        return page_.document["undo"] == "read the file again";
+      }));
+  EXPECT_TRUE(page_.document["saved"]);
+  Ask({{"do", "undo"}});
+  EXPECT_FALSE(page_.document["saved"]);
+
+  // What is no experiment is not read: what is here stays.
+  Ask({{"do", "save"}});
+  Write("<ahss-config>");
+  EXPECT_TRUE(Eventually(
+      [&]
+      {
+        session_->Idle();
+        return page_.document["changed_on_disk"] == true;
+      }));
+  EXPECT_THAT(RefusalOf(R"({"do": "reload"})"), HasSubstr("f.xml"));
+  EXPECT_EQ(session_->GetExperiment().Text(), text_);
+}
+
+TEST_F(EditSessionTest, RefusesWhatIsNoRequest)
+{
+  for (const char* request : {"", "[]", "{}", R"({"do": 1})", R"({"do": "edit"})", R"({"do": "edit", "revision": -1})",
+                              R"({"do": "form", "path": "a"})", R"({"do": "form", "path": "99999999999999999999999"})"})
+    EXPECT_NE(RefusalOf(request), "") << request;
+  for (const char* change :
+       {R"({})", R"({"change": "x"})", R"({"change": "set", "path": "", "name": 1, "value": ""})",
+        R"({"change": "set", "path": "2", "name": "size"})", R"({"change": "place", "places": [1]})",
+        R"({"change": "place", "places": [{"path": "2/0", "position": [1, 2]}]})",
+        R"({"change": "place", "places": [{"path": "2/0", "position": [1, 2, 1e300]}]})",
+        R"({"change": "place", "places": [{"path": "2/0", "heading": "x"}]})",
+        R"({"change": "add", "path": "2", "tag": "no"})", R"({"change": "remove", "paths": [2]})",
+        R"({"change": "rewrite", "path": "2", "xml": "<"})", R"({"change": "write out", "path": "2/0"})"})
+  {
+    Json request = Json::parse(change);
+    request["do"] = "edit";
+    request["revision"] = page_.document["revision"];
+    EXPECT_NE(RefusalOf(request.dump()), "") << change;
+  }
+  EXPECT_TRUE(page_.document["saved"]);
+  EXPECT_EQ(session_->GetExperiment().Text(), text_);
+}
+
+}  // namespace
+}  // namespace swarmanoid

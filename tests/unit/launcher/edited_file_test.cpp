@@ -1,0 +1,109 @@
+// The file behind the editor: saved as a whole or not at all, and looked at for what others write.
+#include "launcher/edited_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "common/configuration/configuration_tree.h"
+#include "launcher/scratch_folder.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+void Write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+
+std::string Read(const fs::path& file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::size_t FilesIn(const fs::path& folder)
+{
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+TEST(EditedFile, WritesTheWholeFileAndKeepsPermissionsAndLinks)
+{
+  const ScratchFolder folder;
+  const fs::path real = fs::path(folder.Path()) / "real.xml", link = fs::path(folder.Path()) / "link.xml";
+  Write(real, "old\r\n");
+  chmod(real.c_str(), 0640);
+  fs::create_symlink("real.xml", link);
+  EditedFile file(link.string());
+  EXPECT_EQ(file.Text(), "old\r\n");
+  file.Write("new\r\n");
+  EXPECT_EQ(Read(real), "new\r\n");
+  EXPECT_EQ(file.Text(), "new\r\n");
+  EXPECT_TRUE(fs::is_symlink(link));
+  struct stat state
+  {
+  };
+  ASSERT_EQ(stat(real.c_str(), &state), 0);
+  EXPECT_EQ(state.st_mode & 07777U, 0640U);
+  EXPECT_EQ(FilesIn(folder.Path()), 2U);  // nothing is left beside it
+  EXPECT_FALSE(file.HasChanged());
+}
+
+TEST(EditedFile, NoticesWhatOthersWrite)
+{
+  const ScratchFolder folder;
+  const fs::path path = fs::path(folder.Path()) / "f.xml";
+  Write(path, "one");
+  EditedFile file(path.string());
+  EXPECT_FALSE(file.HasChanged());
+  Write(path, "two!");
+  EXPECT_TRUE(file.HasChanged());
+  EXPECT_TRUE(file.HasChanged());
+  Write(path, "one");
+  EXPECT_FALSE(file.HasChanged());
+  // As editors do: another file in its place, of the same length.
+  Write(path.string() + "~", "own");
+  fs::rename(path.string() + "~", path);
+  EXPECT_TRUE(file.HasChanged());
+  file.Reread();
+  EXPECT_EQ(file.Text(), "own");
+  EXPECT_FALSE(file.HasChanged());
+  fs::remove(path);
+  EXPECT_TRUE(file.HasChanged());
+  file.Write("again");
+  EXPECT_EQ(Read(path), "again");
+  EXPECT_FALSE(file.HasChanged());
+}
+
+TEST(EditedFile, KeepsTheOldOneIfItCannotWrite)
+{
+  const ScratchFolder folder;
+  const fs::path path = fs::path(folder.Path()) / "f.xml";
+  Write(path, "old");
+  EditedFile file(path.string());
+  // A folder in its place cannot be replaced by a file.
+  fs::remove(path);
+  fs::create_directory(path);
+  Write(path / "inside", "kept");
+  try
+  {
+    file.Write("new");
+    FAIL();
+  }
+  catch (const std::runtime_error& error)
+  {
+    EXPECT_THAT(error.what(), testing::HasSubstr("is not saved"));
+  }
+  EXPECT_EQ(Read(path / "inside"), "kept");
+  EXPECT_EQ(FilesIn(folder.Path()), 1U);
+  EXPECT_EQ(file.Text(), "old");
+  EXPECT_THROW(EditedFile((fs::path(folder.Path()) / "none.xml").string()), ConfigurationError);
+}
+
+}  // namespace
+}  // namespace swarmanoid

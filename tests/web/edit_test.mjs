@@ -1,0 +1,331 @@
+// `swarmanoid edit` in headless Chromium: what hands and forms do to the file, byte for byte. Waits for the state of the
+// page and the bytes of the file, never for time. Ends with 77 if there is no browser.
+//
+// Environment: SWARMANOID (the command), SWARMANOID_CONFIGS, PAGE_MODULES (node_modules with playwright-core).
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+const { SWARMANOID, SWARMANOID_CONFIGS, PAGE_MODULES } = process.env;
+const CHROMIUM = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((path) => existsSync(path));
+const TIMEOUT_MS = 60000;
+
+function skip(why) {
+  console.log(`skipped: ${why}`);
+  process.exit(77);
+}
+if (!CHROMIUM) skip("there is no Chromium (package chromium)");
+if (!existsSync(join(PAGE_MODULES, "playwright-core"))) skip("the page was not built: there is no playwright-core");
+const { chromium } = createRequire(join(PAGE_MODULES, "here.js"))("playwright-core");
+
+const folder = mkdtempSync(join(tmpdir(), "swarmanoid_edit_"));
+process.env.XDG_STATE_HOME = join(folder, "state");
+
+// ---- the editor and its page ----
+
+const processes = [];
+let browser;
+
+// A copy of a sample, on a page with the token; more: text that is changed before.
+async function edit(name, { change = (text) => text, quality = "plan", ...more } = {}) {
+  const file = join(folder, `${name}_${processes.length}.xml`);
+  const text = change(readFileSync(join(SWARMANOID_CONFIGS, `${name}.xml`), "utf8"));
+  writeFileSync(file, text);
+  const child = spawn(SWARMANOID, ["edit", file], { cwd: folder });
+  const editor = { file, text, child, output: "", ended: new Promise((done) => child.on("exit", (code) => done((editor.code = code ?? -1)))) };
+  for (const stream of [child.stdout, child.stderr]) stream.on("data", (data) => (editor.output += data));
+  processes.push(editor);
+  [, editor.url] = await says(editor, /Edit it: (http\S+)/);
+  editor.page = await open(editor.url, { quality, ...more });
+  await until(editor.page, () => swarmanoid.editor?.form && swarmanoid.drawn > 0);
+  return editor;
+}
+
+async function says(editor, pattern) {
+  for (const deadline = Date.now() + TIMEOUT_MS; Date.now() < deadline && editor.code === undefined; ) {
+    const match = pattern.exec(editor.output);
+    if (match) return match;
+    await new Promise((done) => setTimeout(done, 20));
+  }
+  throw new Error(`no ${pattern} in the output: ${editor.output}`);
+}
+
+async function open(url, { quality = "plan", ...more } = {}) {
+  const page = await browser.newPage({ viewport: { width: 1200, height: 640 }, ...more });
+  page.setDefaultTimeout(TIMEOUT_MS);
+  page.complaints = [];
+  page.on("pageerror", (error) => page.complaints.push(String(error)));
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && page.complaints.push(message.text()));
+  const address = new URL(url);
+  address.searchParams.set("quality", quality);
+  await page.goto(address.href);
+  return page;
+}
+
+const until = (page, expression, argument) => page.waitForFunction(expression, argument, { polling: 50, timeout: TIMEOUT_MS });
+const read = (page, expression) => page.evaluate(expression);
+const onDisk = ({ file }) => readFileSync(file, "utf8");
+
+// After something that changes the text: the revision that comes of it.
+async function changed(page, act) {
+  const before = await read(page, () => swarmanoid.editor.revision);
+  await act();
+  await until(page, (revision) => swarmanoid.editor.revision > revision && !swarmanoid.editor.busy && swarmanoid.editor.form?.revision === swarmanoid.editor.revision, before);
+  return read(page, () => swarmanoid.editor);
+}
+
+async function save(editor) {
+  await editor.page.keyboard.press("Control+s");
+  await until(editor.page, () => swarmanoid.editor.saved);
+  return onDisk(editor);
+}
+
+// The picture stands still: panels that come move it.
+async function settled(page) {
+  await until(page, () => {
+    const place = () => JSON.stringify([swarmanoid.camera, swarmanoid.project("fb_1"), document.querySelector(".picture:not([hidden])").getBoundingClientRect()]);
+    const before = place();
+    return new Promise((done) => {
+      const look = (frames) => requestAnimationFrame(() => (place() !== before ? done(false) : frames === 0 ? done(true) : look(frames - 1)));
+      look(4);
+    });
+  });
+}
+
+// By the list; name: of its element.
+async function select(page, id, name = id) {
+  await page.fill("input[type=search]", `id:${id}`);
+  await page.click(`.left .row:not([hidden]):has(.id:text-is("${id}"))`);
+  await until(page, (wanted) => swarmanoid.editor.form?.name === wanted && swarmanoid.selected !== null, name);
+  await page.fill("input[type=search]", "");
+}
+
+async function fill(page, name, value) {
+  await page.fill(`.edit-form [name="${name}"]`, value);
+  await page.press(`.edit-form [name="${name}"]`, "Tab");
+}
+
+// The lines that two texts do not share.
+function differences(a, b) {
+  const [left, right] = [a.split("\n"), b.split("\n")];
+  return { gone: left.filter((line) => !right.includes(line)), come: right.filter((line) => !left.includes(line)) };
+}
+
+// ---- tests ----
+
+const tests = {
+  async "a hand moves, turns, places and removes; what it did not touch stays, byte for byte"() {
+    const editor = await edit("prey_retrieval");
+    const { page } = editor;
+    await settled(page);
+    const [from, to] = [await read(page, () => swarmanoid.project("fb_1")), await read(page, () => swarmanoid.projectPoint(1.5, 0.5, 0))];
+    let state = await changed(page, async () => {
+      await page.keyboard.down("Shift");
+      await page.mouse.move(from.x, from.y);
+      await page.mouse.down();
+      await page.mouse.move((from.x + to.x) / 2, to.y);
+      await page.mouse.move(to.x, to.y);
+      await page.mouse.up();
+      await page.keyboard.up("Shift");
+    });
+    assert.equal(state.undo, "place fb_1");
+    assert.equal(state.saved, false);
+    await until(page, () => Math.hypot(swarmanoid.place("fb_1")[0] - 1.5, swarmanoid.place("fb_1")[1] - 0.5) < 0.05);
+    assert.equal(onDisk(editor), editor.text); // not before Save
+    const saved = await save(editor);
+    const { gone, come } = differences(editor.text, saved);
+    assert.deepEqual([gone.length, come.length], [1, 1]);
+    assert.match(gone[0], /<position>1.0, 1.0, 0<\/position>/);
+    const [, x, y] = /^ {6}<position>(\S+), (\S+), 0<\/position>$/.exec(come[0]);
+    assert.ok(Math.hypot(x - 1.5, y - 0.5) < 0.05, come[0]);
+
+    // A wall, which no run could move.
+    await page.mouse.click(...Object.values(await read(page, () => swarmanoid.projectPoint(0.02, 2.5, 0))).slice(0, 2));
+    await until(page, () => swarmanoid.editor.form.name === "wall_west" && swarmanoid.selected === "wall_west");
+    state = await changed(page, () => page.click(".edit-form .head button"));
+    assert.equal(state.undo, "remove wall_west");
+    await until(page, () => swarmanoid.shown === 10);
+
+    await page.selectOption(".palette select", "footbot");
+    await settled(page);
+    const free = await read(page, () => swarmanoid.projectPoint(2.5, 3, 0));
+    state = await changed(page, () => page.mouse.click(free.x, free.y));
+    assert.equal(state.form.name, "fb_4");
+    assert.equal(state.form.parameters.find(({ name }) => name === "controller").value, "retriever");
+    await until(page, () => swarmanoid.selected === "fb_4" && swarmanoid.shown === 11);
+    await page.keyboard.press("Escape");
+    state = await changed(page, () => page.keyboard.press("Delete"));
+    assert.equal(state.undo, "remove fb_4");
+    for (const wanted of ["add fb_4", "remove wall_west", "place fb_1", null]) {
+      state = await changed(page, () => page.keyboard.press("Control+z"));
+      assert.equal(state.undo, wanted);
+    }
+    assert.equal(state.saved, false);
+    assert.equal(await save(editor), editor.text);
+    state = await changed(page, () => page.keyboard.press("Control+y"));
+    assert.equal(state.undo, "place fb_1");
+    assert.equal(await save(editor), saved);
+    assert.deepEqual(readdirSync(folder).filter((name) => name.startsWith(".")), []);
+    assert.deepEqual(page.complaints, []);
+    editor.child.kill("SIGINT");
+    assert.equal(await editor.ended, 0);
+  },
+
+  async "forms set values, add devices, and say what is wrong and where"() {
+    const editor = await edit("prey_retrieval");
+    const { page } = editor;
+    await select(page, "wall_north");
+    let state = await changed(page, () => fill(page, "size", "5, 0.2, 0.4"));
+    assert.ok(state.mistakes.every(({ kind }) => kind === "note"));
+    state = await changed(page, () => fill(page, "size", "5, none"));
+    const [mistake] = state.mistakes;
+    assert.match(mistake.place, /prey_retrieval_\d+\.xml:\d+:\d+$/);
+    assert.equal(editor.text.split("\n")[Number(mistake.place.split(":").at(-2)) - 1].trim(), "<size>5, 0.1, 3</size>");
+    assert.ok(await page.isDisabled("text=Check"));
+    await select(page, "fb_2");
+    await page.click(".mistakes button");
+    await until(page, () => swarmanoid.editor.form.tag === "size" || swarmanoid.editor.form.name === "wall_north");
+    await changed(page, () => page.keyboard.press("Control+z"));
+    await until(page, () => swarmanoid.editor.all_mistakes === 0);
+
+    // The controller of a robot, and a sensor for it.
+    await select(page, "fb_2");
+    const crumb = (name) => page.click(`.above button:text-is("${name}")`);
+    await crumb("<ahss-config>");
+    await page.click('.parts button:has-text("controllers")');
+    await page.click('.parts button:has-text("retriever")');
+    await page.click('.parts button:has-text("sensors")');
+    await until(page, () => swarmanoid.editor.form.tag === "sensors");
+    await page.selectOption(".adder select", "footbot_light");
+    state = await changed(page, () => page.click(".adder button"));
+    assert.equal(state.form.tag, "footbot_light");
+    assert.equal(state.undo, "add <footbot_light>");
+    assert.deepEqual(state.form.parameters[0].choices, ["generic_footbot_light"]);
+    await page.click("text=Check");
+    await page.waitForSelector("text=Checked ✓");
+
+    // What no form says: the text of the element.
+    await crumb("<sensors>");
+    await until(page, () => swarmanoid.editor.form.tag === "sensors");
+    await page.click(".xml summary");
+    await page.fill(".xml textarea", "<sensors/></footbot_retriever>");
+    await page.click(".xml button");
+    await page.waitForSelector(".refusal:not(:empty)");
+    const saved = await save(editor);
+    const { gone, come } = differences(editor.text, saved);
+    assert.deepEqual(gone.map((line) => line.trim()), ["<size>5, 0.1, 3</size>"].slice(0, gone.length));
+    assert.ok(come.some((line) => line.includes("footbot_light")), come.join("\n"));
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "a distribution is edited as one, and written out robot by robot"() {
+    const editor = await edit("diffusion_10");
+    const { page } = editor;
+    await select(page, "fb_3", "fb");
+    assert.equal(await read(page, () => swarmanoid.editor.form.distributed), true);
+    assert.equal(await read(page, () => swarmanoid.chosen.length), 10);
+    const place = await read(page, () => swarmanoid.place("fb_3"));
+    await page.click(".edit-form p button");
+    await until(page, () => swarmanoid.editor.form.tag === "distribute");
+    let state = await changed(page, () => fill(page, "quantity", "12"));
+    await until(page, () => swarmanoid.robots === 12);
+    state = await changed(page, () => page.keyboard.press("Control+z"));
+    await until(page, () => swarmanoid.editor.form.tag === "distribute" && swarmanoid.robots === 10);
+    state = await changed(page, () => page.click("text=Write its entities out one by one"));
+    assert.equal(state.all_mistakes, 0);
+    assert.deepEqual(await read(page, () => swarmanoid.place("fb_3")), place);
+    const saved = await save(editor);
+    assert.equal(saved.match(/<footbot id="fb_\d"/g).length, 10);
+    assert.equal(saved.slice(0, saved.indexOf("<footbot id")), editor.text.slice(0, editor.text.indexOf("<distribute")));
+    assert.deepEqual(page.complaints, []);
+  },
+
+  async "what others write is noticed, and who has no token only looks"() {
+    const editor = await edit("diffusion_10");
+    const { page } = editor;
+    // Nothing is changed here: what is there is read.
+    writeFileSync(editor.file, editor.text.replace('quantity="10"', 'quantity="7"'));
+    await until(page, () => swarmanoid.robots === 7);
+    assert.equal(await read(page, () => swarmanoid.editor.saved), true);
+
+    await read(page, () => swarmanoid.select("wall_west"));
+    await until(page, () => swarmanoid.editor.form.name === "wall_west");
+    await changed(page, () => fill(page, "colour", "red"));
+    writeFileSync(editor.file, editor.text);
+    await page.waitForSelector(".mistakes [role=alert]");
+    await page.keyboard.press("Control+s");
+    await page.waitForSelector(".refusal:has-text('somebody else has changed')");
+    assert.equal(onDisk(editor), editor.text);
+    await page.click("text=Save over it");
+    await until(page, () => swarmanoid.editor.saved);
+    assert.match(onDisk(editor), /<colour>red<\/colour>/);
+
+    const bare = await open(editor.url.split("#")[0]);
+    await until(bare, () => swarmanoid.drawn > 0 && swarmanoid.control === "token needed");
+    const before = onDisk(editor);
+    await read(bare, () => swarmanoid.command({ do: "edit", revision: 1, change: "remove", paths: ["2/0"] }));
+    await read(bare, () => swarmanoid.command({ do: "save", anyway: true }));
+    await bare.waitForSelector(".last:has-text('only the address with the token')");
+    assert.equal(await read(bare, () => swarmanoid.editor?.file), undefined);
+    assert.equal(onDisk(editor), before);
+
+    // Changes that are not saved keep it alive until they are.
+    await changed(page, () => fill(page, "colour", "blue"));
+    editor.child.kill("SIGINT");
+    await says(editor, /changes that are not saved/);
+    assert.equal(editor.code, undefined);
+    await page.keyboard.press("Control+s");
+    assert.equal(await editor.ended, 0);
+    assert.match(onDisk(editor), /<colour>blue<\/colour>/);
+  },
+
+  async "it can be read in light and dark, and works in three dimensions"() {
+    for (const colorScheme of ["light", "dark"]) {
+      const editor = await edit("prey_retrieval", { colorScheme, bypassCSP: true, quality: colorScheme === "dark" ? "least" : "plan" });
+      const { page } = editor;
+      await select(page, "fb_1");
+      await page.addScriptTag({ path: join(PAGE_MODULES, "axe-core/axe.min.js") });
+      const { violations } = await page.evaluate(() => axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"] }));
+      assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html)}`), [], colorScheme);
+      // A wall is picked where it stands in either view.
+      const at = await read(page, () => swarmanoid.projectPoint(2.5, 5, 0.1));
+      await page.mouse.click(at.x, at.y);
+      await until(page, () => swarmanoid.editor.form.name === "wall_north");
+      assert.deepEqual(page.complaints, []);
+    }
+  },
+};
+
+// ---- running them ----
+
+const wanted = process.argv.slice(2);
+let failed = 0;
+browser = await chromium.launch({ executablePath: CHROMIUM, args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
+for (const [name, test] of Object.entries(tests)) {
+  if (wanted.length > 0 && !wanted.some((word) => name.includes(word))) continue;
+  const start = Date.now();
+  try {
+    await test();
+    console.log(`passed: ${name} (${Date.now() - start} ms)`);
+  } catch (error) {
+    failed++;
+    console.log(`FAILED: ${name}\n${error.stack}`);
+    for (const context of browser.contexts())
+      for (const page of context.pages()) {
+        if (page.complaints?.length) console.log("console:", page.complaints);
+        console.log("editor:", await page.evaluate(() => JSON.stringify(swarmanoid.editor)?.slice(0, 600)).catch(() => ""));
+      }
+    for (const editor of processes.slice(-1)) console.log("output:", editor.output.slice(-600));
+  }
+  for (const context of browser.contexts()) await context.close();
+  for (const editor of processes) {
+    if (editor.code === undefined) editor.child.kill("SIGKILL");
+    await editor.ended;
+  }
+}
+await browser.close();
+rmSync(folder, { recursive: true, force: true });
+process.exit(failed > 0 ? 1 : 0);

@@ -1,0 +1,230 @@
+// The page as an editor of an experiment file (docs/edit.md): loaded when the server says that there is a file instead of
+// a run. The server holds the text, makes the changes and says what is wrong with it; this asks for them and shows them.
+import { h, setText } from "../ui/dom.js";
+import { ElementForm } from "./element_form.js";
+
+const LONGEST_REQUEST = 60000; // bytes; the server ends a connection with longer ones
+
+export class Editor {
+  // page: app, main, picture, left, send(request), choose(entities), tell(text), trouble(text)
+  constructor(page) {
+    this.page = page;
+    this.document = null;
+    this.path = ""; // of the element whose form is shown
+    this.kind = null; // what the next click on the floor places
+    this.many = false; // whether several elements are selected, of which none has its form shown
+    this.waiting = []; // requests, until the one before is answered
+    this.isBusy = false;
+    this.form = new ElementForm({ edit: (change) => this.edit(change), open: (path) => this.open(path) });
+    this.addBar();
+    this.addPalette();
+    this.mistakes = h("div.mistakes", { "aria-live": "polite" });
+    page.left.append(this.mistakes);
+    page.app.classList.add("editing");
+    page.app.append(this.form.element);
+    page.picture.edits = true;
+  }
+
+  addBar() {
+    const button = (label, title, act) => h("button.toggle", { title, onclick: act }, label);
+    this.undo = button("Undo", "", () => this.ask({ do: "undo" }));
+    this.redo = button("Redo", "", () => this.ask({ do: "redo" }));
+    this.save = button("Save", "Write the file  (Ctrl + S)", () => this.ask({ do: "save" }));
+    this.check = button("Check", "Make everything as a run does at its start, and throw it away", () => this.ask({ do: "check" }));
+    this.file = h("span.file.dim");
+    this.bar = h("div.group.edit-bar", {}, this.undo, this.redo, this.save, this.check, this.file);
+    this.page.app.querySelector("header .space").before(this.bar);
+  }
+
+  addPalette() {
+    this.kinds = h("select", { "aria-label": "Kind of what is placed", onchange: () => this.arm(this.kinds.value || null) });
+    this.palette = h("div.palette", {}, h("label", {}, "Place: ", this.kinds), (this.hint = h("span.dim", { role: "status" })));
+    this.page.main.append(this.palette);
+  }
+
+  // ---- what the server tells ----
+
+  // The token was proved: only now the server answers.
+  begin() {
+    this.isBusy = false;
+    this.document = null; // another server may count from the start
+    this.page.send({ do: "document" });
+    this.show(this.path);
+  }
+
+  receive(document) {
+    const isNew = this.document?.revision !== document.revision;
+    this.document = document;
+    this.isBusy = false;
+    if (document.added !== null && isNew) {
+      this.path = document.added;
+      this.many = false;
+    }
+    this.showBar();
+    this.showKinds();
+    this.showMistakes();
+    if (isNew) this.show(this.path);
+    this.sendNext();
+  }
+
+  receiveForm(form) {
+    this.path = form.path;
+    this.form.show(form, this.document);
+  }
+
+  // What was asked for is refused.
+  refused(text) {
+    this.isBusy = false;
+    this.form.say(text);
+    // The element may have gone: then that above it is shown.
+    if (/not there any more/.test(text)) this.open(this.path.split("/").slice(0, -1).join("/"));
+    else this.form.restore();
+    this.sendNext();
+  }
+
+  showBar() {
+    const { undo, redo, saved, file, changed_on_disk: changed, mistakes, all_mistakes: all, checking, checked } = this.document;
+    this.undo.disabled = undo === null;
+    this.undo.title = undo === null ? "Nothing to undo" : `Undo: ${undo}  (Ctrl + Z)`;
+    this.redo.disabled = redo === null;
+    this.redo.title = redo === null ? "Nothing to do again" : `Do again: ${redo}  (Ctrl + Y)`;
+    this.save.disabled = saved && !changed;
+    this.check.disabled = checking || mistakes.some(({ kind }) => kind === "mistake");
+    setText(this.check, checking ? "Checking …" : checked === "" ? "Checked ✓" : "Check");
+    setText(this.file, `${file.split("/").at(-1)}${saved ? "" : " · not saved"}${all > 0 ? ` · ${all} mistake${all === 1 ? "" : "s"}` : ""}`);
+    this.file.title = file;
+    this.file.classList.toggle("unsaved", !saved);
+    document.title = `${saved ? "" : "• "}${file.split("/").at(-1)} · Swarmanoid`;
+  }
+
+  showKinds() {
+    const tags = this.document.kinds.filter(({ tag }) => tag !== "distribute" && tag !== "reserve");
+    const shown = JSON.stringify(tags);
+    if (this.shownKinds === shown) return;
+    this.shownKinds = shown;
+    this.kinds.replaceChildren(
+      h("option", { value: "" }, "nothing"),
+      ...tags.map(({ tag, description }) => h("option", { value: tag, title: description }, tag.replaceAll("_", " "))),
+    );
+    this.kinds.value = this.kind ?? "";
+  }
+
+  showMistakes() {
+    const { mistakes, checked, hidden, changed_on_disk: changed } = this.document;
+    const notes = mistakes.filter(({ kind }) => kind === "note").length;
+    const wrong = mistakes.length - notes;
+    const title = wrong > 0 ? `Mistakes (${this.document.all_mistakes})` : notes > 0 ? `No mistakes, notes (${notes})` : "No mistakes";
+    this.mistakes.replaceChildren(
+      ...(changed
+        ? [
+            h(
+              "div.mistake",
+              { role: "alert" },
+              h("span", {}, "Somebody else has changed the file."),
+              h("button.small", { title: "Undo brings your text back", onclick: () => this.ask({ do: "reload" }) }, "Read it again"),
+              h("button.small", { onclick: () => this.ask({ do: "save", anyway: true }) }, "Save over it"),
+            ),
+          ]
+        : []),
+      h("h2", {}, title),
+      ...(hidden ? [h("div.dim", {}, hidden)] : []),
+      ...(checked ? [h("pre.mistake", {}, checked)] : []),
+      ...mistakes.map(({ kind, place, text, path }) =>
+        h(`button.mistake.${kind}`, { title: "Show the element", onclick: () => this.open(path) }, h("b", {}, place.split("/").at(-1)), ` ${kind === "note" ? "note: " : ""}${text}`),
+      ),
+    );
+  }
+
+  // ---- what the user does ----
+
+  edit(change) {
+    this.ask({ do: "edit", ...change });
+  }
+
+  // One after the other: an edit is of the text that the request before has made.
+  ask(request) {
+    if (new TextEncoder().encode(JSON.stringify(request)).length > LONGEST_REQUEST) return this.form.say("This text is too long to be edited here.");
+    this.waiting.push(request);
+    this.sendNext();
+  }
+
+  sendNext() {
+    if (this.isBusy || this.waiting.length === 0 || !this.document) return;
+    this.isBusy = true;
+    const request = this.waiting.shift();
+    this.page.send(request.do === "edit" ? { ...request, revision: this.document.revision } : request);
+  }
+
+  open(path) {
+    this.many = false;
+    this.show(path);
+  }
+
+  show(path) {
+    this.path = path;
+    this.page.send({ do: "form", path });
+    this.chooseShown();
+  }
+
+  // The entities of the element whose form is shown are selected in the picture.
+  chooseShown() {
+    if (!this.document || this.many) return;
+    const number = this.document.paths.indexOf(this.path);
+    const entities = number < 0 ? [] : this.document.path_of.flatMap((each, entity) => (each === number ? [entity] : []));
+    this.page.choose(entities);
+  }
+
+  // A click in the picture or the list.
+  select(entity) {
+    if (entity === null) return this.open(this.document?.arena ?? "");
+    const path = this.pathOf(entity);
+    if (path !== undefined) this.open(path);
+  }
+
+  pathOf(entity) {
+    return this.document?.paths[this.document.path_of[entity]];
+  }
+
+  // changes: {entity, place: [x, y, z], yaw} of each
+  move(changes) {
+    const places = changes.map(({ entity, place, yaw }) => ({ path: this.pathOf(entity), position: [...place], heading: (yaw * 180) / Math.PI }));
+    if (places.every(({ path }) => path !== undefined)) this.edit({ change: "place", places });
+  }
+
+  remove() {
+    const { picture } = this.page;
+    const paths = [...new Set(picture.chosen.map((entity) => this.pathOf(entity)))];
+    if (paths.length > 0) this.edit({ change: "remove", paths });
+  }
+
+  arm(kind) {
+    this.kind = kind;
+    this.kinds.value = kind ?? "";
+    setText(this.hint, kind === null ? "" : "click on the floor (Esc ends)");
+    this.page.main.classList.toggle("placing", kind !== null);
+  }
+
+  // A click on the floor; true if it placed something.
+  place(point) {
+    if (this.kind === null || !point || !this.document || this.document.arena === null) return false;
+    this.edit({ change: "add", path: this.document.arena, tag: this.kind, at: point.slice(0, 2).map((metres) => Math.round(metres * 1000) / 1000) });
+    return true;
+  }
+
+  // True if the key was for the editor.
+  key(event) {
+    const typing = ["INPUT", "SELECT", "TEXTAREA"].includes(event.target.tagName);
+    const key = event.key.toLowerCase();
+    if (event.key === "Escape" && this.kind !== null) this.arm(null);
+    else if (!(event.ctrlKey || event.metaKey) || event.altKey) return false;
+    else if (key === "s") {
+      document.activeElement?.blur(); // what is typed is part of it
+      this.ask({ do: "save" });
+    } else if (typing) return false; // a field undoes what was typed itself
+    else if (key === "z") this.ask({ do: event.shiftKey ? "redo" : "undo" });
+    else if (key === "y") this.ask({ do: "redo" });
+    else return false;
+    event.preventDefault();
+    return true;
+  }
+}

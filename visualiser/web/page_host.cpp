@@ -1,0 +1,89 @@
+#include "visualiser/web/page_host.h"
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+namespace swarmanoid
+{
+namespace
+{
+
+bool IsOfThisMachine(const std::string& address) { return address.starts_with("127.") || address == "::1"; }
+
+// Nothing if the page is not reached by TLS.
+std::optional<Certificate> CertificateFor(const Parameters& parameters)
+{
+  const std::string address = parameters.Text("address");
+  const std::string wish = parameters.Text("tls");
+  const std::string given = parameters.Text("certificate");
+  if (wish == "off" && !given.empty()) throw std::runtime_error("web_render: a certificate is of no use with tls=off");
+  if (wish == "off" || (wish == "auto" && given.empty() && IsOfThisMachine(address))) return std::nullopt;
+  if (!given.empty()) return GivenCertificate(given);
+  const bool everywhere = address == "0.0.0.0" || address == "::";
+  std::vector<std::string> names = everywhere ? NamesOfThisMachine() : std::vector<std::string>{"localhost", address};
+  const std::filesystem::path folder = StateFolder();
+  return OwnCertificate(folder.empty() ? folder : folder / "certificate.pem", names);
+}
+
+}  // namespace
+
+PageHost::PageHost(const Parameters& parameters, const std::string& key)
+    : allow_control_(parameters.Boolean("allow_control"))
+{
+  settings_.address = parameters.Text("address");
+  settings_.port = static_cast<std::uint16_t>(parameters.Integer("port"));
+  settings_.max_clients = static_cast<std::size_t>(parameters.Integer("clients"));
+  settings_.max_connections = settings_.max_clients + 48;
+  settings_.max_connections_of_address = settings_.max_clients + 24;
+  settings_.certificate = CertificateFor(parameters);
+  if (settings_.certificate) fingerprint_ = settings_.certificate->fingerprint;
+  kept_ = std::make_unique<KeptAddress>(StateFolder(), key);
+}
+
+// At the address of the last start, if it is free and no other is asked for: pages that are open go on.
+void PageHost::Open(WebServerEvents& events)
+{
+  std::string token = kept_->Token();
+  // A token is of one port: whoever has the one before could pass challenges on from there.
+  const bool moves = settings_.port != 0 && settings_.port != kept_->Port();
+  if (allow_control_ && (token.empty() || moves)) token = MakeToken();
+  if (settings_.port == 0 && kept_->Port() != 0)
+  {
+    settings_.port = kept_->Port();
+    try
+    {
+      Start(token, events);
+    }
+    catch (const std::runtime_error&)
+    {
+      settings_.port = 0;  // somebody else has it now: a new one, and a new token, for that one may have heard the old
+      if (allow_control_) token = MakeToken();
+    }
+  }
+  if (!server_) Start(token, events);
+  if (!kept_->Keep(server_->Port(), token)) trouble_ = kept_->Trouble();
+}
+
+void PageHost::Start(const std::string& token, WebServerEvents& events)
+{
+  const PageFiles files(InstalledPageFolder());
+  const std::lock_guard lock(opening_);
+  if (allow_control_) token_ = token;
+  visitors_ = std::make_unique<Visitors>(AccessRules{allow_control_, token_});
+  server_ = std::make_unique<WebServer>(settings_, files, events);
+}
+
+std::string PageHost::Url() const { return server_->Url() + (token_.empty() ? "" : "#token=" + token_); }
+
+std::string PageHost::Warning() const
+{
+  if (!fingerprint_.empty() || IsOfThisMachine(settings_.address)) return {};
+  return allow_control_
+             ? "whoever reaches this address can look on, and whoever overhears it can steer: it is not encrypted; "
+               "tls=on is, or an ssh tunnel to address=127.0.0.1"
+             : "whoever reaches this address can look on: it is not encrypted";
+}
+
+}  // namespace swarmanoid
