@@ -321,9 +321,12 @@ void KinematicWorld::Region::Rearrange(KinematicWorld& world)
   MoveRuns(runs_, count, 0U, world.model_);
   for (std::vector<std::uint8_t>* of_bodies : {&world.follower_, &world.present_})
     MoveRuns(runs_, count, std::uint8_t{0}, *of_bodies);
-  // Behind those who moved, the vector loops read what does no harm.
+  world.before_.Resize(padded);
+  // Behind the bodies is what stands for the static shapes, and what vector loops may read.
   for (std::size_t k = count; k < padded; ++k)
   {
+    world.now_.Set(k, {});
+    world.before_.Set(k, {});
     world.twists_.Set(k, {});
     world.inverse_limit_[k] = 1;
   }
@@ -336,7 +339,6 @@ void KinematicWorld::Region::Rearrange(KinematicWorld& world)
   world.turret_cos_before_ = world.turret_cos_;
   world.turret_sin_before_ = world.turret_sin_;
   world.turret_way_.assign(count, 0);
-  world.before_.Resize(padded);
   world.effective_.Resize(padded);
   world.way_.resize(padded);
   world.placed_.resize(count);
