@@ -30,20 +30,15 @@ void BroadPhase::Configure(const Bounds& area, std::span<const double> radii, do
 {
   count_ = radii.size();
   largest_margin_ = largest_margin;
-  large_.clear();
+  largest_radius_ = 0;
   largest_small_radius_ = 0;
   if (count_ > 0)
   {
     std::vector<double> sorted(radii.begin(), radii.end());
     std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count_ / 2), sorted.end());
-    const double limit = kLargeFactor * sorted[count_ / 2];
-    for (std::size_t k = 0; k < count_; ++k)
-    {
-      if (radii[k] > limit)
-        large_.push_back(static_cast<std::uint32_t>(k));
-      else
-        largest_small_radius_ = std::max(largest_small_radius_, radii[k]);
-    }
+    largest_radius_ = kLargeFactor * sorted[count_ / 2];
+    for (const double radius : radii)
+      if (!IsLarge(radius)) largest_small_radius_ = std::max(largest_small_radius_, radius);
   }
 
   // One body a cell if the margin allows, and never more cells than memory is good for.
@@ -80,6 +75,9 @@ void BroadPhase::SetBodies(std::span<const double> radii)
 {
   count_ = radii.size();
   radius_.assign(radii.begin(), radii.end());
+  large_.clear();
+  for (std::size_t k = 0; k < count_; ++k)
+    if (IsLarge(radii[k])) large_.push_back(static_cast<std::uint32_t>(k));
   const std::size_t padded = PaddedCount(count_);
   body_.resize(padded, 0);
   sorted_cell_.resize(padded, 0);

@@ -49,7 +49,7 @@ public:
   void Configure(const Bounds& area, std::span<const double> radii, double largest_margin);
   // The static shapes by their boxes. After Configure.
   void SetStatics(std::span<const Bounds> boxes);
-  // Other bodies from now on, in the same cells. None of them may be large.
+  // Other bodies from now on, in the same cells.
   void SetBodies(std::span<const double> radii);
 
   // Puts the bodies into cells. `present[k]` is 0 for those that are not to be found.
@@ -60,7 +60,8 @@ public:
   // Calls act(first, last) with the first and the last cell of each row of a block.
   template <class Act>
   void ForEachRowOf(std::uint32_t block, const Act& act) const;
-  bool HasLarge() const { return !large_.empty(); }
+  // Whether a body of this radius is too big for the cells.
+  bool IsLarge(double radius) const { return radius > largest_radius_; }
   std::uint32_t ColourOf(std::uint32_t block) const
   {
     const std::uint32_t column = block % block_columns_ + first_block_column_;
@@ -112,6 +113,7 @@ private:
   std::uint32_t missing_columns_ = 0, missing_rows_ = 0;
   std::uint32_t first_block_column_ = 0, first_block_row_ = 0;  // counted from the world's origin, modulo 2
   double largest_margin_ = 0;
+  double largest_radius_ = 0;  // of a body that is not large
   double largest_small_radius_ = 0;
   float slack_ = 0;  // covers the rounding of positions to float
 

@@ -35,6 +35,8 @@ void KinematicWorld::FindContacts()
   SwapFollowers();
   broad_.Sort(before_, present_);
   broad_.FindPairsOfLarge(margin, before_, present_, pairs_of_large_.pairs);
+  pairs_of_large_.ends.assign(1, static_cast<std::uint32_t>(pairs_of_large_.pairs.size()));
+  if (region_) region_->ChoosePairsOfLarge(*this);
   SwapFollowers();
   SplitBlocks();
   for (Part& part : parts_)
@@ -55,9 +57,8 @@ void KinematicWorld::FindContacts()
   for (const Part& part : parts_) shared_contacts_.Append(part.of_groups);
   if (!pairs_of_large_.pairs.empty())
   {
-    ContactBlock all;
-    pairs_of_large_.ends.assign(1, static_cast<std::uint32_t>(pairs_of_large_.pairs.size()));
-    FindContacts(pairs_of_large_, &all, shared_contacts_, shared_contacts_);
+    contacts_of_large_.resize(pairs_of_large_.ends.size());
+    FindContacts(pairs_of_large_, contacts_of_large_.data(), shared_contacts_, shared_contacts_);
   }
   statistics_.pairs = pairs_of_large_.pairs.size();
   statistics_.contacts = shared_contacts_.AllEnds().size();

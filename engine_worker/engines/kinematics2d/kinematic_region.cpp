@@ -44,8 +44,6 @@ void MoveRuns(const Runs& runs, std::size_t size, const T& behind, std::vector<T
 void KinematicWorld::BecomeRegion(unsigned region, std::span<const std::uint8_t> region_of_block,
                                   RegionExchange& exchange, unsigned halo)
 {
-  if (broad_.HasLarge())
-    throw std::runtime_error("a plane with a body more than three times as wide as the median one cannot be cut");
   region_ = std::make_unique<Region>(*this, region, region_of_block, exchange, halo);
 }
 
@@ -132,10 +130,14 @@ std::uint32_t KinematicWorld::Region::FindBody(std::uint32_t number_in_whole) co
                                                               : static_cast<std::uint32_t>(found - numbers_.begin());
 }
 
-KinematicWorld::Region::Regions KinematicWorld::Region::HoldersOf(std::uint32_t number, std::uint32_t cell) const
+// After FindCells.
+KinematicWorld::Region::Regions KinematicWorld::Region::HoldersOf(const KinematicWorld& world,
+                                                                  std::uint32_t body) const
 {
-  if (!grouped_.empty() && std::binary_search(grouped_.begin(), grouped_.end(), number)) return others_ | Bit(number_);
-  return holders_[cell];
+  const bool is_grouped =
+      !grouped_.empty() && std::binary_search(grouped_.begin(), grouped_.end(), numbers_[body]);
+  if (is_grouped || world.broad_.IsLarge(world.radius_[body])) return others_ | Bit(number_);
+  return holders_[cells_[body]];
 }
 
 template <class Act>
@@ -212,7 +214,7 @@ void KinematicWorld::Region::ShareBodies(KinematicWorld& world)
       continue;
     }
     if (!IsOwn(body)) continue;
-    const Regions holders = HoldersOf(numbers_[body], cells_[body]);
+    const Regions holders = HoldersOf(world, body);
     if ((holders & Bit(number_)) != 0) kept_.push_back(body);
     ForEachBit(holders & others_, [&](unsigned region) { PutBody(world, body, out_[region]); });
   }
@@ -382,7 +384,7 @@ void KinematicWorld::Region::FindCommon(const KinematicWorld& world)
     const bool follows = world.IsFollower(body);
     is_own_[body] = !follows && owner_[cells_[body]] == number_ ? 1 : 0;
     if (follows) continue;
-    ForEachBit(HoldersOf(numbers_[body], cells_[body]) & others_,
+    ForEachBit(HoldersOf(world, body) & others_,
                [&](unsigned region) { common_[region].push_back(body); });
   }
 }

@@ -5,9 +5,10 @@
 // After that all that happens to a body is told to all who hold it, by who does it; each computes the same from it.
 //
 // What is not bound to a place is told to all regions, and computed by each: the largest ways, who grips whom, contacts
-// of groups, and the limits of motions, whose rounds end for all at once. There is little of it.
+// of groups and of large bodies, and the limits of motions, whose rounds end for all at once. There is little of it.
 #pragma once
 
+#include <compare>
 #include <initializer_list>
 #include <map>
 
@@ -32,7 +33,9 @@ public:
   void ShareBodies(KinematicWorld& world);
   // Each number becomes the largest one of all regions.
   void ShareMaxima(std::initializer_list<double*> numbers);
-  // Contacts of groups in all regions take the place of those in this one.
+  // Of the pairs of large bodies, those that this region computes, each as a part of its own.
+  void ChoosePairsOfLarge(KinematicWorld& world);
+  // Contacts of groups and of large bodies in all regions take the place of those in this one.
   void ShareContacts(KinematicWorld& world);
   bool OverlapsAnywhere() const { return overlaps_anywhere_; }
   bool AfterColour(Stamp begin, bool moved) override;
@@ -92,18 +95,27 @@ private:
     std::uint32_t padding;
     double x, y, mobility;
   };
+  // What comes first: contacts of groups by blocks; then those of large bodies, by large body, then by the cell of the
+  // other one, by the other one.
+  struct Order
+  {
+    std::uint32_t large;  // 0, or 1 + its number in the whole world
+    std::uint32_t place;  // block or cell; behind all cells large bodies and static shapes
+    std::uint32_t other;
+
+    auto operator<=>(const Order&) const = default;
+  };
   struct SharedContact
   {
-    std::uint32_t block;
-    std::uint8_t face, overlaps;
-    std::uint16_t padding;
+    Order order;
+    std::uint16_t face, overlaps;
     SharedLeader first, second;
     ContactList::Outline outline;
   };
 
   static constexpr std::uint32_t kNobody = ~0U;
   Regions Bit(unsigned region) const { return Regions{1} << region; }
-  Regions HoldersOf(std::uint32_t number, std::uint32_t cell) const;
+  Regions HoldersOf(const KinematicWorld& world, std::uint32_t body) const;
   template <class Act>
   void ForEachOther(const Act& act) const;
   void Swap();
@@ -148,6 +160,7 @@ private:
 
   KinematicWorld* solved_ = nullptr;
   bool overlaps_anywhere_ = false;
+  std::vector<Order> order_of_large_;  // of each pair of the world's pairs_of_large_
   std::vector<SharedContact> shared_contacts_;
   // Of each leader in a shared contact, by number in the whole world; one more for static shapes.
   std::vector<std::uint32_t> shared_numbers_;

@@ -1,5 +1,6 @@
 // KinematicWorld::Region: what regions tell one another while contacts are solved and motions limited.
 #include <algorithm>
+#include <numeric>
 
 #include "engine_worker/engines/kinematics2d/kinematic_region.h"
 
@@ -13,23 +14,62 @@ KinematicWorld::Region::SharedLeader KinematicWorld::Region::LeaderAt(const Kine
   return {numbers_[leader], 0, world.now_.x[leader], world.now_.y[leader], world.mobility_[leader]};
 }
 
+// A pair is computed by the region of the small body; between large ones, and with static shapes, by that of the first
+// one that has a region. Pairs that cannot move have none.
+void KinematicWorld::Region::ChoosePairsOfLarge(KinematicWorld& world)
+{
+  order_of_large_.clear();
+  const auto is_large = [&](std::uint32_t body) { return world.broad_.IsLarge(world.radius_[body]); };
+  const auto cells = static_cast<std::uint32_t>(world.broad_.Cells().Count());
+  std::erase_if(world.pairs_of_large_.pairs,
+                [&](const Pair& pair)
+                {
+                  const bool fixed = pair.second >= world.count_;
+                  auto [large, other] = pair;
+                  if (!is_large(large)) std::swap(large, other);
+                  const bool both = !fixed && is_large(other);
+                  const std::uint32_t computed = fixed || (both && !world.IsFollower(large)) ? large : other;
+                  const std::uint32_t here = world.IsFollower(computed) ? large : computed;
+                  if (!IsOwn(here)) return true;
+                  const std::uint32_t place =
+                      fixed  ? cells + 1
+                      : both ? cells
+                             : world.broad_.Cells().CellOf(world.before_.x[other], world.before_.y[other]);
+                  order_of_large_.push_back({numbers_[large] + 1, place,
+                                             fixed ? pair.second - static_cast<std::uint32_t>(world.count_)
+                                                   : numbers_[other]});
+                  return false;
+                });
+  std::vector<std::uint32_t>& ends = world.pairs_of_large_.ends;
+  ends.resize(order_of_large_.size());
+  std::iota(ends.begin(), ends.end(), 1U);
+}
+
 void KinematicWorld::Region::AddOwnContacts(const KinematicWorld& world)
 {
+  const ContactList& contacts = world.shared_contacts_;
+  std::size_t overlapping = 0;
+  std::uint32_t n = 0;
+  const auto add_to = [&](std::size_t end, const Order& order)
+  {
+    for (; n < end; ++n)
+    {
+      const ContactList::Ends ends = contacts.AllEnds()[n];
+      const bool overlaps = overlapping < contacts.Overlapping().size() && contacts.Overlapping()[overlapping] == n;
+      overlapping += overlaps ? 1 : 0;
+      shared_contacts_.push_back({order, ends.face != 0, overlaps, LeaderAt(world, ends.first), LeaderAt(world, ends.second),
+                                  contacts.Outlines()[n]});
+    }
+  };
+  std::size_t begin = 0;
   for (const Part& part : world.parts_)
   {
-    const ContactList& contacts = part.of_groups;
-    std::size_t overlapping = 0;
-    std::uint32_t n = 0;
     for (std::size_t b = part.first_block; b < part.last_block; ++b)
-      for (; n < world.block_contacts_[b].last_of_groups; ++n)
-      {
-        const ContactList::Ends ends = contacts.AllEnds()[n];
-        const bool overlaps = overlapping < contacts.Overlapping().size() && contacts.Overlapping()[overlapping] == n;
-        overlapping += overlaps ? 1 : 0;
-        shared_contacts_.push_back({world.blocks_[b], ends.face != 0, overlaps, 0, LeaderAt(world, ends.first),
-                                    LeaderAt(world, ends.second), contacts.Outlines()[n]});
-      }
+      add_to(begin + world.block_contacts_[b].last_of_groups, {0, world.blocks_[b], 0});
+    begin += part.of_groups.AllEnds().size();
   }
+  for (std::size_t k = 0; k < order_of_large_.size(); ++k)
+    add_to(world.contacts_of_large_[k].last, order_of_large_[k]);
 }
 
 void KinematicWorld::Region::ShareContacts(KinematicWorld& world)
@@ -57,9 +97,9 @@ void KinematicWorld::Region::ShareContacts(KinematicWorld& world)
         const auto theirs = message.GetArray<SharedContact>();
         shared_contacts_.insert(shared_contacts_.end(), theirs.begin(), theirs.end());
       });
-  // A block has its contacts from one region, in their order.
+  // Those of a block, or of a pair, are from one region, in their order.
   std::stable_sort(shared_contacts_.begin(), shared_contacts_.end(),
-                   [](const SharedContact& a, const SharedContact& b) { return a.block < b.block; });
+                   [](const SharedContact& a, const SharedContact& b) { return a.order < b.order; });
   NumberLeaders(world);
 }
 
@@ -257,6 +297,7 @@ const LimitList& KinematicWorld::Region::ShareLimits(KinematicWorld& world)
     }
   };
   for (const Part& part : world.parts_) list(part.limits);
+  list(world.limits_of_large_);
   ForEachOther(
       [&](unsigned region)
       {

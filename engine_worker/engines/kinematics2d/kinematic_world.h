@@ -113,10 +113,10 @@ public:
   std::uint32_t BlockCount() const { return broad_.BlockCount(); }
   // From the whole world, after Start, to one of the regions into which it is cut: region_of_block[k] has block k. From
   // the next Advance on, the world holds the bodies in its own blocks and in the cells around them, at most `halo` cells
-  // away, with numbers of its own; followers and members of groups it holds wherever they are. The worlds of all
-  // regions must then advance at the same time, by the same amounts, and speak by `exchange`, which outlives the world.
-  // Their bodies go bit by bit as in the whole world, wherever the cuts are. One cell of halo is enough.
-  // Throws std::runtime_error if a body is too large for the cells.
+  // away, with numbers of its own; followers, members of groups and bodies that are too large for the cells it holds
+  // wherever they are. The worlds of all regions must then advance at the same time, by the same amounts, and speak by
+  // `exchange`, which outlives the world. Their bodies go bit by bit as in the whole world, wherever the cuts are. One
+  // cell of halo is enough. Throws std::runtime_error for what is no cut.
   void BecomeRegion(unsigned region, std::span<const std::uint8_t> region_of_block, RegionExchange& exchange,
                     unsigned halo = 1);
   // Other cuts, from the next Advance on: at all regions alike.
@@ -324,6 +324,7 @@ private:
   ContactSolver solver_;
   MotionLimiter limiter_;
   std::vector<std::uint8_t> is_involved_;  // of each leader: it may be limited in this substep
+  std::vector<ContactBlock> contacts_of_large_;  // of each part of pairs_of_large_
   LimitList limits_of_large_;
   std::vector<std::uint8_t> is_large_limited_;
   double reach_ = 0;           // nobody gets further than this from where a substep began

@@ -94,11 +94,14 @@ struct Scene
   double speed = 0.3;
   bool has_grips = true;
   bool has_followers = true;
+  bool has_large = true;
   std::uint64_t seed = 1;
 
   std::uint32_t Bodies() const { return static_cast<std::uint32_t>(side * side * density); }
   bool IsFootbot(std::uint32_t body) const { return body % 10 != 3 && body % 10 != 7; }
   bool IsPrey(std::uint32_t body) const { return body % 10 == 3; }
+  // Some boxes are too large for the cells.
+  bool IsLarge(std::uint32_t body) const { return has_large && body % 400 == 27; }
 };
 
 Pose2 FollowerPose(const Scene& scene, std::uint32_t k, std::uint64_t tick)
@@ -116,6 +119,7 @@ KinematicWorld Build(const Scene& scene)
   const std::uint32_t footbot = world.AddModel(FootbotModel());
   const std::uint32_t prey = world.AddModel(CircleModel(0.08));
   const std::uint32_t box = world.AddModel(RectangleModel(0.16, 0.1));
+  const std::uint32_t plank = world.AddModel(RectangleModel(1.2, 0.1));
   const std::uint32_t count = scene.Bodies();
   const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(count)));
   const double spacing = scene.side / columns;
@@ -123,14 +127,14 @@ KinematicWorld Build(const Scene& scene)
   RandomStream random(scene.seed, 1, 0, 0);
   for (std::uint32_t k = 0; k < count; ++k)
   {
-    const std::uint32_t model = scene.IsFootbot(k) ? footbot : scene.IsPrey(k) ? prey : box;
+    const std::uint32_t model = scene.IsLarge(k) ? plank : scene.IsFootbot(k) ? footbot : scene.IsPrey(k) ? prey : box;
     // Numbers lie anywhere.
     const std::uint32_t place = static_cast<std::uint32_t>((std::uint64_t{k} * 7919) % count);
     world.AddBody(model, {(place % columns + 0.5) * spacing - edge, (place / columns + 0.5) * spacing - edge,
                           RotorOf(random.Uniform(-kPi, kPi))});
   }
   if (scene.has_followers)
-    for (std::uint32_t k = 0; k < kFollowers; ++k) world.AddBody(prey, FollowerPose(scene, k, 0), true);
+    for (std::uint32_t k = 0; k < kFollowers; ++k) world.AddBody(scene.has_large && k == 2 ? plank : prey, FollowerPose(scene, k, 0), true);
   world.AddStatic(Box(-edge - 0.1, -edge - 0.1, -edge, edge + 0.1));
   world.AddStatic(Box(edge, -edge - 0.1, edge + 0.1, edge + 0.1));
   world.AddStatic(Box(-edge - 0.1, -edge - 0.1, edge + 0.1, -edge));
