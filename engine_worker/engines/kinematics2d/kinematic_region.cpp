@@ -15,6 +15,13 @@ namespace swarmanoid::kinematics2d
 namespace
 {
 
+// Gives back what the whole world took.
+template <class T>
+void Trim(std::vector<T>& values)
+{
+  if (values.capacity() > 2 * values.size()) values.shrink_to_fit();
+}
+
 // Moves runs of values to their new places. What lies between them is left over from before.
 template <class Runs, class T>
 void MoveRuns(const Runs& runs, std::size_t size, const T& behind, std::vector<T>& values)
@@ -37,6 +44,7 @@ void MoveRuns(const Runs& runs, std::size_t size, const T& behind, std::vector<T
     end = begin;
   }
   values.resize(size, behind);
+  Trim(values);
 }
 
 }  // namespace
@@ -131,11 +139,9 @@ std::uint32_t KinematicWorld::Region::FindBody(std::uint32_t number_in_whole) co
 }
 
 // After FindCells.
-KinematicWorld::Region::Regions KinematicWorld::Region::HoldersOf(const KinematicWorld& world,
-                                                                  std::uint32_t body) const
+KinematicWorld::Region::Regions KinematicWorld::Region::HoldersOf(const KinematicWorld& world, std::uint32_t body) const
 {
-  const bool is_grouped =
-      !grouped_.empty() && std::binary_search(grouped_.begin(), grouped_.end(), numbers_[body]);
+  const bool is_grouped = !grouped_.empty() && std::binary_search(grouped_.begin(), grouped_.end(), numbers_[body]);
   if (is_grouped || world.broad_.IsLarge(world.radius_[body])) return others_ | Bit(number_);
   return holders_[cells_[body]];
 }
@@ -311,13 +317,13 @@ void KinematicWorld::Region::Rearrange(KinematicWorld& world)
   std::vector<std::uint32_t> place_of(world.count_, kGone);
   for (const Run& run : runs_) std::iota(place_of.begin() + run.from, place_of.begin() + run.from + run.count, run.to);
 
-  for (std::vector<double>* of_bodies : {&world.now_.x, &world.now_.y, &world.now_.z, &world.twists_.forward,
-                                         &world.twists_.left, &world.twists_.turn})
+  for (std::vector<double>* of_bodies :
+       {&world.now_.x, &world.now_.y, &world.now_.z, &world.twists_.forward, &world.twists_.left, &world.twists_.turn})
     MoveRuns(runs_, padded, 0.0, *of_bodies);
   for (std::vector<double>* of_bodies : {&world.now_.w, &world.core_limit_, &world.inverse_limit_})
     MoveRuns(runs_, padded, 1.0, *of_bodies);
-  for (std::vector<double>* of_bodies : {&world.turret_angle_, &world.turret_sin_, &world.radius_,
-                                         &world.travel_forward_, &world.travel_turn_})
+  for (std::vector<double>* of_bodies :
+       {&world.turret_angle_, &world.turret_sin_, &world.radius_, &world.travel_forward_, &world.travel_turn_})
     MoveRuns(runs_, count, 0.0, *of_bodies);
   MoveRuns(runs_, count, 1.0, world.turret_cos_);
   MoveRuns(runs_, count, 0U, world.model_);
@@ -341,15 +347,24 @@ void KinematicWorld::Region::Rearrange(KinematicWorld& world)
   world.turret_cos_before_ = world.turret_cos_;
   world.turret_sin_before_ = world.turret_sin_;
   world.turret_way_.assign(count, 0);
-  world.effective_.Resize(padded);
+  for (std::vector<double>* values : {&world.effective_.forward, &world.effective_.left, &world.effective_.turn})
+    values->resize(padded, 0);
   world.way_.resize(padded);
+  for (PoseStore* poses : {&world.now_, &world.before_})
+    for (std::vector<double>* values : {&poses->x, &poses->y, &poses->z, &poses->w}) Trim(*values);
+  for (std::vector<double>* values :
+       {&world.way_, &world.turret_way_, &world.effective_.forward, &world.effective_.left, &world.effective_.turn})
+    Trim(*values);
   world.placed_.resize(count);
+  Trim(world.placed_);
   for (const CollisionModel& shape : world.statics_) world.placed_.push_back({.model = &shape});
   world.leader_.resize(count + 1);
   world.leader_[count] = static_cast<std::uint32_t>(count);
   world.mobility_.resize(count + 1);
   world.mobility_[count] = 0;
   world.is_involved_.resize(count + 1);
+  for (std::vector<std::uint32_t>* of_bodies : {&world.leader_, &numbers_, &kept_}) Trim(*of_bodies);
+  Trim(world.mobility_);
   world.solver_.Configure(count, static_cast<unsigned>(world.parts_.size()));
   world.limiter_.Clear();
   world.limiter_.MakeRoom(count + 1);
@@ -384,8 +399,7 @@ void KinematicWorld::Region::FindCommon(const KinematicWorld& world)
     const bool follows = world.IsFollower(body);
     is_own_[body] = !follows && owner_[cells_[body]] == number_ ? 1 : 0;
     if (follows) continue;
-    ForEachBit(HoldersOf(world, body) & others_,
-               [&](unsigned region) { common_[region].push_back(body); });
+    ForEachBit(HoldersOf(world, body) & others_, [&](unsigned region) { common_[region].push_back(body); });
   }
 }
 

@@ -23,8 +23,8 @@ class KinematicWorld::Region final : public ContactSolver::Border
 public:
   using Stamp = ContactSolver::Stamp;
 
-  Region(KinematicWorld& whole, unsigned number, std::span<const std::uint8_t> region_of_block, RegionExchange& exchange,
-         unsigned halo);
+  Region(KinematicWorld& whole, unsigned number, std::span<const std::uint8_t> region_of_block,
+         RegionExchange& exchange, unsigned halo);
 
   void SetCuts(KinematicWorld& world, std::span<const std::uint8_t> region_of_block);
 

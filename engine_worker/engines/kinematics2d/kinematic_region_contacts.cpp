@@ -21,25 +21,25 @@ void KinematicWorld::Region::ChoosePairsOfLarge(KinematicWorld& world)
   order_of_large_.clear();
   const auto is_large = [&](std::uint32_t body) { return world.broad_.IsLarge(world.radius_[body]); };
   const auto cells = static_cast<std::uint32_t>(world.broad_.Cells().Count());
-  std::erase_if(world.pairs_of_large_.pairs,
-                [&](const Pair& pair)
-                {
-                  const bool fixed = pair.second >= world.count_;
-                  auto [large, other] = pair;
-                  if (!is_large(large)) std::swap(large, other);
-                  const bool both = !fixed && is_large(other);
-                  const std::uint32_t computed = fixed || (both && !world.IsFollower(large)) ? large : other;
-                  const std::uint32_t here = world.IsFollower(computed) ? large : computed;
-                  if (!IsOwn(here)) return true;
-                  const std::uint32_t place =
-                      fixed  ? cells + 1
-                      : both ? cells
-                             : world.broad_.Cells().CellOf(world.before_.x[other], world.before_.y[other]);
-                  order_of_large_.push_back({numbers_[large] + 1, place,
-                                             fixed ? pair.second - static_cast<std::uint32_t>(world.count_)
-                                                   : numbers_[other]});
-                  return false;
-                });
+  std::erase_if(
+      world.pairs_of_large_.pairs,
+      [&](const Pair& pair)
+      {
+        const bool fixed = pair.second >= world.count_;
+        auto [large, other] = pair;
+        if (!is_large(large)) std::swap(large, other);
+        const bool both = !fixed && is_large(other);
+        const std::uint32_t computed = fixed || (both && !world.IsFollower(large)) ? large : other;
+        const std::uint32_t here = world.IsFollower(computed) ? large : computed;
+        if (!IsOwn(here)) return true;
+        const std::uint32_t place = fixed ? cells + 1
+                                    : both
+                                        ? cells
+                                        : world.broad_.Cells().CellOf(world.before_.x[other], world.before_.y[other]);
+        order_of_large_.push_back({numbers_[large] + 1, place,
+                                   fixed ? pair.second - static_cast<std::uint32_t>(world.count_) : numbers_[other]});
+        return false;
+      });
   std::vector<std::uint32_t>& ends = world.pairs_of_large_.ends;
   ends.resize(order_of_large_.size());
   std::iota(ends.begin(), ends.end(), 1U);
@@ -57,8 +57,8 @@ void KinematicWorld::Region::AddOwnContacts(const KinematicWorld& world)
       const ContactList::Ends ends = contacts.AllEnds()[n];
       const bool overlaps = overlapping < contacts.Overlapping().size() && contacts.Overlapping()[overlapping] == n;
       overlapping += overlaps ? 1 : 0;
-      shared_contacts_.push_back({order, ends.face != 0, overlaps, LeaderAt(world, ends.first), LeaderAt(world, ends.second),
-                                  contacts.Outlines()[n]});
+      shared_contacts_.push_back({order, ends.face != 0, overlaps, LeaderAt(world, ends.first),
+                                  LeaderAt(world, ends.second), contacts.Outlines()[n]});
     }
   };
   std::size_t begin = 0;
@@ -68,8 +68,7 @@ void KinematicWorld::Region::AddOwnContacts(const KinematicWorld& world)
       add_to(begin + world.block_contacts_[b].last_of_groups, {0, world.blocks_[b], 0});
     begin += part.of_groups.AllEnds().size();
   }
-  for (std::size_t k = 0; k < order_of_large_.size(); ++k)
-    add_to(world.contacts_of_large_[k].last, order_of_large_[k]);
+  for (std::size_t k = 0; k < order_of_large_.size(); ++k) add_to(world.contacts_of_large_[k].last, order_of_large_[k]);
 }
 
 void KinematicWorld::Region::ShareContacts(KinematicWorld& world)

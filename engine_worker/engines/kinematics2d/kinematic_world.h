@@ -112,16 +112,17 @@ public:
   std::uint32_t BlockColumns() const { return broad_.BlockColumns(); }
   std::uint32_t BlockCount() const { return broad_.BlockCount(); }
   // From the whole world, after Start, to one of the regions into which it is cut: region_of_block[k] has block k. From
-  // the next Advance on, the world holds the bodies in its own blocks and in the cells around them, at most `halo` cells
-  // away, with numbers of its own; followers, members of groups and bodies that are too large for the cells it holds
-  // wherever they are. The worlds of all regions must then advance at the same time, by the same amounts, and speak by
-  // `exchange`, which outlives the world. Their bodies go bit by bit as in the whole world, wherever the cuts are. One
-  // cell of halo is enough. Throws std::runtime_error for what is no cut.
+  // the next Advance on, the world holds the bodies in its own blocks and in the cells around them, at most `halo`
+  // cells away, with numbers of its own; followers, members of groups and bodies that are too large for the cells it
+  // holds wherever they are. The worlds of all regions must then advance at the same time, by the same amounts, and
+  // speak by `exchange`, which outlives the world. Their bodies go bit by bit as in the whole world, wherever the cuts
+  // are. One cell of halo is enough. Throws std::runtime_error for what is no cut.
   void BecomeRegion(unsigned region, std::span<const std::uint8_t> region_of_block, RegionExchange& exchange,
                     unsigned halo = 1);
   // Other cuts, from the next Advance on: at all regions alike.
   void MoveCuts(std::span<const std::uint8_t> region_of_block);
-  // Bodies are numbered anew in each substep in which some come or go, in the order of their numbers in the whole world.
+  // Bodies are numbered anew in each substep in which some come or go, in the order of their numbers in the whole
+  // world.
   std::uint32_t NumberInWhole(std::uint32_t body) const;
   // BodyCount() for a body that this region does not hold.
   std::uint32_t FindBody(std::uint32_t number_in_whole) const;
@@ -318,12 +319,12 @@ private:
   std::vector<std::uint32_t> blocks_;  // those of this region, ascending
   PairList pairs_of_large_;
   std::vector<ContactBlock> block_contacts_;  // of each of them
-  ContactList shared_contacts_;  // of large bodies and of groups: they may reach into many blocks
+  ContactList shared_contacts_;               // of large bodies and of groups: they may reach into many blocks
   // The last one is that of the shared contacts.
   std::array<std::vector<ContactBlock>, BroadPhase::kColours + 1> colours_;
   ContactSolver solver_;
   MotionLimiter limiter_;
-  std::vector<std::uint8_t> is_involved_;  // of each leader: it may be limited in this substep
+  std::vector<std::uint8_t> is_involved_;        // of each leader: it may be limited in this substep
   std::vector<ContactBlock> contacts_of_large_;  // of each part of pairs_of_large_
   LimitList limits_of_large_;
   std::vector<std::uint8_t> is_large_limited_;

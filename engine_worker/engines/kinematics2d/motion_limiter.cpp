@@ -59,8 +59,13 @@ void MotionLimiter::Configure(std::size_t leaders)
 
 void MotionLimiter::MakeRoom(std::size_t leaders)
 {
-  if (2 * leaders <= part_.size()) return;
-  for (std::vector<double>* of_motions : {&most_, &part_, &next_}) of_motions->resize(2 * leaders, 1);
+  const bool is_much_too_large = part_.size() > 8 * leaders;
+  if (2 * leaders <= part_.size() && !is_much_too_large) return;
+  for (std::vector<double>* of_motions : {&most_, &part_, &next_})
+  {
+    of_motions->resize(2 * leaders, 1);
+    if (is_much_too_large) of_motions->shrink_to_fit();
+  }
   is_touched_.resize(2 * leaders, 0);
 }
 

@@ -68,7 +68,7 @@ class MotionLimiter
 {
 public:
   void Configure(std::size_t leaders);
-  // For at least so many leaders, between Clear and Add.
+  // For so many leaders: after Clear, or for more before theirs are added.
   void MakeRoom(std::size_t leaders);
   // Everybody may do all again.
   void Clear();

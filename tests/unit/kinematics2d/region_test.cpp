@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <condition_variable>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -12,7 +11,7 @@
 #include "common/math/elementary.h"
 #include "common/math/random.h"
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
-#include "engine_worker/engines/kinematics2d/region_exchange.h"
+#include "tests/unit/kinematics2d/region_hub.h"
 
 namespace swarmanoid::kinematics2d
 {
@@ -21,64 +20,6 @@ namespace
 
 constexpr double kTick = 0.1;
 constexpr std::uint32_t kFollowers = 6;
-
-// Where the regions of one process, each in a thread of its own, leave their messages for one another.
-class Hub
-{
-public:
-  explicit Hub(unsigned regions) : left_(regions), taken_(regions) {}
-
-  unsigned RegionCount() const { return static_cast<unsigned>(left_.size()); }
-  // One of them failed: the others need not wait for it.
-  void Break()
-  {
-    const std::lock_guard lock(mutex_);
-    is_broken_ = true;
-    changed_.notify_all();
-  }
-  void Swap(unsigned region, std::span<const ByteWriter> out, std::span<std::vector<char>> in)
-  {
-    std::unique_lock lock(mutex_);
-    left_[region].clear();
-    for (const ByteWriter& message : out)
-    {
-      left_[region].push_back(message.Bytes());
-      bytes_ += message.Bytes().size();
-    }
-    const std::uint64_t round = rounds_;
-    if (++here_ == RegionCount())
-    {
-      here_ = 0;
-      ++rounds_;
-      left_.swap(taken_);
-      changed_.notify_all();
-    }
-    changed_.wait(lock, [&] { return rounds_ != round || is_broken_; });
-    if (rounds_ == round) throw std::runtime_error("another region failed");
-    for (unsigned k = 0; k < RegionCount(); ++k) in[k] = taken_[k][region];
-  }
-
-private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::vector<std::vector<std::vector<char>>> left_, taken_;  // by sender and receiver
-  unsigned here_ = 0;
-  std::uint64_t rounds_ = 0;
-  std::uint64_t bytes_ = 0;
-  bool is_broken_ = false;
-};
-
-class HubExchange : public RegionExchange
-{
-public:
-  HubExchange(Hub& hub, unsigned region) : hub_(hub), region_(region) {}
-  unsigned RegionCount() const override { return hub_.RegionCount(); }
-  void Swap(std::span<const ByteWriter> out, std::span<std::vector<char>> in) override { hub_.Swap(region_, out, in); }
-
-private:
-  Hub& hub_;
-  unsigned region_;
-};
 
 CollisionModel Box(double min_x, double min_y, double max_x, double max_y)
 {
@@ -134,7 +75,8 @@ KinematicWorld Build(const Scene& scene)
                           RotorOf(random.Uniform(-kPi, kPi))});
   }
   if (scene.has_followers)
-    for (std::uint32_t k = 0; k < kFollowers; ++k) world.AddBody(scene.has_large && k == 2 ? plank : prey, FollowerPose(scene, k, 0), true);
+    for (std::uint32_t k = 0; k < kFollowers; ++k)
+      world.AddBody(scene.has_large && k == 2 ? plank : prey, FollowerPose(scene, k, 0), true);
   world.AddStatic(Box(-edge - 0.1, -edge - 0.1, -edge, edge + 0.1));
   world.AddStatic(Box(edge, -edge - 0.1, edge + 0.1, edge + 0.1));
   world.AddStatic(Box(-edge - 0.1, -edge - 0.1, edge + 0.1, -edge));
@@ -357,10 +299,10 @@ Outcome Retell(const Scene& scene, const Story& story, unsigned regions, const C
           }
           catch (const std::exception& error)
           {
-            hub.Break();
             const std::lock_guard lock(mutex);
             if (outcome.error.empty()) outcome.error = error.what();
           }
+          hub.Break();
         });
   for (std::thread& thread : threads) thread.join();
   if (!outcome.error.empty()) return outcome;
@@ -468,7 +410,7 @@ TEST(KinematicRegions, ARegionHoldsItsBodiesAndOneCellAroundThem)
   EXPECT_GT(two.most_held, one.most_held);
   // Less is not enough.
   const Outcome none = Retell(scene, story, 4, quadrants, 0);
-  EXPECT_GT(none.differences, 0U);
+  EXPECT_TRUE(none.differences > 0 || !none.error.empty());
 }
 
 TEST(KinematicRegions, CutsThatAreNoneAreRefused)
