@@ -2,54 +2,19 @@
 // Arguments: robots, robots per square metre, threads.
 #include <benchmark/benchmark.h>
 
-#include <array>
-#include <cmath>
-
-#include "common/math/elementary.h"
-#include "common/math/random.h"
-#include "engine_worker/engines/kinematics2d/kinematic_world.h"
+#include "kinematic_crowd.h"
 
 namespace swarmanoid::kinematics2d
 {
 namespace
 {
 
-constexpr double kTick = 0.1;
 constexpr int kWarmUp = 100;  // ticks, so that the crowd is mixed and buffers have grown
 
-CollisionModel Box(double min_x, double min_y, double max_x, double max_y)
-{
-  const std::array<Vector2, 4> corners{Vector2(max_x, min_y), Vector2(max_x, max_y), Vector2(min_x, max_y),
-                                       Vector2(min_x, min_y)};
-  return MakeModel({}, {MakePolygon(corners)});
-}
-
-KinematicWorld Crowd(std::uint32_t count, double density, unsigned threads)
-{
-  KinematicWorld world;
-  const auto footbot = world.AddModel(FootbotModel());
-  const double side = std::sqrt(count / density);
-  const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(count)));
-  const double spacing = side / columns;
-  RandomStream random(1, 0, 0, 0);
-  for (std::uint32_t k = 0; k < count; ++k)
-    world.AddBody(footbot,
-                  {(k % columns + 0.5) * spacing, (k / columns + 0.5) * spacing, RotorOf(random.Uniform(-kPi, kPi))});
-  world.AddStatic(Box(-0.1, -0.1, 0, side + 0.1));
-  world.AddStatic(Box(side, -0.1, side + 0.1, side + 0.1));
-  world.AddStatic(Box(-0.1, -0.1, side + 0.1, 0));
-  world.AddStatic(Box(-0.1, side, side + 0.1, side + 0.1));
-  world.Start({0, 0, side, side}, threads);
-  return world;
-}
-
-// New speeds for a twentieth of the robots, forward as often as back: without avoidance, a crowd that only goes forward
-// would jam along the walls.
 void Steer(KinematicWorld& world, std::uint32_t tick)
 {
-  RandomStream random(2, 0, 0, tick);
-  for (std::uint32_t k = tick % 20; k < world.BodyCount(); k += 20)
-    world.SetTwist(k, {random.Uniform(-0.2, 0.2), 0, random.Uniform(-1, 1)});
+  SteerEach(static_cast<std::uint32_t>(world.BodyCount()), tick,
+            [&](std::uint32_t body, const Twist& twist) { world.SetTwist(body, twist); });
 }
 
 void AdvanceCrowd(benchmark::State& state)

@@ -30,21 +30,15 @@ void BroadPhase::Configure(const Bounds& area, std::span<const double> radii, do
 {
   count_ = radii.size();
   largest_margin_ = largest_margin;
-  radius_.assign(radii.begin(), radii.end());
-  large_.clear();
+  largest_radius_ = 0;
   largest_small_radius_ = 0;
   if (count_ > 0)
   {
     std::vector<double> sorted(radii.begin(), radii.end());
     std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count_ / 2), sorted.end());
-    const double limit = kLargeFactor * sorted[count_ / 2];
-    for (std::size_t k = 0; k < count_; ++k)
-    {
-      if (radii[k] > limit)
-        large_.push_back(static_cast<std::uint32_t>(k));
-      else
-        largest_small_radius_ = std::max(largest_small_radius_, radii[k]);
-    }
+    largest_radius_ = kLargeFactor * sorted[count_ / 2];
+    for (const double radius : radii)
+      if (!IsLarge(radius)) largest_small_radius_ = std::max(largest_small_radius_, radius);
   }
 
   // One body a cell if the margin allows, and never more cells than memory is good for.
@@ -73,12 +67,23 @@ void BroadPhase::Configure(const Bounds& area, std::span<const double> radii, do
       std::max({std::fabs(area.min_x), std::fabs(area.max_x), std::fabs(area.min_y), std::fabs(area.max_y)});
   slack_ = static_cast<float>(4 * extent * 0x1p-24 + 1e-6);
 
-  body_.assign(PaddedCount(count_), 0);
-  sorted_cell_.assign(PaddedCount(count_), 0);
-  x_.assign(PaddedCount(count_), kFarAway);
-  y_.assign(PaddedCount(count_), kFarAway);
-  r_.assign(PaddedCount(count_), 0);
+  SetBodies(radii);
   SetStatics({});
+}
+
+void BroadPhase::SetBodies(std::span<const double> radii)
+{
+  count_ = radii.size();
+  radius_.assign(radii.begin(), radii.end());
+  large_.clear();
+  for (std::size_t k = 0; k < count_; ++k)
+    if (IsLarge(radii[k])) large_.push_back(static_cast<std::uint32_t>(k));
+  const std::size_t padded = PaddedCount(count_);
+  body_.resize(padded, 0);
+  sorted_cell_.resize(padded, 0);
+  x_.resize(padded, kFarAway);
+  y_.resize(padded, kFarAway);
+  r_.resize(padded, 0);
 }
 
 void BroadPhase::SetStatics(std::span<const Bounds> boxes)
@@ -123,36 +128,30 @@ void BroadPhase::Sort(const PoseStore& poses, std::span<const std::uint8_t> pres
       });
 }
 
-// Calls act(first, last) with the first and the last cell of each row of a block.
-template <class Act>
-inline void BroadPhase::ForEachRowOf(std::uint32_t block, const Act& act) const
-{
-  const auto begin = [](std::uint32_t number, std::uint32_t missing)
-  { return std::max(number * kBlock, missing) - missing; };
-  const std::uint32_t column = block % block_columns_;
-  const std::uint32_t row = block / block_columns_;
-  const std::uint32_t last_column = std::min((column + 1) * kBlock - missing_columns_, cells_.columns.Count()) - 1;
-  const std::uint32_t row_end = std::min((row + 1) * kBlock - missing_rows_, cells_.rows.Count());
-  for (std::uint32_t r = begin(row, missing_rows_); r < row_end; ++r)
-    act(cells_.Cell(begin(column, missing_columns_), r), cells_.Cell(last_column, r));
-}
-
-std::uint32_t BroadPhase::BlockAt(double part) const
+std::size_t BroadPhase::BlocksWith(double part, std::span<const std::uint32_t> blocks) const
 {
   const std::uint32_t* const start = sort_.Starts();
-  const auto before = static_cast<std::uint32_t>(part * static_cast<double>(start[cells_.Count()]));
-  std::uint32_t block = 0;
-  for (std::uint32_t bodies = 0; block < BlockCount() && bodies < before; ++block)
+  const auto bodies_in = [&](std::uint32_t block)
+  {
+    std::uint32_t bodies = 0;
     ForEachRowOf(block, [&](std::uint32_t first, std::uint32_t last) { bodies += start[last + 1] - start[first]; });
-  return block;
+    return bodies;
+  };
+  std::uint64_t all = 0;
+  for (const std::uint32_t block : blocks) all += bodies_in(block);
+  const double before = part * static_cast<double>(all);
+  std::size_t count = 0;
+  for (std::uint64_t bodies = 0; count < blocks.size() && static_cast<double>(bodies) < before; ++count)
+    bodies += bodies_in(blocks[count]);
+  return count;
 }
 
-void BroadPhase::FindPairs(double margin, std::uint32_t first_block, std::uint32_t last_block, PairList& found) const
+void BroadPhase::FindPairs(double margin, std::span<const std::uint32_t> blocks, PairList& found) const
 {
   const float reach = ReachOf(margin);
   found.pairs.clear();
   found.ends.clear();
-  for (std::uint32_t block = first_block; block < last_block; ++block)
+  for (const std::uint32_t block : blocks)
   {
     SweepBlock(reach, block, found.pairs);
     if (!static_boxes_.empty()) SweepStatics(reach, block, found.pairs);

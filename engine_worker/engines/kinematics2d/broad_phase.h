@@ -3,6 +3,7 @@
 // the pairs and their order follow from the positions alone. Finding may be shared among threads.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -48,21 +49,30 @@ public:
   void Configure(const Bounds& area, std::span<const double> radii, double largest_margin);
   // The static shapes by their boxes. After Configure.
   void SetStatics(std::span<const Bounds> boxes);
+  // Other bodies from now on, in the same cells.
+  void SetBodies(std::span<const double> radii);
 
   // Puts the bodies into cells. `present[k]` is 0 for those that are not to be found.
   void Sort(const PoseStore& poses, std::span<const std::uint8_t> present);
+  const PlaneCells<double>& Cells() const { return cells_; }
   std::uint32_t BlockCount() const { return block_columns_ * block_rows_; }
+  std::uint32_t BlockColumns() const { return block_columns_; }
+  // Calls act(first, last) with the first and the last cell of each row of a block.
+  template <class Act>
+  void ForEachRowOf(std::uint32_t block, const Act& act) const;
+  // Whether a body of this radius is too big for the cells.
+  bool IsLarge(double radius) const { return radius > largest_radius_; }
   std::uint32_t ColourOf(std::uint32_t block) const
   {
     const std::uint32_t column = block % block_columns_ + first_block_column_;
     const std::uint32_t row = block / block_columns_ + first_block_row_;
     return (row & 1U) * 2 + (column & 1U);
   }
-  // The block before which a part (0 to 1) of all sorted bodies lies.
-  std::uint32_t BlockAt(double part) const;
+  // How many of these blocks hold a part (0 to 1) of the bodies that were sorted into them.
+  std::size_t BlocksWith(double part, std::span<const std::uint32_t> blocks) const;
   // After Sort: bodies whose circles are less than `margin` apart, and bodies with the static shapes near them, block
   // by block in the order of their cells. Large bodies are left out.
-  void FindPairs(double margin, std::uint32_t first_block, std::uint32_t last_block, PairList& found) const;
+  void FindPairs(double margin, std::span<const std::uint32_t> blocks, PairList& found) const;
   // Those of large bodies with all others.
   void FindPairsOfLarge(double margin, const PoseStore& poses, std::span<const std::uint8_t> present,
                         std::vector<Pair>& pairs) const;
@@ -92,8 +102,6 @@ private:
     return left < kLanes ? hits & ((1U << left) - 1) : hits;
   }
   float ReachOf(double margin) const { return static_cast<float>(margin) + 2 * slack_; }
-  template <class Act>
-  void ForEachRowOf(std::uint32_t block, const Act& act) const;
   void SweepBlock(float margin, std::uint32_t block, std::vector<Pair>& pairs) const;
   void SweepStatics(float margin, std::uint32_t block, std::vector<Pair>& pairs) const;
 
@@ -105,6 +113,7 @@ private:
   std::uint32_t missing_columns_ = 0, missing_rows_ = 0;
   std::uint32_t first_block_column_ = 0, first_block_row_ = 0;  // counted from the world's origin, modulo 2
   double largest_margin_ = 0;
+  double largest_radius_ = 0;  // of a body that is not large
   double largest_small_radius_ = 0;
   float slack_ = 0;  // covers the rounding of positions to float
 
@@ -118,5 +127,18 @@ private:
   std::vector<FloatBox> static_boxes_;
   CellLists statics_;  // the shapes near each cell
 };
+
+template <class Act>
+inline void BroadPhase::ForEachRowOf(std::uint32_t block, const Act& act) const
+{
+  const auto begin = [](std::uint32_t number, std::uint32_t missing)
+  { return std::max(number * kBlock, missing) - missing; };
+  const std::uint32_t column = block % block_columns_;
+  const std::uint32_t row = block / block_columns_;
+  const std::uint32_t last_column = std::min((column + 1) * kBlock - missing_columns_, cells_.columns.Count()) - 1;
+  const std::uint32_t row_end = std::min((row + 1) * kBlock - missing_rows_, cells_.rows.Count());
+  for (std::uint32_t r = begin(row, missing_rows_); r < row_end; ++r)
+    act(cells_.Cell(begin(column, missing_columns_), r), cells_.Cell(last_column, r));
+}
 
 }  // namespace swarmanoid::kinematics2d

@@ -83,13 +83,13 @@ inline bool ContactSolver::IsDeep(const ContactList::Outline& outline, bool face
   const double way = (bounces ? depth + outline.bounce : depth) / (mobility_i + mobility_j);
   if (mobility_i > 0)
   {
-    last_push_[i] = now;
+    leaders.last_push[i] = now;
     x[i] += push.x * (way * mobility_i);
     y[i] += push.y * (way * mobility_i);
   }
   if (mobility_j > 0)
   {
-    last_push_[j] = now;
+    leaders.last_push[j] = now;
     x[j] -= push.x * (way * mobility_j);
     y[j] -= push.y * (way * mobility_j);
   }
@@ -138,7 +138,7 @@ bool ContactSolver::Visit(const ContactBlock& block, Stamp begin, Stamp since, d
       for (std::uint32_t contact = block.first; contact < block.last; ++contact)
       {
         active[count] = contact;
-        count += IsPushedSince(ends[contact], from) ? 1 : 0;
+        count += leaders.IsPushedSince(ends[contact], from) ? 1 : 0;
       }
     }
     if (count == 0) break;
@@ -146,10 +146,10 @@ bool ContactSolver::Visit(const ContactBlock& block, Stamp begin, Stamp since, d
     for (std::size_t n = 0; n < count; ++n)
     {
       const std::uint32_t contact = active[n];
-      if (!search && !IsPushedSince(ends[contact], static_cast<Stamp>(now - 1))) continue;
+      if (!search && !leaders.IsPushedSince(ends[contact], static_cast<Stamp>(now - 1))) continue;
       moved |= PushApart(ends[contact], outlines[contact], now, tolerance, false, leaders);
       active[kept] = contact;
-      kept += IsPushedSince(ends[contact], static_cast<Stamp>(now - 1)) ? 1 : 0;
+      kept += leaders.IsPushedSince(ends[contact], static_cast<Stamp>(now - 1)) ? 1 : 0;
     }
     count = kept;
   }
@@ -158,17 +158,19 @@ bool ContactSolver::Visit(const ContactBlock& block, Stamp begin, Stamp since, d
 
 void ContactSolver::Solve(std::span<const std::vector<ContactBlock>> colours, std::span<const double> mobility,
                           double tolerance, double most, std::vector<double>& x, std::vector<double>& y,
-                          WorkerPool* pool)
+                          WorkerPool* pool, Border* border)
 {
-  const Leaders leaders{mobility.data(), x.data(), y.data(), statics_, most};
+  const Leaders own{mobility.data(), x.data(), y.data(), last_push_.data(), statics_, most};
   std::fill(last_push_.begin(), last_push_.end(), Stamp{0});
   const auto stride = static_cast<unsigned>(colours.size()) * kMostSweeps;
   for (unsigned round = 0; round < kRounds; ++round)
   {
-    std::atomic<bool> moved = false;
+    std::atomic<bool> moved = false;  // in this region, then in any
     for (unsigned colour = 0; colour < colours.size(); ++colour)
     {
       const std::vector<ContactBlock>& blocks = colours[colour];
+      const bool is_shared = border != nullptr && colour + 1 == colours.size();
+      const Leaders leaders = is_shared ? border->TakeShared(most) : own;
       const unsigned begin = 1 + round * stride + colour * kMostSweeps;
       // Its own last sweep may have left something to do.
       const unsigned since = round == 0 ? 0 : begin - stride + kMostSweeps - 1;
@@ -180,16 +182,20 @@ void ContactSolver::Solve(std::span<const std::vector<ContactBlock>> colours, st
       std::uint32_t contacts = 0;
       for (const ContactBlock& block : blocks) contacts += block.last - block.first;
       if (pool == nullptr || blocks.size() < 2 || contacts < kLeastShared)
-      {
         for (const ContactBlock& block : blocks) visit(block, 0);
-        continue;
+      else
+      {
+        std::atomic<std::size_t> next = 0;
+        pool->Run(
+            [&](unsigned thread)
+            {
+              for (std::size_t n = next++; n < blocks.size(); n = next++) visit(blocks[n], thread);
+            });
       }
-      std::atomic<std::size_t> next = 0;
-      pool->Run(
-          [&](unsigned thread)
-          {
-            for (std::size_t n = next++; n < blocks.size(); n = next++) visit(blocks[n], thread);
-          });
+      if (is_shared)
+        border->PutShared(static_cast<Stamp>(begin));
+      else if (border != nullptr)
+        moved = border->AfterColour(static_cast<Stamp>(begin), moved);
     }
     if (!moved) break;
   }

@@ -74,18 +74,56 @@ struct ContactBlock
   const ContactList* list = nullptr;
   std::uint32_t first = 0, last = 0;
   std::uint32_t first_overlapping = 0, last_overlapping = 0;
+  std::uint32_t last_of_groups = 0;  // of another list: before which contacts of groups were found with these
 };
 
 class ContactSolver
 {
 public:
+  // When a push happens: visits are numbered by round and colour, each with kMostSweeps sweeps.
+  using Stamp = std::uint16_t;
+
+  // What the solver works on, of each leader.
+  struct Leaders
+  {
+    const double* mobility;  // nullptr if those of all bodies are 1
+    double* x;
+    double* y;
+    Stamp* last_push;       // 0 for never
+    std::uint32_t statics;  // the leader of all static shapes
+    double most;            // metres that a push parts by
+
+    double MobilityOf(std::uint32_t leader) const
+    {
+      return mobility != nullptr ? mobility[leader] : leader != statics ? 1.0 : 0.0;
+    }
+    bool IsPushedSince(ContactList::Ends ends, Stamp since) const
+    {
+      return ((last_push[ends.first] >= since) | (last_push[ends.second] >= since)) != 0;
+    }
+  };
+
+  // Of a world that is cut into regions: each solves the blocks of its own, and all of them alike the last colour.
+  class Border
+  {
+  public:
+    virtual ~Border() = default;
+    // After each colour but the last one: those with pushes from `begin` on are told to all regions that hold them.
+    // Returns whether `moved` is true in any region.
+    virtual bool AfterColour(Stamp begin, bool moved) = 0;
+    // What the contacts of the last colour act on, as it is now; then those of it with pushes from `begin` on are put
+    // back.
+    virtual Leaders TakeShared(double most) = 0;
+    virtual void PutShared(Stamp begin) = 0;
+  };
+
   void Configure(std::size_t bodies, unsigned threads);
 
   // Moves the leaders until no contact is deeper than `tolerance` or the visits are used up; shares follow `mobility`,
   // the inverse of a weight; empty if all bodies have the same. One push parts by up to `most` (metres), so that bodies
   // that were put deep into each other do not jump past others.
   void Solve(std::span<const std::vector<ContactBlock>> colours, std::span<const double> mobility, double tolerance,
-             double most, std::vector<double>& x, std::vector<double>& y, WorkerPool* pool);
+             double most, std::vector<double>& x, std::vector<double>& y, WorkerPool* pool, Border* border = nullptr);
 
   // Whether the last Solve moved it.
   bool IsPushed(std::uint32_t leader) const { return last_push_[leader] != 0; }
@@ -104,40 +142,21 @@ public:
     }
   }
 
-private:
-  // When a push happens: visits are numbered by round and colour, each with kMostSweeps sweeps.
-  using Stamp = std::uint16_t;
+  // When each leader was pushed last in Solve.
+  std::span<Stamp> LastPushes() { return last_push_; }
 
+private:
   struct Push
   {
     double x, y, depth;
   };
 
-  // What the solver works on, of each leader.
-  struct Leaders
-  {
-    const double* mobility;  // nullptr if those of all bodies are 1
-    double* x;
-    double* y;
-    std::uint32_t statics;  // the leader of all static shapes
-    double most;            // metres that a push parts by
-
-    double MobilityOf(std::uint32_t leader) const
-    {
-      return mobility != nullptr ? mobility[leader] : leader != statics ? 1.0 : 0.0;
-    }
-  };
-
   static bool IsDeep(const ContactList::Outline& outline, bool face, double limit, double dx, double dy, Push& push);
-  bool PushApart(ContactList::Ends ends, const ContactList::Outline& outline, Stamp now, double limit, bool bounces,
-                 const Leaders& leaders);
-  bool Visit(const ContactBlock& block, Stamp begin, Stamp since, double tolerance, const Leaders& leaders,
-             std::vector<std::uint32_t>& active);
+  static bool PushApart(ContactList::Ends ends, const ContactList::Outline& outline, Stamp now, double limit,
+                        bool bounces, const Leaders& leaders);
+  static bool Visit(const ContactBlock& block, Stamp begin, Stamp since, double tolerance, const Leaders& leaders,
+                    std::vector<std::uint32_t>& active);
   static void Prefetch(ContactList::Ends ends, const Leaders& leaders);
-  bool IsPushedSince(ContactList::Ends ends, Stamp since) const
-  {
-    return ((last_push_[ends.first] >= since) | (last_push_[ends.second] >= since)) != 0;
-  }
 
   std::uint32_t statics_ = 0;                       // the leader of all static shapes
   std::vector<Stamp> last_push_;                    // of each leader; 0 for never; padded for ForEachPushed

@@ -1,6 +1,7 @@
 // KinematicWorld::FindContacts: where the outlines of near pairs touch, in terms of their leaders.
 #include <algorithm>
 
+#include "engine_worker/engines/kinematics2d/kinematic_region.h"
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
 
 namespace swarmanoid::kinematics2d
@@ -18,12 +19,12 @@ void KinematicWorld::SplitBlocks()
 {
   constexpr std::size_t kLeast = 1024;  // bodies; below, waking threads takes longer
   const std::size_t parts = count_ < kLeast ? 1 : parts_.size();
-  std::uint32_t last = 0;
+  std::size_t last = 0;
   for (std::size_t k = 0; k < parts_.size(); ++k)
   {
     parts_[k].first_block = last;
-    last =
-        k + 1 >= parts ? broad_.BlockCount() : broad_.BlockAt(static_cast<double>(k + 1) / static_cast<double>(parts));
+    const double share = static_cast<double>(k + 1) / static_cast<double>(parts);
+    last = k + 1 >= parts ? blocks_.size() : broad_.BlocksWith(share, blocks_);
     parts_[k].last_block = last;
   }
 }
@@ -34,6 +35,8 @@ void KinematicWorld::FindContacts()
   SwapFollowers();
   broad_.Sort(before_, present_);
   broad_.FindPairsOfLarge(margin, before_, present_, pairs_of_large_.pairs);
+  pairs_of_large_.ends.assign(1, static_cast<std::uint32_t>(pairs_of_large_.pairs.size()));
+  if (region_) region_->ChoosePairsOfLarge(*this);
   SwapFollowers();
   SplitBlocks();
   for (Part& part : parts_)
@@ -45,7 +48,8 @@ void KinematicWorld::FindContacts()
   ForEachPart(
       [&](Part& part)
       {
-        broad_.FindPairs(margin, part.first_block, part.last_block, part.pairs);
+        broad_.FindPairs(margin, std::span(blocks_).subspan(part.first_block, part.last_block - part.first_block),
+                         part.pairs);
         FindContacts(part.pairs, block_contacts_.data() + part.first_block, part.contacts, part.of_groups);
       });
 
@@ -53,9 +57,8 @@ void KinematicWorld::FindContacts()
   for (const Part& part : parts_) shared_contacts_.Append(part.of_groups);
   if (!pairs_of_large_.pairs.empty())
   {
-    ContactBlock all;
-    pairs_of_large_.ends.assign(1, static_cast<std::uint32_t>(pairs_of_large_.pairs.size()));
-    FindContacts(pairs_of_large_, &all, shared_contacts_, shared_contacts_);
+    contacts_of_large_.resize(pairs_of_large_.ends.size());
+    FindContacts(pairs_of_large_, contacts_of_large_.data(), shared_contacts_, shared_contacts_);
   }
   statistics_.pairs = pairs_of_large_.pairs.size();
   statistics_.contacts = shared_contacts_.AllEnds().size();
@@ -64,6 +67,7 @@ void KinematicWorld::FindContacts()
     statistics_.pairs += part.pairs.pairs.size();
     statistics_.contacts += part.contacts.AllEnds().size();
   }
+  if (region_) region_->ShareContacts(*this);
 }
 
 // Writes down what of `contacts` belongs to each block of `pairs`.
@@ -107,6 +111,7 @@ void KinematicWorld::FindContacts(const PairList& pairs, ContactBlock* blocks, C
     AddContacts(batch, contacts, of_groups);
     blocks->last = static_cast<std::uint32_t>(contacts.AllEnds().size());
     blocks->last_overlapping = static_cast<std::uint32_t>(contacts.Overlapping().size());
+    blocks->last_of_groups = static_cast<std::uint32_t>(of_groups.AllEnds().size());
     ++blocks;
   }
 }
@@ -122,12 +127,11 @@ bool KinematicWorld::ListContactsByColour()
     colours_[colour].push_back(contacts);
     overlaps |= contacts.first_overlapping != contacts.last_overlapping;
   };
-  for (std::uint32_t block = 0; block < broad_.BlockCount(); ++block)
-    list(block_contacts_[block], broad_.ColourOf(block));
+  for (std::size_t n = 0; n < blocks_.size(); ++n) list(block_contacts_[n], broad_.ColourOf(blocks_[n]));
   list({&shared_contacts_, 0, static_cast<std::uint32_t>(shared_contacts_.AllEnds().size()), 0,
         static_cast<std::uint32_t>(shared_contacts_.Overlapping().size())},
        BroadPhase::kColours);
-  return overlaps;
+  return region_ ? region_->OverlapsAnywhere() : overlaps;
 }
 
 // Of all pairs of the batch, which is empty then.

@@ -6,6 +6,7 @@
 #include "common/math/elementary.h"
 #include "common/math/lanes.h"
 #include "engine_worker/engines/kinematics2d/kinematic_limits.h"
+#include "engine_worker/engines/kinematics2d/kinematic_region.h"
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
 
 namespace swarmanoid::kinematics2d
@@ -22,6 +23,7 @@ void KinematicWorld::LimitMotions(double seconds)
   std::atomic<bool> more = false;
   ForEachPart([&](Part& part) { FindOverlaps(part.pairs.pairs, more); });
   FindOverlaps(pairs_of_large_.pairs, more);
+  if (region_) more = region_->ShareInvolved(*this, more);
   if (!more) return;
 
   SwapFollowers();
@@ -40,11 +42,14 @@ void KinematicWorld::LimitMotions(double seconds)
     more = false;
     ForEachPart([&](Part& part) { FindLimits(part.pairs.pairs, seconds, part.is_limited, part.limits, more); });
     FindLimits(pairs_of_large_.pairs, seconds, is_large_limited_, limits_of_large_, more);
+    if (region_ && !more) more = region_->ShareInvolved(*this, false);
   }
   for (const Part& part : parts_) limiter_.Add(part.limits);
   limiter_.Add(limits_of_large_);
+  if (region_) limiter_.Add(region_->ShareLimits(*this));
   limiter_.Raise();
-  for (const std::uint32_t leader : limiter_.Limited()) MoveInPart(leader, seconds);
+  for (const std::uint32_t leader : limiter_.Limited())
+    if (leader < count_) MoveInPart(leader, seconds);
   statistics_.held_back += limiter_.Limited().size();
 }
 

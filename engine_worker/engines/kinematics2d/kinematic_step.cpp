@@ -7,31 +7,48 @@
 #include "common/math/elementary.h"
 #include "common/math/lanes.h"
 #include "engine_worker/engines/kinematics2d/kinematic_limits.h"
+#include "engine_worker/engines/kinematics2d/kinematic_region.h"
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
 
 namespace swarmanoid::kinematics2d
 {
 void KinematicWorld::Advance(double seconds, int steps)
 {
+  if (region_)
+  {
+    region_->ShareGrips(*this);
+    region_->ShareBodies(*this);
+  }
   if (keeps_travel_)
   {
     std::fill(travel_forward_.begin(), travel_forward_.end(), 0.0);
     std::fill(travel_turn_.begin(), travel_turn_.end(), 0.0);
   }
-  if (!grips_.empty())
-  {
-    effective_ = twists_;
-    for (std::size_t g = 0; g + 1 < group_start_.size(); ++g)
-    {
-      const std::span<const Grip> members(&grips_[group_start_[g]], group_start_[g + 1] - group_start_[g]);
-      for (const Grip& grip : members) effective_.Set(grip.body, {});
-      effective_.Set(members.front().prey, GroupTwist(members));
-    }
-  }
+  FindEffectiveTwists();
   const int substeps = Substeps(seconds, steps);
   statistics_ = {};
   statistics_.substeps = substeps;
-  for (int k = 1; k <= substeps; ++k) Substep(seconds / substeps, static_cast<double>(k) / substeps);
+  for (int k = 1; k <= substeps; ++k)
+  {
+    if (region_ && k > 1)
+    {
+      region_->ShareBodies(*this);
+      FindEffectiveTwists();
+    }
+    Substep(seconds / substeps, static_cast<double>(k) / substeps);
+  }
+}
+
+void KinematicWorld::FindEffectiveTwists()
+{
+  if (grips_.empty()) return;
+  effective_ = twists_;
+  for (std::size_t g = 0; g + 1 < group_start_.size(); ++g)
+  {
+    const std::span<const Grip> members(&grips_[group_start_[g]], group_start_[g + 1] - group_start_[g]);
+    for (const Grip& grip : members) effective_.Set(grip.body, {});
+    effective_.Set(members.front().prey, GroupTwist(members));
+  }
 }
 
 // The rigid motion that comes nearest, in the least-squares sense, to what the wheels of all members would do. Wheels
@@ -112,6 +129,7 @@ int KinematicWorld::Substeps(double seconds, int steps)
     consider(std::sqrt(dx * dx + dy * dy), core_limit_[follower.body]);
   }
 
+  if (region_) region_->ShareMaxima({&ratio, &way});
   if (!(ratio <= kMostSubsteps))
     throw std::runtime_error("a body is told to move " + std::to_string(way) + " m in " + std::to_string(seconds) +
                              " s; the kinematic engine follows up to " +
@@ -131,7 +149,8 @@ void KinematicWorld::Substep(double seconds, double fraction)
   if (ListContactsByColour())
   {
     const std::span<const double> mobility = EveryoneIsFree() ? std::span<const double>() : mobility_;
-    solver_.Solve(colours_, mobility, kSolverTolerance * allowed_, 2 * reach_, now_.x, now_.y, pool_.get());
+    solver_.Solve(colours_, mobility, kSolverTolerance * allowed_, 2 * reach_, now_.x, now_.y, pool_.get(),
+                  region_.get());
     LimitMotions(seconds);
   }
   if (keeps_travel_)

@@ -1,11 +1,13 @@
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <tuple>
 
 #include "common/math/elementary.h"
 #include "engine_worker/engines/kinematics2d/kinematic_limits.h"
+#include "engine_worker/engines/kinematics2d/kinematic_region.h"
 
 namespace swarmanoid::kinematics2d
 {
@@ -21,10 +23,21 @@ Bounds BoxOf(const CollisionModel& model)
   return box;
 }
 
+// A step never leads further than half of it.
+double CoreOf(const CollisionModel& model)
+{
+  return std::max(model.core_radius, kThinnestCore * model.bounding_radius);
+}
+
 // The order of grips.
 bool IsBefore(const Grip& a, const Grip& b) { return std::tie(a.prey, a.body) < std::tie(b.prey, b.body); }
 
 }  // namespace
+
+KinematicWorld::KinematicWorld(double elasticity) : elasticity_(elasticity) {}
+KinematicWorld::~KinematicWorld() = default;
+KinematicWorld::KinematicWorld(KinematicWorld&&) noexcept = default;
+KinematicWorld& KinematicWorld::operator=(KinematicWorld&&) noexcept = default;
 
 std::uint32_t KinematicWorld::AddModel(CollisionModel model)
 {
@@ -77,7 +90,7 @@ void KinematicWorld::Start(Bounds area, unsigned threads)
   {
     const CollisionModel& model = models_[model_[k]];
     radius_.push_back(model.bounding_radius);
-    cores.push_back(std::max(model.core_radius, kThinnestCore * model.bounding_radius));
+    cores.push_back(CoreOf(model));
     if (present_[k] != 0) area.Include(now_.x[k], now_.y[k], model.bounding_radius);
   }
   // A wide body among narrow ones goes no further in a substep than they do, so that the cells can stay small.
@@ -89,9 +102,10 @@ void KinematicWorld::Start(Bounds area, unsigned threads)
   {
     std::vector<double> sorted = cores;
     std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count_ / 2), sorted.end());
+    median_core_ = sorted[count_ / 2];
     for (std::size_t k = 0; k < count_; ++k)
     {
-      core_limit_[k] = kWayInCore * std::min(cores[k], kWidestCore * sorted[count_ / 2]);
+      core_limit_[k] = CoreLimitOf(models_[model_[k]]);
       inverse_limit_[k] = 1 / core_limit_[k];
       longest_way = std::max(longest_way, core_limit_[k]);
       smallest_limit_ = std::min(smallest_limit_, core_limit_[k]);
@@ -103,7 +117,9 @@ void KinematicWorld::Start(Bounds area, unsigned threads)
   std::vector<Bounds> boxes;
   for (const CollisionModel& shape : statics_) boxes.push_back(BoxOf(shape));
   broad_.SetStatics(boxes);
-  block_contacts_.resize(broad_.BlockCount());
+  blocks_.resize(broad_.BlockCount());
+  std::iota(blocks_.begin(), blocks_.end(), 0U);
+  block_contacts_.resize(blocks_.size());
   solver_.Configure(count_, threads);
   limiter_.Configure(count_ + 1);
   is_involved_.assign(count_ + 1, 0);
@@ -111,6 +127,11 @@ void KinematicWorld::Start(Bounds area, unsigned threads)
   group_start_.reserve(count_ + 1);
   turrets_.reserve(count_);
   RebuildGroups();
+}
+
+double KinematicWorld::CoreLimitOf(const CollisionModel& model) const
+{
+  return kWayInCore * std::min(CoreOf(model), kWidestCore * median_core_);
 }
 
 std::vector<KinematicWorld::Turret>::iterator KinematicWorld::FindTurret(std::uint32_t body)

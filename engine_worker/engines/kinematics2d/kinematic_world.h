@@ -40,11 +40,16 @@ struct WorldStatistics
   std::size_t held_back = 0;  // bodies that could not go or turn as far as they would
 };
 
+class RegionExchange;
+
 class KinematicWorld
 {
 public:
   // 1 gives a collision's whole approach back, 0 none of it.
-  explicit KinematicWorld(double elasticity = 1) : elasticity_(elasticity) {}
+  explicit KinematicWorld(double elasticity = 1);
+  ~KinematicWorld();
+  KinematicWorld(KinematicWorld&&) noexcept;
+  KinematicWorld& operator=(KinematicWorld&&) noexcept;
 
   // Building: models, then bodies (numbered from 0) and static shapes, then Start.
   std::uint32_t AddModel(CollisionModel model);
@@ -103,11 +108,35 @@ public:
   const WorldStatistics& Statistics() const { return statistics_; }
   double AllowedOverlap() const { return allowed_; }
 
+  // Blocks of cells, row by row: what a plane can be cut along.
+  std::uint32_t BlockColumns() const { return broad_.BlockColumns(); }
+  std::uint32_t BlockCount() const { return broad_.BlockCount(); }
+  // From the whole world, after Start, to one of the regions into which it is cut: region_of_block[k] has block k. From
+  // the next Advance on, the world holds the bodies in its own blocks and in the cells around them, at most `halo`
+  // cells away, with numbers of its own; followers, members of groups and bodies that are too large for the cells it
+  // holds wherever they are. The worlds of all regions must then advance at the same time, by the same amounts, and
+  // speak by `exchange`, which outlives the world. Their bodies go bit by bit as in the whole world, wherever the cuts
+  // are. One cell of halo is enough. Throws std::runtime_error for what is no cut.
+  void BecomeRegion(unsigned region, std::span<const std::uint8_t> region_of_block, RegionExchange& exchange,
+                    unsigned halo = 1);
+  // Other cuts, from the next Advance on: at all regions alike.
+  void MoveCuts(std::span<const std::uint8_t> region_of_block);
+  // Bodies are numbered anew in each substep in which some come or go, in the order of their numbers in the whole
+  // world.
+  std::uint32_t NumberInWhole(std::uint32_t body) const;
+  // BodyCount() for a body that this region does not hold.
+  std::uint32_t FindBody(std::uint32_t number_in_whole) const;
+  // Whether this region computes the body: then it is told what the body does, and what it grips. Exactly one region
+  // has each body, but for followers, which none has, and all are told about.
+  bool IsOwn(std::uint32_t body) const;
+
   // Poses, turrets and grips; twists and followers' goals are commands and not part of it.
   void SaveState(ByteWriter& state) const;
   void LoadState(ByteReader& state);
 
 private:
+  class Region;
+
   struct Turret
   {
     std::uint32_t body;
@@ -123,7 +152,7 @@ private:
   // What one thread finds in some of the blocks.
   struct Part
   {
-    std::uint32_t first_block = 0, last_block = 0;
+    std::size_t first_block = 0, last_block = 0;  // in blocks_
     PairList pairs;
     ContactList contacts;
     ContactList of_groups;  // contacts of bodies that are led by another one
@@ -203,7 +232,9 @@ private:
     return leader_[std::min(body, static_cast<std::uint32_t>(count_))];
   }
   bool IsFollower(std::uint32_t body) const { return follower_[body] != 0; }
+  double CoreLimitOf(const CollisionModel& model) const;
   void RebuildGroups();
+  void FindEffectiveTwists();
   Twist GroupTwist(std::span<const Grip> members) const;
   std::vector<Turret>::iterator FindTurret(std::uint32_t body);
 
@@ -216,7 +247,7 @@ private:
   template <class Act>
   void ForEachPart(const Act& act)
   {
-    if (pool_ == nullptr || parts_[0].last_block == broad_.BlockCount()) return act(parts_[0]);
+    if (pool_ == nullptr || parts_[0].last_block == blocks_.size()) return act(parts_[0]);
     pool_->Run([&](unsigned k) { act(parts_[k]); });
   }
   void FindContacts();
@@ -285,21 +316,25 @@ private:
   std::unique_ptr<WorkerPool> pool_;  // none for one thread
   std::vector<Part> parts_;           // one for each thread
   BroadPhase broad_;
+  std::vector<std::uint32_t> blocks_;  // those of this region, ascending
   PairList pairs_of_large_;
-  std::vector<ContactBlock> block_contacts_;
-  ContactList shared_contacts_;  // of large bodies and of groups: they may reach into many blocks
+  std::vector<ContactBlock> block_contacts_;  // of each of them
+  ContactList shared_contacts_;               // of large bodies and of groups: they may reach into many blocks
   // The last one is that of the shared contacts.
   std::array<std::vector<ContactBlock>, BroadPhase::kColours + 1> colours_;
   ContactSolver solver_;
   MotionLimiter limiter_;
-  std::vector<std::uint8_t> is_involved_;  // of each leader: it may be limited in this substep
+  std::vector<std::uint8_t> is_involved_;        // of each leader: it may be limited in this substep
+  std::vector<ContactBlock> contacts_of_large_;  // of each part of pairs_of_large_
   LimitList limits_of_large_;
   std::vector<std::uint8_t> is_large_limited_;
   double reach_ = 0;           // nobody gets further than this from where a substep began
   double contact_margin_ = 0;  // outlines nearer than this are contacts
   double allowed_ = 0;         // overlap that is left alone
   double smallest_limit_ = 0;
+  double median_core_ = 0;
   WorldStatistics statistics_;
+  std::unique_ptr<Region> region_;  // none for the whole world
 };
 
 }  // namespace swarmanoid::kinematics2d

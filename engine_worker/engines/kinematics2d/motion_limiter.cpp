@@ -57,6 +57,18 @@ void MotionLimiter::Configure(std::size_t leaders)
   limited_.reserve(leaders);
 }
 
+void MotionLimiter::MakeRoom(std::size_t leaders)
+{
+  const bool is_much_too_large = part_.size() > 8 * leaders;
+  if (2 * leaders <= part_.size() && !is_much_too_large) return;
+  for (std::vector<double>* of_motions : {&most_, &part_, &next_})
+  {
+    of_motions->resize(2 * leaders, 1);
+    if (is_much_too_large) of_motions->shrink_to_fit();
+  }
+  is_touched_.resize(2 * leaders, 0);
+}
+
 void MotionLimiter::Clear()
 {
   for (const std::uint32_t motion : touched_)
@@ -78,13 +90,13 @@ void MotionLimiter::Touch(std::uint32_t motion)
 
 void MotionLimiter::Add(const LimitList& limits)
 {
-  for (const LimitList::Bound& bound : limits.bounds_)
+  for (const LimitList::Bound& bound : limits.Bounds())
   {
     Touch(bound.motion);
     most_[bound.motion] = std::min(most_[bound.motion], bound.most);
   }
-  for (const LimitList::Chase& chase : limits.chases_) Touch(chase.motion);
-  chases_.insert(chases_.end(), limits.chases_.begin(), limits.chases_.end());
+  for (const LimitList::Chase& chase : limits.Chases()) Touch(chase.motion);
+  chases_.insert(chases_.end(), limits.Chases().begin(), limits.Chases().end());
 }
 
 void MotionLimiter::Raise()

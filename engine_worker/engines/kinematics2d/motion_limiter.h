@@ -36,13 +36,6 @@ struct Approach
 class LimitList
 {
 public:
-  void Clear();
-  // A plane between parts that are `gap` (m, 0 or more) apart. Two leaders have up to four motions. Returns whether it
-  // can limit them.
-  bool Add(double gap, const std::array<Approach, 4>& approaches);
-
-private:
-  friend class MotionLimiter;
   struct Bound
   {
     std::uint32_t motion;
@@ -56,6 +49,17 @@ private:
     double base;
     double slope[2];
   };
+
+  void Clear();
+  // A plane between parts that are `gap` (m, 0 or more) apart. Two leaders have up to four motions. Returns whether it
+  // can limit them.
+  bool Add(double gap, const std::array<Approach, 4>& approaches);
+  void Add(const Bound& bound) { bounds_.push_back(bound); }
+  void Add(const Chase& chase) { chases_.push_back(chase); }
+  const std::vector<Bound>& Bounds() const { return bounds_; }
+  const std::vector<Chase>& Chases() const { return chases_; }
+
+private:
   std::vector<Bound> bounds_;
   std::vector<Chase> chases_;
 };
@@ -64,6 +68,8 @@ class MotionLimiter
 {
 public:
   void Configure(std::size_t leaders);
+  // For so many leaders: after Clear, or for more before theirs are added.
+  void MakeRoom(std::size_t leaders);
   // Everybody may do all again.
   void Clear();
   void Add(const LimitList& limits);

@@ -1,0 +1,406 @@
+// KinematicWorld::Region: which bodies a region holds, and how they come and go. The rest is in
+// kinematic_region_contacts.cpp.
+#include "engine_worker/engines/kinematics2d/kinematic_region.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <tuple>
+
+#include "common/math/elementary.h"
+#include "common/math/lanes.h"
+
+namespace swarmanoid::kinematics2d
+{
+namespace
+{
+
+// Gives back what the whole world took.
+template <class T>
+void Trim(std::vector<T>& values)
+{
+  if (values.capacity() > 2 * values.size()) values.shrink_to_fit();
+}
+
+// Moves runs of values to their new places. What lies between them is left over from before.
+template <class Runs, class T>
+void MoveRuns(const Runs& runs, std::size_t size, const T& behind, std::vector<T>& values)
+{
+  const std::size_t bodies = runs.empty() ? 0 : runs.back().to + runs.back().count;
+  values.resize(std::max({values.size(), size, bodies}), behind);
+  // First together at the front, then, from the last one, apart.
+  std::size_t end = 0;
+  for (const auto& run : runs)
+  {
+    if (end != run.from) std::copy_n(values.begin() + run.from, run.count, values.begin() + static_cast<long>(end));
+    end += run.count;
+  }
+  for (auto run = runs.rbegin(); run != runs.rend(); ++run)
+  {
+    const std::size_t begin = end - run->count;
+    if (begin != run->to)
+      std::copy_backward(values.begin() + static_cast<long>(begin), values.begin() + static_cast<long>(end),
+                         values.begin() + run->to + run->count);
+    end = begin;
+  }
+  values.resize(size, behind);
+  Trim(values);
+}
+
+}  // namespace
+
+void KinematicWorld::BecomeRegion(unsigned region, std::span<const std::uint8_t> region_of_block,
+                                  RegionExchange& exchange, unsigned halo)
+{
+  region_ = std::make_unique<Region>(*this, region, region_of_block, exchange, halo);
+}
+
+void KinematicWorld::MoveCuts(std::span<const std::uint8_t> region_of_block)
+{
+  region_->SetCuts(*this, region_of_block);
+}
+
+std::uint32_t KinematicWorld::NumberInWhole(std::uint32_t body) const { return region_->NumberInWhole(body); }
+
+bool KinematicWorld::IsOwn(std::uint32_t body) const { return region_->IsOwn(body); }
+
+std::uint32_t KinematicWorld::FindBody(std::uint32_t number_in_whole) const
+{
+  return std::min(region_->FindBody(number_in_whole), static_cast<std::uint32_t>(count_));
+}
+
+void KinematicWorld::Region::Refuse(const char* what)
+{
+  throw std::runtime_error(std::string("the regions of a plane do not agree: ") + what);
+}
+
+KinematicWorld::Region::Region(KinematicWorld& whole, unsigned number, std::span<const std::uint8_t> region_of_block,
+                               RegionExchange& exchange, unsigned halo)
+    : number_(number), halo_(halo), exchange_(exchange)
+{
+  const unsigned regions = exchange.RegionCount();
+  if (regions < 1 || regions > RegionExchange::kMostRegions || number >= regions)
+    throw std::runtime_error("a plane can be cut into 1 to 32 regions, numbered from 0");
+  others_ = static_cast<Regions>((std::uint64_t{1} << regions) - 1) & ~Bit(number);
+  out_.resize(regions);
+  in_.resize(regions);
+  common_.resize(regions);
+  numbers_.resize(whole.count_);
+  std::iota(numbers_.begin(), numbers_.end(), 0U);
+  SetCuts(whole, region_of_block);
+  FindCells(whole);
+  FindCommon(whole);
+}
+
+void KinematicWorld::Region::SetCuts(KinematicWorld& world, std::span<const std::uint8_t> region_of_block)
+{
+  const BroadPhase& broad = world.broad_;
+  if (region_of_block.size() != broad.BlockCount())
+    throw std::runtime_error("cuts of a plane: there must be a region for each of its " +
+                             std::to_string(broad.BlockCount()) + " blocks");
+  const PlaneCells<double>& cells = broad.Cells();
+  owner_.assign(cells.Count(), 0);
+  holders_.assign(cells.Count(), 0);
+  world.blocks_.clear();
+  for (std::uint32_t block = 0; block < region_of_block.size(); ++block)
+  {
+    const std::uint8_t region = region_of_block[block];
+    if (region >= exchange_.RegionCount())
+      throw std::runtime_error("cuts of a plane: there is no region " + std::to_string(region));
+    if (region == number_) world.blocks_.push_back(block);
+    broad.ForEachRowOf(block,
+                       [&](std::uint32_t first, std::uint32_t last)
+                       {
+                         std::fill(owner_.begin() + first, owner_.begin() + last + 1, region);
+                         std::fill(holders_.begin() + first, holders_.begin() + last + 1, Bit(region));
+                       });
+  }
+  world.block_contacts_.resize(world.blocks_.size());
+
+  // Whoever has one of the nine cells around holds what is in the middle; once for each cell of the halo.
+  for (unsigned k = 0; k < halo_; ++k)
+  {
+    const std::vector<Regions> nearer = holders_;
+    for (std::uint32_t row = 0; row < cells.rows.Count(); ++row)
+      for (std::uint32_t column = 0; column < cells.columns.Count(); ++column)
+      {
+        const std::uint32_t cell = cells.Cell(column, row);
+        for (const std::uint32_t middle : {cell - cells.stride, cell, cell + cells.stride})
+          holders_[cell] |= nearer[middle - 1] | nearer[middle] | nearer[middle + 1];
+      }
+  }
+}
+
+std::uint32_t KinematicWorld::Region::FindBody(std::uint32_t number_in_whole) const
+{
+  const auto found = std::lower_bound(numbers_.begin(), numbers_.end(), number_in_whole);
+  return found == numbers_.end() || *found != number_in_whole ? kNobody
+                                                              : static_cast<std::uint32_t>(found - numbers_.begin());
+}
+
+// After FindCells.
+KinematicWorld::Region::Regions KinematicWorld::Region::HoldersOf(const KinematicWorld& world, std::uint32_t body) const
+{
+  const bool is_grouped = !grouped_.empty() && std::binary_search(grouped_.begin(), grouped_.end(), numbers_[body]);
+  if (is_grouped || world.broad_.IsLarge(world.radius_[body])) return others_ | Bit(number_);
+  return holders_[cells_[body]];
+}
+
+template <class Act>
+void KinematicWorld::Region::ForEachOther(const Act& act) const
+{
+  ForEachBit(others_, act);
+}
+
+void KinematicWorld::Region::Swap()
+{
+  exchange_.Swap(out_, in_);
+  for (ByteWriter& message : out_) message.Clear();
+}
+
+void KinematicWorld::Region::FindCells(const KinematicWorld& world)
+{
+  cells_.resize(world.count_);
+  world.broad_.Cells().FindCells({world.now_.x.data(), world.count_}, {world.now_.y.data(), world.count_},
+                                 cells_.data());
+}
+
+void KinematicWorld::Region::ShareMaxima(std::initializer_list<double*> numbers)
+{
+  ForEachOther(
+      [&](unsigned region)
+      {
+        for (const double* number : numbers) out_[region].Put(*number);
+      });
+  Swap();
+  ForEachOther(
+      [&](unsigned region)
+      {
+        ByteReader message(in_[region]);
+        for (double* number : numbers) *number = std::max(*number, message.Get<double>());
+      });
+}
+
+void KinematicWorld::Region::ShareGrips(KinematicWorld& world)
+{
+  grips_.clear();
+  for (Grip grip : world.grips_)
+  {
+    if (!IsOwn(grip.body)) continue;
+    grip.body = numbers_[grip.body];
+    grip.prey = numbers_[grip.prey];
+    grips_.push_back(grip);
+  }
+  ForEachOther([&](unsigned region) { out_[region].PutArray(grips_); });
+  Swap();
+  ForEachOther(
+      [&](unsigned region)
+      {
+        const std::vector<Grip> theirs = ByteReader(in_[region]).GetArray<Grip>();
+        grips_.insert(grips_.end(), theirs.begin(), theirs.end());
+      });
+  std::sort(grips_.begin(), grips_.end(),
+            [](const Grip& a, const Grip& b) { return std::tie(a.prey, a.body) < std::tie(b.prey, b.body); });
+  grouped_.clear();
+  for (const Grip& grip : grips_) grouped_.insert(grouped_.end(), {grip.body, grip.prey});
+  std::sort(grouped_.begin(), grouped_.end());
+  grouped_.erase(std::unique(grouped_.begin(), grouped_.end()), grouped_.end());
+}
+
+void KinematicWorld::Region::ShareBodies(KinematicWorld& world)
+{
+  const bool had_groups = !world.grips_.empty();
+  FindCells(world);
+  kept_.clear();
+  for (std::uint32_t body = 0; body < world.count_; ++body)
+  {
+    if (world.IsFollower(body))
+    {
+      kept_.push_back(body);
+      continue;
+    }
+    if (!IsOwn(body)) continue;
+    const Regions holders = HoldersOf(world, body);
+    if ((holders & Bit(number_)) != 0) kept_.push_back(body);
+    ForEachBit(holders & others_, [&](unsigned region) { PutBody(world, body, out_[region]); });
+  }
+  Swap();
+  ReadBodies(world);
+  Merge();
+  const bool others = new_numbers_ != numbers_;
+  if (others) Rearrange(world);
+  for (std::size_t k = 0; k < arrived_.size(); ++k) Settle(world, places_[k], arrived_[k]);
+  if (others) world.broad_.SetBodies(world.radius_);
+  FindCells(world);
+  FindCommon(world);
+
+  world.grips_.clear();
+  for (Grip grip : grips_)
+  {
+    grip.body = FindBody(grip.body);
+    grip.prey = FindBody(grip.prey);
+    if (grip.body == kNobody || grip.prey == kNobody) Refuse("a body that grips or is gripped was not sent");
+    world.grips_.push_back(grip);
+  }
+  if (others || had_groups || !grips_.empty()) world.RebuildGroups();
+}
+
+void KinematicWorld::Region::PutBody(const KinematicWorld& world, std::uint32_t body, ByteWriter& message) const
+{
+  const auto turret = std::lower_bound(world.turrets_.begin(), world.turrets_.end(), body,
+                                       [](const Turret& t, std::uint32_t b) { return t.body < b; });
+  const double rate = turret != world.turrets_.end() && turret->body == body ? turret->rate : 0;
+  const double angle = world.turret_angle_[body];
+  const bool has_turret = rate != 0 || angle != 0;
+  message.Put(Arrival{numbers_[body], world.model_[body] & 0x3fffffffU, world.present_[body] != 0, has_turret,
+                      world.now_.Get(body), world.twists_.Get(body)});
+  if (has_turret) message.Put(TurretState{angle, rate});
+  if (world.keeps_travel_) message.Put(Travel{world.travel_forward_[body], world.travel_turn_[body]});
+}
+
+void KinematicWorld::Region::ReadBodies(const KinematicWorld& world)
+{
+  arrived_.clear();
+  ForEachOther(
+      [&](unsigned region)
+      {
+        ByteReader message(in_[region]);
+        while (!message.AtEnd())
+        {
+          ArrivedBody& arrived = arrived_.emplace_back();
+          arrived.body = message.Get<Arrival>();
+          if (arrived.body.has_turret) arrived.turret = message.Get<TurretState>();
+          if (world.keeps_travel_) arrived.travel = message.Get<Travel>();
+          if (arrived.body.model >= world.models_.size()) Refuse("a body of an unknown model was sent");
+        }
+      });
+  std::sort(arrived_.begin(), arrived_.end(),
+            [](const ArrivedBody& a, const ArrivedBody& b) { return a.body.number < b.body.number; });
+}
+
+// The bodies that are held from now on: those kept and those that arrived.
+void KinematicWorld::Region::Merge()
+{
+  new_numbers_.clear();
+  places_.clear();
+  runs_.clear();
+  std::size_t k = 0;
+  for (std::size_t n = 0; k < kept_.size() || n < arrived_.size();)
+  {
+    const auto place = static_cast<std::uint32_t>(new_numbers_.size());
+    const std::uint32_t kept = k < kept_.size() ? numbers_[kept_[k]] : kNobody;
+    const std::uint32_t arrived = n < arrived_.size() ? arrived_[n].body.number : kNobody;
+    if (kept == arrived || (!new_numbers_.empty() && arrived == new_numbers_.back()))
+      Refuse("a body was sent by one that does not compute it");
+    new_numbers_.push_back(std::min(kept, arrived));
+    if (arrived < kept)
+    {
+      places_.push_back(place);
+      ++n;
+      continue;
+    }
+    if (!runs_.empty() && runs_.back().from + runs_.back().count == kept_[k] &&
+        runs_.back().to + runs_.back().count == place)
+      ++runs_.back().count;
+    else
+      runs_.push_back({kept_[k], place, 1});
+    ++k;
+  }
+}
+
+// Numbers the bodies of the world anew. Those that arrived get their values in Settle.
+void KinematicWorld::Region::Rearrange(KinematicWorld& world)
+{
+  const std::size_t count = new_numbers_.size();
+  const std::size_t padded = PaddedCount(count);
+  constexpr std::uint32_t kGone = kNobody;
+  std::vector<std::uint32_t> place_of(world.count_, kGone);
+  for (const Run& run : runs_) std::iota(place_of.begin() + run.from, place_of.begin() + run.from + run.count, run.to);
+
+  for (std::vector<double>* of_bodies :
+       {&world.now_.x, &world.now_.y, &world.now_.z, &world.twists_.forward, &world.twists_.left, &world.twists_.turn})
+    MoveRuns(runs_, padded, 0.0, *of_bodies);
+  for (std::vector<double>* of_bodies : {&world.now_.w, &world.core_limit_, &world.inverse_limit_})
+    MoveRuns(runs_, padded, 1.0, *of_bodies);
+  for (std::vector<double>* of_bodies :
+       {&world.turret_angle_, &world.turret_sin_, &world.radius_, &world.travel_forward_, &world.travel_turn_})
+    MoveRuns(runs_, count, 0.0, *of_bodies);
+  MoveRuns(runs_, count, 1.0, world.turret_cos_);
+  MoveRuns(runs_, count, 0U, world.model_);
+  for (std::vector<std::uint8_t>* of_bodies : {&world.follower_, &world.present_})
+    MoveRuns(runs_, count, std::uint8_t{0}, *of_bodies);
+  world.before_.Resize(padded);
+  // Behind the bodies is what stands for the static shapes, and what vector loops may read.
+  for (std::size_t k = count; k < padded; ++k)
+  {
+    world.now_.Set(k, {});
+    world.before_.Set(k, {});
+    world.twists_.Set(k, {});
+    world.inverse_limit_[k] = 1;
+  }
+
+  const auto is_gone = [&](const auto& of_body) { return place_of[of_body.body] == kGone; };
+  std::erase_if(world.turrets_, is_gone);
+  for (Turret& turret : world.turrets_) turret.body = place_of[turret.body];
+  for (Follower& follower : world.followers_) follower.body = place_of[follower.body];
+
+  world.turret_cos_before_ = world.turret_cos_;
+  world.turret_sin_before_ = world.turret_sin_;
+  world.turret_way_.assign(count, 0);
+  for (std::vector<double>* values : {&world.effective_.forward, &world.effective_.left, &world.effective_.turn})
+    values->resize(padded, 0);
+  world.way_.resize(padded);
+  for (PoseStore* poses : {&world.now_, &world.before_})
+    for (std::vector<double>* values : {&poses->x, &poses->y, &poses->z, &poses->w}) Trim(*values);
+  for (std::vector<double>* values :
+       {&world.way_, &world.turret_way_, &world.effective_.forward, &world.effective_.left, &world.effective_.turn})
+    Trim(*values);
+  world.placed_.resize(count);
+  Trim(world.placed_);
+  for (const CollisionModel& shape : world.statics_) world.placed_.push_back({.model = &shape});
+  world.leader_.resize(count + 1);
+  world.leader_[count] = static_cast<std::uint32_t>(count);
+  world.mobility_.resize(count + 1);
+  world.mobility_[count] = 0;
+  world.is_involved_.resize(count + 1);
+  for (std::vector<std::uint32_t>* of_bodies : {&world.leader_, &numbers_, &kept_}) Trim(*of_bodies);
+  Trim(world.mobility_);
+  world.solver_.Configure(count, static_cast<unsigned>(world.parts_.size()));
+  world.limiter_.Clear();
+  world.limiter_.MakeRoom(count + 1);
+  world.count_ = count;
+  numbers_.swap(new_numbers_);
+}
+
+void KinematicWorld::Region::Settle(KinematicWorld& world, std::uint32_t body, const ArrivedBody& arrived)
+{
+  world.now_.Set(body, arrived.body.pose);
+  world.twists_.Set(body, arrived.body.twist);
+  world.model_[body] = arrived.body.model;
+  world.follower_[body] = 0;
+  world.present_[body] = arrived.body.is_present;
+  const CollisionModel& model = world.models_[arrived.body.model];
+  world.radius_[body] = model.bounding_radius;
+  world.core_limit_[body] = world.CoreLimitOf(model);
+  world.inverse_limit_[body] = 1 / world.core_limit_[body];
+  world.travel_forward_[body] = arrived.travel.forward;
+  world.travel_turn_[body] = arrived.travel.turn;
+  world.SetTurretRate(body, arrived.turret.rate);
+  world.SetTurretAngle(body, arrived.turret.angle);
+}
+
+// After FindCells: who computes and who holds which body in the substep that begins.
+void KinematicWorld::Region::FindCommon(const KinematicWorld& world)
+{
+  is_own_.resize(world.count_);
+  for (std::vector<std::uint32_t>& bodies : common_) bodies.clear();
+  for (std::uint32_t body = 0; body < world.count_; ++body)
+  {
+    const bool follows = world.IsFollower(body);
+    is_own_[body] = !follows && owner_[cells_[body]] == number_ ? 1 : 0;
+    if (follows) continue;
+    ForEachBit(HoldersOf(world, body) & others_, [&](unsigned region) { common_[region].push_back(body); });
+  }
+}
+
+}  // namespace swarmanoid::kinematics2d
