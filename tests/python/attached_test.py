@@ -97,9 +97,12 @@ class Attached(unittest.TestCase):
         same(run.state())
         self.await_status(run, "paused", 100)
         run.resume()
-        last = None
+        last, ticks = None, []
         for state in run:
             last = state
+            ticks.append(state.tick)
+        # Each once, but for the last one, which may have come before as one that others follow.
+        self.assertEqual(ticks[:-1], sorted(set(ticks[:-1])))
         alone.step(100)
         same(last)
         self.assertTrue(last.last and run.is_over)
