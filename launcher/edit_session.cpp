@@ -82,16 +82,18 @@ void EditSession::Save(bool anyway)
 
 void EditSession::Reload()
 {
+  std::string text;
   try
   {
-    file_.Reread();
+    text = file_.OnDisk();
   }
   catch (const ConfigurationError& error)
   {
     RefuseEdit(error.what());
   }
+  experiment_.Replace(text);
+  file_.Accept(text);
   changed_on_disk_ = false;
-  experiment_.Replace(file_.Text());
 }
 
 void EditSession::Idle()

@@ -248,11 +248,14 @@ void EditedExperiment::Place(const std::vector<Placing>& placings)
 ElementPath EditedExperiment::Add(const ElementPath& parent, const std::string& tag, const std::optional<Vector2>& at)
 {
   const ElementForm form = FormAt(parent);
-  const auto child = std::ranges::find(form.children, tag, &ElementForm::Child::tag);
+  // Kinds have further tags: <nest> is a patch of the ground.
+  const auto kind = KindOfTag(tag);
+  const auto child =
+      std::ranges::find(form.children, kind ? std::string(TagName(*kind)) : tag, &ElementForm::Child::tag);
   if (child == form.children.end() || !child->may_be_added)
     RefuseEdit(fmt::format("{} takes no{} <{}>", NameOf(parent), child == form.children.end() ? "" : " further", tag));
   const XmlElement& above = At(parent);
-  NewElement element{tag, ValuesForNew(*child, *this, parent, at), false};
+  NewElement element{tag, ValuesForNew(tag, child->required, *this, parent, at), false};
   // As those beside it are written.
   for (const XmlElement& other : above.children) element.as_elements |= HasValuesAsElements(other);
   const InsertionPlace place = PlaceForChild(Text(), above);

@@ -121,10 +121,13 @@ bool EditedFile::HasChanged()
   return changed_;
 }
 
-void EditedFile::Reread()
+std::string EditedFile::OnDisk() const { return ReadTextFile(target_); }
+
+void EditedFile::Accept(const std::string& text)
 {
-  text_ = ReadTextFile(target_);
-  Look();
+  text_ = text;
+  seen_.reset();  // it may have changed since
+  HasChanged();
 }
 
 void EditedFile::Write(const std::string& text)

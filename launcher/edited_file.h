@@ -21,8 +21,10 @@ public:
   const std::string& Text() const { return text_; }
   // Whether the file holds something else now, or is gone. Quick while nobody has touched it.
   bool HasChanged();
-  // Reads it again; throws ConfigurationError.
-  void Reread();
+  // What it holds now; throws ConfigurationError.
+  std::string OnDisk() const;
+  // That this is what was read.
+  void Accept(const std::string& text);
   // Throws std::runtime_error, with the cure; then the file is what it was.
   void Write(const std::string& text);
 

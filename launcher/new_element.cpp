@@ -42,6 +42,15 @@ std::string FreeId(const EditedExperiment& experiment, const Node& parent, const
   return stem + std::to_string(number);
 }
 
+// Of the implementations of a device the simulator's own come first.
+std::string ChoiceOf(const std::vector<std::string>& choices)
+{
+  for (const char* own : {"generic_", "dummy_"})
+    for (const std::string& choice : choices)
+      if (choice.starts_with(own)) return choice;
+  return choices.empty() ? "" : choices.front();
+}
+
 std::string ValueOfType(const ParameterSpec& spec)
 {
   switch (spec.type)
@@ -49,7 +58,7 @@ std::string ValueOfType(const ParameterSpec& spec)
     case ParameterType::kBoolean:
       return "false";
     case ParameterType::kChoice:
-      return spec.choices.empty() ? "" : spec.choices.front();
+      return ChoiceOf(spec.choices);
     case ParameterType::kInteger:
     case ParameterType::kNumber:
       return NumberText(spec.unit == "m" ? std::clamp(0.1, spec.minimum, spec.maximum)
@@ -91,14 +100,15 @@ std::string NumberText(double number)
   return text == "-0" ? "0" : text;
 }
 
-std::vector<std::pair<std::string, std::string>> ValuesForNew(const ElementForm::Child& child,
+std::vector<std::pair<std::string, std::string>> ValuesForNew(const std::string& tag,
+                                                              const std::vector<ParameterSpec>& required,
                                                               const EditedExperiment& experiment,
                                                               const std::vector<std::size_t>& parent,
                                                               const std::optional<Vector2>& at)
 {
   const Node& above = experiment.NodeAt(parent);
-  const Node* const like = LastLike(above, child.tag);
-  const auto kind = KindOfTag(child.tag);
+  const Node* const like = LastLike(above, tag);
+  const auto kind = KindOfTag(tag);
   std::vector<std::pair<std::string, std::string>> values;
   std::optional<std::vector<double>> size;
   const auto add = [&](const std::string& name, const std::string& value)
@@ -106,11 +116,11 @@ std::vector<std::pair<std::string, std::string>> ValuesForNew(const ElementForm:
     values.emplace_back(name, value);
     if (name == "size") size = ParseNumbers(value);
   };
-  for (const ParameterSpec& spec : child.required)
+  for (const ParameterSpec& spec : required)
   {
     const auto copied = like == nullptr ? std::nullopt : TreeOf(*like).Value(spec.name);
     if (spec.name == "id")
-      values.insert(values.begin(), {"id", FreeId(experiment, above, child.tag, like)});
+      values.insert(values.begin(), {"id", FreeId(experiment, above, tag, like)});
     else if (spec.name == "quantity")
       add(spec.name, "10");
     else if (spec.name != "position")

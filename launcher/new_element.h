@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/experiment/element_form.h"
+#include "common/configuration/parameter.h"
 #include "common/math/pose.h"
 
 namespace swarmanoid
@@ -19,7 +19,8 @@ class EditedExperiment;
 std::string NumberText(double number);
 
 // `at`: where an entity of <arena> is put (m); nothing: in the middle.
-std::vector<std::pair<std::string, std::string>> ValuesForNew(const ElementForm::Child& child,
+std::vector<std::pair<std::string, std::string>> ValuesForNew(const std::string& tag,
+                                                              const std::vector<ParameterSpec>& required,
                                                               const EditedExperiment& experiment,
                                                               const std::vector<std::size_t>& parent,
                                                               const std::optional<Vector2>& at);

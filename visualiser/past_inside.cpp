@@ -26,7 +26,7 @@ namespace
 {
 
 using namespace std::chrono_literals;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 // Whoever scrubs along the timeline asks for every tick on the way.
 constexpr auto kStands = 250ms;
@@ -62,10 +62,10 @@ std::vector<DeviceStatus> DevicesOf(const Json& list)
 }
 
 // A program whose two outputs are read while it runs. Killed at its end.
-class Reader
+class ReadProgram
 {
 public:
-  explicit Reader(std::vector<std::string> words)
+  explicit ReadProgram(std::vector<std::string> words)
   {
     std::array<std::array<int, 2>, 2> pipes{};
     for (std::array<int, 2>& ends : pipes)
@@ -101,7 +101,7 @@ public:
     Close();
     throw std::runtime_error(fmt::format("cannot start '{}': {}", words[0], std::strerror(error)));
   }
-  ~Reader()
+  ~ReadProgram()
   {
     if (pid_ > 0 && !ended_)
     {
@@ -110,8 +110,8 @@ public:
     }
     Close();
   }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
+  ReadProgram(const ReadProgram&) = delete;
+  ReadProgram& operator=(const ReadProgram&) = delete;
 
   // False once it has ended and all is read.
   bool Read()
@@ -261,7 +261,7 @@ PastInsideAnswer PastInside::Compute(std::uint64_t client, const Wanted& wanted)
   {
     std::vector<std::string> words{program_, "inspect", fmt::format("{}@{}", run_folder_, answer.tick), "--json", "--"};
     for (const std::uint32_t entity : wanted.request.entities) words.push_back(experiment_.entities[entity].id);
-    Reader reader(words);
+    ReadProgram reader(words);
     while (reader.Read())
       if (!IsWanted(client, wanted.number)) return answer;
     if (!reader.Succeeded())

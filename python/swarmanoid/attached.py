@@ -71,7 +71,7 @@ def _close_all():
 class AttachedRun(Entities):
     """A run as a cluster that goes on beside this program, which looks on and is never waited for: `attach` makes it.
 
-    `state()` is the newest state that has come, `wait()` the next one, and a loop over the run all of them. A state is a
+    `state()` is the newest state that has come, `wait()` the next one, and a loop over the run all that differ. A state is a
     copy. Requests are those of `swarmanoid control`: they return an Answer once they took effect, raise ValueError for
     what is refused, and RunError if nobody answers. When the run has ended, `wait` returns None, loops end, and requests
     raise RunError; so does `wait` if the run failed.
@@ -129,17 +129,21 @@ class AttachedRun(Entities):
         """A state that `state` and `wait` have not returned yet, of this tick or a later one; None if the run ended before.
 
         timeout: s, None: as long as it takes; then TimeoutError. A run that is quicker than the states that were asked for
-        (`hz`) skips ticks. A paused one tells its state again and again, since users may move entities in it.
+        (`hz`) skips ticks. One that is paused, or slower than that, tells its state again and again, since users may move
+        entities in it.
         """
         if not self._run.wait(self._taken, self._stale, tick, -1.0 if timeout is None else timeout):
             return None
         return self.state()
 
     def __iter__(self):
+        shown = None
         while (state := self.wait()) is not None:
-            yield state
+            if state.hash != shown or state.last:
+                yield state
             if state.last:
                 return
+            shown = state.hash
 
     @property
     def is_over(self):

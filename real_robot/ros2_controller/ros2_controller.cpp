@@ -235,13 +235,14 @@ private:
     Commands drive;
     std::vector<std::unique_ptr<CommandTopic>> devices;
 
-    // The first topic of commands without a publisher; empty: all have one.
-    std::string Unheard() const
+    // The topics of commands without a publisher.
+    std::vector<std::string> Unheard() const
     {
-      if (drive.Publishers() == 0) return drive.Name();
+      std::vector<std::string> names;
+      if (drive.Publishers() == 0) names.push_back(drive.Name());
       for (const auto& topic : devices)
-        if (topic->Publishers() == 0) return topic->Name();
-      return {};
+        if (topic->Publishers() == 0) names.push_back(topic->Name());
+      return names;
     }
   };
 
@@ -390,11 +391,11 @@ private:
 
   [[noreturn]] void RefuseWithoutNode() const
   {
-    const std::string unheard = ends_->Unheard();
+    const std::vector<std::string> unheard = ends_->Unheard();
     throw DriverError(
         fmt::format("{} after {:g} s: start the node before the run, with the same ROS_DOMAIN_ID, or give <wait> more",
                     unheard.empty() ? "nobody hears the readings on topics rt/" + name_space_ + "/…"
-                                    : "nobody publishes " + unheard + " with reliable quality of service",
+                                    : "nobody publishes " + Listed(unheard) + " with reliable quality of service",
                     parameters_.GetNumber("wait")));
   }
 

@@ -95,11 +95,14 @@ class Attached(unittest.TestCase):
         run.add("fb_3", place + [0, 0.5, 0] if place[1] < 2 else place - [0, 0.5, 0])
         alone.add("fb_3", place + [0, 0.5, 0] if place[1] < 2 else place - [0, 0.5, 0])
         same(run.state())
-        self.assertEqual(run.status()["phase"], "paused")
+        self.await_status(run, "paused", 100)
         run.resume()
-        last = None
+        last, ticks = None, []
         for state in run:
             last = state
+            ticks.append(state.tick)
+        # Each once, but for the last one, which may have come before as one that others follow.
+        self.assertEqual(ticks[:-1], sorted(set(ticks[:-1])))
         alone.step(100)
         same(last)
         self.assertTrue(last.last and run.is_over)
@@ -122,6 +125,11 @@ class Attached(unittest.TestCase):
                     return place
         raise AssertionError("the arena is full")
 
+    def await_status(self, run, phase, tick):
+        """Of a paused run, which tells its state all the time."""
+        while (run.status()["phase"], run.status()["tick"]) != (phase, tick):
+            run.wait(timeout=GENEROUS_S)
+
     def test_the_command_sees_what_the_program_asked(self):
         cluster = self.start("--ticks", "0", "--paused")
         run = self.attach()
@@ -135,6 +143,7 @@ class Attached(unittest.TestCase):
                 getattr(run, verb)(*arguments)
         with self.assertRaisesRegex(ValueError, "did you mean 'pause'"):
             run.control("pauze")
+        self.await_status(run, "paused", 5)
         with self.assertRaisesRegex(TimeoutError, "no new state of 'diffusion_10' within 0.2 s; it is at tick 5, paused"):
             run.wait(tick=6, timeout=0.2)
         with self.assertRaisesRegex(ValueError, "attached to 'diffusion_10' already"):
@@ -174,7 +183,8 @@ class Attached(unittest.TestCase):
         while not (engines := [each["process"] for each in run.status()["processes"] if each["name"] == "engine 'ground'" and each["process"]]):
             run.wait(timeout=GENEROUS_S)
         os.kill(int(engines[0].split(":")[1]), signal.SIGKILL)
-        with self.assertRaisesRegex(swarmanoid.RunError, "engine 'ground'|the space server has gone"):
+        # Who is heard first: the processes that the run has left fail of it, too.
+        with self.assertRaisesRegex(swarmanoid.RunError, "engine 'ground'|the space server has gone|failed at tick"):
             while run.wait(timeout=GENEROUS_S):
                 pass
         self.assertTrue(run.is_over)

@@ -67,8 +67,9 @@ class Case(unittest.TestCase):
             f"<{name}><implementation>{IMPLEMENTATIONS.get(name, 'generic_' + name)}</implementation></{name}>" for name in sensors) + "</sensors>", text, flags=re.S)
         text = text.replace("</actuators>", "".join(
             f"<{name}><implementation>generic_{name}</implementation></{name}>" for name in actuators) + "</actuators>")
+        # On a busy machine a node may find nobody, and be silent, for a while.
         text = re.sub(r"<parameters>.*</parameters>", "<parameters>" + "".join(
-            f"<{name}>{value}</{name}>" for name, value in parameters.items()) + "</parameters>", text, flags=re.S)
+            f"<{name}>{value}</{name}>" for name, value in {"wait": 60, "timeout": 60, **parameters}.items()) + "</parameters>", text, flags=re.S)
         file = self.folder / "experiment.xml"
         file.write_text(text)
         return file
@@ -77,7 +78,7 @@ class Case(unittest.TestCase):
         self.runs += 1
         self.out = self.folder / f"run_{self.runs}"
         return subprocess.run([SWARMANOID, "run", file, "--output", self.out, "--ticks", str(ticks), "--quiet", *options],
-                              capture_output=True, text=True, env=self.environment, timeout=120)
+                              capture_output=True, text=True, env=self.environment, timeout=250)
 
     def with_node(self, file, *options, robots=("fb_0", "fb_1"), stamped=False, repeats=1, silent=(0, 0), others=False, node=None, **more):
         node = Node(self.domain, robots, stamped, repeats, silent, others, **(node or {}))
@@ -210,8 +211,8 @@ class LockStep(Case):
         file = self.experiment(robots=1, actuators=("footbot_leds",), wait=1)
         run, _ = self.with_node(file, "--single-process", robots=("fb_0",))
         self.assertEqual(run.returncode, 4, run.stderr)
-        self.assertIn("nobody publishes topic rt/fb_0/leds (std_msgs/msg/Float32MultiArray) with reliable quality of service "
-                      "after 1 s", run.stderr)
+        self.assertRegex(run.stderr, r"nobody publishes .*topic rt/fb_0/leds \(std_msgs/msg/Float32MultiArray\) with reliable quality of "
+                         "service after 1 s")
 
     def test_a_host_that_dies_asks_the_node_again(self):
         file = self.experiment()

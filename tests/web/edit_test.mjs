@@ -203,7 +203,7 @@ const tests = {
     state = await changed(page, () => page.click(".adder button"));
     assert.equal(state.form.tag, "footbot_light");
     assert.equal(state.undo, "add <footbot_light>");
-    assert.deepEqual(state.form.parameters[0].choices, ["generic_footbot_light"]);
+    assert.equal(state.form.parameters[0].value, "generic_footbot_light");
     await page.click("text=Check");
     await page.waitForSelector("text=Checked ✓");
 

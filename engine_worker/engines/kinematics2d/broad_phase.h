@@ -62,6 +62,8 @@ public:
   void ForEachRowOf(std::uint32_t block, const Act& act) const;
   // Whether a body of this radius is too big for the cells.
   bool IsLarge(double radius) const { return radius > largest_radius_; }
+  // Those bodies, ascending.
+  std::span<const std::uint32_t> Large() const { return large_; }
   std::uint32_t ColourOf(std::uint32_t block) const
   {
     const std::uint32_t column = block % block_columns_ + first_block_column_;

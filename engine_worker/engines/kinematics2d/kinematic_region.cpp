@@ -87,6 +87,7 @@ KinematicWorld::Region::Region(KinematicWorld& whole, unsigned number, std::span
   common_.resize(regions);
   numbers_.resize(whole.count_);
   std::iota(numbers_.begin(), numbers_.end(), 0U);
+  is_own_.assign(whole.count_, 0);
   SetCuts(whole, region_of_block);
   FindCells(whole);
   FindCommon(whole);
@@ -129,6 +130,8 @@ void KinematicWorld::Region::SetCuts(KinematicWorld& world, std::span<const std:
           holders_[cell] |= nearer[middle - 1] | nearer[middle] | nearer[middle + 1];
       }
   }
+  inner_.resize(cells.Count());
+  for (std::size_t cell = 0; cell < inner_.size(); ++cell) inner_[cell] = holders_[cell] == Bit(number_) ? 1 : 0;
 }
 
 std::uint32_t KinematicWorld::Region::FindBody(std::uint32_t number_in_whole) const
@@ -138,12 +141,21 @@ std::uint32_t KinematicWorld::Region::FindBody(std::uint32_t number_in_whole) co
                                                               : static_cast<std::uint32_t>(found - numbers_.begin());
 }
 
-// After FindCells.
-KinematicWorld::Region::Regions KinematicWorld::Region::HoldersOf(const KinematicWorld& world, std::uint32_t body) const
+KinematicWorld::Region::Regions KinematicWorld::Region::HoldersOf(std::uint32_t body) const
 {
-  const bool is_grouped = !grouped_.empty() && std::binary_search(grouped_.begin(), grouped_.end(), numbers_[body]);
-  if (is_grouped || world.broad_.IsLarge(world.radius_[body])) return others_ | Bit(number_);
-  return holders_[cells_[body]];
+  return is_everywhere_[body] != 0 ? others_ | Bit(number_) : holders_[cells_[body]];
+}
+
+void KinematicWorld::Region::MarkEverywhere(const KinematicWorld& world)
+{
+  is_everywhere_.assign(world.count_, 0);
+  for (const Follower& follower : world.followers_) is_everywhere_[follower.body] = 1;
+  for (const std::uint32_t body : world.broad_.Large()) is_everywhere_[body] = 1;
+  for (const std::uint32_t number : grouped_)
+  {
+    const std::uint32_t body = FindBody(number);
+    if (body != kNobody) is_everywhere_[body] = 1;
+  }
 }
 
 template <class Act>
@@ -211,27 +223,21 @@ void KinematicWorld::Region::ShareBodies(KinematicWorld& world)
 {
   const bool had_groups = !world.grips_.empty();
   FindCells(world);
-  kept_.clear();
+  MarkEverywhere(world);
+  gone_.clear();
   for (std::uint32_t body = 0; body < world.count_; ++body)
   {
-    if (world.IsFollower(body))
-    {
-      kept_.push_back(body);
-      continue;
-    }
-    if (!IsOwn(body)) continue;
-    const Regions holders = HoldersOf(world, body);
-    if ((holders & Bit(number_)) != 0) kept_.push_back(body);
+    if (IsInner(body) || world.IsFollower(body)) continue;
+    const Regions holders = IsOwn(body) ? HoldersOf(body) : 0;
+    if ((holders & Bit(number_)) == 0) gone_.push_back(body);
     ForEachBit(holders & others_, [&](unsigned region) { PutBody(world, body, out_[region]); });
   }
   Swap();
   ReadBodies(world);
-  Merge();
-  const bool others = new_numbers_ != numbers_;
+  const bool others = Merge(world);
   if (others) Rearrange(world);
   for (std::size_t k = 0; k < arrived_.size(); ++k) Settle(world, places_[k], arrived_[k]);
   if (others) world.broad_.SetBodies(world.radius_);
-  FindCells(world);
   FindCommon(world);
 
   world.grips_.clear();
@@ -278,44 +284,82 @@ void KinematicWorld::Region::ReadBodies(const KinematicWorld& world)
             [](const ArrivedBody& a, const ArrivedBody& b) { return a.body.number < b.body.number; });
 }
 
-// The bodies that are held from now on: those kept and those that arrived.
-void KinematicWorld::Region::Merge()
+// Who of those that are gone arrived again, and who came to be held. Returns whether bodies are to be numbered anew.
+bool KinematicWorld::Region::Merge(const KinematicWorld& world)
 {
-  new_numbers_.clear();
-  places_.clear();
-  runs_.clear();
-  std::size_t k = 0;
-  for (std::size_t n = 0; k < kept_.size() || n < arrived_.size();)
+  places_.resize(arrived_.size());
+  removed_.clear();
+  stayed_.clear();
+  added_.clear();
+  auto gone = gone_.begin();
+  for (std::uint32_t n = 0; n < arrived_.size(); ++n)
   {
-    const auto place = static_cast<std::uint32_t>(new_numbers_.size());
-    const std::uint32_t kept = k < kept_.size() ? numbers_[kept_[k]] : kNobody;
-    const std::uint32_t arrived = n < arrived_.size() ? arrived_[n].body.number : kNobody;
-    if (kept == arrived || (!new_numbers_.empty() && arrived == new_numbers_.back()))
-      Refuse("a body was sent by one that does not compute it");
-    new_numbers_.push_back(std::min(kept, arrived));
-    if (arrived < kept)
+    const std::uint32_t number = arrived_[n].body.number;
+    if (n > 0 && arrived_[n - 1].body.number == number) Refuse("a body was sent by two of them");
+    for (; gone != gone_.end() && numbers_[*gone] < number; ++gone) removed_.push_back(*gone);
+    if (gone != gone_.end() && numbers_[*gone] == number)
     {
-      places_.push_back(place);
-      ++n;
+      stayed_.push_back(n);
+      places_[n] = *gone++;
       continue;
     }
-    if (!runs_.empty() && runs_.back().from + runs_.back().count == kept_[k] &&
-        runs_.back().to + runs_.back().count == place)
-      ++runs_.back().count;
-    else
-      runs_.push_back({kept_[k], place, 1});
-    ++k;
+    if (FindBody(number) != kNobody) Refuse("a body was sent by one that does not compute it");
+    added_.push_back(n);
   }
+  removed_.insert(removed_.end(), gone, gone_.end());
+  if (removed_.empty() && added_.empty()) return false;
+  FindRuns(static_cast<std::uint32_t>(world.count_));
+  return true;
+}
+
+// Where the bodies go between which some are removed and added.
+void KinematicWorld::Region::FindRuns(std::uint32_t count)
+{
+  runs_.clear();
+  auto removed = removed_.begin();
+  auto added = added_.begin();
+  const auto place_of_next = [&]
+  {
+    const auto at = std::lower_bound(numbers_.begin(), numbers_.end(), arrived_[*added].body.number);
+    return static_cast<std::uint32_t>(at - numbers_.begin());
+  };
+  std::uint32_t next_added = added != added_.end() ? place_of_next() : count;
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+  while (true)
+  {
+    const std::uint32_t stop = std::min(removed != removed_.end() ? *removed : count, next_added);
+    if (stop > from)
+    {
+      runs_.push_back({from, to, stop - from});
+      to += stop - from;
+      from = stop;
+    }
+    if (added != added_.end() && next_added == from)
+    {
+      places_[*added++] = to++;
+      next_added = added != added_.end() ? place_of_next() : count;
+    }
+    else if (removed != removed_.end() && *removed == from)
+    {
+      ++from;
+      ++removed;
+    }
+    else
+      break;
+  }
+  new_count_ = to;
 }
 
 // Numbers the bodies of the world anew. Those that arrived get their values in Settle.
 void KinematicWorld::Region::Rearrange(KinematicWorld& world)
 {
-  const std::size_t count = new_numbers_.size();
+  const std::size_t count = new_count_;
   const std::size_t padded = PaddedCount(count);
   constexpr std::uint32_t kGone = kNobody;
   std::vector<std::uint32_t> place_of(world.count_, kGone);
   for (const Run& run : runs_) std::iota(place_of.begin() + run.from, place_of.begin() + run.from + run.count, run.to);
+  for (const std::uint32_t n : stayed_) places_[n] = place_of[places_[n]];
 
   for (std::vector<double>* of_bodies :
        {&world.now_.x, &world.now_.y, &world.now_.z, &world.twists_.forward, &world.twists_.left, &world.twists_.turn})
@@ -326,8 +370,9 @@ void KinematicWorld::Region::Rearrange(KinematicWorld& world)
        {&world.turret_angle_, &world.turret_sin_, &world.radius_, &world.travel_forward_, &world.travel_turn_})
     MoveRuns(runs_, count, 0.0, *of_bodies);
   MoveRuns(runs_, count, 1.0, world.turret_cos_);
-  MoveRuns(runs_, count, 0U, world.model_);
-  for (std::vector<std::uint8_t>* of_bodies : {&world.follower_, &world.present_})
+  for (std::vector<std::uint32_t>* of_bodies : {&world.model_, &numbers_, &cells_})
+    MoveRuns(runs_, count, 0U, *of_bodies);
+  for (std::vector<std::uint8_t>* of_bodies : {&world.follower_, &world.present_, &is_own_})
     MoveRuns(runs_, count, std::uint8_t{0}, *of_bodies);
   world.before_.Resize(padded);
   // Behind the bodies is what stands for the static shapes, and what vector loops may read.
@@ -363,17 +408,19 @@ void KinematicWorld::Region::Rearrange(KinematicWorld& world)
   world.mobility_.resize(count + 1);
   world.mobility_[count] = 0;
   world.is_involved_.resize(count + 1);
-  for (std::vector<std::uint32_t>* of_bodies : {&world.leader_, &numbers_, &kept_}) Trim(*of_bodies);
+  Trim(world.leader_);
   Trim(world.mobility_);
   world.solver_.Configure(count, static_cast<unsigned>(world.parts_.size()));
   world.limiter_.Clear();
   world.limiter_.MakeRoom(count + 1);
   world.count_ = count;
-  numbers_.swap(new_numbers_);
 }
 
 void KinematicWorld::Region::Settle(KinematicWorld& world, std::uint32_t body, const ArrivedBody& arrived)
 {
+  numbers_[body] = arrived.body.number;
+  cells_[body] = world.broad_.Cells().CellOf(arrived.body.pose.x, arrived.body.pose.y);
+  is_own_[body] = 0;
   world.now_.Set(body, arrived.body.pose);
   world.twists_.Set(body, arrived.body.twist);
   world.model_[body] = arrived.body.model;
@@ -389,17 +436,16 @@ void KinematicWorld::Region::Settle(KinematicWorld& world, std::uint32_t body, c
   world.SetTurretAngle(body, arrived.turret.angle);
 }
 
-// After FindCells: who computes and who holds which body in the substep that begins.
+// Who computes and who holds which body in the substep that begins.
 void KinematicWorld::Region::FindCommon(const KinematicWorld& world)
 {
-  is_own_.resize(world.count_);
+  MarkEverywhere(world);
   for (std::vector<std::uint32_t>& bodies : common_) bodies.clear();
   for (std::uint32_t body = 0; body < world.count_; ++body)
   {
-    const bool follows = world.IsFollower(body);
-    is_own_[body] = !follows && owner_[cells_[body]] == number_ ? 1 : 0;
-    if (follows) continue;
-    ForEachBit(HoldersOf(world, body) & others_, [&](unsigned region) { common_[region].push_back(body); });
+    if (IsInner(body) || world.IsFollower(body)) continue;
+    is_own_[body] = owner_[cells_[body]] == number_ ? 1 : 0;
+    ForEachBit(HoldersOf(body) & others_, [&](unsigned region) { common_[region].push_back(body); });
   }
 }
 

@@ -115,14 +115,19 @@ private:
 
   static constexpr std::uint32_t kNobody = ~0U;
   Regions Bit(unsigned region) const { return Regions{1} << region; }
-  Regions HoldersOf(const KinematicWorld& world, std::uint32_t body) const;
+  // After FindCells and MarkEverywhere.
+  Regions HoldersOf(std::uint32_t body) const;
+  // Whether it stays where nobody else knows of it.
+  bool IsInner(std::uint32_t body) const { return (is_own_[body] & inner_[cells_[body]]) > is_everywhere_[body]; }
   template <class Act>
   void ForEachOther(const Act& act) const;
   void Swap();
   void FindCells(const KinematicWorld& world);
   void PutBody(const KinematicWorld& world, std::uint32_t body, ByteWriter& message) const;
   void ReadBodies(const KinematicWorld& world);
-  void Merge();
+  void MarkEverywhere(const KinematicWorld& world);
+  bool Merge(const KinematicWorld& world);
+  void FindRuns(std::uint32_t count);
   void Rearrange(KinematicWorld& world);
   void Settle(KinematicWorld& world, std::uint32_t body, const ArrivedBody& arrived);
   void FindCommon(const KinematicWorld& world);
@@ -143,20 +148,24 @@ private:
   // Of each cell.
   std::vector<std::uint8_t> owner_;
   std::vector<Regions> holders_;
+  std::vector<std::uint8_t> inner_;  // this region alone holds what is in it
   // Of each body that is held.
   std::vector<std::uint32_t> numbers_;  // in the whole world, ascending
   std::vector<std::uint8_t> is_own_, is_told_;
+  std::vector<std::uint8_t> is_everywhere_;  // all regions hold it
   std::vector<std::uint32_t> cells_;
   std::vector<std::vector<std::uint32_t>> common_;  // bodies that this region and another one hold, ascending
 
   std::vector<Grip> grips_;             // of all regions, by numbers in the whole world
   std::vector<std::uint32_t> grouped_;  // bodies in groups, as numbers in the whole world, ascending
 
-  std::vector<std::uint32_t> kept_;
   std::vector<ArrivedBody> arrived_;
-  std::vector<std::uint32_t> places_;  // of those that arrived
-  std::vector<std::uint32_t> new_numbers_;
+  std::vector<std::uint32_t> places_;          // of those that arrived
+  std::vector<std::uint32_t> gone_;            // bodies that are not held any more, unless they arrive again
+  std::vector<std::uint32_t> removed_;         // those of them that do not
+  std::vector<std::uint32_t> stayed_, added_;  // among the arrived: those that were here before, and the others
   std::vector<Run> runs_;
+  std::uint32_t new_count_ = 0;
 
   KinematicWorld* solved_ = nullptr;
   bool overlaps_anywhere_ = false;

@@ -148,10 +148,10 @@ TEST_F(EditSessionTest, SavesOverOthersOnlyIfAsked)
 {
   const std::string path = PathOf(page_.places.begin()->first);
   Edit({{"change", "set"}, {"path", path}, {"name", "position"}, {"value", "0.5, 0.5, 0"}});
-  Write("<!-- of others -->" + text_);
+  Write(text_ + "<!-- of others -->\n");
   EXPECT_THAT(RefusalOf(R"({"do": "save"})"), HasSubstr("somebody else has changed"));
   EXPECT_TRUE(page_.document["changed_on_disk"]);
-  EXPECT_EQ(OnDisk(), "<!-- of others -->" + text_);
+  EXPECT_EQ(OnDisk(), text_ + "<!-- of others -->\n");
   Ask({{"do", "save"}, {"anyway", true}});
   EXPECT_TRUE(page_.document["saved"]);
   EXPECT_FALSE(page_.document["changed_on_disk"]);
@@ -161,7 +161,7 @@ TEST_F(EditSessionTest, SavesOverOthersOnlyIfAsked)
 
 TEST_F(EditSessionTest, ReadsWhatOthersWriteIfNothingIsChangedHere)
 {
-  Write("<!-- of others -->" + text_);
+  Write(text_ + "<!-- of others -->\n");
   EXPECT_TRUE(Eventually(
       [&]
       {

@@ -70,7 +70,7 @@ TEST(EditedFile, NoticesWhatOthersWrite)
   Write(path.string() + "~", "own");
   fs::rename(path.string() + "~", path);
   EXPECT_TRUE(file.HasChanged());
-  file.Reread();
+  file.Accept(file.OnDisk());
   EXPECT_EQ(file.Text(), "own");
   EXPECT_FALSE(file.HasChanged());
   fs::remove(path);

@@ -213,7 +213,8 @@ export class Editor {
 
   // True if the key was for the editor.
   key(event) {
-    const typing = ["INPUT", "SELECT", "TEXTAREA"].includes(event.target.tagName);
+    const { tagName, value, dataset } = event.target;
+    const typing = ["INPUT", "TEXTAREA"].includes(tagName) && value !== dataset.shown;
     const key = event.key.toLowerCase();
     if (event.key === "Escape" && this.kind !== null) this.arm(null);
     else if (!(event.ctrlKey || event.metaKey) || event.altKey) return false;

@@ -85,7 +85,7 @@ export class ElementForm {
     const list = suggestions ? h("datalist", { id: `suggestions-${++this.lists}` }, ...suggestions.map((text) => h("option", { value: text }))) : null;
     const hint = parameter.default === undefined ? "required" : parameter.default === "" ? "" : parameter.default;
     const input = h("input", { type: "text", inputmode: NUMERIC.has(type) ? "decimal" : null, spellcheck: "false", autocomplete: "off", list: list?.id, [HINT]: hint, onchange: change });
-    input.value = value ?? "";
+    input.value = input.dataset.shown = value ?? "";
     if (list) this.element.append(list);
     return input;
   }
@@ -121,7 +121,7 @@ export class ElementForm {
   source({ xml, path }, open) {
     if (xml === null) return h("p.dim", {}, "Its text is too long to be edited here.");
     const text = h("textarea", { rows: Math.min(24, xml.split("\n").length + 1), spellcheck: "false", "aria-label": "Text of the element", name: "xml" });
-    text.value = xml;
+    text.value = text.dataset.shown = xml;
     return h("details.xml", { open: open || false }, h("summary", {}, "XML"), text, h("button.small", { onclick: () => this.actions.edit({ change: "rewrite", path, xml: text.value }) }, "Take this text"));
   }
 }
