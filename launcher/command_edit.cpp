@@ -9,6 +9,7 @@
 
 #include "common/activity/exit_codes.h"
 #include "common/activity/print_error.h"
+#include "common/builtins/renderers.h"
 #include "common/program/interrupts.h"
 #include "common/program/usage_error.h"
 #include "launcher/commands.h"
@@ -98,14 +99,16 @@ void AddEditCommand(CLI::App& app, int& exit_code)
   CLI::App* verb = app.add_subcommand("edit", "Edit an experiment file on a page in the browser");
   verb->add_option("EXPERIMENT", options->file, "The experiment file (XML)")->required();
   verb->add_flag("--open", options->open, "Open the page in the browser");
-  for (const char* name : {"port", "address", "tls", "certificate"})
-  {
-    const std::string parameter = name;
-    verb->add_option_function<std::string>(
-        "--" + parameter,
-        [options, parameter](const std::string& value) { options->parameters.push_back(parameter + "=" + value); },
-        "As of `swarmanoid attach web`");
-  }
+  for (const ParameterSpec& spec : WebRenderDescription().parameters)
+    if (const std::string& name = spec.name;
+        name == "port" || name == "address" || name == "tls" || name == "certificate")
+      verb->add_option_function<std::string>(
+              "--" + name,
+              [options, name](const std::string& value) { options->parameters.push_back(name + "=" + value); },
+              spec.description)
+          ->type_name(name == "certificate" ? "FILE"
+                      : name == "tls"       ? "auto|on|off"
+                                            : "VALUE");
   verb->footer(
       "The page shows the start state: place, move, turn, resize and remove what is there, and fill in controllers, "
       "devices and engines by forms. Save writes the file; what was not changed stays as it was, byte for byte. Ctrl-C "

@@ -122,6 +122,8 @@ const tests = {
     const { page } = editor;
     await settled(page);
     const [from, to] = [await read(page, () => swarmanoid.project("fb_1")), await read(page, () => swarmanoid.projectPoint(1.5, 0.5, 0))];
+    assert.equal(await page.textContent(".pill"), "editing");
+    assert.ok(!/null|undefined/.test(await page.textContent("body")));
     let state = await changed(page, async () => {
       await page.keyboard.down("Shift");
       await page.mouse.move(from.x, from.y);

@@ -162,12 +162,12 @@ private:
                 One({"1", "/>", "&lt;x"}) + quote;
       }
     text += One({"", " "});
-    if (Draw(4) == 0) return text + "/>";
+    if (depth < 3 && Draw(4) == 0) return text + "/>";
     text += ">" + Blank();
-    if (depth == 0 || Draw(3) == 0)
-      text += One({"", "1", "1 <!-- m --> 2", "<![CDATA[<x/>]]>", "&#65;"});
+    if (depth == 0 || (depth < 3 && Draw(3) == 0))
+      text += One({"", "1", "1 <!-- m --> 2", "<!-- m -->", "<![CDATA[<x/>]]>", "&#65;"});
     else
-      for (int i = Draw(5); i > 0; --i)
+      for (int i = Draw(6); i > 0; --i)
         text += (Draw(4) == 0 ? std::string(One({"<!-- <c> -->", "<?do this?>"})) : Element(depth - 1)) + Blank();
     return text + "</" + name + One({">", " >"});
   }
@@ -226,7 +226,7 @@ bool RestIsBlank(const std::string& text, const TextSpan& span, const TextSpan& 
 // What the value of a parameter reads as: blanks at both ends are not part of it, and an element is what it was.
 TEST(XmlEdit, ChangesNothingElseInRandomDocuments)
 {
-  int edits_made = 0;
+  int edits_made = 0, beside_comments = 0;
   for (unsigned seed = 0; seed < 400; ++seed)
   {
     RandomDocument random(seed);
@@ -247,7 +247,11 @@ TEST(XmlEdit, ChangesNothingElseInRandomDocuments)
       ASSERT_EQ(element.attributes.size(), NodeAt(*tree, path).attributes.size());
 
       const int what = random.Draw(4);
-      const std::string name = random.One({"p", "q", "new", "a"}), value = random.Value();
+      const auto count = static_cast<int>(element.children.size());
+      const std::string name = count > 0 && random.Draw(2) == 0
+                                   ? element.children[static_cast<std::size_t>(random.Draw(count))].name
+                                   : random.One({"p", "q", "new", "a"});
+      const std::string value = random.Value();
       TextEdits edits;
       if (what == 0)
       {
@@ -255,6 +259,7 @@ TEST(XmlEdit, ChangesNothingElseInRandomDocuments)
         const XmlElement* child = element.FindChild(name);
         if (element.FindAttribute(name) == nullptr && child != nullptr && !child->children.empty()) continue;
         edits = SetValue(before, element, name, value);
+        beside_comments += element.FindAttribute(name) == nullptr && child != nullptr && !child->notes.empty();
       }
       else if (what == 1)
         edits = DropValue(before, element, name);
@@ -310,6 +315,7 @@ TEST(XmlEdit, ChangesNothingElseInRandomDocuments)
     }
   }
   EXPECT_GT(edits_made, 1500);
+  EXPECT_GT(beside_comments, 5);
 }
 
 }  // namespace

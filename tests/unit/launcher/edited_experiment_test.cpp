@@ -8,6 +8,7 @@
 
 #include "common/configuration/xml_reader.h"
 #include "common/space/space.h"
+#include "launcher/scratch_folder.h"
 #include "launcher/simulator.h"
 #include "roles/builtins.h"
 #include "test_folders.h"
@@ -212,6 +213,8 @@ TEST(EditedExperiment, StartsAsARunDoes)
     ASSERT_NE(experiment.GetExperiment(), nullptr);
     SimulatorOptions options;
     options.visualisations = false;
+    const ScratchFolder folder;
+    options.output_folder = folder.Path();
     const auto run = ReadExperiment(kConfigs + "/" + name + ".xml");
     const CSimulator simulator(*run, options);
     EXPECT_EQ(CSwarmanoidSpace(*experiment.GetExperiment()).Hash(), simulator.GetSpace().Hash()) << name;

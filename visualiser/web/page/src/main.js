@@ -336,6 +336,7 @@ function startEditor() {
     editor = new Editor({ app, main, picture, left: list.element, send: (request) => connection.send(request), choose: showChosen });
     if (state.control === "granted") editor.begin();
   });
+  showState();
 }
 
 // ---- what the user does ----

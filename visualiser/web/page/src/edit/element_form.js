@@ -35,7 +35,9 @@ export class ElementForm {
     this.say(said);
     const { actions } = this;
     const { path } = form;
-    this.body.replaceChildren(
+    const shown = h(
+      "div",
+      {},
       h("nav.above", { "aria-label": "Elements above" }, ...form.above.flatMap(({ path: above, name }) => [h("button.small", { onclick: () => actions.open(above) }, name), "›"])),
       h(
         "div.head",
@@ -52,6 +54,7 @@ export class ElementForm {
       this.adder(form),
       this.source(form, open),
     );
+    this.body.replaceChildren(shown);
     if (focused) this.body.querySelector(`[name="${CSS.escape(focused)}"]`)?.focus();
   }
 
