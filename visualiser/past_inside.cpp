@@ -35,7 +35,9 @@ constexpr std::size_t kMostBytes = std::size_t{64} << 20U;
 
 bool IsOurs(const std::string& folder)
 {
-  struct stat found{};
+  struct stat found
+  {
+  };
   return stat(folder.c_str(), &found) == 0 && found.st_uid == geteuid();
 }
 
@@ -201,11 +203,8 @@ PastInside::~PastInside()
 void PastInside::Ask(std::uint64_t client, const LookBackRequest& request)
 {
   Wanted wanted{request, 0};
-  std::erase_if(wanted.request.entities,
-                [this](std::uint32_t entity)
-                {
-                  return entity >= experiment_.entities.size() || experiment_.entities[entity].controller.empty();
-                });
+  std::erase_if(wanted.request.entities, [this](std::uint32_t entity)
+                { return entity >= experiment_.entities.size() || experiment_.entities[entity].controller.empty(); });
   const std::lock_guard lock(mutex_);
   wanted.number = ++requests_;
   wanted_.erase(client);

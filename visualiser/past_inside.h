@@ -1,6 +1,6 @@
 // PastInside: what robots sensed, thought and commanded at ticks of the past, for those who look back. The journal does
-// not have it. The command `swarmanoid inspect` computes it, in a process of its own: it steps controllers of users, who
-// may crash or hang it. Made and asked by renderers in the thread of Draw and Idle.
+// not have it. The command `swarmanoid inspect` computes it, in a process of its own: it steps controllers of users,
+// who may crash or hang it. Made and asked by renderers in the thread of Draw and Idle.
 #pragma once
 
 #include <condition_variable>

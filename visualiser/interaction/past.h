@@ -89,7 +89,7 @@ private:
   std::optional<Playing> playing_;
   std::optional<std::string> refusal_;
   std::unique_ptr<CSwarmanoidSpace> space_;
-  bool has_state_ = false;  // since the present was left
+  bool has_state_ = false;                    // since the present was left
   std::optional<LookBackRequest> inspected_;  // what `inside_` was asked last
   PastInsideAnswer of_inside_;
 

@@ -144,12 +144,8 @@ Json Devices(const std::vector<DeviceStatus>& devices)
 
 Json Inside(const RobotStatus& robot)
 {
-  return {{"tick", robot.tick},
-          {"controller", robot.controller},
-          {"text", robot.text},
-          {"state", robot.state},
-          {"sensors", Devices(robot.sensors)},
-          {"actuators", Devices(robot.actuators)}};
+  return {{"tick", robot.tick},   {"controller", robot.controller},    {"text", robot.text},
+          {"state", robot.state}, {"sensors", Devices(robot.sensors)}, {"actuators", Devices(robot.actuators)}};
 }
 
 Json Attributes(const CSwarmanoidSpaceEntity& entity)

@@ -25,7 +25,8 @@ using testing::HasSubstr;
 class PastInsideTest : public testing::Test
 {
 protected:
-  PastInsideTest() : folder_(fs::temp_directory_path() / fmt::format("swarmanoid inside_{}", getpid())), world_({4, 4, 2})
+  PastInsideTest()
+      : folder_(fs::temp_directory_path() / fmt::format("swarmanoid inside_{}", getpid())), world_({4, 4, 2})
   {
     for (const char* id : {"fb_0", "fb_1"}) world_.Add(EntityKind::kFootbot, id, {1, 1, 0}).controller = "driver";
     world_.Add(EntityKind::kFootbot, "parked", {2, 1, 0});
@@ -42,7 +43,8 @@ protected:
   void Write(const std::string& commands) const
   {
     const fs::path program = folder_ / "program";
-    std::ofstream(program) << "#!/bin/sh\necho \"$*\" >> '" << (folder_ / "asked").string() << "'\n" << commands << "\n";
+    std::ofstream(program) << "#!/bin/sh\necho \"$*\" >> '" << (folder_ / "asked").string() << "'\n"
+                           << commands << "\n";
     fs::permissions(program, fs::perms::owner_all);
   }
   std::string Asked() const
@@ -130,8 +132,9 @@ TEST_F(PastInsideTest, ItsEndIsTheEndOfWhatItComputes)
 
 TEST_F(PastInsideTest, WhyNothingCanBeComputedIsTold)
 {
-  Write("case \"$2\" in *@1) echo 'robot says hello' >&2; echo 'inspect: made by another build' >&2; exit 4;; esac\n"
-        "echo '{\"robots\": [{\"id\": \"nobody\"}]}'");
+  Write(
+      "case \"$2\" in *@1) echo 'robot says hello' >&2; echo 'inspect: made by another build' >&2; exit 4;; esac\n"
+      "echo '{\"robots\": [{\"id\": \"nobody\"}]}'");
   const auto inside = Make(folder_.string());
   inside->Ask(1, {1, {0}});
   ASSERT_TRUE(Eventually([&] { return Count() == 1; }));
@@ -146,7 +149,10 @@ TEST_F(PastInsideTest, NothingIsComputedOfRunsOfOthers)
 {
   Write("echo '{\"robots\": []}'");
   EXPECT_FALSE(Make("/nowhere")->IsPossible());
-  if (geteuid() != 0) EXPECT_FALSE(Make("/")->IsPossible());
+  if (geteuid() != 0)
+  {
+    EXPECT_FALSE(Make("/")->IsPossible());
+  }
   unsetenv(kCommandVariable);
   EXPECT_FALSE(Make(folder_.string())->IsPossible());
 }
