@@ -162,7 +162,8 @@ std::vector<RobotStatus> ReadInspection(const Experiment& experiment, std::uint6
   std::vector<RobotStatus> robots;
   try
   {
-    for (const Json& robot : Json::parse(json).at("robots"))
+    const Json printed = Json::parse(json);
+    for (const Json& robot : printed.at("robots"))
     {
       RobotStatus& status = robots.emplace_back();
       status.entity = numbers.at(robot.at("id").get<std::string>());
