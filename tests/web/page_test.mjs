@@ -293,12 +293,12 @@ const tests = {
     await read(page, () => swarmanoid.select("fb_4"));
     await first.viewer.end("SIGKILL");
     await until(page, () => !swarmanoid.connected);
-    assert.ok(await page.isVisible(".banner"));
+    await page.waitForSelector(".banner", { state: "visible" });
     const before = await tickOf(page);
     await attach(`port=${port}`);
     await until(page, (tick) => swarmanoid.connected && swarmanoid.tick > tick, before);
     assert.equal(await read(page, () => swarmanoid.selected), "fb_4");
-    assert.ok(await page.isHidden(".banner"));
+    await page.waitForSelector(".banner", { state: "hidden" });
     assert.deepEqual(page.complaints, []);
   },
 
@@ -465,7 +465,7 @@ const tests = {
     await page.goto(url);
     await drawn(page);
     assert.equal(await read(page, () => swarmanoid.view), "plan");
-    assert.ok(await page.isVisible(".plan-note"));
+    await page.waitForSelector(".plan-note", { state: "visible" });
     assert.deepEqual(files.filter((file) => /view_3d|meshes/.test(file)), []);
     assert.ok(bytes < 60000, `${bytes} bytes`);
     // Seen from above: dark tracks, the blue body, and the orange mark that tells the front, here to the right.
@@ -653,7 +653,7 @@ const tests = {
     const other = await open(url.replace(/#.*/, ""), { quality: "plan" });
     await drawn(other);
     await read(other, () => swarmanoid.select("late_0"));
-    assert.ok(await other.isHidden(".place"));
+    await other.waitForSelector(".place", { state: "hidden" });
     await other.click(".tools summary");
     assert.ok(await other.isDisabled(".tools button:has-text('Handles')"));
   },
@@ -1081,7 +1081,7 @@ const tests = {
       assert.ok(box.width >= 36 && box.height >= 32 && box.right <= 390, JSON.stringify(box));
     const { height } = await page.locator("main").boundingBox();
     assert.ok(height > 0.7 * 844, `the picture has ${height} pixels`);
-    assert.ok(await page.isHidden(".left"));
+    await page.waitForSelector(".left", { state: "hidden" });
     await page.tap(".list-button");
     await page.waitForSelector(".left", { state: "visible" });
     await page.tap(".row >> nth=3");
