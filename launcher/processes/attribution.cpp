@@ -69,6 +69,9 @@ bool MayBeReplaced(const ProcessEnd& ended, const ActivityRecord& record, bool e
       return true;
     case EndReason::kDone:
       return ended.signal != 0;
+    case EndReason::kOthers:
+      // Given up by the others while it gave them up: a link that is cut is so for both sides.
+      return WasKilled(ended, elsewhere);
     case EndReason::kUnknown:
       // The programs' own words: the next one would say the same.
       if (ended.exit_code == kExitUsage || ended.exit_code == kExitInvalidFile) return false;

@@ -47,6 +47,8 @@ TEST(Attribution, OneThatDiedIsReplacedAndOneThatSaysWhatIsWrongIsNot)
   EXPECT_TRUE(MayBeReplaced(Exited(4), Record(EndReason::kDied), false));
   EXPECT_FALSE(MayBeReplaced(Exited(4), Record(EndReason::kFailed), false));
   EXPECT_FALSE(MayBeReplaced(Exited(6), Record(EndReason::kOthers), false));
+  EXPECT_TRUE(MayBeReplaced(Killed(SIGKILL), Record(EndReason::kOthers), false)) << "given up as it gave up the server";
+  EXPECT_TRUE(MayBeReplaced(Exited(128 + SIGKILL), Record(EndReason::kOthers), true));
   EXPECT_TRUE(MayBeReplaced(Exited(kExitCutOff), Record(EndReason::kOthers), false));
   // Of a process of another machine there is its exit code.
   EXPECT_TRUE(MayBeReplaced(Exited(kExitCutOff), ActivityRecord(), true));
