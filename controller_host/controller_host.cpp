@@ -3,13 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <exception>
-#include <map>
-#include <sstream>
 
-#include "common/activity/shared_activity.h"
-#include "common/checkpoint/host_state.h"
 #include "common/control_interface/init_controller.h"
 #include "common/experiment/actors.h"
 #include "common/logging/log.h"
@@ -17,20 +12,13 @@
 #include "common/space/attributes.h"
 #include "common/space/state_checks.h"
 #include "common/threads/thread_choice.h"
-#include "common/threads/worker_pool.h"
+#include "controller_host/batches.h"
 #include "controller_host/split_sensor.h"
 
 namespace swarmanoid
 {
 namespace
 {
-
-// The slice of a host's channel values that belongs to the robots of one batch.
-struct ChannelSlice
-{
-  std::vector<std::size_t> offsets;  // of each robot within the values of the message
-  int width = 0;
-};
 
 ChannelSlice SliceOf(const std::vector<ChannelBlock>& blocks, const std::string& channel,
                      std::span<const std::uint32_t> robots)
@@ -49,20 +37,6 @@ ChannelSlice SliceOf(const std::vector<ChannelBlock>& blocks, const std::string&
   return slice;
 }
 
-// A controller that fails more often, never with more ticks between, is not started again.
-constexpr std::uint32_t kMostRestarts = 3;
-constexpr std::uint64_t kRestartMemory = 100;
-
-// What shows, or is heard, of a robot. Others, such as angles, stay.
-constexpr std::string_view kSilenced[] = {"led", "beacon", "laser", "message", "radio", "report"};
-
-double ThreadMilliseconds()
-{
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
-}
-
 // In how many parts a sensor of so many robots is split: each costs a little by itself.
 std::size_t PartsOf(std::size_t robots, unsigned threads)
 {
@@ -71,46 +45,6 @@ std::size_t PartsOf(std::size_t robots, unsigned threads)
 }
 
 }  // namespace
-
-struct ControllerHost::Batches
-{
-  static constexpr int kWhole = -1;
-
-  struct Sensor
-  {
-    std::unique_ptr<SensorBatch> batch;
-    ChannelSlice slice;
-    Actor actor;
-    int part = kWhole;                                 // of a device that is split among threads: which of them runs it
-    std::pair<std::uint32_t, std::uint32_t> number{};  // of the controller, and of its sensor
-    std::vector<std::size_t> robots{};                 // places in robots_
-  };
-  struct Actuator
-  {
-    std::unique_ptr<ActuatorBatch> batch;
-    ChannelSlice slice;
-    Actor actor;
-    const DeviceConfiguration* device = nullptr;
-    std::vector<std::uint32_t> robots;
-    std::vector<std::size_t> places{};  // in robots_
-  };
-  struct Failure
-  {
-    std::exception_ptr what;
-    Actor actor;
-  };
-
-  std::vector<Sensor> sensors;
-  std::vector<Actuator> actuators;
-  AttributeOrder order;
-  unsigned threads = 1;
-  std::unique_ptr<WorkerPool> pool;  // if some sensor is split, or some controllers may step in parallel
-  bool split = false;                // some sensor is
-  std::vector<Failure> failures;     // of sensors, by thread
-  SharedWork sensing;
-  std::vector<std::exception_ptr> stopped;  // what stopped the controllers of a thread
-  SharedWork stepping;
-};
 
 ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t host,
                                unsigned threads)
@@ -492,191 +426,6 @@ void ControllerHost::ControlSteps(std::span<const std::uint32_t> robots, std::ui
   }
 }
 
-void ControllerHost::StepGuarded(std::uint64_t tick)
-{
-  commands_.faults.Clear();
-  Activity activity(robots_[guarded_.front()].actor, ActivityStep::kControlStep, tick);
-  for (const std::uint32_t k : guarded_)
-  {
-    Robot& guarded = robots_[k];
-    if (!space_.IsPresent(guarded.entity) || guarded.guard->stopped) continue;
-    guarded.interface->BeginStep(tick, space_.GetTickSeconds(), {guarded.random, tick});
-    activity.Next(guarded.actor);
-    TryStep(guarded, tick);
-  }
-  SaveLastStates(tick + 1);
-}
-
-void ControllerHost::TryStep(Robot& robot, std::uint64_t tick)
-{
-  const ControllerConfiguration& configuration = *robot.guard->configuration;
-  const std::optional<FaultKind> known = Known(tick, robot.entity);
-  if (known == FaultKind::kDied) return TakeFault(robot, FaultKind::kDied, tick, "died");
-  SetCureOfStep(configuration.MayFail() ? cure_of_death_ : "");
-  bool in_time = true;
-  std::optional<std::string> thrown;
-  try
-  {
-    in_time = StepInTime(robot, tick);
-  }
-  catch (...)
-  {
-    if (!configuration.MayFail()) RethrowFor(robot.actor, ActivityStep::kControlStep, tick);
-    thrown = CurrentExceptionText();
-  }
-  SetCureOfStep("");
-  if (thrown) return TakeFault(robot, FaultKind::kThrew, tick, "failed: " + *thrown);
-  if (in_time && known != FaultKind::kTooSlow) return;
-  TakeFault(robot, FaultKind::kTooSlow, tick,
-            fmt::format("took more processor time than its {:g} ms (time_budget_ms)", configuration.time_budget_ms));
-}
-
-bool ControllerHost::StepInTime(Robot& robot, std::uint64_t tick)
-{
-  const double budget_ms = robot.guard->configuration->time_budget_ms;
-  const bool measures = budget_ms > 0 && tick >= known_.until && tick != known_tick_;
-  const double before = measures ? ThreadMilliseconds() : 0;
-  robot.controller->ControlStep();
-  return !measures || ThreadMilliseconds() - before <= budget_ms;
-}
-
-void ControllerHost::Know(KnownFaults known)
-{
-  known_ = std::move(known);
-  std::sort(known_.faults.begin(), known_.faults.end());
-}
-
-void ControllerHost::KnowTick(std::uint64_t tick, const ControllerFaults& faults)
-{
-  known_tick_ = tick;
-  faults_of_tick_ = faults;
-}
-
-std::optional<FaultKind> ControllerHost::Known(std::uint64_t tick, std::uint32_t robot) const
-{
-  if (known_tick_ == tick)
-  {
-    const auto& robots = faults_of_tick_.robots;
-    const auto place = std::lower_bound(robots.begin(), robots.end(), robot);
-    if (place == robots.end() || *place != robot) return std::nullopt;
-    return faults_of_tick_.kinds[static_cast<std::size_t>(place - robots.begin())];
-  }
-  const auto place =
-      std::lower_bound(known_.faults.begin(), known_.faults.end(), std::pair(tick, robot),
-                       [](const KnownFault& fault, const auto& of) { return std::pair(fault.tick, fault.robot) < of; });
-  if (place == known_.faults.end() || place->tick != tick || place->robot != robot) return std::nullopt;
-  return place->kind;
-}
-
-void ControllerHost::TakeFault(Robot& robot, FaultKind kind, std::uint64_t tick, const std::string& text)
-{
-  Guard& guard = *robot.guard;
-  const std::string what = ActivityText(robot.actor, ActivityStep::kControlStep, tick) + " " + text;
-  if (!guard.configuration->MayFail()) throw ControllerError(what);
-  commands_.faults.robots.push_back(robot.entity);
-  commands_.faults.kinds.push_back(kind);
-  if (tick - guard.failed_at > kRestartMemory) guard.restarts = 0;
-  guard.kind = kind;
-  guard.failed_at = tick;
-  if (guard.configuration->on_failure != OnFailure::kRestart || guard.restarts >= kMostRestarts)
-  {
-    LogWarning("{}; the robot is stopped", what);
-    return Stop(robot);
-  }
-  LogWarning("{}; the controller starts again", what);
-  ++guard.restarts;
-  try
-  {
-    Restart(robot, tick);
-  }
-  catch (const ActivityError& error)
-  {
-    LogWarning("{}; the robot is stopped", error.what());
-    Stop(robot);
-  }
-}
-
-void ControllerHost::Restart(Robot& robot, std::uint64_t tick)
-{
-  const Guard& guard = *robot.guard;
-  const auto* entry = PluginRegistry<CCI_Controller>::Instance().Find(guard.configuration->tag);
-  robot.interface->BeginStep(tick, space_.GetTickSeconds(),
-                             {space_.GetExperiment().seed, StreamName(robot.interface->GetId()), kInitStream, tick});
-  RunCodeOf(robot.actor, ActivityStep::kInit, tick,
-            [&]
-            {
-              robot.controller = entry->create();
-              robot.controller->SetRobot(robot.interface.get());
-              const int result = InitController(*robot.controller, entry->description, guard.configuration->id,
-                                                guard.configuration->parameters);
-              if (result != CCI_Controller::RETURN_OK) throw std::runtime_error(fmt::format("it returned {}", result));
-            });
-  if (!robot.controller->HasState() || guard.state.empty()) return;
-  std::istringstream text(guard.state);
-  RunCodeOf(robot.actor, ActivityStep::kLoadState, tick, [&] { robot.controller->LoadState(text); });
-}
-
-void ControllerHost::SaveLastStates(std::uint64_t tick)
-{
-  if (tick % space_.GetExperiment().canonical_period != 0) return;
-  for (const std::uint32_t k : guarded_)
-  {
-    const Robot& robot = robots_[k];
-    Guard& guard = *robot.guard;
-    if (guard.configuration->on_failure != OnFailure::kRestart || guard.stopped || !robot.controller->HasState())
-      continue;
-    std::ostringstream text;
-    RunCodeOf(robot.actor, ActivityStep::kSaveState, tick, [&] { robot.controller->SaveState(text); });
-    guard.state = text.str();
-  }
-}
-
-template <class Do>
-void ControllerHost::ForEachCommand(std::uint32_t entity, Do use) const
-{
-  for (const ChannelBlock& block : layout_.commands)
-  {
-    const auto place = std::lower_bound(block.entities.begin(), block.entities.end(), entity);
-    if (place == block.entities.end() || *place != entity) continue;
-    const auto width = static_cast<std::size_t>(block.width);
-    const std::size_t first = block.offset + static_cast<std::size_t>(place - block.entities.begin()) * width;
-    use(first, first + width);
-  }
-}
-
-void ControllerHost::Stop(const Robot& robot)
-{
-  robot.guard->stopped = true;
-  silence_.robots.insert(std::lower_bound(silence_.robots.begin(), silence_.robots.end(), robot.entity), robot.entity);
-  const CSwarmanoidSpaceEntity& entity = space_.GetEntity(robot.entity);
-  for (const AttributeSpec& spec : AttributesOf(entity.GetKind()))
-    if (std::find(std::begin(kSilenced), std::end(kSilenced), spec.name) != std::end(kSilenced))
-      for (int element = 0; element < spec.count; ++element)
-        silence_.slots.push_back(entity.SlotOf(spec.name, element));
-  ForEachCommand(robot.entity,
-                 [&](std::size_t first, std::size_t behind) { silence_.commands.emplace_back(first, behind); });
-}
-
-void ControllerHost::SilenceStopped()
-{
-  AttributeChanges& changes = commands_.attributes;
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < changes.slots.size(); ++k)
-  {
-    const std::uint32_t entity = EntityOfSlot(space_, changes.slots[k]);
-    if (std::binary_search(silence_.robots.begin(), silence_.robots.end(), entity)) continue;
-    changes.slots[kept] = changes.slots[k];
-    changes.values[kept++] = changes.values[k];
-  }
-  changes.slots.resize(kept);
-  changes.values.resize(kept);
-  for (const std::uint32_t slot : silence_.slots)
-    if (space_.Attributes()[slot] != 0) changes.Add(slot, 0);
-  for (const auto& [first, behind] : silence_.commands)
-    std::fill(commands_.values.begin() + static_cast<std::ptrdiff_t>(first),
-              commands_.values.begin() + static_cast<std::ptrdiff_t>(behind), 0.0);
-}
-
 void ControllerHost::DescribeController(const Robot& robot, RobotStatus& status) const
 {
   if (robot.IsStopped())
@@ -722,147 +471,6 @@ bool ControllerHost::Describe(std::uint32_t entity, RobotStatus& status) const
   return true;
 }
 
-// What is set of others than the robots is of the first one.
-std::vector<AttributeChanges> ControllerHost::ChangesByRobot() const
-{
-  std::vector<AttributeChanges> by_robot(robots_.size());
-  const AttributeChanges& changes = commands_.attributes;
-  for (std::size_t k = 0; k < changes.slots.size(); ++k)
-  {
-    const std::uint32_t entity = EntityOfSlot(space_, changes.slots[k]);
-    const auto place = std::ranges::lower_bound(layout_.robots, entity);
-    const bool ours = place != layout_.robots.end() && *place == entity;
-    by_robot[ours ? static_cast<std::size_t>(place - layout_.robots.begin()) : 0].Add(changes.slots[k],
-                                                                                      changes.values[k]);
-  }
-  return by_robot;
-}
-
-// Of a robot, so that another host can go on with it.
-void ControllerHost::SaveCommands(std::uint32_t entity, const AttributeChanges& changes, ByteWriter& bytes) const
-{
-  ForEachCommand(entity,
-                 [&](std::size_t first, std::size_t behind)
-                 {
-                   for (std::size_t k = first; k < behind; ++k) bytes.Put(commands_.values[k]);
-                 });
-  bytes.PutArray(changes.slots);
-  bytes.PutArray(changes.values);
-  const auto& failed = commands_.faults.robots;
-  const auto fault = std::ranges::lower_bound(failed, entity);
-  const bool has_failed = fault != failed.end() && *fault == entity;
-  bytes.Put(has_failed);
-  if (has_failed) bytes.Put(commands_.faults.kinds[static_cast<std::size_t>(fault - failed.begin())]);
-}
-
-void ControllerHost::LoadCommands(std::uint32_t entity, ByteReader& bytes)
-{
-  ForEachCommand(entity,
-                 [&](std::size_t first, std::size_t behind)
-                 {
-                   for (std::size_t k = first; k < behind; ++k) commands_.values[k] = bytes.Get<double>();
-                 });
-  const auto slots = bytes.GetArray<std::uint32_t>();
-  const auto values = bytes.GetArray<double>();
-  if (slots.size() != values.size()) throw StateError("there are other attributes than values of them");
-  for (std::size_t k = 0; k < slots.size(); ++k) commands_.attributes.Add(slots[k], values[k]);
-  if (!bytes.Get<bool>()) return;
-  commands_.faults.robots.push_back(entity);
-  commands_.faults.kinds.push_back(bytes.Get<FaultKind>());
-}
-
-void ControllerHost::SaveState(ByteWriter& state) const
-{
-  std::vector<ByteWriter> of_robot(robots_.size());
-  const std::vector<AttributeChanges> changes = ahead_ > 0 ? ChangesByRobot() : std::vector<AttributeChanges>();
-  for (std::size_t k = 0; k < robots_.size(); ++k)
-  {
-    const Robot& robot = robots_[k];
-    ByteWriter& bytes = of_robot[k];
-    if (ahead_ > 0) SaveCommands(robot.entity, changes[k], bytes);
-    if (const Guard* guard = robot.guard.get())
-    {
-      bytes.Put(guard->stopped);
-      bytes.Put(guard->kind);
-      bytes.Put(guard->failed_at);
-      bytes.Put(guard->restarts);
-      if (guard->stopped) continue;
-    }
-    if (!robot.controller->HasState())
-      throw ControllerError("robot '" + robot.interface->GetId() +
-                            "': its controller cannot be saved; it must override HasState, " +
-                            "SaveState and LoadState");
-    std::ostringstream text;
-    RunCodeOf(robot.actor, ActivityStep::kSaveState, space_.GetTick(), [&] { robot.controller->SaveState(text); });
-    bytes.PutText(text.str());
-  }
-  HostState all;
-  for (const Batches::Sensor& sensor : batches_->sensors)
-  {
-    ByteWriter common;
-    sensor.batch->SaveCommon(common);
-    if (!common.Bytes().empty()) all.sensors[sensor.number].assign(common.Bytes().begin(), common.Bytes().end());
-    for (std::size_t n = 0; n < sensor.robots.size(); ++n) sensor.batch->SaveState(n, of_robot[sensor.robots[n]]);
-  }
-  for (const Batches::Actuator& actuator : batches_->actuators)
-    for (std::size_t n = 0; n < actuator.robots.size(); ++n) actuator.batch->SaveState(n, of_robot[actuator.places[n]]);
-  for (std::size_t k = 0; k < robots_.size(); ++k)
-    all.robots[robots_[k].entity].assign(of_robot[k].Bytes().begin(), of_robot[k].Bytes().end());
-  Write(all, state);
-}
-
-void ControllerHost::LoadState(ByteReader& state)
-{
-  sensed_tick_.reset();
-  due_tick_.reset();
-  silence_ = {};
-  commands_.attributes.Clear();
-  commands_.faults.Clear();
-  const HostState all = ReadHostState(state);
-  std::vector<ByteReader> of_robot;
-  for (const Robot& robot : robots_)
-  {
-    const auto found = all.robots.find(robot.entity);
-    if (found == all.robots.end() || all.robots.size() != robots_.size())
-      throw std::runtime_error("saved state: a controller host has other robots");
-    of_robot.emplace_back(std::span<const char>(found->second));
-  }
-  for (std::size_t k = 0; k < robots_.size(); ++k)
-  {
-    Robot& robot = robots_[k];
-    ByteReader& bytes = of_robot[k];
-    if (ahead_ > 0) LoadCommands(robot.entity, bytes);
-    if (Guard* guard = robot.guard.get())
-    {
-      guard->stopped = bytes.Get<bool>();
-      guard->kind = bytes.Get<FaultKind>();
-      guard->failed_at = bytes.Get<std::uint64_t>();
-      guard->restarts = bytes.Get<std::uint32_t>();
-      if (guard->stopped)
-      {
-        Stop(robot);
-        continue;
-      }
-    }
-    const std::string saved = bytes.GetText();
-    if (robot.guard != nullptr) robot.guard->state = saved;
-    std::istringstream text(saved);
-    RunCodeOf(robot.actor, ActivityStep::kLoadState, space_.GetTick(), [&] { robot.controller->LoadState(text); });
-  }
-  for (Batches::Sensor& sensor : batches_->sensors)
-  {
-    const auto common = all.sensors.find(sensor.number);
-    ByteReader bytes(common == all.sensors.end() ? std::span<const char>() : std::span<const char>(common->second));
-    sensor.batch->LoadCommon(bytes);
-    for (std::size_t n = 0; n < sensor.robots.size(); ++n) sensor.batch->LoadState(n, of_robot[sensor.robots[n]]);
-  }
-  for (Batches::Actuator& actuator : batches_->actuators)
-    for (std::size_t n = 0; n < actuator.robots.size(); ++n) actuator.batch->LoadState(n, of_robot[actuator.places[n]]);
-  batches_->order.Apply(commands_.attributes);
-  for (const ByteReader& bytes : of_robot)
-    if (!bytes.AtEnd()) throw std::runtime_error("saved state: what a robot saved is longer than what it loads");
-}
-
 void ControllerHost::Destroy()
 {
   if (destroyed_) return;
@@ -877,24 +485,6 @@ void ControllerHost::Destroy()
         {space_.GetExperiment().seed, StreamName(robot.interface->GetId()), kDestroyStream, tick});
     RunCodeOf(robot.actor, ActivityStep::kDestroy, tick, [&] { robot.controller->Destroy(); });
   }
-}
-
-std::unique_ptr<StepTimeout> WatchTimeBudgets(const Experiment& experiment, const HostLayout& layout)
-{
-  constexpr double kLeast_s = 10;
-  constexpr double kBudgets = 100;
-  double limit_s = 0;
-  for (const std::uint32_t robot : layout.robots)
-  {
-    const double budget_ms = experiment.FindController(experiment.entities[robot].controller)->time_budget_ms;
-    if (budget_ms > 0) limit_s = std::max({limit_s, kLeast_s, kBudgets * budget_ms / 1000});
-  }
-  if (limit_s == 0) return nullptr;
-  return std::make_unique<StepTimeout>(
-      StepTimeout::Settings{std::chrono::milliseconds(static_cast<std::int64_t>(limit_s * 1000)),
-                            {},
-                            "time_budget_ms",
-                            ActivityStep::kControlStep});
 }
 
 }  // namespace swarmanoid

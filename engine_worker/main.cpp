@@ -13,6 +13,7 @@
 #include "common/bus/tick_inputs.h"
 #include "common/bus/worker_program.h"
 #include "common/bus/worker_session.h"
+#include "common/program/usage_error.h"
 #include "engine_worker/engine_worker.h"
 
 namespace swarmanoid
@@ -195,6 +196,7 @@ private:
 
 int Run(const WorkerSettings& settings, const BusOptions& bus)
 {
+  if (settings.engine.empty()) throw UsageError("give --engine ID; for example --engine ground");
   WorkerSession session(bus, settings.experiment, fmt::format("engine '{}'", settings.engine), {}, settings.incarnation,
                         settings.machine);
   return session.Work(
@@ -223,7 +225,9 @@ int main(int count, char** arguments)
       "Examples:\n"
       "  engine_worker --engine ground                              the experiment that runs on this machine\n"
       "  engine_worker --engine ground --experiment diffusion_10 --domain 7\n"
-      "  engine_worker --engine ground --interface eth0             space server on another machine",
+      "  engine_worker --engine ground --interface eth0             space server on another machine\n"
+      "  engine_worker --offer beta --domain 46                     offers this machine to a run of `swarmanoid run`\n"
+      "  engine_worker --offer beta --domain 46 --interface eth0 --key run.key        … of another machine",
       []
       {
         DescribeBuiltins();
@@ -231,5 +235,5 @@ int main(int count, char** arguments)
       },
       true,
       true};
-  return RunWorker(program, count, arguments, EngineOptionTable, Run);
+  return RunMovableWorker(program, count, arguments, EngineOptionTable, Run);
 }

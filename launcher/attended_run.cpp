@@ -19,8 +19,8 @@
 #include "common/activity/failure_report.h"
 #include "common/activity/print_error.h"
 #include "common/bus/run_directory.h"
+#include "common/program/process.h"
 #include "common/program/usage_error.h"
-#include "launcher/processes/process.h"
 
 namespace swarmanoid
 {

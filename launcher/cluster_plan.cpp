@@ -76,7 +76,10 @@ struct CommandMaker
     command.arguments.insert(command.arguments.end(), hosts.Options().begin(), hosts.Options().end());
     command.environment = EnvironmentOf(limits);
     command.input = key;
-    ProcessCommand placed = hosts.Placed(command, host);
+    // The run has others only if somebody offers them: a process here stands for the worker.
+    const bool is_offered = !host.empty() && !hosts.Names(host);
+    if (is_offered) command.arguments.insert(command.arguments.end(), {"--through", host});
+    ProcessCommand placed = hosts.Placed(command, is_offered ? "" : host);
     placed.cores = cores;
     return placed;
   }

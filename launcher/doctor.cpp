@@ -20,9 +20,9 @@
 
 #include "common/activity/exit_codes.h"
 #include "common/bus/run_directory.h"
+#include "common/program/file_descriptor.h"
 #include "launcher/installation.h"
 #include "launcher/processes/child.h"
-#include "launcher/processes/file_descriptor.h"
 #include "launcher/run_folder.h"
 #include "launcher/showing.h"
 

@@ -23,14 +23,6 @@ const std::vector<std::string> kKeys{"command", "program_folder",  "options",   
                                      "engine",  "controller_host", "visualiser", "runs",
                                      "cores",   "lease",           "swarmanoid", "machines"};
 
-std::vector<std::string> Words(const std::string& text)
-{
-  std::istringstream stream(text);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
-}
-
 bool Holds(const std::vector<std::string>& words, const std::string& word)
 {
   return std::any_of(words.begin(), words.end(), [&](const auto& w) { return w.find(word) != std::string::npos; });
@@ -92,7 +84,7 @@ void Hosts::TakeLine(const std::string& line, const std::string& place)
 {
   const std::size_t sign = line.find('=');
   if (sign == std::string::npos) throw UsageError(place + ": write NAME = VALUE, for example `engine ground = alpha`");
-  const std::vector<std::string> key = Words(line.substr(0, sign));
+  const std::vector<std::string> key = SplitWords(line.substr(0, sign));
   const std::string value(TrimBlanks(std::string_view(line).substr(sign + 1)));
   if (key.empty() || key.size() > 2 || value.empty())
     throw UsageError(place + ": write NAME = VALUE or ROLE WHICH = HOST");
@@ -107,14 +99,14 @@ void Hosts::TakeLine(const std::string& line, const std::string& place)
   }
   if (key[0] == "cores") return TakeCores(key, value, place);
   if (key.size() == 2) throw UsageError(fmt::format("{}: {} takes no second word", place, key[0]));
-  if (key[0] == "runs") TakeRunHosts(Words(value), place);
-  if (key[0] == "machines") machines_ = Words(value);
+  if (key[0] == "runs") TakeRunHosts(SplitWords(value), place);
+  if (key[0] == "machines") machines_ = SplitWords(value);
   if (key[0] == "lease") lease_s_ = PositiveInteger(value, 86'400, place + ": lease", "seconds");
   if (key[0] == "swarmanoid") swarmanoid_ = value;
   if (key[0] == "program_folder") program_folder_ = value;
-  if (key[0] == "options") options_ = Words(value);
+  if (key[0] == "options") options_ = SplitWords(value);
   if (key[0] != "command") return;
-  template_ = Words(value);
+  template_ = SplitWords(value);
   if (!Holds(template_, "{host}") || (!Holds(template_, "{command}") && !Holds(template_, "{shell_command}")))
     throw UsageError(place + ": command must hold {host}, and {command} or {shell_command}");
 }
@@ -189,6 +181,12 @@ std::vector<std::string> Hosts::Machines() const
   for (const auto& [key, host] : hosts_) machines.insert(host);
   std::erase_if(machines, IsHere);
   return {machines.begin(), machines.end()};
+}
+
+bool Hosts::Names(const std::string& host) const
+{
+  const std::vector<std::string> machines = Machines();
+  return std::find(machines.begin(), machines.end(), host) != machines.end();
 }
 
 ProcessCommand Hosts::Placed(const ProcessCommand& command, const std::string& host) const

@@ -13,8 +13,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/program/file_descriptor.h"
 #include "common/program/usage_error.h"
-#include "launcher/processes/file_descriptor.h"
 
 namespace swarmanoid
 {

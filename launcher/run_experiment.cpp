@@ -210,12 +210,15 @@ void RefuseContradictions(const RunSettings& options)
     throw UsageError("name an experiment file, or a run to branch off with --branch RUN@TICK");
   if (!options.journal_budget.empty() && (options.single_process || !options.journal))
     throw UsageError("--journal-budget: the run keeps no journal; leave out --single-process and --no-journal");
+  if (!options.key_file.empty() && options.insecure)
+    throw UsageError("--key and --insecure: a run has a key, or lets anybody in; give one of them");
   if (!options.single_process) return;
   const std::string why = "; leave out --single-process to run a cluster";
   if (options.controller_hosts != 1) throw UsageError("--controller-hosts: a single process has one" + why);
   if (!options.hosts_file.empty() || !options.engine_hosts.empty())
     throw UsageError("--hosts and --engine-host: a single process runs on this machine" + why);
   if (options.domain) throw UsageError("--domain: a single process uses no DDS" + why);
+  if (!options.key_file.empty()) throw UsageError("--key: a single process needs none" + why);
 }
 
 // Runs, and runs again as often as users reset it. `run` gets a run and returns how it ended. Returns the exit code of
@@ -232,11 +235,17 @@ int RunUntilEnd(Begun& first, std::optional<Begun> next, unsigned resets, const 
   }
 }
 
+std::optional<RunKey> KeyFor(const RunSettings& options)
+{
+  if (options.insecure) return std::nullopt;
+  return options.key_file.empty() ? NewRunKey() : KeyOfFile(options.key_file);
+}
+
 // The launcher may die, and so may the process that supervises the run: domain and key are those of both.
 int RunAsCluster(Begun& first, const WatchFunction& watch)
 {
   RunSettings& options = first.options;
-  const std::optional<RunKey> key = options.insecure ? std::nullopt : std::optional(NewRunKey());
+  const std::optional<RunKey> key = KeyFor(options);
   const auto run = [&](const Attendance& attendance)
   {
     Attendance begins = attendance;

@@ -134,9 +134,15 @@ void AddFault(std::vector<KnownFault>& faults, const RecordedEvent& event, const
 
 }  // namespace
 
+bool IsAboutOffers(const ControlRequestMessage& request)
+{
+  return request.verb == kMachineGone || std::ranges::find(kOfferVerbs, request.verb) != kOfferVerbs.end();
+}
+
 bool IsOnlyNoted(const ControlRequestMessage& request)
 {
-  return request.verb == kRefused || std::ranges::find(kShareVerbs, request.verb) != kShareVerbs.end();
+  return request.verb == kRefused || std::ranges::find(kShareVerbs, request.verb) != kShareVerbs.end() ||
+         IsAboutOffers(request);
 }
 
 std::string AskerOf(const ControlRequestMessage& request)

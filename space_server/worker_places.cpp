@@ -16,6 +16,7 @@ namespace
 
 constexpr const char* kServer = "space server";
 constexpr std::string_view kTo = " to ";
+constexpr std::string_view kVisualiser = "visualiser ";  // as VisualiserName has it
 
 // As HostName and EngineName have it.
 std::string WorkerOf(const std::string& verb, const std::string& which)
@@ -47,8 +48,78 @@ void WorkerPlaces::RequireMachine(const std::string& machine) const
 {
   if (std::find(machines_.begin(), machines_.end(), machine) == machines_.end())
     throw std::invalid_argument(fmt::format(
-        "the run has no machine {}; it has {}{}; name others in the file of --hosts, as machines = alpha beta",
+        "the run has no machine {}; it has {}{}; name others in the file of --hosts, as machines = alpha beta, or "
+        "offer one: controller_host --offer NAME",
         Quoted(machine), Listed(machines_), DidYouMean(machine, machines_)));
+}
+
+bool WorkerPlaces::Offer(const std::string& machine, const std::string& process)
+{
+  RequireMoves("offer");
+  if (machine.empty() || machine.find_first_of(" =") != std::string::npos)
+    throw std::invalid_argument(fmt::format("offer: {} is no name of a machine", Quoted(machine)));
+  const auto offer = offers_.find(machine);
+  if (offer != offers_.end() && offer->second == process) return false;
+  if (offer != offers_.end())
+    throw std::invalid_argument(fmt::format("machine {} is offered already, by process {}; offer it under another name",
+                                            Quoted(machine), offer->second));
+  if (std::find(machines_.begin(), machines_.end(), machine) != machines_.end())
+    throw std::invalid_argument(
+        fmt::format("the run has a machine {} already, which it reaches by itself; offer this one under another name",
+                    Quoted(machine)));
+  machines_.push_back(machine);
+  offers_[machine] = process;
+  return true;
+}
+
+std::vector<WorkerPlaces::Move> WorkerPlaces::Withdraw(const std::string& machine, const std::string& process)
+{
+  // Or nobody does, since the space server that knew has died.
+  if (const auto offer = offers_.find(machine); offer != offers_.end() && offer->second != process)
+    throw std::invalid_argument(fmt::format("machine {} is offered by process {}", Quoted(machine), offer->second));
+  std::vector<Move> moves = Drain(machine);
+  Gone(process);
+  return moves;
+}
+
+std::optional<std::string> WorkerPlaces::Gone(const std::string& process)
+{
+  const auto offer = std::find_if(offers_.begin(), offers_.end(), [&](const auto& o) { return o.second == process; });
+  if (offer == offers_.end()) return std::nullopt;
+  std::string machine = offer->first;
+  std::erase(machines_, machine);
+  offers_.erase(offer);
+  return machine;
+}
+
+std::string WorkerPlaces::Text() const
+{
+  RequireMoves("machines");
+  std::string text;
+  for (const std::string& machine : machines_)
+  {
+    const auto offer = offers_.find(machine);
+    text += fmt::format("{}{}{}: ", text.empty() ? "" : "; ", machine,
+                        offer == offers_.end() ? "" : " (offered by " + offer->second + ")");
+    std::vector<std::string> workers;
+    for (const auto& [worker, place] : places_)
+      if (place == machine) workers.push_back(worker);
+    text += workers.empty() ? "nobody" : fmt::format("{}", fmt::join(workers, ", "));
+  }
+  return text;
+}
+
+std::string WorkerPlaces::ForNewHost(const std::vector<std::string>& hosts) const
+{
+  std::string best = kHere;
+  std::optional<std::ptrdiff_t> fewest;
+  for (const auto& [machine, process] : offers_)
+    if (const auto count = std::count(hosts.begin(), hosts.end(), machine); !fewest || count < *fewest)
+    {
+      best = machine;
+      fewest = count;
+    }
+  return best;
 }
 
 void WorkerPlaces::RequireMoves(const std::string& verb) const
@@ -81,7 +152,7 @@ std::vector<std::string> WorkerPlaces::ReadHosts(const ControlRequestMessage& re
         "hosts: the run has {} controller host{}, and can have {}: as many as robots with a controller, and not more "
         "than 1000",
         before.size(), before.size() == 1 ? "" : "s", most));
-  for (double k = 0; k < more; ++k) hosts.push_back(machine.empty() ? kHere : machine);
+  for (double k = 0; k < more; ++k) hosts.push_back(machine.empty() ? ForNewHost(hosts) : machine);
   for (double k = 0; k < -more; ++k)
   {
     const auto last = machine.empty() ? hosts.rbegin() : std::find(hosts.rbegin(), hosts.rend(), machine);
@@ -99,7 +170,11 @@ std::vector<std::string> WorkerPlaces::ReadHosts(const ControlRequestMessage& re
 std::vector<WorkerPlaces::Move> WorkerPlaces::Read(const ControlRequestMessage& request) const
 {
   RequireMoves(request.verb);
-  if (request.verb == "drain") return Drain(request.entity);
+  if (request.verb == "drain")
+  {
+    RequireMachine(request.entity);
+    return Drain(request.entity);
+  }
 
   std::string which = request.entity;
   std::string machine;
@@ -126,7 +201,6 @@ std::vector<WorkerPlaces::Move> WorkerPlaces::Read(const ControlRequestMessage& 
 
 std::vector<WorkerPlaces::Move> WorkerPlaces::Drain(const std::string& machine) const
 {
-  RequireMachine(machine);
   if (const auto server = places_.find(kServer); server != places_.end() && server->second == machine)
     throw std::invalid_argument(
         fmt::format("the space server is at {}, and cannot be moved; move the others one by one", Quoted(machine)));
@@ -144,8 +218,14 @@ std::vector<WorkerPlaces::Move> WorkerPlaces::Drain(const std::string& machine) 
   for (const auto& [worker, place] : places_)
   {
     if (place != machine) continue;
-    const auto least =
-        std::min_element(loads.begin(), loads.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    const bool writes_files = worker.starts_with(kVisualiser);  // in the folder of the run
+    auto least = loads.end();
+    for (auto load = loads.begin(); load != loads.end(); ++load)
+      if ((!writes_files || !offers_.contains(load->first)) && (least == loads.end() || load->second < least->second))
+        least = load;
+    if (least == loads.end())
+      throw std::invalid_argument(fmt::format(
+          "{} writes files, and may not go to a machine that somebody offers; the run has no other one", worker));
     ++least->second;
     moves.push_back({worker, least->first});
   }

@@ -16,7 +16,7 @@
 
 #include "common/activity/failure_report.h"
 #include "common/configuration/configuration_tree.h"
-#include "launcher/processes/process.h"
+#include "common/program/process.h"
 
 namespace swarmanoid
 {

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "common/program/file_descriptor.h"
 #include "common/serialisation/bytes.h"
-#include "launcher/processes/file_descriptor.h"
 #include "studies/checked_frame.h"
 #include "studies/study_worker.h"
 

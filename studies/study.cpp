@@ -22,25 +22,11 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostLevels = 1'000'000;
 
-std::vector<std::string> SplitAt(std::string_view text, std::string_view separators)
-{
-  std::vector<std::string> parts;
-  std::size_t at = 0;
-  while (at <= text.size())
-  {
-    const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
-    const std::string_view part = TrimBlanks(text.substr(at, end - at));
-    if (!part.empty()) parts.emplace_back(part);
-    at = end + 1;
-  }
-  return parts;
-}
-
-std::vector<std::string> Words(std::string_view text) { return SplitAt(text, ", \t\r\n"); }
+constexpr std::string_view kListed = ", \t\r\n";
 
 std::vector<std::string> ValuesIn(std::string_view text)
 {
-  return text.find(';') != std::string_view::npos ? SplitAt(text, ";") : Words(text);
+  return SplitWords(text, text.find(';') != std::string_view::npos ? ";" : kListed);
 }
 
 bool IsName(const std::string& id)
@@ -104,7 +90,7 @@ private:
       diagnostics_.Add(reader.Place("seeds"),
                        fmt::format("'seeds' of <study> {}; write numbers and ranges, such as 1-30 or 1-10, 99", what));
     };
-    for (const std::string& part : Words(reader.Text("seeds")))
+    for (const std::string& part : SplitWords(reader.Text("seeds"), kListed))
     {
       const std::size_t dash = part.find('-', 1);
       const auto first = ParseInteger(part.substr(0, dash));
@@ -165,7 +151,7 @@ private:
     {
       const ElementReader reader(tree, StudySchema().Child("factor"), diagnostics_);
       factor.id = ReadId(reader, "factor");
-      const std::vector<std::string> paths = Words(reader.Text("path"));
+      const std::vector<std::string> paths = SplitWords(reader.Text("path"), kListed);
       if (is_search_ && reader.IsGiven("from")) factor.range = ReadSearchRange(tree, reader);
       if (!factor.range && reader.IsGiven("start"))
         diagnostics_.Add(reader.Place("start"), "'start' is of a range that a <search> goes through");
@@ -372,11 +358,11 @@ private:
       const ElementSpec* kind = spec.FindChild(child.Name());
       if (kind == nullptr) continue;
       const ElementReader metric(child, *kind, diagnostics_);
-      MetricChoice choice{child.Name(), ReadId(metric, "metric"), Words(metric.Text("of")), {},
+      MetricChoice choice{child.Name(), ReadId(metric, "metric"), SplitWords(metric.Text("of"), kListed), {},
                           child,        child.Location()};
       if (IsOfEachEntity(choice.kind) && !(choice.kind == "published" && metric.Text("by") == "functions"))
       {
-        choice.aggregates = Words(metric.Text("aggregate"));
+        choice.aggregates = SplitWords(metric.Text("aggregate"), kListed);
         CheckAggregates(choice.aggregates, metric);
       }
       if (choice.kind == "in_region" || choice.kind == "time_to_region") CheckRegion(metric, child.Location());

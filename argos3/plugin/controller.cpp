@@ -7,7 +7,6 @@
 //       2, 0"/> <params velocity="5"/>
 //     </parameters>
 //   </argos3_controller>
-#include <sstream>
 
 #include "argos3/library/running.h"
 #include "argos3/plugin/devices.h"
@@ -22,14 +21,6 @@ namespace swarmanoid::argos3
 {
 namespace
 {
-
-std::vector<std::string> WordsOf(const std::string& text)
-{
-  std::istringstream stream(text);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
-}
 
 class Argos3Controller : public CCI_Controller
 {
@@ -91,13 +82,13 @@ private:
   void MakeDevices(const TConfigurationTree& options)
   {
     const DeviceSetup setup{*GetRobot(), translation_, options};
-    for (const std::string& tag : WordsOf(options.GetText("sensors", "")))
+    for (const std::string& tag : SplitWords(options.GetText("sensors", "")))
     {
       sensors_.push_back(MakeSensor(tag, setup));
       if (sensors_.back() == nullptr) throw Unknown(options, "sensor", tag);
       controller_->AddSensor(tag, &sensors_.back()->Sensor());
     }
-    for (const std::string& tag : WordsOf(options.GetText("actuators", "")))
+    for (const std::string& tag : SplitWords(options.GetText("actuators", "")))
     {
       actuators_.push_back(MakeActuator(tag, setup));
       if (actuators_.back() == nullptr) throw Unknown(options, "actuator", tag);

@@ -1,5 +1,10 @@
 #include "common/bus/cluster_options.h"
 
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cctype>
 #include <limits>
 
 #include "common/configuration/configuration_tree.h"
@@ -143,10 +148,11 @@ std::vector<OptionSpec> BusOptionTable(BusOptions& options)
 
 std::vector<OptionSpec> EngineOptionTable(WorkerSettings& s)
 {
-  OptionSpec engine{
-      {.name = "engine", .type = kText, .description = "The engine's id in the experiment file"}, &s.engine, "ground"};
-  engine.required = true;
-  return {engine, ExperimentOption(s), IncarnationOption(s), MachineOption(s)};
+  return {
+      {{.name = "engine", .type = kText, .description = "The engine's id in the experiment file"}, &s.engine, "ground"},
+      ExperimentOption(s),
+      IncarnationOption(s),
+      MachineOption(s)};
 }
 
 std::vector<OptionSpec> HostOptionTable(WorkerSettings& s)
@@ -214,6 +220,47 @@ std::vector<OptionSpec> VisualiserOptionTable(WorkerSettings& s)
             .maximum = kLargestPid},
            &s.server,
            "17811"}};
+}
+
+std::string MachineNameMistake(const std::string& name)
+{
+  constexpr std::size_t kLongest = 63;
+  const bool plain = std::all_of(name.begin(), name.end(),
+                                 [](unsigned char c)
+                                 { return (c < 128 && std::isalnum(c) != 0) || c == '-' || c == '_' || c == '.'; });
+  if (!plain || name.empty() || name.size() > kLongest || name[0] == '-')
+    return fmt::format("it must be a name of up to {} letters, digits, '-', '_' and '.'", kLongest);
+  return name == "here" || name == "localhost" ? "it must be another name: that one is the launcher's machine" : "";
+}
+
+std::vector<OptionSpec> OfferOptionTable(WorkerSettings& s)
+{
+  return {{{.name = "offer",
+            .type = kText,
+            .description = "Offers this machine, under that name, to a run of `swarmanoid run`: its controller hosts "
+                           "and engines can be moved here (docs/recovery.md)"},
+           &s.offer,
+           "beta",
+           "NAME",
+           MachineNameMistake},
+          {{.name = "through",
+            .type = kText,
+            .description = "For the launcher: stands for this worker, which runs on the machine that is offered under "
+                           "that name"},
+           &s.through,
+           "beta",
+           "NAME",
+           MachineNameMistake}};
+}
+
+WorkerSettings SettingsOfWords(WorkerTable table, std::vector<std::string> words)
+{
+  WorkerSettings settings;
+  CLI::App app;
+  AddOptions(app, table(settings));
+  std::reverse(words.begin(), words.end());
+  app.parse(std::move(words));
+  return settings;
 }
 
 std::vector<std::string> WorkerWords(WorkerTable table, WorkerSettings settings)

@@ -33,6 +33,8 @@ public:
   void FollowRun(std::uint64_t run);
   // How the run went when it was heard last; nullopt if no Ask has heard of it.
   std::optional<RunStatus> LatestStatus();
+  // How often it was heard since the first Ask.
+  std::uint64_t StatusesHeard();
   // Sends without waiting for an answer.
   void Send(const std::string& verb, const std::string& entity, const std::vector<double>& numbers);
 
@@ -47,6 +49,7 @@ private:
   std::mutex mutex_;
   std::condition_variable answered_;
   std::optional<RunStatus> status_;
+  std::uint64_t statuses_heard_ = 0;
   Clock::time_point got_on_;  // when the run was last seen to get on
   std::uint32_t number_;      // of the last request
   std::optional<ControlReplyMessage> reply_;

@@ -268,6 +268,19 @@ std::string_view TrimBlanks(std::string_view text)
   return text;
 }
 
+std::vector<std::string> SplitWords(std::string_view text, std::string_view separators)
+{
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at <= text.size();)
+  {
+    const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
+    const std::string_view word = TrimBlanks(text.substr(at, end - at));
+    if (!word.empty()) words.emplace_back(word);
+    at = end + 1;
+  }
+  return words;
+}
+
 std::optional<double> ParseNumber(std::string_view text)
 {
   text = TrimBlanks(text);

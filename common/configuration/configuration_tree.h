@@ -127,6 +127,9 @@ std::optional<std::vector<double>> ParseNumbers(std::string_view text);  // sepa
 // "red", "#ff0000" and "255,0,0" are the same; 0xRRGGBB.
 std::optional<std::uint32_t> ParseColour(std::string_view text);
 std::string_view TrimBlanks(std::string_view text);
+inline constexpr std::string_view kBlanks = " \t\r\n";
+// What stands between the separators, without the blanks about it; nothing is no word.
+std::vector<std::string> SplitWords(std::string_view text, std::string_view separators = kBlanks);
 
 }  // namespace swarmanoid
 

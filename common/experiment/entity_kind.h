@@ -136,9 +136,10 @@ struct MeshPart
 {
   enum class Form : std::uint8_t
   {
-    kBox,  // from one corner to the opposite one
-    kRod,  // a cylinder of a radius from one point to the other
-    kBall  // about `from`
+    kBox,   // from one corner to the opposite one
+    kRod,   // a cylinder of a radius from one point to the other
+    kBall,  // about `from`
+    kFile   // what `file` holds, its origin at `from`
   };
   enum class Paint : std::uint8_t
   {
@@ -148,8 +149,9 @@ struct MeshPart
     kMetal,
     kRubber,
     kGlass,
-    kLed,    // the colour of LED `led`
-    kBeacon  // the colour of the beacon
+    kLed,     // the colour of LED `led`
+    kBeacon,  // the colour of the beacon
+    kOwn      // `colour`
   };
   Form form = Form::kBox;
   Vector3 from = Vector3::Zero();
@@ -157,6 +159,12 @@ struct MeshPart
   double radius = 0;
   Paint paint = Paint::kBody;
   int led = 0;
+  std::uint32_t colour = 0xc0c0c0;
+  // A mesh: .glb, .gltf, .obj or .stl, from the folder of the experiment or of a library (mesh_files.h). `paint` is
+  // that of a file without colours. In metres times `scale`, z up and x to the front, then turned.
+  std::string file{};
+  Vector3 scale = Vector3::Ones();
+  Quaternion orientation = Quaternion::Identity();
 };
 
 struct EntityKindDescription

@@ -139,6 +139,11 @@ std::string MistakeInParts(const Row& row)
       return fmt::format("a part of the mesh has the colour of LED {}, and there are {}", part.led, leds);
     if (!part.from.allFinite() || !part.to.allFinite() || !(part.radius >= 0 && part.radius <= kMostMetresOfRow))
       return "a part of the mesh is at no finite place";
+    if (part.form != MeshPart::Form::kFile) continue;
+    if (part.file.empty() || !part.scale.allFinite() || (part.scale.array() == 0).any() ||
+        !(std::abs(part.orientation.norm() - 1) < 1e-6))
+      return fmt::format("the part '{}' of the mesh needs a file, a scale other than 0 and an orientation of length 1",
+                         part.file);
   }
   return {};
 }
@@ -207,6 +212,8 @@ void AddParameters(Row& row)
       add(RestitutionParameter());
       if (movable) add(GroundFrictionParameter());
       add(ColourParameter(colour));
+      add(MeshParameter());
+      add(MeshOrientationParameter());
       break;
     }
     case EntityRole::kLight:

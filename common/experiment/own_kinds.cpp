@@ -146,8 +146,9 @@ EntityKindDescription Block()
   row.origin = BodyOrigin::kCentre;
   row.mobility = Mobility::kIfAsked;
   row.grippable = true;
-  row.parameters = {BoxSizeParameter(),     MovableParameter(),        MassParameter(),          FrictionParameter(),
-                    RestitutionParameter(), GroundFrictionParameter(), ColourParameter("silver")};
+  row.parameters = {BoxSizeParameter(),        MovableParameter(),     MassParameter(),
+                    FrictionParameter(),       RestitutionParameter(), GroundFrictionParameter(),
+                    ColourParameter("silver"), MeshParameter(),        MeshOrientationParameter()};
   row.attributes = {kSurface};
   return row;
 }
@@ -168,9 +169,10 @@ EntityKindDescription CylindricPrey()
   row.seen_by_cameras = true;
   ParameterSpec movable = MovableParameter();
   movable.default_value = "true";
-  row.parameters = {RadiusParameter(),         HeightParameter(),     movable,
-                    MassParameter(),           FrictionParameter(),   RestitutionParameter(),
-                    GroundFrictionParameter(), ColourParameter("red")};
+  row.parameters = {RadiusParameter(),         HeightParameter(),      movable,
+                    MassParameter(),           FrictionParameter(),    RestitutionParameter(),
+                    GroundFrictionParameter(), ColourParameter("red"), MeshParameter(),
+                    MeshOrientationParameter()};
   row.attributes = {kSurface};
   return row;
 }
@@ -330,6 +332,21 @@ ParameterSpec PictureParameter()
   return Optional(kText, "picture", "", "",
                   "A PNG that is painted on its rectangle, seen through its colour (white if none is given). "
                   "Relative to the experiment file.");
+}
+
+ParameterSpec MeshParameter()
+{
+  return Optional(
+      kText, "mesh", "", "",
+      "A file that it is drawn as, stretched to fill its body: .glb, .gltf, .obj or .stl. It changes what is "
+      "seen, not what collides. Relative to the experiment file.");
+}
+
+ParameterSpec MeshOrientationParameter()
+{
+  return Angles(Optional(kVector3, "mesh_orientation", "degrees", "0, 0, 0",
+                         "Turns the mesh in its body, about the fixed axes x, y and z in this order: \"90, 0, 0\" puts "
+                         "up one whose y axis is up."));
 }
 
 std::vector<EntityKindDescription> OwnKinds()

@@ -25,5 +25,7 @@ ParameterSpec HeightParameter();
 ParameterSpec AreaSizeParameter();
 ParameterSpec AreaRadiusParameter();
 ParameterSpec PictureParameter();
+ParameterSpec MeshParameter();
+ParameterSpec MeshOrientationParameter();
 
 }  // namespace swarmanoid

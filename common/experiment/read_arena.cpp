@@ -7,6 +7,7 @@
 #include "common/configuration/wording.h"
 #include "common/experiment/body.h"
 #include "common/experiment/element_reader.h"
+#include "common/experiment/mesh_files.h"
 #include "common/experiment/sections.h"
 #include "common/experiment/unique_ids.h"
 #include "common/math/elementary.h"
@@ -56,11 +57,12 @@ Vector3 AreaSize(const ElementReader& reader, Reading& reading)
   return rectangle ? reader.Vector("size") : Vector3(reader.Number("radius"), 0, 0);
 }
 
-void CheckFile(const ElementReader& reader, std::string_view parameter, Reading& reading)
+void CheckFile(const ElementReader& reader, std::string_view parameter, Reading& reading,
+               std::string (*mistake_of)(const std::string& path) = FileMistake)
 {
   if (!reading.options.check_files || !reader.IsGood(parameter)) return;
   const fs::path path = fs::path(reading.experiment.folder) / reader.Text(parameter);
-  if (const std::string mistake = FileMistake(path); !mistake.empty())
+  if (const std::string mistake = mistake_of(path); !mistake.empty())
     reading.diagnostics.Add(reader.Place(parameter),
                             fmt::format("{}: {}", Quoted(path.lexically_normal().string()), mistake));
 }
@@ -127,6 +129,7 @@ EntityConfiguration ReadEntityBody(const ElementReader& reader, const ElementSpe
       reading.diagnostics.Add(reader.Place("picture"), "a picture lies on a rectangle: give 'size', not 'radius'");
     if (!reader.IsGiven("colour")) entity.colour = 0xffffff;
   }
+  if (has("mesh") && !reader.Text("mesh").empty()) CheckFile(reader, "mesh", reading, MeshFileMistake);
   if (has("intensity")) entity.intensity = reader.Number("intensity");
   return entity;
 }

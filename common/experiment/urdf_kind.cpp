@@ -212,15 +212,12 @@ private:
     if (result_.kind.mass_kg == 0) Note(links_.location, "no link has a mass; engines take that of their own for it");
   }
 
-  // The colours that visualisers paint parts with: that of the root link is the kind's, others go by their brightness.
+  // The first colour of the root link is the kind's; wheels without a colour are of rubber.
   MeshPart::Paint PaintOf(const UrdfShape& shape, bool is_wheel) const
   {
     using Paint = MeshPart::Paint;
-    if (is_wheel) return Paint::kRubber;
-    if (!shape.colour || *shape.colour == result_.kind.colour) return Paint::kBody;
-    const auto channel = [&](unsigned shift) { return static_cast<double>(*shape.colour >> shift & 0xff) / 255; };
-    const double brightness = 0.3 * channel(16) + 0.6 * channel(8) + 0.1 * channel(0);
-    return brightness < 0.3 ? Paint::kDark : brightness < 0.7 ? Paint::kMetal : Paint::kShell;
+    if (shape.colour && *shape.colour != result_.kind.colour) return Paint::kOwn;
+    return is_wheel && !shape.colour ? Paint::kRubber : Paint::kBody;
   }
 
   void SetMesh()
@@ -241,6 +238,7 @@ private:
   {
     MeshPart part;
     part.paint = PaintOf(shape, is_wheel);
+    part.colour = shape.colour.value_or(part.colour);
     part.from = part.to = pose.position;
     switch (shape.form)
     {
@@ -253,6 +251,12 @@ private:
         part.radius = shape.size.x();
         part.from -= pose.orientation * Vector3(0, 0, shape.size.z() / 2);
         part.to += pose.orientation * Vector3(0, 0, shape.size.z() / 2);
+        break;
+      case Form::kMesh:
+        part.form = MeshPart::Form::kFile;
+        part.file = shape.file;
+        part.scale = shape.size;
+        part.orientation = pose.orientation;
         break;
       case Form::kBox:
       {
@@ -289,7 +293,7 @@ UrdfKind KindFromUrdf(const std::string& tag, const std::string& text, const std
   result.kind.description = "A robot of a URDF file. The position is the middle of its axle, on the ground.";
   try
   {
-    const UrdfLinks links = ReadUrdfLinks(TConfigurationTree(ReadXml(text, file)), result.errors, result.notes);
+    const UrdfLinks links = ReadUrdfLinks(TConfigurationTree(ReadXml(text, file)), file, result.errors, result.notes);
     if (result.errors.empty()) Builder(result, links).Build();
   }
   catch (const ConfigurationError& error)

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "common/configuration/wording.h"
+#include "common/experiment/mesh_files.h"
 
 namespace swarmanoid
 {
@@ -21,7 +22,10 @@ constexpr double kMostMetres = 100;
 class Reader
 {
 public:
-  Reader(std::vector<Diagnostic>& errors, std::vector<Diagnostic>& notes) : errors_(errors), notes_(notes) {}
+  Reader(const std::string& file, std::vector<Diagnostic>& errors, std::vector<Diagnostic>& notes)
+      : file_(file), errors_(errors), notes_(notes)
+  {
+  }
 
   UrdfLinks Read(const TConfigurationTree& robot)
   {
@@ -98,6 +102,23 @@ private:
       NoEffect(texture);
   }
 
+  // A mesh that is drawn; false, with a note, for one that cannot be.
+  bool ReadMesh(const TConfigurationTree& mesh, UrdfShape& shape)
+  {
+    const std::string name = mesh.Attribute("filename");
+    shape.form = Form::kMesh;
+    shape.size = Vector(mesh, "scale", Vector3::Ones());
+    if ((shape.size.array() == 0).any())
+      Error(mesh, fmt::format("the 'scale' of <mesh> is '{}'; no number may be 0", mesh.Attribute("scale")));
+    shape.file = FindUrdfMesh(name, file_);
+    const std::string mistake = shape.file.empty() ? "it is not there; package://NAME/… is looked for in the folder "
+                                                     "NAME beside or above this file"
+                                                   : MeshFileMistake(shape.file);
+    if (!mistake.empty())
+      notes_.push_back({mesh.Location(), fmt::format("the mesh {} is not drawn: {}", Quoted(name), mistake)});
+    return mistake.empty();
+  }
+
   // False for what is no box, cylinder or sphere.
   bool ReadGeometry(const TConfigurationTree& geometry, UrdfShape& shape)
   {
@@ -131,7 +152,11 @@ private:
     shape.pose = Origin(element);
     const TConfigurationTree geometry = element.Child("geometry");
     if (!geometry.Exists()) return Error(element, fmt::format("<{}> has no <geometry>", element.Name()));
-    if (!ReadGeometry(geometry, shape))
+    if (const TConfigurationTree mesh = geometry.Child("mesh"); mesh.Exists() && element.Name() == "visual")
+    {
+      if (!ReadMesh(mesh, shape)) return;
+    }
+    else if (!ReadGeometry(geometry, shape))
     {
       const std::vector<TConfigurationTree> children = geometry.Children();
       const TConfigurationTree& what = children.empty() ? geometry : children.front();
@@ -244,6 +269,7 @@ private:
     }
   }
 
+  const std::string& file_;
   std::vector<Diagnostic>& errors_;
   std::vector<Diagnostic>& notes_;
   std::map<std::string, std::uint32_t> materials_;
@@ -260,10 +286,10 @@ const UrdfLink& UrdfLinks::LinkOf(const std::string& name) const
   return *found;
 }
 
-UrdfLinks ReadUrdfLinks(const TConfigurationTree& robot, std::vector<Diagnostic>& errors,
+UrdfLinks ReadUrdfLinks(const TConfigurationTree& robot, const std::string& file, std::vector<Diagnostic>& errors,
                         std::vector<Diagnostic>& notes)
 {
-  return Reader(errors, notes).Read(robot);
+  return Reader(file, errors, notes).Read(robot);
 }
 
 }  // namespace swarmanoid

@@ -18,12 +18,14 @@ struct UrdfShape
   {
     kBox,       // size: lengths along x, y, z
     kCylinder,  // about z; size: radius, radius, length
-    kSphere     // size: radius, three times
+    kSphere,    // size: radius, three times
+    kMesh       // of `file`; size: the scale along x, y, z
   };
   Form form = Form::kBox;
   Vector3 size = Vector3::Zero();  // m
   Pose pose{};                     // in the frame of the link
   std::optional<std::uint32_t> colour{};
+  std::string file{};
   SourceLocation location{};
 };
 
@@ -59,8 +61,8 @@ struct UrdfLinks
   const UrdfLink& LinkOf(const std::string& name) const;
 };
 
-// Mistakes go into `errors`, what has no effect here into `notes`.
-UrdfLinks ReadUrdfLinks(const TConfigurationTree& robot, std::vector<Diagnostic>& errors,
+// Of the text of `file`, which meshes are found from. Mistakes go into `errors`, what has no effect here into `notes`.
+UrdfLinks ReadUrdfLinks(const TConfigurationTree& robot, const std::string& file, std::vector<Diagnostic>& errors,
                         std::vector<Diagnostic>& notes);
 
 }  // namespace swarmanoid

@@ -19,7 +19,9 @@ namespace
 
 constexpr std::size_t kChecksumAt = kJournalHeaderBytes - sizeof(std::uint64_t);
 constexpr std::uint64_t kMostBlockBytes = std::uint64_t{1} << 36U;  // 64 GiB
-constexpr int kLevel = 1;                                           // of zstd: more gains nothing on differences
+// Of zstd. Ticks are packed before: 1 makes them 3 % shorter, for a third more time (1,000 robots of
+// diffusion_1000.xml).
+constexpr int kLevel = -1;
 
 template <class Number>
 void PutAt(std::span<char> bytes, std::size_t at, Number number)

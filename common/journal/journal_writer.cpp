@@ -214,8 +214,9 @@ void JournalWriter::Queue(JournalBlockKind kind, std::uint64_t tick, const std::
     QueueRows();
     segment_from_ = all_bytes_;
   }
-  queued_bytes_ += content.size();
   Block& block = queue_.emplace_back();
+  block.queued = content.size();
+  queued_bytes_ += block.queued;
   block.place.kind = kind;
   block.place.first_tick = tick;
   block.place.name = name;
@@ -252,7 +253,8 @@ void JournalWriter::QueueRows()
   block.place.kind = JournalBlockKind::kTicks;
   block.place.first_tick = rows_.FirstTick();
   block.place.ticks = rows_.Ticks();
-  queued_bytes_ += rows_.Bytes();
+  block.queued = rows_.Bytes();
+  queued_bytes_ += block.queued;
   block.rows = std::move(rows_);
   rows_ = free_.empty() ? TickRows() : std::move(free_.back());
   if (!free_.empty()) free_.pop_back();
@@ -282,13 +284,13 @@ void JournalWriter::Write()
     Write(block);
     lock.lock();
     writing_ = false;
-    queued_bytes_ -= block.place.kind == JournalBlockKind::kTicks ? block.rows.Bytes() : block.content.size();
+    queued_bytes_ -= block.queued;
     if (block.place.kind == JournalBlockKind::kTicks) free_.push_back(std::move(block.rows));
     changed_.notify_all();
   }
 }
 
-void JournalWriter::Write(const Block& block)
+void JournalWriter::Write(Block& block)
 {
   if (!block.start.empty()) OpenNextSegment(block);
   WriteBlock(block);
@@ -353,7 +355,7 @@ void JournalWriter::DropOldSegments()
   }
 }
 
-void JournalWriter::WriteBlock(const Block& block)
+void JournalWriter::WriteBlock(Block& block)
 {
   if (!Works()) return;
   JournalPlace place = block.place;

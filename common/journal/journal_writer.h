@@ -99,6 +99,7 @@ private:
     JournalPlace place{};
     TickRows rows{};              // of kTicks
     std::vector<char> content{};  // of others
+    std::size_t queued = 0;       // its bytes as they count in queued_bytes_
     std::vector<char> start{};    // of the next segment, if it is the first one of that
   };
 
@@ -107,8 +108,8 @@ private:
   void Queue(JournalBlockKind kind, std::uint64_t tick, const std::string& name, std::vector<char> content);
   void QueueRows();
   void Write();
-  void Write(const Block& block);
-  void WriteBlock(const Block& block);
+  void Write(Block& block);
+  void WriteBlock(Block& block);
   void OpenNextSegment(const Block& opening);
   void DropOldSegments();
   // The first of the parts that is in no saved state, while the budget is exceeded.

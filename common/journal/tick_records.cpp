@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cstring>
 
 #include "common/checkpoint/checkpoint_format.h"
+#include "common/journal/packed_rows.h"
 #include "common/serialisation/fields.h"
 
 namespace swarmanoid
@@ -15,19 +14,6 @@ namespace
 
 constexpr std::uint8_t kLast = 1;
 constexpr std::uint8_t kSave = 2;
-
-// Differences of the bits of doubles, small ones of either sign as small numbers.
-std::uint64_t Folded(std::uint64_t difference) { return (difference << 1U) ^ (0 - (difference >> 63U)); }
-std::uint64_t Unfolded(std::uint64_t folded) { return (folded >> 1U) ^ (0 - (folded & 1U)); }
-
-// What the two rows before let expect of a number: that it goes on as before, or if it is no pose, that it stays.
-double Expected(const double* column, std::size_t tick, std::size_t row, bool moves)
-{
-  if (tick == 0) return 0;
-  const double before = column[(tick - 1) * row];
-  if (!moves || tick == 1) return before;
-  return before + (before - column[(tick - 2) * row]);
-}
 
 void Put(ByteWriter& bytes, const AttributeChanges& changes)
 {
@@ -82,99 +68,69 @@ bool TickRows::Add(const SpaceState& state, bool save, std::span<const SensorFra
     poses_ = state.poses.size();
     others_ = others;
     hosts_ = commands.size();
+    numbers_.Begin(poses_ + others_, poses_);
   }
   else if (poses_ != state.poses.size() || others_ != others || hosts_ != commands.size() ||
            state.tick != first_tick_ + ticks_)
     return false;
   ++ticks_;
-  numbers_.insert(numbers_.end(), state.poses.begin(), state.poses.end());
+  double* number = std::copy(state.poses.begin(), state.poses.end(), numbers_.NextRow());
   rest_.Put(static_cast<std::uint8_t>((state.last ? kLast : 0) | (save ? kSave : 0)));
   Put(rest_, state.attributes);
   rest_.PutArray(state.moved);
   rest_.Put(static_cast<std::uint32_t>(frames.size()));
   for (const SensorFrame& frame : frames)
   {
-    numbers_.insert(numbers_.end(), frame.values.begin(), frame.values.end());
+    number = std::copy(frame.values.begin(), frame.values.end(), number);
     rest_.Put(static_cast<std::uint64_t>(frame.values.size()));
   }
   rest_.Put(static_cast<std::uint32_t>(commands.size()));
   for (const ControlCommands& command : commands)
   {
-    numbers_.insert(numbers_.end(), command.values.begin(), command.values.end());
+    number = std::copy(command.values.begin(), command.values.end(), number);
     rest_.Put(static_cast<std::uint64_t>(command.values.size()));
     Put(rest_, command.attributes);
     rest_.PutArray(command.faults.robots);
     rest_.PutArray(command.faults.kinds);
   }
+  numbers_.Added();
   return true;
 }
 
 void TickRows::Clear()
 {
   ticks_ = 0;
-  numbers_.clear();
   rest_.Clear();
 }
 
-std::vector<char> TickRows::Content() const
+std::vector<char> TickRows::Content()
 {
-  const std::size_t row = poses_ + others_;
-  const std::span<const char> rest = rest_.Bytes();
-  const std::array<std::uint64_t, 4> head{first_tick_, ticks_, poses_, row * ticks_};
-  const std::uint64_t rest_bytes = rest.size();
-  std::vector<char> content;
-  // Filled from front to back: to clear it first costs as much.
-  content.reserve(sizeof head + row * ticks_ * sizeof(double) + sizeof rest_bytes + rest.size());
-  const auto append = [&](const auto* values, std::size_t count)
-  {
-    const char* bytes = reinterpret_cast<const char*>(values);
-    content.insert(content.end(), bytes, bytes + count * sizeof *values);
-  };
-  append(head.data(), head.size());
-  // As many numbers of a row at a time as a line of the cache has.
-  constexpr std::size_t kTogether = 8;
-  std::vector<std::uint64_t> columns(kTogether * ticks_);
-  for (std::size_t first = 0; first < row; first += kTogether)
-  {
-    const std::size_t count = std::min(kTogether, row - first);
-    for (std::size_t tick = 0; tick < ticks_; ++tick)
-      for (std::size_t k = 0; k < count; ++k)
-      {
-        const double* column = numbers_.data() + first + k;
-        const auto bits = std::bit_cast<std::uint64_t>(column[tick * row]);
-        const auto expected = std::bit_cast<std::uint64_t>(Expected(column, tick, row, first + k < poses_));
-        columns[k * ticks_ + tick] = Folded(bits - expected);
-      }
-    append(columns.data(), count * ticks_);
-  }
-  append(&rest_bytes, 1);
-  append(rest.data(), rest.size());
-  return content;
+  numbers_.Finish();
+  ByteWriter content;
+  for (const std::uint64_t number : std::array<std::uint64_t, 4>{first_tick_, ticks_, poses_, poses_ + others_})
+    content.Put(number);
+  content.PutArray(numbers_.Widths());
+  content.PutArray(numbers_.Bytes());
+  content.PutArray(rest_.Bytes());
+  return content.Bytes();
 }
 
 TickRecordReader::TickRecordReader(std::span<const char> content, bool with_numbers)
     : with_numbers_(with_numbers), rest_(bytes_)
 {
   ByteReader reader(content);
-  const auto first_tick = reader.Get<std::uint64_t>();
+  tick_ = reader.Get<std::uint64_t>();
   left_ = reader.Get<std::uint64_t>();
-  const auto poses = reader.Get<std::uint64_t>();
-  const auto columns = reader.GetArray<std::uint64_t>();
-  if (left_ == 0 || columns.size() % left_ != 0 || poses > columns.size() / left_)
-    throw std::runtime_error("journal: the rows of a block are none");
-  row_ = columns.size() / left_;
-  if (with_numbers_) numbers_.resize(columns.size());
-  for (std::size_t k = 0; with_numbers_ && k < row_; ++k)
-    for (std::size_t tick = 0; tick < left_; ++tick)
-    {
-      const double expected = Expected(numbers_.data() + k, tick, row_, k < poses);
-      numbers_[tick * row_ + k] =
-          std::bit_cast<double>(std::bit_cast<std::uint64_t>(expected) + Unfolded(columns[k * left_ + tick]));
-    }
-  poses_ = poses;
-  tick_ = first_tick;
+  poses_ = reader.Get<std::uint64_t>();
+  row_ = reader.Get<std::uint64_t>();
+  const auto widths = reader.GetArray<char>();
+  const auto packed = reader.GetArray<char>();
   bytes_ = reader.GetArray<char>();
   rest_ = ByteReader(bytes_);
+  // A number has a width for eight ticks, and a tick some bytes of the rest: no length is believed before.
+  if (left_ == 0 || left_ > bytes_.size() || row_ > widths.size() || poses_ > row_)
+    throw std::runtime_error("journal: the rows of a block are none");
+  if (with_numbers_) numbers_ = UnpackRows(widths, packed, left_, row_, poses_);
 }
 
 bool TickRecordReader::Next(TickRecord& record)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/checkpoint/checkpoint.h"
+#include "common/journal/packed_rows.h"
 #include "common/messages/messages.h"
 #include "common/serialisation/bytes.h"
 
@@ -30,21 +31,22 @@ public:
   bool Empty() const { return ticks_ == 0; }
   std::uint32_t Ticks() const { return ticks_; }
   std::uint64_t FirstTick() const { return first_tick_; }
-  std::size_t Bytes() const { return numbers_.size() * sizeof(double) + rest_.Bytes().size(); }
+  // Of what Content will be, but for the newest ticks.
+  std::size_t Bytes() const { return numbers_.Widths().size() + numbers_.Bytes().size() + rest_.Bytes().size(); }
   // False, and nothing happens, if the rows of the record are not as long as those here, or of other hosts.
   bool Add(const SpaceState& state, bool save, std::span<const SensorFrame> frames,
            std::span<const ControlCommands> commands);
   void Clear();
-  // The content of a block.
-  std::vector<char> Content() const;
+  // The content of a block. Nothing can be added any more until Clear.
+  std::vector<char> Content();
 
 private:
   std::uint64_t first_tick_ = 0;
   std::uint32_t ticks_ = 0;
   std::size_t poses_ = 0;  // in a row
   std::size_t others_ = 0;
-  std::size_t hosts_ = 0;        // none at the last tick of a run
-  std::vector<double> numbers_;  // row after row: poses, frames, commands
+  std::size_t hosts_ = 0;  // none at the last tick of a run
+  RowPacker numbers_;      // a row: poses, frames, commands
   ByteWriter rest_;
 };
 

@@ -255,6 +255,10 @@ std::vector<RunOption> Table(RunSettings& s)
       {{Flag("insecure", "Without a key: whoever is in the domain may take part, watch and steer (docs/security.md)"),
         &s.insecure},
        For::kLauncher},
+      {{Path("key",
+             "File with the key of the run, for processes of other machines (docs/security.md); otherwise a new one"),
+        &s.key_file, "run.key", "", FileMistake},
+       For::kLauncher},
       {{Flag("isolated",
              "In a network of its own: no program but yours can reach the run, and it can reach none "
              "(docs/security.md)"),

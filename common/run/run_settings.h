@@ -74,6 +74,7 @@ struct RunSettings : ExperimentChoice, SimulatorOptions
   std::string hosts_file;
   std::optional<int> domain;       // DDS domain; otherwise a free one
   bool insecure = false;           // without a key of the run
+  std::string key_file;            // with the key of the run; otherwise a new one
   bool isolated = false;           // in a network of its own on this machine
   std::string placement = "auto";  // on processor cores: auto, one-core or spread
   std::string expected_hash;

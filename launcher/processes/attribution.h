@@ -9,7 +9,7 @@
 #include <string>
 
 #include "common/activity/activity.h"
-#include "launcher/processes/process.h"
+#include "common/program/process.h"
 
 namespace swarmanoid
 {

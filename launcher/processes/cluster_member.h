@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "common/program/process.h"
 #include "launcher/processes/attribution.h"
 #include "launcher/processes/line_splitter.h"
-#include "launcher/processes/process.h"
 #include "launcher/processes/process_log.h"
 
 namespace swarmanoid

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/processes/file_descriptor.h"
+#include "common/program/file_descriptor.h"
 
 namespace swarmanoid
 {

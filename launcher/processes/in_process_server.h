@@ -8,7 +8,7 @@
 #include <mutex>
 #include <optional>
 
-#include "launcher/processes/process.h"
+#include "common/program/process.h"
 
 namespace swarmanoid
 {

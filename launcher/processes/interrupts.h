@@ -7,7 +7,7 @@
 
 #include <optional>
 
-#include "launcher/processes/file_descriptor.h"
+#include "common/program/file_descriptor.h"
 
 namespace swarmanoid
 {

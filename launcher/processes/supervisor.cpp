@@ -345,6 +345,7 @@ bool Supervisor::Replace(const ClusterMember& member)
   }
   else
     display_.Note(fmt::format("{}; another process takes its place", TextOf(member)));
+  if (member.End()->exit_code == kExitMachineGone && move.empty()) plan.host.clear();
   if (strayed) plan.host = came_from_.extract(member.Name()).mapped().first;
   if (plan.place) plan.place(plan.host);
   kills_for_memory_ = KernelKillsForMemory();

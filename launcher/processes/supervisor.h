@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
+#include "common/program/process.h"
 #include "common/run/server_status.h"
 #include "launcher/processes/attribution.h"
 #include "launcher/processes/cluster_member.h"
 #include "launcher/processes/host_choice.h"
 #include "launcher/processes/interrupts.h"
-#include "launcher/processes/process.h"
 #include "launcher/processes/progress_display.h"
 
 namespace swarmanoid

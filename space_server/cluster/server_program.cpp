@@ -82,7 +82,12 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
                   run_control_.Ask(request);
                   Wake();
                 },
-                [this] { Wake(); }, [this](const std::string& process) { views_.Lost(process); },
+                [this] { Wake(); },
+                [this](const std::string& process)
+                {
+                  views_.Lost(process);
+                  run_control_.Gone(process);
+                },
                 [this](const ControlReplyMessage& reply) { shares_.Replied(reply); }}),
       shares_(session_, options.bus,
               {[this](const ViewRequestMessage& request) { views_.Requested(request); },
@@ -131,6 +136,7 @@ RunControlSetup ServerProgram::Setup()
 {
   RunControlSetup setup = MakeRunControlSetup(options_, experiment_, continuation_);
   setup.may_reset = status_.IsOpen() && options_.abandon == nullptr;
+  setup.build = OwnBuild();
   if (!options_.awaits_replacements) return setup;
   setup.places = WorkerPlaces(options_.machines, options_.worker_places);
   setup.move = [this](const WorkerPlaces::Move& move)
@@ -150,15 +156,19 @@ RunControlSetup ServerProgram::Setup()
 void ServerProgram::Reply(const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
 {
   session_.Reply(request, done, tick, text);
-  if (request.verb == kFailedController)
+  const bool is_refused_offer = request.verb == "offer" && !done;
+  if (request.verb == kFailedController || request.verb == kMachineGone || is_refused_offer)
   {
-    status_.Publish(ServerWarning{text});
-    Say(text);
+    const std::string warning =
+        is_refused_offer ? fmt::format("refused an offer of {}: {}", AskerOf(request), text) : text;
+    status_.Publish(ServerWarning{warning});
+    Say(warning);
   }
   // Robots that are moved by hand would fill the screen.
   const bool told = request.verb == "pause" || request.verb == "resume" || request.verb == "speed" ||
-                    request.verb == "stop" || request.verb == "reset" || IsWorkerMove(request.verb);
-  if (!done || !told) return;
+                    request.verb == "stop" || request.verb == "reset" || IsWorkerMove(request.verb) ||
+                    std::ranges::find(kOfferVerbs, request.verb) != kOfferVerbs.end();
+  if (!done || !told || text.empty()) return;
   const std::string line = fmt::format("{}: {}", AskerOf(request), text);
   status_.Publish(ServerAsked{line});
   Say(line);

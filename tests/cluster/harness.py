@@ -69,9 +69,9 @@ def end(process):
 class Run:
     """One `swarmanoid run`, in the folder of the test."""
 
-    def __init__(self, folder, arguments, environment=None):
+    def __init__(self, folder, arguments, environment=None, before=()):
         self.folder = folder
-        self.process = subprocess.Popen([SWARMANOID, *arguments], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        self.process = subprocess.Popen([*before, SWARMANOID, *arguments], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                         text=True, env={**os.environ, **(environment or {})}, start_new_session=True)
         self.pids = {}
 
@@ -131,13 +131,14 @@ class LauncherTest(unittest.TestCase):
                     outside.add(str(path))
         return outside | {str(path) for path in self.shared.rglob("*")}
 
-    def start(self, *arguments, environment=None):
-        run = Run(self.folder, [str(a) for a in arguments], environment)
+    def start(self, *arguments, environment=None, before=()):
+        """`before`: words of a program that starts the command, such as `ip netns exec NAME`."""
+        run = Run(self.folder, [str(a) for a in arguments], environment, before)
         self.runs.append(run)
         return run
 
-    def run_it(self, *arguments, timeout=GENEROUS_S, environment=None):
-        run = self.start(*arguments, environment=environment)
+    def run_it(self, *arguments, timeout=GENEROUS_S, environment=None, before=()):
+        run = self.start(*arguments, environment=environment, before=before)
         run.wait(timeout)
         return run
 

@@ -12,7 +12,8 @@ from harness import CONFIGS, GENEROUS_S, LauncherTest, main, processes_of
 WORKERS = ["engine_worker", "controller_host", "visualiser"]
 PROGRAMS = ["engine_worker", "controller_host", "space_server"]
 # Kills with a random moment each; by hand as many as one likes.
-KILLS = int(os.environ.get("SWARMANOID_KILLS", "8"))
+KILLS = int(os.environ.get("SWARMANOID_KILLS", "50"))
+ENDS = 8
 SEED = int(os.environ.get("SWARMANOID_KILLS_SEED", "1"))
 EXPERIMENT = CONFIGS / os.environ.get("SWARMANOID_KILLS_EXPERIMENT", "diffusion_10.xml")
 REPLACED = "another process takes its place"
@@ -357,7 +358,7 @@ class Soak(RecoveryTest):
 
     def test_kills_and_stops_at_random_moments(self):
         seed = random.Random(SEED)
-        ticks = int(os.environ.get("SWARMANOID_KILLS_TICKS", 4000 + 4000 * KILLS))
+        ticks = int(os.environ.get("SWARMANOID_KILLS_TICKS", 8000 * KILLS))
         run = self.start("run", EXPERIMENT, "--ticks", ticks, "--hash-log", "cluster", "--output", "out", "--no-visualisers",
                          "--retries", 1000, "--lease", 10)
         self.wait_for_tick("cluster", 10, run)
@@ -366,7 +367,7 @@ class Soak(RecoveryTest):
             time.sleep(seed.random() * 0.3)
             before = self.newest()
             victims = seed.sample(PROGRAMS, seed.choice([1, 1, 2]))
-            stop = seed.random() < 0.1 and KILLS > 10  # each takes the lease
+            stop = seed.random() < 0.1  # each takes the lease
             for program in victims:
                 os.kill(run.find(program), signal.SIGSTOP if stop else signal.SIGKILL)
             since = time.monotonic()
@@ -391,7 +392,7 @@ class Soak(RecoveryTest):
         ticks = 1500
         expected = self.undisturbed(EXPERIMENT, ticks, "--no-visualisers")
         killed = 0
-        for _ in range(KILLS):
+        for _ in range(ENDS):
             run = self.start("run", EXPERIMENT, "--ticks", ticks, "--hash-log", "cluster", "--output", "out", "--no-visualisers")
             run.find(PROGRAMS[-1])
             processes = processes_of(run.process.pid)

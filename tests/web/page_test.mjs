@@ -437,6 +437,38 @@ const tests = {
     }
   },
 
+  async "robots and objects are drawn as the meshes of files, in the colours of these"() {
+    writeFileSync(
+      join(folder, "meshes.xml"),
+      `<ahss-config>
+        <framework><maxclock>100000</maxclock></framework>
+        <entity_kinds><scout urdf="${join(SWARMANOID_CONFIGS, "urdf", "scout.urdf")}"/></entity_kinds>
+        <arena size="2, 2, 1" optimization="2D">
+          <cylindric_prey id="barrel" position="0.5, 1, 0" radius="0.2" height="0.4" colour="blue" mesh="${join(SWARMANOID_CONFIGS, "meshes", "barrel.obj")}"/>
+          <block id="rock" position="1.5, 1, 0.2" size="0.4, 0.4, 0.4" colour="blue" mesh="${join(SWARMANOID_CONFIGS, "meshes", "rock.glb")}"/>
+          <scout id="scout" position="1, 1, 0"/>
+        </arena>
+        <engines><dynamics2d id="floor"/></engines>
+        <arena_physics><engine id="floor"><all/></engine></arena_physics>
+        <visualisations><web_render id="page" camera_view_XYZ_0="1, 0.99, 3" camera_view_HPR_0="90, -89.9, 0"/></visualisations>
+      </ahss-config>`,
+    );
+    const server = new Process("run", "meshes.xml", "--quiet", "--real-time", 1);
+    const [, url] = await server.says(/web_render: (http\S+)/);
+    const page = await open(url);
+    await drawn(page);
+    const seenAt = async (id, half) => pixelsAbout(page, await read(page, `swarmanoid.project(${JSON.stringify(id)})`), half);
+    const mean = (pixels) => [0, 1, 2].map((channel) => pixels.reduce((sum, pixel) => sum + pixel[channel], 0) / pixels.length);
+    const barrel = mean(await seenAt("barrel", 3));
+    assert.ok(barrel[0] > barrel[2] + 40, `the wood of the barrel is ${barrel}`);
+    const rock = mean(await seenAt("rock", 3));
+    assert.ok(saturation(rock) < 50 && brightness(rock) < 215, `the stone of the rock is ${rock}`);
+    const hull = (await seenAt("scout", 14)).filter(([r, g, b]) => r > g + 40 && g > b + 20);
+    assert.ok(hull.length > 20, `${hull.length} pixels of the scout are orange`);
+    assert.deepEqual(page.complaints, []);
+    await server.end();
+  },
+
   async "walls between the eye and the arena hide no robot"() {
     oneRobot("behind_wall", "5, 0.2, 0");
     const { url } = await attach();

@@ -11,7 +11,9 @@
 #include "common/space/shape.h"
 #include "common/space/terrain/floor_picture.h"
 #include "common/space/terrain/terrain.h"
+#include "visualiser/scene/kind_model.h"
 #include "visualiser/scene/material.h"
+#include "visualiser/scene/object_model.h"
 #include "visualiser/scene/painted_floor.h"
 
 namespace swarmanoid
@@ -62,8 +64,20 @@ std::vector<Vector2> Outline(std::vector<Vector2> points)
   return outline;
 }
 
+bool HasFile(const EntityKindDescription& kind)
+{
+  return std::ranges::find(kind.mesh, MeshPart::Form::kFile, &MeshPart::form) != kind.mesh.end();
+}
+
+std::vector<Vector3> PointsOf(const Model& model)
+{
+  std::vector<Vector3> points;
+  for (const MeshVertex& vertex : model.levels[1].vertices) points.emplace_back(vertex.position.cast<double>());
+  return points;
+}
+
 // Of a body, as it is turned and tipped.
-std::vector<Vector2> OutlineOf(const Shape& shape, const Pose& pose)
+std::vector<Vector2> OutlineOfBody(const Shape& shape, const Pose& pose)
 {
   std::vector<Vector2> corners;
   const Vector3& half = shape.half_size;
@@ -180,6 +194,36 @@ PlanScene::PlanScene(const CSwarmanoidSpace& space, const PlanOptions& options) 
       images_[e] = FloorImage(*picture, entity.GetSize());
   }
   trails_.resize(space_.Movable().size());
+  ReadMeshes();
+}
+
+void PlanScene::ReadMeshes()
+{
+  const Experiment& experiment = space_.GetExperiment();
+  for (std::uint32_t e = 0; e < space_.Size(); ++e)
+  {
+    const EntityConfiguration& configuration = space_.GetEntity(e).GetConfiguration();
+    const EntityKindDescription& kind = DescriptionOf(configuration.kind);
+    const bool is_object = kind.role == EntityRole::kObject;
+    const std::string of_object = is_object ? ObjectModelName(configuration, experiment.folder) : std::string();
+    if (of_object.empty() && !HasFile(kind)) continue;
+    const auto [points, is_new] = mesh_points_.try_emplace(of_object.empty() ? kind.tag : of_object);
+    if (is_new)
+      points->second =
+          PointsOf(of_object.empty() ? KindModel(kind, experiment) : ObjectModel(configuration, experiment.folder));
+    meshes_[e] = {&points->second, of_object.empty() ? Vector3::Ones() : configuration.size};
+  }
+}
+
+std::vector<Vector2> PlanScene::OutlineOf(std::uint32_t entity) const
+{
+  const Pose pose = space_.GetPose(entity);
+  const auto mesh = meshes_.find(entity);
+  if (mesh == meshes_.end()) return OutlineOfBody(ShapeOf(space_.GetEntity(entity).GetConfiguration()), pose);
+  std::vector<Vector2> corners;
+  for (const Vector3& point : *mesh->second.points)
+    corners.push_back(Flat(pose.Apply(point.cwiseProduct(mesh->second.scale))));
+  return Outline(std::move(corners));
 }
 
 void PlanScene::Track()
@@ -286,8 +330,8 @@ void PlanScene::AddBody(std::uint32_t entity, PlanPicture& picture) const
     }
     return;
   }
-  const Shape shape = ShapeOf(body.GetConfiguration());
-  if (shape.kind != Shape::Kind::kNone) picture.push_back(Polygon(OutlineOf(shape, pose), PlanColour{colour}, edge));
+  if (ShapeOf(body.GetConfiguration()).kind != Shape::Kind::kNone)
+    picture.push_back(Polygon(OutlineOf(entity), PlanColour{colour}, edge));
 }
 
 void PlanScene::AddRobot(std::uint32_t entity, PlanPicture& picture) const
@@ -300,13 +344,13 @@ void PlanScene::AddRobot(std::uint32_t entity, PlanPicture& picture) const
   const double opacity = kind.mechanism == Mechanism::kPropellers ? 0.45 : 1;
   const PlanColour fill{ColourOf(entity), opacity}, edge{Darker(fill.rgb)};
   const bool stands = (pose.orientation * Vector3::UnitZ()).z() > 0.999;
-  if (shape.kind == Shape::Kind::kCylinder && stands)
+  if (shape.kind == Shape::Kind::kCylinder && stands && !meshes_.contains(entity))
   {
     PlanShape& body = picture.emplace_back(Disc(Flat(pose.Apply(shape.centre)), reach, fill, edge));
     body.least_radius_mm = kLeastRobot_mm;
   }
   else
-    picture.push_back(Polygon(OutlineOf(shape, pose), fill, edge));
+    picture.push_back(Polygon(OutlineOf(entity), fill, edge));
   PlanShape& front =
       picture.emplace_back(Line({Across(pose, 0, 0), Across(pose, shape.centre.x() + reach, 0)}, {0xffffff}, 0.25));
   front.detail_m = 2 * reach;

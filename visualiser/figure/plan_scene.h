@@ -20,7 +20,8 @@ struct PlanOptions
 class PlanScene
 {
 public:
-  // Reads terrains and pictures of the floor; throws ConfigurationError for those. The space outlives the scene.
+  // Reads terrains, meshes and pictures of the floor; throws ConfigurationError for those. The space outlives the
+  // scene.
   PlanScene(const CSwarmanoidSpace& space, const PlanOptions& options);
 
   // Notes where everything is, for trails. Each tick.
@@ -30,6 +31,16 @@ public:
   std::vector<PlanLegendEntry> Legend() const;
 
 private:
+  // A mesh of the user: unit points times a scale, in the frame of the entity.
+  struct MeshOutline
+  {
+    const std::vector<Vector3>* points;
+    Vector3 scale;
+  };
+
+  void ReadMeshes();
+  // Of its mesh if it has one, otherwise of its body; as it is turned and tipped.
+  std::vector<Vector2> OutlineOf(std::uint32_t entity) const;
   void AddFlat(std::uint32_t entity, PlanPicture& picture) const;
   void AddBody(std::uint32_t entity, PlanPicture& picture) const;
   void AddRobot(std::uint32_t entity, PlanPicture& picture) const;
@@ -41,7 +52,9 @@ private:
   const CSwarmanoidSpace& space_;
   const PlanOptions options_;
   std::map<std::uint32_t, PlanShape> images_;  // terrains and painted patches: in the frame of their entity
-  std::vector<std::vector<Vector2>> trails_;   // of the movable entities
+  std::map<std::string, std::vector<Vector3>> mesh_points_;
+  std::map<std::uint32_t, MeshOutline> meshes_;  // of the entities that have one
+  std::vector<std::vector<Vector2>> trails_;     // of the movable entities
 };
 
 }  // namespace swarmanoid

@@ -19,20 +19,6 @@ namespace
 // Events are lines of a file of the run, which exports have.
 constexpr std::size_t kTopics = FoxgloveMessages::kEvents;
 
-std::vector<std::string> WordsOf(const std::string& text)
-{
-  std::vector<std::string> words(1);
-  for (const char c : text)
-  {
-    if (c != ',' && c != ' ')
-      words.back() += c;
-    else if (!words.back().empty())
-      words.emplace_back();
-  }
-  if (words.back().empty()) words.pop_back();
-  return words;
-}
-
 class CFoxgloveRender : public CRender
 {
 public:
@@ -50,7 +36,7 @@ public:
     FoxgloveServerSettings settings;
     settings.address = setup.parameters.Text("address");
     settings.port = static_cast<std::uint16_t>(setup.parameters.Integer("port"));
-    settings.origins = WordsOf(setup.parameters.Text("origins"));
+    settings.origins = SplitWords(setup.parameters.Text("origins"), ", ");
     settings.name = "Swarmanoid: " + space_->GetExperiment().name;
     server_ = std::make_unique<FoxgloveServer>(settings, std::move(channels));
     if (settings.address != "127.0.0.1" && settings.address != "::1")

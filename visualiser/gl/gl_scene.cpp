@@ -236,7 +236,7 @@ void GlScene::State::SetLight(const GlProgram& program, const Scene& scene, cons
   {
     const MaterialLook& look = LookOf(static_cast<Material>(m));
     looks[m] << Linear(look.colour), look.gloss;
-    kinds[m] = Vector2f(look.takes_tint ? 1 : 0, static_cast<float>(look.led));
+    kinds[m] = Vector2f(look.is_painted ? 2 : look.takes_tint ? 1 : 0, static_cast<float>(look.led));
   }
   constexpr auto kMaterials = static_cast<GLsizei>(Material::kEnd);
   glUniform4fv(program.Location("u_materials"), kMaterials, looks[0].data());

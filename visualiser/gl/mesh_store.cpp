@@ -16,6 +16,7 @@ struct GlVertex
   std::array<float, 3> position;
   std::array<std::int8_t, 4> normal;
   std::array<std::uint8_t, 4> material;  // number, shade, unused, unused
+  std::array<std::uint8_t, 4> colour;    // red, green, blue, unused
 };
 
 GlVertex PackedOf(const MeshVertex& vertex)
@@ -23,9 +24,11 @@ GlVertex PackedOf(const MeshVertex& vertex)
   const auto direction = [&](Eigen::Index axis)
   { return static_cast<std::int8_t>(std::lround(127 * std::clamp(vertex.normal[axis], -1.0F, 1.0F))); };
   const auto shade = static_cast<std::uint8_t>(std::lround(255 * std::clamp(vertex.shade, 0.0F, 1.0F)));
+  const auto channel = [&](int shift) { return static_cast<std::uint8_t>((vertex.colour >> shift) & 0xff); };
   return {{vertex.position.x(), vertex.position.y(), vertex.position.z()},
           {direction(0), direction(1), direction(2), 0},
-          {static_cast<std::uint8_t>(vertex.material), shade, 0, 0}};
+          {static_cast<std::uint8_t>(vertex.material), shade, 0, 0},
+          {channel(16), channel(8), channel(0), 0}};
 }
 
 const void* Offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
@@ -65,10 +68,12 @@ MeshStore::MeshStore()
   glVertexAttribPointer(kNormalAttribute, 3, GL_BYTE, GL_TRUE, sizeof(GlVertex), Offset(offsetof(GlVertex, normal)));
   glVertexAttribPointer(kMaterialAttribute, 2, GL_UNSIGNED_BYTE, GL_FALSE, sizeof(GlVertex),
                         Offset(offsetof(GlVertex, material)));
-  for (GLuint attribute = kPositionAttribute; attribute <= kLightsAttribute; ++attribute)
+  glVertexAttribPointer(kColourAttribute, 3, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(GlVertex),
+                        Offset(offsetof(GlVertex, colour)));
+  for (GLuint attribute = kPositionAttribute; attribute <= kColourAttribute; ++attribute)
   {
     glEnableVertexAttribArray(attribute);
-    if (attribute >= kPlaceAttribute) glVertexAttribDivisor(attribute, 1);
+    if (attribute >= kPlaceAttribute && attribute <= kLightsAttribute) glVertexAttribDivisor(attribute, 1);
   }
   glBindVertexArray(0);
 }

@@ -52,10 +52,11 @@ layout(location = 4) in vec4 i_orientation;
 layout(location = 5) in vec3 i_scale;
 layout(location = 6) in vec4 i_tint;
 layout(location = 7) in float i_lights;
+layout(location = 8) in vec3 a_colour;
 uniform mat4 u_view_projection;
 uniform mat4 u_shadow;
 uniform vec4 u_materials[32];  // linear colour, gloss
-uniform vec2 u_kinds[32];      // takes tint, light
+uniform vec2 u_kinds[32];      // 1 takes the tint, 2 the vertex's colour; light
 uniform samplerBuffer u_lights;
 out vec3 v_place;
 out vec3 v_normal;
@@ -74,7 +75,8 @@ void main()
   vec2 kind = u_kinds[material];
   vec4 look = u_materials[material];
   v_colour = vec4(look.rgb, i_tint.a);
-  if (kind.x > 0.5) v_colour.rgb = i_tint.rgb * i_tint.rgb;
+  if (kind.x > 1.5) v_colour.rgb = a_colour * a_colour;
+  else if (kind.x > 0.5) v_colour.rgb = i_tint.rgb * i_tint.rgb;
   v_look = vec2(look.a, 0.0);
   if (kind.y >= 0.0 && i_lights >= 0.0)
   {

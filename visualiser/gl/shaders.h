@@ -29,7 +29,8 @@ enum BodyAttribute : GLuint
   kOrientationAttribute,
   kScaleAttribute,
   kTintAttribute,
-  kLightsAttribute
+  kLightsAttribute,
+  kColourAttribute
 };
 
 }  // namespace swarmanoid

@@ -44,7 +44,7 @@ Ogre::MaterialPtr OgreMaterials::Make(const std::string& name)
 Ogre::MaterialPtr OgreMaterials::Lit(Material material, Colour tint)
 {
   const MaterialLook& look = LookOf(material);
-  const Colour colour = look.takes_tint ? tint : look.colour;
+  const Colour colour = look.takes_tint || look.is_painted ? tint : look.colour;
   Ogre::MaterialPtr& made = lit_[{colour, look.gloss, look.opacity}];
   if (made) return made;
   made = Make(fmt::format("swarmanoid/lit_{:06x}_{}_{}", colour, look.gloss, look.opacity));

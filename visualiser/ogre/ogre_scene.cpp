@@ -10,6 +10,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <utility>
 
 #include "visualiser/scene/floor_grid.h"
 #include "visualiser/scene/picking.h"
@@ -36,6 +38,20 @@ Ogre::Vector3 ToOgre(const Vector3& v)
 }
 
 bool IsLight(Material material) { return LookOf(material).led >= 0; }
+
+// What has one material of OGRE's: of painted meshes each colour is one.
+using Section = std::pair<Material, Colour>;
+Section SectionOf(const MeshVertex& vertex)
+{
+  return {vertex.material, vertex.material == Material::kPainted ? vertex.colour : palette::kWall};
+}
+// In the order in which the parts of OGRE's mesh stand.
+std::set<Section> SectionsOf(const Mesh& mesh)
+{
+  std::set<Section> sections;
+  for (const MeshVertex& vertex : mesh.vertices) sections.insert(SectionOf(vertex));
+  return sections;
+}
 
 // Starts a section of an object that is built anew each frame.
 void Begin(Ogre::ManualObject* object, const char* material, RenderOperation::OperationType type)
@@ -132,13 +148,13 @@ Ogre::MeshPtr OgreScene::MeshOf(const Scene& scene, std::uint16_t model, int lev
   if (made) return made;
   const Mesh& mesh = scene.Models()[model].levels[l];
   Ogre::ManualObject object("upload");
-  for (int m = 0; m < static_cast<int>(Material::kEnd); ++m)
+  for (const auto& [material, colour] : SectionsOf(mesh))
   {
-    const auto material = static_cast<Material>(m);
     std::uint32_t next = 0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
     {
-      if (mesh.vertices[mesh.indices[i]].material != material) continue;
+      const MeshVertex& first = mesh.vertices[mesh.indices[i]];
+      if (SectionOf(first) != Section(material, colour)) continue;
       if (IsLight(material))
       {
         const MaterialLook& look = LookOf(material);
@@ -146,7 +162,7 @@ Ogre::MeshPtr OgreScene::MeshOf(const Scene& scene, std::uint16_t model, int lev
           led_meshes_[model][l].push_back({mesh.vertices[mesh.indices[i + k]].position, look.led, look.colour});
         continue;
       }
-      if (next == 0) object.begin(materials_.Lit(material, palette::kWall), RenderOperation::OT_TRIANGLE_LIST);
+      if (next == 0) object.begin(materials_.Lit(material, colour), RenderOperation::OT_TRIANGLE_LIST);
       for (std::size_t k = 0; k < 3; ++k)
       {
         const MeshVertex& vertex = mesh.vertices[mesh.indices[i + k]];
@@ -178,15 +194,11 @@ Ogre::Entity* OgreScene::EntityOf(Body& body, const Scene& scene, const SceneIte
   if (body.tint != item.tint || body.shown != level)
   {
     body.tint = item.tint;
-    // The materials of a mesh stand in the order of their numbers.
     const Mesh& mesh = scene.Models()[item.model].levels[static_cast<std::size_t>(level)];
-    std::array<bool, static_cast<std::size_t>(Material::kEnd)> used{};
-    for (const MeshVertex& vertex : mesh.vertices) used[static_cast<std::size_t>(vertex.material)] = true;
     std::size_t part = 0;
-    for (std::size_t m = 0; m < used.size(); ++m)
+    for (const auto& [material, colour] : SectionsOf(mesh))
     {
-      const auto material = static_cast<Material>(m);
-      if (!used[m] || IsLight(material) || part >= entity->getNumSubEntities()) continue;
+      if (IsLight(material) || part >= entity->getNumSubEntities()) continue;
       if (LookOf(material).takes_tint) entity->getSubEntity(part)->setMaterial(materials_.Lit(material, item.tint));
       ++part;
     }

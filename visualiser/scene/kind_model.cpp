@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "common/configuration/regular_file.h"
+#include "common/experiment/mesh_files.h"
 #include "visualiser/scene/mesh_builder.h"
+#include "visualiser/scene/mesh_file.h"
 
 namespace swarmanoid
 {
@@ -34,6 +37,8 @@ Material MaterialOf(const MeshPart& part)
       return LedMaterial(part.led);
     case MeshPart::Paint::kBeacon:
       return Material::kBeacon;
+    case MeshPart::Paint::kOwn:
+      return Material::kPainted;
   }
   return Material::kTint;
 }
@@ -79,12 +84,28 @@ std::vector<MeshPart> BodyParts(const EntityKindDescription& kind)
   return parts;
 }
 
-void AddPart(MeshBuilder& builder, const MeshPart& part)
+void AddFile(MeshBuilder& builder, const MeshPart& part, int level, const Experiment& experiment)
+{
+  const std::string path = FindMeshOfKind(part.file, experiment);
+  try
+  {
+    const auto place = Eigen::Translation3f(part.from.cast<float>()) * part.orientation.cast<float>() *
+                       Eigen::Scaling(Vector3f(part.scale.cast<float>()));
+    builder.Append(LoadMeshFile(path)->levels[static_cast<std::size_t>(level)], place, MaterialOf(part));
+  }
+  catch (const FileError& error)
+  {
+    throw ConfigurationError({std::make_shared<const std::string>(path), 0, 0}, error.what());
+  }
+}
+
+void AddPart(MeshBuilder& builder, const MeshPart& part, int level, const Experiment& experiment)
 {
   const Vector3f from = part.from.cast<float>();
   const Vector3f to = part.to.cast<float>();
   const auto radius = static_cast<float>(part.radius);
   const Material material = MaterialOf(part);
+  builder.SetColour(part.colour);
   switch (part.form)
   {
     case MeshPart::Form::kBox:
@@ -98,6 +119,9 @@ void AddPart(MeshBuilder& builder, const MeshPart& part)
       builder.Sphere(radius, material);
       builder.SetPlace(0, 0, 0);
       break;
+    case MeshPart::Form::kFile:
+      AddFile(builder, part, level, experiment);
+      break;
   }
 }
 
@@ -105,7 +129,7 @@ void AddPart(MeshBuilder& builder, const MeshPart& part)
 
 bool IsScaled(const EntityKindDescription& kind) { return kind.mesh.empty() && kind.size.isZero(); }
 
-Model KindModel(const EntityKindDescription& kind)
+Model KindModel(const EntityKindDescription& kind, const Experiment& experiment)
 {
   const std::vector<MeshPart> parts = kind.mesh.empty() ? BodyParts(kind) : kind.mesh;
   Model model;
@@ -113,7 +137,7 @@ Model KindModel(const EntityKindDescription& kind)
   for (int level = 0; level < kLevels; ++level)
   {
     MeshBuilder builder(kSegments[level]);
-    for (const MeshPart& part : parts) AddPart(builder, part);
+    for (const MeshPart& part : parts) AddPart(builder, part, level, experiment);
     model.levels[static_cast<std::size_t>(level)] = builder.Take();
   }
   Measure(model);

@@ -28,10 +28,11 @@ constexpr auto kLooks = []
   set(Material::kRotor, {"rotor", 0x6c7783, 0.0F, 0.28F});
   set(Material::kRope, {"rope", 0x7d6f5a, 0.0F});
   set(Material::kTint, {"tint", 0xffffff, 0.15F, 1, true});
-  set(Material::kBeacon, {"beacon", 0x59616c, 0.4F, 1, false, kBeaconLight});
+  set(Material::kPainted, {"painted", 0xffffff, 0.15F, 1, false, true});
+  set(Material::kBeacon, {"beacon", 0x59616c, 0.4F, 1, false, false, kBeaconLight});
   for (int i = 0; i < kMostLeds; ++i)
     set(static_cast<Material>(static_cast<int>(Material::kLed0) + i),
-        {kLedNames[static_cast<std::size_t>(i)], 0x59616c, 0.4F, 1, false, i});
+        {kLedNames[static_cast<std::size_t>(i)], 0x59616c, 0.4F, 1, false, false, i});
   return looks;
 }();
 
@@ -51,6 +52,13 @@ Colour Paint(Colour colour)
     paint = paint << 8 | static_cast<Colour>(std::lround(std::clamp(calm, 0.0, 255.0)));
   }
   return paint;
+}
+
+Colour OfFewShades(Colour colour)
+{
+  Colour few = 0;
+  for (const unsigned shift : {16U, 8U, 0U}) few |= ((colour >> shift & 0xff) + 25) / 51 * 51 << shift;
+  return few;
 }
 
 }  // namespace swarmanoid

@@ -22,9 +22,10 @@ enum class Material : std::uint8_t
   kHandbot,  // accents of the three robots
   kRotor,    // the disc of a turning rotor: see-through
   kRope,
-  kTint,    // the colour of the entity
-  kBeacon,  // the colour of the robot's beacon
-  kLed0,    // kLed0 + i: the colour of its LED i, up to 15
+  kTint,     // the colour of the entity
+  kPainted,  // the colour of each vertex
+  kBeacon,   // the colour of the robot's beacon
+  kLed0,     // kLed0 + i: the colour of its LED i, up to 15
   kEnd = kLed0 + 16
 };
 
@@ -37,7 +38,8 @@ struct MaterialLook
   float gloss = 0;    // 0 dull .. 1 polished
   float opacity = 1;
   bool takes_tint = false;
-  int led = -1;  // index into the robot's lights: 0..15 LEDs, 16 the beacon; these shine in their own colour
+  bool is_painted = false;  // has the colours of the vertices
+  int led = -1;             // index into the robot's lights: 0..15 LEDs, 16 the beacon; these shine in their own colour
 };
 
 inline constexpr int kLightsPerRobot = 17;
@@ -49,6 +51,8 @@ inline Material LedMaterial(int led) { return static_cast<Material>(static_cast<
 
 // The paint of a floor, wall, block or prey that a file calls red, green ...: the same hue, less loud.
 Colour Paint(Colour colour);
+// To the nearest of 0, 51, 102 … 255 in each channel.
+Colour OfFewShades(Colour colour);
 
 namespace palette
 {

@@ -19,10 +19,11 @@ struct MeshVertex
   Eigen::Vector3f position;
   Eigen::Vector3f normal;  // of unit length
   Material material = Material::kTint;
-  float shade = 1;  // 0..1: what of the sky's light reaches it; less in corners
+  float shade = 1;           // 0..1: what of the sky's light reaches it; less in corners
+  Colour colour = 0xffffff;  // of Material::kPainted
 };
 
-// Triangles are counter-clockwise seen from outside; the three vertices of one have the same material.
+// Triangles are counter-clockwise seen from outside; the three vertices of one have the same material and colour.
 struct Mesh
 {
   std::vector<MeshVertex> vertices;

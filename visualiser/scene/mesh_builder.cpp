@@ -15,7 +15,7 @@ constexpr float kTurn = 2 * std::numbers::pi_v<float>;
 
 std::uint32_t MeshBuilder::Vertex(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, Material material)
 {
-  mesh_.vertices.push_back({place_ * position, place_.linear() * normal, material, shade_});
+  mesh_.vertices.push_back({place_ * position, place_.linear() * normal, material, shade_, colour_});
   return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
 }
 
@@ -141,6 +141,27 @@ void MeshBuilder::Extrude(std::span<const Eigen::Vector2f> outline, float low, f
     const Eigen::Vector2f& b = outline[(i + 1) % outline.size()];
     Face({{b.x(), low, b.y()}, {a.x(), low, a.y()}, {a.x(), high, a.y()}, {b.x(), high, b.y()}}, side);
   }
+}
+
+void MeshBuilder::Append(const Mesh& mesh, const Eigen::Affine3f& place, Material material)
+{
+  const auto base = static_cast<std::uint32_t>(mesh_.vertices.size());
+  const Eigen::Matrix3f normals = place.linear().inverse().transpose();
+  for (MeshVertex vertex : mesh.vertices)
+  {
+    vertex.position = place * vertex.position;
+    vertex.normal = (normals * vertex.normal).normalized();
+    if (vertex.material == Material::kTint)
+    {
+      vertex.material = material;
+      vertex.colour = colour_;
+    }
+    mesh_.vertices.push_back(vertex);
+  }
+  const bool is_mirrored = place.linear().determinant() < 0;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+    for (const std::size_t k : {0U, is_mirrored ? 2U : 1U, is_mirrored ? 1U : 2U})
+      mesh_.indices.push_back(base + mesh.indices[i + k]);
 }
 
 void Measure(Model& model)

@@ -28,6 +28,7 @@ public:
   void SetPlace(const Eigen::Isometry3f& place) { place_ = place; }
   void SetPlace(float x, float y, float z) { place_ = Eigen::Isometry3f(Eigen::Translation3f(x, y, z)); }
   void SetShade(float shade) { shade_ = shade; }
+  void SetColour(Colour colour) { colour_ = colour; }  // of Material::kPainted
   void SetSegments(int segments) { segments_ = segments; }
   int Segments() const { return segments_; }
 
@@ -55,6 +56,9 @@ public:
     Face(std::span(corners.begin(), corners.size()), material);
   }
 
+  // Another mesh, placed by this transform alone; what of it takes the tint gets this material.
+  void Append(const Mesh& mesh, const Eigen::Affine3f& place, Material material);
+
   Mesh Take() { return std::move(mesh_); }
 
 private:
@@ -63,6 +67,7 @@ private:
 
   int segments_;
   float shade_ = 1;
+  Colour colour_ = 0xffffff;
   Eigen::Isometry3f place_ = Eigen::Isometry3f::Identity();
   Mesh mesh_;
 };

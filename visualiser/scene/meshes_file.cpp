@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "visualiser/scene/floor_grid.h"
-#include "visualiser/scene/kind_model.h"
 #include "visualiser/scene/meshes.h"
 
 namespace swarmanoid
@@ -34,13 +33,17 @@ void AddVector(Json& list, const Eigen::Vector3f& vector)
 
 Json MeshOf(const Mesh& mesh)
 {
-  Json positions = Json::array(), normals = Json::array(), materials = Json::array(), shades = Json::array();
+  Json positions = Json::array(), normals = Json::array(), materials = Json::array(), shades = Json::array(),
+       colours = Json::array();
+  bool is_painted = false;
   for (const MeshVertex& vertex : mesh.vertices)
   {
     AddVector(positions, vertex.position);
     AddVector(normals, vertex.normal);
     materials.push_back(static_cast<int>(vertex.material));
     shades.push_back(Rounded(vertex.shade, 3));
+    colours.push_back(vertex.colour);
+    is_painted |= vertex.material == Material::kPainted;
   }
   // Neighbours have near numbers: their differences are half of what the numbers are, compressed.
   Json steps = Json::array();
@@ -50,11 +53,13 @@ Json MeshOf(const Mesh& mesh)
     steps.push_back(index - last);
     last = index;
   }
-  return {{"positions", positions},
-          {"normals", normals},
-          {"materials", materials},
-          {"shades", shades},
-          {"index_steps", steps}};
+  Json written{{"positions", positions},
+               {"normals", normals},
+               {"materials", materials},
+               {"shades", shades},
+               {"index_steps", steps}};
+  if (is_painted) written["colours"] = colours;
+  return written;
 }
 
 Json JsonOf(const Model& model)
@@ -69,6 +74,7 @@ Json MaterialOf(const MaterialLook& look)
           {"gloss", Rounded(look.gloss, 3)},
           {"opacity", Rounded(look.opacity, 3)},
           {"tint", look.takes_tint},
+          {"painted", look.is_painted},
           {"light", look.led}};
 }
 
@@ -85,7 +91,7 @@ Json RestingRobot(Mechanism robot)
 
 }  // namespace
 
-std::string KindModelAsJson(const EntityKindDescription& kind) { return JsonOf(KindModel(kind)).dump(); }
+std::string ModelAsJson(const Model& model) { return JsonOf(model).dump(); }
 
 std::string MeshesAsJson()
 {

@@ -12,14 +12,6 @@ namespace
 
 constexpr std::size_t kMostColours = 256;
 
-// To the nearest of 0, 51, 102 … 255 in each channel.
-Colour OfFewShades(Colour colour)
-{
-  Colour few = 0;
-  for (const unsigned shift : {16U, 8U, 0U}) few |= ((colour >> shift & 0xff) + 25) / 51 * 51 << shift;
-  return few;
-}
-
 // Pixels of one colour that form a rectangle.
 struct Block
 {

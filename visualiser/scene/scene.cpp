@@ -4,6 +4,7 @@
 
 #include "common/space/attributes.h"
 #include "visualiser/scene/kind_model.h"
+#include "visualiser/scene/object_model.h"
 #include "visualiser/scene/painted_floor.h"
 #include "visualiser/scene/picking.h"
 #include "visualiser/scene/trail.h"
@@ -104,6 +105,7 @@ void Scene::AddEntity(std::uint32_t entity)
       for (const RestingPart& part : RestingParts(kind.mechanism)) AddItem(entity, part.model).lights = body.lights;
       break;
     case EntityRole::kObject:
+      if (AddMeshOfObject(entity)) break;
       if (!IsBuiltIn(configuration.kind))
       {
         AddUsersEntity(body);
@@ -141,12 +143,25 @@ void Scene::AddUsersEntity(Body& body)
 {
   const EntityKindDescription& kind = DescriptionOf(body.kind);
   const auto [model, is_new] = users_models_.emplace(body.kind, static_cast<std::uint16_t>(models_.size()));
-  if (is_new) models_.push_back(KindModel(kind));
+  if (is_new) models_.push_back(KindModel(kind, space_.GetExperiment()));
   SceneItem& item = AddItem(body.entity, ModelId::kBox);
   item.model = model->second;
   item.tint = Paint(kind.colour);
   if (IsScaled(kind)) item.scale = space_.GetEntity(body.entity).GetSize().cast<float>();
   if (kind.leds) item.lights = body.lights = AddLights();
+}
+
+bool Scene::AddMeshOfObject(std::uint32_t entity)
+{
+  const EntityConfiguration& configuration = space_.GetEntity(entity).GetConfiguration();
+  const std::string name = ObjectModelName(configuration, space_.GetExperiment().folder);
+  if (name.empty()) return false;
+  const auto [model, is_new] = object_models_.emplace(name, static_cast<std::uint16_t>(models_.size()));
+  if (is_new) models_.push_back(ObjectModel(configuration, space_.GetExperiment().folder));
+  SceneItem& item = AddItem(entity, ModelId::kBox);
+  item.model = model->second;
+  item.scale = configuration.size.cast<float>();
+  return true;
 }
 
 void Scene::AddArea(std::uint32_t entity)

@@ -83,8 +83,8 @@ struct SceneOptions
 class Scene
 {
 public:
-  // Reads the terrains and the pictures of the floor; throws ConfigurationError for those. The space outlives the
-  // scene.
+  // Reads the terrains, the meshes and the pictures of the floor; throws ConfigurationError for those. The space
+  // outlives the scene.
   explicit Scene(const CSwarmanoidSpace& space);
   ~Scene();
 
@@ -138,6 +138,8 @@ private:
   void AddEntity(std::uint32_t entity);
   SceneItem& AddItem(std::uint32_t entity, ModelId model);
   void AddUsersEntity(Body& body);
+  // Of an object that has a mesh of its own; false for others.
+  bool AddMeshOfObject(std::uint32_t entity);
   const Slots& SlotsOf(const Body& body) const { return slots_[static_cast<std::size_t>(body.kind)]; }
   std::int32_t AddLights();
   void AddTerrain(std::uint32_t entity);
@@ -172,9 +174,10 @@ private:
   std::vector<Model> models_;
   std::vector<SceneItem> items_;
   std::vector<Colour> lights_;
-  std::vector<Slots> slots_;                          // by kind
-  std::map<EntityKind, std::uint16_t> users_models_;  // of users' kinds, once an entity has one
-  std::vector<Body> bodies_;                          // all entities that have items, ascending
+  std::vector<Slots> slots_;                            // by kind
+  std::map<EntityKind, std::uint16_t> users_models_;    // of users' kinds, once an entity has one
+  std::map<std::string, std::uint16_t> object_models_;  // by the names of the models
+  std::vector<Body> bodies_;                            // all entities that have items, ascending
   std::vector<SceneLine> lines_;
   std::vector<SceneGlow> glows_;
   std::vector<SceneLabel> labels_;

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -12,7 +14,9 @@
 #include "common/math/elementary.h"
 #include "common/space/attributes.h"
 #include "common/space/terrain/terrain.h"
+#include "visualiser/scene/kind_model.h"
 #include "visualiser/scene/meshes_file.h"
+#include "visualiser/scene/object_model.h"
 #include "visualiser/scene/painted_floor.h"
 #include "visualiser/status_line.h"
 
@@ -70,7 +74,14 @@ Json Picture(const FloorPicture& picture)
   return {{"columns", floor.columns}, {"rows", floor.rows}, {"palette", floor.palette}, {"runs", runs}};
 }
 
-Json Body(const CSwarmanoidSpaceEntity& entity, const std::string& folder)
+// The meshes of objects, each once.
+struct ObjectMeshes
+{
+  Json models = Json::array();
+  std::map<std::string, std::size_t> numbers{};
+};
+
+Json Body(const CSwarmanoidSpaceEntity& entity, const std::string& folder, ObjectMeshes& meshes)
 {
   const EntityConfiguration& configuration = entity.GetConfiguration();
   const Pose pose = entity.GetPose();
@@ -83,6 +94,12 @@ Json Body(const CSwarmanoidSpaceEntity& entity, const std::string& folder)
   if (role == EntityRole::kTerrain) body["terrain"] = TerrainSurface(configuration, folder);
   if (role == EntityRole::kPatch)
     if (const auto picture = LoadFloorPicture(configuration, folder)) body["picture"] = Picture(*picture);
+  if (const std::string name = ObjectModelName(configuration, folder); role == EntityRole::kObject && !name.empty())
+  {
+    const auto [number, is_new] = meshes.numbers.emplace(name, meshes.models.size());
+    if (is_new) meshes.models.push_back(Json::parse(ModelAsJson(ObjectModel(configuration, folder))));
+    body["mesh"] = number->second;
+  }
   return body;
 }
 
@@ -99,8 +116,13 @@ Json AttributeTable()
   return table;
 }
 
-// What a page has to know of a kind to draw it; the model where its own meshes have none.
-Json Look(EntityKind kind)
+bool IsThere(EntityKind kind, const Experiment& experiment)
+{
+  return std::ranges::find(experiment.entities, kind, &EntityConfiguration::kind) != experiment.entities.end();
+}
+
+// What a page has to know of a kind to draw it; the model where its own meshes have none, of kinds that are there.
+Json Look(EntityKind kind, const Experiment& experiment)
 {
   const EntityKindDescription& row = DescriptionOf(kind);
   const bool is_box = row.form == BodyForm::kBox;
@@ -120,7 +142,7 @@ Json Look(EntityKind kind)
   look["radius"] = is_box ? row.size.head<2>().norm() / 2 : row.size.x();
   look["height"] = row.size.z();
   look["colour"] = row.colour;
-  look["model"] = Json::parse(KindModelAsJson(row));
+  if (IsThere(kind, experiment)) look["model"] = Json::parse(ModelAsJson(KindModel(row, experiment)));
   return look;
 }
 
@@ -265,7 +287,7 @@ std::string WorldText(const CSwarmanoidSpace& space, const Assignment& assignmen
   for (std::size_t kind = 0; kind < EntityKindCount(); ++kind)
   {
     kinds.push_back(TagName(static_cast<EntityKind>(kind)));
-    looks[std::string(TagName(static_cast<EntityKind>(kind)))] = Look(static_cast<EntityKind>(kind));
+    looks[std::string(TagName(static_cast<EntityKind>(kind)))] = Look(static_cast<EntityKind>(kind), experiment);
   }
   Json engines = Json::array();
   for (const EngineConfiguration& engine : experiment.engines)
@@ -274,6 +296,7 @@ std::string WorldText(const CSwarmanoidSpace& space, const Assignment& assignmen
   for (const ControllerConfiguration& controller : experiment.controllers)
     controllers.push_back({{"id", controller.id}, {"tag", controller.tag}});
 
+  ObjectMeshes meshes;
   Json id = Json::array(), kind = Json::array(), movable = Json::array(), engine = Json::array(), host = Json::array(),
        controller = Json::array(), bodies = Json::array();
   for (std::size_t e = 0; e < space.Size(); ++e)
@@ -288,7 +311,7 @@ std::string WorldText(const CSwarmanoidSpace& space, const Assignment& assignmen
     for (std::size_t c = 0; c < experiment.controllers.size(); ++c)
       if (experiment.controllers[c].id == entity.GetConfiguration().controller) number = static_cast<int>(c);
     controller.push_back(number);
-    if (!IsRobot(entity.GetKind())) bodies.push_back(Body(entity, experiment.folder));
+    if (!IsRobot(entity.GetKind())) bodies.push_back(Body(entity, experiment.folder, meshes));
   }
   return Text({{"type", "world"},
                {"experiment", experiment.name},
@@ -311,7 +334,8 @@ std::string WorldText(const CSwarmanoidSpace& space, const Assignment& assignmen
                  {"engine", engine},
                  {"host", host},
                  {"controller", controller}}},
-               {"bodies", bodies}});
+               {"bodies", bodies},
+               {"meshes", meshes.models}});
 }
 
 std::string ColoursText(const CSwarmanoidSpace& space)

@@ -158,7 +158,8 @@ Writer::Writer(const std::string& topic, const MessageType& type, Keeps keeps) :
   qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
   qos.reliability().max_blocking_time = kWriteTime;
   if (keeps == Keeps::kRecent) qos.reliable_writer_qos().times.heartbeatPeriod = kHeartbeat;
-  if (keeps == Keeps::kLatched) qos.durability().kind = dds::TRANSIENT_LOCAL_DURABILITY_QOS;
+  // As ROS 2 has it; by default Fast DDS keeps for writers what it does not for readers.
+  qos.durability().kind = keeps == Keeps::kLatched ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = keeps == Keeps::kRecent ? kRecentMessages : 1;
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;

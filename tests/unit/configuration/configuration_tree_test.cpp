@@ -88,6 +88,16 @@ TEST(Parameters, FollowTheirTable)
   EXPECT_THROW(parameters.Number("other"), std::logic_error);
 }
 
+TEST(Wording, WordsStandBetweenSeparatorsWithoutBlanks)
+{
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(SplitWords(" a\tbc  d\r\n"), (Words{"a", "bc", "d"}));
+  EXPECT_EQ(SplitWords("a b; c ;; d", ";"), (Words{"a b", "c", "d"}));
+  EXPECT_EQ(SplitWords("a,b , c", ", "), (Words{"a", "b", "c"}));
+  EXPECT_EQ(SplitWords(" \t"), Words());
+  EXPECT_EQ(SplitWords(""), Words());
+}
+
 TEST(Wording, FindsNearNames)
 {
   const std::vector<std::string> names{"position", "orientation", "controller"};

@@ -288,6 +288,23 @@ TEST(MistakesTogether, AMissingMapIsNamedWhereTheRunWillBe)
   EXPECT_TRUE(LoadExperimentText(text, "test.xml", "/nowhere", options).errors.empty());
 }
 
+TEST(MistakesTogether, AMeshThatCannotBeReadIsNamed)
+{
+  const auto mistake = [](const std::string& mesh)
+  {
+    const std::string text =
+        "<ahss-config><arena size='1,1,1' optimization='3D'><block id='b' position='.5,.5,.5' "
+        "size='.1,.1,.1' mesh='" +
+        mesh + "'/></arena></ahss-config>";
+    const LoadedExperiment loaded = LoadExperimentText(text, "test.xml", "/nowhere", {});
+    return loaded.errors.empty() ? std::string("none") : loaded.errors[0].Text();
+  };
+  EXPECT_EQ(mistake("rock.glb"), "test.xml:1:102: '/nowhere/rock.glb': there is no such file");
+  EXPECT_EQ(mistake("rock.mesh"),
+            "test.xml:1:102: '/nowhere/rock.mesh': meshes are read from files that end in .glb, "
+            ".gltf, .obj, .stl; export it as .glb, for example with Blender");
+}
+
 TEST(MistakesTogether, AMissingFileIsNamed)
 {
   const LoadedExperiment loaded = LoadExperimentFile("/nowhere/at_all.xml");

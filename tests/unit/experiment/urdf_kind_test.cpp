@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "common/configuration/xml_reader.h"
+#include "test_folders.h"
 
 namespace swarmanoid
 {
@@ -122,7 +123,9 @@ TEST(UrdfKind, NotesWhatHasNoEffect)
   { return TextsOf(WithBase(mass + body + in_base, limited, more).notes); };
   EXPECT_THAT(notes("", "<gazebo/>"), ElementsAre("r.urdf:7:1: <gazebo> has no effect here"));
   EXPECT_THAT(notes("<visual><geometry><mesh filename='a.stl'/></geometry></visual>", ""),
-              ElementsAre(HasSubstr("<mesh> cannot be read; boxes, cylinders and spheres can; it is not drawn")));
+              ElementsAre(HasSubstr("the mesh 'a.stl' is not drawn: it is not there")));
+  EXPECT_THAT(notes("<visual><geometry><mesh filename='package://none/a.stl'/></geometry></visual>", ""),
+              ElementsAre(HasSubstr("package://NAME/… is looked for in the folder NAME beside or above this file")));
   EXPECT_THAT(
       notes("", "<link name='arm'/><joint name='a' type='revolute'><parent link='base'/><child link='arm'/></joint>"),
       ElementsAre(HasSubstr("the joint 'a' (revolute) stands still at zero")));
@@ -130,6 +133,48 @@ TEST(UrdfKind, NotesWhatHasNoEffect)
               ElementsAre(HasSubstr("a box that is turned is drawn as the upright one")));
   EXPECT_THAT(TextsOf(WithBase(body).notes),
               ElementsAre(HasSubstr("no <limit velocity="), HasSubstr("no link has a mass")));
+}
+
+TEST(UrdfKind, IsDrawnAsItsMeshesWhereItsLinksAre)
+{
+  const std::string folder = SWARMANOID_SOURCE_FOLDER "/configs/urdf";
+  const std::vector<std::string> names{"scout.glb", "../urdf/scout.glb", "package://urdf/scout.glb",
+                                       "package://configs/urdf/scout.glb", "file://" + folder + "/scout.glb"};
+  for (const std::string& name : names)
+  {
+    const std::string visual =
+        "<visual><origin xyz='0.1 0 0.2' rpy='0 0 1.5707963267948966'/><geometry><mesh filename='" + name +
+        "' scale='1 2 3'/></geometry><material name='m'><color rgba='1 0 0 1'/></material></visual>";
+    const UrdfKind read =
+        KindFromUrdf("cart",
+                     "<robot name='r'><link name='base'><inertial><mass value='1'/></inertial>" + visual +
+                         Box("0.2 0.4 0.1", "<origin xyz='0.1 0 0.05'/>") + "</link>" + kWheels + "</robot>",
+                     folder + "/r.urdf");
+    EXPECT_THAT(TextsOf(read.errors), IsEmpty()) << name;
+    ASSERT_EQ(read.kind.mesh.size(), 1U) << name;
+    const MeshPart& part = read.kind.mesh[0];
+    EXPECT_EQ(part.form, MeshPart::Form::kFile);
+    EXPECT_EQ(part.file, folder + "/scout.glb");
+    EXPECT_TRUE(part.from.isApprox(Vector3(0, 0, 0.25), 1e-9)) << part.from.transpose();
+    EXPECT_TRUE(part.scale.isApprox(Vector3(1, 2, 3)));
+    EXPECT_NEAR((part.orientation * Vector3::UnitX()).y(), 1, 1e-9);
+    EXPECT_EQ(read.kind.colour, 0xff0000U);
+  }
+}
+
+TEST(UrdfKind, PartsHaveTheirOwnColours)
+{
+  const auto visual = [](const std::string& colour)
+  {
+    return "<visual><geometry><sphere radius='0.1'/></geometry><material name='" + colour + "'><color rgba='" + colour +
+           " 1'/></material></visual>";
+  };
+  const UrdfKind read = WithBase(Box("0.2 0.4 0.1") + visual("0 1 0") + visual("0 0 1"));
+  ASSERT_EQ(read.kind.mesh.size(), 2U);
+  EXPECT_EQ(read.kind.colour, 0x00ff00U);
+  EXPECT_EQ(read.kind.mesh[0].paint, MeshPart::Paint::kBody);
+  EXPECT_EQ(read.kind.mesh[1].paint, MeshPart::Paint::kOwn);
+  EXPECT_EQ(read.kind.mesh[1].colour, 0x0000ffU);
 }
 
 TEST(UrdfKind, RefusesWithThePlaceInTheFile)

@@ -116,20 +116,21 @@ TEST(EntityKinds, OfObjectsHaveTheParametersThatTheirBodyNeeds)
   crate.mobility = Mobility::kIfAsked;
   RegisterEntityKind(crate);
   EXPECT_THAT(ParametersOf(*KindOfTag("test_crate")),
-              ElementsAre("size", "movable", "mass", "friction", "restitution", "ground_friction", "colour"));
+              ElementsAre("size", "movable", "mass", "friction", "restitution", "ground_friction", "colour", "mesh",
+                          "mesh_orientation"));
   EntityKindDescription pillar = Object("test_pillar", BodyForm::kCylinder);
   pillar.mobility = Mobility::kNever;
   RegisterEntityKind(pillar);
   EXPECT_THAT(ParametersOf(*KindOfTag("test_pillar")),
-              ElementsAre("radius", "height", "friction", "restitution", "colour"));
+              ElementsAre("radius", "height", "friction", "restitution", "colour", "mesh", "mesh_orientation"));
   EXPECT_FALSE(CanWait(*KindOfTag("test_pillar")));
   EntityKindDescription ball = Object("test_drum", BodyForm::kCylinder);
   ball.size = {0.1, 0.1, 0.2};
   ball.colour = 0x102030;
   RegisterEntityKind(ball);
   EXPECT_THAT(ParametersOf(*KindOfTag("test_drum")),
-              ElementsAre("mass", "friction", "restitution", "ground_friction", "colour"));
-  EXPECT_EQ(DescriptionOf(*KindOfTag("test_drum")).parameters.back().default_value, "#102030");
+              ElementsAre("mass", "friction", "restitution", "ground_friction", "colour", "mesh", "mesh_orientation"));
+  EXPECT_EQ(DescriptionOf(*KindOfTag("test_drum")).parameters[4].default_value, "#102030");
   EXPECT_THAT(AttributesOf(*KindOfTag("test_drum")), ElementsAre("colour"));
 }
 
@@ -175,6 +176,7 @@ TEST(EntityKinds, ThatContradictThemselvesAreRefusedByName)
   EXPECT_THAT(changed([](Row& row) { row.beacon_height_m = 0.1; }), HasSubstr("a beacon is for robots with LEDs"));
   EXPECT_THAT(changed([](Row& row) { row.proximity.emplace(); }), HasSubstr("0 proximity sensors"));
   EXPECT_THAT(changed([](Row& row) { row.mesh = {{.paint = MeshPart::Paint::kLed}}; }), HasSubstr("there are 0"));
+  EXPECT_THAT(changed([](Row& row) { row.mesh = {{.form = MeshPart::Form::kFile}}; }), HasSubstr("needs a file"));
   EXPECT_THAT(changed([](Row& row) { row.attributes = {{"mood", 0, 0, ""}}; }), HasSubstr("'mood' has 0 slots"));
   EXPECT_THAT(changed(
                   [](Row& row) {

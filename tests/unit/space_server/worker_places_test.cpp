@@ -12,6 +12,7 @@ namespace
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 const WorkerPlaces& Places()
 {
@@ -62,6 +63,56 @@ TEST(WorkerPlaces, RefuseWhatIsNotThere)
   EXPECT_THAT(MovesOf("drain", "here"), HasSubstr("the space server is at 'here'"));
   EXPECT_THAT(MovesOf(WorkerPlaces(), "move-host", "0"), HasSubstr("no process of this run can be moved"));
   EXPECT_THROW(WorkerPlaces({}, {"engine"}), std::invalid_argument);
+}
+
+std::string HostsAfter(const WorkerPlaces& places, double more)
+{
+  ControlRequestMessage request = Request("hosts", "");
+  request.numbers = {more};
+  std::string text;
+  for (const std::string& machine : places.ReadHosts(request, 10)) text += machine + " ";
+  return text;
+}
+
+TEST(WorkerPlaces, OfferedMachinesAreUsedUntilTheyGo)
+{
+  WorkerPlaces places = Places();
+  EXPECT_TRUE(places.Offer("gamma", "host:1"));
+  EXPECT_FALSE(places.Offer("gamma", "host:1"));
+  EXPECT_THROW(places.Offer("gamma", "host:2"), std::invalid_argument);
+  EXPECT_THROW(places.Offer("alpha", "host:2"), std::invalid_argument);
+  EXPECT_THROW(places.Offer("a b", "host:2"), std::invalid_argument);
+  EXPECT_THROW(WorkerPlaces().Offer("gamma", "host:1"), std::invalid_argument);
+  EXPECT_EQ(MovesOf(places, "move-host", "1 to gamma"), "controller host 1 > gamma; ");
+  EXPECT_EQ(places.Text(),
+            "here: space server, visualiser 'x=y'; alpha: controller host 0, engine 'a to b', engine 'ground'; beta: "
+            "controller host 1; gamma (offered by host:1): nobody");
+
+  // New controller hosts go where somebody offers a machine.
+  EXPECT_TRUE(places.Offer("delta", "host:3"));
+  EXPECT_EQ(HostsAfter(places, 3), "alpha beta delta gamma delta ");
+  EXPECT_EQ(places.Gone("host:3"), "delta");
+  EXPECT_EQ(places.Gone("host:3"), std::nullopt);
+  EXPECT_EQ(HostsAfter(places, 1), "alpha beta gamma ");
+  EXPECT_THAT(MovesOf(places, "move-host", "1 to delta"), HasSubstr("controller_host --offer NAME"));
+
+  places.Put({"controller host 1", "gamma"});
+  EXPECT_THROW(places.Withdraw("gamma", "host:9"), std::invalid_argument);
+  const auto moves = places.Withdraw("gamma", "host:1");
+  ASSERT_EQ(moves.size(), 1U);
+  EXPECT_EQ(moves[0].worker + " > " + moves[0].machine, "controller host 1 > beta");
+  EXPECT_THAT(places.Text(), Not(HasSubstr("gamma")));
+  EXPECT_EQ(HostsAfter(places, 1), "alpha gamma here ");
+  // Asked again of a space server that knows nothing of the offer.
+  EXPECT_EQ(places.Withdraw("gamma", "host:1").size(), 1U);
+}
+
+// They write files in the folder of the run.
+TEST(WorkerPlaces, VisualisersDoNotGoToOfferedMachines)
+{
+  WorkerPlaces places({"here", "alpha"}, {"space server=here", "visualiser 'v'=alpha", "controller host 0=alpha"});
+  EXPECT_TRUE(places.Offer("gamma", "host:1"));
+  EXPECT_EQ(MovesOf(places, "drain", "alpha"), "controller host 0 > gamma; visualiser 'v' > here; ");
 }
 
 // Two workers are at beta or here each; those of alpha go where the fewest are.

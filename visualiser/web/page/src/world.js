@@ -23,6 +23,7 @@ export class World {
     this.engineOf = message.entities.engine;
     this.hostOf = message.entities.host;
     this.controllerOf = message.entities.controller;
+    this.meshes = message.meshes ?? []; // of the bodies
     this.bodyOf = new Map(this.bodies.map((body) => [body.entity, body]));
 
     this.movable = []; // entity of each place in a frame

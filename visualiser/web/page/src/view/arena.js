@@ -2,6 +2,7 @@
 // lights, sounds and patches may come, go and move.
 import * as THREE from "three";
 import { floorPicture } from "./floor_picture.js";
+import { isPainted, meshGeometry } from "./object_mesh.js";
 import { gridStep, isBoundaryWall, paint } from "./look.js";
 import { BoundaryWall } from "./walls.js";
 
@@ -108,6 +109,7 @@ export class Arena {
 
   make({ role, form, based }, body, layer) {
     const [x, y, z] = body.size;
+    if (body.mesh !== undefined) return this.makeMesh(form, body);
     if (form === "box" && based) return this.solid(new THREE.BoxGeometry(x, y, z).translate(0, 0, z / 2), paint(body.colour));
     switch (form === "none" ? role : form) {
       case "box":
@@ -127,6 +129,13 @@ export class Arena {
       default:
         return null;
     }
+  }
+
+  makeMesh(form, { mesh, size: [x, y, z], colour }) {
+    const model = this.world.meshes[mesh];
+    const painted = isPainted(model);
+    const geometry = meshGeometry(model).scale(x, form === "cylinder" ? x : y, z);
+    return this.solid(geometry, painted ? 0xffffff : paint(colour), { vertexColors: painted });
   }
 
   makeBox(body) {
@@ -229,7 +238,7 @@ export class Arena {
       const { role } = this.world.look(entity);
       const shines = role === "light" || role === "sound";
       const shownAsIs = shines || object.material.map;
-      if (role !== "terrain") object.material.color.set(shownAsIs ? colours[i] : paint(colours[i]));
+      if (!object.material.vertexColors) object.material.color.set(shownAsIs ? colours[i] : paint(colours[i]));
       if (role !== "light") return;
       const [glow] = object.children;
       glow.material.color.set(colours[i]);

@@ -42,10 +42,11 @@ class Builder {
 function buildLevel(meshes, parts, level, tint) {
   const builders = { body: new Builder(), leds: new Builder(), clear: new Builder() };
   const colours = meshes.materials.map((material) => new THREE.Color(material.tint && tint !== undefined ? paint(tint) : material.colour));
+  const own = new THREE.Color();
   const point = new THREE.Vector3();
   const normal = new THREE.Vector3();
   for (const { model, matrix } of parts) {
-    const { positions, normals, materials, shades, index_steps: steps } = meshes.models[model].levels[level];
+    const { positions, normals, materials, shades, index_steps: steps, colours: painted } = meshes.models[model].levels[level];
     const place = new THREE.Matrix4().fromArray(matrix);
     const turn = new THREE.Matrix3().getNormalMatrix(place);
     let i = 0;
@@ -54,7 +55,7 @@ function buildLevel(meshes, parts, level, tint) {
       const material = meshes.materials[materials[i]];
       point.fromArray(positions, 3 * i).applyMatrix4(place);
       normal.fromArray(normals, 3 * i).applyMatrix3(turn).normalize();
-      const colour = colours[materials[i]].clone().multiplyScalar(shades[i]);
+      const colour = (material.painted ? own.set(painted[i]) : colours[materials[i]]).clone().multiplyScalar(shades[i]);
       const light = material.light;
       const builder = light >= 0 ? builders.leds : material.opacity < 1 && material.name === "rotor" ? builders.clear : builders.body;
       builder.add(point.toArray(), normal.toArray(), colour.toArray(), light < 0 ? null : light === BEACON_LIGHT ? BEACON : light);

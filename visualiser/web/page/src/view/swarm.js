@@ -3,6 +3,7 @@
 import * as THREE from "three";
 import { extentOf, paint } from "./look.js";
 import { makeModels } from "./models.js";
+import { isPainted, meshGeometry } from "./object_mesh.js";
 import { LedTexture, ledMaterial } from "./leds.js";
 import { Flag } from "../protocol.js";
 
@@ -122,7 +123,7 @@ export class Swarm {
     this.makeGlows();
   }
 
-  // Preys, blocks and objects of users that move: unit solids, scaled.
+  // Preys, blocks and objects of users that move: unit solids or meshes, scaled.
   makeThings(Material, finish) {
     const { world } = this;
     const unit = {
@@ -131,19 +132,23 @@ export class Swarm {
       "based box": new THREE.BoxGeometry(1, 1, 1).translate(0, 0, 0.5),
     };
     const formOf = ({ role, form, based }) => (role === "robot" ? role : form === "box" && based ? "based box" : form);
-    return Object.keys(unit).flatMap((form) => {
-      const entities = world.movable.filter((entity) => formOf(world.look(entity)) === form);
+    const shapeOf = (entity) => world.bodyOf.get(entity)?.mesh ?? formOf(world.look(entity));
+    return [...Object.keys(unit), ...world.meshes.keys()].flatMap((shape) => {
+      const entities = world.movable.filter((entity) => shapeOf(entity) === shape);
       if (entities.length === 0) return [];
-      const mesh = new THREE.InstancedMesh(unit[form], new Material(finish), entities.length);
+      const model = world.meshes[shape];
+      const painted = model !== undefined && isPainted(model);
+      const material = new Material({ ...finish, vertexColors: painted });
+      const mesh = new THREE.InstancedMesh(model ? meshGeometry(model) : unit[shape], material, entities.length);
       mesh.instanceColor = new THREE.InstancedBufferAttribute(new Float32Array(3 * entities.length), 3);
       mesh.frustumCulled = false;
       mesh.castShadow = mesh.receiveShadow = true;
       this.group.add(mesh);
       const sizes = entities.map((entity) => {
         const [x, y, z] = world.bodyOf.get(entity).size;
-        return form === "cylinder" ? [x, x, z] : [x, y, z];
+        return world.look(entities[0]).form === "cylinder" ? [x, x, z] : [x, y, z];
       });
-      return [{ mesh, sizes, slots: entities.map((entity) => world.slots[entity]) }];
+      return [{ mesh, sizes, painted, slots: entities.map((entity) => world.slots[entity]) }];
     });
   }
 
@@ -191,10 +196,10 @@ export class Swarm {
   updateColours(frame) {
     this.leds.update(frame, this.world.slots);
     const colour = new THREE.Color();
-    for (const { mesh, slots } of this.things) {
+    for (const { mesh, slots, painted } of this.things) {
       slots.forEach((slot, i) => {
         const [r, g, b] = frame.colours.subarray(4 * slot, 4 * slot + 3);
-        mesh.setColorAt(i, colour.set(paint((r << 16) | (g << 8) | b)));
+        mesh.setColorAt(i, colour.set(painted ? 0xffffff : paint((r << 16) | (g << 8) | b)));
       });
       mesh.instanceColor.needsUpdate = true;
     }

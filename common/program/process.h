@@ -1,5 +1,5 @@
 // Starting the programs of a cluster and hearing of their ends. ProcessSpawner is a seam: tests put scripts or failures
-// behind it. Used by the launcher's one thread.
+// behind it. Used by the launcher, and by those who offer a machine: by one thread, which lives as long as its process.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 #include <sys/types.h>
 
 #include "common/activity/activity.h"
-#include "launcher/processes/file_descriptor.h"
+#include "common/program/file_descriptor.h"
 
 namespace swarmanoid
 {
@@ -60,8 +60,8 @@ public:
   virtual void Signal(const SpawnedProcess& process, int signal) = 0;
 };
 
-// Real processes: each leads a process group of its own and is killed by the kernel when the launcher
-// ends.
+// Real processes: each leads a process group of its own and is killed by the kernel when whoever started it ends. They
+// inherit no descriptors but those that are given here.
 class SystemSpawner : public ProcessSpawner
 {
 public:

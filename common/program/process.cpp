@@ -1,4 +1,4 @@
-#include "launcher/processes/process.h"
+#include "common/program/process.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -78,6 +78,8 @@ int BecomeChild(pid_t launcher, const cpu_set_t* cores, int input, int output, i
   const int nothing = input >= 0 ? input : open("/dev/null", O_RDONLY);
   if (nothing < 0 || dup2(nothing, 0) < 0 || dup2(output, 1) < 0 || dup2(errors, 2) < 0) return errno;
   if (nothing > 2) close(nothing);
+  // Sockets of a library, for one, which would be taken as long as the child lives.
+  close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
   if (page >= 0) fcntl(page, F_SETFD, 0);
   execvpe(arguments[0], arguments, environment);
   return errno;

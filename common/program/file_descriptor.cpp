@@ -1,4 +1,4 @@
-#include "launcher/processes/file_descriptor.h"
+#include "common/program/file_descriptor.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

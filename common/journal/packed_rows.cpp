@@ -1,0 +1,143 @@
+#include "common/journal/packed_rows.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr std::size_t kSide = 8;  // numbers of a row that are packed together: a line of the cache
+constexpr std::size_t kMostNumbers = std::size_t{1} << 20U;  // of the ticks that are packed together
+using Line = std::array<std::uint64_t, kSide>;
+
+// Small differences of either sign as small numbers.
+std::uint64_t Folded(std::uint64_t difference) { return (difference << 1U) ^ (0 - (difference >> 63U)); }
+std::uint64_t Unfolded(std::uint64_t folded) { return (folded >> 1U) ^ (0 - (folded & 1U)); }
+
+// Of the number at `at` in the row of a tick.
+double Expected(const double* at, std::size_t tick, std::size_t row, bool moves)
+{
+  if (tick == 0) return 0;
+  const double before = *(at - row);
+  if (!moves || tick == 1) return before;
+  return before + (before - *(at - 2 * row));
+}
+
+// The same for a line of numbers of which all move, or none.
+template <bool kMoves>
+void FoldLine(const double* at, std::size_t row, Line& folded)
+{
+  const double* before = at - row;
+  const double* before_that = kMoves ? before - row : before;
+  for (std::size_t k = 0; k < kSide; ++k)
+  {
+    double expected = before[k];
+    if constexpr (kMoves) expected += before[k] - before_that[k];
+    folded[k] = Folded(std::bit_cast<std::uint64_t>(at[k]) - std::bit_cast<std::uint64_t>(expected));
+  }
+}
+
+}  // namespace
+
+std::size_t TicksTogether(std::size_t row) { return row * kSide <= kMostNumbers ? kSide : 1; }
+
+void RowPacker::Begin(std::size_t row, std::size_t moving)
+{
+  row_ = row;
+  moving_ = moving;
+  together_ = TicksTogether(row);
+  packed_ = waiting_ = used_ = 0;
+  widths_.clear();
+  recent_.resize((kBefore + together_) * row);
+}
+
+void RowPacker::Added()
+{
+  if (++waiting_ == together_) Pack();
+}
+
+void RowPacker::Finish()
+{
+  if (waiting_ > 0) Pack();
+}
+
+void RowPacker::Pack()
+{
+  // All eight bytes of each number are written, and what is not needed of them is written over.
+  const std::size_t most = used_ + (waiting_ * row_ + 1) * sizeof(std::uint64_t);
+  if (room_.size() < most) room_.resize(std::max(most, room_.size() + room_.size() / 2));
+  char* out = room_.data() + used_;
+  std::array<Line, kSide> lines{};  // of the ticks
+  for (std::size_t first = 0; first < row_; first += kSide)
+  {
+    const std::size_t count = std::min(kSide, row_ - first);
+    const bool all_move = first + kSide <= moving_;
+    const bool none_moves = first >= moving_;
+    Line any{};
+    for (std::size_t tick = 0; tick < waiting_; ++tick)
+    {
+      const double* at = recent_.data() + (kBefore + tick) * row_ + first;
+      Line& folded = lines[tick];
+      if (count == kSide && packed_ + tick > 1 && all_move)
+        FoldLine<true>(at, row_, folded);
+      else if (count == kSide && packed_ + tick > 1 && none_moves)
+        FoldLine<false>(at, row_, folded);
+      else
+        for (std::size_t k = 0; k < count; ++k)
+          folded[k] = Folded(std::bit_cast<std::uint64_t>(at[k]) -
+                             std::bit_cast<std::uint64_t>(Expected(at + k, packed_ + tick, row_, first + k < moving_)));
+      for (std::size_t k = 0; k < kSide; ++k) any[k] |= folded[k];
+    }
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      const std::size_t width = (static_cast<std::size_t>(std::bit_width(any[k])) + 7) / 8;
+      widths_.push_back(static_cast<char>(width));
+      if (width == 0) continue;
+      for (std::size_t tick = 0; tick < waiting_; ++tick, out += width)
+        std::memcpy(out, &lines[tick][k], sizeof(std::uint64_t));
+    }
+  }
+  used_ = static_cast<std::size_t>(out - room_.data());
+  // Where one row alone was packed, the one before stays.
+  std::copy_n(recent_.data() + waiting_ * row_, kBefore * row_, recent_.data());
+  packed_ += waiting_;
+  waiting_ = 0;
+}
+
+std::vector<double> UnpackRows(std::span<const char> widths, std::span<const char> bytes, std::size_t ticks,
+                               std::size_t row, std::size_t moving)
+{
+  const auto damaged = [] { return std::runtime_error("journal: the rows of a block are not as long as it says"); };
+  const std::size_t together = TicksTogether(row);
+  if (widths.size() != (ticks + together - 1) / together * row) throw damaged();
+  std::vector<double> rows(ticks * row);
+  auto width = widths.begin();
+  const char* in = bytes.data();
+  std::size_t left = bytes.size();
+  for (std::size_t from = 0; from < ticks; from += together)
+    for (std::size_t k = 0; k < row; ++k, ++width)
+    {
+      const auto size = static_cast<std::size_t>(static_cast<unsigned char>(*width));
+      const std::size_t until = std::min(ticks, from + together);
+      if (size > sizeof(double) || size * (until - from) > left) throw damaged();
+      left -= size * (until - from);
+      for (std::size_t tick = from; tick < until; ++tick, in += size)
+      {
+        std::uint64_t folded = 0;
+        std::memcpy(&folded, in, size);
+        double* at = rows.data() + tick * row + k;
+        const auto expected = std::bit_cast<std::uint64_t>(Expected(at, tick, row, k < moving));
+        *at = std::bit_cast<double>(expected + Unfolded(folded));
+      }
+    }
+  if (left != 0) throw damaged();
+  return rows;
+}
+
+}  // namespace swarmanoid

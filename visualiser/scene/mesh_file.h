@@ -1,0 +1,32 @@
+// Meshes of users: glTF 2.0 (.glb, .gltf), Wavefront (.obj) and STL, read by Assimp. Positions, normals and base
+// colours; textures, transparency and animations are left out. Renderers reach them by kind_model.h and object_model.h.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "visualiser/scene/mesh.h"
+
+namespace swarmanoid
+{
+
+inline constexpr std::size_t kMostMeshBytes = std::size_t{64} << 20U;  // of the file and those that it names
+inline constexpr std::size_t kMostMeshTriangles = 1'000'000;
+inline constexpr std::size_t kMostDrawnTriangles = 20'000;  // finer meshes are simplified
+
+struct MeshFile
+{
+  // In metres, z up, x to the front. glTF's y is up and its z to the front (its specification, 3.4); the others are
+  // taken as they are. Material::kPainted, or Material::kTint of a file without colours.
+  std::array<Mesh, kLevels> levels;
+  Eigen::AlignedBox3f box;
+};
+
+// Throws FileError with the reason, without the path. Any thread.
+MeshFile ReadMeshFile(const std::string& path);
+// The same, once in a process for each path.
+std::shared_ptr<const MeshFile> LoadMeshFile(const std::string& path);
+
+}  // namespace swarmanoid

@@ -1,0 +1,79 @@
+#include "visualiser/scene/object_model.h"
+
+#include <fmt/format.h>
+
+#include "common/configuration/regular_file.h"
+#include "common/experiment/mesh_files.h"
+#include "common/math/elementary.h"
+#include "visualiser/scene/mesh_builder.h"
+#include "visualiser/scene/mesh_file.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using Eigen::Vector3f;
+
+constexpr float kThinnest = 1e-6F;  // m: what is flat cannot be stretched
+
+// Of size 1, as Scene and pages scale it.
+Eigen::AlignedBox3f BodyOfSizeOne(const EntityKindDescription& kind)
+{
+  const float half = kind.form == BodyForm::kCylinder ? 1 : 0.5F;
+  const float low = kind.origin == BodyOrigin::kBase ? 0 : -0.5F;
+  return {Vector3f(-half, -half, low), Vector3f(half, half, low + 1)};
+}
+
+Vector3 OrientationIn(const EntityConfiguration& entity)
+{
+  return entity.tree.GetVector3("mesh_orientation", Vector3::Zero());
+}
+
+}  // namespace
+
+std::string ObjectModelName(const EntityConfiguration& entity, const std::string& experiment_folder)
+{
+  const std::string path = MeshOfEntity(entity, experiment_folder);
+  if (path.empty()) return path;
+  const EntityKindDescription& kind = DescriptionOf(entity.kind);
+  const Vector3 turned = OrientationIn(entity);
+  return fmt::format("{} {} {} {} {} {}", static_cast<int>(kind.form), static_cast<int>(kind.origin), turned.x(),
+                     turned.y(), turned.z(), path);
+}
+
+Model ObjectModel(const EntityConfiguration& entity, const std::string& experiment_folder)
+{
+  const std::string path = MeshOfEntity(entity, experiment_folder);
+  std::shared_ptr<const MeshFile> file;
+  try
+  {
+    file = LoadMeshFile(path);
+  }
+  catch (const FileError& error)
+  {
+    throw ConfigurationError(entity.tree.ValueLocation("mesh"), fmt::format("'{}': {}", path, error.what()));
+  }
+  const Vector3 degrees = OrientationIn(entity);
+  const Eigen::Quaternionf turn =
+      QuaternionFromEuler({DegreesToRadians(degrees.x()), DegreesToRadians(degrees.y()), DegreesToRadians(degrees.z())})
+          .cast<float>();
+  Eigen::AlignedBox3f box;
+  for (const MeshVertex& vertex : file->levels[0].vertices) box.extend(turn * vertex.position);
+  const Eigen::AlignedBox3f body = BodyOfSizeOne(DescriptionOf(entity.kind));
+  const Vector3f stretch = body.sizes().cwiseQuotient(box.sizes().cwiseMax(kThinnest));
+  const Eigen::Affine3f place = Eigen::Translation3f(body.center()) * Eigen::Scaling(stretch) * turn *
+                                Eigen::Translation3f(-(turn.conjugate() * box.center()));
+  Model model;
+  model.name = ObjectModelName(entity, experiment_folder);
+  for (std::size_t level = 0; level < kLevels; ++level)
+  {
+    MeshBuilder builder(0);
+    builder.Append(file->levels[level], place, Material::kTint);
+    model.levels[level] = builder.Take();
+  }
+  Measure(model);
+  return model;
+}
+
+}  // namespace swarmanoid
