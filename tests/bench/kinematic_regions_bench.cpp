@@ -3,10 +3,6 @@
 // square metre, regions (1, 2 halves, 4 quadrants).
 #include <benchmark/benchmark.h>
 
-#include <ctime>
-#include <memory>
-#include <thread>
-
 #include "kinematic_crowd.h"
 #include "tests/unit/kinematics2d/region_hub.h"
 
@@ -17,13 +13,6 @@ namespace
 
 constexpr std::uint32_t kWarmUp = 30;  // ticks
 constexpr std::uint32_t kTicks = 20;   // of an iteration
-
-double ThreadSeconds()
-{
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 std::vector<std::uint8_t> Cut(const KinematicWorld& world, unsigned regions)
 {
@@ -44,47 +33,28 @@ void AdvanceRegions(benchmark::State& state)
   const auto count = static_cast<std::uint32_t>(state.range(0));
   const auto density = static_cast<double>(state.range(1));
   const auto regions = static_cast<unsigned>(state.range(2));
-  Hub hub(regions);
-  std::vector<std::unique_ptr<HubExchange>> exchanges;
-  std::vector<KinematicWorld> worlds;
-  for (unsigned region = 0; region < regions; ++region)
-  {
-    exchanges.push_back(std::make_unique<HubExchange>(hub, region));
-    worlds.push_back(Crowd(count, density, 1));
-  }
+  KinematicWorld world = Crowd(count, density, 1);
+  HubTeam team(regions, [&] { return Crowd(count, density, 1); });
   if (regions > 1)
-    for (unsigned region = 0; region < regions; ++region)
-      worlds[region].BecomeRegion(region, Cut(worlds[region], regions), *exchanges[region]);
-  // Returns the processor time of all regions (s).
+  {
+    world.Divide(team);
+    world.MoveCuts(Cut(world, regions));
+  }
+  // Returns the processor time of all regions, and of the world that is divided (s).
   std::uint32_t tick = 0;
   const auto advance = [&](std::uint32_t ticks)
   {
-    std::vector<double> seconds(regions);
-    std::vector<std::thread> threads;
-    for (unsigned region = 0; region < regions; ++region)
-      threads.emplace_back(
-          [&, region]
-          {
-            KinematicWorld& world = worlds[region];
-            for (std::uint32_t k = tick; k < tick + ticks; ++k)
-            {
-              SteerEach(count, k,
-                        [&](std::uint32_t number, const Twist& twist)
-                        {
-                          const std::uint32_t body = regions > 1 ? world.FindBody(number) : number;
-                          if (body < world.BodyCount()) world.SetTwist(body, twist);
-                        });
-              const double start = ThreadSeconds();
-              world.Advance(kTick, 1);
-              seconds[region] += ThreadSeconds() - start;
-            }
-          });
-    for (std::thread& thread : threads) thread.join();
-    tick += ticks;
-    double all = 0;
-    for (const double of_one : seconds) all += of_one;
-    return all;
+    double seconds = 0;
+    for (const std::uint32_t end = tick + ticks; tick < end; ++tick)
+    {
+      SteerEach(count, tick, [&](std::uint32_t body, const Twist& twist) { world.SetTwist(body, twist); });
+      const double start = HubTeam::ThreadSeconds();
+      world.Advance(kTick, 1);
+      seconds += HubTeam::ThreadSeconds() - start + (regions > 1 ? team.Seconds() : 0);
+    }
+    return seconds;
   };
+  const Hub& hub = team.Exchanges();
 
   advance(kWarmUp);
   const std::uint64_t bytes = hub.Bytes();
@@ -94,10 +64,11 @@ void AdvanceRegions(benchmark::State& state)
   const double ticks = tick - start;
   const double border = (regions == 4 ? 2 : regions == 2 ? 1 : 0) * std::sqrt(count / density);
   std::size_t held = 0;
-  for (const KinematicWorld& world : worlds) held += world.BodyCount();
+  for (unsigned region = 0; region < regions; ++region) held += regions > 1 ? team.World(region).BodyCount() : count;
   const double bytes_a_tick = static_cast<double>(hub.Bytes() - bytes) / ticks;
   state.counters["bytes_per_border_metre"] = border > 0 ? bytes_a_tick / border : 0;
   state.counters["exchanges"] = static_cast<double>(hub.Rounds() - rounds) / ticks;
+  state.counters["task_bytes_per_robot"] = static_cast<double>(team.TaskBytes()) / count;
   state.counters["held_per_robot"] = static_cast<double>(held) / count;
 }
 BENCHMARK(AdvanceRegions)

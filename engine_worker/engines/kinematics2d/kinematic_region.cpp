@@ -49,24 +49,19 @@ void MoveRuns(const Runs& runs, std::size_t size, const T& behind, std::vector<T
 
 }  // namespace
 
-void KinematicWorld::BecomeRegion(unsigned region, std::span<const std::uint8_t> region_of_block,
-                                  RegionExchange& exchange, unsigned halo)
+void KinematicWorld::BecomeRegion(unsigned region, RegionExchange& exchange, unsigned halo)
 {
-  region_ = std::make_unique<Region>(*this, region, region_of_block, exchange, halo);
+  region_ = std::make_unique<Region>(*this, region, exchange, halo);
 }
 
-void KinematicWorld::MoveCuts(std::span<const std::uint8_t> region_of_block)
+void CheckCuts(const BroadPhase& broad, std::span<const std::uint8_t> region_of_block, unsigned regions)
 {
-  region_->SetCuts(*this, region_of_block);
-}
-
-std::uint32_t KinematicWorld::NumberInWhole(std::uint32_t body) const { return region_->NumberInWhole(body); }
-
-bool KinematicWorld::IsOwn(std::uint32_t body) const { return region_->IsOwn(body); }
-
-std::uint32_t KinematicWorld::FindBody(std::uint32_t number_in_whole) const
-{
-  return std::min(region_->FindBody(number_in_whole), static_cast<std::uint32_t>(count_));
+  if (region_of_block.size() != broad.BlockCount())
+    throw std::runtime_error("cuts of a plane: there must be a region for each of its " +
+                             std::to_string(broad.BlockCount()) + " blocks");
+  for (const std::uint8_t region : region_of_block)
+    if (region >= regions)
+      throw std::runtime_error("cuts of a plane: there is no region " + std::to_string(region));
 }
 
 void KinematicWorld::Region::Refuse(const char* what)
@@ -74,12 +69,11 @@ void KinematicWorld::Region::Refuse(const char* what)
   throw std::runtime_error(std::string("the regions of a plane do not agree: ") + what);
 }
 
-KinematicWorld::Region::Region(KinematicWorld& whole, unsigned number, std::span<const std::uint8_t> region_of_block,
-                               RegionExchange& exchange, unsigned halo)
+KinematicWorld::Region::Region(KinematicWorld& whole, unsigned number, RegionExchange& exchange, unsigned halo)
     : number_(number), halo_(halo), exchange_(exchange)
 {
   const unsigned regions = exchange.RegionCount();
-  if (regions < 1 || regions > RegionExchange::kMostRegions || number >= regions)
+  if (regions < 1 || regions > kMostRegions || number >= regions)
     throw std::runtime_error("a plane can be cut into 1 to 32 regions, numbered from 0");
   others_ = static_cast<Regions>((std::uint64_t{1} << regions) - 1) & ~Bit(number);
   out_.resize(regions);
@@ -88,17 +82,16 @@ KinematicWorld::Region::Region(KinematicWorld& whole, unsigned number, std::span
   numbers_.resize(whole.count_);
   std::iota(numbers_.begin(), numbers_.end(), 0U);
   is_own_.assign(whole.count_, 0);
-  SetCuts(whole, region_of_block);
+  SetCuts(whole, std::vector<std::uint8_t>(whole.broad_.BlockCount(), 0));
   FindCells(whole);
-  FindCommon(whole);
+  arrived_.clear();
+  TakeArrived(whole);
 }
 
 void KinematicWorld::Region::SetCuts(KinematicWorld& world, std::span<const std::uint8_t> region_of_block)
 {
   const BroadPhase& broad = world.broad_;
-  if (region_of_block.size() != broad.BlockCount())
-    throw std::runtime_error("cuts of a plane: there must be a region for each of its " +
-                             std::to_string(broad.BlockCount()) + " blocks");
+  CheckCuts(broad, region_of_block, exchange_.RegionCount());
   const PlaneCells<double>& cells = broad.Cells();
   owner_.assign(cells.Count(), 0);
   holders_.assign(cells.Count(), 0);
@@ -106,8 +99,6 @@ void KinematicWorld::Region::SetCuts(KinematicWorld& world, std::span<const std:
   for (std::uint32_t block = 0; block < region_of_block.size(); ++block)
   {
     const std::uint8_t region = region_of_block[block];
-    if (region >= exchange_.RegionCount())
-      throw std::runtime_error("cuts of a plane: there is no region " + std::to_string(region));
     if (region == number_) world.blocks_.push_back(block);
     broad.ForEachRowOf(block,
                        [&](std::uint32_t first, std::uint32_t last)
@@ -193,26 +184,9 @@ void KinematicWorld::Region::ShareMaxima(std::initializer_list<double*> numbers)
       });
 }
 
-void KinematicWorld::Region::ShareGrips(KinematicWorld& world)
+void KinematicWorld::Region::SetGrips(std::vector<Grip> grips)
 {
-  grips_.clear();
-  for (Grip grip : world.grips_)
-  {
-    if (!IsOwn(grip.body)) continue;
-    grip.body = numbers_[grip.body];
-    grip.prey = numbers_[grip.prey];
-    grips_.push_back(grip);
-  }
-  ForEachOther([&](unsigned region) { out_[region].PutArray(grips_); });
-  Swap();
-  ForEachOther(
-      [&](unsigned region)
-      {
-        const std::vector<Grip> theirs = ByteReader(in_[region]).GetArray<Grip>();
-        grips_.insert(grips_.end(), theirs.begin(), theirs.end());
-      });
-  std::sort(grips_.begin(), grips_.end(),
-            [](const Grip& a, const Grip& b) { return std::tie(a.prey, a.body) < std::tie(b.prey, b.body); });
+  grips_ = std::move(grips);
   grouped_.clear();
   for (const Grip& grip : grips_) grouped_.insert(grouped_.end(), {grip.body, grip.prey});
   std::sort(grouped_.begin(), grouped_.end());
@@ -221,7 +195,6 @@ void KinematicWorld::Region::ShareGrips(KinematicWorld& world)
 
 void KinematicWorld::Region::ShareBodies(KinematicWorld& world)
 {
-  const bool had_groups = !world.grips_.empty();
   FindCells(world);
   MarkEverywhere(world);
   gone_.clear();
@@ -230,16 +203,13 @@ void KinematicWorld::Region::ShareBodies(KinematicWorld& world)
     if (IsInner(body) || world.IsFollower(body)) continue;
     const Regions holders = IsOwn(body) ? HoldersOf(body) : 0;
     if ((holders & Bit(number_)) == 0) gone_.push_back(body);
-    ForEachBit(holders & others_, [&](unsigned region) { PutBody(world, body, out_[region]); });
+    ForEachBit(holders & others_, [&](unsigned region) { PutBody(world, body, numbers_[body], out_[region]); });
   }
   Swap();
   ReadBodies(world);
-  const bool others = Merge(world);
-  if (others) Rearrange(world);
-  for (std::size_t k = 0; k < arrived_.size(); ++k) Settle(world, places_[k], arrived_[k]);
-  if (others) world.broad_.SetBodies(world.radius_);
-  FindCommon(world);
+  TakeArrived(world);
 
+  const bool had_groups = !world.grips_.empty();
   world.grips_.clear();
   for (Grip grip : grips_)
   {
@@ -248,17 +218,46 @@ void KinematicWorld::Region::ShareBodies(KinematicWorld& world)
     if (grip.body == kNobody || grip.prey == kNobody) Refuse("a body that grips or is gripped was not sent");
     world.grips_.push_back(grip);
   }
-  if (others || had_groups || !grips_.empty()) world.RebuildGroups();
+  if (had_groups || !grips_.empty()) world.RebuildGroups();
 }
 
-void KinematicWorld::Region::PutBody(const KinematicWorld& world, std::uint32_t body, ByteWriter& message) const
+// Who holds which body from now on.
+void KinematicWorld::Region::TakeArrived(KinematicWorld& world)
+{
+  const bool others = Merge(world);
+  if (others) Rearrange(world);
+  for (std::size_t k = 0; k < arrived_.size(); ++k) Settle(world, places_[k], arrived_[k]);
+  if (others)
+  {
+    world.broad_.SetBodies(world.radius_);
+    world.grips_.clear();
+    world.RebuildGroups();
+  }
+  FindCommon(world);
+}
+
+void KinematicWorld::Region::BeginAgain(KinematicWorld& world, ByteReader& bodies)
+{
+  for (ByteWriter& message : out_) message.Clear();
+  gone_.clear();
+  for (std::uint32_t body = 0; body < world.count_; ++body)
+    if (!world.IsFollower(body)) gone_.push_back(body);
+  arrived_.clear();
+  ReadBodies(world, bodies);
+  SortArrived();
+  FindCells(world);
+  TakeArrived(world);
+}
+
+void KinematicWorld::Region::PutBody(const KinematicWorld& world, std::uint32_t body, std::uint32_t number,
+                                     ByteWriter& message)
 {
   const auto turret = std::lower_bound(world.turrets_.begin(), world.turrets_.end(), body,
                                        [](const Turret& t, std::uint32_t b) { return t.body < b; });
   const double rate = turret != world.turrets_.end() && turret->body == body ? turret->rate : 0;
   const double angle = world.turret_angle_[body];
   const bool has_turret = rate != 0 || angle != 0;
-  message.Put(Arrival{numbers_[body], world.model_[body] & 0x3fffffffU, world.present_[body] != 0, has_turret,
+  message.Put(Arrival{number, world.model_[body] & 0x3fffffffU, world.present_[body] != 0, has_turret,
                       world.now_.Get(body), world.twists_.Get(body)});
   if (has_turret) message.Put(TurretState{angle, rate});
   if (world.keeps_travel_) message.Put(Travel{world.travel_forward_[body], world.travel_turn_[body]});
@@ -271,15 +270,26 @@ void KinematicWorld::Region::ReadBodies(const KinematicWorld& world)
       [&](unsigned region)
       {
         ByteReader message(in_[region]);
-        while (!message.AtEnd())
-        {
-          ArrivedBody& arrived = arrived_.emplace_back();
-          arrived.body = message.Get<Arrival>();
-          if (arrived.body.has_turret) arrived.turret = message.Get<TurretState>();
-          if (world.keeps_travel_) arrived.travel = message.Get<Travel>();
-          if (arrived.body.model >= world.models_.size()) Refuse("a body of an unknown model was sent");
-        }
+        ReadBodies(world, message);
       });
+  SortArrived();
+}
+
+// All that follow.
+void KinematicWorld::Region::ReadBodies(const KinematicWorld& world, ByteReader& message)
+{
+  while (!message.AtEnd())
+  {
+    ArrivedBody& arrived = arrived_.emplace_back();
+    arrived.body = message.Get<Arrival>();
+    if (arrived.body.has_turret) arrived.turret = message.Get<TurretState>();
+    if (world.keeps_travel_) arrived.travel = message.Get<Travel>();
+    if (arrived.body.model >= world.models_.size()) Refuse("a body of an unknown model was sent");
+  }
+}
+
+void KinematicWorld::Region::SortArrived()
+{
   std::sort(arrived_.begin(), arrived_.end(),
             [](const ArrivedBody& a, const ArrivedBody& b) { return a.body.number < b.body.number; });
 }

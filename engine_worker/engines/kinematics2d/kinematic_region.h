@@ -12,24 +12,31 @@
 #include <initializer_list>
 #include <map>
 
+#include "common/messages/regions.h"
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
-#include "engine_worker/engines/kinematics2d/region_exchange.h"
 
 namespace swarmanoid::kinematics2d
 {
+
+// Throws std::runtime_error for what is no cut of the plane into so many regions.
+void CheckCuts(const BroadPhase& broad, std::span<const std::uint8_t> region_of_block, unsigned regions);
 
 class KinematicWorld::Region final : public ContactSolver::Border
 {
 public:
   using Stamp = ContactSolver::Stamp;
 
-  Region(KinematicWorld& whole, unsigned number, std::span<const std::uint8_t> region_of_block,
-         RegionExchange& exchange, unsigned halo);
+  // It is told all about its bodies and the cuts by BeginAgain.
+  Region(KinematicWorld& whole, unsigned number, RegionExchange& exchange, unsigned halo);
 
   void SetCuts(KinematicWorld& world, std::span<const std::uint8_t> region_of_block);
 
-  // In this order in Advance. At its beginning the grips of own bodies, then the bodies, before each substep.
-  void ShareGrips(KinematicWorld& world);
+  // Those of all regions, by numbers in the whole world and in its order.
+  void SetGrips(std::vector<Grip> grips);
+  // From now on it computes those that follow, as PutBody wrote them, and holds no others.
+  void BeginAgain(KinematicWorld& world, ByteReader& bodies);
+
+  // In this order in Advance: before each substep the bodies.
   void ShareBodies(KinematicWorld& world);
   // Each number becomes the largest one of all regions.
   void ShareMaxima(std::initializer_list<double*> numbers);
@@ -50,6 +57,7 @@ public:
   std::uint32_t NumberInWhole(std::uint32_t body) const { return numbers_[body]; }
   std::uint32_t FindBody(std::uint32_t number_in_whole) const;
   bool IsOwn(std::uint32_t body) const { return is_own_[body] != 0; }
+  static void PutBody(const KinematicWorld& world, std::uint32_t body, std::uint32_t number, ByteWriter& message);
 
 private:
   using Regions = std::uint32_t;  // one bit each
@@ -123,8 +131,10 @@ private:
   void ForEachOther(const Act& act) const;
   void Swap();
   void FindCells(const KinematicWorld& world);
-  void PutBody(const KinematicWorld& world, std::uint32_t body, ByteWriter& message) const;
   void ReadBodies(const KinematicWorld& world);
+  void ReadBodies(const KinematicWorld& world, ByteReader& message);
+  void SortArrived();
+  void TakeArrived(KinematicWorld& world);
   void MarkEverywhere(const KinematicWorld& world);
   bool Merge(const KinematicWorld& world);
   void FindRuns(std::uint32_t count);

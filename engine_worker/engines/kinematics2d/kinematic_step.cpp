@@ -6,6 +6,7 @@
 
 #include "common/math/elementary.h"
 #include "common/math/lanes.h"
+#include "engine_worker/engines/kinematics2d/kinematic_division.h"
 #include "engine_worker/engines/kinematics2d/kinematic_limits.h"
 #include "engine_worker/engines/kinematics2d/kinematic_region.h"
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
@@ -14,11 +15,8 @@ namespace swarmanoid::kinematics2d
 {
 void KinematicWorld::Advance(double seconds, int steps)
 {
-  if (region_)
-  {
-    region_->ShareGrips(*this);
-    region_->ShareBodies(*this);
-  }
+  if (division_) return division_->Advance(*this, seconds, steps);
+  if (region_) region_->ShareBodies(*this);
   if (keeps_travel_)
   {
     std::fill(travel_forward_.begin(), travel_forward_.end(), 0.0);

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "common/math/elementary.h"
+#include "engine_worker/engines/kinematics2d/kinematic_division.h"
 #include "engine_worker/engines/kinematics2d/kinematic_limits.h"
 #include "engine_worker/engines/kinematics2d/kinematic_region.h"
 
@@ -45,7 +46,23 @@ std::uint32_t KinematicWorld::AddModel(CollisionModel model)
   return static_cast<std::uint32_t>(models_.size() - 1);
 }
 
-void KinematicWorld::ReplaceModel(std::uint32_t model, CollisionModel outline) { models_[model] = std::move(outline); }
+void KinematicWorld::ReplaceModel(std::uint32_t model, CollisionModel outline)
+{
+  models_[model] = std::move(outline);
+  if (division_) division_->ModelChanged(model);
+}
+
+void KinematicWorld::SetPresent(std::uint32_t body, bool present)
+{
+  if (division_ && (present_[body] != 0) != present) division_->BodyChanged(body);
+  present_[body] = present ? 1 : 0;
+}
+
+void KinematicWorld::Place(std::uint32_t body, const Pose2& pose)
+{
+  now_.Set(body, pose);
+  if (division_) division_->BodyChanged(body);
+}
 
 std::uint32_t KinematicWorld::AddBody(std::uint32_t model, const Pose2& pose, bool follower)
 {
@@ -227,6 +244,22 @@ std::span<const Grip> KinematicWorld::GroupOf(std::uint32_t prey) const
   return {group.first, group.second};
 }
 
+std::vector<std::uint32_t> KinematicWorld::BodiesInBlocks() const
+{
+  std::vector<std::uint32_t> in_cells(broad_.Cells().Count(), 0);
+  std::vector<std::uint32_t> cells(count_);
+  broad_.Cells().FindCells({now_.x.data(), count_}, {now_.y.data(), count_}, cells.data());
+  for (const std::uint32_t cell : cells) ++in_cells[cell];
+  std::vector<std::uint32_t> in_blocks(BlockCount(), 0);
+  for (std::uint32_t block = 0; block < in_blocks.size(); ++block)
+    broad_.ForEachRowOf(block,
+                        [&](std::uint32_t first, std::uint32_t last)
+                        {
+                          for (std::uint32_t cell = first; cell <= last; ++cell) in_blocks[block] += in_cells[cell];
+                        });
+  return in_blocks;
+}
+
 double KinematicWorld::OverlapOf(std::uint32_t a, std::uint32_t b) const
 {
   return Overlap(PlaceAt(a, now_), PlaceAt(b, now_));
@@ -268,6 +301,7 @@ void KinematicWorld::LoadState(ByteReader& state)
     throw std::runtime_error("saved state of a kinematic world: its grips are not in order");
   grips_.reserve(count_);
   RebuildGroups();
+  if (division_) division_->AllChanged();
 }
 
 }  // namespace swarmanoid::kinematics2d

@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "common/messages/regions.h"
 #include "common/serialisation/bytes.h"
 #include "engine_worker/engines/kinematics2d/broad_phase.h"
 #include "engine_worker/engines/kinematics2d/collision_model.h"
@@ -40,8 +41,6 @@ struct WorldStatistics
   std::size_t held_back = 0;  // bodies that could not go or turn as far as they would
 };
 
-class RegionExchange;
-
 class KinematicWorld
 {
 public:
@@ -66,11 +65,11 @@ public:
   // The turret turns against the body at this rate (rad/s); while its body grips, it is locked.
   void SetTurretRate(std::uint32_t body, double rate);
   // Bodies that are not present touch nothing. All are at first.
-  void SetPresent(std::uint32_t body, bool present) { present_[body] = present ? 1 : 0; }
+  void SetPresent(std::uint32_t body, bool present);
   // Where a follower will be at the end of the next Advance; `present` tells whether it is in the plane at all.
   void Follow(std::uint32_t body, const Pose2& pose, bool present);
   // Puts a body elsewhere at once. Its grips stay: those whom it grips, and who grip it, are to be put there with it.
-  void Place(std::uint32_t body, const Pose2& pose) { now_.Set(body, pose); }
+  void Place(std::uint32_t body, const Pose2& pose);
   // Moves everything by `seconds`, in at least `steps` equal steps. Fast bodies make it use more, so that nothing
   // passes through anything. No two parts of outlines overlap deeper afterwards than AllowedOverlap(), or than they did
   // before, but for followers: these may come into a body that has no room to give way.
@@ -108,27 +107,24 @@ public:
   const WorldStatistics& Statistics() const { return statistics_; }
   double AllowedOverlap() const { return allowed_; }
 
+  // After Start: from now on the regions of the team do what Advance is to do. Each computes some blocks of the plane
+  // (MoveCuts; at first region 0 has all), and all bodies go bit by bit as before, wherever the cuts are. `team`
+  // outlives the world.
+  void Divide(RegionTeam& team);
   // Blocks of cells, row by row: what a plane can be cut along.
   std::uint32_t BlockColumns() const { return broad_.BlockColumns(); }
   std::uint32_t BlockCount() const { return broad_.BlockCount(); }
-  // From the whole world, after Start, to one of the regions into which it is cut: region_of_block[k] has block k. From
-  // the next Advance on, the world holds the bodies in its own blocks and in the cells around them, at most `halo`
-  // cells away, with numbers of its own; followers, members of groups and bodies that are too large for the cells it
-  // holds wherever they are. The worlds of all regions must then advance at the same time, by the same amounts, and
-  // speak by `exchange`, which outlives the world. Their bodies go bit by bit as in the whole world, wherever the cuts
-  // are. One cell of halo is enough. Throws std::runtime_error for what is no cut.
-  void BecomeRegion(unsigned region, std::span<const std::uint8_t> region_of_block, RegionExchange& exchange,
-                    unsigned halo = 1);
-  // Other cuts, from the next Advance on: at all regions alike.
+  // How many bodies are in each of them.
+  std::vector<std::uint32_t> BodiesInBlocks() const;
+  // region_of_block[k] has block k, from the next Advance on. Throws std::runtime_error for what is no cut.
   void MoveCuts(std::span<const std::uint8_t> region_of_block);
-  // Bodies are numbered anew in each substep in which some come or go, in the order of their numbers in the whole
-  // world.
-  std::uint32_t NumberInWhole(std::uint32_t body) const;
-  // BodyCount() for a body that this region does not hold.
-  std::uint32_t FindBody(std::uint32_t number_in_whole) const;
-  // Whether this region computes the body: then it is told what the body does, and what it grips. Exactly one region
-  // has each body, but for followers, which none has, and all are told about.
-  bool IsOwn(std::uint32_t body) const;
+  // After Start, another world of the same making: one of the regions of such a team. It holds the bodies in its blocks
+  // and in the cells around them, at most `halo` cells away, with numbers of its own; followers, members of groups and
+  // bodies that are too large for the cells it holds wherever they are. It speaks to the others by `exchange`, which
+  // outlives the world. One cell of halo is enough. Throws std::runtime_error if there is no such region.
+  void BecomeRegion(unsigned region, RegionExchange& exchange, unsigned halo = 1);
+  // What a region does for the world that was divided. Throws std::runtime_error for what is no task.
+  void DoTask(std::span<const char> task, ByteWriter& result);
 
   // Poses, turrets and grips; twists and followers' goals are commands and not part of it.
   void SaveState(ByteWriter& state) const;
@@ -136,6 +132,7 @@ public:
 
 private:
   class Region;
+  class Division;
 
   struct Turret
   {
@@ -334,7 +331,8 @@ private:
   double smallest_limit_ = 0;
   double median_core_ = 0;
   WorldStatistics statistics_;
-  std::unique_ptr<Region> region_;  // none for the whole world
+  std::unique_ptr<Division> division_;  // none if the world does it all by itself
+  std::unique_ptr<Region> region_;      // none for the whole world
 };
 
 }  // namespace swarmanoid::kinematics2d

@@ -1,14 +1,18 @@
-// Exchange of messages between the regions of a kinematic world in one process, for tests and benchmarks: each region
-// in a thread of its own.
+// The regions of a kinematic world in one process, for tests and benchmarks: each does its tasks in a thread of its own,
+// and messages go by memory.
 #pragma once
 
 #include <condition_variable>
 #include <cstdint>
+#include <ctime>
+#include <functional>
+#include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
-#include "engine_worker/engines/kinematics2d/region_exchange.h"
+#include "engine_worker/engines/kinematics2d/kinematic_world.h"
 
 namespace swarmanoid::kinematics2d
 {
@@ -72,6 +76,97 @@ public:
 private:
   Hub& hub_;
   unsigned region_;
+};
+
+class HubTeam : public RegionTeam
+{
+public:
+  // `build` makes a world as the one that is divided was when it started.
+  HubTeam(unsigned regions, std::function<KinematicWorld()> build, unsigned halo = 1)
+      : build_(std::move(build)), halo_(halo), hub_(std::make_unique<Hub>(regions)), worlds_(regions), seconds_(regions)
+  {
+    for (unsigned region = 0; region < regions; ++region) Replace(region);
+  }
+
+  unsigned RegionCount() const override { return static_cast<unsigned>(worlds_.size()); }
+  void Work(bool anew, const WriteTasks& write, std::span<std::vector<char>> results) override
+  {
+    anew = std::exchange(begins_again_, false) || anew;
+    tasks_.assign(RegionCount(), {});
+    write(anew, tasks_);
+    std::vector<std::string> errors(RegionCount());
+    std::vector<std::thread> threads;
+    for (unsigned region = 0; region < RegionCount(); ++region)
+      threads.emplace_back(
+          [&, region]
+          {
+            const double start = ThreadSeconds();
+            try
+            {
+              ByteWriter result;
+              worlds_[region].world->DoTask(tasks_[region].Bytes(), result);
+              results[region] = result.Bytes();
+            }
+            catch (const std::exception& error)
+            {
+              errors[region] = error.what();
+              hub_->Break();
+            }
+            seconds_[region] = ThreadSeconds() - start;
+          });
+    for (std::thread& thread : threads) thread.join();
+    for (const std::string& error : errors)
+      if (!error.empty() && error != "another region has ended") throw std::runtime_error(error);
+  }
+
+  // Another one takes its place, which knows nothing.
+  void Replace(unsigned region)
+  {
+    Place& place = worlds_[region];
+    place.exchange = std::make_unique<HubExchange>(*hub_, region);
+    place.world = std::make_unique<KinematicWorld>(build_());
+    place.world->BecomeRegion(region, *place.exchange, halo_);
+    begins_again_ = true;
+  }
+  const KinematicWorld& World(unsigned region) const { return *worlds_[region].world; }
+  const Hub& Exchanges() const { return *hub_; }
+  // Processor time of the thread that asks.
+  static double ThreadSeconds()
+  {
+    timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  }
+
+  // Bytes of the last tasks.
+  std::size_t TaskBytes() const
+  {
+    std::size_t bytes = 0;
+    for (const ByteWriter& task : tasks_) bytes += task.Bytes().size();
+    return bytes;
+  }
+  // Processor time that all took for the last tasks.
+  double Seconds() const
+  {
+    double all = 0;
+    for (const double of_one : seconds_) all += of_one;
+    return all;
+  }
+
+private:
+  struct Place
+  {
+    std::unique_ptr<HubExchange> exchange;
+    std::unique_ptr<KinematicWorld> world;
+  };
+
+  std::function<KinematicWorld()> build_;
+  unsigned halo_;
+  std::unique_ptr<Hub> hub_;
+  std::vector<Place> worlds_;
+  std::vector<double> seconds_;
+  std::vector<ByteWriter> tasks_;
+  bool begins_again_ = false;
 };
 
 }  // namespace swarmanoid::kinematics2d
