@@ -11,7 +11,8 @@
 namespace swarmanoid
 {
 
-EngineWorker::EngineWorker(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t engine)
+EngineWorker::EngineWorker(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t engine,
+                           RegionTeam* team)
     : space_(space),
       assignment_(assignment),
       layout_(assignment.engines[engine]),
@@ -26,7 +27,8 @@ EngineWorker::EngineWorker(const CSwarmanoidSpace& space, const Assignment& assi
       [&]
       {
         engine_ = entry->create();
-        engine_->Init({configuration, Parameters(configuration.tree, entry->description.parameters), space, layout_});
+        engine_->Init(
+            {configuration, Parameters(configuration.tree, entry->description.parameters), space, layout_, team});
         for (const std::uint32_t index : configuration.entities)
         {
           const CSwarmanoidSpaceEntity& entity = space.GetEntity(index);

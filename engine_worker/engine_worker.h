@@ -25,9 +25,11 @@ public:
 class EngineWorker
 {
 public:
-  // `space` is the replica of this process; it and `assignment` outlive the worker. Throws ConfigurationError, or
-  // ActivityError naming the engine that failed; so does Tick.
-  EngineWorker(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t engine);
+  // `space` is the replica of this process; it, `assignment` and `team` outlive the worker. `team`: of an engine that
+  // is split; nullptr: it is not, or only one region of it is wanted. Throws ConfigurationError, or ActivityError
+  // naming the engine that failed; so does Tick.
+  EngineWorker(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t engine,
+               RegionTeam* team = nullptr);
   ~EngineWorker();
 
   // From the state in the space and the commands of its tick (one for each of layout.commands_from, in that order) to

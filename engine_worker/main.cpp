@@ -1,13 +1,16 @@
 // The program that runs one physics engine of an experiment: the engine worker's role at the bus.
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <thread>
 
 #include "common/activity/activity.h"
 #include "common/builtins/builtins.h"
 #include "common/bus/recovery.h"
+#include "common/bus/region_links.h"
 #include "common/bus/replica.h"
 #include "common/bus/saved_states.h"
 #include "common/bus/tick_inputs.h"
@@ -29,7 +32,8 @@ public:
       : session_(session),
         replica_(replica),
         engine_(static_cast<std::uint32_t>(engine)),
-        role_(*replica.space, replica.assignment, engine),
+        team_(TeamOf(session, replica, engine)),
+        role_(*replica.space, replica.assignment, engine, team_.get()),
         saved_(session, EngineName(*replica.experiment, engine), role_),
         inputs_(session, replica, Hosts(*replica.experiment, role_.Layout())),
         commands_here_(role_.Layout().commands_from.size()),
@@ -41,7 +45,7 @@ public:
       frames_.emplace(session.GetBus(), session.Scope(replica.limits->FrameBytes(), 1));
     Begin();
     inputs_.Open({[this](std::size_t k, std::uint64_t tick) { return &commands_[tick % 2][k]; }, [this] { Tick(); },
-                  [this] { Answer(true); }},
+                  [this] { Answer(true); }, team_ != nullptr},
                  replica.limits->CommandBytes(), HostCount());
   }
   ~EngineNode() { inputs_.Close(); }
@@ -56,25 +60,46 @@ public:
         {
           if (inputs_.Over()) return true;
           return inputs_.ServerIsHere() && inputs_.MissingWriters() == 0 && updates_.Readers() >= 1 &&
-                 saved_.Matched() && (!frames_ || frames_->Readers() >= frame_readers);
+                 saved_.Matched() && (!frames_ || frames_->Readers() >= frame_readers) &&
+                 (team_ == nullptr || team_->Missing() == 0);
         },
         [&]
         {
+          if (team_ != nullptr && team_->Missing() > 0) return fmt::format("{} of its regions", team_->Missing());
           const unsigned missing = inputs_.MissingWriters();
           return missing > 0 ? fmt::format("{} of {} controller hosts", missing, HostCount())
                              : std::string("the space server's topics");
         });
+    if (team_ == nullptr) return;
+    const std::lock_guard lock(inputs_.Mutex());
+    team_->Begin(inputs_.Mutex());
   }
 
   std::optional<std::string> Stall()
   {
-    return inputs_.Stall([] { return "runs " + CurrentActivity(); });
+    return inputs_.Stall(
+        [this]
+        {
+          const std::string regions = team_ != nullptr ? team_->Awaited() : "";
+          return regions.empty() ? "runs " + CurrentActivity() : "waits for " + regions;
+        });
   }
 
-  void Flush() { saved_.Flush(); }
+  // After the last tick.
+  void Finish()
+  {
+    saved_.Flush();
+    if (team_ != nullptr) team_->End();
+  }
 
 private:
   using Inputs = TickInputs<ControlCommands>;
+
+  static std::unique_ptr<RegionTeamLink> TeamOf(WorkerSession& session, const Replica& replica, std::size_t engine)
+  {
+    if (RegionsOf(replica.experiment->engines[engine]) == 0) return nullptr;
+    return std::make_unique<RegionTeamLink>(session, *replica.experiment, engine, *replica.limits);
+  }
 
   // Commands that act a tick later come a tick early.
   static std::vector<Inputs::Other> Hosts(const Experiment& experiment, const EngineLayout& layout)
@@ -140,6 +165,7 @@ private:
 
   void Step(std::uint64_t tick, std::span<const std::uint32_t> moved)
   {
+    if (team_ != nullptr) team_->SetTick(tick);
     for (std::size_t k = 0; k < commands_here_.size(); ++k) commands_here_[k] = &commands_[tick % 2][k];
     role_.Tick(moved, commands_here_);
     TakeUpdate();
@@ -182,6 +208,7 @@ private:
   WorkerSession& session_;
   Replica& replica_;
   std::uint32_t engine_;
+  std::unique_ptr<RegionTeamLink> team_;  // of an engine that is split
   EngineWorker role_;
   SavedStates saved_;
   Inputs inputs_;                                         // its mutex guards the role and what follows
@@ -194,9 +221,59 @@ private:
   std::optional<HotPublisher<SensorFrame>> frames_;
 };
 
+// The world of the engine, of which one region is left when the first task comes. Nothing else of the experiment is
+// needed for the tasks.
+std::unique_ptr<EngineRegion> MakeRegion(const Replica& replica, std::size_t engine, unsigned region,
+                                         RegionExchange& exchange)
+{
+  EngineWorker role(*replica.space, replica.assignment, engine);
+  return role.Engine().MakeRegion(region, exchange);
+}
+
+int RunRegion(const WorkerSettings& settings, const BusOptions& bus)
+{
+  const auto region = static_cast<unsigned>(*settings.region);
+  WorkerSession session(bus, settings.experiment, fmt::format("region {} of engine '{}'", region, settings.engine), {},
+                        settings.incarnation, settings.machine);
+  return session.Work(
+      [&]
+      {
+        std::optional<Replica> replica(std::in_place, session.World(), false);
+        const Experiment& experiment = *replica->experiment;
+        const std::size_t engine = NumberOf(experiment, experiment.engines, "engine", settings.engine);
+        if (region >= RegionsOf(experiment.engines[engine]))
+          throw ConfigurationError(experiment.engines[engine].location,
+                                   fmt::format("the engine '{}' has {} regions, numbered from 0; there is no region {}",
+                                               settings.engine, RegionsOf(experiment.engines[engine]), region));
+        RegionLink link(session, experiment, engine, region, *replica->limits);
+        const std::unique_ptr<EngineRegion> world = MakeRegion(*replica, engine, region, link);
+        replica.reset();
+        malloc_trim(0);
+        session.WaitUntil([&] { return link.Missing() == 0; },
+                          [&] { return fmt::format("{} processes of its engine", link.Missing()); });
+        std::thread worker(
+            [&]
+            {
+              try
+              {
+                link.Serve(*world);
+              }
+              catch (const std::exception& error)
+              {
+                session.Fail(0, error.what());
+              }
+            });
+        session.ReportReady();
+        session.Wait(std::chrono::milliseconds(500), [] { return std::nullopt; });
+        link.Close();
+        worker.join();
+      });
+}
+
 int Run(const WorkerSettings& settings, const BusOptions& bus)
 {
   if (settings.engine.empty()) throw UsageError("give --engine ID; for example --engine ground");
+  if (settings.region) return RunRegion(settings, bus);
   WorkerSession session(bus, settings.experiment, fmt::format("engine '{}'", settings.engine), {}, settings.incarnation,
                         settings.machine);
   return session.Work(
@@ -208,7 +285,7 @@ int Run(const WorkerSettings& settings, const BusOptions& bus)
         node.WaitForOthers();
         session.ReportReady();
         session.Wait(std::chrono::milliseconds(500), [&] { return node.Stall(); });
-        node.Flush();
+        node.Finish();
       });
 }
 
@@ -225,6 +302,7 @@ int main(int count, char** arguments)
       "Examples:\n"
       "  engine_worker --engine ground                              the experiment that runs on this machine\n"
       "  engine_worker --engine ground --experiment diffusion_10 --domain 7\n"
+      "  engine_worker --engine ground --region 1                   one region of an engine that is split\n"
       "  engine_worker --engine ground --interface eth0             space server on another machine\n"
       "  engine_worker --offer beta --domain 46                     offers this machine to a run of `swarmanoid run`\n"
       "  engine_worker --offer beta --domain 46 --interface eth0 --key run.key        … of another machine",

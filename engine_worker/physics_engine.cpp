@@ -1,7 +1,14 @@
 #include "engine_worker/physics_engine.h"
 
+#include <stdexcept>
+
 namespace swarmanoid
 {
+
+std::unique_ptr<EngineRegion> CPhysicsEngine::MakeRegion(unsigned, RegionExchange&)
+{
+  throw std::logic_error("the engine is described as one that can be split, and has no MakeRegion");
+}
 
 template <>
 PluginRegistry<CPhysicsEngine>& PluginRegistry<CPhysicsEngine>::Instance()

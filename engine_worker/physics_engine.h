@@ -12,6 +12,7 @@
 #include "common/configuration/parameter.h"
 #include "common/messages/assignment.h"
 #include "common/messages/messages.h"
+#include "common/messages/regions.h"
 #include "common/plugins/registry.h"
 #include "common/serialisation/bytes.h"
 #include "common/space/space.h"
@@ -47,6 +48,8 @@ struct EngineSetup
   Parameters parameters;          // of the engine's element, by the table that it registered
   const CSwarmanoidSpace& space;  // this process's replica: entities, poses of the tick that the step starts from
   const EngineLayout& layout;     // the order of owned entities, command and sensor channels
+  // Of an engine that is split in a cluster: those who compute the regions of its world. Otherwise nullptr.
+  RegionTeam* team = nullptr;
 };
 
 // The commands of one step: EngineLayout::commands with the values filled in.
@@ -92,6 +95,11 @@ public:
   virtual void Canonicalise() = 0;
   // True if Canonicalise has nothing to drop at any tick: then SaveState is exact after each Update.
   virtual bool IsAlwaysCanonical() const { return false; }
+
+  // Of an engine that can be split (PluginDescription::can_split): in a process of its own, after Start, it becomes one
+  // region of the world of another one of the same making, which has a team. It is not used any more then; the result
+  // may not refer to it. `exchange` outlives the result.
+  virtual std::unique_ptr<EngineRegion> MakeRegion(unsigned region, RegionExchange& exchange);
 
   // Numbers about the last update for diagnosis: contacts, pairs. One short line, may be empty.
   virtual std::string StatusText() const { return {}; }

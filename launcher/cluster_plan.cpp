@@ -91,6 +91,12 @@ struct CommandMaker
   std::string key;  // what a process is told when it asks for it
 };
 
+// What the file of --hosts calls a region: "ground/2".
+std::string RegionPlace(const EngineConfiguration& engine, unsigned region)
+{
+  return fmt::format("{}/{}", engine.id, region);
+}
+
 // As users call it.
 std::string PlaceName(const std::string& host) { return host.empty() ? kHere : host; }
 
@@ -194,6 +200,10 @@ std::vector<std::string> ServerArguments(RunSettings settings, const Experiment&
   AddPlace(words, "space server", hosts.HostOf("space_server", ""));
   for (std::size_t e = 0; e < experiment.engines.size(); ++e)
     AddPlace(words, EngineName(experiment, e), hosts.HostOf("engine", experiment.engines[e].id));
+  for (std::size_t e = 0; e < experiment.engines.size(); ++e)
+    for (unsigned region = 0; region < RegionsOf(experiment.engines[e]); ++region)
+      AddPlace(words, RegionName(experiment, e, region),
+               hosts.HostOf("region", RegionPlace(experiment.engines[e], region)));
   for (std::size_t h = 0; h < assignment.hosts.size(); ++h)
     AddPlace(words, HostName(h), hosts.HostOf("controller_host", std::to_string(h)));
   if (!settings.visualisations) return words;
@@ -212,13 +222,17 @@ struct WorkerIds
 {
   WorkerIds(const RunSettings& options, const Experiment& experiment, const Assignment& assignment)
   {
-    for (const EngineConfiguration& engine : experiment.engines) engines.push_back(engine.id);
+    for (const EngineConfiguration& engine : experiment.engines)
+    {
+      engines.push_back(engine.id);
+      for (unsigned region = 0; region < RegionsOf(engine); ++region) regions.push_back(RegionPlace(engine, region));
+    }
     for (std::size_t host = 0; host < assignment.hosts.size(); ++host) controller_hosts.push_back(std::to_string(host));
     if (options.visualisations)
       for (const RenderConfiguration& render : experiment.visualisations) visualisers.push_back(render.id);
   }
 
-  std::vector<std::string> engines, controller_hosts, visualisers;
+  std::vector<std::string> engines, regions, controller_hosts, visualisers;
 };
 
 }  // namespace
@@ -229,6 +243,7 @@ void RequirePlaces(const RunSettings& options, const Experiment& experiment, con
   const WorkerIds ids(options, experiment, assignment);
   RefuseUnknown(hosts, "space_server", {});
   RefuseUnknown(hosts, "engine", ids.engines);
+  RefuseUnknown(hosts, "region", ids.regions);
   RefuseUnknown(hosts, "controller_host", ids.controller_hosts);
   if (options.visualisations) RefuseUnknown(hosts, "visualiser", ids.visualisers);
 }
@@ -237,7 +252,7 @@ std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment
                                     const Assignment& assignment, const Hosts& hosts, const RunFolder& folder,
                                     int domain, const std::optional<RunKey>& key)
 {
-  const auto& [engines, controller_hosts, visualisers] = WorkerIds(options, experiment, assignment);
+  const auto& [engines, regions, controller_hosts, visualisers] = WorkerIds(options, experiment, assignment);
   const std::vector<int> cores = CoresOf(options, experiment, domain);
   Planner planner(
       experiment, folder,
@@ -258,6 +273,11 @@ std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment
   for (std::size_t e = 0; e < engines.size(); ++e)
     planner.AddWorker(EngineName(experiment, e), "engine_worker", "engine", engines[e], EngineOptionTable,
                       {.engine = engines[e]});
+  for (std::size_t e = 0; e < engines.size(); ++e)
+    for (unsigned region = 0; region < RegionsOf(experiment.engines[e]); ++region)
+      planner.AddWorker(RegionName(experiment, e, region), "engine_worker", "region",
+                        RegionPlace(experiment.engines[e], region), EngineOptionTable,
+                        {.engine = engines[e], .region = static_cast<int>(region)});
   for (std::size_t host = 0; host < controller_hosts.size(); ++host)
     planner
         .AddWorker(HostName(host), "controller_host", "controller_host", controller_hosts[host], HostOptionTable,

@@ -18,10 +18,10 @@ namespace
 {
 
 constexpr std::uint64_t kMostBytes = 1U << 20U;
-const std::vector<std::string> kRoles{"space_server", "engine", "controller_host", "visualiser"};
-const std::vector<std::string> kKeys{"command", "program_folder",  "options",    "space_server",
-                                     "engine",  "controller_host", "visualiser", "runs",
-                                     "cores",   "lease",           "swarmanoid", "machines"};
+const std::vector<std::string> kRoles{"space_server", "engine", "region", "controller_host", "visualiser"};
+const std::vector<std::string> kKeys{"command",         "program_folder", "options", "space_server", "engine",
+                                     "controller_host", "visualiser",     "runs",    "cores",        "lease",
+                                     "swarmanoid",      "machines",       "region"};
 
 bool Holds(const std::vector<std::string>& words, const std::string& word)
 {
@@ -166,6 +166,8 @@ std::string Hosts::HostOf(const std::string& role, const std::string& which) con
 {
   auto found = hosts_.find({role, which});
   if (found == hosts_.end()) found = hosts_.find({role, ""});
+  // "ground/2" is where its engine is, if nobody says otherwise.
+  if (found == hosts_.end() && role == "region") return HostOf("engine", which.substr(0, which.rfind('/')));
   return found == hosts_.end() || IsHere(found->second) ? "" : found->second;
 }
 

@@ -29,6 +29,7 @@ PluginDescription Kinematics2dDescription(const std::string& label)
                                              "footbot_turret", "footbot_turret_torque", "footbot_wheels", "wheels"}),
       .entity_tags = TagsOfKinds([](const EntityKindDescription&) { return true; }),
       .any_kind = true,
+      .can_split = true,
       .ignores = {"mass", "friction", "restitution", "ground_friction", "hole"},
       .collision_model = Kinematics2dBodies};
 }

@@ -147,7 +147,7 @@ struct HotScope
   unsigned writers = 1;      // of the topic
 };
 
-// Messages of a tick: SpaceState, ControlCommands, EngineUpdate, SensorFrame, DrawnMessage.
+// Messages of a tick: SpaceState, ControlCommands, EngineUpdate, SensorFrame, DrawnMessage, those of regions.
 template <class Message>
 class HotPublisher
 {

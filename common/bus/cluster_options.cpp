@@ -150,6 +150,13 @@ std::vector<OptionSpec> EngineOptionTable(WorkerSettings& s)
 {
   return {
       {{.name = "engine", .type = kText, .description = "The engine's id in the experiment file"}, &s.engine, "ground"},
+      {{.name = "region",
+        .type = kInteger,
+        .description = "Number of a region of that engine, from 0, if it is split; otherwise the engine itself",
+        .minimum = 0,
+        .maximum = 31},
+       &s.region,
+       "1"},
       ExperimentOption(s),
       IncarnationOption(s),
       MachineOption(s)};

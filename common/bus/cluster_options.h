@@ -23,6 +23,7 @@ struct WorkerSettings
 {
   std::string experiment{};  // its name; empty: the first one that is heard
   std::string engine{};
+  std::optional<int> region{};  // of that engine; none: the engine itself
   unsigned host = 0;
   // Visualisers: one of the experiment, by its id, or one that is attached, by its kind.
   std::string render{};

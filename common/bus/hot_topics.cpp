@@ -217,10 +217,16 @@ template class HotPublisher<ControlCommands>;
 template class HotPublisher<UpdateMessage>;
 template class HotPublisher<SensorFrame>;
 template class HotPublisher<DrawnMessage>;
+template class HotPublisher<RegionTaskMessage>;
+template class HotPublisher<RegionHaloMessage>;
+template class HotPublisher<RegionResultMessage>;
 template class HotSubscription<SpaceState>;
 template class HotSubscription<ControlCommands>;
 template class HotSubscription<UpdateMessage>;
 template class HotSubscription<SensorFrame>;
 template class HotSubscription<DrawnMessage>;
+template class HotSubscription<RegionTaskMessage>;
+template class HotSubscription<RegionHaloMessage>;
+template class HotSubscription<RegionResultMessage>;
 
 }  // namespace swarmanoid

@@ -3,6 +3,8 @@
 // IDL. Used by the bus alone.
 #pragma once
 
+#include <numeric>
+
 #include "common/bus/cdr.h"
 #include "common/messages/attribute_changes.h"
 
@@ -32,6 +34,13 @@ template <>
 inline constexpr const char* kTopicOf<SensorFrame> = "SensorFrame";
 template <>
 inline constexpr const char* kTopicOf<DrawnMessage> = "Drawn";
+
+template <>
+inline constexpr const char* kTopicOf<RegionTaskMessage> = "RegionTask";
+template <>
+inline constexpr const char* kTopicOf<RegionHaloMessage> = "RegionHalo";
+template <>
+inline constexpr const char* kTopicOf<RegionResultMessage> = "RegionResult";
 
 template <class Archive>
 void Fields(Archive& archive, MessageHeader& header)
@@ -110,6 +119,32 @@ template <class Archive>
 void Fields(Archive& archive, MessageHeader& header, DrawnMessage& message)
 {
   archive.Flags("flags", {{kFlagTerminate, &message.terminate}, {kFlagRepeated, &header.repeated}});
+}
+
+template <class Archive>
+void RegionFields(Archive& archive, RegionMessage& message)
+{
+  archive.Integer("epoch", message.epoch);
+  archive.Integer("number", message.number);
+  archive.Array("sizes", message.sizes);
+  archive.Array("bytes", message.bytes);
+  if (std::accumulate(message.sizes.begin(), message.sizes.end(), std::uint64_t{0}) != message.bytes.size())
+    RefuseField("sizes", "they are not those of the bytes");
+}
+template <class Archive>
+void Fields(Archive& archive, MessageHeader&, RegionTaskMessage& message)
+{
+  RegionFields(archive, message);
+}
+template <class Archive>
+void Fields(Archive& archive, MessageHeader&, RegionHaloMessage& message)
+{
+  RegionFields(archive, message);
+}
+template <class Archive>
+void Fields(Archive& archive, MessageHeader&, RegionResultMessage& message)
+{
+  RegionFields(archive, message);
 }
 
 // ---- All others ----

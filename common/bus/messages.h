@@ -15,7 +15,7 @@ namespace swarmanoid
 {
 
 // Equal to PROTOCOL_VERSION of the IDL; a test says so.
-inline constexpr std::uint32_t kProtocolVersion = 12;
+inline constexpr std::uint32_t kProtocolVersion = 13;
 
 // What precedes every message of a tick.
 struct MessageHeader
@@ -40,6 +40,24 @@ struct UpdateMessage : EngineUpdate
 struct DrawnMessage
 {
   bool terminate = false;
+};
+
+// Between the engine worker of an engine that is split and the processes of its regions, and between these.
+struct RegionMessage
+{
+  std::uint32_t epoch = 0;
+  std::uint32_t number = 0;
+  std::vector<std::uint32_t> sizes;  // of the parts
+  std::vector<char> bytes;           // of all parts, one behind the other
+};
+struct RegionTaskMessage : RegionMessage
+{
+};
+struct RegionHaloMessage : RegionMessage
+{
+};
+struct RegionResultMessage : RegionMessage
+{
 };
 
 struct WorldEntity

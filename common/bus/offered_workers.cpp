@@ -44,8 +44,9 @@ bool IsReadable(const FileDescriptor& descriptor)
 
 std::string OfferedWorkers::NameOf(const std::string& program, const WorkerSettings& settings)
 {
-  return program == "engine_worker" ? fmt::format("engine '{}'", settings.engine)
-                                    : fmt::format("controller host {}", settings.host);
+  if (program != "engine_worker") return fmt::format("controller host {}", settings.host);
+  return settings.region ? fmt::format("region {} of engine '{}'", *settings.region, settings.engine)
+                         : fmt::format("engine '{}'", settings.engine);
 }
 
 void OfferedWorkers::Take(const WorkerRequestMessage& request)

@@ -26,6 +26,9 @@ inline constexpr TopicQos kTopics[] = {
     {"EngineUpdate", true, false, false, 2, 4},     // reader: for each writer
     {"SensorFrame", true, false, false, 2, 4},      // reader: for each writer
     {"Drawn", true, false, false, 2, 4},            // reader: for each writer
+    {"RegionTask", true, false, false, 2, 4},
+    {"RegionHalo", true, false, false, 2, 4},    // reader: for each writer
+    {"RegionResult", true, false, false, 2, 4},  // reader: for each writer
     {"World", false, true, false, 1, 8},
     {"Join", false, true, true, 1, 1},
     {"View", false, true, false, 1, 1},

@@ -1,15 +1,18 @@
 // TickInputs: what a worker takes in before each of its steps: the state of the space, and one message from each of
 // some other processes. They come in any order, early, late or again; once all of a tick are here, the worker steps, in
-// the thread of the bus that brought the last one. Used by engine_worker and controller_host.
+// the thread of the bus that brought the last one, or in a thread of its own if the step waits for others. Used by
+// engine_worker and controller_host.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <condition_variable>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "common/bus/replica.h"
@@ -37,6 +40,8 @@ public:
     std::function<Message*(std::size_t other, std::uint64_t tick)> place;  // where a message is to be put
     std::function<void()> step;                                            // all of tick Tick() is here
     std::function<void()> answer_again;  // somebody has not got the answer to the tick before Tick()
+    // The step waits for messages of others, and unlocks Mutex() meanwhile: it has a thread of its own.
+    bool step_waits = false;
   };
 
   // `late`: what the worker says of a tick is for the one after; so the server does not wait for its step, and may be a
@@ -62,6 +67,7 @@ public:
   void Open(Calls calls, std::size_t capacity, unsigned writers)
   {
     calls_ = std::move(calls);
+    if (calls_.step_waits) stepper_ = std::thread([this] { StepAlways(); });
     writers_ = sources_.empty() ? 0 : writers;
     if (writers_ > 0)
       others_in_.emplace(session_.GetBus(), session_.Scope(capacity, writers),
@@ -81,6 +87,13 @@ public:
   {
     states_in_.reset();
     others_in_.reset();
+    if (!stepper_.joinable()) return;
+    {
+      const std::lock_guard lock(mutex_);
+      is_closed_ = true;
+      wake_.notify_all();
+    }
+    stepper_.join();
   }
 
   // The last state has come: others may have left already.
@@ -100,7 +113,7 @@ public:
   std::optional<std::string> Stall(const std::function<std::string()>& busy)
   {
     std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock)
+    if (!lock || is_stepping_)
     {
       session_.SetTick(stepping_);
       return stall_.Observe(stepping_, busy(), StallDetector::Clock::now());
@@ -150,7 +163,7 @@ private:
     {
       saves_[header.tick % 2] = header.save;
       gate_.Arrived(0, header.tick);
-      if (header.tick == gate_.Tick() && Enter() && gate_.Complete()) RunTick();
+      if (header.tick == gate_.Tick() && Enter() && gate_.Complete()) Go();
     }
     else if (state.last)
     {
@@ -180,7 +193,7 @@ private:
   {
     const std::lock_guard lock(mutex_);
     // Once it is over, the main thread may be at the end of the role.
-    if (gate_.Arrived(1 + OtherOf(header), header.tick) && !over_) RunTick();
+    if (gate_.Arrived(1 + OtherOf(header), header.tick) && !over_) Go();
   }
 
   // The state of the tick is here. False if it is the last one.
@@ -200,13 +213,36 @@ private:
     session_.Finish(tick);
   }
 
+  // All of the tick is here.
+  void Go()
+  {
+    if (is_stepping_) return;  // it looks again after the step
+    if (!calls_.step_waits) return RunTick();
+    is_here_ = true;
+    wake_.notify_all();
+  }
+
+  void StepAlways()
+  {
+    std::unique_lock lock(mutex_);
+    while (true)
+    {
+      wake_.wait(lock, [this] { return is_here_ || is_closed_; });
+      if (is_closed_) return;
+      is_here_ = false;
+      RunTick();
+    }
+  }
+
   void RunTick()
   {
     try
     {
       do {
         stepping_ = gate_.Tick();
+        is_stepping_ = true;
         calls_.step();
+        is_stepping_ = false;
         // The next state may have come while other messages were lacking.
       } while (gate_.Has(0) && Enter() && gate_.Complete());
     }
@@ -233,6 +269,11 @@ private:
   SpaceState repeated_;
   std::atomic<std::uint64_t> stepping_ = 0;
   std::atomic<bool> over_ = false;
+  bool is_stepping_ = false;
+  bool is_here_ = false;    // all of the tick, for the stepper
+  bool is_closed_ = false;  // for the stepper
+  std::condition_variable wake_;
+  std::thread stepper_;
   StallDetector stall_;  // main thread
   std::optional<HotSubscription<Message>> others_in_;
   std::optional<HotSubscription<SpaceState>> states_in_;

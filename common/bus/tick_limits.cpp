@@ -51,6 +51,12 @@ TickLimits::TickLimits(const CSwarmanoidSpace& space, const Assignment& assignme
     may_fail_.push_back(controller != nullptr && controller->MayFail());
   }
   for (const HostLayout& host : assignment.hosts) command_values_.push_back(host.command_size);
+  for (std::size_t e = 0; e < assignment.engines.size(); ++e)
+  {
+    if (experiment.engines[e].split.regions < 2) continue;
+    most_in_regions_ = std::max(most_in_regions_, assignment.engines[e].owned.size());
+    most_mirrors_ = std::max(most_mirrors_, assignment.engines[e].mirrored.size());
+  }
   for (const EngineLayout& engine : assignment.engines)
   {
     owned_.push_back(engine.owned.size());
@@ -92,6 +98,14 @@ std::size_t TickLimits::FrameBytes() const
   SensorFrame frame;
   frame.values.resize(Largest(sensor_values_));
   return PayloadSize(MessageHeader(), frame);
+}
+
+std::size_t TickLimits::RegionBytes() const
+{
+  constexpr std::size_t kAtLeast = 1 << 20;  // for what does not grow with the bodies, and crowds of few that grip
+  constexpr std::size_t kBody = 256;
+  constexpr std::size_t kMirror = 4096;  // with its outline
+  return kAtLeast + kBody * most_in_regions_ + kMirror * most_mirrors_;
 }
 
 std::size_t TickLimits::DrawnBytes() { return PayloadSize(MessageHeader(), DrawnMessage()); }

@@ -25,6 +25,9 @@ public:
   std::size_t UpdateBytes() const;
   std::size_t FrameBytes() const;
   static std::size_t DrawnBytes();
+  // Of those between the regions of engines that are split: twice what a plane needs if all its bodies change their
+  // regions at once.
+  std::size_t RegionBytes() const;
 
   // Throw BadMessage, with the name of the field.
   void Check(const MessageHeader& header, const SpaceState& state) const;
@@ -50,6 +53,8 @@ private:
   std::vector<std::size_t> owned_;           // of each engine
   std::vector<std::size_t> recorded_;        // of each engine: numbers in UpdateMessage::recorded
   std::vector<std::size_t> sensor_values_;   // of each engine
+  std::size_t most_in_regions_ = 0;          // bodies of one engine that is split
+  std::size_t most_mirrors_ = 0;             // likewise, of other engines' bodies
 };
 
 }  // namespace swarmanoid

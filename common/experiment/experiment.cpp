@@ -1,6 +1,7 @@
 #include "common/experiment/experiment.h"
 
 #include <algorithm>
+#include <charconv>
 
 namespace swarmanoid
 {
@@ -15,6 +16,27 @@ const T* FindById(const std::vector<T>& all, const std::string& id)
 }
 
 }  // namespace
+
+std::optional<EngineSplit> EngineSplit::Parse(std::string_view text)
+{
+  const auto number = [](std::string_view digits) -> std::optional<unsigned>
+  {
+    unsigned value = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const bool is_whole = error == std::errc() && end == digits.data() + digits.size();
+    return is_whole && value >= 1 && value <= kMostRegions ? std::optional(value) : std::nullopt;
+  };
+  const std::size_t sign = text.find('x');
+  if (sign == std::string_view::npos)
+  {
+    const auto regions = number(text);
+    return regions ? std::optional(EngineSplit{*regions, 0}) : std::nullopt;
+  }
+  const auto columns = number(text.substr(0, sign));
+  const auto rows = number(text.substr(sign + 1));
+  if (!columns || !rows || *columns * *rows > kMostRegions) return std::nullopt;
+  return EngineSplit{*columns * *rows, *columns};
+}
 
 double UsualLimit(const Vector3& arena_size) { return std::max(100.0, 10 * arena_size.maxCoeff()); }
 

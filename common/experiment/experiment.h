@@ -75,11 +75,24 @@ struct EntityConfiguration
   SourceLocation location;
 };
 
+// Into how many regions an engine's world is cut, each of which a process of its own computes.
+struct EngineSplit
+{
+  static constexpr unsigned kMostRegions = 32;
+
+  unsigned regions = 1;
+  unsigned columns = 0;  // of a grid of regions; 0: cut as it comes
+
+  // "4", "2x2" (columns x rows); nullopt for anything else.
+  static std::optional<EngineSplit> Parse(std::string_view text);
+};
+
 struct EngineConfiguration
 {
   std::string tag;
   std::string id;
   int subclock = 1;  // steps of the engine in each clock tick
+  EngineSplit split{};
   TConfigurationTree tree;
   std::vector<std::uint32_t> entities;  // indices into Experiment::entities, ascending
   SourceLocation location;

@@ -27,6 +27,14 @@ bool CanSimulate(const PluginDescription& engine, EntityKind kind)
                      [&](const std::string& tag) { return KindOfTag(tag) == kind; });
 }
 
+std::vector<std::string> TagsOfSplitEngines()
+{
+  std::vector<std::string> tags;
+  for (const PluginDescription* plugin : PluginCatalogue::Instance().Of(PluginKind::kEngine))
+    if (plugin->can_split) tags.push_back(plugin->label);
+  return tags;
+}
+
 // Reads the entities of one engine.
 class MembersReader
 {
@@ -154,6 +162,30 @@ private:
   std::map<std::string, int> named_;
 };
 
+void ReadSplit(const ElementReader& reader, const PluginDescription* plugin, EngineConfiguration& engine,
+               Reading& reading)
+{
+  if (!reader.IsGiven("split")) return;
+  const std::string text = reader.Text("split");
+  const std::optional<EngineSplit> split = EngineSplit::Parse(text);
+  if (!split)
+    reading.diagnostics.Add(reader.Place("split"),
+                            fmt::format("split is {}; it must be a number of regions from 1 to {} (\"4\"), or columns "
+                                        "and rows of as many (\"2x2\")",
+                                        Quoted(text), EngineSplit::kMostRegions));
+  else if (split->regions > 1 && plugin != nullptr && !plugin->can_split)
+    reading.diagnostics.Add(
+        reader.Place("split"),
+        fmt::format("the engine {} ({}) cannot be split: {}; leave out split, or take {}", Quoted(engine.id),
+                    engine.tag,
+                    plugin->any_kind && !plugin->entity_tags.empty()
+                        ? "its contacts are solved together, over islands that may reach across the whole world"
+                        : "it does not say that it can",
+                    Listed(TagsOfSplitEngines())));
+  else
+    engine.split = *split;
+}
+
 }  // namespace
 
 void ReadEngines(const TConfigurationTree& tree, Reading& reading)
@@ -171,6 +203,7 @@ void ReadEngines(const TConfigurationTree& tree, Reading& reading)
     engine.tag = child.Name();
     engine.id = reader.Text("id");
     engine.subclock = static_cast<int>(reader.Integer("subclock"));
+    ReadSplit(reader, plugin, engine, reading);
     engine.tree = child;
     engine.location = child.Location();
     if (reader.IsGiven("id")) CheckId(engine.id, reader.Place("id"), reading.diagnostics);

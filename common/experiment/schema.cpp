@@ -150,6 +150,9 @@ ElementSpec Engines()
               Optional(kInteger, "subclock", "", "1",
                        "Steps of the engine in each clock tick: more find collisions more exactly and take longer."),
               1, 10'000),
+          Optional(kText, "split", "", "1",
+                   "Regions into which a plane is cut, each computed by a process of its own in a cluster: a number "
+                   "(4), or columns and rows (2x2). It changes no bit of the results."),
           Library(),
       });
 }

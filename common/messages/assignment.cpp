@@ -194,6 +194,19 @@ std::string EngineName(const Experiment& experiment, std::size_t engine)
   return "engine '" + experiment.engines[engine].id + "'";
 }
 
+std::string RegionName(const Experiment& experiment, std::size_t engine, unsigned region)
+{
+  return "region " + std::to_string(region) + " of " + EngineName(experiment, engine);
+}
+
+unsigned RegionsOf(const EngineConfiguration& engine) { return engine.split.regions > 1 ? engine.split.regions : 0; }
+
+unsigned RegionNumber(const Experiment& experiment, std::size_t engine, unsigned region)
+{
+  for (std::size_t e = 0; e < engine; ++e) region += RegionsOf(experiment.engines[e]);
+  return region;
+}
+
 std::string HostName(std::size_t host) { return "controller host " + std::to_string(host); }
 
 std::string OwnerName(const Experiment& experiment, const Assignment& assignment, std::size_t entity)

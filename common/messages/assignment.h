@@ -68,6 +68,11 @@ Assignment MakeAssignment(const Experiment& experiment, unsigned hosts);
 
 std::string EngineName(const Experiment& experiment, std::size_t engine);  // "engine 'ground'"
 std::string HostName(std::size_t host);                                    // "controller host 1"
+// "region 2 of engine 'ground'"; and its number, counted over the regions of all engines that are split.
+std::string RegionName(const Experiment& experiment, std::size_t engine, unsigned region);
+unsigned RegionNumber(const Experiment& experiment, std::size_t engine, unsigned region);
+// How many processes an engine has beside its worker: 0 if it is not split.
+unsigned RegionsOf(const EngineConfiguration& engine);
 // The engine that moves an entity, and the host that runs its controller; empty if there is none.
 std::string OwnerName(const Experiment& experiment, const Assignment& assignment, std::size_t entity);
 std::string HostNameOf(const Assignment& assignment, std::size_t entity);

@@ -1,6 +1,6 @@
 // How an engine that is split speaks with the processes that have the regions of its world, and these with one another.
-// An engine whose world is split calls a RegionTeam; a process of a region has an EngineRegion do each task, which calls
-// a RegionExchange. The bus implements both calls between processes, tests within one.
+// An engine whose world is split calls a RegionTeam; a process of a region has an EngineRegion do each task, which
+// calls a RegionExchange. The bus implements both calls between processes, tests within one.
 #pragma once
 
 #include <functional>
@@ -12,9 +12,6 @@
 
 namespace swarmanoid
 {
-
-// Of one engine.
-inline constexpr unsigned kMostRegions = 32;
 
 class RegionExchange
 {
@@ -52,8 +49,10 @@ public:
 
   virtual ~RegionTeam() = default;
   virtual unsigned RegionCount() const = 0;
-  // Has all regions do a task, and fills in the results. `write` is called once, and again with `anew` whenever a region
-  // comes to be another process; `anew`: at first, too. Throws std::runtime_error with what a region threw.
+  // Until then the engine does all by itself.
+  virtual bool IsReady() const = 0;
+  // Has all regions do a task, and fills in the results. `write` is called once, and again with `anew` whenever a
+  // region comes to be another process; `anew`: at first, too. Throws std::runtime_error with what a region threw.
   virtual void Work(bool anew, const WriteTasks& write, std::span<std::vector<char>> results) = 0;
 };
 

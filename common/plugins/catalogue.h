@@ -49,7 +49,8 @@ struct PluginDescription
   // Engines only: the channels and the entity tags that it can serve.
   std::vector<std::string> channels{};
   std::vector<std::string> entity_tags{};
-  bool any_kind = false;  // engines only: it also serves the kinds of users, by their rows alone
+  bool any_kind = false;   // engines only: it also serves the kinds of users, by their rows alone
+  bool can_split = false;  // engines only: its world may be cut into regions (CPhysicsEngine::MakeRegion)
   // Engines only: parameters and tags of entities that have no effect in it; `swarmanoid check` tells who gives them.
   std::vector<std::string> ignores{};
   // Engines only: the bodies that it collides, of an entity with its attributes as they are now (the values of its

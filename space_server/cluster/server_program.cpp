@@ -75,7 +75,7 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
       assignment_(MakeAssignment(experiment, options.controller_hosts)),
       continuation_(GoesOn() ? std::optional<Continuation>(std::in_place, options, experiment) : std::nullopt),
       server_(experiment, assignment_, options.output_folder.empty() ? "." : options.output_folder),
-      session_(options.bus, World(), Expected(Visualisers()),
+      session_(options.bus, World(), Members(),
                {[this](const ControlRequestMessage& request)
                 {
                   if (std::ranges::find(kShareVerbs, request.verb) != kShareVerbs.end()) return shares_.Ask(request);
@@ -292,6 +292,15 @@ std::vector<std::string> ServerProgram::Expected(std::span<const RenderConfigura
   for (std::size_t e = 0; e < experiment_.engines.size(); ++e) names.push_back(EngineName(experiment_, e));
   for (std::size_t h = 0; h < assignment_.hosts.size(); ++h) names.push_back(HostName(h));
   for (const RenderConfiguration& render : visualisers) names.push_back(VisualiserName(render));
+  return names;
+}
+
+std::vector<std::string> ServerProgram::Members() const
+{
+  std::vector<std::string> names = Expected(Visualisers());
+  for (std::size_t e = 0; e < experiment_.engines.size(); ++e)
+    for (unsigned region = 0; region < RegionsOf(experiment_.engines[e]); ++region)
+      names.push_back(RegionName(experiment_, e, region));
   return names;
 }
 

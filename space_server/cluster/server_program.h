@@ -75,6 +75,9 @@ private:
   WorldMessage World();
   std::span<const RenderConfiguration> Visualisers() const;
   std::vector<std::string> Expected(std::span<const RenderConfiguration> visualisers) const;
+  // All processes of the run: these with the visualisers of the file, and the regions of engines that are split, which
+  // answer their engine alone and remember nothing.
+  std::vector<std::string> Members() const;
   bool IsInterrupted() const { return options_.stop != nullptr && *options_.stop; }
   void Wake();
   void Sleep(Clock::time_point until);

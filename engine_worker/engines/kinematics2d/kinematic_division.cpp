@@ -52,10 +52,10 @@ std::optional<CollisionModel> GetModel(ByteReader& message)
   model.bounding_radius = image.bounding_radius;
   model.core_radius = image.core_radius;
   model.polygons = message.GetArray<Polygon>();
-  const bool is_model =
-      image.parts <= CollisionModel::kMaximumParts && image.circles + model.polygons.size() == image.parts &&
-      std::ranges::all_of(model.polygons,
-                          [](const Polygon& p) { return p.count >= 3 && p.count <= Polygon::kMaximumVertices; });
+  const bool is_model = image.parts <= CollisionModel::kMaximumParts &&
+                        image.circles + model.polygons.size() == image.parts &&
+                        std::ranges::all_of(model.polygons, [](const Polygon& p)
+                                            { return p.count >= 3 && p.count <= Polygon::kMaximumVertices; });
   return is_model ? std::optional(std::move(model)) : std::nullopt;
 }
 
@@ -73,7 +73,7 @@ void KinematicWorld::DoTask(std::span<const char> task, ByteWriter& result) { Di
 KinematicWorld::Division::Division(const KinematicWorld& world, RegionTeam& team)
     : team_(team), bodies_(team.RegionCount()), results_(team.RegionCount())
 {
-  if (team.RegionCount() < 1 || team.RegionCount() > kMostRegions)
+  if (team.RegionCount() < 1 || team.RegionCount() > EngineSplit::kMostRegions)
     throw std::runtime_error("a plane can be cut into 1 to 32 regions");
   region_of_body_.assign(world.count_, kNoRegion);
   SetCuts(world, std::vector<std::uint8_t>(world.broad_.BlockCount(), 0));
@@ -91,17 +91,19 @@ void KinematicWorld::Division::SetCuts(const KinematicWorld& world, std::span<co
   region_of_block_.assign(region_of_block.begin(), region_of_block.end());
   region_of_cell_.assign(world.broad_.Cells().Count(), 0);
   for (std::uint32_t block = 0; block < region_of_block_.size(); ++block)
-    world.broad_.ForEachRowOf(block,
-                              [&](std::uint32_t first, std::uint32_t last)
-                              {
-                                std::fill(region_of_cell_.begin() + first, region_of_cell_.begin() + last + 1,
-                                          region_of_block_[block]);
-                              });
+    world.broad_.ForEachRowOf(
+        block, [&](std::uint32_t first, std::uint32_t last)
+        { std::fill(region_of_cell_.begin() + first, region_of_cell_.begin() + last + 1, region_of_block_[block]); });
   knows_cuts_ = false;
 }
 
-void KinematicWorld::Division::Advance(KinematicWorld& world, double seconds, int steps)
+bool KinematicWorld::Division::Advance(KinematicWorld& world, double seconds, int steps)
 {
+  if (!team_.IsReady())
+  {
+    knows_all_ = false;
+    return false;
+  }
   team_.Work(
       !knows_all_,
       [&](bool anew, std::span<ByteWriter> tasks)
@@ -121,6 +123,7 @@ void KinematicWorld::Division::Advance(KinematicWorld& world, double seconds, in
   std::size_t told = 0;
   for (const std::vector<std::uint32_t>& bodies : bodies_) told += bodies.size();
   if (told + world.followers_.size() != world.count_) Refuse("not all bodies were told of");
+  return true;
 }
 
 void KinematicWorld::Division::WriteForAll(const KinematicWorld& world, bool anew, double seconds, int steps,
@@ -141,8 +144,7 @@ void KinematicWorld::Division::WriteForAll(const KinematicWorld& world, bool ane
   }
   std::vector<FollowerTask> followers;
   for (const Follower& follower : world.followers_)
-    followers.push_back(
-        {world.now_.Get(follower.body), follower.from, follower.goal, world.present_[follower.body]});
+    followers.push_back({world.now_.Get(follower.body), follower.from, follower.goal, world.present_[follower.body]});
   task.PutArray(followers);
   task.PutArray(world.grips_);
 }
@@ -165,7 +167,8 @@ void KinematicWorld::Division::WriteChanges(const KinematicWorld& world, std::sp
     if (!world.IsFollower(body))
       changed[region_of_body_[body]].push_back({body, world.present_[body], world.now_.Get(body)});
   std::vector<std::vector<TurretRate>> rates(tasks.size());
-  for (const Turret& turret : world.turrets_) rates[region_of_body_[turret.body]].push_back({turret.body, 0, turret.rate});
+  for (const Turret& turret : world.turrets_)
+    rates[region_of_body_[turret.body]].push_back({turret.body, 0, turret.rate});
   for (std::size_t region = 0; region < tasks.size(); ++region)
   {
     twists_.clear();

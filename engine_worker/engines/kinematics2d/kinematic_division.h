@@ -1,8 +1,8 @@
 // What a kinematic world has and does more if processes of their own have the regions of it. Private to it.
 //
-// The world keeps what an engine asks for: poses, turrets, grips, travel. Each tick it tells each region what its bodies
-// do (a task), and takes over what became of them (a result). Regions remember the rest; how they speak with one another
-// is in kinematic_region.h. Tasks and results are written and read in kinematic_division.cpp alone.
+// The world keeps what an engine asks for: poses, turrets, grips, travel. Each tick it tells each region what its
+// bodies do (a task), and takes over what became of them (a result). Regions remember the rest; how they speak with one
+// another is in kinematic_region.h. Tasks and results are written and read in kinematic_division.cpp alone.
 #pragma once
 
 #include <vector>
@@ -24,7 +24,8 @@ public:
   void ModelChanged(std::uint32_t model) { changed_models_.push_back(model); }
   void AllChanged() { knows_all_ = false; }
 
-  void Advance(KinematicWorld& world, double seconds, int steps);
+  // False, and nothing is done, if the regions are not ready.
+  bool Advance(KinematicWorld& world, double seconds, int steps);
 
 private:
   // The parts of tasks and results.

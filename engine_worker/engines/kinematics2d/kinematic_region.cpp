@@ -60,8 +60,7 @@ void CheckCuts(const BroadPhase& broad, std::span<const std::uint8_t> region_of_
     throw std::runtime_error("cuts of a plane: there must be a region for each of its " +
                              std::to_string(broad.BlockCount()) + " blocks");
   for (const std::uint8_t region : region_of_block)
-    if (region >= regions)
-      throw std::runtime_error("cuts of a plane: there is no region " + std::to_string(region));
+    if (region >= regions) throw std::runtime_error("cuts of a plane: there is no region " + std::to_string(region));
 }
 
 void KinematicWorld::Region::Refuse(const char* what)
@@ -73,7 +72,7 @@ KinematicWorld::Region::Region(KinematicWorld& whole, unsigned number, RegionExc
     : number_(number), halo_(halo), exchange_(exchange)
 {
   const unsigned regions = exchange.RegionCount();
-  if (regions < 1 || regions > kMostRegions || number >= regions)
+  if (regions < 1 || regions > EngineSplit::kMostRegions || number >= regions)
     throw std::runtime_error("a plane can be cut into 1 to 32 regions, numbered from 0");
   others_ = static_cast<Regions>((std::uint64_t{1} << regions) - 1) & ~Bit(number);
   out_.resize(regions);

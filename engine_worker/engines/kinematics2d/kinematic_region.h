@@ -12,6 +12,7 @@
 #include <initializer_list>
 #include <map>
 
+#include "common/experiment/experiment.h"
 #include "common/messages/regions.h"
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
 

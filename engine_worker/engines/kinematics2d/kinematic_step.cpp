@@ -15,7 +15,7 @@ namespace swarmanoid::kinematics2d
 {
 void KinematicWorld::Advance(double seconds, int steps)
 {
-  if (division_) return division_->Advance(*this, seconds, steps);
+  if (division_ && division_->Advance(*this, seconds, steps)) return;
   if (region_) region_->ShareBodies(*this);
   if (keeps_travel_)
   {

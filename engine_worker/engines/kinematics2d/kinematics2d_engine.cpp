@@ -5,6 +5,7 @@
 
 #include "common/math/elementary.h"
 #include "common/space/shape.h"
+#include "engine_worker/engines/kinematics2d/plane_cuts.h"
 #include "engine_worker/engines/plane_frame.h"
 #include "engine_worker/engines/terrain_walls.h"
 
@@ -14,6 +15,22 @@ namespace
 {
 
 using namespace kinematics2d;
+
+constexpr std::uint64_t kBalancePeriod = 64;  // ticks
+
+// The world of a process that has one region.
+class WorldRegion final : public EngineRegion
+{
+public:
+  WorldRegion(KinematicWorld world, unsigned region, RegionExchange& exchange) : world_(std::move(world))
+  {
+    world_.BecomeRegion(region, exchange);
+  }
+  void Work(std::span<const char> task, ByteWriter& result) override { world_.DoTask(task, result); }
+
+private:
+  KinematicWorld world_;
+};
 
 bool HasTurret(const CSwarmanoidSpaceEntity& entity)
 {
@@ -56,6 +73,7 @@ void Kinematics2dEngine::Init(const EngineSetup& setup)
   threads_ = static_cast<unsigned>(setup.parameters.Integer("threads"));
   world_ = KinematicWorld(setup.parameters.Number("elasticity"));
   robots_.Init(setup.space, frame_, *this);
+  team_ = setup.team;
 }
 
 void Kinematics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding binding)
@@ -131,6 +149,18 @@ void Kinematics2dEngine::Start()
   for (const Footbot& footbot : footbots_)
     world_.SetTurretAngle(footbot.body, space_->Attributes()[footbot.turret_slot]);
   writer_ = PlaneWriter(frame_, std::move(stances));
+  if (team_ != nullptr) world_.Divide(*team_);
+}
+
+std::unique_ptr<EngineRegion> Kinematics2dEngine::MakeRegion(unsigned region, RegionExchange& exchange)
+{
+  return std::make_unique<WorldRegion>(std::move(world_), region, exchange);
+}
+
+void Kinematics2dEngine::BalanceRegions()
+{
+  if (team_ == nullptr || updates_++ % kBalancePeriod != 0) return;
+  world_.MoveCuts(CutPlane(world_.BodiesInBlocks(), world_.BlockColumns(), configuration_->split));
 }
 
 void Kinematics2dEngine::AddFixed(const CSwarmanoidSpaceEntity& entity)
@@ -188,6 +218,7 @@ void Kinematics2dEngine::Update(const EngineCommands& commands, EngineUpdate& up
   FollowMirrors();
   ApplyCommands(commands);
   for (Footbot& footbot : footbots_) footbot.tick_start = world_.PoseOf(footbot.body);
+  BalanceRegions();
   world_.Advance(TickSeconds(), subclock_);
   writer_.Write(world_.Poses(), update.poses);
   robots_.Raise(layout_->owned, update.poses);

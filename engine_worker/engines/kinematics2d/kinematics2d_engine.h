@@ -31,6 +31,7 @@ public:
   // The engine has nothing hidden: each step starts from the saved state alone.
   void Canonicalise() override {}
   bool IsAlwaysCanonical() const override { return true; }
+  std::unique_ptr<EngineRegion> MakeRegion(unsigned region, RegionExchange& exchange) override;
   std::string StatusText() const override;
 
   const kinematics2d::KinematicWorld& World() const { return world_; }
@@ -68,6 +69,7 @@ private:
   bool Holds(std::uint32_t robot) const override { return world_.FindGrip(BodyOf(robot)) != nullptr; }
 
   void AddFixed(const CSwarmanoidSpaceEntity& entity);
+  void BalanceRegions();
   void FollowMirrors();
   void ApplyCommands(const EngineCommands& commands);
   void DriveWheels(const ChannelBlock& block, std::span<const double> values);
@@ -89,6 +91,8 @@ private:
   PlaneFrame frame_{PlaneAxis::kZ, 0};
   int subclock_ = 1;
   unsigned threads_ = 1;
+  RegionTeam* team_ = nullptr;
+  std::uint64_t updates_ = 0;
   kinematics2d::KinematicWorld world_;
   PlaneWriter writer_;
   PlaneRobots robots_;

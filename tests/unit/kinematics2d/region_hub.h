@@ -1,5 +1,5 @@
-// The regions of a kinematic world in one process, for tests and benchmarks: each does its tasks in a thread of its own,
-// and messages go by memory.
+// The regions of a kinematic world in one process, for tests and benchmarks: each does its tasks in a thread of its
+// own, and messages go by memory.
 #pragma once
 
 #include <condition_variable>
@@ -89,6 +89,8 @@ public:
   }
 
   unsigned RegionCount() const override { return static_cast<unsigned>(worlds_.size()); }
+  bool IsReady() const override { return is_ready_; }
+  void SetReady(bool is_ready) { is_ready_ = is_ready; }
   void Work(bool anew, const WriteTasks& write, std::span<std::vector<char>> results) override
   {
     anew = std::exchange(begins_again_, false) || anew;
@@ -167,6 +169,7 @@ private:
   std::vector<double> seconds_;
   std::vector<ByteWriter> tasks_;
   bool begins_again_ = false;
+  bool is_ready_ = true;
 };
 
 }  // namespace swarmanoid::kinematics2d

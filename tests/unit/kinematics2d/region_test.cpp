@@ -78,7 +78,10 @@ KinematicWorld Build(const Scene& scene)
   }
   if (scene.has_followers)
     for (std::uint32_t k = 0; k < kFollowers; ++k)
-      world.AddBody(scene.has_large && k == 2 ? plank : k + 1 == kFollowers ? last : prey, FollowerPose(scene, k, 0), true);
+      world.AddBody(scene.has_large && k == 2 ? plank
+                    : k + 1 == kFollowers     ? last
+                                              : prey,
+                    FollowerPose(scene, k, 0), true);
   world.AddStatic(Box(-edge - 0.1, -edge - 0.1, -edge, edge + 0.1));
   world.AddStatic(Box(edge, -edge - 0.1, edge + 0.1, edge + 0.1));
   world.AddStatic(Box(-edge - 0.1, -edge - 0.1, edge + 0.1, -edge));
@@ -240,13 +243,11 @@ void CompareTick(const Scene& scene, const KinematicWorld& world, const Tick& to
   {
     const Pose2 pose = world.PoseOf(body);
     const Pose2& expected = told.poses[body];
-    if (SameBits(pose.x, expected.x) && SameBits(pose.y, expected.y) &&
-        SameBits(pose.heading.z, expected.heading.z) && SameBits(pose.heading.w, expected.heading.w) &&
-        SameBits(world.TurretAngle(body), told.turrets[body]) &&
+    if (SameBits(pose.x, expected.x) && SameBits(pose.y, expected.y) && SameBits(pose.heading.z, expected.heading.z) &&
+        SameBits(pose.heading.w, expected.heading.w) && SameBits(world.TurretAngle(body), told.turrets[body]) &&
         SameBits(world.TravelForward(body) + world.TravelTurn(body), told.travel[body]))
       continue;
-    if (outcome.differences++ == 0)
-      outcome.first = "body " + std::to_string(body) + " at tick " + std::to_string(tick);
+    if (outcome.differences++ == 0) outcome.first = "body " + std::to_string(body) + " at tick " + std::to_string(tick);
   }
 }
 

@@ -1,0 +1,387 @@
+#include "common/bus/region_links.h"
+
+#include <algorithm>
+
+#include "common/bus/tick_gate.h"
+#include "common/messages/assignment.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+
+constexpr std::uint32_t kFirstTask = 0;
+constexpr std::uint32_t kEndOfRun = ~0U;
+constexpr std::chrono::milliseconds kFirstRepeat = 100ms;  // of what may have been lost
+constexpr std::chrono::milliseconds kLastRepeat = 1s;
+constexpr std::chrono::milliseconds kForEver = std::chrono::hours(24 * 365);
+constexpr std::chrono::milliseconds kEndTime = 5s;
+
+unsigned RegionsOfAll(const Experiment& experiment) { return RegionNumber(experiment, experiment.engines.size(), 0); }
+
+unsigned SplitEngines(const Experiment& experiment)
+{
+  return static_cast<unsigned>(std::ranges::count_if(
+      experiment.engines, [](const EngineConfiguration& engine) { return RegionsOf(engine) > 0; }));
+}
+
+void RequireParts(const RegionMessage& message, std::size_t parts)
+{
+  if (message.sizes.size() != parts) throw BadMessage("sizes: they are not as many as the regions");
+}
+
+std::span<const char> PartOf(const RegionMessage& message, std::size_t part)
+{
+  std::size_t begin = 0;
+  for (std::size_t k = 0; k < part; ++k) begin += message.sizes[k];
+  return std::span<const char>(message.bytes).subspan(begin, message.sizes[part]);
+}
+
+void Pack(std::span<const ByteWriter> parts, RegionMessage& message)
+{
+  message.sizes.clear();
+  message.bytes.clear();
+  for (const ByteWriter& part : parts)
+  {
+    message.sizes.push_back(static_cast<std::uint32_t>(part.Bytes().size()));
+    message.bytes.insert(message.bytes.end(), part.Bytes().begin(), part.Bytes().end());
+  }
+}
+
+// Grows while nobody answers.
+struct Patience
+{
+  std::chrono::milliseconds time = kFirstRepeat;
+  void Grow() { time = std::min(2 * time, kLastRepeat); }
+};
+
+}  // namespace
+
+RegionTeamLink::RegionTeamLink(WorkerSession& session, const Experiment& experiment, std::size_t engine,
+                               const TickLimits& limits)
+    : session_(session),
+      engine_(static_cast<std::uint32_t>(engine)),
+      first_(RegionNumber(experiment, engine, 0)),
+      of_all_(RegionsOfAll(experiment)),
+      places_(RegionsOf(experiment.engines[engine])),
+      tasks_(session.GetBus(), session.Scope(limits.RegionBytes(), SplitEngines(experiment))),
+      results_(session.GetBus(), session.Scope(limits.RegionBytes(), of_all_),
+               {[this](const MessageHeader& header) -> RegionResultMessage*
+                {
+                  const bool is_of_ours = header.source >= first_ && header.source - first_ < places_.size();
+                  return header.run == session_.World().run && is_of_ours ? &arriving_ : nullptr;
+                },
+                [this](const MessageHeader& header, RegionResultMessage& result) { Received(header, result); },
+                [](const MessageHeader&, const RegionResultMessage& result) { RequireParts(result, 2); }})
+{
+  // Whatever a worker before this one said is of an earlier epoch.
+  task_.epoch = session.Header(0, 0).incarnation << 16U;
+  for (unsigned k = 0; k < places_.size(); ++k)
+  {
+    places_[k].name = RegionName(experiment, engine, k);
+    session.Trust(places_[k].name);
+  }
+}
+
+RegionTeamLink::~RegionTeamLink() = default;
+
+unsigned RegionTeamLink::Missing() const { return of_all_ - std::min({of_all_, tasks_.Readers(), results_.Writers()}); }
+
+void RegionTeamLink::Begin(std::mutex& role) { role_ = &role; }
+
+std::string RegionTeamLink::Awaited() const
+{
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> names;
+  for (const Place& place : places_)
+    if (!place.is_here) names.push_back(place.name);
+  return Joined(names);
+}
+
+void RegionTeamLink::Received(const MessageHeader& header, RegionResultMessage& result)
+{
+  const std::lock_guard lock(mutex_);
+  Place& place = places_[header.source - first_];
+  if (result.epoch == 0)
+    begins_again_ = true;
+  else if (result.epoch == task_.epoch && result.number == task_.number && !place.is_here)
+  {
+    std::swap(place.result, result);
+    place.is_here = true;
+  }
+  changed_.notify_all();
+}
+
+void RegionTeamLink::Send() { tasks_.Write(session_.Header(tick_, engine_), task_); }
+
+bool RegionTeamLink::SendAndWait(std::chrono::milliseconds most)
+{
+  Send();
+  const auto until = std::chrono::steady_clock::now() + most;
+  Patience patience;
+  std::unique_lock lock(mutex_);
+  const auto all_here = [this] { return std::ranges::all_of(places_, &Place::is_here); };
+  while (!changed_.wait_for(lock, patience.time, [&] { return all_here() || begins_again_; }))
+  {
+    if (std::chrono::steady_clock::now() > until) return false;
+    lock.unlock();
+    Send();
+    patience.Grow();
+    lock.lock();
+  }
+  return all_here();
+}
+
+void RegionTeamLink::Work(bool anew, const WriteTasks& write, std::span<std::vector<char>> results)
+{
+  std::vector<ByteWriter> parts(places_.size());
+  for (bool done = false; !done; anew = true)
+  {
+    {
+      const std::lock_guard lock(mutex_);
+      anew |= std::exchange(begins_again_, false);
+    }
+    for (ByteWriter& part : parts) part.Clear();
+    write(anew, parts);
+    {
+      const std::lock_guard lock(mutex_);
+      task_.number = anew ? kFirstTask : task_.number + 1;
+      if (anew) ++task_.epoch;
+      Pack(parts, task_);
+      for (Place& place : places_) place.is_here = false;
+    }
+    role_->unlock();
+    try
+    {
+      done = SendAndWait(kForEver);
+    }
+    catch (...)
+    {
+      role_->lock();
+      throw;
+    }
+    role_->lock();
+  }
+  const std::lock_guard lock(mutex_);
+  for (std::size_t k = 0; k < places_.size(); ++k)
+  {
+    const std::span<const char> error = PartOf(places_[k].result, 1);
+    if (!error.empty()) throw std::runtime_error(std::string(error.begin(), error.end()));
+    const std::span<const char> result = PartOf(places_[k].result, 0);
+    results[k].assign(result.begin(), result.end());
+  }
+}
+
+void RegionTeamLink::End()
+{
+  if (role_ == nullptr) return;
+  {
+    const std::lock_guard lock(mutex_);
+    task_.number = kEndOfRun;
+    task_.sizes.assign(places_.size(), 0);
+    task_.bytes.clear();
+    begins_again_ = false;
+    for (Place& place : places_) place.is_here = false;
+  }
+  SendAndWait(kEndTime);
+}
+
+RegionLink::RegionLink(WorkerSession& session, const Experiment& experiment, std::size_t engine, unsigned region,
+                       const TickLimits& limits)
+    : session_(session),
+      engine_(static_cast<std::uint32_t>(engine)),
+      first_(RegionNumber(experiment, engine, 0)),
+      own_(region),
+      regions_(RegionsOf(experiment.engines[engine])),
+      engines_(SplitEngines(experiment)),
+      of_all_(RegionsOfAll(experiment)),
+      heard_(regions_),
+      halos_out_(session.GetBus(), session.Scope(limits.RegionBytes(), of_all_)),
+      results_(session.GetBus(), session.Scope(limits.RegionBytes(), of_all_)),
+      halos_in_(session.GetBus(), session.Scope(limits.RegionBytes(), of_all_),
+                {[this](const MessageHeader& header) -> RegionHaloMessage*
+                 {
+                   const bool is_of_ours = header.source >= first_ && header.source - first_ < regions_;
+                   return header.run == session_.World().run && is_of_ours && header.source != first_ + own_
+                              ? &arriving_halo_
+                              : nullptr;
+                 },
+                 [this](const MessageHeader& header, RegionHaloMessage& halo) { HaloReceived(header, halo); },
+                 [this](const MessageHeader&, const RegionHaloMessage& halo) { RequireParts(halo, regions_); }}),
+      tasks_(session.GetBus(), session.Scope(limits.RegionBytes(), engines_),
+             {[this](const MessageHeader& header) -> RegionTaskMessage*
+              { return header.run == session_.World().run && header.source == engine_ ? &arriving_task_ : nullptr; },
+              [this](const MessageHeader& header, RegionTaskMessage& task) { TaskReceived(header, task); },
+              [this](const MessageHeader&, const RegionTaskMessage& task) { RequireParts(task, regions_); }})
+{
+  session.Trust(EngineName(experiment, engine));
+  for (unsigned k = 0; k < regions_; ++k)
+    if (k != region) session.Trust(RegionName(experiment, engine, k));
+}
+
+RegionLink::~RegionLink() = default;
+
+unsigned RegionLink::Missing() const
+{
+  // Its own reader and writer meet, too.
+  const unsigned others = of_all_ - std::min({of_all_, halos_out_.Readers(), halos_in_.Writers()});
+  return others + engines_ - std::min({engines_, results_.Readers(), tasks_.Writers()});
+}
+
+void RegionLink::TaskReceived(const MessageHeader& header, RegionTaskMessage& task)
+{
+  const std::lock_guard lock(mutex_);
+  if (task.epoch < epoch_) return;
+  const bool is_known = task.epoch == epoch_ && task.number == number_;
+  const bool builds_upon = task.number != kFirstTask && task.number != kEndOfRun;
+  if (is_known)
+    is_asked_again_ = is_done_;
+  else if (builds_upon && (task.epoch != epoch_ || task.number != number_ + 1))
+    is_lost_ = true;
+  else
+  {
+    epoch_ = task.epoch;
+    number_ = task.number;
+    is_done_ = false;
+    next_tick_ = header.tick;
+    next_.emplace();
+    std::swap(*next_, task);
+  }
+  changed_.notify_all();
+}
+
+void RegionLink::HaloReceived(const MessageHeader& header, RegionHaloMessage& halo)
+{
+  const std::lock_guard lock(mutex_);
+  std::swap(heard_[header.source - first_][halo.number % 2], halo);
+  changed_.notify_all();
+}
+
+void RegionLink::Swap(std::span<const ByteWriter> out, std::span<std::vector<char>> in)
+{
+  ++exchanges_;
+  RegionHaloMessage& said = said_[exchanges_ % 2];
+  said.epoch = task_.epoch;
+  said.number = exchanges_;
+  Pack(out, said);
+  WriteHalo(said);
+  const auto is_here = [&](std::size_t region)
+  {
+    const RegionHaloMessage& halo = heard_[region][exchanges_ % 2];
+    return region == own_ || (halo.epoch == task_.epoch && halo.number == exchanges_);
+  };
+  const auto all_here = [&]
+  {
+    for (std::size_t region = 0; region < regions_; ++region)
+      if (!is_here(region)) return false;
+    return true;
+  };
+  Patience patience;
+  std::unique_lock lock(mutex_);
+  while (!changed_.wait_for(lock, patience.time, [&] { return all_here() || next_ || is_closed_; }))
+  {
+    lock.unlock();
+    // One that lags behind may lack the one before.
+    for (const RegionHaloMessage& again : {std::cref(said_[(exchanges_ + 1) % 2]), std::cref(said)})
+      if (again.epoch == task_.epoch) WriteHalo(again);
+    patience.Grow();
+    lock.lock();
+  }
+  if (!all_here()) throw RegionsBeginAgain();
+  for (std::size_t region = 0; region < regions_; ++region)
+  {
+    if (region == own_) continue;
+    const std::span<const char> part = PartOf(heard_[region][exchanges_ % 2], own_);
+    in[region].assign(part.begin(), part.end());
+  }
+}
+
+void RegionLink::WriteHalo(const RegionHaloMessage& halo)
+{
+  halos_out_.Write(session_.Header(tick_, first_ + own_), halo);
+}
+
+void RegionLink::Answer(std::uint32_t epoch, std::uint32_t number, std::span<const char> result,
+                        const std::string& error)
+{
+  answer_.epoch = epoch;
+  answer_.number = number;
+  answer_.sizes = {static_cast<std::uint32_t>(error.empty() ? result.size() : 0),
+                   static_cast<std::uint32_t>(error.size())};
+  if (error.empty())
+    answer_.bytes.assign(result.begin(), result.end());
+  else
+    answer_.bytes.assign(error.begin(), error.end());
+  results_.Write(session_.Header(tick_, first_ + own_), answer_);
+}
+
+// What to do next: a task, unless `again` (the last answer) or `lost`. False if there is nothing more.
+bool RegionLink::Take(bool& again, bool& lost)
+{
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return next_ || is_asked_again_ || is_lost_ || is_closed_; });
+  again = std::exchange(is_asked_again_, false) && !next_;
+  lost = std::exchange(is_lost_, false) && !next_ && !again;
+  if (!next_) return !is_closed_;
+  std::swap(task_, *next_);
+  next_.reset();
+  tick_ = next_tick_;
+  return !is_closed_;
+}
+
+void RegionLink::Serve(EngineRegion& region)
+{
+  // In case that the engine knew another one in this place.
+  Answer(0, 0, {}, "");
+  bool again = false;
+  bool lost = false;
+  while (Take(again, lost))
+  {
+    if (again)
+    {
+      results_.Write(session_.Header(tick_, first_ + own_), answer_);
+      continue;
+    }
+    if (lost)
+    {
+      Answer(0, 0, {}, "");
+      continue;
+    }
+    ByteWriter result;
+    std::string error;
+    try
+    {
+      if (task_.number == kFirstTask) exchanges_ = 0;
+      if (task_.number != kEndOfRun) region.Work(PartOf(task_, own_), result);
+    }
+    catch (const RegionsBeginAgain&)
+    {
+      continue;
+    }
+    catch (const BusError&)
+    {
+      throw;
+    }
+    catch (const std::exception& failure)
+    {
+      error = failure.what();
+    }
+    Answer(task_.epoch, task_.number, result.Bytes(), error);
+    {
+      const std::lock_guard lock(mutex_);
+      is_done_ = !next_;
+    }
+    if (task_.number == kEndOfRun) return session_.Finish(tick_);
+  }
+}
+
+void RegionLink::Close()
+{
+  const std::lock_guard lock(mutex_);
+  is_closed_ = true;
+  changed_.notify_all();
+}
+
+}  // namespace swarmanoid

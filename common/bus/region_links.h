@@ -1,0 +1,132 @@
+// The two ends between an engine that is split and the processes of its regions, at the bus: RegionTeamLink at the
+// engine worker, RegionLink at a region. docs/wire.md tells who says what.
+//
+// A task is done by all regions together: each waits for the others several times in it. So if one of them is another
+// process now, the task is given to all again, with all that they have to know (a new epoch), and those that were in
+// the middle of it drop it.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/bus/tick_limits.h"
+#include "common/bus/worker_session.h"
+#include "common/experiment/experiment.h"
+#include "common/messages/regions.h"
+
+namespace swarmanoid
+{
+
+class RegionTeamLink final : public RegionTeam
+{
+public:
+  // Of an engine that is split.
+  RegionTeamLink(WorkerSession& session, const Experiment& experiment, std::size_t engine, const TickLimits& limits);
+  ~RegionTeamLink() override;
+
+  // Regions whose topics have not been met yet.
+  unsigned Missing() const;
+  // All have been met: they do the tasks from now on. `role`: the mutex of the role, which Work unlocks while it waits,
+  // since threads of the bus may need it.
+  void Begin(std::mutex& role);
+  // The regions that a task waits for: "region 2 of engine 'ground'"; empty if none.
+  std::string Awaited() const;
+  void SetTick(std::uint64_t tick) { tick_ = tick; }
+  // The run is over: regions are told, so that they leave.
+  void End();
+
+  unsigned RegionCount() const override { return static_cast<unsigned>(places_.size()); }
+  bool IsReady() const override { return role_ != nullptr; }
+  void Work(bool anew, const WriteTasks& write, std::span<std::vector<char>> results) override;
+
+private:
+  struct Place
+  {
+    std::string name;
+    bool is_here = false;  // the result of the present task
+    RegionResultMessage result;
+  };
+
+  void Send();
+  // Sends the task until all results are here, or a region has to be told all: true for the former. False also if it
+  // takes longer than `most`.
+  bool SendAndWait(std::chrono::milliseconds most);
+  void Received(const MessageHeader& header, RegionResultMessage& result);
+
+  WorkerSession& session_;
+  const std::uint32_t engine_;
+  const std::uint32_t first_;  // number of region 0
+  const unsigned of_all_;      // regions of all engines
+  std::mutex* role_ = nullptr;
+  std::atomic<std::uint64_t> tick_ = 0;
+  RegionTaskMessage task_;  // the present one
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Place> places_;
+  bool begins_again_ = false;
+  RegionResultMessage arriving_;  // of the subscription's thread
+  HotPublisher<RegionTaskMessage> tasks_;
+  HotSubscription<RegionResultMessage> results_;
+};
+
+class RegionLink final : public RegionExchange
+{
+public:
+  RegionLink(WorkerSession& session, const Experiment& experiment, std::size_t engine, unsigned region,
+             const TickLimits& limits);
+  ~RegionLink() override;
+
+  // Of the engine worker and the other regions, those whose topics have not been met yet.
+  unsigned Missing() const;
+  // Does tasks until the run is over, or the program asks for the end (Close). What fails is told to the engine.
+  void Serve(EngineRegion& region);
+  void Close();
+
+  unsigned RegionCount() const override { return regions_; }
+  void Swap(std::span<const ByteWriter> out, std::span<std::vector<char>> in) override;
+
+private:
+  // What another region said last in an even or odd message.
+  using Halos = std::array<RegionHaloMessage, 2>;
+
+  void Answer(std::uint32_t epoch, std::uint32_t number, std::span<const char> result, const std::string& error);
+  void TaskReceived(const MessageHeader& header, RegionTaskMessage& task);
+  void HaloReceived(const MessageHeader& header, RegionHaloMessage& halo);
+  bool Take(bool& again, bool& lost);
+  void WriteHalo(const RegionHaloMessage& halo);
+
+  WorkerSession& session_;
+  const std::uint32_t engine_;
+  const std::uint32_t first_;  // number of region 0 of the engine
+  const std::uint32_t own_;    // of this one, from 0
+  const unsigned regions_;     // of the engine
+  const unsigned engines_, of_all_;
+  std::uint64_t tick_ = 0;
+  RegionTaskMessage task_;  // in work, or done last
+  RegionResultMessage answer_;
+  std::uint32_t exchanges_ = 0;  // in the epoch
+  Halos said_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<RegionTaskMessage> next_;
+  std::uint64_t next_tick_ = 0;
+  std::uint32_t epoch_ = 0, number_ = 0;  // of the newest task that has come
+  bool is_done_ = false;                  // that one, and answered
+  bool is_asked_again_ = false;           // for the last answer
+  bool is_lost_ = false;                  // a task came that builds upon others
+  bool is_closed_ = false;
+  std::vector<Halos> heard_;  // of each region
+  RegionTaskMessage arriving_task_;
+  RegionHaloMessage arriving_halo_;
+  HotPublisher<RegionHaloMessage> halos_out_;
+  HotPublisher<RegionResultMessage> results_;
+  HotSubscription<RegionHaloMessage> halos_in_;
+  HotSubscription<RegionTaskMessage> tasks_;
+};
+
+}  // namespace swarmanoid
