@@ -18,10 +18,17 @@ constexpr const char* kServer = "space server";
 constexpr std::string_view kTo = " to ";
 constexpr std::string_view kVisualiser = "visualiser ";  // as VisualiserName has it
 
-// As HostName and EngineName have it.
+// As HostName, EngineName and RegionName have it: a region is one "ground/2".
 std::string WorkerOf(const std::string& verb, const std::string& which)
 {
   return verb == "move-host" ? "controller host " + which : fmt::format("engine '{}'", which);
+}
+std::string RegionOf(const std::string& which)
+{
+  const std::size_t sign = which.rfind('/');
+  return sign == std::string::npos
+             ? std::string()
+             : fmt::format("region {} of engine '{}'", which.substr(sign + 1), which.substr(0, sign));
 }
 
 }  // namespace
@@ -178,13 +185,18 @@ std::vector<WorkerPlaces::Move> WorkerPlaces::Read(const ControlRequestMessage& 
 
   std::string which = request.entity;
   std::string machine;
-  auto found = places_.find(WorkerOf(request.verb, which));
+  const auto find = [&](const std::string& worker)
+  {
+    const auto place = places_.find(WorkerOf(request.verb, worker));
+    return place != places_.end() || request.verb != "move-engine" ? place : places_.find(RegionOf(worker));
+  };
+  auto found = find(which);
   // The machine may be named behind it.
   if (const std::size_t to = which.rfind(kTo); found == places_.end() && to != std::string::npos)
   {
     machine = which.substr(to + kTo.size());
     which.resize(to);
-    found = places_.find(WorkerOf(request.verb, which));
+    found = find(which);
   }
   if (found == places_.end())
   {

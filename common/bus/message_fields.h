@@ -122,29 +122,30 @@ void Fields(Archive& archive, MessageHeader& header, DrawnMessage& message)
 }
 
 template <class Archive>
-void RegionFields(Archive& archive, RegionMessage& message)
+void RegionFields(Archive& archive, MessageHeader& header, RegionMessage& message)
 {
   archive.Integer("epoch", message.epoch);
   archive.Integer("number", message.number);
+  archive.Flags("flags", {{kFlagRepeated, &header.repeated}});
   archive.Array("sizes", message.sizes);
   archive.Array("bytes", message.bytes);
   if (std::accumulate(message.sizes.begin(), message.sizes.end(), std::uint64_t{0}) != message.bytes.size())
     RefuseField("sizes", "they are not those of the bytes");
 }
 template <class Archive>
-void Fields(Archive& archive, MessageHeader&, RegionTaskMessage& message)
+void Fields(Archive& archive, MessageHeader& header, RegionTaskMessage& message)
 {
-  RegionFields(archive, message);
+  RegionFields(archive, header, message);
 }
 template <class Archive>
-void Fields(Archive& archive, MessageHeader&, RegionHaloMessage& message)
+void Fields(Archive& archive, MessageHeader& header, RegionHaloMessage& message)
 {
-  RegionFields(archive, message);
+  RegionFields(archive, header, message);
 }
 template <class Archive>
-void Fields(Archive& archive, MessageHeader&, RegionResultMessage& message)
+void Fields(Archive& archive, MessageHeader& header, RegionResultMessage& message)
 {
-  RegionFields(archive, message);
+  RegionFields(archive, header, message);
 }
 
 // ---- All others ----

@@ -255,7 +255,9 @@ void RegionLink::TaskReceived(const MessageHeader& header, RegionTaskMessage& ta
 void RegionLink::HaloReceived(const MessageHeader& header, RegionHaloMessage& halo)
 {
   const std::lock_guard lock(mutex_);
-  std::swap(heard_[header.source - first_][halo.number % 2], halo);
+  RegionHaloMessage& heard = heard_[header.source - first_][halo.number % 2];
+  if (header.repeated && heard.epoch == halo.epoch && heard.number == halo.number) is_halo_missed_ = true;
+  std::swap(heard, halo);
   changed_.notify_all();
 }
 
@@ -283,9 +285,7 @@ void RegionLink::Swap(std::span<const ByteWriter> out, std::span<std::vector<cha
   while (!changed_.wait_for(lock, patience.time, [&] { return all_here() || next_ || is_closed_; }))
   {
     lock.unlock();
-    // One that lags behind may lack the one before.
-    for (const RegionHaloMessage& again : {std::cref(said_[(exchanges_ + 1) % 2]), std::cref(said)})
-      if (again.epoch == task_.epoch) WriteHalo(again);
+    WriteHalosAgain(true);
     patience.Grow();
     lock.lock();
   }
@@ -298,9 +298,19 @@ void RegionLink::Swap(std::span<const ByteWriter> out, std::span<std::vector<cha
   }
 }
 
-void RegionLink::WriteHalo(const RegionHaloMessage& halo)
+void RegionLink::WriteHalo(const RegionHaloMessage& halo, bool lacks_others)
 {
-  halos_out_.Write(session_.Header(tick_, first_ + own_), halo);
+  MessageHeader header = session_.Header(tick_, first_ + own_);
+  header.repeated = lacks_others;
+  halos_out_.Write(header, halo);
+}
+
+// The last two: one that lags behind lacks the first of them.
+void RegionLink::WriteHalosAgain(bool lacks_others)
+{
+  for (const std::uint32_t number : {exchanges_ - 1, exchanges_})
+    if (const RegionHaloMessage& said = said_[number % 2]; said.epoch == task_.epoch && said.number == number)
+      WriteHalo(said, lacks_others);
 }
 
 void RegionLink::Answer(std::uint32_t epoch, std::uint32_t number, std::span<const char> result,
@@ -317,38 +327,35 @@ void RegionLink::Answer(std::uint32_t epoch, std::uint32_t number, std::span<con
   results_.Write(session_.Header(tick_, first_ + own_), answer_);
 }
 
-// What to do next: a task, unless `again` (the last answer) or `lost`. False if there is nothing more.
-bool RegionLink::Take(bool& again, bool& lost)
+RegionLink::Next RegionLink::WaitForNext()
 {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return next_ || is_asked_again_ || is_lost_ || is_closed_; });
-  again = std::exchange(is_asked_again_, false) && !next_;
-  lost = std::exchange(is_lost_, false) && !next_ && !again;
-  if (!next_) return !is_closed_;
-  std::swap(task_, *next_);
-  next_.reset();
-  tick_ = next_tick_;
-  return !is_closed_;
+  changed_.wait(lock, [this] { return next_ || is_asked_again_ || is_halo_missed_ || is_lost_ || is_closed_; });
+  if (is_closed_) return Next::kEnd;
+  if (next_)
+  {
+    std::swap(task_, *next_);
+    next_.reset();
+    tick_ = next_tick_;
+    is_asked_again_ = is_halo_missed_ = is_lost_ = false;
+    return Next::kTask;
+  }
+  if (std::exchange(is_halo_missed_, false)) return Next::kHalosAgain;
+  if (std::exchange(is_asked_again_, false)) return Next::kAnswerAgain;
+  is_lost_ = false;
+  return Next::kAskForAll;
 }
 
 void RegionLink::Serve(EngineRegion& region)
 {
   // In case that the engine knew another one in this place.
   Answer(0, 0, {}, "");
-  bool again = false;
-  bool lost = false;
-  while (Take(again, lost))
+  for (Next next = WaitForNext(); next != Next::kEnd; next = WaitForNext())
   {
-    if (again)
-    {
-      results_.Write(session_.Header(tick_, first_ + own_), answer_);
-      continue;
-    }
-    if (lost)
-    {
-      Answer(0, 0, {}, "");
-      continue;
-    }
+    if (next == Next::kHalosAgain) WriteHalosAgain(false);
+    if (next == Next::kAnswerAgain) results_.Write(session_.Header(tick_, first_ + own_), answer_);
+    if (next == Next::kAskForAll) Answer(0, 0, {}, "");
+    if (next != Next::kTask) continue;
     ByteWriter result;
     std::string error;
     try

@@ -97,8 +97,19 @@ private:
   void Answer(std::uint32_t epoch, std::uint32_t number, std::span<const char> result, const std::string& error);
   void TaskReceived(const MessageHeader& header, RegionTaskMessage& task);
   void HaloReceived(const MessageHeader& header, RegionHaloMessage& halo);
-  bool Take(bool& again, bool& lost);
-  void WriteHalo(const RegionHaloMessage& halo);
+  // What a region does next, between two tasks.
+  enum class Next
+  {
+    kTask,
+    kAnswerAgain,
+    kHalosAgain,  // another one has not got the last ones
+    kAskForAll,   // a task came that builds upon others
+    kEnd
+  };
+  Next WaitForNext();
+  void WriteHalo(const RegionHaloMessage& halo, bool lacks_others = false);
+  // Those of the task that another one may lack.
+  void WriteHalosAgain(bool lacks_others);
 
   WorkerSession& session_;
   const std::uint32_t engine_;
@@ -119,6 +130,7 @@ private:
   bool is_done_ = false;                  // that one, and answered
   bool is_asked_again_ = false;           // for the last answer
   bool is_lost_ = false;                  // a task came that builds upon others
+  bool is_halo_missed_ = false;           // somebody says again what all have heard
   bool is_closed_ = false;
   std::vector<Halos> heard_;  // of each region
   RegionTaskMessage arriving_task_;

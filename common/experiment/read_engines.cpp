@@ -27,12 +27,12 @@ bool CanSimulate(const PluginDescription& engine, EntityKind kind)
                      [&](const std::string& tag) { return KindOfTag(tag) == kind; });
 }
 
-std::vector<std::string> TagsOfSplitEngines()
+std::string OthersThatSplit()
 {
   std::vector<std::string> tags;
   for (const PluginDescription* plugin : PluginCatalogue::Instance().Of(PluginKind::kEngine))
     if (plugin->can_split) tags.push_back(plugin->label);
-  return tags;
+  return tags.empty() ? "" : ", or take " + Listed(tags);
 }
 
 // Reads the entities of one engine.
@@ -176,12 +176,8 @@ void ReadSplit(const ElementReader& reader, const PluginDescription* plugin, Eng
   else if (split->regions > 1 && plugin != nullptr && !plugin->can_split)
     reading.diagnostics.Add(
         reader.Place("split"),
-        fmt::format("the engine {} ({}) cannot be split: {}; leave out split, or take {}", Quoted(engine.id),
-                    engine.tag,
-                    plugin->any_kind && !plugin->entity_tags.empty()
-                        ? "its contacts are solved together, over islands that may reach across the whole world"
-                        : "it does not say that it can",
-                    Listed(TagsOfSplitEngines())));
+        fmt::format("the engine {} ({}) cannot be split: it computes its world as one whole; leave out split{}",
+                    Quoted(engine.id), engine.tag, OthersThatSplit()));
   else
     engine.split = *split;
 }

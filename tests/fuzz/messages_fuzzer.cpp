@@ -71,7 +71,10 @@ constexpr void (*kTries[])(std::span<const char>) = {TryOfTick<SpaceState>,
                                                      TryOther<RecoveryRequestMessage>,
                                                      TryOther<RecoveryBlockMessage>,
                                                      TryOther<WorkerRequestMessage>,
-                                                     TryOther<WorkerReportMessage>};
+                                                     TryOther<WorkerReportMessage>,
+                                                     TryOfTick<RegionTaskMessage>,
+                                                     TryOfTick<RegionHaloMessage>,
+                                                     TryOfTick<RegionResultMessage>};
 
 fuzz::Input InputOf(std::uint8_t topic, const std::string& payload)
 {

@@ -157,6 +157,21 @@ TEST(BadMessages, NumbersThatAreNotFiniteAreRefused)
   }
 }
 
+TEST(BadMessages, PartsForRegionsAreAllOfTheBytes)
+{
+  RegionHaloMessage halo;
+  halo.sizes = {2, 0, 1};
+  halo.bytes = {1, 2, 3};
+  EXPECT_EQ(TickRefusal<RegionHaloMessage>(BytesOf(MessageHeader{}, halo)), "");
+  for (const std::uint32_t wrong : {0U, 2U, ~0U})
+  {
+    std::string bytes = BytesOf(MessageHeader{}, halo);
+    constexpr std::size_t kSizes = 4 + 20 + 12 + 4;  // behind the encapsulation, the header, epoch, number and flags
+    Put(bytes, kSizes + 8, wrong);
+    EXPECT_THAT(TickRefusal<RegionHaloMessage>(bytes), HasSubstr("sizes: they are not those of the bytes")) << wrong;
+  }
+}
+
 TEST(BadMessages, SlotsThatDoNotAscendAreRefused)
 {
   for (const std::uint32_t second : {3U, 2U})

@@ -236,6 +236,28 @@ TEST(MessageBytes, OfATickAreThoseOfTheIdl)
     wire_frame.values(frame.values);
     ExpectSame<wire::SensorFramePubSubType>(header, frame, wire_frame);
 
+    const auto expect_region =
+        [&]<class Support, class Message, class Wire>(Support*, Message message, Wire wire_message)
+    {
+      message.epoch = random.Number32();
+      message.number = random.Number32();
+      for (std::uint32_t part = 0; part < random.Number32() % 4; ++part)
+      {
+        message.sizes.push_back(random.Number32() % 20);
+        for (std::uint32_t k = 0; k < message.sizes.back(); ++k)
+          message.bytes.push_back(static_cast<char>(random.Number32()));
+      }
+      wire_message.epoch(message.epoch);
+      wire_message.number(message.number);
+      wire_message.flags(FlagsOf(false, header.repeated));
+      wire_message.sizes(message.sizes);
+      wire_message.bytes({message.bytes.begin(), message.bytes.end()});
+      ExpectSame<Support>(header, message, wire_message);
+    };
+    expect_region(static_cast<wire::RegionTaskPubSubType*>(nullptr), RegionTaskMessage(), wire::RegionTask());
+    expect_region(static_cast<wire::RegionHaloPubSubType*>(nullptr), RegionHaloMessage(), wire::RegionHalo());
+    expect_region(static_cast<wire::RegionResultPubSubType*>(nullptr), RegionResultMessage(), wire::RegionResult());
+
     const DrawnMessage drawn{random.Flag()};
     wire::Drawn wire_drawn;
     wire_drawn.flags(FlagsOf(drawn.terminate, header.repeated));

@@ -209,8 +209,14 @@ const Mistake kMistakes[] = {
     {"EngineParameter", "<perpendicular_axis>z</perpendicular_axis>", "<perpendicular_axis>w</perpendicular_axis>",
      "test.xml:24:31: 'perpendicular_axis' of <dummy_engine> is 'w'; it must be one of x, y, z\n"},
     {"EngineParameterName", "<perpendicular_axis>z</perpendicular_axis>", "<perpendicular>z</perpendicular>",
-     "test.xml:24:31: <dummy_engine> has no element <perpendicular>; allowed: id, subclock, library, "
+     "test.xml:24:31: <dummy_engine> has no element <perpendicular>; allowed: id, subclock, split, library, "
      "perpendicular_axis, distance; did you mean 'perpendicular_axis'?\n"},
+    {"EngineThatCannotBeSplit", "<dummy_engine id=\"ground\">", "<dummy_engine id=\"ground\" split=\"2\">",
+     "test.xml:24:31: the engine 'ground' (dummy_engine) cannot be split: it computes its world as one whole; leave "
+     "out split\n"},
+    {"SplitThatIsNone", "<dummy_engine id=\"ground\">", "<dummy_engine id=\"ground\" split=\"6x6\">",
+     "test.xml:24:31: split is '6x6'; it must be a number of regions from 1 to 32 (\"4\"), or columns and rows of as "
+     "many (\"2x2\")\n"},
     {"EngineTwice", "<engines>\n", "<engines><dummy_engine id=\"ground\"/>\n",
      "test.xml:24:19: two engines have the id 'ground'; the first is in line 23\n"},
     {"UnknownEngineId", "<engine id=\"ground\">", "<engine id=\"gound\">",

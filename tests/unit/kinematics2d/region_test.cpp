@@ -273,7 +273,10 @@ Outcome Retell(const Scene& scene, const Story& story, unsigned regions, const C
     {
       const Tick& told = story.ticks[n];
       const std::uint64_t tick = story.first + n;
-      if (const auto region = replaced ? replaced(n) : std::nullopt) team.Replace(*region);
+      const auto other = replaced ? replaced(n) : std::nullopt;
+      if (other) team.Replace(*other);
+      // Until it is there the world may have to do without all of them.
+      team.SetReady(!other || n % 2 == 0);
       world.MoveCuts(cuts(world.BlockColumns(), world.BlockCount(), n));
       Act(scene, world, told, tick);
       world.Advance(kTick, 1);

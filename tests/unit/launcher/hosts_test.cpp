@@ -45,6 +45,11 @@ TEST(Hosts, FindsTheHostOfOneProcessThenOfItsRole)
   EXPECT_EQ(hosts.HostOf("controller_host", "0"), "");
   EXPECT_EQ(hosts.HostOf("controller_host", "1"), "gamma");
   EXPECT_EQ(hosts.HostOf("space_server", ""), "");
+  // Regions are with their engine.
+  EXPECT_EQ(hosts.HostOf("region", "ground/1"), "alpha");
+  EXPECT_EQ(hosts.HostOf("region", "sky/0"), "beta");
+  EXPECT_EQ(Hosts("hosts.txt", "engine = beta\nregion ground/1 = delta\n").HostOf("region", "ground/1"), "delta");
+  EXPECT_EQ(Hosts("hosts.txt", "engine = beta\nregion = here\n").HostOf("region", "ground/1"), "");
   EXPECT_FALSE(hosts.AllHere());
   EXPECT_TRUE(Hosts().AllHere());
 }

@@ -76,6 +76,22 @@ TEST(Assignment, TheFirstEngineThatListsAnEntityOwnsIt)
   EXPECT_THAT(assignment.engines[1].fixed, ElementsAre(5));
 }
 
+TEST(Assignment, RegionsAreCountedOverAllEngines)
+{
+  Experiment experiment = Mixed();
+  experiment.engines.resize(3);
+  experiment.engines[0].id = "a";
+  experiment.engines[0].split = {3, 0};
+  experiment.engines[2].id = "c";
+  experiment.engines[2].split = {4, 2};
+  EXPECT_EQ(RegionsOf(experiment.engines[0]), 3U);
+  EXPECT_EQ(RegionsOf(experiment.engines[1]), 0U);
+  EXPECT_EQ(RegionNumber(experiment, 0, 2), 2U);
+  EXPECT_EQ(RegionNumber(experiment, 2, 0), 3U);
+  EXPECT_EQ(RegionNumber(experiment, 3, 0), 7U);
+  EXPECT_EQ(RegionName(experiment, 2, 1), "region 1 of engine 'c'");
+}
+
 TEST(Assignment, HostsFollowTheEngines)
 {
   const Assignment assignment = MakeAssignment(Mixed(), 3);

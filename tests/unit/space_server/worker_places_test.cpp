@@ -55,6 +55,18 @@ TEST(WorkerPlaces, FindTheWorkerAndItsMachine)
   EXPECT_EQ(MovesOf("move-engine", "a to b to beta"), "engine 'a to b' > beta; ");
 }
 
+TEST(WorkerPlaces, FindTheRegionsOfAnEngine)
+{
+  const WorkerPlaces places({"here", "beta"}, {"engine 'ground'=here", "region 0 of engine 'ground'=here",
+                                               "region 1 of engine 'ground'=beta", "engine 'a/1'=here"});
+  EXPECT_EQ(MovesOf(places, "move-engine", "ground/1"), "region 1 of engine 'ground' > beta; ");
+  EXPECT_EQ(MovesOf(places, "move-engine", "ground/0 to beta"), "region 0 of engine 'ground' > beta; ");
+  EXPECT_EQ(MovesOf(places, "move-engine", "ground to beta"), "engine 'ground' > beta; ");
+  EXPECT_EQ(MovesOf(places, "move-engine", "a/1"), "engine 'a/1' > here; ");
+  EXPECT_EQ(MovesOf(places, "drain", "beta"), "region 1 of engine 'ground' > here; ");
+  EXPECT_THAT(MovesOf(places, "move-engine", "ground/2"), HasSubstr("region 1 of engine 'ground'"));
+}
+
 TEST(WorkerPlaces, RefuseWhatIsNotThere)
 {
   EXPECT_THAT(MovesOf("move-host", "2"), AllOf(HasSubstr("no controller host 2"), HasSubstr("controller host 1")));
