@@ -136,20 +136,20 @@ bool RegionTeamLink::SendAndWait(std::chrono::milliseconds most)
 
 void RegionTeamLink::Work(bool anew, const WriteTasks& write, std::span<std::vector<char>> results)
 {
-  std::vector<ByteWriter> parts(places_.size());
+  parts_.resize(places_.size());
   for (bool done = false; !done; anew = true)
   {
     {
       const std::lock_guard lock(mutex_);
       anew |= std::exchange(begins_again_, false);
     }
-    for (ByteWriter& part : parts) part.Clear();
-    write(anew, parts);
+    for (ByteWriter& part : parts_) part.Clear();
+    write(anew, parts_);
     {
       const std::lock_guard lock(mutex_);
       task_.number = anew ? kFirstTask : task_.number + 1;
       if (anew) ++task_.epoch;
-      Pack(parts, task_);
+      Pack(parts_, task_);
       for (Place& place : places_) place.is_here = false;
     }
     role_->unlock();
@@ -350,13 +350,14 @@ void RegionLink::Serve(EngineRegion& region)
 {
   // In case that the engine knew another one in this place.
   Answer(0, 0, {}, "");
+  ByteWriter result;
   for (Next next = WaitForNext(); next != Next::kEnd; next = WaitForNext())
   {
     if (next == Next::kHalosAgain) WriteHalosAgain(false);
     if (next == Next::kAnswerAgain) results_.Write(session_.Header(tick_, first_ + own_), answer_);
     if (next == Next::kAskForAll) Answer(0, 0, {}, "");
     if (next != Next::kTask) continue;
-    ByteWriter result;
+    result.Clear();
     std::string error;
     try
     {

@@ -64,6 +64,7 @@ private:
   const unsigned of_all_;      // regions of all engines
   std::mutex* role_ = nullptr;
   std::atomic<std::uint64_t> tick_ = 0;
+  std::vector<ByteWriter> parts_;
   RegionTaskMessage task_;  // the present one
   mutable std::mutex mutex_;
   std::condition_variable changed_;

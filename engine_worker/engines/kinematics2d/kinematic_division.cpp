@@ -288,6 +288,8 @@ void KinematicWorld::Division::WriteResult(const KinematicWorld& world, ByteWrit
 {
   const Region& region = *world.region_;
   std::vector<std::uint32_t> bodies, numbers;
+  bodies.reserve(world.count_);
+  numbers.reserve(world.count_);
   for (std::uint32_t body = 0; body < world.count_; ++body)
     if (region.IsOwn(body))
     {
