@@ -275,8 +275,8 @@ Outcome Retell(const Scene& scene, const Story& story, unsigned regions, const C
       const std::uint64_t tick = story.first + n;
       const auto other = replaced ? replaced(n) : std::nullopt;
       if (other) team.Replace(*other);
-      // Until it is there the world may have to do without all of them.
-      team.SetReady(!other || n % 2 == 0);
+      // Sometimes the world has to do without them.
+      team.SetReady(!replaced || n % 5 != 4);
       world.MoveCuts(cuts(world.BlockColumns(), world.BlockCount(), n));
       Act(scene, world, told, tick);
       world.Advance(kTick, 1);
