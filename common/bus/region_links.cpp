@@ -1,5 +1,7 @@
 #include "common/bus/region_links.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 
 #include "common/bus/tick_gate.h"
@@ -377,6 +379,8 @@ void RegionLink::Serve(EngineRegion& region)
       error = failure.what();
     }
     Answer(task_.epoch, task_.number, result.Bytes(), error);
+    // The region has dropped most of the world that it was made from.
+    if (task_.number == kFirstTask) malloc_trim(0);
     {
       const std::lock_guard lock(mutex_);
       is_done_ = !next_;
