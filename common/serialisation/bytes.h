@@ -68,6 +68,14 @@ public:
     if (count > 0) std::memcpy(values.data(), Take(count * sizeof(T)), count * sizeof(T));
     return values;
   }
+  // The bytes of an array of such elements, where they are: not aligned.
+  template <class T>
+  requires std::is_trivially_copyable_v<T> std::span<const char> GetImage()
+  {
+    const auto count = Get<std::uint64_t>();
+    if (count > bytes_.size() / sizeof(T)) throw std::runtime_error("saved state: an array is longer than the state");
+    return {Take(count * sizeof(T)), count * sizeof(T)};
+  }
   std::string GetText()
   {
     const auto characters = GetArray<char>();

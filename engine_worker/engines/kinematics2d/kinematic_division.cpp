@@ -2,6 +2,7 @@
 #include "engine_worker/engines/kinematics2d/kinematic_division.h"
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 #include <stdexcept>
 
@@ -197,9 +198,14 @@ void KinematicWorld::Division::ReadResult(KinematicWorld& world, unsigned region
   }
   const auto take = [&](std::vector<double>& of_bodies)
   {
-    const auto values = result.GetArray<double>();
-    if (values.size() != bodies.size()) Refuse("it told of other bodies");
-    for (std::size_t k = 0; k < bodies.size(); ++k) of_bodies[bodies[k]] = values[k];
+    const std::span<const char> values = result.GetImage<double>();
+    if (values.size() != bodies.size() * sizeof(double)) Refuse("it told of other bodies");
+    const char* value = values.data();
+    for (const std::uint32_t body : bodies)
+    {
+      std::memcpy(&of_bodies[body], value, sizeof(double));
+      value += sizeof(double);
+    }
   };
   for (std::vector<double>* values : {&world.now_.x, &world.now_.y, &world.now_.z, &world.now_.w}) take(*values);
   for (const TurretAngle& turret : result.GetArray<TurretAngle>())
@@ -260,15 +266,18 @@ void KinematicWorld::Division::TakeChanges(KinematicWorld& world, ByteReader& ta
     world.now_.Set(body, changed.pose);
     world.present_[body] = changed.is_present != 0 ? 1 : 0;
   }
-  const auto twists = task.GetArray<Twist>();
-  auto twist = twists.begin();
+  const std::span<const char> twists = task.GetImage<Twist>();
+  std::size_t at = 0;
   for (std::uint32_t body = 0; body < world.count_; ++body)
   {
     if (!region.IsOwn(body)) continue;
-    if (twist == twists.end()) Refuse("it computes more bodies");
-    world.twists_.Set(body, *twist++);
+    if (at == twists.size()) Refuse("it computes more bodies");
+    Twist twist;
+    std::memcpy(&twist, twists.data() + at, sizeof(Twist));
+    at += sizeof(Twist);
+    world.twists_.Set(body, twist);
   }
-  if (twist != twists.end()) Refuse("it computes fewer bodies");
+  if (at != twists.size()) Refuse("it computes fewer bodies");
 
   std::vector<std::uint32_t> stopped;
   const auto rates = task.GetArray<TurretRate>();

@@ -94,7 +94,9 @@ public:
   void Work(bool anew, const WriteTasks& write, std::span<std::vector<char>> results) override
   {
     anew = std::exchange(begins_again_, false) || anew;
-    tasks_.assign(RegionCount(), {});
+    tasks_.resize(RegionCount());
+    results_.resize(RegionCount());
+    for (ByteWriter& task : tasks_) task.Clear();
     write(anew, tasks_);
     std::vector<std::string> errors(RegionCount());
     std::vector<std::thread> threads;
@@ -105,9 +107,9 @@ public:
             const double start = ThreadSeconds();
             try
             {
-              ByteWriter result;
-              worlds_[region].world->DoTask(tasks_[region].Bytes(), result);
-              results[region] = result.Bytes();
+              results_[region].Clear();
+              worlds_[region].world->DoTask(tasks_[region].Bytes(), results_[region]);
+              results[region] = results_[region].Bytes();
             }
             catch (const std::exception& error)
             {
@@ -167,7 +169,7 @@ private:
   std::unique_ptr<Hub> hub_;
   std::vector<Place> worlds_;
   std::vector<double> seconds_;
-  std::vector<ByteWriter> tasks_;
+  std::vector<ByteWriter> tasks_, results_;
   bool begins_again_ = false;
   bool is_ready_ = true;
 };
