@@ -1228,7 +1228,7 @@ const tests = {
 
   async "the timeline has events as marks, and a branch from the tick that is looked at"() {
     writeFileSync(join(folder, "asked.csv"), "tick,request,entity,numbers,from\n20,move,fb_1,1 1 0,anna@lab\n40,remove,fb_2,,\n");
-    const first = run("diffusion_10", "--real-time", 10, "--ticks", 150, "--no-visualisers", "--output", "with events", "--events", "asked.csv");
+    const first = run("diffusion_10", "--real-time", 1, "--ticks", 150, "--no-visualisers", "--output", "with events", "--events", "asked.csv");
     const { viewer, url } = await attach();
     const page = await open(url, { permissions: ["clipboard-read", "clipboard-write"] });
     await drawn(page);
