@@ -88,7 +88,12 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
                   views_.Lost(process);
                   run_control_.Gone(process);
                 },
-                [this](const ControlReplyMessage& reply) { shares_.Replied(reply); }}),
+                [this](const ControlReplyMessage& reply)
+                {
+                  shares_.Replied(reply);
+                  // An offer of a machine that is said again is answered without a word, and changes nothing.
+                  if (!reply.text.empty()) views_.Renew();
+                }}),
       shares_(session_, options.bus,
               {[this](const ViewRequestMessage& request) { views_.Requested(request); },
                [this](const ControlRequestMessage& request)
@@ -434,7 +439,6 @@ void ServerProgram::RunTicks()
         lockstep_.Go(decision.until);
       else if (decision.due)
         next = std::min(next, *decision.due);
-      views_.Renew();
     }
     checkpoints_.Work();
     ReportProgress();
