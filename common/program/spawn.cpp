@@ -47,9 +47,10 @@ std::vector<char*> Pointers(std::vector<std::string>& texts)
 // A descriptor that becomes a standard one, or another one that does nothing. -1 if it cannot be.
 int Connect(int descriptor, int standard)
 {
-  if (descriptor >= 0) return dup2(descriptor, standard);
-  const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
-  return nothing < 0 ? -1 : dup2(nothing, standard);
+  const int from = descriptor >= 0 ? descriptor : open("/dev/null", O_RDWR);
+  // A process whose own standard ones are closed gets their numbers for others.
+  if (from == standard) return fcntl(from, F_SETFD, 0);
+  return from < 0 ? -1 : dup2(from, standard);
 }
 
 // The part between fork and exec: system calls only. Returns errno if one fails. posix_spawn knows no way to die with
