@@ -1,9 +1,6 @@
 // What becomes of a process that offers its machine to a run that ends before it has answered.
 #include "common/bus/offered_machine.h"
 
-#include <fastrtps/attributes/LibrarySettingsAttributes.h>
-#include <fastrtps/xmlparser/XMLProfileManager.h>
-
 #include <atomic>
 #include <future>
 
@@ -11,6 +8,7 @@
 
 #include "common/activity/exit_codes.h"
 #include "tests/eventually.h"
+#include "tests/unit/bus/separate_processes.h"
 #include "tests/unit/bus/server_fixture.h"
 
 namespace swarmanoid
@@ -21,18 +19,12 @@ namespace
 using test::Eventually;
 using testing::HasSubstr;
 
-// A space server that hears offers and does what a test says, as a process of its own.
+// A space server that hears offers and does what a test says.
 class OfferToARun : public test::ServerFixture
 {
 protected:
-  using Settings = eprosima::fastrtps::LibrarySettingsAttributes;
-  using Profiles = eprosima::fastrtps::xmlparser::XMLProfileManager;
-
-  OfferToARun() : ServerFixture("offered"), settings_(Profiles::library_settings())
+  OfferToARun() : ServerFixture("offered")
   {
-    Settings settings = settings_;
-    settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
-    Profiles::library_settings(settings);
     world_.host = MachineName();
     world_.pid = static_cast<std::uint32_t>(getpid());
     world_.spread = true;
@@ -49,7 +41,6 @@ protected:
     worlds_.emplace(*server_, "offered");
     worlds_->Write(world_);
   }
-  ~OfferToARun() override { Profiles::library_settings(settings_); }
 
   // Offers this machine, and lets `end` end the run once the offer was heard twice. The exit code.
   int Offer(const std::function<void()>& end)
@@ -68,7 +59,7 @@ protected:
   }
   void Leave(const std::string& error) { leaves_->Write({world_.run, 7, "space server", "", error}); }
 
-  const Settings settings_;
+  const test::SeparateProcesses separate_;
   std::optional<Bus> server_;
   std::optional<Publisher<LeaveMessage>> leaves_;
   std::optional<Publisher<ControlReplyMessage>> replies_;
