@@ -55,7 +55,11 @@ protected:
                                         });
     EXPECT_TRUE(Eventually([&] { return heard_ >= 2; }));
     end();
-    return offer.get();
+    const int before = heard_;
+    const int code = offer.get();
+    // It is said four times a second: not for as long as the run would be waited for.
+    EXPECT_LT(heard_ - before, 40);
+    return code;
   }
   void Leave(const std::string& error) { leaves_->Write({world_.run, 7, "space server", "", error}); }
 
