@@ -9,7 +9,6 @@
 #include <ctime>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 #include "common/activity/exit_codes.h"
 #include "common/bus/cluster_options.h"
@@ -17,6 +16,7 @@
 #include "common/bus/run_directory.h"
 #include "common/bus/share.h"
 #include "common/configuration/wording.h"
+#include "common/program/shell_word.h"
 #include "launcher/commands.h"
 #include "launcher/isolation.h"
 #include "launcher/run_choice.h"
@@ -54,16 +54,6 @@ std::optional<double> SecondsOf(const std::string& text)
   if (error != std::errc() || factor == 0 || !(number * factor >= 1) || number * factor > kLongestTime_s)
     return std::nullopt;
   return number * factor;
-}
-
-// As one word of a shell.
-std::string ShellWord(const std::string& text)
-{
-  static const std::regex plain("[A-Za-z0-9_.,:/-]+");
-  if (std::regex_match(text, plain)) return text;
-  std::string word = "'";
-  for (const char letter : text) word += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-  return word + "'";
 }
 
 RunKey KeyOfChosenRun(const RunChoice& run, const BusOptions& bus)

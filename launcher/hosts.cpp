@@ -10,6 +10,7 @@
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
+#include "common/program/shell_word.h"
 #include "launcher/commands.h"
 
 namespace swarmanoid
@@ -45,15 +46,6 @@ void ReplaceAll(std::string& text, const std::string& what, const std::string& b
 }
 
 }  // namespace
-
-std::string ShellQuoted(const std::string& text)
-{
-  const char* const kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:=,@%+";
-  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string quoted = text;
-  ReplaceAll(quoted, "'", "'\\''");
-  return "'" + quoted + "'";
-}
 
 Hosts::Hosts(const std::string& file, const std::string& text)
 {
@@ -211,7 +203,7 @@ ProcessCommand Hosts::Placed(const ProcessCommand& command, const std::string& h
 std::vector<std::string> Hosts::Reached(const std::vector<std::string>& words, const std::string& host) const
 {
   std::string shell_command;
-  for (const std::string& word : words) shell_command += (shell_command.empty() ? "" : " ") + ShellQuoted(word);
+  for (const std::string& word : words) shell_command += (shell_command.empty() ? "" : " ") + ShellWord(word);
 
   std::vector<std::string> placed;
   for (std::string word : template_)

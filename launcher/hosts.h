@@ -72,7 +72,4 @@ private:
   std::string swarmanoid_;
 };
 
-// One word of a POSIX shell that stands for the text.
-std::string ShellQuoted(const std::string& text);
-
 }  // namespace swarmanoid

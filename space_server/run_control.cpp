@@ -434,14 +434,14 @@ RunControl::Decision RunControl::Decide(std::uint64_t tick, Clock::time_point no
 void RunControl::Ended(std::uint64_t tick)
 {
   WriteFaults();
-  if (step_) answer_(*step_, true, tick, fmt::format("the run ended at tick {}", tick));
-  if (move_request_) answer_(*move_request_, false, tick, fmt::format("the run ended at tick {}", tick));
+  if (step_) answer_(*step_, true, tick, RunEndedText(tick));
+  if (move_request_) answer_(*move_request_, false, tick, RunEndedText(tick));
   const std::lock_guard lock(mutex_);
   for (const ControlRequestMessage& request : requests_)
     if (request.verb == kRefused)
       event_log_.Write(tick, request);
     else if (request.verb != kMachineGone)
-      answer_(request, false, tick, fmt::format("the run ended at tick {}", tick));
+      answer_(request, false, tick, RunEndedText(tick));
   requests_.clear();
 }
 

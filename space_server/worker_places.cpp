@@ -63,8 +63,8 @@ void WorkerPlaces::RequireMachine(const std::string& machine) const
 bool WorkerPlaces::Offer(const std::string& machine, const std::string& process)
 {
   RequireMoves("offer");
-  if (machine.empty() || machine.find_first_of(" =") != std::string::npos)
-    throw std::invalid_argument(fmt::format("offer: {} is no name of a machine", Quoted(machine)));
+  if (const std::string mistake = MachineNameMistake(machine); !mistake.empty())
+    throw std::invalid_argument(fmt::format("offer: {} is no name of a machine; {}", Quoted(machine), mistake));
   const auto offer = offers_.find(machine);
   if (offer != offers_.end() && offer->second == process) return false;
   if (offer != offers_.end())

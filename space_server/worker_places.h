@@ -8,12 +8,10 @@
 #include <vector>
 
 #include "common/messages/control_request.h"
+#include "common/messages/machine_name.h"
 
 namespace swarmanoid
 {
-
-// The machine that the launcher is on.
-inline constexpr const char* kHere = "here";
 
 class WorkerPlaces
 {

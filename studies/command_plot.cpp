@@ -7,10 +7,12 @@
 #include <cerrno>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include "common/activity/exit_codes.h"
 #include "common/program/options.h"
+#include "common/program/spawn.h"
 #include "common/program/usage_error.h"
 #include "launcher/installation.h"
 #include "studies/commands.h"
@@ -68,18 +70,23 @@ std::vector<OptionSpec> PlotOptionTable(PlotOptions& o)
 
 int Run(const std::vector<std::string>& words)
 {
-  std::vector<char*> arguments;
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  const pid_t process = fork();
-  if (process == 0)
-  {
-    execvp(arguments[0], arguments.data());
-    _exit(127);
-  }
+  const pid_t process =
+      Spawn({.words = words, .input = STDIN_FILENO, .output = STDOUT_FILENO, .errors = STDERR_FILENO});
   int status = 0;
-  while (process > 0 && waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
-  return process > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : kExitProcessFailed;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : kExitProcessFailed;
+}
+
+bool CanImport(const std::string& python, const std::string& module)
+{
+  try
+  {
+    return Run({python, "-c", "import importlib.util as u, sys; sys.exit(u.find_spec('" + module + "') is None)"}) == 0;
+  }
+  catch (const std::runtime_error&)
+  {
+    return false;  // there is no such program
+  }
 }
 
 int Plot(const PlotOptions& options)
@@ -87,9 +94,7 @@ int Plot(const PlotOptions& options)
   // The first one on the path need not be Debian's.
   std::string python;
   for (const char* candidate : {"python3", "/usr/bin/python3"})
-    if (python.empty() &&
-        Run({candidate, "-c", "import importlib.util as u, sys; sys.exit(u.find_spec('matplotlib') is None)"}) == 0)
-      python = candidate;
+    if (python.empty() && CanImport(candidate, "matplotlib")) python = candidate;
   if (python.empty())
     throw UsageError(
         "plot: pictures are drawn by matplotlib, which is not here; as root: apt-get install python3-matplotlib");

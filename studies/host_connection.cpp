@@ -2,21 +2,17 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
-#include <cstring>
 #include <sstream>
-#include <stdexcept>
 #include <thread>
 
-#include "common/activity/failure_report.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/program/process.h"
+#include "common/program/spawn.h"
 
 namespace swarmanoid
 {
@@ -28,50 +24,23 @@ using namespace std::chrono_literals;
 constexpr std::size_t kMostErrors = 4096;
 constexpr auto kPatienceAtEnd = 10s;
 
-struct PipeEnds
-{
-  FileDescriptor read, write;
-};
-
-PipeEnds MakeOwnPipe()
-{
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0)
-    throw std::runtime_error(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
-  return {FileDescriptor(ends[0]), FileDescriptor(ends[1])};
-}
-
-void DoNotWait(const FileDescriptor& file) { fcntl(file.Get(), F_SETFL, fcntl(file.Get(), F_GETFL) | O_NONBLOCK); }
-
 }  // namespace
 
 HostConnection::HostConnection(const std::vector<std::string>& command)
 {
-  PipeEnds in = MakeOwnPipe(), out = MakeOwnPipe(), err = MakeOwnPipe();
-  std::vector<char*> words;
-  for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
-  words.push_back(nullptr);
-  const pid_t own = getpid();
-  process_ = fork();
-  if (process_ < 0) throw std::runtime_error(fmt::format("cannot start '{}': {}", command[0], std::strerror(errno)));
-  if (process_ == 0)
-  {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != own) LeaveAtOnce(0);
-    setpgid(0, 0);  // Ctrl-C at a terminal is for who supervises
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_DFL);
-    dup2(in.read.Get(), STDIN_FILENO);
-    dup2(out.write.Get(), STDOUT_FILENO);
-    dup2(err.write.Get(), STDERR_FILENO);
-    execvp(words[0], words.data());
-    fmt::print(stderr, "cannot start '{}': {}\n", command[0], std::strerror(errno));
-    std::fflush(stderr);
-    LeaveAtOnce(127);
-  }
+  Pipe in = MakePipe(), out = MakePipe(), err = MakePipe();
+  fcntl(in.read.Get(), F_SETFL, 0);
+  // Ctrl-C at a terminal is for who supervises.
+  process_ = Spawn({.words = command,
+                    .input = in.read.Get(),
+                    .output = out.write.Get(),
+                    .errors = err.write.Get(),
+                    .leads_group = true,
+                    .dies_with_us = true});
   in_ = std::move(in.write);
   out_ = std::move(out.read);
   err_ = std::move(err.read);
-  for (const FileDescriptor* file : {&in_, &out_, &err_}) DoNotWait(*file);
+  fcntl(in_.Get(), F_SETFL, O_NONBLOCK);
 }
 
 HostConnection::~HostConnection()

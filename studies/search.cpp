@@ -14,7 +14,7 @@
 
 #include "common/activity/exit_codes.h"
 #include "common/program/interrupts.h"
-#include "launcher/hosts.h"
+#include "common/program/shell_word.h"
 #include "studies/metric.h"
 #include "studies/optimiser.h"
 #include "studies/run_pool.h"
@@ -316,9 +316,8 @@ private:
       fmt::print("\n");
     }
     std::string words;
-    for (const auto& [path, value] : space_.Settings(values_[best]))
-      words += " --set " + ShellQuoted(path + "=" + value);
-    fmt::print("swarmanoid run {} --single-process{}\n", ShellQuoted(experiment_), words);
+    for (const auto& [path, value] : space_.Settings(values_[best])) words += " --set " + ShellWord(path + "=" + value);
+    fmt::print("swarmanoid run {} --single-process{}\n", ShellWord(experiment_), words);
   }
 
   const SearchOptions options_;

@@ -2,20 +2,18 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <csignal>
-#include <cstring>
 #include <sstream>
 
-#include "common/activity/failure_report.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/wording.h"
+#include "common/program/file_descriptor.h"
+#include "common/program/spawn.h"
 #include "common/program/usage_error.h"
 
 namespace swarmanoid
@@ -49,29 +47,22 @@ std::string ReadAllOf(int file)
 // What a command wrote, on standard output and standard error. Throws SlurmError if it failed.
 std::string OutputOf(const std::vector<std::string>& words)
 {
-  std::vector<char*> arguments;
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) throw SlurmError(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
-  const pid_t process = fork();
-  if (process == 0)
+  Pipe output = MakePipe();
+  fcntl(output.read.Get(), F_SETFL, 0);
+  pid_t process = 0;
+  try
   {
-    setpgid(0, 0);  // Ctrl-C is for the study, which cancels
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_DFL);
-    dup2(ends[1], STDOUT_FILENO);
-    dup2(ends[1], STDERR_FILENO);
-    execvp(arguments[0], arguments.data());
-    fmt::print(stderr, "there is no command {} here ({}): install Slurm's client (Debian's slurm-client)", words[0],
-               std::strerror(errno));
-    std::fflush(stderr);
-    LeaveAtOnce(127);
+    // Ctrl-C is for the study, which cancels.
+    process = Spawn({.words = words, .output = output.write.Get(), .errors = output.write.Get(), .leads_group = true});
   }
-  close(ends[1]);
-  const std::string text = ReadAllOf(ends[0]);
-  close(ends[0]);
+  catch (const std::runtime_error& error)
+  {
+    throw SlurmError(fmt::format("there is no command {} here ({}): install Slurm's client (Debian's slurm-client)",
+                                 words[0], error.what()));
+  }
+  output.write.Reset();
+  const std::string text = ReadAllOf(output.read.Get());
   int status = 0;
-  if (process < 0) throw SlurmError(fmt::format("cannot start {}: {}", words[0], std::strerror(errno)));
   while (waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return text;
   throw SlurmError(text.empty() ? fmt::format("{} failed without a word", words[0]) : std::string(TrimBlanks(text)));

@@ -16,7 +16,7 @@
 #include "common/activity/failure_report.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/regular_file.h"
-#include "launcher/hosts.h"
+#include "common/program/shell_word.h"
 #include "launcher/installation.h"
 #include "studies/checked_frame.h"
 #include "studies/study_worker.h"
@@ -108,8 +108,8 @@ SlurmBatch SlurmBatch::Create(const std::string& study_folder, const std::vector
     }
     WriteWhole(OrdersFile(batch.folder_, task), Framed(bytes.Bytes()));
   }
-  const std::string script = fmt::format("#!/bin/sh\nexec {} {} {} \"$SLURM_ARRAY_TASK_ID\"\n",
-                                         ShellQuoted(OwnProgram()), kStudyWorkerFlag, ShellQuoted(batch.folder_));
+  const std::string script = fmt::format("#!/bin/sh\nexec {} {} {} \"$SLURM_ARRAY_TASK_ID\"\n", ShellWord(OwnProgram()),
+                                         kStudyWorkerFlag, ShellWord(batch.folder_));
   WriteWhole(batch.Script(), script);
   return batch;
 }

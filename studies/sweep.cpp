@@ -19,6 +19,7 @@
 #include "common/configuration/wording.h"
 #include "common/math/reproducible_math.h"
 #include "common/program/interrupts.h"
+#include "common/program/shell_word.h"
 #include "common/program/usage_error.h"
 #include "roles/builtins.h"
 #include "studies/host_pool.h"
@@ -173,9 +174,9 @@ private:
   std::string GoOn() const
   {
     std::string where;
-    if (!options_.hosts.empty()) where = " --hosts " + ShellQuoted(options_.hosts);
-    if (!options_.slurm.empty()) where = " --slurm " + ShellQuoted(options_.slurm.front());
-    return fmt::format("swarmanoid sweep {} --resume{}", ShellQuoted(store_.Folder()), where);
+    if (!options_.hosts.empty()) where = " --hosts " + ShellWord(options_.hosts);
+    if (!options_.slurm.empty()) where = " --slurm " + ShellWord(options_.slurm.front());
+    return fmt::format("swarmanoid sweep {} --resume{}", ShellWord(store_.Folder()), where);
   }
 
   void Commit(RunPlace& place)

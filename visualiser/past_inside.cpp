@@ -1,11 +1,8 @@
 #include "visualiser/past_inside.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,12 +10,14 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
+
+#include "common/program/process.h"
 
 namespace swarmanoid
 {
@@ -63,54 +62,16 @@ std::vector<DeviceStatus> DevicesOf(const Json& list)
   return devices;
 }
 
-// A program whose two outputs are read while it runs. Killed at its end.
+// A program whose two outputs are read while it runs. Killed at its end, with all that it started.
 class ReadProgram
 {
 public:
-  explicit ReadProgram(std::vector<std::string> words)
-  {
-    std::array<std::array<int, 2>, 2> pipes{};
-    for (std::array<int, 2>& ends : pipes)
-      if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe can be made");
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&files, pipes[0][1], STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&files, pipes[1][1], STDERR_FILENO);
-    // Sockets of this process that it kept would be taken after its end.
-    posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    sigset_t none, all;
-    sigemptyset(&none);
-    sigfillset(&all);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setsigdefault(&attributes, &all);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    const int error = posix_spawn(&pid_, arguments[0], &files, &attributes, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
-    for (std::size_t k = 0; k < pipes.size(); ++k)
-    {
-      ends_[k] = pollfd{pipes[k][0], POLLIN, 0};
-      close(pipes[k][1]);
-    }
-    if (error == 0) return;
-    pid_ = -1;
-    Close();
-    throw std::runtime_error(fmt::format("cannot start '{}': {}", words[0], std::strerror(error)));
-  }
+  explicit ReadProgram(const std::vector<std::string>& words) : process_(spawner_.Start({words[0], words, {}, {}})) {}
   ~ReadProgram()
   {
-    if (pid_ > 0 && !ended_)
-    {
-      kill(pid_, SIGKILL);
-      waitpid(pid_, &status_, 0);
-    }
-    Close();
+    if (ended_) return;
+    spawner_.Signal(process_, SIGKILL);
+    spawner_.Collect(process_);
   }
   ReadProgram(const ReadProgram&) = delete;
   ReadProgram& operator=(const ReadProgram&) = delete;
@@ -118,38 +79,33 @@ public:
   // False once it has ended and all is read.
   bool Read()
   {
-    poll(ends_.data(), ends_.size(), kLook_ms);
-    for (std::size_t k = 0; k < ends_.size(); ++k)
+    const std::array<FileDescriptor*, 2> files{&process_.output, &process_.errors};
+    std::array<pollfd, 2> ends{};
+    for (std::size_t k = 0; k < files.size(); ++k) ends[k] = pollfd{files[k]->Get(), POLLIN, 0};
+    poll(ends.data(), ends.size(), kLook_ms);
+    for (std::size_t k = 0; k < files.size(); ++k)
     {
-      if (ends_[k].fd < 0 || ends_[k].revents == 0) continue;
+      if (!files[k]->IsOpen() || ends[k].revents == 0) continue;
       std::array<char, 65536> bytes;
-      const ssize_t count = read(ends_[k].fd, bytes.data(), bytes.size());
+      const ssize_t count = read(files[k]->Get(), bytes.data(), bytes.size());
       if (count > 0 && texts_[k].size() < kMostBytes)
         texts_[k].append(bytes.data(), static_cast<std::size_t>(count));
       else if (count == 0)
-        close(std::exchange(ends_[k].fd, -1));
+        files[k]->Reset();
     }
-    if (ends_[0].fd >= 0 || ends_[1].fd >= 0) return true;
-    waitpid(pid_, &status_, 0);
-    ended_ = true;
+    if (files[0]->IsOpen() || files[1]->IsOpen()) return true;
+    ended_ = spawner_.Collect(process_);
     return false;
   }
 
-  bool Succeeded() const { return ended_ && WIFEXITED(status_) && WEXITSTATUS(status_) == 0; }
+  bool Succeeded() const { return ended_ && ended_->Clean(); }
   const std::string& Output() const { return texts_[0]; }
   const std::string& Errors() const { return texts_[1]; }
 
 private:
-  void Close()
-  {
-    for (pollfd& end : ends_)
-      if (end.fd >= 0) close(std::exchange(end.fd, -1));
-  }
-
-  pid_t pid_ = -1;
-  bool ended_ = false;
-  int status_ = 0;
-  std::array<pollfd, 2> ends_{};
+  SystemSpawner spawner_;
+  SpawnedProcess process_;
+  std::optional<ProcessEnd> ended_;
   std::array<std::string, 2> texts_;
 };
 

@@ -4,10 +4,10 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
 
 #include "common/configuration/configuration_tree.h"
+#include "common/messages/machine_name.h"
 
 namespace swarmanoid
 {
@@ -227,17 +227,6 @@ std::vector<OptionSpec> VisualiserOptionTable(WorkerSettings& s)
             .maximum = kLargestPid},
            &s.server,
            "17811"}};
-}
-
-std::string MachineNameMistake(const std::string& name)
-{
-  constexpr std::size_t kLongest = 63;
-  const bool plain = std::all_of(name.begin(), name.end(),
-                                 [](unsigned char c)
-                                 { return (c < 128 && std::isalnum(c) != 0) || c == '-' || c == '_' || c == '.'; });
-  if (!plain || name.empty() || name.size() > kLongest || name[0] == '-')
-    return fmt::format("it must be a name of up to {} letters, digits, '-', '_' and '.'", kLongest);
-  return name == "here" || name == "localhost" ? "it must be another name: that one is the launcher's machine" : "";
 }
 
 std::vector<OptionSpec> OfferOptionTable(WorkerSettings& s)

@@ -51,8 +51,6 @@ std::vector<OptionSpec> VisualiserOptionTable(WorkerSettings& settings);
 // --offer and --through, of programs whose workers may run on offered machines. Not part of the tables above: nobody is
 // told to offer a machine by a message.
 std::vector<OptionSpec> OfferOptionTable(WorkerSettings& settings);
-// What is wrong with the name of a machine that is offered, as "it must be …"; empty if it is right.
-std::string MachineNameMistake(const std::string& name);
 
 // The words that give a worker, or its bus, these settings.
 using WorkerTable = std::vector<OptionSpec> (*)(WorkerSettings&);

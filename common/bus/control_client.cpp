@@ -92,9 +92,7 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, c
     reply_ = ControlReplyMessage{.client = request.client, .number = request.number, .text = {}};
     reply_->ok = ends_it || verb == "resume" || verb == "step";
     reply_->tick = finished ? status_->tick : 0;
-    reply_->text = verb == "reset"  ? "reset"
-                   : verb == "stop" ? "stopped"
-                                    : "the run ended at tick " + std::to_string(reply_->tick);
+    reply_->text = verb == "reset" ? "reset" : verb == "stop" ? "stopped" : RunEndedText(reply_->tick);
   }
   return reply_;
 }

@@ -21,6 +21,7 @@
 #include "common/bus/run_directory.h"
 #include "common/bus/worker_session.h"
 #include "common/checkpoint/library_builds.h"
+#include "common/messages/control_request.h"
 #include "common/program/interrupts.h"
 #include "common/program/usage_error.h"
 
@@ -72,7 +73,7 @@ public:
   // heard.
   bool Serve()
   {
-    Offer();
+    bool taken = Offer();
     std::optional<BusError> over;
     while ((over = session_.Follow(kLook, [this] { Work(), LookForRun(); })))
     {
@@ -82,6 +83,7 @@ public:
       client_.FollowRun(session_.World().run);
       workers_.FollowRun(session_.World().run);
       offered_ = {};
+      if (!taken) taken = Offer();
     }
     if (!over)
     {
@@ -98,16 +100,21 @@ public:
 private:
   void Say(const std::string& text) const { PrintError("machine '{}': {}\n", machine_, text); }
 
-  void Offer()
+  // False if the run ended, or lost its space server, before it took the offer: the session tells which.
+  bool Offer()
   {
-    const auto reply = client_.Ask("offer", offer_, {}, kPatienceForAnswer_s, [] { return Interrupted(); });
-    if (!reply) throw BusError("the run does not answer");
+    const auto reply =
+        client_.Ask("offer", offer_, {}, kPatienceForAnswer_s, [this] { return Interrupted() || session_.IsOver(); });
+    if (!reply && session_.IsOver()) return false;
+    if (!reply) throw BusError(Interrupted() ? "interrupted by a signal" : "the run does not answer");
+    if (!reply->ok && reply->text == RunEndedText(reply->tick)) return false;
     if (!reply->ok) throw UsageError(reply->text);
     offered_ = Clock::now();
     Say(
         fmt::format("offered to the run of '{0}': `swarmanoid control {0} move-host 0 {1}` has a controller host run "
                     "here, Ctrl-C takes the offer back",
                     session_.World().experiment, machine_));
+    return true;
   }
 
   void Work()
@@ -151,6 +158,7 @@ private:
                                        offered_ = Clock::now();  // not again
                                        return Work(), session_.RunHasEnded();
                                      });
+      if (!reply && session_.RunHasEnded()) return Say("the run has ended");
       if (!reply) return Say("the run does not answer: other processes take the places of the workers that end here");
       if (reply->ok) return Say(reply->text);
       // Other workers are on their way.

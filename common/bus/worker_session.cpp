@@ -208,6 +208,12 @@ bool WorkerSession::RunHasEnded() const
   return server_left_ && !others_error_;
 }
 
+bool WorkerSession::IsOver() const
+{
+  const std::lock_guard lock(mutex_);
+  return others_error_ || server_left_ || ServerHasGone();
+}
+
 void WorkerSession::Trust(const std::string& name)
 {
   const std::lock_guard lock(mutex_);
@@ -250,9 +256,7 @@ void WorkerSession::CheckOthers()
   if (others_error_) throw BusError(*others_error_);
   // It may have gone since.
   if (server_left_) throw BusError("the run has ended");
-  // The leases of a run on one machine are long: its launcher sees who dies, but those who are attached have none.
-  if (next_world_ || (server_seen_ && !ServerIsOnThisMachine())) server_lost_ = true;
-  cut_off_ = server_lost_;
+  cut_off_ = server_lost_ = ServerHasGone();
   if (cut_off_) throw BusError(fmt::format("the space server has gone (process {})", server_process_));
   if (BusIsBroken())
   {
@@ -261,6 +265,12 @@ void WorkerSession::CheckOthers()
     if (stuck_) throw BusError("a process died, or was stopped, while it held shared memory of the run");
   }
   reason_ = before;
+}
+
+// The leases of a run on one machine are long: its launcher sees who dies, but those who are attached have none.
+bool WorkerSession::ServerHasGone() const
+{
+  return server_lost_ || next_world_ || (server_seen_ && !ServerIsOnThisMachine());
 }
 
 bool WorkerSession::ServerIsOnThisMachine() const

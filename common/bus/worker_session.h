@@ -65,6 +65,8 @@ public:
   std::optional<BusError> Follow(std::chrono::milliseconds period, const std::function<void()>& idle);
   // Whether the server said that the run ended, and for no failure.
   bool RunHasEnded() const;
+  // Whether the run has ended or failed, or its server has gone: then Follow returns the reason.
+  bool IsOver() const;
   // For one who looks on, after Follow: if the server was lost and its run may go on with another one, says so and
   // waits for that one, and joins it. False if none has come in time, or `idle`, which is called all the while, returns
   // true.
@@ -89,6 +91,7 @@ private:
   bool FailedBy(const BadMessageReport& report);
   void CheckOthers();
   bool ServerIsOnThisMachine() const;
+  bool ServerHasGone() const;
   bool GoesOnWith(const WorldMessage& world) const;
   void HearLeaves(const std::string& experiment);
   bool HasBegun() const;

@@ -35,6 +35,9 @@ inline bool IsWorkerMove(const std::string& verb)
   return verb == "move-host" || verb == "move-engine" || verb == "drain" || verb == "hosts";
 }
 
+// The answer to who asked of a run what it did not come to any more.
+inline std::string RunEndedText(std::uint64_t tick) { return "the run ended at tick " + std::to_string(tick); }
+
 struct ControlRequestMessage
 {
   std::string client;  // "host:pid" of the asker; empty in one process

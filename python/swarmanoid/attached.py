@@ -129,8 +129,8 @@ class AttachedRun(Entities):
         """A state that `state` and `wait` have not returned yet, of this tick or a later one; None if the run ended before.
 
         timeout: s, None: as long as it takes; then TimeoutError. A run that is quicker than the states that were asked for
-        (`hz`) skips ticks. One that is paused, or slower than that, tells its state again and again, since users may move
-        entities in it.
+        (`hz`) skips ticks. One that is paused tells its state again for some seconds after a request of anybody, who may
+        have moved entities in it, and then nothing until the next one.
         """
         if not self._run.wait(self._taken, self._stale, tick, -1.0 if timeout is None else timeout):
             return None

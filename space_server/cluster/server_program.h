@@ -71,6 +71,10 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
+  // Between repetitions of what others may not have heard: at first, and at most.
+  static constexpr std::chrono::milliseconds kFirstRepeat{100}, kLastRepeat{1000};
+
+  static double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
   // The world, where the run starts or goes on.
   WorldMessage World();
   std::span<const RenderConfiguration> Visualisers() const;

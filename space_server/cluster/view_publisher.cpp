@@ -1,6 +1,7 @@
 #include "space_server/cluster/view_publisher.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace swarmanoid
 {
@@ -10,6 +11,10 @@ namespace
 using namespace std::chrono_literals;
 
 constexpr double kMostViews = 30;  // a second
+// A state that does not change is sent again for a while: after somebody has come, since Fast DDS may lose what is sent
+// while a reader is met; after a request, since whoever asked cannot tell which views were sent before the answer.
+constexpr auto kTimeOfRepeats = 10s;
+constexpr int kLeastViews = 4;
 constexpr auto kStatusPeriod = 100ms;
 constexpr auto kRequestTime = 3s;  // after which a request that is not repeated is void
 
@@ -39,9 +44,10 @@ void ViewPublisher::Requested(const ViewRequestMessage& request)
   if (request.run != session_.World().run) return;
   {
     const std::lock_guard lock(mutex_);
-    Request& client_request = requests_[request.client];
-    const bool same = client_request.views == request.views;
-    client_request = {request.views, Clock::now()};
+    const auto [client_request, is_new] = requests_.try_emplace(request.client);
+    const bool same = client_request->second.views == request.views;
+    client_request->second = {request.views, Clock::now()};
+    if (is_new && request.views > 0) asked_first_ = true;
     if (same) return;
   }
   woken_();
@@ -72,12 +78,23 @@ ViewPublisher::Clock::duration ViewPublisher::ViewPeriod(Clock::time_point now) 
 bool ViewPublisher::ViewIsDue(std::uint64_t tick, Clock::time_point now)
 {
   const unsigned readers = views_.Readers() + shares_.ViewReaders();
-  const bool newcomers = readers > viewers_;
+  const bool newcomers = TakeAskedFirst() || readers > viewers_;
   viewers_ = readers;
   if (readers == 0) return false;
+  if (changed_.exchange(false) || newcomers)
+  {
+    repeats_until_ = now + kTimeOfRepeats;
+    views_left_ = kLeastViews;
+  }
   if (newcomers) return true;
-  if (tick == viewed_tick_ && !changed_) return false;
-  return now >= viewed_ + ViewPeriod(now);
+  const bool sends = tick != viewed_tick_ || views_left_ > 0 || now < repeats_until_;
+  return sends && now >= viewed_ + ViewPeriod(now);
+}
+
+bool ViewPublisher::TakeAskedFirst()
+{
+  const std::lock_guard lock(mutex_);
+  return std::exchange(asked_first_, false);
 }
 
 void ViewPublisher::SendView(SpaceSnapshot& snapshot, Clock::time_point now)
@@ -86,7 +103,7 @@ void ViewPublisher::SendView(SpaceSnapshot& snapshot, Clock::time_point now)
   views_.Write(view_);
   shares_.Write(view_);
   std::swap(view_.snapshot, snapshot);
-  changed_ = false;
+  if (views_left_ > 0) --views_left_;
   viewed_tick_ = snapshot.tick;
   viewed_ = now;
   // At most a tenth of the time goes into views.

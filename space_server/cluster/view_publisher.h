@@ -3,6 +3,7 @@
 // main thread of the space_server program.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <map>
@@ -26,10 +27,12 @@ public:
   ViewPublisher(ServerSession& session, Shares& shares, std::function<void()> woken);
   ~ViewPublisher();
 
-  // Views. A view is due when somebody has come, or it is time and there is something new at `tick`.
+  // Views. One is due when somebody has come; then, at the pace that is asked for, while ticks pass, and for some
+  // seconds after somebody came or was answered.
   bool ViewIsDue(std::uint64_t tick, Clock::time_point now);
   void SendView(SpaceSnapshot& snapshot, Clock::time_point now);
-  // The state changed though the tick is the same.
+  // In any thread: a request was answered. The state may have changed though the tick is the same, and whoever asked
+  // waits for a view that is newer than the answer.
   void Renew() { changed_ = true; }
 
   // RunStatus. `phase`: as it would be told.
@@ -54,19 +57,23 @@ private:
   };
 
   Clock::duration ViewPeriod(Clock::time_point now) const;
+  bool TakeAskedFirst();
 
   ServerSession& session_;
   Shares& shares_;
   std::function<void()> woken_;
   mutable std::mutex mutex_;
   std::map<std::string, Request> requests_;  // by client
+  bool asked_first_ = false;                 // somebody has, since the last look
 
   Publisher<ViewMessage> views_;
   ViewMessage view_;
-  bool changed_ = true;
+  std::atomic<bool> changed_ = false;
   unsigned viewers_ = 0;
   std::uint64_t viewed_tick_ = 0;
   Clock::time_point viewed_;
+  Clock::time_point repeats_until_;  // of a state that does not change
+  int views_left_ = 0;               // at least
   Clock::duration shortest_period_{};
 
   Publisher<RunStatusMessage> statuses_;

@@ -1,4 +1,5 @@
 // What users ask of a running experiment.
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -124,6 +125,36 @@ TEST_F(ControlTest, ALateVisualiserSeesAPausedWorldAtOnce)
   EXPECT_THAT(text.Output(), HasSubstr("5\t\tFootbot\trobots0_11"));
   ExpectEnd();
   EXPECT_EQ(text.Wait(), 0) << text.Output();
+}
+
+TEST_F(ControlTest, APausedRunSendsWhatItsUserChanged)
+{
+  Begin({"--paused"});
+  Ask("step", {5});
+  std::atomic<int> views = 0;
+  std::atomic<bool> moved = false;
+  const Subscription<ViewMessage> seen(*bus_, "controlled",
+                                       [&](const ViewMessage& view)
+                                       {
+                                         const std::vector<double>& poses = view.snapshot.poses;
+                                         const std::size_t count = poses.size() / 7;  // all x, then all y
+                                         for (std::size_t k = 0; k < count; ++k)
+                                           moved = moved || (poses[k] == 1.5 && poses[count + k] == 1.25);
+                                         ++views;
+                                       });
+  // Once everybody has met, nothing is sent: nothing changes.
+  int before = -1;
+  ASSERT_TRUE(Eventually(
+      [&]
+      {
+        before = views;
+        std::this_thread::sleep_for(2s);
+        return before > 0 && views == before;
+      }));
+  EXPECT_FALSE(moved);
+  EXPECT_TRUE(Ask("move", {1.5, 1.25, 0}, "robots0_3").ok);
+  EXPECT_TRUE(Eventually([&] { return views > before && moved; }));
+  ExpectEnd();
 }
 
 TEST_F(ControlTest, AStoppedOrKilledVisualiserDoesNotSlowTheRun)

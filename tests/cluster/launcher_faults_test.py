@@ -105,12 +105,13 @@ class Kills(LauncherTest):
 class Stalls(LauncherTest):
     def test_a_stopped_process_is_named_and_the_run_goes_on_with_it(self):
         # Slowly enough that it is stopped while it waits: who is stopped with a lock of shared memory ends the run (docs/wire.md).
-        run = self.start("run", CONFIGS / "diffusion_10.xml", "--ticks", 1000, "--real-time", 20, "--hash-log", "hashes")
+        run = self.start("run", CONFIGS / "diffusion_10.xml", "--ticks", 1000, "--real-time", 1, "--hash-log", "hashes")
         pid = run.find("controller_host")
-        self.wait_for_tick("hashes", 100, run)
+        self.wait_for_tick("hashes", 20, run)
         os.kill(pid, signal.SIGSTOP)
         said = run.read_until("waiting for controller host 0")
         os.kill(pid, signal.SIGCONT)
+        self.control("speed", 0)
         self.assertEqual(run.wait(), 0, said + run.stderr)
         hash_after = self.assert_finished(run, 1000)
         plain = self.run_it("run", CONFIGS / "diffusion_10.xml", "--ticks", 1000, "--quiet")

@@ -3,15 +3,15 @@ import csv
 import os
 import signal
 
-from harness import CONFIGS, LauncherTest, main, processes_of, supervisor_of, words_of
+from harness import CONFIGS, FINISHED, LauncherTest, main, processes_of, supervisor_of, words_of
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 TICKS = 2000
 
 
 class Moves(LauncherTest):
-    def begin(self, *options, experiment=EXPERIMENT):
-        run = self.start("run", experiment, "--ticks", TICKS, "--paused", "--hash-log", "cluster", "--output", "out",
+    def begin(self, *options, experiment=EXPERIMENT, ticks=TICKS):
+        run = self.start("run", experiment, "--ticks", ticks, "--paused", "--hash-log", "cluster", "--output", "out",
                          "--controller-hosts", 2, *options)
         self.wait_for_experiment(experiment.stem)
         return run
@@ -28,9 +28,11 @@ class Moves(LauncherTest):
                     if os.path.basename((words_of(pid) or [""])[0]) == program and " ".join(words) in " ".join(words_of(pid)))
 
     def assert_undisturbed(self, run, said="", experiment=EXPERIMENT):
-        one = self.run_it("run", experiment, "--ticks", TICKS, "--single-process", "--quiet", "--hash-log", "one", "--output", "one_out")
         self.assertEqual(run.wait(), 0, said + run.stderr)
-        self.assertEqual(self.assert_finished(run, TICKS), self.assert_finished(one, TICKS))
+        hash_of_run = self.assert_finished(run)
+        ticks = int(FINISHED.match(run.stdout.splitlines()[-1])[1])
+        one = self.run_it("run", experiment, "--ticks", ticks, "--single-process", "--quiet", "--hash-log", "one", "--output", "one_out")
+        self.assertEqual(hash_of_run, self.assert_finished(one, ticks))
         self.assertEqual((self.folder / "cluster").read_text(), (self.folder / "one").read_text())
         self.assertEqual((self.folder / "out/positions.txt").read_bytes(), (self.folder / "one_out/positions.txt").read_bytes())
         self.assert_nothing_left(run)
@@ -58,11 +60,12 @@ class Moves(LauncherTest):
             self.assertRegex(asker, r"^\S+@\S+:\d+$")
 
     def test_while_it_runs(self):
-        run = self.begin("--real-time", 20)
+        # In the midst of ticks, and without an end that could come too early.
+        run = self.begin("--real-time", 20, ticks=0)
         self.control("resume")
         for words in (["move-host", "0"], ["move-engine", "ground"], ["move-host", "1"]):
             self.assertIn("at tick", self.control(*words))
-        self.control("speed", 0)
+        self.control("stop")
         self.assert_undisturbed(run)
         # Nobody held a lock: the run had been held before they were killed.
         self.assertNotIn("start again", run.stderr)
@@ -162,13 +165,13 @@ class Moves(LauncherTest):
         self.assert_undisturbed(run, experiment=experiment)
 
     def test_more_controller_hosts_while_it_runs(self):
-        run = self.begin("--real-time", 20)
+        run = self.begin("--real-time", 20, ticks=0)
         self.control("resume")
         for words in (["+1"], ["-2"], ["+3"]):
             self.assertIn("now", self.control("hosts", *words))
         os.kill(self.pid_of(run, "controller_host", "--host", "3"), signal.SIGKILL)
         run.read_until("controller host 3 was killed by signal 9 (Killed)")
-        self.control("speed", 0)
+        self.control("stop")
         self.assert_undisturbed(run)
 
     def test_hosts_are_as_many_after_everything_died(self):
@@ -192,9 +195,12 @@ class Moves(LauncherTest):
 
     def test_as_many_hosts_as_pay(self):
         """Whatever was chosen, the result is the same; how it chooses is tested with times that are given."""
-        run = self.start("run", EXPERIMENT, "--ticks", TICKS, "--real-time", 50, "--hash-log", "cluster", "--output", "out",
+        run = self.start("run", EXPERIMENT, "--ticks", 0, "--real-time", 50, "--hash-log", "cluster", "--output", "out",
                          "--controller-hosts", "auto", "--placement", "spread")
-        self.assert_undisturbed(run, run.read_until("controller hosts: "))
+        said = run.read_until("controller hosts: ")
+        self.wait_for_experiment("diffusion_10")
+        self.control("stop")
+        self.assert_undisturbed(run, said)
         for options in (["--no-recovery"], ["--no-journal"], ["--single-process"]):
             refused = self.run_it("run", EXPERIMENT, "--controller-hosts", "auto", *options)
             self.assertEqual(refused.process.returncode, 2)

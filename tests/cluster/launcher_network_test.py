@@ -58,17 +58,17 @@ class Network(LauncherTest):
         hosts = self.folder / "hosts.txt"
         hosts.write_text(self.machines.hosts(f"--lease {lease}"))
         experiment = CONFIGS / "diffusion_10.xml"
-        one = self.run_it("run", experiment, "--ticks", 400, "--no-visualisers", "--single-process", "--hash-log", "one")
+        one = self.run_it("run", experiment, "--ticks", 300, "--no-visualisers", "--single-process", "--hash-log", "one")
         self.machines.connect(0, 1)
-        run = self.start("run", experiment, "--ticks", 400, "--no-visualisers", "--hosts", hosts, "--real-time", 5, "--hash-log", "cluster")
-        self.wait_for_tick("cluster", 100, run)
+        run = self.start("run", experiment, "--ticks", 300, "--no-visualisers", "--hosts", hosts, "--real-time", 1, "--hash-log", "cluster")
+        self.wait_for_tick("cluster", 20, run)
         self.machines.disconnect()
         time.sleep(10)
         self.machines.connect(0, 1)
         run.wait()
         self.machines.disconnect()
         self.assertEqual(run.process.returncode, 0, run.stderr)
-        self.assertEqual(self.assert_finished(run, 400), self.assert_finished(one, 400))
+        self.assertEqual(self.assert_finished(run, 300), self.assert_finished(one, 300))
         self.assertEqual((self.folder / "cluster").read_text(), (self.folder / "one").read_text())
         self.assert_nothing_left(run)
         return run.stderr

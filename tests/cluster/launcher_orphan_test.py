@@ -314,6 +314,21 @@ class Refused(OrphanTest):
         self.control("stop")
         self.assertEqual(run.wait(), 0, run.stderr)
 
+    def test_a_run_that_has_a_launcher_is_not_taken_from_it(self):
+        """As by a second one that looked before the first one took it."""
+        run = self.begin()
+        path = next(self.sockets.glob("*/run.*.socket"))
+        with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as second, (self.folder / "said").open("w") as said:
+            second.settimeout(GENEROUS_S)
+            second.connect(str(path))
+            socket.send_fds(second, [b'{"adopt":true}'], [said.fileno(), said.fileno()])
+            answer = json.loads(second.recv(65536))
+            self.assertEqual((answer["adopted"], answer["launcher"]), (False, run.process.pid))
+        self.control("stop")
+        self.assertEqual(run.wait(), 0, run.stderr)
+        self.assert_finished(run)
+        self.assertEqual((self.folder / "said").read_text(), "")
+
 
 class SupervisorKilled(OrphanTest):
     def test_all_start_again(self):

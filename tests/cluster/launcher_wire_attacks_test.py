@@ -46,13 +46,19 @@ class WireAttacks(LauncherTest):
         text, _ = attacker.communicate(timeout=GENEROUS_S)
         return json.loads(text)
 
-    def start_over_network(self, *options):
+    def start_over_network(self, *options, words=()):
         hosts = self.folder / "hosts.txt"
         hosts.write_text(self.machines.hosts(" ".join(["--lease 60", *options])))
         self.machines.connect(0, 0)
         self.addCleanup(self.machines.disconnect)
         return self.start("run", EXPERIMENT, "--ticks", TICKS, "--no-visualisers", "--hosts", hosts, "--real-time", 2, "--hash-log", "cluster",
-                          "--output", "out")
+                          "--output", "out", *words)
+
+    def steer(self, *words):
+        """As a member of the run on the first machine, which is on its way."""
+        self.wait_for_experiment("diffusion_10")
+        subprocess.run(["ip", "netns", "exec", self.machines.names[0], SWARMANOID, "control", "--interface", "link0", *words], check=True,
+                       capture_output=True, timeout=GENEROUS_S)
 
     def run_under(self, *attacks):
         attacker = self.attack(*attacks)
@@ -143,10 +149,8 @@ class WireAttacks(LauncherTest):
         for _, log in workers:
             self.wait_until("two refusals", lambda log=log: log.read_text().count("dropped a bad World message of 'space server'") == 2)
         server, server_log = self.start_program(0, "space_server", *server_words, "--key", right, "--hash-log", "cluster", "--real-time", 2,
-                                                "--output", "out")
-        self.wait_for_tick("cluster", 5)
-        steer = ["ip", "netns", "exec", self.machines.names[0], SWARMANOID, "control", "--interface", "link0"]
-        subprocess.run([*steer, "pause"], check=True, capture_output=True, timeout=GENEROUS_S)
+                                                "--output", "out", "--paused")
+        self.steer("step", "5")
         late = {name: invade(name, 2) for name in strangers}
         for name, (process, log) in [*early.items(), *late.items()]:
             # Who has no key says that it is none of its messages.
@@ -154,7 +158,7 @@ class WireAttacks(LauncherTest):
             self.assertIsNone(process.poll(), name)
         for _, log in workers:
             self.wait_until("four refusals", lambda log=log: log.read_text().count("dropped a bad World message of 'space server'") == 4)
-        subprocess.run([*steer, "resume"], check=True, capture_output=True, timeout=GENEROUS_S)
+        self.steer("resume")
         self.assertEqual(server.wait(GENEROUS_S), 0, server_log.read_text())
         for process, log in workers:
             self.assertEqual(process.wait(GENEROUS_S), 0, log.read_text())
@@ -180,17 +184,17 @@ class WireAttacks(LauncherTest):
         self.assertRegex(self.told(), "somebody without the key of this run spoke in its name, or about it; it came from 127.0.0.1 ")
 
     def test_a_share_reaches_another_machine(self):
-        run = self.start_over_network()
-        self.wait_for_experiment("diffusion_10")
+        run = self.start_over_network(words=["--paused"])
+        self.steer("step", "5")
         made = subprocess.run(["ip", "netns", "exec", self.machines.names[0], SWARMANOID, "share", "--watch", "--json", "--interface", "link0"],
                               check=True, capture_output=True, text=True, timeout=GENEROUS_S)
         ticket = json.loads(made.stdout)["ticket"]
         self.assertEqual(ticket.split(",")[5], "10.78.0.1")
-        watcher = subprocess.run(["ip", "netns", "exec", self.machines.names[1], SWARMANOID, "attach", "text", "--file", "table", "--output",
-                                  self.folder], check=False, capture_output=True, text=True, timeout=GENEROUS_S,
-                                 env={**os.environ, "SWARMANOID_SHARE": ticket, "SWARMANOID_SHARED_FOLDER": f"{self.shared}-elsewhere"})
-        self.assertEqual(watcher.returncode, 0, watcher.stderr)
-        self.assertTrue(self.has_table("table"))
+        watcher = self.start("attach", "text", "--file", "table", "--output", self.folder, before=["ip", "netns", "exec", self.machines.names[1]],
+                             environment={"SWARMANOID_SHARE": ticket, "SWARMANOID_SHARED_FOLDER": f"{self.shared}-elsewhere"})
+        self.wait_until("the table of the other machine", lambda: self.has_table("table"), watcher)
+        self.steer("resume")
+        self.assertEqual(watcher.wait(GENEROUS_S), 0, watcher.stderr)
         self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
 
 

@@ -223,7 +223,7 @@ class LockStep(Case):
         try:
             with log.open("w") as sink:
                 # Paced, so that the end is far when the host is killed.
-                process = subprocess.Popen([SWARMANOID, "run", file, "--output", out, "--ticks", "300", "--real-time", "4"], stdout=sink, stderr=sink,
+                process = subprocess.Popen([SWARMANOID, "run", file, "--output", out, "--ticks", "300", "--real-time", "2"], stdout=sink, stderr=sink,
                                            env=self.environment)
                 def heard(count):
                     while len(node.lines) < count and process.poll() is None:
@@ -234,7 +234,7 @@ class LockStep(Case):
                 workers = [line.split() for parent in children for line in subprocess.run(
                     ["ps", "--ppid", parent, "-o", "pid=,args="], capture_output=True, text=True).stdout.splitlines()]
                 host = next(words[0] for words in workers if "controller_host" in words[1])
-                heard(200)
+                heard(40)
                 os.kill(int(host), 9)
                 self.assertEqual(process.wait(timeout=100), 0, log.read_text())
         finally:
@@ -270,7 +270,7 @@ class LockStep(Case):
 class FreeRunning(Case):
     def test_newest_command(self):
         file = self.experiment(mode="free_running")
-        run, heard = self.with_node(file, "--single-process", "--real-time", "2", ticks=120)
+        run, heard = self.with_node(file, "--single-process", "--real-time", "1", ticks=120)
         self.hash_of(run)
         rows = [[float(word) for word in words[2:]] for words in heard if words[:2] == ["odom", "fb_0"]]
         self.assertGreater(max(row[4] for row in rows), 0.04)
@@ -289,7 +289,7 @@ class RealRobotProgram(Case):
                                   "fb_0", "--namespace", "fb_0"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                  env=self.environment)
         try:
-            run = self.run_it(file, "--single-process", "--real-time", "2", ticks=80)
+            run = self.run_it(file, "--single-process", "--real-time", "1", ticks=80)
         finally:
             robot.send_signal(2)
             text = robot.communicate(timeout=100)[0]

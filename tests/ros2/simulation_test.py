@@ -57,7 +57,7 @@ class Simulation(unittest.TestCase):
                        "SWARMANOID_PLUGIN_PATH": str(pathlib.Path(os.environ["SWARMANOID"]).parent.parent / "lib/swarmanoid")}
         listener = Listener(domain, "fb_0")
         try:
-            run = subprocess.run([os.environ["SWARMANOID"], "run", file, "--output", out, "--ticks", "60", "--real-time", "2",
+            run = subprocess.run([os.environ["SWARMANOID"], "run", file, "--output", out, "--ticks", "60", "--real-time", "0.5",
                                   "--quiet", *options], capture_output=True, text=True, env=environment, timeout=120)
         finally:
             heard = listener.stop()

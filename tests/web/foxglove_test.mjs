@@ -93,8 +93,10 @@ async function look(port, topics) {
 
 test('what it tells is what an export has', async () => {
   const port = await freePort();
-  const run = start('run', experiment(`<foxglove_render id="f" port="${port}"/>`), '--ticks', '200', '--real-time', '5', '--output', 'run');
+  const run = start('run', experiment(`<foxglove_render id="f" port="${port}"/>`), '--ticks', '200', '--real-time', '5', '--paused', '--output', 'run');
   const seen = await look(port, ['/tf_static', '/tf', '/scene', '/attributes']);
+  await until('the first tick', () => seen.messages['/tf']);
+  execFileSync(process.env.SWARMANOID, ['control', 'resume'], { cwd: folder, env: environment });
   assert.equal(await run.ended, 0, run.text);
   assert.equal(seen.info.name, 'Swarmanoid: experiment');
   assert.deepEqual(seen.info.supportedEncodings, ['json']);

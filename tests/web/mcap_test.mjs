@@ -102,7 +102,7 @@ test('poses and LEDs are those of the table, bit by bit', async () => {
   }
 });
 
-test('the scene is written whole whenever LEDs change, which are on the rim of their robots', async () => {
+test('the scene is written whole whenever LEDs change, which are where their robots have them', async () => {
   const experiment = path.join(process.env.SWARMANOID_CONFIGS, 'prey_retrieval.xml');
   swarmanoid('run', experiment, '--quiet', '--no-visualisers', '--output', 'prey');
   swarmanoid('export', 'prey', '--mcap', 'prey.mcap', '--until', 400);
@@ -120,7 +120,7 @@ test('the scene is written whole whenever LEDs change, which are on the rim of t
     if (!scene) continue;
     assert.deepEqual(scene.deletions.map((deletion) => deletion.type), [1]);
     assert.equal(scene.entities.length, entities.length);
-    for (const { id, led } of entities.filter((entity) => entity.led)) {
+    for (const { id, kind, led, turret_angle: [turret] = [0] } of entities.filter((entity) => entity.led)) {
       const shown = scene.entities.find((entity) => entity.id === id);
       assert.equal(shown.frame_id, id);
       assert.ok(shown.frame_locked);
@@ -128,8 +128,11 @@ test('the scene is written whole whenever LEDs change, which are on the rim of t
       const lit = led.filter((colour) => colour !== 0);
       const hex = ({ r, g, b }) => ((r * 255) << 16) + ((g * 255) << 8) + b * 255;
       assert.deepEqual(shown.spheres.map((sphere) => hex(sphere.color)), lit);
-      for (const { pose } of shown.spheres)
-        assert.ok(Math.abs(Math.hypot(pose.position.x, pose.position.y) - shown.cylinders[0].size.x / 2) < 1e-9);
+      const { radius, height } = { footbot: { radius: 0.090036758, height: 0.085 }, eyebot: { radius: 0.255, height: 0.1535 } }[kind];
+      led.map((colour, k) => [colour, turret + 2 * Math.PI * (k + 0.5) / led.length]).filter(([colour]) => colour !== 0).forEach(([, angle], k) => {
+        const { x, y, z } = shown.spheres[k].pose.position;
+        assert.ok(Math.hypot(x - radius * Math.cos(angle), y - radius * Math.sin(angle), z - height) < 1e-9, `${id} at ${time}: ${[x, y, z]}`);
+      });
       seen += lit.length;
     }
   }

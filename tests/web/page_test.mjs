@@ -789,7 +789,7 @@ const tests = {
   },
 
   async "a link opens the same view and has no token, and the picture is filmed"() {
-    run("diffusion_10", "--real-time", 1);
+    run("diffusion_10", "--real-time", 1, "--ticks", 0);
     const { url } = await attach("--allow-control");
     const page = await open(url, { quality: "plan" });
     await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
@@ -1050,7 +1050,7 @@ const tests = {
   },
 
   async "in the plan ten thousand robots stand out from the floor"() {
-    run("diffusion_10000", "--real-time", 1);
+    run("diffusion_10000", "--real-time", 1, "--ticks", 0);
     const { url } = await attach();
     for (const colorScheme of ["light", "dark"]) {
       const page = await open(url, { quality: "plan", colorScheme, viewport: { width: 1280, height: 800 } });
@@ -1154,7 +1154,7 @@ const tests = {
   },
 
   async "ten thousand robots are drawn and found"() {
-    run("diffusion_10000", "--real-time", 1);
+    run("diffusion_10000", "--real-time", 1, "--ticks", 0);
     const { url } = await attach();
     const page = await open(url);
     await drawn(page);
@@ -1228,7 +1228,7 @@ const tests = {
 
   async "the timeline has events as marks, and a branch from the tick that is looked at"() {
     writeFileSync(join(folder, "asked.csv"), "tick,request,entity,numbers,from\n20,move,fb_1,1 1 0,anna@lab\n40,remove,fb_2,,\n");
-    const first = run("diffusion_10", "--real-time", 10, "--ticks", 150, "--no-visualisers", "--output", "with events", "--events", "asked.csv");
+    const first = run("diffusion_10", "--real-time", 1, "--ticks", 150, "--no-visualisers", "--output", "with events", "--events", "asked.csv");
     const { viewer, url } = await attach();
     const page = await open(url, { permissions: ["clipboard-read", "clipboard-write"] });
     await drawn(page);

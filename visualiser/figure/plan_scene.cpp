@@ -11,6 +11,7 @@
 #include "common/space/shape.h"
 #include "common/space/terrain/floor_picture.h"
 #include "common/space/terrain/terrain.h"
+#include "visualiser/led_place.h"
 #include "visualiser/scene/kind_model.h"
 #include "visualiser/scene/material.h"
 #include "visualiser/scene/object_model.h"
@@ -373,17 +374,10 @@ void PlanScene::AddLights(std::uint32_t entity, PlanPicture& picture) const
     light.edge_mm = 0.05;
     light.detail_m = 2 * reach;
   };
-  if (kind.leds && FindAttribute(robot.GetKind(), "led") != nullptr)
+  for (std::size_t led = 0; led < (kind.leds ? kind.leds->places.size() : 0); ++led)
   {
-    const double turn = kind.leds->on_turret && FindAttribute(robot.GetKind(), "turret_angle") != nullptr
-                            ? robot.GetAttribute("turret_angle")
-                            : 0;
-    const Eigen::Rotation2Dd turret(turn);
-    for (std::size_t led = 0; led < kind.leds->places.size(); ++led)
-    {
-      const Vector2 place = turret * kind.leds->places[led];
-      add(Across(pose, place.x(), place.y()), robot.GetAttribute("led", static_cast<int>(led)));
-    }
+    const Vector3 place = LedPlace(robot, led);
+    add(Across(pose, place.x(), place.y()), robot.GetAttribute("led", static_cast<int>(led)));
   }
   if (FindAttribute(robot.GetKind(), "beacon") != nullptr) add(Across(pose, 0, 0), robot.GetAttribute("beacon"));
 }

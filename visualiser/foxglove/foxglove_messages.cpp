@@ -5,9 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "common/math/elementary.h"
 #include "common/program/csv.h"
 #include "common/space/attributes.h"
+#include "visualiser/led_place.h"
 
 namespace swarmanoid
 {
@@ -198,20 +198,15 @@ std::optional<std::string> FoxgloveMessages::ChangedScene()
     MessageJson body{{"pose", PoseOf(of.centre)}, {"size", VectorOf(of.size)}, {"color", ColourOf(colour)}};
     if (of.is_cylinder) body["bottom_scale"] = body["top_scale"] = 1.0;
     MessageJson leds = MessageJson::array();
-    if (const AttributeSpec* spec = FindAttribute(entity.GetKind(), "led"))
-      for (int led = 0; led < spec->count; ++led)
-      {
-        const double lit = entity.GetAttribute("led", led);
-        shown.push_back(lit);
-        if (lit == 0) continue;
-        const double turret =
-            FindAttribute(entity.GetKind(), "turret_angle") != nullptr ? entity.GetAttribute("turret_angle") : 0;
-        const double angle = turret + 2 * kPi * (led + 0.5) / spec->count;
-        const Vector3 place(of.size.x() / 2 * Cos(angle), of.size.y() / 2 * Sin(angle), of.size.z() / 2);
-        leds.push_back({{"pose", PoseOf(of.centre + place)},
-                        {"size", VectorOf(Vector3::Constant(2 * kLedRadius))},
-                        {"color", ColourOf(lit)}});
-      }
+    for (std::size_t led = 0; led < (kind.leds ? kind.leds->places.size() : 0); ++led)
+    {
+      const double lit = entity.GetAttribute("led", static_cast<int>(led));
+      shown.push_back(lit);
+      if (lit == 0) continue;
+      leds.push_back({{"pose", PoseOf(LedPlace(entity, led))},
+                      {"size", VectorOf(Vector3::Constant(2 * kLedRadius))},
+                      {"color", ColourOf(lit)}});
+    }
     const MessageJson kind_of{{"key", "kind"}, {"value", TagName(entity.GetKind())}};
     MessageJson scene_entity{{"timestamp", TimeOf(time)}, {"frame_id", entity.GetId()},
                              {"id", entity.GetId()},      {"lifetime", TimeOf(0)},

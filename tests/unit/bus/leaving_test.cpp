@@ -2,9 +2,6 @@
 // server never reports a process that has left as dead.
 #include <fcntl.h>
 
-#include <fastrtps/attributes/LibrarySettingsAttributes.h>
-#include <fastrtps/xmlparser/XMLProfileManager.h>
-
 #include <atomic>
 #include <map>
 #include <mutex>
@@ -17,6 +14,7 @@
 #include "common/activity/exit_codes.h"
 #include "common/bus/worker_session.h"
 #include "tests/eventually.h"
+#include "tests/unit/bus/separate_processes.h"
 #include "tests/unit/bus/server_fixture.h"
 
 namespace swarmanoid
@@ -27,26 +25,15 @@ namespace
 using namespace std::chrono_literals;
 using test::Eventually;
 
-// Server and worker are processes of their own: within one, messages would be read by the thread that writes them.
 class Leaving : public test::ServerFixture
 {
 protected:
-  using Settings = eprosima::fastrtps::LibrarySettingsAttributes;
-  using Profiles = eprosima::fastrtps::xmlparser::XMLProfileManager;
-
-  Leaving() : ServerFixture("leaving"), settings_(Profiles::library_settings())
+  Leaving() : ServerFixture("leaving")
   {
-    Settings settings = settings_;
-    settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
-    Profiles::library_settings(settings);
     world_.host = MachineName();
     world_.pid = static_cast<std::uint32_t>(getpid());
   }
-  ~Leaving() override
-  {
-    Profiles::library_settings(settings_);
-    std::filesystem::remove_all(folder_ + "-worker");
-  }
+  ~Leaving() override { std::filesystem::remove_all(folder_ + "-worker"); }
 
   // A worker that has nothing to do, in a thread of its own.
   std::jthread Worker(
@@ -61,7 +48,7 @@ protected:
         });
   }
 
-  const Settings settings_;
+  const test::SeparateProcesses separate_;
 };
 
 TEST_F(Leaving, TakesAsLongAsTheServerDoesToAnswer)

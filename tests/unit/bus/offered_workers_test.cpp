@@ -241,15 +241,6 @@ TEST_F(OfferedWorkersTest, ASuccessorEndsTheOneBefore)
   EXPECT_THAT(spawner_.processes[2].signals, ElementsAre(SIGKILL));
 }
 
-TEST(OfferedMachineName, IsAPlainWord)
-{
-  for (const char* good : {"beta", "a", "lab-7.example_2"}) EXPECT_EQ(MachineNameMistake(good), "");
-  for (const char* bad : {"", "a b", "a=b", "-x", "a/b", "über"})
-    EXPECT_THAT(MachineNameMistake(bad), HasSubstr("letters, digits")) << bad;
-  EXPECT_THAT(MachineNameMistake(std::string(64, 'a')), HasSubstr("up to 63"));
-  for (const char* taken : {"here", "localhost"}) EXPECT_THAT(MachineNameMistake(taken), HasSubstr("launcher's"));
-}
-
 // What a worker of another machine said of itself, for those who read the page of the process that stands for it.
 TEST(ActivityPageOfOther, IsTakenIfItIsOne)
 {

@@ -119,12 +119,5 @@ TEST(Hosts, ErrorsNamePlaceAndCure)
   EXPECT_THROW(Hosts::FromFile("/nowhere/hosts.txt"), UsageError);
 }
 
-TEST(ShellQuoted, KeepsPlainWordsAndQuotesOthers)
-{
-  EXPECT_EQ(ShellQuoted("--engine"), "--engine");
-  EXPECT_EQ(ShellQuoted(""), "''");
-  EXPECT_EQ(ShellQuoted("it's $HOME"), "'it'\\''s $HOME'");
-}
-
 }  // namespace
 }  // namespace swarmanoid

@@ -93,7 +93,6 @@ TEST(WorkerPlaces, OfferedMachinesAreUsedUntilTheyGo)
   EXPECT_FALSE(places.Offer("gamma", "host:1"));
   EXPECT_THROW(places.Offer("gamma", "host:2"), std::invalid_argument);
   EXPECT_THROW(places.Offer("alpha", "host:2"), std::invalid_argument);
-  EXPECT_THROW(places.Offer("a b", "host:2"), std::invalid_argument);
   EXPECT_THROW(WorkerPlaces().Offer("gamma", "host:1"), std::invalid_argument);
   EXPECT_EQ(MovesOf(places, "move-host", "1 to gamma"), "controller host 1 > gamma; ");
   EXPECT_EQ(places.Text(),
@@ -117,6 +116,35 @@ TEST(WorkerPlaces, OfferedMachinesAreUsedUntilTheyGo)
   EXPECT_EQ(HostsAfter(places, 1), "alpha gamma here ");
   // Asked again of a space server that knows nothing of the offer.
   EXPECT_EQ(places.Withdraw("gamma", "host:1").size(), 1U);
+}
+
+TEST(OfferedMachineName, IsAPlainWord)
+{
+  for (const char* good : {"beta", "a", "lab-7.example_2"}) EXPECT_EQ(MachineNameMistake(good), "");
+  for (const char* bad : {"", "a b", "a=b", "-x", "a/b", "über"})
+    EXPECT_THAT(MachineNameMistake(bad), HasSubstr("letters, digits")) << bad;
+  EXPECT_THAT(MachineNameMistake(std::string(64, 'a')), HasSubstr("up to 63"));
+  for (const char* taken : {"here", "localhost"}) EXPECT_THAT(MachineNameMistake(taken), HasSubstr("launcher's"));
+}
+
+// Whoever offers may be a program that did not look at the name.
+TEST(WorkerPlaces, TakeNoOtherName)
+{
+  WorkerPlaces places = Places();
+  for (const char* bad : {"", "a b", "a=b", "-x", "a/b", "über", "a\nb", "here", "localhost"})
+  {
+    std::string said;
+    try
+    {
+      places.Offer(bad, "host:2");
+    }
+    catch (const std::invalid_argument& error)
+    {
+      said = error.what();
+    }
+    EXPECT_THAT(said, AllOf(HasSubstr("is no name of a machine"), HasSubstr(MachineNameMistake(bad)))) << bad;
+  }
+  EXPECT_THAT(places.Text(), Not(HasSubstr("offered by")));
 }
 
 // They write files in the folder of the run.

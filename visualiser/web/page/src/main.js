@@ -1,6 +1,6 @@
 // The page of web_render: connects to the server, keeps the state, and passes it to the picture and the panels.
 import { Connection } from "./connection.js";
-import { Past } from "./past.js";
+import { LookingBack } from "./looking_back.js";
 import { FrameDecoder, isPast } from "./protocol.js";
 import { EntityList } from "./ui/list.js";
 import { Help } from "./ui/help.js";
@@ -10,27 +10,28 @@ import { Processes } from "./ui/processes.js";
 import { Timeline } from "./ui/timeline.js";
 import { Toolbar } from "./ui/toolbar.js";
 import { Tools } from "./ui/tools.js";
+import { ViewpointsMenu } from "./ui/viewpoints_menu.js";
 import { h, saveBlob, setText } from "./ui/dom.js";
+import { listenToKeys } from "./ui/keyboard.js";
 import { Picture } from "./view/picture.js";
 import { choices } from "./view/quality.js";
 import { robotValues } from "./view/robot_values.js";
 import { readLink, writeLink } from "./link.js";
 import { Film } from "./film.js";
+import { copyOrShow } from "./clipboard.js";
+import { pageHook } from "./page_hook.js";
 import { keepToken, proofOf, takeToken } from "./token.js";
-import { Flight, cameraOf, viewOf, viewpointXml } from "./view/viewpoints.js";
 import { Legend } from "./ui/legend.js";
 import { World } from "./world.js";
 
 const HIDDEN_PERIOD_MS = 1000; // between frames while nobody sees the page
 const NEWS_MS = 5000;
-const PACE_OF_PAST = 1; // times real time
-const VIEWPOINTS = 10;
 const asked = new URLSearchParams(location.search).get("quality");
 let token = takeToken();
 const linked = readLink(location.hash.slice(1));
 const quality = [asked, linked.quality].find((name) => choices.includes(name)) ?? "auto";
 
-const state = { world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0, newsUntil: 0, linkWaits: true, challenge: null, viewpoints: [], watched: [], run: null, live: null };
+const state = { world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0, newsUntil: 0, linkWaits: true, challenge: null, watched: [], run: null, live: null };
 
 const toolbar = new Toolbar({ command, toggle, help: () => help.toggle(), top: () => frameArena("top"), fit: () => frameArena(), quality: (name) => picture.setQuality(name), plan: () => picture.switchView(), list: () => togglePanel(), unlock });
 const list = new EntityList({ select, approach });
@@ -42,10 +43,10 @@ const banner = h("div.banner", { role: "status" });
 const main = h("main", {}, banner);
 list.element.append(processes.element);
 const app = document.getElementById("app");
-const timeline = new Timeline({ look: (tick) => lookBack(tick), play: () => playPast(), live: () => goLive(), branch: () => branchHere() });
-const past = new Past({ ask: (tick) => connection.send({ do: "look_back", tick, entities: state.watched }), ended: () => showPresent() });
+const timeline = new Timeline({ look: (tick) => past.look(tick), play: () => past.play(), live: () => past.live(), branch: () => past.branch() });
 app.append(toolbar.element, list.element, main, timeline.element, inspector.element, log.element, help.element);
 const picture = new Picture(main, quality, { select, selectAll, approach, move, place: (point) => Boolean(editor?.place(point)), mayMove: () => state.control === "granted" && !past.isOn, trouble, send: (request) => connection.send(request) });
+const past = new LookingBack({ state, timeline, inspector, toolbar, picture, send: (request) => connection.send(request), tell, changed: showState });
 const planNote = h("button.plan-note", { title: "Show it in three dimensions  (V)", onclick: () => picture.switchView() }, "Plan view · 3D: V");
 main.append(planNote);
 const legend = new Legend();
@@ -56,7 +57,7 @@ const colourChoice = h(
   { "aria-label": "Colours of robots", onchange: () => colourBy(colourChoice.value) },
   ...["LEDs", ...Object.keys(robotValues)].map((name) => h("option", { value: name }, name)),
 );
-const viewpointChoice = h("select", { "aria-label": "Viewpoint", onchange: () => viewpointChoice.value !== "" && recallViewpoint(Number(viewpointChoice.value)) });
+const viewpoints = new ViewpointsMenu({ picture, world: () => state.world, tell, left: () => inspector.setFollowed(null) });
 const tools = new Tools([
   [
     { name: "measures", label: "Measure", key: "M", title: "Drag over the floor: a length and its direction", switches: true, act: () => switchTool("measures") },
@@ -74,9 +75,9 @@ const tools = new Tools([
     h("label", {}, "Colours: ", colourChoice),
   ],
   [
-    h("label", {}, "Viewpoint: ", viewpointChoice),
-    { name: "store", label: "Keep view", key: "Ctrl + shift + 0 … 9", title: "Keep this view as the next viewpoint, and copy its XML", act: () => storeViewpoint(freeViewpoint()) },
-    { name: "fly", label: "Fly", key: "U", title: "Fly through the viewpoints", act: () => fly() },
+    h("label", {}, "Viewpoint: ", viewpoints.element),
+    { name: "store", label: "Keep view", key: "Ctrl + shift + 0 … 9", title: "Keep this view as the next viewpoint, and copy its XML", act: () => viewpoints.store() },
+    { name: "fly", label: "Fly", key: "U", title: "Fly through the viewpoints", act: () => viewpoints.fly() },
   ],
 ]);
 main.append(tools.element, legend.element);
@@ -107,7 +108,7 @@ const connection = new Connection({
   onFrame(buffer) {
     const frame = decoder.decode(buffer);
     if (!frame || !state.world) return;
-    if (isPast(buffer)) return showPast(frame);
+    if (isPast(buffer)) return past.show(frame);
     if (state.live && frame.tick < state.live.tick) sayItBegan();
     state.frames++;
     state.live = frame;
@@ -140,7 +141,7 @@ const receive = {
     const chosen = picture.chosen.map((entity) => state.world.ids[entity]);
     const isNew = state.world?.experiment !== message.experiment;
     state.world = new World(message);
-    if (isNew) setViewpoints(state.world.viewpoints);
+    if (isNew) viewpoints.set(state.world.viewpoints);
     document.title = `${message.experiment} · Swarmanoid`;
     toolbar.setWorld(state.world);
     inspector.setWorld(state.world);
@@ -178,7 +179,7 @@ const receive = {
   reply({ text }) {
     log.add({ tick: editor ? null : state.frame?.tick ?? null, source: "server", level: "warning", text });
     editor?.refused(text);
-    if (past.isOn) past.answered(performance.now());
+    if (past.isOn) past.answered();
   },
 };
 
@@ -213,92 +214,6 @@ function newsLasts() {
     setTimeout(showState, NEWS_MS + 10);
   }
   return performance.now() < state.newsUntil;
-}
-
-// ---- the past ----
-
-function lookBack(tick, playing = false) {
-  if (!state.world || timeline.element.hidden) return;
-  const begins = !past.isOn;
-  const within = Math.max(timeline.first, Math.min(timeline.last, tick));
-  past[playing ? "want" : "look"](within, performance.now());
-  timeline.showPlaying(past.playing !== null);
-  timeline.show(within);
-  if (!begins) return;
-  inspector.lookBack(true);
-  showState();
-}
-
-// A state of the past has come.
-function showPast(frame) {
-  past.answered(performance.now());
-  if (!past.isOn) return;
-  state.frame = frame;
-  picture.showFrame(frame, performance.now());
-  inspector.addFrame(frame);
-  toolbar.setFrame(frame);
-  timeline.show(past.playing ? frame.tick : past.wanted);
-}
-
-function playPast() {
-  if (!past.isOn) return lookBack(timeline.first);
-  past.play(past.playing === null, performance.now());
-  timeline.showPlaying(past.playing !== null);
-}
-
-function goLive() {
-  if (!past.isOn) return;
-  past.live();
-  showPresent();
-}
-
-function showPresent() {
-  timeline.showPlaying(false);
-  timeline.show(null);
-  inspector.lookBack(false);
-  if (state.colours) picture.paint(state.colours);
-  if (state.live) {
-    state.frame = state.live;
-    picture.showFrame(state.live, performance.now());
-    toolbar.setFrame(state.live);
-  }
-  showState();
-}
-
-function branchHere() {
-  const tick = past.wanted ?? state.frame?.tick ?? timeline.last;
-  const found = runAt(tick);
-  if (found === null) return;
-  state.branch = `swarmanoid run --branch ${found}`;
-  copyCommand(`a new run from tick ${tick}`, state.branch);
-}
-
-// What the journal does not have: the inside of the selected robot.
-function inspectHere() {
-  const found = past.isOn ? runAt(past.wanted) : null;
-  const robot = state.selected;
-  if (found === null || robot === null || state.world.controllerOf[robot] < 0) return tell("look back and select a robot with a controller first");
-  state.inspect = `swarmanoid inspect ${found} ${shellWord(state.world.ids[robot])}`;
-  copyCommand(`what ${state.world.ids[robot]} sensed at tick ${past.wanted}`, state.inspect);
-}
-
-const shellWord = (text) => (/^[\w./@+-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
-const runAt = (tick) => (timeline.element.hidden || state.run === null ? null : `${shellWord(state.run)}@${tick}`);
-
-async function copyCommand(what, text) {
-  tell(`${what}: ${text}`);
-  try {
-    await navigator.clipboard.writeText(text);
-  } catch {
-    prompt(what, text); // the browser lets no page write to the clipboard
-  }
-}
-
-const stepPast = (ticks) => lookBack((past.wanted ?? timeline.last) + ticks);
-
-function jumpToEvent(forward) {
-  const tick = timeline.neighbour(past.wanted ?? timeline.last + 1, forward);
-  if (tick !== null) lookBack(tick);
 }
 
 // ---- who may steer ----
@@ -396,7 +311,7 @@ function follow(entity) {
 function watch(entities) {
   state.watched = entities;
   connection?.send({ do: "watch", entities });
-  if (past.isOn) past.want(past.wanted, performance.now());
+  past.again();
 }
 
 // Each: {entity, place: [x, y, z], yaw}
@@ -469,45 +384,6 @@ function toggleHeat() {
   tools.set("heat", Boolean(picture.heat));
 }
 
-// ---- viewpoints ----
-
-// list: {number, position, heading, pitch, roll} of each
-function setViewpoints(list) {
-  state.viewpoints = [];
-  for (const { number, ...camera } of list) state.viewpoints[number] = camera;
-  showViewpoints();
-}
-
-function showViewpoints() {
-  const numbers = Object.keys(state.viewpoints);
-  viewpointChoice.replaceChildren(h("option", { value: "" }, numbers.length > 0 ? "…" : "none"), ...numbers.map((number) => h("option", { value: number }, number)));
-}
-
-function recallViewpoint(number) {
-  const camera = state.viewpoints[number];
-  if (!camera) return tell(`there is no viewpoint ${number}; Ctrl + shift + ${number} keeps this view as one`);
-  picture.stand(camera);
-  inspector.setFollowed(null);
-}
-
-async function storeViewpoint(number) {
-  const camera = cameraOf(picture.view.viewpoint);
-  state.viewpoints[number] = camera;
-  showViewpoints();
-  const xml = viewpointXml(number, camera);
-  tell(`viewpoint ${number}: ${xml.replace("\n", " ")}`);
-  await navigator.clipboard?.writeText(xml).catch(() => {}); // the browser may let no page write there; the log has it
-}
-
-const freeViewpoint = () => [...Array(VIEWPOINTS).keys()].find((number) => !state.viewpoints[number]) ?? VIEWPOINTS - 1;
-
-function fly() {
-  const stops = Object.values(state.viewpoints);
-  if (stops.length < 2) return tell("a flight needs two viewpoints; Keep view keeps this one");
-  const [width, depth] = state.world.arena;
-  picture.fly(new Flight(stops.map((camera) => viewOf(camera, Math.max(width, depth))), performance.now()));
-}
-
 function board() {
   if (picture.aboard !== null) return picture.board(null);
   if (state.selected === null || !state.world.isRobot(state.selected) || !picture.placeOf(state.selected)) return tell("select a robot first: the camera looks from it");
@@ -535,12 +411,7 @@ async function shareLink() {
   const select = state.selected === null ? null : state.world.ids[state.selected];
   const fragment = writeLink({ view: viewpoint, select, shows, colours: picture.colouring?.name ?? null, quality: picture.isPlan ? "plan" : null });
   state.link = `${location.origin}${location.pathname}#${fragment}`;
-  try {
-    await navigator.clipboard.writeText(state.link);
-    log.add({ tick: state.frame?.tick ?? null, source: "page", level: "info", text: `copied: ${state.link}` });
-  } catch {
-    prompt("A link to this view", state.link); // the browser lets no page write to the clipboard
-  }
+  if (await copyOrShow("A link to this view", state.link)) tell(`copied: ${state.link}`);
 }
 
 // On a narrow screen the list of entities covers the picture only while it is wanted.
@@ -575,7 +446,7 @@ const keys = {
   c: () => toggle("bodies"),
   x: () => toggle("links"),
   o: () => board(),
-  u: () => fly(),
+  u: () => viewpoints.fly(),
   v: () => picture.switchView(),
   m: () => switchTool("measures"),
   h: () => state.control === "granted" && switchTool("handles"),
@@ -583,14 +454,14 @@ const keys = {
   w: () => inspector.toggleSwarm(),
   y: () => shareLink(),
   P: () => film.toggle(),
-  ",": () => stepPast(-1),
-  ".": () => stepPast(1),
-  "<": () => jumpToEvent(false),
-  ">": () => jumpToEvent(true),
-  z: () => playPast(),
-  q: () => goLive(),
-  B: () => branchHere(),
-  I: () => inspectHere(),
+  ",": () => past.step(-1),
+  ".": () => past.step(1),
+  "<": () => past.jumpToEvent(false),
+  ">": () => past.jumpToEvent(true),
+  z: () => past.play(),
+  q: () => past.live(),
+  B: () => past.branch(),
+  I: () => past.inspect(),
   Delete: () => remove(picture.chosen),
   ArrowLeft: () => picture.step(-1, 0),
   ArrowRight: () => picture.step(1, 0),
@@ -608,20 +479,11 @@ const keys = {
   "/": () => list.filter.focus(),
   Escape: () => (!help.element.hidden ? help.toggle(false) : picture.aboard !== null || picture.flight ? picture.leaveRobot() : select(null)),
 };
-window.addEventListener("keydown", (event) => {
-  if (editor?.key(event)) return;
-  const digit = /^Digit(\d)$/.exec(event.code);
-  if (digit && event.ctrlKey && !event.altKey && state.world) {
-    event.preventDefault();
-    return (event.shiftKey ? storeViewpoint : recallViewpoint)(Number(digit[1]));
-  }
-  if (event.ctrlKey || event.altKey || event.metaKey) return;
-  if (event.key === "Escape") document.activeElement?.blur();
-  else if (["INPUT", "SELECT", "TEXTAREA"].includes(event.target.tagName)) return;
-  const act = keys[event.key] ?? keys[event.key.toLowerCase()];
-  if (!act || !state.world) return;
-  event.preventDefault();
-  act();
+listenToKeys({
+  keys,
+  digit: (number, { shiftKey }) => (shiftKey ? viewpoints.store(number) : viewpoints.recall(number)),
+  first: (event) => editor?.key(event),
+  isReady: () => state.world !== null,
 });
 
 function sendVisibility() {
@@ -635,10 +497,10 @@ function drawNext(now) {
   requestAnimationFrame(drawNext);
   if (state.linkWaits && state.frame && picture.view?.world) {
     state.linkWaits = false;
-    if (state.world.beginsAtViewpoint && !linked.view) picture.stand(Object.values(state.viewpoints)[0]);
+    if (state.world.beginsAtViewpoint && !linked.view) picture.stand(viewpoints.all[0]);
     openLink(linked);
   }
-  past.advance(now, timeline.last, PACE_OF_PAST / (state.world?.tickSeconds ?? 1));
+  past.advance(now);
   if (picture.draw(now)) {
     if (state.drawn++ === 0) state.firstPicture = performance.now();
     film.draw();
@@ -659,130 +521,4 @@ window.addEventListener("hashchange", () => {
 setInterval(() => picture.motion && list.render(picture.motion), 250);
 showState();
 
-function inPage({ x, y }) {
-  const box = picture.view.canvas.getBoundingClientRect();
-  return { x: box.left + x, y: box.top + y };
-}
-
-// For tests, and for the console of the curious.
-window.swarmanoid = {
-  get past() {
-    return past.isOn ? { tick: past.wanted, shown: state.frame?.tick, playing: past.playing !== null } : null;
-  },
-  get timeline() {
-    return timeline.element.hidden ? null : { first: timeline.first, last: timeline.last, events: timeline.events.map(({ tick, what }) => [tick, what]) };
-  },
-  get branch() {
-    return state.branch ?? null;
-  },
-  get inspect() {
-    return state.inspect ?? null;
-  },
-  lookBack,
-  goLive,
-  get editor() {
-    return editor && { ...editor.document, shown: editor.path, form: editor.form.form, said: editor.form.said.textContent, busy: editor.isBusy || editor.waiting.length > 0 };
-  },
-  get connected() {
-    return state.connected;
-  },
-  get control() {
-    return state.control;
-  },
-  get phase() {
-    return state.status?.phase ?? null;
-  },
-  get experiment() {
-    return state.world?.experiment ?? null;
-  },
-  get robots() {
-    return state.world?.robots.length ?? 0;
-  },
-  get tick() {
-    return state.frame?.tick ?? null;
-  },
-  get time() {
-    return state.frame?.time ?? null;
-  },
-  get frames() {
-    return state.frames;
-  },
-  get drawn() {
-    return state.drawn;
-  },
-  // Milliseconds from the request of the page.
-  get firstPicture() {
-    return state.firstPicture ?? null;
-  },
-  get quality() {
-    return picture.qualityName;
-  },
-  get view() {
-    return picture.view === null ? null : picture.isPlan ? "plan" : "3D";
-  },
-  get aboard() {
-    return picture.aboard === null ? null : state.world.ids[picture.aboard];
-  },
-  get standing() {
-    return cameraOf(picture.view.viewpoint);
-  },
-  get flying() {
-    return picture.flight !== null;
-  },
-  get viewpoints() {
-    return state.viewpoints;
-  },
-  // What is drawn beside bodies: how many lines of each kind.
-  get marks() {
-    return Object.fromEntries(picture.marks.lines({ link: 0 }).map(({ name, points }) => [name, points.length / 6]));
-  },
-  get selected() {
-    return state.selected === null ? null : state.world.ids[state.selected];
-  },
-  get chosen() {
-    return picture.chosen.map((entity) => state.world.ids[entity]);
-  },
-  get status() {
-    return state.status;
-  },
-  get followed() {
-    return picture.followed === null ? null : state.world.ids[picture.followed];
-  },
-  get camera() {
-    return picture.view.eye;
-  },
-  get viewpoint() {
-    return picture.view.viewpoint;
-  },
-  get shown() {
-    return list.shown.length;
-  },
-  instances: () => picture.view.details,
-  select: (id) => select(state.world.find(id)),
-  show: (name, on) => picture.shows[name] !== on && toggle(name),
-  approach: (id) => approach(state.world.find(id)),
-  place: (id) => Array.from(picture.placeOf(state.world.find(id)) ?? []),
-  heading: (id) => (picture.yawOf(state.world.find(id)) * 180) / Math.PI,
-  get colouring() {
-    return picture.colouring && { name: picture.colouring.name, low: picture.colouring.low, high: picture.colouring.high };
-  },
-  get heat() {
-    return picture.heat && { columns: picture.heat.columns, rows: picture.heat.rows, seconds: Array.from(picture.heat.seconds), drawn: Boolean(picture.heat.canvas) };
-  },
-  get link() {
-    return state.link ?? null;
-  },
-  colourBy,
-  get measured() {
-    if (!picture.tape) return null;
-    const [dx, dy] = [0, 1].map((k) => picture.tape.to[k] - picture.tape.from[k]);
-    return { metres: Math.hypot(dx, dy), degrees: (Math.atan2(dy, dx) * 180) / Math.PI };
-  },
-  get handles() {
-    const { handles } = picture.overlay;
-    return handles && { move: inPage(handles.move), turn: inPage(handles.turn) };
-  },
-  project: (id) => inPage(picture.seen(state.world.find(id))),
-  projectPoint: (x, y, z) => inPage(picture.view.project(x, y, z)),
-  command: (request) => connection.send(request),
-};
+window.swarmanoid = pageHook({ state, past, timeline, viewpoints, list, picture, editorOf: () => editor, select, toggle, approach, colourBy, send: (request) => connection.send(request) });

@@ -1,0 +1,276 @@
+#include "argos3/files/convert_arena.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "common/configuration/wording.h"
+#include "common/math/pose.h"
+
+namespace swarmanoid::argos3
+{
+
+namespace fs = std::filesystem;
+
+ArenaConverter::ArenaConverter(const ConfigurationNode& arena, ConvertedExperiment& result)
+    : NodeReader(result), arena_(arena)
+{
+  ReadFloor(FindChild(arena, "floor"));
+  FindArena();
+  FindBearers(arena);
+}
+
+void ArenaConverter::ReadFloor(const ConfigurationNode* floor)
+{
+  if (floor == nullptr) return;
+  const std::string source = NeededText(*floor, "source");
+  if (source == "loop_functions")
+    floor_id_ = NeededText(*floor, "id");
+  else if (source != "image")
+    Mistake(floor->location,
+            "a floor of source " + Quoted(source) + " has no counterpart; take an image, or loop_functions");
+}
+
+std::string ArenaConverter::PictureOf(const ConfigurationNode& floor)
+{
+  const std::string path = NeededText(floor, "path");
+  const fs::path here = fs::current_path() / path;
+  std::error_code none;
+  return fs::is_regular_file(here, none) ? here.lexically_normal().string() : path;
+}
+
+void ArenaConverter::ConvertFloor(const ConfigurationNode& theirs, ConfigurationNode& parent)
+{
+  if (Text(theirs, "source").value_or("") != "image") return;
+  const SourceLocation& at = theirs.location;
+  const Vector3 size = NeededVector(arena_, "size");
+  Vector3 middle = Vector(arena_, "center") + origin_;
+  middle.z() = 0;
+  const Made made = AddNode(parent, "ground_patch", at);
+  SetValue(*made, "id", NeededText(theirs, "id"), at);
+  SetValue(*made, "picture", PictureOf(theirs), at);
+  SetValue(*made, "size", fmt::format("{:.17g}, {:.17g}", size.x(), size.y()), at);
+  SetValue(*made, "position", TextOf(middle), at);
+  NoteOthers(theirs, {"id", "source", "path"});
+}
+
+void ArenaConverter::FindArena()
+{
+  const Vector3 size = NeededVector(arena_, "size");
+  const Vector3 center = Vector(arena_, "center");
+  low_ = center - size / 2;
+  high_ = center + size / 2;
+  low_.z() = 0;
+  for (const auto& child : arena_.children)
+  {
+    const ConfigurationNode* body = FindChild(*child, "body");
+    const ConfigurationNode& placed = body != nullptr ? *body : *child;
+    if (FindAttributeOf(placed, "position") == nullptr) continue;
+    const Vector3 at = Vector(placed, "position");
+    low_ = low_.cwiseMin(at);
+    high_ = high_.cwiseMax(at);
+    if (child->name == "box") high_.z() = std::max(high_.z(), at.z() + Vector(*child, "size").z());
+  }
+  origin_ = -low_;
+}
+
+void ArenaConverter::FindBearers(const ConfigurationNode& within)
+{
+  for (const auto& child : within.children)
+  {
+    if (child->name == "distribute" || child->name == "entity") FindBearers(*child);
+    const std::string kind = KindOf(child->name);
+    const ConfigurationNode* controller = FindChild(*child, "controller");
+    if (kind.empty() || controller == nullptr) continue;
+    Bearers& bearers = bearers_[NeededText(*controller, "config")];
+    bearers.kinds.insert(kind);
+    if (kind == "footbot") bearers.camera_aperture = Number(*child, "omnidirectional_camera_aperture", 70);
+    bearers.radio_range = Number(*child, "rab_range", 3);
+    bearers.radio_bytes = Whole(*child, "rab_data_size", 10);
+    if (bearers.radio_bytes < 1 || bearers.radio_bytes > 10)
+      Mistake(child->location, "'rab_data_size' is " + std::to_string(bearers.radio_bytes) +
+                                   "; range-and-bearing messages have 1 to 10 bytes here");
+  }
+}
+
+std::string ArenaConverter::KindOf(const std::string& tag)
+{
+  return tag == "foot-bot" ? "footbot" : tag == "eye-bot" ? "eyebot" : "";
+}
+
+void ArenaConverter::Convert(ConfigurationNode& ours)
+{
+  const SourceLocation& at = arena_.location;
+  const Made made = AddNode(ours, "arena", at);
+  SetValue(*made, "size", TextOf(Vector3(high_ - low_)), at);
+  NoteOthers(arena_, {"size", "center", "positional_index", "positional_grid_size"});
+  for (const auto& child : arena_.children)
+    if (child->name == "distribute")
+      ConvertDistribute(*child, *made);
+    else if (child->name == "floor")
+      ConvertFloor(*child, *made);
+    else
+      ConvertEntity(*child, *made, true);
+  SetValue(*made, "optimization", kinds_.contains("eyebot") ? "3D" : "2D", at);
+}
+
+void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, ConfigurationNode& parent, bool placed)
+{
+  const SourceLocation& at = theirs.location;
+  const std::string id = NeededText(theirs, "id");
+  const std::string robot = KindOf(theirs.name);
+  Made made;
+  double lift = 0;
+  if (!robot.empty())
+  {
+    made = AddNode(parent, robot, at);
+    if (const ConfigurationNode* controller = FindChild(theirs, "controller"))
+      SetValue(*made, "controller", NeededText(*controller, "config"), controller->location);
+    NoteOthers(theirs, {"id", "omnidirectional_camera_aperture", "rab_range", "rab_data_size"});
+  }
+  else if (theirs.name == "box")
+  {
+    made = AddNode(parent, "block", at);
+    const Vector3 size = NeededVector(theirs, "size");
+    lift = size.z() / 2;
+    SetValue(*made, "size", TextOf(size), at);
+    SetMovable(theirs, *made);
+    NoteOthers(theirs, {"id", "size", "movable", "mass"});
+  }
+  else if (theirs.name == "cylinder")
+  {
+    made = AddNode(parent, "cylindric_prey", at);
+    SetValue(*made, "radius", NeededText(theirs, "radius"), at);
+    SetValue(*made, "height", NeededText(theirs, "height"), at);
+    // Cameras of ARGoS3 see LEDs and lights, not bodies.
+    SetValue(*made, "colour", "black", at);
+    SetMovable(theirs, *made);
+    NoteOthers(theirs, {"id", "radius", "height", "movable", "mass"});
+  }
+  else if (theirs.name == "light")
+  {
+    made = AddNode(parent, "light_bulb", at);
+    SetValue(*made, "intensity", Text(theirs, "intensity").value_or("1"), at);
+    SetValue(*made, "colour", Text(theirs, "color").value_or("yellow"), at);
+    NoteOthers(theirs, {"id", "position", "orientation", "color", "intensity", "medium"});
+  }
+  else
+  {
+    Mistake(at,
+            "<" + theirs.name +
+                "> has no counterpart; those that have: foot-bot, eye-bot, box, cylinder, light, floor, distribute");
+    return;
+  }
+  kinds_.insert(made->name);
+  SetValue(*made, "id", id, at);
+  if (FindChild(theirs, "leds") != nullptr)
+    Mistake(FindChild(theirs, "leds")->location, "LEDs on <" + theirs.name + "> have no counterpart; leave them out");
+  if (placed) SetPlace(theirs, *made, lift);
+}
+
+void ArenaConverter::SetMovable(const ConfigurationNode& theirs, ConfigurationNode& made)
+{
+  NeededText(theirs, "movable");
+  const bool movable = Flag(theirs, "movable", false);
+  SetValue(made, "movable", movable ? "true" : "false", theirs.location);
+  if (movable) SetValue(made, "mass", TextOf(Number(theirs, "mass", 1)), theirs.location);
+}
+
+void ArenaConverter::SetPlace(const ConfigurationNode& theirs, ConfigurationNode& made, double lift)
+{
+  const bool is_light = theirs.name == "light";
+  const ConfigurationNode* body = is_light ? &theirs : Needed(theirs, "body");
+  if (body == nullptr) return;
+  const Vector3 zyx = Vector(*body, "orientation");
+  const Quaternion orientation = Quaternion(Eigen::AngleAxisd(zyx.z() * kRadians, Vector3::UnitX())) *
+                                 Eigen::AngleAxisd(zyx.y() * kRadians, Vector3::UnitY()) *
+                                 Eigen::AngleAxisd(zyx.x() * kRadians, Vector3::UnitZ());
+  const Vector3 position = NeededVector(*body, "position") + origin_ + orientation * Vector3(0, 0, lift);
+  SetValue(made, "position", TextOf(position), body->location);
+  // The same three angles about fixed axes; a heading stays as it was written.
+  const EulerAngles fixed = EulerFromQuaternion(orientation);
+  const Vector3 xyz = zyx.y() == 0 && zyx.z() == 0 ? Vector3(0, 0, zyx.x())
+                                                   : Vector3(Vector3(fixed.alpha, fixed.beta, fixed.gamma) / kRadians);
+  if (!is_light) SetValue(made, "orientation", TextOf(xyz), body->location);
+}
+
+void ArenaConverter::ConvertDistribute(const ConfigurationNode& theirs, ConfigurationNode& parent)
+{
+  const SourceLocation& at = theirs.location;
+  const ConfigurationNode* position = Needed(theirs, "position");
+  const ConfigurationNode* orientation = Needed(theirs, "orientation");
+  const ConfigurationNode* entity = Needed(theirs, "entity");
+  if (position == nullptr || orientation == nullptr || entity == nullptr) return;
+  const Made made = AddNode(parent, "distribute", at);
+  SetValue(*made, "quantity", NeededText(*entity, "quantity"), entity->location);
+  SetValue(*made, "max_trials", NeededText(*entity, "max_trials"), entity->location);
+  ConvertPositions(*position, *AddNode(*made, "position", position->location));
+  ConvertOrientations(*orientation, *AddNode(*made, "orientation", orientation->location));
+  if (entity->children.size() != 1) return Mistake(entity->location, "<entity> holds one element: what is distributed");
+  const ConfigurationNode& what = *entity->children.front();
+  if (const auto id = Text(what, "id"))
+    distributed_ += (distributed_.empty() ? "" : " ") + *id + ":" + std::to_string(Whole(*entity, "base_num", 0));
+  ConvertEntity(what, *made, false);
+}
+
+void ArenaConverter::ConvertPositions(const ConfigurationNode& theirs, ConfigurationNode& made)
+{
+  const std::string method = NeededText(theirs, "method");
+  const auto shifted = [&](const char* from, const char* to)
+  { SetValue(made, to, TextOf(Vector3(NeededVector(theirs, from) + origin_)), theirs.location); };
+  const auto same = [&](const char* from, const char* to)
+  { SetValue(made, to, TextOf(NeededVector(theirs, from)), theirs.location); };
+  SetValue(made, "method", method == "constant" ? "uniform" : method, theirs.location);
+  if (method == "uniform")
+  {
+    shifted("min", "min");
+    shifted("max", "max");
+  }
+  else if (method == "gaussian")
+  {
+    shifted("mean", "mean");
+    same("std_dev", "deviation");
+  }
+  else if (method == "constant")
+  {
+    shifted("values", "min");
+    shifted("values", "max");
+  }
+  else if (method == "grid")
+  {
+    shifted("center", "centre");
+    same("distances", "spacing");
+    same("layout", "layout");
+  }
+  else
+    Mistake(theirs.location, Quoted(method) + " is no method; uniform, gaussian, constant and grid are");
+}
+
+void ArenaConverter::ConvertOrientations(const ConfigurationNode& theirs, ConfigurationNode& made)
+{
+  const std::string method = NeededText(theirs, "method");
+  const auto turned = [&](const char* from, const char* to)
+  {
+    const Vector3 zyx = NeededVector(theirs, from);
+    if (zyx.y() != 0 || zyx.z() != 0)
+      Mistake(theirs.location, std::string("'") + from + "' tilts what it distributes, which has no counterpart; " +
+                                   "leave y and x at 0");
+    SetValue(made, to, TextOf(Vector3(0, 0, zyx.x())), theirs.location);
+  };
+  SetValue(made, "method", method, theirs.location);
+  if (method == "uniform")
+  {
+    turned("min", "min");
+    turned("max", "max");
+  }
+  else if (method == "gaussian")
+  {
+    turned("mean", "mean");
+    turned("std_dev", "deviation");
+  }
+  else if (method == "constant")
+    turned("values", "value");
+  else
+    Mistake(theirs.location, Quoted(method) + " is no method; uniform, gaussian and constant are");
+}
+
+}  // namespace swarmanoid::argos3

@@ -1,0 +1,165 @@
+#include "argos3/files/convert_code.h"
+
+#include <cstdlib>
+
+#include "common/configuration/wording.h"
+#include "common/plugins/library.h"
+
+namespace swarmanoid::argos3
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPlugin = "argos3";
+
+}  // namespace
+
+void CodeConverter::ConvertControllers(ConfigurationNode& ours)
+{
+  const ConfigurationNode* controllers = Needed(root_, "controllers");
+  if (controllers == nullptr) return;
+  const Made made = AddNode(ours, "controllers", controllers->location);
+  const bool somebody_hears = [&]
+  {
+    for (const auto& controller : controllers->children)
+      if (const ConfigurationNode* sensors = FindChild(*controller, "sensors"))
+        if (FindChild(*sensors, "range_and_bearing") != nullptr) return true;
+    return false;
+  }();
+  for (const auto& controller : controllers->children) ConvertController(*controller, *made, somebody_hears);
+}
+
+void CodeConverter::ConvertController(const ConfigurationNode& theirs, ConfigurationNode& parent, bool somebody_hears)
+{
+  const SourceLocation& at = theirs.location;
+  const Made made = AddNode(parent, "argos3_controller", at);
+  const std::string id = NeededText(theirs, "id");
+  SetValue(*made, "id", id, at);
+  SetValue(*made, "library", kPlugin, at);
+  const Bearers& bearers = arena_.BearersOf(id);
+  const DeviceContext context{bearers, !arena_.FloorId().empty(),
+                              [this](const SourceLocation& place, const std::string& text) { Mistake(place, text); },
+                              [this](const SourceLocation& place, const std::string& text) { Note(place, text); }};
+  DeviceLists lists;
+  const std::string sensors = ConvertDevices(theirs, "sensors", ConvertSensor, context, lists);
+  std::string actuators = ConvertDevices(theirs, "actuators", ConvertActuator, context, lists);
+  if (somebody_hears && !bearers.kinds.empty() && !lists.actuators.contains("range_and_bearing"))
+  {
+    AddSender(at, lists);
+    actuators += " range_and_bearing";
+  }
+  for (const auto& [name, devices] : {std::pair("actuators", &lists.actuators), std::pair("sensors", &lists.sensors)})
+  {
+    const Made list = AddNode(*made, name, at);
+    for (const auto& [type, device] : *devices) list->children.push_back(device);
+  }
+  const Made parameters = AddNode(*made, "parameters", at);
+  const Made options = AddNode(*parameters, "argos3", at);
+  if (theirs.name == "lua_controller")
+  {
+    SetScript(theirs, *options);
+  }
+  else
+  {
+    SetValue(*options, "label", theirs.name, at);
+    SetLibrary(theirs, "library", *options);
+  }
+  SetValue(*options, "sensors", sensors, at);
+  SetValue(*options, "actuators", actuators, at);
+  if (!arena_.FloorId().empty()) SetValue(*options, "floor", "loop_functions", at);
+  if (const double noise = GroundNoise(theirs); noise > 0) SetValue(*options, "ground_noise", TextOf(noise), at);
+  SetValue(*options, "rab_data_size", std::to_string(bearers.radio_bytes), at);
+  options_.push_back(options);
+  for (const auto& child : theirs.children)
+    if (child->name == "params") parameters->children.push_back(child);
+}
+
+double CodeConverter::GroundNoise(const ConfigurationNode& controller)
+{
+  const ConfigurationNode* sensors = FindChild(controller, "sensors");
+  for (const char* name : {"footbot_motor_ground", "footbot_base_ground"})
+  {
+    const ConfigurationNode* ground = sensors == nullptr ? nullptr : FindChild(*sensors, name);
+    const auto* level = ground == nullptr ? nullptr : FindAttributeOf(*ground, "noise_level");
+    if (level != nullptr) return ParseNumber(level->value).value_or(0);
+  }
+  return 0;
+}
+
+void CodeConverter::SetScript(const ConfigurationNode& theirs, ConfigurationNode& options)
+{
+  const ConfigurationNode* params = FindChild(theirs, "params");
+  const auto* script = params == nullptr ? nullptr : FindAttributeOf(*params, "script");
+  if (script == nullptr) return Mistake(theirs.location, "a <lua_controller> needs <params script=\"FILE.lua\"/>");
+  std::string searched;
+  const auto file = Found({fs::current_path(), folder_, fs::path(folder_).parent_path()}, {script->value}, searched);
+  if (!file)
+    return Mistake(script->location, "the script " + Quoted(script->value) +
+                                         " is not found; start in the folder from which the path leads to it; " +
+                                         "searched:" + searched);
+  SetValue(options, "script", *file, script->location);
+  SetValue(options, "script_name", script->value, script->location);
+}
+
+void CodeConverter::SetLibrary(const ConfigurationNode& theirs, const char* ours, ConfigurationNode& options)
+{
+  const std::string library = NeededText(theirs, "library");
+  if (library.empty()) return;
+  const SourceLocation& at = FindAttributeOf(theirs, "library")->location;
+  std::vector<fs::path> folders{fs::current_path()};
+  if (const char* list = std::getenv("ARGOS_PLUGIN_PATH"))
+    for (const std::string& one : SplitSearchPath(list, fs::current_path().string())) folders.emplace_back(one);
+  folders.emplace_back(folder_);
+  folders.push_back(fs::path(folder_).parent_path());
+  std::string searched;
+  if (const auto file = Found(folders, {library, library + ".so", "lib" + library + ".so"}, searched))
+    return SetValue(options, ours, *file, at);
+  Mistake(at, "the library " + Quoted(library) +
+                  " is not found; build it, name its folder in ARGOS_PLUGIN_PATH, or start in the folder from which " +
+                  "the path leads to it; searched:" + searched);
+}
+
+std::optional<std::string> CodeConverter::Found(const std::vector<fs::path>& folders,
+                                                const std::vector<std::string>& names, std::string& searched)
+{
+  for (const fs::path& folder : folders)
+    for (const std::string& name : names)
+    {
+      const fs::path file = (folder / name).lexically_normal();
+      std::error_code none;
+      if (fs::is_regular_file(file, none)) return file.string();
+      searched += "\n    " + file.string();
+    }
+  return std::nullopt;
+}
+
+void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours)
+{
+  for (const Made& options : options_)
+  {
+    SetValue(*options, "origin", TextOf(arena_.Origin()), options->location);
+    SetValue(*options, "distributed", arena_.Distributed(), options->location);
+  }
+  const ConfigurationNode* theirs = FindChild(root_, "loop_functions");
+  if (theirs == nullptr)
+  {
+    if (!arena_.FloorId().empty())
+      Mistake(arena_.Location(), "the source of the floor is loop_functions, and there are none; add them");
+    return;
+  }
+  const SourceLocation& at = theirs->location;
+  const Made list = AddNode(ours, "experiment_functions", at);
+  const Made made = AddNode(*list, "argos3_loop_functions", at);
+  SetValue(*made, "id", "loop_functions", at);
+  SetValue(*made, "library", kPlugin, at);
+  SetLibrary(*theirs, "file", *made);
+  SetValue(*made, "label", NeededText(*theirs, "label"), at);
+  SetValue(*made, "origin", TextOf(arena_.Origin()), at);
+  SetValue(*made, "distributed", arena_.Distributed(), at);
+  SetValue(*made, "floor", arena_.FloorId(), at);
+  made->children.push_back(std::make_shared<ConfigurationNode>(*theirs));
+}
+
+}  // namespace swarmanoid::argos3

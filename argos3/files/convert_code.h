@@ -1,0 +1,60 @@
+// What runs code of users in a file of ARGoS3, as ours: controllers and loop functions.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "argos3/files/convert_arena.h"
+#include "argos3/files/devices.h"
+#include "argos3/files/node_reader.h"
+
+namespace swarmanoid::argos3
+{
+
+class CodeConverter : NodeReader
+{
+public:
+  // All outlive this. `folder`: of the file.
+  CodeConverter(const ConfigurationNode& root, const std::string& folder, ArenaConverter& arena,
+                ConvertedExperiment& result)
+      : NodeReader(result), root_(root), folder_(folder), arena_(arena)
+  {
+  }
+
+  void ConvertControllers(ConfigurationNode& ours);
+  // After the controllers and the arena.
+  void ConvertLoopFunctions(ConfigurationNode& ours);
+
+private:
+  void ConvertController(const ConfigurationNode& theirs, ConfigurationNode& parent, bool somebody_hears);
+  static double GroundNoise(const ConfigurationNode& controller);
+  // The tags of theirs, with blanks between them.
+  template <class ConvertOne>
+  std::string ConvertDevices(const ConfigurationNode& controller, const char* name, ConvertOne convert,
+                             const DeviceContext& context, DeviceLists& lists)
+  {
+    const ConfigurationNode* theirs = FindChild(controller, name);
+    std::string tags;
+    if (theirs == nullptr) return tags;
+    for (const auto& device : theirs->children)
+    {
+      convert(*device, context, lists);
+      tags += (tags.empty() ? "" : " ") + device->name;
+    }
+    return tags;
+  }
+  void SetScript(const ConfigurationNode& theirs, ConfigurationNode& options);
+  void SetLibrary(const ConfigurationNode& theirs, const char* ours, ConfigurationNode& options);
+  // The first file of one of the names in one of the folders; otherwise where it is not, a line each.
+  static std::optional<std::string> Found(const std::vector<std::filesystem::path>& folders,
+                                          const std::vector<std::string>& names, std::string& searched);
+
+  const ConfigurationNode& root_;
+  const std::string& folder_;
+  ArenaConverter& arena_;
+  std::vector<Made> options_;  // of the controllers
+};
+
+}  // namespace swarmanoid::argos3

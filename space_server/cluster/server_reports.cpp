@@ -1,0 +1,142 @@
+// What is told of a run: to whoever started it, to those who ask, and to those who look on.
+#include "space_server/cluster/server_program.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/activity/print_error.h"
+#include "space_server/cluster/process_liveness.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+
+constexpr auto kStallTime = 2s;
+
+}  // namespace
+
+void ServerProgram::Reply(const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
+{
+  session_.Reply(request, done, tick, text);
+  const bool is_refused_offer = request.verb == "offer" && !done;
+  if (request.verb == kFailedController || request.verb == kMachineGone || is_refused_offer)
+  {
+    const std::string warning =
+        is_refused_offer ? fmt::format("refused an offer of {}: {}", AskerOf(request), text) : text;
+    status_.Publish(ServerWarning{warning});
+    Say(warning);
+  }
+  // Robots that are moved by hand would fill the screen.
+  const bool told = request.verb == "pause" || request.verb == "resume" || request.verb == "speed" ||
+                    request.verb == "stop" || request.verb == "reset" || IsWorkerMove(request.verb) ||
+                    std::ranges::find(kOfferVerbs, request.verb) != kOfferVerbs.end();
+  if (!done || !told || text.empty()) return;
+  const std::string line = fmt::format("{}: {}", AskerOf(request), text);
+  status_.Publish(ServerAsked{line});
+  Say(line);
+}
+
+void ServerProgram::Say(const std::string& text) const
+{
+  if (!status_.IsOpen()) PrintError("space server: {}\n", text);
+}
+
+void ServerProgram::ReportState()
+{
+  const ServerState::Phase phase = run_control_.Paused() ? ServerState::kPaused : ServerState::kRunning;
+  if (phase == said_phase_) return;
+  said_phase_ = phase;
+  status_.Publish(ServerState{phase, {}});
+  Say(run_control_.Paused() ? fmt::format("paused at tick {}", lockstep_.Tick()) : "running");
+}
+
+void ServerProgram::ReportProgress()
+{
+  const auto now = Clock::now();
+  const std::uint64_t tick = lockstep_.Tick();
+  const bool held = lockstep_.Held();
+  if (tick != last_tick_ || held)
+  {
+    last_tick_ = tick;
+    since_ = now;
+    repeat_after_ = kFirstRepeat;
+    repeated_ = now;
+    stall_said_ = 0s;
+  }
+  else if (now - repeated_ >= repeat_after_)
+  {
+    lockstep_.Repeat();
+    repeated_ = now;
+    repeat_after_ = std::min<Clock::duration>(2 * repeat_after_, kLastRepeat);
+  }
+  if (now - since_ >= kStallTime && now - since_ >= stall_said_ + 1s)
+  {
+    stall_said_ = now - since_;
+    const std::string who = LateNames(tick);
+    status_.Publish(ServerStall{who, std::round(Seconds(stall_said_))});
+    Say(fmt::format("tick {}: waiting for {} since {:.0f} s", tick, who, Seconds(stall_said_)));
+  }
+  ReportState();
+  if (run_control_.Paused() && held)
+    pace_.Rest(tick, now);
+  else if (pace_.Observe(tick, now))
+    status_.Publish(ServerTick{tick, experiment_.max_clock, pace_.RealTimeFactor()});
+}
+
+std::string ServerProgram::LateNames(std::uint64_t tick) const
+{
+  std::vector<std::string> names;
+  for (const LateProcess& late : LateProcesses(session_, lockstep_.Missing(), tick))
+    names.push_back(late.doing.empty() ? late.name : fmt::format("{} ({})", late.name, late.doing));
+  return Joined(names);
+}
+
+RunStatus::Phase ServerProgram::Phase() const
+{
+  if (lockstep_.Finished()) return RunStatus::Phase::kFinished;
+  if (!started_) return RunStatus::Phase::kWaiting;
+  return run_control_.Paused() ? RunStatus::Phase::kPaused : RunStatus::Phase::kRunning;
+}
+
+void ServerProgram::PublishViews()
+{
+  shares_.Work(lockstep_.Tick());
+  const auto now = Clock::now();
+  const bool over = lockstep_.Finished();
+  if (std::exchange(told_end_, over) || (over && BeginsAgain())) return;
+  if (started_ && (over || views_.ViewIsDue(lockstep_.Tick(), now)))
+  {
+    lockstep_.WithServer([this](SpaceServer& server) { server.WriteSnapshot(snapshot_); });
+    snapshot_.last = over;
+    snapshot_.real_time_factor = pace_.RealTimeFactor();
+    views_.SendView(snapshot_, now);
+  }
+  const RunStatus::Phase phase = Phase();
+  if (over || views_.StatusIsDue(phase, now)) views_.SendStatus(Status(phase, now), now);
+}
+
+RunStatus ServerProgram::Status(RunStatus::Phase phase, Clock::time_point now)
+{
+  RunStatus status;
+  status.phase = phase;
+  status.tick = lockstep_.Tick();
+  status.speed_wanted = run_control_.Speed();
+  if (phase == RunStatus::Phase::kRunning || phase == RunStatus::Phase::kFinished)
+  {
+    status.real_time_factor = pace_.RealTimeFactor();
+    status.ticks_per_second = pace_.TicksPerSecond();
+  }
+  status.ended = run_control_.WhyStopped();
+  if (const auto who = lockstep_.Terminator()) status.ended = *who + " asked for the end";
+  const bool waits = started_ && !lockstep_.Held() && !lockstep_.Finished();
+  status.processes = ProcessesNow(session_, status.tick, waits ? lockstep_.Missing() : std::vector<std::string>(),
+                                  waits ? Seconds(now - since_) : 0);
+  return status;
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,232 @@
+// What a run begins with, or goes on with.
+#include "space_server/cluster/server_program.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <random>
+
+#include "common/activity/print_error.h"
+#include "common/checkpoint/library_builds.h"
+#include "common/journal/journal_reader.h"
+#include "common/serialisation/trial.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+std::uint64_t NewRun()
+{
+  std::random_device device;
+  return (static_cast<std::uint64_t>(device()) << 32) | device();
+}
+
+RunControlSetup MakeRunControlSetup(const ServerOptions& options, const Experiment& experiment,
+                                    const std::optional<Continuation>& continuation)
+{
+  RunControlSetup setup{options.paused, options.real_time_factor, {}, {}};
+  if (!options.output_folder.empty()) setup.event_log = options.output_folder + "/events.csv";
+  if (!options.events.empty()) setup.repeated = ReadEvents(options.events, experiment);
+  if (continuation) continuation->Prepare(setup);
+  return setup;
+}
+
+std::string DoneText(const ControlRequestMessage& request, const Assignment& assignment)
+{
+  const std::size_t hosts = assignment.hosts.size();
+  if (request.verb == "hosts")
+    return fmt::format("{} now", hosts == 1 ? "one controller host has all robots"
+                                            : fmt::format("{} controller hosts share the robots", hosts));
+  return request.verb + " was done";
+}
+
+// A step that the run has still to come to the end of.
+bool IsAwaited(const ControlRequestMessage& request, const Continuation& continuation)
+{
+  const EarlierRequests& requests = continuation.Requests();
+  return requests.step && requests.pause_at && *requests.pause_at > continuation.Tick() &&
+         requests.step->client == request.client && requests.step->number == request.number;
+}
+
+}  // namespace
+
+ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& experiment, StatusChannel& status)
+    : options_(options),
+      experiment_(experiment),
+      status_(status),
+      assignment_(MakeAssignment(experiment, options.controller_hosts)),
+      continuation_(GoesOn() ? std::optional<Continuation>(std::in_place, options, experiment) : std::nullopt),
+      server_(experiment, assignment_, options.output_folder.empty() ? "." : options.output_folder),
+      session_(options.bus, World(), Members(),
+               {[this](const ControlRequestMessage& request)
+                {
+                  if (std::ranges::find(kShareVerbs, request.verb) != kShareVerbs.end()) return shares_.Ask(request);
+                  run_control_.Ask(request);
+                  Wake();
+                },
+                [this] { Wake(); },
+                [this](const std::string& process)
+                {
+                  views_.Lost(process);
+                  run_control_.Gone(process);
+                },
+                [this](const ControlReplyMessage& reply)
+                {
+                  shares_.Replied(reply);
+                  // An offer of a machine that is said again is answered without a word, and changes nothing.
+                  if (!reply.text.empty()) views_.Renew();
+                }}),
+      shares_(session_, options.bus,
+              {[this](const ViewRequestMessage& request) { views_.Requested(request); },
+               [this](const ControlRequestMessage& request)
+               {
+                 run_control_.Note(request);
+                 Wake();
+               },
+               [this] { Wake(); }}),
+      views_(session_, shares_, [this] { Wake(); }),
+      run_control_(experiment, Setup(),
+                   [this](const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
+                   { Reply(request, done, tick, text); }),
+      pace_(experiment.TickSeconds()),
+      checkpoints_(session_, experiment, Expected({}), server_.Space().GetTick(), SavedTicks(),
+                   options.output_folder.empty() ? "." : options.output_folder, (OpenJournal(), Journal()),
+                   [this] { Wake(); }),
+      lockstep_(session_, server_, assignment_, options.visualisations, options.hash_log, options.watch, checkpoints_,
+                Journal(), continuation_ ? &*continuation_ : nullptr, [this] { Wake(); }),
+      recoveries_(session_, lockstep_, server_.Space(), assignment_, Journal())
+{
+  if (options.awaits_replacements && journal_) session_.AwaitReplacements();
+  if (continuation_)
+    for (const ControlRequestMessage& request : continuation_->Requests().answered)
+      session_.Remember(request, IsAwaited(request, *continuation_), DoneText(request, assignment_));
+  if (continuation_) shares_.Restore(continuation_->Requests().shares);
+  server_.SetFaultHandler(
+      [this](const std::vector<KnownFault>& faults)
+      {
+        run_control_.Failed(faults);
+        Wake();
+      });
+  if (status_.IsOpen())
+    server_.SetWarningHandler([this](const std::string& text) { status_.Publish(ServerWarning{text}); });
+  session_.GetBus().OnRefused(
+      [this](const BadMessageReport& report)
+      {
+        status_.Publish(
+            ServerWarning{fmt::format("refused a {} message of {}: {}", report.topic, report.sender, report.what)});
+        run_control_.Refused(report.topic, report.sender);
+        Wake();
+      });
+}
+
+RunControlSetup ServerProgram::Setup()
+{
+  RunControlSetup setup = MakeRunControlSetup(options_, experiment_, continuation_);
+  setup.may_reset = status_.IsOpen() && options_.abandon == nullptr;
+  setup.build = OwnBuild();
+  if (!options_.awaits_replacements) return setup;
+  setup.places = WorkerPlaces(options_.machines, options_.worker_places);
+  setup.move = [this](const WorkerPlaces::Move& move)
+  {
+    session_.Release(move.worker);
+    status_.Publish(ServerMove{move.machine, move.worker});
+  };
+  if (options_.abandon == nullptr)
+    setup.share_out = [this](const std::vector<std::string>& machines)
+    {
+      journal_->Flush();
+      status_.Publish(ServerHosts{fmt::format("{}", fmt::join(machines, " "))});
+    };
+  return setup;
+}
+
+WorldMessage ServerProgram::World()
+{
+  WorldMessage world =
+      DescribeWorld(server_.Space(), NewRun(), options_.file, static_cast<unsigned>(assignment_.hosts.size()));
+  world.xml += options_.places;
+  CheckCheckpointPeriod(options_.checkpoint_every, experiment_);
+  world.checkpoint_every = options_.checkpoint_every;
+  if (options_.checkpoint_every != 0) TrySaving(server_);
+  world.recorded = KeepsJournal();
+  ForEachLibrary(experiment_,
+                 [&](const std::string& name, const std::string& file, bool)
+                 {
+                   if (!file.empty()) world.libraries.push_back({name, DigestOfFile(file)});
+                 });
+  if (!options_.restore_file.empty())
+  {
+    const Checkpoint checkpoint =
+        ReadCheckpoint(options_.restore_file, experiment_, {assignment_.hosts.size(), options_.any_build});
+    checkpoint.LoadPart(kServerPart, [&](ByteReader& state) { server_.LoadState(checkpoint.snapshot, state); });
+    world.checkpoint = EncodeCheckpoint(checkpoint);
+    if (KeepsJournal() && !GoesOn()) restored_ = checkpoint;
+  }
+  if (continuation_) continuation_->Restore(server_);
+  if (!experiment_.HasGuards()) return world;
+  if (!options_.faults_of.empty())
+    world.known = FaultsOfRun(options_.faults_of, experiment_, server_.Space().GetTick());
+  if (continuation_) world.known.Add(continuation_->Faults());
+  return world;
+}
+
+std::set<std::uint64_t> ServerProgram::SavedTicks() const
+{
+  std::set<std::uint64_t> ticks;
+  if (!continuation_ || continuation_->Journal() == nullptr) return ticks;
+  for (const JournalPlace& place : continuation_->Journal()->Places())
+    if (place.kind == JournalBlockKind::kSnapshot && place.first_tick <= continuation_->Tick())
+      ticks.insert(place.first_tick);
+  return ticks;
+}
+
+void ServerProgram::OpenJournal()
+{
+  if (!KeepsJournal()) return;
+  const std::string file = JournalFile(options_.output_folder);
+  const bool beside_launcher = options_.abandon == nullptr;
+  JournalBudget budget{options_.JournalBudgetBytes(), Expected({})};
+  budget.parts.push_back(kServerPart);
+  if (continuation_ && continuation_->Journal() != nullptr)
+  {
+    journal_.emplace(*continuation_->Journal(), continuation_->Tick(), beside_launcher, std::move(budget));
+    continuation_->ShareOut(*journal_, experiment_, assignment_.hosts.size());
+    return;
+  }
+  std::filesystem::create_directories(std::filesystem::path(file).parent_path());
+  const JournalStart start{OriginOf(experiment_), assignment_.hosts.size(), server_.Space().GetTick()};
+  journal_.emplace(file, ContentOf(start), beside_launcher, std::move(budget));
+  if (!restored_) return;
+  // For those who look back, and resume: what no message of a tick tells.
+  journal_->Add(restored_->snapshot);
+  for (const SavedPart& part : restored_->parts) journal_->Add(restored_->snapshot.tick, part);
+  restored_.reset();
+}
+
+std::span<const RenderConfiguration> ServerProgram::Visualisers() const
+{
+  return options_.visualisations ? std::span<const RenderConfiguration>(experiment_.visualisations)
+                                 : std::span<const RenderConfiguration>();
+}
+
+std::vector<std::string> ServerProgram::Expected(std::span<const RenderConfiguration> visualisers) const
+{
+  std::vector<std::string> names;
+  for (std::size_t e = 0; e < experiment_.engines.size(); ++e) names.push_back(EngineName(experiment_, e));
+  for (std::size_t h = 0; h < assignment_.hosts.size(); ++h) names.push_back(HostName(h));
+  for (const RenderConfiguration& render : visualisers) names.push_back(VisualiserName(render));
+  return names;
+}
+
+std::vector<std::string> ServerProgram::Members() const
+{
+  std::vector<std::string> names = Expected(Visualisers());
+  for (std::size_t e = 0; e < experiment_.engines.size(); ++e)
+    for (unsigned region = 0; region < RegionsOf(experiment_.engines[e]); ++region)
+      names.push_back(RegionName(experiment_, e, region));
+  return names;
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,120 @@
+// When those who look on at a run get a view of it.
+#include "space_server/cluster/view_publisher.h"
+
+#include <atomic>
+
+#include "tests/eventually.h"
+#include "tests/unit/bus/server_fixture.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+using test::Eventually;
+
+class ViewPublisherTest : public test::ServerFixture
+{
+protected:
+  ViewPublisherTest()
+      : ServerFixture("viewed"),
+        session_(options_, world_, {}, {[](const auto&) {}, [] {}, [](const auto&) {}}),
+        shares_(session_, options_, {[](const auto&) {}, [](const auto&) {}, [] {}}),
+        views_(session_, shares_, [this] { ++woken_; })
+  {
+  }
+
+  // As if the time were now_: whether a view is due, which is sent then.
+  bool Sends(std::uint64_t tick = 0)
+  {
+    if (!views_.ViewIsDue(tick, now_)) return false;
+    SpaceSnapshot snapshot;
+    snapshot.tick = tick;
+    views_.SendView(snapshot, now_);
+    return true;
+  }
+  // Views that are sent while so much time passes, in which nothing happens.
+  int SentWithin(std::chrono::milliseconds time)
+  {
+    int sent = 0;
+    for (const auto until = now_ + time; now_ < until; now_ += 10ms) sent += Sends() ? 1 : 0;
+    return sent;
+  }
+
+  ServerSession session_;
+  Shares shares_;
+  std::atomic<int> woken_ = 0;
+  ViewPublisher views_;
+  ViewPublisher::Clock::time_point now_ = ViewPublisher::Clock::now();
+};
+
+TEST_F(ViewPublisherTest, WhatDoesNotChangeIsSentToNewcomersOnly)
+{
+  EXPECT_EQ(SentWithin(1s), 0);
+  Bus looker(options_, "visualiser 'v'");
+  std::atomic<int> heard = 0;
+  const Subscription<ViewMessage> views(looker, "viewed", [&](const ViewMessage&) { ++heard; });
+  ASSERT_TRUE(Eventually([&] { return Sends(); }));
+  EXPECT_TRUE(Eventually([&] { return heard == 1; }));
+  // It may have been lost on its way to somebody who was just met.
+  EXPECT_GT(SentWithin(10s), 100);
+  EXPECT_EQ(SentWithin(60s), 0);
+
+  const Subscription<ViewMessage> another(looker, "viewed", [](const ViewMessage&) {});
+  EXPECT_TRUE(Eventually([&] { return Sends(); }));
+}
+
+TEST_F(ViewPublisherTest, WhatChangesIsSentAtThePaceThatIsAskedFor)
+{
+  Bus looker(options_, "visualiser 'v'");
+  const Subscription<ViewMessage> views(looker, "viewed", [](const ViewMessage&) {});
+  ASSERT_TRUE(Eventually([&] { return Sends(); }));
+  SentWithin(60s);
+  // A user was answered, and waits for a view that is newer than the answer.
+  views_.Renew();
+  EXPECT_GT(SentWithin(10s), 100);
+  EXPECT_EQ(SentWithin(60s), 0);
+  // A tick passed.
+  EXPECT_TRUE(Sends(1));
+  EXPECT_FALSE(Sends(1));
+  // Sooner than after a thirtieth of a second there is no other one.
+  now_ += 20ms;
+  EXPECT_FALSE(Sends(2));
+  now_ += 1s;
+  EXPECT_TRUE(Sends(2));
+}
+
+// So do they if the pace is slow.
+TEST_F(ViewPublisherTest, WhoeverAskedGetsSeveralViewsHoweverSeldom)
+{
+  Bus looker(options_, "visualiser 'v'");
+  const Subscription<ViewMessage> views(looker, "viewed", [](const ViewMessage&) {});
+  views_.Requested({"host:2", world_.run, 0.01, false, {}});
+  ASSERT_TRUE(Eventually([&] { return Sends(); }));
+  now_ += 1h;
+  int sent = 0;
+  views_.Renew();
+  for (int k = 0; k < 10; ++k, now_ += 1h) sent += Sends() ? 1 : 0;
+  EXPECT_GE(sent, 3);
+  EXPECT_LT(sent, 10);
+}
+
+// One came as another one went: there are as many readers as before.
+TEST_F(ViewPublisherTest, WhoeverAsksForTheFirstTimeIsANewcomer)
+{
+  Bus looker(options_, "visualiser 'v'");
+  const Subscription<ViewMessage> views(looker, "viewed", [](const ViewMessage&) {});
+  ASSERT_TRUE(Eventually([&] { return Sends(); }));
+  SentWithin(60s);
+  const ViewRequestMessage request{"host:2", world_.run, 30, false, {}};
+  views_.Requested(request);
+  EXPECT_EQ(woken_, 1);
+  EXPECT_TRUE(Sends());
+  SentWithin(60s);
+  views_.Requested(request);
+  EXPECT_EQ(SentWithin(60s), 0);
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,133 @@
+// What tests, and the curious at their consoles, see of the page and do with it: window.swarmanoid.
+import { cameraOf } from "./view/viewpoints.js";
+
+function inPage(picture, { x, y }) {
+  const box = picture.view.canvas.getBoundingClientRect();
+  return { x: box.left + x, y: box.top + y };
+}
+
+// The parts of the page, and what it does.
+export function pageHook({ state, past, timeline, viewpoints, list, picture, editorOf, select, toggle, approach, colourBy, send }) {
+  return {
+    get past() {
+      return past.isOn ? { tick: past.wanted, shown: state.frame?.tick, playing: past.isPlaying } : null;
+    },
+    get timeline() {
+      return timeline.element.hidden ? null : { first: timeline.first, last: timeline.last, events: timeline.events.map(({ tick, what }) => [tick, what]) };
+    },
+    get branch() {
+      return state.branch ?? null;
+    },
+    get inspect() {
+      return state.inspect ?? null;
+    },
+    lookBack: (tick) => past.look(tick),
+    goLive: () => past.live(),
+    get editor() {
+      const editor = editorOf();
+      return editor && { ...editor.document, shown: editor.path, form: editor.form.form, said: editor.form.said.textContent, busy: editor.isBusy || editor.waiting.length > 0 };
+    },
+    get connected() {
+      return state.connected;
+    },
+    get control() {
+      return state.control;
+    },
+    get phase() {
+      return state.status?.phase ?? null;
+    },
+    get experiment() {
+      return state.world?.experiment ?? null;
+    },
+    get robots() {
+      return state.world?.robots.length ?? 0;
+    },
+    get tick() {
+      return state.frame?.tick ?? null;
+    },
+    get time() {
+      return state.frame?.time ?? null;
+    },
+    get frames() {
+      return state.frames;
+    },
+    get drawn() {
+      return state.drawn;
+    },
+    // Milliseconds from the request of the page.
+    get firstPicture() {
+      return state.firstPicture ?? null;
+    },
+    get quality() {
+      return picture.qualityName;
+    },
+    get view() {
+      return picture.view === null ? null : picture.isPlan ? "plan" : "3D";
+    },
+    get aboard() {
+      return picture.aboard === null ? null : state.world.ids[picture.aboard];
+    },
+    get standing() {
+      return cameraOf(picture.view.viewpoint);
+    },
+    get flying() {
+      return picture.flight !== null;
+    },
+    get viewpoints() {
+      return viewpoints.cameras;
+    },
+    // What is drawn beside bodies: how many lines of each kind.
+    get marks() {
+      return Object.fromEntries(picture.marks.lines({ link: 0 }).map(({ name, points }) => [name, points.length / 6]));
+    },
+    get selected() {
+      return state.selected === null ? null : state.world.ids[state.selected];
+    },
+    get chosen() {
+      return picture.chosen.map((entity) => state.world.ids[entity]);
+    },
+    get status() {
+      return state.status;
+    },
+    get followed() {
+      return picture.followed === null ? null : state.world.ids[picture.followed];
+    },
+    get camera() {
+      return picture.view.eye;
+    },
+    get viewpoint() {
+      return picture.view.viewpoint;
+    },
+    get shown() {
+      return list.shown.length;
+    },
+    instances: () => picture.view.details,
+    select: (id) => select(state.world.find(id)),
+    show: (name, on) => picture.shows[name] !== on && toggle(name),
+    approach: (id) => approach(state.world.find(id)),
+    place: (id) => Array.from(picture.placeOf(state.world.find(id)) ?? []),
+    heading: (id) => (picture.yawOf(state.world.find(id)) * 180) / Math.PI,
+    get colouring() {
+      return picture.colouring && { name: picture.colouring.name, low: picture.colouring.low, high: picture.colouring.high };
+    },
+    get heat() {
+      return picture.heat && { columns: picture.heat.columns, rows: picture.heat.rows, seconds: Array.from(picture.heat.seconds), drawn: Boolean(picture.heat.canvas) };
+    },
+    get link() {
+      return state.link ?? null;
+    },
+    colourBy,
+    get measured() {
+      if (!picture.tape) return null;
+      const [dx, dy] = [0, 1].map((k) => picture.tape.to[k] - picture.tape.from[k]);
+      return { metres: Math.hypot(dx, dy), degrees: (Math.atan2(dy, dx) * 180) / Math.PI };
+    },
+    get handles() {
+      const { handles } = picture.overlay;
+      return handles && { move: inPage(picture, handles.move), turn: inPage(picture, handles.turn) };
+    },
+    project: (id) => inPage(picture, picture.seen(state.world.find(id))),
+    projectPoint: (x, y, z) => inPage(picture, picture.view.project(x, y, z)),
+    command: send,
+  };
+}
