@@ -50,6 +50,14 @@ TEST(ConvexHull, ATetrahedronHasTheInertiaOfItsIntegrals)
     for (int j = 0; j < 3; ++j) EXPECT_NEAR(hull.inertia(i, j), i == j ? 1.0 / 80 : 1.0 / 480, 1e-15);
 }
 
+// The mean of its corners is at a fifth.
+TEST(ConvexHull, APyramidHasItsCentreAtAQuarterOfItsHeight)
+{
+  const ConvexHull hull = HullOf(std::vector<Vector3>{{1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}, {0, 0, 1}});
+  EXPECT_NEAR(hull.volume, 4.0 / 3, 1e-12);
+  EXPECT_LT((hull.centre - Vector3(0, 0, 0.25)).norm(), 1e-12);
+}
+
 TEST(ConvexHull, EveryPointIsWithinAndEveryCornerIsAPoint)
 {
   for (std::uint64_t trial = 0; trial < 200; ++trial)
