@@ -17,6 +17,17 @@ namespace swarmanoid::ros2
 using Header = std_msgs::msg::dds_::Header_;
 using Odometry = nav_msgs::msg::dds_::Odometry_;
 
+// A topic of readings. Whoever waits for each of them misses none.
+template <class Message>
+class ReadingTopic : public Publisher<Message>
+{
+public:
+  ReadingTopic(const DriverSetup& setup, const std::string& topic)
+      : Publisher<Message>(setup, topic, Writer::Keeps::kRecent)
+  {
+  }
+};
+
 class ReadingPublisher
 {
 public:
@@ -32,18 +43,6 @@ struct ReadingSetup
   DriverSetup driver;
   double range_m = 0;                     // of the proximity sensors
   const WheelOdometry* wheels = nullptr;  // of robots with encoders
-  bool lock_step = true;                  // a node waits for each reading
-};
-
-// A topic of readings. Whoever waits for each of them misses none.
-template <class Message>
-class ReadingTopic : public Publisher<Message>
-{
-public:
-  ReadingTopic(const ReadingSetup& setup, const std::string& topic)
-      : Publisher<Message>(setup.driver, topic, setup.lock_step ? Writer::Keeps::kRecent : Writer::Keeps::kStream)
-  {
-  }
 };
 
 // The types of sensors that have topics, in ascending order. `positioning` has none of its own: it is part of `odom`.

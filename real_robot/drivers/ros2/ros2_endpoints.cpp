@@ -29,8 +29,6 @@ using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
 
 const eprosima::fastrtps::Duration_t kFlushTime{0, 500'000'000};
 const eprosima::fastrtps::Duration_t kHeartbeat{0, 20'000'000};
-// How often those who listen to a stream are asked what they lack. Each time costs them an answer, and both a timer.
-const eprosima::fastrtps::Duration_t kSlowHeartbeat{0, 200'000'000};
 constexpr int kRecentMessages = 64;
 const eprosima::fastrtps::Duration_t kWriteTime{0, 20'000'000};  // a step must not wait for a slow listener
 
@@ -150,7 +148,6 @@ struct Writer::Ends
 {
   std::shared_ptr<Participant> participant = Participant::Of();
   dds::DataWriter* writer = nullptr;
-  bool is_stream = false;
 };
 
 // Reliable: what all listeners of ROS 2 take, whether they ask for reliability or not.
@@ -161,16 +158,10 @@ Writer::Writer(const std::string& topic, const MessageType& type, Keeps keeps) :
   qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
   qos.reliability().max_blocking_time = kWriteTime;
   if (keeps == Keeps::kRecent) qos.reliable_writer_qos().times.heartbeatPeriod = kHeartbeat;
-  if (keeps == Keeps::kStream)
-  {
-    qos.reliable_writer_qos().times.heartbeatPeriod = kSlowHeartbeat;
-    qos.reliable_writer_qos().disable_heartbeat_piggyback = true;
-  }
   // As ROS 2 has it; by default Fast DDS keeps for writers what it does not for readers.
   qos.durability().kind = keeps == Keeps::kLatched ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
-  ends_->is_stream = keeps == Keeps::kStream;
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
-  qos.history().depth = keeps == Keeps::kRecent || keeps == Keeps::kStream ? kRecentMessages : 1;
+  qos.history().depth = keeps == Keeps::kRecent ? kRecentMessages : 1;
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
   qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();
@@ -182,7 +173,6 @@ Writer::~Writer() { ends_->participant->GetPublisher()->delete_datawriter(ends_-
 
 void Writer::Write(void* message)
 {
-  if (ends_->is_stream && Listeners() == 0) return;
   // A full queue means that a listener is slow; the next value replaces this one.
   ends_->writer->write(message);
 }

@@ -37,8 +37,7 @@ public:
   {
     kLatest,   // the next value replaces one that has not arrived
     kLatched,  // likewise; who comes later still gets the last message
-    kRecent,   // some tens, so that those who listen reliably miss none, and know soon which are there
-    kStream    // likewise, but those who listen know a little later, which costs half as much
+    kRecent    // some tens, so that those who listen reliably miss none, and know soon which are there
   };
   Writer(const std::string& topic, const MessageType& type, Keeps keeps = Keeps::kLatest);
   ~Writer();
