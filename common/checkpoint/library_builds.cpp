@@ -70,10 +70,15 @@ void ForEachDataFile(const Experiment& experiment, Take take)
 {
   for (const EntityKindConfiguration& kind : experiment.entity_kinds)
     if (const UrdfKind* urdf = FindUrdfKind(kind.tag); kind.library.empty() && urdf != nullptr)
+    {
       take(fs::path(urdf->file).lexically_relative(experiment.folder).string());
+      for (const std::string& mesh : urdf->collision_meshes)
+        take(fs::path(mesh).lexically_relative(experiment.folder).string());
+    }
   for (const EntityConfiguration& entity : experiment.entities)
   {
     const EntityRole role = DescriptionOf(entity.kind).role;
+    if (entity.tree.GetBoolean("convex", false)) take(entity.tree.GetText("mesh", ""));
     if (role == EntityRole::kPatch) take(entity.tree.GetText("picture", ""));
     if (role != EntityRole::kTerrain) continue;
     for (const char* source : {"octomap", "heightmap"})

@@ -12,7 +12,7 @@ void AddPlainBody(const EntityConfiguration& entity, std::vector<CollisionBody>&
   if (kind.form == BodyForm::kCylinder)
     bodies.push_back({true, centre, {entity.size.x(), entity.size.x(), entity.size.z() / 2}});
   else
-    bodies.push_back({false, centre, entity.size / 2});
+    bodies.push_back({false, centre, entity.size / 2, entity.hull.get()});
 }
 
 }  // namespace swarmanoid

@@ -15,6 +15,8 @@ struct CollisionBody
   bool is_cylinder = false;             // about its z axis; otherwise a box
   Pose pose;                            // of its centre, in the frame of the entity
   Vector3 half_size = Vector3::Zero();  // m; of a cylinder: radius, radius, half the height
+  // Instead of the box, which is about it; in the frame of the entity. The configuration of the entity keeps it.
+  const ConvexHull* hull = nullptr;
 };
 
 // Adds the plain body of an entity's kind; nothing for those without one.

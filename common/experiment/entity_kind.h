@@ -181,6 +181,8 @@ struct EntityKindDescription
   // Of the body, m: a box along x, y and z; a cylinder's radius, radius and height. Zero: each entity gives its own, by
   // the parameters "size", or "radius" and "height".
   Vector3 size = Vector3::Zero();
+  // Of a box: the body is the convex hull of these points instead, m, in the frame of the entity, within the box.
+  std::vector<Vector3> corners{};
   double mass_kg = 0;  // of an entity without one of its own; 0: engines take their own for it, or their density
   Mobility mobility = Mobility::kAlways;
   bool grippable = false;           // grippers find hold on it while it can move

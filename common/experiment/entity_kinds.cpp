@@ -9,6 +9,7 @@
 #include "common/experiment/entity_kind.h"
 #include "common/experiment/own_kinds.h"
 #include "common/math/elementary.h"
+#include "common/mesh/convex_hull.h"
 #include "common/plugins/catalogue.h"
 
 namespace swarmanoid
@@ -130,6 +131,22 @@ std::string MistakeInParts(const Row& row)
           "range of more than 0 and at most {} m",
           ring.sensors.size(), ring.range_m, kMostProximitySensors, kMostMetresOfRow);
   }
+  if (!row.corners.empty())
+  {
+    const Vector3 low(-row.size.x() / 2, -row.size.y() / 2, row.origin == BodyOrigin::kBase ? 0 : -row.size.z() / 2);
+    const Eigen::AlignedBox3d box(low - Vector3::Constant(1e-6), low + row.size + Vector3::Constant(1e-6));
+    if (row.form != BodyForm::kBox ||
+        !std::all_of(row.corners.begin(), row.corners.end(), [&](const Vector3& c) { return box.contains(c); }))
+      return "it has corners that are not within a box of its size";
+    try
+    {
+      HullOf(row.corners);
+    }
+    catch (const std::invalid_argument& mistake)
+    {
+      return mistake.what();
+    }
+  }
   if (!std::all_of(row.ground_points.begin(), row.ground_points.end(), IsPlace))
     return "a ground sensor is at no finite place";
   for (const MeshPart& part : row.mesh)
@@ -214,6 +231,11 @@ void AddParameters(Row& row)
       add(ColourParameter(colour));
       add(MeshParameter());
       add(MeshOrientationParameter());
+      if (row.form == BodyForm::kBox && row.corners.empty())
+      {
+        add(ConvexParameter());
+        add(CornersParameter());
+      }
       break;
     }
     case EntityRole::kLight:

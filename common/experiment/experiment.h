@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@
 
 namespace swarmanoid
 {
+
+struct ConvexHull;  // common/mesh/convex_hull.h
 
 // One <footbot_proximity><implementation>…</implementation>…</footbot_proximity> entry of a controller.
 struct DeviceConfiguration
@@ -65,6 +68,8 @@ struct EntityConfiguration
   // radius, radius, height. Areas of the floor: x, y, 0 of a rectangle or radius, 0, 0 of a disc. Zero for what has no
   // body.
   Vector3 size = Vector3::Zero();
+  // What collides instead of the body of this size, which is the box about it; in the frame of the entity.
+  std::shared_ptr<const ConvexHull> hull{};
   double mass_kg = 0;    // 0: the default of the kind
   bool movable = false;  // robots and preys always; blocks only if asked
   std::uint32_t colour = 0xc0c0c0;

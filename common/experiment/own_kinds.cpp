@@ -148,7 +148,8 @@ EntityKindDescription Block()
   row.grippable = true;
   row.parameters = {BoxSizeParameter(),        MovableParameter(),     MassParameter(),
                     FrictionParameter(),       RestitutionParameter(), GroundFrictionParameter(),
-                    ColourParameter("silver"), MeshParameter(),        MeshOrientationParameter()};
+                    ColourParameter("silver"), MeshParameter(),        MeshOrientationParameter(),
+                    ConvexParameter(),         CornersParameter()};
   row.attributes = {kSurface};
   return row;
 }
@@ -339,7 +340,7 @@ ParameterSpec MeshParameter()
   return Optional(
       kText, "mesh", "", "",
       "A file that it is drawn as, stretched to fill its body: .glb, .gltf, .obj or .stl. It changes what is "
-      "seen, not what collides. Relative to the experiment file.");
+      "seen, not what collides, unless it is convex. Relative to the experiment file.");
 }
 
 ParameterSpec MeshOrientationParameter()
@@ -347,6 +348,20 @@ ParameterSpec MeshOrientationParameter()
   return Angles(Optional(kVector3, "mesh_orientation", "degrees", "0, 0, 0",
                          "Turns the mesh in its body, about the fixed axes x, y and z in this order: \"90, 0, 0\" puts "
                          "up one whose y axis is up."));
+}
+
+ParameterSpec ConvexParameter()
+{
+  return Optional(kBoolean, "convex", "", "false",
+                  "It collides as the convex hull of its mesh, stretched as that is, instead of as the box about it.");
+}
+
+ParameterSpec CornersParameter()
+{
+  return Optional(
+      kText, "corners", "", "",
+      "\"x, y, z; x, y, z; …\": it collides as the convex hull of these points, which are stretched to fill "
+      "its size.");
 }
 
 std::vector<EntityKindDescription> OwnKinds()

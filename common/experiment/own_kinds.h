@@ -13,6 +13,8 @@ std::vector<EntityKindDescription> OwnKinds();
 // Parameters that several kinds have.
 ParameterSpec ControllerParameter();
 ParameterSpec MassParameter();
+ParameterSpec ConvexParameter();
+ParameterSpec CornersParameter();
 ParameterSpec FrictionParameter();
 ParameterSpec RestitutionParameter();
 ParameterSpec GroundFrictionParameter();

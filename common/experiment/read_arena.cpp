@@ -7,6 +7,7 @@
 #include "common/configuration/wording.h"
 #include "common/experiment/body.h"
 #include "common/experiment/element_reader.h"
+#include "common/experiment/entity_hull.h"
 #include "common/experiment/mesh_files.h"
 #include "common/experiment/sections.h"
 #include "common/experiment/unique_ids.h"
@@ -130,6 +131,7 @@ EntityConfiguration ReadEntityBody(const ElementReader& reader, const ElementSpe
     if (!reader.IsGiven("colour")) entity.colour = 0xffffff;
   }
   if (has("mesh") && !reader.Text("mesh").empty()) CheckFile(reader, "mesh", reading, MeshFileMistake);
+  entity.hull = HullOfEntity(reader, entity, reading);
   if (has("intensity")) entity.intensity = reader.Number("intensity");
   return entity;
 }

@@ -1,6 +1,9 @@
 // The readers of the sections of an experiment file, in the order in which they are called. Used by LoadExperimentText.
 #pragma once
 
+#include <map>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "common/experiment/diagnostics.h"
@@ -27,6 +30,7 @@ struct Reading
   Diagnostics& diagnostics;
   const LoadOptions& options;
   std::vector<Distribution> distributions{};
+  std::map<std::string, std::shared_ptr<const ConvexHull>> hulls{};  // that were made, by what they are made of
 };
 
 void ReadFramework(const TConfigurationTree& tree, Reading& reading);

@@ -11,6 +11,8 @@
 #include "common/configuration/wording.h"
 #include "common/configuration/xml_reader.h"
 #include "common/experiment/urdf_links.h"
+#include "common/math/elementary.h"
+#include "common/mesh/convex_hull.h"
 
 namespace swarmanoid
 {
@@ -41,6 +43,15 @@ struct Extent
     const Pose pose = frame.Compose(shape.pose);
     const Eigen::Matrix3d axes = pose.orientation.toRotationMatrix();
     Vector3 half = Vector3::Zero();
+    if (shape.form == Form::kMesh)
+    {
+      for (const Vector3& corner : shape.corners)
+      {
+        low = low.cwiseMin(pose.Apply(corner));
+        high = high.cwiseMax(pose.Apply(corner));
+      }
+      return;
+    }
     if (shape.form == Form::kBox) half = axes.cwiseAbs() * (shape.size / 2);
     if (shape.form == Form::kSphere) half = Vector3::Constant(shape.size.x());
     if (shape.form == Form::kCylinder)
@@ -51,6 +62,42 @@ struct Extent
     high = high.cwiseMax(pose.position + half);
   }
 };
+
+// Points whose convex hull is about a shape.
+std::vector<Vector3> CornersOf(const UrdfShape& shape)
+{
+  if (shape.form == Form::kMesh) return shape.corners;
+  std::vector<Vector3> corners;
+  if (shape.form == Form::kBox)
+  {
+    for (const double x : {-0.5, 0.5})
+      for (const double y : {-0.5, 0.5})
+        for (const double z : {-0.5, 0.5}) corners.push_back(shape.size.cwiseProduct(Vector3(x, y, z)));
+    return corners;
+  }
+  // Prisms of sixteen sides; a ball is one of six such rings, from pole to pole.
+  constexpr int kSides = 16;
+  const auto ring = [&](double radius, double z)
+  {
+    for (int k = 0; k < kSides; ++k)
+    {
+      const SinCos angle = SinCosOf(2 * kPi * k / kSides);
+      corners.emplace_back(radius * angle.cos, radius * angle.sin, z);
+    }
+  };
+  if (shape.form == Form::kCylinder)
+  {
+    for (const double side : {-0.5, 0.5}) ring(shape.size.x(), side * shape.size.z());
+    return corners;
+  }
+  for (const double side : {-1.0, 1.0})
+  {
+    corners.emplace_back(0, 0, side * shape.size.x());
+    for (const double height : {0.3, 0.8})
+      ring(shape.size.x() * std::sqrt(1 - height * height), side * height * shape.size.x());
+  }
+  return corners;
+}
 
 class Builder
 {
@@ -165,13 +212,19 @@ private:
     const UrdfShape* round = nullptr;
     Vector3 centre = Vector3::Zero();
     std::size_t shapes = 0;
+    bool has_mesh = false;
+    std::vector<Vector3> corners;
     for (const UrdfLink& link : links_.links)
     {
       const bool is_wheel = link.name == wheels_.left->child || link.name == wheels_.right->child;
       for (const UrdfShape& shape : link.collision)
       {
         all.Add(shape, InKind(link.pose));
+        if (shape.form == Form::kMesh) result_.collision_meshes.push_back(shape.file);
         if (is_wheel) continue;
+        has_mesh |= shape.form == Form::kMesh;
+        for (const Vector3& corner : CornersOf(shape))
+          corners.push_back(InKind(link.pose).Compose(shape.pose).Apply(corner));
         ++shapes;
         const Pose pose = InKind(link.pose).Compose(shape.pose);
         if (shape.form != Form::kCylinder || std::abs((pose.orientation * Vector3::UnitZ()).z()) < 1 - 1e-6 ||
@@ -183,17 +236,23 @@ private:
     }
     if (shapes == 0)
       return Error(links_.location,
-                   "it needs a <collision> with a box, a cylinder or a sphere besides those of its wheels");
+                   "it needs a <collision> with a box, a cylinder, a sphere or a mesh besides those of its wheels");
     EntityKindDescription& kind = result_.kind;
     const double x = std::max(std::abs(all.low.x()), std::abs(all.high.x()));
     const double y = std::max(std::abs(all.low.y()), std::abs(all.high.y()));
-    const bool is_round =
-        round != nullptr && centre.head<2>().norm() < kSamePlace && std::max(x, y) < round->size.x() + kSamePlace;
+    const bool is_round = !has_mesh && round != nullptr && centre.head<2>().norm() < kSamePlace &&
+                          std::max(x, y) < round->size.x() + kSamePlace;
     kind.form = is_round ? BodyForm::kCylinder : BodyForm::kBox;
     kind.size =
         is_round ? Vector3(round->size.x(), round->size.x(), all.high.z()) : Vector3(2 * x, 2 * y, all.high.z());
+    if (has_mesh) SetHull(std::move(corners));
     const Vector3 filled = all.high - all.low;
-    if (!is_round && (filled.x() < 2 * x - kSamePlace || filled.y() < 2 * y - kSamePlace))
+    if (has_mesh)
+      Note(links_.location,
+           fmt::format("its shapes but the wheels collide as their convex hull in three dimensions, as "
+                       "the box of {:g} x {:g} x {:g} m that holds them on planes and to sensors",
+                       kind.size.x(), kind.size.y(), kind.size.z()));
+    else if (!is_round && (filled.x() < 2 * x - kSamePlace || filled.y() < 2 * y - kSamePlace))
       Note(links_.location,
            fmt::format("its shapes are not about the middle of the axle; the body is the box of {:g} x "
                        "{:g} m about it that holds them",
@@ -204,6 +263,20 @@ private:
     if (all.low.z() < -kSamePlace)
       Note(links_.location,
            fmt::format("something reaches {:g} m below its wheels; the body ends at the ground", -all.low.z()));
+  }
+
+  // Of a few corners, above the ground.
+  void SetHull(std::vector<Vector3> corners)
+  {
+    for (Vector3& corner : corners) corner.z() = std::max(corner.z(), 0.0);
+    try
+    {
+      result_.kind.corners = HullOf(corners).corners;
+    }
+    catch (const std::invalid_argument& error)
+    {
+      Error(links_.location, fmt::format("its <collision> shapes have no convex hull: {}", error.what()));
+    }
   }
 
   void SetMass()
@@ -288,7 +361,7 @@ std::map<std::string, UrdfKind>& Registered()
 
 UrdfKind KindFromUrdf(const std::string& tag, const std::string& text, const std::string& file)
 {
-  UrdfKind result{file, text, {}, {}, {}};
+  UrdfKind result{file, text, {}, {}, {}, {}};
   result.kind.tag = tag;
   result.kind.description = "A robot of a URDF file. The position is the middle of its axle, on the ground.";
   try
@@ -310,7 +383,7 @@ std::vector<Diagnostic> RegisterUrdfKind(const std::string& tag, const std::stri
   const SourceLocation place{std::make_shared<const std::string>(file), 0, 0};
   if (const auto known = Registered().find(tag); known != Registered().end())
   {
-    if (known->second.text == read.text)
+    if (known->second.text == read.text && known->second.kind.corners == read.kind.corners)
     {
       known->second.file = file;
       return {};

@@ -19,6 +19,7 @@ struct UrdfKind
   std::string file;
   std::string text;
   EntityKindDescription kind;
+  std::vector<std::string> collision_meshes;
   std::vector<Diagnostic> errors;  // why there is no kind
   std::vector<Diagnostic> notes;   // what the file says without effect, or what is taken for what it does not say
 };

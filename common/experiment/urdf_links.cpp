@@ -9,6 +9,8 @@
 
 #include "common/configuration/wording.h"
 #include "common/experiment/mesh_files.h"
+#include "common/mesh/convex_hull.h"
+#include "common/mesh/mesh_points.h"
 
 namespace swarmanoid
 {
@@ -18,6 +20,9 @@ namespace
 using Form = UrdfShape::Form;
 
 constexpr double kMostMetres = 100;
+constexpr double kHollow = 1e-3;  // m: shallower, a mesh counts as convex
+const char* const kNotThere =
+    "it is not there; package://NAME/… is looked for in the folder NAME beside or above this file";
 
 class Reader
 {
@@ -111,12 +116,52 @@ private:
     if ((shape.size.array() == 0).any())
       Error(mesh, fmt::format("the 'scale' of <mesh> is '{}'; no number may be 0", mesh.Attribute("scale")));
     shape.file = FindUrdfMesh(name, file_);
-    const std::string mistake = shape.file.empty() ? "it is not there; package://NAME/… is looked for in the folder "
-                                                     "NAME beside or above this file"
-                                                   : MeshFileMistake(shape.file);
+    const std::string mistake = shape.file.empty() ? kNotThere : MeshFileMistake(shape.file);
     if (!mistake.empty())
       notes_.push_back({mesh.Location(), fmt::format("the mesh {} is not drawn: {}", Quoted(name), mistake)});
     return mistake.empty();
+  }
+
+  // A mesh that collides, as its hull.
+  void ReadHull(const TConfigurationTree& mesh, UrdfShape& shape)
+  {
+    const std::string name = mesh.Attribute("filename");
+    shape.form = Form::kMesh;
+    shape.size = Vector(mesh, "scale", Vector3::Ones());
+    shape.file = FindUrdfMesh(name, file_);
+    std::string mistake = shape.file.empty() ? kNotThere : MeshFileMistake(shape.file);
+    if (mistake.empty())
+    {
+      try
+      {
+        MeshPoints points = ReadMeshPoints(shape.file);
+        for (Vector3& corner : points.corners) corner = corner.cwiseProduct(shape.size);
+        const ConvexHull hull = HullOf(points.corners);
+        shape.corners = hull.corners;
+        if (const double depth = DeepestPoint(hull, points); depth > kHollow)
+          notes_.push_back({mesh.Location(), fmt::format("the mesh {} is not convex: it collides as its convex hull, "
+                                                         "which is up to {:.3g} m farther out",
+                                                         Quoted(name), depth)});
+        return;
+      }
+      catch (const std::exception& error)  // FileError, std::invalid_argument
+      {
+        mistake = error.what();
+      }
+    }
+    Error(mesh, fmt::format("the mesh {}: {}", Quoted(name), mistake));
+  }
+
+  // Of the corners and the middles of the triangles, m.
+  static double DeepestPoint(const ConvexHull& hull, const MeshPoints& points)
+  {
+    double depth = 0;
+    for (const auto& [a, b, c] : points.triangles)
+    {
+      for (const std::uint32_t corner : {a, b, c}) depth = std::max(depth, hull.DepthOf(points.corners[corner]));
+      depth = std::max(depth, hull.DepthOf((points.corners[a] + points.corners[b] + points.corners[c]) / 3));
+    }
+    return depth;
   }
 
   // False for what is no box, cylinder or sphere.
@@ -152,15 +197,19 @@ private:
     shape.pose = Origin(element);
     const TConfigurationTree geometry = element.Child("geometry");
     if (!geometry.Exists()) return Error(element, fmt::format("<{}> has no <geometry>", element.Name()));
-    if (const TConfigurationTree mesh = geometry.Child("mesh"); mesh.Exists() && element.Name() == "visual")
+    if (const TConfigurationTree mesh = geometry.Child("mesh"); mesh.Exists())
     {
-      if (!ReadMesh(mesh, shape)) return;
+      if (element.Name() == "collision")
+        ReadHull(mesh, shape);
+      else if (!ReadMesh(mesh, shape))
+        return;
     }
     else if (!ReadGeometry(geometry, shape))
     {
       const std::vector<TConfigurationTree> children = geometry.Children();
       const TConfigurationTree& what = children.empty() ? geometry : children.front();
-      const std::string text = fmt::format("<{}> cannot be read; boxes, cylinders and spheres can", what.Name());
+      const std::string text =
+          fmt::format("<{}> cannot be read; boxes, cylinders, spheres and meshes can", what.Name());
       if (element.Name() == "collision") return Error(what, text);
       notes_.push_back({what.Location(), text + "; it is not drawn"});
       return;

@@ -19,13 +19,14 @@ struct UrdfShape
     kBox,       // size: lengths along x, y, z
     kCylinder,  // about z; size: radius, radius, length
     kSphere,    // size: radius, three times
-    kMesh       // of `file`; size: the scale along x, y, z
+    kMesh       // of `file`; size: the scale along x, y, z. It collides as the hull of `corners`
   };
   Form form = Form::kBox;
   Vector3 size = Vector3::Zero();  // m
   Pose pose{};                     // in the frame of the link
   std::optional<std::uint32_t> colour{};
   std::string file{};
+  std::vector<Vector3> corners{};  // m, in the frame of the shape
   SourceLocation location{};
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/mesh/convex_hull.h"
 #include "common/plugins/catalogue.h"
 #include "common/space/attributes.h"
 #include "common/space/shape.h"
@@ -24,12 +25,43 @@ double ReachOf(const CollisionBody& body)
   return body.pose.position.norm() + std::sqrt(across + half.z() * half.z());
 }
 
+namespace
+{
+
+// The part of the segment that is within all faces.
+std::optional<double> SegmentHit(const ConvexHull& hull, const Pose& pose, const Vector3& from, const Vector3& to)
+{
+  const Quaternion inverse = pose.orientation.conjugate();
+  const Vector3 start = inverse * (from - pose.position);
+  const Vector3 step = inverse * (to - from);
+  double enter = 0;
+  double leave = 1;
+  for (const ConvexHull::Face& face : hull.faces)
+  {
+    const double outside = face.normal.dot(start) - face.distance;
+    const double approach = -face.normal.dot(step);
+    if (approach == 0 && outside > 0) return std::nullopt;
+    if (approach > 0) enter = std::max(enter, outside / approach);
+    if (approach < 0) leave = std::min(leave, outside / approach);
+  }
+  if (enter > leave) return std::nullopt;
+  return enter;
+}
+
+}  // namespace
+
 std::optional<double> SegmentHit(std::span<const CollisionBody> bodies, const Pose& pose, const Vector3& from,
                                  const Vector3& to)
 {
   std::optional<double> first;
   for (const CollisionBody& body : bodies)
   {
+    if (body.hull != nullptr)
+    {
+      const std::optional<double> hit = SegmentHit(*body.hull, pose, from, to);
+      if (hit && (!first || *hit < *first)) first = hit;
+      continue;
+    }
     const Shape shape{body.is_cylinder ? Shape::Kind::kCylinder : Shape::Kind::kBox, Vector3::Zero(), body.half_size};
     const std::optional<double> hit = SegmentHit(shape, pose.Compose(body.pose), from, to);
     if (hit && (!first || *hit < *first)) first = hit;
@@ -45,8 +77,10 @@ CollisionModels::CollisionModels(const CSwarmanoidSpace& space) : space_(space),
       if (engine_of_[entity] < 0) engine_of_[entity] = static_cast<int>(e);
 
   std::vector<CollisionBody> bodies;
-  for (const std::uint32_t entity : space.Movable())
+  for (std::uint32_t entity = 0; entity < space.Size(); ++entity)
   {
+    const bool has_hull = space.GetEntity(entity).GetConfiguration().hull != nullptr;
+    if (!has_hull && !space.GetEntity(entity).IsMovable()) continue;
     std::vector<CollisionBody> plain;
     AddPlainBody(space.GetEntity(entity).GetConfiguration(), plain);
     BodiesOf(entity, bodies);
@@ -54,7 +88,7 @@ CollisionModels::CollisionModels(const CSwarmanoidSpace& space) : space_(space),
     double plain_reach = 0;
     for (const CollisionBody& body : bodies) reach = std::max(reach, ReachOf(body));
     for (const CollisionBody& body : plain) plain_reach = std::max(plain_reach, ReachOf(body));
-    if (reach > plain_reach + kBeyondPlainBody) articulated_.push_back(entity);
+    if (has_hull || reach > plain_reach + kBeyondPlainBody) articulated_.push_back(entity);
   }
 }
 

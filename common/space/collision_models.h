@@ -22,8 +22,8 @@ public:
   // The bodies of an entity as the engine that moves it collides them now, in its frame; its plain body if no engine
   // has it, or the engine tells nothing. `bodies` is cleared first.
   void BodiesOf(std::uint32_t entity, std::vector<CollisionBody>& bodies) const;
-  // Movable entities with bodies that reach beyond the plain one, such as arms, ascending. Of all others the plain body
-  // is what sensors and queries go by.
+  // Movable entities with bodies that reach beyond the plain one, such as arms, and those with a hull, ascending. Of
+  // all others the plain body is what sensors and queries go by.
   std::span<const std::uint32_t> Articulated() const { return articulated_; }
   bool IsArticulated(std::uint32_t entity) const;
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "common/math/convex_outline.h"
 #include "common/math/elementary.h"
+#include "common/mesh/convex_hull.h"
 
 namespace swarmanoid
 {
@@ -27,27 +29,24 @@ Pose AxisFrame(PlaneAxis axis, double distance)
   }
 }
 
-double Cross(const Vector2& origin, const Vector2& a, const Vector2& b)
+// Without the corners that stand out least.
+std::vector<Vector2> Simplified(std::vector<Vector2> outline)
 {
-  return (a.x() - origin.x()) * (b.y() - origin.y()) - (a.y() - origin.y()) * (b.x() - origin.x());
-}
-
-// Counter-clockwise hull by Andrew's monotone chain; points on an edge are dropped.
-std::vector<Vector2> ConvexHull(std::vector<Vector2> points)
-{
-  std::sort(points.begin(), points.end(),
-            [](const Vector2& a, const Vector2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
-  std::vector<Vector2> hull;
-  const auto add = [&](const Vector2& point, std::size_t fixed)
+  while (outline.size() > kMostCutCorners)
   {
-    while (hull.size() >= fixed + 2 && Cross(hull[hull.size() - 2], hull.back(), point) <= 1e-12) hull.pop_back();
-    hull.push_back(point);
-  };
-  for (const Vector2& point : points) add(point, 0);
-  const std::size_t lower = hull.size() - 1;
-  for (auto point = points.rbegin() + 1; point != points.rend(); ++point) add(*point, lower);
-  hull.pop_back();
-  return hull;
+    const std::size_t count = outline.size();
+    const auto area = [&](std::size_t k)
+    {
+      const Vector2 before = outline[(k + count - 1) % count] - outline[k];
+      const Vector2 after = outline[(k + 1) % count] - outline[k];
+      return after.x() * before.y() - after.y() * before.x();
+    };
+    std::size_t least = 0;
+    for (std::size_t k = 1; k < count; ++k)
+      if (area(k) < area(least)) least = k;
+    outline.erase(outline.begin() + static_cast<std::ptrdiff_t>(least));
+  }
+  return outline;
 }
 
 }  // namespace
@@ -73,13 +72,36 @@ Pose PlaneFrame::ToSpace(const PlanePose& pose, const PlaneStance& stance) const
 
 std::vector<Vector2> PlaneFrame::CutBox(const Pose& pose, const Vector3& size) const
 {
-  const Pose local = inverse_.Compose(pose);
   std::array<Vector3, 8> corners;
-  for (unsigned i = 0; i < 8; ++i)
+  std::array<std::array<std::uint32_t, 2>, 12> edges;
+  std::size_t edge = 0;
+  for (std::uint32_t i = 0; i < 8; ++i)
   {
     const Vector3 signs((i & 1) != 0 ? 0.5 : -0.5, (i & 2) != 0 ? 0.5 : -0.5, (i & 4) != 0 ? 0.5 : -0.5);
-    corners[i] = local.Apply(size.cwiseProduct(signs));
+    corners[i] = size.cwiseProduct(signs);
+    for (const std::uint32_t bit : {1U, 2U, 4U})
+      if ((i & bit) == 0) edges[edge++] = {i, i | bit};
   }
+  return Cut(pose, corners, edges);
+}
+
+std::vector<Vector2> PlaneFrame::CutBody(const CSwarmanoidSpaceEntity& entity, const Pose& pose) const
+{
+  const EntityConfiguration& configuration = entity.GetConfiguration();
+  const Vector3 centre(0, 0,
+                       DescriptionOf(entity.GetKind()).origin == BodyOrigin::kBase ? entity.GetSize().z() / 2 : 0);
+  if (!configuration.hull) return CutBox({pose.Apply(centre), pose.orientation}, entity.GetSize());
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  for (const ConvexHull::Edge& edge : configuration.hull->edges) edges.push_back(edge.corners);
+  return Simplified(Cut(pose, configuration.hull->corners, edges));
+}
+
+std::vector<Vector2> PlaneFrame::Cut(const Pose& pose, std::span<const Vector3> in_body,
+                                     std::span<const std::array<std::uint32_t, 2>> edges) const
+{
+  const Pose local = inverse_.Compose(pose);
+  std::vector<Vector3> corners;
+  for (const Vector3& corner : in_body) corners.push_back(local.Apply(corner));
   const auto [lowest, highest] = std::minmax_element(corners.begin(), corners.end(),
                                                      [](const Vector3& a, const Vector3& b) { return a.z() < b.z(); });
   if (lowest->z() > kTouch_m || highest->z() < -kTouch_m) return {};
@@ -88,19 +110,15 @@ std::vector<Vector2> PlaneFrame::CutBox(const Pose& pose, const Vector3& size) c
   const double inset = std::min(kTouch_m, 0.25 * (highest->z() - lowest->z()));
   const double level = std::clamp(0.0, lowest->z() + inset, highest->z() - inset);
   std::vector<Vector2> points;
-  for (unsigned i = 0; i < 8; ++i)
+  for (const auto& [from, to] : edges)
   {
-    for (const unsigned bit : {1U, 2U, 4U})
-    {
-      if ((i & bit) != 0) continue;
-      const Vector3& a = corners[i];
-      const Vector3& b = corners[i | bit];
-      if ((a.z() < level) == (b.z() < level)) continue;
-      const double part = (level - a.z()) / (b.z() - a.z());
-      points.emplace_back(a.x() + part * (b.x() - a.x()), a.y() + part * (b.y() - a.y()));
-    }
+    const Vector3& a = corners[from];
+    const Vector3& b = corners[to];
+    if ((a.z() < level) == (b.z() < level)) continue;
+    const double part = (level - a.z()) / (b.z() - a.z());
+    points.emplace_back(a.x() + part * (b.x() - a.x()), a.y() + part * (b.y() - a.y()));
   }
-  return points.size() < 3 ? std::vector<Vector2>{} : ConvexHull(std::move(points));
+  return points.size() < 3 ? std::vector<Vector2>{} : ConvexOutline(std::move(points));
 }
 
 bool PlaneFrame::CutsUpright(const Pose& pose, double height) const

@@ -2,10 +2,14 @@
 // by kinematics2d and dynamics2d, in their engine's process.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/configuration/parameter.h"
 #include "common/math/pose.h"
+#include "common/space/entity.h"
 
 namespace swarmanoid
 {
@@ -33,6 +37,8 @@ struct PlaneStance
   Quaternion lean = Quaternion::Identity();
 };
 
+inline constexpr std::size_t kMostCutCorners = 8;  // of a polygon that the engines of planes collide
+
 class PlaneFrame
 {
 public:
@@ -52,10 +58,16 @@ public:
   // The convex polygon, counter-clockwise in (u, v), in which the plane cuts a box with edges `size` about the centre
   // `pose`; empty if it does not. A box that only rests on the plane is cut by it too.
   std::vector<Vector2> CutBox(const Pose& pose, const Vector3& size) const;
+  // Likewise of the box or the hull of an entity with its origin at `pose`; of a hull within it, with at most
+  // kMostCutCorners corners.
+  std::vector<Vector2> CutBody(const CSwarmanoidSpaceEntity& entity, const Pose& pose) const;
   // True where the plane cuts the upright cylinder or robot that is `height` metres high and has its base at `pose`.
   bool CutsUpright(const Pose& pose, double height) const;
 
 private:
+  std::vector<Vector2> Cut(const Pose& pose, std::span<const Vector3> corners,
+                           std::span<const std::array<std::uint32_t, 2>> edges) const;
+
   Pose frame_;
   Pose inverse_;
 };

@@ -15,6 +15,7 @@ COMMON = [
     ["common/logging", "common/serialisation", "common/activity"],
     ["common/program"],
     ["common/control_interface"],
+    ["common/mesh"],
     ["common/experiment"],
     ["common/builtins"],
     ["common/run"],

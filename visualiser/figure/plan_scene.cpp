@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/experiment/entity_kind.h"
+#include "common/math/convex_outline.h"
 #include "common/math/elementary.h"
 #include "common/space/shape.h"
 #include "common/space/terrain/floor_picture.h"
@@ -38,33 +39,6 @@ Vector2 Flat(const Vector3& point) { return point.head<2>(); }
 
 Vector2 Across(const Pose& pose, double x, double y) { return Flat(pose.Apply({x, y, 0})); }
 
-// The convex outline of points, by Andrew's monotone chain.
-std::vector<Vector2> Outline(std::vector<Vector2> points)
-{
-  std::ranges::sort(points,
-                    [](const Vector2& a, const Vector2& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
-  std::vector<Vector2> outline;
-  const auto turn = [&](const auto& range)
-  {
-    const std::size_t first = outline.size();
-    for (const Vector2& point : range)
-    {
-      while (outline.size() >= first + 2)
-      {
-        const Vector2 a = outline.back() - outline[outline.size() - 2], b = point - outline[outline.size() - 2];
-        if (a.x() * b.y() - a.y() * b.x() > 0) break;
-        outline.pop_back();
-      }
-      outline.push_back(point);
-    }
-    outline.pop_back();
-  };
-  turn(points);
-  std::ranges::reverse(points);
-  turn(points);
-  return outline;
-}
-
 bool HasFile(const EntityKindDescription& kind)
 {
   return std::ranges::find(kind.mesh, MeshPart::Form::kFile, &MeshPart::form) != kind.mesh.end();
@@ -94,7 +68,7 @@ std::vector<Vector2> OutlineOfBody(const Shape& shape, const Pose& pose)
       for (const double x : {-half.x(), half.x()})
         for (const double y : {-half.y(), half.y()})
           corners.push_back(Flat(pose.Apply(shape.centre + Vector3(x, y, z))));
-  return Outline(std::move(corners));
+  return ConvexOutline(std::move(corners));
 }
 
 PlanShape Disc(const Vector2& centre, double radius, std::optional<PlanColour> fill,
@@ -224,7 +198,7 @@ std::vector<Vector2> PlanScene::OutlineOf(std::uint32_t entity) const
   std::vector<Vector2> corners;
   for (const Vector3& point : *mesh->second.points)
     corners.push_back(Flat(pose.Apply(point.cwiseProduct(mesh->second.scale))));
-  return Outline(std::move(corners));
+  return ConvexOutline(std::move(corners));
 }
 
 void PlanScene::Track()

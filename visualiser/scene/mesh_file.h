@@ -7,13 +7,12 @@
 #include <memory>
 #include <string>
 
+#include "common/mesh/mesh_points.h"
 #include "visualiser/scene/mesh.h"
 
 namespace swarmanoid
 {
 
-inline constexpr std::size_t kMostMeshBytes = std::size_t{64} << 20U;  // of the file and those that it names
-inline constexpr std::size_t kMostMeshTriangles = 1'000'000;
 inline constexpr std::size_t kMostDrawnTriangles = 20'000;  // finer meshes are simplified
 
 struct MeshFile

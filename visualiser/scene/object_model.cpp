@@ -5,6 +5,7 @@
 #include "common/configuration/regular_file.h"
 #include "common/experiment/mesh_files.h"
 #include "common/math/elementary.h"
+#include "common/mesh/convex_hull.h"
 #include "visualiser/scene/mesh_builder.h"
 #include "visualiser/scene/mesh_file.h"
 
@@ -30,11 +31,48 @@ Vector3 OrientationIn(const EntityConfiguration& entity)
   return entity.tree.GetVector3("mesh_orientation", Vector3::Zero());
 }
 
+// Without a mesh a hull is drawn as it collides.
+bool IsDrawnAsHull(const EntityConfiguration& entity)
+{
+  const EntityKindDescription& kind = DescriptionOf(entity.kind);
+  return entity.hull != nullptr && kind.role == EntityRole::kObject && kind.mesh.empty();
+}
+
+Vector3f OfSizeOne(const Vector3& corner, const EntityConfiguration& entity)
+{
+  return corner.cwiseQuotient(entity.size).cast<float>();
+}
+
+Model HullModel(const EntityConfiguration& entity)
+{
+  MeshBuilder builder(0);
+  std::vector<Vector3f> corners;
+  for (const ConvexHull::Face& face : entity.hull->faces)
+  {
+    corners.clear();
+    for (const std::uint32_t corner : face.corners) corners.push_back(OfSizeOne(entity.hull->corners[corner], entity));
+    builder.Face(corners, Material::kTint);
+  }
+  Model model;
+  model.levels.fill(builder.Take());
+  return model;
+}
+
 }  // namespace
 
 std::string ObjectModelName(const EntityConfiguration& entity, const std::string& experiment_folder)
 {
   const std::string path = MeshOfEntity(entity, experiment_folder);
+  if (path.empty() && IsDrawnAsHull(entity))
+  {
+    std::string name = "hull";
+    for (const Vector3& corner : entity.hull->corners)
+    {
+      const Vector3f place = OfSizeOne(corner, entity);
+      name += fmt::format(" {},{},{}", place.x(), place.y(), place.z());
+    }
+    return name;
+  }
   if (path.empty()) return path;
   const EntityKindDescription& kind = DescriptionOf(entity.kind);
   const Vector3 turned = OrientationIn(entity);
@@ -45,6 +83,13 @@ std::string ObjectModelName(const EntityConfiguration& entity, const std::string
 Model ObjectModel(const EntityConfiguration& entity, const std::string& experiment_folder)
 {
   const std::string path = MeshOfEntity(entity, experiment_folder);
+  if (path.empty())
+  {
+    Model hull = HullModel(entity);
+    hull.name = ObjectModelName(entity, experiment_folder);
+    Measure(hull);
+    return hull;
+  }
   std::shared_ptr<const MeshFile> file;
   try
   {

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "common/math/elementary.h"
+#include "common/mesh/convex_hull.h"
 #include "common/space/attributes.h"
 #include "visualiser/scene/scene.h"
 #include "visualiser/scene/trail.h"
@@ -165,7 +166,18 @@ void Scene::AddCollisionModel(std::uint32_t entity)
   if (collision_models_ == nullptr) collision_models_ = std::make_unique<CollisionModels>(space_);
   collision_models_->BodiesOf(entity, collision_bodies_);
   for (const CollisionBody& body : collision_bodies_)
-    AddOutline(body.is_cylinder, space_.GetPose(entity).Compose(body.pose), body.half_size, palette::kCollision, 1.5F);
+  {
+    if (body.hull == nullptr)
+    {
+      AddOutline(body.is_cylinder, space_.GetPose(entity).Compose(body.pose), body.half_size, palette::kCollision,
+                 1.5F);
+      continue;
+    }
+    const Pose& pose = space_.GetPose(entity);
+    for (const ConvexHull::Edge& edge : body.hull->edges)
+      AddLine(pose.Apply(body.hull->corners[edge.corners[0]]), pose.Apply(body.hull->corners[edge.corners[1]]),
+              palette::kCollision, 1.5F, 0.9F, true);
+  }
 }
 
 void Scene::AddOutline(bool is_cylinder, const Pose& centre, const Vector3& half_size, Colour colour, float width)

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/builtins/antenna.h"
+#include "common/mesh/convex_hull.h"
 #include "common/plugins/catalogue.h"
 #include "common/space/attributes.h"
 
@@ -34,6 +35,16 @@ double RangeOf(const Experiment& experiment, const EntityConfiguration& robot)
     if (has_range) return Parameters(sensor.tree, description->parameters).Number("range");
   }
   return 0;
+}
+
+// 2, then both ends of each edge.
+Json EdgesOf(const ConvexHull& hull)
+{
+  Json edges = Json::array({2});
+  for (const ConvexHull::Edge& edge : hull.edges)
+    for (const std::uint32_t corner : edge.corners)
+      for (const double value : hull.corners[corner]) edges.push_back(Rounded(value));
+  return edges;
 }
 
 }  // namespace
@@ -79,8 +90,13 @@ std::string MarksWriter::Text(const MarksRequest& wanted)
     models_.BodiesOf(entity, bodies_);
     if (bodies_.empty()) continue;
     Json model = Json::array();
-    for (const auto& [is_cylinder, pose, half] : bodies_)
+    for (const auto& [is_cylinder, pose, half, hull] : bodies_)
     {
+      if (hull != nullptr)
+      {
+        model.push_back(EdgesOf(*hull));
+        continue;
+      }
       const Vector3& p = pose.position;
       const Quaternion& q = pose.orientation;
       Json body = Json::array({is_cylinder ? 1 : 0});

@@ -182,28 +182,42 @@ void FootbotProximity::AddUprightBox(std::uint32_t robot, std::uint32_t body)
   }
 }
 
-// As the engine collides them: a handbot's arms.
+// As the engine collides them: a handbot's arms, a hull.
 void FootbotProximity::AddParts(std::uint32_t robot, std::uint32_t body)
 {
   const Pose pose = world_->Space().GetPose(body);
   for (const CollisionBody& part : world_->PartsOf(body))
-    AddAny(robot, {part.is_cylinder ? Shape::Kind::kCylinder : Shape::Kind::kBox, Vector3::Zero(), part.half_size},
-           pose.Compose(part.pose));
+    if (part.hull != nullptr)
+      AddRays(robot, pose.position, ReachOf(part),
+              [&](const Vector3& from, const Vector3& to) {
+                return SegmentHit({&part, 1}, pose, from, to);
+              });
+    else
+      AddAny(robot, {part.is_cylinder ? Shape::Kind::kCylinder : Shape::Kind::kBox, Vector3::Zero(), part.half_size},
+             pose.Compose(part.pose));
 }
 
 // Any body, any orientation: each ray as a segment in the space.
 void FootbotProximity::AddAny(std::uint32_t robot, const Shape& shape, const Pose& other)
 {
+  AddRays(robot, other.Apply(shape.centre), BoundingRadius(shape),
+          [&](const Vector3& from, const Vector3& to) { return SegmentHit(shape, other, from, to); });
+}
+
+// `hit_of`: the part of the way between two points where something is that is within `radius` of `centre`.
+template <class HitOf>
+void FootbotProximity::AddRays(std::uint32_t robot, const Vector3& centre, double radius, const HitOf& hit_of)
+{
   const Pose own = world_->Space().GetPose(robot);
-  const double reach = ring_radius_ + range_ + BoundingRadius(shape);
-  if ((own.Apply({0, 0, kHeight}) - other.Apply(shape.centre)).squaredNorm() > reach * reach) return;
+  const double reach = ring_radius_ + range_ + radius;
+  if ((own.Apply({0, 0, kHeight}) - centre).squaredNorm() > reach * reach) return;
 
   const Eigen::Matrix3d rotation = own.orientation.toRotationMatrix();
   for (unsigned i = 0; i < kRays; ++i)
   {
     const Vector3 ray(ray_cos_.values[i], ray_sin_.values[i], 0);
     const Vector3 from = own.position + rotation * (ring_radius_ * ray + Vector3(0, 0, kHeight));
-    const auto hit = SegmentHit(shape, other, from, from + rotation * (range_ * ray));
+    const auto hit = hit_of(from, from + rotation * (range_ * ray));
     if (!hit) continue;
     if (!touched_) std::fill_n(distances_.values, kRays, kNothing);
     touched_ = true;

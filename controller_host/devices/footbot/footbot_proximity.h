@@ -45,6 +45,8 @@ private:
   void AddDisc(std::uint32_t robot, std::uint32_t body);
   void AddUprightBox(std::uint32_t robot, std::uint32_t body);
   void AddAny(std::uint32_t robot, const Shape& shape, const Pose& other);
+  template <class HitOf>
+  void AddRays(std::uint32_t robot, const Vector3& centre, double radius, const HitOf& hit_of);
   void AddParts(std::uint32_t robot, std::uint32_t body);
   void AddTerrain(std::uint32_t robot);
 

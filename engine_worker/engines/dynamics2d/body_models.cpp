@@ -58,7 +58,7 @@ double UnitInertia(const std::vector<Vector2>& polygon)
 // The cut of a block at `at` by the plane, in the frame of its pose on the plane; empty where it does not reach it.
 std::vector<Vector2> CutOf(const CSwarmanoidSpaceEntity& entity, const Pose& at, const PlaneFrame& plane)
 {
-  std::vector<Vector2> outline = plane.CutBox(at, entity.GetSize());
+  std::vector<Vector2> outline = plane.CutBody(entity, at);
   const PlanePose pose = plane.ToPlane(at);
   const SinCos heading = SinCosOf(pose.heading);
   for (Vector2& point : outline)
@@ -197,8 +197,7 @@ std::optional<FixedBody> FixedModel(const CSwarmanoidSpaceEntity& entity, const 
   }
   else
   {
-    const Pose centre{pose.Apply(shape.centre), pose.orientation};
-    fixed = {StaticModel(plane.CutBox(centre, entity.GetSize()), parameters), {}};
+    fixed = {StaticModel(plane.CutBody(entity, pose), parameters), {}};
     if (fixed.model.polygon.empty()) return std::nullopt;
     if (WidthOf(fixed.model.polygon) < kSmallest_m) TooSmall(entity);
   }

@@ -92,7 +92,7 @@ void CDynamics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding
     case EBinding::kOwned:
     {
       // Where it began: an engine that is made anew in mid-run may find it lifted by a handbot.
-      if (IsFreeBox(entity.GetKind()) && plane_.CutBox(entity.GetConfiguration().pose, entity.GetSize()).empty())
+      if (IsFreeBox(entity.GetKind()) && plane_.CutBody(entity, entity.GetConfiguration().pose).empty())
         throw ConfigurationError(
             entity.GetConfiguration().location,
             fmt::format("the {} '{}' does not reach the plane of the engine that moves it; put it on "

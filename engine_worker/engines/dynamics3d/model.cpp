@@ -81,6 +81,15 @@ dMass SphereMass(double mass, double radius)
   return result;
 }
 
+dMass HullMass(double mass, const ConvexHull& hull)
+{
+  const Eigen::Matrix3d inertia = hull.inertia * (mass / hull.volume);
+  dMass result;
+  dMassSetParameters(&result, mass, 0, 0, 0, inertia(0, 0), inertia(1, 1), inertia(2, 2), inertia(0, 1), inertia(0, 2),
+                     inertia(1, 2));
+  return result;
+}
+
 dMass Geared(dMass mass, double factor)
 {
   for (const int diagonal : {0, 5, 10}) mass.I[diagonal] *= factor;

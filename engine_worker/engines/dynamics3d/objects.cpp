@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "common/math/elementary.h"
 
@@ -17,18 +19,47 @@ bool IsCylinder(EntityKind kind) { return DescriptionOf(kind).form == BodyForm::
 
 bool StandsOnBase(EntityKind kind) { return DescriptionOf(kind).origin == BodyOrigin::kBase; }
 
-// The outline of an entity of any kind.
-dGeomID OutlineOf(const CSwarmanoidSpaceEntity& entity)
+// What an entity of any kind collides as. `centre`: of its body, in the frame of the entity.
+struct Outline
 {
+  dGeomID geom = nullptr;
+  Pose centre;
+  std::shared_ptr<const HullShape> shape = {};  // of a hull
+};
+
+Outline OutlineOf(const CSwarmanoidSpaceEntity& entity)
+{
+  Outline outline;
+  if (const auto& hull = entity.GetConfiguration().hull)
+  {
+    outline.shape = std::make_shared<const HullShape>(*hull);
+    outline.geom = outline.shape->MakeGeom();
+    outline.centre.position = hull->centre;
+    return outline;
+  }
   const Vector3& size = entity.GetSize();
-  if (IsCylinder(entity.GetKind())) return dCreateCylinder(nullptr, size.x(), size.z());
-  return dCreateBox(nullptr, size.x(), size.y(), size.z());
+  outline.geom = IsCylinder(entity.GetKind()) ? dCreateCylinder(nullptr, size.x(), size.z())
+                                              : dCreateBox(nullptr, size.x(), size.y(), size.z());
+  outline.centre.position.z() = StandsOnBase(entity.GetKind()) ? size.z() / 2 : 0;
+  return outline;
 }
 
-Pose CentreOf(const CSwarmanoidSpaceEntity& entity)
+void Add(OdeWorld& world, Outline outline, int body, ELayer layer)
 {
-  const double height = StandsOnBase(entity.GetKind()) ? entity.GetSize().z() / 2 : 0;
-  return {Vector3(0, 0, height), Quaternion::Identity()};
+  world.AddSolid(outline.geom, body, layer);
+  world.KeepShape(std::move(outline.shape));
+}
+
+dMass MassOf(const CSwarmanoidSpaceEntity& entity, double density)
+{
+  const Vector3& size = entity.GetSize();
+  const double given = entity.GetConfiguration().mass_kg;
+  if (const auto& hull = entity.GetConfiguration().hull)
+    return HullMass(given > 0 ? given : density * hull->volume, *hull);
+  const bool round = IsCylinder(entity.GetKind());
+  const double volume = round ? kPi * size.x() * size.x() * size.z() : size.prod();
+  const double mass = given > 0 ? given : density * volume;
+  return round ? CylinderMass(mass, size.x(), size.z()) : BoxMass(mass, size);
 }
 
 Touch TouchOf(const CSwarmanoidSpaceEntity& entity)
@@ -43,21 +74,18 @@ Touch TouchOf(const CSwarmanoidSpaceEntity& entity)
 
 ObjectModel::ObjectModel(Scene& scene, const CSwarmanoidSpaceEntity& entity) : Model(scene, entity)
 {
-  const Vector3& size = entity.GetSize();
-  const bool round = IsCylinder(entity.GetKind());
-  const double volume = round ? kPi * size.x() * size.x() * size.z() : size.prod();
-  const double given = entity.GetConfiguration().mass_kg;
-  const double mass = given > 0 ? given : scene.density * volume;
-  AddBody(round ? CylinderMass(mass, size.x(), size.z()) : BoxMass(mass, size), CentreOf(entity), EBody::kObject);
+  Outline outline = OutlineOf(entity);
+  AddBody(MassOf(entity, scene.density), outline.centre, EBody::kObject);
   scene.world.BeginEntity(Entity(), TouchOf(entity));
-  scene.world.AddSolid(OutlineOf(entity), MainBody(), ELayer::kObject);
+  Add(scene.world, std::move(outline), MainBody(), ELayer::kObject);
 }
 
 MirrorModel::MirrorModel(Scene& scene, const CSwarmanoidSpaceEntity& entity) : Model(scene, entity)
 {
-  AddBody(SphereMass(1, 1), CentreOf(entity), EBody::kMirror);
+  Outline outline = OutlineOf(entity);
+  AddBody(SphereMass(1, 1), outline.centre, EBody::kMirror);
   scene.world.BeginEntity(Entity(), TouchOf(entity));
-  scene.world.AddSolid(OutlineOf(entity), MainBody(), ELayer::kStatic);
+  Add(scene.world, std::move(outline), MainBody(), ELayer::kStatic);
   last_ = RawOf(scene.frame.ToLocal(entity.GetPose()).Compose(MainOffset()));
 }
 
@@ -83,12 +111,12 @@ void MirrorModel::Follow()
 
 void AddStaticObject(Scene& scene, const CSwarmanoidSpaceEntity& entity)
 {
-  const RawPose pose = RawOf(scene.frame.ToLocal(entity.GetPose()).Compose(CentreOf(entity)));
-  const dGeomID geom = OutlineOf(entity);
-  dGeomSetPosition(geom, pose.position[0], pose.position[1], pose.position[2]);
-  dGeomSetQuaternion(geom, pose.quaternion);
+  Outline outline = OutlineOf(entity);
+  const RawPose pose = RawOf(scene.frame.ToLocal(entity.GetPose()).Compose(outline.centre));
+  dGeomSetPosition(outline.geom, pose.position[0], pose.position[1], pose.position[2]);
+  dGeomSetQuaternion(outline.geom, pose.quaternion);
   scene.world.BeginEntity(entity.GetIndex(), TouchOf(entity));
-  scene.world.AddSolid(geom, -1, ELayer::kStatic);
+  Add(scene.world, std::move(outline), -1, ELayer::kStatic);
 }
 
 }  // namespace swarmanoid::dynamics3d

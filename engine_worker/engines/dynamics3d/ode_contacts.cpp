@@ -3,9 +3,8 @@
 #include <array>
 #include <cmath>
 #include <span>
-#include <utility>
 
-#include "engine_worker/engines/dynamics3d/cylinder_contacts.h"
+#include "engine_worker/engines/dynamics3d/collide.h"
 #include "engine_worker/engines/dynamics3d/ode_world.h"
 
 namespace swarmanoid::dynamics3d
@@ -26,17 +25,6 @@ constexpr double kPartingSpeed = 0.03;  // m/s
 constexpr double kLargestPart = 0.2;
 constexpr double kSmallestPart = 0.02;
 
-// Contacts as seen from the other geom.
-int Flipped(std::span<dContactGeom> contacts, int count)
-{
-  for (dContactGeom& contact : contacts.first(static_cast<std::size_t>(count)))
-  {
-    std::swap(contact.g1, contact.g2);
-    for (int k = 0; k < 3; ++k) contact.normal[k] = -contact.normal[k];
-  }
-  return count;
-}
-
 bool IsGround(const Solid& solid) { return solid.surface == ESurface::kGround || solid.surface == ESurface::kTerrain; }
 
 // Of two things, one of which may be the ground.
@@ -52,21 +40,9 @@ double FrictionOf(const Solid& a, const Solid& b, double of_world)
 void OdeWorld::MakeContacts(const Solid& a, const Solid& b, std::uint32_t pair)
 {
   std::array<dContactGeom, kMaximumVoxelContacts> contacts;
-  int count = -1;
-  const int class_a = dGeomGetClass(a.geom);
-  const int class_b = dGeomGetClass(b.geom);
-  if (class_a == dCylinderClass && class_b == dCylinderClass)
-    count = CollideParallelCylinders(a.geom, b.geom, contacts);
-  else if (class_a == dPlaneClass && class_b == dCylinderClass)
-    count = Flipped(contacts, CollideCylinderWithPlane(b.geom, a.geom, contacts));
-  else if (class_a == dCylinderClass && class_b == dPlaneClass)
-    count = CollideCylinderWithPlane(a.geom, b.geom, contacts);
-  if (count < 0)
-  {
-    const bool voxels = a.layer == ELayer::kVoxels || b.layer == ELayer::kVoxels;
-    const int most = voxels ? kMaximumVoxelContacts : kMaximumContacts;
-    count = dCollide(a.geom, b.geom, most, contacts.data(), sizeof(dContactGeom));
-  }
+  const bool voxels = a.layer == ELayer::kVoxels || b.layer == ELayer::kVoxels;
+  const int count =
+      Collide(a.geom, b.geom, std::span(contacts).first(voxels ? kMaximumVoxelContacts : kMaximumContacts));
   for (int k = 0; k < count; ++k)
   {
     const dContactGeom& contact = contacts[static_cast<std::size_t>(k)];

@@ -191,7 +191,7 @@ const Solid* OdeWorld::FindTouching(const Vector3& centre, double radius, std::u
     }
     if (!near) continue;
     std::array<dContactGeom, kMaximumContacts> contacts;
-    const int count = dCollide(probe_, solid->geom, kMaximumContacts, contacts.data(), sizeof(dContactGeom));
+    const int count = Collide(probe_, solid->geom, contacts);
     for (int k = 0; k < count; ++k)
     {
       const double here = contacts[static_cast<std::size_t>(k)].depth;
@@ -212,7 +212,7 @@ double OdeWorld::DistanceToStatic(const Vector3& origin, const Vector3& directio
   {
     if (dGeomGetBody(solid->geom) != nullptr) continue;
     dContactGeom contact;
-    if (dCollide(ray, solid->geom, 1, &contact, sizeof contact) > 0) nearest = std::min(nearest, contact.depth);
+    if (Collide(ray, solid->geom, {&contact, 1}) > 0) nearest = std::min(nearest, contact.depth);
   }
   dGeomDestroy(ray);
   return nearest;

@@ -13,9 +13,11 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/math/pose.h"
+#include "engine_worker/engines/dynamics3d/collide.h"
 #include "engine_worker/engines/dynamics3d/islands.h"
 
 namespace swarmanoid::dynamics3d
@@ -64,6 +66,7 @@ struct Solid
   ESurface surface = ESurface::kPlain;
   ELayer layer = ELayer::kStatic;
   Touch touch;
+  std::shared_ptr<const HullShape> shape;  // of a hull
 };
 
 // The bits of a body's position and quaternion (w x y z), as ODE holds them.
@@ -128,6 +131,8 @@ public:
   // Takes over a geom made with no space. body -1: it stands where it is.
   void AddSolid(dGeomID geom, int body, ELayer layer, ESurface surface = ESurface::kPlain,
                 const Pose& offset_in_body = {});
+  // What the geom of the solid that came last was made of.
+  void KeepShape(std::shared_ptr<const HullShape> shape) { solids_.back()->shape = std::move(shape); }
   std::span<const std::unique_ptr<Solid>> Solids() const { return solids_; }
 
   // Two entities that are not to collide (one holds the other); counted, so that both calls nest.

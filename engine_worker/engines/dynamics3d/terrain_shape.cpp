@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/math/elementary.h"
+#include "engine_worker/engines/dynamics3d/collide.h"
 #include "engine_worker/engines/dynamics3d/voxel_contacts.h"
 
 namespace swarmanoid::dynamics3d
@@ -113,7 +114,7 @@ int CollideCapsule(dGeomID voxels, dGeomID capsule, int flags, dContactGeom* con
   return Hand(shape, voxels, capsule, flags, contacts, skip);
 }
 
-// A box or a cylinder meets the cells around it merged to boxes, so that a floor under it is one.
+// A box, a cylinder or a hull meets the cells around it merged to boxes, so that a floor under it is one.
 int CollideConvex(dGeomID voxels, dGeomID body, int flags, dContactGeom* contacts, int skip)
 {
   VoxelShape& shape = ShapeOf(voxels);
@@ -143,7 +144,7 @@ int CollideConvex(dGeomID voxels, dGeomID body, int flags, dContactGeom* contact
     dGeomBoxSetLengths(shape.box, size.x(), size.y(), size.z());
     dGeomSetPosition(shape.box, centre.x(), centre.y(), centre.z());
     std::array<dContactGeom, kMaximumContacts> touching;
-    const int count = dCollide(shape.box, body, kMaximumContacts, touching.data(), sizeof(dContactGeom));
+    const int count = Collide(shape.box, body, touching);
     for (const dContactGeom& contact : std::span(touching).first(static_cast<std::size_t>(count)))
     {
       const Vector3 point = shape.inverse.Apply(VectorOf(contact.pos));
@@ -184,7 +185,7 @@ dColliderFn* ColliderWith(int other_class)
   if (other_class == dSphereClass) return &CollideSphere;
   if (other_class == dCapsuleClass) return &CollideCapsule;
   if (other_class == dRayClass) return &CollideRay;
-  if (other_class == dBoxClass || other_class == dCylinderClass) return &CollideConvex;
+  if (other_class == dBoxClass || other_class == dCylinderClass || other_class == dConvexClass) return &CollideConvex;
   return nullptr;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <vector>
 
 #include "common/math/elementary.h"
 
@@ -41,6 +43,7 @@ WheeledShape WheeledShape::Of(const CSwarmanoidSpaceEntity& entity, double densi
   WheeledShape shape;
   shape.size = entity.GetSize();
   shape.is_cylinder = kind.form == BodyForm::kCylinder;
+  shape.hull = entity.GetConfiguration().hull;
   const double half_length = shape.is_cylinder ? shape.size.x() : shape.size.x() / 2;
   const double area = shape.is_cylinder ? kPi * half_length * half_length : shape.size.x() * shape.size.y();
   const double given = entity.GetConfiguration().mass_kg;
@@ -58,6 +61,19 @@ WheeledShape WheeledShape::Of(const CSwarmanoidSpaceEntity& entity, double densi
   shape.free_speed = kFreeSpeed * kind.wheels->max_speed_m_s;
   return shape;
 }
+
+namespace
+{
+
+// What is left of a hull above a height.
+std::shared_ptr<const HullShape> Raised(const ConvexHull& hull, double height)
+{
+  std::vector<Vector3> corners = hull.corners;
+  for (Vector3& corner : corners) corner.z() = std::max(corner.z(), height);
+  return std::make_shared<const HullShape>(HullOf(corners));
+}
+
+}  // namespace
 
 WheeledModel::WheeledModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, const WheeledShape& shape)
     : Model(scene, entity),
@@ -94,10 +110,14 @@ WheeledModel::WheeledModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, c
     return {Vector3(x, 0, z - shape.centre_of_mass), Quaternion::Identity()};
   };
   const double body_height = shape.size.z() - shape.clearance;
-  const dGeomID body = shape.is_cylinder ? dCreateCylinder(nullptr, shape.size.x(), body_height)
-                                         : dCreateBox(nullptr, shape.size.x(), shape.size.y(), body_height);
-  world.AddSolid(body, bodies_[0].number, ELayer::kRobot, ESurface::kPlain,
-                 in_chassis(0, shape.clearance + body_height / 2));
+  const auto hull = shape.hull ? Raised(*shape.hull, shape.clearance) : nullptr;
+  const dGeomID body = hull                ? hull->MakeGeom()
+                       : shape.is_cylinder ? dCreateCylinder(nullptr, shape.size.x(), body_height)
+                                           : dCreateBox(nullptr, shape.size.x(), shape.size.y(), body_height);
+  Pose middle = in_chassis(0, shape.clearance + body_height / 2);
+  if (hull) middle.position = hull->Centre() - Vector3(0, 0, shape.centre_of_mass);
+  world.AddSolid(body, bodies_[0].number, ELayer::kRobot, ESurface::kPlain, middle);
+  world.KeepShape(hull);
   for (const double x : {shape.caster_reach, -shape.caster_reach})
     world.AddSolid(dCreateSphere(nullptr, shape.caster_radius), bodies_[0].number, ELayer::kWheel, ESurface::kCaster,
                    in_chassis(x, shape.caster_radius));

@@ -12,7 +12,8 @@ struct WheeledShape
 {
   Vector3 size = Vector3::Zero();  // of the whole robot: a box, or radius, radius, height
   bool is_cylinder = true;
-  double clearance = 0;  // of the chassis above the ground
+  std::shared_ptr<const ConvexHull> hull = {};  // instead of both, in the frame of the robot
+  double clearance = 0;                         // of the chassis above the ground
   double wheel_radius = 0;
   double half_track = 0;
   double caster_radius = 0;

@@ -175,7 +175,7 @@ void Kinematics2dEngine::AddFixed(const CSwarmanoidSpaceEntity& entity)
     world_.AddStatic(MakeModel({&circle, 1}, {}));
     return;
   }
-  const std::vector<Vector2> outline = frame_.CutBox({pose.Apply(shape.centre), pose.orientation}, entity.GetSize());
+  const std::vector<Vector2> outline = frame_.CutBody(entity, pose);
   if (!outline.empty()) world_.AddStatic(MakeModel({}, {MakePolygon(outline)}));
 }
 
@@ -201,7 +201,7 @@ CollisionModel Kinematics2dEngine::Outline(const CSwarmanoidSpaceEntity& block, 
 {
   const PlanePose pose = frame_.ToPlane(at);
   const SinCos heading = SinCosOf(pose.heading);
-  std::vector<Vector2> points = frame_.CutBox(at, block.GetSize());
+  std::vector<Vector2> points = frame_.CutBody(block, at);
   for (Vector2& point : points)
   {
     const double x = point.x() - pose.u;

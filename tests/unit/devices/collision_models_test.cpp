@@ -5,6 +5,7 @@
 #include "common/builtins/robot_parts.h"
 #include "common/control_interface/ci_colour_blob_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
+#include "common/mesh/convex_hull.h"
 #include "common/space/query.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 #include "tests/unit/devices/test_world.h"
@@ -94,6 +95,32 @@ TEST(CollisionModels, AFootbotFeelsTheArmThatItWouldRunInto)
       EXPECT_NEAR(reading, 0.0100527 / (kGap + 0.000163144), 1e-9);
     else
       EXPECT_EQ(reading, 0);
+  }
+}
+
+// A prism of half a square, before whose long side a footbot stands within the box about it.
+TEST(CollisionModels, AFootbotFeelsAHullWhereItsSideIs)
+{
+  DescribeBuiltins();
+  for (const bool movable : {false, true})
+  {
+    TestWorld world;
+    world.Configuration().engines[0].tag = "dynamics3d";
+    const std::uint32_t prism = world.Add(EntityKind::kBlock, {5, 5, 0.1}, 0, {0.4, 0.4, 0.2}, movable);
+    std::vector<Vector3> corners;
+    for (const double z : {-0.1, 0.1}) corners.insert(corners.end(), {{-0.2, -0.2, z}, {0.2, -0.2, z}, {-0.2, 0.2, z}});
+    world.Configuration().entities[prism].hull = std::make_shared<const ConvexHull>(HullOf(corners));
+    constexpr double kGap = 0.03;
+    const double away = (0.085036758 + kGap) / std::sqrt(2.0);
+    world.AddFootbot(5 + away, 5 + away, 1.25 * kPi - 7.5 * kPi / 180);
+    TestSensor sensor(world, "footbot_proximity", "generic_footbot_proximity", {1});
+    sensor.Update();
+    EXPECT_NEAR(sensor.Of<CCI_FootBotProximitySensor>(0).GetAllSensorReadings()[0], 0.0100527 / (kGap + 0.000163144),
+                1e-9);
+    SpaceQuery query(world.Space());
+    EXPECT_FALSE(query.IsOccluded({5.19, 4.83, 0.1}, {5.19, 5.19, 0.1}, 1, 1));
+    EXPECT_TRUE(query.IsOccluded({5.19, 4.79, 0.1}, {5.19, 5.19, 0.1}, 1, 1));
+    EXPECT_TRUE(query.IsOccluded({4.9, 4.9, 0.3}, {4.9, 4.9, 0.05}, 1, 1));
   }
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "common/math/elementary.h"
+#include "common/mesh/convex_hull.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {
@@ -81,6 +83,25 @@ TEST(PlaneFrame, CutsATiltedCubeInAHexagon)
   const auto cut = PlaneFrame(PlaneAxis::kZ, 3).CutBox({Vector3(0, 0, 3), diagonal_up}, Vector3(1, 1, 1));
   EXPECT_EQ(cut.size(), 6U);
   EXPECT_NEAR(AreaOf(cut), 3 * std::sqrt(3.0) / 4, 1e-12);
+}
+
+// A cone on its base of 24 corners, half a metre high: half way up the disc has half the radius.
+TEST(PlaneFrame, CutsAHullInAPolygonOfFewCornersWithinIt)
+{
+  std::vector<Vector3> corners{{0, 0, 0.25}};
+  for (int k = 0; k < 24; ++k) corners.emplace_back(std::cos(k * kPi / 12), std::sin(k * kPi / 12), -0.25);
+  Experiment experiment;
+  EntityConfiguration block;
+  block.kind = EntityKind::kBlock;
+  block.size = {2, 2, 0.5};
+  block.hull = std::make_shared<const ConvexHull>(HullOf(corners));
+  experiment.entities.push_back(block);
+  const CSwarmanoidSpace space(experiment);
+  const std::vector<Vector2> cut =
+      PlaneFrame(PlaneAxis::kZ, 0).CutBody(space.GetEntity(0), {Vector3(3, 4, 0), Quaternion::Identity()});
+  EXPECT_EQ(cut.size(), kMostCutCorners);
+  for (const Vector2& corner : cut) EXPECT_NEAR((corner - Vector2(3, 4)).norm(), 0.5, 0.01);
+  EXPECT_NEAR(AreaOf(cut), 0.25 * 2 * std::sqrt(2.0), 0.03);
 }
 
 TEST(PlaneFrame, CutsUprightBodiesThatReachIt)

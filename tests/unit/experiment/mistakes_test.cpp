@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/mesh/convex_hull.h"
 #include "tests/unit/experiment/fake_plugins.h"
 
 namespace swarmanoid::test
@@ -309,6 +310,41 @@ TEST(MistakesTogether, AMeshThatCannotBeReadIsNamed)
   EXPECT_EQ(mistake("rock.mesh"),
             "test.xml:1:102: '/nowhere/rock.mesh': meshes are read from files that end in .glb, "
             ".gltf, .obj, .stl; export it as .glb, for example with Blender");
+}
+
+TEST(MistakesTogether, AHullThatCannotBeIsNamed)
+{
+  const auto mistake = [](const std::string& more)
+  {
+    const std::string text =
+        "<ahss-config><arena size='1,1,1' optimization='3D'><block id='b' position='.5,.5,.5' "
+        "size='.1,.1,.1' " +
+        more + "/></arena></ahss-config>";
+    const LoadedExperiment loaded = LoadExperimentText(text, "test.xml", "/nowhere", {});
+    return loaded.errors.empty() ? std::string("none") : loaded.errors[0].Text();
+  };
+  EXPECT_EQ(mistake("corners='0,0,0; 1,0,0; 0,1,0; 0,0,1'"), "none");
+  EXPECT_EQ(mistake("corners='0,0,0; 1,0; 0,1,0; 0,0,1'"),
+            "test.xml:1:102: corners are three numbers each, as in \"0, 0, 0; 1, 0, 0; …\"");
+  EXPECT_EQ(mistake("corners='0,0,0; 1,0,0; 0,1,0'"), "test.xml:1:102: a body needs at least four corners");
+  EXPECT_EQ(mistake("corners='0,0,0; 1,0,0; 0,1,0; 1,1,0'"), "test.xml:1:102: its corners lie in one plane");
+  EXPECT_EQ(mistake("convex='true'"),
+            "test.xml:1:102: it has no 'mesh' whose hull could collide; give it one, or its 'corners'");
+}
+
+TEST(MistakesTogether, AHullFillsItsBoxAndIsSharedByThoseThatAreAlike)
+{
+  const std::string block = "size='.2,.4,.6' corners='0,0,0; 9,0,0; 0,9,0; 0,0,9'/>";
+  const LoadedExperiment loaded =
+      LoadExperimentText("<ahss-config><arena size='1,1,1' optimization='3D'><block id='a' position='.5,.5,.5' " +
+                             block + "<block id='b' position='.2,.2,.5' " + block + "</arena></ahss-config>",
+                         "test.xml", "/nowhere", {});
+  ASSERT_TRUE(loaded.experiment);
+  const auto& hull = loaded.experiment->entities[0].hull;
+  ASSERT_TRUE(hull);
+  EXPECT_EQ(hull, loaded.experiment->entities[1].hull);
+  EXPECT_NEAR(hull->volume, 0.048 / 6, 1e-12);
+  EXPECT_LT((hull->centre - Vector3(-0.05, -0.1, -0.15)).norm(), 1e-12);
 }
 
 TEST(MistakesTogether, AMissingFileIsNamed)

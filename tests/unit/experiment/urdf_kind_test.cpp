@@ -195,7 +195,9 @@ TEST(UrdfKind, RefusesWithThePlaceInTheFile)
               HasSubstr("must face each other"));
   EXPECT_THAT(refusal(WithBase("")), HasSubstr("it needs a <collision>"));
   EXPECT_THAT(refusal(WithBase("<collision><geometry><mesh filename='a.stl'/></geometry></collision>")),
-              HasSubstr("r.urdf:2:40: <mesh> cannot be read"));
+              HasSubstr("r.urdf:2:40: the mesh 'a.stl': it is not there"));
+  EXPECT_THAT(refusal(WithBase("<collision><geometry><capsule radius='1'/></geometry></collision>")),
+              HasSubstr("r.urdf:2:40: <capsule> cannot be read; boxes, cylinders, spheres and meshes can"));
   EXPECT_THAT(refusal(WithBase(Box("0.2 0.4"))), HasSubstr("'size' of <box> is '0.2 0.4'; it must be 3 numbers"));
   EXPECT_THAT(refusal(WithBase(Box("0.2 -0.4 1"))), HasSubstr("needs a 'size' of three lengths of more than 0"));
   EXPECT_THAT(refusal(WithBase(body, kWheels, "<link name='base'/>")), HasSubstr("the link 'base' is there twice"));

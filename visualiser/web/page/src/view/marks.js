@@ -3,6 +3,7 @@
 import { palette } from "./look.js";
 import { rotate } from "./turning.js";
 
+const [CYLINDER, HULL] = [1, 2]; // what the first number of a body says
 const MOST = { rays: 200, bodies: 400, links: 1000 }; // entities that are asked for: those next to the middle of the picture
 const ASK_MS = 300;
 const MARGIN_PX = 40; // about the picture
@@ -133,9 +134,14 @@ export class Marks {
   addBodies(entity, model, list) {
     const frame = this.frameOf(entity);
     if (!frame) return;
-    for (const [isCylinder, px, py, pz, qx, qy, qz, qw, hx, hy, hz] of model) {
+    for (const [form, ...numbers] of model) {
+      if (form === HULL) {
+        for (let i = 0; i < numbers.length; i += 3) list.push(...frame(numbers.slice(i, i + 3)));
+        continue;
+      }
+      const [px, py, pz, qx, qy, qz, qw, hx, hy, hz] = numbers;
       const at = (x, y, z) => frame(rotate([x * hx, y * hy, z * hz], [qx, qy, qz, qw]).map((value, k) => value + [px, py, pz][k]));
-      if (isCylinder) addCylinder(list, at);
+      if (form === CYLINDER) addCylinder(list, at);
       else addBox(list, at);
     }
   }

@@ -1,4 +1,4 @@
-// What Assimp does not check of a glTF file. For mesh_file.cpp.
+// What Assimp does not check of a glTF file. For import_mesh.cpp.
 #pragma once
 
 #include <string_view>

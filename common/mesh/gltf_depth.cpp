@@ -1,4 +1,4 @@
-#include "visualiser/scene/gltf_depth.h"
+#include "common/mesh/gltf_depth.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,52 @@
+// The convex hull of points, with its mass properties: the body of an entity that collides as a mesh. Made while the
+// experiment is read, in every process, with the same bits in each.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "common/math/pose.h"
+
+namespace swarmanoid
+{
+
+inline constexpr std::size_t kMostHullCorners = 64;  // finer hulls are made simpler, within themselves
+
+struct ConvexHull
+{
+  struct Face
+  {
+    std::vector<std::uint32_t> corners;  // three or more, counter-clockwise as seen from outside
+    Vector3 normal;                      // outwards, of length 1
+    double distance = 0;                 // m, from the origin along the normal: no corner is farther out
+  };
+  struct Edge
+  {
+    std::array<std::uint32_t, 2> corners;
+    std::array<std::uint32_t, 2> faces;
+  };
+
+  std::vector<Vector3> corners;  // m
+  std::vector<Face> faces;
+  std::vector<Edge> edges;
+  double volume = 0;                                  // m³
+  Vector3 centre = Vector3::Zero();                   // of mass, if the density is even
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about the centre, of 1 kg/m³: kg m²
+
+  // How deep a point is below the nearest face, m; negative outside.
+  double DepthOf(const Vector3& point) const;
+};
+
+// Faces that are even to a hundred-thousandth of the size count as one, by the library qhull (C. B. Barber,
+// D. P. Dobkin, H. Huhdanpaa, "The Quickhull algorithm for convex hulls", 1996). Volume, centre and inertia are the
+// exact integrals over the tetrahedra between the faces and a point (D. Eberly, "Polyhedral mass properties", 2002; the
+// covariance of a tetrahedron as of J. Blow and A. J. Binstock, "How to find the inertia tensor of a 3D solid body
+// represented by a triangle mesh", 2004). Throws std::invalid_argument, with what is wrong, for points in one plane,
+// too few of them, or some that are no places.
+ConvexHull HullOf(std::span<const Vector3> points);
+
+}  // namespace swarmanoid
