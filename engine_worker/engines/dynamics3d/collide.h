@@ -1,6 +1,5 @@
-// Where two geoms touch: ODE's dCollide, and our own code for pairs that it does not know or has weak contacts for:
-// convex hulls with all but terrain, parallel cylinders, cylinders on planes. (ODE 0.16 leaves hulls with capsules and
-// with cylinders out or has one contact for them, on which nothing comes to rest.)
+// Where two geoms touch: ODE's dCollide, and our own code where a body is to come to rest on several points at once:
+// convex hulls with all but terrain, parallel cylinders, cylinders on planes.
 #pragma once
 
 #include <ode/ode.h>
