@@ -120,7 +120,8 @@ int Check(const RunSettings& options)
              experiment->max_clock == 0 ? "without end" : Counted(experiment->max_clock, "tick"), experiment->seed);
   PrintEntities(*experiment);
   for (const EngineConfiguration& engine : experiment->engines)
-    fmt::print("  engine        {} ({}): {} of the entities\n", engine.id, engine.tag, engine.entities.size());
+    fmt::print("  engine        {} ({}): {} of the entities{}\n", engine.id, engine.tag, engine.entities.size(),
+               engine.split.regions > 1 ? fmt::format(", in {} regions", engine.split.regions) : "");
   PrintControllers(*experiment);
   for (const FunctionsConfiguration& functions : experiment->functions)
     fmt::print("  functions     {} ({})\n", functions.id, functions.tag);

@@ -311,7 +311,8 @@ void RegionLink::WriteHalo(const RegionHaloMessage& halo, bool lacks_others)
 void RegionLink::WriteHalosAgain(bool lacks_others)
 {
   for (const std::uint32_t number : {exchanges_ - 1, exchanges_})
-    if (const RegionHaloMessage& said = said_[number % 2]; said.epoch == task_.epoch && said.number == number)
+    if (const RegionHaloMessage& said = said_[number % 2];
+        number != 0 && said.epoch == task_.epoch && said.number == number)
       WriteHalo(said, lacks_others);
 }
 

@@ -9,7 +9,7 @@ import time
 import unittest
 
 import two_machines
-from harness import CONFIGS, GENEROUS_S, LauncherTest, main, processes_of, words_of
+from harness import CONFIGS, GENEROUS_S, LauncherTest, main, processes_of, supervisor_of, words_of
 
 EXPERIMENT = CONFIGS / "diffusion_1000.xml"
 REPLACED = "another process takes its place"
@@ -104,7 +104,31 @@ class Split(SplitTest):
         self.assertEqual(verified.process.returncode, 0, verified.stderr)
         self.assert_nothing_left(run)
 
+    def test_commands_a_tick_later_and_more_controller_hosts(self):
+        expected = self.one_process(EXPERIMENT, 300, "--ahead", 1)
+        run = self.begin(300, "--ahead", 1, split=3)
+        self.control("step", 120)
+        self.assertIn("2 controller hosts share the robots now", self.control("hosts", "+1"))
+        self.control("step", 30)
+        self.control("resume")
+        self.assert_same(run, 300, expected)
+
+    def test_after_everything_died(self):
+        expected = self.one_process(EXPERIMENT, 300)
+        run = self.begin(300, split=2)
+        self.control("step", 170)
+        supervisor = supervisor_of(run.process.pid)
+        pids = [*processes_of(run.process.pid), supervisor, run.process.pid]
+        for pid in reversed(pids):
+            os.kill(pid, signal.SIGKILL)
+        run.wait()
+        resumed = self.run_it("resume", "out", "--quiet")
+        self.assertEqual(resumed.process.returncode, 0, resumed.stderr)
+        self.assertEqual(self.assert_finished(resumed, 300), expected)
+
     def test_what_cannot_be_split(self):
+        said = self.run_it("check", CONFIGS / "crowd_in_regions.xml").stdout
+        self.assertIn("ground (dummy_engine): 805 of the entities, in 4 regions", said)
         for split, said in (("0", "it must be a number of regions from 1 to 32"), ("33", "it must be"), ("2*2", "it must be"), ("8x8", "it must be")):
             answer = self.run_it("run", EXPERIMENT, "--set", f"engines.ground.split={split}", "--ticks", 1)
             self.assertEqual(answer.process.returncode, 3, answer.stderr)

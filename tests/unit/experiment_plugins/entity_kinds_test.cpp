@@ -117,7 +117,7 @@ TEST(EntityKinds, OfObjectsHaveTheParametersThatTheirBodyNeeds)
   RegisterEntityKind(crate);
   EXPECT_THAT(ParametersOf(*KindOfTag("test_crate")),
               ElementsAre("size", "movable", "mass", "friction", "restitution", "ground_friction", "colour", "mesh",
-                          "mesh_orientation"));
+                          "mesh_orientation", "convex", "corners"));
   EntityKindDescription pillar = Object("test_pillar", BodyForm::kCylinder);
   pillar.mobility = Mobility::kNever;
   RegisterEntityKind(pillar);
