@@ -2,6 +2,7 @@
 // own, and messages go by memory.
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstdint>
 #include <ctime>
@@ -156,6 +157,9 @@ public:
     for (const double of_one : seconds_) all += of_one;
     return all;
   }
+
+  // Of the region that took most of it.
+  double SlowestSeconds() const { return *std::max_element(seconds_.begin(), seconds_.end()); }
 
 private:
   struct Place
