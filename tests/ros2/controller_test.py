@@ -267,6 +267,132 @@ class LockStep(Case):
         self.assertEqual(sorted(odometry), sorted(words for words in heard_there if words[0] == "odom"))
 
 
+def devices(group, **implementations):
+    return f"<{group}>" + "".join(f'<{label} implementation="{kind}_{label}"/>' for label, kind in implementations.items()) + f"</{group}>"
+
+
+def controller(name, actuators, sensors):
+    return (f'<ros2_controller id="{name}" library="ros2_controller">{devices("actuators", **actuators)}{devices("sensors", **sensors)}'
+            "<parameters><wait>60</wait><timeout>60</timeout></parameters></ros2_controller>")
+
+
+def footbots(places, actuators, sensors=()):
+    """Their controller, and the robots fb_0, fb_1 … on the x axis at `places`."""
+    return controller("driver", {"footbot_wheels": "dummy", **actuators},
+                      {"footbot_proximity": "generic", "footbot_encoders": "engine", **dict.fromkeys(sensors, "generic")}), [
+        f'<footbot id="fb_{k}" position="{x}, 2, 0" orientation="0, 0, 0" controller="driver"/>' for k, x in enumerate(places)]
+
+
+CEILING = 3
+FLIGHT = 2.42  # the top of an eyebot, 0.566 m high, is 1.4 cm below the ceiling then
+
+
+def eyebots(places, actuators, sensors=()):
+    return controller("flyer", {"eyebot_propellers": "dummy", **actuators}, {"eyebot_altitude": "generic", **dict.fromkeys(sensors, "generic")}), [
+        f'<eyebot id="eb_{k}" position="{x}, 2, {FLIGHT}" orientation="0, 0, 0" controller="flyer"/>' for k, x in enumerate(places)]
+
+
+class Devices(Case):
+    """What ros2_node commands by the tick (Command in node.c), and what it does to the robots."""
+
+    def world(self, ground=("", ()), sky=("", ()), bodies=()):
+        engines = [(name, height, pattern) for name, height, pattern, there in (("ground", 0, "fb_*", ground[1]), ("sky", FLIGHT, "eb_*", sky[1])) if there]
+        file = self.folder / "devices.xml"
+        file.write_text(
+            "<ahss-config><framework><canonical_period>20</canonical_period><clocktick>100</clocktick><maxclock>1000</maxclock></framework>"
+            f'<controllers>{ground[0]}{sky[0]}</controllers><arena size="4, 4, {CEILING}" optimization="2D">{"".join([*ground[1], *sky[1], *bodies])}</arena>'
+            "<engines>" + "".join(f'<dummy_engine id="{name}" subclock="1" perpendicular_axis="z" distance="{height}"/>' for name, height, _ in engines)
+            + "</engines><arena_physics>" + "".join(
+                f'<engine id="{name}"><entity id="{pattern}"/>' + ('<entity id="prey"/>' if bodies else "") + "</engine>" for name, _, pattern in engines)
+            + '</arena_physics><visualisations><text_render id="positions" file="positions.txt"/></visualisations></ahss-config>')
+        return file
+
+    def commanded(self, file, words, robots):
+        """Runs it in one process and as a cluster, that of which `table` reads the journal; what the node heard of both."""
+        node = {"NODE_COMMANDS": words}
+        alone, heard = self.with_node(file, "--single-process", robots=robots, node=node)
+        cluster, heard_there = self.with_node(file, robots=robots, node=node)
+        self.assertEqual(self.hash_of(alone), self.hash_of(cluster))
+        return heard, heard_there
+
+    def table(self, entity, columns):
+        """Row t is what was commanded for the readings of tick t; not what was there before the first."""
+        done = subprocess.run([SWARMANOID, "export", self.out, "--csv", "-", "--columns", columns, "--entities", entity], check=True,
+                              capture_output=True, text=True, env=self.environment)
+        rows = [[float(word) for word in line.split(",")[4:]] for line in done.stdout.splitlines()[1:]]
+        self.assertEqual(len(rows), TICKS + 1)
+        return rows[1:]
+
+    def test_gripper(self):
+        prey = '<cylindric_prey id="prey" position="2.205, 2, 0" orientation="0, 0, 0" radius="0.1" height="0.1"/>'
+        file = self.world(footbots([2], {"footbot_gripper": "dummy"}, ["footbot_gripper"]), bodies=[prey])
+        for heard in self.commanded(file, "gripper", ("fb_0",)):
+            self.assertEqual([words[2] for words in heard if words[0] == "holding"], ["0", "1", "0"])
+        # It closes for ticks 10 to 19 and backs off at 5 cm/s from tick 12 on: eight ticks with the prey, which is then left.
+        for tick, ((x, gripped, aperture), (prey_x,)) in enumerate(zip(self.table("fb_0", "x,gripped,gripper_aperture"), self.table("prey", "x"))):
+            closed = 10 <= tick < 20
+            self.assertEqual((tick, gripped), (tick, 2 if closed else 0))  # 1 + the place of the prey among the entities
+            self.assertAlmostEqual(aperture, 0 if closed else math.pi / 2, 9)
+            self.assertAlmostEqual(x, 2 - 0.005 * max(tick - 11, 0), 9)
+            self.assertAlmostEqual(prey_x, 2.205 - 0.005 * min(max(tick - 11, 0), 8), 9)
+
+    def test_turret(self):
+        file = self.world(footbots([2], {"footbot_turret": "dummy"}, ["footbot_turret_encoder"]))
+        # 0.4 rad/s for ten ticks, -0.8 rad/s for twenty, then none.
+        angles = [0.04 * min(tick, 10) - 0.08 * min(max(tick - 10, 0), 20) for tick in range(TICKS + 1)]
+        for heard in self.commanded(file, "turret", ("fb_0",)):
+            encoder = [float(words[4]) for words in heard if words[0] == "turret"]
+            self.assertEqual(len(encoder), TICKS)
+            for angle, expected in zip(encoder, angles):
+                self.assertAlmostEqual(angle, expected, 6)
+        for (angle,), expected in zip(self.table("fb_0", "turret_angle"), angles[1:]):
+            self.assertAlmostEqual(angle, expected, 9)
+
+    def test_laser(self):
+        file = self.world(sky=eyebots([2], {"eyebot_laser": "generic"}))
+        self.commanded(file, "laser", ("eb_0",))
+        for tick, (on, colour, pan, tilt) in enumerate(self.table("eb_0", "laser,laser_colour,laser_pan,laser_tilt")):
+            # Off without alpha, which leaves the colour; red until it is told another.
+            self.assertEqual((tick, on, colour), (tick, 5 <= tick < 25, 0xff0000 if tick < 5 else 0x33ff00 if tick < 15 else 0x33ff99))
+            self.assertAlmostEqual(pan, 0.05 * tick - 1, 9)
+            self.assertAlmostEqual(tilt, 0.02 * tick, 9)
+
+    def test_magnet(self):
+        file = self.world(sky=eyebots([2], {"eyebot_attachment": "dummy"}))
+        self.commanded(file, "attach", ("eb_0",))
+        x = 2
+        for tick, (at, attached) in enumerate(self.table("eb_0", "x,attached")):
+            self.assertEqual((tick, attached), (tick, 10 <= tick < 20))
+            # Told to fly at 10 cm/s, always; it hangs while it is attached.
+            x += 0 if attached else 0.01
+            self.assertAlmostEqual(at, x, 9)
+
+    def test_bytes(self):
+        device = {"range_and_bearing": "generic"}
+        # All see each other; the footbots are 1.5 m apart, the eyebot 2.42 m above one.
+        file = self.world(footbots([1.5, 3], device, device), eyebots([1.5], device, device))
+        robots = ("fb_0", "fb_1", "eb_0")
+        for heard in self.commanded(file, "bytes", robots):
+            received = sorted((words[1], round(int(words[2]) * 10 + int(words[3]) / 1e8), [int(word) for word in words[4:]])
+                              for words in heard if words[0] == "packet")
+            # What was commanded for tick t is there at tick t + 1. No bytes for ticks 20 to 29: silence.
+            self.assertEqual(received, sorted(
+                (robot, tick + 1, [robots.index(other) * 80, tick, 0, 255, 1, 2, 3, 4, 5, 6]) for robot in robots for other in robots
+                if other != robot for tick in range(TICKS - 1) if not 20 <= tick < 30))
+
+    def test_wrong_commands(self):
+        # For tick 12 the node says nine bytes, and numbers that are none.
+        for ground, sky, words, robot, text in (
+                ({"range_and_bearing": "generic"}, None, "bytes", "fb_0", "rt/fb_0/range_and_bearing/send .*a command has 9 bytes; it takes 10, or none"),
+                ({"footbot_turret": "dummy"}, None, "turret", "fb_0", "rt/fb_0/turret/velocity .*a command is not a finite number"),
+                ({"footbot_gripper": "dummy"}, None, "gripper", "fb_0", "rt/fb_0/gripper/command .*a command is not a finite number"),
+                (None, {"eyebot_laser": "generic"}, "laser", "eb_0", "rt/eb_0/laser/pan .*a command is not a finite number")):
+            file = self.world(ground=footbots([2], ground)) if ground else self.world(sky=eyebots([2], sky))
+            run, _ = self.with_node(file, "--single-process", robots=(robot,), node={"NODE_COMMANDS": words + " wrong"})
+            self.assertEqual(run.returncode, 4, run.stderr)
+            self.assertRegex(run.stderr, f"robot '{robot}', .*ControlStep at tick 12 failed: .*{text}")
+
+
 class FreeRunning(Case):
     def test_newest_command(self):
         file = self.experiment(mode="free_running")

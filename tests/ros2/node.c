@@ -7,7 +7,14 @@
      odom ROBOT SEC NANOSEC X Y FORWARD TURN
    for each odometry. With LATEST a stamped command is preceded by one of another time, that must not count.
    Environment: NODE_TOGETHER=1 answers nobody before it has the readings of all robots. NODE_LEDS=1 commands LEDs and
-   beacon, too: all LEDs but the first are dark green, that and the beacon red by a tenth more each tick. */
+   beacon, too: all LEDs but the first are dark green, that and the beacon red by a tenth more each tick.
+   NODE_COMMANDS has words with spaces between, of the devices that it commands by the tick of the readings alone, see
+   Command: gripper, turret (footbots), laser, attach (eyebots), bytes (all); with the word wrong what it says for tick 12
+   is to be refused. Footbots then stand or back off instead of driving, and it prints, too,
+     packet ROBOT SEC NANOSEC BYTE... for what a robot receives by range and bearing, with the word bytes
+     turret ROBOT SEC NANOSEC ANGLE   with the word turret
+     holding ROBOT 0|1                whenever it changes, with the word gripper
+   A robot whose id begins with eb is an eyebot: it is answered once its altitude is here. */
 #include <dds/dds.h>
 #include <math.h>
 #include <poll.h>
@@ -28,6 +35,13 @@
 typedef geometry_msgs_msg_dds__Twist_ Twist;
 typedef geometry_msgs_msg_dds__TwistStamped_ TwistStamped;
 typedef sensor_msgs_msg_dds__LaserScan_ Scan;
+typedef sensor_msgs_msg_dds__Range_ Range;
+typedef sensor_msgs_msg_dds__PointCloud2_ Cloud;
+typedef sensor_msgs_msg_dds__JointState_ Joints;
+typedef std_msgs_msg_dds__Float64_ Number;
+typedef std_msgs_msg_dds__Bool_ Bool;
+typedef std_msgs_msg_dds__ColorRGBA_ Colour;
+typedef std_msgs_msg_dds__UInt8MultiArray_ Bytes;
 
 static dds_entity_t Writer(dds_entity_t participant, const dds_topic_descriptor_t* type, const char* name)
 {
@@ -54,7 +68,13 @@ static unsigned Near(const Scan* scan)
 struct Robot
 {
   const char* name;
+  bool is_eyebot;
+  uint8_t number; /* 80 times its place among the arguments */
   dds_entity_t scans, odometries, commands, leds, beacon;
+  /* 0 where the device is not commanded. */
+  dds_entity_t gripper, turret, bytes, laser_colour, laser_pan, laser_tilt, attach;
+  dds_entity_t altitudes, packets, joints, holdings;
+  int holding;                              /* as printed last; negative: not yet */
   std_msgs_msg_dds__Header_ scan, odometry; /* of what came last, until it is answered */
   bool has_scan, has_odometry;
   Twist answer;
@@ -91,6 +111,158 @@ static void SendLeds(const struct Robot* robot)
   dds_write(robot->leds, &leds);
   const std_msgs_msg_dds__ColorRGBA_ beacon = {red, 0, 0, red > 0 ? 1 : 0};
   dds_write(robot->beacon, &beacon);
+}
+
+/* Whether NODE_COMMANDS has the word; whether it has any, for "". */
+static bool IsCommanded(const char* word)
+{
+  const char* words = getenv("NODE_COMMANDS");
+  return words != NULL && strstr(words, word) != NULL;
+}
+
+static dds_entity_t WriterOf(dds_entity_t participant, const struct Robot* robot, const dds_topic_descriptor_t* type,
+                             const char* name)
+{
+  char topic[200];
+  snprintf(topic, sizeof topic, "rt/%s/%s", robot->name, name);
+  return Writer(participant, type, topic);
+}
+
+static dds_entity_t ReaderOf(dds_entity_t participant, const struct Robot* robot, const dds_topic_descriptor_t* type,
+                             const char* name)
+{
+  char topic[200];
+  snprintf(topic, sizeof topic, "rt/%s/%s", robot->name, name);
+  const dds_entity_t reader = MakeReader(participant, type, topic);
+  if (reader < 0) exit(2);
+  return reader;
+}
+
+static void CommandDevices(dds_entity_t participant, struct Robot* robot)
+{
+  const dds_topic_descriptor_t* number = &std_msgs_msg_dds__Float64__desc;
+  const dds_topic_descriptor_t* flag = &std_msgs_msg_dds__Bool__desc;
+  if (IsCommanded("bytes"))
+  {
+    robot->bytes = WriterOf(participant, robot, &std_msgs_msg_dds__UInt8MultiArray__desc, "range_and_bearing/send");
+    robot->packets = ReaderOf(participant, robot, &sensor_msgs_msg_dds__PointCloud2__desc, "range_and_bearing");
+  }
+  if (robot->is_eyebot)
+  {
+    if (IsCommanded("laser"))
+    {
+      robot->laser_colour = WriterOf(participant, robot, &std_msgs_msg_dds__ColorRGBA__desc, "laser/color");
+      robot->laser_pan = WriterOf(participant, robot, number, "laser/pan");
+      robot->laser_tilt = WriterOf(participant, robot, number, "laser/tilt");
+    }
+    if (IsCommanded("attach")) robot->attach = WriterOf(participant, robot, flag, "attach");
+    return;
+  }
+  if (IsCommanded("gripper"))
+  {
+    robot->gripper = WriterOf(participant, robot, number, "gripper/command");
+    robot->holdings = ReaderOf(participant, robot, flag, "gripper/holding");
+  }
+  if (IsCommanded("turret"))
+  {
+    robot->turret = WriterOf(participant, robot, number, "turret/velocity");
+    robot->joints = ReaderOf(participant, robot, &sensor_msgs_msg_dds__JointState__desc, "joint_states");
+  }
+}
+
+/* What the devices are told for the readings of a tick; the test has the same numbers. */
+static void Command(struct Robot* robot)
+{
+  const int tick = (int)(robot->scan.stamp.sec * 10 + (robot->scan.stamp.nanosec + 50000000) / 100000000);
+  const bool is_wrong = tick == 12 && IsCommanded("wrong");
+  memset(&robot->answer, 0, sizeof robot->answer);
+  if (robot->is_eyebot) robot->answer.linear.x = 0.1;
+  if (robot->gripper != 0)
+  {
+    const Number closed = {is_wrong ? NAN : tick >= 10 && tick < 20 ? 1 : 0};
+    dds_write(robot->gripper, &closed);
+    robot->answer.linear.x = tick >= 12 ? -0.05 : 0;
+  }
+  if (robot->turret != 0)
+  {
+    const Number velocity = {is_wrong ? INFINITY : tick < 10 ? 0.4 : tick < 30 ? -0.8 : 0};
+    dds_write(robot->turret, &velocity);
+  }
+  if (robot->bytes != 0)
+  {
+    uint8_t bytes[10] = {robot->number, (uint8_t)tick, 0, 255, 1, 2, 3, 4, 5, 6};
+    Bytes message;
+    memset(&message, 0, sizeof message);
+    message.data._buffer = bytes;
+    message.data._length = message.data._maximum = is_wrong ? 9 : tick >= 20 && tick < 30 ? 0 : 10;
+    dds_write(robot->bytes, &message);
+  }
+  if (robot->laser_colour != 0)
+  {
+    const Colour colour = {0.2F, 1, tick >= 15 ? 0.6F : 0, tick >= 5 && tick < 25 ? 1 : 0};
+    const Number pan = {is_wrong ? NAN : 0.05 * tick - 1}, tilt = {0.02 * tick};
+    dds_write(robot->laser_colour, &colour);
+    dds_write(robot->laser_pan, &pan);
+    dds_write(robot->laser_tilt, &tilt);
+  }
+  if (robot->attach != 0)
+  {
+    const Bool attach = {tick >= 10 && tick < 20};
+    dds_write(robot->attach, &attach);
+  }
+}
+
+static uint32_t OffsetOf(const Cloud* cloud, const char* name)
+{
+  for (uint32_t i = 0; i < cloud->fields._length; ++i)
+    if (strcmp(cloud->fields._buffer[i].name, name) == 0) return cloud->fields._buffer[i].offset;
+  exit(2);
+}
+
+/* Takes what the robot said of its devices, and prints it; whether it said something. */
+static bool Hear(struct Robot* robot)
+{
+  bool heard = false;
+  void* sample;
+  while (robot->altitudes != 0 && (sample = Next(robot->altitudes)) != NULL)
+  {
+    heard = true;
+    robot->scan = robot->odometry = ((const Range*)sample)->header;
+    robot->has_scan = robot->has_odometry = true;
+    dds_return_loan(robot->altitudes, &sample, 1);
+  }
+  while (robot->packets != 0 && (sample = Next(robot->packets)) != NULL)
+  {
+    heard = true;
+    const Cloud* cloud = sample;
+    const uint32_t offset = OffsetOf(cloud, "data");
+    for (uint32_t point = 0; point < cloud->width; ++point)
+    {
+      printf("packet %s %d %u", robot->name, cloud->header.stamp.sec, cloud->header.stamp.nanosec);
+      for (uint32_t i = 0; i < 10; ++i) printf(" %u", cloud->data._buffer[point * cloud->point_step + offset + i]);
+      puts("");
+    }
+    dds_return_loan(robot->packets, &sample, 1);
+  }
+  while (robot->joints != 0 && (sample = Next(robot->joints)) != NULL)
+  {
+    heard = true;
+    const Joints* joints = sample;
+    for (uint32_t i = 0; i < joints->name._length; ++i)
+      if (strcmp(joints->name._buffer[i], "turret") == 0)
+        printf("turret %s %d %u %.9g\n", robot->name, joints->header.stamp.sec, joints->header.stamp.nanosec,
+               joints->position._buffer[i]);
+    dds_return_loan(robot->joints, &sample, 1);
+  }
+  while (robot->holdings != 0 && (sample = Next(robot->holdings)) != NULL)
+  {
+    heard = true;
+    const int holding = ((const Bool*)sample)->data;
+    if (holding != robot->holding) printf("holding %s %d\n", robot->name, holding);
+    robot->holding = holding;
+    dds_return_loan(robot->holdings, &sample, 1);
+  }
+  return heard;
 }
 
 static bool IsComplete(const struct Robot* robot)
@@ -135,6 +307,12 @@ int main(int count, char** arguments)
   {
     struct Robot* robot = &all[k];
     robot->name = arguments[7 + k];
+    robot->is_eyebot = strncmp(robot->name, "eb", 2) == 0;
+    robot->number = (uint8_t)(80 * k);
+    robot->holding = -1;
+    if (robot->is_eyebot)
+      robot->altitudes = ReaderOf(participant, robot, &sensor_msgs_msg_dds__Range__desc, "altitude");
+    CommandDevices(participant, robot);
     char topic[200];
     snprintf(topic, sizeof topic, "rt/%s/scan", robot->name);
     robot->scans = MakeReader(participant, &sensor_msgs_msg_dds__LaserScan__desc, topic);
@@ -159,6 +337,7 @@ int main(int count, char** arguments)
     bool idle = true;
     for (struct Robot* robot = all; robot < all + robots; ++robot)
     {
+      if (Hear(robot)) idle = false;
       void* sample;
       while ((sample = Next(robot->scans)) != NULL)
       {
@@ -191,6 +370,7 @@ int main(int count, char** arguments)
       const double time = robot->scan.stamp.sec + robot->scan.stamp.nanosec * 1e-9;
       for (int repeat = 0; repeat < repeats && !(time >= silent_from && time < silent_until); ++repeat)
       {
+        if (IsCommanded("")) Command(robot);
         Send(robot, stamped, with_others);
         if (with_leds) SendLeds(robot);
       }
