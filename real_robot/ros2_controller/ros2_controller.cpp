@@ -385,7 +385,7 @@ private:
     const auto is_missing = [&](const CRos2Controller* each) { return is_new(each) && !each->IsHeard(); };
     while (std::ranges::any_of(robots, is_missing) && Now() - begun < wait_s)
       std::this_thread::sleep_for(std::chrono::duration<double>(kLookAgain_s));
-    std::this_thread::sleep_for(std::chrono::duration<double>(std::max(kSettle_s - (Now() - begun), 0.0)));
+    std::this_thread::sleep_for(std::chrono::duration<double>(kSettle_s));
     for (CRos2Controller* each : robots) each->node_is_here_ |= each->IsHeard();
   }
 
@@ -431,6 +431,7 @@ private:
       return drive && silent.empty();
     };
     bool complete = take();
+    unsigned repetitions = 0;
     for (double waited = Now() - asked_at_; !complete && waited < timeout_s; waited = Now() - asked_at_)
     {
       // Somebody who has found this end, and whom this end has not found, misses what is said first.
@@ -438,6 +439,7 @@ private:
       {
         Publish(now);
         said = Now();
+        ++repetitions;
       }
       const double longest = std::min(timeout_s - waited, kSayAgain_s);
       drive ? silent.front()->Wait(longest) : ends_->drive.Wait(longest);
@@ -450,6 +452,22 @@ private:
     if (timed_out_) GetRobot()->Log(ends_->drive.Name() + ": the node answers again");
     timed_out_ = false;
     has_answered_ = true;
+    DropAnswers(repetitions);
+  }
+
+  // A node that has heard the readings each time that they were said may answer each time: none of these answers is for
+  // the next readings. How many come nobody knows.
+  void DropAnswers(unsigned repetitions)
+  {
+    if (repetitions == 0) return;
+    const double until = Now() + kSayAgain_s;
+    const auto drop = [&](auto& topic, const auto& take)
+    {
+      for (unsigned dropped = 0; dropped < repetitions && Now() < until;)
+        take() ? static_cast<void>(++dropped) : topic.Wait(std::max(until - Now(), 0.0));
+    };
+    drop(ends_->drive, [this] { return ends_->drive.Take(std::nullopt).has_value(); });
+    for (const auto& topic : ends_->devices) drop(*topic, [&topic] { return topic->Take(); });
   }
 
   void TimeOut(double timeout_s, const std::string& topic)

@@ -214,6 +214,13 @@ class LockStep(Case):
         self.assertRegex(run.stderr, r"nobody publishes .*topic rt/fb_0/leds \(std_msgs/msg/Float32MultiArray\) with reliable quality of "
                          "service after 1 s")
 
+    def test_a_node_that_begins_slowly_answers_each_tick_once(self):
+        """It hears the first readings twice, and answers twice: the second answer is not for the next tick."""
+        file = self.experiment(robots=1)
+        quick, _ = self.with_node(file, "--single-process", robots=("fb_0",))
+        slow, _ = self.with_node(file, "--single-process", robots=("fb_0",), node={"NODE_FIRST_ANSWER": "1300"})
+        self.assertEqual(self.hash_of(slow), self.hash_of(quick))
+
     def test_a_host_that_dies_asks_the_node_again(self):
         file = self.experiment()
         alone, _ = self.with_node(file, "--single-process", ticks=300)

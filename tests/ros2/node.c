@@ -94,6 +94,15 @@ static bool IsSet(const char* variable)
   return text != NULL && strcmp(text, "1") == 0;
 }
 
+/* The first answer takes NODE_FIRST_ANSWER milliseconds, the second one 50. */
+static void WaitBeforeAnswer(void)
+{
+  static int answers = 0;
+  const char* text = getenv("NODE_FIRST_ANSWER");
+  if (text == NULL || answers++ > 1) return;
+  usleep(answers == 1 ? 1000 * (useconds_t)atoi(text) : 50000);
+}
+
 static void SendLeds(const struct Robot* robot)
 {
   const float red = (float)(robot->scan.stamp.nanosec / 100000000) / 10;
@@ -368,6 +377,7 @@ int main(int count, char** arguments)
       if (!IsComplete(robot) || (together && complete < robots)) continue;
       robot->has_scan = robot->has_odometry = false;
       const double time = robot->scan.stamp.sec + robot->scan.stamp.nanosec * 1e-9;
+      WaitBeforeAnswer();
       for (int repeat = 0; repeat < repeats && !(time >= silent_from && time < silent_until); ++repeat)
       {
         if (IsCommanded("")) Command(robot);
