@@ -4,15 +4,13 @@ import os
 import pathlib
 import shutil
 import signal
-import socket
 import subprocess
 import tempfile
 
 from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, children_of, words_of
-from slurm import Slurm, main
+from slurm import NODE, Slurm, main
 
 EXPERIMENT = CONFIGS / "crowd_in_regions.xml"
-NODE = socket.gethostname().split(".")[0]
 STEP = "srun --overlap --quiet --nodes=1 --ntasks=1 --nodelist={host} {command}"
 
 

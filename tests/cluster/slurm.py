@@ -12,6 +12,7 @@ import unittest
 from harness import GENEROUS_S, end, skip, words_of
 
 DAEMONS = {name: shutil.which(name, path="/usr/sbin:" + os.environ["PATH"]) for name in ("munged", "slurmctld", "slurmd")}
+NODE = socket.gethostname().split(".")[0]
 
 
 def free_ports(count):
@@ -35,10 +36,9 @@ class Slurm:
         key.write_bytes(os.urandom(1024))
         key.chmod(0o600)
         control, node = free_ports(2)
-        host = socket.gethostname().split(".")[0]
         user = getpass.getuser()
         (folder / "slurm.conf").write_text(f"""ClusterName=test
-SlurmctldHost={host}(127.0.0.1)
+SlurmctldHost={NODE}(127.0.0.1)
 SlurmUser={user}
 SlurmdUser={user}
 AuthType=auth/munge
@@ -63,8 +63,8 @@ SlurmdParameters=config_overrides
 ReturnToService=2
 KillWait=2
 MinJobAge=300
-NodeName={host} NodeAddr=127.0.0.1 CPUs=4
-PartitionName=short Nodes={host} Default=YES MaxTime=60 State=UP
+NodeName={NODE} NodeAddr=127.0.0.1 CPUs=4
+PartitionName=short Nodes={NODE} Default=YES MaxTime=60 State=UP
 """)
         self.environment = {"SLURM_CONF": str(folder / "slurm.conf")}
         self.processes = {}
@@ -91,6 +91,13 @@ PartitionName=short Nodes={host} Default=YES MaxTime=60 State=UP
 
     def ask(self, *words):
         return subprocess.run(words, capture_output=True, text=True, env={**os.environ, **self.environment}).stdout
+
+    def hold(self):
+        """What runs goes on; nothing else begins."""
+        self.ask("scontrol", "update", f"NodeName={NODE}", "State=DRAIN", "Reason=test")
+
+    def release(self):
+        self.ask("scontrol", "update", f"NodeName={NODE}", "State=RESUME")
 
     def live(self):
         return self.ask("squeue", "--noheader", "--array", "--format=%i").split()

@@ -58,18 +58,20 @@ class SweepSlurm(StartedStudyCase):
         self.assertIn("TimeLimit=00:10:00", shown)
 
     def test_jobs_go_on_without_the_command(self):
-        study = self.study("1-24", ticks=3000)
+        study = self.study("1-60", ticks=3000)
         table = self.here(study)
         for number, end_by in enumerate((signal.SIGKILL, signal.SIGHUP, signal.SIGTERM)):
             name = f"out{number}"
             process = self.start(study, "--output", name, "--slurm", "", "--runs-per-task", "3")
             self.wait_for_runs(name, 1, process)
+            self.slurm.hold()
             process.send_signal(end_by)
             process.communicate()
             self.assertTrue(self.slurm.live(), "it was too quick")
             if number == 0:
                 _, errors = self.sweep(name, "--resume", code=2)
                 self.assertRegex(errors, r"the study's jobs \d+ of Slurm go on: go on with --slurm, too, or end them by: scancel \d+")
+            self.slurm.release()
             if number < 2:
                 _, errors = self.sweep(name, "--resume", "--slurm", "")
                 self.assertNotIn("tasks", errors, "nothing is submitted a second time")
@@ -83,8 +85,10 @@ class SweepSlurm(StartedStudyCase):
         study = self.study("1-60", ticks=3000)
         process = self.start(study, "--output", "out", "--slurm", "--comment=mine", "--runs-per-task", "2")
         self.wait_for_runs("out", 2, process)
+        self.slurm.hold()
         process.send_signal(signal.SIGINT)
         _, errors = self.end_of(process, 130)
+        self.slurm.release()
         self.assertRegex(errors, r"(?m)^job \d+ of Slurm is cancelled$")
         told = re.search(r"^(\d+) of 60 runs are done; to go on: swarmanoid sweep out --resume --slurm --comment=mine$", errors, re.MULTILINE)
         self.assertTrue(told, errors)

@@ -57,13 +57,22 @@ class Display:
         deadline = time.monotonic() + timeout
         while time.monotonic() < deadline:
             found = self.tool("xdotool", "search", "--onlyvisible", "--name", f"^{title}$", check=False).split()
-            if found:
-                self.tool("xdotool", "windowfocus", "--sync", found[0])
+            if found and self.focus(found[0]):
                 return found[0]
             if run is not None and run.process.poll() is not None:
                 raise AssertionError("the run ended before its window was there: " + run.process.stderr.read())
             time.sleep(0.05)
         raise AssertionError(f"no window '{title}' after {timeout} s")
+
+    def focus(self, window):
+        """False if it has gone: some are made, and made anew, before they stay."""
+        try:
+            self.tool("xdotool", "windowfocus", "--sync", window)
+        except AssertionError as error:
+            if "BadWindow" not in str(error):
+                raise
+            return False
+        return True
 
     def windows(self, title):
         return self.tool("xdotool", "search", "--name", f"^{title}$", check=False).split()
