@@ -249,8 +249,6 @@ int RunRegion(const WorkerSettings& settings, const BusOptions& bus)
         const std::unique_ptr<EngineRegion> world = MakeRegion(*replica, engine, region, link);
         replica.reset();
         malloc_trim(0);
-        session.WaitUntil([&] { return link.Missing() == 0; },
-                          [&] { return fmt::format("{} processes of its engine", link.Missing()); });
         std::thread worker(
             [&]
             {
@@ -263,10 +261,21 @@ int RunRegion(const WorkerSettings& settings, const BusOptions& bus)
                 session.Fail(0, error.what());
               }
             });
+        struct Ended
+        {
+          ~Ended()
+          {
+            link.Close();
+            worker.join();
+          }
+          RegionLink& link;
+          std::thread& worker;
+        } const ended{link, worker};
+        // The engine does without its regions until all are there: the run may end before.
+        session.WaitUntil([&] { return link.Missing() == 0 || link.IsOver(); },
+                          [&] { return fmt::format("{} processes of its engine", link.Missing()); });
         session.ReportReady();
         session.Wait(std::chrono::milliseconds(500), [] { return std::nullopt; });
-        link.Close();
-        worker.join();
       });
 }
 

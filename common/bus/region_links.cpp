@@ -19,7 +19,7 @@ constexpr std::uint32_t kEndOfRun = ~0U;
 constexpr std::chrono::milliseconds kFirstRepeat = 100ms;  // of what may have been lost
 constexpr std::chrono::milliseconds kLastRepeat = 1s;
 constexpr std::chrono::milliseconds kForEver = std::chrono::hours(24 * 365);
-constexpr std::chrono::milliseconds kEndTime = 5s;
+constexpr std::chrono::milliseconds kEndTime = 60s;  // for a region that is on its way
 
 unsigned RegionsOfAll(const Experiment& experiment) { return RegionNumber(experiment, experiment.engines.size(), 0); }
 
@@ -386,7 +386,9 @@ void RegionLink::Serve(EngineRegion& region)
       const std::lock_guard lock(mutex_);
       is_done_ = !next_;
     }
-    if (task_.number == kEndOfRun) return session_.Finish(tick_);
+    if (task_.number != kEndOfRun) continue;
+    is_over_ = true;
+    return session_.Finish(tick_);
   }
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -86,6 +87,8 @@ public:
   unsigned Missing() const;
   // Does tasks until the run is over, or the program asks for the end (Close). What fails is told to the engine.
   void Serve(EngineRegion& region);
+  // The engine has said that the run is over. Others may have left already.
+  bool IsOver() const { return is_over_; }
   void Close();
 
   unsigned RegionCount() const override { return regions_; }
@@ -119,6 +122,7 @@ private:
   const unsigned regions_;     // of the engine
   const unsigned engines_, of_all_;
   std::uint64_t tick_ = 0;
+  std::atomic<bool> is_over_ = false;
   RegionTaskMessage task_;  // in work, or done last
   RegionResultMessage answer_;
   std::uint32_t exchanges_ = 0;  // in the epoch
