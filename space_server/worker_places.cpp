@@ -53,11 +53,16 @@ void WorkerPlaces::Put(const Move& move)
 
 void WorkerPlaces::RequireMachine(const std::string& machine) const
 {
-  if (std::find(machines_.begin(), machines_.end(), machine) == machines_.end())
-    throw std::invalid_argument(fmt::format(
-        "the run has no machine {}; it has {}{}; name others in the file of --hosts, as machines = alpha beta, or "
-        "offer one: controller_host --offer NAME",
-        Quoted(machine), Listed(machines_), DidYouMean(machine, machines_)));
+  if (std::ranges::find(machines_, machine) != machines_.end()) return;
+  if (std::ranges::find(places_, machine, &std::pair<const std::string, std::string>::second) != places_.end())
+    throw std::invalid_argument(
+        fmt::format("machine {} is not offered now: it was not heard again yet since all processes started, or it has "
+                    "gone and its workers are about to be replaced; ask again in a moment",
+                    Quoted(machine)));
+  throw std::invalid_argument(fmt::format(
+      "the run has no machine {}; it has {}{}; name others in the file of --hosts, as machines = alpha beta, or "
+      "offer one: controller_host --offer NAME",
+      Quoted(machine), Listed(machines_), DidYouMean(machine, machines_)));
 }
 
 bool WorkerPlaces::Offer(const std::string& machine, const std::string& process)
@@ -102,17 +107,22 @@ std::optional<std::string> WorkerPlaces::Gone(const std::string& process)
 std::string WorkerPlaces::Text() const
 {
   RequireMoves("machines");
+  std::map<std::string, std::vector<std::string>> workers;
+  for (const auto& [worker, place] : places_) workers[place].push_back(worker);
   std::string text;
+  const auto add = [&](const std::string& machine, const std::string& remark)
+  {
+    const std::vector<std::string>& there = workers[machine];
+    text += fmt::format("{}{}{}: {}", text.empty() ? "" : "; ", machine, remark,
+                        there.empty() ? "nobody" : fmt::format("{}", fmt::join(there, ", ")));
+  };
   for (const std::string& machine : machines_)
   {
     const auto offer = offers_.find(machine);
-    text += fmt::format("{}{}{}: ", text.empty() ? "" : "; ", machine,
-                        offer == offers_.end() ? "" : " (offered by " + offer->second + ")");
-    std::vector<std::string> workers;
-    for (const auto& [worker, place] : places_)
-      if (place == machine) workers.push_back(worker);
-    text += workers.empty() ? "nobody" : fmt::format("{}", fmt::join(workers, ", "));
+    add(machine, offer == offers_.end() ? "" : " (offered by " + offer->second + ")");
+    workers.erase(machine);
   }
+  for (const auto& [machine, there] : workers) add(machine, " (not offered now)");
   return text;
 }
 

@@ -143,6 +143,7 @@ void CDynamics2dEngine::Update(const EngineCommands& commands, EngineUpdate& upd
 {
   ReadCommands(commands);
   FollowMirrors();
+  world_->BeginTick(space_->GetTickSeconds());
   ApplyGrippers();
   robots_.Advance(space_->GetTickSeconds());
   for (const std::uint32_t eyebot : robots_.Attached())
@@ -330,7 +331,8 @@ void CDynamics2dEngine::Canonicalise() { world_->Rebuild(); }
 
 std::string CDynamics2dEngine::StatusText() const
 {
-  return fmt::format("{} contacts, {} grips", world_->ContactCount(), world_->GripCount());
+  return fmt::format("{} contacts, {} grips, {} of {} bodies isolated", world_->ContactCount(), world_->GripCount(),
+                     world_->IsolatedCount(), owned_.size());
 }
 
 }  // namespace swarmanoid

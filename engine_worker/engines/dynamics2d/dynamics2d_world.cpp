@@ -11,7 +11,6 @@ namespace swarmanoid::dynamics2d
 namespace
 {
 
-constexpr double kUnitsPerMetre = 10;
 constexpr double kForceUnits = kUnitsPerMetre;                    // per newton
 constexpr double kTorqueUnits = kUnitsPerMetre * kUnitsPerMetre;  // per newton metre
 // The part of a ground joint's position error that becomes velocity. Drives are expressed through it; a small value
@@ -33,21 +32,10 @@ b2Vec2 ToUnits(double x, double y)
 [[gnu::noinline]] double BeyondSinglePrecision(double x) { return x - static_cast<float>(x); }
 
 // Distance of a point from the outline of a model, in the model's frame; negative inside.
-double DistanceTo(const BodyModel& model, const Vector2& point)
+double OutlineDistance(const BodyModel& model, const Vector2& point)
 {
   if (model.radius > 0) return std::sqrt(point.squaredNorm()) - model.radius;
-  double inside = -std::numeric_limits<double>::infinity();
-  double outside = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < model.polygon.size(); ++i)
-  {
-    const Vector2& a = model.polygon[i];
-    const Vector2 edge = model.polygon[(i + 1) % model.polygon.size()] - a;
-    const Vector2 offset = point - a;
-    const double along = std::clamp(offset.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
-    outside = std::min(outside, std::sqrt((offset - along * edge).squaredNorm()));
-    inside = std::max(inside, (offset.x() * edge.y() - offset.y() * edge.x()) / std::sqrt(edge.squaredNorm()));
-  }
-  return inside <= 0 ? inside : outside;
+  return DistanceTo(std::span(model.polygon), point);
 }
 
 int BodyOf(b2Fixture& fixture) { return static_cast<int>(fixture.GetUserData().pointer); }
@@ -72,8 +60,7 @@ int Dynamics2dWorld::AddBody(BodyModel model, const PlanePose& pose)
 {
   Body& body = bodies_.emplace_back();
   body.model = std::move(model);
-  body.start.angle = static_cast<float>(pose.heading);
-  SetPosition(body, pose.u * kUnitsPerMetre, pose.v * kUnitsPerMetre, body.start.angle);
+  SetPosition(body, pose.u * kUnitsPerMetre, pose.v * kUnitsPerMetre, static_cast<float>(pose.heading));
   return static_cast<int>(bodies_.size()) - 1;
 }
 
@@ -86,7 +73,17 @@ void Dynamics2dWorld::Build()
   ground.type = b2_kinematicBody;
   ground_ = world_->CreateBody(&ground);
   last_step_ = 0;
-  for (Body& body : bodies_) BuildBody(body);
+  isolated_.clear();
+  solved_.clear();
+  ways_.clear();
+  isolation_is_configured_ = false;
+  MarkGripped();
+  // Who may be isolated is built when a tick begins and he is not.
+  for (Body& body : bodies_)
+  {
+    LeaveOut(body);
+    if (!CanBeIsolated(body)) BuildBody(body);
+  }
   for (Body& body : bodies_)
   {
     if (body.gripped == kNoBody) continue;
@@ -197,18 +194,20 @@ void Dynamics2dWorld::BuildGrip(Body& body)
 
 void Dynamics2dWorld::Step(double seconds)
 {
-  for (Body& body : bodies_)
-  {
-    if (body.ground != nullptr) ApplyDrive(body, seconds);
-    if (body.ground != nullptr && body.model.lies) ShareFriction(body);
-    if (body.gripper != nullptr) ApplyTurret(body, seconds);
-  }
+  if (!isolated_.empty() && IsSomebodyTooFar(seconds))
+    for (const std::uint32_t number : std::vector(isolated_)) EndIsolation(static_cast<int>(number));
   positions_.clear();
-  for (const Body& body : bodies_) positions_.push_back(body.b2->GetPosition());
+  for (const std::uint32_t number : solved_)
+  {
+    Body& body = bodies_[number];
+    ApplyDrive(body, seconds);
+    if (body.gripper != nullptr) ApplyTurret(body, seconds);
+    positions_.push_back(body.b2->GetPosition());
+  }
   world_->Step(static_cast<float>(seconds), settings_.velocity_iterations, settings_.position_iterations);
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    if (bodies_[i].model.motion == EMotion::kDynamic && bodies_[i].solid)
-      KeepRemainder(bodies_[i], positions_[i], seconds);
+  for (std::size_t i = 0; i < solved_.size(); ++i)
+    if (bodies_[solved_[i]].solid) KeepRemainder(bodies_[solved_[i]], positions_[i], seconds);
+  for (const std::uint32_t number : isolated_) AdvanceIsolated(bodies_[number], seconds);
   last_step_ = seconds;
 }
 
@@ -238,52 +237,51 @@ void Dynamics2dWorld::SetPosition(Body& body, double x, double y, float angle)
   {
     body.start.x = position.x;
     body.start.y = position.y;
+    body.start.angle = angle;
   }
   else if (position != body.b2->GetPosition() || angle != body.b2->GetAngle())
     body.b2->SetTransform(position, angle);
+}
+
+// Units a second, along the chord of the arc that a step of so many seconds leads along.
+PlaneVelocity Dynamics2dWorld::WantedVelocity(const Body& body, double seconds) const
+{
+  const double turn = body.drive.turn * seconds;
+  if (body.drive.forward == 0 && body.drive.left == 0) return {0, 0, body.drive.turn};
+  const SinCos middle = SinCosOf(StateOf(body).angle + turn / 2);
+  const double shortening = std::abs(turn) > 1e-6 ? Sin(turn / 2) / (turn / 2) : 1;
+  const double scale = shortening * kUnitsPerMetre;
+  return {scale * (middle.cos * body.drive.forward - middle.sin * body.drive.left),
+          scale * (middle.sin * body.drive.forward + middle.cos * body.drive.left), body.drive.turn};
 }
 
 // The ground joint is given an error that asks for the wanted velocity. Solved together with contacts and grips, so
 // what cannot move stands still.
 void Dynamics2dWorld::ApplyDrive(Body& body, double seconds)
 {
-  const double turn = body.drive.turn * seconds;
+  const PlaneVelocity wanted = WantedVelocity(body, seconds);
+  const double ahead = seconds / kDriveGain;
   const b2Vec2 position = body.b2->GetWorldCenter();
-  const float angle = body.b2->GetAngle();
-  if (body.drive.forward == 0 && body.drive.left == 0)
-  {
-    body.ground->SetLinearOffset(position);
-  }
-  else
-  {
-    // The chord of the arc that the step leads along.
-    const SinCos middle = SinCosOf(angle + turn / 2);
-    const double shortening = std::abs(turn) > 1e-6 ? Sin(turn / 2) / (turn / 2) : 1;
-    const double scale = shortening * seconds * kUnitsPerMetre / kDriveGain;
-    const double u = middle.cos * body.drive.forward - middle.sin * body.drive.left;
-    const double v = middle.sin * body.drive.forward + middle.cos * body.drive.left;
-    body.ground->SetLinearOffset(
-        {static_cast<float>(position.x + scale * u), static_cast<float>(position.y + scale * v)});
-  }
-  body.ground->SetAngularOffset(static_cast<float>(angle + turn / kDriveGain));
+  body.ground->SetLinearOffset(
+      {static_cast<float>(position.x + ahead * wanted.u), static_cast<float>(position.y + ahead * wanted.v)});
+  body.ground->SetAngularOffset(static_cast<float>(body.b2->GetAngle() + ahead * wanted.turn));
+  if (!body.model.lies || body.model.ground_force <= 0) return;
+  const FrictionShares shares = SharesOf(body.model, StateOf(body));
+  body.ground->SetMaxForce(static_cast<float>(shares.sliding * body.model.ground_force * kForceUnits));
+  body.ground->SetMaxTorque(static_cast<float>(shares.turning * body.model.ground_torque * kTorqueUnits));
 }
 
 // Friction under a face opposes the slip at each of its points, so that sliding and turning share one limit: nearly an
 // ellipsoid (Howe and Cutkosky, "Practical force-motion models for sliding manipulation", 1996). What slides gives way
 // to the smallest push across, and to the smallest torque.
-void Dynamics2dWorld::ShareFriction(Body& body) const
+Dynamics2dWorld::FrictionShares Dynamics2dWorld::SharesOf(const BodyModel& model, const BodyState& state)
 {
-  const BodyModel& model = body.model;
-  if (model.ground_force <= 0) return;
-  const b2Vec2 velocity = body.b2->GetLinearVelocity();
-  const double x = velocity.x / kUnitsPerMetre;
-  const double y = velocity.y / kUnitsPerMetre;
-  const double turn = body.b2->GetAngularVelocity() * model.ground_torque / model.ground_force;
+  const double x = state.vx / kUnitsPerMetre;
+  const double y = state.vy / kUnitsPerMetre;
+  const double turn = state.turn * model.ground_torque / model.ground_force;
   const double slip = std::sqrt(x * x + y * y + turn * turn);
-  const double sliding = slip > kSlip ? std::sqrt(x * x + y * y) / slip : 1;
-  const double turning = slip > kSlip ? std::abs(turn) / slip : 1;
-  body.ground->SetMaxForce(static_cast<float>(sliding * model.ground_force * kForceUnits));
-  body.ground->SetMaxTorque(static_cast<float>(turning * model.ground_torque * kTorqueUnits));
+  if (slip <= kSlip) return {1, 1};
+  return {std::sqrt(x * x + y * y) / slip, std::abs(turn) / slip};
 }
 
 void Dynamics2dWorld::ApplyTurret(Body& body, double seconds)
@@ -345,16 +343,14 @@ double Dynamics2dWorld::TurretAngleOf(int number) const
 PlanePose Dynamics2dWorld::PoseOf(int number) const
 {
   const Body& body = bodies_[Index(number)];
-  const b2Vec2 position = body.b2->GetPosition();
-  return {(position.x + body.remainder_x) / kUnitsPerMetre, (position.y + body.remainder_y) / kUnitsPerMetre,
-          body.b2->GetAngle()};
+  const BodyState state = StateOf(body);
+  return {(state.x + body.remainder_x) / kUnitsPerMetre, (state.y + body.remainder_y) / kUnitsPerMetre, state.angle};
 }
 
 PlaneVelocity Dynamics2dWorld::VelocityOf(int number) const
 {
-  const b2Body* body = bodies_[Index(number)].b2;
-  return {body->GetLinearVelocity().x / kUnitsPerMetre, body->GetLinearVelocity().y / kUnitsPerMetre,
-          body->GetAngularVelocity()};
+  const BodyState state = StateOf(bodies_[Index(number)]);
+  return {state.vx / kUnitsPerMetre, state.vy / kUnitsPerMetre, state.turn};
 }
 
 void Dynamics2dWorld::Place(int number, const PlanePose& pose)
@@ -378,9 +374,18 @@ void Dynamics2dWorld::CountTurns(Body& body)
 
 void Dynamics2dWorld::SetVelocity(int number, const PlaneVelocity& velocity)
 {
-  b2Body* body = bodies_[Index(number)].b2;
-  body->SetLinearVelocity(ToUnits(velocity.u, velocity.v));
-  body->SetAngularVelocity(static_cast<float>(velocity.turn));
+  Body& body = bodies_[Index(number)];
+  const b2Vec2 linear = ToUnits(velocity.u, velocity.v);
+  const auto turn = static_cast<float>(velocity.turn);
+  if (body.b2 != nullptr)
+  {
+    body.b2->SetLinearVelocity(linear);
+    body.b2->SetAngularVelocity(turn);
+    return;
+  }
+  body.start.vx = linear.x;
+  body.start.vy = linear.y;
+  body.start.turn = turn;
 }
 
 void Dynamics2dWorld::SetOutline(int number, const std::vector<Vector2>& polygon, double tolerance)
@@ -390,6 +395,7 @@ void Dynamics2dWorld::SetOutline(int number, const std::vector<Vector2>& polygon
   const auto same = [=](const Vector2& a, const Vector2& b) { return (a - b).squaredNorm() <= tolerance * tolerance; };
   if (std::equal(outline.begin(), outline.end(), polygon.begin(), polygon.end(), same)) return;
   outline = polygon;
+  isolation_is_configured_ = false;
   if (body.b2 == nullptr) return;
   body.b2->DestroyFixture(body.b2->GetFixtureList());
   const b2PolygonShape shape = ShapeOf(outline);
@@ -403,7 +409,7 @@ void Dynamics2dWorld::SetSolid(int number, bool solid)
   Body& body = bodies_[Index(number)];
   if (body.solid == solid) return;
   body.solid = solid;
-  body.b2->SetEnabled(solid);
+  if (body.b2 != nullptr) body.b2->SetEnabled(solid);
 }
 
 bool Dynamics2dWorld::LeadsTo(int from, int to) const
@@ -416,6 +422,7 @@ bool Dynamics2dWorld::LeadsTo(int from, int to) const
 int Dynamics2dWorld::FindGrippable(int number) const
 {
   const Body& body = bodies_[Index(number)];
+  if (body.b2 == nullptr) return kNoBody;  // nobody is near
   const SinCos turret = SinCosOf(body.b2->GetAngle() + body.turret_angle);
   const b2Vec2 centre = body.b2->GetPosition();
   const double x = centre.x / kUnitsPerMetre + kGripperReach * turret.cos;
@@ -438,7 +445,7 @@ int Dynamics2dWorld::FindGrippable(int number) const
     const double dx = x - other.b2->GetPosition().x / kUnitsPerMetre;
     const double dy = y - other.b2->GetPosition().y / kUnitsPerMetre;
     const Vector2 point(heading.cos * dx + heading.sin * dy, heading.cos * dy - heading.sin * dx);
-    const double distance = DistanceTo(other.model, point);
+    const double distance = OutlineDistance(other.model, point);
     if (distance > best_distance || (distance == best_distance && best != kNoBody)) continue;
     best = candidate;
     best_distance = distance;
@@ -449,6 +456,8 @@ int Dynamics2dWorld::FindGrippable(int number) const
 void Dynamics2dWorld::Grip(int number, int target)
 {
   Body& body = bodies_[Index(number)];
+  EndIsolation(number);
+  EndIsolation(target);
   const b2Body* other = bodies_[Index(target)].b2;
   body.grip.anchor = other->GetLocalPoint(body.b2->GetPosition());
   const double difference = static_cast<double>(other->GetAngle()) - body.b2->GetAngle();

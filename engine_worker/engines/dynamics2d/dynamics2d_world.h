@@ -1,6 +1,6 @@
 // Dynamics2dWorld: rigid bodies on a plane, solved by Box2D. Metres, kilograms, newtons and radians outside; inside one
-// unit is a decimetre, so that Box2D's tolerances, made for things of a metre, fit robots. Used by CDynamics2dEngine
-// alone.
+// unit is a decimetre, so that Box2D's tolerances, made for things of a metre, fit robots. Bodies that can meet nobody
+// within a tick are not in Box2D: their motion is that of its solver without contacts. Used by CDynamics2dEngine alone.
 #pragma once
 
 #include <box2d/box2d.h>
@@ -11,6 +11,7 @@
 
 #include "common/builtins/robot_parts.h"
 #include "common/serialisation/bytes.h"
+#include "engine_worker/engines/dynamics2d/isolation.h"
 #include "engine_worker/engines/plane_frame.h"
 
 namespace swarmanoid::dynamics2d
@@ -77,6 +78,7 @@ struct TurretLoad
 inline constexpr double kGripperSide = GripperSquare::kSide;
 inline constexpr double kGripperReach = GripperSquare::kReach;
 inline constexpr int kNoBody = -1;
+inline constexpr double kUnitsPerMetre = 10;  // of lengths inside
 
 class Dynamics2dWorld
 {
@@ -88,8 +90,13 @@ public:
   int AddBody(BodyModel model, const PlanePose& pose);
   void Build();
 
-  // Advances by `seconds`.
+  // A tick of so many seconds begins, in which bodies may be placed, driven and gripped no more: decides who is
+  // isolated.
+  void BeginTick(double seconds);
+  // Advances by `seconds`, a part of the tick.
   void Step(double seconds);
+  // How many bodies are isolated in this tick.
+  std::size_t IsolatedCount() const { return isolated_.size(); }
 
   PlanePose PoseOf(int body) const;
   PlaneVelocity VelocityOf(int body) const;
@@ -148,7 +155,7 @@ private:
   struct Body
   {
     BodyModel model;
-    BodyState start{};
+    BodyState start{};  // while it is not in Box2D
     // What Box2D's position lacks, decimetres: single precision would add to or take from the way of each step.
     double remainder_x = 0;
     double remainder_y = 0;
@@ -158,6 +165,7 @@ private:
     double turret_angle = 0;           // while nothing is gripped; otherwise the joint's
     std::optional<double> held_angle;  // that the motor of a gripping turret returns to
     int gripped = kNoBody;
+    bool is_gripped = false;  // when the tick began
     GripState grip{};
     b2Body* b2 = nullptr;
     b2Fixture* gripper = nullptr;
@@ -165,16 +173,41 @@ private:
     b2Joint* joint = nullptr;  // to the gripped body
   };
 
+  // How far a body is to get in a tick, and where it began.
+  struct Way
+  {
+    double x, y, angle;  // decimetres, radians
+    double most;         // decimetres
+  };
+
   static std::size_t Index(int body) { return static_cast<std::size_t>(body); }
-  BodyState StateOf(const Body& body) const;
+  static BodyState StateOf(const Body& body);
   void BuildBody(Body& body);
+  void ConfigureIsolation();
+  bool CanBeIsolated(const Body& body) const;
+  void Isolate(Body& body);
+  static void LeaveOut(Body& body);
+  static void Outline(const Body& body, double seconds, MovingOutline& outline);
+  static Way WayFrom(const Body& body, double metres);
+  void EndIsolation(int number);
+  void MarkGripped();
+  void AdvanceIsolated(Body& body, double seconds) const;
+  // Whether somebody was pushed farther than anybody thought when the tick began, or is about to be.
+  bool IsSomebodyTooFar(double seconds) const;
   b2FixtureDef FixtureOf(const Body& body) const;
   static b2PolygonShape ShapeOf(const std::vector<Vector2>& outline);
   void BuildGrip(Body& body);
   void TurnGripper(Body& body);
   void CountTurns(Body& body);
   void ApplyDrive(Body& body, double seconds);
-  void ShareFriction(Body& body) const;
+  PlaneVelocity WantedVelocity(const Body& body, double seconds) const;
+  // Parts (0 to 1) of the friction with the ground that resist sliding and turning.
+  struct FrictionShares
+  {
+    double sliding;
+    double turning;
+  };
+  static FrictionShares SharesOf(const BodyModel& model, const BodyState& state);
   void ApplyTurret(Body& body, double seconds);
   void KeepRemainder(Body& body, const b2Vec2& before, double seconds) const;
   static void SetPosition(Body& body, double x, double y, float angle);
@@ -187,6 +220,16 @@ private:
   b2Body* ground_ = nullptr;       // without shape: ground joints hold on to it
   std::vector<b2Vec2> positions_;  // before a step
   double last_step_ = 0;           // seconds
+
+  Isolation isolation_;
+  bool isolation_is_configured_ = false;
+  double tick_ = 0;                      // seconds
+  std::vector<std::uint32_t> moving_;    // bodies that are not static, ascending: those that isolation_ knows
+  std::vector<MovingOutline> outlines_;  // of them
+  std::vector<Nearness> nearness_;       // of them
+  std::vector<std::uint32_t> isolated_;  // bodies, ascending
+  std::vector<std::uint32_t> solved_;    // dynamic ones that are in Box2D, ascending
+  std::vector<Way> ways_;                // of those
 };
 
 }  // namespace swarmanoid::dynamics2d

@@ -10,7 +10,7 @@
 namespace swarmanoid::dynamics2d
 {
 
-Dynamics2dWorld::BodyState Dynamics2dWorld::StateOf(const Body& body) const
+Dynamics2dWorld::BodyState Dynamics2dWorld::StateOf(const Body& body)
 {
   if (body.b2 == nullptr) return body.start;
   const b2Body& b2 = *body.b2;

@@ -77,6 +77,17 @@ TEST(WorkerPlaces, RefuseWhatIsNotThere)
   EXPECT_THROW(WorkerPlaces({}, {"engine"}), std::invalid_argument);
 }
 
+// The machine of a worker offers itself anew after all processes have started again.
+TEST(WorkerPlaces, WorkersOfMachinesThatAreNotHeardAreNamed)
+{
+  WorkerPlaces places({"here"}, {"space server=here", "controller host 0=beta", "engine 'ground'=here"});
+  EXPECT_EQ(places.Text(), "here: engine 'ground', space server; beta (not offered now): controller host 0");
+  EXPECT_THAT(MovesOf(places, "drain", "beta"), AllOf(HasSubstr("not offered now"), HasSubstr("in a moment")));
+  EXPECT_TRUE(places.Offer("beta", "host:1"));
+  EXPECT_EQ(places.Text(), "here: engine 'ground', space server; beta (offered by host:1): controller host 0");
+  EXPECT_EQ(MovesOf(places, "drain", "beta"), "controller host 0 > here; ");
+}
+
 std::string HostsAfter(const WorkerPlaces& places, double more)
 {
   ControlRequestMessage request = Request("hosts", "");
@@ -112,10 +123,11 @@ TEST(WorkerPlaces, OfferedMachinesAreUsedUntilTheyGo)
   const auto moves = places.Withdraw("gamma", "host:1");
   ASSERT_EQ(moves.size(), 1U);
   EXPECT_EQ(moves[0].worker + " > " + moves[0].machine, "controller host 1 > beta");
-  EXPECT_THAT(places.Text(), Not(HasSubstr("gamma")));
   EXPECT_EQ(HostsAfter(places, 1), "alpha gamma here ");
   // Asked again of a space server that knows nothing of the offer.
   EXPECT_EQ(places.Withdraw("gamma", "host:1").size(), 1U);
+  places.Put(moves[0]);
+  EXPECT_THAT(places.Text(), Not(HasSubstr("gamma")));
 }
 
 TEST(OfferedMachineName, IsAPlainWord)
