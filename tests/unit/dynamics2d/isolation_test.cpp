@@ -140,6 +140,7 @@ public:
       add(world);
       const auto far_away = world.AddPrey(-80, 80, 1);
       world.AddCommands("footbot_wheels", 2);
+      world.AddCommands("footbot_turret", 1);
       world.AddSensors("footbot_encoders", 2);
       world.AddSensors("footbot_accelerometer", 3);
       world.Start();
@@ -159,7 +160,7 @@ private:
   std::function<void()> keep_fast_;
 };
 
-TEST(Dynamics2d, AnIsolatedRobotMovesAsTheSolverWouldMoveIt)
+TEST(Dynamics2d, AnIsolatedRobotAndItsTurretMoveAsTheSolverWouldMoveThem)
 {
   std::uint32_t robot = 0;
   Pair worlds([&](Dynamics2dTestWorld& world) { robot = world.AddFootbot(2, 2, 0.4); });
@@ -171,13 +172,18 @@ TEST(Dynamics2d, AnIsolatedRobotMovesAsTheSolverWouldMoveIt)
     {
       const double left = random.Uniform(-0.8, 0.8);
       const double right = random.Uniform(-0.8, 0.8);
-      for (Dynamics2dTestWorld* world : {&worlds.isolated, &worlds.solved}) world->Drive(robot, left, right);
+      for (Dynamics2dTestWorld* world : {&worlds.isolated, &worlds.solved})
+      {
+        world->Drive(robot, left, right);
+        world->Command("footbot_turret", robot, {left});
+      }
     }
     worlds.Tick();
     ASSERT_NE(worlds.isolated.engine->StatusText().find(", 2 of 2 bodies isolated"), std::string::npos);
     ASSERT_NE(worlds.solved.engine->StatusText().find(", 0 of 2 bodies isolated"), std::string::npos);
     EXPECT_LT((worlds.isolated.Position(robot) - worlds.solved.Position(robot)).norm(), 2e-5) << tick;
     EXPECT_NEAR(WrapAngle(worlds.isolated.Yaw(robot) - worlds.solved.Yaw(robot)), 0, 2e-5) << tick;
+    EXPECT_EQ(worlds.isolated.Attribute(robot, "turret_angle"), worlds.solved.Attribute(robot, "turret_angle")) << tick;
     for (int i = 0; i < 2; ++i)
       EXPECT_NEAR(worlds.isolated.Sensor("footbot_encoders", robot, i),
                   worlds.solved.Sensor("footbot_encoders", robot, i), 1e-6);
