@@ -11,45 +11,15 @@ namespace swarmanoid::dynamics2d
 namespace
 {
 
-constexpr double kForceUnits = kUnitsPerMetre;                    // per newton
-constexpr double kTorqueUnits = kUnitsPerMetre * kUnitsPerMetre;  // per newton metre
 // The part of a ground joint's position error that becomes velocity. Drives are expressed through it; a small value
 // puts the target far ahead, where the rounding of large coordinates does not matter.
 constexpr float kDriveGain = 0.001F;
 // A remainder beyond this goes to Box2D's position.
 constexpr double kLargestRemainder = 1e-4;  // decimetres
-constexpr double kHoldGain = 0.2;           // part of the error of a held turret that is corrected in a step
-constexpr double kHoldSpeed = 1.0;          // rad/s, at most
 constexpr double kSlip = 1e-3;              // m/s: slower than this a body on the ground is taken to stand
-constexpr double kOverload = 0.999;         // of the motor's torque: the turret slips
-
-b2Vec2 ToUnits(double x, double y)
-{
-  return {static_cast<float>(x * kUnitsPerMetre), static_cast<float>(y * kUnitsPerMetre)};
-}
 
 // Not inlined: GCC 12 takes a number that becomes float and double again for unchanged if it vectorises two of them.
 [[gnu::noinline]] double BeyondSinglePrecision(double x) { return x - static_cast<float>(x); }
-
-// Distance of a point from the outline of a model, in the model's frame; negative inside.
-double OutlineDistance(const BodyModel& model, const Vector2& point)
-{
-  if (model.radius > 0) return std::sqrt(point.squaredNorm()) - model.radius;
-  return DistanceTo(std::span(model.polygon), point);
-}
-
-int BodyOf(b2Fixture& fixture) { return static_cast<int>(fixture.GetUserData().pointer); }
-
-class NearbyBodies : public b2QueryCallback
-{
-public:
-  bool ReportFixture(b2Fixture* fixture) override
-  {
-    bodies.push_back(BodyOf(*fixture));
-    return true;
-  }
-  std::vector<int> bodies;
-};
 
 }  // namespace
 
@@ -149,7 +119,6 @@ void Dynamics2dWorld::BuildBody(Body& body)
   body.ground = static_cast<b2MotorJoint*>(world_->CreateJoint(&joint));
 }
 
-// A revolute joint about the axis of the turret if a motor turns it, a rigid one if none does.
 b2FixtureDef Dynamics2dWorld::FixtureOf(const Body& body) const
 {
   b2FixtureDef fixture;
@@ -167,29 +136,6 @@ b2PolygonShape Dynamics2dWorld::ShapeOf(const std::vector<Vector2>& outline)
   b2PolygonShape polygon;
   polygon.Set(points.data(), static_cast<int32>(outline.size()));
   return polygon;
-}
-
-void Dynamics2dWorld::BuildGrip(Body& body)
-{
-  b2Body* target = bodies_[Index(body.gripped)].b2;
-  if (body.model.has_turret_motor)
-  {
-    b2RevoluteJointDef joint;
-    joint.bodyA = body.b2;
-    joint.bodyB = target;
-    joint.localAnchorB = body.grip.anchor;
-    joint.referenceAngle = body.grip.reference_angle;
-    joint.enableMotor = true;
-    joint.maxMotorTorque = static_cast<float>(settings_.turret_torque * kTorqueUnits);
-    body.joint = world_->CreateJoint(&joint);
-    return;
-  }
-  b2WeldJointDef joint;
-  joint.bodyA = body.b2;
-  joint.bodyB = target;
-  joint.localAnchorB = body.grip.anchor;
-  joint.referenceAngle = body.grip.reference_angle;
-  body.joint = world_->CreateJoint(&joint);
 }
 
 void Dynamics2dWorld::Step(double seconds)
@@ -284,62 +230,6 @@ Dynamics2dWorld::FrictionShares Dynamics2dWorld::SharesOf(const BodyModel& model
   return {std::sqrt(x * x + y * y) / slip, std::abs(turn) / slip};
 }
 
-void Dynamics2dWorld::ApplyTurret(Body& body, double seconds)
-{
-  if (body.gripped == kNoBody)
-  {
-    if (body.turret_speed == 0) return;
-    body.turret_angle = WrapAngle(body.turret_angle + body.turret_speed * seconds);
-    TurnGripper(body);
-    return;
-  }
-  if (!body.model.has_turret_motor) return;
-  auto* joint = static_cast<b2RevoluteJoint*>(body.joint);
-  const double angle = joint->GetJointAngle();
-  if (body.turret_speed != 0)
-  {
-    body.held_angle.reset();
-    joint->SetMotorSpeed(static_cast<float>(body.turret_speed));
-  }
-  else
-  {
-    const bool slips = last_step_ > 0 && std::abs(joint->GetMotorTorque(static_cast<float>(1 / last_step_))) >=
-                                             kOverload * settings_.turret_torque * kTorqueUnits;
-    if (!body.held_angle || slips) body.held_angle = angle;
-    const double speed = kHoldGain * WrapAngle(*body.held_angle - angle) / seconds;
-    joint->SetMotorSpeed(static_cast<float>(std::clamp(speed, -kHoldSpeed, kHoldSpeed)));
-  }
-  TurnGripper(body);
-}
-
-void Dynamics2dWorld::TurnGripper(Body& body)
-{
-  if (body.gripper == nullptr) return;  // what grips otherwise: a handbot
-  const SinCos turret = SinCosOf(TurretAngleOf(static_cast<int>(&body - bodies_.data())));
-  const auto point = [&](double forward, double left)
-  { return ToUnits(turret.cos * forward - turret.sin * left, turret.sin * forward + turret.cos * left); };
-  constexpr double kBack = kGripperReach - kGripperSide;
-  constexpr double kHalf = kGripperSide / 2;
-  const std::array<b2Vec2, 4> points{point(kGripperReach, -kHalf), point(kGripperReach, kHalf), point(kBack, kHalf),
-                                     point(kBack, -kHalf)};
-  static_cast<b2PolygonShape*>(body.gripper->GetShape())->Set(points.data(), 4);
-}
-
-void Dynamics2dWorld::SetTurretAngle(int number, double radians)
-{
-  Body& body = bodies_[Index(number)];
-  if (body.turret_angle == radians) return;
-  body.turret_angle = radians;
-  TurnGripper(body);
-}
-
-double Dynamics2dWorld::TurretAngleOf(int number) const
-{
-  const Body& body = bodies_[Index(number)];
-  if (!body.model.has_turret_motor || body.joint == nullptr) return body.turret_angle;
-  return WrapAngle(static_cast<b2RevoluteJoint*>(body.joint)->GetJointAngle());
-}
-
 PlanePose Dynamics2dWorld::PoseOf(int number) const
 {
   const Body& body = bodies_[Index(number)];
@@ -359,17 +249,6 @@ void Dynamics2dWorld::Place(int number, const PlanePose& pose)
               static_cast<float>(pose.heading));
   for (Body& body : bodies_)
     if (body.gripped == number || (body.gripped != kNoBody && &body == &bodies_[Index(number)])) CountTurns(body);
-}
-
-// Headings come without whole turns: those that its bodies had made are taken from the angle of a grip.
-void Dynamics2dWorld::CountTurns(Body& body)
-{
-  const double angle = static_cast<double>(bodies_[Index(body.gripped)].b2->GetAngle()) - body.b2->GetAngle() -
-                       body.grip.reference_angle;
-  if (std::abs(angle) <= kPi) return;
-  body.grip.reference_angle = static_cast<float>(body.grip.reference_angle + angle - WrapAngle(angle));
-  world_->DestroyJoint(body.joint);
-  BuildGrip(body);
 }
 
 void Dynamics2dWorld::SetVelocity(int number, const PlaneVelocity& velocity)
@@ -412,86 +291,6 @@ void Dynamics2dWorld::SetSolid(int number, bool solid)
   if (body.b2 != nullptr) body.b2->SetEnabled(solid);
 }
 
-bool Dynamics2dWorld::LeadsTo(int from, int to) const
-{
-  for (int body = from; body != kNoBody; body = bodies_[Index(body)].gripped)
-    if (body == to) return true;
-  return false;
-}
-
-int Dynamics2dWorld::FindGrippable(int number) const
-{
-  const Body& body = bodies_[Index(number)];
-  if (body.b2 == nullptr) return kNoBody;  // nobody is near
-  const SinCos turret = SinCosOf(body.b2->GetAngle() + body.turret_angle);
-  const b2Vec2 centre = body.b2->GetPosition();
-  const double x = centre.x / kUnitsPerMetre + kGripperReach * turret.cos;
-  const double y = centre.y / kUnitsPerMetre + kGripperReach * turret.sin;
-
-  NearbyBodies nearby;
-  b2AABB box;
-  box.lowerBound = ToUnits(x - 2 * settings_.grip_distance, y - 2 * settings_.grip_distance);
-  box.upperBound = ToUnits(x + 2 * settings_.grip_distance, y + 2 * settings_.grip_distance);
-  world_->QueryAABB(&nearby, box);
-
-  int best = kNoBody;
-  double best_distance = settings_.grip_distance;
-  std::sort(nearby.bodies.begin(), nearby.bodies.end());
-  for (const int candidate : nearby.bodies)
-  {
-    const Body& other = bodies_[Index(candidate)];
-    if (!other.model.grippable || LeadsTo(candidate, number)) continue;
-    const SinCos heading = SinCosOf(other.b2->GetAngle());
-    const double dx = x - other.b2->GetPosition().x / kUnitsPerMetre;
-    const double dy = y - other.b2->GetPosition().y / kUnitsPerMetre;
-    const Vector2 point(heading.cos * dx + heading.sin * dy, heading.cos * dy - heading.sin * dx);
-    const double distance = OutlineDistance(other.model, point);
-    if (distance > best_distance || (distance == best_distance && best != kNoBody)) continue;
-    best = candidate;
-    best_distance = distance;
-  }
-  return best;
-}
-
-void Dynamics2dWorld::Grip(int number, int target)
-{
-  Body& body = bodies_[Index(number)];
-  EndIsolation(number);
-  EndIsolation(target);
-  const b2Body* other = bodies_[Index(target)].b2;
-  body.grip.anchor = other->GetLocalPoint(body.b2->GetPosition());
-  const double difference = static_cast<double>(other->GetAngle()) - body.b2->GetAngle();
-  body.grip.reference_angle =
-      static_cast<float>(body.model.has_turret_motor ? difference - body.turret_angle : difference);
-  body.gripped = target;
-  body.held_angle.reset();
-  BuildGrip(body);
-}
-
-void Dynamics2dWorld::Release(int number)
-{
-  Body& body = bodies_[Index(number)];
-  if (body.gripped == kNoBody) return;
-  body.turret_angle = TurretAngleOf(number);
-  world_->DestroyJoint(body.joint);
-  body.joint = nullptr;
-  body.gripped = kNoBody;
-  body.held_angle.reset();
-  TurnGripper(body);
-}
-
-TurretLoad Dynamics2dWorld::LoadOf(int number) const
-{
-  const Body& body = bodies_[Index(number)];
-  if (body.joint == nullptr || last_step_ <= 0) return {};
-  const auto rate = static_cast<float>(1 / last_step_);
-  const b2Vec2 force = body.joint->GetReactionForce(rate);  // on the gripped body
-  const SinCos turret = SinCosOf(body.b2->GetAngle() + TurretAngleOf(number));
-  return {-(turret.cos * force.x + turret.sin * force.y) / kForceUnits,
-          -(turret.cos * force.y - turret.sin * force.x) / kForceUnits,
-          -body.joint->GetReactionTorque(rate) / kTorqueUnits};
-}
-
 int Dynamics2dWorld::ContactCount() const
 {
   int count = 0;
@@ -499,11 +298,4 @@ int Dynamics2dWorld::ContactCount() const
     count += contact->IsTouching() ? 1 : 0;
   return count;
 }
-
-int Dynamics2dWorld::GripCount() const
-{
-  return static_cast<int>(
-      std::count_if(bodies_.begin(), bodies_.end(), [](const Body& body) { return body.gripped != kNoBody; }));
-}
-
 }  // namespace swarmanoid::dynamics2d

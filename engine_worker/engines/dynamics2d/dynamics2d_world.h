@@ -78,7 +78,14 @@ struct TurretLoad
 inline constexpr double kGripperSide = GripperSquare::kSide;
 inline constexpr double kGripperReach = GripperSquare::kReach;
 inline constexpr int kNoBody = -1;
-inline constexpr double kUnitsPerMetre = 10;  // of lengths inside
+// Inside.
+inline constexpr double kUnitsPerMetre = 10;
+inline constexpr double kForceUnits = kUnitsPerMetre;                    // per newton
+inline constexpr double kTorqueUnits = kUnitsPerMetre * kUnitsPerMetre;  // per newton metre
+inline b2Vec2 ToUnits(double x, double y)
+{
+  return {static_cast<float>(x * kUnitsPerMetre), static_cast<float>(y * kUnitsPerMetre)};
+}
 
 class Dynamics2dWorld
 {
