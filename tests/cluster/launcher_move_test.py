@@ -199,6 +199,9 @@ class Moves(LauncherTest):
                          "--controller-hosts", "auto", "--placement", "spread")
         said = run.read_until("controller hosts: ")
         self.wait_for_experiment("diffusion_10")
+        # All processes may just start again, at tick 0.
+        self.control("pause")
+        self.control("step", 20)
         self.control("stop")
         self.assert_undisturbed(run, said)
         for options in (["--no-recovery"], ["--no-journal"], ["--single-process"]):
