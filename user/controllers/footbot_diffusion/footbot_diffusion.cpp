@@ -1,8 +1,33 @@
 #include "footbot_diffusion.h"
 
+#include <array>
+
 #include "common/math/elementary.h"
 
 using namespace swarmanoid;
+
+namespace
+{
+
+// Unit vectors of the sensors in the frame of the robot: one table for all robots, which so fits the cache.
+struct Directions
+{
+  std::array<double, CCI_FootBotProximitySensor::NUM_SENSORS> cosines{};
+  std::array<double, CCI_FootBotProximitySensor::NUM_SENSORS> sines{};
+
+  Directions()
+  {
+    for (unsigned i = 0; i < CCI_FootBotProximitySensor::NUM_SENSORS; ++i)
+    {
+      const SinCos direction = SinCosOf(CCI_FootBotProximitySensor::AngleOf(i));
+      cosines[i] = direction.cos;
+      sines[i] = direction.sin;
+    }
+  }
+};
+const Directions kDirections;
+
+}  // namespace
 
 int CFootBotDiffusion::Init(const TConfigurationTree t_tree)
 {
@@ -12,12 +37,6 @@ int CFootBotDiffusion::Init(const TConfigurationTree t_tree)
   delta_ = t_tree.GetNumber("delta");
   const SinCos alpha = SinCosOf(DegreesToRadians(t_tree.GetNumber("alpha")));
   tan_alpha_ = alpha.sin / alpha.cos;
-  for (unsigned i = 0; i < CCI_FootBotProximitySensor::NUM_SENSORS; ++i)
-  {
-    const SinCos direction = SinCosOf(CCI_FootBotProximitySensor::AngleOf(i));
-    cosines_[i] = direction.cos;
-    sines_[i] = direction.sin;
-  }
   return RETURN_OK;
 }
 
@@ -31,8 +50,8 @@ void CFootBotDiffusion::ControlStep()
   for (unsigned i = 0; i < CCI_FootBotProximitySensor::NUM_SENSORS; i += kLanes)
     for (unsigned lane = 0; lane < kLanes; ++lane)
     {
-      xs[lane] += readings[i + lane] * cosines_[i + lane];
-      ys[lane] += readings[i + lane] * sines_[i + lane];
+      xs[lane] += readings[i + lane] * kDirections.cosines[i + lane];
+      ys[lane] += readings[i + lane] * kDirections.sines[i + lane];
     }
   const double x = ((xs[0] + xs[1]) + (xs[2] + xs[3])) / CCI_FootBotProximitySensor::NUM_SENSORS;
   const double y = ((ys[0] + ys[1]) + (ys[2] + ys[3])) / CCI_FootBotProximitySensor::NUM_SENSORS;

@@ -5,8 +5,6 @@
 // robot go on; otherwise it turns away from the sum with one wheel standing.
 #pragma once
 
-#include <array>
-
 #include "ci_controller.h"
 #include "footbot/ci_footbot_proximity_sensor.h"
 #include "footbot/ci_footbot_wheels_actuator.h"
@@ -26,7 +24,4 @@ private:
   double velocity_m_s_ = 0;
   double tan_alpha_ = 0;
   double delta_ = 0;
-  // Unit vectors of the sensors in the frame of the robot.
-  std::array<double, CCI_FootBotProximitySensor::NUM_SENSORS> cosines_{};
-  std::array<double, CCI_FootBotProximitySensor::NUM_SENSORS> sines_{};
 };
