@@ -47,11 +47,19 @@ void DiscField::Cells::Reserve(std::size_t cells, std::size_t places)
   entity.assign(stride * cells, 0);
 }
 
-void DiscField::Sort(const NearBodies& discs, float eye, float lowest, float highest)
+void DiscField::Sort(const NearBodies& discs, float eye, float lowest, float highest, float reach, bool at_themselves)
 {
   Classify(discs, eye, lowest, highest);
-  few_ = discs.count <= kFew ? &discs : nullptr;
-  if (few_ != nullptr) return CutIntoStrips(discs, eye, lowest, highest);
+  at_themselves_ = at_themselves;
+  is_crowd_ = discs.count > kFew && at_themselves && heights_ == Heights::kSpanning && all_count_;
+  by_bytes_ = discs.count <= kFew || is_crowd_;
+  if (by_bytes_)
+  {
+    discs_ = &discs;
+    steps_per_m_ = kFarthestByte / std::max(reach, 0.01F);
+    bytes_.Read(discs, steps_per_m_, is_crowd_);
+    return Measure(eye, lowest, highest);
+  }
   SortByQuadrants(discs, eye, lowest, highest);
   cells_.Reserve(kQuadrants * kSectors,
                  *std::max_element(quadrants_.filled.begin(), quadrants_.filled.begin() + kQuadrants));
@@ -96,28 +104,24 @@ void DiscField::Classify(const NearBodies& discs, float eye, float lowest, float
     heights_ = Heights::kMixed;
 }
 
-void DiscField::CutIntoStrips(const NearBodies& discs, float eye, float lowest, float highest)
+// Squares of the radii, less than 0 of those that hide nothing, and heights.
+void DiscField::Measure(float eye, float lowest, float highest)
 {
-  strips_ = (discs.count + kStrip - 1) / kStrip;
+  const NearBodies& discs = *discs_;
+  if (square_.size() < discs.count + kLanes)
+    for (std::vector<float>* values : {&square_, &disc_low_, &disc_high_}) values->resize(2 * discs.count + kLanes);
   for (std::size_t i = 0; i < discs.count; i += kLanes)
   {
-    IntLanes counts = FirstLanes(discs.count - i);
-    if (!all_count_)
-      counts &= (LoadLanes(&discs.low[i]) - eye <= highest) & (LoadLanes(&discs.high[i]) - eye >= lowest);
-    const FloatLanes y = LoadLanes(&discs.y[i]);
     const FloatLanes radius = LoadLanes(&discs.radius[i]);
-    const FloatLanes reach = radius * 1.0001F + 1e-4F;  // covers the rounding of the test
-    const FloatLanes back = LowestOfFour(counts ? y - reach : Everywhere(kInfinity));
-    const FloatLanes front = HighestOfFour(counts ? y + reach : Everywhere(-kInfinity));
-    for (int strip = 0; strip < kLanes / 4; ++strip)
-    {
-      strip_back_[i / kStrip + static_cast<std::size_t>(strip)] = back[strip * 4];
-      strip_front_[i / kStrip + static_cast<std::size_t>(strip)] = front[strip * 4];
-    }
-    StoreLanes(counts ? radius * radius : Everywhere(-1.0F), &square_[i]);
+    FloatLanes square = radius * radius;
+    if (!all_count_)
+      square = (LoadLanes(&discs.low[i]) - eye <= highest) & (LoadLanes(&discs.high[i]) - eye >= lowest)
+                   ? square
+                   : Everywhere(-1.0F);
+    StoreLanes(square, &square_[i]);
     if (heights_ != Heights::kMixed) continue;
-    StoreLanes(LoadLanes(&discs.low[i]) - eye, &few_low_[i]);
-    StoreLanes(LoadLanes(&discs.high[i]) - eye, &few_high_[i]);
+    StoreLanes(LoadLanes(&discs.low[i]) - eye, &disc_low_[i]);
+    StoreLanes(LoadLanes(&discs.high[i]) - eye, &disc_high_[i]);
   }
 }
 
@@ -257,61 +261,146 @@ inline IntLanes Meets(FloatLanes circle_x, FloatLanes circle_y, FloatLanes squar
 
 }  // namespace
 
+namespace
+{
+
+// Of the masks of two cylinders all bits but those of their own places; from the middle on, by half the first place
+// from that of the first line on.
+constexpr std::size_t kOwnMiddle = 32;
+constexpr auto kNotOwn = []
+{
+  std::array<std::uint64_t, 2 * kOwnMiddle> masks{};
+  masks.fill(~std::uint64_t{0});
+  for (std::size_t i = 0; i < kByteLanes / 2; ++i)
+    masks[kOwnMiddle + i] = ~((std::uint64_t{1} | std::uint64_t{2} << kByteLanes) << 2 * i);
+  return masks;
+}();
+
+}  // namespace
+
 // The line from the eye to a point is as high as a cylinder from one place of it to another; the cylinder hides the
 // point where what is nearest between these places is within its circle.
-template <bool kMixedHeights, bool kOwnHit>
-void DiscField::LookAtFew(const SightPoints& points, SeenPoints& seen) const
+template <bool kMixedHeights, DiscField::Owners kOwners>
+void DiscField::TestPairs(const std::int32_t* owners)
 {
-  const float* const disc_x = few_->x.data();
-  const float* const disc_y = few_->y.data();
-  const std::int32_t* const entity = few_->entity.data();
-  for (std::size_t group = 0; group < points.count; group += kLanes)
+  Chunk& chunk = chunk_;
+  StoreLanes(IntLanes{}, &chunk.pairs[chunk.count]);
+  for (std::size_t pair = 0; pair < chunk.count; pair += kLanes)
   {
-    const Lines lines = LinesTo(points, group);
-    const IntLanes are_there = FirstLanes(points.count - group);
-    const IntLanes owner = LoadLanes(&points.owner[group]);
-
-    // The strips that any of the lines reaches at the heights of the cylinders.
-    const FloatLanes y = are_there ? LoadLanes(&points.y[group]) : Everywhere(points.y[group]);
-    const FloatLanes one_end = lines.from * y;
-    const FloatLanes other_end = lines.to * y;
-    const float back = Lowest(Minimum(one_end, other_end));
-    const float front = Highest(Maximum(one_end, other_end));
-    unsigned strips = 0;
-    for (std::size_t strip = 0; strip < strips_; strip += kLanes)
-      strips |= LaneMask((LoadLanes(&strip_back_[strip]) <= front) & (LoadLanes(&strip_front_[strip]) >= back))
-                << strip;
-    strips &= (1U << strips_) - 1U;
-    // Those between the first and the last one too: they are few, and branches cost more.
-    const std::size_t begin = kStrip * static_cast<std::size_t>(std::countr_zero(strips | 1U << strips_));
-    const std::size_t end = kStrip * static_cast<std::size_t>(std::bit_width(strips));
-
-    const FloatLanes slope = lines.inverse * lines.length;
-    IntLanes hits{};
-    for (std::size_t strip = begin; strip < end; strip += kStrip)
-      for (std::size_t i = strip; i < strip + kStrip; ++i)
-      {
-        FloatLanes first = lines.first;
-        FloatLanes last = lines.last;
-        if constexpr (kMixedHeights)
-        {
-          const FloatLanes a = few_low_[i] * slope;
-          const FloatLanes b = few_high_[i] * slope;
-          first = Maximum(Minimum(a, b), FloatLanes{});
-          last = Minimum(Maximum(a, b), lines.length);
-        }
-        IntLanes meets =
-            Meets(Everywhere(disc_x[i]), Everywhere(disc_y[i]), Everywhere(square_[i]), lines.x, lines.y, first, last);
-        if constexpr (kMixedHeights) meets &= first <= last;
-        if constexpr (kOwnHit)
-          hits += meets;
-        else
-          hits |= ~(owner == entity[i]) & meets;
-      }
-    if constexpr (!kMixedHeights) hits &= lines.first <= lines.last;
-    const IntLanes hidden = kOwnHit ? hits < -1 : hits;
-    seen.SetGroup(group, LaneMask(are_there & ~hidden));
+    const IntLanes both = LoadLanes(&chunk.pairs[pair]);
+    const IntLanes line = both & (kByteLanes - 1);
+    IntLanes disc = both >> std::countr_zero(unsigned{kByteLanes});
+    if constexpr (kOwners == Owners::kPlaces) disc = Gathered(before_.place.data(), disc);
+    FloatLanes first = Gathered(chunk.first.data(), line);
+    FloatLanes last = Gathered(chunk.last.data(), line);
+    if constexpr (kMixedHeights)
+    {
+      const FloatLanes slope = Gathered(chunk.slope.data(), line);
+      const FloatLanes a = Gathered(disc_low_.data(), disc) * slope;
+      const FloatLanes b = Gathered(disc_high_.data(), disc) * slope;
+      first = Maximum(Minimum(a, b), FloatLanes{});
+      last = Minimum(Maximum(a, b), Gathered(chunk.length.data(), line));
+    }
+    IntLanes meets =
+        Meets(Gathered(discs_->x.data(), disc), Gathered(discs_->y.data(), disc), Gathered(square_.data(), disc),
+              Gathered(chunk.x.data(), line), Gathered(chunk.y.data(), line), first, last) &
+        (first <= last) & FirstLanes(chunk.count - pair);
+    if constexpr (kOwners == Owners::kPlaces) meets &= Gathered(owners, line) != disc;
+    if constexpr (kOwners == Owners::kEntities)
+      meets &= Gathered(owners, line) != Gathered(discs_->entity.data(), disc);
+    chunk.hidden |= meets & (Everywhere(1) << line);
   }
+}
+
+template <bool kMixedHeights, DiscField::Owners kOwners, class Found>
+void DiscField::LookByBytes(const SightPoints& points, Found&& found)
+{
+  Chunk& chunk = chunk_;
+  const std::size_t discs = kOwners == Owners::kPlaces ? before_.count : discs_->count;
+  static_assert(std::endian::native == std::endian::little && kFew <= 2 * kOwnMiddle);
+  const auto* const bytes =
+      reinterpret_cast<const std::uint8_t*>(kOwners == Owners::kPlaces ? before_.meets.data() : bytes_.meets.data());
+  for (std::size_t begin = 0; begin < points.count; begin += kByteLanes)
+  {
+    const std::size_t count = std::min<std::size_t>(kByteLanes, points.count - begin);
+    for (std::size_t i = 0; i < count; i += kLanes)
+    {
+      const Lines lines = LinesTo(points, begin + i);
+      StoreLanes(lines.x, &chunk.x[i]);
+      StoreLanes(lines.y, &chunk.y[i]);
+      StoreLanes(lines.first, &chunk.first[i]);
+      StoreLanes(lines.last, &chunk.last[i]);
+      if constexpr (kMixedHeights)
+      {
+        StoreLanes(lines.inverse * lines.length, &chunk.slope[i]);
+        StoreLanes(lines.length, &chunk.length[i]);
+      }
+      StoreLowBytes(Truncated(TurnInBytes(lines.x, lines.y)), &chunk.turn[i]);
+      StoreLowBytes(Truncated(Minimum(lines.length * steps_per_m_, Everywhere(kFarthestByte))), &chunk.distance[i]);
+    }
+    const std::uint64_t are_there = ((std::uint64_t{1} << count) - 1) * ((std::uint64_t{1} << kByteLanes) + 1);
+    const ByteLanes turn = LoadLanes(chunk.turn.data());
+    const ByteLanes distance = LoadLanes(chunk.distance.data());
+    const std::int32_t* const owners = &points.owner[begin];
+    const std::uint64_t* const not_own = &kNotOwn[kOwnMiddle - (kOwners == Owners::kSamePlaces ? begin / 2 : 0)];
+    const auto meet = [&](const std::uint8_t* disc) -> std::uint64_t
+    { return ByteMask((turn - Everywhere(disc[0]) <= Everywhere(disc[1])) & (distance >= Everywhere(disc[2]))); };
+    chunk.hidden = IntLanes{};
+    for (std::size_t from = 0; from < discs; from += kBlock)
+    {
+      const std::size_t behind = std::min(from + kBlock, discs);
+      std::int32_t* pairs = chunk.pairs.data();
+      // Two at a time; what stands behind the last one meets nothing.
+      for (std::size_t disc = from; disc < behind; disc += 2)
+      {
+        const std::uint8_t* const one = bytes + disc * sizeof(std::int32_t);
+        std::uint64_t mask = (meet(one) | meet(one + sizeof(std::int32_t)) << kByteLanes) & are_there;
+        if constexpr (kOwners == Owners::kSamePlaces) mask &= not_own[disc / 2];
+        const auto place = static_cast<std::int32_t>(disc * kByteLanes);
+        // The first two without a branch that would be guessed wrong.
+        const auto those = static_cast<std::size_t>(std::popcount(mask));
+        constexpr std::uint64_t kSome = std::uint64_t{1} << 63;
+        pairs[0] = place + std::countr_zero(mask | kSome);
+        mask &= mask - 1;
+        pairs[1] = place + std::countr_zero(mask | kSome);
+        for (std::size_t k = 2; k < those; ++k)
+        {
+          mask &= mask - 1;
+          pairs[k] = place + std::countr_zero(mask);
+        }
+        pairs += those;
+      }
+      chunk.count = static_cast<std::size_t>(pairs - chunk.pairs.data());
+      TestPairs<kMixedHeights, kOwners>(owners);
+    }
+    std::uint32_t hidden = 0;
+    for (int lane = 0; lane < kLanes; ++lane) hidden |= static_cast<std::uint32_t>(chunk.hidden[lane]);
+    found(begin, static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1) & ~hidden);
+  }
+}
+
+void DiscField::ThinOut(const SightPoints& points)
+{
+  cover_.Lay(bytes_, points.count);
+  left_.count = before_.count = 0;
+  if (left_.x.size() < points.count + 2 * kLanes) left_.Reserve(2 * points.count + 2 * kLanes);
+  for (std::vector<std::int32_t>* values : {&before_.place, &before_.meets}) values->resize(left_.x.size());
+  for (std::size_t i = 0; i < points.count; i += kLanes)
+  {
+    const IntLanes are_there = FirstLanes(points.count - i);
+    const IntLanes places = static_cast<int>(i) + LaneNumbers();
+    const Selection left(LaneMask(are_there & ~cover_.HidesMiddles(LoadLanes(&bytes_.middles[i]))));
+    left.Store(LoadLanes(&points.x[i]), &left_.x[left_.count]);
+    left.Store(LoadLanes(&points.y[i]), &left_.y[left_.count]);
+    left.Store(places, &left_.owner[left_.count]);
+    left_.count += left.Count();
+    const IntLanes meets = LoadLanes(&bytes_.meets[i]);
+    const Selection before(LaneMask(are_there & ~cover_.HidesAll(meets)));
+    before.Store(places, &before_.place[before_.count]);
+    before.Store(meets, &before_.meets[before_.count]);
+    before_.count += before.Count();
+  }
+  before_.meets[before_.count] = kMeetsNothing;
 }
 
 template <bool kMixedHeights>
@@ -359,16 +448,29 @@ void DiscField::LookAtMany(const SightPoints& points, SeenPoints& seen) const
   }
 }
 
-void DiscField::Look(const SightPoints& points, bool are_origins, SeenPoints& seen) const
+void DiscField::Look(const SightPoints& points, SeenPoints& seen)
 {
   seen.Resize(points.count);
   const bool are_mixed = heights_ == Heights::kMixed;
-  if (few_ == nullptr) return are_mixed ? LookAtMany<true>(points, seen) : LookAtMany<false>(points, seen);
-  if (are_mixed) return LookAtFew<true, false>(points, seen);
-  constexpr float kThick = 0.01F;  // m, far beyond rounding
-  const bool has_own = are_origins && heights_ == Heights::kSpanning && all_count_ && few_->are_alike &&
-                       few_->count > 0 && few_->radius[0] > kThick;
-  return has_own ? LookAtFew<false, true>(points, seen) : LookAtFew<false, false>(points, seen);
+  if (!by_bytes_) return are_mixed ? LookAtMany<true>(points, seen) : LookAtMany<false>(points, seen);
+  const auto take = [&](std::size_t first, std::uint32_t those)
+  {
+    for (std::size_t i = first; i < std::min<std::size_t>(first + kByteLanes, points.count); i += kLanes)
+      seen.SetGroup(i, those >> (i - first) & ((1U << kLanes) - 1));
+  };
+  if (is_crowd_)
+  {
+    ThinOut(points);
+    seen.HideAll();
+    return LookByBytes<false, Owners::kPlaces>(
+        left_, [&](std::size_t first, std::uint32_t those)
+        { ForEachBit(those, [&](unsigned bit) { seen.Show(static_cast<std::size_t>(left_.owner[first + bit])); }); });
+  }
+  if (at_themselves_)
+    return are_mixed ? LookByBytes<true, Owners::kSamePlaces>(points, take)
+                     : LookByBytes<false, Owners::kSamePlaces>(points, take);
+  return are_mixed ? LookByBytes<true, Owners::kEntities>(points, take)
+                   : LookByBytes<false, Owners::kEntities>(points, take);
 }
 
 }  // namespace swarmanoid
