@@ -108,6 +108,9 @@ void DiscField::Classify(const NearBodies& discs, float eye, float lowest, float
 void DiscField::Measure(float eye, float lowest, float highest)
 {
   const NearBodies& discs = *discs_;
+  const bool are_equal = discs.are_alike && all_count_ && heights_ != Heights::kMixed;
+  if (are_equal && discs.count <= equal_count_ && square_[0] == discs.radius[0] * discs.radius[0]) return;
+  equal_count_ = are_equal ? discs.count : 0;
   if (square_.size() < discs.count + kLanes)
     for (std::vector<float>* values : {&square_, &disc_low_, &disc_high_}) values->resize(2 * discs.count + kLanes);
   for (std::size_t i = 0; i < discs.count; i += kLanes)

@@ -141,6 +141,7 @@ private:
   float steps_per_m_ = 0;
   DirectionBytes bytes_;
   std::vector<float> square_, disc_low_, disc_high_;
+  std::size_t equal_count_ = 0;  // so many squares are equal
   Chunk chunk_;
   DiscCover cover_;
   struct

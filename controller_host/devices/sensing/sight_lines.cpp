@@ -75,6 +75,8 @@ const SeenPoints& SightLines::Solve()
 
 void SightLines::FindHeights()
 {
+  lowest_ = highest_ = 0;
+  if (are_origins_ && world_.Grid().AllLevel()) return;
   FloatLanes lowest{}, highest{};
   for (std::size_t i = 0; i < points_.count; i += kLanes)
   {
