@@ -53,12 +53,14 @@ void DiscField::Sort(const NearBodies& discs, float eye, float lowest, float hig
   at_themselves_ = at_themselves;
   is_crowd_ = discs.count > kFew && at_themselves && heights_ == Heights::kSpanning && all_count_;
   by_bytes_ = discs.count <= kFew || is_crowd_;
+  are_handful_ = discs.count <= kHandful;
   if (by_bytes_)
   {
     discs_ = &discs;
+    Measure(eye, lowest, highest);
+    if (are_handful_) return;
     steps_per_m_ = kFarthestByte / std::max(reach, 0.01F);
-    bytes_.Read(discs, steps_per_m_, is_crowd_);
-    return Measure(eye, lowest, highest);
+    return bytes_.Read(discs, steps_per_m_, is_crowd_);
   }
   SortByQuadrants(discs, eye, lowest, highest);
   cells_.Reserve(kQuadrants * kSectors,
@@ -407,6 +409,36 @@ void DiscField::ThinOut(const SightPoints& points)
 }
 
 template <bool kMixedHeights>
+void DiscField::LookAtHandful(const SightPoints& points, SeenPoints& seen) const
+{
+  for (std::size_t group = 0; group < points.count; group += kLanes)
+  {
+    const Lines lines = LinesTo(points, group);
+    const IntLanes owner = LoadLanes(&points.owner[group]);
+    const FloatLanes slope = lines.inverse * lines.length;
+    IntLanes hits{};
+    for (std::size_t i = 0; i < discs_->count; ++i)
+    {
+      FloatLanes first = lines.first;
+      FloatLanes last = lines.last;
+      if constexpr (kMixedHeights)
+      {
+        const FloatLanes a = disc_low_[i] * slope;
+        const FloatLanes b = disc_high_[i] * slope;
+        first = Maximum(Minimum(a, b), FloatLanes{});
+        last = Minimum(Maximum(a, b), lines.length);
+      }
+      IntLanes meets = Meets(Everywhere(discs_->x[i]), Everywhere(discs_->y[i]), Everywhere(square_[i]), lines.x,
+                             lines.y, first, last);
+      if constexpr (kMixedHeights) meets &= first <= last;
+      hits |= ~(owner == discs_->entity[i]) & meets;
+    }
+    if constexpr (!kMixedHeights) hits &= lines.first <= lines.last;
+    seen.SetGroup(group, LaneMask(FirstLanes(points.count - group) & ~hits));
+  }
+}
+
+template <bool kMixedHeights>
 void DiscField::LookAtMany(const SightPoints& points, SeenPoints& seen) const
 {
   const Cells& cells = cells_;
@@ -456,6 +488,7 @@ void DiscField::Look(const SightPoints& points, SeenPoints& seen)
   seen.Resize(points.count);
   const bool are_mixed = heights_ == Heights::kMixed;
   if (!by_bytes_) return are_mixed ? LookAtMany<true>(points, seen) : LookAtMany<false>(points, seen);
+  if (are_handful_) return are_mixed ? LookAtHandful<true>(points, seen) : LookAtHandful<false>(points, seen);
   const auto take = [&](std::size_t first, std::uint32_t those)
   {
     for (std::size_t i = first; i < std::min<std::size_t>(first + kByteLanes, points.count); i += kLanes)

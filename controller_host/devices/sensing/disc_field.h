@@ -66,6 +66,7 @@ public:
 private:
   static constexpr std::size_t kQuadrants = 4;
   static constexpr std::size_t kSectors = 8;  // of a quadrant
+  static constexpr std::size_t kHandful = 8;  // up to this all are tested for every line
   static constexpr std::size_t kFew = 56;     // more than this are thinned out or split into sectors
   static constexpr std::size_t kBlock = 64;   // cylinders whose pairs are tested at once
 
@@ -127,6 +128,8 @@ private:
   template <bool kMixedHeights, Owners kOwners>
   void TestPairs(const std::int32_t* owners);
   template <bool kMixedHeights>
+  void LookAtHandful(const SightPoints& points, SeenPoints& seen) const;
+  template <bool kMixedHeights>
   void LookAtMany(const SightPoints& points, SeenPoints& seen) const;
 
   Heights heights_ = Heights::kSpanning;
@@ -136,6 +139,7 @@ private:
   // By bytes.
   const NearBodies* discs_ = nullptr;
   bool by_bytes_ = false;
+  bool are_handful_ = false;
   bool at_themselves_ = false;
   bool is_crowd_ = false;
   float steps_per_m_ = 0;

@@ -117,7 +117,7 @@ TEST(DiscField, HidesWhatTestingAllPairsHides)
   for (std::uint32_t trial = 0; trial < 900; ++trial)
   {
     RandomStream random(trial, 7, 7, 7);
-    constexpr std::array<std::size_t, 10> kCounts{1, 7, 20, 31, 40, 56, 57, 80, 250, 500};
+    constexpr std::array<std::size_t, 10> kCounts{1, 7, 9, 31, 40, 56, 57, 80, 250, 500};
     const auto heights = static_cast<Heights>(trial / 10 % 3);
     const std::size_t count =
         std::max<std::size_t>(kCounts[trial % kCounts.size()], heights == Heights::kMixed ? 7 : 0);
