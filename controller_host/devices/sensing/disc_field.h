@@ -121,10 +121,11 @@ private:
   void SplitQuadrant(std::size_t quadrant);
   void Close();
   Lines LinesTo(const SightPoints& points, std::size_t group) const;
+  void LookByBytes(const SightPoints& points, SeenPoints& seen);
   void ThinOut(const SightPoints& points);
   // Calls found(first, seen) with a bit for each of kByteLanes points.
   template <bool kMixedHeights, Owners kOwners, class Found>
-  void LookByBytes(const SightPoints& points, Found&& found);
+  void LookThrough(const SightPoints& points, Found&& found);
   template <bool kMixedHeights, Owners kOwners>
   void TestPairs(const std::int32_t* owners);
   template <bool kMixedHeights>
