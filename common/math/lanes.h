@@ -21,11 +21,13 @@ inline constexpr int kLanes = 8;
 inline constexpr int kLanes = 4;
 #endif
 inline constexpr int kDoubleLanes = kLanes / 2;
+inline constexpr int kByteLanes = kLanes * 4;
 
 typedef float FloatLanes __attribute__((vector_size(kLanes * sizeof(float))));
 typedef std::int32_t IntLanes __attribute__((vector_size(kLanes * sizeof(float))));
 typedef double DoubleLanes __attribute__((vector_size(kDoubleLanes * sizeof(double))));
 typedef std::int64_t LongLanes __attribute__((vector_size(kDoubleLanes * sizeof(double))));
+typedef std::uint8_t ByteLanes __attribute__((vector_size(kByteLanes)));
 // As many integers as there are double lanes.
 typedef std::int32_t HalfIntLanes __attribute__((vector_size(kDoubleLanes * sizeof(std::int32_t))));
 
@@ -40,10 +42,24 @@ Lanes LoadAs(const Number* from)
 inline FloatLanes LoadLanes(const float* from) { return LoadAs<FloatLanes>(from); }
 inline IntLanes LoadLanes(const std::int32_t* from) { return LoadAs<IntLanes>(from); }
 inline DoubleLanes LoadLanes(const double* from) { return LoadAs<DoubleLanes>(from); }
+inline ByteLanes LoadLanes(const std::uint8_t* from) { return LoadAs<ByteLanes>(from); }
 inline void StoreLanes(FloatLanes lanes, float* to) { std::memcpy(to, &lanes, sizeof lanes); }
 inline void StoreLanes(IntLanes lanes, std::int32_t* to) { std::memcpy(to, &lanes, sizeof lanes); }
 inline void StoreLanes(DoubleLanes lanes, double* to) { std::memcpy(to, &lanes, sizeof lanes); }
 inline void StoreLanes(HalfIntLanes lanes, std::int32_t* to) { std::memcpy(to, &lanes, sizeof lanes); }
+inline void StoreLanes(ByteLanes lanes, std::uint8_t* to) { std::memcpy(to, &lanes, sizeof lanes); }
+// The lowest byte of each lane.
+inline void StoreLowBytes(IntLanes lanes, std::uint8_t* to)
+{
+#if defined(__AVX2__)
+  const __m256i order = _mm256_set1_epi32(0x0c080400);
+  const __m256i fours = _mm256_shuffle_epi8(reinterpret_cast<__m256i>(lanes), order);
+  const __m128i bytes = _mm_unpacklo_epi32(_mm256_castsi256_si128(fours), _mm256_extracti128_si256(fours, 1));
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(to), bytes);
+#else
+  for (int i = 0; i < kLanes; ++i) to[i] = static_cast<std::uint8_t>(lanes[i]);
+#endif
+}
 // The difference of kLanes doubles to one, in single precision.
 inline FloatLanes Differences(const double* from, double other)
 {
@@ -66,16 +82,62 @@ DoubleLanes InLanes(const Value& value)
   else
     return DoubleLanes{value(0), value(1)};
 }
+// A number from each of these places.
+inline FloatLanes Gathered(const float* from, IntLanes places)
+{
+#if defined(__AVX2__)
+  return reinterpret_cast<FloatLanes>(_mm256_i32gather_ps(from, reinterpret_cast<__m256i>(places), sizeof(float)));
+#else
+  FloatLanes lanes;
+  for (int i = 0; i < kLanes; ++i) lanes[i] = from[places[i]];
+  return lanes;
+#endif
+}
+inline DoubleLanes Gathered(const double* from, HalfIntLanes places)
+{
+#if defined(__AVX2__)
+  // GCC calls the register that the unmasked one starts from uninitialised.
+  const __m256d all = reinterpret_cast<__m256d>(LongLanes{} - 1);
+  return _mm256_mask_i32gather_pd(DoubleLanes{}, from, reinterpret_cast<__m128i>(places), all, sizeof(double));
+#else
+  return InLanes([&](int i) { return from[places[i]]; });
+#endif
+}
+inline IntLanes Gathered(const std::int32_t* from, IntLanes places)
+{
+#if defined(__AVX2__)
+  return reinterpret_cast<IntLanes>(_mm256_i32gather_epi32(from, reinterpret_cast<__m256i>(places), sizeof(float)));
+#else
+  IntLanes lanes;
+  for (int i = 0; i < kLanes; ++i) lanes[i] = from[places[i]];
+  return lanes;
+#endif
+}
+// Three bytes behind each place must be readable.
+inline IntLanes Gathered(const std::uint8_t* from, IntLanes places)
+{
+#if defined(__AVX2__)
+  const auto* const start = reinterpret_cast<const int*>(from);
+  return reinterpret_cast<IntLanes>(_mm256_i32gather_epi32(start, reinterpret_cast<__m256i>(places), 1)) & 255;
+#else
+  IntLanes lanes;
+  for (int i = 0; i < kLanes; ++i) lanes[i] = from[places[i]];
+  return lanes;
+#endif
+}
 
 // (Adding to 0 would be a second instruction: it turns -0 into 0.)
 inline FloatLanes Everywhere(float value) { return value - FloatLanes{}; }
 inline DoubleLanes Everywhere(double value) { return value - DoubleLanes{}; }
 inline IntLanes Everywhere(int value) { return IntLanes{} + value; }
+inline ByteLanes Everywhere(std::uint8_t value) { return ByteLanes{} + value; }
 // b where either is not a number.
 inline FloatLanes Minimum(FloatLanes a, FloatLanes b) { return a < b ? a : b; }
 inline DoubleLanes Minimum(DoubleLanes a, DoubleLanes b) { return a < b ? a : b; }
+inline ByteLanes Minimum(ByteLanes a, ByteLanes b) { return a < b ? a : b; }
 inline FloatLanes Maximum(FloatLanes a, FloatLanes b) { return a > b ? a : b; }
 inline DoubleLanes Maximum(DoubleLanes a, DoubleLanes b) { return a > b ? a : b; }
+inline ByteLanes Maximum(ByteLanes a, ByteLanes b) { return a > b ? a : b; }
 inline FloatLanes Magnitude(FloatLanes lanes) { return lanes < 0 ? -lanes : lanes; }
 // Towards zero; the values must fit.
 inline IntLanes Truncated(FloatLanes lanes) { return __builtin_convertvector(lanes, IntLanes); }
@@ -153,6 +215,21 @@ unsigned LaneMask(Lanes lanes)
 #else
   unsigned mask = 0;
   for (unsigned i = 0; i < sizeof lanes / sizeof lanes[0]; ++i) mask |= (lanes[i] != 0 ? 1U : 0U) << i;
+  return mask;
+#endif
+}
+
+// Likewise of bytes.
+template <class Lanes>
+std::uint32_t ByteMask(Lanes lanes)
+{
+#if defined(__AVX2__)
+  return static_cast<std::uint32_t>(_mm256_movemask_epi8(reinterpret_cast<__m256i>(lanes)));
+#elif defined(__SSE2__) && !defined(__AVX__)
+  return static_cast<std::uint32_t>(_mm_movemask_epi8(reinterpret_cast<__m128i>(lanes)));
+#else
+  std::uint32_t mask = 0;
+  for (unsigned i = 0; i < sizeof lanes; ++i) mask |= (lanes[i] != 0 ? 1U : 0U) << i;
   return mask;
 #endif
 }

@@ -46,6 +46,35 @@ inline Number Quotient(const std::array<double, 8>& numerator, const std::array<
   return above / below;
 }
 
+// The bits of Log, of normal numbers above 0.
+DoubleLanes LogOf(DoubleLanes x)
+{
+  const auto bits = reinterpret_cast<LongLanes>(x);
+  // Behind 2^52 as a double.
+  DoubleLanes exponent = reinterpret_cast<DoubleLanes>(bits >> 52 | 0x4330000000000000) - 0x1p52 - 1023.0;
+  DoubleLanes mantissa = reinterpret_cast<DoubleLanes>((bits & 0xfffffffffffff) | 0x3ff0000000000000);
+  const auto is_large = mantissa > 1.4142135623730951;
+  mantissa = is_large ? mantissa * 0.5 : mantissa;
+  exponent = is_large ? exponent + 1.0 : exponent;
+  const DoubleLanes s = (mantissa - 1.0) / (mantissa + 1.0);
+  const DoubleLanes z = s * s;
+  DoubleLanes p = Everywhere(1.0 / 21.0);
+  for (int k = 19; k >= 3; k -= 2) p = p * z + 1.0 / k;
+  return exponent * 6.93147180369123816490e-01 + (2.0 * s + (2.0 * s * z * p + exponent * 1.90821492927058770002e-10));
+}
+
+// Of masses beyond the middle.
+DoubleLanes FlankQuantiles(DoubleLanes mass)
+{
+  const DoubleLanes away = mass < 0 ? -mass : mass;
+  const DoubleLanes r = SquareRoot(-LogOf(0.5 - away));
+  DoubleLanes x = Quotient(kFlankNumerator, kFlankDenominator, r - 1.6);
+  x = mass < 0 ? -x : x;
+  // So rare that one by one will do: the far tails, and what Log takes apart.
+  ForEachBit(LaneMask(~(r <= 5.0)), [&](unsigned lane) { x[lane] = NormalQuantile(mass[lane]); });
+  return x;
+}
+
 }  // namespace
 
 double NormalQuantile(double mass)
@@ -60,18 +89,35 @@ double NormalQuantile(double mass)
 
 void NormalQuantiles(std::span<double> masses)
 {
-  std::size_t i = 0;
-  for (; i + kDoubleLanes <= masses.size(); i += kDoubleLanes)
+  // All as if they were of the middle, then those that are not.
+  constexpr std::size_t kBlock = 64;
+  std::array<double, kBlock + kDoubleLanes> flanks;
+  std::array<std::uint32_t, kBlock> places;
+  const std::size_t whole = masses.size() / kDoubleLanes * kDoubleLanes;
+  for (std::size_t begin = 0; begin < whole; begin += kBlock)
   {
-    const DoubleLanes mass = LoadLanes(&masses[i]);
-    const DoubleLanes x = mass * Quotient(kMiddleNumerator, kMiddleDenominator, kMiddle * kMiddle - mass * mass);
-    const unsigned outside = LaneMask((mass > kMiddle) | (mass < -kMiddle));
-    std::array<double, kDoubleLanes> quantiles;
-    StoreLanes(x, quantiles.data());
-    ForEachBit(outside, [&](unsigned lane) { quantiles[lane] = NormalQuantile(masses[i + lane]); });
-    std::copy(quantiles.begin(), quantiles.end(), &masses[i]);
+    const std::size_t end = std::min(begin + kBlock, whole);
+    std::size_t count = 0;
+    for (std::size_t i = begin; i < end; i += kDoubleLanes)
+    {
+      const DoubleLanes mass = LoadLanes(&masses[i]);
+      ForEachBit(LaneMask((mass > kMiddle) | (mass < -kMiddle)),
+                 [&](unsigned lane)
+                 {
+                   flanks[count] = masses[i + lane];
+                   places[count++] = static_cast<std::uint32_t>(i + lane - begin);
+                 });
+      StoreLanes(mass * Quotient(kMiddleNumerator, kMiddleDenominator, kMiddle * kMiddle - mass * mass), &masses[i]);
+    }
+    for (std::size_t lane = 0; lane < kDoubleLanes; ++lane) flanks[count + lane] = kMiddle;
+    for (std::size_t i = 0; i < count; i += kDoubleLanes)
+    {
+      const DoubleLanes x = FlankQuantiles(LoadLanes(&flanks[i]));
+      for (std::size_t lane = 0; lane < std::min<std::size_t>(kDoubleLanes, count - i); ++lane)
+        masses[begin + places[i + lane]] = x[lane];
+    }
   }
-  for (; i < masses.size(); ++i) masses[i] = NormalQuantile(masses[i]);
+  for (std::size_t i = whole; i < masses.size(); ++i) masses[i] = NormalQuantile(masses[i]);
 }
 
 double NormalMass(double x)

@@ -26,6 +26,35 @@ void HeardSenders::Reserve(std::size_t more)
             start + 7 * size};
 }
 
+void HeardSenders::Add(std::size_t more, const NeighbourGrid& grid, const Vector3& own, const Heading& heading)
+{
+  const Lanes to = lanes_;
+  const double* const origin_x = grid.OriginX();
+  const double* const origin_y = grid.OriginY();
+  const double* const origin_z = grid.OriginZ();
+  const bool is_level = grid.AllLevel();
+  const std::size_t behind = count + more;
+  for (std::size_t i = count; i < behind; i += kDoubleLanes)
+  {
+    HalfIntLanes place = LoadAs<HalfIntLanes>(&to.place[i]);
+    if (behind - i < kDoubleLanes)
+      for (std::size_t lane = behind - i; lane < kDoubleLanes; ++lane) place[lane] = 0;
+    const DoubleLanes x = Gathered(origin_x, place) - own.x();
+    const DoubleLanes y = Gathered(origin_y, place) - own.y();
+    DoubleLanes square = x * x + y * y;
+    if (!is_level)
+    {
+      const DoubleLanes z = Gathered(origin_z, place) - own.z();
+      square += z * z;
+      StoreLanes(z, &to.z[i]);
+    }
+    StoreLanes(square, &to.square[i]);
+    StoreLanes(heading.cos * x + heading.sin * y, &to.x[i]);
+    StoreLanes(heading.cos * y - heading.sin * x, &to.y[i]);
+  }
+  count = behind;
+}
+
 void HeardSenders::Move(std::size_t from, std::size_t to)
 {
   lanes_.place[to] = lanes_.place[from];
@@ -62,14 +91,14 @@ void HeardSenders::Turn(std::size_t first, const Eigen::Matrix3d& to_body)
   }
 }
 
-void HeardSenders::Measure()
+void HeardSenders::Measure(bool are_level)
 {
   const auto [place, x, y, z, square, range, bearing, elevation, flat] = lanes_;
   const std::size_t whole = (count + kLanes - 1) / kLanes * kLanes;
 #pragma GCC ivdep
   for (std::size_t i = 0; i < whole; ++i) range[i] = __builtin_sqrt(square[i]);
   Atan2Each({y, whole}, {x, whole}, {bearing, whole});
-  if (std::all_of(z, z + count, [](double height) { return height == 0; }))
+  if (are_level || std::all_of(z, z + count, [](double height) { return height == 0; }))
   {
     std::fill_n(elevation, whole, 0.0);
     return;

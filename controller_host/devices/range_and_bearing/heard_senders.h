@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/math/pose.h"
-#include "controller_host/devices/sensing/body_shapes.h"
+#include "controller_host/devices/sensing/neighbour_grid.h"
 
 namespace swarmanoid
 {
@@ -28,13 +28,16 @@ public:
   // Room for so many more, and some lanes.
   void Reserve(std::size_t more);
   const Lanes& At() const { return lanes_; }
+  // Adds so many whose places stand behind the others already, turned to the body of an upright receiver at `own`; no
+  // heights if all bodies of the grid, which must be upright, are level.
+  void Add(std::size_t more, const NeighbourGrid& grid, const Vector3& own, const Heading& heading);
   void Move(std::size_t from, std::size_t to);
 
   // From the axes of the space to those of a body: those from `first` on.
   void Turn(std::size_t first, const Heading& heading);
   void Turn(std::size_t first, const Eigen::Matrix3d& to_body);
-  // Range and angles of all.
-  void Measure();
+  // Range and angles of all. `are_level`: none is higher than its receiver, whatever the heights here.
+  void Measure(bool are_level);
 
   std::size_t count = 0;
 

@@ -101,6 +101,7 @@ private:
       sent += message.is_sent;
       if (message.is_sent) message.bytes = UnpackedMessage(&attributes[slot + 1]);
     }
+    all_send_ = sent == senders.size();
     look_at_all_ = 2 * sent > senders.size() && world_->Grid().AllUpright();
   }
 
@@ -120,7 +121,17 @@ private:
     lines_->LookFrom(robot, antenna_, range_);
     heard_.Reserve(lines_->PlacesAround().size());
     if (look_at_all_)
-      LookThenListen(robot);
+    {
+      const std::span<const std::int32_t> seen = PlacesSeen();
+      if (loss_ == 0)
+      {
+        const PoseArrays& poses = space.Poses();
+        heard_.Add(seen.size(), world_->Grid(), {poses.x[robot], poses.y[robot], poses.z[robot]},
+                   HeadingOf(poses, robot));
+        return Close(k);
+      }
+      Listen(seen, robot);
+    }
     else
       ListenThenLook(robot);
 
@@ -134,13 +145,18 @@ private:
     else
       heard_.Turn(first, space.GetPose(robot).orientation.toRotationMatrix().transpose());
 
+    Close(k);
+  }
+  // No more are heard by this one.
+  void Close(std::size_t k)
+  {
     receptions_.push_back({k, heard_.count});
     constexpr std::size_t kManyAtATime = 128;
     if (heard_.count >= kManyAtATime) Deliver();
   }
 
-  // Quicker if most send and many hide one another.
-  void LookThenListen(std::uint32_t robot)
+  // Looks before listening: quicker if most send and many hide one another. The places stand behind those heard.
+  std::span<const std::int32_t> PlacesSeen()
   {
     lines_->LookAtBodiesAround();
     const SeenPoints& seen = lines_->Solve();
@@ -153,7 +169,7 @@ private:
       selection.Store(LoadLanes(&around[i]), places + count);
       count += selection.Count();
     }
-    Listen({places, count}, robot);
+    return {places, count};
   }
 
   void ListenThenLook(std::uint32_t robot)
@@ -229,11 +245,14 @@ private:
   // Packets for all who have listened since the last time.
   void Deliver()
   {
-    heard_.Measure();
+    heard_.Measure(world_->Grid().AllUpright() && world_->Grid().AllLevel());
     std::size_t first = 0;
     for (const Reception& reception : receptions_)
     {
-      MakePackets(receivers_[reception.k], first, reception.behind);
+      if (all_send_)
+        MakePackets<true>(receivers_[reception.k], first, reception.behind);
+      else
+        MakePackets<false>(receivers_[reception.k], first, reception.behind);
       if (has_noise_) AddNoise(reception.k, first, reception.behind);
       first = reception.behind;
     }
@@ -242,6 +261,7 @@ private:
   }
 
   // A packet from each of those heard who sends and is near enough.
+  template <bool kAllSend>
   void MakePackets(Receiver& receiver, std::size_t first, std::size_t behind) const
   {
     CCI_RangeAndBearingSensor::Packet* const packets = receiver.MakeRoom(behind - first);
@@ -257,7 +277,7 @@ private:
       packet.bearing_rad = from.bearing[i];
       packet.vertical_bearing_rad = from.elevation[i];
       packet.message = message.bytes;
-      count += static_cast<std::size_t>(message.is_sent & (from.square[i] <= largest));
+      count += static_cast<std::size_t>((kAllSend || message.is_sent) & (from.square[i] <= largest));
     }
     receiver.count = count;
   }
@@ -307,6 +327,7 @@ private:
   std::vector<Sent> messages_;                 // by place in the grid, of this tick
   std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
   bool look_at_all_ = false;
+  bool all_send_ = false;
   Vector3 antenna_ = Vector3::Zero();
   HeardSenders heard_;
   std::vector<Reception> receptions_;

@@ -4,6 +4,8 @@
 #include <limits>
 #include <numeric>
 
+#include "controller_host/devices/sensing/disc_lines.h"
+
 namespace swarmanoid
 {
 namespace
@@ -47,11 +49,21 @@ void DiscField::Cells::Reserve(std::size_t cells, std::size_t places)
   entity.assign(stride * cells, 0);
 }
 
-void DiscField::Sort(const NearBodies& discs, float eye, float lowest, float highest)
+void DiscField::Sort(const NearBodies& discs, float eye, float lowest, float highest, float reach, bool at_themselves)
 {
   Classify(discs, eye, lowest, highest);
-  few_ = discs.count <= kFew ? &discs : nullptr;
-  if (few_ != nullptr) return CutIntoStrips(discs, eye, lowest, highest);
+  at_themselves_ = at_themselves;
+  is_crowd_ = discs.count > kFew && at_themselves && heights_ == Heights::kSpanning && all_count_;
+  by_bytes_ = discs.count <= kFew || is_crowd_;
+  are_handful_ = discs.count <= kHandful;
+  if (by_bytes_)
+  {
+    discs_ = &discs;
+    Measure(eye, lowest, highest);
+    if (are_handful_) return;
+    steps_per_m_ = kFarthestByte / std::max(reach, 0.01F);
+    return bytes_.Read(discs, steps_per_m_, is_crowd_);
+  }
   SortByQuadrants(discs, eye, lowest, highest);
   cells_.Reserve(kQuadrants * kSectors,
                  *std::max_element(quadrants_.filled.begin(), quadrants_.filled.begin() + kQuadrants));
@@ -96,28 +108,27 @@ void DiscField::Classify(const NearBodies& discs, float eye, float lowest, float
     heights_ = Heights::kMixed;
 }
 
-void DiscField::CutIntoStrips(const NearBodies& discs, float eye, float lowest, float highest)
+// Squares of the radii, less than 0 of those that hide nothing, and heights.
+void DiscField::Measure(float eye, float lowest, float highest)
 {
-  strips_ = (discs.count + kStrip - 1) / kStrip;
+  const NearBodies& discs = *discs_;
+  const bool are_equal = discs.are_alike && all_count_ && heights_ != Heights::kMixed;
+  if (are_equal && discs.count <= equal_count_ && square_[0] == discs.radius[0] * discs.radius[0]) return;
+  equal_count_ = are_equal ? discs.count : 0;
+  if (square_.size() < discs.count + kLanes)
+    for (std::vector<float>* values : {&square_, &disc_low_, &disc_high_}) values->resize(2 * discs.count + kLanes);
   for (std::size_t i = 0; i < discs.count; i += kLanes)
   {
-    IntLanes counts = FirstLanes(discs.count - i);
-    if (!all_count_)
-      counts &= (LoadLanes(&discs.low[i]) - eye <= highest) & (LoadLanes(&discs.high[i]) - eye >= lowest);
-    const FloatLanes y = LoadLanes(&discs.y[i]);
     const FloatLanes radius = LoadLanes(&discs.radius[i]);
-    const FloatLanes reach = radius * 1.0001F + 1e-4F;  // covers the rounding of the test
-    const FloatLanes back = LowestOfFour(counts ? y - reach : Everywhere(kInfinity));
-    const FloatLanes front = HighestOfFour(counts ? y + reach : Everywhere(-kInfinity));
-    for (int strip = 0; strip < kLanes / 4; ++strip)
-    {
-      strip_back_[i / kStrip + static_cast<std::size_t>(strip)] = back[strip * 4];
-      strip_front_[i / kStrip + static_cast<std::size_t>(strip)] = front[strip * 4];
-    }
-    StoreLanes(counts ? radius * radius : Everywhere(-1.0F), &square_[i]);
+    FloatLanes square = radius * radius;
+    if (!all_count_)
+      square = (LoadLanes(&discs.low[i]) - eye <= highest) & (LoadLanes(&discs.high[i]) - eye >= lowest)
+                   ? square
+                   : Everywhere(-1.0F);
+    StoreLanes(square, &square_[i]);
     if (heights_ != Heights::kMixed) continue;
-    StoreLanes(LoadLanes(&discs.low[i]) - eye, &few_low_[i]);
-    StoreLanes(LoadLanes(&discs.high[i]) - eye, &few_high_[i]);
+    StoreLanes(LoadLanes(&discs.low[i]) - eye, &disc_low_[i]);
+    StoreLanes(LoadLanes(&discs.high[i]) - eye, &disc_high_[i]);
   }
 }
 
@@ -211,106 +222,33 @@ void DiscField::Close()
   }
 }
 
-inline DiscField::Lines DiscField::LinesTo(const SightPoints& points, std::size_t group) const
+template <bool kMixedHeights>
+void DiscField::LookAtHandful(const SightPoints& points, SeenPoints& seen) const
 {
-  FloatLanes x = LoadLanes(&points.x[group]);
-  const FloatLanes y = LoadLanes(&points.y[group]);
-  // Straight above or below: moved aside by a micrometre, so that it has a direction.
-  x = x * x + y * y < 1e-12F ? Everywhere(1e-6F) : x;
-  Lines lines;
-  lines.length = SquareRoot(x * x + y * y);
-  lines.x = x / lines.length;
-  lines.y = y / lines.length;
-  lines.from = lines.inverse = FloatLanes{};
-  lines.to = Everywhere(1.0F);
-  if (heights_ != Heights::kSpanning)
-  {
-    constexpr float kTiny = 1e-20F;  // a level line: the quotients become huge, not NaN
-    const FloatLanes z = LoadLanes(&points.z[group]);
-    lines.inverse = 1 / (z == 0 ? Everywhere(kTiny) : z);
-  }
-  if (heights_ == Heights::kEqual)
-  {
-    const FloatLanes low = low_ * lines.inverse;
-    const FloatLanes high = high_ * lines.inverse;
-    lines.from = Maximum(Minimum(low, high), lines.from);
-    lines.to = Minimum(Maximum(low, high), lines.to);
-  }
-  lines.first = lines.from * lines.length;
-  lines.last = lines.to * lines.length;
-  return lines;
-}
-
-namespace
-{
-
-// Whether what is nearest to the middle of a circle, between two places of a line, is within it.
-inline IntLanes Meets(FloatLanes circle_x, FloatLanes circle_y, FloatLanes square, FloatLanes x, FloatLanes y,
-                      FloatLanes first, FloatLanes last)
-{
-  const FloatLanes along = circle_x * x + circle_y * y;
-  const FloatLanes nearest = Minimum(Maximum(along, first), last);
-  const FloatLanes beside_x = nearest * x - circle_x;
-  const FloatLanes beside_y = nearest * y - circle_y;
-  return beside_x * beside_x + beside_y * beside_y <= square;
-}
-
-}  // namespace
-
-// The line from the eye to a point is as high as a cylinder from one place of it to another; the cylinder hides the
-// point where what is nearest between these places is within its circle.
-template <bool kMixedHeights, bool kOwnHit>
-void DiscField::LookAtFew(const SightPoints& points, SeenPoints& seen) const
-{
-  const float* const disc_x = few_->x.data();
-  const float* const disc_y = few_->y.data();
-  const std::int32_t* const entity = few_->entity.data();
   for (std::size_t group = 0; group < points.count; group += kLanes)
   {
     const Lines lines = LinesTo(points, group);
-    const IntLanes are_there = FirstLanes(points.count - group);
     const IntLanes owner = LoadLanes(&points.owner[group]);
-
-    // The strips that any of the lines reaches at the heights of the cylinders.
-    const FloatLanes y = are_there ? LoadLanes(&points.y[group]) : Everywhere(points.y[group]);
-    const FloatLanes one_end = lines.from * y;
-    const FloatLanes other_end = lines.to * y;
-    const float back = Lowest(Minimum(one_end, other_end));
-    const float front = Highest(Maximum(one_end, other_end));
-    unsigned strips = 0;
-    for (std::size_t strip = 0; strip < strips_; strip += kLanes)
-      strips |= LaneMask((LoadLanes(&strip_back_[strip]) <= front) & (LoadLanes(&strip_front_[strip]) >= back))
-                << strip;
-    strips &= (1U << strips_) - 1U;
-    // Those between the first and the last one too: they are few, and branches cost more.
-    const std::size_t begin = kStrip * static_cast<std::size_t>(std::countr_zero(strips | 1U << strips_));
-    const std::size_t end = kStrip * static_cast<std::size_t>(std::bit_width(strips));
-
     const FloatLanes slope = lines.inverse * lines.length;
     IntLanes hits{};
-    for (std::size_t strip = begin; strip < end; strip += kStrip)
-      for (std::size_t i = strip; i < strip + kStrip; ++i)
+    for (std::size_t i = 0; i < discs_->count; ++i)
+    {
+      FloatLanes first = lines.first;
+      FloatLanes last = lines.last;
+      if constexpr (kMixedHeights)
       {
-        FloatLanes first = lines.first;
-        FloatLanes last = lines.last;
-        if constexpr (kMixedHeights)
-        {
-          const FloatLanes a = few_low_[i] * slope;
-          const FloatLanes b = few_high_[i] * slope;
-          first = Maximum(Minimum(a, b), FloatLanes{});
-          last = Minimum(Maximum(a, b), lines.length);
-        }
-        IntLanes meets =
-            Meets(Everywhere(disc_x[i]), Everywhere(disc_y[i]), Everywhere(square_[i]), lines.x, lines.y, first, last);
-        if constexpr (kMixedHeights) meets &= first <= last;
-        if constexpr (kOwnHit)
-          hits += meets;
-        else
-          hits |= ~(owner == entity[i]) & meets;
+        const FloatLanes a = disc_low_[i] * slope;
+        const FloatLanes b = disc_high_[i] * slope;
+        first = Maximum(Minimum(a, b), FloatLanes{});
+        last = Minimum(Maximum(a, b), lines.length);
       }
+      IntLanes meets = Meets(Everywhere(discs_->x[i]), Everywhere(discs_->y[i]), Everywhere(square_[i]), lines.x,
+                             lines.y, first, last);
+      if constexpr (kMixedHeights) meets &= first <= last;
+      hits |= ~(owner == discs_->entity[i]) & meets;
+    }
     if constexpr (!kMixedHeights) hits &= lines.first <= lines.last;
-    const IntLanes hidden = kOwnHit ? hits < -1 : hits;
-    seen.SetGroup(group, LaneMask(are_there & ~hidden));
+    seen.SetGroup(group, LaneMask(FirstLanes(points.count - group) & ~hits));
   }
 }
 
@@ -359,16 +297,13 @@ void DiscField::LookAtMany(const SightPoints& points, SeenPoints& seen) const
   }
 }
 
-void DiscField::Look(const SightPoints& points, bool are_origins, SeenPoints& seen) const
+void DiscField::Look(const SightPoints& points, SeenPoints& seen)
 {
   seen.Resize(points.count);
   const bool are_mixed = heights_ == Heights::kMixed;
-  if (few_ == nullptr) return are_mixed ? LookAtMany<true>(points, seen) : LookAtMany<false>(points, seen);
-  if (are_mixed) return LookAtFew<true, false>(points, seen);
-  constexpr float kThick = 0.01F;  // m, far beyond rounding
-  const bool has_own = are_origins && heights_ == Heights::kSpanning && all_count_ && few_->are_alike &&
-                       few_->count > 0 && few_->radius[0] > kThick;
-  return has_own ? LookAtFew<false, true>(points, seen) : LookAtFew<false, false>(points, seen);
+  if (!by_bytes_) return are_mixed ? LookAtMany<true>(points, seen) : LookAtMany<false>(points, seen);
+  if (are_handful_) return are_mixed ? LookAtHandful<true>(points, seen) : LookAtHandful<false>(points, seen);
+  LookByBytes(points, seen);
 }
 
 }  // namespace swarmanoid

@@ -1,18 +1,20 @@
 // Upright cylinders around an eye, and which lines of sight they hide, several at a time. Used by SightLines. Steady
 // running allocates nothing.
 //
-// A few cylinders stay in the order in which they come; each four of them are tested only for lines that reach their
-// strip of the y axis. Many are held by direction: split into the four quadrants around the eye and into eight sectors
-// of each; one that touches several stands in all of them. Cells are tested to one depth, only the fullest further,
-// whatever hides a point: branches that depend on it would be guessed wrong half of the time and cost more than the
-// tests.
+// Pairs of a line and a cylinder that may meet are told by direction and distance in bytes; those are tested exactly.
+// Of a crowd that looks at itself, cylinders and lines are left out before that surely are hidden by what is nearest.
+// Many cylinders of different heights, or looked at for other points, are held by direction: split into the four
+// quadrants around the eye and into eight sectors of each; one that touches several stands in all of them. Cells are
+// tested to one depth, only the fullest further, whatever hides a point: branches that depend on it would be guessed
+// wrong half of the time and cost more than the tests.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "controller_host/devices/sensing/neighbour_grid.h"
+#include "controller_host/devices/sensing/disc_cover.h"
 
 namespace swarmanoid
 {
@@ -37,6 +39,11 @@ public:
   // A bit for each of the kLanes points from `first` on, a multiple of kLanes. Bits behind the last point are 0.
   unsigned Group(std::size_t first) const { return groups_[first / kLanes]; }
   void SetGroup(std::size_t first, unsigned seen) { groups_[first / kLanes] = static_cast<std::uint8_t>(seen); }
+  void HideAll() { std::fill(groups_.begin(), groups_.end(), std::uint8_t{0}); }
+  void Show(std::size_t point)
+  {
+    groups_[point / kLanes] = static_cast<std::uint8_t>(Group(point) | 1U << point % kLanes);
+  }
   void Hide(std::size_t point)
   {
     groups_[point / kLanes] = static_cast<std::uint8_t>(Group(point) & ~(1U << point % kLanes));
@@ -50,18 +57,18 @@ class DiscField
 {
 public:
   // Takes the cylinders around an eye at height `eye` (m, in the space) that reach into the heights from `lowest` to
-  // `highest`, which hold 0, relative to the eye. They must stay until the last Look.
-  void Sort(const NearBodies& discs, float eye, float lowest, float highest);
-  // Which of the points none of them hides; the heights of the points are within those given to Sort. `are_origins`:
-  // the points are the origins of the cylinders, in their order, moved by one height.
-  void Look(const SightPoints& points, bool are_origins, SeenPoints& seen) const;
+  // `highest`, which hold 0, relative to the eye. They must stay until the last Look. `reach`: m, how far points
+  // usually lie. `at_themselves`: the points will be the origins of the cylinders, in their order, moved by one height.
+  void Sort(const NearBodies& discs, float eye, float lowest, float highest, float reach, bool at_themselves);
+  // Which of the points none of them hides; the heights of the points are within those given to Sort.
+  void Look(const SightPoints& points, SeenPoints& seen);
 
 private:
   static constexpr std::size_t kQuadrants = 4;
   static constexpr std::size_t kSectors = 8;  // of a quadrant
-  static constexpr std::size_t kFew = 56;     // more than this are split into sectors
-  static constexpr std::size_t kStrip = 4;    // cylinders
-  static constexpr std::size_t kStrips = kFew / kStrip + kLanes;
+  static constexpr std::size_t kHandful = 8;  // up to this all are tested for every line
+  static constexpr std::size_t kFew = 56;     // more than this are thinned out or split into sectors
+  static constexpr std::size_t kBlock = 64;   // cylinders whose pairs are tested at once
 
   // How the cylinders' heights go with those of the points.
   enum class Heights
@@ -91,15 +98,38 @@ private:
     FloatLanes first, last;  // from and to in m
   };
 
+  // Lines to kByteLanes points, and the pairs of them and cylinders that may meet.
+  struct Chunk
+  {
+    std::array<float, kByteLanes> x, y, first, last, slope, length;
+    std::array<std::uint8_t, kByteLanes> turn, distance;
+    std::array<std::int32_t, kBlock * kByteLanes + kLanes> pairs;  // place of the cylinder, then of the line
+    std::size_t count;
+    IntLanes hidden;  // a bit for each line
+  };
+  // What the owner of a point is.
+  enum class Owners
+  {
+    kSamePlaces,  // the cylinder at the same place
+    kPlaces,      // the place of a cylinder
+    kEntities
+  };
+
   void Classify(const NearBodies& discs, float eye, float lowest, float highest);
-  void CutIntoStrips(const NearBodies& discs, float eye, float lowest, float highest);
+  void Measure(float eye, float lowest, float highest);
   void SortByQuadrants(const NearBodies& discs, float eye, float lowest, float highest);
   void SplitQuadrant(std::size_t quadrant);
   void Close();
   Lines LinesTo(const SightPoints& points, std::size_t group) const;
-  // kOwnHit: every point lies well within a cylinder of its own, which is not tested for: it hits once.
-  template <bool kMixedHeights, bool kOwnHit>
-  void LookAtFew(const SightPoints& points, SeenPoints& seen) const;
+  void LookByBytes(const SightPoints& points, SeenPoints& seen);
+  void ThinOut(const SightPoints& points);
+  // Calls found(first, seen) with a bit for each of kByteLanes points.
+  template <bool kMixedHeights, Owners kOwners, class Found>
+  void LookThrough(const SightPoints& points, Found&& found);
+  template <bool kMixedHeights, Owners kOwners>
+  void TestPairs(const std::int32_t* owners);
+  template <bool kMixedHeights>
+  void LookAtHandful(const SightPoints& points, SeenPoints& seen) const;
   template <bool kMixedHeights>
   void LookAtMany(const SightPoints& points, SeenPoints& seen) const;
 
@@ -107,11 +137,24 @@ private:
   float low_ = 0, high_ = 0;  // kEqual: of all, from the eye
   bool all_count_ = true;     // none of them is too low or too high to hide anything
 
-  // Few.
-  const NearBodies* few_ = nullptr;
-  std::size_t strips_ = 0;
-  alignas(32) std::array<float, kStrips> strip_front_{}, strip_back_{};  // m, along y
-  alignas(32) std::array<float, kStrips * kStrip> square_{}, few_low_{}, few_high_{};
+  // By bytes.
+  const NearBodies* discs_ = nullptr;
+  bool by_bytes_ = false;
+  bool are_handful_ = false;
+  bool at_themselves_ = false;
+  bool is_crowd_ = false;
+  float steps_per_m_ = 0;
+  DirectionBytes bytes_;
+  std::vector<float> square_, disc_low_, disc_high_;
+  std::size_t equal_count_ = 0;  // so many squares are equal
+  Chunk chunk_;
+  DiscCover cover_;
+  struct
+  {
+    std::size_t count = 0;
+    std::vector<std::int32_t> place, meets;
+  } before_;          // cylinders that the cover does not hide
+  SightPoints left_;  // points that it does not hide, with their places as owners
 
   // Many.
   std::array<std::size_t, kQuadrants * kSectors> depth_{};  // places of each cell to test

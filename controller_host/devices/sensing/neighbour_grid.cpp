@@ -151,13 +151,14 @@ void NeighbourGrid::CollectNear(double x, double y, double reach, std::uint32_t 
 {
   near.are_alike = are_alike_;
   near.count = are_alike_ ? Collect<true>(x, y, reach, left_out, near) : Collect<false>(x, y, reach, left_out, near);
-  if (are_alike_)
-    for (std::size_t i = 0; i < near.count; i += kLanes)
-    {
-      StoreLanes(Everywhere(radius_[0]), &near.radius[i]);
-      StoreLanes(Everywhere(low_[0]), &near.low[i]);
-      StoreLanes(Everywhere(high_[0]), &near.high[i]);
-    }
+  if (!are_alike_ || near.radius[0] != radius_[0] || near.low[0] != low_[0] || near.high[0] != high_[0]) near.alike = 0;
+  if (!are_alike_) return;
+  for (; near.alike < near.count; near.alike += kLanes)
+  {
+    StoreLanes(Everywhere(radius_[0]), &near.radius[near.alike]);
+    StoreLanes(Everywhere(low_[0]), &near.low[near.alike]);
+    StoreLanes(Everywhere(high_[0]), &near.high[near.alike]);
+  }
 }
 
 template <bool kAlike>

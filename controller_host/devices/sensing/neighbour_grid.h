@@ -45,6 +45,7 @@ struct NearBodies
 {
   std::size_t count = 0;
   bool are_alike = false;        // all have one radius, one low and one high
+  std::size_t alike = 0;         // so many places hold the radius, low and high of the first
   std::vector<float> x, y;       // m, of the origin of the body from the point
   std::vector<float> radius;     // m
   std::vector<float> low, high;  // m, in the space, where the body is upright

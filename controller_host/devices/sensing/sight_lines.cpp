@@ -62,7 +62,7 @@ const SeenPoints& SightLines::Solve()
   seen_.Resize(points_.count);
   if (points_.count == 0) return seen_;
   CollectBodies();
-  field_.Look(points_, are_origins_, seen_);
+  field_.Look(points_, seen_);
   for (const Box& box : boxes_) HideBehindBox(box);
   if (!tilted_.empty() || !foreign_.empty())
     for (std::size_t i = 0; i < points_.count; ++i)
@@ -75,6 +75,8 @@ const SeenPoints& SightLines::Solve()
 
 void SightLines::FindHeights()
 {
+  lowest_ = highest_ = 0;
+  if (are_origins_ && world_.Grid().AllLevel()) return;
   FloatLanes lowest{}, highest{};
   for (std::size_t i = 0; i < points_.count; i += kLanes)
   {
@@ -144,7 +146,8 @@ void SightLines::CollectBodies()
     discs = &discs_;
   }
 
-  field_.Sort(*discs, static_cast<float>(eye_.z()), lowest_, highest_);
+  field_.Sort(*discs, static_cast<float>(eye_.z()), lowest_, highest_, static_cast<float>(reach_),
+              are_origins_ && discs == &near_);
 }
 
 // Whether an upright body around the eye is surely farther to one side than all points and the eye.

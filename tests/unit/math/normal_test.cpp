@@ -42,6 +42,7 @@ TEST(Normal, ManyQuantilesAreThoseOfOneByOne)
 {
   std::vector<double> masses;
   for (int i = -999; i < 1000; ++i) masses.push_back(i / 2000.0);
+  for (int i = 0; i < 20000; ++i) masses.push_back((i % 2 == 0 ? 1 : -1) * (0.5 - 0.075 * std::pow(0.999, i)));
   for (const double tail : {0x1p-54, 1e-12, 0.075, 0.0750000001}) masses.insert(masses.end(), {0.5 - tail, tail - 0.5});
   std::vector<double> quantiles = masses;
   NormalQuantiles(quantiles);

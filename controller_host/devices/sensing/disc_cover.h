@@ -1,0 +1,36 @@
+// What a crowd of upright cylinders around an eye, all as high and as low as every line of sight, surely hides of
+// itself: for each of 256 directions the distance behind which nothing is seen. What it leaves is tested exactly, and
+// only with cylinders that stand before it. Used by DiscField. Steady running allocates nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "controller_host/devices/sensing/direction_bytes.h"
+
+namespace swarmanoid
+{
+
+class DiscCover
+{
+public:
+  // From bytes with middles.
+  void Lay(const DirectionBytes& bytes, std::size_t count);
+  // Whether the cover surely hides the middles of cylinders, by their bytes.
+  IntLanes HidesMiddles(IntLanes middles) const;
+  // Whether it surely hides the whole cylinders: these hide nothing that the cover does not hide.
+  IntLanes HidesAll(IntLanes meets) const;
+
+private:
+  static constexpr std::size_t kTurn = 256;
+  static constexpr std::size_t kWindow = 4;
+
+  void Cover(std::size_t first, int directions, std::uint8_t distance);
+
+  // A turn, and what goes beyond its end.
+  std::array<std::uint8_t, 2 * kTurn + 2 * kByteLanes> behind_{};
+  std::array<std::uint8_t, 2 * kTurn + 2 * kByteLanes> farthest_{};  // of kWindow directions from this one on
+};
+
+}  // namespace swarmanoid
