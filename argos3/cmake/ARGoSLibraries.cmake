@@ -1,6 +1,6 @@
 # The names by which CMakeLists.txt of users link the libraries of ARGoS3. Qt-OpenGL user functions are not shown here:
 # ARGOS_QTOPENGL_FOUND is false, and whoever asks for it leaves them out.
-foreach(name argos3core_simulator argos3plugin_simulator_footbot argos3plugin_simulator_eyebot
+foreach(name argos3core_simulator argos3plugin_simulator_footbot argos3plugin_simulator_eyebot argos3plugin_simulator_epuck
     argos3plugin_simulator_genericrobot argos3plugin_simulator_entities argos3plugin_simulator_dynamics2d
     argos3plugin_simulator_pointmass3d argos3plugin_simulator_media argos3plugin_simulator_actuators
     argos3plugin_simulator_sensors argos3plugin_simulator_argos_rangeandbearing)

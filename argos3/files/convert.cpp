@@ -32,8 +32,13 @@ public:
     ArenaConverter arena(*theirs, result_);
     CodeConverter code(root_, folder_, arena, result_);
     ConvertFramework(*ours);
+    const Made kinds = AddNode(*ours, "entity_kinds", root_.location);
     code.ConvertControllers(*ours);
     arena.Convert(*ours);
+    if (arena.Kinds().contains("argos3_epuck"))
+      SetValue(*AddNode(*kinds, "argos3_epuck", root_.location), "library", "argos3_epuck", root_.location);
+    else
+      std::erase(ours->children, kinds);
     ConvertEngines(*ours, arena);
     code.ConvertLoopFunctions(*ours);
     for (const auto& child : root_.children)
@@ -119,7 +124,8 @@ private:
       {
         if (kind == "light_bulb") continue;
         // Where there are both, eye-bots fly and foot-bots drive; what stands in the way stands in both.
-        if (made.size() > 1 && kind == (tag == "dynamics2d" ? "eyebot" : "footbot")) continue;
+        if (made.size() > 1 && (tag == "dynamics2d" ? kind == "eyebot" : kind == "footbot" || kind == "argos3_epuck"))
+          continue;
         SetValue(*AddNode(*binding, "all", engines->location), "kind", kind, engines->location);
       }
     }

@@ -25,6 +25,13 @@ public:
   const std::string& FloorId() const { return floor_id_; }
   // The robots that have a controller of that id.
   const Bearers& BearersOf(const std::string& controller) { return bearers_[controller]; }
+  // Before Convert: robots of a controller that are not in the arena until loop functions add them.
+  void KeepSpare(const std::string& controller, const std::string& kind, int quantity);
+  // The id of their <reserve>; empty: there are none.
+  std::string SpareOf(const std::string& controller) const
+  {
+    return spares_.contains(controller) ? "added_" + controller : "";
+  }
   // After Convert: tags of ours that stand in the arena, and entities that are distributed.
   const std::set<std::string>& Kinds() const { return kinds_; }
   const std::string& Distributed() const { return distributed_; }
@@ -42,6 +49,9 @@ private:
   static std::string KindOf(const std::string& tag);
   // `placed`: with a place of its own; otherwise <distribute> gives it one.
   void ConvertEntity(const ConfigurationNode& theirs, ConfigurationNode& parent, bool placed);
+  void AddSpares(ConfigurationNode& parent);
+  // The colour of its LEDs, as ours.
+  std::string ColourOfLeds(const ConfigurationNode& leds);
   void SetMovable(const ConfigurationNode& theirs, ConfigurationNode& made);
   void SetPlace(const ConfigurationNode& theirs, ConfigurationNode& made, double lift);
   void ConvertDistribute(const ConfigurationNode& theirs, ConfigurationNode& parent);
@@ -56,6 +66,7 @@ private:
   Vector3 origin_ = Vector3::Zero();
   std::map<std::string, Bearers> bearers_;  // by controller
   std::set<std::string> kinds_;
+  std::map<std::string, std::pair<std::string, int>> spares_;  // by controller: kind and quantity
   std::string distributed_;
 };
 

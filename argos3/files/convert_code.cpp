@@ -1,6 +1,8 @@
 #include "argos3/files/convert_code.h"
 
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 
 #include "common/configuration/wording.h"
 #include "common/plugins/library.h"
@@ -13,6 +15,33 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* kPlugin = "argos3";
+
+constexpr std::pair<const char*, const char*> kConstructors[]{
+    {"footbot", "14CFootBotEntityC"}, {"eyebot", "13CEyeBotEntityC"}, {"argos3_epuck", "12CEPuckEntityC"}};
+
+// Of a controller that no robot of the file has: by its devices.
+std::string KindByDevices(const ConfigurationNode& controller)
+{
+  for (const char* list : {"sensors", "actuators"})
+  {
+    const ConfigurationNode* devices = FindChild(controller, list);
+    if (devices == nullptr) continue;
+    for (const auto& device : devices->children)
+    {
+      if (device->name.starts_with("eyebot") || device->name.starts_with("quadrotor")) return "eyebot";
+      if (device->name.starts_with("epuck")) return "argos3_epuck";
+      if (device->name.starts_with("footbot")) return "footbot";
+    }
+  }
+  return "";
+}
+
+constexpr int kSpareRobots = 100;  // of a controller
+
+std::vector<std::string> LibraryNames(const std::string& library)
+{
+  return {library, library + ".so", "lib" + library + ".so"};
+}
 
 }  // namespace
 
@@ -28,7 +57,33 @@ void CodeConverter::ConvertControllers(ConfigurationNode& ours)
         if (FindChild(*sensors, "range_and_bearing") != nullptr) return true;
     return false;
   }();
+  made_kinds_ = FindMadeKinds();
   for (const auto& controller : controllers->children) ConvertController(*controller, *made, somebody_hears);
+}
+
+std::set<std::string> CodeConverter::FindMadeKinds() const
+{
+  const ConfigurationNode* functions = FindChild(root_, "loop_functions");
+  const auto* library = functions == nullptr ? nullptr : FindAttributeOf(*functions, "library");
+  std::set<std::string> kinds;
+  std::string searched;
+  const auto file = library == nullptr ? std::nullopt : Found(Folders(), LibraryNames(library->value), searched);
+  if (!file) return kinds;
+  std::ifstream stream(*file, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  for (const auto& [kind, constructor] : kConstructors)
+    if (bytes.find(constructor) != std::string::npos) kinds.insert(kind);
+  return kinds;
+}
+
+void CodeConverter::KeepSpare(const std::string& controller, const ConfigurationNode& theirs)
+{
+  if (made_kinds_.empty()) return;
+  std::string kind = KindByDevices(theirs);
+  if (kind.empty()) kind = *made_kinds_.begin();
+  const std::set<std::string>& kinds = arena_.BearersOf(controller).kinds;
+  if (!kinds.empty()) kind = *kinds.begin();
+  if (made_kinds_.contains(kind)) arena_.KeepSpare(controller, kind, kSpareRobots);
 }
 
 void CodeConverter::ConvertController(const ConfigurationNode& theirs, ConfigurationNode& parent, bool somebody_hears)
@@ -38,7 +93,11 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
   const std::string id = NeededText(theirs, "id");
   SetValue(*made, "id", id, at);
   SetValue(*made, "library", kPlugin, at);
+  KeepSpare(id, theirs);
   const Bearers& bearers = arena_.BearersOf(id);
+  if (bearers.kinds.size() > 1 && bearers.kinds.contains("argos3_epuck"))
+    Mistake(at, "robots of several kinds have the controller " + Quoted(id) +
+                    ", and e-pucks have other devices; give each kind a controller of its own");
   const DeviceContext context{bearers, !arena_.FloorId().empty(),
                               [this](const SourceLocation& place, const std::string& text) { Mistake(place, text); },
                               [this](const SourceLocation& place, const std::string& text) { Note(place, text); }};
@@ -69,20 +128,26 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
   SetValue(*options, "sensors", sensors, at);
   SetValue(*options, "actuators", actuators, at);
   if (!arena_.FloorId().empty()) SetValue(*options, "floor", "loop_functions", at);
-  if (const double noise = GroundNoise(theirs); noise > 0) SetValue(*options, "ground_noise", TextOf(noise), at);
+  const auto set_noise = [&](const char* name, std::initializer_list<const char*> devices)
+  {
+    if (const double level = NoiseLevel(theirs, devices); level > 0) SetValue(*options, name, TextOf(level), at);
+  };
+  set_noise("ground_noise", {"footbot_motor_ground", "footbot_base_ground", "ground"});
+  set_noise("proximity_noise", {"proximity", "epuck_proximity", "eyebot_proximity"});
+  if (const std::string spare = arena_.SpareOf(id); !spare.empty()) SetValue(*options, "spare", spare, at);
   SetValue(*options, "rab_data_size", std::to_string(bearers.radio_bytes), at);
   options_.push_back(options);
   for (const auto& child : theirs.children)
     if (child->name == "params") parameters->children.push_back(child);
 }
 
-double CodeConverter::GroundNoise(const ConfigurationNode& controller)
+double CodeConverter::NoiseLevel(const ConfigurationNode& controller, std::initializer_list<const char*> names)
 {
   const ConfigurationNode* sensors = FindChild(controller, "sensors");
-  for (const char* name : {"footbot_motor_ground", "footbot_base_ground"})
+  for (const char* name : names)
   {
-    const ConfigurationNode* ground = sensors == nullptr ? nullptr : FindChild(*sensors, name);
-    const auto* level = ground == nullptr ? nullptr : FindAttributeOf(*ground, "noise_level");
+    const ConfigurationNode* sensor = sensors == nullptr ? nullptr : FindChild(*sensors, name);
+    const auto* level = sensor == nullptr ? nullptr : FindAttributeOf(*sensor, "noise_level");
     if (level != nullptr) return ParseNumber(level->value).value_or(0);
   }
   return 0;
@@ -103,19 +168,23 @@ void CodeConverter::SetScript(const ConfigurationNode& theirs, ConfigurationNode
   SetValue(options, "script_name", script->value, script->location);
 }
 
-void CodeConverter::SetLibrary(const ConfigurationNode& theirs, const char* ours, ConfigurationNode& options)
+std::vector<fs::path> CodeConverter::Folders() const
 {
-  const std::string library = NeededText(theirs, "library");
-  if (library.empty()) return;
-  const SourceLocation& at = FindAttributeOf(theirs, "library")->location;
   std::vector<fs::path> folders{fs::current_path()};
   if (const char* list = std::getenv("ARGOS_PLUGIN_PATH"))
     for (const std::string& one : SplitSearchPath(list, fs::current_path().string())) folders.emplace_back(one);
   folders.emplace_back(folder_);
   folders.push_back(fs::path(folder_).parent_path());
+  return folders;
+}
+
+void CodeConverter::SetLibrary(const ConfigurationNode& theirs, const char* ours, ConfigurationNode& options)
+{
+  const std::string library = NeededText(theirs, "library");
+  if (library.empty()) return;
+  const SourceLocation& at = FindAttributeOf(theirs, "library")->location;
   std::string searched;
-  if (const auto file = Found(folders, {library, library + ".so", "lib" + library + ".so"}, searched))
-    return SetValue(options, ours, *file, at);
+  if (const auto file = Found(Folders(), LibraryNames(library), searched)) return SetValue(options, ours, *file, at);
   Mistake(at, "the library " + Quoted(library) +
                   " is not found; build it, name its folder in ARGOS_PLUGIN_PATH, or start in the folder from which " +
                   "the path leads to it; searched:" + searched);

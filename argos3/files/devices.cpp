@@ -99,6 +99,15 @@ private:
   std::set<std::string> used_;
 };
 
+constexpr const char* kEPuck = "argos3_epuck";
+
+bool IsForEPucks(const DeviceContext& context) { return context.bearers.kinds.contains(kEPuck); }
+
+void RefuseForEPucks(const ConfigurationNode& node, const char* cure, const DeviceContext& context)
+{
+  context.mistake(node.location, "<" + node.name + "> has no counterpart on e-pucks; " + cure);
+}
+
 void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
 {
   for (const char* name : {"bias_avg", "bias_stddev", "factor_avg", "factor_stddev"})
@@ -111,7 +120,11 @@ void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
     }
 }
 
-constexpr std::array<const char*, 10> kSensors{"differential_steering",
+constexpr std::array<const char*, 14> kSensors{"differential_steering",
+                                               "proximity",
+                                               "ground",
+                                               "epuck_proximity",
+                                               "eyebot_proximity",
                                                "footbot_proximity",
                                                "footbot_light",
                                                "eyebot_light",
@@ -142,7 +155,9 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
   const SourceLocation& at = node.location;
   const std::string& tag = node.name;
   Attributes attributes(node, context);
-  if (tag == "differential_steering")
+  if (tag == "differential_steering" && IsForEPucks(context))
+    RefuseForEPucks(node, "leave it out, or take positioning", context);
+  else if (tag == "differential_steering")
   {
     AddDevice(ours.sensors, "footbot_encoders", "engine_footbot_encoders", at);
     attributes.Refuse("vel_noise_range", "leave it out, or give the wheels noise");
@@ -150,14 +165,25 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
   }
   else if (tag == "footbot_proximity")
     attributes.CopyLevel(AddDevice(ours.sensors, tag, "generic_footbot_proximity", at));
+  else if (tag == "proximity" || tag == "epuck_proximity" || tag == "eyebot_proximity")
+  {
+    // The noise is added to the response, which is theirs (argos3/plugin/devices.cpp).
+    AddDevice(ours.sensors, "proximity", "generic_proximity", at);
+    attributes.Number("noise_level");
+  }
   else if (tag == "footbot_light" || tag == "eyebot_light")
     attributes.CopyLevel(AddDevice(ours.sensors, tag, "argos3_" + tag, at));
-  else if ((tag == "footbot_motor_ground" || tag == "footbot_base_ground") && context.floor_is_painted)
+  else if (tag == "ground" && !IsForEPucks(context))
+    context.mistake(at,
+                    "<ground> has no counterpart here on robots that are no e-pucks; take footbot_motor_ground or "
+                    "footbot_base_ground");
+  else if ((tag == "footbot_motor_ground" || tag == "footbot_base_ground" || tag == "ground") &&
+           context.floor_is_painted)
   {
     AddDevice(ours.sensors, "positioning", "generic_positioning", at);
     attributes.Number("noise_level");
   }
-  else if (tag == "footbot_motor_ground" || tag == "footbot_base_ground")
+  else if (tag == "footbot_motor_ground" || tag == "footbot_base_ground" || tag == "ground")
     attributes.CopyLevel(AddDevice(ours.sensors, tag, "generic_" + tag, at));
   else if (tag == "positioning")
   {
@@ -195,10 +221,18 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
   const SourceLocation& at = node.location;
   const std::string& tag = node.name;
   Attributes attributes(node, context);
-  if (tag == "differential_steering")
+  if (tag == "differential_steering" && IsForEPucks(context))
+  {
+    AddDevice(ours.actuators, "wheels", "generic_wheels", at);
+    for (const char* name : {"bias_avg", "bias_stddev", "factor_stddev"})
+      attributes.Refuse(name, "leave it out, or convert the file and give the wheels noise_…");
+  }
+  else if (tag == "differential_steering")
     ConvertWheels(attributes, AddDevice(ours.actuators, "footbot_wheels", "argos3_footbot_wheels", at));
   else if (tag == "leds" && context.bearers.kinds.contains("eyebot"))
     AddDevice(ours.actuators, "eyebot_leds", "generic_eyebot_leds", at);
+  else if (tag == "leds" && IsForEPucks(context))
+    AddDevice(ours.actuators, "led_ring", "generic_led_ring", at);
   else if (tag == "leds")
   {
     AddDevice(ours.actuators, "footbot_leds", "generic_footbot_leds", at);

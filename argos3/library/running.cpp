@@ -66,6 +66,12 @@ std::string Translation::OurId(const std::string& id) const
   return id;
 }
 
+std::string Running::OurId(const std::string& id) const
+{
+  const auto found = taken.find(id);
+  return found != taken.end() ? found->second : translation.OurId(id);
+}
+
 void CopyElement(const ConfigurationNode& from, argos::TConfigurationNode& to)
 {
   to.SetValue(from.name);

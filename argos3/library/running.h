@@ -53,6 +53,17 @@ inline Quaternion OurOrientation(const argos::CQuaternion& q)
 // The element as ARGoS3's controllers see it, with its places.
 void CopyElement(const ConfigurationNode& from, argos::TConfigurationNode& to);
 
+// A robot of a <reserve> that waits for loop functions to add it: it has no controller until then.
+class SpareRobot
+{
+public:
+  virtual ~SpareRobot() = default;
+  // Makes its controller, for the robot of that id of theirs, and calls its Init.
+  virtual void Take(const std::string& id) = 0;
+  // It leaves the arena; its controller is destroyed.
+  virtual void Leave() = 0;
+};
+
 struct Running
 {
   // Of the robots whose controller host is this process, by ARGoS3's id.
@@ -61,6 +72,16 @@ struct Running
   // While functions run: what carries out their changes.
   SpaceEditor* editor = nullptr;
   Translation translation;
+  // Those of this process, by our id.
+  std::map<std::string, SpareRobot*> spares;
+  // What loop functions added and did not remove: ours by their id, and the objects that they gave by our id.
+  std::map<std::string, std::string> taken;
+  std::map<std::string, argos::CEntity*> given;
+  // Whether something was added or removed since this was set to false.
+  bool presence_changed = false;
+
+  // Of the entity of that id of theirs, there or not.
+  std::string OurId(const std::string& id) const;
 };
 Running& TheRunning();
 

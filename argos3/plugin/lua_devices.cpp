@@ -1,6 +1,8 @@
 #include "argos3/plugin/lua_devices.h"
 
+#include <argos3/plugins/robots/e-puck/control_interface/ci_epuck_proximity_sensor.h>
 #include <argos3/plugins/robots/eye-bot/control_interface/ci_eyebot_light_sensor.h>
+#include <argos3/plugins/robots/eye-bot/control_interface/ci_eyebot_proximity_sensor.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_base_ground_sensor.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_gripper_actuator.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_light_sensor.h>
@@ -12,8 +14,10 @@
 #include <argos3/plugins/robots/generic/control_interface/ci_colored_blob_omnidirectional_camera_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_ground_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_leds_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_positioning_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_proximity_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_quadrotor_position_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_quadrotor_speed_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_range_and_bearing_actuator.h>
@@ -258,6 +262,18 @@ void ReadGround(lua_State* lua, Sensor& sensor, const char* name)
            });
 }
 
+// Numbers alone.
+void ReadNumbers(lua_State* lua, const std::vector<Real>& readings, const char* name)
+{
+  Enter(lua, name);
+  for (std::size_t i = 0; i < readings.size(); ++i)
+  {
+    lua_pushnumber(lua, readings[i]);
+    lua_rawseti(lua, -2, static_cast<lua_Integer>(i + 1));
+  }
+  Leave(lua);
+}
+
 // robot.turret: rad, rad/s
 
 int SetRotation(lua_State* lua)
@@ -442,6 +458,10 @@ void AddReadings(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sens
 {
   if (tag == "differential_steering") return ReadWheels(lua, As<argos::CCI_DifferentialSteeringSensor>(sensor));
   if (tag == "footbot_proximity") return ReadRing(lua, As<argos::CCI_FootBotProximitySensor>(sensor), "proximity");
+  if (tag == "epuck_proximity") return ReadRing(lua, As<argos::CCI_EPuckProximitySensor>(sensor), "proximity");
+  if (tag == "eyebot_proximity") return ReadRing(lua, As<argos::CCI_EyeBotProximitySensor>(sensor), "proximity");
+  if (tag == "proximity") return ReadNumbers(lua, As<argos::CCI_ProximitySensor>(sensor).GetReadings(), "proximity");
+  if (tag == "ground") return ReadNumbers(lua, As<argos::CCI_GroundSensor>(sensor).GetReadings(), "ground");
   if (tag == "footbot_light") return ReadRing(lua, As<argos::CCI_FootBotLightSensor>(sensor), "light");
   if (tag == "eyebot_light") return ReadRing(lua, As<argos::CCI_EyeBotLightSensor>(sensor), "light");
   if (tag == "footbot_motor_ground")
