@@ -110,15 +110,15 @@ void ArenaConverter::Convert(ConfigurationNode& ours)
     else if (child->name == "floor")
       ConvertFloor(*child, *made);
     else
-      ConvertEntity(*child, *made, true);
+      ConvertEntity(*child, NeededText(*child, "id"), *made, true);
   AddSpares(*made);
   SetValue(*made, "optimization", kinds_.contains("eyebot") ? "3D" : "2D", at);
 }
 
-void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, ConfigurationNode& parent, bool placed)
+void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::string& id, ConfigurationNode& parent,
+                                   bool placed)
 {
   const SourceLocation& at = theirs.location;
-  const std::string id = NeededText(theirs, "id");
   const std::string robot = KindOf(theirs.name);
   Made made;
   double lift = 0;
@@ -242,6 +242,7 @@ void ArenaConverter::ConvertDistribute(const ConfigurationNode& theirs, Configur
   const ConfigurationNode* orientation = Needed(theirs, "orientation");
   const ConfigurationNode* entity = Needed(theirs, "entity");
   if (position == nullptr || orientation == nullptr || entity == nullptr) return;
+  if (Whole(*entity, "quantity", 1) == 0) return;
   const Made made = AddNode(parent, "distribute", at);
   SetValue(*made, "quantity", NeededText(*entity, "quantity"), entity->location);
   SetValue(*made, "max_trials", NeededText(*entity, "max_trials"), entity->location);
@@ -249,9 +250,20 @@ void ArenaConverter::ConvertDistribute(const ConfigurationNode& theirs, Configur
   ConvertOrientations(*orientation, *AddNode(*made, "orientation", orientation->location));
   if (entity->children.size() != 1) return Mistake(entity->location, "<entity> holds one element: what is distributed");
   const ConfigurationNode& what = *entity->children.front();
-  if (const auto id = Text(what, "id"))
-    distributed_ += (distributed_.empty() ? "" : " ") + *id + ":" + std::to_string(Whole(*entity, "base_num", 0));
-  ConvertEntity(what, *made, false);
+  const std::string id = NeededText(what, "id");
+  const long long first = Whole(*entity, "base_num", 0);
+  const std::string ours = OurIdOfDistributed(what, first);
+  distributed_ += (distributed_.empty() ? "" : " ") + id + ":" + std::to_string(first) + ":" + ours;
+  ConvertEntity(what, ours, *made, false);
+}
+
+std::string ArenaConverter::OurIdOfDistributed(const ConfigurationNode& what, long long first)
+{
+  std::string id = Text(what, "id").value_or("");
+  if (id.empty()) id = KindOf(what.name).empty() ? what.name : KindOf(what.name);
+  if (!distributed_ids_.insert(id).second && first != 0) id += "." + std::to_string(first);
+  distributed_ids_.insert(id);
+  return id;
 }
 
 void ArenaConverter::ConvertPositions(const ConfigurationNode& theirs, ConfigurationNode& made)

@@ -47,8 +47,10 @@ private:
   void FindArena();
   void FindBearers(const ConfigurationNode& within);
   static std::string KindOf(const std::string& tag);
-  // `placed`: with a place of its own; otherwise <distribute> gives it one.
-  void ConvertEntity(const ConfigurationNode& theirs, ConfigurationNode& parent, bool placed);
+  // `id`: ours. `placed`: with a place of its own; otherwise <distribute> gives it one.
+  void ConvertEntity(const ConfigurationNode& theirs, const std::string& id, ConfigurationNode& parent, bool placed);
+  // Of what <distribute> holds: several may have one prefix there, and it may be empty.
+  std::string OurIdOfDistributed(const ConfigurationNode& what, long long first);
   void AddSpares(ConfigurationNode& parent);
   // The colour of its LEDs, as ours.
   std::string ColourOfLeds(const ConfigurationNode& leds);
@@ -68,6 +70,7 @@ private:
   std::set<std::string> kinds_;
   std::map<std::string, std::pair<std::string, int>> spares_;  // by controller: kind and quantity
   std::string distributed_;
+  std::set<std::string> distributed_ids_;  // ours
 };
 
 }  // namespace swarmanoid::argos3

@@ -38,6 +38,12 @@ std::string KindByDevices(const ConfigurationNode& controller)
 
 constexpr int kSpareRobots = 100;  // of a controller
 
+std::string BytesOf(const std::string& file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 std::vector<std::string> LibraryNames(const std::string& library)
 {
   return {library, library + ".so", "lib" + library + ".so"};
@@ -64,13 +70,16 @@ void CodeConverter::ConvertControllers(ConfigurationNode& ours)
 std::set<std::string> CodeConverter::FindMadeKinds() const
 {
   const ConfigurationNode* functions = FindChild(root_, "loop_functions");
-  const auto* library = functions == nullptr ? nullptr : FindAttributeOf(*functions, "library");
   std::set<std::string> kinds;
+  if (functions == nullptr) return kinds;
+  const auto* library = FindAttributeOf(*functions, "library");
+  const auto* label = FindAttributeOf(*functions, "label");
   std::string searched;
-  const auto file = library == nullptr ? std::nullopt : Found(Folders(), LibraryNames(library->value), searched);
+  const auto file = library != nullptr ? Found(Folders(), LibraryNames(library->value), searched)
+                    : label != nullptr ? LibraryThatNames(label->value, searched)
+                                       : std::nullopt;
   if (!file) return kinds;
-  std::ifstream stream(*file, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  const std::string bytes = BytesOf(*file);
   for (const auto& [kind, constructor] : kConstructors)
     if (bytes.find(constructor) != std::string::npos) kinds.insert(kind);
   return kinds;
@@ -123,7 +132,7 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
   else
   {
     SetValue(*options, "label", theirs.name, at);
-    SetLibrary(theirs, "library", *options);
+    SetLibrary(theirs, theirs.name, "library", *options);
   }
   SetValue(*options, "sensors", sensors, at);
   SetValue(*options, "actuators", actuators, at);
@@ -157,7 +166,11 @@ void CodeConverter::SetScript(const ConfigurationNode& theirs, ConfigurationNode
 {
   const ConfigurationNode* params = FindChild(theirs, "params");
   const auto* script = params == nullptr ? nullptr : FindAttributeOf(*params, "script");
-  if (script == nullptr) return Mistake(theirs.location, "a <lua_controller> needs <params script=\"FILE.lua\"/>");
+  if (script == nullptr)
+  {
+    SetValue(options, "script_name", "", theirs.location);
+    return Note(theirs.location, "without <params script=\"FILE.lua\"/> its robots do nothing");
+  }
   std::string searched;
   const auto file = Found({fs::current_path(), folder_, fs::path(folder_).parent_path()}, {script->value}, searched);
   if (!file)
@@ -178,12 +191,39 @@ std::vector<fs::path> CodeConverter::Folders() const
   return folders;
 }
 
-void CodeConverter::SetLibrary(const ConfigurationNode& theirs, const char* ours, ConfigurationNode& options)
+std::optional<std::string> CodeConverter::LibraryThatNames(const std::string& label, std::string& searched)
 {
-  const std::string library = NeededText(theirs, "library");
-  if (library.empty()) return;
-  const SourceLocation& at = FindAttributeOf(theirs, "library")->location;
+  const char* list = std::getenv("ARGOS_PLUGIN_PATH");
+  if (list == nullptr || label.empty()) return std::nullopt;
+  for (const std::string& folder : SplitSearchPath(list, fs::current_path().string()))
+  {
+    searched += "\n    " + folder;
+    std::error_code none;
+    std::set<std::string> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+      if (entry.is_regular_file(none) && entry.path().extension() == ".so") files.insert(entry.path().string());
+    // As a text of its own among the constants, or as the end of one: compilers keep such texts once.
+    for (const std::string& constant : {std::string(1, '\0') + label + '\0', label + '\0'})
+      for (const std::string& file : files)
+        if (BytesOf(file).find(constant) != std::string::npos) return file;
+  }
+  return std::nullopt;
+}
+
+void CodeConverter::SetLibrary(const ConfigurationNode& theirs, const std::string& label, const char* ours,
+                               ConfigurationNode& options)
+{
   std::string searched;
+  const auto* attribute = FindAttributeOf(theirs, "library");
+  if (attribute == nullptr)
+  {
+    if (const auto file = LibraryThatNames(label, searched)) return SetValue(options, ours, *file, theirs.location);
+    return Mistake(theirs.location, "<" + theirs.name + "> has no 'library', and no library in the folders of " +
+                                        "ARGOS_PLUGIN_PATH names " + Quoted(label) + "; add the one or the other" +
+                                        (searched.empty() ? "" : "; searched:" + searched));
+  }
+  const std::string& library = attribute->value;
+  const SourceLocation& at = attribute->location;
   if (const auto file = Found(Folders(), LibraryNames(library), searched)) return SetValue(options, ours, *file, at);
   Mistake(at, "the library " + Quoted(library) +
                   " is not found; build it, name its folder in ARGOS_PLUGIN_PATH, or start in the folder from which " +
@@ -223,8 +263,9 @@ void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours)
   const Made made = AddNode(*list, "argos3_loop_functions", at);
   SetValue(*made, "id", "loop_functions", at);
   SetValue(*made, "library", kPlugin, at);
-  SetLibrary(*theirs, "file", *made);
-  SetValue(*made, "label", NeededText(*theirs, "label"), at);
+  const std::string label = NeededText(*theirs, "label");
+  SetLibrary(*theirs, label, "file", *made);
+  SetValue(*made, "label", label, at);
   SetValue(*made, "origin", TextOf(arena_.Origin()), at);
   SetValue(*made, "distributed", arena_.Distributed(), at);
   SetValue(*made, "floor", arena_.FloorId(), at);

@@ -55,7 +55,10 @@ private:
   // Where libraries are looked for.
   std::vector<std::filesystem::path> Folders() const;
   void SetScript(const ConfigurationNode& theirs, ConfigurationNode& options);
-  void SetLibrary(const ConfigurationNode& theirs, const char* ours, ConfigurationNode& options);
+  // `label`: what the library registers; ARGoS3 loads all libraries of ARGOS_PLUGIN_PATH, so files need not name one.
+  void SetLibrary(const ConfigurationNode& theirs, const std::string& label, const char* ours,
+                  ConfigurationNode& options);
+  static std::optional<std::string> LibraryThatNames(const std::string& label, std::string& searched);
   // The first file of one of the names in one of the folders; otherwise where it is not, a line each.
   static std::optional<std::string> Found(const std::vector<std::filesystem::path>& folders,
                                           const std::vector<std::string>& names, std::string& searched);

@@ -27,10 +27,16 @@ struct Translation
 {
   // Where ARGoS3's origin is in our space, m.
   Vector3 origin = Vector3::Zero();
-  // Entities of <distribute>: "fb0" there is "fb_0" here. The prefix, and the number of the first one.
-  std::vector<std::pair<std::string, long long>> distributed;
+  // Entities of a <distribute>: "fb10", "fb11" … there are "fb_0", "fb_1" … here.
+  struct Distributed
+  {
+    std::string theirs;
+    long long first = 0;
+    std::string ours;
+  };
+  std::vector<Distributed> distributed;
 
-  // From the attributes origin and distributed ("fb:0 eb:10") that the converted file has.
+  // From the attributes origin and distributed ("fb:10:fb eb:0:eb") that the converted file has.
   static Translation From(const TConfigurationTree& tree);
   std::string Argos3Id(const std::string& id) const;
   std::string OurId(const std::string& id) const;

@@ -106,8 +106,10 @@ private:
 
   std::unique_ptr<argos::CCI_Controller> MakeController(const TConfigurationTree& options) const
   {
-    if (std::string script = options.GetText("script", ""); !script.empty())
+    if (options.HasAttribute("script_name"))
     {
+      std::string script = options.GetText("script", "");
+      if (script.empty()) return std::make_unique<argos::CCI_Controller>();
       return MakeLuaController(
           {options.GetText("script_name"), std::move(script), [robot = GetRobot()] { return robot->GetTime(); }});
     }

@@ -24,29 +24,30 @@ class Argos3LoopFunctions : public CExperimentFunctions
 public:
   static PluginDescription Description()
   {
-    return {.label = "argos3_loop_functions",
-            .brief = "runs loop functions that were written for ARGoS3",
-            .parameters = {
-                {.name = "file", .type = ParameterType::kText, .description = "The library that holds them: a path."},
-                {.name = "label",
-                 .type = ParameterType::kText,
-                 .description = "The label under which the library registered them."},
-                {.name = "origin",
-                 .type = ParameterType::kVector3,
-                 .unit = "m",
-                 .description = "Where the origin of the ARGoS3 arena is."},
-                {.name = "distributed",
-                 .type = ParameterType::kText,
-                 .default_value = "",
-                 .description = "Prefixes of the ids of distributed entities, each with the number of the first one."},
-                {.name = "floor",
-                 .type = ParameterType::kText,
-                 .default_value = "",
-                 .description = "The id of the floor; empty for none."},
-                {.name = "loop_functions",
-                 .type = ParameterType::kTree,
-                 .default_value = "",
-                 .description = "The element of the ARGoS3 file, as it stands there."}}};
+    return {
+        .label = "argos3_loop_functions",
+        .brief = "runs loop functions that were written for ARGoS3",
+        .parameters = {
+            {.name = "file", .type = ParameterType::kText, .description = "The library that holds them: a path."},
+            {.name = "label",
+             .type = ParameterType::kText,
+             .description = "The label under which the library registered them."},
+            {.name = "origin",
+             .type = ParameterType::kVector3,
+             .unit = "m",
+             .description = "Where the origin of the ARGoS3 arena is."},
+            {.name = "distributed",
+             .type = ParameterType::kText,
+             .default_value = "",
+             .description = "Of the distributed entities: prefix of the ids there, number of the first one, id here."},
+            {.name = "floor",
+             .type = ParameterType::kText,
+             .default_value = "",
+             .description = "The id of the floor; empty for none."},
+            {.name = "loop_functions",
+             .type = ParameterType::kTree,
+             .default_value = "",
+             .description = "The element of the ARGoS3 file, as it stands there."}}};
   }
 
   ~Argos3LoopFunctions() override

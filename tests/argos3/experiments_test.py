@@ -117,6 +117,30 @@ class Experiments(unittest.TestCase):
         logs = [*(self.folder / folder).glob("swarmanoid.log"), *(self.folder / folder).glob("controller_host*.log")]
         return "".join(log.read_text() for log in logs)
 
+    def test_ids_of_distributed_entities_are_those_of_argos3(self):
+        """Two groups of one prefix, one without any, and one of nobody."""
+        group = """<distribute>
+            <position method="constant" values="{}"/><orientation method="constant" values="0,0,0"/>
+            <entity quantity="{}" max_trials="1" base_num="{}"><foot-bot id="{}"><controller config="r"/></foot-bot></entity>
+            </distribute>"""
+        more = group.format("-1.5,0,0", 1, 7, "fb") + group.format("-1.5,1,0", 1, 3, "") + group.format("0,0,0", 0, 0, "no")
+        file = self.changed("collect.argos", ("</arena>", more + "</arena>"))
+        self.swarmanoid("run", file, "--output", "run")
+        rows = [line.split("\t") for line in (self.folder / "collected.tsv").read_text().splitlines()]
+        self.assertEqual({row[2] for row in rows if row[0] == "0"}, {"fb5", "fb6", "fb7", "3"})
+        at = {row[2]: float(row[5]) for row in rows if row[0] == "0"}
+        self.assertEqual((at["fb7"], at["3"], at["fb5"]), (-1.5, -1.5, -0.5))
+
+    def test_files_need_not_name_libraries_in_the_search_path(self):
+        expected = self.hash_of(HERE / "collect.argos", "--output", "named")
+        file = self.changed("collect.argos", ('<runner id="r" library="argos3_collector">', '<runner id="r">'),
+                            ('<loop_functions library="argos3_collector" ', "<loop_functions "))
+        self.assertEqual(self.hash_of(file, "--output", "unnamed"), expected)
+        file.write_text(file.read_text().replace('label="collector"', 'label="kollektor"'))
+        result = self.swarmanoid("check", file, code=3)
+        self.assertRegex(result.stderr, r"collect\.argos:\d+:\d+: <loop_functions> has no 'library', and no library in the "
+                                        r"folders of ARGOS_PLUGIN_PATH names 'kollektor'")
+
     def test_an_e_puck_senses_as_that_of_argos3(self):
         """A wall 6.5 cm ahead of the middle of a robot of radius 3.5 cm, with sensors at 17 and 50 degrees; black floor
         on the left."""
@@ -234,6 +258,13 @@ class Experiments(unittest.TestCase):
         file = self.folder / "lua.argos"
         file.write_text(f'{head}<lua_controller id="w">{devices + own[own.index("<params"):] if devices else own}</lua_controller>{tail}')
         return file
+
+    def test_without_a_script_robots_stand_still(self):
+        file = self.in_lua("")
+        file.write_text(file.read_text().replace('<params script=""/>', "<params/>"))
+        result = self.swarmanoid("check", file)
+        self.assertRegex(result.stderr, r"lua\.argos:\d+:\d+: note: without <params script=.* its robots do nothing")
+        self.swarmanoid("run", file, "--single-process", "--output", "run")
 
     def test_a_script_does_what_the_same_rule_in_cpp_does(self):
         shutil.copytree(HERE / "scripts", self.folder / "scripts")
