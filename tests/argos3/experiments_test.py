@@ -131,6 +131,15 @@ class Experiments(unittest.TestCase):
         at = {row[2]: float(row[5]) for row in rows if row[0] == "0"}
         self.assertEqual((at["fb7"], at["3"], at["fb5"]), (-1.5, -1.5, -0.5))
 
+    def test_ticks_that_are_no_whole_milliseconds_are_rounded_if_little_is_lost(self):
+        file = self.changed("wander.argos", ('ticks_per_second="10"', 'ticks_per_second="32"'))
+        result = self.swarmanoid("convert", file, "--output", "wander.xml")
+        self.assertRegex(result.stderr, r"wander\.argos:\d+:\d+: note: a tick has whole milliseconds here: 31 ms, 0\.8 % less")
+        framework = xml.etree.ElementTree.parse(self.folder / "wander.xml").find("framework")
+        self.assertEqual((framework.get("clocktick"), framework.get("maxclock")), ("31", "641"))
+        file.write_text(file.read_text().replace('"32"', '"60"'))
+        self.assertIn("'ticks_per_second' is 60", self.swarmanoid("check", file, code=3).stderr)
+
     def test_files_need_not_name_libraries_in_the_search_path(self):
         expected = self.hash_of(HERE / "collect.argos", "--output", "named")
         file = self.changed("collect.argos", ('<runner id="r" library="argos3_collector">', '<runner id="r">'),
