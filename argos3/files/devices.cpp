@@ -120,7 +120,8 @@ void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
     }
 }
 
-constexpr std::array<const char*, 14> kSensors{"differential_steering",
+constexpr std::array<const char*, 15> kSensors{"differential_steering",
+                                               "footbot_distance_scanner",
                                                "proximity",
                                                "ground",
                                                "epuck_proximity",
@@ -134,9 +135,16 @@ constexpr std::array<const char*, 14> kSensors{"differential_steering",
                                                "battery",
                                                "colored_blob_omnidirectional_camera",
                                                "footbot_turret_encoder"};
-constexpr std::array<const char*, 7> kActuators{
-    "differential_steering", "leds",           "footbot_gripper", "footbot_turret", "range_and_bearing",
-    "quadrotor_position",    "quadrotor_speed"};
+constexpr const char* kScanner = "footbot_distance_scanner";
+
+constexpr std::array<const char*, 8> kActuators{kScanner,
+                                                "differential_steering",
+                                                "leds",
+                                                "footbot_gripper",
+                                                "footbot_turret",
+                                                "range_and_bearing",
+                                                "quadrotor_position",
+                                                "quadrotor_speed"};
 
 template <class Names>
 void RefuseUnknown(const ConfigurationNode& node, const char* what, const Names& names, const DeviceContext& context)
@@ -203,6 +211,14 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     SetValue(device, "aperture", TextOf(context.bearers.camera_aperture), at);
     attributes.Refuse("noise_std_dev", "leave it out, or convert the file and give the camera distance_noise_…");
   }
+  else if (tag == kScanner)
+  {
+    ConfigurationNode& device = AddDevice(ours.sensors, tag, "argos3_footbot_distance_scanner", at);
+    // Of readings in cm.
+    if (const auto range = attributes.Range("noise_range"))
+      attributes.CopyUniform(device, "", range->first / 100, range->second / 100);
+    attributes.Refuse("noise_std_dev", "leave it out, or write noise_range");
+  }
   else if (tag == "footbot_turret_encoder")
     AddDevice(ours.sensors, tag, "generic_footbot_turret_encoder", at);
   else if (tag == "range_and_bearing")
@@ -240,6 +256,8 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
   }
   else if (tag == "footbot_gripper")
     AddDevice(ours.actuators, tag, "dummy_footbot_gripper", at);
+  else if (tag == kScanner)
+    AddDevice(ours.sensors, tag, "argos3_footbot_distance_scanner", at);
   else if (tag == "footbot_turret")
   {
     AddDevice(ours.actuators, tag, "dummy_footbot_turret", at);

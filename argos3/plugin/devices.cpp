@@ -4,6 +4,8 @@
 #include <argos3/plugins/robots/eye-bot/control_interface/ci_eyebot_light_sensor.h>
 #include <argos3/plugins/robots/eye-bot/control_interface/ci_eyebot_proximity_sensor.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_base_ground_sensor.h>
+#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_distance_scanner_actuator.h>
+#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_distance_scanner_sensor.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_gripper_actuator.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_light_sensor.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_motor_ground_sensor.h>
@@ -47,6 +49,7 @@
 #include "common/control_interface/footbot/ci_footbot_motor_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_omnidirectional_camera_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_turning_scanner_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_turret_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_turret_encoder_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_wheels_actuator.h"
@@ -476,6 +479,60 @@ private:
   const swarmanoid::CCI_FootBotTurretEncoderSensor& ours_;
 };
 
+class ScannerHead : public ActuatorBridge, public argos::CCI_FootBotDistanceScannerActuator
+{
+public:
+  explicit ScannerHead(const DeviceSetup& setup)
+      : ours_(setup.robot.Sensor<CCI_FootBotTurningScannerSensor>("footbot_distance_scanner"))
+  {
+  }
+  argos::CCI_Actuator& Actuator() override { return *this; }
+  void SetAngle(const argos::CRadians& angle) override
+  {
+    angle_ = angle.GetValue();
+    Enable();
+  }
+  void SetRPM(Real turns_a_minute) override { ours_.Turn(turns_a_minute * 2 * std::numbers::pi / 60); }
+  void Enable() override { ours_.Look(angle_); }
+  void Disable() override { ours_.SwitchOff(); }
+
+private:
+  CCI_FootBotTurningScannerSensor& ours_;
+  double angle_ = 0;
+};
+
+class Scanner : public SensorBridge, public argos::CCI_FootBotDistanceScannerSensor
+{
+public:
+  explicit Scanner(const DeviceSetup& setup)
+      : ours_(setup.robot.Sensor<CCI_FootBotTurningScannerSensor>("footbot_distance_scanner"))
+  {
+  }
+  argos::CCI_Sensor& Sensor() override { return *this; }
+  void Update() override
+  {
+    m_tReadingsMap.clear();
+    m_tShortReadingsMap.clear();
+    m_tLongReadingsMap.clear();
+    const auto readings = ours_.GetAllReadings();
+    for (std::size_t i = 0; i < readings.size(); ++i)
+    {
+      const auto& reading = readings[i];
+      const argos::CRadians angle(reading.angle_rad);
+      const Real value = reading.echo == CCI_DistanceScannerSensor::Echo::kTooNear ? -1
+                         : reading.echo == CCI_DistanceScannerSensor::Echo::kNothing
+                             ? -2
+                             : kCentimetres * reading.distance_m;
+      m_tReadingsMap[angle] = value;
+      // The two short beams come first.
+      (2 * i < readings.size() ? m_tShortReadingsMap : m_tLongReadingsMap)[angle] = value;
+    }
+  }
+
+private:
+  const CCI_FootBotTurningScannerSensor& ours_;
+};
+
 class RangeAndBearingSender : public ActuatorBridge, public argos::CCI_RangeAndBearingActuator
 {
 public:
@@ -616,6 +673,7 @@ std::unique_ptr<SensorBridge> MakeSensor(const std::string& tag, const DeviceSet
   if (tag == "battery") return std::make_unique<Battery>(setup);
   if (tag == "colored_blob_omnidirectional_camera") return std::make_unique<OmnidirectionalCamera>(setup);
   if (tag == "footbot_turret_encoder") return std::make_unique<TurretEncoder>(setup);
+  if (tag == "footbot_distance_scanner") return std::make_unique<Scanner>(setup);
   if (tag == "range_and_bearing") return std::make_unique<RangeAndBearingReceiver>(setup);
   return nullptr;
 }
@@ -630,6 +688,7 @@ std::unique_ptr<ActuatorBridge> MakeActuator(const std::string& tag, const Devic
   if (tag == "leds") return std::make_unique<FootBotLeds>(setup);
   if (tag == "footbot_gripper") return std::make_unique<Gripper>(setup);
   if (tag == "footbot_turret") return std::make_unique<Turret>(setup);
+  if (tag == "footbot_distance_scanner") return std::make_unique<ScannerHead>(setup);
   if (tag == "range_and_bearing") return std::make_unique<RangeAndBearingSender>(setup);
   if (tag == "quadrotor_position") return std::make_unique<QuadrotorPosition>(setup);
   if (tag == "quadrotor_speed") return std::make_unique<QuadrotorSpeed>(setup);

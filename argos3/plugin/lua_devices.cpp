@@ -4,6 +4,8 @@
 #include <argos3/plugins/robots/eye-bot/control_interface/ci_eyebot_light_sensor.h>
 #include <argos3/plugins/robots/eye-bot/control_interface/ci_eyebot_proximity_sensor.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_base_ground_sensor.h>
+#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_distance_scanner_actuator.h>
+#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_distance_scanner_sensor.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_gripper_actuator.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_light_sensor.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_motor_ground_sensor.h>
@@ -311,6 +313,64 @@ void AddTurret(lua_State* lua, argos::CCI_FootBotTurretActuator& turret)
   Leave(lua);
 }
 
+// robot.distance_scanner: rad, turns a minute; cm, rad
+
+int SetScannerAngle(lua_State* lua)
+{
+  CheckCount(lua, 1);
+  Subject<argos::CCI_FootBotDistanceScannerActuator>(lua).SetAngle(argos::CRadians(luaL_checknumber(lua, 1)));
+  return 0;
+}
+
+int SetRpm(lua_State* lua)
+{
+  CheckCount(lua, 1);
+  Subject<argos::CCI_FootBotDistanceScannerActuator>(lua).SetRPM(luaL_checknumber(lua, 1));
+  return 0;
+}
+
+template <void (argos::CCI_FootBotDistanceScannerActuator::*Act)()>
+int SwitchScanner(lua_State* lua)
+{
+  CheckCount(lua, 0);
+  (Subject<argos::CCI_FootBotDistanceScannerActuator>(lua).*Act)();
+  return 0;
+}
+
+void AddScanner(lua_State* lua, argos::CCI_FootBotDistanceScannerActuator& scanner)
+{
+  using Actuator = argos::CCI_FootBotDistanceScannerActuator;
+  Enter(lua, "distance_scanner");
+  SetFunction<SwitchScanner<&Actuator::Enable>>(lua, "enable", &scanner);
+  SetFunction<SwitchScanner<&Actuator::Disable>>(lua, "disable", &scanner);
+  SetFunction<SetScannerAngle>(lua, "set_angle", &scanner);
+  SetFunction<SetRpm>(lua, "set_rpm", &scanner);
+  Leave(lua);
+}
+
+void ReadBeams(lua_State* lua, const argos::CCI_FootBotDistanceScannerSensor::TReadingsMap& readings, const char* name)
+{
+  Enter(lua, name);
+  lua_Integer count = 0;
+  for (const auto& [angle, distance] : readings)
+  {
+    EnterNew(lua, ++count, 2);
+    Set(lua, "angle", angle.GetValue());
+    Set(lua, "distance", distance);
+    Leave(lua);
+  }
+  Shorten(lua, count);
+  Leave(lua);
+}
+
+void ReadScanner(lua_State* lua, argos::CCI_FootBotDistanceScannerSensor& scanner)
+{
+  Enter(lua, "distance_scanner");
+  ReadBeams(lua, scanner.GetShortReadingsMap(), "short_range");
+  ReadBeams(lua, scanner.GetLongReadingsMap(), "long_range");
+  Leave(lua);
+}
+
 // robot.gripper
 
 template <void (argos::CCI_FootBotGripperActuator::*Act)()>
@@ -443,6 +503,8 @@ void AddFunctions(lua_State* lua, const std::string& tag, argos::CCI_Actuator& a
   if (tag == "leds") return AddLeds(lua, As<argos::CCI_LEDsActuator>(actuator));
   if (tag == "range_and_bearing") return AddSender(lua, As<argos::CCI_RangeAndBearingActuator>(actuator));
   if (tag == "footbot_turret") return AddTurret(lua, As<argos::CCI_FootBotTurretActuator>(actuator));
+  if (tag == "footbot_distance_scanner")
+    return AddScanner(lua, As<argos::CCI_FootBotDistanceScannerActuator>(actuator));
   if (tag == "footbot_gripper") return AddGripper(lua, As<argos::CCI_FootBotGripperActuator>(actuator));
   if (tag == "quadrotor_position") return AddPosition(lua, As<argos::CCI_QuadRotorPositionActuator>(actuator));
   if (tag == "quadrotor_speed") return AddSpeed(lua, As<argos::CCI_QuadRotorSpeedActuator>(actuator));
@@ -471,6 +533,7 @@ void AddReadings(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sens
   if (tag == "range_and_bearing") return ReadPackets(lua, As<argos::CCI_RangeAndBearingSensor>(sensor));
   if (tag == kCamera) return ReadBlobs(lua, As<argos::CCI_ColoredBlobOmnidirectionalCameraSensor>(sensor));
   if (tag == "positioning") return ReadPosition(lua, As<argos::CCI_PositioningSensor>(sensor));
+  if (tag == "footbot_distance_scanner") return ReadScanner(lua, As<argos::CCI_FootBotDistanceScannerSensor>(sensor));
   if (tag == "battery") return ReadBattery(lua, As<argos::CCI_BatterySensor>(sensor));
   if (tag == "footbot_turret_encoder")
   {

@@ -332,6 +332,30 @@ class Experiments(unittest.TestCase):
         self.assertRegex(said, r": b range_and_bearing .*horizontal_bearing=-?3.14159 range=50 ")
         self.assertRegex(said, r": a ends after 200 steps true")
 
+    def test_a_script_turns_the_distance_scanner(self):
+        """A wall 15 cm ahead of the body, another 50 cm to its left; the head turns half a turn a second."""
+        shutil.copy(HERE / "scripts/scanner.lua", self.folder)
+        file = self.in_lua("scanner.lua", """<actuators><footbot_distance_scanner implementation="default"/></actuators>
+            <sensors><footbot_distance_scanner implementation="rot_z_only" noise_range="0:0"/></sensors>""")
+        text = re.sub(r"<distribute>.*</distribute>|<cylinder.*</cylinder>", "", file.read_text(), flags=re.DOTALL)
+        walls = "".join(f'<box id="{name}" size="{size},0.5" movable="false"><body position="{at},0" orientation="0,0,0"/></box>'
+                        for name, size, at in (("ahead", "0.1,1", "0.285036758,0"), ("left", "1,0.1", "0,0.635036758")))
+        file.write_text(text.replace("</arena>", walls + """<foot-bot id="a"><body position="0,0,0" orientation="0,0,0"/>
+            <controller config="w"/></foot-bot></arena>"""))
+        self.swarmanoid("run", file, "--single-process", "--output", "run")
+        said = re.findall(r"robot 'a' at tick \d+: (\w+) (.*)", self.said_in("run"))
+        self.assertEqual(said[0], ("off", "0 0"))
+        turning = [tuple(map(float, text.split())) for word, text in said if word == "turning"]
+        self.assertEqual(len(turning), 12)
+        step = math.pi / 60
+        for number, (angle, _) in enumerate(turning[:6]):
+            # Of the short beams that which looks ahead is the second one in the order of angles, from the second tick on.
+            self.assertAlmostEqual(angle, -math.pi + (6 + number) * step, places=3)
+        for angle, distance in turning[6:]:
+            self.assertAlmostEqual(distance, 100 * (0.235036758 / math.cos(angle) - 0.085036758), places=2)
+        still = {text for word, text in said if word == "still"}
+        self.assertEqual(still, {"0 15", "3.1416 -2", "-1.5708 -2", "1.5708 50"})
+
     def test_mistakes_in_a_script_are_named_with_file_and_line(self):
         file = self.in_lua("mine.lua")
         self.assertRegex(self.swarmanoid("check", file, code=3).stderr, r"lua\.argos:\d+:\d+: the script 'mine.lua' is not found; .*searched:\n\s+\S+/mine.lua")
