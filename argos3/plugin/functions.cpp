@@ -119,7 +119,7 @@ public:
     if (space.GetTick() < 2) return Outcome::kRunning;
     const bool over = functions_->IsExperimentFinished() || argos::CSimulator::GetInstance().IsTerminated();
     const std::uint64_t last = space.GetExperiment().max_clock;
-    if (over || (last != 0 && space.GetTick() >= last)) functions_->PostExperiment();
+    is_over_ = over || (last != 0 && space.GetTick() >= last);
     return over ? Outcome::kDone : Outcome::kRunning;
   }
 
@@ -127,6 +127,9 @@ public:
   {
     const Speaker speaker(editor);
     const Changing changing(editor);
+    // Not where it is found out: PostExperiment may change entities.
+    if (is_over_) functions_->PostExperiment();
+    is_over_ = false;
     if (editor.GetSpace().GetTick() >= 1) functions_->Destroy();
   }
 
@@ -245,6 +248,7 @@ private:
   argos::TConfigurationNode element_;
   std::vector<View> views_;
   std::vector<std::uint32_t> absent_;
+  bool is_over_ = false;
   std::optional<argos::CFloorEntity> floor_;
   std::unique_ptr<argos::CLoopFunctions> functions_;
 };

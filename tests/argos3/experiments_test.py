@@ -202,7 +202,9 @@ class Experiments(unittest.TestCase):
         # In Init: three robots, the controller of the first, no place for the second where the first is, limits, ticks.
         self.assertEqual(lines[0], "# 3 made0 0 2,2,1 10")
         self.assertIn("declares no box 'crate'", lines[1])
-        rows = [line.split("\t") for line in lines[2:]]
+        # Entities may be changed behind the last step, too.
+        self.assertEqual(lines[-1], "# over 0,255,0,255")
+        rows = [line.split("\t") for line in lines[2:-1]]
         self.assertEqual([row[1] for row in rows], ["3"] * 3 + ["2"] * 3 + ["3"] * 4)
         for row in rows:
             clock = int(row[0])

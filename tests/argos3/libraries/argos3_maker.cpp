@@ -80,7 +80,7 @@ public:
   void PostStep() override
   {
     const UInt32 clock = GetSpace().GetSimulationClock();
-    auto& can = *any_cast<CCylinderEntity*>(GetSpace().GetEntitiesByType("cylinder")["can"]);
+    CCylinderEntity& can = Can();
     const CFootBotEntity& first = *made_[0];
     const CMade& controller = ControllerOf(first);
     file_ << clock << '\t' << GetSpace().GetEntitiesByType("foot-bot").size() << '\t'
@@ -97,7 +97,14 @@ public:
     file_ << '\n';
   }
 
+  void PostExperiment() override
+  {
+    Can().GetLEDEquippedEntity().SetAllLEDsColors(CColor::GREEN);
+    file_ << "# over " << Can().GetLEDEquippedEntity().GetLED(0).GetColor() << "\n";
+  }
+
 private:
+  CCylinderEntity& Can() { return *any_cast<CCylinderEntity*>(GetSpace().GetEntitiesByType("cylinder")["can"]); }
   static const CMade& ControllerOf(const CFootBotEntity& robot)
   {
     return dynamic_cast<const CMade&>(robot.GetControllableEntity().GetController());
