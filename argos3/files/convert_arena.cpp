@@ -198,6 +198,12 @@ void ArenaConverter::KeepSpare(const std::string& controller, const std::string&
 
 void ArenaConverter::AddSpares(ConfigurationNode& parent)
 {
+  if (spare_lights_ > 0)
+  {
+    const Made reserve = AddNode(parent, "reserve", arena_.location);
+    SetValue(*reserve, "quantity", std::to_string(spare_lights_), arena_.location);
+    SetValue(*AddNode(*reserve, "light_bulb", arena_.location), "id", "made_light", arena_.location);
+  }
   for (const auto& [controller, spare] : spares_)
   {
     const Made reserve = AddNode(parent, "reserve", arena_.location);

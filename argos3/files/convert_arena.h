@@ -27,6 +27,7 @@ public:
   const Bearers& BearersOf(const std::string& controller) { return bearers_[controller]; }
   // Before Convert: robots of a controller that are not in the arena until loop functions add them.
   void KeepSpare(const std::string& controller, const std::string& kind, int quantity);
+  void KeepSpareLights(int quantity) { spare_lights_ = quantity; }
   // The id of their <reserve>; empty: there are none.
   std::string SpareOf(const std::string& controller) const
   {
@@ -68,6 +69,7 @@ private:
   Vector3 origin_ = Vector3::Zero();
   std::map<std::string, Bearers> bearers_;  // by controller
   std::set<std::string> kinds_;
+  int spare_lights_ = 0;
   std::map<std::string, std::pair<std::string, int>> spares_;  // by controller: kind and quantity
   std::string distributed_;
   std::set<std::string> distributed_ids_;  // ours

@@ -16,8 +16,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPlugin = "argos3";
 
-constexpr std::pair<const char*, const char*> kConstructors[]{
-    {"footbot", "14CFootBotEntityC"}, {"eyebot", "13CEyeBotEntityC"}, {"argos3_epuck", "12CEPuckEntityC"}};
+constexpr std::pair<const char*, const char*> kConstructors[]{{"footbot", "14CFootBotEntityC"},
+                                                              {"eyebot", "13CEyeBotEntityC"},
+                                                              {"argos3_epuck", "12CEPuckEntityC"},
+                                                              {"light_bulb", "12CLightEntityC"}};
 
 // Of a controller that no robot of the file has: by its devices.
 std::string KindByDevices(const ConfigurationNode& controller)
@@ -37,6 +39,7 @@ std::string KindByDevices(const ConfigurationNode& controller)
 }
 
 constexpr int kSpareRobots = 100;  // of a controller
+constexpr int kSpareLights = 20;
 
 std::string BytesOf(const std::string& file)
 {
@@ -64,6 +67,7 @@ void CodeConverter::ConvertControllers(ConfigurationNode& ours)
     return false;
   }();
   made_kinds_ = FindMadeKinds();
+  if (made_kinds_.erase("light_bulb") != 0) arena_.KeepSpareLights(kSpareLights);
   for (const auto& controller : controllers->children) ConvertController(*controller, *made, somebody_hears);
 }
 

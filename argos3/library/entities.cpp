@@ -4,6 +4,7 @@
 #include <argos3/plugins/robots/e-puck/simulator/epuck_entity.h>
 #include <argos3/plugins/robots/eye-bot/simulator/eyebot_entity.h>
 #include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
+#include <argos3/plugins/simulator/entities/light_entity.h>
 
 #include "argos3/library/running.h"
 
@@ -113,6 +114,11 @@ CEyeBotEntity::CEyeBotEntity(const std::string& id, const std::string& controlle
 CEPuckEntity::CEPuckEntity(const std::string& id, const std::string& controller, const CVector3& position,
                            const CQuaternion& orientation, Real, size_t, const std::string&)
     : CRobotWithController(id, kLeds, controller, position, orientation)
+{
+}
+
+CLightEntity::CLightEntity(const std::string& id, const CVector3& position, const CColor& colour, Real intensity)
+    : CPositionalEntity(nullptr, id, position, CQuaternion()), colour_(colour), intensity_(intensity)
 {
 }
 

@@ -44,6 +44,22 @@ const swarmanoid::CSwarmanoidSpaceEntity& Declared(const std::string& id)
   return *entity;
 }
 
+// The id of the reserve of lights in converted files.
+constexpr const char* kMadeLight = "made_light";
+
+std::uint32_t Rgb(const CColor& colour)
+{
+  return static_cast<std::uint32_t>(colour.GetRed()) << 16U | static_cast<std::uint32_t>(colour.GetGreen()) << 8U |
+         colour.GetBlue();
+}
+
+bool HasReserve(const swarmanoid::CSwarmanoidSpace& space, const std::string& reserve)
+{
+  for (std::size_t i = 0; i < space.Size(); ++i)
+    if (space.GetEntity(i).GetConfiguration().reserve == reserve) return true;
+  return false;
+}
+
 const swarmanoid::CSwarmanoidSpaceEntity& NextSpare(const swarmanoid::CSwarmanoidSpace& space,
                                                     const std::string& reserve)
 {
@@ -63,17 +79,16 @@ const swarmanoid::CSwarmanoidSpaceEntity& OursFor(const CEntity& made)
   const std::string& id = made.GetId();
   const swarmanoid::CSwarmanoidSpace& space = Editor().GetSpace();
   if (const auto* entity = space.FindEntity(TheRunning().OurId(id))) return *entity;
+  if (dynamic_cast<const CLightEntity*>(&made) != nullptr && HasReserve(space, kMadeLight))
+    return NextSpare(space, kMadeLight);
   const auto* robot = dynamic_cast<const CRobotWithController*>(&made);
   if (robot == nullptr)
     THROW_ARGOSEXCEPTION("the experiment file declares no " << made.GetTypeDescription() << " '" << id
-                                                            << "'; loop functions add robots of their own, but boxes, "
-                                                            << "cylinders and lights only if they stand in the file, "
-                                                            << "from where they may be removed in Init");
+                                                            << "'; loop functions add robots and lights of their own, "
+                                                            << "but boxes and cylinders only if they stand in the "
+                                                            << "file, from where they may be removed in Init");
   const std::string reserve = "added_" + robot->ControllerOfMade();
-  bool is_there = false;
-  for (std::size_t i = 0; i < space.Size() && !is_there; ++i)
-    is_there = space.GetEntity(i).GetConfiguration().reserve == reserve;
-  if (!is_there)
+  if (!HasReserve(space, reserve))
     THROW_ARGOSEXCEPTION("no " << made.GetTypeDescription() << " with the controller '" << robot->ControllerOfMade()
                                << "' can be added as '" << id
                                << "': the controller is not in <controllers>, is of another "
@@ -147,6 +162,12 @@ CCI_Controller& CControllableEntity::GetController()
 CColor CFloorEntity::GetColorAtPoint(Real x, Real y)
 {
   return CSimulator::GetInstance().GetLoopFunctions().GetFloorColor(CVector2(x, y));
+}
+
+void CLightEntity::SetColor(const CColor& colour)
+{
+  Editor().SetAttribute(Declared(GetId()).GetId(), "colour", Rgb(colour));
+  colour_ = colour;
 }
 
 void CLightEntity::SetIntensity(Real intensity)
@@ -261,16 +282,29 @@ void CLoopFunctions::AddEntity(CEntity& entity)
   // Whoever made it may go on to hold it.
   static std::vector<std::unique_ptr<CEntity>> given;
   given.emplace_back(&entity);
-  auto* body = dynamic_cast<CBodyEntity*>(&entity);
-  if (body == nullptr) THROW_ARGOSEXCEPTION("'" << entity.GetId() << "' has no body");
-  const SAnchor& at = body->GetEmbodiedEntity().GetOriginAnchor();
+  const auto* body = dynamic_cast<CBodyEntity*>(&entity);
+  const auto* light = dynamic_cast<CLightEntity*>(&entity);
+  if (body == nullptr && light == nullptr)
+    THROW_ARGOSEXCEPTION("'" << entity.GetId() << "' is neither a body nor a light");
   Running& running = TheRunning();
   std::string ours;
+  bool was_declared = true;
   try
   {
     const auto& added = OursFor(entity);
     ours = added.GetId();
-    AddAnywhere(ours, PoseOf(added, at.Position, at.Orientation));
+    was_declared = ours == running.OurId(entity.GetId());
+    if (light != nullptr)
+    {
+      Editor().AddEntity(ours, PoseOf(added, light->GetPosition(), light->GetOrientation()));
+      Editor().SetAttribute(ours, "intensity", light->GetIntensity());
+      Editor().SetAttribute(ours, "colour", Rgb(light->GetColor()));
+    }
+    else
+    {
+      const SAnchor& at = body->GetEmbodiedEntity().GetOriginAnchor();
+      AddAnywhere(ours, PoseOf(added, at.Position, at.Orientation));
+    }
   }
   catch (const std::invalid_argument& refused)
   {
@@ -279,10 +313,9 @@ void CLoopFunctions::AddEntity(CEntity& entity)
   running.given[ours] = &entity;
   running.presence_changed = true;
   CSimulator::GetInstance().GetSpace().InsertAny(entity);
-  const auto spare = running.spares.find(ours);
-  if (spare == running.spares.end()) return;
+  if (was_declared) return;
   running.taken[entity.GetId()] = ours;
-  spare->second->Take(entity.GetId());
+  if (const auto spare = running.spares.find(ours); spare != running.spares.end()) spare->second->Take(entity.GetId());
 }
 
 void CLoopFunctions::RemoveEntity(const std::string& id)
@@ -299,7 +332,8 @@ void CLoopFunctions::RemoveEntity(const std::string& id)
   Running& running = TheRunning();
   running.given.erase(ours);
   running.presence_changed = true;
-  if (running.taken.erase(id) != 0) running.spares.at(ours)->Leave();
+  running.taken.erase(id);
+  if (const auto spare = running.spares.find(ours); spare != running.spares.end()) spare->second->Leave();
 }
 
 void CLoopFunctions::RemoveEntity(CEntity& entity) { RemoveEntity(entity.GetRootEntity().GetId()); }

@@ -211,7 +211,9 @@ class Experiments(unittest.TestCase):
             self.assertEqual(int(row[3]), clock)  # its steps
             self.assertAlmostEqual(float(row[2]), 0.01 * (clock - 1), places=4)  # the object that was added follows it
             # The can shows another colour from the step after it was given.
-            self.assertEqual(row[4:7], ["1", "0", "255,0,0,255"] if clock <= 5 else ["0", "1", "0,0,255,255"])
+            # A lamp that loop functions made is near in step 4.
+            self.assertEqual(row[4:7], ["1", "1" if clock == 4 else "0", "255,0,0,255"] if clock <= 5 else
+                             ["0", "1", "0,0,255,255"])
         # The place of one that left is taken by another, with a controller of its own.
         self.assertEqual(rows[5][7], "0")
         made = re.findall(r"(Init|Destroy) of (\w+)", self.said_in("run"))

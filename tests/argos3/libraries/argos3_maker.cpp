@@ -7,6 +7,7 @@
 #include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_actuator.h>
 #include <argos3/plugins/simulator/entities/box_entity.h>
 #include <argos3/plugins/simulator/entities/cylinder_entity.h>
+#include <argos3/plugins/simulator/entities/light_entity.h>
 
 using namespace argos;
 
@@ -87,6 +88,15 @@ public:
           << first.GetEmbodiedEntity().GetOriginAnchor().Position.GetX() << '\t' << controller.Steps() << '\t'
           << controller.Red() << '\t' << controller.Blue() << '\t' << can.GetLEDEquippedEntity().GetLED(0).GetColor();
     if (clock == 3) RemoveEntity("made1");
+    // Far from the camera, but for one step.
+    if (clock == 2)
+    {
+      light_ = new CLightEntity("lamp", CVector3(1.5, 1.5, 0.1), CColor::BLUE, 1.0);
+      light_->SetMedium(GetSimulator().GetMedium<CLEDMedium>("leds"));
+      AddEntity(*light_);
+    }
+    if (clock == 3) MoveEntity(*light_, CVector3(0.3, 0.2, 0.1), CQuaternion());
+    if (clock == 4) RemoveEntity("lamp");
     if (clock == 5) can.GetLEDEquippedEntity().SetAllLEDsColors(CColor::BLUE);
     if (clock == 6)
     {
@@ -111,6 +121,7 @@ private:
   }
 
   Real ticks_a_second_;
+  CLightEntity* light_ = nullptr;
   std::ofstream file_;
   std::vector<CFootBotEntity*> made_;
 };

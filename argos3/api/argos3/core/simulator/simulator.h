@@ -20,6 +20,13 @@ public:
   CLoopFunctions& GetLoopFunctions();
   // Whatever the id: one engine has all.
   CPhysicsEngine& GetPhysicsEngine(const std::string& /*id*/) { return engine_; }
+  // Whatever the id: a medium for the sake of those who ask for one.
+  template <class Medium>
+  Medium& GetMedium(const std::string& /*id*/)
+  {
+    static Medium medium;
+    return medium;
+  }
   UInt32 GetRandomSeed() const { return seed_; }
   // Ticks; 0: no end.
   UInt32 GetMaxSimulationClock() const { return max_clock_; }
