@@ -1,9 +1,7 @@
 # The names by which CMakeLists.txt of users link the libraries of ARGoS3. Qt-OpenGL user functions are not shown here:
 # ARGOS_QTOPENGL_FOUND is false, and whoever asks for it leaves them out.
-foreach(name argos3core_simulator argos3plugin_simulator_footbot argos3plugin_simulator_eyebot
-    argos3plugin_simulator_genericrobot argos3plugin_simulator_entities argos3plugin_simulator_dynamics2d
-    argos3plugin_simulator_pointmass3d argos3plugin_simulator_media argos3plugin_simulator_actuators
-    argos3plugin_simulator_sensors argos3plugin_simulator_argos_rangeandbearing)
+include(${CMAKE_CURRENT_LIST_DIR}/ARGoSNames.cmake)
+foreach(name IN LISTS ARGOS_LIBRARY_NAMES)
   if(NOT TARGET ${name})
     add_library(${name} INTERFACE IMPORTED)
     target_link_libraries(${name} INTERFACE Swarmanoid::argos3)
@@ -18,3 +16,4 @@ get_target_property(ARGOS_INCLUDE_DIRS Swarmanoid::argos3 INTERFACE_INCLUDE_DIRE
 set(ARGOS_INCLUDE_DIR ${ARGOS_INCLUDE_DIRS})
 set(ARGOS_LIBRARY_DIRS "")
 set(ARGOS_LIBRARIES argos3core_simulator)
+set(ARGOS_LDFLAGS argos3core_simulator)

@@ -32,8 +32,13 @@ public:
     ArenaConverter arena(*theirs, result_);
     CodeConverter code(root_, folder_, arena, result_);
     ConvertFramework(*ours);
+    const Made kinds = AddNode(*ours, "entity_kinds", root_.location);
     code.ConvertControllers(*ours);
     arena.Convert(*ours);
+    if (arena.Kinds().contains("argos3_epuck"))
+      SetValue(*AddNode(*kinds, "argos3_epuck", root_.location), "library", "argos3_epuck", root_.location);
+    else
+      std::erase(ours->children, kinds);
     ConvertEngines(*ours, arena);
     code.ConvertLoopFunctions(*ours);
     for (const auto& child : root_.children)
@@ -60,13 +65,20 @@ private:
     const Made made = AddNode(ours, "framework", at);
     NeededText(*experiment, "ticks_per_second");
     const long long ticks = Whole(*experiment, "ticks_per_second", 10);
-    if (ticks < 1 || ticks > 1000 || 1000 % ticks != 0)
+    // Rounded down, so that the ticks of a second, as a whole number, stay what they are.
+    const long long tick_ms = ticks < 1 || ticks > 1000 ? 0 : 1000 / ticks;
+    const double missing = 1 - static_cast<double>(tick_ms * ticks) / 1000;
+    constexpr double kMostMissing = 0.02;
+    if (tick_ms == 0 || missing > kMostMissing)
       Mistake(at,
               "'ticks_per_second' is " + std::to_string(ticks) +
                   "; a tick has whole milliseconds here: 1, 2, 4, 5, 8, 10, 20, 25, 40, 50, 100, 125, 200, 250, 500 "
                   "or 1000 are possible");
     else
-      SetValue(*made, "clocktick", std::to_string(1000 / ticks), at);
+      SetValue(*made, "clocktick", std::to_string(tick_ms), at);
+    if (tick_ms != 0 && missing > 0 && missing <= kMostMissing)
+      Note(at, fmt::format("a tick has whole milliseconds here: {} ms, {:.1f} % less than 1/{} s", tick_ms,
+                           100 * missing, ticks));
     const double length = Number(*experiment, "length", 0);
     // The tick before the first step of controllers is theirs, too.
     if (length > 0)
@@ -119,7 +131,8 @@ private:
       {
         if (kind == "light_bulb") continue;
         // Where there are both, eye-bots fly and foot-bots drive; what stands in the way stands in both.
-        if (made.size() > 1 && kind == (tag == "dynamics2d" ? "eyebot" : "footbot")) continue;
+        if (made.size() > 1 && (tag == "dynamics2d" ? kind == "eyebot" : kind == "footbot" || kind == "argos3_epuck"))
+          continue;
         SetValue(*AddNode(*binding, "all", engines->location), "kind", kind, engines->location);
       }
     }

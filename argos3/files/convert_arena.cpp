@@ -84,8 +84,9 @@ void ArenaConverter::FindBearers(const ConfigurationNode& within)
     Bearers& bearers = bearers_[NeededText(*controller, "config")];
     bearers.kinds.insert(kind);
     if (kind == "footbot") bearers.camera_aperture = Number(*child, "omnidirectional_camera_aperture", 70);
-    bearers.radio_range = Number(*child, "rab_range", 3);
-    bearers.radio_bytes = Whole(*child, "rab_data_size", 10);
+    const bool is_epuck = kind == "argos3_epuck";
+    bearers.radio_range = Number(*child, "rab_range", is_epuck ? 0.8 : 3);
+    bearers.radio_bytes = Whole(*child, "rab_data_size", is_epuck ? 2 : 10);
     if (bearers.radio_bytes < 1 || bearers.radio_bytes > 10)
       Mistake(child->location, "'rab_data_size' is " + std::to_string(bearers.radio_bytes) +
                                    "; range-and-bearing messages have 1 to 10 bytes here");
@@ -94,7 +95,7 @@ void ArenaConverter::FindBearers(const ConfigurationNode& within)
 
 std::string ArenaConverter::KindOf(const std::string& tag)
 {
-  return tag == "foot-bot" ? "footbot" : tag == "eye-bot" ? "eyebot" : "";
+  return tag == "foot-bot" ? "footbot" : tag == "eye-bot" ? "eyebot" : tag == "e-puck" ? "argos3_epuck" : "";
 }
 
 void ArenaConverter::Convert(ConfigurationNode& ours)
@@ -109,14 +110,15 @@ void ArenaConverter::Convert(ConfigurationNode& ours)
     else if (child->name == "floor")
       ConvertFloor(*child, *made);
     else
-      ConvertEntity(*child, *made, true);
+      ConvertEntity(*child, NeededText(*child, "id"), *made, true);
+  AddSpares(*made);
   SetValue(*made, "optimization", kinds_.contains("eyebot") ? "3D" : "2D", at);
 }
 
-void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, ConfigurationNode& parent, bool placed)
+void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::string& id, ConfigurationNode& parent,
+                                   bool placed)
 {
   const SourceLocation& at = theirs.location;
-  const std::string id = NeededText(theirs, "id");
   const std::string robot = KindOf(theirs.name);
   Made made;
   double lift = 0;
@@ -142,7 +144,8 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, Configuratio
     SetValue(*made, "radius", NeededText(theirs, "radius"), at);
     SetValue(*made, "height", NeededText(theirs, "height"), at);
     // Cameras of ARGoS3 see LEDs and lights, not bodies.
-    SetValue(*made, "colour", "black", at);
+    const ConfigurationNode* leds = FindChild(theirs, "leds");
+    SetValue(*made, "colour", leds == nullptr ? "black" : ColourOfLeds(*leds), at);
     SetMovable(theirs, *made);
     NoteOthers(theirs, {"id", "radius", "height", "movable", "mass"});
   }
@@ -155,16 +158,61 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, Configuratio
   }
   else
   {
-    Mistake(at,
-            "<" + theirs.name +
-                "> has no counterpart; those that have: foot-bot, eye-bot, box, cylinder, light, floor, distribute");
+    Mistake(at, "<" + theirs.name +
+                    "> has no counterpart; those that have: foot-bot, eye-bot, e-puck, box, cylinder, light, floor, "
+                    "distribute");
     return;
   }
   kinds_.insert(made->name);
   SetValue(*made, "id", id, at);
-  if (FindChild(theirs, "leds") != nullptr)
+  if (FindChild(theirs, "leds") != nullptr && theirs.name != "cylinder")
     Mistake(FindChild(theirs, "leds")->location, "LEDs on <" + theirs.name + "> have no counterpart; leave them out");
   if (placed) SetPlace(theirs, *made, lift);
+}
+
+std::string ArenaConverter::ColourOfLeds(const ConfigurationNode& leds)
+{
+  std::string first;
+  for (const auto& led : leds.children)
+  {
+    const std::string colour = Text(*led, "color").value_or("black");
+    if (first.empty()) first = colour;
+    if (colour != first) Note(led->location, "all LEDs of one <cylinder> have the colour of the first one here");
+  }
+  if (first.empty()) return "black";
+  const auto channels = ParseNumbers(first);
+  if (!channels) return first;
+  if (channels->size() < 3)
+    Mistake(leds.location, "'" + first + "' is no colour; write a name, or red,green,blue from 0 to 255");
+  std::string text = "#";
+  for (std::size_t i = 0; i < std::min<std::size_t>(channels->size(), 3); ++i)
+    text += fmt::format("{:02x}", static_cast<int>(std::clamp((*channels)[i], 0.0, 255.0)));
+  return text;
+}
+
+void ArenaConverter::KeepSpare(const std::string& controller, const std::string& kind, int quantity)
+{
+  bearers_[controller].kinds.insert(kind);
+  spares_[controller] = {kind, quantity};
+}
+
+void ArenaConverter::AddSpares(ConfigurationNode& parent)
+{
+  if (spare_lights_ > 0)
+  {
+    const Made reserve = AddNode(parent, "reserve", arena_.location);
+    SetValue(*reserve, "quantity", std::to_string(spare_lights_), arena_.location);
+    SetValue(*AddNode(*reserve, "light_bulb", arena_.location), "id", "made_light", arena_.location);
+  }
+  for (const auto& [controller, spare] : spares_)
+  {
+    const Made reserve = AddNode(parent, "reserve", arena_.location);
+    SetValue(*reserve, "quantity", std::to_string(spare.second), arena_.location);
+    const Made robot = AddNode(*reserve, spare.first, arena_.location);
+    SetValue(*robot, "id", SpareOf(controller), arena_.location);
+    SetValue(*robot, "controller", controller, arena_.location);
+    kinds_.insert(spare.first);
+  }
 }
 
 void ArenaConverter::SetMovable(const ConfigurationNode& theirs, ConfigurationNode& made)
@@ -200,6 +248,7 @@ void ArenaConverter::ConvertDistribute(const ConfigurationNode& theirs, Configur
   const ConfigurationNode* orientation = Needed(theirs, "orientation");
   const ConfigurationNode* entity = Needed(theirs, "entity");
   if (position == nullptr || orientation == nullptr || entity == nullptr) return;
+  if (Whole(*entity, "quantity", 1) == 0) return;
   const Made made = AddNode(parent, "distribute", at);
   SetValue(*made, "quantity", NeededText(*entity, "quantity"), entity->location);
   SetValue(*made, "max_trials", NeededText(*entity, "max_trials"), entity->location);
@@ -207,9 +256,20 @@ void ArenaConverter::ConvertDistribute(const ConfigurationNode& theirs, Configur
   ConvertOrientations(*orientation, *AddNode(*made, "orientation", orientation->location));
   if (entity->children.size() != 1) return Mistake(entity->location, "<entity> holds one element: what is distributed");
   const ConfigurationNode& what = *entity->children.front();
-  if (const auto id = Text(what, "id"))
-    distributed_ += (distributed_.empty() ? "" : " ") + *id + ":" + std::to_string(Whole(*entity, "base_num", 0));
-  ConvertEntity(what, *made, false);
+  const std::string id = NeededText(what, "id");
+  const long long first = Whole(*entity, "base_num", 0);
+  const std::string ours = OurIdOfDistributed(what, first);
+  distributed_ += (distributed_.empty() ? "" : " ") + id + ":" + std::to_string(first) + ":" + ours;
+  ConvertEntity(what, ours, *made, false);
+}
+
+std::string ArenaConverter::OurIdOfDistributed(const ConfigurationNode& what, long long first)
+{
+  std::string id = Text(what, "id").value_or("");
+  if (id.empty()) id = KindOf(what.name).empty() ? what.name : KindOf(what.name);
+  if (!distributed_ids_.insert(id).second && first != 0) id += "." + std::to_string(first);
+  distributed_ids_.insert(id);
+  return id;
 }
 
 void ArenaConverter::ConvertPositions(const ConfigurationNode& theirs, ConfigurationNode& made)

@@ -25,6 +25,14 @@ public:
   const std::string& FloorId() const { return floor_id_; }
   // The robots that have a controller of that id.
   const Bearers& BearersOf(const std::string& controller) { return bearers_[controller]; }
+  // Before Convert: robots of a controller that are not in the arena until loop functions add them.
+  void KeepSpare(const std::string& controller, const std::string& kind, int quantity);
+  void KeepSpareLights(int quantity) { spare_lights_ = quantity; }
+  // The id of their <reserve>; empty: there are none.
+  std::string SpareOf(const std::string& controller) const
+  {
+    return spares_.contains(controller) ? "added_" + controller : "";
+  }
   // After Convert: tags of ours that stand in the arena, and entities that are distributed.
   const std::set<std::string>& Kinds() const { return kinds_; }
   const std::string& Distributed() const { return distributed_; }
@@ -40,8 +48,13 @@ private:
   void FindArena();
   void FindBearers(const ConfigurationNode& within);
   static std::string KindOf(const std::string& tag);
-  // `placed`: with a place of its own; otherwise <distribute> gives it one.
-  void ConvertEntity(const ConfigurationNode& theirs, ConfigurationNode& parent, bool placed);
+  // `id`: ours. `placed`: with a place of its own; otherwise <distribute> gives it one.
+  void ConvertEntity(const ConfigurationNode& theirs, const std::string& id, ConfigurationNode& parent, bool placed);
+  // Of what <distribute> holds: several may have one prefix there, and it may be empty.
+  std::string OurIdOfDistributed(const ConfigurationNode& what, long long first);
+  void AddSpares(ConfigurationNode& parent);
+  // The colour of its LEDs, as ours.
+  std::string ColourOfLeds(const ConfigurationNode& leds);
   void SetMovable(const ConfigurationNode& theirs, ConfigurationNode& made);
   void SetPlace(const ConfigurationNode& theirs, ConfigurationNode& made, double lift);
   void ConvertDistribute(const ConfigurationNode& theirs, ConfigurationNode& parent);
@@ -56,7 +69,10 @@ private:
   Vector3 origin_ = Vector3::Zero();
   std::map<std::string, Bearers> bearers_;  // by controller
   std::set<std::string> kinds_;
+  int spare_lights_ = 0;
+  std::map<std::string, std::pair<std::string, int>> spares_;  // by controller: kind and quantity
   std::string distributed_;
+  std::set<std::string> distributed_ids_;  // ours
 };
 
 }  // namespace swarmanoid::argos3

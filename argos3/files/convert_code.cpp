@@ -1,6 +1,8 @@
 #include "argos3/files/convert_code.h"
 
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 
 #include "common/configuration/wording.h"
 #include "common/plugins/library.h"
@@ -13,6 +15,42 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* kPlugin = "argos3";
+
+constexpr std::pair<const char*, const char*> kConstructors[]{{"footbot", "14CFootBotEntityC"},
+                                                              {"eyebot", "13CEyeBotEntityC"},
+                                                              {"argos3_epuck", "12CEPuckEntityC"},
+                                                              {"light_bulb", "12CLightEntityC"}};
+
+// Of a controller that no robot of the file has: by its devices.
+std::string KindByDevices(const ConfigurationNode& controller)
+{
+  for (const char* list : {"sensors", "actuators"})
+  {
+    const ConfigurationNode* devices = FindChild(controller, list);
+    if (devices == nullptr) continue;
+    for (const auto& device : devices->children)
+    {
+      if (device->name.starts_with("eyebot") || device->name.starts_with("quadrotor")) return "eyebot";
+      if (device->name.starts_with("epuck")) return "argos3_epuck";
+      if (device->name.starts_with("footbot")) return "footbot";
+    }
+  }
+  return "";
+}
+
+constexpr int kSpareRobots = 100;  // of a controller
+constexpr int kSpareLights = 20;
+
+std::string BytesOf(const std::string& file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<std::string> LibraryNames(const std::string& library)
+{
+  return {library, library + ".so", "lib" + library + ".so"};
+}
 
 }  // namespace
 
@@ -28,7 +66,37 @@ void CodeConverter::ConvertControllers(ConfigurationNode& ours)
         if (FindChild(*sensors, "range_and_bearing") != nullptr) return true;
     return false;
   }();
+  made_kinds_ = FindMadeKinds();
+  if (made_kinds_.erase("light_bulb") != 0) arena_.KeepSpareLights(kSpareLights);
   for (const auto& controller : controllers->children) ConvertController(*controller, *made, somebody_hears);
+}
+
+std::set<std::string> CodeConverter::FindMadeKinds() const
+{
+  const ConfigurationNode* functions = FindChild(root_, "loop_functions");
+  std::set<std::string> kinds;
+  if (functions == nullptr) return kinds;
+  const auto* library = FindAttributeOf(*functions, "library");
+  const auto* label = FindAttributeOf(*functions, "label");
+  std::string searched;
+  const auto file = library != nullptr ? Found(Folders(), LibraryNames(library->value), searched)
+                    : label != nullptr ? LibraryThatNames(label->value, searched)
+                                       : std::nullopt;
+  if (!file) return kinds;
+  const std::string bytes = BytesOf(*file);
+  for (const auto& [kind, constructor] : kConstructors)
+    if (bytes.find(constructor) != std::string::npos) kinds.insert(kind);
+  return kinds;
+}
+
+void CodeConverter::KeepSpare(const std::string& controller, const ConfigurationNode& theirs)
+{
+  if (made_kinds_.empty()) return;
+  std::string kind = KindByDevices(theirs);
+  if (kind.empty()) kind = *made_kinds_.begin();
+  const std::set<std::string>& kinds = arena_.BearersOf(controller).kinds;
+  if (!kinds.empty()) kind = *kinds.begin();
+  if (made_kinds_.contains(kind)) arena_.KeepSpare(controller, kind, kSpareRobots);
 }
 
 void CodeConverter::ConvertController(const ConfigurationNode& theirs, ConfigurationNode& parent, bool somebody_hears)
@@ -38,7 +106,11 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
   const std::string id = NeededText(theirs, "id");
   SetValue(*made, "id", id, at);
   SetValue(*made, "library", kPlugin, at);
+  KeepSpare(id, theirs);
   const Bearers& bearers = arena_.BearersOf(id);
+  if (bearers.kinds.size() > 1 && bearers.kinds.contains("argos3_epuck"))
+    Mistake(at, "robots of several kinds have the controller " + Quoted(id) +
+                    ", and e-pucks have other devices; give each kind a controller of its own");
   const DeviceContext context{bearers, !arena_.FloorId().empty(),
                               [this](const SourceLocation& place, const std::string& text) { Mistake(place, text); },
                               [this](const SourceLocation& place, const std::string& text) { Note(place, text); }};
@@ -64,25 +136,31 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
   else
   {
     SetValue(*options, "label", theirs.name, at);
-    SetLibrary(theirs, "library", *options);
+    SetLibrary(theirs, theirs.name, "library", *options);
   }
   SetValue(*options, "sensors", sensors, at);
   SetValue(*options, "actuators", actuators, at);
   if (!arena_.FloorId().empty()) SetValue(*options, "floor", "loop_functions", at);
-  if (const double noise = GroundNoise(theirs); noise > 0) SetValue(*options, "ground_noise", TextOf(noise), at);
+  const auto set_noise = [&](const char* name, std::initializer_list<const char*> devices)
+  {
+    if (const double level = NoiseLevel(theirs, devices); level > 0) SetValue(*options, name, TextOf(level), at);
+  };
+  set_noise("ground_noise", {"footbot_motor_ground", "footbot_base_ground", "ground"});
+  set_noise("proximity_noise", {"proximity", "epuck_proximity", "eyebot_proximity"});
+  if (const std::string spare = arena_.SpareOf(id); !spare.empty()) SetValue(*options, "spare", spare, at);
   SetValue(*options, "rab_data_size", std::to_string(bearers.radio_bytes), at);
   options_.push_back(options);
   for (const auto& child : theirs.children)
     if (child->name == "params") parameters->children.push_back(child);
 }
 
-double CodeConverter::GroundNoise(const ConfigurationNode& controller)
+double CodeConverter::NoiseLevel(const ConfigurationNode& controller, std::initializer_list<const char*> names)
 {
   const ConfigurationNode* sensors = FindChild(controller, "sensors");
-  for (const char* name : {"footbot_motor_ground", "footbot_base_ground"})
+  for (const char* name : names)
   {
-    const ConfigurationNode* ground = sensors == nullptr ? nullptr : FindChild(*sensors, name);
-    const auto* level = ground == nullptr ? nullptr : FindAttributeOf(*ground, "noise_level");
+    const ConfigurationNode* sensor = sensors == nullptr ? nullptr : FindChild(*sensors, name);
+    const auto* level = sensor == nullptr ? nullptr : FindAttributeOf(*sensor, "noise_level");
     if (level != nullptr) return ParseNumber(level->value).value_or(0);
   }
   return 0;
@@ -92,7 +170,11 @@ void CodeConverter::SetScript(const ConfigurationNode& theirs, ConfigurationNode
 {
   const ConfigurationNode* params = FindChild(theirs, "params");
   const auto* script = params == nullptr ? nullptr : FindAttributeOf(*params, "script");
-  if (script == nullptr) return Mistake(theirs.location, "a <lua_controller> needs <params script=\"FILE.lua\"/>");
+  if (script == nullptr)
+  {
+    SetValue(options, "script_name", "", theirs.location);
+    return Note(theirs.location, "without <params script=\"FILE.lua\"/> its robots do nothing");
+  }
   std::string searched;
   const auto file = Found({fs::current_path(), folder_, fs::path(folder_).parent_path()}, {script->value}, searched);
   if (!file)
@@ -103,19 +185,50 @@ void CodeConverter::SetScript(const ConfigurationNode& theirs, ConfigurationNode
   SetValue(options, "script_name", script->value, script->location);
 }
 
-void CodeConverter::SetLibrary(const ConfigurationNode& theirs, const char* ours, ConfigurationNode& options)
+std::vector<fs::path> CodeConverter::Folders() const
 {
-  const std::string library = NeededText(theirs, "library");
-  if (library.empty()) return;
-  const SourceLocation& at = FindAttributeOf(theirs, "library")->location;
   std::vector<fs::path> folders{fs::current_path()};
   if (const char* list = std::getenv("ARGOS_PLUGIN_PATH"))
     for (const std::string& one : SplitSearchPath(list, fs::current_path().string())) folders.emplace_back(one);
   folders.emplace_back(folder_);
   folders.push_back(fs::path(folder_).parent_path());
+  return folders;
+}
+
+std::optional<std::string> CodeConverter::LibraryThatNames(const std::string& label, std::string& searched)
+{
+  const char* list = std::getenv("ARGOS_PLUGIN_PATH");
+  if (list == nullptr || label.empty()) return std::nullopt;
+  for (const std::string& folder : SplitSearchPath(list, fs::current_path().string()))
+  {
+    searched += "\n    " + folder;
+    std::error_code none;
+    std::set<std::string> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+      if (entry.is_regular_file(none) && entry.path().extension() == ".so") files.insert(entry.path().string());
+    // As a text of its own among the constants, or as the end of one: compilers keep such texts once.
+    for (const std::string& constant : {std::string(1, '\0') + label + '\0', label + '\0'})
+      for (const std::string& file : files)
+        if (BytesOf(file).find(constant) != std::string::npos) return file;
+  }
+  return std::nullopt;
+}
+
+void CodeConverter::SetLibrary(const ConfigurationNode& theirs, const std::string& label, const char* ours,
+                               ConfigurationNode& options)
+{
   std::string searched;
-  if (const auto file = Found(folders, {library, library + ".so", "lib" + library + ".so"}, searched))
-    return SetValue(options, ours, *file, at);
+  const auto* attribute = FindAttributeOf(theirs, "library");
+  if (attribute == nullptr)
+  {
+    if (const auto file = LibraryThatNames(label, searched)) return SetValue(options, ours, *file, theirs.location);
+    return Mistake(theirs.location, "<" + theirs.name + "> has no 'library', and no library in the folders of " +
+                                        "ARGOS_PLUGIN_PATH names " + Quoted(label) + "; add the one or the other" +
+                                        (searched.empty() ? "" : "; searched:" + searched));
+  }
+  const std::string& library = attribute->value;
+  const SourceLocation& at = attribute->location;
+  if (const auto file = Found(Folders(), LibraryNames(library), searched)) return SetValue(options, ours, *file, at);
   Mistake(at, "the library " + Quoted(library) +
                   " is not found; build it, name its folder in ARGOS_PLUGIN_PATH, or start in the folder from which " +
                   "the path leads to it; searched:" + searched);
@@ -154,8 +267,9 @@ void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours)
   const Made made = AddNode(*list, "argos3_loop_functions", at);
   SetValue(*made, "id", "loop_functions", at);
   SetValue(*made, "library", kPlugin, at);
-  SetLibrary(*theirs, "file", *made);
-  SetValue(*made, "label", NeededText(*theirs, "label"), at);
+  const std::string label = NeededText(*theirs, "label");
+  SetLibrary(*theirs, label, "file", *made);
+  SetValue(*made, "label", label, at);
   SetValue(*made, "origin", TextOf(arena_.Origin()), at);
   SetValue(*made, "distributed", arena_.Distributed(), at);
   SetValue(*made, "floor", arena_.FloorId(), at);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,7 +31,12 @@ public:
 
 private:
   void ConvertController(const ConfigurationNode& theirs, ConfigurationNode& parent, bool somebody_hears);
-  static double GroundNoise(const ConfigurationNode& controller);
+  // The first level that one of these sensors of the controller has; 0: none.
+  static double NoiseLevel(const ConfigurationNode& controller, std::initializer_list<const char*> sensors);
+  // Which robots the loop functions make: their constructors are among the names in the library.
+  std::set<std::string> FindMadeKinds() const;
+  // Keeps robots of the controller ready, for loop functions that add some.
+  void KeepSpare(const std::string& controller, const ConfigurationNode& theirs);
   // The tags of theirs, with blanks between them.
   template <class ConvertOne>
   std::string ConvertDevices(const ConfigurationNode& controller, const char* name, ConvertOne convert,
@@ -45,8 +52,13 @@ private:
     }
     return tags;
   }
+  // Where libraries are looked for.
+  std::vector<std::filesystem::path> Folders() const;
   void SetScript(const ConfigurationNode& theirs, ConfigurationNode& options);
-  void SetLibrary(const ConfigurationNode& theirs, const char* ours, ConfigurationNode& options);
+  // `label`: what the library registers; ARGoS3 loads all libraries of ARGOS_PLUGIN_PATH, so files need not name one.
+  void SetLibrary(const ConfigurationNode& theirs, const std::string& label, const char* ours,
+                  ConfigurationNode& options);
+  static std::optional<std::string> LibraryThatNames(const std::string& label, std::string& searched);
   // The first file of one of the names in one of the folders; otherwise where it is not, a line each.
   static std::optional<std::string> Found(const std::vector<std::filesystem::path>& folders,
                                           const std::vector<std::string>& names, std::string& searched);
@@ -55,6 +67,7 @@ private:
   const std::string& folder_;
   ArenaConverter& arena_;
   std::vector<Made> options_;  // of the controllers
+  std::set<std::string> made_kinds_;
 };
 
 }  // namespace swarmanoid::argos3

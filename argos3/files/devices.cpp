@@ -99,6 +99,15 @@ private:
   std::set<std::string> used_;
 };
 
+constexpr const char* kEPuck = "argos3_epuck";
+
+bool IsForEPucks(const DeviceContext& context) { return context.bearers.kinds.contains(kEPuck); }
+
+void RefuseForEPucks(const ConfigurationNode& node, const char* cure, const DeviceContext& context)
+{
+  context.mistake(node.location, "<" + node.name + "> has no counterpart on e-pucks; " + cure);
+}
+
 void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
 {
   for (const char* name : {"bias_avg", "bias_stddev", "factor_avg", "factor_stddev"})
@@ -111,7 +120,12 @@ void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
     }
 }
 
-constexpr std::array<const char*, 10> kSensors{"differential_steering",
+constexpr std::array<const char*, 15> kSensors{"differential_steering",
+                                               "footbot_distance_scanner",
+                                               "proximity",
+                                               "ground",
+                                               "epuck_proximity",
+                                               "eyebot_proximity",
                                                "footbot_proximity",
                                                "footbot_light",
                                                "eyebot_light",
@@ -121,9 +135,16 @@ constexpr std::array<const char*, 10> kSensors{"differential_steering",
                                                "battery",
                                                "colored_blob_omnidirectional_camera",
                                                "footbot_turret_encoder"};
-constexpr std::array<const char*, 7> kActuators{
-    "differential_steering", "leds",           "footbot_gripper", "footbot_turret", "range_and_bearing",
-    "quadrotor_position",    "quadrotor_speed"};
+constexpr const char* kScanner = "footbot_distance_scanner";
+
+constexpr std::array<const char*, 8> kActuators{kScanner,
+                                                "differential_steering",
+                                                "leds",
+                                                "footbot_gripper",
+                                                "footbot_turret",
+                                                "range_and_bearing",
+                                                "quadrotor_position",
+                                                "quadrotor_speed"};
 
 template <class Names>
 void RefuseUnknown(const ConfigurationNode& node, const char* what, const Names& names, const DeviceContext& context)
@@ -142,7 +163,9 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
   const SourceLocation& at = node.location;
   const std::string& tag = node.name;
   Attributes attributes(node, context);
-  if (tag == "differential_steering")
+  if (tag == "differential_steering" && IsForEPucks(context))
+    RefuseForEPucks(node, "leave it out, or take positioning", context);
+  else if (tag == "differential_steering")
   {
     AddDevice(ours.sensors, "footbot_encoders", "engine_footbot_encoders", at);
     attributes.Refuse("vel_noise_range", "leave it out, or give the wheels noise");
@@ -150,14 +173,25 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
   }
   else if (tag == "footbot_proximity")
     attributes.CopyLevel(AddDevice(ours.sensors, tag, "generic_footbot_proximity", at));
+  else if (tag == "proximity" || tag == "epuck_proximity" || tag == "eyebot_proximity")
+  {
+    // The noise is added to the response, which is theirs (argos3/plugin/devices.cpp).
+    AddDevice(ours.sensors, "proximity", "generic_proximity", at);
+    attributes.Number("noise_level");
+  }
   else if (tag == "footbot_light" || tag == "eyebot_light")
     attributes.CopyLevel(AddDevice(ours.sensors, tag, "argos3_" + tag, at));
-  else if ((tag == "footbot_motor_ground" || tag == "footbot_base_ground") && context.floor_is_painted)
+  else if (tag == "ground" && !IsForEPucks(context))
+    context.mistake(at,
+                    "<ground> has no counterpart here on robots that are no e-pucks; take footbot_motor_ground or "
+                    "footbot_base_ground");
+  else if ((tag == "footbot_motor_ground" || tag == "footbot_base_ground" || tag == "ground") &&
+           context.floor_is_painted)
   {
     AddDevice(ours.sensors, "positioning", "generic_positioning", at);
     attributes.Number("noise_level");
   }
-  else if (tag == "footbot_motor_ground" || tag == "footbot_base_ground")
+  else if (tag == "footbot_motor_ground" || tag == "footbot_base_ground" || tag == "ground")
     attributes.CopyLevel(AddDevice(ours.sensors, tag, "generic_" + tag, at));
   else if (tag == "positioning")
   {
@@ -177,6 +211,14 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     SetValue(device, "aperture", TextOf(context.bearers.camera_aperture), at);
     attributes.Refuse("noise_std_dev", "leave it out, or convert the file and give the camera distance_noise_…");
   }
+  else if (tag == kScanner)
+  {
+    ConfigurationNode& device = AddDevice(ours.sensors, tag, "argos3_footbot_distance_scanner", at);
+    // Of readings in cm.
+    if (const auto range = attributes.Range("noise_range"))
+      attributes.CopyUniform(device, "", range->first / 100, range->second / 100);
+    attributes.Refuse("noise_std_dev", "leave it out, or write noise_range");
+  }
   else if (tag == "footbot_turret_encoder")
     AddDevice(ours.sensors, tag, "generic_footbot_turret_encoder", at);
   else if (tag == "range_and_bearing")
@@ -195,10 +237,18 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
   const SourceLocation& at = node.location;
   const std::string& tag = node.name;
   Attributes attributes(node, context);
-  if (tag == "differential_steering")
+  if (tag == "differential_steering" && IsForEPucks(context))
+  {
+    AddDevice(ours.actuators, "wheels", "generic_wheels", at);
+    for (const char* name : {"bias_avg", "bias_stddev", "factor_stddev"})
+      attributes.Refuse(name, "leave it out, or convert the file and give the wheels noise_…");
+  }
+  else if (tag == "differential_steering")
     ConvertWheels(attributes, AddDevice(ours.actuators, "footbot_wheels", "argos3_footbot_wheels", at));
   else if (tag == "leds" && context.bearers.kinds.contains("eyebot"))
     AddDevice(ours.actuators, "eyebot_leds", "generic_eyebot_leds", at);
+  else if (tag == "leds" && IsForEPucks(context))
+    AddDevice(ours.actuators, "led_ring", "generic_led_ring", at);
   else if (tag == "leds")
   {
     AddDevice(ours.actuators, "footbot_leds", "generic_footbot_leds", at);
@@ -206,6 +256,8 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
   }
   else if (tag == "footbot_gripper")
     AddDevice(ours.actuators, tag, "dummy_footbot_gripper", at);
+  else if (tag == kScanner)
+    AddDevice(ours.sensors, tag, "argos3_footbot_distance_scanner", at);
   else if (tag == "footbot_turret")
   {
     AddDevice(ours.actuators, tag, "dummy_footbot_turret", at);

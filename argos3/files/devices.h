@@ -14,7 +14,7 @@ namespace swarmanoid::argos3
 // What the robots of a controller are.
 struct Bearers
 {
-  std::set<std::string> kinds;  // "footbot", "eyebot"
+  std::set<std::string> kinds;  // "footbot", "eyebot", "argos3_epuck"
   double camera_aperture = 70;  // degrees
   double radio_range = 3;       // m
   long long radio_bytes = 10;

@@ -46,24 +46,44 @@ Translation Translation::From(const TConfigurationTree& tree)
   std::istringstream entries(tree.GetText("distributed", ""));
   for (std::string entry; entries >> entry;)
   {
-    const std::size_t colon = entry.rfind(':');
-    translation.distributed.emplace_back(entry.substr(0, colon), ParseInteger(entry.substr(colon + 1)).value_or(0));
+    const std::size_t second = entry.rfind(':');
+    const std::size_t first = second == 0 ? std::string::npos : entry.rfind(':', second - 1);
+    if (second == std::string::npos || first == std::string::npos)
+      throw ConfigurationError(tree.ValueLocation("distributed"), "'" + entry + "' is no prefix:number:id");
+    translation.distributed.push_back({entry.substr(0, first),
+                                       ParseInteger(entry.substr(first + 1, second - first - 1)).value_or(0),
+                                       entry.substr(second + 1)});
   }
   return translation;
 }
 
 std::string Translation::Argos3Id(const std::string& id) const
 {
-  for (const auto& [prefix, first] : distributed)
-    if (const auto number = NumberBehind(id, prefix + "_")) return prefix + std::to_string(*number + first);
+  for (const Distributed& group : distributed)
+    if (const auto number = NumberBehind(id, group.ours + "_"))
+      return group.theirs + std::to_string(*number + group.first);
   return id;
 }
 
 std::string Translation::OurId(const std::string& id) const
 {
-  for (const auto& [prefix, first] : distributed)
-    if (const auto number = NumberBehind(id, prefix)) return prefix + "_" + std::to_string(*number - first);
-  return id;
+  // Groups of one prefix follow one another in their numbers.
+  const Distributed* found = nullptr;
+  long long number = 0;
+  for (const Distributed& group : distributed)
+  {
+    const auto behind = NumberBehind(id, group.theirs);
+    if (!behind || *behind < group.first || (found != nullptr && group.first < found->first)) continue;
+    found = &group;
+    number = *behind - group.first;
+  }
+  return found == nullptr ? id : found->ours + "_" + std::to_string(number);
+}
+
+std::string Running::OurId(const std::string& id) const
+{
+  const auto found = taken.find(id);
+  return found != taken.end() ? found->second : translation.OurId(id);
 }
 
 void CopyElement(const ConfigurationNode& from, argos::TConfigurationNode& to)

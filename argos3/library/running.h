@@ -27,10 +27,16 @@ struct Translation
 {
   // Where ARGoS3's origin is in our space, m.
   Vector3 origin = Vector3::Zero();
-  // Entities of <distribute>: "fb0" there is "fb_0" here. The prefix, and the number of the first one.
-  std::vector<std::pair<std::string, long long>> distributed;
+  // Entities of a <distribute>: "fb10", "fb11" … there are "fb_0", "fb_1" … here.
+  struct Distributed
+  {
+    std::string theirs;
+    long long first = 0;
+    std::string ours;
+  };
+  std::vector<Distributed> distributed;
 
-  // From the attributes origin and distributed ("fb:0 eb:10") that the converted file has.
+  // From the attributes origin and distributed ("fb:10:fb eb:0:eb") that the converted file has.
   static Translation From(const TConfigurationTree& tree);
   std::string Argos3Id(const std::string& id) const;
   std::string OurId(const std::string& id) const;
@@ -53,6 +59,17 @@ inline Quaternion OurOrientation(const argos::CQuaternion& q)
 // The element as ARGoS3's controllers see it, with its places.
 void CopyElement(const ConfigurationNode& from, argos::TConfigurationNode& to);
 
+// A robot of a <reserve> that waits for loop functions to add it: it has no controller until then.
+class SpareRobot
+{
+public:
+  virtual ~SpareRobot() = default;
+  // Makes its controller, for the robot of that id of theirs, and calls its Init.
+  virtual void Take(const std::string& id) = 0;
+  // It leaves the arena; its controller is destroyed.
+  virtual void Leave() = 0;
+};
+
 struct Running
 {
   // Of the robots whose controller host is this process, by ARGoS3's id.
@@ -61,6 +78,16 @@ struct Running
   // While functions run: what carries out their changes.
   SpaceEditor* editor = nullptr;
   Translation translation;
+  // Those of this process, by our id.
+  std::map<std::string, SpareRobot*> spares;
+  // What loop functions added and did not remove: ours by their id, and the objects that they gave by our id.
+  std::map<std::string, std::string> taken;
+  std::map<std::string, argos::CEntity*> given;
+  // Whether something was added or removed since this was set to false.
+  bool presence_changed = false;
+
+  // Of the entity of that id of theirs, there or not.
+  std::string OurId(const std::string& id) const;
 };
 Running& TheRunning();
 

@@ -1,5 +1,10 @@
 // The space and the changes that loop functions make to it.
 #include <argos3/core/simulator/loop_functions.h>
+#include <argos3/plugins/robots/e-puck/simulator/epuck_entity.h>
+#include <argos3/plugins/robots/eye-bot/simulator/eyebot_entity.h>
+#include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
+#include <argos3/plugins/simulator/entities/box_entity.h>
+#include <argos3/plugins/simulator/entities/cylinder_entity.h>
 #include <argos3/plugins/simulator/entities/light_entity.h>
 
 #include "argos3/library/running.h"
@@ -33,12 +38,100 @@ Pose PoseOf(const swarmanoid::CSwarmanoidSpaceEntity& entity, const CVector3& po
 
 const swarmanoid::CSwarmanoidSpaceEntity& Declared(const std::string& id)
 {
-  const auto* entity = Editor().GetSpace().FindEntity(TheRunning().translation.OurId(id));
+  const auto* entity = Editor().GetSpace().FindEntity(TheRunning().OurId(id));
   if (entity == nullptr)
-    THROW_ARGOSEXCEPTION("the experiment file declares no entity '"
-                         << id << "'; entities that loop functions add must stand in the file, from where they may be "
-                         << "removed in Init");
+    THROW_ARGOSEXCEPTION("there is no entity '" << id << "': the experiment file declares none, and none was added");
   return *entity;
+}
+
+// The id of the reserve of lights in converted files.
+constexpr const char* kMadeLight = "made_light";
+
+std::uint32_t Rgb(const CColor& colour)
+{
+  return static_cast<std::uint32_t>(colour.GetRed()) << 16U | static_cast<std::uint32_t>(colour.GetGreen()) << 8U |
+         colour.GetBlue();
+}
+
+bool HasReserve(const swarmanoid::CSwarmanoidSpace& space, const std::string& reserve)
+{
+  for (std::size_t i = 0; i < space.Size(); ++i)
+    if (space.GetEntity(i).GetConfiguration().reserve == reserve) return true;
+  return false;
+}
+
+const swarmanoid::CSwarmanoidSpaceEntity& NextSpare(const swarmanoid::CSwarmanoidSpace& space,
+                                                    const std::string& reserve)
+{
+  try
+  {
+    return swarmanoid::FindToAdd(space, reserve);
+  }
+  catch (const std::invalid_argument& refused)
+  {
+    THROW_ARGOSEXCEPTION(refused.what() << " in the file that `swarmanoid convert` writes");
+  }
+}
+
+// Of ours, the one to add for an entity that loop functions made: the one that the file declares, or a spare robot.
+const swarmanoid::CSwarmanoidSpaceEntity& OursFor(const CEntity& made)
+{
+  const std::string& id = made.GetId();
+  const swarmanoid::CSwarmanoidSpace& space = Editor().GetSpace();
+  if (const auto* entity = space.FindEntity(TheRunning().OurId(id))) return *entity;
+  if (dynamic_cast<const CLightEntity*>(&made) != nullptr && HasReserve(space, kMadeLight))
+    return NextSpare(space, kMadeLight);
+  const auto* robot = dynamic_cast<const CRobotWithController*>(&made);
+  if (robot == nullptr)
+    THROW_ARGOSEXCEPTION("the experiment file declares no " << made.GetTypeDescription() << " '" << id
+                                                            << "'; loop functions add robots and lights of their own, "
+                                                            << "but boxes and cylinders only if they stand in the "
+                                                            << "file, from where they may be removed in Init");
+  const std::string reserve = "added_" + robot->ControllerOfMade();
+  if (!HasReserve(space, reserve))
+    THROW_ARGOSEXCEPTION("no " << made.GetTypeDescription() << " with the controller '" << robot->ControllerOfMade()
+                               << "' can be added as '" << id
+                               << "': the controller is not in <controllers>, is of another "
+                               << "kind of robot, or the experiment has no <reserve> '" << reserve << "' (`swarmanoid "
+                               << "convert` writes it for loop functions that make robots in their own library)");
+  const swarmanoid::CSwarmanoidSpaceEntity& ours = NextSpare(space, reserve);
+  if (TheRunning().spares.count(ours.GetId()) == 0)
+    THROW_ARGOSEXCEPTION("the controller of '" << id << "' is not in this process: loop functions add robots in a run "
+                                               << "with --single-process");
+  return ours;
+}
+
+// Their engines take a body where another one is; it is for them to push the two apart.
+void AddAnywhere(const std::string& id, const Pose& pose)
+{
+  constexpr double kStep = 1;  // m
+  Pose free = pose;
+  while (!Editor().IsFree(id, free)) free.position.z() += kStep;
+  Editor().AddEntity(id, free);
+  if (free.position.z() != pose.position.z()) Editor().MoveEntity(id, pose);
+}
+
+template <class Body>
+void InsertBody(CSpace& space, Body& body)
+{
+  space.Insert(body);
+  space.InsertComponent(body.GetId(), body.GetEmbodiedEntity());
+}
+template <class Robot>
+bool InsertIfRobot(CSpace& space, CEntity& entity)
+{
+  auto* robot = dynamic_cast<Robot*>(&entity);
+  if (robot == nullptr) return false;
+  InsertBody(space, *robot);
+  space.InsertComponent(robot->GetId(), robot->GetControllableEntity());
+  return true;
+}
+template <class Body>
+bool InsertIfBody(CSpace& space, CEntity& entity)
+{
+  auto* body = dynamic_cast<Body*>(&entity);
+  if (body != nullptr) InsertBody(space, *body);
+  return body != nullptr;
 }
 
 }  // namespace
@@ -69,6 +162,12 @@ CCI_Controller& CControllableEntity::GetController()
 CColor CFloorEntity::GetColorAtPoint(Real x, Real y)
 {
   return CSimulator::GetInstance().GetLoopFunctions().GetFloorColor(CVector2(x, y));
+}
+
+void CLightEntity::SetColor(const CColor& colour)
+{
+  Editor().SetAttribute(Declared(GetId()).GetId(), "colour", Rgb(colour));
+  colour_ = colour;
 }
 
 void CLightEntity::SetIntensity(Real intensity)
@@ -103,6 +202,20 @@ void CSpace::GetEntitiesMatching(CEntity::TVector& found, const std::string& pat
     if (MatchPattern(entity->GetId(), pattern)) found.push_back(entity);
 }
 
+void CSpace::Reset()
+{
+  THROW_ARGOSEXCEPTION("loop functions cannot reset the space; `swarmanoid control reset` starts the run anew");
+}
+
+void CSpace::InsertAny(CEntity& entity)
+{
+  if (InsertIfRobot<CFootBotEntity>(*this, entity) || InsertIfRobot<CEyeBotEntity>(*this, entity) ||
+      InsertIfRobot<CEPuckEntity>(*this, entity) || InsertIfBody<CBoxEntity>(*this, entity) ||
+      InsertIfBody<CCylinderEntity>(*this, entity))
+    return;
+  if (auto* light = dynamic_cast<CLightEntity*>(&entity)) Insert(*light);
+}
+
 void CSpace::Clear()
 {
   entities_.clear();
@@ -111,10 +224,10 @@ void CSpace::Clear()
   for (auto& [type, entities] : by_type_) entities.clear();
 }
 
-bool CLoopFunctions::MoveEntity(CEmbodiedEntity& entity, const CVector3& position, const CQuaternion& orientation,
-                                bool check_only, bool ignore_collisions)
+bool CEmbodiedEntity::MoveTo(const CVector3& position, const CQuaternion& orientation, bool check_only,
+                             bool ignore_collisions)
 {
-  const auto& ours = Declared(entity.GetRootEntity().GetId());
+  const auto& ours = Declared(GetRootEntity().GetId());
   const Pose pose = PoseOf(ours, position, orientation);
   if (!ignore_collisions && swarmanoid::FindInTheWay(Editor().GetSpace(), ours, pose) != nullptr) return false;
   if (check_only) return true;
@@ -126,14 +239,27 @@ bool CLoopFunctions::MoveEntity(CEmbodiedEntity& entity, const CVector3& positio
   {
     throw CARGoSException(refused.what());
   }
-  entity.GetOriginAnchor().Position = position;
-  entity.GetOriginAnchor().Orientation = orientation;
+  m_sOriginAnchor.Position = position;
+  m_sOriginAnchor.Orientation = orientation;
   return true;
 }
 
-void CLoopFunctions::MoveEntity(CPositionalEntity& entity, const CVector3& position, const CQuaternion& orientation)
+bool CEmbodiedEntity::IsCollidingWithSomething() const
 {
-  const auto& ours = Declared(entity.GetRootEntity().GetId());
+  const auto& ours = Declared(const_cast<CEmbodiedEntity*>(this)->GetRootEntity().GetId());
+  const Pose pose{ours.GetPosition(), ours.GetOrientation()};
+  return swarmanoid::FindInTheWay(Editor().GetSpace(), ours, pose) != nullptr;
+}
+
+bool CLoopFunctions::MoveEntity(CEmbodiedEntity& entity, const CVector3& position, const CQuaternion& orientation,
+                                bool check_only, bool ignore_collisions)
+{
+  return entity.MoveTo(position, orientation, check_only, ignore_collisions);
+}
+
+void CPositionalEntity::MoveTo(const CVector3& position, const CQuaternion& orientation)
+{
+  const auto& ours = Declared(GetRootEntity().GetId());
   try
   {
     Editor().MoveEntity(ours.GetId(), PoseOf(ours, position, orientation));
@@ -142,8 +268,13 @@ void CLoopFunctions::MoveEntity(CPositionalEntity& entity, const CVector3& posit
   {
     throw CARGoSException(refused.what());
   }
-  entity.SetPosition(position);
-  entity.SetOrientation(orientation);
+  SetPosition(position);
+  SetOrientation(orientation);
+}
+
+void CLoopFunctions::MoveEntity(CPositionalEntity& entity, const CVector3& position, const CQuaternion& orientation)
+{
+  entity.MoveTo(position, orientation);
 }
 
 void CLoopFunctions::AddEntity(CEntity& entity)
@@ -151,30 +282,58 @@ void CLoopFunctions::AddEntity(CEntity& entity)
   // Whoever made it may go on to hold it.
   static std::vector<std::unique_ptr<CEntity>> given;
   given.emplace_back(&entity);
-  const auto& ours = Declared(entity.GetId());
-  auto* body = dynamic_cast<CBodyEntity*>(&entity);
-  if (body == nullptr) THROW_ARGOSEXCEPTION("'" << entity.GetId() << "' has no body");
-  const SAnchor& at = body->GetEmbodiedEntity().GetOriginAnchor();
+  const auto* body = dynamic_cast<CBodyEntity*>(&entity);
+  const auto* light = dynamic_cast<CLightEntity*>(&entity);
+  if (body == nullptr && light == nullptr)
+    THROW_ARGOSEXCEPTION("'" << entity.GetId() << "' is neither a body nor a light");
+  Running& running = TheRunning();
+  std::string ours;
+  bool was_declared = true;
   try
   {
-    Editor().AddEntity(ours.GetId(), PoseOf(ours, at.Position, at.Orientation));
+    const auto& added = OursFor(entity);
+    ours = added.GetId();
+    was_declared = ours == running.OurId(entity.GetId());
+    if (light != nullptr)
+    {
+      Editor().AddEntity(ours, PoseOf(added, light->GetPosition(), light->GetOrientation()));
+      Editor().SetAttribute(ours, "intensity", light->GetIntensity());
+      Editor().SetAttribute(ours, "colour", Rgb(light->GetColor()));
+    }
+    else
+    {
+      const SAnchor& at = body->GetEmbodiedEntity().GetOriginAnchor();
+      AddAnywhere(ours, PoseOf(added, at.Position, at.Orientation));
+    }
   }
   catch (const std::invalid_argument& refused)
   {
     throw CARGoSException(refused.what());
   }
+  running.given[ours] = &entity;
+  running.presence_changed = true;
+  CSimulator::GetInstance().GetSpace().InsertAny(entity);
+  if (was_declared) return;
+  running.taken[entity.GetId()] = ours;
+  if (const auto spare = running.spares.find(ours); spare != running.spares.end()) spare->second->Take(entity.GetId());
 }
 
 void CLoopFunctions::RemoveEntity(const std::string& id)
 {
+  const std::string ours = Declared(id).GetId();
   try
   {
-    Editor().RemoveEntity(Declared(id).GetId());
+    Editor().RemoveEntity(ours);
   }
   catch (const std::invalid_argument& refused)
   {
     throw CARGoSException(refused.what());
   }
+  Running& running = TheRunning();
+  running.given.erase(ours);
+  running.presence_changed = true;
+  running.taken.erase(id);
+  if (const auto spare = running.spares.find(ours); spare != running.spares.end()) spare->second->Leave();
 }
 
 void CLoopFunctions::RemoveEntity(CEntity& entity) { RemoveEntity(entity.GetRootEntity().GetId()); }

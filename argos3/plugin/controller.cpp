@@ -22,10 +22,14 @@ namespace swarmanoid::argos3
 namespace
 {
 
-class Argos3Controller : public CCI_Controller
+class Argos3Controller : public CCI_Controller, private SpareRobot
 {
 public:
-  ~Argos3Controller() override { TheRunning().controllers.erase(id_); }
+  ~Argos3Controller() override
+  {
+    TheRunning().controllers.erase(id_);
+    if (is_spare_) TheRunning().spares.erase(GetRobot()->GetId());
+  }
 
   int Init(const TConfigurationTree t_tree) override
   {
@@ -34,18 +38,14 @@ public:
       throw ConfigurationError(t_tree.Location(), "<parameters> holds no <argos3>; `swarmanoid convert` writes it");
     translation_ = Translation::From(options);
     TheRunning().translation = translation_;
-    id_ = translation_.Argos3Id(GetRobot()->GetId());
-    const Speaker speaker(*GetRobot());
-    controller_ = MakeController(options);
-    controller_->SetId(id_);
-    MakeDevices(options);
-    if (!TheRunning().controllers.emplace(id_, controller_.get()).second)
-      throw std::runtime_error("a process runs one ARGoS3 experiment at a time; another one has a robot '" + id_ + "'");
-
-    const TConfigurationTree params = t_tree.Child("params");
-    if (params.Exists()) CopyElement(*params.Node(), params_);
-    Calling(params.Exists() ? params.Location() : t_tree.Location(), [&] { controller_->Init(params_); });
-    Commit();
+    const std::string id = GetRobot()->GetId();
+    const std::string spare = options.GetText("spare", "");
+    is_spare_ = !spare.empty() && id.starts_with(spare + "_");
+    parameters_ = t_tree;
+    if (is_spare_)
+      TheRunning().spares[id] = this;
+    else
+      Start(translation_.Argos3Id(id));
     return RETURN_OK;
   }
 
@@ -53,6 +53,7 @@ public:
   {
     // ARGoS3 moves robots before it asks their controllers for the first time.
     if (GetRobot()->GetTick() == 0) return;
+    if (controller_ == nullptr) return;
     const Speaker speaker(*GetRobot());
     for (const auto& sensor : sensors_) sensor->Update();
     controller_->ControlStep();
@@ -61,6 +62,7 @@ public:
 
   void Destroy() override
   {
+    if (controller_ == nullptr) return;
     const Speaker speaker(*GetRobot());
     controller_->Destroy();
   }
@@ -69,10 +71,45 @@ public:
   bool ReadsParametersLater() const override { return true; }
 
 private:
+  void Take(const std::string& id) override
+  {
+    Leave();
+    Start(id);
+  }
+  void Leave() override
+  {
+    Destroy();
+    TheRunning().controllers.erase(id_);
+    controller_.reset();
+    sensors_.clear();
+    actuators_.clear();
+  }
+
+  // `id`: of theirs.
+  void Start(const std::string& id)
+  {
+    const TConfigurationTree options = parameters_.Child("argos3");
+    id_ = id;
+    const Speaker speaker(*GetRobot());
+    controller_ = MakeController(options);
+    controller_->SetId(id_);
+    MakeDevices(options);
+    if (!TheRunning().controllers.emplace(id_, controller_.get()).second)
+      throw std::runtime_error("a process runs one ARGoS3 experiment at a time; another one has a robot '" + id_ + "'");
+
+    const TConfigurationTree params = parameters_.Child("params");
+    params_ = argos::TConfigurationNode();
+    if (params.Exists()) CopyElement(*params.Node(), params_);
+    Calling(params.Exists() ? params.Location() : parameters_.Location(), [&] { controller_->Init(params_); });
+    Commit();
+  }
+
   std::unique_ptr<argos::CCI_Controller> MakeController(const TConfigurationTree& options) const
   {
-    if (std::string script = options.GetText("script", ""); !script.empty())
+    if (options.HasAttribute("script_name"))
     {
+      std::string script = options.GetText("script", "");
+      if (script.empty()) return std::make_unique<argos::CCI_Controller>();
       return MakeLuaController(
           {options.GetText("script_name"), std::move(script), [robot = GetRobot()] { return robot->GetTime(); }});
     }
@@ -108,7 +145,9 @@ private:
   }
 
   Translation translation_;
-  std::string id_;
+  TConfigurationTree parameters_;
+  bool is_spare_ = false;
+  std::string id_;  // of theirs
   std::vector<std::unique_ptr<SensorBridge>> sensors_;
   std::vector<std::unique_ptr<ActuatorBridge>> actuators_;
   argos::TConfigurationNode params_;

@@ -1,7 +1,11 @@
 #include "argos3/plugin/devices.h"
 
+#include <argos3/plugins/robots/e-puck/control_interface/ci_epuck_proximity_sensor.h>
 #include <argos3/plugins/robots/eye-bot/control_interface/ci_eyebot_light_sensor.h>
+#include <argos3/plugins/robots/eye-bot/control_interface/ci_eyebot_proximity_sensor.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_base_ground_sensor.h>
+#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_distance_scanner_actuator.h>
+#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_distance_scanner_sensor.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_gripper_actuator.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_light_sensor.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_motor_ground_sensor.h>
@@ -12,8 +16,10 @@
 #include <argos3/plugins/robots/generic/control_interface/ci_colored_blob_omnidirectional_camera_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_ground_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_leds_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_positioning_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_proximity_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_quadrotor_position_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_quadrotor_speed_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_range_and_bearing_actuator.h>
@@ -24,10 +30,14 @@
 #include <map>
 #include <numbers>
 
+#include "argos3/kinds/epuck_ground.h"
 #include "common/control_interface/ci_battery_sensor.h"
+#include "common/control_interface/ci_ground_sensor.h"
+#include "common/control_interface/ci_led_ring_actuator.h"
 #include "common/control_interface/ci_positioning_sensor.h"
+#include "common/control_interface/ci_proximity_sensor.h"
 #include "common/control_interface/ci_range_and_bearing.h"
-#include "common/control_interface/eyebot/ci_eyebot_leds_actuator.h"
+#include "common/control_interface/ci_wheels_actuator.h"
 #include "common/control_interface/eyebot/ci_eyebot_light_sensor.h"
 #include "common/control_interface/eyebot/ci_eyebot_propellers_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_base_ground_sensor.h"
@@ -39,6 +49,7 @@
 #include "common/control_interface/footbot/ci_footbot_motor_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_omnidirectional_camera_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_turning_scanner_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_turret_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_turret_encoder_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_wheels_actuator.h"
@@ -71,6 +82,21 @@ public:
 
 private:
   CCI_FootBotWheelsActuator& wheels_;
+};
+
+// Of robots that are no foot-bots.
+class AnyWheels : public ActuatorBridge, public argos::CCI_DifferentialSteeringActuator
+{
+public:
+  explicit AnyWheels(const DeviceSetup& setup) : wheels_(setup.robot.Actuator<CCI_WheelsActuator>("wheels")) {}
+  argos::CCI_Actuator& Actuator() override { return *this; }
+  void SetLinearVelocity(Real left, Real right) override
+  {
+    wheels_.SetLinearVelocity(left / kCentimetres, right / kCentimetres);
+  }
+
+private:
+  CCI_WheelsActuator& wheels_;
 };
 
 class Encoders : public SensorBridge, public argos::CCI_DifferentialSteeringSensor
@@ -118,21 +144,22 @@ private:
   CCI_FootBotBeaconActuator& beacon_;
 };
 
-class EyeBotLeds : public ActuatorBridge, public argos::CCI_LEDsActuator
+// A ring of LEDs and nothing else.
+class RingLeds : public ActuatorBridge, public argos::CCI_LEDsActuator
 {
 public:
-  explicit EyeBotLeds(const DeviceSetup& setup) : ring_(setup.robot.Actuator<CCI_EyeBotLedsActuator>("eyebot_leds"))
+  RingLeds(const DeviceSetup& setup, const char* type) : ring_(setup.robot.Actuator<CCI_LedRingActuator>(type))
   {
-    m_tSettings.resize(CCI_EyeBotLedsActuator::NUM_LEDS, argos::CColor::BLACK);
+    m_tSettings.resize(ring_.GetNumLeds(), argos::CColor::BLACK);
   }
   argos::CCI_Actuator& Actuator() override { return *this; }
   void Commit() override
   {
-    for (unsigned led = 0; led < CCI_EyeBotLedsActuator::NUM_LEDS; ++led) ring_.SetColour(led, Lit(m_tSettings[led]));
+    for (unsigned led = 0; led < m_tSettings.size(); ++led) ring_.SetColour(led, Lit(m_tSettings[led]));
   }
 
 private:
-  CCI_EyeBotLedsActuator& ring_;
+  CCI_LedRingActuator& ring_;
 };
 
 // A ring of readings whose angles both sides count alike.
@@ -155,6 +182,127 @@ public:
 
 private:
   const Ours& ours_;
+};
+
+// What ARGoS3's infrared sensors make of a distance, m. Its sensors of that name: generic, e-puck, eye-bot.
+double GenericResponse(double distance) { return std::exp(-distance); }
+double EPuckResponse(double distance)
+{
+  constexpr double kFarthest = 0.05;
+  if (distance > kFarthest) return 0;
+  return std::clamp(298.701 * distance * distance - 36.8961 * distance + 1.08212, 0.0, 1.0);
+}
+double EyeBotResponse(double distance)
+{
+  constexpr double kTouching = 0.009889556;
+  return distance < kTouching ? 1 : 0.0100527 / (distance + 0.000163144);
+}
+
+// Ours fall evenly from 1 at the sensor to 0 at its range, so they tell the distance.
+template <class Theirs>
+class Proximity : public SensorBridge, public Theirs
+{
+public:
+  Proximity(const DeviceSetup& setup, double range_m, double (*response)(double))
+      : robot_(setup.robot),
+        ours_(robot_.Sensor<swarmanoid::CCI_ProximitySensor>("proximity")),
+        range_m_(range_m),
+        response_(response),
+        noise_(setup.options.GetNumber("proximity_noise", 0))
+  {
+    for (unsigned i = 0; i < ours_.GetAllSensorReadings().size(); ++i)
+    {
+      if constexpr (kHasAngles)
+        this->m_tReadings.emplace_back(0, argos::CRadians(ours_.GetAngle(i)).SignedNormalize());
+      else
+        this->m_tReadings.emplace_back(0);
+    }
+  }
+  argos::CCI_Sensor& Sensor() override { return *this; }
+  void Update() override
+  {
+    const auto readings = ours_.GetAllSensorReadings();
+    for (unsigned i = 0; i < readings.size(); ++i)
+    {
+      const double noise = noise_ > 0 ? robot_.GetRandom().Uniform(-noise_, noise_) : 0;
+      const double seen = readings[i] > 0 ? response_(range_m_ * (1 - readings[i])) : 0;
+      const double value = std::clamp(seen + noise, 0.0, 1.0);
+      if constexpr (kHasAngles)
+        this->m_tReadings[i].Value = value;
+      else
+        this->m_tReadings[i] = value;
+    }
+  }
+
+private:
+  static constexpr bool kHasAngles = !std::is_same_v<typename Theirs::TReadings, std::vector<Real>>;
+
+  CCI_Robot& robot_;
+  const swarmanoid::CCI_ProximitySensor& ours_;
+  const double range_m_;
+  double (*const response_)(double);
+  const double noise_;
+};
+
+// The floor that loop functions paint, under one robot.
+class PaintedFloor
+{
+public:
+  PaintedFloor(const Translation& translation, const swarmanoid::CCI_PositioningSensor& place)
+      : functions_(argos::CSimulator::GetInstance().GetLoopFunctions()),
+        middle_(translation.Argos3Position(place.GetPosition())),
+        cosine_(std::cos(place.GetHeading())),
+        sine_(std::sin(place.GetHeading()))
+  {
+  }
+  // At a place in the frame of the robot, m; 0 on black, 1 on white.
+  double GreyAt(double x, double y) const
+  {
+    const argos::CVector2 at(middle_.GetX() + x * cosine_ - y * sine_, middle_.GetY() + x * sine_ + y * cosine_);
+    return functions_.GetFloorColor(at).ToGrayScale() / 255.0;
+  }
+
+private:
+  argos::CLoopFunctions& functions_;
+  const argos::CVector3 middle_;
+  const double cosine_;
+  const double sine_;
+};
+
+class EPuckGround : public SensorBridge, public argos::CCI_GroundSensor
+{
+public:
+  explicit EPuckGround(const DeviceSetup& setup)
+      : robot_(setup.robot), translation_(setup.translation), noise_(setup.options.GetNumber("ground_noise", 0))
+  {
+    if (setup.options.GetText("floor", "") == "loop_functions")
+      positioning_ = &robot_.Sensor<swarmanoid::CCI_PositioningSensor>("positioning");
+    else
+      ours_ = &robot_.Sensor<swarmanoid::CCI_GroundSensor>("ground");
+    m_tReadings.resize(kEPuckGround.size());
+  }
+  argos::CCI_Sensor& Sensor() override { return *this; }
+  void Update() override
+  {
+    if (positioning_ == nullptr)
+    {
+      std::ranges::copy(ours_->GetAllSensorReadings(), m_tReadings.begin());
+      return;
+    }
+    const PaintedFloor floor(translation_, *positioning_);
+    for (std::size_t i = 0; i < kEPuckGround.size(); ++i)
+    {
+      const double noise = noise_ > 0 ? robot_.GetRandom().Uniform(-noise_, noise_) : 0;
+      m_tReadings[i] = std::clamp(floor.GreyAt(kEPuckGround[i].x, kEPuckGround[i].y) + noise, 0.0, 1.0);
+    }
+  }
+
+private:
+  CCI_Robot& robot_;
+  const Translation& translation_;
+  const double noise_;
+  const swarmanoid::CCI_PositioningSensor* positioning_ = nullptr;
+  const swarmanoid::CCI_GroundSensor* ours_ = nullptr;
 };
 
 template <class Theirs, class Ours>
@@ -185,24 +333,13 @@ public:
 private:
   static constexpr bool kBlackOrWhite = std::is_same_v<Ours, CCI_FootBotBaseGroundSensor>;
 
-  // The loop functions, where each sensor is.
   void Ask()
   {
-    argos::CLoopFunctions& functions = argos::CSimulator::GetInstance().GetLoopFunctions();
-    const argos::CVector3 middle = translation_.Argos3Position(positioning_->GetPosition());
-    const double heading = positioning_->GetHeading();
-    const double cosine = std::cos(heading);
-    const double sine = std::sin(heading);
+    const PaintedFloor floor(translation_, *positioning_);
     for (unsigned i = 0; i < Ours::NUM_SENSORS; ++i)
     {
-      const auto& place = Ours::PLACES_M[i];
-      const double grey = functions
-                              .GetFloorColor({middle.GetX() + place.x * cosine - place.y * sine,
-                                              middle.GetY() + place.x * sine + place.y * cosine})
-                              .ToGrayScale() /
-                          255.0;
       const double noise = noise_ > 0 ? robot_.GetRandom().Uniform(-noise_, noise_) : 0;
-      const double reading = std::clamp(grey + noise, 0.0, 1.0);
+      const double reading = std::clamp(floor.GreyAt(Ours::PLACES_M[i].x, Ours::PLACES_M[i].y) + noise, 0.0, 1.0);
       this->m_tReadings[i].Value = kBlackOrWhite ? (reading >= 0.5 ? 1 : 0) : reading;
     }
   }
@@ -342,6 +479,60 @@ private:
   const swarmanoid::CCI_FootBotTurretEncoderSensor& ours_;
 };
 
+class ScannerHead : public ActuatorBridge, public argos::CCI_FootBotDistanceScannerActuator
+{
+public:
+  explicit ScannerHead(const DeviceSetup& setup)
+      : ours_(setup.robot.Sensor<CCI_FootBotTurningScannerSensor>("footbot_distance_scanner"))
+  {
+  }
+  argos::CCI_Actuator& Actuator() override { return *this; }
+  void SetAngle(const argos::CRadians& angle) override
+  {
+    angle_ = angle.GetValue();
+    Enable();
+  }
+  void SetRPM(Real turns_a_minute) override { ours_.Turn(turns_a_minute * 2 * std::numbers::pi / 60); }
+  void Enable() override { ours_.Look(angle_); }
+  void Disable() override { ours_.SwitchOff(); }
+
+private:
+  CCI_FootBotTurningScannerSensor& ours_;
+  double angle_ = 0;
+};
+
+class Scanner : public SensorBridge, public argos::CCI_FootBotDistanceScannerSensor
+{
+public:
+  explicit Scanner(const DeviceSetup& setup)
+      : ours_(setup.robot.Sensor<CCI_FootBotTurningScannerSensor>("footbot_distance_scanner"))
+  {
+  }
+  argos::CCI_Sensor& Sensor() override { return *this; }
+  void Update() override
+  {
+    m_tReadingsMap.clear();
+    m_tShortReadingsMap.clear();
+    m_tLongReadingsMap.clear();
+    const auto readings = ours_.GetAllReadings();
+    for (std::size_t i = 0; i < readings.size(); ++i)
+    {
+      const auto& reading = readings[i];
+      const argos::CRadians angle(reading.angle_rad);
+      const Real value = reading.echo == CCI_DistanceScannerSensor::Echo::kTooNear ? -1
+                         : reading.echo == CCI_DistanceScannerSensor::Echo::kNothing
+                             ? -2
+                             : kCentimetres * reading.distance_m;
+      m_tReadingsMap[angle] = value;
+      // The two short beams come first.
+      (2 * i < readings.size() ? m_tShortReadingsMap : m_tLongReadingsMap)[angle] = value;
+    }
+  }
+
+private:
+  const CCI_FootBotTurningScannerSensor& ours_;
+};
+
 class RangeAndBearingSender : public ActuatorBridge, public argos::CCI_RangeAndBearingActuator
 {
 public:
@@ -460,6 +651,13 @@ std::unique_ptr<SensorBridge> MakeSensor(const std::string& tag, const DeviceSet
   if (tag == "differential_steering") return std::make_unique<Encoders>(setup);
   if (tag == "footbot_proximity")
     return std::make_unique<Ring<argos::CCI_FootBotProximitySensor, CCI_FootBotProximitySensor>>(setup, tag.c_str());
+  const double proximity_range_m = setup.robot.GetKind() == "eyebot" ? 3 : 0.1;
+  if (tag == "proximity")
+    return std::make_unique<Proximity<argos::CCI_ProximitySensor>>(setup, proximity_range_m, GenericResponse);
+  if (tag == "epuck_proximity")
+    return std::make_unique<Proximity<argos::CCI_EPuckProximitySensor>>(setup, proximity_range_m, EPuckResponse);
+  if (tag == "eyebot_proximity")
+    return std::make_unique<Proximity<argos::CCI_EyeBotProximitySensor>>(setup, proximity_range_m, EyeBotResponse);
   if (tag == "footbot_light")
     return std::make_unique<Ring<argos::CCI_FootBotLightSensor, CCI_FootBotLightSensor>>(setup, tag.c_str());
   if (tag == "eyebot_light")
@@ -470,21 +668,27 @@ std::unique_ptr<SensorBridge> MakeSensor(const std::string& tag, const DeviceSet
   if (tag == "footbot_base_ground")
     return std::make_unique<Ground<argos::CCI_FootBotBaseGroundSensor, CCI_FootBotBaseGroundSensor>>(setup,
                                                                                                      tag.c_str());
+  if (tag == "ground") return std::make_unique<EPuckGround>(setup);
   if (tag == "positioning") return std::make_unique<Positioning>(setup);
   if (tag == "battery") return std::make_unique<Battery>(setup);
   if (tag == "colored_blob_omnidirectional_camera") return std::make_unique<OmnidirectionalCamera>(setup);
   if (tag == "footbot_turret_encoder") return std::make_unique<TurretEncoder>(setup);
+  if (tag == "footbot_distance_scanner") return std::make_unique<Scanner>(setup);
   if (tag == "range_and_bearing") return std::make_unique<RangeAndBearingReceiver>(setup);
   return nullptr;
 }
 
 std::unique_ptr<ActuatorBridge> MakeActuator(const std::string& tag, const DeviceSetup& setup)
 {
+  const bool is_epuck = setup.robot.GetKind() == "argos3_epuck";
+  if (tag == "differential_steering" && is_epuck) return std::make_unique<AnyWheels>(setup);
   if (tag == "differential_steering") return std::make_unique<Wheels>(setup);
-  if (tag == "leds" && setup.robot.GetKind() == "eyebot") return std::make_unique<EyeBotLeds>(setup);
+  if (tag == "leds" && setup.robot.GetKind() == "eyebot") return std::make_unique<RingLeds>(setup, "eyebot_leds");
+  if (tag == "leds" && is_epuck) return std::make_unique<RingLeds>(setup, "led_ring");
   if (tag == "leds") return std::make_unique<FootBotLeds>(setup);
   if (tag == "footbot_gripper") return std::make_unique<Gripper>(setup);
   if (tag == "footbot_turret") return std::make_unique<Turret>(setup);
+  if (tag == "footbot_distance_scanner") return std::make_unique<ScannerHead>(setup);
   if (tag == "range_and_bearing") return std::make_unique<RangeAndBearingSender>(setup);
   if (tag == "quadrotor_position") return std::make_unique<QuadrotorPosition>(setup);
   if (tag == "quadrotor_speed") return std::make_unique<QuadrotorSpeed>(setup);

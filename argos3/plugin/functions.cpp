@@ -2,6 +2,7 @@
 // bodies, calls PreStep, the controllers and PostStep. Ours moves bodies last. So the first tick of a run, in which no
 // controller runs yet, is what ARGoS3 does before its first PreStep, and entities stand in PostStep where they stood in
 // PreStep.
+#include <argos3/plugins/robots/e-puck/simulator/epuck_entity.h>
 #include <argos3/plugins/robots/eye-bot/simulator/eyebot_entity.h>
 #include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
 #include <argos3/plugins/simulator/entities/box_entity.h>
@@ -23,34 +24,38 @@ class Argos3LoopFunctions : public CExperimentFunctions
 public:
   static PluginDescription Description()
   {
-    return {.label = "argos3_loop_functions",
-            .brief = "runs loop functions that were written for ARGoS3",
-            .parameters = {
-                {.name = "file", .type = ParameterType::kText, .description = "The library that holds them: a path."},
-                {.name = "label",
-                 .type = ParameterType::kText,
-                 .description = "The label under which the library registered them."},
-                {.name = "origin",
-                 .type = ParameterType::kVector3,
-                 .unit = "m",
-                 .description = "Where the origin of the ARGoS3 arena is."},
-                {.name = "distributed",
-                 .type = ParameterType::kText,
-                 .default_value = "",
-                 .description = "Prefixes of the ids of distributed entities, each with the number of the first one."},
-                {.name = "floor",
-                 .type = ParameterType::kText,
-                 .default_value = "",
-                 .description = "The id of the floor; empty for none."},
-                {.name = "loop_functions",
-                 .type = ParameterType::kTree,
-                 .default_value = "",
-                 .description = "The element of the ARGoS3 file, as it stands there."}}};
+    return {
+        .label = "argos3_loop_functions",
+        .brief = "runs loop functions that were written for ARGoS3",
+        .parameters = {
+            {.name = "file", .type = ParameterType::kText, .description = "The library that holds them: a path."},
+            {.name = "label",
+             .type = ParameterType::kText,
+             .description = "The label under which the library registered them."},
+            {.name = "origin",
+             .type = ParameterType::kVector3,
+             .unit = "m",
+             .description = "Where the origin of the ARGoS3 arena is."},
+            {.name = "distributed",
+             .type = ParameterType::kText,
+             .default_value = "",
+             .description = "Of the distributed entities: prefix of the ids there, number of the first one, id here."},
+            {.name = "floor",
+             .type = ParameterType::kText,
+             .default_value = "",
+             .description = "The id of the floor; empty for none."},
+            {.name = "loop_functions",
+             .type = ParameterType::kTree,
+             .default_value = "",
+             .description = "The element of the ARGoS3 file, as it stands there."}}};
   }
 
   ~Argos3LoopFunctions() override
   {
-    if (TheRunning().functions == functions_.get()) TheRunning().functions = nullptr;
+    Running& running = TheRunning();
+    if (running.functions == functions_.get()) running.functions = nullptr;
+    running.given.clear();
+    running.taken.clear();
     argos::CSimulator::GetInstance().GetSpace().Clear();
     argos::CSimulator::GetInstance().GetSpace().SetFloor(nullptr);
   }
@@ -70,6 +75,7 @@ public:
     const Experiment& experiment = space.GetExperiment();
     argos::CSimulator& simulator = argos::CSimulator::GetInstance();
     simulator.GetSpace().SetSimulationClock(0);
+    argos::CPhysicsEngine::SetSimulationClockTick(space.GetTickSeconds());
     simulator.Start(static_cast<UInt32>(experiment.seed), static_cast<UInt32>(experiment.max_clock));
     const Vector3& size = experiment.arena_size;
     simulator.GetSpace().SetArena({size.x(), size.y(), size.z()}, translation_.Argos3Position(size / 2));
@@ -113,7 +119,7 @@ public:
     if (space.GetTick() < 2) return Outcome::kRunning;
     const bool over = functions_->IsExperimentFinished() || argos::CSimulator::GetInstance().IsTerminated();
     const std::uint64_t last = space.GetExperiment().max_clock;
-    if (over || (last != 0 && space.GetTick() >= last)) functions_->PostExperiment();
+    is_over_ = over || (last != 0 && space.GetTick() >= last);
     return over ? Outcome::kDone : Outcome::kRunning;
   }
 
@@ -121,6 +127,9 @@ public:
   {
     const Speaker speaker(editor);
     const Changing changing(editor);
+    // Not where it is found out: PostExperiment may change entities.
+    if (is_over_) functions_->PostExperiment();
+    is_over_ = false;
     if (editor.GetSpace().GetTick() >= 1) functions_->Destroy();
   }
 
@@ -139,8 +148,17 @@ private:
   {
     std::uint32_t index = 0;
     bool is_box = false;
-    std::unique_ptr<argos::CEntity> entity;
+    std::unique_ptr<argos::CEntity> made;
+    // That one, or one that loop functions gave.
+    argos::CEntity* entity = nullptr;
     argos::CEmbodiedEntity* body = nullptr;
+
+    void Show(argos::CEntity* shown)
+    {
+      entity = shown;
+      auto* with_body = dynamic_cast<argos::CBodyEntity*>(shown);
+      body = with_body == nullptr ? nullptr : &with_body->GetEmbodiedEntity();
+    }
   };
 
   template <class Call>
@@ -160,23 +178,25 @@ private:
     const Vector3& size = entity.GetSize();
     const argos::CVector3 at = translation_.Argos3Position(entity.GetPosition());
     const argos::CQuaternion turned = Argos3Orientation(entity.GetOrientation());
-    View view{entity.GetIndex(), tag == "block", nullptr, nullptr};
+    View view{entity.GetIndex(), tag == "block", nullptr, nullptr, nullptr};
     if (tag == "footbot")
-      view.entity = std::make_unique<argos::CFootBotEntity>(id);
+      view.made = std::make_unique<argos::CFootBotEntity>(id);
     else if (tag == "eyebot")
-      view.entity = std::make_unique<argos::CEyeBotEntity>(id);
+      view.made = std::make_unique<argos::CEyeBotEntity>(id);
+    else if (tag == "argos3_epuck")
+      view.made = std::make_unique<argos::CEPuckEntity>(id);
     else if (tag == "block")
-      view.entity = std::make_unique<argos::CBoxEntity>(
+      view.made = std::make_unique<argos::CBoxEntity>(
           id, at, turned, entity.IsMovable(), argos::CVector3(size.x(), size.y(), size.z()), configuration.mass_kg);
     else if (tag == "cylindric_prey")
-      view.entity = std::make_unique<argos::CCylinderEntity>(id, at, turned, entity.IsMovable(), size.x(), size.z(),
-                                                             configuration.mass_kg);
+      view.made = std::make_unique<argos::CCylinderEntity>(id, at, turned, entity.IsMovable(), size.x(), size.z(),
+                                                           configuration.mass_kg);
     else if (tag == "light_bulb")
-      view.entity = std::make_unique<argos::CLightEntity>(id, at, argos::CColor(0xff000000U | configuration.colour),
-                                                          configuration.intensity);
+      view.made = std::make_unique<argos::CLightEntity>(id, at, argos::CColor(0xff000000U | configuration.colour),
+                                                        configuration.intensity);
     else
       return;
-    if (auto* body = dynamic_cast<argos::CBodyEntity*>(view.entity.get())) view.body = &body->GetEmbodiedEntity();
+    view.Show(view.made.get());
     views_.push_back(std::move(view));
   }
 
@@ -191,40 +211,22 @@ private:
       theirs.Insert(*floor_);
       theirs.SetFloor(&*floor_);
     }
-    for (const View& view : views_)
+    const Running& running = TheRunning();
+    for (View& view : views_)
     {
       if (!space.IsPresent(view.index)) continue;
+      const auto given = running.given.find(space.GetEntity(view.index).GetId());
+      view.Show(given != running.given.end() ? given->second : view.made.get());
       Place(space, view);
-      argos::CEntity* entity = view.entity.get();
-      if (auto* footbot = dynamic_cast<argos::CFootBotEntity*>(entity))
-        InsertRobot(theirs, *footbot);
-      else if (auto* eyebot = dynamic_cast<argos::CEyeBotEntity*>(entity))
-        InsertRobot(theirs, *eyebot);
-      else if (auto* box = dynamic_cast<argos::CBoxEntity*>(entity))
-        InsertBody(theirs, *box);
-      else if (auto* cylinder = dynamic_cast<argos::CCylinderEntity*>(entity))
-        InsertBody(theirs, *cylinder);
-      else if (auto* light = dynamic_cast<argos::CLightEntity*>(entity))
-        theirs.Insert(*light);
+      theirs.InsertAny(*view.entity);
     }
-  }
-
-  template <class Robot>
-  static void InsertRobot(argos::CSpace& theirs, Robot& robot)
-  {
-    InsertBody(theirs, robot);
-    theirs.InsertComponent(robot.GetId(), robot.GetControllableEntity());
-  }
-  template <class Body>
-  static void InsertBody(argos::CSpace& theirs, Body& body)
-  {
-    theirs.Insert(body);
-    theirs.InsertComponent(body.GetId(), body.GetEmbodiedEntity());
   }
 
   void Follow(const CSwarmanoidSpace& space)
   {
-    if (!std::equal(absent_.begin(), absent_.end(), space.Absent().begin(), space.Absent().end())) Fill(space);
+    const bool is_same = std::equal(absent_.begin(), absent_.end(), space.Absent().begin(), space.Absent().end());
+    if (!is_same || TheRunning().presence_changed) Fill(space);
+    TheRunning().presence_changed = false;
     for (const View& view : views_)
       if (view.body != nullptr && view.body->IsMovable() && space.IsPresent(view.index)) Place(space, view);
   }
@@ -246,6 +248,7 @@ private:
   argos::TConfigurationNode element_;
   std::vector<View> views_;
   std::vector<std::uint32_t> absent_;
+  bool is_over_ = false;
   std::optional<argos::CFloorEntity> floor_;
   std::unique_ptr<argos::CLoopFunctions> functions_;
 };

@@ -1,7 +1,11 @@
 #include "argos3/plugin/lua_devices.h"
 
+#include <argos3/plugins/robots/e-puck/control_interface/ci_epuck_proximity_sensor.h>
 #include <argos3/plugins/robots/eye-bot/control_interface/ci_eyebot_light_sensor.h>
+#include <argos3/plugins/robots/eye-bot/control_interface/ci_eyebot_proximity_sensor.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_base_ground_sensor.h>
+#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_distance_scanner_actuator.h>
+#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_distance_scanner_sensor.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_gripper_actuator.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_light_sensor.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_motor_ground_sensor.h>
@@ -12,8 +16,10 @@
 #include <argos3/plugins/robots/generic/control_interface/ci_colored_blob_omnidirectional_camera_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_ground_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_leds_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_positioning_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_proximity_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_quadrotor_position_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_quadrotor_speed_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_range_and_bearing_actuator.h>
@@ -258,6 +264,18 @@ void ReadGround(lua_State* lua, Sensor& sensor, const char* name)
            });
 }
 
+// Numbers alone.
+void ReadNumbers(lua_State* lua, const std::vector<Real>& readings, const char* name)
+{
+  Enter(lua, name);
+  for (std::size_t i = 0; i < readings.size(); ++i)
+  {
+    lua_pushnumber(lua, readings[i]);
+    lua_rawseti(lua, -2, static_cast<lua_Integer>(i + 1));
+  }
+  Leave(lua);
+}
+
 // robot.turret: rad, rad/s
 
 int SetRotation(lua_State* lua)
@@ -292,6 +310,64 @@ void AddTurret(lua_State* lua, argos::CCI_FootBotTurretActuator& turret)
   SetFunction<SetTurretMode<Actuator::MODE_POSITION_CONTROL>>(lua, "set_position_control_mode", &turret);
   SetFunction<SetTurretMode<Actuator::MODE_SPEED_CONTROL>>(lua, "set_speed_control_mode", &turret);
   SetFunction<SetTurretMode<Actuator::MODE_PASSIVE>>(lua, "set_passive_mode", &turret);
+  Leave(lua);
+}
+
+// robot.distance_scanner: rad, turns a minute; cm, rad
+
+int SetScannerAngle(lua_State* lua)
+{
+  CheckCount(lua, 1);
+  Subject<argos::CCI_FootBotDistanceScannerActuator>(lua).SetAngle(argos::CRadians(luaL_checknumber(lua, 1)));
+  return 0;
+}
+
+int SetRpm(lua_State* lua)
+{
+  CheckCount(lua, 1);
+  Subject<argos::CCI_FootBotDistanceScannerActuator>(lua).SetRPM(luaL_checknumber(lua, 1));
+  return 0;
+}
+
+template <void (argos::CCI_FootBotDistanceScannerActuator::*Act)()>
+int SwitchScanner(lua_State* lua)
+{
+  CheckCount(lua, 0);
+  (Subject<argos::CCI_FootBotDistanceScannerActuator>(lua).*Act)();
+  return 0;
+}
+
+void AddScanner(lua_State* lua, argos::CCI_FootBotDistanceScannerActuator& scanner)
+{
+  using Actuator = argos::CCI_FootBotDistanceScannerActuator;
+  Enter(lua, "distance_scanner");
+  SetFunction<SwitchScanner<&Actuator::Enable>>(lua, "enable", &scanner);
+  SetFunction<SwitchScanner<&Actuator::Disable>>(lua, "disable", &scanner);
+  SetFunction<SetScannerAngle>(lua, "set_angle", &scanner);
+  SetFunction<SetRpm>(lua, "set_rpm", &scanner);
+  Leave(lua);
+}
+
+void ReadBeams(lua_State* lua, const argos::CCI_FootBotDistanceScannerSensor::TReadingsMap& readings, const char* name)
+{
+  Enter(lua, name);
+  lua_Integer count = 0;
+  for (const auto& [angle, distance] : readings)
+  {
+    EnterNew(lua, ++count, 2);
+    Set(lua, "angle", angle.GetValue());
+    Set(lua, "distance", distance);
+    Leave(lua);
+  }
+  Shorten(lua, count);
+  Leave(lua);
+}
+
+void ReadScanner(lua_State* lua, argos::CCI_FootBotDistanceScannerSensor& scanner)
+{
+  Enter(lua, "distance_scanner");
+  ReadBeams(lua, scanner.GetShortReadingsMap(), "short_range");
+  ReadBeams(lua, scanner.GetLongReadingsMap(), "long_range");
   Leave(lua);
 }
 
@@ -427,6 +503,8 @@ void AddFunctions(lua_State* lua, const std::string& tag, argos::CCI_Actuator& a
   if (tag == "leds") return AddLeds(lua, As<argos::CCI_LEDsActuator>(actuator));
   if (tag == "range_and_bearing") return AddSender(lua, As<argos::CCI_RangeAndBearingActuator>(actuator));
   if (tag == "footbot_turret") return AddTurret(lua, As<argos::CCI_FootBotTurretActuator>(actuator));
+  if (tag == "footbot_distance_scanner")
+    return AddScanner(lua, As<argos::CCI_FootBotDistanceScannerActuator>(actuator));
   if (tag == "footbot_gripper") return AddGripper(lua, As<argos::CCI_FootBotGripperActuator>(actuator));
   if (tag == "quadrotor_position") return AddPosition(lua, As<argos::CCI_QuadRotorPositionActuator>(actuator));
   if (tag == "quadrotor_speed") return AddSpeed(lua, As<argos::CCI_QuadRotorSpeedActuator>(actuator));
@@ -442,6 +520,10 @@ void AddReadings(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sens
 {
   if (tag == "differential_steering") return ReadWheels(lua, As<argos::CCI_DifferentialSteeringSensor>(sensor));
   if (tag == "footbot_proximity") return ReadRing(lua, As<argos::CCI_FootBotProximitySensor>(sensor), "proximity");
+  if (tag == "epuck_proximity") return ReadRing(lua, As<argos::CCI_EPuckProximitySensor>(sensor), "proximity");
+  if (tag == "eyebot_proximity") return ReadRing(lua, As<argos::CCI_EyeBotProximitySensor>(sensor), "proximity");
+  if (tag == "proximity") return ReadNumbers(lua, As<argos::CCI_ProximitySensor>(sensor).GetReadings(), "proximity");
+  if (tag == "ground") return ReadNumbers(lua, As<argos::CCI_GroundSensor>(sensor).GetReadings(), "ground");
   if (tag == "footbot_light") return ReadRing(lua, As<argos::CCI_FootBotLightSensor>(sensor), "light");
   if (tag == "eyebot_light") return ReadRing(lua, As<argos::CCI_EyeBotLightSensor>(sensor), "light");
   if (tag == "footbot_motor_ground")
@@ -451,6 +533,7 @@ void AddReadings(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sens
   if (tag == "range_and_bearing") return ReadPackets(lua, As<argos::CCI_RangeAndBearingSensor>(sensor));
   if (tag == kCamera) return ReadBlobs(lua, As<argos::CCI_ColoredBlobOmnidirectionalCameraSensor>(sensor));
   if (tag == "positioning") return ReadPosition(lua, As<argos::CCI_PositioningSensor>(sensor));
+  if (tag == "footbot_distance_scanner") return ReadScanner(lua, As<argos::CCI_FootBotDistanceScannerSensor>(sensor));
   if (tag == "battery") return ReadBattery(lua, As<argos::CCI_BatterySensor>(sensor));
   if (tag == "footbot_turret_encoder")
   {

@@ -95,6 +95,11 @@ void DescribeDistanceScanners()
                                                         "tick. 0: the short beams look ahead and back."}},
                                        NoiseParameters("each distance", "m")),
                   .robots = {"footbot"}});
+  DescribeSensor({.label = "footbot_distance_scanner",
+                  .implementation = "argos3_footbot_distance_scanner",
+                  .brief = "two beams of 0.26 m and two of 0.12 to 1.42 m, off until the controller turns the head",
+                  .parameters = NoiseParameters("each distance", "m"),
+                  .robots = {"footbot"}});
   DescribeSensor({.label = "eyebot_distance_scanner",
                   .implementation = "generic_eyebot_distance_scanner",
                   .brief = "32 beams of 15 m all around",

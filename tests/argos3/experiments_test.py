@@ -1,4 +1,5 @@
 """Experiments in ARGoS3's XML, with controllers and loop functions written for it."""
+import math
 import os
 import re
 import shutil
@@ -112,6 +113,123 @@ class Experiments(unittest.TestCase):
         self.assertAlmostEqual(float(rows[0][2]), -0.5)
         self.assertAlmostEqual(float(rows[6][2]), 1.2)
 
+    def said_in(self, folder):
+        logs = [*(self.folder / folder).glob("swarmanoid.log"), *(self.folder / folder).glob("controller_host*.log")]
+        return "".join(log.read_text() for log in logs)
+
+    def test_ids_of_distributed_entities_are_those_of_argos3(self):
+        """Two groups of one prefix, one without any, and one of nobody."""
+        group = """<distribute>
+            <position method="constant" values="{}"/><orientation method="constant" values="0,0,0"/>
+            <entity quantity="{}" max_trials="1" base_num="{}"><foot-bot id="{}"><controller config="r"/></foot-bot></entity>
+            </distribute>"""
+        more = group.format("-1.5,0,0", 1, 7, "fb") + group.format("-1.5,1,0", 1, 3, "") + group.format("0,0,0", 0, 0, "no")
+        file = self.changed("collect.argos", ("</arena>", more + "</arena>"))
+        self.swarmanoid("run", file, "--output", "run")
+        rows = [line.split("\t") for line in (self.folder / "collected.tsv").read_text().splitlines()]
+        self.assertEqual({row[2] for row in rows if row[0] == "0"}, {"fb5", "fb6", "fb7", "3"})
+        at = {row[2]: float(row[5]) for row in rows if row[0] == "0"}
+        self.assertEqual((at["fb7"], at["3"], at["fb5"]), (-1.5, -1.5, -0.5))
+
+    def test_ticks_that_are_no_whole_milliseconds_are_rounded_if_little_is_lost(self):
+        file = self.changed("wander.argos", ('ticks_per_second="10"', 'ticks_per_second="32"'))
+        result = self.swarmanoid("convert", file, "--output", "wander.xml")
+        self.assertRegex(result.stderr, r"wander\.argos:\d+:\d+: note: a tick has whole milliseconds here: 31 ms, 0\.8 % less")
+        framework = xml.etree.ElementTree.parse(self.folder / "wander.xml").find("framework")
+        self.assertEqual((framework.get("clocktick"), framework.get("maxclock")), ("31", "641"))
+        file.write_text(file.read_text().replace('"32"', '"60"'))
+        self.assertIn("'ticks_per_second' is 60", self.swarmanoid("check", file, code=3).stderr)
+
+    def test_files_need_not_name_libraries_in_the_search_path(self):
+        expected = self.hash_of(HERE / "collect.argos", "--output", "named")
+        file = self.changed("collect.argos", ('<runner id="r" library="argos3_collector">', '<runner id="r">'),
+                            ('<loop_functions library="argos3_collector" ', "<loop_functions "))
+        self.assertEqual(self.hash_of(file, "--output", "unnamed"), expected)
+        file.write_text(file.read_text().replace('label="collector"', 'label="kollektor"'))
+        result = self.swarmanoid("check", file, code=3)
+        self.assertRegex(result.stderr, r"collect\.argos:\d+:\d+: <loop_functions> has no 'library', and no library in the "
+                                        r"folders of ARGOS_PLUGIN_PATH names 'kollektor'")
+
+    def test_an_e_puck_senses_as_that_of_argos3(self):
+        """A wall 6.5 cm ahead of the middle of a robot of radius 3.5 cm, with sensors at 17 and 50 degrees; black floor
+        on the left."""
+        self.swarmanoid("run", HERE / "puck.argos", "--output", "run")
+        of = dict(re.findall(r"robot 'front' at tick 3: (\w+) (.*)", self.said_in("run")))
+        distances = [(0.065 - 0.035 * math.cos(angle)) / math.cos(angle) for angle in (math.radians(17), math.radians(50))]
+        near, far = (math.exp(-distance) for distance in distances)
+        for read, expected in zip(map(float, of["generic"].split()), [near, far, 0, 0, 0, 0, far, near], strict=True):
+            self.assertAlmostEqual(read, expected, places=5)
+        own = [(float(angle), float(value)) for angle, value in re.findall(r"CDegrees\((\S+)\)=(\S+)", of["own"])]
+        self.assertEqual([round(angle) for angle, _ in own], [17, 50, 90, 150, -150, -90, -50, -17])
+        response = 298.701 * distances[0]**2 - 36.8961 * distances[0] + 1.08212
+        for (_, value), expected in zip(own, [response, 0, 0, 0, 0, 0, 0, response], strict=True):
+            self.assertAlmostEqual(value, expected, places=5)
+        self.assertEqual(of["ground"], "1 1 0")
+        # Messages of an e-puck have two bytes.
+        self.assertEqual(of["leds"], "8 heard 2:7")
+        self.assertIn("robot 'back' at tick 3: generic 0 0 0 0 0 0 0 0\n", self.said_in("run"))
+
+    def test_an_e_puck_drives_in_a_cluster_as_in_one_process(self):
+        file = self.changed("puck.argos", ('<loop_functions library="argos3_puck" label="puck_floor"/>', ""),
+                            ('<floor id="floor" source="loop_functions" pixels_per_meter="10"/>', ""),
+                            ('velocity="0"', 'velocity="5"'), ('position="-0.5,0,0"', 'position="-0.5,0.5,0"'))
+        one = self.hash_of(file, "--single-process", "--output", "one")
+        self.assertEqual(one, self.hash_of(file, "--output", "cluster"))
+        self.swarmanoid("convert", file, "--output", "puck.xml")
+        text = self.folder.joinpath("puck.xml").read_text().replace("</ahss-config>", """<visualisations>
+            <text_render id="t" file="places.txt" precision="4"/></visualisations></ahss-config>""")
+        (self.folder / "puck.xml").write_text(text)
+        self.swarmanoid("run", "puck.xml", "--single-process", "--output", "shown")
+        rows = [line.split("\t") for line in (self.folder / "shown/places.txt").read_text().splitlines()]
+        x = {row[3]: float(row[4]) for row in rows if len(row) > 4 and row[2] == "EPuck"}
+        # The arena starts at -1: 5 cm/s for 1.9 s to the left, and 3 cm until the wall stops it.
+        self.assertAlmostEqual(x["back"], 0.5 - 0.095, delta=0.006)
+        self.assertAlmostEqual(x["front"], 1.03, delta=0.002)
+
+    def test_what_e_pucks_and_others_do_not_have_is_refused(self):
+        file = self.changed("puck.argos", ('<ground implementation="rot_z_only"/>',
+                                           '<ground implementation="rot_z_only"/><differential_steering implementation="default"/>'))
+        result = self.swarmanoid("check", file, code=3)
+        self.assertRegex(result.stderr, r"puck\.argos:\d+:\d+: <differential_steering> has no counterpart on e-pucks; ")
+        text = (HERE / "puck.argos").read_text().replace("e-puck id", "foot-bot id").replace("</e-puck>", "</foot-bot>")
+        file.write_text(text)
+        result = self.swarmanoid("check", file, code=3)
+        self.assertRegex(result.stderr, r"puck\.argos:\d+:\d+: <ground> has no counterpart [^\n]*; take footbot_motor_ground")
+
+    def test_loop_functions_add_robots_that_the_file_does_not_declare(self):
+        self.swarmanoid("run", HERE / "make.argos", "--output", "run")
+        lines = (self.folder / "made.tsv").read_text().splitlines()
+        # In Init: three robots, the controller of the first, no place for the second where the first is, limits, ticks.
+        self.assertEqual(lines[0], "# 3 made0 0 2,2,1 10")
+        self.assertIn("declares no box 'crate'", lines[1])
+        # Entities may be changed behind the last step, too.
+        self.assertEqual(lines[-1], "# over 0,255,0,255")
+        rows = [line.split("\t") for line in lines[2:-1]]
+        self.assertEqual([row[1] for row in rows], ["3"] * 3 + ["2"] * 3 + ["3"] * 4)
+        for row in rows:
+            clock = int(row[0])
+            self.assertEqual(int(row[3]), clock)  # its steps
+            self.assertAlmostEqual(float(row[2]), 0.01 * (clock - 1), places=4)  # the object that was added follows it
+            # The can shows another colour from the step after it was given.
+            # A lamp that loop functions made is near in step 4.
+            self.assertEqual(row[4:7], ["1", "1" if clock == 4 else "0", "255,0,0,255"] if clock <= 5 else
+                             ["0", "1", "0,0,255,255"])
+        # The place of one that left is taken by another, with a controller of its own.
+        self.assertEqual(rows[5][7], "0")
+        made = re.findall(r"(Init|Destroy) of (\w+)", self.said_in("run"))
+        self.assertEqual(made[:5], [("Init", "made0"), ("Init", "made1"), ("Init", "made2"), ("Destroy", "made1"),
+                                    ("Init", "late")])
+        self.assertEqual(sorted(made[5:]), [("Destroy", "late"), ("Destroy", "made0"), ("Destroy", "made2")])
+
+    def test_robots_that_loop_functions_add_come_to_an_end(self):
+        result = self.swarmanoid("run", self.changed("make.argos", ('robots="3"', 'robots="101"')), "--output", "run", code=3)
+        self.assertRegex(result.stdout + result.stderr, r"all 100 entities of the reserve 'added_m' [^\n]*`swarmanoid convert` writes")
+        self.swarmanoid("convert", HERE / "make.argos", "--output", "make.xml")
+        result = self.swarmanoid("run", "make.xml", "--output", "cluster", code=4)
+        self.assertIn("--single-process", result.stdout + result.stderr)
+        # Loop functions that make no robots keep none ready.
+        self.assertNotIn("<reserve", self.swarmanoid("convert", HERE / "puck.argos").stdout)
+
     def test_what_has_no_counterpart_is_named_with_its_place(self):
         file = self.changed("wander.argos", ("<footbot_proximity ", "<footbot_proximty "),
                             ("<cylinder id=\"pillar\"", "<prototype id=\"pillar\""),
@@ -153,6 +271,13 @@ class Experiments(unittest.TestCase):
         file = self.folder / "lua.argos"
         file.write_text(f'{head}<lua_controller id="w">{devices + own[own.index("<params"):] if devices else own}</lua_controller>{tail}')
         return file
+
+    def test_without_a_script_robots_stand_still(self):
+        file = self.in_lua("")
+        file.write_text(file.read_text().replace('<params script=""/>', "<params/>"))
+        result = self.swarmanoid("check", file)
+        self.assertRegex(result.stderr, r"lua\.argos:\d+:\d+: note: without <params script=.* its robots do nothing")
+        self.swarmanoid("run", file, "--single-process", "--output", "run")
 
     def test_a_script_does_what_the_same_rule_in_cpp_does(self):
         shutil.copytree(HERE / "scripts", self.folder / "scripts")
@@ -210,6 +335,30 @@ class Experiments(unittest.TestCase):
         self.assertRegex(of["colored_blob_omnidirectional_camera"], r"^\{1=\{angle=\S+ color=\{blue=0 green=255 red=0\} distance=\S+\}\}$")
         self.assertRegex(said, r": b range_and_bearing .*horizontal_bearing=-?3.14159 range=50 ")
         self.assertRegex(said, r": a ends after 200 steps true")
+
+    def test_a_script_turns_the_distance_scanner(self):
+        """A wall 15 cm ahead of the body, another 50 cm to its left; the head turns half a turn a second."""
+        shutil.copy(HERE / "scripts/scanner.lua", self.folder)
+        file = self.in_lua("scanner.lua", """<actuators><footbot_distance_scanner implementation="default"/></actuators>
+            <sensors><footbot_distance_scanner implementation="rot_z_only" noise_range="0:0"/></sensors>""")
+        text = re.sub(r"<distribute>.*</distribute>|<cylinder.*</cylinder>", "", file.read_text(), flags=re.DOTALL)
+        walls = "".join(f'<box id="{name}" size="{size},0.5" movable="false"><body position="{at},0" orientation="0,0,0"/></box>'
+                        for name, size, at in (("ahead", "0.1,1", "0.285036758,0"), ("left", "1,0.1", "0,0.635036758")))
+        file.write_text(text.replace("</arena>", walls + """<foot-bot id="a"><body position="0,0,0" orientation="0,0,0"/>
+            <controller config="w"/></foot-bot></arena>"""))
+        self.swarmanoid("run", file, "--single-process", "--output", "run")
+        said = re.findall(r"robot 'a' at tick \d+: (\w+) (.*)", self.said_in("run"))
+        self.assertEqual(said[0], ("off", "0 0"))
+        turning = [tuple(map(float, text.split())) for word, text in said if word == "turning"]
+        self.assertEqual(len(turning), 12)
+        step = math.pi / 60
+        for number, (angle, _) in enumerate(turning[:6]):
+            # Of the short beams that which looks ahead is the second one in the order of angles, from the second tick on.
+            self.assertAlmostEqual(angle, -math.pi + (6 + number) * step, places=3)
+        for angle, distance in turning[6:]:
+            self.assertAlmostEqual(distance, 100 * (0.235036758 / math.cos(angle) - 0.085036758), places=2)
+        still = {text for word, text in said if word == "still"}
+        self.assertEqual(still, {"0 15", "3.1416 -2", "-1.5708 -2", "1.5708 50"})
 
     def test_mistakes_in_a_script_are_named_with_file_and_line(self):
         file = self.in_lua("mine.lua")

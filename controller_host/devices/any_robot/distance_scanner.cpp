@@ -1,9 +1,13 @@
 // Distance scanners: the two short and two long beams of the footbot, on a head that turns at a given speed, and the
 // ring of the eyebot. Rays against the bodies and the terrain of the robot's own engines. Generic.
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <stdexcept>
+#include <string>
 
 #include "common/control_interface/ci_distance_scanner_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_turning_scanner_sensor.h"
 #include "common/math/elementary.h"
 #include "controller_host/devices/any_robot/kind_of_batch.h"
 #include "controller_host/devices/builtin_devices.h"
@@ -56,6 +60,33 @@ struct EyebotRing
   static double Speed(const Parameters&) { return 0; }
 };
 
+Reading Measured(const SensorWorld& world, std::uint32_t robot, const Pose& pose, const Beam& beam, double height,
+                 double angle)
+{
+  const SinCos direction = SinCosOf(angle);
+  const auto at = [&](double distance) {
+    return pose.Apply({distance * direction.cos, distance * direction.sin, height});
+  };
+  const auto is_there = [&](std::uint32_t body)
+  { return body != robot && world.Membership().ShareEngine(robot, body); };
+  const double part = world.FirstHit(at(beam.start), at(beam.start + beam.longest), is_there);
+  if (part > 1) return {angle, beam.longest, Echo::kNothing};
+  const double distance = part * beam.longest;
+  if (distance <= beam.least && beam.least > 0) return {angle, 0, Echo::kTooNear};
+  return {angle, distance, Echo::kMeasured};
+}
+
+void AddNoise(const NoiseModel& noise, DeviceStreams& streams, std::size_t k, std::vector<Reading>& readings,
+              std::vector<double>& samples)
+{
+  if (!noise.IsActive()) return;
+  samples.resize(readings.size());
+  streams.Sample(noise, k, samples);
+  for (std::size_t i = 0; i < readings.size(); ++i)
+    if (readings[i].echo == Echo::kMeasured)
+      readings[i].distance_m = std::max(readings[i].distance_m + samples[i], 0.0);
+}
+
 struct DistanceScanner : public CCI_DistanceScannerSensor
 {
   std::span<const Reading> GetAllReadings() const override { return readings; }
@@ -100,29 +131,10 @@ private:
     {
       const Beam& beam = beams_[i / of_beam];
       const double part = static_cast<double>(i % of_beam) / static_cast<double>(of_beam);
-      readings[i] = Measured(robots_[k], pose, beam, WrapAngle(beam.angle + head + part * step_));
+      readings[i] =
+          Measured(*world_, robots_[k], pose, beam, Head::kHeight, WrapAngle(beam.angle + head + part * step_));
     }
-    if (!noise_.IsActive()) return;
-    samples_.resize(readings.size());
-    streams_.Sample(noise_, k, samples_);
-    for (std::size_t i = 0; i < readings.size(); ++i)
-      if (readings[i].echo == Echo::kMeasured)
-        readings[i].distance_m = std::max(readings[i].distance_m + samples_[i], 0.0);
-  }
-
-  Reading Measured(std::uint32_t robot, const Pose& pose, const Beam& beam, double angle) const
-  {
-    const SinCos direction = SinCosOf(angle);
-    const auto at = [&](double distance) {
-      return pose.Apply({distance * direction.cos, distance * direction.sin, Head::kHeight});
-    };
-    const auto is_there = [&](std::uint32_t body)
-    { return body != robot && world_->Membership().ShareEngine(robot, body); };
-    const double part = world_->FirstHit(at(beam.start), at(beam.start + beam.longest), is_there);
-    if (part > 1) return {angle, beam.longest, Echo::kNothing};
-    const double distance = part * beam.longest;
-    if (distance <= beam.least && beam.least > 0) return {angle, 0, Echo::kTooNear};
-    return {angle, distance, Echo::kMeasured};
+    AddNoise(noise_, streams_, k, readings, samples_);
   }
 
   const CSwarmanoidSpace* space_ = nullptr;
@@ -136,11 +148,116 @@ private:
   std::vector<DistanceScanner> scanners_;
 };
 
+// The footbot's, commanded by its controller, as that of ARGoS3.
+class TurningScanner : public CCI_FootBotTurningScannerSensor
+{
+public:
+  std::span<const Reading> GetAllReadings() const override { return readings; }
+  void Turn(double speed_rad_s) override
+  {
+    Require(speed_rad_s);
+    state = {Mode::kTurning, speed_rad_s, state.head};
+  }
+  void Look(double angle_rad) override
+  {
+    Require(angle_rad);
+    state = {Mode::kStill, 0, WrapAngle(angle_rad)};
+  }
+  void SwitchOff() override { state.mode = Mode::kOff; }
+
+  enum class Mode : std::uint8_t
+  {
+    kOff,
+    kStill,
+    kTurning
+  };
+  struct State
+  {
+    Mode mode = Mode::kOff;
+    double speed = 0;  // rad/s
+    double head = 0;   // rad
+  };
+  State state;
+  std::vector<Reading> readings;
+
+private:
+  static void Require(double number)
+  {
+    if (!std::isfinite(number))
+      throw std::invalid_argument("footbot_distance_scanner was told " + std::to_string(number) +
+                                  ", which is no angle");
+  }
+};
+
+class TurningScannerSensor : public SensorBatch
+{
+public:
+  void Init(const DeviceSetup& setup) override
+  {
+    space_ = &setup.space;
+    robots_ = setup.robots;
+    world_ = SensorWorld::Of(setup.space);
+    noise_ = NoiseFrom(setup.parameters);
+    streams_ = DeviceStreams(setup);
+    beams_ = FootbotHead::Beams(KindOfBatch(setup));
+    scanners_.resize(robots_.size());
+  }
+  CCI_Sensor* Sensor(std::size_t k) override { return &scanners_[k]; }
+  void Update(const ChannelView&) override
+  {
+    world_->Refresh();
+    for (std::size_t k = 0; k < robots_.size(); ++k) Scan(k);
+  }
+  void SaveState(std::size_t k, ByteWriter& state) const override
+  {
+    state.Put(scanners_[k].state.mode);
+    state.Put(scanners_[k].state.speed);
+    state.Put(scanners_[k].state.head);
+  }
+  void LoadState(std::size_t k, ByteReader& state) override
+  {
+    scanners_[k].state.mode = state.Get<TurningScanner::Mode>();
+    scanners_[k].state.speed = state.Get<double>();
+    scanners_[k].state.head = state.Get<double>();
+  }
+
+private:
+  void Scan(std::size_t k)
+  {
+    TurningScanner& scanner = scanners_[k];
+    scanner.readings.clear();
+    if (scanner.state.mode == TurningScanner::Mode::kOff) return;
+    const bool turns = scanner.state.mode == TurningScanner::Mode::kTurning;
+    const double way = turns ? scanner.state.speed * space_->GetTickSeconds() : 0;
+    const std::size_t of_beam = turns ? FootbotHead::kReadingsOfTick : 1;
+    const Pose pose = space_->GetPose(robots_[k]);
+    for (const Beam& beam : beams_)
+      for (std::size_t i = 0; i < of_beam; ++i)
+      {
+        const double part = static_cast<double>(i) / static_cast<double>(of_beam);
+        scanner.readings.push_back(Measured(*world_, robots_[k], pose, beam, FootbotHead::kHeight,
+                                            WrapAngle(beam.angle + scanner.state.head + part * way)));
+      }
+    scanner.state.head = WrapAngle(scanner.state.head + way);
+    AddNoise(noise_, streams_, k, scanner.readings, samples_);
+  }
+
+  const CSwarmanoidSpace* space_ = nullptr;
+  std::vector<std::uint32_t> robots_;
+  std::shared_ptr<SensorWorld> world_;
+  NoiseModel noise_;
+  DeviceStreams streams_;
+  std::vector<Beam> beams_;
+  std::vector<double> samples_;
+  std::vector<TurningScanner> scanners_;
+};
+
 }  // namespace
 
 void RegisterDistanceScanners()
 {
   BindSensor<DistanceScannerSensor<FootbotHead>>("footbot_distance_scanner", "generic_footbot_distance_scanner");
+  BindSensor<TurningScannerSensor>("footbot_distance_scanner", "argos3_footbot_distance_scanner");
   BindSensor<DistanceScannerSensor<EyebotRing>>("eyebot_distance_scanner", "generic_eyebot_distance_scanner");
 }
 

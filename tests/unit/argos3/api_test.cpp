@@ -218,10 +218,16 @@ TEST(Argos3Api, TextsAreCutReplacedAndExpanded)
 TEST(Argos3Api, IdsOfDistributedEntitiesTranslateBothWays)
 {
   swarmanoid::argos3::Translation translation;
-  translation.distributed = {{"fb", 10}, {"f", 0}};
+  translation.distributed = {{"fb", 10, "fb"}, {"fb", 20, "fb.20"}, {"f", 0, "f"}, {"", 1, "footbot"}};
   EXPECT_EQ(translation.Argos3Id("fb_3"), "fb13");
   EXPECT_EQ(translation.OurId("fb13"), "fb_3");
+  EXPECT_EQ(translation.OurId("fb19"), "fb_9");
+  EXPECT_EQ(translation.OurId("fb20"), "fb.20_0");
+  EXPECT_EQ(translation.Argos3Id("fb.20_4"), "fb24");
+  EXPECT_EQ(translation.OurId("fb9"), "fb9");
   EXPECT_EQ(translation.OurId("f0"), "f_0");
+  EXPECT_EQ(translation.OurId("7"), "footbot_6");
+  EXPECT_EQ(translation.Argos3Id("footbot_6"), "7");
   EXPECT_EQ(translation.Argos3Id("fb_one"), "fb_one");
   EXPECT_EQ(translation.OurId("wall_1"), "wall_1");
 }

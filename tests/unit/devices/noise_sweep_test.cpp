@@ -35,6 +35,7 @@
 #include "common/control_interface/footbot/ci_footbot_motor_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_preferential_direction_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_turning_scanner_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_turret_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_turret_encoder_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_turret_torque_sensor.h"
@@ -247,6 +248,8 @@ std::vector<double> OutcomeOf(const SensorBatch&, const PluginDescription& devic
   TestSensor sensor(world, device.label, device.implementation, {RobotFor(device) + (run.others_first ? 2 : 0)},
                     parameters);
   std::fill(sensor.values.begin(), sensor.values.end(), 0.1);
+  // Off until it is told.
+  if (auto* scanner = dynamic_cast<CCI_FootBotTurningScannerSensor*>(sensor.batch->Sensor(0))) scanner->Look(0);
   sensor.Update();
   return ReadingsOf(*sensor.batch->Sensor(0));
 }

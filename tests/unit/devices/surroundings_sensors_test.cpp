@@ -5,6 +5,7 @@
 #include "common/control_interface/ci_distance_scanner_sensor.h"
 #include "common/control_interface/ci_microphone_sensor.h"
 #include "common/control_interface/ci_tag_reader_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_turning_scanner_sensor.h"
 #include "tests/unit/devices/test_world.h"
 
 namespace swarmanoid
@@ -167,6 +168,39 @@ TEST(DistanceScanner, TurnsWithItsSpeed)
     EXPECT_NEAR(
         std::remainder(readings[i].angle_rad - beams[i / 6] - 3 * 0.1 * (6 + static_cast<double>(i % 6) / 6), 2 * kPi),
         0, 1e-12);
+}
+
+// Off until it is told; then the readings go on from where the head is.
+TEST(DistanceScanner, ObeysItsController)
+{
+  TestWorld world;
+  const auto robot = world.AddFootbot(5, 5);
+  world.AddBlock({5.5, 5, 0.5}, {0.4, 1, 1});  // ahead, its face at 5.3
+  TestSensor sensor(world, "footbot_distance_scanner", "argos3_footbot_distance_scanner", {robot});
+  auto& scanner = sensor.Of<CCI_FootBotTurningScannerSensor>(0);
+  sensor.Update();
+  EXPECT_THAT(scanner.GetAllReadings(), IsEmpty());
+
+  scanner.Look(kPi / 2);
+  sensor.Update();
+  ASSERT_EQ(scanner.GetAllReadings().size(), 4U);
+  EXPECT_NEAR(scanner.GetAllReadings()[0].angle_rad, kPi / 2, 1e-12);
+  EXPECT_NEAR(scanner.GetAllReadings()[3].angle_rad, 0, 1e-12) << "the long beam to the right of the head";
+  EXPECT_NEAR(scanner.GetAllReadings()[3].distance_m, 0.3 - kFootbotRadius, 1e-12);
+
+  scanner.Turn(-3);
+  for (int tick = 0; tick < 2; ++tick)
+  {
+    sensor.Update();
+    ASSERT_EQ(scanner.GetAllReadings().size(), 24U);
+    for (std::size_t i = 0; i < 6; ++i)
+      EXPECT_NEAR(scanner.GetAllReadings()[i].angle_rad, kPi / 2 - 0.3 * (tick + static_cast<double>(i) / 6), 1e-12);
+  }
+  EXPECT_THROW(scanner.Turn(std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
+  EXPECT_THROW(scanner.Look(std::numeric_limits<double>::infinity()), std::invalid_argument);
+  scanner.SwitchOff();
+  sensor.Update();
+  EXPECT_THAT(scanner.GetAllReadings(), IsEmpty());
 }
 
 TEST(DistanceScanner, OfTheEyebotLooksAllAround)

@@ -55,7 +55,7 @@ private:
     if (found == devices.end())
     {
       std::string listed;
-      for (const auto& [name, device] : devices) listed += (listed.empty() ? "" : ", ") + name;
+      for (const auto& device : devices) listed += (listed.empty() ? "" : ", ") + device.first;
       THROW_ARGOSEXCEPTION("robot '" << m_strId << "' has no " << what << " '" << tag << "'; its controller lists "
                                      << (listed.empty() ? "none" : listed) << ". Add <" << tag << "> to <" << what
                                      << "s> of the controller in the experiment file");

@@ -37,8 +37,9 @@ public:
                           bool check_only = false, bool ignore_collisions = false);
   // A light.
   virtual void MoveEntity(CPositionalEntity& entity, const CVector3& position, const CQuaternion& orientation);
-  // Puts an entity that the experiment file declares, and that was removed, back into the arena. The object
-  // becomes the simulator's. Throws CARGoSException for an id that the file does not declare.
+  // Puts into the arena an entity that the experiment file declares and that was removed, or a robot that it does not
+  // declare (in a run of one process; GetController() is there at once). The object becomes the simulator's. Throws
+  // CARGoSException for a box, cylinder or light that the file does not declare, and if there are too many robots.
   virtual void AddEntity(CEntity& entity);
   virtual void RemoveEntity(const std::string& id);
   virtual void RemoveEntity(CEntity& entity);

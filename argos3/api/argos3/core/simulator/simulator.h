@@ -1,6 +1,7 @@
 // CSimulator: the experiment of this process.
 #pragma once
 
+#include <argos3/core/simulator/physics_engine/physics_engine.h>
 #include <argos3/core/simulator/space/space.h>
 #include <argos3/core/utility/math/rng.h>
 
@@ -17,6 +18,15 @@ public:
   CSpace& GetSpace() { return space_; }
   // Throws CARGoSException if this process runs none.
   CLoopFunctions& GetLoopFunctions();
+  // Whatever the id: one engine has all.
+  CPhysicsEngine& GetPhysicsEngine(const std::string& /*id*/) { return engine_; }
+  // Whatever the id: a medium for the sake of those who ask for one.
+  template <class Medium>
+  Medium& GetMedium(const std::string& /*id*/)
+  {
+    static Medium medium;
+    return medium;
+  }
   UInt32 GetRandomSeed() const { return seed_; }
   // Ticks; 0: no end.
   UInt32 GetMaxSimulationClock() const { return max_clock_; }
@@ -34,6 +44,7 @@ public:
 
 private:
   CSpace space_;
+  CPhysicsEngine engine_;
   UInt32 seed_ = 0;
   UInt32 max_clock_ = 0;
   bool terminated_ = false;

@@ -1,8 +1,11 @@
 // What is made of parts: bodies, robots.
 #pragma once
 
+#include <memory>
+
 #include <argos3/core/simulator/entity/controllable_entity.h>
 #include <argos3/core/simulator/entity/embodied_entity.h>
+#include <argos3/core/utility/datatypes/color.h>
 
 namespace argos
 {
@@ -30,6 +33,39 @@ private:
   CEntity::TMap components_;
 };
 
+// An LED of an entity.
+class CLEDEntity : public CEntity
+{
+public:
+  CLEDEntity(CEntity* parent, unsigned number) : CEntity(parent, "led_" + std::to_string(number)), number_(number) {}
+  // As it is in the arena; before AddEntity, and where no loop functions run, black.
+  CColor GetColor() const;
+  // Throws CARGoSException outside loop functions, and for an LED that the entity does not have.
+  void SetColor(const CColor& colour);
+  std::string GetTypeDescription() const override { return "led"; }
+
+private:
+  unsigned number_;
+};
+
+// The LEDs of an entity. A cylinder with LEDs has one colour: all of them are one LED here.
+class CLEDEquippedEntity : public CEntity
+{
+public:
+  CLEDEquippedEntity(CEntity* parent, unsigned leds);
+  size_t GetNumLEDs() const { return leds_.size(); }
+  // These throw CARGoSException for an LED beyond the last one, another number of colours, and as CLEDEntity.
+  CLEDEntity& GetLED(UInt32 led);
+  void SetLEDColor(UInt32 led, const CColor& colour) { GetLED(led).SetColor(colour); }
+  void SetAllLEDsColors(const CColor& colour);
+  void SetAllLEDsColors(const std::vector<CColor>& colours);
+  void Update() {}
+  std::string GetTypeDescription() const override { return "leds"; }
+
+private:
+  std::vector<std::unique_ptr<CLEDEntity>> leds_;
+};
+
 // A box, a cylinder, a robot: it has a body.
 class CBodyEntity : public CComposableEntity
 {
@@ -48,14 +84,22 @@ private:
 class CRobotWithController : public CBodyEntity
 {
 public:
-  explicit CRobotWithController(const std::string& id) : CBodyEntity(id, true), controllable_(this, "controller_0")
-  {
-    AddComponent(controllable_);
-  }
+  CRobotWithController(const std::string& id, unsigned leds);
   CControllableEntity& GetControllableEntity() { return controllable_; }
+  const CControllableEntity& GetControllableEntity() const { return controllable_; }
+  CLEDEquippedEntity& GetLEDEquippedEntity() { return leds_; }
+  // Of a robot that loop functions made: the id of its controller in the experiment file.
+  const std::string& ControllerOfMade() const { return controller_; }
+
+protected:
+  // Made by loop functions, for AddEntity.
+  CRobotWithController(const std::string& id, unsigned leds, const std::string& controller, const CVector3& position,
+                       const CQuaternion& orientation);
 
 private:
   CControllableEntity controllable_;
+  CLEDEquippedEntity leds_;
+  std::string controller_;
 };
 
 }  // namespace argos

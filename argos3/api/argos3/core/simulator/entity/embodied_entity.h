@@ -26,6 +26,11 @@ public:
   // The names of versions before 2014.
   const CVector3& GetPosition() const { return m_sOriginAnchor.Position; }
   const CQuaternion& GetOrientation() const { return m_sOriginAnchor.Orientation; }
+  // As MoveEntity of the loop functions.
+  bool MoveTo(const CVector3& position, const CQuaternion& orientation, bool check_only = false,
+              bool ignore_collisions = false);
+  // Whether another body overlaps it where it stands.
+  bool IsCollidingWithSomething() const;
   std::string GetTypeDescription() const override { return "body"; }
 
 protected:

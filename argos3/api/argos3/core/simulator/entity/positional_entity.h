@@ -19,6 +19,8 @@ public:
   // Of the view alone: CLoopFunctions::MoveEntity moves an entity.
   void SetPosition(const CVector3& position) { m_cPosition = position; }
   void SetOrientation(const CQuaternion& orientation) { m_cOrientation = orientation; }
+  // As MoveEntity of the loop functions.
+  void MoveTo(const CVector3& position, const CQuaternion& orientation);
   std::string GetTypeDescription() const override { return "position"; }
 
 protected:

@@ -4,6 +4,7 @@
 #include <argos3/core/simulator/entity/composable_entity.h>
 #include <argos3/core/simulator/entity/floor_entity.h>
 #include <argos3/core/utility/datatypes/any.h>
+#include <argos3/core/utility/math/range.h>
 
 namespace argos
 {
@@ -30,6 +31,9 @@ public:
   UInt32 GetSimulationClock() const { return clock_; }
   const CVector3& GetArenaSize() const { return size_; }
   const CVector3& GetArenaCenter() const { return center_; }
+  CRange<CVector3> GetArenaLimits() const { return {center_ - size_ / 2, center_ + size_ / 2}; }
+  // Throws CARGoSException: loop functions cannot reset the space.
+  void Reset();
 
   // For the bridge that fills it.
   void SetSimulationClock(UInt32 clock) { clock_ = clock; }
@@ -40,6 +44,8 @@ public:
   }
   void SetFloor(CFloorEntity* floor) { floor_ = floor; }
   void Clear();
+  // By its type, with its parts; one of another type is left out.
+  void InsertAny(CEntity& entity);
   template <class Entity>
   void Insert(Entity& entity)
   {

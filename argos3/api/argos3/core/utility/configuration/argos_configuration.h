@@ -43,19 +43,22 @@ inline void ReadValue(const std::string& text, bool& value)
   if (text != "true" && text != "false") throw ticpp::Exception("'" + text + "' is neither true nor false");
   value = text == "true";
 }
+inline void ReadValue(const std::string& text, UInt8& value)
+{
+  int number = 0;
+  ticpp::ReadText(text, number);
+  value = static_cast<UInt8>(number);
+}
+inline void ReadValue(const std::string& text, SInt8& value)
+{
+  int number = 0;
+  ticpp::ReadText(text, number);
+  value = static_cast<SInt8>(number);
+}
 template <class T>
 void ReadValue(const std::string& text, T& value)
 {
-  if constexpr (std::is_same_v<T, UInt8> || std::is_same_v<T, SInt8>)
-  {
-    int number = 0;
-    ticpp::ReadText(text, number);
-    value = static_cast<T>(number);
-  }
-  else
-  {
-    ticpp::ReadText(text, value);
-  }
+  ticpp::ReadText(text, value);
 }
 
 template <class T>

@@ -1,32 +1,53 @@
 // CAny: a value of any type, taken out by any_cast.
 #pragma once
 
-#include <any>
-#include <utility>
+#include <memory>
+#include <typeinfo>
 
 namespace argos
 {
 
+// Not std::any, which controllers in the language of 2011 do not have.
 class CAny
 {
 public:
   CAny() = default;
   template <class T>
-  CAny(const T& value) : value_(value)
+  CAny(const T& value) : held_(std::make_shared<Held<T>>(value))
   {
   }
-  bool IsEmpty() const { return !value_.has_value(); }
-  const std::any& Value() const { return value_; }
+  bool IsEmpty() const { return held_ == nullptr; }
+  // nullptr for another type than that which was put in.
+  template <class T>
+  const T* Find() const
+  {
+    const auto* held = dynamic_cast<const Held<T>*>(held_.get());
+    return held == nullptr ? nullptr : &held->value;
+  }
 
 private:
-  std::any value_;
+  struct Holder
+  {
+    virtual ~Holder() = default;
+  };
+  template <class T>
+  struct Held : Holder
+  {
+    explicit Held(const T& held) : value(held) {}
+    T value;
+  };
+
+  // It never changes, so copies share it.
+  std::shared_ptr<const Holder> held_;
 };
 
-// Throws std::bad_any_cast for another type than that which was put in.
+// Throws std::bad_cast for another type than that which was put in.
 template <class T>
 T any_cast(const CAny& any)
 {
-  return std::any_cast<T>(any.Value());
+  const T* value = any.Find<T>();
+  if (value == nullptr) throw std::bad_cast();
+  return *value;
 }
 
 }  // namespace argos

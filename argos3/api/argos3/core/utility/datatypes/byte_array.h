@@ -50,20 +50,20 @@ public:
   }
 
   // Whole numbers and floating-point numbers by their bits, the highest byte first.
-  template <class T, std::enable_if_t<std::is_arithmetic_v<T>, int> = 0>
+  template <class T, typename std::enable_if<std::is_arithmetic<T>::value, int>::type = 0>
   CByteArray& operator<<(T value)
   {
     UInt8 raw[sizeof(T)];
     std::memcpy(raw, &value, sizeof value);
-    if constexpr (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) std::reverse(raw, raw + sizeof(T));
+    if (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) std::reverse(raw, raw + sizeof(T));
     return AddBuffer(raw, sizeof(T));
   }
-  template <class T, std::enable_if_t<std::is_arithmetic_v<T>, int> = 0>
+  template <class T, typename std::enable_if<std::is_arithmetic<T>::value, int>::type = 0>
   CByteArray& operator>>(T& value)
   {
     UInt8 raw[sizeof(T)];
     FetchBuffer(raw, sizeof(T));
-    if constexpr (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) std::reverse(raw, raw + sizeof(T));
+    if (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) std::reverse(raw, raw + sizeof(T));
     std::memcpy(&value, raw, sizeof value);
     return *this;
   }

@@ -19,8 +19,8 @@ public:
 
   constexpr Real GetValue() const { return value_; }
   constexpr Real GetAbsoluteValue() const { return value_ < 0 ? -value_ : value_; }
-  constexpr void SetValue(Real value) { value_ = value; }
-  constexpr Angle& Negate()
+  void SetValue(Real value) { value_ = value; }
+  Angle& Negate()
   {
     value_ = -value_;
     return Self();
@@ -28,22 +28,22 @@ public:
 
   constexpr Angle operator+() const { return Angle(value_); }
   constexpr Angle operator-() const { return Angle(-value_); }
-  constexpr Angle& operator+=(const Angle& other)
+  Angle& operator+=(const Angle& other)
   {
     value_ += other.value_;
     return Self();
   }
-  constexpr Angle& operator-=(const Angle& other)
+  Angle& operator-=(const Angle& other)
   {
     value_ -= other.value_;
     return Self();
   }
-  constexpr Angle& operator*=(Real factor)
+  Angle& operator*=(Real factor)
   {
     value_ *= factor;
     return Self();
   }
-  constexpr Angle& operator/=(Real divisor)
+  Angle& operator/=(Real divisor)
   {
     value_ /= divisor;
     return Self();
@@ -63,7 +63,7 @@ public:
   friend std::istream& operator>>(std::istream& stream, Angle& angle) { return stream >> angle.value_; }
 
 private:
-  constexpr Angle& Self() { return static_cast<Angle&>(*this); }
+  Angle& Self() { return static_cast<Angle&>(*this); }
   Real value_ = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include <argos3/core/simulator/entity/positional_entity.h>
 #include <argos3/core/utility/datatypes/color.h>
+#include <argos3/plugins/simulator/media/led_medium.h>
 
 namespace argos
 {
@@ -10,11 +11,11 @@ namespace argos
 class CLightEntity : public CPositionalEntity
 {
 public:
-  CLightEntity(const std::string& id, const CVector3& position, const CColor& colour, Real intensity)
-      : CPositionalEntity(nullptr, id, position, CQuaternion()), colour_(colour), intensity_(intensity)
-  {
-  }
+  // Defined in the library: `swarmanoid` tells by its name among those that a library asks for that it makes lights.
+  CLightEntity(const std::string& id, const CVector3& position, const CColor& colour, Real intensity);
   const CColor& GetColor() const { return colour_; }
+  void SetColor(const CColor& colour);
+  void SetMedium(CLEDMedium&) {}
   Real GetIntensity() const { return intensity_; }
   // Throws CARGoSException for a number that is not finite or below 0.
   void SetIntensity(Real intensity);

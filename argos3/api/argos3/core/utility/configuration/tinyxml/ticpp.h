@@ -24,17 +24,11 @@ private:
 template <class T>
 void ReadText(const std::string& text, T& value)
 {
-  if constexpr (std::is_same_v<T, std::string>)
-  {
-    value = text;
-  }
-  else
-  {
-    std::istringstream stream(text);
-    stream >> value;
-    if (stream.fail()) throw Exception("'" + text + "' is not of the type that is asked for");
-  }
+  std::istringstream stream(text);
+  stream >> value;
+  if (stream.fail()) throw Exception("'" + text + "' is not of the type that is asked for");
 }
+inline void ReadText(const std::string& text, std::string& value) { value = text; }
 
 class Attribute
 {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <argos3/core/simulator/entity/composable_entity.h>
+#include <argos3/core/utility/math/angles.h>
 
 namespace argos
 {
@@ -9,16 +10,15 @@ namespace argos
 class CEyeBotEntity : public CRobotWithController
 {
 public:
-  explicit CEyeBotEntity(const std::string& id) : CRobotWithController(id) {}
-  // For AddEntity: a robot that the experiment file declares and that is not in the arena.
-  CEyeBotEntity(const std::string& id, const std::string& /*controller*/, const CVector3& position = CVector3(),
-                const CQuaternion& orientation = CQuaternion())
-      : CRobotWithController(id)
-  {
-    GetEmbodiedEntity().GetOriginAnchor().Position = position;
-    GetEmbodiedEntity().GetOriginAnchor().Orientation = orientation;
-  }
+  explicit CEyeBotEntity(const std::string& id) : CRobotWithController(id, kLeds) {}
+  // As that of CFootBotEntity.
+  CEyeBotEntity(const std::string& id, const std::string& controller, const CVector3& position = CVector3(),
+                const CQuaternion& orientation = CQuaternion(), Real rab_range = 3, size_t rab_data_size = 10,
+                const std::string& battery_model = "");
   std::string GetTypeDescription() const override { return "eye-bot"; }
+
+private:
+  static constexpr unsigned kLeds = 16;
 };
 
 }  // namespace argos

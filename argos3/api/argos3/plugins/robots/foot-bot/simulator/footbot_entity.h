@@ -2,6 +2,7 @@
 #pragma once
 
 #include <argos3/core/simulator/entity/composable_entity.h>
+#include <argos3/core/utility/math/angles.h>
 
 namespace argos
 {
@@ -9,16 +10,21 @@ namespace argos
 class CFootBotEntity : public CRobotWithController
 {
 public:
-  explicit CFootBotEntity(const std::string& id) : CRobotWithController(id) {}
-  // For AddEntity: a robot that the experiment file declares and that is not in the arena.
-  CFootBotEntity(const std::string& id, const std::string& /*controller*/, const CVector3& position = CVector3(),
-                 const CQuaternion& orientation = CQuaternion())
-      : CRobotWithController(id)
-  {
-    GetEmbodiedEntity().GetOriginAnchor().Position = position;
-    GetEmbodiedEntity().GetOriginAnchor().Orientation = orientation;
-  }
+  explicit CFootBotEntity(const std::string& id) : CRobotWithController(id, kLeds) {}
+  // For AddEntity. `controller`: its id in the experiment file. The ranges and apertures are those that robots of the
+  // file with the same controller have, whatever is given here. Defined in the library: `swarmanoid` tells by its name
+  // among those that a library asks for that it makes foot-bots.
+  CFootBotEntity(const std::string& id, const std::string& controller, const CVector3& position = CVector3(),
+                 const CQuaternion& orientation = CQuaternion(), Real rab_range = 3, size_t rab_data_size = 10,
+                 const CRadians& omnidirectional_camera_aperture = CRadians(70 * ARGOS_PI / 180),
+                 bool perspective_camera_front = true,
+                 const CRadians& perspective_camera_aperture = CRadians(30 * ARGOS_PI / 180),
+                 Real perspective_camera_focal_length = 0.035, Real perspective_camera_range = 2,
+                 const std::string& battery_model = "");
   std::string GetTypeDescription() const override { return "foot-bot"; }
+
+private:
+  static constexpr unsigned kLeds = 13;  // the ring, and the beacon
 };
 
 }  // namespace argos

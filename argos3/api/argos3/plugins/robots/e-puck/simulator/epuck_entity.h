@@ -1,0 +1,23 @@
+// The e-puck, as loop functions see it.
+#pragma once
+
+#include <argos3/core/simulator/entity/composable_entity.h>
+
+namespace argos
+{
+
+class CEPuckEntity : public CRobotWithController
+{
+public:
+  explicit CEPuckEntity(const std::string& id) : CRobotWithController(id, kLeds) {}
+  // As that of CFootBotEntity.
+  CEPuckEntity(const std::string& id, const std::string& controller, const CVector3& position = CVector3(),
+               const CQuaternion& orientation = CQuaternion(), Real rab_range = 0.8, size_t rab_data_size = 2,
+               const std::string& battery_model = "");
+  std::string GetTypeDescription() const override { return "e-puck"; }
+
+private:
+  static constexpr unsigned kLeds = 8;
+};
+
+}  // namespace argos

@@ -1,0 +1,26 @@
+// Distances that the turning head of a foot-bot measured in the last tick, by the angle at which it looked: cm from the
+// body, -1 if something is too near for the beam, -2 if nothing is within its range. Short beams: to 26 cm, ahead and
+// back of the head; long ones: from 12 to 142 cm, to its left and right.
+#pragma once
+
+#include <argos3/core/control_interface/ci_sensor.h>
+#include <argos3/core/utility/math/angles.h>
+
+namespace argos
+{
+
+class CCI_FootBotDistanceScannerSensor : public CCI_Sensor
+{
+public:
+  using TReadingsMap = std::map<CRadians, Real>;
+  const TReadingsMap& GetReadingsMap() const { return m_tReadingsMap; }
+  const TReadingsMap& GetShortReadingsMap() const { return m_tShortReadingsMap; }
+  const TReadingsMap& GetLongReadingsMap() const { return m_tLongReadingsMap; }
+
+protected:
+  TReadingsMap m_tReadingsMap;
+  TReadingsMap m_tShortReadingsMap;
+  TReadingsMap m_tLongReadingsMap;
+};
+
+}  // namespace argos

@@ -1,0 +1,6 @@
+# The libraries of ARGoS3 that CMakeLists.txt of users link, which are all one here.
+set(ARGOS_LIBRARY_NAMES argos3core_simulator argos3plugin_simulator_footbot argos3plugin_simulator_eyebot
+  argos3plugin_simulator_epuck argos3plugin_simulator_genericrobot argos3plugin_simulator_entities
+  argos3plugin_simulator_dynamics2d argos3plugin_simulator_dynamics3d argos3plugin_simulator_pointmass3d
+  argos3plugin_simulator_media argos3plugin_simulator_actuators argos3plugin_simulator_sensors
+  argos3plugin_simulator_argos_rangeandbearing)

@@ -1,0 +1,127 @@
+// Robots that loop functions make, and the LEDs of entities.
+#include <argos3/core/simulator/entity/composable_entity.h>
+#include <argos3/core/simulator/physics_engine/physics_engine.h>
+#include <argos3/plugins/robots/e-puck/simulator/epuck_entity.h>
+#include <argos3/plugins/robots/eye-bot/simulator/eyebot_entity.h>
+#include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
+#include <argos3/plugins/simulator/entities/light_entity.h>
+
+#include "argos3/library/running.h"
+
+namespace argos
+{
+namespace
+{
+
+using swarmanoid::argos3::Running;
+using swarmanoid::argos3::TheRunning;
+
+// Where the colour of an LED is in our space.
+struct Slot
+{
+  const char* attribute;
+  int element;
+};
+
+Slot SlotOf(const swarmanoid::CSwarmanoidSpaceEntity& entity, unsigned led)
+{
+  const swarmanoid::EntityKindDescription& row = swarmanoid::DescriptionOf(entity.GetKind());
+  if (!row.leds) return {"colour", 0};
+  return led < row.leds->places.size() ? Slot{"led", static_cast<int>(led)} : Slot{"beacon", 0};
+}
+
+// nullptr while no loop functions run, and for one that was not added yet.
+const swarmanoid::CSwarmanoidSpaceEntity* OursOf(CEntity& part)
+{
+  const Running& running = TheRunning();
+  if (running.editor == nullptr) return nullptr;
+  return running.editor->GetSpace().FindEntity(running.OurId(part.GetRootEntity().GetId()));
+}
+
+}  // namespace
+
+CColor CLEDEntity::GetColor() const
+{
+  const auto* ours = OursOf(const_cast<CLEDEntity&>(*this));
+  if (ours == nullptr) return CColor::BLACK;
+  const Slot slot = SlotOf(*ours, number_);
+  return CColor(0xff000000U | static_cast<std::uint32_t>(ours->GetAttribute(slot.attribute, slot.element)));
+}
+
+void CLEDEntity::SetColor(const CColor& colour)
+{
+  const auto* ours = OursOf(*this);
+  if (ours == nullptr)
+    THROW_ARGOSEXCEPTION("LEDs of '" << GetRootEntity().GetId() << "' are changed by loop functions alone, while it is "
+                                     << "in the arena");
+  const Slot slot = SlotOf(*ours, number_);
+  const std::uint32_t value = colour.GetRed() << 16U | colour.GetGreen() << 8U | colour.GetBlue();
+  TheRunning().editor->SetAttribute(ours->GetId(), slot.attribute, value, slot.element);
+}
+
+CLEDEquippedEntity::CLEDEquippedEntity(CEntity* parent, unsigned leds) : CEntity(parent, "leds_0")
+{
+  for (unsigned led = 0; led < leds; ++led) leds_.push_back(std::make_unique<CLEDEntity>(this, led));
+}
+
+CLEDEntity& CLEDEquippedEntity::GetLED(UInt32 led)
+{
+  if (led >= leds_.size()) THROW_ARGOSEXCEPTION("LED " << led << " of " << leds_.size() << "; the first one is 0");
+  return *leds_[led];
+}
+
+void CLEDEquippedEntity::SetAllLEDsColors(const CColor& colour)
+{
+  for (const auto& led : leds_) led->SetColor(colour);
+}
+
+void CLEDEquippedEntity::SetAllLEDsColors(const std::vector<CColor>& colours)
+{
+  if (colours.size() != leds_.size())
+    THROW_ARGOSEXCEPTION(colours.size() << " colours for " << leds_.size() << " LEDs");
+  for (std::size_t led = 0; led < leds_.size(); ++led) leds_[led]->SetColor(colours[led]);
+}
+
+CRobotWithController::CRobotWithController(const std::string& id, unsigned leds)
+    : CBodyEntity(id, true), controllable_(this, "controller_0"), leds_(this, leds)
+{
+  AddComponent(controllable_);
+  AddComponent(leds_);
+}
+
+CRobotWithController::CRobotWithController(const std::string& id, unsigned leds, const std::string& controller,
+                                           const CVector3& position, const CQuaternion& orientation)
+    : CRobotWithController(id, leds)
+{
+  controller_ = controller;
+  GetEmbodiedEntity().GetOriginAnchor().Position = position;
+  GetEmbodiedEntity().GetOriginAnchor().Orientation = orientation;
+}
+
+CFootBotEntity::CFootBotEntity(const std::string& id, const std::string& controller, const CVector3& position,
+                               const CQuaternion& orientation, Real, size_t, const CRadians&, bool, const CRadians&,
+                               Real, Real, const std::string&)
+    : CRobotWithController(id, kLeds, controller, position, orientation)
+{
+}
+
+CEyeBotEntity::CEyeBotEntity(const std::string& id, const std::string& controller, const CVector3& position,
+                             const CQuaternion& orientation, Real, size_t, const std::string&)
+    : CRobotWithController(id, kLeds, controller, position, orientation)
+{
+}
+
+CEPuckEntity::CEPuckEntity(const std::string& id, const std::string& controller, const CVector3& position,
+                           const CQuaternion& orientation, Real, size_t, const std::string&)
+    : CRobotWithController(id, kLeds, controller, position, orientation)
+{
+}
+
+CLightEntity::CLightEntity(const std::string& id, const CVector3& position, const CColor& colour, Real intensity)
+    : CPositionalEntity(nullptr, id, position, CQuaternion()), colour_(colour), intensity_(intensity)
+{
+}
+
+Real CPhysicsEngine::tick_s_ = 0.1;
+
+}  // namespace argos

@@ -1,0 +1,23 @@
+// The distance scanner of a footbot whose controller turns the head: two short beams and two long ones.
+#pragma once
+
+#include "common/control_interface/ci_distance_scanner_sensor.h"
+
+namespace swarmanoid
+{
+
+// Without a command it is off and has no readings. Commands take effect in the next tick. Beams in the order ahead,
+// back (short), left, right (long): of each one reading while the head stands still, six along its way while it turns.
+class CCI_FootBotTurningScannerSensor : public CCI_DistanceScannerSensor
+{
+public:
+  // The head turns on, rad/s counter-clockwise. Throws std::invalid_argument for a number that is not finite.
+  virtual void Turn(double speed_rad_s) = 0;
+  // The head is at that angle at once and stays there, rad counter-clockwise from the front. Throws likewise.
+  virtual void Look(double angle_rad) = 0;
+  virtual void SwitchOff() = 0;
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_FootBotTurningScannerSensor;

@@ -1,0 +1,71 @@
+// An e-puck that drives straight on and says in its third step what its sensors read, and a floor that is black ahead.
+#include <argos3/core/control_interface/ci_controller.h>
+#include <argos3/core/simulator/loop_functions.h>
+#include <argos3/plugins/robots/e-puck/control_interface/ci_epuck_proximity_sensor.h>
+#include <argos3/plugins/robots/e-puck/simulator/epuck_entity.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_actuator.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_ground_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_leds_actuator.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_proximity_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_range_and_bearing_actuator.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_range_and_bearing_sensor.h>
+
+using namespace argos;
+
+class CPuck : public CCI_Controller
+{
+public:
+  void Init(TConfigurationNode& node) override
+  {
+    wheels_ = GetActuator<CCI_DifferentialSteeringActuator>("differential_steering");
+    leds_ = GetActuator<CCI_LEDsActuator>("leds");
+    sender_ = GetActuator<CCI_RangeAndBearingActuator>("range_and_bearing");
+    receiver_ = GetSensor<CCI_RangeAndBearingSensor>("range_and_bearing");
+    proximity_ = GetSensor<CCI_ProximitySensor>("proximity");
+    own_ = GetSensor<CCI_EPuckProximitySensor>("epuck_proximity");
+    ground_ = GetSensor<CCI_GroundSensor>("ground");
+    GetNodeAttribute(node, "velocity", velocity_);
+  }
+  void ControlStep() override
+  {
+    wheels_->SetLinearVelocity(velocity_, velocity_);
+    leds_->SetAllColors(CColor::RED);
+    sender_->SetData(1, 7);
+    if (++steps_ != 3) return;
+    LOG << "generic";
+    for (const Real reading : proximity_->GetReadings()) LOG << " " << reading;
+    LOG << std::endl << "own";
+    for (const auto& reading : own_->GetReadings()) LOG << " " << ToDegrees(reading.Angle) << "=" << reading.Value;
+    LOG << std::endl << "ground";
+    for (const Real reading : ground_->GetReadings()) LOG << " " << reading;
+    LOG << std::endl << "leds " << leds_->GetNumLEDs() << " heard";
+    for (const auto& packet : receiver_->GetReadings()) LOG << " " << packet.Data.Size() << ":" << +packet.Data[1];
+    LOG << std::endl;
+  }
+
+private:
+  CCI_DifferentialSteeringActuator* wheels_ = nullptr;
+  CCI_LEDsActuator* leds_ = nullptr;
+  CCI_RangeAndBearingActuator* sender_ = nullptr;
+  CCI_RangeAndBearingSensor* receiver_ = nullptr;
+  CCI_ProximitySensor* proximity_ = nullptr;
+  CCI_EPuckProximitySensor* own_ = nullptr;
+  CCI_GroundSensor* ground_ = nullptr;
+  Real velocity_ = 0;
+  int steps_ = 0;
+};
+
+class CPuckFloor : public CLoopFunctions
+{
+public:
+  void PostStep() override
+  {
+    for (auto& [id, any] : GetSpace().GetEntitiesByType("e-puck"))
+      LOG << "at " << id << " " << any_cast<CEPuckEntity*>(any)->GetEmbodiedEntity().GetOriginAnchor().Position
+          << std::endl;
+  }
+  CColor GetFloorColor(const CVector2& place) override { return place.GetY() > 0 ? CColor::BLACK : CColor::WHITE; }
+};
+
+REGISTER_CONTROLLER(CPuck, "puck")
+REGISTER_LOOP_FUNCTIONS(CPuckFloor, "puck_floor")
