@@ -36,8 +36,9 @@ public:
   std::vector<Move> Withdraw(const std::string& machine, const std::string& process);
   // A process has gone, and with it the machine that it offered, if it did.
   std::optional<std::string> Gone(const std::string& process);
-  // "here: space server, engine 'ground'; beta (offered by beta:4171): controller host 0". Each worker is named, also one
-  // whose machine has gone, or has not offered itself again since all processes started: "beta (not offered now): …".
+  // "here: space server, engine 'ground'; beta (offered by beta:4171): controller host 0". Each worker is named, also
+  // one whose machine has gone, or has not offered itself again since all processes started: "beta (not offered now):
+  // …".
   std::string Text() const;
   // Where controller hosts are to be, in their order, after what hosts asks for: at most so many. New ones are on the
   // machine that is named, or on the offered one with the fewest, or here if there is none. Throws likewise.
