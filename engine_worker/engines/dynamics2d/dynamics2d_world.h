@@ -194,7 +194,7 @@ private:
   bool CanBeIsolated(const Body& body) const;
   void Isolate(Body& body);
   static void LeaveOut(Body& body);
-  static void Outline(const Body& body, double seconds, MovingOutline& outline);
+  void Outline(const Body& body, double seconds, MovingOutline& outline) const;
   static Way WayFrom(const Body& body, double metres);
   void EndIsolation(int number);
   void MarkGripped();

@@ -118,7 +118,7 @@ Dynamics2dWorld::Way Dynamics2dWorld::WayFrom(const Body& body, double metres)
 }
 
 // Where a body is, and how far it gets by itself within so many seconds.
-void Dynamics2dWorld::Outline(const Body& body, double seconds, MovingOutline& outline)
+void Dynamics2dWorld::Outline(const Body& body, double seconds, MovingOutline& outline) const
 {
   const BodyModel& model = body.model;
   const BodyState state = StateOf(body);
@@ -137,7 +137,7 @@ void Dynamics2dWorld::Outline(const Body& body, double seconds, MovingOutline& o
   outline.whole = {x, y, RadiusOf(model), swept};
   outline.part_count = model.has_gripper && model.radius > 0 ? 2 : 0;
   if (outline.part_count == 0) return;
-  const SinCos front = SinCosOf(state.angle + body.turret_angle);
+  const SinCos front = SinCosOf(state.angle + TurretAngleOf(static_cast<int>(&body - bodies_.data())));
   outline.parts = {{{x, y, model.radius, way},
                     {x + kGripperMiddle * front.cos, y + kGripperMiddle * front.sin, kGripperRadius, swept}}};
 }
