@@ -2,7 +2,7 @@
 import random
 import socket
 
-claims = []
+claims = {}
 
 
 def is_quiet(domain):
@@ -16,7 +16,7 @@ def is_quiet(domain):
 
 
 def free_domain(domains):
-    """One of the domains that nobody uses, and no other test takes as long as this process lives."""
+    """One of the domains that nobody uses, and no other test takes until it is released, or this process ends."""
     for domain in random.sample(list(domains), len(domains)):
         claim = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
         try:
@@ -26,7 +26,11 @@ def free_domain(domains):
             claim.close()
             continue
         if is_quiet(domain):
-            claims.append(claim)
+            claims[domain] = claim
             return domain
         claim.close()
     raise AssertionError("all DDS domains are in use")
+
+
+def release(domain):
+    claims.pop(domain).close()

@@ -3,13 +3,16 @@ cluster; what the node hears is stamped with simulated time; who does not answer
 import math
 import os
 import pathlib
-import random
 import re
 import subprocess
+import sys
 import tempfile
 import threading
 import time
 import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from free_domain import free_domain, release  # noqa: E402
 
 CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
 SWARMANOID = os.environ["SWARMANOID"]
@@ -47,7 +50,8 @@ class Node:
 
 class Case(unittest.TestCase):
     def setUp(self):
-        self.domain = random.randrange(100, 230)
+        self.domain = free_domain(range(40, 99))
+        self.addCleanup(release, self.domain)
         folder = tempfile.TemporaryDirectory(prefix="swarmanoid_ros2_")
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
@@ -77,8 +81,11 @@ class Case(unittest.TestCase):
     def run_it(self, file, *options, ticks=TICKS):
         self.runs += 1
         self.out = self.folder / f"run_{self.runs}"
-        return subprocess.run([SWARMANOID, "run", file, "--output", self.out, "--ticks", str(ticks), "--quiet", *options],
-                              capture_output=True, text=True, env=self.environment, timeout=250)
+        try:
+            return subprocess.run([SWARMANOID, "run", file, "--output", self.out, "--ticks", str(ticks), "--quiet", *options],
+                                  capture_output=True, text=True, env=self.environment, timeout=100)
+        except subprocess.TimeoutExpired as hung:
+            raise AssertionError(f"{hung}\n{hung.stderr}\n{self.logs()}") from hung
 
     def with_node(self, file, *options, robots=("fb_0", "fb_1"), stamped=False, repeats=1, silent=(0, 0), others=False, node=None, **more):
         node = Node(self.domain, robots, stamped, repeats, silent, others, **(node or {}))

@@ -5,11 +5,14 @@ import csv
 import math
 import os
 import pathlib
-import random
 import subprocess
+import sys
 import tempfile
 import threading
 import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from free_domain import free_domain  # noqa: E402
 
 CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
 TICK_S = 0.1
@@ -52,7 +55,7 @@ class Simulation(unittest.TestCase):
         text = text.replace("<file>positions.txt</file>", "<file>positions.txt</file><format>csv</format>").replace(
             "<precision>4</precision>", "<precision>15</precision>")
         file.write_text(text)
-        domain = random.randrange(100, 230)
+        domain = free_domain(range(40, 99))
         environment = {**os.environ, "ROS_DOMAIN_ID": str(domain), "ROS_LOCALHOST_ONLY": "1",
                        "SWARMANOID_PLUGIN_PATH": str(pathlib.Path(os.environ["SWARMANOID"]).parent.parent / "lib/swarmanoid")}
         listener = Listener(domain, "fb_0")

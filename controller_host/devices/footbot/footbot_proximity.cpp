@@ -22,6 +22,8 @@ constexpr double kContactDistance = 0.009889556;
 constexpr double kHyperbolaScale = 0.0100527;
 constexpr double kHyperbolaOffset = 0.000163144;
 
+constexpr std::size_t kAhead = 8;  // robots, whose memory is fetched early
+
 }  // namespace
 
 void FootbotProximity::Init(const DeviceSetup& setup)
@@ -56,9 +58,26 @@ void FootbotProximity::Init(const DeviceSetup& setup)
 void FootbotProximity::Update(const ChannelView&)
 {
   world_->Refresh();
-  // In the order of the grid's cells: neighbours stay in the cache.
-  for (const std::uint32_t entity : world_->Grid().Sorted())
-    if (const std::int32_t k = place_of_entity_[entity]; k >= 0) Sense(static_cast<std::size_t>(k), entity);
+  // In the order of the grid's cells: neighbours stay in the cache. What is read of a robot itself lies anywhere.
+  const std::span<const std::uint32_t> sorted = world_->Grid().Sorted();
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+  {
+    if (i + kAhead < sorted.size()) Prefetch(sorted[i + kAhead]);
+    if (const std::int32_t k = place_of_entity_[sorted[i]]; k >= 0) Sense(static_cast<std::size_t>(k), sorted[i]);
+  }
+}
+
+void FootbotProximity::Prefetch(std::uint32_t entity) const
+{
+  const PoseArrays& poses = world_->Space().Poses();
+  for (const std::vector<double>* values : {&poses.x, &poses.y, &poses.z, &poses.qx, &poses.qy})
+    __builtin_prefetch(values->data() + entity);
+  __builtin_prefetch(&world_->Body(entity).low);
+  const std::int32_t k = place_of_entity_[entity];
+  if (k < 0 || !dirty_[static_cast<std::size_t>(k)]) return;
+  // Who was near somebody mostly is so again.
+  const double* readings = &readings_[static_cast<std::size_t>(k) * kRays];
+  for (unsigned i = 0; i < kRays; i += 8) __builtin_prefetch(readings + i, 1);
 }
 
 void FootbotProximity::Sense(std::size_t k, std::uint32_t robot)

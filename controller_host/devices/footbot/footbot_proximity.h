@@ -41,6 +41,8 @@ private:
     double values[kRays];
   };
 
+  // Fetches what Sense will read of a robot.
+  void Prefetch(std::uint32_t entity) const;
   void Sense(std::size_t k, std::uint32_t robot);
   void AddDisc(std::uint32_t robot, std::uint32_t body);
   void AddUprightBox(std::uint32_t robot, std::uint32_t body);
