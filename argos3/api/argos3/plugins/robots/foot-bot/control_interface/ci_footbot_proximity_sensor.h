@@ -1,28 +1,13 @@
 // The 24 infrared sensors around a foot-bot.
 #pragma once
 
-#include <argos3/core/control_interface/ci_sensor.h>
-#include <argos3/core/utility/math/angles.h>
-#include <argos3/core/utility/math/vector2.h>
+#include <argos3/plugins/robots/generic/control_interface/ring_sensor.h>
 
 namespace argos
 {
 
-class CCI_FootBotProximitySensor : public CCI_Sensor
+class CCI_FootBotProximitySensor : public CRingSensor
 {
-public:
-  struct SReading
-  {
-    Real Value = 0;  // 0 to 1
-    CRadians Angle;  // counter-clockwise from the front
-    SReading() = default;
-    SReading(Real value, const CRadians& angle) : Value(value), Angle(angle) {}
-  };
-  using TReadings = std::vector<SReading>;
-  const TReadings& GetReadings() const { return m_tReadings; }
-
-protected:
-  TReadings m_tReadings;
 };
 
 }  // namespace argos

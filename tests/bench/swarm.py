@@ -1,0 +1,14 @@
+"""The swarm that benchmarks of whole runs have in common."""
+import os
+import re
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+
+def diffusion(robots):
+    """The text of configs/diffusion_10.xml with another number of robots at the same density, without visualisations."""
+    with open(os.path.join(ROOT, "configs", "diffusion_10.xml"), encoding="utf-8") as file:
+        text = file.read()
+    text = re.sub(r"<visualisations>.*</visualisations>", "", text, flags=re.DOTALL)
+    text = text.replace("3.16228", f"{robots ** 0.5:.6g}").replace("1.58114", f"{robots ** 0.5 / 2:.6g}")
+    return text.replace('quantity="10"', f'quantity="{robots}"')
