@@ -58,50 +58,65 @@ void FootbotProximity::Init(const DeviceSetup& setup)
 void FootbotProximity::Update(const ChannelView&)
 {
   world_->Refresh();
-  // In the order of the grid's cells: neighbours stay in the cache. What is read of a robot itself lies anywhere.
+  // In the order of the grid's cells, where it has the places of the robots: neighbours stay in the cache. What is kept
+  // of a robot itself lies anywhere.
   const std::span<const std::uint32_t> sorted = world_->Grid().Sorted();
   for (std::size_t i = 0; i < sorted.size(); ++i)
   {
-    if (i + kAhead < sorted.size()) Prefetch(sorted[i + kAhead]);
-    if (const std::int32_t k = place_of_entity_[sorted[i]]; k >= 0) Sense(static_cast<std::size_t>(k), sorted[i]);
+    Prefetch(sorted.subspan(i));
+    if (const std::int32_t k = place_of_entity_[sorted[i]]; k >= 0) Sense(static_cast<std::size_t>(k), sorted[i], i);
   }
 }
 
-void FootbotProximity::Prefetch(std::uint32_t entity) const
+void FootbotProximity::Prefetch(std::span<const std::uint32_t> later) const
 {
-  const PoseArrays& poses = world_->Space().Poses();
-  for (const std::vector<double>* values : {&poses.x, &poses.y, &poses.z, &poses.qx, &poses.qy})
-    __builtin_prefetch(values->data() + entity);
-  __builtin_prefetch(&world_->Body(entity).low);
-  const std::int32_t k = place_of_entity_[entity];
-  if (k < 0 || !dirty_[static_cast<std::size_t>(k)]) return;
+  // Each stage knows by the one before where to look.
+  if (later.size() > 3 * kAhead) __builtin_prefetch(&place_of_entity_[later[3 * kAhead]]);
+  if (later.size() > 2 * kAhead)
+    if (const std::int32_t k = place_of_entity_[later[2 * kAhead]]; k >= 0) __builtin_prefetch(&dirty_[k]);
+  if (later.size() <= kAhead) return;
+  const std::int32_t k = place_of_entity_[later[kAhead]];
+  if (k < 0 || !dirty_[k]) return;
   // Who was near somebody mostly is so again.
   const double* readings = &readings_[static_cast<std::size_t>(k) * kRays];
   for (unsigned i = 0; i < kRays; i += 8) __builtin_prefetch(readings + i, 1);
+  const PoseArrays& poses = world_->Space().Poses();
+  __builtin_prefetch(&poses.qz[later[kAhead]]);
+  __builtin_prefetch(&poses.qw[later[kAhead]]);
 }
 
-void FootbotProximity::Sense(std::size_t k, std::uint32_t robot)
+void FootbotProximity::Sense(std::size_t k, std::uint32_t robot, std::size_t place)
 {
+  const NeighbourGrid& grid = world_->Grid();
   const PoseArrays& poses = world_->Space().Poses();
   const EngineMembership& membership = world_->Membership();
-  const bool upright = IsUpright(poses, robot);
-  const double height = poses.z[robot] + kHeight;
+  const bool one_world = membership.IsOneWorld();
+  const bool all_upright = grid.AllUpright();
+  const bool upright = all_upright || IsUpright(poses, robot);
+  const double x = grid.OriginX()[place];
+  const double y = grid.OriginY()[place];
+  const double height = grid.OriginZ()[place] + kHeight;
   touched_ = false;
 
-  const auto add = [&](std::uint32_t body)
+  const auto add = [&](std::uint32_t body, double body_x, double body_y, double body_z, bool body_upright)
   {
-    if (body == robot || !membership.ShareEngine(robot, body)) return;
+    if (body == robot || !(one_world || membership.ShareEngine(robot, body))) return;
     if (world_->IsArticulated(body)) return AddParts(robot, body);
     const BodyShape& shape = world_->Body(body);
-    if (!upright || !IsUpright(poses, body)) return AddAny(robot, shape, world_->Space().GetPose(body));
-    if (height < poses.z[body] + shape.low || height > poses.z[body] + shape.high) return;
-    if (shape.kind == Shape::Kind::kCylinder) return AddDisc(robot, body);
+    if (!upright || !body_upright) return AddAny(robot, shape, world_->Space().GetPose(body));
+    if (height < body_z + shape.low || height > body_z + shape.high) return;
+    if (shape.kind == Shape::Kind::kCylinder) return AddDisc(robot, body_x - x, body_y - y, shape.radius);
     AddUprightBox(robot, body);
   };
-  const double x = poses.x[robot];
-  const double y = poses.y[robot];
-  world_->Grid().ForEachNear(x, y, ring_radius_ + range_ + (upright ? 0 : kHeight), add);
-  for (const std::uint32_t body : fixed_->Near(x, y)) add(body);
+  grid.ForEachPlaceNear(x, y, ring_radius_ + range_ + (upright ? 0 : kHeight),
+                        [&](std::size_t other)
+                        {
+                          const std::uint32_t body = grid.Sorted()[other];
+                          add(body, grid.OriginX()[other], grid.OriginY()[other], grid.OriginZ()[other],
+                              all_upright || IsUpright(poses, body));
+                        });
+  for (const std::uint32_t body : fixed_->Near(x, y))
+    add(body, poses.x[body], poses.y[body], poses.z[body], IsUpright(poses, body));
   if (!world_->Terrain().IsEmpty()) AddTerrain(robot);
 
   double* readings = &readings_[k * kRays];
@@ -121,19 +136,15 @@ void FootbotProximity::Sense(std::size_t k, std::uint32_t robot)
   dirty_[k] = true;
 }
 
-// Rays from the centre of the robot's ring against a disc: with p its centre in the robot's frame and b = ray . p, the
-// ray is within the disc from b - s to b + s, s^2 = b^2 - |p|^2 + r^2.
-void FootbotProximity::AddDisc(std::uint32_t robot, std::uint32_t body)
+// Rays from the centre of the robot's ring against a disc (dx, dy) from it: with p its centre in the robot's frame and
+// b = ray . p, the ray is within the disc from b - s to b + s, s^2 = b^2 - |p|^2 + r^2.
+void FootbotProximity::AddDisc(std::uint32_t robot, double dx, double dy, double radius)
 {
-  const PoseArrays& poses = world_->Space().Poses();
-  const double dx = poses.x[body] - poses.x[robot];
-  const double dy = poses.y[body] - poses.y[robot];
-  const double radius = world_->Body(body).radius;
   const double square = dx * dx + dy * dy;
   const double reach = ring_radius_ + range_ + radius;
   if (square > reach * reach) return;
 
-  const Heading heading = HeadingOf(poses, robot);
+  const Heading heading = HeadingOf(world_->Space().Poses(), robot);
   const double px = heading.cos * dx + heading.sin * dy;
   const double py = heading.cos * dy - heading.sin * dx;
   const double c = square - radius * radius;

@@ -41,10 +41,11 @@ private:
     double values[kRays];
   };
 
-  // Fetches what Sense will read of a robot.
-  void Prefetch(std::uint32_t entity) const;
-  void Sense(std::size_t k, std::uint32_t robot);
-  void AddDisc(std::uint32_t robot, std::uint32_t body);
+  // Fetches what Sense will read of robots that come later in the order of the grid.
+  void Prefetch(std::span<const std::uint32_t> later) const;
+  // The robot at a place of the grid.
+  void Sense(std::size_t k, std::uint32_t robot, std::size_t place);
+  void AddDisc(std::uint32_t robot, double dx, double dy, double radius);
   void AddUprightBox(std::uint32_t robot, std::uint32_t body);
   void AddAny(std::uint32_t robot, const Shape& shape, const Pose& other);
   template <class HitOf>

@@ -9,14 +9,7 @@
 namespace swarmanoid
 {
 
-struct BodyShape : Shape
-{
-  double radius = 0;  // m: of the cylinder, or of the circle around the box in its xy plane
-  double low = 0;     // m: extent along z in the frame of the entity
-  double high = 0;
-};
-
-// The same in short, for searches over many bodies.
+// A body in short, for searches over many.
 struct BodyExtent
 {
   float radius = 0;
@@ -25,9 +18,34 @@ struct BodyExtent
   Shape::Kind kind = Shape::Kind::kNone;
 };
 
+struct BodyShape : Shape
+{
+  double radius = 0;  // m: of the cylinder, or of the circle around the box in its xy plane
+  double low = 0;     // m: extent along z in the frame of the entity
+  double high = 0;
+  BodyExtent extent{};
+
+  void FindExtent();  // of what it is now
+};
+
 BodyShape BodyShapeOf(const EntityConfiguration& entity);
-// Of all entities of a space, in entity order.
-std::vector<BodyShape> BodiesOf(const CSwarmanoidSpace& space);
+
+// The bodies of all entities of a space, in entity order. Those that are alike are one: what a swarm has in common
+// stays in the cache.
+class BodyShapes
+{
+public:
+  explicit BodyShapes(const CSwarmanoidSpace& space);
+
+  const BodyShape& operator[](std::size_t entity) const { return shapes_[shape_of_[entity]]; }
+  // Gives an entity a body that no other has, which may be changed by the result.
+  BodyShape& MakeOwn(std::size_t entity);
+  BodyShape& OwnOf(std::size_t entity) { return shapes_[shape_of_[entity]]; }
+
+private:
+  std::vector<BodyShape> shapes_;
+  std::vector<std::uint32_t> shape_of_;  // of each entity
+};
 
 // Rotation about z alone: the plane through the body's axes stays horizontal.
 inline bool IsUpright(const PoseArrays& poses, std::size_t entity)

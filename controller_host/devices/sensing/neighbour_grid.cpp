@@ -13,7 +13,7 @@ struct Circle
   float x, y, radius;
 };
 
-Circle CircleOf(const PoseArrays& poses, std::size_t e, const BodyShape& shape)
+inline Circle CircleOf(const PoseArrays& poses, std::size_t e, const BodyShape& shape)
 {
   if (IsUpright(poses, e))
     return {static_cast<float>(poses.x[e]), static_cast<float>(poses.y[e]), static_cast<float>(shape.radius)};
@@ -57,8 +57,7 @@ CellFrame FrameOver(const Extent& extent, double smallest, std::size_t most)
 
 }  // namespace
 
-NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, std::span<const BodyShape> shapes)
-    : space_(space), shapes_(shapes)
+NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, const BodyShapes& shapes) : space_(space), shapes_(shapes)
 {
   double largest = 0.05;
   for (const std::uint32_t e : space.Movable())
@@ -77,9 +76,7 @@ NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, std::span<const Body
   margin_ = MarginOf(extent);
 
   sort_.SetCells(frame_.Count());
-  body_x_.resize(count_);
-  body_y_.resize(count_);
-  body_radius_.resize(count_);
+  placed_.resize(count_);
   constexpr float kFarAway = 1e18F;
   x_.resize(count_ + kLanes, kFarAway);
   y_.resize(count_ + kLanes, kFarAway);
@@ -107,9 +104,6 @@ void NeighbourGrid::Rebuild()
     const std::uint32_t e = here_[b];
     const Circle circle = CircleOf(poses, e, shapes_[e]);
     upright &= IsUpright(poses, e);
-    body_x_[b] = circle.x;
-    body_y_[b] = circle.y;
-    body_radius_[b] = circle.radius;
     largest = std::max(largest, circle.radius);
     cell[b] = frame_.CellOf(circle.x, circle.y);
   }
@@ -118,17 +112,31 @@ void NeighbourGrid::Rebuild()
   sort_.Sort(
       [&](std::size_t b, std::uint32_t place)
       {
-        x_[place] = body_x_[b];
-        y_[place] = body_y_[b];
-        radius_[place] = body_radius_[b];
         const std::uint32_t e = here_[b];
-        entity_[place] = e;
-        origin_x_[place] = poses.x[e];
-        origin_y_[place] = poses.y[e];
-        origin_z_[place] = poses.z[e];
-        low_[place] = static_cast<float>(poses.z[e] + shapes_[e].low);
-        high_[place] = static_cast<float>(poses.z[e] + shapes_[e].high);
+        const Circle circle = CircleOf(poses, e, shapes_[e]);
+        placed_[place] = {poses.x[e],
+                          poses.y[e],
+                          poses.z[e],
+                          circle.x,
+                          circle.y,
+                          circle.radius,
+                          static_cast<float>(poses.z[e] + shapes_[e].low),
+                          static_cast<float>(poses.z[e] + shapes_[e].high),
+                          e};
       });
+  for (std::size_t place = 0; place < count_; ++place)
+  {
+    const Placed& body = placed_[place];
+    x_[place] = body.x;
+    y_[place] = body.y;
+    radius_[place] = body.radius;
+    low_[place] = body.low;
+    high_[place] = body.high;
+    origin_x_[place] = body.origin_x;
+    origin_y_[place] = body.origin_y;
+    origin_z_[place] = body.origin_z;
+    entity_[place] = body.entity;
+  }
   bool alike = true;
   bool level = true;
   for (std::size_t place = 1; place < count_; ++place)
@@ -213,7 +221,7 @@ std::size_t NeighbourGrid::Collect(double x, double y, double reach, std::uint32
   return count;
 }
 
-FixedBodies::FixedBodies(const CSwarmanoidSpace& space, std::span<const BodyShape> shapes, double reach)
+FixedBodies::FixedBodies(const CSwarmanoidSpace& space, const BodyShapes& shapes, double reach)
 {
   std::vector<std::uint32_t> fixed;
   for (std::uint32_t e = 0; e < space.Size(); ++e)

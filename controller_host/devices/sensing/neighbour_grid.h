@@ -58,7 +58,7 @@ struct NearBodies
 class NeighbourGrid
 {
 public:
-  NeighbourGrid(const CSwarmanoidSpace& space, std::span<const BodyShape> shapes);
+  NeighbourGrid(const CSwarmanoidSpace& space, const BodyShapes& shapes);
 
   // Sorts the movable bodies that are in the arena from the poses of the space: those that wait outside it sense
   // nothing and are not sensed.
@@ -86,7 +86,13 @@ public:
   // Calls visit(entity) for every movable body whose circle in the xy plane comes within `reach` m of (x, y), in the
   // order of the cells, and for few others.
   template <class Visit>
-  void ForEachNear(double x, double y, double reach, Visit&& visit) const;
+  void ForEachNear(double x, double y, double reach, Visit&& visit) const
+  {
+    ForEachPlaceNear(x, y, reach, [&](std::size_t place) { visit(entity_[place]); });
+  }
+  // Likewise visit(place), in the order of Sorted().
+  template <class Visit>
+  void ForEachPlaceNear(double x, double y, double reach, Visit&& visit) const;
   // Calls visit(first, behind) with the places, row by row of the cells, of all these bodies and others.
   template <class Visit>
   void ForEachSpanNear(double x, double y, double reach, Visit&& visit) const;
@@ -101,7 +107,7 @@ private:
   std::size_t Collect(double x, double y, double reach, std::uint32_t left_out, NearBodies& near) const;
 
   const CSwarmanoidSpace& space_;
-  std::span<const BodyShape> shapes_;
+  const BodyShapes& shapes_;
   CellFrame frame_;
   std::vector<std::uint32_t> bodies_;  // movable entities with a body, ascending
   std::vector<std::uint32_t> here_;    // those of them that are in the arena
@@ -113,9 +119,18 @@ private:
   bool all_level_ = true;
   bool are_alike_ = true;  // as in NearBodies
 
-  // By body: cell and circle in the xy plane.
+  // What is known of a body at its place. Written as one piece to where the sort puts it, and only then taken apart in
+  // order: places of bodies that follow one another in the experiment lie anywhere in memory.
+  struct Placed
+  {
+    double origin_x, origin_y, origin_z;
+    float x, y, radius;
+    float low, high;
+    std::uint32_t entity;
+  };
+
   CellSort sort_;
-  std::vector<float> body_x_, body_y_, body_radius_;
+  std::vector<Placed> placed_;
   // By place in the sorted order, with far-away padding at the end.
   std::vector<float> x_, y_, radius_, low_, high_;
   std::vector<double> origin_x_, origin_y_, origin_z_;
@@ -126,7 +141,7 @@ private:
 class FixedBodies
 {
 public:
-  FixedBodies(const CSwarmanoidSpace& space, std::span<const BodyShape> shapes, double reach);
+  FixedBodies(const CSwarmanoidSpace& space, const BodyShapes& shapes, double reach);
 
   // Entity indices, ascending: all that come within the reach of (x, y), and others.
   std::span<const std::uint32_t> Near(double x, double y) const
@@ -268,13 +283,12 @@ template <class Visit>
 }
 
 template <class Visit>
-void NeighbourGrid::ForEachNear(double x, double y, double reach, Visit&& visit) const
+void NeighbourGrid::ForEachPlaceNear(double x, double y, double reach, Visit&& visit) const
 {
   const auto fx = static_cast<float>(x);
   const auto fy = static_cast<float>(y);
   const float own = static_cast<float>(reach) + margin_;
   // Local copies: the compiler cannot know that visit() leaves the members alone.
-  const std::uint32_t* const entity = entity_.data();
   const float* const body_x = x_.data();
   const float* const body_y = y_.data();
   const float* const body_radius = radius_.data();
@@ -288,7 +302,7 @@ void NeighbourGrid::ForEachNear(double x, double y, double reach, Visit&& visit)
                       const FloatLanes cut = LoadLanes(body_radius + i) + own;
                       unsigned hits = LaneMask(dx * dx + dy * dy <= cut * cut);
                       if (behind - i < kLanes) hits &= (1U << (behind - i)) - 1U;
-                      ForEachBit(hits, [&](unsigned bit) { visit(entity[i + bit]); });
+                      ForEachBit(hits, [&](unsigned bit) { visit(i + bit); });
                     }
                   });
 }

@@ -11,10 +11,15 @@ namespace
 {
 
 // What is articulated is no cylinder to those who treat cylinders in short.
-std::vector<BodyShape> SensedBodies(const CSwarmanoidSpace& space, const CollisionModels& models)
+BodyShapes SensedBodies(const CSwarmanoidSpace& space, const CollisionModels& models)
 {
-  std::vector<BodyShape> bodies = BodiesOf(space);
-  for (const std::uint32_t entity : models.Articulated()) bodies[entity].kind = Shape::Kind::kBox;
+  BodyShapes bodies(space);
+  for (const std::uint32_t entity : models.Articulated())
+  {
+    BodyShape& body = bodies.MakeOwn(entity);
+    body.kind = Shape::Kind::kBox;
+    body.FindExtent();
+  }
   return bodies;
 }
 
@@ -33,9 +38,6 @@ SensorWorld::SensorWorld(const CSwarmanoidSpace& space)
   parts_.resize(models_.Articulated().size());
   if (!parts_.empty()) parts_of_.assign(space.Size(), -1);
   for (std::size_t k = 0; k < parts_.size(); ++k) parts_of_[models_.Articulated()[k]] = static_cast<std::int32_t>(k);
-  for (const BodyShape& body : bodies_)
-    extents_.push_back(
-        {static_cast<float>(body.radius), static_cast<float>(body.low), static_cast<float>(body.high), body.kind});
 }
 
 std::shared_ptr<SensorWorld> SensorWorld::Of(const CSwarmanoidSpace& space)
@@ -76,13 +78,12 @@ void SensorWorld::MoveParts()
   {
     const std::uint32_t entity = models_.Articulated()[k];
     models_.BodiesOf(entity, parts_[k]);
-    BodyShape& body = bodies_[entity];
+    BodyShape& body = bodies_.OwnOf(entity);
     body.radius = 0;
     for (const CollisionBody& part : parts_[k]) body.radius = std::max(body.radius, ReachOf(part));
     body.low = -body.radius;
     body.high = body.radius;
-    extents_[entity] = {static_cast<float>(body.radius), static_cast<float>(body.low), static_cast<float>(body.high),
-                        body.kind};
+    body.FindExtent();
   }
 }
 

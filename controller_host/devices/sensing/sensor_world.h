@@ -64,8 +64,8 @@ public:
 
   const CSwarmanoidSpace& Space() const { return space_; }
   const BodyShape& Body(std::uint32_t entity) const { return bodies_[entity]; }
-  const BodyExtent& Extent(std::uint32_t entity) const { return extents_[entity]; }
-  std::span<const BodyShape> Bodies() const { return bodies_; }
+  const BodyExtent& Extent(std::uint32_t entity) const { return bodies_[entity].extent; }
+  const BodyShapes& Bodies() const { return bodies_; }
   const EngineMembership& Membership() const { return membership_; }
   const NeighbourGrid& Grid() const { return grid_; }
   // StreamName of the id of each entity; made when first asked for. Valid as long as the world.
@@ -79,8 +79,7 @@ private:
   CollisionModels models_;
   std::vector<std::int32_t> parts_of_;             // of each entity its place in parts_, or -1; empty if none has parts
   std::vector<std::vector<CollisionBody>> parts_;  // of those that are articulated
-  std::vector<BodyShape> bodies_;
-  std::vector<BodyExtent> extents_;
+  BodyShapes bodies_;
   EngineMembership membership_;
   NeighbourGrid grid_;
   FixedBodies fixed_;

@@ -148,12 +148,6 @@ void KinematicWorld::Region::MarkEverywhere(const KinematicWorld& world)
   }
 }
 
-template <class Act>
-void KinematicWorld::Region::ForEachOther(const Act& act) const
-{
-  ForEachBit(others_, act);
-}
-
 void KinematicWorld::Region::Swap()
 {
   exchange_.Swap(out_, in_);

@@ -13,6 +13,7 @@
 #include <map>
 
 #include "common/experiment/experiment.h"
+#include "common/math/lanes.h"
 #include "common/messages/regions.h"
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
 
@@ -129,7 +130,10 @@ private:
   // Whether it stays where nobody else knows of it.
   bool IsInner(std::uint32_t body) const { return (is_own_[body] & inner_[cells_[body]]) > is_everywhere_[body]; }
   template <class Act>
-  void ForEachOther(const Act& act) const;
+  void ForEachOther(const Act& act) const
+  {
+    ForEachBit(others_, act);
+  }
   void Swap();
   void FindCells(const KinematicWorld& world);
   void ReadBodies(const KinematicWorld& world);
