@@ -93,8 +93,9 @@ struct DistanceScanner : public CCI_DistanceScannerSensor
   std::vector<Reading> readings;
 };
 
-template <class Head>
-class DistanceScannerSensor : public SensorBatch, public SplitSensor
+// What the batches of both have in common: each robot has a Scanner, which the derived class fills.
+template <class Head, class Scanner>
+class ScannerBatch : public SensorBatch
 {
 public:
   void Init(const DeviceSetup& setup) override
@@ -105,47 +106,67 @@ public:
     noise_ = NoiseFrom(setup.parameters);
     streams_ = DeviceStreams(setup);
     beams_ = Head::Beams(KindOfBatch(setup));
-    step_ = Head::Speed(setup.parameters) * setup.space.GetTickSeconds();
     scanners_.resize(robots_.size());
-    const std::size_t count = beams_.size() * (step_ == 0 ? 1 : Head::kReadingsOfTick);
-    for (DistanceScanner& scanner : scanners_) scanner.readings.resize(count);
   }
   CCI_Sensor* Sensor(std::size_t k) override { return &scanners_[k]; }
-
-  void RefreshShared() override { world_->Refresh(); }
   void Update(const ChannelView&) override
   {
     world_->Refresh();
-    for (std::size_t k = 0; k < robots_.size(); ++k) Scan(k);
+    for (std::size_t k = 0; k < robots_.size(); ++k)
+    {
+      Scan(k, scanners_[k], space_->GetPose(robots_[k]));
+      AddNoise(noise_, streams_, k, scanners_[k].readings, samples_);
+    }
   }
 
-private:
-  // The head starts ahead at tick 0; the readings are those of the way since the last tick.
-  void Scan(std::size_t k)
+protected:
+  virtual void Scan(std::size_t k, Scanner& scanner, const Pose& pose) = 0;
+  // Along a beam of the robot whose head has turned on from an angle (rad).
+  Reading Measure(std::size_t k, const Pose& pose, const Beam& beam, double head, double turned) const
   {
-    std::vector<Reading>& readings = scanners_[k].readings;
-    const Pose pose = space_->GetPose(robots_[k]);
-    const std::size_t of_beam = readings.size() / beams_.size();
-    const double head = step_ == 0 ? 0 : step_ * (static_cast<double>(space_->GetTick()) - 1);
-    for (std::size_t i = 0; i < readings.size(); ++i)
-    {
-      const Beam& beam = beams_[i / of_beam];
-      const double part = static_cast<double>(i % of_beam) / static_cast<double>(of_beam);
-      readings[i] =
-          Measured(*world_, robots_[k], pose, beam, Head::kHeight, WrapAngle(beam.angle + head + part * step_));
-    }
-    AddNoise(noise_, streams_, k, readings, samples_);
+    return Measured(*world_, robots_[k], pose, beam, Head::kHeight, WrapAngle(beam.angle + head + turned));
   }
 
   const CSwarmanoidSpace* space_ = nullptr;
-  std::vector<std::uint32_t> robots_;
+  std::vector<Beam> beams_;
   std::shared_ptr<SensorWorld> world_;
+  std::vector<Scanner> scanners_;
+
+private:
+  std::vector<std::uint32_t> robots_;
   NoiseModel noise_;
   DeviceStreams streams_;
-  std::vector<Beam> beams_;
-  double step_ = 0;  // rad in a tick
   std::vector<double> samples_;
-  std::vector<DistanceScanner> scanners_;
+};
+
+template <class Head>
+class DistanceScannerSensor : public ScannerBatch<Head, DistanceScanner>, public SplitSensor
+{
+public:
+  void Init(const DeviceSetup& setup) override
+  {
+    ScannerBatch<Head, DistanceScanner>::Init(setup);
+    step_ = Head::Speed(setup.parameters) * setup.space.GetTickSeconds();
+    const std::size_t count = this->beams_.size() * (step_ == 0 ? 1 : Head::kReadingsOfTick);
+    for (DistanceScanner& scanner : this->scanners_) scanner.readings.resize(count);
+  }
+  void RefreshShared() override { this->world_->Refresh(); }
+
+private:
+  // The head starts ahead at tick 0; the readings are those of the way since the last tick.
+  void Scan(std::size_t k, DistanceScanner& scanner, const Pose& pose) override
+  {
+    std::vector<Reading>& readings = scanner.readings;
+    const std::size_t of_beam = readings.size() / this->beams_.size();
+    const double head = step_ == 0 ? 0 : step_ * (static_cast<double>(this->space_->GetTick()) - 1);
+    for (std::size_t i = 0; i < readings.size(); ++i)
+    {
+      const double part = static_cast<double>(i % of_beam) / static_cast<double>(of_beam);
+      readings[i] = this->Measure(k, pose, this->beams_[i / of_beam], head, part * step_);
+    }
+  }
+
+  double step_ = 0;  // rad in a tick
 };
 
 // The footbot's, commanded by its controller, as that of ARGoS3.
@@ -189,25 +210,9 @@ private:
   }
 };
 
-class TurningScannerSensor : public SensorBatch
+class TurningScannerSensor : public ScannerBatch<FootbotHead, TurningScanner>
 {
 public:
-  void Init(const DeviceSetup& setup) override
-  {
-    space_ = &setup.space;
-    robots_ = setup.robots;
-    world_ = SensorWorld::Of(setup.space);
-    noise_ = NoiseFrom(setup.parameters);
-    streams_ = DeviceStreams(setup);
-    beams_ = FootbotHead::Beams(KindOfBatch(setup));
-    scanners_.resize(robots_.size());
-  }
-  CCI_Sensor* Sensor(std::size_t k) override { return &scanners_[k]; }
-  void Update(const ChannelView&) override
-  {
-    world_->Refresh();
-    for (std::size_t k = 0; k < robots_.size(); ++k) Scan(k);
-  }
   void SaveState(std::size_t k, ByteWriter& state) const override
   {
     state.Put(scanners_[k].state.mode);
@@ -222,34 +227,21 @@ public:
   }
 
 private:
-  void Scan(std::size_t k)
+  void Scan(std::size_t k, TurningScanner& scanner, const Pose& pose) override
   {
-    TurningScanner& scanner = scanners_[k];
     scanner.readings.clear();
     if (scanner.state.mode == TurningScanner::Mode::kOff) return;
     const bool turns = scanner.state.mode == TurningScanner::Mode::kTurning;
     const double way = turns ? scanner.state.speed * space_->GetTickSeconds() : 0;
     const std::size_t of_beam = turns ? FootbotHead::kReadingsOfTick : 1;
-    const Pose pose = space_->GetPose(robots_[k]);
     for (const Beam& beam : beams_)
       for (std::size_t i = 0; i < of_beam; ++i)
       {
         const double part = static_cast<double>(i) / static_cast<double>(of_beam);
-        scanner.readings.push_back(Measured(*world_, robots_[k], pose, beam, FootbotHead::kHeight,
-                                            WrapAngle(beam.angle + scanner.state.head + part * way)));
+        scanner.readings.push_back(Measure(k, pose, beam, scanner.state.head, part * way));
       }
     scanner.state.head = WrapAngle(scanner.state.head + way);
-    AddNoise(noise_, streams_, k, scanner.readings, samples_);
   }
-
-  const CSwarmanoidSpace* space_ = nullptr;
-  std::vector<std::uint32_t> robots_;
-  std::shared_ptr<SensorWorld> world_;
-  NoiseModel noise_;
-  DeviceStreams streams_;
-  std::vector<Beam> beams_;
-  std::vector<double> samples_;
-  std::vector<TurningScanner> scanners_;
 };
 
 }  // namespace
