@@ -28,6 +28,11 @@ CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(e
   for (auto* component : Components(poses_)) component->resize(count);
   entities_.reserve(count);
   index_of_id_.reserve(count);
+  std::size_t slots = count;  // of presence
+  for (const EntityConfiguration& configuration : experiment.entities)
+    slots += static_cast<std::size_t>(AttributeCount(configuration.kind));
+  attributes_.reserve(slots);
+  attribute_values_.reserve(slots);
   for (std::size_t i = 0; i < count; ++i)
   {
     const EntityConfiguration& configuration = experiment.entities[i];

@@ -69,6 +69,9 @@ NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, const BodyShapes& sh
     }
   count_ = bodies_.size();
   here_ = bodies_;
+  if (all_cylinders_ &&
+      std::ranges::all_of(bodies_, [&](std::uint32_t e) { return &shapes[e] == &shapes[bodies_[0]]; }))
+    shape_of_all_ = bodies_.empty() ? nullptr : &shapes[bodies_[0]];
 
   // About one body a cell, and no cell smaller than a body (facts: the optimum is flat).
   const Extent extent = ExtentOf(space);
@@ -76,7 +79,7 @@ NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, const BodyShapes& sh
   margin_ = MarginOf(extent);
 
   sort_.SetCells(frame_.Count());
-  placed_.resize(count_);
+  origins_.resize(count_);
   constexpr float kFarAway = 1e18F;
   x_.resize(count_ + kLanes, kFarAway);
   y_.resize(count_ + kLanes, kFarAway);
@@ -102,7 +105,7 @@ void NeighbourGrid::Rebuild()
   for (std::size_t b = 0; b < count_; ++b)
   {
     const std::uint32_t e = here_[b];
-    const Circle circle = CircleOf(poses, e, shapes_[e]);
+    const Circle circle = CircleOf(poses, e, shape_of_all_ != nullptr ? *shape_of_all_ : shapes_[e]);
     upright &= IsUpright(poses, e);
     largest = std::max(largest, circle.radius);
     cell[b] = frame_.CellOf(circle.x, circle.y);
@@ -113,39 +116,54 @@ void NeighbourGrid::Rebuild()
       [&](std::size_t b, std::uint32_t place)
       {
         const std::uint32_t e = here_[b];
-        const Circle circle = CircleOf(poses, e, shapes_[e]);
-        placed_[place] = {poses.x[e],
-                          poses.y[e],
-                          poses.z[e],
-                          circle.x,
-                          circle.y,
-                          circle.radius,
-                          static_cast<float>(poses.z[e] + shapes_[e].low),
-                          static_cast<float>(poses.z[e] + shapes_[e].high),
-                          e};
+        origins_[place] = {poses.x[e], poses.y[e], poses.z[e], e};
       });
+  bool level = true;
   for (std::size_t place = 0; place < count_; ++place)
   {
-    const Placed& body = placed_[place];
-    x_[place] = body.x;
-    y_[place] = body.y;
-    radius_[place] = body.radius;
-    low_[place] = body.low;
-    high_[place] = body.high;
-    origin_x_[place] = body.origin_x;
-    origin_y_[place] = body.origin_y;
-    origin_z_[place] = body.origin_z;
-    entity_[place] = body.entity;
+    const Origin& origin = origins_[place];
+    origin_x_[place] = origin.x;
+    origin_y_[place] = origin.y;
+    origin_z_[place] = origin.z;
+    entity_[place] = origin.entity;
+    level &= origin.z == origins_[0].z;
   }
-  bool alike = true;
-  bool level = true;
-  for (std::size_t place = 1; place < count_; ++place)
+  all_level_ = level;
+  if (shape_of_all_ != nullptr && upright)
+    OutlineAlike(*shape_of_all_);
+  else
+    OutlineEach();
+}
+
+void NeighbourGrid::OutlineAlike(const BodyShape& shape)
+{
+  for (std::size_t place = 0; place < count_; ++place)
   {
-    level &= origin_z_[place] == origin_z_[0];
+    x_[place] = static_cast<float>(origin_x_[place]);
+    y_[place] = static_cast<float>(origin_y_[place]);
+    low_[place] = static_cast<float>(origin_z_[place] + shape.low);
+    high_[place] = static_cast<float>(origin_z_[place] + shape.high);
+  }
+  std::fill_n(radius_.begin(), count_, static_cast<float>(shape.radius));
+  are_alike_ = all_level_;
+}
+
+void NeighbourGrid::OutlineEach()
+{
+  const PoseArrays& poses = space_.Poses();
+  bool alike = true;
+  for (std::size_t place = 0; place < count_; ++place)
+  {
+    const BodyShape& shape = shapes_[entity_[place]];
+    const Circle circle = CircleOf(poses, entity_[place], shape);
+    x_[place] = circle.x;
+    y_[place] = circle.y;
+    radius_[place] = circle.radius;
+    low_[place] = static_cast<float>(origin_z_[place] + shape.low);
+    high_[place] = static_cast<float>(origin_z_[place] + shape.high);
     alike &= (radius_[place] == radius_[0]) & (low_[place] == low_[0]) & (high_[place] == high_[0]);
   }
   are_alike_ = alike;
-  all_level_ = level;
 }
 
 void NearBodies::Reserve(std::size_t bodies)

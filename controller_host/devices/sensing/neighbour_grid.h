@@ -103,11 +103,15 @@ public:
   void ForEachAlong(const Vector3& from, const Vector3& to, Visit&& visit) const;
 
 private:
+  // The outlines of the bodies at their places: of upright ones of one shape, and of any.
+  void OutlineAlike(const BodyShape& shape);
+  void OutlineEach();
   template <bool kAlike>
   std::size_t Collect(double x, double y, double reach, std::uint32_t left_out, NearBodies& near) const;
 
   const CSwarmanoidSpace& space_;
   const BodyShapes& shapes_;
+  const BodyShape* shape_of_all_ = nullptr;  // if the movable bodies have one, and it stays as it is
   CellFrame frame_;
   std::vector<std::uint32_t> bodies_;  // movable entities with a body, ascending
   std::vector<std::uint32_t> here_;    // those of them that are in the arena
@@ -119,18 +123,16 @@ private:
   bool all_level_ = true;
   bool are_alike_ = true;  // as in NearBodies
 
-  // What is known of a body at its place. Written as one piece to where the sort puts it, and only then taken apart in
-  // order: places of bodies that follow one another in the experiment lie anywhere in memory.
-  struct Placed
+  // Where a body is, in one piece for its place: places of bodies that follow one another in the experiment lie
+  // anywhere in memory.
+  struct Origin
   {
-    double origin_x, origin_y, origin_z;
-    float x, y, radius;
-    float low, high;
+    double x, y, z;
     std::uint32_t entity;
   };
 
   CellSort sort_;
-  std::vector<Placed> placed_;
+  std::vector<Origin> origins_;
   // By place in the sorted order, with far-away padding at the end.
   std::vector<float> x_, y_, radius_, low_, high_;
   std::vector<double> origin_x_, origin_y_, origin_z_;

@@ -48,11 +48,9 @@ void CFootBotDiffusion::ControlStep()
   std::array<double, kLanes> ys{};
   const auto readings = proximity_->GetAllSensorReadings();
   for (unsigned i = 0; i < CCI_FootBotProximitySensor::NUM_SENSORS; i += kLanes)
-    for (unsigned lane = 0; lane < kLanes; ++lane)
-    {
-      xs[lane] += readings[i + lane] * kDirections.cosines[i + lane];
-      ys[lane] += readings[i + lane] * kDirections.sines[i + lane];
-    }
+    for (unsigned lane = 0; lane < kLanes; ++lane) xs[lane] += readings[i + lane] * kDirections.cosines[i + lane];
+  for (unsigned i = 0; i < CCI_FootBotProximitySensor::NUM_SENSORS; i += kLanes)
+    for (unsigned lane = 0; lane < kLanes; ++lane) ys[lane] += readings[i + lane] * kDirections.sines[i + lane];
   const double x = ((xs[0] + xs[1]) + (xs[2] + xs[3])) / CCI_FootBotProximitySensor::NUM_SENSORS;
   const double y = ((ys[0] + ys[1]) + (ys[2] + ys[3])) / CCI_FootBotProximitySensor::NUM_SENSORS;
 
