@@ -12,7 +12,7 @@ namespace swarmanoid
 {
 
 EngineWorker::EngineWorker(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t engine,
-                           RegionTeam* team)
+                           RegionTeam* team, unsigned threads)
     : space_(space),
       assignment_(assignment),
       layout_(assignment.engines[engine]),
@@ -27,8 +27,8 @@ EngineWorker::EngineWorker(const CSwarmanoidSpace& space, const Assignment& assi
       [&]
       {
         engine_ = entry->create();
-        engine_->Init(
-            {configuration, Parameters(configuration.tree, entry->description.parameters), space, layout_, team});
+        engine_->Init({configuration, Parameters(configuration.tree, entry->description.parameters), space, layout_,
+                       team, threads});
         for (const std::uint32_t index : configuration.entities)
         {
           const CSwarmanoidSpaceEntity& entity = space.GetEntity(index);

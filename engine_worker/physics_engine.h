@@ -50,6 +50,7 @@ struct EngineSetup
   const EngineLayout& layout;     // the order of owned entities, command and sensor channels
   // Of an engine that is split in a cluster: those who compute the regions of its world. Otherwise nullptr.
   RegionTeam* team = nullptr;
+  unsigned threads = 1;  // that the process has for its work
 };
 
 // The commands of one step: EngineLayout::commands with the values filled in.

@@ -61,7 +61,7 @@ struct CSimulator::Roles
   {
     const unsigned threads = options.threads == 0 ? FreeCores() : options.threads;
     for (std::size_t e = 0; e < experiment.engines.size(); ++e)
-      engines.push_back(std::make_unique<EngineWorker>(space, assignment, e));
+      engines.push_back(std::make_unique<EngineWorker>(space, assignment, e, nullptr, threads));
     for (std::size_t h = 0; h < assignment.hosts.size(); ++h)
     {
       hosts.push_back(std::make_unique<ControllerHost>(space, assignment, h, threads));

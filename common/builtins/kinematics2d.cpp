@@ -21,9 +21,10 @@ PluginDescription Kinematics2dDescription(const std::string& label)
             .maximum = 1},
            {.name = "threads",
             .type = ParameterType::kInteger,
-            .default_value = "1",
-            .description = "Threads that share the work; their number changes no bit of the results.",
-            .minimum = 1,
+            .default_value = "0",
+            .description = "Threads that share the work; their number changes no bit of the results. 0: in one process "
+                           "as many as --threads has, while that is quicker; in a process of its own one.",
+            .minimum = 0,
             .maximum = 64}}),
       .channels = WithChannelsOfPlaneRobots({"eyebot_propellers", "footbot_encoders", "footbot_gripper",
                                              "footbot_turret", "footbot_turret_torque", "footbot_wheels", "wheels"}),

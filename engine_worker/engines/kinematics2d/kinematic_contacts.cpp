@@ -18,7 +18,7 @@ constexpr std::size_t kPairsAhead = 12;
 void KinematicWorld::SplitBlocks()
 {
   constexpr std::size_t kLeast = 1024;  // bodies; below, waking threads takes longer
-  const std::size_t parts = count_ < kLeast ? 1 : parts_.size();
+  const std::size_t parts = count_ < kLeast || Pool() == nullptr ? 1 : parts_.size();
   std::size_t last = 0;
   for (std::size_t k = 0; k < parts_.size(); ++k)
   {

@@ -27,7 +27,7 @@ void KinematicWorld::LimitMotions(double seconds)
   if (!more) return;
 
   SwapFollowers();
-  InParts(pool_.get(), PaddedCount(count_), kPadding,
+  InParts(Pool(), PaddedCount(count_), kPadding,
           [&](unsigned, std::size_t begin, std::size_t end) { FindWays(begin, end); });
   for (const Grip& grip : grips_) way_[grip.body] = way_[grip.prey] + ArcOf(grip, seconds);
   for (Part& part : parts_)

@@ -147,12 +147,11 @@ void KinematicWorld::Substep(double seconds, double fraction)
   if (ListContactsByColour())
   {
     const std::span<const double> mobility = EveryoneIsFree() ? std::span<const double>() : mobility_;
-    solver_.Solve(colours_, mobility, kSolverTolerance * allowed_, 2 * reach_, now_.x, now_.y, pool_.get(),
-                  region_.get());
+    solver_.Solve(colours_, mobility, kSolverTolerance * allowed_, 2 * reach_, now_.x, now_.y, Pool(), region_.get());
     LimitMotions(seconds);
   }
   if (keeps_travel_)
-    InParts(pool_.get(), count_, 1,
+    InParts(Pool(), count_, 1,
             [&](unsigned, std::size_t begin, std::size_t end) { KeepTravelOf(seconds, begin, end); });
 }
 
@@ -173,7 +172,7 @@ void KinematicWorld::Move(double seconds, double fraction)
   std::swap(now_, before_);
   // In pieces that stay in the cache.
   constexpr std::size_t kPiece = 16 * kPadding;
-  InParts(pool_.get(), PaddedCount(count_), kPadding,
+  InParts(Pool(), PaddedCount(count_), kPadding,
           [&](unsigned, std::size_t begin, std::size_t end)
           {
             for (; begin < end; begin += kPiece)

@@ -59,6 +59,8 @@ public:
   void AddStatic(CollisionModel shape);  // in the coordinates of the plane
   // `area` is where most bodies will be. `threads` work together; their number changes no bit of the results.
   void Start(Bounds area, unsigned threads = 1);
+  // Whether they do from now on.
+  void UseThreads(bool use) { uses_threads_ = use; }
 
   // Each tick: what the bodies do until they are told otherwise.
   void SetTwist(std::uint32_t body, const Twist& twist) { twists_.Set(body, twist); }
@@ -240,11 +242,12 @@ private:
   void Move(double seconds, double fraction);
   void SwapFollowers();
   void SplitBlocks();
+  WorkerPool* Pool() const { return uses_threads_ ? pool_.get() : nullptr; }
   // Calls act(part) with all that have blocks, each in a thread of its own.
   template <class Act>
   void ForEachPart(const Act& act)
   {
-    if (pool_ == nullptr || parts_[0].last_block == blocks_.size()) return act(parts_[0]);
+    if (Pool() == nullptr || parts_[0].last_block == blocks_.size()) return act(parts_[0]);
     pool_->Run([&](unsigned k) { act(parts_[k]); });
   }
   void FindContacts();
@@ -311,7 +314,8 @@ private:
   std::vector<Follower> followers_;  // by body
 
   std::unique_ptr<WorkerPool> pool_;  // none for one thread
-  std::vector<Part> parts_;           // one for each thread
+  bool uses_threads_ = true;
+  std::vector<Part> parts_;  // one for each thread
   BroadPhase broad_;
   std::vector<std::uint32_t> blocks_;  // those of this region, ascending
   PairList pairs_of_large_;

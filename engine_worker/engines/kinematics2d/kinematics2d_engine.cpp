@@ -71,6 +71,8 @@ void Kinematics2dEngine::Init(const EngineSetup& setup)
   subclock_ = std::max(setup.configuration.subclock, 1);
   frame_ = PlaneFrom(setup.parameters);
   threads_ = static_cast<unsigned>(setup.parameters.Integer("threads"));
+  if (threads_ == 0 && setup.threads > 1) sharing_.emplace();
+  if (threads_ == 0) threads_ = setup.threads;
   world_ = KinematicWorld(setup.parameters.Number("elasticity"));
   robots_.Init(setup.space, frame_, *this);
   team_ = setup.team;
@@ -219,7 +221,10 @@ void Kinematics2dEngine::Update(const EngineCommands& commands, EngineUpdate& up
   ApplyCommands(commands);
   for (Footbot& footbot : footbots_) footbot.tick_start = world_.PoseOf(footbot.body);
   BalanceRegions();
-  world_.Advance(TickSeconds(), subclock_);
+  if (sharing_)
+    sharing_->Do([&] { Advance(false); }, [&] { Advance(true); });
+  else
+    Advance(true);
   writer_.Write(world_.Poses(), update.poses);
   robots_.Raise(layout_->owned, update.poses);
   ReportFootbots(update.attributes);
@@ -231,6 +236,12 @@ void Kinematics2dEngine::Update(const EngineCommands& commands, EngineUpdate& up
     if (block.name == "footbot_encoders") ReadEncoders(block, values);
     if (block.name == "footbot_turret_torque") ReadTurretTorques(block, values);
   }
+}
+
+void Kinematics2dEngine::Advance(bool in_threads)
+{
+  world_.UseThreads(in_threads);
+  world_.Advance(TickSeconds(), subclock_);
 }
 
 void Kinematics2dEngine::FollowMirrors()

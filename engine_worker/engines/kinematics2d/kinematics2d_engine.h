@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/threads/thread_choice.h"
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
 #include "engine_worker/engines/kinematics2d/plane_writer.h"
 #include "engine_worker/engines/near_objects.h"
@@ -70,6 +71,7 @@ private:
 
   void AddFixed(const CSwarmanoidSpaceEntity& entity);
   void BalanceRegions();
+  void Advance(bool in_threads);
   void FollowMirrors();
   void ApplyCommands(const EngineCommands& commands);
   void DriveWheels(const ChannelBlock& block, std::span<const double> values);
@@ -91,6 +93,7 @@ private:
   PlaneFrame frame_{PlaneAxis::kZ, 0};
   int subclock_ = 1;
   unsigned threads_ = 1;
+  std::optional<SharedWork> sharing_;  // where it is tried whether several threads pay
   RegionTeam* team_ = nullptr;
   std::uint64_t updates_ = 0;
   kinematics2d::KinematicWorld world_;

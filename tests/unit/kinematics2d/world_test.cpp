@@ -242,7 +242,7 @@ TEST(KinematicWorld, ASpeedBeyondAllSenseIsRefused)
 }
 
 // 3,600 robots, a prey gripped by two of them and a follower, all driven into a corner.
-KinematicWorld CornerPile(unsigned threads)
+KinematicWorld CornerPile(unsigned threads, bool now_and_then = false)
 {
   KinematicWorld world;
   const auto footbot = world.AddModel(FootbotModel());
@@ -269,6 +269,7 @@ KinematicWorld CornerPile(unsigned threads)
       world.SetTurretRate(k, 0.1 * (k % 7));
     }
     world.Follow(follower, {13.2 - 0.02 * tick, 8, RotorOf(0)}, true);
+    if (now_and_then) world.UseThreads(tick % 3 == 1);
     world.Advance(kTick, 1);
   }
   return world;
@@ -281,7 +282,7 @@ TEST(KinematicWorld, ThreadsChangeNoBit)
   EXPECT_GT(one.Statistics().held_back, 0U);
   for (const unsigned threads : {2U, 3U, 4U})
   {
-    const KinematicWorld several = CornerPile(threads);
+    const KinematicWorld several = CornerPile(threads, threads == 3);
     ByteWriter expected, state;
     one.SaveState(expected);
     several.SaveState(state);
