@@ -17,17 +17,6 @@ namespace swarmanoid::ros2
 using Header = std_msgs::msg::dds_::Header_;
 using Odometry = nav_msgs::msg::dds_::Odometry_;
 
-// A topic of readings. Whoever waits for each of them misses none.
-template <class Message>
-class ReadingTopic : public Publisher<Message>
-{
-public:
-  ReadingTopic(const DriverSetup& setup, const std::string& topic)
-      : Publisher<Message>(setup, topic, Writer::Keeps::kRecent)
-  {
-  }
-};
-
 class ReadingPublisher
 {
 public:
@@ -43,6 +32,18 @@ struct ReadingSetup
   DriverSetup driver;
   double range_m = 0;                     // of the proximity sensors
   const WheelOdometry* wheels = nullptr;  // of robots with encoders
+  bool awaited = false;                   // a node answers each reading, and the run waits for it
+};
+
+// A topic of readings. Whoever waits for each of them misses none.
+template <class Message>
+class ReadingTopic : public Publisher<Message>
+{
+public:
+  ReadingTopic(const ReadingSetup& setup, const std::string& topic)
+      : Publisher<Message>(setup.driver, topic, setup.awaited ? Writer::Keeps::kAwaited : Writer::Keeps::kRecent)
+  {
+  }
 };
 
 // The types of sensors that have topics, in ascending order. `positioning` has none of its own: it is part of `odom`.

@@ -287,9 +287,10 @@ private:
   {
     const DriverSetup setup{Parameters({}, {}), GetRobot()->GetId(), GetRobot()->GetKind(), name_space_,
                             GetRobot()->GetTickSeconds()};
-    ends_.emplace(ReadingSetup{GetRobot(), setup, parameters_.GetNumber("range"), odometry_ ? &*odometry_ : nullptr},
-                  parameters_.GetBoolean("stamped"), lock_step_);
-    if (odometry_ || positioning_ != nullptr) ends_->odometry.emplace(setup, "odom");
+    const ReadingSetup readings{GetRobot(), setup, parameters_.GetNumber("range"), odometry_ ? &*odometry_ : nullptr,
+                                lock_step_};
+    ends_.emplace(readings, parameters_.GetBoolean("stamped"), lock_step_);
+    if (odometry_ || positioning_ != nullptr) ends_->odometry.emplace(readings, "odom");
   }
 
   void AdvanceOdometry(std::uint64_t tick)

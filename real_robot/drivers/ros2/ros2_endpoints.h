@@ -37,7 +37,8 @@ public:
   {
     kLatest,   // the next value replaces one that has not arrived
     kLatched,  // likewise; who comes later still gets the last message
-    kRecent    // some tens, so that those who listen reliably miss none, and know soon which are there
+    kRecent,   // some tens, so that those who listen reliably miss none; a lost one is sent again within 2 s
+    kAwaited   // likewise, within some 10 ms, because somebody waits for each; costs more
   };
   Writer(const std::string& topic, const MessageType& type, Keeps keeps = Keeps::kLatest);
   ~Writer();
