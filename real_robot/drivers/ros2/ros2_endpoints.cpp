@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <map>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -113,6 +114,13 @@ private:
   std::map<std::string, dds::Topic*> topics_;
 };
 
+// As the middlewares of ROS 2 tell the hash of a type (REP 2016): tools see whether they know the same message.
+std::vector<unsigned char> UserData(const MessageType& message)
+{
+  const std::string text = "typehash=" + message.hash + ";";
+  return {text.begin(), text.end()};
+}
+
 }  // namespace
 
 std::string TopicName(const std::string& name_space, const std::string& name)
@@ -181,6 +189,7 @@ Writer::Writer(const std::string& topic, const MessageType& type, Keeps keeps) :
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
   qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();
+  qos.user_data().setValue(UserData(type));
   ends_->latched = keeps == Keeps::kLatched;
   ends_->writer = ends_->participant->GetPublisher()->create_datawriter(made, qos, ends_.get(),
                                                                         dds::StatusMask::publication_matched());
@@ -217,6 +226,7 @@ Reader::Reader(const std::string& topic, const MessageType& type, bool reliable)
   qos.history().depth = 10;
   qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();
+  qos.user_data().setValue(UserData(type));
   ends_->reader = ends_->participant->GetSubscriber()->create_datareader(made, qos);
   if (ends_->reader == nullptr) throw DriverError("cannot read topic " + topic);
 }

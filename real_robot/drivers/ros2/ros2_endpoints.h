@@ -18,6 +18,7 @@ namespace swarmanoid::ros2
 struct MessageType
 {
   std::string name;    // "geometry_msgs/msg/Twist"
+  std::string hash;    // "RIHS01_…": of its fields, by the rule of ROS 2
   void* type_support;  // a new eprosima::fastdds::dds::TopicDataType
 };
 template <class Message>
