@@ -24,6 +24,7 @@
 #include "common/math/elementary.h"
 #include "real_robot/drivers/ros2/footbot_infrared.h"
 #include "real_robot/drivers/ros2/point_cloud.h"
+#include "real_robot/ros2_controller/odometry.h"
 
 namespace swarmanoid::ros2
 {
@@ -471,6 +472,7 @@ std::vector<std::unique_ptr<ReadingPublisher>> MakeReadings(const ReadingSetup& 
     made.push_back(source.publisher);
     readings.push_back(source.make(setup));
   }
+  if (setup.wheels != nullptr || setup.robot->HasSensor("positioning")) readings.push_back(MakeOdometry(setup));
   return readings;
 }
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "common/control_interface/ci_robot.h"
-#include "nav_msgs.h"
 #include "real_robot/drivers/ros2/ros2_messages.h"
 #include "real_robot/ros2_controller/wheel_odometry.h"
 
@@ -15,7 +14,6 @@ namespace swarmanoid::ros2
 {
 
 using Header = std_msgs::msg::dds_::Header_;
-using Odometry = nav_msgs::msg::dds_::Odometry_;
 
 class ReadingPublisher
 {
@@ -31,7 +29,7 @@ struct ReadingSetup
   const CCI_Robot* robot = nullptr;
   DriverSetup driver;
   double range_m = 0;                     // of the proximity sensors
-  const WheelOdometry* wheels = nullptr;  // of robots with encoders
+  const WheelOdometry* wheels = nullptr;  // of robots with wheels
   bool awaited = false;                   // a node answers each reading, and the run waits for it
 };
 
@@ -48,7 +46,8 @@ public:
 
 // The types of sensors that have topics, in ascending order. `positioning` has none of its own: it is part of `odom`.
 std::vector<std::string> PublishedSensors();
-// For all sensors of a robot that have topics. Throws DriverError.
+// For all sensors of a robot that have topics, and behind them its odometry, if it has wheels or `positioning`. Throws
+// DriverError.
 std::vector<std::unique_ptr<ReadingPublisher>> MakeReadings(const ReadingSetup& setup);
 
 }  // namespace swarmanoid::ros2

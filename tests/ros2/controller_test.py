@@ -184,6 +184,14 @@ class LockStep(Case):
         for robot in robots:
             self.assertEqual(sum(words[:2] == ["scan", robot] for words in heard), TICKS)
 
+    def test_what_a_node_that_waits_for_all_has_missed_is_said_again(self):
+        # It misses the first odometry of the robot that is asked last, and answers nobody before it has that.
+        robots = ("fb_0", "fb_1", "fb_2")
+        file = self.experiment(robots=3, timeout=20)
+        quick, _ = self.with_node(file, "--single-process", robots=robots)
+        late, _ = self.with_node(file, "--single-process", robots=robots, node={"NODE_TOGETHER": "1", "NODE_LATE_ODOMETRY": "500"})
+        self.assertEqual(self.hash_of(late), self.hash_of(quick))
+
     def test_leds_and_beacons(self):
         file = self.experiment(actuators=("footbot_leds", "footbot_beacon"))
         alone, _ = self.with_node(file, "--single-process", node={"NODE_LEDS": "1"})
