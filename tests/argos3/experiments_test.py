@@ -169,6 +169,19 @@ class Experiments(unittest.TestCase):
         self.assertEqual(of["leds"], "8 heard 2:7")
         self.assertIn("robot 'back' at tick 3: generic 0 0 0 0 0 0 0 0\n", self.said_in("run"))
 
+    def test_loop_functions_reach_range_and_bearing(self):
+        said = self.swarmanoid("run", HERE / "puck.argos", "--output", "run").stderr
+        sends = re.findall(r"^sends (.*)", said, re.M)
+        # Behind each step what the robot said in it; two bytes and 0.8 m are those of e-pucks.
+        self.assertEqual(sends[1:4], ["0 7 of 2 as far as 0.8"] * 3)
+        self.assertIn("\nset 200 200\n", said)
+        # Others hear what was set behind step 2 in step 3, and its controller says its own again then.
+        self.assertRegex(self.said_in("run"), "robot 'back' at tick 3: leds 8 heard 2:200\n")
+        self.assertRegex(self.said_in("run"), "robot 'front' at tick 3: leds 8 heard 2:7\n")
+        for size in (1, 3):
+            self.assertIn(f"messages of 'front' have 2 bytes, not {size}", said)
+        self.assertIn("the range of 'front' cannot be changed in a run; set rab_range in the experiment file", said)
+
     def test_an_e_puck_drives_in_a_cluster_as_in_one_process(self):
         file = self.changed("puck.argos", ('<loop_functions library="argos3_puck" label="puck_floor"/>', ""),
                             ('<floor id="floor" source="loop_functions" pixels_per_meter="10"/>', ""),

@@ -3,7 +3,7 @@
 
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
-#include "controller_host/devices/range_and_bearing/range_and_bearing_message.h"
+#include "common/messages/range_and_bearing_message.h"
 #include "controller_host/devices/value_devices.h"
 
 namespace swarmanoid

@@ -60,11 +60,44 @@ class CPuckFloor : public CLoopFunctions
 public:
   void PostStep() override
   {
+    Say(*any_cast<CEPuckEntity*>(GetSpace().GetEntitiesByType("e-puck")["front"]));
     for (auto& [id, any] : GetSpace().GetEntitiesByType("e-puck"))
       LOG << "at " << id << " " << any_cast<CEPuckEntity*>(any)->GetEmbodiedEntity().GetOriginAnchor().Position
           << std::endl;
   }
   CColor GetFloorColor(const CVector2& place) override { return place.GetY() > 0 ? CColor::BLACK : CColor::WHITE; }
+
+private:
+  // Of what it sends, and that others cannot change it for what it does not have.
+  void Say(CEPuckEntity& puck)
+  {
+    CRABEquippedEntity& radio = puck.GetRABEquippedEntity();
+    LOG << "sends " << radio.GetData() << " of " << radio.GetMsgSize() << " as far as " << radio.GetRange()
+        << std::endl;
+    if (GetSpace().GetSimulationClock() != 2) return;
+    CByteArray data(2, 200);
+    radio.SetData(data);
+    LOG << "set " << radio.GetData() << std::endl;
+    for (const size_t size : {size_t{1}, size_t{3}})
+    {
+      try
+      {
+        radio.SetData(CByteArray(size));
+      }
+      catch (CARGoSException& refused)
+      {
+        LOG << refused.what() << std::endl;
+      }
+    }
+    try
+    {
+      radio.SetRange(2);
+    }
+    catch (CARGoSException& refused)
+    {
+      LOG << refused.what() << std::endl;
+    }
+  }
 };
 
 REGISTER_CONTROLLER(CPuck, "puck")
