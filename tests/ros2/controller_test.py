@@ -1,5 +1,6 @@
 """ros2_controller: a node of another vendor's DDS in the loop. Lock-step gives the same bits again, in one process and as a
 cluster; what the node hears is stamped with simulated time; who does not answer in time is dealt with as the file says."""
+import collections
 import math
 import os
 import pathlib
@@ -28,13 +29,15 @@ class Node(Peer):
 
     def __init__(self, domain, robots, stamped, repeats, silent, others, **environment):
         self.lines = []
+        self.latest = collections.defaultdict(lambda: collections.deque(maxlen=8))
         super().__init__([os.environ["ROS2_NODE"], str(domain), "stamped" if stamped else "plain", str(repeats), str(silent[0]),
                           str(silent[1]), str(int(others)), *robots], {**os.environ, **environment})
 
     def hear(self, words):
-        # Until the first answer the same is said again, in case that nobody heard it.
-        if words not in self.lines[-8:]:
+        # Until the first answer a robot says the same again, in case that nobody heard it.
+        if words not in self.latest[words[1]]:
             self.lines.append(words)
+        self.latest[words[1]].append(words)
 
 
 class Case(unittest.TestCase):
