@@ -199,11 +199,14 @@ class Experiments(unittest.TestCase):
         self.assertAlmostEqual(x["back"], 0.5 - 0.095, delta=0.006)
         self.assertAlmostEqual(x["front"], 1.03, delta=0.002)
 
-    def test_what_e_pucks_and_others_do_not_have_is_refused(self):
-        file = self.changed("puck.argos", ('<ground implementation="rot_z_only"/>',
-                                           '<ground implementation="rot_z_only"/><differential_steering implementation="default"/>'))
-        result = self.swarmanoid("check", file, code=3)
-        self.assertRegex(result.stderr, r"puck\.argos:\d+:\d+: <differential_steering> has no counterpart on e-pucks; ")
+    def test_encoders_of_an_e_puck_read_what_its_wheels_were_told(self):
+        self.swarmanoid("run", self.changed("puck.argos", ('velocity="0"', 'velocity="5"')), "--output", "run")
+        # A step ago: 5 cm/s for 0.1 s, wheels 5.3 cm apart.
+        rolled = re.findall(r"robot 'back' at tick \d+: rolled (.*)", self.said_in("run"))
+        self.assertEqual(rolled[:3], ["0 0 0 0 5.3", "5 5 0.5 0.5 5.3", "5 5 0.5 0.5 5.3"])
+
+    def test_what_others_do_not_have_is_refused(self):
+        file = self.folder / "puck.argos"
         text = (HERE / "puck.argos").read_text().replace("e-puck id", "foot-bot id").replace("</e-puck>", "</foot-bot>")
         file.write_text(text)
         result = self.swarmanoid("check", file, code=3)
