@@ -103,11 +103,6 @@ constexpr const char* kEPuck = "argos3_epuck";
 
 bool IsForEPucks(const DeviceContext& context) { return context.bearers.kinds.contains(kEPuck); }
 
-void RefuseForEPucks(const ConfigurationNode& node, const char* cure, const DeviceContext& context)
-{
-  context.mistake(node.location, "<" + node.name + "> has no counterpart on e-pucks; " + cure);
-}
-
 void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
 {
   for (const char* name : {"bias_avg", "bias_stddev", "factor_avg", "factor_stddev"})
@@ -163,11 +158,10 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
   const SourceLocation& at = node.location;
   const std::string& tag = node.name;
   Attributes attributes(node, context);
-  if (tag == "differential_steering" && IsForEPucks(context))
-    RefuseForEPucks(node, "leave it out, or take positioning", context);
-  else if (tag == "differential_steering")
+  if (tag == "differential_steering")
   {
-    AddDevice(ours.sensors, "footbot_encoders", "engine_footbot_encoders", at);
+    // Those of e-pucks read what the wheels were told (argos3/plugin/epuck_devices.cpp).
+    if (!IsForEPucks(context)) AddDevice(ours.sensors, "footbot_encoders", "engine_footbot_encoders", at);
     attributes.Refuse("vel_noise_range", "leave it out, or give the wheels noise");
     attributes.Refuse("dist_noise_range", "leave it out, or give the wheels noise");
   }

@@ -83,10 +83,11 @@ void CLEDEquippedEntity::SetAllLEDsColors(const std::vector<CColor>& colours)
 }
 
 CRobotWithController::CRobotWithController(const std::string& id, unsigned leds)
-    : CBodyEntity(id, true), controllable_(this, "controller_0"), leds_(this, leds)
+    : CBodyEntity(id, true), controllable_(this, "controller_0"), leds_(this, leds), rab_(this)
 {
   AddComponent(controllable_);
   AddComponent(leds_);
+  AddComponent(rab_);
 }
 
 CRobotWithController::CRobotWithController(const std::string& id, unsigned leds, const std::string& controller,

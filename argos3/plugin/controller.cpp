@@ -118,7 +118,7 @@ private:
 
   void MakeDevices(const TConfigurationTree& options)
   {
-    const DeviceSetup setup{*GetRobot(), translation_, options};
+    const DeviceSetup setup{.robot = *GetRobot(), .translation = translation_, .options = options};
     for (const std::string& tag : SplitWords(options.GetText("sensors", "")))
     {
       sensors_.push_back(MakeSensor(tag, setup));

@@ -13,6 +13,12 @@
 namespace swarmanoid::argos3
 {
 
+// cm/s.
+struct WheelSpeeds
+{
+  double left = 0, right = 0;
+};
+
 // What a device needs besides those of the robot.
 struct DeviceSetup
 {
@@ -20,6 +26,8 @@ struct DeviceSetup
   const Translation& translation;
   // Of the controller: attributes that are no parameters of our devices.
   TConfigurationTree options;
+  // Of e-pucks: what the wheels were told last.
+  std::shared_ptr<WheelSpeeds> told_wheels = std::make_shared<WheelSpeeds>();
 };
 
 // A sensor that reads ours before each control step.

@@ -24,6 +24,7 @@
 #include "common/math/elementary.h"
 #include "real_robot/drivers/ros2/footbot_infrared.h"
 #include "real_robot/drivers/ros2/point_cloud.h"
+#include "real_robot/ros2_controller/odometry.h"
 
 namespace swarmanoid::ros2
 {
@@ -45,7 +46,7 @@ class TopicReading : public ReadingPublisher
 {
 public:
   TopicReading(const ReadingSetup& setup, const std::string& type, const std::string& topic)
-      : sensor_(setup.robot->Sensor<Interface>(type)), publisher_(setup.driver, topic)
+      : sensor_(setup.robot->Sensor<Interface>(type)), publisher_(setup, topic)
   {
   }
   void Publish(const Header& header) override
@@ -98,7 +99,7 @@ public:
       : sensor_(setup.robot->Sensor<Interface>(type))
   {
     for (std::size_t i = 0; i < sensor_.GetAllSensorReadings().size(); ++i)
-      publishers_.push_back(std::make_unique<ReadingTopic<Message>>(setup.driver, topic + "_" + std::to_string(i)));
+      publishers_.push_back(std::make_unique<ReadingTopic<Message>>(setup, topic + "_" + std::to_string(i)));
   }
   void Publish(const Header& header) override
   {
@@ -163,9 +164,7 @@ class Ground : public ReadingPublisher
 {
 public:
   Ground(const ReadingSetup& setup, const std::string& type)
-      : sensor_(setup.robot->Sensor<Interface>(type)),
-        brightness_(setup.driver, "ground"),
-        colour_(setup.driver, "floor_color")
+      : sensor_(setup.robot->Sensor<Interface>(type)), brightness_(setup, "ground"), colour_(setup, "floor_color")
   {
   }
   void Publish(const Header&) override
@@ -258,7 +257,7 @@ class Blobs : public ReadingPublisher
 {
 public:
   Blobs(const ReadingSetup& setup, const std::string& type)
-      : sensor_(setup.robot->Sensor<Interface>(type)), publisher_(setup.driver, "blobs")
+      : sensor_(setup.robot->Sensor<Interface>(type)), publisher_(setup, "blobs")
   {
   }
   void Publish(const Header& header) override
@@ -281,7 +280,7 @@ class Packets : public ReadingPublisher
 public:
   explicit Packets(const ReadingSetup& setup)
       : sensor_(setup.robot->Sensor<CCI_RangeAndBearingSensor>("range_and_bearing")),
-        publisher_(setup.driver, "range_and_bearing")
+        publisher_(setup, "range_and_bearing")
   {
   }
   void Publish(const Header& header) override
@@ -307,7 +306,7 @@ private:
 class Joints : public ReadingPublisher
 {
 public:
-  explicit Joints(const ReadingSetup& setup) : rolled_(setup.wheels), publisher_(setup.driver, "joint_states")
+  explicit Joints(const ReadingSetup& setup) : rolled_(setup.wheels), publisher_(setup, "joint_states")
   {
     const CCI_Robot& robot = *setup.robot;
     if (robot.HasSensor("footbot_encoders")) wheels_ = &robot.Sensor<CCI_FootBotEncodersSensor>("footbot_encoders");
@@ -315,7 +314,7 @@ public:
       turret_ = &robot.Sensor<CCI_FootBotTurretEncoderSensor>("footbot_turret_encoder");
     if (!robot.HasSensor("footbot_gripper")) return;
     gripper_ = &robot.Sensor<CCI_FootBotGripperSensor>("footbot_gripper");
-    holding_.emplace(setup.driver, "gripper/holding");
+    holding_.emplace(setup, "gripper/holding");
   }
   void Publish(const Header& header) override
   {
@@ -358,7 +357,7 @@ private:
 class Inertia : public ReadingPublisher
 {
 public:
-  explicit Inertia(const ReadingSetup& setup) : publisher_(setup.driver, "imu")
+  explicit Inertia(const ReadingSetup& setup) : publisher_(setup, "imu")
   {
     const CCI_Robot& robot = *setup.robot;
     message_.orientation_covariance()[0] = -1;
@@ -473,6 +472,7 @@ std::vector<std::unique_ptr<ReadingPublisher>> MakeReadings(const ReadingSetup& 
     made.push_back(source.publisher);
     readings.push_back(source.make(setup));
   }
+  if (setup.wheels != nullptr || setup.robot->HasSensor("positioning")) readings.push_back(MakeOdometry(setup));
   return readings;
 }
 

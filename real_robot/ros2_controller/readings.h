@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "common/control_interface/ci_robot.h"
-#include "nav_msgs.h"
 #include "real_robot/drivers/ros2/ros2_messages.h"
 #include "real_robot/ros2_controller/wheel_odometry.h"
 
@@ -15,18 +14,6 @@ namespace swarmanoid::ros2
 {
 
 using Header = std_msgs::msg::dds_::Header_;
-using Odometry = nav_msgs::msg::dds_::Odometry_;
-
-// A topic of readings. Whoever waits for each of them misses none.
-template <class Message>
-class ReadingTopic : public Publisher<Message>
-{
-public:
-  ReadingTopic(const DriverSetup& setup, const std::string& topic)
-      : Publisher<Message>(setup, topic, Writer::Keeps::kRecent)
-  {
-  }
-};
 
 class ReadingPublisher
 {
@@ -42,12 +29,25 @@ struct ReadingSetup
   const CCI_Robot* robot = nullptr;
   DriverSetup driver;
   double range_m = 0;                     // of the proximity sensors
-  const WheelOdometry* wheels = nullptr;  // of robots with encoders
+  const WheelOdometry* wheels = nullptr;  // of robots with wheels
+  bool awaited = false;                   // a node answers each reading, and the run waits for it
+};
+
+// A topic of readings. Whoever waits for each of them misses none.
+template <class Message>
+class ReadingTopic : public Publisher<Message>
+{
+public:
+  ReadingTopic(const ReadingSetup& setup, const std::string& topic)
+      : Publisher<Message>(setup.driver, topic, setup.awaited ? Writer::Keeps::kAwaited : Writer::Keeps::kRecent)
+  {
+  }
 };
 
 // The types of sensors that have topics, in ascending order. `positioning` has none of its own: it is part of `odom`.
 std::vector<std::string> PublishedSensors();
-// For all sensors of a robot that have topics. Throws DriverError.
+// For all sensors of a robot that have topics, and behind them its odometry, if it has wheels or `positioning`. Throws
+// DriverError.
 std::vector<std::unique_ptr<ReadingPublisher>> MakeReadings(const ReadingSetup& setup);
 
 }  // namespace swarmanoid::ros2

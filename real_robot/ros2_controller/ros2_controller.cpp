@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <iomanip>
 #include <optional>
 #include <sstream>
@@ -12,13 +11,9 @@
 
 #include "common/configuration/wording.h"
 #include "common/control_interface/ci_controller.h"
-#include "common/control_interface/ci_positioning_sensor.h"
-#include "common/control_interface/ci_wheels_actuator.h"
-#include "common/control_interface/eyebot/ci_eyebot_propellers_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_encoders_sensor.h"
-#include "common/control_interface/footbot/ci_footbot_wheels_actuator.h"
-#include "common/math/elementary.h"
 #include "real_robot/ros2_controller/device_commands.h"
+#include "real_robot/ros2_controller/drive.h"
 #include "real_robot/ros2_controller/readings.h"
 
 namespace swarmanoid::ros2
@@ -26,107 +21,9 @@ namespace swarmanoid::ros2
 namespace
 {
 
-using TwistStamped = geometry_msgs::msg::dds_::TwistStamped_;
-
 constexpr double kSettle_s = 0.2;  // from when two ends know each other until both surely do
 constexpr double kSayAgain_s = 1;  // until the node has answered once
 constexpr double kLookAgain_s = 0.02;
-
-bool IsFinite(const Twist& twist)
-{
-  for (const auto& part : {twist.linear(), twist.angular()})
-    if (!std::isfinite(part.x()) || !std::isfinite(part.y()) || !std::isfinite(part.z())) return false;
-  return true;
-}
-
-// What moves the robot: two wheels, or propellers.
-class Drive
-{
-public:
-  explicit Drive(const CCI_Robot& robot)
-  {
-    const std::vector<std::string> known{"eyebot_propellers", "footbot_wheels", "wheels"};
-    std::vector<std::string> all = CommandedActuators();
-    all.insert(all.end(), known.begin(), known.end());
-    std::ranges::sort(all);
-    for (const std::string& type : robot.ActuatorTypes())
-      if (std::ranges::find(all, type) == all.end())
-        throw DriverError(
-            fmt::format("ros2_controller has no topic for the actuator <{}>; those that have: {}", type, Listed(all)));
-    if (robot.HasActuator("footbot_wheels"))
-      footbot_ = &robot.Actuator<CCI_FootBotWheelsActuator>("footbot_wheels");
-    else if (robot.HasActuator("wheels"))
-      wheels_ = &robot.Actuator<CCI_WheelsActuator>("wheels");
-    else if (robot.HasActuator("eyebot_propellers"))
-      propellers_ = &robot.Actuator<CCI_EyeBotPropellersActuator>("eyebot_propellers");
-    else
-      throw DriverError(fmt::format("ros2_controller needs one of the actuators {}", Listed(known)));
-  }
-
-  bool HasWheels() const { return propellers_ == nullptr; }
-  double Radius() const { return wheels_ != nullptr ? wheels_->GetWheelRadius() : Footbot::WHEEL_RADIUS_M; }
-  double Distance() const
-  {
-    return wheels_ != nullptr ? wheels_->GetInterwheelDistance() : Footbot::INTERWHEEL_DISTANCE_M;
-  }
-  // rad/s of a wheel for a command; `side`: -1 left, 1 right.
-  double WheelSpeed(const Twist& twist, double side) const
-  {
-    return (twist.linear().x() + side * twist.angular().z() * Distance() / 2) / Radius();
-  }
-
-  void Command(const Twist& twist)
-  {
-    const double left = HasWheels() ? WheelSpeed(twist, -1) : 0;
-    const double right = HasWheels() ? WheelSpeed(twist, 1) : 0;
-    if (footbot_ != nullptr) footbot_->SetFootBotWheelsAngularVelocity(left, right);
-    if (wheels_ != nullptr) wheels_->SetAngularVelocity(left, right);
-    if (propellers_ != nullptr)
-      propellers_->SetVelocity(twist.linear().x(), twist.linear().y(), twist.linear().z(), twist.angular().z());
-  }
-
-private:
-  using Footbot = CCI_FootBotWheelsActuator;
-
-  CCI_FootBotWheelsActuator* footbot_ = nullptr;
-  CCI_WheelsActuator* wheels_ = nullptr;
-  CCI_EyeBotPropellersActuator* propellers_ = nullptr;
-};
-
-// The commands of the node, with time stamps or without.
-class Commands
-{
-public:
-  Commands(const DriverSetup& setup, bool stamped, bool reliable)
-  {
-    if (stamped)
-      stamped_.emplace(setup, "cmd_vel", reliable);
-    else
-      plain_.emplace(setup, "cmd_vel", reliable);
-  }
-
-  // The next one, oldest first, that is of this time if they have one.
-  std::optional<Twist> Take(const std::optional<builtin_interfaces::msg::dds_::Time_>& of)
-  {
-    if (plain_) return plain_->TakeNext() ? std::optional(Checked(plain_->Latest())) : std::nullopt;
-    while (stamped_->TakeNext())
-      if (!of || stamped_->Latest().header().stamp() == *of) return Checked(stamped_->Latest().twist());
-    return std::nullopt;
-  }
-  void Wait(double seconds) { plain_ ? plain_->Wait(seconds) : stamped_->Wait(seconds); }
-  unsigned Publishers() const { return plain_ ? plain_->Publishers() : stamped_->Publishers(); }
-  std::string Name() const { return plain_ ? plain_->Name() : stamped_->Name(); }
-
-private:
-  Twist Checked(const Twist& twist) const
-  {
-    if (IsFinite(twist)) return twist;
-    throw DriverError(Name() + ": a command is not a finite number");
-  }
-
-  std::optional<Subscriber<Twist>> plain_;
-  std::optional<Subscriber<TwistStamped>> stamped_;
-};
 
 class CRos2Controller;
 
@@ -136,6 +33,8 @@ struct Group
 {
   std::vector<CRos2Controller*> members;
   bool is_complete = false;
+  std::optional<std::uint64_t> dropping_of;  // the tick whose second answers are dropped
+  double dropping_until = 0;
 };
 
 class CRos2Controller : public CCI_Controller
@@ -231,7 +130,6 @@ private:
     {
     }
     std::vector<std::unique_ptr<ReadingPublisher>> readings;
-    std::optional<ReadingTopic<Odometry>> odometry;
     Commands drive;
     std::vector<std::unique_ptr<CommandTopic>> devices;
 
@@ -269,7 +167,6 @@ private:
       if (std::ranges::find(published, type) == published.end())
         throw DriverError(fmt::format("ros2_controller has no topic for the sensor <{}>; those that have: {}", type,
                                       Listed(published)));
-    if (robot.HasSensor("positioning")) positioning_ = &robot.Sensor<CCI_PositioningSensor>("positioning");
     if (robot.HasSensor("footbot_encoders")) encoders_ = &robot.Sensor<CCI_FootBotEncodersSensor>("footbot_encoders");
     if (drive_->HasWheels()) odometry_.emplace(drive_->Radius(), drive_->Distance());
     name_space_ = parameters.GetText("namespace");
@@ -287,9 +184,9 @@ private:
   {
     const DriverSetup setup{Parameters({}, {}), GetRobot()->GetId(), GetRobot()->GetKind(), name_space_,
                             GetRobot()->GetTickSeconds()};
-    ends_.emplace(ReadingSetup{GetRobot(), setup, parameters_.GetNumber("range"), odometry_ ? &*odometry_ : nullptr},
-                  parameters_.GetBoolean("stamped"), lock_step_);
-    if (odometry_ || positioning_ != nullptr) ends_->odometry.emplace(setup, "odom");
+    const ReadingSetup readings{GetRobot(), setup, parameters_.GetNumber("range"), odometry_ ? &*odometry_ : nullptr,
+                                lock_step_};
+    ends_.emplace(readings, parameters_.GetBoolean("stamped"), lock_step_);
   }
 
   void AdvanceOdometry(std::uint64_t tick)
@@ -308,48 +205,11 @@ private:
     header.stamp(now);
     header.frame_id(GetRobot()->GetId());
     for (const auto& reading : ends_->readings) reading->Publish(header);
-    if (ends_->odometry) PublishOdometry(header);
-  }
-
-  // The pose of the positioning sensor in the frame "world", else that of the wheels in a frame of their own.
-  void PublishOdometry(Header header)
-  {
-    Odometry message;
-    message.child_frame_id(header.frame_id());
-    header.frame_id(positioning_ != nullptr ? "world" : header.frame_id() + "/odom");
-    message.header(header);
-    Vector3 place = Vector3::Zero();
-    Quaternion turned = Quaternion::Identity();
-    if (positioning_ != nullptr)
-    {
-      place = positioning_->GetPosition();
-      turned = positioning_->GetOrientation();
-    }
-    else
-    {
-      place = {odometry_->X(), odometry_->Y(), 0};
-      const SinCos half = SinCosOf(odometry_->Heading() / 2);
-      turned = Quaternion(half.cos, 0, 0, half.sin);
-    }
-    auto& pose = message.pose().pose();
-    pose.position().x(place.x());
-    pose.position().y(place.y());
-    pose.position().z(place.z());
-    pose.orientation().x(turned.x());
-    pose.orientation().y(turned.y());
-    pose.orientation().z(turned.z());
-    pose.orientation().w(turned.w());
-    if (odometry_)
-    {
-      message.twist().twist().linear().x(odometry_->Forward());
-      message.twist().twist().angular().z(odometry_->Turn());
-    }
-    ends_->odometry->Publish(message);
   }
 
   unsigned Listeners() const
   {
-    unsigned listeners = ends_->odometry ? ends_->odometry->Listeners() : 0;
+    unsigned listeners = 0;
     for (const auto& reading : ends_->readings) listeners += reading->Listeners();
     return listeners;
   }
@@ -412,7 +272,8 @@ private:
     if (odometry_) AdvanceOdometry(tick);
     Publish(now);
     asked_tick_ = tick;
-    asked_at_ = Now();
+    asked_at_ = said_at_ = Now();
+    repetitions_ = 0;
   }
 
   // One of each topic.
@@ -420,7 +281,6 @@ private:
   {
     const auto now = TimeOf(GetRobot()->GetTime());
     const double timeout_s = parameters_.GetNumber("timeout");
-    double said = asked_at_;
     std::optional<Twist> drive;
     std::vector<CommandTopic*> silent;
     for (const auto& topic : ends_->devices) silent.push_back(topic.get());
@@ -431,16 +291,10 @@ private:
       return drive && silent.empty();
     };
     bool complete = take();
-    unsigned repetitions = 0;
+    const bool waited_for_it = !complete;
     for (double waited = Now() - asked_at_; !complete && waited < timeout_s; waited = Now() - asked_at_)
     {
-      // Somebody who has found this end, and whom this end has not found, misses what is said first.
-      if (!has_answered_ && Now() - said > kSayAgain_s)
-      {
-        Publish(now);
-        said = Now();
-        ++repetitions;
-      }
+      if (!has_answered_ && Now() - said_at_ > kSayAgain_s) SayAgain(now);
       const double longest = std::min(timeout_s - waited, kSayAgain_s);
       drive ? silent.front()->Wait(longest) : ends_->drive.Wait(longest);
       complete = take();
@@ -452,18 +306,33 @@ private:
     if (timed_out_) GetRobot()->Log(ends_->drive.Name() + ": the node answers again");
     timed_out_ = false;
     has_answered_ = true;
-    DropAnswers(repetitions);
+    DropAnswers(waited_for_it);
+  }
+
+  // Somebody who has found an end, and whom this end has not found, misses what is said first; and who waits for the
+  // readings of all answers none. So they are those of all who were asked with this one and have no answer yet.
+  void SayAgain(const builtin_interfaces::msg::dds_::Time_& now)
+  {
+    for (CRos2Controller* each : group_->members)
+    {
+      if (each->asked_tick_ != asked_tick_ || each->stepped_tick_ == asked_tick_ || each->has_answered_) continue;
+      each->Publish(now);
+      each->said_at_ = Now();
+      ++each->repetitions_;
+    }
   }
 
   // A node that has heard the readings each time that they were said may answer each time: none of these answers is for
-  // the next readings. How many come nobody knows.
-  void DropAnswers(unsigned repetitions)
+  // the next readings. How many come nobody knows; with those that are here already, theirs are by the same time.
+  void DropAnswers(bool waited_for_it)
   {
-    if (repetitions == 0) return;
-    const double until = Now() + kSayAgain_s;
+    if (repetitions_ == 0) return;
+    if (waited_for_it || group_->dropping_of != asked_tick_) group_->dropping_until = Now() + kSayAgain_s;
+    group_->dropping_of = asked_tick_;
+    const double until = group_->dropping_until;
     const auto drop = [&](auto& topic, const auto& take)
     {
-      for (unsigned dropped = 0; dropped < repetitions && Now() < until;)
+      for (unsigned dropped = 0; dropped < repetitions_ && Now() < until;)
         take() ? static_cast<void>(++dropped) : topic.Wait(std::max(until - Now(), 0.0));
     };
     drop(ends_->drive, [this] { return ends_->drive.Take(std::nullopt).has_value(); });
@@ -489,13 +358,14 @@ private:
   std::string on_timeout_;
   std::optional<Drive> drive_;
   std::optional<WheelOdometry> odometry_;
-  const CCI_PositioningSensor* positioning_ = nullptr;
   const CCI_FootBotEncodersSensor* encoders_ = nullptr;
   std::optional<Ends> ends_;
   Twist command_;
   std::optional<std::uint64_t> asked_tick_;    // whose readings were published last
   std::optional<std::uint64_t> stepped_tick_;  // of the last ControlStep
   double asked_at_ = 0;
+  double said_at_ = 0;        // the latest repetition
+  unsigned repetitions_ = 0;  // of these readings
   bool node_is_here_ = false;
   bool has_answered_ = false;
   bool timed_out_ = false;

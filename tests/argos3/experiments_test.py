@@ -169,6 +169,19 @@ class Experiments(unittest.TestCase):
         self.assertEqual(of["leds"], "8 heard 2:7")
         self.assertIn("robot 'back' at tick 3: generic 0 0 0 0 0 0 0 0\n", self.said_in("run"))
 
+    def test_loop_functions_reach_range_and_bearing(self):
+        said = self.swarmanoid("run", HERE / "puck.argos", "--output", "run").stderr
+        sends = re.findall(r"^sends (.*)", said, re.M)
+        # Behind each step what the robot said in it; two bytes and 0.8 m are those of e-pucks.
+        self.assertEqual(sends[1:4], ["0 7 of 2 as far as 0.8"] * 3)
+        self.assertIn("\nset 200 200\n", said)
+        # Others hear what was set behind step 2 in step 3, and its controller says its own again then.
+        self.assertRegex(self.said_in("run"), "robot 'back' at tick 3: leds 8 heard 2:200\n")
+        self.assertRegex(self.said_in("run"), "robot 'front' at tick 3: leds 8 heard 2:7\n")
+        for size in (1, 3):
+            self.assertIn(f"messages of 'front' have 2 bytes, not {size}", said)
+        self.assertIn("the range of 'front' cannot be changed in a run; set rab_range in the experiment file", said)
+
     def test_an_e_puck_drives_in_a_cluster_as_in_one_process(self):
         file = self.changed("puck.argos", ('<loop_functions library="argos3_puck" label="puck_floor"/>', ""),
                             ('<floor id="floor" source="loop_functions" pixels_per_meter="10"/>', ""),
@@ -186,11 +199,14 @@ class Experiments(unittest.TestCase):
         self.assertAlmostEqual(x["back"], 0.5 - 0.095, delta=0.006)
         self.assertAlmostEqual(x["front"], 1.03, delta=0.002)
 
-    def test_what_e_pucks_and_others_do_not_have_is_refused(self):
-        file = self.changed("puck.argos", ('<ground implementation="rot_z_only"/>',
-                                           '<ground implementation="rot_z_only"/><differential_steering implementation="default"/>'))
-        result = self.swarmanoid("check", file, code=3)
-        self.assertRegex(result.stderr, r"puck\.argos:\d+:\d+: <differential_steering> has no counterpart on e-pucks; ")
+    def test_encoders_of_an_e_puck_read_what_its_wheels_were_told(self):
+        self.swarmanoid("run", self.changed("puck.argos", ('velocity="0"', 'velocity="5"')), "--output", "run")
+        # A step ago: 5 cm/s for 0.1 s, wheels 5.3 cm apart.
+        rolled = re.findall(r"robot 'back' at tick \d+: rolled (.*)", self.said_in("run"))
+        self.assertEqual(rolled[:3], ["0 0 0 0 5.3", "5 5 0.5 0.5 5.3", "5 5 0.5 0.5 5.3"])
+
+    def test_what_others_do_not_have_is_refused(self):
+        file = self.folder / "puck.argos"
         text = (HERE / "puck.argos").read_text().replace("e-puck id", "foot-bot id").replace("</e-puck>", "</foot-bot>")
         file.write_text(text)
         result = self.swarmanoid("check", file, code=3)

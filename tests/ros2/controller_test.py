@@ -1,5 +1,6 @@
 """ros2_controller: a node of another vendor's DDS in the loop. Lock-step gives the same bits again, in one process and as a
 cluster; what the node hears is stamped with simulated time; who does not answer in time is dealt with as the file says."""
+import collections
 import math
 import os
 import pathlib
@@ -7,12 +8,13 @@ import re
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import stacks  # noqa: E402
 from free_domain import free_domain, release  # noqa: E402
+from peer import Peer  # noqa: E402
 
 CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
 SWARMANOID = os.environ["SWARMANOID"]
@@ -22,30 +24,20 @@ TIMEOUT_S = 3
 IMPLEMENTATIONS = {"footbot_encoders": "engine_footbot_encoders"}
 
 
-class Node:
+class Node(Peer):
     """Answers the robots in a domain until it is stopped."""
 
     def __init__(self, domain, robots, stamped, repeats, silent, others, **environment):
-        self.process = subprocess.Popen(
-            [os.environ["ROS2_NODE"], str(domain), "stamped" if stamped else "plain", str(repeats), str(silent[0]), str(silent[1]),
-             str(int(others)), *robots], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
-            env={**os.environ, **environment})
-        assert self.process.stdout.readline() == "ready\n"
         self.lines = []
-        self.thread = threading.Thread(target=self._hear)
-        self.thread.start()
+        self.latest = collections.defaultdict(lambda: collections.deque(maxlen=8))
+        super().__init__([os.environ["ROS2_NODE"], str(domain), "stamped" if stamped else "plain", str(repeats), str(silent[0]),
+                          str(silent[1]), str(int(others)), *robots], {**os.environ, **environment})
 
-    def _hear(self):
-        for line in self.process.stdout:
-            # Until the first answer the same is said again, in case that nobody heard it.
-            if line.split() not in self.lines[-8:]:
-                self.lines.append(line.split())
-
-    def stop(self):
-        self.process.stdin.close()
-        self.process.wait(timeout=100)
-        self.thread.join()
-        self.process.stdout.close()
+    def hear(self, words):
+        # Until the first answer a robot says the same again, in case that nobody heard it.
+        if words not in self.latest[words[1]]:
+            self.lines.append(words)
+        self.latest[words[1]].append(words)
 
 
 class Case(unittest.TestCase):
@@ -81,11 +73,8 @@ class Case(unittest.TestCase):
     def run_it(self, file, *options, ticks=TICKS):
         self.runs += 1
         self.out = self.folder / f"run_{self.runs}"
-        try:
-            return subprocess.run([SWARMANOID, "run", file, "--output", self.out, "--ticks", str(ticks), "--quiet", *options],
-                                  capture_output=True, text=True, env=self.environment, timeout=100)
-        except subprocess.TimeoutExpired as hung:
-            raise AssertionError(f"{hung}\n{hung.stderr}\n{self.logs()}") from hung
+        return stacks.run([SWARMANOID, "run", file, "--output", self.out, "--ticks", str(ticks), "--quiet", *options], self.logs,
+                          env=self.environment)
 
     def with_node(self, file, *options, robots=("fb_0", "fb_1"), stamped=False, repeats=1, silent=(0, 0), others=False, node=None, **more):
         node = Node(self.domain, robots, stamped, repeats, silent, others, **(node or {}))
@@ -198,6 +187,14 @@ class LockStep(Case):
         for robot in robots:
             self.assertEqual(sum(words[:2] == ["scan", robot] for words in heard), TICKS)
 
+    def test_what_a_node_that_waits_for_all_has_missed_is_said_again(self):
+        # It misses the first odometry of the robot that is asked last, and answers nobody before it has that.
+        robots = ("fb_0", "fb_1", "fb_2")
+        file = self.experiment(robots=3, timeout=20)
+        quick, _ = self.with_node(file, "--single-process", robots=robots)
+        late, _ = self.with_node(file, "--single-process", robots=robots, node={"NODE_TOGETHER": "1", "NODE_LATE_ODOMETRY": "500"})
+        self.assertEqual(self.hash_of(late), self.hash_of(quick))
+
     def test_leds_and_beacons(self):
         file = self.experiment(actuators=("footbot_leds", "footbot_beacon"))
         alone, _ = self.with_node(file, "--single-process", node={"NODE_LEDS": "1"})
@@ -250,7 +247,7 @@ class LockStep(Case):
                 host = next(words[0] for words in workers if "controller_host" in words[1])
                 heard(40)
                 os.kill(int(host), 9)
-                self.assertEqual(process.wait(timeout=100), 0, log.read_text())
+                self.assertEqual(stacks.wait_for(process, log.read_text()), 0, log.read_text())
         finally:
             node.stop()
         self.assertIn("another process takes its place", log.read_text())
@@ -263,8 +260,7 @@ class LockStep(Case):
         recorded = self.out
         node = Node(self.domain, ("fb_0", "fb_1"), False, 1, (0, 0), False)
         try:
-            verified = subprocess.run([SWARMANOID, "replay", recorded, "--verify"], capture_output=True, text=True,
-                                      env=self.environment, timeout=120)
+            verified = stacks.run([SWARMANOID, "replay", recorded, "--verify"], env=self.environment)
         finally:
             node.stop()
         self.assertEqual(verified.returncode, 0, verified.stdout + verified.stderr)
@@ -432,7 +428,7 @@ class RealRobotProgram(Case):
             run = self.run_it(file, "--single-process", "--real-time", "1", ticks=80)
         finally:
             robot.send_signal(2)
-            text = robot.communicate(timeout=100)[0]
+            text = stacks.output_of(robot)[0]
         self.hash_of(run)
         self.assertRegex(text, r"finished: [1-9]\d* steps")
         places = {int(line.split()[0]): [float(word) for word in line.split()[3:5]]

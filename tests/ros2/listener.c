@@ -5,6 +5,8 @@
      static SEC NANOSEC FRAME CHILD X Y Z QX QY QZ QW     asked for once time has come to 2 s
      odom SEC NANOSEC FRAME CHILD X Y VX VY WZ
      marker NS ID TYPE ACTION FRAME X Y Z SX SY SZ R G B
+   for each writer that it finds
+     writer TOPIC TYPE USER_DATA
    and first "ready". */
 #include <dds/dds.h>
 #include <poll.h>
@@ -43,6 +45,21 @@ static void PrintTransforms(dds_entity_t reader, const char* kind)
   }
 }
 
+static void PrintWriters(dds_entity_t reader)
+{
+  void* sample;
+  while ((sample = Next(reader)) != NULL)
+  {
+    const dds_builtintopic_endpoint_t* writer = sample;
+    void* data = NULL;
+    size_t size = 0;
+    if (writer->qos != NULL) dds_qget_userdata(writer->qos, &data, &size);
+    printf("writer %s %s %.*s\n", writer->topic_name, writer->type_name, (int)size, data != NULL ? (char*)data : "");
+    dds_free(data);
+    dds_return_loan(reader, &sample, 1);
+  }
+}
+
 int main(int count, char** arguments)
 {
   if (count != 3) return 2;
@@ -54,6 +71,7 @@ int main(int count, char** arguments)
   const dds_entity_t tf = Reader(participant, &tf2_msgs_msg_dds__TFMessage__desc, "rt/tf");
   const dds_entity_t odom = Reader(participant, &nav_msgs_msg_dds__Odometry__desc, odometry);
   const dds_entity_t arena = Reader(participant, &visualization_msgs_msg_dds__MarkerArray__desc, "rt/arena");
+  const dds_entity_t writers = dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, NULL, NULL);
   dds_entity_t statics = 0;
   puts("ready");
   fflush(stdout);
@@ -70,6 +88,7 @@ int main(int count, char** arguments)
         statics = MakeLateReader(participant, &tf2_msgs_msg_dds__TFMessage__desc, "rt/tf_static");
       dds_return_loan(clock, &sample, 1);
     }
+    PrintWriters(writers);
     PrintTransforms(tf, "tf");
     if (statics > 0) PrintTransforms(statics, "static");
     while ((sample = Next(odom)) != NULL)

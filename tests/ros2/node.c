@@ -1,16 +1,15 @@
 /* A node of ROS 2 that controls robots of a simulation, by Cyclone DDS from idl/ros2:
      ros2_node DOMAIN plain|stamped REPEATS SILENT_FROM SILENT_UNTIL LATEST ROBOT...
    Once the scan and the odometry of a time stamp are here they are answered by a command that follows from the scan and
-   the stamp alone: REPEATS times; with none in [SILENT_FROM, SILENT_UNTIL), seconds of simulated time. Prints, until its input ends, "ready", a line
-     scan ROBOT SEC NANOSEC NEAR
-   for each scan, NEAR the number of rays that see something, and a line
-     odom ROBOT SEC NANOSEC X Y FORWARD TURN
-   for each odometry. With LATEST a stamped command is preceded by one of another time, that must not count.
-   Environment: NODE_TOGETHER=1 answers nobody before it has the readings of all robots. NODE_LEDS=1 commands LEDs and
-   beacon, too: all LEDs but the first are dark green, that and the beacon red by a tenth more each tick.
-   NODE_COMMANDS has words with spaces between, of the devices that it commands by the tick of the readings alone, see
-   Command: gripper, turret (footbots), laser, attach (eyebots), bytes (all); with the word wrong what it says for tick 12
-   is to be refused. Footbots then stand or back off instead of driving, and it prints, too,
+   the stamp alone: REPEATS times; with none in [SILENT_FROM, SILENT_UNTIL), seconds of simulated time. Prints, until
+   its input ends, "ready", a line scan ROBOT SEC NANOSEC NEAR for each scan, NEAR the number of rays that see
+   something, and a line odom ROBOT SEC NANOSEC X Y FORWARD TURN for each odometry. With LATEST a stamped command is
+   preceded by one of another time, that must not count. Environment: NODE_TOGETHER=1 answers nobody before it has the
+   readings of all robots. NODE_LEDS=1 commands LEDs and beacon, too: all LEDs but the first are dark green, that and
+   the beacon red by a tenth more each tick. NODE_LATE_ODOMETRY=MS hears the odometry of the last robot only so long
+   after the first scan. NODE_COMMANDS has words with spaces between, of the devices that it commands by the tick of the
+   readings alone, see Command: gripper, turret (footbots), laser, attach (eyebots), bytes (all); with the word wrong
+   what it says for tick 12 is to be refused. Footbots then stand or back off instead of driving, and it prints, too,
      packet ROBOT SEC NANOSEC BYTE... for what a robot receives by range and bearing, with the word bytes
      turret ROBOT SEC NANOSEC ANGLE   with the word turret
      holding ROBOT 0|1                whenever it changes, with the word gripper
@@ -310,6 +309,8 @@ int main(int count, char** arguments)
   const bool with_others = atoi(arguments[6]) != 0;
   const bool together = IsSet("NODE_TOGETHER"), with_leds = IsSet("NODE_LEDS");
   const int robots = count - 7;
+  const char* late = getenv("NODE_LATE_ODOMETRY");
+  double first_scan = 0;
   struct Robot all[MOST_ROBOTS];
   memset(all, 0, sizeof all);
   for (int k = 0; k < robots; ++k)
@@ -326,7 +327,8 @@ int main(int count, char** arguments)
     snprintf(topic, sizeof topic, "rt/%s/scan", robot->name);
     robot->scans = MakeReader(participant, &sensor_msgs_msg_dds__LaserScan__desc, topic);
     snprintf(topic, sizeof topic, "rt/%s/odom", robot->name);
-    robot->odometries = MakeReader(participant, &nav_msgs_msg_dds__Odometry__desc, topic);
+    if (late == NULL || k < robots - 1)
+      robot->odometries = MakeReader(participant, &nav_msgs_msg_dds__Odometry__desc, topic);
     snprintf(topic, sizeof topic, "rt/%s/cmd_vel", robot->name);
     robot->commands = Writer(
         participant, stamped ? &geometry_msgs_msg_dds__TwistStamped__desc : &geometry_msgs_msg_dds__Twist__desc, topic);
@@ -344,6 +346,8 @@ int main(int count, char** arguments)
     struct pollfd input = {STDIN_FILENO, POLLIN, 0};
     const bool ended = poll(&input, 1, 0) > 0;
     bool idle = true;
+    if (late != NULL && all[robots - 1].odometries == 0 && first_scan > 0 && Seconds() > first_scan + atof(late) / 1000)
+      all[robots - 1].odometries = ReaderOf(participant, &all[robots - 1], &nav_msgs_msg_dds__Odometry__desc, "odom");
     for (struct Robot* robot = all; robot < all + robots; ++robot)
     {
       if (Hear(robot)) idle = false;
@@ -352,6 +356,7 @@ int main(int count, char** arguments)
       {
         idle = false;
         const Scan* scan = sample;
+        if (first_scan == 0) first_scan = Seconds();
         printf("scan %s %d %u %u\n", robot->name, scan->header.stamp.sec, scan->header.stamp.nanosec, Near(scan));
         robot->answer = Answer(scan);
         robot->scan = scan->header;

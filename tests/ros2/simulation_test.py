@@ -5,14 +5,14 @@ import csv
 import math
 import os
 import pathlib
-import subprocess
 import sys
 import tempfile
-import threading
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import stacks  # noqa: E402
 from free_domain import free_domain  # noqa: E402
+from peer import Peer  # noqa: E402
 
 CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
 TICK_S = 0.1
@@ -20,28 +20,15 @@ WALLS = {"wall_west": (0, 1.58114, 0.25), "wall_east": (3.16228, 1.58114, 0.25),
          "wall_south": (1.58114, 0, 0.25), "wall_north": (1.58114, 3.16228, 0.25)}  # of diffusion_10.xml
 
 
-class Listener:
+class Listener(Peer):
     """Hears all in a domain of its own until it is stopped."""
 
     def __init__(self, domain, robot):
-        self.process = subprocess.Popen([os.environ["ROS2_LISTENER"], str(domain), robot], stdin=subprocess.PIPE,
-                                        stdout=subprocess.PIPE, text=True)
-        assert self.process.stdout.readline() == "ready\n"
         self.lines = collections.defaultdict(list)
-        self.thread = threading.Thread(target=self._hear)
-        self.thread.start()
+        super().__init__([os.environ["ROS2_LISTENER"], str(domain), robot])
 
-    def _hear(self):
-        for line in self.process.stdout:
-            kind, *words = line.split()
-            self.lines[kind].append(words)
-
-    def stop(self):
-        self.process.stdin.close()
-        self.process.wait(timeout=100)
-        self.thread.join()
-        self.process.stdout.close()
-        return self.lines
+    def hear(self, words):
+        self.lines[words[0]].append(words[1:])
 
 
 class Simulation(unittest.TestCase):
@@ -60,10 +47,11 @@ class Simulation(unittest.TestCase):
                        "SWARMANOID_PLUGIN_PATH": str(pathlib.Path(os.environ["SWARMANOID"]).parent.parent / "lib/swarmanoid")}
         listener = Listener(domain, "fb_0")
         try:
-            run = subprocess.run([os.environ["SWARMANOID"], "run", file, "--output", out, "--ticks", "60", "--real-time", "0.5",
-                                  "--quiet", *options], capture_output=True, text=True, env=environment, timeout=120)
+            run = stacks.run([os.environ["SWARMANOID"], "run", file, "--output", out, "--ticks", "60", "--real-time", "0.5", "--quiet",
+                              *options], env=environment)
         finally:
-            heard = listener.stop()
+            listener.stop()
+        heard = listener.lines
         self.assertEqual(run.returncode, 0, run.stderr)
         table = {}
         with (out / "positions.txt").open(newline="") as rows:
@@ -108,6 +96,13 @@ class Simulation(unittest.TestCase):
             self.assertAlmostEqual(forward, 0.05, 6)
         for forward, left, turn in velocities[1:]:
             self.assertAlmostEqual(left, 0, 6)
+
+        # ROS 2 tells the versions of a message apart by its hash.
+        writers = {words[0]: words[1:] for words in heard["writer"]}
+        self.assertEqual(writers["rt/clock"], ["rosgraph_msgs::msg::dds_::Clock_",
+                                               "typehash=RIHS01_692f7a66e93a3c83e71765d033b60349ba68023a8c689a79e48078bcb5c58564;"])
+        self.assertEqual(writers["rt/fb_0/odom"], ["nav_msgs::msg::dds_::Odometry_",
+                                                   "typehash=RIHS01_3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0;"])
 
         markers = {(words[0], int(words[1])): words for words in heard["marker"]}
         kinds = collections.Counter(name for name, _ in markers)

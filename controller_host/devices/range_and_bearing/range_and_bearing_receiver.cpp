@@ -5,11 +5,11 @@
 
 #include "common/builtins/antenna.h"
 #include "common/math/elementary.h"
+#include "common/messages/range_and_bearing_message.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/noise.h"
 #include "controller_host/devices/range_and_bearing/heard_senders.h"
-#include "controller_host/devices/range_and_bearing/range_and_bearing_message.h"
 #include "controller_host/devices/sensing/sight_lines.h"
 #include "controller_host/split_sensor.h"
 

@@ -1,9 +1,9 @@
 // Sends the bytes of range and bearing: the message is an attribute of its sender.
 #include <algorithm>
 
+#include "common/messages/range_and_bearing_message.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
-#include "controller_host/devices/range_and_bearing/range_and_bearing_message.h"
 #include "controller_host/devices/value_devices.h"
 
 namespace swarmanoid

@@ -4,6 +4,7 @@
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
@@ -11,9 +12,11 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
+#include <atomic>
 #include <cstdlib>
 #include <ctime>
 #include <map>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -28,8 +31,11 @@ namespace dds = eprosima::fastdds::dds;
 using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
 
 const eprosima::fastrtps::Duration_t kFlushTime{0, 500'000'000};
-const eprosima::fastrtps::Duration_t kHeartbeat{0, 20'000'000};
 constexpr int kRecentMessages = 64;
+const eprosima::fastrtps::Duration_t kSoon{0, 20'000'000};
+// Each of these timers of Fast DDS wakes a thread that sorts those of all writers: with hundreds of writers they cost
+// more than the messages, unless they are slow.
+const eprosima::fastrtps::Duration_t kInTime{1, 0};
 const eprosima::fastrtps::Duration_t kWriteTime{0, 20'000'000};  // a step must not wait for a slow listener
 
 std::uint32_t Domain()
@@ -108,6 +114,13 @@ private:
   std::map<std::string, dds::Topic*> topics_;
 };
 
+// As the middlewares of ROS 2 tell the hash of a type (REP 2016): tools see whether they know the same message.
+std::vector<unsigned char> UserData(const MessageType& message)
+{
+  const std::string text = "typehash=" + message.hash + ";";
+  return {text.begin(), text.end()};
+}
+
 }  // namespace
 
 std::string TopicName(const std::string& name_space, const std::string& name)
@@ -144,10 +157,18 @@ double Now()
   return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
 }
 
-struct Writer::Ends
+struct Writer::Ends : dds::DataWriterListener
 {
   std::shared_ptr<Participant> participant = Participant::Of();
   dds::DataWriter* writer = nullptr;
+  bool latched = false;
+  std::atomic<int> listeners = 0;
+
+  // In a thread of Fast DDS.
+  void on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) override
+  {
+    listeners = status.current_count;
+  }
 };
 
 // Reliable: what all listeners of ROS 2 take, whether they ask for reliability or not.
@@ -157,15 +178,21 @@ Writer::Writer(const std::string& topic, const MessageType& type, Keeps keeps) :
   dds::DataWriterQos qos;
   qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
   qos.reliability().max_blocking_time = kWriteTime;
-  if (keeps == Keeps::kRecent) qos.reliable_writer_qos().times.heartbeatPeriod = kHeartbeat;
+  const bool recent = keeps == Keeps::kRecent || keeps == Keeps::kAwaited;
+  auto& times = qos.reliable_writer_qos().times;
+  if (recent) times.heartbeatPeriod = keeps == Keeps::kAwaited ? kSoon : kInTime;
+  if (keeps == Keeps::kRecent) times.nackSupressionDuration = kInTime;
   // As ROS 2 has it; by default Fast DDS keeps for writers what it does not for readers.
   qos.durability().kind = keeps == Keeps::kLatched ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
-  qos.history().depth = keeps == Keeps::kRecent ? kRecentMessages : 1;
+  qos.history().depth = recent ? kRecentMessages : 1;
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
   qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();
-  ends_->writer = ends_->participant->GetPublisher()->create_datawriter(made, qos);
+  qos.user_data().setValue(UserData(type));
+  ends_->latched = keeps == Keeps::kLatched;
+  ends_->writer = ends_->participant->GetPublisher()->create_datawriter(made, qos, ends_.get(),
+                                                                        dds::StatusMask::publication_matched());
   if (ends_->writer == nullptr) throw DriverError("cannot write topic " + topic);
 }
 
@@ -173,18 +200,14 @@ Writer::~Writer() { ends_->participant->GetPublisher()->delete_datawriter(ends_-
 
 void Writer::Write(void* message)
 {
+  if (!ends_->latched && ends_->listeners == 0) return;  // nobody would ever get it
   // A full queue means that a listener is slow; the next value replaces this one.
   ends_->writer->write(message);
 }
 
 void Writer::Flush() { ends_->writer->wait_for_acknowledgments(kFlushTime); }
 
-unsigned Writer::Listeners() const
-{
-  dds::PublicationMatchedStatus status;
-  ends_->writer->get_publication_matched_status(status);
-  return static_cast<unsigned>(status.current_count);
-}
+unsigned Writer::Listeners() const { return static_cast<unsigned>(ends_->listeners.load()); }
 
 struct Reader::Ends
 {
@@ -203,6 +226,7 @@ Reader::Reader(const std::string& topic, const MessageType& type, bool reliable)
   qos.history().depth = 10;
   qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();
+  qos.user_data().setValue(UserData(type));
   ends_->reader = ends_->participant->GetSubscriber()->create_datareader(made, qos);
   if (ends_->reader == nullptr) throw DriverError("cannot read topic " + topic);
 }

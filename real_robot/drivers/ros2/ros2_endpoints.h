@@ -18,6 +18,7 @@ namespace swarmanoid::ros2
 struct MessageType
 {
   std::string name;    // "geometry_msgs/msg/Twist"
+  std::string hash;    // "RIHS01_…": of its fields, by the rule of ROS 2
   void* type_support;  // a new eprosima::fastdds::dds::TopicDataType
 };
 template <class Message>
@@ -37,7 +38,8 @@ public:
   {
     kLatest,   // the next value replaces one that has not arrived
     kLatched,  // likewise; who comes later still gets the last message
-    kRecent    // some tens, so that those who listen reliably miss none, and know soon which are there
+    kRecent,   // some tens, so that those who listen reliably miss none; a lost one is sent again within 2 s
+    kAwaited   // likewise, within some 10 ms, because somebody waits for each; costs more
   };
   Writer(const std::string& topic, const MessageType& type, Keeps keeps = Keeps::kLatest);
   ~Writer();

@@ -4,6 +4,7 @@
 #include <argos3/plugins/robots/e-puck/control_interface/ci_epuck_proximity_sensor.h>
 #include <argos3/plugins/robots/e-puck/simulator/epuck_entity.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_actuator.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_ground_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_leds_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_proximity_sensor.h>
@@ -24,10 +25,15 @@ public:
     proximity_ = GetSensor<CCI_ProximitySensor>("proximity");
     own_ = GetSensor<CCI_EPuckProximitySensor>("epuck_proximity");
     ground_ = GetSensor<CCI_GroundSensor>("ground");
+    encoders_ = GetSensor<CCI_DifferentialSteeringSensor>("differential_steering");
     GetNodeAttribute(node, "velocity", velocity_);
   }
   void ControlStep() override
   {
+    const auto& rolled = encoders_->GetReading();
+    LOG << "rolled " << rolled.VelocityLeftWheel << " " << rolled.VelocityRightWheel << " "
+        << rolled.CoveredDistanceLeftWheel << " " << rolled.CoveredDistanceRightWheel << " " << rolled.WheelAxisLength
+        << std::endl;
     wheels_->SetLinearVelocity(velocity_, velocity_);
     leds_->SetAllColors(CColor::RED);
     sender_->SetData(1, 7);
@@ -51,6 +57,7 @@ private:
   CCI_ProximitySensor* proximity_ = nullptr;
   CCI_EPuckProximitySensor* own_ = nullptr;
   CCI_GroundSensor* ground_ = nullptr;
+  CCI_DifferentialSteeringSensor* encoders_ = nullptr;
   Real velocity_ = 0;
   int steps_ = 0;
 };
@@ -60,11 +67,44 @@ class CPuckFloor : public CLoopFunctions
 public:
   void PostStep() override
   {
+    Say(*any_cast<CEPuckEntity*>(GetSpace().GetEntitiesByType("e-puck")["front"]));
     for (auto& [id, any] : GetSpace().GetEntitiesByType("e-puck"))
       LOG << "at " << id << " " << any_cast<CEPuckEntity*>(any)->GetEmbodiedEntity().GetOriginAnchor().Position
           << std::endl;
   }
   CColor GetFloorColor(const CVector2& place) override { return place.GetY() > 0 ? CColor::BLACK : CColor::WHITE; }
+
+private:
+  // Of what it sends, and that others cannot change it for what it does not have.
+  void Say(CEPuckEntity& puck)
+  {
+    CRABEquippedEntity& radio = puck.GetRABEquippedEntity();
+    LOG << "sends " << radio.GetData() << " of " << radio.GetMsgSize() << " as far as " << radio.GetRange()
+        << std::endl;
+    if (GetSpace().GetSimulationClock() != 2) return;
+    CByteArray data(2, 200);
+    radio.SetData(data);
+    LOG << "set " << radio.GetData() << std::endl;
+    for (const size_t size : {size_t{1}, size_t{3}})
+    {
+      try
+      {
+        radio.SetData(CByteArray(size));
+      }
+      catch (CARGoSException& refused)
+      {
+        LOG << refused.what() << std::endl;
+      }
+    }
+    try
+    {
+      radio.SetRange(2);
+    }
+    catch (CARGoSException& refused)
+    {
+      LOG << refused.what() << std::endl;
+    }
+  }
 };
 
 REGISTER_CONTROLLER(CPuck, "puck")

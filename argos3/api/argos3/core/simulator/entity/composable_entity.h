@@ -6,6 +6,7 @@
 #include <argos3/core/simulator/entity/controllable_entity.h>
 #include <argos3/core/simulator/entity/embodied_entity.h>
 #include <argos3/core/utility/datatypes/color.h>
+#include <argos3/plugins/simulator/entities/rab_equipped_entity.h>
 
 namespace argos
 {
@@ -88,6 +89,7 @@ public:
   CControllableEntity& GetControllableEntity() { return controllable_; }
   const CControllableEntity& GetControllableEntity() const { return controllable_; }
   CLEDEquippedEntity& GetLEDEquippedEntity() { return leds_; }
+  CRABEquippedEntity& GetRABEquippedEntity() { return rab_; }
   // Of a robot that loop functions made: the id of its controller in the experiment file.
   const std::string& ControllerOfMade() const { return controller_; }
 
@@ -99,6 +101,7 @@ protected:
 private:
   CControllableEntity controllable_;
   CLEDEquippedEntity leds_;
+  CRABEquippedEntity rab_;
   std::string controller_;
 };
 

@@ -1,0 +1,113 @@
+#include "argos3/plugin/device_parts.h"
+
+#include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_actuator.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_ground_sensor.h>
+
+#include <algorithm>
+
+#include "argos3/kinds/epuck_ground.h"
+#include "common/control_interface/ci_ground_sensor.h"
+#include "common/control_interface/ci_positioning_sensor.h"
+#include "common/control_interface/ci_wheels_actuator.h"
+
+namespace swarmanoid::argos3
+{
+namespace
+{
+
+class EPuckWheels : public ActuatorBridge, public argos::CCI_DifferentialSteeringActuator
+{
+public:
+  explicit EPuckWheels(const DeviceSetup& setup)
+      : wheels_(setup.robot.Actuator<CCI_WheelsActuator>("wheels")), told_(setup.told_wheels)
+  {
+  }
+  argos::CCI_Actuator& Actuator() override { return *this; }
+  void SetLinearVelocity(Real left, Real right) override
+  {
+    wheels_.SetLinearVelocity(left / kCentimetres, right / kCentimetres);
+    *told_ = {left, right};
+  }
+
+private:
+  CCI_WheelsActuator& wheels_;
+  const std::shared_ptr<WheelSpeeds> told_;
+};
+
+// What the wheels were told, as ARGoS3 reads them; the robot has no encoders here.
+class EPuckEncoders : public SensorBridge, public argos::CCI_DifferentialSteeringSensor
+{
+public:
+  explicit EPuckEncoders(const DeviceSetup& setup) : tick_s_(setup.robot.GetTickSeconds()), told_(setup.told_wheels)
+  {
+    if (setup.robot.HasActuator("wheels"))
+      m_sReading.WheelAxisLength =
+          kCentimetres * setup.robot.Actuator<CCI_WheelsActuator>("wheels").GetInterwheelDistance();
+  }
+  argos::CCI_Sensor& Sensor() override { return *this; }
+  void Update() override
+  {
+    m_sReading.VelocityLeftWheel = told_->left;
+    m_sReading.VelocityRightWheel = told_->right;
+    m_sReading.CoveredDistanceLeftWheel = told_->left * tick_s_;
+    m_sReading.CoveredDistanceRightWheel = told_->right * tick_s_;
+  }
+
+private:
+  const double tick_s_;
+  const std::shared_ptr<const WheelSpeeds> told_;
+};
+
+class EPuckGround : public SensorBridge, public argos::CCI_GroundSensor
+{
+public:
+  explicit EPuckGround(const DeviceSetup& setup)
+      : robot_(setup.robot), translation_(setup.translation), noise_(setup.options.GetNumber("ground_noise", 0))
+  {
+    if (setup.options.GetText("floor", "") == "loop_functions")
+      positioning_ = &robot_.Sensor<swarmanoid::CCI_PositioningSensor>("positioning");
+    else
+      ours_ = &robot_.Sensor<swarmanoid::CCI_GroundSensor>("ground");
+    m_tReadings.resize(kEPuckGround.size());
+  }
+  argos::CCI_Sensor& Sensor() override { return *this; }
+  void Update() override
+  {
+    if (positioning_ == nullptr)
+    {
+      std::ranges::copy(ours_->GetAllSensorReadings(), m_tReadings.begin());
+      return;
+    }
+    const PaintedFloor floor(translation_, *positioning_);
+    for (std::size_t i = 0; i < kEPuckGround.size(); ++i)
+    {
+      const double noise = noise_ > 0 ? robot_.GetRandom().Uniform(-noise_, noise_) : 0;
+      m_tReadings[i] = std::clamp(floor.GreyAt(kEPuckGround[i].x, kEPuckGround[i].y) + noise, 0.0, 1.0);
+    }
+  }
+
+private:
+  CCI_Robot& robot_;
+  const Translation& translation_;
+  const double noise_;
+  const swarmanoid::CCI_PositioningSensor* positioning_ = nullptr;
+  const swarmanoid::CCI_GroundSensor* ours_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<SensorBridge> MakeEPuckSensor(const std::string& tag, const DeviceSetup& setup)
+{
+  if (tag == "differential_steering") return std::make_unique<EPuckEncoders>(setup);
+  if (tag == "ground") return std::make_unique<EPuckGround>(setup);
+  return nullptr;
+}
+
+std::unique_ptr<ActuatorBridge> MakeEPuckActuator(const std::string& tag, const DeviceSetup& setup)
+{
+  if (tag == "differential_steering") return std::make_unique<EPuckWheels>(setup);
+  return nullptr;
+}
+
+}  // namespace swarmanoid::argos3
