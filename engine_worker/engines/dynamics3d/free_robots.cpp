@@ -27,8 +27,8 @@ StaticOutline BehindWall(const dReal* plane)
   const Vector2 normal(plane[0], plane[1]);
   const Vector2 along(-normal.y(), normal.x());
   const Vector2 middle = plane[3] * normal;
-  return {.corners = {middle - kFarAway * along, middle - kFarAway * along - kFarAway * normal,
-                      middle + kFarAway * along - kFarAway * normal, middle + kFarAway * along}};
+  return {.corners = {middle - kFarAway * along, middle + kFarAway * along,
+                      middle + kFarAway * along - kFarAway * normal, middle - kFarAway * along - kFarAway * normal}};
 }
 
 StaticOutline OutlineOf(dGeomID geom, const std::array<double, 6>& box)
@@ -71,7 +71,12 @@ double DistanceTo(const std::array<double, 6>& box, const Vector2& point)
   return std::sqrt(x * x + y * y);
 }
 
-double SpeedOf(dBodyID body) { return std::sqrt(VectorOf(dBodyGetLinearVel(body)).squaredNorm()); }
+double SpeedInPlane(dBodyID body)
+{
+  const dReal* velocity = dBodyGetLinearVel(body);
+  return std::sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1]);
+}
+double FallOf(dBodyID body) { return std::max(0.0, -dBodyGetLinearVel(body)[2]); }
 double SpinOf(dBodyID body) { return std::sqrt(VectorOf(dBodyGetAngularVel(body)).squaredNorm()); }
 
 }  // namespace
@@ -132,7 +137,16 @@ void FreeRobots::Configure()
 {
   solids_ = scene_.world.Solids().size();
   has_level_ground_ = HasLevelGround();
-  if (!has_level_ground_) return;
+  if (!has_level_ground_)
+  {
+    solved_.clear();
+    for (const Body& body : bodies_)
+    {
+      if (body.owned) solved_.push_back(body.model);
+      if (body.robot != nullptr) body.robot->BecomeSolved();
+    }
+    return;
+  }
   outlines_.assign(bodies_.size(), {});
   for (std::size_t k = 0; k < bodies_.size(); ++k)
   {
@@ -150,6 +164,7 @@ void FreeRobots::Configure()
 void FreeRobots::BeginTick()
 {
   if (solids_ != scene_.world.Solids().size()) Configure();
+  if (!has_level_ground_) return;
   step_ = 0;
   is_searched_ = false;
   has_links_.assign(scene_.models.size(), 0);
@@ -159,7 +174,7 @@ void FreeRobots::BeginTick()
     body.advanced = 0;
     body.may_be_free = body.robot != nullptr && body.owned && has_links_[body.model->Entity()] == 0;
   }
-  if (has_level_ground_) Search();
+  Search();
 }
 
 void FreeRobots::Search()
@@ -199,10 +214,9 @@ void FreeRobots::Outline(const Body& body, double seconds, MovingOutline& outlin
   }
   const std::array<double, 6> box = BoxOf(body);
   const dBodyID main = MainBodyOf(body);
-  outline.whole = {(box[0] + box[1]) / 2, (box[2] + box[3]) / 2, body.radius, SpeedOf(main) * seconds};
+  outline.whole = {(box[0] + box[1]) / 2, (box[2] + box[3]) / 2, body.radius, SpeedInPlane(main) * seconds};
   // What flies over all robots, and cannot fall on one.
-  const double falls = std::max(0.0, -dBodyGetLinearVel(main)[2]) * seconds -
-                       scene_.world.Settings().gravity.z() * seconds * seconds / 2;
+  const double falls = FallOf(main) * seconds - scene_.world.Settings().gravity.z() * seconds * seconds / 2;
   outline.present = box[4] - falls < top_ + kPushed;
 }
 
@@ -217,12 +231,13 @@ bool FreeRobots::IsSomebodyTooFar() const
 bool FreeRobots::IsTooFar(const Body& body, const MovingOutline& outline) const
 {
   const MovingCircle& whole = outline.whole;
-  const double next = SpeedOf(MainBodyOf(body)) * step_seconds_;
+  const dBodyID main = MainBodyOf(body);
+  const double next = SpeedInPlane(main) * step_seconds_;
   if (outline.part_count > 0)
     return !body.robot->IsUpright() ||
            (body.robot->GroundPoint() - Vector2(whole.x, whole.y)).norm() + next > whole.way + kPushed;
   const std::array<double, 6> box = BoxOf(body);
-  if (!outline.present) return box[4] - next < top_;
+  if (!outline.present) return box[4] - FallOf(main) * step_seconds_ < top_;
   return FarthestCorner(box, whole.x, whole.y) + next > whole.radius + whole.way + kPushed;
 }
 
@@ -231,7 +246,7 @@ double FreeRobots::LargestStep(const Body& body) const
 {
   if (body.robot != nullptr && body.robot->IsUpright()) return body.robot->LargestSpeed() * step_seconds_;
   const dBodyID main = MainBodyOf(body);
-  return (SpeedOf(main) + SpinOf(main) * body.radius) * step_seconds_;
+  return (SpeedInPlane(main) + SpinOf(main) * body.radius) * step_seconds_;
 }
 
 double FreeRobots::GapBetween(const Body& robot, std::uint32_t other) const
@@ -267,6 +282,7 @@ void FreeRobots::FindTouching()
 
 std::span<Model* const> FreeRobots::BeforeStep()
 {
+  if (!has_level_ground_) return solved_;
   if (is_searched_ && step_ > 0 && IsSomebodyTooFar())
   {
     for (Body& body : bodies_)
@@ -314,6 +330,7 @@ void FreeRobots::AdvanceTo(Body& body, int step) const
 void FreeRobots::AfterStep()
 {
   ++step_;
+  if (!has_level_ground_) return;
   for (Body& body : bodies_)
     if (body.is_near && body.IsFree()) AdvanceTo(body, step_);
 }

@@ -96,6 +96,8 @@ void WheeledModel::MoveBodies()
   motion_.half_cosine = 1;
   motion_.half_sine = 0;
   const Vector3 from = VectorOf(dBodyGetPosition(Chassis()));
+  // What stands keeps its bits.
+  const bool has_moved = turn_sine != 0 || motion_.x != from.x() || motion_.y != from.y();
   const Vector3 velocity = drive_.Speed(motion_) * Vector3(motion_.cosine, motion_.sine, 0);
   const double spin = drive_.Turn(motion_);
   for (std::size_t k = 0; k < bodies_.size(); ++k)
@@ -105,7 +107,8 @@ void WheeledModel::MoveBodies()
     const Vector3 arm = before.position - from;
     const Vector3 turned(turn_cosine * arm.x() - turn_sine * arm.y(), turn_sine * arm.x() + turn_cosine * arm.y(),
                          arm.z());
-    SetRawPose(body, RawOf({Vector3(motion_.x, motion_.y, from.z()) + turned, turn * before.orientation}));
+    if (has_moved)
+      SetRawPose(body, RawOf({Vector3(motion_.x, motion_.y, from.z()) + turned, turn * before.orientation}));
     dBodySetLinearVel(body, velocity.x() - spin * turned.y(), velocity.y() + spin * turned.x(), 0);
     Vector3 rotation(0, 0, spin);
     if (k > 0)

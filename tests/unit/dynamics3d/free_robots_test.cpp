@@ -242,6 +242,46 @@ TEST(Dynamics3dFreeRobots, NobodyIsFreeOnWhatIsNotLevelGround)
       << "they touch";
 }
 
+// Something that falls fast, far away, has nobody else solved; beside them it has, and it may hit one.
+TEST(Dynamics3dFreeRobots, WhatFallsIsMetBelowIt)
+{
+  Dynamics3dTestWorld world;
+  const auto far = world.AddFootbot({2, 2, 0});
+  const auto below = world.AddFootbot({6, 6, 0});
+  const auto prey = world.AddPrey({6, 6, 3}, 0.2);
+  world.AddCommands("footbot_wheels", 2);
+  world.Start();
+  bool was_free = true;
+  for (int tick = 0; tick < 12; ++tick)
+  {
+    world.Tick();
+    EXPECT_TRUE(IsFree(world, far)) << tick;
+    EXPECT_TRUE(was_free || !IsFree(world, below)) << tick;
+    was_free = IsFree(world, below);
+    EXPECT_TRUE(was_free || tick > 3);
+  }
+  EXPECT_FALSE(was_free);
+  EXPECT_GT(world.Position(prey).z(), 0.1) << "it lies on the robot, or has bounced";
+}
+
+// A robot that stands keeps the bits of its pose, however often it was moved before.
+TEST(Dynamics3dFreeRobots, WhoStandsDoesNotCreep)
+{
+  Dynamics3dTestWorld world;
+  const auto robot = world.AddFootbot({2, 2, 0}, 0.3);
+  world.AddCommands("footbot_wheels", 2);
+  world.Start();
+  world.Drive(robot, 0.1, 0.23);
+  world.Run(50);
+  world.Drive(robot, 0, 0);
+  world.Run(5);
+  const Pose before = world.Space().GetPose(robot);
+  world.Run(500);
+  const Pose after = world.Space().GetPose(robot);
+  EXPECT_EQ(before.position, after.position);
+  EXPECT_EQ(before.orientation.coeffs(), after.orientation.coeffs());
+}
+
 TEST(Dynamics3dFreeRobots, TheArenasWallsAreMet)
 {
   Dynamics3dTestWorld world;
@@ -254,6 +294,12 @@ TEST(Dynamics3dFreeRobots, TheArenasWallsAreMet)
   world.AddCommands("footbot_wheels", 2);
   world.Start();
   for (const auto robot : robots) world.Drive(robot, 0.2, 0.2);
+  world.Space().SetPose(robots[0], {Vector3(-3, 1, 0), Quaternion::Identity()});
+  world.engine->EntityMoved(robots[0]);
+  world.Run(1);
+  EXPECT_FALSE(IsFree(world, robots[0])) << "behind a wall";
+  world.Space().SetPose(robots[0], {Vector3(1.2, 1, 0), Quaternion::Identity()});
+  world.engine->EntityMoved(robots[0]);
   world.Run(20);
   EXPECT_EQ(world.engine->FreeRobotCount(), 4U);
   world.Run(60);
