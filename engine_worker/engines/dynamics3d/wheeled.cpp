@@ -88,25 +88,27 @@ DriveDescription DriveOf(const WheeledShape& shape, const WorldSettings& setting
           .free_rate = shape.free_speed / shape.wheel_radius};
 }
 
-// Faster robots, which brake harder, are solved.
-double LargestFreeSpeed(const WheeledShape& shape) { return shape.free_speed / kFreeSpeed; }
+// Faster robots, which brake harder, are solved. Wheels swing beyond their commands by less than the twentieth.
+double LargestFreeSpeed(const WheeledShape& shape) { return 1.05 * shape.free_speed / kFreeSpeed; }
 
-// Whether wheels that brake from that speed, or drive on the tightest arc, neither slip nor are lifted.
-bool KeepsItsWheelsDown(const WheeledShape& shape, const WorldSettings& settings)
+// Whether the wheels neither slip nor are lifted on the tightest arc at that speed; if it `brakes`, as hard as it can.
+bool KeepsItsWheelsDown(const WheeledShape& shape, const WorldSettings& settings, bool brakes)
 {
   const DriveDescription drive = DriveOf(shape, settings);
-  const double gravity = std::sqrt(settings.gravity.squaredNorm());
-  const double rolling = 2 * drive.wheel_inertia / (shape.wheel_radius * shape.wheel_radius);
-  // Part of the motors' force turns the wheels themselves.
-  const double braking = (1 + 1 / kFreeSpeed) * StallForce(shape, Grip(settings)) * drive.mass / (drive.mass + rolling);
+  const double weight = drive.mass * std::sqrt(settings.gravity.squaredNorm());
   const double speed = LargestFreeSpeed(shape);
+  // Part of the motors' force turns the wheels themselves.
+  const double rolling = 2 * drive.wheel_inertia / (shape.wheel_radius * shape.wheel_radius);
+  const double braking =
+      brakes ? (1 + speed / shape.free_speed) * StallForce(shape, Grip(settings)) * drive.mass / (drive.mass + rolling)
+             : 0;
   const double across = drive.mass * speed * speed / (4 * shape.half_track);
   const double height =
       (shape.chassis_mass * shape.centre_of_mass + 2 * shape.wheel_mass * shape.wheel_radius) / drive.mass;
-  const double load = drive.mass * gravity - braking * height / shape.caster_reach;
+  const double load = std::min(kUsableWeight * weight, weight - braking * height / shape.caster_reach);
   const double grip = 0.95 * settings.wheel_friction * load;
   return load > 0 && braking * braking + across * across < grip * grip &&
-         2 * across * height < drive.mass * gravity * shape.half_track;
+         2 * across * height < weight * shape.half_track;
 }
 
 double RadiusOf(const WheeledShape& shape)
@@ -145,11 +147,11 @@ std::shared_ptr<const HullShape> Raised(const ConvexHull& hull, double height)
 WheeledModel::WheeledModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, const WheeledShape& shape)
     : Model(scene, entity),
       wheel_radius_(shape.wheel_radius),
-      half_track_(shape.half_track),
       radius_(RadiusOf(shape)),
       height_(shape.hull ? HighestOf(*shape.hull) : shape.size.z()),
-      largest_free_rate_(KeepsItsWheelsDown(shape, scene.world.Settings()) ? LargestFreeSpeed(shape) / wheel_radius_
-                                                                           : 0),
+      largest_free_rate_(
+          KeepsItsWheelsDown(shape, scene.world.Settings(), false) ? LargestFreeSpeed(shape) / wheel_radius_ : 0),
+      brakes_freely_(KeepsItsWheelsDown(shape, scene.world.Settings(), true)),
       drive_(DriveOf(shape, scene.world.Settings()))
 {
   OdeWorld& world = scene.world;

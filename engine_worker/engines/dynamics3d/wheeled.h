@@ -70,10 +70,10 @@ private:
   std::array<double, 2> WheelRates() const;
 
   double wheel_radius_;
-  double half_track_;
   double radius_;
   double height_;
   double largest_free_rate_;  // rad/s, of the wheels of a free robot
+  bool brakes_freely_;        // as hard as it can; else only who keeps his speed is free
   DifferentialDrive drive_;
   dJointID axles_[2] = {nullptr, nullptr};        // left, right
   std::array<double, 2> wheel_command_ = {0, 0};  // rad/s

@@ -15,6 +15,8 @@ constexpr double kFreeCosine = 1 - 1.8e-5;          // of 0.34 degrees
 constexpr double kLowest = -1e-3, kHighest = 2e-4;  // m, of the origin above the ground
 constexpr double kOtherSpeed = 3e-3;                // m/s
 constexpr double kOtherTurn = 0.03;                 // rad/s
+// Whoever would tip if he braked is free while his wheels turn within this part of their largest rate as they are told.
+constexpr double kSteady = 0.02;
 
 double TiltCosine(dBodyID body) { return dBodyGetRotation(body)[10]; }
 
@@ -54,8 +56,11 @@ bool WheeledModel::RollsFreely() const
   PlaneMotion motion;
   motion.rates = WheelRates();
   for (std::size_t wheel = 0; wheel < 2; ++wheel)
-    if (std::max(std::abs(motion.rates[wheel]), std::abs(wheel_command_[wheel])) > largest_free_rate_ * (1 + 1e-9))
-      return false;
+  {
+    const double command = wheel_command_[wheel];
+    if (std::max(std::abs(motion.rates[wheel]), std::abs(command)) > largest_free_rate_) return false;
+    if (!brakes_freely_ && std::abs(command - motion.rates[wheel]) > kSteady * largest_free_rate_) return false;
+  }
   const Vector3 velocity = VectorFromWorld(body, VectorOf(dBodyGetLinearVel(body)));
   const Vector3 spin = VectorOf(dBodyGetAngularVel(body));
   const Vector3 other = velocity - Vector3(drive_.Speed(motion), 0, 0);

@@ -264,6 +264,25 @@ TEST(Dynamics3dFreeRobots, WhatFallsIsMetBelowIt)
   EXPECT_GT(world.Position(prey).z(), 0.1) << "it lies on the robot, or has bounced";
 }
 
+// What they do in the solver is near enough to a roll, at all lengths of its steps, at rest and on the tightest curve.
+TEST(Dynamics3dFreeRobots, WhoWasSolvedBecomesFree)
+{
+  for (const char* step : {"2.5", "5", "10"})
+    for (const double left : {0.0, 0.3, -0.3})
+    {
+      Dynamics3dTestWorld world;
+      world.Set("step_ms", step);
+      const auto robot = world.AddFootbot({5, 5, 0.06}, 0.3);
+      world.AddCommands("footbot_wheels", 2);
+      world.Start();
+      world.Drive(robot, left, left == 0 ? 0 : 0.3);
+      world.Tick();
+      EXPECT_FALSE(IsFree(world, robot)) << step << " ms";
+      world.Run(9);
+      EXPECT_TRUE(IsFree(world, robot)) << step << " ms, " << left << " m/s";
+    }
+}
+
 // A robot that stands keeps the bits of its pose, however often it was moved before.
 TEST(Dynamics3dFreeRobots, WhoStandsDoesNotCreep)
 {
