@@ -122,9 +122,9 @@ void CDynamics3dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding
   else
   {
     models_.push_back(MakeModel(entity));
-    models_.back()->Place(scene_->frame.ToLocal(entity.GetPose()));
     owned_.push_back(models_.back().get());
     if (free_robots_) free_robots_->AddOwned(*owned_.back());
+    owned_.back()->Place(scene_->frame.ToLocal(entity.GetPose()));
   }
   scene_->models[entity.GetIndex()] = models_.back().get();
 }

@@ -83,8 +83,14 @@ double SpinOf(dBodyID body) { return std::sqrt(VectorOf(dBodyGetAngularVel(body)
 
 void FreeRobots::Add(Model& model, bool owned)
 {
-  bodies_.push_back({.model = &model, .robot = dynamic_cast<WheeledModel*>(&model), .owned = owned});
-  if (const WheeledModel* robot = bodies_.back().robot) top_ = std::max(top_, robot->Height());
+  Body& body =
+      bodies_.emplace_back(Body{.model = &model, .robot = dynamic_cast<WheeledModel*>(&model), .owned = owned});
+  const std::array<double, 6> box = BoxOf(body);
+  const Vector3 sides(box[1] - box[0], box[3] - box[2], box[5] - box[4]);
+  // No rigid body, however it turns, needs more.
+  body.radius = std::sqrt(3 * sides.squaredNorm()) / 2;
+  if (owned && IsRobot(model.GetSpaceEntity().GetKind())) body.radius += kArms;
+  if (body.robot != nullptr) top_ = std::max(top_, body.robot->Height());
   solids_ = 0;
 }
 
@@ -150,13 +156,8 @@ void FreeRobots::Configure()
   outlines_.assign(bodies_.size(), {});
   for (std::size_t k = 0; k < bodies_.size(); ++k)
   {
-    Body& body = bodies_[k];
-    const std::array<double, 6> box = BoxOf(body);
-    const Vector3 sides(box[1] - box[0], box[3] - box[2], box[5] - box[4]);
-    // No rigid body, however it turns, needs more.
-    body.radius = std::sqrt(3 * sides.squaredNorm()) / 2;
-    if (IsRobot(body.model->GetSpaceEntity().GetKind()) && body.owned) body.radius += kArms;
-    outlines_[k].whole = {(box[0] + box[1]) / 2, (box[2] + box[3]) / 2, body.radius, 0};
+    const std::array<double, 6> box = BoxOf(bodies_[k]);
+    outlines_[k].whole = {(box[0] + box[1]) / 2, (box[2] + box[3]) / 2, bodies_[k].radius, 0};
   }
   isolation_.Configure(outlines_, StaticOutlines(), kFastest * steps_ * step_seconds_);
 }

@@ -22,6 +22,7 @@ public:
 
   // Where the ground is open.
   void AddHole(StaticOutline outline) { holes_.push_back(std::move(outline)); }
+  // As the model was made, before it is placed: nothing may depend on where that is.
   void AddOwned(Model& model) { Add(model, true); }
   void AddMirror(Model& model) { Add(model, false); }
 

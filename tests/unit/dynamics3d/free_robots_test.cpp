@@ -366,6 +366,7 @@ public:
           AddFootbot({0.5 + 0.6 * static_cast<double>(k % 6), 0.5 + 0.6 * static_cast<double>(k / 6), 0}, 0.7 * place);
     }
     for (int k = 0; k < 4; ++k) AddPrey({0.8 + 0.6 * k, 1.4, 0}, 0.5, 0.08);
+    for (int k = 0; k < 3; ++k) AddBlock({0.8 + 0.6 * k, 2, 0.15}, {0.04, 0.04, 0.3}, 0.2);
     AddWall({2, 3, 0.2}, {1, 0.1, 0.4}, 0.5);
     mirror_ = AddFootbot({0.2, 3.8, 0});
     MakeMirror(mirror_);
