@@ -56,6 +56,9 @@ std::vector<ParameterSpec> Dynamics3dParameters()
       switched("ceiling", "false",
                "Whether there is a ceiling at the height of the arena, to which eyebots and ropes attach."),
       switched("arena_walls", "false", "Whether the four sides of the arena are walls."),
+      switched("solve_all", "false",
+               "Whether robots on wheels that touch nothing but level ground are solved too: they then pitch when they "
+               "speed up, and cost some twenty times as much."),
       {.name = "friction",
        .default_value = "0.5",
        .description = "Coefficient of Coulomb friction between bodies, and with the ground.",

@@ -11,7 +11,7 @@
 
 #include "common/builtins/robot_parts.h"
 #include "common/serialisation/bytes.h"
-#include "engine_worker/engines/dynamics2d/isolation.h"
+#include "engine_worker/engines/isolation.h"
 #include "engine_worker/engines/plane_frame.h"
 
 namespace swarmanoid::dynamics2d

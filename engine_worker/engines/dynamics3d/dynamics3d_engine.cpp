@@ -42,6 +42,8 @@ void CDynamics3dEngine::Init(const EngineSetup& setup)
                                          .models = {}});
   scene_->models.assign(space_->Size(), nullptr);
 
+  if (!settings_.solve_all) free_robots_ = std::make_unique<FreeRobots>(*scene_, steps_, step_seconds_);
+
   AddGround();
   if (settings_.arena_walls) AddArenaWalls();
 }
@@ -114,13 +116,15 @@ void CDynamics3dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding
   {
     auto mirror = std::make_unique<MirrorModel>(*scene_, entity);
     mirrors_.push_back(mirror.get());
+    if (free_robots_) free_robots_->AddMirror(*mirror);
     models_.push_back(std::move(mirror));
   }
   else
   {
     models_.push_back(MakeModel(entity));
-    models_.back()->Place(scene_->frame.ToLocal(entity.GetPose()));
     owned_.push_back(models_.back().get());
+    if (free_robots_) free_robots_->AddOwned(*owned_.back());
+    owned_.back()->Place(scene_->frame.ToLocal(entity.GetPose()));
   }
   scene_->models[entity.GetIndex()] = models_.back().get();
 }
@@ -148,12 +152,17 @@ void CDynamics3dEngine::Update(const EngineCommands& commands, EngineUpdate& upd
   ApplyCommands(commands);
   for (Model* model : owned_) model->BeginTick();
   const std::uint64_t first_step = space_->GetTick() * static_cast<std::uint64_t>(steps_);
+  std::span<Model* const> solved = owned_;
+  if (free_robots_) free_robots_->BeginTick();
   for (int step = 0; step < steps_; ++step)
   {
-    for (Model* model : owned_) model->BeforeStep(step_seconds_);
+    if (free_robots_) solved = free_robots_->BeforeStep();
+    for (Model* model : solved) model->BeforeStep(step_seconds_);
     world_->Step(step_seconds_, first_step + static_cast<std::uint64_t>(step));
-    for (Model* model : owned_) model->AfterStep(step_seconds_);
+    for (Model* model : solved) model->AfterStep(step_seconds_);
+    if (free_robots_) free_robots_->AfterStep();
   }
+  if (free_robots_) free_robots_->EndTick();
   WritePoses(update.poses);
   for (const Model* model : owned_)
   {
@@ -226,8 +235,8 @@ void CDynamics3dEngine::EntityMoved(std::uint32_t entity)
 
 std::string CDynamics3dEngine::StatusText() const
 {
-  return fmt::format("{} contacts, {} grips and ropes, {} objects at rest", world_->ContactCount(), links_->Size(),
-                     world_->SleeperCount());
+  return fmt::format("{} contacts, {} grips and ropes, {} objects at rest, {} free robots", world_->ContactCount(),
+                     links_->Size(), world_->SleeperCount(), FreeRobotCount());
 }
 
 }  // namespace swarmanoid

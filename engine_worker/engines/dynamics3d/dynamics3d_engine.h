@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine_worker/engines/dynamics3d/dynamics3d_parameters.h"
+#include "engine_worker/engines/dynamics3d/free_robots.h"
 #include "engine_worker/engines/dynamics3d/model.h"
 #include "engine_worker/engines/dynamics3d/objects.h"
 #include "engine_worker/engines/dynamics3d/terrain_shape.h"
@@ -32,6 +33,8 @@ public:
   // The entity's model, for tests; nullptr for entities without a body.
   const dynamics3d::Model* ModelOf(std::uint32_t entity) const { return scene_->models[entity]; }
   dynamics3d::OdeWorld& World() { return *world_; }
+  // Of the last step, robots that the solver did not move.
+  std::size_t FreeRobotCount() const { return free_robots_ ? free_robots_->Count() : 0; }
 
 private:
   void AddGround();
@@ -56,6 +59,7 @@ private:
   std::unique_ptr<dynamics3d::OdeWorld> world_;
   std::unique_ptr<dynamics3d::LinkTable> links_;
   std::unique_ptr<dynamics3d::Scene> scene_;
+  std::unique_ptr<dynamics3d::FreeRobots> free_robots_;     // nullptr: all are solved
   std::vector<std::unique_ptr<dynamics3d::Model>> models_;  // in entity order
   std::vector<dynamics3d::Model*> owned_;
   std::vector<dynamics3d::MirrorModel*> mirrors_;

@@ -23,6 +23,7 @@ Settings SettingsFrom(const Parameters& parameters)
   settings.ground = parameters.Boolean("ground");
   settings.ceiling = parameters.Boolean("ceiling");
   settings.arena_walls = parameters.Boolean("arena_walls");
+  settings.solve_all = parameters.Boolean("solve_all");
   return settings;
 }
 

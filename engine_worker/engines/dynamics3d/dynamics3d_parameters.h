@@ -16,6 +16,7 @@ struct Settings
   bool ground = true;
   bool ceiling = false;
   bool arena_walls = false;
+  bool solve_all = false;
 };
 
 Settings SettingsFrom(const Parameters& parameters);

@@ -107,6 +107,12 @@ void FootbotModel::AfterStep(double seconds)
   grip_force_ += VectorFromWorld(Chassis(), link->ForceOnA()) * seconds;
 }
 
+void FootbotModel::AfterFreeMotion(double seconds)
+{
+  WheeledModel::AfterFreeMotion(seconds);
+  turret_angle_ += turret_command_ * seconds;
+}
+
 void FootbotModel::Sense(std::string_view channel, std::span<double> values) const
 {
   if (Elapsed() <= 0) return Model::Sense(channel, values);

@@ -45,6 +45,9 @@ public:
   void Save(ByteWriter& state) const override;
   void Load(ByteReader& state) override;
 
+protected:
+  void AfterFreeMotion(double seconds) override;
+
 private:
   void UpdateGripper();
 

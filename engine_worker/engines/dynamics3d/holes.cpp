@@ -42,6 +42,16 @@ Outline OutlineOf(const CSwarmanoidSpaceEntity& hole, const Frame& frame)
   return outline;
 }
 
+StaticOutline OutlineInPlane(const Outline& hole)
+{
+  const Pose pose = hole.inverse.Inverse();
+  if (hole.round) return {{pose.position.head<2>()}, hole.half_x};
+  const auto corner = [&](double x, double y) -> Vector2 {
+    return pose.Apply({x * hole.half_x, y * hole.half_y, 0}).head<2>();
+  };
+  return {.corners = {corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)}};
+}
+
 }  // namespace
 
 void CDynamics3dEngine::AddHoles()
@@ -53,6 +63,7 @@ void CDynamics3dEngine::AddHoles()
     const Outline outline = OutlineOf(*hole, scene_->frame);
     const Pose pose = outline.inverse.Inverse();
     outlines.push_back(outline);
+    if (free_robots_) free_robots_->AddHole(OutlineInPlane(outline));
     world_->BeginEntity(kNoEntity);
     for (const int axis : {0, 1})
     {

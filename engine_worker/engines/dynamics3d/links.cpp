@@ -123,6 +123,13 @@ void LinkTable::Remove(std::uint32_t serial)
   }
 }
 
+void LinkTable::Mark(std::vector<std::uint8_t>& has_links) const
+{
+  for (const auto& link : links_)
+    for (const std::uint32_t entity : {link->Spec().entity_a, link->Spec().entity_b})
+      if (entity < has_links.size()) has_links[entity] = 1;
+}
+
 bool LinkTable::AreConnected(std::uint32_t a, std::uint32_t b) const
 {
   std::vector<std::uint32_t> reached{a};

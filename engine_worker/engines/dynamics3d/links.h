@@ -103,6 +103,8 @@ public:
   }
   // Whether two entities hang together by links, the world not counted as a member.
   bool AreConnected(std::uint32_t a, std::uint32_t b) const;
+  // Marks the entities that have links.
+  void Mark(std::vector<std::uint8_t>& has_links) const;
   std::size_t Size() const { return links_.size(); }
 
   void Save(ByteWriter& state) const;

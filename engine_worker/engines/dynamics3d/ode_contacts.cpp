@@ -15,8 +15,6 @@ namespace
 constexpr double kCasterDamping = 0.05;  // s: N s/m per N/m
 // Slower than this a contact is taken to stick, and its friction works along the pull of gravity.
 constexpr double kSlip = 1e-3;  // m/s
-// A wheel's contact normal stands at most this far out of the wheel's plane: sine of the angle. Half width 1 cm.
-constexpr double kWheelFlank = 0.35;
 
 // Objects that overlap part by a fifth of it a step, but no faster than this or, from 7.5 mm on at steps of 5 ms, a
 // fiftieth a step: ODE makes the parting a speed that bodies keep, so that what should not bounce would. Robots press

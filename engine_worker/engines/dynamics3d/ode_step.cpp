@@ -65,6 +65,8 @@ void OdeWorld::Step(double seconds, std::uint64_t number)
 {
   InitialiseOde();
   step_seconds_ = seconds;
+  contacts_.clear();
+  if (left_out_count_ == bodies_.size()) return;
 
   // The space reports pairs in an order that depends on its history: contacts follow the numbers of the solids instead.
   pairs_.clear();
@@ -212,7 +214,7 @@ void OdeWorld::SolveObjectIslands(double seconds, std::uint64_t number)
     first = last;
   }
   for (const BodyRecord& record : bodies_)
-    if (!record.rest.asleep) dBodyEnable(record.body);
+    if (!record.rest.asleep && !record.is_left_out) dBodyEnable(record.body);
 }
 
 void OdeWorld::RestObjects(double seconds)

@@ -92,7 +92,7 @@ int OdeWorld::AddBody(const BodyOwner& owner, const dMass& mass)
   dBodySetFiniteRotationMode(body, 0);  // the other mode calls sin(), which differs between processors
   dBodySetAutoDisableFlag(body, 0);
   dBodySetData(body, reinterpret_cast<void*>(number));
-  bodies_.push_back({body, owner, {}});
+  bodies_.push_back({body, owner, {}, false});
   if (owner.entity >= object_of_.size()) object_of_.resize(owner.entity + 1, -1);
   if (owner.kind == EBody::kObject)
   {
@@ -100,6 +100,30 @@ int OdeWorld::AddBody(const BodyOwner& owner, const dMass& mass)
     object_of_[owner.entity] = objects_.back();
   }
   return static_cast<int>(number);
+}
+
+void OdeWorld::SetLeftOut(int body, bool left_out)
+{
+  BodyRecord& record = RecordOf(body);
+  if (record.is_left_out == left_out) return;
+  record.is_left_out = left_out;
+  left_out_count_ += left_out ? 1 : static_cast<std::size_t>(-1);
+  const auto set = reinterpret_cast<dGeomID>(dGeomGetSpace(dBodyGetFirstGeom(record.body)));
+  if (left_out)
+  {
+    dBodyDisable(record.body);
+    dGeomDisable(set);
+    return;
+  }
+  dBodyEnable(record.body);
+  dGeomEnable(set);
+}
+
+std::array<double, 6> OdeWorld::BoxOf(int body) const
+{
+  std::array<double, 6> box;
+  dGeomGetAABB(reinterpret_cast<dGeomID>(dGeomGetSpace(dBodyGetFirstGeom(Body(body)))), box.data());
+  return box;
 }
 
 void OdeWorld::BeginEntity(std::uint32_t entity, const Touch& touch)

@@ -7,6 +7,7 @@
 
 #include <ode/ode.h>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -27,6 +28,8 @@ inline constexpr std::uint32_t kNoEntity = std::numeric_limits<std::uint32_t>::m
 
 inline constexpr int kMaximumContacts = 8;        // of one pair of solids
 inline constexpr int kMaximumVoxelContacts = 32;  // of one solid with all voxels
+// A wheel's contact normal stands at most this far out of the wheel's plane: sine of the angle. Half width 1 cm.
+inline constexpr double kWheelFlank = 0.35;
 
 enum class ESurface : std::uint8_t
 {
@@ -126,6 +129,11 @@ public:
   dBodyID Body(int number) const { return bodies_[static_cast<std::size_t>(number)].body; }
   static int NumberOf(dBodyID body) { return static_cast<int>(reinterpret_cast<std::intptr_t>(dBodyGetData(body))); }
 
+  // A body that is left out is neither moved nor met, but found by FindTouching. For all bodies of an entity alike.
+  void SetLeftOut(int body, bool left_out);
+  // The box around all solids of an entity that has bodies: least and largest x, y and z.
+  std::array<double, 6> BoxOf(int body) const;
+
   // Starts the set of solids of one entity; those of a set never collide with one another.
   void BeginEntity(std::uint32_t entity, const Touch& touch = {});
   // Takes over a geom made with no space. body -1: it stands where it is.
@@ -184,6 +192,7 @@ private:
     dBodyID body;
     BodyOwner owner;
     Rest rest;
+    bool is_left_out = false;
   };
   struct IgnoredPair
   {
@@ -225,6 +234,7 @@ private:
   std::vector<BodyRecord> bodies_;
   std::vector<int> objects_;    // bodies
   std::vector<int> object_of_;  // by entity with a body; -1: not an object
+  std::size_t left_out_count_ = 0;
   std::vector<std::unique_ptr<Solid>> solids_;
   std::vector<Pair> pairs_;
   std::vector<IgnoredPair> ignored_;

@@ -65,6 +65,75 @@ WheeledShape WheeledShape::Of(const CSwarmanoidSpaceEntity& entity, double densi
 namespace
 {
 
+dMass ChassisMass(const WheeledShape& shape)
+{
+  return CylinderMass(shape.chassis_mass, shape.inertia_radius, shape.inertia_height);
+}
+
+dMass WheelMass(const WheeledShape& shape)
+{
+  return Geared(SphereMass(shape.wheel_mass, shape.wheel_radius), kGearedInertia);
+}
+
+DriveDescription DriveOf(const WheeledShape& shape, const WorldSettings& settings)
+{
+  const double wheel_inertia = WheelMass(shape).I[0];  // about any axis
+  const double track_inertia = shape.wheel_mass * shape.half_track * shape.half_track;
+  return {.mass = shape.chassis_mass + 2 * shape.wheel_mass,
+          .inertia = ChassisMass(shape).I[10] + 2 * (wheel_inertia + track_inertia),
+          .wheel_inertia = wheel_inertia,
+          .wheel_radius = shape.wheel_radius,
+          .half_track = shape.half_track,
+          .stall_torque = StallForce(shape, Grip(settings)) * shape.wheel_radius / 2,
+          .free_rate = shape.free_speed / shape.wheel_radius};
+}
+
+// Faster robots, which brake harder, are solved. Wheels swing beyond their commands by less than the twentieth.
+double LargestFreeSpeed(const WheeledShape& shape) { return 1.05 * shape.free_speed / kFreeSpeed; }
+
+// Whether the wheels neither slip nor are lifted on the tightest arc at that speed; if it `brakes`, as hard as it can.
+bool KeepsItsWheelsDown(const WheeledShape& shape, const WorldSettings& settings, bool brakes)
+{
+  const DriveDescription drive = DriveOf(shape, settings);
+  const double weight = drive.mass * std::sqrt(settings.gravity.squaredNorm());
+  const double speed = LargestFreeSpeed(shape);
+  // Part of the motors' force turns the wheels themselves.
+  const double rolling = 2 * drive.wheel_inertia / (shape.wheel_radius * shape.wheel_radius);
+  const double braking =
+      brakes ? (1 + speed / shape.free_speed) * StallForce(shape, Grip(settings)) * drive.mass / (drive.mass + rolling)
+             : 0;
+  const double across = drive.mass * speed * speed / (4 * shape.half_track);
+  const double height =
+      (shape.chassis_mass * shape.centre_of_mass + 2 * shape.wheel_mass * shape.wheel_radius) / drive.mass;
+  const double load = std::min(kUsableWeight * weight, weight - braking * height / shape.caster_reach);
+  const double grip = 0.95 * settings.wheel_friction * load;
+  return load > 0 && braking * braking + across * across < grip * grip &&
+         2 * across * height < weight * shape.half_track;
+}
+
+double RadiusOf(const WheeledShape& shape)
+{
+  double square = shape.size.x() * shape.size.x();
+  if (shape.hull)
+  {
+    square = 0;
+    for (const Vector3& corner : shape.hull->corners) square = std::max(square, corner.head<2>().squaredNorm());
+  }
+  else if (!shape.is_cylinder)
+    square = shape.size.head<2>().squaredNorm() / 4;
+  // Wheels touch with their treads, whose edges may stand out.
+  const double edge = shape.half_track + kWheelFlank * shape.wheel_radius;
+  const double tread = std::sqrt(1 - kWheelFlank * kWheelFlank) * shape.wheel_radius;
+  return std::sqrt(std::max(square, edge * edge + tread * tread));
+}
+
+double HighestOf(const ConvexHull& hull)
+{
+  double highest = 0;
+  for (const Vector3& corner : hull.corners) highest = std::max(highest, corner.z());
+  return highest;
+}
+
 // What is left of a hull above a height.
 std::shared_ptr<const HullShape> Raised(const ConvexHull& hull, double height)
 {
@@ -78,19 +147,20 @@ std::shared_ptr<const HullShape> Raised(const ConvexHull& hull, double height)
 WheeledModel::WheeledModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, const WheeledShape& shape)
     : Model(scene, entity),
       wheel_radius_(shape.wheel_radius),
-      stall_torque_(StallForce(shape, Grip(scene.world.Settings())) * shape.wheel_radius / 2),
-      free_rate_(shape.free_speed / shape.wheel_radius)
+      radius_(RadiusOf(shape)),
+      height_(shape.hull ? HighestOf(*shape.hull) : shape.size.z()),
+      largest_free_rate_(
+          KeepsItsWheelsDown(shape, scene.world.Settings(), false) ? LargestFreeSpeed(shape) / wheel_radius_ : 0),
+      brakes_freely_(KeepsItsWheelsDown(shape, scene.world.Settings(), true)),
+      drive_(DriveOf(shape, scene.world.Settings()))
 {
   OdeWorld& world = scene.world;
   const auto wheel_centre = [&](int wheel)
   { return Vector3(0, wheel == 0 ? shape.half_track : -shape.half_track, shape.wheel_radius); };
 
   // Bodies, at the origin: joints made here do not depend on where the robot starts.
-  AddBody(CylinderMass(shape.chassis_mass, shape.inertia_radius, shape.inertia_height),
-          {Vector3(0, 0, shape.centre_of_mass), Quaternion::Identity()});
-  for (int wheel = 0; wheel < 2; ++wheel)
-    AddBody(Geared(SphereMass(shape.wheel_mass, shape.wheel_radius), kGearedInertia),
-            {wheel_centre(wheel), Quaternion::Identity()});
+  AddBody(ChassisMass(shape), {Vector3(0, 0, shape.centre_of_mass), Quaternion::Identity()});
+  for (int wheel = 0; wheel < 2; ++wheel) AddBody(WheelMass(shape), {wheel_centre(wheel), Quaternion::Identity()});
   for (int wheel = 0; wheel < 2; ++wheel)
   {
     const dJointID axle = dJointCreateHinge(world.World(), nullptr);
@@ -136,13 +206,7 @@ void WheeledModel::BeginTick()
 {
   wheel_turn_[0] = wheel_turn_[1] = 0;
   elapsed_ = 0;
-}
-
-// Of a direct-current motor, N m: what is left of the stall torque, or, braking, what comes on top of it.
-double WheeledModel::LargestTorque(double command, double speed) const
-{
-  const double along = command > speed ? speed : command < speed ? -speed : 0;
-  return stall_torque_ * std::clamp(1 - along / free_rate_, 0.0, 2.0);
+  is_free_ = false;  // to be found out from the bodies
 }
 
 void WheeledModel::BeforeStep(double /*seconds*/)
@@ -151,7 +215,7 @@ void WheeledModel::BeforeStep(double /*seconds*/)
   {
     const double speed = dJointGetHingeAngleRate(axles_[wheel]);
     dJointSetHingeParam(axles_[wheel], dParamVel, wheel_command_[wheel]);
-    dJointSetHingeParam(axles_[wheel], dParamFMax, LargestTorque(wheel_command_[wheel], speed));
+    dJointSetHingeParam(axles_[wheel], dParamFMax, drive_.LargestTorque(wheel_command_[wheel], speed));
   }
 }
 

@@ -1,7 +1,11 @@
 // A robot on two driven wheels in 3D: a chassis with the wheels on it, and two casters. The footbot is one, with a
-// turret and a gripper; a user's kind with wheels is nothing more.
+// turret and a gripper; a user's kind with wheels is nothing more. Its bodies are moved by the solver or, while it is
+// free, by the closed form of its drive, which they follow when they are told.
 #pragma once
 
+#include <array>
+
+#include "engine_worker/engines/dynamics3d/differential_drive.h"
 #include "engine_worker/engines/dynamics3d/model.h"
 
 namespace swarmanoid::dynamics3d
@@ -40,19 +44,42 @@ public:
   void BeforeStep(double seconds) override;
   void AfterStep(double seconds) override;
 
+  double Radius() const { return radius_; }  // m, of the upright robot about its vertical axis
+  double Height() const { return height_; }  // m, of its highest point
+  bool IsUpright() const;
+  // m/s, faster than which no part of its outline gets by itself.
+  double LargestSpeed() const;
+  Vector2 GroundPoint() const;  // below its middle
+
+  // Whether the robot rolls on level ground as its wheels turn, so that the closed form goes on where the solver is.
+  bool RollsFreely() const;
+  bool IsFree() const { return is_free_; }
+  void BecomeFree();
+  void AdvanceFreely(int steps, double step_seconds);
+  // Puts the bodies where the closed form is, with its velocities.
+  void MoveBodies();
+  // Has the solver move the bodies from where they are.
+  void BecomeSolved();
+
 protected:
+  virtual void AfterFreeMotion(double seconds) { elapsed_ += seconds; }
   dBodyID Chassis() const { return scene_.world.Body(bodies_[0].number); }
   double Elapsed() const { return elapsed_; }  // s, of this tick
 
 private:
-  double LargestTorque(double command, double speed) const;
+  std::array<double, 2> WheelRates() const;
 
   double wheel_radius_;
-  double stall_torque_;                     // N m, of each motor
-  double free_rate_;                        // rad/s, of a wheel that needs no torque
-  dJointID axles_[2] = {nullptr, nullptr};  // left, right
-  double wheel_command_[2] = {0, 0};        // rad/s
-  double wheel_turn_[2] = {0, 0};           // rad, of the last tick
+  double radius_;
+  double height_;
+  double largest_free_rate_;  // rad/s, of the wheels of a free robot
+  bool brakes_freely_;        // as hard as it can; else only who keeps his speed is free
+  DifferentialDrive drive_;
+  dJointID axles_[2] = {nullptr, nullptr};        // left, right
+  std::array<double, 2> wheel_command_ = {0, 0};  // rad/s
+  std::array<double, 2> wheel_turn_ = {0, 0};     // rad, of the last tick
+  bool is_free_ = false;
+  PlaneMotion motion_;  // while it is free
   double elapsed_ = 0;
 };
 

@@ -1,22 +1,16 @@
-#include "engine_worker/engines/dynamics2d/isolation.h"
+#include "engine_worker/engines/isolation.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-namespace swarmanoid::dynamics2d
+namespace swarmanoid
 {
 namespace
 {
 
 constexpr double kMargin = 0.05;  // m, at least what Find is asked for
-
-double DistanceOf(const StaticOutline& outline, const Vector2& point)
-{
-  if (outline.radius <= 0) return DistanceTo(std::span(outline.corners), point);
-  return std::sqrt((point - outline.corners.front()).squaredNorm()) - outline.radius;
-}
 
 double GapBetween(const MovingCircle& a, const MovingCircle& b)
 {
@@ -41,6 +35,12 @@ double DistanceTo(std::span<const Vector2> polygon, const Vector2& point)
     inside = std::max(inside, (offset.x() * edge.y() - offset.y() * edge.x()) / std::sqrt(edge.squaredNorm()));
   }
   return inside <= 0 ? inside : outside;
+}
+
+double DistanceTo(const StaticOutline& outline, const Vector2& point)
+{
+  if (outline.radius <= 0) return DistanceTo(std::span(outline.corners), point);
+  return std::sqrt((point - outline.corners.front()).squaredNorm()) - outline.radius;
 }
 
 void Isolation::Configure(std::span<const MovingOutline> bodies, std::vector<StaticOutline> statics, double longest_way)
@@ -70,14 +70,20 @@ void Isolation::Configure(std::span<const MovingOutline> bodies, std::vector<Sta
   present_.assign(padded, 1);
 }
 
-void Isolation::Find(std::span<const MovingOutline> bodies, double margin, std::vector<Nearness>& nearness)
+bool Isolation::Find(std::span<const MovingOutline> bodies, double margin, std::vector<Nearness>& nearness,
+                     std::vector<kinematics2d::Pair>* near_pairs)
 {
+  if (near_pairs != nullptr) near_pairs->clear();
   double longest = 0;
   for (const MovingOutline& body : bodies)
     if (body.present) longest = std::max(longest, body.whole.way);
   const double reach = 2 * longest + margin + kBand;
   // Not a number, too.
-  if (!(reach <= largest_margin_)) return nearness.assign(bodies.size(), Nearness::kNear);
+  if (!(reach <= largest_margin_))
+  {
+    nearness.assign(bodies.size(), Nearness::kNear);
+    return false;
+  }
 
   nearness.assign(bodies.size(), Nearness::kFar);
   for (std::size_t k = 0; k < bodies.size(); ++k)
@@ -93,7 +99,7 @@ void Isolation::Find(std::span<const MovingOutline> bodies, double margin, std::
     else if (gap < margin + kBand)
       nearness[body] = std::max(nearness[body], Nearness::kClose);
   };
-  const auto compare = [&](const kinematics2d::Pair& pair)
+  const auto gap_of = [&](const kinematics2d::Pair& pair)
   {
     const MovingOutline& a = bodies[pair.first];
     double gap = std::numeric_limits<double>::infinity();
@@ -101,20 +107,26 @@ void Isolation::Find(std::span<const MovingOutline> bodies, double margin, std::
     {
       const StaticOutline& outline = statics_[pair.second - bodies.size()];
       for (const MovingCircle& part : a.Parts())
-        gap = std::min(gap, DistanceOf(outline, {part.x, part.y}) - part.radius - part.way);
-      return note(pair.first, gap);
+        gap = std::min(gap, DistanceTo(outline, {part.x, part.y}) - part.radius - part.way);
+      return gap;
     }
-    const MovingOutline& b = bodies[pair.second];
     for (const MovingCircle& part : a.Parts())
-      for (const MovingCircle& other : b.Parts()) gap = std::min(gap, GapBetween(part, other));
+      for (const MovingCircle& other : bodies[pair.second].Parts()) gap = std::min(gap, GapBetween(part, other));
+    return gap;
+  };
+  const auto compare = [&](const kinematics2d::Pair& pair)
+  {
+    const double gap = gap_of(pair);
     note(pair.first, gap);
-    note(pair.second, gap);
+    if (pair.second < bodies.size()) note(pair.second, gap);
+    if (near_pairs != nullptr && gap < margin) near_pairs->push_back(pair);
   };
   broad_phase_.Sort(places_, {present_.data(), bodies.size()});
   broad_phase_.FindPairs(reach, blocks_, pairs_);
   broad_phase_.FindPairsOfLarge(reach, places_, {present_.data(), bodies.size()}, large_pairs_);
   for (const kinematics2d::Pair& pair : pairs_.pairs) compare(pair);
   for (const kinematics2d::Pair& pair : large_pairs_) compare(pair);
+  return true;
 }
 
-}  // namespace swarmanoid::dynamics2d
+}  // namespace swarmanoid

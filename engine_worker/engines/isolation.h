@@ -1,5 +1,6 @@
-// Isolation: which bodies of dynamics2d can meet nobody within a tick, so that the solver need not see them. It follows
-// from where the bodies are and how far they can get, and from nothing that was before. Used by Dynamics2dWorld.
+// Isolation: which bodies can meet nobody within a tick, so that the solver of an engine need not see them. It follows
+// from where the bodies are and how far they can get, and from nothing that was before. Used by the engines of rigid
+// bodies in the thread that steps them.
 #pragma once
 
 #include <array>
@@ -10,7 +11,7 @@
 #include "common/math/pose.h"
 #include "engine_worker/engines/kinematics2d/broad_phase.h"
 
-namespace swarmanoid::dynamics2d
+namespace swarmanoid
 {
 
 // A part of a body that moves, as a circle that contains it. Metres.
@@ -50,8 +51,9 @@ enum class Nearness : std::uint8_t
   kNear    // less than the smaller one
 };
 
-// Distance of a point from a convex polygon, counter-clockwise; negative inside.
+// Distance of a point from a convex polygon, counter-clockwise, or from what never moves; negative inside.
 double DistanceTo(std::span<const Vector2> polygon, const Vector2& point);
+double DistanceTo(const StaticOutline& outline, const Vector2& point);
 
 class Isolation
 {
@@ -59,8 +61,11 @@ public:
   // `longest_way`: beyond twice that nobody counts as far.
   void Configure(std::span<const MovingOutline> bodies, std::vector<StaticOutline> statics, double longest_way);
   // Of each body: what is left between it and others once both have gone their ways, compared with `margin` and with
-  // `margin` + kBand.
-  void Find(std::span<const MovingOutline> bodies, double margin, std::vector<Nearness>& nearness);
+  // `margin` + kBand. `near_pairs` gets the pairs with less than `margin` left, numbered as the broad phase does.
+  // False if somebody is so fast that all count as near, without pairs.
+  bool Find(std::span<const MovingOutline> bodies, double margin, std::vector<Nearness>& nearness,
+            std::vector<kinematics2d::Pair>* near_pairs = nullptr);
+  std::span<const StaticOutline> Statics() const { return statics_; }
 
   // A body becomes isolated later than it would cease to be, so that few change sides.
   static constexpr double kBand = 0.02;
@@ -77,4 +82,4 @@ private:
   double largest_margin_ = 0;
 };
 
-}  // namespace swarmanoid::dynamics2d
+}  // namespace swarmanoid

@@ -1,0 +1,54 @@
+// DifferentialDrive: how a robot on two driven wheels moves on level ground while nothing else touches it. What the
+// solver computes for its bodies, without the robot's pitch: in each step the wheels come as near to their commands as
+// their motors can bring robot and wheels, and the robot goes along an arc. Used by WheeledModel.
+#pragma once
+
+#include <array>
+
+namespace swarmanoid::dynamics3d
+{
+
+// Metres, kilograms, radians; left, right.
+struct DriveDescription
+{
+  double mass = 0;           // of the robot with its wheels
+  double inertia = 0;        // of all of it, about the vertical axis
+  double wheel_inertia = 0;  // of each, about its axle
+  double wheel_radius = 0;
+  double half_track = 0;
+  double stall_torque = 0;  // N m, of each motor
+  double free_rate = 0;     // rad/s, of a wheel that needs no torque
+};
+
+// Where a robot is in the plane, and how fast its wheels turn.
+struct PlaneMotion
+{
+  double x = 0, y = 0;
+  double cosine = 1, sine = 0;            // of the heading
+  double half_cosine = 1, half_sine = 0;  // of half the turn since it was left alone
+  std::array<double, 2> rates = {0, 0};   // rad/s, of the wheels
+  std::array<double, 2> turned = {0, 0};  // rad, by the wheels in the last call of Advance
+};
+
+class DifferentialDrive
+{
+public:
+  explicit DifferentialDrive(const DriveDescription& description);
+
+  // Of a direct-current motor, N m: what is left of the stall torque or, braking, what comes on top of it.
+  double LargestTorque(double command, double rate) const;
+  void Advance(PlaneMotion& motion, const std::array<double, 2>& commands, int steps, double step_seconds) const;
+
+  double Speed(const PlaneMotion& motion) const;  // m/s
+  double Turn(const PlaneMotion& motion) const;   // rad/s
+
+private:
+  void Accelerate(PlaneMotion& motion, const std::array<double, 2>& commands, double seconds) const;
+  void Roll(PlaneMotion& motion, double seconds) const;
+
+  DriveDescription robot_;
+  // The torque on a wheel for 1 rad/s2 of its own and of the other's.
+  double own_ = 0, other_ = 0;
+};
+
+}  // namespace swarmanoid::dynamics3d

@@ -1,0 +1,129 @@
+// How a WheeledModel leaves the solver and comes back to it.
+#include <algorithm>
+#include <cmath>
+
+#include "engine_worker/engines/dynamics3d/wheeled.h"
+
+namespace swarmanoid::dynamics3d
+{
+namespace
+{
+
+constexpr double kUprightCosine = 0.995;  // of 5.7 degrees
+// What rolls on level ground has no more than this of any other motion.
+constexpr double kFreeCosine = 1 - 1.8e-5;          // of 0.34 degrees
+constexpr double kLowest = -1e-3, kHighest = 2e-4;  // m, of the origin above the ground
+constexpr double kOtherSpeed = 3e-3;                // m/s
+constexpr double kOtherTurn = 0.03;                 // rad/s
+// Whoever would tip if he braked is free while his wheels turn within this part of their largest rate as they are told.
+constexpr double kSteady = 0.02;
+
+double TiltCosine(dBodyID body) { return dBodyGetRotation(body)[10]; }
+
+}  // namespace
+
+bool WheeledModel::IsUpright() const { return is_free_ || TiltCosine(Chassis()) > kUprightCosine; }
+
+Vector2 WheeledModel::GroundPoint() const
+{
+  if (is_free_) return {motion_.x, motion_.y};
+  const dReal* position = dBodyGetPosition(Chassis());
+  return {position[0], position[1]};
+}
+
+double WheeledModel::LargestSpeed() const
+{
+  const std::array<double, 2> rates = WheelRates();
+  double rate = 0;
+  for (std::size_t wheel = 0; wheel < 2; ++wheel)
+    rate = std::max({rate, std::abs(rates[wheel]), std::abs(wheel_command_[wheel])});
+  double square = 0;
+  if (!is_free_) square = VectorOf(dBodyGetLinearVel(Chassis())).squaredNorm();
+  return std::max(rate * wheel_radius_, std::sqrt(square));
+}
+
+std::array<double, 2> WheeledModel::WheelRates() const
+{
+  if (is_free_) return motion_.rates;
+  return {dJointGetHingeAngleRate(axles_[0]), dJointGetHingeAngleRate(axles_[1])};
+}
+
+bool WheeledModel::RollsFreely() const
+{
+  const dBodyID body = Chassis();
+  const double height = dBodyGetPosition(body)[2] - MainOffset().position.z();
+  if (TiltCosine(body) < kFreeCosine || height < kLowest || height > kHighest) return false;
+  PlaneMotion motion;
+  motion.rates = WheelRates();
+  for (std::size_t wheel = 0; wheel < 2; ++wheel)
+  {
+    const double command = wheel_command_[wheel];
+    if (std::max(std::abs(motion.rates[wheel]), std::abs(command)) > largest_free_rate_) return false;
+    if (!brakes_freely_ && std::abs(command - motion.rates[wheel]) > kSteady * largest_free_rate_) return false;
+  }
+  const Vector3 velocity = VectorFromWorld(body, VectorOf(dBodyGetLinearVel(body)));
+  const Vector3 spin = VectorOf(dBodyGetAngularVel(body));
+  const Vector3 other = velocity - Vector3(drive_.Speed(motion), 0, 0);
+  const Vector3 other_spin = spin - Vector3(0, 0, drive_.Turn(motion));
+  return other.cwiseAbs().maxCoeff() < kOtherSpeed && other_spin.cwiseAbs().maxCoeff() < kOtherTurn;
+}
+
+void WheeledModel::BecomeFree()
+{
+  const std::array<double, 2> rates = {dJointGetHingeAngleRate(axles_[0]), dJointGetHingeAngleRate(axles_[1])};
+  const dReal* position = dBodyGetPosition(Chassis());
+  const dReal* rotation = dBodyGetRotation(Chassis());
+  const double length = std::sqrt(rotation[0] * rotation[0] + rotation[4] * rotation[4]);
+  motion_ = {
+      .x = position[0], .y = position[1], .cosine = rotation[0] / length, .sine = rotation[4] / length, .rates = rates};
+  is_free_ = true;
+  for (const PlacedBody& placed : bodies_) scene_.world.SetLeftOut(placed.number, true);
+}
+
+void WheeledModel::BecomeSolved()
+{
+  is_free_ = false;
+  for (const PlacedBody& placed : bodies_) scene_.world.SetLeftOut(placed.number, false);
+}
+
+void WheeledModel::AdvanceFreely(int steps, double step_seconds)
+{
+  drive_.Advance(motion_, wheel_command_, steps, step_seconds);
+  for (std::size_t wheel = 0; wheel < 2; ++wheel) wheel_turn_[wheel] += motion_.turned[wheel];
+  AfterFreeMotion(steps * step_seconds);
+}
+
+void WheeledModel::MoveBodies()
+{
+  const double turn_cosine = motion_.half_cosine * motion_.half_cosine - motion_.half_sine * motion_.half_sine;
+  const double turn_sine = 2 * motion_.half_cosine * motion_.half_sine;
+  const Quaternion turn(motion_.half_cosine, 0, 0, motion_.half_sine);
+  motion_.half_cosine = 1;
+  motion_.half_sine = 0;
+  const Vector3 from = VectorOf(dBodyGetPosition(Chassis()));
+  // What stands keeps its bits.
+  const bool has_moved = turn_sine != 0 || motion_.x != from.x() || motion_.y != from.y();
+  const Vector3 velocity = drive_.Speed(motion_) * Vector3(motion_.cosine, motion_.sine, 0);
+  const double spin = drive_.Turn(motion_);
+  for (std::size_t k = 0; k < bodies_.size(); ++k)
+  {
+    const dBodyID body = scene_.world.Body(bodies_[k].number);
+    const Pose before = PoseOf(body);
+    const Vector3 arm = before.position - from;
+    const Vector3 turned(turn_cosine * arm.x() - turn_sine * arm.y(), turn_sine * arm.x() + turn_cosine * arm.y(),
+                         arm.z());
+    if (has_moved)
+      SetRawPose(body, RawOf({Vector3(motion_.x, motion_.y, from.z()) + turned, turn * before.orientation}));
+    dBodySetLinearVel(body, velocity.x() - spin * turned.y(), velocity.y() + spin * turned.x(), 0);
+    Vector3 rotation(0, 0, spin);
+    if (k > 0)
+    {
+      dVector3 axle;
+      dJointGetHingeAxis(axles_[k - 1], axle);
+      rotation += motion_.rates[k - 1] * VectorOf(axle);
+    }
+    dBodySetAngularVel(body, rotation.x(), rotation.y(), rotation.z());
+  }
+}
+
+}  // namespace swarmanoid::dynamics3d
