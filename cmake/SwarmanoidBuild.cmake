@@ -76,6 +76,67 @@ if(CMAKE_UNITY_BUILD)
   # They are included by another file, so that GCC takes their own types for those of a header.
   list(APPEND SWARMANOID_WARNINGS -Wno-subobject-linkage)
 endif()
+
+# swarmanoid_includes_space(FILE RESULT): whether a source includes common/space/space.h, itself or by other headers.
+function(swarmanoid_includes_space file result)
+  get_property(known GLOBAL PROPERTY SWARMANOID_INCLUDES_SPACE:${file})
+  if("${known}" STREQUAL "")
+    set(known FALSE)
+    file(STRINGS ${file} lines REGEX "^#include \"[^\"]+\"")
+    foreach(line IN LISTS lines)
+      string(REGEX REPLACE "^#include \"([^\"]+)\".*" "${CMAKE_SOURCE_DIR}/\\1" header "${line}")
+      if(header STREQUAL "${CMAKE_SOURCE_DIR}/common/space/space.h")
+        set(known TRUE)
+      elseif(EXISTS ${header})
+        swarmanoid_includes_space(${header} known)
+      endif()
+      if(known)
+        break()
+      endif()
+    endforeach()
+    set_property(GLOBAL PROPERTY SWARMANOID_INCLUDES_SPACE:${file} ${known})
+  endif()
+  set(${result} ${known} PARENT_SCOPE)
+endfunction()
+
+# swarmanoid_sort_sources(TARGET): those sources are compiled together that include the space, which most work on, and those
+# that do not: an edit of its header compiles the former again, not all that happens to stand beside them.
+function(swarmanoid_sort_sources target)
+  get_target_property(sources ${target} SOURCES)
+  set(with_space)
+  set(without_space)
+  foreach(source IN LISTS sources)
+    if(source MATCHES "\\.cpp$")
+      get_filename_component(source ${source} ABSOLUTE)
+      set(group without_space)
+      if(EXISTS ${source})
+        swarmanoid_includes_space(${source} includes)
+        if(includes)
+          set(group with_space)
+        endif()
+      endif()
+      list(APPEND ${group} ${source})
+    endif()
+  endforeach()
+  list(LENGTH with_space with)
+  list(LENGTH without_space without)
+  if(with LESS 3 OR without LESS 3)
+    return()  # another unit, which reads all headers again, would cost more
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  foreach(group with_space without_space)
+    # As many groups as are needed, of like size.
+    list(LENGTH ${group} length)
+    math(EXPR groups "(${length} + ${CMAKE_UNITY_BUILD_BATCH_SIZE} - 1) / ${CMAKE_UNITY_BUILD_BATCH_SIZE}")
+    set(index 0)
+    foreach(source IN LISTS ${group})
+      math(EXPR number "${index} * ${groups} / ${length}")
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group}_${number})
+      math(EXPR index "${index} + 1")
+    endforeach()
+  endforeach()
+endfunction()
+
 # What was linked against one minor version goes with no other.
 function(swarmanoid_install_library name)
   set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
@@ -83,10 +144,40 @@ function(swarmanoid_install_library name)
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT dev)
 endfunction()
 
-# swarmanoid_library(NAME [STATIC] SOURCES... [PUBLIC libs...] [PRIVATE libs...]): one library of ours, warnings as errors.
-# Shared ones are installed and exported as Swarmanoid::NAME; static ones stay inside the build.
+# How well code is optimised in releases: what runs at each tick over all robots as CMake has it, at -O3. GCC needs half the time at
+# -O1, and two thirds at -O2; the bits of results are those of any level.
+# swarmanoid_off_the_tick(TARGETS...): nothing of them runs at each tick.
+function(swarmanoid_off_the_tick)
+  foreach(name ${ARGN})
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endforeach()
+endfunction()
+
+# swarmanoid_beside_the_tick(TARGETS...): they draw, or pass messages on; they compute nothing for each robot at each tick.
+function(swarmanoid_beside_the_tick)
+  foreach(name ${ARGN})
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O2>)
+  endforeach()
+endfunction()
+
+# swarmanoid_shared_headers(TARGETS...): Eigen, fmt and the standard library are precompiled once for all of them.
+function(swarmanoid_shared_headers)
+  foreach(name ${ARGN})
+    # No NAME_EXPORTS macro, and no -fPIE: they would keep a target from sharing them.
+    set_target_properties(${name} PROPERTIES DEFINE_SYMBOL "")
+    get_target_property(type ${name} TYPE)
+    if(type STREQUAL EXECUTABLE)
+      set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+      target_compile_options(${name} PRIVATE -fPIC)
+    endif()
+    target_precompile_headers(${name} REUSE_FROM pch)
+  endforeach()
+endfunction()
+
+# swarmanoid_library(NAME [STATIC] SOURCES... [OFF_THE_TICK SOURCES...] [PUBLIC libs...] [PRIVATE libs...]): one library of ours,
+# warnings as errors. Shared ones are installed and exported as Swarmanoid::NAME; static ones stay inside the build.
 function(swarmanoid_library name)
-  cmake_parse_arguments(ARG "STATIC" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "STATIC" "" "SOURCES;OFF_THE_TICK;PUBLIC;PRIVATE" ${ARGN})
   if(ARG_STATIC)
     add_library(${name} STATIC ${ARG_SOURCES})
   else()
@@ -96,26 +187,30 @@ function(swarmanoid_library name)
     swarmanoid_install_library(${name})
   endif()
   add_library(Swarmanoid::${name} ALIAS ${name})
-  # No NAME_EXPORTS macro: it would keep libraries from sharing a precompiled header.
-  set_target_properties(${name} PROPERTIES OUTPUT_NAME swarmanoid_${name} DEFINE_SYMBOL "")
+  set_target_properties(${name} PROPERTIES OUTPUT_NAME swarmanoid_${name})
   target_compile_options(${name} PRIVATE ${SWARMANOID_WARNINGS})
   target_include_directories(${name} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid>)
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  target_precompile_headers(${name} REUSE_FROM pch)
+  swarmanoid_shared_headers(${name})
+  swarmanoid_sort_sources(${name})
+  if(ARG_OFF_THE_TICK)
+    # Options of single sources would keep them from being compiled together.
+    set(part ${name}_off_the_tick)
+    add_library(${part} OBJECT ${ARG_OFF_THE_TICK})
+    target_compile_options(${part} PRIVATE ${SWARMANOID_WARNINGS})
+    target_include_directories(${part} PRIVATE ${CMAKE_SOURCE_DIR})
+    target_link_libraries(${part} PRIVATE ${ARG_PUBLIC} ${ARG_PRIVATE})
+    swarmanoid_shared_headers(${part})
+    swarmanoid_sort_sources(${part})
+    swarmanoid_off_the_tick(${part})
+    target_sources(${name} PRIVATE $<TARGET_OBJECTS:${part}>)
+  endif()
   # Code built outside needs these two of the settings above: they decide the layout of a Pose and the bits of a sum.
   target_compile_definitions(${name} INTERFACE EIGEN_DONT_VECTORIZE)
   target_compile_options(${name} INTERFACE ${SWARMANOID_EXACT})
   target_compile_features(${name} INTERFACE cxx_std_20)
   set_property(GLOBAL APPEND PROPERTY SWARMANOID_LIBRARIES ${name})
-endfunction()
-
-# swarmanoid_off_the_tick(NAMES...): libraries of which nothing runs at each tick. The compiler needs two thirds of the time
-# for them at -O1; the bits of results are those of any level.
-function(swarmanoid_off_the_tick)
-  foreach(name ${ARGN})
-    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-  endforeach()
 endfunction()
 
 # swarmanoid_program(NAME SOURCES... LINK libs... [ROLE]): one program of ours. A role's is started by `swarmanoid`; those who
@@ -126,6 +221,7 @@ function(swarmanoid_program name)
   target_compile_options(${name} PRIVATE ${SWARMANOID_WARNINGS})
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
+  swarmanoid_shared_headers(${name})
   set(folder ${CMAKE_INSTALL_BINDIR})
   if(ARG_ROLE)
     set(folder ${SWARMANOID_ROLES_FOLDER})
