@@ -196,7 +196,14 @@ Writer::Writer(const std::string& topic, const MessageType& type, Keeps keeps) :
   if (ends_->writer == nullptr) throw DriverError("cannot write topic " + topic);
 }
 
-Writer::~Writer() { ends_->participant->GetPublisher()->delete_datawriter(ends_->writer); }
+Writer::~Writer()
+{
+  // Fast DDS 2.9 gives the messages of a writer back one by one, while its heartbeat may be looking for gaps between
+  // them: that loop never ends, and holds the lock that the next message waits for.
+  std::size_t removed = 0;
+  ends_->writer->clear_history(&removed);
+  ends_->participant->GetPublisher()->delete_datawriter(ends_->writer);
+}
 
 void Writer::Write(void* message)
 {
