@@ -156,8 +156,10 @@ void FreeRobots::Configure()
   outlines_.assign(bodies_.size(), {});
   for (std::size_t k = 0; k < bodies_.size(); ++k)
   {
-    const std::array<double, 6> box = BoxOf(bodies_[k]);
-    outlines_[k].whole = {(box[0] + box[1]) / 2, (box[2] + box[3]) / 2, bodies_[k].radius, 0};
+    // The cells cover the arena, wherever the bodies are.
+    const Vector3 corner = k % 2 == 0 ? Vector3::Zero() : scene_.space.GetExperiment().arena_size;
+    const Vector3 place = scene_.frame.PointToLocal(corner);
+    outlines_[k].whole = {place.x(), place.y(), bodies_[k].radius, 0};
   }
   isolation_.Configure(outlines_, StaticOutlines(), kFastest * steps_ * step_seconds_);
 }
