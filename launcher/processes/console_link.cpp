@@ -20,7 +20,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::size_t kMostBytes = 64 * 1024;
+constexpr std::size_t kReadBytes = 64 * 1024;
 constexpr std::size_t kMostFiles = 4;
 constexpr const char* kPrefix = "run.";
 constexpr const char* kSuffix = ".socket";
@@ -99,7 +99,7 @@ bool ConsoleLink::Send(const nlohmann::json& message, const std::vector<int>& fi
 
 std::optional<ConsoleLink::Received> ConsoleLink::Receive()
 {
-  std::string text(kMostBytes, '\0');
+  std::string text(kReadBytes, '\0');
   iovec part{text.data(), text.size()};
   msghdr header{};
   header.msg_iov = &part;
