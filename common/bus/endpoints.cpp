@@ -68,8 +68,7 @@ WriterEnd::WriterEnd(Bus& bus, dds::Topic* topic, const std::string& partition, 
 }
 
 // Emptied first: Fast DDS 2.9 gives the messages of a writer back one by one while its heartbeat may look for gaps
-// between them, which then never ends and holds the lock that all wait for (mended by its pull request 4076,
-// in 2.10.3).
+// between them, which then never ends and holds the lock that all wait for (its pull request 4076).
 WriterEnd::~WriterEnd()
 {
   std::size_t removed = 0;
