@@ -71,8 +71,11 @@ void Kinematics2dEngine::Init(const EngineSetup& setup)
   subclock_ = std::max(setup.configuration.subclock, 1);
   frame_ = PlaneFrom(setup.parameters);
   threads_ = static_cast<unsigned>(setup.parameters.Integer("threads"));
-  if (threads_ == 0 && setup.threads > 1) sharing_.emplace();
-  if (threads_ == 0) threads_ = setup.threads;
+  if (threads_ == 0)
+  {
+    threads_ = setup.threads;
+    if (threads_ > 1) sharing_.emplace();
+  }
   world_ = KinematicWorld(setup.parameters.Number("elasticity"));
   robots_.Init(setup.space, frame_, *this);
   team_ = setup.team;

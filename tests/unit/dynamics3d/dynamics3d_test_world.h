@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/builtins/engines.h"
+#include "common/math/elementary.h"
 #include "engine_worker/engines/dynamics3d/dynamics3d_engine.h"
 #include "engine_worker/engines/dynamics3d/footbot.h"
 #include "tests/unit/engines/engine_test_world.h"
@@ -26,5 +27,15 @@ public:
   // The angle between the entity's z axis and that of the space.
   double Tilt(std::uint32_t entity) const { return Acos((Orientation(entity) * Vector3::UnitZ()).z()); }
 };
+
+// Metres that a footbot goes in `t` seconds from standing, while its motors give all they can: m v' = F (1 - v / v0), F
+// what the grip of its wheels allows and v0 = 0.6 m/s; a geared wheel of 0.2 kg weighs 4 times as much along the
+// ground.
+inline double WayOfStartingFootbot(double t)
+{
+  constexpr double kFreeSpeed = 0.6;
+  constexpr double kTime = (1.6 + 2 * 4 * 0.2) * kFreeSpeed / (0.73 * 1.6 * 9.81);
+  return kFreeSpeed * (t - kTime * (1 - Exp(-t / kTime)));
+}
 
 }  // namespace swarmanoid

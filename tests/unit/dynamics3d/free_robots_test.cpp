@@ -92,7 +92,7 @@ TEST(Dynamics3dFreeRobots, AFreeRobotGoesWhereTheSolverWouldTakeIt)
   EXPECT_LT(largest_turn, DegreesToRadians(1.5));
 }
 
-// v0 (t - T (1 - exp(-t/T))), T = m v0 / F, until the command is reached.
+// Until the command is reached.
 TEST(Dynamics3dFreeRobots, AFreeRobotSpeedsUpAsItsMotorsAllow)
 {
   Dynamics3dTestWorld world;
@@ -101,13 +101,11 @@ TEST(Dynamics3dFreeRobots, AFreeRobotSpeedsUpAsItsMotorsAllow)
   world.AddCommands("footbot_wheels", 2);
   world.Start();
   world.Drive(robot, 0.3, 0.3);
-  const double free_speed = 0.6;
-  const double time = (1.6 + 2 * 4 * 0.2) * free_speed / (0.73 * 1.6 * 9.81);
   for (int tick = 1; tick <= 11; ++tick)
   {
     world.Tick();
     const double t = 0.01 * tick;
-    EXPECT_NEAR(world.Position(robot).x() - 2, free_speed * (t - time * (1 - Exp(-t / time))), 1e-3) << t;
+    EXPECT_NEAR(world.Position(robot).x() - 2, WayOfStartingFootbot(t), 1e-3) << t;
   }
   EXPECT_EQ(world.engine->FreeRobotCount(), 1U);
   world.Run(10);
