@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "common/space/space.h"
 #include "common/math/random.h"
 #include "engine_worker/engines/plane_robots.h"
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 #include "engine_worker/engines/kinematics2d/kinematics2d_engine.h"
 
 namespace swarmanoid

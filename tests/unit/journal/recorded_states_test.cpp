@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "common/space/space.h"
 #include "common/journal/journal_follower.h"
 #include "common/journal/journal_reader.h"
 #include "common/journal/recorded_states.h"

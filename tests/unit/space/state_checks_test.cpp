@@ -1,3 +1,4 @@
+#include "common/space/space.h"
 #include "common/space/state_checks.h"
 
 #include <gmock/gmock.h>
