@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "common/space/space.h"
 #include "common/math/random.h"
+#include "common/space/space.h"
 #include "engine_worker/engines/plane_robots.h"
 
 namespace swarmanoid

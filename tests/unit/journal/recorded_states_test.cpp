@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "common/space/space.h"
 #include "common/journal/journal_follower.h"
 #include "common/journal/journal_reader.h"
 #include "common/journal/recorded_states.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {
