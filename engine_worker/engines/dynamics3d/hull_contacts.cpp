@@ -411,7 +411,7 @@ void MakeRound(std::vector<Touching>& found, const Vector3& centre, const Vector
 
 int CollideCylinder(Workspace& work, dGeomID hull, dGeomID cylinder, std::span<dContactGeom> contacts)
 {
-  constexpr double kSide = 0.94;      // a normal within 20 degrees of the cylinder's side
+  constexpr double kSide = 0.94;           // a normal within 20 degrees of the cylinder's side
   constexpr double kParallelFaces = 1e-3;  // between the normals of two faces
   const Vector3 centre = VectorOf(dGeomGetPosition(cylinder));
   double depth = 0;
