@@ -14,11 +14,16 @@
 #include "common/messages/messages.h"
 #include "common/plugins/registry.h"
 #include "common/serialisation/bytes.h"
-#include "common/space/space.h"
 #include "controller_host/devices/noise.h"
+
+#ifndef SWARMANOID_OWN_SOURCES
+#include <common/space/space.h>  // for plug-ins, which mostly need it
+#endif
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 // What a device of a type draws random numbers for; a sensor and an actuator of one type draw different ones.
 inline std::uint64_t SensorStream(const std::string& type) { return StreamName("sensor " + type); }

@@ -10,6 +10,7 @@
 #include "common/logging/log.h"
 #include "common/messages/attribute_changes.h"
 #include "common/space/attributes.h"
+#include "common/space/space.h"
 #include "common/space/state_checks.h"
 #include "controller_host/batches.h"
 

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "common/checkpoint/host_state.h"
+#include "common/space/space.h"
 #include "common/space/state_checks.h"
 #include "controller_host/batches.h"
 

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "common/experiment/actors.h"
+#include "common/space/space.h"
 #include "common/space/state_checks.h"
 
 namespace swarmanoid

@@ -17,6 +17,7 @@
 #include "common/bus/worker_program.h"
 #include "common/bus/worker_session.h"
 #include "common/program/usage_error.h"
+#include "common/space/space.h"
 #include "engine_worker/engine_worker.h"
 
 namespace swarmanoid

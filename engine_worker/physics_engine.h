@@ -10,15 +10,22 @@
 #include <vector>
 
 #include "common/configuration/parameter.h"
+#include "common/experiment/experiment.h"
 #include "common/messages/assignment.h"
 #include "common/messages/messages.h"
 #include "common/messages/regions.h"
 #include "common/plugins/registry.h"
 #include "common/serialisation/bytes.h"
-#include "common/space/space.h"
+#include "common/space/entity.h"
+
+#ifndef SWARMANOID_OWN_SOURCES
+#include <common/space/space.h>  // for plug-ins, which mostly need it
+#endif
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 // How an entity takes part in an engine.
 enum class EBinding

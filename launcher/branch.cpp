@@ -18,6 +18,7 @@
 #include "common/checkpoint/library_builds.h"
 #include "common/program/csv.h"
 #include "common/program/usage_error.h"
+#include "common/space/space.h"
 #include "launcher/load.h"
 #include "launcher/recorded_run.h"
 #include "launcher/single_run.h"

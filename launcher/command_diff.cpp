@@ -7,6 +7,7 @@
 
 #include "common/activity/exit_codes.h"
 #include "common/bus/recovery.h"
+#include "common/space/space.h"
 #include "launcher/commands.h"
 #include "launcher/recorded_run.h"
 

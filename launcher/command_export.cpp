@@ -20,6 +20,7 @@
 #include "common/program/csv.h"
 #include "common/program/interrupts.h"
 #include "common/space/attributes.h"
+#include "common/space/space.h"
 #include "launcher/commands.h"
 #include "launcher/export_file.h"
 #include "launcher/mcap_export.h"

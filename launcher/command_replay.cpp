@@ -10,6 +10,7 @@
 #include "common/activity/exit_codes.h"
 #include "common/messages/assignment.h"
 #include "common/program/interrupts.h"
+#include "common/space/space.h"
 #include "launcher/commands.h"
 #include "launcher/load.h"
 #include "launcher/recorded_run.h"

@@ -10,6 +10,7 @@
 #include "common/activity/exit_codes.h"
 #include "common/experiment/notes.h"
 #include "common/messages/assignment.h"
+#include "common/space/space.h"
 #include "launcher/edit_messages.h"
 #include "launcher/installation.h"
 

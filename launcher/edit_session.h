@@ -6,7 +6,6 @@
 #include <memory>
 #include <string>
 
-#include "common/space/space.h"
 #include "launcher/edited_experiment.h"
 #include "launcher/edited_file.h"
 #include "launcher/processes/child.h"

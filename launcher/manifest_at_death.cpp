@@ -31,16 +31,16 @@ namespace
 std::atomic<const ManifestAtDeath::Prepared*> current = nullptr;
 
 // A piece of JSON, of bounded length.
-class Json
+class JsonPiece
 {
 public:
-  Json& Add(std::string_view text)
+  JsonPiece& Add(std::string_view text)
   {
     for (const char c : text)
       if (length_ < text_.size()) text_[length_++] = c;
     return *this;
   }
-  Json& AddNumber(unsigned number, unsigned digits)
+  JsonPiece& AddNumber(unsigned number, unsigned digits)
   {
     std::array<char, 10> reversed{};
     unsigned count = 0;
@@ -52,7 +52,7 @@ public:
     return *this;
   }
   // What is no UTF-8 becomes a question mark.
-  Json& AddQuoted(std::string_view text)
+  JsonPiece& AddQuoted(std::string_view text)
   {
     Add("\"");
     while (!text.empty())
@@ -79,7 +79,7 @@ private:
 };
 
 // As TimeStamp writes it.
-void AddTime(Json& json, std::chrono::seconds offset)
+void AddTime(JsonPiece& json, std::chrono::seconds offset)
 {
   timespec now{};
   clock_gettime(CLOCK_REALTIME, &now);
@@ -112,7 +112,7 @@ void WriteAtDeath(std::string_view line, int exit_code)
 {
   const ManifestAtDeath::Prepared* prepared = current.load();
   if (prepared == nullptr) return;
-  Json end;
+  JsonPiece end;
   end.Add(",\n  \"ended\": ");
   AddTime(end, prepared->offset);
   end.Add(",\n  \"exit_code\": ").AddNumber(static_cast<unsigned>(exit_code), 1);

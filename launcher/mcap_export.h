@@ -7,12 +7,13 @@
 #include <string_view>
 #include <vector>
 
-#include "common/space/space.h"
 #include "launcher/mcap_writer.h"
 #include "visualiser/foxglove/foxglove_messages.h"
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 class McapExport
 {

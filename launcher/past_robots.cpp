@@ -9,6 +9,7 @@
 #include "common/bus/recovery.h"
 #include "common/journal/journal_reader.h"
 #include "common/journal/recorded_states.h"
+#include "common/space/space.h"
 #include "controller_host/controller_host.h"
 
 namespace swarmanoid

@@ -8,6 +8,7 @@
 #include "common/messages/assignment.h"
 #include "common/program/usage_error.h"
 #include "common/space/attributes.h"
+#include "common/space/space.h"
 #include "common/space/state_checks.h"
 #include "launcher/load.h"
 

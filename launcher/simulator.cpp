@@ -18,6 +18,7 @@
 #include "common/program/usage_error.h"
 #include "common/run/hash_log.h"
 #include "common/serialisation/trial.h"
+#include "common/space/space.h"
 #include "controller_host/controller_host.h"
 #include "engine_worker/engine_worker.h"
 #include "launcher/steering.h"

@@ -17,10 +17,15 @@
 #include "common/experiment/experiment.h"
 #include "common/run/run_settings.h"
 #include "common/run/run_summary.h"
-#include "common/space/space.h"
+
+#ifndef SWARMANOID_OWN_SOURCES
+#include <common/space/space.h>  // for plug-ins, which mostly need it
+#endif
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 class SpaceEditor;
 class SpaceServer;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "common/space/space.h"
 #include "launcher/watched_simulator.h"
 
 namespace swarmanoid

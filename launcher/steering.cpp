@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <thread>
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

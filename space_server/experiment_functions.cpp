@@ -6,6 +6,7 @@
 
 #include "common/configuration/wording.h"
 #include "common/space/attributes.h"
+#include "common/space/space.h"
 #include "common/space/state_checks.h"
 #include "space_server/space_changes.h"
 #include "space_server/space_server.h"

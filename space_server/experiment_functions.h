@@ -13,14 +13,20 @@
 #include <string_view>
 #include <utility>
 
+#include "common/math/pose.h"
 #include "common/math/random.h"
 #include "common/plugins/registry.h"
 #include "common/space/query.h"
-#include "common/space/space.h"
 #include "common/space/structure/structural_tree.h"
+
+#ifndef SWARMANOID_OWN_SOURCES
+#include <common/space/space.h>  // for plug-ins, which mostly need it
+#endif
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 class SpaceServer;
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "common/configuration/configuration_tree.h"
+#include "common/space/space.h"
 #include "space_server/space_changes.h"
 
 namespace swarmanoid

@@ -10,6 +10,7 @@
 #include "common/configuration/wording.h"
 #include "common/experiment/body.h"
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

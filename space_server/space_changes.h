@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "common/messages/control_request.h"
-#include "common/space/space.h"
+#include "common/messages/messages.h"
+#include "common/space/entity.h"
 #include "space_server/space_server.h"
 
 namespace swarmanoid

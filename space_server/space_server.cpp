@@ -8,6 +8,7 @@
 
 #include "common/experiment/actors.h"
 #include "common/logging/log.h"
+#include "common/space/space.h"
 #include "common/space/state_checks.h"
 
 namespace swarmanoid

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/space/space.h"
 #include "studies/metric_kinds.h"
 
 namespace swarmanoid

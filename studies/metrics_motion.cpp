@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/space/space.h"
 #include "studies/metric_kinds.h"
 
 namespace swarmanoid

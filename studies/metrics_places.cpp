@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/configuration/wording.h"
+#include "common/space/space.h"
 #include "studies/metric_kinds.h"
 
 namespace swarmanoid

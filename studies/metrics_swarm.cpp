@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "common/space/space.h"
 #include "studies/metric_kinds.h"
 
 namespace swarmanoid

@@ -9,6 +9,7 @@
 #include "common/space/attributes.h"
 #include "common/space/packet_attribute.h"
 #include "common/space/publish.h"
+#include "common/space/space.h"
 #include "studies/metric_kinds.h"
 
 namespace swarmanoid

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/space/space.h"
 #include "studies/metric.h"
 
 namespace swarmanoid

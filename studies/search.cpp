@@ -15,6 +15,7 @@
 #include "common/activity/exit_codes.h"
 #include "common/program/interrupts.h"
 #include "common/program/shell_word.h"
+#include "common/space/space.h"
 #include "studies/metric.h"
 #include "studies/optimiser.h"
 #include "studies/run_pool.h"

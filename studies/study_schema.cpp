@@ -2,6 +2,7 @@
 
 #include "common/experiment/reference.h"
 #include "common/experiment/schema_parts.h"
+#include "common/space/space.h"
 #include "studies/optimiser.h"
 #include "studies/study.h"
 

@@ -8,10 +8,11 @@
 
 #include "common/configuration/parameter.h"
 #include "common/messages/assignment.h"
-#include "common/space/space.h"
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 class EditorRequests
 {

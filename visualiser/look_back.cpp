@@ -11,6 +11,7 @@
 #include "common/configuration/regular_file.h"
 #include "common/journal/journal_reader.h"
 #include "common/program/csv.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

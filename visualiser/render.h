@@ -7,14 +7,20 @@
 #include <string>
 
 #include "common/configuration/parameter.h"
+#include "common/math/pose.h"
 #include "common/messages/assignment.h"
 #include "common/messages/robot_status.h"
 #include "common/messages/run_status.h"
 #include "common/plugins/registry.h"
-#include "common/space/space.h"
+
+#ifndef SWARMANOID_OWN_SOURCES
+#include <common/space/space.h>  // for plug-ins, which mostly need it
+#endif
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 // What a user asks of the experiment through a renderer; decided by the space server, or by the runner of a single
 // process, between two ticks. What came of it is among RunMonitor::Notes. For the thread of Draw and Idle.

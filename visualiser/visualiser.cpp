@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/experiment/actors.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

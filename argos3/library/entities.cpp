@@ -7,6 +7,7 @@
 #include <argos3/plugins/simulator/entities/light_entity.h>
 
 #include "argos3/library/running.h"
+#include "common/space/space.h"
 
 namespace argos
 {

@@ -6,6 +6,7 @@
 
 #include "argos3/library/running.h"
 #include "common/messages/range_and_bearing_message.h"
+#include "common/space/space.h"
 
 namespace argos
 {

@@ -8,6 +8,7 @@
 #include <argos3/plugins/simulator/entities/light_entity.h>
 
 #include "argos3/library/running.h"
+#include "common/space/space.h"
 #include "space_server/space_changes.h"
 
 namespace argos

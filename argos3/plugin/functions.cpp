@@ -13,6 +13,7 @@
 
 #include "argos3/library/running.h"
 #include "argos3/plugin/labels.h"
+#include "common/space/space.h"
 
 namespace swarmanoid::argos3
 {

@@ -8,6 +8,7 @@
 
 #include "common/journal/journal_format.h"
 #include "common/program/interrupts.h"
+#include "common/space/space.h"
 #include "common/space/state_checks.h"
 
 namespace swarmanoid

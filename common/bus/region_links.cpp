@@ -16,8 +16,8 @@ using namespace std::chrono_literals;
 
 constexpr std::uint32_t kFirstTask = 0;
 constexpr std::uint32_t kEndOfRun = ~0U;
-constexpr std::chrono::milliseconds kFirstRepeat = 100ms;  // of what may have been lost
-constexpr std::chrono::milliseconds kLastRepeat = 1s;
+constexpr std::chrono::milliseconds kFirstWait = 100ms;  // of what may have been lost
+constexpr std::chrono::milliseconds kLastWait = 1s;
 constexpr std::chrono::milliseconds kForEver = std::chrono::hours(24 * 365);
 constexpr std::chrono::milliseconds kEndTime = 60s;  // for a region that is on its way
 
@@ -55,8 +55,8 @@ void Pack(std::span<const ByteWriter> parts, RegionMessage& message)
 // Grows while nobody answers.
 struct Patience
 {
-  std::chrono::milliseconds time = kFirstRepeat;
-  void Grow() { time = std::min(2 * time, kLastRepeat); }
+  std::chrono::milliseconds time = kFirstWait;
+  void Grow() { time = std::min(2 * time, kLastWait); }
 };
 
 }  // namespace

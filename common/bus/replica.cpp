@@ -4,6 +4,7 @@
 
 #include "common/bus/bus.h"
 #include "common/experiment/load_experiment.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "common/bus/message_bytes.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -8,10 +8,12 @@
 
 #include "common/bus/messages.h"
 #include "common/messages/assignment.h"
-#include "common/space/space.h"
+#include "common/messages/messages.h"
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 class TickLimits
 {

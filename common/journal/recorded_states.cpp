@@ -2,24 +2,27 @@
 
 #include <algorithm>
 
+#include "common/space/space.h"
 #include "common/space/state_checks.h"
 
 namespace swarmanoid
 {
 
 RecordedStates::RecordedStates(const Experiment& experiment, const JournalBlocks& blocks, const JournalStart& start)
-    : blocks_(blocks), start_(start), space_(experiment)
+    : blocks_(blocks), start_(start), space_(std::make_unique<CSwarmanoidSpace>(experiment))
 {
-  initial_.tick = space_.GetTick();
-  space_.WritePoses(initial_.poses);
-  initial_.attributes.assign(space_.Attributes().begin(), space_.Attributes().end());
+  initial_.tick = space_->GetTick();
+  space_->WritePoses(initial_.poses);
+  initial_.attributes.assign(space_->Attributes().begin(), space_->Attributes().end());
 }
+
+RecordedStates::~RecordedStates() = default;
 
 bool RecordedStates::Next()
 {
   if (!tick_) return Seek(FirstTickOf(start_, blocks_.Places()));
   if (!NextRecord()) return false;
-  space_.Apply(record_.state);
+  space_->Apply(record_.state);
   tick_ = record_.state.tick;
   return true;
 }
@@ -53,12 +56,12 @@ void RecordedStates::LoadStateBefore(std::uint64_t tick)
   if (newest != nullptr)
   {
     const SpaceSnapshot snapshot = ReadSnapshot(blocks_.Content(*newest));
-    CheckSnapshot(space_, snapshot);
-    space_.Apply(snapshot);
+    CheckSnapshot(*space_, snapshot);
+    space_->Apply(snapshot);
     next_ = newest->first_tick;
     return;
   }
-  space_.Apply(initial_);
+  space_->Apply(initial_);
   next_ = start_.first_tick;
 }
 
@@ -82,7 +85,7 @@ bool RecordedStates::Seek(std::uint64_t tick)
     if (state.tick < tick) continue;
     SpaceState whole = state;
     whole.attributes = std::move(changes);
-    space_.Apply(whole);
+    space_->Apply(whole);
     tick_ = state.tick;
     break;
   }

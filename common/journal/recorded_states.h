@@ -3,19 +3,22 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "common/journal/journal_blocks.h"
-#include "common/space/space.h"
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 class RecordedStates
 {
 public:
   // The blocks outlive this; they may grow, and lose their oldest. `start` is what they begin with.
   RecordedStates(const Experiment& experiment, const JournalBlocks& blocks, const JournalStart& start);
+  ~RecordedStates();
 
   // To the next tick, at first to the first one; false after the last one. Throws std::runtime_error for what is
   // damaged, as Seek does; then the space is at some other tick.
@@ -23,7 +26,7 @@ public:
   // To that tick; false, and nothing happens, if the journal does not have it.
   bool Seek(std::uint64_t tick);
   // At the tick, as those processes saw it that stepped there.
-  const CSwarmanoidSpace& Space() const { return space_; }
+  const CSwarmanoidSpace& Space() const { return *space_; }
   const TickRecord& Record() const { return record_; }
 
 private:
@@ -34,7 +37,7 @@ private:
 
   const JournalBlocks& blocks_;
   const JournalStart& start_;
-  CSwarmanoidSpace space_;
+  std::unique_ptr<CSwarmanoidSpace> space_;
   SpaceSnapshot initial_;              // of the experiment
   std::optional<std::uint64_t> tick_;  // of the space, if it is one of the journal
   std::optional<std::uint64_t> next_;  // the first tick of the blocks that were not read yet

@@ -5,6 +5,7 @@
 
 #include "common/journal/tick_records.h"
 #include "common/messages/attribute_changes.h"
+#include "common/space/space.h"
 #include "common/space/state_checks.h"
 
 namespace swarmanoid

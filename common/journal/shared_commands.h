@@ -8,10 +8,11 @@
 #include "common/journal/journal_format.h"
 #include "common/messages/assignment.h"
 #include "common/messages/messages.h"
-#include "common/space/space.h"
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 class SharedCommands
 {

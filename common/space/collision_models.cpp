@@ -7,6 +7,7 @@
 #include "common/plugins/catalogue.h"
 #include "common/space/attributes.h"
 #include "common/space/shape.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "common/experiment/collision_body.h"
-#include "common/space/space.h"
+#include "common/math/pose.h"
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 class CollisionModels
 {

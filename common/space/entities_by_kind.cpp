@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/space/entity.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

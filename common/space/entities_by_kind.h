@@ -4,10 +4,14 @@
 #include <string_view>
 #include <vector>
 
-#include "common/space/space.h"
+#ifndef SWARMANOID_OWN_SOURCES
+#include <common/space/space.h>  // for plug-ins, which mostly need it
+#endif
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 // By the tag of the kind ("footbot"): indices, ascending, of those that are in the arena and of those that are not.
 // Throws std::invalid_argument for an unknown tag.

@@ -14,10 +14,14 @@
 #include <string_view>
 #include <vector>
 
-#include "common/space/space.h"
+#ifndef SWARMANOID_OWN_SOURCES
+#include <common/space/space.h>  // for plug-ins, which mostly need it
+#endif
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 // What is published about a space as long as this is there. The space outlives it.
 class PublishedNumbers

@@ -1,6 +1,7 @@
 #include "common/space/query.h"
 
 #include <algorithm>
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -9,13 +9,19 @@
 #include <vector>
 
 #include "common/space/collision_models.h"
+#include "common/space/entity.h"
 #include "common/space/index/positional_index.h"
 #include "common/space/shape.h"
-#include "common/space/space.h"
 #include "common/space/terrain/terrain.h"
+
+#ifndef SWARMANOID_OWN_SOURCES
+#include <common/space/space.h>  // for plug-ins, which mostly need it
+#endif
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 class SpaceQuery
 {

@@ -15,17 +15,11 @@
 #include "common/messages/messages.h"
 #include "common/space/attributes.h"
 #include "common/space/entity.h"
+#include "common/space/pose_arrays.h"
 #include "common/space/structure/structural_tree.h"
 
 namespace swarmanoid
 {
-
-// Global poses of all entities, one array a component, in entity order.
-struct PoseArrays
-{
-  std::vector<double> x, y, z;
-  std::vector<double> qx, qy, qz, qw;
-};
 
 class CSwarmanoidSpace
 {

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -9,12 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "common/math/pose.h"
 #include "common/messages/assignment.h"
 #include "common/messages/messages.h"
-#include "common/space/space.h"
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 // Something that must not enter the state. what() names the entity and the value; who gave it and when is added by
 // those who ask.

@@ -7,6 +7,7 @@
 
 #include "common/math/lanes.h"
 #include "common/math/normal.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {
@@ -124,6 +125,10 @@ DeviceStreams::DeviceStreams(const DeviceSetup& setup, std::string_view quantity
       what_(quantity.empty() ? setup.stream : MixedBits(setup.stream ^ StreamName(quantity)))
 {
 }
+
+RandomStream DeviceStreams::Of(std::size_t k) const { return {Key(k), space_->GetTick()}; }
+
+RandomStream DeviceStreams::Of(std::size_t k, std::uint64_t whom) const { return {Key(k), space_->GetTick(), whom}; }
 
 void DeviceStreams::Sample(const NoiseModel& noise, std::size_t k, std::span<double> samples) const
 {

@@ -22,9 +22,9 @@ public:
   explicit DeviceStreams(const DeviceSetup& setup, std::string_view quantity = {});
 
   // The stream of robot k of the batch at the tick of the space.
-  RandomStream Of(std::size_t k) const { return {Key(k), space_->GetTick()}; }
+  RandomStream Of(std::size_t k) const;
   // What robot k draws about `whom`: StreamName(id) of another entity, StreamPart(name, number) of a part.
-  RandomStream Of(std::size_t k, std::uint64_t whom) const { return {Key(k), space_->GetTick(), whom}; }
+  RandomStream Of(std::size_t k, std::uint64_t whom) const;
   // What noise.Sample gives call by call with Of(k): several at a time.
   void Sample(const NoiseModel& noise, std::size_t k, std::span<double> samples) const;
   // What it gives once with Of(k, whom) for each of them.

@@ -4,6 +4,7 @@
 
 #include "common/messages/attribute_changes.h"
 #include "common/space/attributes.h"
+#include "common/space/space.h"
 #include "controller_host/devices/device_plugins.h"
 
 namespace swarmanoid

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

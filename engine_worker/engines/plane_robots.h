@@ -17,13 +17,15 @@
 #include "common/messages/assignment.h"
 #include "common/messages/messages.h"
 #include "common/serialisation/bytes.h"
+#include "common/space/entity.h"
 #include "common/space/shape.h"
-#include "common/space/space.h"
 #include "engine_worker/engines/near_objects.h"
 #include "engine_worker/engines/plane_frame.h"
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 // Metres, radians and seconds; as HandbotShape of dynamics3d where both have it.
 struct PlaneHandbot : HandbotParts

@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include "common/program/usage_error.h"
+#include "common/space/space.h"
 #include "python/module/attached_run.h"
 #include "python/module/space_rows.h"
 

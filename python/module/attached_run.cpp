@@ -11,6 +11,7 @@
 #include "common/configuration/wording.h"
 #include "common/plugins/library.h"
 #include "common/program/usage_error.h"
+#include "common/space/space.h"
 #include "launcher/control_request.h"
 #include "launcher/isolation.h"
 #include "roles/builtins.h"

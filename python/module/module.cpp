@@ -9,6 +9,7 @@
 #include "common/configuration/configuration_tree.h"
 #include "common/math/elementary.h"
 #include "common/math/reproducible_math.h"
+#include "common/space/space.h"
 #include "common/version/version.h"
 #include "python/module/attached_run.h"
 #include "python/module/python_controller.h"

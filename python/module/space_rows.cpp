@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/space/attributes.h"
+#include "common/space/space.h"
 
 namespace py = pybind11;
 

@@ -7,8 +7,6 @@
 
 #include <pybind11/pybind11.h>
 
-#include "common/space/space.h"
-
 namespace swarmanoid::python
 {
 

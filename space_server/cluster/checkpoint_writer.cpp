@@ -1,7 +1,9 @@
 #include "space_server/cluster/checkpoint_writer.h"
+#include "space_server/space_server.h"
 
 #include <fmt/format.h>
 #include <algorithm>
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -16,10 +16,11 @@
 #include "common/bus/server_session.h"
 #include "common/checkpoint/checkpoint.h"
 #include "common/journal/journal_writer.h"
-#include "space_server/space_server.h"
 
 namespace swarmanoid
 {
+
+class SpaceServer;
 
 class CheckpointWriter
 {

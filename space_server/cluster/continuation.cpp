@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include "space_server/space_server.h"
 
 namespace swarmanoid
 {

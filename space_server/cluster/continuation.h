@@ -11,10 +11,11 @@
 #include "common/run/run_settings.h"
 #include "space_server/event_log.h"
 #include "space_server/run_control.h"
-#include "space_server/space_server.h"
 
 namespace swarmanoid
 {
+
+class SpaceServer;
 
 class Continuation
 {

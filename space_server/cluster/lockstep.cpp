@@ -5,6 +5,8 @@
 
 #include "common/activity/failure_report.h"
 #include "common/bus/replica.h"
+#include "common/space/space.h"
+#include "space_server/space_server.h"
 
 namespace swarmanoid
 {

@@ -18,10 +18,11 @@
 #include "common/run/hash_log.h"
 #include "space_server/cluster/checkpoint_writer.h"
 #include "space_server/cluster/continuation.h"
-#include "space_server/space_server.h"
 
 namespace swarmanoid
 {
+
+class SpaceServer;
 
 class Lockstep
 {

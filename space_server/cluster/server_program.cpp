@@ -8,6 +8,7 @@
 #include "common/activity/exit_codes.h"
 #include "common/activity/print_error.h"
 #include "common/run/run_summary.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -11,6 +11,7 @@
 #include "common/checkpoint/library_builds.h"
 #include "common/journal/journal_reader.h"
 #include "common/serialisation/trial.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

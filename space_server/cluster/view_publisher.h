@@ -13,7 +13,6 @@
 
 #include "common/bus/server_session.h"
 #include "space_server/cluster/shares.h"
-#include "space_server/space_server.h"
 
 namespace swarmanoid
 {

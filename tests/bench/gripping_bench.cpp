@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/math/random.h"
+#include "common/space/space.h"
 #include "engine_worker/engines/plane_robots.h"
 
 namespace swarmanoid

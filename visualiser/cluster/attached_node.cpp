@@ -1,4 +1,5 @@
 #include "visualiser/cluster/attached_node.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -1,6 +1,7 @@
 #include "visualiser/cluster/synchronous_node.h"
 
 #include <fmt/format.h>
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

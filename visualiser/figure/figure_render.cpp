@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "common/activity/print_error.h"
+#include "common/space/space.h"
 #include "visualiser/figure/plan_page.h"
 #include "visualiser/figure/plan_scene.h"
 #include "visualiser/render.h"

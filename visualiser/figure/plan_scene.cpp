@@ -10,6 +10,7 @@
 #include "common/math/convex_outline.h"
 #include "common/math/elementary.h"
 #include "common/space/shape.h"
+#include "common/space/space.h"
 #include "common/space/terrain/floor_picture.h"
 #include "common/space/terrain/terrain.h"
 #include "visualiser/led_place.h"

@@ -7,6 +7,7 @@
 
 #include "common/program/csv.h"
 #include "common/space/attributes.h"
+#include "common/space/space.h"
 #include "visualiser/led_place.h"
 
 namespace swarmanoid
@@ -159,6 +160,8 @@ std::uint64_t FoxgloveMessages::TimeOfTick(double tick) const
 {
   return static_cast<std::uint64_t>(std::llround(tick * space_.GetTickSeconds() * 1e9));
 }
+
+std::uint64_t FoxgloveMessages::Time() const { return TimeOfTick(static_cast<double>(space_.GetTick())); }
 
 std::string FoxgloveMessages::Transforms(bool movable) const
 {

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "common/space/space.h"
-
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 struct FoxgloveTopic
 {
@@ -41,7 +41,7 @@ public:
   std::array<FoxgloveTopic, kTopicCount> Topics() const;
   // Simulated time of a tick, in ns; of the space's without an argument.
   std::uint64_t TimeOfTick(double tick) const;
-  std::uint64_t Time() const { return TimeOfTick(static_cast<double>(space_.GetTick())); }
+  std::uint64_t Time() const;
 
   // Where the entities are at the tick of the space: those that can move, or the others.
   std::string Transforms(bool movable) const;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "common/logging/log.h"
+#include "common/space/space.h"
 #include "visualiser/foxglove/foxglove_messages.h"
 #include "visualiser/foxglove/foxglove_server.h"
 #include "visualiser/render.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/space/space.h"
 #include "visualiser/scene/picking.h"
 
 namespace swarmanoid

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "common/space/space.h"
 #include "visualiser/gl/quality.h"
 #include "visualiser/renderer_library.h"
 #include "visualiser/scene/viewpoints.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 #include <sstream>
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "common/messages/assignment.h"
-#include "common/space/space.h"
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 class EntityFilter
 {

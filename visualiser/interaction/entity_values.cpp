@@ -7,6 +7,7 @@
 
 #include "common/math/elementary.h"
 #include "common/space/attributes.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

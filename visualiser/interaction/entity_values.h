@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "common/messages/robot_status.h"
-#include "common/space/space.h"
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 struct EntityValue
 {

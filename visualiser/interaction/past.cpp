@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include "common/space/space.h"
 
 namespace swarmanoid
 {
@@ -34,6 +35,10 @@ LookBackAnswers Past::Answers()
             arrived_.refusal = text;
           }};
 }
+
+Past::Past(const Experiment& experiment) : experiment_(experiment) {}
+
+Past::~Past() = default;
 
 void Past::Follow(const std::string& run_folder)
 {

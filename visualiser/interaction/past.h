@@ -23,7 +23,8 @@ public:
   using Clock = std::chrono::steady_clock;
 
   // The experiment outlives this.
-  explicit Past(const Experiment& experiment) : experiment_(experiment) {}
+  explicit Past(const Experiment& experiment);
+  ~Past();
 
   // Looks for what has been added to the journal in the folder of the run. Another folder than
   // before is that of another run: what was looked at is left. Empty: there is none.

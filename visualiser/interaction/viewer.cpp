@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/logging/log.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {
@@ -42,6 +43,8 @@ Viewer::Viewer(const RenderSetup& setup, int width, int height)
   else
     ShowWholeArena(false);
 }
+
+const Experiment& Viewer::GetExperiment() const { return setup_.space.GetExperiment(); }
 
 void Viewer::SetSize(int width, int height, int left)
 {

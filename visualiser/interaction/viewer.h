@@ -112,7 +112,7 @@ public:
   const Past& GetPast() const { return past_; }
   // At the nearest tick that the journal has; says why if there is none.
   void LookBackAt(std::uint64_t tick);
-  const Experiment& GetExperiment() const { return setup_.space.GetExperiment(); }
+  const Experiment& GetExperiment() const;
   const RunStatus& Status();
   const RobotStatus* Robot(std::uint32_t entity);
   // Whether the run can be asked for anything here.

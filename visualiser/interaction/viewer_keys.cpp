@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 #include "visualiser/interaction/viewer.h"
 #include "visualiser/scene/picking.h"
 

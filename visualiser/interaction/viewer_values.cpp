@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

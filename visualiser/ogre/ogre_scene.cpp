@@ -13,6 +13,7 @@
 #include <set>
 #include <utility>
 
+#include "common/space/space.h"
 #include "visualiser/scene/floor_grid.h"
 #include "visualiser/scene/picking.h"
 

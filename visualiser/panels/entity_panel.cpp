@@ -1,6 +1,7 @@
 // The list of entities, with a filter. Only the rows that are seen are made.
 #include <fmt/format.h>
 
+#include "common/space/space.h"
 #include "visualiser/panels/panels.h"
 #include "visualiser/panels/theme.h"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 #include "visualiser/panels/panels.h"
 #include "visualiser/panels/theme.h"
 

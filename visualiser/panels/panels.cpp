@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 #include "visualiser/panels/theme.h"
 
 namespace swarmanoid

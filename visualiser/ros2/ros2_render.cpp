@@ -11,6 +11,7 @@
 
 #include "common/experiment/entity_kind.h"
 #include "common/space/shape.h"
+#include "common/space/space.h"
 #include "nav_msgs.h"
 #include "real_robot/drivers/ros2/ros2_messages.h"
 #include "rosgraph_msgs.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/space/shape.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -3,11 +3,14 @@
 
 #include <optional>
 
-#include "common/space/space.h"
+#include "common/experiment/experiment.h"
+#include "common/math/pose.h"
 #include "visualiser/scene/camera.h"
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 struct Pick
 {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "common/space/attributes.h"
+#include "common/space/space.h"
 #include "visualiser/scene/kind_model.h"
 #include "visualiser/scene/object_model.h"
 #include "visualiser/scene/painted_floor.h"
@@ -69,6 +70,13 @@ Scene::Scene(const CSwarmanoidSpace& space) : space_(space), models_(StandardMod
 }
 
 Scene::~Scene() = default;
+
+const Vector3& Scene::ArenaSize() const { return space_.GetExperiment().arena_size; }
+
+double Scene::Attribute(const Body& body, int offset) const
+{
+  return space_.Attributes()[body.first_slot + static_cast<std::uint32_t>(offset)];
+}
 
 SceneItem& Scene::AddItem(std::uint32_t entity, ModelId model)
 {

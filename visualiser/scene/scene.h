@@ -13,12 +13,13 @@
 #include "common/builtins/led_cones.h"
 #include "common/space/collision_models.h"
 #include "common/space/query.h"
-#include "common/space/space.h"
 #include "visualiser/scene/meshes.h"
 #include "visualiser/scene/proximity_rays.h"
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 inline constexpr std::uint32_t kNoEntity = 0xffffffff;
 
@@ -107,7 +108,7 @@ public:
   std::span<const SceneLabel> Labels() const { return labels_; }
 
   // Of the arena, in metres.
-  const Vector3& ArenaSize() const { return space_.GetExperiment().arena_size; }
+  const Vector3& ArenaSize() const;
   // What holds all bodies that are in the arena, and its floor.
   void Bounds(Vector3& low, Vector3& high) const;
 
@@ -165,10 +166,7 @@ private:
   void AddTrails();
   // The fraction of the way to the first body but one, whatever its engine; 1 if there is none.
   double FirstHit(const Vector3& from, const Vector3& to, std::uint32_t without);
-  double Attribute(const Body& body, int offset) const
-  {
-    return space_.Attributes()[body.first_slot + static_cast<std::uint32_t>(offset)];
-  }
+  double Attribute(const Body& body, int offset) const;
 
   const CSwarmanoidSpace& space_;
   std::vector<Model> models_;

@@ -5,6 +5,7 @@
 #include "common/math/elementary.h"
 #include "common/mesh/convex_hull.h"
 #include "common/space/attributes.h"
+#include "common/space/space.h"
 #include "visualiser/scene/scene.h"
 #include "visualiser/scene/trail.h"
 

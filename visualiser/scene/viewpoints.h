@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/configuration/parameter.h"
-#include "common/space/space.h"
+#include "common/experiment/experiment.h"
 #include "visualiser/scene/camera.h"
 
 namespace swarmanoid

@@ -14,6 +14,7 @@
 #include "common/builtins/renderers.h"
 #include "common/math/elementary.h"
 #include "common/program/csv.h"
+#include "common/space/space.h"
 #include "visualiser/status_line.h"
 
 namespace swarmanoid

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "common/space/attributes.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -7,11 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "common/math/pose.h"
 #include "common/space/shape.h"
-#include "common/space/space.h"
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 inline constexpr std::uint32_t kKeyMagic = 0x314d5753;     // "SWM1": all of the state
 inline constexpr std::uint32_t kPastMagic = 0x334d5753;    // "SWM3": all of a state of the past, for who looks back

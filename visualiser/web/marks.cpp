@@ -9,6 +9,7 @@
 #include "common/mesh/convex_hull.h"
 #include "common/plugins/catalogue.h"
 #include "common/space/attributes.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {
@@ -61,6 +62,8 @@ MarksWriter::MarksWriter(const CSwarmanoidSpace& space)
     longest_range_ = std::max(longest_range_, range);
   }
 }
+
+bool MarksWriter::IsPresent(std::uint32_t entity) const { return entity < space_.Size() && space_.IsPresent(entity); }
 
 Vector3 MarksWriter::PlaceOf(std::uint32_t robot) const
 {

@@ -30,7 +30,7 @@ private:
     double range = 0;           // m, from which it hears; 0: it does not listen
   };
 
-  bool IsPresent(std::uint32_t entity) const { return entity < space_.Size() && space_.IsPresent(entity); }
+  bool IsPresent(std::uint32_t entity) const;
   Vector3 PlaceOf(std::uint32_t robot) const;
 
   const CSwarmanoidSpace& space_;

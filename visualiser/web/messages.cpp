@@ -13,6 +13,7 @@
 
 #include "common/math/elementary.h"
 #include "common/space/attributes.h"
+#include "common/space/space.h"
 #include "common/space/terrain/terrain.h"
 #include "visualiser/scene/kind_model.h"
 #include "visualiser/scene/meshes_file.h"

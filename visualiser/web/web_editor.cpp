@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/space/space.h"
 #include "visualiser/editor_page.h"
 #include "visualiser/web/frame.h"
 #include "visualiser/web/messages.h"

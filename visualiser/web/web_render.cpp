@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "common/activity/print_error.h"
+#include "common/space/space.h"
 #include "visualiser/renderer_library.h"
 
 namespace swarmanoid

@@ -8,6 +8,7 @@
 #include "common/control_interface/ci_depth_camera_sensor.h"
 #include "common/math/elementary.h"
 #include "common/space/attributes.h"
+#include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/device_streams.h"

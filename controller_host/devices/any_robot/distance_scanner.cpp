@@ -9,6 +9,7 @@
 #include "common/control_interface/ci_distance_scanner_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_turning_scanner_sensor.h"
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 #include "controller_host/devices/any_robot/kind_of_batch.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"

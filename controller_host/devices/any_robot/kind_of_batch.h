@@ -1,6 +1,7 @@
 // What the devices that take their shape from a row of the table of kinds share.
 #pragma once
 
+#include "common/space/space.h"
 #include "controller_host/device.h"
 
 namespace swarmanoid

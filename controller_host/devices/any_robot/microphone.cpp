@@ -6,6 +6,7 @@
 
 #include "common/control_interface/ci_microphone_sensor.h"
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/sensing/sensor_world.h"

@@ -9,6 +9,7 @@
 #include "common/control_interface/ci_gyroscope_sensor.h"
 #include "common/control_interface/ci_positioning_sensor.h"
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"

@@ -1,6 +1,7 @@
 #include "controller_host/devices/any_robot/proximity_rays.h"
 
 #include <algorithm>
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -9,6 +9,7 @@
 
 #include "common/control_interface/ci_tag_reader_sensor.h"
 #include "common/space/query.h"
+#include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 

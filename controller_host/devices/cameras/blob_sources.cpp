@@ -9,6 +9,7 @@
 #include "common/math/elementary.h"
 #include "common/math/random.h"
 #include "common/space/attributes.h"
+#include "common/space/space.h"
 #include "controller_host/devices/sensing/sight_lines.h"
 
 namespace swarmanoid

@@ -1,6 +1,7 @@
 #include "controller_host/devices/cameras/colour_camera.h"
 
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

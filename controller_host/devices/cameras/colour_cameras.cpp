@@ -8,6 +8,7 @@
 #include "common/control_interface/footbot/ci_footbot_omnidirectional_camera_sensor.h"
 #include "common/control_interface/handbot/ci_handbot_camera_sensor.h"
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/cameras/colour_camera.h"
 #include "controller_host/devices/device_plugins.h"

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "common/control_interface/eyebot/ci_eyebot_altitude_sensor.h"
+#include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/sensing/sensor_world.h"

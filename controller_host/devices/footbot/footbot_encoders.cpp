@@ -1,6 +1,7 @@
 // Wheel encoders of the footbot: how the wheels turned in the last tick, made from the metres that they rolled, which
 // the engine sends on channel "footbot_encoders".
 #include "common/control_interface/footbot/ci_footbot_encoders_sensor.h"
+#include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"

@@ -4,6 +4,7 @@
 
 #include "common/control_interface/footbot/ci_footbot_gripper_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_gripper_sensor.h"
+#include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"

@@ -6,6 +6,7 @@
 
 #include "common/builtins/devices.h"
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 

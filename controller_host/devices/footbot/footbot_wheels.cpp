@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 

@@ -3,6 +3,7 @@
 #include "common/control_interface/ci_robot.h"
 #include "common/control_interface/footbot/ci_footbot_preferential_direction_actuator.h"
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"

@@ -7,6 +7,7 @@
 #include "common/control_interface/handbot/ci_handbot_hands_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_head_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_joints_sensor.h"
+#include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"

@@ -7,6 +7,7 @@
 #include "common/builtins/robot_parts.h"
 #include "common/control_interface/handbot/ci_handbot_proximity_sensor.h"
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 #include "controller_host/devices/any_robot/proximity_rays.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"

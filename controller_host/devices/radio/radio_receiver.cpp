@@ -7,6 +7,7 @@
 #include "common/space/attributes.h"
 #include "common/space/packet_attribute.h"
 #include "common/space/query.h"
+#include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 

@@ -5,6 +5,7 @@
 
 #include "common/control_interface/ci_radio.h"
 #include "common/space/packet_attribute.h"
+#include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"

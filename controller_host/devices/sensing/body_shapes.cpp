@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 #include <utility>
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

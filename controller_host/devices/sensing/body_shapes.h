@@ -3,11 +3,14 @@
 
 #include <vector>
 
+#include "common/experiment/experiment.h"
+#include "common/space/pose_arrays.h"
 #include "common/space/shape.h"
-#include "common/space/space.h"
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 // A body in short, for searches over many.
 struct BodyExtent

@@ -1,6 +1,7 @@
 #include "controller_host/devices/sensing/floor_patches.h"
 
 #include "common/experiment/entity_kind.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -5,11 +5,13 @@
 #include <memory>
 #include <vector>
 
-#include "common/space/space.h"
+#include "common/math/pose.h"
 #include "common/space/terrain/floor_picture.h"
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 struct FloorPatch
 {

@@ -1,6 +1,7 @@
 #include "controller_host/devices/sensing/neighbour_grid.h"
 
 #include <cmath>
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -1,6 +1,7 @@
 #include "controller_host/devices/sensing/sensed_terrain.h"
 
 #include <algorithm>
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -6,11 +6,13 @@
 #include <optional>
 #include <vector>
 
-#include "common/space/space.h"
+#include "common/math/pose.h"
 #include "common/space/terrain/terrain.h"
 
 namespace swarmanoid
 {
+
+class CSwarmanoidSpace;
 
 class SensedTerrain
 {

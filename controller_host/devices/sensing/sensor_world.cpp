@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "common/math/random.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/space/collision_models.h"
+#include "common/space/space.h"
 #include "controller_host/devices/sensing/body_shapes.h"
 #include "controller_host/devices/sensing/engine_membership.h"
 #include "controller_host/devices/sensing/neighbour_grid.h"

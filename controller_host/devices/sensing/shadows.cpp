@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

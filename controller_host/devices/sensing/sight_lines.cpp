@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 #include "engine_worker/engines/plane_frame.h"
 #include "engine_worker/engines/terrain_walls.h"
 

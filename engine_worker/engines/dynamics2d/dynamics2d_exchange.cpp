@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 #include "engine_worker/engines/dynamics2d/dynamics2d_engine.h"
 
 namespace swarmanoid

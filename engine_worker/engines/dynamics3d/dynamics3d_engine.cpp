@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/space/space.h"
 #include "engine_worker/engines/dynamics3d/eyebot.h"
 #include "engine_worker/engines/dynamics3d/footbot.h"
 #include "engine_worker/engines/dynamics3d/handbot.h"

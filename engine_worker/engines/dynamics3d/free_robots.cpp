@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include "common/space/space.h"
 
 namespace swarmanoid::dynamics3d
 {

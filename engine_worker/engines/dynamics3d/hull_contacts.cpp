@@ -411,8 +411,8 @@ void MakeRound(std::vector<Touching>& found, const Vector3& centre, const Vector
 
 int CollideCylinder(Workspace& work, dGeomID hull, dGeomID cylinder, std::span<dContactGeom> contacts)
 {
-  constexpr double kSide = 0.94;      // a normal within 20 degrees of the cylinder's side
-  constexpr double kParallel = 1e-3;  // between the normals of two faces
+  constexpr double kSide = 0.94;           // a normal within 20 degrees of the cylinder's side
+  constexpr double kParallelFaces = 1e-3;  // between the normals of two faces
   const Vector3 centre = VectorOf(dGeomGetPosition(cylinder));
   double depth = 0;
   Vector3 out;
@@ -430,7 +430,7 @@ int CollideCylinder(Workspace& work, dGeomID hull, dGeomID cylinder, std::span<d
     dReal length = 0;
     dGeomCylinderGetParams(cylinder, &radius, &length);
     const Vector3& face = work.a.Normals()[work.a.FaceAgainst(-normal)];
-    const bool flat = meeting == Meeting::kFaceOfA || (face - normal).squaredNorm() < kParallel * kParallel;
+    const bool flat = meeting == Meeting::kFaceOfA || (face - normal).squaredNorm() < kParallelFaces * kParallelFaces;
     MakeRound(work.found, centre, axis.cross(across / slope), radius, flat);
   }
   return Put(work.found, -normal, hull, cylinder, contacts);

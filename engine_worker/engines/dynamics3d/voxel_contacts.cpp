@@ -14,7 +14,7 @@ using Cell = std::array<int, 3>;
 
 // A normal that leans to a face by more than 17 degrees, and one that is the face's to 8 degrees.
 constexpr double kFacing = 0.3;
-constexpr double kFlat = 0.99;
+constexpr double kLevel = 0.99;
 
 bool IsNeighbourSolid(const VoxelTerrain& terrain, Cell cell, std::size_t axis, int step)
 {
@@ -169,7 +169,7 @@ bool IsCovered(const VoxelTerrain& terrain, const CellBox& box, const Vector3& p
     if (std::abs(along) < kFacing) continue;
     Cell edge = cell;
     edge[k] = along > 0 ? box.high[k] : box.low[k];
-    if (std::abs(along) < kFlat && edge[k] != cell[k]) continue;
+    if (std::abs(along) < kLevel && edge[k] != cell[k]) continue;
     if (IsNeighbourSolid(terrain, edge, k, along > 0 ? 1 : -1)) return true;
   }
   return false;

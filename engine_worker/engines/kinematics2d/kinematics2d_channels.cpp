@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "common/math/elementary.h"
+#include "common/space/space.h"
 #include "engine_worker/engines/kinematics2d/kinematics2d_engine.h"
 
 namespace swarmanoid
@@ -51,6 +52,8 @@ bool Kinematics2dEngine::Hold(std::uint32_t robot, std::uint32_t object)
 }
 
 // `sum` of a robot's values: not finite if one of them is not.
+double Kinematics2dEngine::TickSeconds() const { return space_->GetTickSeconds(); }
+
 void Kinematics2dEngine::CheckCommand(double sum, std::uint32_t entity, const ChannelBlock& block) const
 {
   if (!std::isfinite(sum))

@@ -85,7 +85,7 @@ private:
   Footbot& FootbotOf(std::uint32_t body);
   const Footbot& FootbotOf(std::uint32_t body) const;
   void CheckCommand(double sum, std::uint32_t entity, const ChannelBlock& block) const;
-  double TickSeconds() const { return space_->GetTickSeconds(); }
+  double TickSeconds() const;
 
   const CSwarmanoidSpace* space_ = nullptr;
   const EngineLayout* layout_ = nullptr;

@@ -10,6 +10,7 @@
 #include "common/journal/journal_follower.h"
 #include "common/journal/journal_reader.h"
 #include "common/journal/recorded_states.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

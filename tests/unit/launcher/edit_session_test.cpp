@@ -1,5 +1,6 @@
 // The session of an editor, with a page that only listens: requests, what is told after each, and the file on disk.
 #include "launcher/edit_session.h"
+#include "common/space/space.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

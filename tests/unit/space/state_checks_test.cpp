@@ -1,4 +1,5 @@
 #include "common/space/state_checks.h"
+#include "common/space/space.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
