@@ -4,13 +4,9 @@
 #include <argos3/plugins/robots/eye-bot/control_interface/ci_eyebot_light_sensor.h>
 #include <argos3/plugins/robots/eye-bot/control_interface/ci_eyebot_proximity_sensor.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_base_ground_sensor.h>
-#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_distance_scanner_actuator.h>
-#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_distance_scanner_sensor.h>
-#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_gripper_actuator.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_light_sensor.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_motor_ground_sensor.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_proximity_sensor.h>
-#include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_turret_actuator.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_turret_encoder_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_battery_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_colored_blob_omnidirectional_camera_sensor.h>
@@ -20,14 +16,12 @@
 #include <argos3/plugins/robots/generic/control_interface/ci_leds_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_positioning_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_proximity_sensor.h>
-#include <argos3/plugins/robots/generic/control_interface/ci_quadrotor_position_actuator.h>
-#include <argos3/plugins/robots/generic/control_interface/ci_quadrotor_speed_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_range_and_bearing_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_range_and_bearing_sensor.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "argos3/plugin/lua_device_parts.h"
 #include "argos3/plugin/lua_stack.h"
 
 namespace swarmanoid::argos3
@@ -273,176 +267,6 @@ void ReadNumbers(lua_State* lua, const std::vector<Real>& readings, const char* 
     lua_pushnumber(lua, readings[i]);
     lua_rawseti(lua, -2, static_cast<lua_Integer>(i + 1));
   }
-  Leave(lua);
-}
-
-// robot.turret: rad, rad/s
-
-int SetRotation(lua_State* lua)
-{
-  CheckCount(lua, 1);
-  Subject<argos::CCI_FootBotTurretActuator>(lua).SetRotation(argos::CRadians(luaL_checknumber(lua, 1)));
-  return 0;
-}
-
-int SetRotationSpeed(lua_State* lua)
-{
-  CheckCount(lua, 1);
-  const double speed = luaL_checknumber(lua, 1);
-  if (!(std::abs(speed) <= 1e6)) return luaL_argerror(lua, 1, "that is no speed of a turret");
-  Subject<argos::CCI_FootBotTurretActuator>(lua).SetRotationSpeed(static_cast<SInt32>(speed));
-  return 0;
-}
-
-template <argos::CCI_FootBotTurretActuator::ETurretModes mode>
-int SetTurretMode(lua_State* lua)
-{
-  Subject<argos::CCI_FootBotTurretActuator>(lua).SetMode(mode);
-  return 0;
-}
-
-void AddTurret(lua_State* lua, argos::CCI_FootBotTurretActuator& turret)
-{
-  using Actuator = argos::CCI_FootBotTurretActuator;
-  Enter(lua, "turret");
-  SetFunction<SetRotation>(lua, "set_rotation", &turret);
-  SetFunction<SetRotationSpeed>(lua, "set_rotation_speed", &turret);
-  SetFunction<SetTurretMode<Actuator::MODE_POSITION_CONTROL>>(lua, "set_position_control_mode", &turret);
-  SetFunction<SetTurretMode<Actuator::MODE_SPEED_CONTROL>>(lua, "set_speed_control_mode", &turret);
-  SetFunction<SetTurretMode<Actuator::MODE_PASSIVE>>(lua, "set_passive_mode", &turret);
-  Leave(lua);
-}
-
-// robot.distance_scanner: rad, turns a minute; cm, rad
-
-int SetScannerAngle(lua_State* lua)
-{
-  CheckCount(lua, 1);
-  Subject<argos::CCI_FootBotDistanceScannerActuator>(lua).SetAngle(argos::CRadians(luaL_checknumber(lua, 1)));
-  return 0;
-}
-
-int SetRpm(lua_State* lua)
-{
-  CheckCount(lua, 1);
-  Subject<argos::CCI_FootBotDistanceScannerActuator>(lua).SetRPM(luaL_checknumber(lua, 1));
-  return 0;
-}
-
-template <void (argos::CCI_FootBotDistanceScannerActuator::*Act)()>
-int SwitchScanner(lua_State* lua)
-{
-  CheckCount(lua, 0);
-  (Subject<argos::CCI_FootBotDistanceScannerActuator>(lua).*Act)();
-  return 0;
-}
-
-void AddScanner(lua_State* lua, argos::CCI_FootBotDistanceScannerActuator& scanner)
-{
-  using Actuator = argos::CCI_FootBotDistanceScannerActuator;
-  Enter(lua, "distance_scanner");
-  SetFunction<SwitchScanner<&Actuator::Enable>>(lua, "enable", &scanner);
-  SetFunction<SwitchScanner<&Actuator::Disable>>(lua, "disable", &scanner);
-  SetFunction<SetScannerAngle>(lua, "set_angle", &scanner);
-  SetFunction<SetRpm>(lua, "set_rpm", &scanner);
-  Leave(lua);
-}
-
-void ReadBeams(lua_State* lua, const argos::CCI_FootBotDistanceScannerSensor::TReadingsMap& readings, const char* name)
-{
-  Enter(lua, name);
-  lua_Integer count = 0;
-  for (const auto& [angle, distance] : readings)
-  {
-    EnterNew(lua, ++count, 2);
-    Set(lua, "angle", angle.GetValue());
-    Set(lua, "distance", distance);
-    Leave(lua);
-  }
-  Shorten(lua, count);
-  Leave(lua);
-}
-
-void ReadScanner(lua_State* lua, argos::CCI_FootBotDistanceScannerSensor& scanner)
-{
-  Enter(lua, "distance_scanner");
-  ReadBeams(lua, scanner.GetShortReadingsMap(), "short_range");
-  ReadBeams(lua, scanner.GetLongReadingsMap(), "long_range");
-  Leave(lua);
-}
-
-// robot.gripper
-
-template <void (argos::CCI_FootBotGripperActuator::*Act)()>
-int MoveGripper(lua_State* lua)
-{
-  CheckCount(lua, 0);
-  (Subject<argos::CCI_FootBotGripperActuator>(lua).*Act)();
-  return 0;
-}
-
-void AddGripper(lua_State* lua, argos::CCI_FootBotGripperActuator& gripper)
-{
-  using Actuator = argos::CCI_FootBotGripperActuator;
-  Enter(lua, "gripper");
-  SetFunction<MoveGripper<&Actuator::LockPositive>>(lua, "lock_positive", &gripper);
-  SetFunction<MoveGripper<&Actuator::LockNegative>>(lua, "lock_negative", &gripper);
-  SetFunction<MoveGripper<&Actuator::Unlock>>(lua, "unlock", &gripper);
-  Leave(lua);
-}
-
-// robot.quadrotor: m, degrees; m/s, rad/s
-
-template <void (argos::CCI_QuadRotorPositionActuator::*Go)(const argos::CVector3&)>
-int FlyTo(lua_State* lua)
-{
-  CheckCount(lua, 3);
-  (Subject<argos::CCI_QuadRotorPositionActuator>(lua).*
-   Go)(argos::CVector3(luaL_checknumber(lua, 1), luaL_checknumber(lua, 2), luaL_checknumber(lua, 3)));
-  return 0;
-}
-
-template <void (argos::CCI_QuadRotorPositionActuator::*Turn)(const argos::CRadians&)>
-int TurnTo(lua_State* lua)
-{
-  CheckCount(lua, 1);
-  (Subject<argos::CCI_QuadRotorPositionActuator>(lua).*
-   Turn)(argos::CRadians(luaL_checknumber(lua, 1) * std::numbers::pi / 180));
-  return 0;
-}
-
-void AddPosition(lua_State* lua, argos::CCI_QuadRotorPositionActuator& quadrotor)
-{
-  using Actuator = argos::CCI_QuadRotorPositionActuator;
-  Enter(lua, "quadrotor");
-  SetFunction<FlyTo<&Actuator::SetAbsolutePosition>>(lua, "set_absolute_position", &quadrotor);
-  SetFunction<FlyTo<&Actuator::SetRelativePosition>>(lua, "set_relative_position", &quadrotor);
-  SetFunction<TurnTo<&Actuator::SetAbsoluteYaw>>(lua, "set_absolute_yaw", &quadrotor);
-  SetFunction<TurnTo<&Actuator::SetRelativeYaw>>(lua, "set_relative_yaw", &quadrotor);
-  Leave(lua);
-}
-
-int SetLinearVelocity(lua_State* lua)
-{
-  // Older scripts give two numbers.
-  if (lua_gettop(lua) != 2) CheckCount(lua, 3);
-  Subject<argos::CCI_QuadRotorSpeedActuator>(lua).SetLinearVelocity(
-      argos::CVector3(luaL_checknumber(lua, 1), luaL_checknumber(lua, 2), luaL_optnumber(lua, 3, 0)));
-  return 0;
-}
-
-int SetRotationalSpeed(lua_State* lua)
-{
-  CheckCount(lua, 1);
-  Subject<argos::CCI_QuadRotorSpeedActuator>(lua).SetRotationalSpeed(argos::CRadians(luaL_checknumber(lua, 1)));
-  return 0;
-}
-
-void AddSpeed(lua_State* lua, argos::CCI_QuadRotorSpeedActuator& quadrotor)
-{
-  Enter(lua, "quadrotor");
-  SetFunction<SetLinearVelocity>(lua, "set_linear_velocity", &quadrotor);
-  SetFunction<SetRotationalSpeed>(lua, "set_rotational_speed", &quadrotor);
   Leave(lua);
 }
 
