@@ -45,12 +45,14 @@ void FootbotProximity::Init(const DeviceSetup& setup)
   fixed_ = std::make_unique<FixedBodies>(setup.space, world_->Bodies(), ring_radius_ + range_ + kHeight);
 
   sensors_.reserve(robots_.size());
-  place_of_entity_.assign(setup.space.Size(), -1);
+  in_one_run_ = !robots_.empty() && robots_.back() - robots_.front() + 1 == robots_.size();
+  if (!in_one_run_) place_of_entity_.assign(setup.space.Size(), -1);
+  own_.resize(robots_.size() + 1);
   readings_.assign(robots_.size() * kRays, 0);
   dirty_.assign(robots_.size(), 0);
   for (std::size_t k = 0; k < robots_.size(); ++k)
   {
-    place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
+    if (!in_one_run_) place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
     sensors_.emplace_back(&readings_[k * kRays]);
   }
 }
@@ -60,29 +62,47 @@ void FootbotProximity::Update(const ChannelView&)
   world_->Refresh();
   // In the order of the grid's cells, where it has the places of the robots: neighbours stay in the cache. What is kept
   // of a robot itself lies anywhere.
-  const std::span<const std::uint32_t> sorted = world_->Grid().Sorted();
-  for (std::size_t i = 0; i < sorted.size(); ++i)
+  const std::span<const Sensed> own = ListOwn();
+  for (std::size_t i = 0; i < own.size(); ++i)
   {
-    Prefetch(sorted.subspan(i));
-    if (const std::int32_t k = place_of_entity_[sorted[i]]; k >= 0) Sense(static_cast<std::size_t>(k), sorted[i], i);
+    Prefetch(own.subspan(i));
+    Sense(own[i].k, robots_[own[i].k], own[i].place);
   }
 }
 
-void FootbotProximity::Prefetch(std::span<const std::uint32_t> later) const
+std::span<const FootbotProximity::Sensed> FootbotProximity::ListOwn()
 {
-  // Each stage knows by the one before where to look.
-  if (later.size() > 3 * kAhead) __builtin_prefetch(&place_of_entity_[later[3 * kAhead]]);
-  if (later.size() > 2 * kAhead)
-    if (const std::int32_t k = place_of_entity_[later[2 * kAhead]]; k >= 0) __builtin_prefetch(&dirty_[k]);
-  if (later.size() <= kAhead) return;
-  const std::int32_t k = place_of_entity_[later[kAhead]];
-  if (k < 0 || !dirty_[k]) return;
+  const std::span<const std::uint32_t> sorted = world_->Grid().Sorted();
+  std::size_t count = 0;
+  const auto list = [&](const auto& number_of)
+  {
+    // Without a branch: which robots are of another batch nobody can foretell.
+    for (std::uint32_t place = 0; place < sorted.size(); ++place)
+    {
+      const std::uint32_t k = number_of(sorted[place]);
+      own_[count] = {k, place};
+      count += k < robots_.size() ? 1 : 0;
+    }
+  };
+  if (in_one_run_)
+    list([first = robots_.front()](std::uint32_t entity) { return entity - first; });
+  else
+    list([this](std::uint32_t entity) { return static_cast<std::uint32_t>(place_of_entity_[entity]); });
+  return {own_.data(), count};
+}
+
+void FootbotProximity::Prefetch(std::span<const Sensed> later) const
+{
+  if (later.size() <= 2 * kAhead) return;
+  __builtin_prefetch(&dirty_[later[2 * kAhead].k]);
+  const std::uint32_t k = later[kAhead].k;
+  if (!dirty_[k]) return;
   // Who was near somebody mostly is so again.
-  const double* readings = &readings_[static_cast<std::size_t>(k) * kRays];
+  const double* readings = &readings_[k * std::size_t{kRays}];
   for (unsigned i = 0; i < kRays; i += 8) __builtin_prefetch(readings + i, 1);
   const PoseArrays& poses = world_->Space().Poses();
-  __builtin_prefetch(&poses.qz[later[kAhead]]);
-  __builtin_prefetch(&poses.qw[later[kAhead]]);
+  __builtin_prefetch(&poses.qz[robots_[k]]);
+  __builtin_prefetch(&poses.qw[robots_[k]]);
 }
 
 void FootbotProximity::Sense(std::size_t k, std::uint32_t robot, std::size_t place)
@@ -98,25 +118,27 @@ void FootbotProximity::Sense(std::size_t k, std::uint32_t robot, std::size_t pla
   const double height = grid.OriginZ()[place] + kHeight;
   touched_ = false;
 
-  const auto add = [&](std::uint32_t body, double body_x, double body_y, double body_z, bool body_upright)
+  const auto add =
+      [&](const BodyShape* known, std::uint32_t body, double body_x, double body_y, double body_z, bool body_upright)
   {
     if (body == robot || !(one_world || membership.ShareEngine(robot, body))) return;
     if (world_->IsArticulated(body)) return AddParts(robot, body);
-    const BodyShape& shape = world_->Body(body);
+    const BodyShape& shape = known != nullptr ? *known : world_->Body(body);
     if (!upright || !body_upright) return AddAny(robot, shape, world_->Space().GetPose(body));
     if (height < body_z + shape.low || height > body_z + shape.high) return;
     if (shape.kind == Shape::Kind::kCylinder) return AddDisc(robot, body_x - x, body_y - y, shape.radius);
     AddUprightBox(robot, body);
   };
+  const BodyShape* const shape_of_all = grid.ShapeOfAll();
   grid.ForEachPlaceNear(x, y, ring_radius_ + range_ + (upright ? 0 : kHeight),
                         [&](std::size_t other)
                         {
                           const std::uint32_t body = grid.Sorted()[other];
-                          add(body, grid.OriginX()[other], grid.OriginY()[other], grid.OriginZ()[other],
+                          add(shape_of_all, body, grid.OriginX()[other], grid.OriginY()[other], grid.OriginZ()[other],
                               all_upright || IsUpright(poses, body));
                         });
   for (const std::uint32_t body : fixed_->Near(x, y))
-    add(body, poses.x[body], poses.y[body], poses.z[body], IsUpright(poses, body));
+    add(nullptr, body, poses.x[body], poses.y[body], poses.z[body], IsUpright(poses, body));
   if (!world_->Terrain().IsEmpty()) AddTerrain(robot);
 
   double* readings = &readings_[k * kRays];

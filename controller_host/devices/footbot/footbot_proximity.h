@@ -27,7 +27,7 @@ public:
   void Init(const DeviceSetup& setup) override;
   CCI_Sensor* Sensor(std::size_t k) override { return &sensors_[k]; }
   void Update(const ChannelView& channel) override;
-  void RefreshShared() override { world_->Refresh(); }
+  void RefreshShared(WorkerPool* pool) override { world_->Refresh(pool); }
 
 protected:
   // From distances in m (more than the range: nothing there) to readings, before noise and the cut to 0..1.
@@ -41,8 +41,17 @@ private:
     double values[kRays];
   };
 
-  // Fetches what Sense will read of robots that come later in the order of the grid.
-  void Prefetch(std::span<const std::uint32_t> later) const;
+  // A robot of the batch at a place of the grid.
+  struct Sensed
+  {
+    std::uint32_t k = 0;
+    std::uint32_t place = 0;
+  };
+
+  // The robots of the batch in the order of the grid.
+  std::span<const Sensed> ListOwn();
+  // Fetches what Sense will read of robots that come later in that order.
+  void Prefetch(std::span<const Sensed> later) const;
   // The robot at a place of the grid.
   void Sense(std::size_t k, std::uint32_t robot, std::size_t place);
   void AddDisc(std::uint32_t robot, double dx, double dy, double radius);
@@ -55,7 +64,9 @@ private:
 
   std::shared_ptr<SensorWorld> world_;
   std::vector<std::uint32_t> robots_;
-  std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
+  bool in_one_run_ = false;                    // robot k is entity robots_[0] + k
+  std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1; only if they are not
+  std::vector<Sensed> own_;                    // one more than robots
   std::unique_ptr<FixedBodies> fixed_;
   double ring_radius_ = 0;  // m: where the rays start
   NoiseModel noise_;

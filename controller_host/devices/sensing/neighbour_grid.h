@@ -18,6 +18,7 @@
 
 #include "common/math/cells.h"
 #include "common/math/lanes.h"
+#include "common/threads/worker_pool.h"
 #include "controller_host/devices/sensing/body_shapes.h"
 
 namespace swarmanoid
@@ -61,8 +62,8 @@ public:
   NeighbourGrid(const CSwarmanoidSpace& space, const BodyShapes& shapes);
 
   // Sorts the movable bodies that are in the arena from the poses of the space: those that wait outside it sense
-  // nothing and are not sensed.
-  void Rebuild();
+  // nothing and are not sensed. The threads of `pool`, if there is one, share the work.
+  void Rebuild(WorkerPool* pool = nullptr);
 
   // How many may ever be sorted.
   std::size_t MostBodies() const { return bodies_.size(); }
@@ -80,6 +81,8 @@ public:
   bool AllLevel() const { return all_level_; }
   // No movable body is a box.
   bool AllCylinders() const { return all_cylinders_; }
+  // The body of all of them, if they are cylinders of one size; else nullptr.
+  const BodyShape* ShapeOfAll() const { return shape_of_all_; }
   // All have one radius and stand at one height, if they are upright.
   bool AreAlike() const { return are_alike_; }
 
@@ -103,9 +106,24 @@ public:
   void ForEachAlong(const Vector3& from, const Vector3& to, Visit&& visit) const;
 
 private:
-  // The outlines of the bodies at their places: of upright ones of one shape, and of any.
-  void OutlineAlike(const BodyShape& shape);
-  void OutlineEach();
+  // What is true of all bodies that a thread had.
+  struct Facts
+  {
+    float largest = 0;
+    bool upright = true;
+    bool level = true;
+    bool alike = true;
+  };
+
+  // Of all bodies, by part(begin, end) of each thread.
+  template <class Part>
+  Facts InAllParts(WorkerPool* pool, const Part& part);
+  // From `begin` to before `end`: the cells of bodies as they come; then where they are in the order of the cells, and
+  // their outlines there, of upright ones of one shape and of any.
+  Facts FindCells(std::size_t begin, std::size_t end, std::uint32_t* cells) const;
+  Facts Gather(std::size_t begin, std::size_t end);
+  void OutlineAlike(const BodyShape& shape, std::size_t begin, std::size_t end);
+  bool OutlineEach(std::size_t begin, std::size_t end);
   template <bool kAlike>
   std::size_t Collect(double x, double y, double reach, std::uint32_t left_out, NearBodies& near) const;
 
@@ -114,7 +132,7 @@ private:
   const BodyShape* shape_of_all_ = nullptr;  // if the movable bodies have one, and it stays as it is
   CellFrame frame_;
   std::vector<std::uint32_t> bodies_;  // movable entities with a body, ascending
-  std::vector<std::uint32_t> here_;    // those of them that are in the arena
+  std::vector<std::uint32_t> here_;    // those of them that are in the arena, if some are not
   std::size_t count_ = 0;
   float margin_ = 0;          // covers the rounding to single precision
   float largest_radius_ = 0;  // of this tick
@@ -123,16 +141,9 @@ private:
   bool all_level_ = true;
   bool are_alike_ = true;  // as in NearBodies
 
-  // Where a body is, in one piece for its place: places of bodies that follow one another in the experiment lie
-  // anywhere in memory.
-  struct Origin
-  {
-    double x, y, z;
-    std::uint32_t entity;
-  };
-
   CellSort sort_;
-  std::vector<Origin> origins_;
+  std::span<const std::uint32_t> sorted_from_;  // bodies_ or here_
+  std::vector<Facts> facts_;                    // of each thread
   // By place in the sorted order, with far-away padding at the end.
   std::vector<float> x_, y_, radius_, low_, high_;
   std::vector<double> origin_x_, origin_y_, origin_z_;

@@ -133,8 +133,12 @@ void Kinematics2dEngine::GripNearest(std::uint32_t body)
   if (found != body) world_.AddGrip(body, found);
 }
 
-void Kinematics2dEngine::ReportFootbots(AttributeChanges& changes) const
+// What footbots show lies far apart in memory. Where nobody commands turrets and grippers, it differs from the space
+// only if somebody changed it there.
+void Kinematics2dEngine::ReportFootbots(AttributeChanges& changes)
 {
+  if (!footbots_change_ && reported_ == space_->AttributeRevision()) return;
+  const std::size_t before = changes.slots.size();
   const std::span<const double> known = space_->Attributes();
   const auto report = [&](std::uint32_t slot, double value)
   {
@@ -147,6 +151,7 @@ void Kinematics2dEngine::ReportFootbots(AttributeChanges& changes) const
     report(footbot.gripped_slot, grip == nullptr ? 0 : 1.0 + layout_->owned[grip->prey]);
     report(footbot.turret_slot, world_.TurretAngle(footbot.body));
   }
+  if (changes.slots.size() == before) reported_ = space_->AttributeRevision();
 }
 
 // The arcs (m) that the wheels rolled in the tick, collisions included.
@@ -171,7 +176,8 @@ void Kinematics2dEngine::ReadTurretTorques(const ChannelBlock& block, std::span<
   {
     const std::uint32_t body = BodyOf(block.entities[k]);
     if (world_.FindGrip(body) == nullptr) continue;
-    const Pose2 wanted = Advanced(FootbotOf(body).tick_start, world_.TwistOf(body), TickSeconds());
+    const Pose2 wanted = Advanced(tick_start_[static_cast<std::size_t>(&FootbotOf(body) - footbots_.data())],
+                                  world_.TwistOf(body), TickSeconds());
     const Placed robot = world_.PlacedAt(body);
     const double scale = 1 / (kFullSpeed * TickSeconds());
     const double x = (wanted.x - robot.x) * scale;
