@@ -41,19 +41,17 @@ private:
     double values[kRays];
   };
 
-  // A robot of the batch at a place of the grid.
-  struct Sensed
-  {
-    std::uint32_t k = 0;
-    std::uint32_t place = 0;
-  };
-
-  // The robots of the batch in the order of the grid.
-  std::span<const Sensed> ListOwn();
+  // Lists the robots of the batch in the order of the grid.
+  void ListOwn();
   // Fetches what Sense will read of robots that come later in that order.
-  void Prefetch(std::span<const Sensed> later) const;
-  // The robot at a place of the grid.
-  void Sense(std::size_t k, std::uint32_t robot, std::size_t place);
+  void Prefetch(std::size_t later) const;
+  // The robot that is listed there. SenseUpright: where nobody is tilted; what is near is looked for around several.
+  void Sense(std::size_t listed);
+  void SenseUpright(std::size_t first, std::size_t last);
+  // Looks at a body near a robot whose sensors are at this height.
+  void LookAt(std::uint32_t robot, const Vector3& sensors, bool upright, std::uint32_t body, const BodyShape& shape,
+              const Vector3& at, bool body_upright);
+  void FinishReadings(std::size_t k);
   void AddDisc(std::uint32_t robot, double dx, double dy, double radius);
   void AddUprightBox(std::uint32_t robot, std::uint32_t body);
   void AddAny(std::uint32_t robot, const Shape& shape, const Pose& other);
@@ -66,7 +64,9 @@ private:
   std::vector<std::uint32_t> robots_;
   bool in_one_run_ = false;                    // robot k is entity robots_[0] + k
   std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1; only if they are not
-  std::vector<Sensed> own_;                    // one more than robots
+  std::size_t listed_ = 0;
+  std::vector<std::uint32_t> number_;  // k of each that is listed
+  std::vector<std::int32_t> place_;    // and its place in the grid; both have kLanes more
   std::unique_ptr<FixedBodies> fixed_;
   double ring_radius_ = 0;  // m: where the rays start
   NoiseModel noise_;

@@ -204,6 +204,33 @@ bool NeighbourGrid::OutlineEach(std::size_t begin, std::size_t end)
   return alike;
 }
 
+namespace
+{
+
+IntLanes CellsOn(const CellAxis<float>& axis, FloatLanes at)
+{
+  const FloatLanes cell = (at - axis.start) * axis.inverse_edge;
+  return Truncated(Minimum(Maximum(cell, FloatLanes{}), Everywhere(axis.last)));
+}
+
+}  // namespace
+
+void NeighbourGrid::FindWindows(const std::int32_t* places, double reach, CellWindows& windows) const
+{
+  const auto [x, y] = MiddlesAt(places);
+  const float widest = static_cast<float>(reach) + margin_ + largest_radius_;
+  StoreLanes(CellsOn(frame_.rows, y - widest), windows.first_row.data());
+  StoreLanes(CellsOn(frame_.rows, y + widest), windows.last_row.data());
+  StoreLanes(CellsOn(frame_.columns, x - widest), windows.first_column.data());
+  StoreLanes(CellsOn(frame_.columns, x + widest), windows.last_column.data());
+}
+
+void FixedBodies::FindCells(const NeighbourGrid& grid, const std::int32_t* places, std::int32_t* cells) const
+{
+  const auto [x, y] = grid.MiddlesAt(places);
+  StoreLanes(CellsOn(frame_.rows, y) * static_cast<std::int32_t>(frame_.stride) + CellsOn(frame_.columns, x), cells);
+}
+
 void NearBodies::Reserve(std::size_t bodies)
 {
   for (std::vector<float>* values : {&x, &y, &radius, &low, &high}) values->resize(bodies + 2 * kLanes);

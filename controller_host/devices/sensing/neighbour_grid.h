@@ -11,6 +11,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -39,6 +40,12 @@ struct CellFrame : PlaneCells<float>
     std::array<std::int32_t, kLanes> first, last;
   };
   Chords ChordsFrom(std::uint32_t row, float x, float y, float reach) const;
+};
+
+// The cells that come within some reach of kLanes points: rows, and columns as counted from the start of a row.
+struct CellWindows
+{
+  std::array<std::int32_t, kLanes> first_row, last_row, first_column, last_column;
 };
 
 // Movable bodies around a point, by lanes: room for 2 * kLanes more behind `count`.
@@ -70,6 +77,12 @@ public:
   // The movable bodies in the order of their cells: entity indices.
   std::span<const std::uint32_t> Sorted() const { return {entity_.data(), count_}; }
 
+  // The middles of the circles around kLanes bodies, given by their places.
+  std::pair<FloatLanes, FloatLanes> MiddlesAt(const std::int32_t* places) const
+  {
+    const IntLanes at = LoadLanes(places);
+    return {Gathered(x_.data(), at), Gathered(y_.data(), at)};
+  }
   // Where the bodies are, in the same order, m in the space.
   const double* OriginX() const { return origin_x_.data(); }
   const double* OriginY() const { return origin_y_.data(); }
@@ -96,6 +109,13 @@ public:
   // Likewise visit(place), in the order of Sorted().
   template <class Visit>
   void ForEachPlaceNear(double x, double y, double reach, Visit&& visit) const;
+  // What ForEachOtherNear takes: the cells around kLanes bodies, given by their places.
+  void FindWindows(const std::int32_t* places, double reach, CellWindows& windows) const;
+  // As ForEachPlaceNear around the body at a place, without itself. It must be upright; `windows` and `lane`: its
+  // cells, for this reach or more.
+  template <class Visit>
+  void ForEachOtherNear(std::size_t place, double reach, const CellWindows& windows, std::size_t lane,
+                        Visit&& visit) const;
   // Calls visit(first, behind) with the places, row by row of the cells, of all these bodies and others.
   template <class Visit>
   void ForEachSpanNear(double x, double y, double reach, Visit&& visit) const;
@@ -161,6 +181,11 @@ public:
   {
     return lists_.In(frame_.CellOf(static_cast<float>(x), static_cast<float>(y)));
   }
+
+  // Likewise of the cell of a point.
+  std::span<const std::uint32_t> InCell(std::int32_t cell) const { return lists_.In(static_cast<std::uint32_t>(cell)); }
+  // The cells of kLanes points.
+  void FindCells(const NeighbourGrid& grid, const std::int32_t* places, std::int32_t* cells) const;
 
   // Calls visit(entity), perhaps more than once, for every body that the segment may touch if the reach is at least 0.
   template <class Visit>
@@ -318,6 +343,35 @@ void NeighbourGrid::ForEachPlaceNear(double x, double y, double reach, Visit&& v
                       ForEachBit(hits, [&](unsigned bit) { visit(i + bit); });
                     }
                   });
+}
+
+template <class Visit>
+[[gnu::always_inline]] inline void NeighbourGrid::ForEachOtherNear(std::size_t place, double reach,
+                                                                   const CellWindows& windows, std::size_t lane,
+                                                                   Visit&& visit) const
+{
+  const float own = static_cast<float>(reach) + margin_;
+  const float* const body_x = x_.data();
+  const float* const body_y = y_.data();
+  const float* const body_radius = radius_.data();
+  const float x = body_x[place];
+  const float y = body_y[place];
+  const std::uint32_t* const start = sort_.Starts();
+  const std::uint32_t* row = start + std::size_t{frame_.stride} * static_cast<std::uint32_t>(windows.first_row[lane]);
+  for (std::int32_t rows = windows.last_row[lane] - windows.first_row[lane]; rows >= 0; --rows, row += frame_.stride)
+  {
+    const std::size_t behind = row[windows.last_column[lane] + 1];
+    for (std::size_t i = row[windows.first_column[lane]]; i < behind; i += kLanes)
+    {
+      const FloatLanes dx = LoadLanes(body_x + i) - x;
+      const FloatLanes dy = LoadLanes(body_y + i) - y;
+      const FloatLanes cut = LoadLanes(body_radius + i) + own;
+      unsigned hits = LaneMask(dx * dx + dy * dy <= cut * cut);
+      if (behind - i < kLanes) hits &= (1U << (behind - i)) - 1U;
+      if (place - i < kLanes) hits &= ~(1U << (place - i));
+      ForEachBit(hits, [&](unsigned bit) { visit(i + bit); });
+    }
+  }
 }
 
 }  // namespace swarmanoid
