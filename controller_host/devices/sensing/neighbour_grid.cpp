@@ -55,6 +55,12 @@ CellFrame FrameOver(const Extent& extent, double smallest, std::size_t most)
   return {extent.left, extent.bottom, extent.width, extent.height, edge};
 }
 
+IntLanes CellsOn(const CellAxis<float>& axis, FloatLanes at)
+{
+  const FloatLanes cell = (at - axis.start) * axis.inverse_edge;
+  return Truncated(Minimum(Maximum(cell, FloatLanes{}), Everywhere(axis.last)));
+}
+
 }  // namespace
 
 NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, const BodyShapes& shapes) : space_(space), shapes_(shapes)
@@ -134,7 +140,28 @@ NeighbourGrid::Facts NeighbourGrid::FindCells(std::size_t begin, std::size_t end
 {
   const PoseArrays& poses = space_.Poses();
   Facts facts;
-  for (std::size_t b = begin; b < end; ++b)
+  std::size_t b = begin;
+  // Of upright bodies that follow one another, all of one shape, several at a time.
+  if (shape_of_all_ != nullptr)
+  {
+    facts.largest = begin < end ? static_cast<float>(shape_of_all_->radius) : 0;
+    const auto follow = [&]
+    {
+      const std::uint32_t e = sorted_from_[b];
+      if (sorted_from_[b + kLanes - 1] - e != kLanes - 1) return false;
+      bool upright = true;
+      for (std::size_t lane = 0; lane < kLanes; ++lane) upright &= poses.qx[e + lane] == 0 && poses.qy[e + lane] == 0;
+      return upright;
+    };
+    for (; b + kLanes <= end && follow(); b += kLanes)
+    {
+      const std::size_t e = sorted_from_[b];
+      const IntLanes row = CellsOn(frame_.rows, Differences(&poses.y[e], 0));
+      const IntLanes column = CellsOn(frame_.columns, Differences(&poses.x[e], 0));
+      StoreLanes(row * static_cast<std::int32_t>(frame_.stride) + column, reinterpret_cast<std::int32_t*>(cells + b));
+    }
+  }
+  for (; b < end; ++b)
   {
     const std::uint32_t e = sorted_from_[b];
     const Circle circle = CircleOf(poses, e, shape_of_all_ != nullptr ? *shape_of_all_ : shapes_[e]);
@@ -203,17 +230,6 @@ bool NeighbourGrid::OutlineEach(std::size_t begin, std::size_t end)
   }
   return alike;
 }
-
-namespace
-{
-
-IntLanes CellsOn(const CellAxis<float>& axis, FloatLanes at)
-{
-  const FloatLanes cell = (at - axis.start) * axis.inverse_edge;
-  return Truncated(Minimum(Maximum(cell, FloatLanes{}), Everywhere(axis.last)));
-}
-
-}  // namespace
 
 void NeighbourGrid::FindWindows(const std::int32_t* places, double reach, CellWindows& windows) const
 {

@@ -1,5 +1,6 @@
 // Commands and sensors of the kinematic engine.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -23,12 +24,12 @@ constexpr double kFullSpeed = 0.3;
 
 }  // namespace
 
-void Kinematics2dEngine::ApplyCommands(const EngineCommands& commands)
+void Kinematics2dEngine::ApplyCommands(const EngineCommands& commands, WorkerPool* pool)
 {
   for (const ChannelBlock& block : commands.blocks)
   {
     const std::span<const double> values = commands.Of(block);
-    if (block.name == "footbot_wheels" || block.name == "wheels") DriveWheels(block, values);
+    if (block.name == "footbot_wheels" || block.name == "wheels") DriveWheels(block, values, pool);
     if (block.name == "eyebot_propellers") DrivePropellers(block, values);
     if (block.name == "footbot_turret") TurnTurrets(block, values);
     if (block.name == "footbot_gripper") UseGrippers(block, values);
@@ -58,17 +59,32 @@ void Kinematics2dEngine::CheckCommand(double sum, std::uint32_t entity, const Ch
                              " a value that is not a finite number");
 }
 
-void Kinematics2dEngine::DriveWheels(const ChannelBlock& block, std::span<const double> values)
+void Kinematics2dEngine::DriveWheels(const ChannelBlock& block, std::span<const double> values, WorkerPool* pool)
 {
-  std::uint32_t body = BodyOf(block.entities.empty() ? 0 : block.entities.front());
+  std::atomic<bool> failed = false;
+  InParts(pool, block.entities.size(), 1,
+          [&](unsigned, std::size_t begin, std::size_t end)
+          {
+            if (begin == end) return;
+            const std::uint32_t* const owned = layout_->owned.data();
+            std::uint32_t body = BodyOf(block.entities[begin]);
+            bool finite = true;
+            for (std::size_t k = begin; k < end; ++k, ++body)
+            {
+              while (owned[body] != block.entities[k]) ++body;
+              const Wheels& wheels = wheels_[body];
+              const double left = values[2 * k] * wheels.radius;
+              const double right = values[2 * k + 1] * wheels.radius;
+              finite &= std::isfinite(left + right);
+              world_.SetTwist(body, {0.5 * (left + right), 0, (right - left) * wheels.inverse_axle});
+            }
+            if (!finite) failed = true;
+          });
+  if (!failed) return;
   for (std::size_t k = 0; k < block.entities.size(); ++k)
   {
-    while (layout_->owned[body] != block.entities[k]) ++body;
-    const Wheels& wheels = wheels_[body];
-    const double left = values[2 * k] * wheels.radius;
-    const double right = values[2 * k + 1] * wheels.radius;
-    CheckCommand(left + right, block.entities[k], block);
-    world_.SetTwist(body, {0.5 * (left + right), 0, (right - left) * wheels.inverse_axle});
+    const double radius = wheels_[BodyOf(block.entities[k])].radius;
+    CheckCommand(values[2 * k] * radius + values[2 * k + 1] * radius, block.entities[k], block);
   }
 }
 

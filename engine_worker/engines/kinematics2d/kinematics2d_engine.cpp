@@ -223,13 +223,10 @@ CollisionModel Kinematics2dEngine::Outline(const CSwarmanoidSpaceEntity& block, 
 void Kinematics2dEngine::Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors)
 {
   FollowMirrors();
-  ApplyCommands(commands);
-  for (std::size_t k = 0; k < tick_start_.size(); ++k) tick_start_[k] = world_.PoseOf(footbots_[k].body);
-  BalanceRegions();
   if (sharing_)
-    sharing_->Do([&] { Move(false, update.poses); }, [&] { Move(true, update.poses); });
+    sharing_->Do([&] { Step(commands, false, update.poses); }, [&] { Step(commands, true, update.poses); });
   else
-    Move(true, update.poses);
+    Step(commands, true, update.poses);
   robots_.Raise(layout_->owned, update.poses);
   ReportFootbots(update.attributes);
   robots_.Report(update.attributes);
@@ -242,11 +239,15 @@ void Kinematics2dEngine::Update(const EngineCommands& commands, EngineUpdate& up
   }
 }
 
-void Kinematics2dEngine::Move(bool in_threads, std::span<double> poses)
+void Kinematics2dEngine::Step(const EngineCommands& commands, bool in_threads, std::span<double> poses)
 {
+  WorkerPool* const pool = in_threads ? pool_ : nullptr;
+  ApplyCommands(commands, pool);
+  for (std::size_t k = 0; k < tick_start_.size(); ++k) tick_start_[k] = world_.PoseOf(footbots_[k].body);
+  BalanceRegions();
   world_.UseThreads(in_threads);
   world_.Advance(TickSeconds(), subclock_);
-  writer_.Write(world_.Poses(), poses, in_threads ? pool_ : nullptr);
+  writer_.Write(world_.Poses(), poses, pool);
 }
 
 void Kinematics2dEngine::FollowMirrors()

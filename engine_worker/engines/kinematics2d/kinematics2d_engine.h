@@ -70,10 +70,11 @@ private:
 
   void AddFixed(const CSwarmanoidSpaceEntity& entity);
   void BalanceRegions();
-  void Move(bool in_threads, std::span<double> poses);
+  // The commands, the motion and the poses after it.
+  void Step(const EngineCommands& commands, bool in_threads, std::span<double> poses);
   void FollowMirrors();
-  void ApplyCommands(const EngineCommands& commands);
-  void DriveWheels(const ChannelBlock& block, std::span<const double> values);
+  void ApplyCommands(const EngineCommands& commands, WorkerPool* pool);
+  void DriveWheels(const ChannelBlock& block, std::span<const double> values, WorkerPool* pool);
   void DrivePropellers(const ChannelBlock& block, std::span<const double> values);
   void TurnTurrets(const ChannelBlock& block, std::span<const double> values);
   void UseGrippers(const ChannelBlock& block, std::span<const double> values);
