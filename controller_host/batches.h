@@ -55,10 +55,9 @@ struct ControllerHost::Batches
   std::vector<Sensor> sensors;
   std::vector<Actuator> actuators;
   AttributeOrder order;
-  unsigned threads = 1;
-  std::unique_ptr<WorkerPool> pool;  // if some sensor is split, or some controllers may step in parallel
-  bool split = false;                // some sensor is
-  std::vector<Failure> failures;     // of sensors, by thread
+  WorkerPool* pool = nullptr;     // none: one thread does it all
+  bool split = false;             // some sensor is
+  std::vector<Failure> failures;  // of sensors, by thread
   SharedWork sensing;
   std::vector<std::exception_ptr> stopped;  // what stopped the controllers of a thread
   SharedWork stepping;

@@ -48,14 +48,13 @@ std::size_t PartsOf(std::size_t robots, unsigned threads)
 }  // namespace
 
 ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t host,
-                               unsigned threads)
+                               WorkerPool* pool)
     : space_(space),
       layout_(assignment.hosts[host]),
       batches_(std::make_unique<Batches>()),
       ahead_(space.GetExperiment().ahead)
 {
-  threads = std::min(threads, SharedActivity::kMostThreads);
-  batches_->threads = threads;
+  batches_->pool = pool;
   const Experiment& experiment = space.GetExperiment();
   commands_.host = static_cast<std::uint32_t>(host);
   commands_.values.resize(layout_.command_size);
@@ -120,7 +119,6 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
     else
       (robots_[k].controller->StepsInParallel() ? parallel_ : in_turn_).push_back(k);
   SaveLastStates(0);
-  if (threads > 1 && (batches_->split || parallel_.size() > 1)) batches_->pool = std::make_unique<WorkerPool>(threads);
 }
 
 ControllerHost::~ControllerHost()
@@ -158,7 +156,8 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
     const auto* entry = PluginRegistry<SensorBatch>::Instance().Find(device.type, device.implementation);
     if (entry == nullptr) throw unknown(device);
     const bool may_split = dynamic_cast<SplitSensor*>(entry->create().get()) != nullptr;
-    const std::size_t parts = may_split ? PartsOf(entities.size(), batches_->threads) : 1;
+    const std::size_t parts =
+        may_split && batches_->pool != nullptr ? PartsOf(entities.size(), batches_->pool->Threads()) : 1;
     for (std::size_t part = 0; part < parts; ++part)
     {
       const std::size_t first = entities.size() * part / parts;
@@ -245,14 +244,11 @@ const ControlCommands* ControllerHost::Due()
 void ControllerHost::UpdateSensors(std::uint64_t tick)
 {
   for (Batches::Sensor& sensor : batches_->sensors)
-    RunCodeOf(sensor.actor, ActivityStep::kUpdate, tick,
-              [&]
-              {
-                if (sensor.part == Batches::kWhole)
+    if (sensor.part == Batches::kWhole)
+      RunCodeOf(sensor.actor, ActivityStep::kUpdate, tick,
+                [&] {
                   sensor.batch->Update({sensor_values_, sensor.slice.offsets, sensor.slice.width});
-                else
-                  dynamic_cast<SplitSensor&>(*sensor.batch).RefreshShared();
-              });
+                });
   if (batches_->split) UpdateParts(tick);
 }
 
@@ -277,12 +273,24 @@ void ControllerHost::UpdateParts(std::uint64_t tick)
       }
     }
   };
+  const auto refresh = [&](WorkerPool* by)
+  {
+    for (Batches::Sensor& sensor : batches_->sensors)
+      if (sensor.part != Batches::kWhole)
+        RunCodeOf(sensor.actor, ActivityStep::kUpdate, tick,
+                  [&] { dynamic_cast<SplitSensor&>(*sensor.batch).RefreshShared(by); });
+  };
   batches_->sensing.Do(
       [&]
       {
+        refresh(nullptr);
         for (unsigned part = 0; part < pool.Threads(); ++part) update(part);
       },
-      [&] { pool.Run(update); });
+      [&]
+      {
+        refresh(&pool);
+        pool.Run(update);
+      });
   // The first of the robots, whichever thread was first.
   for (const Batches::Failure& failure : failures)
     if (failure.what != nullptr)

@@ -13,6 +13,7 @@
 #include "common/control_interface/ci_controller.h"
 #include "common/messages/assignment.h"
 #include "common/messages/robot_status.h"
+#include "common/threads/worker_pool.h"
 #include "controller_host/device.h"
 
 namespace swarmanoid
@@ -29,10 +30,12 @@ class ControllerHost
 {
 public:
   // `space` is the replica of this process; it and `assignment` outlive the host. Loads the controller libraries,
-  // creates devices and controllers and calls Init. `threads` share the work of the sensors, and of the controllers
-  // that say that they may (StepsInParallel); their number changes no bit of the results. Throws ActivityError, which
-  // names the robot or device whose code failed, or ConfigurationError.
-  ControllerHost(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t host, unsigned threads = 1);
+  // creates devices and controllers and calls Init. The threads of `pool`, if there is one, share the work of the
+  // sensors, and of the controllers that say that they may (StepsInParallel); their number, at most
+  // SharedActivity::kMostThreads, changes no bit of the results. Throws ActivityError, which names the robot or device
+  // whose code failed, or ConfigurationError.
+  ControllerHost(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t host,
+                 WorkerPool* pool = nullptr);
   ~ControllerHost();
 
   // Brings the sensors to the tick of the space. `frames`: one for each of layout.frames_from, in that order; empty at

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <array>
 
+#include "common/activity/shared_activity.h"
 #include "common/builtins/builtins.h"
 #include "common/bus/recovery.h"
 #include "common/bus/replica.h"
@@ -10,6 +11,7 @@
 #include "common/bus/worker_program.h"
 #include "common/bus/worker_session.h"
 #include "common/logging/log.h"
+#include "common/threads/worker_pool.h"
 #include "controller_host/cluster/robot_inspection.h"
 #include "controller_host/controller_host.h"
 
@@ -28,7 +30,8 @@ public:
       : session_(session),
         replica_(replica),
         host_(static_cast<std::uint32_t>(host)),
-        role_(*replica.space, replica.assignment, host, threads),
+        pool_(std::min(threads, SharedActivity::kMostThreads)),
+        role_(*replica.space, replica.assignment, host, &pool_),
         saved_(session, HostName(host), role_),
         inputs_(session, replica, Engines(*replica.experiment, role_.Layout()), replica.experiment->ahead > 0),
         commands_(session.GetBus(), session.Scope(replica.limits->CommandBytes(), 1)),
@@ -188,6 +191,7 @@ private:
   WorkerSession& session_;
   Replica& replica_;
   std::uint32_t host_;
+  WorkerPool pool_;
   ControllerHost role_;
   SavedStates saved_;
   Inputs inputs_;                                   // its mutex guards the role and what follows

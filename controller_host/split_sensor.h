@@ -5,13 +5,16 @@
 namespace swarmanoid
 {
 
+class WorkerPool;
+
 // Update writes to the batch alone, and the batch has nothing to save.
 class SplitSensor
 {
 public:
   virtual ~SplitSensor() = default;
-  // Makes new what all batches of the process share, from the space at its tick: before their Update, in one thread.
-  virtual void RefreshShared() = 0;
+  // Makes new what all batches of the process share, from the space at its tick, before their Update: in one thread, or
+  // in those of `pool`.
+  virtual void RefreshShared(WorkerPool* pool) = 0;
 };
 
 }  // namespace swarmanoid

@@ -8,12 +8,13 @@
 #include "common/experiment/actors.h"
 #include "common/space/space.h"
 #include "common/space/state_checks.h"
+#include "common/threads/worker_pool.h"
 
 namespace swarmanoid
 {
 
 EngineWorker::EngineWorker(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t engine,
-                           RegionTeam* team, unsigned threads)
+                           RegionTeam* team, WorkerPool* pool)
     : space_(space),
       assignment_(assignment),
       layout_(assignment.engines[engine]),
@@ -29,7 +30,7 @@ EngineWorker::EngineWorker(const CSwarmanoidSpace& space, const Assignment& assi
       {
         engine_ = entry->create();
         engine_->Init({configuration, Parameters(configuration.tree, entry->description.parameters), space, layout_,
-                       team, threads});
+                       team, pool == nullptr ? 1 : pool->Threads(), pool});
         for (const std::uint32_t index : configuration.entities)
         {
           const CSwarmanoidSpaceEntity& entity = space.GetEntity(index);

@@ -26,10 +26,10 @@ class EngineWorker
 {
 public:
   // `space` is the replica of this process; it, `assignment` and `team` outlive the worker. `team`: of an engine that
-  // is split; nullptr: it is not, or only one region of it is wanted. `threads`: that the engine may use. Throws
-  // ConfigurationError, or ActivityError naming the engine that failed; so does Tick.
+  // is split; nullptr: it is not, or only one region of it is wanted. `pool`: threads that the engine may use, beside
+  // others. Throws ConfigurationError, or ActivityError naming the engine that failed; so does Tick.
   EngineWorker(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t engine,
-               RegionTeam* team = nullptr, unsigned threads = 1);
+               RegionTeam* team = nullptr, WorkerPool* pool = nullptr);
   ~EngineWorker();
 
   // From the state in the space and the commands of its tick (one for each of layout.commands_from, in that order) to

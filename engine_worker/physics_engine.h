@@ -26,6 +26,7 @@ namespace swarmanoid
 {
 
 class CSwarmanoidSpace;
+class WorkerPool;
 
 // How an entity takes part in an engine.
 enum class EBinding
@@ -57,7 +58,8 @@ struct EngineSetup
   const EngineLayout& layout;     // the order of owned entities, command and sensor channels
   // Of an engine that is split in a cluster: those who compute the regions of its world. Otherwise nullptr.
   RegionTeam* team = nullptr;
-  unsigned threads = 1;  // that the process has for its work
+  unsigned threads = 1;        // that the process has for its work
+  WorkerPool* pool = nullptr;  // of these, if they are several
 };
 
 // The commands of one step: EngineLayout::commands with the values filled in.

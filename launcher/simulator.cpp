@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "common/activity/failure_report.h"
+#include "common/activity/shared_activity.h"
 #include "common/checkpoint/checkpoint.h"
 #include "common/experiment/load_experiment.h"
 #include "common/journal/journal_reader.h"
@@ -19,6 +20,7 @@
 #include "common/run/hash_log.h"
 #include "common/serialisation/trial.h"
 #include "common/space/space.h"
+#include "common/threads/worker_pool.h"
 #include "controller_host/controller_host.h"
 #include "engine_worker/engine_worker.h"
 #include "launcher/steering.h"
@@ -60,12 +62,14 @@ struct CSimulator::Roles
         steering(of, server, MakeRunControlSetup(of, with), with.stop),
         hash_log(with.hash_log)
   {
-    const unsigned threads = options.threads == 0 ? FreeCores() : options.threads;
+    const unsigned threads =
+        std::min(options.threads == 0 ? FreeCores() : options.threads, SharedActivity::kMostThreads);
+    if (threads > 1) pool = std::make_unique<WorkerPool>(threads);
     for (std::size_t e = 0; e < experiment.engines.size(); ++e)
-      engines.push_back(std::make_unique<EngineWorker>(space, assignment, e, nullptr, threads));
+      engines.push_back(std::make_unique<EngineWorker>(space, assignment, e, nullptr, pool.get()));
     for (std::size_t h = 0; h < assignment.hosts.size(); ++h)
     {
-      hosts.push_back(std::make_unique<ControllerHost>(space, assignment, h, threads));
+      hosts.push_back(std::make_unique<ControllerHost>(space, assignment, h, pool.get()));
       hosts[h]->SetCureOfDeath(
           "; in one process on_failure can help with exceptions alone: run it as a cluster, without --single-process");
       if (!options.faults_of.empty()) hosts[h]->Know(FaultsOfRun(options.faults_of, of, 0));
@@ -152,6 +156,7 @@ struct CSimulator::Roles
   SpaceServer server;
   const CSwarmanoidSpace& space;
   Steering steering;
+  std::unique_ptr<WorkerPool> pool;  // of the roles, which work one after the other; none for one thread
   std::vector<std::unique_ptr<EngineWorker>> engines;
   std::vector<std::unique_ptr<ControllerHost>> hosts;
   std::unique_ptr<StepTimeout> time_budgets;

@@ -1,5 +1,9 @@
-// Threads that do parts of one piece of work and wait for the next one. Owned by one role; its calls come from one
-// thread. Allocates nothing while it works.
+// Threads that do parts of one piece of work and wait for the next one. Owned by a process or by one role; its calls
+// come from one thread. Allocates nothing while it works.
+//
+// A tick has many pieces, one soon after the other, and a thread that sleeps takes some 50 us to wake. So threads look
+// for the next piece for about that long before they sleep; those of one process should be of one pool, since threads
+// of another one that look take its cores.
 #pragma once
 
 #include <atomic>
@@ -40,15 +44,29 @@ public:
     piece_.fetch_add(1);
     piece_.notify_all();
     part(0U);
-    for (unsigned busy = busy_.load(); busy != 0; busy = busy_.load()) busy_.wait(busy);
+    for (unsigned busy = busy_.load(); busy != 0; busy = busy_.load()) Await(busy_, busy);
   }
 
 private:
+  // Until it has another value.
+  static void Await(const std::atomic<unsigned>& number, unsigned value)
+  {
+    constexpr unsigned kLooks = 2000;
+    for (unsigned look = 0; look < kLooks; ++look)
+    {
+      if (number.load() != value) return;
+#if defined(__x86_64__) || defined(__i386__)
+      __builtin_ia32_pause();
+#endif
+    }
+    number.wait(value);
+  }
+
   void Work(unsigned k)
   {
     for (unsigned done = 0;; ++done)
     {
-      piece_.wait(done);
+      Await(piece_, done);
       if (call_ == nullptr) return;
       call_(context_, k);
       if (busy_.fetch_sub(1) == 1) busy_.notify_one();

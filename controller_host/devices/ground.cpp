@@ -103,7 +103,7 @@ public:
 
   CCI_Sensor* Sensor(std::size_t k) override { return &devices_[k]; }
 
-  void RefreshShared() override { world_->Refresh(); }
+  void RefreshShared(WorkerPool* pool) override { world_->Refresh(pool); }
   void Update(const ChannelView&) override
   {
     SortPatches();

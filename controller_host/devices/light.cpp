@@ -78,7 +78,7 @@ public:
     this->MakeDevices();
   }
 
-  void RefreshShared() override { world_->Refresh(); }
+  void RefreshShared(WorkerPool* pool) override { world_->Refresh(pool); }
   void Update(const ChannelView&) override
   {
     world_->Refresh();

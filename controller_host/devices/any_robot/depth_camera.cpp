@@ -85,7 +85,7 @@ public:
   }
   CCI_Sensor* Sensor(std::size_t k) override { return &cameras_[k]; }
 
-  void RefreshShared() override { world_->Refresh(); }
+  void RefreshShared(WorkerPool* pool) override { world_->Refresh(pool); }
   void Update(const ChannelView&) override
   {
     world_->Refresh();

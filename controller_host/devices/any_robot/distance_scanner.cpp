@@ -151,7 +151,7 @@ public:
     const std::size_t count = this->beams_.size() * (step_ == 0 ? 1 : Head::kReadingsOfTick);
     for (DistanceScanner& scanner : this->scanners_) scanner.readings.resize(count);
   }
-  void RefreshShared() override { this->world_->Refresh(); }
+  void RefreshShared(WorkerPool* pool) override { this->world_->Refresh(pool); }
 
 private:
   // The head starts ahead at tick 0; the readings are those of the way since the last tick.

@@ -16,7 +16,7 @@ void ProximityRays::InitRays(const DeviceSetup& setup, std::size_t count, double
   fixed_ = std::make_unique<FixedBodies>(setup.space, world_->Bodies(), reach_m);
 }
 
-void ProximityRays::RefreshShared() { world_->Refresh(); }
+void ProximityRays::RefreshShared(WorkerPool* pool) { world_->Refresh(pool); }
 
 void ProximityRays::Update(const ChannelView&)
 {

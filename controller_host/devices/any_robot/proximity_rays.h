@@ -22,7 +22,7 @@ struct ProximitySensorRay
 class ProximityRays : public ValueSensor, public SplitSensor
 {
 public:
-  void RefreshShared() override;
+  void RefreshShared(WorkerPool* pool) override;
   void Update(const ChannelView& channel) override;
 
 protected:

@@ -34,15 +34,15 @@ void ColourCamera::InitCamera(const DeviceSetup& setup, CameraModel model)
   for (std::size_t k = 0; k < robots_.size(); ++k) place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
 }
 
-void ColourCamera::RefreshShared()
+void ColourCamera::RefreshShared(WorkerPool* pool)
 {
-  world_->Refresh();
+  world_->Refresh(pool);
   sources_->Refresh();
 }
 
 void ColourCamera::Update(const ChannelView&)
 {
-  RefreshShared();
+  RefreshShared(nullptr);
   // In the order of the grid's cells: neighbours stay in the cache. Every robot has a body.
   for (const std::uint32_t entity : world_->Grid().Sorted())
     if (const std::int32_t k = place_of_entity_[entity]; k >= 0) Look(static_cast<std::size_t>(k));

@@ -34,7 +34,7 @@ class ColourCamera : public SensorBatch, public SplitSensor
 {
 public:
   void Update(const ChannelView& channel) override;
-  void RefreshShared() override;
+  void RefreshShared(WorkerPool* pool) override;
 
 protected:
   // Takes <aperture> and <range> from the parameters.

@@ -46,12 +46,15 @@ void FootbotProximity::Init(const DeviceSetup& setup)
   fixed_ = std::make_unique<FixedBodies>(setup.space, world_->Bodies(), ring_radius_ + range_ + kHeight);
 
   sensors_.reserve(robots_.size());
-  place_of_entity_.assign(setup.space.Size(), -1);
+  in_one_run_ = !robots_.empty() && robots_.back() - robots_.front() + 1 == robots_.size();
+  if (!in_one_run_) place_of_entity_.assign(setup.space.Size(), -1);
+  number_.resize(robots_.size() + kLanes);
+  place_.resize(robots_.size() + kLanes);
   readings_.assign(robots_.size() * kRays, 0);
   dirty_.assign(robots_.size(), 0);
   for (std::size_t k = 0; k < robots_.size(); ++k)
   {
-    place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
+    if (!in_one_run_) place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
     sensors_.emplace_back(&readings_[k * kRays]);
   }
 }
@@ -61,65 +64,124 @@ void FootbotProximity::Update(const ChannelView&)
   world_->Refresh();
   // In the order of the grid's cells, where it has the places of the robots: neighbours stay in the cache. What is kept
   // of a robot itself lies anywhere.
-  const std::span<const std::uint32_t> sorted = world_->Grid().Sorted();
-  for (std::size_t i = 0; i < sorted.size(); ++i)
-  {
-    Prefetch(sorted.subspan(i));
-    if (const std::int32_t k = place_of_entity_[sorted[i]]; k >= 0) Sense(static_cast<std::size_t>(k), sorted[i], i);
-  }
+  ListOwn();
+  if (world_->Grid().AllUpright())
+    for (std::size_t first = 0; first < listed_; first += kLanes)
+      SenseUpright(first, std::min<std::size_t>(first + kLanes, listed_));
+  else
+    for (std::size_t listed = 0; listed < listed_; ++listed) Sense(listed);
 }
 
-void FootbotProximity::Prefetch(std::span<const std::uint32_t> later) const
+void FootbotProximity::ListOwn()
 {
-  // Each stage knows by the one before where to look.
-  if (later.size() > 3 * kAhead) __builtin_prefetch(&place_of_entity_[later[3 * kAhead]]);
-  if (later.size() > 2 * kAhead)
-    if (const std::int32_t k = place_of_entity_[later[2 * kAhead]]; k >= 0) __builtin_prefetch(&dirty_[k]);
-  if (later.size() <= kAhead) return;
-  const std::int32_t k = place_of_entity_[later[kAhead]];
-  if (k < 0 || !dirty_[k]) return;
+  const std::span<const std::uint32_t> sorted = world_->Grid().Sorted();
+  listed_ = 0;
+  const auto list = [&](const auto& number_of)
+  {
+    // Without a branch: which robots are of another batch nobody can foretell.
+    for (std::size_t place = 0; place < sorted.size(); ++place)
+    {
+      const std::uint32_t k = number_of(sorted[place]);
+      number_[listed_] = k;
+      place_[listed_] = static_cast<std::int32_t>(place);
+      listed_ += k < robots_.size() ? 1 : 0;
+    }
+  };
+  if (in_one_run_)
+    list([first = robots_.front()](std::uint32_t entity) { return entity - first; });
+  else
+    list([this](std::uint32_t entity) { return static_cast<std::uint32_t>(place_of_entity_[entity]); });
+}
+
+void FootbotProximity::Prefetch(std::size_t later) const
+{
+  if (later + kAhead >= listed_) return;
+  __builtin_prefetch(&dirty_[number_[later + kAhead]]);
+  const std::uint32_t k = number_[later];
+  if (!dirty_[k]) return;
   // Who was near somebody mostly is so again.
-  const double* readings = &readings_[static_cast<std::size_t>(k) * kRays];
+  const double* readings = &readings_[k * std::size_t{kRays}];
   for (unsigned i = 0; i < kRays; i += 8) __builtin_prefetch(readings + i, 1);
   const PoseArrays& poses = world_->Space().Poses();
-  __builtin_prefetch(&poses.qz[later[kAhead]]);
-  __builtin_prefetch(&poses.qw[later[kAhead]]);
+  __builtin_prefetch(&poses.qz[robots_[k]]);
+  __builtin_prefetch(&poses.qw[robots_[k]]);
 }
 
-void FootbotProximity::Sense(std::size_t k, std::uint32_t robot, std::size_t place)
+void FootbotProximity::SenseUpright(std::size_t first, std::size_t last)
 {
   const NeighbourGrid& grid = world_->Grid();
   const PoseArrays& poses = world_->Space().Poses();
-  const EngineMembership& membership = world_->Membership();
-  const bool one_world = membership.IsOneWorld();
-  const bool all_upright = grid.AllUpright();
-  const bool upright = all_upright || IsUpright(poses, robot);
-  const double x = grid.OriginX()[place];
-  const double y = grid.OriginY()[place];
-  const double height = grid.OriginZ()[place] + kHeight;
-  touched_ = false;
-
-  const auto add = [&](std::uint32_t body, double body_x, double body_y, double body_z, bool body_upright)
+  const BodyShape* const shape_of_all = grid.ShapeOfAll();
+  const double* const origin_x = grid.OriginX();
+  const double* const origin_y = grid.OriginY();
+  const double* const origin_z = grid.OriginZ();
+  const double reach = ring_radius_ + range_;
+  CellWindows windows;
+  std::array<std::int32_t, kLanes> fixed_cells;
+  grid.FindWindows(&place_[first], reach, windows);
+  fixed_->FindCells(grid, &place_[first], fixed_cells.data());
+  for (std::size_t listed = first; listed < last; ++listed)
   {
-    if (body == robot || !(one_world || membership.ShareEngine(robot, body))) return;
-    if (world_->IsArticulated(body)) return AddParts(robot, body);
-    const BodyShape& shape = world_->Body(body);
-    if (!upright || !body_upright) return AddAny(robot, shape, world_->Space().GetPose(body));
-    if (height < body_z + shape.low || height > body_z + shape.high) return;
-    if (shape.kind == Shape::Kind::kCylinder) return AddDisc(robot, body_x - x, body_y - y, shape.radius);
-    AddUprightBox(robot, body);
-  };
-  grid.ForEachPlaceNear(x, y, ring_radius_ + range_ + (upright ? 0 : kHeight),
-                        [&](std::size_t other)
-                        {
-                          const std::uint32_t body = grid.Sorted()[other];
-                          add(body, grid.OriginX()[other], grid.OriginY()[other], grid.OriginZ()[other],
-                              all_upright || IsUpright(poses, body));
-                        });
-  for (const std::uint32_t body : fixed_->Near(x, y))
-    add(body, poses.x[body], poses.y[body], poses.z[body], IsUpright(poses, body));
-  if (!world_->Terrain().IsEmpty()) AddTerrain(robot);
+    Prefetch(listed + kAhead);
+    const auto place = static_cast<std::size_t>(place_[listed]);
+    const std::uint32_t k = number_[listed];
+    touched_ = false;
+    grid.ForEachOtherNear(place, reach, windows, listed - first,
+                          [&](std::size_t other)
+                          {
+                            const std::uint32_t body = grid.Sorted()[other];
+                            LookAt(robots_[k], {origin_x[place], origin_y[place], origin_z[place] + kHeight}, true,
+                                   body, shape_of_all != nullptr ? *shape_of_all : world_->Body(body),
+                                   {origin_x[other], origin_y[other], origin_z[other]}, true);
+                          });
+    for (const std::uint32_t body : fixed_->InCell(fixed_cells[listed - first]))
+      LookAt(robots_[k], {origin_x[place], origin_y[place], origin_z[place] + kHeight}, true, body, world_->Body(body),
+             {poses.x[body], poses.y[body], poses.z[body]}, IsUpright(poses, body));
+    if (!world_->Terrain().IsEmpty()) AddTerrain(robots_[k]);
+    if (touched_ || dirty_[k] || noise_.IsActive()) FinishReadings(k);
+  }
+}
 
+void FootbotProximity::Sense(std::size_t listed)
+{
+  const NeighbourGrid& grid = world_->Grid();
+  const PoseArrays& poses = world_->Space().Poses();
+  const std::uint32_t k = number_[listed];
+  const std::uint32_t robot = robots_[k];
+  const auto place = static_cast<std::size_t>(place_[listed]);
+  const bool upright = IsUpright(poses, robot);
+  const Vector3 sensors(grid.OriginX()[place], grid.OriginY()[place], grid.OriginZ()[place] + kHeight);
+  touched_ = false;
+  grid.ForEachNear(sensors.x(), sensors.y(), ring_radius_ + range_ + (upright ? 0 : kHeight),
+                   [&](std::uint32_t body)
+                   {
+                     if (body != robot)
+                       LookAt(robot, sensors, upright, body, world_->Body(body),
+                              {poses.x[body], poses.y[body], poses.z[body]}, IsUpright(poses, body));
+                   });
+  for (const std::uint32_t body : fixed_->Near(sensors.x(), sensors.y()))
+    LookAt(robot, sensors, upright, body, world_->Body(body), {poses.x[body], poses.y[body], poses.z[body]},
+           IsUpright(poses, body));
+  if (!world_->Terrain().IsEmpty()) AddTerrain(robot);
+  FinishReadings(k);
+}
+
+void FootbotProximity::LookAt(std::uint32_t robot, const Vector3& sensors, bool upright, std::uint32_t body,
+                              const BodyShape& shape, const Vector3& at, bool body_upright)
+{
+  const EngineMembership& membership = world_->Membership();
+  if (!membership.IsOneWorld() && !membership.ShareEngine(robot, body)) return;
+  if (world_->IsArticulated(body)) return AddParts(robot, body);
+  if (!upright || !body_upright) return AddAny(robot, shape, world_->Space().GetPose(body));
+  if (sensors.z() < at.z() + shape.low || sensors.z() > at.z() + shape.high) return;
+  if (shape.kind == Shape::Kind::kCylinder)
+    return AddDisc(robot, at.x() - sensors.x(), at.y() - sensors.y(), shape.radius);
+  AddUprightBox(robot, body);
+}
+
+// From the distances of a robot, if something touched its rays.
+void FootbotProximity::FinishReadings(std::size_t k)
+{
   double* readings = &readings_[k * kRays];
   if (touched_)
   {

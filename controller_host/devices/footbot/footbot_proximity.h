@@ -27,7 +27,7 @@ public:
   void Init(const DeviceSetup& setup) override;
   CCI_Sensor* Sensor(std::size_t k) override { return &sensors_[k]; }
   void Update(const ChannelView& channel) override;
-  void RefreshShared() override { world_->Refresh(); }
+  void RefreshShared(WorkerPool* pool) override { world_->Refresh(pool); }
 
 protected:
   // From distances in m (more than the range: nothing there) to readings, before noise and the cut to 0..1.
@@ -41,10 +41,17 @@ private:
     double values[kRays];
   };
 
-  // Fetches what Sense will read of robots that come later in the order of the grid.
-  void Prefetch(std::span<const std::uint32_t> later) const;
-  // The robot at a place of the grid.
-  void Sense(std::size_t k, std::uint32_t robot, std::size_t place);
+  // Lists the robots of the batch in the order of the grid.
+  void ListOwn();
+  // Fetches what Sense will read of robots that come later in that order.
+  void Prefetch(std::size_t later) const;
+  // The robot that is listed there. SenseUpright: where nobody is tilted; what is near is looked for around several.
+  void Sense(std::size_t listed);
+  void SenseUpright(std::size_t first, std::size_t last);
+  // Looks at a body near a robot whose sensors are at this height.
+  void LookAt(std::uint32_t robot, const Vector3& sensors, bool upright, std::uint32_t body, const BodyShape& shape,
+              const Vector3& at, bool body_upright);
+  void FinishReadings(std::size_t k);
   void AddDisc(std::uint32_t robot, double dx, double dy, double radius);
   void AddUprightBox(std::uint32_t robot, std::uint32_t body);
   void AddAny(std::uint32_t robot, const Shape& shape, const Pose& other);
@@ -55,7 +62,11 @@ private:
 
   std::shared_ptr<SensorWorld> world_;
   std::vector<std::uint32_t> robots_;
-  std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
+  bool in_one_run_ = false;                    // robot k is entity robots_[0] + k
+  std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1; only if they are not
+  std::size_t listed_ = 0;
+  std::vector<std::uint32_t> number_;  // k of each that is listed
+  std::vector<std::int32_t> place_;    // and its place in the grid; both have kLanes more
   std::unique_ptr<FixedBodies> fixed_;
   double ring_radius_ = 0;  // m: where the rays start
   NoiseModel noise_;

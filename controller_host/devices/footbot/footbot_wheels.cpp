@@ -26,12 +26,6 @@ void DummyFootbotWheels::Init(const DeviceSetup& setup)
   noise_ = NoiseFrom(setup.parameters);
 }
 
-double DummyFootbotWheels::Clamped(double velocity) const
-{
-  // A NaN stays one: the host says whose it is.
-  return std::clamp(velocity, -limit_, limit_);
-}
-
 void DummyFootbotWheels::Commit(const ChannelView& channel, AttributeChanges&)
 {
   for (std::size_t k = 0; k < wheels_.size(); ++k)

@@ -3,6 +3,7 @@
 // rad/s.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -39,7 +40,11 @@ public:
   void LoadState(std::size_t k, ByteReader& state) override;
 
 protected:
-  double Clamped(double velocity) const;
+  double Clamped(double velocity) const
+  {
+    // A NaN stays one: the host says whose it is.
+    return std::clamp(velocity, -limit_, limit_);
+  }
   // To each wheel that moves.
   void AddNoise(const ChannelView& channel) const;
 

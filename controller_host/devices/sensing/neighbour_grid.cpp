@@ -56,6 +56,12 @@ CellFrame FrameOver(const Extent& extent, double smallest, std::size_t most)
   return {extent.left, extent.bottom, extent.width, extent.height, edge};
 }
 
+IntLanes CellsOn(const CellAxis<float>& axis, FloatLanes at)
+{
+  const FloatLanes cell = (at - axis.start) * axis.inverse_edge;
+  return Truncated(Minimum(Maximum(cell, FloatLanes{}), Everywhere(axis.last)));
+}
+
 }  // namespace
 
 NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, const BodyShapes& shapes) : space_(space), shapes_(shapes)
@@ -69,7 +75,7 @@ NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, const BodyShapes& sh
       largest = std::max(largest, shapes[e].radius);
     }
   count_ = bodies_.size();
-  here_ = bodies_;
+  here_.reserve(count_);
   if (all_cylinders_ &&
       std::ranges::all_of(bodies_, [&](std::uint32_t e) { return &shapes[e] == &shapes[bodies_[0]]; }))
     shape_of_all_ = bodies_.empty() ? nullptr : &shapes[bodies_[0]];
@@ -80,7 +86,6 @@ NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, const BodyShapes& sh
   margin_ = MarginOf(extent);
 
   sort_.SetCells(frame_.Count());
-  origins_.resize(count_);
   constexpr float kFarAway = 1e18F;
   x_.resize(count_ + kLanes, kFarAway);
   y_.resize(count_ + kLanes, kFarAway);
@@ -93,67 +98,127 @@ NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, const BodyShapes& sh
   entity_.resize(count_ + kLanes, 0);
 }
 
-void NeighbourGrid::Rebuild()
+void NeighbourGrid::Rebuild(WorkerPool* pool)
 {
-  const PoseArrays& poses = space_.Poses();
-  here_.clear();
-  std::ranges::copy_if(bodies_, std::back_inserter(here_),
-                       [this](std::uint32_t entity) { return space_.IsPresent(entity); });
-  count_ = here_.size();
-  const std::span<std::uint32_t> cell = sort_.Cells(count_);
-  float largest = 0;
-  bool upright = true;
-  for (std::size_t b = 0; b < count_; ++b)
+  sorted_from_ = bodies_;
+  if (!space_.Absent().empty())
   {
-    const std::uint32_t e = here_[b];
-    const Circle circle = CircleOf(poses, e, shape_of_all_ != nullptr ? *shape_of_all_ : shapes_[e]);
-    upright &= IsUpright(poses, e);
-    largest = std::max(largest, circle.radius);
-    cell[b] = frame_.CellOf(circle.x, circle.y);
+    here_.clear();
+    std::ranges::copy_if(bodies_, std::back_inserter(here_),
+                         [this](std::uint32_t entity) { return space_.IsPresent(entity); });
+    sorted_from_ = here_;
   }
-  largest_radius_ = largest;
-  all_upright_ = upright;
-  sort_.Sort(
-      [&](std::size_t b, std::uint32_t place)
-      {
-        const std::uint32_t e = here_[b];
-        origins_[place] = {poses.x[e], poses.y[e], poses.z[e], e};
-      });
-  bool level = true;
-  for (std::size_t place = 0; place < count_; ++place)
-  {
-    const Origin& origin = origins_[place];
-    origin_x_[place] = origin.x;
-    origin_y_[place] = origin.y;
-    origin_z_[place] = origin.z;
-    entity_[place] = origin.entity;
-    level &= origin.z == origins_[0].z;
-  }
-  all_level_ = level;
-  if (shape_of_all_ != nullptr && upright)
-    OutlineAlike(*shape_of_all_);
-  else
-    OutlineEach();
+  count_ = sorted_from_.size();
+  const std::span<std::uint32_t> cells = sort_.Cells(count_);
+  const Facts all =
+      InAllParts(pool, [&](std::size_t begin, std::size_t end) { return FindCells(begin, end, cells.data()); });
+  largest_radius_ = all.largest;
+  all_upright_ = all.upright;
+  sort_.Sort([this](std::size_t b, std::uint32_t place) { entity_[place] = sorted_from_[b]; });
+  const Facts sorted = InAllParts(pool, [&](std::size_t begin, std::size_t end) { return Gather(begin, end); });
+  all_level_ = sorted.level;
+  are_alike_ = sorted.alike;
 }
 
-void NeighbourGrid::OutlineAlike(const BodyShape& shape)
+template <class Part>
+NeighbourGrid::Facts NeighbourGrid::InAllParts(WorkerPool* pool, const Part& part)
 {
-  for (std::size_t place = 0; place < count_; ++place)
+  facts_.assign(pool == nullptr ? 1 : pool->Threads(), {});
+  InParts(pool, count_, kLanes,
+          [&](unsigned thread, std::size_t begin, std::size_t end) { facts_[thread] = part(begin, end); });
+  Facts all;
+  for (const Facts& facts : facts_)
+  {
+    all.largest = std::max(all.largest, facts.largest);
+    all.upright &= facts.upright;
+    all.level &= facts.level;
+    all.alike &= facts.alike;
+  }
+  return all;
+}
+
+NeighbourGrid::Facts NeighbourGrid::FindCells(std::size_t begin, std::size_t end, std::uint32_t* cells) const
+{
+  const PoseArrays& poses = space_.Poses();
+  Facts facts;
+  std::size_t b = begin;
+  // Of upright bodies that follow one another, all of one shape, several at a time.
+  if (shape_of_all_ != nullptr)
+  {
+    facts.largest = begin < end ? static_cast<float>(shape_of_all_->radius) : 0;
+    const auto follow = [&]
+    {
+      const std::uint32_t e = sorted_from_[b];
+      if (sorted_from_[b + kLanes - 1] - e != kLanes - 1) return false;
+      bool upright = true;
+      for (std::size_t lane = 0; lane < kLanes; ++lane) upright &= poses.qx[e + lane] == 0 && poses.qy[e + lane] == 0;
+      return upright;
+    };
+    for (; b + kLanes <= end && follow(); b += kLanes)
+    {
+      const std::size_t e = sorted_from_[b];
+      const IntLanes row = CellsOn(frame_.rows, Differences(&poses.y[e], 0));
+      const IntLanes column = CellsOn(frame_.columns, Differences(&poses.x[e], 0));
+      StoreLanes(row * static_cast<std::int32_t>(frame_.stride) + column, reinterpret_cast<std::int32_t*>(cells + b));
+    }
+  }
+  for (; b < end; ++b)
+  {
+    const std::uint32_t e = sorted_from_[b];
+    const Circle circle = CircleOf(poses, e, shape_of_all_ != nullptr ? *shape_of_all_ : shapes_[e]);
+    facts.upright &= IsUpright(poses, e);
+    facts.largest = std::max(facts.largest, circle.radius);
+    cells[b] = frame_.CellOf(circle.x, circle.y);
+  }
+  return facts;
+}
+
+NeighbourGrid::Facts NeighbourGrid::Gather(std::size_t begin, std::size_t end)
+{
+  const PoseArrays& poses = space_.Poses();
+  Facts facts;
+  if (begin == end) return facts;
+  const double height = poses.z[entity_[0]];
+  for (std::size_t place = begin; place < end; ++place)
+  {
+    const std::uint32_t e = entity_[place];
+    origin_x_[place] = poses.x[e];
+    origin_y_[place] = poses.y[e];
+    origin_z_[place] = poses.z[e];
+    facts.level &= origin_z_[place] == height;
+  }
+  if (shape_of_all_ != nullptr && all_upright_)
+  {
+    OutlineAlike(*shape_of_all_, begin, end);
+    facts.alike = facts.level;
+  }
+  else
+    facts.alike = OutlineEach(begin, end);
+  return facts;
+}
+
+void NeighbourGrid::OutlineAlike(const BodyShape& shape, std::size_t begin, std::size_t end)
+{
+  for (std::size_t place = begin; place < end; ++place)
   {
     x_[place] = static_cast<float>(origin_x_[place]);
     y_[place] = static_cast<float>(origin_y_[place]);
     low_[place] = static_cast<float>(origin_z_[place] + shape.low);
     high_[place] = static_cast<float>(origin_z_[place] + shape.high);
+    radius_[place] = static_cast<float>(shape.radius);
   }
-  std::fill_n(radius_.begin(), count_, static_cast<float>(shape.radius));
-  are_alike_ = all_level_;
 }
 
-void NeighbourGrid::OutlineEach()
+bool NeighbourGrid::OutlineEach(std::size_t begin, std::size_t end)
 {
   const PoseArrays& poses = space_.Poses();
+  // As the first of all, whatever thread has that one.
+  const BodyShape& shape_of_first = shapes_[entity_[0]];
+  const float radius = CircleOf(poses, entity_[0], shape_of_first).radius;
+  const auto low = static_cast<float>(poses.z[entity_[0]] + shape_of_first.low);
+  const auto high = static_cast<float>(poses.z[entity_[0]] + shape_of_first.high);
   bool alike = true;
-  for (std::size_t place = 0; place < count_; ++place)
+  for (std::size_t place = begin; place < end; ++place)
   {
     const BodyShape& shape = shapes_[entity_[place]];
     const Circle circle = CircleOf(poses, entity_[place], shape);
@@ -162,9 +227,25 @@ void NeighbourGrid::OutlineEach()
     radius_[place] = circle.radius;
     low_[place] = static_cast<float>(origin_z_[place] + shape.low);
     high_[place] = static_cast<float>(origin_z_[place] + shape.high);
-    alike &= (radius_[place] == radius_[0]) & (low_[place] == low_[0]) & (high_[place] == high_[0]);
+    alike &= (radius_[place] == radius) & (low_[place] == low) & (high_[place] == high);
   }
-  are_alike_ = alike;
+  return alike;
+}
+
+void NeighbourGrid::FindWindows(const std::int32_t* places, double reach, CellWindows& windows) const
+{
+  const auto [x, y] = MiddlesAt(places);
+  const float widest = static_cast<float>(reach) + margin_ + largest_radius_;
+  StoreLanes(CellsOn(frame_.rows, y - widest), windows.first_row.data());
+  StoreLanes(CellsOn(frame_.rows, y + widest), windows.last_row.data());
+  StoreLanes(CellsOn(frame_.columns, x - widest), windows.first_column.data());
+  StoreLanes(CellsOn(frame_.columns, x + widest), windows.last_column.data());
+}
+
+void FixedBodies::FindCells(const NeighbourGrid& grid, const std::int32_t* places, std::int32_t* cells) const
+{
+  const auto [x, y] = grid.MiddlesAt(places);
+  StoreLanes(CellsOn(frame_.rows, y) * static_cast<std::int32_t>(frame_.stride) + CellsOn(frame_.columns, x), cells);
 }
 
 void NearBodies::Reserve(std::size_t bodies)

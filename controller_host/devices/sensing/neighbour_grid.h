@@ -11,6 +11,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -18,6 +19,7 @@
 
 #include "common/math/cells.h"
 #include "common/math/lanes.h"
+#include "common/threads/worker_pool.h"
 #include "controller_host/devices/sensing/body_shapes.h"
 
 namespace swarmanoid
@@ -38,6 +40,12 @@ struct CellFrame : PlaneCells<float>
     std::array<std::int32_t, kLanes> first, last;
   };
   Chords ChordsFrom(std::uint32_t row, float x, float y, float reach) const;
+};
+
+// The cells that come within some reach of kLanes points: rows, and columns as counted from the start of a row.
+struct CellWindows
+{
+  std::array<std::int32_t, kLanes> first_row, last_row, first_column, last_column;
 };
 
 // Movable bodies around a point, by lanes: room for 2 * kLanes more behind `count`.
@@ -61,14 +69,20 @@ public:
   NeighbourGrid(const CSwarmanoidSpace& space, const BodyShapes& shapes);
 
   // Sorts the movable bodies that are in the arena from the poses of the space: those that wait outside it sense
-  // nothing and are not sensed.
-  void Rebuild();
+  // nothing and are not sensed. The threads of `pool`, if there is one, share the work.
+  void Rebuild(WorkerPool* pool = nullptr);
 
   // How many may ever be sorted.
   std::size_t MostBodies() const { return bodies_.size(); }
   // The movable bodies in the order of their cells: entity indices.
   std::span<const std::uint32_t> Sorted() const { return {entity_.data(), count_}; }
 
+  // The middles of the circles around kLanes bodies, given by their places.
+  std::pair<FloatLanes, FloatLanes> MiddlesAt(const std::int32_t* places) const
+  {
+    const IntLanes at = LoadLanes(places);
+    return {Gathered(x_.data(), at), Gathered(y_.data(), at)};
+  }
   // Where the bodies are, in the same order, m in the space.
   const double* OriginX() const { return origin_x_.data(); }
   const double* OriginY() const { return origin_y_.data(); }
@@ -80,6 +94,8 @@ public:
   bool AllLevel() const { return all_level_; }
   // No movable body is a box.
   bool AllCylinders() const { return all_cylinders_; }
+  // The body of all of them, if they are cylinders of one size; else nullptr.
+  const BodyShape* ShapeOfAll() const { return shape_of_all_; }
   // All have one radius and stand at one height, if they are upright.
   bool AreAlike() const { return are_alike_; }
 
@@ -93,6 +109,13 @@ public:
   // Likewise visit(place), in the order of Sorted().
   template <class Visit>
   void ForEachPlaceNear(double x, double y, double reach, Visit&& visit) const;
+  // What ForEachOtherNear takes: the cells around kLanes bodies, given by their places.
+  void FindWindows(const std::int32_t* places, double reach, CellWindows& windows) const;
+  // As ForEachPlaceNear around the body at a place, without itself. It must be upright; `windows` and `lane`: its
+  // cells, for this reach or more.
+  template <class Visit>
+  void ForEachOtherNear(std::size_t place, double reach, const CellWindows& windows, std::size_t lane,
+                        Visit&& visit) const;
   // Calls visit(first, behind) with the places, row by row of the cells, of all these bodies and others.
   template <class Visit>
   void ForEachSpanNear(double x, double y, double reach, Visit&& visit) const;
@@ -103,9 +126,24 @@ public:
   void ForEachAlong(const Vector3& from, const Vector3& to, Visit&& visit) const;
 
 private:
-  // The outlines of the bodies at their places: of upright ones of one shape, and of any.
-  void OutlineAlike(const BodyShape& shape);
-  void OutlineEach();
+  // What is true of all bodies that a thread had.
+  struct Facts
+  {
+    float largest = 0;
+    bool upright = true;
+    bool level = true;
+    bool alike = true;
+  };
+
+  // Of all bodies, by part(begin, end) of each thread.
+  template <class Part>
+  Facts InAllParts(WorkerPool* pool, const Part& part);
+  // From `begin` to before `end`: the cells of bodies as they come; then where they are in the order of the cells, and
+  // their outlines there, of upright ones of one shape and of any.
+  Facts FindCells(std::size_t begin, std::size_t end, std::uint32_t* cells) const;
+  Facts Gather(std::size_t begin, std::size_t end);
+  void OutlineAlike(const BodyShape& shape, std::size_t begin, std::size_t end);
+  bool OutlineEach(std::size_t begin, std::size_t end);
   template <bool kAlike>
   std::size_t Collect(double x, double y, double reach, std::uint32_t left_out, NearBodies& near) const;
 
@@ -114,7 +152,7 @@ private:
   const BodyShape* shape_of_all_ = nullptr;  // if the movable bodies have one, and it stays as it is
   CellFrame frame_;
   std::vector<std::uint32_t> bodies_;  // movable entities with a body, ascending
-  std::vector<std::uint32_t> here_;    // those of them that are in the arena
+  std::vector<std::uint32_t> here_;    // those of them that are in the arena, if some are not
   std::size_t count_ = 0;
   float margin_ = 0;          // covers the rounding to single precision
   float largest_radius_ = 0;  // of this tick
@@ -123,16 +161,9 @@ private:
   bool all_level_ = true;
   bool are_alike_ = true;  // as in NearBodies
 
-  // Where a body is, in one piece for its place: places of bodies that follow one another in the experiment lie
-  // anywhere in memory.
-  struct Origin
-  {
-    double x, y, z;
-    std::uint32_t entity;
-  };
-
   CellSort sort_;
-  std::vector<Origin> origins_;
+  std::span<const std::uint32_t> sorted_from_;  // bodies_ or here_
+  std::vector<Facts> facts_;                    // of each thread
   // By place in the sorted order, with far-away padding at the end.
   std::vector<float> x_, y_, radius_, low_, high_;
   std::vector<double> origin_x_, origin_y_, origin_z_;
@@ -150,6 +181,11 @@ public:
   {
     return lists_.In(frame_.CellOf(static_cast<float>(x), static_cast<float>(y)));
   }
+
+  // Likewise of the cell of a point.
+  std::span<const std::uint32_t> InCell(std::int32_t cell) const { return lists_.In(static_cast<std::uint32_t>(cell)); }
+  // The cells of kLanes points.
+  void FindCells(const NeighbourGrid& grid, const std::int32_t* places, std::int32_t* cells) const;
 
   // Calls visit(entity), perhaps more than once, for every body that the segment may touch if the reach is at least 0.
   template <class Visit>
@@ -307,6 +343,35 @@ void NeighbourGrid::ForEachPlaceNear(double x, double y, double reach, Visit&& v
                       ForEachBit(hits, [&](unsigned bit) { visit(i + bit); });
                     }
                   });
+}
+
+template <class Visit>
+[[gnu::always_inline]] inline void NeighbourGrid::ForEachOtherNear(std::size_t place, double reach,
+                                                                   const CellWindows& windows, std::size_t lane,
+                                                                   Visit&& visit) const
+{
+  const float own = static_cast<float>(reach) + margin_;
+  const float* const body_x = x_.data();
+  const float* const body_y = y_.data();
+  const float* const body_radius = radius_.data();
+  const float x = body_x[place];
+  const float y = body_y[place];
+  const std::uint32_t* const start = sort_.Starts();
+  const std::uint32_t* row = start + std::size_t{frame_.stride} * static_cast<std::uint32_t>(windows.first_row[lane]);
+  for (std::int32_t rows = windows.last_row[lane] - windows.first_row[lane]; rows >= 0; --rows, row += frame_.stride)
+  {
+    const std::size_t behind = row[windows.last_column[lane] + 1];
+    for (std::size_t i = row[windows.first_column[lane]]; i < behind; i += kLanes)
+    {
+      const FloatLanes dx = LoadLanes(body_x + i) - x;
+      const FloatLanes dy = LoadLanes(body_y + i) - y;
+      const FloatLanes cut = LoadLanes(body_radius + i) + own;
+      unsigned hits = LaneMask(dx * dx + dy * dy <= cut * cut);
+      if (behind - i < kLanes) hits &= (1U << (behind - i)) - 1U;
+      if (place - i < kLanes) hits &= ~(1U << (place - i));
+      ForEachBit(hits, [&](unsigned bit) { visit(i + bit); });
+    }
+  }
 }
 
 }  // namespace swarmanoid

@@ -64,12 +64,12 @@ std::span<const std::uint64_t> SensorWorld::Names()
   return names_;
 }
 
-void SensorWorld::Refresh()
+void SensorWorld::Refresh(WorkerPool* pool)
 {
   if (revision_ == space_.Revision()) return;
   revision_ = space_.Revision();
   MoveParts();
-  grid_.Rebuild();
+  grid_.Rebuild(pool);
 }
 
 // The grid has them with all that they reach.

@@ -26,8 +26,9 @@ public:
   // The world of a space: the same object for all who ask while one of them holds it (shared: batches come and go).
   static std::shared_ptr<SensorWorld> Of(const CSwarmanoidSpace& space);
 
-  // Brings the grid to the poses of the space, once for all batches of a step.
-  void Refresh();
+  // Brings the grid to the poses of the space, once for all batches of a step; in the threads of `pool`, if there is
+  // one.
+  void Refresh(WorkerPool* pool = nullptr);
 
   // Whether a body has parts that reach beyond its shape (CollisionModels::Articulated): it is sensed part by part.
   bool IsArticulated(std::uint32_t entity) const { return !parts_of_.empty() && parts_of_[entity] >= 0; }

@@ -108,24 +108,33 @@ void BroadPhase::SetStatics(std::span<const Bounds> boxes)
   statics_.Close(cells_.Count());
 }
 
-void BroadPhase::Sort(const PoseStore& poses, std::span<const std::uint8_t> present)
+void BroadPhase::Sort(const PoseStore& poses, std::span<const std::uint8_t> present, WorkerPool* pool)
 {
   const std::span<std::uint32_t> cell = sort_.Cells(count_);
-  cells_.FindCells({poses.x.data(), count_}, {poses.y.data(), count_}, cell.data());
+  InParts(pool, count_, kPadding,
+          [&](unsigned, std::size_t begin, std::size_t end)
+          {
+            const std::size_t count = end - begin;
+            cells_.FindCells({poses.x.data() + begin, count}, {poses.y.data() + begin, count}, cell.data() + begin);
+          });
   const auto limbo = static_cast<std::uint32_t>(cells_.Count());
   for (const std::uint32_t body : large_) cell[body] = limbo;
   if (std::find(present.begin(), present.end(), 0) != present.end())
     for (std::size_t k = 0; k < count_; ++k)
       if (present[k] == 0) cell[k] = limbo;
-  sort_.Sort(
-      [&](std::size_t k, std::uint32_t at)
-      {
-        body_[at] = static_cast<std::uint32_t>(k);
-        sorted_cell_[at] = cell[k];
-        x_[at] = static_cast<float>(poses.x[k]);
-        y_[at] = static_cast<float>(poses.y[k]);
-        r_[at] = radius_[k];
-      });
+  sort_.Sort([&](std::size_t k, std::uint32_t at) { body_[at] = static_cast<std::uint32_t>(k); });
+  InParts(pool, count_, kPadding,
+          [&](unsigned, std::size_t begin, std::size_t end)
+          {
+            for (std::size_t at = begin; at < end; ++at)
+            {
+              const std::uint32_t k = body_[at];
+              sorted_cell_[at] = cell[k];
+              x_[at] = static_cast<float>(poses.x[k]);
+              y_[at] = static_cast<float>(poses.y[k]);
+              r_[at] = radius_[k];
+            }
+          });
 }
 
 std::size_t BroadPhase::BlocksWith(double part, std::span<const std::uint32_t> blocks) const

@@ -10,6 +10,7 @@
 
 #include "common/math/cells.h"
 #include "common/math/lanes.h"
+#include "common/threads/worker_pool.h"
 #include "engine_worker/engines/kinematics2d/motion.h"
 
 namespace swarmanoid::kinematics2d
@@ -52,8 +53,9 @@ public:
   // Other bodies from now on, in the same cells.
   void SetBodies(std::span<const double> radii);
 
-  // Puts the bodies into cells. `present[k]` is 0 for those that are not to be found.
-  void Sort(const PoseStore& poses, std::span<const std::uint8_t> present);
+  // Puts the bodies into cells. `present[k]` is 0 for those that are not to be found. The threads of `pool`, if there
+  // is one, share the work.
+  void Sort(const PoseStore& poses, std::span<const std::uint8_t> present, WorkerPool* pool = nullptr);
   const PlaneCells<double>& Cells() const { return cells_; }
   std::uint32_t BlockCount() const { return block_columns_ * block_rows_; }
   std::uint32_t BlockColumns() const { return block_columns_; }
@@ -123,6 +125,7 @@ private:
   std::vector<std::uint32_t> large_;  // bodies that are too big for the cells, ascending
 
   CellSort sort_;
+  // By place in the order of the cells.
   std::vector<std::uint32_t> body_, sorted_cell_;
   std::vector<float> x_, y_, r_;
 

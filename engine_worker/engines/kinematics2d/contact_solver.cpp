@@ -20,7 +20,7 @@ constexpr unsigned kSweepsPerSearch = 4;
 // In large crowds the leaders are not in the cache: they are asked for this many contacts before they are needed.
 constexpr std::uint32_t kAhead = 8;
 // Fewer contacts of a colour are not worth waking threads.
-constexpr std::uint32_t kLeastShared = 512;
+constexpr std::uint32_t kLeastShared = 128;
 
 }  // namespace
 

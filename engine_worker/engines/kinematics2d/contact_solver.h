@@ -127,19 +127,12 @@ public:
 
   // Whether the last Solve moved it.
   bool IsPushed(std::uint32_t leader) const { return last_push_[leader] != 0; }
+  // In the threads of `pool`, if there is one.
   template <class Act>
-  void ForEachPushed(const Act& act) const
+  void ForEachPushed(WorkerPool* pool, const Act& act) const
   {
-    // Few are: many at a time are looked at.
-    constexpr std::size_t kMany = sizeof(std::uint64_t) / sizeof(Stamp);
-    for (std::size_t k = 0; k < last_push_.size(); k += kMany)
-    {
-      std::uint64_t many;
-      std::memcpy(&many, &last_push_[k], sizeof many);
-      if (many == 0) continue;
-      for (std::size_t n = k; n < k + kMany; ++n)
-        if (last_push_[n] != 0) act(static_cast<std::uint32_t>(n));
-    }
+    InParts(pool, last_push_.size(), kMany,
+            [&](unsigned, std::size_t begin, std::size_t end) { ForEachPushed(begin, end, act); });
   }
 
   // When each leader was pushed last in Solve.
@@ -150,6 +143,21 @@ private:
   {
     double x, y, depth;
   };
+  static constexpr std::size_t kMany = sizeof(std::uint64_t) / sizeof(Stamp);
+
+  template <class Act>
+  void ForEachPushed(std::size_t begin, std::size_t end, const Act& act) const
+  {
+    // Few are: many at a time are looked at.
+    for (std::size_t k = begin; k < end; k += kMany)
+    {
+      std::uint64_t many;
+      std::memcpy(&many, &last_push_[k], sizeof many);
+      if (many == 0) continue;
+      for (std::size_t n = k; n < k + kMany; ++n)
+        if (last_push_[n] != 0) act(static_cast<std::uint32_t>(n));
+    }
+  }
 
   static bool IsDeep(const ContactList::Outline& outline, bool face, double limit, double dx, double dy, Push& push);
   static bool PushApart(ContactList::Ends ends, const ContactList::Outline& outline, Stamp now, double limit,

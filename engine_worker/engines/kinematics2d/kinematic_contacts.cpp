@@ -33,7 +33,7 @@ void KinematicWorld::FindContacts()
 {
   const double margin = 2 * reach_;
   SwapFollowers();
-  broad_.Sort(before_, present_);
+  broad_.Sort(before_, present_, Pool());
   broad_.FindPairsOfLarge(margin, before_, present_, pairs_of_large_.pairs);
   pairs_of_large_.ends.assign(1, static_cast<std::uint32_t>(pairs_of_large_.pairs.size()));
   if (region_) region_->ChoosePairsOfLarge(*this);

@@ -71,11 +71,11 @@ bool KinematicWorld::IsInvolved(std::uint32_t leader)
 // Nobody is pushed further than `reach_` from where it was: only then those that it can meet are known.
 void KinematicWorld::LimitPushes()
 {
-  solver_.ForEachPushed(
-      [this](std::uint32_t leader)
-      {
-        if (leader < count_) LimitWay(leader, reach_);
-      });
+  solver_.ForEachPushed(Pool(),
+                        [this](std::uint32_t leader)
+                        {
+                          if (leader < count_) LimitWay(leader, reach_);
+                        });
 }
 
 void KinematicWorld::LimitWay(std::uint32_t leader, double most)

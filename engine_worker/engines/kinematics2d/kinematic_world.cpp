@@ -78,9 +78,10 @@ std::uint32_t KinematicWorld::AddBody(std::uint32_t model, const Pose2& pose, bo
 
 void KinematicWorld::AddStatic(CollisionModel shape) { statics_.push_back(std::move(shape)); }
 
-void KinematicWorld::Start(Bounds area, unsigned threads)
+void KinematicWorld::Start(Bounds area, unsigned threads, WorkerPool* pool)
 {
-  if (threads > 1) pool_ = std::make_unique<WorkerPool>(threads);
+  if (pool == nullptr && threads > 1) own_pool_ = std::make_unique<WorkerPool>(threads);
+  pool_ = pool != nullptr ? pool : own_pool_.get();
   parts_.resize(threads);
   const std::size_t padded = PaddedCount(count_);
   now_.Resize(padded);

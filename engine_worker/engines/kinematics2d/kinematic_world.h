@@ -57,8 +57,9 @@ public:
   // A follower is moved from outside (Follow) and pushes without being pushed.
   std::uint32_t AddBody(std::uint32_t model, const Pose2& pose, bool follower = false);
   void AddStatic(CollisionModel shape);  // in the coordinates of the plane
-  // `area` is where most bodies will be. `threads` work together; their number changes no bit of the results.
-  void Start(Bounds area, unsigned threads = 1);
+  // `area` is where most bodies will be. `threads` work together, those of `pool` if there is one; their number changes
+  // no bit of the results.
+  void Start(Bounds area, unsigned threads = 1, WorkerPool* pool = nullptr);
   // Whether they do from now on.
   void UseThreads(bool use) { uses_threads_ = use; }
 
@@ -242,7 +243,7 @@ private:
   void Move(double seconds, double fraction);
   void SwapFollowers();
   void SplitBlocks();
-  WorkerPool* Pool() const { return uses_threads_ ? pool_.get() : nullptr; }
+  WorkerPool* Pool() const { return uses_threads_ ? pool_ : nullptr; }
   // Calls act(part) with all that have blocks, each in a thread of its own.
   template <class Act>
   void ForEachPart(const Act& act)
@@ -313,7 +314,8 @@ private:
   std::vector<Turret> turrets_;      // those that turn, by body
   std::vector<Follower> followers_;  // by body
 
-  std::unique_ptr<WorkerPool> pool_;  // none for one thread
+  std::unique_ptr<WorkerPool> own_pool_;
+  WorkerPool* pool_ = nullptr;  // none for one thread
   bool uses_threads_ = true;
   std::vector<Part> parts_;  // one for each thread
   BroadPhase broad_;

@@ -1,5 +1,6 @@
 // Commands and sensors of the kinematic engine.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -24,12 +25,12 @@ constexpr double kFullSpeed = 0.3;
 
 }  // namespace
 
-void Kinematics2dEngine::ApplyCommands(const EngineCommands& commands)
+void Kinematics2dEngine::ApplyCommands(const EngineCommands& commands, WorkerPool* pool)
 {
   for (const ChannelBlock& block : commands.blocks)
   {
     const std::span<const double> values = commands.Of(block);
-    if (block.name == "footbot_wheels" || block.name == "wheels") DriveWheels(block, values);
+    if (block.name == "footbot_wheels" || block.name == "wheels") DriveWheels(block, values, pool);
     if (block.name == "eyebot_propellers") DrivePropellers(block, values);
     if (block.name == "footbot_turret") TurnTurrets(block, values);
     if (block.name == "footbot_gripper") UseGrippers(block, values);
@@ -61,17 +62,32 @@ void Kinematics2dEngine::CheckCommand(double sum, std::uint32_t entity, const Ch
                              " a value that is not a finite number");
 }
 
-void Kinematics2dEngine::DriveWheels(const ChannelBlock& block, std::span<const double> values)
+void Kinematics2dEngine::DriveWheels(const ChannelBlock& block, std::span<const double> values, WorkerPool* pool)
 {
-  std::uint32_t body = BodyOf(block.entities.empty() ? 0 : block.entities.front());
+  std::atomic<bool> failed = false;
+  InParts(pool, block.entities.size(), 1,
+          [&](unsigned, std::size_t begin, std::size_t end)
+          {
+            if (begin == end) return;
+            const std::uint32_t* const owned = layout_->owned.data();
+            std::uint32_t body = BodyOf(block.entities[begin]);
+            bool finite = true;
+            for (std::size_t k = begin; k < end; ++k, ++body)
+            {
+              while (owned[body] != block.entities[k]) ++body;
+              const Wheels& wheels = wheels_[body];
+              const double left = values[2 * k] * wheels.radius;
+              const double right = values[2 * k + 1] * wheels.radius;
+              finite &= std::isfinite(left + right);
+              world_.SetTwist(body, {0.5 * (left + right), 0, (right - left) * wheels.inverse_axle});
+            }
+            if (!finite) failed = true;
+          });
+  if (!failed) return;
   for (std::size_t k = 0; k < block.entities.size(); ++k)
   {
-    while (layout_->owned[body] != block.entities[k]) ++body;
-    const Wheels& wheels = wheels_[body];
-    const double left = values[2 * k] * wheels.radius;
-    const double right = values[2 * k + 1] * wheels.radius;
-    CheckCommand(left + right, block.entities[k], block);
-    world_.SetTwist(body, {0.5 * (left + right), 0, (right - left) * wheels.inverse_axle});
+    const double radius = wheels_[BodyOf(block.entities[k])].radius;
+    CheckCommand(values[2 * k] * radius + values[2 * k + 1] * radius, block.entities[k], block);
   }
 }
 
@@ -136,8 +152,12 @@ void Kinematics2dEngine::GripNearest(std::uint32_t body)
   if (found != body) world_.AddGrip(body, found);
 }
 
-void Kinematics2dEngine::ReportFootbots(AttributeChanges& changes) const
+// What footbots show lies far apart in memory. Where nobody commands turrets and grippers, it differs from the space
+// only if somebody changed it there.
+void Kinematics2dEngine::ReportFootbots(AttributeChanges& changes)
 {
+  if (!footbots_change_ && reported_ == space_->AttributeRevision()) return;
+  const std::size_t before = changes.slots.size();
   const std::span<const double> known = space_->Attributes();
   const auto report = [&](std::uint32_t slot, double value)
   {
@@ -150,6 +170,7 @@ void Kinematics2dEngine::ReportFootbots(AttributeChanges& changes) const
     report(footbot.gripped_slot, grip == nullptr ? 0 : 1.0 + layout_->owned[grip->prey]);
     report(footbot.turret_slot, world_.TurretAngle(footbot.body));
   }
+  if (changes.slots.size() == before) reported_ = space_->AttributeRevision();
 }
 
 // The arcs (m) that the wheels rolled in the tick, collisions included.
@@ -174,7 +195,8 @@ void Kinematics2dEngine::ReadTurretTorques(const ChannelBlock& block, std::span<
   {
     const std::uint32_t body = BodyOf(block.entities[k]);
     if (world_.FindGrip(body) == nullptr) continue;
-    const Pose2 wanted = Advanced(FootbotOf(body).tick_start, world_.TwistOf(body), TickSeconds());
+    const Pose2 wanted = Advanced(tick_start_[static_cast<std::size_t>(&FootbotOf(body) - footbots_.data())],
+                                  world_.TwistOf(body), TickSeconds());
     const Placed robot = world_.PlacedAt(body);
     const double scale = 1 / (kFullSpeed * TickSeconds());
     const double x = (wanted.x - robot.x) * scale;

@@ -75,6 +75,7 @@ void Kinematics2dEngine::Init(const EngineSetup& setup)
   if (threads_ == 0)
   {
     threads_ = setup.threads;
+    pool_ = setup.pool;
     if (threads_ > 1) sharing_.emplace();
   }
   world_ = KinematicWorld(setup.parameters.Number("elasticity"));
@@ -122,12 +123,8 @@ void Kinematics2dEngine::Start()
     }
     if (HasTurret(*entity))
     {
-      footbots_.push_back({body,
-                           entity->SlotOf("gripper_aperture"),
-                           entity->SlotOf("gripped"),
-                           entity->SlotOf("turret_angle"),
-                           std::nullopt,
-                           {}});
+      footbots_.push_back({body, entity->SlotOf("gripper_aperture"), entity->SlotOf("gripped"),
+                           entity->SlotOf("turret_angle"), std::nullopt});
     }
   }
   for (Mirror& mirror : mirrors_)
@@ -150,8 +147,13 @@ void Kinematics2dEngine::Start()
     AddFixed(*entity);
   }
   for (const ChannelBlock& block : layout_->sensors)
+  {
     if (block.name == "footbot_encoders") world_.KeepTravel();
-  world_.Start(AreaOf(frame_, space_->GetExperiment().arena_size), threads_);
+    if (block.name == "footbot_turret_torque") tick_start_.resize(footbots_.size());
+  }
+  for (const ChannelBlock& block : layout_->commands)
+    footbots_change_ |= block.name == "footbot_turret" || block.name == "footbot_gripper";
+  world_.Start(AreaOf(frame_, space_->GetExperiment().arena_size), threads_, pool_);
   for (const Footbot& footbot : footbots_)
     world_.SetTurretAngle(footbot.body, space_->Attributes()[footbot.turret_slot]);
   writer_ = PlaneWriter(frame_, std::move(stances));
@@ -222,14 +224,10 @@ CollisionModel Kinematics2dEngine::Outline(const CSwarmanoidSpaceEntity& block, 
 void Kinematics2dEngine::Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors)
 {
   FollowMirrors();
-  ApplyCommands(commands);
-  for (Footbot& footbot : footbots_) footbot.tick_start = world_.PoseOf(footbot.body);
-  BalanceRegions();
   if (sharing_)
-    sharing_->Do([&] { Advance(false); }, [&] { Advance(true); });
+    sharing_->Do([&] { Step(commands, false, update.poses); }, [&] { Step(commands, true, update.poses); });
   else
-    Advance(true);
-  writer_.Write(world_.Poses(), update.poses);
+    Step(commands, true, update.poses);
   robots_.Raise(layout_->owned, update.poses);
   ReportFootbots(update.attributes);
   robots_.Report(update.attributes);
@@ -242,10 +240,15 @@ void Kinematics2dEngine::Update(const EngineCommands& commands, EngineUpdate& up
   }
 }
 
-void Kinematics2dEngine::Advance(bool in_threads)
+void Kinematics2dEngine::Step(const EngineCommands& commands, bool in_threads, std::span<double> poses)
 {
+  WorkerPool* const pool = in_threads ? pool_ : nullptr;
+  ApplyCommands(commands, pool);
+  for (std::size_t k = 0; k < tick_start_.size(); ++k) tick_start_[k] = world_.PoseOf(footbots_[k].body);
+  BalanceRegions();
   world_.UseThreads(in_threads);
   world_.Advance(TickSeconds(), subclock_);
+  writer_.Write(world_.Poses(), poses, pool);
 }
 
 void Kinematics2dEngine::FollowMirrors()
@@ -296,6 +299,7 @@ void Kinematics2dEngine::LoadState(ByteReader& state)
 {
   world_.LoadState(state);
   robots_.LoadState(state);
+  reported_ = 0;
 }
 
 std::string Kinematics2dEngine::StatusText() const

@@ -48,8 +48,7 @@ private:
   {
     std::uint32_t body = 0;
     std::uint32_t aperture_slot, gripped_slot, turret_slot;
-    std::optional<double> aperture;  // as commanded in this tick
-    kinematics2d::Pose2 tick_start;
+    std::optional<double> aperture;  // as commanded
   };
 
   struct Wheels
@@ -71,15 +70,16 @@ private:
 
   void AddFixed(const CSwarmanoidSpaceEntity& entity);
   void BalanceRegions();
-  void Advance(bool in_threads);
+  // The commands, the motion and the poses after it.
+  void Step(const EngineCommands& commands, bool in_threads, std::span<double> poses);
   void FollowMirrors();
-  void ApplyCommands(const EngineCommands& commands);
-  void DriveWheels(const ChannelBlock& block, std::span<const double> values);
+  void ApplyCommands(const EngineCommands& commands, WorkerPool* pool);
+  void DriveWheels(const ChannelBlock& block, std::span<const double> values, WorkerPool* pool);
   void DrivePropellers(const ChannelBlock& block, std::span<const double> values);
   void TurnTurrets(const ChannelBlock& block, std::span<const double> values);
   void UseGrippers(const ChannelBlock& block, std::span<const double> values);
   void GripNearest(std::uint32_t body);
-  void ReportFootbots(AttributeChanges& changes) const;
+  void ReportFootbots(AttributeChanges& changes);
   void ReadEncoders(const ChannelBlock& block, std::span<double> values) const;
   void ReadTurretTorques(const ChannelBlock& block, std::span<double> values) const;
   Footbot& FootbotOf(std::uint32_t body);
@@ -93,6 +93,7 @@ private:
   PlaneFrame frame_{PlaneAxis::kZ, 0};
   int subclock_ = 1;
   unsigned threads_ = 1;
+  WorkerPool* pool_ = nullptr;         // of the process
   std::optional<SharedWork> sharing_;  // where it is tried whether several threads pay
   RegionTeam* team_ = nullptr;
   std::uint64_t updates_ = 0;
@@ -103,10 +104,13 @@ private:
   std::vector<const CSwarmanoidSpaceEntity*> owned_;  // body k is owned_[k]
   std::vector<Mirror> mirrors_;
   std::vector<const CSwarmanoidSpaceEntity*> fixed_;
-  std::vector<Wheels> wheels_;        // by body; 0 for those without
-  std::vector<std::uint32_t> preys_;  // bodies
-  NearObjects near_preys_;            // by place in preys_
-  std::vector<Footbot> footbots_;     // owned, by body
+  std::vector<Wheels> wheels_;                   // by body; 0 for those without
+  std::vector<std::uint32_t> preys_;             // bodies
+  NearObjects near_preys_;                       // by place in preys_
+  std::vector<Footbot> footbots_;                // owned, by body
+  std::vector<kinematics2d::Pose2> tick_start_;  // of each of them, if their traction is sensed
+  bool footbots_change_ = false;                 // their turrets or grippers are commanded, in some tick
+  std::uint64_t reported_ = 0;  // CSwarmanoidSpace::AttributeRevision when they last had nothing to report
 };
 
 }  // namespace swarmanoid

@@ -13,11 +13,23 @@ PlaneWriter::PlaneWriter(const PlaneFrame& frame, std::vector<PlaneStance> stanc
                                                      [&](const PlaneStance& stance) { return upright(stance.lean); });
 }
 
-void PlaneWriter::Write(const kinematics2d::PoseStore& bodies, std::span<double> poses) const
+void PlaneWriter::Write(const kinematics2d::PoseStore& bodies, std::span<double> poses, WorkerPool* pool) const
 {
-  if (flat_) return WriteFlat(bodies, poses);
+  InParts(pool, stances_.size(), kinematics2d::kPadding,
+          [&](unsigned, std::size_t begin, std::size_t end)
+          {
+            if (flat_)
+              WriteFlat(bodies, begin, end, poses.data());
+            else
+              WriteSome(bodies, begin, end, poses.data());
+          });
+}
+
+void PlaneWriter::WriteSome(const kinematics2d::PoseStore& bodies, std::size_t begin, std::size_t end,
+                            double* poses) const
+{
   const std::size_t count = stances_.size();
-  for (std::size_t k = 0; k < count; ++k)
+  for (std::size_t k = begin; k < end; ++k)
   {
     const Vector3 local(bodies.x[k], bodies.y[k], stances_[k].height);
     const Vector3 position = frame_.Apply(local);
@@ -32,16 +44,17 @@ void PlaneWriter::Write(const kinematics2d::PoseStore& bodies, std::span<double>
   }
 }
 
-void PlaneWriter::WriteFlat(const kinematics2d::PoseStore& bodies, std::span<double> poses) const
+void PlaneWriter::WriteFlat(const kinematics2d::PoseStore& bodies, std::size_t begin, std::size_t end,
+                            double* poses) const
 {
   const std::size_t count = stances_.size();
-  double* const to = poses.data();
-  for (std::size_t k = 0; k < count; ++k) to[k] = frame_.position.x() + bodies.x[k];
-  for (std::size_t k = 0; k < count; ++k) to[count + k] = frame_.position.y() + bodies.y[k];
-  for (std::size_t k = 0; k < count; ++k) to[2 * count + k] = frame_.position.z() + stances_[k].height;
-  std::fill_n(to + 3 * count, 2 * count, 0.0);
-  std::copy_n(bodies.z.begin(), count, to + 5 * count);
-  std::copy_n(bodies.w.begin(), count, to + 6 * count);
+  for (std::size_t k = begin; k < end; ++k) poses[k] = frame_.position.x() + bodies.x[k];
+  for (std::size_t k = begin; k < end; ++k) poses[count + k] = frame_.position.y() + bodies.y[k];
+  for (std::size_t k = begin; k < end; ++k) poses[2 * count + k] = frame_.position.z() + stances_[k].height;
+  std::fill(poses + 3 * count + begin, poses + 3 * count + end, 0.0);
+  std::fill(poses + 4 * count + begin, poses + 4 * count + end, 0.0);
+  std::copy_n(bodies.z.data() + begin, end - begin, poses + 5 * count + begin);
+  std::copy_n(bodies.w.data() + begin, end - begin, poses + 6 * count + begin);
 }
 
 }  // namespace swarmanoid

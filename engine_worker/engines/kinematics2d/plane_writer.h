@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "common/threads/worker_pool.h"
 #include "engine_worker/engines/kinematics2d/motion.h"
 #include "engine_worker/engines/plane_frame.h"
 
@@ -19,10 +20,13 @@ public:
   PlaneWriter(const PlaneFrame& frame, std::vector<PlaneStance> stances);
 
   // poses: 7 doubles a body, structure of arrays x y z qx qy qz qw.
-  void Write(const kinematics2d::PoseStore& bodies, std::span<double> poses) const;
+  // The threads of `pool`, if there is one, share the work.
+  void Write(const kinematics2d::PoseStore& bodies, std::span<double> poses, WorkerPool* pool = nullptr) const;
 
 private:
-  void WriteFlat(const kinematics2d::PoseStore& bodies, std::span<double> poses) const;
+  // From body `begin` to before `end`.
+  void WriteSome(const kinematics2d::PoseStore& bodies, std::size_t begin, std::size_t end, double* poses) const;
+  void WriteFlat(const kinematics2d::PoseStore& bodies, std::size_t begin, std::size_t end, double* poses) const;
 
   Pose frame_;
   bool flat_ = true;  // perpendicular to z, all bodies upright

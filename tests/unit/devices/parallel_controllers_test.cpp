@@ -105,7 +105,8 @@ std::string ErrorOf(Seen& into, unsigned threads, int in_turn, int parallel)
   }
   const Assignment assignment = MakeAssignment(experiment, 1);
   CSwarmanoidSpace space(experiment);
-  ControllerHost host(space, assignment, 0, threads);
+  WorkerPool pool(threads);
+  ControllerHost host(space, assignment, 0, &pool);
   try
   {
     for (std::uint64_t tick = 0; tick < 2 * 4; ++tick)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/math/elementary.h"
+#include "common/threads/worker_pool.h"
 #include "engine_worker/engine_worker.h"
 #include "engine_worker/engines/kinematics2d/kinematics2d_engine.h"
 
@@ -17,7 +18,7 @@ namespace swarmanoid
 class EngineFixture
 {
 public:
-  EngineFixture()
+  explicit EngineFixture(WorkerPool* pool = nullptr) : pool_(pool)
   {
     RegisterBuiltinEngines();
     experiment_.arena_size = Vector3(10, 10, 3);
@@ -95,7 +96,7 @@ public:
     const auto* entry = PluginRegistry<CPhysicsEngine>::Instance().Find(engine_configuration_.tag);
     std::unique_ptr<CPhysicsEngine> engine = entry->create();
     engine->Init({engine_configuration_, Parameters(engine_configuration_.tree, entry->description.parameters), *space_,
-                  layout_});
+                  layout_, nullptr, pool_ == nullptr ? 1 : pool_->Threads(), pool_});
     for (std::uint32_t k = 0; k < space_->Size(); ++k)
     {
       const bool mirror = std::find(mirrors_.begin(), mirrors_.end(), k) != mirrors_.end();
@@ -131,6 +132,7 @@ public:
   const EngineUpdate& LastUpdate() const { return update_; }
 
 private:
+  WorkerPool* pool_;
   Experiment experiment_;
   EngineConfiguration engine_configuration_;
   std::shared_ptr<ConfigurationNode> node_ = std::make_shared<ConfigurationNode>();

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "tests/unit/kinematics2d/engine_fixture.h"
 
@@ -228,6 +229,66 @@ TEST(Kinematics2dEngine, TurretsTurnAndReportTheirAngle)
   f.Command(0) = 0;
   f.Tick();
   EXPECT_TRUE(f.LastUpdate().attributes.slots.empty());
+}
+
+// Nobody can command it, so the engine does not look at it each tick.
+TEST(Kinematics2dEngine, ATurretThatSomebodyTurnsInTheSpaceIsTurnedBack)
+{
+  EngineFixture f;
+  const auto robot = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0));
+  f.AddCommands("footbot_wheels", 2, {robot});
+  f.Start();
+  const auto slot = f.Space().GetEntity(robot).SlotOf("turret_angle");
+  for (const double angle : {1.0, 2.0})
+  {
+    f.Ticks(3);
+    EXPECT_TRUE(f.LastUpdate().attributes.slots.empty());
+    f.Space().SetAttribute(slot, angle);
+    f.Tick();
+    EXPECT_EQ(f.LastUpdate().attributes.slots, std::vector<std::uint32_t>{slot});
+    EXPECT_EQ(f.Space().GetEntity(robot).GetAttribute("turret_angle"), 0);
+  }
+}
+
+TEST(Kinematics2dEngine, ThreadsChangeNoPoseAndNoMistake)
+{
+  constexpr std::uint32_t kRobots = 2500;
+  const auto run = [](WorkerPool* pool, double faulty)
+  {
+    EngineFixture f(pool);
+    std::vector<std::uint32_t> robots;
+    for (std::uint32_t k = 0; k < kRobots; ++k)
+      robots.push_back(f.Add(EntityKind::kFootbot, Vector3(0.4 * (k % 50), 0.4 * (k / 50), 0), {0.001 * k, 0, 0}));
+    f.AddCommands("footbot_wheels", 2, robots);
+    f.Start();
+    std::vector<double> poses;  // of all ticks: both ways are tried
+    for (int tick = 0; tick < 12; ++tick)
+    {
+      for (std::uint32_t k = 0; k < kRobots; ++k)
+      {
+        f.Command(2 * k) = 1 + 0.001 * k;
+        f.Command(2 * k + 1) = 2 - 0.001 * k;
+      }
+      if (tick == 6) f.Command(2 * 2100) = faulty;
+      f.Tick();
+      poses.insert(poses.end(), f.LastUpdate().poses.begin(), f.LastUpdate().poses.end());
+    }
+    return poses;
+  };
+  WorkerPool pool(3);
+  EXPECT_EQ(run(&pool, 1), run(nullptr, 1));
+  for (WorkerPool* by : {&pool, static_cast<WorkerPool*>(nullptr)})
+  {
+    try
+    {
+      run(by, std::numeric_limits<double>::infinity());
+      ADD_FAILURE() << "it is no mistake";
+    }
+    catch (const std::runtime_error& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("robot 'e2100' gave footbot_wheels"), std::string::npos) << error.what();
+    }
+  }
 }
 
 }  // namespace

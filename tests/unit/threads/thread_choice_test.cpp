@@ -48,6 +48,42 @@ TEST(ThreadChoice, FollowsWhenTheCoresAreTakenAndFreeAgain)
   EXPECT_EQ(Shared(choice, ThreadChoice::kPeriod, 100us, 60us), ThreadChoice::kPeriod - ThreadChoice::kTrials);
 }
 
+// On a machine that stays busy, trials become rare, and usual again after one that won.
+TEST(ThreadChoice, TriesLessOftenWhatWasSlowerAgainAndAgain)
+{
+  constexpr unsigned kPeriod = ThreadChoice::kPeriod;
+  ThreadChoice choice;
+  for (const unsigned periods : {1U, 1U, 2U, 4U, 8U, 16U, 16U})
+  {
+    EXPECT_EQ(Shared(choice, 16, 100us, 4ms), ThreadChoice::kTrials) << periods;
+    EXPECT_EQ(Shared(choice, periods * kPeriod - 16, 100us, 4ms), 0U) << periods;
+  }
+  EXPECT_EQ(Shared(choice, 16 * kPeriod, 100us, 60us), 16 * kPeriod - ThreadChoice::kTrials);
+  EXPECT_EQ(Shared(choice, kPeriod, 100us, 4ms), ThreadChoice::kTrials);
+}
+
+// Others take a core between two trials: what is lost until one thread goes on is little.
+TEST(ThreadChoice, StopsWhenTheCoresAreTakenBetweenTrials)
+{
+  ThreadChoice choice;
+  unsigned count = Shared(choice, 100, 100us, 60us);
+  EXPECT_EQ(count, 96U);
+  count = Shared(choice, ThreadChoice::kPeriod - 100, 100us, 4ms);
+  EXPECT_LE(count, 3U);
+  EXPECT_GT(Shared(choice, ThreadChoice::kPeriod, 100us, 60us), 500U) << "and tries anew";
+}
+
+TEST(ThreadChoice, BearsSomeSlowPiecesAmongManyQuickOnes)
+{
+  ThreadChoice choice;
+  Shared(choice, 2 * ThreadChoice::kTrials, 100us, 60us);
+  for (unsigned k = 2 * ThreadChoice::kTrials; k + 1 < ThreadChoice::kPeriod; ++k)
+  {
+    ASSERT_TRUE(choice.Shares()) << k;
+    choice.Took(k % 20 == 0 ? 4ms : 60us);
+  }
+}
+
 // Somebody else's work delays a piece now and then.
 TEST(ThreadChoice, OneSlowPieceDoesNotDecide)
 {
