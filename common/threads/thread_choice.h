@@ -16,6 +16,7 @@ public:
   using Duration = std::chrono::nanoseconds;
   static constexpr Duration kWorthWaking{20'000};  // work that takes less is never shared
   static constexpr unsigned kTrials = 4;           // of each way; the shortest counts
+  static constexpr unsigned kLeastGain = 10;       // sharing is worth it if it saves more than one such part
   static constexpr unsigned kPeriod = 512;         // pieces until both ways are tried again
   static constexpr unsigned kMostDoublings = 4;    // of it: one for each time after the first that sharing was slower
   // Pieces that several threads did are late by what they took longer than one thread would; each counts as at most
@@ -40,7 +41,7 @@ public:
       if (late_ > kPatience * alone_) shares_ = false;
     }
     if (pieces_ == kTrials) shares_ = alone_ >= kWorthWaking;
-    if (pieces_ == 2 * kTrials) shares_ = shares_ && shared_ < alone_;
+    if (pieces_ == 2 * kTrials) shares_ = shares_ && shared_ < alone_ - alone_ / kLeastGain;
     if (pieces_ < kPeriod << (losses_ > 1 ? losses_ - 1 : 0)) return;
     const bool lost = alone_ >= kWorthWaking && !shares_;
     const unsigned losses = lost ? std::min(losses_ + 1, kMostDoublings + 1) : 0;

@@ -34,6 +34,13 @@ TEST(ThreadChoice, SharesWhatIsQuickerSo)
   EXPECT_EQ(Shared(choice, ThreadChoice::kPeriod, 100us, 60us), ThreadChoice::kPeriod - ThreadChoice::kTrials);
 }
 
+// The best of a few pieces is hardly quicker, and the usual one slower.
+TEST(ThreadChoice, LittleGainIsNotWorthOtherCores)
+{
+  ThreadChoice choice;
+  EXPECT_EQ(Shared(choice, ThreadChoice::kPeriod, 100us, 92us), ThreadChoice::kTrials);
+}
+
 TEST(ThreadChoice, TriesWhatIsSlowerAFewTimesAPeriod)
 {
   ThreadChoice choice;
