@@ -7,6 +7,11 @@
 
 #include <pybind11/pybind11.h>
 
+namespace swarmanoid
+{
+class CSwarmanoidSpace;
+}
+
 namespace swarmanoid::python
 {
 

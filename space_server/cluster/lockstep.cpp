@@ -1,5 +1,7 @@
 #include "space_server/cluster/lockstep.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 

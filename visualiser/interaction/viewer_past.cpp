@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/program/shell_word.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {

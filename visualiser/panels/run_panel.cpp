@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/space/space.h"
 #include "visualiser/panels/panels.h"
 #include "visualiser/panels/theme.h"
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/space/space.h"
 #include "visualiser/panels/panels.h"
 #include "visualiser/panels/theme.h"
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/space/entity.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid
