@@ -7,6 +7,7 @@
 #include <openssl/params.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -288,6 +289,44 @@ TEST_F(SealedBus, WhoHasNotSpokenUnderTheKeyIsNotMissed)
   }
   EXPECT_FALSE(Eventually([&] { return session.Failure().has_value(); }, std::chrono::milliseconds(500)));
   EXPECT_FALSE(session.FirstLeft().has_value());
+}
+
+// What is told is told in the order in which processes go, so the end of one that is known ends the waiting.
+TEST_F(SealedBus, OnlyWhoHasSpokenUnderTheKeyIsToldToBeGone)
+{
+  Bus bus(options_, "space server");
+  std::mutex mutex;
+  std::vector<std::string> gone;
+  bus.OnProcessGone(
+      [&](const std::string&, const std::string& name, bool)
+      {
+        const std::lock_guard lock(mutex);
+        gone.push_back(name);
+      });
+  std::atomic<int> heard = 0;
+  const Subscription<StatusMessage> in(bus, "sealed", [&](const StatusMessage&) { ++heard; });
+  {
+    Bus engine(options_, "engine 'ground'");
+    Publisher<StatusMessage> out(engine, "sealed");
+    ASSERT_TRUE(Eventually([&] { return out.Readers() == 1; }));
+    out.Write({1, 2, "engine 'ground'", "text"});
+    ASSERT_TRUE(Eventually([&] { return heard == 1; }));
+    BusOptions of_others = options_;
+    of_others.key = KeyOfByte(8);
+    Bus stranger(of_others, "engine 'air'");
+    Publisher<StatusMessage> strange(stranger, "sealed");
+    ASSERT_TRUE(Eventually([&] { return strange.Readers() == 1; }));
+    strange.Write({1, 2, "engine 'air'", "text"});
+    ASSERT_TRUE(Eventually([&] { return bus.Dropped() == 1; }));
+  }  // the stranger goes first
+  ASSERT_TRUE(Eventually(
+      [&]
+      {
+        const std::lock_guard lock(mutex);
+        return std::find(gone.begin(), gone.end(), "engine 'ground'") != gone.end();
+      }));
+  const std::lock_guard lock(mutex);
+  EXPECT_THAT(gone, testing::ElementsAre("engine 'ground'"));
 }
 
 }  // namespace
