@@ -80,5 +80,30 @@ TEST_F(Strangers, AMemberOfTheRunEndsItByName)
   EXPECT_EQ(session.GetBus().Dropped(), 0U);
 }
 
+// Who looks on has the key, too.
+TEST_F(Strangers, WhoHoldsTheKeyAndIsNoMemberIsDropped)
+{
+  ServerSession session(options_, world_, {"engine 'ground'"}, {[](const auto&) {}, [] {}, [](const auto&) {}});
+  session.Open();
+  Bus watcher(options_, "visualiser 'web'");
+  HotScope scope = session.Scope(1000, 1);
+  UpdateMessage place;
+  const HotSubscription<UpdateMessage> updates(
+      session.GetBus(), scope,
+      {[&](const MessageHeader&) { return &place; },
+       [](const MessageHeader&, UpdateMessage&) { FAIL() << "a bad message was received"; },
+       [](const MessageHeader&, const UpdateMessage&) { throw BadMessage("poses: it has 3 numbers, not 70"); }});
+  HotPublisher<UpdateMessage> publisher(watcher, scope);
+  ASSERT_TRUE(Eventually([&] { return publisher.Readers() == 1 && updates.Writers() == 1; }));
+  const UpdateMessage update;
+  EXPECT_TRUE(Eventually(
+      [&]
+      {
+        publisher.Write({world_.run, 17, 0, false}, update);
+        return session.GetBus().Dropped() > 0;
+      }));
+  EXPECT_FALSE(session.Failure().has_value()) << *session.Failure();
+}
+
 }  // namespace
 }  // namespace swarmanoid
