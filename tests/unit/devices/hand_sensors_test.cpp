@@ -155,8 +155,11 @@ TEST(PanTiltCamera, SeesTheConeWhereTheLaserPoints)
     TestSensor camera(world, "eyebot_pan_tilt_camera", "generic_eyebot_pan_tilt_camera", {robot});
     TestSensor pixels(world, "eyebot_pan_tilt_camera", "pixel_noise_eyebot_pan_tilt_camera", {robot},
                       {{"image_radius", "1000000"}});
+    TestSensor coarse(world, "eyebot_pan_tilt_camera", "pixel_noise_eyebot_pan_tilt_camera", {robot},
+                      {{"image_radius", "10"}});
     camera.Update();
     pixels.Update();
+    coarse.Update();
 
     const Vector3 beacon = world.Space().GetEntity(other).GetPosition() +
                            Vector3(0, 0, *DescriptionOf(EntityKind::kFootbot).beacon_height_m);
@@ -176,6 +179,19 @@ TEST(PanTiltCamera, SeesTheConeWhereTheLaserPoints)
     EXPECT_NEAR(rounded[0].elevation_rad, blobs[0].elevation_rad, 1e-5);
     EXPECT_NEAR(std::cos(rounded[0].elevation_rad) * std::remainder(rounded[0].angle_rad - blobs[0].angle_rad, 2 * kPi),
                 0, 1e-5);
+    // The nearest pixel of the image, whose columns are across the way that the camera is turned.
+    const Vector3 across(-std::sin(pan), std::cos(pan), 0);
+    const auto pixel_of = [&](const CCI_ColourBlob& blob)
+    {
+      const Vector3 way(std::cos(blob.elevation_rad) * std::cos(blob.angle_rad),
+                        std::cos(blob.elevation_rad) * std::sin(blob.angle_rad), std::sin(blob.elevation_rad));
+      return std::pair(way.dot(across) / way.dot(axis) * 10 / std::tan(kPi / 6),
+                       way.dot(axis.cross(across)) / way.dot(axis) * 10 / std::tan(kPi / 6));
+    };
+    const auto whole = coarse.Of<CCI_ColourBlobSensor>(0).GetAllBlobs();
+    ASSERT_EQ(whole.size(), 1U);
+    EXPECT_NEAR(pixel_of(whole[0]).first, std::round(pixel_of(blobs[0]).first), 1e-9);
+    EXPECT_NEAR(pixel_of(whole[0]).second, std::round(pixel_of(blobs[0]).second), 1e-9);
   }
   EXPECT_GT(seen, 40);
   EXPECT_LT(seen, kTrials / 2);
