@@ -1,4 +1,5 @@
 // Bad messages on the wire: those of strangers are dropped and counted, one of a member ends the run by his name.
+#include <functional>
 #include <random>
 
 #include <fmt/format.h>
@@ -20,6 +21,37 @@ class Strangers : public test::ServerFixture
 {
 protected:
   Strangers() : ServerFixture("strangers") {}
+};
+
+// The space server's reader of updates, to which each is as if its array were too short.
+struct BadUpdates
+{
+  explicit BadUpdates(ServerSession& session)
+      : scope(session.Scope(1000, 1)),
+        updates(
+            session.GetBus(), scope,
+            {[this](const MessageHeader&) { return &place; },
+             [](const MessageHeader&, UpdateMessage&) { FAIL() << "a bad message was received"; },
+             [](const MessageHeader&, const UpdateMessage&) { throw BadMessage("poses: it has 3 numbers, not 70"); }})
+  {
+  }
+  // Whether the condition was met while `sender` wrote them.
+  bool ComeUntil(const std::function<bool()>& met, Bus& sender, std::uint64_t run)
+  {
+    HotPublisher<UpdateMessage> publisher(sender, scope);
+    if (!Eventually([&] { return publisher.Readers() == 1 && updates.Writers() == 1; })) return false;
+    const UpdateMessage update;
+    return Eventually(
+        [&]
+        {
+          publisher.Write({run, 17, 0, false}, update);
+          return met();
+        });
+  }
+
+  HotScope scope;
+  UpdateMessage place;
+  const HotSubscription<UpdateMessage> updates;
 };
 
 TEST_F(Strangers, AreDroppedAndCountedWhateverTheySend)
@@ -59,23 +91,8 @@ TEST_F(Strangers, AMemberOfTheRunEndsItByName)
   join.Write({ProcessId(), kProtocolVersion, world_.run, "engine 'ground'", true});
   ASSERT_TRUE(Eventually([&] { return session.Missing().empty(); }));
 
-  // As if the engine sent an array that is too short.
-  HotScope scope = session.Scope(1000, 1);
-  UpdateMessage place;
-  const HotSubscription<UpdateMessage> updates(
-      session.GetBus(), scope,
-      {[&](const MessageHeader&) { return &place; },
-       [](const MessageHeader&, UpdateMessage&) { FAIL() << "a bad message was received"; },
-       [](const MessageHeader&, const UpdateMessage&) { throw BadMessage("poses: it has 3 numbers, not 70"); }});
-  HotPublisher<UpdateMessage> publisher(engine, scope);
-  ASSERT_TRUE(Eventually([&] { return publisher.Readers() == 1 && updates.Writers() == 1; }));
-  const UpdateMessage update;
-  EXPECT_TRUE(Eventually(
-      [&]
-      {
-        publisher.Write({world_.run, 17, 0, false}, update);
-        return session.Failure().has_value();
-      }));
+  BadUpdates updates(session);
+  EXPECT_TRUE(updates.ComeUntil([&] { return session.Failure().has_value(); }, engine, world_.run));
   EXPECT_EQ(session.Failure(), "engine 'ground' sent a bad EngineUpdate at tick 17: poses: it has 3 numbers, not 70");
   EXPECT_EQ(session.GetBus().Dropped(), 0U);
 }
@@ -86,22 +103,8 @@ TEST_F(Strangers, WhoHoldsTheKeyAndIsNoMemberIsDropped)
   ServerSession session(options_, world_, {"engine 'ground'"}, {[](const auto&) {}, [] {}, [](const auto&) {}});
   session.Open();
   Bus watcher(options_, "visualiser 'web'");
-  HotScope scope = session.Scope(1000, 1);
-  UpdateMessage place;
-  const HotSubscription<UpdateMessage> updates(
-      session.GetBus(), scope,
-      {[&](const MessageHeader&) { return &place; },
-       [](const MessageHeader&, UpdateMessage&) { FAIL() << "a bad message was received"; },
-       [](const MessageHeader&, const UpdateMessage&) { throw BadMessage("poses: it has 3 numbers, not 70"); }});
-  HotPublisher<UpdateMessage> publisher(watcher, scope);
-  ASSERT_TRUE(Eventually([&] { return publisher.Readers() == 1 && updates.Writers() == 1; }));
-  const UpdateMessage update;
-  EXPECT_TRUE(Eventually(
-      [&]
-      {
-        publisher.Write({world_.run, 17, 0, false}, update);
-        return session.GetBus().Dropped() > 0;
-      }));
+  BadUpdates updates(session);
+  EXPECT_TRUE(updates.ComeUntil([&] { return session.GetBus().Dropped() > 0; }, watcher, world_.run));
   EXPECT_FALSE(session.Failure().has_value()) << *session.Failure();
 }
 
