@@ -13,6 +13,7 @@
 #include "common/threads/worker_pool.h"
 #include "controller_host/controller_host.h"
 #include "controller_host/device.h"
+#include "controller_host/on_demand_sensor.h"
 
 namespace swarmanoid
 {
@@ -36,6 +37,7 @@ struct ControllerHost::Batches
     int part = kWhole;                                 // of a device that is split among threads: which of them runs it
     std::pair<std::uint32_t, std::uint32_t> number{};  // of the controller, and of its sensor
     std::vector<std::size_t> robots{};                 // places in robots_
+    OnDemandSensor* on_demand = nullptr;               // the batch, if its readings are made so
   };
   struct Actuator
   {

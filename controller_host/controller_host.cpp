@@ -170,6 +170,7 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
       RunCodeOf<ConfigurationError>(
           sensor.actor, ActivityStep::kInit, 0,
           [&] { sensor.batch->Init(setup_of(device, entry->description, SensorStream(device.type), some)); });
+      sensor.on_demand = dynamic_cast<OnDemandSensor*>(sensor.batch.get());
       for (std::size_t n = first; n < behind; ++n)
         robots_[robots[n]].interface->AddSensor(device.type, sensor.batch->Sensor(n - first));
       batches_->sensors.push_back(std::move(sensor));

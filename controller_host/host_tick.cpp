@@ -36,6 +36,8 @@ const ControlCommands& ControllerHost::Tick(std::span<const SensorFrame* const> 
   Due();
   Sense(frames);
   RunControllers(tick);
+  for (const Batches::Sensor& sensor : batches_->sensors)
+    if (sensor.on_demand != nullptr) sensor.on_demand->EndSteps();
 
   stepped_tick_ = tick;
   commands_.tick = tick + ahead_;

@@ -19,7 +19,7 @@ struct CCI_Reading
   double value = 0;
 };
 
-// Base of all sensor interfaces. Readings are those of the start of the control step.
+// Base of all sensor interfaces. Readings in a control step are those of its start, whenever they are asked for.
 class CCI_Sensor
 {
 public:

@@ -14,7 +14,7 @@
 #include "controller_host/devices/sensing/sensor_world.h"
 #include "controller_host/devices/sensing/shadows.h"
 #include "controller_host/devices/value_devices.h"
-#include "controller_host/split_sensor.h"
+#include "controller_host/on_demand_sensor.h"
 
 namespace swarmanoid
 {
@@ -56,7 +56,7 @@ inline DoubleLanes Wrapped(DoubleLanes angle)
 }
 
 template <class Interface, class Model>
-class LightSensor : public SensorsOf<ValueSensor, ReadingsOf<Interface, Interface::NUM_SENSORS>>, public SplitSensor
+class LightSensor : public ValueSensor, public OnDemandSensor
 {
 public:
   void Init(const DeviceSetup& setup) override
@@ -75,20 +75,17 @@ public:
       place_of_entity_[this->robots_[k]] = static_cast<std::int32_t>(k);
     points_.Reserve(this->robots_.size());
     for (unsigned i = 0; i < kSensors; ++i) angles_[i] = Interface::AngleOf(i);
-    this->MakeDevices();
+    InitDemand(this->robots_.size());
+    devices_.reserve(this->robots_.size());
+    for (std::size_t k = 0; k < this->robots_.size(); ++k) devices_.emplace_back(this->ValuesOf(k), *this, k);
   }
+  CCI_Sensor* Sensor(std::size_t k) override { return &devices_[k]; }
 
   void RefreshShared(WorkerPool* pool) override { world_->Refresh(pool); }
   void Update(const ChannelView&) override
   {
     world_->Refresh();
-    std::fill(this->values_.begin(), this->values_.end(), 0.0);
-    CollectPoints();
-    for (std::size_t b = 0; b < bulbs_.size(); ++b) AddBulb(b);
-    for (double& value : this->values_) value = std::min(value, 1.0);
-    if (!this->noise_.IsActive()) return;
-    this->AddNoise();
-    for (double& value : this->values_) value = std::clamp(value, 0.0, 1.0);
+    if (BeginSteps()) MakeDue();
   }
 
 private:
@@ -101,14 +98,32 @@ private:
   static constexpr unsigned kSensors = Interface::NUM_SENSORS;
   static_assert(kSensors % kDoubleLanes == 0);
 
-  // Where the sensors of the robots are, in the order of the grid's cells: neighbours stay in the cache.
+  // All together: the bodies around a bulb are sorted once.
+  void MakeDue() override
+  {
+    for (std::size_t k = 0; k < this->robots_.size(); ++k)
+      if (IsDue(k)) std::fill_n(this->ValuesOf(k), kSensors, 0.0);
+    CollectPoints();
+    for (std::size_t b = 0; b < bulbs_.size(); ++b) AddBulb(b);
+    for (std::size_t k = 0; k < this->robots_.size(); ++k)
+    {
+      if (!IsDue(k)) continue;
+      double* const values = this->ValuesOf(k);
+      for (unsigned i = 0; i < kSensors; ++i) values[i] = std::min(values[i], 1.0);
+      if (!this->noise_.IsActive()) continue;
+      this->AddNoise(k);
+      for (unsigned i = 0; i < kSensors; ++i) values[i] = std::clamp(values[i], 0.0, 1.0);
+    }
+  }
+
+  // Where the sensors of the robots that are due are, in the order of the grid's cells: neighbours stay in the cache.
   void CollectPoints()
   {
     points_.count = 0;
     const PoseArrays& poses = this->space_->Poses();
     for (const std::uint32_t robot : world_->Grid().Sorted())
     {
-      if (place_of_entity_[robot] < 0) continue;
+      if (const std::int32_t k = place_of_entity_[robot]; k < 0 || !IsDue(static_cast<std::size_t>(k))) continue;
       constexpr double kHeight = Model::template kHeight<Interface>;
       const Vector3 point = IsUpright(poses, robot) ? Vector3(poses.x[robot], poses.y[robot], poses.z[robot] + kHeight)
                                                     : this->space_->GetPose(robot).Apply({0, 0, kHeight});
@@ -180,6 +195,7 @@ private:
   std::vector<std::uint32_t> seen_;            // of them, by the bulb in turn
   std::vector<double> ahead_, beside_, bearing_, brightness_;
   std::array<double, kSensors> angles_{};
+  std::vector<ReadingsOnDemand<Interface, kSensors>> devices_;
 };
 
 }  // namespace

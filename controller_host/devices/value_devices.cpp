@@ -110,12 +110,14 @@ std::uint32_t AttributeActuator::Disturbed(std::uint32_t colour, RandomStream ra
 void ValueSensor::AddNoise()
 {
   if (!noise_.IsActive()) return;
-  for (std::size_t k = 0; k < robots_.size(); ++k)
-  {
-    samples_.resize(width_);
-    streams_.Sample(noise_, k, samples_);
-    for (std::size_t i = 0; i < width_; ++i) ValuesOf(k)[i] += samples_[i];
-  }
+  for (std::size_t k = 0; k < robots_.size(); ++k) AddNoise(k);
+}
+
+void ValueSensor::AddNoise(std::size_t k)
+{
+  samples_.resize(width_);
+  streams_.Sample(noise_, k, samples_);
+  for (std::size_t i = 0; i < width_; ++i) ValuesOf(k)[i] += samples_[i];
 }
 
 void ChannelSensor::Update(const ChannelView& channel)

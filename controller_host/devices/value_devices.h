@@ -9,6 +9,7 @@
 #include "controller_host/device.h"
 #include "controller_host/devices/device_streams.h"
 #include "controller_host/devices/noise.h"
+#include "controller_host/on_demand_sensor.h"
 
 namespace swarmanoid
 {
@@ -77,6 +78,7 @@ class ValueSensor : public SensorBatch, protected DeviceValues
 {
 protected:
   void AddNoise();
+  void AddNoise(std::size_t k);
 
   NoiseModel noise_;
 
@@ -117,6 +119,26 @@ public:
 
 private:
   const double* values_;
+};
+
+// The same where they are made on demand.
+template <class Interface, std::size_t COUNT>
+class ReadingsOnDemand : public ReadingsOf<Interface, COUNT>
+{
+public:
+  ReadingsOnDemand(const double* values, OnDemandSensor& batch, std::size_t k)
+      : ReadingsOf<Interface, COUNT>(values), batch_(batch), k_(k)
+  {
+  }
+  std::span<const double, COUNT> GetAllSensorReadings() const override
+  {
+    batch_.Want(k_);
+    return ReadingsOf<Interface, COUNT>::GetAllSensorReadings();
+  }
+
+private:
+  OnDemandSensor& batch_;
+  std::size_t k_;
 };
 
 // Actuator batches and sensor batches of one kind of object, made from the numbers of a robot.

@@ -14,7 +14,7 @@
 #include "controller_host/devices/device_streams.h"
 #include "controller_host/devices/sensing/floor_patches.h"
 #include "controller_host/devices/sensing/sensor_world.h"
-#include "controller_host/split_sensor.h"
+#include "controller_host/on_demand_sensor.h"
 
 namespace swarmanoid
 {
@@ -30,18 +30,29 @@ using Pixel = CCI_DepthCameraSensor::Pixel;
 class DepthCamera : public CCI_DepthCameraSensor
 {
 public:
-  DepthCamera(unsigned width, unsigned height, double field_of_view)
-      : pixels(static_cast<std::size_t>(width) * height), width_(width), height_(height), field_of_view_(field_of_view)
+  DepthCamera(OnDemandSensor& batch, std::size_t k, unsigned width, unsigned height, double field_of_view)
+      : pixels(static_cast<std::size_t>(width) * height),
+        batch_(batch),
+        k_(k),
+        width_(width),
+        height_(height),
+        field_of_view_(field_of_view)
   {
   }
   unsigned GetWidth() const override { return width_; }
   unsigned GetHeight() const override { return height_; }
   double GetFieldOfView() const override { return field_of_view_; }
-  std::span<const Pixel> GetAllPixels() const override { return pixels; }
+  std::span<const Pixel> GetAllPixels() const override
+  {
+    batch_.Want(k_);
+    return pixels;
+  }
 
   std::vector<Pixel> pixels;
 
 private:
+  OnDemandSensor& batch_;
+  std::size_t k_;
   unsigned width_, height_;
   double field_of_view_;
 };
@@ -57,7 +68,7 @@ struct Surface
   std::optional<LedCones> cones;
 };
 
-class DepthCameraSensor : public SensorBatch, public SplitSensor
+class DepthCameraSensor : public SensorBatch, public OnDemandSensor
 {
 public:
   void Init(const DeviceSetup& setup) override
@@ -81,19 +92,35 @@ public:
              SinCosOf(DegreesToRadians(parameters.Number("tilt"))));
     patches_ = FloorPatchesOf(setup.space);
     for (std::uint32_t e = 0; e < setup.space.Size(); ++e) surfaces_.push_back(SurfaceOf(e));
-    cameras_.assign(robots_.size(), DepthCamera(width, height, field_of_view));
+    InitDemand(robots_.size());
+    cameras_.reserve(robots_.size());
+    for (std::size_t k = 0; k < robots_.size(); ++k) cameras_.emplace_back(*this, k, width, height, field_of_view);
   }
   CCI_Sensor* Sensor(std::size_t k) override { return &cameras_[k]; }
 
-  void RefreshShared(WorkerPool* pool) override { world_->Refresh(pool); }
+  void RefreshShared(WorkerPool* pool) override
+  {
+    world_->Refresh(pool);
+    for (FloorPatch& patch : patches_) patch.pose = space_->GetPose(patch.entity);
+  }
   void Update(const ChannelView&) override
   {
-    world_->Refresh();
-    for (FloorPatch& patch : patches_) patch.pose = space_->GetPose(patch.entity);
-    for (std::size_t k = 0; k < robots_.size(); ++k) Look(k);
+    RefreshShared(nullptr);
+    if (BeginSteps()) MakeDue();
   }
 
 private:
+  void MakeDue() override
+  {
+    for (std::size_t k = 0; k < robots_.size(); ++k)
+      if (IsDue(k)) Look(k);
+  }
+  bool MakeAlone(std::size_t k) override
+  {
+    Look(k);
+    return true;
+  }
+
   // In the frame of the robot, 1 m along the axis.
   void MakeRays(unsigned width, unsigned height, double field_of_view, const SinCos& pan, const SinCos& tilt)
   {

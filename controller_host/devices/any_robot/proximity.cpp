@@ -18,8 +18,15 @@ namespace
 class Proximity : public CCI_ProximitySensor
 {
 public:
-  Proximity(const double* readings, const ProximityRing& ring) : readings_(readings), ring_(ring) {}
-  std::span<const double> GetAllSensorReadings() const override { return {readings_, ring_.sensors.size()}; }
+  Proximity(const double* readings, const ProximityRing& ring, OnDemandSensor& batch, std::size_t k)
+      : readings_(readings), ring_(ring), batch_(batch), k_(k)
+  {
+  }
+  std::span<const double> GetAllSensorReadings() const override
+  {
+    batch_.Want(k_);
+    return {readings_, ring_.sensors.size()};
+  }
   double GetAngle(unsigned sensor) const override
   {
     if (sensor >= ring_.sensors.size())
@@ -31,6 +38,8 @@ public:
 private:
   const double* readings_;
   const ProximityRing& ring_;
+  OnDemandSensor& batch_;
+  std::size_t k_;
 };
 
 class ProximitySensor : public ProximityRays
@@ -49,7 +58,7 @@ public:
       reach = std::max(reach, rays_.back().from.norm() + range);
     }
     InitRays(setup, rays_.size(), range, reach);
-    for (std::size_t k = 0; k < robots_.size(); ++k) sensors_.emplace_back(ValuesOf(k), ring);
+    for (std::size_t k = 0; k < robots_.size(); ++k) sensors_.emplace_back(ValuesOf(k), ring, *this, k);
   }
 
   CCI_Sensor* Sensor(std::size_t k) override { return &sensors_[k]; }

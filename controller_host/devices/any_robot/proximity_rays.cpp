@@ -1,6 +1,7 @@
 #include "controller_host/devices/any_robot/proximity_rays.h"
 
 #include <algorithm>
+
 #include "common/space/space.h"
 
 namespace swarmanoid
@@ -14,6 +15,7 @@ void ProximityRays::InitRays(const DeviceSetup& setup, std::size_t count, double
   reach_m_ = reach_m;
   world_ = SensorWorld::Of(setup.space);
   fixed_ = std::make_unique<FixedBodies>(setup.space, world_->Bodies(), reach_m);
+  InitDemand(robots_.size());
 }
 
 void ProximityRays::RefreshShared(WorkerPool* pool) { world_->Refresh(pool); }
@@ -21,10 +23,19 @@ void ProximityRays::RefreshShared(WorkerPool* pool) { world_->Refresh(pool); }
 void ProximityRays::Update(const ChannelView&)
 {
   world_->Refresh();
-  for (std::size_t k = 0; k < robots_.size(); ++k) Sense(k);
-  if (!noise_.IsActive()) return;
-  AddNoise();
-  for (double& value : values_) value = std::clamp(value, 0.0, 1.0);
+  if (BeginSteps()) MakeDue();
+}
+
+void ProximityRays::MakeDue()
+{
+  for (std::size_t k = 0; k < robots_.size(); ++k)
+    if (IsDue(k)) Sense(k);
+}
+
+bool ProximityRays::MakeAlone(std::size_t k)
+{
+  Sense(k);
+  return true;
 }
 
 void ProximityRays::Sense(std::size_t k)
@@ -50,6 +61,9 @@ void ProximityRays::Sense(std::size_t k)
     if (!world_->Terrain().IsEmpty()) nearest = std::min(nearest, world_->Terrain().FirstHit(from, to, is_there));
     *reading++ = 1 - nearest;
   }
+  if (!noise_.IsActive()) return;
+  AddNoise(k);
+  for (std::size_t i = 0; i < width_; ++i) ValuesOf(k)[i] = std::clamp(ValuesOf(k)[i], 0.0, 1.0);
 }
 
 }  // namespace swarmanoid

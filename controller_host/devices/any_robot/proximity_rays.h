@@ -9,7 +9,7 @@
 
 #include "controller_host/devices/sensing/sensor_world.h"
 #include "controller_host/devices/value_devices.h"
-#include "controller_host/split_sensor.h"
+#include "controller_host/on_demand_sensor.h"
 
 namespace swarmanoid
 {
@@ -19,19 +19,22 @@ struct ProximitySensorRay
   Vector3 from, direction;  // in the frame of the robot
 };
 
-class ProximityRays : public ValueSensor, public SplitSensor
+class ProximityRays : public ValueSensor, public OnDemandSensor
 {
 public:
   void RefreshShared(WorkerPool* pool) override;
   void Update(const ChannelView& channel) override;
 
 protected:
-  // Takes the noise from the parameters. `reach`: how far from the origin of its robot a ray can end, m.
+  // Takes the noise from the parameters. What controllers hold has to Want its readings. `reach`: how far from the
+  // origin of its robot a ray can end, m.
   void InitRays(const DeviceSetup& setup, std::size_t count, double range_m, double reach_m);
   // As many as were told, of robot k at the current tick; valid until the next call.
   virtual std::span<const ProximitySensorRay> RaysOf(std::size_t k) = 0;
 
 private:
+  void MakeDue() override;
+  bool MakeAlone(std::size_t k) override;
   void Sense(std::size_t k);
 
   std::shared_ptr<SensorWorld> world_;

@@ -32,6 +32,7 @@ void ColourCamera::InitCamera(const DeviceSetup& setup, CameraModel model)
   lines_ = std::make_unique<SightLines>(*world_, model.range + BlobSources::kStandOut);
   place_of_entity_.assign(setup.space.Size(), -1);
   for (std::size_t k = 0; k < robots_.size(); ++k) place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
+  InitDemand(robots_.size());
 }
 
 void ColourCamera::RefreshShared(WorkerPool* pool)
@@ -43,10 +44,23 @@ void ColourCamera::RefreshShared(WorkerPool* pool)
 void ColourCamera::Update(const ChannelView&)
 {
   RefreshShared(nullptr);
+  if (BeginSteps()) MakeDue();
+}
+
+void ColourCamera::MakeDue()
+{
   // In the order of the grid's cells: neighbours stay in the cache. Every robot has a body.
   for (const std::uint32_t entity : world_->Grid().Sorted())
-    if (const std::int32_t k = place_of_entity_[entity]; k >= 0) Look(static_cast<std::size_t>(k));
+    if (const std::int32_t k = place_of_entity_[entity]; k >= 0 && IsDue(static_cast<std::size_t>(k)))
+      Look(static_cast<std::size_t>(k));
   ExtractAll();
+}
+
+bool ColourCamera::MakeAlone(std::size_t k)
+{
+  Look(k);
+  ExtractAll();
+  return true;
 }
 
 void ColourCamera::Seen::Reserve(std::size_t more)

@@ -10,7 +10,7 @@
 #include "controller_host/devices/cameras/blob_sources.h"
 #include "controller_host/devices/noise.h"
 #include "controller_host/devices/sensing/sight_lines.h"
-#include "controller_host/split_sensor.h"
+#include "controller_host/on_demand_sensor.h"
 
 namespace swarmanoid
 {
@@ -30,14 +30,14 @@ struct CameraModel
   double range = 0;               // m: along the floor (kDown), along the line of sight (otherwise)
 };
 
-class ColourCamera : public SensorBatch, public SplitSensor
+class ColourCamera : public SensorBatch, public OnDemandSensor
 {
 public:
   void Update(const ChannelView& channel) override;
   void RefreshShared(WorkerPool* pool) override;
 
 protected:
-  // Takes <aperture> and <range> from the parameters.
+  // Takes <aperture> and <range> from the parameters. What controllers hold has to Want its blobs.
   void InitCamera(const DeviceSetup& setup, CameraModel model);
 
   // Blobs in view, those of several robots one behind another, by lanes: room for more behind `count`.
@@ -77,6 +77,8 @@ private:
     std::size_t k, behind;  // where those that robot k sees end
   };
 
+  void MakeDue() override;
+  bool MakeAlone(std::size_t k) override;
   View ViewOf(std::uint32_t robot) const;
   void Look(std::size_t k);
   void ExtractAll();

@@ -48,8 +48,17 @@ template <class Interface>
 class Camera : public Interface
 {
 public:
-  std::span<const CCI_ColourBlob> GetAllBlobs() const override { return blobs; }
+  Camera(OnDemandSensor& batch, std::size_t k) : batch_(batch), k_(k) {}
+  std::span<const CCI_ColourBlob> GetAllBlobs() const override
+  {
+    batch_.Want(k_);
+    return blobs;
+  }
   std::vector<CCI_ColourBlob> blobs;
+
+private:
+  OnDemandSensor& batch_;
+  std::size_t k_;
 };
 
 // `distance` in the plane of the robot's base.
@@ -75,7 +84,8 @@ protected:
   void InitBatch(const DeviceSetup& setup)
   {
     InitCamera(setup, Traits::Model());
-    cameras_.resize(setup.robots.size());
+    cameras_.reserve(setup.robots.size());
+    for (std::size_t k = 0; k < setup.robots.size(); ++k) cameras_.emplace_back(*this, k);
     if (model_.view != CameraModel::View::kTurned) return;
     for (const std::uint32_t robot : setup.robots)
       directions_.push_back(

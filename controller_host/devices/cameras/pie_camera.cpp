@@ -22,13 +22,17 @@ constexpr std::array<std::uint32_t, 7> kColours{CCI_Colour::BLUE, CCI_Colour::GR
 class Pie : public CCI_PieCameraSensor
 {
 public:
-  explicit Pie(unsigned sectors) : sectors_(sectors), slices_(sectors * kColours.size()) {}
+  Pie(OnDemandSensor& batch, std::size_t k, unsigned sectors)
+      : batch_(batch), k_(k), sectors_(sectors), slices_(sectors * kColours.size())
+  {
+  }
   unsigned GetNumSectors() const override { return sectors_; }
   std::span<const Slice> GetAllSlices(std::uint32_t colour) const override
   {
     const auto found = std::find(kColours.begin(), kColours.end(), colour);
     if (found == kColours.end())
       throw std::invalid_argument("the pie camera tells red, green, blue, yellow, cyan, magenta and white apart");
+    batch_.Want(k_);
     return {&slices_[static_cast<std::size_t>(found - kColours.begin()) * sectors_], sectors_};
   }
 
@@ -46,6 +50,8 @@ public:
   void SetColours(unsigned colours) { colours_ = colours; }
 
 private:
+  OnDemandSensor& batch_;
+  std::size_t k_;
   unsigned sectors_;
   unsigned colours_ = 0;       // a bit for each colour seen
   std::vector<Slice> slices_;  // colour after colour
@@ -61,7 +67,8 @@ public:
     noise_ = NoiseFrom(setup.parameters);
     streams_ = DeviceStreams(setup);
     sectors_ = static_cast<unsigned>(setup.parameters.Integer("sectors"));
-    pies_.assign(setup.robots.size(), Pie(sectors_));
+    pies_.reserve(setup.robots.size());
+    for (std::size_t k = 0; k < setup.robots.size(); ++k) pies_.emplace_back(*this, k, sectors_);
   }
   CCI_Sensor* Sensor(std::size_t k) override { return &pies_[k]; }
 

@@ -55,13 +55,19 @@ void FootbotProximity::Init(const DeviceSetup& setup)
   for (std::size_t k = 0; k < robots_.size(); ++k)
   {
     if (!in_one_run_) place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
-    sensors_.emplace_back(&readings_[k * kRays]);
+    sensors_.emplace_back(&readings_[k * kRays], *this, k);
   }
+  InitDemand(robots_.size());
 }
 
 void FootbotProximity::Update(const ChannelView&)
 {
   world_->Refresh();
+  if (BeginSteps()) MakeDue();
+}
+
+void FootbotProximity::MakeDue()
+{
   // In the order of the grid's cells, where it has the places of the robots: neighbours stay in the cache. What is kept
   // of a robot itself lies anywhere.
   ListOwn();
@@ -76,7 +82,7 @@ void FootbotProximity::ListOwn()
 {
   const std::span<const std::uint32_t> sorted = world_->Grid().Sorted();
   listed_ = 0;
-  const auto list = [&](const auto& number_of)
+  const auto list_those = [&](const auto& number_of, const auto& is_due)
   {
     // Without a branch: which robots are of another batch nobody can foretell.
     for (std::size_t place = 0; place < sorted.size(); ++place)
@@ -84,8 +90,15 @@ void FootbotProximity::ListOwn()
       const std::uint32_t k = number_of(sorted[place]);
       number_[listed_] = k;
       place_[listed_] = static_cast<std::int32_t>(place);
-      listed_ += k < robots_.size() ? 1 : 0;
+      listed_ += k < robots_.size() && is_due(k) ? 1 : 0;
     }
+  };
+  const auto list = [&](const auto& number_of)
+  {
+    if (AllAreDue())
+      list_those(number_of, [](std::uint32_t) { return true; });
+    else
+      list_those(number_of, [this](std::uint32_t k) { return IsDue(k); });
   };
   if (in_one_run_)
     list([first = robots_.front()](std::uint32_t entity) { return entity - first; });

@@ -11,13 +11,13 @@
 #include "controller_host/devices/noise.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 #include "controller_host/devices/value_devices.h"
-#include "controller_host/split_sensor.h"
+#include "controller_host/on_demand_sensor.h"
 
 namespace swarmanoid
 {
 
 // Distances, and all but the response curve. Derived classes turn distances into readings.
-class FootbotProximity : public SensorBatch, public SplitSensor
+class FootbotProximity : public SensorBatch, public OnDemandSensor
 {
 public:
   static constexpr unsigned kRays = CCI_FootBotProximitySensor::NUM_SENSORS;
@@ -41,7 +41,8 @@ private:
     double values[kRays];
   };
 
-  // Lists the robots of the batch in the order of the grid.
+  void MakeDue() override;
+  // Lists the robots of the batch that are due in the order of the grid.
   void ListOwn();
   // Fetches what Sense will read of robots that come later in that order.
   void Prefetch(std::size_t later) const;
@@ -77,7 +78,7 @@ private:
   bool touched_ = false;  // some ray of it hit something
   std::vector<double> readings_;
   std::vector<char> dirty_;  // readings of a robot that are not all 0
-  std::vector<ReadingsOf<CCI_FootBotProximitySensor, kRays>> sensors_;
+  std::vector<ReadingsOnDemand<CCI_FootBotProximitySensor, kRays>> sensors_;
 };
 
 // y = 1 below a contact distance, else a / (d + b): the curve that ARGoS3 fitted to the robot.

@@ -43,7 +43,7 @@ void SetRays(double aperture, HandRays rays)
   }
 }
 
-using HandProximity = ReadingsOf<CCI_HandBotProximitySensor, CCI_HandBotProximitySensor::NUM_SENSORS>;
+using HandProximity = ReadingsOnDemand<CCI_HandBotProximitySensor, CCI_HandBotProximitySensor::NUM_SENSORS>;
 
 class HandbotProximitySensor : public ProximityRays
 {
@@ -52,7 +52,7 @@ public:
   {
     const double range = setup.parameters.Number("range");
     InitRays(setup, rays_.size(), range, kHandReach_m + range);
-    for (std::size_t k = 0; k < robots_.size(); ++k) sensors_.emplace_back(ValuesOf(k));
+    for (std::size_t k = 0; k < robots_.size(); ++k) sensors_.emplace_back(ValuesOf(k), *this, k);
     for (const std::uint32_t robot : robots_)
     {
       const auto slot = [&](const char* name) { return setup.space.GetEntity(robot).SlotOf(name); };

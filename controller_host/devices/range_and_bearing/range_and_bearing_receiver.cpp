@@ -2,6 +2,7 @@
 // message one tick later, with the place of the sender.
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "common/builtins/antenna.h"
 #include "common/math/elementary.h"
@@ -12,7 +13,7 @@
 #include "controller_host/devices/noise.h"
 #include "controller_host/devices/range_and_bearing/heard_senders.h"
 #include "controller_host/devices/sensing/sight_lines.h"
-#include "controller_host/split_sensor.h"
+#include "controller_host/on_demand_sensor.h"
 
 namespace swarmanoid
 {
@@ -24,7 +25,12 @@ constexpr std::uint32_t kNoSlot = 0xffffffff;
 class Receiver : public CCI_RangeAndBearingSensor
 {
 public:
-  std::span<const Packet> GetAllPackets() const override { return {packets.data(), count}; }
+  Receiver(OnDemandSensor& batch, std::size_t k) : batch_(batch), k_(k) {}
+  std::span<const Packet> GetAllPackets() const override
+  {
+    batch_.Want(k_);
+    return {packets.data(), count};
+  }
   Packet* MakeRoom(std::size_t room)
   {
     if (packets.size() < room) packets.resize(2 * room);
@@ -33,9 +39,13 @@ public:
 
   std::vector<Packet> packets;  // the first `count` of them
   std::size_t count = 0;
+
+private:
+  OnDemandSensor& batch_;
+  std::size_t k_;
 };
 
-class ReceiverBatch : public SensorBatch, public SplitSensor
+class ReceiverBatch : public SensorBatch, public OnDemandSensor
 {
 public:
   void Init(const DeviceSetup& setup) override
@@ -54,7 +64,9 @@ public:
     has_noise_ = range_noise_.IsActive() || bearing_noise_.IsActive() || vertical_bearing_noise_.IsActive();
     if (has_noise_ || loss_ > 0) names_ = world_->Names();
     lines_ = std::make_unique<SightLines>(*world_, range_);
-    receivers_.resize(robots_.size());
+    InitDemand(robots_.size());
+    receivers_.reserve(robots_.size());
+    for (std::size_t k = 0; k < robots_.size(); ++k) receivers_.emplace_back(*this, k);
     place_of_entity_.assign(setup.space.Size(), -1);
     for (std::size_t k = 0; k < robots_.size(); ++k) place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
     message_slots_.assign(setup.space.Size(), kNoSlot);
@@ -66,15 +78,15 @@ public:
   }
   CCI_Sensor* Sensor(std::size_t k) override { return &receivers_[k]; }
 
-  void RefreshShared(WorkerPool* pool) override { world_->Refresh(pool); }
+  void RefreshShared(WorkerPool* pool) override
+  {
+    world_->Refresh(pool);
+    messages_are_read_ = false;
+  }
   void Update(const ChannelView&) override
   {
-    world_->Refresh();
-    ReadMessages();
-    // In the order of the grid's cells: neighbours stay in the cache. Every robot has a body.
-    for (const std::uint32_t entity : world_->Grid().Sorted())
-      if (const std::int32_t k = place_of_entity_[entity]; k >= 0) Receive(static_cast<std::size_t>(k));
-    Deliver();
+    RefreshShared(nullptr);
+    if (BeginSteps()) MakeDue();
   }
 
 private:
@@ -89,8 +101,26 @@ private:
     std::size_t k, behind;
   };
 
+  void MakeDue() override
+  {
+    ReadMessages();
+    // In the order of the grid's cells: neighbours stay in the cache. Every robot has a body.
+    for (const std::uint32_t entity : world_->Grid().Sorted())
+      if (const std::int32_t k = place_of_entity_[entity]; k >= 0 && IsDue(static_cast<std::size_t>(k)))
+        Receive(static_cast<std::size_t>(k));
+    Deliver();
+  }
+  bool MakeAlone(std::size_t k) override
+  {
+    ReadMessages();
+    Receive(k);
+    Deliver();
+    return true;
+  }
+
   void ReadMessages()
   {
+    if (std::exchange(messages_are_read_, true)) return;
     const std::span<const double> attributes = world_->Space().Attributes();
     const std::span<const std::uint32_t> senders = world_->Grid().Sorted();
     std::size_t sent = 0;
@@ -326,6 +356,7 @@ private:
   NoiseModel range_noise_, bearing_noise_, vertical_bearing_noise_;
   std::vector<std::uint32_t> message_slots_;   // by entity
   std::vector<Sent> messages_;                 // by place in the grid, of this tick
+  bool messages_are_read_ = false;             // in this tick
   std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
   bool look_at_all_ = false;
   bool all_send_ = false;

@@ -7,7 +7,9 @@
 #include "ci_range_and_bearing.h"
 #include "common/math/elementary.h"
 #include "eyebot/ci_eyebot_propellers_actuator.h"
+#include "footbot/ci_footbot_ground_sensor.h"
 #include "footbot/ci_footbot_leds_actuator.h"
+#include "footbot/ci_footbot_light_sensor.h"
 #include "footbot/ci_footbot_proximity_sensor.h"
 #include "footbot/ci_footbot_wheels_actuator.h"
 
@@ -24,6 +26,13 @@ public:
       for (const char* sensor : {"footbot_proximity", "footbot_light", "footbot_ground",
                                  "footbot_omnidirectional_camera", "footbot_distance_scanner", "range_and_bearing"})
         if (robot.HasSensor(sensor)) steered_by_.push_back(robot.GetSensor(sensor));
+    if (tree.GetBoolean("read_all"))
+    {
+      if (robot.HasSensor("footbot_light")) light_ = &robot.Sensor<CCI_FootBotLightSensor>("footbot_light");
+      if (robot.HasSensor("footbot_ground")) ground_ = &robot.Sensor<CCI_FootBotGroundSensor>("footbot_ground");
+      if (robot.HasSensor("range_and_bearing")) heard_ = &robot.Sensor<CCI_RangeAndBearingSensor>("range_and_bearing");
+      looks_always_ = true;
+    }
     if (robot.HasActuator("footbot_wheels")) wheels_ = &robot.Actuator<CCI_FootBotWheelsActuator>("footbot_wheels");
     if (robot.HasActuator("eyebot_propellers"))
       propellers_ = &robot.Actuator<CCI_EyeBotPropellersActuator>("eyebot_propellers");
@@ -41,6 +50,11 @@ public:
   void ControlStep() override
   {
     for (int k = 0; k < rounds_; ++k) thought_ = std::sqrt(thought_ + k);
+    // Readings are made on demand.
+    if (light_ != nullptr) read_ = light_->GetAllSensorReadings()[0];
+    if (ground_ != nullptr) read_ = ground_->GetAllSensorReadings()[0];
+    if (heard_ != nullptr) read_ = static_cast<double>(heard_->GetAllPackets().size());
+    if (camera_ != nullptr && looks_always_) read_ = static_cast<double>(camera_->GetAllBlobs().size());
     if (propellers_ != nullptr) propellers_->SetVelocity(0.1, 0, 0, 0.2);
     if (wheels_ == nullptr) return;
     double turn = 0;
@@ -71,6 +85,11 @@ private:
 
   int rounds_ = 0;
   volatile double thought_ = 0;  // of no use
+  volatile double read_ = 0;     // likewise
+  bool looks_always_ = false;
+  CCI_FootBotLightSensor* light_ = nullptr;
+  CCI_FootBotGroundSensor* ground_ = nullptr;
+  CCI_RangeAndBearingSensor* heard_ = nullptr;
   std::vector<CCI_Sensor*> steered_by_;
   std::vector<CCI_Reading> readings_;
   CCI_FootBotWheelsActuator* wheels_ = nullptr;
@@ -85,6 +104,12 @@ REGISTER_CONTROLLER(CBenchSwarm, {.label = "bench_swarm",
                                                   .type = ParameterType::kBoolean,
                                                   .default_value = "false",
                                                   .description = "Whether all that its sensors read steers it."},
+                                                 {.name = "read_all",
+                                                  .type = ParameterType::kBoolean,
+                                                  .default_value = "true",
+                                                  .description = "Whether each step reads all sensors, or only those "
+                                                                 "that steer it: proximity, and the camera where "
+                                                                 "nothing is near."},
                                                  {.name = "rounds",
                                                   .type = ParameterType::kInteger,
                                                   .default_value = "0",

@@ -35,16 +35,19 @@ TEST(FootbotLight, TheRingTurnsAndLeansWithTheRobot)
   world.AddFootbot(5, 5);
   world.Add(EntityKind::kLightBulb, {5, 7, 1.06}, 0, {0, 0, 0}, false, -1);
   TestSensor sensor(world, "footbot_light", "generic_footbot_light", {0});
-  const Pose pose{{5, 5, 0}, QuaternionFromEuler({0.3, 0.2, kPi / 3})};
-  world.Space().SetPose(0, pose);
-  sensor.Update();
-  const Vector3 light = pose.Inverse().Apply({5, 7, 1.06}) - Vector3(0, 0, 0.06);
-  const double angle = std::atan2(light.y(), light.x()) * 180 / kPi;
-  const auto readings = sensor.Of<CCI_FootBotLightSensor>(0).GetAllSensorReadings();
-  for (unsigned i = 0; i < 24; ++i)
+  for (const Quaternion& turned : {QuaternionFromYaw(kPi / 3), QuaternionFromEuler({0.3, 0.2, kPi / 3})})
   {
-    const double off = std::abs(std::remainder(7.5 + 15.0 * i - angle, 360.0));
-    EXPECT_NEAR(readings[i], std::max(1 - off / 90, 0.0) / light.squaredNorm(), 1e-9) << i;
+    const Pose pose{{5, 5, 0}, turned};
+    world.Space().SetPose(0, pose);
+    sensor.Update();
+    const Vector3 light = pose.Inverse().Apply({5, 7, 1.06}) - Vector3(0, 0, 0.06);
+    const double angle = std::atan2(light.y(), light.x()) * 180 / kPi;
+    const auto readings = sensor.Of<CCI_FootBotLightSensor>(0).GetAllSensorReadings();
+    for (unsigned i = 0; i < 24; ++i)
+    {
+      const double off = std::abs(std::remainder(7.5 + 15.0 * i - angle, 360.0));
+      EXPECT_NEAR(readings[i], std::max(1 - off / 90, 0.0) / light.squaredNorm(), 1e-9) << i;
+    }
   }
 }
 

@@ -257,9 +257,12 @@ TEST(Dynamics2d, AFootbotDrivesAsFastFarFromTheOriginAsNearIt)
     Dynamics2dTestWorld world;
     const auto straight = world.AddFootbot(place, place);
     const auto slant = world.AddFootbot(place, place + 1, kPi / 6);
-    world.AddCommands("footbot_wheels", 2);
+    // 1 cm beside them: bodies that nobody is near are not in the solver.
+    const auto beside = world.AddFootbot(place, place - 0.18);
+    const auto beside_slant = world.AddFootbot(place + 0.09, place + 1 - 0.156, kPi / 6);
+    world.AddCommands("footbot_wheels", 4);
     world.Start();
-    for (const auto robot : {straight, slant}) world.Drive(robot, 0.05, 0.05);
+    for (const auto robot : {straight, slant, beside, beside_slant}) world.Drive(robot, 0.05, 0.05);
     world.Run(10);
     const Vector3 start = world.Position(straight);
     const Vector3 slant_start = world.Position(slant);

@@ -149,6 +149,31 @@ TEST_F(JournalSegmentsTest, OtherControllerHostsBeginASegment)
             150U);
 }
 
+// Ticks that were added before the state of an earlier one came stand in the segment before that state.
+TEST_F(JournalSegmentsTest, NothingIsDroppedThatFollowsAStateThatCameLate)
+{
+  JournalWriter journal(Path(), StartOfRun(), false, {kBudget, kParts});
+  for (std::uint64_t tick = 0; tick < 6000; ++tick)
+  {
+    journal.AddTick(NoisyState(tick), false, {}, {});
+    if (tick % kPeriod == kPeriod - 1) journal.Flush();
+    if (tick < kPeriod || tick % kPeriod != kPeriod / 2) continue;
+    SpaceSnapshot snapshot;
+    snapshot.tick = tick - kPeriod / 2;
+    snapshot.poses = NoisyState(snapshot.tick).poses;
+    journal.Add(snapshot);
+    for (const std::string& part : kParts) journal.Add(snapshot.tick, {part, {'s'}});
+    journal.Flush();
+    const JournalReader read(Path());
+    const auto checkpoint = read.NewestCheckpoint(kParts);
+    ASSERT_TRUE(checkpoint);
+    std::uint64_t next = checkpoint->snapshot.tick;
+    read.ForEachTick([&](const TickRecord& record) { next += record.state.tick == next ? 1 : 0; });
+    ASSERT_EQ(next, tick + 1) << "of the state of tick " << checkpoint->snapshot.tick;
+  }
+  EXPECT_FALSE(fs::exists(Path())) << "the oldest is deleted";
+}
+
 TEST_F(JournalSegmentsTest, WithoutABudgetEverythingIsInOneFile)
 {
   {
@@ -234,7 +259,8 @@ TEST_F(JournalSegmentsTest, WhoeverFollowsItSeesWhatAReaderSees)
   }
   {
     const JournalReader before(Path());
-    const auto back = before.TickToGoOn([](std::uint64_t) { return true; });
+    const auto back = before.TickToGoOn([&](std::uint64_t usable) { return usable + 2 * kPeriod < tick; });
+    ASSERT_LT(*back, tick - 2 * kPeriod) << "some ticks are done again";
     JournalWriter journal(before, *back, false, {kBudget, kParts});
     AddSomeTicks(journal, *back, *back + 20 * kPeriod);
     journal.Flush();

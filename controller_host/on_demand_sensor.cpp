@@ -1,0 +1,65 @@
+#include "controller_host/on_demand_sensor.h"
+
+#include <algorithm>
+
+namespace swarmanoid
+{
+
+void OnDemandSensor::InitDemand(std::size_t robots)
+{
+  robots_asked_.assign(robots, kAsked | kAskedBefore);
+  due_.assign(robots, 0);
+  EndSteps();
+}
+
+bool OnDemandSensor::BeginSteps()
+{
+  in_steps_ = true;
+  there_ = kThere;
+  asked_ = kAsked | kThere;
+  rest_is_there_.store(false, std::memory_order_relaxed);
+  std::uint8_t any = 0, all = 1;
+  const std::size_t count = due_.size();
+  std::uint8_t* const robots = robots_asked_.data();
+  std::uint8_t* const dues = due_.data();
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    const std::uint8_t robot = robots[k];
+    const auto due = static_cast<std::uint8_t>(robot & (robot >> 2) & kAsked);
+    any |= due;
+    all &= due;
+    dues[k] = due;
+    robots[k] = static_cast<std::uint8_t>((robot & kAsked) << 2 | due << 1);
+  }
+  all_are_due_ = all != 0;
+  return any != 0;
+}
+
+void OnDemandSensor::EndSteps()
+{
+  in_steps_ = false;
+  there_ = kAsked | kBetween;
+  asked_ = kBetween;
+}
+
+void OnDemandSensor::Make(std::size_t k)
+{
+  if (in_steps_ && rest_is_there_.load(std::memory_order_acquire)) return;
+  const std::lock_guard lock(making_);
+  if (in_steps_ && rest_is_there_.load(std::memory_order_relaxed)) return;
+  if (!in_steps_) RefreshShared(nullptr);
+  if (MakeAlone(k)) return;
+  all_are_due_ = false;
+  // Between steps those that were asked for are kept.
+  for (std::size_t other = 0; other < due_.size(); ++other)
+    due_[other] = in_steps_ ? due_[other] ^ 1U : (robots_asked_[other] & (kAsked | kBetween)) == 0;
+  MakeDue();
+  if (in_steps_)
+    rest_is_there_.store(true, std::memory_order_release);
+  else
+    for (std::size_t other = 0; other < due_.size(); ++other)
+      if (due_[other] != 0) robots_asked_[other] |= kBetween;
+}
+
+}  // namespace swarmanoid
