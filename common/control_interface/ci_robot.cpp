@@ -1,6 +1,9 @@
 #include "common/control_interface/ci_robot.h"
 
+#include <algorithm>
 #include <iostream>
+#include <mutex>
+#include <set>
 
 #include "common/configuration/wording.h"
 
@@ -9,30 +12,60 @@ namespace swarmanoid
 namespace
 {
 
-template <class Device>
-std::vector<std::string> TypesOf(const std::map<std::string, Device*>& devices)
+template <class Devices>
+std::vector<std::string> TypesOf(const Devices& devices)
 {
   std::vector<std::string> types;
-  for (const auto& [type, device] : devices) types.push_back(type);
+  for (const auto& [type, device] : devices) types.push_back(*type);
   return types;
 }
 
-// The device, or an error that says what to do: list it, ask for the other kind, or spell it as listed.
-template <class Device, class Other>
-Device* Find(const std::map<std::string, Device*>& devices, const std::map<std::string, Other*>& others,
-             const std::string& type, const std::string& robot, const std::string& what, const std::string& other)
+}  // namespace
+
+const std::string* CCI_Robot::Shared(const std::string& text)
 {
-  const auto found = devices.find(type);
-  if (found != devices.end()) return found->second;
-  const std::vector<std::string> listed = TypesOf(devices);
-  const std::string cure = others.contains(type)
-                               ? "It lists the " + other + " of that name"
-                               : "Add <" + type + "> to <" + what + "s> of the controller in the experiment file";
-  throw CCI_DeviceError("robot '" + robot + "' has no " + what + " '" + type + "'; its controller lists " +
-                        Listed(listed) + ". " + cure + DidYouMean(type, listed));
+  static std::mutex mutex;
+  static std::set<std::string> texts;
+  const std::lock_guard lock(mutex);
+  return &*texts.insert(text).first;
 }
 
-}  // namespace
+template <class Device>
+void CCI_Robot::Add(Devices<Device>& devices, const std::string& type, Device* device)
+{
+  const auto place =
+      std::find_if(devices.begin(), devices.end(), [&](const auto& other) { return *other.first >= type; });
+  if (place != devices.end() && *place->first == type)
+    place->second = device;
+  else
+    devices.emplace(place, Shared(type), device);
+}
+
+template <class Device>
+Device* CCI_Robot::Find(const Devices<Device>& devices, const std::string& type)
+{
+  for (const auto& [listed, device] : devices)
+    if (*listed == type) return device;
+  return nullptr;
+}
+
+template <class Device, class Other>
+Device* CCI_Robot::Listed(const Devices<Device>& devices, const Devices<Other>& others, const std::string& type,
+                          const std::string& what, const std::string& other) const
+{
+  if (Device* const found = Find(devices, type)) return found;
+  const std::vector<std::string> listed = TypesOf(devices);
+  const std::string cure = Find(others, type) != nullptr
+                               ? "It lists the " + other + " of that name"
+                               : "Add <" + type + "> to <" + what + "s> of the controller in the experiment file";
+  throw CCI_DeviceError("robot '" + id_ + "' has no " + what + " '" + type + "'; its controller lists " +
+                        swarmanoid::Listed(listed) + ". " + cure + DidYouMean(type, listed));
+}
+
+template void CCI_Robot::Add(Devices<CCI_Actuator>& devices, const std::string& type, CCI_Actuator* device);
+template void CCI_Robot::Add(Devices<CCI_Sensor>& devices, const std::string& type, CCI_Sensor* device);
+template CCI_Actuator* CCI_Robot::Find(const Devices<CCI_Actuator>& devices, const std::string& type);
+template CCI_Sensor* CCI_Robot::Find(const Devices<CCI_Sensor>& devices, const std::string& type);
 
 void CCI_Robot::WriteLog(const CCI_Robot& robot, std::string_view text)
 {
@@ -41,12 +74,12 @@ void CCI_Robot::WriteLog(const CCI_Robot& robot, std::string_view text)
 
 CCI_Actuator* CCI_Robot::GetActuator(const std::string& type) const
 {
-  return Find(actuators_, sensors_, type, id_, "actuator", "sensor");
+  return Listed(actuators_, sensors_, type, "actuator", "sensor");
 }
 
 CCI_Sensor* CCI_Robot::GetSensor(const std::string& type) const
 {
-  return Find(sensors_, actuators_, type, id_, "sensor", "actuator");
+  return Listed(sensors_, actuators_, type, "sensor", "actuator");
 }
 
 std::vector<std::string> CCI_Robot::ActuatorTypes() const { return TypesOf(actuators_); }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -30,18 +29,18 @@ inline constexpr std::uint64_t kDestroyStream = StreamName("controller Destroy")
 class CCI_Robot
 {
 public:
-  CCI_Robot(std::string id, std::string kind) : id_(std::move(id)), kind_(std::move(kind)) {}
+  CCI_Robot(std::string id, const std::string& kind) : id_(std::move(id)), kind_(Shared(kind)) {}
 
   const std::string& GetId() const { return id_; }
   // "footbot", "eyebot" or "handbot".
-  const std::string& GetKind() const { return kind_; }
+  const std::string& GetKind() const { return *kind_; }
 
   // The device registered under a type label ("footbot_wheels"), for as long as the controller lives.
   // Throws CCI_DeviceError, naming those listed, if the configuration does not list it.
   CCI_Actuator* GetActuator(const std::string& type) const;
   CCI_Sensor* GetSensor(const std::string& type) const;
-  bool HasActuator(const std::string& type) const { return actuators_.contains(type); }
-  bool HasSensor(const std::string& type) const { return sensors_.contains(type); }
+  bool HasActuator(const std::string& type) const { return Find(actuators_, type) != nullptr; }
+  bool HasSensor(const std::string& type) const { return Find(sensors_, type) != nullptr; }
   // The labels of all that the configuration lists, in ascending order.
   std::vector<std::string> ActuatorTypes() const;
   std::vector<std::string> SensorTypes() const;
@@ -76,8 +75,8 @@ public:
   // For the runtime that owns the robot.
   using LogSink = void (*)(const CCI_Robot& robot, std::string_view text);
   void SetLog(LogSink log) { log_ = log; }
-  void AddActuator(const std::string& type, CCI_Actuator* actuator) { actuators_[type] = actuator; }
-  void AddSensor(const std::string& type, CCI_Sensor* sensor) { sensors_[type] = sensor; }
+  void AddActuator(const std::string& type, CCI_Actuator* actuator) { Add(actuators_, type, actuator); }
+  void AddSensor(const std::string& type, CCI_Sensor* sensor) { Add(sensors_, type, sensor); }
   void BeginStep(std::uint64_t tick, double tick_seconds, RandomStream random)
   {
     tick_ = tick;
@@ -86,6 +85,22 @@ public:
   }
 
 private:
+  // Few, in ascending order of their types: of a million robots each has them.
+  template <class Device>
+  using Devices = std::vector<std::pair<const std::string*, Device*>>;
+
+  // A text that all robots of a process share.
+  static const std::string* Shared(const std::string& text);
+  template <class Device>
+  static void Add(Devices<Device>& devices, const std::string& type, Device* device);
+  // Null if there is none.
+  template <class Device>
+  static Device* Find(const Devices<Device>& devices, const std::string& type);
+  // The device, or an error that says what to do: list it, ask for the other kind, or spell it as listed.
+  template <class Device, class Other>
+  Device* Listed(const Devices<Device>& devices, const Devices<Other>& others, const std::string& type,
+                 const std::string& what, const std::string& other) const;
+
   // To standard error: without a runtime that has a log.
   static void WriteLog(const CCI_Robot& robot, std::string_view text);
 
@@ -97,9 +112,9 @@ private:
   }
 
   std::string id_;
-  std::string kind_;
-  std::map<std::string, CCI_Actuator*> actuators_;
-  std::map<std::string, CCI_Sensor*> sensors_;
+  const std::string* kind_;
+  Devices<CCI_Actuator> actuators_;
+  Devices<CCI_Sensor> sensors_;
   std::uint64_t tick_ = 0;
   double tick_seconds_ = 0.1;
   RandomStream random_{0, 0, 0, 0};
