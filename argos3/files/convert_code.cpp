@@ -16,10 +16,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPlugin = "argos3";
 
-constexpr std::pair<const char*, const char*> kConstructors[]{{"footbot", "14CFootBotEntityC"},
-                                                              {"eyebot", "13CEyeBotEntityC"},
-                                                              {"argos3_epuck", "12CEPuckEntityC"},
-                                                              {"light_bulb", "12CLightEntityC"}};
+constexpr std::pair<const char*, const char*> kConstructors[]{
+    {"footbot", "14CFootBotEntityC"},  {"eyebot", "13CEyeBotEntityC"}, {"argos3_epuck", "12CEPuckEntityC"},
+    {"light_bulb", "12CLightEntityC"}, {"box", "10CBoxEntityC"},       {"cylinder", "15CCylinderEntityC"}};
 
 // Of a controller that no robot of the file has: by its devices.
 std::string KindByDevices(const ConfigurationNode& controller)
@@ -68,6 +67,7 @@ void CodeConverter::ConvertControllers(ConfigurationNode& ours)
   }();
   made_kinds_ = FindMadeKinds();
   if (made_kinds_.erase("light_bulb") != 0) arena_.KeepSpareLights(kSpareLights);
+  makes_bodies_ = made_kinds_.erase("box") + made_kinds_.erase("cylinder") != 0;
   for (const auto& controller : controllers->children) ConvertController(*controller, *made, somebody_hears);
 }
 
@@ -137,6 +137,8 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
   {
     SetValue(*options, "label", theirs.name, at);
     SetLibrary(theirs, theirs.name, "library", *options);
+    if (const auto* library = FindAttributeOf(*options, "library"))
+      controller_libraries_ += (controller_libraries_.empty() ? "" : ":") + library->value;
   }
   SetValue(*options, "sensors", sensors, at);
   SetValue(*options, "actuators", actuators, at);
@@ -248,7 +250,7 @@ std::optional<std::string> CodeConverter::Found(const std::vector<fs::path>& fol
   return std::nullopt;
 }
 
-void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours)
+void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehearsal)
 {
   for (const Made& options : options_)
   {
@@ -273,6 +275,8 @@ void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours)
   SetValue(*made, "origin", TextOf(arena_.Origin()), at);
   SetValue(*made, "distributed", arena_.Distributed(), at);
   SetValue(*made, "floor", arena_.FloorId(), at);
+  SetValue(*made, "controllers", controller_libraries_, at);
+  if (for_rehearsal) SetValue(*made, "rehearsal", "true", at);
   made->children.push_back(std::make_shared<ConfigurationNode>(*theirs));
 }
 

@@ -26,14 +26,16 @@ public:
   }
 
   void ConvertControllers(ConfigurationNode& ours);
+  // After the controllers: whether loop functions make boxes or cylinders.
+  bool MakesBodies() const { return makes_bodies_; }
   // After the controllers and the arena.
-  void ConvertLoopFunctions(ConfigurationNode& ours);
+  void ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehearsal);
 
 private:
   void ConvertController(const ConfigurationNode& theirs, ConfigurationNode& parent, bool somebody_hears);
   // The first level that one of these sensors of the controller has; 0: none.
   static double NoiseLevel(const ConfigurationNode& controller, std::initializer_list<const char*> sensors);
-  // Which robots the loop functions make: their constructors are among the names in the library.
+  // What the loop functions make: their constructors are among the names in the library.
   std::set<std::string> FindMadeKinds() const;
   // Keeps robots of the controller ready, for loop functions that add some.
   void KeepSpare(const std::string& controller, const ConfigurationNode& theirs);
@@ -68,6 +70,8 @@ private:
   ArenaConverter& arena_;
   std::vector<Made> options_;  // of the controllers
   std::set<std::string> made_kinds_;
+  bool makes_bodies_ = false;
+  std::string controller_libraries_;  // with colons between them
 };
 
 }  // namespace swarmanoid::argos3

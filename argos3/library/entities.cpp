@@ -4,6 +4,8 @@
 #include <argos3/plugins/robots/e-puck/simulator/epuck_entity.h>
 #include <argos3/plugins/robots/eye-bot/simulator/eyebot_entity.h>
 #include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
+#include <argos3/plugins/simulator/entities/box_entity.h>
+#include <argos3/plugins/simulator/entities/cylinder_entity.h>
 #include <argos3/plugins/simulator/entities/light_entity.h>
 
 #include "argos3/library/running.h"
@@ -44,7 +46,7 @@ const swarmanoid::CSwarmanoidSpaceEntity* OursOf(CEntity& part)
 CColor CLEDEntity::GetColor() const
 {
   const auto* ours = OursOf(const_cast<CLEDEntity&>(*this));
-  if (ours == nullptr) return CColor::BLACK;
+  if (ours == nullptr) return first_colour_;
   const Slot slot = SlotOf(*ours, number_);
   return CColor(0xff000000U | static_cast<std::uint32_t>(ours->GetAttribute(slot.attribute, slot.element)));
 }
@@ -52,9 +54,10 @@ CColor CLEDEntity::GetColor() const
 void CLEDEntity::SetColor(const CColor& colour)
 {
   const auto* ours = OursOf(*this);
-  if (ours == nullptr)
-    THROW_ARGOSEXCEPTION("LEDs of '" << GetRootEntity().GetId() << "' are changed by loop functions alone, while it is "
-                                     << "in the arena");
+  if (ours == nullptr && TheRunning().editor == nullptr)
+    THROW_ARGOSEXCEPTION("LEDs of '" << GetRootEntity().GetId() << "' are changed by loop functions alone");
+  first_colour_ = colour;
+  if (ours == nullptr) return;
   const Slot slot = SlotOf(*ours, number_);
   const std::uint32_t value = colour.GetRed() << 16U | colour.GetGreen() << 8U | colour.GetBlue();
   TheRunning().editor->SetAttribute(ours->GetId(), slot.attribute, value, slot.element);
@@ -63,6 +66,20 @@ void CLEDEntity::SetColor(const CColor& colour)
 CLEDEquippedEntity::CLEDEquippedEntity(CEntity* parent, unsigned leds) : CEntity(parent, "leds_0")
 {
   for (unsigned led = 0; led < leds; ++led) leds_.push_back(std::make_unique<CLEDEntity>(this, led));
+}
+
+void CLEDEquippedEntity::AddLED(const CVector3&, const SAnchor&, const CColor& colour)
+{
+  if (dynamic_cast<CObjectWithLEDs*>(&GetRootEntity()) == nullptr)
+    THROW_ARGOSEXCEPTION("'" << GetRootEntity().GetId() << "' has the LEDs of its kind; boxes and cylinders get more");
+  leds_.push_back(std::make_unique<CLEDEntity>(this, static_cast<unsigned>(leds_.size()), colour));
+  if (leds_.size() == 1 && OursOf(*this) != nullptr) leds_.front()->SetColor(colour);
+}
+
+void CLEDEquippedEntity::AddLEDRing(const CVector3& centre, Real, const CRadians&, UInt32 leds, const SAnchor& anchor,
+                                    const CColor& colour)
+{
+  for (UInt32 led = 0; led < leds; ++led) AddLED(centre, anchor, colour);
 }
 
 CLEDEntity& CLEDEquippedEntity::GetLED(UInt32 led)
@@ -117,6 +134,22 @@ CEPuckEntity::CEPuckEntity(const std::string& id, const std::string& controller,
                            const CQuaternion& orientation, Real, size_t, const std::string&)
     : CRobotWithController(id, kLeds, controller, position, orientation)
 {
+}
+
+CBoxEntity::CBoxEntity(const std::string& id, const CVector3& position, const CQuaternion& orientation, bool movable,
+                       const CVector3& size, Real mass)
+    : CBoxEntity(id, movable, 0, size, mass)
+{
+  GetEmbodiedEntity().GetOriginAnchor().Position = position;
+  GetEmbodiedEntity().GetOriginAnchor().Orientation = orientation;
+}
+
+CCylinderEntity::CCylinderEntity(const std::string& id, const CVector3& position, const CQuaternion& orientation,
+                                 bool movable, Real radius, Real height, Real mass)
+    : CCylinderEntity(id, movable, 0, radius, height, mass)
+{
+  GetEmbodiedEntity().GetOriginAnchor().Position = position;
+  GetEmbodiedEntity().GetOriginAnchor().Orientation = orientation;
 }
 
 CLightEntity::CLightEntity(const std::string& id, const CVector3& position, const CColor& colour, Real intensity)

@@ -32,7 +32,7 @@ swarmanoid::SpaceEditor& Editor()
 Pose PoseOf(const swarmanoid::CSwarmanoidSpaceEntity& entity, const CVector3& position, const CQuaternion& orientation)
 {
   Pose pose{TheRunning().translation.OurPosition(position), OurOrientation(orientation)};
-  if (swarmanoid::TagName(entity.GetKind()) == "block")
+  if (swarmanoid::argos3::IsBox(entity))
     pose.position += pose.orientation * swarmanoid::Vector3(0, 0, entity.GetSize().z() / 2);
   return pose;
 }
@@ -82,12 +82,16 @@ const swarmanoid::CSwarmanoidSpaceEntity& OursFor(const CEntity& made)
   if (const auto* entity = space.FindEntity(TheRunning().OurId(id))) return *entity;
   if (dynamic_cast<const CLightEntity*>(&made) != nullptr && HasReserve(space, kMadeLight))
     return NextSpare(space, kMadeLight);
+  if (const auto shape = swarmanoid::argos3::ShapeOf(made))
+  {
+    if (const auto* waiting = swarmanoid::argos3::WaitingBody(space, *shape)) return *waiting;
+    THROW_ARGOSEXCEPTION("no " << made.GetTypeDescription() << " is left for '" << id << "', which the experiment file "
+                               << "does not declare: as many of a size and mass as Init makes are kept twice; make one "
+                               << "like it in Init, or write more of them into the file that `swarmanoid convert` "
+                               << "writes");
+  }
   const auto* robot = dynamic_cast<const CRobotWithController*>(&made);
-  if (robot == nullptr)
-    THROW_ARGOSEXCEPTION("the experiment file declares no " << made.GetTypeDescription() << " '" << id
-                                                            << "'; loop functions add robots and lights of their own, "
-                                                            << "but boxes and cylinders only if they stand in the "
-                                                            << "file, from where they may be removed in Init");
+  if (robot == nullptr) THROW_ARGOSEXCEPTION("the experiment file declares no light '" << id << "'");
   const std::string reserve = "added_" + robot->ControllerOfMade();
   if (!HasReserve(space, reserve))
     THROW_ARGOSEXCEPTION("no " << made.GetTypeDescription() << " with the controller '" << robot->ControllerOfMade()
@@ -110,6 +114,17 @@ void AddAnywhere(const std::string& id, const Pose& pose)
   while (!Editor().IsFree(id, free)) free.position.z() += kStep;
   Editor().AddEntity(id, free);
   if (free.position.z() != pose.position.z()) Editor().MoveEntity(id, pose);
+}
+
+// Of a box or cylinder that comes: those it was given.
+void ShowLeds(const std::string& ours, const CEntity& made)
+{
+  const auto* lit = dynamic_cast<const CObjectWithLEDs*>(&made);
+  if (lit == nullptr) return;
+  const bool has_leds = lit->GetLEDEquippedEntity().GetNumLEDs() > 0;
+  const CColor colour =
+      has_leds ? const_cast<CObjectWithLEDs*>(lit)->GetLEDEquippedEntity().GetLED(0).GetInitColor() : CColor::BLACK;
+  Editor().SetAttribute(ours, "colour", Rgb(colour));
 }
 
 template <class Body>
@@ -228,6 +243,7 @@ void CSpace::Clear()
 bool CEmbodiedEntity::MoveTo(const CVector3& position, const CQuaternion& orientation, bool check_only,
                              bool ignore_collisions)
 {
+  if (TheRunning().Rehearsed(GetRootEntity().GetId())) return true;
   const auto& ours = Declared(GetRootEntity().GetId());
   const Pose pose = PoseOf(ours, position, orientation);
   if (!ignore_collisions && swarmanoid::FindInTheWay(Editor().GetSpace(), ours, pose) != nullptr) return false;
@@ -247,6 +263,7 @@ bool CEmbodiedEntity::MoveTo(const CVector3& position, const CQuaternion& orient
 
 bool CEmbodiedEntity::IsCollidingWithSomething() const
 {
+  if (TheRunning().Rehearsed(const_cast<CEmbodiedEntity*>(this)->GetRootEntity().GetId())) return false;
   const auto& ours = Declared(const_cast<CEmbodiedEntity*>(this)->GetRootEntity().GetId());
   const Pose pose{ours.GetPosition(), ours.GetOrientation()};
   return swarmanoid::FindInTheWay(Editor().GetSpace(), ours, pose) != nullptr;
@@ -288,6 +305,12 @@ void CLoopFunctions::AddEntity(CEntity& entity)
   if (body == nullptr && light == nullptr)
     THROW_ARGOSEXCEPTION("'" << entity.GetId() << "' is neither a body nor a light");
   Running& running = TheRunning();
+  if (running.rehearsal && swarmanoid::argos3::ShapeOf(entity) &&
+      Editor().GetSpace().FindEntity(running.OurId(entity.GetId())) == nullptr)
+  {
+    running.rehearsal->Add(entity);
+    return CSimulator::GetInstance().GetSpace().InsertAny(entity);
+  }
   std::string ours;
   bool was_declared = true;
   try
@@ -305,6 +328,7 @@ void CLoopFunctions::AddEntity(CEntity& entity)
     {
       const SAnchor& at = body->GetEmbodiedEntity().GetOriginAnchor();
       AddAnywhere(ours, PoseOf(added, at.Position, at.Orientation));
+      if (!was_declared) ShowLeds(ours, entity);
     }
   }
   catch (const std::invalid_argument& refused)
@@ -321,6 +345,7 @@ void CLoopFunctions::AddEntity(CEntity& entity)
 
 void CLoopFunctions::RemoveEntity(const std::string& id)
 {
+  if (TheRunning().Rehearsed(id)) return;
   const std::string ours = Declared(id).GetId();
   try
   {

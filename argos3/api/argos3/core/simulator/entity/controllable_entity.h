@@ -3,6 +3,7 @@
 
 #include <argos3/core/control_interface/ci_controller.h>
 #include <argos3/core/simulator/entity/entity.h>
+#include <argos3/core/utility/math/ray3.h>
 
 namespace argos
 {

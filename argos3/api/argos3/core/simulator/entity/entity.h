@@ -31,11 +31,18 @@ public:
   virtual std::string GetTypeDescription() const { return "entity"; }
   bool HasParent() const { return parent_ != nullptr; }
   CEntity& GetParent() const { return *parent_; }
+  // Entities take part in a run while they are in the arena, whatever this says.
+  void Enable() { enabled_ = true; }
+  void Disable() { enabled_ = false; }
+  void SetEnabled(bool enabled) { enabled_ = enabled; }
+  bool IsEnabled() const { return enabled_; }
+  void Update() {}
   CEntity& GetRootEntity() { return parent_ == nullptr ? *this : parent_->GetRootEntity(); }
 
 private:
   std::string id_;
   CEntity* parent_;
+  bool enabled_ = true;
 };
 
 }  // namespace argos
