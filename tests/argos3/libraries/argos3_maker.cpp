@@ -5,7 +5,6 @@
 #include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_colored_blob_omnidirectional_camera_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_actuator.h>
-#include <argos3/plugins/simulator/entities/box_entity.h>
 #include <argos3/plugins/simulator/entities/cylinder_entity.h>
 #include <argos3/plugins/simulator/entities/light_entity.h>
 
@@ -69,14 +68,6 @@ public:
     file_ << "# " << GetSpace().GetEntitiesByType("foot-bot").size() << " " << ControllerOf(*made_[0]).GetId() << " "
           << made_[1]->GetEmbodiedEntity().MoveTo(CVector3(0, 0, 0), CQuaternion()) << " "
           << GetSpace().GetArenaLimits().GetMax() << " " << ticks_a_second_ << "\n";
-    try
-    {
-      AddEntity(*new CBoxEntity("crate", CVector3(1, 1, 0), CQuaternion(), false, CVector3(0.1, 0.1, 0.1)));
-    }
-    catch (const CARGoSException& refused)
-    {
-      file_ << "# " << refused.what() << "\n";
-    }
   }
   void PostStep() override
   {
