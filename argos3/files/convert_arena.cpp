@@ -98,6 +98,8 @@ void ArenaConverter::FindBearers(const ConfigurationNode& within)
     bearers.kinds.insert(kind);
     if (kind == "footbot") bearers.camera_aperture = Number(*child, "omnidirectional_camera_aperture", 70);
     const bool is_epuck = kind == "argos3_epuck";
+    bearers.perspective_aperture = Number(*child, "perspective_camera_aperture", 30);
+    bearers.perspective_range = Number(*child, "perspective_camera_range", 2);
     bearers.radio_range = Number(*child, "rab_range", is_epuck ? 0.8 : 3);
     bearers.radio_bytes = Whole(*child, "rab_data_size", is_epuck ? 2 : 10);
     if (bearers.radio_bytes < 1 || bearers.radio_bytes > 10)
@@ -140,7 +142,12 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::s
     made = AddNode(parent, robot, at);
     if (const ConfigurationNode* controller = FindChild(theirs, "controller"))
       SetValue(*made, "controller", NeededText(*controller, "config"), controller->location);
-    NoteOthers(theirs, {"id", "omnidirectional_camera_aperture", "rab_range", "rab_data_size"});
+    // The focal length is none of the angles that make the image.
+    NoteOthers(theirs,
+               {"id", "omnidirectional_camera_aperture", "perspective_camera_aperture", "perspective_camera_range",
+                "perspective_camera_focal_length", "perspective_camera_front", "rab_range", "rab_data_size"});
+    if (!Flag(theirs, "perspective_camera_front", true))
+      Mistake(at, "a perspective camera that looks up has no counterpart; leave 'perspective_camera_front' out");
   }
   else if (theirs.name == "box")
   {

@@ -143,29 +143,45 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
   SetValue(*options, "sensors", sensors, at);
   SetValue(*options, "actuators", actuators, at);
   if (!arena_.FloorId().empty()) SetValue(*options, "floor", "loop_functions", at);
-  const auto set_noise = [&](const char* name, std::initializer_list<const char*> devices)
+  const auto set_noise =
+      [&](const char* name, std::initializer_list<const char*> devices, const char* attribute = "noise_level")
   {
-    if (const double level = NoiseLevel(theirs, devices); level > 0) SetValue(*options, name, TextOf(level), at);
+    const auto level = ParseNumber(NoiseOf(theirs, devices, attribute));
+    if (level && *level > 0) SetValue(*options, name, TextOf(*level), at);
   };
   set_noise("ground_noise", {"footbot_motor_ground", "footbot_base_ground", "ground"});
   set_noise("proximity_noise", {"proximity", "epuck_proximity", "eyebot_proximity"});
+  set_noise("camera_noise", {"colored_blob_omnidirectional_camera"}, "noise_std_dev");
+  set_noise("radio_noise", {"range_and_bearing"}, "noise_std_dev");
+  for (const auto& [name, attribute] :
+       {std::pair("speed", "vel_noise_range"), std::pair("distance", "dist_noise_range")})
+  {
+    const std::string range = NoiseOf(theirs, {"differential_steering"}, attribute);
+    const std::size_t colon = range.find(':');
+    if (colon == std::string::npos) continue;
+    SetValue(*options, std::string(name) + "_noise_low", range.substr(0, colon), at);
+    SetValue(*options, std::string(name) + "_noise_high", range.substr(colon + 1), at);
+  }
   if (const std::string spare = arena_.SpareOf(id); !spare.empty()) SetValue(*options, "spare", spare, at);
+  if (lists.sensors.contains("footbot_perspective_camera") || lists.sensors.contains("eyebot_pan_tilt_camera"))
+    SetValue(*options, "camera_aperture", TextOf(bearers.perspective_aperture), at);
   SetValue(*options, "rab_data_size", std::to_string(bearers.radio_bytes), at);
   options_.push_back(options);
   for (const auto& child : theirs.children)
     if (child->name == "params") parameters->children.push_back(child);
 }
 
-double CodeConverter::NoiseLevel(const ConfigurationNode& controller, std::initializer_list<const char*> names)
+std::string CodeConverter::NoiseOf(const ConfigurationNode& controller, std::initializer_list<const char*> names,
+                                   const char* attribute)
 {
   const ConfigurationNode* sensors = FindChild(controller, "sensors");
   for (const char* name : names)
   {
     const ConfigurationNode* sensor = sensors == nullptr ? nullptr : FindChild(*sensors, name);
-    const auto* level = sensor == nullptr ? nullptr : FindAttributeOf(*sensor, "noise_level");
-    if (level != nullptr) return ParseNumber(level->value).value_or(0);
+    const auto* noise = sensor == nullptr ? nullptr : FindAttributeOf(*sensor, attribute);
+    if (noise != nullptr) return noise->value;
   }
-  return 0;
+  return "";
 }
 
 void CodeConverter::SetScript(const ConfigurationNode& theirs, ConfigurationNode& options)

@@ -33,8 +33,9 @@ public:
 
 private:
   void ConvertController(const ConfigurationNode& theirs, ConfigurationNode& parent, bool somebody_hears);
-  // The first level that one of these sensors of the controller has; 0: none.
-  static double NoiseLevel(const ConfigurationNode& controller, std::initializer_list<const char*> sensors);
+  // The attribute of the first of these sensors of the controller that has it; empty: none has.
+  static std::string NoiseOf(const ConfigurationNode& controller, std::initializer_list<const char*> sensors,
+                             const char* attribute);
   // What the loop functions make: their constructors are among the names in the library.
   std::set<std::string> FindMadeKinds() const;
   // Keeps robots of the controller ready, for loop functions that add some.

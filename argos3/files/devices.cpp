@@ -115,7 +115,7 @@ void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
     }
 }
 
-constexpr std::array<const char*, 15> kSensors{"differential_steering",
+constexpr std::array<const char*, 16> kSensors{"differential_steering",
                                                "footbot_distance_scanner",
                                                "proximity",
                                                "ground",
@@ -129,6 +129,7 @@ constexpr std::array<const char*, 15> kSensors{"differential_steering",
                                                "positioning",
                                                "battery",
                                                "colored_blob_omnidirectional_camera",
+                                               "colored_blob_perspective_camera",
                                                "footbot_turret_encoder"};
 constexpr const char* kScanner = "footbot_distance_scanner";
 
@@ -162,8 +163,9 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
   {
     // Those of e-pucks read what the wheels were told (argos3/plugin/epuck_devices.cpp).
     if (!IsForEPucks(context)) AddDevice(ours.sensors, "footbot_encoders", "engine_footbot_encoders", at);
-    attributes.Refuse("vel_noise_range", "leave it out, or give the wheels noise");
-    attributes.Refuse("dist_noise_range", "leave it out, or give the wheels noise");
+    // This noise and that of the camera and of range and bearing are added to the readings (argos3/plugin/noise.h).
+    attributes.Range("vel_noise_range");
+    attributes.Range("dist_noise_range");
   }
   else if (tag == "footbot_proximity")
     attributes.CopyLevel(AddDevice(ours.sensors, tag, "generic_footbot_proximity", at));
@@ -203,7 +205,17 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     ConfigurationNode& device =
         AddDevice(ours.sensors, "footbot_omnidirectional_camera", "generic_footbot_omnidirectional_camera", at);
     SetValue(device, "aperture", TextOf(context.bearers.camera_aperture), at);
-    attributes.Refuse("noise_std_dev", "leave it out, or convert the file and give the camera distance_noise_…");
+    attributes.Number("noise_std_dev");
+  }
+  else if (tag == "colored_blob_perspective_camera" && IsForEPucks(context))
+    context.mistake(at, "<colored_blob_perspective_camera> has no counterpart on e-pucks; leave it out");
+  else if (tag == "colored_blob_perspective_camera")
+  {
+    const std::string type =
+        context.bearers.kinds.contains("eyebot") ? "eyebot_pan_tilt_camera" : "footbot_perspective_camera";
+    ConfigurationNode& device = AddDevice(ours.sensors, type, "generic_" + type, at);
+    SetValue(device, "aperture", TextOf(context.bearers.perspective_aperture), at);
+    SetValue(device, "range", TextOf(context.bearers.perspective_range), at);
   }
   else if (tag == kScanner)
   {
@@ -220,7 +232,7 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     ConfigurationNode& device = AddDevice(ours.sensors, tag, "generic_range_and_bearing", at);
     SetValue(device, "range", TextOf(context.bearers.radio_range), at);
     attributes.Copy("packet_drop_prob", "loss_probability", device);
-    attributes.Refuse("noise_std_dev", "leave it out, or convert the file and give the sensor range_noise_…");
+    attributes.Number("noise_std_dev");
   }
   else
     RefuseUnknown(node, "sensor", kSensors, context);

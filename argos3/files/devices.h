@@ -14,9 +14,11 @@ namespace swarmanoid::argos3
 // What the robots of a controller are.
 struct Bearers
 {
-  std::set<std::string> kinds;  // "footbot", "eyebot", "argos3_epuck"
-  double camera_aperture = 70;  // degrees
-  double radio_range = 3;       // m
+  std::set<std::string> kinds;       // "footbot", "eyebot", "argos3_epuck"
+  double camera_aperture = 70;       // degrees
+  double perspective_aperture = 30;  // degrees
+  double perspective_range = 2;      // m
+  double radio_range = 3;            // m
   long long radio_bytes = 10;
 };
 
