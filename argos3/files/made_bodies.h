@@ -3,8 +3,6 @@
 // keeps as many ready. Written by the plug-in (argos3_loop_functions), read by the launcher.
 #pragma once
 
-#include <fstream>
-#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -41,28 +39,8 @@ struct BodyShape
 // How many of each shape.
 using MadeBodies = std::map<BodyShape, int>;
 
-inline void WriteMadeBodies(const MadeBodies& bodies, const std::string& folder)
-{
-  std::ofstream file(folder + "/" + kMadeBodiesFile);
-  file.precision(std::numeric_limits<double>::max_digits10);
-  for (const auto& [shape, count] : bodies)
-    file << count << ' ' << shape.tag << ' ' << shape.movable << ' ' << shape.mass_kg << ' ' << shape.size.transpose()
-         << '\n';
-}
-
+void WriteMadeBodies(const MadeBodies& bodies, const std::string& folder);
 // None if there is no file: Init failed, and says why when it is run.
-inline MadeBodies ReadMadeBodies(const std::string& folder)
-{
-  MadeBodies bodies;
-  std::ifstream file(folder + "/" + kMadeBodiesFile);
-  BodyShape shape;
-  double x = 0, y = 0, z = 0;
-  for (int count = 0; file >> count >> shape.tag >> shape.movable >> shape.mass_kg >> x >> y >> z;)
-  {
-    shape.size = {x, y, z};
-    bodies[shape] = count;
-  }
-  return bodies;
-}
+MadeBodies ReadMadeBodies(const std::string& folder);
 
 }  // namespace swarmanoid::argos3

@@ -46,8 +46,10 @@ public:
                  .Position
           << '\t' << crate_->GetEmbodiedEntity().IsMovable() << pillar_->GetEmbodiedEntity().IsMovable() << '\n';
     if (clock == 10) RemoveEntity("crate");
-    if (clock == 20) AddEntity(*new CBoxEntity("next", CVector3(-0.8, 0, 0), CQuaternion(), true, {0.1, 0.1, 0.1}, 0.5));
-    if (clock == 30 && late_) AddEntity(*new CBoxEntity("other", CVector3(), CQuaternion(), true, {0.2, 0.2, 0.2}, 0.5));
+    if (clock == 20)
+      AddEntity(*new CBoxEntity("next", CVector3(-0.8, 0, 0), CQuaternion(), true, {0.1, 0.1, 0.1}, 0.5));
+    if (clock == 30 && late_)
+      AddEntity(*new CBoxEntity("other", CVector3(), CQuaternion(), true, {0.2, 0.2, 0.2}, 0.5));
   }
 
 private:
