@@ -16,9 +16,13 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPlugin = "argos3";
 
-constexpr std::pair<const char*, const char*> kConstructors[]{
-    {"footbot", "14CFootBotEntityC"},  {"eyebot", "13CEyeBotEntityC"}, {"argos3_epuck", "12CEPuckEntityC"},
-    {"light_bulb", "12CLightEntityC"}, {"box", "10CBoxEntityC"},       {"cylinder", "15CCylinderEntityC"}};
+constexpr std::pair<const char*, const char*> kConstructors[]{{"footbot", "14CFootBotEntityC"},
+                                                              {"eyebot", "13CEyeBotEntityC"},
+                                                              {"argos3_epuck", "12CEPuckEntityC"},
+                                                              {"light_bulb", "12CLightEntityC"},
+                                                              {"box", "10CBoxEntityC"},
+                                                              {"cylinder", "15CCylinderEntityC"},
+                                                              {"configuration", "20GetConfigurationRootE"}};
 
 // Of a controller that no robot of the file has: by its devices.
 std::string KindByDevices(const ConfigurationNode& controller)
@@ -67,6 +71,7 @@ void CodeConverter::ConvertControllers(ConfigurationNode& ours)
   }();
   made_kinds_ = FindMadeKinds();
   if (made_kinds_.erase("light_bulb") != 0) arena_.KeepSpareLights(kSpareLights);
+  asks_for_configuration_ = made_kinds_.erase("configuration") != 0;
   makes_bodies_ = made_kinds_.erase("box") + made_kinds_.erase("cylinder") != 0;
   for (const auto& controller : controllers->children) ConvertController(*controller, *made, somebody_hears);
 }
@@ -294,6 +299,9 @@ void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehea
   SetValue(*made, "controllers", controller_libraries_, at);
   if (for_rehearsal) SetValue(*made, "rehearsal", "true", at);
   made->children.push_back(std::make_shared<ConfigurationNode>(*theirs));
+  if (!asks_for_configuration_) return;
+  const Made configuration = AddNode(*made, "configuration", at);
+  configuration->children = root_.children;
 }
 
 }  // namespace swarmanoid::argos3

@@ -36,7 +36,8 @@ private:
   // The attribute of the first of these sensors of the controller that has it; empty: none has.
   static std::string NoiseOf(const ConfigurationNode& controller, std::initializer_list<const char*> sensors,
                              const char* attribute);
-  // What the loop functions make: their constructors are among the names in the library.
+  // What the loop functions make, and whether they ask for the experiment file: their constructors are among the names
+  // in the library.
   std::set<std::string> FindMadeKinds() const;
   // Keeps robots of the controller ready, for loop functions that add some.
   void KeepSpare(const std::string& controller, const ConfigurationNode& theirs);
@@ -72,6 +73,7 @@ private:
   std::vector<Made> options_;  // of the controllers
   std::set<std::string> made_kinds_;
   bool makes_bodies_ = false;
+  bool asks_for_configuration_ = false;
   std::string controller_libraries_;  // with colons between them
 };
 

@@ -1,6 +1,7 @@
 // Robots that loop functions make, and the LEDs of entities.
 #include <argos3/core/simulator/entity/composable_entity.h>
 #include <argos3/core/simulator/physics_engine/physics_engine.h>
+#include <argos3/core/simulator/simulator.h>
 #include <argos3/plugins/robots/e-puck/simulator/epuck_entity.h>
 #include <argos3/plugins/robots/eye-bot/simulator/eyebot_entity.h>
 #include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
@@ -101,8 +102,9 @@ void CLEDEquippedEntity::SetAllLEDsColors(const std::vector<CColor>& colours)
 }
 
 CRobotWithController::CRobotWithController(const std::string& id, unsigned leds)
-    : CBodyEntity(id, true), controllable_(this, "controller_0"), leds_(this, leds), rab_(this)
+    : CBodyEntity(id, true), controllable_(this, "controller_0"), leds_(this, leds), rab_(this), gripper_(this)
 {
+  AddComponent(gripper_);
   AddComponent(controllable_);
   AddComponent(leds_);
   AddComponent(rab_);
@@ -158,5 +160,25 @@ CLightEntity::CLightEntity(const std::string& id, const CVector3& position, cons
 }
 
 Real CPhysicsEngine::tick_s_ = 0.1;
+
+bool CGripperEquippedEntity::IsGripping() const { return Gripped() != nullptr; }
+
+CEmbodiedEntity& CGripperEquippedEntity::GetGrippedEntity() const
+{
+  if (auto* gripped = Gripped()) return gripped->GetEmbodiedEntity();
+  THROW_ARGOSEXCEPTION("'" << const_cast<CGripperEquippedEntity*>(this)->GetRootEntity().GetId() << "' grips nothing");
+}
+
+CBodyEntity* CGripperEquippedEntity::Gripped() const
+{
+  const auto* ours = OursOf(const_cast<CGripperEquippedEntity&>(*this));
+  if (ours == nullptr || swarmanoid::AttributeOffset(ours->GetKind(), "gripped") < 0) return nullptr;
+  const double gripped = ours->GetAttribute("gripped");
+  if (gripped == 0) return nullptr;
+  const auto& held = TheRunning().editor->GetSpace().GetEntity(static_cast<std::size_t>(gripped) - 1);
+  for (CEntity* entity : CSimulator::GetInstance().GetSpace().GetEntityVector())
+    if (TheRunning().OurId(entity->GetId()) == held.GetId()) return dynamic_cast<CBodyEntity*>(entity);
+  return nullptr;
+}
 
 }  // namespace argos

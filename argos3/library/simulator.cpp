@@ -165,6 +165,15 @@ CLoopFunctions& CSimulator::GetLoopFunctions()
   return *TheRunning().functions;
 }
 
+TConfigurationNode& CSimulator::GetConfigurationRoot()
+{
+  if (configuration_.Value().empty())
+    THROW_ARGOSEXCEPTION(
+        "the experiment file is not at hand: it is if the library of the loop functions asks for it, "
+        "in a run of the file of ARGoS3 or of what `swarmanoid convert` writes");
+  return configuration_;
+}
+
 CCI_Controller& CControllableEntity::GetController()
 {
   const std::string& id = GetRootEntity().GetId();

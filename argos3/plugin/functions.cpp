@@ -57,7 +57,11 @@ public:
             {.name = "loop_functions",
              .type = ParameterType::kTree,
              .default_value = "",
-             .description = "The element of the ARGoS3 file, as it stands there."}}};
+             .description = "The element of the ARGoS3 file, as it stands there."},
+            {.name = "configuration",
+             .type = ParameterType::kTree,
+             .default_value = "",
+             .description = "The elements of the ARGoS3 file, for loop functions that ask for them."}}};
   }
 
   ~Argos3LoopFunctions() override
@@ -90,6 +94,11 @@ public:
     simulator.GetSpace().SetSimulationClock(0);
     argos::CPhysicsEngine::SetSimulationClockTick(space.GetTickSeconds());
     simulator.Start(static_cast<UInt32>(experiment.seed), static_cast<UInt32>(experiment.max_clock));
+    if (const TConfigurationTree all = t_tree.Child("configuration"); all.Exists())
+    {
+      CopyElement(*all.Node(), simulator.Configuration());
+      simulator.Configuration().SetValue("argos-configuration");
+    }
     const Vector3& size = experiment.arena_size;
     simulator.GetSpace().SetArena({size.x(), size.y(), size.z()}, translation_.Argos3Position(size / 2));
     for (std::size_t i = 0; i < space.Size(); ++i) MakeView(space.GetEntity(i));

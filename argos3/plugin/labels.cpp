@@ -2,6 +2,8 @@
 
 #include <dlfcn.h>
 
+#include <initializer_list>
+#include <lua.hpp>
 #include <sstream>
 
 #include "argos3/library/running.h"
@@ -16,8 +18,10 @@ void ShareNames(const std::string& library)
 
 void LoadBefore(const std::string& libraries)
 {
-  Dl_info api;
-  if (dladdr(reinterpret_cast<const void*>(&ControllersByLabel), &api) != 0) ShareNames(api.dli_fname);
+  // Ours, and that of Lua for those that look into scripts.
+  for (const void* name :
+       {reinterpret_cast<const void*>(&ControllersByLabel), reinterpret_cast<const void*>(&lua_gettop)})
+    if (Dl_info found; dladdr(name, &found) != 0) ShareNames(found.dli_fname);
   std::istringstream paths(libraries);
   for (std::string path; std::getline(paths, path, ':');)
     if (const PluginLibrary& library = LoadPluginLibrary(path, {}); library.error.empty()) ShareNames(library.path);

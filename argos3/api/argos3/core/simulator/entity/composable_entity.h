@@ -123,6 +123,21 @@ private:
   CLEDEquippedEntity leds_;
 };
 
+// What a robot grips. A copy tells the same.
+class CGripperEquippedEntity : public CEntity
+{
+public:
+  explicit CGripperEquippedEntity(CEntity* parent) : CEntity(parent, "gripper_0") {}
+  // False outside loop functions, and for a robot without a gripper.
+  bool IsGripping() const;
+  // Throws CARGoSException if it grips nothing.
+  CEmbodiedEntity& GetGrippedEntity() const;
+  std::string GetTypeDescription() const override { return "gripper"; }
+
+private:
+  CBodyEntity* Gripped() const;
+};
+
 class CRobotWithController : public CBodyEntity
 {
 public:
@@ -131,6 +146,7 @@ public:
   const CControllableEntity& GetControllableEntity() const { return controllable_; }
   CLEDEquippedEntity& GetLEDEquippedEntity() { return leds_; }
   CRABEquippedEntity& GetRABEquippedEntity() { return rab_; }
+  CGripperEquippedEntity& GetGripperEquippedEntity() { return gripper_; }
   // Of a robot that loop functions made: the id of its controller in the experiment file.
   const std::string& ControllerOfMade() const { return controller_; }
 
@@ -143,6 +159,7 @@ private:
   CControllableEntity controllable_;
   CLEDEquippedEntity leds_;
   CRABEquippedEntity rab_;
+  CGripperEquippedEntity gripper_;
   std::string controller_;
 };
 

@@ -19,8 +19,6 @@ public:
 
   explicit CEntity(CEntity* parent = nullptr) : parent_(parent) {}
   CEntity(CEntity* parent, std::string id) : id_(std::move(id)), parent_(parent) {}
-  CEntity(const CEntity&) = delete;
-  CEntity& operator=(const CEntity&) = delete;
 
   void Init(TConfigurationNode&) override {}
   void Reset() override {}
