@@ -270,7 +270,11 @@ void ArenaConverter::SetMovable(const ConfigurationNode& theirs, ConfigurationNo
   NeededText(theirs, "movable");
   const bool movable = Flag(theirs, "movable", false);
   SetValue(made, "movable", movable ? "true" : "false", theirs.location);
-  if (movable) SetValue(made, "mass", TextOf(Number(theirs, "mass", 1)), theirs.location);
+  if (!movable) return;
+  const double mass_kg = Number(theirs, "mass", 1);
+  if (mass_kg > kHeaviestKg)
+    Note(theirs.location, "a mass of " + TextOf(mass_kg) + " kg is " + TextOf(kHeaviestKg) + " kg here");
+  SetValue(made, "mass", TextOf(std::min(mass_kg, kHeaviestKg)), theirs.location);
 }
 
 void ArenaConverter::SetPlace(const ConfigurationNode& theirs, ConfigurationNode& made, double lift)

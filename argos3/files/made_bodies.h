@@ -21,13 +21,15 @@ inline constexpr const char* kLitBox = "argos3_box";
 // Reserves of bodies have ids that begin so, and of these the ones that do not move there this mass.
 inline constexpr const char* kMadeBody = "made_body_";
 inline constexpr double kUnmovableKg = 10'000;
+// We have no heavier bodies; nothing moves these either.
+inline constexpr double kHeaviestKg = 1e9;
 
 struct BodyShape
 {
   std::string tag;  // ours
   bool movable = false;
-  double mass_kg = 1;
-  Vector3 size;  // m; of cylinders radius, radius, height
+  double mass_kg = 1;  // at most kHeaviestKg
+  Vector3 size;        // m; of cylinders radius, radius, height
 
   friend bool operator<(const BodyShape& a, const BodyShape& b)
   {

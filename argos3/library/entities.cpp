@@ -66,14 +66,14 @@ void CLEDEntity::SetColor(const CColor& colour)
 
 CLEDEquippedEntity::CLEDEquippedEntity(CEntity* parent, unsigned leds) : CEntity(parent, "leds_0")
 {
-  for (unsigned led = 0; led < leds; ++led) leds_.push_back(std::make_unique<CLEDEntity>(this, led));
+  for (unsigned led = 0; led < leds; ++led) leds_.push_back(std::make_shared<CLEDEntity>(this, led));
 }
 
 void CLEDEquippedEntity::AddLED(const CVector3&, const SAnchor&, const CColor& colour)
 {
   if (dynamic_cast<CObjectWithLEDs*>(&GetRootEntity()) == nullptr)
     THROW_ARGOSEXCEPTION("'" << GetRootEntity().GetId() << "' has the LEDs of its kind; boxes and cylinders get more");
-  leds_.push_back(std::make_unique<CLEDEntity>(this, static_cast<unsigned>(leds_.size()), colour));
+  leds_.push_back(std::make_shared<CLEDEntity>(this, static_cast<unsigned>(leds_.size()), colour));
   if (leds_.size() == 1 && OursOf(*this) != nullptr) leds_.front()->SetColor(colour);
 }
 

@@ -1,5 +1,7 @@
 #include "argos3/library/made_bodies.h"
 
+#include <algorithm>
+
 #include <argos3/plugins/simulator/entities/box_entity.h>
 #include <argos3/plugins/simulator/entities/cylinder_entity.h>
 
@@ -13,15 +15,17 @@ std::optional<BodyShape> ShapeOf(const argos::CEntity& made)
   if (const auto* box = dynamic_cast<const argos::CBoxEntity*>(&made))
   {
     const argos::CVector3& size = box->GetSize();
-    return BodyShape{
-        kLitBox, box->GetEmbodiedEntity().IsMovable(), box->GetMass(), {size.GetX(), size.GetY(), size.GetZ()}};
+    return BodyShape{kLitBox,
+                     box->GetEmbodiedEntity().IsMovable(),
+                     std::min(box->GetMass(), kHeaviestKg),
+                     {size.GetX(), size.GetY(), size.GetZ()}};
   }
   if (const auto* cylinder = dynamic_cast<const argos::CCylinderEntity*>(&made))
   {
     const double radius = cylinder->GetRadius();
     return BodyShape{"cylindric_prey",
                      cylinder->GetEmbodiedEntity().IsMovable(),
-                     cylinder->GetMass(),
+                     std::min(cylinder->GetMass(), kHeaviestKg),
                      {radius, radius, cylinder->GetHeight()}};
   }
   return std::nullopt;

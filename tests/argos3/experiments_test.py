@@ -150,7 +150,7 @@ class Experiments(RunningTest):
         self.assertRegex(self.said_in("run"), "robot 'front' at tick 3: leds 8 heard 2:7\n")
         for size in (1, 3):
             self.assertIn(f"messages of 'front' have 2 bytes, not {size}", said)
-        self.assertIn("the range of 'front' cannot be changed in a run; set rab_range in the experiment file", said)
+        self.assertIn("the range of 'front' is 0.8 m for the whole run, not 2; set rab_range in the experiment file", said)
 
     def test_an_e_puck_drives_in_a_cluster_as_in_one_process(self):
         file = self.changed("puck.argos", ('<loop_functions library="argos3_puck" label="puck_floor"/>', ""),

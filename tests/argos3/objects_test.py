@@ -13,7 +13,7 @@ class Objects(RunningTest):
         self.swarmanoid("run", HERE / "build.argos", "--output", "run")
         lines = (self.folder / "built.tsv").read_text().splitlines()
         # A pillar fits beside the wall alone; the wall and four boxes; the pillar.
-        self.assertEqual(lines[0], "# 01 5 1")
+        self.assertEqual(lines[0], "# 01 5 1 0.05")
         rows = [line.split("\t") for line in lines[1:]]
         self.assertEqual(len(rows), 100)
         # The robot comes to the wall, which nobody moves, and stays there.
@@ -45,6 +45,14 @@ class Objects(RunningTest):
         self.assertRegex(text, r'method="uniform" min="0, [\d.]+, 0.1\d*" max="[\d., ]+, 0.1\d*"')
         self.assertEqual(self.hash_of(HERE / "build.argos", "--output", "one"),
                          self.hash_of(HERE / "build.argos", "--output", "two"))
+
+    def test_the_heaviest_bodies_have_a_billion_kilograms(self):
+        heavy = self.changed("build.argos", ('0.1" movable="true" mass="1">\n      <body', '0.1" movable="true" mass="2e9">\n      <body'))
+        (self.folder / "scripts").symlink_to(HERE / "scripts")
+        result = self.swarmanoid("convert", heavy)
+        self.assertRegex(result.stderr, r"build.argos:\d+:\d+: .*a mass of 2000000000 kg is 1000000000 kg here")
+        # Of the file and of the loop functions.
+        self.assertEqual(len(re.findall(r'mass="1000000000"', result.stdout)), 2)
 
     def test_robots_on_a_grid_may_stand_as_near_as_their_bodies_allow(self):
         near = self.changed("collect.argos", ('distances="1,1,0"', 'distances="0.2,0.2,0"'))

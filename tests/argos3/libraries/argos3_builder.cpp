@@ -17,7 +17,7 @@ public:
     CLEDMedium& leds = GetSimulator().GetMedium<CLEDMedium>("leds");
     // Not turned, as those who write zeros have it.
     AddEntity(*new CBoxEntity("wall", CVector3(0.6, 0, 0), CQuaternion(0, 0, 0, 0), false, CVector3(0.1, 2, 0.5)));
-    crate_ = new CBoxEntity("crate", CVector3(0, 0.3, 0), CQuaternion(), true, CVector3(0.1, 0.1, 0.1), 0.5);
+    crate_ = new CBoxEntity("crate", CVector3(0, 0.3, 0), CQuaternion(), true, CVector3(0.1, 0.1, 0.1), 1e12);
     AddEntity(*crate_);
     crate_->AddLED(CVector3(0, 0, 0.2), CColor::BLUE);
     crate_->EnableLEDs(leds);
@@ -28,12 +28,13 @@ public:
     pillar_->GetLEDEquippedEntity().Enable();
     pillar_->UpdateComponents();
     AddEntity(*pillar_);
+    const CCylinderEntity copy = *pillar_;
     // From where it does not fit to where it does.
     file_.open("built.tsv");
     const bool in_the_wall = MoveEntity(pillar_->GetEmbodiedEntity(), CVector3(0.6, 0.5, 0), CQuaternion());
     const bool beside = MoveEntity(pillar_->GetEmbodiedEntity(), CVector3(0, -0.3, 0), CQuaternion());
     file_ << "# " << in_the_wall << beside << " " << GetSpace().GetEntitiesByType("box").size() << " "
-          << GetSpace().GetEntitiesByType("cylinder").size() << "\n";
+          << GetSpace().GetEntitiesByType("cylinder").size() << " " << copy.GetRadius() << "\n";
   }
   void PostStep() override
   {
@@ -47,7 +48,7 @@ public:
           << '\t' << crate_->GetEmbodiedEntity().IsMovable() << pillar_->GetEmbodiedEntity().IsMovable() << '\n';
     if (clock == 10) RemoveEntity("crate");
     if (clock == 20)
-      AddEntity(*new CBoxEntity("next", CVector3(-0.8, 0, 0), CQuaternion(), true, {0.1, 0.1, 0.1}, 0.5));
+      AddEntity(*new CBoxEntity("next", CVector3(-0.8, 0, 0), CQuaternion(), true, {0.1, 0.1, 0.1}, 1e12));
     if (clock == 30 && late_)
       AddEntity(*new CBoxEntity("other", CVector3(), CQuaternion(), true, {0.2, 0.2, 0.2}, 0.5));
   }

@@ -79,6 +79,16 @@ TEST(Argos3Api, TheRotationBetweenTwoVectorsTakesOneToTheOther)
   }
 }
 
+TEST(Argos3Api, VectorsHaveElements)
+{
+  CVector3 vector(1, 2, 3);
+  vector[0] = 4;
+  EXPECT_EQ(vector, CVector3(4, 2, 3));
+  const CVector3& same = vector;
+  EXPECT_EQ(same[1] + same[2], 5);
+  EXPECT_THROW(static_cast<void>(same[3]), CARGoSException);
+}
+
 TEST(Argos3Api, AnglesWrapIntoTheirRanges)
 {
   for (double degrees = -1000; degrees <= 1000; degrees += 7)

@@ -84,7 +84,7 @@ public:
   std::string GetTypeDescription() const override { return "leds"; }
 
 private:
-  std::vector<std::unique_ptr<CLEDEntity>> leds_;
+  std::vector<std::shared_ptr<CLEDEntity>> leds_;  // shared with copies
 };
 
 // A box, a cylinder, a robot: it has a body.
@@ -102,7 +102,7 @@ private:
   CEmbodiedEntity body_;
 };
 
-// A box or a cylinder, which may bear LEDs.
+// A box or a cylinder, which may bear LEDs. A copy tells what the first one is.
 class CObjectWithLEDs : public CBodyEntity
 {
 public:
