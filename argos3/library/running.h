@@ -84,7 +84,8 @@ struct Running
   Translation translation;
   // Those of this process, by our id.
   std::map<std::string, SpareRobot*> spares;
-  // What loop functions added and did not remove: ours by their id, and the objects that they gave by our id.
+  // What loop functions added and did not remove, and robots that they made whose controller they had: ours by their
+  // id; and the objects that they gave by our id.
   std::map<std::string, std::string> taken;
   std::map<std::string, argos::CEntity*> given;
   // Only in a rehearsal of Init: boxes and cylinders that the file does not declare.

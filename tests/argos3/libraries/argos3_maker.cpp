@@ -57,11 +57,15 @@ public:
     UInt32 robots = 0;
     GetNodeAttribute(node, "robots", robots);
     file_.open("made.tsv");
+    for (UInt32 i = 0; i < robots; ++i) made_.push_back(new CFootBotEntity("made" + std::to_string(i), "m"));
+    // Two controllers before all robots, in another order.
+    const CMade* controllers[] = {&ControllerOf(*made_[2]), &ControllerOf(*made_[1])};
     // All where the first one stays, and from there to their places.
     for (UInt32 i = 0; i < robots; ++i)
     {
-      made_.push_back(new CFootBotEntity("made" + std::to_string(i), "m"));
-      AddEntity(*made_.back());
+      AddEntity(*made_[i]);
+      if ((i == 1 || i == 2) && controllers[2 - i] != &ControllerOf(*made_[i]))
+        THROW_ARGOSEXCEPTION("another controller for " << i);
       if (i > 0 && !MoveEntity(made_[i]->GetEmbodiedEntity(), CVector3(0, 0.5 * i, 0), CQuaternion()))
         THROW_ARGOSEXCEPTION("no place for " << i);
     }
