@@ -87,6 +87,10 @@ TEST(Argos3Api, VectorsHaveElements)
   const CVector3& same = vector;
   EXPECT_EQ(same[1] + same[2], 5);
   EXPECT_THROW(static_cast<void>(same[3]), CARGoSException);
+  CRange<CVector3> box;
+  box.Set(CVector3(-1, -1, 0), CVector3(1, 1, 0));
+  EXPECT_TRUE(box.WithinMinBoundIncludedMaxBoundIncluded(CVector3(0, 1, 0)));
+  EXPECT_FALSE(box.WithinMinBoundIncludedMaxBoundIncluded(CVector3(0, 2, 0)));
 }
 
 TEST(Argos3Api, AnglesWrapIntoTheirRanges)

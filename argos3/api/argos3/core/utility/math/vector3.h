@@ -97,6 +97,11 @@ public:
   CVector3 operator-() const { return {-x_, -y_, -z_}; }
   bool operator==(const CVector3& other) const { return x_ == other.x_ && y_ == other.y_ && z_ == other.z_; }
   bool operator!=(const CVector3& other) const { return !(*this == other); }
+  // In each of the three.
+  bool operator<(const CVector3& other) const { return x_ < other.x_ && y_ < other.y_ && z_ < other.z_; }
+  bool operator>(const CVector3& other) const { return other < *this; }
+  bool operator<=(const CVector3& other) const { return x_ <= other.x_ && y_ <= other.y_ && z_ <= other.z_; }
+  bool operator>=(const CVector3& other) const { return other <= *this; }
 
   friend std::ostream& operator<<(std::ostream& stream, const CVector3& vector)
   {
