@@ -100,6 +100,7 @@ void ArenaConverter::FindBearers(const ConfigurationNode& within)
     const bool is_epuck = kind == "argos3_epuck";
     bearers.perspective_aperture = Number(*child, "perspective_camera_aperture", 30);
     bearers.perspective_range = Number(*child, "perspective_camera_range", 2);
+    bearers.battery = FindChild(*child, "battery");
     bearers.radio_range = Number(*child, "rab_range", is_epuck ? 0.8 : 3);
     bearers.radio_bytes = Whole(*child, "rab_data_size", is_epuck ? 2 : 10);
     if (bearers.radio_bytes < 1 || bearers.radio_bytes > 10)

@@ -116,7 +116,10 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
   if (bearers.kinds.size() > 1 && bearers.kinds.contains("argos3_epuck"))
     Mistake(at, "robots of several kinds have the controller " + Quoted(id) +
                     ", and e-pucks have other devices; give each kind a controller of its own");
-  const DeviceContext context{bearers, !arena_.FloorId().empty(),
+  const ConfigurationNode* framework = FindChild(root_, "framework");
+  const ConfigurationNode* experiment = framework == nullptr ? nullptr : FindChild(*framework, "experiment");
+  const double ticks = experiment == nullptr ? 10 : Number(*experiment, "ticks_per_second", 10);
+  const DeviceContext context{bearers, !arena_.FloorId().empty(), ticks,
                               [this](const SourceLocation& place, const std::string& text) { Mistake(place, text); },
                               [this](const SourceLocation& place, const std::string& text) { Note(place, text); }};
   DeviceLists lists;
@@ -158,10 +161,11 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
   set_noise("proximity_noise", {"proximity", "epuck_proximity", "eyebot_proximity"});
   set_noise("camera_noise", {"colored_blob_omnidirectional_camera"}, "noise_std_dev");
   set_noise("radio_noise", {"range_and_bearing"}, "noise_std_dev");
-  for (const auto& [name, attribute] :
-       {std::pair("speed", "vel_noise_range"), std::pair("distance", "dist_noise_range")})
+  for (const auto& [name, sensor, attribute] : {std::tuple("speed", "differential_steering", "vel_noise_range"),
+                                                std::tuple("distance", "differential_steering", "dist_noise_range"),
+                                                std::tuple("battery", "battery", "noise_range")})
   {
-    const std::string range = NoiseOf(theirs, {"differential_steering"}, attribute);
+    const std::string range = NoiseOf(theirs, {sensor}, attribute);
     const std::size_t colon = range.find(':');
     if (colon == std::string::npos) continue;
     SetValue(*options, std::string(name) + "_noise_low", range.substr(0, colon), at);
@@ -170,6 +174,9 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
   if (const std::string spare = arena_.SpareOf(id); !spare.empty()) SetValue(*options, "spare", spare, at);
   if (lists.sensors.contains("footbot_perspective_camera") || lists.sensors.contains("eyebot_pan_tilt_camera"))
     SetValue(*options, "camera_aperture", TextOf(bearers.perspective_aperture), at);
+  if (bearers.battery != nullptr)
+    for (const char* charge : {"start_charge", "full_charge"})
+      SetValue(*options, charge, TextOf(Number(*bearers.battery, charge, 1)), at);
   SetValue(*options, "rab_data_size", std::to_string(bearers.radio_bytes), at);
   options_.push_back(options);
   for (const auto& child : theirs.children)

@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "argos3/files/battery.h"
 #include "common/configuration/wording.h"
 
 namespace swarmanoid::argos3
@@ -63,6 +64,12 @@ public:
     if (low && high && *low <= *high) return std::pair{*low, *high};
     context_.mistake(attribute->location, Quoted(name) + " is '" + attribute->value + "'; write min:max");
     return std::nullopt;
+  }
+  std::string Text(const std::string& name, const std::string& fallback)
+  {
+    used_.insert(name);
+    const ConfigurationNode::Attribute* attribute = FindAttributeOf(node_, name);
+    return attribute == nullptr ? fallback : attribute->value;
   }
   // Noise that nothing here is like.
   void Refuse(const std::string& name, const std::string& cure)
@@ -152,6 +159,34 @@ void RefuseUnknown(const ConfigurationNode& node, const char* what, const Names&
                                      DidYouMean(node.name, known));
 }
 
+// Without <battery> nothing discharges it.
+void ConvertBattery(const DeviceContext& context, ConfigurationNode& device)
+{
+  double per_second = 0, per_metre = 0, per_radian = 0;
+  if (const ConfigurationNode* node = context.bearers.battery)
+  {
+    Attributes attributes(*node, context);
+    const double full = attributes.Number("full_charge").value_or(1);
+    attributes.Number("start_charge");
+    if (full <= 0) context.mistake(node->location, "'full_charge' of <battery> is more than 0");
+    const std::string model = attributes.Text("discharge_model", "time");
+    if (model != "time" && model != "motion" && model != "time_motion")
+      context.mistake(node->location, Quoted(model) + " is no discharge_model; time, motion and time_motion are");
+    const double scale = 1 / (full * kBatteries);
+    if (model != "motion")
+      per_second = attributes.Number(model == "time" ? "factor" : "time_factor").value_or(1e-5) *
+                   context.ticks_per_second * scale;
+    if (model != "time")
+    {
+      per_metre = attributes.Number("pos_factor").value_or(1e-3) * scale;
+      per_radian = attributes.Number("orient_factor").value_or(1e-3) * scale;
+    }
+  }
+  SetValue(device, "per_second", TextOf(per_second), device.location);
+  SetValue(device, "per_metre", TextOf(per_metre), device.location);
+  SetValue(device, "per_radian", TextOf(per_radian), device.location);
+}
+
 }  // namespace
 
 void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, DeviceLists& ours)
@@ -199,7 +234,10 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     attributes.Refuse("axis_noise_range", "leave it out");
   }
   else if (tag == "battery")
-    AddDevice(ours.sensors, tag, "generic_battery", at);
+  {
+    ConvertBattery(context, AddDevice(ours.sensors, tag, "generic_battery", at));
+    attributes.Range("noise_range");
+  }
   else if (tag == "colored_blob_omnidirectional_camera")
   {
     ConfigurationNode& device =

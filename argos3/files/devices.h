@@ -20,6 +20,7 @@ struct Bearers
   double perspective_range = 2;      // m
   double radio_range = 3;            // m
   long long radio_bytes = 10;
+  const ConfigurationNode* battery = nullptr;  // <battery>, if there is one
 };
 
 // Ours, by type, each once.
@@ -38,6 +39,7 @@ struct DeviceContext
 {
   const Bearers& bearers;
   bool floor_is_painted = false;  // by loop functions
+  double ticks_per_second = 10;
   Report mistake;
   Report note;
 };

@@ -42,6 +42,16 @@ const swarmanoid::CSwarmanoidSpaceEntity* OursOf(CEntity& part)
   return running.editor->GetSpace().FindEntity(running.OurId(part.GetRootEntity().GetId()));
 }
 
+swarmanoid::argos3::BatteryCharge& ChargeOf(const CBatteryEquippedEntity& part)
+{
+  const std::string& id = const_cast<CBatteryEquippedEntity&>(part).GetRootEntity().GetId();
+  const auto found = TheRunning().batteries.find(TheRunning().OurId(id));
+  if (found == TheRunning().batteries.end())
+    THROW_ARGOSEXCEPTION("the battery of '" << id << "' is that of its sensor <battery>, which its controller does not "
+                                            << "have in this process; add it, and run with --single-process");
+  return *found->second;
+}
+
 }  // namespace
 
 CColor CLEDEntity::GetColor() const
@@ -102,8 +112,14 @@ void CLEDEquippedEntity::SetAllLEDsColors(const std::vector<CColor>& colours)
 }
 
 CRobotWithController::CRobotWithController(const std::string& id, unsigned leds)
-    : CBodyEntity(id, true), controllable_(this, "controller_0"), leds_(this, leds), rab_(this), gripper_(this)
+    : CBodyEntity(id, true),
+      controllable_(this, "controller_0"),
+      leds_(this, leds),
+      rab_(this),
+      gripper_(this),
+      battery_(this)
 {
+  AddComponent(battery_);
   AddComponent(gripper_);
   AddComponent(controllable_);
   AddComponent(leds_);
@@ -168,6 +184,10 @@ CEmbodiedEntity& CGripperEquippedEntity::GetGrippedEntity() const
   if (auto* gripped = Gripped()) return gripped->GetEmbodiedEntity();
   THROW_ARGOSEXCEPTION("'" << const_cast<CGripperEquippedEntity*>(this)->GetRootEntity().GetId() << "' grips nothing");
 }
+
+Real CBatteryEquippedEntity::GetFullCharge() const { return ChargeOf(*this).full; }
+Real CBatteryEquippedEntity::GetAvailableCharge() const { return ChargeOf(*this).available; }
+void CBatteryEquippedEntity::SetAvailableCharge(Real charge) { ChargeOf(*this).available = charge; }
 
 CBodyEntity* CGripperEquippedEntity::Gripped() const
 {

@@ -74,6 +74,12 @@ public:
   virtual void Leave() = 0;
 };
 
+struct BatteryCharge
+{
+  double available = 1;
+  double full = 1;
+};
+
 struct Running
 {
   // Of the robots whose controller host is this process, by ARGoS3's id.
@@ -84,6 +90,8 @@ struct Running
   Translation translation;
   // Those of this process, by our id.
   std::map<std::string, SpareRobot*> spares;
+  // Of the robots of this process that have the sensor <battery>, by our id.
+  std::map<std::string, BatteryCharge*> batteries;
   // What loop functions added and did not remove, and robots that they made whose controller they had: ours by their
   // id; and the objects that they gave by our id.
   std::map<std::string, std::string> taken;

@@ -35,6 +35,8 @@ bool InsertIfRobot(CSpace& space, CEntity& entity)
   if (robot == nullptr) return false;
   InsertBody(space, *robot);
   space.InsertComponent(robot->GetId(), robot->GetControllableEntity());
+  space.InsertComponent(robot->GetId(), robot->GetRABEquippedEntity());
+  space.InsertComponent(robot->GetId(), robot->GetBatterySensorEquippedEntity());
   return true;
 }
 template <class Body>

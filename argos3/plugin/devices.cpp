@@ -12,8 +12,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "argos3/files/battery.h"
 #include "argos3/plugin/device_parts.h"
 #include "argos3/plugin/noise.h"
 #include "common/control_interface/ci_battery_sensor.h"
@@ -126,19 +128,47 @@ private:
   const swarmanoid::CCI_PositioningSensor& ours_;
 };
 
+// Discharges as ours does; loop functions may fill it.
 class Battery : public SensorBridge, public argos::CCI_BatterySensor
 {
 public:
-  explicit Battery(const DeviceSetup& setup) : ours_(setup.robot.Sensor<swarmanoid::CCI_BatterySensor>("battery")) {}
+  explicit Battery(const DeviceSetup& setup)
+      : robot_(setup.robot),
+        ours_(setup.robot.Sensor<swarmanoid::CCI_BatterySensor>("battery")),
+        charge_{setup.options.GetNumber("start_charge", 1), setup.options.GetNumber("full_charge", 1)},
+        noise_low_(setup.options.GetNumber("battery_noise_low", 0)),
+        noise_high_(setup.options.GetNumber("battery_noise_high", 0))
+  {
+    // It tells 0 until it is asked for the first time.
+    if (ours_.GetCharge() > 0) spent_ = Spent();
+    TheRunning().batteries[robot_.GetId()] = &charge_;
+  }
+  ~Battery() override { TheRunning().batteries.erase(robot_.GetId()); }
   argos::CCI_Sensor& Sensor() override { return *this; }
   void Update() override
   {
-    m_sReading.AvailableCharge = ours_.GetCharge();
-    m_sReading.TimeLeft = ours_.GetTimeLeft();
+    const double spent = Spent();
+    charge_.available = std::max(0.0, charge_.available - (spent - spent_) * charge_.full);
+    spent_ = spent;
+    const Real before = m_sReading.AvailableCharge;
+    m_sReading.AvailableCharge = charge_.available / charge_.full;
+    if (noise_low_ < noise_high_)
+      m_sReading.AvailableCharge =
+          std::clamp(m_sReading.AvailableCharge + robot_.GetRandom().Uniform(noise_low_, noise_high_), 0.0, 1.0);
+    const Real used = before - m_sReading.AvailableCharge;
+    m_sReading.TimeLeft =
+        std::abs(used) > 1e-6 ? before * robot_.GetTickSeconds() / used : std::numeric_limits<double>::infinity();
   }
 
 private:
+  // Of full ones.
+  double Spent() const { return (1 - ours_.GetCharge()) * kBatteries; }
+
+  CCI_Robot& robot_;
   const swarmanoid::CCI_BatterySensor& ours_;
+  BatteryCharge charge_;
+  double noise_low_, noise_high_;
+  double spent_ = 0;
 };
 
 class RangeAndBearingSender : public ActuatorBridge, public argos::CCI_RangeAndBearingActuator

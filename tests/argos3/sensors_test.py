@@ -40,6 +40,33 @@ class Sensors(RunningTest):
         self.assertAlmostEqual(statistics.stdev(blob), 2.5 / math.sqrt(2), delta=0.2)
         self.assertAlmostEqual(statistics.stdev(angle), 0.1 / math.sqrt(2), delta=0.008)
 
+    def test_batteries_discharge_as_the_file_says_and_are_charged(self):
+        self.swarmanoid("run", HERE / "battery.argos", "--output", "run")
+        said = self.said_in("run")
+        of = {robot: [(float(charge), float(left)) for charge, left in
+                      re.findall(rf"'{robot}' at tick \d+: has (\S+) for (\S+)", said)]
+              for robot in ("moving", "standing", "noisy")}
+        # Parts of 2: 0.01 for a tick, and 0.5 a metre for 1 cm in it from the second on. Charged behind step 50.
+        a_tick = (0.01 + 0.5 * 0.01) / 2
+        first = of["moving"][0][0]
+        self.assertAlmostEqual(first, 0.75 - 0.01 / 2, delta=1e-6)
+        for tick in range(10, 50):
+            self.assertAlmostEqual(of["moving"][tick][0], first - tick * a_tick, delta=1e-3)
+        for tick in range(50, 100):
+            self.assertAlmostEqual(of["moving"][tick][0], 1 - (tick - 49) * a_tick, delta=1e-3)
+        charge, left = of["moving"][30]
+        self.assertAlmostEqual(left, (charge + a_tick) / a_tick * 0.1, delta=0.1)
+        # Without <battery> nothing is used.
+        self.assertEqual(set(of["standing"]), {(1, math.inf)})
+        errors = [charge - (0.5 - 0.002 * (tick + 1)) for tick, (charge, _) in enumerate(of["noisy"])]
+        self.assertTrue(-0.2 <= min(errors) < -0.15 and 0.05 < max(errors) <= 0.1, errors)
+
+    def test_what_a_battery_cannot_do_is_refused(self):
+        wrong = self.changed("battery.argos", ('discharge_model="time_motion"', 'discharge_model="moon"'))
+        (self.folder / "scripts").symlink_to(HERE / "scripts")
+        result = self.swarmanoid("check", wrong, code=3)
+        self.assertRegex(result.stderr, r"battery\.argos:\d+:\d+: 'moon' is no discharge_model; time, motion and")
+
     def test_wrong_noise_is_named_with_its_place(self):
         wrong = self.changed("noise.argos", ('"-2:4"', '"4:-2"'), ('noise_std_dev="0.1"', 'noise_std_dev="much"'))
         result = self.swarmanoid("check", wrong, code=3)

@@ -138,6 +138,18 @@ private:
   CBodyEntity* Gripped() const;
 };
 
+// The battery of a robot. These throw CARGoSException for a robot without the sensor <battery>, and where its
+// controller is not in this process.
+class CBatteryEquippedEntity : public CEntity
+{
+public:
+  explicit CBatteryEquippedEntity(CEntity* parent) : CEntity(parent, "battery_0") {}
+  Real GetFullCharge() const;
+  Real GetAvailableCharge() const;
+  void SetAvailableCharge(Real charge);
+  std::string GetTypeDescription() const override { return "battery"; }
+};
+
 class CRobotWithController : public CBodyEntity
 {
 public:
@@ -147,6 +159,7 @@ public:
   CLEDEquippedEntity& GetLEDEquippedEntity() { return leds_; }
   CRABEquippedEntity& GetRABEquippedEntity() { return rab_; }
   CGripperEquippedEntity& GetGripperEquippedEntity() { return gripper_; }
+  CBatteryEquippedEntity& GetBatterySensorEquippedEntity() { return battery_; }
   // Of a robot that loop functions made: the id of its controller in the experiment file.
   const std::string& ControllerOfMade() const { return controller_; }
 
@@ -160,6 +173,7 @@ private:
   CLEDEquippedEntity leds_;
   CRABEquippedEntity rab_;
   CGripperEquippedEntity gripper_;
+  CBatteryEquippedEntity battery_;
   std::string controller_;
 };
 
