@@ -71,6 +71,8 @@ void ArenaConverter::FindArena()
     high_ = high_.cwiseMax(at);
     if (child->name == "box") high_.z() = std::max(high_.z(), at.z() + Vector(*child, "size").z());
   }
+  // An arena of no height is a plane, on which robots stand there.
+  if (high_.z() <= low_.z()) high_.z() = low_.z() + 1;
   origin_ = -low_;
 }
 

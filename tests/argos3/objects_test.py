@@ -54,6 +54,12 @@ class Objects(RunningTest):
         # Of the file and of the loop functions.
         self.assertEqual(len(re.findall(r'mass="1000000000"', result.stdout)), 2)
 
+    def test_an_arena_may_have_no_height(self):
+        flat = self.changed("battery.argos", ('size="4,4,1" center="0,0,0.5"', 'size="4.0, 4.0, 0.0" center="0,0,0"'))
+        (self.folder / "scripts").symlink_to(HERE / "scripts")
+        self.assertIn('<arena size="4, 4, 1"', self.swarmanoid("convert", flat).stdout)
+        self.swarmanoid("check", flat)
+
     def test_robots_on_a_grid_may_stand_as_near_as_their_bodies_allow(self):
         near = self.changed("collect.argos", ('distances="1,1,0"', 'distances="0.2,0.2,0"'))
         self.swarmanoid("check", near)
