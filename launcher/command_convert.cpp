@@ -11,6 +11,7 @@
 #include "common/activity/exit_codes.h"
 #include "common/configuration/xml_reader.h"
 #include "common/configuration/xml_writer.h"
+#include "launcher/argos3_rehearsal.h"
 #include "launcher/commands.h"
 
 namespace swarmanoid
@@ -28,7 +29,8 @@ int Convert(const std::string& file, const std::string& output)
     if (root->name != "argos-configuration")
       throw ConfigurationError(root->location,
                                "the root element is <" + root->name + ">; that of ARGoS3 is <argos-configuration>");
-    const ConvertedExperiment converted = ConvertArgos3(*root, fs::absolute(file).parent_path().string());
+    const ConvertedExperiment converted =
+        ConvertArgos3(*root, fs::absolute(file).parent_path().string(), RehearseArgos3);
     for (const Diagnostic& note : converted.notes)
       fmt::print(stderr, "{}: note: {}\n", note.location.Text(), note.message);
     for (const Diagnostic& mistake : converted.mistakes) fmt::print(stderr, "{}\n", mistake.Text());
@@ -54,7 +56,7 @@ int Convert(const std::string& file, const std::string& output)
 
 void AddConvertCommand(CLI::App& app, int& exit_code)
 {
-  ReadArgos3Experiments();
+  ReadArgos3Experiments(RehearseArgos3);
   auto file = std::make_shared<std::string>(), output = std::make_shared<std::string>();
   CLI::App* verb = app.add_subcommand("convert", "Write an experiment of ARGoS3 as one of ours");
   verb->add_option("FILE", *file, "An experiment of ARGoS3")->required();

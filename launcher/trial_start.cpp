@@ -1,5 +1,6 @@
 #include "launcher/trial_start.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/wait.h>
@@ -27,14 +28,15 @@ namespace
 namespace fs = std::filesystem;
 
 // What came of it goes into the pipe: code of users may end the process with any exit code.
-int TryHere(const Experiment& experiment, const std::string& folder)
+int TryHere(const Experiment& experiment, const Trial& trial)
 {
   try
   {
     SimulatorOptions options;
-    options.output_folder = folder;
+    options.output_folder = trial.folder;
     options.visualisations = false;
-    const CSimulator simulator(experiment, options);
+    CSimulator simulator(experiment, options);
+    for (int step = 0; step < trial.steps; ++step) simulator.Step();
     return kExitDone;
   }
   catch (const ConfigurationError& error)
@@ -74,6 +76,11 @@ bool Ended(int pipe, std::chrono::seconds most)
 int TrialStart(const Experiment& experiment, std::chrono::seconds most)
 {
   const ScratchFolder folder;
+  return TryRun(experiment, {.folder = folder.Path(), .most = most});
+}
+
+int TryRun(const Experiment& experiment, const Trial& trial)
+{
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error(std::string("cannot make a pipe: ") + std::strerror(errno));
   std::fflush(stdout);
@@ -82,13 +89,15 @@ int TrialStart(const Experiment& experiment, std::chrono::seconds most)
   if (child == 0)
   {
     close(ends[0]);
+    if (const int nowhere = trial.is_silent ? open("/dev/null", O_WRONLY) : -1; nowhere >= 0)
+      dup2(nowhere, STDERR_FILENO);
     dup2(STDERR_FILENO, STDOUT_FILENO);
-    const auto code = static_cast<char>(TryHere(experiment, folder.Path()));
+    const auto code = static_cast<char>(TryHere(experiment, trial));
     std::fflush(nullptr);
     LeaveAtOnce(write(ends[1], &code, 1) == 1 ? 0 : 1);
   }
   close(ends[1]);
-  const bool in_time = Ended(ends[0], most);
+  const bool in_time = Ended(ends[0], trial.most);
   char code = 0;
   const bool said = in_time && read(ends[0], &code, 1) == 1;
   close(ends[0]);
@@ -96,8 +105,9 @@ int TrialStart(const Experiment& experiment, std::chrono::seconds most)
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR)
     ;
+  if (trial.is_silent) return said && WIFEXITED(status) ? code : static_cast<int>(kExitProcessFailed);
   if (!in_time)
-    fmt::print(stderr, "the start takes longer than {} s; does Init of a controller return?\n", most.count());
+    fmt::print(stderr, "the start takes longer than {} s; does Init of a controller return?\n", trial.most.count());
   else if (WIFSIGNALED(status))
     fmt::print(stderr, "the start was ended by signal {} ({}); does Init of a controller crash?\n", WTERMSIG(status),
                strsignal(WTERMSIG(status)));

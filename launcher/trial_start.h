@@ -4,11 +4,21 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 #include "common/experiment/experiment.h"
 
 namespace swarmanoid
 {
+
+struct Trial
+{
+  std::string folder;  // for files of experiment functions
+  int steps = 0;
+  bool is_silent = false;  // what it prints, and what is wrong, is not shown
+  std::chrono::seconds most = std::chrono::seconds(60);
+};
+int TryRun(const Experiment& experiment, const Trial& trial);
 
 // kExitDone, or another exit code of common/activity/exit_codes.h, with the mistake on standard error. What the code of
 // users prints goes there too; files that experiment functions write go into a folder that is removed. Does not return

@@ -24,23 +24,26 @@ public:
   {
   }
 
-  void Convert()
+  // `bodies`: of a rehearsal; nullptr: this file is for one, if there has to be one, which is told.
+  bool Convert(const MadeBodies* bodies)
   {
     auto ours = MakeNode("ahss-config", root_.location);
     const ConfigurationNode* theirs = Needed(root_, "arena");
-    if (theirs == nullptr) return;
+    if (theirs == nullptr) return false;
     ArenaConverter arena(*theirs, result_);
+    if (bodies != nullptr) arena.KeepMadeBodies(*bodies);
     CodeConverter code(root_, folder_, arena, result_);
     ConvertFramework(*ours);
     const Made kinds = AddNode(*ours, "entity_kinds", root_.location);
     code.ConvertControllers(*ours);
     arena.Convert(*ours);
-    if (arena.Kinds().contains("argos3_epuck"))
-      SetValue(*AddNode(*kinds, "argos3_epuck", root_.location), "library", "argos3_epuck", root_.location);
-    else
-      std::erase(ours->children, kinds);
+    for (const char* kind : {"argos3_epuck", kLitBox})
+      if (arena.Kinds().contains(kind))
+        SetValue(*AddNode(*kinds, kind, root_.location), "library", kind, root_.location);
+    if (kinds->children.empty()) std::erase(ours->children, kinds);
     ConvertEngines(*ours, arena);
-    code.ConvertLoopFunctions(*ours);
+    const bool is_for_rehearsal = bodies == nullptr && code.MakesBodies();
+    code.ConvertLoopFunctions(*ours, is_for_rehearsal);
     for (const auto& child : root_.children)
       if (child->name == "visualization")
       {
@@ -50,6 +53,7 @@ public:
       else if (!kSections.contains(child->name))
         Mistake(child->location, "<" + child->name + "> has no counterpart; leave it out");
     result_.root = ours;
+    return is_for_rehearsal;
   }
 
 private:
@@ -146,19 +150,25 @@ private:
 }  // namespace
 }  // namespace argos3
 
-ConvertedExperiment ConvertArgos3(const ConfigurationNode& root, const std::string& folder)
+ConvertedExperiment ConvertArgos3(const ConfigurationNode& root, const std::string& folder,
+                                  const Argos3Rehearsal& rehearse)
 {
+  ConvertedExperiment first;
+  const bool is_for_rehearsal = argos3::Converter(root, folder, first).Convert(nullptr);
+  if (!is_for_rehearsal || !first.mistakes.empty()) return first;
+  const argos3::MadeBodies bodies = rehearse ? rehearse(*first.root, folder) : argos3::MadeBodies();
   ConvertedExperiment result;
-  argos3::Converter(root, folder, result).Convert();
+  argos3::Converter(root, folder, result).Convert(&bodies);
   return result;
 }
 
-void ReadArgos3Experiments()
+void ReadArgos3Experiments(Argos3Rehearsal rehearse)
 {
   AddExperimentConverter("argos-configuration",
-                         [](const ConfigurationNode& root, const std::string& folder, std::vector<Diagnostic>& mistakes)
+                         [rehearse = std::move(rehearse)](const ConfigurationNode& root, const std::string& folder,
+                                                          std::vector<Diagnostic>& mistakes)
                          {
-                           ConvertedExperiment converted = ConvertArgos3(root, folder);
+                           ConvertedExperiment converted = ConvertArgos3(root, folder, rehearse);
                            for (const Diagnostic& note : converted.notes)
                              fmt::print(stderr, "{}: note: {}\n", note.location.Text(), note.message);
                            mistakes = std::move(converted.mistakes);

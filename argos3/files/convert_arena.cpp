@@ -62,6 +62,7 @@ void ArenaConverter::FindArena()
   low_.z() = 0;
   for (const auto& child : arena_.children)
   {
+    if (child->name == "distribute") HoldDistributed(*child);
     const ConfigurationNode* body = FindChild(*child, "body");
     const ConfigurationNode& placed = body != nullptr ? *body : *child;
     if (FindAttributeOf(placed, "position") == nullptr) continue;
@@ -70,7 +71,21 @@ void ArenaConverter::FindArena()
     high_ = high_.cwiseMax(at);
     if (child->name == "box") high_.z() = std::max(high_.z(), at.z() + Vector(*child, "size").z());
   }
+  // An arena of no height is a plane, on which robots stand there.
+  if (high_.z() <= low_.z()) high_.z() = low_.z() + 1;
   origin_ = -low_;
+}
+
+void ArenaConverter::HoldDistributed(const ConfigurationNode& distribute)
+{
+  const ConfigurationNode* position = FindChild(distribute, "position");
+  if (position == nullptr) return;
+  for (const char* corner : {"min", "max", "values"})
+  {
+    if (FindAttributeOf(*position, corner) == nullptr) continue;
+    low_ = low_.cwiseMin(Vector(*position, corner));
+    high_ = high_.cwiseMax(Vector(*position, corner));
+  }
 }
 
 void ArenaConverter::FindBearers(const ConfigurationNode& within)
@@ -85,6 +100,9 @@ void ArenaConverter::FindBearers(const ConfigurationNode& within)
     bearers.kinds.insert(kind);
     if (kind == "footbot") bearers.camera_aperture = Number(*child, "omnidirectional_camera_aperture", 70);
     const bool is_epuck = kind == "argos3_epuck";
+    bearers.perspective_aperture = Number(*child, "perspective_camera_aperture", 30);
+    bearers.perspective_range = Number(*child, "perspective_camera_range", 2);
+    bearers.battery = FindChild(*child, "battery");
     bearers.radio_range = Number(*child, "rab_range", is_epuck ? 0.8 : 3);
     bearers.radio_bytes = Whole(*child, "rab_data_size", is_epuck ? 2 : 10);
     if (bearers.radio_bytes < 1 || bearers.radio_bytes > 10)
@@ -127,11 +145,18 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::s
     made = AddNode(parent, robot, at);
     if (const ConfigurationNode* controller = FindChild(theirs, "controller"))
       SetValue(*made, "controller", NeededText(*controller, "config"), controller->location);
-    NoteOthers(theirs, {"id", "omnidirectional_camera_aperture", "rab_range", "rab_data_size"});
+    // The focal length is none of the angles that make the image.
+    NoteOthers(theirs,
+               {"id", "omnidirectional_camera_aperture", "perspective_camera_aperture", "perspective_camera_range",
+                "perspective_camera_focal_length", "perspective_camera_front", "rab_range", "rab_data_size"});
+    if (!Flag(theirs, "perspective_camera_front", true))
+      Mistake(at, "a perspective camera that looks up has no counterpart; leave 'perspective_camera_front' out");
   }
   else if (theirs.name == "box")
   {
-    made = AddNode(parent, "block", at);
+    const ConfigurationNode* leds = FindChild(theirs, "leds");
+    made = AddNode(parent, leds == nullptr ? "block" : kLitBox, at);
+    if (leds != nullptr) SetValue(*made, "colour", ColourOfLeds(*leds), at);
     const Vector3 size = NeededVector(theirs, "size");
     lift = size.z() / 2;
     SetValue(*made, "size", TextOf(size), at);
@@ -165,7 +190,7 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::s
   }
   kinds_.insert(made->name);
   SetValue(*made, "id", id, at);
-  if (FindChild(theirs, "leds") != nullptr && theirs.name != "cylinder")
+  if (FindChild(theirs, "leds") != nullptr && theirs.name != "cylinder" && theirs.name != "box")
     Mistake(FindChild(theirs, "leds")->location, "LEDs on <" + theirs.name + "> have no counterpart; leave them out");
   if (placed) SetPlace(theirs, *made, lift);
 }
@@ -177,7 +202,7 @@ std::string ArenaConverter::ColourOfLeds(const ConfigurationNode& leds)
   {
     const std::string colour = Text(*led, "color").value_or("black");
     if (first.empty()) first = colour;
-    if (colour != first) Note(led->location, "all LEDs of one <cylinder> have the colour of the first one here");
+    if (colour != first) Note(led->location, "all LEDs of one object have the colour of the first one here");
   }
   if (first.empty()) return "black";
   const auto channels = ParseNumbers(first);
@@ -196,8 +221,36 @@ void ArenaConverter::KeepSpare(const std::string& controller, const std::string&
   spares_[controller] = {kind, quantity};
 }
 
+// Those of the rehearsal twice, so that functions may make more of them in steps, or with another seed.
+void ArenaConverter::AddMadeBodies(ConfigurationNode& parent)
+{
+  constexpr int kFurther = 20;  // at least
+  int number = 0;
+  for (const auto& [shape, count] : made_bodies_)
+  {
+    const SourceLocation& at = arena_.location;
+    const Made reserve = AddNode(parent, "reserve", at);
+    SetValue(*reserve, "quantity", std::to_string(count + std::max(count, kFurther)), at);
+    const Made body = AddNode(*reserve, shape.tag, at);
+    SetValue(*body, "id", kMadeBody + std::to_string(++number), at);
+    if (shape.tag == kLitBox)
+      SetValue(*body, "size", TextOf(shape.size), at);
+    else
+    {
+      SetValue(*body, "radius", TextOf(shape.size.x()), at);
+      SetValue(*body, "height", TextOf(shape.size.z()), at);
+    }
+    SetValue(*body, "colour", "black", at);
+    // What waits has to be able to move: one that should not is too heavy for any robot.
+    SetValue(*body, "movable", "true", at);
+    SetValue(*body, "mass", TextOf(shape.movable ? shape.mass_kg : kUnmovableKg), at);
+    kinds_.insert(shape.tag);
+  }
+}
+
 void ArenaConverter::AddSpares(ConfigurationNode& parent)
 {
+  AddMadeBodies(parent);
   if (spare_lights_ > 0)
   {
     const Made reserve = AddNode(parent, "reserve", arena_.location);
@@ -220,7 +273,11 @@ void ArenaConverter::SetMovable(const ConfigurationNode& theirs, ConfigurationNo
   NeededText(theirs, "movable");
   const bool movable = Flag(theirs, "movable", false);
   SetValue(made, "movable", movable ? "true" : "false", theirs.location);
-  if (movable) SetValue(made, "mass", TextOf(Number(theirs, "mass", 1)), theirs.location);
+  if (!movable) return;
+  const double mass_kg = Number(theirs, "mass", 1);
+  if (mass_kg > kHeaviestKg)
+    Note(theirs.location, "a mass of " + TextOf(mass_kg) + " kg is " + TextOf(kHeaviestKg) + " kg here");
+  SetValue(made, "mass", TextOf(std::min(mass_kg, kHeaviestKg)), theirs.location);
 }
 
 void ArenaConverter::SetPlace(const ConfigurationNode& theirs, ConfigurationNode& made, double lift)
@@ -252,10 +309,12 @@ void ArenaConverter::ConvertDistribute(const ConfigurationNode& theirs, Configur
   const Made made = AddNode(parent, "distribute", at);
   SetValue(*made, "quantity", NeededText(*entity, "quantity"), entity->location);
   SetValue(*made, "max_trials", NeededText(*entity, "max_trials"), entity->location);
-  ConvertPositions(*position, *AddNode(*made, "position", position->location));
+  const Made positions = AddNode(*made, "position", position->location);
   ConvertOrientations(*orientation, *AddNode(*made, "orientation", orientation->location));
   if (entity->children.size() != 1) return Mistake(entity->location, "<entity> holds one element: what is distributed");
   const ConfigurationNode& what = *entity->children.front();
+  // Of boxes we tell the middle, ARGoS3 the middle of the base.
+  ConvertPositions(*position, *positions, what.name == "box" ? NeededVector(what, "size").z() / 2 : 0);
   const std::string id = NeededText(what, "id");
   const long long first = Whole(*entity, "base_num", 0);
   const std::string ours = OurIdOfDistributed(what, first);
@@ -272,11 +331,11 @@ std::string ArenaConverter::OurIdOfDistributed(const ConfigurationNode& what, lo
   return id;
 }
 
-void ArenaConverter::ConvertPositions(const ConfigurationNode& theirs, ConfigurationNode& made)
+void ArenaConverter::ConvertPositions(const ConfigurationNode& theirs, ConfigurationNode& made, double lift)
 {
   const std::string method = NeededText(theirs, "method");
   const auto shifted = [&](const char* from, const char* to)
-  { SetValue(made, to, TextOf(Vector3(NeededVector(theirs, from) + origin_)), theirs.location); };
+  { SetValue(made, to, TextOf(Vector3(NeededVector(theirs, from) + origin_ + Vector3(0, 0, lift))), theirs.location); };
   const auto same = [&](const char* from, const char* to)
   { SetValue(made, to, TextOf(NeededVector(theirs, from)), theirs.location); };
   SetValue(made, "method", method == "constant" ? "uniform" : method, theirs.location);

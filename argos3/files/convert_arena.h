@@ -6,6 +6,7 @@
 #include <string>
 
 #include "argos3/files/devices.h"
+#include "argos3/files/made_bodies.h"
 #include "argos3/files/node_reader.h"
 
 namespace swarmanoid::argos3
@@ -28,6 +29,7 @@ public:
   // Before Convert: robots of a controller that are not in the arena until loop functions add them.
   void KeepSpare(const std::string& controller, const std::string& kind, int quantity);
   void KeepSpareLights(int quantity) { spare_lights_ = quantity; }
+  void KeepMadeBodies(const MadeBodies& bodies) { made_bodies_ = bodies; }
   // The id of their <reserve>; empty: there are none.
   std::string SpareOf(const std::string& controller) const
   {
@@ -46,6 +48,8 @@ private:
   void ConvertFloor(const ConfigurationNode& theirs, ConfigurationNode& parent);
   // Ours starts at 0, 0, 0 and holds all that the file places; its floor is where theirs is, at height 0.
   void FindArena();
+  // Where a <distribute> may put something.
+  void HoldDistributed(const ConfigurationNode& distribute);
   void FindBearers(const ConfigurationNode& within);
   static std::string KindOf(const std::string& tag);
   // `id`: ours. `placed`: with a place of its own; otherwise <distribute> gives it one.
@@ -53,12 +57,14 @@ private:
   // Of what <distribute> holds: several may have one prefix there, and it may be empty.
   std::string OurIdOfDistributed(const ConfigurationNode& what, long long first);
   void AddSpares(ConfigurationNode& parent);
+  void AddMadeBodies(ConfigurationNode& parent);
   // The colour of its LEDs, as ours.
   std::string ColourOfLeds(const ConfigurationNode& leds);
   void SetMovable(const ConfigurationNode& theirs, ConfigurationNode& made);
   void SetPlace(const ConfigurationNode& theirs, ConfigurationNode& made, double lift);
   void ConvertDistribute(const ConfigurationNode& theirs, ConfigurationNode& parent);
-  void ConvertPositions(const ConfigurationNode& theirs, ConfigurationNode& made);
+  // `lift`: added to the heights, m.
+  void ConvertPositions(const ConfigurationNode& theirs, ConfigurationNode& made, double lift);
   // Theirs are z, y, x, and only rotations about z are the same in both orders.
   void ConvertOrientations(const ConfigurationNode& theirs, ConfigurationNode& made);
 
@@ -70,6 +76,7 @@ private:
   std::map<std::string, Bearers> bearers_;  // by controller
   std::set<std::string> kinds_;
   int spare_lights_ = 0;
+  MadeBodies made_bodies_;
   std::map<std::string, std::pair<std::string, int>> spares_;  // by controller: kind and quantity
   std::string distributed_;
   std::set<std::string> distributed_ids_;  // ours

@@ -19,7 +19,10 @@ constexpr const char* kPlugin = "argos3";
 constexpr std::pair<const char*, const char*> kConstructors[]{{"footbot", "14CFootBotEntityC"},
                                                               {"eyebot", "13CEyeBotEntityC"},
                                                               {"argos3_epuck", "12CEPuckEntityC"},
-                                                              {"light_bulb", "12CLightEntityC"}};
+                                                              {"light_bulb", "12CLightEntityC"},
+                                                              {"box", "10CBoxEntityC"},
+                                                              {"cylinder", "15CCylinderEntityC"},
+                                                              {"configuration", "20GetConfigurationRootE"}};
 
 // Of a controller that no robot of the file has: by its devices.
 std::string KindByDevices(const ConfigurationNode& controller)
@@ -68,6 +71,8 @@ void CodeConverter::ConvertControllers(ConfigurationNode& ours)
   }();
   made_kinds_ = FindMadeKinds();
   if (made_kinds_.erase("light_bulb") != 0) arena_.KeepSpareLights(kSpareLights);
+  asks_for_configuration_ = made_kinds_.erase("configuration") != 0;
+  makes_bodies_ = made_kinds_.erase("box") + made_kinds_.erase("cylinder") != 0;
   for (const auto& controller : controllers->children) ConvertController(*controller, *made, somebody_hears);
 }
 
@@ -111,7 +116,10 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
   if (bearers.kinds.size() > 1 && bearers.kinds.contains("argos3_epuck"))
     Mistake(at, "robots of several kinds have the controller " + Quoted(id) +
                     ", and e-pucks have other devices; give each kind a controller of its own");
-  const DeviceContext context{bearers, !arena_.FloorId().empty(),
+  const ConfigurationNode* framework = FindChild(root_, "framework");
+  const ConfigurationNode* experiment = framework == nullptr ? nullptr : FindChild(*framework, "experiment");
+  const double ticks = experiment == nullptr ? 10 : Number(*experiment, "ticks_per_second", 10);
+  const DeviceContext context{bearers, !arena_.FloorId().empty(), ticks,
                               [this](const SourceLocation& place, const std::string& text) { Mistake(place, text); },
                               [this](const SourceLocation& place, const std::string& text) { Note(place, text); }};
   DeviceLists lists;
@@ -137,33 +145,55 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
   {
     SetValue(*options, "label", theirs.name, at);
     SetLibrary(theirs, theirs.name, "library", *options);
+    if (const auto* library = FindAttributeOf(*options, "library"))
+      controller_libraries_ += (controller_libraries_.empty() ? "" : ":") + library->value;
   }
   SetValue(*options, "sensors", sensors, at);
   SetValue(*options, "actuators", actuators, at);
   if (!arena_.FloorId().empty()) SetValue(*options, "floor", "loop_functions", at);
-  const auto set_noise = [&](const char* name, std::initializer_list<const char*> devices)
+  const auto set_noise =
+      [&](const char* name, std::initializer_list<const char*> devices, const char* attribute = "noise_level")
   {
-    if (const double level = NoiseLevel(theirs, devices); level > 0) SetValue(*options, name, TextOf(level), at);
+    const auto level = ParseNumber(NoiseOf(theirs, devices, attribute));
+    if (level && *level > 0) SetValue(*options, name, TextOf(*level), at);
   };
   set_noise("ground_noise", {"footbot_motor_ground", "footbot_base_ground", "ground"});
   set_noise("proximity_noise", {"proximity", "epuck_proximity", "eyebot_proximity"});
+  set_noise("camera_noise", {"colored_blob_omnidirectional_camera"}, "noise_std_dev");
+  set_noise("radio_noise", {"range_and_bearing"}, "noise_std_dev");
+  for (const auto& [name, sensor, attribute] : {std::tuple("speed", "differential_steering", "vel_noise_range"),
+                                                std::tuple("distance", "differential_steering", "dist_noise_range"),
+                                                std::tuple("battery", "battery", "noise_range")})
+  {
+    const std::string range = NoiseOf(theirs, {sensor}, attribute);
+    const std::size_t colon = range.find(':');
+    if (colon == std::string::npos) continue;
+    SetValue(*options, std::string(name) + "_noise_low", range.substr(0, colon), at);
+    SetValue(*options, std::string(name) + "_noise_high", range.substr(colon + 1), at);
+  }
   if (const std::string spare = arena_.SpareOf(id); !spare.empty()) SetValue(*options, "spare", spare, at);
+  if (lists.sensors.contains("footbot_perspective_camera") || lists.sensors.contains("eyebot_pan_tilt_camera"))
+    SetValue(*options, "camera_aperture", TextOf(bearers.perspective_aperture), at);
+  if (bearers.battery != nullptr)
+    for (const char* charge : {"start_charge", "full_charge"})
+      SetValue(*options, charge, TextOf(Number(*bearers.battery, charge, 1)), at);
   SetValue(*options, "rab_data_size", std::to_string(bearers.radio_bytes), at);
   options_.push_back(options);
   for (const auto& child : theirs.children)
     if (child->name == "params") parameters->children.push_back(child);
 }
 
-double CodeConverter::NoiseLevel(const ConfigurationNode& controller, std::initializer_list<const char*> names)
+std::string CodeConverter::NoiseOf(const ConfigurationNode& controller, std::initializer_list<const char*> names,
+                                   const char* attribute)
 {
   const ConfigurationNode* sensors = FindChild(controller, "sensors");
   for (const char* name : names)
   {
     const ConfigurationNode* sensor = sensors == nullptr ? nullptr : FindChild(*sensors, name);
-    const auto* level = sensor == nullptr ? nullptr : FindAttributeOf(*sensor, "noise_level");
-    if (level != nullptr) return ParseNumber(level->value).value_or(0);
+    const auto* noise = sensor == nullptr ? nullptr : FindAttributeOf(*sensor, attribute);
+    if (noise != nullptr) return noise->value;
   }
-  return 0;
+  return "";
 }
 
 void CodeConverter::SetScript(const ConfigurationNode& theirs, ConfigurationNode& options)
@@ -248,7 +278,7 @@ std::optional<std::string> CodeConverter::Found(const std::vector<fs::path>& fol
   return std::nullopt;
 }
 
-void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours)
+void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehearsal)
 {
   for (const Made& options : options_)
   {
@@ -273,7 +303,12 @@ void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours)
   SetValue(*made, "origin", TextOf(arena_.Origin()), at);
   SetValue(*made, "distributed", arena_.Distributed(), at);
   SetValue(*made, "floor", arena_.FloorId(), at);
+  SetValue(*made, "controllers", controller_libraries_, at);
+  if (for_rehearsal) SetValue(*made, "rehearsal", "true", at);
   made->children.push_back(std::make_shared<ConfigurationNode>(*theirs));
+  if (!asks_for_configuration_) return;
+  const Made configuration = AddNode(*made, "configuration", at);
+  configuration->children = root_.children;
 }
 
 }  // namespace swarmanoid::argos3

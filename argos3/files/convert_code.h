@@ -26,14 +26,18 @@ public:
   }
 
   void ConvertControllers(ConfigurationNode& ours);
+  // After the controllers: whether loop functions make boxes or cylinders.
+  bool MakesBodies() const { return makes_bodies_; }
   // After the controllers and the arena.
-  void ConvertLoopFunctions(ConfigurationNode& ours);
+  void ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehearsal);
 
 private:
   void ConvertController(const ConfigurationNode& theirs, ConfigurationNode& parent, bool somebody_hears);
-  // The first level that one of these sensors of the controller has; 0: none.
-  static double NoiseLevel(const ConfigurationNode& controller, std::initializer_list<const char*> sensors);
-  // Which robots the loop functions make: their constructors are among the names in the library.
+  // The attribute of the first of these sensors of the controller that has it; empty: none has.
+  static std::string NoiseOf(const ConfigurationNode& controller, std::initializer_list<const char*> sensors,
+                             const char* attribute);
+  // What the loop functions make, and whether they ask for the experiment file: their constructors are among the names
+  // in the library.
   std::set<std::string> FindMadeKinds() const;
   // Keeps robots of the controller ready, for loop functions that add some.
   void KeepSpare(const std::string& controller, const ConfigurationNode& theirs);
@@ -68,6 +72,9 @@ private:
   ArenaConverter& arena_;
   std::vector<Made> options_;  // of the controllers
   std::set<std::string> made_kinds_;
+  bool makes_bodies_ = false;
+  bool asks_for_configuration_ = false;
+  std::string controller_libraries_;  // with colons between them
 };
 
 }  // namespace swarmanoid::argos3

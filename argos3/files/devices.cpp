@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "argos3/files/battery.h"
 #include "common/configuration/wording.h"
 
 namespace swarmanoid::argos3
@@ -64,6 +65,12 @@ public:
     context_.mistake(attribute->location, Quoted(name) + " is '" + attribute->value + "'; write min:max");
     return std::nullopt;
   }
+  std::string Text(const std::string& name, const std::string& fallback)
+  {
+    used_.insert(name);
+    const ConfigurationNode::Attribute* attribute = FindAttributeOf(node_, name);
+    return attribute == nullptr ? fallback : attribute->value;
+  }
   // Noise that nothing here is like.
   void Refuse(const std::string& name, const std::string& cure)
   {
@@ -115,7 +122,7 @@ void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
     }
 }
 
-constexpr std::array<const char*, 15> kSensors{"differential_steering",
+constexpr std::array<const char*, 16> kSensors{"differential_steering",
                                                "footbot_distance_scanner",
                                                "proximity",
                                                "ground",
@@ -129,6 +136,7 @@ constexpr std::array<const char*, 15> kSensors{"differential_steering",
                                                "positioning",
                                                "battery",
                                                "colored_blob_omnidirectional_camera",
+                                               "colored_blob_perspective_camera",
                                                "footbot_turret_encoder"};
 constexpr const char* kScanner = "footbot_distance_scanner";
 
@@ -151,6 +159,34 @@ void RefuseUnknown(const ConfigurationNode& node, const char* what, const Names&
                                      DidYouMean(node.name, known));
 }
 
+// Without <battery> nothing discharges it.
+void ConvertBattery(const DeviceContext& context, ConfigurationNode& device)
+{
+  double per_second = 0, per_metre = 0, per_radian = 0;
+  if (const ConfigurationNode* node = context.bearers.battery)
+  {
+    Attributes attributes(*node, context);
+    const double full = attributes.Number("full_charge").value_or(1);
+    attributes.Number("start_charge");
+    if (full <= 0) context.mistake(node->location, "'full_charge' of <battery> is more than 0");
+    const std::string model = attributes.Text("discharge_model", "time");
+    if (model != "time" && model != "motion" && model != "time_motion")
+      context.mistake(node->location, Quoted(model) + " is no discharge_model; time, motion and time_motion are");
+    const double scale = 1 / (full * kBatteries);
+    if (model != "motion")
+      per_second = attributes.Number(model == "time" ? "factor" : "time_factor").value_or(1e-5) *
+                   context.ticks_per_second * scale;
+    if (model != "time")
+    {
+      per_metre = attributes.Number("pos_factor").value_or(1e-3) * scale;
+      per_radian = attributes.Number("orient_factor").value_or(1e-3) * scale;
+    }
+  }
+  SetValue(device, "per_second", TextOf(per_second), device.location);
+  SetValue(device, "per_metre", TextOf(per_metre), device.location);
+  SetValue(device, "per_radian", TextOf(per_radian), device.location);
+}
+
 }  // namespace
 
 void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, DeviceLists& ours)
@@ -162,8 +198,9 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
   {
     // Those of e-pucks read what the wheels were told (argos3/plugin/epuck_devices.cpp).
     if (!IsForEPucks(context)) AddDevice(ours.sensors, "footbot_encoders", "engine_footbot_encoders", at);
-    attributes.Refuse("vel_noise_range", "leave it out, or give the wheels noise");
-    attributes.Refuse("dist_noise_range", "leave it out, or give the wheels noise");
+    // This noise and that of the camera and of range and bearing are added to the readings (argos3/plugin/noise.h).
+    attributes.Range("vel_noise_range");
+    attributes.Range("dist_noise_range");
   }
   else if (tag == "footbot_proximity")
     attributes.CopyLevel(AddDevice(ours.sensors, tag, "generic_footbot_proximity", at));
@@ -197,13 +234,26 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     attributes.Refuse("axis_noise_range", "leave it out");
   }
   else if (tag == "battery")
-    AddDevice(ours.sensors, tag, "generic_battery", at);
+  {
+    ConvertBattery(context, AddDevice(ours.sensors, tag, "generic_battery", at));
+    attributes.Range("noise_range");
+  }
   else if (tag == "colored_blob_omnidirectional_camera")
   {
     ConfigurationNode& device =
         AddDevice(ours.sensors, "footbot_omnidirectional_camera", "generic_footbot_omnidirectional_camera", at);
     SetValue(device, "aperture", TextOf(context.bearers.camera_aperture), at);
-    attributes.Refuse("noise_std_dev", "leave it out, or convert the file and give the camera distance_noise_…");
+    attributes.Number("noise_std_dev");
+  }
+  else if (tag == "colored_blob_perspective_camera" && IsForEPucks(context))
+    context.mistake(at, "<colored_blob_perspective_camera> has no counterpart on e-pucks; leave it out");
+  else if (tag == "colored_blob_perspective_camera")
+  {
+    const std::string type =
+        context.bearers.kinds.contains("eyebot") ? "eyebot_pan_tilt_camera" : "footbot_perspective_camera";
+    ConfigurationNode& device = AddDevice(ours.sensors, type, "generic_" + type, at);
+    SetValue(device, "aperture", TextOf(context.bearers.perspective_aperture), at);
+    SetValue(device, "range", TextOf(context.bearers.perspective_range), at);
   }
   else if (tag == kScanner)
   {
@@ -220,7 +270,7 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     ConfigurationNode& device = AddDevice(ours.sensors, tag, "generic_range_and_bearing", at);
     SetValue(device, "range", TextOf(context.bearers.radio_range), at);
     attributes.Copy("packet_drop_prob", "loss_probability", device);
-    attributes.Refuse("noise_std_dev", "leave it out, or convert the file and give the sensor range_noise_…");
+    attributes.Number("noise_std_dev");
   }
   else
     RefuseUnknown(node, "sensor", kSensors, context);

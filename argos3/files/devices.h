@@ -14,10 +14,13 @@ namespace swarmanoid::argos3
 // What the robots of a controller are.
 struct Bearers
 {
-  std::set<std::string> kinds;  // "footbot", "eyebot", "argos3_epuck"
-  double camera_aperture = 70;  // degrees
-  double radio_range = 3;       // m
+  std::set<std::string> kinds;       // "footbot", "eyebot", "argos3_epuck"
+  double camera_aperture = 70;       // degrees
+  double perspective_aperture = 30;  // degrees
+  double perspective_range = 2;      // m
+  double radio_range = 3;            // m
   long long radio_bytes = 10;
+  const ConfigurationNode* battery = nullptr;  // <battery>, if there is one
 };
 
 // Ours, by type, each once.
@@ -36,6 +39,7 @@ struct DeviceContext
 {
   const Bearers& bearers;
   bool floor_is_painted = false;  // by loop functions
+  double ticks_per_second = 10;
   Report mistake;
   Report note;
 };

@@ -1,9 +1,12 @@
 // Robots that loop functions make, and the LEDs of entities.
 #include <argos3/core/simulator/entity/composable_entity.h>
 #include <argos3/core/simulator/physics_engine/physics_engine.h>
+#include <argos3/core/simulator/simulator.h>
 #include <argos3/plugins/robots/e-puck/simulator/epuck_entity.h>
 #include <argos3/plugins/robots/eye-bot/simulator/eyebot_entity.h>
 #include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
+#include <argos3/plugins/simulator/entities/box_entity.h>
+#include <argos3/plugins/simulator/entities/cylinder_entity.h>
 #include <argos3/plugins/simulator/entities/light_entity.h>
 
 #include "argos3/library/running.h"
@@ -39,12 +42,22 @@ const swarmanoid::CSwarmanoidSpaceEntity* OursOf(CEntity& part)
   return running.editor->GetSpace().FindEntity(running.OurId(part.GetRootEntity().GetId()));
 }
 
+swarmanoid::argos3::BatteryCharge& ChargeOf(const CBatteryEquippedEntity& part)
+{
+  const std::string& id = const_cast<CBatteryEquippedEntity&>(part).GetRootEntity().GetId();
+  const auto found = TheRunning().batteries.find(TheRunning().OurId(id));
+  if (found == TheRunning().batteries.end())
+    THROW_ARGOSEXCEPTION("the battery of '" << id << "' is that of its sensor <battery>, which its controller does not "
+                                            << "have in this process; add it, and run with --single-process");
+  return *found->second;
+}
+
 }  // namespace
 
 CColor CLEDEntity::GetColor() const
 {
   const auto* ours = OursOf(const_cast<CLEDEntity&>(*this));
-  if (ours == nullptr) return CColor::BLACK;
+  if (ours == nullptr) return first_colour_;
   const Slot slot = SlotOf(*ours, number_);
   return CColor(0xff000000U | static_cast<std::uint32_t>(ours->GetAttribute(slot.attribute, slot.element)));
 }
@@ -52,9 +65,10 @@ CColor CLEDEntity::GetColor() const
 void CLEDEntity::SetColor(const CColor& colour)
 {
   const auto* ours = OursOf(*this);
-  if (ours == nullptr)
-    THROW_ARGOSEXCEPTION("LEDs of '" << GetRootEntity().GetId() << "' are changed by loop functions alone, while it is "
-                                     << "in the arena");
+  if (ours == nullptr && TheRunning().editor == nullptr)
+    THROW_ARGOSEXCEPTION("LEDs of '" << GetRootEntity().GetId() << "' are changed by loop functions alone");
+  first_colour_ = colour;
+  if (ours == nullptr) return;
   const Slot slot = SlotOf(*ours, number_);
   const std::uint32_t value = colour.GetRed() << 16U | colour.GetGreen() << 8U | colour.GetBlue();
   TheRunning().editor->SetAttribute(ours->GetId(), slot.attribute, value, slot.element);
@@ -62,7 +76,21 @@ void CLEDEntity::SetColor(const CColor& colour)
 
 CLEDEquippedEntity::CLEDEquippedEntity(CEntity* parent, unsigned leds) : CEntity(parent, "leds_0")
 {
-  for (unsigned led = 0; led < leds; ++led) leds_.push_back(std::make_unique<CLEDEntity>(this, led));
+  for (unsigned led = 0; led < leds; ++led) leds_.push_back(std::make_shared<CLEDEntity>(this, led));
+}
+
+void CLEDEquippedEntity::AddLED(const CVector3&, const SAnchor&, const CColor& colour)
+{
+  if (dynamic_cast<CObjectWithLEDs*>(&GetRootEntity()) == nullptr)
+    THROW_ARGOSEXCEPTION("'" << GetRootEntity().GetId() << "' has the LEDs of its kind; boxes and cylinders get more");
+  leds_.push_back(std::make_shared<CLEDEntity>(this, static_cast<unsigned>(leds_.size()), colour));
+  if (leds_.size() == 1 && OursOf(*this) != nullptr) leds_.front()->SetColor(colour);
+}
+
+void CLEDEquippedEntity::AddLEDRing(const CVector3& centre, Real, const CRadians&, UInt32 leds, const SAnchor& anchor,
+                                    const CColor& colour)
+{
+  for (UInt32 led = 0; led < leds; ++led) AddLED(centre, anchor, colour);
 }
 
 CLEDEntity& CLEDEquippedEntity::GetLED(UInt32 led)
@@ -84,8 +112,15 @@ void CLEDEquippedEntity::SetAllLEDsColors(const std::vector<CColor>& colours)
 }
 
 CRobotWithController::CRobotWithController(const std::string& id, unsigned leds)
-    : CBodyEntity(id, true), controllable_(this, "controller_0"), leds_(this, leds), rab_(this)
+    : CBodyEntity(id, true),
+      controllable_(this, "controller_0"),
+      leds_(this, leds),
+      rab_(this),
+      gripper_(this),
+      battery_(this)
 {
+  AddComponent(battery_);
+  AddComponent(gripper_);
   AddComponent(controllable_);
   AddComponent(leds_);
   AddComponent(rab_);
@@ -119,11 +154,51 @@ CEPuckEntity::CEPuckEntity(const std::string& id, const std::string& controller,
 {
 }
 
+CBoxEntity::CBoxEntity(const std::string& id, const CVector3& position, const CQuaternion& orientation, bool movable,
+                       const CVector3& size, Real mass)
+    : CBoxEntity(id, movable, 0, size, mass)
+{
+  GetEmbodiedEntity().GetOriginAnchor().Position = position;
+  GetEmbodiedEntity().GetOriginAnchor().Orientation = orientation;
+}
+
+CCylinderEntity::CCylinderEntity(const std::string& id, const CVector3& position, const CQuaternion& orientation,
+                                 bool movable, Real radius, Real height, Real mass)
+    : CCylinderEntity(id, movable, 0, radius, height, mass)
+{
+  GetEmbodiedEntity().GetOriginAnchor().Position = position;
+  GetEmbodiedEntity().GetOriginAnchor().Orientation = orientation;
+}
+
 CLightEntity::CLightEntity(const std::string& id, const CVector3& position, const CColor& colour, Real intensity)
     : CPositionalEntity(nullptr, id, position, CQuaternion()), colour_(colour), intensity_(intensity)
 {
 }
 
 Real CPhysicsEngine::tick_s_ = 0.1;
+
+bool CGripperEquippedEntity::IsGripping() const { return Gripped() != nullptr; }
+
+CEmbodiedEntity& CGripperEquippedEntity::GetGrippedEntity() const
+{
+  if (auto* gripped = Gripped()) return gripped->GetEmbodiedEntity();
+  THROW_ARGOSEXCEPTION("'" << const_cast<CGripperEquippedEntity*>(this)->GetRootEntity().GetId() << "' grips nothing");
+}
+
+Real CBatteryEquippedEntity::GetFullCharge() const { return ChargeOf(*this).full; }
+Real CBatteryEquippedEntity::GetAvailableCharge() const { return ChargeOf(*this).available; }
+void CBatteryEquippedEntity::SetAvailableCharge(Real charge) { ChargeOf(*this).available = charge; }
+
+CBodyEntity* CGripperEquippedEntity::Gripped() const
+{
+  const auto* ours = OursOf(const_cast<CGripperEquippedEntity&>(*this));
+  if (ours == nullptr || swarmanoid::AttributeOffset(ours->GetKind(), "gripped") < 0) return nullptr;
+  const double gripped = ours->GetAttribute("gripped");
+  if (gripped == 0) return nullptr;
+  const auto& held = TheRunning().editor->GetSpace().GetEntity(static_cast<std::size_t>(gripped) - 1);
+  for (CEntity* entity : CSimulator::GetInstance().GetSpace().GetEntityVector())
+    if (TheRunning().OurId(entity->GetId()) == held.GetId()) return dynamic_cast<CBodyEntity*>(entity);
+  return nullptr;
+}
 
 }  // namespace argos

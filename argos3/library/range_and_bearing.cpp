@@ -56,10 +56,12 @@ Real CRABEquippedEntity::GetRange() const
   return receiver->tree.GetNumber("range", 3);
 }
 
-void CRABEquippedEntity::SetRange(Real)
+void CRABEquippedEntity::SetRange(Real range)
 {
-  THROW_ARGOSEXCEPTION("the range of '" << GetRootEntity().GetId()
-                                        << "' cannot be changed in a run; set rab_range in the experiment file");
+  if (range != GetRange())
+    THROW_ARGOSEXCEPTION("the range of '" << GetRootEntity().GetId() << "' is " << GetRange()
+                                          << " m for the whole run, not " << range
+                                          << "; set rab_range in the experiment file");
 }
 
 const CByteArray& CRABEquippedEntity::GetData()

@@ -6,10 +6,12 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "argos3/library/made_bodies.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/control_interface/ci_robot.h"
 #include "common/math/pose.h"
@@ -51,8 +53,10 @@ struct Translation
 };
 
 inline argos::CQuaternion Argos3Orientation(const Quaternion& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+// One of zeros, which ARGoS3 takes for no rotation, is none.
 inline Quaternion OurOrientation(const argos::CQuaternion& q)
 {
+  if (q.SquareLength() == 0) return Quaternion::Identity();
   return Quaternion(q.GetW(), q.GetX(), q.GetY(), q.GetZ()).normalized();
 }
 
@@ -70,6 +74,12 @@ public:
   virtual void Leave() = 0;
 };
 
+struct BatteryCharge
+{
+  double available = 1;
+  double full = 1;
+};
+
 struct Running
 {
   // Of the robots whose controller host is this process, by ARGoS3's id.
@@ -80,12 +90,18 @@ struct Running
   Translation translation;
   // Those of this process, by our id.
   std::map<std::string, SpareRobot*> spares;
-  // What loop functions added and did not remove: ours by their id, and the objects that they gave by our id.
+  // Of the robots of this process that have the sensor <battery>, by our id.
+  std::map<std::string, BatteryCharge*> batteries;
+  // What loop functions added and did not remove, and robots that they made whose controller they had: ours by their
+  // id; and the objects that they gave by our id.
   std::map<std::string, std::string> taken;
   std::map<std::string, argos::CEntity*> given;
+  // Only in a rehearsal of Init: boxes and cylinders that the file does not declare.
+  std::optional<Rehearsal> rehearsal;
   // Whether something was added or removed since this was set to false.
   bool presence_changed = false;
 
+  bool Rehearsed(const std::string& id) const { return rehearsal && rehearsal->Has(id); }
   // Of the entity of that id of theirs, there or not.
   std::string OurId(const std::string& id) const;
 };

@@ -7,8 +7,7 @@
 #include <argos3/plugins/simulator/entities/cylinder_entity.h>
 #include <argos3/plugins/simulator/entities/light_entity.h>
 
-#include "argos3/library/running.h"
-#include "common/space/space.h"
+#include "argos3/library/editing.h"
 #include "space_server/space_changes.h"
 
 namespace argos
@@ -17,100 +16,11 @@ namespace
 {
 
 using swarmanoid::Pose;
-using swarmanoid::argos3::OurOrientation;
-using swarmanoid::argos3::Running;
+using swarmanoid::argos3::Declared;
+using swarmanoid::argos3::Editor;
+using swarmanoid::argos3::PoseOf;
+using swarmanoid::argos3::Rgb;
 using swarmanoid::argos3::TheRunning;
-
-swarmanoid::SpaceEditor& Editor()
-{
-  if (TheRunning().editor == nullptr)
-    THROW_ARGOSEXCEPTION("entities are changed by loop functions alone, and not in their constructor");
-  return *TheRunning().editor;
-}
-
-// Of boxes we tell the middle, ARGoS3 the middle of the base.
-Pose PoseOf(const swarmanoid::CSwarmanoidSpaceEntity& entity, const CVector3& position, const CQuaternion& orientation)
-{
-  Pose pose{TheRunning().translation.OurPosition(position), OurOrientation(orientation)};
-  if (swarmanoid::TagName(entity.GetKind()) == "block")
-    pose.position += pose.orientation * swarmanoid::Vector3(0, 0, entity.GetSize().z() / 2);
-  return pose;
-}
-
-const swarmanoid::CSwarmanoidSpaceEntity& Declared(const std::string& id)
-{
-  const auto* entity = Editor().GetSpace().FindEntity(TheRunning().OurId(id));
-  if (entity == nullptr)
-    THROW_ARGOSEXCEPTION("there is no entity '" << id << "': the experiment file declares none, and none was added");
-  return *entity;
-}
-
-// The id of the reserve of lights in converted files.
-constexpr const char* kMadeLight = "made_light";
-
-std::uint32_t Rgb(const CColor& colour)
-{
-  return static_cast<std::uint32_t>(colour.GetRed()) << 16U | static_cast<std::uint32_t>(colour.GetGreen()) << 8U |
-         colour.GetBlue();
-}
-
-bool HasReserve(const swarmanoid::CSwarmanoidSpace& space, const std::string& reserve)
-{
-  for (std::size_t i = 0; i < space.Size(); ++i)
-    if (space.GetEntity(i).GetConfiguration().reserve == reserve) return true;
-  return false;
-}
-
-const swarmanoid::CSwarmanoidSpaceEntity& NextSpare(const swarmanoid::CSwarmanoidSpace& space,
-                                                    const std::string& reserve)
-{
-  try
-  {
-    return swarmanoid::FindToAdd(space, reserve);
-  }
-  catch (const std::invalid_argument& refused)
-  {
-    THROW_ARGOSEXCEPTION(refused.what() << " in the file that `swarmanoid convert` writes");
-  }
-}
-
-// Of ours, the one to add for an entity that loop functions made: the one that the file declares, or a spare robot.
-const swarmanoid::CSwarmanoidSpaceEntity& OursFor(const CEntity& made)
-{
-  const std::string& id = made.GetId();
-  const swarmanoid::CSwarmanoidSpace& space = Editor().GetSpace();
-  if (const auto* entity = space.FindEntity(TheRunning().OurId(id))) return *entity;
-  if (dynamic_cast<const CLightEntity*>(&made) != nullptr && HasReserve(space, kMadeLight))
-    return NextSpare(space, kMadeLight);
-  const auto* robot = dynamic_cast<const CRobotWithController*>(&made);
-  if (robot == nullptr)
-    THROW_ARGOSEXCEPTION("the experiment file declares no " << made.GetTypeDescription() << " '" << id
-                                                            << "'; loop functions add robots and lights of their own, "
-                                                            << "but boxes and cylinders only if they stand in the "
-                                                            << "file, from where they may be removed in Init");
-  const std::string reserve = "added_" + robot->ControllerOfMade();
-  if (!HasReserve(space, reserve))
-    THROW_ARGOSEXCEPTION("no " << made.GetTypeDescription() << " with the controller '" << robot->ControllerOfMade()
-                               << "' can be added as '" << id
-                               << "': the controller is not in <controllers>, is of another "
-                               << "kind of robot, or the experiment has no <reserve> '" << reserve << "' (`swarmanoid "
-                               << "convert` writes it for loop functions that make robots in their own library)");
-  const swarmanoid::CSwarmanoidSpaceEntity& ours = NextSpare(space, reserve);
-  if (TheRunning().spares.count(ours.GetId()) == 0)
-    THROW_ARGOSEXCEPTION("the controller of '" << id << "' is not in this process: loop functions add robots in a run "
-                                               << "with --single-process");
-  return ours;
-}
-
-// Their engines take a body where another one is; it is for them to push the two apart.
-void AddAnywhere(const std::string& id, const Pose& pose)
-{
-  constexpr double kStep = 1;  // m
-  Pose free = pose;
-  while (!Editor().IsFree(id, free)) free.position.z() += kStep;
-  Editor().AddEntity(id, free);
-  if (free.position.z() != pose.position.z()) Editor().MoveEntity(id, pose);
-}
 
 template <class Body>
 void InsertBody(CSpace& space, Body& body)
@@ -125,6 +35,8 @@ bool InsertIfRobot(CSpace& space, CEntity& entity)
   if (robot == nullptr) return false;
   InsertBody(space, *robot);
   space.InsertComponent(robot->GetId(), robot->GetControllableEntity());
+  space.InsertComponent(robot->GetId(), robot->GetRABEquippedEntity());
+  space.InsertComponent(robot->GetId(), robot->GetBatterySensorEquippedEntity());
   return true;
 }
 template <class Body>
@@ -150,14 +62,13 @@ CLoopFunctions& CSimulator::GetLoopFunctions()
   return *TheRunning().functions;
 }
 
-CCI_Controller& CControllableEntity::GetController()
+TConfigurationNode& CSimulator::GetConfigurationRoot()
 {
-  const std::string& id = GetRootEntity().GetId();
-  const auto found = TheRunning().controllers.find(id);
-  if (found == TheRunning().controllers.end())
-    THROW_ARGOSEXCEPTION("the controller of '" << id << "' is not in this process: loop functions reach controllers in "
-                                               << "a run with --single-process");
-  return *found->second;
+  if (configuration_.Value().empty())
+    THROW_ARGOSEXCEPTION(
+        "the experiment file is not at hand: it is if the library of the loop functions asks for it, "
+        "in a run of the file of ARGoS3 or of what `swarmanoid convert` writes");
+  return configuration_;
 }
 
 CColor CFloorEntity::GetColorAtPoint(Real x, Real y)
@@ -228,6 +139,7 @@ void CSpace::Clear()
 bool CEmbodiedEntity::MoveTo(const CVector3& position, const CQuaternion& orientation, bool check_only,
                              bool ignore_collisions)
 {
+  if (TheRunning().Rehearsed(GetRootEntity().GetId())) return true;
   const auto& ours = Declared(GetRootEntity().GetId());
   const Pose pose = PoseOf(ours, position, orientation);
   if (!ignore_collisions && swarmanoid::FindInTheWay(Editor().GetSpace(), ours, pose) != nullptr) return false;
@@ -247,6 +159,7 @@ bool CEmbodiedEntity::MoveTo(const CVector3& position, const CQuaternion& orient
 
 bool CEmbodiedEntity::IsCollidingWithSomething() const
 {
+  if (TheRunning().Rehearsed(const_cast<CEmbodiedEntity*>(this)->GetRootEntity().GetId())) return false;
   const auto& ours = Declared(const_cast<CEmbodiedEntity*>(this)->GetRootEntity().GetId());
   const Pose pose{ours.GetPosition(), ours.GetOrientation()};
   return swarmanoid::FindInTheWay(Editor().GetSpace(), ours, pose) != nullptr;
@@ -277,66 +190,5 @@ void CLoopFunctions::MoveEntity(CPositionalEntity& entity, const CVector3& posit
 {
   entity.MoveTo(position, orientation);
 }
-
-void CLoopFunctions::AddEntity(CEntity& entity)
-{
-  // Whoever made it may go on to hold it.
-  static std::vector<std::unique_ptr<CEntity>> given;
-  given.emplace_back(&entity);
-  const auto* body = dynamic_cast<CBodyEntity*>(&entity);
-  const auto* light = dynamic_cast<CLightEntity*>(&entity);
-  if (body == nullptr && light == nullptr)
-    THROW_ARGOSEXCEPTION("'" << entity.GetId() << "' is neither a body nor a light");
-  Running& running = TheRunning();
-  std::string ours;
-  bool was_declared = true;
-  try
-  {
-    const auto& added = OursFor(entity);
-    ours = added.GetId();
-    was_declared = ours == running.OurId(entity.GetId());
-    if (light != nullptr)
-    {
-      Editor().AddEntity(ours, PoseOf(added, light->GetPosition(), light->GetOrientation()));
-      Editor().SetAttribute(ours, "intensity", light->GetIntensity());
-      Editor().SetAttribute(ours, "colour", Rgb(light->GetColor()));
-    }
-    else
-    {
-      const SAnchor& at = body->GetEmbodiedEntity().GetOriginAnchor();
-      AddAnywhere(ours, PoseOf(added, at.Position, at.Orientation));
-    }
-  }
-  catch (const std::invalid_argument& refused)
-  {
-    throw CARGoSException(refused.what());
-  }
-  running.given[ours] = &entity;
-  running.presence_changed = true;
-  CSimulator::GetInstance().GetSpace().InsertAny(entity);
-  if (was_declared) return;
-  running.taken[entity.GetId()] = ours;
-  if (const auto spare = running.spares.find(ours); spare != running.spares.end()) spare->second->Take(entity.GetId());
-}
-
-void CLoopFunctions::RemoveEntity(const std::string& id)
-{
-  const std::string ours = Declared(id).GetId();
-  try
-  {
-    Editor().RemoveEntity(ours);
-  }
-  catch (const std::invalid_argument& refused)
-  {
-    throw CARGoSException(refused.what());
-  }
-  Running& running = TheRunning();
-  running.given.erase(ours);
-  running.presence_changed = true;
-  running.taken.erase(id);
-  if (const auto spare = running.spares.find(ours); spare != running.spares.end()) spare->second->Leave();
-}
-
-void CLoopFunctions::RemoveEntity(CEntity& entity) { RemoveEntity(entity.GetRootEntity().GetId()); }
 
 }  // namespace argos

@@ -12,15 +12,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "argos3/files/battery.h"
 #include "argos3/plugin/device_parts.h"
+#include "argos3/plugin/noise.h"
 #include "common/control_interface/ci_battery_sensor.h"
 #include "common/control_interface/ci_led_ring_actuator.h"
 #include "common/control_interface/ci_positioning_sensor.h"
 #include "common/control_interface/ci_proximity_sensor.h"
 #include "common/control_interface/ci_range_and_bearing.h"
 #include "common/control_interface/eyebot/ci_eyebot_light_sensor.h"
+#include "common/math/elementary.h"
 
 namespace swarmanoid::argos3
 {
@@ -124,19 +128,47 @@ private:
   const swarmanoid::CCI_PositioningSensor& ours_;
 };
 
+// Discharges as ours does; loop functions may fill it.
 class Battery : public SensorBridge, public argos::CCI_BatterySensor
 {
 public:
-  explicit Battery(const DeviceSetup& setup) : ours_(setup.robot.Sensor<swarmanoid::CCI_BatterySensor>("battery")) {}
+  explicit Battery(const DeviceSetup& setup)
+      : robot_(setup.robot),
+        ours_(setup.robot.Sensor<swarmanoid::CCI_BatterySensor>("battery")),
+        charge_{setup.options.GetNumber("start_charge", 1), setup.options.GetNumber("full_charge", 1)},
+        noise_low_(setup.options.GetNumber("battery_noise_low", 0)),
+        noise_high_(setup.options.GetNumber("battery_noise_high", 0))
+  {
+    // It tells 0 until it is asked for the first time.
+    if (ours_.GetCharge() > 0) spent_ = Spent();
+    TheRunning().batteries[robot_.GetId()] = &charge_;
+  }
+  ~Battery() override { TheRunning().batteries.erase(robot_.GetId()); }
   argos::CCI_Sensor& Sensor() override { return *this; }
   void Update() override
   {
-    m_sReading.AvailableCharge = ours_.GetCharge();
-    m_sReading.TimeLeft = ours_.GetTimeLeft();
+    const double spent = Spent();
+    charge_.available = std::max(0.0, charge_.available - (spent - spent_) * charge_.full);
+    spent_ = spent;
+    const Real before = m_sReading.AvailableCharge;
+    m_sReading.AvailableCharge = charge_.available / charge_.full;
+    if (noise_low_ < noise_high_)
+      m_sReading.AvailableCharge =
+          std::clamp(m_sReading.AvailableCharge + robot_.GetRandom().Uniform(noise_low_, noise_high_), 0.0, 1.0);
+    const Real used = before - m_sReading.AvailableCharge;
+    m_sReading.TimeLeft =
+        std::abs(used) > 1e-6 ? before * robot_.GetTickSeconds() / used : std::numeric_limits<double>::infinity();
   }
 
 private:
+  // Of full ones.
+  double Spent() const { return (1 - ours_.GetCharge()) * kBatteries; }
+
+  CCI_Robot& robot_;
   const swarmanoid::CCI_BatterySensor& ours_;
+  BatteryCharge charge_;
+  double noise_low_, noise_high_;
+  double spent_ = 0;
 };
 
 class RangeAndBearingSender : public ActuatorBridge, public argos::CCI_RangeAndBearingActuator
@@ -163,7 +195,9 @@ class RangeAndBearingReceiver : public SensorBridge, public argos::CCI_RangeAndB
 {
 public:
   explicit RangeAndBearingReceiver(const DeviceSetup& setup)
-      : ours_(setup.robot.Sensor<swarmanoid::CCI_RangeAndBearingSensor>("range_and_bearing")),
+      : robot_(setup.robot),
+        noise_m_(setup.options.GetNumber("radio_noise", 0)),
+        ours_(setup.robot.Sensor<swarmanoid::CCI_RangeAndBearingSensor>("range_and_bearing")),
         size_(static_cast<size_t>(setup.options.GetInteger("rab_data_size", 10)))
   {
   }
@@ -178,12 +212,26 @@ public:
       packet.Range = kCentimetres * packets[i].range_m;
       packet.HorizontalBearing.SetValue(packets[i].bearing_rad);
       packet.VerticalBearing.SetValue(packets[i].vertical_bearing_rad);
+      if (noise_m_ > 0) Disturb(packets[i], packet);
       packet.Data.Resize(size_);
       std::copy_n(packets[i].message.begin(), size_, packet.Data.ToCArray());
     }
   }
 
 private:
+  void Disturb(const swarmanoid::CCI_RangeAndBearingSensor::Packet& ours, SPacket& theirs) const
+  {
+    const SinCos bearing = SinCosOf(ours.bearing_rad);
+    const SinCos vertical = SinCosOf(ours.vertical_bearing_rad);
+    Vector3 to_sender = ours.range_m * Vector3(vertical.cos * bearing.cos, vertical.cos * bearing.sin, vertical.sin);
+    DisturbDirection(robot_.GetRandom(), noise_m_, to_sender);
+    theirs.Range = kCentimetres * to_sender.norm();
+    theirs.HorizontalBearing.SetValue(Atan2(to_sender.y(), to_sender.x()));
+    theirs.VerticalBearing.SetValue(Atan2(to_sender.z(), to_sender.head<2>().norm()));
+  }
+
+  CCI_Robot& robot_;
+  const double noise_m_;
   const swarmanoid::CCI_RangeAndBearingSensor& ours_;
   const size_t size_;
 };
@@ -201,6 +249,7 @@ std::unique_ptr<SensorBridge> MakeSensor(const std::string& tag, const DeviceSet
     return std::make_unique<Proximity<argos::CCI_EyeBotProximitySensor>>(setup, proximity_range_m, EyeBotResponse);
   if (tag == "eyebot_light")
     return std::make_unique<Ring<argos::CCI_EyeBotLightSensor, CCI_EyeBotLightSensor>>(setup, tag.c_str());
+  if (tag == "colored_blob_perspective_camera") return MakePerspectiveCamera(setup);
   if (tag == "positioning") return std::make_unique<Positioning>(setup);
   if (tag == "battery") return std::make_unique<Battery>(setup);
   if (tag == "range_and_bearing") return std::make_unique<RangeAndBearingReceiver>(setup);

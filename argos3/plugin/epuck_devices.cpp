@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "argos3/kinds/epuck_ground.h"
+#include "argos3/plugin/noise.h"
 #include "common/control_interface/ci_ground_sensor.h"
 #include "common/control_interface/ci_positioning_sensor.h"
 #include "common/control_interface/ci_wheels_actuator.h"
@@ -39,7 +40,8 @@ private:
 class EPuckEncoders : public SensorBridge, public argos::CCI_DifferentialSteeringSensor
 {
 public:
-  explicit EPuckEncoders(const DeviceSetup& setup) : tick_s_(setup.robot.GetTickSeconds()), told_(setup.told_wheels)
+  explicit EPuckEncoders(const DeviceSetup& setup)
+      : robot_(setup.robot), noise_(setup.options), tick_s_(setup.robot.GetTickSeconds()), told_(setup.told_wheels)
   {
     if (setup.robot.HasActuator("wheels"))
       m_sReading.WheelAxisLength =
@@ -52,9 +54,12 @@ public:
     m_sReading.VelocityRightWheel = told_->right;
     m_sReading.CoveredDistanceLeftWheel = told_->left * tick_s_;
     m_sReading.CoveredDistanceRightWheel = told_->right * tick_s_;
+    noise_.Add(robot_.GetRandom(), m_sReading);
   }
 
 private:
+  CCI_Robot& robot_;
+  const WheelNoise noise_;
   const double tick_s_;
   const std::shared_ptr<const WheelSpeeds> told_;
 };

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <map>
 
+#include "argos3/plugin/noise.h"
 #include "common/control_interface/ci_positioning_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_base_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_beacon_actuator.h"
@@ -57,7 +58,9 @@ class Encoders : public SensorBridge, public argos::CCI_DifferentialSteeringSens
 {
 public:
   explicit Encoders(const DeviceSetup& setup)
-      : robot_(setup.robot), encoders_(setup.robot.Sensor<CCI_FootBotEncodersSensor>("footbot_encoders"))
+      : robot_(setup.robot),
+        noise_(setup.options),
+        encoders_(setup.robot.Sensor<CCI_FootBotEncodersSensor>("footbot_encoders"))
   {
     m_sReading.WheelAxisLength = kCentimetres * CCI_FootBotWheelsActuator::INTERWHEEL_DISTANCE_M;
   }
@@ -69,10 +72,12 @@ public:
     m_sReading.CoveredDistanceRightWheel = kCentimetres * encoders_.GetRightDistance(tick);
     m_sReading.VelocityLeftWheel = m_sReading.CoveredDistanceLeftWheel / tick;
     m_sReading.VelocityRightWheel = m_sReading.CoveredDistanceRightWheel / tick;
+    noise_.Add(robot_.GetRandom(), m_sReading);
   }
 
 private:
-  const CCI_Robot& robot_;
+  CCI_Robot& robot_;
+  const WheelNoise noise_;
   const CCI_FootBotEncodersSensor& encoders_;
 };
 
@@ -150,7 +155,9 @@ class OmnidirectionalCamera : public SensorBridge, public argos::CCI_ColoredBlob
 {
 public:
   explicit OmnidirectionalCamera(const DeviceSetup& setup)
-      : ours_(setup.robot.Sensor<CCI_FootBotOmnidirectionalCameraSensor>("footbot_omnidirectional_camera"))
+      : robot_(setup.robot),
+        noise_(setup.options.GetNumber("camera_noise", 0)),
+        ours_(setup.robot.Sensor<CCI_FootBotOmnidirectionalCameraSensor>("footbot_omnidirectional_camera"))
   {
     Disable();
   }
@@ -163,15 +170,20 @@ public:
     if (blobs_.size() < blobs.size()) blobs_.resize(blobs.size());
     for (std::size_t i = 0; i < blobs.size(); ++i)
     {
+      double distance_m = blobs[i].distance_m;
+      double angle_rad = blobs[i].angle_rad;
+      DisturbBlob(robot_.GetRandom(), noise_, distance_m, angle_rad);
       blobs_[i].Color = argos::CColor(0xff000000U | blobs[i].colour);
-      blobs_[i].Angle.SetValue(blobs[i].angle_rad);
-      blobs_[i].Distance = kCentimetres * blobs[i].distance_m;
+      blobs_[i].Angle.SetValue(angle_rad);
+      blobs_[i].Distance = kCentimetres * distance_m;
       m_sReadings.BlobList.push_back(&blobs_[i]);
     }
     ++m_sReadings.Counter;
   }
 
 private:
+  CCI_Robot& robot_;
+  const double noise_;
   const CCI_FootBotOmnidirectionalCameraSensor& ours_;
   std::vector<SBlob> blobs_;
 };

@@ -45,16 +45,30 @@ public:
              .type = ParameterType::kText,
              .default_value = "",
              .description = "The id of the floor; empty for none."},
+            {.name = "controllers",
+             .type = ParameterType::kText,
+             .default_value = "",
+             .description = "Libraries of the controllers, which those of loop functions may take for granted: paths "
+                            "with colons between them."},
+            {.name = "rehearsal",
+             .type = ParameterType::kBoolean,
+             .default_value = "false",
+             .description = "Only to find out what boxes and cylinders Init makes."},
             {.name = "loop_functions",
              .type = ParameterType::kTree,
              .default_value = "",
-             .description = "The element of the ARGoS3 file, as it stands there."}}};
+             .description = "The element of the ARGoS3 file, as it stands there."},
+            {.name = "configuration",
+             .type = ParameterType::kTree,
+             .default_value = "",
+             .description = "The elements of the ARGoS3 file, for loop functions that ask for them."}}};
   }
 
   ~Argos3LoopFunctions() override
   {
     Running& running = TheRunning();
     if (running.functions == functions_.get()) running.functions = nullptr;
+    running.rehearsal.reset();
     running.given.clear();
     running.taken.clear();
     argos::CSimulator::GetInstance().GetSpace().Clear();
@@ -63,7 +77,9 @@ public:
 
   void Init(const TConfigurationTree t_tree, SpaceEditor& editor) override
   {
+    LoadBefore(t_tree.GetText("controllers"));
     create_ = FindLabel(t_tree, "file", "loop functions", LoopFunctionsByLabel);
+    if (t_tree.GetBoolean("rehearsal")) TheRunning().rehearsal.emplace();
     const TConfigurationTree element = t_tree.Child("loop_functions");
     place_ = element.Exists() ? element.Location() : t_tree.Location();
     if (element.Exists()) CopyElement(*element.Node(), element_);
@@ -78,6 +94,11 @@ public:
     simulator.GetSpace().SetSimulationClock(0);
     argos::CPhysicsEngine::SetSimulationClockTick(space.GetTickSeconds());
     simulator.Start(static_cast<UInt32>(experiment.seed), static_cast<UInt32>(experiment.max_clock));
+    if (const TConfigurationTree all = t_tree.Child("configuration"); all.Exists())
+    {
+      CopyElement(*all.Node(), simulator.Configuration());
+      simulator.Configuration().SetValue("argos-configuration");
+    }
     const Vector3& size = experiment.arena_size;
     simulator.GetSpace().SetArena({size.x(), size.y(), size.z()}, translation_.Argos3Position(size / 2));
     for (std::size_t i = 0; i < space.Size(); ++i) MakeView(space.GetEntity(i));
@@ -105,6 +126,8 @@ public:
            [&]
            {
              Calling(place_, [&] { functions_->Init(element_); });
+             if (const auto& rehearsal = TheRunning().rehearsal)
+               WriteMadeBodies(rehearsal->Shapes(), editor.GetOutputFolder());
              functions_->PreExperiment();
            });
       return;
@@ -178,19 +201,19 @@ private:
     const EntityConfiguration& configuration = entity.GetConfiguration();
     const Vector3& size = entity.GetSize();
     const argos::CVector3 at = translation_.Argos3Position(entity.GetPosition());
-    const argos::CQuaternion turned = Argos3Orientation(entity.GetOrientation());
-    View view{entity.GetIndex(), tag == "block", nullptr, nullptr, nullptr};
+    View view{entity.GetIndex(), IsBox(entity), nullptr, nullptr, nullptr};
     if (tag == "footbot")
       view.made = std::make_unique<argos::CFootBotEntity>(id);
     else if (tag == "eyebot")
       view.made = std::make_unique<argos::CEyeBotEntity>(id);
     else if (tag == "argos3_epuck")
       view.made = std::make_unique<argos::CEPuckEntity>(id);
-    else if (tag == "block")
-      view.made = std::make_unique<argos::CBoxEntity>(
-          id, at, turned, entity.IsMovable(), argos::CVector3(size.x(), size.y(), size.z()), configuration.mass_kg);
+    else if (view.is_box)
+      view.made =
+          std::make_unique<argos::CBoxEntity>(id, entity.IsMovable(), tag == "block" ? 0U : 1U,
+                                              argos::CVector3(size.x(), size.y(), size.z()), configuration.mass_kg);
     else if (tag == "cylindric_prey")
-      view.made = std::make_unique<argos::CCylinderEntity>(id, at, turned, entity.IsMovable(), size.x(), size.z(),
+      view.made = std::make_unique<argos::CCylinderEntity>(id, entity.IsMovable(), 1U, size.x(), size.z(),
                                                            configuration.mass_kg);
     else if (tag == "light_bulb")
       view.made = std::make_unique<argos::CLightEntity>(id, at, argos::CColor(0xff000000U | configuration.colour),

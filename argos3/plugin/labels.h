@@ -13,12 +13,21 @@
 namespace swarmanoid::argos3
 {
 
+// From now on the libraries of users that are loaded find the names of our API, and of this library, without being
+// linked to it, as they do in ARGoS3.
+void ShareNames(const std::string& library);
+// Loads libraries, with colons between them, before others that take them for granted. What is wrong with one is told
+// where it is asked for its label.
+void LoadBefore(const std::string& libraries);
+
 // Loads the library that `file` of an element names and gives what it registered under the label that it names. Throws
 // ConfigurationError.
 template <class Registry>
 auto FindLabel(const TConfigurationTree& element, const std::string& file, const std::string& what, Registry registry)
 {
+  LoadBefore("");
   const PluginLibrary& library = LoadPluginLibrary(element.GetText(file), {});
+  ShareNames(library.path);
   if (!library.error.empty()) throw ConfigurationError(element.ValueLocation(file), library.error);
   const std::string label = element.GetText("label");
   const auto& known = registry();

@@ -1,6 +1,7 @@
 #include "argos3/plugin/lua_controller.h"
 
 #include <argos3/core/utility/math/rng.h>
+#include <argos3/core/wrappers/lua/lua_controller.h>
 
 #include <cmath>
 #include <filesystem>
@@ -186,7 +187,7 @@ int LengthOf(lua_State* lua)
   return 1;
 }
 
-class LuaController final : public argos::CCI_Controller
+class LuaController final : public argos::CLuaController
 {
 public:
   explicit LuaController(LuaScript script) : script_(std::move(script)) {}
@@ -329,7 +330,7 @@ private:
   void End() { CallIfThere("destroy"); }
 
   LuaScript script_;
-  lua_State* lua_ = nullptr;
+  lua_State*& lua_ = m_ptLuaState;
   argos::CRandom::CRNG* random_ = nullptr;
 };
 

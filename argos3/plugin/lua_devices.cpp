@@ -10,6 +10,7 @@
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_turret_encoder_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_battery_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_colored_blob_omnidirectional_camera_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_colored_blob_perspective_camera_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_ground_sensor.h>
@@ -180,23 +181,33 @@ void ReadPackets(lua_State* lua, argos::CCI_RangeAndBearingSensor& receiver)
 
 int EnableCamera(lua_State* lua)
 {
-  Subject<argos::CCI_ColoredBlobOmnidirectionalCameraSensor>(lua).Enable();
+  Subject<argos::CCI_Sensor>(lua).Enable();
   return 0;
 }
 
 int DisableCamera(lua_State* lua)
 {
-  Subject<argos::CCI_ColoredBlobOmnidirectionalCameraSensor>(lua).Disable();
+  Subject<argos::CCI_Sensor>(lua).Disable();
   return 0;
 }
 
 constexpr const char* kCamera = "colored_blob_omnidirectional_camera";
+constexpr const char* kPerspectiveCamera = "colored_blob_perspective_camera";
 
-void AddCamera(lua_State* lua, argos::CCI_ColoredBlobOmnidirectionalCameraSensor& camera)
+void AddCamera(lua_State* lua, const char* name, argos::CCI_Sensor& camera)
 {
-  Enter(lua, kCamera);
+  Enter(lua, name);
   SetFunction<EnableCamera>(lua, "enable", &camera);
   SetFunction<DisableCamera>(lua, "disable", &camera);
+  Leave(lua);
+}
+
+void SetColour(lua_State* lua, const argos::CColor& colour)
+{
+  EnterNew(lua, "color", 0, 3);
+  Set(lua, "red", colour.GetRed());
+  Set(lua, "green", colour.GetGreen());
+  Set(lua, "blue", colour.GetBlue());
   Leave(lua);
 }
 
@@ -209,11 +220,24 @@ void ReadBlobs(lua_State* lua, argos::CCI_ColoredBlobOmnidirectionalCameraSensor
     EnterNew(lua, ++count, 3);
     Set(lua, "distance", blob->Distance);
     Set(lua, "angle", blob->Angle.GetValue());
-    EnterNew(lua, "color", 0, 3);
-    Set(lua, "red", blob->Color.GetRed());
-    Set(lua, "green", blob->Color.GetGreen());
-    Set(lua, "blue", blob->Color.GetBlue());
+    SetColour(lua, blob->Color);
     Leave(lua);
+  }
+  Shorten(lua, count);
+  Leave(lua);
+}
+
+// robot.colored_blob_perspective_camera: pixels
+void ReadImage(lua_State* lua, argos::CCI_ColoredBlobPerspectiveCameraSensor& camera)
+{
+  Enter(lua, kPerspectiveCamera);
+  lua_Integer count = 0;
+  for (const auto* blob : camera.GetReadings().BlobList)
+  {
+    EnterNew(lua, ++count, 3);
+    Set(lua, "x", blob->X);
+    Set(lua, "y", blob->Y);
+    SetColour(lua, blob->Color);
     Leave(lua);
   }
   Shorten(lua, count);
@@ -337,7 +361,7 @@ void AddFunctions(lua_State* lua, const std::string& tag, argos::CCI_Actuator& a
 
 void AddFunctions(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sensor)
 {
-  if (tag == kCamera) AddCamera(lua, As<argos::CCI_ColoredBlobOmnidirectionalCameraSensor>(sensor));
+  if (tag == kCamera || tag == kPerspectiveCamera) AddCamera(lua, tag.c_str(), sensor);
 }
 
 void AddReadings(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sensor)
@@ -355,6 +379,7 @@ void AddReadings(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sens
   if (tag == "footbot_base_ground")
     return ReadGround(lua, As<argos::CCI_FootBotBaseGroundSensor>(sensor), "base_ground");
   if (tag == "range_and_bearing") return ReadPackets(lua, As<argos::CCI_RangeAndBearingSensor>(sensor));
+  if (tag == kPerspectiveCamera) return ReadImage(lua, As<argos::CCI_ColoredBlobPerspectiveCameraSensor>(sensor));
   if (tag == kCamera) return ReadBlobs(lua, As<argos::CCI_ColoredBlobOmnidirectionalCameraSensor>(sensor));
   if (tag == "positioning") return ReadPosition(lua, As<argos::CCI_PositioningSensor>(sensor));
   if (tag == "footbot_distance_scanner") return ReadScanner(lua, As<argos::CCI_FootBotDistanceScannerSensor>(sensor));

@@ -71,6 +71,8 @@ void DescribeCameras()
   // Aperture and range: the perspective camera of ARGoS3.
   DescribeCamera("eyebot_pan_tilt_camera", "eyebot", "camera that turns with the laser", ViewParameters("30", "2"),
                  Elevation::kReported);
+  DescribeCamera("footbot_perspective_camera", "footbot", "camera in the rim that looks ahead",
+                 ViewParameters("30", "2"), Elevation::kReported);
   DescribeCamera("handbot_camera", "handbot", "camera that looks ahead", ViewParameters("30", "2"),
                  Elevation::kReported);
   DescribeSensor({.label = "pie_camera",

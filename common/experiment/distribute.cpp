@@ -208,7 +208,8 @@ private:
       entity.pose.position = positions.Draw(i, random);
       if (positions.DropsFrom() && !LetDown(index, *positions.DropsFrom())) continue;
       const auto body = placement::BodyOf(entity);
-      const auto outline = OutlineOf(index);
+      // Points of a grid are the user's choice, as places of single robots are: their bodies alone must not overlap.
+      const auto outline = positions.IsRandom() ? OutlineOf(index) : body;
       if (!Inside(entity.pose.position, body) || (outline && grid_.Find(*outline))) continue;
       if (body && ground_.IsInRock(index, *body)) continue;
       if (outline) grid_.Add(*outline, static_cast<std::uint32_t>(index));

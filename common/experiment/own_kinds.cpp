@@ -331,7 +331,7 @@ ParameterSpec AreaRadiusParameter()
 ParameterSpec PictureParameter()
 {
   return Optional(kText, "picture", "", "",
-                  "A PNG that is painted on its rectangle, seen through its colour (white if none is given). "
+                  "A PNG or JPEG that is painted on its rectangle, seen through its colour (white if none is given). "
                   "Relative to the experiment file.");
 }
 

@@ -50,7 +50,7 @@ def allowed():
     rules["common/space/terrain"] = experiment + ["common/space/terrain"]
     rules["common/experiment"] = experiment + ["common/space/terrain"]
     # The API of ARGoS3 over ours; its files are read by the launcher.
-    rules["argos3"] = rules["space_server"] + ["argos3"]
+    rules["argos3"] = rules["space_server"] + ["argos3", "argos3/files"]
     rules["argos3/files"] = below[: below.index("common/experiment") + 1] + ["argos3/files"]
     rules["roles"] = without_bus + ROLES + ["roles"]
     rules["launcher"] = below + ROLES + ["roles", "argos3/files", "launcher"]

@@ -1,5 +1,5 @@
-// A picture on a patch of the floor, from a PNG. One read-only object for each file; ground sensors and renderers ask
-// it in the frame of the patch.
+// A picture on a patch of the floor, from a PNG or JPEG. One read-only object for each file; ground sensors and
+// renderers ask it in the frame of the patch.
 //
 //   <ground_patch id="floor" picture="floor.png" size="4, 3"><position>2,1.5,0</position>…</ground_patch>
 #pragma once

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "common/configuration/regular_file.h"
+#include "common/space/terrain/jpeg_picture.h"
 
 namespace swarmanoid
 {
@@ -96,19 +97,26 @@ struct Samples
   }
 };
 
-Samples ReadSamples(const std::string& path)
+[[noreturn]] void Fail(const char* kind, const std::string& path, const std::string& why)
 {
-  const auto fail = [&](const std::string& why)
-  { throw std::runtime_error("cannot read the PNG '" + path + "': " + why); };
-  std::string file;
+  throw std::runtime_error(std::string("cannot read the ") + kind + " '" + path + "': " + why);
+}
+
+std::string BytesOf(const char* kind, const std::string& path)
+{
   try
   {
-    file = ReadRegularFile(path, kMostPictureBytes);
+    return ReadRegularFile(path, kMostPictureBytes);
   }
   catch (const FileError& error)
   {
-    fail(error.what());
+    Fail(kind, path, error.what());
   }
+}
+
+Samples SamplesOf(const std::string& file, const std::string& path)
+{
+  const auto fail = [&](const std::string& why) { Fail("PNG", path, why); };
   Reader reader(file);
   if (reader.info == nullptr) fail("out of memory");
   if (!reader.ReadHeader()) fail(reader.error);
@@ -132,7 +140,7 @@ Samples ReadSamples(const std::string& path)
 
 GreyPicture ReadGreyPicture(const std::string& path)
 {
-  const Samples samples = ReadSamples(path);
+  const Samples samples = SamplesOf(BytesOf("PNG", path), path);
   GreyPicture picture;
   picture.columns = samples.columns;
   picture.rows = samples.rows;
@@ -150,7 +158,19 @@ GreyPicture ReadGreyPicture(const std::string& path)
 
 ColourPicture ReadColourPicture(const std::string& path)
 {
-  const Samples samples = ReadSamples(path);
+  const std::string file = BytesOf("picture", path);
+  if (IsJpeg(file))
+  {
+    try
+    {
+      return JpegPicture(file);
+    }
+    catch (const std::exception& error)
+    {
+      Fail("JPEG", path, error.what());
+    }
+  }
+  const Samples samples = SamplesOf(file, path);
   ColourPicture picture;
   picture.columns = samples.columns;
   picture.rows = samples.rows;

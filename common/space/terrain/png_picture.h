@@ -1,5 +1,5 @@
-// The pixels of a PNG: greys for height maps (HeightTerrain), colours for pictures on the floor (FloorPicture). In any
-// process.
+// The pixels of a file: greys of a PNG for height maps (HeightTerrain), colours of a PNG or JPEG for pictures on the
+// floor (FloorPicture). In any process.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct ColourPicture
 // claims. Colours count as 0.299 R + 0.587 G + 0.114 B, transparency does not. Throws std::runtime_error naming a file
 // that cannot be read.
 GreyPicture ReadGreyPicture(const std::string& path);
-// Likewise; of samples with 16 bits the upper 8.
+// Likewise, also of a JPEG; of samples with 16 bits the upper 8.
 ColourPicture ReadColourPicture(const std::string& path);
 
 }  // namespace swarmanoid

@@ -1,11 +1,12 @@
-// The cameras of the three robots: the footbot's omnidirectional one, the eyebot's that looks down and the one that
-// turns with its laser, the handbot's that looks ahead; each ideal (with noise on distance and angle) and with noise in
-// pixels.
+// The cameras of the three robots: the footbot's omnidirectional one and the one that looks ahead, the eyebot's that
+// looks down and the one that turns with its laser, the handbot's that looks ahead; each ideal (with noise on distance
+// and angle) and with noise in pixels.
 #include <algorithm>
 
 #include "common/control_interface/eyebot/ci_eyebot_camera_sensor.h"
 #include "common/control_interface/eyebot/ci_eyebot_pan_tilt_camera_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_omnidirectional_camera_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_perspective_camera_sensor.h"
 #include "common/control_interface/handbot/ci_handbot_camera_sensor.h"
 #include "common/math/elementary.h"
 #include "common/space/space.h"
@@ -24,6 +25,13 @@ struct FootbotCamera
   using Interface = CCI_FootBotOmnidirectionalCameraSensor;
   static constexpr const char* kLabel = "footbot_omnidirectional_camera";
   static CameraModel Model() { return {CameraModel::View::kDown, {0, 0, 0.2887}, 0, 0}; }
+};
+struct FootbotPerspectiveCamera
+{
+  using Interface = CCI_FootBotPerspectiveCameraSensor;
+  static constexpr const char* kLabel = "footbot_perspective_camera";
+  // In the rim, as high as the beacon: ARGoS3, foot-bot.
+  static CameraModel Model() { return {CameraModel::View::kAhead, {0.085036758, 0, 0.174}, 0, 0}; }
 };
 struct EyebotCamera
 {
@@ -272,6 +280,7 @@ void BindCameras()
 void RegisterColourCameras()
 {
   BindCameras<FootbotCamera>();
+  BindCameras<FootbotPerspectiveCamera>();
   BindCameras<EyebotCamera>();
   BindCameras<EyebotPanTiltCamera>();
   BindCameras<HandbotCamera>();

@@ -7,6 +7,7 @@
 #include "common/control_interface/eyebot/ci_eyebot_camera_sensor.h"
 #include "common/control_interface/eyebot/ci_eyebot_pan_tilt_camera_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_omnidirectional_camera_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_perspective_camera_sensor.h"
 #include "common/control_interface/handbot/ci_handbot_camera_sensor.h"
 #include "common/math/elementary.h"
 #include "real_robot/drivers/ros2/point_cloud.h"
@@ -87,6 +88,7 @@ private:
 };
 
 using FootbotCamera = Camera<CCI_FootBotOmnidirectionalCameraSensor, false>;
+using FootbotPerspectiveCamera = Camera<CCI_FootBotPerspectiveCameraSensor, true>;
 using EyebotCamera = Camera<CCI_EyeBotCameraSensor, false>;
 using PanTiltCamera = Camera<CCI_EyeBotPanTiltCameraSensor, true>;
 using HandbotCamera = Camera<CCI_HandBotCameraSensor, true>;
@@ -100,6 +102,7 @@ PluginDescription DescribeCamera(const std::string& type, const std::string& rob
 }
 
 REGISTER_SENSOR_DRIVER(FootbotCamera, DescribeCamera("footbot_omnidirectional_camera", "footbot"))
+REGISTER_SENSOR_DRIVER(FootbotPerspectiveCamera, DescribeCamera("footbot_perspective_camera", "footbot"))
 REGISTER_SENSOR_DRIVER(EyebotCamera, DescribeCamera("eyebot_camera", "eyebot"))
 REGISTER_SENSOR_DRIVER(PanTiltCamera, DescribeCamera("eyebot_pan_tilt_camera", "eyebot"))
 REGISTER_SENSOR_DRIVER(HandbotCamera, DescribeCamera("handbot_camera", "handbot"))

@@ -5,7 +5,6 @@
 #include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_colored_blob_omnidirectional_camera_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_actuator.h>
-#include <argos3/plugins/simulator/entities/box_entity.h>
 #include <argos3/plugins/simulator/entities/cylinder_entity.h>
 #include <argos3/plugins/simulator/entities/light_entity.h>
 
@@ -58,25 +57,21 @@ public:
     UInt32 robots = 0;
     GetNodeAttribute(node, "robots", robots);
     file_.open("made.tsv");
+    for (UInt32 i = 0; i < robots; ++i) made_.push_back(new CFootBotEntity("made" + std::to_string(i), "m"));
+    // Two controllers before all robots, in another order.
+    const CMade* controllers[] = {&ControllerOf(*made_[2]), &ControllerOf(*made_[1])};
     // All where the first one stays, and from there to their places.
     for (UInt32 i = 0; i < robots; ++i)
     {
-      made_.push_back(new CFootBotEntity("made" + std::to_string(i), "m"));
-      AddEntity(*made_.back());
+      AddEntity(*made_[i]);
+      if ((i == 1 || i == 2) && controllers[2 - i] != &ControllerOf(*made_[i]))
+        THROW_ARGOSEXCEPTION("another controller for " << i);
       if (i > 0 && !MoveEntity(made_[i]->GetEmbodiedEntity(), CVector3(0, 0.5 * i, 0), CQuaternion()))
         THROW_ARGOSEXCEPTION("no place for " << i);
     }
     file_ << "# " << GetSpace().GetEntitiesByType("foot-bot").size() << " " << ControllerOf(*made_[0]).GetId() << " "
           << made_[1]->GetEmbodiedEntity().MoveTo(CVector3(0, 0, 0), CQuaternion()) << " "
           << GetSpace().GetArenaLimits().GetMax() << " " << ticks_a_second_ << "\n";
-    try
-    {
-      AddEntity(*new CBoxEntity("crate", CVector3(1, 1, 0), CQuaternion(), false, CVector3(0.1, 0.1, 0.1)));
-    }
-    catch (const CARGoSException& refused)
-    {
-      file_ << "# " << refused.what() << "\n";
-    }
   }
   void PostStep() override
   {

@@ -98,6 +98,7 @@ private:
     }
     try
     {
+      radio.SetRange(radio.GetRange());
       radio.SetRange(2);
     }
     catch (CARGoSException& refused)

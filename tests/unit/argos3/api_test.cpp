@@ -79,6 +79,20 @@ TEST(Argos3Api, TheRotationBetweenTwoVectorsTakesOneToTheOther)
   }
 }
 
+TEST(Argos3Api, VectorsHaveElements)
+{
+  CVector3 vector(1, 2, 3);
+  vector[0] = 4;
+  EXPECT_EQ(vector, CVector3(4, 2, 3));
+  const CVector3& same = vector;
+  EXPECT_EQ(same[1] + same[2], 5);
+  EXPECT_THROW(static_cast<void>(same[3]), CARGoSException);
+  CRange<CVector3> box;
+  box.Set(CVector3(-1, -1, 0), CVector3(1, 1, 0));
+  EXPECT_TRUE(box.WithinMinBoundIncludedMaxBoundIncluded(CVector3(0, 1, 0)));
+  EXPECT_FALSE(box.WithinMinBoundIncludedMaxBoundIncluded(CVector3(0, 2, 0)));
+}
+
 TEST(Argos3Api, AnglesWrapIntoTheirRanges)
 {
   for (double degrees = -1000; degrees <= 1000; degrees += 7)

@@ -323,6 +323,20 @@ TEST(ColourCameras, HandbotLooksAhead)
   EXPECT_NEAR(BlobsOf(camera, 0)[0].elevation_rad, std::atan2(-0.015, 0.91), 1e-12);
 }
 
+TEST(ColourCameras, AFootbotLooksAheadFromItsRim)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5, kPi / 2);
+  for (const double y : {6.0, 4.0, 7.5}) world.AddFootbot(5, y);  // ahead, behind, too far
+  for (const std::uint32_t robot : {1U, 2U, 3U}) world.Space().GetEntity(robot).SetAttribute("beacon", CCI_Colour::RED);
+  TestSensor camera(world, "footbot_perspective_camera", "generic_footbot_perspective_camera", {0});
+  camera.Update();
+  ASSERT_EQ(BlobsOf(camera, 0).size(), 1U);
+  EXPECT_NEAR(BlobsOf(camera, 0)[0].distance_m, 1 - 0.085036758, 1e-12);
+  EXPECT_NEAR(BlobsOf(camera, 0)[0].elevation_rad, 0, 1e-12);
+  EXPECT_NEAR(BlobsOf(camera, 0)[0].angle_rad, 0, 1e-12);
+}
+
 TEST(PieCamera, PutsTheNearestBlobOfEachColourIntoItsSector)
 {
   TestWorld world;

@@ -95,6 +95,7 @@ public:
       entity.SetAttribute("message", 1);
       entity.SetAttribute("radio", 1);
     }
+    Space().GetEntity(1 + others).SetAttribute("beacon", kColour);  // high enough for the camera that looks ahead
     Space().GetEntity(4 + others).SetAttribute("intensity", 1);
     Space().GetEntity(kFootbot + others).SetAttribute("gripper_aperture", 0.8);
     Space().SetTick(static_cast<std::uint64_t>(tick));

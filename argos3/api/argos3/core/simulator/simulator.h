@@ -28,6 +28,11 @@ public:
     return medium;
   }
   UInt32 GetRandomSeed() const { return seed_; }
+  // What GetRandomSeed says from now on; the random numbers of the run are those of the experiment's seed.
+  void SetRandomSeed(UInt32 seed) { seed_ = seed; }
+  // The experiment file, as it stands there. Throws CARGoSException where no loop functions ask for it. Defined in the
+  // library: `swarmanoid` tells by its name that a library asks.
+  TConfigurationNode& GetConfigurationRoot();
   // Ticks; 0: no end.
   UInt32 GetMaxSimulationClock() const { return max_clock_; }
   // The experiment ends after this step.
@@ -40,7 +45,9 @@ public:
     seed_ = seed;
     max_clock_ = max_clock;
     terminated_ = false;
+    configuration_ = TConfigurationNode();
   }
+  TConfigurationNode& Configuration() { return configuration_; }
 
 private:
   CSpace space_;
@@ -48,6 +55,7 @@ private:
   UInt32 seed_ = 0;
   UInt32 max_clock_ = 0;
   bool terminated_ = false;
+  TConfigurationNode configuration_;
 };
 
 }  // namespace argos

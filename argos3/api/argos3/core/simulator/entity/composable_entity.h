@@ -7,6 +7,7 @@
 #include <argos3/core/simulator/entity/embodied_entity.h>
 #include <argos3/core/utility/datatypes/color.h>
 #include <argos3/plugins/simulator/entities/rab_equipped_entity.h>
+#include <argos3/plugins/simulator/media/led_medium.h>
 
 namespace argos
 {
@@ -28,6 +29,7 @@ public:
   }
   CEntity::TMap& GetComponentMap() { return components_; }
   void AddComponent(CEntity& component) { components_[component.GetTypeDescription()] = &component; }
+  void UpdateComponents() {}
   std::string GetTypeDescription() const override { return "composite"; }
 
 private:
@@ -38,33 +40,51 @@ private:
 class CLEDEntity : public CEntity
 {
 public:
-  CLEDEntity(CEntity* parent, unsigned number) : CEntity(parent, "led_" + std::to_string(number)), number_(number) {}
-  // As it is in the arena; before AddEntity, and where no loop functions run, black.
+  CLEDEntity(CEntity* parent, unsigned number, const CColor& colour = CColor::BLACK)
+      : CEntity(parent, "led_" + std::to_string(number)), number_(number), first_colour_(colour)
+  {
+  }
+  // As it is in the arena; before AddEntity, and where no loop functions run, the one that it was made with.
   CColor GetColor() const;
-  // Throws CARGoSException outside loop functions, and for an LED that the entity does not have.
+  // Throws CARGoSException outside loop functions, and for an LED that the entity does not have. Before AddEntity it
+  // is the colour with which it comes.
   void SetColor(const CColor& colour);
+  const CColor& GetInitColor() const { return first_colour_; }
+  void SetInitColor(const CColor& colour) { first_colour_ = colour; }
+  // Cameras see all LEDs, whatever their medium.
+  void AddToMedium(CLEDMedium&) {}
+  void RemoveFromMedium() {}
+  void SetMedium(CLEDMedium&) {}
   std::string GetTypeDescription() const override { return "led"; }
 
 private:
   unsigned number_;
+  CColor first_colour_;
 };
 
-// The LEDs of an entity. A cylinder with LEDs has one colour: all of them are one LED here.
+// The LEDs of an entity. Those of a box or cylinder have one colour, which cameras see at its middle: the one that was
+// set last, and at first that of the first LED.
 class CLEDEquippedEntity : public CEntity
 {
 public:
   CLEDEquippedEntity(CEntity* parent, unsigned leds);
   size_t GetNumLEDs() const { return leds_.size(); }
+  // To boxes and cylinders. The places have no effect.
+  void AddLED(const CVector3& offset, const SAnchor& anchor, const CColor& colour = CColor::BLACK);
+  void AddLEDRing(const CVector3& centre, Real radius, const CRadians& first_angle, UInt32 leds, const SAnchor& anchor,
+                  const CColor& colour = CColor::BLACK);
+  void AddToMedium(CLEDMedium&) {}
+  void RemoveFromMedium() {}
+  void SetMedium(CLEDMedium&) {}
   // These throw CARGoSException for an LED beyond the last one, another number of colours, and as CLEDEntity.
   CLEDEntity& GetLED(UInt32 led);
   void SetLEDColor(UInt32 led, const CColor& colour) { GetLED(led).SetColor(colour); }
   void SetAllLEDsColors(const CColor& colour);
   void SetAllLEDsColors(const std::vector<CColor>& colours);
-  void Update() {}
   std::string GetTypeDescription() const override { return "leds"; }
 
 private:
-  std::vector<std::unique_ptr<CLEDEntity>> leds_;
+  std::vector<std::shared_ptr<CLEDEntity>> leds_;  // shared with copies
 };
 
 // A box, a cylinder, a robot: it has a body.
@@ -82,6 +102,54 @@ private:
   CEmbodiedEntity body_;
 };
 
+// A box or a cylinder, which may bear LEDs. A copy tells what the first one is.
+class CObjectWithLEDs : public CBodyEntity
+{
+public:
+  CObjectWithLEDs(const std::string& id, bool movable, unsigned leds) : CBodyEntity(id, movable), leds_(this, leds)
+  {
+    AddComponent(leds_);
+  }
+  CLEDEquippedEntity& GetLEDEquippedEntity() { return leds_; }
+  const CLEDEquippedEntity& GetLEDEquippedEntity() const { return leds_; }
+  void AddLED(const CVector3& offset, const CColor& colour = CColor::BLACK)
+  {
+    leds_.AddLED(offset, GetEmbodiedEntity().GetOriginAnchor(), colour);
+  }
+  void EnableLEDs(CLEDMedium&) {}
+  void DisableLEDs() { leds_.SetAllLEDsColors(CColor::BLACK); }
+
+private:
+  CLEDEquippedEntity leds_;
+};
+
+// What a robot grips. A copy tells the same.
+class CGripperEquippedEntity : public CEntity
+{
+public:
+  explicit CGripperEquippedEntity(CEntity* parent) : CEntity(parent, "gripper_0") {}
+  // False outside loop functions, and for a robot without a gripper.
+  bool IsGripping() const;
+  // Throws CARGoSException if it grips nothing.
+  CEmbodiedEntity& GetGrippedEntity() const;
+  std::string GetTypeDescription() const override { return "gripper"; }
+
+private:
+  CBodyEntity* Gripped() const;
+};
+
+// The battery of a robot. These throw CARGoSException for a robot without the sensor <battery>, and where its
+// controller is not in this process.
+class CBatteryEquippedEntity : public CEntity
+{
+public:
+  explicit CBatteryEquippedEntity(CEntity* parent) : CEntity(parent, "battery_0") {}
+  Real GetFullCharge() const;
+  Real GetAvailableCharge() const;
+  void SetAvailableCharge(Real charge);
+  std::string GetTypeDescription() const override { return "battery"; }
+};
+
 class CRobotWithController : public CBodyEntity
 {
 public:
@@ -90,6 +158,8 @@ public:
   const CControllableEntity& GetControllableEntity() const { return controllable_; }
   CLEDEquippedEntity& GetLEDEquippedEntity() { return leds_; }
   CRABEquippedEntity& GetRABEquippedEntity() { return rab_; }
+  CGripperEquippedEntity& GetGripperEquippedEntity() { return gripper_; }
+  CBatteryEquippedEntity& GetBatterySensorEquippedEntity() { return battery_; }
   // Of a robot that loop functions made: the id of its controller in the experiment file.
   const std::string& ControllerOfMade() const { return controller_; }
 
@@ -102,6 +172,8 @@ private:
   CControllableEntity controllable_;
   CLEDEquippedEntity leds_;
   CRABEquippedEntity rab_;
+  CGripperEquippedEntity gripper_;
+  CBatteryEquippedEntity battery_;
   std::string controller_;
 };
 

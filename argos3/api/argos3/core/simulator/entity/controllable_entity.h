@@ -3,6 +3,7 @@
 
 #include <argos3/core/control_interface/ci_controller.h>
 #include <argos3/core/simulator/entity/entity.h>
+#include <argos3/core/utility/math/ray3.h>
 
 namespace argos
 {
@@ -12,7 +13,7 @@ class CControllableEntity : public CEntity
 public:
   using CEntity::CEntity;
   // In a run of one process, from the first step on: Init of loop functions too. Throws CARGoSException otherwise, and
-  // for a robot without a controller.
+  // for a robot without a controller. Of a robot that loop functions made, before AddEntity too.
   CCI_Controller& GetController();
   const CCI_Controller& GetController() const { return const_cast<CControllableEntity*>(this)->GetController(); }
   std::string GetTypeDescription() const override { return "controller"; }

@@ -19,8 +19,6 @@ public:
 
   explicit CEntity(CEntity* parent = nullptr) : parent_(parent) {}
   CEntity(CEntity* parent, std::string id) : id_(std::move(id)), parent_(parent) {}
-  CEntity(const CEntity&) = delete;
-  CEntity& operator=(const CEntity&) = delete;
 
   void Init(TConfigurationNode&) override {}
   void Reset() override {}
@@ -31,11 +29,18 @@ public:
   virtual std::string GetTypeDescription() const { return "entity"; }
   bool HasParent() const { return parent_ != nullptr; }
   CEntity& GetParent() const { return *parent_; }
+  // Entities take part in a run while they are in the arena, whatever this says.
+  void Enable() { enabled_ = true; }
+  void Disable() { enabled_ = false; }
+  void SetEnabled(bool enabled) { enabled_ = enabled; }
+  bool IsEnabled() const { return enabled_; }
+  void Update() {}
   CEntity& GetRootEntity() { return parent_ == nullptr ? *this : parent_->GetRootEntity(); }
 
 private:
   std::string id_;
   CEntity* parent_;
+  bool enabled_ = true;
 };
 
 }  // namespace argos

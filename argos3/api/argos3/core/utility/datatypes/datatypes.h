@@ -4,18 +4,36 @@
 #include <argos3/core/config.h>
 
 #include <algorithm>
+#include <array>
+#include <cassert>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
+#include <deque>
 #include <fstream>
+#include <functional>
+#include <iomanip>
 #include <iostream>
+#include <limits>
 #include <list>
 #include <map>
+#include <memory>
+#include <numeric>
+#include <queue>
+#include <random>
 #include <set>
 #include <sstream>
+#include <stack>
 #include <string>
+#include <tuple>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
 #include <vector>
 
 using SInt8 = signed char;

@@ -11,7 +11,7 @@ template <class T>
 class CRange
 {
 public:
-  constexpr CRange() : CRange(T(), T(1)) {}
+  constexpr CRange() : CRange(T(), T()) {}
   constexpr CRange(const T& minimum, const T& maximum) : min_(minimum), max_(maximum) {}
 
   constexpr T GetMin() const { return min_; }

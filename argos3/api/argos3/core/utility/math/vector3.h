@@ -30,6 +30,13 @@ public:
   void SetX(Real x) { x_ = x; }
   void SetY(Real y) { y_ = y; }
   void SetZ(Real z) { z_ = z; }
+  // 0, 1, 2: x, y, z. Throws CARGoSException for others.
+  const Real& operator[](UInt32 axis) const
+  {
+    if (axis > 2) THROW_ARGOSEXCEPTION("a CVector3 has no element " << axis << "; the last one is 2");
+    return axis == 0 ? x_ : axis == 1 ? y_ : z_;
+  }
+  Real& operator[](UInt32 axis) { return const_cast<Real&>(static_cast<const CVector3&>(*this)[axis]); }
   void Set(Real x, Real y, Real z) { *this = CVector3(x, y, z); }
   CVector3& FromSphericalCoords(Real length, const CRadians& inclination, const CRadians& azimuth)
   {
@@ -90,6 +97,11 @@ public:
   CVector3 operator-() const { return {-x_, -y_, -z_}; }
   bool operator==(const CVector3& other) const { return x_ == other.x_ && y_ == other.y_ && z_ == other.z_; }
   bool operator!=(const CVector3& other) const { return !(*this == other); }
+  // In each of the three.
+  bool operator<(const CVector3& other) const { return x_ < other.x_ && y_ < other.y_ && z_ < other.z_; }
+  bool operator>(const CVector3& other) const { return other < *this; }
+  bool operator<=(const CVector3& other) const { return x_ <= other.x_ && y_ <= other.y_ && z_ <= other.z_; }
+  bool operator>=(const CVector3& other) const { return other <= *this; }
 
   friend std::ostream& operator<<(std::ostream& stream, const CVector3& vector)
   {

@@ -6,15 +6,17 @@
 namespace argos
 {
 
-class CBoxEntity : public CBodyEntity
+class CBoxEntity : public CObjectWithLEDs
 {
 public:
+  // For AddEntity; the position is the middle of its base. Defined in the library: `swarmanoid` tells by its name among
+  // those that a library asks for that it makes boxes.
   CBoxEntity(const std::string& id, const CVector3& position, const CQuaternion& orientation, bool movable,
-             const CVector3& size, Real mass = 1.0)
-      : CBodyEntity(id, movable), size_(size), mass_(mass)
+             const CVector3& size, Real mass = 1.0);
+  // For the bridge.
+  CBoxEntity(const std::string& id, bool movable, unsigned leds, const CVector3& size, Real mass)
+      : CObjectWithLEDs(id, movable, leds), size_(size), mass_(mass)
   {
-    GetEmbodiedEntity().GetOriginAnchor().Position = position;
-    GetEmbodiedEntity().GetOriginAnchor().Orientation = orientation;
   }
   const CVector3& GetSize() const { return size_; }
   Real GetMass() const { return mass_; }

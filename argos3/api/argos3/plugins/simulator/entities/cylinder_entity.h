@@ -6,24 +6,23 @@
 namespace argos
 {
 
-class CCylinderEntity : public CBodyEntity
+class CCylinderEntity : public CObjectWithLEDs
 {
 public:
+  // As that of CBoxEntity.
   CCylinderEntity(const std::string& id, const CVector3& position, const CQuaternion& orientation, bool movable,
-                  Real radius, Real height, Real mass = 1.0)
-      : CBodyEntity(id, movable), leds_(this, 1), radius_(radius), height_(height), mass_(mass)
+                  Real radius, Real height, Real mass = 1.0);
+  // For the bridge.
+  CCylinderEntity(const std::string& id, bool movable, unsigned leds, Real radius, Real height, Real mass)
+      : CObjectWithLEDs(id, movable, leds), radius_(radius), height_(height), mass_(mass)
   {
-    GetEmbodiedEntity().GetOriginAnchor().Position = position;
-    GetEmbodiedEntity().GetOriginAnchor().Orientation = orientation;
   }
-  CLEDEquippedEntity& GetLEDEquippedEntity() { return leds_; }
   Real GetRadius() const { return radius_; }
   Real GetHeight() const { return height_; }
   Real GetMass() const { return mass_; }
   std::string GetTypeDescription() const override { return "cylinder"; }
 
 private:
-  CLEDEquippedEntity leds_;
   Real radius_;
   Real height_;
   Real mass_;

@@ -16,6 +16,8 @@ public:
   const CColor& GetColor() const { return colour_; }
   void SetColor(const CColor& colour);
   void SetMedium(CLEDMedium&) {}
+  void AddToMedium(CLEDMedium&) {}
+  void RemoveFromMedium() {}
   Real GetIntensity() const { return intensity_; }
   // Throws CARGoSException for a number that is not finite or below 0.
   void SetIntensity(Real intensity);

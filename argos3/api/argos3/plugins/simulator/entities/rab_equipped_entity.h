@@ -21,7 +21,7 @@ public:
   size_t GetMsgSize() const;
   // m, as in the experiment file.
   Real GetRange() const;
-  // Throws CARGoSException: a range is that of the file for the whole run.
+  // Throws CARGoSException for another range: it is that of the file for the whole run.
   void SetRange(Real range);
   std::string GetTypeDescription() const override { return "rab"; }
 

@@ -6,6 +6,15 @@ namespace argos
 
 class CLEDMedium
 {
+public:
+  template <class Led>
+  void AddEntity(Led&)
+  {
+  }
+  template <class Led>
+  void RemoveEntity(Led&)
+  {
+  }
 };
 
 }  // namespace argos

@@ -1,0 +1,4 @@
+// CLuaController.
+#pragma once
+
+#include <argos3/core/wrappers/lua/lua_controller.h>

@@ -1,0 +1,16 @@
+// The pixels of a JPEG, for pictures on the floor (FloorPicture). In any process.
+#pragma once
+
+#include <string_view>
+
+#include "common/space/terrain/png_picture.h"
+
+namespace swarmanoid
+{
+
+bool IsJpeg(std::string_view bytes);
+// Grey or colours of 8 bits. Decoded with whole numbers alone, so that all processes see the same pixels. Throws
+// std::runtime_error saying what is wrong with the bytes.
+ColourPicture JpegPicture(std::string_view bytes);
+
+}  // namespace swarmanoid
