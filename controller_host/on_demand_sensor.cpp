@@ -48,8 +48,12 @@ void OnDemandSensor::Make(std::size_t k)
   if (in_steps_ && rest_is_there_.load(std::memory_order_acquire)) return;
   const std::lock_guard lock(making_);
   if (in_steps_ && rest_is_there_.load(std::memory_order_relaxed)) return;
+  const std::atomic_ref robot(robots_asked_[k]);
+  if ((robot.load(std::memory_order_relaxed) & there_) != 0) return;  // by another thread of its controller
   if (!in_steps_) RefreshShared(nullptr);
-  if (MakeAlone(k)) return;
+  if (MakeAlone(k))
+    return robot.store(static_cast<std::uint8_t>(robot.load(std::memory_order_relaxed) | asked_),
+                       std::memory_order_release);
   all_are_due_ = false;
   // Between steps those that were asked for are kept.
   for (std::size_t other = 0; other < due_.size(); ++other)

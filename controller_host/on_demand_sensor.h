@@ -22,13 +22,17 @@ class OnDemandSensor : public SplitSensor
 {
 public:
   // To be called by what a controller holds of robot k, before it hands out readings. Control steps of different robots
-  // may ask at the same time.
+  // may ask at the same time, and threads of one controller.
   void Want(std::size_t k)
   {
-    std::uint8_t& robot = robots_asked_[k];
-    if ((robot & there_) == 0) [[unlikely]]
+    const std::atomic_ref robot(robots_asked_[k]);
+    std::uint8_t bits = robot.load(std::memory_order_acquire);
+    if ((bits & there_) == 0) [[unlikely]]
+    {
       Make(k);
-    robot = static_cast<std::uint8_t>(robot | asked_);
+      bits = robot.load(std::memory_order_relaxed);
+    }
+    robot.store(static_cast<std::uint8_t>(bits | asked_), std::memory_order_release);
   }
   // After the control steps of a tick.
   void EndSteps();

@@ -181,7 +181,7 @@ TEST_P(OnDemand, BetweenStepsDependsOnTheRobotAlone)
   }
 }
 
-// Control steps in several threads.
+// Control steps in several threads, and two threads for each robot.
 TEST_P(OnDemand, ManyMayAskAtTheSameTime)
 {
   TestSensor always = Make(), sometimes = Make();
@@ -190,21 +190,22 @@ TEST_P(OnDemand, ManyMayAskAtTheSameTime)
     Change(tick);
     always.Update();
     sometimes.Update();
-    constexpr std::size_t kThreads = 3;
-    std::vector<Values> found(robots.size());
+    constexpr std::size_t kThreads = 4;
+    std::vector<Values> found(2 * robots.size());
     std::vector<std::thread> threads;
     for (std::size_t thread = 0; thread < kThreads; ++thread)
       threads.emplace_back(
           [&, thread]
           {
-            for (std::size_t k = thread; k < robots.size(); k += kThreads)
-              if (tick % 4 == 3) found[k] = Readings(sometimes, k);
+            for (std::size_t k = thread / 2; k < robots.size(); k += kThreads / 2)
+              if (tick % 4 == 3) found[2 * k + thread % 2] = Readings(sometimes, k);
           });
     for (std::thread& thread : threads) thread.join();
     for (std::size_t k = 0; k < robots.size(); ++k)
     {
       const auto expected = Readings(always, k);
-      EXPECT_EQ(found[k], tick % 4 == 3 ? expected : Values()) << k << ", tick " << tick;
+      for (const Values& values : {found[2 * k], found[2 * k + 1]})
+        EXPECT_EQ(values, tick % 4 == 3 ? expected : Values()) << k << ", tick " << tick;
     }
     EndSteps(always);
     EndSteps(sometimes);
