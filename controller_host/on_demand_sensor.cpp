@@ -45,25 +45,35 @@ void OnDemandSensor::EndSteps()
 
 void OnDemandSensor::Make(std::size_t k)
 {
-  if (in_steps_ && rest_is_there_.load(std::memory_order_acquire)) return;
-  const std::lock_guard lock(making_);
-  if (in_steps_ && rest_is_there_.load(std::memory_order_relaxed)) return;
   const std::atomic_ref robot(robots_asked_[k]);
-  if ((robot.load(std::memory_order_relaxed) & there_) != 0) return;  // by another thread of its controller
-  if (!in_steps_) RefreshShared(nullptr);
-  if (MakeAlone(k))
-    return robot.store(static_cast<std::uint8_t>(robot.load(std::memory_order_relaxed) | asked_),
-                       std::memory_order_release);
+  const auto note = [&]
+  {
+    const std::uint8_t bits = robot.load(std::memory_order_relaxed);
+    robot.store(static_cast<std::uint8_t>(bits | asked_), std::memory_order_release);
+  };
+  if (in_steps_ && rest_is_there_.load(std::memory_order_acquire)) return note();
+  const std::lock_guard lock(making_);
+  // Another robot may have asked meanwhile, or another thread of this one's controller.
+  const bool is_there = (in_steps_ && rest_is_there_.load(std::memory_order_relaxed)) ||
+                        (robot.load(std::memory_order_relaxed) & there_) != 0;
+  if (!is_there)
+  {
+    if (!in_steps_) RefreshShared(nullptr);
+    if (!MakeAlone(k)) MakeRest();
+  }
+  note();
+}
+
+// Between steps those that were asked for are kept.
+void OnDemandSensor::MakeRest()
+{
   all_are_due_ = false;
-  // Between steps those that were asked for are kept.
   for (std::size_t other = 0; other < due_.size(); ++other)
     due_[other] = in_steps_ ? due_[other] ^ 1U : (robots_asked_[other] & (kAsked | kBetween)) == 0;
   MakeDue();
-  if (in_steps_)
-    rest_is_there_.store(true, std::memory_order_release);
-  else
-    for (std::size_t other = 0; other < due_.size(); ++other)
-      if (due_[other] != 0) robots_asked_[other] |= kBetween;
+  if (in_steps_) return rest_is_there_.store(true, std::memory_order_release);
+  for (std::size_t other = 0; other < due_.size(); ++other)
+    if (due_[other] != 0) robots_asked_[other] |= kBetween;
 }
 
 }  // namespace swarmanoid

@@ -26,13 +26,10 @@ public:
   void Want(std::size_t k)
   {
     const std::atomic_ref robot(robots_asked_[k]);
-    std::uint8_t bits = robot.load(std::memory_order_acquire);
+    const std::uint8_t bits = robot.load(std::memory_order_acquire);
     if ((bits & there_) == 0) [[unlikely]]
-    {
-      Make(k);
-      bits = robot.load(std::memory_order_relaxed);
-    }
-    robot.store(static_cast<std::uint8_t>(bits | asked_), std::memory_order_release);
+      return Make(k);
+    robot.store(static_cast<std::uint8_t>(bits | asked_), std::memory_order_relaxed);
   }
   // After the control steps of a tick.
   void EndSteps();
@@ -54,6 +51,7 @@ private:
   virtual bool MakeAlone(std::size_t) { return false; }
 
   void Make(std::size_t k);
+  void MakeRest();
 
   // Of what each robot has: bits.
   static constexpr std::uint8_t kAsked = 1;        // its controller asked in its step
