@@ -48,7 +48,7 @@ void ArenaConverter::ConvertFloor(const ConfigurationNode& theirs, Configuration
   const Made made = AddNode(parent, "ground_patch", at);
   SetValue(*made, "id", NeededText(theirs, "id"), at);
   SetValue(*made, "picture", PictureOf(theirs), at);
-  SetValue(*made, "size", fmt::format("{:.17g}, {:.17g}", size.x(), size.y()), at);
+  SetValue(*made, "size", fmt::format("{}, {}", size.x(), size.y()), at);
   SetValue(*made, "position", TextOf(middle), at);
   NoteOthers(theirs, {"id", "source", "path"});
 }

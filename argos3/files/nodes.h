@@ -39,8 +39,9 @@ inline void SetValue(ConfigurationNode& node, const std::string& name, const std
   node.attributes.push_back({name, value, location});
 }
 
-inline std::string TextOf(double number) { return fmt::format("{:.17g}", number); }
-inline std::string TextOf(const Vector3& v) { return fmt::format("{:.17g}, {:.17g}, {:.17g}", v.x(), v.y(), v.z()); }
+// The shortest text that is read as the same number.
+inline std::string TextOf(double number) { return fmt::format("{}", number); }
+inline std::string TextOf(const Vector3& v) { return fmt::format("{}, {}, {}", v.x(), v.y(), v.z()); }
 
 inline const ConfigurationNode::Attribute* FindAttributeOf(const ConfigurationNode& node, const std::string& name)
 {

@@ -21,6 +21,7 @@ class Experiments(RunningTest):
 
     def test_the_converted_file_gives_the_same_hash(self):
         self.swarmanoid("convert", HERE / "wander.argos", "--output", "wander.xml")
+        self.assertIn(' radius="0.1" ', (self.folder / "wander.xml").read_text(), "numbers are as short as they may be")
         self.assertEqual(self.hash_of("wander.xml", "--single-process", "--output", "converted"),
                          self.hash_of(HERE / "wander.argos", "--single-process", "--output", "direct"))
 
