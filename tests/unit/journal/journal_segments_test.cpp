@@ -152,8 +152,9 @@ TEST_F(JournalSegmentsTest, OtherControllerHostsBeginASegment)
 // Ticks that were added before the state of an earlier one came stand in the segment before that state.
 TEST_F(JournalSegmentsTest, NothingIsDroppedThatFollowsAStateThatCameLate)
 {
-  JournalWriter journal(Path(), StartOfRun(), false, {kBudget, kParts});
-  for (std::uint64_t tick = 0; tick < 6000; ++tick)
+  constexpr std::uint64_t kSmallBudget = 1024;  // so that a segment is deleted as soon as nobody needs it
+  JournalWriter journal(Path(), StartOfRun(), false, {kSmallBudget, kParts});
+  for (std::uint64_t tick = 0; tick < 1000; ++tick)
   {
     journal.AddTick(NoisyState(tick), false, {}, {});
     if (tick % kPeriod == kPeriod - 1) journal.Flush();
@@ -262,7 +263,7 @@ TEST_F(JournalSegmentsTest, WhoeverFollowsItSeesWhatAReaderSees)
     const auto back = before.TickToGoOn([&](std::uint64_t usable) { return usable + 2 * kPeriod < tick; });
     ASSERT_LT(*back, tick - 2 * kPeriod) << "some ticks are done again";
     JournalWriter journal(before, *back, false, {kBudget, kParts});
-    AddSomeTicks(journal, *back, *back + 20 * kPeriod);
+    AddSomeTicks(journal, *back, *back + kPeriod);  // so few that none of before is deleted
     journal.Flush();
     expect_same();
   }
