@@ -44,7 +44,11 @@ std::string FirstSentence(const fs::path& file)
   for (const char c : text.substr(start + 4, end - start - 4))
     if (const bool blank = c == ' ' || c == '\n'; !blank || (!words.empty() && words.back() != ' '))
       words += blank ? ' ' : c;
-  return std::string(TrimBlanks(words.substr(0, words.find(". "))));
+  // "et al. 2014" goes on.
+  std::size_t stop = words.find(". ");
+  while (stop != std::string::npos && stop + 2 < words.size() && (words[stop + 2] < 'A' || words[stop + 2] > 'Z'))
+    stop = words.find(". ", stop + 2);
+  return std::string(TrimBlanks(words.substr(0, stop)));
 }
 
 int List()

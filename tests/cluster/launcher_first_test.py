@@ -80,6 +80,7 @@ class First(harness.LauncherTest):
 
     def test_demo_lists_each_sample_with_a_line(self):
         said = self.command("demo", "--list").stdout.splitlines()
+        self.assertTrue(any("(Gauci et al. 2014, " in line and "on a circle" in line for line in said), "a whole sentence")
         self.assertEqual([line.split()[0] for line in said], sorted(path.stem for path in harness.CONFIGS.glob("*.xml")))
         for line in said:
             self.assertGreater(len(line.split()), 3, line)
