@@ -94,7 +94,8 @@ public:
 
 private:
   std::uint16_t port_;
-  boost::asio::io_context context_;
+  // One for all: each takes several open files.
+  inline static boost::asio::io_context context_;
   boost::beast::websocket::stream<Tcp::socket> stream_;
   boost::beast::flat_buffer buffer_;
 };

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 
@@ -23,11 +24,10 @@ struct FileCloser
   throw std::runtime_error("cannot write the picture '" + path + "': " + what);
 }
 
-}  // namespace
-
-void WritePng(const Picture& picture, const std::string& path)
+// `path` is for messages.
+void WriteTo(const std::string& file_name, const Picture& picture, const std::string& path)
 {
-  std::unique_ptr<std::FILE, FileCloser> file(std::fopen(path.c_str(), "wb"));
+  std::unique_ptr<std::FILE, FileCloser> file(std::fopen(file_name.c_str(), "wb"));
   if (file == nullptr) Fail(path, std::strerror(errno));
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop header = png == nullptr ? nullptr : png_create_info_struct(png);
@@ -49,6 +49,28 @@ void WritePng(const Picture& picture, const std::string& path)
   png_write_end(png, header);
   png_destroy_write_struct(&png, &header);
   if (std::fclose(file.release()) != 0) Fail(path, std::strerror(errno));
+}
+
+}  // namespace
+
+void WritePng(const Picture& picture, const std::string& path)
+{
+  namespace fs = std::filesystem;
+  std::error_code none;
+  const fs::file_type type = fs::symlink_status(path, none).type();
+  // A pipe or a link is written to as it is.
+  if (type != fs::file_type::not_found && type != fs::file_type::regular) return WriteTo(path, picture, path);
+  const std::string draft = path + ".new";
+  try
+  {
+    WriteTo(draft, picture, path);
+    if (std::rename(draft.c_str(), path.c_str()) != 0) Fail(path, std::strerror(errno));
+  }
+  catch (...)
+  {
+    if (fs::is_regular_file(draft, none)) fs::remove(draft, none);
+    throw;
+  }
 }
 
 Picture ReadPng(const std::string& path)
