@@ -211,15 +211,16 @@ void SetColour(lua_State* lua, const argos::CColor& colour)
   Leave(lua);
 }
 
-void ReadBlobs(lua_State* lua, argos::CCI_ColoredBlobOmnidirectionalCameraSensor& camera)
+// The list of blobs of a camera, each with two numbers, which set(blob) writes, and its colour.
+template <class Camera, class SetPlace>
+void ReadBlobsOf(lua_State* lua, const char* table, const Camera& camera, const SetPlace& set)
 {
-  Enter(lua, kCamera);
+  Enter(lua, table);
   lua_Integer count = 0;
   for (const auto* blob : camera.GetReadings().BlobList)
   {
     EnterNew(lua, ++count, 3);
-    Set(lua, "distance", blob->Distance);
-    Set(lua, "angle", blob->Angle.GetValue());
+    set(*blob);
     SetColour(lua, blob->Color);
     Leave(lua);
   }
@@ -227,21 +228,25 @@ void ReadBlobs(lua_State* lua, argos::CCI_ColoredBlobOmnidirectionalCameraSensor
   Leave(lua);
 }
 
+void ReadBlobs(lua_State* lua, argos::CCI_ColoredBlobOmnidirectionalCameraSensor& camera)
+{
+  ReadBlobsOf(lua, kCamera, camera,
+              [lua](const auto& blob)
+              {
+                Set(lua, "distance", blob.Distance);
+                Set(lua, "angle", blob.Angle.GetValue());
+              });
+}
+
 // robot.colored_blob_perspective_camera: pixels
 void ReadImage(lua_State* lua, argos::CCI_ColoredBlobPerspectiveCameraSensor& camera)
 {
-  Enter(lua, kPerspectiveCamera);
-  lua_Integer count = 0;
-  for (const auto* blob : camera.GetReadings().BlobList)
-  {
-    EnterNew(lua, ++count, 3);
-    Set(lua, "x", blob->X);
-    Set(lua, "y", blob->Y);
-    SetColour(lua, blob->Color);
-    Leave(lua);
-  }
-  Shorten(lua, count);
-  Leave(lua);
+  ReadBlobsOf(lua, kPerspectiveCamera, camera,
+              [lua](const auto& blob)
+              {
+                Set(lua, "x", blob.X);
+                Set(lua, "y", blob.Y);
+              });
 }
 
 // Sensors of which a robot has several: value, and where each is
