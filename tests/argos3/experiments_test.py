@@ -208,6 +208,11 @@ class Experiments(RunningTest):
                                     ("Init", "late")])
         self.assertEqual(sorted(made[5:]), [("Destroy", "late"), ("Destroy", "made0"), ("Destroy", "made2")])
 
+    def test_the_controller_of_a_robot_that_loop_functions_remove_is_destroyed_at_once(self):
+        # At an end before another robot takes its place, the others are destroyed in the order of the reserve.
+        self.swarmanoid("run", self.changed("make.argos", ('length="1"', 'length="0.4"')), "--output", "run")
+        self.assertEqual(re.findall(r"Destroy of (\w+)", self.said_in("run")), ["made1", "made2", "made0"])
+
     def test_robots_that_loop_functions_add_come_to_an_end(self):
         result = self.swarmanoid("run", self.changed("make.argos", ('robots="3"', 'robots="101"')), "--output", "run", code=3)
         self.assertRegex(result.stdout + result.stderr, r"all 100 entities of the reserve 'added_m' [^\n]*`swarmanoid convert` writes")
