@@ -1,7 +1,5 @@
 #include "controller_host/on_demand_sensor.h"
 
-#include <algorithm>
-
 namespace swarmanoid
 {
 
@@ -10,6 +8,12 @@ void OnDemandSensor::InitDemand(std::size_t robots)
   robots_asked_.assign(robots, kAsked | kAskedBefore);
   due_.assign(robots, 0);
   EndSteps();
+}
+
+void OnDemandSensor::MakeAhead()
+{
+  RefreshShared(nullptr);
+  if (BeginSteps()) MakeDue();
 }
 
 bool OnDemandSensor::BeginSteps()

@@ -37,8 +37,8 @@ public:
 protected:
   // Of so many robots; all are made ahead in the first tick.
   void InitDemand(std::size_t robots);
-  // To be called by Update, once what the batches share is new: whether there is anything to make ahead.
-  bool BeginSteps();
+  // All that Update does: makes new what the batches share, then the readings that are due.
+  void MakeAhead();
   // Which are to be made by MakeDue, and whether that is all of them.
   bool IsDue(std::size_t k) const { return due_[k] != 0; }
   bool AllAreDue() const { return all_are_due_; }
@@ -50,6 +50,8 @@ private:
   // for sensors that make them together.
   virtual bool MakeAlone(std::size_t) { return false; }
 
+  // Says which are due, and whether there are any.
+  bool BeginSteps();
   void Make(std::size_t k);
   void MakeRest();
 

@@ -82,11 +82,7 @@ public:
   CCI_Sensor* Sensor(std::size_t k) override { return &devices_[k]; }
 
   void RefreshShared(WorkerPool* pool) override { world_->Refresh(pool); }
-  void Update(const ChannelView&) override
-  {
-    world_->Refresh();
-    if (BeginSteps()) MakeDue();
-  }
+  void Update(const ChannelView&) override { MakeAhead(); }
 
 private:
   struct Bulb

@@ -103,11 +103,7 @@ public:
     world_->Refresh(pool);
     for (FloorPatch& patch : patches_) patch.pose = space_->GetPose(patch.entity);
   }
-  void Update(const ChannelView&) override
-  {
-    RefreshShared(nullptr);
-    if (BeginSteps()) MakeDue();
-  }
+  void Update(const ChannelView&) override { MakeAhead(); }
 
 private:
   void MakeDue() override

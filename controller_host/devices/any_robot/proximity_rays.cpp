@@ -20,12 +20,6 @@ void ProximityRays::InitRays(const DeviceSetup& setup, std::size_t count, double
 
 void ProximityRays::RefreshShared(WorkerPool* pool) { world_->Refresh(pool); }
 
-void ProximityRays::Update(const ChannelView&)
-{
-  world_->Refresh();
-  if (BeginSteps()) MakeDue();
-}
-
 void ProximityRays::MakeDue()
 {
   for (std::size_t k = 0; k < robots_.size(); ++k)

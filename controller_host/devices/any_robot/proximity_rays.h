@@ -23,7 +23,7 @@ class ProximityRays : public ValueSensor, public OnDemandSensor
 {
 public:
   void RefreshShared(WorkerPool* pool) override;
-  void Update(const ChannelView& channel) override;
+  void Update(const ChannelView&) override { MakeAhead(); }
 
 protected:
   // Takes the noise from the parameters. What controllers hold has to Want its readings. `reach`: how far from the

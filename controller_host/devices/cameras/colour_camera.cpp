@@ -41,12 +41,6 @@ void ColourCamera::RefreshShared(WorkerPool* pool)
   sources_->Refresh();
 }
 
-void ColourCamera::Update(const ChannelView&)
-{
-  RefreshShared(nullptr);
-  if (BeginSteps()) MakeDue();
-}
-
 void ColourCamera::MakeDue()
 {
   // In the order of the grid's cells: neighbours stay in the cache. Every robot has a body.

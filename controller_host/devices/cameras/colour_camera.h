@@ -33,7 +33,7 @@ struct CameraModel
 class ColourCamera : public SensorBatch, public OnDemandSensor
 {
 public:
-  void Update(const ChannelView& channel) override;
+  void Update(const ChannelView&) override { MakeAhead(); }
   void RefreshShared(WorkerPool* pool) override;
 
 protected:

@@ -60,12 +60,6 @@ void FootbotProximity::Init(const DeviceSetup& setup)
   InitDemand(robots_.size());
 }
 
-void FootbotProximity::Update(const ChannelView&)
-{
-  world_->Refresh();
-  if (BeginSteps()) MakeDue();
-}
-
 void FootbotProximity::MakeDue()
 {
   // In the order of the grid's cells, where it has the places of the robots: neighbours stay in the cache. What is kept

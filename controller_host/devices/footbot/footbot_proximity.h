@@ -26,7 +26,7 @@ public:
 
   void Init(const DeviceSetup& setup) override;
   CCI_Sensor* Sensor(std::size_t k) override { return &sensors_[k]; }
-  void Update(const ChannelView& channel) override;
+  void Update(const ChannelView&) override { MakeAhead(); }
   void RefreshShared(WorkerPool* pool) override { world_->Refresh(pool); }
 
 protected:

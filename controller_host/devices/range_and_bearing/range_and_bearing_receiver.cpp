@@ -83,11 +83,7 @@ public:
     world_->Refresh(pool);
     messages_are_read_ = false;
   }
-  void Update(const ChannelView&) override
-  {
-    RefreshShared(nullptr);
-    if (BeginSteps()) MakeDue();
-  }
+  void Update(const ChannelView&) override { MakeAhead(); }
 
 private:
   struct alignas(16) Sent

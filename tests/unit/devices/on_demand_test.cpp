@@ -229,7 +229,7 @@ public:
   std::string Tick(const std::vector<std::size_t>& asks)
   {
     made_.clear();
-    if (BeginSteps()) MakeDue();
+    MakeAhead();
     made_ += "|";
     for (const std::size_t k : asks) Want(k);
     EndSteps();
