@@ -179,7 +179,7 @@ class Mistakes(InAFolder):
             'id="driver"', 'id="driver" library="footbot_diffusion"', 1))
         check = subprocess.run([os.environ["SWARMANOID"], "check", path], capture_output=True, text=True)
         self.assertEqual(check.returncode, 3)
-        self.assertRegex(check.stderr, r"external_controller.xml:\d+:\d+: patch 'floor': cannot read the PNG '.*none.png'")
+        self.assertRegex(check.stderr, r"external_controller.xml:\d+:\d+: patch 'floor': cannot read the picture '.*none.png': it is neither a PNG nor a JPEG")
 
     def test_what_cannot_be_done_is_refused(self):
         simulation = swarmanoid.Simulation(scene.write(self.folder))

@@ -170,6 +170,8 @@ ColourPicture ReadColourPicture(const std::string& path)
       Fail("JPEG", path, error.what());
     }
   }
+  // The rest of the signature is libpng's, which knows what damages it.
+  if (!file.starts_with("\x89PNG")) Fail("picture", path, "it is neither a PNG nor a JPEG");
   const Samples samples = SamplesOf(file, path);
   ColourPicture picture;
   picture.columns = samples.columns;

@@ -77,6 +77,22 @@ TEST(JpegPicture, AFileIsKnownByItsBytesNotByItsName)
   std::filesystem::remove(path);
 }
 
+TEST(ColourPicture, OfOtherFilesItSaysWhichAreTaken)
+{
+  const std::string path = std::filesystem::temp_directory_path() / (std::to_string(getpid()) + "_floor.gif");
+  std::ofstream(path) << "GIF89a";
+  try
+  {
+    ReadColourPicture(path);
+    ADD_FAILURE() << "it was accepted";
+  }
+  catch (const std::runtime_error& error)
+  {
+    EXPECT_EQ(error.what(), "cannot read the picture '" + path + "': it is neither a PNG nor a JPEG");
+  }
+  std::filesystem::remove(path);
+}
+
 TEST(JpegPicture, WhatIsDamagedIsRefusedWithItsReason)
 {
   const auto why = [](const std::string& bytes) -> std::string
