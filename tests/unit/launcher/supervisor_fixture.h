@@ -1,0 +1,153 @@
+// Clusters of shell scripts that behave as the real programs do, and as broken ones do, for tests of the supervisor.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "launcher/processes/supervisor.h"
+#include "tests/eventually.h"
+#include "tests/unit/launcher/process_groups.h"
+
+namespace swarmanoid
+{
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+using test::Eventually;
+using test::kGenerous;
+
+inline const char* const kFinishing =
+    "echo state running; echo tick 5 5 2.5; echo finished 5 2 00000000000000ff 0.2 2.5";
+
+class SupervisorTest : public testing::Test
+{
+protected:
+  SupervisorTest()
+  {
+    folder_ = std::filesystem::temp_directory_path() / ("swarmanoid_supervisor_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_);
+    times_.refresh = milliseconds(20);
+    times_.terminate = milliseconds(100);
+    // If all processes end by themselves, nothing waits for these.
+    times_.settle = times_.others = times_.early_end = kGenerous;
+    times_.finish = times_.finish_visualiser = times_.forced_stop = kGenerous;
+    int ends[2];
+    EXPECT_EQ(pipe(ends), 0);
+    screen_read_.Reset(ends[0]);
+    screen_write_.Reset(ends[1]);
+  }
+  ~SupervisorTest() override { std::filesystem::remove_all(folder_); }
+
+  void Add(const std::string& name, const std::string& script, MemberPlan::Output output = MemberPlan::kLog)
+  {
+    MemberPlan plan;
+    plan.command.name = name;
+    plan.command.arguments = {"/bin/sh", "-c", script};
+    plan.log_path = folder_ / (name + ".log");
+    plan.output = output;
+    plan.visualiser = name == "visualiser";
+    plans_.push_back(plan);
+  }
+  void AddServer(const std::string& script)
+  {
+    Add("space_server", "echo $$ > " + Mark("server") + "; " + script, MemberPlan::kStatus);
+  }
+
+  // What takes the place of the process that was added last; `script` may use $1, which is its incarnation.
+  void ReplaceBy(const std::string& script)
+  {
+    plans_.back().replacement = [script](unsigned incarnation, double, const std::vector<ControllerDeath>&) {
+      return ProcessCommand{"", {"/bin/sh", "-c", script, "sh", std::to_string(incarnation)}, {}, {}};
+    };
+  }
+
+  // Scripts, and the test itself, tell one another how far they are by files.
+  std::string Mark(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
+  std::string Tell(const std::string& name) const { return "touch " + Mark(name) + "; "; }
+  std::string Await(const std::string& name) const { return "until [ -e " + Mark(name) + " ]; do sleep 0.01; done; "; }
+  // Until the supervisor has seen that the server has ended.
+  std::string AwaitEndOfServer() const
+  {
+    return "while kill -0 $(cat " + Mark("server") + ") 2>/dev/null; do sleep 0.01; done; ";
+  }
+  bool IsTold(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+  // An hour passes for the supervisor, which has looked at all that it watches before the script goes on.
+  std::string LetAnHourPass() const { return Tell("an hour later") + Await("looked"); }
+  Clock::time_point Now()
+  {
+    if (!IsTold("an hour later")) return Clock::now();
+    if (++looks_ == 20) std::ofstream(folder_ / "looked");
+    return Clock::now() + std::chrono::hours(1);
+  }
+
+  std::string Running() const
+  {
+    return "echo state running; echo tick 7 100 2.5; " + Tell("running") + "exec sleep 600";
+  }
+  // Ends at its tick once it is asked to.
+  std::string Stoppable() const
+  {
+    return "trap 'echo finished 8 2 00000000000000aa 0.3 1.5; kill $!; exit 0' INT; echo state running; sleep 600 & " +
+           Tell("running") + "wait";
+  }
+  // Sends signals to the test itself, each as soon as a script has told that name.
+  std::jthread PressAt(std::vector<std::pair<std::string, int>> presses) const
+  {
+    return std::jthread(
+        [this, presses = std::move(presses)]
+        {
+          for (const auto& [name, signal] : presses)
+          {
+            EXPECT_TRUE(Eventually([&] { return IsTold(name); })) << name;
+            kill(getpid(), signal);
+          }
+        });
+  }
+
+  ClusterOutcome Run()
+  {
+    ProgressDisplay display(ProgressDisplay::Style::kQuiet, 2);
+    Supervisor supervisor(
+        spawner_, interrupts_, display, screen_write_.Get(), {}, times_, [this] { return Now(); }, retries_);
+    const Clock::time_point start = Clock::now();
+    ClusterOutcome outcome = supervisor.Run(plans_);
+    EXPECT_LT(Clock::now() - start, kGenerous) << "it waited for a process that never ends";
+    for (const pid_t pid : supervisor.Pids())
+      EXPECT_TRUE(GroupIsGone(pid)) << "a process of group " << pid << " is left";
+    return outcome;
+  }
+
+  std::string LogText(const std::string& name) const
+  {
+    std::ostringstream text;
+    text << std::ifstream(folder_ / (name + ".log")).rdbuf();
+    return text.str();
+  }
+  std::string ScreenText()
+  {
+    screen_write_.Reset();
+    std::string text;
+    char buffer[4096];
+    for (ssize_t count = 0; (count = read(screen_read_.Get(), buffer, sizeof buffer)) > 0;)
+      text.append(buffer, static_cast<std::size_t>(count));
+    return text;
+  }
+
+  Interrupts interrupts_;  // first: threads of the tests must not get the signals
+  std::filesystem::path folder_;
+  SupervisorTimes times_;
+  unsigned retries_ = 0;
+  int looks_ = 0;  // at the clock, since an hour passed
+  SystemSpawner spawner_;
+  std::vector<MemberPlan> plans_;
+  FileDescriptor screen_read_, screen_write_;
+};
+
+}  // namespace swarmanoid
