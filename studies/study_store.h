@@ -5,26 +5,16 @@
 
 #include <map>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "studies/design.h"
 #include "studies/run_order.h"
-
-struct sqlite3;
-struct sqlite3_stmt;
+#include "studies/study_database.h"
 
 namespace swarmanoid
 {
-
-// what() names the file and the cause.
-class StudyStoreError : public std::runtime_error
-{
-public:
-  using std::runtime_error::runtime_error;
-};
 
 class StudyStore
 {
@@ -70,25 +60,21 @@ public:
   void WriteTable();
 
 private:
-  struct Statement;
   explicit StudyStore(std::string folder);
-  void Connect();
-  void Connect(const char* file);
+  std::string PathInFolder(const char* file) const;
   void Lock();
-  void Execute(const std::string& commands);
-  std::unique_ptr<Statement> Prepare(const std::string& command);
   void MakeDatabase(const Study& study, const Design& design);
-  void MakeTables(const Study& study, const Design& design);
+  void Connect();
   void ReadColumns();
-  [[noreturn]] void Fail(const std::string& what);
+  void Begin();
 
   std::string folder_;
   int lock_ = -1;
-  sqlite3* database_ = nullptr;
+  std::unique_ptr<StudyDatabase> database_;
   bool in_transaction_ = false;
   std::vector<std::string> factors_;
   std::vector<std::string> columns_;  // of metrics
-  std::unique_ptr<Statement> update_run_, add_sample_;
+  std::unique_ptr<SqlCommand> update_run_, add_sample_;
 };
 
 }  // namespace swarmanoid
