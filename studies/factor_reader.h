@@ -1,0 +1,67 @@
+// Reads what varies in a study from its file: <factor>, <variants> and <zip>, with all that may be wrong about them.
+// Part of LoadStudyText.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/experiment/diagnostics.h"
+#include "common/experiment/element_reader.h"
+#include "studies/study.h"
+
+namespace swarmanoid
+{
+
+// Between words of a list.
+inline constexpr std::string_view kListed = ", \t\r\n";
+
+// The ids of factors and metrics, which no two may share.
+class StudyIds
+{
+public:
+  explicit StudyIds(Diagnostics& diagnostics);
+  // `what` has the id: "factor", "metric".
+  std::string Read(const ElementReader& reader, const char* what);
+
+private:
+  Diagnostics& diagnostics_;
+  std::map<std::string, SourceLocation> ids_;
+};
+
+// From the folder of the study; "" stays "".
+std::string ResolvedPath(const std::string& folder, const std::string& path);
+// <set> of `spec`: path and value.
+std::pair<std::string, std::string> ReadSet(const TConfigurationTree& tree, const ElementSpec& spec,
+                                            Diagnostics& diagnostics);
+
+class FactorReader
+{
+public:
+  // Of the file in that folder. Holds on to `folder`, `ids` and `diagnostics`. `is_search`: a <search> goes through
+  // ranges.
+  FactorReader(const std::string& folder, bool is_search, StudyIds& ids, Diagnostics& diagnostics);
+
+  // <factor> or <variants>; nothing if it has no values.
+  std::optional<Factor> Read(const TConfigurationTree& tree);
+  // Nothing if it holds no factor.
+  std::optional<Dimension> ReadZip(const TConfigurationTree& tree);
+
+private:
+  void ReadVariants(const TConfigurationTree& tree, Factor& factor);
+  void ReadVariant(const TConfigurationTree& tree, Factor& factor);
+  void ReadPaths(const TConfigurationTree& tree, Factor& factor);
+  std::vector<std::string> ReadValues(const TConfigurationTree& tree, const ElementReader& reader);
+  std::vector<std::string> ReadRange(const TConfigurationTree& tree, const ElementReader& reader);
+  SearchRange ReadSearchRange(const TConfigurationTree& tree, const ElementReader& reader);
+
+  const std::string& folder_;
+  bool is_search_;
+  StudyIds& ids_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace swarmanoid
