@@ -7,7 +7,7 @@ function inPage(picture, { x, y }) {
 }
 
 // The parts of the page, and what it does.
-export function pageHook({ state, past, timeline, viewpoints, list, picture, editorOf, select, toggle, approach, colourBy, send }) {
+export function pageHook({ state, past, timeline, viewpoints, list, picture, select, toggle, approach, colourBy, send }) {
   return {
     get past() {
       return past.isOn ? { tick: past.wanted, shown: state.frame?.tick, playing: past.isPlaying } : null;
@@ -24,7 +24,7 @@ export function pageHook({ state, past, timeline, viewpoints, list, picture, edi
     lookBack: (tick) => past.look(tick),
     goLive: () => past.live(),
     get editor() {
-      const editor = editorOf();
+      const { editor } = state;
       return editor && { ...editor.document, shown: editor.path, form: editor.form.form, said: editor.form.said.textContent, busy: editor.isBusy || editor.waiting.length > 0 };
     },
     get connected() {

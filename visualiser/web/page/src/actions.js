@@ -1,0 +1,208 @@
+// What users do by keys, buttons and the picture: to what this page shows, and to the run.
+import { copyOrShow } from "./clipboard.js";
+import { writeLink } from "./link.js";
+import { saveBlob } from "./ui/dom.js";
+import { robotValues } from "./view/robot_values.js";
+
+export class Actions {
+  // Of the page; its parts come by `reach`.
+  constructor(state) {
+    this.state = state;
+  }
+
+  // parts: app, toolbar, list, inspector, log, picture, past, legend, tools, colourChoice of the page; send(request)
+  reach(parts) {
+    Object.assign(this, parts);
+  }
+
+  // ---- the run ----
+
+  command(request) {
+    if (this.state.control === "granted" && !this.state.editor) this.send(request);
+  }
+
+  step(ticks) {
+    this.command({ do: "step", ticks });
+  }
+
+  changeSpeed(step) {
+    const { speed } = this.toolbar;
+    const place = Math.max(0, Math.min(speed.options.length - 1, speed.selectedIndex + step));
+    this.command({ do: "speed", factor: Number(speed.options[place].value) });
+  }
+
+  watch(entities) {
+    this.state.watched = entities;
+    this.send({ do: "watch", entities });
+    this.past.again();
+  }
+
+  // Each: {entity, place: [x, y, z], yaw}
+  move(changes) {
+    const { editor, world } = this.state;
+    if (editor) return editor.move(changes);
+    for (const { entity, place, yaw } of changes)
+      this.command({ do: "move", entity: world.ids[entity], position: [...place], angles: [0, 0, (yaw * 180) / Math.PI] });
+  }
+
+  // pose: {x, y, z, heading}, m and degrees
+  put(entity, verb, { x, y, z, heading }) {
+    this.command({ do: verb, entity: this.state.world.ids[entity], position: [x, y, z], angles: [0, 0, heading] });
+  }
+
+  remove(entities) {
+    const { editor, world } = this.state;
+    if (editor) return editor.remove();
+    for (const entity of entities) if (world.slots[entity] >= 0 && this.picture.placeOf(entity)) this.command({ do: "remove", entity: world.ids[entity] });
+  }
+
+  // ---- what is selected ----
+
+  // further: the card of the one before stays.
+  select(entity, further = false) {
+    if (further && entity !== null) this.inspector.keepSelected();
+    this.choose(entity, entity === null ? [] : [entity]);
+  }
+
+  // Several at once: the first of them is shown in the inspector.
+  selectAll(entities) {
+    this.choose(entities[0] ?? null, entities);
+  }
+
+  choose(entity, chosen) {
+    const { editor } = this.state;
+    this.showChosen(chosen);
+    if (editor) {
+      editor.many = chosen.length > 1;
+      if (!editor.many) editor.select(entity);
+      return;
+    }
+    this.inspector.swarm?.clear();
+    this.inspector.select(entity);
+    this.inspector.setFollowed(this.picture.followed);
+  }
+
+  showChosen(chosen) {
+    const entity = chosen[0] ?? null;
+    this.state.selected = entity;
+    this.picture.select(entity, chosen);
+    this.list.select(entity, chosen);
+  }
+
+  // What the form of a card begins with; for one that is not in the arena, what is looked at.
+  poseOf(entity) {
+    const { picture } = this;
+    const place = picture.placeOf(entity);
+    const [x, y, z] = place ?? [...picture.view.viewpoint.target.slice(0, 2), 0];
+    return { x, y, z, heading: place ? (picture.yawOf(entity) * 180) / Math.PI : 0, present: place !== null };
+  }
+
+  // ---- where the camera is ----
+
+  approach(entity) {
+    this.togglePanel(false);
+    this.select(entity);
+    this.picture.approach(entity);
+  }
+
+  follow(entity) {
+    const wanted = this.picture.followed === entity ? null : entity;
+    if (wanted !== null) this.picture.approach(wanted);
+    this.picture.follow(wanted);
+    this.inspector.setFollowed(wanted);
+  }
+
+  frameArena(how) {
+    if (!this.state.world) return;
+    this.picture.frameArena(how);
+    this.inspector.setFollowed(null);
+  }
+
+  board() {
+    const { picture, state } = this;
+    if (picture.aboard !== null) return picture.board(null);
+    if (state.selected === null || !state.world.isRobot(state.selected) || !picture.placeOf(state.selected)) return this.tell("select a robot first: the camera looks from it");
+    picture.board(state.selected);
+    this.inspector.setFollowed(null);
+  }
+
+  // ---- what is shown ----
+
+  toggle(name) {
+    this.picture.show(name, !this.picture.shows[name]);
+    this.showToggle(name);
+  }
+
+  // Its button is in the bar or among the tools.
+  showToggle(name) {
+    this.toolbar.setToggle(name, this.picture.shows[name]);
+    this.tools.set(name, this.picture.shows[name]);
+  }
+
+  // The length that was measured goes with its tool.
+  switchTool(name) {
+    const { picture } = this;
+    picture[name] = !picture[name];
+    if (name === "measures") picture.tape = null;
+    this.tools.set(name, picture[name]);
+    picture.invalidate();
+  }
+
+  colourBy(name) {
+    this.colourChoice.value = name;
+    this.picture.colourBy(name === "LEDs" ? null : name);
+    this.legend.show(this.picture.colouring, this.state.world);
+  }
+
+  toggleHeat() {
+    this.picture.showHeat(!this.picture.heat);
+    this.tools.set("heat", Boolean(this.picture.heat));
+  }
+
+  // On a narrow screen the list of entities covers the picture only while it is wanted.
+  togglePanel(open = !this.app.classList.contains("list-open")) {
+    this.app.classList.toggle("list-open", open);
+    this.toolbar.setList(open);
+  }
+
+  // ---- what is taken along ----
+
+  // Of a picture or film that begins now.
+  fileName() {
+    return `${this.state.world.experiment}_${this.state.frame?.tick ?? 0}`;
+  }
+
+  // The picture as it is drawn, as a PNG.
+  savePicture() {
+    this.picture.toCanvas().toBlob((blob) => saveBlob(blob, `${this.fileName()}.png`));
+  }
+
+  // What a link says, once the experiment is there.
+  openLink(wanted) {
+    const { picture, state } = this;
+    if (wanted.view) picture.view.viewpoint = wanted.view;
+    if (wanted.select) this.select(state.world.find(wanted.select) >= 0 ? state.world.find(wanted.select) : null);
+    for (const name of wanted.shows ?? []) if (Object.hasOwn(picture.shows, name) && !picture.shows[name]) this.toggle(name);
+    if (wanted.colours && Object.hasOwn(robotValues, wanted.colours)) this.colourBy(wanted.colours);
+  }
+
+  async shareLink() {
+    const { picture, state } = this;
+    const { viewpoint } = picture.view;
+    const shows = Object.keys(picture.shows).filter((name) => picture.shows[name]);
+    const select = state.selected === null ? null : state.world.ids[state.selected];
+    const fragment = writeLink({ view: viewpoint, select, shows, colours: picture.colouring?.name ?? null, quality: picture.isPlan ? "plan" : null });
+    state.link = `${location.origin}${location.pathname}#${fragment}`;
+    if (await copyOrShow("A link to this view", state.link)) this.tell(`copied: ${state.link}`);
+  }
+
+  // ---- what the page says ----
+
+  tell(text, level = "info") {
+    this.log.add({ tick: this.state.frame?.tick ?? null, source: "page", level, text });
+  }
+
+  trouble(text) {
+    this.tell(text, "warning");
+  }
+}

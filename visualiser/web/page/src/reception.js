@@ -1,0 +1,113 @@
+// What the server says: frames and messages, and whom on the page they are for.
+import { FrameDecoder, isPast } from "./protocol.js";
+import { World } from "./world.js";
+
+export class Reception {
+  // parts: state, actions, authority, toolbar, list, inspector, log, processes, timeline, viewpoints, banner, picture, past of the
+  // page; startEditor(), greet(): once the server has said welcome, showState()
+  constructor(parts) {
+    Object.assign(this, parts);
+    this.decoder = new FrameDecoder();
+  }
+
+  // A connection begins or has ended.
+  connected(isOpen) {
+    if (isOpen) {
+      this.decoder = new FrameDecoder();
+      this.picture.marks.forget();
+    }
+    this.state.connected = isOpen;
+    this.showState();
+  }
+
+  frame(buffer) {
+    const { state, past, picture, inspector } = this;
+    const frame = this.decoder.decode(buffer);
+    if (!frame || !state.world) return;
+    if (isPast(buffer)) return past.show(frame);
+    if (state.live && frame.tick < state.live.tick) this.itBegan();
+    state.frames++;
+    state.live = frame;
+    if (past.isOn) return;
+    state.frame = frame;
+    picture.addFrame(frame, performance.now());
+    inspector.addFrame(frame);
+    const { chosen } = picture;
+    const robots = chosen.length > 1 ? chosen.filter((entity) => state.world.isRobot(entity)) : state.world.robots;
+    inspector.swarm?.addFrame(frame, picture.meter, robots, robots === state.world.robots);
+    this.toolbar.setFrame(frame);
+  }
+
+  message(message) {
+    if (Object.hasOwn(receivers, message.type)) receivers[message.type](this, message);
+  }
+
+  // A tick before the last one, or going on after the end: a new run of the same experiment at the same address.
+  itBegan() {
+    const { state } = this;
+    this.log.add({ tick: 0, source: "page", level: "info", text: "the experiment was started again" });
+    state.status = null;
+    state.live = null;
+    this.banner.itBegan();
+    this.showState();
+  }
+
+  setWorld(message) {
+    const { state, picture, actions } = this;
+    const selected = state.selected === null ? null : state.world.ids[state.selected];
+    const chosen = picture.chosen.map((entity) => state.world.ids[entity]);
+    const isNew = state.world?.experiment !== message.experiment;
+    state.world = new World(message);
+    if (isNew) this.viewpoints.set(state.world.viewpoints);
+    document.title = `${message.experiment} · Swarmanoid`;
+    for (const part of [this.toolbar, this.inspector, this.list, picture]) part.setWorld(state.world);
+    for (const name of Object.keys(picture.shows)) actions.showToggle(name);
+    const again = selected === null ? -1 : state.world.find(selected);
+    state.selected = null;
+    if (state.editor) actions.showChosen(chosen.map((id) => state.world.find(id)).filter((entity) => entity >= 0));
+    else actions.select(again >= 0 ? again : null);
+  }
+}
+
+// By the type of the message.
+const receivers = {
+  welcome({ log, authority, startEditor, greet }, { control, challenge, edits }) {
+    log.clear();
+    if (edits) startEditor();
+    authority.welcome(control, challenge ?? null);
+    greet();
+  },
+  authority: ({ authority }, { control }) => authority.grant(control),
+  document: ({ state }, message) => state.editor?.receive(message),
+  form: ({ state }, message) => state.editor?.receiveForm(message),
+  world: (page, message) => page.setWorld(message),
+  status(page, message) {
+    const { state } = page;
+    if (state.status?.phase === "finished" && message.phase !== "finished") page.itBegan();
+    state.status = message;
+    page.processes.update(message);
+    page.showState();
+  },
+  colours({ state, past, picture }, message) {
+    state.colours = message;
+    if (!past.isOn) picture.paint(message);
+  },
+  watched: ({ past, inspector }, message) => past.isOn || inspector.addDetails(message),
+  timeline({ state, timeline }, message) {
+    state.run = message.run;
+    timeline.set(message, state.world?.tickSeconds);
+  },
+  past({ past, picture, inspector }, message) {
+    if (!past.isOn) return;
+    picture.paint(message.colours);
+    inspector.addDetails(message);
+  },
+  past_inside: ({ past, inspector }, message) => past.isOn && past.wanted === message.tick && inspector.addInside(message),
+  marks: ({ picture }, message) => picture.marks.receive(message),
+  log: ({ log }, message) => log.add(message),
+  reply({ state, log, past }, { text }) {
+    log.add({ tick: state.editor ? null : state.frame?.tick ?? null, source: "server", level: "warning", text });
+    state.editor?.refused(text);
+    if (past.isOn) past.answered();
+  },
+};

@@ -1,0 +1,48 @@
+// One line over the picture: that the page has no connection, that the run waits, has ended or began again.
+import { h, setText } from "./dom.js";
+
+const NEWS_MS = 5000;
+
+export class Banner {
+  // state: of the page; isLookingBack(): whether it shows the past
+  constructor(state, { isLookingBack }) {
+    this.state = state;
+    this.isLookingBack = isLookingBack;
+    this.element = h("div.banner", { role: "status" });
+    this.newsUntil = 0;
+  }
+
+  // The experiment was started again.
+  itBegan() {
+    this.newsUntil = Infinity;
+    this.show();
+  }
+
+  show() {
+    const { connected, status } = this.state;
+    const text = this.text();
+    setText(this.element, text);
+    this.element.hidden = text === "";
+    this.element.dataset.kind = connected || status?.phase === "finished" ? "calm" : "trouble";
+  }
+
+  text() {
+    const { connected, status, world } = this.state;
+    const ended = status?.phase === "finished";
+    if (!connected && ended) return "The run has ended; this is its last state. Start the experiment again, and this page goes on.";
+    if (connected && this.isLookingBack()) return "Looking back. Live, or Q, goes to the present.";
+    if (!connected) return world ? "The connection is lost. Trying again; this is the last state." : "Waiting for the server.";
+    if (ended) return `The run has ended${status.ended ? `: ${status.ended}` : ""}. This is its last state.`;
+    if (status?.phase === "waiting") return "The run has not begun: it waits for its processes.";
+    return this.newsLasts() ? "The experiment was started again." : "";
+  }
+
+  // The time of the news begins when nothing more urgent stands in its place.
+  newsLasts() {
+    if (this.newsUntil === Infinity) {
+      this.newsUntil = performance.now() + NEWS_MS;
+      setTimeout(() => this.show(), NEWS_MS + 10);
+    }
+    return performance.now() < this.newsUntil;
+  }
+}
