@@ -8,6 +8,7 @@
 #include "common/space/space.h"
 #include "python/module/attached_run.h"
 #include "python/module/space_rows.h"
+#include "visualiser/status_line.h"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -52,23 +53,6 @@ py::object StateOf(AttachedRun& run)
   return has_one ? py::object(state) : py::none();
 }
 
-const char* PhaseText(RunStatus::Phase phase)
-{
-  switch (phase)
-  {
-    case RunStatus::Phase::kWaiting:
-      return "waiting";
-    case RunStatus::Phase::kRunning:
-      return "running";
-    case RunStatus::Phase::kPaused:
-      return "paused";
-    case RunStatus::Phase::kFinished:
-      return "finished";
-    default:
-      return "unknown";
-  }
-}
-
 py::dict StatusOf(AttachedRun& run)
 {
   const RunStatus status = run.Status();
@@ -76,7 +60,7 @@ py::dict StatusOf(AttachedRun& run)
   for (const ProcessStatus& process : status.processes)
     processes.append(py::dict("name"_a = process.name, "process"_a = process.process, "tick"_a = process.tick,
                               "late_s"_a = process.late_s, "doing"_a = process.doing));
-  return py::dict("phase"_a = PhaseText(status.phase), "tick"_a = status.tick, "speed_wanted"_a = status.speed_wanted,
+  return py::dict("phase"_a = PhaseName(status.phase), "tick"_a = status.tick, "speed_wanted"_a = status.speed_wanted,
                   "real_time_factor"_a = status.real_time_factor, "ticks_per_second"_a = status.ticks_per_second,
                   "ended"_a = status.ended, "processes"_a = processes);
 }
