@@ -38,7 +38,7 @@ set(SWARMANOID_EXACT -ffp-contract=off)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   list(APPEND SWARMANOID_EXACT -mno-fma)
 endif()
-add_compile_options(${SWARMANOID_EXACT} -fno-trapping-math -fno-math-errno)
+add_compile_options(${SWARMANOID_EXACT} -fno-trapping-math -fno-math-errno -fno-semantic-interposition)
 add_compile_definitions(EIGEN_DONT_VECTORIZE)
 # GCC looks for memory to free when it has used 1 GiB, not 128 MiB: a tenth less time.
 add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=1048576>)
