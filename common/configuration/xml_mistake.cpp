@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr auto kNone = std::string_view::npos;
-constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::string_view kWhiteSpace = " \t\r\n";
 constexpr std::string_view kEndsOfNames = " \t\r\n/>=<";
 
 std::size_t Find(std::string_view text, std::string_view any_of, std::size_t from)
@@ -24,7 +24,7 @@ std::size_t Find(std::string_view text, std::string_view any_of, std::size_t fro
 
 std::size_t SkipBlanks(std::string_view text, std::size_t from)
 {
-  return std::min(text.find_first_not_of(kBlanks, from), text.size());
+  return std::min(text.find_first_not_of(kWhiteSpace, from), text.size());
 }
 
 // An attribute from the first letter of its name to its closing quote, as far as it is there.
@@ -56,7 +56,7 @@ std::string ShownName(std::string_view text, std::size_t name)
 bool IsCharacter(std::string_view text, std::size_t offset)
 {
   const auto first = static_cast<unsigned char>(text[offset]);
-  if (first < 0x80) return first >= 0x20 || kBlanks.find(text[offset]) != kNone;
+  if (first < 0x80) return first >= 0x20 || kWhiteSpace.find(text[offset]) != kNone;
   std::size_t end = offset + 1;
   while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) ++end;
   const std::string alone = fmt::format("<a>{}</a>", text.substr(offset, end - offset));
@@ -214,7 +214,7 @@ private:
     if (at < offset) return {at, "a '/' must be followed by '>'"};
     if (at >= text_.size() || text_[at] == '<')
       return {start, fmt::format("the tag <{} does not end; add '>'", element)};
-    if (at > name_end && kBlanks.find(text_[at - 1]) == kNone)
+    if (at > name_end && kWhiteSpace.find(text_[at - 1]) == kNone)
       return {at, fmt::format("a blank must stand between the attributes of <{}>", element)};
     return {at, fmt::format("an attribute of <{}> must read name=\"value\"", element)};
   }
