@@ -102,20 +102,22 @@ class Moves(LauncherTest):
         self.control("stop")
         self.assertEqual(run.wait(), 0, run.stderr)
 
-    def test_drain_knows_who_never_arrived(self):
-        """A worker whose new place nobody can reach goes back, and is not taken for being there."""
+    def test_drain_knows_who_arrived(self):
+        """A worker whose new place nobody can reach goes back, and is not taken for being there; one that arrived is."""
         reach = self.folder / "reach.sh"
         reach.write_text('#!/bin/sh\n[ "$1" = nowhere ] && exit 255\nshift\nexec sh -c "$*"\n')
         reach.chmod(0o755)
         hosts = self.folder / "hosts.txt"
-        hosts.write_text(f"command = {reach} {{host}} {{shell_command}}\nmachines = nowhere\noptions = --interface lo\n")
+        hosts.write_text(f"command = {reach} {{host}} {{shell_command}}\nmachines = nowhere beta\noptions = --interface lo\n")
         run = self.begin("--hosts", hosts)
         self.control("step", 300)
         self.control("move-host", "1", "nowhere")
         self.assertIn("no worker is at nowhere", self.control("drain", "nowhere"))
-        run.read_until("controller host 1 moves to nowhere")
+        said = run.read_until("controller host 1 moves to nowhere")
+        self.control("move-host", "0", "beta")
+        self.assertRegex(self.control("drain", "beta"), "controller host 0 is process .* now, at tick 300")
         self.run_it("control", "resume")
-        self.assert_undisturbed(run)
+        self.assert_undisturbed(run, said)
 
     def hosts_of(self, run):
         return sorted(words[words.index("--host") + 1] if "--host" in words else "0" for words in map(words_of, processes_of(run.process.pid))
@@ -156,7 +158,8 @@ class Moves(LauncherTest):
   <arena_physics><engine id="ground"><all/></engine></arena_physics>
   <visualisations><text_render id="positions" file="positions.txt" every="10"/></visualisations>
 </ahss-config>""")
-        run = self.begin(experiment=experiment)
+        # So slow that the space server and the engine, which can be saved, are in between: all go on from there, the hosts from the start.
+        run = self.begin("--real-time", 20, experiment=experiment, ticks=1200)
         for words in (["+1"], ["-2"], ["+3"]):
             self.control("step", 333)
             self.control("hosts", *words)
