@@ -104,6 +104,28 @@ class Once(RecoveryTest):
         self.control("resume")
         self.assert_same(run, 2000, expected, said)
 
+    def test_hosts_whose_last_commands_the_engine_has(self):
+        # The engine ends the tick while the new host is on its way: the run goes on to the next one only when that has done it, too.
+        experiment = CONFIGS / "diffusion_10.xml"
+        expected = self.undisturbed(experiment, 300)
+        run = self.start("run", experiment, "--ticks", 300, "--controller-hosts", 2, "--paused", "--hash-log", "cluster", "--output", "out",
+                         "--no-visualisers")
+        self.wait_for_experiment("diffusion_10")
+        self.control("step", 100)
+        engine = run.find("engine_worker")
+        os.kill(engine, signal.SIGSTOP)
+        stepping = self.start("control", "step", 100)
+        time.sleep(0.5)  # for the hosts to take their step; on a machine that needs longer this tests less
+        dead = run.find("controller_host")
+        os.kill(dead, signal.SIGKILL)
+        said = run.read_until(REPLACED)
+        self.alive(run, "controller_host", [dead])
+        time.sleep(0.5)  # to ask what it has missed; likewise
+        os.kill(engine, signal.SIGCONT)
+        stepping.wait()  # it may have given up
+        self.control("resume")
+        self.assert_same(run, 300, expected, said)
+
     def killed_once(self, fault, tick):
         """A run whose controller, which cannot be saved, is killed the first time that it gets there."""
         mark = self.folder / "killed"
