@@ -30,18 +30,13 @@ void KinematicWorld::LimitMotions(double seconds)
   InParts(Pool(), PaddedCount(count_), kPadding,
           [&](unsigned, std::size_t begin, std::size_t end) { FindWays(begin, end); });
   for (const Grip& grip : grips_) way_[grip.body] = way_[grip.prey] + ArcOf(grip, seconds);
-  for (Part& part : parts_)
-  {
-    part.limits.Clear();
-    part.is_limited.assign(part.pairs.pairs.size(), 0);
-  }
+  for (Part& part : parts_) part.limits.Clear();
   limits_of_large_.Clear();
-  is_large_limited_.assign(pairs_of_large_.pairs.size(), 0);
-  while (more)
+  for (bool first = true; more; first = false)
   {
     more = false;
-    ForEachPart([&](Part& part) { FindLimits(part.pairs.pairs, seconds, part.is_limited, part.limits, more); });
-    FindLimits(pairs_of_large_.pairs, seconds, is_large_limited_, limits_of_large_, more);
+    ForEachPart([&](Part& part) { FindLimits(part.pairs.pairs, first, part.open, seconds, part.limits, more); });
+    FindLimits(pairs_of_large_.pairs, first, open_of_large_, seconds, limits_of_large_, more);
     if (region_ && !more) more = region_->ShareInvolved(*this, false);
   }
   for (const Part& part : parts_) limiter_.Add(part.limits);
@@ -159,28 +154,36 @@ bool KinematicWorld::CirclesMeet(std::uint32_t a, std::uint32_t b) const
   return dx * dx + dy * dy <= limit * limit;
 }
 
-// Of pairs with a leader that is involved; each once.
-void KinematicWorld::FindLimits(std::span<const Pair> pairs, double seconds, std::span<std::uint8_t> is_limited,
-                                LimitList& limits, std::atomic<bool>& more)
+// Of those of `open`, numbers of pairs, that have a leader that is involved; the others stay in it. At first all are.
+void KinematicWorld::FindLimits(std::span<const Pair> pairs, bool first, std::vector<std::uint32_t>& open,
+                                double seconds, LimitList& limits, std::atomic<bool>& more)
 {
   NearPairs near;
-  for (std::size_t n = 0; n < pairs.size(); ++n)
+  const auto limit = [&](const Pair& pair)
   {
-    const auto [a, b] = pairs[n];
-    const std::uint32_t i = LeaderOf(a);
-    const std::uint32_t j = LeaderOf(b);
-    if ((!IsInvolved(i) && !IsInvolved(j)) || is_limited[n] != 0) continue;
-    is_limited[n] = 1;
+    const auto [a, b] = pair;
     const bool fixed = b >= count_;
-    if (i == j || (!fixed && !CanMeet(a, b))) continue;
+    if (LeaderOf(a) == LeaderOf(b) || (!fixed && !CanMeet(a, b))) return;
     const double margin = OutlineWay(a, seconds) + (fixed ? 0 : OutlineWay(b, seconds));
-    if (margin <= 0) continue;
-    const Placed first = PlaceBefore(a);
-    const Placed second = fixed ? placed_[b] : PlaceBefore(b);
-    if (near.batch.IsFull() || !near.batch.Takes(first, second)) AddLimits(near, seconds, limits, more);
+    if (margin <= 0) return;
+    const Placed one = PlaceBefore(a);
+    const Placed other = fixed ? placed_[b] : PlaceBefore(b);
+    if (near.batch.IsFull() || !near.batch.Takes(one, other)) AddLimits(near, seconds, limits, more);
     near.margins[near.batch.Count()] = margin;
-    near.Add(pairs[n], first, second);
+    near.Add(pair, one, other);
+  };
+  if (first) open.resize(pairs.size());
+  std::size_t left = 0;
+  for (std::size_t n = 0; n < open.size(); ++n)
+  {
+    const std::uint32_t number = first ? static_cast<std::uint32_t>(n) : open[n];
+    const Pair& pair = pairs[number];
+    if (IsInvolved(LeaderOf(pair.first)) || IsInvolved(LeaderOf(pair.second)))
+      limit(pair);
+    else
+      open[left++] = number;
   }
+  open.resize(left);
   AddLimits(near, seconds, limits, more);
 }
 

@@ -157,7 +157,7 @@ private:
     ContactList contacts;
     ContactList of_groups;  // contacts of bodies that are led by another one
     LimitList limits;
-    std::vector<std::uint8_t> is_limited;  // of each pair
+    std::vector<std::uint32_t> open;  // numbers of pairs that limit nobody so far
   };
   // A part of an outline where the substep began, and what its leader wants to do.
   struct Side
@@ -266,8 +266,8 @@ private:
   bool IsInvolved(std::uint32_t leader);
   void FindOverlaps(std::span<const Pair> pairs, std::atomic<bool>& more);
   bool CirclesMeet(std::uint32_t a, std::uint32_t b) const;
-  void FindLimits(std::span<const Pair> pairs, double seconds, std::span<std::uint8_t> is_limited, LimitList& limits,
-                  std::atomic<bool>& more);
+  void FindLimits(std::span<const Pair> pairs, bool first, std::vector<std::uint32_t>& open, double seconds,
+                  LimitList& limits, std::atomic<bool>& more);
   void AddLimits(NearPairs& near, double seconds, LimitList& limits, std::atomic<bool>& more);
   bool CanMeet(std::uint32_t a, std::uint32_t b) const;
   // What a leader wants to turn by in this substep.
@@ -330,7 +330,7 @@ private:
   std::vector<std::uint8_t> is_involved_;        // of each leader: it may be limited in this substep
   std::vector<ContactBlock> contacts_of_large_;  // of each part of pairs_of_large_
   LimitList limits_of_large_;
-  std::vector<std::uint8_t> is_large_limited_;
+  std::vector<std::uint32_t> open_of_large_;
   double reach_ = 0;           // nobody gets further than this from where a substep began
   double contact_margin_ = 0;  // outlines nearer than this are contacts
   double allowed_ = 0;         // overlap that is left alone
