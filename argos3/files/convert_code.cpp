@@ -16,13 +16,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPlugin = "argos3";
 
-constexpr std::pair<const char*, const char*> kConstructors[]{{"footbot", "14CFootBotEntityC"},
-                                                              {"eyebot", "13CEyeBotEntityC"},
-                                                              {"argos3_epuck", "12CEPuckEntityC"},
-                                                              {"light_bulb", "12CLightEntityC"},
-                                                              {"box", "10CBoxEntityC"},
-                                                              {"cylinder", "15CCylinderEntityC"},
-                                                              {"configuration", "20GetConfigurationRootE"}};
+constexpr std::pair<const char*, const char*> kConstructors[]{
+    {"footbot", "14CFootBotEntityC"},  {"eyebot", "13CEyeBotEntityC"}, {"argos3_epuck", "12CEPuckEntityC"},
+    {"light_bulb", "12CLightEntityC"}, {"box", "10CBoxEntityC"},       {"cylinder", "15CCylinderEntityC"},
+    {"reset", "10CSimulator5ResetE"},  {"reset", "6CSpace5ResetE"},    {"configuration", "20GetConfigurationRootE"}};
 
 // Of a controller that no robot of the file has: by its devices.
 std::string KindByDevices(const ConfigurationNode& controller)
@@ -72,6 +69,7 @@ void CodeConverter::ConvertControllers(ConfigurationNode& ours)
   made_kinds_ = FindMadeKinds();
   if (made_kinds_.erase("light_bulb") != 0) arena_.KeepSpareLights(kSpareLights);
   asks_for_configuration_ = made_kinds_.erase("configuration") != 0;
+  resets_runs_ = made_kinds_.erase("reset") != 0;
   makes_bodies_ = made_kinds_.erase("box") + made_kinds_.erase("cylinder") != 0;
   for (const auto& controller : controllers->children) ConvertController(*controller, *made, somebody_hears);
 }
@@ -278,6 +276,20 @@ std::optional<std::string> CodeConverter::Found(const std::vector<fs::path>& fol
   return std::nullopt;
 }
 
+// A run that loop functions reset goes on, so they know how long one is, and not the framework.
+void CodeConverter::MoveLength(ConfigurationNode& ours, ConfigurationNode& functions)
+{
+  for (auto& child : ours.children)
+  {
+    const auto* length = child->name == "framework" ? FindAttributeOf(*child, "maxclock") : nullptr;
+    if (length == nullptr) continue;
+    SetValue(functions, "length", length->value, length->location);
+    const auto endless = std::make_shared<ConfigurationNode>(*child);
+    std::erase_if(endless->attributes, [](const auto& attribute) { return attribute.name == "maxclock"; });
+    child = endless;
+  }
+}
+
 void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehearsal)
 {
   for (const Made& options : options_)
@@ -304,6 +316,7 @@ void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehea
   SetValue(*made, "distributed", arena_.Distributed(), at);
   SetValue(*made, "floor", arena_.FloorId(), at);
   SetValue(*made, "controllers", controller_libraries_, at);
+  if (resets_runs_) MoveLength(ours, *made);
   if (for_rehearsal) SetValue(*made, "rehearsal", "true", at);
   made->children.push_back(std::make_shared<ConfigurationNode>(*theirs));
   if (!asks_for_configuration_) return;

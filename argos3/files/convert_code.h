@@ -56,6 +56,7 @@ private:
     }
     return tags;
   }
+  static void MoveLength(ConfigurationNode& ours, ConfigurationNode& functions);
   // Where libraries are looked for.
   std::vector<std::filesystem::path> Folders() const;
   void SetScript(const ConfigurationNode& theirs, ConfigurationNode& options);
@@ -73,6 +74,7 @@ private:
   std::vector<Made> options_;  // of the controllers
   std::set<std::string> made_kinds_;
   bool makes_bodies_ = false;
+  bool resets_runs_ = false;
   bool asks_for_configuration_ = false;
   std::string controller_libraries_;  // with colons between them
 };

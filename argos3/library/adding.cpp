@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "argos3/library/editing.h"
+#include "common/space/attributes.h"
 #include "space_server/space_changes.h"
 
 namespace argos
@@ -175,6 +176,9 @@ void CLoopFunctions::AddEntity(CEntity& entity)
     throw CARGoSException(refused.what());
   }
   running.given[ours] = &entity;
+  const auto& now = *Editor().GetSpace().FindEntity(ours);
+  const bool has_colour = swarmanoid::FindAttribute(now.GetKind(), "colour") != nullptr;
+  running.arrivals[ours] = {now.GetPose(), has_colour ? now.GetAttribute("colour") : 0};
   running.presence_changed = true;
   CSimulator::GetInstance().GetSpace().InsertAny(entity);
   if (was_declared) return;
@@ -196,6 +200,7 @@ void CLoopFunctions::RemoveEntity(const std::string& id)
   }
   Running& running = TheRunning();
   running.given.erase(ours);
+  running.arrivals.erase(ours);
   running.presence_changed = true;
   running.taken.erase(id);
   if (const auto spare = running.spares.find(ours); spare != running.spares.end()) spare->second->Leave();

@@ -25,6 +25,16 @@ inline Pose PoseOf(const CSwarmanoidSpaceEntity& entity, const argos::CVector3& 
   return pose;
 }
 
+// The other way round.
+inline argos::SAnchor AnchorOf(const CSwarmanoidSpaceEntity& entity, Pose pose)
+{
+  if (IsBox(entity)) pose.position -= pose.orientation * Vector3(0, 0, entity.GetSize().z() / 2);
+  argos::SAnchor anchor;
+  anchor.Position = TheRunning().translation.Argos3Position(pose.position);
+  anchor.Orientation = Argos3Orientation(pose.orientation);
+  return anchor;
+}
+
 inline const CSwarmanoidSpaceEntity& Declared(const std::string& id)
 {
   const auto* entity = Editor().GetSpace().FindEntity(TheRunning().OurId(id));

@@ -74,10 +74,27 @@ public:
   virtual void Leave() = 0;
 };
 
+// A robot with a controller in this process.
+class ControlledRobot
+{
+public:
+  virtual ~ControlledRobot() = default;
+  // Reset of its devices and its controller.
+  virtual void Reset() = 0;
+};
+
+// How an entity came into the arena.
+struct Arrival
+{
+  Pose pose;
+  double colour = 0;  // 0xRRGGBB; of one that has the attribute
+};
+
 struct BatteryCharge
 {
   double available = 1;
   double full = 1;
+  double start = 1;
 };
 
 struct Running
@@ -90,12 +107,18 @@ struct Running
   Translation translation;
   // Those of this process, by our id.
   std::map<std::string, SpareRobot*> spares;
+  // Likewise, with those that have a controller now.
+  std::map<std::string, ControlledRobot*> controlled;
   // Of the robots of this process that have the sensor <battery>, by our id.
   std::map<std::string, BatteryCharge*> batteries;
   // What loop functions added and did not remove, and robots that they made whose controller they had: ours by their
   // id; and the objects that they gave by our id.
   std::map<std::string, std::string> taken;
   std::map<std::string, argos::CEntity*> given;
+  std::map<std::string, Arrival> arrivals;  // of those objects
+  // The tick of the step that functions are called in, and that at which the clock of theirs was 0.
+  std::uint64_t step = 0;
+  std::uint64_t first_step = 0;
   // Only in a rehearsal of Init: boxes and cylinders that the file does not declare.
   std::optional<Rehearsal> rehearsal;
   // Whether something was added or removed since this was set to false.

@@ -114,11 +114,6 @@ void CSpace::GetEntitiesMatching(CEntity::TVector& found, const std::string& pat
     if (MatchPattern(entity->GetId(), pattern)) found.push_back(entity);
 }
 
-void CSpace::Reset()
-{
-  THROW_ARGOSEXCEPTION("loop functions cannot reset the space; `swarmanoid control reset` starts the run anew");
-}
-
 void CSpace::InsertAny(CEntity& entity)
 {
   if (InsertIfRobot<CFootBotEntity>(*this, entity) || InsertIfRobot<CEyeBotEntity>(*this, entity) ||

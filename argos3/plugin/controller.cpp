@@ -22,12 +22,12 @@ namespace swarmanoid::argos3
 namespace
 {
 
-class Argos3Controller : public CCI_Controller, private SpareRobot
+class Argos3Controller : public CCI_Controller, private SpareRobot, private ControlledRobot
 {
 public:
   ~Argos3Controller() override
   {
-    TheRunning().controllers.erase(id_);
+    Forget();
     if (is_spare_) TheRunning().spares.erase(GetRobot()->GetId());
   }
 
@@ -79,10 +79,24 @@ private:
   void Leave() override
   {
     Destroy();
-    TheRunning().controllers.erase(id_);
+    Forget();
     controller_.reset();
     sensors_.clear();
     actuators_.clear();
+  }
+
+  void Forget()
+  {
+    TheRunning().controllers.erase(id_);
+    TheRunning().controlled.erase(GetRobot()->GetId());
+  }
+  void Reset() override
+  {
+    const Speaker speaker(*GetRobot());
+    for (const auto& sensor : sensors_) sensor->Sensor().Reset();
+    for (const auto& actuator : actuators_) actuator->Actuator().Reset();
+    controller_->Reset();
+    Commit();
   }
 
   // `id`: of theirs.
@@ -97,6 +111,7 @@ private:
     if (!TheRunning().controllers.emplace(id_, controller_.get()).second)
       throw std::runtime_error("a process runs one ARGoS3 experiment at a time; another one has a robot '" + id_ + "'");
 
+    TheRunning().controlled[GetRobot()->GetId()] = this;
     const TConfigurationTree params = parameters_.Child("params");
     params_ = argos::TConfigurationNode();
     if (params.Exists()) CopyElement(*params.Node(), params_);

@@ -40,6 +40,7 @@ public:
     m_tSettings.resize(ring_.GetNumLeds(), argos::CColor::BLACK);
   }
   argos::CCI_Actuator& Actuator() override { return *this; }
+  void Reset() override { SetAllColors(argos::CColor::BLACK); }
   void Commit() override
   {
     for (unsigned led = 0; led < m_tSettings.size(); ++led) ring_.SetColour(led, Lit(m_tSettings[led]));
@@ -135,7 +136,8 @@ public:
   explicit Battery(const DeviceSetup& setup)
       : robot_(setup.robot),
         ours_(setup.robot.Sensor<swarmanoid::CCI_BatterySensor>("battery")),
-        charge_{setup.options.GetNumber("start_charge", 1), setup.options.GetNumber("full_charge", 1)},
+        charge_{setup.options.GetNumber("start_charge", 1), setup.options.GetNumber("full_charge", 1),
+                setup.options.GetNumber("start_charge", 1)},
         noise_low_(setup.options.GetNumber("battery_noise_low", 0)),
         noise_high_(setup.options.GetNumber("battery_noise_high", 0))
   {
@@ -180,6 +182,7 @@ public:
     m_cData.Resize(static_cast<size_t>(setup.options.GetInteger("rab_data_size", 10)));
   }
   argos::CCI_Actuator& Actuator() override { return *this; }
+  void Reset() override { ClearData(); }
   void Commit() override
   {
     swarmanoid::CCI_RangeAndBearingActuator::Message message{};

@@ -25,6 +25,7 @@ public:
   {
   }
   argos::CCI_Actuator& Actuator() override { return *this; }
+  void Reset() override { SetLinearVelocity(0, 0); }
   void SetLinearVelocity(Real left, Real right) override
   {
     wheels_.SetLinearVelocity(left / kCentimetres, right / kCentimetres);

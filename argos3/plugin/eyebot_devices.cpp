@@ -44,6 +44,13 @@ public:
     yaw_ = place_.GetHeading() + yaw.GetValue();
     if (!position_) position_ = place_.GetPosition();
   }
+  // It stays where it is then: at its place.
+  void Reset() override
+  {
+    position_.reset();
+    yaw_.reset();
+    propellers_.SetVelocity(0, 0, 0, 0);
+  }
   void Commit() override
   {
     if (position_) propellers_.SetPosition(*position_, *yaw_);
@@ -65,6 +72,11 @@ public:
   {
   }
   argos::CCI_Actuator& Actuator() override { return *this; }
+  void Reset() override
+  {
+    velocity_ = argos::CVector3();
+    yaw_rate_ = 0;
+  }
   void SetLinearVelocity(const argos::CVector3& velocity) override { velocity_ = velocity; }
   void SetRotationalSpeed(const argos::CRadians& speed) override { yaw_rate_ = speed.GetValue(); }
   void Commit() override { propellers_.SetVelocity(velocity_.GetX(), velocity_.GetY(), velocity_.GetZ(), yaw_rate_); }

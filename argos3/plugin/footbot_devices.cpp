@@ -45,6 +45,7 @@ public:
   {
   }
   argos::CCI_Actuator& Actuator() override { return *this; }
+  void Reset() override { SetLinearVelocity(0, 0); }
   void SetLinearVelocity(Real left, Real right) override
   {
     wheels_.SetFootBotWheelsLinearVelocity(left / kCentimetres, right / kCentimetres);
@@ -92,6 +93,7 @@ public:
     m_tSettings.resize(CCI_FootBotLedsActuator::NUM_LEDS + 1, argos::CColor::BLACK);
   }
   argos::CCI_Actuator& Actuator() override { return *this; }
+  void Reset() override { SetAllColors(argos::CColor::BLACK); }
   void Commit() override
   {
     for (unsigned led = 0; led < CCI_FootBotLedsActuator::NUM_LEDS; ++led) ring_.SetColour(led, Lit(m_tSettings[led]));
@@ -196,6 +198,7 @@ public:
   {
   }
   argos::CCI_Actuator& Actuator() override { return *this; }
+  void Reset() override { Unlock(); }
   void SetAperture(const argos::CRadians& aperture) override
   {
     ours_.SetGripper(aperture.GetAbsoluteValue() / LOCKED_POSITIVE.GetValue());
@@ -218,6 +221,11 @@ public:
   void SetRotation(const argos::CRadians& angle) override { angle_ = angle.GetValue(); }
   void SetRotationSpeed(SInt32 speed) override { speed_ = speed; }
   void SetMode(ETurretModes mode) override { mode_ = mode; }
+  void Reset() override
+  {
+    mode_ = MODE_OFF;
+    angle_ = speed_ = 0;
+  }
   // What is left of the way is done within a tick, as far as the motor can.
   void Commit() override
   {
@@ -266,6 +274,11 @@ public:
   void SetRPM(Real turns_a_minute) override { ours_.Turn(turns_a_minute * 2 * std::numbers::pi / 60); }
   void Enable() override { ours_.Look(angle_); }
   void Disable() override { ours_.SwitchOff(); }
+  void Reset() override
+  {
+    angle_ = 0;
+    Disable();
+  }
 
 private:
   CCI_FootBotTurningScannerSensor& ours_;

@@ -11,6 +11,7 @@
 
 #include <optional>
 
+#include "argos3/library/editing.h"
 #include "argos3/library/running.h"
 #include "argos3/plugin/labels.h"
 #include "common/space/space.h"
@@ -50,6 +51,11 @@ public:
              .default_value = "",
              .description = "Libraries of the controllers, which those of loop functions may take for granted: paths "
                             "with colons between them."},
+            {.name = "length",
+             .type = ParameterType::kInteger,
+             .unit = "ticks",
+             .default_value = "0",
+             .description = "How long a run is, and each that begins again; 0: until maxclock."},
             {.name = "rehearsal",
              .type = ParameterType::kBoolean,
              .default_value = "false",
@@ -71,6 +77,7 @@ public:
     running.rehearsal.reset();
     running.given.clear();
     running.taken.clear();
+    running.arrivals.clear();
     argos::CSimulator::GetInstance().GetSpace().Clear();
     argos::CSimulator::GetInstance().GetSpace().SetFloor(nullptr);
   }
@@ -93,7 +100,10 @@ public:
     argos::CSimulator& simulator = argos::CSimulator::GetInstance();
     simulator.GetSpace().SetSimulationClock(0);
     argos::CPhysicsEngine::SetSimulationClockTick(space.GetTickSeconds());
-    simulator.Start(static_cast<UInt32>(experiment.seed), static_cast<UInt32>(experiment.max_clock));
+    length_ = static_cast<std::uint64_t>(t_tree.GetInteger("length"));
+    TheRunning().step = TheRunning().first_step = 0;
+    simulator.Start(static_cast<UInt32>(experiment.seed),
+                    static_cast<UInt32>(length_ != 0 ? length_ : experiment.max_clock));
     if (const TConfigurationTree all = t_tree.Child("configuration"); all.Exists())
     {
       CopyElement(*all.Node(), simulator.Configuration());
@@ -114,7 +124,10 @@ public:
   {
     // Of the first tick: no controller was asked yet. Init comes behind it, when they are there.
     if (editor.GetSpace().GetTick() == 0) return;
-    argos::CSimulator::GetInstance().GetSpace().SetSimulationClock(static_cast<UInt32>(editor.GetSpace().GetTick()));
+    Running& running = TheRunning();
+    running.step = editor.GetSpace().GetTick();
+    argos::CSimulator::GetInstance().GetSpace().SetSimulationClock(
+        static_cast<UInt32>(running.step - running.first_step));
     Step(editor, [&] { functions_->PreStep(); });
   }
 
@@ -135,13 +148,15 @@ public:
     const Speaker speaker(editor);
     const Changing changing(editor);
     functions_->PostStep();
+    // Some begin again where they are asked whether they are over, so they are asked while they may.
+    ends_ = functions_->IsExperimentFinished() || argos::CSimulator::GetInstance().IsTerminated();
   }
 
   Outcome IsFinished(const SpaceEditor& asked) override
   {
     const CSwarmanoidSpace& space = asked.GetSpace();
     if (space.GetTick() < 2) return Outcome::kRunning;
-    const bool over = functions_->IsExperimentFinished() || argos::CSimulator::GetInstance().IsTerminated();
+    const bool over = ends_ || (length_ != 0 && space.GetTick() - TheRunning().first_step >= length_);
     const std::uint64_t last = space.GetExperiment().max_clock;
     is_over_ = over || (last != 0 && space.GetTick() >= last);
     return over ? Outcome::kDone : Outcome::kRunning;
@@ -258,12 +273,9 @@ private:
   void Place(const CSwarmanoidSpace& space, const View& view) const
   {
     if (view.body == nullptr) return;
-    Pose pose = space.GetPose(view.index);
-    // Of boxes we tell the middle, ARGoS3 the middle of the base.
-    if (view.is_box) pose.position -= pose.orientation * Vector3(0, 0, space.GetEntity(view.index).GetSize().z() / 2);
-    argos::SAnchor& anchor = view.body->GetOriginAnchor();
-    anchor.Position = translation_.Argos3Position(pose.position);
-    anchor.Orientation = Argos3Orientation(pose.orientation);
+    const argos::SAnchor anchor = AnchorOf(space.GetEntity(view.index), space.GetPose(view.index));
+    view.body->GetOriginAnchor().Position = anchor.Position;
+    view.body->GetOriginAnchor().Orientation = anchor.Orientation;
   }
 
   argos::CLoopFunctions* (*create_)() = nullptr;
@@ -272,6 +284,8 @@ private:
   argos::TConfigurationNode element_;
   std::vector<View> views_;
   std::vector<std::uint32_t> absent_;
+  std::uint64_t length_ = 0;  // ticks
+  bool ends_ = false;
   bool is_over_ = false;
   std::optional<argos::CFloorEntity> floor_;
   std::unique_ptr<argos::CLoopFunctions> functions_;

@@ -204,6 +204,7 @@ public:
     Run<&LuaController::Begin>();
   }
   void ControlStep() override { Run<&LuaController::Step>(); }
+  void Reset() override { Run<&LuaController::Again>(); }
   void Destroy() override { Run<&LuaController::End>(); }
 
 private:
@@ -327,6 +328,7 @@ private:
     lua_call(lua_, 0, 0);
   }
 
+  void Again() { CallIfThere("reset"); }
   void End() { CallIfThere("destroy"); }
 
   LuaScript script_;

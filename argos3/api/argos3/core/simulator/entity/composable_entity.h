@@ -30,6 +30,10 @@ public:
   CEntity::TMap& GetComponentMap() { return components_; }
   void AddComponent(CEntity& component) { components_[component.GetTypeDescription()] = &component; }
   void UpdateComponents() {}
+  void Reset() override
+  {
+    for (const auto& component : components_) component.second->Reset();
+  }
   std::string GetTypeDescription() const override { return "composite"; }
 
 private:
@@ -49,6 +53,8 @@ public:
   // Throws CARGoSException outside loop functions, and for an LED that the entity does not have. Before AddEntity it
   // is the colour with which it comes.
   void SetColor(const CColor& colour);
+  // To the colour with which it came into the arena.
+  void Reset() override;
   const CColor& GetInitColor() const { return first_colour_; }
   void SetInitColor(const CColor& colour) { first_colour_ = colour; }
   // Cameras see all LEDs, whatever their medium.
@@ -68,6 +74,10 @@ class CLEDEquippedEntity : public CEntity
 {
 public:
   CLEDEquippedEntity(CEntity* parent, unsigned leds);
+  void Reset() override
+  {
+    for (const auto& led : leds_) led->Reset();
+  }
   size_t GetNumLEDs() const { return leds_.size(); }
   // To boxes and cylinders. The places have no effect.
   void AddLED(const CVector3& offset, const SAnchor& anchor, const CColor& colour = CColor::BLACK);
@@ -147,6 +157,8 @@ public:
   Real GetFullCharge() const;
   Real GetAvailableCharge() const;
   void SetAvailableCharge(Real charge);
+  // To the charge of the experiment file; one without the sensor has none.
+  void Reset() override;
   std::string GetTypeDescription() const override { return "battery"; }
 };
 

@@ -23,6 +23,8 @@ public:
   bool IsMovable() const { return movable_; }
   const SAnchor& GetOriginAnchor() const { return m_sOriginAnchor; }
   SAnchor& GetOriginAnchor() { return m_sOriginAnchor; }
+  // To where it came into the arena, if it can move.
+  void Reset() override;
   // The names of versions before 2014.
   const CVector3& GetPosition() const { return m_sOriginAnchor.Position; }
   const CQuaternion& GetOrientation() const { return m_sOriginAnchor.Orientation; }

@@ -32,7 +32,9 @@ public:
   const CVector3& GetArenaSize() const { return size_; }
   const CVector3& GetArenaCenter() const { return center_; }
   CRange<CVector3> GetArenaLimits() const { return {center_ - size_ / 2, center_ + size_ / 2}; }
-  // Throws CARGoSException: loop functions cannot reset the space.
+  // Those in the arena go back to where they came into it, with Reset of their parts, devices and controllers, and the
+  // clock to 0; who was added stays, and who was removed stays away. For loop functions, in a run of one process.
+  // Throws CARGoSException, and nothing is reset, if a controller of theirs is in another one.
   void Reset();
 
   // For the bridge that fills it.

@@ -18,6 +18,8 @@ public:
   // for another size than that of its messages.
   void SetData(const CByteArray& data);
   void ClearData() { SetData(CByteArray(GetMsgSize())); }
+  // Zeros, if it sends anything.
+  void Reset() override;
   size_t GetMsgSize() const;
   // m, as in the experiment file.
   Real GetRange() const;

@@ -1,0 +1,143 @@
+// Beginning again within a run, for loop functions: what ARGoS3's Reset does to the space, its entities and robots.
+#include <argos3/core/simulator/loop_functions.h>
+#include <argos3/plugins/simulator/entities/light_entity.h>
+
+#include "argos3/library/editing.h"
+#include "common/space/attributes.h"
+
+namespace argos
+{
+namespace
+{
+
+using swarmanoid::CSwarmanoidSpaceEntity;
+using swarmanoid::argos3::Arrival;
+using swarmanoid::argos3::Declared;
+using swarmanoid::argos3::Editor;
+using swarmanoid::argos3::Running;
+using swarmanoid::argos3::TheRunning;
+
+// nullptr for one that is not in the arena.
+const CSwarmanoidSpaceEntity* PresentOf(CEntity& part)
+{
+  const auto& space = Editor().GetSpace();
+  const auto* ours = space.FindEntity(TheRunning().OurId(part.GetRootEntity().GetId()));
+  return ours != nullptr && space.IsPresent(ours->GetIndex()) ? ours : nullptr;
+}
+
+Arrival ArrivalOf(const CSwarmanoidSpaceEntity& ours)
+{
+  const auto given = TheRunning().arrivals.find(ours.GetId());
+  if (given != TheRunning().arrivals.end()) return given->second;
+  return {ours.GetConfiguration().pose, static_cast<double>(ours.GetConfiguration().colour)};
+}
+
+void ResetAttribute(const CSwarmanoidSpaceEntity& ours, const char* name, double value)
+{
+  const auto* attribute = swarmanoid::FindAttribute(ours.GetKind(), name);
+  if (attribute == nullptr) return;
+  for (int element = 0; element < attribute->count; ++element)
+    Editor().SetAttribute(ours.GetId(), name, value, element);
+}
+
+void RequireControllersHere()
+{
+  const Running& running = TheRunning();
+  const auto& space = Editor().GetSpace();
+  for (std::size_t i = 0; i < space.Size(); ++i)
+  {
+    const CSwarmanoidSpaceEntity& ours = space.GetEntity(i);
+    if (!space.IsPresent(i) || ours.GetConfiguration().controller.empty()) continue;
+    if (running.controlled.count(ours.GetId()) != 0) continue;
+    THROW_ARGOSEXCEPTION("the controller of '" << running.translation.Argos3Id(ours.GetId())
+                                               << "' is not in this process: loop functions reset robots in a run with "
+                                               << "--single-process");
+  }
+}
+
+}  // namespace
+
+void CSimulator::Reset()
+{
+  if (resets_) return GetSpace().Reset();
+  RequireControllersHere();
+  if (seed_ != seed_of_generators_) CRandom::SetSeedOf("argos", seed_);
+  seed_of_generators_ = seed_;
+  CRandom::GetCategory("argos").ResetRNGs();
+  GetSpace().Reset();
+  terminated_ = false;
+  struct Resetting
+  {
+    explicit Resetting(bool& now) : is_so(now) { is_so = true; }
+    ~Resetting() { is_so = false; }
+    Resetting(const Resetting&) = delete;
+    Resetting& operator=(const Resetting&) = delete;
+    bool& is_so;
+  };
+  const Resetting resetting(resets_);
+  GetLoopFunctions().Reset();
+}
+
+void CSpace::Reset()
+{
+  Running& running = TheRunning();
+  RequireControllersHere();
+  SetSimulationClock(0);
+  running.first_step = running.step;
+  for (CEntity* entity : entities_)
+    if (!running.Rehearsed(entity->GetId())) entity->Reset();
+}
+
+void CEmbodiedEntity::Reset()
+{
+  const auto* ours = PresentOf(*this);
+  if (ours == nullptr || !ours->IsMovable()) return;
+  const swarmanoid::Pose pose = ArrivalOf(*ours).pose;
+  Editor().MoveEntity(ours->GetId(), pose);
+  const SAnchor anchor = swarmanoid::argos3::AnchorOf(*ours, pose);
+  m_sOriginAnchor.Position = anchor.Position;
+  m_sOriginAnchor.Orientation = anchor.Orientation;
+}
+
+void CControllableEntity::Reset()
+{
+  const auto* ours = PresentOf(*this);
+  if (ours == nullptr || ours->GetConfiguration().controller.empty()) return;
+  const auto found = TheRunning().controlled.find(ours->GetId());
+  if (found == TheRunning().controlled.end()) return RequireControllersHere();
+  found->second->Reset();
+}
+
+void CLEDEntity::Reset()
+{
+  const auto* ours = PresentOf(*this);
+  if (ours == nullptr) return;
+  // Those of robots come dark.
+  for (const char* name : {"led", "beacon"}) ResetAttribute(*ours, name, 0);
+  ResetAttribute(*ours, "colour", ArrivalOf(*ours).colour);
+}
+
+void CRABEquippedEntity::Reset()
+{
+  const auto* ours = PresentOf(*this);
+  if (ours != nullptr && ours->GetAttribute("message", 0) != 0) ClearData();
+}
+
+void CBatteryEquippedEntity::Reset()
+{
+  const auto found = TheRunning().batteries.find(TheRunning().OurId(GetRootEntity().GetId()));
+  if (found != TheRunning().batteries.end()) found->second->available = found->second->start;
+}
+
+void CLightEntity::Reset()
+{
+  const auto* ours = PresentOf(*this);
+  if (ours == nullptr) return;
+  const Arrival arrival = ArrivalOf(*ours);
+  if (ours->IsMovable()) Editor().MoveEntity(ours->GetId(), arrival.pose);
+  SetPosition(TheRunning().translation.Argos3Position(arrival.pose.position));
+  SetOrientation(swarmanoid::argos3::Argos3Orientation(arrival.pose.orientation));
+  SetColor(CColor(0xff000000U | static_cast<std::uint32_t>(arrival.colour)));
+}
+
+}  // namespace argos

@@ -1,0 +1,54 @@
+"""Runs that loop functions of ARGoS3 begin again."""
+import re
+import unittest
+
+from running import HERE, RunningTest
+
+
+class Reset(RunningTest):
+    def trials(self, where):
+        file = self.changed("repeat.argos", ('where="post"', f'where="{where}"'))
+        if not (self.folder / "scripts").exists():
+            (self.folder / "scripts").symlink_to(HERE / "scripts")
+        said = self.swarmanoid("run", file, "--output", where)
+        rows = [line.split("\t") for line in (self.folder / "trials.tsv").read_text().splitlines()]
+        return said, [[row[1:] for row in rows if row[0] == str(trial)] for trial in range(3)]
+
+    def test_a_trial_that_begins_again_is_the_same(self):
+        said, (first, second, third) = self.trials("post")
+        at_reset, steps = second[0], second[1:]
+        # clock, x, steps, resets of the controller, number drawn, resets, and all that was changed.
+        self.assertEqual(at_reset[:5] + at_reset[6:],
+                         ["reset", "0", "0", "0", "1", "1", "-0.5", "0,255,0,255", "255,255,0,255", "0,0,0,255", "0", "-1", "3"])
+        # But for the resets and who was removed for good, and for the number that was drawn last.
+        same = [[*row[:4], row[5] if row[3] != "0" else "", *row[7:-1]] for row in first]
+        self.assertEqual([[*row[:4], row[5] if row[3] != "0" else "", *row[7:-1]] for row in steps], same)
+        self.assertEqual((first[0][-1], steps[-1][-1]), ("4", "3"))
+        # Of another seed, and as long as the file says.
+        self.assertNotEqual([row[5] for row in third[2:8]], [row[5] for row in first[1:7]])
+        self.assertEqual((len(first), len(steps), third[-1][:2]), (12, 12, ["post", "8"]))
+        self.assertIn("finished: 21 ticks", said.stdout)
+        self.assertEqual(re.findall(r"(init|reset after) (\d+)", self.said_in("post")),
+                         [("init", "0"), ("reset after", "6"), ("reset after", "6")])
+
+    def test_a_run_begins_again_where_it_is_asked_whether_it_is_over(self):
+        trials = self.trials("finished")[1]
+        self.assertEqual(trials, self.trials("post")[1])
+
+    def test_what_does_not_begin_again_has_its_length_in_the_framework(self):
+        (self.folder / "scripts").symlink_to(HERE / "scripts")
+        converted = self.swarmanoid("convert", HERE / "repeat.argos", "--output", "repeat.xml")
+        text = (self.folder / "repeat.xml").read_text()
+        self.assertNotIn("maxclock", text)
+        self.assertIn(' length="9"', text)
+        self.assertIn('maxclock="', self.swarmanoid("convert", HERE / "collect.argos").stdout)
+
+    def test_in_a_cluster_the_controllers_are_out_of_reach(self):
+        (self.folder / "scripts").symlink_to(HERE / "scripts")
+        self.swarmanoid("convert", self.changed("repeat.argos", ('label="repeater"', 'label="blind"')), "--output", "repeat.xml")
+        result = self.swarmanoid("run", "repeat.xml", "--output", "cluster", code=4)
+        self.assertRegex(result.stdout + result.stderr, r"controller of 'fb' is not in this process[^\n]*--single-process")
+
+
+if __name__ == "__main__":
+    unittest.main()
