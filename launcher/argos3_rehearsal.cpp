@@ -7,11 +7,36 @@
 
 namespace swarmanoid
 {
+namespace
+{
 
-argos3::MadeBodies RehearseArgos3(const ConfigurationNode& experiment, const std::string& folder)
+LoadedExperiment Load(const ConfigurationNode& experiment, const std::string& folder,
+                      const ExperimentSettings& settings)
+{
+  return LoadExperimentText(WriteXml(experiment), "rehearsal.xml", folder, {.settings = settings});
+}
+
+// Those that are of what only the rehearsal will tell, or are mistakes, which the run tells, are left out.
+ExperimentSettings Fitting(const ConfigurationNode& experiment, const std::string& folder,
+                           const ExperimentSettings& settings)
+{
+  ExperimentSettings fitting;
+  for (const auto& setting : settings)
+  {
+    fitting.push_back(setting);
+    if (!Load(experiment, folder, fitting).experiment) fitting.pop_back();
+  }
+  return fitting;
+}
+
+}  // namespace
+
+argos3::MadeBodies RehearseArgos3(const ConfigurationNode& experiment, const std::string& folder,
+                                  const ExperimentSettings& settings)
 {
   RegisterBuiltins();
-  const LoadedExperiment loaded = LoadExperimentText(WriteXml(experiment), "rehearsal.xml", folder);
+  LoadedExperiment loaded = Load(experiment, folder, settings);
+  if (!loaded.experiment) loaded = Load(experiment, folder, Fitting(experiment, folder, settings));
   if (!loaded.experiment) return {};
   const ScratchFolder scratch;
   // Init of loop functions comes in the first step.

@@ -7,6 +7,7 @@ namespace swarmanoid
 {
 
 // In a process of its own. None if Init fails: whoever runs the experiment is told why.
-argos3::MadeBodies RehearseArgos3(const ConfigurationNode& experiment, const std::string& folder);
+argos3::MadeBodies RehearseArgos3(const ConfigurationNode& experiment, const std::string& folder,
+                                  const ExperimentSettings& settings);
 
 }  // namespace swarmanoid

@@ -151,12 +151,12 @@ private:
 }  // namespace argos3
 
 ConvertedExperiment ConvertArgos3(const ConfigurationNode& root, const std::string& folder,
-                                  const Argos3Rehearsal& rehearse)
+                                  const Argos3Rehearsal& rehearse, const ExperimentSettings& settings)
 {
   ConvertedExperiment first;
   const bool is_for_rehearsal = argos3::Converter(root, folder, first).Convert(nullptr);
   if (!is_for_rehearsal || !first.mistakes.empty()) return first;
-  const argos3::MadeBodies bodies = rehearse ? rehearse(*first.root, folder) : argos3::MadeBodies();
+  const argos3::MadeBodies bodies = rehearse ? rehearse(*first.root, folder, settings) : argos3::MadeBodies();
   ConvertedExperiment result;
   argos3::Converter(root, folder, result).Convert(&bodies);
   return result;
@@ -164,16 +164,17 @@ ConvertedExperiment ConvertArgos3(const ConfigurationNode& root, const std::stri
 
 void ReadArgos3Experiments(Argos3Rehearsal rehearse)
 {
-  AddExperimentConverter("argos-configuration",
-                         [rehearse = std::move(rehearse)](const ConfigurationNode& root, const std::string& folder,
-                                                          std::vector<Diagnostic>& mistakes)
-                         {
-                           ConvertedExperiment converted = ConvertArgos3(root, folder, rehearse);
-                           for (const Diagnostic& note : converted.notes)
-                             fmt::print(stderr, "{}: note: {}\n", note.location.Text(), note.message);
-                           mistakes = std::move(converted.mistakes);
-                           return std::shared_ptr<const ConfigurationNode>(std::move(converted.root));
-                         });
+  AddExperimentConverter(
+      "argos-configuration",
+      [rehearse = std::move(rehearse)](const ConfigurationNode& root, const std::string& folder,
+                                       const ExperimentSettings& settings, std::vector<Diagnostic>& mistakes)
+      {
+        ConvertedExperiment converted = ConvertArgos3(root, folder, rehearse, settings);
+        for (const Diagnostic& note : converted.notes)
+          fmt::print(stderr, "{}: note: {}\n", note.location.Text(), note.message);
+        mistakes = std::move(converted.mistakes);
+        return std::shared_ptr<const ConfigurationNode>(std::move(converted.root));
+      });
 }
 
 }  // namespace swarmanoid

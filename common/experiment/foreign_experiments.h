@@ -12,10 +12,11 @@
 namespace swarmanoid
 {
 
-// Our tree for theirs; each element keeps the place that it came from. `folder`: of the file. What is wrong goes into
-// `mistakes`; then the tree is not used.
+// Our tree for theirs; each element keeps the place that it came from. `folder`: of the file. `settings`: what will be
+// set in our tree, for those who run something of it. What is wrong goes into `mistakes`; then the tree is not used.
 using ExperimentConverter = std::function<std::shared_ptr<const ConfigurationNode>(
-    const ConfigurationNode& root, const std::string& folder, std::vector<Diagnostic>& mistakes)>;
+    const ConfigurationNode& root, const std::string& folder, const ExperimentSettings& settings,
+    std::vector<Diagnostic>& mistakes)>;
 
 void AddExperimentConverter(const std::string& root, ExperimentConverter converter);
 // nullptr if nobody reads files of that root.

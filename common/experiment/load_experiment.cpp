@@ -93,7 +93,7 @@ LoadedExperiment LoadExperimentText(const std::string& text, const std::string& 
     if (const ExperimentConverter* convert = FindExperimentConverter(file_root->name))
     {
       std::vector<Diagnostic> mistakes;
-      file_root = (*convert)(*file_root, folder, mistakes);
+      file_root = (*convert)(*file_root, folder, options.settings, mistakes);
       if (!mistakes.empty()) return Refused(std::move(mistakes));
     }
     if (file_root->name != ExperimentSchema().Name())

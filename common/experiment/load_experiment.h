@@ -19,9 +19,11 @@ struct Diagnostic
   std::string Text() const { return location.Text() + ": " + message; }
 };
 
+using ExperimentSettings = std::vector<std::pair<std::string, std::string>>;  // path and value, as for --set
+
 struct LoadOptions
 {
-  std::vector<std::pair<std::string, std::string>> settings;  // --set PATH=VALUE
+  ExperimentSettings settings;
   // Whether what runs the experiment is on this machine: the libraries of the controllers are loaded and must register
   // the tags, and the maps of terrains must be there.
   bool check_files = true;

@@ -39,6 +39,17 @@ class Objects(RunningTest):
         result = self.swarmanoid("run", late, "--output", "run", code=4)
         self.assertRegex(result.stdout + result.stderr, r"no box is left for 'other'[^\n]*make one like it in Init")
 
+    def test_init_makes_as_many_as_the_settings_of_the_run_say(self):
+        (self.folder / "scripts").symlink_to(HERE / "scripts")
+        file = self.changed("build.argos", ('late="0"', 'late="0" more="0"'))
+        more = "experiment_functions.argos3_loop_functions.loop_functions.more=50"
+        self.swarmanoid("run", file, "--set", more, "--seed", 5, "--output", "run")
+        # Fifty of 5 mm, and as many again.
+        kept = "arena.reserve[1].quantity=100"
+        self.swarmanoid("run", file, "--set", more, "--seed", 5, "--set", kept, "--output", "kept")
+        wrong = self.swarmanoid("check", file, "--set", more, "--set", "arena.reserve[9].quantity=1", code=3)
+        self.assertIn("reserve", wrong.stderr)
+
     def test_distributed_boxes_stand_on_the_floor_and_may_lie_beyond_the_arena(self):
         text = self.swarmanoid("convert", HERE / "build.argos").stdout
         # The arena reaches to -1.6, where one may come; its middle is half its height above the floor.

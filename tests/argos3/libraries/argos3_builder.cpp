@@ -14,6 +14,12 @@ public:
     UInt32 late = 0;
     GetNodeAttribute(node, "late", late);
     late_ = late != 0;
+    UInt32 more = 0;
+    GetNodeAttributeOrDefault(node, "more", more, more);
+    const Real size = 0.001 * GetSimulator().GetRandomSeed();
+    for (UInt32 i = 0; i < more; ++i)
+      AddEntity(*new CBoxEntity("more" + std::to_string(i), CVector3(-1, -1 + 0.02 * i, 0), CQuaternion(), true,
+                                CVector3(size, size, size)));
     CLEDMedium& leds = GetSimulator().GetMedium<CLEDMedium>("leds");
     // Not turned, as those who write zeros have it.
     AddEntity(*new CBoxEntity("wall", CVector3(0.6, 0, 0), CQuaternion(0, 0, 0, 0), false, CVector3(0.1, 2, 0.5)));
