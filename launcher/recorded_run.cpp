@@ -57,7 +57,8 @@ std::string TextOfSlot(const CSwarmanoidSpace& space, std::uint32_t slot)
     if (element < count) return fmt::format("{}[{}] of '{}'", spec.name, element, entity.GetId());
     element -= count;
   }
-  return fmt::format("slot {}", slot);
+  return fmt::format("message[{}] of '{}'", element + FindAttribute(entity.GetKind(), "message")->count,
+                     entity.GetId());
 }
 
 }  // namespace

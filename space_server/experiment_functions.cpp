@@ -6,6 +6,7 @@
 
 #include "common/configuration/wording.h"
 #include "common/space/attributes.h"
+#include "common/space/message_slots.h"
 #include "common/space/space.h"
 #include "common/space/state_checks.h"
 #include "space_server/space_changes.h"
@@ -82,11 +83,14 @@ void SpaceEditor::SetAttribute(std::string_view id, std::string_view attribute, 
     throw std::invalid_argument(fmt::format("entity '{}' has no attribute {}; it has: {}{}", id, Quoted(attribute),
                                             Listed(names), DidYouMean(attribute, names)));
   }
-  if (element < 0 || element >= spec->count)
+  const int count =
+      spec->count +
+      (attribute == "message" ? FurtherMessageSlots(server_.Space().GetExperiment(), entity.GetConfiguration()) : 0);
+  if (element < 0 || element >= count)
     throw std::invalid_argument(
         fmt::format("the attribute '{}' of '{}' has {} element{}, numbered from 0; there is no "
                     "element {}",
-                    attribute, id, spec->count, spec->count == 1 ? "" : "s", element));
+                    attribute, id, count, count == 1 ? "" : "s", element));
   server_.SetAttribute(entity.SlotOf(attribute, element), value);
 }
 

@@ -70,6 +70,31 @@ void DescribeAnyRobotDevices()
                     .minimum = 0}},
                   NoiseParameters("each reading", "")),
        .robots = TagsOfKinds([](const Kind& kind) { return kind.proximity.has_value(); })});
+  DescribeSensor(
+      {.label = "light",
+       .implementation = "generic_light",
+       .brief = "light sensors in a ring, each with the lights that it sees by the inverse square of their "
+                "distance, whatever the angle",
+       .parameters = Joined(
+           {{.name = "sensors",
+             .type = ParameterType::kInteger,
+             .default_value = "24",
+             .description = "How many there are, evenly around the body.",
+             .minimum = 1,
+             .maximum = 360},
+            {.name = "first_angle",
+             .unit = "deg",
+             .default_value = "7.5",
+             .description = "Of the first one from the front, counter-clockwise.",
+             .minimum = -360,
+             .maximum = 360},
+            {.name = "radius", .unit = "m", .default_value = "0.085", .description = "Of the ring.", .minimum = 0},
+            {.name = "height",
+             .unit = "m",
+             .default_value = "0.06",
+             .description = "Of the ring above the position of the robot.",
+             .minimum = 0}},
+           NoiseParameters("each reading", ""))});
   DescribeSensor({.label = "ground",
                   .implementation = "generic_ground",
                   .brief = "brightness and colour of the floor under any robot that looks at it",

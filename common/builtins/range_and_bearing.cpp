@@ -8,8 +8,14 @@ void DescribeRangeAndBearing()
 {
   DescribeActuator({.label = "range_and_bearing",
                     .implementation = "generic_range_and_bearing",
-                    .brief = "broadcasts 10 bytes to all in sight",
-                    .parameters = NoiseParameters("each byte of the message", "1/255"),
+                    .brief = "broadcasts 10 bytes to all in sight, or more",
+                    .parameters = Joined({{.name = "bytes",
+                                           .type = ParameterType::kInteger,
+                                           .default_value = "10",
+                                           .description = "Bytes of a message.",
+                                           .minimum = 10,
+                                           .maximum = 10'000}},
+                                         NoiseParameters("each byte of the message", "1/255")),
                     .robots = {"footbot", "eyebot", "handbot"}});
   const std::vector<ParameterSpec> noise =
       Joined(Joined(NoiseParameters("each range", "m", "range_"), NoiseParameters("each bearing", "rad", "bearing_")),

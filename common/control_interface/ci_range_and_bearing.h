@@ -3,9 +3,12 @@
 // handbots carry it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
+#include <stdexcept>
+#include <string>
 
 #include "common/control_interface/ci_device.h"
 
@@ -21,6 +24,24 @@ public:
   // Sends these bytes in every tick from now on; others receive them one tick later.
   virtual void SetMessage(const Message& message) = 0;
   virtual void StopSending() = 0;
+  // Of a message: NUM_BYTES, or more if the experiment file gives the actuator more ("bytes").
+  virtual unsigned GetNumBytes() const { return NUM_BYTES; }
+  // SetMessage of any length up to GetNumBytes(); zeros follow. Throws std::length_error for more.
+  virtual void SetBytes(std::span<const std::uint8_t> bytes)
+  {
+    RequireLength(bytes.size());
+    Message message{};
+    std::copy(bytes.begin(), bytes.end(), message.begin());
+    SetMessage(message);
+  }
+
+protected:
+  void RequireLength(std::size_t bytes) const
+  {
+    if (bytes > GetNumBytes())
+      throw std::length_error("a message of range and bearing has " + std::to_string(GetNumBytes()) + " bytes, and " +
+                              std::to_string(bytes) + " are given");
+  }
 };
 
 class CCI_RangeAndBearingSensor : public CCI_Sensor
@@ -32,10 +53,13 @@ public:
     double bearing_rad = 0;           // of the sender, counter-clockwise from the receiver's front, -pi..pi
     double vertical_bearing_rad = 0;  // above the receiver's horizontal plane
     CCI_RangeAndBearingActuator::Message message{};
+    std::uint32_t further = 0;  // for GetFurtherBytes
   };
 
   // All packets received in this tick, in no particular order, valid until the next control step.
   virtual std::span<const Packet> GetAllPackets() const = 0;
+  // The bytes of a packet behind its first NUM_BYTES: none if its sender has no longer messages. Valid as the packets.
+  virtual std::span<const std::uint8_t> GetFurtherBytes(const Packet&) const { return {}; }
 
   void Describe(std::vector<CCI_Reading>& readings) const override
   {
@@ -48,6 +72,8 @@ public:
       for (std::size_t byte = 0; byte < packet.message.size(); ++byte)
         if (packet.message[byte] != 0)
           readings.push_back({name + " byte " + std::to_string(byte), "", static_cast<double>(packet.message[byte])});
+      if (const std::size_t further = GetFurtherBytes(packet).size(); further != 0)
+        readings.push_back({name + " further bytes", "", static_cast<double>(further)});
     }
   }
 };

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "common/space/attributes.h"
+#include "common/space/message_slots.h"
 #include "common/space/space.h"
 
 namespace swarmanoid
@@ -32,11 +33,13 @@ std::uint32_t CSwarmanoidSpaceEntity::SlotOf(std::string_view name, int element)
   if (attribute == nullptr)
     throw std::out_of_range("entity '" + GetId() + "' (" + std::string(TagName(GetKind())) + ") has no attribute '" +
                             std::string(name) + "'");
-  if (element < 0 || element >= attribute->count)
+  const int further = name == "message" ? FurtherMessageSlots(space_.GetExperiment(), configuration_) : 0;
+  if (element < 0 || element >= attribute->count + further)
     throw std::out_of_range("the attribute '" + std::string(name) + "' of '" + GetId() + "' has " +
-                            std::to_string(attribute->count) + " elements, numbered from 0; there is no element " +
-                            std::to_string(element));
-  const int offset = AttributeOffset(GetKind(), name);
+                            std::to_string(attribute->count + further) +
+                            " elements, numbered from 0; there is no element " + std::to_string(element));
+  const int offset =
+      element < attribute->count ? AttributeOffset(GetKind(), name) : AttributeCount(GetKind()) - attribute->count;
   return first_slot_ + static_cast<std::uint32_t>(offset + element);
 }
 

@@ -7,6 +7,7 @@
 
 #include "common/space/attributes.h"
 #include "common/space/make_entity.h"
+#include "common/space/message_slots.h"
 #include "common/space/state_checks.h"
 
 namespace swarmanoid
@@ -30,7 +31,8 @@ CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(e
   index_of_id_.reserve(count);
   std::size_t slots = count;  // of presence
   for (const EntityConfiguration& configuration : experiment.entities)
-    slots += static_cast<std::size_t>(AttributeCount(configuration.kind));
+    slots +=
+        static_cast<std::size_t>(AttributeCount(configuration.kind) + FurtherMessageSlots(experiment, configuration));
   attributes_.reserve(slots);
   attribute_values_.reserve(slots);
   for (std::size_t i = 0; i < count; ++i)
@@ -46,6 +48,9 @@ CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(e
       attributes_.insert(attributes_.end(), static_cast<std::size_t>(spec.count), initial);
       attribute_values_.insert(attribute_values_.end(), static_cast<std::size_t>(spec.count), spec.value);
     }
+    const auto further = static_cast<std::size_t>(FurtherMessageSlots(experiment, configuration));
+    attributes_.insert(attributes_.end(), further, 0);
+    attribute_values_.insert(attribute_values_.end(), further, AttributeValue::kBytes);
     entities_.push_back(MakeEntity(*this, index, configuration, first_slot));
     index_of_id_.emplace(configuration.id, index);
     if (configuration.movable) movable_.push_back(index);

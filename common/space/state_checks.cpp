@@ -146,7 +146,9 @@ std::string NameOfSlot(const CSwarmanoidSpace& space, std::uint32_t slot)
                          NameOf(space, entity));
     element -= count;
   }
-  return fmt::format("slot {}", slot);
+  const int own = FindAttribute(space.GetEntity(entity).GetKind(), "message")->count;
+  return fmt::format("the attribute 'message' {} of {}", element + static_cast<std::uint32_t>(own),
+                     NameOf(space, entity));
 }
 
 }  // namespace

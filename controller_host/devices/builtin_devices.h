@@ -11,6 +11,7 @@ void RegisterFootbotTurret();
 void RegisterFootbotEncoders();
 void RegisterFootbotAccelerometer();
 void RegisterLight();
+void RegisterLightRing();
 void RegisterGround();
 void RegisterProximity();
 void RegisterWheels();

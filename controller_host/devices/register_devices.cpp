@@ -17,6 +17,7 @@ void RegisterBuiltinDevices()
     RegisterFootbotEncoders();
     RegisterFootbotAccelerometer();
     RegisterLight();
+    RegisterLightRing();
     RegisterGround();
     RegisterProximity();
     RegisterWheels();

@@ -4,6 +4,7 @@
 
 #include "common/messages/attribute_changes.h"
 #include "common/space/attributes.h"
+#include "common/space/message_slots.h"
 #include "common/space/space.h"
 #include "controller_host/devices/device_plugins.h"
 
@@ -22,6 +23,10 @@ std::vector<std::uint32_t> SlotsOf(const DeviceSetup& setup, const std::vector<s
     for (const AttributeSpec& spec : AttributesOf(entity.GetKind()))
       if (std::find(attributes.begin(), attributes.end(), spec.name) != attributes.end())
         for (int element = 0; element < spec.count; ++element) slots.push_back(entity.SlotOf(spec.name, element));
+    if (std::find(attributes.begin(), attributes.end(), "message") == attributes.end()) continue;
+    const int first = FindAttribute(entity.GetKind(), "message")->count;
+    const int further = FurtherMessageSlots(setup.space.GetExperiment(), entity.GetConfiguration());
+    for (int element = first; element < first + further; ++element) slots.push_back(entity.SlotOf("message", element));
   }
   return slots;
 }

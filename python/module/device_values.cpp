@@ -10,6 +10,7 @@
 #include "common/control_interface/ci_ground_sensor.h"
 #include "common/control_interface/ci_gyroscope_sensor.h"
 #include "common/control_interface/ci_led_ring_actuator.h"
+#include "common/control_interface/ci_light_sensor.h"
 #include "common/control_interface/ci_microphone_sensor.h"
 #include "common/control_interface/ci_positioning_sensor.h"
 #include "common/control_interface/ci_proximity_sensor.h"
@@ -105,9 +106,9 @@ SensorColumns ColumnsOf(CCI_Sensor& sensor)
 {
   SensorColumns columns;
   if (AddReadings<CCI_FootBotProximitySensor>(sensor, columns) || AddReadings<CCI_ProximitySensor>(sensor, columns) ||
-      AddReadings<CCI_FootBotLightSensor>(sensor, columns) || AddReadings<CCI_EyeBotLightSensor>(sensor, columns) ||
-      AddReadings<CCI_FootBotGroundSensor>(sensor, columns) || AddReadings<CCI_GroundSensor>(sensor, columns) ||
-      AddReadings<CCI_FootBotBaseGroundSensor>(sensor, columns) ||
+      AddReadings<CCI_FootBotLightSensor>(sensor, columns) || AddReadings<CCI_LightSensor>(sensor, columns) ||
+      AddReadings<CCI_EyeBotLightSensor>(sensor, columns) || AddReadings<CCI_FootBotGroundSensor>(sensor, columns) ||
+      AddReadings<CCI_GroundSensor>(sensor, columns) || AddReadings<CCI_FootBotBaseGroundSensor>(sensor, columns) ||
       AddReadings<CCI_FootBotMotorGroundSensor>(sensor, columns) || AddReadings<CCI_GyroscopeSensor>(sensor, columns) ||
       AddReadings<CCI_FootBotEncodersSensor>(sensor, columns) ||
       AddReadings<CCI_FootBotAccelerometerSensor>(sensor, columns) ||

@@ -7,6 +7,7 @@
 #include "common/builtins/antenna.h"
 #include "common/math/elementary.h"
 #include "common/messages/range_and_bearing_message.h"
+#include "common/space/message_slots.h"
 #include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
@@ -21,15 +22,24 @@ namespace
 {
 
 constexpr std::uint32_t kNoSlot = 0xffffffff;
+constexpr std::size_t kFirstBytes = CCI_RangeAndBearingActuator::NUM_BYTES;
 
 class Receiver : public CCI_RangeAndBearingSensor
 {
 public:
-  Receiver(OnDemandSensor& batch, std::size_t k) : batch_(batch), k_(k) {}
+  // Bytes behind the first ten, of those senders that have more.
+  using Further = std::vector<std::vector<std::uint8_t>>;
+
+  Receiver(OnDemandSensor& batch, std::size_t k, const Further& further) : batch_(batch), k_(k), further_(further) {}
   std::span<const Packet> GetAllPackets() const override
   {
     batch_.Want(k_);
     return {packets.data(), count};
+  }
+  std::span<const std::uint8_t> GetFurtherBytes(const Packet& packet) const override
+  {
+    if (packet.further == 0) return {};
+    return further_.at(packet.further - 1);
   }
   Packet* MakeRoom(std::size_t room)
   {
@@ -43,6 +53,7 @@ public:
 private:
   OnDemandSensor& batch_;
   std::size_t k_;
+  const Further& further_;
 };
 
 class ReceiverBatch : public SensorBatch, public OnDemandSensor
@@ -66,7 +77,7 @@ public:
     lines_ = std::make_unique<SightLines>(*world_, range_);
     InitDemand(robots_.size());
     receivers_.reserve(robots_.size());
-    for (std::size_t k = 0; k < robots_.size(); ++k) receivers_.emplace_back(*this, k);
+    for (std::size_t k = 0; k < robots_.size(); ++k) receivers_.emplace_back(*this, k, further_bytes_);
     place_of_entity_.assign(setup.space.Size(), -1);
     for (std::size_t k = 0; k < robots_.size(); ++k) place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
     message_slots_.assign(setup.space.Size(), kNoSlot);
@@ -74,7 +85,16 @@ public:
     for (std::uint32_t e = 0; e < setup.space.Size(); ++e)
       if (const CSwarmanoidSpaceEntity& entity = setup.space.GetEntity(e);
           Carries(entity.GetKind(), "range_and_bearing"))
+      {
         message_slots_[e] = entity.SlotOf("message");
+        const Experiment& experiment = setup.space.GetExperiment();
+        if (FurtherMessageSlots(experiment, entity.GetConfiguration()) == 0) continue;
+        const int further = MessageBytes(experiment, entity.GetConfiguration()) - static_cast<int>(kFirstBytes);
+        further_bytes_.emplace_back(static_cast<std::size_t>(further));
+        further_slots_.push_back(entity.SlotOf("message", 3));
+        further_of_entity_.resize(setup.space.Size(), 0);
+        further_of_entity_[e] = static_cast<std::uint32_t>(further_bytes_.size());
+      }
   }
   CCI_Sensor* Sensor(std::size_t k) override { return &receivers_[k]; }
 
@@ -127,6 +147,9 @@ private:
       message.is_sent = slot != kNoSlot && attributes[slot] != 0;
       sent += message.is_sent;
       if (message.is_sent) message.bytes = UnpackedMessage(&attributes[slot + 1]);
+      const std::uint32_t further = FurtherOf(senders[place]);
+      if (message.is_sent && further != 0)
+        UnpackBytes(&attributes[further_slots_[further - 1]], further_bytes_[further - 1]);
     }
     all_send_ = sent == senders.size();
     look_at_all_ = 2 * sent > senders.size() && world_->Grid().AllUpright();
@@ -280,6 +303,7 @@ private:
         MakePackets<true>(receivers_[reception.k], first, reception.behind);
       else
         MakePackets<false>(receivers_[reception.k], first, reception.behind);
+      if (!further_bytes_.empty()) AddFurther(reception.k, first, reception.behind);
       if (has_noise_) AddNoise(reception.k, first, reception.behind);
       first = reception.behind;
     }
@@ -307,6 +331,26 @@ private:
       count += static_cast<std::size_t>((kAllSend || message.is_sent) & (from.square[i] <= largest));
     }
     receiver.count = count;
+  }
+
+  // 1 + the number of its further bytes; 0: it has none.
+  std::uint32_t FurtherOf(std::uint32_t entity) const
+  {
+    return further_of_entity_.empty() ? 0 : further_of_entity_[entity];
+  }
+
+  // To the packets that MakePackets made of the same.
+  void AddFurther(std::size_t k, std::size_t first, std::size_t behind)
+  {
+    const HeardSenders::Lanes& from = heard_.At();
+    const double largest = range_ * range_;
+    std::size_t count = 0;
+    for (std::size_t i = first; i < behind; ++i)
+    {
+      const auto place = static_cast<std::size_t>(from.place[i]);
+      if (messages_[place].is_sent && from.square[i] <= largest)
+        receivers_[k].packets[count++].further = FurtherOf(world_->Grid().Sorted()[place]);
+    }
   }
 
   // The name of a sender in the list of those heard.
@@ -350,10 +394,13 @@ private:
   DeviceStreams loss_streams_, range_streams_, bearing_streams_, vertical_bearing_streams_;
   double range_ = 0, loss_ = 0;
   NoiseModel range_noise_, bearing_noise_, vertical_bearing_noise_;
-  std::vector<std::uint32_t> message_slots_;   // by entity
-  std::vector<Sent> messages_;                 // by place in the grid, of this tick
-  bool messages_are_read_ = false;             // in this tick
-  std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
+  std::vector<std::uint32_t> message_slots_;  // by entity
+  Receiver::Further further_bytes_;
+  std::vector<std::uint32_t> further_slots_;      // the first one of each
+  std::vector<std::uint32_t> further_of_entity_;  // empty if nobody has any
+  std::vector<Sent> messages_;                    // by place in the grid, of this tick
+  bool messages_are_read_ = false;                // in this tick
+  std::vector<std::int32_t> place_of_entity_;     // k of an entity, or -1
   bool look_at_all_ = false;
   bool all_send_ = false;
   Vector3 antenna_ = Vector3::Zero();

@@ -2,6 +2,8 @@
 #include <algorithm>
 
 #include "common/messages/range_and_bearing_message.h"
+#include "common/space/message_slots.h"
+#include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"
@@ -15,24 +17,36 @@ class Sender : public CCI_RangeAndBearingActuator
 {
 public:
   explicit Sender(double* values) : values_(values) {}
-  void SetMessage(const Message& message) override
+  void SetNumBytes(unsigned bytes, std::size_t numbers)
   {
-    values_[0] = 1;
-    PackMessage(message, values_ + 1);
+    bytes_ = bytes;
+    numbers_ = numbers;
   }
-  void StopSending() override { std::fill_n(values_, 3, 0.0); }
+  unsigned GetNumBytes() const override { return bytes_; }
+  void SetMessage(const Message& message) override { SetBytes(message); }
+  void SetBytes(std::span<const std::uint8_t> bytes) override
+  {
+    RequireLength(bytes.size());
+    StopSending();
+    values_[0] = 1;
+    PackBytes(bytes, values_ + 1);
+  }
+  void StopSending() override { std::fill_n(values_, numbers_, 0.0); }
 
   void Describe(std::vector<CCI_Reading>& readings) const override
   {
     readings.push_back({"sends", "yes/no", values_[0]});
     if (values_[0] == 0) return;
-    const Message message = UnpackedMessage(values_ + 1);
+    std::vector<std::uint8_t> message(bytes_);
+    UnpackBytes(values_ + 1, message);
     for (std::size_t i = 0; i < message.size(); ++i)
       readings.push_back({"byte " + std::to_string(i), "", static_cast<double>(message[i])});
   }
 
 private:
   double* values_;
+  unsigned bytes_ = NUM_BYTES;
+  std::size_t numbers_ = 3;  // with that which says whether it sends
 };
 
 class SenderBatch : public ActuatorsOf<AttributeActuator, Sender>
@@ -43,6 +57,10 @@ public:
     Bind(setup, {"message"});
     byte_noise_ = NoiseFrom(setup.parameters);
     MakeDevices();
+    if (robots_.empty()) return;
+    const CSwarmanoidSpaceEntity& first = setup.space.GetEntity(robots_.front());
+    bytes_ = static_cast<unsigned>(MessageBytes(setup.space.GetExperiment(), first.GetConfiguration()));
+    for (Sender& sender : devices_) sender.SetNumBytes(bytes_, width_);
   }
   void Commit(const ChannelView& channel, AttributeChanges& changes) override
   {
@@ -57,14 +75,16 @@ public:
 private:
   void Disturb(std::size_t k)
   {
-    RangeAndBearingMessage message = UnpackedMessage(&ValuesOf(k)[1]);
+    std::vector<std::uint8_t> message(bytes_);
+    UnpackBytes(&ValuesOf(k)[1], message);
     RandomStream random = streams_.Of(k);
     for (std::uint8_t& byte : message)
       byte = static_cast<std::uint8_t>(std::clamp(byte + byte_noise_.Sample(random) + 0.5, 0.0, 255.0));
-    PackMessage(message, &ValuesOf(k)[1]);
+    PackBytes(message, &ValuesOf(k)[1]);
   }
 
   NoiseModel byte_noise_;
+  unsigned bytes_ = 0;  // of a message
 };
 
 }  // namespace

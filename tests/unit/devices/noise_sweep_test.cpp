@@ -9,6 +9,7 @@
 #include "common/control_interface/ci_ground_sensor.h"
 #include "common/control_interface/ci_gyroscope_sensor.h"
 #include "common/control_interface/ci_led_ring_actuator.h"
+#include "common/control_interface/ci_light_sensor.h"
 #include "common/control_interface/ci_microphone_sensor.h"
 #include "common/control_interface/ci_pie_camera_sensor.h"
 #include "common/control_interface/ci_positioning_sensor.h"
@@ -119,6 +120,7 @@ std::vector<double> ReadingsOf(const CCI_Sensor& sensor)
   if (const auto* s = As<CCI_FootBotBaseGroundSensor>(sensor)) return Copied(s->GetAllSensorReadings());
   if (const auto* s = As<CCI_FootBotMotorGroundSensor>(sensor)) return Copied(s->GetAllSensorReadings());
   if (const auto* s = As<CCI_EyeBotLightSensor>(sensor)) return Copied(s->GetAllSensorReadings());
+  if (const auto* s = As<CCI_LightSensor>(sensor)) return Copied(s->GetAllSensorReadings());
   if (const auto* s = As<CCI_ProximitySensor>(sensor)) return Copied(s->GetAllSensorReadings());
   if (const auto* s = As<CCI_GroundSensor>(sensor)) return Copied(s->GetAllSensorReadings());
   if (const auto* s = As<CCI_FootBotTurretTorqueSensor>(sensor)) return Copied(s->GetAllSensorReadings());
