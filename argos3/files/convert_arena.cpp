@@ -105,9 +105,9 @@ void ArenaConverter::FindBearers(const ConfigurationNode& within)
     bearers.battery = FindChild(*child, "battery");
     bearers.radio_range = Number(*child, "rab_range", is_epuck ? 0.8 : 3);
     bearers.radio_bytes = Whole(*child, "rab_data_size", is_epuck ? 2 : 10);
-    if (bearers.radio_bytes < 1 || bearers.radio_bytes > 10)
+    if (bearers.radio_bytes < 1 || bearers.radio_bytes > 10'000)
       Mistake(child->location, "'rab_data_size' is " + std::to_string(bearers.radio_bytes) +
-                                   "; range-and-bearing messages have 1 to 10 bytes here");
+                                   "; range-and-bearing messages have 1 to 10000 bytes here");
   }
 }
 

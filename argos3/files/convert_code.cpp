@@ -125,7 +125,7 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
   std::string actuators = ConvertDevices(theirs, "actuators", ConvertActuator, context, lists);
   if (somebody_hears && !bearers.kinds.empty() && !lists.actuators.contains("range_and_bearing"))
   {
-    AddSender(at, lists);
+    AddSender(at, context, lists);
     actuators += " range_and_bearing";
   }
   for (const auto& [name, devices] : {std::pair("actuators", &lists.actuators), std::pair("sensors", &lists.sensors)})
@@ -159,9 +159,10 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
   set_noise("proximity_noise", {"proximity", "epuck_proximity", "eyebot_proximity"});
   set_noise("camera_noise", {"colored_blob_omnidirectional_camera"}, "noise_std_dev");
   set_noise("radio_noise", {"range_and_bearing"}, "noise_std_dev");
-  for (const auto& [name, sensor, attribute] : {std::tuple("speed", "differential_steering", "vel_noise_range"),
-                                                std::tuple("distance", "differential_steering", "dist_noise_range"),
-                                                std::tuple("battery", "battery", "noise_range")})
+  for (const auto& [name, sensor, attribute] :
+       {std::tuple("speed", "differential_steering", "vel_noise_range"),
+        std::tuple("distance", "differential_steering", "dist_noise_range"),
+        std::tuple("axis", "positioning", "axis_noise_range"), std::tuple("battery", "battery", "noise_range")})
   {
     const std::string range = NoiseOf(theirs, {sensor}, attribute);
     const std::size_t colon = range.find(':');
@@ -169,6 +170,16 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
     SetValue(*options, std::string(name) + "_noise_low", range.substr(0, colon), at);
     SetValue(*options, std::string(name) + "_noise_high", range.substr(colon + 1), at);
   }
+  const ConfigurationNode* told = FindChild(theirs, "actuators");
+  const ConfigurationNode* wheels = told == nullptr ? nullptr : FindChild(*told, "differential_steering");
+  if (wheels != nullptr && bearers.kinds.contains("argos3_epuck"))
+    for (const std::string name : kWheelNoise)
+      for (const char* side : {"_left", "_right"})
+      {
+        const auto* own = FindAttributeOf(*wheels, name + side);
+        if (own == nullptr) own = FindAttributeOf(*wheels, name);
+        if (own != nullptr) SetValue(*options, name + side, own->value, at);
+      }
   if (const std::string spare = arena_.SpareOf(id); !spare.empty()) SetValue(*options, "spare", spare, at);
   if (lists.sensors.contains("footbot_perspective_camera") || lists.sensors.contains("eyebot_pan_tilt_camera"))
     SetValue(*options, "camera_aperture", TextOf(bearers.perspective_aperture), at);

@@ -71,16 +71,6 @@ public:
     const ConfigurationNode::Attribute* attribute = FindAttributeOf(node_, name);
     return attribute == nullptr ? fallback : attribute->value;
   }
-  // Noise that nothing here is like.
-  void Refuse(const std::string& name, const std::string& cure)
-  {
-    used_.insert(name);
-    const ConfigurationNode::Attribute* attribute = FindAttributeOf(node_, name);
-    if (attribute == nullptr) return;
-    const std::optional<double> number = ParseNumber(attribute->value);
-    if (attribute->value == "0:0" || (number && *number == 0)) return;
-    context_.mistake(attribute->location, Quoted(name) + " of <" + node_.name + "> has no counterpart; " + cure);
-  }
   // A parameter of ours of the same meaning and unit.
   void Copy(const std::string& name, const std::string& ours, ConfigurationNode& device)
   {
@@ -112,7 +102,7 @@ bool IsForEPucks(const DeviceContext& context) { return context.bearers.kinds.co
 
 void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
 {
-  for (const char* name : {"bias_avg", "bias_stddev", "factor_avg", "factor_stddev"})
+  for (const char* name : kWheelNoise)
     for (const char* side : {"_left", "_right"})
     {
       const std::string both(name);
@@ -122,7 +112,8 @@ void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
     }
 }
 
-constexpr std::array<const char*, 16> kSensors{"differential_steering",
+constexpr std::array<const char*, 17> kSensors{"differential_steering",
+                                               "light",
                                                "footbot_distance_scanner",
                                                "proximity",
                                                "ground",
@@ -212,6 +203,19 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
   }
   else if (tag == "footbot_light" || tag == "eyebot_light")
     attributes.CopyLevel(AddDevice(ours.sensors, tag, "argos3_" + tag, at));
+  else if (tag == "light" && context.bearers.kinds.contains("eyebot"))
+    context.mistake(at, "<light> has no counterpart here on eye-bots; take eyebot_light");
+  else if (tag == "light")
+  {
+    // epuck_entity.cpp and footbot_entity.cpp of ARGoS3.
+    ConfigurationNode& device = AddDevice(ours.sensors, tag, "generic_light", at);
+    const bool is_epuck = IsForEPucks(context);
+    SetValue(device, "sensors", is_epuck ? "8" : "24", at);
+    SetValue(device, "first_angle", is_epuck ? "22.5" : "7.5", at);
+    SetValue(device, "radius", is_epuck ? "0.035" : "0.085036758", at);
+    SetValue(device, "height", "0.06", at);
+    attributes.CopyLevel(device);
+  }
   else if (tag == "ground" && !IsForEPucks(context))
     context.mistake(at,
                     "<ground> has no counterpart here on robots that are no e-pucks; take footbot_motor_ground or "
@@ -231,7 +235,8 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
       attributes.CopyUniform(device, "position_", range->first, range->second);
     if (const auto range = attributes.Range("angle_noise_range"))
       attributes.CopyUniform(device, "heading_", range->first * kRadians, range->second * kRadians);
-    attributes.Refuse("axis_noise_range", "leave it out");
+    // Added to the reading (argos3/plugin/devices.cpp).
+    attributes.Range("axis_noise_range");
   }
   else if (tag == "battery")
   {
@@ -261,7 +266,6 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     // Of readings in cm.
     if (const auto range = attributes.Range("noise_range"))
       attributes.CopyUniform(device, "", range->first / 100, range->second / 100);
-    attributes.Refuse("noise_std_dev", "leave it out, or write noise_range");
   }
   else if (tag == "footbot_turret_encoder")
     AddDevice(ours.sensors, tag, "generic_footbot_turret_encoder", at);
@@ -284,8 +288,9 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
   if (tag == "differential_steering" && IsForEPucks(context))
   {
     AddDevice(ours.actuators, "wheels", "generic_wheels", at);
-    for (const char* name : {"bias_avg", "bias_stddev", "factor_stddev"})
-      attributes.Refuse(name, "leave it out, or convert the file and give the wheels noise_…");
+    // Theirs is computed in argos3/plugin/epuck_devices.cpp.
+    for (const char* name : kWheelNoise)
+      for (const char* side : {"", "_left", "_right"}) attributes.Number(std::string(name) + side);
   }
   else if (tag == "differential_steering")
     ConvertWheels(attributes, AddDevice(ours.actuators, "footbot_wheels", "argos3_footbot_wheels", at));
@@ -308,7 +313,7 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
     AddDevice(ours.sensors, "footbot_turret_encoder", "generic_footbot_turret_encoder", at);
   }
   else if (tag == "range_and_bearing")
-    AddSender(at, ours);
+    AddSender(at, context, ours);
   else if (tag == "quadrotor_position" || tag == "quadrotor_speed")
   {
     AddDevice(ours.actuators, "eyebot_propellers", "position_eyebot_propellers", at);
@@ -318,9 +323,12 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
     RefuseUnknown(node, "actuator", kActuators, context);
 }
 
-void AddSender(const SourceLocation& location, DeviceLists& ours)
+void AddSender(const SourceLocation& location, const DeviceContext& context, DeviceLists& ours)
 {
-  AddDevice(ours.actuators, "range_and_bearing", "generic_range_and_bearing", location);
+  ConfigurationNode& device = AddDevice(ours.actuators, "range_and_bearing", "generic_range_and_bearing", location);
+  constexpr long long kUsual = 10;
+  if (context.bearers.radio_bytes > kUsual)
+    SetValue(device, "bytes", std::to_string(context.bearers.radio_bytes), location);
 }
 
 }  // namespace swarmanoid::argos3

@@ -1,6 +1,7 @@
 // Which devices of ours stand for one of ARGoS3.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <set>
@@ -44,9 +45,12 @@ struct DeviceContext
   Report note;
 };
 
+// Of differential_steering; each also with _left or _right behind it.
+inline constexpr std::array<const char*, 4> kWheelNoise{"bias_avg", "bias_stddev", "factor_avg", "factor_stddev"};
+
 void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, DeviceLists& ours);
 void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context, DeviceLists& ours);
 // A sender, for robots that only others hear.
-void AddSender(const SourceLocation& location, DeviceLists& ours);
+void AddSender(const SourceLocation& location, const DeviceContext& context, DeviceLists& ours);
 
 }  // namespace swarmanoid::argos3

@@ -43,6 +43,9 @@ inline const CSwarmanoidSpaceEntity& Declared(const std::string& id)
   return *entity;
 }
 
+// The object of theirs in the arena; nullptr for one that is not there.
+argos::CBodyEntity* TheirBodyOf(const std::string& our_id);
+
 inline std::uint32_t Rgb(const argos::CColor& colour)
 {
   return static_cast<std::uint32_t>(colour.GetRed()) << 16U | static_cast<std::uint32_t>(colour.GetGreen()) << 8U |

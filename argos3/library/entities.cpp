@@ -9,8 +9,21 @@
 #include <argos3/plugins/simulator/entities/cylinder_entity.h>
 #include <argos3/plugins/simulator/entities/light_entity.h>
 
+#include "argos3/library/editing.h"
 #include "argos3/library/running.h"
 #include "common/space/space.h"
+
+namespace swarmanoid::argos3
+{
+
+argos::CBodyEntity* TheirBodyOf(const std::string& our_id)
+{
+  for (argos::CEntity* entity : argos::CSimulator::GetInstance().GetSpace().GetEntityVector())
+    if (TheRunning().OurId(entity->GetId()) == our_id) return dynamic_cast<argos::CBodyEntity*>(entity);
+  return nullptr;
+}
+
+}  // namespace swarmanoid::argos3
 
 namespace argos
 {
@@ -140,6 +153,7 @@ CFootBotEntity::CFootBotEntity(const std::string& id, const std::string& control
                                Real, Real, const std::string&)
     : CRobotWithController(id, kLeds, controller, position, orientation)
 {
+  AddComponent(wheels_);
 }
 
 CEyeBotEntity::CEyeBotEntity(const std::string& id, const std::string& controller, const CVector3& position,
@@ -152,6 +166,7 @@ CEPuckEntity::CEPuckEntity(const std::string& id, const std::string& controller,
                            const CQuaternion& orientation, Real, size_t, const std::string&)
     : CRobotWithController(id, kLeds, controller, position, orientation)
 {
+  AddComponent(wheels_);
 }
 
 CBoxEntity::CBoxEntity(const std::string& id, const CVector3& position, const CQuaternion& orientation, bool movable,
@@ -185,6 +200,18 @@ CEmbodiedEntity& CGripperEquippedEntity::GetGrippedEntity() const
   THROW_ARGOSEXCEPTION("'" << const_cast<CGripperEquippedEntity*>(this)->GetRootEntity().GetId() << "' grips nothing");
 }
 
+Real CWheeledEntity::GetWheelVelocity(size_t wheel) const
+{
+  Checked(wheel);
+  const std::string& id = const_cast<CWheeledEntity*>(this)->GetRootEntity().GetId();
+  const auto found = TheRunning().wheels.find(TheRunning().OurId(id));
+  if (found == TheRunning().wheels.end())
+    THROW_ARGOSEXCEPTION("the wheels of '" << id << "' are those of its actuator <differential_steering>, which its "
+                                           << "controller does not have in this process; add it, and run with "
+                                           << "--single-process");
+  return (wheel == 0 ? found->second->left : found->second->right) / 100;
+}
+
 Real CBatteryEquippedEntity::GetFullCharge() const { return ChargeOf(*this).full; }
 Real CBatteryEquippedEntity::GetAvailableCharge() const { return ChargeOf(*this).available; }
 void CBatteryEquippedEntity::SetAvailableCharge(Real charge) { ChargeOf(*this).available = charge; }
@@ -196,9 +223,7 @@ CBodyEntity* CGripperEquippedEntity::Gripped() const
   const double gripped = ours->GetAttribute("gripped");
   if (gripped == 0) return nullptr;
   const auto& held = TheRunning().editor->GetSpace().GetEntity(static_cast<std::size_t>(gripped) - 1);
-  for (CEntity* entity : CSimulator::GetInstance().GetSpace().GetEntityVector())
-    if (TheRunning().OurId(entity->GetId()) == held.GetId()) return dynamic_cast<CBodyEntity*>(entity);
-  return nullptr;
+  return swarmanoid::argos3::TheirBodyOf(held.GetId());
 }
 
 }  // namespace argos

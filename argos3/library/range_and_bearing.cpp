@@ -36,6 +36,12 @@ const swarmanoid::ControllerConfiguration& ControllerOf(const CRABEquippedEntity
   return *controller;
 }
 
+// Five bytes each.
+int NumbersOf(const CByteArray& data)
+{
+  return (static_cast<int>(data.Size()) + swarmanoid::kBytesInNumber - 1) / swarmanoid::kBytesInNumber;
+}
+
 }  // namespace
 
 size_t CRABEquippedEntity::GetMsgSize() const
@@ -69,9 +75,9 @@ const CByteArray& CRABEquippedEntity::GetData()
   const auto& ours = OursOf(*this);
   data_ = CByteArray(GetMsgSize());
   if (ours.GetAttribute("message", 0) == 0) return data_;
-  const double values[] = {ours.GetAttribute("message", 1), ours.GetAttribute("message", 2)};
-  const swarmanoid::RangeAndBearingMessage message = swarmanoid::UnpackedMessage(values);
-  std::copy_n(message.begin(), data_.Size(), data_.ToCArray());
+  std::vector<double> values;
+  for (int i = 0; i < NumbersOf(data_); ++i) values.push_back(ours.GetAttribute("message", 1 + i));
+  swarmanoid::UnpackBytes(values.data(), {data_.ToCArray(), data_.Size()});
   return data_;
 }
 
@@ -80,13 +86,12 @@ void CRABEquippedEntity::SetData(const CByteArray& data)
   if (data.Size() != GetMsgSize())
     THROW_ARGOSEXCEPTION("messages of '" << GetRootEntity().GetId() << "' have " << GetMsgSize() << " bytes, not "
                                          << data.Size());
-  swarmanoid::RangeAndBearingMessage message{};
-  std::copy_n(data.ToCArray(), data.Size(), message.begin());
-  double values[2];
-  swarmanoid::PackMessage(message, values);
+  std::vector<double> values(static_cast<std::size_t>(NumbersOf(data)));
+  swarmanoid::PackBytes({data.ToCArray(), data.Size()}, values.data());
   const std::string id = OursOf(*this).GetId();
   TheRunning().editor->SetAttribute(id, "message", 1, 0);
-  for (int i = 0; i < 2; ++i) TheRunning().editor->SetAttribute(id, "message", values[i], i + 1);
+  for (int i = 0; i < NumbersOf(data); ++i)
+    TheRunning().editor->SetAttribute(id, "message", values[static_cast<std::size_t>(i)], i + 1);
 }
 
 }  // namespace argos

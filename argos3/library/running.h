@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -97,6 +98,32 @@ struct BatteryCharge
   double start = 1;
 };
 
+// Of a robot, as it was told them, cm/s.
+struct WheelSpeeds
+{
+  double left = 0, right = 0;
+};
+
+// The loop functions, for a program of a user that steps the run itself.
+class SteppedFunctions
+{
+public:
+  virtual ~SteppedFunctions() = default;
+  // Their PreStep.
+  virtual void BeginStep(SpaceEditor& editor) = 0;
+  // Whether their experiment is over.
+  virtual bool IsOver() = 0;
+};
+// A run that a program of a user loaded (argos3/program).
+class ProgramRun
+{
+public:
+  virtual ~ProgramRun() = default;
+  virtual SpaceEditor& Editor() = 0;
+  virtual void Step() = 0;
+  virtual void Finish() = 0;
+};
+
 struct Running
 {
   // Of the robots whose controller host is this process, by ARGoS3's id.
@@ -111,6 +138,8 @@ struct Running
   std::map<std::string, ControlledRobot*> controlled;
   // Of the robots of this process that have the sensor <battery>, by our id.
   std::map<std::string, BatteryCharge*> batteries;
+  // Likewise, that have the actuator <differential_steering>.
+  std::map<std::string, const WheelSpeeds*> wheels;
   // What loop functions added and did not remove, and robots that they made whose controller they had: ours by their
   // id; and the objects that they gave by our id.
   std::map<std::string, std::string> taken;
@@ -123,6 +152,12 @@ struct Running
   std::optional<Rehearsal> rehearsal;
   // Whether something was added or removed since this was set to false.
   bool presence_changed = false;
+
+  // In a program of a user: what loads its runs, how long the file says that one is (ticks), and who is stepped.
+  bool is_program = false;
+  std::unique_ptr<ProgramRun> (*load)(const std::string& file) = nullptr;
+  std::uint64_t program_length = 0;
+  SteppedFunctions* stepped = nullptr;
 
   bool Rehearsed(const std::string& id) const { return rehearsal && rehearsal->Has(id); }
   // Of the entity of that id of theirs, there or not.

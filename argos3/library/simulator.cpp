@@ -37,6 +37,8 @@ bool InsertIfRobot(CSpace& space, CEntity& entity)
   space.InsertComponent(robot->GetId(), robot->GetControllableEntity());
   space.InsertComponent(robot->GetId(), robot->GetRABEquippedEntity());
   space.InsertComponent(robot->GetId(), robot->GetBatterySensorEquippedEntity());
+  if (robot->HasComponent("wheels"))
+    space.InsertComponent(robot->GetId(), robot->template GetComponent<CWheeledEntity>("wheels"));
   return true;
 }
 template <class Body>

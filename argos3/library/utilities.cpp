@@ -133,6 +133,8 @@ std::istream& operator>>(std::istream& stream, CColor& colour)
 CARGoSLog LOG("");
 CARGoSLog LOGERR("error: ");
 
+CARGoSLog::CARGoSLog(const char* prefix) : prefix_(prefix), stream_(std::cerr.rdbuf()), own_(std::cerr.rdbuf()) {}
+
 CARGoSLog& CARGoSLog::operator<<(std::ostream& (*manipulator)(std::ostream&))
 {
   std::ostringstream text;
@@ -151,7 +153,10 @@ void CARGoSLog::Append(const std::string& text)
       line += c;
       continue;
     }
-    swarmanoid::argos3::Speaker::Say(prefix_ + line);
+    if (stream_.rdbuf() == nullptr || stream_.rdbuf() == own_)
+      swarmanoid::argos3::Speaker::Say(prefix_ + line);
+    else
+      stream_ << prefix_ << line << '\n' << std::flush;
     line.clear();
   }
 }

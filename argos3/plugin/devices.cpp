@@ -5,6 +5,7 @@
 #include <argos3/plugins/robots/eye-bot/control_interface/ci_eyebot_proximity_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_battery_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_leds_actuator.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_light_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_positioning_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_proximity_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_range_and_bearing_actuator.h>
@@ -20,6 +21,7 @@
 #include "argos3/plugin/noise.h"
 #include "common/control_interface/ci_battery_sensor.h"
 #include "common/control_interface/ci_led_ring_actuator.h"
+#include "common/control_interface/ci_light_sensor.h"
 #include "common/control_interface/ci_positioning_sensor.h"
 #include "common/control_interface/ci_proximity_sensor.h"
 #include "common/control_interface/ci_range_and_bearing.h"
@@ -110,11 +112,29 @@ private:
   const double noise_;
 };
 
+class Light : public SensorBridge, public argos::CCI_LightSensor
+{
+public:
+  explicit Light(const DeviceSetup& setup) : ours_(setup.robot.Sensor<swarmanoid::CCI_LightSensor>("light"))
+  {
+    m_tReadings.resize(ours_.GetAllSensorReadings().size());
+  }
+  argos::CCI_Sensor& Sensor() override { return *this; }
+  void Update() override { std::ranges::copy(ours_.GetAllSensorReadings(), m_tReadings.begin()); }
+
+private:
+  const swarmanoid::CCI_LightSensor& ours_;
+};
+
 class Positioning : public SensorBridge, public argos::CCI_PositioningSensor
 {
 public:
   explicit Positioning(const DeviceSetup& setup)
-      : translation_(setup.translation), ours_(setup.robot.Sensor<swarmanoid::CCI_PositioningSensor>("positioning"))
+      : robot_(setup.robot),
+        axis_low_(setup.options.GetNumber("axis_noise_low", 0)),
+        axis_high_(setup.options.GetNumber("axis_noise_high", 0)),
+        translation_(setup.translation),
+        ours_(setup.robot.Sensor<swarmanoid::CCI_PositioningSensor>("positioning"))
   {
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
@@ -122,9 +142,19 @@ public:
   {
     m_sReading.Position = translation_.Argos3Position(ours_.GetPosition());
     m_sReading.Orientation = Argos3Orientation(ours_.GetOrientation());
+    if (axis_low_ == axis_high_) return;
+    // As there: what comes of it has another length.
+    argos::CRadians angle;
+    argos::CVector3 axis;
+    m_sReading.Orientation.ToAngleAxis(angle, axis);
+    const auto noise = [this] { return robot_.GetRandom().Uniform(axis_low_, axis_high_); };
+    for (UInt32 i = 0; i < 3; ++i) axis[i] += noise();
+    m_sReading.Orientation.FromAngleAxis(angle, axis);
   }
 
 private:
+  CCI_Robot& robot_;
+  const double axis_low_, axis_high_;
   const Translation& translation_;
   const swarmanoid::CCI_PositioningSensor& ours_;
 };
@@ -183,12 +213,7 @@ public:
   }
   argos::CCI_Actuator& Actuator() override { return *this; }
   void Reset() override { ClearData(); }
-  void Commit() override
-  {
-    swarmanoid::CCI_RangeAndBearingActuator::Message message{};
-    std::copy_n(m_cData.ToCArray(), m_cData.Size(), message.begin());
-    ours_.SetMessage(message);
-  }
+  void Commit() override { ours_.SetBytes({m_cData.ToCArray(), m_cData.Size()}); }
 
 private:
   swarmanoid::CCI_RangeAndBearingActuator& ours_;
@@ -201,7 +226,8 @@ public:
       : robot_(setup.robot),
         noise_m_(setup.options.GetNumber("radio_noise", 0)),
         ours_(setup.robot.Sensor<swarmanoid::CCI_RangeAndBearingSensor>("range_and_bearing")),
-        size_(static_cast<size_t>(setup.options.GetInteger("rab_data_size", 10)))
+        size_(static_cast<size_t>(setup.options.GetInteger("rab_data_size", 10))),
+        further_(size_ - std::min<size_t>(size_, swarmanoid::CCI_RangeAndBearingActuator::NUM_BYTES))
   {
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
@@ -209,16 +235,22 @@ public:
   {
     const auto packets = ours_.GetAllPackets();
     m_tReadings.resize(packets.size());
+    std::size_t count = 0;
     for (std::size_t i = 0; i < packets.size(); ++i)
     {
-      SPacket& packet = m_tReadings[i];
+      // Those whose messages have another length are not understood.
+      const std::span<const std::uint8_t> further = ours_.GetFurtherBytes(packets[i]);
+      if (further.size() != further_) continue;
+      SPacket& packet = m_tReadings[count++];
       packet.Range = kCentimetres * packets[i].range_m;
       packet.HorizontalBearing.SetValue(packets[i].bearing_rad);
       packet.VerticalBearing.SetValue(packets[i].vertical_bearing_rad);
       if (noise_m_ > 0) Disturb(packets[i], packet);
       packet.Data.Resize(size_);
-      std::copy_n(packets[i].message.begin(), size_, packet.Data.ToCArray());
+      std::copy_n(packets[i].message.begin(), size_ - further_, packet.Data.ToCArray());
+      std::copy(further.begin(), further.end(), packet.Data.ToCArray() + size_ - further_);
     }
+    m_tReadings.resize(count);
   }
 
 private:
@@ -237,6 +269,7 @@ private:
   const double noise_m_;
   const swarmanoid::CCI_RangeAndBearingSensor& ours_;
   const size_t size_;
+  const size_t further_;  // bytes behind those that all have
 };
 
 }  // namespace
@@ -253,6 +286,7 @@ std::unique_ptr<SensorBridge> MakeSensor(const std::string& tag, const DeviceSet
   if (tag == "eyebot_light")
     return std::make_unique<Ring<argos::CCI_EyeBotLightSensor, CCI_EyeBotLightSensor>>(setup, tag.c_str());
   if (tag == "colored_blob_perspective_camera") return MakePerspectiveCamera(setup);
+  if (tag == "light") return std::make_unique<Light>(setup);
   if (tag == "positioning") return std::make_unique<Positioning>(setup);
   if (tag == "battery") return std::make_unique<Battery>(setup);
   if (tag == "range_and_bearing") return std::make_unique<RangeAndBearingReceiver>(setup);

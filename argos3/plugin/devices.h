@@ -13,12 +13,6 @@
 namespace swarmanoid::argos3
 {
 
-// cm/s.
-struct WheelSpeeds
-{
-  double left = 0, right = 0;
-};
-
 // What a device needs besides those of the robot.
 struct DeviceSetup
 {
@@ -26,7 +20,7 @@ struct DeviceSetup
   const Translation& translation;
   // Of the controller: attributes that are no parameters of our devices.
   TConfigurationTree options;
-  // Of e-pucks: what the wheels were told last.
+  // What the wheels were told last; of e-pucks with the noise of the latest step.
   std::shared_ptr<WheelSpeeds> told_wheels = std::make_shared<WheelSpeeds>();
 };
 

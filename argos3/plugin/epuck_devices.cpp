@@ -17,24 +17,70 @@ namespace swarmanoid::argos3
 namespace
 {
 
+// With ARGoS3's noise: while one of them turns, each turns at factor * (speed + bias), a bias that is drawn once and a
+// factor that is drawn in each step.
 class EPuckWheels : public ActuatorBridge, public argos::CCI_DifferentialSteeringActuator
 {
 public:
   explicit EPuckWheels(const DeviceSetup& setup)
-      : wheels_(setup.robot.Actuator<CCI_WheelsActuator>("wheels")), told_(setup.told_wheels)
+      : robot_(setup.robot),
+        wheels_(robot_.Actuator<CCI_WheelsActuator>("wheels")),
+        told_(setup.told_wheels),
+        left_(setup, "_left"),
+        right_(setup, "_right")
   {
+    TheRunning().wheels[robot_.GetId()] = told_.get();
   }
+  ~EPuckWheels() override { TheRunning().wheels.erase(robot_.GetId()); }
   argos::CCI_Actuator& Actuator() override { return *this; }
   void Reset() override { SetLinearVelocity(0, 0); }
   void SetLinearVelocity(Real left, Real right) override
   {
-    wheels_.SetLinearVelocity(left / kCentimetres, right / kCentimetres);
-    *told_ = {left, right};
+    wanted_ = {left, right};
+    Turn(wanted_);
+  }
+  void Commit() override
+  {
+    if (wanted_.left == 0 && wanted_.right == 0) return;
+    if (left_.IsActive() || right_.IsActive())
+      Turn({left_.Disturbed(robot_.GetRandom(), wanted_.left), right_.Disturbed(robot_.GetRandom(), wanted_.right)});
   }
 
 private:
+  class Noise
+  {
+  public:
+    Noise(const DeviceSetup& setup, const std::string& side)
+        : factor_(setup.options.GetNumber("factor_avg" + side, 1)),
+          factor_deviation_(setup.options.GetNumber("factor_stddev" + side, 0))
+    {
+      const double bias = setup.options.GetNumber("bias_avg" + side, 0);
+      const double deviation = setup.options.GetNumber("bias_stddev" + side, 0);
+      bias_ = kCentimetres * (deviation > 0 ? setup.robot.GetRandom().Gaussian(bias, deviation) : bias);
+    }
+    bool IsActive() const { return factor_ != 1 || factor_deviation_ > 0 || bias_ != 0; }
+    // cm/s
+    double Disturbed(RandomStream& random, double speed) const
+    {
+      return (factor_deviation_ > 0 ? random.Gaussian(factor_, factor_deviation_) : factor_) * (speed + bias_);
+    }
+
+  private:
+    double factor_, factor_deviation_;
+    double bias_ = 0;  // cm/s
+  };
+
+  void Turn(const WheelSpeeds& speeds)
+  {
+    wheels_.SetLinearVelocity(speeds.left / kCentimetres, speeds.right / kCentimetres);
+    *told_ = speeds;
+  }
+
+  CCI_Robot& robot_;
   CCI_WheelsActuator& wheels_;
   const std::shared_ptr<WheelSpeeds> told_;
+  const Noise left_, right_;
+  WheelSpeeds wanted_;
 };
 
 // What the wheels were told, as ARGoS3 reads them; the robot has no encoders here.

@@ -41,18 +41,26 @@ namespace
 class Wheels : public ActuatorBridge, public argos::CCI_DifferentialSteeringActuator
 {
 public:
-  explicit Wheels(const DeviceSetup& setup) : wheels_(setup.robot.Actuator<CCI_FootBotWheelsActuator>("footbot_wheels"))
+  explicit Wheels(const DeviceSetup& setup)
+      : id_(setup.robot.GetId()),
+        wheels_(setup.robot.Actuator<CCI_FootBotWheelsActuator>("footbot_wheels")),
+        told_(setup.told_wheels)
   {
+    TheRunning().wheels[id_] = told_.get();
   }
+  ~Wheels() override { TheRunning().wheels.erase(id_); }
   argos::CCI_Actuator& Actuator() override { return *this; }
   void Reset() override { SetLinearVelocity(0, 0); }
   void SetLinearVelocity(Real left, Real right) override
   {
     wheels_.SetFootBotWheelsLinearVelocity(left / kCentimetres, right / kCentimetres);
+    *told_ = {left, right};
   }
 
 private:
+  const std::string id_;
   CCI_FootBotWheelsActuator& wheels_;
+  const std::shared_ptr<WheelSpeeds> told_;
 };
 
 class Encoders : public SensorBridge, public argos::CCI_DifferentialSteeringSensor

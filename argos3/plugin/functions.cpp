@@ -10,6 +10,7 @@
 #include <argos3/plugins/simulator/entities/light_entity.h>
 
 #include <optional>
+#include <utility>
 
 #include "argos3/library/editing.h"
 #include "argos3/library/running.h"
@@ -21,7 +22,7 @@ namespace swarmanoid::argos3
 namespace
 {
 
-class Argos3LoopFunctions : public CExperimentFunctions
+class Argos3LoopFunctions : public CExperimentFunctions, private SteppedFunctions
 {
 public:
   static PluginDescription Description()
@@ -74,6 +75,7 @@ public:
   {
     Running& running = TheRunning();
     if (running.functions == functions_.get()) running.functions = nullptr;
+    running.stepped = nullptr;
     running.rehearsal.reset();
     running.given.clear();
     running.taken.clear();
@@ -101,9 +103,11 @@ public:
     simulator.GetSpace().SetSimulationClock(0);
     argos::CPhysicsEngine::SetSimulationClockTick(space.GetTickSeconds());
     length_ = static_cast<std::uint64_t>(t_tree.GetInteger("length"));
+    if (TheRunning().is_program && length_ == 0) length_ = TheRunning().program_length;
     TheRunning().step = TheRunning().first_step = 0;
-    simulator.Start(static_cast<UInt32>(experiment.seed),
-                    static_cast<UInt32>(length_ != 0 ? length_ : experiment.max_clock));
+    // Theirs is without our first tick.
+    const std::uint64_t ticks = length_ != 0 ? length_ : experiment.max_clock;
+    simulator.Start(static_cast<UInt32>(experiment.seed), static_cast<UInt32>(ticks == 0 ? 0 : ticks - 1));
     if (const TConfigurationTree all = t_tree.Child("configuration"); all.Exists())
     {
       CopyElement(*all.Node(), simulator.Configuration());
@@ -118,17 +122,13 @@ public:
     Fill(space);
     functions_.reset(create_());
     TheRunning().functions = functions_.get();
+    TheRunning().stepped = this;
   }
 
   void PreStep(SpaceEditor& editor) override
   {
     // Of the first tick: no controller was asked yet. Init comes behind it, when they are there.
-    if (editor.GetSpace().GetTick() == 0) return;
-    Running& running = TheRunning();
-    running.step = editor.GetSpace().GetTick();
-    argos::CSimulator::GetInstance().GetSpace().SetSimulationClock(
-        static_cast<UInt32>(running.step - running.first_step));
-    Step(editor, [&] { functions_->PreStep(); });
+    if (editor.GetSpace().GetTick() != 0 && !TheRunning().is_program) BeginStep(editor);
   }
 
   void PostStep(SpaceEditor& editor) override
@@ -141,13 +141,14 @@ public:
              Calling(place_, [&] { functions_->Init(element_); });
              if (const auto& rehearsal = TheRunning().rehearsal)
                WriteMadeBodies(rehearsal->Shapes(), editor.GetOutputFolder());
-             functions_->PreExperiment();
+             if (!TheRunning().is_program) functions_->PreExperiment();
            });
       return;
     }
     const Speaker speaker(editor);
     const Changing changing(editor);
     functions_->PostStep();
+    if (TheRunning().is_program) return;
     // Some begin again where they are asked whether they are over, so they are asked while they may.
     ends_ = functions_->IsExperimentFinished() || argos::CSimulator::GetInstance().IsTerminated();
   }
@@ -156,6 +157,7 @@ public:
   {
     const CSwarmanoidSpace& space = asked.GetSpace();
     if (space.GetTick() < 2) return Outcome::kRunning;
+    if (TheRunning().is_program) return Outcome::kRunning;
     const bool over = ends_ || (length_ != 0 && space.GetTick() - TheRunning().first_step >= length_);
     const std::uint64_t last = space.GetExperiment().max_clock;
     is_over_ = over || (last != 0 && space.GetTick() >= last);
@@ -177,11 +179,30 @@ private:
   class Changing
   {
   public:
-    explicit Changing(SpaceEditor& editor) { TheRunning().editor = &editor; }
-    ~Changing() { TheRunning().editor = nullptr; }
+    explicit Changing(SpaceEditor& editor) : before_(std::exchange(TheRunning().editor, &editor)) {}
+    ~Changing() { TheRunning().editor = before_; }
     Changing(const Changing&) = delete;
     Changing& operator=(const Changing&) = delete;
+
+  private:
+    SpaceEditor* before_;
   };
+
+  void BeginStep(SpaceEditor& editor) override
+  {
+    Running& running = TheRunning();
+    running.step = editor.GetSpace().GetTick();
+    argos::CSimulator::GetInstance().GetSpace().SetSimulationClock(
+        static_cast<UInt32>(running.step - running.first_step));
+    Step(editor, [&] { functions_->PreStep(); });
+  }
+  bool IsOver() override
+  {
+    const argos::CSimulator& simulator = argos::CSimulator::GetInstance();
+    const UInt32 most = simulator.GetMaxSimulationClock();
+    return functions_->IsExperimentFinished() || simulator.IsTerminated() ||
+           (most != 0 && argos::CSimulator::GetInstance().GetSpace().GetSimulationClock() >= most);
+  }
 
   struct View
   {

@@ -10,6 +10,7 @@
 
 #include "argos3/plugin/lua_devices.h"
 #include "argos3/plugin/lua_stack.h"
+#include "argos3/plugin/lua_vectors.h"
 
 namespace swarmanoid::argos3
 {
@@ -234,6 +235,7 @@ private:
     lua_pushglobaltable(lua_);
     SetFunction<Say>(lua_, "log", &argos::LOG);
     SetFunction<Say>(lua_, "logerr", &argos::LOGERR);
+    AddVectors(lua_);
     Leave(lua_);
     luaL_loadbufferx(lua_, kPrelude, std::char_traits<char>::length(kPrelude), "=prelude", "t");
     lua_pushlightuserdata(lua_, &script_.clock);

@@ -15,6 +15,7 @@
 #include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_ground_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_leds_actuator.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_light_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_positioning_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_proximity_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_range_and_bearing_actuator.h>
@@ -24,6 +25,7 @@
 
 #include "argos3/plugin/lua_device_parts.h"
 #include "argos3/plugin/lua_stack.h"
+#include "argos3/plugin/lua_vectors.h"
 
 namespace swarmanoid::argos3
 {
@@ -299,33 +301,14 @@ void ReadNumbers(lua_State* lua, const std::vector<Real>& readings, const char* 
   Leave(lua);
 }
 
-// robot.positioning: m; the quaternion, and the same as an angle about an axis
+// robot.positioning: m; the quaternion is an angle about an axis, too
 
 void ReadPosition(lua_State* lua, argos::CCI_PositioningSensor& sensor)
 {
   const auto& reading = sensor.GetReading();
-  const auto& q = reading.Orientation;
-  const auto set_vector = [lua](const char* name, const argos::CVector3& vector)
-  {
-    Enter(lua, name);
-    Set(lua, "x", vector.GetX());
-    Set(lua, "y", vector.GetY());
-    Set(lua, "z", vector.GetZ());
-    Leave(lua);
-  };
-  argos::CRadians angle;
-  argos::CVector3 axis;
-  q.ToAngleAxis(angle, axis);
   Enter(lua, "positioning");
-  set_vector("position", reading.Position);
-  Enter(lua, "orientation");
-  Set(lua, "w", q.GetW());
-  Set(lua, "x", q.GetX());
-  Set(lua, "y", q.GetY());
-  Set(lua, "z", q.GetZ());
-  Set(lua, "angle", angle.GetValue());
-  set_vector("axis", axis);
-  Leave(lua);
+  SetVector(lua, "position", reading.Position);
+  SetQuaternion(lua, "orientation", reading.Orientation);
   Leave(lua);
 }
 
@@ -376,6 +359,7 @@ void AddReadings(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sens
   if (tag == "epuck_proximity") return ReadRing(lua, As<argos::CCI_EPuckProximitySensor>(sensor), "proximity");
   if (tag == "eyebot_proximity") return ReadRing(lua, As<argos::CCI_EyeBotProximitySensor>(sensor), "proximity");
   if (tag == "proximity") return ReadNumbers(lua, As<argos::CCI_ProximitySensor>(sensor).GetReadings(), "proximity");
+  if (tag == "light") return ReadNumbers(lua, As<argos::CCI_LightSensor>(sensor).GetReadings(), "light");
   if (tag == "ground") return ReadNumbers(lua, As<argos::CCI_GroundSensor>(sensor).GetReadings(), "ground");
   if (tag == "footbot_light") return ReadRing(lua, As<argos::CCI_FootBotLightSensor>(sensor), "light");
   if (tag == "eyebot_light") return ReadRing(lua, As<argos::CCI_EyeBotLightSensor>(sensor), "light");

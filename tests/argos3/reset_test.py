@@ -1,5 +1,7 @@
 """Runs that loop functions of ARGoS3 begin again."""
+import os
 import re
+import subprocess
 import unittest
 
 from running import HERE, RunningTest
@@ -34,6 +36,32 @@ class Reset(RunningTest):
     def test_a_run_begins_again_where_it_is_asked_whether_it_is_over(self):
         trials = self.trials("finished")[1]
         self.assertEqual(trials, self.trials("post")[1])
+
+    def test_a_program_runs_an_experiment_by_itself(self):
+        _, (first, _, _) = self.trials("post")
+        expected = [row for row in first if row[0] != "reset"]
+        file = self.changed("repeat.argos", ('trials="3"', 'trials="1"'))
+        # Twice, one behind the other.
+        for files in ((file,), (file, file)):
+            result = subprocess.run([f"{os.environ['ARGOS_PLUGIN_PATH']}/argos3_searcher", *map(str, files)], cwd=self.folder, text=True, capture_output=True)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            lines = result.stdout.splitlines()
+            self.assertEqual([line.rsplit(" ", 1)[0] for line in lines[:8]],
+                             ["loaded 0", "first 8", "reset 0", "again 8", "reset 0", "again 8", "one step 1", "0"][:7] + [lines[7].rsplit(" ", 1)[0]])
+            self.assertEqual((lines[1].split()[2], lines[0].split()[1:], lines[2].split()[1:]), (lines[3].split()[2], ["0", "0"], ["0", "0"]))
+            self.assertEqual(len(lines), 8 * len(files))
+        rows = [line.split("\t")[1:] for line in (self.folder / "trials.tsv").read_text().splitlines()]
+        self.assertEqual([row[:4] for row in rows[:12]], [row[:4] for row in expected])
+        self.assertIn("loaded 8", (self.folder / "said.txt").read_text())
+
+    def test_what_a_program_cannot_load_is_told(self):
+        program = f"{os.environ['ARGOS_PLUGIN_PATH']}/argos3_searcher"
+        def refused(file):
+            result = subprocess.run([program, str(file)], cwd=self.folder, text=True, capture_output=True)
+            self.assertEqual(result.returncode, 1, result.stderr)
+            return result.stderr
+        self.assertIn("none.argos", refused("none.argos"))
+        self.assertRegex(refused(HERE / "wander.argos"), "has no <loop_functions>; add them")
 
     def test_what_does_not_begin_again_has_its_length_in_the_framework(self):
         (self.folder / "scripts").symlink_to(HERE / "scripts")

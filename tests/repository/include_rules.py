@@ -52,6 +52,7 @@ def allowed():
     # The API of ARGoS3 over ours; its files are read by the launcher.
     rules["argos3"] = rules["space_server"] + ["argos3", "argos3/files"]
     rules["argos3/files"] = below[: below.index("common/experiment") + 1] + ["argos3/files"]
+    rules["argos3/program"] = rules["argos3"] + ["launcher", "argos3/program"]
     rules["roles"] = without_bus + ROLES + ["roles"]
     rules["launcher"] = below + ROLES + ["roles", "argos3/files", "launcher"]
     # The module wraps the runner for one process, as a program of a user does, and looks on at runs as a visualiser does.

@@ -71,7 +71,7 @@ public:
       MoveEntity(Can().GetEmbodiedEntity(), CVector3(1, 1, 0), CQuaternion());
       Can().GetLEDEquippedEntity().SetAllLEDsColors(CColor::BLUE);
       Lamp().SetColor(CColor::RED);
-      if (trial_ == 0) RemoveEntity("gone");
+      if (resets_ == 0) RemoveEntity("gone");
     }
     if (where_ == "post" && clock == 6 && trial_ + 1 < trials_) Again();
   }

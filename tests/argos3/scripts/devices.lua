@@ -1,5 +1,6 @@
 -- Says what the devices of a foot-bot read, once.
 local function text_of(value)
+  if type(value) == "userdata" then return "{" .. tostring(value) .. "}" end
   if type(value) ~= "table" then return type(value) == "number" and string.format("%.6g", value) or tostring(value) end
   local parts = {}
   for key, part in pairs(value) do

@@ -48,6 +48,21 @@ public:
   }
   bool IsTerminated() const { return terminated_; }
 
+  // For a program that runs an experiment by itself, as often as it likes: SetExperimentFileName, LoadExperiment, then
+  // Execute and Reset, at the end Destroy. The experiment needs loop functions, runs in this process and shows nothing.
+  // Throw CARGoSException for what is wrong with the file, and what goes wrong in a run.
+  void SetExperimentFileName(const std::string& file) { experiment_file_ = file; }
+  const std::string& GetExperimentFileName() const { return experiment_file_; }
+  // Up to Init of the loop functions.
+  void LoadExperiment();
+  // PreExperiment, steps until the experiment is over, PostExperiment.
+  void Execute();
+  // One step.
+  void UpdateSpace();
+  bool IsExperimentFinished() const;
+  // Another one may be loaded then.
+  void Destroy();
+
   // For the bridge.
   void Start(UInt32 seed, UInt32 max_clock)
   {
@@ -67,6 +82,7 @@ private:
   bool resets_ = false;
   UInt32 max_clock_ = 0;
   bool terminated_ = false;
+  std::string experiment_file_;
   TConfigurationNode configuration_;
 };
 

@@ -162,6 +162,39 @@ public:
   std::string GetTypeDescription() const override { return "battery"; }
 };
 
+// The two wheels of a robot: 0 on the left, 1 on the right.
+class CWheeledEntity : public CEntity
+{
+public:
+  CWheeledEntity(CEntity* parent, Real axle, Real radius) : CEntity(parent, "wheels_0"), radius_(radius)
+  {
+    positions_[0].Set(0, axle / 2, 0);
+    positions_[1].Set(0, -axle / 2, 0);
+  }
+  size_t GetNumWheels() const { return 2; }
+  // m, in the frame of the robot. These throw CARGoSException for a wheel beyond the second one.
+  const CVector3& GetWheelPosition(size_t wheel) const { return positions_[Checked(wheel)]; }
+  Real GetWheelRadius(size_t wheel) const
+  {
+    Checked(wheel);
+    return radius_;
+  }
+  // m/s on the ground, as the controller commanded it; 0 before. Throws CARGoSException for a robot without the
+  // actuator differential_steering, and where its controller is not in this process.
+  Real GetWheelVelocity(size_t wheel) const;
+  std::string GetTypeDescription() const override { return "wheels"; }
+
+private:
+  static size_t Checked(size_t wheel)
+  {
+    if (wheel > 1) THROW_ARGOSEXCEPTION("wheel " << wheel << " of 2; the first one is 0");
+    return wheel;
+  }
+
+  CVector3 positions_[2];
+  Real radius_;
+};
+
 class CRobotWithController : public CBodyEntity
 {
 public:

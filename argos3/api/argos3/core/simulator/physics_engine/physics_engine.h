@@ -1,10 +1,35 @@
-// CPhysicsEngine: how long a tick is. One engine has all that an experiment in ARGoS3's XML gives to several.
+// CPhysicsEngine: how long a tick is. One engine has all that an experiment in ARGoS3's XML gives to several. And what
+// bodies a ray meets, for loop functions.
 #pragma once
 
 #include <argos3/core/utility/datatypes/datatypes.h>
+#include <argos3/core/utility/math/ray3.h>
+
+#include <vector>
 
 namespace argos
 {
+
+class CEmbodiedEntity;
+
+struct SEmbodiedEntityIntersectionItem
+{
+  SEmbodiedEntityIntersectionItem() = default;
+  SEmbodiedEntityIntersectionItem(CEmbodiedEntity* entity, Real t) : IntersectedEntity(entity), TOnRay(t) {}
+  bool operator<(const SEmbodiedEntityIntersectionItem& other) const { return TOnRay < other.TOnRay; }
+
+  CEmbodiedEntity* IntersectedEntity = nullptr;
+  Real TOnRay = 1;  // 0 at the start of the ray, 1 at its end
+};
+using TEmbodiedEntityIntersectionData = std::vector<SEmbodiedEntityIntersectionItem>;
+
+// The bodies that a ray meets, each where it comes first, the nearest one in front; the list is cleared before. False
+// if there are none. These throw CARGoSException outside loop functions.
+bool GetEmbodiedEntitiesIntersectedByRay(TEmbodiedEntityIntersectionData& met, const CRay3& ray);
+// The nearest one; `met` has no entity if there is none. `ignored`: a body that the ray passes.
+bool GetClosestEmbodiedEntityIntersectedByRay(SEmbodiedEntityIntersectionItem& met, const CRay3& ray);
+bool GetClosestEmbodiedEntityIntersectedByRay(SEmbodiedEntityIntersectionItem& met, const CRay3& ray,
+                                              CEmbodiedEntity& ignored);
 
 class CPhysicsEngine
 {

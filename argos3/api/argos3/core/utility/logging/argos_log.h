@@ -4,13 +4,15 @@
 
 #include <argos3/core/utility/datatypes/datatypes.h>
 
+#include <ostream>
+
 namespace argos
 {
 
 class CARGoSLog
 {
 public:
-  explicit CARGoSLog(const char* prefix) : prefix_(prefix) {}
+  explicit CARGoSLog(const char* prefix);
 
   template <class T>
   CARGoSLog& operator<<(const T& value)
@@ -24,11 +26,16 @@ public:
   CARGoSLog& operator<<(std::ostream& (*manipulator)(std::ostream&));
   void Flush() {}
   void DisableColoredOutput() {}
+  void EnableColoredOutput() {}
+  // Given another buffer, all lines of this process go there.
+  std::ostream& GetStream() { return stream_; }
 
 private:
   void Append(const std::string& text);
 
   const char* prefix_;
+  std::ostream stream_;
+  std::streambuf* own_;  // none: lines go to the log
 };
 
 extern CARGoSLog LOG;

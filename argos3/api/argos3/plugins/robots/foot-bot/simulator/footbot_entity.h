@@ -10,7 +10,8 @@ namespace argos
 class CFootBotEntity : public CRobotWithController
 {
 public:
-  explicit CFootBotEntity(const std::string& id) : CRobotWithController(id, kLeds) {}
+  explicit CFootBotEntity(const std::string& id) : CRobotWithController(id, kLeds) { AddComponent(wheels_); }
+  CWheeledEntity& GetWheeledEntity() { return wheels_; }
   // For AddEntity. `controller`: its id in the experiment file. The ranges and apertures are those that robots of the
   // file with the same controller have, whatever is given here. Defined in the library: `swarmanoid` tells by its name
   // among those that a library asks for that it makes foot-bots.
@@ -24,6 +25,7 @@ public:
   std::string GetTypeDescription() const override { return "foot-bot"; }
 
 private:
+  CWheeledEntity wheels_{this, 0.14, 0.029112741};
   static constexpr unsigned kLeds = 13;  // the ring, and the beacon
 };
 
