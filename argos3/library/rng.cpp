@@ -76,7 +76,11 @@ void CRandom::CCategory::SetSeed(UInt32 seed)
 
 CRandom::CRNG* CRandom::CCategory::CreateRNG(const std::string& /*type*/)
 {
-  const UInt64 seed = swarmanoid::argos3::Speaker::RandomBits() ^ swarmanoid::MixedBits(seed_);
+  // Programs draw numbers of their own before they load an experiment.
+  const bool is_of_program = id_ != "argos" && !swarmanoid::argos3::Speaker::Speaks();
+  const UInt64 first =
+      is_of_program ? swarmanoid::MixedBits(generators_.size()) : swarmanoid::argos3::Speaker::RandomBits();
+  const UInt64 seed = first ^ swarmanoid::MixedBits(seed_);
   generators_.push_back(std::unique_ptr<CRNG>(new CRNG(seed, 0)));
   return generators_.back().get();
 }

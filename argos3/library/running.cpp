@@ -120,9 +120,11 @@ Speaker::~Speaker()
   speaking_functions = editor_before_;
 }
 
+bool Speaker::Speaks() { return speaking_robot != nullptr || speaking_functions != nullptr; }
+
 std::uint64_t Speaker::RandomBits()
 {
-  if (speaking_robot == nullptr && speaking_functions == nullptr)
+  if (!Speaks())
     throw argos::CARGoSException(
         "a random generator is created before Init; create it in Init, where the robot is known whose numbers it "
         "draws");

@@ -175,6 +175,7 @@ public:
   Speaker(const Speaker&) = delete;
   Speaker& operator=(const Speaker&) = delete;
 
+  static bool Speaks();
   // 64 random bits of who speaks; throws CARGoSException if nobody does.
   static std::uint64_t RandomBits();
   static void Say(const std::string& line);

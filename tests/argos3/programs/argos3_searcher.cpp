@@ -59,6 +59,7 @@ int main(int count, char** words)
   }
   catch (CARGoSException& error)
   {
+    DEBUG("%d words\n", count);
     std::cerr << "refused: " << error.what() << std::endl;
     return 1;
   }

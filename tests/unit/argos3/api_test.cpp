@@ -140,6 +140,18 @@ TEST(Argos3Api, RandomNumbersHaveTheirMomentsAndRepeat)
   EXPECT_NE(random.Uniform(CRange<Real>(0, 1)), next);
   EXPECT_THROW(CRandom::CreateRNG("argos"), CARGoSException) << "nobody speaks whose numbers they would be";
   EXPECT_THROW(CRandom::CreateRNG("mine"), CARGoSException);
+  // Of a program, by the seed that it gives.
+  const auto drawn = [](UInt32 seed)
+  {
+    CRandom::CreateCategory("mine", seed);
+    const Real first = CRandom::CreateRNG("mine")->Gaussian(1);
+    const Real second = CRandom::CreateRNG("mine")->Gaussian(1);
+    CRandom::RemoveCategory("mine");
+    return std::pair(first, second);
+  };
+  EXPECT_EQ(drawn(7), drawn(7));
+  EXPECT_NE(drawn(7), drawn(8));
+  EXPECT_NE(drawn(7).first, drawn(7).second);
 }
 
 TEST(Argos3Api, ByteArraysUnpackWhatWasPackedInNetworkOrder)

@@ -58,3 +58,8 @@ using ::UInt32;
 using ::UInt64;
 using ::UInt8;
 }  // namespace argos
+
+// To standard error, as printf.
+#ifndef DEBUG
+#define DEBUG(...) std::fprintf(stderr, "[DEBUG] " __VA_ARGS__)
+#endif

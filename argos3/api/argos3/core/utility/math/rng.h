@@ -72,7 +72,8 @@ public:
   static CCategory& GetCategory(const std::string& category);
   static bool ExistsCategory(const std::string& category);
   static void RemoveCategory(const std::string& category);
-  // Belongs to the controller or loop functions that create it.
+  // Belongs to the controller or loop functions that create it. Those of other categories than "argos" may be created
+  // by a program before it loads an experiment: the seed of the category and their number seed them.
   static CRNG* CreateRNG(const std::string& category, const std::string& type = "");
   static UInt32 GetSeedOf(const std::string& category);
   static void SetSeedOf(const std::string& category, UInt32 seed);
