@@ -3,11 +3,11 @@
 // way of those on its other side. Generic.
 #include <algorithm>
 #include <memory>
-#include <stdexcept>
 
 #include "common/control_interface/ci_light_sensor.h"
 #include "common/math/elementary.h"
 #include "common/space/space.h"
+#include "controller_host/devices/any_robot/ring_readings.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/sensing/sensor_world.h"
@@ -19,32 +19,6 @@ namespace swarmanoid
 {
 namespace
 {
-
-class RingOfLights : public CCI_LightSensor
-{
-public:
-  RingOfLights(const double* readings, const std::vector<double>& angles, OnDemandSensor& batch, std::size_t k)
-      : readings_(readings), angles_(angles), batch_(batch), k_(k)
-  {
-  }
-  std::span<const double> GetAllSensorReadings() const override
-  {
-    batch_.Want(k_);
-    return {readings_, angles_.size()};
-  }
-  double GetAngle(unsigned sensor) const override
-  {
-    if (sensor >= angles_.size())
-      throw std::out_of_range("light sensor " + std::to_string(sensor) + " of " + std::to_string(angles_.size()));
-    return angles_[sensor];
-  }
-
-private:
-  const double* readings_;
-  const std::vector<double>& angles_;
-  OnDemandSensor& batch_;
-  std::size_t k_;
-};
 
 class LightRing : public ValueSensor, public OnDemandSensor
 {
@@ -151,7 +125,7 @@ private:
   SightedPoints points_;  // of the bulb in turn
   std::vector<std::size_t> sensor_of_point_;
   std::vector<std::uint32_t> seen_;
-  std::vector<RingOfLights> devices_;
+  std::vector<RingReadings<CCI_LightSensor>> devices_;
 };
 
 }  // namespace

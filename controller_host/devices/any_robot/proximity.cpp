@@ -1,12 +1,12 @@
 // The proximity sensors of any robot whose kind has them: a ray for each, from where the row says. Generic. (The
 // footbot's own sensor does the same for its ring, several rays at a time.)
 #include <algorithm>
-#include <stdexcept>
 
 #include "common/control_interface/ci_proximity_sensor.h"
 #include "common/math/elementary.h"
 #include "controller_host/devices/any_robot/kind_of_batch.h"
 #include "controller_host/devices/any_robot/proximity_rays.h"
+#include "controller_host/devices/any_robot/ring_readings.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 
@@ -14,33 +14,6 @@ namespace swarmanoid
 {
 namespace
 {
-
-class Proximity : public CCI_ProximitySensor
-{
-public:
-  Proximity(const double* readings, const ProximityRing& ring, OnDemandSensor& batch, std::size_t k)
-      : readings_(readings), ring_(ring), batch_(batch), k_(k)
-  {
-  }
-  std::span<const double> GetAllSensorReadings() const override
-  {
-    batch_.Want(k_);
-    return {readings_, ring_.sensors.size()};
-  }
-  double GetAngle(unsigned sensor) const override
-  {
-    if (sensor >= ring_.sensors.size())
-      throw std::out_of_range("proximity sensor " + std::to_string(sensor) + " of " +
-                              std::to_string(ring_.sensors.size()));
-    return ring_.sensors[sensor].direction;
-  }
-
-private:
-  const double* readings_;
-  const ProximityRing& ring_;
-  OnDemandSensor& batch_;
-  std::size_t k_;
-};
 
 class ProximitySensor : public ProximityRays
 {
@@ -55,10 +28,11 @@ public:
     {
       const SinCos angle = SinCosOf(sensor.direction);
       rays_.push_back({{sensor.place.x(), sensor.place.y(), ring.height_m}, {angle.cos, angle.sin, 0}});
+      angles_.push_back(sensor.direction);
       reach = std::max(reach, rays_.back().from.norm() + range);
     }
     InitRays(setup, rays_.size(), range, reach);
-    for (std::size_t k = 0; k < robots_.size(); ++k) sensors_.emplace_back(ValuesOf(k), ring, *this, k);
+    for (std::size_t k = 0; k < robots_.size(); ++k) sensors_.emplace_back(ValuesOf(k), angles_, *this, k);
   }
 
   CCI_Sensor* Sensor(std::size_t k) override { return &sensors_[k]; }
@@ -68,7 +42,8 @@ protected:
 
 private:
   std::vector<ProximitySensorRay> rays_;
-  std::vector<Proximity> sensors_;
+  std::vector<double> angles_;
+  std::vector<RingReadings<CCI_ProximitySensor>> sensors_;
 };
 
 }  // namespace
