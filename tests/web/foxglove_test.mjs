@@ -54,12 +54,12 @@ function start(...words) {
 }
 
 async function until(what, condition) {
-  for (let k = 0; k < 3000; ++k) {
+  for (let k = 0; k < 10000; ++k) {
     const found = condition();
     if (found) return found;
     await new Promise((resolve) => setTimeout(resolve, 10));
   }
-  throw new Error(`${what} does not come`);
+  throw new Error(`${what} does not come; said so far: ${processes.map(({ text }) => text).join('; ')}`);
 }
 
 // Whoever listens at a port; its messages by topic.
