@@ -117,7 +117,7 @@ public:
     return std::span<const double, COUNT>(values_, COUNT);
   }
 
-private:
+protected:
   const double* values_;
 };
 

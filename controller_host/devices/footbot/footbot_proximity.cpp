@@ -50,12 +50,12 @@ void FootbotProximity::Init(const DeviceSetup& setup)
   if (!in_one_run_) place_of_entity_.assign(setup.space.Size(), -1);
   number_.resize(robots_.size() + kLanes);
   place_.resize(robots_.size() + kLanes);
-  readings_.assign(robots_.size() * kRays, 0);
-  dirty_.assign(robots_.size(), 0);
+  blocks_.reserve(robots_.size() / kBlock + 1);
+  saw_.assign(robots_.size(), 0);
   for (std::size_t k = 0; k < robots_.size(); ++k)
   {
     if (!in_one_run_) place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
-    sensors_.emplace_back(&readings_[k * kRays], *this, k);
+    sensors_.emplace_back(*this, k);
   }
   InitDemand(robots_.size());
 }
@@ -70,6 +70,28 @@ void FootbotProximity::MakeDue()
       SenseUpright(first, std::min<std::size_t>(first + kLanes, listed_));
   else
     for (std::size_t listed = 0; listed < listed_; ++listed) Sense(listed);
+}
+
+void FootbotProximity::Forget()
+{
+  if (seeing_.empty()) return;
+  std::fill(saw_.begin(), saw_.end(), 0);
+  for (const std::uint32_t k : seeing_)
+  {
+    sensors_[k].Show(kNoReadings.values);
+    saw_[k] = 1;
+  }
+  seeing_.clear();
+}
+
+double* FootbotProximity::NewReadings(std::size_t k)
+{
+  const std::size_t place = seeing_.size();
+  if (place == blocks_.size() * kBlock) blocks_.push_back(std::make_unique<Rays[]>(kBlock));
+  seeing_.push_back(static_cast<std::uint32_t>(k));
+  double* const readings = blocks_[place / kBlock][place % kBlock].values;
+  sensors_[k].Show(readings);
+  return readings;
 }
 
 void FootbotProximity::ListOwn()
@@ -103,12 +125,11 @@ void FootbotProximity::ListOwn()
 void FootbotProximity::Prefetch(std::size_t later) const
 {
   if (later + kAhead >= listed_) return;
-  __builtin_prefetch(&dirty_[number_[later + kAhead]]);
+  __builtin_prefetch(&saw_[number_[later + kAhead]]);
   const std::uint32_t k = number_[later];
-  if (!dirty_[k]) return;
+  if (!saw_[k]) return;
   // Who was near somebody mostly is so again.
-  const double* readings = &readings_[k * std::size_t{kRays}];
-  for (unsigned i = 0; i < kRays; i += 8) __builtin_prefetch(readings + i, 1);
+  __builtin_prefetch(&sensors_[k], 1);
   const PoseArrays& poses = world_->Space().Poses();
   __builtin_prefetch(&poses.qz[robots_[k]]);
   __builtin_prefetch(&poses.qw[robots_[k]]);
@@ -145,7 +166,7 @@ void FootbotProximity::SenseUpright(std::size_t first, std::size_t last)
       LookAt(robots_[k], {origin_x[place], origin_y[place], origin_z[place] + kHeight}, true, body, world_->Body(body),
              {poses.x[body], poses.y[body], poses.z[body]}, IsUpright(poses, body));
     if (!world_->Terrain().IsEmpty()) AddTerrain(robots_[k]);
-    if (touched_ || dirty_[k] || noise_.IsActive()) FinishReadings(k);
+    if (touched_ || noise_.IsActive()) FinishReadings(k);
   }
 }
 
@@ -189,21 +210,20 @@ void FootbotProximity::LookAt(std::uint32_t robot, const Vector3& sensors, bool 
 // From the distances of a robot, if something touched its rays.
 void FootbotProximity::FinishReadings(std::size_t k)
 {
-  double* readings = &readings_[k * kRays];
+  if (!touched_ && !noise_.IsActive()) return;
+  double* const readings = NewReadings(k);
   if (touched_)
   {
     Respond(distances_.values, readings);
     for (unsigned i = 0; i < kRays; ++i) readings[i] = std::clamp(readings[i], 0.0, 1.0);
   }
-  else if (dirty_[k])
+  else
     std::fill_n(readings, kRays, 0.0);
-  dirty_[k] = touched_;
 
   if (!noise_.IsActive()) return;
   std::array<double, kRays> noise;
   streams_.Sample(noise_, k, noise);
   for (unsigned i = 0; i < kRays; ++i) readings[i] = std::clamp(readings[i] + noise[i], 0.0, 1.0);
-  dirty_[k] = true;
 }
 
 // Rays from the centre of the robot's ring against a disc (dx, dy) from it: with p its centre in the robot's frame and

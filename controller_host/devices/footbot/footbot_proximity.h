@@ -26,7 +26,11 @@ public:
 
   void Init(const DeviceSetup& setup) override;
   CCI_Sensor* Sensor(std::size_t k) override { return &sensors_[k]; }
-  void Update(const ChannelView&) override { MakeAhead(); }
+  void Update(const ChannelView&) override
+  {
+    Forget();
+    MakeAhead();
+  }
   void RefreshShared(WorkerPool* pool) override { world_->Refresh(pool); }
 
 protected:
@@ -40,8 +44,21 @@ private:
   {
     double values[kRays];
   };
+  // Of robots that see nothing, with all others of them.
+  static constexpr Rays kNoReadings{};
+
+  class Readings : public ReadingsOnDemand<CCI_FootBotProximitySensor, kRays>
+  {
+  public:
+    Readings(OnDemandSensor& batch, std::size_t k) : ReadingsOnDemand(kNoReadings.values, batch, k) {}
+    void Show(const double* values) { values_ = values; }
+  };
 
   void MakeDue() override;
+  // All see nothing: the readings before are over.
+  void Forget();
+  // Room for the readings of a robot until Forget. What others have stays where it is.
+  double* NewReadings(std::size_t k);
   // Lists the robots of the batch that are due in the order of the grid.
   void ListOwn();
   // Fetches what Sense will read of robots that come later in that order.
@@ -76,9 +93,13 @@ private:
   Rays ray_cos_{}, ray_sin_{};
   Rays distances_{};      // of the robot being sensed
   bool touched_ = false;  // some ray of it hit something
-  std::vector<double> readings_;
-  std::vector<char> dirty_;  // readings of a robot that are not all 0
-  std::vector<ReadingsOnDemand<CCI_FootBotProximitySensor, kRays>> sensors_;
+  // Those that are not all 0, in the order in which they were made: that of the grid, so that they come one after the
+  // other in memory.
+  static constexpr std::size_t kBlock = 256;
+  std::vector<std::unique_ptr<Rays[]>> blocks_;  // of kBlock each; room for all from the start, as others read meanwhile
+  std::vector<std::uint32_t> seeing_;            // k of those that have readings
+  std::vector<std::uint8_t> saw_;                // whether robot k had readings before
+  std::vector<Readings> sensors_;
 };
 
 // y = 1 below a contact distance, else a / (d + b): the curve that ARGoS3 fitted to the robot.
